@@ -1,0 +1,259 @@
+"""What is simulated, as frozen pydantic models: sections of a scene with their units, defaults and bounds.
+
+Lengths from the anchor, x with the wave, y across, z up; SI units throughout. Symbols of the paper in brackets;
+NOTATION.md maps them. Bounds of single values live here; rules between values live in `scene_rules`.
+"""
+
+import hashlib
+import json
+import math
+from typing import Annotated, Literal
+
+from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
+from pydantic_core import PydanticCustomError
+
+from engine.scene_faults import Allowed, SceneError, field_faults
+from engine.scene_rules import cross_faults
+from engine.scene_toml import toml_text
+
+# Strict leaves: neither "1.0" nor true is a number, and 41.0 is not a count; a whole number is a number.
+_Float = Annotated[float, Field(strict=True, allow_inf_nan=False)]
+Number = Annotated[_Float, Allowed("a finite number")]
+Positive = Annotated[_Float, Field(gt=0), Allowed("a finite number above 0")]
+NonNegative = Annotated[_Float, Field(ge=0), Allowed("a finite number, 0 or above")]
+UnitInterval = Annotated[_Float, Field(ge=0, le=1), Allowed("a number from 0 to 1")]
+Tolerance = Annotated[_Float, Field(gt=0, lt=1), Allowed("a number above 0 and below 1")]
+Stretching = Annotated[_Float, Field(ge=0, le=10), Allowed("a number from 0 to 10")]
+Nodes = Annotated[int, Field(strict=True, ge=3, le=20000), Allowed("a whole number from 3 to 20000")]
+Count = Annotated[int, Field(strict=True, ge=1, le=10**9), Allowed("a whole number from 1 to 1000000000")]
+CountOrZero = Annotated[int, Field(strict=True, ge=0, le=10**9), Allowed("a whole number from 0 to 1000000000")]
+Flag = Annotated[bool, Field(strict=True), Allowed("true or false")]
+Text = Annotated[str, Field(strict=True), Allowed("text")]
+Name = Annotated[str, Field(strict=True, pattern=r"^[A-Za-z0-9_.-]+$"), Allowed("letters, digits, and any of _ . -")]
+Vector = Annotated[tuple[_Float, _Float, _Float], Allowed("a list of 3 finite numbers [x, y, z]")]
+Five = Annotated[tuple[_Float, _Float, _Float, _Float, _Float], Allowed("a list of 5 finite numbers")]
+Series = Annotated[tuple[_Float, ...], Field(min_length=2), Allowed("a list of at least 2 finite numbers")]
+Vectors = Annotated[
+    tuple[tuple[_Float, _Float, _Float], ...], Field(min_length=2), Allowed("a list of at least 2 vectors [x, y, z]")
+]
+Block = Annotated[
+    tuple[tuple[tuple[_Float, ...], ...], ...],
+    Field(min_length=2),
+    Allowed("finite numbers as nested lists, indexed [time][height][x]"),
+]
+
+
+class Section(BaseModel):
+    """A part of a scene: immutable, and an unknown key is a fault."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid")
+
+
+class LinearTension(Section):
+    """T = stiffness_N * eps, in tension and in compression [f(eps) = p1 eps, section 4.2]."""
+
+    law: Literal["linear"]
+    stiffness_N: Positive
+
+
+class TanhTension(Section):
+    """T = p1 tanh(p2 eps + p3) + p4 + p5 eps [section 4.1.1]."""
+
+    law: Literal["tanh"]
+    p: Five
+
+
+class TabulatedTension(Section):
+    """T interpolated through measured points; strain increasing, tension never falling."""
+
+    law: Literal["tabulated"]
+    strain: Series
+    tension_N: Series
+
+
+class Tether(Section):
+    """The line [Table 1]: geometry, material, fluid coefficients and its grid."""
+
+    length_m: Positive  # unstretched [l0]
+    area_m2: Positive  # unstretched cross-section [A]
+    density_kgpm3: Positive  # of the material [rho]; m = rho A
+    diameter_m: Positive = Field(default_factory=lambda known: math.sqrt(4.0 * known["area_m2"] / math.pi))  # [d]
+    nodes: Nodes = 41
+    grid_stretching: Stretching = 0.0  # 0: equal elements; above: finer towards both ends
+    bending_stiffness_Nm2: NonNegative  # [EI]; without it slack is ill-posed
+    torsion_stiffness_Nm2: NonNegative = 0.0  # [GIp]; enters out of a plane only
+    drag_normal: NonNegative = 1.0  # [Cdp], on the diameter
+    drag_tangential: NonNegative = 0.1  # [Cdt], on pi times the diameter
+    added_mass: NonNegative = 1.0  # ma = added_mass * rho_w pi d^2/4, normal to the line
+    tension: Annotated[LinearTension | TanhTension | TabulatedTension, Field(discriminator="law")]
+
+
+class End(Section):
+    """The upper end: carries the buoy of eq. (30), is held in place, or is free under a steady force."""
+
+    kind: Literal["buoy", "held", "free"] = "buoy"
+    position_m: Vector | None = None  # of a held end, from the anchor
+    force_N: Vector | None = None  # on a free end
+
+
+class Buoy(Section):
+    """The sphere of eq. (30) [D, M, Ma, Cd]; "full": buoyancy and wave load of the whole sphere at any height."""
+
+    diameter_m: Positive
+    mass_kg: Positive
+    added_mass_kg: NonNegative
+    drag: NonNegative
+    submergence: Literal["full"] = "full"
+
+
+class Water(Section):
+    """Still water: depth [H] from bed to surface, density [rho_w]."""
+
+    depth_m: Positive
+    density_kgpm3: Positive
+
+
+class Waves(Section):
+    """One regular linear (Airy) wave: period [Ti], steepness [kA] or amplitude [A]."""
+
+    period_s: Positive
+    steepness: NonNegative | None = None
+    amplitude_m: NonNegative | None = None
+    ramp_s: NonNegative = 0.0  # 0: full amplitude from t = 0, as in the paper
+    phase_rad: Number = 0.0  # added to k x - omega t
+    direction_rad: Number = 0.0  # of travel, from +x
+    above_still_water: Literal["extrapolate", "zero", "wheeler"] = "extrapolate"
+
+
+class UniformCurrent(Section):
+    """The same steady velocity everywhere."""
+
+    law: Literal["uniform"]
+    velocity_mps: Vector
+
+
+class ProfileCurrent(Section):
+    """A steady velocity given at heights above the bed."""
+
+    law: Literal["profile"]
+    height_m: Series
+    velocity_mps: Vectors
+
+
+class TableCurrent(Section):
+    """An in-plane velocity given on a grid of time, height above the bed and x."""
+
+    law: Literal["table"]
+    x_m: Series
+    height_m: Series
+    time_s: Series
+    velocity_x_mps: Block
+    velocity_z_mps: Block
+
+
+class Motion(Section):
+    """How many dimensions the line moves in."""
+
+    dimensions: Literal[2] = 2
+
+
+class Start(Section):
+    """What disturbs the static equilibrium at t = 0."""
+
+    buoy_velocity_mps: Vector = (0.0, 0.0, 0.0)
+
+
+class Solver(Section):
+    """Discretisation in time and its limits."""
+
+    scheme: Literal["conservation"] = "conservation"
+    integrator: Literal["esdirk43", "trbdf2", "midpoint", "backward-euler", "generalized-alpha"] = "esdirk43"
+    rtol: Tolerance = 0.03
+    step_s: Positive | None = None  # fixed step; without it the step is controlled by rtol
+    max_step_s: Positive = 0.1
+    min_step_s: Positive = 1e-9
+    newton_tolerance: Tolerance = 0.01  # of the error scale
+    max_newton_iterations: Count = 12
+    spectral_radius: UnitInterval = 0.5  # of generalized-alpha at infinite frequency
+    loop_release: Flag = True
+    max_loop_releases: CountOrZero = 100000
+
+
+class Output(Section):
+    """What is kept: even samples, and profiles along the line where asked for."""
+
+    step_s: Positive | None = None  # None: a hundredth of the wave period, 0.05 s without waves
+    profiles: Flag = False
+    profiles_step_s: Positive | None = None  # None: as step_s
+
+
+class Scene(Section):
+    """One complete, validated description of what is simulated.
+
+    A section that is None is absent from the physics: no water, no waves, no current, no buoy. `Scene(...)` raises
+    pydantic's ValidationError; `load_scene` and `build_scene` raise SceneError, which lists every fault.
+    """
+
+    name: Name
+    title: Text = ""
+    gravity_mps2: NonNegative = 9.81
+    tether: Tether
+    end: End = End()
+    buoy: Buoy | None = None
+    water: Water | None = None
+    waves: Waves | None = None
+    current: Annotated[UniformCurrent | ProfileCurrent | TableCurrent, Field(discriminator="law")] | None = None
+    motion: Motion = Motion()
+    start: Start = Start()
+    solver: Solver = Solver()
+    output: Output = Output()
+
+    @model_validator(mode="after")
+    def _consistent(self) -> "Scene":
+        faults = cross_faults(self.model_dump(), set())
+        if faults:
+            raise PydanticCustomError("scene_consistency", "{text}", {"text": "\n".join(faults)})
+        return self
+
+    def sample_step_s(self) -> float:
+        """The step in seconds of the even output samples: output.step_s, or its default."""
+        if self.output.step_s is not None:
+            return self.output.step_s
+        return self.waves.period_s / 100.0 if self.waves is not None else 0.05
+
+    def as_dict(self) -> dict[str, object]:
+        """Every value as plain dicts, lists and numbers; absent options left out, a derived diameter left to be
+        derived.
+        """
+        plain = self.model_dump(mode="json", exclude_none=True)
+        if self.tether.diameter_m == math.sqrt(4.0 * self.tether.area_m2 / math.pi):
+            del plain["tether"]["diameter_m"]
+        return plain
+
+    def to_toml(self) -> str:
+        """The scene as TOML text with every default written out; `scene_from_toml` and `load_scene` give back an equal
+        scene.
+        """
+        return toml_text(self.as_dict())
+
+    def key(self) -> str:
+        """SHA-256 (hex) of the canonical JSON of every value: equal scenes, equal keys, on any machine."""
+        canonical = json.dumps(self.model_dump(mode="json"), sort_keys=True, separators=(",", ":"), allow_nan=False)
+        return hashlib.sha256(canonical.encode()).hexdigest()
+
+
+def build_scene(raw: dict[str, object], extra_faults: tuple[str, ...] = ()) -> Scene:
+    """A validated Scene from plain dicts and lists.
+
+    raw: sections as in a scene file. extra_faults: faults found by the caller before, reported together with those
+    found here. Raises SceneError listing every fault: those of single values, and those between values wherever the
+    values are sound.
+    """
+    try:
+        scene = Scene.model_validate(raw)
+    except ValidationError as error:
+        faults, bad = field_faults(error, Scene)
+        raise SceneError((*extra_faults, *faults, *cross_faults(raw, bad))) from None
+    if extra_faults:
+        raise SceneError(extra_faults)
+    return scene
