@@ -1,0 +1,219 @@
+"""The record of one run: even samples of the buoy and the tension, how the run ended, what it cost, optional profiles.
+
+On disk a netCDF-3 file (it opens in xarray and in any netCDF tool); scene, status, message and statistics are
+attributes, and a digest of the whole content lets `load` tell a damaged file from a sound one.
+"""
+
+import hashlib
+import io
+import json
+import warnings
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from engine.atomic import write_atomic
+from engine.scene import Scene, SceneError, scene_from_toml
+
+if TYPE_CHECKING:
+    import pandas
+
+COLUMNS = {  # name -> (unit, long name), in the order of the table
+    "time_s": ("s", "time"),
+    "x_m": ("m", "position of the upper end along the waves, from the anchor"),
+    "y_m": ("m", "position of the upper end across the waves, from the anchor"),
+    "z_m": ("m", "height of the upper end above the anchor"),
+    "radius_m": ("m", "distance of the upper end from the anchor"),
+    "radius_rate_mps": ("m s-1", "rate of the distance of the upper end from the anchor"),
+    "angle_rad": ("rad", "angle of the upper end from the vertical, atan2(x, z), unwrapped"),
+    "angle_rate_radps": ("rad s-1", "rate of the angle of the upper end from the vertical"),
+    "offplane_m": ("m", "largest distance of any node from the plane of the waves"),
+    "tension_top_N": ("N", "tension at the upper end"),
+    "tension_min_N": ("N", "least tension along the tether"),
+    "tension_top_low_N": ("N", "least tension at the upper end over all steps since the previous sample"),
+    "tension_top_high_N": ("N", "largest tension at the upper end over all steps since the previous sample"),
+}
+PROFILE_COLUMNS = {
+    "x_m": ("m", "position along the waves, from the anchor"),
+    "z_m": ("m", "height above the anchor"),
+    "strain": ("1", "strain"),
+    "tension_N": ("N", "tension"),
+    "speed_mps": ("m s-1", "speed"),
+}
+
+
+class TrajectoryError(ValueError):
+    """A trajectory file that cannot be read: not there, truncated, damaged, or not one of ours."""
+
+
+@dataclass(frozen=True)
+class Profiles:
+    """Quantities along the line. time_s (nt,); s_m (nn,) unstretched arc length; the others (nt, nn), SI units."""
+
+    time_s: np.ndarray
+    s_m: np.ndarray
+    x_m: np.ndarray
+    z_m: np.ndarray
+    strain: np.ndarray
+    tension_N: np.ndarray
+    speed_mps: np.ndarray
+
+    def __post_init__(self) -> None:
+        shape = (len(self.time_s), len(self.s_m))
+        for name in PROFILE_COLUMNS:
+            if getattr(self, name).shape != shape:
+                raise ValueError(f"profiles: {name} has shape {getattr(self, name).shape}, expected {shape}")
+
+
+@dataclass(frozen=True)
+class Trajectory:
+    """One run of one scene.
+
+    status: "ok", or the word for how the run ended early; then the samples up to its end are kept (possibly none).
+    message: a sentence about it, empty for "ok". columns: every name of COLUMNS -> (n,) array, evenly sampled.
+    statistics: counts and times of the work done. profiles: where the scene asks for them.
+    """
+
+    scene: Scene
+    status: str
+    message: str
+    columns: dict[str, np.ndarray]
+    statistics: dict[str, int | float]
+    profiles: Profiles | None = None
+
+    def __post_init__(self) -> None:
+        if set(self.columns) != set(COLUMNS):
+            raise ValueError(f"columns: expected {sorted(COLUMNS)}, given {sorted(self.columns)}")
+        shapes = {np.shape(column) for column in self.columns.values()}
+        if len(shapes) != 1 or len(next(iter(shapes))) != 1:
+            raise ValueError(f"columns: expected arrays of one length, given shapes {sorted(shapes)}")
+
+    def table(self) -> "pandas.DataFrame":
+        """The samples as a pandas table, one row a sample, columns in the order of COLUMNS."""
+        import pandas
+
+        return pandas.DataFrame({name: self.columns[name] for name in COLUMNS})
+
+    def save(self, path: str | Path, attributes: dict[str, str] | None = None) -> None:
+        """Write the record as one netCDF-3 file, whole or not at all.
+
+        attributes: further global attributes (provenance). The folder must exist.
+        Raises OSError (nothing is left behind), ValueError for an attribute name that the record or the format uses
+        itself.
+        """
+        write_atomic(path, _netcdf_bytes(self, attributes or {}))
+
+    @staticmethod
+    def load(path: str | Path) -> "Trajectory":
+        """The record saved under path, equal to the one saved.
+
+        Raises TrajectoryError with the reason when there is no such file or it is truncated, damaged or not a
+        trajectory.
+        """
+        try:
+            content = Path(path).read_bytes()
+        except OSError as error:
+            raise TrajectoryError(f"{path}: cannot be read: {error.strerror or error}") from None
+        try:
+            return _from_netcdf_bytes(content)
+        except TrajectoryError as error:
+            raise TrajectoryError(f"{path}: {error}") from None
+        except Exception as error:  # a damaged header can make the reader fail in any way at all
+            raise TrajectoryError(f"{path}: truncated, damaged, or not a netCDF-3 file ({error})") from None
+
+
+def _variables(run: Trajectory) -> list[tuple[str, tuple[str, ...], np.ndarray, str, str]]:
+    """(name, dimensions, values, unit, long name) of everything stored. A dimension is named after its coordinate."""
+    found = [(name, ("time_s",), run.columns[name], *about) for name, about in COLUMNS.items()]
+    if run.profiles is not None:
+        lines = run.profiles
+        found.append(("s_m", ("s_m",), lines.s_m, "m", "unstretched arc length from the anchor"))
+        if len(lines.time_s):  # the format has no second dimension of length zero
+            found.append(("profile_time_s", ("profile_time_s",), lines.time_s, "s", "time of the profiles"))
+            for name, about in PROFILE_COLUMNS.items():
+                found.append((f"profile_{name}", ("profile_time_s", "s_m"), getattr(lines, name), *about))
+    return [(name, dimensions, np.asarray(values, dtype=">f8"), *about) for name, dimensions, values, *about in found]
+
+
+def _described(run: Trajectory) -> dict[str, str]:
+    return {
+        "title": run.scene.title or run.scene.name,
+        "scene": run.scene.to_toml(),
+        "status": run.status,
+        "message": run.message,
+        "statistics": json.dumps(run.statistics, default=_number),
+    }
+
+
+def _number(value: object) -> int | float:
+    if isinstance(value, np.generic):
+        return value.item()
+    raise TypeError(f"statistics hold numbers, not {type(value).__name__}")
+
+
+def _digest(texts: dict[str, str], arrays: dict[str, np.ndarray]) -> str:
+    content = hashlib.sha256()
+    for name, text in sorted(texts.items()):
+        content.update(f"{name}={len(text.encode())}:{text}\n".encode())
+    for name, values in sorted(arrays.items()):
+        content.update(f"{name}{values.shape}\n".encode())
+        content.update(np.ascontiguousarray(values, dtype=">f8").tobytes())
+    return content.hexdigest()
+
+
+def _netcdf_bytes(run: Trajectory, attributes: dict[str, str]) -> bytes:
+    from scipy.io import netcdf_file
+
+    variables = _variables(run)
+    texts = _described(run)
+    digest = _digest(texts, {name: values for name, _, values, _, _ in variables})
+    buffer = io.BytesIO()
+    file = netcdf_file(buffer, "w", version=2)
+    own = {"Conventions": "CF-1.10", **texts, "content_sha256": digest}
+    taken = [name for name in attributes if name in own or hasattr(file, name)]
+    if taken:
+        raise ValueError(f"attributes: {', '.join(taken)} belong to the record or its format")
+    for name, text in {**own, **attributes}.items():
+        setattr(file, name, text.encode("utf-8"))
+    for name, dimensions, values, unit, long_name in variables:
+        for dimension, length in zip(dimensions, values.shape, strict=True):
+            if dimension not in file.dimensions:
+                file.createDimension(dimension, length or None)  # None: the record dimension, which may be empty
+        variable = file.createVariable(name, "d", dimensions)
+        variable.units, variable.long_name = unit.encode(), long_name.encode()
+        if values.size:
+            variable[:] = values
+    file.flush()
+    return buffer.getvalue()
+
+
+def _from_netcdf_bytes(content: bytes) -> Trajectory:
+    from scipy.io import netcdf_file
+
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        file = netcdf_file(io.BytesIO(content), "r", mmap=False)
+    texts = {name: _text(file, name) for name in ("title", "scene", "status", "message", "statistics")}
+    arrays = {name: np.array(variable.data, dtype=np.float64) for name, variable in file.variables.items()}
+    if _digest(texts, arrays) != _text(file, "content_sha256"):
+        raise TrajectoryError("damaged: the content does not match its own digest")
+    profiles = None
+    if "s_m" in arrays:
+        empty = np.empty((0, len(arrays["s_m"])))
+        lines = {name: arrays.get(f"profile_{name}", empty) for name in PROFILE_COLUMNS}
+        profiles = Profiles(time_s=arrays.get("profile_time_s", np.empty(0)), s_m=arrays["s_m"], **lines)
+    try:
+        scene = scene_from_toml(texts["scene"])
+    except SceneError as error:
+        raise TrajectoryError(f"holds a scene that this version does not accept: {error}") from None
+    columns = {name: arrays[name] for name in COLUMNS}
+    return Trajectory(scene, texts["status"], texts["message"], columns, json.loads(texts["statistics"]), profiles)
+
+
+def _text(file: object, name: str) -> str:
+    value = getattr(file, name, None)
+    if not isinstance(value, bytes):
+        raise TrajectoryError(f"not a trajectory file: it has no attribute {name!r}")
+    return value.decode("utf-8")
