@@ -26,7 +26,7 @@ def write_atomic(path: str | Path, content: bytes) -> None:
 
 
 def _flush_folder(folder: Path) -> None:
-    # The rename itself reaches the disk only with its folder; where folders cannot be opened this is left to the system.
+    # The rename reaches the disk only with its folder; where folders cannot be opened this is left to the system.
     try:
         handle = os.open(folder, os.O_RDONLY)
     except OSError:
