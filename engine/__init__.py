@@ -4,13 +4,15 @@ Every name is imported on first use, so that `import engine` costs nothing and b
 pandas.
 """
 
+import sys
 from importlib import import_module
+from types import ModuleType
 
 _HOME = {
     "Scene": "engine.scene",
     "SceneError": "engine.scene",
-    "load_scene": "engine.scene",
     "Trajectory": "engine.trajectory",
+    "load_scene": "engine.scene",
     "simulate": "engine.simulate",
     "simulate_batch": "engine.simulate",
     "source_hash": "engine.compiled",
@@ -19,15 +21,21 @@ _HOME = {
 __all__ = ["Scene", "SceneError", "Trajectory", "load_scene", "simulate", "simulate_batch", "source_hash"]
 
 
+class _Package(ModuleType):
+    """`engine.simulate` is the function, also after something has imported the module of the same name."""
+
+    def __setattr__(self, name: str, value: object) -> None:
+        if name == "simulate" and isinstance(value, ModuleType):
+            value = value.simulate
+        super().__setattr__(name, value)
+
+
+sys.modules[__name__].__class__ = _Package
+
+
 def __getattr__(name: str) -> object:
     if name not in _HOME:
         raise AttributeError(f"module 'engine' has no attribute {name!r}")
-    if _HOME[name] == f"engine.{name}":
-        # `engine.simulate` is a module and a function: importing the module binds the name to the module, so put the
-        # function in its place before anybody can see the difference.
-        function = getattr(import_module(_HOME[name]), name)
-        globals()[name] = function
-        return function
     return getattr(import_module(_HOME[name]), name)
 
 

@@ -33,12 +33,13 @@ Name = Annotated[str, Field(strict=True, pattern=r"^[A-Za-z0-9_.-]+$"), Allowed(
 Vector = Annotated[tuple[_Float, _Float, _Float], Allowed("a list of 3 finite numbers [x, y, z]")]
 Five = Annotated[tuple[_Float, _Float, _Float, _Float, _Float], Allowed("a list of 5 finite numbers")]
 Series = Annotated[tuple[_Float, ...], Field(min_length=2), Allowed("a list of at least 2 finite numbers")]
+Axis = Annotated[tuple[_Float, ...], Field(min_length=1), Allowed("a list of at least 1 finite number")]
 Vectors = Annotated[
     tuple[tuple[_Float, _Float, _Float], ...], Field(min_length=2), Allowed("a list of at least 2 vectors [x, y, z]")
 ]
 Block = Annotated[
     tuple[tuple[tuple[_Float, ...], ...], ...],
-    Field(min_length=2),
+    Field(min_length=1),
     Allowed("finite numbers as nested lists, indexed [time][height][x]"),
 ]
 
@@ -141,12 +142,12 @@ class ProfileCurrent(Section):
 
 
 class TableCurrent(Section):
-    """An in-plane velocity given on a grid of time, height above the bed and x."""
+    """An in-plane velocity given on a grid of time, height above the bed and x; an axis of one value is a constant."""
 
     law: Literal["table"]
-    x_m: Series
-    height_m: Series
-    time_s: Series
+    x_m: Axis
+    height_m: Axis
+    time_s: Axis
     velocity_x_mps: Block
     velocity_z_mps: Block
 
@@ -169,10 +170,10 @@ class Solver(Section):
     scheme: Literal["conservation"] = "conservation"
     integrator: Literal["esdirk43", "trbdf2", "midpoint", "backward-euler", "generalized-alpha"] = "esdirk43"
     rtol: Tolerance = 0.03
-    step_s: Positive | None = None  # fixed step; without it the step is controlled by rtol
+    step_s: Positive | None = None  # fixed step; None: controlled by rtol, or T/400 for a method of fixed steps
     max_step_s: Positive = 0.1
     min_step_s: Positive = 1e-9
-    newton_tolerance: Tolerance = 0.01  # of the error scale
+    newton_tolerance: Tolerance | None = None  # of the scaled update; None: rtol/100
     max_newton_iterations: Count = 12
     spectral_radius: UnitInterval = 0.5  # of generalized-alpha at infinite frequency
     loop_release: Flag = True

@@ -9,7 +9,6 @@ from collections.abc import Iterator
 
 from engine.scene_faults import fault, shown
 
-FIXED_STEP_INTEGRATORS = ("midpoint", "backward-euler", "generalized-alpha")
 _FAULTY = object()
 
 
@@ -177,9 +176,6 @@ def _plane(sound: _Sound) -> Iterator[str]:
 
 
 def _solver(sound: _Sound) -> Iterator[str]:
-    integrator, step = sound.value("solver.integrator"), sound.value("solver.step_s")
-    if integrator in FIXED_STEP_INTEGRATORS and step is None:
-        yield f"solver.step_s: missing; allowed: a finite number above 0, because {integrator!r} takes fixed steps"
     if (found := sound.values("solver.min_step_s", "solver.max_step_s")) and found[0] > found[1]:
         yield fault("solver.min_step_s", found[0], f"at most solver.max_step_s, {shown(found[1])}")
 
