@@ -66,17 +66,14 @@ def parse_assignment(text: str) -> tuple[str, object]:
 
 def _text_of(name_or_path: str | Path) -> str:
     names = known_scenes()
-    if name_or_path in names:
-        path = _SHIPPED / f"{name_or_path}.toml"
-    else:
-        path = Path(name_or_path)
+    path = _SHIPPED / f"{name_or_path}.toml" if name_or_path in names else Path(name_or_path)
     try:
         return path.read_text(encoding="utf-8")
-    except FileNotFoundError:
+    except (FileNotFoundError, IsADirectoryError):
         close = difflib.get_close_matches(str(name_or_path), names, n=1)
         hint = f"; did you mean {close[0]!r}?" if close else ""
         allowed = f"allowed: a scene file, or one of {', '.join(names)}"
-        raise SceneError(f"no file and no scene is called {str(name_or_path)!r}{hint}; {allowed}") from None
+        raise SceneError(f"there is no scene and no file {str(name_or_path)!r}{hint}; {allowed}") from None
     except (OSError, UnicodeDecodeError, ValueError) as error:
         raise SceneError(f"{str(name_or_path)!r} cannot be read: {error}") from None
 

@@ -139,6 +139,10 @@ def _untagged(location: tuple[str | int, ...]) -> tuple[tuple[str | int, ...], s
     return location, None
 
 
+def _inside(other: dict, item: dict) -> bool:
+    return len(other["loc"]) > len(item["loc"]) and other["loc"][: len(item["loc"])] == item["loc"]
+
+
 def field_faults(
     error: ValidationError, scene_model: type[BaseModel]
 ) -> tuple[list[str], set[tuple[str | int, ...]]]:
@@ -148,11 +152,14 @@ def field_faults(
     """
     lines: list[str] = []
     bad: set[tuple[str | int, ...]] = set()
-    for item in error.errors(include_url=False, include_context=True):
+    items = error.errors(include_url=False)
+    for item in items:
         location, tag = _untagged(tuple(item["loc"]))
         kind = item["type"]
         if kind in ("scene_consistency", "default_factory_not_called"):
             continue  # the first is found again by cross_faults; the second only follows from another fault
+        if kind == "too_short" and any(_inside(other, item) for other in items):
+            continue  # pydantic counts sound elements only: the faulty ones are reported themselves
         if kind in ("union_tag_invalid", "union_tag_not_found"):
             path = tuple(part for part in location if isinstance(part, str))
             location = (*location, _TAGS[path])
@@ -160,14 +167,16 @@ def field_faults(
             given = item["input"].get(_TAGS[path]) if isinstance(item["input"], dict) else item["input"]
         else:
             allowed, given = _field_text(scene_model, location, tag) or item["msg"], item["input"]
+        short = kind == "missing" and isinstance(location[-1], int)  # a list of too few: shown as a whole, once
+        location = location[:-1] if short else location
         bad.add(location)
         key = dotted(location)
         if kind == "extra_forbidden" and tag is not None:
             lines.append(f"{key}: given {shown(given)}, which law = {tag!r} does not have")
         elif kind == "extra_forbidden":
             lines.append(unknown_key(key, given, scene_model))
-        elif kind in ("missing", "union_tag_not_found"):
+        elif kind in ("missing", "union_tag_not_found") and not short:
             lines.append(f"{key}: missing; allowed: {allowed}")
         else:
             lines.append(fault(key, given, allowed))
-    return lines, bad
+    return list(dict.fromkeys(lines)), bad

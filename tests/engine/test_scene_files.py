@@ -1,0 +1,188 @@
+"""Scenes by name and from files: overrides, round trips, keys, and files that are not scenes."""
+
+import math
+
+import numpy as np
+import pydantic
+import pytest
+
+from engine import Scene, SceneError, load_scene
+from engine.scene import known_scenes, parse_assignment, scene_from_toml
+
+VARIANTS = [
+    {},
+    {"waves.amplitude_m": 0.1},
+    {"waves": None, "water": None, "end": {"kind": "free", "force_N": [0.0, 0.0, 50.0]}, "buoy": None},
+    {"end": {"kind": "held", "position_m": [3.0, 0.0, 19.5]}, "buoy": None, "solver.step_s": 1e-3},
+    {"tether.tension": {"law": "tanh", "p": [2.703e5, 10.2, -2.128, 2.627e5, 135.5]}, "tether.diameter_m": 0.05},
+    {"tether.tension": {"law": "tabulated", "strain": [-0.1, 0.0, 0.3], "tension_N": [-1.0, 0.0, 1e4]}},
+    {"current": {"law": "uniform", "velocity_mps": [0.1 + 0.2, 0.0, -1e-300]}},
+    {"current": {"law": "profile", "height_m": [0, 21], "velocity_mps": [[0, 0, 0], [1, 0, 0]]}},
+    {"output.profiles": True, "output.profiles_step_s": 0.25},
+    {"title": 'a "quoted" \\ line\nand \t Æther \x7f \x01', "gravity_mps2": 9.80665},
+]
+
+
+@pytest.mark.parametrize("changes", VARIANTS)
+def test_a_scene_written_and_read_is_the_same_scene(changes, tmp_path):
+    scene = load_scene("tethered_buoy", changes)
+    path = tmp_path / "scene.toml"
+    path.write_text(scene.to_toml(), encoding="utf-8")
+    for again in (load_scene(path), load_scene(str(path)), scene_from_toml(scene.to_toml())):
+        assert again == scene
+        assert again.key() == scene.key()
+        assert again.to_toml() == scene.to_toml()
+
+
+def test_different_scenes_have_different_keys():
+    keys = {load_scene("tethered_buoy", changes).key() for changes in VARIANTS}
+    assert len(keys) == len(VARIANTS)
+    assert all(len(key) == 64 and set(key) <= set("0123456789abcdef") for key in keys)
+
+
+def test_the_smallest_change_of_a_number_changes_the_key():
+    key = load_scene("tethered_buoy").key()
+    assert load_scene("tethered_buoy", {"water.depth_m": math.nextafter(21.0, 22.0)}).key() != key
+    assert load_scene("tethered_buoy", {"water.depth_m": 21}).key() == key  # the same number, written as a whole one
+
+
+def test_the_shipped_scene_is_table_1():
+    scene = load_scene("tethered_buoy")
+    assert "tethered_buoy" in known_scenes()
+    # Table 1 of the paper and section 4.2, as printed there
+    assert scene.tether.length_m == 20 and scene.tether.area_m2 == 7.85e-5 and scene.tether.density_kgpm3 == 1140
+    assert scene.buoy.diameter_m == 1.5 and scene.buoy.mass_kg == 1611
+    assert scene.buoy.added_mass_kg == 907 and scene.buoy.drag == 0.2
+    assert scene.tether.tension.stiffness_N == 5e4 and scene.waves.period_s == 5
+    # its static strain is "about 0.04", from T_s = B - W
+    displaced = scene.water.density_kgpm3 * math.pi * scene.buoy.diameter_m**3 / 6
+    lift = (displaced - scene.buoy.mass_kg) * scene.gravity_mps2
+    assert lift / scene.tether.tension.stiffness_N == pytest.approx(0.04, abs=5e-4)
+    # the added mass of a sphere is half the water it displaces
+    assert scene.buoy.added_mass_kg == pytest.approx(displaced / 2, rel=1e-3)
+
+
+def test_every_shipped_scene_loads_under_its_own_name():
+    for name in known_scenes():
+        assert load_scene(name).name == name
+
+
+def test_a_scene_cannot_be_changed_in_place():
+    scene = load_scene("tethered_buoy")
+    with pytest.raises(pydantic.ValidationError):
+        scene.tether.length_m = 3.0
+    with pytest.raises(TypeError):
+        scene.start.buoy_velocity_mps[0] = 1.0
+    assert hash(scene) == hash(load_scene("tethered_buoy"))
+
+
+def test_a_scene_made_directly_obeys_the_same_rules():
+    raw = load_scene("tethered_buoy").model_dump()
+    assert Scene(**raw) == load_scene("tethered_buoy")
+    raw["water"] = None
+    with pytest.raises(pydantic.ValidationError, match="waves are given"):
+        Scene(**raw)
+
+
+def test_amplitude_and_steepness_replace_each_other():
+    by_amplitude = load_scene("tethered_buoy", {"waves.amplitude_m": 0.1})
+    assert by_amplitude.waves.amplitude_m == 0.1 and by_amplitude.waves.steepness is None
+    back = scene_from_toml(by_amplitude.to_toml(), {"waves.steepness": 0.2})
+    assert back.waves.amplitude_m is None and back.waves.steepness == 0.2
+
+
+def test_none_removes_and_a_scalar_creates_its_section():
+    still = load_scene("tethered_buoy", {"waves": None})
+    assert still.waves is None
+    waves = scene_from_toml(still.to_toml(), {"waves.period_s": 4.0, "waves.steepness": 0.1}).waves
+    assert waves.period_s == 4.0 and waves.steepness == 0.1 and waves.ramp_s == 0
+    assert load_scene("tethered_buoy", {"solver": None}).solver.rtol == Scene.model_fields["solver"].default.rtol
+    assert load_scene("tethered_buoy", {"current": None, "waves.ramp_s": None}).waves.ramp_s == 0
+
+
+def test_the_diameter_follows_the_area_unless_it_is_given():
+    for area in (7.85e-5, 1e-3):
+        scene = load_scene("tethered_buoy", {"tether.area_m2": area})
+        assert math.pi * scene.tether.diameter_m**2 / 4 == pytest.approx(area, rel=1e-14)
+    stored = scene_from_toml(load_scene("tethered_buoy").to_toml(), {"tether.area_m2": 1e-3})
+    assert math.pi * stored.tether.diameter_m**2 / 4 == pytest.approx(1e-3, rel=1e-14)
+    assert load_scene("tethered_buoy", {"tether.diameter_m": 0.02}).tether.diameter_m == 0.02
+
+
+def test_numpy_values_and_whole_numbers_are_numbers():
+    scene = load_scene(
+        "tethered_buoy",
+        {
+            "water.depth_m": np.float64(22.5),
+            "tether.nodes": np.int64(81),
+            "tether.length_m": 20,
+            "start.buoy_velocity_mps": np.array([0.5, 0.0, 0.0]),
+        },
+    )
+    assert scene.start.buoy_velocity_mps == (0.5, 0.0, 0.0)
+    for value in (scene.water.depth_m, scene.tether.length_m, scene.start.buoy_velocity_mps[0]):
+        assert type(value) is float
+    assert type(scene.tether.nodes) is int and scene.tether.nodes == 81
+
+
+def test_the_sample_step_is_a_hundredth_of_the_wave_period():
+    assert load_scene("tethered_buoy", {"waves.period_s": 7.0}).sample_step_s() == pytest.approx(0.07)
+    assert load_scene("tethered_buoy", {"waves": None}).sample_step_s() == 0.05
+    assert load_scene("tethered_buoy", {"output.step_s": 0.02}).sample_step_s() == 0.02
+
+
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        ("water.depth_m=21.6", ("water.depth_m", 21.6)),
+        (" tether.nodes = 81 ", ("tether.nodes", 81)),
+        ("end.kind=held", ("end.kind", "held")),
+        ('title="a = b"', ("title", "a = b")),
+        ("title=a = b", ("title", "a = b")),
+        ("output.profiles=true", ("output.profiles", True)),
+        ("start.buoy_velocity_mps=[0, 0, 1.5]", ("start.buoy_velocity_mps", [0, 0, 1.5])),
+        ("tether.tension={law = 'linear', stiffness_N = 3}", ("tether.tension", {"law": "linear", "stiffness_N": 3})),
+        ("waves=none", ("waves", None)),
+        ("title=", ("title", "")),
+        ("title=1\nother = 2", ("title", "1\nother = 2")),
+    ],
+)
+def test_an_assignment_is_a_key_and_a_toml_value(text, expected):
+    key, value = parse_assignment(text)
+    assert (key, value) == expected and type(value) is type(expected[1])
+
+
+@pytest.mark.parametrize("text", ["water.depth_m", "=3", ""])
+def test_an_assignment_without_key_or_value_is_a_fault(text):
+    with pytest.raises(SceneError, match="KEY=VALUE"):
+        parse_assignment(text)
+
+
+def test_a_name_that_does_not_exist_is_answered_with_those_that_do(tmp_path):
+    for name in ("tethered_bouy", tmp_path / "none.toml", ""):
+        with pytest.raises(SceneError, match="tethered_buoy"):
+            load_scene(name)
+    with pytest.raises(SceneError, match="did you mean 'tethered_buoy'"):
+        load_scene("tethered_bouy")
+
+
+@pytest.mark.parametrize(
+    "content", [b"name = ", b"\xff\xfe\x00", b"[tether]\n[tether]\n", b"name = 'x'\x00", b"{}", b"a = 1979-05-27"]
+)
+def test_a_file_that_is_no_scene_is_a_scene_error(content, tmp_path):
+    path = tmp_path / "scene.toml"
+    path.write_bytes(content)
+    with pytest.raises(SceneError):
+        load_scene(path)
+
+
+def test_a_folder_is_a_scene_error(tmp_path):
+    with pytest.raises(SceneError, match="no file"):
+        load_scene(tmp_path)
+
+
+def test_an_empty_file_lists_what_is_missing(tmp_path):
+    (tmp_path / "scene.toml").write_text("")
+    with pytest.raises(SceneError) as caught:
+        load_scene(tmp_path / "scene.toml")
+    assert {line.partition(":")[0] for line in caught.value.faults} == {"name", "tether", "buoy"}

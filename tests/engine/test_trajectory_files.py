@@ -1,0 +1,207 @@
+"""A run written is the run read; a file is there whole or not at all; a damaged file is refused."""
+
+import errno
+import json
+import os
+import subprocess
+
+import numpy as np
+import pytest
+import xarray
+
+from engine import Trajectory, load_scene
+from engine.trajectory import COLUMNS, PROFILE_COLUMNS, Profiles, TrajectoryError
+
+
+def run_of(samples: int, profiles: int | None = None, status: str = "ok", message: str = "") -> Trajectory:
+    random = np.random.default_rng(samples)
+    columns = {name: random.normal(size=samples) for name in COLUMNS}
+    lines = None
+    if profiles is not None:
+        fields = {name: random.normal(size=(profiles, 5)) for name in PROFILE_COLUMNS}
+        lines = Profiles(time_s=np.arange(profiles) * 0.5, s_m=np.linspace(0, 20, 5), **fields)
+    statistics = {"steps": 123456789012, "newton_iterations": np.int64(7), "min_strain": np.float64(-0.25)}
+    return Trajectory(load_scene("tethered_buoy", {"title": "Bøje ✓"}), status, message, columns, statistics, lines)
+
+
+def assert_same(left: Trajectory, right: Trajectory) -> None:
+    assert (left.scene, left.status, left.message) == (right.scene, right.status, right.message)
+    assert left.statistics == right.statistics
+    assert type(right.statistics["steps"]) is int and type(right.statistics["min_strain"]) is float
+    for name in COLUMNS:
+        np.testing.assert_array_equal(left.columns[name], right.columns[name])
+    assert (left.profiles is None) == (right.profiles is None)
+    if left.profiles is not None:
+        for name in ("time_s", "s_m", *PROFILE_COLUMNS):
+            np.testing.assert_array_equal(getattr(left.profiles, name), getattr(right.profiles, name))
+
+
+@pytest.mark.parametrize("profiles", [None, 0, 1, 40])
+@pytest.mark.parametrize("samples", [0, 1, 500])
+def test_a_run_written_is_the_run_read_bit_for_bit(samples, profiles, tmp_path):
+    run = run_of(samples, profiles)
+    if samples > 1:
+        run.columns["tension_top_N"][3:6] = np.nan, np.inf, -0.0
+    run.save(tmp_path / "run.nc")
+    again = Trajectory.load(tmp_path / "run.nc")
+    assert_same(run, again)
+    again.save(tmp_path / "again.nc")
+    assert (tmp_path / "again.nc").read_bytes() == (tmp_path / "run.nc").read_bytes()
+    for name in COLUMNS:
+        assert again.columns[name].dtype == np.dtype("float64")
+
+
+def test_a_failed_run_keeps_its_reason(tmp_path):
+    run = run_of(1, status="turn-unresolved", message="a turn of 4.2 rad in one element — at t = 3 s")
+    run.save(tmp_path / "run.nc")
+    assert_same(run, Trajectory.load(tmp_path / "run.nc"))
+
+
+def test_the_table_has_the_agreed_columns():
+    table = run_of(3).table()
+    agreed = (
+        "time_s x_m y_m z_m radius_m radius_rate_mps angle_rad angle_rate_radps offplane_m tension_top_N tension_min_N "
+        "tension_top_low_N tension_top_high_N"
+    )
+    assert list(table.columns) == agreed.split()
+    assert len(table) == 3 and len(run_of(0).table()) == 0
+
+
+@pytest.mark.parametrize("samples", [0, 500])
+def test_xarray_opens_it_with_units_and_names(samples, tmp_path):
+    run = run_of(samples, profiles=4)
+    run.save(tmp_path / "run.nc", {"git_commit": "abc"})
+    with xarray.open_dataset(tmp_path / "run.nc", engine="scipy") as data:
+        np.testing.assert_array_equal(data["radius_m"].values, run.columns["radius_m"])
+        assert data["radius_m"].dims == ("time_s",)
+        assert data["profile_strain"].dims == ("profile_time_s", "s_m")
+        assert data["time_s"].dtype == np.dtype("float64")  # a number of seconds, not a date
+        for name, variable in data.variables.items():
+            assert variable.attrs["units"] and variable.attrs["long_name"], name
+        assert data.attrs["status"] == "ok" and data.attrs["git_commit"] == "abc" and "✓" in data.attrs["title"]
+        assert json.loads(data.attrs["statistics"])["steps"] == run.statistics["steps"]
+        assert data.attrs["scene"] == run.scene.to_toml()
+
+
+def test_an_attribute_may_not_replace_one_of_the_record(tmp_path):
+    for name in ("status", "scene", "content_sha256", "variables"):
+        with pytest.raises(ValueError, match=name):
+            run_of(3).save(tmp_path / "run.nc", {name: "x"})
+    assert not list(tmp_path.iterdir())
+
+
+def test_columns_must_be_complete_and_of_one_length():
+    run = run_of(3)
+    with pytest.raises(ValueError, match="columns"):
+        Trajectory(run.scene, "ok", "", {"time_s": np.zeros(3)}, {})
+    with pytest.raises(ValueError, match="one length"):
+        Trajectory(run.scene, "ok", "", {**run.columns, "x_m": np.zeros(4)}, {})
+
+
+def test_a_truncated_file_is_refused_wherever_it_ends(tmp_path):
+    run_of(50, profiles=3).save(tmp_path / "run.nc")
+    content = (tmp_path / "run.nc").read_bytes()
+    for length in [*range(0, len(content), 101), len(content) - 8, len(content) - 1]:
+        (tmp_path / "cut.nc").write_bytes(content[:length])
+        with pytest.raises(TrajectoryError, match=r"cut\.nc"):
+            Trajectory.load(tmp_path / "cut.nc")
+
+
+def test_a_changed_byte_never_gives_different_numbers(tmp_path):
+    run = run_of(50, profiles=3)
+    run.save(tmp_path / "run.nc")
+    content = (tmp_path / "run.nc").read_bytes()
+    refused = 0
+    for position in range(0, len(content), 37):
+        changed = bytearray(content)
+        changed[position] ^= 0x55
+        (tmp_path / "changed.nc").write_bytes(changed)
+        try:
+            again = Trajectory.load(tmp_path / "changed.nc")
+        except TrajectoryError:
+            refused += 1
+        else:  # only the wording of a unit or a long name, which load does not read
+            assert_same(run, again)
+    assert refused > 100
+
+
+@pytest.mark.parametrize("content", [b"", b"CDF\x01", b"\x89HDF\r\n\x1a\n" + bytes(100), b"time_s,x_m\n0,0\n"])
+def test_a_file_that_is_no_trajectory_is_refused(content, tmp_path):
+    (tmp_path / "run.nc").write_bytes(content)
+    with pytest.raises(TrajectoryError, match=r"run\.nc"):
+        Trajectory.load(tmp_path / "run.nc")
+
+
+def test_a_netcdf_file_of_somebody_else_is_refused(tmp_path):
+    xarray.Dataset({"a": ("x", [1.0, 2.0])}).to_netcdf(tmp_path / "other.nc", engine="scipy")
+    with pytest.raises(TrajectoryError, match="not a trajectory"):
+        Trajectory.load(tmp_path / "other.nc")
+
+
+def test_a_missing_file_and_a_folder_are_refused(tmp_path):
+    for path in (tmp_path / "none.nc", tmp_path):
+        with pytest.raises(TrajectoryError, match="cannot be read"):
+            Trajectory.load(path)
+
+
+@pytest.fixture
+def small_disk(tmp_path):
+    """A file system of 64 KiB, where mounting is permitted."""
+    folder = tmp_path / "small"
+    folder.mkdir()
+    mount = ["mount", "-t", "tmpfs", "-o", "size=64k", "tmpfs", str(folder)]
+    try:
+        done = subprocess.run(mount, capture_output=True, text=True)
+    except FileNotFoundError:
+        pytest.skip("no mount command")
+    if done.returncode:
+        pytest.skip(f"mounting is not permitted: {done.stderr.strip()}")
+    yield folder
+    subprocess.run(["umount", str(folder)], check=True)
+
+
+def test_a_full_disk_leaves_the_finished_runs_and_nothing_else(small_disk):
+    small, large = run_of(100), run_of(5000)
+    small.save(small_disk / "first.nc")
+    with pytest.raises(OSError) as caught:
+        large.save(small_disk / "second.nc")
+    assert caught.value.errno == errno.ENOSPC
+    with pytest.raises(OSError):
+        large.save(small_disk / "first.nc")
+    assert [path.name for path in small_disk.iterdir()] == ["first.nc"]
+    assert_same(small, Trajectory.load(small_disk / "first.nc"))
+
+
+@pytest.mark.parametrize("call", ["fsync", "replace"])
+def test_a_failure_at_any_stage_leaves_the_old_file(call, tmp_path, monkeypatch):
+    old = run_of(10)
+    old.save(tmp_path / "run.nc")
+
+    def full(*_):
+        raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+
+    monkeypatch.setattr(os, call, full)
+    with pytest.raises(OSError):
+        run_of(20).save(tmp_path / "run.nc")
+    monkeypatch.undo()
+    assert [path.name for path in tmp_path.iterdir()] == ["run.nc"]
+    assert_same(old, Trajectory.load(tmp_path / "run.nc"))
+
+
+def test_an_interrupt_leaves_nothing(tmp_path, monkeypatch):
+    def interrupt(*_):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(os, "fsync", interrupt)
+    with pytest.raises(KeyboardInterrupt):
+        run_of(20).save(tmp_path / "run.nc")
+    assert not list(tmp_path.iterdir())
+
+
+def test_others_may_read_the_file_as_the_user_allows(tmp_path):
+    mask = os.umask(0o022)
+    try:
+        run_of(3).save(tmp_path / "run.nc")
+    finally:
+        os.umask(mask)
+    assert (tmp_path / "run.nc").stat().st_mode & 0o777 == 0o644
