@@ -1,0 +1,43 @@
+"""Measures of any evenly sampled time series: plain arrays and a sampling step in, frozen records out.
+
+Nothing here knows the cable, so the same functions serve the tethered buoy, eq. (33) and measured data. Time 0 is the
+first sample of a record. Names are imported on first use: `import analysis` costs nothing.
+"""
+
+from importlib import import_module
+
+_HOME = {
+    "Spectrum": "spectra",
+    "SpectralPeak": "spectra",
+    "spectrum": "spectra",
+    "spectral_peaks": "spectra",
+    "peaks_near": "spectra",
+    "PoincareSection": "poincare",
+    "poincare_section": "poincare",
+    "OrbitDiagram": "orbit_diagrams",
+    "DensityImage": "orbit_diagrams",
+    "orbit_diagram": "orbit_diagrams",
+    "density_image": "orbit_diagrams",
+    "scale_density": "orbit_diagrams",
+    "PeriodEstimate": "periods",
+    "detect_period": "periods",
+    "SlackFraction": "levels",
+    "Extremes": "levels",
+    "slack_fraction": "levels",
+    "extremes": "levels",
+}
+# No module bears the name of a function: importing a submodule binds its name here and would hide the function.
+
+__all__ = [*_HOME]
+
+
+def __getattr__(name):
+    if name not in _HOME:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    value = getattr(import_module(f"{__name__}.{_HOME[name]}"), name)
+    globals()[name] = value
+    return value
+
+
+def __dir__():
+    return sorted(set(globals()) | set(_HOME))

@@ -1,0 +1,77 @@
+"""What every measure needs of an evenly sampled record: checked arrays, and its value at a given time."""
+
+import numpy as np
+
+# A time this close to a sample, in steps, is that sample: 5 s / 0.05 s must not turn into an interpolation, and the
+# error of taking the sample instead is 1e-6 of one step's change.
+ON_SAMPLE = 1e-6
+
+
+def checked_series(values, name="series", dimensions=(1,)):
+    """Float copy of `values`; ValueError when it has the wrong number of dimensions, or a NaN or infinity (names the
+    first), since every measure here would turn one bad sample into a plausible number."""
+    array = np.array(values, dtype=float)
+    if array.ndim not in dimensions:
+        allowed = " or ".join(str(d) for d in dimensions)
+        raise ValueError(f"{name}: an array of {allowed} dimension(s) is needed, given shape {array.shape}")
+    bad = np.argwhere(~np.isfinite(array))
+    if len(bad):
+        where = tuple(int(i) for i in bad[0])
+        raise ValueError(
+            f"{name}: {len(bad)} value(s) not finite, the first at index {where[0] if len(where) == 1 else where} "
+            f"({array[where]}); cut the record before it"
+        )
+    return array
+
+
+def checked_positive(value, name):
+    """`value` as a float; ValueError unless it is finite and above zero."""
+    number = float(value)
+    if not (np.isfinite(number) and number > 0.0):
+        raise ValueError(f"{name}: a finite number > 0 is needed, given {value!r}")
+    return number
+
+
+def checked_not_negative(value, name):
+    """`value` as a float; ValueError unless it is finite and at least zero."""
+    number = float(value)
+    if not (np.isfinite(number) and number >= 0.0):
+        raise ValueError(f"{name}: a finite number >= 0 is needed, given {value!r}")
+    return number
+
+
+def checked_count(value, name, least=1):
+    """`value` as an int; ValueError unless it is a whole number of at least `least`."""
+    if isinstance(value, bool) or int(value) != value or value < least:
+        raise ValueError(f"{name}: a whole number >= {least} is needed, given {value!r}")
+    return int(value)
+
+
+def record_length_s(samples, step_s):
+    """Time from the first to the last of `samples` samples [s]; 0 for an empty record."""
+    return max(samples - 1, 0) * step_s
+
+
+def values_at(series, step_s, time_s):
+    """Values of `series` (n,) or (n, d) at `time_s` (m,), and whether they were interpolated.
+
+    The samples themselves where every time is a sample; otherwise all of them by one not-a-knot cubic spline, whose
+    error is O(step^4) up to both ends of the record for a motion with four bounded derivatives. A kink (a snap) costs
+    that order: sample so that the times wanted are samples. ValueError when the spline has fewer than four samples.
+    """
+    position = np.asarray(time_s, dtype=float) / step_s
+    index = np.rint(position).astype(int)
+    if np.all(np.abs(position - index) <= ON_SAMPLE):
+        return series[index], False
+    if len(series) < 4:
+        raise ValueError(f"interpolation between samples needs at least 4 of them, given {len(series)}")
+    from scipy.interpolate import CubicSpline
+
+    return CubicSpline(np.arange(len(series)), series)(position), True
+
+
+def locked(array):
+    """The same array, made read-only: a frozen record must not change through its arrays."""
+    array = np.asarray(array)
+    array.flags.writeable = False
+    return array
