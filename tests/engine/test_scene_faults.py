@@ -34,7 +34,7 @@ SINGLE = [
     ({"tether.nodes": 20001}, "tether.nodes", "20001", "to 20000"),
     ({"tether.nodes": True}, "tether.nodes", "true", "whole number"),
     ({"tether.drag_normal": -0.1}, "tether.drag_normal", "-0.1", "0 or above"),
-    ({"tether.grid_stretching": 11.0}, "tether.grid_stretching", "11.0", "10"),
+    ({"tether.grid_stretching": 5.5}, "tether.grid_stretching", "5.5", "from 0 to 5"),
     ({"tether.density_kgpm3": None}, "tether.density_kgpm3", "missing", "above 0"),
     ({"tether.tension.law": "cubic"}, "tether.tension.law", "'cubic'", "'linear', 'tanh', 'tabulated'"),
     ({"tether.tension": {"stiffness_N": 5e4}}, "tether.tension.law", "missing", "'tanh'"),

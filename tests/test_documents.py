@@ -1,0 +1,46 @@
+"""What the documents point at exists, and the notation page knows every equation and every scene key it should."""
+
+import re
+from pathlib import Path
+
+import pytest
+
+from engine.scene_faults import known_keys
+from engine.scene_models import Scene
+from engine.trajectory import COLUMNS
+
+ROOT = Path(__file__).resolve().parents[1]
+NOTATION = (ROOT / "NOTATION.md").read_text(encoding="utf-8")
+
+
+@pytest.mark.parametrize("name", ["NOTATION.md", "README.md", "CITATION.cff"])
+def test_every_file_that_a_document_names_exists(name):
+    text = (ROOT / name).read_text(encoding="utf-8")
+    paths = re.findall(r"`((?:engine|analysis|reports|campaigns|docs|tests|benchmarks|\.ci)/[\w./-]*)`", text)
+    assert [path for path in paths if not (ROOT / path).exists()] == []
+
+
+def test_each_equation_of_the_paper_is_listed_once():
+    table = NOTATION.partition("## Equations of the paper")[2]
+    listed = []
+    for first, last in re.findall(r"^\| \((\d+)\)(?:-\((\d+)\))? \|", table, flags=re.MULTILINE):
+        listed += range(int(first), int(last or first) + 1)
+    assert listed == list(range(1, 41))
+
+
+def test_every_scene_key_and_column_named_exists():
+    named = set(re.findall(r"`((?:tether|buoy|water|waves|end|current|solver|output)\.\w+)`", NOTATION))
+    assert named and named <= set(known_keys(Scene))
+    assert set(COLUMNS) - {"x_m", "y_m", "z_m"} <= set(re.findall(r"`(\w+)`", NOTATION))
+
+
+def test_the_shipped_scene_states_the_source_of_every_value():
+    for path in (ROOT / "engine" / "scenes").glob("*.toml"):
+        values = [line for line in path.read_text().splitlines() if re.match(r"^\w+ = ", line)]
+        unsourced = [line for line in values if "#" not in line and not re.match(r"^(name|title|profiles) ", line)]
+        assert values and not unsourced
+
+
+def test_no_package_host_or_machine_path_is_pinned():
+    text = "".join((ROOT / name).read_text() for name in ("constraints.txt", "pyproject.toml", "README.md", ".ci/run"))
+    assert not re.search(r"https?://|file:|index-url|find-links|/home/|/opt/|/root/", text)
