@@ -1,0 +1,37 @@
+"""`python -m reports DIR`: build the report of a campaign's folder again."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+
+
+def main(arguments: list[str] | None = None) -> int:
+    """Build and print the two paths.
+
+    Exit code 2 with one message for a folder that is no finished campaign, 1 for a disk that does not take the files.
+    """
+    parser = argparse.ArgumentParser(
+        prog="python -m reports",
+        description="Build report.html and report.pdf of a campaign's folder again, from what the folder holds.",
+    )
+    parser.add_argument("directory", metavar="DIR", help="folder of a finished campaign (its --out)")
+    directory = parser.parse_args(arguments).directory
+
+    from . import build
+    from .folder import FolderError
+
+    try:
+        for path in build(directory):
+            print(path)
+    except FolderError as error:
+        print(error, file=sys.stderr)
+        return 2
+    except OSError as error:
+        print(f"the report could not be written: {error}", file=sys.stderr)
+        return 1
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

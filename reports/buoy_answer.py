@@ -1,0 +1,122 @@
+"""The short answer of a buoy sweep, in words computed from the table and the trajectories."""
+
+from __future__ import annotations
+
+import math
+
+from .buoy_physics import Modes
+from .buoy_runs import LONGEST_PERIOD, TOLERANCE, Run, period_length, value
+from .buoy_warnings import releases
+from .wording import count, decimals, listed, number, percent, ranges
+
+
+def short_answer(runs: tuple[Run, ...], transient: int, modes: Modes | None) -> tuple[str, ...]:
+    """One statement a line: the sweep, slack, period of the strobed orbit, loops, the extremes."""
+    good = tuple(run for run in runs if run.ok)
+    lines = [_sweep(runs, good, transient)]
+    if good:
+        lines += [_slack(good), *_periods(good), _loops(good), _extremes(good, modes)]
+    return tuple(line for line in lines if line)
+
+
+def _sweep(runs, good, transient) -> str:
+    values = sorted({run.steepness for run in runs})
+    span = f"kA = {number(values[0])}" if len(values) == 1 else f"kA from {number(values[0])} to {number(values[-1])}"
+    longest = max((run.periods_done for run in runs), default=0.0)
+    if not good:
+        end = (
+            "None of them ended as asked; the reasons are under Warnings."
+            if len(runs) > 1
+            else "It did not end as asked."
+        )
+    elif len(good) == len(runs):
+        end = "All ended as asked." if len(runs) > 1 else "It ended as asked."
+    else:
+        bad = [not run.ok for run in runs]
+        end = f"{len(good)} ended as asked; not so kA = {ranges([run.steepness for run in runs], bad)}."
+    return (
+        f"{count(len(runs), 'run')}, {span}, the longest over {number(longest)} wave periods; strobed values leave out "
+        f"the first {count(transient, 'period')}. {end}"
+    )
+
+
+def _slack(good) -> str:
+    share = [value(run, "slack_fraction") for run in good]
+    if all(math.isnan(s) for s in share):
+        return ""
+    slack = [run for run, s in zip(good, share, strict=True) if s > 0]
+    if not slack:
+        return f"The tether never goes slack: `slack_fraction` is 0 in {_all(good)}."
+    first = slack[0]
+    tense = [run.steepness for run in good if run.steepness < first.steepness]
+    before = f"up to kA = {number(tense[-1])} it stays taut" if tense else ""
+    share_of_first = percent(value(first, "slack_fraction"))
+    text = f"The tether goes slack from kA = {number(first.steepness)} on ({share_of_first} of the time there)"
+    later_taut = [
+        run.steepness for run, s in zip(good, share, strict=True) if s == 0 and run.steepness > first.steepness
+    ]
+    if later_taut:
+        text += f", though not at kA = {listed(number(s) for s in later_taut)}"
+    most = max(slack, key=lambda run: value(run, "slack_fraction"))
+    share_of_most = f"the largest share is {percent(value(most, 'slack_fraction'))} at kA = {number(most.steepness)}"
+    return "; ".join(part for part in (text, before, share_of_most if most is not first else "") if part) + "."
+
+
+def _periods(good) -> list[str]:
+    steepness = [run.steepness for run in good]
+    lines = []
+    for length in range(1, LONGEST_PERIOD + 1):
+        chosen = [period_length(run) == length for run in good]
+        if any(chosen):
+            lines.append(
+                f"Strobed once a wave period, the motion repeats after {count(length, 'wave period')} "
+                f"(period {length}) at kA = {ranges(steepness, chosen)}."
+            )
+    none = [run.period is not None and period_length(run) == 0 for run in good]
+    if any(none):
+        lines.append(
+            f"At kA = {ranges(steepness, none)} the strobed motion repeats after none of 1 to {LONGEST_PERIOD} "
+            f"periods to {percent(TOLERANCE)} of its range; what else it is, this report does not decide."
+        )
+    unknown = [run.period is None for run in good]
+    if any(unknown):
+        lines.append(f"At kA = {ranges(steepness, unknown)} too few strobed points are left to look for a period.")
+    return lines
+
+
+def _loops(good) -> str:
+    looped = [run for run in good if value(run, "loop_releases") > 0]
+    if not looped:
+        return f"No loop had to be released in {_all(good)}."
+    most = max(looped, key=lambda run: value(run, "loop_releases"))
+    if len(looped) == 1:
+        return f"Loops form and are released at kA = {number(most.steepness)} alone ({releases(most)})."
+    return (
+        f"Loops form and are released in {len(looped)} of {count(len(good), 'run')}, first at kA = "
+        f"{number(looped[0].steepness)}, most often at kA = {number(most.steepness)} "
+        f"({count(int(value(most, 'loop_releases')), 'release')})."
+    )
+
+
+def _extremes(good, modes: Modes | None) -> str:
+    pulls = [run for run in good if not math.isnan(value(run, "tension_top_max_N"))]
+    if not pulls:
+        return ""
+    most = max(pulls, key=lambda run: value(run, "tension_top_max_N"))
+    pull = value(most, "tension_top_max_N")
+    static = (
+        f", {number(pull / modes.static_tension_N, 3)} times the static {number(modes.static_tension_N)} N"
+        if modes
+        else ""
+    )
+    wide = max(pulls, key=lambda run: value(run, "radius_max_m") - value(run, "radius_min_m"))
+    return (
+        f"The largest top tension is {number(pull)} N at kA = {number(most.steepness)}{static}; the radius ranges "
+        f"widest at "
+        f"kA = {number(wide.steepness)}, from {decimals(value(wide, 'radius_min_m'), 2)} to "
+        f"{decimals(value(wide, 'radius_max_m'), 2)} m."
+    )
+
+
+def _all(good) -> str:
+    return "the one run that ended as asked" if len(good) == 1 else f"all {len(good)} runs that ended as asked"

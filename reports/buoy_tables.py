@@ -1,0 +1,163 @@
+"""The tables of a buoy sweep: the runs, their cost, the scene, the provenance."""
+
+from __future__ import annotations
+
+import math
+import shlex
+
+import numpy as np
+
+from .buoy_physics import Modes
+from .buoy_runs import LONGEST_PERIOD, TOLERANCE, Run, period_length, value
+from .content import Column, Figure, Heading, Item, Listing, Table, Text
+from .figures.run_times import run_times
+from .folder import Folder
+from .scene_table import scene_table
+from .symbols import OMEGA_I, OMEGA_R, OMEGA_THETA, T_S
+from .wording import EMPTY, decimals, number, percent
+
+_TIMES = {"compile_s": "compiling the kernels", "run_s": "runs", "analysis_s": "analysis", "report_s": "report"}
+
+
+def runs_items(runs: tuple[Run, ...]) -> list[Item]:
+    """All rows of table.csv in the columns a reader asks for first."""
+    columns = [
+        ("r min", "m", "radius_min_m", 2),
+        ("r max", "m", "radius_max_m", 2),
+        ("θ min", "rad", "angle_min_rad", 3),
+        ("θ max", "rad", "angle_max_rad", 3),
+        ("T min", "N", "tension_top_min_N", 0),
+        ("T max", "N", "tension_top_max_N", 0),
+        ("slack", "–", "slack_fraction", 3),
+        ("turn", "rad", "max_turn_rad", 2),
+        ("loops", "", "loop_releases", 0),
+        ("steps", "", "steps", 0),
+        ("rejected", "", "rejected_steps", 0),
+        ("Newton", "", "newton_iterations", 0),
+        ("wall", "s", "wall_s", 2),
+    ]
+    heads = (
+        Column("kA"),
+        Column("status", align="left"),
+        Column("N"),
+        *(Column(title, unit) for title, unit, *_ in columns),
+    )
+    rows = tuple(
+        (
+            number(run.steepness),
+            run.row["status"],
+            _period_cell(run),
+            *(decimals(value(run, column), places) for *_, column, places in columns),
+        )
+        for run in runs
+    )
+    caption = (
+        f"Every run of `table.csv`. N: strobed r and r' repeat after N wave periods to {percent(TOLERANCE)} of their "
+        f"range, "
+        f"N ≤ {LONGEST_PERIOD} (computed here; “none” where no N does). T: tension at the top. slack: share of the "
+        f"time without "
+        "tension. turn: largest turn of the tether within one element. loops: loop releases. A dash: not known."
+    )
+    return [Heading("Table of runs"), Table(heads, rows, caption, small=True)]
+
+
+def _period_cell(run: Run) -> str:
+    if run.period is None:
+        return EMPTY
+    return str(period_length(run) or "none")
+
+
+def time_items(folder: Folder, runs: tuple[Run, ...]) -> list[Item]:
+    """What each run cost, and the time split of the campaign."""
+    items: list[Item] = [Heading("Run times")]
+    timed = [run for run in runs if run.has_record and not math.isnan(value(run, "wall_s"))]
+    if timed:
+        wall = np.array([value(run, "wall_s") for run in timed])
+        newton = np.array([value(run, "newton_iterations") for run in timed])
+        done = np.array([run.periods_done for run in timed])
+        seen = (
+            f"{decimals(float(wall.sum()), 1)} s in all runs together, {number(1e3 * wall.sum() / done.sum(), 3)} ms "
+            f"and "
+            f"{number(newton.sum() / done.sum(), 3)} Newton iterations per wave period, "
+            f"{number(1e6 * wall.sum() / max(newton.sum(), 1.0), 3)} µs per Newton iteration on average"
+        )
+        picture = run_times(
+            np.array([run.steepness for run in timed]), wall, newton / done, np.array([not run.ok for run in timed])
+        )
+        items.append(
+            Figure(
+                picture,
+                f"Cost of each run: {seen}. From `wall_s` and `newton_iterations` of `table.csv`.",
+                f"Wall time and Newton iterations of each run over wave steepness: {seen}.",
+            )
+        )
+    timing = folder.provenance.get("timing")
+    if isinstance(timing, dict) and timing:
+        rows = tuple(
+            (_TIMES.get(name, name.removesuffix("_s").replace("_", " ")), decimals(float(time), 2))
+            for name, time in timing.items()
+            if isinstance(time, (int, float))
+        )
+        items.append(
+            Table(
+                (Column("part", align="left"), Column("wall time", "s")),
+                rows,
+                "Where the time of the campaign went, from `provenance.json`.",
+            )
+        )
+    return items if len(items) > 1 else [*items, Text("Neither `table.csv` nor `provenance.json` holds times.")]
+
+
+def scene_items(folder: Folder, runs: tuple[Run, ...], modes: Modes | None) -> list[Item]:
+    from engine import load_scene
+
+    values = sorted({run.steepness for run in runs})
+    span = number(values[0]) if len(values) == 1 else f"{number(values[0])} to {number(values[-1])}"
+    table = scene_table(
+        folder.scene,
+        load_scene("tethered_buoy"),
+        {"waves.steepness": span},
+        "The scene as run, from `scene.toml`; defaults are those of the scene `tethered_buoy`.",
+    )
+    items: list[Item] = [Heading("Scene"), table]
+    if modes:
+        items.append(
+            Text(
+                f"From it follow the static tension {T_S} = {number(modes.static_tension_N)} N at strain "
+                f"{number(modes.static_strain, 3)}, the "
+                f"radial frequency {OMEGA_R} = {number(modes.radial_radps)} rad/s, the pendulum frequency "
+                f"{OMEGA_THETA} = "
+                f"{number(modes.pendulum_radps)} rad/s, and the wave frequency {OMEGA_I} = {number(modes.wave_radps)} "
+                f"rad/s."
+            )
+        )
+    return items
+
+
+def provenance_items(folder: Folder) -> list[Item]:
+    command = folder.provenance.get("command")
+    items: list[Item] = [Heading("Provenance")]
+    if command:
+        items += [
+            Text("The command:"),
+            Listing(shlex.join(map(str, command)) if isinstance(command, list) else str(command)),
+        ]
+    rows = tuple(
+        (f"`{key}`", text) for key, text in _flat(folder.provenance) if key.split(".")[0] not in ("command", "timing")
+    )
+    if rows:
+        columns = (Column("entry", align="left"), Column("value", align="left"))
+        items.append(Table(columns, rows, "All of `provenance.json` but the command and the times.", small=True))
+    return items
+
+
+def _flat(section: dict, prefix: str = "") -> list[tuple[str, str]]:
+    rows = []
+    for key, entry in section.items():
+        if isinstance(entry, dict):
+            rows += _flat(entry, f"{prefix}{key}.")
+        elif isinstance(entry, list):
+            rows.append((prefix + key, ", ".join(number(e) if isinstance(e, float) else str(e) for e in entry)))
+        else:
+            rows.append((prefix + key, EMPTY if entry is None else str(entry)))
+    return rows

@@ -1,0 +1,1 @@
+"""One drawing a file: plain arrays in, a `reports.content.Picture` out."""

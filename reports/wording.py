@@ -1,0 +1,76 @@
+"""Numbers as a reader wants them, and lists as a sentence needs them."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Sequence
+
+EMPTY = "–"
+
+
+def number(value: float | None, digits: int = 4) -> str:
+    """A value with `digits` significant digits, without an exponent where it can be read without one; a dash for none.
+
+    >>> number(20.391234), number(1611.0), number(2.5e-9), number(float("nan"))
+    ('20.39', '1611', '2.5e-09', '–')
+    """
+    if value is None or not math.isfinite(value):
+        return EMPTY
+    if value == int(value) and abs(value) < 1e7:
+        return _minus(str(int(value)))
+    text = f"{value:.{digits}g}"
+    if "e" in text and 1e-4 <= abs(value) < 1e7:
+        text = f"{value:.0f}"
+    return _minus(text)
+
+
+def decimals(value: float | None, places: int) -> str:
+    """A value with a fixed number of decimals, so that a column lines up; a dash for none."""
+    if value is None or not math.isfinite(value):
+        return EMPTY
+    text = f"{value:.{places}f}"
+    return text.removeprefix("-") if float(text) == 0 else _minus(text)
+
+
+def percent(share: float) -> str:
+    """ "12.5 %" of a share of 0.125."""
+    return f"{number(100 * share, 3)} %"
+
+
+def _minus(text: str) -> str:
+    """The sign as print wants it: a hyphen at the end of a line would leave its number behind."""
+    return "−" + text[1:] if text.startswith("-") else text
+
+
+def count(how_many: int, singular: str, plural: str = "") -> str:
+    """ "1 run", "3 runs"."""
+    return f"{how_many} {singular if how_many == 1 else plural or singular + 's'}"
+
+
+def listed(words: Iterable[str]) -> str:
+    """ "a", "a and b", "a, b and c"."""
+    words = list(words)
+    return words[0] if len(words) == 1 else f"{', '.join(words[:-1])} and {words[-1]}" if words else "none"
+
+
+def ranges(values: Sequence[float], chosen: Sequence[bool]) -> str:
+    """The chosen of the values in words, neighbours in the full list joined into "a to b".
+
+    >>> ranges([0.01, 0.02, 0.03, 0.05], [True, True, True, False])
+    '0.01 to 0.03'
+    """
+    groups: list[list[float]] = []
+    before = False
+    for value, wanted in zip(values, chosen, strict=True):
+        if wanted and before:
+            groups[-1].append(value)
+        elif wanted:
+            groups.append([value])
+        before = wanted
+    parts = []
+    for group in groups:
+        if len(group) > 2:
+            parts.append(f"{number(group[0])} to {number(group[-1])}")
+        else:
+            parts += [number(value) for value in group]
+    return listed(parts)
