@@ -1,0 +1,84 @@
+"""Compilation of the kernels, and the one place where their on-disk cache is decided.
+
+Numba's cache looks at the file of the compiled function only: change a function that it calls, in another file,
+and the old machine code comes back. The cache folder is therefore named by a hash of every source of the engine.
+The folder is set only while a kernel is being declared, so other users of Numba in the process keep their own.
+"""
+
+import hashlib
+import os
+import tempfile
+from functools import cache
+from pathlib import Path
+
+import numba
+from numba import config
+
+_ROOT = Path(__file__).parent
+_KEPT_CACHES = 6
+
+
+@cache
+def source_hash():
+    """Hash of everything in the engine that can change a result; part of the key of every stored run.
+
+    Returns
+    -------
+    str
+        sha256, hexadecimal, over the names and contents of all ``engine/**/*.py`` and ``*.toml``.
+    """
+    digest = hashlib.sha256()
+    for path in sorted([*_ROOT.rglob("*.py"), *_ROOT.rglob("*.toml")]):
+        digest.update(path.relative_to(_ROOT).as_posix().encode() + b"\0")
+        digest.update(path.read_bytes() + b"\0")
+    return digest.hexdigest()
+
+
+@cache
+def cache_directory():
+    """Folder for machine code: ``$TETHER_CACHE_DIR``, else the user's cache, else a temporary folder."""
+    home = os.environ.get("TETHER_CACHE_DIR") or os.path.join(
+        os.environ.get("XDG_CACHE_HOME") or os.path.expanduser("~/.cache"), "tether-workbench"
+    )
+    for root in (Path(home), Path(tempfile.gettempdir()) / f"tether-workbench-{os.getuid()}"):
+        folder = root / f"kernels-{source_hash()[:16]}"
+        try:
+            folder.mkdir(parents=True, exist_ok=True)
+            probe = tempfile.TemporaryFile(dir=folder)
+        except OSError:
+            continue
+        probe.close()
+        _drop_old(root, folder)
+        return folder
+    return None
+
+
+def _drop_old(root, current):
+    others = sorted((p for p in root.glob("kernels-*") if p != current), key=lambda p: p.stat().st_mtime)
+    for folder in others[: -_KEPT_CACHES or None]:
+        for path in sorted(folder.rglob("*"), reverse=True):
+            try:
+                path.rmdir() if path.is_dir() else path.unlink()
+            except OSError:
+                continue
+        try:
+            folder.rmdir()
+        except OSError:
+            continue
+
+
+def kernel(function):
+    """Compile a kernel: no Python objects, no GIL, fused multiply-add allowed, cached on disk.
+
+    Full ``fastmath`` is not used: it breaks the range reduction of `engine.elementary.sincos` and hides NaN.
+    """
+    folder = cache_directory()
+    saved = config.CACHE_DIR
+    if folder is not None:
+        config.CACHE_DIR = str(folder)
+    try:
+        return numba.njit(
+            cache=folder is not None, nogil=True, fastmath={"contract"}, error_model="numpy", boundscheck=False
+        )(function)
+    finally:
+        config.CACHE_DIR = saved

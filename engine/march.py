@@ -1,0 +1,153 @@
+"""From one output sample to the next: step control, guards, loop release, even output.
+
+`march` takes one record and one share of the arrays of a batch (`engine.simulate` holds the batch axis); nothing is
+global, each simulation has its own step and its own end.
+
+Loop release: in a plane a loop of slack tether that is pulled tight cannot leave the plane, and shrinks to sqrt(EI/T),
+about 1 cm, which no grid resolves: the turn in one element passes pi. phi is then shifted by 2 pi above that element
+(t, n and q stay as they are, only the curvature drops) and a few small steps of backward Euler follow, without error
+control and without rates from before. The number of releases is part of the result.
+"""
+
+import math
+
+import numpy as np
+
+from .compiled import kernel
+from .elementary import copy_into
+from .guards import NEWTON_FAILED, NOT_FINITE, OK, STEP_LIMIT, STEP_UNDERFLOW, STRAIN_BELOW_MINUS_ONE, TURN_UNRESOLVED
+from .integrators import RUNGE_KUTTA
+from .planar import node, sweep
+from .sampling import sample
+from .steps import conserved, one_stage_step, runge_kutta_step
+
+STATE = np.dtype(
+    [(name, np.int64) for name in "status samples profiles small_steps steps rejected newton failures releases".split()]
+    + [(name, np.float64) for name in "t dt dt_before low high max_turn min_strain".split()]
+)
+SMALL_STEPS = 3
+SMALL_STEP_NEWTON = 100  # after a release each update is cut to one scale: about 20 iterations
+SAFETY, SHRINK, GROW = 0.9, 0.2, 4.0
+
+
+@kernel
+def largest_turn(Y):
+    """Largest |phi_k - phi_(k-1)| (rad) and the upper node of its element."""
+    turn, where = 0.0, 0
+    for k in range(1, Y.shape[0]):
+        d = abs(Y[k, 4] - Y[k - 1, 4])
+        if d > turn:
+            turn, where = d, k
+    return turn, where
+
+
+@kernel
+def release_loop(p, tables, Y, where):
+    """Shift phi by 2 pi from node `where` up, against the turn; new first guesses for curvature and shear nearby."""
+    n = Y.shape[0]
+    shift = -2.0 * math.pi if Y[where, 4] > Y[where - 1, 4] else 2.0 * math.pi
+    for k in range(where, n):
+        Y[k, 4] += shift
+    for k in range(max(1, where - 2), min(n - 1, where + 2)):
+        h = tables[p.grid_at + k - 1] + tables[p.grid_at + k]
+        Y[k, 5] = (Y[k + 1, 4] - Y[k - 1, 4]) / h
+        Y[k, 1] = 0.0
+
+
+@kernel
+def guard_turns(p, tables, state, Y):
+    """Watch the turn of every element after a step; release loops. Returns (code, whether a loop was released)."""
+    released = False
+    for _ in range(Y.shape[0]):
+        turn, where = largest_turn(Y)
+        state.max_turn = max(state.max_turn, turn)
+        if turn <= math.pi:
+            return OK, released
+        if p.release == 0 or state.releases >= p.max_releases:
+            return TURN_UNRESOLVED, released
+        release_loop(p, tables, Y, where)
+        state.releases += 1
+        released = True
+    return TURN_UNRESOLVED, released
+
+
+@kernel
+def after_failure(p, state, dt, code, factor):
+    """Shorten the step; name the end of the run where it would fall below the shortest allowed."""
+    state.dt = dt * factor
+    if state.dt < p.min_step:
+        if code == NEWTON_FAILED or code == NOT_FINITE or code == STRAIN_BELOW_MINUS_ONE:
+            state.status = code
+        else:
+            state.status = STEP_UNDERFLOW
+
+
+@kernel
+def march(p, tables, state, Y, Y_before, K, samples, profiles, until):
+    """Advance one simulation until `until` samples are stored, or it ends.
+
+    p: parameter record; state: STATE record, changed in place; Y, Y_before (n, 6), K (n, 4): state, changed in place.
+    samples (m, 9), profiles (m', n, 5): filled in place, columns as in `engine.sampling`.
+    """
+    n = p.nodes
+    s = max(p.stages, 2)
+    X, F, Q = np.zeros((n, 2)), np.zeros((n, 4)), np.zeros((n, node.WIDTH))
+    E, D, C_tilde = np.zeros((n, sweep.WIDTH)), np.zeros((n, 6)), np.zeros((n, 4))
+    work = (X, F, Q, E, D, C_tilde)
+    C, C_new = np.empty((n, 4)), np.empty((n, 4))
+    Ys, Ks = np.empty((s, n, 6)), np.empty((s, n, 4))
+    conserved(Y, C)
+    while state.status == OK and state.samples < until:
+        small = state.small_steps > 0
+        dt = state.dt
+        error = 0.0
+        if small or p.method != RUNGE_KUTTA:
+            am, af, gamma = (1.0, 1.0, 1.0) if small else (p.alpha_m, p.alpha_f, p.gamma)
+            code, used = one_stage_step(
+                p, tables, state.t, dt, state.dt_before, am, af, gamma, SMALL_STEP_NEWTON if small else p.max_newton,
+                Y, Y_before, C, K, Ys[s - 1], Ks[s - 1], C_new, work,
+            )
+        else:
+            code, used, error = runge_kutta_step(
+                p, tables, state.t, dt, state.dt_before, Y, Y_before, C, K, Ys, Ks, C_new, work
+            )
+        state.newton += used
+        if code != OK:
+            state.failures += 1
+            after_failure(p, state, dt, code, 0.5 if small else 0.25)
+            state.dt_before = 0.0
+            continue
+        if p.adaptive and not small and not error <= 1.0:
+            state.rejected += 1
+            factor = max(SHRINK, SAFETY * error ** (-1.0 / p.order)) if np.isfinite(error) else SHRINK
+            after_failure(p, state, dt, OK, factor)
+            continue
+        state.steps += 1
+        if state.steps > p.max_steps:
+            state.status = STEP_LIMIT
+        hermite = p.method == RUNGE_KUTTA and not small
+        sample(p, tables, state, dt, hermite, C, K, C_new, Ks[s - 1], samples, profiles)
+        copy_into(Y_before, Y)
+        copy_into(Y, Ys[s - 1])
+        copy_into(K, Ks[s - 1])
+        copy_into(C, C_new)
+        state.t += dt
+        state.dt_before = dt
+        for k in range(n):
+            state.min_strain = min(state.min_strain, Y[k, 0])
+        code, released = guard_turns(p, tables, state, Y)
+        if code != OK:
+            state.status = code
+        if released:
+            state.small_steps = SMALL_STEPS
+            state.dt = min(dt, 1e-3 * p.max_step)
+            state.dt_before = 0.0
+        elif small:
+            state.small_steps -= 1
+            if state.small_steps == 0 and p.adaptive == 0:
+                state.dt = p.fixed_step
+        elif p.adaptive:
+            factor = min(GROW, max(SHRINK, SAFETY * max(error, 1e-10) ** (-1.0 / p.order)))
+            state.dt = min(p.max_step, dt * factor)
+        else:
+            state.dt = min(p.fixed_step, 2.0 * dt)

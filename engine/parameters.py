@@ -1,0 +1,206 @@
+"""Scene -> numbers: one record of scalars a simulation and a share of one flat array of tables.
+
+This is the only place where configuration is read for the kernels. A batch is an array of records and one `tables`
+array; each record knows where its grid, its tension table, its current and its method begin.
+"""
+
+import math
+
+import numpy as np
+
+from . import currents, ends, integrators, tension, waves
+
+RECORD = np.dtype(
+    [
+        (name, np.int64)
+        for name in "nodes grid_at law law_at law_n wet waves current cur_at cur_nx cur_nz cur_nt above end bent "
+        "method stages method_at adaptive max_newton release max_releases at_rest max_steps".split()
+    ]
+    + [
+        (name, np.float64)
+        for name in "m w0 EI p1 p2 p3 p4 p5 ct cn ma Rw depth k omega amplitude phase direction ramp "
+        "M_total M_wave lift C_buoy end_x end_z per_strain per_force per_speed per_curvature "
+        "order rtol newton_tolerance fixed_step max_step min_step start_x start_z "
+        "output_step profile_step alpha_m alpha_f gamma".split()
+    ]
+)
+
+
+def grid(length_m, nodes, stretching):
+    """Element lengths (nodes - 1,), m: s(xi) = L/2 (1 + tanh(b (2 xi - 1))/tanh b), finer at both ends; b = 0 even."""
+    xi = np.linspace(0.0, 1.0, nodes)
+    s = xi if stretching == 0 else 0.5 * (1 + np.tanh(stretching * (2 * xi - 1)) / np.tanh(stretching))
+    return np.diff(length_m * s)
+
+
+def record_of(scene, tables):
+    """One parameter record; appends the scene's tables to the list of arrays `tables`.
+
+    Returns a (1,) structured array of dtype `RECORD`.
+    """
+    p = np.zeros(1, RECORD)
+    record = p[0]
+
+    def place(values):
+        at = sum(part.size for part in tables)
+        tables.append(np.asarray(values, float).ravel())
+        return at
+
+    h = grid(scene.tether.length_m, scene.tether.nodes, scene.tether.grid_stretching)
+    record["nodes"] = scene.tether.nodes
+    record["grid_at"] = place(h)
+    _tether(record, scene, place)
+    _water(record, scene, place)
+    _end(record, scene)
+    _solver(record, scene, place, h)
+    return p
+
+
+def _tether(record, scene, place):
+    tether, law = scene.tether, scene.tether.tension
+    wet = scene.water is not None
+    rho_w = scene.water.density_kgpm3 if wet else 0.0
+    g = scene.gravity_mps2
+    record["m"] = tether.density_kgpm3 * tether.area_m2
+    record["w0"] = (tether.density_kgpm3 - rho_w) * tether.area_m2 * g
+    record["EI"] = tether.bending_stiffness_Nm2
+    record["bent"] = tether.bending_stiffness_Nm2 > 0
+    d = tether.diameter_m
+    displaced = rho_w * math.pi * d**2 / 4
+    record["wet"] = wet
+    record["ct"] = 0.5 * rho_w * math.pi * d * tether.drag_tangential
+    record["cn"] = 0.5 * rho_w * d * tether.drag_normal
+    record["ma"] = tether.added_mass * displaced
+    record["Rw"] = displaced + record["ma"]
+    if law.law == "linear":
+        record["law"], record["p1"] = tension.LINEAR, law.stiffness_N
+    elif law.law == "tanh":
+        record["law"] = tension.TANH
+        for i, value in enumerate(law.p, 1):
+            record[f"p{i}"] = value
+    else:
+        record["law"], record["law_n"] = tension.TABULATED, len(law.strain)
+        record["law_at"] = place(tension.table_of(law.strain, law.tension_N))
+
+
+def _water(record, scene, place):
+    wave, current = scene.waves, scene.current
+    if scene.water is not None:
+        record["depth"] = scene.water.depth_m
+    if wave is not None:
+        k = waves.wave_number(wave.period_s, scene.water.depth_m, scene.gravity_mps2)
+        amplitude = wave.amplitude_m if wave.steepness is None else wave.steepness / k
+        record["waves"] = amplitude != 0
+        record["k"], record["omega"] = k, 2 * math.pi / wave.period_s
+        record["amplitude"], record["phase"], record["ramp"] = amplitude, wave.phase_rad, wave.ramp_s
+        record["direction"] = math.cos(wave.direction_rad)
+        record["above"] = {"extrapolate": waves.EXTRAPOLATE, "zero": waves.ZERO, "wheeler": waves.WHEELER}[
+            wave.above_still_water
+        ]
+    if current is None:
+        return
+    if current.law == "uniform":
+        axes = [0.0], [0.0], [0.0]
+        u, w = [[[current.velocity_mps[0]]]], [[[current.velocity_mps[2]]]]
+    elif current.law == "profile":
+        axes = [0.0], current.height_m, [0.0]
+        u = [[[v[0]] for v in current.velocity_mps]]
+        w = [[[v[2]] for v in current.velocity_mps]]
+    else:
+        axes = current.x_m, current.height_m, current.time_s
+        u, w = current.velocity_x_mps, current.velocity_z_mps
+    record["current"] = np.any(u) or np.any(w)
+    record["cur_nx"], record["cur_nz"], record["cur_nt"] = (len(axis) for axis in axes)
+    record["cur_at"] = place(currents.table_of(*axes, u, w))
+
+
+def _end(record, scene):
+    end, buoy = scene.end, scene.buoy
+    record["end"] = {"buoy": ends.BUOY, "held": ends.HELD, "free": ends.FREE}[end.kind]
+    if end.kind == "free":
+        record["end_x"], record["end_z"] = end.force_N[0], end.force_N[2]
+    if end.kind != "buoy":
+        return
+    wet = scene.water is not None
+    rho_w = scene.water.density_kgpm3 if wet else 0.0
+    volume = math.pi * buoy.diameter_m**3 / 6
+    added = buoy.added_mass_kg if wet else 0.0
+    record["M_total"] = buoy.mass_kg + added
+    record["M_wave"] = rho_w * volume + added
+    record["lift"] = (rho_w * volume - buoy.mass_kg) * scene.gravity_mps2
+    record["C_buoy"] = 0.5 * rho_w * buoy.drag * math.pi * buoy.diameter_m**2 / 4
+    record["start_x"], record["start_z"] = scene.start.buoy_velocity_mps[0], scene.start.buoy_velocity_mps[2]
+
+
+def _solver(record, scene, place, h):
+    solver = scene.solver
+    method = integrators.METHODS[solver.integrator]
+    record["adaptive"] = method.ADAPTIVE and solver.step_s is None
+    if method.ADAPTIVE:
+        stages = len(method.A)
+        record["method"], record["stages"] = integrators.RUNGE_KUTTA, stages
+        record["method_at"] = place(
+            np.concatenate([method.A.ravel(), method.A.sum(axis=1), method.A[-1] - method.B_EMBEDDED])
+        )
+        record["order"] = min(method.ORDER, method.EMBEDDED_ORDER) + 1
+    else:
+        record["method"] = integrators.ONE_STAGE
+        record["alpha_m"], record["alpha_f"], record["gamma"] = method.alphas(solver.spectral_radius)
+    period = scene.waves.period_s if scene.waves is not None else None
+    record["output_step"] = scene.output.step_s or (period / 100 if period else 0.05)
+    record["profile_step"] = (scene.output.profiles_step_s or record["output_step"]) if scene.output.profiles else 0.0
+    record["fixed_step"] = solver.step_s or (period / 400 if period else 0.0125)
+    record["max_step"], record["min_step"] = solver.max_step_s, solver.min_step_s
+    record["rtol"] = solver.rtol
+    record["newton_tolerance"] = solver.newton_tolerance or 1e-2 * solver.rtol
+    record["max_newton"] = solver.max_newton_iterations
+    record["release"], record["max_releases"] = solver.loop_release, solver.max_loop_releases
+    moving = scene.end.kind == "buoy" and any(scene.start.buoy_velocity_mps)
+    impulsive = record["waves"] and scene.waves.ramp_s == 0
+    record["at_rest"] = not (moving or impulsive)
+    _scales(record, scene, h)
+
+
+def _scales(record, scene, h):
+    """Inverse scales in which Newton updates and step errors are measured (Table 1: 0.04, 100 N, 1 m/s, 5 rad/m)."""
+    length, g = scene.tether.length_m, scene.gravity_mps2
+    load = max(abs(float(record["lift"])), abs(float(record["w0"])) * length, 1e-3)
+    if scene.end.kind == "free":
+        load = max(load, math.hypot(float(record["end_x"]), float(record["end_z"])))
+    strain = strain_at(load, scene.tether.tension)
+    if scene.end.kind == "held":
+        stretched = math.hypot(*scene.end.position_m) / length - 1
+        if stretched > strain:
+            strain, load = stretched, max(load, tension_at(stretched, scene.tether.tension))
+    record["per_strain"] = 1 / strain
+    record["per_force"] = 20 / load
+    record["per_speed"] = 1 / max(math.sqrt(g * length) / 14, 1e-3)
+    record["per_curvature"] = float(np.mean(h)) / 2.5
+
+
+def tension_at(strain, law):
+    """T (N) at a strain, outside the kernels."""
+    if law.law == "linear":
+        return law.stiffness_N * strain
+    if law.law == "tanh":
+        p1, p2, p3, p4, p5 = law.p
+        return p1 * math.tanh(p2 * strain + p3) + p4 + p5 * strain
+    from scipy.interpolate import PchipInterpolator
+
+    table = PchipInterpolator(law.strain, law.tension_N)
+    inside = min(max(strain, law.strain[0]), law.strain[-1])
+    return float(table(inside) + table.derivative()(inside) * (strain - inside))
+
+
+def strain_at(load, law):
+    """Smallest positive strain that carries `load` (N), within [1e-9, 10]."""
+    if law.law == "linear":
+        return max(load / law.stiffness_N, 1e-9)
+    from scipy.optimize import brentq
+
+    low, high = 1e-9, 1e-6
+    while tension_at(high, law) < load and high < 10:
+        low, high = high, 2 * high
+    if tension_at(low, law) >= load or tension_at(high, law) < load:
+        return high
+    return brentq(lambda e: tension_at(e, law) - load, low, high)

@@ -1,0 +1,192 @@
+"""Scene in, trajectory out: the driver of the kernels, for one scene or a batch."""
+
+import math
+import time
+
+import numpy as np
+
+from . import parameters
+from .ends import HELD
+from .guards import ADVICE, OK, WORDS
+from .march import SMALL_STEPS, STATE, march
+from .statics import first_guess, settle
+from .trajectory import Profiles, Trajectory
+
+PERIODS_PER_CALL = 10
+STEPS_PER_LONGEST_STEP = 2000
+
+
+def simulate(scene, periods=None, duration_s=None, progress=None):
+    """Simulate one scene from its static equilibrium.
+
+    Parameters
+    ----------
+    scene : Scene
+    periods : float, run length in wave periods (scenes with waves), or
+    duration_s : float, run length in s
+    progress : callable(fraction) called now and then, optional
+
+    Returns
+    -------
+    Trajectory
+        status "ok", or the reason why it ended early, with the samples up to there. Bad arguments raise ValueError;
+        a run never raises.
+    """
+    return simulate_batch([scene], periods, duration_s, progress)[0]
+
+
+def simulate_batch(scenes, periods=None, duration_s=None, progress=None):
+    """Simulate scenes that differ in any parameter; each has its own steps and its own end.
+
+    Arguments as for `simulate`; the run length in periods is taken for each scene's own wave. Returns a list.
+    """
+    scenes = list(scenes)
+    durations = [_duration(scene, periods, duration_s) for scene in scenes]
+    if not scenes:
+        return []
+    batch = _Batch(scenes, durations)
+    chunk = max(1, round(PERIODS_PER_CALL * _period(scenes[0]) / float(batch.records[0]["output_step"])))
+    while not batch.done():
+        batch.advance(chunk)
+        if progress is not None:
+            progress(batch.fraction())
+    return [batch.trajectory(b) for b in range(len(scenes))]
+
+
+def _period(scene):
+    return scene.waves.period_s if scene.waves is not None else 5.0
+
+
+def _duration(scene, periods, duration_s):
+    if (periods is None) == (duration_s is None):
+        raise ValueError("give exactly one of periods and duration_s")
+    if periods is not None:
+        if scene.waves is None:
+            raise ValueError("periods needs a scene with waves; give duration_s")
+        duration_s = periods * scene.waves.period_s
+    if not (math.isfinite(duration_s) and duration_s > 0):
+        raise ValueError(f"the run length must be positive and finite, given {duration_s!r} s")
+    return float(duration_s)
+
+
+class _Batch:
+    """Arrays of a batch, padded to the longest run and the most nodes."""
+
+    def __init__(self, scenes, durations):
+        self.scenes = scenes
+        tables = []
+        self.records = np.concatenate([parameters.record_of(scene, tables) for scene in scenes])
+        self.tables = np.concatenate(tables)
+        size, nodes = len(scenes), int(self.records["nodes"].max())
+        ratio = np.asarray(durations) / self.records["output_step"]
+        self.goals = np.floor(ratio * (1 + 1e-12) + 1e-9).astype(np.int64) + 1
+        self.records["max_steps"] = 100_000 + STEPS_PER_LONGEST_STEP * (
+            np.asarray(durations) / np.minimum(self.records["max_step"], self.records["fixed_step"])
+        ).astype(np.int64)
+        with np.errstate(divide="ignore"):
+            profiled = np.where(
+                self.records["profile_step"] > 0,
+                np.floor(np.asarray(durations) / self.records["profile_step"] * (1 + 1e-12) + 1e-9) + 1,
+                0,
+            ).astype(np.int64)
+        self.samples = np.zeros((size, int(self.goals.max()), 9))
+        self.profiles = np.zeros((size, int(profiled.max()), nodes, 5))
+        self.states = np.zeros(size, STATE)
+        self.Y = np.zeros((size, nodes, 6))
+        self.K = np.zeros((size, nodes, 4))
+        self.walls = np.zeros(size)
+        for b in range(size):
+            self._start(b)
+        self.Y_before = self.Y.copy()
+        self.advance(-int(self.goals.max()))  # computes nothing: compilation and its cache stay out of wall_s
+        self.walls = np.zeros(size)
+
+    def _start(self, b):
+        record, state, scene = self.records[b], self.states[b], self.scenes[b]
+        n = int(record["nodes"])
+        h = self.tables[record["grid_at"] : record["grid_at"] + n - 1]
+        Y = first_guess(record, scene, h)
+        target = scene.end.position_m if record["end"] == HELD else (0.0, 0.0, 0.0)
+        state["status"] = settle(record, self.tables, Y, np.array([target[0], target[2]]))
+        s = np.concatenate([[0.0], np.cumsum(h)])
+        Y[:, 2] = record["start_x"] * s / s[-1]
+        Y[:, 3] = record["start_z"] * s / s[-1]
+        self.Y[b, :n] = Y
+        state["low"], state["high"] = np.inf, -np.inf
+        state["min_strain"] = Y[:, 0].min()
+        state["max_turn"] = np.abs(np.diff(Y[:, 4])).max()
+        starter = record["adaptive"] and not record["at_rest"]
+        state["small_steps"] = SMALL_STEPS if starter else 0
+        state["dt"] = 1e-3 * record["max_step"] if record["adaptive"] else record["fixed_step"]
+
+    def done(self):
+        return bool(np.all((self.states["status"] != OK) | (self.states["samples"] >= self.goals)))
+
+    def fraction(self):
+        ended = np.where(self.states["status"] != OK, self.goals, self.states["samples"])
+        return float(ended.sum() / self.goals.sum())
+
+    def advance(self, chunk):
+        for b, record in enumerate(self.records):
+            began = time.perf_counter()
+            n = int(record["nodes"])
+            until = min(self.goals[b], self.states[b]["samples"] + chunk)
+            march(
+                record, self.tables, self.states[b], self.Y[b, :n], self.Y_before[b, :n], self.K[b, :n],
+                self.samples[b], self.profiles[b, :, :n], until,
+            )
+            self.walls[b] += time.perf_counter() - began
+
+    def trajectory(self, b):
+        record, state, scene = self.records[b], self.states[b], self.scenes[b]
+        status = int(state["status"])
+        message = ADVICE[status].format(
+            t=float(state["t"]), dt=float(state["dt"]), turn=float(state["max_turn"]), releases=int(state["releases"])
+        )
+        statistics = {
+            "steps": int(state["steps"]),
+            "rejected_steps": int(state["rejected"]),
+            "newton_iterations": int(state["newton"]),
+            "newton_failures": int(state["failures"]),
+            "loop_releases": int(state["releases"]),
+            "max_turn_rad": float(state["max_turn"]),
+            "min_strain": float(state["min_strain"]),
+            "end_time_s": float(state["t"]),
+            "wall_s": float(self.walls[b]),
+        }
+        columns = _columns(self.samples[b, : min(int(state["samples"]), int(self.goals[b]))])
+        return Trajectory(scene, WORDS[status], message, columns, statistics, self._profiles(b, record, state))
+
+    def _profiles(self, b, record, state):
+        count = int(state["profiles"])
+        if self.scenes[b].output.profiles is False:
+            return None
+        n = int(record["nodes"])
+        h = self.tables[record["grid_at"] : record["grid_at"] + n - 1]
+        values = self.profiles[b, :count, :n]
+        return Profiles(
+            np.arange(count) * float(record["profile_step"]),
+            np.concatenate([[0.0], np.cumsum(h)]),
+            *(np.ascontiguousarray(values[:, :, i]) for i in range(5)),
+        )
+
+
+def _columns(samples):
+    t, x, z, u, w = samples[:, :5].T
+    r = np.hypot(x, z)
+    safe = np.where(r > 0, r, np.nan)
+    return {
+        "time_s": t.copy(),
+        "x_m": x.copy(),
+        "y_m": np.zeros_like(x),
+        "z_m": z.copy(),
+        "radius_m": r,
+        "radius_rate_mps": (x * u + z * w) / safe,
+        "angle_rad": np.unwrap(np.arctan2(x, z)),
+        "angle_rate_radps": (z * u - x * w) / safe**2,
+        "offplane_m": np.zeros_like(x),
+        "tension_top_N": samples[:, 5].copy(),
+        "tension_min_N": samples[:, 6].copy(),
+        "tension_top_low_N": samples[:, 7].copy(),
+        "tension_top_high_N": samples[:, 8].copy(),
+    }

@@ -1,0 +1,160 @@
+"""One time step of either family of integrators: a trial state and rates, a result code, an error estimate.
+
+Conserved variables of a node: C = (q_x, q_z, U, W); K = dC/dt. A trial never changes the accepted state.
+"""
+
+import math
+
+import numpy as np
+
+from .compiled import kernel
+from .elementary import copy_into
+from .guards import OK
+from .planar.newton import newton
+
+
+@kernel
+def conserved(Y, C):
+    """C (n, 4) of a state Y (n, 6)."""
+    for k in range(Y.shape[0]):
+        lam = 1.0 + Y[k, 0]
+        C[k, 0] = lam * math.cos(Y[k, 4])
+        C[k, 1] = lam * math.sin(Y[k, 4])
+        C[k, 2] = Y[k, 2]
+        C[k, 3] = Y[k, 3]
+
+
+@kernel
+def _predict(times, Ys, count, t, Y):
+    """Y at time t by the polynomial through the last `count` (1, 2 or 3) entries of Ys; times relative to the step."""
+    last = times.shape[0] - 1
+    if count == 1:
+        copy_into(Y, Ys[last])
+    elif count == 2:
+        a = (t - times[last - 1]) / (times[last] - times[last - 1])
+        for k in range(Y.shape[0]):
+            for i in range(6):
+                Y[k, i] = Ys[last - 1, k, i] + a * (Ys[last, k, i] - Ys[last - 1, k, i])
+    else:
+        t0, t1, t2 = times[last - 2], times[last - 1], times[last]
+        w0 = (t - t1) * (t - t2) / ((t0 - t1) * (t0 - t2))
+        w1 = (t - t0) * (t - t2) / ((t1 - t0) * (t1 - t2))
+        w2 = (t - t0) * (t - t1) / ((t2 - t0) * (t2 - t1))
+        for k in range(Y.shape[0]):
+            for i in range(6):
+                Y[k, i] = w0 * Ys[last - 2, k, i] + w1 * Ys[last - 1, k, i] + w2 * Ys[last, k, i]
+
+
+@kernel
+def runge_kutta_step(p, tables, t, dt, dt_before, Y, Y_before, C, K, Ys, Ks, C_new, work):
+    """A trial step of a stiffly accurate ESDIRK method.
+
+    Y, C, K: accepted state at t and its rates; Y_before: the state dt_before earlier (0: none), for the first guess.
+    Ys (s, n, 6), Ks (s, n, 4): stages; the last of each is the new state and its rates; C_new: its conserved variables.
+    Returns (code, Newton iterations, error in units of the tolerance).
+    """
+    X, F, Q, E, D, C_tilde = work
+    s, n = p.stages, Y.shape[0]
+    at_c = p.method_at + s * s
+    times = np.empty(3)
+    guesses = np.empty((3, n, 6))
+    iterations = 0
+    copy_into(Ys[0], Y)
+    copy_into(Ks[0], K)
+    for i in range(1, s):
+        a_ii = tables[p.method_at + s * i + i]
+        copy_into(C_tilde, C)
+        for j in range(i):
+            a = dt * tables[p.method_at + s * i + j]
+            if a != 0.0:
+                for k in range(n):
+                    for m in range(4):
+                        C_tilde[k, m] += a * Ks[j, k, m]
+        # first guess: linear from the step before for the first stage, quadratic through the latest stages after
+        count = 0
+        for j in range(max(0, i - 3), i):
+            copy_into(guesses[3 - i + j], Ys[j])
+            times[3 - i + j] = tables[at_c + j] * dt
+            count += 1
+        if count < 3 and dt_before > 0.0:
+            copy_into(guesses[2 - count], Y_before)
+            times[2 - count] = -dt_before
+            count += 1
+        c_dt = tables[at_c + i] * dt
+        _predict(times, guesses, count, c_dt, Ys[i])
+        rate = 1.0 / (a_ii * dt)
+        code, used = newton(
+            p, tables, t + c_dt, 1.0, rate, rate, p.newton_tolerance, p.max_newton, Ys[i], C_tilde,
+            X, F, Q, E, D,
+        )
+        iterations += used
+        if code != OK:
+            return code, iterations, np.inf
+        for k in range(n):
+            for m in range(2):
+                C_new[k, m] = Q[k, 5 + m]
+                C_new[k, 2 + m] = Ys[i, k, 2 + m]
+            for m in range(4):
+                Ks[i, k, m] = rate * (C_new[k, m] - C_tilde[k, m])
+    return OK, iterations, _error(p, tables, dt, Ks, Q)
+
+
+@kernel
+def _error(p, tables, dt, Ks, Q):
+    """Embedded error estimate over tolerance: rms over nodes of strain, angle and speed errors in scene scales."""
+    s, n = Ks.shape[0], Ks.shape[1]
+    at_d = p.method_at + s * s + s
+    total = 0.0
+    for k in range(n):
+        ex = ez = eu = ew = 0.0
+        for j in range(s):
+            d = dt * tables[at_d + j]
+            ex += d * Ks[j, k, 0]
+            ez += d * Ks[j, k, 1]
+            eu += d * Ks[j, k, 2]
+            ew += d * Ks[j, k, 3]
+        axial = (ex * Q[k, 0] + ez * Q[k, 1]) * p.per_strain
+        turned = ez * Q[k, 0] - ex * Q[k, 1]
+        total += axial * axial + turned * turned + (eu * eu + ew * ew) * p.per_speed**2
+    return math.sqrt(total / n) / p.rtol
+
+
+@kernel
+def one_stage_step(
+    p, tables, t, dt, dt_before, alpha_m, alpha_f, gamma, most, Y, Y_before, C, K, Y_new, K_new, C_new, work
+):
+    """A trial step of the generalized-alpha family (backward Euler and implicit midpoint included).
+
+    With C_s the state and K_s the rates at the stage, t_n + alpha_f dt:
+    K_s = c0 (C_s - C~), c0 = alpha_m/(alpha_f gamma dt), C~ = C_n + alpha_f dt (1 - gamma/alpha_m) K_n;
+    C_(n+1) = C_n + (C_s - C_n)/alpha_f,  K_(n+1) = (K_s - (1 - alpha_m) K_n)/alpha_m.
+    Returns (code, Newton iterations).
+    """
+    X, F, Q, E, D, C_tilde = work
+    n = Y.shape[0]
+    shift = alpha_f * dt * (1.0 - gamma / alpha_m)
+    for k in range(n):
+        for m in range(4):
+            C_tilde[k, m] = C[k, m] + shift * K[k, m]
+    ratio = alpha_f * dt / dt_before if dt_before > 0.0 else 0.0
+    for k in range(n):
+        for i in range(6):
+            Y_new[k, i] = Y[k, i] + ratio * (Y[k, i] - Y_before[k, i])
+    rate = alpha_m / (alpha_f * gamma * dt)
+    code, used = newton(
+        p, tables, t + alpha_f * dt, 1.0, rate, rate, p.newton_tolerance, most, Y_new, C_tilde, X, F, Q, E, D
+    )
+    if code != OK:
+        return code, used
+    for k in range(n):
+        for m in range(4):
+            C_s = Q[k, 5 + m] if m < 2 else Y_new[k, m]
+            C_new[k, m] = C[k, m] + (C_s - C[k, m]) / alpha_f
+            K_new[k, m] = (rate * (C_s - C_tilde[k, m]) - (1.0 - alpha_m) * K[k, m]) / alpha_m
+        if alpha_f != 1.0:
+            for i in range(6):
+                Y_new[k, i] = Y[k, i] + (Y_new[k, i] - Y[k, i]) / alpha_f
+            turn = math.atan2(C_new[k, 1], C_new[k, 0]) - Y_new[k, 4]
+            Y_new[k, 4] += turn - 2.0 * math.pi * np.rint(turn / (2.0 * math.pi))
+            Y_new[k, 0] = math.sqrt(C_new[k, 0] ** 2 + C_new[k, 1] ** 2) - 1.0
+    return OK, used

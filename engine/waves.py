@@ -1,0 +1,75 @@
+"""Linear (Airy) waves over finite depth: dispersion and kinematics.
+
+With psi = k x cos(direction) - omega t + phase, height z above the bed and amplitude A,
+
+    U = A omega cosh(kz)/sinh(kH) cos psi,   W = A omega sinh(kz)/sinh(kH) sin psi,   omega^2 = g k tanh kH;
+
+accelerations are the local time derivatives. The quotients are written with exp(k(z - H)) and exp(-k(z + H)), which do
+not overflow in deep water. Along the tether psi and kz change little from node to node, so the exponentials and the
+sine and cosine are carried by recurrence, and started anew where an element is too long for the short polynomials.
+"""
+
+import math
+
+from .compiled import kernel
+from .elementary import sincos, small_exponentials, small_sincos
+
+EXTRAPOLATE, ZERO, WHEELER = 0, 1, 2
+SMALL, TINY = 0.25, 1e-250
+
+
+def wave_number(period_s, depth_m, gravity_mps2=9.81):
+    """Wave number k (rad/m) with omega^2 = g k tanh kH, to rounding."""
+    from scipy.optimize import brentq
+
+    k_deep = (2 * math.pi / period_s) ** 2 / gravity_mps2
+    x0 = k_deep * depth_m  # with x = kH: x tanh x = x0, and x lies between max(x0, sqrt(x0)) / 1 and sqrt(x0) + x0
+    x = brentq(lambda x: x * math.tanh(x) - x0, 0.5 * x0, x0 + math.sqrt(x0) + 1e-12, xtol=1e-300, rtol=1e-15)
+    return x / depth_m
+
+
+@kernel
+def wave_field(p, t, X, F):
+    """Water velocity and local acceleration at the nodes, added into F.
+
+    X : (n, 2) positions x, z (m);  F : (n, 4) U, W (m/s), dU/dt, dW/dt (m/s2)
+    """
+    n = X.shape[0]
+    k, kx = p.k, p.k * p.direction
+    gain, gain_rate = 1.0, 0.0
+    if t < p.ramp:
+        a = 0.5 * math.pi / p.ramp
+        gain = math.sin(a * t) ** 2
+        gain_rate = a * math.sin(2.0 * a * t)
+    speed = p.amplitude * p.omega / (1.0 - math.exp(-2.0 * k * p.depth))
+    u0, u1 = speed * gain, speed * gain_rate
+    om = p.omega
+    up, down, s, c = 0.0, 0.0, 0.0, 1.0
+    for j in range(n):
+        x, z = X[j, 0], X[j, 1]
+        dz = dx = 1.0
+        if j > 0:
+            dz = k * (z - X[j - 1, 1])
+            dx = kx * (x - X[j - 1, 0])
+        if abs(dz) < SMALL and abs(dx) < SMALL and up > TINY and p.above != WHEELER:
+            e1, e2 = small_exponentials(dz)
+            up *= e1
+            down *= e2
+            ds, dc = small_sincos(dx)
+            s, c = s * dc + c * ds, c * dc - s * ds
+        else:
+            s, c = sincos(kx * x - om * t + p.phase)
+            if p.above == WHEELER:  # stretched so that the crest is where the still water level was
+                z = z * p.depth / (p.depth + p.amplitude * gain * c)
+            up = math.exp(k * (z - p.depth))
+            down = math.exp(-k * (z + p.depth))
+        if p.above == ZERO and X[j, 1] > p.depth:
+            continue
+        uc = p.direction * (up + down) * c
+        us = p.direction * (up + down) * s
+        ws = (up - down) * s
+        wc = (up - down) * c
+        F[j, 0] += u0 * uc
+        F[j, 1] += u0 * ws
+        F[j, 2] += u0 * om * us + u1 * uc
+        F[j, 3] += u1 * ws - u0 * om * wc
