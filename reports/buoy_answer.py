@@ -5,17 +5,20 @@ from __future__ import annotations
 import math
 
 from .buoy_physics import Modes
-from .buoy_runs import LONGEST_PERIOD, TOLERANCE, Run, period_length, value
+from .buoy_runs import LONGEST_PERIOD, Run, period_length, value
 from .buoy_warnings import releases
-from .wording import count, decimals, listed, number, percent, ranges
+from .wording import count, decimals, number, percent, ranges
 
 
-def short_answer(runs: tuple[Run, ...], transient: int, modes: Modes | None) -> tuple[str, ...]:
-    """One statement a line: the sweep, slack, period of the strobed orbit, loops, the extremes."""
+def short_answer(runs: tuple[Run, ...], transient: int, tolerance: float, modes: Modes | None) -> tuple[str, ...]:
+    """One statement a line: the sweep, slack, period of the strobed orbit, loops, the extremes.
+
+    `transient` wave periods are left out of strobed values and extremes, `tolerance` is that of `strobed_period`.
+    """
     good = tuple(run for run in runs if run.ok)
     lines = [_sweep(runs, good, transient)]
     if good:
-        lines += [_slack(good), *_periods(good), _loops(good), _extremes(good, modes)]
+        lines += [_slack(good), *_periods(good, tolerance), _loops(good), _extremes(good, modes)]
     return tuple(line for line in lines if line)
 
 
@@ -24,18 +27,14 @@ def _sweep(runs, good, transient) -> str:
     span = f"kA = {number(values[0])}" if len(values) == 1 else f"kA from {number(values[0])} to {number(values[-1])}"
     longest = max((run.periods_done for run in runs), default=0.0)
     if not good:
-        end = (
-            "None of them ended as asked; the reasons are under Warnings."
-            if len(runs) > 1
-            else "It did not end as asked."
-        )
+        end = "None ended as asked; the reasons are under Warnings."
     elif len(good) == len(runs):
         end = "All ended as asked." if len(runs) > 1 else "It ended as asked."
     else:
         bad = [not run.ok for run in runs]
         end = f"{len(good)} ended as asked; not so kA = {ranges([run.steepness for run in runs], bad)}."
     return (
-        f"{count(len(runs), 'run')}, {span}, the longest over {number(longest)} wave periods; strobed values leave out "
+        f"{count(len(runs), 'run')}, {span}, the longest over {number(longest)} wave periods; what follows leaves out "
         f"the first {count(transient, 'period')}. {end}"
     )
 
@@ -52,33 +51,32 @@ def _slack(good) -> str:
     before = f"up to kA = {number(tense[-1])} it stays taut" if tense else ""
     share_of_first = percent(value(first, "slack_fraction"))
     text = f"The tether goes slack from kA = {number(first.steepness)} on ({share_of_first} of the time there)"
-    later_taut = [
-        run.steepness for run, s in zip(good, share, strict=True) if s == 0 and run.steepness > first.steepness
-    ]
-    if later_taut:
-        text += f", though not at kA = {listed(number(s) for s in later_taut)}"
+    later_taut = [s == 0 and run.steepness > first.steepness for run, s in zip(good, share, strict=True)]
+    if any(later_taut):
+        text += f", though not at kA = {ranges([run.steepness for run in good], later_taut)}"
     most = max(slack, key=lambda run: value(run, "slack_fraction"))
     share_of_most = f"the largest share is {percent(value(most, 'slack_fraction'))} at kA = {number(most.steepness)}"
     return "; ".join(part for part in (text, before, share_of_most if most is not first else "") if part) + "."
 
 
-def _periods(good) -> list[str]:
+def _periods(good, tolerance: float) -> list[str]:
     steepness = [run.steepness for run in good]
     lines = []
     for length in range(1, LONGEST_PERIOD + 1):
         chosen = [period_length(run) == length for run in good]
         if any(chosen):
             lines.append(
-                f"Strobed once a wave period, the motion repeats after {count(length, 'wave period')} "
-                f"(period {length}) at kA = {ranges(steepness, chosen)}."
+                f"Strobed once a wave period, the motion repeats after {count(length, 'wave period')} (period "
+                f"{length}) at kA = {ranges(steepness, chosen)}."
             )
-    none = [run.period is not None and period_length(run) == 0 for run in good]
+    none = [period_length(run) == 0 for run in good]
     if any(none):
         lines.append(
             f"At kA = {ranges(steepness, none)} the strobed motion repeats after none of 1 to {LONGEST_PERIOD} "
-            f"periods to {percent(TOLERANCE)} of its range; what else it is, this report does not decide."
+            f"periods to {percent(tolerance)} of its range (`strobed_period` is empty); what else it is, this report "
+            "does not decide."
         )
-    unknown = [run.period is None for run in good]
+    unknown = [period_length(run) is None for run in good]
     if any(unknown):
         lines.append(f"At kA = {ranges(steepness, unknown)} too few strobed points are left to look for a period.")
     return lines
@@ -112,8 +110,7 @@ def _extremes(good, modes: Modes | None) -> str:
     wide = max(pulls, key=lambda run: value(run, "radius_max_m") - value(run, "radius_min_m"))
     return (
         f"The largest top tension is {number(pull)} N at kA = {number(most.steepness)}{static}; the radius ranges "
-        f"widest at "
-        f"kA = {number(wide.steepness)}, from {decimals(value(wide, 'radius_min_m'), 2)} to "
+        f"widest at kA = {number(wide.steepness)}, from {decimals(value(wide, 'radius_min_m'), 2)} to "
         f"{decimals(value(wide, 'radius_max_m'), 2)} m."
     )
 

@@ -6,19 +6,17 @@ from .content import Equation, Item, Text
 from .symbols import T_I
 
 BUOY = Equation(
-    "(M + M_a) (dif bold(U)) / (dif t) = (rho_w V + M_a) (dif bold(U)_w) / (dif t) + bold(B) - bold(W) - bold(T)"
-    " - 1/2 rho_w C_d A_p (bold(U) - bold(U)_w) abs(bold(U) - bold(U)_w)",
+    "(M + M_a) (dif bold(U)) / (dif t) = (rho_w V + M_a) (dif bold(U)_w) / (dif t) + bold(B) - bold(W) - bold(T) - "
+    "1/2 rho_w C_d A_p (bold(U) - bold(U)_w) abs(bold(U) - bold(U)_w)",
     "Mass and added mass times buoy acceleration equals displaced and added mass times water acceleration, plus "
-    "buoyancy, "
-    "minus weight, minus tether tension, minus quadratic drag on the relative velocity.",
+    "buoyancy, minus weight, minus tether tension, minus quadratic drag on the relative velocity.",
     "30",
 )
 SPECTRUM = Equation(
-    "Delta tilde(r) (omega) = 1 / (n T_i) integral_(tau_0)^(tau_0 + n T_i) Delta r(t) upright(e)^(upright(i) omega t) "
-    "dif t",
+    "Delta tilde(r) (omega) = 1 / (n T_i) integral_(tau_0)^(tau_0 + n T_i) Delta r(t) upright(e)^(upright(i) omega "
+    "t) dif t",
     "The spectral amplitude at omega is the integral of the radial excursion times e to the i omega t over n wave "
-    "periods "
-    "from tau zero, divided by n wave periods.",
+    "periods from tau zero, divided by n wave periods.",
     "31",
 )
 LAWS = {
@@ -34,8 +32,7 @@ LAWS = {
 }
 AIRY = Equation(
     "U_w = A omega (cosh k z) / (sinh k H) cos(k x - omega t), quad W_w = A omega (sinh k z) / (sinh k H) sin(k x - "
-    "omega t),"
-    " quad omega^2 = g k tanh k H",
+    "omega t), quad omega^2 = g k tanh k H",
     "The horizontal and vertical water velocities of the linear wave at height z above the bed, and its dispersion "
     "relation.",
 )
@@ -51,15 +48,14 @@ def equation_items(law: str) -> list[Item]:
     return [
         Text(
             "The tether is solved by finite differences along its unstretched length, with bending, drag and fluid "
-            "inertia, in "
-            "conservation form in a plane. At its upper end the buoy obeys"
+            "inertia, in conservation form in a plane. At its upper end the buoy obeys"
         ),
         BUOY,
         Text("with the tension of the tether at its top, which follows the strain ε by"),
         LAWS[law],
         Text(
-            "The waves are linear, of finite depth, taken at the place where each node is (z from the bed, "
-            f"{T_I} = 2π/ω, A = (kA)/k):"
+            f"The waves are linear, of finite depth, taken at the place where each node is (z from the bed, {T_I} = "
+            "2π/ω, A = (kA)/k):"
         ),
         AIRY,
         Text("Spectra are the paper's, a plain integral without a window, so that a sine of amplitude a shows as a/2:"),

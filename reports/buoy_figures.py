@@ -7,7 +7,7 @@ import math
 import numpy as np
 
 from .buoy_physics import Modes
-from .buoy_runs import PAPER_STEEPNESS, Run, period_length, strobed, value
+from .buoy_runs import PAPER_STEEPNESS, Run, orbit_radii, period_length, strobed, value
 from .content import Figure, Heading, Item, Notice, Text
 from .figures.section import section
 from .figures.spectra import SpectrumPanel, spectra
@@ -29,8 +29,8 @@ def run_items(run: Run, trajectory, modes: Modes | None) -> list[Item]:
     items: list[Item] = [
         Heading(f"kA = {number(run.steepness)}", 2),
         Text(
-            f"This run {end} after {number(run.periods_done)} wave periods. {_strobed_words(run)} "
-            f"Its file is `trajectories/{run.row['run_key']}.nc`."
+            f"This run {end} after {number(run.periods_done)} wave periods. {_strobed_words(run)} Its file is "
+            f"`trajectories/{run.row['run_key']}.nc`."
         ),
         _histories(run, trajectory),
     ]
@@ -40,7 +40,7 @@ def run_items(run: Run, trajectory, modes: Modes | None) -> list[Item]:
 def _strobed_words(run: Run) -> str:
     length = period_length(run)
     if length:
-        radii = listed(decimals(point, 3) for point in run.period.orbit[:, 0])
+        radii = listed(decimals(point, 3) for point in orbit_radii(run))
         return f"Strobed at t = k{T_I} it visits {count(length, 'point')}, r = {radii} m."
     if len(run.section):
         low, high = run.section[:, 0].min(), run.section[:, 0].max()
@@ -61,15 +61,14 @@ def _histories(run: Run, trajectory) -> Figure:
     )
     tension, radius, angle, _ = _PAPER[_nearer(run.steepness)]
     seen = (
-        f"tension from {number(1e3 * np.nanmin(low))} to {number(1e3 * np.nanmax(high))} N"
-        f"{_slack_words(run)}, r from {_span(columns['radius_m'], 3)} m, θ from {_span(columns['angle_rad'], 3)} rad"
+        f"tension from {number(1e3 * np.nanmin(low))} to {number(1e3 * np.nanmax(high))} N{_slack_words(run)}, r from "
+        f"{_span(columns['radius_m'], 3)} m, θ from {_span(columns['angle_rad'], 3)} rad"
     )
     caption = (
         f"Top tension (fig. {tension}), radius (fig. {radius}) and angle (fig. {angle} of the paper{_apart(run)}) "
-        f"against t/{T_I} "
-        f"at kA = {number(run.steepness)}: {seen}. From `time_s`, `tension_top_N`, `radius_m`, `angle_rad`; the shade "
-        f"behind "
-        "the tension spans `tension_top_low_N` to `tension_top_high_N`, its extremes between samples."
+        f"against t/{T_I} at kA = {number(run.steepness)}: {seen}. From `time_s`, `tension_top_N`, `radius_m`, "
+        "`angle_rad`; the shade behind the tension spans `tension_top_low_N` to `tension_top_high_N`, its extremes "
+        "between samples."
     )
     alt = f"Three stacked curves over {number(run.periods_done)} wave periods at kA {number(run.steepness)}: {seen}."
     return Figure(picture, caption, alt)
@@ -79,7 +78,7 @@ def _slack_words(run: Run) -> str:
     share = value(run, "slack_fraction")
     if math.isnan(share):
         return ""
-    return f" (slack {number(100 * share, 3)} % of the time)" if share > 0 else " (never slack)"
+    return f" (slack {number(100 * share, 3)} % of the time after the transient)" if share > 0 else " (never slack)"
 
 
 def _spectra(run: Run, trajectory, modes: Modes | None) -> list[Item]:
@@ -125,8 +124,7 @@ def _spectra(run: Run, trajectory, modes: Modes | None) -> list[Item]:
     caption = (
         f"Spectra of r and θ at kA = {number(run.steepness)} ({paper} of the paper{_apart(run)}), eq. (31) with "
         f"{TAU_0} = {number(start)} {T_I} and n = {periods}: {seen}. Marks: {expected}{OMEGA_I} = {number(wave, 4)} "
-        f"rad/s. From `radius_m` and "
-        "`angle_rad`; the mean (ω = 0) is left out."
+        "rad/s. From `radius_m` and `angle_rad`; the mean (ω = 0) is left out."
     )
     return [
         Figure(spectra(panels, 2.5 * wave), caption, f"Spectra of radius and angle, linear and logarithmic: {seen}.")
@@ -160,8 +158,7 @@ def section_figure(runs: list[tuple[Run, object]], transient: int) -> Figure | N
         return None
     caption = (
         f"Poincaré sections r, r' at t = k{T_I}, k ≥ {transient} (fig. 19a of the paper, at kA = 0.13): "
-        f"{'; '.join(words)}. "
-        "From `radius_m` and `radius_rate_mps`. No axis spans less than 0.1 m or 0.1 m/s."
+        f"{'; '.join(words)}. From `radius_m` and `radius_rate_mps`. No axis spans less than 0.1 m or 0.1 m/s."
     )
     return Figure(
         section(panels),

@@ -31,11 +31,8 @@ COLUMNS = (
     "message",
 )
 PAPER_STEEPNESS = (0.016, 0.13)
-LONGEST_PERIOD = 8
-LEAST_POINTS = 16  # below this `analysis.detect_period` does not look
-# Of the range of the motion within a wave period. Wide enough for the millimetres that adaptive steps leave in a
-# settled orbit, and far below the branches of the period-2 motion at kA = 0.13, H = 22.5 m (145 mm of a range of 4 m).
-TOLERANCE = 5e-3
+LONGEST_PERIOD = 16  # up to which the campaign looks for the `strobed_period` of its table
+LEAST_POINTS = 16  # strobed points below which it does not look
 
 
 @dataclass(frozen=True)
@@ -51,18 +48,17 @@ class Emergence:
     out_share: float
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Run:
     """One row of the table with what its trajectory adds.
 
-    `section` (m, 2) strobed r (m) and r' (m/s) after the transient, empty where the run is shorter; `period` what
-    `analysis.detect_period` says of it, None where it cannot; `fault` why the trajectory could not be read, else "".
+    `section` (m, 2) strobed r (m) and r' (m/s) after the transient, empty where the run is shorter; `fault` why the
+    trajectory of a run that should have one could not be read, else "".
     """
 
     row: dict
     periods_done: float
     section: np.ndarray
-    period: object | None
     emergence: Emergence | None
     fault: str
 
@@ -99,25 +95,20 @@ def _read_run(folder: Folder, row: dict, transient: int) -> Run:
 
     nothing = np.empty((0, 2))
     path = folder.trajectory_path(row["run_key"])
-    if not row["run_key"] or not path.exists():
-        return Run(
-            row, 0.0, nothing, None, None, f"its file {path.name} is missing" if row["run_key"] else "it left no file"
-        )
+    if not path.exists():
+        # A run that died may well have left nothing; its status says so already.
+        return Run(row, 0.0, nothing, None, f"its file {path.name} is missing" if row["status"] == "ok" else "")
     try:
         trajectory = Trajectory.load(path)
     except TrajectoryError as error:
-        reason = str(error).removeprefix(
-            f"{path}: "
-        )  # the folder's own path would make the report depend on where it lies
-        return Run(row, 0.0, nothing, None, None, f"its file {path.name} cannot be read ({reason})")
+        reason = str(error).removeprefix(f"{path}: ")  # the report must not depend on where its folder lies
+        return Run(row, 0.0, nothing, None, f"its file {path.name} cannot be read ({reason})")
     columns = trajectory.columns
     if len(columns["time_s"]) < 2:
-        return Run(row, 0.0, nothing, None, None, "")
+        return Run(row, 0.0, nothing, None, "")
     period_s = trajectory.scene.waves.period_s
     done = float(columns["time_s"][-1]) / period_s
-    section = strobed(trajectory, transient)
-    period = _period(section, trajectory, transient) if row["status"] == "ok" else None
-    return Run(row, done, section, period, _emergence(trajectory), "")
+    return Run(row, done, strobed(trajectory, transient), _emergence(trajectory), "")
 
 
 def strobed(trajectory, transient: int) -> np.ndarray:
@@ -131,20 +122,6 @@ def strobed(trajectory, transient: int) -> np.ndarray:
     if (end - 1) * scene.sample_step_s() < transient * scene.waves.period_s:
         return np.empty((0, 2))
     return poincare_section(series, scene.sample_step_s(), scene.waves.period_s, transient_periods=transient).points
-
-
-def _period(section: np.ndarray, trajectory, transient: int):
-    """The period of the strobed motion, None where there are too few points to look for one.
-
-    Differences are measured by the range of r and r' within the motion itself, after the transient.
-    """
-    from analysis import detect_period
-
-    first = round(transient * trajectory.scene.waves.period_s / trajectory.scene.sample_step_s())
-    scale = [float(np.ptp(trajectory.columns[name][first:])) for name in ("radius_m", "radius_rate_mps")]
-    if len(section) < LEAST_POINTS or min(scale) <= 0.0:
-        return None
-    return detect_period(section, max_period=LONGEST_PERIOD, tolerance=TOLERANCE, scale=scale)
 
 
 def _emergence(trajectory) -> Emergence | None:
@@ -168,13 +145,26 @@ def chosen_runs(runs: tuple[Run, ...]) -> tuple[Run, ...]:
         if good:
             nearest = min(good, key=lambda run: abs(run.steepness - steepness))
             chosen += [nearest] if nearest not in chosen else []
-    longer = next((run for run in good if run.ok and period_length(run) > 1 and run not in chosen), None)
+    longer = next((run for run in good if run.ok and (period_length(run) or 0) > 1 and run not in chosen), None)
     return tuple(sorted([*chosen, *([longer] if longer else [])], key=lambda run: run.steepness))
 
 
-def period_length(run: Run) -> int:
-    """N of a strobed orbit that repeats after N points, 0 where none was found or looked for."""
-    return int(run.period.period or 0) if run.period is not None else 0
+def period_length(run: Run) -> int | None:
+    """After how many wave periods the run repeats: `strobed_period` of the table; 0 where no number fits.
+
+    None where nobody could say: a run that failed, too few strobed points, or a table without the column.
+    """
+    if not run.ok or len(run.section) < LEAST_POINTS or "strobed_period" not in run.row:
+        return None
+    found = value(run, "strobed_period")
+    return 0 if math.isnan(found) else int(found)
+
+
+def orbit_radii(run: Run) -> list[float]:
+    """Strobed r (m) of the points that a run of known period visits in turn: their means over the last half."""
+    length = period_length(run)
+    rounds = max(len(run.section) // (2 * length), 1)
+    return list(run.section[-rounds * length :, 0].reshape(-1, length).mean(axis=0))
 
 
 def value(run: Run, column: str) -> float:

@@ -25,14 +25,15 @@ def report(directory: str | Path) -> Report:
     folder = read_folder(directory, COLUMNS)
     runs = read_runs(folder)
     transient = int(folder.provenance.get("transient") or 0)
+    tolerance = float(folder.provenance.get("strobe_tolerance") or 0.005)
     modes = natural_frequencies(folder.scene)
     items = [
-        *_question(runs, transient, modes),
+        *_question(runs, transient, tolerance, modes),
         *_orbit(runs, transient),
         *_chosen(folder, runs, transient, modes),
         Heading("Warnings"),
-        *warnings(runs, folder.scene),
-        *runs_items(runs),
+        *warnings(runs, folder.scene, modes),
+        *runs_items(runs, transient, tolerance),
         *time_items(folder, runs),
         *scene_items(folder, runs, modes),
         Heading("Equations"),
@@ -43,20 +44,18 @@ def report(directory: str | Path) -> Report:
     return Report("Tethered buoy: a sweep of wave steepness", title, tuple(items))
 
 
-def _question(runs: tuple[Run, ...], transient: int, modes: Modes | None) -> list[Item]:
+def _question(runs: tuple[Run, ...], transient: int, tolerance: float, modes: Modes | None) -> list[Item]:
     items: list[Item] = [
         Heading("Question"),
         Text(
             "A buoy near the surface is held to the sea bed by a short elastic tether. How does it move as regular "
-            "waves become "
-            "steeper: when does the tether go slack and snap, and does the motion still repeat with the waves? This "
-            "is the problem "
-            "of section 4.2 of Tjavaras, Zhu, Liu, Triantafyllou and Yue, “The mechanics of highly-extensible "
-            "cables”, Journal of "
-            "Sound and Vibration 213(4), 1998 (“the paper”), which shows kA = 0.016 and kA = 0.13."
+            "waves become steeper: when does the tether go slack and snap, and does the motion still repeat with the "
+            "waves? This is the problem of section 4.2 of Tjavaras, Zhu, Liu, Triantafyllou and Yue, “The mechanics "
+            "of highly-extensible cables”, Journal of Sound and Vibration 213(4), 1998 (“the paper”), which shows kA "
+            "= 0.016 and kA = 0.13."
         ),
         Heading("Short answer"),
-        Bullets(short_answer(runs, transient, modes)),
+        Bullets(short_answer(runs, transient, tolerance, modes)),
     ]
     if all(not run.row["regime"] for run in runs):
         items.append(
@@ -65,8 +64,8 @@ def _question(runs: tuple[Run, ...], transient: int, modes: Modes | None) -> lis
                 "No verdict on regular or chaotic motion",
                 (
                     "The column `regime` and the columns of exponents are empty: no Lyapunov exponent was computed, "
-                    "and none is needed for "
-                    "what is said above. A strobed motion for which no period was found is just that.",
+                    "and none is needed for what is said above. A strobed motion for which no period was found is "
+                    "just that.",
                 ),
             )
         )
@@ -98,10 +97,8 @@ def _orbit(runs: tuple[Run, ...], transient: int) -> list[Item]:
     left_out = f" Crosses: {count(len(missing), 'run')} without points." if missing else ""
     caption = (
         f"Radius at t = k{T_I}, k ≥ {transient}, over wave steepness; the darker, the more points fall on one place. "
-        f"Below: share "
-        f"of the time without tension. Seen: {seen}{share}.{left_out} From `radius_m` of every trajectory, "
-        f"`slack_fraction` of "
-        "`table.csv`."
+        f"Below: share of the time without tension. Seen: {seen}{share}.{left_out} From `radius_m` of every "
+        "trajectory, `slack_fraction` of `table.csv`."
     )
     return [
         heading,
@@ -120,9 +117,8 @@ def _chosen(folder: Folder, runs: tuple[Run, ...], transient: int, modes: Modes 
         return [*items, Text("No run left a record of one wave period or more, so there is nothing to draw.")]
     items.append(
         Text(
-            "The runs nearest the paper's kA = 0.016 and 0.13, and the first whose strobed motion has a period of two "
-            "or "
-            "more, where there is one."
+            "The runs nearest the paper's kA = 0.016 and 0.13, and the first whose strobed motion has a period of "
+            "two or more, where there is one."
         )
     )
     loaded = [(run, load(folder, run)) for run in chosen]

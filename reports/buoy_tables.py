@@ -8,7 +8,7 @@ import shlex
 import numpy as np
 
 from .buoy_physics import Modes
-from .buoy_runs import LONGEST_PERIOD, TOLERANCE, Run, period_length, value
+from .buoy_runs import LONGEST_PERIOD, Run, period_length, value
 from .content import Column, Figure, Heading, Item, Listing, Table, Text
 from .figures.run_times import run_times
 from .folder import Folder
@@ -16,10 +16,15 @@ from .scene_table import scene_table
 from .symbols import OMEGA_I, OMEGA_R, OMEGA_THETA, T_S
 from .wording import EMPTY, decimals, number, percent
 
-_TIMES = {"compile_s": "compiling the kernels", "run_s": "runs", "analysis_s": "analysis", "report_s": "report"}
+_TIMES = {
+    "compile_s": "compiling the kernels",
+    "run_s": "runs with their analysis",
+    "analysis_s": "of it analysis, summed over workers",
+    "report_s": "report",
+}
 
 
-def runs_items(runs: tuple[Run, ...]) -> list[Item]:
+def runs_items(runs: tuple[Run, ...], transient: int, tolerance: float) -> list[Item]:
     """All rows of table.csv in the columns a reader asks for first."""
     columns = [
         ("r min", "m", "radius_min_m", 2),
@@ -52,19 +57,17 @@ def runs_items(runs: tuple[Run, ...]) -> list[Item]:
         for run in runs
     )
     caption = (
-        f"Every run of `table.csv`. N: strobed r and r' repeat after N wave periods to {percent(TOLERANCE)} of their "
-        f"range, "
-        f"N ≤ {LONGEST_PERIOD} (computed here; “none” where no N does). T: tension at the top. slack: share of the "
-        f"time without "
-        "tension. turn: largest turn of the tether within one element. loops: loop releases. A dash: not known."
+        "Every run of `table.csv`. N (`strobed_period`): the buoy's motion repeats after N wave periods to "
+        f"{percent(tolerance)} of its range, N ≤ {LONGEST_PERIOD}; “none” where no N does. T: tension at the top. "
+        f"slack: share of the time without tension. N, r, θ, T and slack leave out the first {transient} wave "
+        "periods. turn: largest turn of the tether within one element. loops: loop releases. A dash: not known."
     )
     return [Heading("Table of runs"), Table(heads, rows, caption, small=True)]
 
 
 def _period_cell(run: Run) -> str:
-    if run.period is None:
-        return EMPTY
-    return str(period_length(run) or "none")
+    length = period_length(run)
+    return EMPTY if length is None else str(length or "none")
 
 
 def time_items(folder: Folder, runs: tuple[Run, ...]) -> list[Item]:
@@ -77,8 +80,7 @@ def time_items(folder: Folder, runs: tuple[Run, ...]) -> list[Item]:
         done = np.array([run.periods_done for run in timed])
         seen = (
             f"{decimals(float(wall.sum()), 1)} s in all runs together, {number(1e3 * wall.sum() / done.sum(), 3)} ms "
-            f"and "
-            f"{number(newton.sum() / done.sum(), 3)} Newton iterations per wave period, "
+            f"and {number(newton.sum() / done.sum(), 3)} Newton iterations per wave period, "
             f"{number(1e6 * wall.sum() / max(newton.sum(), 1.0), 3)} µs per Newton iteration on average"
         )
         picture = run_times(
@@ -109,6 +111,7 @@ def time_items(folder: Folder, runs: tuple[Run, ...]) -> list[Item]:
 
 
 def scene_items(folder: Folder, runs: tuple[Run, ...], modes: Modes | None) -> list[Item]:
+    """Every parameter with its source, and the closed forms that follow."""
     from engine import load_scene
 
     values = sorted({run.steepness for run in runs})
@@ -124,17 +127,16 @@ def scene_items(folder: Folder, runs: tuple[Run, ...], modes: Modes | None) -> l
         items.append(
             Text(
                 f"From it follow the static tension {T_S} = {number(modes.static_tension_N)} N at strain "
-                f"{number(modes.static_strain, 3)}, the "
-                f"radial frequency {OMEGA_R} = {number(modes.radial_radps)} rad/s, the pendulum frequency "
-                f"{OMEGA_THETA} = "
-                f"{number(modes.pendulum_radps)} rad/s, and the wave frequency {OMEGA_I} = {number(modes.wave_radps)} "
-                f"rad/s."
+                f"{number(modes.static_strain, 3)}, the radial frequency {OMEGA_R} = {number(modes.radial_radps)} "
+                f"rad/s, the pendulum frequency {OMEGA_THETA} = {number(modes.pendulum_radps)} rad/s, and the wave "
+                f"frequency {OMEGA_I} = {number(modes.wave_radps)} rad/s."
             )
         )
     return items
 
 
 def provenance_items(folder: Folder) -> list[Item]:
+    """The command and everything else that provenance.json holds."""
     command = folder.provenance.get("command")
     items: list[Item] = [Heading("Provenance")]
     if command:
@@ -157,7 +159,9 @@ def _flat(section: dict, prefix: str = "") -> list[tuple[str, str]]:
         if isinstance(entry, dict):
             rows += _flat(entry, f"{prefix}{key}.")
         elif isinstance(entry, list):
-            rows.append((prefix + key, ", ".join(number(e) if isinstance(e, float) else str(e) for e in entry)))
+            words = [number(e) if isinstance(e, float) else str(e) for e in entry]
+            short = words if len(words) <= 12 else [words[0], words[1], "…", words[-1]]
+            rows.append((prefix + key, ", ".join(short) + (f" ({len(words)} entries)" if short != words else "")))
         else:
             rows.append((prefix + key, EMPTY if entry is None else str(entry)))
     return rows

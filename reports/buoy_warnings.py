@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from .buoy_figures import PAPER_WINDOW
+from .buoy_physics import Modes
 from .buoy_runs import Run, value
 from .content import Notice
 from .symbols import T_I, TAU_0
@@ -11,9 +12,9 @@ from .wording import count, decimals, listed, number, percent, ranges
 _MANY = 8  # statements of one kind above which a box sums them up
 
 
-def warnings(runs: tuple[Run, ...], scene) -> list[Notice]:
+def warnings(runs: tuple[Run, ...], scene, modes: Modes | None) -> list[Notice]:
     """Everything that limits what the sweep may be used for, each as a box; one plain note when there is nothing."""
-    boxes = [_failed(runs), _turns(runs), _out_of_water(runs, scene), _short(runs)]
+    boxes = [_failed(runs), _turns(runs), _out_of_water(runs, scene, modes), _short(runs)]
     boxes = [box for box in boxes if box is not None]
     return boxes or [
         Notice(
@@ -73,23 +74,27 @@ def _turns(runs) -> Notice | None:
     return Notice("warning", "Loops and unresolved turns", tuple(lines))
 
 
-def _out_of_water(runs, scene) -> Notice | None:
+def _out_of_water(runs, scene, modes) -> Notice | None:
     seen = [run for run in runs if run.emergence is not None]
     out = [run for run in seen if run.emergence.out_share > 0.0]
     high = [run for run in seen if run.emergence.above_still_m > 0.0]
-    if not out and not high:
+    rest = scene.tether.length_m * (1 + modes.static_strain) + 0.5 * scene.buoy.diameter_m if modes else 0.0
+    above = rest - scene.water.depth_m if scene.water is not None else 0.0
+    if not out and not high and above <= 0:
         return None
     lines = []
+    if above > 0:
+        lines.append(f"Already at rest the top of the buoy is {decimals(above, 2)} m above the still-water line.")
     if high:
         top = max(high, key=lambda run: run.emergence.above_still_m)
         lines.append(
-            f"The centre of the buoy rises above the still-water line in {count(len(high), 'run')}, "
-            f"by {decimals(top.emergence.above_still_m, 2)} m at most (kA = {number(top.steepness)})."
+            f"The centre of the buoy rises above the still-water line in {count(len(high), 'run')}, by "
+            f"{decimals(top.emergence.above_still_m, 2)} m at most (kA = {number(top.steepness)})."
         )
     if out:
         top = max(out, key=lambda run: run.emergence.out_share)
         lines.append(
-            f"The whole sphere is above the linear wave at kA = "
+            "The whole sphere is above the linear wave at kA = "
             f"{ranges([run.steepness for run in runs], [run in out for run in runs])}, at most "
             f"{percent(top.emergence.out_share)} of the time (kA = {number(top.steepness)}), its centre up to "
             f"{decimals(max(run.emergence.above_wave_m for run in out), 2)} m above the wave."
@@ -110,9 +115,8 @@ def _short(runs) -> Notice | None:
         "warning",
         "Records too short for the paper's spectrum",
         (
-            f"Eq. (31) with {TAU_0} = {PAPER_WINDOW[0]} {T_I} and n = {PAPER_WINDOW[1]} needs "
-            f"{sum(PAPER_WINDOW)} wave periods; shorter: kA = "
-            f"{ranges([run.steepness for run in runs], [run in short for run in runs])}.",
+            f"Eq. (31) with {TAU_0} = {PAPER_WINDOW[0]} {T_I} and n = {PAPER_WINDOW[1]} needs {sum(PAPER_WINDOW)} "
+            f"wave periods; shorter: kA = {ranges([run.steepness for run in runs], [run in short for run in runs])}.",
             "Their spectra are taken over the last half of the record instead, and hold more of the transient.",
         ),
     )

@@ -7,11 +7,9 @@ from pathlib import Path
 
 import numpy as np
 
+from campaigns.rows import COLUMNS, buoy_row
 from engine.scene import load_scene
 from engine.trajectory import Trajectory
-from reports.buoy_runs import COLUMNS
-
-EMPTY_COLUMNS = ("lyapunov_wolf_bits_per_period", "lyapunov_wolf_error", "offplane_growth_bits_per_period")
 
 
 def campaign(directory: Path, steepness, periods=80, transient=20, failing=None, overrides=None) -> Path:
@@ -29,9 +27,9 @@ def campaign(directory: Path, steepness, periods=80, transient=20, failing=None,
         run = motion(scene, value, status, reached)
         key = f"{index:064x}"
         run.save(directory / "trajectories" / f"{key}.nc")
-        rows.append({**_row(run, value), "run_key": key})
+        rows.append({"steepness": value, **buoy_row(run, transient), "run_key": key})
     with open(directory / "table.csv", "w", newline="", encoding="utf-8") as file:
-        writer = csv.DictWriter(file, [*COLUMNS, *EMPTY_COLUMNS], lineterminator="\n")
+        writer = csv.DictWriter(file, COLUMNS, lineterminator="\n")
         writer.writeheader()
         writer.writerows(rows)
     base = load_scene("tethered_buoy", overrides or {})
@@ -44,6 +42,7 @@ def campaign(directory: Path, steepness, periods=80, transient=20, failing=None,
         "seed": None,
         "periods": periods,
         "transient": transient,
+        "strobe_tolerance": 0.005,
         "steepness": list(steepness),
         "timing": {"compile_s": 6.1, "run_s": 20.5, "analysis_s": 0.8},
     }
@@ -92,17 +91,3 @@ def motion(scene, kA: float, status: str, periods: float) -> Trajectory:
     }
     message = "" if status == "ok" else "Newton's method did not converge <at> t = 12 s, #step $x$ 1e-9"
     return Trajectory(scene, status, message, columns, statistics)
-
-
-def _row(run: Trajectory, kA: float) -> dict:
-    from analysis import slack_fraction
-
-    row = {"steepness": kA, "status": run.status, "message": run.message}
-    row |= {name: run.statistics[name] for name in COLUMNS if name in run.statistics}
-    if len(run.columns["time_s"]) > 1:
-        for name, column in (("radius", "radius_m"), ("angle", "angle_rad"), ("tension_top", "tension_top_N")):
-            unit = column.rpartition("_")[2]
-            row[f"{name}_min_{unit}"] = float(run.columns[column].min())
-            row[f"{name}_max_{unit}"] = float(run.columns[column].max())
-        row["slack_fraction"] = slack_fraction(run.columns["tension_top_N"], run.scene.sample_step_s()).fraction
-    return row
