@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from .buoy_physics import Modes
-from .buoy_runs import LONGEST_PERIOD, Run, period_length, value
+from .buoy_runs import LONGEST_PERIOD, Run, period_length, several_points, value
 from .buoy_warnings import releases
 from .wording import count, decimals, number, percent, ranges
 
@@ -63,12 +63,19 @@ def _periods(good, tolerance: float) -> list[str]:
     steepness = [run.steepness for run in good]
     lines = []
     for length in range(1, LONGEST_PERIOD + 1):
-        chosen = [period_length(run) == length for run in good]
+        chosen = [period_length(run) == length and (length == 1 or several_points(run, tolerance)) for run in good]
         if any(chosen):
             lines.append(
                 f"Strobed once a wave period, the motion repeats after {count(length, 'wave period')} (period "
                 f"{length}) at kA = {ranges(steepness, chosen)}."
             )
+    close = [(period_length(run) or 0) > 1 and not several_points(run, tolerance) for run in good]
+    if any(close):
+        lines.append(
+            f"At kA = {ranges(steepness, close)} the table gives a longer period, but the points visited differ in r "
+            f"by less than {percent(tolerance)} of its range: a swing that dies out near a period-1 motion looks like "
+            "this."
+        )
     none = [period_length(run) == 0 for run in good]
     if any(none):
         lines.append(

@@ -7,7 +7,7 @@ import math
 import numpy as np
 
 from .buoy_physics import Modes
-from .buoy_runs import PAPER_STEEPNESS, Run, orbit_radii, period_length, strobed, value
+from .buoy_runs import PAPER_STEEPNESS, Run, orbit_radii, period_length, several_points, value
 from .content import Figure, Heading, Item, Notice, Text
 from .figures.section import section
 from .figures.spectra import SpectrumPanel, spectra
@@ -23,23 +23,20 @@ PAPER_WINDOW = (40, 20)  # tau_0/T_i and n of eq. (31) in the paper
 _LEAST_WINDOW = 5  # wave periods: fewer bins than this below the wave frequency say nothing
 
 
-def run_items(run: Run, trajectory, modes: Modes | None) -> list[Item]:
+def run_items(run: Run, trajectory, tolerance: float, modes: Modes | None) -> list[Item]:
     """Heading, a sentence, histories and spectra of one run."""
     end = "ended as asked" if run.ok else f"ended early ({run.row['status']})"
     items: list[Item] = [
         Heading(f"kA = {number(run.steepness)}", 2),
-        Text(
-            f"This run {end} after {number(run.periods_done)} wave periods. {_strobed_words(run)} Its file is "
-            f"`trajectories/{run.row['run_key']}.nc`."
-        ),
+        Text(f"This run {end} after {number(run.periods_done)} wave periods. {_strobed_words(run, tolerance)}"),
         _histories(run, trajectory),
     ]
     return items + _spectra(run, trajectory, modes)
 
 
-def _strobed_words(run: Run) -> str:
+def _strobed_words(run: Run, tolerance: float) -> str:
     length = period_length(run)
-    if length:
+    if length == 1 or several_points(run, tolerance):
         radii = listed(decimals(point, 3) for point in orbit_radii(run))
         return f"Strobed at t = k{T_I} it visits {count(length, 'point')}, r = {radii} m."
     if len(run.section):
@@ -66,9 +63,9 @@ def _histories(run: Run, trajectory) -> Figure:
     )
     caption = (
         f"Top tension (fig. {tension}), radius (fig. {radius}) and angle (fig. {angle} of the paper{_apart(run)}) "
-        f"against t/{T_I} at kA = {number(run.steepness)}: {seen}. From `time_s`, `tension_top_N`, `radius_m`, "
-        "`angle_rad`; the shade behind the tension spans `tension_top_low_N` to `tension_top_high_N`, its extremes "
-        "between samples."
+        f"against t/{T_I} at kA = {number(run.steepness)}: {seen}. From `trajectories/{run.row['run_key'][:12]}….nc`: "
+        "`time_s`, `tension_top_N`, `radius_m`, `angle_rad`; the shade behind the tension spans `tension_top_low_N` "
+        "to `tension_top_high_N`, its extremes between samples."
     )
     alt = f"Three stacked curves over {number(run.periods_done)} wave periods at kA {number(run.steepness)}: {seen}."
     return Figure(picture, caption, alt)
@@ -139,20 +136,18 @@ def spectrum_window(periods_done: float) -> tuple[int, int] | None:
     return (whole - whole // 2, whole // 2) if whole // 2 >= _LEAST_WINDOW else None
 
 
-def section_figure(runs: list[tuple[Run, object]], transient: int) -> Figure | None:
+def section_figure(runs: tuple[Run, ...], transient: int, tolerance: float) -> Figure | None:
     """Poincare sections of the chosen runs side by side; None when none of them outlasts the transient."""
     panels, words = [], []
-    for run, trajectory in runs:
-        points = strobed(trajectory, transient)
+    for run in runs:
+        points = run.section
         if not len(points):
             continue
         panels.append((f"kA = {number(run.steepness)}", points[:, 0], points[:, 1]))
+        shape = f"r from {_span(points[:, 0], 3)} m, r' from {_span(points[:, 1], 3)} m/s"
         length = period_length(run)
-        shape = (
-            f"{count(length, 'point')} visited in turn"
-            if length
-            else (f"{len(points)} points in r from {_span(points[:, 0], 2)} m, r' from {_span(points[:, 1], 2)} m/s")
-        )
+        if length == 1 or several_points(run, tolerance):
+            shape = f"{count(length, 'point')} visited in turn, {shape}"
         words.append(f"at kA = {number(run.steepness)} {shape}")
     if not panels:
         return None

@@ -136,8 +136,8 @@ def _emergence(trajectory) -> Emergence | None:
     )
 
 
-def chosen_runs(runs: tuple[Run, ...]) -> tuple[Run, ...]:
-    """The runs drawn in full: nearest the paper's two steepnesses, then the first good one of period 2 or longer."""
+def chosen_runs(runs: tuple[Run, ...], tolerance: float) -> tuple[Run, ...]:
+    """The runs drawn in full: nearest the paper's two steepnesses, then the first whose points are several."""
     drawable = [run for run in runs if run.has_record]
     good = [run for run in drawable if run.ok] or drawable
     chosen: list[Run] = []
@@ -145,7 +145,7 @@ def chosen_runs(runs: tuple[Run, ...]) -> tuple[Run, ...]:
         if good:
             nearest = min(good, key=lambda run: abs(run.steepness - steepness))
             chosen += [nearest] if nearest not in chosen else []
-    longer = next((run for run in good if run.ok and (period_length(run) or 0) > 1 and run not in chosen), None)
+    longer = next((run for run in good if several_points(run, tolerance) and run not in chosen), None)
     return tuple(sorted([*chosen, *([longer] if longer else [])], key=lambda run: run.steepness))
 
 
@@ -165,6 +165,18 @@ def orbit_radii(run: Run) -> list[float]:
     length = period_length(run)
     rounds = max(len(run.section) // (2 * length), 1)
     return list(run.section[-rounds * length :, 0].reshape(-1, length).mean(axis=0))
+
+
+def several_points(run: Run, tolerance: float) -> bool:
+    """Whether a run of period 2 or longer visits points that differ in r by more than the tolerance of its range.
+
+    A pendulum swing that dies out slowly comes back to nearly the same place every six wave periods (omega_theta T_i
+    is close to 1 rad): the table then says period 6 of what is about to settle on one point.
+    """
+    if (period_length(run) or 0) < 2:
+        return False
+    width = value(run, "radius_max_m") - value(run, "radius_min_m")
+    return bool(np.ptp(orbit_radii(run)) > tolerance * width)
 
 
 def value(run: Run, column: str) -> float:

@@ -30,7 +30,7 @@ def report(directory: str | Path) -> Report:
     items = [
         *_question(runs, transient, tolerance, modes),
         *_orbit(runs, transient),
-        *_chosen(folder, runs, transient, modes),
+        *_chosen(folder, runs, transient, tolerance, modes),
         Heading("Warnings"),
         *warnings(runs, folder.scene, modes),
         *runs_items(runs, transient, tolerance),
@@ -110,19 +110,18 @@ def _orbit(runs: tuple[Run, ...], transient: int) -> list[Item]:
     ]
 
 
-def _chosen(folder: Folder, runs: tuple[Run, ...], transient: int, modes: Modes | None) -> list[Item]:
-    chosen = chosen_runs(runs)
+def _chosen(folder: Folder, runs: tuple[Run, ...], transient: int, tolerance: float, modes: Modes | None) -> list[Item]:
+    chosen = chosen_runs(runs, tolerance)
     items: list[Item] = [Heading("Chosen runs")]
     if not chosen:
         return [*items, Text("No run left a record of one wave period or more, so there is nothing to draw.")]
     items.append(
         Text(
-            "The runs nearest the paper's kA = 0.016 and 0.13, and the first whose strobed motion has a period of "
-            "two or more, where there is one."
+            "The runs nearest the paper's kA = 0.016 and 0.13, and the first whose strobed motion visits several "
+            "points in turn, where there is one."
         )
     )
-    loaded = [(run, load(folder, run)) for run in chosen]
-    for run, trajectory in loaded:
-        items += run_items(run, trajectory, modes)
-    figure = section_figure(loaded, transient)
+    for run in chosen:
+        items += run_items(run, load(folder, run), tolerance, modes)
+    figure = section_figure(chosen, transient, tolerance)
     return [*items, Heading("Poincaré sections", 2), figure] if figure else items

@@ -168,7 +168,7 @@ def _cell(text: str) -> str:
 def _is_prose(table: Table, index: int) -> bool:
     """Columns of sentences share the width that is left; columns of numbers and names take what they need."""
     cells = [row[index] for row in table.rows]
-    return table.columns[index].align == "left" and any(len(cell) > 28 and " " in cell for cell in cells)
+    return table.columns[index].align == "left" and any(len(cell) > 40 and " " in cell for cell in cells)
 
 
 def _short(title: str) -> str:

@@ -18,7 +18,7 @@ def run_times(steepness: np.ndarray, wall_s: np.ndarray, newton_per_period: np.n
         for axes, values, label in zip(
             figure.subplots(1, 2),
             (wall_s, newton_per_period),
-            ("wall time of the run (s)", "Newton iterations per wave period"),
+            ("wall time of the run (s)", "Newton iterations per period"),
             strict=True,
         ):
             axes.plot(steepness[~failed], values[~failed], "o", color=BLUE, markersize=4, label="ended as asked")

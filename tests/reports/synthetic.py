@@ -54,14 +54,15 @@ def motion(scene, kA: float, status: str, periods: float) -> Trajectory:
     """A trajectory of forced, subharmonic and decaying sines, with the tension a linear tether would have."""
     wave = 2 * math.pi / scene.waves.period_s
     n = max(round(periods * scene.waves.period_s / scene.sample_step_s()) + 1, 0) if periods > 0 else 0
-    t = scene.sample_step_s() * np.arange(n)
+    t = scene.sample_step_s() * np.arange(-1, n + 1)  # one more on both sides, for rates at the ends
     second = 0.4 * np.sin(0.5 * wave * t + 0.3) if 0.06 <= kA < 0.1 else 0.0
     third = 0.7 * np.sin(wave * t / math.pi) * np.cos(wave * t / math.e) if kA >= 0.1 else 0.0
-    swing = 12 * kA * (np.sin(wave * t) + second + third + np.exp(-t / 30) * np.sin(0.996 * t))
+    swing = 12 * kA * (np.sin(wave * t) + second + third + np.exp(-t / 20) * np.sin(0.996 * t))
     radius = 20.8 + swing
-    angle = 2.0 * kA * (np.cos(wave * t) + np.exp(-t / 60) * np.sin(0.199 * t) + 0.3 * third)
+    angle = 2.0 * kA * (np.cos(wave * t) + np.exp(-t / 25) * np.sin(0.199 * t) + 0.3 * third)
+    rate, turn = (np.gradient(x, t)[1:-1] for x in (radius, angle))
+    t, radius, angle = t[1:-1], radius[1:-1], angle[1:-1]
     tension = np.maximum(scene.tether.tension.stiffness_N * (radius / 20.0 - 1.0), -5.0)
-    rate, turn = (np.gradient(x, t) if n > 1 else np.zeros(n) for x in (radius, angle))
     zero = np.zeros(n)
     columns = {
         "time_s": t,

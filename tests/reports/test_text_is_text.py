@@ -1,0 +1,81 @@
+"""Text from outside is never read as HTML or Typst."""
+
+import json
+
+import pytest
+import typst
+
+from reports.content import (
+    Bullets,
+    Column,
+    Figure,
+    Heading,
+    Listing,
+    Notice,
+    Picture,
+    Report,
+    Table,
+    Text,
+    plain,
+    spans,
+    sub,
+)
+from reports.html import render_html
+from reports.pdf import quote, render_pdf, typst_source
+from tests.reports.conftest import ODD_TITLE, Page
+
+ODD = [
+    ODD_TITLE,
+    "",
+    "\x00\x07\n\t\r",
+    '#import "x"',
+    "\\",
+    '\\"',
+    "$x$",
+    "= no heading",
+    "*/ // /*",
+    "{{ 7 * 7 }}",
+    "𝛉",
+]
+DOT = b'<svg xmlns="http://www.w3.org/2000/svg" width="9" height="9"><circle r="4"/></svg>'
+
+
+def everywhere(text: str) -> Report:
+    """A report that has the text in every place where text can be."""
+    some = text or "x"
+    column = Column(some, some, "left")
+    items = [
+        Heading(text), Text(text), Bullets((text, text)), Listing(text), Notice("note", text, (text,)),
+        Figure(Picture(DOT, "svg"), f"{some} caption", f"{some} alternative"), Heading(text, 2),
+        Table((column, column), ((text, text),), text), Table((column,), ((text,),) * 40, text, small=True),
+    ]  # fmt: skip
+    return Report(text, text, tuple(items))
+
+
+@pytest.mark.parametrize("text", ODD)
+def test_typst_reads_a_quoted_text_as_itself(text):
+    evaluated = typst.Compiler(b"").eval(quote(text))
+    assert json.loads(evaluated) == text
+
+
+@pytest.mark.parametrize("text", ODD)
+def test_odd_text_in_every_place_gives_both_forms(text):
+    report = everywhere(text)
+    assert render_pdf(report).startswith(b"%PDF")
+    if "\x00" not in text:  # HTML has no way to write it
+        page = Page(render_html(report).decode())
+        wanted = " ".join(plain(text).split())
+        assert " ".join(page.text.split()).count(wanted) >= 10
+
+
+def test_an_odd_title_reaches_the_page_unchanged(page, built):
+    assert ODD_TITLE in page.text
+    assert built[1].read_bytes().startswith(b"%PDF")
+
+
+def test_only_marks_made_here_are_marks():
+    assert spans("a`b`c") == [("", "a"), ("code", "b"), ("", "c")]
+    assert spans("T" + sub("i") + " `x") == [("", "T"), ("sub", "i"), ("", " `x")]
+    assert plain("T" + sub("i") + " `x`") == "Ti x"
+    source, _ = typst_source(everywhere("T_i x^2"))
+    assert "sub(" not in source
