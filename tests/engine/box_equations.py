@@ -79,7 +79,8 @@ def residual(scene, cq, cv, in_motion, Y, C_tilde, F):
     N = tension(tether.tension, eps)[:, None] * t + S[:, None] * n
     rho = scene.water.density_kgpm3 if scene.water is not None else 0.0
     g = scene.gravity_mps2
-    G = tether.density_kgpm3 * tether.area_m2 * V_t + (tether.density_kgpm3 - rho) * tether.area_m2 * g * np.array([0, 1])
+    weight = (tether.density_kgpm3 - rho) * tether.area_m2 * g
+    G = tether.density_kgpm3 * tether.area_m2 * V_t + np.array([0, weight])
     d = tether.diameter_m
     displaced = rho * math.pi * d**2 / 4
     added = tether.added_mass * displaced

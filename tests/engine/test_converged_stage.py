@@ -28,7 +28,9 @@ def airy(scene, t, X):
     horizontal = A * om * np.cosh(k * X[:, 1]) / np.sinh(k * H) * np.cos(wave.direction_rad)
     vertical = A * om * np.sinh(k * X[:, 1]) / np.sinh(k * H)
     return np.stack(
-        [horizontal * np.cos(psi), vertical * np.sin(psi), om * horizontal * np.sin(psi), -om * vertical * np.cos(psi)], 1
+        [horizontal * np.cos(psi), vertical * np.sin(psi)]
+        + [om * horizontal * np.sin(psi), -om * vertical * np.cos(psi)],
+        axis=1,
     )
 
 
