@@ -1,0 +1,158 @@
+"""Sweep of wave steepness for the tethered buoy: one run a value, a table of what each did, a report.
+
+    python -m campaigns.buoy_sweep                          a picture of the whole range, in about a minute
+    python -m campaigns.buoy_sweep --steepness 0.016 0.13   the paper's two cases (section 4.2)
+
+Protocol: the same scene, start and length for every value of waves.steepness; the first wave periods of every run are
+left out of extremes, slack and section as the transient. Nothing is random.
+"""
+
+import sys
+import time
+from dataclasses import dataclass
+from functools import partial
+from pathlib import Path
+
+from campaigns import cli
+
+CAMPAIGN = "buoy_sweep"
+MODULE = "campaigns.buoy_sweep"
+SCENE = "tethered_buoy"
+# From the paper's small wave (0.016) to beyond its large one (0.13); a step of 0.003 meets both.
+STEEPNESS = tuple(round(0.016 + 0.003 * step, 3) for step in range(49))
+PERIODS, TRANSIENT = 300, 100
+SWEPT = "waves.steepness"
+
+
+@dataclass(frozen=True)
+class Order:
+    """What the command line asks for, checked: the scenes to run (by steepness) and how."""
+
+    scenes: dict
+    periods: int
+    transient: int
+    out: Path
+    jobs: int
+    backend: str
+    dask_address: str | None
+    report: bool
+    source: dict
+
+
+def main(argv: list[str] | None = None, simulate=None) -> int:
+    """The command. simulate: in place of engine.simulate, same signature. Returns the exit code (0, 1, 2 or 130)."""
+    argv = list(sys.argv[1:] if argv is None else argv)
+    faults: list[str] = []
+    order = read_order(argv, faults)
+    if faults:
+        print(cli.complaint(f"python -m {MODULE}", faults), file=sys.stderr)
+        return cli.EXIT_BAD_INPUT
+    from campaigns.session import guarded
+
+    return guarded(MODULE, argv, order.out, partial(sweep, order, argv, simulate))
+
+
+def parser():
+    """The options of this campaign."""
+    exits = "exit codes: 0 done, 1 stopped (disk full, folder in use, no report), 2 bad input, 130 Ctrl-C"
+    parser = cli.parser(MODULE, __doc__, exits)
+    what = parser.add_argument_group("what is run")
+    cli.add(what, "--steepness", "A B ...", "wave steepnesses kA (default: 49 values from 0.016 to 0.16)")
+    cli.add(what, "--steepness-range", "LO HI COUNT", "evenly spaced steepnesses, both ends included")
+    cli.add(what, "--periods", "N", f"length of every run in wave periods (default: {PERIODS})")
+    leave_out = f"wave periods left out of the analysis (default: {TRANSIENT}, at most a third of --periods)"
+    cli.add(what, "--transient", "N", leave_out)
+    cli.add(what, "--scene", "FILE_OR_NAME", f"scene to start from (default: {SCENE}, the paper's Table 1)")
+    cli.add(what, "--set", "KEY=VALUE ...", "change values of the scene, as water.depth_m=22.5 tether.nodes=81")
+    cli.add_running(parser.add_argument_group("how and where"), f"results/{CAMPAIGN}")
+    return parser
+
+
+def read_order(argv: list[str], faults: list[str]) -> Order:
+    """The order in the words of the command line; every fault, of options and scenes, is appended to `faults`."""
+    options = cli.split(parser(), argv, faults)
+    periods = cli.value(options.periods, "--periods", PERIODS, cli.whole(1), cli.WHOLE.format(1), faults)
+    usual = min(TRANSIENT, periods // 3)
+    transient = cli.value(options.transient, "--transient", usual, cli.whole(0), cli.WHOLE.format(0), faults)
+    if transient >= periods:
+        faults.append(f"--transient: given {transient} of {periods} periods; allowed: less than --periods")
+    steepness = _steepness(options, faults)
+    jobs = cli.value(options.jobs, "--jobs", cli.default_jobs(), cli.whole(1), cli.WHOLE.format(1), faults)
+    backend, address = cli.backend(options, faults)
+    out = cli.folder(options, CAMPAIGN, faults)
+    name = cli.value(options.scene, "--scene", SCENE, str, "a scene file or the name of a scene", faults)
+    taken = {SWEPT: "use --steepness", "waves.amplitude_m": "use --steepness"}
+    changes = cli.assignments(options.set, taken, faults)
+    scenes = _scenes(name, changes, steepness, faults)
+    source = {"scene": name, "set": changes}
+    return Order(scenes, periods, transient, out, jobs, backend, address, not options.no_report, source)
+
+
+def _steepness(options, faults: list[str]) -> list[float]:
+    if options.steepness is not None and options.steepness_range is not None:
+        faults.append("--steepness and --steepness-range: given both; allowed: one of them")
+    if options.steepness is not None:
+        if not options.steepness:
+            faults.append(f"--steepness: given nothing; allowed: one value or more, each {cli.FRACTION}")
+        return cli.values(options.steepness, "--steepness", list(STEEPNESS), cli.fraction, cli.FRACTION, faults)
+    if options.steepness_range is None:
+        return list(STEEPNESS)
+    words = options.steepness_range
+    allowed = "LO HI COUNT: two finite numbers, 0 <= LO < HI, and a whole number, 2 or above"
+    try:
+        low, high, count = cli.fraction(words[0]), cli.fraction(words[1]), cli.whole(2)(words[2])
+        if len(words) != 3 or low >= high:
+            raise ValueError(words)
+    except (ValueError, IndexError):
+        faults.append(f"--steepness-range: given {' '.join(words) or 'nothing'}; allowed: {allowed}")
+        return list(STEEPNESS)
+    # Twelve digits: 0.13 of a range is the 0.13 that --steepness reads, and so the same run.
+    return [float(f"{low + (high - low) * step / (count - 1):.12g}") for step in range(count)]
+
+
+def _scenes(name: str, changes: dict, steepness: list[float], faults: list[str]) -> dict:
+    from engine import SceneError, load_scene
+
+    scenes = {}
+    for value in steepness:
+        try:
+            scene = load_scene(name, {**changes, SWEPT: value})
+        except SceneError as error:
+            faults.extend(fault for fault in error.faults if fault not in faults)
+            continue
+        if scene.end.kind != "buoy" and value == steepness[0]:
+            faults.append(f"end.kind: given {scene.end.kind!r}; allowed: 'buoy' in this campaign")
+        scenes[value] = scene
+    return scenes
+
+
+def sweep(order: Order, argv: list[str], simulate) -> int:
+    """Run it: compile, run, table, provenance, report. Raises CampaignStopped, OSError, KeyboardInterrupt."""
+    from campaigns import session
+    from campaigns.folder import claimed
+    from campaigns.rows import COLUMNS, STROBE_TOLERANCE, buoy_row
+    from campaigns.runner import Plan, make_job
+
+    if simulate is None:
+        from engine import simulate
+    start = time.perf_counter()
+    describe = partial(buoy_row, transient_periods=order.transient)
+    plan = Plan(order.out, simulate, describe, COLUMNS, order.backend, order.jobs, order.dask_address)
+    jobs = [make_job(scene, order.periods, labels={"steepness": value}) for value, scene in order.scenes.items()]
+    parameters = {
+        **order.source,
+        "steepness": list(order.scenes),
+        "periods": order.periods,
+        "transient": order.transient,
+        "strobe_tolerance": STROBE_TOLERANCE,
+    }
+    with claimed(order.out):
+        record = session.begin(CAMPAIGN, MODULE, argv, plan, jobs, parameters)
+        timing, summary = session.run(plan, jobs)
+        session.finish(order.out, record, summary, timing)
+        fault = session.report(order.out, order.report, timing, start)
+    return session.say(order.out, summary, timing, order.report, fault)
+
+
+if __name__ == "__main__":
+    sys.exit(main())

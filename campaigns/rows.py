@@ -1,0 +1,137 @@
+"""A run of the tethered buoy as one row of numbers: what the engine counted, and what the analysis measures.
+
+A column whose analysis does not apply to a run stays empty (None), never 0: a run that ended inside the transient has
+its statistics and nothing more. Extremes and slack are taken after the transient, the emergence over the whole run.
+"""
+
+import math
+
+import numpy as np
+
+LONGEST_PERIOD = 16
+STROBE_TOLERANCE = 0.005  # share of the motion's range: 4 cm of r where it ranges over 8 m, a few times the error
+
+COLUMNS = (
+    "steepness",
+    "status",
+    "regime",
+    "strobed_period",
+    "radius_min_m",
+    "radius_max_m",
+    "angle_min_rad",
+    "angle_max_rad",
+    "tension_top_min_N",
+    "tension_top_max_N",
+    "slack_fraction",
+    "lyapunov_wolf_bits_per_period",
+    "lyapunov_wolf_error",
+    "lyapunov_tangent_bits_per_period",
+    "lyapunov_tangent_error",
+    "offplane_growth_bits_per_period",
+    "max_buoy_height_above_water_m",
+    "max_turn_rad",
+    "min_strain",
+    "loop_releases",
+    "steps",
+    "rejected_steps",
+    "newton_iterations",
+    "newton_failures",
+    "end_time_s",
+    "wall_s",
+    "run_key",
+    "message",
+)
+
+_STATISTICS = (
+    "max_turn_rad",
+    "min_strain",
+    "loop_releases",
+    "steps",
+    "rejected_steps",
+    "newton_iterations",
+    "newton_failures",
+    "end_time_s",
+    "wall_s",
+)
+
+
+def buoy_row(trajectory, transient_periods: int) -> dict[str, object]:
+    """The columns of `COLUMNS` that a trajectory of the tethered buoy fills; those left out are unknown.
+
+    trajectory: an engine Trajectory of a scene with waves and a buoy, run to its end or not.
+    transient_periods: wave periods left out of extremes, slack and strobed period; a record that does not outlast them
+    by one period fills none of these.
+    max_buoy_height_above_water_m: highest point of the sphere less the still water depth, negative while it stays
+    below.
+    """
+    row = {"status": trajectory.status, "message": trajectory.message}
+    row |= {name: _number(trajectory.statistics.get(name)) for name in _STATISTICS}
+    columns = _sound_part(trajectory.columns)
+    scene = trajectory.scene
+    if len(columns["time_s"]) and scene.water is not None:
+        top_m = float(np.max(columns["z_m"])) + 0.5 * scene.buoy.diameter_m
+        row["max_buoy_height_above_water_m"] = top_m - scene.water.depth_m
+    step_s, period_s = scene.sample_step_s(), scene.waves.period_s
+    recorded_s = (len(columns["time_s"]) - 1) * step_s
+    if recorded_s >= (transient_periods + 1) * period_s - 1e-6 * step_s:
+        row |= _settled(columns, step_s, period_s, transient_periods)
+    return row
+
+
+def _settled(columns, step_s: float, period_s: float, transient_periods: int) -> dict[str, object]:
+    from analysis import extremes, slack_fraction
+
+    transient_s = transient_periods * period_s
+    # Tension snaps between samples: its extremes come from the columns that saw every step of the solver.
+    radius, angle, low, high = (
+        extremes(columns[name], step_s, transient_s)
+        for name in ("radius_m", "angle_rad", "tension_top_low_N", "tension_top_high_N")
+    )
+    return {
+        "strobed_period": strobed_period(columns, step_s, period_s, transient_periods),
+        "radius_min_m": radius.minimum,
+        "radius_max_m": radius.maximum,
+        "angle_min_rad": angle.minimum,
+        "angle_max_rad": angle.maximum,
+        "tension_top_min_N": low.minimum,
+        "tension_top_max_N": high.maximum,
+        "slack_fraction": slack_fraction(columns["tension_top_N"], step_s, transient_s=transient_s).fraction,
+    }
+
+
+def strobed_period(columns, step_s: float, period_s: float, transient_periods: int) -> int | None:
+    """After how many wave periods the buoy's motion repeats, or None where no number up to LONGEST_PERIOD does.
+
+    Position and velocity of the buoy once a period; each has to repeat within STROBE_TOLERANCE of its range after the
+    transient, the angle as its cosine and sine.
+    """
+    from analysis import detect_period, poincare_section
+
+    angle = columns["angle_rad"]
+    coordinates = {
+        "radius_m": columns["radius_m"],
+        "radius_rate_mps": columns["radius_rate_mps"],
+        "cosine": np.cos(angle),
+        "sine": np.sin(angle),
+        "angle_rate_radps": columns["angle_rate_radps"],
+    }
+    section = poincare_section(coordinates, step_s, period_s, transient_periods=transient_periods)
+    after = round(transient_periods * period_s / step_s)
+    swing = min(float(np.ptp(angle[after:])), 2.0)
+    ranges = [float(np.ptp(values[after:])) for values in coordinates.values()]
+    ranges[2] = ranges[3] = swing
+    # A coordinate at rest has no range of its own; a micrometre, or its like, is rest for this buoy.
+    scale = [max(extent, 1e-6) for extent in ranges]
+    return detect_period(section.points, LONGEST_PERIOD, STROBE_TOLERANCE, scale).period
+
+
+def _sound_part(columns) -> dict[str, np.ndarray]:
+    """The samples before the first that is not finite: a run that blew up keeps what it had before."""
+    arrays = {name: np.asarray(values, dtype=float) for name, values in columns.items()}
+    sound = np.all([np.isfinite(values) for values in arrays.values()], axis=0)
+    end = len(sound) if sound.all() else int(np.argmin(sound))
+    return {name: values[:end] for name, values in arrays.items()}
+
+
+def _number(entry: object) -> object:
+    return None if entry is None or not math.isfinite(entry) else entry

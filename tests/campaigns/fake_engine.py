@@ -1,0 +1,85 @@
+"""A stand-in for engine.simulate: sine waves at once, and on request every way a run can go wrong.
+
+Steepness chooses the run, so that a campaign can be told which of its runs shall fail and how.
+"""
+
+import os
+import signal
+import sys
+import time
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from engine import Trajectory
+
+STATISTICS = {"steps": 7, "rejected_steps": 1, "newton_iterations": 21, "newton_failures": 0, "loop_releases": 0}
+
+
+@dataclass(frozen=True)
+class FakeEngine:
+    """Called like engine.simulate. log: file that gets a line for each run begun, the compile run excepted."""
+
+    log: str | None = None
+    sleep_s: float = 0.0
+    raises: tuple[float, ...] = ()
+    exits: tuple[float, ...] = ()
+    breaks: tuple[float, ...] = ()  # ends early with status newton-failed, after two periods
+    dies: tuple[float, ...] = ()  # takes its process with it, every time
+    dies_once: tuple[float, ...] = ()  # the first time only
+    no_space: tuple[float, ...] = ()
+
+    def __call__(self, scene, periods=None, duration_s=None):
+        steepness = scene.waves.steepness
+        if periods is None:
+            return sines(scene, duration_s / scene.waves.period_s)
+        begun = self.begun().count(steepness)
+        if self.log:
+            with open(self.log, "a") as log:
+                log.write(f"{steepness!r}\n")
+        time.sleep(self.sleep_s)
+        if steepness in self.dies or (steepness in self.dies_once and begun == 0):
+            os.kill(os.getpid(), signal.SIGKILL)
+        if steepness in self.raises:
+            raise ZeroDivisionError("a fault of the code")
+        if steepness in self.exits:
+            sys.exit(3)
+        if steepness in self.no_space:
+            raise OSError(28, "No space left on device")
+        if steepness in self.breaks:
+            return sines(scene, 2, status="newton-failed", message="no convergence")
+        return sines(scene, periods)
+
+    def begun(self) -> list[float]:
+        """Steepness of every run begun so far."""
+        if not self.log or not Path(self.log).exists():
+            return []
+        return [float(line) for line in Path(self.log).read_text().split()]
+
+
+def sines(scene, periods, status="ok", message="", harmonic=1.0, radius=(20.0, 1.0), tension=(2000.0, 500.0)):
+    """A trajectory whose radius, angle and tension are sines of `harmonic` times the wave frequency."""
+    step = scene.sample_step_s()
+    t = step * np.arange(round(periods * scene.waves.period_s / step) + 1)
+    omega = harmonic * 2.0 * np.pi / scene.waves.period_s
+    r = radius[0] + radius[1] * np.sin(omega * t)
+    angle = 0.3 * np.sin(omega * t)
+    force = tension[0] + tension[1] * np.sin(omega * t)
+    columns = {
+        "time_s": t,
+        "x_m": r * np.sin(angle),
+        "y_m": np.zeros_like(t),
+        "z_m": r * np.cos(angle),
+        "radius_m": r,
+        "radius_rate_mps": radius[1] * omega * np.cos(omega * t),
+        "angle_rad": angle,
+        "angle_rate_radps": 0.3 * omega * np.cos(omega * t),
+        "offplane_m": np.zeros_like(t),
+        "tension_top_N": force,
+        "tension_min_N": force,
+        "tension_top_low_N": force - 10.0,
+        "tension_top_high_N": force + 10.0,
+    }
+    statistics = STATISTICS | {"max_turn_rad": 0.1, "min_strain": 0.01, "end_time_s": float(t[-1]), "wall_s": 0.5}
+    return Trajectory(scene, status, message, columns, statistics)

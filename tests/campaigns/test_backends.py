@@ -1,0 +1,65 @@
+"""Where the runs execute changes nothing in what they are."""
+
+import pytest
+
+from tests.campaigns.conftest import finished
+
+VALUES = ("0.02", "0.05", "0.08", "0.13")
+
+
+def test_threads_equal_processes(sweep):
+    code, rows, _ = sweep("--steepness", *VALUES, backend="threading", raises=(0.08,))
+    content = {name: (sweep.out / "trajectories" / name).read_bytes() for name in finished(sweep.out)}
+    for path in (sweep.out / "trajectories").iterdir():
+        path.unlink()
+    assert sweep("--steepness", *VALUES, backend="loky", raises=(0.08,))[:2] == (code, rows)
+    assert {name: (sweep.out / "trajectories" / name).read_bytes() for name in finished(sweep.out)} == content
+
+
+@pytest.mark.parametrize("jobs", [1, 4])
+def test_number_of_jobs_changes_nothing(sweep, jobs):
+    rows = sweep("--steepness", *VALUES, jobs=2)[1]
+    for path in (sweep.out / "trajectories").iterdir():
+        path.unlink()
+    assert sweep("--steepness", *VALUES, jobs=jobs)[1] == rows
+
+
+def test_rows_come_in_the_order_asked_for(sweep):
+    backwards = VALUES[::-1]
+    assert [row["steepness"] for row in sweep("--steepness", *backwards)[1]] == list(backwards)
+
+
+def test_local_dask_cluster_equals_threads(sweep):
+    pytest.importorskip("distributed")
+    rows = sweep("--steepness", *VALUES)[1]
+    for path in (sweep.out / "trajectories").iterdir():
+        path.unlink()
+    assert sweep("--steepness", *VALUES, backend="dask")[:2] == (0, rows)
+
+
+def test_dask_worker_that_dies_is_a_row(sweep):
+    pytest.importorskip("distributed")
+    code, rows, begun = sweep("--steepness", *VALUES, backend="dask", dies=(0.05,))
+    assert code == 0
+    assert [row["status"] for row in rows] == ["ok", "worker-died", "ok", "ok"]
+    assert begun.count(0.05) == 2
+
+
+def test_running_dask_cluster_is_used(sweep):
+    distributed = pytest.importorskip("distributed")
+    options = {"n_workers": 1, "threads_per_worker": 1, "dashboard_address": None, "silence_logs": "CRITICAL"}
+    with distributed.LocalCluster(**options) as cluster, distributed.Client(cluster) as client:
+        code, rows, _ = sweep("--steepness", *VALUES, "--dask-address", cluster.scheduler_address, backend="dask")
+        done = client.run_on_scheduler(lambda dask_scheduler: dask_scheduler.transition_counter)
+    assert (code, len(rows)) == (0, 4)
+    assert done > 0
+
+
+def test_dask_scheduler_that_is_not_there_is_one_line(sweep, capfd, monkeypatch):
+    pytest.importorskip("distributed")
+    monkeypatch.setattr("campaigns.pools._DASK_WAIT_S", 1)
+    code, rows, _ = sweep("--steepness", "0.02", "--dask-address", "tcp://127.0.0.1:1", backend="dask")
+    error = capfd.readouterr().err
+    assert (code, rows) == (1, [])
+    assert "no dask cluster at tcp://127.0.0.1:1" in error
+    assert "Traceback" not in error

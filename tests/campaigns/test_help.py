@@ -1,0 +1,41 @@
+"""--help tells every option and loads nothing heavy; the defaults are what it promises."""
+
+import subprocess
+import sys
+
+from campaigns.buoy_sweep import STEEPNESS, read_order
+from tests.campaigns.conftest import ROOT
+
+OPTIONS = "--steepness --steepness-range --periods --transient --scene --set --jobs --backend --out --no-report"
+
+
+def test_help_tells_every_option():
+    words = [sys.executable, "-m", "campaigns.buoy_sweep", "--help"]
+    done = subprocess.run(words, cwd=ROOT, capture_output=True, text=True)
+    assert done.returncode == 0
+    for option in OPTIONS.split():
+        assert option in done.stdout
+    assert "loky|threading|dask" in done.stdout
+    assert "[--" in done.stdout
+    assert "[N ...]" not in done.stdout
+
+
+def test_help_loads_nothing_heavy():
+    code = "import sys, campaigns.buoy_sweep as b; b.parser().format_help(); print(*sys.modules)"
+    loaded = subprocess.run([sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True, check=True).stdout
+    assert not {"numpy", "numba", "pandas", "pydantic", "joblib", "matplotlib", "dask"} & set(loaded.split())
+
+
+def test_default_sweep_meets_the_papers_two_values():
+    assert {0.016, 0.13} <= set(STEEPNESS)
+    assert sorted(set(STEEPNESS)) == list(STEEPNESS)
+
+
+def test_no_argument_is_a_complete_order():
+    faults = []
+    order = read_order([], faults)
+    assert faults == []
+    assert list(order.scenes) == list(STEEPNESS)
+    assert all(scene.waves.steepness == value for value, scene in order.scenes.items())
+    assert order.transient < order.periods
+    assert order.out.as_posix() == "results/buoy_sweep"
