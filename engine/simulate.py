@@ -8,6 +8,7 @@ import numpy as np
 from . import parameters
 from .ends import HELD
 from .guards import ADVICE, OK, WORDS
+from .integrators import RUNGE_KUTTA
 from .march import SMALL_STEPS, STATE, march
 from .statics import first_guess, settle
 from .trajectory import Profiles, Trajectory
@@ -115,9 +116,11 @@ class _Batch:
         state["low"], state["high"] = np.inf, -np.inf
         state["min_strain"] = Y[:, 0].min()
         state["max_turn"] = np.abs(np.diff(Y[:, 4])).max()
-        starter = record["adaptive"] and not record["at_rest"]
+        # a sudden start has rates at t = 0 that are not zero: steps that need none come first, or the order falls to 1
+        needs_rates = record["method"] == RUNGE_KUTTA or record["alpha_m"] != record["gamma"]
+        starter = needs_rates and not record["at_rest"]
         state["small_steps"] = SMALL_STEPS if starter else 0
-        state["dt"] = 1e-3 * record["max_step"] if record["adaptive"] else record["fixed_step"]
+        state["dt"] = 1e-3 * record["max_step"] if record["adaptive"] or starter else record["fixed_step"]
 
     def done(self):
         return bool(np.all((self.states["status"] != OK) | (self.states["samples"] >= self.goals)))
