@@ -47,7 +47,7 @@ def small_exponentials(a):
     """exp(a) and exp(-a) for |a| <= 0.25 (one even and one odd Taylor polynomial, remainder below 2e-16)."""
     z = a * a
     even = 1.0 + z * (0.5 + z * (1.0 / 24 + z * (1.0 / 720 + z * (1.0 / 40320 + z / 3628800))))
-    odd = a * (1.0 + z * (1.0 / 6 + z * (1.0 / 120 + z * (1.0 / 5040 + z / 362880))))
+    odd = a * (1.0 + z * (1.0 / 6 + z * (1.0 / 120 + z * (1.0 / 5040 + z * (1.0 / 362880 + z / 39916800)))))
     return even + odd, even - odd
 
 
@@ -55,7 +55,7 @@ def small_exponentials(a):
 def small_sincos(a):
     """sin(a) and cos(a) for |a| <= 0.25 (Taylor polynomials, remainder below 2e-16)."""
     z = a * a
-    s = a * (1.0 + z * (-1.0 / 6 + z * (1.0 / 120 + z * (-1.0 / 5040 + z / 362880))))
+    s = a * (1.0 + z * (-1.0 / 6 + z * (1.0 / 120 + z * (-1.0 / 5040 + z * (1.0 / 362880 - z / 39916800)))))
     c = 1.0 + z * (-0.5 + z * (1.0 / 24 + z * (-1.0 / 720 + z * (1.0 / 40320 - z / 3628800))))
     return s, c
 
