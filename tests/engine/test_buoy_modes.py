@@ -3,9 +3,9 @@
 Radial (axial bar with an end mass): lam tan lam = m L/(M + M_a), omega = lam sqrt(EA/m)/L, 0.996 rad/s, then 117 and
 235 rad/s. The box has (2/h) tan(kh/2) for the first k and keeps tan kL: rounding, 1e-7 relative.
 
-Pendulum: the string equation (T w_s/(1+eps))_s + (m + m_a) omega^2 w = 0 with T w_s/(1+eps) = (M + M_a) omega^2 w at the
-top, solved here by shooting. The mode is nearly straight: (kh)^2/12 with k = omega sqrt((m + m_a)/T) is 1e-6 and less.
-The paper's 0.199 rad/s is the root of (B - W)/((M + M_a) l0), with the unstretched length and a massless line.
+Pendulum: the string equation (T w_s/(1+eps))_s + (m + m_a) omega^2 w = 0 with T w_s/(1+eps) = (M + M_a) omega^2 w at
+the top, solved here by shooting. The mode is nearly straight: with k = omega sqrt((m + m_a)/T), (kh)^2/12 is 1e-6 and
+less. The paper's 0.199 rad/s is the root of (B - W)/((M + M_a) l0), with the unstretched length and a massless line.
 """
 
 import numpy as np
