@@ -10,6 +10,7 @@ import hashlib
 import json
 import sys
 import time
+import traceback
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import partial
@@ -161,13 +162,13 @@ def run_one(plan: Plan, job: Job) -> Outcome:
     except (Exception, SystemExit) as error:
         if is_full(error):
             return _stopped(job, plan, error)
-        return _failed(job, "error", f"{type(error).__name__}: {error}")
+        return _failed(job, "error", _reason(error))
     try:
         trajectory.save(trajectory_path(plan.directory, job.key), {"run_key": job.key})
     except OSError as error:  # of the folder, not of the run: the next one would fare no better
         return _stopped(job, plan, error)
     except Exception as error:
-        return _failed(job, "error", f"not saved: {type(error).__name__}: {error}")
+        return _failed(job, "error", f"not saved: {_reason(error)}")
     return _described(plan, job, trajectory, computed=True)
 
 
@@ -194,9 +195,14 @@ def _described(plan: Plan, job: Job, trajectory, computed: bool) -> Outcome:
     try:
         row = plan.describe(trajectory)
     except Exception as error:
-        row = {"status": "analysis-failed", "message": f"{type(error).__name__}: {error}"}
+        row = {"status": "analysis-failed", "message": _reason(error)}
     row = {**job.labels, **row, "run_key": job.key}
     return Outcome(job.key, row, computed, time.perf_counter() - start)
+
+
+def _reason(error: BaseException) -> str:
+    frame = traceback.extract_tb(error.__traceback__)[-1]
+    return f"{type(error).__name__}: {error} (in {frame.name}, {Path(frame.filename).name}:{frame.lineno})"
 
 
 def _failed(job: Job, status: str, message: str) -> Outcome:

@@ -52,9 +52,17 @@ def test_motion_that_never_repeats_has_no_period(scene):
 
 def test_turning_buoy_has_the_period_of_its_turn(scene):
     run = sines(scene, PERIODS)
-    run.columns["angle_rad"] = np.pi * run.columns["time_s"] / scene.waves.period_s  # half a turn a period, unwrapped
-    run.columns["angle_rate_radps"] = np.full_like(run.columns["time_s"], np.pi / scene.waves.period_s)
+    angle = np.pi * run.columns["time_s"] / scene.waves.period_s  # half a turn a period, unwrapped
+    run.columns["angle_rad"][:] = angle
+    run.columns["angle_rate_radps"][:] = np.pi / scene.waves.period_s
+    run.columns["x_m"][:] = run.columns["radius_m"] * np.sin(angle)
+    run.columns["z_m"][:] = run.columns["radius_m"] * np.cos(angle)
     assert buoy_row(run, TRANSIENT)["strobed_period"] == 2
+
+
+def test_buoy_at_rest_has_period_one(scene):
+    run = sines(scene, PERIODS, harmonic=0.0)
+    assert buoy_row(run, TRANSIENT)["strobed_period"] == 1
 
 
 def test_height_of_the_sphere_above_still_water(scene):
