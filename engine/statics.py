@@ -18,6 +18,7 @@ from .planar.newton import newton
 SOFTEST, FIRST, STIFFEST = 1e-8, 10.0, 1e9
 TOLERANCE = 1e-9
 MOST = 60
+MOST_TURNS = 4  # a bight that the grid does not resolve keeps a folded node
 
 
 def settle(record, tables, Y, target_m):
@@ -31,7 +32,7 @@ def settle(record, tables, Y, target_m):
     X, F, Q = np.zeros((n, 2)), np.zeros((n, 4)), np.zeros((n, node.WIDTH))
     E, D, C_tilde = np.zeros((n, sweep.WIDTH)), np.zeros((n, 6)), np.zeros((n, 4))
     half = 0.5 * tables[p["grid_at"] : p["grid_at"] + n - 1, None]
-    mu = FIRST
+    mu, turns = FIRST, 0
     for _ in range(400):
         C_tilde[:, 0] = (1 + Y[:, 0]) * np.cos(Y[:, 4])
         C_tilde[:, 1] = (1 + Y[:, 0]) * np.sin(Y[:, 4])
@@ -48,7 +49,15 @@ def settle(record, tables, Y, target_m):
         Y[:] = trial
         Y[:, 2:4] = 0.0
         if mu == 0.0 and moved < 1e-6:
-            return OK
+            folded = Y[:, 0] < 0.0
+            if p["bent"] or not folded.any() or turns == MOST_TURNS:
+                return OK
+            # without bending compression is no rest: a node turned round carries the same force as tension
+            Y[folded, 0] *= -1.0
+            Y[folded, 4] += math.pi
+            mu = FIRST
+            turns += 1
+            continue
         mu = 0.0 if mu <= SOFTEST else mu * (0.1 if moved < 1.0 else 0.5)
     return STATICS_FAILED
 
@@ -68,7 +77,7 @@ def first_guess(record, scene, h):
             Y[:, 4] = direction
         else:
             half = _arc(chord / length)
-            sag = 1.0 if record["w0"] >= 0 else -1.0
+            sag = 1.0 if (record["w0"] >= 0) == (x >= 0) else -1.0  # heavy hangs below the chord, light above
             Y[:, 4] = direction + sag * half * (2 * s / length - 1)
             Y[:, 5] = 2 * sag * half / length
         return Y
