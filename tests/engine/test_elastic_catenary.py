@@ -5,12 +5,13 @@ With (H, V) the force in the line at the lower end, N = (H, V + w s), T = |N|:
     x(s) = H s/EA + (H/w) [asinh((V + w s)/H) - asinh(V/H)]
     z(s) = (V s + w s^2/2)/EA + [T(s) - T(0)]/w
 
-H and V follow from x(L), z(L), here by scipy. In water w is the wet weight; below zero the line rises between its ends.
+H and V follow from x(L), z(L), here by scipy. In water w is the wet weight; below zero the line rises between its
+ends.
 
 Tolerance: the box keeps N exactly (its load is constant) and sums q = (1 + T/EA) N/T by trapezoids. Solved with those
 sums in place of the integrals, H and V must come out to the tolerance of Newton's method: 1e-8 of wL. Against the
-integrals themselves the error falls with order 2 (within 0.1, from 81 to 161 to 321 nodes), and stays below the trapezoidal
-h^2/12 times the change of dq/ds from end to end, doubled for terms of higher order, at 161 nodes.
+integrals themselves the error falls with order 2 (within 0.1, from 81 to 161 to 321 nodes), and stays at 161 nodes
+below twice the trapezoidal h^2/12 times a change of dq/ds of twice its largest value (H and V are off as well).
 """
 
 import numpy as np
