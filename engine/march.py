@@ -83,10 +83,11 @@ def after_failure(p, state, dt, code, factor):
 
 
 @kernel
-def march(p, tables, state, Y, Y_before, K, samples, profiles, until):
+def march(p, tables, state, Y, Y_before, C, K, samples, profiles, until):
     """Advance one simulation until `until` samples are stored, or it ends.
 
-    p: parameter record; state: STATE record, changed in place; Y, Y_before (n, 6), K (n, 4): state, changed in place.
+    p: parameter record; state: STATE record, changed in place; Y, Y_before (n, 6), C, K (n, 4): state, changed in place.
+    C is kept from call to call: computed anew it would differ by rounding, and the calls would show in the result.
     samples (m, 9), profiles (m', n, 5): filled in place, columns as in `engine.sampling`.
     """
     n = p.nodes
@@ -94,9 +95,10 @@ def march(p, tables, state, Y, Y_before, K, samples, profiles, until):
     X, F, Q = np.zeros((n, 2)), np.zeros((n, 4)), np.zeros((n, node.WIDTH))
     E, D, C_tilde = np.zeros((n, sweep.WIDTH)), np.zeros((n, 6)), np.zeros((n, 4))
     work = (X, F, Q, E, D, C_tilde)
-    C, C_new = np.empty((n, 4)), np.empty((n, 4))
+    C_new = np.empty((n, 4))
     Ys, Ks = np.empty((s, n, 6)), np.empty((s, n, 4))
-    conserved(Y, C)
+    if state.steps == 0:
+        conserved(Y, C)
     while state.status == OK and state.samples < until:
         small = state.small_steps > 0
         dt = state.dt

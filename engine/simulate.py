@@ -94,6 +94,7 @@ class _Batch:
         self.profiles = np.zeros((size, int(profiled.max()), nodes, 5))
         self.states = np.zeros(size, STATE)
         self.Y = np.zeros((size, nodes, 6))
+        self.C = np.zeros((size, nodes, 4))
         self.K = np.zeros((size, nodes, 4))
         self.walls = np.zeros(size)
         for b in range(size):
@@ -135,7 +136,7 @@ class _Batch:
             n = int(record["nodes"])
             until = min(self.goals[b], self.states[b]["samples"] + chunk)
             march(
-                record, self.tables, self.states[b], self.Y[b, :n], self.Y_before[b, :n], self.K[b, :n],
+                record, self.tables, self.states[b], self.Y[b, :n], self.Y_before[b, :n], self.C[b, :n], self.K[b, :n],
                 self.samples[b], self.profiles[b, :, :n], until,
             )
             self.walls[b] += time.perf_counter() - began
