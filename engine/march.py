@@ -86,8 +86,8 @@ def after_failure(p, state, dt, code, factor):
 def march(p, tables, state, Y, Y_before, C, K, samples, profiles, until):
     """Advance one simulation until `until` samples are stored, or it ends.
 
-    p: parameter record; state: STATE record, changed in place; Y, Y_before (n, 6), C, K (n, 4): state, changed in place.
-    C is kept from call to call: computed anew it would differ by rounding, and the calls would show in the result.
+    p: parameter record; state: STATE record; Y, Y_before (n, 6), C, K (n, 4): the state itself; changed in place. C is
+    kept from call to call: computed anew it would differ by rounding, and the calls would show in the result.
     samples (m, 9), profiles (m', n, 5): filled in place, columns as in `engine.sampling`.
     """
     n = p.nodes
