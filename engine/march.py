@@ -22,12 +22,14 @@ from .sampling import sample
 from .steps import conserved, one_stage_step, runge_kutta_step
 
 STATE = np.dtype(
-    [(name, np.int64) for name in "status samples profiles small_steps steps rejected newton failures releases".split()]
-    + [(name, np.float64) for name in "t dt dt_before low high max_turn min_strain".split()]
+    [(name, np.int64) for name in "status samples profiles small_steps steps rejected newton failures releases attempts cautious".split()]
+    + [(name, np.float64) for name in "t dt dt_before low high max_turn min_strain window_end".split()]
 )
 SMALL_STEPS = 3
 SMALL_STEP_NEWTON = 100  # after a release each update is cut to one scale: about 20 iterations
 SAFETY, SHRINK, GROW = 0.9, 0.2, 4.0
+MOST_ATTEMPTS = 20_000  # steps tried within one `window` of time: more is a run that stands still
+CAUTIOUS_STEPS, CAUTIOUS_GROW = 5, 1.3  # after a failure of Newton's method
 
 
 @kernel
@@ -75,6 +77,7 @@ def guard_turns(p, tables, state, Y):
 def after_failure(p, state, dt, code, factor):
     """Shorten the step; name the end of the run where it would fall below the shortest allowed."""
     state.dt = dt * factor
+    state.cautious = CAUTIOUS_STEPS if code != OK else 0
     if state.dt < p.min_step:
         if code == NEWTON_FAILED or code == NOT_FINITE or code == STRAIN_BELOW_MINUS_ONE:
             state.status = code
@@ -100,6 +103,13 @@ def march(p, tables, state, Y, Y_before, C, K, samples, profiles, until):
     if state.steps == 0:
         conserved(Y, C)
     while state.status == OK and state.samples < until:
+        if state.t >= state.window_end:
+            state.window_end = state.t + p.window
+            state.attempts = 0
+        state.attempts += 1
+        if state.attempts > MOST_ATTEMPTS:
+            state.status = STEP_LIMIT
+            break
         small = state.small_steps > 0
         dt = state.dt
         error = 0.0
@@ -125,8 +135,6 @@ def march(p, tables, state, Y, Y_before, C, K, samples, profiles, until):
             after_failure(p, state, dt, OK, factor)
             continue
         state.steps += 1
-        if state.steps > p.max_steps:
-            state.status = STEP_LIMIT
         hermite = p.method == RUNGE_KUTTA and not small
         sample(p, tables, state, dt, hermite, C, K, C_new, Ks[s - 1], samples, profiles)
         copy_into(Y_before, Y)
@@ -149,7 +157,11 @@ def march(p, tables, state, Y, Y_before, C, K, samples, profiles, until):
             if state.small_steps == 0 and p.adaptive == 0:
                 state.dt = p.fixed_step
         elif p.adaptive:
-            factor = min(GROW, max(SHRINK, SAFETY * max(error, 1e-10) ** (-1.0 / p.order)))
+            grow = GROW
+            if state.cautious > 0:
+                state.cautious -= 1
+                grow = CAUTIOUS_GROW
+            factor = min(grow, max(SHRINK, SAFETY * max(error, 1e-10) ** (-1.0 / p.order)))
             state.dt = min(p.max_step, dt * factor)
         else:
             state.dt = min(p.fixed_step, 2.0 * dt)

@@ -14,14 +14,14 @@ RECORD = np.dtype(
     [
         (name, np.int64)
         for name in "nodes grid_at law law_at law_n wet waves current cur_at cur_nx cur_nz cur_nt above end bent "
-        "method stages method_at adaptive max_newton release max_releases at_rest max_steps".split()
+        "method stages method_at adaptive max_newton release max_releases at_rest".split()
     ]
     + [
         (name, np.float64)
         for name in "m w0 EI p1 p2 p3 p4 p5 ct cn ma Rw depth k omega amplitude phase direction ramp "
         "M_total M_wave lift C_buoy end_x end_z per_strain per_force per_speed per_curvature "
         "order rtol newton_tolerance fixed_step max_step min_step start_x start_z "
-        "output_step profile_step alpha_m alpha_f gamma".split()
+        "output_step profile_step window alpha_m alpha_f gamma".split()
     ]
 )
 
@@ -151,6 +151,8 @@ def _solver(record, scene, place, h):
     record["profile_step"] = (scene.output.profiles_step_s or record["output_step"]) if scene.output.profiles else 0.0
     record["fixed_step"] = solver.step_s or (period / 400 if period else 0.0125)
     record["max_step"], record["min_step"] = solver.max_step_s, solver.min_step_s
+    usual = period / 50 if period else 0.1
+    record["window"] = min(solver.max_step_s, usual) if record["adaptive"] else record["fixed_step"]
     record["rtol"] = solver.rtol
     record["newton_tolerance"] = solver.newton_tolerance or 1e-2 * solver.rtol
     record["max_newton"] = solver.max_newton_iterations

@@ -14,7 +14,6 @@ from .statics import first_guess, settle
 from .trajectory import Profiles, Trajectory
 
 PERIODS_PER_CALL = 10
-STEPS_PER_LONGEST_STEP = 2000
 
 
 def simulate(scene, periods=None, duration_s=None, progress=None):
@@ -81,9 +80,6 @@ class _Batch:
         size, nodes = len(scenes), int(self.records["nodes"].max())
         ratio = np.asarray(durations) / self.records["output_step"]
         self.goals = np.floor(ratio * (1 + 1e-12) + 1e-9).astype(np.int64) + 1
-        self.records["max_steps"] = 100_000 + STEPS_PER_LONGEST_STEP * (
-            np.asarray(durations) / np.minimum(self.records["max_step"], self.records["fixed_step"])
-        ).astype(np.int64)
         with np.errstate(divide="ignore"):
             profiled = np.where(
                 self.records["profile_step"] > 0,

@@ -7,6 +7,8 @@ With psi = k x cos(direction) - omega t + phase, height z above the bed and ampl
 accelerations are the local time derivatives. The quotients are written with exp(k(z - H)) and exp(-k(z + H)), which do
 not overflow in deep water. Along the tether psi and kz change little from node to node, so the exponentials and the
 sine and cosine are carried by recurrence, and started anew where an element is too long for the short polynomials.
+No sea floor is modelled: what sinks below the bed is given the motion of the water at the bed, where the formulas would
+grow without bound.
 """
 
 import math
@@ -46,10 +48,10 @@ def wave_field(p, t, X, F):
     om = p.omega
     up, down, s, c = 0.0, 0.0, 0.0, 1.0
     for j in range(n):
-        x, z = X[j, 0], X[j, 1]
+        x, z = X[j, 0], max(X[j, 1], 0.0)
         dz = dx = 1.0
         if j > 0:
-            dz = k * (z - X[j - 1, 1])
+            dz = k * (z - max(X[j - 1, 1], 0.0))
             dx = kx * (x - X[j - 1, 0])
         if abs(dz) < SMALL and abs(dx) < SMALL and up > TINY and p.above != WHEELER:
             e1, e2 = small_exponentials(dz)
