@@ -1,0 +1,128 @@
+"""Every way in which a run can end is reached by a scene that asks for it, and says so in its status.
+
+No run raises, hangs, or hands out a number that is not finite; samples up to the end are kept.
+"""
+
+import time
+
+import numpy as np
+import pytest
+
+from engine import load_scene, simulate
+from engine.guards import WORDS
+
+NO_COMPRESSION = {"law": "tabulated", "strain": [-0.5, 0.0, 0.1], "tension_N": [0.0, 0.0, 5000.0]}
+STILL = {"waves": None}
+ENDS = {  # name: (overrides, run length in s, status words allowed)
+    "tolerance below the shortest step": (
+        {"solver.min_step_s": 0.05, "solver.rtol": 1e-4},
+        50.0,
+        {"step-underflow"},
+    ),
+    "long fixed steps into a snap": (
+        {"solver.integrator": "midpoint", "solver.step_s": 0.025, "solver.min_step_s": 0.02},
+        200.0,
+        {"newton-failed"},
+    ),
+    "loops without release": (
+        {"water.depth_m": 21.6, "solver.loop_release": False, "solver.rtol": 1e-3, "tether.nodes": 81},
+        70.0,
+        {"turn-unresolved"},
+    ),
+    "more loops than allowed": ({"water.depth_m": 21.6, "solver.max_loop_releases": 2}, 200.0, {"turn-unresolved"}),
+    "no stiffness in compression": ({"tether.tension": NO_COMPRESSION}, 200.0, {"strain-below-minus-one"}),
+    "a blow along a line without stiffness in compression": (
+        {**STILL, "start.buoy_velocity_mps": [0.0, 0.0, -60.0], "tether.tension": NO_COMPRESSION},
+        5.0,
+        {"strain-below-minus-one"},
+    ),
+    "a blow along an unbent line": (
+        {**STILL, "start.buoy_velocity_mps": [0.0, 0.0, -60.0], "tether.bending_stiffness_Nm2": 0.0},
+        5.0,
+        {"newton-failed", "strain-below-minus-one", "step-limit"},  # ill-posed: how it breaks is not the point
+    ),
+    "a number beyond all numbers": ({**STILL, "start.buoy_velocity_mps": [0.0, 0.0, -1e200]}, 5.0, {"not-finite"}),
+    "no weight, no load, no bending: any shape is in equilibrium": (
+        {
+            **STILL,
+            "gravity_mps2": 0.0,
+            "buoy": None,
+            "end.kind": "free",
+            "end.force_N": [0.0, 0.0, 0.0],
+            "tether.bending_stiffness_Nm2": 0.0,
+        },
+        1.0,
+        {"statics-failed"},
+    ),
+    "steps far below what the run could ever finish with": (
+        {"solver.rtol": 1e-12, "solver.newton_tolerance": 1e-14},
+        5.0,
+        {"step-limit"},
+    ),
+}
+
+
+@pytest.mark.parametrize("name", ENDS)
+def test_a_run_ends_with_its_reason(name):
+    overrides, duration_s, allowed = ENDS[name]
+    scene = load_scene("tethered_buoy", overrides)
+    began = time.perf_counter()
+    run = simulate(scene, duration_s=duration_s)
+    assert time.perf_counter() - began < 60
+    assert run.status in allowed, (run.status, run.message)
+    assert run.message
+    samples = len(run.columns["time_s"])
+    end_s, step_s = run.statistics["end_time_s"], scene.sample_step_s()
+    assert end_s < duration_s
+    # every sample up to the end, and none after it
+    if run.statistics["steps"] == 0:
+        assert samples == 0
+    else:
+        assert (samples - 1) * step_s <= end_s < samples * step_s * (1 + 1e-9)
+    for column in run.columns.values():
+        assert len(column) == samples and np.all(np.isfinite(column))
+
+
+def test_every_status_is_reached():
+    certain = [allowed for _, _, allowed in ENDS.values() if len(allowed) == 1]
+    assert set().union(*certain) | {"ok"} == set(WORDS.values())
+
+
+def test_the_first_loop_is_pulled_tight_where_a_published_code_loses_the_solution():
+    """kA = 0.13, H = 21.6 m: between 53 and 54 s (model.md 5.2), at tight tolerance; and then the turn passes pi."""
+    overrides, duration_s, _ = ENDS["loops without release"]
+    run = simulate(load_scene("tethered_buoy", {"waves.steepness": 0.13, **overrides}), duration_s=duration_s)
+    assert 53.0 <= run.statistics["end_time_s"] <= 54.0
+    assert np.pi < run.statistics["max_turn_rad"] < 2 * np.pi
+    assert run.statistics["loop_releases"] == 0
+
+
+def test_a_released_loop_lets_the_run_go_on():
+    """Counted; the turn that is released lies above pi, and the same run without a release ends there."""
+    scene = {"waves.steepness": 0.13, "water.depth_m": 21.6, "solver.rtol": 1e-3, "tether.nodes": 81}
+    run = simulate(load_scene("tethered_buoy", scene), duration_s=70.0)
+    assert run.status == "ok" and run.statistics["loop_releases"] >= 1
+    stopped = simulate(load_scene("tethered_buoy", {**scene, "solver.loop_release": False}), duration_s=70.0)
+    kept = len(stopped.columns["time_s"])
+    for name, column in stopped.columns.items():
+        assert np.array_equal(column, run.columns[name][:kept]), name
+
+
+def test_as_many_releases_as_allowed_and_no_more():
+    scene = {"waves.steepness": 0.13, "water.depth_m": 21.6, "solver.max_loop_releases": 2}
+    run = simulate(load_scene("tethered_buoy", scene), duration_s=200.0)
+    assert run.statistics["loop_releases"] == 2 and "2 loop releases" in run.message
+
+
+@pytest.mark.parametrize("steepness", [0.0, 0.016, 0.1, 0.3, 0.6])
+@pytest.mark.parametrize("depth_m", [18.0, 21.0, 30.0])
+def test_ok_means_finite_and_complete(steepness, depth_m):
+    scene = load_scene("tethered_buoy", {"waves.steepness": steepness, "water.depth_m": depth_m})
+    run = simulate(scene, periods=10)
+    assert run.status == "ok" and run.message == ""
+    assert len(run.columns["time_s"]) == 1001
+    assert all(np.all(np.isfinite(column)) for column in run.columns.values())
+    assert run.statistics["min_strain"] > -1
+    assert run.statistics["max_turn_rad"] <= np.pi or run.statistics["loop_releases"] > 0
+    if steepness == 0:  # no waves, no motion
+        assert np.ptp(run.columns["radius_m"]) < 1e-9
