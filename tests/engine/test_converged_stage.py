@@ -27,11 +27,9 @@ def airy(scene, t, X):
     psi = k * X[:, 0] * np.cos(wave.direction_rad) - om * t + wave.phase_rad
     horizontal = A * om * np.cosh(k * X[:, 1]) / np.sinh(k * H) * np.cos(wave.direction_rad)
     vertical = A * om * np.sinh(k * X[:, 1]) / np.sinh(k * H)
-    return np.stack(
-        [horizontal * np.cos(psi), vertical * np.sin(psi)]
-        + [om * horizontal * np.sin(psi), -om * vertical * np.cos(psi)],
-        axis=1,
-    )
+    velocity = horizontal * np.cos(psi), vertical * np.sin(psi)
+    acceleration = om * horizontal * np.sin(psi), -om * vertical * np.cos(psi)
+    return np.stack([*velocity, *acceleration], axis=1)
 
 
 def positions(scene, Y):
