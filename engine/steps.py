@@ -152,7 +152,8 @@ def one_stage_step(
             C_new[k, m] = C[k, m] + (C_s - C[k, m]) / alpha_f
             K_new[k, m] = (rate * (C_s - C_tilde[k, m]) - (1.0 - alpha_m) * K[k, m]) / alpha_m
         if alpha_f != 1.0:
-            for i in range(6):
+            # not the shear force: nothing ties it to its past, and errors of it would alternate for ever
+            for i in range(2, 6):
                 Y_new[k, i] = Y[k, i] + (Y_new[k, i] - Y[k, i]) / alpha_f
             turn = math.atan2(C_new[k, 1], C_new[k, 0]) - Y_new[k, 4]
             Y_new[k, 4] += turn - 2.0 * math.pi * np.rint(turn / (2.0 * math.pi))
