@@ -32,9 +32,10 @@ ADVICE = {
     "so far): add nodes, raise solver.max_loop_releases, or study the scene in three dimensions",
     STRAIN_BELOW_MINUS_ONE: "an element is compressed to nothing (strain <= -1) at t = {t:.6g} s: the tension law has "
     "too little stiffness in compression, or bending is left out in slack",
-    NOT_FINITE: "a value that is not a finite number appeared at t = {t:.6g} s; waves extrapolated far above still water "
-    "grow without bound: compare waves.above_still_water = \"zero\"",
+    NOT_FINITE: "a value that is not a finite number appeared at t = {t:.6g} s; waves extrapolated far above still "
+    "water grow without bound: compare waves.above_still_water = \"zero\"",
     STATICS_FAILED: "no static equilibrium was found from which to start",
-    STEP_LIMIT: "the run stands still at t = {t:.6g} s: 20 000 steps of {dt:.2g} s were tried within the time of one usual step; "
-    "raise solver.rtol, or look for what the grid cannot resolve (compression without bending, for one)",
+    STEP_LIMIT: "the run stands still at t = {t:.6g} s: 20 000 steps of {dt:.2g} s were tried within the "
+    "time of one usual step; raise solver.rtol, or look for what the grid cannot resolve (compression without "
+    "bending, for one)",
 }

@@ -21,10 +21,9 @@ from .planar import node, sweep
 from .sampling import sample
 from .steps import conserved, one_stage_step, runge_kutta_step
 
-STATE = np.dtype(
-    [(name, np.int64) for name in "status samples profiles small_steps steps rejected newton failures releases attempts cautious".split()]
-    + [(name, np.float64) for name in "t dt dt_before low high max_turn min_strain window_end".split()]
-)
+_COUNTS = "status samples profiles small_steps steps rejected newton failures releases attempts cautious".split()
+_VALUES = "t dt dt_before low high max_turn min_strain window_end".split()
+STATE = np.dtype([(name, np.int64) for name in _COUNTS] + [(name, np.float64) for name in _VALUES])
 SMALL_STEPS = 3
 SMALL_STEP_NEWTON = 100  # after a release each update is cut to one scale: about 20 iterations
 SAFETY, SHRINK, GROW = 0.9, 0.2, 4.0

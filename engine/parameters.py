@@ -21,7 +21,7 @@ RECORD = np.dtype(
         for name in "m w0 EI p1 p2 p3 p4 p5 ct cn ma Rw depth k omega amplitude phase direction ramp "
         "M_total M_wave lift C_buoy end_x end_z per_strain per_force per_speed per_curvature "
         "order rtol newton_tolerance fixed_step max_step min_step start_x start_z "
-        "output_step profile_step window alpha_m alpha_f gamma".split()
+        "output_step growth_per_step shortest_wave profile_step window alpha_m alpha_f gamma".split()
     ]
 )
 
@@ -153,7 +153,8 @@ def _solver(record, scene, place, h):
     record["max_step"], record["min_step"] = solver.max_step_s, solver.min_step_s
     usual = period / 50 if period else 0.1
     record["window"] = min(solver.max_step_s, usual) if record["adaptive"] else record["fixed_step"]
-    record["rtol"] = solver.rtol
+    record["rtol"], record["growth_per_step"] = solver.rtol, solver.growth_per_step
+    record["shortest_wave"] = (math.pi / h.min()) ** 2
     record["newton_tolerance"] = solver.newton_tolerance or 1e-2 * solver.rtol
     record["max_newton"] = solver.max_newton_iterations
     record["release"], record["max_releases"] = solver.loop_release, solver.max_loop_releases

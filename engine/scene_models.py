@@ -175,6 +175,7 @@ class Solver(Section):
     min_step_s: Positive = 1e-9
     newton_tolerance: Tolerance | None = None  # of the scaled update; None: rtol/100
     max_newton_iterations: Count = 12
+    growth_per_step: Positive = 2.0  # e-folds that the fastest buckle may grow in one adaptive step
     spectral_radius: UnitInterval = 0.5  # of generalized-alpha at infinite frequency
     loop_release: Flag = True
     max_loop_releases: CountOrZero = 100000

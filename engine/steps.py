@@ -11,6 +11,7 @@ from .compiled import kernel
 from .elementary import copy_into
 from .guards import OK
 from .planar.newton import newton
+from .tension import tension
 
 
 @kernel
@@ -51,7 +52,7 @@ def runge_kutta_step(p, tables, t, dt, dt_before, Y, Y_before, C, K, Ys, Ks, C_n
 
     Y, C, K: accepted state at t and its rates; Y_before: the state dt_before earlier (0: none), for the first guess.
     Ys (s, n, 6), Ks (s, n, 4): stages; the last of each is the new state and its rates; C_new: its conserved variables.
-    Returns (code, Newton iterations, error in units of the tolerance).
+    Returns (code, Newton iterations, error in units of the tolerance; 0 for fixed steps).
     """
     X, F, Q, E, D, C_tilde = work
     s, n = p.stages, Y.shape[0]
@@ -96,7 +97,31 @@ def runge_kutta_step(p, tables, t, dt, dt_before, Y, Y_before, C, K, Ys, Ks, C_n
                 C_new[k, 2 + m] = Ys[i, k, 2 + m]
             for m in range(4):
                 Ks[i, k, m] = rate * (C_new[k, m] - C_tilde[k, m])
-    return OK, iterations, _error(p, tables, dt, Ks, Q)
+    if not p.adaptive:
+        return OK, iterations, 0.0
+    error = _error(p, tables, dt, Ks, Q)
+    if p.bent:
+        error = max(error, (dt * buckling_rate(p, tables, Ys[s - 1]) / p.growth_per_step) ** p.order)
+    return OK, iterations, error
+
+
+@kernel
+def buckling_rate(p, tables, Y):
+    """Growth rate (1/s) of the fastest buckle that the grid carries under the greatest compression P of a state.
+
+    rate^2 = (P k^2 - EI k^4)/(m + m_a) at k^2 = P/(2 EI), or at the shortest wave of the grid, k = pi/h, where that is
+    longer (Triantafyllou & Howell 1994). Small errors made while a tether goes slack choose the side to which it
+    buckles, and an L-stable method with a step much longer than 1/rate damps what should grow, unseen by the error
+    estimate: two runs then part by metres of slack. A step is therefore held to p.growth_per_step e-folds.
+    """
+    least = Y[0, 0]
+    for k in range(1, Y.shape[0]):
+        least = min(least, Y[k, 0])
+    P = -tension(least, p, tables)[0]
+    if P <= 0.0:
+        return 0.0
+    square = min(P / (2.0 * p.EI), p.shortest_wave)
+    return math.sqrt(square * (P - p.EI * square) / (p.m + p.ma))
 
 
 @kernel
