@@ -14,8 +14,9 @@ of independent errors), 1 drifts without end. With the last step a and the multi
 a + a m + ... = a/(1 - m), and that, too, must fit in the tolerance. From few rounds m is rough: from 4 to 8 of them,
 noise within the tolerance is taken for a drift about once in a hundred records, and the answer is None.
 
-Noise just above the tolerance misses it at N and, by luck, meets it at 2 N or 13 N. So N counts only if every proper
-divisor misses clearly more: residual_d >= 3 residual_N.
+Noise just above the tolerance misses it at N and, by luck, meets it at 2 N or 13 N; and a slow mode of six forcing
+periods, still dying out, repeats itself every six. So N counts only if every proper divisor misses clearly more than
+the tolerance and than N: residual_d >= 3 max(residual_N, tolerance).
 Related: the recurrence of states up to epsilon in ChaosTools.jl's and other packages' period counters, which take the
 residual alone.
 """
@@ -73,7 +74,7 @@ def detect_period(strobed, max_period=16, tolerance=1e-3, scale=None):
     strobed (m,) or (m, d)   states once per forcing period, transient left out as far as known; an angle that turns
                              round and round must come as its cosine and sine
     max_period               largest N looked for
-    tolerance                share of the scale; two branches nearer than this are one
+    tolerance                share of the scale; two branches nearer than this are one, up to three times this None
     scale                    number or (d,): the size of the motion in each coordinate, in its unit. Best is the range
                              of the motion WITHIN the forcing period (of r(t), not of strobed r). Default: the range of
                              the strobed points given - which a settled period-1 motion does not have: then its noise
@@ -97,7 +98,7 @@ def detect_period(strobed, max_period=16, tolerance=1e-3, scale=None):
         measures[:, candidate - 1] = _measure(x / scale, candidate, rounding / scale)
     residual, projected, multiplier, trend = measures
     repeats = [n for n in range(1, testable + 1) if max(residual[n - 1], projected[n - 1]) <= tolerance]
-    period = next((n for n in repeats if not _rivals(n, residual)), None)
+    period = next((n for n in repeats if not _rivals(n, residual, tolerance)), None)
     return PeriodEstimate(
         period=period,
         reason=_reason(period, repeats, points, testable, max_period, tolerance, residual, trend),
@@ -155,9 +156,10 @@ def _measure(x, n, rounding):
     return size.max(), projected, multiplier, trend
 
 
-def _rivals(n, residual):
-    """Proper divisors of n that are not clearly worse periods than n."""
-    return [d for d in range(1, n) if n % d == 0 and residual[d - 1] < CLEARLY_MORE * residual[n - 1]]
+def _rivals(n, residual, tolerance):
+    """Proper divisors of n that are not clearly worse periods than n: points that near are not told apart."""
+    least = CLEARLY_MORE * max(residual[n - 1], tolerance)
+    return [d for d in range(1, n) if n % d == 0 and residual[d - 1] < least]
 
 
 def _orbit(x, n):
@@ -175,7 +177,7 @@ def _reason(period, repeats, points, testable, max_period, tolerance, residual, 
     if testable == 0:
         return f"too short: {LEAST_POINTS} strobed points are needed at least, given {points}"
     if repeats:
-        rival = _rivals(repeats[0], residual)[0]
+        rival = _rivals(repeats[0], residual, tolerance)[0]
         return (
             f"N = {repeats[0]} is within the tolerance ({residual[repeats[0] - 1]:.2g}) but cannot be told from "
             f"N = {rival} ({residual[rival - 1]:.2g}): noise at the size of the tolerance"

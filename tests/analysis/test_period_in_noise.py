@@ -51,7 +51,7 @@ def test_independent_errors_about_a_point_have_the_multiplier_minus_one_half():
     assert estimate.trend_nats_per_period == pytest.approx([0.0] * 3, abs=1e-4)
 
 
-def test_two_branches_nearer_than_the_tolerance_are_one():
+def test_two_branches_nearer_than_the_tolerance_are_one_and_up_to_three_times_that_not_told_apart():
     k = np.arange(100)
-    for split, period in ((0.5 * TOLERANCE, 1), (2 * TOLERANCE, 2)):
+    for split, period in ((0.5 * TOLERANCE, 1), (2 * TOLERANCE, None), (4 * TOLERANCE, 2)):
         assert detect_period(1.0 + split * (k % 2), scale=1.0, tolerance=TOLERANCE).period == period
