@@ -64,6 +64,14 @@ def test_radius_in_steep_waves_to_50_seconds(rtol, nodes, bound_m):
     assert np.abs(r - STEEP_M).max() <= bound_m
 
 
+@pytest.mark.parametrize("longest_step_s", [0.1, 0.097, 0.09, 0.08, 0.05])
+def test_radius_in_steep_waves_does_not_hang_on_the_step_sequence(longest_step_s):
+    """The line buckles at 26.15 s to the side that angles of 1 mrad choose, not to one that the steps choose."""
+    columns = ran(buoy(0.13, 21.6, solver__max_step_s=longest_step_s), 10).columns
+    r = np.interp(STEEP_S, columns["time_s"], columns["radius_m"])
+    assert np.abs(r - STEEP_M).max() <= 0.03
+
+
 def test_steep_waves_run_to_the_end():
     run = ran(buoy(0.13, 21.6), 300)
     assert len(run.columns["time_s"]) == 300 * 100 + 1
@@ -75,9 +83,9 @@ def branches(scene, periods=300, last=60):
     """Strobed r by parity over the last periods, lower branch first (last/2, 2), and the period found."""
     columns = ran(scene, periods).columns
     strobed = np.stack([columns["radius_m"], columns["angle_rad"]], 1)[::100]
-    # 2 % of the range within a period, 16 mm in r: the branches are 18 % apart, the step control scatters them by 0.7 %
+    # 1 % of the range within a period, 8 mm in r: the branches are 18 % apart, the step control scatters them by 0.2 %
     range_within_a_period = [np.ptp(columns[name][-600:]) for name in ("radius_m", "angle_rad")]
-    estimate = detect_period(strobed[-100:], max_period=8, tolerance=0.02, scale=range_within_a_period)
+    estimate = detect_period(strobed[-100:], max_period=8, tolerance=0.01, scale=range_within_a_period)
     pairs = strobed[-last:, 0].reshape(-1, 2)
     return pairs[:, np.argsort(pairs.mean(axis=0))], estimate
 
@@ -89,6 +97,6 @@ def test_period_two_at_depth_22_5():
         assert estimate.period == 2, estimate.reason
         means[rtol] = pairs.mean(axis=0)
         # two values, not two bands: the scatter about them is small beside their distance, 145 mm
-        assert pairs.std(axis=0).max() < 5e-3
+        assert pairs.std(axis=0).max() < 2e-3
         assert np.abs(means[rtol] - [21.520, 21.665]).max() < 5e-3
     assert np.abs(means[0.03] - means[0.003]).max() < 2e-3
