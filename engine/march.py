@@ -5,8 +5,10 @@ global, each simulation has its own step and its own end.
 
 Loop release: in a plane a loop of slack tether that is pulled tight cannot leave the plane, and shrinks to sqrt(EI/T),
 about 1 cm, which no grid resolves: the turn in one element passes pi. phi is then shifted by 2 pi above that element
-(t, n and q stay as they are, only the curvature drops) and a few small steps of backward Euler follow, without error
-control and without rates from before. The number of releases is part of the result.
+(t, n and q stay as they are, only the curvature drops) and a few steps of backward Euler follow, without error control
+and without rates from before. They last a twelfth of the time in which a wave runs along the tether: the jump of the
+bending moment excites the shortest axial waves of the grid, and shorter steps let them ring (to 2.4 kN of compression
+at 41 nodes where 0.3 kN are real; 20 times shorter steps were tried). The number of releases is part of the result.
 """
 
 import math
@@ -149,7 +151,7 @@ def march(p, tables, state, Y, Y_before, C, K, samples, profiles, until):
             state.status = code
         if released:
             state.small_steps = SMALL_STEPS
-            state.dt = min(dt, 1e-3 * p.max_step)
+            state.dt = p.release_step
             state.dt_before = 0.0
         elif small:
             state.small_steps -= 1

@@ -21,7 +21,7 @@ RECORD = np.dtype(
         for name in "m w0 EI p1 p2 p3 p4 p5 ct cn ma Rw depth k omega amplitude phase direction ramp "
         "M_total M_wave lift C_buoy end_x end_z per_strain per_force per_speed per_curvature "
         "order rtol newton_tolerance fixed_step max_step min_step start_x start_z "
-        "output_step growth_per_step shortest_wave profile_step window alpha_m alpha_f gamma".split()
+        "output_step release_step growth_per_step shortest_wave profile_step window alpha_m alpha_f gamma".split()
     ]
 )
 
@@ -176,6 +176,9 @@ def _scales(record, scene, h):
         if stretched > strain:
             strain, load = stretched, max(load, tension_at(stretched, scene.tether.tension))
     record["per_strain"] = 1 / strain
+    stiffness = max(tension_at(strain, scene.tether.tension), 1e-9) / strain  # secant: what the law offers up to there
+    transit = length * math.sqrt(float(record["m"]) / stiffness)
+    record["release_step"] = min(transit / 12, float(record["max_step"]))
     record["per_force"] = 20 / load
     record["per_speed"] = 1 / max(math.sqrt(g * length) / 14, 1e-3)
     record["per_curvature"] = float(np.mean(h)) / 2.5
