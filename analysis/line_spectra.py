@@ -1,0 +1,152 @@
+"""Lines of a discrete spectrum: the part of a record that is a sum of a few steady oscillations.
+
+A periodic or quasi-periodic motion is such a sum and nothing else; chaos and noise have a continuous spectrum between
+and below their lines. Lines are found one at a time, largest above its surroundings first, refined in frequency, and
+all fitted together after each (as CLEAN does, so that side lobes of a strong line do not pass for weaker ones).
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from analysis.sampling import checked_count, checked_series, locked
+
+# Noise exceeds this many times its local mean once in e^20 bins.
+LINE_ABOVE_FLOOR = 20.0
+# Points per line at least: two coefficients and a frequency each must not explain broad-band motion by their number.
+POINTS_PER_LINE = 12
+# Half the width of a line under the Hann window is two bins; nearer lines are seen as one.
+SEPARATION_BINS = 1.5
+_PADDING = 8
+_NEGLIGIBLE = 1e-12
+
+
+@dataclass(frozen=True, eq=False)
+class LineSpectrum:
+    """Lines of a record and what they leave.
+
+    frequency (l,)     cycles per sample, in (0, 1/2], in the order found
+    amplitude (l, d)   of each line in each column, in its unit
+    fitted (n, d)      mean plus all lines, at the samples; (n,) for a record given so
+    unexplained (d,)   share of each column's variance that the lines leave; 0 for a column that does not move
+    """
+
+    frequency: np.ndarray
+    amplitude: np.ndarray
+    fitted: np.ndarray
+    unexplained: np.ndarray
+
+
+def spectral_lines(series, most=32):
+    """The steady oscillations in a record: frequencies, amplitudes and their sum.
+
+        fitted_k = mean + sum_l a_l cos(2 pi f_l k) + b_l sin(2 pi f_l k),    least squares over k, all lines together
+
+    A line is a maximum of the Hann-windowed spectrum (columns by their standard deviations, summed) 20 times above the
+    floor around it; floor: running median over an eighth of the band. At most one line per 12 samples.
+
+    series (n,) or (n, d)   any unit; 32 samples at least
+    most                    largest number of lines
+    Returns a LineSpectrum, without lines where none stands out.
+    Raises ValueError for values that are not finite or fewer than 32 samples.
+    Source: J. A. Hogbom (CLEAN), Astron. Astrophys. Suppl. 15 (1974) 417; frequency refinement by a windowed transform:
+    J. Laskar, Physica D 67 (1993) 257.
+    """
+    x = checked_series(series, "series", dimensions=(1, 2))
+    most = checked_count(most, "most", least=0)
+    if len(x) < 32:
+        raise ValueError(f"series: 32 samples at least are needed to find lines, given {len(x)}")
+    columns = x[:, None] if x.ndim == 1 else x
+    mean, size = columns.mean(axis=0), columns.std(axis=0)
+    size = np.where(size > 64 * np.finfo(float).eps * np.abs(columns).max(axis=0), size, np.inf)
+    z = (columns - mean) / size
+    frequency, fitted = [], np.zeros_like(z)
+    coefficients = np.zeros((0, z.shape[1]))
+    while len(frequency) < min(most, len(z) // POINTS_PER_LINE) and np.mean((z - fitted) ** 2) > _NEGLIGIBLE:
+        found = _next_line(z - fitted, frequency)
+        if found is None:
+            break
+        frequency.append(found)
+        frequency, fitted, coefficients = _fit(z, frequency)
+    lines = len(frequency)
+    amplitude = np.hypot(coefficients[:lines], coefficients[lines : 2 * lines]) * np.where(np.isinf(size), 0.0, size)
+    whole = mean + fitted * np.where(np.isinf(size), 0.0, size)
+    variance = z.var(axis=0)
+    left = np.mean((z - fitted) ** 2, axis=0) / np.where(variance > 0.0, variance, 1.0)
+    return LineSpectrum(
+        locked(np.array(frequency)),
+        locked(amplitude),
+        locked(whole[:, 0] if x.ndim == 1 else whole),
+        locked(left),
+    )
+
+
+def _next_line(rest, known):
+    """Frequency of the highest line above its surroundings, or None; what is left beside a known line is no line."""
+    points = len(rest)
+    window = np.hanning(points + 2)[1:-1]
+    weighted = rest * window[:, None]
+    length = 1 << int(np.ceil(np.log2(_PADDING * points)))
+    power = np.sum(np.abs(np.fft.rfft(weighted, length, axis=0)) ** 2, axis=1)
+    floor = _floor(power, length // 16)
+    # Below one and a half cycles in the record a line cannot be told from a trend.
+    lowest = int(np.ceil(1.5 * length / points))
+    ratio = power / np.maximum(floor, power.max() * 1e-13)
+    ratio[:lowest] = 0.0
+    for frequency in known:
+        ratio[np.abs(np.arange(len(ratio)) - frequency * length) < SEPARATION_BINS * length / points] = 0.0
+    best = int(np.argmax(ratio))
+    if ratio[best] < LINE_ABOVE_FLOOR:
+        return None
+    return _refine(weighted, best / length, 1.0 / length)
+
+
+def _floor(power, width):
+    """Running median over `width` bins of the two-sided spectrum; an exponential's mean is its median over ln 2."""
+    from scipy.ndimage import median_filter
+
+    step = max(width // 64, 1)  # the spectrum is padded: every few bins carry all there is to know
+    coarse = median_filter(power[::step], size=max(width // step, 3), mode="reflect") / np.log(2.0)
+    return np.interp(np.arange(len(power)), np.arange(0, len(power), step), coarse)
+
+
+def _refine(weighted, start, bin_width):
+    """The maximum of the windowed power nearest to a bin, by golden section to a millionth of the bin."""
+    from scipy.optimize import minimize_scalar
+
+    k = np.arange(len(weighted))
+
+    def minus_power(f):
+        return -np.sum(np.abs(np.exp(-2j * np.pi * f * k) @ weighted) ** 2)
+
+    high = min(start + bin_width, 0.5)
+    found = minimize_scalar(
+        minus_power, bounds=(start - bin_width, high), method="bounded", options={"xatol": 1e-6 * bin_width}
+    )
+    return 0.5 if 0.5 - found.x < 0.25 / len(weighted) else float(found.x)
+
+
+def _fit(z, frequency):
+    """Least squares over coefficients and frequencies: the frequencies moved, the sum of lines, the coefficients.
+
+    The windowed maximum of one line is pulled by its neighbours; left so, it would leave a false line beside itself.
+    Gauss-Newton on the frequencies with the coefficients projected out (Golub & Pereyra 1973); three rounds settle it.
+    """
+    k = np.arange(len(z)) - 0.5 * len(z)
+    frequency = np.array(frequency)
+    for last in (False, False, False, True):
+        turn = 2.0 * np.pi * np.outer(k, frequency)
+        cosine, sine = np.cos(turn), np.sin(turn)
+        basis = np.hstack([cosine, sine, np.ones((len(z), 1))])
+        coefficients, *_ = np.linalg.lstsq(basis, z, rcond=1e-10)
+        fitted = basis @ coefficients
+        if last:
+            return list(frequency), fitted, coefficients
+        a, b = np.split(coefficients[:-1], 2)
+        slope = 2.0 * np.pi * k[:, None, None] * (cosine[:, :, None] * b - sine[:, :, None] * a)
+        q, _ = np.linalg.qr(basis)
+        free = slope - np.einsum("ki,ild->kld", q, np.einsum("ki,kld->ild", q, slope))
+        free[:, frequency == 0.5] = 0.0  # half the sampling rate has no neighbours to move to
+        system = free.transpose(0, 2, 1).reshape(-1, len(frequency))
+        shift, *_ = np.linalg.lstsq(system, (z - fitted).ravel(), rcond=1e-10)
+        frequency = np.clip(frequency + np.clip(shift, -0.5 / len(z), 0.5 / len(z)), 0.25 / len(z), 0.5)
