@@ -51,6 +51,10 @@ class Exponent:
         object.__setattr__(self, "error", float(self.error) if np.isfinite(self.value) else np.nan)
         object.__setattr__(self, "details", MappingProxyType(dict(self.details)))
 
+    def __reduce__(self):
+        # Read-only mappings do not pickle, and records travel between processes.
+        return Exponent, (self.value, self.error, self.unit, self.method, self.reason, dict(self.details))
+
     @property
     def found(self):
         """True where there is an estimate: value is a finite number."""
@@ -62,7 +66,8 @@ class Exponent:
         return self._scaled(checked_positive(period, "period") / np.log(2.0), NATS_PER_TIME, BITS_PER_PERIOD)
 
     def in_nats_per_time(self, period):
-        """The same estimate per unit of time, lambda = sigma ln 2/T_i; `period` is the forcing period it is stated for."""
+        """The same estimate per unit of time, lambda = sigma ln 2/T_i; `period` is the forcing period it was stated for
+        (in the unit of time wanted)."""
         return self._scaled(np.log(2.0) / checked_positive(period, "period"), BITS_PER_PERIOD, NATS_PER_TIME)
 
     def _scaled(self, factor, given, wanted):
