@@ -18,8 +18,8 @@ from campaigns import cli
 CAMPAIGN = "buoy_sweep"
 MODULE = "campaigns.buoy_sweep"
 SCENE = "tethered_buoy"
-# From the paper's small wave (0.016) to beyond its large one (0.13); a step of 0.003 meets both.
-STEEPNESS = tuple(round(0.016 + 0.003 * step, 3) for step in range(49))
+# From the paper's small wave (0.016) to beyond its large one (0.13); a step of 0.002 meets 0.13 too.
+STEEPNESS = tuple(round(0.016 + 0.002 * step, 3) for step in range(73))
 PERIODS, TRANSIENT = 300, 100
 SWEPT = "waves.steepness"
 
@@ -57,7 +57,7 @@ def parser():
     exits = "exit codes: 0 done, 1 stopped (disk full, folder in use, no report), 2 bad input, 130 Ctrl-C"
     parser = cli.parser(MODULE, __doc__, exits)
     what = parser.add_argument_group("what is run")
-    cli.add(what, "--steepness", "A B ...", "wave steepnesses kA (default: 49 values from 0.016 to 0.16)")
+    cli.add(what, "--steepness", "A B ...", "wave steepnesses kA (default: 73 values from 0.016 to 0.16)")
     cli.add(what, "--steepness-range", "LO HI COUNT", "evenly spaced steepnesses, both ends included")
     cli.add(what, "--periods", "N", f"length of every run in wave periods (default: {PERIODS})")
     leave_out = f"wave periods left out of the analysis (default: {TRANSIENT}, at most a third of --periods)"
