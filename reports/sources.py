@@ -67,6 +67,7 @@ SOURCES: dict[str, tuple[str, str]] = {
     "solver.min_step_s": ("shortest time step", NUMERICAL),
     "solver.newton_tolerance": ("Newton tolerance", NUMERICAL),
     "solver.max_newton_iterations": ("most Newton iterations a step", NUMERICAL),
+    "solver.growth_per_step": ("most growth of a buckle in a step (e-folds)", NUMERICAL),
     "solver.spectral_radius": ("spectral radius (generalized-alpha only)", NUMERICAL),
     "solver.loop_release": ("release of loops that a plane cannot open", NUMERICAL),
     "solver.max_loop_releases": ("most loop releases a run", NUMERICAL),
