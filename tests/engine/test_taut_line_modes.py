@@ -41,11 +41,8 @@ def distance(found, expected):
     return np.max(np.abs(found[:, None] / expected - 1).min(axis=0))
 
 
-@pytest.mark.parametrize("strain", [0.0, 0.02, 0.3])
-@pytest.mark.parametrize("EI", [0.0, 2.0])
+@pytest.mark.parametrize("strain, EI", [(0.02, 0.0), (0.3, 0.0), (0.0, 2.0), (0.02, 2.0), (0.3, 2.0)])
 def test_a_dry_line_vibrates_as_a_tensioned_pinned_beam(strain, EI):
-    if strain == EI == 0:
-        pytest.skip("neither tension nor bending: no transverse stiffness")
     found = frequencies(equilibrium(taut(strain, EI)), 10.0)
     assert distance(found, transverse(box(K, H), strain, EI)) < 1e-7
     assert distance(found, np.sqrt(EA / MASS) * box(K, H)) < 1e-7
