@@ -1,8 +1,8 @@
 """Delay vectors (Takens 1981) and the delay by average mutual information (Fraser & Swinney 1986).
 
-    X_i = (x_i, x_{i+L}, ..., x_{i+(m-1)L}),     i = 0 ... n - 1 - (m-1)L                 L in samples, m the dimension
+X_i = (x_i, x_{i+L}, ..., x_{i+(m-1)L}),     i = 0 ... n - 1 - (m-1)L                 L in samples, m the dimension
 
-    I(L) = sum_ab p_ab(L) ln[ p_ab(L)/(p_a p_b) ]     nats; p_ab: share of pairs (x_i, x_{i+L}) in cell (a, b)
+I(L) = sum_ab p_ab(L) ln[ p_ab(L)/(p_a p_b) ]     nats; p_ab: share of pairs (x_i, x_{i+L}) in cell (a, b)
 """
 
 from dataclasses import dataclass
@@ -106,9 +106,11 @@ def choose_delay(series, max_delay=None):
     """Delay at the first minimum of the average mutual information.
 
     A minimum is a lag that no other within a tenth of a mean period undercuts, I being smoothed over (1/4, 1/2, 1/4):
-    the scatter of I makes shorter dips by chance. Where there is none the delay is a quarter of the mean period: the lag
-    at which a sine and its delayed copy are independent. A series with fewer than six samples per mean period (a map,
-    a strobed record) has nothing between its samples: delay 1.
+    the scatter of I makes shorter dips by chance. The delay is never longer than a quarter of the mean period, the lag
+    at which a sine and its delayed copy are independent: a motion that hops between two wells loses information for
+    many swings, and vectors that span several of them are folded by the dynamics. A quarter is also taken where there
+    is no minimum. A series with fewer than six samples per mean period (a map, a strobed record) has nothing between
+    its samples: delay 1.
 
     series (n,)    samples, any unit
     max_delay      largest lag looked at [samples]; None: three mean periods
@@ -127,11 +129,14 @@ def choose_delay(series, max_delay=None):
     bias = (cells - 1) ** 2 / (2.0 * len(x))
     if period < LEAST_SAMPLES_PER_PERIOD:
         delay, reason = 1, f"delay 1: {period:.2g} samples per mean period leave nothing between the samples"
-    elif (minimum := _first_minimum(information, max(1, round(period / 10)))) is not None:
-        delay, reason = minimum, f"first minimum of the mutual information, {information[minimum]:.3g} nats"
     else:
-        delay = max(1, round(period / 4))
-        reason = f"no minimum of the mutual information up to {max_delay} samples: a quarter of the mean period"
+        quarter = max(1, round(period / 4))
+        minimum = _first_minimum(information, max(1, round(period / 10)))
+        delay = quarter if minimum is None else min(minimum, quarter)
+        reason = f"first minimum of the mutual information, {information[delay]:.3g} nats"
+        if delay != minimum:
+            found = f"at {minimum}" if minimum else f"none up to {max_delay}"
+            reason = f"a quarter of the mean period; first minimum of the mutual information: {found} samples"
     return DelayChoice(delay, reason, locked(information), bias, cells, period)
 
 

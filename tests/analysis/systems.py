@@ -207,7 +207,7 @@ def logistic(samples=20_000, skip=1000):
     return out
 
 
-def two_tone(samples=20_000, step=0.1, ratio=(1.0 + np.sqrt(5.0)) / 2.0):
+def two_tone(samples=20_000, step=0.1, ratio=1.618033988749895):
     """sin t + 0.7 sin(ratio t + 1): a torus, exponent 0."""
     t = step * np.arange(samples)
     return np.sin(t) + 0.7 * np.sin(ratio * t + 1.0)
@@ -216,7 +216,7 @@ def two_tone(samples=20_000, step=0.1, ratio=(1.0 + np.sqrt(5.0)) / 2.0):
 def mackey_glass(samples=20_000, step=0.5, delay=17.0, substeps=5):
     """Mackey-Glass 0.2, 0.1, n = 10, delay 17 (exponent 0.0058 ... 0.007 in the literature), RK4 with cubic history."""
     h = step / substeps
-    return _mackey_glass(int(1000 / h), samples, substeps, h, int(round(delay / h)))
+    return _mackey_glass(int(1000 / h), samples, substeps, h, round(delay / h))
 
 
 @numba.njit

@@ -1,0 +1,252 @@
+"""Wolf's method with one setting: the growth of one short vector between two pieces of the same record.
+
+A point of the record, the fiducial, moves on. A neighbour of it in delay space moves along with it for a fixed time e;
+the vector between them then has grown from L to L', which is booked as ln(L'/L). Before it leaves the neighbourhood
+where growth is linear it is replaced by a shorter one that points the same way, and so on to the end of the record:
+
+    lambda = 1/(K e) sum_k ln( L'_k / L_k )                                                                    (Wolf)
+
+Wolf, Swift, Swinney & Vastano, Physica D 16, 285 (1985), section 5 and the program with fixed evolution time. As there:
+a replacement lies between a noise floor and a greatest length; among those the length and the angle to the old vector
+decide; where none is within the angle, the length (up to five times) and then the angle are given way, and at last the
+old pair is retained. Ours, and why:
+- Length and angle add up: score = angle/0.3 rad + L/longest, and the old pair competes with angle 0. The program takes
+  the least angle at every step whatever the length, its text the shortest vector. Fresh vectors at every step bias
+  regular motions: the shortest neighbour is short partly because the delay map happens to be compressed there.
+- The greatest length is a twentieth of the diameter, 2 x rms radius (Wolf: not more than a tenth), but at least twice
+  the floor. The floor is twice the rms distance that noise alone puts between two delay vectors, 2 sigma (2m)^(1/2):
+  a shorter vector would be mostly noise. Noise that pushes the greatest length beyond a fifth is refused.
+- The fiducial's path is known beforehand: every neighbour it will need comes from ONE kd-tree query. Below the floor
+  there may be thousands of useless neighbours; the tree then holds a random part of the record, so that the nearest
+  32 reach past the floor.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from analysis.compiled import kernel
+from analysis.embedding_delay import delay_vectors
+from analysis.sampling import checked_count, checked_not_negative, checked_positive, checked_series, locked
+
+ANGLE = 0.3
+WIDENINGS = 5
+LONGEST_SHARE = 0.05
+FLOOR_SIGMAS = 2.0
+MOST_SHARE = 0.2
+ROUNDING_SHARE = 1e-10
+NEIGHBOURS = 32
+LEAST_STEPS = 20
+BLOCKS = 16
+
+
+@dataclass(frozen=True, eq=False)
+class WolfRun:
+    """One fiducial trajectory from end to end of the record.
+
+    value, error          exponent and its standard error from blocks [nats/time]; NaN where too little was followed
+    reason                one sentence
+    delay, dimension, evolution, theiler    L, m, e and Theiler window [samples]
+    floor, longest        bounds of a replacement vector [unit of the series]
+    size                  rms distance of the delay vectors from their mean [unit of the series]
+    growth (k,)           ln(L'/L) of each evolution [nats]; NaN where no neighbour was found
+    end_length (k,)       L' [unit of the series]
+    time_s (k,)           end of each evolution, from the start of the record [s]
+    convergence (k,)      exponent from everything up to that time [nats/time]: fig. 14 of the paper
+    replacements          times a new vector was taken
+    unfit                 times an old vector beyond the bounds was kept for want of a new one
+    gaps                  evolutions without any neighbour
+    """
+
+    value: float
+    error: float
+    reason: str
+    delay: int
+    dimension: int
+    evolution: int
+    theiler: int
+    floor: float
+    longest: float
+    size: float
+    growth: np.ndarray
+    end_length: np.ndarray
+    time_s: np.ndarray
+    convergence: np.ndarray
+    replacements: int
+    unfit: int
+    gaps: int
+
+
+def wolf_run(series, step_s, delay, dimension, evolution, theiler, noise=0.0, lengths=1.0):
+    """Largest exponent of a series by Wolf's method with one setting.
+
+    series (n,)    any unit
+    step_s         sampling step [s], or 1 for a map
+    delay, dimension    of the embedding [samples], m
+    evolution      e, time between looks for a replacement [samples]
+    theiler        neighbours nearer in time are none [samples]
+    noise          standard deviation of the noise on the series [its unit]
+    lengths        factor on floor and greatest length; 2 against 1 shows what finite lengths do to the value
+    Returns a WolfRun [nats/time]. NaN with a reason when noise leaves no room between floor and greatest length, or
+    fewer than 20 evolutions, or less than half of the record, could be followed.
+    Raises ValueError for values that are not finite or a record too short for one vector.
+    Source: Wolf et al., Physica D 16, 285 (1985).
+    """
+    x, step_s = checked_series(series), checked_positive(step_s, "step_s")
+    evolution = checked_count(evolution, "evolution")
+    points = np.ascontiguousarray(delay_vectors(x, delay, dimension))
+    size = float(np.sqrt(np.mean(np.sum((points - points.mean(axis=0)) ** 2, axis=1))))
+    noise_length = FLOOR_SIGMAS * checked_not_negative(noise, "noise") * np.sqrt(2.0 * dimension)
+    lengths = checked_positive(lengths, "lengths")
+    floor = lengths * max(noise_length, ROUNDING_SHARE * size)
+    longest = max(lengths * 2.0 * LONGEST_SHARE * size, 2.0 * floor)
+    count = max((len(points) - 1) // evolution, 0)
+    growth, end_length = np.full(count, np.nan), np.full(count, np.nan)
+    tally = np.zeros(3, dtype=np.int64)
+    room = longest <= 2.0 * lengths * MOST_SHARE * size
+    if size > 0.0 and room and count >= LEAST_STEPS:
+        near, distance = _candidates(points, evolution, count, floor, longest)
+        follow(points, near, distance, evolution, int(theiler), floor, longest, growth, end_length, tally)
+    value, error, reason = _mean_growth(growth, evolution * step_s, room, floor, size)
+    followed = np.isfinite(growth)
+    with np.errstate(invalid="ignore"):
+        convergence = np.cumsum(np.where(followed, growth, 0.0)) / (np.cumsum(followed) * evolution * step_s)
+    return WolfRun(
+        value=value,
+        error=error,
+        reason=reason,
+        delay=int(delay),
+        dimension=int(dimension),
+        evolution=evolution,
+        theiler=int(theiler),
+        floor=floor,
+        longest=longest,
+        size=size,
+        growth=locked(growth),
+        end_length=locked(end_length),
+        time_s=locked((np.arange(count) + 1.0) * evolution * step_s),
+        convergence=locked(convergence),
+        replacements=int(tally[0]),
+        unfit=int(tally[1]),
+        gaps=int(tally[2]),
+    )
+
+
+def _candidates(points, evolution, count, floor, longest):
+    """Neighbours of every point at which the fiducial will stop, nearest first: (index, distance), both (count, k)."""
+    from scipy.spatial import cKDTree
+
+    rng = np.random.default_rng(0)
+    stops = np.arange(count) * evolution
+    probe = rng.choice(stops, min(200, count), replace=False)
+    kept, k = np.arange(len(points)), min(NEIGHBOURS, len(points))
+    while True:
+        tree = cKDTree(points[kept], balanced_tree=False, compact_nodes=False)
+        reach = np.median(tree.query(points[probe], k)[0].reshape(len(probe), -1)[:, -1])
+        if reach >= min(2.0 * floor, 0.75 * longest) or len(kept) < 4 * NEIGHBOURS:
+            break
+        kept = np.sort(rng.choice(kept, len(kept) // 2, replace=False))
+    distance, near = tree.query(points[stops], k)
+    return kept[near.reshape(count, -1)], np.ascontiguousarray(distance.reshape(count, -1))
+
+
+def _mean_growth(growth, time, room, floor, size):
+    """Exponent, its error from blocks and the reason, from the growth over evolutions of `time` each."""
+    kept = growth[np.isfinite(growth)]
+    if size == 0.0:
+        return np.nan, np.nan, "the series is constant"
+    if not room:
+        return np.nan, np.nan, f"noise: vectors would have to be longer than {floor / size:.2g} of the rms radius"
+    if len(kept) < LEAST_STEPS or len(kept) < 0.5 * len(growth):
+        followed = f"{len(kept)} of {len(growth)} evolutions could be followed"
+        return np.nan, np.nan, f"no neighbours: {followed}, {LEAST_STEPS} and half of all are needed"
+    blocks = min(BLOCKS, len(kept) // 4)
+    means = np.array([block.mean() for block in np.array_split(kept, blocks)]) / time
+    error = float(np.std(means, ddof=1) / np.sqrt(blocks))
+    return float(kept.mean() / time), error, f"{len(kept)} of {len(growth)} evolutions followed"
+
+
+@kernel
+def follow(points, near, distance, evolution, theiler, floor, longest, growth, end_length, tally):
+    """Carry the vector along the fiducial; fills growth and end_length, adds to tally (replaced, unfit, gaps)."""
+    n, m = points.shape
+    last = n - 1 - evolution
+    direction = np.zeros(m)
+    j, length = -1, 0.0
+    for k in range(growth.size):
+        i = k * evolution
+        if j > last:
+            j = -1
+        old = j
+        fit = j >= 0 and floor <= length <= longest
+        worst = length / longest if fit else np.inf
+        j, length = _replacement(
+            points, i, j, length, direction, near[k], distance[k], last, theiler, floor, longest, worst, fit
+        )
+        if j < 0:
+            tally[2] += 1
+            direction[:] = 0.0
+            continue
+        if j != old:
+            tally[0] += 1
+        elif not fit:
+            tally[1] += 1
+        i += evolution
+        j += evolution
+        square = 0.0
+        for q in range(m):
+            direction[q] = points[j, q] - points[i, q]
+            square += direction[q] * direction[q]
+        grown = np.sqrt(square)
+        if grown == 0.0:
+            tally[2] += 1
+            j = -1
+            continue
+        growth[k] = np.log(grown / length)
+        end_length[k] = grown
+        length = grown
+        for q in range(m):
+            direction[q] /= grown
+
+
+@kernel
+def _replacement(points, i, j, length, direction, near, distance, last, theiler, floor, longest, worst, fit):
+    """Index and length of the vector to go on with: the old (j, length) if it is fit and nothing scores better; else
+    the best within the angle, giving way first in length, then in angle; else the old one, whatever its length."""
+    best, shortest = _best(points, i, direction, near, distance, last, theiler, floor, longest, longest, ANGLE, worst)
+    if best >= 0:
+        return best, shortest
+    if fit:
+        return j, length
+    angle = ANGLE
+    while angle < np.pi:
+        for wider in range(1, WIDENINGS + 1):
+            limit = wider * longest
+            best, shortest = _best(
+                points, i, direction, near, distance, last, theiler, floor, longest, limit, angle, np.inf
+            )
+            if best >= 0:
+                return best, shortest
+        angle *= 2.0
+    return j, length
+
+
+@kernel
+def _best(points, i, direction, near, distance, last, theiler, floor, longest, limit, angle, worst):
+    """Neighbour of least score angle/ANGLE + length/longest below `worst`, within `limit` and `angle`; -1 if none."""
+    best, best_length = -1, 0.0
+    for c in range(near.size):
+        d, candidate = distance[c], near[c]
+        if d > limit:
+            break
+        if d < floor or candidate > last or abs(candidate - i) <= theiler or d / longest >= worst:
+            continue
+        dot, none = 0.0, True
+        for q in range(direction.size):
+            dot += direction[q] * (points[candidate, q] - points[i, q])
+            none = none and direction[q] == 0.0
+        turn = 0.0 if none else np.arccos(min(1.0, abs(dot) / d))
+        score = turn / ANGLE + d / longest
+        if turn <= angle and score < worst:
+            best, best_length, worst = candidate, d, score
+    return best, best_length

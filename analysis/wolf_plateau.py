@@ -1,0 +1,110 @@
+"""The exponent of a record by Wolf's method where it does not depend on the settings, with an honest error.
+
+One setting gives a number whatever the record is. Believe it where neighbouring settings agree: over embedding
+dimensions m_0, m_0 + 1, m_0 + 2 and evolution times 1/4, 1/2, 3/4, 1 mean period, the value is the median over the
+settings that qualify. The error holds what blocks of the record disagree on, what the settings disagree on, and what
+the finite length of the vectors does, seen by doubling it:
+
+    error^2 = median(block error)^2 + (half the range of the middle 68 % of the settings)^2 + rms(doubled - value)^2
+
+The last is the bias itself if it grows with the length; without it noisy maps, where the other two are small, miss the
+truth by three errors. m_0 unfolds the motion (false neighbours). A setting does not qualify when half of its vectors
+end longer than 0.3 of the rms radius of the attractor: growth is then bounded by its size, and the exponent too small.
+"""
+
+import numpy as np
+
+from analysis.embedding_dimension import choose_embedding
+from analysis.exponents import NATS_PER_TIME, Exponent, no_exponent
+from analysis.neighbours import noise_level
+from analysis.sampling import checked_count, checked_positive, checked_series, locked
+from analysis.wolf_pairs import wolf_run
+
+METHOD = "Wolf et al. 1985, plateau"
+EVOLUTION_PERIODS = (0.25, 0.5, 0.75, 1.0)
+DIMENSIONS = 3
+LONGEST_END = 0.3
+LEAST_SETTINGS = 3
+LEAST_PERIODS = 20
+
+
+def wolf_lyapunov(series, step_s, delay=None, dimensions=None, evolutions=None, theiler=None, noise=None):
+    """Largest Lyapunov exponent of a series: the median of Wolf's method over a plateau of settings.
+
+        lambda = 1/(K e) sum_k ln(L'_k/L_k)   for each (m, e);   value = median, error: head of this file
+
+    series (n,)     any unit, evenly sampled; what was left of a transient counts as motion
+    step_s          sampling step [s], or 1 for a map
+    delay           [samples]; None: choose_embedding
+    dimensions      embedding dimensions; None: m_0, m_0 + 1, m_0 + 2 with m_0 by choose_embedding
+    evolutions      evolution times [samples]; None: 1/4, 1/2, 3/4 and 1 mean period
+    theiler         [samples]; None: the mean period or the span of a delay vector, whichever is longer
+    noise           standard deviation of the noise [unit of the series]; None: noise_level
+    Returns an Exponent in nats per unit of time; positive: neighbours part exponentially; about 0: they do not. A
+    stable periodic motion shows 0 at best, not its negative exponent: once settled, nothing in the record decays.
+    NaN with a reason, never 0, when fewer than three settings qualify or the record has fewer than 20 mean periods.
+    details: values, errors, end_lengths (d, e; ends in rms radii), qualified (d, e; bool), dimensions (d,), evolutions
+    (e,) [samples], block_error, spread, length_change, noise, embedding (EmbeddingChoice), and of the setting nearest
+    to the median run (WolfRun), whose convergence over time_s is fig. 14 of the paper.
+    Raises ValueError for values that are not finite.
+    Source: Wolf, Swift, Swinney & Vastano, Physica D 16, 285 (1985); what is ours: heads of this file, of wolf_pairs.
+    """
+    x, step_s = checked_series(series), checked_positive(step_s, "step_s")
+    if len(x) < 500 or np.ptp(x) == 0.0:
+        return no_exponent(METHOD, f"500 samples of a series that moves are needed, given {len(x)}")
+    embedding = choose_embedding(x, delay)
+    lag = embedding.lag
+    period = embedding.mean_period
+    if len(x) < LEAST_PERIODS * period:
+        return no_exponent(METHOD, f"{LEAST_PERIODS} mean periods are needed, given {len(x) / period:.3g}")
+    if dimensions is None:
+        dimensions = range(embedding.dimension, embedding.dimension + DIMENSIONS)
+    dimensions = [checked_count(m, "dimensions") for m in dimensions]
+    if evolutions is None:
+        evolutions = sorted({max(1, round(share * period)) for share in EVOLUTION_PERIODS})
+    evolutions = [checked_count(e, "evolutions") for e in evolutions]
+    noise = noise_level(x, lag) if noise is None else float(noise)
+
+    def run(m, e, lengths=1.0):
+        window = max(round(period), (m - 1) * lag) if theiler is None else int(theiler)
+        return wolf_run(x, step_s, lag, m, e, window, noise, lengths)
+
+    details = {
+        "dimensions": tuple(dimensions),
+        "evolutions": tuple(evolutions),
+        "noise": noise,
+        "embedding": embedding,
+    }
+    return _plateau(run, details)
+
+
+def _plateau(run, details):
+    """The Exponent of a grid of runs (a row a dimension, a column an evolution time)."""
+    grid = [[(m, e) for e in details["evolutions"]] for m in details["dimensions"]]
+    runs = [[run(m, e) for m, e in row] for row in grid]
+    values = np.array([[one.value for one in row] for row in runs])
+    errors = np.array([[one.error for one in row] for row in runs])
+    ends = np.array([[_typical_end(one) for one in row] for row in runs])
+    qualified = np.isfinite(values) & (ends <= LONGEST_END)
+    arrays = {"values": values, "errors": errors, "end_lengths": ends, "qualified": qualified}
+    details |= {name: locked(array) for name, array in arrays.items()}
+    if np.sum(qualified) < min(LEAST_SETTINGS, values.size):
+        none = next((one.reason for row in runs for one in row if not np.isfinite(one.value)), "")
+        why = none or f"vectors end longer than {LONGEST_END} rms radii: the growth is bounded, not exponential"
+        return no_exponent(METHOD, f"{np.sum(qualified)} of {values.size} settings qualify; {why}", details=details)
+    value = float(np.median(values[qualified]))
+    low, high = np.quantile(values[qualified], [0.16, 0.84])
+    block_error, spread = float(np.median(errors[qualified])), float(0.5 * (high - low))
+    change = np.array([run(*grid[i][j], lengths=2.0).value - values[i, j] for i, j in np.argwhere(qualified)])
+    length_change = float(np.sqrt(np.mean(change[np.isfinite(change)] ** 2))) if np.any(np.isfinite(change)) else np.nan
+    i, j = np.unravel_index(np.argmin(np.where(qualified, np.abs(values - value), np.inf)), values.shape)
+    details |= {"block_error": block_error, "spread": spread, "length_change": length_change, "run": runs[i][j]}
+    error = float(np.sqrt(block_error**2 + spread**2 + length_change**2))
+    reason = f"median of {np.sum(qualified)} of {values.size} settings, {low:.4g} to {high:.4g} nats/time"
+    return Exponent(value, error, NATS_PER_TIME, METHOD, reason, details)
+
+
+def _typical_end(run):
+    """Median length at the end of an evolution, in rms radii; inf where nothing was followed."""
+    followed = run.end_length[np.isfinite(run.end_length)]
+    return float(np.median(followed) / run.size) if len(followed) else np.inf
