@@ -11,10 +11,10 @@ import numpy as np
 
 from analysis.sampling import checked_count, checked_series, locked
 
-# Noise exceeds this many times its local mean once in e^20 bins.
-LINE_ABOVE_FLOOR = 20.0
+# Noise exceeds this many times its local mean once in e^12 bins.
+LINE_ABOVE_FLOOR = 12.0
 # Points per line at least: two coefficients and a frequency each must not explain broad-band motion by their number.
-POINTS_PER_LINE = 12
+POINTS_PER_LINE = 6
 # Half the width of a line under the Hann window is two bins; nearer lines are seen as one.
 SEPARATION_BINS = 1.5
 _PADDING = 8
@@ -37,13 +37,13 @@ class LineSpectrum:
     unexplained: np.ndarray
 
 
-def spectral_lines(series, most=32):
+def spectral_lines(series, most=64):
     """The steady oscillations in a record: frequencies, amplitudes and their sum.
 
         fitted_k = mean + sum_l a_l cos(2 pi f_l k) + b_l sin(2 pi f_l k),    least squares over k, all lines together
 
-    A line is a maximum of the Hann-windowed spectrum (columns by their standard deviations, summed) 20 times above the
-    floor around it; floor: running median over an eighth of the band. At most one line per 12 samples.
+    A line is a maximum of the Hann-windowed spectrum (columns by their standard deviations, summed) 12 times above the
+    floor around it; floor: running median over an eighth of the band. At most one line per 6 samples.
 
     series (n,) or (n, d)   any unit; 32 samples at least
     most                    largest number of lines

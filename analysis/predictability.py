@@ -20,7 +20,7 @@ import numpy as np
 
 from analysis.sampling import checked_count, checked_series
 
-LEAST_PER_COORDINATE = 10
+LEAST_PER_COORDINATE = 8
 NEIGHBOURS_PER_COEFFICIENT = 2
 # Directions in which neighbours lie this much closer than in their widest are not resolved by so few of them.
 _RIDGE = 1e-3
@@ -49,7 +49,7 @@ def prediction_gain(section, delays=None, theiler=1):
     delays                   rows taken together as one state, (x_k, x_{k-1}, ...); default: as few as make a state of 3
                              or more numbers
     theiler                  points within this many periods of the one predicted are no neighbours of it
-    Returns a PredictionGain: NaN, with the reason, where nothing moves or there are fewer than ten states per number in a
+    Returns a PredictionGain: NaN, with the reason, where nothing moves or there are fewer than eight states per number in a
     state and window.
     Raises ValueError for values that are not finite.
     Source: E. N. Lorenz (analogues), J. Atmos. Sci. 26 (1969) 636; J. D. Farmer & J. J. Sidorowich, Phys. Rev. Lett. 59

@@ -1,0 +1,201 @@
+"""The tests behind a verdict (`verdicts.regime`), each as a line of evidence: name, value, threshold, passed, sentence."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from analysis.drifts import record_drift
+from analysis.line_spectra import spectral_lines
+from analysis.neighbour_growth import neighbour_growth
+from analysis.predictability import prediction_gain
+from analysis.surrogates import iaaft_surrogates, noisy_periodic_surrogates, normal_scores, rank_among
+from analysis.zero_one import zero_one_test
+
+IRREGULAR = 0.9
+SHARE = 0.95
+LEAST_ADVANTAGE = 0.3
+STAYS = 0.35
+NEAR = 0.35
+# A line nearer than this to j/N, in turns over the record, is one with period N as far as the record goes.
+LEAST_TURN = 0.25
+# What a line must carry: the weaker ones ride on noise.
+LEAST_POWER = 0.01
+NULLS = (("linear null", iaaft_surrogates), ("noisy-periodic null", noisy_periodic_surrogates))
+
+
+@dataclass(frozen=True)
+class Evidence:
+    """One test of a motion.
+
+    name        which test
+    value       what it found; NaN where it gave no answer
+    threshold   what the value was compared with; NaN where there is nothing to compare
+    passed      True, False, or None where the test was not made or does not apply
+    sentence    what it means
+    error       standard error of the value, NaN where unknown
+    """
+
+    name: str
+    value: float
+    threshold: float
+    passed: bool | None
+    sentence: str
+    error: float = float("nan")
+
+
+def period_evidence(estimate):
+    """Period of the strobed orbit, and the multiplier of the slowest decay towards it."""
+    nan = float("nan")
+    if estimate.period is None:
+        return [Evidence("period", nan, estimate.tolerance, False, estimate.reason)]
+    n = estimate.period
+    multiplier = float(estimate.multiplier[n - 1])
+    found = Evidence("period", float(n), estimate.tolerance, True, estimate.reason)
+    if estimate.residual[n - 1] == 0.0:
+        sentence = "the orbit repeats to the last digit: nothing is left whose decay could be seen"
+        return [found, Evidence("contraction", nan, 1.0, None, sentence)]
+    sentence = f"steps over {n} period(s) shrink by the factor {multiplier:.3g} from one to the next"
+    if abs(multiplier + 0.5) < 0.15:
+        sentence += ", as independent errors about a settled orbit do"
+    return [found, Evidence("contraction", multiplier, 1.0, bool(abs(multiplier) < 1.0), sentence)]
+
+
+def exponent_evidence(tangent, wolf):
+    """lambda - 2 error > 0, of the tangent dynamics where there is one, else of the time series."""
+    nan = float("nan")
+    source, exponent = ("tangent dynamics", tangent) if tangent is not None and tangent.found else ("time series", wolf)
+    if exponent is None:
+        return Evidence("exponent", nan, 0.0, None, "no exponent was given")
+    if not exponent.found:
+        return Evidence("exponent", nan, 0.0, None, f"no exponent: {exponent.reason}")
+    passed = bool(exponent.value - 2.0 * exponent.error > 0.0)
+    sentence = f"{exponent.value:.4g} +- {exponent.error:.2g} bits per period ({source}): " + (
+        "positive by more than two errors" if passed else "not positive by two errors"
+    )
+    return Evidence("exponent", exponent.value, 0.0, passed, sentence, exponent.error)
+
+
+def growth_evidence(section):
+    """Neighbours stay neighbours: the section is that of a torus (or of a period seen through noise)."""
+    found = neighbour_growth(section)
+    if not np.isfinite(found.growth):
+        return Evidence("neighbours", found.growth, STAYS, None, found.reason)
+    passed = bool(abs(found.growth) < STAYS and found.late < NEAR)
+    return Evidence("neighbours", found.growth, STAYS, passed, f"{found.reason} (growth {found.growth:.2f} nats)")
+
+
+def drift_evidence(section, growth):
+    """Still on its way: spread or mean march with time, or neighbours close in."""
+    found = record_drift(section)
+    closing = bool(growth.value < -STAYS)
+    reason = "neighbours on the section close in on each other" if closing and not found.drifting else found.reason
+    return Evidence("drift", found.spread_change, np.nan, bool(found.drifting or closing), reason)
+
+
+def incommensurate_evidence(section, max_period):
+    """The strongest line that is not a subharmonic of the forcing up to max_period."""
+    spectrum = spectral_lines(section)
+    variance = np.var(section, axis=0)
+    moving = variance > 0.0
+    power = 0.5 * spectrum.amplitude[:, moving] ** 2 / variance[moving]
+    share = power.max(axis=1, initial=0.0)
+    turns = np.array([_turns_off(f, max_period) for f in spectrum.frequency]) * len(section)
+    standing = np.flatnonzero(share > LEAST_POWER)
+    if len(standing) == 0:
+        return Evidence("incommensurate line", np.nan, LEAST_TURN, False, "no line stands out of the section's spectrum")
+    free = standing[turns[standing] > LEAST_TURN]
+    if len(free) == 0:
+        sentence = f"all {len(standing)} lines are those of a period up to {max_period}, as far as this record goes"
+        return Evidence("incommensurate line", float(turns[standing].max()), LEAST_TURN, False, sentence)
+    best = free[np.argmax(share[free])]
+    sentence = (
+        f"a line at {spectrum.frequency[best]:.5f} cycles a period, {turns[best]:.2g} turns over the record from any "
+        f"subharmonic, carries {min(share[best], 1.0):.0%} of a coordinate; all lines leave {spectrum.unexplained.max():.2g}"
+    )
+    return Evidence("incommensurate line", float(turns[best]), LEAST_TURN, True, sentence)
+
+
+def irregular_evidence(section, seed, name="0-1 test"):
+    """K > 0.9: the median over the coordinates of the 0-1 test."""
+    found = [zero_one_test(section[:, j], seed=[seed, j]) for j in range(section.shape[1])]
+    values = np.array([test.value for test in found])
+    answered = np.isfinite(values)
+    if 2 * answered.sum() < len(values) or not answered.any():
+        return Evidence(name, np.nan, IRREGULAR, None, found[int(np.argmin(answered))].reason)
+    value = float(np.median(values[answered]))
+    sentence = f"K = {value:.3f}: " + ("irregular" if value > IRREGULAR else "not irregular throughout")
+    return Evidence(name, value, IRREGULAR, bool(value > IRREGULAR), sentence)
+
+
+def null_evidence(section, surrogates, seed):
+    """Rank and margin of the prediction gain among the surrogates of both nulls."""
+    items = []
+    for (name, _), rank in zip(NULLS, null_ranks(section, surrogates, seed), strict=True):
+        if rank is None:
+            reason = "too short, or nothing moves: no prediction gain"
+            items += [Evidence(name, np.nan, SHARE, None, reason), _margin(name, np.nan, None, reason)]
+            continue
+        sentence = f"prediction gain {rank.statistic:.2f} nats, above {rank.share_below:.0%} of {surrogates} surrogates"
+        items.append(Evidence(name, rank.share_below, SHARE, rank.above, sentence))
+        passed = bool(rank.advantage > LEAST_ADVANTAGE)
+        items.append(_margin(name, rank.advantage, passed, f"{rank.advantage:.2f} nats above the surrogates' median"))
+    return items
+
+
+def half_evidence(section, surrogates, seed, asked):
+    """0-1 test and both ranks in each half; the lesser value of the two halves is kept."""
+    names = ["0-1 test", *(name for name, _ in NULLS)]
+    if not asked:
+        reason = "not asked: the whole record fails already"
+        return [Evidence(f"{name}, halves", np.nan, np.nan, None, reason) for name in names]
+    middle = len(section) // 2
+    halves = [section[:middle], section[middle:]]
+    tests = [irregular_evidence(half, seed) for half in halves]
+    ranks = [null_ranks(half, surrogates, [seed, 1 + i]) for i, half in enumerate(halves)]
+    values = [[test.value for test in tests]]
+    passed = [[test.passed for test in tests]]
+    for i in range(len(NULLS)):
+        values.append([np.nan if rank[i] is None else rank[i].share_below for rank in ranks])
+        passed.append([None if rank[i] is None else rank[i].above for rank in ranks])
+    items = []
+    for name, value, agreed, threshold in zip(names, values, passed, (IRREGULAR, SHARE, SHARE), strict=True):
+        verdict = None if None in agreed else bool(all(agreed))
+        sentence = f"first half {value[0]:.3f}, second half {value[1]:.3f}"
+        items.append(Evidence(f"{name}, halves", float(np.min(value)), threshold, verdict, sentence))
+    return items
+
+
+def null_ranks(section, surrogates, seed):
+    """NullRank of the prediction gain for each null, None where a gain cannot be had.
+
+    The linear null is asked of the coordinates' normal scores: it allows any monotone instrument, and iterating towards
+    a spectrum and a skew distribution at once reaches neither well enough (exp of a linear process, sampled often, beat
+    its own surrogates in one case of ten). Normal scores undo the instrument first. For the other null that would not do:
+    its noise is added to the motion as it is.
+    """
+    ranks = []
+    for i, (points, make) in enumerate([(normal_scores(section), NULLS[0][1]), (section, NULLS[1][1])]):
+        gain = prediction_gain(points).gain
+        if not np.isfinite(gain):
+            ranks.append(None)
+            continue
+        drawn = [prediction_gain(one).gain for one in make(points, surrogates, [*np.atleast_1d(seed), 100 + i])]
+        ranks.append(rank_among(gain, drawn, SHARE) if np.all(np.isfinite(drawn)) else None)
+    return ranks
+
+
+def tighter_evidence(tighter, word):
+    """Whether the verdict survives a tighter tolerance, where someone looked."""
+    if tighter is None:
+        return Evidence("tighter tolerance", np.nan, np.nan, None, "no spot check at a tighter tolerance was given")
+    other = tighter if isinstance(tighter, str) else tighter.regime
+    return Evidence("tighter tolerance", np.nan, np.nan, bool(other == word), f"the verdict at a tighter tolerance is {other}")
+
+
+def _margin(name, value, passed, sentence):
+    return Evidence(f"{name}, margin", value, LEAST_ADVANTAGE, passed, sentence)
+
+
+def _turns_off(frequency, max_period):
+    """Distance of a frequency from the nearest j/N, N <= max_period, in cycles per sample."""
+    return min(abs(frequency - round(frequency * n) / n) for n in range(1, max_period + 1))

@@ -1,0 +1,93 @@
+"""Do neighbours on the section stay neighbours? They do on a torus, and nowhere else that is not periodic.
+
+A motion whose section map keeps nearby points nearby for all time (equicontinuity) is conjugate to a rotation: it is
+periodic or quasi-periodic (Halmos & von Neumann 1942). So instead of a curve fitted through the points, which needs to
+know how many curves there are, how wrinkled they are and of which dimension the torus is, pairs of neighbours are
+followed:
+
+    d(n) = geometric mean over k of |s_{k+n} - s_{j(k)+n}|,    s_{j(k)} the nearest point to s_k outside Theiler's window.
+
+On a torus d is constant: the pair keeps its distance in the angle, and the mean over k of ln|ds/dangle| does not depend
+on n. In chaos it grows by lambda a step up to the size of the attractor (or of its bands); in noise it jumps to that
+size at once. Noise of a record on a torus lifts d at n = 1, since the nearest pair was chosen for its noise, and not
+further: growth is counted from the mean over n = 1, 2, 3.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from analysis.sampling import checked_count, checked_series, locked
+
+LEAST_POINTS = 40
+EARLY = slice(1, 4)
+
+
+@dataclass(frozen=True, eq=False)
+class NeighbourGrowth:
+    """How far pairs of neighbours part.
+
+    growth           ln of mean distance over the later half of the horizon less that over n = 1, 2, 3 [nats]; NaN where
+                     there is no answer
+    late             mean distance over the later half of the horizon, in rms distances of unrelated points
+    rate             growth per forcing period, over the mean time between the two [nats/period]: a bound on an exponent
+    distance (h+1,)  d(n), in rms distances of unrelated points
+    reason           one sentence
+    """
+
+    growth: float
+    late: float
+    rate: float
+    distance: np.ndarray
+    reason: str
+
+
+def neighbour_growth(section, delays=None, theiler=1):
+    """Growth of the distance between neighbours on a section over a quarter of the record (head of this file).
+
+    section (m,) or (m, d)   one row a forcing period, 40 at least
+    delays                   rows taken together as one state; default: as few as make a state of 3 or more numbers
+    theiler                  points within this many periods are no neighbours
+    Returns a NeighbourGrowth; NaN with the reason for a short record or one without motion. An exponent below 4/m nats
+    per period does not show in a record of m periods: a weakly chaotic motion passes for a torus as long as that.
+    Raises ValueError for values that are not finite.
+    Source: the pairs are those of M. T. Rosenstein, J. J. Collins & C. J. De Luca, Physica D 65 (1993) 117.
+    """
+    x = checked_series(section, "section", dimensions=(1, 2))
+    x = x[:, None] if x.ndim == 1 else x
+    delays = -(-3 // x.shape[1]) if delays is None else checked_count(delays, "delays")
+    theiler = checked_count(theiler, "theiler", least=0)
+    size = x.std(axis=0)
+    moving = size > 64 * np.finfo(float).eps * np.abs(x).max(axis=0, initial=0.0)
+    nothing = locked(np.zeros(0))
+    if len(x) < LEAST_POINTS:
+        reason = f"too short: {LEAST_POINTS} strobed points are needed, given {len(x)}"
+        return NeighbourGrowth(np.nan, np.nan, np.nan, nothing, reason)
+    if not moving.any():
+        return NeighbourGrowth(np.nan, np.nan, np.nan, nothing, "no motion: the section is one point to the last digits")
+    z = x[:, moving] / size[moving]
+    state = np.hstack([z[lag : len(z) - delays + 1 + lag] for lag in range(delays)])
+    horizon = len(state) // 4
+    distance = _distance(state, horizon, theiler) / np.sqrt(2.0 * np.sum(state.var(axis=0)))
+    early, late = np.log(distance[EARLY]).mean(), np.log(distance[horizon // 2 :]).mean()
+    growth = float(late - early)
+    rate = growth / (0.75 * horizon - 2.0)
+    reason = f"neighbours {np.exp(early):.2g} of the section apart are {np.exp(late):.2g} apart {horizon // 2} and more periods on"
+    return NeighbourGrowth(growth, float(np.exp(late)), float(rate), locked(distance), reason)
+
+
+def _distance(state, horizon, theiler):
+    """d(n) for n = 0 ... horizon."""
+    from scipy.spatial import cKDTree
+
+    pool = state[: len(state) - horizon]
+    _, near = cKDTree(pool).query(pool, k=min(2 * theiler + 2, len(pool)))
+    allowed = np.abs(near - np.arange(len(pool))[:, None]) > theiler
+    partner = near[np.arange(len(pool)), np.argmax(allowed, axis=1)]
+    # A record that repeats itself to the last digit has distance 0, whose logarithm would be its only value.
+    least = 1e-14 * np.sqrt(state.shape[1])
+    logarithm = [
+        np.mean(np.log(np.maximum(np.linalg.norm(state[n : n + len(pool)] - state[partner + n], axis=1), least)))
+        for n in range(horizon + 1)
+    ]
+    return np.exp(logarithm)

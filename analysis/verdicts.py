@@ -1,0 +1,206 @@
+"""The regime of a forced motion, in one word, with the evidence for it.
+
+    period-N          the strobed orbit repeats after N forcing periods within the tolerance (`detect_period`); the decay of
+                      its steps gives the multiplier of the slowest mode
+    transient         otherwise: spread or mean of the section change steadily, or neighbours close in: still on its way
+    chaotic           otherwise: lambda - 2 error > 0; K of the 0-1 test > 0.9; the gain of nonlinear over linear
+                      prediction above 95 % of IAAFT and of noisy-periodic surrogates, and 0.3 nats above their median; the
+                      0-1 test and both ranks again in each half of the record; and neighbours on the section part
+    quasi-periodic    otherwise: neighbours on the section stay neighbours, a line of the spectrum is incommensurate with the
+                      forcing, and the exponent is about 0
+    undecided         otherwise; and wherever an exponent of the tangent dynamics, or the verdict on the same motion at a
+                      tighter tolerance, contradicts the word
+
+The exponent is that of the tangent dynamics where one is given, else that of the series (Wolf). It does not enter the
+ranks: noise has a larger apparent exponent than chaos of the same spectrum, so that "larger than that of surrogates" would
+select noise. What a deterministic motion has and both nulls lack is a next point that is a nonlinear function of the
+present one; hence the prediction gain.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from analysis.evidence import (
+    Evidence,
+    drift_evidence,
+    exponent_evidence,
+    growth_evidence,
+    half_evidence,
+    incommensurate_evidence,
+    irregular_evidence,
+    null_evidence,
+    period_evidence,
+    tighter_evidence,
+)
+from analysis.exponents import BITS_PER_PERIOD, Exponent
+from analysis.periods import detect_period
+from analysis.poincare import poincare_section
+from analysis.sampling import checked_count, checked_positive, checked_series
+
+LEAST_POINTS = 40
+# A scalar record is given its state by its values at as many phases of the period: enough for a state of dimension 4.
+PHASES = 4
+
+
+@dataclass(frozen=True, eq=False)
+class Verdict:
+    """The regime of a motion and why.
+
+    regime      "period-N" (N a number), "quasi-periodic", "chaotic", "transient" or "undecided"
+    reason      one sentence
+    evidence    tuple of Evidence, in the order in which the tests were made
+    period      N, or None
+    points      strobed points judged
+    seed        of the random angles and surrogates: the same input and seed give the same verdict
+    """
+
+    regime: str
+    reason: str
+    evidence: tuple[Evidence, ...]
+    period: int | None
+    points: int
+    seed: int
+
+    def named(self, name):
+        """The Evidence of that name; ValueError where there is none."""
+        for item in self.evidence:
+            if item.name == name:
+                return item
+        raise ValueError(f"no evidence {name!r}; there is {', '.join(item.name for item in self.evidence)}")
+
+
+def regime(
+    series=None,
+    step_s=None,
+    period_s=None,
+    *,
+    strobed=None,
+    transient_periods=0,
+    tangent_exponent=None,
+    wolf_exponent=None,
+    tighter=None,
+    scale=None,
+    tolerance=1e-3,
+    max_period=16,
+    surrogates=39,
+    seed=0,
+):
+    """The regime of a periodically forced motion with the evidence for it (rules at the head of this file).
+
+    series (n,) or (n, d)    samples from t = 0, any unit: one coordinate, or all there are. A single coordinate is seen at
+                             four phases of the period, which makes up for those that are missing
+    step_s, period_s         sampling step and forcing period [s]; with `series` both are needed
+    strobed (m,) or (m, d)   instead of `series`: the section itself, one row a forcing period
+    transient_periods        periods left out at the start
+    tangent_exponent         Exponent, or (value, error) in bits per forcing period, of the tangent dynamics
+    wolf_exponent            the same, of the time series; where there is neither, no motion is called chaotic
+    tighter                  Verdict, or its word, on the same motion computed to a ten times tighter tolerance
+    scale, tolerance, max_period   as in detect_period; scale defaults to the range of the later half of `series`
+    surrogates               of each null, 19 or more
+    seed                     of random angles and surrogates
+    Returns a Verdict. Chaos needs 200 forcing periods (each half 100, for the 0-1 test), any verdict 40. What it cannot
+    tell apart: chaos of an exponent below 4/m nats per period and a torus; a motion bent by noise that drives it
+    (dynamical noise on a strongly nonlinear cycle) and chaos, where the exponent says positive for both.
+    Raises ValueError for values that are not finite, neither or both of series and strobed, or a missing step.
+    Source: evidence by evidence in the functions named above.
+    """
+    surrogates = checked_count(surrogates, "surrogates", least=19)
+    section, scale = _section(series, step_s, period_s, strobed, transient_periods, scale)
+    tangent = _exponent(tangent_exponent, period_s, "tangent_exponent")
+    wolf = _exponent(wolf_exponent, period_s, "wolf_exponent")
+    points = len(section)
+    if points < LEAST_POINTS:
+        reason = f"too short: {LEAST_POINTS} strobed points are needed, given {points}"
+        return Verdict("undecided", reason, (), None, points, seed)
+    estimate = detect_period(section, max_period, tolerance, scale)
+    evidence = [*period_evidence(estimate), exponent_evidence(tangent, wolf)]
+    if estimate.period is not None:
+        word, reason = f"period-{estimate.period}", estimate.reason
+    else:
+        word, reason, more = _without_period(section, evidence[-1], max_period, surrogates, seed)
+        evidence += more
+    evidence.append(tighter_evidence(tighter, word))
+    word, reason = _contradicted(word, reason, evidence[-1], tangent)
+    period = estimate.period if word.startswith("period-") else None
+    return Verdict(word, reason, tuple(evidence), period, points, seed)
+
+
+def _without_period(section, exponent, max_period, surrogates, seed):
+    """Word, reason and evidence for a motion that does not repeat."""
+    growth = growth_evidence(section)
+    drift = drift_evidence(section, growth)
+    line = incommensurate_evidence(section, max_period)
+    irregular = irregular_evidence(section, seed)
+    evidence = [drift, growth, line, irregular]
+    if drift.passed:
+        return "transient", drift.sentence, evidence
+    evidence += null_evidence(section, surrogates, seed)
+    asked = all(item.passed for item in evidence[3:])
+    evidence += half_evidence(section, surrogates, seed, asked)
+    needed = [exponent, *evidence[3:]]
+    if all(item.passed for item in needed) and growth.value > growth.threshold:
+        reason = "exponent, 0-1 test, both nulls and both halves of the record agree"
+        return "chaotic", reason, evidence
+    if growth.passed and line.passed and not irregular.passed and _about_zero(exponent):
+        reason = "neighbours on the section stay neighbours, and a line is incommensurate with the forcing"
+        return "quasi-periodic", reason, evidence
+    failed = [item.name for item in needed if item.passed is False]
+    missing = [item.name for item in needed if item.passed is None]
+    lacking = failed or missing or ["neighbours that part"]
+    reason = "no period, no torus; chaos lacks: " + ", ".join(lacking)
+    return "undecided", reason, evidence
+
+
+def _about_zero(exponent):
+    """No exponent, or one within two errors (or 0.02 bits per period) of 0."""
+    if exponent.passed is None:
+        return True
+    return not exponent.passed and exponent.value + 2.0 * exponent.error > -0.02
+
+
+def _contradicted(word, reason, tighter, tangent):
+    """The word, or undecided where a better source says otherwise."""
+    if tighter.passed is False:
+        return "undecided", f"{word} at this tolerance, but {tighter.sentence}"
+    positive = tangent is not None and tangent.found and tangent.value - 2.0 * tangent.error > 0.0
+    if positive and (word.startswith("period-") or word == "quasi-periodic"):
+        return "undecided", f"looks {word}, but the exponent of the tangent dynamics is positive"
+    return word, reason
+
+
+def _section(series, step_s, period_s, strobed, transient_periods, scale):
+    """The section (m, d) and the scale for detect_period."""
+    if (series is None) == (strobed is None):
+        raise ValueError("either series or strobed is needed, not both and not neither")
+    first = checked_count(transient_periods, "transient_periods", least=0)
+    if strobed is not None:
+        x = checked_series(strobed, "strobed", dimensions=(1, 2))[first:]
+        return (x[:, None] if x.ndim == 1 else x), scale
+    if step_s is None or period_s is None:
+        raise ValueError("step_s and period_s are needed with a series")
+    x = checked_series(series, dimensions=(1, 2))
+    phases = [phase / PHASES for phase in range(PHASES)] if x.ndim == 1 else [0.0]
+    seen = [poincare_section(x, step_s, period_s, phase, first).points for phase in phases]
+    rows = min(len(points) for points in seen)
+    section = np.hstack([points[:rows] for points in seen])
+    if scale is None:
+        span = np.ptp(x[len(x) // 2 :], axis=0)
+        least = 1e-9 * np.abs(x).max(axis=0)
+        span = np.maximum(span, np.where(least > 0.0, least, 1.0))
+        scale = np.resize(span, section.shape[1])
+    return section, scale
+
+
+def _exponent(given, period_s, name):
+    """An Exponent in bits per period, or None."""
+    if given is None:
+        return None
+    if isinstance(given, Exponent):
+        if given.unit == BITS_PER_PERIOD:
+            return given
+        if period_s is None:
+            raise ValueError(f"{name}: in {given.unit}, so period_s is needed")
+        return given.in_bits_per_period(checked_positive(period_s, "period_s"))
+    value, error = given
+    return Exponent(value, error, BITS_PER_PERIOD, "given", "no value" if np.isnan(value) else "")
