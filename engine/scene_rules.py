@@ -96,6 +96,10 @@ def _end(sound: _Sound) -> Iterator[str]:
             yield f"end.{key}: missing; allowed: a list of 3 finite numbers [x, y, z], because end.kind is {owner!r}"
         if kind != owner and value not in (None, _FAULTY):
             yield f"end.{key}: given {shown(value)}, but end.kind is {kind!r}; allowed: only with end.kind = {owner!r}"
+    found = sound.values("end.force_N", "tether.bending_stiffness_Nm2")
+    if kind == "free" and found and not any(found[0]) and found[1] == 0:
+        rule = "above 0, because nothing else gives a direction to a free end without a force"
+        yield fault("tether.bending_stiffness_Nm2", found[1], rule)
     velocity = sound.values("start.buoy_velocity_mps")
     if kind != "buoy" and velocity and any(velocity[0]):
         yield fault("start.buoy_velocity_mps", list(velocity[0]), f"zero, because end.kind is {kind!r}")

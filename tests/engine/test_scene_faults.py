@@ -81,6 +81,11 @@ CROSS = [
     ({"waves.direction_rad": 1.0}, "waves.direction_rad", "0 or pi"),
     ({"buoy": None}, "buoy", "missing"),
     ({"end": {"kind": "free", "force_N": [0, 0, 9]}}, "buoy", "no buoy"),
+    (
+        {"end": {"kind": "free", "force_N": [0, 0, 0]}, "buoy": None, "tether.bending_stiffness_Nm2": 0},
+        "tether.bending_stiffness_Nm2",
+        "direction",
+    ),
     ({"end": {"kind": "held"}, "buoy": None}, "end.position_m", "missing"),
     ({"end": {"kind": "free"}, "buoy": None}, "end.force_N", "missing"),
     ({"end.position_m": [0, 0, 20]}, "end.position_m", "'held'"),
