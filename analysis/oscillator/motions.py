@@ -1,0 +1,109 @@
+"""Motions of eq. (33): the strobed states, and the motion between them with its switching times."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from analysis.compiled import kernel
+from analysis.oscillator.crossings import state_at
+from analysis.oscillator.pieces import tables
+from analysis.oscillator.strobing import MOST_PIECES, one_period, strobed_orbit
+from analysis.sampling import checked_count, checked_series
+
+
+def checked_start(start):
+    """(g, g') as two finite floats; ValueError otherwise."""
+    state = checked_series(start, "start")
+    if state.shape != (2,):
+        raise ValueError(f"start: a pair (g, g') is needed, given shape {state.shape}")
+    return float(state[0]), float(state[1])
+
+
+def strobed_states(oscillator, start, points, transient_periods=0):
+    """The stroboscopic section of one orbit of eq. (33), the paper's figure 19(b): states once a forcing period.
+
+    start               (g, g') at time 0, where the forcing has the phase `oscillator.phase`
+    points              number of states
+    transient_periods   periods before the first of them
+    Returns (points, 2): g and g' at times (transient + n) T. With transient_periods = 0 the first row is the start.
+    Event-exact: each state follows from the one before to rounding (`analysis.oscillator.crossings`). On a chaotic
+    orbit that rounding grows e-fold every 16 units of time, so single states mean nothing after some 90 periods.
+    NaN from the first state on that could not be computed (more than 4096 pieces in a period).
+    Source: Tjavaras et al. 1998, eq. (33).
+    """
+    x, v = checked_start(start)
+    points, transient = checked_count(points, "points"), checked_count(transient_periods, "transient_periods", 0)
+    return strobed_orbit(x, v, transient, points, tables(oscillator))
+
+
+@dataclass(frozen=True, eq=False)
+class SnapMotion:
+    """A motion of eq. (33) between strobes; time in units of 1/omega_r.
+
+    time, displacement, velocity   (m,) evenly sampled
+    switches                       (s,) times of all crossings of g = 0
+    slack_fraction                 share of the whole time spent at g < 0, from the switching times
+    """
+
+    time: np.ndarray
+    displacement: np.ndarray
+    velocity: np.ndarray
+    switches: np.ndarray
+    slack_fraction: float
+
+
+def snap_motion(oscillator, start, periods, samples_per_period=64, transient_periods=0):
+    """The motion of eq. (33) evaluated from its closed form, with the switching times between taut and slack.
+
+    start                (g, g') at time 0;  transient_periods  left out in front
+    periods              length of the record in forcing periods
+    samples_per_period   samples are not steps: their number changes neither states nor switching times
+    Returns SnapMotion with periods*samples_per_period + 1 samples. ValueError for a start that is not finite; NaN from
+    the first period on that could not be computed.
+    """
+    x, v = checked_start(start)
+    periods = checked_count(periods, "periods")
+    samples = checked_count(samples_per_period, "samples_per_period")
+    table = tables(oscillator)
+    if transient_periods:
+        x, v = strobed_orbit(x, v, checked_count(transient_periods, "transient_periods"), 1, table)[0]
+    motion, switches, slack = _sampled(float(x), float(v), periods, samples, oscillator.period, table)
+    time = np.arange(periods * samples + 1) * (oscillator.period / samples)
+    return SnapMotion(time, motion[:, 0], motion[:, 1], switches, slack / (periods * oscillator.period))
+
+
+@kernel
+def _sampled(x, v, periods, samples, period, table):
+    log, d = np.empty((MOST_PIECES, 5)), np.eye(2)
+    motion = np.empty((periods * samples + 1, 2))
+    switches = np.empty(64)
+    found, slack_time = 0, 0.0
+    span = period / len(table.steady)
+    for n in range(periods):
+        d[0, 0], d[0, 1], d[1, 0], d[1, 1] = 1.0, 0.0, 0.0, 1.0
+        start, speed = x, v
+        x, v, pieces, slack = one_period(x, v, d, table, log)
+        slack_time += slack
+        for piece in range(pieces):
+            if log[piece, 1] > 0.0:
+                if found == len(switches):
+                    switches = np.append(switches, np.empty(found))
+                switches[found] = n * period + log[piece, 0] * span + log[piece, 1]
+                found += 1
+        motion[n * samples, 0], motion[n * samples, 1] = start, speed
+        piece = 0
+        for j in range(1, samples):
+            time = j * period / samples
+            while piece + 1 < pieces and log[piece + 1, 0] * span + log[piece + 1, 1] <= time:
+                piece += 1
+            window, a = int(log[piece, 0]), int(log[piece, 2])
+            steady = table.steady[window, a]
+            g, u = state_at(
+                a, time - window * span, log[piece, 3], log[piece, 4], table.theta[window], table.constants,
+                steady[0], steady[1],
+            )  # fmt: skip
+            motion[n * samples + j, 0], motion[n * samples + j, 1] = g, u
+        if pieces == 0:
+            motion[n * samples + 1 :] = np.nan
+    motion[periods * samples, 0], motion[periods * samples, 1] = x, v
+    return motion, switches[:found].copy(), slack_time
