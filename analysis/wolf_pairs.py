@@ -72,6 +72,7 @@ class WolfRun:
     end_length: np.ndarray
     time_s: np.ndarray
     convergence: np.ndarray
+    noise_bias: float
     replacements: int
     unfit: int
     gaps: int
@@ -96,7 +97,8 @@ def wolf_run(series, step_s, delay, dimension, evolution, theiler, noise=0.0, le
     evolution = checked_count(evolution, "evolution")
     points = np.ascontiguousarray(delay_vectors(x, delay, dimension))
     size = float(np.sqrt(np.mean(np.sum((points - points.mean(axis=0)) ** 2, axis=1))))
-    noise_length = FLOOR_SIGMAS * checked_not_negative(noise, "noise") * np.sqrt(2.0 * dimension)
+    noise = checked_not_negative(noise, "noise")
+    noise_length = FLOOR_SIGMAS * noise * np.sqrt(2.0 * dimension)
     lengths = checked_positive(lengths, "lengths")
     floor = lengths * max(noise_length, ROUNDING_SHARE * size)
     longest = max(lengths * 2.0 * LONGEST_SHARE * size, 2.0 * floor)
@@ -111,6 +113,8 @@ def wolf_run(series, step_s, delay, dimension, evolution, theiler, noise=0.0, le
     followed = np.isfinite(growth)
     with np.errstate(invalid="ignore"):
         convergence = np.cumsum(np.where(followed, growth, 0.0)) / (np.cumsum(followed) * evolution * step_s)
+    start_length = end_length / np.exp(growth)
+    excess = noise**2 * dimension * (start_length**-2.0 - end_length**-2.0) / (evolution * step_s)
     return WolfRun(
         value=value,
         error=error,
@@ -126,6 +130,7 @@ def wolf_run(series, step_s, delay, dimension, evolution, theiler, noise=0.0, le
         end_length=locked(end_length),
         time_s=locked((np.arange(count) + 1.0) * evolution * step_s),
         convergence=locked(convergence),
+        noise_bias=float(np.mean(excess[followed])) if np.any(followed) else np.nan,
         replacements=int(tally[0]),
         unfit=int(tally[1]),
         gaps=int(tally[2]),

@@ -2,14 +2,16 @@
 
 One setting gives a number whatever the record is. Believe it where neighbouring settings agree: over embedding
 dimensions m_0, m_0 + 1, m_0 + 2 and evolution times 1/4, 1/2, 3/4, 1 mean period, the value is the median over the
-settings that qualify. The error holds what blocks of the record disagree on, what the settings disagree on, and what
-the finite length of the vectors does, seen by doubling it:
+settings that qualify. The error holds what blocks of the record disagree on, what the settings disagree on, and two
+known biases: the finite length of the vectors, seen by doubling it, and the noise on them (WolfRun.noise_bias),
 
-    error^2 = median(block error)^2 + (half the range of the middle 68 % of the settings)^2 + rms(doubled - value)^2
+    error^2 = median(block error)^2 + (half the range of the middle 68 % of the settings)^2
+              + rms(doubled - value)^2 + median(noise bias)^2
 
-The last is the bias itself if it grows with the length; without it noisy maps, where the other two are small, miss the
-truth by three errors. m_0 unfolds the motion (false neighbours). A setting does not qualify when half of its vectors
-end longer than 0.3 of the rms radius of the attractor: growth is then bounded by its size, and the exponent too small.
+Without the last two noisy maps, where the first two are small, miss the truth by three errors. The value is not
+corrected for either: it stays what Wolf's method gives. m_0 unfolds the motion (false neighbours). A setting does not
+qualify when half of its vectors end longer than 0.3 of the rms radius of the attractor: growth is then bounded by its
+size, and the exponent too small.
 """
 
 import numpy as np
@@ -44,8 +46,8 @@ def wolf_lyapunov(series, step_s, delay=None, dimensions=None, evolutions=None, 
     stable periodic motion shows 0 at best, not its negative exponent: once settled, nothing in the record decays.
     NaN with a reason, never 0, when fewer than three settings qualify or the record has fewer than 20 mean periods.
     details: values, errors, end_lengths (d, e; ends in rms radii), qualified (d, e; bool), dimensions (d,), evolutions
-    (e,) [samples], block_error, spread, length_change, noise, embedding (EmbeddingChoice), and of the setting nearest
-    to the median run (WolfRun), whose convergence over time_s is fig. 14 of the paper.
+    (e,) [samples], block_error, spread, length_change, noise_bias, noise, embedding (EmbeddingChoice), and of the
+    setting nearest to the median run (WolfRun), whose convergence over time_s is fig. 14 of the paper.
     Raises ValueError for values that are not finite.
     Source: Wolf, Swift, Swinney & Vastano, Physica D 16, 285 (1985); what is ours: heads of this file, of wolf_pairs.
     """
@@ -98,8 +100,10 @@ def _plateau(run, details):
     change = np.array([run(*grid[i][j], lengths=2.0).value - values[i, j] for i, j in np.argwhere(qualified)])
     length_change = float(np.sqrt(np.mean(change[np.isfinite(change)] ** 2))) if np.any(np.isfinite(change)) else np.nan
     i, j = np.unravel_index(np.argmin(np.where(qualified, np.abs(values - value), np.inf)), values.shape)
-    details |= {"block_error": block_error, "spread": spread, "length_change": length_change, "run": runs[i][j]}
-    error = float(np.sqrt(block_error**2 + spread**2 + length_change**2))
+    noise_bias = float(np.median([runs[i][j].noise_bias for i, j in np.argwhere(qualified)]))
+    parts = {"block_error": block_error, "spread": spread, "length_change": length_change, "noise_bias": noise_bias}
+    details |= parts | {"run": runs[i][j]}
+    error = float(np.sqrt(sum(part**2 for part in parts.values())))
     reason = f"median of {np.sum(qualified)} of {values.size} settings, {low:.4g} to {high:.4g} nats/time"
     return Exponent(value, error, NATS_PER_TIME, METHOD, reason, details)
 

@@ -1,0 +1,88 @@
+"""The straight part of a curve of ln(distance) against time: found by a rule, stated, or refused.
+
+Growth between neighbours starts with a transient (the vector turns towards the fastest direction), is exponential while
+distances are small, and ends at the size of the attractor. Only the middle is a Lyapunov exponent, and a curve without
+a straight middle has none to give, however well a line may be put through it.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from analysis.sampling import checked_series
+
+LEAST_SPAN_NATS = 1.0
+LEAST_POINTS = 4
+MOST_CURVATURE = 0.15
+
+
+@dataclass(frozen=True)
+class ScalingRegion:
+    """A straight part of y(t).
+
+    slope        of the least-squares line; NaN where there is no region
+    error        half the difference between the slopes of its two halves: what the line's curvature leaves open
+    begin, end   first and last index of the region, inclusive; -1 where there is none
+    span         rise of the line over the region [nats]
+    reason       one sentence
+    """
+
+    slope: float
+    error: float
+    begin: int
+    end: int
+    span: float
+    reason: str
+
+
+def scaling_region(time, curve, least_span=LEAST_SPAN_NATS, cycle=1):
+    """The longest part of a curve that rises by at least one nat and is straight.
+
+    Straight: the slopes of its two halves differ by at most 15 % of the slope of the whole. Among straight parts the
+    one with the largest rise is taken. A swing of the curve with the motion is first averaged away over one `cycle`.
+
+    time, curve (k,)    the curve, evenly spaced in time; NaN not allowed
+    least_span          least rise [nats]
+    cycle               points per swing that the curve carries (samples per mean period), 1 for a map; begin and end
+                        are then those of the averaged curve, half a cycle inside what it used
+    Returns a ScalingRegion, with NaN and the reason where no part qualifies.
+    Raises ValueError for values that are not finite or arrays of different length.
+    """
+    t, y = checked_series(time, "time"), checked_series(curve, "curve")
+    if len(t) != len(y):
+        raise ValueError(f"time and curve: equal lengths are needed, given {len(t)} and {len(y)}")
+    cut = cycle // 2
+    if len(y) > 2 * cycle:
+        width = 2 * cut + 1
+        t, y = t[cut : len(t) - cut], np.convolve(y, np.full(width, 1.0 / width), mode="valid")
+    else:
+        cut = 0
+    least = LEAST_POINTS
+    # About forty ends are enough to find the region to a few per cent of its length.
+    stride = max(1, len(t) // 120)
+    best, straight = None, False
+    for begin in range(0, len(t) - least + 1, stride):
+        for end in range(begin + least, len(t) + 1, stride):
+            slope, curvature = _line(t[begin:end], y[begin:end])
+            span = slope * (t[end - 1] - t[begin])
+            if slope > 0.0 and curvature <= MOST_CURVATURE * slope:
+                straight = True
+                if span >= least_span and (best is None or span > best[0]):
+                    best = span, slope, curvature, begin, end - 1
+    if best is None:
+        why = f"no straight part spans {least_span:g} nat" if straight else "no straight rising part"
+        return ScalingRegion(np.nan, np.nan, -1, -1, np.nan, f"{why}; the curve rises by {np.ptp(y):.2g} nats in all")
+    span, slope, curvature, begin, end = best
+    reason = f"straight from {t[begin]:.4g} to {t[end]:.4g}, rising by {span:.2g} nats"
+    return ScalingRegion(float(slope), float(0.5 * curvature), begin + cut, end + cut, float(span), reason)
+
+
+def _line(t, y):
+    """Slope of the least-squares line, and how much the slopes of the two halves differ."""
+    half = len(t) // 2
+    return _slope(t, y), abs(_slope(t[: half + 1], y[: half + 1]) - _slope(t[half:], y[half:]))
+
+
+def _slope(t, y):
+    centred = t - t.mean()
+    return np.dot(centred, y) / np.dot(centred, centred)
