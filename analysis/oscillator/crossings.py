@@ -13,8 +13,16 @@ rounding of g itself (a few 1e-15 of its terms); an excursion past 0 that is sti
 rounding, lasts about 1e-7, and changes the motion by less than one rounding, because a g is continuous at 0.
 A fixed-step method sees only the ends of its steps and misses double crossings (grazing) without a word.
 
+A piece begins with g = 0, and there the first test fails however short the interval. It leaves g = 0 to its own side,
+and departs from the line to the value g_1 at a time w later by at most M (tau - start)(w - (tau - start))/2, so that
+
+    g_1 on the side of the piece, farther from 0 than M w^2/2                     no second zero up to there
+
+and where this fails (near grazing) the march begins at u/M with u = |g'| at the crossing: g keeps its sign for 2u/M.
+
 The bracketed crossing is found by Newton's method started from the cubic that matches g and g' at both ends; a step out
-of the bracket, which shrinks as it goes, is replaced by a bisection.
+of the bracket, which shrinks as it goes, is replaced by a bisection. It ends when the error left, M step^2/(2 u), is
+below 1e-13.
 """
 
 import math
@@ -24,6 +32,7 @@ from analysis.oscillator.pieces import curvature_bound, motion
 
 NONE = -1.0
 _ROUNDING = 2e-15
+_TIME_ERROR = 2e-13
 
 
 @kernel
@@ -54,7 +63,7 @@ def cubic_guess(g0, v0, g1, v1, width):
 
 
 @kernel
-def bracketed_root(a, lo, hi, g_lo, v_lo, g_hi, v_hi, x, v, theta, k, p0, w0):
+def bracketed_root(a, lo, hi, g_lo, v_lo, g_hi, v_hi, x, v, most, theta, k, p0, w0):
     """The crossing between lo and hi, where g has opposite signs."""
     tau = lo + (hi - lo) * cubic_guess(g_lo, v_lo, g_hi, v_hi, hi - lo)
     for _ in range(80):
@@ -64,7 +73,7 @@ def bracketed_root(a, lo, hi, g_lo, v_lo, g_hi, v_hi, x, v, theta, k, p0, w0):
         else:
             hi = tau
         step = -g / slope if slope != 0.0 else math.inf
-        if abs(step) < 1e-9:  # the step after this one would be 1e-18
+        if most * step * step < _TIME_ERROR * abs(slope) or abs(step) < 1e-15 * hi:
             return min(max(tau + step, lo), hi)
         tau += step
         if not lo < tau < hi:
@@ -75,72 +84,86 @@ def bracketed_root(a, lo, hi, g_lo, v_lo, g_hi, v_hi, x, v, theta, k, p0, w0):
 
 
 @kernel
-def search(a, lo, end, g_lo, v_lo, x, v, most, floor, theta, k, p0, w0):
+def search(a, lo, g_lo, v_lo, end, g_end, v_end, x, v, most, floor, theta, k, p0, w0):
     """The first crossing in (lo, end], or NONE; see the head of this file. `most` bounds |g''|.
 
-    g_lo, v_lo: state at lo, on the side of a up to rounding.
+    g_lo, v_lo: state at lo, on the side of a up to rounding; g_end, v_end: state at end.
     """
     side = 1.0 if a == 1 else -1.0
-    width = end - lo
-    while lo < end:
-        hi = min(lo + width, end)
-        g_hi, v_hi = state_at(a, hi, x, v, theta, k, p0, w0)
+    hi, g_hi, v_hi = end, g_end, v_end
+    while True:
         bulge = 0.125 * most * (hi - lo) ** 2
         crossed = side * g_hi <= 0.0
-        if not crossed and min(side * g_lo, side * g_hi) > bulge:
-            lo, g_lo, v_lo = hi, g_hi, v_hi
-            width *= 2.0
-            continue
+        hidden = bulge <= floor or hi - lo < 1e-13 * end
         one_way = v_lo * v_hi > 0.0 and abs(v_lo) + abs(v_hi) > most * (hi - lo)
         if crossed and one_way and side * g_lo > 0.0:
-            return bracketed_root(a, lo, hi, g_lo, v_lo, g_hi, v_hi, x, v, theta, k, p0, w0)
-        if bulge <= floor or hi - lo < 1e-13 * end:
-            if crossed:
-                return hi
+            return bracketed_root(a, lo, hi, g_lo, v_lo, g_hi, v_hi, x, v, most, theta, k, p0, w0)
+        if crossed and hidden:
+            return hi
+        if not crossed and (hidden or min(side * g_lo, side * g_hi) > bulge):
+            width = 2.0 * (hi - lo)
             lo, g_lo, v_lo = hi, g_hi, v_hi
-            width *= 2.0
-            continue
-        width = 0.5 * (hi - lo)
-    return NONE
+            if lo >= end:
+                return NONE
+        else:
+            width = 0.5 * (hi - lo)
+        hi = min(lo + width, end)
+        g_hi, v_hi = state_at(a, hi, x, v, theta, k, p0, w0)
+
+
+@kernel
+def leave(a, start, end, x, v, most, floor, theta, k, p0, w0):
+    """`search` after a crossing at `start` that is close to grazing."""
+    _, slope = state_at(a, start, x, v, theta, k, p0, w0)
+    clear = abs(slope) / most if most > 0.0 else math.inf
+    lo = min(start + max(clear, 1e-12), end)
+    if lo >= end:
+        return NONE
+    g_lo, v_lo = state_at(a, lo, x, v, theta, k, p0, w0)
+    g_end, v_end = state_at(a, end, x, v, theta, k, p0, w0)
+    return search(a, lo, g_lo, v_lo, end, g_end, v_end, x, v, most, floor, theta, k, p0, w0)
 
 
 @kernel
 def first_crossing(a, start, x, v, window, table):
     """The first crossing of the piece a of (x, v) after `start` and up to the end of the window, or NONE.
 
-    start: 0, or the time of the crossing that began the piece, which itself is not found again: with |g'| = u there,
-    g keeps its sign for at least 2u/M, and the search begins at u/M.
+    start: 0, or the time of the crossing that began the piece, which itself is not found again.
+    Nodes are visited in strides that double while they are clear and halve where they are not.
     """
     k, theta = table.constants, table.theta[window]
     p0, w0 = table.steady[window, a, 0], table.steady[window, a, 1]
     tau, last = table.tau, len(table.tau) - 1
-    reach = x + max(v, 0.0) * table.phi[0, 1, last] + table.reach[window]
-    if a == 0 and reach < 0.0:
+    phi, q = table.phi[a], table.q[window, a]
+    if a == 0 and x + max(v, 0.0) * phi[1, last] + table.reach[window] < 0.0:
         return NONE  # slack and too deep to come up within the window
     most = curvature_bound(a, x, v, k, p0, w0)
     floor = rounding_floor(x, v, table.size[window], tau[last])
     side = 1.0 if a == 1 else -1.0
-    j = 0
-    g = x + table.q[window, a, 0, 0]
+    j, g = 0, x
     if start > 0.0:
-        _, slope = state_at(a, start, x, v, theta, k, p0, w0)
-        lo = min(start + max(abs(slope) / most if most > 0.0 else math.inf, 1e-12), tau[last])
-        j = min(math.ceil(lo / tau[1]), last)
-        if lo < tau[j]:
-            g_lo, v_lo = state_at(a, lo, x, v, theta, k, p0, w0)
-            found = search(a, lo, tau[j], g_lo, v_lo, x, v, most, floor, theta, k, p0, w0)
+        j = min(int(start / tau[1]) + 1, last)
+        g = phi[0, j] * x + phi[1, j] * v + q[0, j]
+        if side * g <= 0.5 * most * (tau[j] - start) ** 2 and start < tau[j]:
+            found = leave(a, start, tau[j], x, v, most, floor, theta, k, p0, w0)
             if found != NONE:
                 return found
-        g = table.phi[a, 0, j] * x + table.phi[a, 1, j] * v + table.q[window, a, 0, j]
     bulge = 0.125 * most * tau[1] * tau[1]
-    p11, p12, q1 = table.phi[a, 0], table.phi[a, 1], table.q[window, a, 0]
+    stride = 1 if start > 0.0 else 4
     while j < last:
-        g_next = p11[j + 1] * x + p12[j + 1] * v + q1[j + 1]
-        if min(side * g, side * g_next) <= bulge:
-            v_j = table.phi[a, 2, j] * x + table.phi[a, 3, j] * v + table.q[window, a, 1, j]
-            found = search(a, tau[j], tau[j + 1], g, v_j, x, v, most, floor, theta, k, p0, w0)
+        step = min(stride, last - j)
+        i = j + step
+        g_next = phi[0, i] * x + phi[1, i] * v + q[0, i]
+        if min(side * g, side * g_next) > bulge * (step * step):
+            stride = 2 * step
+            j, g = i, g_next
+        elif step > 1:
+            stride = step // 2
+        else:
+            v_j = phi[2, j] * x + phi[3, j] * v + q[1, j]
+            v_i = phi[2, i] * x + phi[3, i] * v + q[1, i]
+            found = search(a, tau[j], g, v_j, tau[i], g_next, v_i, x, v, most, floor, theta, k, p0, w0)
             if found != NONE:
                 return found
-        g = g_next
-        j += 1
+            j, g = i, g_next
     return NONE

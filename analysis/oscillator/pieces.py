@@ -24,8 +24,8 @@ import numpy as np
 
 from analysis.compiled import kernel
 
-NODES = 32  # least number of intervals in a window; an interval is also at most 0.2 long (1/30 of a natural period)
-LONGEST_INTERVAL = 0.2
+NODES = 64  # least number of intervals in a window; an interval is also at most 0.1 long (1/60 of a natural period)
+LONGEST_INTERVAL = 0.1
 LONGEST_WINDOW = 8.0
 MOST_DECAY = 2.0  # mu times a window: the inverse of Phi grows as its exponential
 
@@ -111,7 +111,8 @@ def curvature_bound(a, x, v, k, p0, w0):
     """An upper bound of |g''| over the window for the piece a of state (x, v) at the window's start."""
     if a == 1:
         y, u = x - p0, v - w0
-        return math.hypot(y, (u + 0.5 * k[MU] * y) / k[NU]) + k[TAUT_ACC]
+        w = (u + 0.5 * k[MU] * y) / k[NU]
+        return math.sqrt(y * y + w * w) + k[TAUT_ACC]
     return abs(k[LIFT] - k[MU] * (v - w0)) + k[SLACK_ACC]
 
 

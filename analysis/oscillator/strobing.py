@@ -91,7 +91,7 @@ def one_period(x, v, d, table, log):
 @kernel
 def orthonormalise(d):
     """Gram-Schmidt on the columns of d, in place; returns the diagonal of R."""
-    r11 = math.hypot(d[0, 0], d[1, 0])
+    r11 = math.sqrt(d[0, 0] * d[0, 0] + d[1, 0] * d[1, 0])
     r22 = (d[0, 0] * d[1, 1] - d[0, 1] * d[1, 0]) / r11
     e1, e2 = d[0, 0] / r11, d[1, 0] / r11
     d[0, 0], d[1, 0], d[0, 1], d[1, 1] = e1, e2, -e2, e1

@@ -1,0 +1,106 @@
+"""How fast both exponents of eq. (33) come, event-exact and by a fixed-step toolbox; an orbit diagram of 800 values.
+
+    python -m benchmarks.oscillator_speed [--rounds N] [--core N]
+
+Rates   forcing periods a second with both exponents, at the paper's parameters. Ours: `growth_of_starts`, one start.
+        pynamicalsys (PyPI; the extra `bench`): `ContinuousDynamicalSystem.lyapunov`, RK4 with T/64 steps, its own QR,
+        compiled; equation and Jacobian as it wants them, compiled too. One thread each, compilation left out, in turns
+        (A B A B ...), medians over the rounds.
+Error   of the state after ten periods from (0.68, 0), against the digits of model.md 5.3.
+Diagram 800 values of F in [0.1, 2], four starts, 500 + 1000 periods each, exponents at every value.
+"""
+
+import argparse
+import os
+import time
+from statistics import median
+
+import numpy as np
+
+from analysis.oscillator import SnapOscillator, snap_diagram, strobed_states
+from analysis.oscillator.pieces import tables
+from analysis.oscillator.strobing import growth_of_starts
+
+START = (0.68, 0.0)
+AFTER_TEN = np.array([-20.3682913974351795585, -2.33939200511708733634])
+OURS_PERIODS, THEIRS_PERIODS, STEPS = 1_000_000, 20_000, 64
+
+
+def ours(oscillator, periods):
+    """Both exponents over `periods` periods."""
+    sums = growth_of_starts(np.array([START]), 100, 10, periods // 10, 0, tables(oscillator))[0]
+    return sums.sum(axis=(0, 1)) / (periods * oscillator.period)
+
+
+def toolbox(oscillator):
+    """pynamicalsys with eq. (33) in it, or None where it is not installed."""
+    try:
+        from pynamicalsys import ContinuousDynamicalSystem
+    except ImportError:
+        return None
+    import numba
+
+    @numba.njit
+    def rates(time, u, p):
+        restoring = u[0] if u[0] >= 0.0 else 0.0
+        return np.array([u[1], p[2] * np.sin(p[1] * time) + p[3] - p[0] * u[1] - restoring])
+
+    @numba.njit
+    def jacobian(time, u, p):
+        return np.array([[0.0, 1.0], [-1.0 if u[0] >= 0.0 else 0.0, -p[0]]])
+
+    o = oscillator
+    system = ContinuousDynamicalSystem(
+        equations_of_motion=rates, jacobian=jacobian, system_dimension=2, number_of_parameters=4
+    )
+    system.integrator("rk4", time_step=o.period / STEPS)
+    system.set_parameters([o.damping, o.frequency, o.force, o.lift])
+    return system
+
+
+def seconds(call, *arguments):
+    began = time.perf_counter()
+    result = call(*arguments)
+    return time.perf_counter() - began, result
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--rounds", type=int, default=5)
+    parser.add_argument("--core", type=int, default=0)
+    options = parser.parse_args()
+    if hasattr(os, "sched_setaffinity"):
+        os.sched_setaffinity(0, {options.core})
+    oscillator = SnapOscillator()
+    system = toolbox(oscillator)
+    calls = {"ours": (OURS_PERIODS, lambda: ours(oscillator, OURS_PERIODS))}
+    ours(oscillator, 100)
+    if system is not None:
+        system.lyapunov(START, 10 * oscillator.period)
+        calls["pynamicalsys"] = (THEIRS_PERIODS, lambda: system.lyapunov(START, THEIRS_PERIODS * oscillator.period))
+    rates: dict[str, list[float]] = {name: [] for name in calls}
+    exponents = {}
+    for _ in range(options.rounds):
+        for name, (periods, call) in calls.items():
+            wall, exponents[name] = seconds(call)
+            rates[name].append(periods / wall)
+    for name, values in rates.items():
+        each = " ".join(f"{value:.3g}" for value in values)
+        print(f"{name:13s} {median(values):10.4g} forcing periods a second   ({each})   exponents {exponents[name]}")
+    if system is None:
+        print("pynamicalsys is not installed (pip install -e .[bench]): no comparison")
+    else:
+        ratio = median(a / b for a, b in zip(rates["ours"], rates["pynamicalsys"], strict=True))
+        print(f"ratio         {ratio:10.4g}")
+        theirs = system.trajectory(START, 10 * oscillator.period)[-1, 1:]
+        print(f"error after ten periods: pynamicalsys {np.abs(theirs - AFTER_TEN).max():.2g}, ", end="")
+        print(f"ours {np.abs(strobed_states(oscillator, START, 11)[10] - AFTER_TEN).max():.2g}")
+    snap_diagram(oscillator, "force", [1.0], transient_periods=1, periods=10, points=1)
+    wall = median(
+        seconds(snap_diagram, oscillator, "force", np.linspace(0.1, 2.0, 800))[0] for _ in range(min(3, options.rounds))
+    )
+    print(f"orbit diagram of 800 values with exponents, 6000 periods each: {wall:.2f} s")
+
+
+if __name__ == "__main__":
+    main()
