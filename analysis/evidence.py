@@ -6,7 +6,7 @@ import numpy as np
 
 from analysis.drifts import record_drift
 from analysis.line_spectra import spectral_lines
-from analysis.neighbour_growth import neighbour_growth
+from analysis.neighbour_distances import neighbour_growth
 from analysis.predictability import prediction_gain
 from analysis.surrogates import iaaft_surrogates, noisy_periodic_surrogates, normal_scores, rank_among
 from analysis.zero_one import zero_one_test
@@ -65,7 +65,7 @@ def exponent_evidence(tangent, wolf):
     nan = float("nan")
     source, exponent = ("tangent dynamics", tangent) if tangent is not None and tangent.found else ("time series", wolf)
     if exponent is None:
-        return Evidence("exponent", nan, 0.0, None, "no exponent was given")
+        return Evidence("exponent", nan, 0.0, None, "not asked: the orbit repeats, and no exponent was given")
     if not exponent.found:
         return Evidence("exponent", nan, 0.0, None, f"no exponent: {exponent.reason}")
     passed = bool(exponent.value - 2.0 * exponent.error > 0.0)

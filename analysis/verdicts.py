@@ -37,6 +37,7 @@ from analysis.exponents import BITS_PER_PERIOD, Exponent
 from analysis.periods import detect_period
 from analysis.poincare import poincare_section
 from analysis.sampling import checked_count, checked_positive, checked_series
+from analysis.wolf_plateau import wolf_lyapunov
 
 LEAST_POINTS = 40
 # A scalar record is given its state by its values at as many phases of the period: enough for a state of dimension 4.
@@ -94,8 +95,10 @@ def regime(
     strobed (m,) or (m, d)   instead of `series`: the section itself, one row a forcing period
     transient_periods        periods left out at the start
     tangent_exponent         Exponent, or (value, error) in bits per forcing period, of the tangent dynamics
-    wolf_exponent            the same, of the time series; where there is neither, no motion is called chaotic
-    tighter                  Verdict, or its word, on the same motion computed to a ten times tighter tolerance
+    wolf_exponent            the same, of the time series. Where neither is given, Wolf's method on the first coordinate
+                             (of a section alone: as a map, 500 points)
+    tighter                  Verdict, or its word, on the same motion computed to a ten times tighter tolerance; where it is
+                             not given, nobody looked, and that alone does not speak against chaos
     scale, tolerance, max_period   as in detect_period; scale defaults to the range of the later half of `series`
     surrogates               of each null, 19 or more
     seed                     of random angles and surrogates
@@ -107,13 +110,15 @@ def regime(
     """
     surrogates = checked_count(surrogates, "surrogates", least=19)
     section, scale = _section(series, step_s, period_s, strobed, transient_periods, scale)
-    tangent = _exponent(tangent_exponent, period_s, "tangent_exponent")
-    wolf = _exponent(wolf_exponent, period_s, "wolf_exponent")
+    tangent = _in_bits(tangent_exponent, period_s, "tangent_exponent")
+    wolf = _in_bits(wolf_exponent, period_s, "wolf_exponent")
     points = len(section)
     if points < LEAST_POINTS:
         reason = f"too short: {LEAST_POINTS} strobed points are needed, given {points}"
         return Verdict("undecided", reason, (), None, points, seed)
     estimate = detect_period(section, max_period, tolerance, scale)
+    if estimate.period is None and wolf is None and (tangent is None or not tangent.found):
+        wolf = _estimated(section, series, step_s, period_s, transient_periods)
     evidence = [*period_evidence(estimate), exponent_evidence(tangent, wolf)]
     if estimate.period is not None:
         word, reason = f"period-{estimate.period}", estimate.reason
@@ -192,7 +197,16 @@ def _section(series, step_s, period_s, strobed, transient_periods, scale):
     return section, scale
 
 
-def _exponent(given, period_s, name):
+def _estimated(section, series, step_s, period_s, transient_periods):
+    """Wolf's exponent of the first coordinate: of the record where there is one, else of the section as a map."""
+    if series is None:
+        return wolf_lyapunov(section[:, 0], 1.0).in_bits_per_period(1.0)
+    x = np.asarray(series, dtype=float)
+    x = x if x.ndim == 1 else x[:, 0]
+    return wolf_lyapunov(x[round(transient_periods * period_s / step_s) :], step_s).in_bits_per_period(period_s)
+
+
+def _in_bits(given, period_s, name):
     """An Exponent in bits per period, or None."""
     if given is None:
         return None
