@@ -15,6 +15,7 @@ _HOME = {
     "SnapMotion": "motions",
     "snap_motion": "motions",
     "strobed_states": "motions",
+    "strobed_states_within": "motions",
     "SnapExponents": "growth",
     "snap_exponents": "growth",
     "section_dimension": "growth",

@@ -36,6 +36,26 @@ def strobed_states(oscillator, start, points, transient_periods=0):
     return strobed_orbit(x, v, transient, points, tables(oscillator))
 
 
+def strobed_states_within(oscillator, start, boxes, points, most_periods, transient_periods=0):
+    """Strobed states of one orbit of eq. (33) that fall into given boxes of the section: zooms with points to spare.
+
+    start, transient_periods   as in `strobed_states`
+    boxes          (b, 4): g low, g high, g' low, g' high of each
+    points         the orbit ends when every box has this many;  most_periods  or after so many forcing periods
+    Returns a tuple of b arrays (m, 2) with m <= points, and the number of periods looked at: a box that the attractor
+    seldom visits comes back with few points, or with none. ValueError for boxes of another shape.
+    """
+    x, v = checked_start(start)
+    boxes = checked_series(boxes, "boxes", (2,))
+    if boxes.shape[1] != 4:
+        raise ValueError(f"boxes: an array (b, 4) is needed, given shape {boxes.shape}")
+    points, most = checked_count(points, "points"), checked_count(most_periods, "most_periods")
+    if transient_periods:
+        x, v = strobed_states(oscillator, start, 1, transient_periods)[0]
+    found, counts, seen = _within(float(x), float(v), boxes, points, most, tables(oscillator))
+    return tuple(found[i, : counts[i]].copy() for i in range(len(boxes))), int(seen)
+
+
 @dataclass(frozen=True, eq=False)
 class SnapMotion:
     """A motion of eq. (33) between strobes; time in units of 1/omega_r.
@@ -107,3 +127,19 @@ def _sampled(x, v, periods, samples, period, table):
             motion[n * samples + 1 :] = np.nan
     motion[periods * samples, 0], motion[periods * samples, 1] = x, v
     return motion, switches[:found].copy(), slack_time
+
+
+@kernel
+def _within(x, v, boxes, points, most, table):
+    log, d = np.empty((MOST_PIECES, 5)), np.eye(2)
+    found, counts = np.empty((len(boxes), points, 2)), np.zeros(len(boxes), np.int64)
+    for n in range(most):
+        for i in range(len(boxes)):
+            if counts[i] < points and boxes[i, 0] <= x <= boxes[i, 1] and boxes[i, 2] <= v <= boxes[i, 3]:
+                found[i, counts[i], 0], found[i, counts[i], 1] = x, v
+                counts[i] += 1
+        if counts.min() == points:
+            return found, counts, n + 1
+        d[0, 0], d[0, 1], d[1, 0], d[1, 1] = 1.0, 0.0, 0.0, 1.0
+        x, v, _, _ = one_period(x, v, d, table, log)
+    return found, counts, most
