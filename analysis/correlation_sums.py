@@ -7,7 +7,7 @@ between which the slope is constant. Without such a region there is no dimension
 the motion is smooth, not because it returns: Theiler's window w leaves them out, else every smooth curve has D = 1.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -25,6 +25,7 @@ LEAST_PAIRS = 500
 LARGEST_SHARE = 0.03
 SLOPE_TOLERANCE = 0.08
 LEAST_SLOPE = 0.2
+QUARTERS = 4
 
 
 @dataclass(frozen=True, eq=False)
@@ -32,7 +33,8 @@ class CorrelationDimension:
     """The correlation dimension of a set of points, or why there is none.
 
     value            D; NaN where no scaling region was found
-    error            half the difference of the slopes over the lower and the upper half of the region, or 1 % if that is more
+    error            standard error: from the slopes in four parts of the record, and half the difference of the slopes
+                     over the two halves of the region
     reason           one sentence
     region           (r_low, r_high), the scaling region, in standard deviations of the coordinates; (NaN, NaN) without
     radius (b,)      radii, in the same unit
@@ -59,13 +61,13 @@ def correlation_dimension(points, theiler=0):
     theiler                 pairs at most this many places apart in the order do not count: for a flow about the time in
                             which its correlation is lost, for a section 0 or 1
     Returns a CorrelationDimension. The region is the longest range of radii, over 1.5 nats at least, with 500 pairs
-    below it, at most 3 % of all pairs within it, and local slopes within 8 % of their mean. NaN, with the reason, when there
-    is none (too few points for the dimension, noise that fills the embedding, several scales), when points are too
-    few, or when D exceeds what so many points can show, 2 ln m/ln(size/r_high) (Eckmann & Ruelle). White noise gives
-    d where d is small and no value where it is not. Time grows with m^2 (10,000 points: under a second).
+    below it, at most 3 % of all pairs within it, and local slopes within 8 % of their mean. NaN, with the reason, when
+    there is none (too few points for the dimension, noise that fills the embedding, several scales), when points are
+    too few, or when D exceeds what so many points can show, 2 ln m/ln(size/r_high) (Eckmann & Ruelle). White noise
+    gives d where d is small and no value where it is not. Time grows with m^2 (10,000 points: under a second).
     Raises ValueError for values that are not finite.
-    Source: P. Grassberger & I. Procaccia, Physica D 9 (1983) 189; window: J. Theiler, Phys. Rev. A 34 (1986) 2427; limit:
-    J.-P. Eckmann & D. Ruelle, Physica D 56 (1992) 185.
+    Source: P. Grassberger & I. Procaccia, Physica D 9 (1983) 189; window: J. Theiler, Phys. Rev. A 34 (1986) 2427;
+    limit: J.-P. Eckmann & D. Ruelle, Physica D 56 (1992) 185.
     """
     x = checked_series(points, "points", dimensions=(1, 2))
     x = x[:, None] if x.ndim == 1 else x
@@ -83,7 +85,15 @@ def correlation_dimension(points, theiler=0):
     pairs = np.cumsum(counts)[:-1]
     total = (len(z) - theiler) * (len(z) - theiler - 1) // 2
     logarithm = largest - _NATS + np.arange(len(pairs)) / BINS_PER_NAT
-    return _read(pairs, total, logarithm, len(z))
+    found = _read(pairs, total, logarithm, len(z))
+    if not np.isfinite(found.value) or found.value == 0.0:
+        return found
+    quarters = [
+        np.cumsum(_pairs_by_distance(part, theiler, largest - _NATS, BINS_PER_NAT, len(counts)))[:-1]
+        for part in np.array_split(z, QUARTERS)
+    ]
+    inside = (found.radius >= found.region[0]) & (found.radius <= found.region[1])
+    return replace(found, error=float(np.hypot(found.error, _sampling_error(quarters, logarithm, inside))))
 
 
 @kernel
@@ -122,8 +132,8 @@ def _read(pairs, total, logarithm, points):
     region = _longest(slope, usable[slope[usable] > LEAST_SLOPE])
     if region is None:
         reason = (
-            f"no scaling region: nowhere are the slopes within {SLOPE_TOLERANCE:.0%} over {LEAST_SPAN_NATS} nats of radius "
-            f"between {LEAST_PAIRS} pairs and {LARGEST_SHARE:.0%} of all"
+            f"no scaling region: nowhere are the slopes within {SLOPE_TOLERANCE:.0%} over {LEAST_SPAN_NATS} nats of "
+            f"radius between {LEAST_PAIRS} pairs and {LARGEST_SHARE:.0%} of all"
         )
         return CorrelationDimension(np.nan, np.nan, reason, none, *curve, points)
     first, last = region[0] - half, region[1] + half
@@ -132,14 +142,25 @@ def _read(pairs, total, logarithm, points):
         float(np.polyfit(logarithm[a : b + 1], ln_share[a : b + 1], 1)[0])
         for a, b in ((first, last), (first, middle), (middle, last))
     )
-    error = max(0.5 * abs(upper - lower), 0.01 * value)
+    error = 0.5 * abs(upper - lower)
     edges = (float(np.exp(logarithm[first])), float(np.exp(logarithm[last])))
     limit = 2.0 * np.log(points) / (logarithm[-1] - logarithm[last])
     if value > limit:
         reason = f"too few points: {points} cannot show a dimension above {limit:.2f}, the slope is {value:.2f}"
         return CorrelationDimension(np.nan, np.nan, reason, none, *curve, points)
-    reason = f"slope {value:.3f} over {logarithm[last] - logarithm[first]:.1f} nats of radius, {edges[0]:.2g} to {edges[1]:.2g}"
+    span = logarithm[last] - logarithm[first]
+    reason = f"slope {value:.3f} over {span:.1f} nats of radius, {edges[0]:.2g} to {edges[1]:.2g}"
     return CorrelationDimension(value, error, reason, edges, *curve, points)
+
+
+def _sampling_error(quarters, logarithm, inside):
+    """Standard error from the slopes of four parts of the record: how evenly the set was visited."""
+    slopes = []
+    for pairs in quarters:
+        used = inside & (pairs >= LEAST_PAIRS // QUARTERS**2)
+        if used.sum() > 2:
+            slopes.append(np.polyfit(logarithm[used], np.log(pairs[used]), 1)[0])
+    return np.std(slopes, ddof=1) / np.sqrt(QUARTERS) if len(slopes) > 2 else 0.0
 
 
 def _longest(slope, usable):

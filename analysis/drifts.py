@@ -1,4 +1,4 @@
-"""Is a strobed record still on its way? Spread and mean of consecutive blocks, and whether they march in step with time.
+"""Is a strobed record still on its way? Spread and mean of consecutive blocks, and whether they march with time.
 
 A decay c e^{-a k} about any motion makes ln(spread) of equal blocks a straight line in time, and a slow trend does the
 same to their means; on an attractor both scatter. Two signs count as a drift over eight blocks:
@@ -55,8 +55,8 @@ def record_drift(section):
     x = checked_series(section, "section", dimensions=(1, 2))
     x = x[:, None] if x.ndim == 1 else x
     if len(x) < LEAST_POINTS:
-        nan = float("nan")
-        return Drift(None, nan, nan, nan, nan, nan, f"too short: {LEAST_POINTS} strobed points are needed, given {len(x)}")
+        reason = f"too short: {LEAST_POINTS} strobed points are needed, given {len(x)}"
+        return Drift(None, *[float("nan")] * 5, reason)
     size = x.std(axis=0)
     moving = size > 64 * np.finfo(float).eps * np.abs(x).max(axis=0)
     if not moving.any():
@@ -92,7 +92,7 @@ def _judged(spread_change, spread_march, mean_change, mean_march, collapse):
     """The record with its sentence."""
     signs = []
     if abs(spread_march) > MARCH and abs(spread_change) > LEAST_CHANGE:
-        signs.append(f"the spread of the section changes steadily, by a factor {np.exp(spread_change):.2g} over the record")
+        signs.append(f"the spread of the section changes steadily, by a factor {np.exp(spread_change):.2g} in all")
     if abs(mean_march) > MARCH and abs(mean_change) > LEAST_CHANGE:
         signs.append(f"its mean moves steadily, by {abs(mean_change):.2g} standard deviations")
     if collapse > COLLAPSE:

@@ -1,4 +1,4 @@
-"""The tests behind a verdict (`verdicts.regime`), each as a line of evidence: name, value, threshold, passed, sentence."""
+"""The tests behind a verdict (`verdicts.regime`), each a line of evidence: name, value, threshold, passed, sentence."""
 
 from dataclasses import dataclass
 
@@ -102,15 +102,16 @@ def incommensurate_evidence(section, max_period):
     turns = np.array([_turns_off(f, max_period) for f in spectrum.frequency]) * len(section)
     standing = np.flatnonzero(share > LEAST_POWER)
     if len(standing) == 0:
-        return Evidence("incommensurate line", np.nan, LEAST_TURN, False, "no line stands out of the section's spectrum")
+        return Evidence("incommensurate line", np.nan, LEAST_TURN, False, "no line stands out of the spectrum")
     free = standing[turns[standing] > LEAST_TURN]
     if len(free) == 0:
         sentence = f"all {len(standing)} lines are those of a period up to {max_period}, as far as this record goes"
         return Evidence("incommensurate line", float(turns[standing].max()), LEAST_TURN, False, sentence)
     best = free[np.argmax(share[free])]
     sentence = (
-        f"a line at {spectrum.frequency[best]:.5f} cycles a period, {turns[best]:.2g} turns over the record from any "
-        f"subharmonic, carries {min(share[best], 1.0):.0%} of a coordinate; all lines leave {spectrum.unexplained.max():.2g}"
+        f"a line at {spectrum.frequency[best]:.5f} cycles a period, {turns[best]:.2g} turns over the record from "
+        f"any subharmonic, carries {min(share[best], 1.0):.0%} of a coordinate; "
+        f"all lines leave {spectrum.unexplained.max():.2g}"
     )
     return Evidence("incommensurate line", float(turns[best]), LEAST_TURN, True, sentence)
 
@@ -170,8 +171,8 @@ def null_ranks(section, surrogates, seed):
 
     The linear null is asked of the coordinates' normal scores: it allows any monotone instrument, and iterating towards
     a spectrum and a skew distribution at once reaches neither well enough (exp of a linear process, sampled often, beat
-    its own surrogates in one case of ten). Normal scores undo the instrument first. For the other null that would not do:
-    its noise is added to the motion as it is.
+    its own surrogates in one case of ten). Normal scores undo the instrument first. For the other null that would not
+    do: its noise is added to the motion as it is.
     """
     ranks = []
     for i, (points, make) in enumerate([(normal_scores(section), NULLS[0][1]), (section, NULLS[1][1])]):
@@ -189,7 +190,8 @@ def tighter_evidence(tighter, word):
     if tighter is None:
         return Evidence("tighter tolerance", np.nan, np.nan, None, "no spot check at a tighter tolerance was given")
     other = tighter if isinstance(tighter, str) else tighter.regime
-    return Evidence("tighter tolerance", np.nan, np.nan, bool(other == word), f"the verdict at a tighter tolerance is {other}")
+    sentence = f"the verdict at a tighter tolerance is {other}"
+    return Evidence("tighter tolerance", np.nan, np.nan, bool(other == word), sentence)
 
 
 def _margin(name, value, passed, sentence):

@@ -5,7 +5,7 @@ periodic or quasi-periodic (Halmos & von Neumann 1942). So instead of a curve fi
 know how many curves there are, how wrinkled they are and of which dimension the torus is, pairs of neighbours are
 followed:
 
-    d(n) = geometric mean over k of |s_{k+n} - s_{j(k)+n}|,    s_{j(k)} the nearest point to s_k outside Theiler's window.
+    d(n) = geometric mean over k of |s_{k+n} - s_{j(k)+n}|,    s_{j(k)} nearest to s_k outside Theiler's window.
 
 On a torus d is constant: the pair keeps its distance in the angle, and the mean over k of ln|ds/dangle| does not depend
 on n. In chaos it grows by lambda a step up to the size of the attractor (or of its bands); in noise it jumps to that
@@ -64,7 +64,8 @@ def neighbour_growth(section, delays=None, theiler=1):
         reason = f"too short: {LEAST_POINTS} strobed points are needed, given {len(x)}"
         return NeighbourGrowth(np.nan, np.nan, np.nan, nothing, reason)
     if not moving.any():
-        return NeighbourGrowth(np.nan, np.nan, np.nan, nothing, "no motion: the section is one point to the last digits")
+        reason = "no motion: the section is one point to the last digits"
+        return NeighbourGrowth(np.nan, np.nan, np.nan, nothing, reason)
     z = x[:, moving] / size[moving]
     state = np.hstack([z[lag : len(z) - delays + 1 + lag] for lag in range(delays)])
     horizon = len(state) // 4
@@ -72,7 +73,10 @@ def neighbour_growth(section, delays=None, theiler=1):
     early, late = np.log(distance[EARLY]).mean(), np.log(distance[horizon // 2 :]).mean()
     growth = float(late - early)
     rate = growth / (0.75 * horizon - 2.0)
-    reason = f"neighbours {np.exp(early):.2g} of the section apart are {np.exp(late):.2g} apart {horizon // 2} and more periods on"
+    reason = (
+        f"neighbours {np.exp(early):.2g} of the section apart are {np.exp(late):.2g} apart {horizon // 2} and more "
+        "periods on"
+    )
     return NeighbourGrowth(growth, float(np.exp(late)), float(rate), locked(distance), reason)
 
 

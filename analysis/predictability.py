@@ -49,8 +49,8 @@ def prediction_gain(section, delays=None, theiler=1):
     delays                   rows taken together as one state, (x_k, x_{k-1}, ...); default: as few as make a state of 3
                              or more numbers
     theiler                  points within this many periods of the one predicted are no neighbours of it
-    Returns a PredictionGain: NaN, with the reason, where nothing moves or there are fewer than eight states per number in a
-    state and window.
+    Returns a PredictionGain: NaN, with the reason, where nothing moves or the record is short: it
+    takes eight states per number in a state, and the window.
     Raises ValueError for values that are not finite.
     Source: E. N. Lorenz (analogues), J. Atmos. Sci. 26 (1969) 636; J. D. Farmer & J. J. Sidorowich, Phys. Rev. Lett. 59
     (1987) 845; gain over linear prediction as a test: M. Casdagli, J. R. Stat. Soc. B 54 (1992) 303.
@@ -67,7 +67,9 @@ def prediction_gain(section, delays=None, theiler=1):
     state, target = _states(z, delays)
     needed = LEAST_PER_COORDINATE * (state.shape[1] + 1) + 2 * theiler
     if len(state) < needed:
-        reason = f"too short: {needed + delays} strobed points are needed for a state of {state.shape[1]}, given {len(x)}"
+        reason = (
+            f"too short: {needed + delays} points are needed for a state of {state.shape[1]} numbers, given {len(x)}"
+        )
         return PredictionGain(np.nan, np.nan, np.nan, reason)
     linear, local = _linear_error(state, target), _local_error(state, target, theiler)
     # Errors at rounding cannot be compared: a clean period-N motion is predicted to the last digit by both.

@@ -1,20 +1,20 @@
 """The regime of a forced motion, in one word, with the evidence for it.
 
-    period-N          the strobed orbit repeats after N forcing periods within the tolerance (`detect_period`); the decay of
-                      its steps gives the multiplier of the slowest mode
+    period-N          the strobed orbit repeats after N forcing periods within tolerance (`detect_period`); the decay
+                      of its steps gives the multiplier of the slowest mode
     transient         otherwise: spread or mean of the section change steadily, or neighbours close in: still on its way
     chaotic           otherwise: lambda - 2 error > 0; K of the 0-1 test > 0.9; the gain of nonlinear over linear
-                      prediction above 95 % of IAAFT and of noisy-periodic surrogates, and 0.3 nats above their median; the
-                      0-1 test and both ranks again in each half of the record; and neighbours on the section part
-    quasi-periodic    otherwise: neighbours on the section stay neighbours, a line of the spectrum is incommensurate with the
+                      prediction above 95 % of IAAFT and of noisy-periodic surrogates, and 0.3 nats above their median;
+                      the 0-1 test and both ranks again in each half of the record; and neighbours on the section part
+    quasi-periodic    otherwise: neighbours on the section stay neighbours, a spectral line is incommensurate with the
                       forcing, and the exponent is about 0
-    undecided         otherwise; and wherever an exponent of the tangent dynamics, or the verdict on the same motion at a
-                      tighter tolerance, contradicts the word
+    undecided         otherwise; and wherever an exponent of the tangent dynamics, or the verdict on the same motion at
+                      a tighter tolerance, contradicts the word
 
 The exponent is that of the tangent dynamics where one is given, else that of the series (Wolf). It does not enter the
-ranks: noise has a larger apparent exponent than chaos of the same spectrum, so that "larger than that of surrogates" would
-select noise. What a deterministic motion has and both nulls lack is a next point that is a nonlinear function of the
-present one; hence the prediction gain.
+ranks: noise has a larger apparent exponent than chaos of the same spectrum, so that "larger than that of surrogates"
+would select noise. What a deterministic motion has and both nulls lack is a next point that is a nonlinear function of
+the present one; hence the prediction gain.
 """
 
 from dataclasses import dataclass
@@ -42,6 +42,8 @@ from analysis.wolf_plateau import wolf_lyapunov
 LEAST_POINTS = 40
 # A scalar record is given its state by its values at as many phases of the period: enough for a state of dimension 4.
 PHASES = 4
+# A record of 300 periods does not show less [bits per period].
+ABOUT_ZERO = 0.02
 
 
 @dataclass(frozen=True, eq=False)
@@ -89,16 +91,16 @@ def regime(
 ):
     """The regime of a periodically forced motion with the evidence for it (rules at the head of this file).
 
-    series (n,) or (n, d)    samples from t = 0, any unit: one coordinate, or all there are. A single coordinate is seen at
-                             four phases of the period, which makes up for those that are missing
+    series (n,) or (n, d)    samples from t = 0, any unit: one coordinate, or all there are. A single coordinate is seen
+                             at four phases of the period, which makes up for those that are missing
     step_s, period_s         sampling step and forcing period [s]; with `series` both are needed
     strobed (m,) or (m, d)   instead of `series`: the section itself, one row a forcing period
     transient_periods        periods left out at the start
     tangent_exponent         Exponent, or (value, error) in bits per forcing period, of the tangent dynamics
     wolf_exponent            the same, of the time series. Where neither is given, Wolf's method on the first coordinate
                              (of a section alone: as a map, 500 points)
-    tighter                  Verdict, or its word, on the same motion computed to a ten times tighter tolerance; where it is
-                             not given, nobody looked, and that alone does not speak against chaos
+    tighter                  Verdict, or its word, on the same motion computed to a ten times tighter tolerance; where
+                             it is not given, nobody looked, and that alone does not speak against chaos
     scale, tolerance, max_period   as in detect_period; scale defaults to the range of the later half of `series`
     surrogates               of each null, 19 or more
     seed                     of random angles and surrogates
@@ -158,10 +160,11 @@ def _without_period(section, exponent, max_period, surrogates, seed):
 
 
 def _about_zero(exponent):
-    """No exponent, or one within two errors (or 0.02 bits per period) of 0."""
+    """No exponent, or one that is 0 within two errors and 0.02 bits per period."""
     if exponent.passed is None:
         return True
-    return not exponent.passed and exponent.value + 2.0 * exponent.error > -0.02
+    margin = 2.0 * exponent.error + ABOUT_ZERO
+    return abs(exponent.value) < margin
 
 
 def _contradicted(word, reason, tighter, tangent):
@@ -169,7 +172,7 @@ def _contradicted(word, reason, tighter, tangent):
     if tighter.passed is False:
         return "undecided", f"{word} at this tolerance, but {tighter.sentence}"
     positive = tangent is not None and tangent.found and tangent.value - 2.0 * tangent.error > 0.0
-    if positive and (word.startswith("period-") or word == "quasi-periodic"):
+    if positive and word.startswith("period-"):
         return "undecided", f"looks {word}, but the exponent of the tangent dynamics is positive"
     return word, reason
 

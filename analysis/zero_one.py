@@ -6,8 +6,8 @@ With phi_j once per forcing period and an angle c,
     D_c(n) = M_c(n) - <phi>^2 (1 - cos n c)/(1 - cos c),
     K_c = correlation of (1 ... n_cut) with (D_c(1) ... D_c(n_cut)),        n_cut = N/10,        K = median over c.
 
-Quasi-periodic steps add up to a bounded walk (K near 0), chaotic ones to a diffusing walk (K near 1). The mean of phi is
-removed before the sum, so that the term subtracted in D_c is zero: the same quantity up to O(1/N), without the
+Quasi-periodic steps add up to a bounded walk (K near 0), chaotic ones to a diffusing walk (K near 1). The mean of phi
+is removed before the sum, so that the term subtracted in D_c is zero: the same quantity up to O(1/N), without the
 cancellation that costs all digits when the mean (a buoy 21 m from its anchor) is large against the motion.
 Sampled many times per period, any smooth motion looks regular to this test, chaos included; and K near 1 says
 "irregular", not "chaotic": noise passes as well. Hence the section only, and the nulls of `surrogates` beside it.
@@ -51,9 +51,9 @@ def zero_one_test(section, angles=200, seed=0):
     angles         how many c: one at random in each of that many equal parts of (pi/5, 4 pi/5), which leaves out the
                    resonances of period-1 and period-2 parts; a median of 100 or more ignores the others
     seed           of those random angles
-    Returns a ZeroOneTest. Its value is NaN, with the reason, for fewer than 100 points, for a section without motion, and
-    for a series that is obviously oversampled (range above ten mean steps, as of a sine seen 20 times a cycle): a slow
-    torus is refused by that, too, rather than judged.
+    Returns a ZeroOneTest. Its value is NaN, with the reason, for fewer than 100 points, for a section without motion,
+    and for a series that is obviously oversampled (range above ten mean steps, as of a sine seen 20 times a cycle): a
+    slow torus is refused by that, too, rather than judged.
     Raises ValueError for values that are not finite or more than one coordinate.
     Source: G. A. Gottwald & I. Melbourne, Proc. R. Soc. A 460 (2004) 603; SIAM J. Appl. Dyn. Syst. 8 (2009) 129.
     """
@@ -80,8 +80,8 @@ def _why_not(phi):
     per_step = span / np.mean(np.abs(np.diff(phi)))
     if per_step > MOST_RANGE_PER_STEP:
         return (
-            f"oversampled: the range is {per_step:.3g} mean steps, more than {MOST_RANGE_PER_STEP:g}; the test needs the "
-            "motion once per forcing period, not every sample of it"
+            f"oversampled: the range is {per_step:.3g} mean steps, more than {MOST_RANGE_PER_STEP:g}; the test needs "
+            "the motion once per forcing period, not every sample of it"
         )
     return ""
 

@@ -1,0 +1,101 @@
+"""Dimensions known by theory or from the literature, and the cases in which there is none to be had."""
+
+import numpy as np
+import pytest
+
+from analysis import correlation_dimension
+from tests.analysis.maps import henon
+from tests.analysis.systems import states
+
+
+# 1.21 +- 0.01: Grassberger & Procaccia 1983; 1.220: Sprott 2003. Records of 20,000 points scatter by 0.01.
+@pytest.mark.slow
+def test_henon():
+    rng = np.random.default_rng(0)
+    starts = rng.uniform([-0.3, -0.2], [0.3, 0.2], (6, 2))
+    found = [correlation_dimension(henon(20000, start=start)) for start in starts]
+    assert 1.21 <= np.mean([one.value for one in found]) <= 1.25
+
+
+def test_the_printed_error_covers_henon():
+    """1.22 lies within two printed errors for 5000 points, in nine records of ten at least."""
+    starts = np.random.default_rng(1).uniform([-0.3, -0.2], [0.3, 0.2], (10, 2))
+    found = [correlation_dimension(henon(5000, start=start)) for start in starts]
+    assert sum(abs(one.value - 1.22) < 2 * one.error for one in found) >= 9
+    assert max(one.error for one in found) < 0.08
+
+
+# 2.05 +- 0.01: Grassberger & Procaccia 1983.
+@pytest.mark.slow
+def test_lorenz():
+    found = correlation_dimension(states("lorenz", 15000, step=0.1), theiler=10)
+    assert found.value == pytest.approx(2.05, abs=0.05)
+
+
+@pytest.mark.parametrize("points", [1000, 4000])
+def test_points_on_a_line_in_space(points):
+    place = np.random.default_rng(points).uniform(size=(points, 1))
+    assert correlation_dimension(place @ [[1.0, -2.0, 3.0]]).value == pytest.approx(1.0, abs=0.03)
+
+
+def test_a_circle():
+    angle = 2 * np.pi * np.random.default_rng(0).uniform(size=4000)
+    assert correlation_dimension(np.column_stack([np.cos(angle), np.sin(angle)])).value == pytest.approx(1.0, abs=0.05)
+
+
+@pytest.mark.parametrize("ratio", [0.3, 0.7])
+def test_a_torus_in_space(ratio):
+    a, b = 2 * np.pi * np.random.default_rng(1).uniform(size=(2, 6000))
+    ring = 1.0 + ratio * np.cos(a)
+    found = correlation_dimension(np.column_stack([ring * np.cos(b), ring * np.sin(b), ratio * np.sin(a)]))
+    assert found.value == pytest.approx(2.0, abs=0.1)
+
+
+def test_a_quasi_periodic_flow_covers_its_torus():
+    time = 0.6180339 * np.arange(8000)
+    a, b = time, np.sqrt(2.0) * time
+    torus = np.column_stack([(2 + np.cos(a)) * np.cos(b), (2 + np.cos(a)) * np.sin(b), np.sin(a)])
+    assert correlation_dimension(torus, theiler=10).value == pytest.approx(2.0, abs=0.15)
+
+
+@pytest.mark.parametrize("dimension", [1, 2, 3])
+def test_noise_fills_its_space(dimension):
+    noise = np.random.default_rng(dimension).normal(size=(4000, dimension))
+    assert correlation_dimension(noise).value == pytest.approx(dimension, rel=0.05)
+
+
+@pytest.mark.parametrize("dimension", [6, 8, 10])
+def test_noise_in_many_dimensions_has_no_scaling_region(dimension):
+    found = correlation_dimension(np.random.default_rng(dimension).normal(size=(3000, dimension)))
+    assert np.isnan(found.value) and np.isnan(found.region[0])
+    assert "no scaling region" in found.reason or "too few points" in found.reason
+
+
+def test_a_smooth_curve_is_one_dimensional_only_without_the_window():
+    """A random walk visits the plane; its neighbours in time make it look like a curve (Theiler 1986)."""
+    walk = np.cumsum(np.random.default_rng(3).normal(size=(4000, 2)), axis=0)
+    smooth = np.apply_along_axis(lambda x: np.convolve(x, np.hanning(200), "same"), 0, walk)
+    near = correlation_dimension(smooth)
+    far = correlation_dimension(smooth, theiler=400)
+    assert near.value < 1.25
+    assert np.isnan(far.value) or far.value > 1.5
+
+
+def test_a_period_is_a_finite_set():
+    found = correlation_dimension(np.resize([[0.0, 1.0], [3.0, 2.0], [1.0, 5.0]], (900, 2)))
+    assert found.value == 0.0 and "finite set" in found.reason
+
+
+def test_the_correlation_sum_counts_pairs():
+    points = np.random.default_rng(5).normal(size=(300, 2))
+    found = correlation_dimension(points, theiler=4)
+    z = points / points.std(axis=0)
+    distance = [np.linalg.norm(z[i] - z[j]) for i in range(300) for j in range(i + 5, 300)]
+    for k in (150, 200, 250, 279):
+        assert found.correlation_sum[k] == pytest.approx(np.mean(distance < found.radius[k]), abs=1e-12)
+
+
+@pytest.mark.parametrize(("points", "why"), [(np.zeros((500, 2)), "no motion"), (np.ones((299, 2)), "too short")])
+def test_where_there_is_none_it_says_why(points, why):
+    found = correlation_dimension(points)
+    assert np.isnan(found.value) and why in found.reason

@@ -1,0 +1,116 @@
+"""What surrogates keep, what they do not, and how often a true null is rejected."""
+
+import numpy as np
+import pytest
+from scipy.signal import lfilter
+
+from analysis import (
+    iaaft_surrogates,
+    noisy_periodic_surrogates,
+    normal_scores,
+    prediction_gain,
+    rank_among,
+    spectral_lines,
+)
+from tests.analysis.maps import henon, logistic
+
+RECORDS = {
+    "henon": henon(400),
+    "logistic": logistic(3.9, 333),
+    "saturated noise": np.tanh(2 * lfilter([1.0], [1.0, -0.7], np.random.default_rng(0).normal(size=500))),
+}
+
+
+@pytest.mark.parametrize("make", [iaaft_surrogates, noisy_periodic_surrogates])
+@pytest.mark.parametrize("name", RECORDS)
+def test_shape_and_seed(make, name):
+    first, again, other = make(RECORDS[name], 3, 5), make(RECORDS[name], 3, 5), make(RECORDS[name], 3, 6)
+    assert first.shape == (3, *RECORDS[name].shape)
+    assert np.array_equal(first, again) and not np.array_equal(first, other)
+    assert not np.array_equal(first[0], first[1])
+
+
+@pytest.mark.parametrize("name", RECORDS)
+def test_iaaft_keeps_the_values_exactly_and_the_spectrum_closely(name):
+    record = RECORDS[name]
+    wanted = np.abs(np.fft.rfft(record, axis=0))
+    for surrogate in iaaft_surrogates(record, 5, 1):
+        assert np.array_equal(np.sort(surrogate, axis=0), np.sort(record, axis=0))
+        got = np.abs(np.fft.rfft(surrogate, axis=0))
+        assert np.sqrt(np.sum((got - wanted)[1:] ** 2) / np.sum(wanted[1:] ** 2)) < 0.06
+
+
+def test_iaaft_keeps_what_columns_have_in_common():
+    """Two coordinates of one linear process, position and lagged position."""
+    x = lfilter([1.0], [1.0, -1.6, 0.9], np.random.default_rng(2).normal(size=603))[:600]
+    record = np.column_stack([x[3:], x[:-3]])
+    wanted = np.corrcoef(record.T)[0, 1]
+    for surrogate in iaaft_surrogates(record, 5, 1):
+        assert np.corrcoef(surrogate.T)[0, 1] == pytest.approx(wanted, abs=0.03)
+
+
+def test_lines_of_a_clean_quasi_periodic_motion_are_found_to_rounding():
+    k = np.arange(400)
+    turn = 2 * np.pi * 0.1234567 * k
+    motion = np.column_stack([np.cos(turn) + 0.4 * np.cos(2 * turn + 1), np.exp(np.sin(turn)) * (-1.0) ** k])
+    lines = spectral_lines(motion)
+    assert lines.unexplained.max() < 1e-8
+    assert np.min(np.abs(lines.frequency - 0.1234567)) < 1e-8
+    assert lines.amplitude[np.argmin(np.abs(lines.frequency - 0.1234567)), 0] == pytest.approx(1.0, abs=1e-6)
+
+
+def test_white_noise_and_strong_chaos_have_no_lines():
+    assert len(spectral_lines(np.random.default_rng(0).normal(size=(400, 2))).frequency) == 0
+    assert len(spectral_lines(logistic(4.0, 400)).frequency) == 0
+
+
+def test_noisy_periodic_surrogates_keep_the_lines_and_the_level_of_the_rest():
+    k = np.arange(400)
+    noise = 0.3 * np.random.default_rng(1).normal(size=400)
+    record = np.array([0.0, 3.0, 1.0, 7.0])[k % 4] + noise
+    for surrogate in noisy_periodic_surrogates(record, 5, 2):
+        means = [surrogate[j::4].mean() for j in range(4)]
+        assert means == pytest.approx([0.0, 3.0, 1.0, 7.0], abs=0.15)
+        rest = surrogate - np.resize(means, 400)
+        assert rest.std() == pytest.approx(0.3, rel=0.1)
+        assert abs(np.corrcoef(rest, noise)[0, 1]) < 0.2
+
+
+def test_a_clean_period_is_its_own_null():
+    record = np.resize([0.0, 3.0, 1.0, 7.0, 5.0], 300)
+    assert np.allclose(noisy_periodic_surrogates(record, 2), record, atol=1e-8)
+
+
+def test_normal_scores_forget_the_instrument():
+    x = np.random.default_rng(4).normal(size=(200, 2))
+    assert np.array_equal(normal_scores(x), normal_scores(np.exp(x)))
+
+
+def test_a_rank_needs_enough_surrogates_and_counts_ties_against():
+    drawn = np.arange(39.0)
+    assert rank_among(38.5, drawn).above and rank_among(37.5, drawn).above
+    assert not rank_among(36.5, drawn).above and not rank_among(37.0, drawn).above
+    assert rank_among(100.0, drawn).advantage == 81.0
+    with pytest.raises(ValueError, match="19 at least"):
+        rank_among(1.0, np.arange(18.0))
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("distort", [lambda x: x, np.exp])
+def test_a_linear_process_beats_its_nulls_about_once_in_twenty(distort):
+    """400 records; 5 % of them, within three standard deviations of that count (20 +- 13), through any instrument."""
+    rng, above = np.random.default_rng(7), 0
+    for _ in range(400):
+        x = distort(lfilter([1.0], [1.0, -1.2, 0.8], rng.normal(size=250))[50:])
+        scores = normal_scores(x)
+        drawn = [prediction_gain(one).gain for one in iaaft_surrogates(scores, 19, rng.integers(1 << 30))]
+        above += rank_among(prediction_gain(scores).gain, drawn).above
+    assert above <= 33
+
+
+def test_a_chaotic_map_is_predicted_better_than_both_nulls_allow():
+    for record in (logistic(3.9, 200), henon(200)):
+        gain = prediction_gain(record).gain
+        for make in (iaaft_surrogates, noisy_periodic_surrogates):
+            rank = rank_among(gain, [prediction_gain(one).gain for one in make(record, 19)])
+            assert rank.above and rank.advantage > 1.0

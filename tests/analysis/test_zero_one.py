@@ -1,0 +1,92 @@
+"""K of the 0-1 test on maps whose regime is known: near 0 for regular motion, near 1 for chaos, whatever the units."""
+
+import numpy as np
+import pytest
+
+from analysis import zero_one_test
+from tests.analysis.maps import circle_map, henon, logistic
+
+
+# Chaotic parameters away from band mergings; exponent at 4 is ln 2 exactly.
+@pytest.mark.parametrize("rate", [3.7, 3.9, 4.0])
+@pytest.mark.parametrize("points", [200, 1000])
+def test_the_logistic_map_in_chaos_has_k_near_1(rate, points):
+    assert zero_one_test(logistic(rate, points)).value > 0.95
+
+
+@pytest.mark.parametrize("rate", [3.2, 3.5, 3.55, 3.83])
+def test_the_logistic_map_in_its_windows_has_k_near_0(rate):
+    assert abs(zero_one_test(logistic(rate, 1000)).value) < 0.05
+
+
+def test_the_weaker_the_chaos_the_longer_it_takes():
+    weak = [zero_one_test(logistic(3.6, points)).value for points in (200, 1000, 4000)]
+    assert weak[0] < 0.9 < weak[2]
+
+
+@pytest.mark.parametrize("start", [(0.1, 0.1), (0.3, -0.1), (-0.2, 0.2)])
+def test_both_coordinates_of_the_henon_map_have_k_near_1(start):
+    orbit = henon(1000, start=start)
+    assert min(zero_one_test(orbit[:, j]).value for j in (0, 1)) > 0.95
+
+
+@pytest.mark.parametrize("coupling", [0.0, 0.5, 0.9])
+@pytest.mark.parametrize("rotation", [(np.sqrt(5) - 1) / 2, np.sqrt(2) - 1])
+def test_a_circle_map_that_is_one_to_one_has_k_near_0(coupling, rotation):
+    orbit = circle_map(coupling, rotation, 1000)
+    assert max(abs(zero_one_test(orbit[:, j]).value) for j in (0, 1)) < 0.15
+
+
+@pytest.mark.parametrize("coupling", [0.5, 1.6, 2.4, 4.6, 5.0, 6.0])
+def test_k_has_the_sign_of_the_exponent_of_the_circle_map(coupling):
+    """The derivative of the map is 1 - coupling cos(2 pi angle)."""
+    orbit = circle_map(coupling, 0.606661, 2000)
+    exponent = np.mean(np.log(np.abs(1.0 - coupling * orbit[:, 0])))
+    found = zero_one_test(orbit[:, 0])
+    assert found.value > 0.9 if exponent > 0.1 else found.value < 0.2
+
+
+def test_white_noise_has_k_near_1_too():
+    """The reason why the test alone proves nothing about a record in which noise is possible."""
+    assert zero_one_test(np.random.default_rng(0).normal(size=1000)).value > 0.95
+
+
+@pytest.mark.parametrize("orbit", [logistic(3.9, 400), logistic(3.5, 400), circle_map(0.5, 0.6180339, 400)[:, 0]])
+def test_units_and_origin_do_not_matter(orbit):
+    plain, moved = zero_one_test(orbit), zero_one_test(21.0 + 1e-3 * orbit)
+    assert np.allclose(plain.growth, moved.growth, atol=1e-8)
+
+
+def test_the_sum_by_transforms_is_the_sum_of_its_definition():
+    phi = logistic(3.9, 120)
+    test = zero_one_test(phi, angles=3)
+    phi, cut, lag = phi - phi.mean(), 12, np.arange(1, 13)
+    for c, growth in zip(test.angles_rad, test.growth, strict=True):
+        walk = np.array([sum(phi[k] * np.exp(1j * c * (k + 1)) for k in range(n + 1)) for n in range(120)])
+        distance = [np.mean(np.abs(walk[n : n + 120 - cut] - walk[: 120 - cut]) ** 2) for n in lag]
+        assert growth == pytest.approx(np.corrcoef(lag, distance)[0, 1], abs=1e-10)
+
+
+def test_the_angles_follow_from_the_seed():
+    orbit = logistic(3.6, 300)
+    assert np.array_equal(zero_one_test(orbit, seed=3).growth, zero_one_test(orbit, seed=3).growth)
+    assert not np.array_equal(zero_one_test(orbit, seed=3).growth, zero_one_test(orbit, seed=4).growth)
+    angles = zero_one_test(orbit).angles_rad
+    assert angles.min() > np.pi / 5 and angles.max() < 4 * np.pi / 5
+
+
+def test_an_oversampled_motion_is_refused():
+    time = np.arange(4000) / 100.0
+    test = zero_one_test(np.cos(2 * np.pi * time) + 0.5 * np.cos(2 * np.pi * 0.31 * time))
+    assert np.isnan(test.value) and "oversampled" in test.reason
+
+
+@pytest.mark.parametrize(("series", "why"), [(np.zeros(500), "no motion"), (np.arange(99.0), "too short")])
+def test_where_it_does_not_apply_it_says_why(series, why):
+    test = zero_one_test(series)
+    assert np.isnan(test.value) and why in test.reason
+
+
+def test_a_bad_sample_is_refused():
+    with pytest.raises(ValueError, match="index 7"):
+        zero_one_test(np.where(np.arange(200) == 7, np.nan, 1.0))
