@@ -106,7 +106,8 @@ def choose_delay(series, max_delay=None):
     """Delay at the first minimum of the average mutual information.
 
     A minimum is a lag that no other within a tenth of a mean period undercuts, I being smoothed over (1/4, 1/2, 1/4):
-    the scatter of I makes shorter dips by chance. The delay is never longer than a quarter of the mean period, the lag
+    the scatter of I makes shorter dips by chance. (To ask for a depth as well loses the well-known shallow minimum of
+    the Lorenz system.) The delay is never longer than a quarter of the mean period, the lag
     at which a sine and its delayed copy are independent: a motion that hops between two wells loses information for
     many swings, and vectors that span several of them are folded by the dynamics. A quarter is also taken where there
     is no minimum. A series with fewer than six samples per mean period (a map, a strobed record) has nothing between

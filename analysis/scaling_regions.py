@@ -6,14 +6,16 @@ a straight middle has none to give, however well a line may be put through it.
 """
 
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 
 from analysis.sampling import checked_series
 
 LEAST_SPAN_NATS = 1.0
-LEAST_POINTS = 4
-MOST_CURVATURE = 0.15
+LEAST_POINTS = 5
+PIECES = 4
+MOST_CURVATURE = 0.25
 
 
 @dataclass(frozen=True)
@@ -21,7 +23,7 @@ class ScalingRegion:
     """A straight part of y(t).
 
     slope        of the least-squares line; NaN where there is no region
-    error        half the difference between the slopes of its two halves: what the line's curvature leaves open
+    error        standard deviation of the slopes of its four quarters: what the line's curvature leaves open
     begin, end   first and last index of the region, inclusive; -1 where there is none
     span         rise of the line over the region [nats]
     reason       one sentence
@@ -38,8 +40,9 @@ class ScalingRegion:
 def scaling_region(time, curve, least_span=LEAST_SPAN_NATS, cycle=1):
     """The longest part of a curve that rises by at least one nat and is straight.
 
-    Straight: the slopes of its two halves differ by at most 15 % of the slope of the whole. Among straight parts the
-    one with the largest rise is taken. A swing of the curve with the motion is first averaged away over one `cycle`.
+    Straight: the slope of each quarter differs by at most 25 % from that of the whole (halves would not do: those of an
+    S are alike). Among straight parts the one with the largest rise is taken. A swing of the curve with the motion is
+    first averaged away over one `cycle`.
 
     time, curve (k,)    the curve, evenly spaced in time; NaN not allowed
     least_span          least rise [nats]
@@ -63,26 +66,23 @@ def scaling_region(time, curve, least_span=LEAST_SPAN_NATS, cycle=1):
     best, straight = None, False
     for begin in range(0, len(t) - least + 1, stride):
         for end in range(begin + least, len(t) + 1, stride):
-            slope, curvature = _line(t[begin:end], y[begin:end])
+            slope, pieces = _line(t[begin:end], y[begin:end])
             span = slope * (t[end - 1] - t[begin])
-            if slope > 0.0 and curvature <= MOST_CURVATURE * slope:
+            if slope > 0.0 and np.max(np.abs(pieces - slope)) <= MOST_CURVATURE * slope:
                 straight = True
                 if span >= least_span and (best is None or span > best[0]):
-                    best = span, slope, curvature, begin, end - 1
+                    best = span, slope, float(np.std(pieces)), begin, end - 1
     if best is None:
         why = f"no straight part spans {least_span:g} nat" if straight else "no straight rising part"
         return ScalingRegion(np.nan, np.nan, -1, -1, np.nan, f"{why}; the curve rises by {np.ptp(y):.2g} nats in all")
-    span, slope, curvature, begin, end = best
+    span, slope, error, begin, end = best
     reason = f"straight from {t[begin]:.4g} to {t[end]:.4g}, rising by {span:.2g} nats"
-    return ScalingRegion(float(slope), float(0.5 * curvature), begin + cut, end + cut, float(span), reason)
+    return ScalingRegion(float(slope), error, begin + cut, end + cut, float(span), reason)
 
 
 def _line(t, y):
-    """Slope of the least-squares line, and how much the slopes of the two halves differ."""
-    half = len(t) // 2
-    return _slope(t, y), abs(_slope(t[: half + 1], y[: half + 1]) - _slope(t[half:], y[half:]))
-
-
-def _slope(t, y):
+    """Slopes of the least-squares line and of those through its quarters, which share their ends."""
+    ends = np.linspace(0, len(t) - 1, PIECES + 1).astype(int)
+    pieces = [(y[b] - y[a]) / (t[b] - t[a]) for a, b in pairwise(ends)]
     centred = t - t.mean()
-    return np.dot(centred, y) / np.dot(centred, centred)
+    return np.dot(centred, y) / np.dot(centred, centred), np.array(pieces)

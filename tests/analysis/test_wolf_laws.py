@@ -1,0 +1,75 @@
+"""What Wolf's method must not depend on, what it must refuse, and its kernel on a motion whose growth is exact."""
+
+import numpy as np
+import pytest
+
+from analysis.wolf_pairs import wolf_run
+from analysis.wolf_plateau import wolf_lyapunov
+from tests.analysis import systems
+
+ROSSLER, STEP = systems.record("rossler", 6000)
+
+
+def test_units_of_the_series_do_not_matter_and_units_of_time_scale():
+    base = wolf_lyapunov(ROSSLER, STEP)
+    # Powers of two: the same rounding, so the same neighbours, so the same number.
+    assert wolf_lyapunov(-4.0 * ROSSLER, STEP).value == pytest.approx(base.value, rel=1e-12)
+    assert wolf_lyapunov(ROSSLER, 2.0 * STEP).value == pytest.approx(0.5 * base.value, rel=1e-12)
+    assert wolf_lyapunov(ROSSLER, 2.0 * STEP).error == pytest.approx(0.5 * base.error, rel=1e-12)
+
+
+def test_a_map_that_triples_every_distance_gives_ln_3_at_every_step():
+    x, phase = np.empty(5000), 0.1234567
+    for i in range(len(x)):
+        x[i], phase = phase, (3.0 * phase) % 1.0
+    run = wolf_run(x, 1.0, 1, 1, 1, 1)
+    # A pair on both sides of a jump of the map does not triple; all others do, exactly.
+    assert np.median(run.growth) == pytest.approx(np.log(3.0), abs=1e-12)
+    assert np.mean(np.abs(run.growth - np.log(3.0)) < 1e-6) > 0.95
+
+
+def test_the_convergence_curve_ends_at_the_value_and_is_the_running_mean():
+    run = wolf_run(ROSSLER, STEP, 14, 3, 28, 60)
+    assert run.convergence[-1] == pytest.approx(run.value, rel=1e-12)
+    assert run.convergence[9] == pytest.approx(run.growth[:10].sum() / run.time_s[9], rel=1e-12)
+    assert run.time_s[-1] <= (len(ROSSLER) - 1) * STEP
+
+
+def test_a_retained_pair_telescopes():
+    x = np.sin(0.1 * np.arange(5000)) + 0.3 * np.sin(0.0618 * np.arange(5000))
+    run = wolf_run(x, 1.0, 15, 4, 15, 60)
+    start = run.end_length / np.exp(run.growth)
+    same = np.isclose(start[1:], run.end_length[:-1], rtol=1e-9)
+    assert np.sum(~same) <= run.replacements <= np.sum(~same) + 1
+    assert run.replacements < 0.1 * len(run.growth)
+
+
+def test_noise_shortens_nothing_below_the_floor():
+    run = wolf_run(systems.noisy(ROSSLER, 0.01, 0), STEP, 14, 3, 28, 60, noise=0.01 * np.std(ROSSLER))
+    start = run.end_length / np.exp(run.growth)
+    assert np.mean(start >= run.floor * (1 - 1e-9)) > 0.99
+    assert run.floor == pytest.approx(2.0 * 0.01 * np.std(ROSSLER) * np.sqrt(6.0))
+
+
+@pytest.mark.parametrize(
+    ("x", "words"),
+    [
+        (np.ones(5000), "series that moves"),
+        (ROSSLER[:300], "500 samples"),
+        (np.sin(0.01 * np.arange(5000)), "mean periods"),
+        (np.random.default_rng(0).normal(size=5000), "noise"),
+        (np.tile([0.0, 1.0, 3.0, 2.0], 500), "no neighbours"),
+    ],
+    ids=["constant", "short", "few periods", "white noise", "repeats to the last digit"],
+)
+def test_where_nothing_qualifies_the_answer_is_nan_with_the_reason(x, words):
+    found = wolf_lyapunov(x, 1.0)
+    assert np.isnan(found.value) and np.isnan(found.error)
+    assert words in found.reason
+
+
+def test_values_that_are_not_finite_are_refused():
+    x = ROSSLER.copy()
+    x[17] = np.nan
+    with pytest.raises(ValueError, match="index 17"):
+        wolf_lyapunov(x, STEP)
