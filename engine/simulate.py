@@ -113,7 +113,7 @@ class _Batch:
         state["low"], state["high"] = np.inf, -np.inf
         state["min_strain"] = Y[:, 0].min()
         state["max_turn"] = np.abs(np.diff(Y[:, 4])).max()
-        if state["status"] == OK and state["max_turn"] > math.pi:
+        if state["status"] == OK and record["bent"] and state["max_turn"] > math.pi:
             state["status"] = TURN_UNRESOLVED
         # a sudden start has rates at t = 0 that are not zero: steps that need none come first, or the order falls to 1
         needs_rates = record["method"] == RUNGE_KUTTA or record["alpha_m"] != record["gamma"]

@@ -42,15 +42,8 @@ ENDS = {  # name: (overrides, run length in s, status words allowed)
         {"newton-failed", "strain-below-minus-one", "step-limit"},  # ill-posed: how it breaks is not the point
     ),
     "a number beyond all numbers": ({**STILL, "start.buoy_velocity_mps": [0.0, 0.0, -1e200]}, 5.0, {"not-finite"}),
-    "no weight, no load, no bending: any shape is in equilibrium": (
-        {
-            **STILL,
-            "gravity_mps2": 0.0,
-            "buoy": None,
-            "end.kind": "free",
-            "end.force_N": [0.0, 0.0, 0.0],
-            "tether.bending_stiffness_Nm2": 0.0,
-        },
+    "a tether that yields at half the lift of the buoy: no strain is in equilibrium": (
+        {**STILL, "tether.tension": {"law": "tanh", "p": [1000.0, 10.0, 0.0, 0.0, 0.0]}},
         1.0,
         {"statics-failed"},
     ),
