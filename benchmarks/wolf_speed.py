@@ -2,11 +2,11 @@
 
     python -m benchmarks.wolf_speed [--samples N] [--noise SHARE] [--systems NAME ...] [--setting]
 
-nolds comes with the extra `bench` (0.6.3 cannot be imported by Python 3.11). NeuroKit2 asks for pandas < 3, so it is in
-no extra, and left out where it is not installed; it runs beside the pinned pandas after `pip install --no-deps neurokit2
-PyWavelets scikit-learn narwhals threadpoolctl requests`. Neither has Wolf's method. They are given our delay, dimension
-and Theiler window and a fitted stretch of one mean period (five steps for maps): their own defaults are 20 samples
-whatever the sampling, and dimension 10 or 2. (nolds.lyap_e has its own kind of embedding and keeps its defaults.)
+nolds comes with the extra `bench` (0.6.3 cannot be imported by Python 3.11). NeuroKit2 asks for pandas < 3, so it is
+in no extra, and left out where it is not installed; it runs beside the pinned pandas after `pip install --no-deps
+neurokit2 PyWavelets scikit-learn narwhals threadpoolctl requests`. Neither has Wolf's method. They are given our delay,
+dimension and Theiler window and a fitted stretch of one mean period (five steps for maps): their own defaults are 20
+samples whatever the sampling, and dimension 10 or 2. (nolds.lyap_e has its own embedding and keeps its defaults.)
 Ours is the whole estimate (embedding, noise level, grid of settings, error). `--setting` times one setting of Wolf's
 method on 100,000 samples. Every function runs once before it is timed; wall clock, one process.
 """
@@ -24,7 +24,6 @@ from analysis.neighbours import noise_level
 from analysis.wolf_pairs import wolf_run
 from analysis.wolf_plateau import wolf_lyapunov
 from tests.analysis import systems
-
 
 TRUTH = {
     "lorenz": 0.9056,
