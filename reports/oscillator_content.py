@@ -281,7 +281,9 @@ def _grazing(study: Study) -> list[Item]:
     arrays = study.arrays.get("grazing")
     force = study.number("grazing", "grazing_force")
     if arrays is None or not math.isfinite(force):
-        reason = study.faults.get("grazing", "with B − W not above zero the tether is slack at any forcing")
+        reason = study.faults.get(
+            "grazing", "without lift the tether is slack at any forcing, and without damping no taut motion attracts"
+        )
         return [heading, Text(f"There is no threshold: {reason}.")]
     _, time, clearance, velocity = arrays["grazing"]
     below, above = arrays["slack_below"], arrays["slack_above"]
@@ -290,11 +292,9 @@ def _grazing(study: Study) -> list[Item]:
         f"{force:.15g}, where "
         f"the least displacement is {clearance:.1e} and the velocity there {velocity:.1e}, at the time "
         f"{number(time, 6)} "
-        f"after the strobe. Below this F that motion has no slack. Of {len(below)} random starts, "
-        f"{int((below > 0).sum())} are "
-        f"slack at some time in the last 100 periods at 0.999 F and {int((above > 0).sum())} at 1.001 F; a "
-        "fixed-step method that "
-        "looks at the ends of its steps only misses the first grazes."
+        f"after the strobe. Below this F that motion has no slack. It need not be the only one: of {len(below)} random "
+        f"starts, {int((below > 0).sum())} are slack at some time in the last 100 of 2100 periods at 0.999 F, and "
+        f"{int((above > 0).sum())} at 1.001 F. Starts that are slack below the threshold are on another attractor."
     )
     return [heading, Text(text)]
 

@@ -62,10 +62,10 @@ def grazing_force(oscillator):
     the first doubling of F that enters slack. Below this F the motion is a plain sine about B - W, and attracts what
     starts near it; other attractors, with slack, may coexist. `oscillator.force` plays no part.
 
-    Returns Grazing, with all fields NaN where B - W <= 0: such a tether is slack at any F.
-    ValueError without damping.
+    Returns Grazing, with all fields NaN where B - W <= 0 (such a tether is slack at any F) and without damping (no
+    taut motion attracts).
     """
-    if oscillator.lift <= 0.0:
+    if oscillator.lift <= 0.0 or oscillator.damping == 0.0:
         return Grazing(np.nan, np.nan, np.nan, np.nan)
 
     def least(force):
