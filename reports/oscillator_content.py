@@ -56,7 +56,7 @@ def _question(study: Study) -> list[Item]:
     if math.isfinite(value):
         verdict = (
             "positive by more than two standard errors: nearby motions part exponentially, the motion is chaotic"
-            if value > 2 * error
+            if _chaotic(study)
             else "negative: the motion is regular"
             if value < -2 * error
             else "zero within two standard errors"
@@ -121,7 +121,7 @@ def _section(study: Study) -> list[Item]:
     alt = f"Scatter of {len(states)} strobed points of displacement and velocity, within {extent}."
     items.append(Figure(oscillator_section(states, boxes, orbit), caption, alt))
     zooms = [arrays[name] for name in ("zoom_1", "zoom_2") if name in arrays]
-    if zooms and len(states) > 1 and np.ptp(states, axis=0).max() > 1e-3:
+    if zooms and _chaotic(study):  # a zoom into a periodic orbit shows a point
         counts = " and ".join(str(len(zoom)) for zoom in zooms)
         seen = (
             f"Zooms by 10 and by 100 round the place visited most, {counts} points out of "
@@ -297,6 +297,11 @@ def _grazing(study: Study) -> list[Item]:
         f"{int((above > 0).sum())} at 1.001 F. Starts that are slack below the threshold are on another attractor."
     )
     return [heading, Text(text)]
+
+
+def _chaotic(study: Study) -> bool:
+    value, error = study.number("exponents", "lambda_1_nats_per_time"), study.number("exponents", "lambda_1_error")
+    return value - 2 * error > 0.0
 
 
 def _extent(states: np.ndarray) -> str:

@@ -48,4 +48,8 @@ def _label_boxes(axes, boxes: np.ndarray, first: int = 1) -> None:
     for number, (left, right, low, high) in enumerate(boxes, first):
         axes.add_patch(Rectangle((left, low), right - left, high - low, fill=False, edgecolor=VERMILION, linewidth=0.9))
         if number == first:
-            axes.annotate(f"zoom {number}", (right, high), color=VERMILION, fontsize=7.5, va="bottom", ha="left")
+            axes.annotate(
+                f"zoom {number}", (0.5 * (left + right), high), xytext=(0, 3), textcoords="offset points",
+                color=VERMILION, fontsize=7.5, va="bottom", ha="center",
+                bbox={"facecolor": "white", "edgecolor": "none", "pad": 0.8, "alpha": 0.9},
+            )  # fmt: skip
