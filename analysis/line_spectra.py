@@ -9,6 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from analysis.one_thread import product, solve_normal, transposed_product
 from analysis.sampling import checked_count, checked_series, locked
 
 # Noise exceeds this many times its local mean once in e^12 bins.
@@ -137,16 +138,20 @@ def _fit(z, frequency):
     for last in (False, False, False, True):
         turn = 2.0 * np.pi * np.outer(k, frequency)
         cosine, sine = np.cos(turn), np.sin(turn)
+        sine[:, frequency == 0.5] = 0.0  # rounding; it has no sine
         basis = np.hstack([cosine, sine, np.ones((len(z), 1))])
-        coefficients, *_ = np.linalg.lstsq(basis, z, rcond=1e-10)
-        fitted = basis @ coefficients
+        gram = transposed_product(basis, basis)
+        coefficients = solve_normal(gram, transposed_product(basis, z))
+        coefficients += solve_normal(gram, transposed_product(basis, z - product(basis, coefficients)))
+        fitted = product(basis, coefficients)
         if last:
             return list(frequency), fitted, coefficients
         a, b = np.split(coefficients[:-1], 2)
         slope = 2.0 * np.pi * k[:, None, None] * (cosine[:, :, None] * b - sine[:, :, None] * a)
-        q, _ = np.linalg.qr(basis)
-        free = slope - np.einsum("ki,ild->kld", q, np.einsum("ki,kld->ild", q, slope))
-        free[:, frequency == 0.5] = 0.0  # half the sampling rate has no neighbours to move to
-        system = free.transpose(0, 2, 1).reshape(-1, len(frequency))
-        shift, *_ = np.linalg.lstsq(system, (z - fitted).ravel(), rcond=1e-10)
+        slope[:, frequency == 0.5] = 0.0  # half the sampling rate has no neighbours to move to
+        slope = slope.reshape(len(z), -1)
+        free = slope - product(basis, solve_normal(gram, transposed_product(basis, slope)))
+        system = free.reshape(len(z), len(frequency), -1).transpose(0, 2, 1).reshape(-1, len(frequency))
+        rest = (z - fitted).reshape(-1, 1)
+        shift = solve_normal(transposed_product(system, system), transposed_product(system, rest))[:, 0]
         frequency = np.clip(frequency + np.clip(shift, -0.5 / len(z), 0.5 / len(z)), 0.25 / len(z), 0.5)
