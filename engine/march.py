@@ -23,7 +23,7 @@ from .planar import node, sweep
 from .sampling import sample
 from .steps import conserved, one_stage_step, runge_kutta_step
 
-_COUNTS = "status samples profiles small_steps steps rejected newton failures releases attempts cautious".split()
+_COUNTS = "status samples profiles small_steps steps rejected newton failures releases attempts cautious trail".split()
 _VALUES = "t dt dt_before low high max_turn min_strain window_end".split()
 STATE = np.dtype([(name, np.int64) for name in _COUNTS] + [(name, np.float64) for name in _VALUES])
 SMALL_STEPS = 3
@@ -87,12 +87,22 @@ def after_failure(p, state, dt, code, factor):
 
 
 @kernel
-def march(p, tables, state, Y, Y_before, C, K, samples, profiles, until):
-    """Advance one simulation until `until` samples are stored, or it ends.
+def record_step(row, stages, rates, t, dt, one_stage, Ys, Ks):
+    """One accepted step of the trail (layout: `engine.tangent`)."""
+    row[0], row[1], row[2] = t, dt, 1.0 if one_stage else 0.0
+    for i in range(Ys.shape[0]):
+        copy_into(stages[i], Ys[i])
+        copy_into(rates[i], Ks[i])
+
+
+@kernel
+def march(p, tables, state, Y, Y_before, C, K, samples, profiles, trail_T, trail_Y, trail_K, until):
+    """Advance one simulation until `until` samples are stored, the trail is full, or it ends.
 
     p: parameter record; state: STATE record; Y, Y_before (n, 6), C, K (n, 4): the state itself; changed in place. C is
     kept from call to call: computed anew it would differ by rounding, and the calls would show in the result.
     samples (m, 9), profiles (m', n, 5): filled in place, columns as in `engine.sampling`.
+    trail_T (l, 3), trail_Y (l, s, n, 6), trail_K (l, s, n, 4): accepted steps for `engine.tangent`; l = 0 keeps none.
     """
     n = p.nodes
     s = max(p.stages, 2)
@@ -103,7 +113,8 @@ def march(p, tables, state, Y, Y_before, C, K, samples, profiles, until):
     Ys, Ks = np.empty((s, n, 6)), np.empty((s, n, 4))
     if state.steps == 0:
         conserved(Y, C)
-    while state.status == OK and state.samples < until:
+    room = trail_T.shape[0]
+    while state.status == OK and state.samples < until and (room == 0 or state.trail < room):
         if state.t >= state.window_end:
             state.window_end = state.t + p.window
             state.attempts = 0
@@ -114,7 +125,8 @@ def march(p, tables, state, Y, Y_before, C, K, samples, profiles, until):
         small = state.small_steps > 0
         dt = state.dt
         error = 0.0
-        if small or p.method != RUNGE_KUTTA:
+        one_stage = small or p.method != RUNGE_KUTTA
+        if one_stage:
             am, af, gamma = (1.0, 1.0, 1.0) if small else (p.alpha_m, p.alpha_f, p.gamma)
             code, used = one_stage_step(
                 p, tables, state.t, dt, state.dt_before, am, af, gamma, SMALL_STEP_NEWTON if small else p.max_newton,
@@ -136,8 +148,11 @@ def march(p, tables, state, Y, Y_before, C, K, samples, profiles, until):
             after_failure(p, state, dt, OK, factor)
             continue
         state.steps += 1
-        hermite = p.method == RUNGE_KUTTA and not small
-        sample(p, tables, state, dt, hermite, C, K, C_new, Ks[s - 1], samples, profiles)
+        sample(p, tables, state, dt, not one_stage, C, K, C_new, Ks[s - 1], samples, profiles)
+        if room > 0:
+            last = state.trail
+            record_step(trail_T[last], trail_Y[last], trail_K[last], state.t, dt, one_stage, Ys, Ks)
+            state.trail += 1
         copy_into(Y_before, Y)
         copy_into(Y, Ys[s - 1])
         copy_into(K, Ks[s - 1])

@@ -189,3 +189,16 @@ def _output(sound: _Sound) -> Iterator[str]:
     if profiles in (None, False) and step not in (None, _FAULTY):
         given = f"given {shown(step)}, but output.profiles is false"
         yield f"output.profiles_step_s: {given}; allowed: only with output.profiles = true"
+    vectors = sound.value("output.tangent_vectors")
+    if vectors in (None, _FAULTY, 0):
+        return
+    found = sound.values("tether.bending_stiffness_Nm2")
+    if found and found[0] == 0:
+        yield fault("output.tangent_vectors", vectors, "0, because a slack tether without bending has no tangent map")
+    integrator = sound.value("solver.integrator")
+    if integrator in ("midpoint", "generalized-alpha"):
+        allowed = f"0, because solver.integrator is {integrator!r}: use esdirk43, trbdf2 or backward-euler"
+        yield fault("output.tangent_vectors", vectors, allowed)
+    nodes = sound.values("tether.nodes")
+    if nodes and isinstance(vectors, int) and vectors > 4 * nodes[0]:
+        yield fault("output.tangent_vectors", vectors, f"at most four a node, {4 * nodes[0]}")

@@ -7,6 +7,7 @@ import numpy as np
 
 from . import parameters
 from .ends import HELD
+from .exponents import Trail
 from .guards import ADVICE, OK, TURN_UNRESOLVED, WORDS
 from .integrators import RUNGE_KUTTA
 from .march import SMALL_STEPS, STATE, march
@@ -92,6 +93,7 @@ class _Batch:
         self.Y = np.zeros((size, nodes, 6))
         self.C = np.zeros((size, nodes, 4))
         self.K = np.zeros((size, nodes, 4))
+        self.trails = [Trail(*one) for one in zip(scenes, self.records, durations, strict=True)]
         self.walls = np.zeros(size)
         for b in range(size):
             self._start(b)
@@ -133,10 +135,15 @@ class _Batch:
             began = time.perf_counter()
             n = int(record["nodes"])
             until = min(self.goals[b], self.states[b]["samples"] + chunk)
-            march(
-                record, self.tables, self.states[b], self.Y[b, :n], self.Y_before[b, :n], self.C[b, :n], self.K[b, :n],
-                self.samples[b], self.profiles[b, :, :n], until,
-            )
+            trail = self.trails[b]
+            while True:
+                march(
+                    record, self.tables, self.states[b], self.Y[b, :n], self.Y_before[b, :n], self.C[b, :n],
+                    self.K[b, :n], self.samples[b], self.profiles[b, :, :n], *trail.steps, until,
+                )
+                trail.follow(record, self.tables, self.states[b])
+                if self.states[b]["status"] != OK or self.states[b]["samples"] >= until:
+                    break
             self.walls[b] += time.perf_counter() - began
 
     def trajectory(self, b):
@@ -157,7 +164,8 @@ class _Batch:
             "wall_s": float(self.walls[b]),
         }
         columns = _columns(self.samples[b, : min(int(state["samples"]), int(self.goals[b]))])
-        return Trajectory(scene, WORDS[status], message, columns, statistics, self._profiles(b, record, state))
+        profiles, tangent = self._profiles(b, record, state), self.trails[b].growth(state)
+        return Trajectory(scene, WORDS[status], message, columns, statistics, profiles, tangent)
 
     def _profiles(self, b, record, state):
         count = int(state["profiles"])

@@ -68,12 +68,25 @@ class Profiles:
 
 
 @dataclass(frozen=True)
+class TangentGrowth:
+    """Growth of infinitesimal perturbations, period by period (`engine.tangent`).
+
+    period_s: the wave period, or 1 s without waves. growth_nats (m, k): logarithm of the growth of the k orthonormal
+    perturbations in each of the m complete periods. released (m,): 1 where a loop was released in that period.
+    """
+
+    period_s: float
+    growth_nats: np.ndarray
+    released: np.ndarray
+
+
+@dataclass(frozen=True)
 class Trajectory:
     """One run of one scene.
 
     status: "ok", or the word for how the run ended early; then the samples up to its end are kept (possibly none).
     message: a sentence about it, empty for "ok". columns: every name of COLUMNS -> (n,) array, evenly sampled.
-    statistics: counts and times of the work done. profiles: where the scene asks for them.
+    statistics: counts and times of the work done. profiles, tangent: where the scene asks for them.
     """
 
     scene: Scene
@@ -82,6 +95,7 @@ class Trajectory:
     columns: dict[str, np.ndarray]
     statistics: dict[str, int | float]
     profiles: Profiles | None = None
+    tangent: TangentGrowth | None = None
 
     def __post_init__(self) -> None:
         if set(self.columns) != set(COLUMNS):
@@ -134,6 +148,14 @@ def _variables(run: Trajectory) -> list[tuple[str, tuple[str, ...], np.ndarray, 
             found.append(("profile_time_s", ("profile_time_s",), lines.time_s, "s", "time of the profiles"))
             for name, about in PROFILE_COLUMNS.items():
                 found.append((f"profile_{name}", ("profile_time_s", "s_m"), getattr(lines, name), *about))
+    if run.tangent is not None and len(run.tangent.growth_nats):
+        grown = run.tangent
+        number = np.arange(grown.growth_nats.shape[1])
+        found.append(("vector", ("vector",), number, "1", "number of the perturbation, fastest first"))
+        about = (f"period ({grown.period_s!r} s)", "number of the period, the first is 0")
+        found.append(("period", ("period",), np.arange(len(grown.released)), *about))
+        found.append(("growth_nats", ("period", "vector"), grown.growth_nats, "1", "growth of perturbations, nats"))
+        found.append(("released", ("period",), grown.released, "1", "1 where a loop was released in the period"))
     return [(name, dimensions, np.asarray(values, dtype=">f8"), *about) for name, dimensions, values, *about in found]
 
 
@@ -204,12 +226,17 @@ def _from_netcdf_bytes(content: bytes) -> Trajectory:
         empty = np.empty((0, len(arrays["s_m"])))
         lines = {name: arrays.get(f"profile_{name}", empty) for name in PROFILE_COLUMNS}
         profiles = Profiles(time_s=arrays.get("profile_time_s", np.empty(0)), s_m=arrays["s_m"], **lines)
+    tangent = None
+    if "growth_nats" in arrays:
+        period_s = float(file.variables["period"].units.decode().split("(")[1].split()[0])
+        tangent = TangentGrowth(period_s, arrays["growth_nats"], arrays["released"])
     try:
         scene = scene_from_toml(texts["scene"])
     except SceneError as error:
         raise TrajectoryError(f"holds a scene that this version does not accept: {error}") from None
     columns = {name: arrays[name] for name in COLUMNS}
-    return Trajectory(scene, texts["status"], texts["message"], columns, json.loads(texts["statistics"]), profiles)
+    statistics = json.loads(texts["statistics"])
+    return Trajectory(scene, texts["status"], texts["message"], columns, statistics, profiles, tangent)
 
 
 def _text(file: object, name: str) -> str:

@@ -74,6 +74,7 @@ SOURCES: dict[str, tuple[str, str]] = {
     "output.step_s": ("output step", NUMERICAL),
     "output.profiles": ("profiles along the tether kept", NUMERICAL),
     "output.profiles_step_s": ("output step of the profiles", NUMERICAL),
+    "output.tangent_vectors": ("perturbations carried along (Lyapunov exponents)", NUMERICAL),
 }
 
 # suffix of a key: the unit in print

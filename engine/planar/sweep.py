@@ -15,13 +15,15 @@ does not change it, and Newton failures were as rare as with pivoting.
 
 Without bending S and kappa are zero, y = (eps, phi), v = (U, W), and the same steps need a 2 x 2 inverse.
 
-E (n, 24): P (9), p (3), R (9), r (3), row-major; 2 x 2 in the same places without bending.
+E (n, 33): P (9), p (3), R (9), r (3), row-major; 2 x 2 in the same places without bending. With bending also, for
+other right-hand sides of the same matrix (`resolve_bent`): E[k, 24:33] the inverse of that box; in the row of the
+anchor, which has no box below, E[0, 0:9] the inverse at the upper end and E[0, 24:27] its Dxx, Dxz, Dzz.
 """
 
 from ..compiled import kernel
 from ..ends import upper_end
 
-WIDTH = 24
+WIDTH = 33
 
 
 @kernel
@@ -77,19 +79,23 @@ def sweep_bent(p, tables, cq, cv, in_motion, Y, C_tilde, F, Q, E, D):
         det = A00 * i00 + A01 * i10 + A02 * i20
         if det == 0.0:
             return False
-        f = -1.0 / det
-        P00 = f * (i00 * B00 + i01 * B10 + i02 * B20)
-        P01 = f * (i00 * B01 + i01 * B11 + i02 * B21)
-        P02 = f * (i00 * B02 + i01 * B12 + i02 * B22)
-        P10 = f * (i10 * B00 + i11 * B10 + i12 * B20)
-        P11 = f * (i10 * B01 + i11 * B11 + i12 * B21)
-        P12 = f * (i10 * B02 + i11 * B12 + i12 * B22)
-        P20 = f * (i20 * B00 + i21 * B10 + i22 * B20)
-        P21 = f * (i20 * B01 + i21 * B11 + i22 * B21)
-        P22 = f * (i20 * B02 + i21 * B12 + i22 * B22)
-        p0 = -f * (i00 * g0 + i01 * g1 + i02 * g2)
-        p1 = -f * (i10 * g0 + i11 * g1 + i12 * g2)
-        p2 = -f * (i20 * g0 + i21 * g1 + i22 * g2)
+        f = 1.0 / det
+        i00, i01, i02, i10, i11, i12 = f * i00, f * i01, f * i02, f * i10, f * i11, f * i12
+        i20, i21, i22 = f * i20, f * i21, f * i22
+        E[k, 24], E[k, 25], E[k, 26], E[k, 27], E[k, 28], E[k, 29] = i00, i01, i02, i10, i11, i12
+        E[k, 30], E[k, 31], E[k, 32] = i20, i21, i22
+        P00 = -(i00 * B00 + i01 * B10 + i02 * B20)
+        P01 = -(i00 * B01 + i01 * B11 + i02 * B21)
+        P02 = -(i00 * B02 + i01 * B12 + i02 * B22)
+        P10 = -(i10 * B00 + i11 * B10 + i12 * B20)
+        P11 = -(i10 * B01 + i11 * B11 + i12 * B21)
+        P12 = -(i10 * B02 + i11 * B12 + i12 * B22)
+        P20 = -(i20 * B00 + i21 * B10 + i22 * B20)
+        P21 = -(i20 * B01 + i21 * B11 + i22 * B21)
+        P22 = -(i20 * B02 + i21 * B12 + i22 * B22)
+        p0 = i00 * g0 + i01 * g1 + i02 * g2
+        p1 = i10 * g0 + i11 * g1 + i12 * g2
+        p2 = i20 * g0 + i21 * g1 + i22 * g2
         E[k, 0], E[k, 1], E[k, 2], E[k, 3], E[k, 4], E[k, 5] = P00, P01, P02, P10, P11, P12
         E[k, 6], E[k, 7], E[k, 8], E[k, 9], E[k, 10], E[k, 11] = P20, P21, P22, p0, p1, p2
         # v_b = R_b y_b + r_b
@@ -138,10 +144,20 @@ def sweep_bent(p, tables, cq, cv, in_motion, Y, C_tilde, F, Q, E, D):
     if det == 0.0:
         return False
     f = 1.0 / det
-    y0 = f * (i00 * g0 + i01 * g1 + i02 * g2)
-    y1 = f * (i10 * g0 + i11 * g1 + i12 * g2)
-    y2 = f * (i20 * g0 + i21 * g1 + i22 * g2)
-    for k in range(n - 1, -1, -1):
+    E[0, 0], E[0, 1], E[0, 2], E[0, 3], E[0, 4], E[0, 5] = f * i00, f * i01, f * i02, f * i10, f * i11, f * i12
+    E[0, 6], E[0, 7], E[0, 8] = f * i20, f * i21, f * i22
+    E[0, 24], E[0, 25], E[0, 26] = Dxx, Dxz, Dzz
+    back_substitute(E, g0, g1, g2, D)
+    return True
+
+
+@kernel
+def back_substitute(E, g0, g1, g2, D):
+    """From the right-hand side at the upper end down the line: y and v of every node, into D."""
+    y0 = E[0, 0] * g0 + E[0, 1] * g1 + E[0, 2] * g2
+    y1 = E[0, 3] * g0 + E[0, 4] * g1 + E[0, 5] * g2
+    y2 = E[0, 6] * g0 + E[0, 7] * g1 + E[0, 8] * g2
+    for k in range(E.shape[0] - 1, -1, -1):
         D[k, 0], D[k, 1], D[k, 4] = y0, y1, y2
         D[k, 2] = E[k, 12] * y0 + E[k, 13] * y1 + E[k, 14] * y2 + E[k, 21]
         D[k, 3] = E[k, 15] * y0 + E[k, 16] * y1 + E[k, 17] * y2 + E[k, 22]
@@ -151,4 +167,3 @@ def sweep_bent(p, tables, cq, cv, in_motion, Y, C_tilde, F, Q, E, D):
             E[k, 3] * y0 + E[k, 4] * y1 + E[k, 5] * y2 + E[k, 10],
             E[k, 6] * y0 + E[k, 7] * y1 + E[k, 8] * y2 + E[k, 11],
         )
-    return True
