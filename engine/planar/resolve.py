@@ -5,8 +5,8 @@ The tangent dynamics of a stage is linear in the perturbation, with Newton's mat
     dV_b - dV_a - e (dq_t,a + dq_t,b) = 0, dq_t = cq (dq/dy dy - dq~)      -> c = e cq (dq~_a + dq~_b)
     dN_b - dN_a - e (dG_a + dG_b) = 0, dG = (dG/dy) dy + (dG/dV) dV + gamma -> g = e (gamma_a + gamma_b)
 
-with gamma the change of G that comes from V~ and from the water at the displaced node; curvature and moment have no known
-terms. At the upper end `top` is the known part of its residual.
+with gamma the change of G that comes from V~ and from the water at the displaced node; curvature and moment have no
+known terms. At the upper end `top` is the known part of its residual.
 """
 
 from ..compiled import kernel
