@@ -49,7 +49,8 @@ DRY = [
     },
 ]
 LOSER = {**STEEP, "tether.tension": {"law": "tabulated", "strain": [-0.5, 0.0, 0.1], "tension_N": [0.0, 0.0, 5000.0]}}
-UNSETTLED = {"tether.tension": {"law": "tanh", "p": [1000.0, 10.0, 0.0, 0.0, 0.0]}}  # yields at half the lift of the buoy
+# a law that yields at half the lift of the buoy
+UNSETTLED = {"tether.tension": {"law": "tanh", "p": [1000.0, 10.0, 0.0, 0.0, 0.0]}}
 
 
 def scenes_of(members):
