@@ -7,7 +7,7 @@ import numpy as np
 from analysis.compiled import kernel
 from analysis.oscillator.newton_orbits import periodic_orbit
 from analysis.oscillator.pieces import tables
-from analysis.oscillator.strobing import MOST_PIECES, one_period, strobed_orbit
+from analysis.oscillator.strobing import MOST_PIECES, next_state, strobed_orbit
 from analysis.sampling import checked_count, checked_series
 
 PAPER_BOX = (-60.0, 20.0, -25.0, 25.0)  # g low, g high, g' low, g' high: model.md 5.3
@@ -116,15 +116,14 @@ def _counted(label, settled, orbits, periods):
 @kernel
 def _until_repeated(starts, periods, longest, table):
     """Every start until it repeats itself (period > 0), or for its `periods`: state, period or 0, periods spent."""
-    log, d = np.empty((MOST_PIECES, 5)), np.eye(2)
+    log = np.empty((MOST_PIECES, 5))
     count = len(starts)
     ends, found, spent = np.empty((count, 2)), np.zeros(count, np.int64), np.zeros(count, np.int64)
     recent = np.empty((2 * longest, 2))
     for i in range(count):
         x, v = starts[i]
         for n in range(periods[i]):
-            d[0, 0], d[0, 1], d[1, 0], d[1, 1] = 1.0, 0.0, 0.0, 1.0
-            x, v, _, _ = one_period(x, v, d, table, log)
+            x, v, _, _ = next_state(x, v, table, log)
             recent[n % (2 * longest), 0], recent[n % (2 * longest), 1] = x, v
             spent[i] = n + 1
             if (n + 1) % _LOOK_EVERY == 0 and n + 1 >= 2 * longest:

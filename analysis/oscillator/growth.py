@@ -73,7 +73,8 @@ def snap_exponents(
     transient_periods   forcing periods before the averages
     periods             of every start's average; a multiple of `blocks`
     Returns SnapExponents. Where every start settled on a periodic orbit, all are kept: the exponents are those of the
-    periodic motions. NaN with a reason where an orbit could not be computed.
+    periodic motions. NaN with a reason where an orbit could not be computed. lambda_2 loses digits where a period
+    contracts areas by e^{-mu T} < 1e-8 (mu T > 18): the two tangent vectors then become parallel within a period.
     ValueError for counts that are no whole numbers, or periods that blocks do not divide.
     Source: Benettin, Galgani, Giorgilli & Strelcyn 1980; the equation, Tjavaras et al. 1998, eq. (33).
     """

@@ -7,7 +7,7 @@ import numpy as np
 from analysis.compiled import kernel
 from analysis.oscillator.crossings import state_at
 from analysis.oscillator.pieces import tables
-from analysis.oscillator.strobing import MOST_PIECES, one_period, strobed_orbit
+from analysis.oscillator.strobing import MOST_PIECES, next_state, strobed_orbit
 from analysis.sampling import checked_count, checked_series
 
 
@@ -94,15 +94,14 @@ def snap_motion(oscillator, start, periods, samples_per_period=64, transient_per
 
 @kernel
 def _sampled(x, v, periods, samples, period, table):
-    log, d = np.empty((MOST_PIECES, 5)), np.eye(2)
+    log = np.empty((MOST_PIECES, 5))
     motion = np.empty((periods * samples + 1, 2))
     switches = np.empty(64)
     found, slack_time = 0, 0.0
     span = period / len(table.steady)
     for n in range(periods):
-        d[0, 0], d[0, 1], d[1, 0], d[1, 1] = 1.0, 0.0, 0.0, 1.0
         start, speed = x, v
-        x, v, pieces, slack = one_period(x, v, d, table, log)
+        x, v, pieces, slack = next_state(x, v, table, log)
         slack_time += slack
         for piece in range(pieces):
             if log[piece, 1] > 0.0:
@@ -131,7 +130,7 @@ def _sampled(x, v, periods, samples, period, table):
 
 @kernel
 def _within(x, v, boxes, points, most, table):
-    log, d = np.empty((MOST_PIECES, 5)), np.eye(2)
+    log = np.empty((MOST_PIECES, 5))
     found, counts = np.empty((len(boxes), points, 2)), np.zeros(len(boxes), np.int64)
     for n in range(most):
         for i in range(len(boxes)):
@@ -140,6 +139,5 @@ def _within(x, v, boxes, points, most, table):
                 counts[i] += 1
         if counts.min() == points:
             return found, counts, n + 1
-        d[0, 0], d[0, 1], d[1, 0], d[1, 1] = 1.0, 0.0, 0.0, 1.0
-        x, v, _, _ = one_period(x, v, d, table, log)
+        x, v, _, _ = next_state(x, v, table, log)
     return found, counts, most

@@ -16,7 +16,7 @@ import numpy as np
 
 from analysis.compiled import kernel
 from analysis.oscillator.crossings import NONE, first_crossing
-from analysis.oscillator.pieces import LIFT, OMEGA, TAUT_COS, TAUT_SIN, motion, piecewise
+from analysis.oscillator.pieces import LIFT, MU, OMEGA, TAUT_COS, TAUT_SIN, motion, piecewise
 
 MOST_PIECES = 4096  # in one period; more than that is a fault, and the state becomes NaN
 _LOGARITHM_EVERY = 8
@@ -30,32 +30,39 @@ def side_of(x, v, theta, k):
     if v != 0.0:
         return 1 if v > 0.0 else 0
     # g'' = F sin + lift at rest; F from the linear response, F = X (1 - omega^2) - Y mu omega, avoided by its sign:
-    forcing = k[TAUT_SIN] * (1.0 - k[OMEGA] ** 2) - k[TAUT_COS] * k[0] * k[OMEGA]
+    forcing = k[TAUT_SIN] * (1.0 - k[OMEGA] ** 2) - k[TAUT_COS] * k[MU] * k[OMEGA]
     return 1 if forcing * math.sin(theta) + k[LIFT] >= 0.0 else 0
 
 
 @kernel
-def hand_over(a, tau, x, v, d, theta, k, steady):
-    """(x, v) of the piece 1 - a that meets the piece a of (x, v) at tau; the tangent vectors d are changed in place."""
+def hand_over(a, tau, x, v, y, w, z, u, theta, k, steady):
+    """(x, v) of the piece 1 - a that meets the piece a of (x, v) at tau, and so for the tangents (y, w), (z, u)."""
     p11, p12, p21, p22, q1, q2 = motion(a, tau, theta, k, steady[a, 0], steady[a, 1])
     b = 1 - a
     r11, r12, r21, r22, s1, s2 = motion(b, tau, theta, k, steady[b, 0], steady[b, 1])
-    g, u = p11 * x + p12 * v + q1 - s1, p21 * x + p22 * v + q2 - s2
     det = 1.0 / (r11 * r22 - r12 * r21)
-    for column in range(2):
-        y, w = d[0, column], d[1, column]
-        dg, du = p11 * y + p12 * w, p21 * y + p22 * w
-        d[0, column] = det * (r22 * dg - r12 * du)
-        d[1, column] = det * (r11 * du - r21 * dg)
-    return det * (r22 * g - r12 * u), det * (r11 * u - r21 * g)
+    g, h = p11 * x + p12 * v + q1 - s1, p21 * x + p22 * v + q2 - s2
+    # Of the product inverse(Phi_b) Phi_a, for the tangent vectors:
+    m11, m12 = det * (r22 * p11 - r12 * p21), det * (r22 * p12 - r12 * p22)
+    m21, m22 = det * (r11 * p21 - r21 * p11), det * (r11 * p22 - r21 * p12)
+    return (
+        det * (r22 * g - r12 * h),
+        det * (r11 * h - r21 * g),
+        m11 * y + m12 * w,
+        m21 * y + m22 * w,
+        m11 * z + m12 * u,
+        m21 * z + m22 * u,
+    )
 
 
 @kernel
-def one_period(x, v, d, table, log):
-    """State one forcing period on; d (2, 2), the tangent vectors in its columns, is carried along in place.
+def one_period(x, v, y, w, z, u, table, log):
+    """State (x, v) and two tangent vectors (y, w), (z, u) one forcing period on.
 
-    log (MOST_PIECES, 5): each piece as window, time in the window at which it begins, a, x, v.
-    Returns g, g', the number of pieces (0: too many, the state is NaN), and the time spent slack.
+    Scalars, not a matrix: kept in an array, the tangent vectors are written singly and read in pairs, which the
+    processor punishes (measured: half the speed).
+    log (MOST_PIECES, 5): filled with each piece, as window, time in the window at which it begins, a, x, v.
+    Returns the six, the number of pieces (0: too many, the state is NaN), and the time spent slack.
     """
     last = len(table.tau) - 1
     end = table.tau[last]
@@ -66,7 +73,7 @@ def one_period(x, v, d, table, log):
         start = 0.0
         while True:
             if pieces == len(log):
-                return math.nan, math.nan, 0, math.nan
+                return math.nan, math.nan, y, w, z, u, 0, math.nan
             log[pieces, 0], log[pieces, 1], log[pieces, 2], log[pieces, 3], log[pieces, 4] = window, start, a, x, v
             pieces += 1
             crossing = first_crossing(a, start, x, v, window, table)
@@ -74,51 +81,54 @@ def one_period(x, v, d, table, log):
                 break
             if a == 0:
                 slack += crossing - start
-            x, v = hand_over(a, crossing, x, v, d, theta, table.constants, table.steady[window])
+            x, v, y, w, z, u = hand_over(
+                a, crossing, x, v, y, w, z, u, theta, table.constants, table.steady[window]
+            )  # fmt: skip
             a, start = 1 - a, crossing
         if a == 0:
             slack += end - start
-        phi = table.phi[a]
+        phi, q = table.phi[a], table.q[window, a]
         p11, p12, p21, p22 = phi[0, last], phi[1, last], phi[2, last], phi[3, last]
-        for column in range(2):
-            y, w = d[0, column], d[1, column]
-            d[0, column], d[1, column] = p11 * y + p12 * w, p21 * y + p22 * w
-        q = table.q[window, a]
+        y, w = p11 * y + p12 * w, p21 * y + p22 * w
+        z, u = p11 * z + p12 * u, p21 * z + p22 * u
         x, v = p11 * x + p12 * v + q[0, last], p21 * x + p22 * v + q[1, last]
-    return x, v, pieces, slack
+    return x, v, y, w, z, u, pieces, slack
 
 
 @kernel
-def orthonormalise(d):
-    """Gram-Schmidt on the columns of d, in place; returns the diagonal of R."""
-    r11 = math.sqrt(d[0, 0] * d[0, 0] + d[1, 0] * d[1, 0])
-    r22 = (d[0, 0] * d[1, 1] - d[0, 1] * d[1, 0]) / r11
-    e1, e2 = d[0, 0] / r11, d[1, 0] / r11
-    d[0, 0], d[1, 0], d[0, 1], d[1, 1] = e1, e2, -e2, e1
-    return r11, r22
+def next_state(x, v, table, log):
+    """The stroboscopic map: state one forcing period on, and what `one_period` says of the way."""
+    x, v, _, _, _, _, pieces, slack = one_period(x, v, 1.0, 0.0, 0.0, 1.0, table, log)
+    return x, v, pieces, slack
 
 
 @kernel
 def strobed_orbit(x, v, transient, points, table):
     """The section: (points, 2) states at times transient T, (transient + 1) T, ..."""
-    log, d = np.empty((MOST_PIECES, 5)), np.eye(2)
+    log = np.empty((MOST_PIECES, 5))
     orbit = np.empty((points, 2))
     for n in range(-transient, points):
         if n >= 0:
             orbit[n, 0], orbit[n, 1] = x, v
         if n < points - 1:
-            d[0, 0], d[0, 1], d[1, 0], d[1, 1] = 1.0, 0.0, 0.0, 1.0
-            x, v, _, _ = one_period(x, v, d, table, log)
+            x, v, _, _ = next_state(x, v, table, log)
     return orbit
 
 
 @kernel
 def tangent_map(x, v, periods, table):
     """State and tangent matrix (2, 2) after a number of periods."""
-    log, d = np.empty((MOST_PIECES, 5)), np.eye(2)
+    log = np.empty((MOST_PIECES, 5))
+    y, w, z, u = 1.0, 0.0, 0.0, 1.0
     for _ in range(periods):
-        x, v, _, _ = one_period(x, v, d, table, log)
-    return x, v, d
+        x, v, y, w, z, u, _, _ = one_period(x, v, y, w, z, u, table, log)
+    return x, v, np.array([[y, z], [w, u]])
+
+
+@kernel
+def contraction(table):
+    """e^{-mu T}, by which a period contracts areas."""
+    return math.exp(-table.constants[MU] * 2.0 * math.pi / table.constants[OMEGA])
 
 
 @kernel
@@ -127,28 +137,31 @@ def growth_along(x, v, transient, blocks, length, table, orbit):
 
     orbit (m, 2): filled with the first m strobed states after the transient.
     """
-    log, d = np.empty((MOST_PIECES, 5)), np.eye(2)
+    log = np.empty((MOST_PIECES, 5))
     sums = np.zeros((blocks, 2))
     slack_time, pieces_seen = 0.0, 0
-    for _ in range(transient):
-        x, v, _, _ = one_period(x, v, d, table, log)
-        orthonormalise(d)
-    for block in range(blocks):
-        product1, product2 = 1.0, 1.0
-        for n in range(length):
-            at = block * length + n
-            if at < len(orbit):
-                orbit[at, 0], orbit[at, 1] = x, v
-            x, v, pieces, slack = one_period(x, v, d, table, log)
-            slack_time += slack
-            pieces_seen += pieces
-            r11, r22 = orthonormalise(d)
-            product1 *= r11
-            product2 *= r22
-            if (n + 1) % _LOGARITHM_EVERY == 0 or n == length - 1:
-                sums[block, 0] += math.log(product1)
-                sums[block, 1] += math.log(product2)
-                product1, product2 = 1.0, 1.0
+    y, w, z, u = 1.0, 0.0, 0.0, 1.0
+    product1, product2 = 1.0, 1.0
+    # One logarithm for several periods, but not for so many that the products leave the range of the numbers.
+    every = _LOGARITHM_EVERY if -math.log(contraction(table)) < 10.0 else 1
+    for at in range(-transient, blocks * length):
+        if 0 <= at < len(orbit):
+            orbit[at, 0], orbit[at, 1] = x, v
+        x, v, y, w, z, u, pieces, slack = one_period(x, v, y, w, z, u, table, log)
+        r11 = math.sqrt(y * y + w * w)
+        r22 = (y * u - w * z) / r11
+        y, w = y / r11, w / r11
+        z, u = -w, y
+        if at < 0:
+            continue
+        slack_time += slack
+        pieces_seen += pieces
+        product1 *= r11
+        product2 *= r22
+        if (at + 1) % every == 0 or (at + 1) % length == 0:
+            sums[at // length, 0] += math.log(product1)
+            sums[at // length, 1] += math.log(product2)
+            product1, product2 = 1.0, 1.0
     return sums, x, v, slack_time, pieces_seen
 
 

@@ -21,9 +21,9 @@ def test_largest_exponent_within_three_standard_errors():
     assert abs(found.dimension - 1.7193) < 3 * np.hypot(found.dimension_error, 5e-5)
 
 
-@pytest.mark.parametrize("damping", [0.0, 0.025, 0.4])
-def test_exponents_and_damping_add_up_to_zero(damping):
-    oscillator = SnapOscillator(damping=damping)
+@pytest.mark.parametrize(("damping", "frequency"), [(0.0, 1.14), (0.025, 1.14), (0.4, 1.14), (1.9, 1.14)])
+def test_exponents_and_damping_add_up_to_zero(damping, frequency):
+    oscillator = SnapOscillator(damping=damping, frequency=frequency)
     found = snap_exponents(oscillator, count=8, transient_periods=20, periods=1000, keep_periodic=True)
     assert abs(found.first.value + found.second.value + damping) < 1e-12
     assert np.abs(found.of_start.sum(axis=1) + damping).max() < 1e-12
