@@ -30,6 +30,7 @@ from analysis.oscillator import (
 from analysis.oscillator.growth import random_starts
 from campaigns.folder import Table, trajectory_path
 from campaigns.oscillator import SEED, Order
+from campaigns.oscillator_files import read_row, to_netcdf
 from campaigns.runner import Summary
 from engine.atomic import write_atomic
 
@@ -229,7 +230,7 @@ def run(order: Order) -> tuple[dict[str, float], Summary]:
     table = Table(order.out / "table.csv", COLUMNS, list(keys.values()))
     missing = []
     for part, key in keys.items():
-        row = _found(trajectory_path(order.out, key))
+        row = read_row(trajectory_path(order.out, key))
         if row is None:
             missing.append(part)
         else:
@@ -272,34 +273,3 @@ def _done(part: str, oscillator: SnapOscillator, order: Order, key: str) -> dict
     row = {"part": part, "status": "ok", **row, "wall_s": round(time.perf_counter() - begun, 3)}
     write_atomic(trajectory_path(order.out, key), to_netcdf(arrays, row))
     return {**row, "run_key": key}
-
-
-def to_netcdf(arrays: dict, row: dict) -> bytes:
-    """The arrays of a part as a netCDF-3 file, its row as the attribute `row` (JSON)."""
-    import io
-
-    from scipy.io import netcdf_file
-
-    buffer = io.BytesIO()
-    file = netcdf_file(buffer, "w", version=2)
-    file.row = json.dumps(row, default=lambda number: number.item())
-    for name, values in arrays.items():
-        values = np.asarray(values)
-        kind = "i4" if values.dtype.kind in "iub" else "f8"
-        for axis, length in enumerate(values.shape):
-            file.createDimension(f"{name}_{axis}", length)
-        variable = file.createVariable(name, kind, tuple(f"{name}_{axis}" for axis in range(values.ndim)))
-        variable[:] = values
-    file.flush()
-    return buffer.getvalue()
-
-
-def _found(path) -> dict | None:
-    from scipy.io import netcdf_file
-
-    try:
-        with netcdf_file(path, "r", mmap=False) as file:
-            row = json.loads(file.row)
-    except Exception:  # absent, truncated, from a foreign hand: the cure is the same, it is computed again
-        return None
-    return row
