@@ -20,6 +20,11 @@ NEAR = 0.35
 LEAST_TURN = 0.25
 # What a line must carry: the weaker ones ride on noise.
 LEAST_POWER = 0.01
+# Bands of a section: how many at most, and the points each must have for the 0-1 test.
+MOST_BANDS = 8
+BAND_POINTS = 100
+# More points make a map no clearer, and surrogates of them take long.
+NULL_POINTS = 1000
 NULLS = (("linear null", iaaft_surrogates), ("noisy-periodic null", noisy_periodic_surrogates))
 
 
@@ -117,15 +122,41 @@ def incommensurate_evidence(section, max_period):
 
 
 def irregular_evidence(section, seed, name="0-1 test"):
-    """K > 0.9: the median over the coordinates of the 0-1 test."""
-    found = [zero_one_test(section[:, j], seed=[seed, j]) for j in range(section.shape[1])]
-    values = np.array([test.value for test in found])
+    """K > 0.9: the median over the coordinates of the 0-1 test; on each band of a section that is visited in turn.
+
+    Where the motion visits N bands in turn, the map of N periods has each of them for a section of its own. Without
+    that, the jump from band to band hides the spreading of the walk: chaos in two bands wants twice as many periods.
+    """
+    bands = _bands_in_turn(section)
+    tests = [
+        zero_one_test(section[first::bands, j], seed=[seed, j])
+        for first in range(bands)
+        for j in range(section.shape[1])
+    ]
+    values = np.array([test.value for test in tests])
     answered = np.isfinite(values)
     if 2 * answered.sum() < len(values) or not answered.any():
-        return Evidence(name, np.nan, IRREGULAR, None, found[int(np.argmin(answered))].reason)
+        return Evidence(name, np.nan, IRREGULAR, None, tests[int(np.argmin(answered))].reason)
     value = float(np.median(values[answered]))
-    sentence = f"K = {value:.3f}: " + ("irregular" if value > IRREGULAR else "not irregular throughout")
+    where = f" in each of {bands} bands visited in turn" if bands > 1 else ""
+    sentence = f"K = {value:.3f}{where}: " + ("irregular" if value > IRREGULAR else "not irregular throughout")
     return Evidence(name, value, IRREGULAR, bool(value > IRREGULAR), sentence)
+
+
+def _bands_in_turn(section):
+    """The least N <= 8 of which the means of every N-th point carry half of a coordinate's variance, 1 without any.
+
+    One coordinate that tells the bands apart is enough; N is looked at only where every band has 100 points.
+    """
+    variance = section.var(axis=0)
+    z = (section - section.mean(axis=0))[:, variance > 0.0] / np.sqrt(variance[variance > 0.0])
+    for n in range(2, MOST_BANDS + 1):
+        if len(z) < n * BAND_POINTS or z.shape[1] == 0:
+            break
+        means = np.array([z[first::n].mean(axis=0) for first in range(n)])
+        if np.max(np.mean(means**2, axis=0)) > 0.5:
+            return n
+    return 1
 
 
 def null_evidence(section, surrogates, seed):
@@ -167,13 +198,14 @@ def half_evidence(section, surrogates, seed, asked):
 
 
 def null_ranks(section, surrogates, seed):
-    """NullRank of the prediction gain for each null, None where a gain cannot be had.
+    """NullRank of the prediction gain for each null, None where a gain cannot be had; on the last 1000 points at most.
 
     The linear null is asked of the coordinates' normal scores: it allows any monotone instrument, and iterating towards
     a spectrum and a skew distribution at once reaches neither well enough (exp of a linear process, sampled often, beat
     its own surrogates in one case of ten). Normal scores undo the instrument first. For the other null that would not
     do: its noise is added to the motion as it is.
     """
+    section = section[-NULL_POINTS:]
     ranks = []
     for i, (points, make) in enumerate([(normal_scores(section), NULLS[0][1]), (section, NULLS[1][1])]):
         gain = prediction_gain(points).gain

@@ -1,7 +1,7 @@
 """Least squares of a few hundred rows on one thread.
 
-Libraries of linear algebra hand even such products to all cores, which on a busy machine wait for each other: a fit of 50
-lines to 300 points was seen to take 20 times longer beside one other process. Columns here are sines of separate
+Libraries of linear algebra hand even such products to all cores, which on a busy machine wait for each other: a fit of
+50 lines to 300 points was seen to take 20 times longer beside one other process. Columns here are sines of separate
 frequencies, nearly orthogonal, so that the normal equations lose nothing that matters.
 """
 

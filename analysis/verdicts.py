@@ -3,9 +3,10 @@
     period-N          the strobed orbit repeats after N forcing periods within tolerance (`detect_period`); the decay
                       of its steps gives the multiplier of the slowest mode
     transient         otherwise: spread or mean of the section change steadily, or neighbours close in: still on its way
-    chaotic           otherwise: lambda - 2 error > 0; K of the 0-1 test > 0.9; the gain of nonlinear over linear
-                      prediction above 95 % of IAAFT and of noisy-periodic surrogates, and 0.3 nats above their median;
-                      the 0-1 test and both ranks again in each half of the record; and neighbours on the section part
+    chaotic           otherwise: lambda - 2 error > 0; K of the 0-1 test > 0.9 (in each band, where the section has
+                      bands visited in turn); the gain of nonlinear over linear prediction above 95 % of IAAFT and of
+                      noisy-periodic surrogates, and 0.3 nats above their median; the 0-1 test and both ranks again in
+                      each half of the record; and neighbours on the section part
     quasi-periodic    otherwise: neighbours on the section stay neighbours, a spectral line is incommensurate with the
                       forcing, and the exponent is about 0
     undecided         otherwise; and wherever an exponent of the tangent dynamics, or the verdict on the same motion at
@@ -104,7 +105,8 @@ def regime(
     scale, tolerance, max_period   as in detect_period; scale defaults to the range of the later half of `series`
     surrogates               of each null, 19 or more
     seed                     of random angles and surrogates
-    Returns a Verdict. Chaos needs 200 forcing periods (each half 100, for the 0-1 test), any verdict 40. What it cannot
+    Returns a Verdict. Chaos needs 200 forcing periods (each half 100, for the 0-1 test), any verdict 40; weak chaos
+    needs many more (7000 at 0.07 bits per period on two folded curves), and is undecided until then. What it cannot
     tell apart: chaos of an exponent below 4/m nats per period and a torus; a motion bent by noise that drives it
     (dynamical noise on a strongly nonlinear cycle) and chaos, where the exponent says positive for both.
     Raises ValueError for values that are not finite, neither or both of series and strobed, or a missing step.

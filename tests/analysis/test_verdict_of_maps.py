@@ -133,3 +133,11 @@ def test_exponents_come_in_either_unit():
 def test_what_makes_no_sense_is_refused(given, message):
     with pytest.raises(ValueError, match=message):
         regime(**given)
+
+
+def test_chaos_in_two_bands_is_seen_in_each_band():
+    """Two logistic maps visited in turn, a hundred times further apart than they are wide."""
+    slow = np.repeat(logistic(3.9, 250), 2)[:, None] + [0.0, 0.3]
+    section = slow + 100.0 * (K[:250].repeat(2) * 0 + np.arange(500) % 2)[:, None]
+    found = regime(strobed=section, tangent_exponent=POSITIVE).named("0-1 test")
+    assert found.passed and "2 bands" in found.sentence
