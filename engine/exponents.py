@@ -38,7 +38,7 @@ class Trail:
             return
         T = self.steps[0][:count]
         ends = np.minimum(((T[:, 0] + T[:, 1]) / self.period_s - 1e-9).astype(int), len(self.released) - 1)
-        self.released[ends[(T[:, 2] > 0) & (T[:, 0] > 0.01 * self.period_s)]] = 1.0
+        self.released[ends[(T[:, 2] > 1) & (T[:, 0] > 0.01 * self.period_s)]] = 1.0
         carry(record, tables, self.period_s, count, *self.steps, self.vectors, self.rates, self.waters, self.nats)
 
     def growth(self, state):

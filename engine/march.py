@@ -87,9 +87,9 @@ def after_failure(p, state, dt, code, factor):
 
 
 @kernel
-def record_step(row, stages, rates, t, dt, one_stage, Ys, Ks):
+def record_step(row, stages, rates, t, dt, one_stage, small, Ys, Ks):
     """One accepted step of the trail (layout: `engine.tangent`)."""
-    row[0], row[1], row[2] = t, dt, 1.0 if one_stage else 0.0
+    row[0], row[1], row[2] = t, dt, 2.0 if small else 1.0 if one_stage else 0.0
     for i in range(Ys.shape[0]):
         copy_into(stages[i], Ys[i])
         copy_into(rates[i], Ks[i])
@@ -151,7 +151,7 @@ def march(p, tables, state, Y, Y_before, C, K, samples, profiles, trail_T, trail
         sample(p, tables, state, dt, not one_stage, C, K, C_new, Ks[s - 1], samples, profiles)
         if room > 0:
             last = state.trail
-            record_step(trail_T[last], trail_Y[last], trail_K[last], state.t, dt, one_stage, Ys, Ks)
+            record_step(trail_T[last], trail_Y[last], trail_K[last], state.t, dt, one_stage, small, Ys, Ks)
             state.trail += 1
         copy_into(Y_before, Y)
         copy_into(Y, Ys[s - 1])

@@ -14,8 +14,8 @@ A loop release changes neither t, n, q nor V, so C, and with it dC, goes through
 that follow start from C alone. What the release itself does - another tether shape from one moment to the next - is not
 a derivative; the growth of the periods in which one happens is reported apart.
 
-`march` stores the accepted steps in a trail: T (m, 3): t, dt, 1 for a step of backward Euler; Ys (m, s, n, 6) and
-Ks (m, s, n, 4), stages, of which backward Euler uses the last.
+`march` stores the accepted steps in a trail: T (m, 3): t, dt, 1 for a step of backward Euler, 2 for one that a
+sudden start or a release asked for; Ys (m, s, n, 6) and Ks (m, s, n, 4), stages, of which backward Euler uses the last.
 """
 
 import math

@@ -1,0 +1,128 @@
+"""Runs whose accepted steps are kept, and copies of them that repeat the same steps from a displaced state.
+
+A copy takes each step as the run took it: same time, same length, same kind, with Newton's method driven to rounding in
+both. Copies on a common step sequence differ by the dynamics alone, not by their step control.
+"""
+
+import importlib
+
+import numpy as np
+
+from engine.guards import OK
+from engine.march import STATE, guard_turns, march
+from engine.planar import node, sweep
+from engine.steps import conserved, one_stage_step, runge_kutta_step
+from engine.tangent import carry
+
+ROUNDING = 1e-20  # Newton's tolerance: it stops once an update is below 7e-11, one more step of it from rounding
+CHUNK = 400  # steps kept at a time
+
+
+class Run:
+    """A simulation of one scene, advanced chunk by chunk; its trail stays in `T, Ys, Ks[:count]`."""
+
+    def __init__(self, scene, duration_s):
+        self.batch = importlib.import_module("engine.simulate")._Batch([scene], [duration_s])
+        self.batch.records["newton_tolerance"] = ROUNDING
+        self.batch.records["max_newton"] = 40
+        self.record, self.tables, self.state = self.batch.records[0], self.batch.tables, self.batch.states[0]
+        n, s = int(self.record["nodes"]), max(int(self.record["stages"]), 2)
+        self.T, self.Ys, self.Ks = np.zeros((CHUNK, 3)), np.zeros((CHUNK, s, n, 6)), np.zeros((CHUNK, s, n, 4))
+        self.count = 0
+        self.weight = float(self.record["per_speed"]) ** 2
+        self.period_s = scene.waves.period_s if scene.waves is not None else 1.0
+
+    def chunks(self):
+        """Yield the number of steps in the trail until the run is over; fails if it ends early."""
+        batch = self.batch
+        assert self.state["status"] == OK
+        while not batch.done():
+            self.state["trail"] = 0
+            march(
+                self.record, self.tables, self.state, batch.Y[0], batch.Y_before[0], batch.C[0], batch.K[0],
+                batch.samples[0], batch.profiles[0], self.T, self.Ys, self.Ks, batch.goals[0],
+            )  # fmt: skip
+            assert self.state["status"] == OK
+            yield int(self.state["trail"])
+
+    def norm(self, dC):
+        """Length of a displacement of C (n, 4), as the engine measures it."""
+        return np.sqrt(np.sum(dC[:, :2] ** 2) + self.weight * np.sum(dC[:, 2:] ** 2))
+
+    def direction(self, seed):
+        """A random displacement of C of length one that leaves the anchor at rest."""
+        dC = np.random.default_rng(seed).normal(size=(int(self.record["nodes"]), 4))
+        dC[0, 2:] = 0.0
+        return dC / self.norm(dC)
+
+    def carried(self, vectors):
+        """Perturbations as `carry` takes them, starting from vectors (k, n, 4) with rates that do not matter."""
+        return Carried(self, vectors)
+
+
+class Carried:
+    """The engine's perturbations along a run; `growth` (nats) per vector since the start."""
+
+    def __init__(self, run, vectors):
+        self.run = run
+        self.vectors, self.rates, self.waters = vectors.copy(), np.zeros_like(vectors), np.zeros_like(vectors)
+        self.growth = np.zeros(len(vectors))
+
+    def follow(self, first, count):
+        run, growth = self.run, np.zeros((1, len(self.vectors)))
+        trail = [part[first : first + count] for part in (run.T, run.Ys, run.Ks)]
+        carry(run.record, run.tables, 1e9, count, *trail, self.vectors, self.rates, self.waters, growth)
+        self.growth += growth[0]
+
+
+class Copy:
+    """A second state on the steps of a run, displaced from a state Y (n, 6) with rates K by dC and dK."""
+
+    def __init__(self, run, Y, K, dC, dK):
+        n, s = len(Y), run.Ys.shape[1]
+        self.run, self.state = run, np.zeros(1, STATE)[0]
+        self.C, self.K, self.Y, self.Y_before = np.zeros((n, 4)), np.zeros((n, 4)), np.zeros((n, 6)), np.zeros((n, 6))
+        self.C_new, self.Ys, self.Ks = np.zeros((n, 4)), np.zeros((s, n, 6)), np.zeros((s, n, 4))
+        self.work = tuple(np.zeros((n, width)) for width in (2, 4, node.WIDTH, sweep.WIDTH, 6, 4))
+        self.displace(Y, K, dC, dK)
+
+    def displace(self, Y, K, dC, dK):
+        conserved(Y, self.C)
+        self.C += dC
+        self.K[:] = K + dK
+        self.Y[:] = Y
+        turn = np.arctan2(self.C[:, 1], self.C[:, 0]) - Y[:, 4]
+        self.Y[:, 4] += (turn + np.pi) % (2 * np.pi) - np.pi
+        self.Y[:, 0] = np.hypot(self.C[:, 0], self.C[:, 1]) - 1
+        self.Y[:, 2:4] = self.C[:, 2:]
+        self.dt_before = 0.0
+
+    def step(self, t, dt, one_stage):
+        """Returns whether a loop was released after the step."""
+        code = self._try(t, dt, one_stage)
+        if code != OK and self.dt_before > 0.0:  # as after a step that the run had to repeat: another first guess
+            self.dt_before = 0.0
+            code = self._try(t, dt, one_stage)
+        assert code == OK, f"the copy fails at {t} s"
+        self.Y_before[:], self.Y[:], self.C[:], self.K[:] = self.Y, self.Ys[-1], self.C_new, self.Ks[-1]
+        code, released = guard_turns(self.run.record, self.run.tables, self.state, self.Y)
+        assert code == OK
+        self.dt_before = 0.0 if released else dt
+        return released
+
+    def _try(self, t, dt, one_stage):
+        run = self.run
+        state = (self.Y, self.Y_before, self.C, self.K)
+        if one_stage:
+            return one_stage_step(
+                run.record, run.tables, t, dt, self.dt_before, 1.0, 1.0, 1.0, 100, *state, self.Ys[-1], self.Ks[-1],
+                self.C_new, self.work,
+            )[0]  # fmt: skip
+        return runge_kutta_step(
+            run.record, run.tables, t, dt, self.dt_before, *state, self.Ys, self.Ks, self.C_new, self.work
+        )[0]
+
+
+def start_of(run):
+    """The state (Y, K) of a run that has not moved yet."""
+    return run.batch.Y[0].copy(), run.batch.K[0].copy()
