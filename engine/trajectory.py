@@ -226,14 +226,17 @@ def _from_netcdf_bytes(content: bytes) -> Trajectory:
         empty = np.empty((0, len(arrays["s_m"])))
         lines = {name: arrays.get(f"profile_{name}", empty) for name in PROFILE_COLUMNS}
         profiles = Profiles(time_s=arrays.get("profile_time_s", np.empty(0)), s_m=arrays["s_m"], **lines)
-    tangent = None
-    if "growth_nats" in arrays:
-        period_s = float(file.variables["period"].units.decode().split("(")[1].split()[0])
-        tangent = TangentGrowth(period_s, arrays["growth_nats"], arrays["released"])
     try:
         scene = scene_from_toml(texts["scene"])
     except SceneError as error:
         raise TrajectoryError(f"holds a scene that this version does not accept: {error}") from None
+    tangent = None
+    if "growth_nats" in arrays:
+        period_s = float(file.variables["period"].units.decode().split("(")[1].split()[0])
+        tangent = TangentGrowth(period_s, arrays["growth_nats"], arrays["released"])
+    elif count := scene.output.tangent_vectors:  # a run that ended before its first period did
+        period_s = scene.waves.period_s if scene.waves is not None else 1.0
+        tangent = TangentGrowth(period_s, np.empty((0, count)), np.empty(0))
     columns = {name: arrays[name] for name in COLUMNS}
     statistics = json.loads(texts["statistics"])
     return Trajectory(scene, texts["status"], texts["message"], columns, statistics, profiles, tangent)
