@@ -44,6 +44,7 @@ _HOME = {
     "record_drift": "drifts",
     "Exponent": "exponents",
     "wolf_lyapunov": "wolf_plateau",
+    "tangent_lyapunov": "tangent_growth",
     "wolf_run": "wolf_pairs",
     "rosenstein_lyapunov": "divergence",
     "kantz_lyapunov": "divergence",

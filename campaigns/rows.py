@@ -8,9 +8,7 @@ import math
 
 import numpy as np
 
-LONGEST_PERIOD = 16
-# Share of the motion's range. At the default solver tolerance the default sweep repeats within 0.007 or misses by 0.1.
-STROBE_TOLERANCE = 0.01
+from reports.buoy_motion import LONGEST_PERIOD, STROBE_TOLERANCE, state_of, verdict_of
 
 COLUMNS = (
     "steepness",
@@ -62,6 +60,8 @@ def buoy_row(trajectory, transient_periods: int) -> dict[str, object]:
     trajectory: an engine Trajectory of a scene with waves and a buoy, run to its end or not.
     transient_periods: wave periods left out of extremes, slack and strobed period; a record that does not outlast them
     by one period fills none of these.
+    regime and exponents: of scenes with output.tangent_vectors, run to their end; all periods count, those with a loop
+    release too.
     max_buoy_height_above_water_m: highest point of the sphere less the still water depth, negative while it stays
     below.
     """
@@ -76,6 +76,15 @@ def buoy_row(trajectory, transient_periods: int) -> dict[str, object]:
     recorded_s = (len(columns["time_s"]) - 1) * step_s
     if recorded_s >= (transient_periods + 1) * period_s - 1e-6 * step_s:
         row |= _settled(columns, step_s, period_s, transient_periods)
+        if trajectory.tangent is not None and trajectory.status == "ok":
+            verdict, tangent, wolf = verdict_of(trajectory, transient_periods)
+            row |= {
+                "regime": verdict.regime,
+                "lyapunov_tangent_bits_per_period": _number(tangent.value),
+                "lyapunov_tangent_error": _number(tangent.error),
+                "lyapunov_wolf_bits_per_period": _number(wolf.value),
+                "lyapunov_wolf_error": _number(wolf.error),
+            }
     return row
 
 
@@ -109,18 +118,8 @@ def strobed_period(columns, step_s: float, period_s: float, transient_periods: i
     """
     from analysis import detect_period, poincare_section
 
-    coordinates = {
-        "x_m": columns["x_m"],
-        "z_m": columns["z_m"],
-        "radial_mps": columns["radius_rate_mps"],
-        "lateral_mps": columns["radius_m"] * columns["angle_rate_radps"],
-    }
+    coordinates, scale = state_of(columns, step_s, period_s, transient_periods)
     section = poincare_section(coordinates, step_s, period_s, transient_periods=transient_periods)
-    after = round(transient_periods * period_s / step_s)
-    x, z, radial, lateral = (float(np.ptp(values[after:])) for values in coordinates.values())
-    # A buoy at rest has no range of its own; a micrometre, and a micrometre a second, are rest for this one.
-    path_m, speed_mps = max(x, z, 1e-6), max(radial, lateral, 1e-6)
-    scale = [path_m, path_m, speed_mps, speed_mps]
     return detect_period(section.points, LONGEST_PERIOD, STROBE_TOLERANCE, scale).period
 
 

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import math
 
+from .buoy_motion import LONGEST_PERIOD
 from .buoy_physics import Modes
-from .buoy_runs import LONGEST_PERIOD, Run, period_length, several_points, value
+from .buoy_runs import Run, period_length, several_points, value
 from .buoy_warnings import releases
 from .wording import count, decimals, number, percent, ranges
 
@@ -78,10 +79,11 @@ def _periods(good, tolerance: float) -> list[str]:
         )
     none = [period_length(run) == 0 for run in good]
     if any(none):
+        judged = any(run.row["regime"] for run in good)
+        rest = "for its regime see the exponents" if judged else "what else it is, this report does not decide"
         lines.append(
             f"At kA = {ranges(steepness, none)} the strobed motion repeats after none of 1 to {LONGEST_PERIOD} "
-            f"periods to {percent(tolerance)} of its range (`strobed_period` is empty); what else it is, this report "
-            "does not decide."
+            f"periods to {percent(tolerance)} of its range (`strobed_period` is empty); {rest}."
         )
     unknown = [period_length(run) is None for run in good]
     if any(unknown):

@@ -31,7 +31,6 @@ COLUMNS = (
     "message",
 )
 PAPER_STEEPNESS = (0.016, 0.13)
-LONGEST_PERIOD = 16  # up to which the campaign looks for the `strobed_period` of its table
 LEAST_POINTS = 16  # strobed points below which it does not look
 
 

@@ -10,6 +10,7 @@ from .buoy_answer import short_answer
 from .buoy_equations import equation_items
 from .buoy_figures import run_items, section_figure
 from .buoy_physics import Modes, natural_frequencies
+from .buoy_regimes import exponent_curves, judged, regime_items
 from .buoy_runs import COLUMNS, Run, chosen_runs, load, read_runs, value
 from .buoy_tables import provenance_items, runs_items, scene_items, time_items
 from .buoy_warnings import warnings
@@ -31,6 +32,7 @@ def report(directory: str | Path) -> Report:
         *_question(runs, transient, tolerance, modes),
         *_orbit(runs, transient),
         *_chosen(folder, runs, transient, tolerance, modes),
+        *regime_items(folder, runs, transient),
         Heading("Warnings"),
         *warnings(runs, folder.scene, modes),
         *runs_items(runs, transient, tolerance),
@@ -57,7 +59,7 @@ def _question(runs: tuple[Run, ...], transient: int, tolerance: float, modes: Mo
         Heading("Short answer"),
         Bullets(short_answer(runs, transient, tolerance, modes)),
     ]
-    if all(not run.row["regime"] for run in runs):
+    if not judged(runs):
         items.append(
             Notice(
                 "note",
@@ -65,7 +67,7 @@ def _question(runs: tuple[Run, ...], transient: int, tolerance: float, modes: Mo
                 (
                     "The column `regime` and the columns of exponents are empty: no Lyapunov exponent was computed, "
                     "and none is needed for what is said above. A strobed motion for which no period was found is "
-                    "just that.",
+                    "just that. A sweep with `--set output.tangent_vectors=1` computes exponents and regimes.",
                 ),
             )
         )
@@ -86,6 +88,7 @@ def _orbit(runs: tuple[Run, ...], transient: int) -> list[Item]:
         slack,
         "slack fraction (–)",
         missing,
+        exponent_curves(drawn) if judged(runs) else (),
     )
     points = [len(run.section) for run in drawn]
     spread = max(drawn, key=lambda run: np.ptp(run.section[:, 0]))
@@ -94,10 +97,11 @@ def _orbit(runs: tuple[Run, ...], transient: int) -> list[Item]:
         f"{number(spread.steepness)}, over {decimals(float(np.ptp(spread.section[:, 0])), 2)} m"
     )
     share = f", and the slack fraction reaches {percent(float(np.nanmax(slack)))}" if np.isfinite(slack).any() else ""
+    exponents = ", and the largest exponents with one standard error" if judged(runs) else ""
     left_out = f" Crosses: {count(len(missing), 'run')} without points." if missing else ""
     caption = (
         f"Radius at t = k{T_I}, k ≥ {transient}, over wave steepness; the darker, the more points fall on one place. "
-        f"Below: share of the time without tension. Seen: {seen}{share}.{left_out} From `radius_m` of every "
+        f"Below: share of the time without tension{exponents}. Seen: {seen}{share}.{left_out} From `radius_m` of every "
         "trajectory, `slack_fraction` of `table.csv`."
     )
     return [

@@ -7,8 +7,9 @@ import shlex
 
 import numpy as np
 
+from .buoy_motion import LONGEST_PERIOD
 from .buoy_physics import Modes
-from .buoy_runs import LONGEST_PERIOD, Run, period_length, value
+from .buoy_runs import Run, period_length, value
 from .content import Column, Figure, Heading, Item, Listing, Table, Text
 from .figures.run_times import run_times
 from .folder import Folder

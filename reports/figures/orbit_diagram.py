@@ -12,19 +12,23 @@ from ..style import BLUE, DENSITY_COLOURS, SKY, SOFT, VERMILION, picture_of, she
 _ROWS = 200  # pixels of the value axis: one is thick enough to be seen in print
 
 
-def orbit_diagram_over(parameter, strobed, label: str, below, below_label: str, missing) -> Picture:
+def orbit_diagram_over(parameter, strobed, label: str, below, below_label: str, missing, exponents=()) -> Picture:
     """Density of strobed points over a parameter, and one more number per run below.
 
     Args: `parameter` (p,) e.g. steepness; `strobed` p arrays of strobed values, `label` their axis with unit;
     `below` (p,) with `below_label` (nan leaves a gap); `missing` parameter values of runs without points (crosses).
+    `exponents`: label, values (p,) and errors (p,) of each, drawn in a third panel in bits per period.
     At least one of the arrays must hold a point.
     """
     from matplotlib.colors import LinearSegmentedColormap, LogNorm
 
     diagram = orbit_diagram(parameter, strobed)
     image = density_image(diagram, _ROWS)
-    with sheet(4.2) as figure:
-        top, low = figure.subplots(2, 1, sharex=True, gridspec_kw={"height_ratios": [3, 1]})
+    with sheet(5.4 if exponents else 4.2) as figure:
+        panels = figure.subplots(
+            3 if exponents else 2, 1, sharex=True, gridspec_kw={"height_ratios": [3, 1, 1.3][: 3 if exponents else 2]}
+        )
+        top, low = panels[:2]
         top.grid(False)
         shades = LogNorm(1, max(int(image.counts.max()), 2))
         half = _half_width(np.concatenate([diagram.parameter, np.asarray(missing, float)]))
@@ -39,14 +43,22 @@ def orbit_diagram_over(parameter, strobed, label: str, below, below_label: str, 
                     norm=shades,
                     cmap=colours,
                 )
-        bar = figure.colorbar(mesh, ax=[top, low], label="points in a pixel", aspect=40, pad=0.01)
+        bar = figure.colorbar(mesh, ax=list(panels), label="points in a pixel", aspect=40, pad=0.01)
         bar.set_ticks(_round_counts(shades.vmax), labels=[f"{c}" for c in _round_counts(shades.vmax)])
         bar.minorticks_off()
         top.set_ylabel(label)
         low.vlines(parameter, 0, below, color=SKY, linewidth=1.2)
         low.plot(parameter, below, "o", color=BLUE, markersize=3.5)
         low.set_ylabel(below_label)
-        low.set_xlabel(r"wave steepness $kA$ (–)")
+        panels[-1].set_xlabel(r"wave steepness $kA$ (–)")
+        for (name, values, errors), colour, mark in zip(exponents, (BLUE, VERMILION), "os", strict=False):
+            panels[-1].errorbar(
+                parameter, values, errors, fmt=mark, color=colour, markersize=3, elinewidth=0.8, label=name
+            )
+        if exponents:
+            panels[-1].axhline(0.0, color=SOFT, linewidth=0.7)
+            panels[-1].set_ylabel(r"$\sigma$ (bits/$T_i$)")
+            panels[-1].legend(fontsize="small")
         low.set_ylim(bottom=0.0, top=max(0.1, 1.15 * float(np.nanmax(below))) if np.isfinite(below).any() else 1.0)
         if len(missing):
             top.plot(

@@ -9,8 +9,9 @@ from campaigns import rows
 from engine import load_scene
 from engine.waves import wave_number
 from reports.buoy_figures import spectrum_window
+from reports.buoy_motion import LONGEST_PERIOD
 from reports.buoy_physics import natural_frequencies, water_surface_m
-from reports.buoy_runs import COLUMNS, LONGEST_PERIOD
+from reports.buoy_runs import COLUMNS
 from reports.figures.time_series import envelope
 from reports.scene_table import scene_table
 from reports.sources import SOURCES

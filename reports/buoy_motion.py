@@ -1,0 +1,58 @@
+"""The buoy's motion as the analysis takes it: its state, once and for all, and the verdict on a run with exponents.
+
+Here, not in campaigns, because the table of a campaign and the report on it must judge alike, and imports go one way.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+LONGEST_PERIOD = 16
+# Share of the motion's range. At the default solver tolerance the default sweep repeats within 0.007 or misses by 0.1.
+STROBE_TOLERANCE = 0.01
+
+
+def state_of(columns, step_s: float, period_s: float, transient_periods: int) -> tuple[dict, list[float]]:
+    """Position (x, z) and velocity (along and across the radius) of the buoy, and what counts as 1 in each.
+
+    Positions are measured by the larger extent of the path after the transient, velocities by their larger range: so a
+    millimetre counts the same in every direction, and a buoy that turns round and round needs no other treatment.
+    """
+    coordinates = {
+        "x_m": columns["x_m"],
+        "z_m": columns["z_m"],
+        "radial_mps": columns["radius_rate_mps"],
+        "lateral_mps": columns["radius_m"] * columns["angle_rate_radps"],
+    }
+    after = round(transient_periods * period_s / step_s)
+    x, z, radial, lateral = (float(np.ptp(values[after:])) for values in coordinates.values())
+    # A buoy at rest has no range of its own; a micrometre, and a micrometre a second, are rest for this one.
+    path_m, speed_mps = max(x, z, 1e-6), max(radial, lateral, 1e-6)
+    return coordinates, [path_m, path_m, speed_mps, speed_mps]
+
+
+def verdict_of(trajectory, transient_periods: int):
+    """The regime of a finished run that carried tangent vectors: (Verdict, tangent Exponent, Wolf Exponent of r).
+
+    Both exponents in bits per wave period. Every period after the transient counts, those with a loop release too.
+    """
+    from analysis import regime, tangent_lyapunov, wolf_lyapunov
+
+    scene, columns = trajectory.scene, trajectory.columns
+    step_s, period_s = scene.sample_step_s(), scene.waves.period_s
+    after = round(transient_periods * period_s / step_s)
+    tangent = tangent_lyapunov(trajectory.tangent.growth_nats, transient_periods)[0]
+    wolf = wolf_lyapunov(columns["radius_m"][after:], step_s).in_bits_per_period(period_s)
+    coordinates, scale = state_of(columns, step_s, period_s, transient_periods)
+    verdict = regime(
+        np.column_stack(list(coordinates.values())),
+        step_s,
+        period_s,
+        transient_periods=transient_periods,
+        tangent_exponent=tangent,
+        wolf_exponent=wolf,
+        scale=scale,
+        tolerance=STROBE_TOLERANCE,
+        max_period=LONGEST_PERIOD,
+    )
+    return verdict, tangent, wolf

@@ -1,0 +1,60 @@
+"""Exponents of a tangent map: means of growth per period, with errors that hold for correlated growth."""
+
+import numpy as np
+import pytest
+
+from analysis import tangent_lyapunov
+
+
+def logistic_growth(periods, seed):
+    """ln |f'| along an orbit of x -> 4 x (1 - x): exponent ln 2, one bit an iteration."""
+    x = np.random.default_rng(seed).uniform(0.1, 0.9)
+    growth = np.empty(periods)
+    for k in range(periods):
+        growth[k] = np.log(abs(4.0 - 8.0 * x))
+        x = 4.0 * x * (1.0 - x)
+    return growth
+
+
+def ar1(periods, seed, correlation=0.8):
+    noise = np.random.default_rng(seed).normal(size=periods)
+    for k in range(1, periods):
+        noise[k] += correlation * noise[k - 1]
+    return noise
+
+
+def test_the_logistic_map_gains_a_bit_an_iteration():
+    (found,) = tangent_lyapunov(logistic_growth(20_000, 1))
+    assert abs(found.value - 1.0) < 3 * found.error
+    assert found.unit == "bits/period" and found.error < 0.02
+
+
+def test_the_truth_lies_within_two_errors_for_correlated_growth():
+    """AR(1) growth, correlation 0.8, mean zero: the error of independent values would be three times too small."""
+    inside = 0
+    for seed in range(200):
+        (found,) = tangent_lyapunov(ar1(600, seed))
+        inside += abs(found.value) < 2 * found.error
+    assert inside >= 0.9 * 200
+
+
+def test_the_error_falls_as_the_root_of_the_length():
+    def typical(periods):
+        return np.median([tangent_lyapunov(ar1(periods, seed))[0].error for seed in range(60)])
+
+    assert typical(6400) / typical(400) == pytest.approx(0.25, rel=0.2)
+
+
+def test_columns_are_exponents_in_their_order_and_periods_can_be_left_out():
+    growth = np.column_stack([np.full(100, np.log(2.0)), np.full(100, -np.log(4.0))])
+    growth[::10] = 50.0
+    found = tangent_lyapunov(growth, left_out=np.arange(100) % 10 == 0)
+    assert [item.value for item in found] == pytest.approx([1.0, -2.0])
+    assert [item.details["periods"] for item in found] == [90, 90]
+
+
+def test_a_short_record_gives_no_number_but_the_reason():
+    (found,) = tangent_lyapunov(np.zeros(40), transient_periods=9)
+    assert np.isnan(found.value) and "32 periods" in found.reason
+    with pytest.raises(ValueError, match="left_out"):
+        tangent_lyapunov(np.zeros(40), left_out=[True])

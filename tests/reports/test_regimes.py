@@ -1,0 +1,47 @@
+"""A sweep whose scene asks for tangent vectors has its exponents and regimes in the table, and the report says why."""
+
+import csv
+
+import pytest
+
+from campaigns import buoy_sweep
+
+LENGTH = ["--periods", "200", "--transient", "50"]
+SWEPT = ["--steepness", "0.016", "0.13", *LENGTH, "--jobs", "1", "--backend", "threading"]
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    out = tmp_path_factory.mktemp("regimes") / "sweep"
+    assert buoy_sweep.main([*SWEPT, "--set", "output.tangent_vectors=1", "--out", str(out)]) == 0
+    return out
+
+
+def rows_of(folder):
+    with open(folder / "table.csv", newline="", encoding="utf-8") as file:
+        return {float(row["steepness"]): row for row in csv.DictReader(file)}
+
+
+def test_the_table_holds_exponents_with_errors_and_a_regime(folder):
+    rows = rows_of(folder)
+    calm = rows[0.016]
+    value, error = (float(calm[f"lyapunov_tangent_{end}"]) for end in ("bits_per_period", "error"))
+    assert value < -2 * error < 0, "small waves: perturbations die out"
+    for row in rows.values():
+        assert row["regime"] in {"transient", "undecided", "quasi-periodic", "chaotic"} or "period-" in row["regime"]
+        assert float(row["lyapunov_wolf_error"]) > 0
+        assert row["offplane_growth_bits_per_period"] == ""
+
+
+def test_the_report_gives_the_evidence_for_the_papers_two_cases(folder):
+    page = (folder / "report.html").read_text(encoding="utf-8")
+    for steepness, row in rows_of(folder).items():
+        assert f"Why kA = {steepness:g} is called {row['regime']}" in page
+    assert "0-1 test" in page and "fig. 14" in page
+    assert "this report does not decide" not in page and "No verdict" not in page
+
+
+def test_a_sweep_that_does_not_ask_leaves_the_columns_empty(tmp_path):
+    assert buoy_sweep.main([*SWEPT, "--no-report", "--out", str(tmp_path / "sweep")]) == 0
+    for row in rows_of(tmp_path / "sweep").values():
+        assert row["regime"] == row["lyapunov_tangent_bits_per_period"] == row["lyapunov_wolf_error"] == ""
