@@ -18,10 +18,11 @@ from campaigns import cli
 CAMPAIGN = "buoy_sweep"
 MODULE = "campaigns.buoy_sweep"
 SCENE = "tethered_buoy"
-# From the paper's small wave (0.016) to beyond its large one (0.13); a step of 0.002 meets 0.13 too.
-STEEPNESS = tuple(round(0.016 + 0.002 * step, 3) for step in range(73))
+# From the paper's small wave (0.016) to beyond its large one (0.13); a step of 0.003 meets 0.13 too.
+STEEPNESS = tuple(round(0.016 + 0.003 * step, 3) for step in range(49))
 PERIODS, TRANSIENT = 300, 100
-SWEPT = "waves.steepness"
+LEAST_ANALYSED = 40  # periods after the transient below which no verdict is possible: exponents are then left out
+SWEPT, TANGENTS = "waves.steepness", "output.tangent_vectors"
 
 
 @dataclass(frozen=True)
@@ -57,7 +58,7 @@ def parser():
     exits = "exit codes: 0 done, 1 stopped (disk full, folder in use, no report), 2 bad input, 130 Ctrl-C"
     parser = cli.parser(MODULE, __doc__, exits)
     what = parser.add_argument_group("what is run")
-    cli.add(what, "--steepness", "A B ...", "wave steepnesses kA (default: 73 values from 0.016 to 0.16)")
+    cli.add(what, "--steepness", "A B ...", "wave steepnesses kA (default: 49 values from 0.016 to 0.16)")
     cli.add(what, "--steepness-range", "LO HI COUNT", "evenly spaced steepnesses, both ends included")
     cli.add(what, "--periods", "N", f"length of every run in wave periods (default: {PERIODS})")
     leave_out = f"wave periods left out of the analysis (default: {TRANSIENT}, at most a third of --periods)"
@@ -83,7 +84,8 @@ def read_order(argv: list[str], faults: list[str]) -> Order:
     name = cli.value(options.scene, "--scene", SCENE, str, "a scene file or the name of a scene", faults)
     taken = {SWEPT: "use --steepness", "waves.amplitude_m": "use --steepness"}
     changes = cli.assignments(options.set, taken, faults)
-    scenes = _scenes(name, changes, steepness, faults)
+    analysed = periods - transient >= LEAST_ANALYSED
+    scenes = _scenes(name, changes, steepness, analysed, faults)
     source = {"scene": name, "set": changes}
     return Order(scenes, periods, transient, out, jobs, backend, address, not options.no_report, source)
 
@@ -110,13 +112,20 @@ def _steepness(options, faults: list[str]) -> list[float]:
     return [float(f"{low + (high - low) * step / (count - 1):.12g}") for step in range(count)]
 
 
-def _scenes(name: str, changes: dict, steepness: list[float], faults: list[str]) -> dict:
+def carries_tangents(scene) -> bool:
+    """Whether the engine can carry perturbations through this scene, for exponents and a verdict on its regime."""
+    return scene.tether.bending_stiffness_Nm2 > 0 and scene.solver.integrator in ("esdirk43", "trbdf2")
+
+
+def _scenes(name: str, changes: dict, steepness: list[float], analysed: bool, faults: list[str]) -> dict:
     from engine import SceneError, load_scene
 
     scenes = {}
     for value in steepness:
         try:
             scene = load_scene(name, {**changes, SWEPT: value})
+            if TANGENTS not in changes and analysed and carries_tangents(scene):
+                scene = load_scene(name, {**changes, SWEPT: value, TANGENTS: 1})
         except SceneError as error:
             faults.extend(fault for fault in error.faults if fault not in faults)
             continue
@@ -130,14 +139,16 @@ def sweep(order: Order, argv: list[str], simulate) -> int:
     """Run it: compile, run, table, provenance, report. Raises CampaignStopped, OSError, KeyboardInterrupt."""
     from campaigns import session
     from campaigns.folder import claimed
+    from campaigns.row_store import made_by
     from campaigns.rows import COLUMNS, STROBE_TOLERANCE, buoy_row
     from campaigns.runner import Plan, make_job
 
     if simulate is None:
         from engine import simulate
     start = time.perf_counter()
-    describe = partial(buoy_row, transient_periods=order.transient)
-    plan = Plan(order.out, simulate, describe, COLUMNS, order.backend, order.jobs, order.dask_address)
+    describe = partial(buoy_row, transient_periods=order.transient, simulate=simulate)
+    maker = made_by({"transient": order.transient}, "analysis", "engine", "campaigns/rows.py", "reports/buoy_motion.py")
+    plan = Plan(order.out, simulate, describe, COLUMNS, order.backend, order.jobs, order.dask_address, row_maker=maker)
     jobs = [make_job(scene, order.periods, labels={"steepness": value}) for value, scene in order.scenes.items()]
     parameters = {
         **order.source,

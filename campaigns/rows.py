@@ -8,12 +8,13 @@ import math
 
 import numpy as np
 
-from reports.buoy_motion import LONGEST_PERIOD, STROBE_TOLERANCE, state_of, verdict_of
+from reports.buoy_motion import LONGEST_PERIOD, STROBE_TOLERANCE, state_of, tighter_scene, verdict_of
 
 COLUMNS = (
     "steepness",
     "status",
     "regime",
+    "regime_tighter",
     "strobed_period",
     "radius_min_m",
     "radius_max_m",
@@ -54,7 +55,7 @@ _STATISTICS = (
 )
 
 
-def buoy_row(trajectory, transient_periods: int) -> dict[str, object]:
+def buoy_row(trajectory, transient_periods: int, simulate=None) -> dict[str, object]:
     """The columns of `COLUMNS` that a trajectory of the tethered buoy fills; those left out are unknown.
 
     trajectory: an engine Trajectory of a scene with waves and a buoy, run to its end or not.
@@ -62,6 +63,7 @@ def buoy_row(trajectory, transient_periods: int) -> dict[str, object]:
     by one period fills none of these.
     regime and exponents: of scenes with output.tangent_vectors, run to their end; all periods count, those with a loop
     release too.
+    simulate: to repeat a run that looks chaotic at a ten times tighter tolerance (regime_tighter); None: not done.
     max_buoy_height_above_water_m: highest point of the sphere less the still water depth, negative while it stays
     below.
     """
@@ -77,15 +79,27 @@ def buoy_row(trajectory, transient_periods: int) -> dict[str, object]:
     if recorded_s >= (transient_periods + 1) * period_s - 1e-6 * step_s:
         row |= _settled(columns, step_s, period_s, transient_periods)
         if trajectory.tangent is not None and trajectory.status == "ok":
-            verdict, tangent, wolf = verdict_of(trajectory, transient_periods)
+            tighter, verdict, tangent, wolf = _verdict(trajectory, transient_periods, simulate)
             row |= {
                 "regime": verdict.regime,
+                "regime_tighter": tighter,
                 "lyapunov_tangent_bits_per_period": _number(tangent.value),
                 "lyapunov_tangent_error": _number(tangent.error),
                 "lyapunov_wolf_bits_per_period": _number(wolf.value),
                 "lyapunov_wolf_error": _number(wolf.error),
             }
     return row
+
+
+def _verdict(trajectory, transient_periods: int, simulate):
+    """(regime at a ten times tighter tolerance or None, Verdict, tangent and Wolf exponents) of a finished run."""
+    verdict, tangent, wolf = verdict_of(trajectory, transient_periods)
+    if verdict.regime != "chaotic" or simulate is None:
+        return None, verdict, tangent, wolf
+    scene = tighter_scene(trajectory.scene)
+    again = simulate(scene, duration_s=float(trajectory.columns["time_s"][-1]))
+    tighter = verdict_of(again, transient_periods)[0].regime if again.status == "ok" else again.status
+    return tighter, verdict_of(trajectory, transient_periods, tighter)[0], tangent, wolf
 
 
 def _settled(columns, step_s: float, period_s: float, transient_periods: int) -> dict[str, object]:

@@ -18,6 +18,7 @@ from pathlib import Path
 
 from campaigns.folder import CampaignStopped, Table, is_full, trajectory_path
 from campaigns.pools import PoolBroken, opened
+from campaigns.row_store import keep_row, kept_row
 
 
 @dataclass(frozen=True)
@@ -59,6 +60,7 @@ class Plan:
 
     simulate(scene, periods=, duration_s=) -> Trajectory, and describe(trajectory) -> row, have to be
     importable or picklable by cloudpickle. columns: of the table, among them run_key, status and message.
+    row_maker: hash of whatever shapes a row (`campaigns.row_store.made_by`); empty: rows are not kept.
     """
 
     directory: Path
@@ -69,6 +71,7 @@ class Plan:
     jobs: int = 1
     dask_address: str | None = None
     show_progress: bool = True
+    row_maker: str = ""
 
 
 def make_job(scene, periods: float | None = None, duration_s: float | None = None, labels: dict | None = None) -> Job:
@@ -192,10 +195,15 @@ def _reuse(plan: Plan, job: Job) -> Outcome | None:
 
 def _described(plan: Plan, job: Job, trajectory, computed: bool) -> Outcome:
     start = time.perf_counter()
-    try:
-        row = plan.describe(trajectory)
-    except Exception as error:
-        row = {"status": "analysis-failed", "message": _reason(error)}
+    row = kept_row(plan.directory, job.key, plan.row_maker) if plan.row_maker and not computed else None
+    if row is None:
+        try:
+            row = plan.describe(trajectory)
+        except Exception as error:
+            row = {"status": "analysis-failed", "message": _reason(error)}
+        else:
+            if plan.row_maker:
+                keep_row(plan.directory, job.key, plan.row_maker, row)
     row = {**job.labels, **row, "run_key": job.key}
     return Outcome(job.key, row, computed, time.perf_counter() - start)
 

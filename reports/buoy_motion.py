@@ -31,9 +31,19 @@ def state_of(columns, step_s: float, period_s: float, transient_periods: int) ->
     return coordinates, [path_m, path_m, speed_mps, speed_mps]
 
 
-def verdict_of(trajectory, transient_periods: int):
+def tighter_scene(scene):
+    """The scene at a tenth of its tolerance, or of its step where that is fixed."""
+    from engine.scene import scene_from_toml
+
+    step_s = scene.solver.step_s
+    key, value = ("solver.step_s", step_s / 10) if step_s else ("solver.rtol", scene.solver.rtol / 10)
+    return scene_from_toml(scene.to_toml(), {key: value})
+
+
+def verdict_of(trajectory, transient_periods: int, tighter: str | None = None):
     """The regime of a finished run that carried tangent vectors: (Verdict, tangent Exponent, Wolf Exponent of r).
 
+    tighter: the regime of the same run at a tighter tolerance, where someone looked.
     Both exponents in bits per wave period. Every period after the transient counts, those with a loop release too.
     """
     from analysis import regime, tangent_lyapunov, wolf_lyapunov
@@ -51,6 +61,7 @@ def verdict_of(trajectory, transient_periods: int):
         transient_periods=transient_periods,
         tangent_exponent=tangent,
         wolf_exponent=wolf,
+        tighter=tighter,
         scale=scale,
         tolerance=STROBE_TOLERANCE,
         max_period=LONGEST_PERIOD,

@@ -88,7 +88,7 @@ def _provenance(path: Path) -> dict:
 def _table(path: Path, columns: tuple[str, ...]) -> pandas.DataFrame:
     import pandas
 
-    text = {"status": str, "regime": str, "run_key": str, "message": str}
+    text = {"status": str, "regime": str, "regime_tighter": str, "run_key": str, "message": str}
     table = pandas.read_csv(path, dtype=text, keep_default_na=True)
     absent = [column for column in columns if column not in table.columns]
     if absent:
