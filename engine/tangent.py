@@ -12,7 +12,7 @@ the nodes; the logarithms of their lengths add up to the growth of each period.
 
 A loop release changes neither t, n, q nor V, so C, and with it dC, goes through it unchanged; the backward Euler steps
 that follow start from C alone. What the release itself does - another tether shape from one moment to the next - is not
-a derivative; the growth of the periods in which one happens is reported apart.
+a derivative; the periods in which one happens are marked. What it does to the exponents: docs/findings.md.
 
 `march` stores the accepted steps in a trail: T (m, 3): t, dt, 1 for a step of backward Euler, 2 for one that a
 sudden start or a release asked for; Ys (m, s, n, 6) and Ks (m, s, n, 4), stages, of which backward Euler uses the last.
