@@ -8,13 +8,14 @@ from tests.analysis.maps import henon
 from tests.analysis.systems import states
 
 
-# 1.21 +- 0.01: Grassberger & Procaccia 1983; 1.220: Sprott 2003. Records of 20,000 points scatter by 0.01.
+# 1.21 +- 0.01: Grassberger & Procaccia 1983; 1.220 +- 0.036: Sprott 2003. The slope of this set swings with the radius
+# (1.19 to 1.23, decade by decade) and records of 20,000 points scatter by 0.011: the mean of twelve is known to 0.003.
 @pytest.mark.slow
 def test_henon():
     rng = np.random.default_rng(0)
-    starts = rng.uniform([-0.3, -0.2], [0.3, 0.2], (6, 2))
+    starts = rng.uniform([-0.3, -0.2], [0.3, 0.2], (12, 2))
     found = [correlation_dimension(henon(20000, start=start)) for start in starts]
-    assert 1.21 <= np.mean([one.value for one in found]) <= 1.25
+    assert np.mean([one.value for one in found]) == pytest.approx(1.21, abs=0.01 + 2 * 0.003)
 
 
 def test_the_printed_error_covers_henon():
