@@ -82,3 +82,21 @@ def kernel(function):
         )(function)
     finally:
         config.CACHE_DIR = saved
+
+
+def by_dimension(planar, spatial):
+    """One name for two kernels: `planar` for parameter records of the plane, `spatial` for those with a third dimension.
+
+    The choice is by the type of the first argument, when a kernel that calls the name is compiled: neither kernel is
+    compiled for a scene that does not need it, and nothing is decided at run time.
+    """
+    from numba.extending import overload
+
+    def either(*arguments):
+        raise NotImplementedError("only compiled kernels call this")
+
+    @overload(either, strict=False, jit_options={"nogil": True, "fastmath": {"contract"}, "error_model": "numpy"})
+    def chosen(p, *arguments):
+        return (spatial if "GI" in p.fields else planar).py_func
+
+    return either

@@ -16,12 +16,12 @@ import math
 import numpy as np
 
 from .compiled import kernel
+from .dimensions import conserved, largest_turn, release_loop, size_of, work_arrays
 from .elementary import copy_into
 from .guards import NEWTON_FAILED, NOT_FINITE, OK, STEP_LIMIT, STEP_UNDERFLOW, STRAIN_BELOW_MINUS_ONE, TURN_UNRESOLVED
 from .integrators import RUNGE_KUTTA
-from .planar import node, sweep
 from .sampling import sample
-from .steps import conserved, one_stage_step, runge_kutta_step
+from .steps import one_stage_step, runge_kutta_step
 
 _COUNTS = "status samples profiles small_steps steps rejected newton failures releases attempts cautious trail".split()
 _VALUES = "t dt dt_before low high max_turn min_strain window_end".split()
@@ -34,35 +34,11 @@ CAUTIOUS_STEPS, CAUTIOUS_GROW = 5, 1.3  # after a failure of Newton's method
 
 
 @kernel
-def largest_turn(Y):
-    """Largest |phi_k - phi_(k-1)| (rad) and the upper node of its element."""
-    turn, where = 0.0, 0
-    for k in range(1, Y.shape[0]):
-        d = abs(Y[k, 4] - Y[k - 1, 4])
-        if d > turn:
-            turn, where = d, k
-    return turn, where
-
-
-@kernel
-def release_loop(p, tables, Y, where):
-    """Shift phi by 2 pi from node `where` up, against the turn; new first guesses for curvature and shear nearby."""
-    n = Y.shape[0]
-    shift = -2.0 * math.pi if Y[where, 4] > Y[where - 1, 4] else 2.0 * math.pi
-    for k in range(where, n):
-        Y[k, 4] += shift
-    for k in range(max(1, where - 2), min(n - 1, where + 2)):
-        h = tables[p.grid_at + k - 1] + tables[p.grid_at + k]
-        Y[k, 5] = (Y[k + 1, 4] - Y[k - 1, 4]) / h
-        Y[k, 1] = 0.0
-
-
-@kernel
 def guard_turns(p, tables, state, Y):
     """Watch the turn of every element after a step; release loops. Returns (code, whether a loop was released)."""
     released = False
     for _ in range(Y.shape[0]):
-        turn, where = largest_turn(Y)
+        turn, where = largest_turn(p, Y)
         state.max_turn = max(state.max_turn, turn)
         if turn <= math.pi:
             return OK, released
@@ -99,20 +75,20 @@ def record_step(row, stages, rates, t, dt, one_stage, small, Ys, Ks):
 def march(p, tables, state, Y, Y_before, C, K, samples, profiles, trail_T, trail_Y, trail_K, until):
     """Advance one simulation until `until` samples are stored, the trail is full, or it ends.
 
-    p: parameter record; state: STATE record; Y, Y_before (n, 6), C, K (n, 4): the state itself; changed in place. C is
-    kept from call to call: computed anew it would differ by rounding, and the calls would show in the result.
-    samples (m, 9), profiles (m', n, 5): filled in place, columns as in `engine.sampling`.
-    trail_T (l, 3), trail_Y (l, s, n, 6), trail_K (l, s, n, 4): accepted steps for `engine.tangent`; l = 0 keeps none.
+    p: parameter record; state: STATE record; Y, Y_before (n, unknowns), C, K (n, conserved): the state itself; changed in
+    place. C is kept from call to call: computed anew it would differ by rounding, and the calls would show in the result.
+    samples (m, 12), profiles (m', n, 6): filled in place, columns as in `engine.sampling`.
+    trail_T (l, 3), trail_Y (l, s, n, unknowns), trail_K (l, s, n, conserved): accepted steps for `engine.tangent`; l = 0
+    keeps none.
     """
     n = p.nodes
     s = max(p.stages, 2)
-    X, F, Q = np.zeros((n, 2)), np.zeros((n, 4)), np.zeros((n, node.WIDTH))
-    E, D, C_tilde = np.zeros((n, sweep.WIDTH)), np.zeros((n, 6)), np.zeros((n, 4))
-    work = (X, F, Q, E, D, C_tilde)
-    C_new = np.empty((n, 4))
-    Ys, Ks = np.empty((s, n, 6)), np.empty((s, n, 4))
+    unknowns, size = size_of(p)
+    work = work_arrays(p, n)
+    C_new = np.empty((n, size))
+    Ys, Ks = np.empty((s, n, unknowns)), np.empty((s, n, size))
     if state.steps == 0:
-        conserved(Y, C)
+        conserved(p, Y, C)
     room = trail_T.shape[0]
     while state.status == OK and state.samples < until and (room == 0 or state.trail < room):
         if state.t >= state.window_end:
@@ -124,6 +100,9 @@ def march(p, tables, state, Y, Y_before, C, K, samples, profiles, trail_T, trail
             break
         small = state.small_steps > 0
         dt = state.dt
+        lets_go = state.t < p.end_release <= state.t + dt  # a held end: the step ends with its release
+        if lets_go:
+            dt = p.end_release - state.t
         error = 0.0
         one_stage = small or p.method != RUNGE_KUTTA
         if one_stage:
@@ -157,14 +136,14 @@ def march(p, tables, state, Y, Y_before, C, K, samples, profiles, trail_T, trail
         copy_into(Y, Ys[s - 1])
         copy_into(K, Ks[s - 1])
         copy_into(C, C_new)
-        state.t += dt
+        state.t = p.end_release if lets_go else state.t + dt
         state.dt_before = dt
         for k in range(n):
             state.min_strain = min(state.min_strain, Y[k, 0])
         code, released = guard_turns(p, tables, state, Y)
         if code != OK:
             state.status = code
-        if released:
+        if released or lets_go:
             state.small_steps = SMALL_STEPS
             state.dt = p.release_step
             state.dt_before = 0.0

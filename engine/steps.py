@@ -1,6 +1,7 @@
 """One time step of either family of integrators: a trial state and rates, a result code, an error estimate.
 
-Conserved variables of a node: C = (q_x, q_z, U, W); K = dC/dt. A trial never changes the accepted state.
+Conserved variables of a node: C = (q, V), four numbers in a plane and six in space; K = dC/dt. A trial never changes
+the accepted state. In Y (n, unknowns) and in C the velocity has the same columns; Q holds q from column 5 on.
 """
 
 import math
@@ -8,33 +9,24 @@ import math
 import numpy as np
 
 from .compiled import kernel
+from .dimensions import error_square, extrapolate, size_of
 from .elementary import copy_into
 from .guards import OK
-from .planar.newton import newton
+from .newton import newton
 from .tension import tension
 
 
 @kernel
-def conserved(Y, C):
-    """C (n, 4) of a state Y (n, 6)."""
-    for k in range(Y.shape[0]):
-        lam = 1.0 + Y[k, 0]
-        C[k, 0] = lam * math.cos(Y[k, 4])
-        C[k, 1] = lam * math.sin(Y[k, 4])
-        C[k, 2] = Y[k, 2]
-        C[k, 3] = Y[k, 3]
-
-
-@kernel
-def _predict(times, Ys, count, t, Y):
+def _predict(p, times, Ys, count, t, Y):
     """Y at time t by the polynomial through the last `count` (1, 2 or 3) entries of Ys; times relative to the step."""
+    unknowns, _ = size_of(p)
     last = times.shape[0] - 1
     if count == 1:
         copy_into(Y, Ys[last])
     elif count == 2:
         a = (t - times[last - 1]) / (times[last] - times[last - 1])
         for k in range(Y.shape[0]):
-            for i in range(6):
+            for i in range(unknowns):
                 Y[k, i] = Ys[last - 1, k, i] + a * (Ys[last, k, i] - Ys[last - 1, k, i])
     else:
         t0, t1, t2 = times[last - 2], times[last - 1], times[last]
@@ -42,7 +34,7 @@ def _predict(times, Ys, count, t, Y):
         w1 = (t - t0) * (t - t2) / ((t1 - t0) * (t1 - t2))
         w2 = (t - t0) * (t - t1) / ((t2 - t0) * (t2 - t1))
         for k in range(Y.shape[0]):
-            for i in range(6):
+            for i in range(unknowns):
                 Y[k, i] = w0 * Ys[last - 2, k, i] + w1 * Ys[last - 1, k, i] + w2 * Ys[last, k, i]
 
 
@@ -51,14 +43,16 @@ def runge_kutta_step(p, tables, t, dt, dt_before, Y, Y_before, C, K, Ys, Ks, C_n
     """A trial step of a stiffly accurate ESDIRK method.
 
     Y, C, K: accepted state at t and its rates; Y_before: the state dt_before earlier (0: none), for the first guess.
-    Ys (s, n, 6), Ks (s, n, 4): stages; the last of each is the new state and its rates; C_new: its conserved variables.
+    Ys (s, n, unknowns), Ks (s, n, conserved): stages; the last of each is the new state and its rates; C_new: its conserved variables.
     Returns (code, Newton iterations, error in units of the tolerance; 0 for fixed steps).
     """
     X, F, Q, E, D, C_tilde = work
+    unknowns, size = size_of(p)
+    half = size // 2
     s, n = p.stages, Y.shape[0]
     at_c = p.method_at + s * s
     times = np.empty(3)
-    guesses = np.empty((3, n, 6))
+    guesses = np.empty((3, n, unknowns))
     iterations = 0
     copy_into(Ys[0], Y)
     copy_into(Ks[0], K)
@@ -69,7 +63,7 @@ def runge_kutta_step(p, tables, t, dt, dt_before, Y, Y_before, C, K, Ys, Ks, C_n
             a = dt * tables[p.method_at + s * i + j]
             if a != 0.0:
                 for k in range(n):
-                    for m in range(4):
+                    for m in range(size):
                         C_tilde[k, m] += a * Ks[j, k, m]
         # first guess: linear from the step before for the first stage, quadratic through the latest stages after
         count = 0
@@ -82,7 +76,7 @@ def runge_kutta_step(p, tables, t, dt, dt_before, Y, Y_before, C, K, Ys, Ks, C_n
             times[2 - count] = -dt_before
             count += 1
         c_dt = tables[at_c + i] * dt
-        _predict(times, guesses, count, c_dt, Ys[i])
+        _predict(p, times, guesses, count, c_dt, Ys[i])
         rate = 1.0 / (a_ii * dt)
         code, used = newton(
             p, tables, t + c_dt, 1.0, rate, rate, p.newton_tolerance, p.max_newton, Ys[i], C_tilde,
@@ -92,10 +86,10 @@ def runge_kutta_step(p, tables, t, dt, dt_before, Y, Y_before, C, K, Ys, Ks, C_n
         if code != OK:
             return code, iterations, np.inf
         for k in range(n):
-            for m in range(2):
+            for m in range(half):
                 C_new[k, m] = Q[k, 5 + m]
-                C_new[k, 2 + m] = Ys[i, k, 2 + m]
-            for m in range(4):
+                C_new[k, half + m] = Ys[i, k, half + m]
+            for m in range(size):
                 Ks[i, k, m] = rate * (C_new[k, m] - C_tilde[k, m])
     if not p.adaptive:
         return OK, iterations, 0.0
@@ -129,18 +123,15 @@ def _error(p, tables, dt, Ks, Q):
     """Embedded error estimate over tolerance: rms over nodes of strain, angle and speed errors in scene scales."""
     s, n = Ks.shape[0], Ks.shape[1]
     at_d = p.method_at + s * s + s
+    size = size_of(p)[1]
     total = 0.0
+    errors = np.empty(size)
     for k in range(n):
-        ex = ez = eu = ew = 0.0
-        for j in range(s):
-            d = dt * tables[at_d + j]
-            ex += d * Ks[j, k, 0]
-            ez += d * Ks[j, k, 1]
-            eu += d * Ks[j, k, 2]
-            ew += d * Ks[j, k, 3]
-        axial = (ex * Q[k, 0] + ez * Q[k, 1]) * p.per_strain
-        turned = ez * Q[k, 0] - ex * Q[k, 1]
-        total += axial * axial + turned * turned + (eu * eu + ew * ew) * p.per_speed**2
+        for m in range(size):
+            errors[m] = 0.0
+            for j in range(s):
+                errors[m] += dt * tables[at_d + j] * Ks[j, k, m]
+        total += error_square(p, k, errors, Q)
     return math.sqrt(total / n) / p.rtol
 
 
@@ -156,14 +147,16 @@ def one_stage_step(
     Returns (code, Newton iterations).
     """
     X, F, Q, E, D, C_tilde = work
+    unknowns, size = size_of(p)
+    half = size // 2
     n = Y.shape[0]
     shift = alpha_f * dt * (1.0 - gamma / alpha_m)
     for k in range(n):
-        for m in range(4):
+        for m in range(size):
             C_tilde[k, m] = C[k, m] + shift * K[k, m]
     ratio = alpha_f * dt / dt_before if dt_before > 0.0 else 0.0
     for k in range(n):
-        for i in range(6):
+        for i in range(unknowns):
             Y_new[k, i] = Y[k, i] + ratio * (Y[k, i] - Y_before[k, i])
     rate = alpha_m / (alpha_f * gamma * dt)
     code, used = newton(
@@ -172,15 +165,10 @@ def one_stage_step(
     if code != OK:
         return code, used
     for k in range(n):
-        for m in range(4):
-            C_s = Q[k, 5 + m] if m < 2 else Y_new[k, m]
+        for m in range(size):
+            C_s = Q[k, 5 + m] if m < half else Y_new[k, m]
             C_new[k, m] = C[k, m] + (C_s - C[k, m]) / alpha_f
             K_new[k, m] = (rate * (C_s - C_tilde[k, m]) - (1.0 - alpha_m) * K[k, m]) / alpha_m
-        if alpha_f != 1.0:
-            # not the shear force: nothing ties it to its past, and errors of it would alternate for ever
-            for i in range(2, 6):
-                Y_new[k, i] = Y[k, i] + (Y_new[k, i] - Y[k, i]) / alpha_f
-            turn = math.atan2(C_new[k, 1], C_new[k, 0]) - Y_new[k, 4]
-            Y_new[k, 4] += turn - 2.0 * math.pi * np.rint(turn / (2.0 * math.pi))
-            Y_new[k, 0] = math.sqrt(C_new[k, 0] ** 2 + C_new[k, 1] ** 2) - 1.0
+    if alpha_f != 1.0:
+        extrapolate(p, alpha_f, Y, C_new, Y_new)
     return OK, used
