@@ -49,9 +49,9 @@ def newton(p, tables, t, in_motion, cq, cv, tolerance, most, Y, C_tilde, X, F, Q
         water(p, tables, t, in_motion, X, F)
         node_quantities(p, tables, cq, cv, in_motion, Y, C_tilde, F, Q)
         if p.bent:
-            regular = sweep_bent(p, tables, cq, cv, in_motion, Y, C_tilde, F, Q, E, D)
+            regular = sweep_bent(p, tables, t, cq, cv, in_motion, Y, C_tilde, F, Q, E, D)
         else:
-            regular = sweep_unbent(p, tables, cq, cv, in_motion, Y, C_tilde, F, Q, E, D)
+            regular = sweep_unbent(p, tables, t, cq, cv, in_motion, Y, C_tilde, F, Q, E, D)
         if not regular:
             return NEWTON_FAILED, iteration + 1
         size = update_size(p, D)

@@ -27,7 +27,7 @@ WIDTH = 33
 
 
 @kernel
-def sweep_bent(p, tables, cq, cv, in_motion, Y, C_tilde, F, Q, E, D):
+def sweep_bent(p, tables, t, cq, cv, in_motion, Y, C_tilde, F, Q, E, D):
     """Fill D (n, 6) with the Newton update; returns False where a pivot block is singular."""
     n = Y.shape[0]
     EI = p.EI
@@ -125,7 +125,7 @@ def sweep_bent(p, tables, cq, cv, in_motion, Y, C_tilde, F, Q, E, D):
     # upper end: e_N dN + D dV = -e, dkappa = -kappa
     b = n - 1
     ex, ez, eN, Dxx, Dxz, Dzz = upper_end(
-        p, cv, in_motion, Q[b, 3], Q[b, 4], Y[b, 2], Y[b, 3], C_tilde[b, 2], C_tilde[b, 3], F[b]
+        p, tables, t, cv, in_motion, Q[b, 3], Q[b, 4], Y[b, 2], Y[b, 3], C_tilde[b, 2], C_tilde[b, 3], F[b]
     )
     c, s, slope = Q[b, 0], Q[b, 1], Q[b, 2]
     A00 = eN * slope * c + Dxx * R00 + Dxz * R10

@@ -8,7 +8,7 @@ from ..ends import upper_end
 
 
 @kernel
-def sweep_unbent(p, tables, cq, cv, in_motion, Y, C_tilde, F, Q, E, D):
+def sweep_unbent(p, tables, t, cq, cv, in_motion, Y, C_tilde, F, Q, E, D):
     """Fill D (n, 6) with the Newton update, zeros for S and kappa; returns False where a block is singular."""
     n = Y.shape[0]
     R00 = R01 = R10 = R11 = 0.0
@@ -52,7 +52,7 @@ def sweep_unbent(p, tables, cq, cv, in_motion, Y, C_tilde, F, Q, E, D):
         E[k, 6], E[k, 7], E[k, 8], E[k, 9], E[k, 10], E[k, 11] = R00, R01, R10, R11, r0, r1
     b = n - 1
     ex, ez, eN, Dxx, Dxz, Dzz = upper_end(
-        p, cv, in_motion, Q[b, 3], Q[b, 4], Y[b, 2], Y[b, 3], C_tilde[b, 2], C_tilde[b, 3], F[b]
+        p, tables, t, cv, in_motion, Q[b, 3], Q[b, 4], Y[b, 2], Y[b, 3], C_tilde[b, 2], C_tilde[b, 3], F[b]
     )
     A00 = eN * Q[b, 2] * Q[b, 0] + Dxx * R00 + Dxz * R10
     A01 = -eN * Q[b, 4] + Dxx * R01 + Dxz * R11
