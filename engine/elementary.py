@@ -66,3 +66,33 @@ def copy_into(target, source):
     for k in range(target.shape[0]):
         for i in range(target.shape[1]):
             target[k, i] = source[k, i]
+
+
+@kernel
+def bracket(tables, at, n, value):
+    """Where a value lies on an axis of n increasing numbers, tables[at : at + n].
+
+    Returns the lower index, the weight of the upper neighbour, and 1/spacing (0 beyond the ends).
+    """
+    if n == 1 or value <= tables[at]:
+        return 0, 0.0, 0.0
+    if value >= tables[at + n - 1]:
+        return n - 2, 1.0, 0.0
+    low, high = 0, n - 1
+    while high - low > 1:
+        mid = (low + high) // 2
+        if tables[at + mid] <= value:
+            low = mid
+        else:
+            high = mid
+    inverse = 1.0 / (tables[at + low + 1] - tables[at + low])
+    return low, (value - tables[at + low]) * inverse, inverse
+
+
+@kernel
+def smooth_start(t, ramp):
+    """sin^2(pi t/(2 ramp)) and its rate (1/s) up to t = ramp (s), then 1 and 0; ramp = 0: 1 and 0 from the start."""
+    if t >= ramp:
+        return 1.0, 0.0
+    a = 0.5 * math.pi / ramp
+    return math.sin(a * t) ** 2, a * math.sin(2.0 * a * t)

@@ -10,19 +10,28 @@ import numpy as np
 
 from . import currents, ends, integrators, tension, waves
 
+
+def _dtype(counts, values):
+    return [(name, np.int64) for name in counts.split()] + [(name, np.float64) for name in values.split()]
+
+
 RECORD = np.dtype(
-    [
-        (name, np.int64)
-        for name in "nodes grid_at law law_at law_n wet waves current cur_at cur_nx cur_nz cur_nt above end bent "
-        "method stages method_at adaptive max_newton release max_releases at_rest".split()
-    ]
-    + [
-        (name, np.float64)
-        for name in "m w0 EI p1 p2 p3 p4 p5 ct cn ma Rw depth k omega amplitude phase direction ramp "
-        "M_total M_wave lift C_buoy end_x end_z per_strain per_force per_speed per_curvature "
+    _dtype(
+        "nodes grid_at law law_at law_n wet waves current cur_at cur_nx cur_nz cur_nt above end end_motion end_at "
+        "end_n bent method stages method_at adaptive max_newton release max_releases at_rest",
+        "m w0 EI p1 p2 p3 p4 p5 ct cn ma Rw depth k omega amplitude phase direction ramp "
+        "M_total M_wave lift C_buoy end_x end_z end_release end_fx end_fz per_strain per_force per_speed per_curvature "
         "order rtol newton_tolerance fixed_step max_step min_step start_x start_z "
-        "output_step release_step growth_per_step shortest_wave profile_step window alpha_m alpha_f gamma".split()
-    ]
+        "output_step release_step growth_per_step shortest_wave profile_step window alpha_m alpha_f gamma",
+    )
+)
+# Three dimensions have a type of their own: a kernel that serves both is compiled for each on its first use.
+SPATIAL = np.dtype(
+    RECORD.descr
+    + _dtype(
+        "cur_ny clamp_below clamp_above",
+        "GI dir_x dir_y end_y end_fy start_y below_x below_y below_z above_x above_y above_z twist twist_ramp",
+    )
 )
 
 
@@ -36,9 +45,9 @@ def grid(length_m, nodes, stretching):
 def record_of(scene, tables):
     """One parameter record; appends the scene's tables to the list of arrays `tables`.
 
-    Returns a (1,) structured array of dtype `RECORD`.
+    Returns a (1,) structured array of dtype `RECORD`, or `SPATIAL` for motion.dimensions = 3.
     """
-    p = np.zeros(1, RECORD)
+    p = np.zeros(1, RECORD if scene.motion.dimensions == 2 else SPATIAL)
     record = p[0]
 
     def place(values):
@@ -51,7 +60,9 @@ def record_of(scene, tables):
     record["grid_at"] = place(h)
     _tether(record, scene, place)
     _water(record, scene, place)
-    _end(record, scene)
+    _end(record, scene, place)
+    if p.dtype == SPATIAL:
+        _turning(record, scene)
     _solver(record, scene, place, h)
     return p
 
@@ -93,32 +104,57 @@ def _water(record, scene, place):
         record["waves"] = amplitude != 0
         record["k"], record["omega"] = k, 2 * math.pi / wave.period_s
         record["amplitude"], record["phase"], record["ramp"] = amplitude, wave.phase_rad, wave.ramp_s
-        record["direction"] = math.cos(wave.direction_rad)
+        if record.dtype == SPATIAL:
+            record["direction"] = 1.0
+            record["dir_x"], record["dir_y"] = _direction(wave.direction_rad)
+        else:
+            record["direction"] = math.cos(wave.direction_rad)
         record["above"] = {"extrapolate": waves.EXTRAPOLATE, "zero": waves.ZERO, "wheeler": waves.WHEELER}[
             wave.above_still_water
         ]
-    if current is None:
-        return
-    if current.law == "uniform":
-        axes = [0.0], [0.0], [0.0]
-        u, w = [[[current.velocity_mps[0]]]], [[[current.velocity_mps[2]]]]
-    elif current.law == "profile":
-        axes = [0.0], current.height_m, [0.0]
-        u = [[[v[0]] for v in current.velocity_mps]]
-        w = [[[v[2]] for v in current.velocity_mps]]
+    if current is not None:
+        _current(record, current, place)
+
+
+def _direction(angle):
+    """Cosine and sine, exact along the axes: 1e-16 across the waves would be a seed of motion out of their plane."""
+    return round(math.cos(angle), 15), round(math.sin(angle), 15)
+
+
+def _current(record, current, place):
+    spatial = record.dtype == SPATIAL
+    if current.law == "table":
+        x, y, z, t = current.x_m, current.y_m or (0.0,), current.height_m, current.time_s
+        u, w = np.array(current.velocity_x_mps), np.array(current.velocity_z_mps)
+        v = np.zeros_like(u) if current.velocity_y_mps is None else np.array(current.velocity_y_mps)
     else:
-        axes = current.x_m, current.height_m, current.time_s
-        u, w = current.velocity_x_mps, current.velocity_z_mps
-    record["current"] = np.any(u) or np.any(w)
-    record["cur_nx"], record["cur_nz"], record["cur_nt"] = (len(axis) for axis in axes)
-    record["cur_at"] = place(currents.table_of(*axes, u, w))
+        x, y, t = (0.0,), (0.0,), (0.0,)
+        z = current.height_m if current.law == "profile" else (0.0,)
+        u, v, w = np.reshape(np.transpose(current.velocity_mps), (3, 1, -1, 1))
+    record["current"] = any(component.any() for component in (u, v, w))
+    record["cur_nx"], record["cur_nz"], record["cur_nt"] = len(x), len(z), len(t)
+    if spatial:
+        record["cur_ny"] = len(y)
+        record["cur_at"] = place(currents.table_of((x, y, z, t), (u, v, w)))
+    else:
+        record["cur_at"] = place(currents.table_of((x, z, t), (u, w)))
 
 
-def _end(record, scene):
+def _put(record, name, vector):
+    """A vector [x, y, z] into the fields name_x or namex, ...; in a plane without y."""
+    for axis, value in zip("xyz", vector, strict=True):
+        if axis != "y" or record.dtype == SPATIAL:
+            record[name + axis] = value
+
+
+def _end(record, scene, place):
     end, buoy = scene.end, scene.buoy
     record["end"] = {"buoy": ends.BUOY, "held": ends.HELD, "free": ends.FREE}[end.kind]
+    record["end_release"] = math.inf
     if end.kind == "free":
-        record["end_x"], record["end_z"] = end.force_N[0], end.force_N[2]
+        _put(record, "end_", end.force_N)
+    if end.kind == "held":
+        _held(record, end, place)
     if end.kind != "buoy":
         return
     wet = scene.water is not None
@@ -129,7 +165,35 @@ def _end(record, scene):
     record["M_wave"] = rho_w * volume + added
     record["lift"] = (rho_w * volume - buoy.mass_kg) * scene.gravity_mps2
     record["C_buoy"] = 0.5 * rho_w * buoy.drag * math.pi * buoy.diameter_m**2 / 4
-    record["start_x"], record["start_z"] = scene.start.buoy_velocity_mps[0], scene.start.buoy_velocity_mps[2]
+    _put(record, "start_", scene.start.buoy_velocity_mps)
+
+
+def _held(record, end, place):
+    if end.release_s is not None:
+        record["end_release"] = end.release_s
+        _put(record, "end_f", end.force_N or (0.0, 0.0, 0.0))
+    motion = end.motion
+    if motion is None:
+        return
+    if motion.law == "harmonic":
+        record["end_motion"] = ends.HARMONIC
+        record["end_at"] = place(ends.harmonic_of(motion.amplitude_m, motion.period_s, motion.phase_rad, motion.ramp_s))
+    else:
+        record["end_motion"], record["end_n"] = ends.TABLE, len(motion.time_s)
+        record["end_at"] = place(ends.table_of(motion.time_s, motion.displacement_m))
+
+
+def _turning(record, scene):
+    """Torsion and clamps: what only three dimensions have."""
+    anchor, end = scene.anchor, scene.end
+    record["GI"] = scene.tether.torsion_stiffness_Nm2
+    upwards = (0.0, 0.0, 1.0)
+    chord = end.position_m if end.kind == "held" and any(end.position_m) else upwards
+    for name, clamp in (("below", anchor), ("above", end)):
+        record[f"clamp_{name}"] = clamp.rotation == "clamped"
+        direction = np.array(clamp.direction or chord)
+        _put(record, f"{name}_", direction / np.linalg.norm(direction))
+    record["twist"], record["twist_ramp"] = end.twist_rad, end.twist_ramp_s
 
 
 def _solver(record, scene, place, h):
@@ -160,7 +224,8 @@ def _solver(record, scene, place, h):
     record["release"], record["max_releases"] = solver.loop_release, solver.max_loop_releases
     moving = scene.end.kind == "buoy" and any(scene.start.buoy_velocity_mps)
     impulsive = record["waves"] and scene.waves.ramp_s == 0
-    record["at_rest"] = not (moving or impulsive)
+    moved = record["end_motion"] != ends.STILL or scene.end.twist_ramp_s > 0
+    record["at_rest"] = not (moving or impulsive or moved)
     _scales(record, scene, h)
 
 
@@ -168,8 +233,8 @@ def _scales(record, scene, h):
     """Inverse scales in which Newton updates and step errors are measured (Table 1: 0.04, 100 N, 1 m/s, 5 rad/m)."""
     length, g = scene.tether.length_m, scene.gravity_mps2
     load = max(abs(float(record["lift"])), abs(float(record["w0"])) * length, 1e-3)
-    if scene.end.kind == "free":
-        load = max(load, math.hypot(float(record["end_x"]), float(record["end_z"])))
+    if scene.end.force_N is not None:
+        load = max(load, math.hypot(*scene.end.force_N))
     strain = strain_at(load, scene.tether.tension)
     if scene.end.kind == "held":
         stretched = math.hypot(*scene.end.position_m) / length - 1

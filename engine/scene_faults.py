@@ -10,7 +10,9 @@ from typing import Annotated, Literal, get_args, get_origin
 
 from pydantic import BaseModel, ValidationError
 
-_TAGS = {("tether", "tension"): "law", ("current",): "law"}  # tables whose keys depend on one of them
+# tables whose keys depend on one of them
+_TAGS = {("tether", "tension"): "law", ("current",): "law", ("end", "motion"): "law"}
+FLAT, SOLID = "nested to depth 3", "nested to depth 4"  # kinds of a block of numbers, as pydantic names them
 
 
 class SceneError(ValueError):
@@ -133,6 +135,7 @@ def _field_text(model: type[BaseModel], location: tuple[str | int, ...], tag: st
 
 def _untagged(location: tuple[str | int, ...]) -> tuple[tuple[str | int, ...], str | None]:
     # pydantic puts the tag of a discriminated union into the location; the user's key has none
+    location = tuple(part for part in location if part not in (FLAT, SOLID))
     for path in _TAGS:
         if location[: len(path)] == path and len(location) > len(path):
             return (*path, *location[len(path) + 1 :]), str(location[len(path)])

@@ -9,10 +9,10 @@ import json
 import math
 from typing import Annotated, Literal
 
-from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
+from pydantic import BaseModel, ConfigDict, Discriminator, Field, Tag, ValidationError, model_validator
 from pydantic_core import PydanticCustomError
 
-from engine.scene_faults import Allowed, SceneError, field_faults
+from engine.scene_faults import FLAT, SOLID, Allowed, SceneError, field_faults
 from engine.scene_rules import cross_faults
 from engine.scene_toml import toml_text
 
@@ -37,10 +37,22 @@ Axis = Annotated[tuple[_Float, ...], Field(min_length=1), Allowed("a list of at 
 Vectors = Annotated[
     tuple[tuple[_Float, _Float, _Float], ...], Field(min_length=2), Allowed("a list of at least 2 vectors [x, y, z]")
 ]
+_Flat = tuple[tuple[tuple[_Float, ...], ...], ...]
+_Solid = tuple[_Flat, ...]
+
+
+def _block_kind(value: object) -> str:
+    """FLAT or SOLID: how deep the lists are nested, judged by the first entries."""
+    depth = 0
+    while isinstance(value, (list, tuple)) and value:
+        value, depth = value[0], depth + 1
+    return SOLID if depth > 3 else FLAT
+
+
 Block = Annotated[
-    tuple[tuple[tuple[_Float, ...], ...], ...],
-    Field(min_length=1),
-    Allowed("finite numbers as nested lists, indexed [time][height][x]"),
+    Annotated[_Flat, Field(min_length=1), Tag(FLAT)] | Annotated[_Solid, Field(min_length=1), Tag(SOLID)],
+    Discriminator(_block_kind),
+    Allowed("finite numbers as nested lists, indexed [time][height][x], or [time][height][y][x] with current.y_m"),
 ]
 
 
@@ -89,12 +101,46 @@ class Tether(Section):
     tension: Annotated[LinearTension | TanhTension | TabulatedTension, Field(discriminator="law")]
 
 
+class Anchor(Section):
+    """The lower end: fixed in place; free to rotate, or clamped in a direction (three dimensions only)."""
+
+    rotation: Literal["pinned", "clamped"] = "pinned"
+    direction: Vector | None = None  # of the clamped tangent; None: towards a held upper end, upwards otherwise
+
+
+class HarmonicMotion(Section):
+    """A held end is shaken: amplitude_m (r(t) sin(2 pi t/period_s + phase_rad) - its value at t = 0), r the ramp."""
+
+    law: Literal["harmonic"]
+    amplitude_m: Vector
+    period_s: Positive
+    phase_rad: Number = 0.0
+    ramp_s: NonNegative = 0.0  # r = sin^2(pi t/(2 ramp_s)) up to there; 0: full motion from t = 0
+
+
+class TableMotion(Section):
+    """A held end is moved through displacements at times, by a monotone cubic (PCHIP); at rest before and after."""
+
+    law: Literal["table"]
+    time_s: Series
+    displacement_m: Vectors
+
+
 class End(Section):
-    """The upper end: carries the buoy of eq. (30), is held in place, or is free under a steady force."""
+    """The upper end: carries the buoy of eq. (30), is held (still, moved, or let go later), or is free under a force.
+
+    The keys of rotation have a meaning in three dimensions only.
+    """
 
     kind: Literal["buoy", "held", "free"] = "buoy"
     position_m: Vector | None = None  # of a held end, from the anchor
-    force_N: Vector | None = None  # on a free end
+    force_N: Vector | None = None  # on a free end; on a held one after its release (None: no force)
+    motion: Annotated[HarmonicMotion | TableMotion, Field(discriminator="law")] | None = None  # of a held end
+    release_s: Positive | None = None  # when a held end is let go; None: never
+    rotation: Literal["pinned", "clamped"] = "pinned"  # clamped: held ends only
+    direction: Vector | None = None  # of the clamped tangent; None: along the line from the anchor
+    twist_rad: Number = 0.0  # turn of the upper clamp about its tangent against the lower one
+    twist_ramp_s: NonNegative = 0.0  # time in which the twist is put in, as sin^2; 0: there from the start
 
 
 class Buoy(Section):
@@ -142,20 +188,25 @@ class ProfileCurrent(Section):
 
 
 class TableCurrent(Section):
-    """An in-plane velocity given on a grid of time, height above the bed and x; an axis of one value is a constant."""
+    """A velocity given on a grid of time, height above the bed, x and (in three dimensions, where it is given) y.
+
+    An axis of one value is a constant.
+    """
 
     law: Literal["table"]
     x_m: Axis
+    y_m: Axis | None = None
     height_m: Axis
     time_s: Axis
     velocity_x_mps: Block
+    velocity_y_mps: Block | None = None  # None: zero
     velocity_z_mps: Block
 
 
 class Motion(Section):
     """How many dimensions the line moves in."""
 
-    dimensions: Literal[2] = 2
+    dimensions: Literal[2, 3] = 2
 
 
 class Start(Section):
@@ -167,7 +218,7 @@ class Start(Section):
 class Solver(Section):
     """Discretisation in time and its limits."""
 
-    scheme: Literal["conservation"] = "conservation"
+    scheme: Literal["conservation", "paper-box"] = "conservation"  # paper-box: eq. (28) as printed
     integrator: Literal["esdirk43", "trbdf2", "midpoint", "backward-euler", "generalized-alpha"] = "esdirk43"
     rtol: Tolerance = 0.03
     step_s: Positive | None = None  # fixed step; None: controlled by rtol, or T/400 for a method of fixed steps
@@ -201,6 +252,7 @@ class Scene(Section):
     title: Text = ""
     gravity_mps2: NonNegative = 9.81
     tether: Tether
+    anchor: Anchor = Anchor()
     end: End = End()
     buoy: Buoy | None = None
     water: Water | None = None

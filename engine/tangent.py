@@ -181,7 +181,7 @@ def carry(p, tables, period, count, T, trail_Y, trail_K, vectors, rates, waters,
                 for m in range(4):
                     C_tilde[k, m] = (Q[k, 5 + m] if m < 2 else Y[k, m]) - K[k, m] / rate
             node.node_quantities(p, tables, rate, rate, 1.0, Y, C_tilde, F, Q)
-            sweep.sweep_bent(p, tables, rate, rate, 1.0, Y, C_tilde, F, Q, E, D)
+            sweep.sweep_bent(p, tables, t + c_i * dt, rate, rate, 1.0, Y, C_tilde, F, Q, E, D)
             for v in range(k_vectors):
                 copy_into(dC_tilde, vectors[v])
                 for j in range(0 if euler else i):

@@ -13,8 +13,10 @@ grow without bound.
 
 import math
 
+import numpy as np
+
 from .compiled import kernel
-from .elementary import sincos, small_exponentials, small_sincos
+from .elementary import sincos, small_exponentials, small_sincos, smooth_start
 
 EXTRAPOLATE, ZERO, WHEELER = 0, 1, 2
 SMALL, TINY = 0.25, 1e-250
@@ -38,11 +40,7 @@ def wave_field(p, t, X, F):
     """
     n = X.shape[0]
     k, kx = p.k, p.k * p.direction
-    gain, gain_rate = 1.0, 0.0
-    if t < p.ramp:
-        a = 0.5 * math.pi / p.ramp
-        gain = math.sin(a * t) ** 2
-        gain_rate = a * math.sin(2.0 * a * t)
+    gain, gain_rate = smooth_start(t, p.ramp)
     speed = p.amplitude * p.omega / (1.0 - math.exp(-2.0 * k * p.depth))
     u0, u1 = speed * gain, speed * gain_rate
     om = p.omega
@@ -75,3 +73,25 @@ def wave_field(p, t, X, F):
         F[j, 1] += u0 * ws
         F[j, 2] += u0 * om * us + u1 * uc
         F[j, 3] += u1 * ws - u0 * om * wc
+
+
+@kernel
+def wave_field_3d(p, t, X, F):
+    """Water velocity and local acceleration at the nodes, added into F: the planar field in the plane of the wave.
+
+    X : (n, 3) positions x, y, z (m);  F : (n, 6) U, V, W (m/s), dU/dt, dV/dt, dW/dt (m/s2)
+    The records of three dimensions hold dir_x, dir_y, the direction of travel, and direction = 1 along it.
+    """
+    n = X.shape[0]
+    along, field = np.empty((n, 2)), np.zeros((n, 4))
+    for j in range(n):
+        along[j, 0] = p.dir_x * X[j, 0] + p.dir_y * X[j, 1]
+        along[j, 1] = X[j, 2]
+    wave_field(p, t, along, field)
+    for j in range(n):
+        F[j, 0] += p.dir_x * field[j, 0]
+        F[j, 1] += p.dir_y * field[j, 0]
+        F[j, 2] += field[j, 1]
+        F[j, 3] += p.dir_x * field[j, 2]
+        F[j, 4] += p.dir_y * field[j, 2]
+        F[j, 5] += field[j, 3]

@@ -51,7 +51,7 @@ SINGLE = [
     ({"current": {"velocity_mps": [1.0, 0.0, 0.0]}}, "current.law", "missing", "'uniform', 'profile', 'table'"),
     ({"current": {"law": "uniform", "velocity_mps": [1.0, 0.0]}}, "current.velocity_mps", "[1.0, 0.0]", "3 finite"),
     ({"current": {"law": "profile", "height_m": [0, 9], "velocity_mps": []}}, "current.velocity_mps", "[]", "vectors"),
-    ({"motion.dimensions": 3}, "motion.dimensions", "3", "2"),
+    ({"motion.dimensions": 4}, "motion.dimensions", "4", "2, 3"),
     ({"start.buoy_velocity_mps": [0, math.nan, 0]}, "start.buoy_velocity_mps[1]", "nan", "finite"),
     ({"solver.integrator": "rk4"}, "solver.integrator", "'rk4'", "'esdirk43'"),
     ({"solver.rtol": 0.0}, "solver.rtol", "0.0", "above 0 and below 1"),
