@@ -16,7 +16,8 @@ class Trail:
         n, s = int(record["nodes"]), max(int(record["stages"]), 2)
         count = scene.output.tangent_vectors
         room = STEPS if count else 0
-        self.steps = (np.zeros((room, 3)), np.zeros((room, s, n, 6)), np.zeros((room, s, n, 4)))
+        unknowns, conserved = (6, 4) if scene.motion.dimensions == 2 else (13, 6)
+        self.steps = (np.zeros((room, 3)), np.zeros((room, s, n, unknowns)), np.zeros((room, s, n, conserved)))
         self.period_s = scene.waves.period_s if scene.waves is not None else 1.0
         self.count = count
         if not count:

@@ -11,6 +11,9 @@ from .exponents import Trail
 from .guards import ADVICE, OK, TURN_UNRESOLVED, WORDS
 from .integrators import RUNGE_KUTTA
 from .march import SMALL_STEPS, STATE, march
+from .planar import state as planar
+from .spatial import lift
+from .spatial import state as spatial
 from .statics import first_guess, settle
 from .trajectory import Profiles, Trajectory
 
@@ -43,15 +46,21 @@ def simulate_batch(scenes, periods=None, duration_s=None, progress=None):
     """
     scenes = list(scenes)
     durations = [_duration(scene, periods, duration_s) for scene in scenes]
-    if not scenes:
-        return []
-    batch = _Batch(scenes, durations)
-    chunk = max(1, round(PERIODS_PER_CALL * _period(scenes[0]) / float(batch.records[0]["output_step"])))
-    while not batch.done():
-        batch.advance(chunk)
-        if progress is not None:
-            progress(batch.fraction())
-    return [batch.trajectory(b) for b in range(len(scenes))]
+    runs = [None] * len(scenes)
+    for dimensions in (2, 3):
+        chosen = [i for i, scene in enumerate(scenes) if scene.motion.dimensions == dimensions]
+        done = sum(run is not None for run in runs)
+        if not chosen:
+            continue
+        batch = _Batch([scenes[i] for i in chosen], [durations[i] for i in chosen])
+        chunk = max(1, round(PERIODS_PER_CALL * _period(scenes[chosen[0]]) / float(batch.records[0]["output_step"])))
+        while not batch.done():
+            batch.advance(chunk)
+            if progress is not None:
+                progress((done + batch.fraction() * len(chosen)) / len(scenes))
+        for b, i in enumerate(chosen):
+            runs[i] = batch.trajectory(b)
+    return runs
 
 
 def _period(scene):
@@ -71,10 +80,12 @@ def _duration(scene, periods, duration_s):
 
 
 class _Batch:
-    """Arrays of a batch, padded to the longest run and the most nodes."""
+    """Arrays of a batch of scenes of one number of dimensions, padded to the longest run and the most nodes."""
 
     def __init__(self, scenes, durations):
         self.scenes = scenes
+        self.state = spatial if scenes[0].motion.dimensions == 3 else planar
+        unknowns, conserved = self.state.size_of.py_func(None)
         tables = []
         self.records = np.concatenate([parameters.record_of(scene, tables) for scene in scenes])
         self.tables = np.concatenate(tables)
@@ -87,12 +98,12 @@ class _Batch:
                 np.floor(np.asarray(durations) / self.records["profile_step"] * (1 + 1e-12) + 1e-9) + 1,
                 0,
             ).astype(np.int64)
-        self.samples = np.zeros((size, int(self.goals.max()), 9))
-        self.profiles = np.zeros((size, int(profiled.max()), nodes, 5))
+        self.samples = np.zeros((size, int(self.goals.max()), 12))
+        self.profiles = np.zeros((size, int(profiled.max()), nodes, 6))
         self.states = np.zeros(size, STATE)
-        self.Y = np.zeros((size, nodes, 6))
-        self.C = np.zeros((size, nodes, 4))
-        self.K = np.zeros((size, nodes, 4))
+        self.Y = np.zeros((size, nodes, unknowns))
+        self.C = np.zeros((size, nodes, conserved))
+        self.K = np.zeros((size, nodes, conserved))
         self.trails = [Trail(*one) for one in zip(scenes, self.records, durations, strict=True)]
         self.walls = np.zeros(size)
         for b in range(size):
@@ -107,14 +118,15 @@ class _Batch:
         h = self.tables[record["grid_at"] : record["grid_at"] + n - 1]
         Y = first_guess(record, scene, h)
         target = scene.end.position_m if record["end"] == HELD else (0.0, 0.0, 0.0)
-        state["status"] = settle(record, self.tables, Y, np.array([target[0], target[2]]))
+        axes = "xyz" if self.state is spatial else "xz"
+        state["status"] = settle(record, self.tables, Y, np.array([target["xyz".index(axis)] for axis in axes]))
         s = np.concatenate([[0.0], np.cumsum(h)])
-        Y[:, 2] = record["start_x"] * s / s[-1]
-        Y[:, 3] = record["start_z"] * s / s[-1]
+        for i, axis in enumerate(axes):
+            Y[:, len(axes) + i] = record[f"start_{axis}"] * s / s[-1]
         self.Y[b, :n] = Y
         state["low"], state["high"] = np.inf, -np.inf
         state["min_strain"] = Y[:, 0].min()
-        state["max_turn"] = np.abs(np.diff(Y[:, 4])).max()
+        state["max_turn"] = lift.turns(Y).max() if self.state is spatial else np.abs(np.diff(Y[:, 4])).max()
         if state["status"] == OK and record["bent"] and state["max_turn"] > math.pi:
             state["status"] = TURN_UNRESOLVED
         # a sudden start has rates at t = 0 that are not zero: steps that need none come first, or the order falls to 1
@@ -163,7 +175,8 @@ class _Batch:
             "end_time_s": float(state["t"]),
             "wall_s": float(self.walls[b]),
         }
-        columns = _columns(self.samples[b, : min(int(state["samples"]), int(self.goals[b]))])
+        heading = float(scene.waves.direction_rad) if self.state is spatial and scene.waves is not None else 0.0
+        columns = _columns(self.samples[b, : min(int(state["samples"]), int(self.goals[b]))], heading)
         profiles, tangent = self._profiles(b, record, state), self.trails[b].growth(state)
         return Trajectory(scene, WORDS[status], message, columns, statistics, profiles, tangent)
 
@@ -177,26 +190,33 @@ class _Batch:
         return Profiles(
             np.arange(count) * float(record["profile_step"]),
             np.concatenate([[0.0], np.cumsum(h)]),
-            *(np.ascontiguousarray(values[:, :, i]) for i in range(5)),
+            *(np.ascontiguousarray(values[:, :, i]) for i in range(6)),
         )
 
 
-def _columns(samples):
-    t, x, z, u, w = samples[:, :5].T
-    r = np.hypot(x, z)
-    safe = np.where(r > 0, r, np.nan)
+def _columns(samples, heading):
+    """Columns of the table; the angle from the vertical is measured in the plane of waves that travel along `heading`."""
+    t, x, y, z, u, v, w = samples[:, :7].T
+    r = np.sqrt(x**2 + y**2 + z**2) if y.any() else np.hypot(x, z)
+    along, rate = (x, u) if heading == 0 else tuple(
+        np.cos(heading) * a + np.sin(heading) * b for a, b in ((x, y), (u, v))
+    )
+    with np.errstate(invalid="ignore", divide="ignore"):
+        radius_rate = (x * u + y * v + z * w) / np.where(r > 0, r, np.nan)
+        square = along**2 + z**2
+        angle_rate = (z * rate - along * w) / np.where(square > 0, square, np.nan)
     return {
         "time_s": t.copy(),
         "x_m": x.copy(),
-        "y_m": np.zeros_like(x),
+        "y_m": y.copy(),
         "z_m": z.copy(),
         "radius_m": r,
-        "radius_rate_mps": (x * u + z * w) / safe,
-        "angle_rad": np.unwrap(np.arctan2(x, z)),
-        "angle_rate_radps": (z * u - x * w) / safe**2,
-        "offplane_m": np.zeros_like(x),
-        "tension_top_N": samples[:, 5].copy(),
-        "tension_min_N": samples[:, 6].copy(),
-        "tension_top_low_N": samples[:, 7].copy(),
-        "tension_top_high_N": samples[:, 8].copy(),
+        "radius_rate_mps": radius_rate,
+        "angle_rad": np.unwrap(np.arctan2(along, z)),
+        "angle_rate_radps": angle_rate,
+        "offplane_m": samples[:, 11].copy(),
+        "tension_top_N": samples[:, 7].copy(),
+        "tension_min_N": samples[:, 8].copy(),
+        "tension_top_low_N": samples[:, 9].copy(),
+        "tension_top_high_N": samples[:, 10].copy(),
     }

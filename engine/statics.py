@@ -12,8 +12,10 @@ import numpy as np
 
 from .ends import BUOY, FREE, HELD
 from .guards import OK, STATICS_FAILED
-from .planar import node, sweep
-from .planar.newton import newton
+from .newton import newton
+from .planar import state as planar
+from .spatial import lift
+from .spatial import state as spatial
 
 SOFTEST, FIRST, STIFFEST = 1e-8, 10.0, 1e9
 TOLERANCE = 1e-9
@@ -22,22 +24,25 @@ MOST_TURNS = 4  # a bight that the grid does not resolve keeps a folded node
 
 
 def settle(record, tables, Y, target_m):
-    """Move the guess Y (n, 6) to static equilibrium, in place; the velocities come back as zero.
+    """Move the guess Y (n, 6 or 13) to static equilibrium, in place; the velocities come back as zero.
 
-    record: parameter record (not changed); target_m: (x, z) of a held end. Returns a status code. The loop is
-    Python: a score of Newton solves, and nothing more to compile.
+    record: parameter record (not changed); target_m: (x, z) or (x, y, z) of a held end. Returns a status code. The
+    loop is Python: a score of Newton solves, and nothing more to compile.
     """
     p = record.copy()
     n = int(p["nodes"])
-    X, F, Q = np.zeros((n, 2)), np.zeros((n, 4)), np.zeros((n, node.WIDTH))
-    E, D, C_tilde = np.zeros((n, sweep.WIDTH)), np.zeros((n, 6)), np.zeros((n, 4))
+    space = "GI" in p.dtype.names
+    X, F, Q, E, D, C_tilde = (spatial if space else planar).work_arrays.py_func(p, n)
+    axes = ("end_x", "end_y", "end_z") if space else ("end_x", "end_z")
+    velocity = slice(3, 6) if space else slice(2, 4)
     half = 0.5 * tables[p["grid_at"] : p["grid_at"] + n - 1, None]
     mu, turns = FIRST, 0
     for _ in range(400):
-        C_tilde[:, 0] = (1 + Y[:, 0]) * np.cos(Y[:, 4])
-        C_tilde[:, 1] = (1 + Y[:, 0]) * np.sin(Y[:, 4])
+        C_tilde[:, : len(axes)] = lift.stretch_vectors(Y) if space else planar_stretch_vectors(Y)
         if p["end"] == HELD:
-            p["end_x"], p["end_z"] = target_m - np.sum(half * (C_tilde[1:, :2] + C_tilde[:-1, :2]), axis=0)
+            q = C_tilde[:, : len(axes)]
+            for axis, place in zip(axes, target_m - np.sum(half * (q[1:] + q[:-1]), axis=0), strict=True):
+                p[axis] = place
         trial = Y.copy()
         code, _ = newton(p, tables, 0.0, 0.0, 1.0, mu, TOLERANCE, MOST, trial, C_tilde, X, F, Q, E, D)
         if code != OK:
@@ -45,16 +50,19 @@ def settle(record, tables, Y, target_m):
             if mu > STIFFEST:
                 return STATICS_FAILED
             continue
-        moved = np.abs(trial[:, 2:4]).max()
+        moved = np.abs(trial[:, velocity]).max()
         Y[:] = trial
-        Y[:, 2:4] = 0.0
+        Y[:, velocity] = 0.0
         if mu == 0.0 and moved < 1e-6:
             folded = Y[:, 0] < 0.0
             if p["bent"] or not folded.any() or turns == MOST_TURNS:
                 return OK
             # without bending compression is no rest: a node turned round carries the same force as tension
             Y[folded, 0] *= -1.0
-            Y[folded, 4] += math.pi
+            if space:
+                lift.turn_back(Y, folded)
+            else:
+                Y[folded, 4] += math.pi
             mu = FIRST
             turns += 1
             continue
@@ -62,14 +70,32 @@ def settle(record, tables, Y, target_m):
     return STATICS_FAILED
 
 
+def planar_stretch_vectors(Y):
+    """q (n, 2) of a planar state."""
+    return (1 + Y[:, :1]) * np.column_stack([np.cos(Y[:, 4]), np.sin(Y[:, 4])])
+
+
 def first_guess(record, scene, h):
-    """Shape (n, 6) from which `settle` starts: loads carried along a line, or an arc where the ends are slack."""
+    """State (n, 6 or 13) from which `settle` starts: loads carried along a line, or an arc where the ends are slack.
+
+    In space it lies in the vertical plane through the held end, or through the force on a free one.
+    """
+    if "GI" not in record.dtype.names:
+        return _in_plane(record, scene, h, (float(record["end_x"]), float(record["end_z"])))
+    across = {HELD: scene.end.position_m, FREE: scene.end.force_N}.get(int(record["end"]))
+    azimuth = math.atan2(across[1], across[0]) if across and (across[0] or across[1]) else 0.0
+    force = (math.hypot(float(record["end_x"]), float(record["end_y"])), float(record["end_z"]))
+    return lift.state_in_space(record, h, _in_plane(record, scene, h, force), azimuth)
+
+
+def _in_plane(record, scene, h, force):
     n = int(record["nodes"])
     s = np.concatenate([[0.0], np.cumsum(h)])
     length = s[-1]
     Y = np.zeros((n, 6))
     if record["end"] == HELD:
-        x, z = scene.end.position_m[0], scene.end.position_m[2]
+        x, y, z = scene.end.position_m
+        x = math.hypot(x, y) if y else x
         chord = math.hypot(x, z)
         direction = math.atan2(z, x) if chord > 0 else 0.0
         if chord >= length:
@@ -81,8 +107,8 @@ def first_guess(record, scene, h):
             Y[:, 4] = direction + sag * half * (2 * s / length - 1)
             Y[:, 5] = 2 * sag * half / length
         return Y
-    Nx = np.full(n, record["end_x"] if record["end"] == FREE else 0.0)
-    Nz = (record["lift"] if record["end"] == BUOY else record["end_z"]) - record["w0"] * (length - s)
+    Nx = np.full(n, force[0] if record["end"] == FREE else 0.0)
+    Nz = (record["lift"] if record["end"] == BUOY else force[1]) - record["w0"] * (length - s)
     T = np.hypot(Nx, Nz)
     from .parameters import strain_at
 

@@ -22,12 +22,12 @@ if TYPE_CHECKING:
 
 COLUMNS = {  # name -> (unit, long name), in the order of the table
     "time_s": ("s", "time"),
-    "x_m": ("m", "position of the upper end along the waves, from the anchor"),
-    "y_m": ("m", "position of the upper end across the waves, from the anchor"),
+    "x_m": ("m", "position of the upper end along x (the waves), from the anchor"),
+    "y_m": ("m", "position of the upper end along y (across the waves), from the anchor"),
     "z_m": ("m", "height of the upper end above the anchor"),
     "radius_m": ("m", "distance of the upper end from the anchor"),
     "radius_rate_mps": ("m s-1", "rate of the distance of the upper end from the anchor"),
-    "angle_rad": ("rad", "angle of the upper end from the vertical, atan2(x, z), unwrapped"),
+    "angle_rad": ("rad", "angle of the upper end from the vertical in the plane of the waves, atan2(x, z), unwrapped"),
     "angle_rate_radps": ("rad s-1", "rate of the angle of the upper end from the vertical"),
     "offplane_m": ("m", "largest distance of any node from the plane of the waves"),
     "tension_top_N": ("N", "tension at the upper end"),
@@ -36,7 +36,8 @@ COLUMNS = {  # name -> (unit, long name), in the order of the table
     "tension_top_high_N": ("N", "largest tension at the upper end over all steps since the previous sample"),
 }
 PROFILE_COLUMNS = {
-    "x_m": ("m", "position along the waves, from the anchor"),
+    "x_m": ("m", "position along x, from the anchor"),
+    "y_m": ("m", "position along y, from the anchor"),
     "z_m": ("m", "height above the anchor"),
     "strain": ("1", "strain"),
     "tension_N": ("N", "tension"),
@@ -55,6 +56,7 @@ class Profiles:
     time_s: np.ndarray
     s_m: np.ndarray
     x_m: np.ndarray
+    y_m: np.ndarray
     z_m: np.ndarray
     strain: np.ndarray
     tension_N: np.ndarray

@@ -1,0 +1,65 @@
+"""Planar states in space, and twist: starts of three-dimensional runs (NumPy, no kernels).
+
+A state in the vertical plane through azimuth a (about z, from x) has t = (cos phi cos a, cos phi sin a, sin phi) and
+n horizontal: at phi = a = 0 the frame is (x, y, z). In the plane of x and z b1 and b3 are then exactly zero and remain
+so; with n in that plane they would be equal to rounding only, a seed of motion across it.
+"""
+
+import math
+
+import numpy as np
+
+
+def product(a, b):
+    """Quaternion product of arrays (..., 4)."""
+    a0, a1, a2, a3 = np.moveaxis(np.asarray(a, float), -1, 0)
+    b0, b1, b2, b3 = np.moveaxis(np.asarray(b, float), -1, 0)
+    return np.stack(
+        [
+            a0 * b0 - a1 * b1 - a2 * b2 - a3 * b3,
+            a0 * b1 + a1 * b0 + a2 * b3 - a3 * b2,
+            a0 * b2 - a1 * b3 + a2 * b0 + a3 * b1,
+            a0 * b3 + a1 * b2 - a2 * b1 + a3 * b0,
+        ],
+        axis=-1,
+    )
+
+
+def stretch_vectors(Y):
+    """q (n, 3) of states Y (n, 13)."""
+    b0, b1, b2, b3 = Y[:, 6:10].T
+    t = np.stack([b0**2 + b1**2 - b2**2 - b3**2, 2 * (b1 * b2 + b0 * b3), 2 * (b1 * b3 - b0 * b2)], axis=1)
+    return (1 + Y[:, :1]) * t
+
+
+def state_in_space(record, h, planar, azimuth):
+    """State (n, 13) of a planar one (n, 6), with the twist that a clamped upper end has from the start."""
+    n = len(planar)
+    half = 0.5 * planar[:, 4]
+    zero = np.zeros(n)
+    beta = np.stack([np.cos(half), zero, -np.sin(half), zero], axis=1)
+    if azimuth:
+        beta = product(np.array([math.cos(0.5 * azimuth), 0.0, 0.0, math.sin(0.5 * azimuth)]), beta)
+    Y = np.zeros((n, 13))
+    roll = zero
+    if record["clamp_below"] and record["clamp_above"] and record["twist"] != 0 and record["twist_ramp"] == 0:
+        s = np.concatenate([[0.0], np.cumsum(h)])
+        roll = float(record["twist"]) * s / s[-1]
+        beta = product(beta, np.stack([np.cos(0.5 * roll), np.sin(0.5 * roll), zero, zero], axis=1))
+        Y[:, 10] = float(record["twist"]) / s[-1]
+    Y[:, 0] = planar[:, 0]
+    Y[:, 1], Y[:, 2] = planar[:, 1] * np.sin(roll), planar[:, 1] * np.cos(roll)
+    Y[:, 6:10] = beta
+    Y[:, 11], Y[:, 12] = -planar[:, 5] * np.cos(roll), planar[:, 5] * np.sin(roll)
+    return Y
+
+
+def turns(Y):
+    """Turn (n - 1,), rad, of the frame of a state (n, 13) from node to node."""
+    r = product(Y[:-1, 6:10] * [1.0, -1.0, -1.0, -1.0], Y[1:, 6:10])
+    return 2.0 * np.arctan2(np.linalg.norm(r[:, 1:], axis=1), r[:, 0])
+
+
+def turn_back(Y, nodes):
+    """Turn the frames of some nodes by pi about b: t changes its sign."""
+    Y[nodes, 6:10] = product(Y[nodes, 6:10], np.array([0.0, 0.0, 0.0, 1.0]))
