@@ -85,7 +85,7 @@ def kernel(function):
 
 
 def by_dimension(planar, spatial):
-    """One name for two kernels: `planar` for parameter records of the plane, `spatial` for those with a third dimension.
+    """One name for two kernels: `planar` for records of the plane, `spatial` for those with a third dimension.
 
     The choice is by the type of the first argument, when a kernel that calls the name is compiled: neither kernel is
     compiled for a scene that does not need it, and nothing is decided at run time.

@@ -75,11 +75,11 @@ def record_step(row, stages, rates, t, dt, one_stage, small, Ys, Ks):
 def march(p, tables, state, Y, Y_before, C, K, samples, profiles, trail_T, trail_Y, trail_K, until):
     """Advance one simulation until `until` samples are stored, the trail is full, or it ends.
 
-    p: parameter record; state: STATE record; Y, Y_before (n, unknowns), C, K (n, conserved): the state itself; changed in
-    place. C is kept from call to call: computed anew it would differ by rounding, and the calls would show in the result.
+    p: parameter record; state: STATE record; Y, Y_before (n, unknowns), C, K (n, conserved): the state itself; changed
+    in place. C is kept from call to call: computed anew it would differ by rounding, and the calls would show.
     samples (m, 12), profiles (m', n, 6): filled in place, columns as in `engine.sampling`.
-    trail_T (l, 3), trail_Y (l, s, n, unknowns), trail_K (l, s, n, conserved): accepted steps for `engine.tangent`; l = 0
-    keeps none.
+    trail_T (l, 3), trail_Y (l, s, n, unknowns), trail_K (l, s, n, conserved): accepted steps for `engine.tangent`;
+    l = 0 keeps none.
     """
     n = p.nodes
     s = max(p.stages, 2)

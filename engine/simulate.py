@@ -195,7 +195,7 @@ class _Batch:
 
 
 def _columns(samples, heading):
-    """Columns of the table; the angle from the vertical is measured in the plane of waves that travel along `heading`."""
+    """Columns of the table; the angle from the vertical is taken in the plane of waves that travel along `heading`."""
     t, x, y, z, u, v, w = samples[:, :7].T
     r = np.sqrt(x**2 + y**2 + z**2) if y.any() else np.hypot(x, z)
     along, rate = (x, u) if heading == 0 else tuple(

@@ -43,7 +43,8 @@ def runge_kutta_step(p, tables, t, dt, dt_before, Y, Y_before, C, K, Ys, Ks, C_n
     """A trial step of a stiffly accurate ESDIRK method.
 
     Y, C, K: accepted state at t and its rates; Y_before: the state dt_before earlier (0: none), for the first guess.
-    Ys (s, n, unknowns), Ks (s, n, conserved): stages; the last of each is the new state and its rates; C_new: its conserved variables.
+    Ys (s, n, unknowns), Ks (s, n, conserved): stages; the last of each is the new state and its rates; C_new: its
+    conserved variables.
     Returns (code, Newton iterations, error in units of the tolerance; 0 for fixed steps).
     """
     X, F, Q, E, D, C_tilde = work

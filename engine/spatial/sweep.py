@@ -23,8 +23,8 @@ At the upper end one small solve, then back substitution.
 
 A clamp is a rotational spring, so stiff that the end turns by less than a millionth of the turn of its element.
 
-E (n, 77): P (25) | p (5) | p' (5) | R (30), rows V, O2, O3, theta1 | r (6) | r' (6); in the row of the anchor, which has
-no P and p, E[0, 0:6] is y of the upper end and dO1.
+E (n, 77): P (25) | p (5) | p' (5) | R (30), rows V, O2, O3, theta1 | r (6) | r' (6); in the row of the anchor, which
+has no P and p, E[0, 0:6] is y of the upper end and dO1.
 """
 
 import math
@@ -58,7 +58,7 @@ def box_rotation(Y, a, b):
 
 @kernel
 def nodal_jacobian(row, e):
-    """Of one node by y: dN (five 3-vectors), e dG (those of eps, theta2, theta3), dN/dtheta1, and dM2, dM3 at fixed O."""
+    """Of one node by y: dN (five 3-vectors), e dG (of eps, theta2, theta3), dN/dtheta1, dM2 and dM3 at fixed O."""
     t, n, b = vector(row, 0), vector(row, 14), vector(row, 17)
     T = row[41]
     N = vector(row, 11)
@@ -219,12 +219,12 @@ def _momentum(i, e, Qa, Qb, Rx, Ry, Rz, Ax, Ay, Az, Bx, By, Bz, rx, ry, rz, zx, 
               dNa, Ga, roll_a, dNb, Gb, roll_b, R1, r1, A1, B1, z1):
     """Row i of the momentum equations: coefficients of y_a, the known term, coefficients of y_b."""
     if i == 0:
-        j, l, m = 32, 33, 34
+        u, v, w = 32, 33, 34
     elif i == 1:
-        j, l, m = 33, 35, 36
+        u, v, w = 33, 35, 36
     else:
-        j, l, m = 34, 36, 37
-    ax, ay, az, bx, by, bz = e * Qa[j], e * Qa[l], e * Qa[m], e * Qb[j], e * Qb[l], e * Qb[m]
+        u, v, w = 34, 36, 37
+    ax, ay, az, bx, by, bz = e * Qa[u], e * Qa[v], e * Qa[w], e * Qb[u], e * Qb[v], e * Qb[w]
     row = added(combined3(-ax, Rx, -ay, Ry, -az, Rz), combined3(-bx, Ax, -by, Ay, -bz, Az))
     row = combined3(1.0, row, roll_b[i], A1, -roll_a[i], R1)
     own = (dNa[0][i] + Ga[0][i], dNa[1][i], dNa[2][i], dNa[3][i] + Ga[1][i], dNa[4][i] + Ga[2][i])

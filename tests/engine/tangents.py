@@ -11,7 +11,8 @@ import numpy as np
 from engine.guards import OK
 from engine.march import STATE, guard_turns, march
 from engine.planar import node, sweep
-from engine.steps import conserved, one_stage_step, runge_kutta_step
+from engine.planar.state import conserved
+from engine.steps import one_stage_step, runge_kutta_step
 from engine.tangent import carry
 
 ROUNDING = 1e-20  # Newton's tolerance: it stops once an update is below 7e-11, one more step of it from rounding
@@ -87,7 +88,7 @@ class Copy:
         self.displace(Y, K, dC, dK)
 
     def displace(self, Y, K, dC, dK):
-        conserved(Y, self.C)
+        conserved(self.run.record, Y, self.C)
         self.C += dC
         self.K[:] = K + dK
         self.Y[:] = Y

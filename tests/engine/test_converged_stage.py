@@ -9,8 +9,8 @@ from scipy.optimize import brentq
 
 from engine import load_scene
 from engine.guards import OK
+from engine.newton import newton
 from engine.parameters import record_of
-from engine.planar.newton import newton
 from engine.planar.node import WIDTH
 from engine.planar.sweep import WIDTH as SWEEP_WIDTH
 from tests.engine.box_equations import elements, residual

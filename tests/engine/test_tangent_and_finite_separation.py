@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from engine import simulate
-from engine.steps import conserved
+from engine.planar.state import conserved
 from tests.engine.lines import line
 from tests.engine.tangents import Copy, Run, start_of
 
@@ -33,7 +33,7 @@ def both(depth_m):
             again = copy.step(t, dt, one_stage > 0)
             carried.follow(i, 1)
             if not again and int((t + dt) / run.period_s) > len(finite):
-                conserved(run.Ys[i, -1], C)
+                conserved(run.record, run.Ys[i, -1], C)
                 dC, dK = copy.C - C, copy.K - run.Ks[i, -1]
                 ratio = APART / run.norm(dC)
                 copy.displace(run.Ys[i, -1], run.Ks[i, -1], ratio * dC, ratio * dK)
