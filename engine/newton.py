@@ -32,10 +32,8 @@ def newton(p, tables, t, in_motion, cq, cv, tolerance, most, Y, C_tilde, X, F, Q
         size = update_size(p, D)
         if not np.isfinite(size):
             return NOT_FINITE, iteration + 1
-        add_update(p, 1.0 if size <= 1.0 else 1.0 / size, D, Y)
-        for k in range(Y.shape[0]):
-            if Y[k, 0] <= -1.0:
-                return STRAIN_BELOW_MINUS_ONE, iteration + 1
+        if add_update(p, 1.0 if size <= 1.0 else 1.0 / size, D, Y) <= -1.0:
+            return STRAIN_BELOW_MINUS_ONE, iteration + 1
         if size < tolerance or QUADRATIC * size * size < tolerance:
             shape(p, tables, Y, Q, X)
             return OK, iteration + 1

@@ -58,10 +58,13 @@ def update_size(p, D):
 
 @kernel
 def add_update(p, factor, D, Y):
-    """Y += factor D."""
+    """Y += factor D; returns the least strain."""
+    least = np.inf
     for k in range(Y.shape[0]):
         for i in range(6):
             Y[k, i] += factor * D[k, i]
+        least = min(least, Y[k, 0])
+    return least
 
 
 @kernel

@@ -58,7 +58,8 @@ def update_size(p, D):
 
 @kernel
 def add_update(p, factor, D, Y):
-    """Y moved by factor D: the frame turns, everything else is added."""
+    """Y moved by factor D: the frame turns, everything else is added. Returns the least strain."""
+    least = np.inf
     for k in range(Y.shape[0]):
         d = D[k]
         for i in range(6):
@@ -67,6 +68,8 @@ def add_update(p, factor, D, Y):
         Y[k, 6], Y[k, 7], Y[k, 8], Y[k, 9] = q
         for i in range(3):
             Y[k, 10 + i] += factor * d[9 + i]
+        least = min(least, Y[k, 0])
+    return least
 
 
 @kernel
