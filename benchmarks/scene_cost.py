@@ -18,6 +18,9 @@ SCENES = {
     "and profiles kept every 0.05 s": {**FIXED, "output.profiles": True},
     "still water: no waves": {**FIXED, "waves": None, "output.step_s": 0.05},
     "no bending": {**FIXED, "tether.bending_stiffness_Nm2": 0.0},
+    "three dimensions": {**FIXED, "motion.dimensions": 3},
+    "three dimensions, dry": {**FIXED, **DRY, "motion.dimensions": 3},
+    "three dimensions, no bending": {**FIXED, "motion.dimensions": 3, "tether.bending_stiffness_Nm2": 0.0},
     "dry: no water": {**FIXED, **DRY},
     "dry, no bending": {**FIXED, **DRY, "tether.bending_stiffness_Nm2": 0.0},
 }
