@@ -20,7 +20,8 @@ RECORD = np.dtype(
         "nodes grid_at law law_at law_n wet waves current cur_at cur_nx cur_nz cur_nt above end end_motion end_at "
         "end_n bent viscous method stages method_at adaptive max_newton release max_releases at_rest",
         "m w0 EI p1 p2 p3 p4 p5 ct cn ma Rw depth k omega amplitude phase direction ramp "
-        "M_total M_wave lift C_buoy end_x end_z end_release end_fx end_fz end_decay barrier c_quadratic c_linear per_strain per_force per_speed per_curvature "
+        "M_total M_wave lift C_buoy end_x end_z end_release end_fx end_fz end_decay "
+        "barrier c_quadratic c_linear per_strain per_force per_speed per_curvature "
         "order rtol newton_tolerance fixed_step max_step min_step start_x start_z "
         "output_step release_step growth_per_step shortest_wave profile_step window alpha_m alpha_f gamma",
     )
