@@ -18,13 +18,14 @@ import numpy as np
 from .compiled import kernel
 from .dimensions import conserved, largest_turn, release_loop, size_of, work_arrays
 from .elementary import copy_into
+from .energy import add_powers, store_energies
 from .guards import NEWTON_FAILED, NOT_FINITE, OK, STEP_LIMIT, STEP_UNDERFLOW, STRAIN_BELOW_MINUS_ONE, TURN_UNRESOLVED
 from .integrators import RUNGE_KUTTA
 from .sampling import sample
 from .shocks import renew_viscosity
 from .steps import one_stage_step, runge_kutta_step
 
-_COUNTS = "status samples profiles small_steps steps rejected newton failures releases attempts cautious trail".split()
+_COUNTS = "status samples profiles small_steps steps rejected newton failures releases attempts cautious trail energies".split()
 _VALUES = "t dt dt_before low high max_turn min_strain window_end".split()
 STATE = np.dtype([(name, np.int64) for name in _COUNTS] + [(name, np.float64) for name in _VALUES])
 SMALL_STEPS = 3
@@ -73,12 +74,13 @@ def record_step(row, stages, rates, t, dt, one_stage, small, Ys, Ks):
 
 
 @kernel
-def march(p, tables, state, Y, Y_before, C, K, samples, profiles, trail_T, trail_Y, trail_K, until):
+def march(p, tables, state, Y, Y_before, C, K, samples, profiles, energies, sums, trail_T, trail_Y, trail_K, until):
     """Advance one simulation until `until` samples are stored, the trail is full, or it ends.
 
     p: parameter record; state: STATE record; Y, Y_before (n, unknowns), C, K (n, conserved): the state itself; changed
     in place. C is kept from call to call: computed anew it would differ by rounding, and the calls would show.
     samples (m, 12), profiles (m', n, 6): filled in place, columns as in `engine.sampling`.
+    energies (m'', 9), sums (5,): rows at the first step past each output time, as in `engine.energy`; m'' = 0: none.
     trail_T (l, 3), trail_Y (l, s, n, unknowns), trail_K (l, s, n, conserved): accepted steps for `engine.tangent`;
     l = 0 keeps none.
     """
@@ -93,6 +95,9 @@ def march(p, tables, state, Y, Y_before, C, K, samples, profiles, trail_T, trail
         renew_viscosity(p, tables, size // 2, C, K, e_t, work[2])
     if state.steps == 0:
         conserved(p, Y, C)
+        if energies.shape[0] > 0:
+            store_energies(p, tables, 0.0, C, sums, energies[0])
+            state.energies = 1
     room = trail_T.shape[0]
     while state.status == OK and state.samples < until and (room == 0 or state.trail < room):
         if state.t >= state.window_end:
@@ -108,9 +113,9 @@ def march(p, tables, state, Y, Y_before, C, K, samples, profiles, trail_T, trail
         if lets_go:
             dt = p.end_release - state.t
         error = 0.0
+        am, af, gamma = (1.0, 1.0, 1.0) if small else (p.alpha_m, p.alpha_f, p.gamma)
         one_stage = small or p.method != RUNGE_KUTTA
         if one_stage:
-            am, af, gamma = (1.0, 1.0, 1.0) if small else (p.alpha_m, p.alpha_f, p.gamma)
             code, used = one_stage_step(
                 p, tables, state.t, dt, state.dt_before, am, af, gamma, SMALL_STEP_NEWTON if small else p.max_newton,
                 Y, Y_before, C, K, Ys[s - 1], Ks[s - 1], C_new, work,
@@ -132,6 +137,11 @@ def march(p, tables, state, Y, Y_before, C, K, samples, profiles, trail_T, trail
             continue
         state.steps += 1
         sample(p, tables, state, dt, not one_stage, C, K, C_new, Ks[s - 1], samples, profiles)
+        if energies.shape[0] > 0:
+            add_powers(p, tables, dt, am, af, gamma, C, K, C_new, Ks[s - 1], Ys[s - 1], work[2], sums)
+            if state.energies < energies.shape[0] and state.energies * p.output_step <= state.t + dt:
+                store_energies(p, tables, state.t + dt, C_new, sums, energies[state.energies])
+                state.energies += 1
         if room > 0:
             last = state.trail
             record_step(trail_T[last], trail_Y[last], trail_K[last], state.t, dt, one_stage, small, Ys, Ks)

@@ -261,7 +261,8 @@ def _scales(record, scene, h):
     transit = length * math.sqrt(float(record["m"]) / stiffness)
     record["release_step"] = min(transit / 12, float(record["max_step"]))
     record["per_force"] = 20 / load
-    record["per_speed"] = 1 / max(math.sqrt(g * length) / 14, 1e-3)
+    recoil = strain * length / transit if scene.end.force_decay_s else 0.0  # of the end of a line that breaks
+    record["per_speed"] = 1 / max(math.sqrt(g * length) / 14, recoil / 14, 1e-3)
     record["per_curvature"] = float(np.mean(h)) / 2.5
 
 

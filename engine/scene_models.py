@@ -226,6 +226,7 @@ class Output(Section):
     step_s: Positive | None = None  # None: a hundredth of the wave period, 0.05 s without waves
     profiles: Flag = False
     profiles_step_s: Positive | None = None  # None: as step_s
+    energy: Flag = False  # energy budget of a dry line (`engine.energy`)
     tangent_vectors: CountOrZero = 0  # perturbations carried along: as many Lyapunov exponents
 
 

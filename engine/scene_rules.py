@@ -173,6 +173,12 @@ def _output(sound: Sound) -> Iterator[str]:
     if profiles in (None, False) and step not in (None, FAULTY):
         given = f"given {shown(step)}, but output.profiles is false"
         yield f"output.profiles_step_s: {given}; allowed: only with output.profiles = true"
+    if sound.value("output.energy") is True:
+        if sound.value("water") is not None:
+            yield fault("output.energy", True, "false, because the budget knows of no water")
+        integrator = sound.value("solver.integrator") or "esdirk43"
+        if integrator in ("esdirk43", "trbdf2"):
+            yield fault("output.energy", True, f"false, because solver.integrator is {integrator!r}: use one of one stage")
     vectors = sound.value("output.tangent_vectors")
     if vectors in (None, FAULTY, 0):
         return
