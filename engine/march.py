@@ -22,7 +22,7 @@ from .energy import add_powers, store_energies
 from .guards import NEWTON_FAILED, NOT_FINITE, OK, STEP_LIMIT, STEP_UNDERFLOW, STRAIN_BELOW_MINUS_ONE, TURN_UNRESOLVED
 from .integrators import RUNGE_KUTTA
 from .sampling import sample
-from .shocks import renew_viscosity
+from .shocks import deforming_element, renew_viscosity
 from .steps import one_stage_step, runge_kutta_step
 
 _COUNTS = "status samples profiles small_steps steps rejected newton failures releases attempts cautious trail energies".split()
@@ -175,4 +175,5 @@ def march(p, tables, state, Y, Y_before, C, K, samples, profiles, energies, sums
             factor = min(grow, max(SHRINK, SAFETY * max(error, 1e-10) ** (-1.0 / p.order)))
             state.dt = min(p.max_step, dt * factor)
         else:
-            state.dt = min(p.fixed_step, 2.0 * dt)
+            longest = p.pace * deforming_element(p, tables, e_t) if p.viscous and p.pace > 0.0 else p.fixed_step
+            state.dt = min(longest, 2.0 * dt)

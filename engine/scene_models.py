@@ -208,7 +208,7 @@ class Solver(Section):
     integrator: Literal["esdirk43", "trbdf2", "midpoint", "backward-euler", "generalized-alpha"] = "esdirk43"
     rtol: Tolerance = 0.03
     step_s: Positive | None = None  # fixed step; None: controlled by rtol, or T/400 for a method of fixed steps
-    courant: Positive | None = None  # fixed step as this times (shortest element)/(fastest axial wave), not step_s
+    courant: Positive | None = None  # step as this times (shortest element)/(fastest axial wave), not step_s
     shock_viscosity: ShockViscosity | None = None
     max_step_s: Positive = 0.1
     min_step_s: Positive = 1e-9
