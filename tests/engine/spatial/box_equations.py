@@ -99,17 +99,17 @@ def residual(scene, cq, cv, in_motion, Y, C_tilde, F, twist=0.0):
     ]
     if EI == 0:
         return np.concatenate([part.ravel() for part in parts])
-    # M_s + O x M + (1+eps)^3 t x N = 0 in local axes, M = (GI O1, EI O2, EI O3)
-    moment = O * [GI, EI, EI]
-    load = np.cross(O, moment) + lam**3 * np.cross([1.0, 0, 0], np.concatenate([0 * S[:, :1], S], 1))
+    # M_s + o x M + (1+eps)^3 t x N = 0 in axes that turn with o = (0, O2, O3), M = (GI O1, EI O2, EI O3)
+    moment, o = O * [GI, EI, EI], O * [0, 1, 1]
+    load = np.cross(o, moment) + lam**3 * np.cross([1.0, 0, 0], np.concatenate([0 * S[:, :1], S], 1))
     parts += [
-        turns(Y[:, 6:10]) - e * (O[1:] + O[:-1]),
+        turns(Y[:, 6:10]) - e * (o[1:] + o[:-1]),
         moment[1:] - moment[:-1] + e * (load[1:] + load[:-1]),
         _clamp_or_hinge(scene.anchor, scene, O[0], A[0], 2 * e[0, 0], 1.0),
         _clamp_or_hinge(end, scene, O[-1], A[-1], 2 * e[-1, 0], -1.0),
     ]
     if scene.anchor.rotation == end.rotation == "clamped":
-        parts.append(np.array([roll(Y, scene) - twist]))
+        parts.append(np.array([roll(Y, scene) + O[-1, 0] * tether.length_m - twist]))
     else:
         parts.append(O[-1:, 0])
     return np.concatenate([part.ravel() for part in parts])
@@ -129,18 +129,14 @@ def _clamp_or_hinge(clamp, scene, O, frame, h, sign):
     return O[1:] - sign * CLAMP / h * np.array([frame[2] @ d, -(frame[1] @ d)])
 
 
-def carried(u, v, x):
-    """Vector x turned by the shortest rotation from the unit vector u to v."""
-    axis = np.cross(u, v)
-    return x + np.cross(axis, x) + np.cross(axis, np.cross(axis, x)) / (1 + u @ v)
-
-
 def roll(Y, scene):
-    """Angle, in (-pi, pi), from the first normal carried to the upper end to the last normal, about the last tangent."""
-    A = frames(Y[:, 6:10])
-    n = carried(direction(scene.anchor, scene), direction(scene.end, scene), A[0, 1])
-    sine, cosine = np.cross(n, A[-1, 1]) @ A[-1, 0], n @ A[-1, 1]
-    return np.arctan(sine / cosine) + (math.copysign(math.pi, sine.real) if cosine.real < 0 else 0.0)
+    """Angle, in (-2 pi, 2 pi), about the tangent from the first frame, carried to the upper clamp the shortest way, to
+    the last one; two frames that look alike may differ by 2 pi."""
+    u, v = direction(scene.anchor, scene), direction(scene.end, scene)
+    shortest = np.append(1 + u @ v, np.cross(u, v))
+    carried = product((shortest / np.linalg.norm(shortest))[None], Y[:1, 6:10])
+    r = product(carried * [1, -1, -1, -1], Y[-1:, 6:10])[0]
+    return 2 * np.arctan(r[1] / r[0]) + (math.copysign(2 * math.pi, r[1].real) if r[0].real < 0 else 0.0)
 
 
 def _upper_end(scene, cv, in_motion, N, V, V_tilde, F):

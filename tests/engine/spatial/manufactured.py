@@ -51,10 +51,10 @@ def vectors(t, x):
     return (*q, place, A[1] * I1 * C1 + B[1] * I2 * C2, A[2] * I1 * C1 + B[2] * I2 * C2)
 
 
-def roll(x, along, K, O1):
-    """Angle (rad) of the frame at x against the first one, carried from its tangent to the one there the shortest way:
-    that frame turns about t by -t0.K/(1 + t0.t) on its own (Fuller 1978)."""
-    return integral(L * x, O1 + (K @ along[0]) / (1 + along @ along[0]))
+def roll(x, along, K):
+    """Angle (rad) of a frame that does not roll against the first one, carried from its tangent to the one at x the
+    shortest way: that frame turns about t by -t0.K/(1 + t0.t) on its own (Fuller 1978)."""
+    return integral(L * x, (K @ along[0]) / (1 + along @ along[0]))
 
 
 def integral(s, values):
@@ -68,7 +68,7 @@ def torsion(t):
     q, q1 = vectors(t, x)[:2]
     along = q / np.linalg.norm(q, axis=1, keepdims=True)
     K = np.cross(q, q1) / np.sum(q**2, 1, keepdims=True)
-    return (TWIST - roll(x, along, K, 0.0)[-1]) / L
+    return (TWIST - roll(x, along, K)[-1]) / L
 
 
 def motion(t, x):
@@ -119,7 +119,7 @@ def normals(t, s, first):
     fine = np.linspace(0.0, 1.0, 401)
     q, q1 = vectors(t, fine)[:2]
     fine_t = q / np.linalg.norm(q, axis=1, keepdims=True)
-    turn = roll(fine, fine_t, np.cross(q, q1) / np.sum(q**2, 1, keepdims=True), torsion(t))
+    turn = roll(fine, fine_t, np.cross(q, q1) / np.sum(q**2, 1, keepdims=True))
     turn = CubicSpline(L * fine, turn)(s)[:, None]
     axis = np.cross(along[0], along)
     n = first + np.cross(axis, first) + np.cross(axis, np.cross(axis, first)) / (1 + along @ along[0])[:, None]

@@ -22,7 +22,7 @@ CAPS = {"q": 2e-3, "n": 2e-3, "S": 2.0, "V": 0.03, "O1": 5e-5, "K": 3e-3, "X": 0
 
 @cache
 def current():
-    return current_table(END_S, times=601, heights=601)
+    return current_table(END_S, times=241, heights=801)
 
 
 def errors(run, t, stage_s=None):
@@ -44,6 +44,12 @@ def errors(run, t, stage_s=None):
     return np.array([np.abs(found[key] - exact[key]).max() for key in CAPS])
 
 
+def assert_second_order(found, keys=tuple(CAPS)):
+    """Within 0.1; within 0.3 for O1, whose error, 1e-5 of 0.15 /m, is a small difference of larger ones."""
+    slopes = np.log2(np.divide(found[:-1], found[1:]))
+    assert np.all(np.abs(slopes - 2) < [0.3 if key == "O1" else 0.1 for key in keys]), slopes
+
+
 @pytest.mark.parametrize("stretching", [0.0, 1.0])
 def test_second_order_in_space(stretching):
     at_rest, moved = [], []
@@ -53,10 +59,11 @@ def test_second_order_in_space(stretching):
         assert run.run().status == "ok"
         moved.append(errors(run, run.time_s))
     assert np.all(moved[0] < list(CAPS.values())), dict(zip(CAPS, moved[0], strict=True))
-    still = [key != "V" for key in CAPS]
-    assert np.array(at_rest)[:, ~np.array(still)].max() == 0
-    for found in (np.array(at_rest)[:, still], np.array(moved)):
-        assert np.log2(found[:-1] / found[1:]) == pytest.approx(2, abs=0.1)
+    moving = list(CAPS).index("V")
+    at_rest = np.array(at_rest)
+    assert not at_rest[:, moving].any()
+    assert_second_order(np.delete(at_rest, moving, axis=1), [key for key in CAPS if key != "V"])
+    assert_second_order(moved)
 
 
 @pytest.mark.parametrize("integrator", ["midpoint", "generalized-alpha", "trbdf2"])
@@ -68,7 +75,7 @@ def test_second_order_in_space_and_time(integrator):
         assert run.run().status == "ok"
         behind = (1.0 - float(run.record["alpha_f"])) * step_s if integrator != "trbdf2" else 0.0
         found.append(errors(run, run.time_s, run.time_s - behind))
-    assert np.log2(np.divide(found[:-1], found[1:])) == pytest.approx(2, abs=0.1)
+    assert_second_order(found)
 
 
 def test_the_chosen_motion_is_a_motion():
