@@ -96,7 +96,6 @@ def assert_equal(one, other, relative, tensions=TENSIONS):
         assert np.abs(a - b).max() < relative * np.abs(a).max()
     for key in ("radius_m", *tensions):
         assert np.abs(columns[key] - columns_too[key]).max() < relative * np.abs(columns[key]).max(), key
-    print("REL", np.abs(X - X_too).max()/np.abs(X).max(), max(np.abs(columns[key] - columns_too[key]).max()/np.abs(columns[key]).max() for key in TENSIONS))
 
 
 @pytest.mark.parametrize("name", SCENES)
