@@ -2,10 +2,10 @@
 
 Energy (J): kinetic, of line and buoy (with the buoy's added mass); gravity, of the wet weight and the lift; stretching,
 int T deps; bending, EI/2 |O|^2. Power (W): drag and wave load of the buoy; drag and fluid inertia of the line; an end
-that is moved. A Runge-Kutta step of rates K_i changes C = (q, V) by dt sum(b_i K_i), and the box equations hold at every
-stage, so the same weights are put on the powers and the forces of the stages. Between element means the box exchanges
-momentum exactly, and kinetic energy, gravity and loads against the work of N on q_t; that work is the change of
-stretching and bending to second order in the element.
+that is moved. A Runge-Kutta step of rates K_i changes C = (q, V) by dt sum(b_i K_i), and the box equations hold at
+every stage, so the same weights are put on the powers and the forces of the stages. Between element means the box
+exchanges momentum exactly, and kinetic energy, gravity and loads against the work of N on q_t; that work is the change
+of stretching and bending to second order in the element.
 
 The water comes from the engine (it has tests of its own); every force is written out here.
 """
@@ -167,8 +167,8 @@ class Books:
 def balance(scene, duration_s):
     """Dict of running sums over the accepted Runge-Kutta steps (steps of the starter left out): arrays by step.
 
-    t (s); energy (4), work (5), inner: changes of the energies, works of the powers, work of N on q_t (J); passed: sum of
-    the sizes of the works of the single steps (J); momentum (3), impulse (3), passed_impulse (N s).
+    t (s); energy (4), work (5), inner: changes of the energies, works of the powers, work of N on q_t (J); passed: sum
+    of the sizes of the works of the single steps (J); momentum (3), impulse (3), passed_impulse (N s).
     """
     books = Books(scene)
     s = int(books.p["stages"])

@@ -4,8 +4,8 @@
 the buoy, drag and fluid inertia of the line, ends): each budget closes to 0.1 % of it at every step, at 41 nodes.
 
 The part that only the integrator can miss - kinetic and gravity energy, and the work of N on q_t, against the works -
-closes to 1e-5 at rtol 1e-3, momentum to 1e-5 of the impulses (Newton's tolerance). The rest is what the box's work on q_t
-misses of the change of the stored energies: it falls with the element. Ends that pull a slack line taut: 81 nodes.
+closes to 1e-5 at rtol 1e-3, momentum to 1e-5 of the impulses (Newton's tolerance). The rest is what the box's work on
+q_t misses of the change of the stored energies: it falls with the element. Ends that pull a slack line taut: 81 nodes.
 """
 
 import numpy as np
@@ -29,7 +29,7 @@ CASES = {  # overrides, run length (s), nodes
     "moderate, in a plane": ({"waves.steepness": 0.05, "water.depth_m": 22.5}, 20.0, 41),
     "moderate, in space": ({"waves.steepness": 0.05, "water.depth_m": 22.5, **SPACE, **SLANTED, **BLOW}, 20.0, 41),
     "snapping, in a plane": ({"waves.steepness": 0.13, "water.depth_m": 22.5}, 30.0, 41),
-    "snapping, in space": ({"waves.steepness": 0.13, "water.depth_m": 21.6, **SPACE, **BLOW}, 60.0, 41),
+    "snapping, in space": ({"waves.steepness": 0.13, "water.depth_m": 21.6, **SPACE, **BLOW}, 30.0, 41),
     "moved end, in a plane": (SHAKEN, 8.0, 81),
     "moved end, in space": ({**SHAKEN, **SPACE, "end": {**SHAKEN["end"], "motion": ACROSS}}, 8.0, 81),
 }
@@ -58,6 +58,16 @@ def test_budgets_close(name):
     assert impulse < 1e-5
 
 
+@pytest.mark.slow
+def test_budgets_close_through_loops_that_leave_the_plane():
+    """The first loop comes at 53 s (kA = 0.13, H = 21.6 m)."""
+    overrides, _, nodes = CASES["snapping, in space"]
+    found = balance(line({**overrides, "solver.rtol": 1e-3}, nodes=nodes), 80.0)
+    energy, outside, impulse = gaps(found)
+    assert energy < 1e-3 and outside < 1e-5 and impulse < 1e-5
+
+
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["snapping, in a plane", "moderate, in space"])
 def test_the_gap_falls_with_the_element(name):
     """The layers of bending at the ends, sqrt(EI/T) = 14 mm, are resolved by neither grid: less than order 2."""

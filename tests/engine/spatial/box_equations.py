@@ -42,7 +42,7 @@ def frames(beta):
 
 
 def turns(beta):
-    """Rotation vectors (m - 1, 3) from each frame to the next in their own axes, |psi| < pi, from the matrices alone."""
+    """Rotation vectors (m - 1, 3) from each frame to the next in their own axes, |psi| < pi, by the matrices alone."""
     A = frames(beta)
     R = np.einsum("kia,kja->kij", A[:-1], A[1:])  # of frame a to frame b, in axes of a
     axis = 0.5 * np.stack([R[:, 2, 1] - R[:, 1, 2], R[:, 0, 2] - R[:, 2, 0], R[:, 1, 0] - R[:, 0, 1]], 1)
@@ -64,7 +64,7 @@ def residual(scene, cq, cv, in_motion, Y, C_tilde, F, twist=0.0):
     """
     tether, end = scene.tether, scene.end
     EI, GI = tether.bending_stiffness_Nm2, tether.torsion_stiffness_Nm2
-    eps, S, V, O = Y[:, 0], Y[:, 1:3], Y[:, 3:6], Y[:, 10:13]
+    eps, S, V, turn = Y[:, 0], Y[:, 1:3], Y[:, 3:6], Y[:, 10:13]
     if EI == 0:
         S = np.zeros_like(S)
     lam = (1 + eps)[:, None]
@@ -100,18 +100,18 @@ def residual(scene, cq, cv, in_motion, Y, C_tilde, F, twist=0.0):
     if EI == 0:
         return np.concatenate([part.ravel() for part in parts])
     # M_s + o x M + (1+eps)^3 t x N = 0 in axes that turn with o = (0, O2, O3), M = (GI O1, EI O2, EI O3)
-    moment, o = O * [GI, EI, EI], O * [0, 1, 1]
+    moment, o = turn * [GI, EI, EI], turn * [0, 1, 1]
     load = np.cross(o, moment) + lam**3 * np.cross([1.0, 0, 0], np.concatenate([0 * S[:, :1], S], 1))
     parts += [
         turns(Y[:, 6:10]) - e * (o[1:] + o[:-1]),
         moment[1:] - moment[:-1] + e * (load[1:] + load[:-1]),
-        _clamp_or_hinge(scene.anchor, scene, O[0], A[0], 2 * e[0, 0], 1.0),
-        _clamp_or_hinge(end, scene, O[-1], A[-1], 2 * e[-1, 0], -1.0),
+        _clamp_or_hinge(scene.anchor, scene, turn[0], A[0], 2 * e[0, 0], 1.0),
+        _clamp_or_hinge(end, scene, turn[-1], A[-1], 2 * e[-1, 0], -1.0),
     ]
     if scene.anchor.rotation == end.rotation == "clamped":
-        parts.append(np.array([roll(Y, scene) + O[-1, 0] * tether.length_m - twist]))
+        parts.append(np.array([roll(Y, scene) + turn[-1, 0] * tether.length_m - twist]))
     else:
-        parts.append(O[-1:, 0])
+        parts.append(turn[-1:, 0])
     return np.concatenate([part.ravel() for part in parts])
 
 
@@ -121,12 +121,12 @@ def direction(clamp, scene):
     return vector / np.linalg.norm(vector)
 
 
-def _clamp_or_hinge(clamp, scene, O, frame, h, sign):
+def _clamp_or_hinge(clamp, scene, turn, frame, h, sign):
     """No moment, or a spring of stiffness EI CLAMP/h that turns t into the direction d: O = sign k (0, d.b, -d.n)."""
     if clamp.rotation == "pinned":
-        return O[1:]
+        return turn[1:]
     d = direction(clamp, scene)
-    return O[1:] - sign * CLAMP / h * np.array([frame[2] @ d, -(frame[1] @ d)])
+    return turn[1:] - sign * CLAMP / h * np.array([frame[2] @ d, -(frame[1] @ d)])
 
 
 def roll(Y, scene):

@@ -6,7 +6,7 @@ What is of the plane as well - lines with other ends, a run stepped from outside
 import numpy as np
 
 from engine.spatial.lift import product
-from tests.engine.lines import Motion, line
+from tests.engine.lines import line
 
 SPACE = {"motion.dimensions": 3}
 QUIET = {"solver.newton_tolerance": 1e-14, "solver.max_newton_iterations": 50}  # stages solved to rounding

@@ -1,4 +1,5 @@
-"""A motion in space chosen first, and the scene that must produce it: a current whose drag is the force that is missing.
+"""A motion in space chosen first, and the scene that must produce it: a current whose drag is the force that is
+missing.
 
     q = (1+eps) t = q0(x) + A(t) g1(x) c1 + B(t) g2(x) c2,   x = s/L,   g1 = x (1-x) (1-2x),   g2 = x (1-x) (x^2-x+1/5)
 
@@ -10,8 +11,9 @@ the line vanish at both ends, so both are held in place and clamped in direction
     S = t x M_s/(1+eps)^3 = [GIp O1 K - EI (I - t t') t_ss]/(1+eps)^3,   N = T t + S,
 
 and the momentum equation leaves N_s - m V_t - w0 z for the drag, whose inverse c sqrt(1+eps) |v| v along t and across
-it is the relative velocity, and with it the current at (z, t). Neither part vanishes, so that no square root is singular
-and z grows along the line. The line is thin (1 um) with drag coefficients to match: drag without fluid inertia.
+it is the relative velocity, and with it the current at (z, t). Neither part vanishes, so that no square root is
+singular and z grows along the line. The line is thin (1 um) with drag coefficients to match: drag without fluid
+inertia.
 """
 
 import math

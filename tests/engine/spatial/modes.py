@@ -1,7 +1,7 @@
 """Eigenvalues of the space-discretised line in space about an equilibrium: as `tests.engine.modes` in the plane.
 
-R = c (c - A)^-1 is the derivative of the stage equation with respect to C~ = (q~, V~); its columns are Newton updates of
-the engine for small changes of C~, turned into changes of (q, V): dq = deps t + (1+eps)(theta3 n - theta2 b).
+R = c (c - A)^-1 is the derivative of the stage equation with respect to C~ = (q~, V~); its columns are Newton updates
+of the engine for small changes of C~, turned into changes of (q, V): dq = deps t + (1+eps)(theta3 n - theta2 b).
 """
 
 import numpy as np

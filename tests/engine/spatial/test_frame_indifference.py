@@ -1,9 +1,9 @@
 """Law: the equations know the vertical and no other direction.
 
-A scene turned about the vertical by any angle - waves, currents, starts, forces, clamps, the motion of a held end - gives
-the turned motion; mirrored at the plane of the waves it gives the mirrored motion; and the roll of the local frames about
-the tangent, which is free, changes nothing. Fixed steps and stages solved to rounding, before slack has magnified rounding;
-each quantity relative to its size: 1e-8, mirrored 1e-12 (the same arithmetic with other signs).
+A scene turned about the vertical by any angle - waves, currents, starts, forces, clamps, the motion of a held end -
+gives the turned motion; mirrored at the plane of the waves it gives the mirrored motion; and the roll of the local
+frames about the tangent, which is free, changes nothing. Fixed steps and stages solved to rounding, before slack has
+magnified rounding; each quantity relative to its size: 1e-8, mirrored 1e-12 (the same arithmetic with other signs).
 """
 
 import math
@@ -54,9 +54,10 @@ def let_go(turn):
 def twisted(turn):
     hand = np.sign(np.linalg.det([turn([1, 0, 0]), turn([0, 1, 0]), turn([0, 0, 1])]))
     motion = {"law": "harmonic", "amplitude_m": turn([0.2, 0.3, 0.1]), "period_s": 2.0, "ramp_s": 2.0}
-    end = {"kind": "held", "position_m": turn([12.0, 9.0, 8.0]), "rotation": "clamped", "direction": turn([2.0, 1, 0.5])}
+    end = {"kind": "held", "position_m": turn([12.0, 9.0, 8.0]), "rotation": "clamped"}
+    end |= {"direction": turn([2.0, 1.0, 0.5]), "twist_rad": 2.0 * hand, "motion": motion}
     return {
-        "waves": None, "buoy": None, "end": {**end, "twist_rad": 2.0 * hand, "motion": motion},
+        "waves": None, "buoy": None, "end": end,
         "anchor": {"rotation": "clamped", "direction": turn([1.0, 0.2, 1.0])},
         "tether.bending_stiffness_Nm2": 50.0, "tether.torsion_stiffness_Nm2": 30.0,
     }  # fmt: skip

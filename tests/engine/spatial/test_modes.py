@@ -1,6 +1,6 @@
-"""Law: a straight line vibrates across itself alike in every direction, at the frequencies of the plane, each twice, and
-along itself at its axial frequencies, each once. Closed forms: hanging chain (J0), tensioned pinned beam, buoy on its
-tether; the derivations and what the box makes of a wave number are in the planar tests of the same names.
+"""Law: a straight line vibrates across itself alike in every direction, at the frequencies of the plane, each twice,
+and along itself at its axial frequencies, each once. Closed forms: hanging chain (J0), tensioned pinned beam, buoy on
+its tether; the derivations and what the box makes of a wave number are in the planar tests of the same names.
 """
 
 import numpy as np
@@ -32,12 +32,11 @@ def test_a_bare_chain_swings_in_both_directions_at_the_zeros_of_j0():
     assert found[0:8:2] == pytest.approx(found[1:8:2], rel=1e-7)
 
 
-@pytest.mark.parametrize("nodes", [41, 81])
-def test_a_chain_with_a_tip_load_swings_at_its_bessel_frequencies(nodes):
-    scene = in_space(DRY, free(0, -5.0), length_m=10.0, nodes=nodes, area_m2=5e-4, density_kgpm3=1000.0,
+def test_a_chain_with_a_tip_load_swings_at_its_bessel_frequencies():
+    scene = in_space(DRY, free(0, -5.0), length_m=10.0, nodes=41, area_m2=5e-4, density_kgpm3=1000.0,
                      bending_stiffness_Nm2=0.0, tension=linear(1e9))  # fmt: skip
     found = frequencies(equilibrium(scene), 3.0)
-    assert found[:8] == pytest.approx(np.repeat(loaded(5.0, 4), 2), rel=2e-3 * (160 / (nodes - 1)) ** 2)
+    assert found[:8] == pytest.approx(np.repeat(loaded(5.0, 4), 2), rel=2e-3 * (160 / 40) ** 2)
 
 
 @pytest.mark.parametrize("direction", [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.4, -0.7, 0.3], [0.0, 0.0, -1.0]])

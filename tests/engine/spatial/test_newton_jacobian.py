@@ -10,9 +10,7 @@ import numpy as np
 import pytest
 
 from engine import load_scene
-from tests.engine.spatial.box_equations import (
-    equations, frames, jacobian, kernel_update, product, roll, unknowns
-)
+from tests.engine.spatial.box_equations import equations, frames, jacobian, kernel_update, product, roll, unknowns
 
 LAWS = {
     "linear": {"law": "linear", "stiffness_N": 5e4},

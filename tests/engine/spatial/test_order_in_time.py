@@ -1,8 +1,8 @@
 """Every integrator shows its stated order in space too: fixed steps halved, the whole line compared at one time.
 
-As in the plane (tests/engine/test_order_in_time.py): a soft line of 6 nodes, whose fastest waves the steps resolve; sin^2
-raises waves that come in at an angle, and a current that is not in their plane keeps the relative velocity from changing
-its sign, because |v| v has a kink in its second derivative there.
+As in the plane (tests/engine/test_order_in_time.py): a soft line of 6 nodes, whose fastest waves the steps resolve;
+sin^2 raises waves that come in at an angle, and a current that is not in their plane keeps the relative velocity from
+changing its sign, because |v| v has a kink in its second derivative there.
 """
 
 from itertools import pairwise
@@ -13,15 +13,19 @@ import pytest
 from engine import simulate
 from tests.engine.spatial.lines import in_space
 
-SOFT = {"tether.tension": {"law": "linear", "stiffness_N": 5e3}}
-DRIFT = {"current": {"law": "uniform", "velocity_mps": [1.0, -0.7, 0.8]}}
+ASKEW = {
+    "water.depth_m": 30.0,
+    "waves.direction_rad": 0.6,
+    "current": {"law": "uniform", "velocity_mps": [1.0, -0.7, 0.8]},
+    "tether.tension": {"law": "linear", "stiffness_N": 5e3},
+}
 SCENES = {  # overrides, run length (s)
     "ramped waves": (
-        {"waves.steepness": 0.02, "water.depth_m": 30.0, "waves.ramp_s": 8.0, "waves.direction_rad": 0.6, **SOFT, **DRIFT},
+        {"waves.steepness": 0.02, "waves.ramp_s": 8.0, **ASKEW},
         8.0,
     ),
     "sudden waves": (
-        {"waves.steepness": 0.02, "water.depth_m": 30.0, "waves.direction_rad": 0.6, **SOFT, **DRIFT},
+        {"waves.steepness": 0.02, **ASKEW},
         4.0,
     ),
     "a blow from two sides on a dry line": (

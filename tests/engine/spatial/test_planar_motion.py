@@ -1,8 +1,8 @@
 """Law: with everything in the plane x-z, three dimensions give the motion of the planar engine, and y is exactly zero.
 
-Both solve the same box equations with other unknowns: they differ by rounding, until slack magnifies that. At kA = 0.13,
-H = 22.5 m rounding grows along the slack rope to decimetres after 6 periods (the planar engine does the same to itself
-with other roundings), while the buoy stays within millimetres.
+Both solve the same box equations with other unknowns: they differ by rounding, until slack magnifies that. At kA =
+0.13, H = 22.5 m rounding grows along the slack rope to decimetres after 6 periods (the planar engine does the same to
+itself with other roundings), while the buoy stays within millimetres.
 """
 
 import numpy as np

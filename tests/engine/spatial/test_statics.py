@@ -1,6 +1,7 @@
 """Law: a line at rest in space - a catenary in whatever vertical plane its ends lie, bent out of it by a current.
 
-Without a current the elastic catenary of the plane, turned. With one, (3) and (24) without bending, in three components:
+Without a current the elastic catenary of the plane, turned. With one, (3) and (24) without bending, in three
+components:
 
     N_s = w z - sqrt(1+eps) [rho_w d C_dp/2 |u_p| u_p + rho_w pi d C_dt/2 |u_t| u_t t],   X_s = (1 + eps) t,   N = T t
 

@@ -1,5 +1,5 @@
-"""Every way in which a run in space can end is reached, by the scenes of the plane, in the plane and struck across; each
-says so in its status. No run raises, or hands out a number that is not finite; samples up to the end are kept.
+"""Every way in which a run in space can end is reached, by the scenes of the plane, in the plane and struck across;
+each says so in its status. No run raises, or hands out a number that is not finite; samples up to the end are kept.
 """
 
 import numpy as np
@@ -39,7 +39,7 @@ def test_a_run_ends_with_its_reason(name, struck):
 
 def test_a_loop_that_may_leave_the_plane_needs_no_release():
     """Where the planar run ends with turn-unresolved, a blow of 1e-5 m/s across is enough."""
-    overrides, duration_s, allowed = ENDS["loops without release"]
+    overrides, duration_s, _ = ENDS["loops without release"]
     scene = {**overrides, **SPACE, "start.buoy_velocity_mps": [0.0, 1e-5, 0.0]}
     run = simulate(load_scene("tethered_buoy", scene), duration_s=duration_s)
     assert run.status == "ok" and run.statistics["loop_releases"] == 0
@@ -47,11 +47,13 @@ def test_a_loop_that_may_leave_the_plane_needs_no_release():
     assert run.columns["offplane_m"].max() > 0.1
 
 
-def test_clamps_and_twists_end_as_rows_too():
-    """A twist of forty turns on a slack, soft line: whatever becomes of it, it is a status."""
-    end = {"kind": "held", "position_m": [12.0, 3.0, 8.0], "rotation": "clamped", "twist_rad": 250.0, "twist_ramp_s": 2.0}
+@pytest.mark.parametrize("turns", [1, 10, 100])
+def test_a_twist_that_is_too_much_ends_as_a_row_too(turns):
+    """Up to 160 N m put within 2 s into a slack line of EI = 0.4: a status and finite samples, whatever it does."""
+    end = {"kind": "held", "position_m": [12.0, 3.0, 8.0], "rotation": "clamped"}
+    end |= {"twist_rad": 2 * np.pi * turns, "twist_ramp_s": 2.0}
     scene = {"waves": None, "buoy": None, "end": end, "anchor.rotation": "clamped", **SPACE}
-    run = simulate(load_scene("tethered_buoy", {**scene, "solver.max_newton_iterations": 12}), duration_s=4.0)
-    print(run.status, run.message, run.statistics)
+    run = simulate(load_scene("tethered_buoy", {**scene, "tether.torsion_stiffness_Nm2": 5.0}), duration_s=3.0)
     assert run.status == "ok" or run.message
+    assert turns > 1 or run.status == "ok"
     assert all(np.all(np.isfinite(column)) for column in run.columns.values())

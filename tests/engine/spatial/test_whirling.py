@@ -1,8 +1,8 @@
 """Law: steady rotation about an axis, and what a pendulum that swings in all directions keeps.
 
-Conical pendulum, a heavy bob on a light elastic line, dry: at the angle a from the vertical T = M g/cos a, length
-l = L (1 + T/EA), omega^2 = g/(l cos a). Spherical pendulum: M X_tt = -T(|X|) X/|X| - M g z, by scipy, with its energy and
-its angular momentum about the vertical. The line's own mass m L/M = 1e-5 and weight move both by shares of 1e-5.
+Conical pendulum, a heavy bob on a light elastic line, dry: at the angle a from the vertical T = M g/cos a, length l = L
+(1 + T/EA), omega^2 = g/(l cos a). Spherical pendulum: M X_tt = -T(|X|) X/|X| - M g z, by scipy, with its energy and its
+angular momentum about the vertical. The line's own mass m L/M = 1e-5 and weight move both by shares of 1e-5.
 
 Whirling string (troposkein), without gravity: a shape that turns about the chord of its ends as a rigid body,
 (T t)_s = -m omega^2 r, X_s = (1 + T/EA) t, which scipy integrates from the lower end; the force there is found by
