@@ -17,7 +17,7 @@ from tests.engine.spatial.manufactured import current_table, motion, normals, sc
 
 END_S = 1.5
 NODES = (16, 31, 61)
-CAPS = {"q": 2e-3, "n": 2e-3, "S": 2.0, "V": 0.03, "O1": 1e-6, "K": 3e-3, "X": 0.01}  # 1, 1, N, m/s, 1/m, 1/m, m
+CAPS = {"q": 2e-3, "n": 2e-3, "S": 2.0, "V": 0.03, "O1": 5e-6, "K": 3e-3, "X": 0.01}  # 1, 1, N, m/s, 1/m, 1/m, m
 
 
 @cache
@@ -45,7 +45,7 @@ def errors(run, t, stage_s=None):
 
 
 def assert_second_order(found, keys=tuple(CAPS)):
-    """Within 0.1; within 0.3 for O1, whose error is 1e-7 of a change of 1e-4 /m: the turn of the frame cancels to that."""
+    """Within 0.1; within 0.3 for O1, whose error, 1e-7 ... 1e-6 /m, is a small difference of larger ones."""
     slopes = np.log2(np.divide(found[:-1], found[1:]))
     assert np.all(np.abs(slopes - 2) < [0.3 if key == "O1" else 0.1 for key in keys]), slopes
 
