@@ -1,7 +1,8 @@
-"""The book-keeping of tangent dynamics for one run: the trail of accepted steps, the perturbations, their growth."""
+"""The book-keeping of perturbations for one run: the trail of accepted steps, what follows it, how it grows."""
 
 import numpy as np
 
+from .lateral import carry_lateral
 from .tangent import carry
 from .trajectory import TangentGrowth
 
@@ -14,36 +15,55 @@ class Trail:
 
     def __init__(self, scene, record, duration_s):
         n, s = int(record["nodes"]), max(int(record["stages"]), 2)
-        count = scene.output.tangent_vectors
-        room = STEPS if count else 0
+        self.count, self.sideways = scene.output.tangent_vectors, scene.output.lateral_growth
+        self.followed = self.count > 0 or self.sideways
+        room = STEPS if self.followed else 0
         self.steps = (np.zeros((room, 3)), np.zeros((room, s, n, 6)), np.zeros((room, s, n, 4)))
         self.period_s = scene.waves.period_s if scene.waves is not None else 1.0
-        self.count = count
-        if not count:
+        if not self.followed:
             return
         periods = int(duration_s / self.period_s * (1 + 1e-12) + 1e-9)
-        self.nats = np.zeros((periods + 1, count))
+        self.nats, self.lateral_nats = np.zeros((periods + 1, self.count)), np.zeros(periods + 1)
         self.released = np.zeros(periods + 1)
-        vectors = np.random.default_rng(SEED).normal(size=(n, 4, count))
-        vectors[0, 2:] = 0.0  # the anchor does not move
-        basis = np.linalg.qr(vectors.reshape(4 * n, count))[0]
-        self.vectors = np.ascontiguousarray(basis.T).reshape(count, n, 4)
-        self.rates, self.waters = np.zeros((count, n, 4)), np.zeros((count, n, 4))
+        if self.count:
+            vectors = np.random.default_rng(SEED).normal(size=(n, 4, self.count))
+            vectors[0, 2:] = 0.0  # the anchor does not move
+            basis = np.linalg.qr(vectors.reshape(4 * n, self.count))[0]
+            self.vectors = np.ascontiguousarray(basis.T).reshape(self.count, n, 4)
+            self.rates, self.waters = np.zeros((self.count, n, 4)), np.zeros((self.count, n, 4))
+        if self.sideways:
+            vector = np.random.default_rng(SEED).normal(size=(n, 2))
+            vector[0, 1] = 0.0
+            speed = 1.0 / float(record["per_speed"])
+            vector[:, 1] *= speed
+            self.lateral = vector / np.hypot(np.linalg.norm(vector[:, 0]), np.linalg.norm(vector[:, 1]) / speed)
+            self.lateral_rates = np.zeros((n, 2))
 
     def follow(self, record, tables, state):
-        """Carry the perturbations through the steps stored since the last call, and empty the trail."""
+        """Carry the perturbations through the steps stored since the last call, and empty the trail.
+
+        A call without steps compiles the kernels and does nothing else.
+        """
+        if not self.followed:
+            return
         count = int(state["trail"])
         state["trail"] = 0
-        if count == 0:
-            return
         T = self.steps[0][:count]
         ends = np.minimum(((T[:, 0] + T[:, 1]) / self.period_s - 1e-9).astype(int), len(self.released) - 1)
         self.released[ends[(T[:, 2] > 1) & (T[:, 0] > 0.01 * self.period_s)]] = 1.0
-        carry(record, tables, self.period_s, count, *self.steps, self.vectors, self.rates, self.waters, self.nats)
+        if self.count:
+            carry(
+                record, tables, self.period_s, count, *self.steps, self.vectors, self.rates, self.waters, self.nats
+            )
+        if self.sideways:
+            carry_lateral(
+                record, tables, self.period_s, count, *self.steps, self.lateral, self.lateral_rates, self.lateral_nats
+            )
 
     def growth(self, state):
         """Growth of the complete periods, or None."""
-        if not self.count:
+        if not self.followed:
             return None
         complete = min(int(state["t"] / self.period_s + 1e-9), len(self.nats) - 1)
-        return TangentGrowth(self.period_s, self.nats[:complete].copy(), self.released[:complete].copy())
+        sideways = self.lateral_nats[:complete].copy() if self.sideways else None
+        return TangentGrowth(self.period_s, self.nats[:complete].copy(), self.released[:complete].copy(), sideways)
