@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from .lateral import carry_lateral
+from .lateral import carry_lateral, energy_weights
 from .tangent import carry
 from .trajectory import TangentGrowth
 
@@ -13,7 +13,7 @@ SEED = 20  # of the first perturbations: any will do, they turn to the fastest g
 class Trail:
     """Steps as `march` stores them, and the perturbations that follow; empty where the scene asks for none."""
 
-    def __init__(self, scene, record, duration_s):
+    def __init__(self, scene, record, tables, duration_s):
         n, s = int(record["nodes"]), max(int(record["stages"]), 2)
         self.count, self.sideways = scene.output.tangent_vectors, scene.output.lateral_growth
         self.followed = self.count > 0 or self.sideways
@@ -32,11 +32,10 @@ class Trail:
             self.vectors = np.ascontiguousarray(basis.T).reshape(self.count, n, 4)
             self.rates, self.waters = np.zeros((self.count, n, 4)), np.zeros((self.count, n, 4))
         if self.sideways:
-            vector = np.random.default_rng(SEED).normal(size=(n, 2))
+            self.weights = energy_weights(record, tables)
+            vector = np.random.default_rng(SEED).normal(size=(n, 2)) / np.sqrt(self.weights)
             vector[0, 1] = 0.0
-            speed = 1.0 / float(record["per_speed"])
-            vector[:, 1] *= speed
-            self.lateral = vector / np.hypot(np.linalg.norm(vector[:, 0]), np.linalg.norm(vector[:, 1]) / speed)
+            self.lateral = vector / np.sqrt(np.sum(self.weights * vector**2))
             self.lateral_rates = np.zeros((n, 2))
 
     def follow(self, record, tables, state):
@@ -56,9 +55,8 @@ class Trail:
                 record, tables, self.period_s, count, *self.steps, self.vectors, self.rates, self.waters, self.nats
             )
         if self.sideways:
-            carry_lateral(
-                record, tables, self.period_s, count, *self.steps, self.lateral, self.lateral_rates, self.lateral_nats
-            )
+            vector = self.weights, self.lateral, self.lateral_rates
+            carry_lateral(record, tables, self.period_s, count, *self.steps, *vector, self.lateral_nats)
 
     def growth(self, state):
         """Growth of the complete periods, or None."""

@@ -73,7 +73,7 @@ class TangentGrowth:
 
     period_s: the wave period, or 1 s without waves. growth_nats (m, k): logarithm of the growth of the k orthonormal
     perturbations in the plane in each of the m complete periods; k may be 0. released (m,): 1 where a loop was released
-    in that period. lateral_nats (m,): growth of a perturbation across the plane (`engine.lateral`); None: not asked for.
+    in that period. lateral_nats (m,): growth across the plane (`engine.lateral`), None where not asked for.
     """
 
     period_s: float

@@ -1,8 +1,8 @@
-"""The box equations in space written out in plain NumPy from their statements (model.md 2.5, 2.6), with Euler parameters.
+"""The box equations in space (model.md 2.5, 2.6) written out in plain NumPy, with Euler parameters.
 
 Unknowns of a node, Z (n, 12): eps, S_n, S_b | V (3) | a rotation vector theta of the frame (t, n, b), in its own axes,
-away from the plane frame of angle phi | O (3). The rotation across a box is psi = 2 log(beta_a* o beta_b) = e (O_a + O_b).
-Axes: x along the waves, y across, z up; in the plane t = (cos phi, 0, sin phi), n = (-sin phi, 0, cos phi), b = -y.
+away from the plane frame of angle phi | Omega (3). The rotation across a box is 2 log(beta_a* o beta_b) =
+e (Omega_a + Omega_b). Axes: x along the waves, y across, z up; in the plane t = (cos phi, 0, sin phi), n = (-sin phi, 0, cos phi), b = -y.
 Everything takes complex arguments, so that a complex step differentiates it to rounding.
 """
 
@@ -54,7 +54,8 @@ def frame(phi):
 def rotate(beta, v):
     """Vectors of the frame in fixed axes."""
     w, u = beta[:, :1], beta[:, 1:]
-    return v * (w * w - np.sum(u * u, 1, keepdims=True)) + 2 * (np.sum(u * v, 1, keepdims=True) * u + w * np.cross(u, v))
+    stretch, along = w * w - np.sum(u * u, 1, keepdims=True), np.sum(u * v, 1, keepdims=True)
+    return stretch * v + 2 * (along * u + w * np.cross(u, v))
 
 
 def residual(scene, GI, rate, phi, Z, C_tilde, F):
@@ -64,7 +65,7 @@ def residual(scene, GI, rate, phi, Z, C_tilde, F):
     """
     tether, EI = scene.tether, scene.tether.bending_stiffness_Nm2
     eps, Sn, Sb = Z[:, 0], Z[:, 1], Z[:, 2]
-    V, theta, O = Z[:, 3:6], Z[:, 6:9], Z[:, 9:]
+    V, theta, Omega = Z[:, 3:6], Z[:, 6:9], Z[:, 9:]
     beta = product(frame(phi), exponential(theta))
     t, n, b = (rotate(beta, np.tile(axis, (len(Z), 1))) for axis in np.eye(3))
     lam = 1 + eps
@@ -91,18 +92,18 @@ def residual(scene, GI, rate, phi, Z, C_tilde, F):
     bending = np.stack(
         [
             np.zeros_like(eps),
-            -((EI - GI) * O[:, 0] * O[:, 2] + lam**3 * Sb),
-            (EI - GI) * O[:, 0] * O[:, 1] + lam**3 * Sn,
+            -((EI - GI) * Omega[:, 0] * Omega[:, 2] + lam**3 * Sb),
+            (EI - GI) * Omega[:, 0] * Omega[:, 1] + lam**3 * Sn,
         ],
         1,
     )
     parts = [
-        *(V[0], O[0, 1:], theta[0, :1]),
+        *(V[0], Omega[0, 1:], theta[0, :1]),
         V[1:] - V[:-1] - e * (q_t[1:] + q_t[:-1]),
         N[1:] - N[:-1] - e * (G[1:] + G[:-1]),
-        turned - e * (O[1:] + O[:-1]),
-        np.array([GI, EI, EI]) * (O[1:] - O[:-1]) + e * (bending[1:] + bending[:-1]),
-        *(upper_end(scene, rate, N[-1], V[-1], C_tilde[-1, 3:], F[-1]), O[-1]),
+        turned - e * (Omega[1:] + Omega[:-1]),
+        np.array([GI, EI, EI]) * (Omega[1:] - Omega[:-1]) + e * (bending[1:] + bending[:-1]),
+        *(upper_end(scene, rate, N[-1], V[-1], C_tilde[-1, 3:], F[-1]), Omega[-1]),
     ]
     return np.concatenate([part.ravel() for part in parts])
 

@@ -25,7 +25,7 @@ HANGING = line(LIGHT)
 
 
 def eigenvalues(scene, rate):
-    """lambda (1/s) of small lateral motions about rest, slowest first: (q_y, V_y) of a stage is c (c - A)^-1 of its C~."""
+    """lambda (1/s) of small lateral motions about rest, slowest first: a stage makes c (c - A)^-1 of its C~."""
     motion = equilibrium(scene)
     Y, p, n = motion.Y, motion.record, len(motion.Y)
     X, F, Q, dC = np.zeros((n, 2)), np.zeros((n, 4)), np.zeros((n, node.WIDTH)), np.zeros((n, 2))
@@ -62,13 +62,15 @@ def test_frequency_and_no_growth(scene, omega):
 
 
 def test_a_dry_pendulum_neither_grows_nor_decays():
-    """Its length swings between two values, 1 s samples meet the larger to 1e-3 in 25 swings, and it stays the same.
+    """Its energy is the square of the length of the perturbation, so it keeps that to what the integrator takes.
 
-    The first 100 s rid the perturbation of its fast modes, which the integrator damps; the pendulum it leaves alone.
+    The first 100 s rid the perturbation of its fast modes, which the integrator damps; of the pendulum ESDIRK4(3) with
+    steps of 0.1 s takes (omega dt)^4 times less than a tenth a second, 1e-6. The light tether has another energy than
+    the weights say, T being not quite the scale: 1e-4.
     """
     run = simulate(line(LIGHT, {"output.lateral_growth": True}), duration_s=400.0)
     assert run.status == "ok"
     assert run.tangent.growth_nats.shape == (400, 0) and run.tangent.period_s == 1.0
-    length = np.cumsum(run.tangent.lateral_nats)
-    assert np.ptp(length[100:]) > 1.0, "the length was meant to swing"
-    assert length[100:250].max() == pytest.approx(length[250:].max(), abs=2e-3)
+    later = run.tangent.lateral_nats[100:]
+    assert np.abs(later).max() < 1e-4
+    assert abs(later.mean()) < 1e-6

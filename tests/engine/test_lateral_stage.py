@@ -1,8 +1,8 @@
 """Law: a lateral stage solves the box equations in space, linearised about a state in the plane.
 
 The equations in space are written out in `space_equations` with Euler parameters, without a kernel of the engine, and
-linearised by complex step. States have every term at work: strains of both signs, shear, bends, turns of up to 2.9 rad in
-an element, motion, water; they solve nothing, and need not, for the law to hold.
+linearised by complex step. States have every term at work: strains of both signs, shear, bends, turns of up to 2.9 rad
+in an element, motion, water; they solve nothing, and need not, for the law to hold.
 """
 
 import numpy as np

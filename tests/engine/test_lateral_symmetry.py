@@ -42,13 +42,14 @@ def growths(scene, duration_s):
     start /= run.norm(start)
     planar = run.carried(start[None])
     across, rates = np.ascontiguousarray(start[:, [0, 2]]), np.zeros((len(start), 2))
+    weights = np.tile([1.0, run.weight], (len(start), 1))
     found = []
     for count in run.chunks():
         for i in range(count):
             before, growth = planar.growth[0], np.zeros(1)
             planar.follow(i, 1)
             trail = [part[i : i + 1] for part in (run.T, run.Ys, run.Ks)]
-            carry_lateral(run.record, run.tables, 1e9, 1, *trail, across, rates, growth)
+            carry_lateral(run.record, run.tables, 1e9, 1, *trail, weights, across, rates, growth)
             found.append((growth[0], planar.growth[0] - before))
     return np.array(found), across, planar.vectors[0]
 

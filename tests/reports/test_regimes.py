@@ -30,7 +30,8 @@ def test_the_table_holds_exponents_with_errors_and_a_regime(folder):
     for row in rows.values():
         assert row["regime"] in {"transient", "undecided", "quasi-periodic", "chaotic"} or "period-" in row["regime"]
         assert float(row["lyapunov_wolf_error"]) > 0
-        assert row["offplane_growth_bits_per_period"] == ""
+        growth, error = (row[f"offplane_growth_{end}"] for end in ("bits_per_period", "error"))
+        assert float(growth) < -2 * float(error) < 0, "in 22.5 m both motions keep to their plane, without a loop"
 
 
 def test_the_report_gives_the_evidence_for_the_papers_two_cases(folder):
