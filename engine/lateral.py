@@ -40,28 +40,25 @@ import math
 import numpy as np
 
 from .compiled import kernel
-from .elementary import copy_into, sincos
+from .elementary import copy_into, sincos, small_sincos
 from .ends import BUOY, HELD
 from .planar import node
 from .tension import tension
 
-COEFFICIENTS, WIDTH = 12, 15
+COEFFICIENTS, WIDTH = 10, 15
 
 
 @kernel
 def _coefficients(p, tables, rate, Y, K, Q, F, H):
-    """Nodal coefficients of the lateral equations, H (n, 12).
+    """Nodal coefficients of the lateral equations, H (n, 10).
 
-    0-1 t_m (2-3 of it the sine and cosine of delta) | 4-5 dq_y/dtau, dq_y/drho | 6-7 dN_y/dtau, dN_y/drho (without
-    -dS_b) | 8-9 dG_y/dtau, dG_y/drho | 10 dG_y/dV_y | 11 lam^3
+    0-1 sine and cosine of delta | 2-3 dq_y/dtau, dq_y/drho | 4-5 dN_y/dtau, dN_y/drho (without -dS_b) |
+    6-7 dG_y/dtau, dG_y/drho | 8 dG_y/dV_y | 9 lam^3
     """
     for k in range(Y.shape[0]):
         c, s = Q[k, 0], Q[k, 1]
-        if k == 0:
-            sm, cm = s, c
-        else:
-            sm, cm = sincos(0.5 * (Y[k - 1, 4] + Y[k, 4]))
-        sd, cd = s * cm - c * sm, c * cm + s * sm
+        delta = 0.5 * (Y[k, 4] - Y[k - 1, 4]) if k > 0 else 0.0
+        sd, cd = small_sincos(delta) if abs(delta) < 0.25 else sincos(delta)
         lam = 1.0 + Y[k, 0]
         S = Y[k, 1]
         T = tension(Y[k, 0], p, tables)[0]
@@ -75,12 +72,12 @@ def _coefficients(p, tables, rate, Y, K, Q, F, H):
             across += kn
             tilt = (p.ct * root * abs(vt) - kn) * vt
             tilt -= c * (p.ma * K[k, 2] - p.Rw * F[k, 2]) + s * (p.ma * K[k, 3] - p.Rw * F[k, 3])
-        H[k, 0], H[k, 1], H[k, 2], H[k, 3] = cm, sm, sd, cd
-        H[k, 4], H[k, 5] = lam * cd, -lam * sd
-        H[k, 6], H[k, 7] = T * cd - S * sd, -T * sd - S * cd
-        H[k, 8], H[k, 9] = tilt * cd, -tilt * sd
-        H[k, 10] = across
-        H[k, 11] = lam * lam * lam
+        H[k, 0], H[k, 1] = sd, cd
+        H[k, 2], H[k, 3] = lam * cd, -lam * sd
+        H[k, 4], H[k, 5] = T * cd - S * sd, -T * sd - S * cd
+        H[k, 6], H[k, 7] = tilt * cd, -tilt * sd
+        H[k, 8] = across
+        H[k, 9] = lam * lam * lam
 
 
 @kernel
@@ -111,29 +108,28 @@ def lateral_stage(p, tables, rate, Y, K, Q, F, dC_tilde, H, E, dC):
         a = k - 1
         e = 0.5 * tables[p.grid_at + a]
         er = e * rate
-        c_b = H[k, 0] * H[a, 0] + H[k, 1] * H[a, 1]
-        s_b = H[k, 1] * H[a, 0] - H[k, 0] * H[a, 1]
+        # from the directions of node a to those of node b: half the turn below a and half the turn of this box
+        s_b, c_b = H[a, 0] * H[k, 1] + H[a, 1] * H[k, 0], H[a, 1] * H[k, 1] - H[a, 0] * H[k, 0]
         half = 0.5 * (Y[k, 4] - Y[a, 4])
-        sinc = H[k, 2] / half if abs(half) > 1e-4 else 1.0 - half * half / 6.0
-        f = 1.0 / (e * sinc)
+        f = half / (e * H[k, 0]) if abs(half) > 1e-4 else (1.0 + half * half / 6.0) / e
         # v_b = X y_a + Z y_b + x
         X20, X21, x2 = c_b * R20 + s_b, c_b * R21, c_b * r2
         X10, X11, x1 = f * (s_b * R20 - c_b) - R10, f * s_b * R21 - R11, f * s_b * r2 - r1
-        at, ar, bt, br = er * H[a, 4], er * H[a, 5], er * H[k, 4], er * H[k, 5]
+        at, ar, bt, br = er * H[a, 2], er * H[a, 3], er * H[k, 2], er * H[k, 3]
         X00 = R00 + at + ar * R20 + br * X20
         X01 = R01 + ar * R21 + br * X21
         x0 = r0 + ar * r2 + br * x2 - er * (dC_tilde[a, 0] + dC_tilde[k, 0])
         # momentum and moment: A y_a + B y_b = g
-        Ja, Jb = e * H[a, 10], e * H[k, 10]
-        below_t, below_r = H[a, 6] + e * H[a, 8], H[a, 7] + e * H[a, 9]
-        above_t, above_r = H[k, 6] - e * H[k, 8], H[k, 7] - e * H[k, 9]
+        Ja, Jb = e * H[a, 8], e * H[k, 8]
+        below_t, below_r = H[a, 4] + e * H[a, 6], H[a, 5] + e * H[a, 7]
+        above_t, above_r = H[k, 4] - e * H[k, 6], H[k, 5] - e * H[k, 7]
         A00 = above_r * X20 - below_t - below_r * R20 - Ja * R00 - Jb * X00
         A01 = above_r * X21 - below_r * R21 + 1.0 - Ja * R01 - Jb * X01
         A10 = p.EI * (X10 - R10)
-        A11 = p.EI * (X11 - R11) - e * H[a, 11]
+        A11 = p.EI * (X11 - R11) - e * H[a, 9]
         B00 = above_t - Jb * bt
         B10 = p.EI * f
-        B11 = -e * H[k, 11]
+        B11 = -e * H[k, 9]
         g0 = below_r * r2 - above_r * x2 + Ja * r0 + Jb * x0 - e * inertia * (dC_tilde[a, 1] + dC_tilde[k, 1])
         g1 = -p.EI * (x1 - r1)
         d = 1.0 / (A00 * A11 - A01 * A10)
@@ -148,14 +144,14 @@ def lateral_stage(p, tables, rate, Y, K, Q, F, dC_tilde, H, E, dC):
         E[k, 12], E[k, 13], E[k, 14] = r0, r1, r2
     b = n - 1
     of_N, of_V, known = _upper_end(p, rate, Y[b], F[b], dC_tilde[b, 1])
-    A00 = of_N * (H[b, 6] + H[b, 7] * R20) + of_V * R00
-    A01 = of_N * (H[b, 7] * R21 - 1.0) + of_V * R01
-    g0 = -known - of_N * H[b, 7] * r2 - of_V * r0
+    A00 = of_N * (H[b, 4] + H[b, 5] * R20) + of_V * R00
+    A01 = of_N * (H[b, 5] * R21 - 1.0) + of_V * R01
+    g0 = -known - of_N * H[b, 5] * r2 - of_V * r0
     d = 1.0 / (A00 * R11 - A01 * R10)
     tau, Sb = d * (R11 * g0 + A01 * r1), -d * (A00 * r1 + R10 * g0)
     for k in range(n - 1, -1, -1):
         rho = E[k, 10] * tau + E[k, 11] * Sb + E[k, 14]
-        dC[k, 0] = H[k, 4] * tau + H[k, 5] * rho
+        dC[k, 0] = H[k, 2] * tau + H[k, 3] * rho
         dC[k, 1] = E[k, 6] * tau + E[k, 7] * Sb + E[k, 12]
         tau, Sb = E[k, 0] * tau + E[k, 1] * Sb + E[k, 4], E[k, 2] * tau + E[k, 3] * Sb + E[k, 5]
 

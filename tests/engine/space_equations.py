@@ -1,8 +1,9 @@
 """The box equations in space (model.md 2.5, 2.6) written out in plain NumPy, with Euler parameters.
 
 Unknowns of a node, Z (n, 12): eps, S_n, S_b | V (3) | a rotation vector theta of the frame (t, n, b), in its own axes,
-away from the plane frame of angle phi | Omega (3). The rotation across a box is 2 log(beta_a* o beta_b) =
-e (Omega_a + Omega_b). Axes: x along the waves, y across, z up; in the plane t = (cos phi, 0, sin phi), n = (-sin phi, 0, cos phi), b = -y.
+away from the plane frame of angle phi | Omega (3). The rotation across a box is
+2 log(beta_a* o beta_b) = e (Omega_a + Omega_b).
+Axes: x along the waves, y across, z up; in the plane t = (cos phi, 0, sin phi), n = (-sin phi, 0, cos phi), b = -y.
 Everything takes complex arguments, so that a complex step differentiates it to rounding.
 """
 

@@ -1,4 +1,4 @@
-"""What a run says about a perturbation across its plane: its growth, only where asked, without a trace on the motion."""
+"""What a run says of a perturbation across its plane: its growth, only where asked, without a trace on the motion."""
 
 import math
 
