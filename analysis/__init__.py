@@ -45,6 +45,7 @@ _HOME = {
     "Exponent": "exponents",
     "wolf_lyapunov": "wolf_plateau",
     "tangent_lyapunov": "tangent_growth",
+    "transverse_lyapunov": "tangent_growth",
     "wolf_run": "wolf_pairs",
     "rosenstein_lyapunov": "divergence",
     "kantz_lyapunov": "divergence",

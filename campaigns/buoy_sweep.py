@@ -22,7 +22,7 @@ SCENE = "tethered_buoy"
 STEEPNESS = tuple(round(0.016 + 0.003 * step, 3) for step in range(49))
 PERIODS, TRANSIENT = 300, 100
 LEAST_ANALYSED = 40  # periods after the transient below which no verdict is possible: exponents are then left out
-SWEPT, TANGENTS = "waves.steepness", "output.tangent_vectors"
+SWEPT, TANGENTS, LATERAL = "waves.steepness", "output.tangent_vectors", "output.lateral_growth"
 
 
 @dataclass(frozen=True)
@@ -117,6 +117,16 @@ def carries_tangents(scene) -> bool:
     return scene.tether.bending_stiffness_Nm2 > 0 and scene.solver.integrator in ("esdirk43", "trbdf2")
 
 
+def _growths(scene, changes: dict) -> dict:
+    """The perturbations that a run is to carry where the order does not say: one in the plane and, unless the order
+    wants none there, one across it.
+    """
+    extra = {} if TANGENTS in changes else {TANGENTS: 1}
+    if LATERAL not in changes and scene.motion.dimensions == 2 and (extra or scene.output.tangent_vectors):
+        extra[LATERAL] = True
+    return extra
+
+
 def _scenes(name: str, changes: dict, steepness: list[float], analysed: bool, faults: list[str]) -> dict:
     from engine import SceneError, load_scene
 
@@ -124,8 +134,8 @@ def _scenes(name: str, changes: dict, steepness: list[float], analysed: bool, fa
     for value in steepness:
         try:
             scene = load_scene(name, {**changes, SWEPT: value})
-            if TANGENTS not in changes and analysed and carries_tangents(scene):
-                scene = load_scene(name, {**changes, SWEPT: value, TANGENTS: 1})
+            if analysed and carries_tangents(scene) and (extra := _growths(scene, changes)):
+                scene = load_scene(name, {**changes, SWEPT: value, **extra})
         except SceneError as error:
             faults.extend(fault for fault in error.faults if fault not in faults)
             continue

@@ -8,7 +8,7 @@ import math
 
 import numpy as np
 
-from reports.buoy_motion import LONGEST_PERIOD, STROBE_TOLERANCE, state_of, tighter_scene, verdict_of
+from reports.buoy_motion import LONGEST_PERIOD, STROBE_TOLERANCE, carried, state_of, tighter_scene, verdict_of
 
 COLUMNS = (
     "steepness",
@@ -28,6 +28,7 @@ COLUMNS = (
     "lyapunov_tangent_bits_per_period",
     "lyapunov_tangent_error",
     "offplane_growth_bits_per_period",
+    "offplane_growth_error",
     "max_buoy_height_above_water_m",
     "max_turn_rad",
     "min_strain",
@@ -62,7 +63,8 @@ def buoy_row(trajectory, transient_periods: int, simulate=None) -> dict[str, obj
     transient_periods: wave periods left out of extremes, slack and strobed period; a record that does not outlast them
     by one period fills none of these.
     regime and exponents: of scenes with output.tangent_vectors, run to their end; all periods count, those with a loop
-    release too.
+    release too. offplane_growth: of scenes with output.lateral_growth; none where a loop was released after the
+    transient, because across the plane a loop has no rate of its own.
     simulate: to repeat a run that looks chaotic at a ten times tighter tolerance (regime_tighter); None: not done.
     max_buoy_height_above_water_m: highest point of the sphere less the still water depth, negative while it stays
     below.
@@ -78,7 +80,9 @@ def buoy_row(trajectory, transient_periods: int, simulate=None) -> dict[str, obj
     recorded_s = (len(columns["time_s"]) - 1) * step_s
     if recorded_s >= (transient_periods + 1) * period_s - 1e-6 * step_s:
         row |= _settled(columns, step_s, period_s, transient_periods)
-        if trajectory.tangent is not None and trajectory.status == "ok":
+        if trajectory.status == "ok" and trajectory.tangent is not None:
+            row |= _across(trajectory.tangent, transient_periods)
+        if trajectory.status == "ok" and carried(trajectory):
             tighter, verdict, tangent, wolf = _verdict(trajectory, transient_periods, simulate)
             row |= {
                 "regime": verdict.regime,
@@ -89,6 +93,15 @@ def buoy_row(trajectory, transient_periods: int, simulate=None) -> dict[str, obj
                 "lyapunov_wolf_error": _number(wolf.error),
             }
     return row
+
+
+def _across(growth, transient_periods: int) -> dict[str, object]:
+    from analysis import transverse_lyapunov
+
+    if growth.lateral_nats is None:
+        return {}
+    found = transverse_lyapunov(growth.lateral_nats, transient_periods, growth.released)
+    return {"offplane_growth_bits_per_period": _number(found.value), "offplane_growth_error": _number(found.error)}
 
 
 def _verdict(trajectory, transient_periods: int, simulate):

@@ -239,6 +239,7 @@ class Output(Section):
     profiles: Flag = False
     profiles_step_s: Positive | None = None  # None: as step_s
     tangent_vectors: CountOrZero = 0  # perturbations carried along: as many Lyapunov exponents
+    lateral_growth: Flag = False  # an infinitesimal perturbation across the plane carried along
 
 
 class Scene(Section):

@@ -189,16 +189,24 @@ def _output(sound: _Sound) -> Iterator[str]:
     if profiles in (None, False) and step not in (None, _FAULTY):
         given = f"given {shown(step)}, but output.profiles is false"
         yield f"output.profiles_step_s: {given}; allowed: only with output.profiles = true"
-    vectors = sound.value("output.tangent_vectors")
-    if vectors in (None, _FAULTY, 0):
-        return
+    vectors, sideways = sound.value("output.tangent_vectors"), sound.value("output.lateral_growth")
+    if vectors not in (None, _FAULTY, 0):
+        yield from _perturbed(sound, "output.tangent_vectors", vectors, "0")
+        nodes = sound.values("tether.nodes")
+        if nodes and isinstance(vectors, int) and vectors > 4 * nodes[0]:
+            yield fault("output.tangent_vectors", vectors, f"at most four a node, {4 * nodes[0]}")
+    if sideways is True:
+        yield from _perturbed(sound, "output.lateral_growth", sideways, "false")
+        if sound.value("motion.dimensions") not in (None, _FAULTY, 2):
+            yield fault("output.lateral_growth", sideways, "false, because a motion in space has no plane to leave")
+
+
+def _perturbed(sound: _Sound, key: str, given: object, none: str) -> Iterator[str]:
+    """What a scene needs to carry perturbations along; `none`: the value of `key` that asks for none."""
     found = sound.values("tether.bending_stiffness_Nm2")
     if found and found[0] == 0:
-        yield fault("output.tangent_vectors", vectors, "0, because a slack tether without bending has no tangent map")
+        yield fault(key, given, f"{none}, because a slack tether without bending has no tangent map")
     integrator = sound.value("solver.integrator")
     if integrator in ("midpoint", "generalized-alpha"):
-        allowed = f"0, because solver.integrator is {integrator!r}: use esdirk43, trbdf2 or backward-euler"
-        yield fault("output.tangent_vectors", vectors, allowed)
-    nodes = sound.values("tether.nodes")
-    if nodes and isinstance(vectors, int) and vectors > 4 * nodes[0]:
-        yield fault("output.tangent_vectors", vectors, f"at most four a node, {4 * nodes[0]}")
+        because = f"because solver.integrator is {integrator!r}: use esdirk43, trbdf2 or backward-euler"
+        yield fault(key, given, f"{none}, {because}")

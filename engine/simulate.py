@@ -104,7 +104,10 @@ class _Batch:
         self.Y = np.zeros((size, nodes, unknowns))
         self.C = np.zeros((size, nodes, conserved))
         self.K = np.zeros((size, nodes, conserved))
-        self.trails = [Trail(*one) for one in zip(scenes, self.records, durations, strict=True)]
+        self.trails = [
+            Trail(scene, record, self.tables, duration_s)
+            for scene, record, duration_s in zip(scenes, self.records, durations, strict=True)
+        ]
         self.walls = np.zeros(size)
         for b in range(size):
             self._start(b)

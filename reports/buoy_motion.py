@@ -40,6 +40,11 @@ def tighter_scene(scene):
     return scene_from_toml(scene.to_toml(), {key: value})
 
 
+def carried(trajectory) -> bool:
+    """Whether a run carried tangent vectors in its plane, without which there is no verdict."""
+    return trajectory.tangent is not None and trajectory.tangent.growth_nats.shape[1] > 0
+
+
 def verdict_of(trajectory, transient_periods: int, tighter: str | None = None):
     """The regime of a finished run that carried tangent vectors: (Verdict, tangent Exponent, Wolf Exponent of r).
 

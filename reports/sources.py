@@ -75,6 +75,7 @@ SOURCES: dict[str, tuple[str, str]] = {
     "output.profiles": ("profiles along the tether kept", NUMERICAL),
     "output.profiles_step_s": ("output step of the profiles", NUMERICAL),
     "output.tangent_vectors": ("perturbations carried along (Lyapunov exponents)", NUMERICAL),
+    "output.lateral_growth": ("perturbation across the plane carried along", NUMERICAL),
 }
 
 # suffix of a key: the unit in print
