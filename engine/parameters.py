@@ -25,13 +25,14 @@ RECORD = np.dtype(
         "output_step release_step growth_per_step shortest_wave profile_step window alpha_m alpha_f gamma",
     )
 )
-# Three dimensions have a type of their own: a kernel that serves both is compiled for each on its first use.
+# Three dimensions have a type of their own: a kernel that serves both is compiled for each on its first use. Their own
+# fields come first: Numba would take a record that only goes on after the planar fields for a planar one.
 SPATIAL = np.dtype(
-    RECORD.descr
-    + _dtype(
+    _dtype(
         "cur_ny clamp_below clamp_above",
         "GI dir_x dir_y end_y end_fy start_y below_x below_y below_z above_x above_y above_z twist twist_ramp",
     )
+    + RECORD.descr
 )
 
 

@@ -95,7 +95,7 @@ class HarmonicMotion(Section):
 
 
 class TableMotion(Section):
-    """A held end is moved through displacements at times, by a monotone cubic (PCHIP); at rest before and after."""
+    """A held end is moved through displacements at times, by a monotone cubic (PCHIP) that starts and ends at rest."""
 
     law: Literal["table"]
     time_s: Series
