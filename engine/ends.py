@@ -31,11 +31,17 @@ def harmonic_of(amplitude_m, period_s, phase_rad, ramp_s):
 
 
 def table_of(time_s, displacement_m):
-    """Knots and velocities of a tabulated motion in the layout above: the derivative of the monotone cubic (PCHIP)."""
-    from scipy.interpolate import PchipInterpolator
+    """Knots and velocities of a tabulated motion in the layout above.
 
-    law = PchipInterpolator(time_s, np.asarray(displacement_m, float))
-    rates = law.derivative().c[::-1]  # (power, piece, component), ascending powers
+    The displacement is the monotone cubic of Fritsch & Carlson (PCHIP) with slopes zero at both ends: beyond them the
+    end is at rest, and a jump of its velocity would be a blow of infinite force.
+    """
+    from scipy.interpolate import CubicHermiteSpline, PchipInterpolator
+
+    values = np.asarray(displacement_m, float)
+    slopes = PchipInterpolator(time_s, values).derivative()(time_s)
+    slopes[[0, -1]] = 0.0
+    rates = CubicHermiteSpline(time_s, values, slopes).derivative().c[::-1]  # (power, piece, component)
     return np.concatenate([np.asarray(time_s, float), rates.transpose(1, 2, 0).ravel()])
 
 

@@ -41,7 +41,7 @@ import numpy as np
 
 from .compiled import kernel
 from .elementary import copy_into, sincos, small_sincos
-from .ends import BUOY, HELD
+from .ends import BUOY, HELD, released
 from .planar import node
 from .tension import tension
 
@@ -81,9 +81,9 @@ def _coefficients(p, tables, rate, Y, K, Q, F, H):
 
 
 @kernel
-def _upper_end(p, rate, Y, F, V_tilde):
+def _upper_end(p, t, rate, Y, F, V_tilde):
     """Factors of N_y and V_y in the linearised condition of the upper end (`engine.ends`), and its known part."""
-    if p.end == HELD:
+    if p.end == HELD and not released(p, t):
         return 0.0, 1.0, 0.0
     if p.end != BUOY:
         return 1.0, 0.0, 0.0
@@ -92,7 +92,7 @@ def _upper_end(p, rate, Y, F, V_tilde):
 
 
 @kernel
-def lateral_stage(p, tables, rate, Y, K, Q, F, dC_tilde, H, E, dC):
+def lateral_stage(p, tables, t, rate, Y, K, Q, F, dC_tilde, H, E, dC):
     """dC (n, 2) = (q_y, V_y) of one stage, q_y,t = rate (q_y - q~_y) and V_y,t likewise, from dC_tilde (n, 2).
 
     Y, K, Q, F: the planar state of the stage, its rates, directions (`node.shape`) and water. H, E: work arrays.
@@ -143,7 +143,7 @@ def lateral_stage(p, tables, rate, Y, K, Q, F, dC_tilde, H, E, dC):
         E[k, 6], E[k, 7], E[k, 8], E[k, 9], E[k, 10], E[k, 11] = R00, R01, R10, R11, R20, R21
         E[k, 12], E[k, 13], E[k, 14] = r0, r1, r2
     b = n - 1
-    of_N, of_V, known = _upper_end(p, rate, Y[b], F[b], dC_tilde[b, 1])
+    of_N, of_V, known = _upper_end(p, t, rate, Y[b], F[b], dC_tilde[b, 1])
     A00 = of_N * (H[b, 4] + H[b, 5] * R20) + of_V * R00
     A01 = of_N * (H[b, 5] * R21 - 1.0) + of_V * R01
     g0 = -known - of_N * H[b, 5] * r2 - of_V * r0
@@ -216,7 +216,7 @@ def carry_lateral(p, tables, period, count, T, trail_Y, trail_K, weights, vector
                     for k in range(n):
                         for m in range(2):
                             dC_tilde[k, m] += a * dK[j, k, m]
-            lateral_stage(p, tables, rate, trail_Y[step, i], trail_K[step, i], Q, F, dC_tilde, H, E, dC)
+            lateral_stage(p, tables, t + c_i * dt, rate, trail_Y[step, i], trail_K[step, i], Q, F, dC_tilde, H, E, dC)
             for k in range(n):
                 for m in range(2):
                     dK[i, k, m] = rate * (dC[k, m] - dC_tilde[k, m])

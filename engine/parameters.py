@@ -25,8 +25,8 @@ RECORD = np.dtype(
         "output_step release_step growth_per_step shortest_wave profile_step window alpha_m alpha_f gamma",
     )
 )
-# Three dimensions have a type of their own: a kernel that serves both is compiled for each on its first use. The
-# fields come first, or Numba would take one record for a subtype of the other.
+# Three dimensions have a type of their own: a kernel that serves both is compiled for each on its first use. Their own
+# fields come first: Numba would take a record that only goes on after the planar fields for a planar one.
 SPATIAL = np.dtype(
     _dtype(
         "cur_ny clamp_below clamp_above",

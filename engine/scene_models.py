@@ -1,7 +1,7 @@
 """What is simulated, as frozen pydantic models: sections of a scene with their units, defaults and bounds.
 
 Lengths from the anchor, x with the wave, y across, z up; SI units throughout. Symbols of the paper in brackets;
-NOTATION.md maps them. Bounds of single values live here; rules between values live in `scene_rules`.
+NOTATION.md maps them. Bounds of single values live here and in `scene_values`; rules between values in `scene_rules`.
 """
 
 import hashlib
@@ -9,57 +9,33 @@ import json
 import math
 from typing import Annotated, Literal
 
-from pydantic import BaseModel, ConfigDict, Discriminator, Field, Tag, ValidationError, model_validator
+from pydantic import Field, ValidationError, model_validator
 from pydantic_core import PydanticCustomError
 
-from engine.scene_faults import FLAT, SOLID, Allowed, SceneError, field_faults
+from engine.scene_faults import SceneError, field_faults
 from engine.scene_rules import cross_faults
 from engine.scene_toml import toml_text
-
-# Strict leaves: neither "1.0" nor true is a number, and 41.0 is not a count; a whole number is a number.
-_Float = Annotated[float, Field(strict=True, allow_inf_nan=False)]
-Number = Annotated[_Float, Allowed("a finite number")]
-Positive = Annotated[_Float, Field(gt=0), Allowed("a finite number above 0")]
-NonNegative = Annotated[_Float, Field(ge=0), Allowed("a finite number, 0 or above")]
-UnitInterval = Annotated[_Float, Field(ge=0, le=1), Allowed("a number from 0 to 1")]
-Tolerance = Annotated[_Float, Field(gt=0, lt=1), Allowed("a number above 0 and below 1")]
-Stretching = Annotated[_Float, Field(ge=0, le=5), Allowed("a number from 0 to 5")]
-Nodes = Annotated[int, Field(strict=True, ge=3, le=20000), Allowed("a whole number from 3 to 20000")]
-Count = Annotated[int, Field(strict=True, ge=1, le=10**9), Allowed("a whole number from 1 to 1000000000")]
-CountOrZero = Annotated[int, Field(strict=True, ge=0, le=10**9), Allowed("a whole number from 0 to 1000000000")]
-Flag = Annotated[bool, Field(strict=True), Allowed("true or false")]
-Text = Annotated[str, Field(strict=True), Allowed("text")]
-Name = Annotated[str, Field(strict=True, pattern=r"^[A-Za-z0-9_.-]+$"), Allowed("letters, digits, and any of _ . -")]
-Vector = Annotated[tuple[_Float, _Float, _Float], Allowed("a list of 3 finite numbers [x, y, z]")]
-Five = Annotated[tuple[_Float, _Float, _Float, _Float, _Float], Allowed("a list of 5 finite numbers")]
-Series = Annotated[tuple[_Float, ...], Field(min_length=2), Allowed("a list of at least 2 finite numbers")]
-Axis = Annotated[tuple[_Float, ...], Field(min_length=1), Allowed("a list of at least 1 finite number")]
-Vectors = Annotated[
-    tuple[tuple[_Float, _Float, _Float], ...], Field(min_length=2), Allowed("a list of at least 2 vectors [x, y, z]")
-]
-_Flat = tuple[tuple[tuple[_Float, ...], ...], ...]
-_Solid = tuple[_Flat, ...]
-
-
-def _block_kind(value: object) -> str:
-    """FLAT or SOLID: how deep the lists are nested, judged by the first entries."""
-    depth = 0
-    while isinstance(value, (list, tuple)) and value:
-        value, depth = value[0], depth + 1
-    return SOLID if depth > 3 else FLAT
-
-
-Block = Annotated[
-    Annotated[_Flat, Field(min_length=1), Tag(FLAT)] | Annotated[_Solid, Field(min_length=1), Tag(SOLID)],
-    Discriminator(_block_kind),
-    Allowed("finite numbers as nested lists, indexed [time][height][x], or [time][height][y][x] with current.y_m"),
-]
-
-
-class Section(BaseModel):
-    """A part of a scene: immutable, and an unknown key is a fault."""
-
-    model_config = ConfigDict(frozen=True, extra="forbid")
+from engine.scene_values import (
+    Axis,
+    Block,
+    Count,
+    CountOrZero,
+    Five,
+    Flag,
+    Name,
+    Nodes,
+    NonNegative,
+    Number,
+    Positive,
+    Section,
+    Series,
+    Stretching,
+    Text,
+    Tolerance,
+    UnitInterval,
+    Vector,
+    Vectors,
+)
 
 
 class LinearTension(Section):
@@ -119,7 +95,7 @@ class HarmonicMotion(Section):
 
 
 class TableMotion(Section):
-    """A held end is moved through displacements at times, by a monotone cubic (PCHIP); at rest before and after."""
+    """A held end is moved through displacements at times, by a monotone cubic (PCHIP) that starts and ends at rest."""
 
     law: Literal["table"]
     time_s: Series
