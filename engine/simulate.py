@@ -99,7 +99,8 @@ class _Batch:
                 0,
             ).astype(np.int64)
         self.samples = np.zeros((size, int(self.goals.max()), 12))
-        self.profiles = np.zeros((size, int(profiled.max()), nodes, 6))
+        # contiguous, one by one: another layout would be another compilation of `march`, which may round otherwise
+        self.profiles = [np.zeros((m, int(k), 6)) for m, k in zip(profiled, self.records["nodes"], strict=True)]
         self.states = np.zeros(size, STATE)
         self.Y = np.zeros((size, nodes, unknowns))
         self.C = np.zeros((size, nodes, conserved))
@@ -154,7 +155,7 @@ class _Batch:
             while True:
                 march(
                     record, self.tables, self.states[b], self.Y[b, :n], self.Y_before[b, :n], self.C[b, :n],
-                    self.K[b, :n], self.samples[b], self.profiles[b, :, :n], *trail.steps, until,
+                    self.K[b, :n], self.samples[b], self.profiles[b], *trail.steps, until,
                 )
                 trail.follow(record, self.tables, self.states[b])
                 if self.states[b]["status"] != OK or self.states[b]["samples"] >= until:
@@ -189,7 +190,7 @@ class _Batch:
             return None
         n = int(record["nodes"])
         h = self.tables[record["grid_at"] : record["grid_at"] + n - 1]
-        values = self.profiles[b, :count, :n]
+        values = self.profiles[b][:count]
         return Profiles(
             np.arange(count) * float(record["profile_step"]),
             np.concatenate([[0.0], np.cumsum(h)]),
