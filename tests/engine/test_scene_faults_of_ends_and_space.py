@@ -56,7 +56,7 @@ CROSS = [
     ({"current": {**TABLE, "velocity_y_mps": BLOCK}}, "current.velocity_y_mps", "motion.dimensions = 3"),
     ({**SPACE, "current": {**TABLE, "y_m": [0, 0]}}, "current.y_m[1]", "increasing"),
     ({**SPACE, "current": {**TABLE, "y_m": [0]}}, "current.velocity_x_mps[0][0]", "1 places along y x 2 places"),
-    ({**SPACE, "current": {**TABLE, "velocity_y_mps": [BLOCK]}}, "current.velocity_y_mps[0][0]", "1 heights x 2 places"),
+    ({**SPACE, "current": {**TABLE, "velocity_y_mps": [BLOCK]}}, "current.velocity_y_mps[0][0]", "1 heights x 2"),
     # what one scheme or one number of dimensions does not have
     ({**SPACE, "output.tangent_vectors": 1}, "output.tangent_vectors", "motion.dimensions is 3"),
     ({"solver.scheme": "paper-box", "output.tangent_vectors": 1}, "output.tangent_vectors", "'paper-box'"),
