@@ -194,7 +194,7 @@ def _turning(record, scene):
         record[f"clamp_{name}"] = clamp.rotation == "clamped"
         direction = np.array(clamp.direction or chord)
         _put(record, f"{name}_", direction / np.linalg.norm(direction))
-    record["twist"], record["twist_ramp"] = end.twist_rad, end.twist_ramp_s
+    record["twist"], record["twist_ramp"] = end.twist_rad or 0.0, end.twist_ramp_s or 0.0
 
 
 def _solver(record, scene, place, h):
@@ -225,7 +225,7 @@ def _solver(record, scene, place, h):
     record["release"], record["max_releases"] = solver.loop_release, solver.max_loop_releases
     moving = scene.end.kind == "buoy" and any(scene.start.buoy_velocity_mps)
     impulsive = record["waves"] and scene.waves.ramp_s == 0
-    moved = record["end_motion"] != ends.STILL or scene.end.twist_ramp_s > 0
+    moved = record["end_motion"] != ends.STILL or bool(scene.end.twist_ramp_s)
     record["at_rest"] = not (moving or impulsive or moved)
     _scales(record, scene, h)
 

@@ -115,8 +115,8 @@ class End(Section):
     release_s: Positive | None = None  # when a held end is let go; None: never
     rotation: Literal["pinned", "clamped"] = "pinned"  # clamped: held ends only
     direction: Vector | None = None  # of the clamped tangent; None: along the line from the anchor
-    twist_rad: Number = 0.0  # turn of the upper clamp about its tangent against the lower one
-    twist_ramp_s: NonNegative = 0.0  # time in which the twist is put in, as sin^2; 0: there from the start
+    twist_rad: Number | None = None  # turn of the upper clamp about its tangent against the lower one
+    twist_ramp_s: NonNegative | None = None  # in which the twist is put in, as sin^2; None or 0: there from the start
 
 
 class Buoy(Section):
