@@ -18,9 +18,10 @@ def _dtype(counts, values):
 RECORD = np.dtype(
     _dtype(
         "nodes grid_at law law_at law_n wet waves current cur_at cur_nx cur_nz cur_nt above end end_motion end_at "
-        "end_n bent method stages method_at adaptive max_newton release max_releases at_rest",
+        "end_n bent viscous method stages method_at adaptive max_newton release max_releases at_rest",
         "m w0 EI p1 p2 p3 p4 p5 ct cn ma Rw depth k omega amplitude phase direction ramp "
-        "M_total M_wave lift C_buoy end_x end_z end_release end_fx end_fz per_strain per_force per_speed per_curvature "
+        "M_total M_wave lift C_buoy end_x end_z end_release end_fx end_fz end_decay "
+        "barrier c_quadratic c_linear per_strain per_force per_speed per_curvature "
         "order rtol newton_tolerance fixed_step max_step min_step start_x start_z "
         "output_step release_step growth_per_step shortest_wave profile_step window alpha_m alpha_f gamma",
     )
@@ -36,11 +37,18 @@ SPATIAL = np.dtype(
 )
 
 
-def grid(length_m, nodes, stretching):
-    """Element lengths (nodes - 1,), m: s(xi) = L/2 (1 + tanh(b (2 xi - 1))/tanh b), finer at both ends; b = 0 even."""
+def grid(length_m, nodes, stretching, refined="both"):
+    """Element lengths (nodes - 1,), m, at even xi; b = 0 even elements.
+
+    Finer at both ends s(xi) = L/2 (1 + tanh(b (2 xi - 1))/tanh b), at the lower one L (1 + tanh(b (xi - 1))/tanh b), at
+    the upper one L tanh(b xi)/tanh b.
+    """
     xi = np.linspace(0.0, 1.0, nodes)
-    s = xi if stretching == 0 else 0.5 * (1 + np.tanh(stretching * (2 * xi - 1)) / np.tanh(stretching))
-    return np.diff(length_m * s)
+    if stretching == 0:
+        return np.diff(length_m * xi)
+    inside = {"both": 2 * xi - 1, "lower": xi - 1, "upper": xi}[refined]
+    s = np.tanh(stretching * inside) / np.tanh(stretching)
+    return np.diff(length_m * {"both": 0.5 * (1 + s), "lower": 1 + s, "upper": s}[refined])
 
 
 def record_of(scene, tables):
@@ -56,7 +64,7 @@ def record_of(scene, tables):
         tables.append(np.asarray(values, float).ravel())
         return at
 
-    h = grid(scene.tether.length_m, scene.tether.nodes, scene.tether.grid_stretching)
+    h = grid(scene.tether.length_m, scene.tether.nodes, scene.tether.grid_stretching, scene.tether.grid_refined)
     record["nodes"] = scene.tether.nodes
     record["grid_at"] = place(h)
     _tether(record, scene, place)
@@ -84,6 +92,7 @@ def _tether(record, scene, place):
     record["cn"] = 0.5 * rho_w * d * tether.drag_normal
     record["ma"] = tether.added_mass * displaced
     record["Rw"] = displaced + record["ma"]
+    record["barrier"] = tether.compression_barrier_N
     if law.law == "linear":
         record["law"], record["p1"] = tension.LINEAR, law.stiffness_N
     elif law.law == "tanh":
@@ -154,6 +163,7 @@ def _end(record, scene, place):
     record["end_release"] = math.inf
     if end.kind == "free":
         _put(record, "end_", end.force_N)
+        record["end_decay"] = end.force_decay_s or 0.0
     if end.kind == "held":
         _held(record, end, place)
     if end.kind != "buoy":
@@ -216,8 +226,9 @@ def _solver(record, scene, place, h):
     record["profile_step"] = (scene.output.profiles_step_s or record["output_step"]) if scene.output.profiles else 0.0
     record["fixed_step"] = solver.step_s or (period / 400 if period else 0.0125)
     record["max_step"], record["min_step"] = solver.max_step_s, solver.min_step_s
-    usual = period / 50 if period else 0.1
-    record["window"] = min(solver.max_step_s, usual) if record["adaptive"] else record["fixed_step"]
+    if solver.shock_viscosity is not None:
+        record["viscous"] = True
+        record["c_quadratic"], record["c_linear"] = solver.shock_viscosity.quadratic, solver.shock_viscosity.linear
     record["rtol"], record["growth_per_step"] = solver.rtol, solver.growth_per_step
     record["shortest_wave"] = (math.pi / h.min()) ** 2
     record["newton_tolerance"] = solver.newton_tolerance or 1e-2 * solver.rtol
@@ -228,6 +239,10 @@ def _solver(record, scene, place, h):
     moved = record["end_motion"] != ends.STILL or bool(scene.end.twist_ramp_s)
     record["at_rest"] = not (moving or impulsive or moved)
     _scales(record, scene, h)
+    if solver.courant is not None:
+        record["fixed_step"] = solver.courant * float(h.min()) / fastest_wave(record, scene)
+    usual = period / 50 if period else 0.1
+    record["window"] = min(solver.max_step_s, usual) if record["adaptive"] else record["fixed_step"]
 
 
 def _scales(record, scene, h):
@@ -248,6 +263,13 @@ def _scales(record, scene, h):
     record["per_force"] = 20 / load
     record["per_speed"] = 1 / max(math.sqrt(g * length) / 14, 1e-3)
     record["per_curvature"] = float(np.mean(h)) / 2.5
+
+
+def fastest_wave(record, scene):
+    """Largest axial wave speed sqrt(T'/m), m/s, between no strain and that of the static loads."""
+    strains = np.linspace(0.0, 1.0 / float(record["per_strain"]), 2001)
+    slopes = np.diff([tension_at(strain, scene.tether.tension) for strain in strains]) / strains[1]
+    return math.sqrt(max(slopes.max(), 1e-300) / float(record["m"]))
 
 
 def tension_at(strain, law):

@@ -24,7 +24,13 @@ def end_faults(sound: Sound) -> Iterator[str]:
     for key, owner in (("position_m", "held"), ("force_N", "free")):
         if kind == owner and sound.value(f"end.{key}") is None:
             yield f"end.{key}: missing; allowed: {_VECTOR}, because end.kind is {owner!r}"
-    for key, owner in (("position_m", "held"), ("motion", "held"), ("release_s", "held"), ("force_N", "free")):
+    for key, owner in (
+        ("position_m", "held"),
+        ("motion", "held"),
+        ("release_s", "held"),
+        ("force_N", "free"),
+        ("force_decay_s", "free"),
+    ):
         value = sound.value(f"end.{key}")
         if kind == owner or value is None or value is FAULTY:
             continue

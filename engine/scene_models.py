@@ -68,13 +68,15 @@ class Tether(Section):
     density_kgpm3: Positive  # of the material [rho]; m = rho A
     diameter_m: Positive = Field(default_factory=lambda known: math.sqrt(4.0 * known["area_m2"] / math.pi))  # [d]
     nodes: Nodes = 41
-    grid_stretching: Stretching = 0.0  # 0: equal elements; above: finer towards both ends
+    grid_stretching: Stretching = 0.0  # 0: equal elements; above: finer towards an end
+    grid_refined: Literal["both", "lower", "upper"] = "both"  # the end towards which stretching refines
     bending_stiffness_Nm2: NonNegative  # [EI]; without it slack is ill-posed
     torsion_stiffness_Nm2: NonNegative = 0.0  # [GIp]; enters out of a plane only
     drag_normal: NonNegative = 1.0  # [Cdp], on the diameter
     drag_tangential: NonNegative = 0.1  # [Cdt], on pi times the diameter
     added_mass: NonNegative = 1.0  # ma = added_mass * rho_w pi d^2/4, normal to the line
     tension: Annotated[LinearTension | TanhTension | TabulatedTension, Field(discriminator="law")]
+    compression_barrier_N: NonNegative = 0.0  # T loses this times (0.5/(1 + eps) - 1)^2 below a strain of -0.5
 
 
 class Anchor(Section):
@@ -111,6 +113,7 @@ class End(Section):
     kind: Literal["buoy", "held", "free"] = "buoy"
     position_m: Vector | None = None  # of a held end, from the anchor
     force_N: Vector | None = None  # on a free end; on a held one after its release (None: no force)
+    force_decay_s: Positive | None = None  # [tbr]: the force on a free end falls as cos^2(pi t/(2 tbr)) to zero
     motion: Annotated[HarmonicMotion | TableMotion, Field(discriminator="law")] | None = None  # of a held end
     release_s: Positive | None = None  # when a held end is let go; None: never
     rotation: Literal["pinned", "clamped"] = "pinned"  # clamped: held ends only
@@ -191,6 +194,13 @@ class Start(Section):
     buoy_velocity_mps: Vector = (0.0, 0.0, 0.0)
 
 
+class ShockViscosity(Section):
+    """Internal viscosity confined to shocks (`engine.shocks`): coefficients c_q and c_l."""
+
+    quadratic: NonNegative = 1.0
+    linear: NonNegative = 0.2
+
+
 class Solver(Section):
     """Discretisation in time and its limits."""
 
@@ -198,6 +208,8 @@ class Solver(Section):
     integrator: Literal["esdirk43", "trbdf2", "midpoint", "backward-euler", "generalized-alpha"] = "esdirk43"
     rtol: Tolerance = 0.03
     step_s: Positive | None = None  # fixed step; None: controlled by rtol, or T/400 for a method of fixed steps
+    courant: Positive | None = None  # fixed step as this times (shortest element)/(fastest axial wave), not step_s
+    shock_viscosity: ShockViscosity | None = None
     max_step_s: Positive = 0.1
     min_step_s: Positive = 1e-9
     newton_tolerance: Tolerance | None = None  # of the scaled update; None: rtol/100

@@ -154,6 +154,16 @@ def _vectors(sound: Sound) -> Iterator[tuple[str, tuple[float, float, float]]]:
 
 
 def _solver(sound: Sound) -> Iterator[str]:
+    courant, step = sound.values("solver.courant"), sound.values("solver.step_s")
+    if courant and step:
+        yield fault("solver.courant", courant[0], "only without solver.step_s, which fixes the step as well")
+    integrator = sound.value("solver.integrator") or "esdirk43"
+    if courant and integrator in ("esdirk43", "trbdf2"):
+        rule = f"only with a method of fixed steps, and solver.integrator is {integrator!r}"
+        yield fault("solver.courant", courant[0], rule)
+    refined = sound.value("tether.grid_refined")
+    if refined in ("lower", "upper") and not sound.value("tether.grid_stretching"):
+        yield fault("tether.grid_refined", refined, "'both', because tether.grid_stretching is 0: nothing is refined")
     if (found := sound.values("solver.min_step_s", "solver.max_step_s")) and found[0] > found[1]:
         yield fault("solver.min_step_s", found[0], f"at most solver.max_step_s, {shown(found[1])}")
 
@@ -175,6 +185,8 @@ def _output(sound: Sound) -> Iterator[str]:
 
 def _perturbed(sound: Sound, key: str, given: object, none: str) -> Iterator[str]:
     """What a scene needs to carry perturbations along; `none`: the value of `key` that asks for none."""
+    if sound.value("solver.shock_viscosity") is not None:
+        yield fault(key, given, f"{none}, because solver.shock_viscosity is given")
     found = sound.values("tether.bending_stiffness_Nm2")
     if found and found[0] == 0:
         yield fault(key, given, f"{none}, because a slack tether without bending has no tangent map")
