@@ -248,7 +248,8 @@ def _solver(record, scene, place, h):
 def _scales(record, scene, h):
     """Inverse scales in which Newton updates and step errors are measured (Table 1: 0.04, 100 N, 1 m/s, 5 rad/m)."""
     length, g = scene.tether.length_m, scene.gravity_mps2
-    load = max(abs(float(record["lift"])), abs(float(record["w0"])) * length, 1e-3)
+    stiff = buckling_load(scene.tether, scene.end)
+    load = max(abs(float(record["lift"])), abs(float(record["w0"])) * length, stiff, 1e-3)
     if scene.end.force_N is not None:
         load = max(load, math.hypot(*scene.end.force_N))
     strain = strain_at(load, scene.tether.tension)
@@ -261,7 +262,7 @@ def _scales(record, scene, h):
     transit = length * math.sqrt(float(record["m"]) / stiffness)
     record["release_step"] = min(transit / 12, float(record["max_step"]))
     record["per_force"] = 20 / load
-    record["per_speed"] = 1 / max(math.sqrt(g * length) / 14, 1e-3)
+    record["per_speed"] = 1 / max(math.sqrt(max(g * length, stiff / float(record["m"]))) / 14, 1e-3)
     record["per_curvature"] = float(np.mean(h)) / 2.5
 
 
@@ -270,6 +271,15 @@ def fastest_wave(record, scene):
     strains = np.linspace(0.0, 1.0 / float(record["per_strain"]), 2001)
     slopes = np.diff([tension_at(strain, scene.tether.tension) for strain in strains]) / strains[1]
     return math.sqrt(max(slopes.max(), 1e-300) / float(record["m"]))
+
+
+def buckling_load(tether, end):
+    """Force (N) of bending and twist, of use where a line has no weight: the greater of the compression at which a
+    clamped line buckles, EI (2 pi/L)^2 (Euler), and the tension that M = GIp twist/L overcomes, M^2/(4 EI) (Love).
+    """
+    EI, L = tether.bending_stiffness_Nm2, tether.length_m
+    torque = tether.torsion_stiffness_Nm2 * (end.twist_rad or 0.0) / L
+    return max(EI * (2 * math.pi / L) ** 2, torque**2 / (4 * EI)) if EI > 0 else 0.0
 
 
 def tension_at(strain, law):
