@@ -257,12 +257,16 @@ def _scales(record, scene, h):
         stretched = math.hypot(*scene.end.position_m) / length - 1
         if stretched > strain:
             strain, load = stretched, max(load, tension_at(stretched, scene.tether.tension))
-    record["per_strain"] = 1 / strain
     stiffness = max(tension_at(strain, scene.tether.tension), 1e-9) / strain  # secant: what the law offers up to there
+    pulled = end_speed(scene.end)
+    if pulled > 0:  # an end that is pulled away sends out a wave of the force V sqrt(m T/eps)
+        load = max(load, pulled * math.sqrt(float(record["m"]) * stiffness))
+        strain = max(strain, strain_at(load, scene.tether.tension))
+    record["per_strain"] = 1 / strain
     transit = length * math.sqrt(float(record["m"]) / stiffness)
     record["release_step"] = min(transit / 12, float(record["max_step"]))
     record["per_force"] = 20 / load
-    record["per_speed"] = 1 / max(math.sqrt(max(g * length, stiff / float(record["m"]))) / 14, 1e-3)
+    record["per_speed"] = 1 / max(math.sqrt(max(g * length, stiff / float(record["m"]))) / 14, pulled, 1e-3)
     record["per_curvature"] = float(np.mean(h)) / 2.5
 
 
@@ -271,6 +275,17 @@ def fastest_wave(record, scene):
     strains = np.linspace(0.0, 1.0 / float(record["per_strain"]), 2001)
     slopes = np.diff([tension_at(strain, scene.tether.tension) for strain in strains]) / strains[1]
     return math.sqrt(max(slopes.max(), 1e-300) / float(record["m"]))
+
+
+def end_speed(end):
+    """Greatest speed (m/s) at which a held end is moved; of a table the greatest between its rows, nearly."""
+    motion = end.motion
+    if motion is None:
+        return 0.0
+    if motion.law == "harmonic":
+        return 2 * math.pi / motion.period_s * math.hypot(*motion.amplitude_m)
+    steps = np.diff(motion.displacement_m, axis=0) / np.diff(motion.time_s)[:, None]
+    return float(np.linalg.norm(steps, axis=1).max())
 
 
 def buckling_load(tether, end):
