@@ -9,6 +9,7 @@ import math
 import numpy as np
 
 from . import currents, ends, integrators, tension, waves
+from .spatial import lift
 
 
 def _dtype(counts, values):
@@ -31,7 +32,8 @@ RECORD = np.dtype(
 SPATIAL = np.dtype(
     _dtype(
         "cur_ny clamp_below clamp_above",
-        "GI dir_x dir_y end_y end_fy start_y below_x below_y below_z above_x above_y above_z twist twist_ramp",
+        "GI dir_x dir_y end_y end_fy start_y below_x below_y below_z above_x above_y above_z carry0 carry1 carry2 carry3 twist "
+        "twist_ramp",
     )
     + RECORD.descr
 )
@@ -204,7 +206,19 @@ def _turning(record, scene):
         record[f"clamp_{name}"] = clamp.rotation == "clamped"
         direction = np.array(clamp.direction or chord)
         _put(record, f"{name}_", direction / np.linalg.norm(direction))
+    _put_carried(record, np.array(chord) / np.linalg.norm(chord))
     record["twist"], record["twist_ramp"] = end.twist_rad or 0.0, end.twist_ramp_s or 0.0
+
+
+def _put_carried(record, chord):
+    """Where no twist is: the rotation of the lower clamp into the upper one, by the shortest ways to the chord and on.
+
+    Straight from clamp to clamp would say the same of a line in a plane, but nothing where the clamps oppose each other
+    (a line that hangs between two vertical ones).
+    """
+    below, above = ([float(record[f"{name}_{axis}"]) for axis in "xyz"] for name in ("below", "above"))
+    first, second = lift.shortest_rotation(below, chord), lift.shortest_rotation(chord, above)
+    record["carry0"], record["carry1"], record["carry2"], record["carry3"] = lift.product(second, first)
 
 
 def _solver(record, scene, place, h):

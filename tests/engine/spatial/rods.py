@@ -1,22 +1,17 @@
-"""Clamped rods for the tests of torsion: scenes, rest from a given state, and solutions that are not the engine's.
+"""Clamped rods for the tests of torsion: scenes, rest from a given state, what a state (n, 13) looks like in space.
 
-A rod here is a dry, weightless line of `length` m under a linear law, clamped at both ends and twisted. Its Kirchhoff
-equations in fixed axes, for what moves along it (no frame, no Euler parameters, no O1 as an unknown):
-
-    x_s = (1+eps) t,   t_s = M x t/EI,   n_s = (t x t_s) x n,   M_s = -(1+eps)^3 t x N,   N constant,   eps = N.t/EA
-
-n is carried without roll; M.t = GIp O1 keeps its value by itself; the twist given is what n turns, seen from the shortest
-rotation between the clamps, and O1 times the length.
+A rod here is a dry, weightless line of `length` m under a linear law, clamped at both ends and twisted.
 """
 
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.integrate import solve_bvp
+from scipy.spatial.transform import Rotation
 
+from engine.parameters import grid, record_of
 from engine.spatial.lift import product, stretch_vectors
 from engine.statics import settle
-from tests.engine.lines import DRY, Motion, line, linear
+from tests.engine.lines import DRY, equilibrium, line, linear
 
 DENSITY, AREA = 1140.0, 7.85e-5
 
@@ -67,22 +62,18 @@ def force(rod, Y):
     return rod.EA * Y[:, :1] * t + Y[:, 1:2] * n + Y[:, 2:3] * b
 
 
-def taut(rod):
-    """The same rod with its ends apart, so that its start is a straight line."""
-    reach = 1.0 + 1e-5
-    place = tuple(reach * rod.length * np.array(rod.below))
-    return Rod(rod.EI, rod.GI, rod.EA, rod.length, place, rod.twist, rod.below, rod.below)
-
-
-def at_rest(rod, nodes, guess):
-    """State of rest (n, 13) of the engine, and element lengths, from a guess: a function of s (n,) to a state."""
-    motion = Motion(taut(rod).scene(nodes))
-    record = motion.record
-    for axis, value in zip("xyz", np.array(rod.above) / np.linalg.norm(rod.above), strict=True):
-        record[f"above_{axis}"] = value
-    Y = guess(motion.s)
-    assert settle(record, motion.tables, Y, np.array(rod.place)) == 0, "no rest"
-    return Y, motion.h
+def at_rest(rod, nodes, guess=None):
+    """State of rest (n, 13) of the engine, and element lengths; from the engine's own guess, or a function of s."""
+    scene = rod.scene(nodes)
+    if guess is None:
+        motion = equilibrium(scene)
+        return motion.Y.copy(), motion.h
+    tables = []
+    record = record_of(scene, tables)[0]
+    h = grid(rod.length, nodes, 0.0)
+    Y = guess(np.concatenate([[0.0], np.cumsum(h)]))
+    assert settle(record, np.concatenate(tables), Y, np.array(rod.place)) == 0, "no rest"
+    return Y, h
 
 
 def state_of(rod, s, t, n, M, N):
@@ -99,125 +90,7 @@ def state_of(rod, s, t, n, M, N):
 
 def _euler_parameters(R):
     """Euler parameters (n, 4) of rotation matrices (n, 3, 3) of columns t, n, b, with no jump of sign."""
-    from scipy.spatial.transform import Rotation
-
     beta = Rotation.from_matrix(R).as_quat()[:, [3, 0, 1, 2]]
     keeps = np.sign(np.sum(beta[1:] * beta[:-1], axis=1))
     beta[1:] *= np.cumprod(keeps)[:, None]
     return beta
-
-
-def carried(u, v, x):
-    """Vector x turned by the shortest rotation from the unit vector u to v."""
-    axis = np.cross(u, v)
-    return x + np.cross(axis, x) + np.cross(axis, np.cross(axis, x)) / (1 + u @ v)
-
-
-def any_normal(t):
-    """A unit vector across t."""
-    n = np.cross(t, np.eye(3)[np.argmin(np.abs(t))])
-    return n / np.linalg.norm(n)
-
-
-def kirchhoff(rod, Y, h, tol=1e-9):
-    """solve_bvp on the equations in the head of this file, from an engine's state: (solution, N (3,), O1).
-
-    solution.sol(s) gives x, t, n, M as rows 0-2, 3-5, 6-8, 9-11.
-    """
-    L = rod.length
-    below, above = (np.array(d) / np.linalg.norm(d) for d in (rod.below, rod.above))
-    t, n, b = frames(Y)
-    s = np.concatenate([[0.0], np.cumsum(h)])
-    M = rod.GI * Y[:, 10:11] * t + rod.EI * (Y[:, 11:12] * n + Y[:, 12:13] * b)
-    e1 = any_normal(above)
-    e2 = np.cross(above, e1)
-    start = n[0] - (n[0] @ below) * below
-    start /= np.linalg.norm(start)
-    final = carried(below, above, start)
-
-    def rates(s, y, N):
-        t, n, M = y[3:6], y[6:9], y[9:12]
-        eps = N @ t / rod.EA
-        bend = np.cross(M, t, axis=0) / rod.EI
-        K = np.cross(t, bend, axis=0)
-        load = -((1 + eps) ** 3) * np.cross(t, N[:, None] * np.ones_like(t), axis=0)
-        return np.vstack([(1 + eps) * t, bend, np.cross(K, n, axis=0), load])
-
-    def ends(a, b, N):
-        roll = rod.twist - (b[9:12] @ b[3:6]) / rod.GI * L
-        turned = np.cos(roll) * final + np.sin(roll) * np.cross(above, final)
-        return np.concatenate(
-            [
-                a[:3], a[3:6] - below, a[6:9] - start, b[:3] - rod.place,
-                [b[3:6] @ e1, b[3:6] @ e2, b[6:9] @ np.cross(above, turned)],
-            ]
-        )  # fmt: skip
-
-    y = np.vstack([positions(Y, h).T, t.T, n.T, M.T])
-    found = solve_bvp(rates, ends, s, y, force(rod, Y).mean(0), tol=tol, max_nodes=20000)
-    assert found.success, found.message
-    end = found.y[:, -1]
-    return found, found.p, end[9:12] @ end[3:6] / rod.GI
-
-
-@dataclass(frozen=True)
-class Localised:
-    """The buckle of an infinitely long rod under tension T and torque M (Coyne 1990; van der Heijden & Thompson 2000).
-
-    With m = M/(2 sqrt(EI T)), k = sqrt(T/EI), a = sqrt(1 - m^2), theta and psi the polar angles of t about the axis,
-    1 - cos theta = 2 a^2 sech^2(k a s),  psi = m k s + arctan((a/m) tanh(k a s)); `test_torsion_formulas` derives them.
-    """
-
-    EI: float
-    GI: float
-    T: float
-    m: float
-
-    @property
-    def torque(self):
-        return 2 * self.m * np.sqrt(self.EI * self.T)
-
-    @property
-    def shortening(self):
-        """D: what the ends come closer, m, extension left out."""
-        return 4 * np.sqrt(self.EI / self.T) * np.sqrt(1 - self.m**2)
-
-    def rotation(self, length):
-        """R: what the ends are turned against each other, rad."""
-        return self.torque * length / self.GI + 4 * np.arccos(self.m)
-
-    @property
-    def deflection(self):
-        """Largest distance from the axis, m: half the shortening."""
-        return 0.5 * self.shortening
-
-    def angles(self, s):
-        """theta, psi and d psi/ds at s from the middle."""
-        k, a, m = np.sqrt(self.T / self.EI), np.sqrt(1 - self.m**2), self.m
-        v = 2 * (a / np.cosh(k * a * s)) ** 2
-        return 2 * np.arcsin(np.sqrt(v / 2)), m * k * s + np.arctan(a / m * np.tanh(k * a * s)), 2 * m * k / (2 - v)
-
-    def rod(self, length, EA):
-        """The clamped rod of this length along x whose ends are placed as this solution has them."""
-        reach = (length - self.shortening) * (1 + self.T / EA)
-        return Rod(self.EI, self.GI, EA, length, (reach, 0.0, 0.0), self.rotation(length))
-
-    def state(self, rod, s):
-        """State (n, 13) along a rod: M = M e + r x F, with r.M the moment about the axis, and n without roll."""
-        middle = s - 0.5 * rod.length
-        theta, psi, rate = self.angles(middle)
-        t = np.stack([np.cos(theta), np.sin(theta) * np.cos(psi), np.sin(theta) * np.sin(psi)], 1)
-        fine = np.linspace(s[0], s[-1], 20 * len(s) + 1)
-        theta_f, _, rate_f = self.angles(fine - 0.5 * rod.length)
-        roll = -np.concatenate([[0.0], np.cumsum(_means(rate_f * np.cos(theta_f)) * np.diff(fine))])
-        roll = np.interp(s, fine, roll)
-        up = np.stack([-np.sin(theta), np.cos(theta) * np.cos(psi), np.cos(theta) * np.sin(psi)], 1)
-        side = np.cross(t, up)
-        n = np.cos(roll)[:, None] * up + np.sin(roll)[:, None] * side
-        theta_s = np.gradient(theta, s)
-        M = self.torque * t + self.EI * (theta_s[:, None] * side - (rate * np.sin(theta))[:, None] * up)
-        return state_of(rod, s, t, n, M, np.array([self.T, 0.0, 0.0]))
-
-
-def _means(values):
-    return 0.5 * (values[1:] + values[:-1])
