@@ -114,7 +114,8 @@ def _steepness(options, faults: list[str]) -> list[float]:
 
 def carries_tangents(scene) -> bool:
     """Whether the engine can carry perturbations through this scene, for exponents and a verdict on its regime."""
-    return scene.tether.bending_stiffness_Nm2 > 0 and scene.solver.integrator in ("esdirk43", "trbdf2")
+    implicit = scene.solver.integrator in ("esdirk43", "trbdf2")
+    return implicit and scene.tether.bending_stiffness_Nm2 > 0 and scene.motion.dimensions == 2
 
 
 def _growths(scene, changes: dict) -> dict:

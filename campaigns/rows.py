@@ -43,7 +43,7 @@ COLUMNS = (
     "message",
 )
 
-_STATISTICS = (
+STATISTICS = (
     "max_turn_rad",
     "min_strain",
     "loop_releases",
@@ -70,8 +70,8 @@ def buoy_row(trajectory, transient_periods: int, simulate=None) -> dict[str, obj
     below.
     """
     row = {"status": trajectory.status, "message": trajectory.message}
-    row |= {name: _number(trajectory.statistics.get(name)) for name in _STATISTICS}
-    columns = _sound_part(trajectory.columns)
+    row |= {name: _number(trajectory.statistics.get(name)) for name in STATISTICS}
+    columns = sound_part(trajectory.columns)
     scene = trajectory.scene
     if len(columns["time_s"]) and scene.water is not None:
         top_m = float(np.max(columns["z_m"])) + 0.5 * scene.buoy.diameter_m
@@ -79,7 +79,7 @@ def buoy_row(trajectory, transient_periods: int, simulate=None) -> dict[str, obj
     step_s, period_s = scene.sample_step_s(), scene.waves.period_s
     recorded_s = (len(columns["time_s"]) - 1) * step_s
     if recorded_s >= (transient_periods + 1) * period_s - 1e-6 * step_s:
-        row |= _settled(columns, step_s, period_s, transient_periods)
+        row |= settled(columns, step_s, period_s, transient_periods)
         if trajectory.status == "ok" and trajectory.tangent is not None:
             row |= _across(trajectory.tangent, transient_periods)
         if trajectory.status == "ok" and carried(trajectory):
@@ -115,7 +115,8 @@ def _verdict(trajectory, transient_periods: int, simulate):
     return tighter, verdict_of(trajectory, transient_periods, tighter)[0], tangent, wolf
 
 
-def _settled(columns, step_s: float, period_s: float, transient_periods: int) -> dict[str, object]:
+def settled(columns, step_s: float, period_s: float, transient_periods: int) -> dict[str, object]:
+    """Extremes, slack and strobed period of what follows the transient, by column of the table."""
     from analysis import extremes, slack_fraction
 
     transient_s = transient_periods * period_s
@@ -150,7 +151,7 @@ def strobed_period(columns, step_s: float, period_s: float, transient_periods: i
     return detect_period(section.points, LONGEST_PERIOD, STROBE_TOLERANCE, scale).period
 
 
-def _sound_part(columns) -> dict[str, np.ndarray]:
+def sound_part(columns) -> dict[str, np.ndarray]:
     """The samples before the first that is not finite: a run that blew up keeps what it had before."""
     arrays = {name: np.asarray(values, dtype=float) for name, values in columns.items()}
     sound = np.all([np.isfinite(values) for values in arrays.values()], axis=0)

@@ -94,21 +94,23 @@ def time_items(folder: Folder, runs: tuple[Run, ...]) -> list[Item]:
                 f"Wall time and Newton iterations of each run over wave steepness: {seen}.",
             )
         )
-    timing = folder.provenance.get("timing")
-    if isinstance(timing, dict) and timing:
-        rows = tuple(
-            (_TIMES.get(name, name.removesuffix("_s").replace("_", " ")), decimals(float(time), 2))
-            for name, time in timing.items()
-            if isinstance(time, (int, float))
-        )
-        items.append(
-            Table(
-                (Column("part", align="left"), Column("wall time", "s")),
-                rows,
-                "Where the time of the campaign went, from `provenance.json`.",
-            )
-        )
+    table = timing_table(folder)
+    items += [table] if table else []
     return items if len(items) > 1 else [*items, Text("Neither `table.csv` nor `provenance.json` holds times.")]
+
+
+def timing_table(folder: Folder) -> Table | None:
+    """The time split of a campaign, None where its provenance has none."""
+    timing = folder.provenance.get("timing")
+    if not isinstance(timing, dict) or not timing:
+        return None
+    rows = tuple(
+        (_TIMES.get(name, name.removesuffix("_s").replace("_", " ")), decimals(float(time), 2))
+        for name, time in timing.items()
+        if isinstance(time, (int, float))
+    )
+    caption = "Where the time of the campaign went, from `provenance.json`."
+    return Table((Column("part", align="left"), Column("wall time", "s")), rows, caption)
 
 
 def scene_items(folder: Folder, runs: tuple[Run, ...], modes: Modes | None) -> list[Item]:
