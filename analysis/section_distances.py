@@ -35,7 +35,8 @@ def section_distance(first, second):
 
     first (m, d), second (k, d)   points in the order of time, any units: each coordinate is divided by its standard
                                   deviation over both. The longer is cut at its start
-    Returns a SectionDistance: two records of one stationary motion have `across` about as large as `within`.
+    Returns a SectionDistance: two records of one stationary motion have `across` about as large as `within`; of pairs of
+    Henon orbits of 200 points one in twenty-five has more than 1.5 times as much.
     Raises ValueError for values that are not finite, or another number of coordinates.
     """
     a, b = (checked_series(points, name, dimensions=(2,)) for points, name in ((first, "first"), (second, "second")))

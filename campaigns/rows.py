@@ -12,6 +12,7 @@ from reports.buoy_motion import LONGEST_PERIOD, STROBE_TOLERANCE, carried, state
 
 COLUMNS = (
     "steepness",
+    "dimensions",
     "status",
     "regime",
     "regime_tighter",
@@ -33,6 +34,12 @@ COLUMNS = (
     "max_turn_rad",
     "min_strain",
     "loop_releases",
+    "buoy_lateral_max_m",
+    "rope_lateral_max_m",
+    "planar_loop_releases",
+    "planar_regime",
+    "planar_radius_min_m",
+    "planar_radius_max_m",
     "steps",
     "rejected_steps",
     "newton_iterations",
@@ -43,6 +50,7 @@ COLUMNS = (
     "message",
 )
 
+LEAST_JUDGED = 40  # periods after the transient below which no verdict is possible
 STATISTICS = (
     "max_turn_rad",
     "min_strain",
@@ -63,8 +71,11 @@ def buoy_row(trajectory, transient_periods: int, simulate=None) -> dict[str, obj
     transient_periods: wave periods left out of extremes, slack and strobed period; a record that does not outlast them
     by one period fills none of these.
     regime and exponents: of scenes with output.tangent_vectors, run to their end; all periods count, those with a loop
-    release too. offplane_growth: of scenes with output.lateral_growth; none where a loop was released after the
-    transient, because across the plane a loop has no rate of its own.
+    release too. A run in three dimensions has no tangent exponent, and the regime that its samples alone show.
+    offplane_growth: of scenes with output.lateral_growth; none where a loop was released after the transient, because
+    across the plane a loop has no rate of its own.
+    buoy_lateral_max_m, rope_lateral_max_m: largest |y| of the buoy, and of any node, after the transient, in three
+    dimensions. The columns planar_ are filled by `campaigns.sweep_dimensions`.
     simulate: to repeat a run that looks chaotic at a ten times tighter tolerance (regime_tighter); None: not done.
     max_buoy_height_above_water_m: highest point of the sphere less the still water depth, negative while it stays
     below.
@@ -80,9 +91,15 @@ def buoy_row(trajectory, transient_periods: int, simulate=None) -> dict[str, obj
     recorded_s = (len(columns["time_s"]) - 1) * step_s
     if recorded_s >= (transient_periods + 1) * period_s - 1e-6 * step_s:
         row |= settled(columns, step_s, period_s, transient_periods)
+        in_space = scene.motion.dimensions == 3
+        if in_space:
+            after = round(transient_periods * period_s / step_s)
+            row["buoy_lateral_max_m"] = float(np.abs(columns["y_m"][after:]).max())
+            row["rope_lateral_max_m"] = float(columns["offplane_m"][after:].max())
         if trajectory.status == "ok" and trajectory.tangent is not None:
             row |= _across(trajectory.tangent, transient_periods)
-        if trajectory.status == "ok" and carried(trajectory):
+        enough = recorded_s >= (transient_periods + LEAST_JUDGED) * period_s - 1e-6 * step_s
+        if trajectory.status == "ok" and (carried(trajectory) or (in_space and enough)):
             tighter, verdict, tangent, wolf = _verdict(trajectory, transient_periods, simulate)
             row |= {
                 "regime": verdict.regime,

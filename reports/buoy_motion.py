@@ -46,14 +46,20 @@ def carried(trajectory) -> bool:
 
 
 def verdict_of(trajectory, transient_periods: int, tighter: str | None = None):
-    """The regime of a finished run that carried tangent vectors: (Verdict, tangent Exponent, Wolf Exponent of r).
+    """The regime of a finished run: (Verdict, tangent Exponent, Wolf Exponent of r).
+
+    A run that carried no tangent vectors, as every run in three dimensions, has a tangent Exponent without a value.
 
     tighter: the regime of the same run at a tighter tolerance, where someone looked.
     Both exponents in bits per wave period. Every period after the transient counts, those with a loop release too.
     """
     from analysis import tangent_lyapunov
+    from analysis.exponents import BITS_PER_PERIOD, no_exponent
 
-    tangent = tangent_lyapunov(trajectory.tangent.growth_nats, transient_periods)[0]
+    if trajectory.tangent is None:
+        tangent = no_exponent("tangent dynamics", "no perturbation was carried along", BITS_PER_PERIOD)
+    else:
+        tangent = tangent_lyapunov(trajectory.tangent.growth_nats, transient_periods)[0]
     verdict, wolf = series_verdict(trajectory, transient_periods, tangent, tighter)
     return verdict, tangent, wolf
 

@@ -86,7 +86,8 @@ def claim_words(study: Study) -> list[str]:
     growing = [run for run in runs if any(run[f"{body}_motion"] == "growth" for body in BODIES)]
     verdict = "is not borne out" if not growing else "is borne out in part"
     found = "in none of" if not growing else f"in {len(growing)} of"
-    lines = [
+    lines = [*_calm_words(study)]
+    lines += [
         f"The paper's “grows exponentially” {verdict} at kA = {number(study.base['steepness'])}: exponential growth is "
         f"found {found} {count(len(runs), 'run')} with a push out of the plane."
     ]
@@ -98,9 +99,9 @@ def claim_words(study: Study) -> list[str]:
         share = most[f"{body}_share_of_inplane"]
         word = "is borne out" if share >= COMPARABLE else "is not borne out"
         lines.append(
-            f"“Comparable with the in-plane motion” {word} for the {body}: its largest lateral distance in any of these "
+            f"“Comparable with the in-plane motion” (a third of it, or more) {word} for the {body}: its largest lateral distance in any of these "
             f"runs is {metres(most[f'{body}_lateral_max_m'])}, {percent(share)} of the in-plane half range of the buoy "
-            f"({number(most['inplane_m'], 3)} m; {_where(most)}). Comparable is taken to begin at a third."
+            f"({number(most['inplane_m'], 3)} m; {_where(most)})."
         )
     shape = study.one(profiles=1, nodes=None)
     if shape is not None and shape.known("bow_inplane_m"):
@@ -111,6 +112,20 @@ def claim_words(study: Study) -> list[str]:
             f"{metres(shape['bow_lateral_m'])} across it ({percent(share)})."
         )
     return lines
+
+
+def _calm_words(study: Study) -> list[str]:
+    small = study.steepnesses[0]
+    runs = [run for run in study.runs if run.ok and run["steepness"] == small and run["dimensions"] == 3]
+    if small == study.base["steepness"] or not runs:
+        return []
+    growing = sum(any(run[f"{body}_motion"] == "growth" for body in BODIES) for run in runs)
+    decaying = sum(run["buoy_motion"] == run["rope_motion"] == "decay" for run in runs)
+    word = "is borne out" if not growing else "is not borne out"
+    return [
+        f"The paper's “does not grow” {word} at kA = {number(small)}: of {count(len(runs), 'run')} {growing} grow, and "
+        f"{decaying} decay exponentially."
+    ]
 
 
 def _where(run: Run) -> str:

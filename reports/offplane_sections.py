@@ -347,8 +347,8 @@ def grid_items(study: Study) -> list[Item]:
         Column("kA"),
         Column("H", "m"),
         Column("nodes"),
-        Column("rate of the buoy", "bits/T"),
-        Column("rope: early |y|/push", "s"),
+        Column("buoy rate", "bits/T"),
+        Column("early |y|/push", "s"),
         Column("first burst at", "T"),
         Column("first burst", "m"),
         Column("bursts"),
@@ -379,7 +379,7 @@ def grid_items(study: Study) -> list[Item]:
         for run in chosen
     )
     caption = (
-        "The grid. early |y|/push: in the first eight wave periods, while the rope goes slack but makes no loop yet; what a "
+        "The grid. early |y|/push: of the rope, in the first eight wave periods, while the rope goes slack but makes no loop yet; what a "
         "coarse grid answers there is its own. first burst: of the rope; turn: largest turn within one element, which has to stay below π/2 to be "
         "called resolved; wall: time per wave period on the machine that ran it. From `table.csv`."
     )
