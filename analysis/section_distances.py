@@ -1,10 +1,10 @@
-"""How far apart two clouds of points are, by the scatter that each has of its own: do two motions visit the same section?
+"""How far apart two clouds of points are, by the scatter each has of its own: do two motions share a section?
 
     E(X, Y) = 2 <|x - y|> - <|x - x'|> - <|y - y'|>,      D = sqrt(E/(2 <|x - y|>)),      0 <= D <= 1
 
-the energy distance of Szekely & Rizzo (2004), which is 0 only for equal distributions, made free of units. Points of one
-motion are not independent, so D has no table of significance here; its measure is the distance between the halves of
-one record, taken with as many points.
+the energy distance of Szekely & Rizzo (2004), which is 0 only for equal distributions, made free of units. Points of
+one motion are not independent, so D has no table of significance here; its measure is the distance between the halves
+of one record, taken with as many points.
 """
 
 from dataclasses import dataclass
@@ -35,8 +35,8 @@ def section_distance(first, second):
 
     first (m, d), second (k, d)   points in the order of time, any units: each coordinate is divided by its standard
                                   deviation over both. The longer is cut at its start
-    Returns a SectionDistance: two records of one stationary motion have `across` about as large as `within`; of pairs of
-    Henon orbits of 200 points one in twenty-five has more than 1.5 times as much.
+    Returns a SectionDistance: two records of one stationary motion have `across` about as large as `within`; of
+    pairs of Henon orbits of 200 points one in twenty-five has more than 1.5 times as much.
     Raises ValueError for values that are not finite, or another number of coordinates.
     """
     a, b = (checked_series(points, name, dimensions=(2,)) for points, name in ((first, "first"), (second, "second")))

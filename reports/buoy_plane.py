@@ -1,4 +1,4 @@
-"""Out of the plane: which runs of a buoy sweep were made in three dimensions, which released loops, and what differs."""
+"""Out of the plane: which runs of a sweep were made in three dimensions, which released loops, what differs."""
 
 from __future__ import annotations
 
@@ -13,8 +13,8 @@ from .wording import EMPTY, count, decimals, number, percent
 _MODES = {
     "2": "Every run was made in the plane of the waves.",
     "3": "Every run was made in three dimensions (`--dimensions 3`).",
-    "auto": "Every value was run in the plane of the waves first; where that run released loops, the row is of a run in "
-    "three dimensions (`--dimensions auto`).",
+    "auto": "Every value was run in the plane of the waves first; where that run released loops, the row is of a run "
+    "in three dimensions (`--dimensions auto`).",
 }
 
 
@@ -45,8 +45,8 @@ def _push_words(folder: Folder, runs) -> str:
     if not push:
         return "The scene itself gives the buoy a velocity across the waves at t = 0."
     return (
-        f"Without a push the motion would stay exactly in the plane: as the scene has no velocity across the waves, the "
-        f"buoy was given {number(push)} m/s there at t = 0 (`push_mps` in `provenance.json`)."
+        "Without a push the motion would stay exactly in the plane: as the scene has no velocity across the waves, "
+        f"the buoy was given {number(push)} m/s there at t = 0 (`push_mps` in `provenance.json`)."
     )
 
 
@@ -60,8 +60,8 @@ def _pair_words(pairs: list[Run]) -> str:
     regimes = f" The regime is the planar one in {len(same)} of {pairs_judged} with two verdicts." if judged else ""
     return (
         "Against the planar runs they replace, the ends of the range of r differ most at kA = "
-        f"{number(pairs[worst].steepness)}: by {decimals(off[worst], 3)} m, {percent(off[worst] / widths[worst])} of the "
-        f"range.{regimes}"
+        f"{number(pairs[worst].steepness)}: by {decimals(off[worst], 3)} m, {percent(off[worst] / widths[worst])} of "
+        f"the range.{regimes}"
     )
 
 
@@ -97,15 +97,15 @@ def _table(runs: list[Run], transient: int) -> Table:
             *(decimals(value(run, f"radius_{end}_m"), 3) if run.in_space else EMPTY for end in ("min", "max")),
             *(decimals(radius, 3) for radius in _planar_range(run)),
             (run.row["regime"] or EMPTY) if run.in_space else EMPTY,
-            ((run.row.get("planar_regime") if run.in_space else run.row["regime"]) or EMPTY),
+            (run.row.get("planar_regime") if run.in_space else run.row["regime"]) or EMPTY,
         )
         for run in runs
     )
     caption = (
-        "Runs in three dimensions (D = 3) and planar runs with loop releases (D = 2). loops: releases in the planar run and "
-        f"in the run in three dimensions; |y|: largest distance from the plane of the waves after {transient} wave "
-        "periods; turn: largest turn within one element. In three dimensions the regime is that of the samples alone. "
-        "From `table.csv`."
+        "Runs in three dimensions (D = 3) and planar runs with loop releases (D = 2). loops: releases in the planar "
+        f"run and in the run in three dimensions; |y|: largest distance from the plane of the waves after {transient} "
+        "wave periods; turn: largest turn within one element. In three dimensions the regime is that of the samples "
+        "alone. From `table.csv`."
     )
     return Table(heads, rows, caption, small=True)
 

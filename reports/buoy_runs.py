@@ -195,5 +195,5 @@ def lateral(run: Run, body: str) -> float:
 
 
 def planar_releases(run: Run) -> float:
-    """Loop releases of the planar run of the same scene: its own, or that of the run it replaces; nan if none is known."""
+    """Loop releases of the planar run of the same scene: its own, or those of the run it replaces; nan if unknown."""
     return value(run, "loop_releases") if not run.in_space else float(run.row.get("planar_loop_releases", math.nan))

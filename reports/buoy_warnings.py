@@ -11,9 +11,10 @@ from .wording import count, decimals, listed, number, percent, ranges
 
 # What `campaigns.out_of_plane` found; its report has the numbers.
 COMPARED = (
-    "`campaigns.out_of_plane` compared such runs with runs in three dimensions at kA = 0.13 and depths of 21.0, 21.6 and "
-    "22.0 m, over 200 wave periods: range of r, section, exponent and regime of the buoy were the same within what one "
-    "record leaves open. The path of the buoy in time after the first loops, and the shape of the rope in a loop, were not."
+    "`campaigns.out_of_plane` compared such runs with runs in three dimensions at kA = 0.13 and depths of 21.0, 21.6 "
+    "and 22.0 m, over 200 wave periods: range of r, section, exponent and regime of the buoy were the same within what "
+    "one record leaves open. The path of the buoy in time after the first loops, and the shape of the rope in a loop, "
+    "were not."
 )
 _MANY = 8  # statements of one kind above which a box sums them up
 

@@ -12,7 +12,7 @@ COMPARABLE = 1.0 / 3.0  # share of the in-plane motion from which a lateral moti
 
 
 def short_answer(study: Study, pairs: list[Pair]) -> tuple[str, ...]:
-    """One statement a line: the small wave, the large wave, the paper's claim, depth and stiffness, push, grid, plane."""
+    """One statement a line: both waves, the paper's claim, depth and stiffness, push, grid, planar runs."""
     lines = [_wave(study, steepness) for steepness in study.steepnesses]
     lines += [*claim_words(study), _depths(study), _pushes(study), _grid(study), comparison_words(pairs)]
     return tuple(line for line in lines if line)
@@ -84,7 +84,7 @@ def claim_words(study: Study) -> list[str]:
     if not runs:
         return []
     growing = [run for run in runs if any(run[f"{body}_motion"] == "growth" for body in BODIES)]
-    verdict = "is not borne out" if not growing else "is borne out in part"
+    verdict = "is not borne out" if not growing else "is borne out" + ("" if len(growing) == len(runs) else " in part")
     found = "in none of" if not growing else f"in {len(growing)} of"
     lines = [*_calm_words(study)]
     lines += [
@@ -99,9 +99,9 @@ def claim_words(study: Study) -> list[str]:
         share = most[f"{body}_share_of_inplane"]
         word = "is borne out" if share >= COMPARABLE else "is not borne out"
         lines.append(
-            f"“Comparable with the in-plane motion” (a third of it, or more) {word} for the {body}: its largest lateral distance in any of these "
-            f"runs is {metres(most[f'{body}_lateral_max_m'])}, {percent(share)} of the in-plane half range of the buoy "
-            f"({number(most['inplane_m'], 3)} m; {_where(most)})."
+            f"“Comparable with the in-plane motion” (a third of it, or more) {word} for the {body}: its largest "
+            f"lateral distance in any of these runs is {metres(most[f'{body}_lateral_max_m'])}, {percent(share)} of "
+            f"the in-plane half range of the buoy ({number(most['inplane_m'], 3)} m; {_where(most)})."
         )
     shape = study.one(profiles=1, nodes=None)
     if shape is not None and shape.known("bow_inplane_m"):
@@ -173,14 +173,15 @@ def _pushes(study: Study) -> str:
         off = max(spread([run[f"{body}_early_gain_s"] for run in runs]) for body in BODIES)
         late = [run["rope_lateral_late_m"] for run in runs]
         text = f"at kA = {number(steepness)} the first response per push is the same to {_share(off)}"
-        if all(run["rope_motion"] == "bursts" for run in runs):
-            text += (
-                f", and what the rope reaches in the second half of the run, {metres(min(late))} to {metres(max(late))}, "
-                "does not depend on the push"
-            )
-        else:
+        if all(run["rope_motion"] == "decay" for run in runs):
             ratios = [run["rope_lateral_late_m"] / run["seed_mps"] for run in runs]
             text += f", and so is what is left in the second half (to {_share(spread(ratios))})"
+        else:
+            text += (
+                f"; in the second half of the run the rope reaches {metres(min(late))} to {metres(max(late))}, a "
+                f"factor of {number(max(late) / min(late), 2)}, while the pushes differ by "
+                f"{number(runs[-1]['seed_mps'] / runs[0]['seed_mps'], 2)}"
+            )
         parts.append(text)
     if not parts:
         return ""
@@ -206,7 +207,9 @@ def _grid(study: Study) -> str:
             sizes = [run["rope_first_burst_m"] for run in runs]
             finest = runs[-1]["rope_first_burst_m"]
             off = max(abs(size / finest - 1.0) for size in sizes)
-            parts.append(f"{listed(number(size, 3) for size in sizes)} m at H = {number(depth)} m (within {percent(off)})")
+            parts.append(
+                f"{listed(number(size, 3) for size in sizes)} m at H = {number(depth)} m (within {percent(off)})"
+            )
     if not parts:
         return ""
     nodes = sorted({int(run["nodes"]) for run in study.select(nodes=None)})

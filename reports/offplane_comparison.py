@@ -114,8 +114,8 @@ def comparison_words(pairs: list[Pair]) -> str:
         off = max(pair.range_off for pair in pairs)
         return (
             f"{what}: for the buoy the planar run is good enough there. Range of r (to {percent(off)} of itself), "
-            "section, exponent and regime agree within what one record leaves open; the planar run is no substitute for "
-            "the rope's own shape in the loops, nor, once the runs have parted, for the buoy's path in time."
+            "section, exponent and regime agree within what one record leaves open; the planar run is no substitute "
+            "for the rope's own shape in the loops, nor, once the runs have parted, for the buoy's path in time."
         )
     lines = [f"H = {pair.depth} m differs in {listed(pair.lacking)}" for pair in pairs if pair.lacking]
     return f"{what}: {'; '.join(lines)}; the planar run is good enough for the buoy in {len(good)} of {len(pairs)}."
@@ -131,9 +131,9 @@ def comparison_items(study: Study, pairs: list[Pair]) -> list[Item]:
         heading,
         Text(
             "In a plane a loop that is pulled tight cannot open, and the planar engine turns everything above it by 2π "
-            "(a loop release); in three dimensions the loop leaves the plane by itself. The same scenes in both, judged "
-            f"by the {periods} wave periods after the first {study.transient}, and both by their samples alone (`regime` "
-            "without the tangent exponent, which runs in three dimensions do not have):"
+            "(a loop release); in three dimensions the loop leaves the plane by itself. The same scenes in both, "
+            f"judged by the {periods} wave periods after the first {study.transient}, and both by their samples alone "
+            "(`regime` without the tangent exponent, which runs in three dimensions do not have):"
         ),
         _table(pairs),
         _figure(pairs, study.transient),
@@ -181,9 +181,9 @@ def _table(pairs: list[Pair]) -> Table:
                 )
             )
     caption = (
-        "Planar runs and their counterparts. loops: loop releases; turn: largest turn in one element; T: tension at the "
-        "top; σ: largest exponent. Section: energy distance of the strobed r, r' of the two runs (0 equal, 1 apart), and, "
-        "within, of the halves of each. From `table.csv` and the trajectories."
+        "Planar runs and their counterparts. loops: loop releases; turn: largest turn in one element; T: tension at "
+        "the top; σ: largest exponent. Section: energy distance of the strobed r, r' of the two runs (0 equal, 1 "
+        "apart), and, within, of the halves of each. From `table.csv` and the trajectories."
     )
     return Table(heads, tuple(rows), caption, small=True)
 
@@ -216,7 +216,9 @@ def _pair_words(pair: Pair) -> str:
     first = pair.spatial["rope_first_burst_period"]
     before = "" if math.isnan(first) else f" (before the first loop, by {number(1e3 * pair.before_m, 2)} mm at most)"
     off = f"the ends of the ranges of r differ by {percent(pair.range_off)} of the range"
-    verdict = "no difference that one record would not show by itself" if not pair.lacking else (
-        f"different in {listed(pair.lacking)}"
+    verdict = (
+        "no difference that one record would not show by itself"
+        if not pair.lacking
+        else (f"different in {listed(pair.lacking)}")
     )
     return f"H = {pair.depth} m: {parted}{before}; {off}; {verdict}."

@@ -10,15 +10,8 @@ from .folder import Folder, FolderError, read_folder
 from .offplane_answer import short_answer, speed
 from .offplane_comparison import comparison_items, read_pairs
 from .offplane_runs import COLUMNS, VARIED, WORDS, Run, Study, read_study
-from .offplane_sections import (
-    dependence_items,
-    direction_items,
-    grid_items,
-    growth_items,
-    history_items,
-    push_items,
-    shape_items,
-)
+from .offplane_sections import growth_items, history_items, push_items
+from .offplane_varied import dependence_items, direction_items, grid_items, shape_items
 from .scene_table import scene_table
 from .wording import EMPTY, count, decimals, listed, number
 
@@ -36,11 +29,11 @@ def report(directory: str | Path) -> Report:
     items = [
         Heading("Question"),
         Text(
-            "Waves of one direction move a tethered buoy in a plane. Is that plane stable? The paper (Tjavaras, Zhu, Liu, "
-            "Triantafyllou and Yue, “The mechanics of highly-extensible cables”, Journal of Sound and Vibration 213(4), "
-            "1998, section 4.2.2 and figure 20) pushes the buoy across the waves by 1e-5 m/s and reports that the motion "
-            "across the plane does not grow at kA = 0.016, and that at kA = 0.13 it grows exponentially and becomes "
-            "comparable with the motion in the plane. Here buoy and rope are looked at apart."
+            "Waves of one direction move a tethered buoy in a plane. Is that plane stable? The paper (Tjavaras, Zhu, "
+            "Liu, Triantafyllou and Yue, “The mechanics of highly-extensible cables”, Journal of Sound and Vibration "
+            "213(4), 1998, section 4.2.2 and figure 20) pushes the buoy across the waves by 1e-5 m/s and reports that "
+            "the motion across the plane does not grow at kA = 0.016, and that at kA = 0.13 it grows exponentially and "
+            "becomes comparable with the motion in the plane. Here buoy and rope are looked at apart."
         ),
         Heading("Short answer"),
         Bullets(short_answer(study, pairs)),
@@ -85,9 +78,9 @@ def _warnings(study: Study) -> list[Item]:
         grids = sorted({int(run["nodes"]) for run in coarse})
         fine = sorted({int(run["nodes"]) for run in pushed} - set(grids))
         lines = [
-            f"In {count(len(coarse), 'run')} ({listed(map(str, grids))} nodes) an element turns by more than π/2, at most "
-            f"by {decimals(max(run['max_turn_rad'] for run in coarse), 2)} rad: the loops there are not resolved, and "
-            "sizes of single bursts carry the error that the section on the grid shows."
+            f"In {count(len(coarse), 'run')} ({listed(map(str, grids))} nodes) an element turns by more than π/2, at "
+            f"most by {decimals(max(run['max_turn_rad'] for run in coarse), 2)} rad: the loops there are not resolved, "
+            "and sizes of single bursts carry the error that the section on the grid shows."
         ]
         if fine:
             lines.append(f"No element turns that far on {listed(map(str, fine))} nodes.")

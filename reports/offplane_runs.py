@@ -1,4 +1,4 @@
-"""The runs of the out-of-plane campaign as its report looks at them: rows by what was varied, trajectories on demand."""
+"""The runs of the out-of-plane campaign as its report sees them: rows by what was varied, trajectories on demand."""
 
 from __future__ import annotations
 
@@ -9,7 +9,16 @@ import numpy as np
 
 from .folder import Folder
 
-VARIED = ("steepness", "depth_m", "bending_stiffness_Nm2", "nodes", "dimensions", "seed_mps", "seed_direction", "profiles")
+VARIED = (
+    "steepness",
+    "depth_m",
+    "bending_stiffness_Nm2",
+    "nodes",
+    "dimensions",
+    "seed_mps",
+    "seed_direction",
+    "profiles",
+)
 WORDS = ("seed_direction", "buoy_motion", "buoy_reason", "rope_motion", "rope_reason")
 _OF_A_BODY = (
     "motion",

@@ -54,7 +54,7 @@ def lateral_histories(panels: list[tuple[str, list[History]]]) -> Picture:
 
 
 def seed_histories(panels: list[tuple[str, str, list[tuple[float, np.ndarray, np.ndarray]]]]) -> Picture:
-    """Two columns of panels (title, axis label, curves): each curve is (push in m/s, t/T_i, values), darker for less."""
+    """Two columns of panels (title, axis label, curves): each curve is (push, t/T_i, values), darker for less."""
     from matplotlib import colormaps
 
     with sheet(0.9 + 2.1 * (len(panels) // 2)) as figure:

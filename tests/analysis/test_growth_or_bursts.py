@@ -1,4 +1,4 @@
-"""Exponential growth, bursts or neither: closed forms and records of known answer; never a number where there is none."""
+"""Exponential growth, bursts or neither: closed forms, records of known answer; no number where there is none."""
 
 import math
 
@@ -78,6 +78,15 @@ def test_growth_that_saturates_is_fitted_up_to_its_saturation():
     assert found.end < math.log(1e5) / rate + 12 * PERIOD, "the level afterwards takes no part"
 
 
+@pytest.mark.parametrize("rate", [0.05, 0.08, 0.12])
+def test_fast_growth_is_found_although_it_is_soon_over(rate):
+    """Ten nats in as little as 17 periods: too few spans of half a swing, enough single periods."""
+    y = 5e-5 * np.exp(rate * times(250)) * np.sin(SWING * times(250))
+    found = growth_or_bursts(y / np.sqrt(1.0 + y**2), STEP, PERIOD)
+    assert found.kind == "growth"
+    assert abs(found.rate.value - rate) < min(3 * found.rate.error, 0.25 * rate)
+
+
 def test_decay_to_a_floor_is_fitted_down_to_the_floor():
     rate = -0.03
     floor = 1e-9 * np.random.default_rng(3).uniform(0.5, 1.0, len(times(300)))
@@ -126,14 +135,14 @@ def test_noise_about_a_level_has_neither_rate_nor_bursts(seed):
     assert growth_or_bursts(y, STEP, PERIOD).kind == "neither"
 
 
-def test_a_random_walk_is_taken_for_an_exponential_in_one_of_four():
-    """A limit: ln |y| wanders by several nats, and one straight part of it in four records is luck."""
+def test_a_random_walk_is_taken_for_an_exponential_in_three_of_ten():
+    """A limit: ln |y| wanders by several nats, and straight parts of it are luck."""
     taken = 0
     for seed in range(60):
         walk = np.cumsum(np.random.default_rng(seed).normal(0.0, 0.4, 251))
         y = np.exp(np.interp(times(250), PERIOD * np.arange(251), walk))
         taken += growth_or_bursts(y, STEP, PERIOD).rate.found
-    assert taken <= 20
+    assert taken <= 0.4 * 60
 
 
 def test_units_of_size_and_time_change_nothing_but_themselves():

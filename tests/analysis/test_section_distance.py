@@ -1,4 +1,4 @@
-"""Distance of two sections: 0 for the same, 1 for single points, about its own scatter for two records of one motion."""
+"""Distance of two sections: 0 for the same, 1 for points, about its own scatter for two records of one motion."""
 
 import math
 

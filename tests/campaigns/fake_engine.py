@@ -60,7 +60,9 @@ class FakeEngine:
         return [float(line) for line in Path(self.log).read_text().split()]
 
 
-def sines(scene, periods, status="ok", message="", harmonic=1.0, radius=(20.0, 1.0), tension=(2000.0, 500.0), releases=0):
+def sines(
+    scene, periods, status="ok", message="", harmonic=1.0, radius=(20.0, 1.0), tension=(2000.0, 500.0), releases=0
+):
     """A trajectory whose radius, angle and tension are sines of `harmonic` times the wave frequency."""
     step = scene.sample_step_s()
     t = step * np.arange(round(periods * scene.waves.period_s / step) + 1)
