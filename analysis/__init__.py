@@ -54,6 +54,11 @@ _HOME = {
     "mutual_information": "embedding_delay",
     "choose_embedding": "embedding_dimension",
     "Evidence": "evidence",
+    "Growth": "growth",
+    "growth_or_bursts": "growth",
+    "envelope_of": "growth",
+    "SectionDistance": "section_distances",
+    "section_distance": "section_distances",
     "Verdict": "verdicts",
     "regime": "verdicts",
 }

@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from .buoy_motion import carried, verdict_of
+from .buoy_motion import verdict_of
 from .buoy_runs import PAPER_STEEPNESS, Run, load, value
 from .content import Column, Figure, Heading, Item, Table, Text
 from .figures.exponents import convergence
@@ -57,7 +57,7 @@ def regime_items(folder: Folder, runs: tuple[Run, ...], transient: int) -> list[
         if abs(run.steepness - steepness) > 0.01 or any(run.steepness == done for done, *_ in curves):
             continue
         trajectory = load(folder, run)
-        if trajectory is None or not carried(trajectory):
+        if trajectory is None:
             continue
         verdict, _, wolf = verdict_of(trajectory, transient, run.row.get("regime_tighter") or None)
         items += _why(run, verdict)
