@@ -11,6 +11,7 @@ STRAIN_BELOW_MINUS_ONE = 4
 NOT_FINITE = 5
 STATICS_FAILED = 6
 STEP_LIMIT = 7
+TENSION_FLAT = 8
 
 WORDS = {
     OK: "ok",
@@ -21,6 +22,7 @@ WORDS = {
     NOT_FINITE: "not-finite",
     STATICS_FAILED: "statics-failed",
     STEP_LIMIT: "step-limit",
+    TENSION_FLAT: "tension-flat",
 }
 
 ADVICE = {
@@ -38,4 +40,5 @@ ADVICE = {
     STEP_LIMIT: "the run stands still at t = {t:.6g} s: 20 000 steps of {dt:.2g} s were tried within the "
     "time of one usual step; raise solver.rtol, or look for what the grid cannot resolve (compression without "
     "bending, for one)",
+    TENSION_FLAT: "the tension law has lost its slope at t = {t:.6g} s, and solver.scheme = \"paper-box\" divides by it",
 }

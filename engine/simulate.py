@@ -45,6 +45,8 @@ def simulate_batch(scenes, periods=None, duration_s=None, progress=None):
     durations = [_duration(scene, periods, duration_s) for scene in scenes]
     if not scenes:
         return []
+    if any(scene.solver.scheme == "paper-box" for scene in scenes):
+        return [_one_by_scheme(*each, progress) for each in zip(scenes, durations, strict=True)]
     batch = _Batch(scenes, durations)
     chunk = max(1, round(PERIODS_PER_CALL * _period(scenes[0]) / float(batch.records[0]["output_step"])))
     while not batch.done():
@@ -52,6 +54,14 @@ def simulate_batch(scenes, periods=None, duration_s=None, progress=None):
         if progress is not None:
             progress(batch.fraction())
     return [batch.trajectory(b) for b in range(len(scenes))]
+
+
+def _one_by_scheme(scene, duration_s, progress):
+    if scene.solver.scheme == "paper-box":
+        from .paper_box import run
+
+        return run(scene, duration_s, progress)
+    return simulate_batch([scene], duration_s=duration_s, progress=progress)[0]
 
 
 def _period(scene):

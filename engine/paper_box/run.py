@@ -1,0 +1,113 @@
+"""One scene by the paper's scheme: eq. (28) at fixed steps from rest, until the end of the run or of what it can do.
+
+The paper says nothing of steps that fail. Here the first one ends the run, as do a turn per element that the nodes
+do not resolve, a tension law without slope (row 1 is divided by it) and a strain of -1; the message says which.
+"""
+
+import math
+import time
+
+from ..guards import (
+    NEWTON_FAILED,
+    NOT_FINITE,
+    OK,
+    STATICS_FAILED,
+    STRAIN_BELOW_MINUS_ONE,
+    TENSION_FLAT,
+    TURN_UNRESOLVED,
+    WORDS,
+)
+from ..trajectory import Trajectory
+from .box import Band, level_of
+from .law import tension_law
+from .line import line_of
+from .newton import TOLERANCE, solve
+from .record import Record
+from .start import at_rest
+
+MOST_TURN = math.pi / 2  # rad in one element; beyond, Euler parameters and curvatures part (docs/paper_box.md)
+FLAT = 1e-6  # of the largest slope f' at rest: below it row 1 is noise
+STEPS_PER_CALL = 100
+
+SAID = {
+    OK: "",
+    NEWTON_FAILED: "Newton's method did not converge",
+    NOT_FINITE: "a value that is not a finite number appeared",
+    STRAIN_BELOW_MINUS_ONE: "an element is compressed to nothing (strain <= -1)",
+    TENSION_FLAT: "the tension law has lost its slope, and the paper's form divides by it",
+    TURN_UNRESOLVED: "the tether turns by {turn:.3g} rad within one element, more than it resolves",
+}
+
+
+def run(scene, duration_s, progress=None, start=None, accelerations=False, most_turn=MOST_TURN):
+    """Simulate one scene in the paper's own discrete form.
+
+    Parameters
+    ----------
+    scene : Scene, bending stiffness above zero; fixed steps of solver.step_s (T/400, or 0.0125 s without waves)
+    duration_s : float, s
+    progress : callable(fraction), optional
+    start : (n, 13) equilibrium of the engine in space, optional (`start.at_rest`)
+    accelerations : true normal accelerations in Morison's force instead of the paper's component rates (`line.Line`)
+    most_turn : rad, the turn of one element at which the run stops
+
+    Returns
+    -------
+    Trajectory
+        status "ok", or why it ended early. Further statistics: closure_m, the largest distance between the upper end by
+        the shape of the line and by its own velocity, zero for the exact equations: what compatibility in the local
+        frame has lost; euler_norm_error, the largest | |beta|^2 - 1 |.
+    """
+    line = line_of(scene, accelerations)
+    band, record = Band(line), Record(scene, line, duration_s)
+    dt = float(line.record["fixed_step"])
+    most = int(line.record["max_newton"])
+    tolerance = scene.solver.newton_tolerance or TOLERANCE
+    status, Y = at_rest(scene, line, band, start)
+    steps = iterations = failures = 0
+    began = time.perf_counter()
+    t = 0.0
+    if status == OK:
+        level = level_of(line, 0.0, Y)
+        flat = FLAT * float(tension_law(line.record, line.tables, Y[0])[1].max())
+        record.keep(level)
+        status = TURN_UNRESOLVED if record.max_turn > most_turn else OK
+    while status == OK and not record.done():
+        t = (steps + 1) * dt
+        status, used, after = solve(line, band, level.Y, t, level, most, tolerance, flat)
+        iterations += used
+        if status != OK:
+            failures = 1
+            break
+        level = after
+        steps += 1
+        record.keep(level)
+        if record.max_turn > most_turn:
+            status = TURN_UNRESOLVED
+        if progress is not None and steps % STEPS_PER_CALL == 0:
+            progress(min(1.0, t / duration_s))
+    statistics = {
+        "steps": steps,
+        "rejected_steps": 0,
+        "newton_iterations": iterations,
+        "newton_failures": failures,
+        "loop_releases": 0,
+        "max_turn_rad": record.max_turn,
+        "min_strain": record.min_strain,
+        "end_time_s": steps * dt,
+        "wall_s": time.perf_counter() - began,
+        "closure_m": record.closure,
+        "euler_norm_error": record.norm_error,
+    }
+    return Trajectory(scene, WORDS[status], _message(status, t, dt, record), record.columns(), statistics, record.lines())
+
+
+def _message(status, t, dt, record):
+    if status == OK:
+        return ""
+    if status == STATICS_FAILED:
+        return "paper-box: no static equilibrium was found from which to start"
+    said = SAID[status].format(turn=record.max_turn)
+    seen = f"turn per element up to {record.max_turn:.3g} rad, strain down to {record.min_strain:.3g} before"
+    cure = "add nodes, shorten solver.step_s, or take solver.scheme = \"conservation\""
+    return f"paper-box: {said} in the step of {dt:.3g} s to t = {t:.6g} s ({seen}): {cure}"
