@@ -12,6 +12,7 @@ NOT_FINITE = 5
 STATICS_FAILED = 6
 STEP_LIMIT = 7
 TENSION_FLAT = 8
+SHAPE_LOST = 9
 
 WORDS = {
     OK: "ok",
@@ -23,6 +24,7 @@ WORDS = {
     STATICS_FAILED: "statics-failed",
     STEP_LIMIT: "step-limit",
     TENSION_FLAT: "tension-flat",
+    SHAPE_LOST: "shape-lost",
 }
 
 ADVICE = {
@@ -41,4 +43,6 @@ ADVICE = {
     "time of one usual step; raise solver.rtol, or look for what the grid cannot resolve (compression without "
     "bending, for one)",
     TENSION_FLAT: "the tension law has lost its slope at t = {t:.6g} s, and solver.scheme = \"paper-box\" divides by it",
+    SHAPE_LOST: "the shape of the tether and the path of its end have parted by t = {t:.6g} s (solver.scheme = "
+    "\"paper-box\")",
 }

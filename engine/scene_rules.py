@@ -156,6 +156,10 @@ def _vectors(sound: Sound) -> Iterator[tuple[str, tuple[float, float, float]]]:
 def _solver(sound: Sound) -> Iterator[str]:
     if (found := sound.values("solver.min_step_s", "solver.max_step_s")) and found[0] > found[1]:
         yield fault("solver.min_step_s", found[0], f"at most solver.max_step_s, {shown(found[1])}")
+    stiffness = sound.values("tether.bending_stiffness_Nm2")
+    if sound.value("solver.scheme") == "paper-box" and stiffness and stiffness[0] == 0:
+        rule = "above 0, because solver.scheme is 'paper-box' and eq. (40) divides by EI"
+        yield fault("tether.bending_stiffness_Nm2", stiffness[0], rule)
 
 
 def _output(sound: Sound) -> Iterator[str]:

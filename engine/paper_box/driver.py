@@ -1,7 +1,11 @@
 """One scene by the paper's scheme: eq. (28) at fixed steps from rest, until the end of the run or of what it can do.
 
-The paper says nothing of steps that fail. Here the first one ends the run, as do a turn per element that the nodes
-do not resolve, a tension law without slope (row 1 is divided by it) and a strain of -1; the message says which.
+The paper says nothing of steps that fail. Here the first one ends the run, and so do
+
+    a turn per element that the nodes do not resolve,
+    a shape whose upper end has left the path of its own velocity: compatibility (19) holds rates only, in axes that turn
+        with the line; what a bend loses of the length of the line is lost for good, and r with it,
+    a tension law without slope (row 1 is divided by it), a strain of -1, a value that is not finite.
 """
 
 import math
@@ -11,6 +15,7 @@ from ..guards import (
     NEWTON_FAILED,
     NOT_FINITE,
     OK,
+    SHAPE_LOST,
     STATICS_FAILED,
     STRAIN_BELOW_MINUS_ONE,
     TENSION_FLAT,
@@ -25,7 +30,8 @@ from .newton import TOLERANCE, solve
 from .record import Record
 from .start import at_rest
 
-MOST_TURN = math.pi / 2  # rad in one element; beyond, Euler parameters and curvatures part (docs/paper_box.md)
+MOST_TURN = math.pi / 2  # rad in one element; half of what two frames can tell
+MOST_GAP = 0.01  # m per m of line between shape and path: the paper's own bound on its errors (section 3)
 FLAT = 1e-6  # of the largest slope f' at rest: below it row 1 is noise
 STEPS_PER_CALL = 100
 
@@ -36,10 +42,11 @@ SAID = {
     STRAIN_BELOW_MINUS_ONE: "an element is compressed to nothing (strain <= -1)",
     TENSION_FLAT: "the tension law has lost its slope, and the paper's form divides by it",
     TURN_UNRESOLVED: "the tether turns by {turn:.3g} rad within one element, more than it resolves",
+    SHAPE_LOST: "the upper end by the shape of the line is {gap:.3g} m away from where its velocity took it",
 }
 
 
-def run(scene, duration_s, progress=None, start=None, accelerations=False, most_turn=MOST_TURN):
+def run(scene, duration_s, progress=None, start=None, accelerations=False, most_turn=MOST_TURN, most_gap=MOST_GAP):
     """Simulate one scene in the paper's own discrete form.
 
     Parameters
@@ -49,7 +56,7 @@ def run(scene, duration_s, progress=None, start=None, accelerations=False, most_
     progress : callable(fraction), optional
     start : (n, 13) equilibrium of the engine in space, optional (`start.at_rest`)
     accelerations : true normal accelerations in Morison's force instead of the paper's component rates (`line.Line`)
-    most_turn : rad, the turn of one element at which the run stops
+    most_turn, most_gap : rad in one element, m per m of line at which the run stops (heads of the constants above)
 
     Returns
     -------
@@ -84,6 +91,8 @@ def run(scene, duration_s, progress=None, start=None, accelerations=False, most_
         record.keep(level)
         if record.max_turn > most_turn:
             status = TURN_UNRESOLVED
+        elif record.closure > most_gap * line.s[-1]:
+            status = SHAPE_LOST
         if progress is not None and steps % STEPS_PER_CALL == 0:
             progress(min(1.0, t / duration_s))
     statistics = {
@@ -107,7 +116,7 @@ def _message(status, t, dt, record):
         return ""
     if status == STATICS_FAILED:
         return "paper-box: no static equilibrium was found from which to start"
-    said = SAID[status].format(turn=record.max_turn)
+    said = SAID[status].format(turn=record.max_turn, gap=record.closure)
     seen = f"turn per element up to {record.max_turn:.3g} rad, strain down to {record.min_strain:.3g} before"
     cure = "add nodes, shorten solver.step_s, or take solver.scheme = \"conservation\""
     return f"paper-box: {said} in the step of {dt:.3g} s to t = {t:.6g} s ({seen}): {cure}"
