@@ -42,7 +42,6 @@ ADVICE = {
     STEP_LIMIT: "the run stands still at t = {t:.6g} s: 20 000 steps of {dt:.2g} s were tried within the "
     "time of one usual step; raise solver.rtol, or look for what the grid cannot resolve (compression without "
     "bending, for one)",
-    TENSION_FLAT: "the tension law has lost its slope at t = {t:.6g} s, and solver.scheme = \"paper-box\" divides by it",
-    SHAPE_LOST: "the shape of the tether and the path of its end have parted by t = {t:.6g} s (solver.scheme = "
-    "\"paper-box\")",
+    TENSION_FLAT: "the tension law has lost its slope at t = {t:.6g} s, by which the paper's form divides",
+    SHAPE_LOST: "the shape of the tether and the path of its end have parted by t = {t:.6g} s",
 }

@@ -19,7 +19,7 @@ import numpy as np
 from scipy.linalg import LinAlgError, solve_banded
 
 from . import ends
-from .line import ABOVE_PLANE, BELOW_PLANE, EULER, OMEGA
+from .line import ABOVE_PLANE, BELOW_PLANE, O2, O3, OMEGA, SPEEDS
 from .nodal import P, times_M
 from .water import water_at
 
@@ -62,9 +62,7 @@ def residual(line, Y, water, t, old, force=None):
         g = times_M(line, moved, step, water) + times_M(line, start[:, None, :], step, old.water)
         g = g / (2 * dt) + 0.5 * (P(line, moved, water) + old.P[:, None, :])
         change = Y[:, 1:] - Y[:, :-1] + start[:, 1:] - start[:, :-1]
-        above = ends.upper(
-            line, t, dt, moved[:, :, -1], start[:, -1:], water[:, -1:], old.water[:, -1:]
-        )
+        above = ends.upper(line, t, dt, moved[:, :, -1], start[:, -1:], water[:, -1:], old.water[:, -1:])
     below = ends.lower(moved[:, :, 0], start[:, :1])
     value, slope = g.real[:, 0, :], g.imag / sizes[:, None]
     boxes = change + line.h * (value[:, 1:] + value[:, :-1])
@@ -99,28 +97,34 @@ class Band:
     def _place(self, rows, columns):
         return (self.up + rows - columns, columns)
 
-    def update(self, rows, blocks, end_per):
-        """Newton's update (13, n) in the units of Y, and its largest entry in the scales of the scene; None if singular."""
+    def update(self, rows, blocks, end_per, forces=0):
+        """Newton's update (13, n) in the units of Y, and its largest entry in the scales of the scene.
+
+        end_per: inverse scale of the three balances above. forces: with it also the responses (forces, 13, n) of the
+        unknowns to a unit of force (N) along each of the first axes, in a list after the update. None if singular.
+        """
         line = self.line
-        active, per = line.active, line.per
+        active, scale = line.active, line.per[line.active]
         matrix = np.zeros((self.low + self.up + 1, self.width))
-        scale = per[active]
-        lower_per = np.array([*per[3:6], 1.0, 1.0, *per[11:13]])[self.below]
-        upper_per = np.array([end_per] * 3 + [*per[OMEGA]])[self.above]
+        lower_per = np.array([*line.per[SPEEDS], 1.0, 1.0, *line.per[O2 : O3 + 1]])[self.below]
+        upper_per = np.array([end_per] * 3 + [*line.per[OMEGA]])[self.above]
         matrix[self.foot] = blocks[0][self.below] * lower_per[:, None] / scale
         for place, block in ((self.lower_node, blocks[1]), (self.upper_node, blocks[2])):
             matrix[place] = block[active] * (scale[:, None] / scale)[:, :, None]
         matrix[self.top] = blocks[3][self.above] * upper_per[:, None] / scale
+        right = np.zeros((self.width, 1 + forces))
         boxes = (rows[1][active] * scale[:, None]).T.ravel()
-        right = -np.concatenate([rows[0][self.below] * lower_per, boxes, rows[2][self.above] * upper_per])
+        right[:, 0] = -np.concatenate([rows[0][self.below] * lower_per, boxes, rows[2][self.above] * upper_per])
+        for axis in range(forces):
+            right[self.width - len(self.above) + axis, 1 + axis] = end_per
         try:
             scaled = solve_banded((self.low, self.up), matrix, right, overwrite_ab=True, check_finite=False)
         except LinAlgError:
             return None, np.inf
-        size = np.abs(scaled).max()
-        found = np.zeros((13, len(line.h) + 1))
-        found[active] = (scaled / self.per).reshape(-1, len(active)).T
-        return found, size
+        found = np.zeros((1 + forces, 13, len(line.h) + 1))
+        found[:, active] = (scaled / self.per[:, None]).T.reshape(1 + forces, -1, len(active)).transpose(0, 2, 1)
+        return found[0] if not forces else found, np.abs(scaled[:, 0]).max()
 
-
-__all__ = ["EULER", "Band", "Level", "level_of", "residual"]
+    def size(self, update):
+        """Largest entry of an update (13, n) in the scales of the scene."""
+        return np.abs(update * self.line.per[:, None]).max()

@@ -3,8 +3,8 @@
 The paper says nothing of steps that fail. Here the first one ends the run, and so do
 
     a turn per element that the nodes do not resolve,
-    a shape whose upper end has left the path of its own velocity: compatibility (19) holds rates only, in axes that turn
-        with the line; what a bend loses of the length of the line is lost for good, and r with it,
+    a shape whose upper end has left the path of its own velocity: compatibility (19) holds rates only, in axes that
+        turn with the line; what a bend loses of the length of the line is lost for good, and r with it,
     a tension law without slope (row 1 is divided by it), a strain of -1, a value that is not finite.
 """
 
@@ -81,7 +81,7 @@ def run(scene, duration_s, progress=None, start=None, accelerations=False, most_
         status = TURN_UNRESOLVED if record.max_turn > most_turn else OK
     while status == OK and not record.done():
         t = (steps + 1) * dt
-        status, used, after = solve(line, band, level.Y, t, level, most, tolerance, flat)
+        status, used, after = solve(line, band, t, level, most, tolerance, flat)
         iterations += used
         if status != OK:
             failures = 1
@@ -108,7 +108,8 @@ def run(scene, duration_s, progress=None, start=None, accelerations=False, most_
         "closure_m": record.closure,
         "euler_norm_error": record.norm_error,
     }
-    return Trajectory(scene, WORDS[status], _message(status, t, dt, record), record.columns(), statistics, record.lines())
+    message = _message(status, t, dt, record)
+    return Trajectory(scene, WORDS[status], message, record.columns(), statistics, record.lines())
 
 
 def _message(status, t, dt, record):

@@ -31,7 +31,7 @@ def force_and_velocity(line, Y):
 
 
 def buoy_load(line, N, V, water):
-    """What the inertia of the buoy balances in (30), taken to the left: N + drag - wave load - net buoyancy, (3, ...)."""
+    """What the inertia of the buoy balances in (30), on the left: N + drag - wave load - net buoyancy, (3, ...)."""
     record = line.record
     slip = V - water[:3]
     speed = np.sqrt(slip[0] * slip[0] + slip[1] * slip[1] + slip[2] * slip[2])

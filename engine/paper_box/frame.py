@@ -97,13 +97,13 @@ def parameters_of(C):
 
 
 def turns(beta, Omega, h):
-    """Turn within each element (rad): the larger of the angle between the frames at its ends and |mean Omega| h.
+    """Turn within each element (rad): the larger of the angle between the frames at its ends and h times mean |Omega|.
 
-    beta (4, n), Omega (3, n), h (n - 1,). The frames alone do not see whole turns, the curvatures alone do not see
-    what the box rule made of them; where both are small and agree the element is resolved.
+    beta (4, n), Omega (3, n), h (n - 1,). The frames alone do not see whole turns. The mean of |Omega|, not |mean|: a
+    slack line in this form carries curvatures of alternate signs from node to node, with frames that hardly turn.
     """
     unit = beta / np.linalg.norm(beta, axis=0)
     cosine = np.abs(np.sum(unit[:, 1:] * unit[:, :-1], axis=0))
     between = 2 * np.arccos(np.minimum(cosine, 1.0))
-    along = h * np.linalg.norm(0.5 * (Omega[:, 1:] + Omega[:, :-1]), axis=0)
-    return np.maximum(between, along)
+    bend = np.linalg.norm(Omega, axis=0)
+    return np.maximum(between, 0.5 * h * (bend[1:] + bend[:-1]))

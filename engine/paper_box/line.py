@@ -1,11 +1,10 @@
-"""What one run of the paper's form needs of its scene: constants of appendix A, grid, scales, and which unknowns move."""
+"""What a run of the paper's form needs of its scene: constants of appendix A, grid, scales, and what moves."""
 
 from dataclasses import dataclass
 
 import numpy as np
 
 from .. import parameters
-from ..ends import BUOY, FREE, HELD
 
 EPS, S_N, S_B, U, V, W, B0, B1, B2, B3, O1, O2, O3 = range(13)
 SPEEDS, EULER, OMEGA = slice(U, W + 1), slice(B0, B3 + 1), slice(O1, O3 + 1)
@@ -78,5 +77,3 @@ def line_of(scene, accelerations=False):
         active=PLANE if scene.motion.dimensions == 2 else SPACE,
     )
 
-
-__all__ = ["BUOY", "FREE", "HELD", "Line", "line_of"]

@@ -1,7 +1,8 @@
 """The equilibrium from which a run starts: the engine's planar statics, lifted, then settled in the paper's own rule.
 
 The two discretisations of rest differ by O(h^2). What the box rule in time is given that does not satisfy its own
-equations at rest stays for ever and changes sign at every step, so the shape is settled once more.
+equations at rest stays for ever and changes sign at every step, so the shape is settled once more. A current across
+the plane of the planar statics comes on in shares.
 """
 
 import math
@@ -10,15 +11,16 @@ import numpy as np
 
 from .. import parameters, statics
 from ..ends import HELD
-from ..guards import OK, STATICS_FAILED
+from ..guards import NEWTON_FAILED, OK, STATICS_FAILED
 from .ends import end_force, force_and_velocity
 from .frame import TO_PAPER, parameters_of, rotation, to_local
 from .line import EULER, SPEEDS
-from .newton import solve
-from .water import positions
+from .newton import TOLERANCE, newton_update
+from .water import positions, water_at
 
-MOST = 200  # iterations of one equilibrium: a shape that current turns out of the plane of the guess takes many
-PLACE = 1e-9  # m per m of line to which a held end is in its place
+MOST = 100  # iterations of one equilibrium
+SHARES = 16  # of the current, where the whole of it does not settle at once
+TINY = 1e-30
 
 
 def at_rest(scene, line, band, start=None):
@@ -29,45 +31,53 @@ def at_rest(scene, line, band, start=None):
     """
     code, guess = (OK, from_space(start)) if start is not None else planar_guess(scene, line)
     if code != OK:
-        return code, None
-    held = line.record["end"] == HELD
-    force = force_and_velocity(line, guess[:, -1])[0] if held else end_force(line)
-    code, Y = _in_place(scene, line, band, guess, force) if held else _settled(line, band, guess, force)
-    if code != OK:
         return STATICS_FAILED, None
+    target, force = None, end_force(line)
+    if line.record["end"] == HELD:
+        target = np.array(scene.end.position_m)[TO_PAPER]
+        force = force_and_velocity(line, guess[:, -1])[0]
+    code, Y, _ = settled(line, band, guess, force, target)
+    if code != OK:
+        Y = guess
+        for share in np.linspace(0.0, 1.0, SHARES + 1):
+            code, Y, force = settled(line, band, Y, force, target, share)
+            if code != OK:
+                return STATICS_FAILED, None
     velocity = np.outer(np.array(scene.start.buoy_velocity_mps)[TO_PAPER], line.s / line.s[-1])
     Y[SPEEDS] = to_local(Y[EULER], velocity)
     return OK, Y
 
 
-def _settled(line, band, guess, force):
-    code, _, level = solve(line, band, guess, 0.0, None, MOST, force=force)
-    return code, None if level is None else level.Y
+def settled(line, band, guess, force, target=None, share=1.0):
+    """Equilibrium near `guess` under a share of the current: (code, Y (13, n), force on the end (3,)).
 
-
-def _in_place(scene, line, band, guess, force):
-    """The equilibrium whose upper end is in its place: the force that puts it there, by Powell's hybrid method."""
-    from scipy.optimize import root
-
-    target = np.array(scene.end.position_m)[TO_PAPER]
-    axes = slice(0, 3 if line.spatial else 2)
-    per = float(line.record["per_force"])
-    last = [guess]
-
-    def miss(scaled):
-        pull = np.zeros(3)
-        pull[axes] = scaled / per
-        code, Y = _settled(line, band, last[0], pull)
+    target: place (3,) of a held end, paper's axes. The force that keeps it there is then found along with the shape:
+    Newton's update of the shape is affine in the force, and the place of the end linear in the update.
+    """
+    Y, force = guess.copy(), np.array(force, float)
+    axes = 0 if target is None else 3 if line.spatial else 2
+    for _ in range(MOST):
+        water = share * water_at(line, 0.0, Y, waves=False)
+        code, found, size = newton_update(
+            line, band, Y, water, 0.0, None, float(line.record["per_force"]), force, axes
+        )
         if code != OK:
-            return np.full(scaled.shape, np.inf)
-        last[0] = Y
-        return (positions(line, Y)[:, -1] - target)[axes]
-
-    with np.errstate(all="ignore"):
-        found = root(miss, force[axes] * per, options={"xtol": 1e-13})
-        off = miss(found.x)
-    ok = np.isfinite(off).all() and np.abs(off).max() <= PLACE * line.s[-1]
-    return (OK, last[0]) if ok else (STATICS_FAILED, None)
+            break
+        update, pull = found, np.zeros(3)
+        if axes:
+            reach = [positions(line, Y + 1j * TINY * part)[:axes, -1].imag / TINY for part in found]
+            missing = (target - positions(line, Y)[:, -1])[:axes] - reach[0]
+            pull[:axes] = np.linalg.lstsq(np.array(reach[1:]).T, missing)[0]
+            update = found[0] + np.tensordot(pull[:axes], found[1:], 1)
+            size = band.size(update)
+        factor = min(1.0, 1.0 / size)
+        Y += factor * update
+        force += factor * pull
+        if Y[0].min() <= -1.0:
+            break
+        if size < TOLERANCE:
+            return OK, Y, force
+    return NEWTON_FAILED, guess, force
 
 
 def planar_guess(scene, line):
@@ -97,8 +107,8 @@ def lifted(Y, azimuth=0.0):
     The angle from the vertical is a = pi/2 - phi, so n and Omega_3 change their signs against the planar engine.
     """
     a = math.pi / 2 - Y[:, 4]
-    side, out = np.array([0.0, math.cos(azimuth), math.sin(azimuth)]), np.array([0.0, -math.sin(azimuth), math.cos(azimuth)])
-    up = np.array([1.0, 0.0, 0.0])
+    cos, sin = math.cos(azimuth), math.sin(azimuth)
+    up, side, out = np.array([1.0, 0.0, 0.0]), np.array([0.0, cos, sin]), np.array([0.0, -sin, cos])
     t = np.outer(up, np.cos(a)) + np.outer(side, np.sin(a))
     n = np.outer(side, np.cos(a)) - np.outer(up, np.sin(a))
     b = np.outer(out, np.ones_like(a))

@@ -1,4 +1,4 @@
-"""Positions of the nodes and the water there: R_s = (1 + eps) t summed from the anchor, then `engine.waves`, `currents`.
+"""Positions of the nodes, R_s = (1 + eps) t summed from the anchor, and the water there (`engine.waves`, `currents`).
 
 The paper does not say where it takes the water; its kinematics depend on the position, which depends on every node
 below. As in the conservation form, positions are renewed in each Newton iteration and left out of the Jacobian.

@@ -1,7 +1,8 @@
 """Appendix A against the equations that it abbreviates, by symbols: every entry of M and every row of P.
 
-The momentum (12), moments (16), compatibility (19) and beta_s are written with cross products and Morison's force (23),
-(24) (the fluid pushes with +), solved for dY/ds, and differentiated by the rates. What remains is exact, for any |beta|.
+The momentum (12), moments (16), compatibility (19) and beta_s are written with cross products and Morison's force
+(23)-(24) (the fluid pushes with +), solved for dY/ds, and differentiated by the rates. Nothing is rounded, and |beta|
+is any.
 """
 
 import pytest
@@ -9,20 +10,21 @@ import sympy as sp
 
 from tests.engine.paper_box.appendix import (
     C_6,
-    C_right,
     M_36,
     M_37,
-    M_right,
     P_40,
-    P_right,
     UNKNOWNS,
+    C_right,
+    M_right,
+    P_right,
     corrections_40,
     letters,
 )
 
 Y = sp.symbols(UNKNOWNS, real=True)
 RATES = dict(zip(UNKNOWNS, sp.symbols([f"{name}_t" for name in UNKNOWNS], real=True), strict=True))
-CONSTANTS = {name: sp.Symbol(name, positive=True) for name in "m m_a R w0 EI GIp half_rho_d_pi_Cdt half_rho_d_Cdp".split()}
+NAMES = "m m_a R w0 EI GIp half_rho_d_pi_Cdt half_rho_d_Cdp".split()
+CONSTANTS = {name: sp.Symbol(name, positive=True) for name in NAMES}
 WATER = sp.symbols("Uc Vc Wc", real=True)
 ACCELERATION = sp.symbols("Uc_t Vc_t Wc_t", real=True)
 F, DF = sp.symbols("f df", positive=True)

@@ -27,7 +27,7 @@ def planar_states():
 
 
 def paper_states(Y, eps_t, phi_t, V_t, F):
-    """The same in the paper's unknowns and their rates, (13, n) each, and its water: a = pi/2 - phi from the vertical."""
+    """The same in the paper's unknowns and their rates, (13, n) each, and its water; a = pi/2 - phi."""
     a, a_t = np.pi / 2 - Y[:, 4], -phi_t
     state, rate = np.zeros((13, N)), np.zeros((13, N))
     state[[0, 1, 12]] = Y[:, 0], -Y[:, 1], -Y[:, 5]

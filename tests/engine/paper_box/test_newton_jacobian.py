@@ -4,12 +4,15 @@ The residual below is (28) in matrices: M (13 x 13) and P of `appendix`, node by
 at the ends; J is its complex step. The water is frozen, as it is in the scheme's own Jacobian.
 """
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 
 from engine.paper_box import box, ends
 from engine.paper_box.line import line_of
 from tests.engine.box_equations import tension
+from tests.engine.paper_box.appendix import C_right
 from tests.engine.paper_box.states import LAWS, M_and_P, scene_of, states
 
 DT, STEP = 0.01, 1e-30
@@ -21,14 +24,8 @@ ENDS = {
 PLANE = [0, 1, 3, 4, 6, 9, 12]
 
 
-def C_of(b):
-    return np.array(
-        [
-            [b[0] ** 2 + b[1] ** 2 - b[2] ** 2 - b[3] ** 2, 2 * (b[1] * b[2] + b[0] * b[3]), 2 * (b[1] * b[3] - b[0] * b[2])],
-            [2 * (b[1] * b[2] - b[0] * b[3]), b[0] ** 2 - b[1] ** 2 + b[2] ** 2 - b[3] ** 2, 2 * (b[2] * b[3] + b[0] * b[1])],
-            [2 * (b[1] * b[3] + b[0] * b[2]), 2 * (b[2] * b[3] - b[0] * b[1]), b[0] ** 2 - b[1] ** 2 - b[2] ** 2 + b[3] ** 2],
-        ]
-    )  # fmt: skip
+def C_of(beta):
+    return np.array(C_right(SimpleNamespace(**{f"b{i}": beta[i] for i in range(4)})))
 
 
 def buoy_force(scene, Y, water):
@@ -58,7 +55,8 @@ def printed_28(scene, h, Y, water, Y_old, water_old):
         rows.append(box_row)
     top = Y[:, -1]
     if scene.end.kind == "buoy":
-        (_, V, now), (_, V_old, before) = buoy_force(scene, top, water[:, -1]), buoy_force(scene, Y_old[:, -1], water_old[:, -1])
+        _, V, now = buoy_force(scene, top, water[:, -1])
+        _, V_old, before = buoy_force(scene, Y_old[:, -1], water_old[:, -1])
         rows.append((scene.buoy.mass_kg + scene.buoy.added_mass_kg) * (V - V_old) / DT + 0.5 * (now + before))
     elif scene.end.kind == "held":
         rows.append(C_of(top[6:10]).T @ top[3:6])
@@ -72,7 +70,8 @@ def printed_28(scene, h, Y, water, Y_old, water_old):
 
 def rows_of_plane(n):
     """Equations that a motion in the plane leaves: of 7 below, of each box, of 6 above."""
-    return [0, 1, 3, 6, *(7 + 13 * k + i for k in range(n - 1) for i in PLANE), *(7 + 13 * (n - 1) + i for i in (0, 1, 5))]
+    boxes = (7 + 13 * k + i for k in range(n - 1) for i in PLANE)
+    return [0, 1, 3, 6, *boxes, *(7 + 13 * (n - 1) + i for i in (0, 1, 5))]
 
 
 @pytest.mark.parametrize("dimensions", [3, 2])

@@ -39,7 +39,7 @@ def test_the_tension_law_is_the_engines(law):
 def test_true_accelerations_do_not_depend_on_the_roll_of_the_frame():
     """Rows 2, 3 of M dY/dt as a vector in fixed axes: with true accelerations a rolling frame changes nothing.
 
-    With the component rates of the print it does, by (m_a V - R U_c) omega_1: the print needs a frame that does not roll.
+    With the component rates of the print it does, by (m_a V - R U_c) omega_1.
     """
     from engine.paper_box.frame import roll, rotation, to_local
 
