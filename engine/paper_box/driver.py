@@ -31,7 +31,7 @@ from .record import Record
 from .start import at_rest
 
 MOST_TURN = math.pi / 2  # rad in one element; half of what two frames can tell
-MOST_GAP = 0.01  # m per m of line between shape and path: the paper's own bound on its errors (section 3)
+MOST_GAP = 0.0025  # m per m of line between shape and path; the paper bounds its whole error by 0.01 (section 3)
 FLAT = 1e-6  # of the largest slope f' at rest: below it row 1 is noise
 STEPS_PER_CALL = 100
 

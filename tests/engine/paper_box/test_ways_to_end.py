@@ -45,7 +45,8 @@ def test_turns_that_the_nodes_do_not_resolve():
 
 
 def test_taut_motion_leaves_the_guards_far_away():
-    found = simulate(load_scene("tethered_buoy", {**SNAP, "waves.steepness": 0.016, "tether.nodes": 11}), duration_s=5.0)
+    scene = load_scene("tethered_buoy", {**SNAP, "waves.steepness": 0.016, "tether.nodes": 11})
+    found = simulate(scene, duration_s=5.0)
     assert found.status == "ok" and found.message == ""
     assert found.statistics["max_turn_rad"] < 1e-3
     assert found.statistics["closure_m"] < 1e-6
