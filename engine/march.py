@@ -21,6 +21,7 @@ from .elementary import copy_into
 from .guards import NEWTON_FAILED, NOT_FINITE, OK, STEP_LIMIT, STEP_UNDERFLOW, STRAIN_BELOW_MINUS_ONE, TURN_UNRESOLVED
 from .integrators import RUNGE_KUTTA
 from .sampling import sample
+from .shocks import renew_viscosity
 from .steps import one_stage_step, runge_kutta_step
 
 _COUNTS = "status samples profiles small_steps steps rejected newton failures releases attempts cautious trail".split()
@@ -87,6 +88,9 @@ def march(p, tables, state, Y, Y_before, C, K, samples, profiles, trail_T, trail
     work = work_arrays(p, n)
     C_new = np.empty((n, size))
     Ys, Ks = np.empty((s, n, unknowns)), np.empty((s, n, size))
+    e_t = np.empty(n)
+    if p.viscous and state.steps > 0:
+        renew_viscosity(p, tables, size // 2, C, K, e_t, work[2])
     if state.steps == 0:
         conserved(p, Y, C)
     room = trail_T.shape[0]
@@ -136,6 +140,8 @@ def march(p, tables, state, Y, Y_before, C, K, samples, profiles, trail_T, trail
         copy_into(Y, Ys[s - 1])
         copy_into(K, Ks[s - 1])
         copy_into(C, C_new)
+        if p.viscous:
+            renew_viscosity(p, tables, size // 2, C, K, e_t, work[2])
         state.t = p.end_release if lets_go else state.t + dt
         state.dt_before = dt
         for k in range(n):

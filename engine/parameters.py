@@ -9,6 +9,7 @@ import math
 import numpy as np
 
 from . import currents, ends, integrators, tension, waves
+from .spatial import lift
 
 
 def _dtype(counts, values):
@@ -18,29 +19,38 @@ def _dtype(counts, values):
 RECORD = np.dtype(
     _dtype(
         "nodes grid_at law law_at law_n wet waves current cur_at cur_nx cur_nz cur_nt above end end_motion end_at "
-        "end_n bent method stages method_at adaptive max_newton release max_releases at_rest",
+        "end_n bent viscous method stages method_at adaptive max_newton release max_releases at_rest",
         "m w0 EI p1 p2 p3 p4 p5 ct cn ma Rw depth k omega amplitude phase direction ramp "
-        "M_total M_wave lift C_buoy end_x end_z end_release end_fx end_fz per_strain per_force per_speed per_curvature "
+        "M_total M_wave lift C_buoy end_x end_z end_release end_fx end_fz end_decay "
+        "barrier c_quadratic c_linear per_strain per_force per_speed per_curvature "
         "order rtol newton_tolerance fixed_step max_step min_step start_x start_z "
         "output_step release_step growth_per_step shortest_wave profile_step window alpha_m alpha_f gamma",
     )
 )
-# Three dimensions have a type of their own: a kernel that serves both is compiled for each on its first use. The
-# fields come first, or Numba would take one record for a subtype of the other.
+# Three dimensions have a type of their own: a kernel that serves both is compiled for each on its first use. Their own
+# fields come first: Numba would take a record that only goes on after the planar fields for a planar one.
 SPATIAL = np.dtype(
     _dtype(
         "cur_ny clamp_below clamp_above",
-        "GI dir_x dir_y end_y end_fy start_y below_x below_y below_z above_x above_y above_z twist twist_ramp",
+        "GI dir_x dir_y end_y end_fy start_y below_x below_y below_z above_x above_y above_z carry0 carry1 carry2 carry3 twist "
+        "twist_ramp",
     )
     + RECORD.descr
 )
 
 
-def grid(length_m, nodes, stretching):
-    """Element lengths (nodes - 1,), m: s(xi) = L/2 (1 + tanh(b (2 xi - 1))/tanh b), finer at both ends; b = 0 even."""
+def grid(length_m, nodes, stretching, refined="both"):
+    """Element lengths (nodes - 1,), m, at even xi; b = 0 even elements.
+
+    Finer at both ends s(xi) = L/2 (1 + tanh(b (2 xi - 1))/tanh b), at the lower one L (1 + tanh(b (xi - 1))/tanh b), at
+    the upper one L tanh(b xi)/tanh b.
+    """
     xi = np.linspace(0.0, 1.0, nodes)
-    s = xi if stretching == 0 else 0.5 * (1 + np.tanh(stretching * (2 * xi - 1)) / np.tanh(stretching))
-    return np.diff(length_m * s)
+    if stretching == 0:
+        return np.diff(length_m * xi)
+    inside = {"both": 2 * xi - 1, "lower": xi - 1, "upper": xi}[refined]
+    s = np.tanh(stretching * inside) / np.tanh(stretching)
+    return np.diff(length_m * {"both": 0.5 * (1 + s), "lower": 1 + s, "upper": s}[refined])
 
 
 def record_of(scene, tables):
@@ -56,7 +66,7 @@ def record_of(scene, tables):
         tables.append(np.asarray(values, float).ravel())
         return at
 
-    h = grid(scene.tether.length_m, scene.tether.nodes, scene.tether.grid_stretching)
+    h = grid(scene.tether.length_m, scene.tether.nodes, scene.tether.grid_stretching, scene.tether.grid_refined)
     record["nodes"] = scene.tether.nodes
     record["grid_at"] = place(h)
     _tether(record, scene, place)
@@ -84,6 +94,7 @@ def _tether(record, scene, place):
     record["cn"] = 0.5 * rho_w * d * tether.drag_normal
     record["ma"] = tether.added_mass * displaced
     record["Rw"] = displaced + record["ma"]
+    record["barrier"] = tether.compression_barrier_N
     if law.law == "linear":
         record["law"], record["p1"] = tension.LINEAR, law.stiffness_N
     elif law.law == "tanh":
@@ -154,6 +165,7 @@ def _end(record, scene, place):
     record["end_release"] = math.inf
     if end.kind == "free":
         _put(record, "end_", end.force_N)
+        record["end_decay"] = end.force_decay_s or 0.0
     if end.kind == "held":
         _held(record, end, place)
     if end.kind != "buoy":
@@ -194,7 +206,19 @@ def _turning(record, scene):
         record[f"clamp_{name}"] = clamp.rotation == "clamped"
         direction = np.array(clamp.direction or chord)
         _put(record, f"{name}_", direction / np.linalg.norm(direction))
-    record["twist"], record["twist_ramp"] = end.twist_rad, end.twist_ramp_s
+    _put_carried(record, np.array(chord) / np.linalg.norm(chord))
+    record["twist"], record["twist_ramp"] = end.twist_rad or 0.0, end.twist_ramp_s or 0.0
+
+
+def _put_carried(record, chord):
+    """Where no twist is: the rotation of the lower clamp into the upper one, by the shortest ways to the chord and on.
+
+    Straight from clamp to clamp would say the same of a line in a plane, but nothing where the clamps oppose each other
+    (a line that hangs between two vertical ones).
+    """
+    below, above = ([float(record[f"{name}_{axis}"]) for axis in "xyz"] for name in ("below", "above"))
+    first, second = lift.shortest_rotation(below, chord), lift.shortest_rotation(chord, above)
+    record["carry0"], record["carry1"], record["carry2"], record["carry3"] = lift.product(second, first)
 
 
 def _solver(record, scene, place, h):
@@ -216,8 +240,9 @@ def _solver(record, scene, place, h):
     record["profile_step"] = (scene.output.profiles_step_s or record["output_step"]) if scene.output.profiles else 0.0
     record["fixed_step"] = solver.step_s or (period / 400 if period else 0.0125)
     record["max_step"], record["min_step"] = solver.max_step_s, solver.min_step_s
-    usual = period / 50 if period else 0.1
-    record["window"] = min(solver.max_step_s, usual) if record["adaptive"] else record["fixed_step"]
+    if solver.shock_viscosity is not None:
+        record["viscous"] = True
+        record["c_quadratic"], record["c_linear"] = solver.shock_viscosity.quadratic, solver.shock_viscosity.linear
     record["rtol"], record["growth_per_step"] = solver.rtol, solver.growth_per_step
     record["shortest_wave"] = (math.pi / h.min()) ** 2
     record["newton_tolerance"] = solver.newton_tolerance or 1e-2 * solver.rtol
@@ -225,9 +250,13 @@ def _solver(record, scene, place, h):
     record["release"], record["max_releases"] = solver.loop_release, solver.max_loop_releases
     moving = scene.end.kind == "buoy" and any(scene.start.buoy_velocity_mps)
     impulsive = record["waves"] and scene.waves.ramp_s == 0
-    moved = record["end_motion"] != ends.STILL or scene.end.twist_ramp_s > 0
+    moved = record["end_motion"] != ends.STILL or bool(scene.end.twist_ramp_s)
     record["at_rest"] = not (moving or impulsive or moved)
     _scales(record, scene, h)
+    if solver.courant is not None:
+        record["fixed_step"] = solver.courant * float(h.min()) / fastest_wave(record, scene)
+    usual = period / 50 if period else 0.1
+    record["window"] = min(solver.max_step_s, usual) if record["adaptive"] else record["fixed_step"]
 
 
 def _scales(record, scene, h):
@@ -256,6 +285,13 @@ def _scales(record, scene, h):
     record["per_curvature"] = float(np.mean(h)) / 2.5
 
 
+def fastest_wave(record, scene):
+    """Largest axial wave speed sqrt(T'/m), m/s, between no strain and that of the static loads."""
+    strains = np.linspace(0.0, 1.0 / float(record["per_strain"]), 2001)
+    slopes = np.diff([tension_at(strain, scene.tether.tension) for strain in strains]) / strains[1]
+    return math.sqrt(max(slopes.max(), 1e-300) / float(record["m"]))
+
+
 def end_speed(end):
     """Greatest speed (m/s) at which a held end is moved; of a table the greatest between its rows, nearly."""
     motion = end.motion
@@ -272,7 +308,7 @@ def buckling_load(tether, end):
     clamped line buckles, EI (2 pi/L)^2 (Euler), and the tension that M = GIp twist/L overcomes, M^2/(4 EI) (Love).
     """
     EI, L = tether.bending_stiffness_Nm2, tether.length_m
-    torque = tether.torsion_stiffness_Nm2 * end.twist_rad / L
+    torque = tether.torsion_stiffness_Nm2 * (end.twist_rad or 0.0) / L
     return max(EI * (2 * math.pi / L) ** 2, torque**2 / (4 * EI)) if EI > 0 else 0.0
 
 

@@ -1,7 +1,7 @@
 """What is simulated, as frozen pydantic models: sections of a scene with their units, defaults and bounds.
 
 Lengths from the anchor, x with the wave, y across, z up; SI units throughout. Symbols of the paper in brackets;
-NOTATION.md maps them. Bounds of single values live here; rules between values live in `scene_rules`.
+NOTATION.md maps them. Bounds of single values live here and in `scene_values`; rules between values in `scene_rules`.
 """
 
 import hashlib
@@ -9,57 +9,33 @@ import json
 import math
 from typing import Annotated, Literal
 
-from pydantic import BaseModel, ConfigDict, Discriminator, Field, Tag, ValidationError, model_validator
+from pydantic import Field, ValidationError, model_validator
 from pydantic_core import PydanticCustomError
 
-from engine.scene_faults import FLAT, SOLID, Allowed, SceneError, field_faults
+from engine.scene_faults import SceneError, field_faults
 from engine.scene_rules import cross_faults
 from engine.scene_toml import toml_text
-
-# Strict leaves: neither "1.0" nor true is a number, and 41.0 is not a count; a whole number is a number.
-_Float = Annotated[float, Field(strict=True, allow_inf_nan=False)]
-Number = Annotated[_Float, Allowed("a finite number")]
-Positive = Annotated[_Float, Field(gt=0), Allowed("a finite number above 0")]
-NonNegative = Annotated[_Float, Field(ge=0), Allowed("a finite number, 0 or above")]
-UnitInterval = Annotated[_Float, Field(ge=0, le=1), Allowed("a number from 0 to 1")]
-Tolerance = Annotated[_Float, Field(gt=0, lt=1), Allowed("a number above 0 and below 1")]
-Stretching = Annotated[_Float, Field(ge=0, le=5), Allowed("a number from 0 to 5")]
-Nodes = Annotated[int, Field(strict=True, ge=3, le=20000), Allowed("a whole number from 3 to 20000")]
-Count = Annotated[int, Field(strict=True, ge=1, le=10**9), Allowed("a whole number from 1 to 1000000000")]
-CountOrZero = Annotated[int, Field(strict=True, ge=0, le=10**9), Allowed("a whole number from 0 to 1000000000")]
-Flag = Annotated[bool, Field(strict=True), Allowed("true or false")]
-Text = Annotated[str, Field(strict=True), Allowed("text")]
-Name = Annotated[str, Field(strict=True, pattern=r"^[A-Za-z0-9_.-]+$"), Allowed("letters, digits, and any of _ . -")]
-Vector = Annotated[tuple[_Float, _Float, _Float], Allowed("a list of 3 finite numbers [x, y, z]")]
-Five = Annotated[tuple[_Float, _Float, _Float, _Float, _Float], Allowed("a list of 5 finite numbers")]
-Series = Annotated[tuple[_Float, ...], Field(min_length=2), Allowed("a list of at least 2 finite numbers")]
-Axis = Annotated[tuple[_Float, ...], Field(min_length=1), Allowed("a list of at least 1 finite number")]
-Vectors = Annotated[
-    tuple[tuple[_Float, _Float, _Float], ...], Field(min_length=2), Allowed("a list of at least 2 vectors [x, y, z]")
-]
-_Flat = tuple[tuple[tuple[_Float, ...], ...], ...]
-_Solid = tuple[_Flat, ...]
-
-
-def _block_kind(value: object) -> str:
-    """FLAT or SOLID: how deep the lists are nested, judged by the first entries."""
-    depth = 0
-    while isinstance(value, (list, tuple)) and value:
-        value, depth = value[0], depth + 1
-    return SOLID if depth > 3 else FLAT
-
-
-Block = Annotated[
-    Annotated[_Flat, Field(min_length=1), Tag(FLAT)] | Annotated[_Solid, Field(min_length=1), Tag(SOLID)],
-    Discriminator(_block_kind),
-    Allowed("finite numbers as nested lists, indexed [time][height][x], or [time][height][y][x] with current.y_m"),
-]
-
-
-class Section(BaseModel):
-    """A part of a scene: immutable, and an unknown key is a fault."""
-
-    model_config = ConfigDict(frozen=True, extra="forbid")
+from engine.scene_values import (
+    Axis,
+    Block,
+    Count,
+    CountOrZero,
+    Five,
+    Flag,
+    Name,
+    Nodes,
+    NonNegative,
+    Number,
+    Positive,
+    Section,
+    Series,
+    Stretching,
+    Text,
+    Tolerance,
+    UnitInterval,
+    Vector,
+    Vectors,
+)
 
 
 class LinearTension(Section):
@@ -92,13 +68,15 @@ class Tether(Section):
     density_kgpm3: Positive  # of the material [rho]; m = rho A
     diameter_m: Positive = Field(default_factory=lambda known: math.sqrt(4.0 * known["area_m2"] / math.pi))  # [d]
     nodes: Nodes = 41
-    grid_stretching: Stretching = 0.0  # 0: equal elements; above: finer towards both ends
+    grid_stretching: Stretching = 0.0  # 0: equal elements; above: finer towards an end
+    grid_refined: Literal["both", "lower", "upper"] = "both"  # the end towards which stretching refines
     bending_stiffness_Nm2: NonNegative  # [EI]; without it slack is ill-posed
     torsion_stiffness_Nm2: NonNegative = 0.0  # [GIp]; enters out of a plane only
     drag_normal: NonNegative = 1.0  # [Cdp], on the diameter
     drag_tangential: NonNegative = 0.1  # [Cdt], on pi times the diameter
     added_mass: NonNegative = 1.0  # ma = added_mass * rho_w pi d^2/4, normal to the line
     tension: Annotated[LinearTension | TanhTension | TabulatedTension, Field(discriminator="law")]
+    compression_barrier_N: NonNegative = 0.0  # T loses this times (0.5/(1 + eps) - 1)^2 below a strain of -0.5
 
 
 class Anchor(Section):
@@ -119,7 +97,7 @@ class HarmonicMotion(Section):
 
 
 class TableMotion(Section):
-    """A held end is moved through displacements at times, by a monotone cubic (PCHIP); at rest before and after."""
+    """A held end is moved through displacements at times, by a monotone cubic (PCHIP) that starts and ends at rest."""
 
     law: Literal["table"]
     time_s: Series
@@ -135,12 +113,13 @@ class End(Section):
     kind: Literal["buoy", "held", "free"] = "buoy"
     position_m: Vector | None = None  # of a held end, from the anchor
     force_N: Vector | None = None  # on a free end; on a held one after its release (None: no force)
+    force_decay_s: Positive | None = None  # [tbr]: the force on a free end falls as cos^2(pi t/(2 tbr)) to zero
     motion: Annotated[HarmonicMotion | TableMotion, Field(discriminator="law")] | None = None  # of a held end
     release_s: Positive | None = None  # when a held end is let go; None: never
     rotation: Literal["pinned", "clamped"] = "pinned"  # clamped: held ends only
     direction: Vector | None = None  # of the clamped tangent; None: along the line from the anchor
-    twist_rad: Number = 0.0  # turn of the upper clamp about its tangent against the lower one
-    twist_ramp_s: NonNegative = 0.0  # time in which the twist is put in, as sin^2; 0: there from the start
+    twist_rad: Number | None = None  # turn of the upper clamp about its tangent against the lower one
+    twist_ramp_s: NonNegative | None = None  # in which the twist is put in, as sin^2; None or 0: there from the start
 
 
 class Buoy(Section):
@@ -215,6 +194,13 @@ class Start(Section):
     buoy_velocity_mps: Vector = (0.0, 0.0, 0.0)
 
 
+class ShockViscosity(Section):
+    """Internal viscosity confined to shocks (`engine.shocks`): coefficients c_q and c_l."""
+
+    quadratic: NonNegative = 1.0
+    linear: NonNegative = 0.2
+
+
 class Solver(Section):
     """Discretisation in time and its limits."""
 
@@ -222,6 +208,8 @@ class Solver(Section):
     integrator: Literal["esdirk43", "trbdf2", "midpoint", "backward-euler", "generalized-alpha"] = "esdirk43"
     rtol: Tolerance = 0.03
     step_s: Positive | None = None  # fixed step; None: controlled by rtol, or T/400 for a method of fixed steps
+    courant: Positive | None = None  # fixed step as this times (shortest element)/(fastest axial wave), not step_s
+    shock_viscosity: ShockViscosity | None = None
     max_step_s: Positive = 0.1
     min_step_s: Positive = 1e-9
     newton_tolerance: Tolerance | None = None  # of the scaled update; None: rtol/100
@@ -239,6 +227,7 @@ class Output(Section):
     profiles: Flag = False
     profiles_step_s: Positive | None = None  # None: as step_s
     tangent_vectors: CountOrZero = 0  # perturbations carried along: as many Lyapunov exponents
+    lateral_growth: Flag = False  # an infinitesimal perturbation across the plane carried along
 
 
 class Scene(Section):

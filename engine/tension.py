@@ -2,6 +2,8 @@
 
 A tabulated law is the monotone cubic (Fritsch & Carlson 1980, PCHIP) through its points, so that f' is continuous and
 Newton does not chatter at a kink; outside the table it goes on along the end tangents.
+The printed tanh law has almost no stiffness in compression: where the scene gives a barrier P_b, T loses
+P_b (0.5/lambda - 1)^2 below lambda = 1 + eps = 0.5, smooth there, without bound as lambda -> 0.
 Table layout in `tables`, n knots: [knots (n) | c0 c1 c2 c3 of each of the n - 1 pieces | slope below | slope above].
 """
 
@@ -72,6 +74,17 @@ def tension(eps, p, tables):
     T : float, N
     slope : float, N, dT/deps
     """
+    if p.barrier > 0.0 and eps < -0.5:
+        lam = max(1.0 + eps, 1e-300)
+        excess = 0.5 / lam - 1.0
+        T, slope = law_tension(eps, p, tables)
+        return T - p.barrier * excess * excess, slope + p.barrier * excess / (lam * lam)
+    return law_tension(eps, p, tables)
+
+
+@kernel
+def law_tension(eps, p, tables):
+    """`tension` without the barrier."""
     if p.law == LINEAR:
         return p.p1 * eps, p.p1
     if p.law == TANH:

@@ -10,7 +10,11 @@ from importlib import import_module
 from pathlib import Path
 
 # Campaign as named in provenance.json: the module whose `report(directory)` gives the content.
-CONTENTS = {"buoy_sweep": "reports.buoy_sweep", "oscillator": "reports.oscillator_content"}
+CONTENTS = {
+    "buoy_sweep": "reports.buoy_sweep",
+    "oscillator": "reports.oscillator_content",
+    "out_of_plane": "reports.offplane_content",
+}
 
 __all__ = ["CONTENTS", "build"]
 

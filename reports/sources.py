@@ -35,7 +35,9 @@ SOURCES: dict[str, tuple[str, str]] = {
     "tether.tension.p": ("coefficients of the tanh law", f"{PAPER}, section 4.1.1"),
     "tether.tension.strain": ("strain of the tabulated law", "measured points"),
     "tether.tension.tension_N": ("tension of the tabulated law", "measured points"),
+    "anchor.rotation": ("lower end, free to turn or clamped", f"{UNSTATED}; no moment at the anchor"),
     "end.kind": ("upper end", TEXT_42),
+    "end.rotation": ("upper end, free to turn or clamped", f"{UNSTATED}; no moment at the buoy"),
     "buoy.diameter_m": ("buoy diameter D", TABLE_1),
     "buoy.mass_kg": ("buoy mass M", TABLE_1),
     "buoy.added_mass_kg": (f"buoy added mass {M_A}", TABLE_1),
@@ -75,6 +77,7 @@ SOURCES: dict[str, tuple[str, str]] = {
     "output.profiles": ("profiles along the tether kept", NUMERICAL),
     "output.profiles_step_s": ("output step of the profiles", NUMERICAL),
     "output.tangent_vectors": ("perturbations carried along (Lyapunov exponents)", NUMERICAL),
+    "output.lateral_growth": ("perturbation across the plane carried along", NUMERICAL),
 }
 
 # suffix of a key: the unit in print

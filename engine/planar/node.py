@@ -12,9 +12,12 @@ Rates come from the integrator as q_t = cq (q - q~), V_t = cv (V - V~). Statics 
 displacement: `in_motion` = 0 keeps it out of the drag, and leaves the waves out. Derivatives are complete but for the
 water's dependence on position.
 
+In a scene with shock viscosity T gains B |e_t| e_t + L e_t, e_t = cq (|q| - |q~|), the coefficients B, L kept from
+step to step (`engine.shocks`).
+
 Columns of Q (row k is node k):
     0 cos phi | 1 sin phi | 2 dT/deps | 3-4 N | 5-6 q | 7-8 q_t | 9-10 G | 11-12 dG/deps | 13-14 dG/dphi
-    15-17 dG/dV: xx, xz, zz | 18 M = (1+eps)^3 S | 19 dM/deps | 20 dM/dS
+    15-17 dG/dV: xx, xz, zz | 18 M = (1+eps)^3 S | 19 dM/deps | 20 dM/dS | 21 B | 22 L
 """
 
 import math
@@ -22,10 +25,11 @@ import math
 from ..compiled import kernel
 from ..currents import current_field
 from ..elementary import sincos
+from ..shocks import shock_tension
 from ..tension import tension
 from ..waves import wave_field
 
-WIDTH = 21
+WIDTH = 23
 
 
 @kernel
@@ -69,6 +73,11 @@ def node_quantities(p, tables, cq, cv, in_motion, Y, C_tilde, F, Q):
         c, s = Q[k, 0], Q[k, 1]
         T, slope = tension(eps, p, tables)
         lam = 1.0 + eps
+        if p.viscous:
+            before = math.sqrt(C_tilde[k, 0] ** 2 + C_tilde[k, 1] ** 2)
+            extra, stiffer = shock_tension(in_motion * cq, lam - before, Q[k, 21], Q[k, 22])
+            T += extra
+            slope += stiffer
         Q[k, 2] = slope
         Q[k, 3] = T * c - S * s
         Q[k, 4] = T * s + S * c

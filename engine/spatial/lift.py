@@ -25,6 +25,15 @@ def product(a, b):
     )
 
 
+def shortest_rotation(u, v):
+    """Quaternion of the shortest rotation that takes the unit vector u into v; about y, or z, where they oppose."""
+    scalar, axis = 1.0 + np.dot(u, v), np.cross(u, v)
+    if scalar < 1e-12:
+        scalar, axis = 0.0, np.cross(u, (1.0, 0.0, 0.0) if abs(u[0]) < 0.9 else (0.0, 1.0, 0.0))
+    quaternion = np.array([scalar, *axis])
+    return quaternion / np.linalg.norm(quaternion)
+
+
 def stretch_vectors(Y):
     """q (n, 3) of states Y (n, 13)."""
     b0, b1, b2, b3 = Y[:, 6:10].T

@@ -19,20 +19,24 @@ Newton's increments turn the frame by a rotation vector theta in its own axes: d
 the integrator as q_t = cq (q - q~), V_t = cv (V - V~); `in_motion` as in the plane. Derivatives are complete but for
 the water's dependence on position.
 
+Shock viscosity as in the plane (`engine.planar.node`).
+
 Columns of Q (row k is node k):
     0-2 t | 3 dT/deps | 4 1 + eps | 5-7 q | 8-10 q_t | 11-13 N | 14-16 n | 17-19 b | 20-22 G | 23-25 dG/deps
     26-28 dG/dtheta2 | 29-31 dG/dtheta3 | 32-37 dG/dV: xx xy xz yy yz zz | 38 M2 | 39 M3 | 40 (1+eps)^3 | 41 T
+    42 B | 43 L
 """
 
 import math
 
 from ..compiled import kernel
 from ..currents import current_field_3d
+from ..shocks import shock_tension
 from ..tension import tension
 from ..vectors import dot, frame, mixed
 from ..waves import wave_field_3d
 
-WIDTH = 42
+WIDTH = 44
 
 
 @kernel
@@ -88,6 +92,11 @@ def node_quantities(p, tables, cq, cv, in_motion, Y, C_tilde, F, Q):
         T, slope = tension(eps, p, tables)
         t, n, b = vector(row, 0), vector(row, 14), vector(row, 17)
         lam = row[4]
+        if p.viscous:
+            before = (C_tilde[k, 0], C_tilde[k, 1], C_tilde[k, 2])
+            extra, stiffer = shock_tension(in_motion * cq, lam - math.sqrt(dot(before, before)), row[42], row[43])
+            T += extra
+            slope += stiffer
         row[3], row[41] = slope, T
         for i in range(3):
             row[8 + i] = cq * (row[5 + i] - C_tilde[k, i])

@@ -33,8 +33,9 @@ import math
 import numpy as np
 
 from ..compiled import kernel
+from ..elementary import smooth_start
 from ..ends import HELD, released, upper_end_3d
-from ..vectors import dot, least_turn, mixed, quaternion_product, relative, rotation_vector, symmetric
+from ..vectors import dot, mixed, quaternion_product, relative, rotation_vector, symmetric
 from .node import vector
 from .rows import added, combined, combined3, put_row, row_dot, row_of, row_times, scaled
 
@@ -263,21 +264,18 @@ def _store_relation(row, Rx, Ry, Rz, R2, R3, R1, rx, ry, rz, r2, r3, r1):
 @kernel
 def twist_at(p, t):
     """Twist (rad) that the clamped upper end has been given at time t."""
-    if t >= p.twist_ramp:
-        return p.twist
-    return 0.5 * p.twist * (1.0 - math.cos(math.pi * t / p.twist_ramp))
+    return p.twist * smooth_start(t, p.twist_ramp)[0]
 
 
 @kernel
 def _roll_to_go(p, t, length, Y):
     """Turn (rad) about its own tangent by which the upper end exceeds the twist it is given.
 
-    No twist: the frame of the anchor, taken to the direction of the upper end by the shortest rotation.
+    No twist: the frame of the anchor, carried from clamp to clamp (`engine.parameters`).
     """
     last = Y.shape[0] - 1
     carried = quaternion_product(
-        least_turn((p.below_x, p.below_y, p.below_z), (p.above_x, p.above_y, p.above_z)),
-        (Y[0, 6], Y[0, 7], Y[0, 8], Y[0, 9]),
+        (p.carry0, p.carry1, p.carry2, p.carry3), (Y[0, 6], Y[0, 7], Y[0, 8], Y[0, 9])
     )
     # twist of the frame: what O1 leaves over; as exp(twist/2) it is exact for any number of turns
     twist = 0.5 * (twist_at(p, t) - Y[last, 10] * length)

@@ -1,0 +1,62 @@
+"""Internal viscosity that is confined to shocks, for tension laws under which waves steepen.
+
+    T = f(eps) + a m [c_q h^2 |e_t| e_t + c_l c h e_t],   e_t = d eps/dt,   c = sqrt(max(f', 0)/m)
+
+after von Neumann & Richtmyer (1950) and Landshoff (1955), h the spacing of the nodes. The limiter (Christensen 1990)
+
+    a = 1 - max(0, min((r_l + r_r)/2, 2 r_l, 2 r_r, 1)),   r = e_t of a neighbour over e_t here
+
+is zero where e_t varies smoothly, so that order two remains away from shocks. It acts on stretching and on shortening:
+laws that are concave steepen when they unload. Within Newton's method it would chatter; a and c are taken from the
+step before. Linear and quadratic coefficients (c_l, c_q) = (0.2, 1) are usual.
+"""
+
+import math
+
+from .compiled import kernel
+from .tension import tension
+
+
+@kernel
+def shock_tension(rate, stretched, B, L):
+    """Viscous tension (N) and its derivative by eps, for e_t = rate * stretched."""
+    e_t = rate * stretched
+    return (B * abs(e_t) + L) * e_t, (2.0 * B * abs(e_t) + L) * rate
+
+
+@kernel
+def _share(left, here, right):
+    """The limiter a from e_t of a node and of its neighbours."""
+    if here == 0.0:
+        return 0.0
+    below, above = left / here, right / here
+    return 1.0 - max(0.0, min(0.5 * (below + above), 2.0 * below, 2.0 * above, 1.0))
+
+
+@kernel
+def renew_viscosity(p, tables, half, C, K, e_t, Q):
+    """B and L of every node, into the last two columns of Q, from an accepted state C and its rates K.
+
+    half: the share of the columns of C that is q;  e_t (n,): work.
+    """
+    n = C.shape[0]
+    at = Q.shape[1] - 2
+    for k in range(n):
+        square = product = 0.0
+        for i in range(half):
+            square += C[k, i] * C[k, i]
+            product += C[k, i] * K[k, i]
+        length = math.sqrt(square)
+        e_t[k] = product / length
+        Q[k, at + 1] = math.sqrt(max(tension(length - 1.0, p, tables)[1], 0.0) / p.m)
+    for k in range(n):
+        h = 0.0
+        if k > 0:
+            h += tables[p.grid_at + k - 1]
+        if k < n - 1:
+            h += tables[p.grid_at + k]
+        h *= 0.5 if 0 < k < n - 1 else 1.0
+        left, right = e_t[k - 1] if k > 0 else e_t[k + 1], e_t[k + 1] if k < n - 1 else e_t[k - 1]
+        a = p.m * h * _share(left, e_t[k], right)
+        Q[k, at] = a * h * p.c_quadratic
+        Q[k, at + 1] *= a * p.c_linear
