@@ -3,8 +3,8 @@
     |y|(t) ~ a e^{lambda t} g(t),   g bounded and recurring:   ln of the envelope is a straight line of slope lambda
 
 The envelope is the largest |y| in each of a run of equal spans, taken at the time at which it occurs: a swing through
-zero then leaves no dent, as long as a span holds half a swing. Growth that is over before there are enough such spans is
-looked for once more in spans of one period, dents and all. A line can be put through any curve, so a rate is given
+zero then leaves no dent, as long as a span holds half a swing. Growth that is over before there are enough such spans
+is looked for once more in spans of one period, dents and all. A line can be put through any curve, so a rate is given
 only where the curve has a straight part that
 
   1. rises or falls by at least `least_span` nats over at least LEAST_POINTS spans;

@@ -1,12 +1,13 @@
 """A run of the out-of-plane campaign as one row of numbers: what leaves the plane of the waves, how, and how far.
 
 Lateral motion is |y| of the buoy and, for the rope, the largest |y| of any node. Either has a rate only where it grows
-or decays exponentially, and bursts only where it does neither (`analysis.growth`). A planar run has no lateral columns.
+or decays exponentially, and bursts only where it does neither (`analysis.growth`). A planar run has no lateral columns,
+but the exponent of an infinitesimal perturbation across its plane (offplane_growth_), unless it released loops.
 """
 
 import numpy as np
 
-from campaigns.rows import STATISTICS, settled, sound_part
+from campaigns.rows import STATISTICS, across_plane, settled, sound_part
 
 EARLY_PERIODS = 8  # before the first loop at every depth of the campaign: still linear in the push
 _BODIES = {"buoy": "y_m", "rope": "offplane_m"}
@@ -57,6 +58,8 @@ COLUMNS = (
     "lyapunov_wolf_error",
     "lyapunov_tangent_bits_per_period",
     "lyapunov_tangent_error",
+    "offplane_growth_bits_per_period",
+    "offplane_growth_error",
     *STATISTICS,
     "run_key",
     "message",
@@ -83,6 +86,8 @@ def offplane_row(trajectory, transient_periods: int, judged: frozenset = frozens
         after = round(transient_periods * period_s / step_s)
         row |= settled(columns, step_s, period_s, transient_periods)
         row["inplane_m"] = 0.5 * max(float(np.ptp(columns[name][after:])) for name in ("x_m", "z_m"))
+        if trajectory.status == "ok" and trajectory.tangent is not None:
+            row |= across_plane(trajectory.tangent, transient_periods)
     if scene.motion.dimensions == 3 and done > 0:
         for body, name in _BODIES.items():
             row |= {f"{body}_{key}": entry for key, entry in _lateral(columns[name], scene, row).items()}

@@ -5,8 +5,9 @@
     python -m campaigns.out_of_plane --set water.depth_m=22.0 solver.rtol=0.003
 
 Protocol: the buoy is pushed at t = 0 (1e-5 m/s across the waves, as in the paper). One thing at a time is varied: the
-size and the direction of the push, the depth, the bending stiffness, the nodes. Planar runs with loop release at the
-depths where loops form are compared with their counterparts in three dimensions. Nothing is random.
+size and the direction of the push, the depth, the bending stiffness, the nodes. Planar runs carry an infinitesimal
+perturbation across their plane, whose exponent needs no push, and those with loop releases are compared with their
+counterparts in three dimensions. Nothing is random.
 """
 
 import sys
@@ -38,7 +39,8 @@ _TAKEN = {
     "start.buoy_velocity_mps": "the push is what it varies",
     "output.profiles": "it asks for them where it needs them",
     "output.profiles_step_s": "it asks for profiles where it needs them",
-    "output.tangent_vectors": "it asks for one where a planar run is compared",
+    "output.tangent_vectors": "its planar runs carry one",
+    "output.lateral_growth": "its planar runs carry one perturbation across their plane",
 }
 
 
@@ -139,7 +141,8 @@ def cases(base: Case) -> list[Case]:
     found = [base, small]
     # the longest runs first, so that no worker is left with one at the end
     found += [replace(base, depth_m=depth, nodes=nodes) for nodes in reversed(NODES) for depth in LOOPING_DEPTHS_M]
-    found += [replace(base, depth_m=d, dimensions=2, seed_mps=0.0, seed_direction="") for d in LOOPING_DEPTHS_M]
+    planar = [replace(one, dimensions=2, seed_mps=0.0, seed_direction="") for one in (base, small)]
+    found += [replace(one, depth_m=depth) for one in planar for depth in (base.depth_m, *DEPTHS_M)]
     found += [replace(one, seed_mps=seed) for one in (fine, small) for seed in SEEDS_MPS]
     found += [replace(one, depth_m=depth) for one in (base, small) for depth in DEPTHS_M]
     stiffnesses = [replace(base, bending_stiffness_Nm2=stiffness) for stiffness in STIFFNESSES_NM2]
@@ -154,8 +157,9 @@ def cases(base: Case) -> list[Case]:
 
 def compared(case: Case, base: Case) -> bool:
     """Whether a case takes part in the comparison of planar runs with runs in three dimensions."""
-    planar = case.dimensions == 2
-    return planar or (case.depth_m in LOOPING_DEPTHS_M and case == replace(base, depth_m=case.depth_m))
+    spatial = replace(base, depth_m=case.depth_m)
+    planar = replace(spatial, dimensions=2, seed_mps=0.0, seed_direction="")
+    return case.depth_m in LOOPING_DEPTHS_M and case in (spatial, planar)
 
 
 def _scenes(name: str, changes: dict, faults: list[str]) -> tuple[Case | None, dict]:
@@ -177,7 +181,8 @@ def _scenes(name: str, changes: dict, faults: list[str]) -> tuple[Case | None, d
         try:
             made = load_scene(name, {**changes, **case.changes()})
             if carries_tangents(made):
-                made = load_scene(name, {**changes, **case.changes(), "output.tangent_vectors": 1})
+                carried = {"output.tangent_vectors": 1, "output.lateral_growth": True}
+                made = load_scene(name, {**changes, **case.changes(), **carried})
         except SceneError as error:
             faults.extend(fault for fault in error.faults if fault not in faults)
             continue

@@ -97,7 +97,7 @@ def buoy_row(trajectory, transient_periods: int, simulate=None) -> dict[str, obj
             row["buoy_lateral_max_m"] = float(np.abs(columns["y_m"][after:]).max())
             row["rope_lateral_max_m"] = float(columns["offplane_m"][after:].max())
         if trajectory.status == "ok" and trajectory.tangent is not None:
-            row |= _across(trajectory.tangent, transient_periods)
+            row |= across_plane(trajectory.tangent, transient_periods)
         enough = recorded_s >= (transient_periods + LEAST_JUDGED) * period_s - 1e-6 * step_s
         if trajectory.status == "ok" and (carried(trajectory) or (in_space and enough)):
             tighter, verdict, tangent, wolf = _verdict(trajectory, transient_periods, simulate)
@@ -112,7 +112,8 @@ def buoy_row(trajectory, transient_periods: int, simulate=None) -> dict[str, obj
     return row
 
 
-def _across(growth, transient_periods: int) -> dict[str, object]:
+def across_plane(growth, transient_periods: int) -> dict[str, object]:
+    """Exponent of infinitesimal perturbations across the plane, by column of the table; {} where none was carried."""
     from analysis import transverse_lyapunov
 
     if growth.lateral_nats is None:

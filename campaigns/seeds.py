@@ -33,7 +33,7 @@ def in_space(scene):
     heading = scene.waves.direction_rad
     sine, cosine = (math.sin(heading), math.cos(heading)) if heading else (0.0, 1.0)
     vx, vy, vz = scene.start.buoy_velocity_mps
-    changes = {"motion.dimensions": 3, "output.tangent_vectors": 0}
+    changes = {"motion.dimensions": 3, "output.tangent_vectors": 0, "output.lateral_growth": False}
     added = math.isclose(-vx * sine + vy * cosine, 0.0, abs_tol=1e-300)
     if added:
         changes["start.buoy_velocity_mps"] = [vx - SEED_MPS * sine, vy + SEED_MPS * cosine, vz]

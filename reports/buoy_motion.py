@@ -56,7 +56,7 @@ def verdict_of(trajectory, transient_periods: int, tighter: str | None = None):
     from analysis import tangent_lyapunov
     from analysis.exponents import BITS_PER_PERIOD, no_exponent
 
-    if trajectory.tangent is None:
+    if not carried(trajectory):
         tangent = no_exponent("tangent dynamics", "no perturbation was carried along", BITS_PER_PERIOD)
     else:
         tangent = tangent_lyapunov(trajectory.tangent.growth_nats, transient_periods)[0]

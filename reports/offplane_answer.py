@@ -6,7 +6,7 @@ import math
 
 from .offplane_comparison import Pair, comparison_words
 from .offplane_runs import BODIES, Run, Study
-from .wording import count, decimals, listed, number, percent
+from .wording import EMPTY, count, decimals, listed, number, percent
 
 COMPARABLE = 1.0 / 3.0  # share of the in-plane motion from which a lateral motion is called comparable with it
 
@@ -31,10 +31,19 @@ def large_runs(study: Study) -> list[Run]:
 def with_error(run: Run, body: str) -> str:
     """ "−0.0398 ± 0.0008" bits per period, or a dash."""
     if not run.known(f"{body}_rate_bits_per_period"):
-        return "–"
+        return EMPTY
     error = run[f"{body}_rate_error"]
     places = max(2, min(6, 1 - math.floor(math.log10(error)))) if error > 0 else 4
     return f"{decimals(run[f'{body}_rate_bits_per_period'], places)} ± {decimals(error, places)}"
+
+
+def infinitesimal(study: Study, run: Run) -> str:
+    """The exponent across the plane of the planar run at the same wave and depth, a dash where there is none."""
+    planar = [one for one in study.planar(steepness=run["steepness"], depth_m=run["depth_m"]) if one.ok]
+    column = "offplane_growth_bits_per_period"
+    if not planar or not planar[0].known(column):
+        return EMPTY
+    return f"{decimals(planar[0][column], 4)} ± {decimals(planar[0]['offplane_growth_error'], 4)}"
 
 
 def body_words(run: Run, body: str) -> str:

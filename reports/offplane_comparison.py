@@ -73,11 +73,12 @@ class Pair:
 
 
 def read_pairs(study: Study) -> list[Pair]:
-    """Every planar run that ended as asked and has a counterpart, by depth."""
+    """Every planar run that ended as asked with loops released and has a counterpart, by depth."""
     pairs = []
-    for planar in study.select(dimensions=2, seed_mps=0.0, seed_direction="", depth_m=None):
+    for planar in study.planar(depth_m=None):
         spatial = study.one(depth_m=planar["depth_m"])
-        if not planar.ok or spatial is None or not planar.known("radius_min_m"):
+        looped = planar.ok and planar["loop_releases"] > 0 and planar.known("radius_min_m")
+        if not looped or spatial is None:
             continue
         flat, space = study.trajectory(planar), study.trajectory(spatial)
         if flat is not None and space is not None:
@@ -125,7 +126,7 @@ def comparison_items(study: Study, pairs: list[Pair]) -> list[Item]:
     """The section: table, sections over each other, what follows."""
     heading = Heading("Planar with loop release, or three dimensions?")
     if not pairs:
-        return [heading, Text("No planar run and its counterpart in three dimensions both ended as asked.")]
+        return [heading, Text("No planar run released loops and ended as asked, as its counterpart did.")]
     periods = number(pairs[0].planar["periods"] - study.transient)
     return [
         heading,

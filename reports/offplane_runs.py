@@ -56,6 +56,8 @@ COLUMNS = (
     "lyapunov_wolf_error",
     "lyapunov_tangent_bits_per_period",
     "lyapunov_tangent_error",
+    "offplane_growth_bits_per_period",
+    "offplane_growth_error",
     "max_turn_rad",
     "loop_releases",
     "newton_iterations",
@@ -102,6 +104,10 @@ class Study:
         free = [key for key, entry in keys.items() if entry is None]
         found = [run for run in self.runs if all(entry is None or run[key] == entry for key, entry in keys.items())]
         return sorted(found, key=lambda run: tuple(run[key] for key in free))
+
+    def planar(self, **wanted) -> list[Run]:
+        """Planar runs that are as the base but for `wanted`, as `select`."""
+        return self.select(dimensions=2, seed_mps=0.0, seed_direction="", **wanted)
 
     def pushes(self, steepness: float) -> list[Run]:
         """Runs that differ in the size of the push alone, on the grid that has most of them."""

@@ -6,9 +6,9 @@ import numpy as np
 
 from .content import Column, Figure, Heading, Item, Table, Text
 from .figures.offplane_history import History, lateral_histories, seed_histories
-from .offplane_answer import metres, speed, with_error
+from .offplane_answer import infinitesimal, metres, speed, with_error
 from .offplane_runs import BODIES, DISPLACEMENT, Run, Study, envelope
-from .wording import EMPTY, number, percent
+from .wording import EMPTY, count, number, percent
 
 _SCALED_PERIODS = 20  # of the push figure: past the first loop at every depth
 _PLAIN_SPAN = 8  # periods: two bursts or so, so that eight curves of bursts can be told apart
@@ -63,6 +63,7 @@ def growth_items(study: Study) -> list[Item]:
         Column("motion", align="left"),
         Column("rate", "bits/T"),
         Column("rate", "nats/T"),
+        Column("infinitesimal", "bits/T"),
         Column("window", "T"),
         Column("span", "nats"),
         Column("bursts"),
@@ -72,12 +73,13 @@ def growth_items(study: Study) -> list[Item]:
         Column("max |y|", "m"),
         Column("of in-plane"),
     )
-    rows = tuple(_growth_row(run, body) for run in runs if run.ok for body in BODIES)
+    rows = tuple(_growth_row(study, run, body) for run in runs if run.ok for body in BODIES)
     caption = (
         f"Lateral motion at EI = {number(study.base['bending_stiffness_Nm2'])} N m², {number(study.base['nodes'])} "
         f"nodes, push {speed(study.base['seed_mps'])}. window, span: what the fitted line covers; median, largest, "
-        "first at: of the bursts; of in-plane: max |y| by the half range of the buoy in the plane. A dash: there is "
-        "none. From `table.csv` (`{buoy,rope}_motion` and the columns after it)."
+        "first at: of the bursts; infinitesimal: exponent across the plane of the planar run at the same wave and "
+        "depth, which has none where it released loops; of in-plane: max |y| by the half range of the buoy in the "
+        "plane. A dash: there is none. From `table.csv` (`{buoy,rope}_motion` and the columns after it)."
     )
     return [
         Heading("Growth, decay or bursts"),
@@ -89,10 +91,28 @@ def growth_items(study: Study) -> list[Item]:
             "sides are bursts. A rate inside a burst has no limit in the mesh, so none is given."
         ),
         Table(heads, rows, caption, small=True),
+        *([Text(words)] if (words := _agreement(study, runs)) else []),
     ]
 
 
-def _growth_row(run: Run, body: str) -> tuple[str, ...]:
+def _agreement(study: Study, runs: list[Run]) -> str:
+    """How far the fitted rate of the buoy is from the exponent of the planar run, in errors; "" without a pair."""
+    off = []
+    for run in runs:
+        planar = [one for one in study.planar(steepness=run["steepness"], depth_m=run["depth_m"]) if one.ok]
+        fit, exact = "buoy_rate_bits_per_period", "offplane_growth_bits_per_period"
+        if run.ok and run.known(fit) and planar and planar[0].known(exact):
+            error = np.hypot(run["buoy_rate_error"], planar[0]["offplane_growth_error"])
+            off.append(abs(run[fit] - planar[0][exact]) / error)
+    if not off:
+        return ""
+    return (
+        "The fitted rate of the buoy and the exponent of an infinitesimal perturbation, two runs that share nothing "
+        f"but the scene, differ by at most {number(max(off), 2)} of their common error ({count(len(off), 'pair')})."
+    )
+
+
+def _growth_row(study: Study, run: Run, body: str) -> tuple[str, ...]:
     def cell(name: str, digits: int = 3) -> str:
         return number(run[f"{body}_{name}"], digits)
 
@@ -104,6 +124,7 @@ def _growth_row(run: Run, body: str) -> tuple[str, ...]:
         run[f"{body}_motion"],
         with_error(run, body),
         cell("rate_nats_per_period"),
+        infinitesimal(study, run) if body == "buoy" else "",
         window,
         cell("fit_span_nats"),
         cell("bursts"),

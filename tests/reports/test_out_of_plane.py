@@ -71,7 +71,7 @@ def test_what_failed_or_is_lost_is_said_and_the_rest_is_shown(tmp_path):
 
 def test_a_base_that_failed_leaves_a_report(tmp_path):
     text = text_of(made(tmp_path / "out", failing=(21.0, 21.6, 22.0)))
-    assert "Runs that failed" in text and "No planar run and its counterpart" in text
+    assert "Runs that failed" in text and "No planar run released loops" in text
 
 
 def test_a_folder_without_a_base_is_refused(study, tmp_path):
