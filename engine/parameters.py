@@ -279,8 +279,7 @@ def _scales(record, scene, h):
     record["per_strain"] = 1 / strain
     transit = length * math.sqrt(float(record["m"]) / stiffness)
     record["release_step"] = min(transit / 12, float(record["max_step"]))
-    # shear that bends an element by a radian comes first where a stiff line carries little
-    record["per_force"] = 1 / max(load / 20, scene.tether.bending_stiffness_Nm2 / float(np.mean(h)) ** 2)
+    record["per_force"] = 20 / load
     record["per_speed"] = 1 / max(math.sqrt(max(g * length, stiff / float(record["m"]))) / 14, pulled, 1e-3)
     record["per_curvature"] = float(np.mean(h)) / 2.5
 

@@ -20,7 +20,7 @@ from .spatial import state as spatial
 SOFTEST, FIRST, STIFFEST = 1e-8, 10.0, 1e9
 TOLERANCE = 1e-9
 CLOSE, BALANCED = 1e-6, 1e-9  # a line at rest moves less (m), against a resistance less than this share of its load
-MOST = 60
+MOST = 300  # a stiff line on its way to a clamp passes shear far above its load, by one scale an iteration
 MOST_TURNS = 4  # a bight that the grid does not resolve keeps a folded node
 
 

@@ -130,11 +130,13 @@ def _clamp_or_hinge(clamp, scene, turn, frame, h, sign):
 
 
 def roll(Y, scene):
-    """Angle, in (-2 pi, 2 pi), about the tangent from the first frame, carried to the upper clamp the shortest way, to
-    the last one; two frames that look alike may differ by 2 pi."""
-    u, v = direction(scene.anchor, scene), direction(scene.end, scene)
-    shortest = np.append(1 + u @ v, np.cross(u, v))
-    carried = product((shortest / np.linalg.norm(shortest))[None], Y[:1, 6:10])
+    """Angle, in (-2 pi, 2 pi), about the tangent from the first frame, carried to the upper clamp by way of the chord,
+    to the last one; two frames that look alike may differ by 2 pi."""
+    chord = np.array(scene.end.position_m) / np.linalg.norm(scene.end.position_m)
+    carried = Y[:1, 6:10]
+    for u, v in ((direction(scene.anchor, scene), chord), (chord, direction(scene.end, scene))):
+        shortest = np.append(1 + u @ v, np.cross(u, v))
+        carried = product((shortest / np.linalg.norm(shortest))[None], carried)
     r = product(carried * [1, -1, -1, -1], Y[-1:, 6:10])[0]
     return 2 * np.arctan(r[1] / r[0]) + (math.copysign(2 * math.pi, r[1].real) if r[0].real < 0 else 0.0)
 

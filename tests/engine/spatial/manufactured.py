@@ -64,13 +64,26 @@ def integral(s, values):
     return CubicSpline(s, values).antiderivative()(s)
 
 
+def shortest(u, v, x):
+    """Vectors x (., 3) turned by the shortest rotation from the unit vector u to the unit vectors v (., 3)."""
+    axis = np.cross(u, v)
+    return x + np.cross(axis, x) + np.cross(axis, np.cross(axis, x)) / (1 + v @ u)[..., None]
+
+
 def torsion(t):
-    """O1 at time t: the twist less what the shape of the line gives, over its length."""
+    """O1 at time t: the twist less what the shape of the line gives, over its length.
+
+    The twist counts from the first frame carried along the chord of the ends, here not the shortest way.
+    """
     x = np.linspace(0.0, 1.0, 401)
-    q, q1 = vectors(t, x)[:2]
+    q, q1, *_, place, _, _ = vectors(t, x)
     along = q / np.linalg.norm(q, axis=1, keepdims=True)
     K = np.cross(q, q1) / np.sum(q**2, 1, keepdims=True)
-    return (TWIST - roll(x, along, K)[-1]) / L
+    first, last, chord = along[0], along[-1], place[-1] / np.linalg.norm(place[-1])
+    n = np.cross(first, [1.0, 0.0, 0.0])
+    one, other = shortest(first, last, n), shortest(chord, last, shortest(first, chord, n))
+    between = math.atan2(np.cross(other, one) @ last, other @ one)
+    return (TWIST - between - roll(x, along, K)[-1]) / L
 
 
 def motion(t, x):
@@ -123,8 +136,7 @@ def normals(t, s, first):
     fine_t = q / np.linalg.norm(q, axis=1, keepdims=True)
     turn = roll(fine, fine_t, np.cross(q, q1) / np.sum(q**2, 1, keepdims=True))
     turn = CubicSpline(L * fine, turn)(s)[:, None]
-    axis = np.cross(along[0], along)
-    n = first + np.cross(axis, first) + np.cross(axis, np.cross(axis, first)) / (1 + along @ along[0])[:, None]
+    n = shortest(along[0], along, first)
     return np.cos(turn) * n + np.sin(turn) * np.cross(along, n)
 
 

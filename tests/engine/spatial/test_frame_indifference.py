@@ -47,7 +47,7 @@ def moved_end(turn):
 
 
 def let_go(turn):
-    end = {"kind": "held", "position_m": turn([5.0, 8.0, -3.0]), "release_s": 0.5}
+    end = {"kind": "held", "position_m": turn([5.0, 8.0, -3.0]), "release_s": 0.5, "force_N": turn([2.0, -1.0, 3.0])}
     return {**DRY, "buoy": None, "end": end, "tether.bending_stiffness_Nm2": 4.0}
 
 
@@ -151,4 +151,5 @@ def test_the_roll_of_the_frames_changes_nothing(name):
     for angle, (run, first, last) in zip((0.3, 2.0, -3.0), runs[1:], strict=True):
         assert_equal(runs[0][0], run, 1e-8)
         assert np.abs(np.cos(angle) - np.sum(runs[0][1][:, 1] * first[:, 1], 1)).max() < 1e-12  # it was rolled
-        assert np.abs(rolled(runs[0][2], angle)[:, 1:3] - last[:, 1:3]).max() < 1e-8 * np.abs(last).max()
+        shear = last[:, 1:3]  # tied to nothing but the curvature, of differences of which it is made
+        assert np.abs(rolled(runs[0][2], angle)[:, 1:3] - shear).max() < 1e-6 * np.abs(shear).max()
