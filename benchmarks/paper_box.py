@@ -1,4 +1,4 @@
-"""The paper's scheme against the conservation form: figure and tables of docs/paper_box.md. About six minutes.
+"""The paper's scheme against the conservation form: figure and tables of docs/paper_box.md. About seven minutes.
 
     .venv/bin/python -m benchmarks.paper_box        # writes docs/paper_box.png
 
@@ -32,6 +32,7 @@ from engine.paper_box.water import positions
 FIGURE = Path(__file__).parents[1] / "docs" / "paper_box.png"
 SMALL_S, LARGE_S = 10.0, 30.0
 DEPTHS = (22.5, 21.6)
+SEEDED = {"motion.dimensions": 3, "start.buoy_velocity_mps": [0.0, 1e-5, 0.0]}
 UNGUARDED = ((41, 0.005), (81, 0.005), (161, 0.0025))  # nodes, step (s): steps that pass the first slack
 
 
@@ -71,7 +72,7 @@ def small_waves():
 
 
 def unguarded(depth_m, nodes, step_s):
-    """t, r by the shape, r by the path of the end, turn, | |beta|^2 - 1 | after every step, guards off."""
+    """After every step, guards off: t, r by shape and by path, turn, | |beta|^2 - 1 |, r by the shape with |t| = 1."""
     overrides = {"tether.nodes": nodes, "solver.scheme": "paper-box", "solver.step_s": step_s}
     scene = scene_of(0.13, depth_m, **overrides)
     line = line_of(scene)
@@ -88,9 +89,12 @@ def unguarded(depth_m, nodes, step_s):
         V = force_and_velocity(line, level.Y[:, -1])[1]
         end = end + 0.5 * step_s * (V + V_before)
         Y = level.Y
-        shape = np.linalg.norm(positions(line, Y)[:, -1])
-        norm = np.abs(np.sum(Y[6:10] ** 2, 0) - 1).max()
-        rows.append([level.t, shape, np.linalg.norm(end), turns(Y[6:10], Y[10:13], line.h).max(), norm])
+        size = np.sum(Y[6:10] ** 2, 0)
+        scaled = Y.copy()
+        scaled[6:10] /= np.sqrt(size)
+        by_shape, by_unit_t = (np.linalg.norm(positions(line, state)[:, -1]) for state in (Y, scaled))
+        turn = turns(Y[6:10], Y[10:13], line.h).max()
+        rows.append([level.t, by_shape, np.linalg.norm(end), turn, np.abs(size - 1).max(), by_unit_t])
     return np.array(rows).T
 
 
@@ -106,15 +110,16 @@ def reference(depth_m):
 
 def where_it_stops(depth_m, known):
     print("  nodes  step s   status         t s     gap m   turn rad  |b|^2-1  error in r at the last sample, m")
-    for nodes in (21, 41, 81, 161):
-        for step_s in (0.0125, 0.005, 0.0025):
-            overrides = {"tether.nodes": nodes, "solver.step_s": step_s, "solver.scheme": "paper-box"}
-            found = run(scene_of(0.13, depth_m, **overrides), LARGE_S)
-            told, t, r = found.statistics, found.columns["time_s"][-1], radius(found)[-1]
-            print(
-                f"  {nodes:5d}  {step_s:.4f}  {found.status:13s} {told['end_time_s']:7.4f}  {told['closure_m']:.4f}  "
-                f"{told['max_turn_rad']:.3f}     {told['euler_norm_error']:.4f}   {abs(r - np.interp(t, *known)):.5f}"
-            )
+    grids = [(nodes, step_s, {}) for nodes in (21, 41, 81, 161) for step_s in (0.0125, 0.005, 0.0025)]
+    for nodes, step_s, motion in [*grids, (41, 0.005, SEEDED)]:
+        overrides = {"tether.nodes": nodes, "solver.step_s": step_s, "solver.scheme": "paper-box", **motion}
+        found = run(scene_of(0.13, depth_m, **overrides), LARGE_S)
+        told, t, r = found.statistics, found.columns["time_s"][-1], radius(found)[-1]
+        print(
+            f"  {nodes:5d}  {step_s:.4f}  {found.status:13s} {told['end_time_s']:7.4f}  {told['closure_m']:.4f}  "
+            f"{told['max_turn_rad']:.3f}     {told['euler_norm_error']:.4f}   {abs(r - np.interp(t, *known)):.5f}"
+            f"{'  in three dimensions, seeded' if motion else ''}"
+        )
 
 
 def large_waves(axes):
@@ -123,19 +128,20 @@ def large_waves(axes):
         where_it_stops(depth_m, known)
         for (nodes, step_s), colour in zip(UNGUARDED, ("C3", "C1", "C0"), strict=True):
             began = time.perf_counter()
-            t, shape, path, turn, norm = unguarded(depth_m, nodes, step_s)
+            t, shape, path, turn, norm, unit = unguarded(depth_m, nodes, step_s)
             r = np.interp(t, *known)
-            print(f"  no guards, {nodes} nodes, {step_s} s: reached {t[-1]:.3f} s in {time.perf_counter() - began:.0f} s")
             label = f"{nodes} nodes, {1e3 * step_s:g} ms"
+            print(f"  no guards, {label}: reached {t[-1]:.3f} s in {time.perf_counter() - began:.0f} s")
             shown = slice(None, None, round(0.05 / step_s))
             above.semilogy(t[shown], np.abs(shape - r)[shown], colour, lw=1, label=label)
             above.semilogy(t[shown], np.abs(path - r)[shown], colour, lw=0.6, ls=":")
             below.semilogy(t[shown], turn[shown], colour, lw=1)
-            for at in (5.4, 5.6, 6.0, 8.0, 10.0, 20.0, 30.0):
+            for at in (5.4, 5.6, 6.0, 8.0, 10.0, 12.0, 20.0, 30.0):
                 if at <= t[-1] + 1e-9:
                     k = np.argmin(np.abs(t - at))
                     print(
-                        f"    t {at:4.1f}: shape {shape[k] - r[k]:+.5f}  path {path[k] - r[k]:+.5f} m  "
+                        f"    t {at:4.1f}: shape {shape[k] - r[k]:+.5f}  path {path[k] - r[k]:+.5f}  "
+                        f"|t| = 1 {unit[k] - r[k]:+.5f} m  "
                         f"turn {turn[k]:.3f} rad  |b|^2-1 {norm[k]:.4f};  before: turn {turn[: k + 1].max():.3f}"
                     )
         above.set(title=f"kA = 0.13, H = {depth_m} m", ylabel="error in r (m)", ylim=(1e-6, 20))

@@ -22,7 +22,7 @@ def scene_of(law="linear", dimensions=3, **overrides):
             "motion.dimensions": dimensions,
             "solver.scheme": "paper-box",
             "tether.tension": LAWS[law],
-            "tether.nodes": 7,
+            "tether.nodes": 5,
             "tether.diameter_m": 0.05,
             "tether.bending_stiffness_Nm2": 24.0,
             "tether.torsion_stiffness_Nm2": 9.0,
