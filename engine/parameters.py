@@ -32,8 +32,8 @@ RECORD = np.dtype(
 SPATIAL = np.dtype(
     _dtype(
         "cur_ny clamp_below clamp_above",
-        "GI dir_x dir_y end_y end_fy start_y below_x below_y below_z above_x above_y above_z carry0 carry1 carry2 carry3 twist "
-        "twist_ramp",
+        "GI dir_x dir_y end_y end_fy start_y below_x below_y below_z above_x above_y above_z "
+        "carry0 carry1 carry2 carry3 twist twist_ramp",
     )
     + RECORD.descr
 )

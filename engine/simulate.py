@@ -51,7 +51,9 @@ def simulate_batch(scenes, periods=None, duration_s=None, progress=None):
         chosen = [i for i, scene in enumerate(scenes) if _kind(scene) == kind]
         before = sum(run is not None for run in runs)
 
-        def share(fraction, before=before, count=len(chosen)):
+        count = len(chosen)
+
+        def share(fraction, before=before, count=count):
             if progress is not None:
                 progress((before + fraction * count) / len(scenes))
 
