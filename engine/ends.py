@@ -71,6 +71,24 @@ def end_velocity(p, tables, t):
 
 
 @kernel
+def next_corner(p, tables, t):
+    """Next time (s) after t at which a held end's acceleration jumps: its release, a row of its table, the end of its
+    ramp; infinite where none is left. A step across it would leave the end 1e-5 m from its place.
+    """
+    corner = p.end_release if t < p.end_release else np.inf
+    if p.end_motion == HARMONIC:
+        ramp = tables[p.end_at + 5]
+        if t < ramp < corner:
+            corner = ramp
+    elif p.end_motion == TABLE:
+        for i in range(p.end_n):
+            knot = tables[p.end_at + i]
+            if t < knot:
+                return min(corner, knot)
+    return corner
+
+
+@kernel
 def released(p, t):
     """Has a held end been let go? Not in a step that ends at the release, whatever the rounding of its time."""
     return t > p.end_release * (1.0 + 1e-13)
