@@ -49,6 +49,29 @@ def tangent_lyapunov(growth_nats, transient_periods=0, left_out=None):
     )
 
 
+def transverse_lyapunov(growth_nats, transient_periods=0, released=None):
+    """The exponent across the plane of a planar motion, in bits per forcing period (Pikovsky & Grassberger 1991).
+
+    A motion confined to an invariant plane stays there against an infinitesimal push out of it where this exponent is
+    negative, and leaves it where it is positive.
+
+    growth_nats (m,)      logarithm of the growth across the plane in each forcing period, nats
+    transient_periods     periods at the start that do not count
+    released (m,)         true for periods in which a loop was released. In a loop that a plane cannot open the tether
+                          buckles sideways at a rate without a limit in the mesh: where one was released within the
+                          periods that count there is no exponent, and leaving those periods out would not give one.
+    Returns an Exponent; NaN with the reason where loops were released or fewer than 32 periods count.
+    """
+    growth = checked_series(growth_nats, "growth_nats")
+    events = np.zeros(len(growth), dtype=bool) if released is None else np.asarray(released, dtype=bool)
+    if events.shape != growth.shape:
+        raise ValueError(f"released: {len(growth)} values are needed, given {events.shape}")
+    (found,) = tangent_lyapunov(growth, transient_periods)
+    if count := int(events[transient_periods:].sum()):
+        return no_exponent(METHOD, f"loops were released in {count} of the periods that count", BITS_PER_PERIOD)
+    return found
+
+
 def _block_error(values, blocks):
     """Standard error of the mean of values (m, k) from the scatter of the means of equal blocks."""
     length = len(values) // blocks

@@ -5,6 +5,9 @@
 
 Protocol: the same scene, start and length for every value of waves.steepness; the first wave periods of every run are
 left out of extremes, slack and section as the transient. Nothing is random.
+
+In a plane a loop of slack tether cannot open; the run releases it and counts (`loop_releases`). `--dimensions 3` runs
+every value in three dimensions, `--dimensions auto` those whose planar run released loops.
 """
 
 import sys
@@ -22,14 +25,22 @@ SCENE = "tethered_buoy"
 STEEPNESS = tuple(round(0.016 + 0.003 * step, 3) for step in range(49))
 PERIODS, TRANSIENT = 300, 100
 LEAST_ANALYSED = 40  # periods after the transient below which no verdict is possible: exponents are then left out
-SWEPT, TANGENTS = "waves.steepness", "output.tangent_vectors"
+SWEPT, TANGENTS, LATERAL = "waves.steepness", "output.tangent_vectors", "output.lateral_growth"
+DIMENSIONS = ("2", "3", "auto")
 
 
 @dataclass(frozen=True)
 class Order:
-    """What the command line asks for, checked: the scenes to run (by steepness) and how."""
+    """What the command line asks for, checked: the scenes to run (by steepness) and how.
+
+    dimensions: one of DIMENSIONS. scenes: those to begin with, planar ones for auto; spatial: those in three dimensions
+    (empty for 2); push_added: whether the scene had no velocity across the waves and got one for them.
+    """
 
     scenes: dict
+    spatial: dict
+    dimensions: str
+    push_added: bool
     periods: int
     transient: int
     out: Path
@@ -65,6 +76,8 @@ def parser():
     cli.add(what, "--transient", "N", leave_out)
     cli.add(what, "--scene", "FILE_OR_NAME", f"scene to start from (default: {SCENE}, the paper's Table 1)")
     cli.add(what, "--set", "KEY=VALUE ...", "change values of the scene, as water.depth_m=22.5 tether.nodes=81")
+    three = "2, 3, or auto: 3 where the planar run released loops (default: as the scene says; the shipped one says 2)"
+    cli.add(what, "--dimensions", "2|3|auto", three)
     cli.add_running(parser.add_argument_group("how and where"), f"results/{CAMPAIGN}")
     return parser
 
@@ -82,12 +95,36 @@ def read_order(argv: list[str], faults: list[str]) -> Order:
     backend, address = cli.backend(options, faults)
     out = cli.folder(options, CAMPAIGN, faults)
     name = cli.value(options.scene, "--scene", SCENE, str, "a scene file or the name of a scene", faults)
-    taken = {SWEPT: "use --steepness", "waves.amplitude_m": "use --steepness"}
+    taken = {SWEPT: "use --steepness", "waves.amplitude_m": "use --steepness", "motion.dimensions": "use --dimensions"}
     changes = cli.assignments(options.set, taken, faults)
+    allowed = "one of " + ", ".join(DIMENSIONS)
+    dimensions = cli.value(options.dimensions, "--dimensions", None, cli.one_of(DIMENSIONS), allowed, faults)
+    told = {} if dimensions is None else {"motion.dimensions": 3 if dimensions == "3" else 2}
     analysed = periods - transient >= LEAST_ANALYSED
-    scenes = _scenes(name, changes, steepness, analysed, faults)
+    scenes = _scenes(name, {**changes, **told}, steepness, analysed, faults)
+    if dimensions is None:
+        dimensions = "3" if any(scene.motion.dimensions == 3 for scene in scenes.values()) else "2"
+    spatial, added = ({}, False) if dimensions == "2" or faults else _in_space(scenes, faults)
+    scenes = spatial if dimensions == "3" else scenes
     source = {"scene": name, "set": changes}
-    return Order(scenes, periods, transient, out, jobs, backend, address, not options.no_report, source)
+    how = (out, jobs, backend, address, not options.no_report)
+    return Order(scenes, spatial, dimensions, added, periods, transient, *how, source)
+
+
+def _in_space(scenes: dict, faults: list[str]) -> tuple[dict, bool]:
+    """The scenes in three dimensions, and whether any had to be given a push across the waves."""
+    from campaigns.seeds import in_space
+    from engine import SceneError
+
+    found, pushed = {}, False
+    for value, scene in scenes.items():
+        try:
+            found[value], added = in_space(scene)
+        except SceneError as error:
+            faults.extend(fault for fault in error.faults if fault not in faults)
+            continue
+        pushed = pushed or added
+    return found, pushed
 
 
 def _steepness(options, faults: list[str]) -> list[float]:
@@ -114,7 +151,18 @@ def _steepness(options, faults: list[str]) -> list[float]:
 
 def carries_tangents(scene) -> bool:
     """Whether the engine can carry perturbations through this scene, for exponents and a verdict on its regime."""
-    return scene.tether.bending_stiffness_Nm2 > 0 and scene.solver.integrator in ("esdirk43", "trbdf2")
+    implicit = scene.solver.integrator in ("esdirk43", "trbdf2")
+    return implicit and scene.tether.bending_stiffness_Nm2 > 0 and scene.motion.dimensions == 2
+
+
+def _growths(scene, changes: dict) -> dict:
+    """The perturbations that a run is to carry where the order does not say: one in the plane and, unless the order
+    wants none there, one across it.
+    """
+    extra = {} if TANGENTS in changes else {TANGENTS: 1}
+    if LATERAL not in changes and scene.motion.dimensions == 2 and (extra or scene.output.tangent_vectors):
+        extra[LATERAL] = True
+    return extra
 
 
 def _scenes(name: str, changes: dict, steepness: list[float], analysed: bool, faults: list[str]) -> dict:
@@ -124,8 +172,8 @@ def _scenes(name: str, changes: dict, steepness: list[float], analysed: bool, fa
     for value in steepness:
         try:
             scene = load_scene(name, {**changes, SWEPT: value})
-            if TANGENTS not in changes and analysed and carries_tangents(scene):
-                scene = load_scene(name, {**changes, SWEPT: value, TANGENTS: 1})
+            if analysed and carries_tangents(scene) and (extra := _growths(scene, changes)):
+                scene = load_scene(name, {**changes, SWEPT: value, **extra})
         except SceneError as error:
             faults.extend(fault for fault in error.faults if fault not in faults)
             continue
@@ -142,6 +190,8 @@ def sweep(order: Order, argv: list[str], simulate) -> int:
     from campaigns.row_store import made_by
     from campaigns.rows import COLUMNS, STROBE_TOLERANCE, buoy_row
     from campaigns.runner import Plan, make_job
+    from campaigns.seeds import SEED_MPS
+    from campaigns.sweep_dimensions import run_where_needed
 
     if simulate is None:
         from engine import simulate
@@ -149,17 +199,24 @@ def sweep(order: Order, argv: list[str], simulate) -> int:
     describe = partial(buoy_row, transient_periods=order.transient, simulate=simulate)
     maker = made_by({"transient": order.transient}, "analysis", "engine", "campaigns/rows.py", "reports/buoy_motion.py")
     plan = Plan(order.out, simulate, describe, COLUMNS, order.backend, order.jobs, order.dask_address, row_maker=maker)
-    jobs = [make_job(scene, order.periods, labels={"steepness": value}) for value, scene in order.scenes.items()]
+    jobs = [
+        make_job(scene, order.periods, labels={"steepness": value, "dimensions": scene.motion.dimensions})
+        for value, scene in order.scenes.items()
+    ]
     parameters = {
         **order.source,
         "steepness": list(order.scenes),
         "periods": order.periods,
         "transient": order.transient,
         "strobe_tolerance": STROBE_TOLERANCE,
+        "dimensions": order.dimensions,
+        "push_mps": SEED_MPS if order.push_added else None,
     }
     with claimed(order.out):
         record = session.begin(CAMPAIGN, MODULE, argv, plan, jobs, parameters)
         timing, summary = session.run(plan, jobs)
+        if order.dimensions == "auto":
+            timing, summary = run_where_needed(plan, jobs, order.spatial, order.periods, timing, summary)
         session.finish(order.out, record, summary, timing)
         fault = session.report(order.out, order.report, timing, start)
     return session.say(order.out, summary, timing, order.report, fault)

@@ -126,15 +126,20 @@ def fraction(text: str) -> float:
     return number
 
 
-def backend(options: argparse.Namespace, faults: list[str]) -> tuple[str, str | None]:
-    """The backend and the address of its scheduler (None: none, or a local cluster)."""
+def one_of(words: tuple[str, ...]) -> Callable[[str], str]:
+    """A converter that lets only some words through."""
 
     def convert(text: str) -> str:
-        if text not in BACKENDS:
+        if text not in words:
             raise ValueError(text)
         return text
 
-    name = value(options.backend, "--backend", "loky", convert, "one of " + ", ".join(BACKENDS), faults)
+    return convert
+
+
+def backend(options: argparse.Namespace, faults: list[str]) -> tuple[str, str | None]:
+    """The backend and the address of its scheduler (None: none, or a local cluster)."""
+    name = value(options.backend, "--backend", "loky", one_of(BACKENDS), "one of " + ", ".join(BACKENDS), faults)
     allowed = "the address of a scheduler, as tcp://HOST:PORT"
     address = value(options.dask_address, "--dask-address", None, str, allowed, faults)
     if address is not None and name != "dask":

@@ -8,10 +8,11 @@ import math
 
 import numpy as np
 
-from reports.buoy_motion import LONGEST_PERIOD, STROBE_TOLERANCE, state_of, tighter_scene, verdict_of
+from reports.buoy_motion import LONGEST_PERIOD, STROBE_TOLERANCE, carried, state_of, tighter_scene, verdict_of
 
 COLUMNS = (
     "steepness",
+    "dimensions",
     "status",
     "regime",
     "regime_tighter",
@@ -28,10 +29,17 @@ COLUMNS = (
     "lyapunov_tangent_bits_per_period",
     "lyapunov_tangent_error",
     "offplane_growth_bits_per_period",
+    "offplane_growth_error",
     "max_buoy_height_above_water_m",
     "max_turn_rad",
     "min_strain",
     "loop_releases",
+    "buoy_lateral_max_m",
+    "rope_lateral_max_m",
+    "planar_loop_releases",
+    "planar_regime",
+    "planar_radius_min_m",
+    "planar_radius_max_m",
     "steps",
     "rejected_steps",
     "newton_iterations",
@@ -42,7 +50,8 @@ COLUMNS = (
     "message",
 )
 
-_STATISTICS = (
+LEAST_JUDGED = 40  # periods after the transient below which no verdict is possible
+STATISTICS = (
     "max_turn_rad",
     "min_strain",
     "loop_releases",
@@ -62,14 +71,18 @@ def buoy_row(trajectory, transient_periods: int, simulate=None) -> dict[str, obj
     transient_periods: wave periods left out of extremes, slack and strobed period; a record that does not outlast them
     by one period fills none of these.
     regime and exponents: of scenes with output.tangent_vectors, run to their end; all periods count, those with a loop
-    release too.
+    release too. A run in three dimensions has no tangent exponent, and the regime that its samples alone show.
+    offplane_growth: of scenes with output.lateral_growth; none where a loop was released after the transient, because
+    across the plane a loop has no rate of its own.
+    buoy_lateral_max_m, rope_lateral_max_m: largest |y| of the buoy, and of any node, after the transient, in three
+    dimensions. The columns planar_ are filled by `campaigns.sweep_dimensions`.
     simulate: to repeat a run that looks chaotic at a ten times tighter tolerance (regime_tighter); None: not done.
     max_buoy_height_above_water_m: highest point of the sphere less the still water depth, negative while it stays
     below.
     """
     row = {"status": trajectory.status, "message": trajectory.message}
-    row |= {name: _number(trajectory.statistics.get(name)) for name in _STATISTICS}
-    columns = _sound_part(trajectory.columns)
+    row |= {name: _number(trajectory.statistics.get(name)) for name in STATISTICS}
+    columns = sound_part(trajectory.columns)
     scene = trajectory.scene
     if len(columns["time_s"]) and scene.water is not None:
         top_m = float(np.max(columns["z_m"])) + 0.5 * scene.buoy.diameter_m
@@ -77,8 +90,16 @@ def buoy_row(trajectory, transient_periods: int, simulate=None) -> dict[str, obj
     step_s, period_s = scene.sample_step_s(), scene.waves.period_s
     recorded_s = (len(columns["time_s"]) - 1) * step_s
     if recorded_s >= (transient_periods + 1) * period_s - 1e-6 * step_s:
-        row |= _settled(columns, step_s, period_s, transient_periods)
-        if trajectory.tangent is not None and trajectory.status == "ok":
+        row |= settled(columns, step_s, period_s, transient_periods)
+        in_space = scene.motion.dimensions == 3
+        if in_space:
+            after = round(transient_periods * period_s / step_s)
+            row["buoy_lateral_max_m"] = float(np.abs(columns["y_m"][after:]).max())
+            row["rope_lateral_max_m"] = float(columns["offplane_m"][after:].max())
+        if trajectory.status == "ok" and trajectory.tangent is not None:
+            row |= across_plane(trajectory.tangent, transient_periods)
+        enough = recorded_s >= (transient_periods + LEAST_JUDGED) * period_s - 1e-6 * step_s
+        if trajectory.status == "ok" and (carried(trajectory) or (in_space and enough)):
             tighter, verdict, tangent, wolf = _verdict(trajectory, transient_periods, simulate)
             row |= {
                 "regime": verdict.regime,
@@ -89,6 +110,16 @@ def buoy_row(trajectory, transient_periods: int, simulate=None) -> dict[str, obj
                 "lyapunov_wolf_error": _number(wolf.error),
             }
     return row
+
+
+def across_plane(growth, transient_periods: int) -> dict[str, object]:
+    """Exponent of infinitesimal perturbations across the plane, by column of the table; {} where none was carried."""
+    from analysis import transverse_lyapunov
+
+    if growth.lateral_nats is None:
+        return {}
+    found = transverse_lyapunov(growth.lateral_nats, transient_periods, growth.released)
+    return {"offplane_growth_bits_per_period": _number(found.value), "offplane_growth_error": _number(found.error)}
 
 
 def _verdict(trajectory, transient_periods: int, simulate):
@@ -102,7 +133,8 @@ def _verdict(trajectory, transient_periods: int, simulate):
     return tighter, verdict_of(trajectory, transient_periods, tighter)[0], tangent, wolf
 
 
-def _settled(columns, step_s: float, period_s: float, transient_periods: int) -> dict[str, object]:
+def settled(columns, step_s: float, period_s: float, transient_periods: int) -> dict[str, object]:
+    """Extremes, slack and strobed period of what follows the transient, by column of the table."""
     from analysis import extremes, slack_fraction
 
     transient_s = transient_periods * period_s
@@ -137,7 +169,7 @@ def strobed_period(columns, step_s: float, period_s: float, transient_periods: i
     return detect_period(section.points, LONGEST_PERIOD, STROBE_TOLERANCE, scale).period
 
 
-def _sound_part(columns) -> dict[str, np.ndarray]:
+def sound_part(columns) -> dict[str, np.ndarray]:
     """The samples before the first that is not finite: a run that blew up keeps what it had before."""
     arrays = {name: np.asarray(values, dtype=float) for name, values in columns.items()}
     sound = np.all([np.isfinite(values) for values in arrays.values()], axis=0)

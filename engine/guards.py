@@ -11,6 +11,8 @@ STRAIN_BELOW_MINUS_ONE = 4
 NOT_FINITE = 5
 STATICS_FAILED = 6
 STEP_LIMIT = 7
+TENSION_FLAT = 8
+SHAPE_LOST = 9
 
 WORDS = {
     OK: "ok",
@@ -21,6 +23,8 @@ WORDS = {
     NOT_FINITE: "not-finite",
     STATICS_FAILED: "statics-failed",
     STEP_LIMIT: "step-limit",
+    TENSION_FLAT: "tension-flat",
+    SHAPE_LOST: "shape-lost",
 }
 
 ADVICE = {
@@ -38,4 +42,6 @@ ADVICE = {
     STEP_LIMIT: "the run stands still at t = {t:.6g} s: 20 000 steps of {dt:.2g} s were tried within the "
     "time of one usual step; raise solver.rtol, or look for what the grid cannot resolve (compression without "
     "bending, for one)",
+    TENSION_FLAT: "the tension law has lost its slope at t = {t:.6g} s, by which the paper's form divides",
+    SHAPE_LOST: "the shape of the tether and the path of its end have parted by t = {t:.6g} s",
 }

@@ -18,6 +18,7 @@ import numpy as np
 from .compiled import kernel
 from .dimensions import conserved, largest_turn, release_loop, size_of, work_arrays
 from .elementary import copy_into
+from .ends import next_corner
 from .energy import add_powers, store_energies
 from .guards import NEWTON_FAILED, NOT_FINITE, OK, STEP_LIMIT, STEP_UNDERFLOW, STRAIN_BELOW_MINUS_ONE, TURN_UNRESOLVED
 from .integrators import RUNGE_KUTTA
@@ -31,6 +32,7 @@ STATE = np.dtype([(name, np.int64) for name in _COUNTS] + [(name, np.float64) fo
 SMALL_STEPS = 3
 SMALL_STEP_NEWTON = 100  # after a release each update is cut to one scale: about 20 iterations
 SAFETY, SHRINK, GROW = 0.9, 0.2, 4.0
+NO_SLIVER = 1.01  # a step is made a little longer rather than leave next to nothing of the way to a corner
 MOST_ATTEMPTS = 20_000  # steps tried within one `window` of time: more is a run that stands still
 CAUTIOUS_STEPS, CAUTIOUS_GROW = 5, 1.3  # after a failure of Newton's method
 
@@ -109,9 +111,11 @@ def march(p, tables, state, Y, Y_before, C, K, samples, profiles, energies, sums
             break
         small = state.small_steps > 0
         dt = state.dt
-        lets_go = state.t < p.end_release <= state.t + dt  # a held end: the step ends with its release
-        if lets_go:
-            dt = p.end_release - state.t
+        corner = next_corner(p, tables, state.t) if p.adaptive else p.end_release
+        cut = state.t < corner <= state.t + NO_SLIVER * dt  # the step ends with a corner of a held end's motion
+        if cut:
+            dt = corner - state.t
+        lets_go = cut and corner == p.end_release
         error = 0.0
         am, af, gamma = (1.0, 1.0, 1.0) if small else (p.alpha_m, p.alpha_f, p.gamma)
         one_stage = small or p.method != RUNGE_KUTTA
@@ -152,7 +156,7 @@ def march(p, tables, state, Y, Y_before, C, K, samples, profiles, energies, sums
         copy_into(C, C_new)
         if p.viscous:
             renew_viscosity(p, tables, size // 2, C, K, e_t, work[2])
-        state.t = p.end_release if lets_go else state.t + dt
+        state.t = corner if cut else state.t + dt
         state.dt_before = dt
         for k in range(n):
             state.min_strain = min(state.min_strain, Y[k, 0])

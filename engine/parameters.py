@@ -9,6 +9,7 @@ import math
 import numpy as np
 
 from . import currents, ends, integrators, tension, waves
+from .spatial import lift
 
 
 def _dtype(counts, values):
@@ -26,12 +27,13 @@ RECORD = np.dtype(
         "output_step release_step growth_per_step shortest_wave profile_step window alpha_m alpha_f gamma pace",
     )
 )
-# Three dimensions have a type of their own: a kernel that serves both is compiled for each on its first use. The
-# fields come first, or Numba would take one record for a subtype of the other.
+# Three dimensions have a type of their own: a kernel that serves both is compiled for each on its first use. Their own
+# fields come first: Numba would take a record that only goes on after the planar fields for a planar one.
 SPATIAL = np.dtype(
     _dtype(
         "cur_ny clamp_below clamp_above",
-        "GI dir_x dir_y end_y end_fy start_y below_x below_y below_z above_x above_y above_z twist twist_ramp",
+        "GI dir_x dir_y end_y end_fy start_y below_x below_y below_z above_x above_y above_z "
+        "carry0 carry1 carry2 carry3 twist twist_ramp",
     )
     + RECORD.descr
 )
@@ -204,7 +206,19 @@ def _turning(record, scene):
         record[f"clamp_{name}"] = clamp.rotation == "clamped"
         direction = np.array(clamp.direction or chord)
         _put(record, f"{name}_", direction / np.linalg.norm(direction))
-    record["twist"], record["twist_ramp"] = end.twist_rad, end.twist_ramp_s
+    _put_carried(record, np.array(chord) / np.linalg.norm(chord))
+    record["twist"], record["twist_ramp"] = end.twist_rad or 0.0, end.twist_ramp_s or 0.0
+
+
+def _put_carried(record, chord):
+    """Where no twist is: the rotation of the lower clamp into the upper one, by the shortest ways to the chord and on.
+
+    Straight from clamp to clamp would say the same of a line in a plane, but nothing where the clamps oppose each other
+    (a line that hangs between two vertical ones).
+    """
+    below, above = ([float(record[f"{name}_{axis}"]) for axis in "xyz"] for name in ("below", "above"))
+    first, second = lift.shortest_rotation(below, chord), lift.shortest_rotation(chord, above)
+    record["carry0"], record["carry1"], record["carry2"], record["carry3"] = lift.product(second, first)
 
 
 def _solver(record, scene, place, h):
@@ -236,7 +250,7 @@ def _solver(record, scene, place, h):
     record["release"], record["max_releases"] = solver.loop_release, solver.max_loop_releases
     moving = scene.end.kind == "buoy" and any(scene.start.buoy_velocity_mps)
     impulsive = record["waves"] and scene.waves.ramp_s == 0
-    moved = record["end_motion"] != ends.STILL or scene.end.twist_ramp_s > 0
+    moved = record["end_motion"] != ends.STILL or bool(scene.end.twist_ramp_s)
     record["at_rest"] = not (moving or impulsive or moved)
     _scales(record, scene, h)
     if solver.courant is not None:
@@ -249,7 +263,8 @@ def _solver(record, scene, place, h):
 def _scales(record, scene, h):
     """Inverse scales in which Newton updates and step errors are measured (Table 1: 0.04, 100 N, 1 m/s, 5 rad/m)."""
     length, g = scene.tether.length_m, scene.gravity_mps2
-    load = max(abs(float(record["lift"])), abs(float(record["w0"])) * length, 1e-3)
+    stiff = buckling_load(scene.tether, scene.end)
+    load = max(abs(float(record["lift"])), abs(float(record["w0"])) * length, stiff, 1e-3)
     if scene.end.force_N is not None:
         load = max(load, math.hypot(*scene.end.force_N))
     strain = strain_at(load, scene.tether.tension)
@@ -257,13 +272,18 @@ def _scales(record, scene, h):
         stretched = math.hypot(*scene.end.position_m) / length - 1
         if stretched > strain:
             strain, load = stretched, max(load, tension_at(stretched, scene.tether.tension))
-    record["per_strain"] = 1 / strain
     stiffness = max(tension_at(strain, scene.tether.tension), 1e-9) / strain  # secant: what the law offers up to there
+    pulled = end_speed(scene.end)
+    if pulled > 0:  # an end that is pulled away sends out a wave of the force V sqrt(m T/eps)
+        load = max(load, pulled * math.sqrt(float(record["m"]) * stiffness))
+        strain = max(strain, strain_at(load, scene.tether.tension))
+    record["per_strain"] = 1 / strain
     transit = length * math.sqrt(float(record["m"]) / stiffness)
     record["release_step"] = min(transit / 12, float(record["max_step"]))
     record["per_force"] = 20 / load
     recoil = strain * length / transit if scene.end.force_decay_s else 0.0  # of the end of a line that breaks
-    record["per_speed"] = 1 / max(math.sqrt(g * length) / 14, recoil / 14, 1e-3)
+    bent = stiff / float(record["m"])
+    record["per_speed"] = 1 / max(math.sqrt(max(g * length, bent)) / 14, recoil / 14, pulled, 1e-3)
     record["per_curvature"] = float(np.mean(h)) / 2.5
 
 
@@ -272,6 +292,26 @@ def fastest_wave(record, scene):
     strains = np.linspace(0.0, 1.0 / float(record["per_strain"]), 2001)
     slopes = np.diff([tension_at(strain, scene.tether.tension) for strain in strains]) / strains[1]
     return math.sqrt(max(slopes.max(), 1e-300) / float(record["m"]))
+
+
+def end_speed(end):
+    """Greatest speed (m/s) at which a held end is moved; of a table the greatest between its rows, nearly."""
+    motion = end.motion
+    if motion is None:
+        return 0.0
+    if motion.law == "harmonic":
+        return 2 * math.pi / motion.period_s * math.hypot(*motion.amplitude_m)
+    steps = np.diff(motion.displacement_m, axis=0) / np.diff(motion.time_s)[:, None]
+    return float(np.linalg.norm(steps, axis=1).max())
+
+
+def buckling_load(tether, end):
+    """Force (N) of bending and twist, of use where a line has no weight: the greater of the compression at which a
+    clamped line buckles, EI (2 pi/L)^2 (Euler), and the tension that M = GIp twist/L overcomes, M^2/(4 EI) (Love).
+    """
+    EI, L = tether.bending_stiffness_Nm2, tether.length_m
+    torque = tether.torsion_stiffness_Nm2 * (end.twist_rad or 0.0) / L
+    return max(EI * (2 * math.pi / L) ** 2, torque**2 / (4 * EI)) if EI > 0 else 0.0
 
 
 def tension_at(strain, law):

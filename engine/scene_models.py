@@ -97,7 +97,7 @@ class HarmonicMotion(Section):
 
 
 class TableMotion(Section):
-    """A held end is moved through displacements at times, by a monotone cubic (PCHIP); at rest before and after."""
+    """A held end is moved through displacements at times, by a monotone cubic (PCHIP) that starts and ends at rest."""
 
     law: Literal["table"]
     time_s: Series
@@ -118,8 +118,8 @@ class End(Section):
     release_s: Positive | None = None  # when a held end is let go; None: never
     rotation: Literal["pinned", "clamped"] = "pinned"  # clamped: held ends only
     direction: Vector | None = None  # of the clamped tangent; None: along the line from the anchor
-    twist_rad: Number = 0.0  # turn of the upper clamp about its tangent against the lower one
-    twist_ramp_s: NonNegative = 0.0  # time in which the twist is put in, as sin^2; 0: there from the start
+    twist_rad: Number | None = None  # turn of the upper clamp about its tangent against the lower one
+    twist_ramp_s: NonNegative | None = None  # in which the twist is put in, as sin^2; None or 0: there from the start
 
 
 class Buoy(Section):
@@ -228,6 +228,7 @@ class Output(Section):
     profiles_step_s: Positive | None = None  # None: as step_s
     energy: Flag = False  # energy budget of a dry line (`engine.energy`)
     tangent_vectors: CountOrZero = 0  # perturbations carried along: as many Lyapunov exponents
+    lateral_growth: Flag = False  # an infinitesimal perturbation across the plane carried along
 
 
 class Scene(Section):

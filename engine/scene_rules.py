@@ -166,6 +166,10 @@ def _solver(sound: Sound) -> Iterator[str]:
         yield fault("tether.grid_refined", refined, "'both', because tether.grid_stretching is 0: nothing is refined")
     if (found := sound.values("solver.min_step_s", "solver.max_step_s")) and found[0] > found[1]:
         yield fault("solver.min_step_s", found[0], f"at most solver.max_step_s, {shown(found[1])}")
+    stiffness = sound.values("tether.bending_stiffness_Nm2")
+    if sound.value("solver.scheme") == "paper-box" and stiffness and stiffness[0] == 0:
+        rule = "above 0, because solver.scheme is 'paper-box' and eq. (40) divides by EI"
+        yield fault("tether.bending_stiffness_Nm2", stiffness[0], rule)
 
 
 def _output(sound: Sound) -> Iterator[str]:
@@ -174,28 +178,41 @@ def _output(sound: Sound) -> Iterator[str]:
         given = f"given {shown(step)}, but output.profiles is false"
         yield f"output.profiles_step_s: {given}; allowed: only with output.profiles = true"
     if sound.value("output.energy") is True:
-        if sound.value("water") is not None:
-            yield fault("output.energy", True, "false, because the budget knows of no water")
-        integrator = sound.value("solver.integrator") or "esdirk43"
-        if integrator in ("esdirk43", "trbdf2"):
-            yield fault("output.energy", True, f"false, because solver.integrator is {integrator!r}: use one of one stage")
-    vectors = sound.value("output.tangent_vectors")
-    if vectors in (None, FAULTY, 0):
-        return
+        yield from _budgeted(sound)
+    vectors, sideways = sound.value("output.tangent_vectors"), sound.value("output.lateral_growth")
+    if vectors not in (None, FAULTY, 0):
+        yield from _perturbed(sound, "output.tangent_vectors", vectors, "0")
+        nodes = sound.values("tether.nodes")
+        if nodes and isinstance(vectors, int) and vectors > 4 * nodes[0]:
+            yield fault("output.tangent_vectors", vectors, f"at most four a node, {4 * nodes[0]}")
+    if sideways is True:
+        yield from _perturbed(sound, "output.lateral_growth", sideways, "false")
+
+
+def _budgeted(sound: Sound) -> Iterator[str]:
+    """What a scene needs for its energy budget."""
+    if sound.value("water") is not None:
+        yield fault("output.energy", True, "false, because the budget knows of no water")
+    integrator = sound.value("solver.integrator") or "esdirk43"
+    if integrator in ("esdirk43", "trbdf2"):
+        yield fault("output.energy", True, f"false, because solver.integrator is {integrator!r}: use one of one stage")
+    if sound.value("solver.scheme") == "paper-box":
+        yield fault("output.energy", True, "false, because solver.scheme is 'paper-box': use 'conservation'")
+
+
+def _perturbed(sound: Sound, key: str, given: object, none: str) -> Iterator[str]:
+    """What a scene needs to carry perturbations along; `none`: the value of `key` that asks for none."""
     if sound.value("solver.shock_viscosity") is not None:
-        yield fault("output.tangent_vectors", vectors, "0, because solver.shock_viscosity is given")
+        yield fault(key, given, f"{none}, because solver.shock_viscosity is given")
     found = sound.values("tether.bending_stiffness_Nm2")
     if found and found[0] == 0:
-        yield fault("output.tangent_vectors", vectors, "0, because a slack tether without bending has no tangent map")
+        yield fault(key, given, f"{none}, because a slack tether without bending has no tangent map")
     if sound.value("motion.dimensions") == 3:
-        allowed = "0, because motion.dimensions is 3: perturbations are carried in a plane only"
-        yield fault("output.tangent_vectors", vectors, allowed)
+        allowed = f"{none}, because motion.dimensions is 3: perturbations are carried along planar motions only"
+        yield fault(key, given, allowed)
     if sound.value("solver.scheme") == "paper-box":
-        yield fault("output.tangent_vectors", vectors, "0, because solver.scheme is 'paper-box': use 'conservation'")
+        yield fault(key, given, f"{none}, because solver.scheme is 'paper-box': use 'conservation'")
     integrator = sound.value("solver.integrator")
     if integrator in ("midpoint", "generalized-alpha"):
-        allowed = f"0, because solver.integrator is {integrator!r}: use esdirk43, trbdf2 or backward-euler"
-        yield fault("output.tangent_vectors", vectors, allowed)
-    nodes = sound.values("tether.nodes")
-    if nodes and isinstance(vectors, int) and vectors > 4 * nodes[0]:
-        yield fault("output.tangent_vectors", vectors, f"at most four a node, {4 * nodes[0]}")
+        because = f"because solver.integrator is {integrator!r}: use esdirk43, trbdf2 or backward-euler"
+        yield fault(key, given, f"{none}, {because}")

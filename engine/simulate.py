@@ -47,20 +47,47 @@ def simulate_batch(scenes, periods=None, duration_s=None, progress=None):
     scenes = list(scenes)
     durations = [_duration(scene, periods, duration_s) for scene in scenes]
     runs = [None] * len(scenes)
-    for dimensions in (2, 3):
-        chosen = [i for i, scene in enumerate(scenes) if scene.motion.dimensions == dimensions]
-        done = sum(run is not None for run in runs)
-        if not chosen:
-            continue
-        batch = _Batch([scenes[i] for i in chosen], [durations[i] for i in chosen])
-        chunk = max(1, round(PERIODS_PER_CALL * _period(scenes[chosen[0]]) / float(batch.records[0]["output_step"])))
-        while not batch.done():
-            batch.advance(chunk)
+    for kind in ("paper-box", 2, 3):
+        chosen = [i for i, scene in enumerate(scenes) if _kind(scene) == kind]
+        before = sum(run is not None for run in runs)
+
+        count = len(chosen)
+
+        def share(fraction, before=before, count=count):
             if progress is not None:
-                progress((done + batch.fraction() * len(chosen)) / len(scenes))
-        for b, i in enumerate(chosen):
-            runs[i] = batch.trajectory(b)
+                progress((before + fraction * count) / len(scenes))
+
+        group = [scenes[i] for i in chosen], [durations[i] for i in chosen]
+        for i, run in zip(chosen, (_by_paper if kind == "paper-box" else _by_batch)(*group, share), strict=True):
+            runs[i] = run
     return runs
+
+
+def _kind(scene):
+    return "paper-box" if scene.solver.scheme == "paper-box" else scene.motion.dimensions
+
+
+def _by_batch(scenes, durations, progress):
+    if not scenes:
+        return []
+    batch = _Batch(scenes, durations)
+    chunk = max(1, round(PERIODS_PER_CALL * _period(scenes[0]) / float(batch.records[0]["output_step"])))
+    while not batch.done():
+        batch.advance(chunk)
+        progress(batch.fraction())
+    return [batch.trajectory(b) for b in range(len(scenes))]
+
+
+def _by_paper(scenes, durations, progress):
+    if not scenes:
+        return []
+    from .paper_box import run
+
+    count = len(scenes)
+    return [
+        run(scene, duration_s, lambda fraction, done=i: progress((done + fraction) / count))
+        for i, (scene, duration_s) in enumerate(zip(scenes, durations, strict=True))
+    ]
 
 
 def _period(scene):
@@ -99,7 +126,8 @@ class _Batch:
                 0,
             ).astype(np.int64)
         self.samples = np.zeros((size, int(self.goals.max()), 12))
-        self.profiles = np.zeros((size, int(profiled.max()), nodes, 6))
+        # contiguous, one by one: another layout would be another compilation of `march`, which may round otherwise
+        self.profiles = [np.zeros((m, int(k), 6)) for m, k in zip(profiled, self.records["nodes"], strict=True)]
         kept = [goal if scene.output.energy else 0 for scene, goal in zip(scenes, self.goals, strict=True)]
         self.energies = [np.zeros((rows, energy.WIDTH)) for rows in kept]
         self.sums = np.zeros((size, 5))
@@ -107,7 +135,10 @@ class _Batch:
         self.Y = np.zeros((size, nodes, unknowns))
         self.C = np.zeros((size, nodes, conserved))
         self.K = np.zeros((size, nodes, conserved))
-        self.trails = [Trail(*one) for one in zip(scenes, self.records, durations, strict=True)]
+        self.trails = [
+            Trail(scene, record, self.tables, duration_s)
+            for scene, record, duration_s in zip(scenes, self.records, durations, strict=True)
+        ]
         self.walls = np.zeros(size)
         for b in range(size):
             self._start(b)
@@ -154,7 +185,7 @@ class _Batch:
             while True:
                 march(
                     record, self.tables, self.states[b], self.Y[b, :n], self.Y_before[b, :n], self.C[b, :n],
-                    self.K[b, :n], self.samples[b], self.profiles[b, :, :n], self.energies[b], self.sums[b], *trail.steps, until,
+                    self.K[b, :n], self.samples[b], self.profiles[b], self.energies[b], self.sums[b], *trail.steps, until,
                 )
                 trail.follow(record, self.tables, self.states[b])
                 if self.states[b]["status"] != OK or self.states[b]["samples"] >= until:
@@ -197,7 +228,7 @@ class _Batch:
             return None
         n = int(record["nodes"])
         h = self.tables[record["grid_at"] : record["grid_at"] + n - 1]
-        values = self.profiles[b, :count, :n]
+        values = self.profiles[b][:count]
         return Profiles(
             np.arange(count) * float(record["profile_step"]),
             np.concatenate([[0.0], np.cumsum(h)]),

@@ -19,7 +19,8 @@ from .spatial import state as spatial
 
 SOFTEST, FIRST, STIFFEST = 1e-8, 10.0, 1e9
 TOLERANCE = 1e-9
-MOST = 60
+CLOSE, BALANCED = 1e-6, 1e-9  # a line at rest moves less (m), against a resistance less than this share of its load
+MOST = 300  # a stiff line on its way to a clamp passes shear far above its load, by one scale an iteration
 MOST_TURNS = 4  # a bight that the grid does not resolve keeps a folded node
 
 
@@ -36,7 +37,7 @@ def settle(record, tables, Y, target_m):
     axes = ("end_x", "end_y", "end_z") if space else ("end_x", "end_z")
     velocity = slice(3, 6) if space else slice(2, 4)
     half = 0.5 * tables[p["grid_at"] : p["grid_at"] + n - 1, None]
-    mu, turns = FIRST, 0
+    mu, turns, settled = FIRST, 0, None
     for _ in range(400):
         C_tilde[:, : len(axes)] = lift.stretch_vectors(Y) if space else planar_stretch_vectors(Y)
         if p["end"] == HELD:
@@ -45,6 +46,9 @@ def settle(record, tables, Y, target_m):
                 p[axis] = place
         trial = Y.copy()
         code, _ = newton(p, tables, 0.0, 0.0, 1.0, mu, TOLERANCE, MOST, trial, C_tilde, X, F, Q, E, D)
+        if settled is not None and (code != OK or (mu == 0.0 and np.abs(trial[:, velocity]).max() > CLOSE)):
+            Y[:] = settled  # something is free to turn: with less resistance rounding errors move it
+            return OK
         if code != OK:
             mu = 100.0 * max(mu, SOFTEST)
             if mu > STIFFEST:
@@ -53,7 +57,7 @@ def settle(record, tables, Y, target_m):
         moved = np.abs(trial[:, velocity]).max()
         Y[:] = trial
         Y[:, velocity] = 0.0
-        if mu == 0.0 and moved < 1e-6:
+        if mu == 0.0 and moved < CLOSE:
             folded = Y[:, 0] < 0.0
             if p["bent"] or not folded.any() or turns == MOST_TURNS:
                 return OK
@@ -66,6 +70,9 @@ def settle(record, tables, Y, target_m):
             mu = FIRST
             turns += 1
             continue
+        share = mu * moved * float(p["m"]) * 2.0 * np.sum(half) * float(p["per_force"]) / 20.0
+        if p["bent"] and 0.0 < mu and moved < CLOSE and share < BALANCED:
+            settled = Y.copy()
         mu = 0.0 if mu <= SOFTEST else mu * (0.1 if moved < 1.0 else 0.5)
     return STATICS_FAILED
 

@@ -117,12 +117,14 @@ class TangentGrowth:
     """Growth of infinitesimal perturbations, period by period (`engine.tangent`).
 
     period_s: the wave period, or 1 s without waves. growth_nats (m, k): logarithm of the growth of the k orthonormal
-    perturbations in each of the m complete periods. released (m,): 1 where a loop was released in that period.
+    perturbations in the plane in each of the m complete periods; k may be 0. released (m,): 1 where a loop was released
+    in that period. lateral_nats (m,): growth across the plane (`engine.lateral`), None where not asked for.
     """
 
     period_s: float
     growth_nats: np.ndarray
     released: np.ndarray
+    lateral_nats: np.ndarray | None = None
 
 
 @dataclass(frozen=True)
@@ -197,14 +199,17 @@ def _variables(run: Trajectory) -> list[tuple[str, tuple[str, ...], np.ndarray, 
     if run.energy is not None and len(run.energy.time_s):
         for name, about in ENERGY_COLUMNS.items():
             found.append((f"energy_{name}", ("energy_time_s",), getattr(run.energy, name), *about))
-    if run.tangent is not None and len(run.tangent.growth_nats):
+    if run.tangent is not None and len(run.tangent.released):
         grown = run.tangent
-        number = np.arange(grown.growth_nats.shape[1])
-        found.append(("vector", ("vector",), number, "1", "number of the perturbation, fastest first"))
         about = (f"period ({grown.period_s!r} s)", "number of the period, the first is 0")
         found.append(("period", ("period",), np.arange(len(grown.released)), *about))
-        found.append(("growth_nats", ("period", "vector"), grown.growth_nats, "1", "growth of perturbations, nats"))
         found.append(("released", ("period",), grown.released, "1", "1 where a loop was released in the period"))
+        if count := grown.growth_nats.shape[1]:
+            found.append(("vector", ("vector",), np.arange(count), "1", "number of the perturbation, fastest first"))
+            found.append(("growth_nats", ("period", "vector"), grown.growth_nats, "1", "growth of perturbations, nats"))
+        if grown.lateral_nats is not None:
+            about = ("1", "growth of a perturbation across the plane of the waves, nats")
+            found.append(("lateral_nats", ("period",), grown.lateral_nats, *about))
     return [(name, dimensions, np.asarray(values, dtype=">f8"), *about) for name, dimensions, values, *about in found]
 
 
@@ -282,16 +287,24 @@ def _from_netcdf_bytes(content: bytes) -> Trajectory:
     energy = None
     if scene.output.energy:
         energy = EnergyBudget(**{name: arrays.get(f"energy_{name}", np.empty(0)) for name in ENERGY_COLUMNS})
-    tangent = None
-    if "growth_nats" in arrays:
-        period_s = float(file.variables["period"].units.decode().split("(")[1].split()[0])
-        tangent = TangentGrowth(period_s, arrays["growth_nats"], arrays["released"])
-    elif count := scene.output.tangent_vectors:  # a run that ended before its first period did
-        period_s = scene.waves.period_s if scene.waves is not None else 1.0
-        tangent = TangentGrowth(period_s, np.empty((0, count)), np.empty(0))
+    tangent = _growth(scene, arrays, file)
     columns = {name: arrays[name] for name in COLUMNS}
     statistics = json.loads(texts["statistics"])
     return Trajectory(scene, texts["status"], texts["message"], columns, statistics, profiles, tangent, energy)
+
+
+def _growth(scene: Scene, arrays: dict[str, np.ndarray], file: object) -> TangentGrowth | None:
+    """What a file holds of perturbations; empty arrays for a run that ended before its first period did."""
+    count, sideways = scene.output.tangent_vectors, scene.output.lateral_growth
+    if not (count or sideways):
+        return None
+    if "released" in arrays:
+        period_s = float(file.variables["period"].units.decode().split("(")[1].split()[0])
+    else:
+        period_s = scene.waves.period_s if scene.waves is not None else 1.0
+    released = arrays.get("released", np.empty(0))
+    growth = arrays.get("growth_nats", np.empty((len(released), count)))
+    return TangentGrowth(period_s, growth, released, arrays.get("lateral_nats", np.empty(0)) if sideways else None)
 
 
 def _text(file: object, name: str) -> str:

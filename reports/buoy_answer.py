@@ -6,7 +6,7 @@ import math
 
 from .buoy_motion import LONGEST_PERIOD
 from .buoy_physics import Modes
-from .buoy_runs import Run, period_length, several_points, value
+from .buoy_runs import Run, lateral, period_length, planar_releases, several_points, value
 from .buoy_warnings import releases
 from .wording import count, decimals, number, percent, ranges
 
@@ -19,7 +19,7 @@ def short_answer(runs: tuple[Run, ...], transient: int, tolerance: float, modes:
     good = tuple(run for run in runs if run.ok)
     lines = [_sweep(runs, good, transient)]
     if good:
-        lines += [_slack(good), *_periods(good, tolerance), _loops(good), _extremes(good, modes)]
+        lines += [_slack(good), *_periods(good, tolerance), _loops(good), _space(good), _extremes(good, modes)]
     return tuple(line for line in lines if line)
 
 
@@ -102,6 +102,20 @@ def _loops(good) -> str:
         f"Loops form and are released in {len(looped)} of {count(len(good), 'run')}, first at kA = "
         f"{number(looped[0].steepness)}, most often at kA = {number(most.steepness)} "
         f"({count(int(value(most, 'loop_releases')), 'release')})."
+    )
+
+
+def _space(good) -> str:
+    space = [run for run in good if run.in_space]
+    if not space:
+        return ""
+    where = ranges([run.steepness for run in good], [run.in_space for run in good])
+    why = ", because the planar runs there released loops" if any(planar_releases(run) > 0 for run in space) else ""
+    most = max(space, key=lambda run: lateral(run, "rope"))
+    return (
+        f"In three dimensions were run: kA = {where}{why}. The rope leaves the plane of the waves farthest at kA = "
+        f"{number(most.steepness)}, by {number(lateral(most, 'rope'), 2)} m; no buoy leaves it by more than "
+        f"{number(max(lateral(run, 'buoy') for run in space), 2)} m."
     )
 
 

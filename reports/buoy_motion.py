@@ -40,18 +40,41 @@ def tighter_scene(scene):
     return scene_from_toml(scene.to_toml(), {key: value})
 
 
+def carried(trajectory) -> bool:
+    """Whether a run carried tangent vectors in its plane, without which there is no verdict."""
+    return trajectory.tangent is not None and trajectory.tangent.growth_nats.shape[1] > 0
+
+
 def verdict_of(trajectory, transient_periods: int, tighter: str | None = None):
-    """The regime of a finished run that carried tangent vectors: (Verdict, tangent Exponent, Wolf Exponent of r).
+    """The regime of a finished run: (Verdict, tangent Exponent, Wolf Exponent of r).
+
+    A run that carried no tangent vectors, as every run in three dimensions, has a tangent Exponent without a value.
 
     tighter: the regime of the same run at a tighter tolerance, where someone looked.
     Both exponents in bits per wave period. Every period after the transient counts, those with a loop release too.
     """
-    from analysis import regime, tangent_lyapunov, wolf_lyapunov
+    from analysis import tangent_lyapunov
+    from analysis.exponents import BITS_PER_PERIOD, no_exponent
+
+    if not carried(trajectory):
+        tangent = no_exponent("tangent dynamics", "no perturbation was carried along", BITS_PER_PERIOD)
+    else:
+        tangent = tangent_lyapunov(trajectory.tangent.growth_nats, transient_periods)[0]
+    verdict, wolf = series_verdict(trajectory, transient_periods, tangent, tighter)
+    return verdict, tangent, wolf
+
+
+def series_verdict(trajectory, transient_periods: int, tangent=None, tighter: str | None = None):
+    """The regime of a finished run from its samples: (Verdict, Wolf Exponent of r in bits per wave period).
+
+    tangent: the Exponent of its tangent dynamics. A run in three dimensions has none, and the verdict is that of the
+    samples alone; a motion within millimetres of the plane of the waves has its state in that plane.
+    """
+    from analysis import regime, wolf_lyapunov
 
     scene, columns = trajectory.scene, trajectory.columns
     step_s, period_s = scene.sample_step_s(), scene.waves.period_s
     after = round(transient_periods * period_s / step_s)
-    tangent = tangent_lyapunov(trajectory.tangent.growth_nats, transient_periods)[0]
     wolf = wolf_lyapunov(columns["radius_m"][after:], step_s).in_bits_per_period(period_s)
     coordinates, scale = state_of(columns, step_s, period_s, transient_periods)
     verdict = regime(
@@ -66,4 +89,4 @@ def verdict_of(trajectory, transient_periods: int, tighter: str | None = None):
         tolerance=STROBE_TOLERANCE,
         max_period=LONGEST_PERIOD,
     )
-    return verdict, tangent, wolf
+    return verdict, wolf

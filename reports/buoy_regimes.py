@@ -57,7 +57,7 @@ def regime_items(folder: Folder, runs: tuple[Run, ...], transient: int) -> list[
         if abs(run.steepness - steepness) > 0.01 or any(run.steepness == done for done, *_ in curves):
             continue
         trajectory = load(folder, run)
-        if trajectory is None or trajectory.tangent is None:
+        if trajectory is None:
             continue
         verdict, _, wolf = verdict_of(trajectory, transient, run.row.get("regime_tighter") or None)
         items += _why(run, verdict)

@@ -70,6 +70,11 @@ class Run:
         return self.row["status"] == "ok"
 
     @property
+    def in_space(self) -> bool:
+        """Whether the run was made in three dimensions; a table without the column is of planar runs."""
+        return self.row.get("dimensions") == 3
+
+    @property
     def has_record(self) -> bool:
         """Whether there is enough of a record to draw: one wave period at least."""
         return not self.fault and self.periods_done >= 1.0
@@ -182,3 +187,13 @@ def value(run: Run, column: str) -> float:
     """A number of the run's row, nan where the table leaves it empty."""
     number = run.row[column]
     return math.nan if number is None or number == "" else float(number)
+
+
+def lateral(run: Run, body: str) -> float:
+    """Largest lateral distance of the "buoy" or the "rope" after the transient in m, nan for a planar run."""
+    return float(run.row[f"{body}_lateral_max_m"]) if run.in_space else math.nan
+
+
+def planar_releases(run: Run) -> float:
+    """Loop releases of the planar run of the same scene: its own, or those of the run it replaces; nan if unknown."""
+    return value(run, "loop_releases") if not run.in_space else float(run.row.get("planar_loop_releases", math.nan))

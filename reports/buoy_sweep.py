@@ -10,6 +10,7 @@ from .buoy_answer import short_answer
 from .buoy_equations import equation_items
 from .buoy_figures import run_items, section_figure
 from .buoy_physics import Modes, natural_frequencies
+from .buoy_plane import plane_items
 from .buoy_regimes import exponent_curves, judged, regime_items
 from .buoy_runs import COLUMNS, Run, chosen_runs, load, read_runs, value
 from .buoy_tables import provenance_items, runs_items, scene_items, time_items
@@ -23,7 +24,7 @@ from .wording import count, decimals, number, percent
 
 def report(directory: str | Path) -> Report:
     """The content of the report on a buoy sweep's folder. Raises FolderError for a folder that is not one."""
-    folder = read_folder(directory, COLUMNS)
+    folder = read_folder(directory, COLUMNS, ("planar_regime",))
     runs = read_runs(folder)
     transient = int(folder.provenance.get("transient") or 0)
     tolerance = float(folder.provenance.get("strobe_tolerance") or 0.005)
@@ -33,6 +34,7 @@ def report(directory: str | Path) -> Report:
         *_orbit(runs, transient),
         *_chosen(folder, runs, transient, tolerance, modes),
         *regime_items(folder, runs, transient),
+        *plane_items(folder, runs, transient),
         Heading("Warnings"),
         *warnings(runs, folder.scene, modes),
         *runs_items(runs, transient, tolerance),

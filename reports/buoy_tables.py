@@ -15,7 +15,7 @@ from .figures.run_times import run_times
 from .folder import Folder
 from .scene_table import scene_table
 from .symbols import OMEGA_I, OMEGA_R, OMEGA_THETA, T_S
-from .wording import EMPTY, decimals, number, percent
+from .wording import EMPTY, decimals, listed, number, percent
 
 _TIMES = {
     "compile_s": "compiling the kernels",
@@ -42,8 +42,10 @@ def runs_items(runs: tuple[Run, ...], transient: int, tolerance: float) -> list[
         ("Newton", "", "newton_iterations", 0),
         ("wall", "s", "wall_s", 2),
     ]
+    space = any(run.in_space for run in runs)
     heads = (
         Column("kA"),
+        *([Column("D")] if space else []),
         Column("status", align="left"),
         Column("N"),
         *(Column(title, unit) for title, unit, *_ in columns),
@@ -51,6 +53,7 @@ def runs_items(runs: tuple[Run, ...], transient: int, tolerance: float) -> list[
     rows = tuple(
         (
             number(run.steepness),
+            *(["3" if run.in_space else "2"] if space else []),
             run.row["status"],
             _period_cell(run),
             *(decimals(value(run, column), places) for *_, column, places in columns),
@@ -62,6 +65,7 @@ def runs_items(runs: tuple[Run, ...], transient: int, tolerance: float) -> list[
         f"{percent(tolerance)} of its range, N ≤ {LONGEST_PERIOD}; “none” where no N does. T: tension at the top. "
         f"slack: share of the time without tension. N, r, θ, T and slack leave out the first {transient} wave "
         "periods. turn: largest turn of the tether within one element. loops: loop releases. A dash: not known."
+        + (" D: dimensions of the motion." if space else "")
     )
     return [Heading("Table of runs"), Table(heads, rows, caption, small=True)]
 
@@ -94,13 +98,13 @@ def time_items(folder: Folder, runs: tuple[Run, ...]) -> list[Item]:
                 f"Wall time and Newton iterations of each run over wave steepness: {seen}.",
             )
         )
-    if (table := timing_table(folder)) is not None:
-        items.append(table)
+    table = timing_table(folder)
+    items += [table] if table else []
     return items if len(items) > 1 else [*items, Text("Neither `table.csv` nor `provenance.json` holds times.")]
 
 
 def timing_table(folder: Folder) -> Table | None:
-    """Where the time of a campaign went; None where its provenance does not say."""
+    """The time split of a campaign, None where its provenance has none."""
     timing = folder.provenance.get("timing")
     if not isinstance(timing, dict) or not timing:
         return None
@@ -109,11 +113,8 @@ def timing_table(folder: Folder) -> Table | None:
         for name, time in timing.items()
         if isinstance(time, (int, float))
     )
-    return Table(
-        (Column("part", align="left"), Column("wall time", "s")),
-        rows,
-        "Where the time of the campaign went, from `provenance.json`.",
-    )
+    caption = "Where the time of the campaign went, from `provenance.json`."
+    return Table((Column("part", align="left"), Column("wall time", "s")), rows, caption)
 
 
 def scene_items(folder: Folder, runs: tuple[Run, ...], modes: Modes | None) -> list[Item]:
@@ -122,10 +123,15 @@ def scene_items(folder: Folder, runs: tuple[Run, ...], modes: Modes | None) -> l
 
     values = sorted({run.steepness for run in runs})
     span = number(values[0]) if len(values) == 1 else f"{number(values[0])} to {number(values[-1])}"
+    varied = {"waves.steepness": span}
+    if any(run.in_space for run in runs):
+        varied["motion.dimensions"] = listed(sorted({"3" if run.in_space else "2" for run in runs}))
+        if push := folder.provenance.get("push_mps"):
+            varied["start.buoy_velocity_mps"] = f"{number(push)} across the waves in three dimensions"
     table = scene_table(
         folder.scene,
         load_scene("tethered_buoy"),
-        {"waves.steepness": span},
+        varied,
         "The scene as run, from `scene.toml`; defaults are those of the scene `tethered_buoy`.",
     )
     items: list[Item] = [Heading("Scene"), table]

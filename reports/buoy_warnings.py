@@ -9,6 +9,13 @@ from .content import Notice
 from .symbols import T_I, TAU_0
 from .wording import count, decimals, listed, number, percent, ranges
 
+# What `campaigns.out_of_plane` found; its report has the numbers.
+COMPARED = (
+    "`campaigns.out_of_plane` compared such runs with runs in three dimensions at kA = 0.13 and depths of 21.0, 21.6 "
+    "and 22.0 m, over 200 wave periods: range of r, section, exponent and regime of the buoy were the same within what "
+    "one record leaves open. The path of the buoy in time after the first loops, and the shape of the rope in a loop, "
+    "were not."
+)
 _MANY = 8  # statements of one kind above which a box sums them up
 
 
@@ -60,17 +67,18 @@ def _turns(runs) -> Notice | None:
         most = max(looped, key=lambda run: value(run, "loop_releases"))
         total = int(sum(value(run, "loop_releases") for run in looped))
         lines = [
-            f"{count(total, 'loop release')} in {len(looped)} of {count(len(runs), 'run')}, first at "
-            f"{_at(looped[:1])}.",
+            f"{count(total, 'loop release')} in {len(looped)} of {count(len(runs), 'run')}: kA = "
+            f"{ranges([run.steepness for run in runs], [run in looped for run in runs])}.",
             f"Most at {_at([most])}: {releases(most)}. All of them are in the table of runs.",
         ]
     if unresolved:
         lines.append(f"Ended because a turn could not be resolved: {_at(unresolved)}.")
     lines.append(
         "A loop that a plane cannot open was undone by turning everything above it by 2π (columns `loop_releases`, "
-        "`max_turn_rad`). A rope free to leave the plane would not need it: runs with many releases want three "
-        "dimensions."
+        "`max_turn_rad`). A rope free to leave the plane does not need it."
     )
+    if any(not run.in_space for run in looped):
+        lines += [COMPARED, "A sweep with `--dimensions auto` runs these values of kA in three dimensions."]
     return Notice("warning", "Loops and unresolved turns", tuple(lines))
 
 

@@ -18,6 +18,7 @@ PARTS = {
     "provenance.json": "what ran, where and for how long",
     "trajectories": "the runs, one netCDF file each",
 }
+WORDS = ("status", "regime", "regime_tighter", "run_key", "message")  # columns of text in every table
 
 
 class FolderError(ValueError):
@@ -41,10 +42,10 @@ class Folder:
         return self.directory / "trajectories" / f"{run_key}.nc"
 
 
-def read_folder(directory: str | Path, columns: tuple[str, ...], text: tuple[str, ...] = ()) -> Folder:
+def read_folder(directory: str | Path, columns: tuple[str, ...], words: tuple[str, ...] = ()) -> Folder:
     """Read and check a campaign's folder.
 
-    Args: `columns` the columns its table must have; `text` those of them that hold words beside the usual ones.
+    Args: `columns` the columns its table must have; `words` those of them that hold text, besides WORDS.
     Raises FolderError naming every part that is missing or cannot be read.
     """
     directory = Path(directory)
@@ -52,7 +53,7 @@ def read_folder(directory: str | Path, columns: tuple[str, ...], text: tuple[str
         raise FolderError(directory, ["there is no such folder"])
     faults = [f"{name} is missing ({meaning})" for name, meaning in PARTS.items() if not (directory / name).exists()]
     provenance = _read(directory / "provenance.json", _provenance, faults)
-    table = _read(directory / "table.csv", lambda path: _table(path, columns, text), faults)
+    table = _read(directory / "table.csv", lambda path: _table(path, columns, (*WORDS, *words)), faults)
     scene = _read(directory / "scene.toml", _scene, faults)
     if faults:
         raise FolderError(directory, faults)
@@ -88,7 +89,7 @@ def _provenance(path: Path) -> dict:
 def _table(path: Path, columns: tuple[str, ...], words: tuple[str, ...]) -> pandas.DataFrame:
     import pandas
 
-    text = dict.fromkeys(("status", "regime", "regime_tighter", "run_key", "message", *words), str)
+    text = dict.fromkeys(words, str)
     table = pandas.read_csv(path, dtype=text, keep_default_na=True)
     absent = [column for column in columns if column not in table.columns]
     if absent:

@@ -18,7 +18,8 @@ SOURCES: dict[str, tuple[str, str]] = {
     "tether.density_kgpm3": ("density of the rope material", TABLE_1),
     "tether.diameter_m": ("rope diameter d", "from the cross-section, d = √(4A/π)"),
     "tether.nodes": ("grid nodes", f"{UNSTATED}; {NUMERICAL}"),
-    "tether.grid_stretching": ("grid refinement towards the ends", NUMERICAL),
+    "tether.grid_stretching": ("grid refinement towards an end", NUMERICAL),
+    "tether.grid_refined": ("end or ends towards which the grid is refined", NUMERICAL),
     "tether.bending_stiffness_Nm2": (
         "bending stiffness EI",
         f"{UNSTATED}; a published example of the same buoy and rope",
@@ -35,7 +36,10 @@ SOURCES: dict[str, tuple[str, str]] = {
     "tether.tension.p": ("coefficients of the tanh law", f"{PAPER}, section 4.1.1"),
     "tether.tension.strain": ("strain of the tabulated law", "measured points"),
     "tether.tension.tension_N": ("tension of the tabulated law", "measured points"),
+    "tether.compression_barrier_N": ("barrier against collapse below a strain of -0.5", NUMERICAL),
+    "anchor.rotation": ("lower end, free to turn or clamped", f"{UNSTATED}; no moment at the anchor"),
     "end.kind": ("upper end", TEXT_42),
+    "end.rotation": ("upper end, free to turn or clamped", f"{UNSTATED}; no moment at the buoy"),
     "buoy.diameter_m": ("buoy diameter D", TABLE_1),
     "buoy.mass_kg": ("buoy mass M", TABLE_1),
     "buoy.added_mass_kg": (f"buoy added mass {M_A}", TABLE_1),
@@ -63,6 +67,9 @@ SOURCES: dict[str, tuple[str, str]] = {
     "solver.integrator": ("time integration", f"{NUMERICAL}; the paper uses the box rule"),
     "solver.rtol": ("relative error tolerance of a step", NUMERICAL),
     "solver.step_s": ("fixed time step", NUMERICAL),
+    "solver.courant": ("fixed time step over the time a wave takes through the shortest element", NUMERICAL),
+    "solver.shock_viscosity.quadratic": ("viscosity confined to shocks, quadratic coefficient", NUMERICAL),
+    "solver.shock_viscosity.linear": ("viscosity confined to shocks, linear coefficient", NUMERICAL),
     "solver.max_step_s": ("longest time step", NUMERICAL),
     "solver.min_step_s": ("shortest time step", NUMERICAL),
     "solver.newton_tolerance": ("Newton tolerance", NUMERICAL),
@@ -75,6 +82,7 @@ SOURCES: dict[str, tuple[str, str]] = {
     "output.profiles": ("profiles along the tether kept", NUMERICAL),
     "output.profiles_step_s": ("output step of the profiles", NUMERICAL),
     "output.tangent_vectors": ("perturbations carried along (Lyapunov exponents)", NUMERICAL),
+    "output.lateral_growth": ("perturbation across the plane carried along", NUMERICAL),
 }
 
 # suffix of a key: the unit in print

@@ -29,7 +29,7 @@ def test_each_equation_of_the_paper_is_listed_once():
 
 
 def test_every_scene_key_and_column_named_exists():
-    named = set(re.findall(r"`((?:tether|buoy|water|waves|end|current|solver|output)\.\w+)`", NOTATION))
+    named = set(re.findall(r"`((?:tether|buoy|water|waves|anchor|end|current|solver|output)\.\w+)`", NOTATION))
     assert named and named <= set(known_keys(Scene))
     assert set(COLUMNS) - {"x_m", "y_m", "z_m"} <= set(re.findall(r"`(\w+)`", NOTATION))
 

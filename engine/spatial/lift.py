@@ -1,4 +1,4 @@
-"""Planar states in space, and twist: starts of three-dimensional runs (NumPy, no kernels).
+"""Planar states in space: starts of three-dimensional runs (NumPy, no kernels).
 
 A state in the vertical plane through azimuth a (about z, from x) has t = (cos phi cos a, cos phi sin a, sin phi) and
 n horizontal: at phi = a = 0 the frame is (x, y, z). In the plane of x and z b1 and b3 are then exactly zero and remain
@@ -25,6 +25,15 @@ def product(a, b):
     )
 
 
+def shortest_rotation(u, v):
+    """Quaternion of the shortest rotation that takes the unit vector u into v; about y, or z, where they oppose."""
+    scalar, axis = 1.0 + np.dot(u, v), np.cross(u, v)
+    if scalar < 1e-12:
+        scalar, axis = 0.0, np.cross(u, (1.0, 0.0, 0.0) if abs(u[0]) < 0.9 else (0.0, 1.0, 0.0))
+    quaternion = np.array([scalar, *axis])
+    return quaternion / np.linalg.norm(quaternion)
+
+
 def stretch_vectors(Y):
     """q (n, 3) of states Y (n, 13)."""
     b0, b1, b2, b3 = Y[:, 6:10].T
@@ -41,16 +50,12 @@ def state_in_space(record, h, planar, azimuth):
     if azimuth:
         beta = product(np.array([math.cos(0.5 * azimuth), 0.0, 0.0, math.sin(0.5 * azimuth)]), beta)
     Y = np.zeros((n, 13))
-    roll = zero
-    if record["clamp_below"] and record["clamp_above"] and record["twist"] != 0 and record["twist_ramp"] == 0:
-        s = np.concatenate([[0.0], np.cumsum(h)])
-        roll = float(record["twist"]) * s / s[-1]
-        beta = product(beta, np.stack([np.cos(0.5 * roll), np.sin(0.5 * roll), zero, zero], axis=1))
-        Y[:, 10] = float(record["twist"]) / s[-1]
+    if record["clamp_below"] and record["clamp_above"] and record["twist_ramp"] == 0:
+        Y[:, 10] = float(record["twist"]) / np.sum(h)
     Y[:, 0] = planar[:, 0]
-    Y[:, 1], Y[:, 2] = planar[:, 1] * np.sin(roll), planar[:, 1] * np.cos(roll)
+    Y[:, 2] = planar[:, 1]
     Y[:, 6:10] = beta
-    Y[:, 11], Y[:, 12] = -planar[:, 5] * np.cos(roll), planar[:, 5] * np.sin(roll)
+    Y[:, 11] = -planar[:, 5]
     return Y
 
 

@@ -1,13 +1,16 @@
 """Nodal quantities of the cable in space: everything the box equations need, once per node.
 
 Unknowns Y[k] = (eps, Sn, Sb, U, V, W, b0, b1, b2, b3, O1, O2, O3): strain, shear forces, velocity in fixed axes, Euler
-parameters of the local frame t, n, b (eq. 5, 6), and its rotation along the line (eq. 4). q = (1 + eps) t and
-N = T t + Sn n + Sb b. Equations (3) in conservation form, (4), and (16) with its factor the right way up:
+parameters of the local frame t, n, b (eq. 5, 6), and the rotation of the material along the line (eq. 4). A round line
+leaves it free how n and b lie in it: this frame turns with t but does not roll about it, and O1 is the twist of the
+material against it (a frame that rolls with the material passes one turn an element where GIp is small: with
+GIp = EI/10 no grid up to 449 nodes gave the localised buckle of `test_torsion_localised`, and 113 do). q = (1 + eps) t
+and N = T t + Sn n + Sb b. Equations (3) in conservation form, (4), and (16) with its factor the right way up:
 
     N_s = G     G = m V_t + w0 z + a t + P (d + w)      (F_e of (23)-(24) moved to the left side)
-    V_s = q_t   b_s = 1/2 b o (0, O)
+    V_s = q_t   b_s = 1/2 b o (0, 0, O2, O3)
     GIp O1_s = 0,   EI O2_s - M2 = 0,   EI O3_s + M3 = 0
-    M2 = (1+eps)^3 Sb + (EI - GIp) O1 O3,   M3 = (1+eps)^3 Sn + (EI - GIp) O1 O2
+    M2 = (1+eps)^3 Sb - GIp O1 O3,   M3 = (1+eps)^3 Sn - GIp O1 O2
 
     P = I - t t',  v = V - U_w,  v_p = P v,   a = c_t sqrt(1+eps) |v_t| v_t,
     d = c_n sqrt(1+eps) |v_p| v_p,  w = m_a V_t - R dU_w/dt
@@ -147,5 +150,5 @@ def node_quantities(p, tables, cq, cv, in_motion, Y, C_tilde, F, Q):
             cube = lam * lam * lam
             row[38], row[39], row[40] = cube * Sb, cube * Sn, cube
             if Y[k, 10] != 0.0:
-                row[38] += (p.EI - p.GI) * Y[k, 10] * Y[k, 12]
-                row[39] += (p.EI - p.GI) * Y[k, 10] * Y[k, 11]
+                row[38] -= p.GI * Y[k, 10] * Y[k, 12]
+                row[39] -= p.GI * Y[k, 10] * Y[k, 11]

@@ -4,13 +4,14 @@ Box between nodes a (lower) and b (upper), half element length e, psi the rotati
 residuals that Newton drives to zero:
 
     V_b - V_a - e (q_t,a + q_t,b) = 0                 compatibility      o b   y_b, v_b
-    psi - e (O_a + O_b) = 0                           rotation           |
+    psi - e (o_a + o_b) = 0,  o = (0, O2, O3)         rotation           |
     N_b - N_a - e (G_a + G_b) = 0                     momentum           |  h = 2 e
     EI (O2_b - O2_a) - e (M2_a + M2_b) = 0            moments            |
     EI (O3_b - O3_a) + e (M3_a + M3_b) = 0                               o a   y_a, v_a
 
 A torque that nothing distributes is the same everywhere: O1 is one number for the whole line, zero but where both ends
-are clamped, and one more right-hand side there instead of one more unknown.
+are clamped, and one more right-hand side there instead of one more unknown: what the frame, which does not roll,
+turns between the clamps, and O1 times the length, are the twist given.
 
 Split the unknowns into y = (eps, Sn, Sb, theta2, theta3) and v = (V, O2, O3, theta1). Below node a everything is one
 affine relation v_a = R y_a + r + r' dO1; at the anchor V = 0, theta1 = 0 (the roll of the frame is free there: this
@@ -32,8 +33,9 @@ import math
 import numpy as np
 
 from ..compiled import kernel
+from ..elementary import smooth_start
 from ..ends import HELD, released, upper_end_3d
-from ..vectors import dot, least_turn, mixed, quaternion_product, relative, rotation_vector, symmetric
+from ..vectors import dot, mixed, quaternion_product, relative, rotation_vector, symmetric
 from .node import vector
 from .rows import added, combined, combined3, put_row, row_dot, row_of, row_times, scaled
 
@@ -101,7 +103,7 @@ def sweep(p, tables, t, cq, cv, in_motion, Y, C_tilde, F, Q, E, D):
         J12, J21 = c * psi[0] * psi[1] - 0.5 * psi[2], c * psi[0] * psi[1] + 0.5 * psi[2]
         J13, J31 = c * psi[0] * psi[2] + 0.5 * psi[1], c * psi[0] * psi[2] - 0.5 * psi[1]
         J23, J32 = c * psi[1] * psi[2] - 0.5 * psi[0], c * psi[1] * psi[2] + 0.5 * psi[0]
-        c1 = psi[0] - e * (Y[a, 10] + Y[k, 10])
+        c1 = psi[0]
         c2 = psi[1] - e * (Y[a, 11] + Y[k, 11])
         c3 = psi[2] - e * (Y[a, 12] + Y[k, 12])
         inverse = 1.0 / J11
@@ -147,11 +149,11 @@ def sweep(p, tables, t, cq, cv, in_motion, Y, C_tilde, F, Q, E, D):
         g2 = -EI * (Y[k, 11] - Y[a, 11]) + e * (Qa[38] + Qb[38]) - EI * (z2 - r2)
         g3 = -EI * (Y[k, 12] - Y[a, 12]) - e * (Qa[39] + Qb[39]) - EI * (z3 - r3)
         if O1 != 0.0:
-            couple = e * (EI - GI) * O1
-            M2, M3 = combined3(1.0, M2, -couple, R3, -couple, A3), combined3(1.0, M3, couple, R2, couple, A2)
-            BM2, BM3 = combined(1.0, BM2, -couple, B3), combined(1.0, BM3, couple, B2)
-            g2 += couple * (r3 + z3)
-            g3 -= couple * (r2 + z2)
+            couple = e * GI * O1
+            M2, M3 = combined3(1.0, M2, couple, R3, couple, A3), combined3(1.0, M3, -couple, R2, -couple, A2)
+            BM2, BM3 = combined(1.0, BM2, couple, B3), combined(1.0, BM3, -couple, B2)
+            g2 -= couple * (r3 + z3)
+            g3 += couple * (r2 + z2)
         # y_a = P y_b + ...: elimination of (eps, Sn, Sb), then of the angles
         i00, i01, i02 = My[1] * Mz[2] - My[2] * Mz[1], Mx[2] * Mz[1] - Mx[1] * Mz[2], Mx[1] * My[2] - Mx[2] * My[1]
         i10, i11, i12 = My[2] * Mz[0] - My[0] * Mz[2], Mx[0] * Mz[2] - Mx[2] * Mz[0], Mx[2] * My[0] - Mx[0] * My[2]
@@ -190,20 +192,19 @@ def sweep(p, tables, t, cq, cv, in_motion, Y, C_tilde, F, Q, E, D):
         put_row(E[k], _P, pr)
         if twisted:
             # the same equations with dO1 for their only known term
-            y1 = w1 + 2.0 * e * inverse
-            y2 = over * (J21 * y1 - J12 * w1) - w2
-            y3 = over * (J31 * y1 - J13 * w1) - w3
-            couple = e * (EI - GI) * O1
-            D2 = e * (EI - GI) * (Y[a, 12] + Y[k, 12]) + couple * (w3 + y3) - EI * (y2 - w2)
-            D3 = -e * (EI - GI) * (Y[a, 11] + Y[k, 11]) - couple * (w2 + y2) - EI * (y3 - w3)
+            y2 = over * (J21 - J12) * w1 - w2
+            y3 = over * (J31 - J13) * w1 - w3
+            couple = e * GI * O1
+            D2 = -e * GI * (Y[a, 12] + Y[k, 12]) - couple * (w3 + y3) - EI * (y2 - w2)
+            D3 = e * GI * (Y[a, 11] + Y[k, 11]) + couple * (w2 + y2) - EI * (y3 - w3)
             Ja, Jb = (Qa[32], Qa[33], Qa[34], Qa[35], Qa[36], Qa[37]), (Qb[32], Qb[33], Qb[34], Qb[35], Qb[36], Qb[37])
             w = (wx, wy, wz)
-            known = mixed(w1, roll_a, -y1, roll_b)
+            known = mixed(w1, roll_a, -w1, roll_b)
             known = mixed(1.0, known, e, mixed(1.0, symmetric(Ja, w), 1.0, symmetric(Jb, w)))
             px = _solve_box(solver, known[0], known[1], known[2], D2, D3)
             put_row(E[k], _PX, px)
             wx, wy, wz = wx + row_dot(Ax, px), wy + row_dot(Ay, px), wz + row_dot(Az, px)
-            w2, w3, w1 = y2 + row_dot(A2, px), y3 + row_dot(A3, px), y1 + row_dot(A1, px)
+            w2, w3, w1 = y2 + row_dot(A2, px), y3 + row_dot(A3, px), w1 + row_dot(A1, px)
             E[k, _RT], E[k, _RT + 1], E[k, _RT + 2] = wx, wy, wz
             E[k, _RT + 3], E[k, _RT + 4], E[k, _RT + 5] = w2, w3, w1
         Rx, Ry, Rz = added(row_times(Ax, P), Bx), added(row_times(Ay, P), By), added(row_times(Az, P), Bz)
@@ -263,24 +264,21 @@ def _store_relation(row, Rx, Ry, Rz, R2, R3, R1, rx, ry, rz, r2, r3, r1):
 @kernel
 def twist_at(p, t):
     """Twist (rad) that the clamped upper end has been given at time t."""
-    if t >= p.twist_ramp:
-        return p.twist
-    return 0.5 * p.twist * (1.0 - math.cos(math.pi * t / p.twist_ramp))
+    return p.twist * smooth_start(t, p.twist_ramp)[0]
 
 
 @kernel
-def _roll_to_go(p, t, Y):
+def _roll_to_go(p, t, length, Y):
     """Turn (rad) about its own tangent by which the upper end exceeds the twist it is given.
 
-    No twist: the frame of the anchor, taken to the direction of the upper end by the shortest rotation.
+    No twist: the frame of the anchor, carried from clamp to clamp (`engine.parameters`).
     """
     last = Y.shape[0] - 1
     carried = quaternion_product(
-        least_turn((p.below_x, p.below_y, p.below_z), (p.above_x, p.above_y, p.above_z)),
-        (Y[0, 6], Y[0, 7], Y[0, 8], Y[0, 9]),
+        (p.carry0, p.carry1, p.carry2, p.carry3), (Y[0, 6], Y[0, 7], Y[0, 8], Y[0, 9])
     )
-    # exp(twist/2) stays exact for many turns, where Euler parameters only know it modulo 4 pi
-    twist = 0.5 * twist_at(p, t)
+    # twist of the frame: what O1 leaves over; as exp(twist/2) it is exact for any number of turns
+    twist = 0.5 * (twist_at(p, t) - Y[last, 10] * length)
     target = quaternion_product(carried, (math.cos(twist), math.sin(twist), 0.0, 0.0))
     r = relative(target, (Y[last, 6], Y[last, 7], Y[last, 8], Y[last, 9]))
     return 2.0 * math.atan2(r[1], r[0])
@@ -320,7 +318,11 @@ def _upper(p, tables, t, cv, in_motion, twisted, Y, C_tilde, F, Q, E):
         M[3, 6] -= k_rotation * dot(direction, vector(node, 17))
         M[4, 6] += k_rotation * dot(direction, vector(node, 14))
     if twisted:
-        M[5, 6] = -_roll_to_go(p, t, Y) - row[_RX + 5]
+        length = 0.0
+        for k in range(last):
+            length += tables[p.grid_at + k]
+        M[5, 5] += length
+        M[5, 6] = -_roll_to_go(p, t, length, Y) - row[_RX + 5]
     else:
         for i in range(6):
             M[i, 5] = M[i, 6]

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from analysis import tangent_lyapunov
+from analysis import tangent_lyapunov, transverse_lyapunov
 
 
 def logistic_growth(periods, seed):
@@ -58,3 +58,23 @@ def test_a_short_record_gives_no_number_but_the_reason():
     assert np.isnan(found.value) and "32 periods" in found.reason
     with pytest.raises(ValueError, match="left_out"):
         tangent_lyapunov(np.zeros(40), left_out=[True])
+
+
+@pytest.mark.parametrize("coupling", [0.1, 0.25, 0.4])
+def test_coupled_maps_leave_their_diagonal_or_keep_to_it(coupling):
+    """x' = (1 - c) f(x) + c f(y), y' = c f(x) + (1 - c) f(y), f(x) = 4 x (1 - x): across x = y the growth of a step is
+    |1 - 2 c| |f'|, the exponent 1 + log2|1 - 2 c| bits, and the diagonal is left below c = 1/4."""
+    growth = logistic_growth(20_000, 3) + np.log(abs(1 - 2 * coupling))
+    found = transverse_lyapunov(growth, 100)
+    assert abs(found.value - (1 + np.log2(1 - 2 * coupling))) < 3 * found.error
+    assert found.unit == "bits/period" and found.details["periods"] == 19_900
+
+
+def test_loops_released_leave_no_exponent_across_the_plane():
+    growth, released = ar1(200, 5), np.zeros(200)
+    released[40] = 1.0
+    assert transverse_lyapunov(growth, 41, released).found
+    lost = transverse_lyapunov(growth, 40, released)
+    assert not lost.found and "released in 1 of" in lost.reason
+    with pytest.raises(ValueError, match="released"):
+        transverse_lyapunov(growth, 0, released[1:])

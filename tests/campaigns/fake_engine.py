@@ -29,6 +29,7 @@ class FakeEngine:
     dies: tuple[float, ...] = ()  # takes its process with it, every time
     dies_once: tuple[float, ...] = ()  # the first time only
     no_space: tuple[float, ...] = ()
+    loops: tuple[float, ...] = ()  # where planar runs release loops
 
     def __call__(self, scene, periods=None, duration_s=None):
         steepness = scene.waves.steepness
@@ -49,7 +50,8 @@ class FakeEngine:
             raise OSError(28, "No space left on device")
         if steepness in self.breaks:
             return sines(scene, 2, status="newton-failed", message="no convergence")
-        return sines(scene, periods)
+        looped = steepness in self.loops and scene.motion.dimensions == 2
+        return sines(scene, periods, releases=3 if looped else 0)
 
     def begun(self) -> list[float]:
         """Steepness of every run begun so far."""
@@ -58,7 +60,9 @@ class FakeEngine:
         return [float(line) for line in Path(self.log).read_text().split()]
 
 
-def sines(scene, periods, status="ok", message="", harmonic=1.0, radius=(20.0, 1.0), tension=(2000.0, 500.0)):
+def sines(
+    scene, periods, status="ok", message="", harmonic=1.0, radius=(20.0, 1.0), tension=(2000.0, 500.0), releases=0
+):
     """A trajectory whose radius, angle and tension are sines of `harmonic` times the wave frequency."""
     step = scene.sample_step_s()
     t = step * np.arange(round(periods * scene.waves.period_s / step) + 1)
@@ -82,4 +86,5 @@ def sines(scene, periods, status="ok", message="", harmonic=1.0, radius=(20.0, 1
         "tension_top_high_N": force + 10.0,
     }
     statistics = STATISTICS | {"max_turn_rad": 0.1, "min_strain": 0.01, "end_time_s": float(t[-1]), "wall_s": 0.5}
+    statistics["loop_releases"] = releases
     return Trajectory(scene, status, message, columns, statistics)

@@ -39,7 +39,7 @@ def test_analysis_that_fails_is_a_row_and_the_record_is_kept(sweep, monkeypatch)
     def broken(*_):
         raise FloatingPointError("no such thing")
 
-    monkeypatch.setattr("campaigns.rows._settled", broken)
+    monkeypatch.setattr("campaigns.rows.settled", broken)
     code, rows, _ = sweep("--steepness", "0.05")
     assert (code, rows[0]["status"]) == (0, "analysis-failed")
     assert "no such thing" in rows[0]["message"]

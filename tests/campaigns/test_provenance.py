@@ -91,7 +91,7 @@ def test_unknown_is_empty(sweep):
         assert row["regime"] == ""
         assert all(entry == "" for name, entry in row.items() if "lyapunov" in name or "offplane" in name)
     given = {name for name, entry in rows[1].items() if entry != ""}
-    assert given == {"steepness", "status", "message", "run_key"}
+    assert given == {"steepness", "dimensions", "status", "message", "run_key"}
 
 
 def test_report_that_fails_leaves_the_results_and_says_so(tmp_path, monkeypatch, capsys):

@@ -1,12 +1,14 @@
 """A row says what the analytic motion is; what cannot be said stays empty."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
 from campaigns.rows import COLUMNS, buoy_row
 from engine import load_scene
+from engine.trajectory import TangentGrowth
 from tests.campaigns.fake_engine import STATISTICS, sines
 
 PERIODS, TRANSIENT = 90, 10
@@ -98,6 +100,18 @@ def test_record_without_samples(scene):
     assert {name for name, entry in row.items() if entry is not None} == {"status", "message"}
 
 
+@pytest.mark.parametrize(("released", "empty"), [(TRANSIENT - 1, False), (TRANSIENT, True), (PERIODS - 1, True)])
+def test_growth_across_the_plane_is_told_where_no_loop_was_released(scene, released, empty):
+    nats, events = np.full(PERIODS, -0.5 * math.log(2.0)), np.zeros(PERIODS)
+    events[released] = 1.0
+    nats[:TRANSIENT] = 3.0
+    run = replace(sines(scene, PERIODS), tangent=TangentGrowth(5.0, np.empty((PERIODS, 0)), events, nats))
+    row = buoy_row(run, TRANSIENT)
+    assert "regime" not in row, "nothing was carried in the plane"
+    found = row["offplane_growth_bits_per_period"], row["offplane_growth_error"]
+    assert found == ((None, None) if empty else pytest.approx((-0.5, 0.0), abs=1e-12))
+
+
 def test_every_entry_has_a_column(scene):
     assert set(buoy_row(sines(scene, PERIODS), TRANSIENT)) <= set(COLUMNS)
 
@@ -105,6 +119,6 @@ def test_every_entry_has_a_column(scene):
 def test_public_columns_are_there():
     public = """steepness status regime radius_min_m radius_max_m angle_min_rad angle_max_rad tension_top_min_N
         tension_top_max_N slack_fraction lyapunov_wolf_bits_per_period lyapunov_wolf_error
-        lyapunov_tangent_bits_per_period lyapunov_tangent_error offplane_growth_bits_per_period max_turn_rad
-        loop_releases steps rejected_steps newton_iterations wall_s"""
+        lyapunov_tangent_bits_per_period lyapunov_tangent_error offplane_growth_bits_per_period offplane_growth_error
+        max_turn_rad loop_releases steps rejected_steps newton_iterations wall_s"""
     assert set(public.split()) <= set(COLUMNS)

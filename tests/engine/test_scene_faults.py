@@ -10,6 +10,11 @@ import pytest
 from engine import SceneError, load_scene
 from engine.scene import build_scene
 
+SPACE = {"motion.dimensions": 3}
+BLOCK = [[[0.0, 0.0]]]
+TABLE = {
+    "law": "table", "time_s": [0], "height_m": [0], "x_m": [0, 1], "velocity_x_mps": BLOCK, "velocity_z_mps": BLOCK
+}  # fmt: skip
 BASE = tomllib.loads(load_scene("tethered_buoy").to_toml())
 
 
@@ -52,6 +57,24 @@ SINGLE = [
     ({"current": {"law": "uniform", "velocity_mps": [1.0, 0.0]}}, "current.velocity_mps", "[1.0, 0.0]", "3 finite"),
     ({"current": {"law": "profile", "height_m": [0, 9], "velocity_mps": []}}, "current.velocity_mps", "[]", "vectors"),
     ({"motion.dimensions": 4}, "motion.dimensions", "4", "2, 3"),
+    ({"motion.dimensions": "3"}, "motion.dimensions", "'3'", "2, 3"),
+    ({"anchor.rotation": "glued"}, "anchor.rotation", "'glued'", "'pinned', 'clamped'"),
+    ({"anchor.direction": [0, 1]}, "anchor.direction", "[0, 1]", "3 finite"),
+    ({"end.motion": {"law": "circle"}}, "end.motion.law", "'circle'", "'harmonic', 'table'"),
+    ({"end.motion": {"amplitude_m": [1, 0, 0]}}, "end.motion.law", "missing", "'harmonic', 'table'"),
+    ({"end.motion": {"law": "harmonic", "amplitude_m": [1, 0, 0]}}, "end.motion.period_s", "missing", "above 0"),
+    ({"end.motion": {"law": "table", "time_s": [0], "displacement_m": []}}, "end.motion.time_s", "[0]", "at least 2"),
+    ({"end.release_s": 0}, "end.release_s", "0", "above 0"),
+    ({"end.twist_ramp_s": -1.0}, "end.twist_ramp_s", "-1.0", "0 or above"),
+    ({"current": {**TABLE, "velocity_x_mps": 7}}, "current.velocity_x_mps", "7", "[time][height][x]"),
+    ({"current": {**TABLE, "velocity_x_mps": [[[0, "a"]]]}}, "current.velocity_x_mps[0][0][1]", "'a'", "nested lists"),
+    (
+        {**SPACE, "current": {**TABLE, "y_m": [0], "velocity_x_mps": [[[[0, "a"]]]]}},
+        "current.velocity_x_mps[0][0][0][1]",
+        "'a'",
+        "[time][height][y][x]",
+    ),
+    ({"solver.scheme": "box"}, "solver.scheme", "'box'", "'conservation', 'paper-box'"),
     ({"start.buoy_velocity_mps": [0, math.nan, 0]}, "start.buoy_velocity_mps[1]", "nan", "finite"),
     ({"solver.integrator": "rk4"}, "solver.integrator", "'rk4'", "'esdirk43'"),
     ({"solver.rtol": 0.0}, "solver.rtol", "0.0", "above 0 and below 1"),

@@ -18,9 +18,33 @@ VARIANTS = [
     {"tether.tension": {"law": "tabulated", "strain": [-0.1, 0.0, 0.3], "tension_N": [-1.0, 0.0, 1e4]}},
     {"current": {"law": "uniform", "velocity_mps": [0.1 + 0.2, 0.0, -1e-300]}},
     {"current": {"law": "profile", "height_m": [0, 21], "velocity_mps": [[0, 0, 0], [1, 0, 0]]}},
+    {
+        "motion.dimensions": 3,
+        "waves.direction_rad": 1.0,
+        "anchor": {"rotation": "clamped", "direction": [1.0, 0.0, 0.0]},
+        "end": {
+            "kind": "held", "position_m": [3.0, 1.0, 19.5], "rotation": "clamped", "twist_rad": 6.3, "release_s": 4.0,
+            "motion": {"law": "harmonic", "amplitude_m": [0.0, 0.1, 0.0], "period_s": 2.5},
+        },
+        "buoy": None,
+    },
+    {
+        "end": {
+            "kind": "held", "position_m": [3.0, 0.0, 19.5],
+            "motion": {"law": "table", "time_s": [0, 1], "displacement_m": [[0, 0, 0], [1, 0, 0]]},
+        },
+        "buoy": None,
+    },
+    {
+        "motion.dimensions": 3,
+        "current": {
+            "law": "table", "time_s": [0], "height_m": [0], "x_m": [0, 1], "y_m": [0, 1, 2],
+            **{f"velocity_{axis}_mps": [[[[0.0, 0.1]] * 3]] for axis in "xyz"},
+        },
+    },
     {"output.profiles": True, "output.profiles_step_s": 0.25},
     {"title": 'a "quoted" \\ line\nand \t Æther \x7f \x01', "gravity_mps2": 9.80665},
-]
+]  # fmt: skip
 
 
 @pytest.mark.parametrize("changes", VARIANTS)

@@ -13,6 +13,8 @@ from engine.guards import WORDS
 
 NO_COMPRESSION = {"law": "tabulated", "strain": [-0.5, 0.0, 0.1], "tension_N": [0.0, 0.0, 5000.0]}
 STILL = {"waves": None}
+PAPER = {"solver.scheme": "paper-box", "tether.nodes": 11, "water.depth_m": 21.6}
+FLAT_IN_SLACK = {"law": "tabulated", "strain": [-0.2, -0.1, 0.0, 0.5], "tension_N": [0.0, 0.0, 0.0, 2.5e4]}
 ENDS = {  # name: (overrides, run length in s, status words allowed)
     "tolerance below the shortest step": (
         {"solver.min_step_s": 0.05, "solver.rtol": 1e-4},
@@ -46,6 +48,12 @@ ENDS = {  # name: (overrides, run length in s, status words allowed)
         {**STILL, "tether.tension": {"law": "tanh", "p": [1000.0, 10.0, 0.0, 0.0, 0.0]}},
         1.0,
         {"statics-failed"},
+    ),
+    "the paper's scheme in slack": ({**PAPER, "solver.step_s": 0.005}, 8.0, {"shape-lost"}),
+    "the paper's scheme under a law without slope in slack": (
+        {**PAPER, "solver.step_s": 0.01, "tether.tension": FLAT_IN_SLACK},
+        8.0,
+        {"tension-flat"},
     ),
     "steps far below what the run could ever finish with": (
         {"solver.rtol": 1e-12, "solver.newton_tolerance": 1e-14},

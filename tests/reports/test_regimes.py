@@ -30,7 +30,14 @@ def test_the_table_holds_exponents_with_errors_and_a_regime(folder):
     for row in rows.values():
         assert row["regime"] in {"transient", "undecided", "quasi-periodic", "chaotic"} or "period-" in row["regime"]
         assert float(row["lyapunov_wolf_error"]) > 0
-        assert row["offplane_growth_bits_per_period"] == ""
+
+
+def test_the_table_tells_growth_across_the_plane_where_no_loop_is_released(folder):
+    rows = rows_of(folder)
+    growth, error = (rows[0.016][f"offplane_growth_{end}"] for end in ("bits_per_period", "error"))
+    assert float(growth) < -5 * float(error) < 0, "pushed out of its plane the calm motion returns"
+    assert int(rows[0.13]["loop_releases"]) > 0
+    assert rows[0.13]["offplane_growth_bits_per_period"] == rows[0.13]["offplane_growth_error"] == ""
 
 
 def test_the_report_gives_the_evidence_for_the_papers_two_cases(folder):
@@ -47,3 +54,4 @@ def test_a_sweep_without_exponents_leaves_the_columns_empty(tmp_path, without):
     assert buoy_sweep.main([*SWEPT, *without, "--no-report", "--out", str(tmp_path / "sweep")]) == 0
     for row in rows_of(tmp_path / "sweep").values():
         assert row["regime"] == row["lyapunov_tangent_bits_per_period"] == row["lyapunov_wolf_error"] == ""
+        assert row["offplane_growth_bits_per_period"] == row["offplane_growth_error"] == ""

@@ -1,0 +1,123 @@
+"""One scene by the paper's scheme: eq. (28) at fixed steps from rest, until the end of the run or of what it can do.
+
+The paper says nothing of steps that fail. Here the first one ends the run, and so do
+
+    a turn per element that the nodes do not resolve,
+    a shape whose upper end has left the path of its own velocity: compatibility (19) holds rates only, in axes that
+        turn with the line; what a bend loses of the length of the line is lost for good, and r with it,
+    a tension law without slope (row 1 is divided by it), a strain of -1, a value that is not finite.
+"""
+
+import math
+import time
+
+from ..guards import (
+    NEWTON_FAILED,
+    NOT_FINITE,
+    OK,
+    SHAPE_LOST,
+    STATICS_FAILED,
+    STRAIN_BELOW_MINUS_ONE,
+    TENSION_FLAT,
+    TURN_UNRESOLVED,
+    WORDS,
+)
+from ..trajectory import Trajectory
+from .box import Band, level_of
+from .law import tension_law
+from .line import line_of
+from .newton import TOLERANCE, solve
+from .record import Record
+from .start import at_rest
+
+MOST_TURN = math.pi / 2  # rad in one element; half of what two frames can tell
+MOST_GAP = 0.0025  # m per m of line between shape and path; the paper bounds its whole error by 0.01 (section 3)
+FLAT = 1e-6  # of the largest slope f' at rest: below it row 1 is noise
+STEPS_PER_CALL = 100
+
+SAID = {
+    OK: "",
+    NEWTON_FAILED: "Newton's method did not converge",
+    NOT_FINITE: "a value that is not a finite number appeared",
+    STRAIN_BELOW_MINUS_ONE: "an element is compressed to nothing (strain <= -1)",
+    TENSION_FLAT: "the tension law has lost its slope, and the paper's form divides by it",
+    TURN_UNRESOLVED: "the tether turns by {turn:.3g} rad within one element, more than it resolves",
+    SHAPE_LOST: "the upper end by the shape of the line is {gap:.3g} m away from where its velocity took it",
+}
+
+
+def run(scene, duration_s, progress=None, start=None, accelerations=False, most_turn=MOST_TURN, most_gap=MOST_GAP):
+    """Simulate one scene in the paper's own discrete form.
+
+    Parameters
+    ----------
+    scene : Scene, bending stiffness above zero; fixed steps of solver.step_s (T/400, or 0.0125 s without waves)
+    duration_s : float, s
+    progress : callable(fraction), optional
+    start : (n, 13) equilibrium of the engine in space, optional (`start.at_rest`)
+    accelerations : true normal accelerations in Morison's force instead of the paper's component rates (`line.Line`)
+    most_turn, most_gap : rad in one element, m per m of line at which the run stops (heads of the constants above)
+
+    Returns
+    -------
+    Trajectory
+        status "ok", or why it ended early. Further statistics: closure_m, the largest distance between the upper end by
+        the shape of the line and by its own velocity, zero for the exact equations: what compatibility in the local
+        frame has lost; euler_norm_error, the largest | |beta|^2 - 1 |.
+    """
+    line = line_of(scene, accelerations)
+    band, record = Band(line), Record(scene, line, duration_s)
+    dt = float(line.record["fixed_step"])
+    most = int(line.record["max_newton"])
+    tolerance = scene.solver.newton_tolerance or TOLERANCE
+    status, Y = at_rest(scene, line, band, start)
+    steps = iterations = failures = 0
+    began = time.perf_counter()
+    t = 0.0
+    if status == OK:
+        level = level_of(line, 0.0, Y)
+        flat = FLAT * float(tension_law(line.record, line.tables, Y[0])[1].max())
+        record.keep(level)
+        status = TURN_UNRESOLVED if record.max_turn > most_turn else OK
+    while status == OK and not record.done():
+        t = (steps + 1) * dt
+        status, used, after = solve(line, band, t, level, most, tolerance, flat)
+        iterations += used
+        if status != OK:
+            failures = 1
+            break
+        level = after
+        steps += 1
+        record.keep(level)
+        if record.max_turn > most_turn:
+            status = TURN_UNRESOLVED
+        elif record.closure > most_gap * line.s[-1]:
+            status = SHAPE_LOST
+        if progress is not None and steps % STEPS_PER_CALL == 0:
+            progress(min(1.0, t / duration_s))
+    statistics = {
+        "steps": steps,
+        "rejected_steps": 0,
+        "newton_iterations": iterations,
+        "newton_failures": failures,
+        "loop_releases": 0,
+        "max_turn_rad": record.max_turn,
+        "min_strain": record.min_strain,
+        "end_time_s": steps * dt,
+        "wall_s": time.perf_counter() - began,
+        "closure_m": record.closure,
+        "euler_norm_error": record.norm_error,
+    }
+    message = _message(status, t, dt, record)
+    return Trajectory(scene, WORDS[status], message, record.columns(), statistics, record.lines())
+
+
+def _message(status, t, dt, record):
+    if status == OK:
+        return ""
+    if status == STATICS_FAILED:
+        return "paper-box: no static equilibrium was found from which to start"
+    said = SAID[status].format(turn=record.max_turn, gap=record.closure)
+    seen = f"turn per element up to {record.max_turn:.3g} rad, strain down to {record.min_strain:.3g} before"
+    cure = "add nodes, shorten solver.step_s, or take solver.scheme = \"conservation\""
+    return f"paper-box: {said} in the step of {dt:.3g} s to t = {t:.6g} s ({seen}): {cure}"

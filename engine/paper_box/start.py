@@ -1,0 +1,127 @@
+"""The equilibrium from which a run starts: the engine's planar statics, lifted, then settled in the paper's own rule.
+
+The two discretisations of rest differ by O(h^2). What the box rule in time is given that does not satisfy its own
+equations at rest stays for ever and changes sign at every step, so the shape is settled once more. A current across
+the plane of the planar statics comes on in shares.
+"""
+
+import math
+
+import numpy as np
+
+from .. import parameters, statics
+from ..ends import HELD
+from ..guards import NEWTON_FAILED, OK, STATICS_FAILED
+from .ends import end_force, force_and_velocity
+from .frame import TO_PAPER, parameters_of, rotation, to_local
+from .line import EULER, SPEEDS
+from .newton import TOLERANCE, newton_update
+from .water import positions, water_at
+
+MOST = 100  # iterations of one equilibrium
+SHARES = 16  # of the current, where the whole of it does not settle at once
+TINY = 1e-30
+
+
+def at_rest(scene, line, band, start=None):
+    """The state at t = 0 with its velocities: (code, Y (13, n) or None).
+
+    start: (n, 13) equilibrium of the engine in space instead of the planar one: eps, S_n, S_b, velocity in x, y, z,
+    Euler parameters from x, y, z, Omega.
+    """
+    code, guess = (OK, from_space(start)) if start is not None else planar_guess(scene, line)
+    if code != OK:
+        return STATICS_FAILED, None
+    target, force = None, end_force(line)
+    if line.record["end"] == HELD:
+        target = np.array(scene.end.position_m)[TO_PAPER]
+        force = force_and_velocity(line, guess[:, -1])[0]
+    code, Y, _ = settled(line, band, guess, force, target)
+    if code != OK:
+        Y = guess
+        for share in np.linspace(0.0, 1.0, SHARES + 1):
+            code, Y, force = settled(line, band, Y, force, target, share)
+            if code != OK:
+                return STATICS_FAILED, None
+    velocity = np.outer(np.array(scene.start.buoy_velocity_mps)[TO_PAPER], line.s / line.s[-1])
+    Y[SPEEDS] = to_local(Y[EULER], velocity)
+    return OK, Y
+
+
+def settled(line, band, guess, force, target=None, share=1.0):
+    """Equilibrium near `guess` under a share of the current: (code, Y (13, n), force on the end (3,)).
+
+    target: place (3,) of a held end, paper's axes. The force that keeps it there is then found along with the shape:
+    Newton's update of the shape is affine in the force, and the place of the end linear in the update.
+    """
+    Y, force = guess.copy(), np.array(force, float)
+    axes = 0 if target is None else 3 if line.spatial else 2
+    for _ in range(MOST):
+        water = share * water_at(line, 0.0, Y, waves=False)
+        code, found, size = newton_update(
+            line, band, Y, water, 0.0, None, float(line.record["per_force"]), force, axes
+        )
+        if code != OK:
+            break
+        update, pull = found, np.zeros(3)
+        if axes:
+            reach = [positions(line, Y + 1j * TINY * part)[:axes, -1].imag / TINY for part in found]
+            missing = (target - positions(line, Y)[:, -1])[:axes] - reach[0]
+            pull[:axes] = np.linalg.lstsq(np.array(reach[1:]).T, missing)[0]
+            update = found[0] + np.tensordot(pull[:axes], found[1:], 1)
+            size = band.size(update)
+        factor = min(1.0, 1.0 / size)
+        Y += factor * update
+        force += factor * pull
+        if Y[0].min() <= -1.0:
+            break
+        if size < TOLERANCE:
+            return OK, Y, force
+    return NEWTON_FAILED, guess, force
+
+
+def planar_guess(scene, line):
+    """The engine's equilibrium in the vertical plane of the end's place or force, as (code, Y (13, n))."""
+    end = scene.end
+    toward = {"held": end.position_m, "free": end.force_N}.get(end.kind) or (0.0, 0.0, 0.0)
+    azimuth = math.atan2(toward[1], toward[0]) if toward[1] else 0.0
+    flat = (math.hypot(*toward[:2]) if azimuth else toward[0], 0.0, toward[2])
+    name = {"held": "position_m", "free": "force_N"}.get(end.kind)
+    planar = scene.model_copy(
+        update={
+            "motion": scene.motion.model_copy(update={"dimensions": 2}),
+            "end": end.model_copy(update={name: flat}) if name else end,
+            "current": None if azimuth else scene.current,
+        }
+    )
+    tables = []
+    record = parameters.record_of(planar, tables)[0]
+    Y = statics.first_guess(record, planar, line.h)
+    code = statics.settle(record, np.concatenate(tables), Y, np.array([flat[0], flat[2]]))
+    return code, lifted(Y, azimuth) if code == OK else None
+
+
+def lifted(Y, azimuth=0.0):
+    """Planar unknowns (n, 6) = eps, S, U, W, phi, kappa as (13, n) at rest, in the plane at `azimuth` from x to y.
+
+    The angle from the vertical is a = pi/2 - phi, so n and Omega_3 change their signs against the planar engine.
+    """
+    a = math.pi / 2 - Y[:, 4]
+    cos, sin = math.cos(azimuth), math.sin(azimuth)
+    up, side, out = np.array([1.0, 0.0, 0.0]), np.array([0.0, cos, sin]), np.array([0.0, -sin, cos])
+    t = np.outer(up, np.cos(a)) + np.outer(side, np.sin(a))
+    n = np.outer(side, np.cos(a)) - np.outer(up, np.sin(a))
+    b = np.outer(out, np.ones_like(a))
+    found = np.zeros((13, len(Y)))
+    found[0], found[1], found[12] = Y[:, 0], -Y[:, 1], -Y[:, 5]
+    found[EULER] = parameters_of(np.array([t, n, b]))
+    return found
+
+
+def from_space(Y):
+    """The unknowns (n, 13) of the engine in space, Euler parameters and velocities from x, y, z, as (13, n) here."""
+    found = np.array(Y, float).T
+    C = rotation(found[EULER])[:, TO_PAPER]
+    found[EULER] = parameters_of(C)
+    found[SPEEDS] = to_local(found[EULER], found[SPEEDS][TO_PAPER])
+    return found

@@ -1,0 +1,78 @@
+"""Lateral motion against time on a logarithmic axis (the paper's figure 20), and how it depends on the push."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..content import Picture
+from ..style import BLUE, VERMILION, picture_of, sheet
+from .time_series import envelope
+
+_DECADES_BELOW = 1.5  # room for the swings through zero below the least of the envelope
+
+
+@dataclass(frozen=True)
+class History:
+    """One run: its label, |y| over t/T_i, the largest |y| of each period, and the in-plane half range."""
+
+    label: str
+    periods: np.ndarray
+    size: np.ndarray
+    envelope_periods: np.ndarray
+    envelope: np.ndarray
+    inplane_m: float
+
+
+def lateral_histories(panels: list[tuple[str, list[History]]]) -> Picture:
+    """Stacked panels (axis label, runs): every sample thin, the largest value of each period thick; solid for the first
+    run, dashed for the second, and the same for the level of its in-plane motion."""
+    with sheet(0.7 + 2.3 * len(panels)) as figure:
+        rows = figure.subplots(len(panels), 1, sharex=True, squeeze=False)[:, 0]
+        for axes, (label, runs) in zip(rows, panels, strict=True):
+            for run, colour, dashes in zip(runs, (BLUE, VERMILION), ("-", (0, (4, 1.5))), strict=False):
+                some = run.size > 0
+                axes.plot(*envelope(run.periods[some], run.size[some]), color=colour, linewidth=0.4, alpha=0.35)
+                drawn = run.envelope > 0
+                axes.plot(
+                    run.envelope_periods[drawn], run.envelope[drawn], color=colour, linestyle=dashes, linewidth=1.1,
+                    label=run.label,
+                )  # fmt: skip
+                axes.axhline(run.inplane_m, color=colour, linestyle=":", linewidth=1.0)
+            axes.set_yscale("log")
+            levels = np.concatenate([run.envelope[run.envelope > 0] for run in runs])
+            top = np.nanmax([run.inplane_m for run in runs] + [levels.max()])
+            axes.set_ylim(levels.min() / 10**_DECADES_BELOW, 4.0 * top)
+            axes.set_ylabel(label)
+            axes.margins(x=0.01)
+        rows[0].plot([], [], ":", color="black", linewidth=1.0, label="in-plane half range of the buoy")
+        rows[0].legend(loc="lower left", ncols=3)
+        rows[-1].set_xlabel(r"$t/T_i$ (wave periods)")
+        figure.align_ylabels(rows)
+        return picture_of(figure)
+
+
+def seed_histories(panels: list[tuple[str, str, list[tuple[float, np.ndarray, np.ndarray]]]]) -> Picture:
+    """Two columns of panels (title, axis label, curves): each curve is (push, t/T_i, values), darker for less."""
+    from matplotlib import colormaps
+
+    with sheet(0.9 + 2.1 * (len(panels) // 2)) as figure:
+        grid = figure.subplots(len(panels) // 2, 2, squeeze=False)
+        colours = colormaps["cividis"]
+        pushes = sorted({push for _, _, curves in panels for push, _, _ in curves})
+        handles = {}
+        for axes, (title, label, curves) in zip(grid.ravel(), panels, strict=True):
+            for push, periods, values in curves:
+                shade = colours(0.9 * pushes.index(push) / max(len(pushes) - 1, 1))
+                some = values > 0
+                (handles[push],) = axes.plot(periods[some], values[some], color=shade, linewidth=0.9)
+            axes.set_yscale("log")
+            axes.set_title(title)
+            axes.set_ylabel(label)
+            axes.margins(x=0.01)
+        for axes in grid[-1]:
+            axes.set_xlabel(r"$t/T_i$ (wave periods)")
+        names = [f"push {push:.0e} m/s".replace("e-0", "e-") for push in pushes]
+        figure.legend([handles[push] for push in pushes], names, loc="outside lower center", ncols=min(len(pushes), 4))
+        return picture_of(figure)

@@ -1,0 +1,181 @@
+"""Exponential growth, bursts or neither: closed forms, records of known answer; no number where there is none."""
+
+import math
+
+import numpy as np
+import pytest
+
+from analysis import envelope_of, growth_or_bursts
+
+STEP, PERIOD = 0.05, 5.0
+SWING = 0.2  # rad/s: half a swing is 15.7 s, within four periods
+
+
+def times(periods):
+    return STEP * np.arange(round(periods * PERIOD / STEP) + 1)
+
+
+def swings(rate, periods, noise=0.0, seed=0):
+    """exp(rate t) |sin| with a relative error of each sample."""
+    t = times(periods)
+    error = 1.0 + noise * np.random.default_rng(seed).uniform(-1.0, 1.0, len(t))
+    return np.exp(rate * t) * np.sin(SWING * t) * error
+
+
+@pytest.mark.parametrize("noise", [0.0, 0.5])
+@pytest.mark.parametrize("rate", [-0.03, -0.005, 0.005, 0.03])
+def test_a_swing_that_grows_or_decays_has_its_rate(rate, noise):
+    found = growth_or_bursts(1e-6 * swings(rate, 250, noise), STEP, PERIOD)
+    assert found.kind == ("growth" if rate > 0 else "decay")
+    assert abs(found.rate.value - rate) < 3 * found.rate.error + 1e-4 * abs(rate)
+    assert found.rate.error < 0.2 * abs(rate)
+    assert found.rate.unit == "nats/time" and not len(found.burst_size)
+    assert found.span_nats == pytest.approx(rate * (found.end - found.begin), rel=0.05)
+
+
+def mathieu(strength, periods):
+    """x'' + (1 + strength cos 2t) x = 0 from (1, 0), with a period of pi: x at the steps, and the rate of Floquet."""
+    from scipy.integrate import solve_ivp
+
+    def slope(t, s):
+        return [s[1], -(1.0 + strength * math.cos(2.0 * t)) * s[0]]
+
+    step = math.pi / 200
+    t = step * np.arange(200 * periods + 1)
+    options = {"rtol": 1e-10, "atol": 1e-12, "t_eval": t}
+    x = solve_ivp(slope, (0.0, t[-1]), [1.0, 0.0], **options).y
+    y = solve_ivp(slope, (0.0, math.pi), [0.0, 1.0], rtol=1e-10, atol=1e-12).y[:, -1]
+    monodromy = np.column_stack([x[:, 200], y])
+    return x[0], step, math.log(np.abs(np.linalg.eigvals(monodromy)).max()) / math.pi
+
+
+def test_parametric_growth_has_the_rate_of_floquet():
+    x, step, rate = mathieu(0.3, 60)
+    found = growth_or_bursts(1e-8 * x, step, math.pi)
+    assert found.kind == "growth"
+    assert found.rate.value == pytest.approx(rate, rel=1e-3)
+
+
+def test_outside_the_resonance_there_is_neither():
+    def slope(t, s):
+        return [s[1], -(0.3 + 0.1 * math.cos(2.0 * t)) * s[0]]
+
+    from scipy.integrate import solve_ivp
+
+    step = math.pi / 100
+    t = step * np.arange(12_001)
+    x = solve_ivp(slope, (0.0, t[-1]), [1.0, 0.0], t_eval=t, rtol=1e-9, atol=1e-11).y[0]
+    found = growth_or_bursts(x, step, math.pi)
+    assert found.kind == "neither" and math.isnan(found.rate.value) and "no straight part" in found.reason
+
+
+def test_growth_that_saturates_is_fitted_up_to_its_saturation():
+    rate = 0.02
+    y = 1e-5 * swings(rate, 300)
+    found = growth_or_bursts(y / np.sqrt(1.0 + (np.exp(rate * times(300)) * 1e-5) ** 2), STEP, PERIOD)
+    assert found.kind == "growth"
+    assert abs(found.rate.value - rate) < min(2 * found.rate.error, 0.05 * rate)
+    assert found.end < math.log(1e5) / rate + 12 * PERIOD, "the level afterwards takes no part"
+
+
+@pytest.mark.parametrize("rate", [0.05, 0.08, 0.12])
+def test_fast_growth_is_found_although_it_is_soon_over(rate):
+    """Ten nats in as little as 17 periods: too few spans of half a swing, enough single periods."""
+    y = 5e-5 * np.exp(rate * times(250)) * np.sin(SWING * times(250))
+    found = growth_or_bursts(y / np.sqrt(1.0 + y**2), STEP, PERIOD)
+    assert found.kind == "growth"
+    assert abs(found.rate.value - rate) < min(3 * found.rate.error, 0.25 * rate)
+
+
+def test_decay_to_a_floor_is_fitted_down_to_the_floor():
+    rate = -0.03
+    floor = 1e-9 * np.random.default_rng(3).uniform(0.5, 1.0, len(times(300)))
+    found = growth_or_bursts(np.abs(swings(rate, 300)) + floor, STEP, PERIOD)
+    assert found.kind == "decay"
+    assert found.rate.value == pytest.approx(rate, rel=0.03)
+    assert found.end < math.log(1e9) / 0.03 + 8 * PERIOD
+
+
+def bursts_at(periods, sizes, length=200):
+    """Bursts of half a second on a level of 1e-4 that wanders by half a nat."""
+    t = times(length)
+    level = 1e-4 * np.exp(0.5 * np.sin(0.11 * t))
+    return level + sum(
+        size * np.exp(-(((t - at * PERIOD) / 0.5) ** 2)) for at, size in zip(periods, sizes, strict=True)
+    )
+
+
+def test_bursts_have_their_sizes_and_times():
+    at, sizes = [12.5, 30.4, 31.6, 77.3, 150.5], [0.2, 0.3, 0.1, 0.4, 0.25]
+    found = growth_or_bursts(bursts_at(at, sizes), STEP, PERIOD)
+    assert found.kind == "bursts" and math.isnan(found.rate.value) and math.isnan(found.span_nats)
+    # neighbours in the envelope are one burst: the smaller of 30.4 and 31.6 has no dip between
+    assert found.burst_time / PERIOD == pytest.approx([12.5, 30.4, 77.3, 150.5], abs=0.02)
+    assert found.burst_size == pytest.approx([0.2, 0.3, 0.4, 0.25], rel=0.01)
+
+
+def test_a_straight_fall_between_two_bursts_is_no_decay():
+    """Each burst dies out exponentially over 40 periods; the record comes back to its level, again and again."""
+    t = times(250)
+    y = 1e-9 + np.exp(-0.05 * (t % (50 * PERIOD))) * np.abs(np.sin(SWING * t))
+    found = growth_or_bursts(y, STEP, PERIOD)
+    assert found.kind == "bursts" and "comes back" in found.reason
+
+
+def test_a_change_of_less_than_the_stated_span_is_refused():
+    y = swings(0.002, 200)  # two nats in all
+    refused = growth_or_bursts(y, STEP, PERIOD)
+    assert refused.kind == "neither" and "3 nats" in refused.reason
+    assert growth_or_bursts(y, STEP, PERIOD, least_span=1.0).kind == "growth"
+
+
+@pytest.mark.parametrize("seed", range(20))
+def test_noise_about_a_level_has_neither_rate_nor_bursts(seed):
+    y = np.random.default_rng(seed).lognormal(0.0, 0.5, len(times(250)))
+    assert growth_or_bursts(y, STEP, PERIOD).kind == "neither"
+
+
+def test_a_random_walk_is_taken_for_an_exponential_in_three_of_ten():
+    """A limit: ln |y| wanders by several nats, and straight parts of it are luck."""
+    taken = 0
+    for seed in range(60):
+        walk = np.cumsum(np.random.default_rng(seed).normal(0.0, 0.4, 251))
+        y = np.exp(np.interp(times(250), PERIOD * np.arange(251), walk))
+        taken += growth_or_bursts(y, STEP, PERIOD).rate.found
+    assert taken <= 0.4 * 60
+
+
+def test_units_of_size_and_time_change_nothing_but_themselves():
+    y = swings(-0.01, 200, noise=0.3) + 1e-4
+    one, other = growth_or_bursts(y, STEP, PERIOD), growth_or_bursts(1e-7 * y, 60 * STEP, 60 * PERIOD)
+    assert (one.kind, one.begin * 60) == (other.kind, pytest.approx(other.begin))
+    assert other.rate.value == pytest.approx(one.rate.value / 60) and other.rate.error == pytest.approx(
+        one.rate.error / 60
+    )
+    bursts = bursts_at([20.5, 90.5], [0.2, 0.4])
+    scaled = growth_or_bursts(1e-7 * bursts, STEP, PERIOD)
+    assert scaled.burst_size == pytest.approx(1e-7 * growth_or_bursts(bursts, STEP, PERIOD).burst_size)
+
+
+@pytest.mark.parametrize("values", [np.zeros(5001), np.empty(0), np.zeros(1), np.ones(300)])
+def test_nothing_to_tell_is_told_with_a_reason(values):
+    found = growth_or_bursts(values, STEP, PERIOD)
+    assert found.kind == "neither" and found.reason
+    assert math.isnan(found.rate.value) and math.isnan(found.begin) and len(found.burst_time) == 0
+
+
+def test_values_that_are_not_finite_are_refused():
+    y = swings(0.01, 100)
+    y[7] = math.nan
+    with pytest.raises(ValueError, match="index 7"):
+        growth_or_bursts(y, STEP, PERIOD)
+    with pytest.raises(ValueError, match="two steps"):
+        growth_or_bursts(swings(0.01, 10), STEP, STEP)
+
+
+def test_the_envelope_is_the_largest_value_of_each_span_where_it_is():
+    y = np.zeros(1001)
+    y[[3, 150, 260, 999]] = [2.0, 1.0, 3.0, 0.5]
+    time, size = envelope_of(y, STEP, PERIOD)
+    assert len(size) == 10 and size[[0, 1, 2, 9]].tolist() == [2.0, 1.0, 3.0, 0.5]
+    assert time[[0, 1, 2, 9]] == pytest.approx([0.15, 7.5, 13.0, 49.95])

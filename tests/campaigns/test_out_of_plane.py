@@ -1,0 +1,174 @@
+"""The out-of-plane campaign: what it runs, what a row says, what happens when something fails or is there already."""
+
+import math
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+
+from campaigns import out_of_plane
+from campaigns.offplane_rows import COLUMNS, bows, offplane_row
+from campaigns.seeds import DIRECTIONS, SEED_MPS, in_space, velocity
+from engine import load_scene
+from engine.trajectory import Profiles
+from reports.offplane_runs import COLUMNS as READ
+from tests.campaigns.conftest import ROOT, rows_of
+from tests.campaigns.fake_space import BURST_M, BURST_PERIODS, LARGE_RATE, SMALL_RATE, SpaceEngine
+
+USUAL = ["--periods", "60", "--backend", "threading", "--jobs", "2", "--no-report"]
+
+
+@pytest.fixture(scope="module")
+def out(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("plane") / "out"
+    assert out_of_plane.main([*USUAL, "--out", str(folder)], simulate=SpaceEngine()) == 0
+    return folder
+
+
+def chosen(rows, **wanted):
+    found = [row for row in rows if all(row[key] == str(value) for key, value in wanted.items())]
+    assert found
+    return found
+
+
+def test_everything_the_question_needs_is_run_once():
+    order = out_of_plane.read_order([], faults := [])
+    assert faults == []
+    keys = [scene.key() for scene in order.scenes.values()]
+    assert len(set(keys)) == len(keys)
+    runs = list(order.scenes)
+    assert {run.steepness for run in runs} == {0.016, 0.13}
+    assert {run.seed_mps for run in runs} >= {1e-3, 1e-5, 1e-10}
+    assert {run.depth_m for run in runs} == {21.0, 21.6, 22.0, 22.5, 25.0}
+    assert {run.bending_stiffness_Nm2 for run in runs} == {0.1, 0.4, 4.0}
+    assert {run.nodes for run in runs} == {41, 81, 161}
+    assert {run.seed_direction for run in runs} == {*DIRECTIONS, ""}
+    planar = [run for run in runs if run.dimensions == 2]
+    assert len(planar) == 10 and all(order.scenes[run].output.lateral_growth for run in planar)
+    compared = [run for run in runs if out_of_plane.compared(run, order.base)]
+    pairs = [(depth, dimensions) for depth in (21.0, 21.6, 22.0) for dimensions in (2, 3)]
+    assert sorted((run.depth_m, run.dimensions) for run in compared) == pairs
+
+
+def test_another_scene_becomes_the_base_of_what_is_varied():
+    order = out_of_plane.read_order(["--set", "water.depth_m=23", "tether.nodes=61"], [])
+    assert (order.base.depth_m, order.base.nodes) == (23.0, 61)
+    assert {23.0, 21.0} <= {run.depth_m for run in order.scenes}
+
+
+def test_rows_say_decay_with_its_rate_and_bursts_with_their_size(out):
+    rows = rows_of(out)
+    assert all(row["status"] == "ok" for row in rows)
+    bits = SMALL_RATE * 5.0 / math.log(2.0)
+    for row in chosen(rows, steepness=0.016, nodes=41, seed_direction="lateral"):
+        for body in ("buoy", "rope"):
+            assert row[f"{body}_motion"] == "decay" and row[f"{body}_bursts"] == ""
+            rate, error = (float(row[f"{body}_rate_{end}"]) for end in ("bits_per_period", "error"))
+            assert abs(rate - bits) < min(3 * error, 0.01)
+            assert float(row[f"{body}_fit_span_nats"]) < -3.0
+    for row in chosen(rows, steepness=0.13, dimensions=3, seed_direction="lateral", profiles=0, nodes=41):
+        assert row["rope_motion"] == "bursts" and row["rope_rate_bits_per_period"] == ""
+        assert int(row["rope_bursts"]) == 60 // BURST_PERIODS
+        assert float(row["rope_burst_median_m"]) == pytest.approx(BURST_M, rel=0.01)
+        assert float(row["rope_first_burst_period"]) == pytest.approx(BURST_PERIODS / 2, abs=0.05)
+
+
+def test_the_first_response_is_told_by_the_lateral_part_of_the_push(out):
+    rows = chosen(rows_of(out), steepness=0.13, dimensions=3)
+    gains = [float(row["buoy_early_gain_s"]) for row in rows if row["seed_direction"] != "along"]
+    assert np.ptp(gains) < 1e-9 * np.mean(gains)
+    along = chosen(rows, seed_direction="along")[0]
+    assert along["buoy_early_gain_s"] == "" and float(along["buoy_lateral_max_m"]) == 0.0
+    assert along["buoy_motion"] == "neither" and "zero" in along["buoy_reason"]
+
+
+def test_a_planar_row_has_no_lateral_columns(out):
+    for row in chosen(rows_of(out), dimensions=2):
+        assert all(row[name] == "" for name in COLUMNS if name.startswith(("buoy_", "rope_")))
+        assert row["loop_releases"] != "" and row["radius_max_m"] != ""
+
+
+def test_only_what_is_compared_gets_a_verdict(out):
+    judged = [row for row in rows_of(out) if row["regime"]]
+    assert sorted((row["dimensions"], row["depth_m"]) for row in judged) == [
+        (dimensions, depth) for dimensions in ("2", "3") for depth in ("21.0", "21.6", "22.0")
+    ]
+
+
+def test_the_same_command_computes_nothing_and_changes_nothing(out, capsys):
+    before = (out / "table.csv").read_bytes()
+    assert out_of_plane.main([*USUAL, "--out", str(out)], simulate=SpaceEngine(raises=(0.016, 0.13))) == 0
+    assert ": 0 computed" in capsys.readouterr().out
+    assert (out / "table.csv").read_bytes() == before
+
+
+def test_a_run_that_fails_is_a_row_and_the_rest_goes_on(tmp_path):
+    engine = SpaceEngine(raises=(0.016,), failing=(25.0,))
+    assert out_of_plane.main([*USUAL[:1], "6", *USUAL[2:], "--out", str(tmp_path / "out")], simulate=engine) == 0
+    rows = rows_of(tmp_path / "out")
+    assert {row["status"] for row in chosen(rows, steepness=0.016)} == {"error"}
+    failed = chosen(rows, steepness=0.13, depth_m=25.0, dimensions=3)
+    assert {row["status"] for row in failed} == {"statics-failed"}
+    assert all(row["buoy_motion"] == row["inplane_m"] == "" and row["seed_mps"] == "1e-05" for row in failed)
+    assert chosen(rows, steepness=0.13, depth_m=22.0, status="ok")
+
+
+def test_a_record_that_is_not_finite_is_measured_up_to_there():
+    scene = load_scene("tethered_buoy", {"motion.dimensions": 3, "start.buoy_velocity_mps": [0, 1e-5, 0]})
+    run = SpaceEngine(large="growth")(scene, 80)
+    run.columns["y_m"][7000:] = math.nan
+    row = offplane_row(run, 10)
+    assert row["buoy_motion"] == "growth"
+    error = row["buoy_rate_error"] * math.log(2.0)
+    assert abs(row["buoy_rate_nats_per_period"] - 5.0 * LARGE_RATE["growth"]) < 3 * error < 0.1
+    assert set(row) <= set(COLUMNS)
+
+
+def test_the_report_reads_columns_that_the_table_has():
+    assert set(READ) <= set(COLUMNS)
+
+
+def test_bows_are_measured_from_the_straight_line():
+    s = np.linspace(0.0, 1.0, 21)
+    along, arch = np.array([[3.0], [0.0]]) * s, np.sin(np.pi * s)
+    z = np.array([[4.0], [5.0]]) * s
+    x = along + np.array([[0.8], [0.0]]) * 0.5 * arch  # 0.4 off at right angles: 4/5 of a shift of 0.5 in x ...
+    y = np.array([[0.2], [0.0]]) * s + np.array([[0.0], [0.3]]) * arch
+    lines = Profiles(np.array([0.0, 1.0]), s, x, y, z, *(0 * x for _ in range(3)))
+    in_plane, lateral = bows(lines)
+    assert in_plane == pytest.approx(0.4 * 0.8)
+    assert lateral == pytest.approx(0.3)
+
+
+def test_a_scene_in_space_gets_a_push_only_where_it_has_none():
+    still, added = in_space(load_scene("tethered_buoy", {"output.tangent_vectors": 1}))
+    assert added and still.motion.dimensions == 3 and still.output.tangent_vectors == 0
+    assert still.start.buoy_velocity_mps == (0.0, SEED_MPS, 0.0)
+    pushed = {"motion.dimensions": 3, "start.buoy_velocity_mps": [0.1, 1e-7, 0.2]}
+    kept, added = in_space(load_scene("tethered_buoy", pushed))
+    assert not added and kept.start.buoy_velocity_mps == (0.1, 1e-7, 0.2)
+    turned = {"motion.dimensions": 3, "waves.direction_rad": math.pi / 2}
+    across, added = in_space(load_scene("tethered_buoy", turned))
+    assert added and across.start.buoy_velocity_mps == pytest.approx((-SEED_MPS, 0.0, 0.0), abs=1e-20)
+
+
+def test_directions_have_the_size_of_the_push():
+    for word in DIRECTIONS:
+        assert np.linalg.norm(velocity(3e-4, word)) == pytest.approx(3e-4)
+    assert velocity(1.0, "mirrored") == [0.0, -1.0, 0.0]
+
+
+def test_every_fault_is_named_at_once_and_nothing_is_written(tmp_path, capsys):
+    words = ["--periods", "0", "--set", "waves.steepness=0.1", "motion.dimensions=2", "tether.mass=1", "--bogus"]
+    assert out_of_plane.main([*words, "--out", str(tmp_path / "new")]) == 2
+    said = capsys.readouterr().err
+    for word in ("--periods", "waves.steepness", "motion.dimensions", "mass", "--bogus"):
+        assert word in said
+    assert not (tmp_path / "new").exists()
+
+
+def test_help_loads_nothing_heavy():
+    code = "import sys, campaigns.out_of_plane as o; o.parser().format_help(); print(*sys.modules)"
+    loaded = subprocess.run([sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True, check=True).stdout
+    assert not {"numpy", "numba", "pandas", "scipy", "matplotlib", "pydantic"} & set(loaded.split())

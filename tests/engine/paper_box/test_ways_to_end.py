@@ -1,0 +1,53 @@
+"""Where the paper's scheme fails it stops, says why, and keeps finite samples up to there."""
+
+import math
+
+import numpy as np
+import pytest
+
+from engine import load_scene, simulate
+from engine.paper_box import run
+
+SNAP = {"solver.scheme": "paper-box", "waves.steepness": 0.13, "water.depth_m": 21.6}
+FLAT_IN_SLACK = {"law": "tabulated", "strain": [-0.2, -0.1, 0.0, 0.5], "tension_N": [0.0, 0.0, 0.0, 2.5e4]}
+ENDINGS = {
+    "usual steps at the first slack": ({"tether.nodes": 21}, "newton-failed", "did not converge"),
+    "smaller steps": ({"tether.nodes": 11, "solver.step_s": 0.005}, "shape-lost", "away from where its velocity"),
+    "a law that divides by zero in slack": (
+        {"tether.nodes": 11, "solver.step_s": 0.01, "tether.tension": FLAT_IN_SLACK},
+        "tension-flat",
+        "divides by it",
+    ),
+}
+
+
+@pytest.mark.parametrize("case", ENDINGS)
+def test_each_ending_is_named(case):
+    overrides, status, words = ENDINGS[case]
+    scene = load_scene("tethered_buoy", {**SNAP, **overrides})
+    found = simulate(scene, duration_s=8.0)
+    assert found.status == status and words in found.message and "conservation" in found.message
+    end = found.statistics["end_time_s"]
+    assert 5.0 < end < 7.0  # the first slack
+    assert f"t = {end:.6g}" in found.message or f"t = {end + (scene.solver.step_s or 0.0125):.6g}" in found.message
+    table = found.table()
+    assert np.isfinite(table.to_numpy()).all()
+    assert len(table) == math.floor(end / 0.05 + 1e-9) + 1
+
+
+def test_turns_that_the_nodes_do_not_resolve():
+    """With the other guard away the turns reach the bound next; both numbers are in the statistics."""
+    scene = load_scene("tethered_buoy", {**SNAP, "tether.nodes": 21, "solver.step_s": 0.005})
+    found = run(scene, 8.0, most_gap=math.inf)
+    assert found.status == "turn-unresolved"
+    assert found.statistics["max_turn_rad"] > math.pi / 2 and found.statistics["closure_m"] > 0.2
+    assert f"{found.statistics['max_turn_rad']:.3g} rad" in found.message
+
+
+def test_taut_motion_leaves_the_guards_far_away():
+    scene = load_scene("tethered_buoy", {**SNAP, "waves.steepness": 0.016, "tether.nodes": 11})
+    found = simulate(scene, duration_s=5.0)
+    assert found.status == "ok" and found.message == ""
+    assert found.statistics["max_turn_rad"] < 1e-3
+    assert found.statistics["closure_m"] < 1e-6
+    assert found.statistics["euler_norm_error"] < 1e-8

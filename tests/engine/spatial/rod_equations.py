@@ -1,0 +1,170 @@
+"""Equilibria of clamped rods that are not the engine's: the localised buckle, and Kirchhoff's equations in fixed axes.
+
+    x_s = (1+eps) t,   t_s = M x t/EI,   n_s = (t x t_s) x n,   M_s = -(1+eps)^3 t x N,   N constant,   eps = N.t/EA
+
+No frame, no Euler parameters, no O1 as an unknown: n is carried without roll, M.t = GIp O1 keeps its value by itself.
+The twist given is what n turns, seen from the shortest rotations to the chord and on to the other clamp, and O1 times
+the length.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.integrate import solve_bvp, solve_ivp
+from scipy.optimize import fsolve
+
+from tests.engine.spatial.rods import Rod, force, frames, positions, state_of
+
+
+def rates(rod, y, N):
+    """Derivatives in s of x, t, n, M, the rows 0-2, 3-5, 6-8, 9-11 of y (12, k), under the force N (3,)."""
+    t, n, M = y[3:6], y[6:9], y[9:12]
+    eps = N @ t / rod.EA
+    bend = np.cross(M, t, axis=0) / rod.EI
+    load = -((1 + eps) ** 3) * np.cross(t, N[:, None] * np.ones_like(t), axis=0)
+    return np.vstack([(1 + eps) * t, bend, np.cross(np.cross(t, bend, axis=0), n, axis=0), load])
+
+
+def carried(u, v, x):
+    """Vector x turned by the shortest rotation from the unit vector u to v."""
+    axis = np.cross(u, v)
+    return x + np.cross(axis, x) + np.cross(axis, np.cross(axis, x)) / (1 + u @ v)
+
+
+def any_normal(t):
+    """A unit vector across t."""
+    n = np.cross(t, np.eye(3)[np.argmin(np.abs(t))])
+    return n / np.linalg.norm(n)
+
+
+def kirchhoff(rod, Y, h, tol=1e-9):
+    """The two-point problem from an engine's state as first guess, for clamps not on one axis: (solution, N (3,), O1).
+
+    solution.sol(s) gives x, t, n, M as rows 0-2, 3-5, 6-8, 9-11.
+    """
+    L = rod.length
+    below, above = (np.array(d) / np.linalg.norm(d) for d in (rod.below, rod.above))
+    t, n, b = frames(Y)
+    s = np.concatenate([[0.0], np.cumsum(h)])
+    M = rod.GI * Y[:, 10:11] * t + rod.EI * (Y[:, 11:12] * n + Y[:, 12:13] * b)
+    e1 = any_normal(above)
+    e2 = np.cross(above, e1)
+    start = n[0] - (n[0] @ below) * below
+    start /= np.linalg.norm(start)
+    chord = np.array(rod.place) / np.linalg.norm(rod.place)
+    final = carried(chord, above, carried(below, chord, start))
+
+    def ends(a, b, N):
+        roll = rod.twist - (b[9:12] @ b[3:6]) / rod.GI * L
+        turned = np.cos(roll) * final + np.sin(roll) * np.cross(above, final)
+        return np.concatenate(
+            [
+                a[:3], a[3:6] - below, a[6:9] - start, b[:3] - rod.place,
+                [b[3:6] @ e1, b[3:6] @ e2, b[6:9] @ np.cross(above, turned)],
+            ]
+        )  # fmt: skip
+
+    y = np.vstack([positions(Y, h).T, t.T, n.T, M.T])
+    found = solve_bvp(lambda s, y, N: rates(rod, y, N), ends, s, y, force(rod, Y).mean(0), tol=tol, max_nodes=20000)
+    assert found.success, found.message
+    end = found.y[:, -1]
+    return found, found.p, end[9:12] @ end[3:6] / rod.GI
+
+
+def symmetric(rod, guess):
+    """Rest of a rod between clamps on one axis (x), symmetric about the line through its middle along y.
+
+    On one axis the shape is free to turn about it, which leaves `kirchhoff` singular; a turn by pi about y that takes
+    the rod into itself leaves y, the angle of t from x, and N and M in the plane of x and z for unknowns in the middle,
+    and conditions at one end. guess: these six numbers. Returns (the six numbers, torque M.t).
+    """
+
+    def end_of(z):
+        y0, angle, *loads = z
+        N = np.array([loads[0], 0.0, loads[1]])
+        start = np.array([0, y0, 0, np.cos(angle), 0, np.sin(angle), 0, 1, 0, loads[2], 0, loads[3]])
+        run = solve_ivp(
+            lambda s, y: rates(rod, y[:, None], N)[:, 0], (0, rod.length / 2), start, method="DOP853",
+            rtol=1e-11, atol=1e-12,
+        )  # fmt: skip
+        return run.y[:, -1]
+
+    def miss(z):
+        x, t, n, M = end_of(z).reshape(4, 3)
+        half = 0.5 * (rod.twist - M @ t / rod.GI * rod.length)
+        return [x[0] - rod.place[0] / 2, x[1], x[2], t[1], t[2], np.sin(np.arctan2(n[2], n[1]) - half)]
+
+    z, info, _, message = fsolve(miss, guess, full_output=True, xtol=1e-12)
+    assert np.abs(info["fvec"]).max() < 1e-10, message
+    x, t, n, M = end_of(z).reshape(4, 3)
+    return z, M @ t
+
+
+@dataclass(frozen=True)
+class Localised:
+    """The buckle of an infinitely long rod under tension T and torque M (Coyne 1990; van der Heijden & Thompson 2000).
+
+    With m = M/(2 sqrt(EI T)), k = sqrt(T/EI), a = sqrt(1 - m^2), theta and psi the polar angles of t about the axis,
+    1 - cos theta = 2 a^2 sech^2(k a s),  psi = m k s + arctan((a/m) tanh(k a s)); `test_torsion_localised` checks them.
+    """
+
+    EI: float
+    GI: float
+    T: float
+    m: float
+
+    @property
+    def torque(self):
+        return 2 * self.m * np.sqrt(self.EI * self.T)
+
+    @property
+    def shortening(self):
+        """D: what the ends come closer, m, extension left out."""
+        return 4 * np.sqrt(self.EI / self.T) * np.sqrt(1 - self.m**2)
+
+    def rotation(self, length):
+        """R: what the ends are turned against each other, rad."""
+        return self.torque * length / self.GI + 4 * np.arccos(self.m)
+
+    @property
+    def deflection(self):
+        """Largest distance from the axis, m: half the shortening."""
+        return 0.5 * self.shortening
+
+    def angles(self, s):
+        """theta, psi and d psi/ds at s from the middle."""
+        k, a, m = np.sqrt(self.T / self.EI), np.sqrt(1 - self.m**2), self.m
+        v = 2 * (a / np.cosh(k * a * s)) ** 2
+        return 2 * np.arcsin(np.sqrt(v / 2)), m * k * s + np.arctan(a / m * np.tanh(k * a * s)), 2 * m * k / (2 - v)
+
+    def rod(self, length, EA):
+        """The clamped rod of this length along x whose ends are placed as this solution has them."""
+        reach = (length - self.shortening) * (1 + self.T / EA)
+        return Rod(self.EI, self.GI, EA, length, (reach, 0.0, 0.0), self.rotation(length))
+
+    def middle(self):
+        """Deflection, angle of t, N and M (x, z) in the middle: the guess for `symmetric`."""
+        theta, _, rate = self.angles(np.zeros(1))
+        theta, bend = theta[0], self.EI * rate[0] * np.sin(theta[0])
+        M = self.torque * np.array([np.cos(theta), np.sin(theta)]) + bend * np.array([np.sin(theta), -np.cos(theta)])
+        return [self.deflection, theta, self.T, 0.0, *M]
+
+    def state(self, rod, s):
+        """State (n, 13) along a rod: M = M e + r x F, with r.M the moment about the axis, and n without roll."""
+        middle = s - 0.5 * rod.length
+        theta, psi, rate = self.angles(middle)
+        t = np.stack([np.cos(theta), np.sin(theta) * np.cos(psi), np.sin(theta) * np.sin(psi)], 1)
+        fine = np.linspace(s[0], s[-1], 20 * len(s) + 1)
+        theta_f, _, rate_f = self.angles(fine - 0.5 * rod.length)
+        roll = -np.concatenate([[0.0], np.cumsum(_means(rate_f * np.cos(theta_f)) * np.diff(fine))])
+        roll = np.interp(s, fine, roll)
+        up = np.stack([-np.sin(theta), np.cos(theta) * np.cos(psi), np.cos(theta) * np.sin(psi)], 1)
+        side = np.cross(t, up)
+        n = np.cos(roll)[:, None] * up + np.sin(roll)[:, None] * side
+        theta_s = np.gradient(theta, s)
+        M = self.torque * t + self.EI * (theta_s[:, None] * side - (rate * np.sin(theta))[:, None] * up)
+        return state_of(rod, s, t, n, M, np.array([self.T, 0.0, 0.0]))
+
+
+def _means(values):
+    return 0.5 * (values[1:] + values[:-1])

@@ -1,0 +1,155 @@
+"""Law: the equations know the vertical and no other direction.
+
+A scene turned about the vertical by any angle - waves, currents, starts, forces, clamps, the motion of a held end -
+gives the turned motion; mirrored at the plane of the waves it gives the mirrored motion; and the roll of the local
+frames about the tangent, which is free, changes nothing. Fixed steps and stages solved to rounding, before slack has
+magnified rounding; each quantity relative to its size: 1e-8, mirrored 1e-12 (the same arithmetic with other signs).
+"""
+
+import math
+
+import numpy as np
+import pytest
+
+from engine import simulate
+from engine.spatial.lift import product
+from tests.engine.lines import DRY, Motion
+from tests.engine.spatial.lines import QUIET, frames, in_space
+
+ANGLES = [0.7, math.pi / 2, math.pi, -2.0]
+STEPS = {"solver.step_s": 0.02, "output.profiles": True, **QUIET}
+TENSIONS = ["tension_top_N", "tension_min_N", "tension_top_low_N", "tension_top_high_N"]
+
+
+def turned(vector, angle, mirror=1.0):
+    """A vector or a list of them after y -> mirror * y and a turn about the vertical."""
+    x, y, z = np.moveaxis(np.array(vector, float) * [1.0, mirror, 1.0], -1, 0)
+    c, s = math.cos(angle), math.sin(angle)
+    return np.stack([c * x - s * y, s * x + c * y, z], -1).tolist()
+
+
+def waves_and_buoy(steepness, turn):
+    return {
+        "waves.steepness": steepness,
+        "waves.direction_rad": turn([1, 0, 0], heading=True),
+        "water.depth_m": 22.5,
+        "current": {
+            "law": "profile", "height_m": [0.0, 22.0], "velocity_mps": turn([[0.1, 0.2, 0.0], [-0.1, 0.5, 0.05]]),
+        },
+        "start.buoy_velocity_mps": turn([0.2, 0.3, 0.1]),
+    }  # fmt: skip
+
+
+def moved_end(turn):
+    motion = {"law": "harmonic", "amplitude_m": turn([0.5, 0.3, -0.4]), "period_s": 3.0, "ramp_s": 2.0}
+    end = {"kind": "held", "position_m": turn([6.0, -3.0, 17.0]), "motion": motion}
+    return {"buoy": None, "waves.direction_rad": turn([1, 0, 0], heading=True), "waves.steepness": 0.05, "end": end}
+
+
+def let_go(turn):
+    end = {"kind": "held", "position_m": turn([5.0, 8.0, -3.0]), "release_s": 0.5, "force_N": turn([2.0, -1.0, 3.0])}
+    return {**DRY, "buoy": None, "end": end, "tether.bending_stiffness_Nm2": 4.0}
+
+
+def twisted(turn):
+    hand = np.sign(np.linalg.det([turn([1, 0, 0]), turn([0, 1, 0]), turn([0, 0, 1])]))
+    motion = {"law": "harmonic", "amplitude_m": turn([0.2, 0.3, 0.1]), "period_s": 2.0, "ramp_s": 2.0}
+    end = {"kind": "held", "position_m": turn([12.0, 9.0, 8.0]), "rotation": "clamped"}
+    end |= {"direction": turn([2.0, 1.0, 0.5]), "twist_rad": 2.0 * hand, "motion": motion}
+    return {
+        "waves": None, "buoy": None, "end": end,
+        "anchor": {"rotation": "clamped", "direction": turn([1.0, 0.2, 1.0])},
+        "tether.bending_stiffness_Nm2": 50.0, "tether.torsion_stiffness_Nm2": 30.0,
+    }  # fmt: skip
+
+
+SCENES = {  # what is turned, run length (s)
+    "buoy in small waves": (lambda turn: waves_and_buoy(0.016, turn), 100.0),
+    "buoy in steep waves": (lambda turn: waves_and_buoy(0.08, turn), 15.0),
+    "the same without bending": (
+        lambda turn: {**waves_and_buoy(0.016, turn), "tether.bending_stiffness_Nm2": 0.0}, 20.0,
+    ),
+    "a held end in motion": (moved_end, 6.0),
+    "a held end let go": (let_go, 1.0),
+    "clamped and twisted": (twisted, 4.0),
+}  # fmt: skip
+
+
+def seen_from(angle, mirror, name):
+    """The run of a turned and mirrored scene, its line turned and mirrored back: columns, and X (m, n, 3)."""
+    parts, duration_s = SCENES[name]
+
+    def turn(vector, heading=False):
+        vector = turned(vector, angle, mirror)
+        return math.atan2(vector[1], vector[0]) if heading else vector
+
+    run = simulate(in_space(parts(turn), STEPS), duration_s=duration_s)
+    assert run.status == "ok", run.message
+    lines = run.profiles
+    X = np.array(turned(np.stack([lines.x_m, lines.y_m, lines.z_m], -1), -angle)) * [1.0, mirror, 1.0]
+    return run.columns, X, np.stack([lines.strain, lines.speed_mps])
+
+
+def assert_equal(one, other, relative, tensions=TENSIONS):
+    (columns, X, others), (columns_too, X_too, others_too) = one, other
+    assert np.abs(X - X_too).max() < relative * np.abs(X).max()
+    for a, b in zip(others, others_too, strict=True):
+        assert np.abs(a - b).max() < relative * np.abs(a).max()
+    for key in ("radius_m", *tensions):
+        assert np.abs(columns[key] - columns_too[key]).max() < relative * np.abs(columns[key]).max(), key
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_a_turned_scene_gives_the_turned_motion(name):
+    straight = seen_from(0.0, 1.0, name)
+    assert np.ptp(straight[1][..., 1]) > 0.5  # well out of any plane
+    for angle in ANGLES:
+        assert_equal(straight, seen_from(angle, 1.0, name), 1e-8)
+
+
+def test_the_table_of_a_turned_wave_is_the_turned_table():
+    """Angles are measured in the plane of the waves, distances from it."""
+    straight, other = (seen_from(angle, 1.0, "buoy in steep waves")[0] for angle in (0.0, 2.5))
+    for key in ("angle_rad", "angle_rate_radps", "offplane_m"):
+        assert np.abs(straight[key]).max() > 0.01
+        assert np.abs(straight[key] - other[key]).max() < 1e-8 * np.abs(straight[key]).max()
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_a_mirrored_scene_gives_the_mirrored_motion(name):
+    """The mirror also turns a twist round."""
+    assert_equal(seen_from(0.0, 1.0, name), seen_from(0.0, -1.0, name), 1e-12)
+
+
+def rolled(Y, angle):
+    """A state with every frame turned by an angle about its tangent: the same forces and curvatures, in other axes."""
+    Y, n = Y.copy(), len(Y)
+    c, s = math.cos(angle), math.sin(angle)
+    Y[:, 6:10] = product(Y[:, 6:10], np.tile([math.cos(angle / 2), math.sin(angle / 2), 0.0, 0.0], (n, 1)))
+    for i, j in ((1, 2), (11, 12)):
+        Y[:, i], Y[:, j] = c * Y[:, i] + s * Y[:, j], c * Y[:, j] - s * Y[:, i]
+    return Y
+
+
+@pytest.mark.parametrize("name", ["buoy in steep waves", "a held end let go", "clamped and twisted"])
+def test_the_roll_of_the_frames_changes_nothing(name):
+    parts, duration_s = SCENES[name]
+
+    def asis(vector, heading=False):
+        return 0.0 if heading else vector
+
+    runs = []
+    for angle in (0.0, 0.3, 2.0, -3.0):
+        motion = Motion(in_space(parts(asis), STEPS), duration_s)
+        motion.batch.Y[0] = rolled(motion.batch.Y[0], angle)
+        motion.batch.Y_before[0] = motion.batch.Y[0]
+        first = frames(motion.Y[:, 6:10])
+        run = motion.run()
+        assert run.status == "ok"
+        X = np.stack([run.profiles.x_m, run.profiles.y_m, run.profiles.z_m], -1)
+        runs.append(((run.columns, X, np.stack([run.profiles.strain, run.profiles.speed_mps])), first, motion.Y.copy()))
+    for angle, (run, first, last) in zip((0.3, 2.0, -3.0), runs[1:], strict=True):
+        assert_equal(runs[0][0], run, 1e-8)
+        assert np.abs(np.cos(angle) - np.sum(runs[0][1][:, 1] * first[:, 1], 1)).max() < 1e-12  # it was rolled
+        shear = last[:, 1:3]  # tied to nothing but the curvature, of differences of which it is made
+        assert np.abs(rolled(runs[0][2], angle)[:, 1:3] - shear).max() < 1e-6 * np.abs(shear).max()

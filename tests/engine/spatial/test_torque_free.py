@@ -1,0 +1,59 @@
+"""Law: a line whose ends are free to turn carries no torque, its Euler parameters keep length one, and left and right
+are alike: the mirrored seed gives the mirrored motion, also through slack and loops that leave the plane.
+
+kA = 0.13, H = 21.6 m with a lateral blow to the buoy: 15 periods, the first loop at 53 s among them.
+"""
+
+import numpy as np
+import pytest
+
+from tests.engine.lines import Motion
+from tests.engine.spatial.lines import in_space
+
+VIOLENT = {"waves.steepness": 0.13, "water.depth_m": 21.6, "output.profiles": True}
+
+
+def struck(velocity, EI=0.4):
+    scene = in_space(VIOLENT, {"start.buoy_velocity_mps": [0.0, velocity, 0.0]}, bending_stiffness_Nm2=EI)
+    motion = Motion(scene, 75.0)
+    run = motion.run()
+    assert run.status == "ok" and run.statistics["loop_releases"] == 0
+    return motion, run
+
+
+@pytest.mark.parametrize("velocity", [1e-5, 0.1])
+def test_no_torque_and_unit_length(velocity):
+    motion, run = struck(velocity)
+    assert np.abs(run.profiles.y_m).max() > 0.05
+    assert np.abs(motion.Y[:, 10]).max() == 0.0
+    assert np.abs(np.linalg.norm(motion.Y[:, 6:10], axis=1) - 1).max() < 1e-13
+
+
+def test_torque_free_frames_do_not_roll():
+    """From node to node the frame turns about an axis in its own normal plane: no first component, to rounding."""
+    motion, _ = struck(0.1)
+    a, b = motion.Y[:-1, 6:10], motion.Y[1:, 6:10]
+    about = a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0] - a[:, 2] * b[:, 3] + a[:, 3] * b[:, 2]
+    assert np.abs(about).max() < 1e-12
+
+
+def test_a_clamped_end_that_is_let_go_loses_its_torque():
+    """Twisted by a turn between two clamps: O1 is that twist over the length, less what the shape gives, then zero."""
+    end = {"kind": "held", "position_m": [14.0, 4.0, 12.0], "rotation": "clamped", "twist_rad": 6.0, "release_s": 0.5}
+    scene = in_space(
+        {"waves": None, "buoy": None, "end": end, "anchor.rotation": "clamped", "output.step_s": 0.02},
+        bending_stiffness_Nm2=50.0, torsion_stiffness_Nm2=40.0,
+    )  # fmt: skip
+    motion = Motion(scene, 0.8)
+    history = [(t, Y[:, 10].copy()) for t, Y in motion.states()]
+    assert int(motion.batch.states[0]["status"]) == 0
+    for t, torsion in history:
+        assert np.ptp(torsion) == 0.0  # one number along the line
+        assert torsion[0] == pytest.approx(0.3, rel=0.1) if t < 0.5 else t < 0.51 or torsion[0] == 0.0
+
+
+@pytest.mark.parametrize("velocity", [1e-5, 0.1])
+def test_a_mirrored_seed_gives_the_mirrored_motion(velocity):
+    (_, left), (_, right) = struck(velocity), struck(-velocity)
+    for axis, sign in (("x_m", 1), ("y_m", -1), ("z_m", 1), ("tension_N", 1)):
+        assert np.array_equal(getattr(left.profiles, axis), sign * getattr(right.profiles, axis)), axis

@@ -1,0 +1,85 @@
+"""Law: a long rod under tension T that is twisted past M^2 = 4 EI T and slackened buckles into one place. With
+m = M/(2 sqrt(EI T)) its ends have come closer by D and are turned against each other by R,
+
+    D = 4 sqrt(EI/T) sqrt(1 - m^2),   R = M L/GIp + 4 arccos m,   and it stands D/2 off its axis
+
+(Coyne, IEEE J. Oceanic Eng. 15, 1990; van der Heijden & Thompson, Nonlinear Dynamics 21, 2000). From the first
+integrals of Kirchhoff's equations, u = cos theta: M = EI psi_s sin^2 theta + M u, and the energy
+(2T/EI) (1-u)^2 (1 + u - 2 m^2) = u_s^2; |M|^2 = M^2 + T^2 rho^2 for the distance rho from the axis.
+
+Tolerance: D and R given, the box finds T, M and the deflection to order 2. The tails are cut at L/2, where they are
+exp(-sqrt(T/EI) sqrt(1-m^2) L/2) of the whole: 5e-5 and less, and what is found is moved by the square of it.
+"""
+
+import numpy as np
+import pytest
+from scipy.integrate import quad
+
+from tests.engine.spatial.rod_equations import Localised, kirchhoff
+from tests.engine.spatial.rods import Rod, at_rest, force, positions
+
+EI, EA, LENGTH = 0.4, 1e5, 20.0
+
+
+@pytest.mark.parametrize("m", [0.05, 0.3, 0.6, 0.9, 0.99])
+def test_the_published_formulas(m):
+    buckle = Localised(EI, 0.3, 2.0, m)
+    far = 40 / (np.sqrt(buckle.T / EI) * np.sqrt(1 - m**2))
+
+    def total(f):
+        return 2 * quad(f, 0, far, epsabs=1e-12, epsrel=1e-12, limit=500)[0]
+
+    assert total(lambda s: 1 - np.cos(buckle.angles(s)[0])) == pytest.approx(buckle.shortening, rel=1e-9)
+    turned = total(lambda s: (1 - np.cos(buckle.angles(s)[0])) * buckle.angles(s)[2])
+    assert turned == pytest.approx(buckle.rotation(0.0), rel=1e-9)
+    # the angles against the first integrals, and the distance from the axis against the integral of t
+    s = np.linspace(-3, 3, 2001)[1:-1]
+    d = 1e-5
+    theta, psi, rate = buckle.angles(s)
+    u = np.cos(theta)
+    u_s = (np.cos(buckle.angles(s + d)[0]) - np.cos(buckle.angles(s - d)[0])) / (2 * d)
+    assert u_s**2 == pytest.approx(2 * buckle.T / EI * (1 - u) ** 2 * (1 + u - 2 * m**2), rel=1e-6, abs=1e-7)
+    assert EI * rate * (1 + u) == pytest.approx(buckle.torque, rel=1e-12)
+    assert (buckle.angles(s + d)[1] - buckle.angles(s - d)[1]) / (2 * d) == pytest.approx(rate, rel=1e-6)
+
+    def across(turn):
+        return quad(lambda s: np.sin(buckle.angles(s)[0]) * turn(buckle.angles(s)[1]), -far, 0, limit=500)[0]
+
+    assert np.hypot(across(np.cos), across(np.sin)) == pytest.approx(buckle.deflection, rel=1e-6)
+
+
+def found(buckle, nodes):
+    """T, M and the deflection in the middle over those of the closed form."""
+    rod = buckle.rod(LENGTH, EA)
+    Y, h = at_rest(rod, nodes, lambda s: buckle.state(rod, s))
+    N, x = force(rod, Y), positions(Y, h)
+    assert np.ptp(N, axis=0).max() < 1e-7
+    return np.array(
+        [np.linalg.norm(N[0]) / buckle.T, rod.GI * Y[0, 10] / buckle.torque, np.hypot(*x[nodes // 2, 1:]) / buckle.deflection]
+    )  # fmt: skip
+
+
+@pytest.mark.parametrize("GI", [0.3, 0.04])
+@pytest.mark.parametrize("m", [0.9, 0.8, 0.6])
+def test_the_localised_buckle(m, GI):
+    """GIp = EI/10 is the paper's rope: it turns by 40 rad/m, which no node sees."""
+    buckle = Localised(EI, GI, 2.0, m)
+    coarse, middle, fine = (found(buckle, nodes) - 1 for nodes in (321, 641, 1281))
+    assert np.log2((coarse - middle) / (middle - fine)) == pytest.approx(2, abs=0.1)
+    assert fine + (fine - middle) / 3 == pytest.approx(0, abs=2e-4)
+    assert np.all(np.abs(fine) < 2e-3)
+
+
+def test_a_rod_between_clamps_that_are_not_in_line():
+    """The buckle between clamps tilted by 0.1 rad, against the two-point problem: order 2."""
+    buckle = Localised(EI, 0.3, 2.0, 0.8)
+    aligned = buckle.rod(10.0, EA)
+    rod = Rod(EI, 0.3, EA, 10.0, aligned.place, aligned.twist, (1.0, 0.0, 0.0), (np.cos(0.1), np.sin(0.1), 0.0))
+    answers = []
+    for nodes in (161, 321, 641):
+        Y, h = at_rest(rod, nodes, lambda s: buckle.state(aligned, s))
+        answers.append(np.concatenate([force(rod, Y)[0], [rod.GI * Y[0, 10]]]))
+    solution, N, O1 = kirchhoff(rod, Y, h)
+    coarse, middle, fine = (np.abs(answer - [*N, rod.GI * O1]).max() for answer in answers)
+    assert np.log2([coarse / middle, middle / fine]) == pytest.approx(2, abs=0.15)
+    assert fine < 5e-3 * buckle.T

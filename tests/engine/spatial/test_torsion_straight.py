@@ -1,0 +1,117 @@
+"""Law: a straight rod whose clamps are turned by Phi against each other carries the torque GIp Phi/L and nothing else,
+as long as M = GIp Phi/L stays below the torque at which it buckles. With alpha = M/(2 EI), beta^2 = alpha^2 - T/EI,
+
+    EI w'''' - i M w''' - T w'' = 0,  w = y + i z,  w = w' = 0 at both ends
+    has a solution where   beta L (cos beta L - cos alpha L) = (T L^2/(2 EI)) sin beta L,
+
+from w = A + B s + C exp(i (alpha+beta) s) + D exp(i (alpha-beta) s). Far apart clamps: beta = 0, M^2 = 4 EI T (Love);
+without tension the least root is M L/EI = 8.9868, twice that of tan x = x (Greenhill).
+
+Tolerance: straight rods to rounding. The critical torque is where the answer to a slight misalignment of a clamp has
+a pole; its inverse is taken there by a parabola through three twists (2e-4), and the box errs in h^2.
+"""
+
+import numpy as np
+import pytest
+from scipy.optimize import brentq
+
+from tests.engine.lines import Motion, equilibrium
+from tests.engine.spatial.rods import Rod, at_rest, frames, positions
+
+EI, GI, EA, LENGTH = 0.4, 0.3, 1e5, 5.0
+
+
+def rod(twist, tension, axis=(1.0, 0.0, 0.0), **changes):
+    place = tuple(LENGTH * (1 + tension / EA) * np.array(axis))
+    return Rod(**{"EI": EI, "GI": GI, "EA": EA, "length": LENGTH, "place": place, "twist": twist,
+                  "below": axis, "above": axis, **changes})  # fmt: skip
+
+
+def critical_torque(tension):
+    def torque(beta):
+        return 2 * EI * np.sqrt(beta**2 + tension / EI)
+
+    def condition(beta):
+        alpha = torque(beta) / (2 * EI)
+        left = beta * LENGTH * (np.cos(beta * LENGTH) - np.cos(alpha * LENGTH))
+        return (left - tension * LENGTH**2 / (2 * EI) * np.sin(beta * LENGTH)) / beta**3  # beta = 0 is no solution
+
+    betas = np.linspace(1e-2, 12.0, 5000) / LENGTH
+    values = np.array([condition(beta) for beta in betas])
+    first = np.flatnonzero(values[1:] * values[:-1] < 0)[0]
+    return torque(brentq(condition, betas[first], betas[first + 1], xtol=1e-14))
+
+
+def test_the_condition_has_the_limits_of_greenhill_and_love():
+    without = 2 * critical_torque(1e-3) - critical_torque(2e-3)  # linear in T
+    assert without * LENGTH / EI == pytest.approx(2 * brentq(lambda x: np.tan(x) - x, 4.4, 4.6), rel=1e-5)
+    excess = np.array([critical_torque(T) ** 2 / (4 * EI * T) for T in (10.0, 100.0, 1000.0)]) - 1
+    assert np.all(excess > 0) and excess[-1] < 1e-3
+
+
+@pytest.mark.parametrize("twist", [0.3, -3.0, 40.0, 400.0])
+@pytest.mark.parametrize("axis", [(1.0, 0.0, 0.0), (0.0, 0.0, 1.0), (0.6, 0.48, 0.64)])
+def test_a_straight_rod_is_only_twisted(twist, axis):
+    tension = 2 * max(1.0, (GI * twist / LENGTH) ** 2 / (4 * EI))
+    Y, h = at_rest(rod(twist, tension, axis), 41)
+    assert GI * Y[:, 10] == pytest.approx(GI * twist / LENGTH, rel=1e-14)
+    assert np.abs(Y[:, [1, 2]]).max() < 1e-9 * tension and np.abs(Y[:, [11, 12]]).max() < 1e-9
+    assert positions(Y, h) == pytest.approx(np.outer(np.cumsum([0, *h]), axis) * (1 + tension / EA), abs=1e-9)
+
+
+def test_twist_put_in_slowly_moves_nothing_else():
+    """Torque GIp Phi(t)/L at every step, Phi = Phi_0 sin^2(pi t/(2 ramp)), at 0.9 of the critical torque."""
+    tension = 3.0
+    twist = 0.9 * critical_torque(tension) * LENGTH / GI
+    scene = rod(twist, tension).scene(41, **{"end.twist_ramp_s": 4.0, "output.step_s": 0.1})
+    history = list(Motion(scene, 5.0).states())
+    assert len(history) > 40
+    for t, Y in history[1:]:
+        given = twist * (np.sin(np.pi * t / 8) ** 2 if t < 4 else 1.0)
+        assert Y[:, 10] * LENGTH == pytest.approx(given, rel=1e-12, abs=1e-12)
+        assert np.abs(frames(Y)[0][:, 1:]).max() < 1e-9 and np.abs(Y[:, 4:6]).max() < 1e-9
+
+
+def buckling_twist(nodes, tension):
+    """Pole of the deflection under a clamp misaligned by 1e-7 rad over the exact critical twist, from twists below."""
+    exact = critical_torque(tension) * LENGTH / GI
+    shares = np.array([0.99, 0.995, 0.998])
+    inverse = []
+    for share in shares:
+        tilted = rod(share * exact, tension, above=(1.0, 1e-7, 0.0))
+        Y, h = at_rest(tilted, nodes)
+        x = positions(Y, h)
+        inverse.append(1e-7 / np.hypot(*x[nodes // 2, 1:]))
+    parabola = np.polynomial.Polynomial.fit(shares, inverse, 2)
+    roots = parabola.roots().real
+    return roots[np.argmin(np.abs(roots - 1))]
+
+
+@pytest.mark.parametrize("tension", [0.5, 5.0])
+def test_it_buckles_at_the_exact_critical_twist(tension):
+    coarse, middle, fine = (buckling_twist(nodes, tension) for nodes in (41, 81, 161))
+    assert np.log2((coarse - middle) / (middle - fine)) == pytest.approx(2, abs=0.1)
+    assert fine + (fine - middle) / 3 == pytest.approx(1, abs=3e-4)
+    assert fine == pytest.approx(1, abs=1e-3)
+
+
+def test_past_it_a_straight_rod_leaves_its_line():
+    tension = 2.0
+    for share, buckled in ((0.97, False), (1.03, True)):
+        twist = share * critical_torque(tension) * LENGTH / GI
+        scene = rod(twist, tension, above=(1.0, 1e-7, 0.0)).scene(
+            81, **{"end.twist_ramp_s": 5.0, "output.step_s": 1.0, "solver.rtol": 1e-3}
+        )
+        moved = np.abs(Motion(scene, 60.0).run().table()[["tension_min_N"]].to_numpy() / tension - 1).max()
+        assert (moved > 1e-3) == buckled
+
+
+def test_mirror():
+    """Twist of the other hand in the mirrored rod gives the mirrored shape and the opposite torque."""
+    right = Rod(EI, GI, EA, LENGTH, (3.0, 1.0, 2.0), 4.0, (1.0, 0.0, 0.0), (0.0, 0.6, 0.8))
+    left = Rod(EI, GI, EA, LENGTH, (3.0, -1.0, 2.0), -4.0, (1.0, 0.0, 0.0), (0.0, -0.6, 0.8))
+    Y, h = at_rest(right, 81)
+    Z, _ = at_rest(left, 81)
+    assert Z[0, 10] == pytest.approx(-Y[0, 10], rel=1e-8)
+    assert positions(Z, h) * [1, -1, 1] == pytest.approx(positions(Y, h), abs=1e-8)
+    assert equilibrium(left.scene(81)).Y[:, 10] == pytest.approx(Z[:, 10], rel=1e-12)

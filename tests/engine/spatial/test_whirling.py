@@ -1,0 +1,118 @@
+"""Law: steady rotation about an axis, and what a pendulum that swings in all directions keeps.
+
+Conical pendulum, a heavy bob on a light elastic line, dry: at the angle a from the vertical T = M g/cos a, length l = L
+(1 + T/EA), omega^2 = g/(l cos a). Spherical pendulum: M X_tt = -T(|X|) X/|X| - M g z, by scipy, with its energy and its
+angular momentum about the vertical. The line's own mass m L/M = 1e-5 and weight move both by shares of 1e-5.
+
+Whirling string (troposkein), without gravity: a shape that turns about the chord of its ends as a rigid body,
+(T t)_s = -m omega^2 r, X_s = (1 + T/EA) t, which scipy integrates from the lower end; the force there is found by
+shooting. The error of the box is of order 2, asked for within 0.1.
+"""
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+from scipy.optimize import root
+
+from tests.engine.lines import DRY, Motion, linear
+from tests.engine.spatial.lines import held_at, in_space, positions
+
+G, L, M, EA = 9.81, 5.0, 100.0, 2e4
+STEPS = {"solver.rtol": 1e-5, "output.step_s": 0.05}
+
+
+def frames_along(t, across):
+    """Euler parameters (n, 4) of frames with tangents t (n, 3), all in one plane, and one normal `across` it."""
+    b = np.cross(t, across)
+    R = np.stack([t, np.broadcast_to(across, t.shape), b], 2)  # columns t, n, b
+    vector = [R[:, 2, 1] - R[:, 1, 2], R[:, 0, 2] - R[:, 2, 0], R[:, 1, 0] - R[:, 0, 1]]
+    w = np.sqrt(np.maximum(1 + np.trace(R, axis1=1, axis2=2), 0)) / 2
+    assert w.min() > 0.1
+    return np.column_stack([w, *(v / (4 * w) for v in vector)])
+
+
+def bob(duration_s, angle, speed):
+    """A heavy bob on 11 nodes of a light line in the plane x-z, `angle` from below the anchor, thrown along y."""
+    scene = in_space(
+        DRY, STEPS, {"buoy.mass_kg": M}, length_m=L, nodes=11, area_m2=1e-6, density_kgpm3=200.0,
+        bending_stiffness_Nm2=0.0, tension=linear(EA),
+    )  # fmt: skip
+    strain = M * G / np.cos(angle) / EA
+    t = np.tile([np.sin(angle), 0.0, -np.cos(angle)], (11, 1))
+    Y = np.zeros((11, 13))
+    Y[:, 0] = strain
+    Y[:, 6:10] = frames_along(t, np.array([0.0, 1.0, 0.0]))
+    Y[:, 4] = speed * np.linspace(0, 1, 11)
+    return Motion(scene, duration_s, Y)
+
+
+@pytest.mark.parametrize("angle", [0.3, 1.0])
+def test_a_conical_pendulum_goes_round_in_its_time(angle):
+    length = L * (1 + M * G / np.cos(angle) / EA)
+    omega = np.sqrt(G / (length * np.cos(angle)))
+    radius = length * np.sin(angle)
+    run = bob(2 * np.pi / omega * 3, angle, omega * radius).run()
+    t = run.columns["time_s"]
+    where = radius * np.exp(1j * omega * t)
+    assert run.status == "ok"
+    assert np.abs(run.columns["x_m"] + 1j * run.columns["y_m"] - where).max() < 1e-3 * radius
+    assert np.abs(run.columns["z_m"] + length * np.cos(angle)).max() < 1e-3 * length
+
+
+def test_a_spherical_pendulum_keeps_energy_and_angular_momentum():
+    angle, speed, duration_s = 0.8, 2.0, 15.0
+
+    def pull(s, y):
+        r = np.linalg.norm(y[:3])
+        return [*y[3:], *(-EA * (r / L - 1) * y[:3] / r / M - [0, 0, G])]
+
+    length = L * (1 + M * G / np.cos(angle) / EA)
+    start = [length * np.sin(angle), 0.0, -length * np.cos(angle), 0.0, speed, 0.0]
+    motion = bob(duration_s, angle, speed)
+    t, X, V = zip(*((t, positions(Y, motion.h)[-1], Y[-1, 3:6].copy()) for t, Y in motion.states()), strict=True)
+    X, V = np.array(X).T, np.array(V).T
+    exact = solve_ivp(pull, (0, t[-1]), start, t_eval=t, rtol=1e-11, atol=1e-11, method="DOP853").y
+    assert np.ptp(np.hypot(X[0], X[1])) > 1.0  # it is no conical one
+    assert np.abs(X - exact[:3]).max() < 1e-3
+    r = np.linalg.norm(X, axis=0)
+    energy = 0.5 * M * np.sum(V**2, 0) + M * G * X[2] + 0.5 * EA * (r - L) ** 2 / L
+    spin = X[0] * V[1] - X[1] * V[0]
+    assert np.ptp(energy) < 1e-4 * 0.5 * M * speed**2
+    assert np.ptp(spin) < 1e-4 * spin[0]
+
+
+def test_a_whirling_string_turns_as_a_rigid_body():
+    mass, EA, length, chord, omega = 0.5, 500.0, 10.0, 9.0, 6.0
+
+    def slope(s, y):  # N_x, N_r, x, r
+        T = np.hypot(y[0], y[1])
+        return [0.0, -mass * omega**2 * y[3], (1 + T / EA) * y[0] / T, (1 + T / EA) * y[1] / T]
+
+    def shoot(N, **more):
+        return solve_ivp(slope, (0, length), [*N, 0.0, 0.0], rtol=1e-11, atol=1e-11, method="DOP853", **more)
+
+    N = root(lambda N: shoot(N).y[2:, -1] - [chord, 0.0], [150.0, 130.0]).x
+    period, errors = 2 * np.pi / omega, []
+    for nodes in (21, 41, 81):
+        s = np.linspace(0, length, nodes)
+        Nx, Nr, x, r = shoot(N, dense_output=True).sol(s)
+        assert r.max() > 5.0 and abs(x[-1] - chord) < 1e-8
+        scene = in_space(
+            DRY, held_at(chord, 0.0, 0.0), STEPS, {"gravity_mps2": 0.0}, length_m=length, nodes=nodes, area_m2=5e-4,
+            density_kgpm3=1000.0, bending_stiffness_Nm2=0.0, tension=linear(EA),
+        )  # fmt: skip
+        T = np.hypot(Nx, Nr)
+        Y = np.zeros((nodes, 13))
+        Y[:, 0] = T / EA
+        Y[:, 6:10] = frames_along(np.stack([Nx / T, 0 * T, Nr / T], 1), np.array([0.0, 1.0, 0.0]))
+        Y[:, 4] = -omega * r  # turning from z to -y
+        motion = Motion(scene, 0.75 * period, Y)
+        motion.batch.states[0]["status"] = 0  # slack and weightless it has no rest, but it does not start from there
+        worst = 0.0
+        for t, Y in motion.states():
+            angle = omega * t
+            expected = np.stack([x, -r * np.sin(angle), r * np.cos(angle)], 1)
+            worst = max(worst, np.abs(positions(Y, motion.h) - expected).max())
+        assert int(motion.batch.states[0]["status"]) == 0
+        errors.append(worst)
+    assert errors[1] < 0.03 and np.log2(np.divide(errors[:-1], errors[1:])) == pytest.approx(2, abs=0.1)
