@@ -154,7 +154,7 @@ def _scene(name: str, changes: dict, case: str, further: dict):
 
 def _straight(name: str, changes: dict, case: str, plain) -> Run | None:
     """The break without gravity, where the exact solution has a shock before its front reaches the fixed end."""
-    from reports.breaking_theory import theory_of
+    from analysis.breaking_theory import theory_of
 
     theory = theory_of(plain, LONGEST_S)
     if theory is None or not theory.shocked:
@@ -183,8 +183,8 @@ def break_lines(order: Order, argv: list[str], simulate) -> int:
     if simulate is None:
         from engine import simulate
     start = time.perf_counter()
-    sources = ("analysis/line_waves", "engine", "campaigns/breaking_rows.py", "reports/breaking_measures.py")
-    maker = made_by({}, *sources, "reports/breaking_theory.py")
+    sources = ("analysis/line_waves", "engine", "campaigns/breaking_rows.py", "analysis/breaking_measures.py")
+    maker = made_by({}, *sources, "analysis/breaking_theory.py")
     plan = Plan(
         order.out, simulate, breaking_row, COLUMNS, order.backend, order.jobs, order.dask_address, row_maker=maker
     )

@@ -8,8 +8,8 @@ import math
 
 import numpy as np
 
-from reports import breaking_measures as measures
-from reports.breaking_theory import theory_of
+from analysis import breaking_measures as measures
+from analysis.breaking_theory import theory_of
 
 COLUMNS = (
     "case",

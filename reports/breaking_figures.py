@@ -6,9 +6,9 @@ import math
 
 import numpy as np
 
-from .breaking_measures import contour, speed_of
+from analysis.breaking_measures import contour, speed_of
 from .breaking_runs import FAST, SLOW, Line, find, named
-from .breaking_theory import Theory, theory_of
+from analysis.breaking_theory import Theory, theory_of
 from .content import Figure, Picture
 from .figures.energy_shares import EnergyPanel, energy_shares
 from .figures.front_plane import FrontPanel, front_plane
