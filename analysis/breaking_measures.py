@@ -13,11 +13,12 @@ import numpy as np
 SETTLED_S = 0.005  # after the break, until the corner of the force at its end has left the broken end
 MARGIN_M = 5.0  # from both ends: fronts are followed between
 LEAST_POINTS = 5
-FRONT_SHARE = 0.99  # of the static tension: the contour that stands for the front
+FRONT_SHARES = (0.98, 0.95, 0.9, 0.85, 0.8)  # of the static tension: contours that lead to the speed of the front
 SLACK_STRAINS = (0.005, 0.01, 0.02, 0.03)  # contours from which the speed of the slack front is extrapolated
 STEEPENING = (0.05, 0.4)  # part of the way to a shock's birth over which the steepening is measured
+HALF_WIDTH = 8  # nodes to both sides of a contour, for its slope
 BUCKLED_RAD = 0.2
-HALF_WIDTH = 6  # nodes to both sides of a contour, for its slope
+COMPARED = 24  # profiles, at most, over which an error is averaged
 
 
 def contour(profiles, values: np.ndarray, level: float) -> np.ndarray:
@@ -40,13 +41,24 @@ def speed_of(times: np.ndarray, places: np.ndarray, low: float, high: float, unt
     return -float(np.polyfit(times[inside], places[inside], 1)[0])
 
 
-def front_speed(profiles, force_N: float, share: float, theory) -> float:
-    """Speed of the contour where the tension is `share` of the static one, before a shock or the far end meets it."""
+def front_speed(profiles, theory) -> float:
+    """Speed (m/s) of the edge of the wave, before a shock or the far end meets it.
+
+    The edge itself, a kink of second order, is smeared: ln(speed) of contours of FRONT_SHARES, a parabola in the
+    strain, is extrapolated to the static strain.
+    """
     length = float(profiles.s_m[-1])
-    far = theory.start.distance_m if theory.shocked and share > 0.5 else length - MARGIN_M
-    places = contour(profiles, profiles.tension_N, share * force_N)
-    low, high = length - min(far, length - MARGIN_M), length - MARGIN_M
-    return speed_of(profiles.time_s, places, low, high, theory.speeds.front_arrival_s)
+    far = min(theory.start.distance_m if theory.shocked else length, length - MARGIN_M)
+    low, high = length - far, length - min(MARGIN_M, 0.1 * far)
+    strains, logs = [], []
+    for share in FRONT_SHARES:
+        places = contour(profiles, profiles.tension_N, share * theory.force_N)
+        speed = speed_of(profiles.time_s, places, low, high, theory.arrival_s)
+        if not speed > 0.0:
+            return math.nan
+        strains.append(theory.strain_at(share))
+        logs.append(math.log(speed))
+    return float(np.exp(np.polyval(np.polyfit(strains, logs, 2), theory.strain_at(1.0))))
 
 
 def slack_front_speed(profiles, theory) -> float:
@@ -55,7 +67,7 @@ def slack_front_speed(profiles, theory) -> float:
     speeds = [
         speed_of(
             profiles.time_s, contour(profiles, profiles.strain, strain), MARGIN_M, length - MARGIN_M,
-            theory.speeds.front_arrival_s,
+            theory.arrival_s,
         )
         for strain in SLACK_STRAINS
     ]  # fmt: skip
@@ -80,11 +92,27 @@ def settled_end_speed(trajectory) -> tuple[float, float, float]:
     return float(np.median(speeds)), float(speeds.min()), float(speeds.max())
 
 
-def strain_overshoot(profiles, until_s: float) -> float:
-    """Largest strain above the static one before a time, as a share of it: an exact wave that unloads has none."""
+def end_speed_error(trajectory, theory) -> float:
+    """Largest |speed of the end - exact speed| over the exact one, from SETTLED_S after the break on, while it is known."""
+    times = trajectory.columns["time_s"]
+    rows = np.flatnonzero(
+        (times >= trajectory.scene.end.force_decay_s + SETTLED_S) & (times <= theory.motion.valid_until_s)
+    )
+    rows = rows[:: max(1, len(rows) // COMPARED)]
+    speeds = end_speeds(trajectory)[rows]
+    return max((abs(v / theory.end_speed(float(t)) - 1.0) for t, v in zip(times[rows], speeds, strict=True)), default=math.nan)
+
+
+def strain_overshoot(profiles, until_s: float) -> tuple[float, float]:
+    """Shares of the static strain: largest strain above it, and largest rise of strain towards the broken end.
+
+    Before a time at which nothing has come to the fixed end; an exact wave that unloads has neither: the strain falls
+    towards the broken end, without a ripple before or behind the shock.
+    """
     before = profiles.time_s < until_s
-    static = profiles.strain[0]
-    return float(max(np.max((profiles.strain[before] - static) / static), 0.0))
+    strain, static = profiles.strain[before], profiles.strain[0]
+    rise = np.max(strain - np.minimum.accumulate(strain, axis=1))
+    return float(max(np.max((strain - static) / static), 0.0)), float(rise / static.max())
 
 
 def shock_track(profiles, theory) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -110,7 +138,7 @@ def shock_birth(profiles, theory) -> float:
     """Distance (m) from the broken end at which the strain on the exact shock's first characteristic turns steep.
 
     In a simple wave 1/|slope| at one strain falls linearly with the way it has gone; the line through the first
-    STEEPENING part of the way is followed to zero.
+    STEEPENING part of the way is followed to zero. The slope is that of a cubic through 2 HALF_WIDTH nodes.
     """
     length, way = float(profiles.s_m[-1]), theory.start.distance_m
     places = contour(profiles, profiles.strain, theory.start.strain)
@@ -119,7 +147,7 @@ def shock_birth(profiles, theory) -> float:
         if STEEPENING[0] * way <= length - places[row] <= STEEPENING[1] * way:
             k = int(np.searchsorted(profiles.s_m, places[row]))
             near = slice(max(k - HALF_WIDTH, 0), k + HALF_WIDTH)
-            slope = np.polyfit(profiles.s_m[near], profiles.strain[row, near], 1)[0]
+            slope = np.polyfit(profiles.s_m[near] - places[row], profiles.strain[row, near], 3)[2]
             gone.append(length - places[row])
             widths.append(-1.0 / slope)
     if len(gone) < LEAST_POINTS:
@@ -129,16 +157,25 @@ def shock_birth(profiles, theory) -> float:
 
 
 def strain_error(profiles, theory) -> float:
-    """Mean over the line of |strain - exact strain| at the last profile before the front reaches the fixed end."""
-    row = int(np.searchsorted(profiles.time_s, theory.exact_until_s, "right")) - 1
-    exact = theory.motion.at(profiles.s_m, float(profiles.time_s[row]))[0]
-    length = float(profiles.s_m[-1])
-    return float(np.trapezoid(np.abs(profiles.strain[row] - exact), profiles.s_m)) / length
+    """Mean of |strain - exact strain| over the line and over the second half of the time until something arrives.
+
+    Over many profiles, since the error of a captured shock swings with its place in the element.
+    """
+    rows = np.flatnonzero((profiles.time_s >= 0.5 * theory.arrival_s) & (profiles.time_s <= theory.arrival_s))
+    s, errors = profiles.s_m, []
+    for row in rows[:: max(1, len(rows) // COMPARED)]:
+        exact = theory.motion.at(s, float(profiles.time_s[row]))[0]
+        errors.append(float(np.trapezoid(np.abs(profiles.strain[row] - exact), s)) / float(s[-1]))
+    return float(np.mean(errors)) if errors else math.nan
 
 
 def tilts(profiles) -> np.ndarray:
-    """Angle (rad) of every element against the horizontal, in (-pi, pi]; (nt, nn - 1)."""
-    return np.arctan2(np.diff(profiles.z_m, axis=1), np.diff(profiles.x_m, axis=1))
+    """Angle (rad) of every element against the horizontal, followed along the line from the broken end; (nt, nn - 1).
+
+    A fold that goes round shows angles beyond pi.
+    """
+    angle = np.arctan2(np.diff(profiles.z_m, axis=1), np.diff(profiles.x_m, axis=1))
+    return np.unwrap(angle[:, ::-1], axis=1)[:, ::-1]
 
 
 def recoil(profiles, common_s: float) -> dict[str, float]:

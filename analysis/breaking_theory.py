@@ -14,8 +14,8 @@ class Theory:
     """Theory of one scene: `speeds` (analysis.line_waves.BreakTheory), `start` (ShockStart), `motion` (FittedBreak).
 
     `length_m`, `decay_s`, `force_N` of the scene. `end_work_J`: work of the end force, while no echo reaches the end
-    before it is zero. `exact_until_s`: arrival of the front at the fixed end, or the end of the exact motion; `lost_J`:
-    lost in the shock by then.
+    before it is zero. `arrival_s`: when the front, or the shock that has overtaken it, is at the fixed end (or when the
+    exact motion ends, if that is earlier); `lost_J`: lost in the shock by then.
     """
 
     length_m: float
@@ -25,13 +25,17 @@ class Theory:
     start: object
     motion: object
     end_work_J: float
-    exact_until_s: float
+    arrival_s: float
     lost_J: float
 
     @property
     def shocked(self) -> bool:
         """Whether unloading steepens into a shock on the line, before the front is at the fixed end."""
         return self.start.distance_m < self.length_m and self.start.time_s < self.speeds.front_arrival_s
+
+    def end_speed(self, time_s: float) -> float:
+        """Speed (m/s) of the broken end at a time up to which the exact motion is known."""
+        return abs(float(self.motion.at([self.length_m], time_s)[1][0]))
 
     def strain_at(self, share: float) -> float:
         """The strain where the tension is `share` of the static one."""
@@ -49,7 +53,7 @@ class Theory:
         """Whether the shock eats the contour of this share of the static tension before the front is at the wall."""
         if not self.shocked or not len(self.motion.shock.time_s):
             return False
-        before = self.motion.shock.time_s <= self.exact_until_s
+        before = self.motion.shock.time_s <= self.arrival_s
         return self.strain_at(share) > self.motion.shock.behind[before].min()
 
     def falling(self, share: float) -> tuple[np.ndarray, np.ndarray]:
@@ -102,7 +106,9 @@ def _theory(law, mass, length, force, decay, until) -> Theory:
 
     speeds, start = break_theory(law, mass, length, force), shock_start(law, mass, force, decay)
     motion = fitted_break(law, mass, length, force, decay, until)
-    exact = min(motion.valid_until_s, speeds.front_arrival_s)
-    lost = float(fitted_energy(motion, [exact]).lost_J[0])
+    shock = motion.shock
+    through = len(shock.time_s) > 0 and shock.place_m[-1] <= 1e-6 * length
+    arrival = min(motion.valid_until_s, speeds.front_arrival_s, shock.time_s[-1] if through else math.inf)
+    lost = float(fitted_energy(motion, [arrival]).lost_J[0])
     work = simple_wave_work(law, mass, force, decay)
-    return Theory(length, decay, force, speeds, start, motion, work, exact, lost)
+    return Theory(length, decay, force, speeds, start, motion, work, float(arrival), lost)

@@ -2,12 +2,13 @@
 
     python -m campaigns.breaking_line                    cases 1-4 (fracture in 5 ms) and 1'-4' (in 50 ms)
     python -m campaigns.breaking_line --cases 4 4p       the two at 450 kN alone
-    python -m campaigns.breaking_line --set tether.nodes=401 --no-companions
+    python -m campaigns.breaking_line --cases 1 --no-companions --set tether.nodes=401      in a second or two
 
 Protocol: static start under the end force and gravity, both ends at one level; the force falls as
-F cos^2(pi t/(2 t_br)) and is zero after; runs end when the paper's figures do. Companions: every case on a grid of twice
-the elements; case 4 with two other bending stiffnesses; and, where theory says that a shock forms, the same break
-without gravity on an even grid up to the arrival of the front, to be held against the exact solution. Nothing is random.
+F cos^2(pi t/(2 t_br)) and is zero after; runs end when the paper's figures do. Companions: every case on a grid of
+twice the elements, case 4 there with two other bending stiffnesses as well; and breaks without gravity on even grids,
+up to the arrival of the front, to be held against the exact solution: one fine run of every case where theory has a
+shock, and a series of grids for case 4 and for case 3', which stays smooth. Nothing is random.
 """
 
 import sys
@@ -27,6 +28,7 @@ FAST_S, SLOW_S = 0.005, 0.050
 CASES = (*FORCES_N, *(f"{number}p" for number in FORCES_N))
 STIFFNESS_CASE, STIFFNESSES_NM2 = "4", (10.0, 24.0, 100.0)
 STRAIGHT_NODES = 3201
+SERIES_CASES, SERIES_NODES = ("4", "3p"), (201, 401, 801, 1601)
 STRAIGHT_STEP_S, BIRTH_STEPS = 0.0005, 0.05  # of their profiles; at most as a share of the time to the shock's birth
 DOUBLED_STEP_S = 0.002  # of the profiles on doubled grids
 COMPILE_RUN_S = 0.001
@@ -77,7 +79,7 @@ def parser():
     cli.add(what, "--cases", "A B ...", f"cases of the paper (default: {' '.join(CASES)}; p: fracture in 50 ms)")
     cli.add(what, "--scene", "FILE_OR_NAME", f"scene to start from (default: {SCENE})")
     cli.add(what, "--set", "KEY=VALUE ...", "change values of the scene, as tether.nodes=401")
-    leave_out = "leave out the doubled grids, the other bending stiffnesses and the straight lines"
+    leave_out = "leave out the doubled grids, the other bending stiffnesses and the breaks without gravity"
     what.add_argument("--no-companions", action="store_true", help=leave_out)
     cli.add_running(parser.add_argument_group("how and where"), f"results/{CAMPAIGN}")
     return parser
@@ -114,8 +116,8 @@ def _cases(words: list[str] | None, faults: list[str]) -> list[str]:
 def planned(name: str, changes: dict, cases: list[str], companions: bool, faults: list[str]) -> tuple[Run, ...]:
     """The runs in the order of the table.
 
-    kind: "case"; "doubled" (twice the elements); "stiffness" (case 4 with another EI); "straight" (no gravity, even
-    grid, up to the arrival of the front).
+    kind: "case"; "doubled" (twice the elements); "stiffness" (case 4, doubled, with another EI); without gravity on an
+    even grid up to the arrival of the front, "straight" (fine) and "series" (grid by grid).
     """
     from engine import SceneError
 
@@ -125,19 +127,24 @@ def planned(name: str, changes: dict, cases: list[str], companions: bool, faults
         runs += [Run(case, "case", scene, LENGTHS_S[case[0]]) for case, scene in plain.items()]
         if not companions:
             return tuple(runs)
+        doubled = {case: _finer(scene) for case, scene in plain.items()}
         for EI in STIFFNESSES_NM2 if STIFFNESS_CASE in cases else ():
             if EI != plain[STIFFNESS_CASE].tether.bending_stiffness_Nm2:
-                scene = _scene(name, changes, STIFFNESS_CASE, {"tether.bending_stiffness_Nm2": EI})
+                further = {**doubled[STIFFNESS_CASE], "tether.bending_stiffness_Nm2": EI}
+                scene = _scene(name, changes, STIFFNESS_CASE, further)
                 runs.append(Run(STIFFNESS_CASE, "stiffness", scene, LENGTHS_S[STIFFNESS_CASE]))
-        runs += filter(None, (_straight(name, changes, case, plain[case]) for case in cases))
         for case in cases:
-            doubled = {"tether.nodes": 2 * plain[case].tether.nodes - 1}
-            if plain[case].output.profiles:
-                doubled["output.profiles_step_s"] = DOUBLED_STEP_S
-            runs.append(Run(case, "doubled", _scene(name, changes, case, doubled), LENGTHS_S[case[0]]))
+            runs += _straight(name, changes, case, plain[case])
+        for case in cases:
+            runs.append(Run(case, "doubled", _scene(name, changes, case, doubled[case]), LENGTHS_S[case[0]]))
     except SceneError as error:
         faults.extend(fault for fault in error.faults if fault not in faults)
     return tuple(runs)
+
+
+def _finer(scene) -> dict[str, object]:
+    changes: dict[str, object] = {"tether.nodes": 2 * scene.tether.nodes - 1}
+    return {**changes, "output.profiles_step_s": DOUBLED_STEP_S} if scene.output.profiles else changes
 
 
 def _scene(name: str, changes: dict, case: str, further: dict):
@@ -152,24 +159,28 @@ def _scene(name: str, changes: dict, case: str, further: dict):
     return load_scene(name, {**settings, "end.force_N": [force_N, 0.0, 0.5 * weight_N]})
 
 
-def _straight(name: str, changes: dict, case: str, plain) -> Run | None:
-    """The break without gravity, where the exact solution has a shock before its front reaches the fixed end."""
+def _straight(name: str, changes: dict, case: str, plain) -> list[Run]:
+    """The breaks without gravity."""
     from analysis.breaking_theory import theory_of
 
     theory = theory_of(plain, LONGEST_S)
-    if theory is None or not theory.shocked:
-        return None
-    step_s = min(STRAIGHT_STEP_S, BIRTH_STEPS * theory.start.time_s)
+    if theory is None:
+        return []
+    step_s = min(STRAIGHT_STEP_S, BIRTH_STEPS * theory.start.time_s) if theory.shocked else STRAIGHT_STEP_S
+    kinds = [("straight", STRAIGHT_NODES)] if theory.shocked else []
+    kinds += [("series", nodes) for nodes in SERIES_NODES if case in SERIES_CASES]
     straight = {
         "gravity_mps2": 0.0,
-        "tether.nodes": STRAIGHT_NODES,
         "tether.grid_stretching": 0.0,
         "tether.grid_refined": "both",
         "output.step_s": step_s,
         "output.profiles": True,
         "output.profiles_step_s": step_s,
     }
-    return Run(case, "straight", _scene(name, changes, case, straight), theory.speeds.front_arrival_s)
+    return [
+        Run(case, kind, _scene(name, changes, case, {**straight, "tether.nodes": nodes}), theory.arrival_s)
+        for kind, nodes in kinds
+    ]
 
 
 def break_lines(order: Order, argv: list[str], simulate) -> int:

@@ -24,13 +24,13 @@ COLUMNS = (
     "end_speed_most_mps",
     "end_speed_theory_mps",
     "end_speed_shocked_theory_mps",
+    "end_speed_error",
     "speed_largest_mps",
     "front_speed_mps",
     "front_speed_theory_mps",
-    "static_wave_speed_mps",
     "slack_front_speed_mps",
     "slack_front_speed_theory_mps",
-    "front_arrival_theory_s",
+    "arrival_theory_s",
     "shock_birth_m",
     "shock_birth_theory_m",
     "shock_birth_theory_s",
@@ -38,8 +38,10 @@ COLUMNS = (
     "shock_speed_theory_mps",
     "shock_offset_m",
     "shock_offset_largest_m",
+    "shock_offset_elements",
     "strain_error",
     "strain_overshoot",
+    "strain_rise",
     "x_min_m",
     "left_of_fixed_end_m",
     "recoil_m",
@@ -88,6 +90,7 @@ _STATISTICS = (
     "end_time_s",
     "wall_s",
 )
+BEFORE_ARRIVAL = 0.98  # of the time at which something is at the fixed end: ripples are looked for up to then
 COMMON_S = 0.12  # the shortest of the paper's run lengths, to compare recoil at one time
 
 
@@ -108,7 +111,7 @@ def breaking_row(trajectory) -> dict[str, object]:
     if theory is not None:
         row |= _theory_columns(theory)
     if trajectory.status == "ok":
-        row |= _end_columns(trajectory)
+        row |= _end_columns(trajectory, theory)
         if trajectory.profiles is not None and len(trajectory.profiles.time_s) > 1:
             row |= _profile_columns(trajectory, theory)
         if trajectory.energy is not None:
@@ -121,19 +124,19 @@ def _theory_columns(theory) -> dict[str, object]:
     return {
         "end_speed_theory_mps": speeds.end_speed_mps,
         "end_speed_shocked_theory_mps": speeds.shock_end_speed_mps if shocked else None,
-        "front_speed_theory_mps": theory.wave_speed(theory.strain_at(measures.FRONT_SHARE)),
-        "static_wave_speed_mps": speeds.front_speed_mps,
+        "front_speed_theory_mps": speeds.front_speed_mps,
         "slack_front_speed_theory_mps": speeds.slack_front_speed_mps,
-        "front_arrival_theory_s": speeds.front_arrival_s,
+        "arrival_theory_s": theory.arrival_s,
         "shock_birth_theory_m": theory.start.distance_m if shocked else None,
         "shock_birth_theory_s": theory.start.time_s if shocked else None,
         "end_work_theory_J": theory.end_work_J,
     }
 
 
-def _end_columns(trajectory) -> dict[str, object]:
+def _end_columns(trajectory, theory) -> dict[str, object]:
     names = ("end_speed_mps", "end_speed_least_mps", "end_speed_most_mps")
-    return dict(zip(names, measures.settled_end_speed(trajectory), strict=True))
+    row = dict(zip(names, measures.settled_end_speed(trajectory), strict=True))
+    return row | ({"end_speed_error": measures.end_speed_error(trajectory, theory)} if theory is not None else {})
 
 
 def _profile_columns(trajectory, theory) -> dict[str, object]:
@@ -151,19 +154,24 @@ def _profile_columns(trajectory, theory) -> dict[str, object]:
 
 
 def _front_columns(profiles, theory) -> dict[str, object]:
+    overshoot, rise = measures.strain_overshoot(profiles, BEFORE_ARRIVAL * theory.arrival_s)
     row = {
-        "front_speed_mps": measures.front_speed(profiles, theory.force_N, measures.FRONT_SHARE, theory),
+        "front_speed_mps": measures.front_speed(profiles, theory),
         "slack_front_speed_mps": measures.slack_front_speed(profiles, theory),
-        "strain_overshoot": measures.strain_overshoot(profiles, 0.9 * theory.speeds.front_arrival_s),
+        "strain_overshoot": overshoot,
+        "strain_rise": rise,
         "strain_error": measures.strain_error(profiles, theory),
     }
     times, places, exact = measures.shock_track(profiles, theory)
     if theory.shocked and len(times) >= measures.LEAST_POINTS:
+        off = np.abs(places - exact)
+        elements = np.diff(profiles.s_m)[np.searchsorted(profiles.s_m, exact).clip(1, len(profiles.s_m) - 1) - 1]
         row |= {
             "shock_speed_mps": -np.polyfit(times, places, 1)[0],
             "shock_speed_theory_mps": -np.polyfit(times, exact, 1)[0],
             "shock_offset_m": np.mean(places - exact),
-            "shock_offset_largest_m": np.max(np.abs(places - exact)),
+            "shock_offset_largest_m": np.max(off),
+            "shock_offset_elements": np.median(off / elements),
         }
     return row
 
@@ -180,10 +188,10 @@ def _energy_columns(energy, theory) -> dict[str, object]:
     }
     ended = ("end_work_J", "bending_J", "viscous_J", "scheme_space_J", "scheme_time_J")
     row |= {name: getattr(energy, name)[-1] for name in ended}
-    if theory is not None and energy.time_s[-1] >= theory.exact_until_s:
+    if theory is not None and energy.time_s[-1] >= theory.arrival_s:
         lost = energy.viscous_J + energy.scheme_space_J + energy.scheme_time_J
         row |= {
-            "lost_at_arrival_J": np.interp(theory.exact_until_s, energy.time_s, lost),
+            "lost_at_arrival_J": np.interp(theory.arrival_s, energy.time_s, lost),
             "lost_at_arrival_theory_J": theory.lost_J,
         }
     return row

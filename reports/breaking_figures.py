@@ -170,7 +170,7 @@ def speeds_figure(lines: tuple[Line, ...]) -> Figure | None:
             if theory.swallowed(share):
                 continue
             places = contour(profiles, profiles.tension_N, share * theory.force_N)
-            speed = speed_of(profiles.time_s, places, 5.0, length - 5.0, theory.speeds.front_arrival_s)
+            speed = speed_of(profiles.time_s, places, 5.0, length - 5.0, theory.arrival_s)
             if math.isfinite(speed):
                 strain = theory.strain_at(share)
                 found.append((strain, speed))

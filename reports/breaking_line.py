@@ -141,7 +141,7 @@ def _section(heading: str, item: Item | None) -> list[Item]:
 
 
 def _fronts(lines: tuple[Line, ...]) -> list[Item]:
-    if not any(math.isfinite(line.value("static_wave_speed_mps")) for line in of_kind(lines, "case")):
+    if not any(math.isfinite(line.value("front_speed_theory_mps")) for line in of_kind(lines, "case")):
         return []
     theory = (
         "Without gravity and bending the line is a one-dimensional elastic wave. The unloading that leaves the broken end "

@@ -11,10 +11,10 @@ WORDS = ("case", "kind")
 COLUMNS = (
     *WORDS, "status", "force_N", "breaking_time_s", "bending_stiffness_Nm2", "nodes", "end_speed_mps",
     "end_speed_least_mps", "end_speed_most_mps", "end_speed_theory_mps", "end_speed_shocked_theory_mps",
-    "speed_largest_mps", "front_speed_mps", "front_speed_theory_mps", "static_wave_speed_mps",
-    "slack_front_speed_mps", "slack_front_speed_theory_mps", "front_arrival_theory_s", "shock_birth_m",
-    "shock_birth_theory_m", "shock_birth_theory_s", "shock_speed_mps", "shock_speed_theory_mps", "shock_offset_m",
-    "shock_offset_largest_m", "strain_error", "strain_overshoot", "x_min_m", "left_of_fixed_end_m", "recoil_m",
+    "end_speed_error", "speed_largest_mps", "front_speed_mps", "front_speed_theory_mps", "slack_front_speed_mps",
+    "slack_front_speed_theory_mps", "arrival_theory_s", "shock_birth_m", "shock_birth_theory_m", "shock_birth_theory_s",
+    "shock_speed_mps", "shock_speed_theory_mps", "shock_offset_m", "shock_offset_largest_m", "shock_offset_elements",
+    "strain_error", "strain_overshoot", "strain_rise", "x_min_m", "left_of_fixed_end_m", "recoil_m",
     "recoil_120ms_m", "vertical_m", "vertical_beyond_m", "steepest_tilt_rad", "buckled_m", "tension_spread",
     "kinetic_spread", "fast_share", "resting_share", "stored_J", "kinetic_J", "kinetic_largest_J", "strain_J",
     "gravity_J", "end_work_J", "end_work_theory_J", "bending_J", "viscous_J", "scheme_space_J", "scheme_time_J",
@@ -26,7 +26,10 @@ FAST, SLOW = ("1", "2", "3", "4"), ("1p", "2p", "3p", "4p")
 
 @dataclass(frozen=True, eq=False)
 class Line:
-    """One row of the table. `trajectory`: of kind "case", where its file can be read; `fault`: why it cannot, else ""."""
+    """One row of the table.
+
+    `trajectory`: of kind "case", where its file can be read; `fault`: why it cannot, else "".
+    """
 
     row: dict
     trajectory: object | None

@@ -103,8 +103,8 @@ def _overshoot(lines) -> tuple[str, str, str]:
 
 
 def _fronts(lines) -> tuple[str, str, str]:
-    numbers = _in_turn(lines, FAST, "static_wave_speed_mps")
-    arrivals = _in_turn(lines, FAST, "front_arrival_theory_s")
+    numbers = _in_turn(lines, FAST, "front_speed_theory_mps")
+    arrivals = _in_turn(lines, FAST, "arrival_theory_s")
     shock = find(lines, "4")
     claim = "At high tension the front runs at about 500 m/s; in cases 2 and 3 it is faster than in case 4."
     evidence = (
@@ -131,7 +131,7 @@ def _slack_front(lines) -> tuple[str, str, str]:
 
 def _shock(lines) -> tuple[str, str, str]:
     claim = "In cases 2 and 3 a shock begins to form, which does not form completely before the fixed end."
-    judged = [line for line in of_kind(lines, "case") if math.isfinite(line.value("static_wave_speed_mps"))]
+    judged = [line for line in of_kind(lines, "case") if math.isfinite(line.value("front_speed_theory_mps"))]
     if not judged:
         return claim, "No run shows it.", EMPTY
     born = [line for line in judged if math.isfinite(line.value("shock_birth_theory_m"))]
