@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 
 import numpy as np
 
 from analysis.breaking_measures import contour, speed_of
-from .breaking_runs import FAST, SLOW, Line, find, named
 from analysis.breaking_theory import Theory, theory_of
+
+from .breaking_runs import FAST, SLOW, Line, find, named
 from .content import Figure, Picture
 from .figures.energy_shares import EnergyPanel, energy_shares
 from .figures.front_plane import FrontPanel, front_plane
@@ -25,7 +27,7 @@ LETTERS = "abcd"
 _NUMBERS = {"fast": ("2", "3", "4"), "slow": ("5", "6", "7")}
 
 
-def shown(lines: tuple[Line, ...], cases: tuple[str, ...]) -> list[Line]:
+def shown(lines: tuple[Line, ...], cases: Sequence[str]) -> list[Line]:
     """The cases among these that can be drawn."""
     found = (find(lines, case) for case in cases)
     return [line for line in found if line is not None and line.trajectory is not None and line.trajectory.profiles]
@@ -69,8 +71,8 @@ def _configurations(drawn: list[Line], figure: str) -> Figure:
     room = 0.06 * (high - low)
     picture = line_panels(panels, "$x$ (m)", "$z$ (m)", [(low - room, high + room)] * len(panels), centre=True)
     caption = (
-        f"Configurations every 10 ms (fig. {figure} of the paper), heights much enlarged, the same in all panels. Seen: "
-        f"{'; '.join(words)}. From `x_m` and `z_m` of the profiles."
+        f"Configurations every 10 ms (fig. {figure} of the paper), heights much enlarged, the same in all panels. "
+        f"Seen: {'; '.join(words)}. From `x_m` and `z_m` of the profiles."
     )
     return Figure(picture, caption, f"Shapes of the line every 10 ms, one panel a case: {'; '.join(words)}.")
 
@@ -101,12 +103,13 @@ def _along(drawn: list[Line], column: str, unit: float, label: str, what: str, p
 def folds_figure(lines: tuple[Line, ...]) -> Figure | None:
     """The neighbourhood of the fixed end at the end of every run, in true proportion."""
     panels, words = [], []
-    for line in shown(lines, (*FAST, *SLOW)):
+    order = [case for pair in zip(FAST, SLOW, strict=True) for case in pair]
+    for line in shown(lines, order):
         profiles = line.trajectory.profiles
         time_s = profiles.time_s[-1:]
         title = f"case {line.name}, {1e3 * float(time_s[0]):.0f} ms"
         panels.append(LinePanel(title, profiles.x_m[-1], profiles.z_m[-1], time_s))
-        words.append(f"{line.name} {decimals(line.value('buckled_m'), 2)} m")
+        words.append(f"{decimals(line.value('buckled_m'), 2)} m (case {line.name})")
     if not panels:
         return None
     near = [panel.y[panel.x < NEAR_M[1]] for panel in panels]
@@ -186,8 +189,8 @@ def speeds_figure(lines: tuple[Line, ...]) -> Figure | None:
     )
     caption = (
         f"Speed at which contours of {_percents(SHARES)} % of the static tension run towards the fixed end, against "
-        f"√(T′/m) at their strain (curve); open marks: slow breaks. Contours that a shock overtakes are left out. Seen: "
-        f"{seen}. From `tension_N` of the profiles, between 5 m from either end and until the front arrives."
+        f"√(T′/m) at their strain (curve); open marks: slow breaks. Contours that a shock overtakes are left out. "
+        f"Seen: {seen}. From `tension_N` of the profiles, between 5 m from either end and until the front arrives."
     )
     alt = f"Measured contour speeds on the curve of wave speed over strain: {seen}."
     return Figure(front_speeds(strain, theory.wave_speed(strain), measured), caption, alt)
