@@ -8,6 +8,9 @@ import numpy as np
 import pytest
 from scipy.optimize import brentq
 
+from engine import load_scene, simulate
+from engine.scene import known_scenes
+
 FOLDER = Path(__file__).resolve().parents[1] / "docs" / "examples"
 PAGE = FOLDER.parent / "held_lines.md"
 EXAMPLES = sorted(path.stem for path in FOLDER.glob("*.py"))
@@ -29,6 +32,16 @@ def test_each_example_prints_what_the_page_shows(name, capsys):
     assert re.sub(number, "#", printed).split() == re.sub(number, "#", shown[1]).split()
     for found, said in zip(re.findall(number, printed), re.findall(number, shown[1]), strict=True):
         assert float(found) == pytest.approx(float(said), abs=1.01 * 10.0 ** -len(said.partition(".")[2]))
+
+
+@pytest.mark.parametrize("name", known_scenes())
+def test_every_shipped_scene_runs_as_it_is(name):
+    scene = load_scene(name)
+    run = simulate(scene, duration_s=20 * scene.sample_step_s())
+    table = run.table()
+    assert (run.status, run.message) == ("ok", "") and run.statistics["steps"] > 0
+    assert len(table) == 21 and np.isfinite(table.to_numpy()).all()
+    assert (run.profiles is not None) == scene.output.profiles
 
 
 def test_the_hanging_line_is_a_catenary():
