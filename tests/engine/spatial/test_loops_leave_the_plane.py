@@ -36,7 +36,7 @@ def first_loop_m(run):
 def test_loops_open_by_themselves_and_their_size_has_a_limit_in_the_mesh(depth_m):
     fine = pushed(depth_m, REPORTED_NODES, 200)
     assert fine.statistics["max_turn_rad"] < 0.5 * math.pi
-    assert np.abs(fine.columns["y_m"]).max() < 0.02 < 0.1 < fine.columns["offplane_m"].max()
+    assert np.abs(fine.columns["y_m"]).max() < 0.05 < 0.1 < fine.columns["offplane_m"].max()
     sizes = [first_loop_m(pushed(depth_m, nodes, FIRST_LOOP_PERIODS)) for nodes in (41, 81)]
     sizes.append(first_loop_m(fine))
     assert max(sizes) < 1.2 * min(sizes), sizes
