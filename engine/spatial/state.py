@@ -12,7 +12,9 @@ from ..compiled import kernel
 from ..tension import tension
 from ..vectors import dot, frame, least_turn, mixed, quaternion_product, turned
 from . import node
-from .sweep import WIDTH, box_rotation, sweep
+from .box import box_rotation
+from .rows import WIDTH
+from .sweep import sweep
 from .sweep_unbent import sweep_unbent
 
 
