@@ -20,6 +20,7 @@ from .figures.line_panels import LinePanel, folds, line_panels
 from .wording import decimals, listed, number, percent
 
 INSTANT_S = 0.010
+FRAME_S = 0.002  # of the animation
 SHARES = (0.99, 0.9, 0.7, 0.5, 0.3, 0.1, 0.01)
 NEAR_M = (-1.0, 4.0)
 CURVE_POINTS = 120
@@ -224,7 +225,7 @@ def animation_figure(lines: tuple[Line, ...], case: str) -> Figure | None:
     if not drawn:
         return None
     profiles = drawn[0].trajectory.profiles
-    step = max(1, round(0.001 / float(profiles.time_s[1])))
+    step = max(1, round(FRAME_S / float(profiles.time_s[1])))
     rows = slice(None, None, step)
     time_s, x, z, T = (
         profiles.time_s[rows], profiles.x_m[rows], profiles.z_m[rows], profiles.tension_N[rows]
@@ -235,8 +236,8 @@ def animation_figure(lines: tuple[Line, ...], case: str) -> Figure | None:
         f"passes it by {decimals(-drawn[0].value('x_min_m'), 2)} m"
     )
     caption = (
-        f"Case {named(case)} in motion, a frame a millisecond on the page, six frames on paper: {seen}. Heights much "
-        "enlarged; below on the page: tension along the line. From the profiles."
+        f"Case {named(case)} in motion, a frame every {number(1e3 * FRAME_S)} ms on the page, six frames on paper: "
+        f"{seen}. Heights much enlarged; below on the page: tension along the line. From the profiles."
     )
     moving = line_animation(time_s, profiles.s_m, x, z, T)
     return Figure(strip, caption, f"The line of case {named(case)} after the break: {seen}.", moving)

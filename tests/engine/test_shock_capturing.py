@@ -91,5 +91,3 @@ def test_a_smooth_wave_is_not_damped():
     budget = broken("2p", 801).energy
     assert budget.viscous_J[-1] < 1e-6 * budget.stored_J
     assert budget.end_work_J[-1] == pytest.approx(theory("2p").end_work_J, rel=1e-3)
-
-
