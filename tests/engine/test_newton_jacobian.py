@@ -85,10 +85,8 @@ def test_update_solves_the_linearised_box_equations(law, end, wet, EI, stage):
 def test_with_shock_viscosity(law, EI, stage):
     rng = np.random.default_rng(8)
     viscous = {"solver.shock_viscosity": {"quadratic": 1.0, "linear": 0.2}, "solver.integrator": "generalized-alpha"}
-    scene = load_scene("tethered_buoy", {
-        "tether.tension": LAWS[law], "tether.nodes": 9, "tether.bending_stiffness_Nm2": EI, "water": None, "waves": None,
-        **ENDS["free"], **viscous,
-    })  # fmt: skip
+    line = {"tether.tension": LAWS[law], "tether.nodes": 9, "tether.bending_stiffness_Nm2": EI}
+    scene = load_scene("tethered_buoy", {**line, "water": None, "waves": None, **ENDS["free"], **viscous})
     for _ in range(5):
         Y, C_tilde, F = state_of(rng, scene)
         coefficients = rng.uniform(0.0, [2.0, 40.0], (9, 2))

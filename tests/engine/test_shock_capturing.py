@@ -10,8 +10,7 @@ import numpy as np
 import pytest
 
 from analysis import breaking_measures as measures
-from engine import simulate
-from tests.engine.breaking import CASES, broken, orders, shock_elements, straight, theory
+from tests.engine.breaking import CASES, broken, orders, shock_elements, theory
 
 GRIDS = (201, 401, 801, 1601)
 
