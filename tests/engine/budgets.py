@@ -17,8 +17,8 @@ import numpy as np
 
 from engine.march import march
 from engine.parameters import record_of
-from engine.scales import tension_at
 from engine.planar import node as planar_node
+from engine.scales import tension_at
 from engine.spatial import node as spatial_node
 from tests.engine.lines import Motion
 from tests.engine.spatial.lines import frames
