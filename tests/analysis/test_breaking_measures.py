@@ -1,7 +1,7 @@
 """Law: measured on the exact motion itself, speeds, shocks and errors are those of theory.
 
-The profiles are of the characteristics with a fitted shock, at 801 places every half millisecond (3201 places, 120 times
-up to the birth of a shock): what is left is their interpolation and the extrapolation of the measures.
+The profiles are of the characteristics with a fitted shock, at 801 places every half millisecond (3201 places, 120
+times up to the birth of a shock): what is left is their interpolation and the extrapolation of the measures.
 """
 
 from functools import cache
