@@ -7,6 +7,7 @@ import math
 
 import numpy as np
 
+from ..choose import finite, larger, smaller, where
 from ..compiled import kernel
 from ..tension import tension
 from . import node, sweep
@@ -41,19 +42,14 @@ def assemble(p, tables, t, in_motion, cq, cv, Y, C_tilde, X, F, Q, E, D):
 @kernel
 def update_size(p, D):
     """Largest entry of a Newton update in the scales of the scene (dimensionless)."""
-    size = 0.0
+    size = total = 0.0
     for k in range(D.shape[0]):
-        size = max(
-            size,
-            abs(D[k, 0]) * p.per_strain,
-            abs(D[k, 1]) * p.per_force,
-            max(abs(D[k, 2]), abs(D[k, 3])) * p.per_speed,
-            abs(D[k, 4]),
-            abs(D[k, 5]) * p.per_curvature,
-        )
-        if not np.isfinite(D[k, 0] + D[k, 2] + D[k, 4]):
-            return np.inf
-    return size
+        stretched = larger(abs(D[k, 0]) * p.per_strain, abs(D[k, 1]) * p.per_force)
+        moved = larger(abs(D[k, 2]), abs(D[k, 3])) * p.per_speed
+        turned = larger(abs(D[k, 4]), abs(D[k, 5]) * p.per_curvature)
+        size = larger(size, larger(larger(stretched, moved), turned))
+        total += ((D[k, 0] + D[k, 1]) + (D[k, 2] + D[k, 3])) + (D[k, 4] + D[k, 5])
+    return where(finite(total), size, np.inf)
 
 
 @kernel
@@ -63,7 +59,7 @@ def add_update(p, factor, D, Y):
     for k in range(Y.shape[0]):
         for i in range(6):
             Y[k, i] += factor * D[k, i]
-        least = min(least, Y[k, 0])
+        least = smaller(least, Y[k, 0])
     return least
 
 
@@ -157,4 +153,4 @@ def configuration(p, tables, weights, C0, K0, C1, K1, row):
 def last_strain(p, C):
     """Strain of the last node."""
     k = C.shape[0] - 1
-    return math.sqrt(C[k, 0] ** 2 + C[k, 1] ** 2) - 1.0
+    return math.sqrt(C[k, 0] * C[k, 0] + C[k, 1] * C[k, 1]) - 1.0

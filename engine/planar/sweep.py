@@ -20,8 +20,11 @@ other right-hand sides of the same matrix (`resolve_bent`): E[k, 24:33] the inve
 anchor, which has no box below, E[0, 0:9] the inverse at the upper end and E[0, 24:27] its Dxx, Dxz, Dzz.
 """
 
+import numpy as np
+
+from ..choose import smaller
 from ..compiled import kernel
-from ..ends import upper_end
+from ..ends import planar_end
 
 WIDTH = 33
 
@@ -35,6 +38,7 @@ def sweep_bent(p, tables, t, cq, cv, in_motion, Y, C_tilde, F, Q, E, D):
     r0, r1, r2 = -Y[0, 2], -Y[0, 3], -Y[0, 5]
     for i in range(12, 21):
         E[0, i] = 0.0
+    least = np.inf  # of the determinants
     E[0, 21], E[0, 22], E[0, 23] = r0, r1, r2
     for k in range(1, n):
         a = k - 1
@@ -77,8 +81,7 @@ def sweep_bent(p, tables, t, cq, cv, in_motion, Y, C_tilde, F, Q, E, D):
         i10, i11, i12 = A12 * A20 - A10 * A22, A00 * A22 - A02 * A20, A02 * A10 - A00 * A12
         i20, i21, i22 = A10 * A21 - A11 * A20, A01 * A20 - A00 * A21, A00 * A11 - A01 * A10
         det = A00 * i00 + A01 * i10 + A02 * i20
-        if det == 0.0:
-            return False
+        least = smaller(least, abs(det))
         f = 1.0 / det
         i00, i01, i02, i10, i11, i12 = f * i00, f * i01, f * i02, f * i10, f * i11, f * i12
         i20, i21, i22 = f * i20, f * i21, f * i22
@@ -124,7 +127,7 @@ def sweep_bent(p, tables, t, cq, cv, in_motion, Y, C_tilde, F, Q, E, D):
         E[k, 18], E[k, 19], E[k, 20], E[k, 21], E[k, 22], E[k, 23] = R20, R21, R22, r0, r1, r2
     # upper end: e_N dN + D dV = -e, dkappa = -kappa
     b = n - 1
-    ex, ez, eN, Dxx, Dxz, Dzz = upper_end(
+    ex, ez, eN, Dxx, Dxz, Dzz = planar_end(
         p, tables, t, cv, in_motion, Q[b, 3], Q[b, 4], Y[b, 2], Y[b, 3], C_tilde[b, 2], C_tilde[b, 3], F[b]
     )
     c, s, slope = Q[b, 0], Q[b, 1], Q[b, 2]
@@ -141,14 +144,13 @@ def sweep_bent(p, tables, t, cq, cv, in_motion, Y, C_tilde, F, Q, E, D):
     i10, i11, i12 = A12 * R20 - A10 * R22, A00 * R22 - A02 * R20, A02 * A10 - A00 * A12
     i20, i21, i22 = A10 * R21 - A11 * R20, A01 * R20 - A00 * R21, A00 * A11 - A01 * A10
     det = A00 * i00 + A01 * i10 + A02 * i20
-    if det == 0.0:
-        return False
+    least = smaller(least, abs(det))
     f = 1.0 / det
     E[0, 0], E[0, 1], E[0, 2], E[0, 3], E[0, 4], E[0, 5] = f * i00, f * i01, f * i02, f * i10, f * i11, f * i12
     E[0, 6], E[0, 7], E[0, 8] = f * i20, f * i21, f * i22
     E[0, 24], E[0, 25], E[0, 26] = Dxx, Dxz, Dzz
     back_substitute(E, g0, g1, g2, D)
-    return True
+    return least != 0.0
 
 
 @kernel
