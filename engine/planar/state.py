@@ -96,28 +96,29 @@ def error_square(p, k, ec, Q):
     """Squared error of node k in scene scales, from the errors `ec` (4,) of its conserved variables."""
     axial = (ec[0] * Q[k, 0] + ec[1] * Q[k, 1]) * p.per_strain
     turned = ec[1] * Q[k, 0] - ec[0] * Q[k, 1]
-    return axial * axial + turned * turned + (ec[2] ** 2 + ec[3] ** 2) * p.per_speed**2
+    speed = (ec[2] * ec[2] + ec[3] * ec[3]) * p.per_speed * p.per_speed
+    return axial * axial + turned * turned + speed
 
 
 @kernel
 def largest_turn(p, Y):
     """Largest |phi_k - phi_(k-1)| (rad) and the upper node of its element."""
-    turn, where = 0.0, 0
+    turn, element = 0.0, 0
     for k in range(1, Y.shape[0]):
         d = abs(Y[k, 4] - Y[k - 1, 4])
         if d > turn:
-            turn, where = d, k
-    return turn, where
+            turn, element = d, k
+    return turn, element
 
 
 @kernel
-def release_loop(p, tables, Y, where):
-    """Shift phi by 2 pi from node `where` up, against the turn; new first guesses for curvature and shear nearby."""
+def release_loop(p, tables, Y, upper):
+    """Shift phi by 2 pi from node `upper` up, against the turn; new first guesses for curvature and shear nearby."""
     n = Y.shape[0]
-    shift = -2.0 * math.pi if Y[where, 4] > Y[where - 1, 4] else 2.0 * math.pi
-    for k in range(where, n):
+    shift = -2.0 * math.pi if Y[upper, 4] > Y[upper - 1, 4] else 2.0 * math.pi
+    for k in range(upper, n):
         Y[k, 4] += shift
-    for k in range(max(1, where - 2), min(n - 1, where + 2)):
+    for k in range(max(1, upper - 2), min(n - 1, upper + 2)):
         h = tables[p.grid_at + k - 1] + tables[p.grid_at + k]
         Y[k, 5] = (Y[k + 1, 4] - Y[k - 1, 4]) / h
         Y[k, 1] = 0.0
