@@ -101,8 +101,10 @@ def by_kind(planar, spatial, lanes=None):
 
     @overload(either, strict=False, jit_options={"nogil": True, "error_model": "numpy"})
     def chosen(p, *arguments):
+        from .lanes.record import LaneRecord  # knows `engine.parameters`, which knows some of the kernels
+
         if "GI" in p.fields:
             return spatial.py_func
-        return (lanes if lanes is not None and hasattr(p, "count") else planar).py_func
+        return (lanes if lanes is not None and isinstance(p, LaneRecord) else planar).py_func
 
     return either

@@ -118,14 +118,15 @@ def runge_kutta_step(p, tables, t, dt, dt_before, small, Y, Y_before, C, K, Ys, 
         stage_rates(p, rate, Ys[i], Q, C_tilde, C_new, Ks[i])
     if small or p.adaptive == 0:
         return OK, iterations, 0.0
-    return OK, iterations, trial_error(p, dt, embedded_error(p, tables, dt, Ks, Q, C_tilde), Ys[s - 1], tables)
+    error = embedded_error(p, tables, dt, Ks, Q, C_tilde)
+    return OK, iterations, trial_error(p, tables, dt, error, least_strain(Ys[s - 1]))
 
 
 @kernel
-def trial_error(p, dt, error, Y, tables):
-    """The error by which a step is judged: the embedded estimate, or what the buckling of the new state Y asks for."""
+def trial_error(p, tables, dt, error, least):
+    """The error by which a step is judged: the embedded estimate, or what buckling at the new least strain asks for."""
     if p.bent:
-        rate = buckling_rate(p, tables, least_strain(Y))
+        rate = buckling_rate(p, tables, least)
         error = max(error, (dt * rate / p.growth_per_step) ** p.order)
     return error
 

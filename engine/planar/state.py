@@ -112,6 +112,15 @@ def largest_turn(p, Y):
 
 
 @kernel
+def greatest_turn(Y):
+    """Largest |phi_k - phi_(k-1)| (rad) alone."""
+    turn = 0.0
+    for k in range(1, Y.shape[0]):
+        turn = larger(turn, abs(Y[k, 4] - Y[k - 1, 4]))
+    return turn
+
+
+@kernel
 def release_loop(p, tables, Y, upper):
     """Shift phi by 2 pi from node `upper` up, against the turn; new first guesses for curvature and shear nearby."""
     n = Y.shape[0]

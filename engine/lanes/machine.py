@@ -1,0 +1,114 @@
+"""Runs into lanes and out of them: which runs may share a batch, and the arrays in which they do."""
+
+import time
+
+import numpy as np
+
+from ..guards import OK
+from ..integrators import RUNGE_KUTTA
+from ..march import STATE
+from ..parameters import RECORD
+from ..planar import node, sweep
+from ..planar.state import conserved
+from ..ends import BUOY
+from ..tension import TABULATED
+from .record import REAL, WHOLE
+from .ticks import LANE, MOVED, RATE, RESTARTED, ROWS, STEP, advance
+from .vector import COUNT, lane_zeros
+
+TICKS = 20_000  # between two looks at the clock and at Ctrl-C: a tenth of a second
+# of the whole numbers these decide nothing within the vectors
+OWN = ("at_rest", "max_newton", "max_releases", "release", "end_at")
+
+
+def covered(scene):
+    """May this scene share a batch? Planar, adaptive, a buoy at the end, no tables but a uniform current's, no profiles."""
+    return (
+        scene.solver.scheme != "paper-box"
+        and scene.motion.dimensions == 2
+        and scene.solver.integrator in ("esdirk43", "trbdf2")
+        and scene.solver.shock_viscosity is None
+        and scene.end.kind == "buoy"
+        and scene.tether.tension.law != "tabulated"
+        and (scene.current is None or scene.current.law == "uniform")
+        and scene.output.profiles is False
+        and not scene.output.tangent_vectors
+        and not scene.output.lateral_growth
+    )
+
+
+def kind_of(run):
+    """What runs must have in common to share a batch: all whole numbers that kernels branch on or count to."""
+    return (*(int(run.record[name]) for name in WHOLE if name not in OWN), run.tables.size)
+
+
+class Machine:
+    """COUNT lanes for runs of one kind."""
+
+    def __init__(self, run, goal):
+        n, s = int(run.record["nodes"]), max(int(run.record["stages"]), 2)
+        self.kind = kind_of(run)
+        self.runs = [None] * COUNT
+        self.records, self.states = np.zeros(COUNT, RECORD), np.zeros(COUNT, STATE)
+        self.lanes, self.spent = np.zeros(COUNT, LANE), np.zeros(COUNT, np.int64)
+        self.tables, self.samples = np.zeros((COUNT, run.tables.size)), np.zeros((COUNT, goal, 12))
+        self.counts = np.array([run.record[name] for name in WHOLE])
+        self.values, self.in_lanes, self.numbers = lane_zeros(len(REAL)), lane_zeros(run.tables.size), lane_zeros(ROWS)
+        self.Y, self.now, self.before, self.C = lane_zeros(n, 6), lane_zeros(n, 6), lane_zeros(n, 6), lane_zeros(n, 4)
+        self.Ks = lane_zeros(s, n, 4)
+        self.arrays = (
+            self.values, self.in_lanes, self.numbers, lane_zeros(s), lane_zeros(3), self.Y, self.now, self.before,
+            self.C, self.Ks, lane_zeros(3, n, 6), lane_zeros(n, 4),
+        )  # fmt: skip
+        widths = 2, 4, node.WIDTH, sweep.WIDTH, 6, 4, 4, 6
+        self.work = tuple(lane_zeros(n, width) for width in widths)
+        for b in range(COUNT):
+            self._fill(b, run)
+
+    def _fill(self, b, run):
+        """Parameters and state of a run into a lane."""
+        self.records[b], self.states[b] = run.record, run.state
+        self.tables[b] = self.in_lanes[:, b] = run.tables
+        self.values[:, b] = [run.record[name] for name in REAL]
+        self.Y[..., b], self.now[..., b], self.before[..., b] = run.Y, run.Y, run.Y_before
+        self.C[..., b] = run.C
+        self.Ks[..., b] = 0.0
+        self.Ks[0, ..., b] = run.K
+        self.numbers[RATE, b] = self.numbers[STEP, b] = 1.0
+
+    def load(self, b, run):
+        """Put a run that has not begun into a lane that is free."""
+        conserved(run.record, run.Y, run.C)
+        self._fill(b, run)
+        self.runs[b] = run
+        self.spent[b] = 0
+        self.lanes[b] = 0
+        self.lanes[b]["active"], self.lanes[b]["goal"] = 1, run.goal
+        self.numbers[MOVED, b] = self.numbers[RESTARTED, b] = 1.0
+
+    def unload(self, b):
+        """Take the run of a lane out, wherever it is."""
+        run, self.runs[b] = self.runs[b], None
+        for name in STATE.names:
+            run.state[name] = self.states[b][name]
+        run.Y[:], run.Y_before[:] = self.now[..., b], self.before[..., b]
+        run.C[:], run.K[:] = self.C[..., b], self.Ks[0, ..., b]
+        run.samples[:] = self.samples[b, : run.goal]
+        return run
+
+    def advance(self, ticks=TICKS):
+        """Make ticks until a run ends; returns the lanes whose runs have ended."""
+        began = time.perf_counter()
+        advance(
+            ticks, self.records, self.tables, self.states, self.lanes, self.spent, self.samples, self.counts,
+            self.arrays, self.work,
+        )  # fmt: skip
+        self.numbers[MOVED] = self.numbers[RESTARTED] = 0.0
+        taken = [b for b, run in enumerate(self.runs) if run is not None]
+        for b in taken:
+            self.runs[b].wall_s += (time.perf_counter() - began) / len(taken)
+        return [b for b in taken if self.lanes[b]["active"] == 0]
+
+    def fraction(self, b):
+        """Share of its run that a lane has done."""
+        return float(self.states[b]["samples"]) / self.runs[b].goal
