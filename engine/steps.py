@@ -9,7 +9,7 @@ import math
 
 import numpy as np
 
-from .choose import smaller, some
+from .choose import smaller
 from .compiled import kernel
 from .dimensions import error_square, extrapolate, size_of
 from .elementary import copy_into
@@ -55,22 +55,17 @@ def plan_stage(p, tables, i, small, dt, dt_before, a, w):
 
 
 @kernel
-def known_part(a, C, Ks, C_tilde):
-    """C~ = C + sum a_j K_j."""
-    copy_into(C_tilde, C)
-    for j in range(a.shape[0]):
-        if some(a[j] != 0.0):
-            for k in range(C.shape[0]):
-                for m in range(C.shape[1]):
-                    C_tilde[k, m] += a[j] * Ks[j, k, m]
+def add_rates(p, a, count, Ks, k, row):
+    """row += sum over the first `count` of a_j K_j: conserved variables of node k."""
+    for j in range(count):
+        for m in range(size_of(p)[1]):
+            row[m] += a[j] * Ks[j, k, m]
 
 
 @kernel
-def first_guess(w, oldest, middle, latest, Y):
-    """Y = w0 oldest + w1 middle + w2 latest."""
-    for k in range(Y.shape[0]):
-        for i in range(Y.shape[1]):
-            Y[k, i] = w[0] * oldest[k, i] + w[1] * middle[k, i] + w[2] * latest[k, i]
+def guess(w, oldest, middle, latest):
+    """First guess of one unknown from its last three values."""
+    return w[0] * oldest + w[1] * middle + w[2] * latest
 
 
 @kernel
@@ -96,6 +91,7 @@ def runge_kutta_step(p, tables, t, dt, dt_before, small, Y, Y_before, C, K, Ys, 
     Returns (code, Newton iterations, error in units of the tolerance; 0 for fixed and for small steps).
     """
     X, F, Q, E, D, C_tilde = work
+    unknowns, size = size_of(p)
     s = Ys.shape[0]
     a, w = np.empty(s), np.empty(3)
     most = SMALL_STEP_NEWTON if small else p.max_newton
@@ -104,11 +100,17 @@ def runge_kutta_step(p, tables, t, dt, dt_before, small, Y, Y_before, C, K, Ys, 
     copy_into(Ks[0], K)
     for i in range(s - 1 if small else 1, s):
         rate, after = plan_stage(p, tables, i, small, dt, dt_before, a, w)
-        known_part(a, C, Ks, C_tilde)
-        if small or i == 1:
-            first_guess(w, Y, Y_before, Y, Ys[i])
-        else:
-            first_guess(w, Ys[i - 3] if i > 2 else Y_before, Ys[i - 2], Ys[i - 1], Ys[i])
+        for k in range(C.shape[0]):
+            for m in range(size):
+                C_tilde[k, m] = C[k, m]
+            add_rates(p, a, 0 if small else i, Ks, k, C_tilde[k])
+        first = small or i == 1
+        oldest, middle, latest = Y if first else Y_before, Y_before if first else Ys[i - 2], Y if first else Ys[i - 1]
+        if i > 2 and not small:
+            oldest = Ys[i - 3]
+        for k in range(Y.shape[0]):
+            for j in range(unknowns):
+                Ys[i, k, j] = guess(w, oldest[k, j], middle[k, j], latest[k, j])
         code, used = newton(
             p, tables, t + after, 1.0, rate, rate, p.newton_tolerance, most, Ys[i], C_tilde, X, F, Q, E, D
         )
@@ -118,7 +120,7 @@ def runge_kutta_step(p, tables, t, dt, dt_before, small, Y, Y_before, C, K, Ys, 
         stage_rates(p, rate, Ys[i], Q, C_tilde, C_new, Ks[i])
     if small or p.adaptive == 0:
         return OK, iterations, 0.0
-    error = embedded_error(p, tables, dt, Ks, Q, C_tilde)
+    error = embedded_error(p, tables, dt, Ks, Q, a, C_tilde[0])
     return OK, iterations, trial_error(p, tables, dt, error, least_strain(Ys[s - 1]))
 
 
@@ -157,24 +159,21 @@ def buckling_rate(p, tables, least):
 
 
 @kernel
-def embedded_error(p, tables, dt, Ks, Q, errors):
+def embedded_error(p, tables, dt, Ks, Q, d, errors):
     """Embedded error estimate over tolerance: rms over nodes of strain, angle and speed errors in scene scales.
 
-    errors (n, conserved): work.
+    d (s,), errors (conserved,): work.
     """
     s, n = Ks.shape[0], Ks.shape[1]
     at_d = p.method_at + s * s + s
-    for k in range(n):
-        for m in range(Ks.shape[2]):
-            errors[k, m] = 0.0
     for j in range(s):
-        d = dt * tables[at_d + j]
-        for k in range(n):
-            for m in range(Ks.shape[2]):
-                errors[k, m] += d * Ks[j, k, m]
+        d[j] = dt * tables[at_d + j]
     total = 0.0
     for k in range(n):
-        total += error_square(p, k, errors[k], Q)
+        for m in range(size_of(p)[1]):
+            errors[m] = 0.0
+        add_rates(p, d, s, Ks, k, errors)
+        total += error_square(p, k, errors, Q)
     return math.sqrt(total / n) / p.rtol
 
 

@@ -162,7 +162,7 @@ def carry(p, tables, period, count, T, trail_Y, trail_K, vectors, rates, waters,
     """
     k_vectors, n, s = vectors.shape[0], vectors.shape[1], trail_Y.shape[1]
     X, F, Q = np.zeros((n, 2)), np.zeros((n, 4)), np.zeros((n, node.WIDTH))
-    E, D, C_tilde = np.zeros((n, sweep.WIDTH)), np.zeros((n, 6)), np.zeros((n, 4))
+    E, D, C_tilde = np.zeros((n, sweep.WITH_INVERSE)), np.zeros((n, 6)), np.zeros((n, 4))
     work = (np.zeros((n, 6)), np.zeros((n, 2)), np.zeros((n, 4)), np.zeros((n, 4)))
     dCs, dKs, dC_tilde = np.zeros((k_vectors, n, 4)), np.zeros((k_vectors, s, n, 4)), np.zeros((n, 4))
     moving_water = 1.0 if p.waves or (p.current and p.cur_nx * p.cur_nz > 1) else 0.0

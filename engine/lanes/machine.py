@@ -103,7 +103,6 @@ class Machine:
             ticks, self.records, self.tables, self.states, self.lanes, self.spent, self.samples, self.counts,
             self.arrays, self.work,
         )  # fmt: skip
-        self.numbers[MOVED] = self.numbers[RESTARTED] = 0.0
         taken = [b for b, run in enumerate(self.runs) if run is not None]
         for b in taken:
             self.runs[b].wall_s += (time.perf_counter() - began) / len(taken)

@@ -23,9 +23,9 @@ from ..planar.state import configuration, greatest_turn, last_strain
 from ..sampling import complete_sample, note_top, weights_within
 from ..steps import (
     SMALL_STEP_NEWTON,
+    add_rates,
     embedded_error,
-    first_guess,
-    known_part,
+    guess,
     least_strain,
     plan_stage,
     stage_rates,
@@ -140,10 +140,10 @@ def sample_lanes(p, tables, records, states, lanes, numbers, C, K, C_new, K_new,
 
 
 @kernel
-def end_steps(records, tables, states, numbers, Y_now, one):
-    """After the accepted states have been taken over: time, guards, and the length of the next step.
+def end_steps(records, tables, states, numbers, Y, one):
+    """Accepted steps: time, guards, and the length of the next step.
 
-    Y_now (n, 6, COUNT): the states, as numbers; one (n, 6): work.
+    Y (n, 6, COUNT): the new states, as numbers; one (n, 6): work.
     """
     for b in range(COUNT):
         if numbers[ACCEPTED, b] == 0.0:
@@ -154,9 +154,9 @@ def end_steps(records, tables, states, numbers, Y_now, one):
         state.max_turn = max(state.max_turn, numbers[TURN, b])
         code, released = OK, False
         if numbers[TURN, b] > math.pi:
-            copy_into(one, Y_now[:, :, b])
+            copy_into(one, Y[:, :, b])
             code, released = guard_turns(p, tables[b], state, one)
-            copy_into(Y_now[:, :, b], one)
+            copy_into(Y[:, :, b], one)
         next_step(p, state, code, released, numbers[ERROR, b])
 
 
@@ -188,26 +188,40 @@ def plan_lanes(records, tables, states, lanes, numbers, a, w):
 
 
 @kernel
-def set_out(
-    records, own_tables, states, lanes, numbers, a, w, history, now, before, C, Ks, C_tilde, Y, C_work, Y_work
-):
-    """First guess and known part of the next solve, in the lanes that have moved; returns how many runs have ended.
+def move_states(rows, w, history, now, before, Y):
+    """States, after the decisions: what is kept of the past, and the first guess of the next solve into Y.
 
-    history (3, n, 6): the last three of state before, state, stages so far. C_work, Y_work: work.
+    history (3, n, 6): the last three of: the state before, the state, the stages so far.
     """
-    rows = as_lanes(numbers)
-    restarted = rows[RESTARTED] != 0.0
-    if some(restarted):
-        keep(restarted, now, history[0])
-        keep(restarted, before, history[1])
-        keep(restarted, now, history[2])
-    ended = plan_lanes(records, own_tables, states, lanes, numbers, a, w)
-    moved = rows[MOVED] != 0.0
-    known_part(as_lanes(a), C, Ks, C_work)
-    keep(moved, C_work, C_tilde)
-    first_guess(as_lanes(w), history[0], history[1], history[2], Y_work)
-    keep(moved, Y_work, Y)
-    return ended
+    solved, accepted = rows[SOLVED] != 0.0, rows[ACCEPTED] != 0.0
+    restarted, moved = rows[RESTARTED] != 0.0, rows[MOVED] != 0.0
+    weights = w[0], w[1], w[2]
+    for k in range(Y.shape[0]):
+        for i in range(6):
+            y, state, last = Y[k, i], now[k, i], history[2, k, i]
+            oldest, middle, latest = history[0, k, i], where(solved, last, history[1, k, i]), where(solved, y, last)
+            oldest = where(solved, history[1, k, i], oldest)
+            past = where(accepted, state, before[k, i])
+            state = where(accepted, y, state)
+            oldest, middle, latest = where(restarted, state, oldest), where(restarted, past, middle), where(restarted, state, latest)
+            now[k, i], before[k, i] = state, past
+            history[0, k, i], history[1, k, i], history[2, k, i] = oldest, middle, latest
+            Y[k, i] = where(moved, guess(weights, oldest, middle, latest), y)
+
+
+@kernel
+def move_rates(p, rows, a, C_new, K_new, C, Ks, C_tilde):
+    """Conserved variables and rates of accepted steps, and the known part of the next solve into C_tilde."""
+    accepted, moved = rows[ACCEPTED] != 0.0, rows[MOVED] != 0.0
+    count = a.shape[0] - 1
+    for k in range(C.shape[0]):
+        for m in range(4):
+            state = where(accepted, C_new[k, m], C[k, m])
+            C[k, m] = C_new[k, m] = state
+            Ks[0, k, m] = where(accepted, K_new[k, m], Ks[0, k, m])
+        add_rates(p, a, count, Ks, k, C_new[k])
+        for m in range(4):
+            C_tilde[k, m] = where(moved, C_new[k, m], C_tilde[k, m])
 
 
 @kernel
@@ -218,43 +232,40 @@ def advance(ticks, records, own_tables, states, lanes, spent, samples, counts, a
     iterations of the trial; samples (COUNT, m, 12). counts: whole numbers of the lane record; arrays, work: see
     `engine.lanes.machine`.
     """
-    values, in_lanes, numbers, a, w, Y, Y_now, Y_before, C, Ks, history, C_tilde = arrays
+    values, in_lanes, numbers, a_all, w_all, Y_all, now, before, C, Ks, history, C_tilde = arrays
     p = lane_record(counts, as_lanes(values))
-    tables, rows = as_lanes(in_lanes), as_lanes(numbers)
-    y, now, before = as_lanes(Y), as_lanes(Y_now), as_lanes(Y_before)
-    c, k_all, old, c_tilde = as_lanes(C), as_lanes(Ks), as_lanes(history), as_lanes(C_tilde)
+    tables, rows, a, w, Y = as_lanes(in_lanes), as_lanes(numbers), as_lanes(a_all), as_lanes(w_all), as_lanes(Y_all)
+    now, before, history = as_lanes(now), as_lanes(before), as_lanes(history)
+    C, Ks, C_tilde = as_lanes(C), as_lanes(Ks), as_lanes(C_tilde)
     X, F, Q, E, D = as_lanes(work[0]), as_lanes(work[1]), as_lanes(work[2]), as_lanes(work[3]), as_lanes(work[4])
-    c_new, k_new, row = as_lanes(work[5]), as_lanes(work[6]), as_lanes(work[7])
-    one = np.empty((Y.shape[0], Y.shape[1]))
-    s = k_all.shape[0]
-    made, ended = 0, set_out(records, own_tables, states, lanes, numbers, a, w, old, now, before, c, k_all, c_tilde, y, c_new, row)
-    while made < ticks and ended == 0:
-        made += 1
-        sound, size, least = iterate(p, tables, rows[TIME], 1.0, rows[RATE], rows[RATE], y, c_tilde, X, F, Q, E, D)
-        rows[SOUND], rows[SIZE], rows[LEAST] = where(sound, 1.0, 0.0), size, least
-        if judge_solves(records, states, lanes, numbers) == 0:
-            continue
-        solved = rows[SOLVED] != 0.0
-        node.shape(p, tables, y, Q, X)
-        stage_rates(p, rows[RATE], y, Q, c_tilde, c_new, k_new)
-        for j in range(1, s):
-            here = solved & (rows[STAGE] == float(j))
+    C_new, K_new, row, one = as_lanes(work[5]), as_lanes(work[6]), as_lanes(work[7]), np.empty(Y_all.shape[:2])
+    made = ended = 0
+    while True:
+        ended += plan_lanes(records, own_tables, states, lanes, numbers, a_all, w_all)
+        move_states(rows, w, history, now, before, Y)
+        move_rates(p, rows, a, C_new, K_new, C, Ks, C_tilde)
+        moving = False
+        while not moving and ended == 0 and made < ticks:
+            made += 1
+            sound, size, least = iterate(p, tables, rows[TIME], 1.0, rows[RATE], rows[RATE], Y, C_tilde, X, F, Q, E, D)
+            rows[SOUND], rows[SIZE], rows[LEAST] = where(sound, 1.0, 0.0), size, least
+            moving = judge_solves(records, states, lanes, numbers) > 0
+        if not moving:
+            break
+        node.shape(p, tables, Y, Q, X)
+        stage_rates(p, rows[RATE], Y, Q, C_tilde, C_new, K_new)
+        for j in range(1, Ks.shape[0]):
+            here = (rows[SOLVED] != 0.0) & (rows[STAGE] == float(j))
             if some(here):
-                keep(here, k_new, k_all[j])
-        keep(solved, old[1], old[0])
-        keep(solved, old[2], old[1])
-        keep(solved, y, old[2])
+                keep(here, K_new, Ks[j])
         if some(rows[FINISHED] != 0.0):
-            rows[ERROR] = embedded_error(p, tables, rows[STEP], k_all, Q, row)
-            rows[LEAST], rows[TURN] = least_strain(y), greatest_turn(y)
+            rows[ERROR] = embedded_error(p, tables, rows[STEP], Ks, Q, a, row[0])
+            rows[LEAST], rows[TURN] = least_strain(Y), greatest_turn(Y)
         judge_steps(records, own_tables, states, lanes, numbers, spent)
-        accepted = rows[ACCEPTED] != 0.0
-        if some(accepted):
-            sample_lanes(p, tables, records, states, lanes, numbers, c, k_all[0], c_new, k_new, row, samples)
-            keep(accepted, now, before)
-            keep(accepted, y, now)
-            keep(accepted, c_new, c)
-            keep(accepted, k_new, k_all[0])
-            end_steps(records, own_tables, states, numbers, Y_now, one)
-        ended = set_out(records, own_tables, states, lanes, numbers, a, w, old, now, before, c, k_all, c_tilde, y, c_new, row)
+        if some(rows[ACCEPTED] != 0.0):
+            sample_lanes(p, tables, records, states, lanes, numbers, C, Ks[0], C_new, K_new, row, samples)
+            end_steps(records, own_tables, states, numbers, Y_all, one)
+    for row_number in (SOLVED, FINISHED, ACCEPTED, MOVED, RESTARTED):
+        for b in range(COUNT):
+            numbers[row_number, b] = 0.0
     return made

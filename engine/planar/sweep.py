@@ -15,9 +15,9 @@ does not change it, and Newton failures were as rare as with pivoting.
 
 Without bending S and kappa are zero, y = (eps, phi), v = (U, W), and the same steps need a 2 x 2 inverse.
 
-E (n, 33): P (9), p (3), R (9), r (3), row-major; 2 x 2 in the same places without bending. With bending also, for
-other right-hand sides of the same matrix (`resolve_bent`): E[k, 24:33] the inverse of that box; in the row of the
-anchor, which has no box below, E[0, 0:9] the inverse at the upper end and E[0, 24:27] its Dxx, Dxz, Dzz.
+E (n, 24): P (9), p (3), R (9), r (3), row-major; in the row of the anchor, which has no box below, E[0, 0:9] is the
+inverse at the upper end. 2 x 2 in the same places without bending. For other right-hand sides of the same matrix
+(`resolve_bent`) an E (n, 33) also takes in E[k, 24:33], the inverse of that box, and in E[0, 24:27] Dxx, Dxz, Dzz.
 """
 
 import numpy as np
@@ -26,7 +26,7 @@ from ..choose import smaller
 from ..compiled import kernel
 from ..ends import planar_end
 
-WIDTH = 33
+WIDTH, WITH_INVERSE = 24, 33
 
 
 @kernel
@@ -85,8 +85,9 @@ def sweep_bent(p, tables, t, cq, cv, in_motion, Y, C_tilde, F, Q, E, D):
         f = 1.0 / det
         i00, i01, i02, i10, i11, i12 = f * i00, f * i01, f * i02, f * i10, f * i11, f * i12
         i20, i21, i22 = f * i20, f * i21, f * i22
-        E[k, 24], E[k, 25], E[k, 26], E[k, 27], E[k, 28], E[k, 29] = i00, i01, i02, i10, i11, i12
-        E[k, 30], E[k, 31], E[k, 32] = i20, i21, i22
+        if E.shape[1] > WIDTH:
+            E[k, 24], E[k, 25], E[k, 26], E[k, 27], E[k, 28], E[k, 29] = i00, i01, i02, i10, i11, i12
+            E[k, 30], E[k, 31], E[k, 32] = i20, i21, i22
         P00 = -(i00 * B00 + i01 * B10 + i02 * B20)
         P01 = -(i00 * B01 + i01 * B11 + i02 * B21)
         P02 = -(i00 * B02 + i01 * B12 + i02 * B22)
@@ -148,7 +149,8 @@ def sweep_bent(p, tables, t, cq, cv, in_motion, Y, C_tilde, F, Q, E, D):
     f = 1.0 / det
     E[0, 0], E[0, 1], E[0, 2], E[0, 3], E[0, 4], E[0, 5] = f * i00, f * i01, f * i02, f * i10, f * i11, f * i12
     E[0, 6], E[0, 7], E[0, 8] = f * i20, f * i21, f * i22
-    E[0, 24], E[0, 25], E[0, 26] = Dxx, Dxz, Dzz
+    if E.shape[1] > WIDTH:
+        E[0, 24], E[0, 25], E[0, 26] = Dxx, Dxz, Dzz
     back_substitute(E, g0, g1, g2, D)
     return least != 0.0
 
