@@ -14,6 +14,7 @@ from pathlib import Path
 from campaigns import cli, provenance
 from campaigns.folder import CampaignStopped, trajectory_path
 from campaigns.runner import Job, Plan, Summary, run_campaign, write_failure
+from campaigns.side_by_side import grouped
 
 _COMPILE_RUN_S = 0.1  # long enough to go through every kernel, too short to cost anything
 
@@ -51,25 +52,31 @@ def begin(campaign: str, module: str, argv: list[str], plan: Plan, jobs: list[Jo
 def run(plan: Plan, jobs: list[Job]) -> tuple[dict[str, float], Summary]:
     """Compile and do the runs; returns the times of both and the summary."""
     missing = [job for job in jobs if not trajectory_path(plan.directory, job.key).exists()]
-    # A plane and space have machine code of their own.
-    first_of_a_kind = {job.scene.motion.dimensions: job for job in reversed(missing)}
-    timing = {"compile_s": sum(_compile(plan, job) for job in first_of_a_kind.values())}
+    # A plane, space, and runs side by side have machine code of their own.
+    groups = grouped(plan, missing)
+    together = {job.key for group in groups for job in group.jobs}
+    first_of_a_kind = {job.scene.motion.dimensions: job for job in reversed(missing) if job.key not in together}
+    start = time.perf_counter()
+    if missing:
+        print("compiling the engine, or loading it compiled ...", file=sys.stderr)
+    for job in first_of_a_kind.values():
+        _compile(plan.simulate, job.scene)
+    for group in groups[:1]:
+        _compile(lambda scene, **length: list(plan.simulate_each([scene, scene], **length)), group.jobs[0].scene)
+    timing = {"compile_s": time.perf_counter() - start}
     start = time.perf_counter()
     summary = run_campaign(plan, jobs)
     timing |= {"run_s": time.perf_counter() - start, "analysis_s": summary.analysis_s}
     return timing, summary
 
 
-def _compile(plan: Plan, job: Job) -> float:
+def _compile(simulate: Callable, scene: object) -> None:
     # Two workers that start together would each compile for ten seconds; after this they find the code on disk.
-    print("compiling the engine, or loading it compiled ...", file=sys.stderr)
-    start = time.perf_counter()
     try:
-        plan.simulate(job.scene, duration_s=_COMPILE_RUN_S)
+        simulate(scene, duration_s=_COMPILE_RUN_S)
     except Exception as error:
         # Not the place to judge a scene: the run itself fails in the same way, and that failure becomes its row.
         print(f"the first simulation failed ({type(error).__name__}); its run will say why", file=sys.stderr)
-    return time.perf_counter() - start
 
 
 def finish(out: Path, record: dict, summary: Summary, timing: dict[str, float]) -> None:

@@ -32,16 +32,38 @@ def simulate_batch(scenes, periods=None, duration_s=None, progress=None):
     Arguments as for `simulate`; the run length in periods is taken for each scene's own wave. Returns a list.
     """
     scenes = list(scenes)
-    durations = [_duration(scene, periods, duration_s) for scene in scenes]
-    runs = []
-    for i, (scene, length) in enumerate(zip(scenes, durations, strict=True)):
-
-        def share(fraction, done=i):
-            if progress is not None:
-                progress((done + fraction) / len(scenes))
-
-        runs.append((_by_paper if scene.solver.scheme == "paper-box" else _by_march)(scene, length, share))
+    runs = [None] * len(scenes)
+    for i, run in simulate_each(scenes, periods, duration_s, progress):
+        runs[i] = run
     return runs
+
+
+def simulate_each(scenes, periods=None, duration_s=None, progress=None):
+    """As `simulate_batch`, but yields (number of the scene, its Trajectory) as the runs end, in no order.
+
+    Scenes that may share a batch run side by side in the lanes of vectors (`engine.lanes`), eight at a time; the
+    others one after another. The results are the same, bit for bit.
+    """
+    from .lanes import batch
+
+    scenes = list(scenes)
+    jobs = [(i, scene, _duration(scene, periods, duration_s)) for i, scene in enumerate(scenes)]
+    ended = 0
+
+    def share(fraction, count=1):
+        if progress is not None:
+            progress((ended + fraction * count) / len(scenes))
+
+    groups = batch.shares(jobs)
+    for group in groups:
+        for i, run in batch.run_through(group, lambda fraction, count=len(group): share(fraction, count)):
+            yield i, run.trajectory()
+        ended += len(group)
+    alone = {i for i, _, _ in jobs} - {i for group in groups for i, _, _ in group}
+    for i, scene, length in jobs:
+        if i in alone:
+            yield i, (_by_paper if scene.solver.scheme == "paper-box" else _by_march)(scene, length, share)
+            ended += 1
 
 
 def _by_march(scene, duration_s, progress):

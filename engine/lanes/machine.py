@@ -4,14 +4,10 @@ import time
 
 import numpy as np
 
-from ..guards import OK
-from ..integrators import RUNGE_KUTTA
 from ..march import STATE
-from ..parameters import RECORD
+from ..parameters import RECORD, record_of
 from ..planar import node, sweep
 from ..planar.state import conserved
-from ..ends import BUOY
-from ..tension import TABULATED
 from .record import REAL, WHOLE
 from .ticks import LANE, MOVED, RATE, RESTARTED, ROWS, STEP, advance
 from .vector import COUNT, lane_zeros
@@ -21,25 +17,11 @@ TICKS = 20_000  # between two looks at the clock and at Ctrl-C: a tenth of a sec
 OWN = ("at_rest", "max_newton", "max_releases", "release", "end_at")
 
 
-def covered(scene):
-    """May this scene share a batch? Planar, adaptive, a buoy at the end, no tables but a uniform current's, no profiles."""
-    return (
-        scene.solver.scheme != "paper-box"
-        and scene.motion.dimensions == 2
-        and scene.solver.integrator in ("esdirk43", "trbdf2")
-        and scene.solver.shock_viscosity is None
-        and scene.end.kind == "buoy"
-        and scene.tether.tension.law != "tabulated"
-        and (scene.current is None or scene.current.law == "uniform")
-        and scene.output.profiles is False
-        and not scene.output.tangent_vectors
-        and not scene.output.lateral_growth
-    )
-
-
-def kind_of(run):
-    """What runs must have in common to share a batch: all whole numbers that kernels branch on or count to."""
-    return (*(int(run.record[name]) for name in WHOLE if name not in OWN), run.tables.size)
+def kind_of(scene):
+    """What scenes must have in common to share a batch: all whole numbers that kernels branch on or count to."""
+    tables = []
+    record = record_of(scene, tables)[0]
+    return (*(int(record[name]) for name in WHOLE if name not in OWN), *(table.size for table in tables))
 
 
 class Machine:
@@ -47,7 +29,6 @@ class Machine:
 
     def __init__(self, run, goal):
         n, s = int(run.record["nodes"]), max(int(run.record["stages"]), 2)
-        self.kind = kind_of(run)
         self.runs = [None] * COUNT
         self.records, self.states = np.zeros(COUNT, RECORD), np.zeros(COUNT, STATE)
         self.lanes, self.spent = np.zeros(COUNT, LANE), np.zeros(COUNT, np.int64)
