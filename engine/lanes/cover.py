@@ -12,6 +12,4 @@ def goes_in_lanes(scene):
         and scene.tether.tension.law != "tabulated"
         and (scene.current is None or scene.current.law == "uniform")
         and scene.output.profiles is False
-        and not scene.output.tangent_vectors
-        and not scene.output.lateral_growth
     )

@@ -12,6 +12,7 @@ from .record import REAL, WHOLE
 from .ticks import LANE, MOVED, RATE, RESTARTED, ROWS, STEP, advance
 from .vector import COUNT, lane_zeros
 
+STEPS = 24  # of a trail before it is followed
 TICKS = 20_000  # between two looks at the clock and at Ctrl-C: a tenth of a second
 # of the whole numbers these decide nothing within the vectors
 OWN = ("at_rest", "max_newton", "max_releases", "release", "end_at")
@@ -43,6 +44,8 @@ class Machine:
         )  # fmt: skip
         widths = 2, 4, node.WIDTH, sweep.WIDTH, 6, 4, 4, 6
         self.work = tuple(lane_zeros(n, width) for width in widths)
+        room = STEPS if run.trail.followed else 0
+        self.trail = np.zeros((COUNT, room, 3)), np.zeros((COUNT, room, s, n, 6)), np.zeros((COUNT, room, s, n, 4))
         for b in range(COUNT):
             self._fill(b, run)
 
@@ -81,13 +84,22 @@ class Machine:
         """Make ticks until a run ends; returns the lanes whose runs have ended."""
         began = time.perf_counter()
         advance(
-            ticks, self.records, self.tables, self.states, self.lanes, self.spent, self.samples, self.counts,
-            self.arrays, self.work,
+            ticks, self.records, self.tables, self.states, self.lanes, self.spent, self.samples, self.trail,
+            self.counts, self.arrays, self.work,
         )  # fmt: skip
         taken = [b for b, run in enumerate(self.runs) if run is not None]
         for b in taken:
+            self._follow(b)
+        for b in taken:
             self.runs[b].wall_s += (time.perf_counter() - began) / len(taken)
         return [b for b in taken if self.lanes[b]["active"] == 0]
+
+    def _follow(self, b):
+        """Carry the perturbations of a lane through its trail where that is full, or the run has ended."""
+        run, state = self.runs[b], self.states[b]
+        if run.trail.followed and (self.lanes[b]["active"] == 0 or state["trail"] == STEPS):
+            run.trail.steps = tuple(part[b] for part in self.trail)
+            run.trail.follow(run.record, run.tables, state)
 
     def fraction(self, b):
         """Share of its run that a lane has done."""

@@ -140,6 +140,33 @@ def sample_lanes(p, tables, records, states, lanes, numbers, C, K, C_new, K_new,
 
 
 @kernel
+def record_stages(states, lanes, numbers, Y, K_new, trail):
+    """Solved stages into the trails of their lanes (layout: `engine.tangent`); kept or not, as the step will be.
+
+    Y (n, 6, COUNT), K_new (n, 4, COUNT): stages and their rates, as numbers.
+    """
+    _, trail_Y, trail_K = trail
+    for b in range(COUNT):
+        if numbers[SOLVED, b] != 0.0:
+            copy_into(trail_Y[b, states[b].trail, lanes[b].stage], Y[:, :, b])
+            copy_into(trail_K[b, states[b].trail, lanes[b].stage], K_new[:, :, b])
+
+
+@kernel
+def record_steps(states, numbers, trail_T):
+    """Accepted steps into the trails of their lanes; returns whether a trail is full."""
+    full = False
+    for b in range(COUNT):
+        if numbers[ACCEPTED, b] != 0.0:
+            state = states[b]
+            row = trail_T[b, state.trail]
+            row[0], row[1], row[2] = state.t, state.trial_dt, 2.0 if state.small else 0.0
+            state.trail += 1
+            full = full or state.trail == trail_T.shape[1]
+    return full
+
+
+@kernel
 def end_steps(records, tables, states, numbers, Y, one):
     """Accepted steps: time, guards, and the length of the next step.
 
@@ -225,11 +252,12 @@ def move_rates(p, rows, a, C_new, K_new, C, Ks, C_tilde):
 
 
 @kernel
-def advance(ticks, records, own_tables, states, lanes, spent, samples, counts, arrays, work):
-    """Make ticks until one run ends, or `ticks` are made; returns how many were.
+def advance(ticks, records, own_tables, states, lanes, spent, samples, trail, counts, arrays, work):
+    """Make ticks until a run ends, a trail is full, or `ticks` are made; returns how many were.
 
     records, states, lanes (COUNT,): RECORD, STATE, LANE; own_tables (COUNT, m): tables, as numbers; spent (COUNT,):
-    iterations of the trial; samples (COUNT, m, 12). counts: whole numbers of the lane record; arrays, work: see
+    iterations of the trial; samples (COUNT, m, 12); trail: (COUNT, l, 3), (COUNT, l, s, n, 6), (COUNT, l, s, n, 4), of
+    which l = 0 keeps nothing. counts: whole numbers of the lane record; arrays, work: see
     `engine.lanes.machine`.
     """
     values, in_lanes, numbers, a_all, w_all, Y_all, now, before, C, Ks, history, C_tilde = arrays
@@ -239,13 +267,13 @@ def advance(ticks, records, own_tables, states, lanes, spent, samples, counts, a
     C, Ks, C_tilde = as_lanes(C), as_lanes(Ks), as_lanes(C_tilde)
     X, F, Q, E, D = as_lanes(work[0]), as_lanes(work[1]), as_lanes(work[2]), as_lanes(work[3]), as_lanes(work[4])
     C_new, K_new, row, one = as_lanes(work[5]), as_lanes(work[6]), as_lanes(work[7]), np.empty(Y_all.shape[:2])
-    made = ended = 0
+    made, stop = 0, False
     while True:
-        ended += plan_lanes(records, own_tables, states, lanes, numbers, a_all, w_all)
+        stop = plan_lanes(records, own_tables, states, lanes, numbers, a_all, w_all) > 0 or stop
         move_states(rows, w, history, now, before, Y)
         move_rates(p, rows, a, C_new, K_new, C, Ks, C_tilde)
         moving = False
-        while not moving and ended == 0 and made < ticks:
+        while not moving and not stop and made < ticks:
             made += 1
             sound, size, least = iterate(p, tables, rows[TIME], 1.0, rows[RATE], rows[RATE], Y, C_tilde, X, F, Q, E, D)
             rows[SOUND], rows[SIZE], rows[LEAST] = where(sound, 1.0, 0.0), size, least
@@ -261,9 +289,13 @@ def advance(ticks, records, own_tables, states, lanes, spent, samples, counts, a
         if some(rows[FINISHED] != 0.0):
             rows[ERROR] = embedded_error(p, tables, rows[STEP], Ks, Q, a, row[0])
             rows[LEAST], rows[TURN] = least_strain(Y), greatest_turn(Y)
+        if trail[0].shape[1] > 0:
+            record_stages(states, lanes, numbers, Y_all, work[6], trail)
         judge_steps(records, own_tables, states, lanes, numbers, spent)
         if some(rows[ACCEPTED] != 0.0):
             sample_lanes(p, tables, records, states, lanes, numbers, C, Ks[0], C_new, K_new, row, samples)
+            if trail[0].shape[1] > 0:
+                stop = record_steps(states, numbers, trail[0]) or stop
             end_steps(records, own_tables, states, numbers, Y_all, one)
     for row_number in (SOLVED, FINISHED, ACCEPTED, MOVED, RESTARTED):
         for b in range(COUNT):
