@@ -110,14 +110,15 @@ def _displaced_water(p, tables, t, going_on, D, Q, X, dX, X_plus, X_minus, F_plu
 
 
 @kernel
-def tangent_stage(p, tables, t, rate, moving_water, Y, dC_tilde, dF, dC, Q, X, F, E, work):
+def tangent_stage(p, tables, t, rate, going_on, moving_water, Y, dC_tilde, dF, dC, Q, X, F, E, work):
     """dC (n, 4) of one vector at one stage whose matrix is in E; dF comes in as a first guess and is renewed.
+
+    Both where going_on holds, and there until dF is settled.
 
     work: six unknowns (n, 6), gamma (n, 2), water (n, 4) twice, places (n, 2) three times.
     """
     D, gamma, F_plus, F_minus, dX, X_plus, X_minus = work
     n = Y.shape[0]
-    going_on = rate > 0.0
     for _ in range(WATER_ITERATIONS):
         _nodal_change(p, rate, moving_water, dC_tilde[:, 2:], F, Y, Q, dF, gamma)
         top_x, top_z = _top_change(p, rate, dC_tilde[n - 1, 2:], F[n - 1], Y[n - 1], dF[n - 1])
@@ -183,13 +184,15 @@ def linearise(p, tables, t, rate, Y, K, X, F, C_tilde, Q, E, D):
 
 
 @kernel
-def carry_stage(p, tables, t, rate, a, count, moving_water, Y, v, vectors, dKs, waters, dC_tilde, dCs, Q, X, F, E, work):
-    """Perturbation number v through one linearised stage: into dCs[v], from vectors[v] and the first `count` dKs[v]."""
+def carry_stage(
+    p, tables, t, rate, a, count, here, moving_water, Y, v, vectors, dKs, waters, dC_tilde, dCs, Q, X, F, E, work
+):
+    """Perturbation number v through one linearised stage, where `here` holds: into dCs[v], from vectors[v] and the first `count` dKs[v]."""
     for k in range(Y.shape[0]):
         for m in range(4):
             dC_tilde[k, m] = vectors[v, k, m]
         add_rates(p, a, count, dKs[v], k, dC_tilde[k])
-    tangent_stage(p, tables, t, rate, moving_water, Y, dC_tilde, waters[v], dCs[v], Q, X, F, E, work)
+    tangent_stage(p, tables, t, rate, here, moving_water, Y, dC_tilde, waters[v], dCs[v], Q, X, F, E, work)
 
 
 @kernel
@@ -229,8 +232,8 @@ def carry(p, tables, period, count, T, trail_Y, trail_K, vectors, rates, waters,
             linearise(p, tables, t + after, rate, Y, trail_K[step, i], X, F, C_tilde, Q, E, D)
             for v in range(number):
                 carry_stage(
-                    p, tables, t + after, rate, a, 0 if euler else i, moving_water, Y, v, vectors, dKs, waters,
-                    dC_tilde, dCs, Q, X, F, E, work,
+                    p, tables, t + after, rate, a, 0 if euler else i, True, moving_water, Y, v, vectors, dKs,
+                    waters, dC_tilde, dCs, Q, X, F, E, work,
                 )  # fmt: skip
                 for k in range(n):
                     for m in range(4):

@@ -26,6 +26,7 @@ def run_through(jobs, progress):
     """
     waiting, machine, done, numbers = deque(jobs), None, 0, [0] * COUNT
     longest = max(job[2] / job[1].sample_step_s() for job in jobs)
+    most_periods = max(job[2] / (job[1].waves.period_s if job[1].waves is not None else 1.0) for job in jobs)
     while True:
         for b in range(COUNT):
             while waiting and (machine is None or machine.runs[b] is None):
@@ -36,8 +37,8 @@ def run_through(jobs, progress):
                     yield number, run
                     continue
                 if machine is None:
-                    machine = Machine(run, int(longest) + 2)
-                    machine.advance(0)  # compilation and its cache stay out of the time of any run
+                    machine = Machine(run, int(longest) + 2, int(most_periods) + 1)
+                    machine.compile()
                 machine.load(b, run)
                 numbers[b] = number
         if machine is None or all(run is None for run in machine.runs):

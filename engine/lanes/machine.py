@@ -8,6 +8,7 @@ from ..march import STATE
 from ..parameters import RECORD, record_of
 from ..planar import node, sweep
 from ..planar.state import conserved
+from .followers import Followers
 from .record import REAL, WHOLE
 from .ticks import LANE, MOVED, RATE, RESTARTED, ROWS, STEP, advance
 from .vector import COUNT, lane_zeros
@@ -22,13 +23,14 @@ def kind_of(scene):
     """What scenes must have in common to share a batch: all whole numbers that kernels branch on or count to."""
     tables = []
     record = record_of(scene, tables)[0]
-    return (*(int(record[name]) for name in WHOLE if name not in OWN), *(table.size for table in tables))
+    carried = scene.output.tangent_vectors, scene.output.lateral_growth
+    return (*(int(record[name]) for name in WHOLE if name not in OWN), *(table.size for table in tables), *carried)
 
 
 class Machine:
     """COUNT lanes for runs of one kind."""
 
-    def __init__(self, run, goal):
+    def __init__(self, run, goal, periods):
         n, s = int(run.record["nodes"]), max(int(run.record["stages"]), 2)
         self.runs = [None] * COUNT
         self.records, self.states = np.zeros(COUNT, RECORD), np.zeros(COUNT, STATE)
@@ -45,6 +47,7 @@ class Machine:
         widths = 2, 4, node.WIDTH, sweep.WIDTH, 6, 4, 4, 6
         self.work = tuple(lane_zeros(n, width) for width in widths)
         room = STEPS if run.trail.followed else 0
+        self.followers = Followers(run, periods) if run.trail.followed else None
         self.trail = np.zeros((COUNT, room, 3)), np.zeros((COUNT, room, s, n, 6)), np.zeros((COUNT, room, s, n, 4))
         for b in range(COUNT):
             self._fill(b, run)
@@ -65,6 +68,8 @@ class Machine:
         conserved(run.record, run.Y, run.C)
         self._fill(b, run)
         self.runs[b] = run
+        if self.followers is not None:
+            self.followers.load(b, run)
         self.spent[b] = 0
         self.lanes[b] = 0
         self.lanes[b]["active"], self.lanes[b]["goal"] = 1, run.goal
@@ -78,7 +83,15 @@ class Machine:
         run.Y[:], run.Y_before[:] = self.now[..., b], self.before[..., b]
         run.C[:], run.K[:] = self.C[..., b], self.Ks[0, ..., b]
         run.samples[:] = self.samples[b, : run.goal]
+        if self.followers is not None:
+            self.followers.unload(b, run)
         return run
+
+    def compile(self):
+        """Compile what `advance` needs, or load it compiled, outside the time of any run."""
+        self.advance(0)
+        if self.followers is not None:
+            self._follow([])
 
     def advance(self, ticks=TICKS):
         """Make ticks until a run ends; returns the lanes whose runs have ended."""
@@ -88,18 +101,27 @@ class Machine:
             self.counts, self.arrays, self.work,
         )  # fmt: skip
         taken = [b for b, run in enumerate(self.runs) if run is not None]
-        for b in taken:
-            self._follow(b)
+        ended = [b for b in taken if self.lanes[b]["active"] == 0]
+        if self.followers is not None and (ended or self.states["trail"].max() == STEPS):
+            self._follow(taken)
         for b in taken:
             self.runs[b].wall_s += (time.perf_counter() - began) / len(taken)
-        return [b for b in taken if self.lanes[b]["active"] == 0]
+        return ended
 
-    def _follow(self, b):
-        """Carry the perturbations of a lane through its trail where that is full, or the run has ended."""
-        run, state = self.runs[b], self.states[b]
-        if run.trail.followed and (self.lanes[b]["active"] == 0 or state["trail"] == STEPS):
-            run.trail.steps = tuple(part[b] for part in self.trail)
-            run.trail.follow(run.record, run.tables, state)
+    def _follow(self, taken):
+        """Carry the perturbations of all lanes through their trails, and empty these."""
+        trails = np.zeros(COUNT, np.int64)
+        for b in taken:
+            trails[b] = self.states[b]["trail"]
+            self.runs[b].trail.mark(self.trail[0][b, : trails[b]])
+        self.followers.follow(
+            self.records, self.tables, self.trail, trails, self.counts, self.values, self.in_lanes
+        )
+        for b in taken:  # the step that a lane is in the middle of begins the next trail
+            if trails[b] < STEPS:
+                for part in self.trail:
+                    part[b, 0] = part[b, trails[b]]
+        self.states["trail"] = 0
 
     def fraction(self, b):
         """Share of its run that a lane has done."""
