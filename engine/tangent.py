@@ -5,8 +5,8 @@ linear solve with Newton's matrix at the converged state (`engine.planar.resolve
 
     dC~_i = dC + dt sum_(j<i) a_ij dK_j,    J_i dY_i = known(dC~_i, dF_i),    dK_i = (dC_i - dC~_i)/(a_ii dt)
 
-dF is the change of the water at the displaced nodes: it depends on dY through the positions, which Newton's matrix
-leaves out; a fixed-point iteration puts it back (it contracts by about the square of wave number times length). The
+dF = J dX is the change of the water at the displaced nodes: it depends on dY through the positions dX, which Newton's
+matrix leaves out; a fixed-point iteration puts it back (it contracts by about the square of wave number times length). The
 perturbations are re-orthonormalised (Gram-Schmidt) after every step, in the norm |dq|^2 + |dV|^2/speed^2 summed over
 the nodes; the logarithms of their lengths add up to the growth of each period.
 
@@ -72,37 +72,33 @@ def _top_change(p, cv, dV_tilde, F, Y, dF):
 
 
 @kernel
-def _displaced_water(p, tables, t, going_on, D, Q, X, dX, X_plus, X_minus, F_plus, F_minus, dF):
-    """dF: water at the nodes displaced by dY minus water where they are, by central differences; returns |dX|.
+def water_slopes(p, tables, t, X, X_moved, F_ahead, F_behind, J):
+    """J (n, 8): how the water at each node depends on its place, dF/dx (4) and dF/dz (4), by central differences."""
+    for axis in range(2):
+        for sign in (1.0, -1.0):
+            for k in range(X.shape[0]):
+                X_moved[k, 0] = X[k, 0] + (sign * NUDGE if axis == 0 else 0.0)
+                X_moved[k, 1] = X[k, 1] + (sign * NUDGE if axis == 1 else 0.0)
+            node.water(p, tables, t, 1.0, X_moved, F_ahead if sign > 0.0 else F_behind)
+        for k in range(X.shape[0]):
+            for m in range(4):
+                J[k, 4 * axis + m] = (F_ahead[k, m] - F_behind[k, m]) * (0.5 / NUDGE)
 
-    Only where going_on holds; returns the largest change of dF by this call, and the largest dF.
+
+@kernel
+def _displaced_water(p, tables, going_on, D, Q, J, dF):
+    """dF: water at the nodes displaced by dY minus water where they are, where going_on holds.
+
+    Returns the largest change of dF by this call, and the largest dF.
     """
-    n = D.shape[0]
-    size = 0.0
-    dX[0, 0] = dX[0, 1] = 0.0
-    for k in range(1, n):
-        half = 0.5 * tables[p.grid_at + k - 1]
-        j = k - 1
-        dX[k, 0] = dX[j, 0] + half * (
-            D[k, 0] * Q[k, 0] - D[k, 4] * Q[k, 6] + D[j, 0] * Q[j, 0] - D[j, 4] * Q[j, 6]
-        )
-        dX[k, 1] = dX[j, 1] + half * (
-            D[k, 0] * Q[k, 1] + D[k, 4] * Q[k, 5] + D[j, 0] * Q[j, 1] + D[j, 4] * Q[j, 5]
-        )
-        size = larger(size, larger(abs(dX[k, 0]), abs(dX[k, 1])))
-    size = where(size > 0.0, size, 1.0)
-    nudge, back = NUDGE / size, 0.5 * size / NUDGE
-    for k in range(n):
-        for m in range(2):
-            X_plus[k, m] = X[k, m] + nudge * dX[k, m]
-            X_minus[k, m] = X[k, m] - nudge * dX[k, m]
-    node.water(p, tables, t, 1.0, X_plus, F_plus)
-    node.water(p, tables, t, 1.0, X_minus, F_minus)
-    change = 0.0
-    largest = 0.0
-    for k in range(n):
+    x = z = change = largest = 0.0
+    for k in range(D.shape[0]):
+        if k > 0:
+            half, j = 0.5 * tables[p.grid_at + k - 1], k - 1
+            x += half * (D[k, 0] * Q[k, 0] - D[k, 4] * Q[k, 6] + D[j, 0] * Q[j, 0] - D[j, 4] * Q[j, 6])
+            z += half * (D[k, 0] * Q[k, 1] + D[k, 4] * Q[k, 5] + D[j, 0] * Q[j, 1] + D[j, 4] * Q[j, 5])
         for m in range(4):
-            value = (F_plus[k, m] - F_minus[k, m]) * back
+            value = J[k, m] * x + J[k, 4 + m] * z
             change = larger(change, abs(value - dF[k, m]))
             largest = larger(largest, abs(value))
             dF[k, m] = where(going_on, value, dF[k, m])
@@ -110,14 +106,11 @@ def _displaced_water(p, tables, t, going_on, D, Q, X, dX, X_plus, X_minus, F_plu
 
 
 @kernel
-def tangent_stage(p, tables, t, rate, going_on, moving_water, Y, dC_tilde, dF, dC, Q, X, F, E, work):
+def tangent_stage(p, tables, rate, going_on, moving_water, Y, dC_tilde, dF, dC, Q, J, F, E, D, gamma):
     """dC (n, 4) of one vector at one stage whose matrix is in E; dF comes in as a first guess and is renewed.
 
-    Both where going_on holds, and there until dF is settled.
-
-    work: six unknowns (n, 6), gamma (n, 2), water (n, 4) twice, places (n, 2) three times.
+    Both where going_on holds, and there until dF is settled. D (n, 6), gamma (n, 2): work.
     """
-    D, gamma, F_plus, F_minus, dX, X_plus, X_minus = work
     n = Y.shape[0]
     for _ in range(WATER_ITERATIONS):
         _nodal_change(p, rate, moving_water, dC_tilde[:, 2:], F, Y, Q, dF, gamma)
@@ -130,9 +123,7 @@ def tangent_stage(p, tables, t, rate, going_on, moving_water, Y, dC_tilde, dF, d
             dC[k, 3] = where(going_on, D[k, 3], dC[k, 3])
         if moving_water == 0.0:
             break
-        change, largest = _displaced_water(
-            p, tables, t, going_on, D, Q, X, dX, X_plus, X_minus, F_plus, F_minus, dF
-        )
+        change, largest = _displaced_water(p, tables, going_on, D, Q, J, dF)
         going_on = going_on & (change > WATER_TOLERANCE * largest)
         if not some(going_on):
             break
@@ -171,8 +162,12 @@ def orthonormalise(weight, here, vectors, rates, lengths):
 
 
 @kernel
-def linearise(p, tables, t, rate, Y, K, X, F, C_tilde, Q, E, D):
-    """Newton's matrix, eliminated, at a stage Y with rates K: into E (n, 33); Q, F, X belong to it. D: work."""
+def linearise(p, tables, t, rate, moving_water, Y, K, X, F, C_tilde, Q, E, J, work):
+    """Newton's matrix, eliminated, at a stage Y with rates K: into E (n, 33); Q, F, X and J (n, 8) belong to it.
+
+    work: D (n, 6), places (n, 2), water (n, 4) twice.
+    """
+    D, X_moved, F_ahead, F_behind = work
     node.shape(p, tables, Y, Q, X)
     node.water(p, tables, t, 1.0, X, F)
     for k in range(Y.shape[0]):
@@ -181,18 +176,22 @@ def linearise(p, tables, t, rate, Y, K, X, F, C_tilde, Q, E, D):
             C_tilde[k, 2 + m] = Y[k, 2 + m] - K[k, 2 + m] / rate
     node.node_quantities(p, tables, rate, rate, 1.0, Y, C_tilde, F, Q)
     sweep.sweep_bent(p, tables, t, rate, rate, 1.0, Y, C_tilde, F, Q, E, D)
+    if moving_water > 0.0:
+        water_slopes(p, tables, t, X, X_moved, F_ahead, F_behind, J)
 
 
 @kernel
 def carry_stage(
-    p, tables, t, rate, a, count, here, moving_water, Y, v, vectors, dKs, waters, dC_tilde, dCs, Q, X, F, E, work
+    p, tables, rate, a, count, here, moving_water, Y, v, vectors, dKs, waters, dC_tilde, dCs, Q, J, F, E, D, gamma
 ):
-    """Perturbation number v through one linearised stage, where `here` holds: into dCs[v], from vectors[v] and the first `count` dKs[v]."""
+    """Perturbation number v through one linearised stage, where `here` holds: into dCs[v], from vectors[v] and the
+    first `count` of dKs[v].
+    """
     for k in range(Y.shape[0]):
         for m in range(4):
             dC_tilde[k, m] = vectors[v, k, m]
         add_rates(p, a, count, dKs[v], k, dC_tilde[k])
-    tangent_stage(p, tables, t, rate, here, moving_water, Y, dC_tilde, waters[v], dCs[v], Q, X, F, E, work)
+    tangent_stage(p, tables, rate, here, moving_water, Y, dC_tilde, waters[v], dCs[v], Q, J, F, E, D, gamma)
 
 
 @kernel
@@ -216,9 +215,9 @@ def carry(p, tables, period, count, T, trail_Y, trail_K, vectors, rates, waters,
     """
     number, n, s = vectors.shape[0], vectors.shape[1], trail_Y.shape[1]
     X, F, Q = np.zeros((n, 2)), np.zeros((n, 4)), np.zeros((n, node.WIDTH))
-    E, D, C_tilde = np.zeros((n, sweep.WITH_INVERSE)), np.zeros((n, 6)), np.zeros((n, 4))
-    places = np.zeros((n, 2)), np.zeros((n, 2)), np.zeros((n, 2))
-    work = (np.zeros((n, 6)), np.zeros((n, 2)), np.zeros((n, 4)), np.zeros((n, 4)), *places)
+    E, C_tilde, J = np.zeros((n, sweep.WITH_INVERSE)), np.zeros((n, 4)), np.zeros((n, 8))
+    D, gamma = np.zeros((n, 6)), np.zeros((n, 2))
+    work = (D, np.zeros((n, 2)), np.zeros((n, 4)), np.zeros((n, 4)))
     dCs, dKs, dC_tilde = np.zeros((number, n, 4)), np.zeros((number, s, n, 4)), np.zeros((n, 4))
     a, w, lengths = np.empty(s), np.empty(3), np.empty(number)
     moving_water = water_moves(p)
@@ -228,12 +227,12 @@ def carry(p, tables, period, count, T, trail_Y, trail_K, vectors, rates, waters,
             copy_into(dKs[v, 0], rates[v])
         for i in range(s - 1 if euler else 1, s):
             rate, after = plan_stage(p, tables, i, euler, dt, 0.0, a, w)
-            Y = trail_Y[step, i]
-            linearise(p, tables, t + after, rate, Y, trail_K[step, i], X, F, C_tilde, Q, E, D)
+            Y, known = trail_Y[step, i], 0 if euler else i
+            linearise(p, tables, t + after, rate, moving_water, Y, trail_K[step, i], X, F, C_tilde, Q, E, J, work)
             for v in range(number):
                 carry_stage(
-                    p, tables, t + after, rate, a, 0 if euler else i, True, moving_water, Y, v, vectors, dKs,
-                    waters, dC_tilde, dCs, Q, X, F, E, work,
+                    p, tables, rate, a, known, True, moving_water, Y, v, vectors, dKs, waters, dC_tilde, dCs,
+                    Q, J, F, E, D, gamma,
                 )  # fmt: skip
                 for k in range(n):
                     for m in range(4):

@@ -73,10 +73,8 @@ def follow(records, tables, trail, trails, periods, nats, lateral_nats, sideways
     vectors, rates, waters, dKs, dCs = as_lanes(vectors), as_lanes(rates), as_lanes(waters), as_lanes(dKs), as_lanes(dCs)
     X, F, Q, E, D = as_lanes(work[0]), as_lanes(work[1]), as_lanes(work[2]), as_lanes(work[3]), as_lanes(work[4])
     C_tilde, dC_tilde, dK_new = as_lanes(work[5]), as_lanes(work[6]), as_lanes(work[7])
-    room = (
-        as_lanes(work[8]), as_lanes(work[9]), as_lanes(work[10]), as_lanes(work[11]), as_lanes(work[12]),
-        as_lanes(work[13]), as_lanes(work[14]),
-    )  # fmt: skip
+    J, gamma = as_lanes(work[8]), as_lanes(work[9])
+    room = D, as_lanes(work[10]), as_lanes(work[11]), as_lanes(work[12])
     weights, across, across_rates, dK, dC = (
         as_lanes(lateral[0]), as_lanes(lateral[1]), as_lanes(lateral[2]), as_lanes(lateral[3]), as_lanes(lateral[4]),
     )  # fmt: skip
@@ -88,15 +86,15 @@ def follow(records, tables, trail, trails, periods, nats, lateral_nats, sideways
         t, rate = rows[TIME], rows[RATE]
         begun, ended, busy = rows[BEGUN] != 0.0, rows[ENDED] != 0.0, rows[BUSY] != 0.0
         if count > 0:
-            linearise(p, grid, t, rate, Y, K, X, F, C_tilde, Q, E, D)
+            linearise(p, grid, t, rate, moving_water, Y, K, X, F, C_tilde, Q, E, J, room)
         else:
             node.shape(p, grid, Y, Q, X)
             node.water(p, grid, t, 1.0, X, F)
         for v in range(count):
             keep(begun, rates[v], dKs[v, 0])
             carry_stage(
-                p, grid, t, rate, a, s - 1, busy, moving_water, Y, v, vectors, dKs, waters, dC_tilde, dCs,
-                Q, X, F, E, room,
+                p, grid, rate, a, s - 1, busy, moving_water, Y, v, vectors, dKs, waters, dC_tilde, dCs,
+                Q, J, F, E, D, gamma,
             )  # fmt: skip
             for k in range(Y.shape[0]):
                 for m in range(4):

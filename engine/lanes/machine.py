@@ -13,7 +13,7 @@ from .record import REAL, WHOLE
 from .ticks import LANE, MOVED, RATE, RESTARTED, ROWS, STEP, advance
 from .vector import COUNT, lane_zeros
 
-STEPS = 24  # of a trail before it is followed
+STEPS = 50  # of a trail before it is followed: lanes with fewer by then wait for the others
 TICKS = 20_000  # between two looks at the clock and at Ctrl-C: a tenth of a second
 # of the whole numbers these decide nothing within the vectors
 OWN = ("at_rest", "max_newton", "max_releases", "release", "end_at")
