@@ -1,7 +1,7 @@
 """Runs of a campaign that share a worker: the engine computes several at once faster than one after another.
 
-A group of jobs goes to a worker as one task. The worker saves every run, and makes its row, as soon as it ends, so that
-a killed campaign loses what was running and nothing else. Whatever a group leaves undone - the engine raised, the worker
+A group of jobs goes to a worker as one task. The worker saves every run, and makes its row, as soon as it ends: a
+killed campaign loses what was running and nothing else. What a group leaves undone - the engine raised, the worker
 died - is left to `campaigns.runner`, which runs it job by job and finds on disk what was finished.
 """
 

@@ -11,7 +11,7 @@ from llvmlite import ir
 from numba.core import types
 from numba.extending import intrinsic
 
-from .lanes.vector import LaneMask, Lanes, call_intrinsic
+from .lanes.vector import LaneMask, Lanes
 
 
 def _widest(*kinds):

@@ -80,9 +80,9 @@ def kernel(function):
     if folder is not None:
         config.CACHE_DIR = str(folder)
     try:
-        return numba.njit(
-            cache=folder is not None, nogil=True, error_model="numpy", boundscheck=False
-        )(with_fused_sums(function))
+        return numba.njit(cache=folder is not None, nogil=True, error_model="numpy", boundscheck=False)(
+            with_fused_sums(function)
+        )
     finally:
         config.CACHE_DIR = saved
 

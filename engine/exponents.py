@@ -50,9 +50,7 @@ class Trail:
         state["trail"] = 0
         self.mark(self.steps[0][:count])
         if self.count:
-            carry(
-                record, tables, self.period_s, count, *self.steps, self.vectors, self.rates, self.waters, self.nats
-            )
+            carry(record, tables, self.period_s, count, *self.steps, self.vectors, self.rates, self.waters, self.nats)
         if self.sideways:
             vector = self.weights, self.lateral, self.lateral_rates
             carry_lateral(record, tables, self.period_s, count, *self.steps, *vector, self.lateral_nats)

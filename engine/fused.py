@@ -1,7 +1,7 @@
 """a * b + c as one operation with one rounding, decided in the source of a kernel and not by LLVM.
 
-LLVM may fuse a product and a sum where it is allowed to, and decides by what surrounds them: for a number otherwise than
-for a vector of numbers, on one processor otherwise than on another. A run that shares a batch with others
+LLVM may fuse a product and a sum where it is allowed to, and decides by what surrounds them: for a number otherwise
+than for a vector of numbers, on one processor otherwise than on another. A run that shares a batch with others
 (`engine.lanes`) would then differ from the same run alone. So the decorator `engine.compiled.kernel` writes, before
 anything is compiled, every sum or difference with a product in it as a call of `fused`:
 
@@ -106,5 +106,9 @@ def with_fused_sums(function):
     )
     function.__globals__[NAME] = fused
     changed = python_types.FunctionType(code, function.__globals__, function.__name__, function.__defaults__)
-    changed.__doc__, changed.__module__, changed.__qualname__ = function.__doc__, function.__module__, function.__qualname__
+    changed.__doc__, changed.__module__, changed.__qualname__ = (
+        function.__doc__,
+        function.__module__,
+        function.__qualname__,
+    )
     return changed

@@ -25,7 +25,9 @@ from .sampling import sample
 from .shocks import renew_viscosity
 from .steps import least_strain, one_stage_step, runge_kutta_step
 
-_COUNTS = "status samples profiles small_steps steps rejected newton failures releases attempts cautious trail small cut"
+_COUNTS = (
+    "status samples profiles small_steps steps rejected newton failures releases attempts cautious trail small cut"
+)
 _VALUES = "t dt dt_before low high max_turn min_strain window_end trial_dt corner"
 STATE = np.dtype([(name, np.int64) for name in _COUNTS.split()] + [(name, np.float64) for name in _VALUES.split()])
 SMALL_STEPS = 3

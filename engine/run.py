@@ -1,4 +1,4 @@
-"""One run: its numbers from the static start to the trajectory, whoever advances it - `engine.march` or `engine.lanes`."""
+"""One run: its numbers from the static start to the trajectory; `engine.march` or `engine.lanes` advances it."""
 
 import math
 import time
@@ -139,8 +139,8 @@ def _columns(samples, heading):
     """Columns of the table; the angle from the vertical is taken in the plane of waves that travel along `heading`."""
     t, x, y, z, u, v, w = samples[:, :7].T
     r = np.sqrt(x**2 + y**2 + z**2) if y.any() else np.hypot(x, z)
-    along, rate = (x, u) if heading == 0 else tuple(
-        np.cos(heading) * a + np.sin(heading) * b for a, b in ((x, y), (u, v))
+    along, rate = (
+        (x, u) if heading == 0 else tuple(np.cos(heading) * a + np.sin(heading) * b for a, b in ((x, y), (u, v)))
     )
     with np.errstate(invalid="ignore", divide="ignore"):
         radius_rate = (x * u + y * v + z * w) / np.where(r > 0, r, np.nan)

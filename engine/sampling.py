@@ -43,7 +43,8 @@ def sample(p, tables, state, dt, hermite, C0, K0, C1, K1, samples, profiles):
         complete_sample(state, out, t, row[n - 1, 4], least)
     while state.profiles < profiles.shape[0] and state.profiles * p.profile_step <= end:
         t = state.profiles * p.profile_step
-        configuration(p, tables, weights_within(hermite, (t - state.t) / dt, dt), C0, K0, C1, K1, profiles[state.profiles])
+        weights = weights_within(hermite, (t - state.t) / dt, dt)
+        configuration(p, tables, weights, C0, K0, C1, K1, profiles[state.profiles])
         state.profiles += 1
     note_top(state, tension(last_strain(p, C1), p, tables)[0])
 

@@ -1,6 +1,7 @@
 """Scene in, trajectory out: the driver of the kernels, for one scene or a batch."""
 
 import math
+from functools import partial
 
 from .run import Run
 
@@ -56,7 +57,7 @@ def simulate_each(scenes, periods=None, duration_s=None, progress=None):
 
     groups = batch.shares(jobs)
     for group in groups:
-        for i, run in batch.run_through(group, lambda fraction, count=len(group): share(fraction, count)):
+        for i, run in batch.run_through(group, partial(share, count=len(group))):
             yield i, run.trajectory()
         ended += len(group)
     alone = {i for i, _, _ in jobs} - {i for group in groups for i, _, _ in group}

@@ -2,7 +2,11 @@
 
 
 def goes_in_lanes(scene):
-    """May this scene share a batch? Planar, adaptive, a buoy at the end, no tables but a uniform current's, no profiles."""
+    """May this scene share a batch: planar, by a Runge-Kutta method, a buoy at the end, nothing looked up in a table?
+
+    bool. Held and free ends, tabulated laws, currents with a profile and profiles of the line are left out because no
+    sweep needs them, not because they could not: each would want its branches written as choices (`engine.choose`).
+    """
     return (
         scene.solver.scheme != "paper-box"
         and scene.motion.dimensions == 2

@@ -70,7 +70,13 @@ def follow(records, tables, trail, trails, periods, nats, lateral_nats, sideways
     values, in_lanes, numbers, a_all, w_all, Y_all, K_all, vectors, rates, waters, dKs, dCs = arrays
     p = lane_record(counts, as_lanes(values))
     grid, rows, a, Y, K = as_lanes(in_lanes), as_lanes(numbers), as_lanes(a_all), as_lanes(Y_all), as_lanes(K_all)
-    vectors, rates, waters, dKs, dCs = as_lanes(vectors), as_lanes(rates), as_lanes(waters), as_lanes(dKs), as_lanes(dCs)
+    vectors, rates, waters, dKs, dCs = (
+        as_lanes(vectors),
+        as_lanes(rates),
+        as_lanes(waters),
+        as_lanes(dKs),
+        as_lanes(dCs),
+    )
     X, F, Q, E, D = as_lanes(work[0]), as_lanes(work[1]), as_lanes(work[2]), as_lanes(work[3]), as_lanes(work[4])
     C_tilde, dC_tilde, dK_new = as_lanes(work[5]), as_lanes(work[6]), as_lanes(work[7])
     J, gamma = as_lanes(work[8]), as_lanes(work[9])

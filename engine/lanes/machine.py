@@ -114,9 +114,7 @@ class Machine:
         for b in taken:
             trails[b] = self.states[b]["trail"]
             self.runs[b].trail.mark(self.trail[0][b, : trails[b]])
-        self.followers.follow(
-            self.records, self.tables, self.trail, trails, self.counts, self.values, self.in_lanes
-        )
+        self.followers.follow(self.records, self.tables, self.trail, trails, self.counts, self.values, self.in_lanes)
         for b in taken:  # the step that a lane is in the middle of begins the next trail
             if trails[b] < STEPS:
                 for part in self.trail:

@@ -3,6 +3,8 @@
 Whole numbers are common to all lanes, so that kernels may branch on them; floats are vectors.
 """
 
+from typing import ClassVar
+
 import numpy as np
 from numba.core import cgutils, types
 from numba.core.typing.templates import AttributeTemplate, infer_getattr
@@ -19,10 +21,8 @@ REAL = tuple(name for name in RECORD.names if RECORD[name] == np.float64)
 class LaneRecord(types.Type):
     """Parameters of `count` planar runs (`engine.parameters.RECORD`)."""
 
-    fields = {
-        name: (whole, row)
-        for whole, group in ((True, WHOLE), (False, REAL))
-        for row, name in enumerate(group)
+    fields: ClassVar[dict] = {
+        name: (whole, row) for whole, group in ((True, WHOLE), (False, REAL)) for row, name in enumerate(group)
     }
 
     def __init__(self, count):

@@ -15,9 +15,9 @@ import operator
 import numpy as np
 from llvmlite import ir
 from numba.core import cgutils, types
+from numba.core.typeconv import Conversion
 from numba.core.typing.templates import AbstractTemplate, infer_global, signature
 from numba.extending import intrinsic, lower_builtin, lower_cast, models, register_model
-from numba.core.typeconv import Conversion
 from numba.np import arrayobj
 
 COUNT = 8  # lanes of a batch: one AVX-512 register; two or four registers elsewhere
@@ -150,7 +150,13 @@ for _function, _name in (
     (operator.iadd, "fadd"), (operator.isub, "fsub"), (operator.imul, "fmul"), (operator.itruediv, "fdiv"),
 ):  # fmt: skip
     _define(_function, (Lanes, Lanes), Lanes, _instruction(_name))
-for _function, _symbol in ((operator.lt, "<"), (operator.le, "<="), (operator.gt, ">"), (operator.ge, ">="), (operator.eq, "==")):
+for _function, _symbol in (
+    (operator.lt, "<"),
+    (operator.le, "<="),
+    (operator.gt, ">"),
+    (operator.ge, ">="),
+    (operator.eq, "=="),
+):
     _define(_function, (Lanes, Lanes), LaneMask, _comparison(_symbol))
 _define(operator.ne, (Lanes, Lanes), LaneMask, lambda builder, a, b: builder.fcmp_unordered("!=", a, b))
 _define(operator.neg, (Lanes,), Lanes, _instruction("fneg"))

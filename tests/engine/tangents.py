@@ -114,7 +114,17 @@ class Copy:
         run = self.run
         state = (self.Y, self.Y_before, self.C, self.K)
         return runge_kutta_step(
-            run.record, run.tables, t, dt, self.dt_before, bool(one_stage), *state, self.Ys, self.Ks, self.C_new, self.work
+            run.record,
+            run.tables,
+            t,
+            dt,
+            self.dt_before,
+            bool(one_stage),
+            *state,
+            self.Ys,
+            self.Ks,
+            self.C_new,
+            self.work,
         )[0]
 
 

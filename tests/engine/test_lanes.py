@@ -101,7 +101,7 @@ def test_runs_of_different_lengths_share_a_batch():
 ENDINGS = {  # status word -> what makes a run of the batch end so
     "turn-unresolved": {"solver.max_loop_releases": 0},
     "step-underflow": {"solver.rtol": 1e-7, "solver.min_step_s": 0.01},
-    "step-limit": {"solver.rtol": 1e-12, "solver.newton_tolerance": 1e-14},
+    "step-limit": {"solver.rtol": 1e-14, "solver.newton_tolerance": 1e-14, "tether.nodes": 21},
     "newton-failed": {"solver.min_step_s": 0.01, "solver.max_newton_iterations": 2},
     "not-finite": {"start.buoy_velocity_mps": [0.0, 0.0, -1e200]},
     "strain-below-minus-one": {"start.buoy_velocity_mps": [0.0, 0.0, -900.0]},
@@ -111,8 +111,9 @@ ENDINGS = {  # status word -> what makes a run of the batch end so
 
 @pytest.mark.parametrize("word", ENDINGS)
 def test_a_run_that_ends_early_disturbs_no_other(word):
-    good = lots({"tether.nodes": 41}, (0.1, 0.13, 0.15))
-    lost = load_scene("tethered_buoy", STEEP | {"tether.nodes": 41} | ENDINGS[word])
+    nodes = {"tether.nodes": ENDINGS[word].get("tether.nodes", 41)}
+    good = lots(nodes, (0.1, 0.13, 0.15))
+    lost = load_scene("tethered_buoy", STEEP | nodes | ENDINGS[word])
     runs = simulate_batch([good[0], lost, *good[1:]], duration_s=60.0)
     alone = simulate(lost, duration_s=60.0)
     assert alone.status == word
@@ -129,7 +130,8 @@ def test_the_endings_are_all_there_are():
 
 def test_runs_come_as_they_end():
     """A run that ends early is handed out while the others go on, and one in a lane of its own waits for none."""
-    scenes = lots({"tether.nodes": 11}, (0.05, 0.08, 0.1)) + [load_scene("tethered_buoy", STEEP | {"tether.nodes": 11, "solver.max_loop_releases": 0})]
+    short = load_scene("tethered_buoy", STEEP | {"tether.nodes": 11, "solver.max_loop_releases": 0})
+    scenes = [*lots({"tether.nodes": 11}, (0.05, 0.08, 0.1)), short]
     order = [i for i, _ in simulate_each(scenes, duration_s=150.0)]
     assert order[0] == 3 and sorted(order) == [0, 1, 2, 3]
 
