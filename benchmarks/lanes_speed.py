@@ -4,8 +4,8 @@
 
 Sweep    the buoy at H = 21.6 m, 41 nodes, default tolerance; steepnesses evenly from 0.05 to 0.16, 48 of them, 40 wave
          periods each: without perturbations, and with those that a campaign of more than 40 periods carries.
-Figure   wave periods a second and core: of processor time (`time.process_time`), and of wall time with two processes.
-Noise    The four settings take turns; medians over the rounds. Compilation and statics are outside the first figure, and
+Figure   wave periods a second and core: of processor time (`process_time`), and of wall time with two processes.
+Noise    The settings take turns; medians over the rounds. Compilation and statics are outside the first figure, and
          one call before the clock starts keeps compilation out of the second.
 Equal    every trajectory of the batch is compared with the run alone, bit for bit.
 --diagram  the campaign itself: `campaigns.buoy_sweep`, 400 steepnesses, 300 periods, two workers, with its report,

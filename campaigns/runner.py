@@ -16,6 +16,7 @@ from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
 
+from campaigns.cli import Running
 from campaigns.folder import CampaignStopped, Table, is_full, trajectory_path
 from campaigns.pools import PoolBroken, opened
 from campaigns.row_store import keep_row, kept_row
@@ -75,6 +76,14 @@ class Plan:
     show_progress: bool = True
     row_maker: str = ""
     simulate_each: Callable | None = None
+
+
+def plan_of(
+    how: Running, simulate: Callable, describe: Callable, columns: tuple[str, ...], row_maker: str, **more
+) -> Plan:
+    """The plan of a campaign as its command line wants it done; more: further fields of the plan."""
+    where = how.backend, how.jobs, how.dask_address
+    return Plan(how.out, simulate, describe, columns, *where, row_maker=row_maker, **more)
 
 
 def make_job(scene, periods: float | None = None, duration_s: float | None = None, labels: dict | None = None) -> Job:

@@ -9,10 +9,11 @@ import shlex
 import sys
 import time
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 
 from campaigns import cli, provenance
-from campaigns.folder import CampaignStopped, trajectory_path
+from campaigns.folder import CampaignStopped, claimed, trajectory_path
 from campaigns.runner import Job, Plan, Summary, run_campaign, write_failure
 from campaigns.side_by_side import grouped
 
@@ -36,6 +37,21 @@ def guarded(module: str, argv: list[str], out: Path, work: Callable[[], int]) ->
     return cli.EXIT_FAILED
 
 
+def conduct(campaign: str, module: str, argv: list[str], plan: Plan, jobs: list[Job], parameters: dict, **how) -> int:
+    """A campaign of simulations from its first run to its last word; returns the exit code.
+
+    how: report, whether one is wanted; runs(plan, jobs), in place of `run`. Raises CampaignStopped, OSError and
+    KeyboardInterrupt, for `guarded`.
+    """
+    start, wanted = time.perf_counter(), how.get("report", True)
+    with claimed(plan.directory):
+        record = begin(campaign, module, argv, plan, jobs, parameters)
+        timing, summary = how.get("runs", run)(plan, jobs)
+        finish(plan.directory, record, summary, timing)
+        fault = report(plan.directory, wanted, timing, start)
+    return say(plan.directory, summary, timing, wanted, fault)
+
+
 def begin(campaign: str, module: str, argv: list[str], plan: Plan, jobs: list[Job], parameters: dict) -> dict:
     """Write scene.toml and, where this session is a new one, provenance.json; returns the record for `finish`."""
     from engine.atomic import write_atomic
@@ -49,8 +65,11 @@ def begin(campaign: str, module: str, argv: list[str], plan: Plan, jobs: list[Jo
     return record
 
 
-def run(plan: Plan, jobs: list[Job]) -> tuple[dict[str, float], Summary]:
-    """Compile and do the runs; returns the times of both and the summary."""
+def run(plan: Plan, jobs: list[Job], compile_run_s: float = _COMPILE_RUN_S) -> tuple[dict[str, float], Summary]:
+    """Compile and do the runs; returns the times of both and the summary.
+
+    compile_run_s: length of the run that only compiles, long enough for the scenes at hand to go through every kernel.
+    """
     missing = [job for job in jobs if not trajectory_path(plan.directory, job.key).exists()]
     # A plane, space, and runs side by side have machine code of their own.
     groups = grouped(plan, missing)
@@ -60,9 +79,9 @@ def run(plan: Plan, jobs: list[Job]) -> tuple[dict[str, float], Summary]:
     if missing:
         print("compiling the engine, or loading it compiled ...", file=sys.stderr)
     for job in first_of_a_kind.values():
-        _compile(plan.simulate, job.scene)
+        _compile(plan.simulate, job.scene, compile_run_s)
     for group in groups[:1]:
-        _compile(lambda scene, **length: list(plan.simulate_each([scene, scene], **length)), group.jobs[0].scene)
+        _compile(partial(_a_pair, plan.simulate_each), group.jobs[0].scene, compile_run_s)
     timing = {"compile_s": time.perf_counter() - start}
     start = time.perf_counter()
     summary = run_campaign(plan, jobs)
@@ -70,10 +89,14 @@ def run(plan: Plan, jobs: list[Job]) -> tuple[dict[str, float], Summary]:
     return timing, summary
 
 
-def _compile(simulate: Callable, scene: object) -> None:
+def _a_pair(simulate_each: Callable, scene: object, duration_s: float) -> None:
+    list(simulate_each([scene, scene], duration_s=duration_s))
+
+
+def _compile(simulate: Callable, scene: object, duration_s: float) -> None:
     # Two workers that start together would each compile for ten seconds; after this they find the code on disk.
     try:
-        simulate(scene, duration_s=_COMPILE_RUN_S)
+        simulate(scene, duration_s=duration_s)
     except Exception as error:
         # Not the place to judge a scene: the run itself fails in the same way, and that failure becomes its row.
         print(f"the first simulation failed ({type(error).__name__}); its run will say why", file=sys.stderr)

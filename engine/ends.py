@@ -7,9 +7,9 @@ e_N the factor of dN (1 or 0) and D = de/dV:
     held   e = V - V_e(t), V_e the velocity at which the end is moved; after its release e = N - F
     free   e = N - F, where it breaks F cos^2(pi t/(2 t_br)) until t_br and nothing after
 
-The place of a held end follows from V by integration: it is off by what the tolerances of a run leave (at the default
-ones 0.4 mm after four oscillations of 1 m). In statics V is a displacement, and V_e the one that is left to go
-(`engine.statics` puts it into end_x ... end_z).
+The place of a held end follows from V by integration: it is off by what Newton's method leaves over, 1 mm after ten
+oscillations of 1 m at the default tolerances, 1e-6 m where solver.newton_tolerance = 1e-8 (`docs/held_lines.md`). In
+statics V is a displacement, and V_e the one that is left to go (`engine.statics` puts it into end_x ... end_z).
 
 Motion of a held end in `tables`, n numbers or knots: velocities, since the displacement follows from them:
     harmonic  [amplitude x y z | omega | phase | ramp];  displacement amplitude r(t) sin(omega t + phase), r the ramp

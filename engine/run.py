@@ -5,7 +5,7 @@ import time
 
 import numpy as np
 
-from . import parameters
+from . import energy, parameters
 from .ends import HELD
 from .exponents import Trail
 from .guards import ADVICE, OK, TURN_UNRESOLVED, WORDS
@@ -15,14 +15,14 @@ from .planar import state as planar
 from .spatial import lift
 from .spatial import state as spatial
 from .statics import first_guess, settle
-from .trajectory import Profiles, Trajectory
+from .trajectory import EnergyBudget, Profiles, Trajectory
 
 
 class Run:
     """Arrays of one run of a scene over `duration_s`.
 
     record, tables: its parameters; state: (1,) STATE; Y, Y_before (n, unknowns), C, K (n, conserved); samples
-    (goal, 12), profiles (m, n, 6); wall_s: what advancing it has taken.
+    (goal, 12), profiles (m, n, 6), energies (m', 9), sums (5,) (`engine.energy`); wall_s: what advancing it has taken.
     """
 
     def __init__(self, scene, duration_s):
@@ -36,6 +36,7 @@ class Run:
         profiled = _count(duration_s, self.record["profile_step"]) if self.record["profile_step"] > 0 else 0
         unknowns, conserved = self.kind.size_of.py_func(None)
         self.samples, self.profiles = np.zeros((self.goal, 12)), np.zeros((profiled, n, 6))
+        self.energies, self.sums = np.zeros((self.goal if scene.output.energy else 0, energy.WIDTH)), np.zeros(5)
         self.state = np.zeros(1, STATE)[0]
         self.Y, self.C, self.K = np.zeros((n, unknowns)), np.zeros((n, conserved)), np.zeros((n, conserved))
         self.trail = Trail(scene, self.record, self.tables, duration_s)
@@ -86,7 +87,7 @@ class Run:
         while True:
             march(
                 self.record, self.tables, self.state, self.Y, self.Y_before, self.C, self.K, self.samples,
-                self.profiles, *self.trail.steps, until,
+                self.profiles, self.energies, self.sums, *self.trail.steps, until,
             )  # fmt: skip
             self.trail.follow(self.record, self.tables, self.state)
             if self.state["status"] != OK or self.state["samples"] >= until:
@@ -114,7 +115,15 @@ class Run:
         heading = float(scene.waves.direction_rad) if self.kind is spatial and scene.waves is not None else 0.0
         columns = _columns(self.samples[: min(int(state["samples"]), self.goal)], heading)
         profiles, tangent = self._profiles(record, state), self.trail.growth(state)
-        return Trajectory(scene, WORDS[status], message, columns, statistics, profiles, tangent)
+        return Trajectory(scene, WORDS[status], message, columns, statistics, profiles, tangent, self._budget())
+
+    def _budget(self):
+        if not self.scene.output.energy:
+            return None
+        rows = self.energies[: int(self.state["energies"])]
+        time_s, kinetic, strain, gravity, work, shear, viscous, space, powers = rows.T.copy()
+        total = kinetic + strain + gravity
+        return EnergyBudget(time_s, kinetic, strain, gravity, work, shear, viscous, space, powers - (total - total[:1]))
 
     def _profiles(self, record, state):
         count = int(state["profiles"])

@@ -7,8 +7,8 @@ linear solve with Newton's matrix at the converged state (`engine.planar.resolve
 
 dF = J dX is the change of the water at the displaced nodes. It depends on dY through the positions dX, which Newton's
 matrix leaves out; a fixed-point iteration puts it back, contracting by about the square of wave number times length.
-The perturbations are re-orthonormalised (Gram-Schmidt) after every step, in the norm |dq|^2 + |dV|^2/speed^2 summed over
-the nodes; the logarithms of their lengths add up to the growth of each period.
+The perturbations are re-orthonormalised (Gram-Schmidt) after every step, in the norm |dq|^2 + |dV|^2/speed^2 summed
+over the nodes; the logarithms of their lengths add up to the growth of each period.
 
 A loop release changes neither t, n, q nor V, so C, and with it dC, goes through it unchanged; the backward Euler steps
 that follow start from C alone. What the release itself does - another tether shape from one moment to the next - is not

@@ -16,4 +16,5 @@ def goes_in_lanes(scene):
         and scene.tether.tension.law != "tabulated"
         and (scene.current is None or scene.current.law == "uniform")
         and scene.output.profiles is False
+        and not scene.output.energy
     )

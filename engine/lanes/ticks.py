@@ -184,7 +184,7 @@ def end_steps(records, tables, states, numbers, Y, one):
             copy_into(one, Y[:, :, b])
             code, released = guard_turns(p, tables[b], state, one)
             copy_into(Y[:, :, b], one)
-        next_step(p, state, code, released, numbers[ERROR, b])
+        next_step(p, state, code, released, numbers[ERROR, b], p.fixed_step)
 
 
 @kernel

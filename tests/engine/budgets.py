@@ -35,7 +35,7 @@ def accepted_steps(scene, duration_s):
     while state["status"] == 0 and state["samples"] < run.goal:
         state["trail"] = 0
         march(p, run.tables, state, run.Y, run.Y_before, run.C, run.K, run.samples,
-              run.profiles, *trail, run.goal)  # fmt: skip
+              run.profiles, run.energies, run.sums, *trail, run.goal)  # fmt: skip
         if state["trail"]:
             t, dt, kind = trail[0][0]
             yield t, dt, kind == 0.0, trail[1][0], trail[2][0]

@@ -40,7 +40,7 @@ class Run:
             self.state["trail"] = 0
             march(
                 self.record, self.tables, self.state, inner.Y, inner.Y_before, inner.C, inner.K,
-                inner.samples, inner.profiles, self.T, self.Ys, self.Ks, inner.goal,
+                inner.samples, inner.profiles, inner.energies, inner.sums, self.T, self.Ys, self.Ks, inner.goal,
             )  # fmt: skip
             assert self.state["status"] == OK
             yield int(self.state["trail"])

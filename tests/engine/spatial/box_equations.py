@@ -11,9 +11,10 @@ import numpy as np
 
 from engine.parameters import record_of
 from engine.spatial.node import WIDTH, node_quantities, shape
-from engine.spatial.sweep import CLAMP, sweep
-from engine.spatial.sweep import WIDTH as SWEEP_WIDTH
+from engine.spatial.rows import WIDTH as SWEEP_WIDTH
+from engine.spatial.sweep import sweep
 from engine.spatial.sweep_unbent import sweep_unbent
+from engine.spatial.upper import CLAMP
 from tests.engine.box_equations import elements, tension
 
 

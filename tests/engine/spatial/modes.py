@@ -6,7 +6,9 @@ of the engine for small changes of C~, turned into changes of (q, V): dq = deps 
 
 import numpy as np
 
-from engine.spatial import node, sweep
+from engine.spatial import node
+from engine.spatial.rows import WIDTH
+from engine.spatial.sweep import sweep
 from engine.spatial.sweep_unbent import sweep_unbent
 from tests.engine.modes import CHANGE
 
@@ -16,8 +18,8 @@ def rates(motion, rate):
     Y, record, tables = motion.Y, motion.record, motion.tables
     n = len(Y)
     X, F, Q = np.zeros((n, 3)), np.zeros((n, 6)), np.zeros((n, node.WIDTH))
-    E, D = np.zeros((n, sweep.WIDTH)), np.zeros((n, 12))
-    solve = sweep.sweep if record["bent"] else sweep_unbent
+    E, D = np.zeros((n, WIDTH)), np.zeros((n, 12))
+    solve = sweep if record["bent"] else sweep_unbent
     node.shape(record, tables, Y, Q, X)
     node.water(record, tables, 0.0, 1.0, X, F)
     lam, t, normal, b = Q[:, 4:5].copy(), Q[:, 0:3].copy(), Q[:, 14:17].copy(), Q[:, 17:20].copy()

@@ -96,7 +96,7 @@ def symmetric(rod, guess):
 
     z, info, _, message = fsolve(miss, guess, full_output=True, xtol=1e-12)
     assert np.abs(info["fvec"]).max() < 1e-10, message
-    x, t, n, M = end_of(z).reshape(4, 3)
+    _, t, _, M = end_of(z).reshape(4, 3)
     return z, M @ t
 
 

@@ -72,7 +72,7 @@ def test_twist_and_writhe_are_the_turn_of_the_clamps(m):
 
 @pytest.mark.parametrize("slack, lost", [(1.1, 0), (1.2, 2)])
 def test_link_is_kept_until_the_rope_passes_through_itself(slack, lost):
-    """The shipped rope, twisted by 1.25 turns: a loop at 1.1 m of slack, and at 1.2 m the loop has thrown itself over."""
+    """The shipped rope, twisted by 1.25 turns: a loop at 1.1 m of slack; at 1.2 m it has thrown itself over."""
     rows = [[0, 0, 0], [0, 0, 0], [0, 0, -slack], [0, 0, -slack]]
     scene = load_scene("twisted_rope", {"end.motion.displacement_m": rows, "output.step_s": 5.0})
     motion = Motion(scene, 100.0)
