@@ -4,8 +4,8 @@ their energy. A state is Y (n, 6) = (eps, S, U, W, phi, kappa), as in `engine.pl
 import numpy as np
 
 from engine import load_scene
-from engine.parameters import tension_at
 from engine.run import Run
+from engine.scales import tension_at
 
 DRY = {"water": None, "waves": None}
 STILL = {"waves": None}

@@ -9,7 +9,8 @@ import numpy as np
 import pytest
 from scipy.interpolate import PchipInterpolator
 
-from engine.parameters import record_of, strain_at, tension_at
+from engine.parameters import record_of
+from engine.scales import strain_at, tension_at
 from engine.tension import stored, tension
 from tests.engine.lines import line
 
