@@ -170,11 +170,12 @@ def sweep(order: Order, argv: list[str], simulate) -> int:
     from campaigns.seeds import SEED_MPS
     from campaigns.sweep_dimensions import run_where_needed
 
+    simulate_each = None
     if simulate is None:
-        from engine import simulate
+        from engine import simulate, simulate_each
     describe = partial(buoy_row, transient_periods=order.transient, simulate=simulate)
     maker = made_by({"transient": order.transient}, "analysis", "engine", "campaigns/rows.py", "reports/buoy_motion.py")
-    plan = plan_of(order.how, simulate, describe, COLUMNS, maker)
+    plan = plan_of(order.how, simulate, describe, COLUMNS, maker, simulate_each=simulate_each)
     jobs = [
         make_job(scene, order.periods, labels={"steepness": value, "dimensions": scene.motion.dimensions})
         for value, scene in order.scenes.items()

@@ -62,6 +62,8 @@ class Plan:
     simulate(scene, periods=, duration_s=) -> Trajectory, and describe(trajectory) -> row, have to be
     importable or picklable by cloudpickle. columns: of the table, among them run_key, status and message.
     row_maker: hash of whatever shapes a row (`campaigns.row_store.made_by`); empty: rows are not kept.
+    simulate_each(scenes, periods=, duration_s=): yields (number of the scene, Trajectory) as runs end; where it is
+    given, runs that can go side by side share a worker (`campaigns.side_by_side`).
     """
 
     directory: Path
@@ -73,11 +75,15 @@ class Plan:
     dask_address: str | None = None
     show_progress: bool = True
     row_maker: str = ""
+    simulate_each: Callable | None = None
 
 
-def plan_of(how: Running, simulate: Callable, describe: Callable, columns: tuple[str, ...], row_maker: str) -> Plan:
-    """The plan of a campaign as its command line wants it done."""
-    return Plan(how.out, simulate, describe, columns, how.backend, how.jobs, how.dask_address, row_maker=row_maker)
+def plan_of(
+    how: Running, simulate: Callable, describe: Callable, columns: tuple[str, ...], row_maker: str, **more
+) -> Plan:
+    """The plan of a campaign as its command line wants it done; more: further fields of the plan."""
+    where = how.backend, how.jobs, how.dask_address
+    return Plan(how.out, simulate, describe, columns, *where, row_maker=row_maker, **more)
 
 
 def make_job(scene, periods: float | None = None, duration_s: float | None = None, labels: dict | None = None) -> Job:
@@ -136,9 +142,14 @@ def _compute_all(plan: Plan, jobs: list[Job]):
     """Outcomes of all jobs as they come. A run that kills its worker twice, the second time alone, is given up."""
     if not jobs:
         return
+    from campaigns.side_by_side import outcomes_side_by_side
+
     pending = {job.key: job for job in jobs}
     call = partial(run_one, plan)
     with opened(plan.backend, min(plan.jobs, len(jobs)), plan.dask_address) as execute:
+        for outcome in outcomes_side_by_side(plan, execute, jobs):
+            del pending[outcome.key]
+            yield outcome
         while pending:
             try:
                 for outcome in execute(call, list(pending.values())):
@@ -164,14 +175,24 @@ def run_one(plan: Plan, job: Job) -> Outcome:
     if (outcome := _reuse(plan, job)) is not None:
         return outcome
     if source_hash() != job.engine:
-        reason = "the engine's sources here are not those the campaign began with; start it again"
-        return Outcome(job.key, {}, computed=False, stop=reason)
+        return other_sources(job)
     try:
         trajectory = plan.simulate(job.scene, periods=job.periods, duration_s=job.duration_s)
     except (Exception, SystemExit) as error:
         if is_full(error):
             return _stopped(job, plan, error)
         return _failed(job, "error", _reason(error))
+    return kept(plan, job, trajectory)
+
+
+def other_sources(job: Job) -> Outcome:
+    """Stops a campaign whose worker has other sources of the engine."""
+    reason = "the engine's sources here are not those the campaign began with; start it again"
+    return Outcome(job.key, {}, computed=False, stop=reason)
+
+
+def kept(plan: Plan, job: Job, trajectory) -> Outcome:
+    """Save a run that has been computed, and make its row."""
     try:
         trajectory.save(trajectory_path(plan.directory, job.key), {"run_key": job.key})
     except OSError as error:  # of the folder, not of the run: the next one would fare no better

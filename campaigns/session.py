@@ -9,11 +9,13 @@ import shlex
 import sys
 import time
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 
 from campaigns import cli, provenance
 from campaigns.folder import CampaignStopped, claimed, trajectory_path
 from campaigns.runner import Job, Plan, Summary, run_campaign, write_failure
+from campaigns.side_by_side import grouped
 
 _COMPILE_RUN_S = 0.1  # long enough to go through every kernel, too short to cost anything
 
@@ -69,25 +71,35 @@ def run(plan: Plan, jobs: list[Job], compile_run_s: float = _COMPILE_RUN_S) -> t
     compile_run_s: length of the run that only compiles, long enough for the scenes at hand to go through every kernel.
     """
     missing = [job for job in jobs if not trajectory_path(plan.directory, job.key).exists()]
-    # A plane and space have machine code of their own.
-    first_of_a_kind = {job.scene.motion.dimensions: job for job in reversed(missing)}
-    timing = {"compile_s": sum(_compile(plan, job, compile_run_s) for job in first_of_a_kind.values())}
+    # A plane, space, and runs side by side have machine code of their own.
+    groups = grouped(plan, missing)
+    together = {job.key for group in groups for job in group.jobs}
+    first_of_a_kind = {job.scene.motion.dimensions: job for job in reversed(missing) if job.key not in together}
+    start = time.perf_counter()
+    if missing:
+        print("compiling the engine, or loading it compiled ...", file=sys.stderr)
+    for job in first_of_a_kind.values():
+        _compile(plan.simulate, job.scene, compile_run_s)
+    for group in groups[:1]:
+        _compile(partial(_a_pair, plan.simulate_each), group.jobs[0].scene, compile_run_s)
+    timing = {"compile_s": time.perf_counter() - start}
     start = time.perf_counter()
     summary = run_campaign(plan, jobs)
     timing |= {"run_s": time.perf_counter() - start, "analysis_s": summary.analysis_s}
     return timing, summary
 
 
-def _compile(plan: Plan, job: Job, duration_s: float) -> float:
+def _a_pair(simulate_each: Callable, scene: object, duration_s: float) -> None:
+    list(simulate_each([scene, scene], duration_s=duration_s))
+
+
+def _compile(simulate: Callable, scene: object, duration_s: float) -> None:
     # Two workers that start together would each compile for ten seconds; after this they find the code on disk.
-    print("compiling the engine, or loading it compiled ...", file=sys.stderr)
-    start = time.perf_counter()
     try:
-        plan.simulate(job.scene, duration_s=duration_s)
+        simulate(scene, duration_s=duration_s)
     except Exception as error:
         # Not the place to judge a scene: the run itself fails in the same way, and that failure becomes its row.
         print(f"the first simulation failed ({type(error).__name__}); its run will say why", file=sys.stderr)
-    return time.perf_counter() - start
 
 
 def finish(out: Path, record: dict, summary: Summary, timing: dict[str, float]) -> None:

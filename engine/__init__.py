@@ -12,13 +12,15 @@ _HOME = {
     "Scene": "engine.scene",
     "SceneError": "engine.scene",
     "Trajectory": "engine.trajectory",
+    "goes_in_lanes": "engine.lanes.cover",
     "load_scene": "engine.scene",
     "simulate": "engine.simulate",
     "simulate_batch": "engine.simulate",
+    "simulate_each": "engine.simulate",
     "source_hash": "engine.compiled",
 }
 
-__all__ = ["Scene", "SceneError", "Trajectory", "load_scene", "simulate", "simulate_batch", "source_hash"]
+__all__ = list(_HOME)
 
 
 class _Package(ModuleType):

@@ -14,6 +14,8 @@ from pathlib import Path
 import numba
 from numba import config
 
+from .fused import with_fused_sums
+
 _ROOT = Path(__file__).parent
 _KEPT_CACHES = 6
 
@@ -68,35 +70,41 @@ def _drop_old(root, current):
 
 
 def kernel(function):
-    """Compile a kernel: no Python objects, no GIL, fused multiply-add allowed, cached on disk.
+    """Compile a kernel: no Python objects, no GIL, sums of products fused (`engine.fused`), cached on disk.
 
-    Full ``fastmath`` is not used: it breaks the range reduction of `engine.elementary.sincos` and hides NaN.
+    No ``fastmath``: what it allows differs from processor to processor and between one run and a batch; it breaks the
+    range reduction of `engine.elementary.sincos` and hides NaN.
     """
     folder = cache_directory()
     saved = config.CACHE_DIR
     if folder is not None:
         config.CACHE_DIR = str(folder)
     try:
-        return numba.njit(
-            cache=folder is not None, nogil=True, fastmath={"contract"}, error_model="numpy", boundscheck=False
-        )(function)
+        return numba.njit(cache=folder is not None, nogil=True, error_model="numpy", boundscheck=False)(
+            with_fused_sums(function)
+        )
     finally:
         config.CACHE_DIR = saved
 
 
-def by_dimension(planar, spatial):
-    """One name for two kernels: `planar` for records of the plane, `spatial` for those with a third dimension.
+def by_kind(planar, spatial, lanes=None):
+    """One name for two kernels or three: `planar` for records of the plane, `spatial` for those with a third dimension,
+    `lanes` for several planar runs at once (`engine.lanes`; None: the planar one serves them too).
 
-    The choice is by the type of the first argument, when a kernel that calls the name is compiled: neither kernel is
-    compiled for a scene that does not need it, and nothing is decided at run time.
+    The choice is by the type of the first argument, when a kernel that calls the name is compiled: nothing is compiled
+    for a scene that does not need it, and nothing is decided at run time.
     """
     from numba.extending import overload
 
     def either(*arguments):
         raise NotImplementedError("only compiled kernels call this")
 
-    @overload(either, strict=False, jit_options={"nogil": True, "fastmath": {"contract"}, "error_model": "numpy"})
+    @overload(either, strict=False, jit_options={"nogil": True, "error_model": "numpy"})
     def chosen(p, *arguments):
-        return (spatial if "GI" in p.fields else planar).py_func
+        from .lanes.record import LaneRecord  # knows `engine.parameters`, which knows some of the kernels
+
+        if "GI" in p.fields:
+            return spatial.py_func
+        return (lanes if lanes is not None and isinstance(p, LaneRecord) else planar).py_func
 
     return either

@@ -9,7 +9,7 @@ the slope in time.
 
 import numpy as np
 
-from .compiled import kernel
+from .compiled import by_kind, kernel
 from .elementary import bracket
 
 
@@ -19,8 +19,26 @@ def table_of(axes, velocities):
 
 
 @kernel
+def is_uniform(p):
+    """Is the current of a plane the same everywhere and at all times?"""
+    return p.cur_nx == 1 and p.cur_nz == 1 and p.cur_nt == 1
+
+
+@kernel
+def uniform_current(p, tables, t, X, F):
+    """As `current_field` where every axis has length one; all that runs of one batch may have (`engine.lanes`)."""
+    u, w = tables[p.cur_at + 3], tables[p.cur_at + 4]
+    for j in range(X.shape[0]):
+        F[j, 0] += u
+        F[j, 1] += w
+
+
+@kernel
 def current_field(p, tables, t, X, F):
     """Current velocity and its local acceleration at the nodes, added into F (as `engine.waves.wave_field`)."""
+    if is_uniform(p):
+        uniform_current(p, tables, t, X, F)
+        return
     nx, nz, nt = p.cur_nx, p.cur_nz, p.cur_nt
     at_z = p.cur_at + nx
     at_t = at_z + nz
@@ -46,6 +64,9 @@ def current_field(p, tables, t, X, F):
                     early = value
             F[j, component] += early if nt == 1 else (1.0 - ft) * early + ft * late
             F[j, component + 2] += (late - early) * inverse
+
+
+planar_current = by_kind(current_field, current_field, uniform_current)
 
 
 @kernel

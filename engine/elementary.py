@@ -7,6 +7,7 @@ import math
 
 import numpy as np
 
+from .choose import every, where
 from .compiled import kernel
 
 # pi/2 in three parts (Cody & Waite 1980): k * PIO2_A and k * PIO2_B are exact for |k| < 2**20.
@@ -27,19 +28,43 @@ def sincos(x):
     r = ((x - k * PIO2_A) - k * PIO2_B) - k * PIO2_C
     z = r * r
     s = r + r * z * (
-        -1.0 / 6 + z * (1.0 / 120 + z * (-1.0 / 5040 + z * (1.0 / 362880 + z * (-1.0 / 39916800 + z * (
-            1.0 / 6227020800 + z * (-1.0 / 1307674368000 + z / 355687428096000)))))))
+        -1.0 / 6
+        + z
+        * (
+            1.0 / 120
+            + z
+            * (
+                -1.0 / 5040
+                + z
+                * (
+                    1.0 / 362880
+                    + z * (-1.0 / 39916800 + z * (1.0 / 6227020800 + z * (-1.0 / 1307674368000 + z / 355687428096000)))
+                )
+            )
+        )
+    )
     c = 1.0 + z * (
-        -0.5 + z * (1.0 / 24 + z * (-1.0 / 720 + z * (1.0 / 40320 + z * (-1.0 / 3628800 + z * (
-            1.0 / 479001600 + z * (-1.0 / 87178291200 + z / 20922789888000)))))))
-    quadrant = int(k) & 3
-    if quadrant & 1:
-        s, c = c, s
-    if quadrant & 2:
-        s = -s
-    if (quadrant + 1) & 2:
-        c = -c
-    return s, c
+        -0.5
+        + z
+        * (
+            1.0 / 24
+            + z
+            * (
+                -1.0 / 720
+                + z
+                * (
+                    1.0 / 40320
+                    + z * (-1.0 / 3628800 + z * (1.0 / 479001600 + z * (-1.0 / 87178291200 + z / 20922789888000)))
+                )
+            )
+        )
+    )
+    quadrant = k - 4.0 * np.floor(0.25 * k)
+    second = quadrant == 1.0
+    last = quadrant == 3.0
+    crossed = second | last
+    sine, cosine = where(crossed, c, s), where(crossed, s, c)
+    return where(quadrant >= 2.0, -sine, sine), where(second | (quadrant == 2.0), -cosine, cosine)
 
 
 @kernel
@@ -92,7 +117,10 @@ def bracket(tables, at, n, value):
 @kernel
 def smooth_start(t, ramp):
     """sin^2(pi t/(2 ramp)) and its rate (1/s) up to t = ramp (s), then 1 and 0; ramp = 0: 1 and 0 from the start."""
-    if t >= ramp:
-        return 1.0, 0.0
-    a = 0.5 * math.pi / ramp
-    return math.sin(a * t) ** 2, a * math.sin(2.0 * a * t)
+    full = t >= ramp
+    gain, rate = where(full, 1.0, 0.0), where(full, 0.0, 0.0)
+    if not every(full):
+        a = 0.5 * math.pi / ramp
+        s = math.sin(a * t)
+        gain, rate = where(full, gain, s * s), where(full, rate, a * math.sin(2.0 * a * t))
+    return gain, rate

@@ -20,7 +20,8 @@ import math
 
 import numpy as np
 
-from .compiled import kernel
+from .choose import where
+from .compiled import by_kind, kernel
 from .elementary import bracket, smooth_start
 
 BUOY, HELD, FREE = 0, 1, 2
@@ -119,6 +120,12 @@ def upper_end(p, tables, t, cv, in_motion, Nx, Nz, U, W, U_tilde, W_tilde, F):
     if p.end == FREE:
         left = force_left(p, t)
         return Nx - left * p.end_x, Nz - left * p.end_z, 1.0, 0.0, 0.0, 0.0
+    return _buoy_end(p, tables, t, cv, in_motion, Nx, Nz, U, W, U_tilde, W_tilde, F)
+
+
+@kernel
+def _buoy_end(p, tables, t, cv, in_motion, Nx, Nz, U, W, U_tilde, W_tilde, F):
+    """As `upper_end` for a buoy, eq. (30): the one end that runs of one batch may have (`engine.lanes`)."""
     mass = p.M_total
     ex = Nx + mass * cv * (U - U_tilde)
     ez = Nz + mass * cv * (W - W_tilde) - p.lift
@@ -131,12 +138,14 @@ def upper_end(p, tables, t, cv, in_motion, Nx, Nz, U, W, U_tilde, W_tilde, F):
         speed = math.sqrt(u * u + w * w)
         ex += p.C_buoy * speed * u - p.M_wave * F[2]
         ez += p.C_buoy * speed * w - p.M_wave * F[3]
-        if speed > 0.0:
-            factor = in_motion * p.C_buoy
-            Dxx += factor * (speed + u * u / speed)
-            Dxz = factor * u * w / speed
-            Dzz += factor * (speed + w * w / speed)
+        along = in_motion * p.C_buoy / where(speed > 0.0, speed, 1.0)
+        Dxx += in_motion * p.C_buoy * speed + along * u * u
+        Dxz = along * u * w
+        Dzz += in_motion * p.C_buoy * speed + along * w * w
     return ex, ez, 1.0, Dxx, Dxz, Dzz
+
+
+planar_end = by_kind(upper_end, upper_end, _buoy_end)
 
 
 @kernel

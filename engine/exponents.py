@@ -48,16 +48,17 @@ class Trail:
             return
         count = int(state["trail"])
         state["trail"] = 0
-        T = self.steps[0][:count]
-        ends = np.minimum(((T[:, 0] + T[:, 1]) / self.period_s - 1e-9).astype(int), len(self.released) - 1)
-        self.released[ends[(T[:, 2] > 1) & (T[:, 0] > 0.01 * self.period_s)]] = 1.0
+        self.mark(self.steps[0][:count])
         if self.count:
-            carry(
-                record, tables, self.period_s, count, *self.steps, self.vectors, self.rates, self.waters, self.nats
-            )
+            carry(record, tables, self.period_s, count, *self.steps, self.vectors, self.rates, self.waters, self.nats)
         if self.sideways:
             vector = self.weights, self.lateral, self.lateral_rates
             carry_lateral(record, tables, self.period_s, count, *self.steps, *vector, self.lateral_nats)
+
+    def mark(self, T):
+        """Mark the periods in which a loop was released, from the steps (m, 3) of a trail."""
+        ends = np.minimum(((T[:, 0] + T[:, 1]) / self.period_s - 1e-9).astype(int), len(self.released) - 1)
+        self.released[ends[(T[:, 2] > 1) & (T[:, 0] > 0.01 * self.period_s)]] = 1.0
 
     def growth(self, state):
         """Growth of the complete periods, or None."""

@@ -39,10 +39,13 @@ import math
 
 import numpy as np
 
-from .compiled import kernel
+from .choose import every, larger, where
+from .compiled import by_kind, kernel
 from .elementary import copy_into, sincos, small_sincos
 from .ends import BUOY, HELD, released
 from .planar import node
+from .steps import plan_stage
+from .tangent import period_of
 from .tension import tension
 
 COEFFICIENTS, WIDTH = 10, 15
@@ -58,14 +61,18 @@ def _coefficients(p, tables, rate, Y, K, Q, F, H):
     for k in range(Y.shape[0]):
         c, s = Q[k, 0], Q[k, 1]
         delta = 0.5 * (Y[k, 4] - Y[k - 1, 4]) if k > 0 else 0.0
-        sd, cd = small_sincos(delta) if abs(delta) < 0.25 else sincos(delta)
+        sd, cd = small_sincos(delta)
+        short = abs(delta) < 0.25
+        if not every(short):
+            s_long, c_long = sincos(delta)
+            sd, cd = where(short, sd, s_long), where(short, cd, c_long)
         lam = 1.0 + Y[k, 0]
         S = Y[k, 1]
         T = tension(Y[k, 0], p, tables)[0]
         tilt = 0.0
         across = (p.m + p.ma) * rate
         if p.wet:
-            root = math.sqrt(max(lam, 0.0))
+            root = math.sqrt(larger(lam, 0.0))
             ur, wr = Y[k, 2] - F[k, 0], Y[k, 3] - F[k, 1]
             vt, vn = ur * c + wr * s, wr * c - ur * s
             kn = p.cn * root * abs(vn)
@@ -87,8 +94,16 @@ def _upper_end(p, t, rate, Y, F, V_tilde):
         return 0.0, 1.0, 0.0
     if p.end != BUOY:
         return 1.0, 0.0, 0.0
+    return _buoy_end(p, t, rate, Y, F, V_tilde)
+
+
+@kernel
+def _buoy_end(p, t, rate, Y, F, V_tilde):
     u, w = Y[2] - F[0], Y[3] - F[1]
     return 1.0, p.M_total * rate + p.C_buoy * math.sqrt(u * u + w * w), -p.M_total * rate * V_tilde
+
+
+_lateral_end = by_kind(_upper_end, _upper_end, _buoy_end)
 
 
 @kernel
@@ -111,7 +126,7 @@ def lateral_stage(p, tables, t, rate, Y, K, Q, F, dC_tilde, H, E, dC):
         # from the directions of node a to those of node b: half the turn below a and half the turn of this box
         s_b, c_b = H[a, 0] * H[k, 1] + H[a, 1] * H[k, 0], H[a, 1] * H[k, 1] - H[a, 0] * H[k, 0]
         half = 0.5 * (Y[k, 4] - Y[a, 4])
-        f = half / (e * H[k, 0]) if abs(half) > 1e-4 else (1.0 + half * half / 6.0) / e
+        f = where(abs(half) > 1e-4, half / (e * H[k, 0]), (1.0 + half * half / 6.0) / e)
         # v_b = X y_a + Z y_b + x
         X20, X21, x2 = c_b * R20 + s_b, c_b * R21, c_b * r2
         X10, X11, x1 = f * (s_b * R20 - c_b) - R10, f * s_b * R21 - R11, f * s_b * r2 - r1
@@ -143,7 +158,7 @@ def lateral_stage(p, tables, t, rate, Y, K, Q, F, dC_tilde, H, E, dC):
         E[k, 6], E[k, 7], E[k, 8], E[k, 9], E[k, 10], E[k, 11] = R00, R01, R10, R11, R20, R21
         E[k, 12], E[k, 13], E[k, 14] = r0, r1, r2
     b = n - 1
-    of_N, of_V, known = _upper_end(p, t, rate, Y[b], F[b], dC_tilde[b, 1])
+    of_N, of_V, known = _lateral_end(p, t, rate, Y[b], F[b], dC_tilde[b, 1])
     A00 = of_N * (H[b, 4] + H[b, 5] * R20) + of_V * R00
     A01 = of_N * (H[b, 5] * R21 - 1.0) + of_V * R01
     g0 = -known - of_N * H[b, 5] * r2 - of_V * r0
@@ -173,20 +188,29 @@ def energy_weights(p, tables):
 
 
 @kernel
-def _normalise(weights, vector, rates):
-    """Bring vector (n, 2) to length one, rates along; returns the logarithm of its length."""
+def normalise(weights, here, vector, rates):
+    """Bring vector (n, 2) to length one where `here` holds, rates along; returns its length."""
     square = 0.0
     for k in range(vector.shape[0]):
         for m in range(2):
-            square += weights[k, m] * vector[k, m] ** 2
-    if square == 0.0:
-        return -np.inf
+            square += weights[k, m] * (vector[k, m] * vector[k, m])
     length = math.sqrt(square)
+    scale = where(here & (length > 0.0), 1.0 / length, 1.0)
     for k in range(vector.shape[0]):
         for m in range(2):
-            vector[k, m] /= length
-            rates[k, m] /= length
-    return math.log(length)
+            vector[k, m] *= scale
+            rates[k, m] *= scale
+    return length
+
+
+@kernel
+def known_lateral(a, count, vector, dK, dC_tilde):
+    """dC~ = dC + sum over the first `count` of a_j dK_j, for arrays (n, 2)."""
+    copy_into(dC_tilde, vector)
+    for j in range(count):
+        for k in range(vector.shape[0]):
+            for m in range(2):
+                dC_tilde[k, m] += a[j] * dK[j, k, m]
 
 
 @kernel
@@ -200,27 +224,19 @@ def carry_lateral(p, tables, period, count, T, trail_Y, trail_K, weights, vector
     X, F, Q = np.zeros((n, 2)), np.zeros((n, 4)), np.zeros((n, node.WIDTH))
     H, E = np.zeros((n, COEFFICIENTS)), np.zeros((n, WIDTH))
     dC, dC_tilde, dK = np.zeros((n, 2)), np.zeros((n, 2)), np.zeros((s, n, 2))
+    a, w = np.empty(s), np.empty(3)
     for step in range(count):
         t, dt, euler = T[step, 0], T[step, 1], T[step, 2] > 0.0
         copy_into(dK[0], rates)
         for i in range(s - 1 if euler else 1, s):
-            a_ii = 1.0 if euler else tables[p.method_at + s * i + i]
-            c_i = 1.0 if euler else tables[p.method_at + s * s + i]
-            rate = 1.0 / (a_ii * dt)
+            rate, after = plan_stage(p, tables, i, euler, dt, 0.0, a, w)
             node.shape(p, tables, trail_Y[step, i], Q, X)
-            node.water(p, tables, t + c_i * dt, 1.0, X, F)
-            copy_into(dC_tilde, vector)
-            for j in range(0 if euler else i):
-                a = dt * tables[p.method_at + s * i + j]
-                if a != 0.0:
-                    for k in range(n):
-                        for m in range(2):
-                            dC_tilde[k, m] += a * dK[j, k, m]
-            lateral_stage(p, tables, t + c_i * dt, rate, trail_Y[step, i], trail_K[step, i], Q, F, dC_tilde, H, E, dC)
+            node.water(p, tables, t + after, 1.0, X, F)
+            known_lateral(a, 0 if euler else i, vector, dK, dC_tilde)
+            lateral_stage(p, tables, t + after, rate, trail_Y[step, i], trail_K[step, i], Q, F, dC_tilde, H, E, dC)
             for k in range(n):
                 for m in range(2):
                     dK[i, k, m] = rate * (dC[k, m] - dC_tilde[k, m])
         copy_into(vector, dC)
         copy_into(rates, dK[s - 1])
-        where = min(int((t + dt) / period - 1e-9), growth.shape[0] - 1)
-        growth[where] += _normalise(weights, vector, rates)
+        growth[period_of(t + dt, period, growth.shape[0])] += np.log(normalise(weights, True, vector, rates))

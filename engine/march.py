@@ -24,15 +24,15 @@ from .guards import NEWTON_FAILED, NOT_FINITE, OK, STEP_LIMIT, STEP_UNDERFLOW, S
 from .integrators import RUNGE_KUTTA
 from .sampling import sample
 from .shocks import deforming_element, renew_viscosity
-from .steps import one_stage_step, runge_kutta_step
+from .steps import least_strain, one_stage_step, runge_kutta_step
 
 _COUNTS = (
-    "status samples profiles small_steps steps rejected newton failures releases attempts cautious trail energies"
-).split()
-_VALUES = "t dt dt_before low high max_turn min_strain window_end".split()
-STATE = np.dtype([(name, np.int64) for name in _COUNTS] + [(name, np.float64) for name in _VALUES])
+    "status samples profiles small_steps steps rejected newton failures releases attempts cautious trail energies "
+    "small cut"
+)
+_VALUES = "t dt dt_before low high max_turn min_strain window_end trial_dt corner"
+STATE = np.dtype([(name, np.int64) for name in _COUNTS.split()] + [(name, np.float64) for name in _VALUES.split()])
 SMALL_STEPS = 3
-SMALL_STEP_NEWTON = 100  # after a release each update is cut to one scale: about 20 iterations
 SAFETY, SHRINK, GROW = 0.9, 0.2, 4.0
 NO_SLIVER = 1.01  # a step is made a little longer rather than leave next to nothing of the way to a corner
 MOST_ATTEMPTS = 20_000  # steps tried within one `window` of time: more is a run that stands still
@@ -57,15 +57,84 @@ def guard_turns(p, tables, state, Y):
 
 
 @kernel
-def after_failure(p, state, dt, code, factor):
+def begin_trial(p, tables, state):
+    """Choose the step to try next: trial_dt, whether it is a small one, and whether it is cut at a corner.
+
+    Ends the run where too many were tried within one window of time.
+    """
+    if state.t >= state.window_end:
+        state.window_end = state.t + p.window
+        state.attempts = 0
+    state.attempts += 1
+    if state.attempts > MOST_ATTEMPTS:
+        state.status = STEP_LIMIT
+        return
+    state.small = state.small_steps > 0
+    dt = state.dt
+    state.corner = next_corner(p, tables, state.t) if p.adaptive else p.end_release
+    # the step ends with a corner of a held end's motion
+    state.cut = state.t < state.corner <= state.t + NO_SLIVER * dt
+    state.trial_dt = state.corner - state.t if state.cut else dt
+
+
+@kernel
+def refused(p, state, code, used, error):
+    """Book a trial that took `used` iterations; is it to be tried again with a shorter step (or the run at its end)?"""
+    state.newton += used
+    if code != OK:
+        state.failures += 1
+        _shorten(p, state, code, 0.5 if state.small else 0.25)
+        state.dt_before = 0.0
+        return True
+    if p.adaptive and not state.small and not error <= 1.0:
+        state.rejected += 1
+        _shorten(p, state, OK, max(SHRINK, SAFETY * error ** (-1.0 / p.order)) if np.isfinite(error) else SHRINK)
+        return True
+    state.steps += 1
+    return False
+
+
+@kernel
+def _shorten(p, state, code, factor):
     """Shorten the step; name the end of the run where it would fall below the shortest allowed."""
-    state.dt = dt * factor
+    state.dt = state.trial_dt * factor
     state.cautious = CAUTIOUS_STEPS if code != OK else 0
     if state.dt < p.min_step:
         if code == NEWTON_FAILED or code == NOT_FINITE or code == STRAIN_BELOW_MINUS_ONE:
             state.status = code
         else:
             state.status = STEP_UNDERFLOW
+
+
+@kernel
+def step_done(p, state):
+    """The trial is accepted: move on in time."""
+    state.t = state.corner if state.cut else state.t + state.trial_dt
+    state.dt_before = state.trial_dt
+
+
+@kernel
+def next_step(p, state, code, released, error, longest):
+    """The length of the next step, after an accepted one and what `guard_turns` found; fixed ones grow to `longest`."""
+    if code != OK:
+        state.status = code
+    if released or (state.cut and state.corner == p.end_release):
+        state.small_steps = SMALL_STEPS
+        state.dt = p.release_step
+        state.dt_before = 0.0
+    elif state.small:
+        state.small_steps -= 1
+        if state.small_steps == 0 and p.adaptive == 0:
+            state.dt = p.fixed_step
+    elif p.adaptive:
+        grow = GROW
+        if state.cautious > 0:
+            state.cautious -= 1
+            grow = CAUTIOUS_GROW
+        factor = min(grow, max(SHRINK, SAFETY * max(error, 1e-10) ** (-1.0 / p.order)))
+        state.dt = min(p.max_step, state.trial_dt * factor)
+    else:
+        state.dt = min(longest, 2.0 * state.trial_dt)
 
 
 @kernel
@@ -104,45 +173,24 @@ def march(p, tables, state, Y, Y_before, C, K, samples, profiles, energies, sums
             state.energies = 1
     room = trail_T.shape[0]
     while state.status == OK and state.samples < until and (room == 0 or state.trail < room):
-        if state.t >= state.window_end:
-            state.window_end = state.t + p.window
-            state.attempts = 0
-        state.attempts += 1
-        if state.attempts > MOST_ATTEMPTS:
-            state.status = STEP_LIMIT
+        begin_trial(p, tables, state)
+        if state.status != OK:
             break
-        small = state.small_steps > 0
-        dt = state.dt
-        corner = next_corner(p, tables, state.t) if p.adaptive else p.end_release
-        cut = state.t < corner <= state.t + NO_SLIVER * dt  # the step ends with a corner of a held end's motion
-        if cut:
-            dt = corner - state.t
-        lets_go = cut and corner == p.end_release
-        error = 0.0
+        dt, small, error = state.trial_dt, state.small != 0, 0.0
         am, af, gamma = (1.0, 1.0, 1.0) if small else (p.alpha_m, p.alpha_f, p.gamma)
-        one_stage = small or p.method != RUNGE_KUTTA
-        if one_stage:
-            code, used = one_stage_step(
-                p, tables, state.t, dt, state.dt_before, am, af, gamma, SMALL_STEP_NEWTON if small else p.max_newton,
-                Y, Y_before, C, K, Ys[s - 1], Ks[s - 1], C_new, work,
+        stiff = small or p.method == RUNGE_KUTTA
+        if stiff:
+            code, used, error = runge_kutta_step(
+                p, tables, state.t, dt, state.dt_before, small, Y, Y_before, C, K, Ys, Ks, C_new, work
             )
         else:
-            code, used, error = runge_kutta_step(
-                p, tables, state.t, dt, state.dt_before, Y, Y_before, C, K, Ys, Ks, C_new, work
-            )
-        state.newton += used
-        if code != OK:
-            state.failures += 1
-            after_failure(p, state, dt, code, 0.5 if small else 0.25)
-            state.dt_before = 0.0
+            code, used = one_stage_step(
+                p, tables, state.t, dt, state.dt_before, am, af, gamma, p.max_newton,
+                Y, Y_before, C, K, Ys[s - 1], Ks[s - 1], C_new, work,
+            )  # fmt: skip
+        if refused(p, state, code, used, error):
             continue
-        if p.adaptive and not small and not error <= 1.0:
-            state.rejected += 1
-            factor = max(SHRINK, SAFETY * error ** (-1.0 / p.order)) if np.isfinite(error) else SHRINK
-            after_failure(p, state, dt, OK, factor)
-            continue
-        state.steps += 1
-        sample(p, tables, state, dt, not one_stage, C, K, C_new, Ks[s - 1], samples, profiles)
+        sample(p, tables, state, dt, stiff and not small, C, K, C_new, Ks[s - 1], samples, profiles)
         if energies.shape[0] > 0:
             add_powers(p, tables, dt, am, af, gamma, C, K, C_new, Ks[s - 1], Ys[s - 1], work[2], sums)
             if state.energies < energies.shape[0] and state.energies * p.output_step <= state.t + dt:
@@ -150,7 +198,7 @@ def march(p, tables, state, Y, Y_before, C, K, samples, profiles, energies, sums
                 state.energies += 1
         if room > 0:
             last = state.trail
-            record_step(trail_T[last], trail_Y[last], trail_K[last], state.t, dt, one_stage, small, Ys, Ks)
+            record_step(trail_T[last], trail_Y[last], trail_K[last], state.t, dt, small or not stiff, small, Ys, Ks)
             state.trail += 1
         copy_into(Y_before, Y)
         copy_into(Y, Ys[s - 1])
@@ -158,28 +206,10 @@ def march(p, tables, state, Y, Y_before, C, K, samples, profiles, energies, sums
         copy_into(C, C_new)
         if p.viscous:
             renew_viscosity(p, tables, size // 2, C, K, e_t, work[2])
-        state.t = corner if cut else state.t + dt
-        state.dt_before = dt
-        for k in range(n):
-            state.min_strain = min(state.min_strain, Y[k, 0])
+        step_done(p, state)
+        state.min_strain = min(state.min_strain, least_strain(Y))
         code, released = guard_turns(p, tables, state, Y)
-        if code != OK:
-            state.status = code
-        if released or lets_go:
-            state.small_steps = SMALL_STEPS
-            state.dt = p.release_step
-            state.dt_before = 0.0
-        elif small:
-            state.small_steps -= 1
-            if state.small_steps == 0 and p.adaptive == 0:
-                state.dt = p.fixed_step
-        elif p.adaptive:
-            grow = GROW
-            if state.cautious > 0:
-                state.cautious -= 1
-                grow = CAUTIOUS_GROW
-            factor = min(grow, max(SHRINK, SAFETY * max(error, 1e-10) ** (-1.0 / p.order)))
-            state.dt = min(p.max_step, dt * factor)
-        else:
-            longest = p.pace * deforming_element(p, tables, e_t) if p.viscous and p.pace > 0.0 else p.fixed_step
-            state.dt = min(longest, 2.0 * dt)
+        longest = p.fixed_step
+        if p.viscous and p.pace > 0.0:
+            longest = p.pace * deforming_element(p, tables, e_t)
+        next_step(p, state, code, released, error, longest)

@@ -17,7 +17,8 @@ from .tension import tension
 
 
 @kernel
-def _weights(hermite, theta, dt):
+def weights_within(hermite, theta, dt):
+    """Weights of C0, C1, K0, K1 at the share theta of a step."""
     if not hermite:
         return 1.0 - theta, theta, 0.0, 0.0
     a = theta - 1.0
@@ -32,21 +33,32 @@ def sample(p, tables, state, dt, hermite, C0, K0, C1, K1, samples, profiles):
     row = np.empty((n, 6))
     while state.samples < samples.shape[0] and state.samples * p.output_step <= end:
         t = state.samples * p.output_step
-        weights = _weights(hermite, (t - state.t) / dt, dt)
+        weights = weights_within(hermite, (t - state.t) / dt, dt)
         out = samples[state.samples]
         out[4], out[5], out[6], out[11] = configuration(p, tables, weights, C0, K0, C1, K1, row)
         least = row[0, 4]
         for k in range(1, n):
             least = min(least, row[k, 4])
-        top = row[n - 1, 4]
-        out[0], out[1], out[2], out[3] = t, row[n - 1, 0], row[n - 1, 1], row[n - 1, 2]
-        out[7], out[8], out[9], out[10] = top, least, min(state.low, top), max(state.high, top)
-        state.low, state.high = top, top
-        state.samples += 1
+        out[1], out[2], out[3] = row[n - 1, 0], row[n - 1, 1], row[n - 1, 2]
+        complete_sample(state, out, t, row[n - 1, 4], least)
     while state.profiles < profiles.shape[0] and state.profiles * p.profile_step <= end:
         t = state.profiles * p.profile_step
-        configuration(p, tables, _weights(hermite, (t - state.t) / dt, dt), C0, K0, C1, K1, profiles[state.profiles])
+        weights = weights_within(hermite, (t - state.t) / dt, dt)
+        configuration(p, tables, weights, C0, K0, C1, K1, profiles[state.profiles])
         state.profiles += 1
-    top = tension(last_strain(p, C1), p, tables)[0]
+    note_top(state, tension(last_strain(p, C1), p, tables)[0])
+
+
+@kernel
+def complete_sample(state, out, t, top, least):
+    """Time and tensions of a sample `out` that has its place and velocity; the sample is then booked."""
+    out[0], out[7], out[8], out[9], out[10] = t, top, least, min(state.low, top), max(state.high, top)
+    state.low, state.high = top, top
+    state.samples += 1
+
+
+@kernel
+def note_top(state, top):
+    """Take in the tension at the top at the end of a step."""
     state.low = min(state.low, top)
     state.high = max(state.high, top)

@@ -12,7 +12,8 @@ import math
 
 import numpy as np
 
-from .compiled import kernel
+from .choose import larger, some, where
+from .compiled import by_kind, kernel
 
 LINEAR, TANH, TABULATED = 0, 1, 2
 
@@ -61,6 +62,20 @@ def _tabulated(eps, tables, at, n):
 
 
 @kernel
+def _by_table(p, tables, eps):
+    return _tabulated(eps, tables, p.law_at, p.law_n)
+
+
+@kernel
+def _no_table(p, tables, eps):
+    """In the place of a table where runs share a batch: those with one do not (`engine.lanes.machine`)."""
+    return eps, eps
+
+
+tabulated = by_kind(_by_table, _by_table, _no_table)
+
+
+@kernel
 def tension(eps, p, tables):
     """Tension and its derivative at one strain.
 
@@ -75,12 +90,14 @@ def tension(eps, p, tables):
     T : float, N
     slope : float, N, dT/deps
     """
-    if p.barrier > 0.0 and eps < -0.5:
-        lam = max(1.0 + eps, 1e-300)
+    T, slope = law_tension(eps, p, tables)
+    braced = (eps < -0.5) & (p.barrier > 0.0)
+    if some(braced):
+        lam = larger(1.0 + eps, 1e-300)
         excess = 0.5 / lam - 1.0
-        T, slope = law_tension(eps, p, tables)
-        return T - p.barrier * excess * excess, slope + p.barrier * excess / (lam * lam)
-    return law_tension(eps, p, tables)
+        T = where(braced, T - p.barrier * excess * excess, T)
+        slope = where(braced, slope + p.barrier * excess / (lam * lam), slope)
+    return T, slope
 
 
 @kernel
@@ -91,7 +108,7 @@ def law_tension(eps, p, tables):
     if p.law == TANH:
         th = math.tanh(p.p2 * eps + p.p3)
         return p.p1 * th + p.p4 + p.p5 * eps, p.p1 * p.p2 * (1.0 - th * th) + p.p5
-    return _tabulated(eps, tables, p.law_at, p.law_n)
+    return tabulated(p, tables, eps)
 
 
 @kernel

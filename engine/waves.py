@@ -15,6 +15,7 @@ import math
 
 import numpy as np
 
+from .choose import every, larger, where
 from .compiled import kernel
 from .elementary import sincos, small_exponentials, small_sincos, smooth_start
 
@@ -45,30 +46,34 @@ def wave_field(p, t, X, F):
     u0, u1 = speed * gain, speed * gain_rate
     om = p.omega
     up, down, s, c = 0.0, 0.0, 0.0, 1.0
+    x_below = z_below = 0.0
     for j in range(n):
-        x, z = X[j, 0], max(X[j, 1], 0.0)
-        dz = dx = 1.0
-        if j > 0:
-            dz = k * (z - max(X[j - 1, 1], 0.0))
-            dx = kx * (x - X[j - 1, 0])
-        if abs(dz) < SMALL and abs(dx) < SMALL and up > TINY and p.above != WHEELER:
-            e1, e2 = small_exponentials(dz)
-            up *= e1
-            down *= e2
-            ds, dc = small_sincos(dx)
-            s, c = s * dc + c * ds, c * dc - s * ds
+        x, z = X[j, 0], larger(X[j, 1], 0.0)
+        dz, dx = k * (z - z_below), kx * (x - x_below)
+        near = (abs(dz) < SMALL) & (abs(dx) < SMALL) & (up > TINY)
+        x_below, z_below = x, z
+        e1, e2 = small_exponentials(dz)
+        ds, dc = small_sincos(dx)
+        near_up, near_down, near_s, near_c = up * e1, down * e2, s * dc + c * ds, c * dc - s * ds
+        if j > 0 and p.above != WHEELER and every(near):
+            up, down, s, c = near_up, near_down, near_s, near_c
         else:
             s, c = sincos(kx * x - om * t + p.phase)
             if p.above == WHEELER:  # stretched so that the crest is where the still water level was
                 z = z * p.depth / (p.depth + p.amplitude * gain * c)
             up = math.exp(k * (z - p.depth))
             down = math.exp(-k * (z + p.depth))
-        if p.above == ZERO and X[j, 1] > p.depth:
-            continue
-        uc = p.direction * (up + down) * c
-        us = p.direction * (up + down) * s
-        ws = (up - down) * s
-        wc = (up - down) * c
+            if j > 0 and p.above != WHEELER:
+                up, down = where(near, near_up, up), where(near, near_down, down)
+                s, c = where(near, near_s, s), where(near, near_c, c)
+        more, less = up + down, up - down
+        if p.above == ZERO:
+            dry = X[j, 1] > p.depth
+            more, less = where(dry, 0.0, more), where(dry, 0.0, less)
+        uc = p.direction * more * c
+        us = p.direction * more * s
+        ws = less * s
+        wc = less * c
         F[j, 0] += u0 * uc
         F[j, 1] += u0 * ws
         F[j, 2] += u0 * om * us + u1 * uc

@@ -7,6 +7,7 @@ import math
 
 import numpy as np
 
+from ..choose import finite, larger, smaller, where
 from ..compiled import kernel
 from ..tension import tension
 from . import node, sweep
@@ -41,19 +42,14 @@ def assemble(p, tables, t, in_motion, cq, cv, Y, C_tilde, X, F, Q, E, D):
 @kernel
 def update_size(p, D):
     """Largest entry of a Newton update in the scales of the scene (dimensionless)."""
-    size = 0.0
+    size = total = 0.0
     for k in range(D.shape[0]):
-        size = max(
-            size,
-            abs(D[k, 0]) * p.per_strain,
-            abs(D[k, 1]) * p.per_force,
-            max(abs(D[k, 2]), abs(D[k, 3])) * p.per_speed,
-            abs(D[k, 4]),
-            abs(D[k, 5]) * p.per_curvature,
-        )
-        if not np.isfinite(D[k, 0] + D[k, 2] + D[k, 4]):
-            return np.inf
-    return size
+        stretched = larger(abs(D[k, 0]) * p.per_strain, abs(D[k, 1]) * p.per_force)
+        moved = larger(abs(D[k, 2]), abs(D[k, 3])) * p.per_speed
+        turned = larger(abs(D[k, 4]), abs(D[k, 5]) * p.per_curvature)
+        size = larger(size, larger(larger(stretched, moved), turned))
+        total += ((D[k, 0] + D[k, 1]) + (D[k, 2] + D[k, 3])) + (D[k, 4] + D[k, 5])
+    return where(finite(total), size, np.inf)
 
 
 @kernel
@@ -63,7 +59,7 @@ def add_update(p, factor, D, Y):
     for k in range(Y.shape[0]):
         for i in range(6):
             Y[k, i] += factor * D[k, i]
-        least = min(least, Y[k, 0])
+        least = smaller(least, Y[k, 0])
     return least
 
 
@@ -100,28 +96,38 @@ def error_square(p, k, ec, Q):
     """Squared error of node k in scene scales, from the errors `ec` (4,) of its conserved variables."""
     axial = (ec[0] * Q[k, 0] + ec[1] * Q[k, 1]) * p.per_strain
     turned = ec[1] * Q[k, 0] - ec[0] * Q[k, 1]
-    return axial * axial + turned * turned + (ec[2] ** 2 + ec[3] ** 2) * p.per_speed**2
+    speed = (ec[2] * ec[2] + ec[3] * ec[3]) * p.per_speed * p.per_speed
+    return axial * axial + turned * turned + speed
 
 
 @kernel
 def largest_turn(p, Y):
     """Largest |phi_k - phi_(k-1)| (rad) and the upper node of its element."""
-    turn, where = 0.0, 0
+    turn, element = 0.0, 0
     for k in range(1, Y.shape[0]):
         d = abs(Y[k, 4] - Y[k - 1, 4])
         if d > turn:
-            turn, where = d, k
-    return turn, where
+            turn, element = d, k
+    return turn, element
 
 
 @kernel
-def release_loop(p, tables, Y, where):
-    """Shift phi by 2 pi from node `where` up, against the turn; new first guesses for curvature and shear nearby."""
+def greatest_turn(Y):
+    """Largest |phi_k - phi_(k-1)| (rad) alone."""
+    turn = 0.0
+    for k in range(1, Y.shape[0]):
+        turn = larger(turn, abs(Y[k, 4] - Y[k - 1, 4]))
+    return turn
+
+
+@kernel
+def release_loop(p, tables, Y, upper):
+    """Shift phi by 2 pi from node `upper` up, against the turn; new first guesses for curvature and shear nearby."""
     n = Y.shape[0]
-    shift = -2.0 * math.pi if Y[where, 4] > Y[where - 1, 4] else 2.0 * math.pi
-    for k in range(where, n):
+    shift = -2.0 * math.pi if Y[upper, 4] > Y[upper - 1, 4] else 2.0 * math.pi
+    for k in range(upper, n):
         Y[k, 4] += shift
-    for k in range(max(1, where - 2), min(n - 1, where + 2)):
+    for k in range(max(1, upper - 2), min(n - 1, upper + 2)):
         h = tables[p.grid_at + k - 1] + tables[p.grid_at + k]
         Y[k, 5] = (Y[k + 1, 4] - Y[k - 1, 4]) / h
         Y[k, 1] = 0.0
@@ -157,7 +163,7 @@ def configuration(p, tables, weights, C0, K0, C1, K1, row):
 def last_strain(p, C):
     """Strain of the last node."""
     k = C.shape[0] - 1
-    return math.sqrt(C[k, 0] ** 2 + C[k, 1] ** 2) - 1.0
+    return math.sqrt(C[k, 0] * C[k, 0] + C[k, 1] * C[k, 1]) - 1.0
 
 
 @kernel

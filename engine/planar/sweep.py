@@ -15,15 +15,18 @@ does not change it, and Newton failures were as rare as with pivoting.
 
 Without bending S and kappa are zero, y = (eps, phi), v = (U, W), and the same steps need a 2 x 2 inverse.
 
-E (n, 33): P (9), p (3), R (9), r (3), row-major; 2 x 2 in the same places without bending. With bending also, for
-other right-hand sides of the same matrix (`resolve_bent`): E[k, 24:33] the inverse of that box; in the row of the
-anchor, which has no box below, E[0, 0:9] the inverse at the upper end and E[0, 24:27] its Dxx, Dxz, Dzz.
+E (n, 24): P (9), p (3), R (9), r (3), row-major; in the row of the anchor, which has no box below, E[0, 0:9] is the
+inverse at the upper end. 2 x 2 in the same places without bending. For other right-hand sides of the same matrix
+(`resolve_bent`) an E (n, 33) also takes in E[k, 24:33], the inverse of that box, and in E[0, 24:27] Dxx, Dxz, Dzz.
 """
 
-from ..compiled import kernel
-from ..ends import upper_end
+import numpy as np
 
-WIDTH = 33
+from ..choose import smaller
+from ..compiled import kernel
+from ..ends import planar_end
+
+WIDTH, WITH_INVERSE = 24, 33
 
 
 @kernel
@@ -35,6 +38,7 @@ def sweep_bent(p, tables, t, cq, cv, in_motion, Y, C_tilde, F, Q, E, D):
     r0, r1, r2 = -Y[0, 2], -Y[0, 3], -Y[0, 5]
     for i in range(12, 21):
         E[0, i] = 0.0
+    least = np.inf  # of the determinants
     E[0, 21], E[0, 22], E[0, 23] = r0, r1, r2
     for k in range(1, n):
         a = k - 1
@@ -77,13 +81,13 @@ def sweep_bent(p, tables, t, cq, cv, in_motion, Y, C_tilde, F, Q, E, D):
         i10, i11, i12 = A12 * A20 - A10 * A22, A00 * A22 - A02 * A20, A02 * A10 - A00 * A12
         i20, i21, i22 = A10 * A21 - A11 * A20, A01 * A20 - A00 * A21, A00 * A11 - A01 * A10
         det = A00 * i00 + A01 * i10 + A02 * i20
-        if det == 0.0:
-            return False
+        least = smaller(least, abs(det))
         f = 1.0 / det
         i00, i01, i02, i10, i11, i12 = f * i00, f * i01, f * i02, f * i10, f * i11, f * i12
         i20, i21, i22 = f * i20, f * i21, f * i22
-        E[k, 24], E[k, 25], E[k, 26], E[k, 27], E[k, 28], E[k, 29] = i00, i01, i02, i10, i11, i12
-        E[k, 30], E[k, 31], E[k, 32] = i20, i21, i22
+        if E.shape[1] > WIDTH:
+            E[k, 24], E[k, 25], E[k, 26], E[k, 27], E[k, 28], E[k, 29] = i00, i01, i02, i10, i11, i12
+            E[k, 30], E[k, 31], E[k, 32] = i20, i21, i22
         P00 = -(i00 * B00 + i01 * B10 + i02 * B20)
         P01 = -(i00 * B01 + i01 * B11 + i02 * B21)
         P02 = -(i00 * B02 + i01 * B12 + i02 * B22)
@@ -124,7 +128,7 @@ def sweep_bent(p, tables, t, cq, cv, in_motion, Y, C_tilde, F, Q, E, D):
         E[k, 18], E[k, 19], E[k, 20], E[k, 21], E[k, 22], E[k, 23] = R20, R21, R22, r0, r1, r2
     # upper end: e_N dN + D dV = -e, dkappa = -kappa
     b = n - 1
-    ex, ez, eN, Dxx, Dxz, Dzz = upper_end(
+    ex, ez, eN, Dxx, Dxz, Dzz = planar_end(
         p, tables, t, cv, in_motion, Q[b, 3], Q[b, 4], Y[b, 2], Y[b, 3], C_tilde[b, 2], C_tilde[b, 3], F[b]
     )
     c, s, slope = Q[b, 0], Q[b, 1], Q[b, 2]
@@ -141,14 +145,14 @@ def sweep_bent(p, tables, t, cq, cv, in_motion, Y, C_tilde, F, Q, E, D):
     i10, i11, i12 = A12 * R20 - A10 * R22, A00 * R22 - A02 * R20, A02 * A10 - A00 * A12
     i20, i21, i22 = A10 * R21 - A11 * R20, A01 * R20 - A00 * R21, A00 * A11 - A01 * A10
     det = A00 * i00 + A01 * i10 + A02 * i20
-    if det == 0.0:
-        return False
+    least = smaller(least, abs(det))
     f = 1.0 / det
     E[0, 0], E[0, 1], E[0, 2], E[0, 3], E[0, 4], E[0, 5] = f * i00, f * i01, f * i02, f * i10, f * i11, f * i12
     E[0, 6], E[0, 7], E[0, 8] = f * i20, f * i21, f * i22
-    E[0, 24], E[0, 25], E[0, 26] = Dxx, Dxz, Dzz
+    if E.shape[1] > WIDTH:
+        E[0, 24], E[0, 25], E[0, 26] = Dxx, Dxz, Dzz
     back_substitute(E, g0, g1, g2, D)
-    return True
+    return least != 0.0
 
 
 @kernel

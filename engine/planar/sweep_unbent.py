@@ -3,8 +3,11 @@
 Well posed while the tether is in tension only (compression: EI = 0 is ill-posed, Triantafyllou & Howell 1994).
 """
 
+import numpy as np
+
+from ..choose import smaller
 from ..compiled import kernel
-from ..ends import upper_end
+from ..ends import planar_end
 
 
 @kernel
@@ -16,6 +19,7 @@ def sweep_unbent(p, tables, t, cq, cv, in_motion, Y, C_tilde, F, Q, E, D):
     for i in range(6, 10):
         E[0, i] = 0.0
     E[0, 10], E[0, 11] = r0, r1
+    least = np.inf  # of the determinants
     for k in range(1, n):
         a = k - 1
         e = 0.5 * tables[p.grid_at + a]
@@ -38,8 +42,7 @@ def sweep_unbent(p, tables, t, cq, cv, in_motion, Y, C_tilde, F, Q, E, D):
         g0 = Q[a, 3] - Q[k, 3] + e * (Q[a, 9] + Q[k, 9]) + Kxx * r0 + Kxz * r1 - Jxx * cx - Jxz * cz
         g1 = Q[a, 4] - Q[k, 4] + e * (Q[a, 10] + Q[k, 10]) + Kxz * r0 + Kzz * r1 - Jxz * cx - Jzz * cz
         det = A00 * A11 - A01 * A10
-        if det == 0.0:
-            return False
+        least = smaller(least, abs(det))
         f = 1.0 / det
         P00, P01 = f * (A01 * B10 - A11 * B00), f * (A01 * B11 - A11 * B01)
         P10, P11 = f * (A10 * B00 - A00 * B10), f * (A10 * B01 - A00 * B11)
@@ -51,7 +54,7 @@ def sweep_unbent(p, tables, t, cq, cv, in_motion, Y, C_tilde, F, Q, E, D):
         E[k, 0], E[k, 1], E[k, 2], E[k, 3], E[k, 4], E[k, 5] = P00, P01, P10, P11, p0, p1
         E[k, 6], E[k, 7], E[k, 8], E[k, 9], E[k, 10], E[k, 11] = R00, R01, R10, R11, r0, r1
     b = n - 1
-    ex, ez, eN, Dxx, Dxz, Dzz = upper_end(
+    ex, ez, eN, Dxx, Dxz, Dzz = planar_end(
         p, tables, t, cv, in_motion, Q[b, 3], Q[b, 4], Y[b, 2], Y[b, 3], C_tilde[b, 2], C_tilde[b, 3], F[b]
     )
     A00 = eN * Q[b, 2] * Q[b, 0] + Dxx * R00 + Dxz * R10
@@ -61,12 +64,11 @@ def sweep_unbent(p, tables, t, cq, cv, in_motion, Y, C_tilde, F, Q, E, D):
     g0 = -ex - Dxx * r0 - Dxz * r1
     g1 = -ez - Dxz * r0 - Dzz * r1
     det = A00 * A11 - A01 * A10
-    if det == 0.0:
-        return False
+    least = smaller(least, abs(det))
     y0, y1 = (A11 * g0 - A01 * g1) / det, (A00 * g1 - A10 * g0) / det
     for k in range(n - 1, -1, -1):
         D[k, 0], D[k, 1], D[k, 4], D[k, 5] = y0, 0.0, y1, 0.0
         D[k, 2] = E[k, 6] * y0 + E[k, 7] * y1 + E[k, 10]
         D[k, 3] = E[k, 8] * y0 + E[k, 9] * y1 + E[k, 11]
         y0, y1 = E[k, 0] * y0 + E[k, 1] * y1 + E[k, 4], E[k, 2] * y0 + E[k, 3] * y1 + E[k, 5]
-    return True
+    return least != 0.0

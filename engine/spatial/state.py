@@ -133,17 +133,17 @@ def largest_turn(p, Y):
 
 
 @kernel
-def release_loop(p, tables, Y, where):
-    """Change the sign of the Euler parameters from node `where` up, a turn by 2 pi; new first guesses nearby.
+def release_loop(p, tables, Y, upper):
+    """Change the sign of the Euler parameters from node `upper` up, a turn by 2 pi; new first guesses nearby.
 
     t, n, b and q stay as they are. Newton starts from the turns of the neighbours and no shear: from the old curvature
     it would find its way back.
     """
     n = Y.shape[0]
-    for k in range(where, n):
+    for k in range(upper, n):
         for i in range(6, 10):
             Y[k, i] = -Y[k, i]
-    for k in range(max(1, where - 2), min(n - 1, where + 2)):
+    for k in range(max(1, upper - 2), min(n - 1, upper + 2)):
         h = tables[p.grid_at + k - 1] + tables[p.grid_at + k]
         below, above = box_rotation(Y, k - 1, k)[0], box_rotation(Y, k, k + 1)[0]
         for i in range(1, 3):

@@ -53,6 +53,11 @@ class FakeEngine:
         looped = steepness in self.loops and scene.motion.dimensions == 2
         return sines(scene, periods, releases=3 if looped else 0)
 
+    def each(self, scenes, periods=None, duration_s=None):
+        """Called like engine.simulate_each."""
+        for number, scene in enumerate(scenes):
+            yield number, self(scene, periods, duration_s)
+
     def begun(self) -> list[float]:
         """Steepness of every run begun so far."""
         if not self.log or not Path(self.log).exists():

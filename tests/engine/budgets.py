@@ -28,15 +28,15 @@ def accepted_steps(scene, duration_s):
     """Yields (t, dt, whether it is a Runge-Kutta step, stages Y (s, n, unknowns), their rates K (s, n, conserved))."""
     motion = Motion(scene, duration_s)
     assert motion.status == 0
-    batch, p = motion.batch, motion.record
+    run, p = motion.inner, motion.record
     n, s = int(p["nodes"]), max(int(p["stages"]), 2)
-    trail = np.zeros((1, 3)), np.zeros((1, s, *batch.Y[0].shape)), np.zeros((1, s, *batch.C[0].shape))
-    state = batch.states[0]
-    assert n == batch.Y.shape[1]
-    while state["status"] == 0 and state["samples"] < batch.goals[0]:
+    trail = np.zeros((1, 3)), np.zeros((1, s, *run.Y.shape)), np.zeros((1, s, *run.C.shape))
+    state = run.state
+    assert n == run.Y.shape[0]
+    while state["status"] == 0 and state["samples"] < run.goal:
         state["trail"] = 0
-        march(p, batch.tables, state, batch.Y[0], batch.Y_before[0], batch.C[0], batch.K[0], batch.samples[0],
-              batch.profiles[0], batch.energies[0], batch.sums[0], *trail, batch.goals[0])  # fmt: skip
+        march(p, run.tables, state, run.Y, run.Y_before, run.C, run.K, run.samples,
+              run.profiles, run.energies, run.sums, *trail, run.goal)  # fmt: skip
         if state["trail"]:
             t, dt, kind = trail[0][0]
             yield t, dt, kind == 0.0, trail[1][0], trail[2][0]

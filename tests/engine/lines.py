@@ -1,11 +1,10 @@
 """Scenes and states for the tests against closed forms: lines without water or waves, states that no scene can express,
 their energy. A state is Y (n, 6) = (eps, S, U, W, phi, kappa), as in `engine.planar.node`."""
 
-import importlib
-
 import numpy as np
 
 from engine import load_scene
+from engine.run import Run
 from engine.scales import tension_at
 
 DRY = {"water": None, "waves": None}
@@ -40,36 +39,35 @@ class Motion:
     """One simulation, stepped from outside: its state, and the arrays that the kernels take."""
 
     def __init__(self, scene, duration_s=1.0, start=None):
-        module = importlib.import_module("engine.simulate")
-        self.batch = module._Batch([scene], [duration_s])
-        self.record, self.tables = self.batch.records[0], self.batch.tables
-        self.status = int(self.batch.states[0]["status"])
+        self.inner = Run(scene, duration_s)
+        self.record, self.tables = self.inner.record, self.inner.tables
+        self.status = int(self.inner.state["status"])
         self.h = self.tables[self.record["grid_at"] :][: int(self.record["nodes"]) - 1]
         self.s = np.concatenate([[0.0], np.cumsum(self.h)])
         if start is not None:
-            self.batch.Y[0] = self.batch.Y_before[0] = start
-            self.batch.states[0]["small_steps"] = 3
-            self.batch.states[0]["dt"] = WHOLE_STARTER_S / 3
+            self.inner.Y[:] = self.inner.Y_before[:] = start
+            self.inner.state["small_steps"] = 3
+            self.inner.state["dt"] = WHOLE_STARTER_S / 3
 
     @property
     def Y(self):
-        return self.batch.Y[0]
+        return self.inner.Y
 
     @property
     def time_s(self):
-        return float(self.batch.states[0]["t"])
+        return float(self.inner.state["t"])
 
     def states(self):
         """Yields (t, Y) after the first step past each output sample, the start included."""
         yield self.time_s, self.Y.copy()
-        while not self.batch.done():
-            self.batch.advance(1)
+        while not self.inner.done():
+            self.inner.advance(1)
             yield self.time_s, self.Y.copy()
 
     def run(self):
-        while not self.batch.done():
-            self.batch.advance(1000)
-        return self.batch.trajectory(0)
+        while not self.inner.done():
+            self.inner.advance(1000)
+        return self.inner.trajectory()
 
 
 def equilibrium(scene):

@@ -4,15 +4,14 @@ A copy takes each step as the run took it: same time, same length, same kind, wi
 both. Copies on a common step sequence differ by the dynamics alone, not by their step control.
 """
 
-import importlib
-
 import numpy as np
 
+from engine import run as engine_run
 from engine.guards import OK
 from engine.march import STATE, guard_turns, march
 from engine.planar import node, sweep
 from engine.planar.state import conserved
-from engine.steps import one_stage_step, runge_kutta_step
+from engine.steps import runge_kutta_step
 from engine.tangent import carry
 
 ROUNDING = 1e-20  # Newton's tolerance: it stops once an update is below 7e-11, one more step of it from rounding
@@ -23,10 +22,10 @@ class Run:
     """A simulation of one scene, advanced chunk by chunk; its trail stays in `T, Ys, Ks[:count]`."""
 
     def __init__(self, scene, duration_s):
-        self.batch = importlib.import_module("engine.simulate")._Batch([scene], [duration_s])
-        self.batch.records["newton_tolerance"] = ROUNDING
-        self.batch.records["max_newton"] = 40
-        self.record, self.tables, self.state = self.batch.records[0], self.batch.tables, self.batch.states[0]
+        self.inner = engine_run.Run(scene, duration_s)
+        self.inner.record["newton_tolerance"] = ROUNDING
+        self.inner.record["max_newton"] = 40
+        self.record, self.tables, self.state = self.inner.record, self.inner.tables, self.inner.state
         n, s = int(self.record["nodes"]), max(int(self.record["stages"]), 2)
         self.T, self.Ys, self.Ks = np.zeros((CHUNK, 3)), np.zeros((CHUNK, s, n, 6)), np.zeros((CHUNK, s, n, 4))
         self.count = 0
@@ -35,14 +34,13 @@ class Run:
 
     def chunks(self):
         """Yield the number of steps in the trail until the run is over; fails if it ends early."""
-        batch = self.batch
+        inner = self.inner
         assert self.state["status"] == OK
-        while not batch.done():
+        while not inner.done():
             self.state["trail"] = 0
             march(
-                self.record, self.tables, self.state, batch.Y[0], batch.Y_before[0], batch.C[0], batch.K[0],
-                batch.samples[0], batch.profiles[0], batch.energies[0], batch.sums[0],
-                self.T, self.Ys, self.Ks, batch.goals[0],
+                self.record, self.tables, self.state, inner.Y, inner.Y_before, inner.C, inner.K,
+                inner.samples, inner.profiles, inner.energies, inner.sums, self.T, self.Ys, self.Ks, inner.goal,
             )  # fmt: skip
             assert self.state["status"] == OK
             yield int(self.state["trail"])
@@ -115,16 +113,21 @@ class Copy:
     def _try(self, t, dt, one_stage):
         run = self.run
         state = (self.Y, self.Y_before, self.C, self.K)
-        if one_stage:
-            return one_stage_step(
-                run.record, run.tables, t, dt, self.dt_before, 1.0, 1.0, 1.0, 100, *state, self.Ys[-1], self.Ks[-1],
-                self.C_new, self.work,
-            )[0]  # fmt: skip
         return runge_kutta_step(
-            run.record, run.tables, t, dt, self.dt_before, *state, self.Ys, self.Ks, self.C_new, self.work
+            run.record,
+            run.tables,
+            t,
+            dt,
+            self.dt_before,
+            bool(one_stage),
+            *state,
+            self.Ys,
+            self.Ks,
+            self.C_new,
+            self.work,
         )[0]
 
 
 def start_of(run):
     """The state (Y, K) of a run that has not moved yet."""
-    return run.batch.Y[0].copy(), run.batch.K[0].copy()
+    return run.inner.Y.copy(), run.inner.K.copy()

@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 from engine import load_scene, simulate
-from engine.simulate import _Batch, simulate_batch
+from engine.run import Run
+from engine.simulate import simulate_batch
 
 STEEP = {"waves.steepness": 0.13, "water.depth_m": 21.6}
 MEMBERS = [
@@ -110,10 +111,10 @@ def test_two_equal_members_are_equal():
 @pytest.mark.parametrize("chunk", [1, 7, 1000, 10**6])
 def test_chunks_do_not_change_the_result(chunk):
     scene = load_scene("tethered_buoy", {**STEEP, "output.profiles": True})
-    batch = _Batch([scene], [60.0])
+    batch = Run(scene, 60.0)
     while not batch.done():
         batch.advance(chunk)
-    assert_equal(batch.trajectory(0), simulate(scene, duration_s=60.0))
+    assert_equal(batch.trajectory(), simulate(scene, duration_s=60.0))
 
 
 def test_progress_rises_to_one():

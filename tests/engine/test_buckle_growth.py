@@ -75,8 +75,8 @@ def test_a_sinusoidal_disturbance_grows_at_that_rate(water, mode):
     start[:, 1] = size * EI * k**2 * np.cos(phase) / lam**3
     start[:, 3] = sigma * size * lam / k * np.sin(phase)  # w_s = (1 + eps) phi
     motion = Motion(scene, duration, start)
-    motion.batch.states[0]["status"] = 0  # the bent static shape between the ends is not where this run starts
+    motion.inner.state["status"] = 0  # the bent static shape between the ends is not where this run starts
     history = [(t, Y[0, 4]) for t, Y in motion.states()]
-    assert int(motion.batch.states[0]["status"]) == 0
+    assert int(motion.inner.state["status"]) == 0
     time, tilt = np.array(history[2:]).T
     assert np.polyfit(time, np.log(tilt / size), 1)[0] == pytest.approx(sigma, rel=1e-4)

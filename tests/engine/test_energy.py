@@ -38,7 +38,7 @@ def balance(nodes, integrator, step_s):
     start[:, 2:4] = 2.0 * np.column_stack([-X[:, 1], X[:, 0]])
     motion = Motion(scene, DURATION, start)
     energies = np.array([energy(scene, Y, motion.h) for _, Y in motion.states()])
-    assert int(motion.batch.states[0]["status"]) == 0
+    assert int(motion.inner.state["status"]) == 0
     assert np.ptp(energies[:, 0]) > 0.99 * energies[0, 0]  # it comes to rest and swings back
     total = energies.sum(axis=1)
     return (total - total[0]) / energies[0, 0]

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from engine import load_scene, simulate
-from engine.simulate import _Batch
+from engine.run import Run
 
 REGULAR = {  # small waves, with a current that keeps |v| v away from its kink
     "waves.steepness": 0.016,
@@ -54,38 +54,38 @@ def test_default_tolerance_is_good_to_centimetres_in_small_waves(reference):
     assert run.statistics["steps"] < 60 and error_of(run, reference) < 0.01
 
 
-def batch_at(seconds):
+def run_to(seconds):
     """A run in steep waves stopped at its first step beyond a time."""
     scene = load_scene("tethered_buoy", {"waves.steepness": 0.13, "solver.max_step_s": 5.0, "solver.rtol": 1e-3})
-    batch = _Batch([scene], [60.0])
-    batch.advance(round(seconds / 0.05) + 1)
-    return batch
+    run = Run(scene, 60.0)
+    run.advance(round(seconds / 0.05) + 1)
+    return run
 
 
-def one_step(batch, dt, dt_before):
+def one_step(run, dt, dt_before):
     """Next accepted step from a first try of dt: (new state, rates, dt accepted, rejections, failures)."""
-    state = batch.states[0]
+    state = run.state
     before = {name: state[name] for name in ("t", "steps", "rejected", "failures")}
     state["dt"], state["dt_before"] = dt, dt_before
     while state["steps"] == before["steps"]:
         state["samples"] = 0  # the kernel returns at the next sample it stores, and each step now stores one
-        batch.advance(1)
+        run.advance(1)
         assert state["status"] == 0
     assert state["steps"] == before["steps"] + 1
     counts = [int(state[name] - before[name]) for name in ("rejected", "failures")]
-    return batch.Y[0].copy(), batch.K[0].copy(), float(state["dt_before"]), *counts
+    return run.Y.copy(), run.K.copy(), float(state["dt_before"]), *counts
 
 
 @pytest.mark.parametrize("seconds", [2.0, 7.0, 11.0])
 @pytest.mark.parametrize("first_try", [0.3, 2.0])
 def test_a_rejected_trial_leaves_no_trace(seconds, first_try):
     """The step taken after rejections is, bit for bit, the one taken where it was tried at once."""
-    batch = batch_at(seconds)
-    dt_before = float(batch.states[0]["dt_before"])
-    Y, K, dt, rejected, failures = one_step(batch, first_try, dt_before)
+    run = run_to(seconds)
+    dt_before = float(run.state["dt_before"])
+    Y, K, dt, rejected, failures = one_step(run, first_try, dt_before)
     assert rejected + failures > 0
     # a failure of Newton's method also forgets the step before, which serves only the first guess
-    again = one_step(batch_at(seconds), dt, 0.0 if failures else dt_before)
+    again = one_step(run_to(seconds), dt, 0.0 if failures else dt_before)
     assert again[3:] == (0, 0)
     assert np.array_equal(again[0], Y) and np.array_equal(again[1], K) and again[2] == dt
 

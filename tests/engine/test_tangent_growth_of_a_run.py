@@ -1,11 +1,10 @@
 """What a run says about its perturbations: only where it is asked, without a trace on the motion, kept on disk."""
 
-import importlib
-
 import numpy as np
 import pytest
 
 from engine import SceneError, Trajectory, load_scene, simulate, simulate_batch
+from engine.run import Run
 
 STEEP = {"water.depth_m": 21.6, "tether.nodes": 21}
 
@@ -50,10 +49,10 @@ def test_batches_and_chunks_leave_no_trace(run):
     np.testing.assert_array_equal(pair[1].tangent.growth_nats, run.tangent.growth_nats)
     same_motion(pair[1], run)
     assert pair[0].tangent.growth_nats.shape == (5, 1) and pair[0].tangent.period_s == 6.0
-    batch = importlib.import_module("engine.simulate")._Batch([steep(2)], [32.5])
-    while not batch.done():
-        batch.advance(7)
-    np.testing.assert_array_equal(batch.trajectory(0).tangent.growth_nats, run.tangent.growth_nats)
+    chunked = Run(steep(2), 32.5)
+    while not chunked.done():
+        chunked.advance(7)
+    np.testing.assert_array_equal(chunked.trajectory().tangent.growth_nats, run.tangent.growth_nats)
 
 
 def test_releases_are_told_in_their_period():

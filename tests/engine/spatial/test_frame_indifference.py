@@ -141,8 +141,8 @@ def test_the_roll_of_the_frames_changes_nothing(name):
     runs = []
     for angle in (0.0, 0.3, 2.0, -3.0):
         motion = Motion(in_space(parts(asis), STEPS), duration_s)
-        motion.batch.Y[0] = rolled(motion.batch.Y[0], angle)
-        motion.batch.Y_before[0] = motion.batch.Y[0]
+        motion.inner.Y[:] = rolled(motion.inner.Y, angle)
+        motion.inner.Y_before[:] = motion.inner.Y
         first = frames(motion.Y[:, 6:10])
         run = motion.run()
         assert run.status == "ok"

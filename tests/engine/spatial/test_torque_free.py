@@ -46,7 +46,7 @@ def test_a_clamped_end_that_is_let_go_loses_its_torque():
     )  # fmt: skip
     motion = Motion(scene, 0.8)
     history = [(t, Y[:, 10].copy()) for t, Y in motion.states()]
-    assert int(motion.batch.states[0]["status"]) == 0
+    assert int(motion.inner.state["status"]) == 0
     for t, torsion in history:
         assert np.ptp(torsion) == 0.0  # one number along the line
         assert torsion[0] == pytest.approx(0.3, rel=0.1) if t < 0.5 else t < 0.51 or torsion[0] == 0.0

@@ -107,12 +107,12 @@ def test_a_whirling_string_turns_as_a_rigid_body():
         Y[:, 6:10] = frames_along(np.stack([Nx / T, 0 * T, Nr / T], 1), np.array([0.0, 1.0, 0.0]))
         Y[:, 4] = -omega * r  # turning from z to -y
         motion = Motion(scene, 0.75 * period, Y)
-        motion.batch.states[0]["status"] = 0  # slack and weightless it has no rest, but it does not start from there
+        motion.inner.state["status"] = 0  # slack and weightless it has no rest, but it does not start from there
         worst = 0.0
         for t, Y in motion.states():
             angle = omega * t
             expected = np.stack([x, -r * np.sin(angle), r * np.cos(angle)], 1)
             worst = max(worst, np.abs(positions(Y, motion.h) - expected).max())
-        assert int(motion.batch.states[0]["status"]) == 0
+        assert int(motion.inner.state["status"]) == 0
         errors.append(worst)
     assert errors[1] < 0.03 and np.log2(np.divide(errors[:-1], errors[1:])) == pytest.approx(2, abs=0.1)

@@ -1,0 +1,126 @@
+"""How fast runs go side by side (`engine.lanes`), against the same runs one by one, on one core and on two.
+
+    python -m benchmarks.lanes_speed [--rounds N] [--periods N] [--diagram]
+
+Sweep    the buoy at H = 21.6 m, 41 nodes, default tolerance; steepnesses evenly from 0.05 to 0.16, 48 of them, 40 wave
+         periods each: without perturbations, and with those that a campaign of more than 40 periods carries.
+Figure   wave periods a second and core: of processor time (`process_time`), and of wall time with two processes.
+Noise    The settings take turns; medians over the rounds. Compilation and statics are outside the first figure, and
+         one call before the clock starts keeps compilation out of the second.
+Equal    every trajectory of the batch is compared with the run alone, bit for bit.
+--diagram  the campaign itself: `campaigns.buoy_sweep`, 400 steepnesses, 300 periods, two workers, with its report,
+         once without exponents and once as it comes.
+"""
+
+import argparse
+import os
+import subprocess
+import sys
+import tempfile
+import time
+from concurrent.futures import ProcessPoolExecutor
+
+import numpy as np
+
+from engine import load_scene, simulate, simulate_batch
+
+STEEPNESS = np.linspace(0.05, 0.16, 48)
+WATER = {"water.depth_m": 21.6}
+CARRIED = {"output.tangent_vectors": 1, "output.lateral_growth": True}
+
+
+def scenes(extra, steepness=STEEPNESS):
+    return [load_scene("tethered_buoy", WATER | extra | {"waves.steepness": float(value)}) for value in steepness]
+
+
+def timed_batch(extra, periods, steepness=STEEPNESS):
+    """(processor seconds, wall seconds, wave periods) of one batch."""
+    members = scenes(extra, steepness)
+    wall, processor = time.perf_counter(), time.process_time()
+    simulate_batch(members, periods=periods)
+    return time.process_time() - processor, time.perf_counter() - wall, len(members) * periods
+
+
+def timed_alone(extra, periods):
+    """As `timed_batch`, of every sixth run alone."""
+    members = scenes(extra, STEEPNESS[::6])
+    wall, processor = time.perf_counter(), time.process_time()
+    for scene in members:
+        simulate(scene, periods=periods)
+    return time.process_time() - processor, time.perf_counter() - wall, len(members) * periods
+
+
+def on_two(pool, extra, periods):
+    """Wave periods a second of wall time by two processes, each with half of the steepnesses."""
+    began = time.perf_counter()
+    halves = [pool.submit(timed_batch, extra, periods, STEEPNESS[half::2]) for half in range(2)]
+    total = sum(half.result()[2] for half in halves)
+    return total / (time.perf_counter() - began)
+
+
+def equal(periods):
+    """Are the batch's trajectories and growths those of the runs alone?"""
+    for scene, run in zip(scenes(CARRIED), simulate_batch(scenes(CARRIED), periods=periods), strict=True):
+        alone = simulate(scene, periods=periods)
+        same = all(np.array_equal(alone.columns[name], run.columns[name]) for name in alone.columns)
+        same &= np.array_equal(alone.tangent.growth_nats, run.tangent.growth_nats)
+        same &= np.array_equal(alone.tangent.lateral_nats, run.tangent.lateral_nats)
+        if not same:
+            return False
+    return True
+
+
+def sweep(rounds, periods):
+    for name, extra in (("without perturbations", {}), ("with two perturbations", CARRIED)):
+        simulate_batch(scenes(extra)[:2], periods=0.1)
+        simulate(scenes(extra)[0], periods=0.1)
+        rates = {"alone": [], "batch": [], "batch, wall": [], "two": []}
+        with ProcessPoolExecutor(2) as pool:
+            on_two(pool, extra, 0.1)
+            for _ in range(rounds):
+                processor, _, total = timed_alone(extra, periods)
+                rates["alone"].append(total / processor)
+                processor, wall, total = timed_batch(extra, periods)
+                rates["batch"].append(total / processor)
+                rates["batch, wall"].append(total / wall)
+                rates["two"].append(on_two(pool, extra, periods))
+        alone, batch, wall, two = (float(np.median(values)) for values in rates.values())
+        print(
+            f"{name}: {alone:.0f} wave periods a second and core alone, {batch:.0f} in a batch ({batch / alone:.1f} "
+            f"times; best round {max(rates['batch']):.0f}); wall {wall:.0f} by one process, {two:.0f} by two "
+            f"({two / wall:.2f} times)"
+        )
+
+
+def diagram():
+    for name, extra in (("without exponents", ["--set", "output.tangent_vectors=0"]), ("with exponents", [])):
+        with tempfile.TemporaryDirectory() as out:
+            command = [
+                sys.executable, "-m", "campaigns.buoy_sweep", "--steepness-range", "0.016", "0.16", "400",
+                "--periods", "300", "--jobs", "2", "--out", out, *extra,
+            ]  # fmt: skip
+            began = time.perf_counter()
+            done = subprocess.run(command, capture_output=True, text=True, check=False)
+            print(f"orbit diagram {name}: {time.perf_counter() - began:.0f} s in all, exit code {done.returncode}")
+            print("   " + "\n   ".join(line for line in done.stdout.splitlines() if line.startswith(("runs", "time"))))
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    parser.add_argument("--rounds", type=int, default=5, help="turns of every setting (default 5)")
+    parser.add_argument("--periods", type=float, default=40, help="length of the runs in wave periods (default 40)")
+    parser.add_argument("--diagram", action="store_true", help="also the campaign of 400 runs, twice (minutes)")
+    given = parser.parse_args()
+    print(f"load at the start: {os.getloadavg()[0]:.1f} on {os.cpu_count()} cores; {given.rounds} rounds")
+    began = time.perf_counter()
+    simulate_batch(scenes({})[:2], periods=0.1)
+    print(f"first batch (compilation, or loading what is compiled): {time.perf_counter() - began:.1f} s")
+    sweep(given.rounds, given.periods)
+    print(f"48 runs of 12 periods bit for bit those alone: {equal(12)}")
+    if given.diagram:
+        diagram()
+    print(f"load at the end: {os.getloadavg()[0]:.1f}")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,172 @@
+"""One run: its numbers from the static start to the trajectory; `engine.march` or `engine.lanes` advances it."""
+
+import math
+import time
+
+import numpy as np
+
+from . import energy, parameters
+from .ends import HELD
+from .exponents import Trail
+from .guards import ADVICE, OK, TURN_UNRESOLVED, WORDS
+from .integrators import RUNGE_KUTTA
+from .march import SMALL_STEPS, STATE, march
+from .planar import state as planar
+from .spatial import lift
+from .spatial import state as spatial
+from .statics import first_guess, settle
+from .trajectory import EnergyBudget, Profiles, Trajectory
+
+
+class Run:
+    """Arrays of one run of a scene over `duration_s`.
+
+    record, tables: its parameters; state: (1,) STATE; Y, Y_before (n, unknowns), C, K (n, conserved); samples
+    (goal, 12), profiles (m, n, 6), energies (m', 9), sums (5,) (`engine.energy`); wall_s: what advancing it has taken.
+    """
+
+    def __init__(self, scene, duration_s):
+        self.scene = scene
+        self.kind = spatial if scene.motion.dimensions == 3 else planar
+        tables = []
+        self.record = parameters.record_of(scene, tables)[0]
+        self.tables = np.concatenate(tables)
+        n = int(self.record["nodes"])
+        self.goal = _count(duration_s, self.record["output_step"])
+        profiled = _count(duration_s, self.record["profile_step"]) if self.record["profile_step"] > 0 else 0
+        unknowns, conserved = self.kind.size_of.py_func(None)
+        self.samples, self.profiles = np.zeros((self.goal, 12)), np.zeros((profiled, n, 6))
+        self.energies, self.sums = np.zeros((self.goal if scene.output.energy else 0, energy.WIDTH)), np.zeros(5)
+        self.state = np.zeros(1, STATE)[0]
+        self.Y, self.C, self.K = np.zeros((n, unknowns)), np.zeros((n, conserved)), np.zeros((n, conserved))
+        self.trail = Trail(scene, self.record, self.tables, duration_s)
+        self._start()
+        self.Y_before = self.Y.copy()
+        self.wall_s = 0.0
+
+    def _start(self):
+        record, state, scene = self.record, self.state, self.scene
+        n = int(record["nodes"])
+        h = self.tables[record["grid_at"] : record["grid_at"] + n - 1]
+        Y = first_guess(record, scene, h)
+        target = scene.end.position_m if record["end"] == HELD else (0.0, 0.0, 0.0)
+        axes = "xyz" if self.kind is spatial else "xz"
+        state["status"] = settle(record, self.tables, Y, np.array([target["xyz".index(axis)] for axis in axes]))
+        s = np.concatenate([[0.0], np.cumsum(h)])
+        for i, axis in enumerate(axes):
+            Y[:, len(axes) + i] = record[f"start_{axis}"] * s / s[-1]
+        self.Y[:] = Y
+        state["low"], state["high"] = np.inf, -np.inf
+        state["min_strain"] = Y[:, 0].min()
+        state["max_turn"] = lift.turns(Y).max() if self.kind is spatial else np.abs(np.diff(Y[:, 4])).max()
+        if state["status"] == OK and record["bent"] and state["max_turn"] > math.pi:
+            state["status"] = TURN_UNRESOLVED
+        # a sudden start has rates at t = 0 that are not zero: steps that need none come first, or the order falls to 1
+        needs_rates = record["method"] == RUNGE_KUTTA or record["alpha_m"] != record["gamma"]
+        starter = needs_rates and not record["at_rest"]
+        state["small_steps"] = SMALL_STEPS if starter else 0
+        state["dt"] = 1e-3 * record["max_step"] if record["adaptive"] or starter else record["fixed_step"]
+
+    def done(self):
+        """Has it ended, at its goal or before?"""
+        return bool(self.state["status"] != OK or self.state["samples"] >= self.goal)
+
+    def fraction(self):
+        """Share of the run that is done."""
+        return 1.0 if self.done() else float(self.state["samples"]) / self.goal
+
+    def compile(self):
+        """Compile what `advance` needs, or load it compiled, outside `wall_s`: no step is made."""
+        self.advance(-self.goal)
+        self.wall_s = 0.0
+
+    def advance(self, chunk):
+        """March until `chunk` more samples are stored, or the run ends."""
+        began = time.perf_counter()
+        until = min(self.goal, self.state["samples"] + chunk)
+        while True:
+            march(
+                self.record, self.tables, self.state, self.Y, self.Y_before, self.C, self.K, self.samples,
+                self.profiles, self.energies, self.sums, *self.trail.steps, until,
+            )  # fmt: skip
+            self.trail.follow(self.record, self.tables, self.state)
+            if self.state["status"] != OK or self.state["samples"] >= until:
+                break
+        self.wall_s += time.perf_counter() - began
+
+    def trajectory(self):
+        """The record of the run, up to where it is."""
+        record, state, scene = self.record, self.state, self.scene
+        status = int(state["status"])
+        message = ADVICE[status].format(
+            t=float(state["t"]), dt=float(state["dt"]), turn=float(state["max_turn"]), releases=int(state["releases"])
+        )
+        statistics = {
+            "steps": int(state["steps"]),
+            "rejected_steps": int(state["rejected"]),
+            "newton_iterations": int(state["newton"]),
+            "newton_failures": int(state["failures"]),
+            "loop_releases": int(state["releases"]),
+            "max_turn_rad": float(state["max_turn"]),
+            "min_strain": float(state["min_strain"]),
+            "end_time_s": float(state["t"]),
+            "wall_s": self.wall_s,
+        }
+        heading = float(scene.waves.direction_rad) if self.kind is spatial and scene.waves is not None else 0.0
+        columns = _columns(self.samples[: min(int(state["samples"]), self.goal)], heading)
+        profiles, tangent = self._profiles(record, state), self.trail.growth(state)
+        return Trajectory(scene, WORDS[status], message, columns, statistics, profiles, tangent, self._budget())
+
+    def _budget(self):
+        if not self.scene.output.energy:
+            return None
+        rows = self.energies[: int(self.state["energies"])]
+        time_s, kinetic, strain, gravity, work, shear, viscous, space, powers = rows.T.copy()
+        total = kinetic + strain + gravity
+        return EnergyBudget(time_s, kinetic, strain, gravity, work, shear, viscous, space, powers - (total - total[:1]))
+
+    def _profiles(self, record, state):
+        count = int(state["profiles"])
+        if self.scene.output.profiles is False:
+            return None
+        n = int(record["nodes"])
+        h = self.tables[record["grid_at"] : record["grid_at"] + n - 1]
+        values = self.profiles[:count]
+        return Profiles(
+            np.arange(count) * float(record["profile_step"]),
+            np.concatenate([[0.0], np.cumsum(h)]),
+            *(np.ascontiguousarray(values[:, :, i]) for i in range(6)),
+        )
+
+
+def _count(duration_s, step_s):
+    """Samples from t = 0 to the end, both included where the rounding of a step is all that is missing."""
+    return int(np.floor(duration_s / step_s * (1 + 1e-12) + 1e-9)) + 1
+
+
+def _columns(samples, heading):
+    """Columns of the table; the angle from the vertical is taken in the plane of waves that travel along `heading`."""
+    t, x, y, z, u, v, w = samples[:, :7].T
+    r = np.sqrt(x**2 + y**2 + z**2) if y.any() else np.hypot(x, z)
+    along, rate = (
+        (x, u) if heading == 0 else tuple(np.cos(heading) * a + np.sin(heading) * b for a, b in ((x, y), (u, v)))
+    )
+    with np.errstate(invalid="ignore", divide="ignore"):
+        radius_rate = (x * u + y * v + z * w) / np.where(r > 0, r, np.nan)
+        square = along**2 + z**2
+        angle_rate = (z * rate - along * w) / np.where(square > 0, square, np.nan)
+    return {
+        "time_s": t.copy(),
+        "x_m": x.copy(),
+        "y_m": y.copy(),
+        "z_m": z.copy(),
+        "radius_m": r,
+        "radius_rate_mps": radius_rate,
+        "angle_rad": np.unwrap(np.arctan2(along, z)),
+        "angle_rate_radps": angle_rate,
+        "offplane_m": samples[:, 11].copy(),
+        "tension_top_N": samples[:, 7].copy(),
+        "tension_min_N": samples[:, 8].copy(),
+        "tension_top_low_N": samples[:, 9].copy(),
+        "tension_top_high_N": samples[:, 10].copy(),
+    }
