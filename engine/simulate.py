@@ -8,13 +8,15 @@ import numpy as np
 from . import parameters
 from .ends import HELD
 from .exponents import Trail
-from .guards import ADVICE, OK, TURN_UNRESOLVED, WORDS
+from .guards import ADVICE, OK, STATICS_FAILED, TURN_UNRESOLVED, WORDS
 from .integrators import RUNGE_KUTTA
 from .march import SMALL_STEPS, STATE, march
 from .planar import state as planar
+from .room import MOST_SAMPLES, check_room
 from .spatial import lift
 from .spatial import state as spatial
 from .statics import first_guess, settle
+from .statics_advice import why_no_rest
 from .trajectory import Profiles, Trajectory
 
 PERIODS_PER_CALL = 10
@@ -71,7 +73,7 @@ def _by_batch(scenes, durations, progress):
     if not scenes:
         return []
     batch = _Batch(scenes, durations)
-    chunk = max(1, round(PERIODS_PER_CALL * _period(scenes[0]) / float(batch.records[0]["output_step"])))
+    chunk = max(1, min(MOST_SAMPLES, round(PERIODS_PER_CALL * _period(scenes[0]) / scenes[0].sample_step_s())))
     while not batch.done():
         batch.advance(chunk)
         progress(batch.fraction())
@@ -103,6 +105,7 @@ def _duration(scene, periods, duration_s):
         duration_s = periods * scene.waves.period_s
     if not (math.isfinite(duration_s) and duration_s > 0):
         raise ValueError(f"the run length must be positive and finite, given {duration_s!r} s")
+    check_room(scene, duration_s)
     return float(duration_s)
 
 
@@ -195,6 +198,8 @@ class _Batch:
         message = ADVICE[status].format(
             t=float(state["t"]), dt=float(state["dt"]), turn=float(state["max_turn"]), releases=int(state["releases"])
         )
+        if status == STATICS_FAILED:
+            message += why_no_rest(record, scene)
         statistics = {
             "steps": int(state["steps"]),
             "rejected_steps": int(state["rejected"]),
