@@ -1,8 +1,8 @@
 """The cases of `campaigns.stability`: what is run, for how long, how it is judged, and which endings are expected.
 
-Every case starts from a shipped scene. `check` names a function of `campaigns.stability_checks`. A run that does not end
-"ok" is a known limit where its status is in `ends` (with `limit`, the reason, to go into the report); a scene that the
-engine does not accept is refused, and is expected to be where "refused" is in `ends`.
+Every case starts from a shipped scene. `check` names a function of `campaigns.stability_checks`. `ends` names what is
+expected besides a run that ends "ok" with its check below the bar, and `limit` says why: statuses of runs that end early,
+REFUSED for a scene that the engine does not accept, ABOVE_BAR for a check that may fail.
 """
 
 from dataclasses import dataclass, field
@@ -12,7 +12,7 @@ VIOLENT = {"waves.steepness": 0.13, "water.depth_m": 21.6}
 DRY = {"water": None, "waves": None}
 STILL = {"waves": None}
 SPACE = {"motion.dimensions": 3}
-REFUSED = ("refused",)
+REFUSED, ABOVE_BAR = "refused", "above bar"
 
 
 @dataclass(frozen=True)

@@ -150,6 +150,16 @@ def buckling(run, case):
     return abs(float(rate) / math.sqrt(square.max()) - 1.0), CLOSED_GROWTH
 
 
+def straight(run, case):
+    """Largest distance (share of the length) of a node from the chord: what is symmetric stays so, stable or not."""
+    lines = run.profiles
+    points = np.stack([lines.x_m, lines.y_m, lines.z_m], axis=2)
+    chord = points[:, -1] - points[:, 0]
+    along = chord / np.linalg.norm(chord, axis=1)[:, None]
+    off = points - np.einsum("tni,ti->tn", points, along)[:, :, None] * along[:, None, :]
+    return float(np.linalg.norm(off, axis=2).max()) / run.scene.tether.length_m, "symmetry"
+
+
 def drift(run, case):
     """Largest change of the strobed r, over the range of r in a period, between the first and the last tenth of a run.
 

@@ -11,11 +11,11 @@ import math
 from pathlib import Path
 
 from campaigns.limited import DIED, DONE, LATE, RAISED, limited
-from campaigns.stability_cases import Case
+from campaigns.stability_cases import ABOVE_BAR, Case
 
 LIMIT_S = 300.0
 OK, REFUSED, LIMIT, UNEXPLAINED = "ok", "refused", "known limit", "unexplained"
-NEEDS_PROFILES = ("energy", "buckling")
+NEEDS_PROFILES = ("energy", "buckling", "straight")
 COLUMNS = (
     "part", "group", "case", "dimensions", "verdict", "run_status", "measured", "bar", "how", "limit", "length_s",
     "end_time_s", "steps", "rejected_steps", "newton_iterations", "newton_failures", "loop_releases", "max_turn_rad",
@@ -31,12 +31,13 @@ def case_row(case: Case, path: Path | None = None) -> dict[str, object]:
     """The row of a case; its run is saved under `path` where one is given."""
     row = {"part": "case", "group": case.group, "case": case.name, "length_s": case.length_s, "bar": case.bar}
     row["dimensions"] = case.changes.get("motion.dimensions", 2)
-    kind, answer, wall_s = limited(lambda: _judged(case, path), LIMIT_S)
+    limit_s = case.options.get("limit_s", LIMIT_S)
+    kind, answer, wall_s = limited(lambda: _judged(case, path), limit_s)
     if kind == DONE:
         row |= answer
     else:
         said = {
-            LATE: ("hang", f"no answer within {LIMIT_S:g} s"),
+            LATE: ("hang", f"no answer within {limit_s:g} s"),
             DIED: ("crash", f"its process ended with exit code {answer}"),
             RAISED: ("traceback", answer[2] if kind == RAISED else ""),
         }
@@ -74,6 +75,6 @@ def _judged(case: Case, path: Path | None) -> dict[str, object]:
         verdict = UNEXPLAINED if not known else REFUSED if run.status == "statics-failed" else LIMIT
         return row | {"verdict": verdict, "how": "ended with its reason", "limit": case.limit}
     measured, how = getattr(stability_checks, case.check)(run, case)
-    verdict = OK if measured <= case.bar else LIMIT if case.limit and not case.ends else UNEXPLAINED
+    verdict = OK if measured <= case.bar else LIMIT if ABOVE_BAR in case.ends else UNEXPLAINED
     row |= {"verdict": verdict, "measured": measured if math.isfinite(measured) else None, "how": how}
     return row | ({"limit": case.limit} if verdict == LIMIT else {})

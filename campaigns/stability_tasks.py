@@ -65,10 +65,8 @@ def drift_case(periods: int) -> Case:
     return Case("drift", f"{periods} regular waves", scene, 5.0 * periods, "drift", DRIFT_BAR, options=options)
 
 
-def do(out: Path, maker: str, task: Task) -> tuple[Task, dict, bool]:
-    """(task, its result, whether it was computed) in a worker."""
-    if (found := kept_row(out, task.key(), maker)) is not None:
-        return task, found, False
+def do(out: Path, maker: str, task: Task) -> tuple[Task, dict]:
+    """(task, its result) in a worker."""
     from campaigns import fuzz, step_maps
 
     fuzz.load_kernels()
@@ -81,7 +79,7 @@ def do(out: Path, maker: str, task: Task) -> tuple[Task, dict, bool]:
         seed, start, stop = task.what
         result = {"rows": [judge(seed, number) for number in range(start, stop)]}
     keep_row(out, task.key(), maker, result)
-    return task, result, True
+    return task, result
 
 
 def run(order) -> tuple[dict[str, float], Summary]:
@@ -101,15 +99,16 @@ def run(order) -> tuple[dict[str, float], Summary]:
         fuzz.load_kernels()
     timing = {"compile_s": time.perf_counter() - start}
     start = time.perf_counter()
-    results = {task: kept_row(out, task.key(), maker) for task in tasks if task not in missing}
-    for task, result, _ in _progress(_all(partial(do, out, maker), missing, order.jobs), len(tasks), len(results)):
-        results[task] = result
+    undone = {task.key() for task in missing}
+    results = {key: kept_row(out, key, maker) for key in (task.key() for task in tasks) if key not in undone}
+    for task, result in _progress(_all(partial(do, out, maker), missing, order.jobs), len(tasks), len(results)):
+        results[task.key()] = result
     # alone on the machine, at the end: it takes times
     cost = kept_row(out, shares.key(), maker) or scene_shares.measured(order.quick)
     keep_row(out, shares.key(), maker, cost)
     timing |= {"run_s": time.perf_counter() - start, "analysis_s": 0.0}
     write_json(out / "scene_shares.json", cost)
-    write_json(out / "step_maps.json", {task.what: results[task] for task in tasks if task.kind == "map"})
+    write_json(out / "step_maps.json", {task.what: results[task.key()] for task in tasks if task.kind == "map"})
     rows = _table(out, tasks, results)
     return timing, Summary(rows, len(tasks) - len(missing), len(missing), 0.0)
 
@@ -131,13 +130,13 @@ def _all(call, tasks: list[Task], jobs: int):
     with opened("loky", min(jobs, len(tasks))) as execute:
         while pending:
             try:
-                for task, result, computed in execute(call, list(pending.values())):
+                for task, result in execute(call, list(pending.values())):
                     del pending[task.key()]
-                    yield task, result, computed
+                    yield task, result
             except PoolBroken as broken:
                 for task in broken.suspects:
                     del pending[task.key()]
-                    yield task, _died(task, broken), True
+                    yield task, _died(task, broken)
 
 
 def _died(task: Task, broken: PoolBroken) -> dict:
@@ -157,14 +156,14 @@ def _died(task: Task, broken: PoolBroken) -> dict:
 def _table(out: Path, tasks: list[Task], results: dict) -> list[dict]:
     from campaigns import fuzz
 
-    rows = [results[task] | {"run_key": task.key()} for task in tasks if task.kind == "case"]
+    rows = [results[task.key()] | {"run_key": task.key()} for task in tasks if task.kind == "case"]
     random = []
     for kind in CHUNK:
-        found = [row for task in tasks if task.kind == kind for row in results[task]["rows"]]
+        found = [row for task in tasks if task.kind == kind for row in results[task.key()]["rows"]]
         random += [{"kind": kind, **row} for row in found]
         if found:
             counts = Counter(row["outcome"] for row in found)
-            unsound = [row for row in found if row["outcome"] not in fuzz.SOUND or (kind, row["outcome"]) == ("invalid", "ok")]
+            unsound = [row for row in found if row["outcome"] not in fuzz.SOUND]
             said = ", ".join(f"{word} {count}" for word, count in sorted(counts.items()))
             rows.append({
                 "part": "fuzz", "group": "random", "case": f"{len(found)} {kind} scenes", "how": "outcomes",

@@ -14,6 +14,7 @@ CONTENTS = {
     "buoy_sweep": "reports.buoy_sweep",
     "oscillator": "reports.oscillator_content",
     "out_of_plane": "reports.offplane_content",
+    "stability": "reports.stability_content",
 }
 
 __all__ = ["CONTENTS", "build"]
