@@ -19,7 +19,7 @@ LIMIT_S = 60.0
 SOUND = ("ok", "ended", "refused")
 SAMPLES, LENGTH_S = 60, 1.0  # a run lasts for so many output samples, or for so long ...
 STEPS = 1e4  # ... and for no more of the longest steps: what is asked for has to be possible in the time limit
-_CLEAR = re.compile(r"^.+: .*(allowed|unknown key|which law = .* does not have)", re.DOTALL)
+CLEAR = re.compile(r"^.+: .*(allowed|unknown key|which law = .* does not have)", re.DOTALL)
 
 
 def valid_case(seed: int, number: int) -> tuple[dict, float]:
@@ -57,7 +57,7 @@ def judge_invalid(seed: int, number: int) -> dict[str, object]:
     kind, answer, wall_s = limited(lambda: fuzz_scenes.faults_of(raw), LIMIT_S)
     outcome, message = _unsound(kind, answer)
     if kind == DONE:
-        unclear = [line for line in answer if not _CLEAR.match(line) or len(line) > 400]
+        unclear = [line for line in answer if not CLEAR.match(line) or len(line) > 400]
         outcome = "unclear" if unclear else "refused" if answer else "accepted"
         message = "; ".join(unclear or answer)
     return {"number": number, "outcome": outcome, "status": "", "message": message, "wall_s": wall_s}

@@ -88,9 +88,15 @@ def _tension(rng):
         return {"law": "linear", "stiffness_N": size}
     if law == "tanh":
         turn, shift = float(rng.uniform(1.0, 20.0)), float(rng.uniform(-3.0, 1.0))
-        return {"law": "tanh", "p": [0.1 * size, turn, shift, -0.1 * size * math.tanh(shift), float(rng.uniform(0, size))]}
+        return {
+            "law": "tanh",
+            "p": [0.1 * size, turn, shift, -0.1 * size * math.tanh(shift), float(rng.uniform(0, size))],
+        }
     below, above = int(rng.integers(1, 4)), int(rng.integers(1, 5))
-    strain = [*increasing(rng, -float(rng.uniform(0.1, 0.9)), 0.0, below + 1), *increasing(rng, 0.0, 0.8, above + 1)[1:]]
+    strain = [
+        *increasing(rng, -float(rng.uniform(0.1, 0.9)), 0.0, below + 1),
+        *increasing(rng, 0.0, 0.8, above + 1)[1:],
+    ]
     force = np.cumsum(rng.exponential(0.1 * size, len(strain)) * (rng.random(len(strain)) < 0.8))
     return {"law": "tabulated", "strain": strain, "tension_N": [float(x) for x in force - force[below]]}
 
@@ -122,7 +128,11 @@ def _end(rng, raw, kind, space):
         if space and maybe(rng, 0.4):
             raw["anchor"] = {"rotation": "clamped"}
             if maybe(rng, 0.5):
-                raw["end"] |= {"rotation": "clamped", "twist_rad": float(rng.normal() * 3), "twist_ramp_s": pick(rng, 0.0, 1.0)}
+                raw["end"] |= {
+                    "rotation": "clamped",
+                    "twist_rad": float(rng.normal() * 3),
+                    "twist_ramp_s": pick(rng, 0.0, 1.0),
+                }
     else:
         raw["end"] = {"kind": "free", "force_N": vector(rng, log_uniform(rng, 0.1, 1e5), space)}
         if maybe(rng, 0.4):
@@ -133,7 +143,11 @@ def _water(rng, raw, space):
     raw["water"] = {"depth_m": log_uniform(rng, 0.5, 500.0), "density_kgpm3": pick(rng, 1027.0, 1027.0, 1.2, 13500.0)}
     if raw["gravity_mps2"] > 0 and maybe(rng, 0.7):
         heading = float(rng.uniform(-3, 3)) if space else pick(rng, 0.0, math.pi)
-        raw["waves"] = {"period_s": log_uniform(rng, 0.5, 60.0), "direction_rad": heading, "ramp_s": pick(rng, 0.0, 0.0, 5.0)}
+        raw["waves"] = {
+            "period_s": log_uniform(rng, 0.5, 60.0),
+            "direction_rad": heading,
+            "ramp_s": pick(rng, 0.0, 0.0, 5.0),
+        }
         if maybe(rng, 0.7):
             raw["waves"]["steepness"] = float(rng.uniform(0.0, 0.4))
         else:

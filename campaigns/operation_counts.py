@@ -70,7 +70,9 @@ def _frames(n):
     """Frames of a line that leans from the vertical, as the engine puts them for planar starts in space."""
     from engine.spatial import lift
 
-    return np.array([lift.shortest_rotation([1.0, 0.0, 0.0], [math.sin(a), 0.0, math.cos(a)]) for a in np.linspace(0, 0.1, n)])
+    return np.array(
+        [lift.shortest_rotation([1.0, 0.0, 0.0], [math.sin(a), 0.0, math.cos(a)]) for a in np.linspace(0, 0.1, n)]
+    )
 
 
 class _Counting(ast.NodeTransformer):
@@ -86,7 +88,9 @@ class _Counting(ast.NodeTransformer):
         return node
 
     def visit_BinOp(self, node):
-        constant = all(not isinstance(part, (ast.Name, ast.Attribute, ast.Call, ast.Subscript)) for part in ast.walk(node))
+        constant = all(
+            not isinstance(part, (ast.Name, ast.Attribute, ast.Call, ast.Subscript)) for part in ast.walk(node)
+        )
         self.generic_visit(node)
         return node if constant or not isinstance(node.op, _COUNTED) else _wrapped("_tick", node)
 

@@ -20,7 +20,7 @@ from campaigns import cli
 
 CAMPAIGN = "stability"
 MODULE = "campaigns.stability"
-FUZZ, QUICK_FUZZ = 400, 40
+FUZZ, QUICK_FUZZ = 1000, 40
 DRIFT_PERIODS = 100_000
 
 
@@ -62,7 +62,12 @@ def parser():
     cli.add(what, "--drift-periods", "N", periods)
     where = parser.add_argument_group("how and where")
     cli.add(where, "--jobs", "N", f"cases at the same time (default: {cli.default_jobs()})")
-    cli.add(where, "--out", "DIR", f"folder of the results; what is found there is not done again (default: results/{CAMPAIGN})")
+    cli.add(
+        where,
+        "--out",
+        "DIR",
+        f"folder of the results; what is found there is not done again (default: results/{CAMPAIGN})",
+    )
     where.add_argument("--no-report", action="store_true", help="leave out report.html and report.pdf")
     return parser
 

@@ -60,7 +60,9 @@ def stays(run, case):
 def refined(run, case):
     """Rms difference of r from a run of twice the elements and a tenth of the tolerance, over the range of r."""
     nodes = FINER_NODES * (run.scene.tether.nodes - 1) + 1
-    return difference(run, case, {"tether.nodes": nodes, "solver.rtol": run.scene.solver.rtol / FINER_RTOL}), "refinement"
+    return difference(
+        run, case, {"tether.nodes": nodes, "solver.rtol": run.scene.solver.rtol / FINER_RTOL}
+    ), "refinement"
 
 
 def as_fine(run, case):

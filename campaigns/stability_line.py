@@ -2,11 +2,15 @@
 
 from campaigns.stability_cases import ABOVE_BAR, DRY, REFUSED, REGULAR, SPACE, STILL, VIOLENT, Case
 
-ILL_POSED = "without bending stiffness slack is ill-posed: ever shorter buckles grow ever faster (model.md 5.1)"
+ILL_POSED = "without bending stiffness slack is ill-posed: ever shorter buckles grow ever faster"
 UNSTABLE = "statics finds a rest, here a line standing on its lower part, and not always a stable one: it falls over"
 COARSE = "loops and folds of the slack rope are far smaller than an element"
-COLLAPSE = "the law has no stiffness in compression: a slack line collapses to nothing (model.md 3.6)"
-_TABLE = {"law": "tabulated", "strain": [-0.5, 0.0, 0.03, 0.1, 0.2], "tension_N": [-2000.0, 0.0, 1980.0, 2020.0, 6000.0]}
+COLLAPSE = "the law has no stiffness in compression: a slack line collapses to nothing"
+_TABLE = {
+    "law": "tabulated",
+    "strain": [-0.5, 0.0, 0.03, 0.1, 0.2],
+    "tension_N": [-2000.0, 0.0, 1980.0, 2020.0, 6000.0],
+}
 _NO_PUSH = {"law": "tabulated", "strain": [-0.5, 0.0, 0.5], "tension_N": [0.0, 0.0, 25000.0]}
 _CREASE = {"law": "tabulated", "strain": [-0.5, 0.0, 1e-12, 0.5], "tension_N": [-25000.0, 0.0, 1e-6, 25000.0]}
 
@@ -17,7 +21,9 @@ def bending() -> list[Case]:
     for EI in (0.0, 1e-8, 1e-4, 0.4, 40.0, 1e4):
         change = {"tether.bending_stiffness_Nm2": EI}
         quick = EI in (0.0, 1e4)
-        cases.append(Case("EI", f"EI = {EI:g}, regular wave", {**REGULAR, **change}, 15.0, "refined", 0.02, quick=quick))
+        cases.append(
+            Case("EI", f"EI = {EI:g}, regular wave", {**REGULAR, **change}, 15.0, "refined", 0.02, quick=quick)
+        )
     for EI in (1e-3, 0.1, 0.4, 4.0, 40.0, 1e4):
         change = {"tether.bending_stiffness_Nm2": EI}
         cases.append(Case("EI", f"EI = {EI:g}, snapping wave", {**VIOLENT, **change}, 20.0, "refined", 0.02))
@@ -37,7 +43,9 @@ def stretching() -> list[Case]:
     for factor, depth_m in ((1e-2, 150.0), (1e-1, 40.0), (1.0, 22.5), (10.0, 22.5), (1e2, 22.5), (1e4, 22.5)):
         change = {"tether.tension.stiffness_N": 5e4 * factor, "water.depth_m": depth_m}
         name = f"EA = {5e4 * factor:g} N"
-        cases.append(Case("EA", f"{name}, at rest", {**STILL, **change}, 20.0, "rest", 1e-6, quick=factor in (1e-2, 1e4)))
+        cases.append(
+            Case("EA", f"{name}, at rest", {**STILL, **change}, 20.0, "rest", 1e-6, quick=factor in (1e-2, 1e4))
+        )
         waves = {**REGULAR, **change}
         cases.append(Case("EA", f"{name}, regular wave", waves, 15.0, "refined", 0.02))
         if factor in (1e-2, 1e4):
@@ -81,7 +89,16 @@ def grids() -> list[Case]:
         change = {**REGULAR, "tether.nodes": nodes}
         options = {"nodes": 81 if nodes != 81 else 161}
         cases.append(
-            Case("nodes", f"{nodes} nodes, regular wave", change, 10.0, "as_fine", 0.02, options=options, quick=nodes in (3, 5000))
+            Case(
+                "nodes",
+                f"{nodes} nodes, regular wave",
+                change,
+                10.0,
+                "as_fine",
+                0.02,
+                options=options,
+                quick=nodes in (3, 5000),
+            )
         )
     for nodes in (3, 5, 11, 321):
         change = {**VIOLENT, "tether.nodes": nodes}
@@ -93,7 +110,9 @@ def grids() -> list[Case]:
         cases.append(Case("nodes", f"{nodes} nodes, in space", change, 10.0, "as_fine", 0.02, options={"nodes": 41}))
     for where in ("both", "lower", "upper"):
         change = {**REGULAR, "tether.grid_stretching": 5.0, "tether.grid_refined": where, "tether.nodes": 81}
-        cases.append(Case("nodes", f"81 nodes, stretched by 5 ({where})", change, 10.0, "as_fine", 0.02, options={"nodes": 81}))
+        cases.append(
+            Case("nodes", f"81 nodes, stretched by 5 ({where})", change, 10.0, "as_fine", 0.02, options={"nodes": 81})
+        )
     return cases
 
 
@@ -102,11 +121,13 @@ def masses() -> list[Case]:
     cases = []
     for density in (1.0, 1026.999, 1027.0, 7850.0, 1e5, 3e5):
         change = {"tether.density_kgpm3": density}
-        name = f"rope of {density:g} kg/m3"
+        name = f"rope of {density:.7g} kg/m3"
         # heavier than the buoy lifts: straight up, its lower part pressed together, it rests but not for long
         check, ends, limit = ("stays", (ABOVE_BAR,), UNSTABLE) if density > 1e5 else ("rest", (), "")
         cases.append(Case("mass", f"{name}, at rest", {**STILL, **change}, 20.0, check, 1e-6, ends, limit))
-        cases.append(Case("mass", f"{name}, regular wave", {**REGULAR, **change}, 10.0, "refined", 0.02, quick=density == 1027.0))
+        cases.append(
+            Case("mass", f"{name}, regular wave", {**REGULAR, **change}, 10.0, "refined", 0.02, quick=density == 1027.0)
+        )
     for added in (0.0, 1e2, 1e4):
         change = {**REGULAR, "tether.added_mass": added}
         cases.append(Case("mass", f"rope with added mass {added:g}", change, 10.0, "refined", 0.02))
@@ -117,11 +138,29 @@ def masses() -> list[Case]:
     heavy = {**STILL, "buoy.mass_kg": 1e6}
     cases.append(Case("mass", "buoy of 1000 t, hanging below its anchor: no sea floor", heavy, 10.0, "rest", 1e-6))
     dry = {**DRY, "tether.density_kgpm3": 1e-6}
-    cases.append(Case("mass", "a bob on a rope without mass, dry", {**dry, "start.buoy_velocity_mps": [2.0, 0.0, 0.0]}, 20.0, "energy", 0.01))
+    cases.append(
+        Case(
+            "mass",
+            "a bob on a rope without mass, dry",
+            {**dry, "start.buoy_velocity_mps": [2.0, 0.0, 0.0]},
+            20.0,
+            "energy",
+            0.01,
+        )
+    )
     weightless = {**DRY, "gravity_mps2": 0.0}
     cases.append(Case("mass", "no gravity, dry: nothing pulls, bent", weightless, 5.0, "rest", 1e-6, quick=True))
     unbent = {**weightless, "tether.bending_stiffness_Nm2": 0.0}
     cases.append(
-        Case("mass", "no gravity, dry, unbent", unbent, 5.0, "finite", 0.0, ("statics-failed", REFUSED), "nothing gives the line a shape")
+        Case(
+            "mass",
+            "no gravity, dry, unbent",
+            unbent,
+            5.0,
+            "finite",
+            0.0,
+            ("statics-failed", REFUSED),
+            "nothing gives the line a shape",
+        )
     )
     return cases

@@ -4,9 +4,11 @@ import math
 
 from campaigns.stability_cases import ABOVE_BAR, DRY, REFUSED, REGULAR, SPACE, STILL, VIOLENT, Case, free, held
 
-CHAOS = "the motion is sensitive: its own rounding grows, and no two tolerances give one path for long (model.md 3.9)"
-ABOVE = "Airy waves continued far above still water grow without bound (model.md 2.3)"
-SEED = "in space a line is straight to rounding only, and rounding grows at the rate of the buckle (1e-17 in 26 e-folds)"
+CHAOS = "the motion is sensitive: its own rounding grows, and no two tolerances give one path for long"
+ABOVE = "Airy waves continued far above still water grow without bound"
+SEED = (
+    "in space a line is straight to rounding only, and rounding grows at the rate of the buckle (1e-17 in 26 e-folds)"
+)
 _PENDULUM = {**DRY, "tether.bending_stiffness_Nm2": 0.4, "solver.rtol": 1e-3}
 
 
@@ -15,18 +17,35 @@ def water() -> list[Case]:
     bob = {**_PENDULUM, "start.buoy_velocity_mps": [1.0, 0.0, 0.0]}
     cases = [
         Case("water", "no water: a pendulum", bob, 20.0, "energy", 0.01, quick=True),
-        Case("water", "no water: a pendulum in space", {**bob, **SPACE, "start.buoy_velocity_mps": [1.0, 0.5, 0.0]}, 20.0, "energy", 0.01),
+        Case(
+            "water",
+            "no water: a pendulum in space",
+            {**bob, **SPACE, "start.buoy_velocity_mps": [1.0, 0.5, 0.0]},
+            20.0,
+            "energy",
+            0.01,
+        ),
         Case("water", "still water", STILL, 60.0, "rest", 1e-6, quick=True),
         Case("water", "still water, in space", {**STILL, **SPACE}, 20.0, "rest", 1e-6),
     ]
     for speed in (1.0, 5.0, 20.0):
         current = {"current": {"law": "uniform", "velocity_mps": [speed, 0.0, 0.0]}}
         cases.append(Case("water", f"current {speed:g} m/s, at rest", {**STILL, **current}, 20.0, "stays", 1e-4))
-        cases.append(Case("water", f"current {speed:g} m/s, regular wave", {**REGULAR, **current}, 10.0, "refined", 0.02))
-    shear = {"law": "profile", "height_m": [0.0, 10.0, 22.0], "velocity_mps": [[-3.0, 0.0, 0.0], [0.0, 0.0, 0.0], [3.0, 0.0, 0.0]]}
+        cases.append(
+            Case("water", f"current {speed:g} m/s, regular wave", {**REGULAR, **current}, 10.0, "refined", 0.02)
+        )
+    shear = {
+        "law": "profile",
+        "height_m": [0.0, 10.0, 22.0],
+        "velocity_mps": [[-3.0, 0.0, 0.0], [0.0, 0.0, 0.0], [3.0, 0.0, 0.0]],
+    }
     cases.append(Case("water", "shear from −3 to 3 m/s", {**STILL, "current": shear}, 20.0, "stays", 1e-4, quick=True))
     across = {"law": "uniform", "velocity_mps": [0.0, 5.0, 0.0]}
-    cases.append(Case("water", "5 m/s across the waves, in space", {**REGULAR, **SPACE, "current": across}, 10.0, "refined", 0.02))
+    cases.append(
+        Case(
+            "water", "5 m/s across the waves, in space", {**REGULAR, **SPACE, "current": across}, 10.0, "refined", 0.02
+        )
+    )
     return cases
 
 
@@ -36,20 +55,46 @@ def waves() -> list[Case]:
     for steepness in (0.05, 0.1, 0.2, 0.3, 0.4):
         ends, limit = ((ABOVE_BAR,), CHAOS) if steepness > 0.1 else ((), "")
         change = {"waves.steepness": steepness}
-        cases.append(Case("waves", f"kA = {steepness:g}", change, 25.0, "refined", 0.05, ends, limit, quick=steepness == 0.4))
+        cases.append(
+            Case("waves", f"kA = {steepness:g}", change, 25.0, "refined", 0.05, ends, limit, quick=steepness == 0.4)
+        )
     for law in ("zero", "wheeler"):
         change = {"waves.steepness": 0.4, "waves.above_still_water": law}
-        cases.append(Case("waves", f"kA = 0.4, above still water: {law}", change, 25.0, "refined", 0.05, (ABOVE_BAR,), CHAOS))
-    cases.append(Case("waves", "kA = 0.4, in space", {"waves.steepness": 0.4, **SPACE}, 15.0, "refined", 0.05, (ABOVE_BAR,), CHAOS))
+        cases.append(
+            Case("waves", f"kA = 0.4, above still water: {law}", change, 25.0, "refined", 0.05, (ABOVE_BAR,), CHAOS)
+        )
+    cases.append(
+        Case(
+            "waves", "kA = 0.4, in space", {"waves.steepness": 0.4, **SPACE}, 15.0, "refined", 0.05, (ABOVE_BAR,), CHAOS
+        )
+    )
     for period_s in (0.5, 1.0, 2.0, 10.0, 20.0, 60.0):
         change = {**REGULAR, "waves.period_s": period_s}
         name = f"period {period_s:g} s, kA = 0.016"
-        cases.append(Case("waves", name, change, max(4 * period_s, 5.0), "refined", 0.02, quick=period_s in (0.5, 60.0)))
+        cases.append(
+            Case("waves", name, change, max(4 * period_s, 5.0), "refined", 0.02, quick=period_s in (0.5, 60.0))
+        )
     for period_s in (0.5, 2.0, 20.0):
         change = {"waves.steepness": 0.3, "waves.period_s": period_s, "water.depth_m": 22.5}
-        cases.append(Case("waves", f"period {period_s:g} s, kA = 0.3", change, 4 * period_s, "refined", 0.05, (ABOVE_BAR,), CHAOS))
+        cases.append(
+            Case(
+                "waves", f"period {period_s:g} s, kA = 0.3", change, 4 * period_s, "refined", 0.05, (ABOVE_BAR,), CHAOS
+            )
+        )
     far = {"tether.tension.stiffness_N": 100.0, "waves.period_s": 1.0}
-    cases.append(Case("waves", "a buoy 400 m above the water, period 1 s", far, 5.0, "finite", 0.0, ("not-finite",), ABOVE, quick=True))
+    cases.append(
+        Case(
+            "waves",
+            "a buoy 400 m above the water, period 1 s",
+            far,
+            5.0,
+            "finite",
+            0.0,
+            ("not-finite",),
+            ABOVE,
+            quick=True,
+        )
+    )
     return cases
 
 
@@ -64,18 +109,43 @@ def starts() -> list[Case]:
     for speed in (100.0, 1e3, 1e6):
         change = {**STILL, "start.buoy_velocity_mps": [0.0, 0.0, -speed]}
         ends = ("strain-below-minus-one", "newton-failed", "step-limit")
-        cases.append(Case("start", f"a kick of {speed:g} m/s down", change, 2.0, "finite", 0.0, ends, "faster than the line's own waves can carry away"))
+        cases.append(
+            Case(
+                "start",
+                f"a kick of {speed:g} m/s down",
+                change,
+                2.0,
+                "finite",
+                0.0,
+                ends,
+                "faster than the line's own waves can carry away",
+            )
+        )
     for share in (0.9, 0.5, 0.1, 1e-3, 0.0):
         slack = {**DRY, **held(20.0 * share, 0, 0)}
-        cases.append(Case("start", f"ends {share:g} of the length apart, hanging", slack, 5.0, "stays", 1e-3, quick=share in (0.5, 0.0)))
-    cases.append(Case("start", "ends 0.5 of the length apart, in space", {**DRY, **SPACE, **held(6, 8, 0)}, 5.0, "stays", 1e-3))
+        cases.append(
+            Case(
+                "start",
+                f"ends {share:g} of the length apart, hanging",
+                slack,
+                5.0,
+                "stays",
+                1e-3,
+                quick=share in (0.5, 0.0),
+            )
+        )
+    cases.append(
+        Case("start", "ends 0.5 of the length apart, in space", {**DRY, **SPACE, **held(6, 8, 0)}, 5.0, "stays", 1e-3)
+    )
     fall = {**DRY, **held(19.9, 0, 0), "end.release_s": 0.01, "output.step_s": 0.01, "output.profiles": True}
     cases.append(Case("start", "horizontal, let go", fall, 2.0, "energy", 0.02, quick=True))
     cases.append(Case("start", "horizontal, let go, in space", {**fall, **SPACE}, 1.5, "energy", 0.02))
     upright = {**DRY, **held(0, 0, 19.99), "end.release_s": 0.01, "output.step_s": 0.01, "output.profiles": True}
     ends = ("newton-failed", "step-limit", "turn-unresolved", "strain-below-minus-one")
     tower = "a heavy line standing on its lower end collapses under its own weight, by symmetry along itself"
-    cases.append(Case("start", "upside down: upright in air, let go", upright, 1.5, "energy", 0.02, ends, tower, quick=True))
+    cases.append(
+        Case("start", "upside down: upright in air, let go", upright, 1.5, "energy", 0.02, ends, tower, quick=True)
+    )
     leaning = {**upright, **held(1.0, 0, 19.96), "end.release_s": 0.01}
     cases.append(Case("start", "upside down, leaning by 3 degrees, let go", leaning, 1.5, "energy", 0.02, ends, tower))
     below = {**STILL, "buoy.mass_kg": 1900.0}
@@ -92,7 +162,9 @@ def snaps() -> list[Case]:
         name = f"a bob thrown at {speed:g} m/s, caught by the rope"
         cases.append(Case("snap", name, {**thrown, "solver.rtol": 1e-3}, time_s, "energy", 0.05, quick=speed == 5.0))
         if speed == 10.0:
-            cases.append(Case("snap", f"{name}, in space", {**thrown, **SPACE, "solver.rtol": 1e-3}, time_s, "energy", 0.05))
+            cases.append(
+                Case("snap", f"{name}, in space", {**thrown, **SPACE, "solver.rtol": 1e-3}, time_s, "energy", 0.05)
+            )
     long = {**VIOLENT}
     cases.append(Case("snap", "four snapping waves, 81 nodes", {**long, "tether.nodes": 81}, 20.0, "refined", 0.02))
     return cases
@@ -109,7 +181,16 @@ def compression() -> list[Case]:
     seeded = {**symmetric, "gravity_mps2": 1e-9, "end.position_m": [0.02, 0.0, 1.9999]}
     return [
         Case("push", "straight, pushed together: stays straight", symmetric, 0.2, "straight", 1e-9, quick=True),
-        Case("push", "straight, pushed together, in space", {**symmetric, **SPACE}, 0.2, "straight", 1e-9, (ABOVE_BAR,), SEED),
+        Case(
+            "push",
+            "straight, pushed together, in space",
+            {**symmetric, **SPACE},
+            0.2,
+            "straight",
+            1e-9,
+            (ABOVE_BAR,),
+            SEED,
+        ),
         Case("push", "nearly straight: growth of the fastest buckle", seeded, 0.2, "buckling", 0.1),
     ]
 
@@ -121,11 +202,24 @@ def steps() -> list[Case]:
         for step_s in (0.5, 1e-4):
             change = {**REGULAR, "solver.integrator": method, "solver.step_s": step_s, "solver.max_step_s": 1.0}
             length_s = 50.0 if step_s > 0.1 else 0.5
-            cases.append(Case("steps", f"{method}, steps of {step_s:g} s", change, length_s, "bounded", 1.0, quick=step_s > 0.1))
+            cases.append(
+                Case("steps", f"{method}, steps of {step_s:g} s", change, length_s, "bounded", 1.0, quick=step_s > 0.1)
+            )
     loose = {**REGULAR, "solver.rtol": 0.9}
     cases.append(Case("steps", "rtol 0.9", loose, 15.0, "refined", 0.1))
     tight = {**REGULAR, "solver.rtol": 1e-9, "solver.newton_tolerance": 1e-12}
-    cases.append(Case("steps", "rtol 1e-9", tight, 1.0, "refined", 0.02, ("step-limit", "newton-failed"), "the tolerance asks for more digits than doubles hold"))
+    cases.append(
+        Case(
+            "steps",
+            "rtol 1e-9",
+            tight,
+            1.0,
+            "refined",
+            0.02,
+            ("step-limit", "newton-failed"),
+            "the tolerance asks for more digits than doubles hold",
+        )
+    )
     return cases
 
 
@@ -140,7 +234,10 @@ def inputs() -> list[Case]:
         refused(f"length {value:g} m", {"tether.length_m": value})
     for value in (5e-324, 1e300, math.inf, math.nan, -1.0):
         refused(f"EI {value:g} N m2", {"tether.bending_stiffness_Nm2": value})
-    refused("a table with coincident strains", {"tether.tension": {"law": "tabulated", "strain": [0.0, 0.1, 0.1], "tension_N": [0.0, 1.0, 2.0]}})
+    refused(
+        "a table with coincident strains",
+        {"tether.tension": {"law": "tabulated", "strain": [0.0, 0.1, 0.1], "tension_N": [0.0, 1.0, 2.0]}},
+    )
     height = {"law": "profile", "height_m": [0.0, 5.0, 5.0], "velocity_mps": [[0.0, 0.0, 0.0]] * 3}
     refused("a current with coincident heights", {"current": height})
     twice = {"law": "table", "time_s": [0.0, 1.0, 1.0], "displacement_m": [[0.0, 0.0, 0.0]] * 3}
@@ -149,13 +246,59 @@ def inputs() -> list[Case]:
     refused("a million nodes", {"tether.nodes": 10**6})
     refused("samples every 1e-12 s", {"output.step_s": 1e-12})
     refused("a run of 1e15 steps", {"solver.max_step_s": 1e-15, "solver.min_step_s": 1e-16})
-    ends = ("statics-failed", "newton-failed", "not-finite", "turn-unresolved", "step-limit", "strain-below-minus-one", "step-underflow", ABOVE_BAR)
+    ends = (
+        "statics-failed",
+        "newton-failed",
+        "not-finite",
+        "turn-unresolved",
+        "step-limit",
+        "strain-below-minus-one",
+        "step-underflow",
+        ABOVE_BAR,
+    )
     words = "sizes that belong to no line: the run ends with what it met first"
     for value in (1e-30, 1e-9, 1e6, 1e30):
-        cases.append(Case("input", f"a line of {value:g} m", {"tether.length_m": value}, 1.0, "refined", 0.1, ends, words, quick=True))
-    for key in ("tether.area_m2", "tether.density_kgpm3", "buoy.mass_kg", "buoy.diameter_m", "tether.tension.stiffness_N", "tether.bending_stiffness_Nm2", "water.depth_m", "waves.period_s", "tether.drag_normal", "tether.added_mass"):
+        cases.append(
+            Case(
+                "input",
+                f"a line of {value:g} m",
+                {"tether.length_m": value},
+                1.0,
+                "refined",
+                0.1,
+                ends,
+                words,
+                quick=True,
+            )
+        )
+    for key in (
+        "tether.area_m2",
+        "tether.density_kgpm3",
+        "buoy.mass_kg",
+        "buoy.diameter_m",
+        "tether.tension.stiffness_N",
+        "tether.bending_stiffness_Nm2",
+        "water.depth_m",
+        "waves.period_s",
+        "tether.drag_normal",
+        "tether.added_mass",
+    ):
         for value in (1e-30, 1e30):
-            cases.append(Case("input", f"{key} = {value:g}", {key: value}, 1.0, "refined", 0.1, (*ends, REFUSED), words, quick=True))
+            cases.append(
+                Case(
+                    "input",
+                    f"{key} = {value:g}",
+                    {key: value},
+                    1.0,
+                    "refined",
+                    0.1,
+                    (*ends, REFUSED),
+                    words,
+                    quick=True,
+                )
+            )
     nothing = {**DRY, **free(0, 0, 1e-30), "gravity_mps2": 0.0}
-    cases.append(Case("input", "a force of 1e-30 N on a weightless line", nothing, 1.0, "finite", 0.0, ends, words, quick=True))
+    cases.append(
+        Case("input", "a force of 1e-30 N on a weightless line", nothing, 1.0, "finite", 0.0, ends, words, quick=True)
+    )
     return cases

@@ -150,7 +150,11 @@ def _died(task: Task, broken: PoolBroken) -> dict:
     if task.kind == "map":
         return {"fault": said}
     _, start, stop = task.what
-    return {"rows": [{"number": n, "outcome": "crash", "status": "", "message": said, "wall_s": 0.0} for n in range(start, stop)]}
+    return {
+        "rows": [
+            {"number": n, "outcome": "crash", "status": "", "message": said, "wall_s": 0.0} for n in range(start, stop)
+        ]
+    }
 
 
 def _table(out: Path, tasks: list[Task], results: dict) -> list[dict]:

@@ -62,7 +62,12 @@ def _answers(study: Study):
                 f"Over {row['case']} ({number(value(row, 'wall_s'), 3)} s of computing) the strobed distance of the buoy "
                 f"moves by {number(value(row, 'measured'), 2)} of its range."
             )
-    apart = [entry["distance"] for line in study.maps.values() for entry in line.get("methods", {}).values() if "distance" in entry]
+    apart = [
+        entry["distance"]
+        for line in study.maps.values()
+        for entry in line.get("methods", {}).values()
+        if "distance" in entry
+    ]
     if apart:
         yield (
             f"Every eigenvalue that the closed form gives for straight lines is found in the engine's one-step map within "

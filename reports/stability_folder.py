@@ -71,5 +71,10 @@ def read_study(directory: str | Path) -> Study:
         raise FolderError(directory, faults)
     cases = [row for row in found["table.csv"] if row["part"] == "case"]
     return Study(
-        directory, found["provenance.json"], cases, found["fuzz.csv"], found["step_maps.json"], found["scene_shares.json"]
+        directory,
+        found["provenance.json"],
+        cases,
+        found["fuzz.csv"],
+        found["step_maps.json"],
+        found["scene_shares.json"],
     )

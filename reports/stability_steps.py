@@ -36,7 +36,9 @@ def map_items(study: Study) -> list[Item]:
             f"A line {seen}. Dots: inside or on the unit circle; crosses: outside, those beyond the panel on its edge. From "
             "`step_maps.json`."
         )
-        items.append(Figure(step_maps(values), caption, f"Eigenvalues in the complex plane beside the unit circle: {seen}."))
+        items.append(
+            Figure(step_maps(values), caption, f"Eigenvalues in the complex plane beside the unit circle: {seen}.")
+        )
         rows += [_row(line, name, entry) for name, entry in line["methods"].items()]
     columns = (
         Column("line", align="left"), Column("method", align="left"), Column("Δt", "s"), Column("largest |μ| − 1"),

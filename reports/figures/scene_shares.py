@@ -19,5 +19,5 @@ def scene_shares(names: list[str], operations: np.ndarray, times: np.ndarray) ->
         axes.axvline(1.0, color="black", linewidth=0.6)
         axes.set_xlabel("share of the first scene (–)")
         axes.grid(False, axis="y")
-        axes.legend(loc="lower right")
+        axes.legend(loc="upper right")
         return picture_of(figure)
