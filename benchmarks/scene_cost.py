@@ -1,5 +1,5 @@
-"""What each part of a scene costs: operations and microseconds per Newton iteration with and without it, side by side on
-one core.    python -m benchmarks.scene_cost
+"""What each part of a scene costs: operations and microseconds per Newton iteration with and without it, side by side
+on one core.    python -m benchmarks.scene_cost
 
 The scenes, the counting and the timing are those of `campaigns.scene_shares`, which puts them into the report.
 """

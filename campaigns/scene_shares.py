@@ -1,7 +1,7 @@
 """What each part of a scene costs: operations counted and microseconds taken, with and without it, side by side.
 
-The same tether and buoy, the same fixed steps (TR-BDF2, 5 ms), one part taken away or added at a time. Times are medians
-over rounds in which the scenes take turns on one core; operations are exact (`campaigns.operation_counts`).
+The same tether and buoy, the same fixed steps (TR-BDF2, 5 ms), one part taken away or added at a time. Times are
+medians over rounds in which the scenes take turns on one core; operations are exact (`campaigns.operation_counts`).
 """
 
 import statistics

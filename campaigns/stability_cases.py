@@ -1,8 +1,8 @@
 """The cases of `campaigns.stability`: what is run, for how long, how it is judged, and which endings are expected.
 
 Every case starts from a shipped scene. `check` names a function of `campaigns.stability_checks`. `ends` names what is
-expected besides a run that ends "ok" with its check below the bar, and `limit` says why: statuses of runs that end early,
-REFUSED for a scene that the engine does not accept, ABOVE_BAR for a check that may fail.
+expected besides a run that ends "ok" with its check below the bar, and `limit` says why: statuses of runs that end
+early, REFUSED for a scene that the engine does not accept, ABOVE_BAR for a check that may fail.
 """
 
 from dataclasses import dataclass, field
@@ -44,11 +44,11 @@ def free(x, y, z):
 
 def all_cases() -> list[Case]:
     """Every case, in the order of the report."""
-    from campaigns import stability_line, stability_motion
+    from campaigns import stability_inputs, stability_line, stability_motion
 
     groups = (
         stability_line.bending, stability_line.stretching, stability_line.laws, stability_line.grids,
         stability_line.masses, stability_motion.water, stability_motion.waves, stability_motion.starts,
-        stability_motion.snaps, stability_motion.compression, stability_motion.steps, stability_motion.inputs,
+        stability_motion.snaps, stability_motion.compression, stability_motion.steps, stability_inputs.inputs,
     )  # fmt: skip
     return [case for group in groups for case in group()]

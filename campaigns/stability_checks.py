@@ -1,7 +1,7 @@
 """How a finished run of `campaigns.stability` is judged: each check measures one number that a bar is set for.
 
-check(run, case) -> (measured, how we know): `run` is a finished trajectory whose status is "ok". Nothing here knows what
-the engine does inside; where another run is needed (refinement) it is made by the public `simulate`.
+check(run, case) -> (measured, how we know): `run` is a finished trajectory whose status is "ok". Nothing here knows
+what the engine does inside; where another run is needed (refinement) it is made by the public `simulate`.
 """
 
 import math
@@ -88,7 +88,7 @@ def bounded(run, case):
 
 
 def energy(run, case):
-    """Largest change of kinetic + gravity + stretching + bending energy over the largest kinetic energy (dry scenes)."""
+    """Largest change of kinetic + gravity + stretching + bending energy over the largest kinetic one; dry scenes."""
     parts = energies(run)
     total = parts.sum(axis=0)
     return float(np.abs(total - total[0]).max() / parts[0].max()), "energy"

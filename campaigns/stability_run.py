@@ -37,7 +37,7 @@ def case_row(case: Case, path: Path | None = None) -> dict[str, object]:
         row |= answer
     else:
         said = {
-            LATE: ("hang", f"no answer within {limit_s:g} s"),
+            LATE: ("hang", f"no answer within {limit_s:g} s of computing"),
             DIED: ("crash", f"its process ended with exit code {answer}"),
             RAISED: ("traceback", answer[2] if kind == RAISED else ""),
         }

@@ -22,8 +22,9 @@ from campaigns.stability_run import COLUMNS, UNEXPLAINED, case_row
 
 SOURCES = (
     "engine", "campaigns/stability_cases.py", "campaigns/stability_line.py", "campaigns/stability_motion.py",
-    "campaigns/stability_checks.py", "campaigns/stability_run.py", "campaigns/fuzz.py", "campaigns/fuzz_scenes.py",
-    "campaigns/limited.py", "campaigns/step_maps.py", "campaigns/scene_shares.py",
+    "campaigns/stability_inputs.py", "campaigns/stability_checks.py", "campaigns/stability_run.py", "campaigns/fuzz.py",
+    "campaigns/fuzz_scenes.py", "campaigns/fuzz_faults.py", "campaigns/limited.py", "campaigns/step_maps.py",
+    "campaigns/scene_shares.py", "campaigns/operation_counts.py",
 )  # fmt: skip
 FUZZ_COLUMNS = ("kind", "number", "outcome", "status", "message", "wall_s")
 CHUNK = {"valid": 20, "invalid": 200}

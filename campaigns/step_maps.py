@@ -1,13 +1,13 @@
 """Eigenvalues of the engine's one-step map about straight and hanging lines, against the closed form.
 
 The map (C, K) -> (C', K') of one step is differenced numerically about a state of rest. For a straight line of uniform
-strain eps the closed form (tests/engine/test_taut_line_modes.py has its source) gives the rates of the semi-discrete line,
+strain eps the closed form (source: tests/engine/test_taut_line_modes.py) gives the rates of the semi-discrete line,
 
     axial       lambda^2 = -EA k^2/m
     transverse  lambda^2 = -(T k^2/(1+eps) + EI k^4/(1+eps)^4)/m,     k = (2/h) tan(j pi h/(2 L))
 
-and a method multiplies a mode by its stability function R(lambda dt). Compressed, T < 0, rates are real: modes grow, and
-their eigenvalues have to lie outside the unit circle, at exp(lambda dt).
+and a method multiplies a mode by its stability function R(lambda dt). Compressed, T < 0, rates are real: modes grow,
+and their eigenvalues have to lie outside the unit circle, at exp(lambda dt).
 """
 
 import math
@@ -31,7 +31,7 @@ def fastest_growth(strain: float) -> float:
     return max(float(np.real(rate)) for rate in rates(strain))
 
 
-LINES = {  # name: (what it is, strain or None for a hanging line, step in s or e-folds of the fastest buckle, dimensions)
+LINES = {  # name: (what it is, strain or None: hanging, step in s or e-folds of the fastest buckle, dimensions)
     "taut": ("taut, strain 0.02", TAUT, 0.05, 2),
     "taut in space": ("taut, strain 0.02, in space", TAUT, 0.05, 3),
     "hanging": ("hanging between ends at 0.8 of its length", None, 0.05, 2),
@@ -78,9 +78,9 @@ def _generalized_alpha(z, rho):
 def of_line(name: str) -> dict[str, object]:
     """Eigenvalues of every method about one line of LINES.
 
-    {"title", "step_s", "methods": {method: {"re", "im", "largest", and for straight lines "distance" (largest distance of
-    a closed-form eigenvalue from the nearest one found), "growing", "growing_found": how many should be and are outside
-    the unit circle}}}
+    {"title", "step_s", "methods": {method: {"re", "im", "largest", and for straight lines "distance" (largest distance
+    of a closed-form eigenvalue from the nearest one found), "growing", "growing_found": how many should be and are
+    outside the unit circle}}}
     """
     title, strain, step, dimensions = LINES[name]
     step_s = step if isinstance(step, float) else float(step.split()[0]) / fastest_growth(strain)

@@ -2,8 +2,8 @@
 
     map: (C, K) -> (C', K'),  C the conserved variables (q, V) of every node, K their rates
 
-The step is the one that a run makes (`engine.march`), at the fixed step of the scene. Everything else of a state (forces,
-curvatures) follows from C within the step, to Newton's tolerance.
+The step is the one that a run makes (`engine.march`), at the fixed step of the scene. Everything else of a state
+(forces, curvatures) follows from C within the step, to Newton's tolerance.
 """
 
 import importlib

@@ -2,20 +2,32 @@
 of them; a long run in short steps would not end.
 """
 
+from . import parameters
+
 MOST_SAMPLES = 20_000_000  # 2 GB of samples; 1e5 wave periods at a hundred samples each is half of it
 MOST_PROFILE_VALUES = 400_000_000  # 3 GB of profiles
 PROFILE_QUANTITIES = 6
 MOST_STEPS = 1e9  # a day or more of computing on one core
 
 
+def longest_step(scene):
+    """(key, s) of the longest time step that a run of the scene can take."""
+    if scene.solver.courant is not None:
+        return "solver.courant", float(parameters.record_of(scene, [])[0]["fixed_step"])
+    return (
+        ("solver.step_s", scene.solver.step_s)
+        if scene.solver.step_s
+        else ("solver.max_step_s", scene.solver.max_step_s)
+    )
+
+
 def check_room(scene, duration_s):
     """Raises ValueError with the key to change where a run would never end, or keep more than memory usually holds."""
-    step_s = scene.solver.step_s or scene.solver.max_step_s
+    key, step_s = longest_step(scene)
     if duration_s / step_s > MOST_STEPS:
-        key = "solver.step_s" if scene.solver.step_s else "solver.max_step_s"
         raise ValueError(
-            f"{key}: {step_s:g} s makes {duration_s / step_s:.3g} steps or more of a run of {duration_s:g} s; allowed: at "
-            f"most {MOST_STEPS:.3g}, a longer step or a shorter run"
+            f"{key}: {step_s:g} s makes {duration_s / step_s:.3g} steps or more of a run of {duration_s:g} s; allowed: "
+            f"at most {MOST_STEPS:.3g}, a longer step or a shorter run"
         )
     step_s = scene.sample_step_s()
     samples = duration_s / step_s

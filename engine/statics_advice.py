@@ -10,7 +10,7 @@ NEARLY_NOTHING = -0.99  # a strain at which next to nothing is left of the line
 
 
 def why_no_rest(record, scene):
-    """The reason (or what is known of it) why `statics.settle` found no rest, to follow "no static equilibrium ...: "."""
+    """Why `statics.settle` found no rest, as far as is known: the end of the sentence that `guards.ADVICE` begins."""
     law, loads = scene.tether.tension, loads_of(record, scene)
     if loads is not None:
         largest = max(loads)
@@ -28,8 +28,8 @@ def why_no_rest(record, scene):
     pull = tension_at(NEARLY_NOTHING, law)
     if pull > 0 and (loads is None or pull > min(loads)):
         return (
-            f"tether.tension still pulls with {pull:.4g} N at a strain of {NEARLY_NOTHING:g}; let it fall to zero where "
-            "the line is not stretched"
+            f"tether.tension still pulls with {pull:.4g} N at a strain of {NEARLY_NOTHING:g}; let it fall to zero "
+            "where the line is not stretched"
         )
     return (
         "the iteration did not settle; try more tether.nodes, a tether.tension with stiffness in compression too, a "

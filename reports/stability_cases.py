@@ -24,11 +24,11 @@ TITLES = {
     "drift": "A long regular run",
 }
 HOW = (
-    "How we know: “closed form”: the largest distance from it; “refinement” or a run on other nodes: rms difference of r "
-    "from a run of twice the elements and a tenth of the tolerance (or the nodes named), over the range of r; “energy”: "
-    "largest change of the total over the largest kinetic energy, without water; “static equilibrium stays”, “symmetry”, "
-    "“r stays”: the largest movement over the length; “finite and complete”: every sample is there and a number, which is "
-    "asked of every run besides. The case is ok where the measured number is below its bar."
+    "How we know: “closed form”: the largest distance from it; “refinement” or a run on other nodes: rms difference of "
+    "r from a run of twice the elements and a tenth of the tolerance (or the nodes named), over the range of r; "
+    "“energy”: largest change of the total over the largest kinetic energy, without water; “static equilibrium stays”, "
+    "“symmetry”, “r stays”: the largest movement over the length; “finite and complete”: every sample is there and a "
+    "number, which is asked of every run besides. The case is ok where the measured number is below its bar."
 )
 
 
@@ -67,8 +67,8 @@ def _table(study: Study, group: str) -> Table:
         for row in study.group(group)
     )
     caption = (
-        f"{TITLES.get(group, group)}. D: dimensions of the motion; run: length of the run; wall: all runs of the case. From "
-        "`table.csv`."
+        f"{TITLES.get(group, group)}. D: dimensions of the motion; run: length of the run; wall: all runs of the case. "
+        "From `table.csv`."
     )
     return Table(heads, rows, caption, small=True)
 

@@ -22,9 +22,9 @@ def report(directory: str | Path) -> Report:
     items = [
         Heading("Question"),
         Text(
-            "Does the engine answer for every scene that it accepts, and say why where it cannot? Stiff and extreme scenes "
-            "are run to a verdict each, random scenes valid and invalid are thrown at it, the eigenvalues of its time step "
-            "are held against the closed form, and what a scene does not need is counted."
+            "Does the engine answer for every scene that it accepts, and say why where it cannot? Stiff and extreme "
+            "scenes are run to a verdict each, random scenes valid and invalid are thrown at it, the eigenvalues of "
+            "its time step are held against the closed form, and what a scene does not need is counted."
         ),
         Heading("Short answer"),
         Bullets(tuple(_answers(study))),
@@ -59,8 +59,8 @@ def _answers(study: Study):
     for row in study.group("drift"):
         if math.isfinite(value(row, "measured")):
             yield (
-                f"Over {row['case']} ({number(value(row, 'wall_s'), 3)} s of computing) the strobed distance of the buoy "
-                f"moves by {number(value(row, 'measured'), 2)} of its range."
+                f"Over {row['case']} ({number(value(row, 'wall_s'), 3)} s of computing) the strobed distance of the "
+                f"buoy moves by {number(value(row, 'measured'), 2)} of its range."
             )
     apart = [
         entry["distance"]
@@ -70,14 +70,15 @@ def _answers(study: Study):
     ]
     if apart:
         yield (
-            f"Every eigenvalue that the closed form gives for straight lines is found in the engine's one-step map within "
-            f"{max(apart):.0e}, for every method."
+            f"Every eigenvalue that the closed form gives for straight lines is found in the engine's one-step map "
+            f"within {max(apart):.0e}, for every method."
         )
     scenes = study.shares["scenes"]
     counts = [entry["newton"] for entry in scenes.values()]
     yield (
-        f"A Newton iteration takes {number(min(counts))} to {number(max(counts))} floating-point operations, as the scene "
-        "needs them: water, waves, currents, bending, profiles and the third dimension cost nothing where they are absent."
+        f"A Newton iteration takes {number(min(counts))} to {number(max(counts))} floating-point operations, as the "
+        "scene needs them: water, waves, currents, bending, profiles and the third dimension cost nothing where they "
+        "are absent."
     )
 
 

@@ -1,4 +1,4 @@
-"""The folder of `campaigns.stability` as its report needs it: cases, random scenes, one-step maps, shares of a scene."""
+"""The folder of `campaigns.stability` as its report needs it: cases, random scenes, one-step maps, shares."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ VERDICTS = ("ok", "refused", "known limit", "unexplained")
 
 @dataclass(frozen=True, eq=False)
 class Study:
-    """What the campaign left: `cases` and `random` rows of text by column, `maps` and `shares` as their files hold them."""
+    """What the campaign left: `cases` and `random`, rows of text by column; `maps`, `shares` as their files have it."""
 
     directory: Path
     provenance: dict

@@ -31,10 +31,10 @@ def random_items(study: Study) -> list[Item]:
         return [*items, Text("None were asked for (`--fuzz 0`).")]
     items.append(
         Text(
-            "Valid scenes are drawn section by section so that every rule between values holds; in every other one, up to "
-            "three numbers are then replaced by extreme ones that the models still allow. Invalid scenes are valid ones with "
-            "up to three faults put in. Each runs in a process of its own, for up to 60 samples, with a limit of 60 s. The "
-            "seed is in the provenance; the same seed gives the same scenes."
+            "Valid scenes are drawn section by section so that every rule between values holds; in every other one, up "
+            "to three numbers are then replaced by extreme ones that the models still allow. Invalid scenes are valid "
+            "ones with up to three faults put in. Each runs in a process of its own, for up to 40 samples, with a "
+            "limit of 60 s of computing. The seed is in the provenance; the same seed gives the same scenes."
         )
     )
     rows = []
@@ -49,7 +49,7 @@ def random_items(study: Study) -> list[Item]:
             meaning = _MEANING.get(outcome, "") + (f": {said}" if said else "")
             rows.append((kind, outcome, str(many), meaning, number(walls[len(walls) // 2], 2), number(walls[-1], 3)))
     columns = (
-        Column("scenes", align="left"), Column("outcome", align="left"), Column("count"), Column("meaning", align="left"),
-        Column("median", "s"), Column("slowest", "s"),
+        Column("scenes", align="left"), Column("outcome", align="left"), Column("count"),
+        Column("meaning", align="left"), Column("median", "s"), Column("slowest", "s"),
     )  # fmt: skip
     return [*items, Table(columns, tuple(rows), "Outcomes of random scenes. From `fuzz.csv`.", small=True)]

@@ -16,12 +16,12 @@ def map_items(study: Study) -> list[Item]:
     items: list[Item] = [
         Heading("Eigenvalues of one step"),
         Text(
-            "The map from one step to the next is differenced about a state of rest, with all its unknowns: the conserved "
-            "variables q and V of every node and their rates. A method multiplies a mode of rate λ by its stability function "
-            "R(λ Δt). Taut, rates are imaginary and nothing may leave the unit circle, however long the step. Under "
-            "compression rates are real, and what grows has to lie outside: a step of many e-folds damps what should grow, "
-            "or lets it grow the wrong way round, in every implicit method. Steps that control their own length are held to "
-            "two e-folds of the fastest buckle for this reason (`solver.growth_per_step`)."
+            "The map from one step to the next is differenced about a state of rest, with all its unknowns: the "
+            "conserved variables q and V of every node and their rates. A method multiplies a mode of rate λ by its "
+            "stability function R(λ Δt). Taut, rates are imaginary and nothing may leave the unit circle, however long "
+            "the step. Under compression rates are real, and what grows has to lie outside: a step of many e-folds "
+            "damps what should grow, or lets it grow the wrong way round, in every implicit method. Steps that control "
+            "their own length are held to two e-folds of the fastest buckle for this reason (`solver.growth_per_step`)."
         ),
     ]
     rows = []
@@ -31,10 +31,10 @@ def map_items(study: Study) -> list[Item]:
             continue
         values = {name: np.array(entry["re"]) + 1j * np.array(entry["im"]) for name, entry in line["methods"].items()}
         largest = max(entry["largest"] for entry in line["methods"].values())
-        seen = f"{line['title']}, steps of {number(line['step_s'], 3)} s; the largest eigenvalue has modulus {number(largest, 7)}"
+        seen = f"{line['title']}, steps of {number(line['step_s'], 3)} s; largest modulus {number(largest, 7)}"
         caption = (
-            f"A line {seen}. Dots: inside or on the unit circle; crosses: outside, those beyond the panel on its edge. From "
-            "`step_maps.json`."
+            f"A line {seen}. Dots: inside or on the unit circle; crosses: outside, those beyond the panel on its edge. "
+            "From `step_maps.json`."
         )
         items.append(
             Figure(step_maps(values), caption, f"Eigenvalues in the complex plane beside the unit circle: {seen}.")
@@ -45,8 +45,8 @@ def map_items(study: Study) -> list[Item]:
         Column("distance from closed form"), Column("should grow"), Column("grow"),
     )  # fmt: skip
     caption = (
-        "Distance: the largest of the distances of the closed form's eigenvalues R(λ Δt) from the nearest one found. Grow: "
-        "how many modes should and do lie outside the unit circle. From `step_maps.json`."
+        "Distance: the largest of the distances of the closed form's eigenvalues R(λ Δt) from the nearest one found. "
+        "Grow: how many modes should and do lie outside the unit circle. From `step_maps.json`."
     )
     return [*items, Table(columns, tuple(rows), caption, small=True)]
 
@@ -77,20 +77,20 @@ def share_items(study: Study) -> list[Item]:
         for name, entry in scenes.items()
     )
     columns = (
-        Column("scene", align="left"), Column("operations"), Column("functions"), Column("output"), Column("iteration", "µs"),
-        Column("step", "µs"), Column("kernels that only some scenes call", align="left"),
+        Column("scene", align="left"), Column("operations"), Column("functions"), Column("output"),
+        Column("iteration", "µs"), Column("step", "µs"), Column("kernels that only some scenes call", align="left"),
     )  # fmt: skip
     caption = (
         "operations: floating-point operations of one Newton iteration on 41 nodes, functions: of them square roots, "
-        "exponentials and the like; output: of one stored sample. Counted from the kernels' own sources. Times: medians of "
-        f"{study.shares['rounds']} rounds in turns on one core. From `scene_shares.json`."
+        "exponentials and the like; output: of one stored sample. Counted from the kernels' own sources. Times: "
+        f"medians of {study.shares['rounds']} rounds in turns on one core. From `scene_shares.json`."
     )
     low, high = operations.min() / operations[0], operations.max() / operations[0]
     seen = f"from {number(low, 2)} to {number(high, 2)} of the first scene's operations"
     figure = Figure(
         scene_shares(names, operations, times),
-        f"What each part of a scene costs: {seen}. Memory traffic and what all scenes share keep times closer together than "
-        "operations. From `scene_shares.json`.",
+        f"What each part of a scene costs: {seen}. Memory traffic and what all scenes share keep times closer together "
+        "than operations. From `scene_shares.json`.",
         f"Bars of operations and time per Newton iteration for {len(names)} scenes: {seen}.",
     )
     return [Heading("What a scene does not need"), figure, Table(columns, rows, caption, small=True)]

@@ -11,7 +11,7 @@ ROOM = 1.25  # half width of a panel; what lies outside is drawn on its edge
 
 
 def step_maps(methods: dict[str, np.ndarray]) -> Picture:
-    """methods: name -> eigenvalues (m,) complex. Those outside the circle are crosses; beyond the panel, on its edge."""
+    """methods: name -> eigenvalues (m,) complex. Crosses: outside the circle; beyond the panel, on its edge."""
     with sheet(1.75) as figure:
         panels = figure.subplots(1, len(methods), squeeze=False, sharey=True)[0]
         turn = np.linspace(0.0, 2.0 * np.pi, 200)

@@ -1,8 +1,8 @@
 """Law: a step multiplies every mode of a straight line by its method's stability function R(lambda dt).
 
-Modes and rates are closed forms of the box equations (`campaigns.step_maps`); the eigenvalues come from the engine's own
-step, by central differences of 1e-6, so to about 1e-6 of their size. Taut, nothing may grow at any step. Compressed, what
-grows has to grow.
+Modes and rates are closed forms of the box equations (`campaigns.step_maps`); the eigenvalues come from the engine's
+own step, by central differences of 1e-6, and are good to 1e-5 or so. Taut, nothing may grow at any step.
+Compressed, what grows has to grow.
 """
 
 import numpy as np

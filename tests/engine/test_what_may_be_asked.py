@@ -1,8 +1,9 @@
-"""What no run could do is refused before it starts, with the key to change; a missing equilibrium is given its reason."""
+"""What no run could do is refused before it starts, with the key to change; a missing equilibrium has its reason."""
 
 import pytest
 
 from engine import SceneError, load_scene, simulate
+from engine.parameters import NOT_STRETCHED, grid
 from engine.room import MOST_PROFILE_VALUES, MOST_SAMPLES, MOST_STEPS
 from engine.scene_values import LARGEST, SMALLEST
 
@@ -46,7 +47,8 @@ def test_zero_is_not_too_small_where_it_is_allowed_and_components_may_be_tiny():
 
 @pytest.mark.parametrize("name", ["", "\n", "a.b", "x y"])
 def test_a_name_that_is_no_bare_key_is_shown_in_quotes(name):
-    from engine.scene import build_scene, load_scene as load
+    from engine.scene import build_scene
+    from engine.scene import load_scene as load
 
     raw = load("tethered_buoy").as_dict()
     for table in (raw, raw["tether"]):
@@ -84,3 +86,21 @@ def test_the_reason_names_the_load_that_is_there():
     law = {"law": "tanh", "p": [500.0, 10.0, 0.0, 0.0, 0.0]}
     run = simulate(load_scene("tethered_buoy", {**STILL, "tether.tension": law}), duration_s=1.0)
     assert "2000 N" in run.message and "500 N" in run.message
+
+
+@pytest.mark.parametrize("refined", ["both", "lower", "upper"])
+@pytest.mark.parametrize("stretching", [0.0, 5e-324, 1e-310, 1e-20, 1e-7])
+def test_a_grid_that_is_hardly_stretched_has_no_coincident_nodes(stretching, refined):
+    h = grid(20.0, 61, stretching, refined)
+    assert h == pytest.approx(20.0 / 60, rel=1e-9)
+
+
+@pytest.mark.parametrize("refined", ["both", "lower", "upper"])
+def test_a_grid_that_is_stretched_as_far_as_can_be_has_no_coincident_nodes(refined):
+    h = grid(20.0, 20000, 5.0, refined)
+    assert h.min() > 0 and h.sum() == pytest.approx(20.0, rel=1e-12)
+
+
+def test_stretching_sets_in_without_a_jump():
+    even, hardly = grid(20.0, 41, 0.0), grid(20.0, 41, 1.01 * NOT_STRETCHED)
+    assert hardly == pytest.approx(even, rel=1e-9)

@@ -1,4 +1,4 @@
-"""The stability report: its statements follow the tables, its pages need nothing else, and a broken folder is refused."""
+"""The stability report: statements follow the tables, pages need nothing else, a broken folder is refused."""
 
 import csv
 import json
