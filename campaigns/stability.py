@@ -13,8 +13,6 @@ seed. A verdict "unexplained" ends the campaign with exit code 1.
 import sys
 import time
 from dataclasses import dataclass
-from functools import partial
-from pathlib import Path
 
 from campaigns import cli
 
@@ -32,22 +30,12 @@ class Order:
     fuzz: int
     seed: int
     drift_periods: int
-    out: Path
-    jobs: int
-    report: bool
+    how: cli.Running
 
 
 def main(argv: list[str] | None = None) -> int:
     """The command. Returns the exit code (0, 1, 2 or 130)."""
-    argv = list(sys.argv[1:] if argv is None else argv)
-    faults: list[str] = []
-    order = read_order(argv, faults)
-    if faults:
-        print(cli.complaint(f"python -m {MODULE}", faults), file=sys.stderr)
-        return cli.EXIT_BAD_INPUT
-    from campaigns.session import guarded
-
-    return guarded(MODULE, argv, order.out, partial(study, order, argv))
+    return cli.command(MODULE, argv, read_order, study)
 
 
 def parser():
@@ -86,8 +74,8 @@ def read_order(argv: list[str], faults: list[str]) -> Order:
     if 0 < periods < 1000:
         faults.append(f"--drift-periods: given {periods}; allowed: 0, or 1000 and above")
     jobs = number(options.jobs, "--jobs", cli.default_jobs(), 1)
-    out = cli.folder(options, CAMPAIGN, faults)
-    return Order(quick, fuzz, seed, periods, out, jobs, not options.no_report)
+    how = cli.Running(cli.folder(options, CAMPAIGN, faults), jobs, "loky", None, not options.no_report)
+    return Order(quick, fuzz, seed, periods, how)
 
 
 def study(order: Order, argv: list[str]) -> int:
@@ -95,17 +83,17 @@ def study(order: Order, argv: list[str]) -> int:
     from campaigns import provenance, session, stability_tasks
     from campaigns.folder import claimed
 
-    begun = time.perf_counter()
-    with claimed(order.out):
+    begun, out = time.perf_counter(), order.how.out
+    with claimed(out):
         record = provenance.gather(CAMPAIGN, provenance.command_line(MODULE, argv))
         record |= {"seed": order.seed, "quick": order.quick, "fuzz": order.fuzz, "drift_periods": order.drift_periods}
-        record["jobs"] = order.jobs
-        if provenance.read_if_same(order.out / "provenance.json", record) is None:
-            provenance.write(order.out / "provenance.json", record)
+        record["jobs"] = order.how.jobs
+        if provenance.read_if_same(out / "provenance.json", record) is None:
+            provenance.write(out / "provenance.json", record)
         timing, summary = stability_tasks.run(order)
-        session.finish(order.out, record, summary, timing)
-        fault = session.report(order.out, order.report, timing, begun)
-    code = session.say(order.out, summary, timing, order.report, fault)
+        session.finish(out, record, summary, timing)
+        fault = session.report(out, order.how.report, timing, begun)
+    code = session.say(out, summary, timing, order.how.report, fault)
     return code or (cli.EXIT_FAILED if any(row["status"] != "ok" for row in summary.rows) else cli.EXIT_OK)
 
 

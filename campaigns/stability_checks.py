@@ -9,7 +9,7 @@ import math
 import numpy as np
 
 from engine import load_scene, simulate
-from engine.parameters import tension_at
+from engine.scales import tension_at
 
 FINER_NODES, FINER_RTOL = 2, 10.0
 PUSHED_S, SEEN = 0.02, (1e-5, 3e-4)  # after the push of the case; share of the length, small enough to be linear

@@ -89,7 +89,7 @@ def run(order) -> tuple[dict[str, float], Summary]:
     from engine import load_scene
     from engine.atomic import write_atomic
 
-    out, maker = order.out, made_by({}, *SOURCES)
+    out, maker = order.how.out, made_by({}, *SOURCES)
     write_atomic(out / "scene.toml", load_scene("tethered_buoy").to_toml().encode())
     tasks = planned(order)
     missing = [task for task in tasks if kept_row(out, task.key(), maker) is None]
@@ -102,7 +102,7 @@ def run(order) -> tuple[dict[str, float], Summary]:
     start = time.perf_counter()
     undone = {task.key() for task in missing}
     results = {key: kept_row(out, key, maker) for key in (task.key() for task in tasks) if key not in undone}
-    for task, result in _progress(_all(partial(do, out, maker), missing, order.jobs), len(tasks), len(results)):
+    for task, result in _progress(_all(partial(do, out, maker), missing, order.how.jobs), len(tasks), len(results)):
         results[task.key()] = result
     # alone on the machine, at the end: it takes times
     cost = kept_row(out, shares.key(), maker) or scene_shares.measured(order.quick)

@@ -3,9 +3,9 @@
 import math
 
 from .ends import BUOY, FREE
-from .parameters import tension_at
+from .scales import tension_at
 
-MOST_STRAIN = 10.0  # up to which the engine looks for the strain under a load (`parameters.strain_at`)
+MOST_STRAIN = 10.0  # up to which the engine looks for the strain under a load (`scales.strain_at`)
 NEARLY_NOTHING = -0.99  # a strain at which next to nothing is left of the line
 
 
