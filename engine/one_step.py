@@ -11,7 +11,6 @@ import importlib
 import numpy as np
 
 from .guards import OK
-from .march import march
 from .spatial import lift
 from .statics import planar_stretch_vectors
 
@@ -19,18 +18,21 @@ from .statics import planar_stretch_vectors
 class OneStep:
     """The step of a scene about a state of rest: at first its static equilibrium.
 
-    scene : fixed steps (solver.step_s). Raises ValueError where it has no equilibrium.
+    scene : fixed steps (solver.step_s), and an output.step_s that is no longer: the run ends at the first sample.
+    Raises ValueError where it has no equilibrium.
     C, K (n, conserved) : the state and its rates, zero.
     """
 
     def __init__(self, scene):
         driver = importlib.import_module("engine.simulate")
-        run = driver._Batch([scene], [scene.sample_step_s()])
-        if run.states[0]["status"] != OK:
+        self.run = driver._Batch([scene], [scene.solver.step_s])
+        if self.run.states[0]["status"] != OK:
             raise ValueError("the scene has no static equilibrium about which to step")
-        self.run, self.record, self.tables, self.Y = run, run.records[0], run.tables, run.Y[0].copy()
-        s = max(int(self.record["stages"]), 2)
-        self.trail = np.zeros((1, 3)), np.zeros((1, s, *run.Y[0].shape)), np.zeros((1, s, *run.C[0].shape))
+        self.step_s, self.Y = scene.solver.step_s, self.run.Y[0].copy()
+        self.begin = self.run.states[0].copy()
+        # not the first step, for which C would be computed, nor the first sample, which is at the start
+        self.begin["steps"], self.begin["samples"], self.begin["dt"] = 1, 1, self.step_s
+        self.begin["small_steps"] = 0
         self._rest()
 
     def rest_at(self, strain):
@@ -47,15 +49,10 @@ class OneStep:
     def __call__(self, C, K):
         """(C', K') one step later; ValueError where the step fails."""
         run = self.run
-        state = np.zeros_like(run.states)
-        state["steps"], state["samples"] = 1, 1  # not the first step: C is taken as it is
-        state["dt"] = self.record["fixed_step"]
-        Y, Y_before, C, K = self.Y.copy(), self.Y.copy(), np.array(C), np.array(K)
-        samples = np.zeros((2, run.samples.shape[2]))
-        march(
-            self.record, self.tables, state[0], Y, Y_before, C, K, samples, run.profiles[0], *self.trail,
-            int(np.iinfo(np.int64).max),
-        )  # fmt: skip
-        if state[0]["status"] != OK or state[0]["failures"]:
-            raise ValueError(f"the step of {self.record['fixed_step']:g} s about this state fails")
-        return C, K
+        run.states[0] = self.begin
+        run.Y[0], run.Y_before[0], run.C[0], run.K[0] = self.Y, self.Y, C, K
+        run.advance(1)
+        state = run.states[0]
+        if state["status"] != OK or state["failures"] or state["steps"] != 2:
+            raise ValueError(f"the step of {self.step_s:g} s about this state fails")
+        return run.C[0].copy(), run.K[0].copy()
