@@ -8,13 +8,14 @@ import numpy as np
 from . import energy, parameters
 from .ends import HELD
 from .exponents import Trail
-from .guards import ADVICE, OK, TURN_UNRESOLVED, WORDS
+from .guards import ADVICE, OK, STATICS_FAILED, TURN_UNRESOLVED, WORDS
 from .integrators import RUNGE_KUTTA
 from .march import SMALL_STEPS, STATE, march
 from .planar import state as planar
 from .spatial import lift
 from .spatial import state as spatial
 from .statics import first_guess, settle
+from .statics_advice import why_no_rest
 from .trajectory import EnergyBudget, Profiles, Trajectory
 
 
@@ -101,6 +102,8 @@ class Run:
         message = ADVICE[status].format(
             t=float(state["t"]), dt=float(state["dt"]), turn=float(state["max_turn"]), releases=int(state["releases"])
         )
+        if status == STATICS_FAILED:
+            message += why_no_rest(record, scene)
         statistics = {
             "steps": int(state["steps"]),
             "rejected_steps": int(state["rejected"]),

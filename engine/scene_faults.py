@@ -5,6 +5,7 @@ Faults of a single value are found by pydantic and put into words here; faults b
 """
 
 import difflib
+import re
 from dataclasses import dataclass
 from typing import Annotated, Literal, get_args, get_origin
 
@@ -12,6 +13,7 @@ from pydantic import BaseModel, ValidationError
 
 # tables whose keys depend on one of them
 _TAGS = {("tether", "tension"): "law", ("current",): "law", ("end", "motion"): "law"}
+_BARE_KEY = re.compile(r"^[A-Za-z0-9_-]+$")
 FLAT, SOLID = "nested to depth 3", "nested to depth 4"  # kinds of a block of numbers, as pydantic names them
 
 
@@ -48,10 +50,11 @@ def fault(key: str, given: object, allowed: str) -> str:
 
 
 def dotted(location: tuple[str | int, ...]) -> str:
-    """("current", "height_m", 2) -> "current.height_m[2]"."""
+    """("current", "height_m", 2) -> "current.height_m[2]"; a name that is no bare key of TOML in quotes."""
     text = ""
     for part in location:
-        text += f"[{part}]" if isinstance(part, int) else f".{part}" if text else str(part)
+        name = part if isinstance(part, int) or _BARE_KEY.match(part) else shown(part)
+        text += f"[{name}]" if isinstance(part, int) else f".{name}" if text else str(name)
     return text
 
 

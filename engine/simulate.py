@@ -3,6 +3,7 @@
 import math
 from functools import partial
 
+from .room import MOST_SAMPLES, check_room
 from .run import Run
 
 PERIODS_PER_CALL = 10
@@ -70,7 +71,7 @@ def simulate_each(scenes, periods=None, duration_s=None, progress=None):
 def _by_march(scene, duration_s, progress):
     run = Run(scene, duration_s)
     run.compile()
-    chunk = max(1, round(PERIODS_PER_CALL * _period(scene) / float(run.record["output_step"])))
+    chunk = max(1, min(MOST_SAMPLES, round(PERIODS_PER_CALL * _period(scene) / scene.sample_step_s())))
     while not run.done():
         run.advance(chunk)
         progress(run.fraction())
@@ -96,4 +97,5 @@ def _duration(scene, periods, duration_s):
         duration_s = periods * scene.waves.period_s
     if not (math.isfinite(duration_s) and duration_s > 0):
         raise ValueError(f"the run length must be positive and finite, given {duration_s!r} s")
+    check_room(scene, duration_s)
     return float(duration_s)

@@ -15,6 +15,7 @@ CONTENTS = {
     "oscillator": "reports.oscillator_content",
     "breaking_line": "reports.breaking_line",
     "out_of_plane": "reports.offplane_content",
+    "stability": "reports.stability_content",
 }
 
 __all__ = ["CONTENTS", "build"]

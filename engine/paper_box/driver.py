@@ -12,6 +12,7 @@ import math
 import time
 
 from ..guards import (
+    ADVICE,
     NEWTON_FAILED,
     NOT_FINITE,
     OK,
@@ -22,6 +23,7 @@ from ..guards import (
     TURN_UNRESOLVED,
     WORDS,
 )
+from ..statics_advice import why_no_rest
 from ..trajectory import Trajectory
 from .box import Band, level_of
 from .law import tension_law
@@ -108,7 +110,7 @@ def run(scene, duration_s, progress=None, start=None, accelerations=False, most_
         "closure_m": record.closure,
         "euler_norm_error": record.norm_error,
     }
-    message = _message(status, t, dt, record)
+    message = _message(status, t, dt, record) + (why_no_rest(line.record, scene) if status == STATICS_FAILED else "")
     return Trajectory(scene, WORDS[status], message, record.columns(), statistics, record.lines())
 
 
@@ -116,7 +118,7 @@ def _message(status, t, dt, record):
     if status == OK:
         return ""
     if status == STATICS_FAILED:
-        return "paper-box: no static equilibrium was found from which to start"
+        return "paper-box: " + ADVICE[STATICS_FAILED]
     said = SAID[status].format(turn=record.max_turn, gap=record.closure)
     seen = f"turn per element up to {record.max_turn:.3g} rad, strain down to {record.min_strain:.3g} before"
     cure = "add nodes, shorten solver.step_s, or take solver.scheme = \"conservation\""

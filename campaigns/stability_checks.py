@@ -1,0 +1,176 @@
+"""How a finished run of `campaigns.stability` is judged: each check measures one number that a bar is set for.
+
+check(run, case) -> (measured, how we know): `run` is a finished trajectory whose status is "ok". Nothing here knows
+what the engine does inside; where another run is needed (refinement) it is made by the public `simulate`.
+"""
+
+import math
+
+import numpy as np
+
+from engine import load_scene, simulate
+from engine.scales import tension_at
+
+FINER_NODES, FINER_RTOL = 2, 10.0
+PUSHED_S, SEEN = 0.02, (1e-5, 3e-4)  # after the push of the case; share of the length, small enough to be linear
+CLOSED_GROWTH = "closed form of the fastest buckle"
+LEAST_RANGE = 1e-3  # of the length: below this a difference is measured against the length, not against the motion
+
+
+def finite(run, case):
+    """Every sample finite and none missing: what is asked of every run, and all that is asked of this one."""
+    return 0.0, "finite and complete"
+
+
+def rest(run, case):
+    """Distance (share of the length) from r = int (1 + eps(T(s))) ds, T(s) = |lift - w0 (L - s)|, at any time."""
+    from scipy.integrate import quad
+
+    scene = run.scene
+    tether, buoy, g = scene.tether, scene.buoy, scene.gravity_mps2
+    rho_w = scene.water.density_kgpm3 if scene.water else 0.0
+    lift = (rho_w * math.pi * buoy.diameter_m**3 / 6 - buoy.mass_kg) * g
+    w0 = (tether.density_kgpm3 - rho_w) * tether.area_m2 * g
+    L = tether.length_m
+    stretched = quad(lambda s: 1 + strain_under(abs(lift - w0 * (L - s)), tether.tension), 0.0, L, epsrel=1e-10)[0]
+    return float(np.abs(run.columns["radius_m"] - stretched).max()) / L, "closed form of the static line"
+
+
+def strain_under(load, law):
+    """The smallest strain, 0 or above, at which a law carries the load (N)."""
+    from scipy.optimize import brentq
+
+    if load <= tension_at(0.0, law):
+        return 0.0
+    high = 1e-6
+    while tension_at(high, law) < load:
+        high *= 2.0
+    return brentq(lambda strain: tension_at(strain, law) - load, 0.0, high, xtol=1e-15)
+
+
+def stays(run, case):
+    """How far (share of the length) the upper end, or where it is held the rope, moves from static equilibrium."""
+    moved = max(np.ptp(run.columns[name]) for name in ("x_m", "y_m", "z_m"))
+    if run.profiles is not None:
+        lines = run.profiles
+        moved = max(np.ptp(axis, axis=0).max() for axis in (lines.x_m, lines.y_m, lines.z_m))
+    return float(moved) / run.scene.tether.length_m, "static equilibrium stays"
+
+
+def refined(run, case):
+    """Rms difference of r from a run of twice the elements and a tenth of the tolerance, over the range of r."""
+    nodes = FINER_NODES * (run.scene.tether.nodes - 1) + 1
+    return difference(
+        run, case, {"tether.nodes": nodes, "solver.rtol": run.scene.solver.rtol / FINER_RTOL}
+    ), "refinement"
+
+
+def as_fine(run, case):
+    """The same from a run with the number of nodes that the case names."""
+    nodes = case.options["nodes"]
+    finer = {"tether.nodes": nodes, "tether.grid_stretching": 0.0, "tether.grid_refined": "both"}
+    return difference(run, case, {**finer, "solver.rtol": 0.01}), f"run on {nodes} even nodes"
+
+
+def difference(run, case, changes):
+    """Rms of r - r' over the range of r', r' of the run with changes; infinite where that one does not end well."""
+    other = simulate(load_scene(case.scene, {**case.changes, **changes}), duration_s=case.length_s)
+    if other.status != "ok":
+        return math.inf
+    r, finer = run.columns["radius_m"], other.columns["radius_m"]
+    scale = max(float(np.ptp(finer)), LEAST_RANGE * run.scene.tether.length_m)
+    return float(np.sqrt(np.mean((r - finer) ** 2))) / scale
+
+
+def bounded(run, case):
+    """Range of r over the length: what neither grows nor rings stays near its rest."""
+    return float(np.ptp(run.columns["radius_m"])) / run.scene.tether.length_m, "r stays within one length"
+
+
+def energy(run, case):
+    """Largest change of kinetic + gravity + stretching + bending energy over the largest kinetic one; dry scenes."""
+    parts = energies(run)
+    total = parts.sum(axis=0)
+    return float(np.abs(total - total[0]).max() / parts[0].max()), "energy"
+
+
+def energies(run):
+    """Kinetic, gravity, stretching and bending energy (J), (4, profiles), from the profiles of a dry run."""
+    scene, lines = run.scene, run.profiles
+    tether, h = scene.tether, np.diff(lines.s_m)
+    m = tether.density_kgpm3 * tether.area_m2
+    inner = lambda values: np.sum(h * 0.5 * (values[:, 1:] + values[:, :-1]), axis=1)  # noqa: E731
+    kinetic = 0.5 * m * inner(lines.speed_mps**2)
+    gravity = m * scene.gravity_mps2 * inner(lines.z_m)
+    if scene.buoy is not None:
+        kinetic = kinetic + 0.5 * scene.buoy.mass_kg * lines.speed_mps[:, -1] ** 2
+        gravity = gravity + scene.buoy.mass_kg * scene.gravity_mps2 * lines.z_m[:, -1]
+    stored = stretching_energy(tether.tension)
+    return np.array([kinetic, gravity, inner(stored(lines.strain)), bending_energy(tether, lines, h)])
+
+
+def stretching_energy(law):
+    """int T deps per unstretched length (N) as a function of strain arrays."""
+    if law.law == "linear":
+        return lambda strain: 0.5 * law.stiffness_N * strain**2
+    grid = np.linspace(-0.999, 5.0, 60001)
+    force = np.array([tension_at(strain, law) for strain in grid])
+    work = np.concatenate([[0.0], np.cumsum(0.5 * np.diff(grid) * (force[1:] + force[:-1]))])
+    return lambda strain: np.interp(strain, grid, work) - np.interp(0.0, grid, work)
+
+
+def bending_energy(tether, lines, h):
+    """EI/2 int kappa^2 ds (J) per profile, from the turns between neighbouring elements."""
+    sides = np.diff(np.stack([lines.x_m, lines.y_m, lines.z_m]), axis=2)
+    sides = sides / np.maximum(np.linalg.norm(sides, axis=0), 1e-300)
+    cosine = np.clip(np.sum(sides[:, :, 1:] * sides[:, :, :-1], axis=0), -1.0, 1.0)
+    spacing = 0.5 * (h[1:] + h[:-1])
+    return 0.5 * tether.bending_stiffness_Nm2 * np.sum(np.arccos(cosine) ** 2 / spacing, axis=1)
+
+
+def buckling(run, case):
+    """Relative distance of the growth rate of a compressed straight line from rate^2 = (P k^2 - EI k^4)/m.
+
+    The fastest of k = j pi/L is projected out of the shape, so that slower ones that began larger do not count; P is
+    the mean over the time of the fit, in which the mode is between `SEEN` of the length.
+    """
+    tether, lines = run.scene.tether, run.profiles
+    m, EI, L = tether.density_kgpm3 * tether.area_m2, tether.bending_stiffness_Nm2, tether.length_m
+    k = np.arange(1, tether.nodes // 2) * math.pi / L
+    pushed = lines.time_s > PUSHED_S
+    P = -np.median(lines.tension_N[pushed][: len(lines.time_s) // 10])
+    square = (P * k**2 - EI * k**4) / m
+    if square.max() <= 0:
+        return math.inf, CLOSED_GROWTH
+    along = np.array([lines.x_m[0, -1], lines.z_m[0, -1]]) / math.hypot(lines.x_m[0, -1], lines.z_m[0, -1])
+    sideways = along[0] * lines.z_m - along[1] * lines.x_m
+    size = np.abs(sideways @ np.sin(k[square.argmax()] * lines.s_m)) * 2 / tether.nodes
+    chosen = pushed & (size > SEEN[0] * L) & (np.maximum.accumulate(size) < SEEN[1] * L)
+    if chosen.sum() < 5:
+        return math.inf, CLOSED_GROWTH
+    rate = np.polyfit(lines.time_s[chosen], np.log(size[chosen]), 1)[0]
+    return abs(float(rate) / math.sqrt(square.max()) - 1.0), CLOSED_GROWTH
+
+
+def straight(run, case):
+    """Largest distance (share of the length) of a node from the chord: what is symmetric stays so, stable or not."""
+    lines = run.profiles
+    points = np.stack([lines.x_m, lines.y_m, lines.z_m], axis=2)
+    chord = points[:, -1] - points[:, 0]
+    along = chord / np.linalg.norm(chord, axis=1)[:, None]
+    off = points - np.einsum("tni,ti->tn", points, along)[:, :, None] * along[:, None, :]
+    return float(np.linalg.norm(off, axis=2).max()) / run.scene.tether.length_m, "symmetry"
+
+
+def drift(run, case):
+    """Largest change of the strobed r, over the range of r in a period, between the first and the last tenth of a run.
+
+    The first fiftieth is left out (the start dies out); strobed at the wave period, r of a steady motion is constant.
+    """
+    r = run.columns["radius_m"][len(run.columns["radius_m"]) // 50 :]
+    tenth = len(r) // 10
+    first, last = r[:tenth], r[-tenth:]
+    moved = max(abs(first.mean() - last.mean()), float(np.abs(last - last.mean()).max()))
+    top = run.columns["tension_top_high_N"][-tenth:].mean() - run.columns["tension_top_low_N"][-tenth:].mean()
+    swing = top / run.scene.tether.tension.stiffness_N * run.scene.tether.length_m
+    return float(moved) / swing, "strobed r, last tenth against first"

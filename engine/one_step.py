@@ -1,0 +1,58 @@
+"""One time step of the engine as a map of its state, for those who look at the step itself and not at a run.
+
+    map: (C, K) -> (C', K'),  C the conserved variables (q, V) of every node, K their rates
+
+The step is the one that a run makes (`engine.march`), at the fixed step of the scene. Everything else of a state
+(forces, curvatures) follows from C within the step, to Newton's tolerance.
+"""
+
+import importlib
+
+import numpy as np
+
+from .guards import OK
+from .spatial import lift
+from .statics import planar_stretch_vectors
+
+
+class OneStep:
+    """The step of a scene about a state of rest: at first its static equilibrium.
+
+    scene : fixed steps (solver.step_s), and an output.step_s that is no longer: the run ends at the first sample.
+    Raises ValueError where it has no equilibrium.
+    C, K (n, conserved) : the state and its rates, zero.
+    """
+
+    def __init__(self, scene):
+        driver = importlib.import_module("engine.simulate")
+        self.run = driver._Batch([scene], [scene.solver.step_s])
+        if self.run.states[0]["status"] != OK:
+            raise ValueError("the scene has no static equilibrium about which to step")
+        self.step_s, self.Y = scene.solver.step_s, self.run.Y[0].copy()
+        self.begin = self.run.states[0].copy()
+        # not the first step, for which C would be computed, nor the first sample, which is at the start
+        self.begin["steps"], self.begin["samples"], self.begin["dt"] = 1, 1, self.step_s
+        self.begin["small_steps"] = 0
+        self._rest()
+
+    def rest_at(self, strain):
+        """Take the straight line of another uniform strain, compressed or taut: it rests between its ends as well."""
+        self.Y[:, 0] = strain
+        self._rest()
+
+    def _rest(self):
+        half = self.run.C.shape[2] // 2
+        vectors = lift.stretch_vectors if half == 3 else planar_stretch_vectors
+        self.C = np.hstack([vectors(self.Y), np.zeros((len(self.Y), half))])
+        self.K = np.zeros_like(self.C)
+
+    def __call__(self, C, K):
+        """(C', K') one step later; ValueError where the step fails."""
+        run = self.run
+        run.states[0] = self.begin
+        run.Y[0], run.Y_before[0], run.C[0], run.K[0] = self.Y, self.Y, C, K
+        run.advance(1)
+        state = run.states[0]
+        if state["status"] != OK or state["failures"] or state["steps"] != 2:
+            raise ValueError(f"the step of {self.step_s:g} s about this state fails")
+        return run.C[0].copy(), run.K[0].copy()

@@ -1,0 +1,28 @@
+"""Eigenvalues of one-step maps in the unit circle, a panel for each method."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ..content import Picture
+from ..style import BLUE, SOFT, VERMILION, picture_of, sheet
+
+ROOM = 1.25  # half width of a panel; what lies outside is drawn on its edge
+
+
+def step_maps(methods: dict[str, np.ndarray]) -> Picture:
+    """methods: name -> eigenvalues (m,) complex. Crosses: outside the circle; beyond the panel, on its edge."""
+    with sheet(1.75) as figure:
+        panels = figure.subplots(1, len(methods), squeeze=False, sharey=True)[0]
+        turn = np.linspace(0.0, 2.0 * np.pi, 200)
+        for axes, (name, values) in zip(panels, methods.items(), strict=True):
+            axes.plot(np.cos(turn), np.sin(turn), "-", color=SOFT, linewidth=0.6)
+            outside = np.abs(values) > 1.0 + 1e-6
+            shown = values.copy()
+            far = np.maximum(np.abs(shown.real), np.abs(shown.imag))
+            shown[far > ROOM] *= 0.97 * ROOM / far[far > ROOM]
+            axes.plot(shown.real[~outside], shown.imag[~outside], "o", color=BLUE, markersize=1.8)
+            axes.plot(shown.real[outside], shown.imag[outside], "x", color=VERMILION, markersize=4.0)
+            axes.set(xlim=(-ROOM, ROOM), ylim=(-ROOM, ROOM), aspect="equal", xticks=(-1, 0, 1), yticks=(-1, 0, 1))
+            axes.set_title(name, fontsize=7.0)
+        return picture_of(figure)

@@ -1,0 +1,63 @@
+"""Law: a step multiplies every mode of a straight line by its method's stability function R(lambda dt).
+
+Modes and rates are closed forms of the box equations (`campaigns.step_maps`); the eigenvalues come from the engine's
+own step, by central differences of 1e-6, and are good to 1e-5 or so. Taut, nothing may grow at any step.
+Compressed, what grows has to grow.
+"""
+
+import numpy as np
+import pytest
+
+from campaigns import step_maps
+
+METHODS = step_maps.METHODS
+ORDER = {"esdirk43": 4, "trbdf2": 2, "generalized-alpha": 2, "backward-euler": 1, "midpoint": 2}
+AT_INFINITY = {"esdirk43": 0.0, "trbdf2": 0.0, "generalized-alpha": 0.5, "backward-euler": 0.0, "midpoint": 1.0}
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_the_stability_function_is_that_of_its_order_and_damping(method):
+    z = np.array([1e-2j, 5e-3j])
+    error = np.abs(step_maps.factors(method, z)[None, :] - np.exp(z)[:, None]).min(axis=1)
+    assert np.log2(error[0] / error[1]) == pytest.approx(ORDER[method] + 1, abs=0.15)
+    assert np.abs(step_maps.factors(method, np.array([-1e9 + 0j]))).max() == pytest.approx(
+        AT_INFINITY[method], abs=1e-6
+    )
+
+
+@pytest.mark.parametrize("method", METHODS)
+@pytest.mark.parametrize("step_s", [1e-3, 0.05, 3.0])
+def test_nothing_of_a_taut_line_grows_at_any_step(method, step_s):
+    found = step_maps.eigenvalues(method, step_maps.TAUT, step_s, 2)
+    expected = step_maps.factors(method, step_maps.rates(step_maps.TAUT) * step_s)
+    assert np.abs(found).max() < 1 + 1e-5
+    assert np.abs(found[None, :] - expected[:, None]).min(axis=1).max() < 1e-4
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_a_pushed_line_grows_as_the_method_says(method):
+    step_s = 1.5 / step_maps.fastest_growth(step_maps.PUSHED)
+    found = step_maps.eigenvalues(method, step_maps.PUSHED, step_s, 2)
+    z = step_maps.rates(step_maps.PUSHED) * step_s
+    expected = step_maps.factors(method, z)
+    assert np.abs(found[None, :] - expected[:, None]).min(axis=1).max() < 2e-5
+    assert np.sum(np.abs(found) > 1 + 1e-6) == np.sum(z.real > 1e-9) == 7
+
+
+def test_two_e_folds_a_step_follow_the_growth_and_fifteen_do_not():
+    """What solver.growth_per_step is for: R(2) of the default method is e^2 to 1 %, and R(15) has nothing of e^15."""
+    two, fifteen = step_maps.factors("esdirk43", np.array([2.0, 15.0]) + 0j).real
+    assert two == pytest.approx(np.exp(2.0), rel=0.01)
+    assert abs(fifteen) < 1e-3 * np.exp(15.0)
+
+
+def test_space_has_the_same_modes_twice():
+    planar = step_maps.eigenvalues("trbdf2", step_maps.TAUT, 0.05, 2)
+    space = step_maps.eigenvalues("trbdf2", step_maps.TAUT, 0.05, 3)
+    assert len(space) == 1.5 * len(planar)
+    assert np.abs(space[None, :] - planar[:, None]).min(axis=1).max() < 1e-5
+
+
+def test_a_hanging_line_does_not_grow():
+    for method in METHODS:
+        assert np.abs(step_maps.eigenvalues(method, None, 0.05, 2)).max() < 1 + 1e-5
