@@ -6,11 +6,10 @@ The step is the one that a run makes (`engine.march`), at the fixed step of the 
 (forces, curvatures) follows from C within the step, to Newton's tolerance.
 """
 
-import importlib
-
 import numpy as np
 
 from .guards import OK
+from .run import Run
 from .spatial import lift
 from .statics import planar_stretch_vectors
 
@@ -24,12 +23,11 @@ class OneStep:
     """
 
     def __init__(self, scene):
-        driver = importlib.import_module("engine.simulate")
-        self.run = driver._Batch([scene], [scene.solver.step_s])
-        if self.run.states[0]["status"] != OK:
+        self.run = Run(scene, scene.solver.step_s)
+        if self.run.state["status"] != OK:
             raise ValueError("the scene has no static equilibrium about which to step")
-        self.step_s, self.Y = scene.solver.step_s, self.run.Y[0].copy()
-        self.begin = self.run.states[0].copy()
+        self.step_s, self.Y = scene.solver.step_s, self.run.Y.copy()
+        self.begin = self.run.state.copy()
         # not the first step, for which C would be computed, nor the first sample, which is at the start
         self.begin["steps"], self.begin["samples"], self.begin["dt"] = 1, 1, self.step_s
         self.begin["small_steps"] = 0
@@ -41,7 +39,7 @@ class OneStep:
         self._rest()
 
     def _rest(self):
-        half = self.run.C.shape[2] // 2
+        half = self.run.C.shape[1] // 2
         vectors = lift.stretch_vectors if half == 3 else planar_stretch_vectors
         self.C = np.hstack([vectors(self.Y), np.zeros((len(self.Y), half))])
         self.K = np.zeros_like(self.C)
@@ -49,10 +47,11 @@ class OneStep:
     def __call__(self, C, K):
         """(C', K') one step later; ValueError where the step fails."""
         run = self.run
-        run.states[0] = self.begin
-        run.Y[0], run.Y_before[0], run.C[0], run.K[0] = self.Y, self.Y, C, K
+        for name in self.begin.dtype.names:
+            run.state[name] = self.begin[name]
+        run.Y[:], run.Y_before[:], run.C[:], run.K[:] = self.Y, self.Y, C, K
         run.advance(1)
-        state = run.states[0]
+        state = run.state
         if state["status"] != OK or state["failures"] or state["steps"] != 2:
             raise ValueError(f"the step of {self.step_s:g} s about this state fails")
-        return run.C[0].copy(), run.K[0].copy()
+        return run.C.copy(), run.K.copy()
