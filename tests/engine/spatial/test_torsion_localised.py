@@ -72,10 +72,13 @@ def test_the_localised_buckle(m, GI):
 
 
 def test_a_rod_between_clamps_that_are_not_in_line():
-    """The buckle between clamps tilted by 0.1 rad, against the two-point problem: order 2."""
+    """The buckle between clamps tilted by 0.04 rad, against the two-point problem: order 2.
+
+    From 0.1 rad on there is a second equilibrium, straighter, and rounding chooses which one is found.
+    """
     buckle = Localised(EI, 0.3, 2.0, 0.8)
     aligned = buckle.rod(10.0, EA)
-    rod = Rod(EI, 0.3, EA, 10.0, aligned.place, aligned.twist, (1.0, 0.0, 0.0), (np.cos(0.1), np.sin(0.1), 0.0))
+    rod = Rod(EI, 0.3, EA, 10.0, aligned.place, aligned.twist, (1.0, 0.0, 0.0), (np.cos(0.04), np.sin(0.04), 0.0))
     answers = []
     for nodes in (161, 321, 641):
         Y, h = at_rest(rod, nodes, lambda s: buckle.state(aligned, s))
