@@ -19,13 +19,14 @@ from .compiled import kernel
 from .dimensions import conserved, largest_turn, release_loop, size_of, work_arrays
 from .elementary import copy_into
 from .ends import next_corner
+from .energy import add_powers, store_energies
 from .guards import NEWTON_FAILED, NOT_FINITE, OK, STEP_LIMIT, STEP_UNDERFLOW, STRAIN_BELOW_MINUS_ONE, TURN_UNRESOLVED
 from .integrators import RUNGE_KUTTA
 from .sampling import sample
-from .shocks import renew_viscosity
+from .shocks import deforming_element, renew_viscosity
 from .steps import one_stage_step, runge_kutta_step
 
-_COUNTS = "status samples profiles small_steps steps rejected newton failures releases attempts cautious trail".split()
+_COUNTS = "status samples profiles small_steps steps rejected newton failures releases attempts cautious trail energies".split()
 _VALUES = "t dt dt_before low high max_turn min_strain window_end".split()
 STATE = np.dtype([(name, np.int64) for name in _COUNTS] + [(name, np.float64) for name in _VALUES])
 SMALL_STEPS = 3
@@ -75,12 +76,13 @@ def record_step(row, stages, rates, t, dt, one_stage, small, Ys, Ks):
 
 
 @kernel
-def march(p, tables, state, Y, Y_before, C, K, samples, profiles, trail_T, trail_Y, trail_K, until):
+def march(p, tables, state, Y, Y_before, C, K, samples, profiles, energies, sums, trail_T, trail_Y, trail_K, until):
     """Advance one simulation until `until` samples are stored, the trail is full, or it ends.
 
     p: parameter record; state: STATE record; Y, Y_before (n, unknowns), C, K (n, conserved): the state itself; changed
     in place. C is kept from call to call: computed anew it would differ by rounding, and the calls would show.
     samples (m, 12), profiles (m', n, 6): filled in place, columns as in `engine.sampling`.
+    energies (m'', 9), sums (5,): rows at the first step past each output time, as in `engine.energy`; m'' = 0: none.
     trail_T (l, 3), trail_Y (l, s, n, unknowns), trail_K (l, s, n, conserved): accepted steps for `engine.tangent`;
     l = 0 keeps none.
     """
@@ -95,6 +97,9 @@ def march(p, tables, state, Y, Y_before, C, K, samples, profiles, trail_T, trail
         renew_viscosity(p, tables, size // 2, C, K, e_t, work[2])
     if state.steps == 0:
         conserved(p, Y, C)
+        if energies.shape[0] > 0:
+            store_energies(p, tables, 0.0, C, sums, energies[0])
+            state.energies = 1
     room = trail_T.shape[0]
     while state.status == OK and state.samples < until and (room == 0 or state.trail < room):
         if state.t >= state.window_end:
@@ -112,9 +117,9 @@ def march(p, tables, state, Y, Y_before, C, K, samples, profiles, trail_T, trail
             dt = corner - state.t
         lets_go = cut and corner == p.end_release
         error = 0.0
+        am, af, gamma = (1.0, 1.0, 1.0) if small else (p.alpha_m, p.alpha_f, p.gamma)
         one_stage = small or p.method != RUNGE_KUTTA
         if one_stage:
-            am, af, gamma = (1.0, 1.0, 1.0) if small else (p.alpha_m, p.alpha_f, p.gamma)
             code, used = one_stage_step(
                 p, tables, state.t, dt, state.dt_before, am, af, gamma, SMALL_STEP_NEWTON if small else p.max_newton,
                 Y, Y_before, C, K, Ys[s - 1], Ks[s - 1], C_new, work,
@@ -136,6 +141,11 @@ def march(p, tables, state, Y, Y_before, C, K, samples, profiles, trail_T, trail
             continue
         state.steps += 1
         sample(p, tables, state, dt, not one_stage, C, K, C_new, Ks[s - 1], samples, profiles)
+        if energies.shape[0] > 0:
+            add_powers(p, tables, dt, am, af, gamma, C, K, C_new, Ks[s - 1], Ys[s - 1], work[2], sums)
+            if state.energies < energies.shape[0] and state.energies * p.output_step <= state.t + dt:
+                store_energies(p, tables, state.t + dt, C_new, sums, energies[state.energies])
+                state.energies += 1
         if room > 0:
             last = state.trail
             record_step(trail_T[last], trail_Y[last], trail_K[last], state.t, dt, one_stage, small, Ys, Ks)
@@ -169,4 +179,5 @@ def march(p, tables, state, Y, Y_before, C, K, samples, profiles, trail_T, trail
             factor = min(grow, max(SHRINK, SAFETY * max(error, 1e-10) ** (-1.0 / p.order)))
             state.dt = min(p.max_step, dt * factor)
         else:
-            state.dt = min(p.fixed_step, 2.0 * dt)
+            longest = p.pace * deforming_element(p, tables, e_t) if p.viscous and p.pace > 0.0 else p.fixed_step
+            state.dt = min(longest, 2.0 * dt)

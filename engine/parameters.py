@@ -24,7 +24,7 @@ RECORD = np.dtype(
         "M_total M_wave lift C_buoy end_x end_z end_release end_fx end_fz end_decay "
         "barrier c_quadratic c_linear per_strain per_force per_speed per_curvature "
         "order rtol newton_tolerance fixed_step max_step min_step start_x start_z "
-        "output_step release_step growth_per_step shortest_wave profile_step window alpha_m alpha_f gamma",
+        "output_step release_step growth_per_step shortest_wave profile_step window alpha_m alpha_f gamma pace",
     )
 )
 # Three dimensions have a type of their own: a kernel that serves both is compiled for each on its first use. Their own
@@ -254,7 +254,8 @@ def _solver(record, scene, place, h):
     record["at_rest"] = not (moving or impulsive or moved)
     _scales(record, scene, h)
     if solver.courant is not None:
-        record["fixed_step"] = solver.courant * float(h.min()) / fastest_wave(record, scene)
+        record["pace"] = solver.courant / fastest_wave(record, scene)
+        record["fixed_step"] = record["pace"] * float(h.min())
     usual = period / 50 if period else 0.1
     record["window"] = min(solver.max_step_s, usual) if record["adaptive"] else record["fixed_step"]
 
@@ -280,7 +281,9 @@ def _scales(record, scene, h):
     transit = length * math.sqrt(float(record["m"]) / stiffness)
     record["release_step"] = min(transit / 12, float(record["max_step"]))
     record["per_force"] = 20 / load
-    record["per_speed"] = 1 / max(math.sqrt(max(g * length, stiff / float(record["m"]))) / 14, pulled, 1e-3)
+    recoil = strain * length / transit if scene.end.force_decay_s else 0.0  # of the end of a line that breaks
+    bent = stiff / float(record["m"])
+    record["per_speed"] = 1 / max(math.sqrt(max(g * length, bent)) / 14, recoil / 14, pulled, 1e-3)
     record["per_curvature"] = float(np.mean(h)) / 2.5
 
 

@@ -208,7 +208,7 @@ class Solver(Section):
     integrator: Literal["esdirk43", "trbdf2", "midpoint", "backward-euler", "generalized-alpha"] = "esdirk43"
     rtol: Tolerance = 0.03
     step_s: Positive | None = None  # fixed step; None: controlled by rtol, or T/400 for a method of fixed steps
-    courant: Positive | None = None  # fixed step as this times (shortest element)/(fastest axial wave), not step_s
+    courant: Positive | None = None  # step as this times (shortest element)/(fastest axial wave), not step_s
     shock_viscosity: ShockViscosity | None = None
     max_step_s: Positive = 0.1
     min_step_s: Positive = 1e-9
@@ -226,6 +226,7 @@ class Output(Section):
     step_s: Positive | None = None  # None: a hundredth of the wave period, 0.05 s without waves
     profiles: Flag = False
     profiles_step_s: Positive | None = None  # None: as step_s
+    energy: Flag = False  # energy budget of a dry line (`engine.energy`)
     tangent_vectors: CountOrZero = 0  # perturbations carried along: as many Lyapunov exponents
     lateral_growth: Flag = False  # an infinitesimal perturbation across the plane carried along
 

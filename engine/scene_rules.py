@@ -177,6 +177,8 @@ def _output(sound: Sound) -> Iterator[str]:
     if profiles in (None, False) and step not in (None, FAULTY):
         given = f"given {shown(step)}, but output.profiles is false"
         yield f"output.profiles_step_s: {given}; allowed: only with output.profiles = true"
+    if sound.value("output.energy") is True:
+        yield from _budgeted(sound)
     vectors, sideways = sound.value("output.tangent_vectors"), sound.value("output.lateral_growth")
     if vectors not in (None, FAULTY, 0):
         yield from _perturbed(sound, "output.tangent_vectors", vectors, "0")
@@ -185,6 +187,17 @@ def _output(sound: Sound) -> Iterator[str]:
             yield fault("output.tangent_vectors", vectors, f"at most four a node, {4 * nodes[0]}")
     if sideways is True:
         yield from _perturbed(sound, "output.lateral_growth", sideways, "false")
+
+
+def _budgeted(sound: Sound) -> Iterator[str]:
+    """What a scene needs for its energy budget."""
+    if sound.value("water") is not None:
+        yield fault("output.energy", True, "false, because the budget knows of no water")
+    integrator = sound.value("solver.integrator") or "esdirk43"
+    if integrator in ("esdirk43", "trbdf2"):
+        yield fault("output.energy", True, f"false, because solver.integrator is {integrator!r}: use one of one stage")
+    if sound.value("solver.scheme") == "paper-box":
+        yield fault("output.energy", True, "false, because solver.scheme is 'paper-box': use 'conservation'")
 
 
 def _perturbed(sound: Sound, key: str, given: object, none: str) -> Iterator[str]:

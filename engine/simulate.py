@@ -5,7 +5,7 @@ import time
 
 import numpy as np
 
-from . import parameters
+from . import energy, parameters
 from .ends import HELD
 from .exponents import Trail
 from .guards import ADVICE, OK, TURN_UNRESOLVED, WORDS
@@ -15,7 +15,7 @@ from .planar import state as planar
 from .spatial import lift
 from .spatial import state as spatial
 from .statics import first_guess, settle
-from .trajectory import Profiles, Trajectory
+from .trajectory import EnergyBudget, Profiles, Trajectory
 
 PERIODS_PER_CALL = 10
 
@@ -128,6 +128,9 @@ class _Batch:
         self.samples = np.zeros((size, int(self.goals.max()), 12))
         # contiguous, one by one: another layout would be another compilation of `march`, which may round otherwise
         self.profiles = [np.zeros((m, int(k), 6)) for m, k in zip(profiled, self.records["nodes"], strict=True)]
+        kept = [goal if scene.output.energy else 0 for scene, goal in zip(scenes, self.goals, strict=True)]
+        self.energies = [np.zeros((rows, energy.WIDTH)) for rows in kept]
+        self.sums = np.zeros((size, 5))
         self.states = np.zeros(size, STATE)
         self.Y = np.zeros((size, nodes, unknowns))
         self.C = np.zeros((size, nodes, conserved))
@@ -182,7 +185,7 @@ class _Batch:
             while True:
                 march(
                     record, self.tables, self.states[b], self.Y[b, :n], self.Y_before[b, :n], self.C[b, :n],
-                    self.K[b, :n], self.samples[b], self.profiles[b], *trail.steps, until,
+                    self.K[b, :n], self.samples[b], self.profiles[b], self.energies[b], self.sums[b], *trail.steps, until,
                 )
                 trail.follow(record, self.tables, self.states[b])
                 if self.states[b]["status"] != OK or self.states[b]["samples"] >= until:
@@ -209,7 +212,15 @@ class _Batch:
         heading = float(scene.waves.direction_rad) if self.state is spatial and scene.waves is not None else 0.0
         columns = _columns(self.samples[b, : min(int(state["samples"]), int(self.goals[b]))], heading)
         profiles, tangent = self._profiles(b, record, state), self.trails[b].growth(state)
-        return Trajectory(scene, WORDS[status], message, columns, statistics, profiles, tangent)
+        return Trajectory(scene, WORDS[status], message, columns, statistics, profiles, tangent, self._budget(b))
+
+    def _budget(self, b):
+        if not self.scenes[b].output.energy:
+            return None
+        rows = self.energies[b][: int(self.states[b]["energies"])]
+        time_s, kinetic, strain, gravity, work, shear, viscous, space, powers = rows.T.copy()
+        total = kinetic + strain + gravity
+        return EnergyBudget(time_s, kinetic, strain, gravity, work, shear, viscous, space, powers - (total - total[:1]))
 
     def _profiles(self, b, record, state):
         count = int(state["profiles"])

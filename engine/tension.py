@@ -4,6 +4,7 @@ A tabulated law is the monotone cubic (Fritsch & Carlson 1980, PCHIP) through it
 Newton does not chatter at a kink; outside the table it goes on along the end tangents.
 The printed tanh law has almost no stiffness in compression: where the scene gives a barrier P_b, T loses
 P_b (0.5/lambda - 1)^2 below lambda = 1 + eps = 0.5, smooth there, without bound as lambda -> 0.
+`stored` is its integral.
 Table layout in `tables`, n knots: [knots (n) | c0 c1 c2 c3 of each of the n - 1 pieces | slope below | slope above].
 """
 
@@ -91,3 +92,39 @@ def law_tension(eps, p, tables):
         th = math.tanh(p.p2 * eps + p.p3)
         return p.p1 * th + p.p4 + p.p5 * eps, p.p1 * p.p2 * (1.0 - th * th) + p.p5
     return _tabulated(eps, tables, p.law_at, p.law_n)
+
+
+@kernel
+def _tabulated_energy(eps, tables, at, n):
+    """Integral of the tabulated law from its first knot to eps."""
+    last = at + n - 1
+    total = 0.0
+    if eps <= tables[at]:
+        d = eps - tables[at]
+        return d * (tables[last + 1] + 0.5 * d * tables[last + 1 + 4 * (n - 1)])
+    for i in range(n - 1):
+        piece = last + 1 + 4 * i
+        d = min(eps, tables[at + i + 1]) - tables[at + i]
+        if d <= 0.0:
+            return total
+        c2, c3 = tables[piece + 2] / 3.0, tables[piece + 3] / 4.0
+        total += d * (tables[piece] + d * (0.5 * tables[piece + 1] + d * (c2 + d * c3)))
+    d = max(eps - tables[last], 0.0)
+    return total + d * (_tabulated(tables[last], tables, at, n)[0] + 0.5 * d * tables[last + 2 + 4 * (n - 1)])
+
+
+@kernel
+def stored(eps, p, tables):
+    """Integral of the tension law from no strain to eps, J per metre of unstretched line."""
+    barrier = 0.0
+    if p.barrier > 0.0 and eps < -0.5:
+        lam = max(1.0 + eps, 1e-300)
+        barrier = p.barrier * (0.25 / lam + math.log(2.0 * lam) - lam)  # 0 at 0.5
+    if p.law == LINEAR:
+        return barrier + 0.5 * p.p1 * eps * eps
+    if p.law == TANH:
+        # ln cosh x = |x| - ln 2 + ln(1 + exp(-2 |x|)) does not overflow
+        x, x0 = abs(p.p2 * eps + p.p3), abs(p.p3)
+        rise = x - x0 + math.log1p(math.exp(-2.0 * x)) - math.log1p(math.exp(-2.0 * x0))
+        return barrier + p.p1 / p.p2 * rise + p.p4 * eps + 0.5 * p.p5 * eps * eps
+    return barrier + _tabulated_energy(eps, tables, p.law_at, p.law_n) - _tabulated_energy(0.0, tables, p.law_at, p.law_n)

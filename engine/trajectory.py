@@ -44,6 +44,18 @@ PROFILE_COLUMNS = {
     "speed_mps": ("m s-1", "speed"),
 }
 
+ENERGY_COLUMNS = {
+    "time_s": ("s", "time of the energies, ends of steps"),
+    "kinetic_J": ("J", "kinetic energy"),
+    "strain_J": ("J", "strain energy"),
+    "gravity_J": ("J", "energy of the weight, from the height of the lower end"),
+    "end_work_J": ("J", "work of the force at the upper end since the start"),
+    "bending_J": ("J", "work against the shear forces since the start: bending"),
+    "viscous_J": ("J", "dissipated by the shock viscosity since the start"),
+    "scheme_space_J": ("J", "dissipated by the discretisation in space since the start"),
+    "scheme_time_J": ("J", "dissipated by the discretisation in time since the start"),
+}
+
 
 class TrajectoryError(ValueError):
     """A trajectory file that cannot be read: not there, truncated, damaged, or not one of ours."""
@@ -70,6 +82,37 @@ class Profiles:
 
 
 @dataclass(frozen=True)
+class EnergyBudget:
+    """Where the energy of a dry line is and went since t = 0; each (m,), in J (`engine.energy`).
+
+    time_s: ends of steps, the first past each output time. kinetic_J, strain_J, gravity_J: states. end_work_J: done by
+    the force at the upper end; bending_J: against the shear forces; viscous_J: by shock viscosity; scheme_space_J,
+    scheme_time_J: dissipated by the discretisation. See `remainder_J`.
+    """
+
+    time_s: np.ndarray
+    kinetic_J: np.ndarray
+    strain_J: np.ndarray
+    gravity_J: np.ndarray
+    end_work_J: np.ndarray
+    bending_J: np.ndarray
+    viscous_J: np.ndarray
+    scheme_space_J: np.ndarray
+    scheme_time_J: np.ndarray
+
+    @property
+    def stored_J(self) -> float:
+        """Strain energy at the start."""
+        return float(self.strain_J[0])
+
+    def remainder_J(self) -> np.ndarray:
+        """What the entries leave unexplained: energy at the start + work - everything found later."""
+        held = self.kinetic_J + self.strain_J + self.gravity_J
+        gone = self.bending_J + self.viscous_J + self.scheme_space_J + self.scheme_time_J
+        return held[0] + self.end_work_J - held - gone
+
+
+@dataclass(frozen=True)
 class TangentGrowth:
     """Growth of infinitesimal perturbations, period by period (`engine.tangent`).
 
@@ -90,7 +133,7 @@ class Trajectory:
 
     status: "ok", or the word for how the run ended early; then the samples up to its end are kept (possibly none).
     message: a sentence about it, empty for "ok". columns: every name of COLUMNS -> (n,) array, evenly sampled.
-    statistics: counts and times of the work done. profiles, tangent: where the scene asks for them.
+    statistics: counts and times of the work done. profiles, tangent, energy: where the scene asks for them.
     """
 
     scene: Scene
@@ -100,6 +143,7 @@ class Trajectory:
     statistics: dict[str, int | float]
     profiles: Profiles | None = None
     tangent: TangentGrowth | None = None
+    energy: EnergyBudget | None = None
 
     def __post_init__(self) -> None:
         if set(self.columns) != set(COLUMNS):
@@ -152,6 +196,9 @@ def _variables(run: Trajectory) -> list[tuple[str, tuple[str, ...], np.ndarray, 
             found.append(("profile_time_s", ("profile_time_s",), lines.time_s, "s", "time of the profiles"))
             for name, about in PROFILE_COLUMNS.items():
                 found.append((f"profile_{name}", ("profile_time_s", "s_m"), getattr(lines, name), *about))
+    if run.energy is not None and len(run.energy.time_s):
+        for name, about in ENERGY_COLUMNS.items():
+            found.append((f"energy_{name}", ("energy_time_s",), getattr(run.energy, name), *about))
     if run.tangent is not None and len(run.tangent.released):
         grown = run.tangent
         about = (f"period ({grown.period_s!r} s)", "number of the period, the first is 0")
@@ -237,10 +284,13 @@ def _from_netcdf_bytes(content: bytes) -> Trajectory:
         scene = scene_from_toml(texts["scene"])
     except SceneError as error:
         raise TrajectoryError(f"holds a scene that this version does not accept: {error}") from None
+    energy = None
+    if scene.output.energy:
+        energy = EnergyBudget(**{name: arrays.get(f"energy_{name}", np.empty(0)) for name in ENERGY_COLUMNS})
     tangent = _growth(scene, arrays, file)
     columns = {name: arrays[name] for name in COLUMNS}
     statistics = json.loads(texts["statistics"])
-    return Trajectory(scene, texts["status"], texts["message"], columns, statistics, profiles, tangent)
+    return Trajectory(scene, texts["status"], texts["message"], columns, statistics, profiles, tangent, energy)
 
 
 def _growth(scene: Scene, arrays: dict[str, np.ndarray], file: object) -> TangentGrowth | None:

@@ -13,6 +13,7 @@ from pathlib import Path
 CONTENTS = {
     "buoy_sweep": "reports.buoy_sweep",
     "oscillator": "reports.oscillator_content",
+    "breaking_line": "reports.breaking_line",
     "out_of_plane": "reports.offplane_content",
 }
 

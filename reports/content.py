@@ -50,22 +50,24 @@ class Equation:
 
 @dataclass(frozen=True)
 class Picture:
-    """The bytes of one drawing: `kind` is "svg" or "png"."""
+    """The bytes of one drawing: `kind` is "svg", "png", or "gif" for one that moves."""
 
     data: bytes
-    kind: Literal["svg", "png"]
+    kind: Literal["svg", "png", "gif"]
 
 
 @dataclass(frozen=True)
 class Figure:
     """A drawing with its caption (what is seen, from which columns) and its description for those who cannot see it.
 
+    `moving`: shown instead of `picture` where a drawing can move, on the page.
     Raises ValueError when caption or description is empty: a figure without them is not allowed into a report.
     """
 
     picture: Picture
     caption: str
     alt: str
+    moving: Picture | None = None
 
     def __post_init__(self) -> None:
         if not self.caption.strip() or not self.alt.strip():

@@ -7,7 +7,7 @@ import base64
 from .content import Equation, Figure, Heading, Picture, Report, Table, plain, section_ids, spans
 from .equations import equation_svg
 
-_MEDIA = {"svg": "image/svg+xml", "png": "image/png"}
+_MEDIA = {"svg": "image/svg+xml", "png": "image/png", "gif": "image/gif"}
 
 
 def render_html(report: Report) -> bytes:

@@ -9,19 +9,20 @@ from .wording import number
 _NOT_PARAMETERS = {"name", "title"}
 
 
-def scene_table(scene, default, swept: dict[str, str], caption: str) -> Table:
+def scene_table(scene, default, swept: dict[str, str], caption: str, sources: dict | None = None) -> Table:
     """Value, unit and source of every parameter.
 
-    Args: `scene` as run; `default` the shipped scene of the same kind, whose values have the sources of
-    `reports.sources`; `swept` maps the keys the campaign varied to the values in words. A value that differs from the
-    default is marked "set by the user".
+    Args: `scene` as run; `default` the shipped scene of the same kind, whose values have the sources of `sources`, by
+    default `reports.sources`; `swept` maps the keys the campaign varied to the values in words. A value that differs
+    from the default is marked "set by the user".
     """
+    sources = SOURCES if sources is None else sources
     values, defaults = _flat(scene.as_dict()), _flat(default.as_dict())
     rows = []
     for key in [*values, *(key for key in swept if key not in values)]:
         if key in _NOT_PARAMETERS:
             continue
-        meaning, source = SOURCES.get(key, (key.rpartition(".")[2].replace("_", " "), ""))
+        meaning, source = sources.get(key, (key.rpartition(".")[2].replace("_", " "), ""))
         if key in swept:
             rows.append((f"`{key}`", meaning, swept[key], unit_of(key), "swept by this campaign"))
             continue

@@ -158,3 +158,10 @@ def last_strain(p, C):
     """Strain of the last node."""
     k = C.shape[0] - 1
     return math.sqrt(C[k, 0] ** 2 + C[k, 1] ** 2) - 1.0
+
+
+@kernel
+def shear_force(p, Y, k, q, S):
+    """S n of node k into S (2,), where n is normal to q."""
+    f = Y[k, 1] / math.sqrt(q[0] * q[0] + q[1] * q[1])
+    S[0], S[1] = -f * q[1], f * q[0]

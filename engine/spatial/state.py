@@ -190,3 +190,14 @@ def last_strain(p, C):
     """Strain of the last node."""
     k = C.shape[0] - 1
     return math.sqrt(C[k, 0] ** 2 + C[k, 1] ** 2 + C[k, 2] ** 2) - 1.0
+
+
+@kernel
+def shear_force(p, Y, k, q, S):
+    """Sn n + Sb b of node k into S (3,), the frame turned the shortest way until its t is along q."""
+    q = (q[0], q[1], q[2])
+    length = math.sqrt(dot(q, q))
+    beta = (Y[k, 6], Y[k, 7], Y[k, 8], Y[k, 9])
+    beta = quaternion_product(least_turn(frame(beta)[0], mixed(1.0 / length, q, 0.0, q)), beta)
+    _, n, b = frame(beta)
+    S[0], S[1], S[2] = mixed(Y[k, 1], n, Y[k, 2], b)

@@ -35,7 +35,7 @@ def accepted_steps(scene, duration_s):
     while state["status"] == 0 and state["samples"] < batch.goals[0]:
         state["trail"] = 0
         march(p, batch.tables, state, batch.Y[0], batch.Y_before[0], batch.C[0], batch.K[0], batch.samples[0],
-              batch.profiles[0], *trail, batch.goals[0])  # fmt: skip
+              batch.profiles[0], batch.energies[0], batch.sums[0], *trail, batch.goals[0])  # fmt: skip
         if state["trail"]:
             t, dt, kind = trail[0][0]
             yield t, dt, kind == 0.0, trail[1][0], trail[2][0]

@@ -1,0 +1,42 @@
+"""Where the energy of a breaking line goes: shares of what was stored, stacked over time, one panel a case."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..content import Picture
+from ..style import BLUE, GREEN, ORANGE, SKY, VERMILION, picture_of, sheet
+
+KINDS = ("strain", "kinetic", "taken out by the end force", "dissipated", "bending")
+_COLOURS = (SKY, BLUE, ORANGE, VERMILION, GREEN)
+
+
+@dataclass(frozen=True)
+class EnergyPanel:
+    """One case: its title, times (m,), s, and the shares (5, m) in the order of KINDS."""
+
+    title: str
+    time_s: np.ndarray
+    shares: np.ndarray
+
+
+def energy_shares(panels: list[EnergyPanel]) -> Picture:
+    """Four panels a row."""
+    rows = (len(panels) + 3) // 4
+    with sheet(0.8 + 1.75 * rows) as figure:
+        grid = figure.subplots(rows, min(len(panels), 4), squeeze=False, sharey=True)
+        for axes, panel in zip(grid.flat, panels, strict=False):
+            shown = axes.stackplot(1e3 * panel.time_s, 100 * np.maximum(panel.shares, 0.0), colors=_COLOURS, linewidth=0)
+            axes.set_title(panel.title)
+            axes.set_xlim(0.0, 1e3 * panel.time_s[-1])
+            axes.set_ylim(0.0, 100.0)
+        for axes in grid.flat[len(panels) :]:
+            axes.set_visible(False)
+        for axes in grid[-1]:
+            axes.set_xlabel("$t$ (ms)")
+        for axes in grid[:, 0]:
+            axes.set_ylabel("share of the stored energy (%)")
+        figure.legend(shown, KINDS, loc="outside upper left", ncols=len(KINDS))
+        return picture_of(figure)

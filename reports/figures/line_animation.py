@@ -1,0 +1,80 @@
+"""A breaking line in motion: a GIF for the page, and a strip of its frames for paper."""
+
+from __future__ import annotations
+
+import tempfile
+from pathlib import Path
+
+import numpy as np
+
+from ..content import Picture
+from ..style import BLUE, INK, SOFT, VERMILION, picture_of, sheet
+
+_FRAMES_PER_SECOND = 15
+_DOTS_PER_INCH = 110
+_STRIP = 6
+
+
+def line_animation(time_s, s_m, x_m, z_m, tension_N) -> Picture:
+    """The GIF: shape above, tension along the line below; times (m,), places (n,), the other arrays (m, n)."""
+    from matplotlib.animation import PillowWriter
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+
+    limits = _limits(x_m, z_m)
+    with sheet(3.6) as figure, tempfile.TemporaryDirectory() as folder:
+        FigureCanvasAgg(figure)
+        shape, along = figure.subplots(2, 1)
+        (curve,) = shape.plot([], [], color=BLUE, linewidth=1.2)
+        (end,) = shape.plot([], [], "o", color=VERMILION, markersize=4)
+        _frame_axes(shape, limits)
+        (pull,) = along.plot([], [], color=INK, linewidth=1.0)
+        along.set_xlim(s_m[0], s_m[-1])
+        along.set_ylim(min(1.05e-3 * float(tension_N.min()), -20.0), 1.08e-3 * float(tension_N.max()))
+        along.set_xlabel("$s$ (m), unstretched, from the fixed end")
+        along.set_ylabel("$T$ (kN)")
+        clock = shape.set_title("t = 0 ms")
+        # every frame has the same layout, found once
+        figure.draw_without_rendering()
+        figure.set_layout_engine("none")
+        path = Path(folder, "line.gif")
+        writer = PillowWriter(fps=_FRAMES_PER_SECOND)
+        with writer.saving(figure, str(path), dpi=_DOTS_PER_INCH):
+            for row, time in enumerate(time_s):
+                curve.set_data(x_m[row], z_m[row])
+                end.set_data(x_m[row, -1:], z_m[row, -1:])
+                pull.set_data(s_m, 1e-3 * tension_N[row])
+                clock.set_text(f"t = {1e3 * time:.0f} ms")
+                writer.grab_frame()
+        return Picture(path.read_bytes(), "gif")
+
+
+def line_strip(time_s: np.ndarray, x_m: np.ndarray, z_m: np.ndarray) -> Picture:
+    """A few of the shapes, evenly spaced in time, below one another."""
+    rows = np.linspace(0, len(time_s) - 1, _STRIP).round().astype(int)
+    limits = _limits(x_m, z_m)
+    with sheet(0.4 + 0.72 * _STRIP) as figure:
+        grid = figure.subplots(_STRIP, 1, sharex=True)
+        for axes, row in zip(grid, rows, strict=True):
+            axes.plot(x_m[row], z_m[row], color=BLUE, linewidth=1.0)
+            axes.plot(x_m[row, -1:], z_m[row, -1:], "o", color=VERMILION, markersize=3)
+            _frame_axes(axes, limits)
+            axes.set_xlabel("")
+            axes.text(0.99, 0.9, f"{1e3 * time_s[row]:.0f} ms", transform=axes.transAxes, ha="right", va="top")
+        grid[-1].set_xlabel("$x$ (m)")
+        return picture_of(figure)
+
+
+def _limits(x_m: np.ndarray, z_m: np.ndarray) -> tuple[float, float, float, float]:
+    wide, high = float(np.ptp(x_m)), float(np.ptp(z_m))
+    return (
+        float(x_m.min()) - 0.03 * wide, float(x_m.max()) + 0.03 * wide, float(z_m.min()) - 0.1 * high,
+        float(z_m.max()) + 0.1 * high,
+    )  # fmt: skip
+
+
+def _frame_axes(axes, limits: tuple[float, float, float, float]) -> None:
+    axes.axvline(0.0, color=SOFT, linewidth=0.7, linestyle=(0, (2, 2)))
+    axes.set_xlim(*limits[:2])
+    axes.set_ylim(*limits[2:])
+    axes.set_xlabel("$x$ (m)")
+    axes.set_ylabel("$z$ (m)")

@@ -1,0 +1,77 @@
+"""The paper's figures 2-7: configurations, tension and velocity of a breaking line, one panel a case, 10 ms apart."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..content import Picture
+from ..style import BLUE, SOFT, VERMILION, picture_of, sheet
+
+
+@dataclass(frozen=True)
+class LinePanel:
+    """Curves of one case: its title, x (m, n) or (n,) and y (m, n) of m instants, and these instants (m,), s."""
+
+    title: str
+    x: np.ndarray
+    y: np.ndarray
+    time_s: np.ndarray
+
+
+def line_panels(panels: list[LinePanel], x_label: str, y_label: str, y_limits: list[tuple], centre: bool) -> Picture:
+    """Two panels a row, curves coloured by time on one scale.
+
+    y_limits: (low, high) of each panel; centre: mark the fixed end at x = 0.
+    """
+    from matplotlib.cm import ScalarMappable
+    from matplotlib.colors import LinearSegmentedColormap, Normalize
+    from matplotlib import colormaps
+
+    late = max(float(panel.time_s[-1]) for panel in panels)
+    # without its yellow end, which is lost on white paper
+    colours = LinearSegmentedColormap.from_list("time", colormaps["viridis"](np.linspace(0.0, 0.85, 32)))
+    scale = ScalarMappable(Normalize(0.0, 1e3 * late), colours)
+    rows = (len(panels) + 1) // 2
+    with sheet(0.4 + 1.8 * rows) as figure:
+        grid = figure.subplots(rows, 2, squeeze=False)
+        for axes, panel, limits in zip(grid.flat, panels, y_limits, strict=False):
+            x = np.broadcast_to(panel.x, panel.y.shape)
+            for row, time_s in enumerate(panel.time_s):
+                axes.plot(x[row], panel.y[row], color=scale.to_rgba(1e3 * time_s), linewidth=0.8)
+            if centre:
+                axes.axvline(0.0, color=SOFT, linewidth=0.7, linestyle=(0, (2, 2)))
+            axes.set_title(panel.title)
+            axes.set_ylim(*limits)
+            axes.margins(x=0.02)
+        for axes in grid.flat[len(panels) :]:
+            axes.set_visible(False)
+        for axes in grid[-1]:
+            axes.set_xlabel(x_label)
+        for axes in grid[:, 0]:
+            axes.set_ylabel(y_label)
+        figure.colorbar(scale, ax=grid, label="$t$ (ms)", shrink=0.6, aspect=30, pad=0.015)
+        return picture_of(figure)
+
+
+def folds(panels: list[LinePanel], x_limits: tuple[float, float], z_limits: tuple[float, float]) -> Picture:
+    """Shapes in true proportion, four panels a row; x and y of each panel (n,), time_s its one instant."""
+    rows = (len(panels) + 3) // 4
+    wide = min(len(panels), 4)
+    with sheet(0.5 + rows * (0.45 + 1.45 * (z_limits[1] - z_limits[0]) / (x_limits[1] - x_limits[0]))) as figure:
+        grid = figure.subplots(rows, wide, squeeze=False, sharex=True, sharey=True)
+        for axes, panel in zip(grid.flat, panels, strict=False):
+            axes.plot(panel.x, panel.y, color=BLUE, linewidth=0.7)
+            axes.plot([0.0], [0.0], "o", color=VERMILION, markersize=3)
+            axes.set_title(panel.title)
+            axes.set_aspect("equal")
+            axes.set_xlim(*x_limits)
+            axes.set_ylim(*z_limits)
+        for axes in grid.flat[len(panels) :]:
+            axes.set_visible(False)
+        for axes in grid[-1]:
+            axes.set_xlabel("$x$ (m)")
+        for axes in grid[:, 0]:
+            axes.set_ylabel("$z$ (m)")
+        return picture_of(figure)
