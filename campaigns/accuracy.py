@@ -1,0 +1,183 @@
+"""Error against run time: every method of the engine, solvers of scipy and other codes on seven works, and a report.
+
+    python -m campaigns.accuracy                          all works, about a quarter of an hour on two cores
+    python -m campaigns.accuracy --quick                  two works, few settings, in half a minute
+    python -m campaigns.accuracy --works snap violent     some of them
+
+Protocol: refined runs, series of halved steps and of doubled grids first, side by side. Then what is timed, one run at a
+time: all settings in turns, round by round, each round with another tolerance or step near the one named; medians are
+reported. Run time is that of stepping alone, without compilation, statics, input and output. Other codes are held
+against their own refined runs and against ours; what is not installed is a row that says so. Nothing is random.
+"""
+
+import sys
+import time
+from dataclasses import asdict, dataclass, replace
+from functools import partial
+from pathlib import Path
+
+from campaigns import cli
+from campaigns.accuracy_points import FACTORS, FULL, LONG_PERIODS, QUICK, Effort, Point
+from campaigns.accuracy_works import BY_NAME, PERIOD_S
+
+CAMPAIGN = "accuracy"
+MODULE = "campaigns.accuracy"
+
+
+@dataclass(frozen=True)
+class Order:
+    """What the command line asks for, checked."""
+
+    effort: Effort
+    quick: bool
+    peers: bool
+    out: Path
+    jobs: int
+    backend: str
+    dask_address: str | None
+    report: bool
+
+
+def main(argv: list[str] | None = None, simulate=None) -> int:
+    """The command. simulate: in place of engine.simulate, same signature. Returns the exit code (0, 1, 2 or 130)."""
+    argv = list(sys.argv[1:] if argv is None else argv)
+    faults: list[str] = []
+    order = read_order(argv, faults)
+    if faults:
+        print(cli.complaint(f"python -m {MODULE}", faults), file=sys.stderr)
+        return cli.EXIT_BAD_INPUT
+    from campaigns.session import guarded
+
+    return guarded(MODULE, argv, order.out, partial(study, order, argv, simulate))
+
+
+def parser():
+    """The options of this campaign."""
+    exits = "exit codes: 0 done, 1 stopped (disk full, folder in use, no report), 2 bad input, 130 Ctrl-C"
+    parser = cli.parser(MODULE, __doc__, exits)
+    what = parser.add_argument_group("what is run")
+    cli.add(what, "--works", "A B ...", f"works (default: {' '.join(FULL.works)})")
+    cli.add(what, "--rounds", "N", f"turns of every timed setting, 1 to {len(FACTORS)} (default: {FULL.rounds})")
+    what.add_argument("--quick", action="store_true", help=f"{' and '.join(QUICK.works)} alone, few settings, one round")
+    what.add_argument("--no-peers", action="store_true", help="leave out scipy and other codes")
+    cli.add_running(parser.add_argument_group("how and where"), f"results/{CAMPAIGN}")
+    return parser
+
+
+def read_order(argv: list[str], faults: list[str]) -> Order:
+    """The order in the words of the command line; every fault is appended to `faults`."""
+    options = cli.split(parser(), argv, faults)
+    effort = QUICK if options.quick else FULL
+    if options.works == []:
+        faults.append(f"--works: given nothing; allowed: one or more of {', '.join(FULL.works)}")
+    allowed = "one of " + ", ".join(FULL.works)
+    words = options.works or list(effort.works)
+    works = cli.values(words, "--works", list(effort.works), cli.one_of(FULL.works), allowed, faults)
+
+    def rounds(text: str) -> int:
+        number = cli.whole(1)(text)
+        if number > len(FACTORS):
+            raise ValueError(text)
+        return number
+
+    said = f"a whole number from 1 to {len(FACTORS)}"
+    count = cli.value(options.rounds, "--rounds", effort.rounds, rounds, said, faults)
+    effort = replace(effort, works=tuple(name for name in FULL.works if name in works), rounds=count)
+    jobs = cli.value(options.jobs, "--jobs", cli.default_jobs(), cli.whole(1), cli.WHOLE.format(1), faults)
+    backend, address = cli.backend(options, faults)
+    out = cli.folder(options, CAMPAIGN, faults)
+    peers = not options.no_peers
+    return Order(effort, options.quick, peers, out, jobs, backend, address, not options.no_report)
+
+
+def study(order: Order, argv: list[str], simulate) -> int:
+    """Run it: untimed runs, timed ones, table, provenance, report. Raises CampaignStopped, OSError, KeyboardInterrupt."""
+    from campaigns import accuracy_orders, accuracy_pieces, accuracy_plan, session
+    from campaigns.accuracy_rows import COLUMNS
+    from campaigns.folder import claimed
+    from campaigns.runner import Plan
+
+    ours = simulate is None
+    if ours:
+        from engine import simulate
+    start = time.perf_counter()
+    plan = Plan(order.out, simulate, _undescribed, COLUMNS, order.backend, order.jobs, order.dask_address,
+                row_maker=_maker())  # fmt: skip
+    alone = replace(plan, backend="threading", jobs=1)
+    known: dict[str, str] = {}
+    first = engine_jobs(order, accuracy_plan.first_phase(order.effort), known)
+    known |= {job.labels["work"]: str(_file(order, job.key)) for job in first}
+    second = engine_jobs(order, accuracy_plan.second_phase(order.effort), known)
+    third = engine_jobs(order, accuracy_plan.third_phase(order.effort), known)
+    fourth, fifth = _peer_jobs(order, known) if order.peers and ours else ([], [])
+    with claimed(order.out):
+        record = session.begin(CAMPAIGN, MODULE, argv, plan, first + third, _parameters(order))
+        timing, done = {"compile_s": 0.0, "run_s": 0.0, "analysis_s": 0.0}, []
+        computed = 0
+        for how, jobs in ((plan, first), (plan, second + fourth), (alone, third + fifth)):
+            done += jobs
+            more, summary = session.run(how, done)
+            timing = {name: timing[name] + more[name] for name in timing}
+            computed += summary.computed
+        summary = replace(summary, computed=computed, found=len(summary.rows) - computed)
+        accuracy_orders.write(order.out, summary.rows)
+        if ours:
+            accuracy_pieces.keep(order.out, quick=order.quick)
+        session.finish(order.out, record, summary, timing)
+        fault = session.report(order.out, order.report, timing, start)
+    return session.say(order.out, summary, timing, order.report, fault)
+
+
+def _undescribed(trajectory):
+    raise NotImplementedError("every run of this campaign is described by its own job")
+
+
+def _maker() -> str:
+    from campaigns.row_store import made_by
+
+    return made_by({}, "analysis/line_waves", "engine", "campaigns/accuracy_rows.py", "campaigns/accuracy_works.py")
+
+
+def engine_jobs(order: Order, points: list[Point], references: dict[str, str]) -> list:
+    """Jobs of the engine's points; references: file of each work's reference."""
+    from campaigns.accuracy_rows import point_row
+    from campaigns.runner import make_job
+
+    jobs = []
+    for point in points:
+        work = BY_NAME[point.work]
+        length_s = LONG_PERIODS * PERIOD_S if point.kind == "long" else work.duration_s
+        reference = "" if point.kind in ("reference", "long") else references.get(work.name, "")
+        describe = partial(point_row, work_name=work.name, reference=reference)
+        scene = work.made(point.changes())
+        made = f"{point.kind}-{point.round}"
+        jobs.append(make_job(scene, duration_s=length_s, labels=asdict(point), describe=describe, made=made))
+    return jobs
+
+
+def _file(order: Order, key: str) -> Path:
+    from campaigns.folder import trajectory_path
+
+    return trajectory_path(order.out, key)
+
+
+def _peer_jobs(order: Order, references: dict[str, str]) -> tuple[list, list]:
+    from campaigns.peers import peer_jobs
+
+    return peer_jobs(order.out, order.effort.works, order.quick, references)
+
+
+def _parameters(order: Order) -> dict[str, object]:
+    from campaigns.machine import machine
+
+    return {
+        "works": list(order.effort.works),
+        "quick": order.quick,
+        "rounds": order.effort.rounds,
+        "peers": order.peers,
+        "machine": machine(),
+    }
+
+
+if __name__ == "__main__":
+    sys.exit(main())

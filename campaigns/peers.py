@@ -1,0 +1,3 @@
+"""stub"""
+def peer_jobs(out, works, quick, references):
+    return [], []
