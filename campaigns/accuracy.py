@@ -18,7 +18,7 @@ from pathlib import Path
 
 from campaigns import cli
 from campaigns.accuracy_points import FACTORS, FULL, LONG_PERIODS, QUICK, Effort, Point
-from campaigns.accuracy_works import BY_NAME, PERIOD_S
+from campaigns.accuracy_works import BY_NAME, PERIOD_S, UNITS, Work
 
 CAMPAIGN = "accuracy"
 MODULE = "campaigns.accuracy"
@@ -171,11 +171,22 @@ def _parameters(order: Order) -> dict[str, object]:
     from campaigns.machine import machine
 
     return {
-        "works": list(order.effort.works),
+        "works": {name: _described(BY_NAME[name]) for name in order.effort.works},
         "quick": order.quick,
         "rounds": order.effort.rounds,
         "peers": order.peers,
         "machine": machine(),
+    }
+
+
+def _described(work: Work) -> dict[str, object]:
+    return {
+        "title": work.title,
+        "measure": work.measure,
+        "unit": UNITS[work.measure],
+        "period_s": work.period_s,
+        "duration_s": work.duration_s,
+        "rough": work.rough,
     }
 
 
