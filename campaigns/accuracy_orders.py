@@ -1,9 +1,9 @@
 """Measured orders: `orders.csv`, one row a series of runs whose step, grid or tolerance is refined.
 
 Series in time and in space are judged by the differences of neighbours in the series, which need no reference; their
-slopes are log2 of the ratios of successive differences, the order the last of them. Breaking lines are refined in time
-and space at once, at a Courant number of one or at a tight tolerance, and judged by their errors against the exact
-solution. Tolerances of one grid: slope of the error against the tolerance, least squares.
+slopes are log2 of the ratios of successive differences, the order the last of them. Works in which the rope goes slack
+are also judged by their samples before it first does ("-early"). Breaking lines are refined in time and space at once,
+and judged by their errors against the exact solution. Tolerances of one grid: slope of the error against the tolerance, least squares.
 """
 
 import csv
@@ -15,7 +15,7 @@ import numpy as np
 
 from campaigns.accuracy_points import ORDERS, VISCOUS
 from campaigns.accuracy_rows import kept_samples, rms_mm
-from campaigns.accuracy_works import BY_NAME, STRAIN, UNITS
+from campaigns.accuracy_works import BY_NAME, UNITS
 from campaigns.folder import trajectory_path
 from engine.atomic import write_atomic
 
@@ -43,9 +43,11 @@ def orders(out: Path, rows: list[dict]) -> list[dict]:
         for kind in ("time", "space"):
             for method in _methods(own, kind):
                 theory = ORDERS[method] if kind == "time" else 2
-                found.append(_by_differences(out, work, kind, method, theory, _series(own, kind, method)))
-        if work.measure == STRAIN:
-            found += [_by_errors(work, method, own) for method in _methods(own, "point")]
+                series = _series(own, kind, method)
+                found.append(_by_differences(out, work, kind, method, theory, series))
+                if early := first_slack(out, work, own):
+                    found.append(_by_differences(out, work, kind, method, theory, series, early))
+        found += [_by_errors(work, method, _series(own, "both", method)) for method in _methods(own, "both")]
         found += [_by_tolerance(work, method, own) for method in _methods(own, "tolerance")]
     return [row for row in found if row]
 
@@ -64,13 +66,27 @@ def _series(rows: list[dict], kind: str, method: str) -> list[dict]:
     return sorted(chosen, key=lambda row: (row["nodes"], -row["setting"]))
 
 
-def _by_differences(out: Path, work, kind: str, method: str, theory: float, series: list[dict]) -> dict:
+def first_slack(out: Path, work, rows: list[dict]) -> int:
+    """Number of samples of a rough work's reference before its rope first goes slack; 0 where it does not."""
+    from engine import Trajectory
+
+    reference = next((row for row in rows if row["kind"] == "reference" and row["status"] == "ok"), None)
+    if not work.rough or reference is None:
+        return 0
+    run = Trajectory.load(trajectory_path(out, reference["run_key"]))
+    return int(np.argmax(run.columns["tension_min_N"] <= 0.0))
+
+
+def _by_differences(out: Path, work, kind: str, method: str, theory: float, series: list[dict], early: int = 0) -> dict:
+    """early: number of samples that are compared, 0 for all."""
     samples = [kept_samples(work, str(trajectory_path(out, row["run_key"]))) for row in series]
-    named = [row["nodes"] if kind == "space" else row["setting"] for row in series]
-    return _judged(
-        work, kind, method, theory, [_difference(*pair) for pair in zip(samples, samples[1:], strict=False)], named,
-        _failures(series),
-    )  # fmt: skip
+    if early:
+        samples = [None if values is None else values[:early] for values in samples]
+        kind = f"{kind}-early"
+    named = [row["nodes"] if kind.startswith("space") else row["setting"] for row in series]
+    found = [_difference(*pair) for pair in zip(samples, samples[1:], strict=False)]
+    row = _judged(work, kind, method, theory, found, named, _failures(series))
+    return row | ({"rough": ""} if early else {})
 
 
 def _difference(coarse, fine) -> float:
@@ -83,11 +99,7 @@ def _failures(series: list[dict]) -> str:
     return f"{len(failed)} of {len(series)} runs ended early: {statuses}" if failed else ""
 
 
-def _by_errors(work, method: str, rows: list[dict]) -> dict:
-    chosen = [row for row in rows if row["kind"] == "point" and row["method"] == method and row["round"] == 0]
-    adaptive = chosen[0]["control"] == "rtol"
-    setting = min(row["setting"] for row in chosen) if adaptive else 1.0
-    series = sorted((row for row in chosen if row["setting"] == setting), key=lambda row: row["nodes"])
+def _by_errors(work, method: str, series: list[dict]) -> dict:
     theory = 1 if method.endswith(VISCOUS) else min(2, ORDERS[method])
     errors = [row["error"] if row.get("error") is not None else math.nan for row in series]
     return _judged(work, "both", method, theory, errors, [row["nodes"] for row in series], _failures(series))

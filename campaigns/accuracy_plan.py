@@ -16,6 +16,8 @@ TIME_NODES = {BUOY: 21, "pendulum": 11}  # grids on which orders in time are mea
 SPACE_NODES = {BUOY: 11, "pendulum": 6}  # the coarsest grids of orders in space
 SPACE_STEPS = 400  # per period, of smooth works in space; rough ones need a tolerance
 SPACE_RTOL = 1e-5
+LINE_WAVE_MPS = 1000.0  # about the fastest wave of the breaking line: steps are an element's length over it
+MOST_ADAPTIVE_LINE = 401  # nodes of breaking lines with steps under control: beyond, some take minutes to fail
 REFERENCE_METHOD = "esdirk43"
 
 
@@ -62,6 +64,17 @@ def in_space(work: Work, effort: Effort) -> list[Point]:
     ]
 
 
+def in_both(work: Work, effort: Effort) -> list[Point]:
+    """Elements and steps halved together, every method with and without shock viscosity."""
+    length_m = work.made({}).tether.length_m
+    found = []
+    for method in (*(method + VISCOUS for method in FIXED), *FIXED, *ADAPTIVE):
+        for n in own(effort.nodes, work):
+            step_s = length_m / (n - 1) / LINE_WAVE_MPS
+            found.append(Point(work.name, "both", method, n, "step_s", step_s))
+    return found
+
+
 def tolerances(work: Work, effort: Effort) -> list[Point]:
     """One fine grid, that of the reference of the violent work, over tolerances."""
     nodes = min(work.reference[0], 161)
@@ -104,7 +117,8 @@ def _of_a_line(work: Work, effort: Effort) -> list[tuple[str, int, str, float]]:
         for method in FIXED:
             found += [(method + viscous, n, "courant", 1.0) for n in nodes]
             found += [(method + viscous, middle, "courant", courant) for courant in effort.courants if courant != 1.0]
-        found += [(method + viscous, n, "rtol", rtol) for method in ADAPTIVE for n in nodes for rtol in effort.line_rtols]
+        few = [n for n in nodes if n <= MOST_ADAPTIVE_LINE]
+        found += [(method + viscous, n, "rtol", rtol) for method in ADAPTIVE for n in few for rtol in effort.line_rtols]
     return found
 
 
@@ -121,6 +135,8 @@ def second_phase(effort: Effort) -> list[Point]:
         points += references(work)[1:]
         if work.measure != STRAIN:
             points += in_time(work, effort) + in_space(work, effort)
+        else:
+            points += in_both(work, effort)
         if work.reference is not None:
             points += tolerances(work, effort)
         if effort.long and name == "violent":
