@@ -10,6 +10,7 @@ reported. Run time is that of stepping alone, without compilation, statics, inpu
 against their own refined runs and against ours; what is not installed is a row that says so. Nothing is random.
 """
 
+import os
 import sys
 import time
 from dataclasses import asdict, dataclass, replace
@@ -58,7 +59,9 @@ def parser():
     what = parser.add_argument_group("what is run")
     cli.add(what, "--works", "A B ...", f"works (default: {' '.join(FULL.works)})")
     cli.add(what, "--rounds", "N", f"turns of every timed setting, 1 to {len(FACTORS)} (default: {FULL.rounds})")
-    what.add_argument("--quick", action="store_true", help=f"{' and '.join(QUICK.works)} alone, few settings, one round")
+    what.add_argument(
+        "--quick", action="store_true", help=f"{' and '.join(QUICK.works)} alone, few settings, one round"
+    )
     what.add_argument("--no-peers", action="store_true", help="leave out scipy and other codes")
     cli.add_running(parser.add_argument_group("how and where"), f"results/{CAMPAIGN}")
     return parser
@@ -109,17 +112,17 @@ def study(order: Order, argv: list[str], simulate) -> int:
     known |= {job.labels["work"]: str(_file(order, job.key)) for job in first}
     second = engine_jobs(order, accuracy_plan.second_phase(order.effort), known)
     third = engine_jobs(order, accuracy_plan.third_phase(order.effort), known)
-    fourth, fifth = _peer_jobs(order, known) if order.peers and ours else ([], [])
+    others = _peer_jobs(order, known) if order.peers and ours else ([], [], [])
     with claimed(order.out):
         record = session.begin(CAMPAIGN, MODULE, argv, plan, first + third, _parameters(order))
         timing, done = {"compile_s": 0.0, "run_s": 0.0, "analysis_s": 0.0}, []
-        computed = 0
-        for how, jobs in ((plan, first), (plan, second + fourth), (alone, third + fifth)):
+        every = {job.key for job in (*first, *second, *third, *(job for jobs in others for job in jobs))}
+        found = sum(_file(order, key).exists() for key in every)
+        for how, jobs in ((plan, first + others[0]), (plan, second + others[1]), (alone, third + others[2])):
             done += jobs
             more, summary = session.run(how, done)
             timing = {name: timing[name] + more[name] for name in timing}
-            computed += summary.computed
-        summary = replace(summary, computed=computed, found=len(summary.rows) - computed)
+        summary = replace(summary, computed=len(summary.rows) - found, found=found)
         accuracy_orders.write(order.out, summary.rows)
         if ours:
             accuracy_pieces.keep(order.out, quick=order.quick)
@@ -161,7 +164,7 @@ def _file(order: Order, key: str) -> Path:
     return trajectory_path(order.out, key)
 
 
-def _peer_jobs(order: Order, references: dict[str, str]) -> tuple[list, list]:
+def _peer_jobs(order: Order, references: dict[str, str]) -> tuple[list, list, list]:
     from campaigns.peers import peer_jobs
 
     return peer_jobs(order.out, order.effort.works, order.quick, references)
@@ -169,12 +172,14 @@ def _peer_jobs(order: Order, references: dict[str, str]) -> tuple[list, list]:
 
 def _parameters(order: Order) -> dict[str, object]:
     from campaigns.machine import machine
+    from campaigns.peers import notes
 
     return {
         "works": {name: _described(BY_NAME[name]) for name in order.effort.works},
         "quick": order.quick,
         "rounds": order.effort.rounds,
         "peers": order.peers,
+        "peer_notes": notes(order.effort.works, order.quick) if order.peers else {},
         "machine": machine(),
     }
 
@@ -190,5 +195,15 @@ def _described(work: Work) -> dict[str, object]:
     }
 
 
+def one_thread() -> None:
+    """Linear algebra on one thread, as every other solver that is timed; to be called before NumPy is imported.
+
+    The matrices of scipy's solvers are small: on a busy machine two threads were seen to take a hundred times longer.
+    """
+    for library in ("OPENBLAS", "OMP", "MKL"):
+        os.environ.setdefault(f"{library}_NUM_THREADS", "1")
+
+
 if __name__ == "__main__":
+    one_thread()
     sys.exit(main())

@@ -19,7 +19,20 @@ from campaigns.accuracy_works import BY_NAME, UNITS
 from campaigns.folder import trajectory_path
 from engine.atomic import write_atomic
 
-COLUMNS = ("work", "kind", "method", "theory", "order", "slopes", "errors", "unit", "settings", "within", "rough", "note")
+COLUMNS = (
+    "work",
+    "kind",
+    "method",
+    "theory",
+    "order",
+    "slopes",
+    "errors",
+    "unit",
+    "settings",
+    "within",
+    "rough",
+    "note",
+)
 WITHIN = 0.15
 # an adaptive method keeps its estimate of the error of a step, of order p_e + 1, at rtol: the error goes with
 # rtol^(p/(p_e + 1)), p_e = 3 for esdirk43 (p = 4) and 2 for trbdf2 (p = 2), whose estimate is that of its own order

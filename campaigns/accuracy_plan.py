@@ -78,9 +78,7 @@ def in_both(work: Work, effort: Effort) -> list[Point]:
 def tolerances(work: Work, effort: Effort) -> list[Point]:
     """One fine grid, that of the reference of the violent work, over tolerances."""
     nodes = min(work.reference[0], 161)
-    return [
-        Point(work.name, "tolerance", method, nodes, "rtol", rtol) for method in ADAPTIVE for rtol in effort.rtols
-    ]
+    return [Point(work.name, "tolerance", method, nodes, "rtol", rtol) for method in ADAPTIVE for rtol in effort.rtols]
 
 
 def timed(work: Work, effort: Effort) -> list[Point]:

@@ -91,7 +91,12 @@ class Effort:
 
 FULL = Effort(
     works=tuple(work.name for work in WORKS),
-    nodes={"regular": (6, 11, 21, 41), BUOY: (21, 41, 81, 161), LINE: (51, 101, 201, 401, 801), "pendulum": (6, 11, 21, 41, 81)},
+    nodes={
+        "regular": (6, 11, 21, 41),
+        BUOY: (21, 41, 81, 161),
+        LINE: (51, 101, 201, 401, 801),
+        "pendulum": (6, 11, 21, 41, 81),
+    },
     rtols=(0.1, 0.03, 0.01, 3e-3, 1e-3, 1e-4, 1e-5),
     steps={BUOY: (100, 200, 400, 800, 1600, 3200), "pendulum": (10, 25, 50, 100, 200, 400)},
     box_nodes=(21,),

@@ -6,7 +6,7 @@ them through the resolvent of backward Euler. With E(C) the state to which one s
 
     dC/dt = f(t, C) = (E(C) - C)/e,        e = 1e-7 s
 
-E is one call of the engine's Newton method, solved to rounding, so the equations are those of the engine letter for
+E is one call of the engine's Newton method, converged until the square of its last update is 1e-14, so the equations are those of the engine letter for
 letter: same box, same water, same ends, same positions. f is a function of the conserved variables alone. It differs
 from the limit e -> 0 by e/2 times the second derivative, 1e-7 of a motion of one radian a second, and whatever
 violates an algebraic equation decays at 1/e: stiff, which is what Radau and BDF are for. Their Jacobian is made by
@@ -28,9 +28,9 @@ from engine.guards import NEWTON_FAILED, OK
 from engine.newton import newton
 
 RESOLVENT_S = 1e-7
-NEWTON_TOLERANCE, MOST = 1e-18, 60
+NEWTON_TOLERANCE, MOST = 1e-14, 20
 NUDGE = 1e-7
-LONGEST_S = 150.0  # of run time; a solver that needs more is stopped
+LONGEST_S = 10.0  # of run time; a solver that needs more is stopped
 
 
 @kernel

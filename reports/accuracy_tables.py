@@ -154,7 +154,8 @@ def predictability_items(study: Study) -> list[Item]:
     ]
     parted = [_parting_time(time_s, distance) for _, distance in pairs]
     said = [
-        f"{name}: " + (f"{number(1e3 * PARTED_M)} mm apart at t = {at:.0f} s" if at < math.inf else "together to the end")
+        f"{name}: "
+        + (f"{number(1e3 * PARTED_M)} mm apart at t = {at:.0f} s" if at < math.inf else "together to the end")
         for (name, _), at in zip(pairs, parted, strict=True)
     ]
     latest = max(parted)
@@ -164,7 +165,9 @@ def predictability_items(study: Study) -> list[Item]:
         if latest < math.inf
         else f"The finest of them stay within {number(1e3 * PARTED_M)} mm to the end of {time_s[-1]:.0f} s."
     )
-    caption = f"Largest difference in r so far between neighbours in refinement, violent work. {verdict} From `radius_m`."
+    caption = (
+        f"Largest difference in r so far between neighbours in refinement, violent work. {verdict} From `radius_m`."
+    )
     alt = "Differences between refined runs over time on a log scale: " + "; ".join(said) + "."
     return [
         Heading("Predictability of the violent work"),
@@ -229,11 +232,17 @@ def level_answer(study: Study, work: str) -> str:
     for level in LEVELS[study.works[work]["unit"]][:3]:
         one = within(timed, level)
         if one is not None:
-            parts.append(f"{level:g} {study.works[work]['unit']} in {number(factor * one.wall_s, 3)} {unit} ({one.method}, {one.named})")
+            parts.append(
+                f"{level:g} {study.works[work]['unit']} in {number(factor * one.wall_s, 3)} {unit} ({one.method}, {one.named})"
+            )
     return f"{study.works[work]['title']}: {listed(parts)}." if parts else ""
 
 
 def failed_count(study: Study) -> str:
     """How many settings ended early, in words."""
     bad = [one for one in study.settings if one.failed and not one.peer]
-    return f"{count(len(bad), 'setting')} of ours ended early in a round and {'is' if len(bad) == 1 else 'are'} left out." if bad else ""
+    return (
+        f"{count(len(bad), 'setting')} of ours ended early in a round and {'is' if len(bad) == 1 else 'are'} left out."
+        if bad
+        else ""
+    )

@@ -41,7 +41,9 @@ def cheapest(time: np.ndarray, error: np.ndarray) -> np.ndarray:
     return np.array(kept, dtype=int)
 
 
-def work_precision(curves: list[Curve], time_label: str, error_label: str, marked: tuple[float, float] | None) -> Picture:
+def work_precision(
+    curves: list[Curve], time_label: str, error_label: str, marked: tuple[float, float] | None
+) -> Picture:
     """The diagram. marked: (time, error) of the shipped setting, ringed; None where it is not among the marks."""
     with sheet(3.7) as figure:
         axes = figure.subplots()
