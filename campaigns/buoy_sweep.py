@@ -48,6 +48,7 @@ class Order:
     backend: str
     dask_address: str | None
     report: bool
+    accuracy: bool
     source: dict
 
 
@@ -78,6 +79,8 @@ def parser():
     cli.add(what, "--set", "KEY=VALUE ...", "change values of the scene, as water.depth_m=22.5 tether.nodes=81")
     three = "2, 3, or auto: 3 where the planar run released loops (default: as the scene says; the shipped one says 2)"
     cli.add(what, "--dimensions", "2|3|auto", three)
+    again = "do not repeat two runs at a tenth of the tolerance and at twice the elements"
+    what.add_argument("--no-accuracy", action="store_true", help=again)
     cli.add_running(parser.add_argument_group("how and where"), f"results/{CAMPAIGN}")
     return parser
 
@@ -107,7 +110,7 @@ def read_order(argv: list[str], faults: list[str]) -> Order:
     spatial, added = ({}, False) if dimensions == "2" or faults else _in_space(scenes, faults)
     scenes = spatial if dimensions == "3" else scenes
     source = {"scene": name, "set": changes}
-    how = (out, jobs, backend, address, not options.no_report)
+    how = (out, jobs, backend, address, not options.no_report, not options.no_accuracy)
     return Order(scenes, spatial, dimensions, added, periods, transient, *how, source)
 
 
@@ -185,10 +188,10 @@ def _scenes(name: str, changes: dict, steepness: list[float], analysed: bool, fa
 
 def sweep(order: Order, argv: list[str], simulate) -> int:
     """Run it: compile, run, table, provenance, report. Raises CampaignStopped, OSError, KeyboardInterrupt."""
-    from campaigns import session
+    from campaigns import session, sweep_accuracy
     from campaigns.folder import claimed
     from campaigns.row_store import made_by
-    from campaigns.rows import COLUMNS, STROBE_TOLERANCE, buoy_row
+    from campaigns.rows import COLUMNS, STROBE_TOLERANCE, buoy_row, regime_of
     from campaigns.runner import Plan, make_job
     from campaigns.seeds import SEED_MPS
     from campaigns.sweep_dimensions import run_where_needed
@@ -197,7 +200,8 @@ def sweep(order: Order, argv: list[str], simulate) -> int:
         from engine import simulate
     start = time.perf_counter()
     describe = partial(buoy_row, transient_periods=order.transient, simulate=simulate)
-    maker = made_by({"transient": order.transient}, "analysis", "engine", "campaigns/rows.py", "reports/buoy_motion.py")
+    maker = made_by({"transient": order.transient}, "analysis", "engine", "campaigns/rows.py", "reports/buoy_motion.py",
+                    "campaigns/sweep_accuracy.py")  # fmt: skip
     plan = Plan(order.out, simulate, describe, COLUMNS, order.backend, order.jobs, order.dask_address, row_maker=maker)
     jobs = [
         make_job(scene, order.periods, labels={"steepness": value, "dimensions": scene.motion.dimensions})
@@ -211,12 +215,17 @@ def sweep(order: Order, argv: list[str], simulate) -> int:
         "strobe_tolerance": STROBE_TOLERANCE,
         "dimensions": order.dimensions,
         "push_mps": SEED_MPS if order.push_added else None,
+        "accuracy": order.accuracy,
     }
     with claimed(order.out):
         record = session.begin(CAMPAIGN, MODULE, argv, plan, jobs, parameters)
         timing, summary = session.run(plan, jobs)
         if order.dimensions == "auto":
             timing, summary = run_where_needed(plan, jobs, order.spatial, order.periods, timing, summary)
+        if order.accuracy:
+            verdict = partial(regime_of, transient_periods=order.transient)
+            again = sweep_accuracy.repeat(plan, summary.rows, order.periods, "steepness", verdict)
+            timing = timing | {name: timing[name] + seconds for name, seconds in again.items()}
         session.finish(order.out, record, summary, timing)
         fault = session.report(order.out, order.report, timing, start)
     return session.say(order.out, summary, timing, order.report, fault)
