@@ -4,8 +4,8 @@
     python -m campaigns.accuracy --quick                  two works, few settings, in half a minute
     python -m campaigns.accuracy --works snap violent     some of them
 
-Protocol: refined runs, series of halved steps and of doubled grids first, side by side. Then what is timed, one run at a
-time: all settings in turns, round by round, each round with another tolerance or step near the one named; medians are
+Protocol: refined runs, series of halved steps and of doubled grids first, side by side. Then what is timed, one run at
+a time: all settings in turns, round by round, each round with another tolerance or step near the one named; medians are
 reported. Run time is that of stepping alone, without compilation, statics, input and output. Other codes are held
 against their own refined runs and against ours; what is not installed is a row that says so. Nothing is random.
 """
@@ -94,7 +94,10 @@ def read_order(argv: list[str], faults: list[str]) -> Order:
 
 
 def study(order: Order, argv: list[str], simulate) -> int:
-    """Run it: untimed runs, timed ones, table, provenance, report. Raises CampaignStopped, OSError, KeyboardInterrupt."""
+    """Run it: untimed runs, timed ones, table, provenance, report.
+
+    Raises CampaignStopped, OSError, KeyboardInterrupt.
+    """
     from campaigns import accuracy_orders, accuracy_pieces, accuracy_plan, session
     from campaigns.accuracy_rows import COLUMNS
     from campaigns.folder import claimed

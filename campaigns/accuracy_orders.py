@@ -3,12 +3,14 @@
 Series in time and in space are judged by the differences of neighbours in the series, which need no reference; their
 slopes are log2 of the ratios of successive differences, the order the last of them. Works in which the rope goes slack
 are also judged by their samples before it first does ("-early"). Breaking lines are refined in time and space at once,
-and judged by their errors against the exact solution. Tolerances of one grid: slope of the error against the tolerance, least squares.
+and judged by their errors against the exact solution. Tolerances of one grid: slope of the error against the tolerance,
+least squares.
 """
 
 import csv
 import io
 import math
+from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
@@ -97,7 +99,7 @@ def _by_differences(out: Path, work, kind: str, method: str, theory: float, seri
         samples = [None if values is None else values[:early] for values in samples]
         kind = f"{kind}-early"
     named = [row["nodes"] if kind.startswith("space") else row["setting"] for row in series]
-    found = [_difference(*pair) for pair in zip(samples, samples[1:], strict=False)]
+    found = [_difference(*pair) for pair in pairwise(samples)]
     row = _judged(work, kind, method, theory, found, named, _failures(series))
     return row | ({"rough": ""} if early else {})
 

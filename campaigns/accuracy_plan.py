@@ -1,4 +1,6 @@
-"""The list of the engine's runs of the accuracy campaign, in the order of its table (`accuracy_points` says what kinds)."""
+"""The list of the engine's runs of the accuracy campaign, in the order of its table (`accuracy_points` says what
+kinds).
+"""
 
 from campaigns.accuracy_points import (
     ADAPTIVE,

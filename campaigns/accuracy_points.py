@@ -71,8 +71,9 @@ class Point:
 class Effort:
     """How much is run.
 
-    nodes: by scene, or by work where it has its own. steps: per period of the work, likewise; box_: of the paper's scheme.
-    orders: steps per period of the first run of a series in time, by order; doublings: of a series, in time and space.
+    nodes: by scene, or by work where it has its own. steps: per period of the work, likewise; box_: of the paper's
+    scheme. orders: steps per period of the first run of a series in time, by order; doublings: of a series, in time and
+    space.
     """
 
     works: tuple[str, ...]

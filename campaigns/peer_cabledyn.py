@@ -1,10 +1,10 @@
 """The buoy scene in CableDyn (0.3.0 from PyPI), for `campaigns.accuracy`: its own program, a deck in, a table out.
 
-Same rope, buoy, water, gravity, start and wave. The rope has no bending (its tension-only elements: finite bending was not
-tried), the buoy is a free point with mass, volume, added mass and drag; its implicit generalized-alpha steps line and
-point together. What is left different: wave kinematics are stretched after Wheeler, so that `error_against_ours` is
-taken against our refined run with the same stretching; the program writes every step to a file, and its time is that
-of the whole program less that of a run of two steps.
+Same rope, buoy, water, gravity, start and wave. The rope has no bending (its tension-only elements: finite bending was
+not tried), the buoy is a free point with mass, volume, added mass and drag; its implicit generalized-alpha steps line
+and point together. What is left different: wave kinematics are stretched after Wheeler, so that `error_against_ours` is
+taken against our refined run with the same stretching; the program writes every step to a file, and its time is that of
+the whole program less that of a run of two steps.
 """
 
 import math
@@ -19,10 +19,10 @@ from engine.waves import wave_number
 
 SAMPLE = 0.05
 NOTES = (
-    "no bending and no compression in its rope (tension only); Wheeler stretching of the waves, and the distance from our "
-    "limit is taken with the same stretching; its program writes every step to a file, and its time is that of the program "
-    "less that of a run of two steps; where the buoy leaps out of the water (violent) the two are metres apart: eq. (30) keeps "
-    "its buoyancy and its wave load there (campaigns/peer_cabledyn.py)"
+    "no bending and no compression in its rope (tension only); Wheeler stretching of the waves, and the distance "
+    "from our limit is taken with the same stretching; its program writes every step to a file, and its time is that "
+    "of the program less that of a run of two steps; where the buoy leaps out of the water (violent) the two are "
+    "metres apart: eq. (30) keeps its buoyancy and its wave load there (campaigns/peer_cabledyn.py)"
 )
 OURS = {"waves.above_still_water": "wheeler"}
 _STEPS = ((5, 0.01), (10, 0.01), (10, 0.005), (20, 0.005), (20, 0.0025), (40, 0.0025))

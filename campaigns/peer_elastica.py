@@ -1,10 +1,10 @@
 """The pendulum in PyElastica (1.0.0 from PyPI), for `campaigns.accuracy`: a Cosserat rod with a heavy last node.
 
-Same rope, weight, start and stiffness EA; a round rod of that section and modulus has the bending stiffness of the scene. The rod
-starts stretched as it hangs. Its steps are explicit (position Verlet) and bounded by the turning of its sections, whose
-inertia our rope has not: tens of microseconds. What is left different: shear deformation and that inertia (both small
-here), and one node more than elements. Water, waves, drag and a buoy would have to be written by the user, so the other
-works are not asked of it.
+Same rope, weight, start and stiffness EA; a round rod of that section and modulus has the bending stiffness of the
+scene. The rod starts stretched as it hangs. Its steps are explicit (position Verlet) and bounded by the turning of its
+sections, whose inertia our rope has not: tens of microseconds. What is left different: shear deformation and that
+inertia (both small here), and one node more than elements. Water, waves, drag and a buoy would have to be written by
+the user, so the other works are not asked of it.
 """
 
 import math
@@ -14,8 +14,8 @@ import numpy as np
 
 SAMPLE = 0.05
 NOTES = (
-    "the pendulum alone: it has no water, waves or Morison forces; shear deformation and inertia of the turning sections, "
-    "which our rope has not; explicit steps (position Verlet), no damping (campaigns/peer_elastica.py)"
+    "the pendulum alone: it has no water, waves or Morison forces; shear deformation and inertia of the turning "
+    "sections, which our rope has not; explicit steps (position Verlet), no damping (campaigns/peer_elastica.py)"
 )
 SETTINGS = {"pendulum": ((5, 2.5e-5), (10, 2.5e-5), (20, 2.5e-5))}
 REFINED = {"pendulum": ((40, 1.25e-5), (20, 1.25e-5))}

@@ -6,11 +6,12 @@ them through the resolvent of backward Euler. With E(C) the state to which one s
 
     dC/dt = f(t, C) = (E(C) - C)/e,        e = 1e-7 s
 
-E is one call of the engine's Newton method, converged until the square of its last update is 1e-14, so the equations are those of the engine letter for
-letter: same box, same water, same ends, same positions. f is a function of the conserved variables alone. It differs
-from the limit e -> 0 by e/2 times the second derivative, 1e-7 of a motion of one radian a second, and whatever
-violates an algebraic equation decays at 1/e: stiff, which is what Radau and BDF are for. Their Jacobian is made by
-differences in compiled code, which costs them less than scipy's own would. Loop releases are no part of it.
+E is one call of the engine's Newton method, converged until the square of its last update is 1e-14, so the equations
+are those of the engine letter for letter: same box, same water, same ends, same positions. f is a function of the
+conserved variables alone. It differs from the limit e -> 0 by e/2 times the second derivative, 1e-7 of a motion of one
+radian a second, and whatever violates an algebraic equation decays at 1/e: stiff, which is what Radau and BDF are for.
+Their Jacobian is made by differences in compiled code, which costs them less than scipy's own would. Loop releases are
+no part of it.
 
 What is timed is solve_ivp alone, after everything is compiled.
 """

@@ -23,8 +23,8 @@ class Peer:
     """Another code. package, module: as installed and as imported.
 
     run(scene, duration_s, nodes, setting) -> Trajectory. settings, quick: (nodes or segments, value) that are timed, by
-    work; control: what the value is. refined: its reference, then a check, by work; none: ours is its own. ours: changes
-    of the scene with which our refined run is the one to compare with.
+    work; control: what the value is. refined: its reference, then a check, by work; none: ours is its own. ours:
+    changes of the scene with which our refined run is the one to compare with.
     """
 
     name: str
@@ -67,8 +67,9 @@ _BDF = {
     "pendulum": ((6, 1e-2), (6, 1e-4)),
 }
 _BY_RESOLVENT = (
-    "solve_ivp on the engine's own semi-discrete equations, rates by one backward Euler step of 1e-7 s solved to rounding "
-    "(campaigns/peer_scipy.py); Jacobian by differences in compiled code; no loop release and no shock viscosity"
+    "solve_ivp on the engine's own semi-discrete equations, rates by one backward Euler step of 1e-7 s solved to "
+    "rounding (campaigns/peer_scipy.py); Jacobian by differences in compiled code; no loop release and no shock "
+    "viscosity"
 )
 PEERS = (
     Peer("scipy Radau", "scipy", "scipy", partial(by_scipy, method="Radau"), "rtol", _RADAU, {}, _BY_RESOLVENT,

@@ -64,7 +64,7 @@ class Plan:
     """How to run: where, with which functions, and on what.
 
     simulate(scene, periods=, duration_s=) -> Trajectory, and describe(trajectory) -> row, have to be
-    importable or picklable by cloudpickle. columns: of the table, among them run_key, status and message; table: its file.
+    importable or picklable by cloudpickle. columns: of the table, among them run_key, status and message.
     row_maker: hash of whatever shapes a row (`campaigns.row_store.made_by`); empty: rows are not kept.
     """
 
@@ -77,7 +77,6 @@ class Plan:
     dask_address: str | None = None
     show_progress: bool = True
     row_maker: str = ""
-    table: str = "table.csv"
 
 
 def make_job(
@@ -108,7 +107,7 @@ def run_campaign(plan: Plan, jobs: list[Job]) -> Summary:
     Raises CampaignStopped (disk full, folder lost) or KeyboardInterrupt; finished runs and their rows are then on disk.
     """
     jobs = list({job.key: job for job in jobs}.values())
-    table = Table(plan.directory / plan.table, plan.columns, [job.key for job in jobs])
+    table = Table(plan.directory / "table.csv", plan.columns, [job.key for job in jobs])
     outcomes = {}
     for job in jobs:
         if (outcome := _reuse(plan, job)) is not None:

@@ -1,10 +1,10 @@
-"""A sweep's own error against run time: `accuracy.csv`, two of its runs again, tighter and finer.
+"""A sweep's own error against run time: two of its runs again, tighter and finer, in the folder `accuracy` of its own.
 
-The run whose tension peaks lowest (the regular one) and the one whose tension peaks highest (the violent one) are repeated at a
-tenth of the tolerance and at twice the elements. Error in r: rms over the first ten wave periods, and over all that
-were repeated; error in the verdict: whether the run still is called what it was, from records of one length. Repeating
-both costs about as much as nine runs of the sweep, so a sweep of few runs repeats only as many periods as its share
-allows, and ten at least; where those are too few for a verdict there is none.
+The run whose tension peaks lowest (the regular one) and the one whose tension peaks highest (the violent one) are
+repeated at a tenth of the tolerance and at twice the elements. Error in r: rms over the first ten wave periods, and
+over all that were repeated; error in the verdict: whether the run still is called what it was, from records of one
+length. Repeating both costs about as much as nine runs of the sweep, so a sweep of few runs repeats only as many
+periods as its share allows, and ten at least; where those are too few for a verdict there is none.
 """
 
 import math
@@ -18,7 +18,7 @@ import numpy as np
 from campaigns.folder import trajectory_path
 from campaigns.runner import Job, Plan, make_job, run_campaign
 
-TABLE = "accuracy.csv"
+FOLDER = "accuracy"  # within that of the sweep: a table of its own, and trajectories
 COLUMNS = (
     "role",
     "label",
@@ -51,7 +51,7 @@ def lengths(runs: int, periods: int) -> int:
 
 
 def chosen(rows: list[dict]) -> list[tuple[str, dict]]:
-    """(role, row) of the regular and the violent run; one of them where the sweep has but one, none where none ended."""
+    """(role, row) of the regular and the violent run; one where the sweep has but one, none where none ended."""
     good = [row for row in rows if row["status"] == "ok" and row.get("run_key")]
     if not good:
         return []
@@ -63,8 +63,10 @@ def chosen(rows: list[dict]) -> list[tuple[str, dict]]:
     return [("regular", regular)] if regular is violent else [("regular", regular), ("violent", violent)]
 
 
-def repeat(plan: Plan, rows: list[dict], periods: int, label: str, verdict: Callable, runs: int = 0) -> dict[str, float]:
-    """Do the repeated runs and write accuracy.csv; returns seconds as `session.run` does, without compilation.
+def repeat(
+    plan: Plan, rows: list[dict], periods: int, label: str, verdict: Callable, runs: int = 0
+) -> dict[str, float]:
+    """Do the repeated runs, with a table of their own; returns seconds as `session.run` does, without compilation.
 
     rows: to choose from; runs: of the sweep, where it has more than those. label: the column that names a run;
     verdict(trajectory) -> what it is called, or None. Raises as `run_campaign`.
@@ -77,8 +79,9 @@ def repeat(plan: Plan, rows: list[dict], periods: int, label: str, verdict: Call
     for role, row in chosen(rows):
         base = trajectory_path(plan.directory, row["run_key"])
         jobs += _jobs(base, role, row[label], length, verdict)
-    columns = replace(plan, table=TABLE, columns=COLUMNS, show_progress=False)
-    summary = run_campaign(columns, jobs)
+    place = plan.directory / FOLDER
+    (place / "trajectories").mkdir(parents=True, exist_ok=True)
+    summary = run_campaign(replace(plan, directory=place, columns=COLUMNS, show_progress=False), jobs)
     return {"run_s": perf_counter() - began, "analysis_s": summary.analysis_s}
 
 
@@ -94,7 +97,9 @@ def _jobs(base: Path, role: str, label: object, length: int, verdict: Callable) 
         labels = {"role": role, "label": label, "run": run, "periods": length}
         describe = partial(accuracy_row, base=base, length=length, verdict=verdict)
         simulate = partial(cut, base=base, length=length) if run == AS_RUN else None
-        found.append(make_job(made, length, labels=labels, simulate=simulate, describe=describe, made=f"accuracy {run}"))
+        found.append(
+            make_job(made, length, labels=labels, simulate=simulate, describe=describe, made=f"accuracy {run}")
+        )
     return found
 
 

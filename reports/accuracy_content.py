@@ -27,10 +27,10 @@ def report(directory: str | Path) -> Report:
     items: list[Item] = [
         Heading("Question"),
         Text(
-            "What does an error cost? Every method of the engine, scipy's solvers on the engine's own equations in space, "
-            "and other codes where they are installed, run the same works; each run's error is set against the time it "
-            "took. Which grid and tolerance to choose follows from the diagrams; whether a method keeps its order, from "
-            "the tables of slopes."
+            "What does an error cost? Every method of the engine, scipy's solvers on the engine's own equations in "
+            "space, and other codes where they are installed, run the same works; each run's error is set against "
+            "the time it took. Which grid and tolerance to choose follows from the diagrams; whether a method keeps "
+            "its order, from the tables of slopes."
         ),
         Heading("Short answer"),
         Bullets(_short_answer(study, works)),
@@ -54,7 +54,8 @@ def _short_answer(study: Study, works: list[str]) -> tuple[str, ...]:
         if one is not None:
             factor, unit = per_period(study, name)
             lines.append(
-                f"The shipped setting (41 nodes, rtol 0.03) on {name}: {number(one.error, 2)} {study.works[name]['unit']} in "
+                f"The shipped setting (41 nodes, rtol 0.03) on {name}: {number(one.error, 2)} "
+                f"{study.works[name]['unit']} in "
                 f"{number(factor * one.wall_s, 3)} {unit} (worst of {one.rounds} rounds {number(one.worst, 2)})."
             )
     judged = [row for row in study.orders if row["kind"] != "tolerance" and not row["rough"] and row["within"]]
@@ -69,7 +70,7 @@ def _protocol(study: Study) -> str:
     where = f" on {machine.get('processor')}, {machine.get('cores')} cores," if machine else ""
     rounds = study.folder.provenance.get("rounds")
     return (
-        f"Timed one run at a time{where} settings in turns, {rounds} round(s), each with another tolerance or step (0.9 to 1.1 "
-        "times the one named), because near a snap the error of a loose setting is partly luck; medians are shown. Time is that "
-        "of stepping alone: no compilation, statics, input or output of files."
+        f"Timed one run at a time{where} settings in turns, {rounds} round(s), each with another tolerance or step "
+        "(0.9 to 1.1 times the one named), because near a snap the error of a loose setting is partly luck; medians "
+        "are shown. Time is that of stepping alone: no compilation, statics, input or output of files."
     )

@@ -12,6 +12,7 @@ from .figures.work_precision import Curve, cheapest, work_precision
 from .wording import EMPTY, count, decimals, number
 
 LEVELS = {"mm": (5.0, 2.0, 1.0, 0.1, 0.01), "%": (1.0, 0.3, 0.1, 0.03)}
+WORST = 1e4  # mm or %: what is further off is not drawn
 SHIPPED = ("esdirk43", 41, "rtol", 0.03)
 
 
@@ -59,7 +60,8 @@ def _about(study: Study, work: str) -> str:
     rough = f" Not smooth: {entry['rough']}." if entry["rough"] else " Smooth."
     checks = study.of(work, kind="check")
     said = [
-        f"{number(row['nodes'])} nodes and rtol {row['setting']:g} are {number(row['error'], 2)} {row['error_unit']} off"
+        f"{number(row['nodes'])} nodes and rtol {row['setting']:g} are {number(row['error'], 2)} {row['error_unit']} "
+        "off"
         for row in checks
         if math.isfinite(row["error"])
     ]
@@ -77,7 +79,8 @@ def _diagram(study: Study, work: str, timed: list[Setting]) -> Figure:
     for name in names:
         own = [one for one in timed if one.method == name]
         time, error = (np.array([getattr(one, column) for one in own]) for column in ("wall_s", "error"))
-        curves.append(Curve(name, factor * time, np.maximum(error, 1e-12), own[0].peer))
+        drawn = error < WORST
+        curves.append(Curve(name, factor * time[drawn], np.maximum(error[drawn], 1e-12), own[0].peer))
     ring = shipped(study, work)
     marked = (factor * ring.wall_s, ring.error) if ring else None
     unit_of_error = study.works[work]["unit"]
@@ -88,7 +91,8 @@ def _diagram(study: Study, work: str, timed: list[Setting]) -> Figure:
     caption = (
         f"Error against run time. A mark is a setting (median of its rounds), a line joins what nothing cheaper of the "
         f"same method beats{'; dashed: with shock viscosity' if any('visc' in name for name in names) else ''}. Other "
-        f"codes (thick) are held against their own refined runs. Seen: {seen}. From `error` and `wall_s` of `table.csv`."
+        f"codes (thick) are held against their own refined runs. Seen: {seen}. From `error` and `wall_s` of "
+        "`table.csv`."
     )
     return Figure(picture, caption, f"Error over stepping time for every method, both on log scales: {seen}.")
 
@@ -108,8 +112,8 @@ def _levels(study: Study, work: str, timed: list[Setting]) -> Table:
         cells = [decimals(factor * one.wall_s, 2) if one else EMPTY for one in found]
         rows.append((name, *cells, f"{first.named}: {number(first.error, 2)} {error_unit}" if first else EMPTY))
     caption = (
-        "Stepping time of the cheapest setting tried whose median error is within the level; nothing is interpolated; a "
-        "dash: none of the settings tried. From `table.csv`."
+        "Stepping time of the cheapest setting tried whose median error is within the level; nothing is "
+        "interpolated; a dash: none of the settings tried. From `table.csv`."
     )
     return Table(tuple(columns), tuple(rows), caption, small=True)
 

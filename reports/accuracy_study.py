@@ -40,7 +40,9 @@ OURS, PEER = "point", "peer"
 
 @dataclass(frozen=True)
 class Setting:
-    """One timed setting: medians over its rounds. error, worst: in the unit of the work; failed: rounds that ended early."""
+    """One timed setting: medians over its rounds. error, worst: in the unit of the work; failed: rounds that ended
+    early.
+    """
 
     work: str
     method: str

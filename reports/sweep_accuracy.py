@@ -1,4 +1,4 @@
-"""The section of a sweep's report on its own error against run time, from `accuracy.csv` in its folder."""
+"""The section of a sweep's report on its own error against run time, from `accuracy/table.csv` in its folder."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from pathlib import Path
 from .content import Column, Heading, Item, Table, Text
 from .wording import EMPTY, decimals, number
 
-FILE = "accuracy.csv"
+FILE = "accuracy/table.csv"
 AS_RUN = "as run"
 
 
@@ -19,8 +19,8 @@ def accuracy_items(directory: Path, named: str) -> list[Item]:
     rows = _rows(directory)
     if not rows:
         text = (
-            "This sweep did not repeat any of its runs (`--no-accuracy`, or no run ended as asked), so that it says nothing "
-            "about its own error. What tolerance and grid give in general: docs/how_far_to_trust_a_run.md."
+            "This sweep did not repeat any of its runs (`--no-accuracy`, or no run ended as asked), so that it says "
+            "nothing about its own error. What tolerance and grid give in general: docs/how_far_to_trust_a_run.md."
         )
         return [heading, Text(text)]
     return [heading, Text(_said(rows, named)), _table(rows, named)]
@@ -45,8 +45,8 @@ def _said(rows: list[dict[str, str]], named: str) -> str:
             parts.append(f"The {role} run ({named} = {number(float(own[0]['label']))}) could not be repeated.")
             continue
         said = (
-            f"The {role} run ({named} = {number(float(own[0]['label']))}): r changes by {number(max(early), 2)} mm rms over "
-            f"the first ten wave periods and by {number(max(whole), 2)} mm over {own[0]['periods']}"
+            f"The {role} run ({named} = {number(float(own[0]['label']))}): r changes by {number(max(early), 2)} mm "
+            f"rms over the first ten wave periods and by {number(max(whole), 2)} mm over {own[0]['periods']}"
         )
         judged = [row for row in again if row["same_verdict"]]
         if not judged:
@@ -54,11 +54,15 @@ def _said(rows: list[dict[str, str]], named: str) -> str:
         elif all(row["same_verdict"] == "1" for row in judged):
             said += f"; it is called {judged[0]['verdict']} each time"
         else:
-            said += "; its verdict changes: " + ", ".join(f"{row['verdict']} ({row['run']})" for row in own if row["verdict"])
+            said += "; its verdict changes: " + ", ".join(
+                f"{row['verdict']} ({row['run']})" for row in own if row["verdict"]
+            )
         parts.append(said + ".")
     return (
         "Two runs of this sweep were repeated at a tenth of the tolerance and at twice the elements: the one whose "
-        "tension peaks lowest and the one whose tension peaks highest. " + " ".join(parts) + " Past the limit of predictability r differs by the "
+        "tension peaks lowest and the one whose tension peaks highest. "
+        + " ".join(parts)
+        + " Past the limit of predictability r differs by the "
         "size of the motion, whatever the tolerance; verdicts and extremes are then what may be compared."
     )
 
@@ -83,8 +87,8 @@ def _table(rows: list[dict[str, str]], named: str) -> Table:
             row["verdict"] or EMPTY, decimals(wall, 3), decimals(wall / base, 1) if base > 0 else EMPTY,
         ))  # fmt: skip
     caption = (
-        "Runs repeated: rms difference in r from the run as it was made, the verdict on records of one length, and the seconds "
-        "each took (rtol: or the fixed step in s). From `accuracy.csv`."
+        "Runs repeated: rms difference in r from the run as it was made, the verdict on records of one length, and "
+        "the seconds each took (rtol: or the fixed step in s). From `accuracy/table.csv`."
     )
     return Table(columns, tuple(cells), caption, small=True)
 

@@ -1,11 +1,11 @@
-"""A stand-in for engine.simulate whose errors are known: order 2 in the grid, and in time the order of the integrator."""
+"""A stand-in for engine.simulate whose errors are known: order 2 in the grid, the integrator's order in time."""
 
 from dataclasses import dataclass, replace
 
 import numpy as np
 
-from tests.campaigns.fake_engine import STATISTICS
 from engine.trajectory import COLUMNS, Trajectory
+from tests.campaigns.fake_engine import STATISTICS
 
 ORDER = {"esdirk43": 4, "trbdf2": 2, "generalized-alpha": 2, "midpoint": 2, "backward-euler": 1}
 GRID_M, STEP_M = 0.3, 0.2  # error of one element; of a step of one second
@@ -13,7 +13,7 @@ GRID_M, STEP_M = 0.3, 0.2  # error of one element; of a step of one second
 
 @dataclass(frozen=True)
 class KnownErrors:
-    """Called like engine.simulate. failing: integrators whose runs end early; raises: nodes at which the code breaks."""
+    """Called like engine.simulate. failing: integrators whose runs end early; raises: nodes at which it breaks."""
 
     failing: tuple[str, ...] = ()
     raises: tuple[int, ...] = ()

@@ -35,7 +35,9 @@ def orders_of(folder):
 def test_every_series_shows_the_order_that_was_put_in(out):
     rows = orders_of(out)
     judged = [row for row in rows if row["kind"] in ("time", "space")]
-    assert {(row["work"], row["method"]) for row in judged} >= {("regular", method) for method in ORDERS if method != "paper-box"}
+    assert {(row["work"], row["method"]) for row in judged} >= {
+        ("regular", method) for method in ORDERS if method != "paper-box"
+    }
     for row in judged:
         assert row["within"] == "1" and abs(float(row["order"]) - float(row["theory"])) < 0.05, row
 
@@ -46,15 +48,25 @@ def test_the_error_of_a_point_is_that_of_its_grid_against_the_reference(out):
     assert reference["error"] == "" and reference["nodes"] == "641"
     # far below the first error, that of the step
     points = [row for row in rows if row["kind"] == "point" and row["method"] == "backward-euler"]
-    coarse, fine = (next(row for row in points if row["nodes"] == n and row["setting"] == "0.00625") for n in ("11", "41"))
+    coarse, fine = (
+        next(row for row in points if row["nodes"] == n and row["setting"] == "0.00625") for n in ("11", "41")
+    )
     assert float(coarse["error"]) > float(fine["error"])
     expected = 1e3 * GRID_M / 10**2 / math.sqrt(2.0)
-    tight = next(r for r in rows if r["kind"] == "point" and r["method"] == "esdirk43" and r["nodes"] == "11" and r["setting"] == "0.001")
+    tight = next(
+        r
+        for r in rows
+        if r["kind"] == "point" and r["method"] == "esdirk43" and r["nodes"] == "11" and r["setting"] == "0.001"
+    )
     assert float(tight["error"]) == pytest.approx(expected, rel=0.1)
 
 
 def test_errors_of_tolerances_fall_with_the_tolerance(out):
-    slopes = {row["method"]: float(row["order"]) for row in orders_of(out) if row["kind"] == "tolerance" and row["work"] == "regular"}
+    slopes = {
+        row["method"]: float(row["order"])
+        for row in orders_of(out)
+        if row["kind"] == "tolerance" and row["work"] == "regular"
+    }
     assert set(slopes) == set(ADAPTIVE)
     assert all(slope == pytest.approx(1.0, abs=0.05) for slope in slopes.values())  # the fake's error is rtol itself
 
@@ -68,7 +80,9 @@ def test_the_same_command_computes_nothing_and_changes_nothing(out, capsys):
 
 def test_what_fails_is_a_row_and_has_no_error(tmp_path):
     engine = KnownErrors(failing=("midpoint",), raises=(6,))
-    assert accuracy.main([*USUAL, "--works", "regular", "pendulum", "--out", str(tmp_path / "out")], simulate=engine) == 0
+    assert (
+        accuracy.main([*USUAL, "--works", "regular", "pendulum", "--out", str(tmp_path / "out")], simulate=engine) == 0
+    )
     rows = rows_of(tmp_path / "out")
     early = [row for row in rows if row["method"] == "midpoint" and row["kind"] == "point" and row["nodes"] != "6"]
     assert early and all(row["status"] == "newton-failed" and row["error"] == "" for row in early)
@@ -101,7 +115,11 @@ def test_help_loads_nothing_heavy():
 
 
 def test_every_setting_of_the_full_campaign_is_a_sound_scene_and_appears_once():
-    points = [point for phase in (accuracy_plan.first_phase, accuracy_plan.second_phase, accuracy_plan.third_phase) for point in phase(FULL)]
+    points = [
+        point
+        for phase in (accuracy_plan.first_phase, accuracy_plan.second_phase, accuracy_plan.third_phase)
+        for point in phase(FULL)
+    ]
     assert len(set(points)) == len(points)
     kinds = {(point.work, point.method.partition(",")[0], point.control) for point in points}
     for work, method, control in kinds:
@@ -114,7 +132,9 @@ def test_every_setting_of_the_full_campaign_is_a_sound_scene_and_appears_once():
 
 
 def test_rounds_differ_by_a_tenth():
-    settings = [Point("regular", "point", "esdirk43", 41, "rtol", 0.03, round).changes()["solver.rtol"] for round in range(3)]
+    settings = [
+        Point("regular", "point", "esdirk43", 41, "rtol", 0.03, round).changes()["solver.rtol"] for round in range(3)
+    ]
     assert settings == pytest.approx([0.03, 0.027, 0.033])
 
 
