@@ -93,14 +93,14 @@ def settled_end_speed(trajectory) -> tuple[float, float, float]:
 
 
 def end_speed_error(trajectory, theory) -> float:
-    """Largest |speed of the end - exact speed| over the exact one, from SETTLED_S after the break on, while it is known."""
+    """Largest |v - exact v| over the exact speed v of the end, from SETTLED_S after the break on, while it is known."""
     times = trajectory.columns["time_s"]
     rows = np.flatnonzero(
         (times >= trajectory.scene.end.force_decay_s + SETTLED_S) & (times <= theory.motion.valid_until_s)
     )
     rows = rows[:: max(1, len(rows) // COMPARED)]
-    speeds = end_speeds(trajectory)[rows]
-    return max((abs(v / theory.end_speed(float(t)) - 1.0) for t, v in zip(times[rows], speeds, strict=True)), default=math.nan)
+    exact = [theory.end_speed(float(time_s)) for time_s in times[rows]]
+    return float(np.max(np.abs(end_speeds(trajectory)[rows] / exact - 1.0))) if len(rows) else math.nan
 
 
 def strain_overshoot(profiles, until_s: float) -> tuple[float, float]:
@@ -182,7 +182,7 @@ def recoil(profiles, common_s: float) -> dict[str, float]:
     """How far the line has moved by the end of the run, and by `common_s` where the name says 120ms.
 
     recoil: way of the broken end towards the fixed one; vertical: largest rise or fall of a node, vertical_beyond: of
-    one beyond the quarter at the fixed end, where the line folds; x_min: leftmost point of the line, from the fixed end;
+    one beyond the quarter at the fixed end, where the line folds; x_min: leftmost point, from the fixed end;
     left_of_fixed_end: unstretched length that has been more than 1 mm left of it; steepest_tilt: largest angle of an
     element against the horizontal; buckled: up to where it exceeds BUCKLED_RAD at the end of the run.
     """

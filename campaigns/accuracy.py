@@ -12,7 +12,6 @@ against their own refined runs and against ours; what is not installed is a row 
 
 import os
 import sys
-import time
 from dataclasses import asdict, dataclass, replace
 from functools import partial
 from pathlib import Path
@@ -32,30 +31,17 @@ class Order:
     effort: Effort
     quick: bool
     peers: bool
-    out: Path
-    jobs: int
-    backend: str
-    dask_address: str | None
-    report: bool
+    how: cli.Running
 
 
 def main(argv: list[str] | None = None, simulate=None) -> int:
     """The command. simulate: in place of engine.simulate, same signature. Returns the exit code (0, 1, 2 or 130)."""
-    argv = list(sys.argv[1:] if argv is None else argv)
-    faults: list[str] = []
-    order = read_order(argv, faults)
-    if faults:
-        print(cli.complaint(f"python -m {MODULE}", faults), file=sys.stderr)
-        return cli.EXIT_BAD_INPUT
-    from campaigns.session import guarded
-
-    return guarded(MODULE, argv, order.out, partial(study, order, argv, simulate))
+    return cli.command(MODULE, argv, read_order, partial(study, simulate=simulate))
 
 
 def parser():
     """The options of this campaign."""
-    exits = "exit codes: 0 done, 1 stopped (disk full, folder in use, no report), 2 bad input, 130 Ctrl-C"
-    parser = cli.parser(MODULE, __doc__, exits)
+    parser = cli.parser(MODULE, __doc__)
     what = parser.add_argument_group("what is run")
     cli.add(what, "--works", "A B ...", f"works (default: {' '.join(FULL.works)})")
     cli.add(what, "--rounds", "N", f"turns of every timed setting, 1 to {len(FACTORS)} (default: {FULL.rounds})")
@@ -86,52 +72,46 @@ def read_order(argv: list[str], faults: list[str]) -> Order:
     said = f"a whole number from 1 to {len(FACTORS)}"
     count = cli.value(options.rounds, "--rounds", effort.rounds, rounds, said, faults)
     effort = replace(effort, works=tuple(name for name in FULL.works if name in works), rounds=count)
-    jobs = cli.value(options.jobs, "--jobs", cli.default_jobs(), cli.whole(1), cli.WHOLE.format(1), faults)
-    backend, address = cli.backend(options, faults)
-    out = cli.folder(options, CAMPAIGN, faults)
-    peers = not options.no_peers
-    return Order(effort, options.quick, peers, out, jobs, backend, address, not options.no_report)
+    how = cli.running(options, CAMPAIGN, faults)
+    return Order(effort, options.quick, not options.no_peers, how)
 
 
 def study(order: Order, argv: list[str], simulate) -> int:
-    """Run it: untimed runs, timed ones, table, provenance, report.
-
-    Raises CampaignStopped, OSError, KeyboardInterrupt.
-    """
-    from campaigns import accuracy_orders, accuracy_pieces, accuracy_plan, session
+    """Run it: untimed runs, timed ones, tables, report. Raises CampaignStopped, OSError, KeyboardInterrupt."""
+    from campaigns import accuracy_plan, session
     from campaigns.accuracy_rows import COLUMNS
-    from campaigns.folder import claimed
-    from campaigns.runner import Plan
+    from campaigns.runner import plan_of
 
     ours = simulate is None
     if ours:
         from engine import simulate
-    start = time.perf_counter()
-    plan = Plan(order.out, simulate, _undescribed, COLUMNS, order.backend, order.jobs, order.dask_address,
-                row_maker=_maker())  # fmt: skip
-    alone = replace(plan, backend="threading", jobs=1)
+    plan = plan_of(order.how, simulate, _undescribed, COLUMNS, _maker())
     known: dict[str, str] = {}
-    first = engine_jobs(order, accuracy_plan.first_phase(order.effort), known)
-    known |= {job.labels["work"]: str(_file(order, job.key)) for job in first}
-    second = engine_jobs(order, accuracy_plan.second_phase(order.effort), known)
-    third = engine_jobs(order, accuracy_plan.third_phase(order.effort), known)
+    first = engine_jobs(accuracy_plan.first_phase(order.effort), known)
+    known |= {job.labels["work"]: str(_file(order.how.out, job.key)) for job in first}
+    second = engine_jobs(accuracy_plan.second_phase(order.effort), known)
+    third = engine_jobs(accuracy_plan.third_phase(order.effort), known)
     others = _peer_jobs(order, known) if order.peers and ours else ([], [], [])
-    with claimed(order.out):
-        record = session.begin(CAMPAIGN, MODULE, argv, plan, first + third, _parameters(order))
-        timing, done = {"compile_s": 0.0, "run_s": 0.0, "analysis_s": 0.0}, []
-        every = {job.key for job in (*first, *second, *third, *(job for jobs in others for job in jobs))}
-        found = sum(_file(order, key).exists() for key in every)
-        for how, jobs in ((plan, first + others[0]), (plan, second + others[1]), (alone, third + others[2])):
-            done += jobs
-            more, summary = session.run(how, done)
-            timing = {name: timing[name] + more[name] for name in timing}
-        summary = replace(summary, computed=len(summary.rows) - found, found=found)
-        accuracy_orders.write(order.out, summary.rows)
-        if ours:
-            accuracy_pieces.keep(order.out, quick=order.quick)
-        session.finish(order.out, record, summary, timing)
-        fault = session.report(order.out, order.report, timing, start)
-    return session.say(order.out, summary, timing, order.report, fault)
+    phases = [mine + theirs for mine, theirs in zip((first, second, third), others, strict=True)]
+    runs = partial(_in_phases, phases=phases, costs=ours, quick=order.quick)
+    jobs = [job for phase in phases for job in phase]
+    return session.conduct(CAMPAIGN, MODULE, argv, plan, jobs, _parameters(order), report=order.how.report, runs=runs)
+
+
+def _in_phases(plan, jobs: list, phases: list, costs: bool, quick: bool):
+    """References, what is not timed, and what is: the last one run at a time. Then the tables that follow from them."""
+    from campaigns import accuracy_orders, accuracy_pieces, session
+
+    found = sum(_file(plan.directory, key).exists() for key in {job.key for job in jobs})
+    timing, done = {"compile_s": 0.0, "run_s": 0.0, "analysis_s": 0.0}, []
+    for how, phase in zip((plan, plan, replace(plan, backend="threading", jobs=1)), phases, strict=True):
+        done += phase
+        more, summary = session.run(how, done)
+        timing = {name: timing[name] + more[name] for name in timing}
+    accuracy_orders.write(plan.directory, summary.rows)
+    if costs:
+        accuracy_pieces.keep(plan.directory, quick)
+    return timing, replace(summary, computed=len(summary.rows) - found, found=found)
 
 
 def _undescribed(trajectory):
@@ -144,7 +124,7 @@ def _maker() -> str:
     return made_by({}, "analysis/line_waves", "engine", "campaigns/accuracy_rows.py", "campaigns/accuracy_works.py")
 
 
-def engine_jobs(order: Order, points: list[Point], references: dict[str, str]) -> list:
+def engine_jobs(points: list[Point], references: dict[str, str]) -> list:
     """Jobs of the engine's points; references: file of each work's reference."""
     from campaigns.accuracy_rows import point_row
     from campaigns.runner import make_job
@@ -161,16 +141,16 @@ def engine_jobs(order: Order, points: list[Point], references: dict[str, str]) -
     return jobs
 
 
-def _file(order: Order, key: str) -> Path:
+def _file(out: Path, key: str) -> Path:
     from campaigns.folder import trajectory_path
 
-    return trajectory_path(order.out, key)
+    return trajectory_path(out, key)
 
 
 def _peer_jobs(order: Order, references: dict[str, str]) -> tuple[list, list, list]:
     from campaigns.peers import peer_jobs
 
-    return peer_jobs(order.out, order.effort.works, order.quick, references)
+    return peer_jobs(order.how.out, order.effort.works, order.quick, references)
 
 
 def _parameters(order: Order) -> dict[str, object]:

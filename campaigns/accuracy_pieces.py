@@ -36,7 +36,7 @@ def keep(out: Path, quick: bool = False) -> None:
 
 
 def costs(rounds: int = ROUNDS) -> dict[str, object]:
-    """The cost of every piece: per Newton iteration in `per_iteration_us`, of a whole run in `stepping_ms`, `python_ms`.
+    """What every piece costs: a Newton iteration in `per_iteration_us`, a whole run in `stepping_ms`, `python_ms`.
 
     All take turns, and the least of the rounds counts: what else the machine does only adds.
     """

@@ -12,10 +12,8 @@ shock, and a series of grids for case 4 and for case 3', which stays smooth. Not
 """
 
 import sys
-import time
 from dataclasses import dataclass
 from functools import partial
-from pathlib import Path
 
 from campaigns import cli
 
@@ -50,31 +48,18 @@ class Order:
     """What the command line asks for, checked."""
 
     runs: tuple[Run, ...]
-    out: Path
-    jobs: int
-    backend: str
-    dask_address: str | None
-    report: bool
+    how: cli.Running
     source: dict
 
 
 def main(argv: list[str] | None = None, simulate=None) -> int:
     """The command. simulate: in place of engine.simulate, same signature. Returns the exit code (0, 1, 2 or 130)."""
-    argv = list(sys.argv[1:] if argv is None else argv)
-    faults: list[str] = []
-    order = read_order(argv, faults)
-    if faults:
-        print(cli.complaint(f"python -m {MODULE}", faults), file=sys.stderr)
-        return cli.EXIT_BAD_INPUT
-    from campaigns.session import guarded
-
-    return guarded(MODULE, argv, order.out, partial(break_lines, order, argv, simulate))
+    return cli.command(MODULE, argv, read_order, partial(break_lines, simulate=simulate))
 
 
 def parser():
     """The options of this campaign."""
-    exits = "exit codes: 0 done, 1 stopped (disk full, folder in use, no report), 2 bad input, 130 Ctrl-C"
-    parser = cli.parser(MODULE, __doc__, exits)
+    parser = cli.parser(MODULE, __doc__)
     what = parser.add_argument_group("what is run")
     cli.add(what, "--cases", "A B ...", f"cases of the paper (default: {' '.join(CASES)}; p: fracture in 50 ms)")
     cli.add(what, "--scene", "FILE_OR_NAME", f"scene to start from (default: {SCENE})")
@@ -89,27 +74,20 @@ def read_order(argv: list[str], faults: list[str]) -> Order:
     """The order in the words of the command line; every fault, of options and scenes, is appended to `faults`."""
     options = cli.split(parser(), argv, faults)
     cases = _cases(options.cases, faults)
-    jobs = cli.value(options.jobs, "--jobs", cli.default_jobs(), cli.whole(1), cli.WHOLE.format(1), faults)
-    backend, address = cli.backend(options, faults)
-    out = cli.folder(options, CAMPAIGN, faults)
-    name = cli.value(options.scene, "--scene", SCENE, str, "a scene file or the name of a scene", faults)
-    taken = dict.fromkeys(("end.force_N", "end.force_decay_s", "end.kind"), "use --cases")
+    how = cli.running(options, CAMPAIGN, faults)
+    name = cli.scene_name(options, SCENE, faults)
+    taken = dict.fromkeys(("end", "end.force_N", "end.force_decay_s", "end.kind"), "use --cases")
     changes = cli.assignments(options.set, taken, faults)
     runs = planned(name, changes, cases, not options.no_companions, faults)
     source = {"scene": name, "set": changes, "cases": cases, "companions": not options.no_companions}
-    return Order(runs, out, jobs, backend, address, not options.no_report, source)
+    return Order(runs, how, source)
 
 
 def _cases(words: list[str] | None, faults: list[str]) -> list[str]:
-    def convert(text: str) -> str:
-        if text not in CASES:
-            raise ValueError(text)
-        return text
-
     allowed = "one of " + " ".join(CASES)
     if words == []:
         faults.append(f"--cases: given nothing; allowed: one or more, each {allowed}")
-    found = cli.values(words or list(CASES), "--cases", list(CASES), convert, allowed, faults)
+    found = cli.values(words or list(CASES), "--cases", list(CASES), cli.one_of(CASES), allowed, faults)
     return list(dict.fromkeys(found))
 
 
@@ -187,28 +165,20 @@ def break_lines(order: Order, argv: list[str], simulate) -> int:
     """Run it: compile, run, table, provenance, report. Raises CampaignStopped, OSError, KeyboardInterrupt."""
     from campaigns import session
     from campaigns.breaking_rows import COLUMNS, breaking_row
-    from campaigns.folder import claimed
     from campaigns.row_store import made_by
-    from campaigns.runner import Plan, make_job
+    from campaigns.runner import make_job, plan_of
 
     if simulate is None:
         from engine import simulate
-    start = time.perf_counter()
-    sources = ("analysis/line_waves", "engine", "campaigns/breaking_rows.py", "analysis/breaking_measures.py")
-    maker = made_by({}, *sources, "analysis/breaking_theory.py")
-    plan = Plan(
-        order.out, simulate, breaking_row, COLUMNS, order.backend, order.jobs, order.dask_address, row_maker=maker
-    )
+    sources = ("analysis", "engine", "campaigns/breaking_rows.py")
+    plan = plan_of(order.how, simulate, breaking_row, COLUMNS, made_by({}, *sources))
     jobs = [
         make_job(run.scene, duration_s=run.duration_s, labels={"case": run.case, "kind": run.kind})
         for run in order.runs
     ]
-    with claimed(order.out):
-        record = session.begin(CAMPAIGN, MODULE, argv, plan, jobs, order.source)
-        timing, summary = session.run(plan, jobs, COMPILE_RUN_S)
-        session.finish(order.out, record, summary, timing)
-        fault = session.report(order.out, order.report, timing, start)
-    return session.say(order.out, summary, timing, order.report, fault)
+    compiled = partial(session.run, compile_run_s=COMPILE_RUN_S)
+    how = {"report": order.how.report, "runs": compiled}
+    return session.conduct(CAMPAIGN, MODULE, argv, plan, jobs, order.source, **how)
 
 
 if __name__ == "__main__":

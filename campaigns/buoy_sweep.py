@@ -11,10 +11,8 @@ every value in three dimensions, `--dimensions auto` those whose planar run rele
 """
 
 import sys
-import time
 from dataclasses import dataclass
 from functools import partial
-from pathlib import Path
 
 from campaigns import cli
 
@@ -43,32 +41,19 @@ class Order:
     push_added: bool
     periods: int
     transient: int
-    out: Path
-    jobs: int
-    backend: str
-    dask_address: str | None
-    report: bool
     accuracy: bool
+    how: cli.Running
     source: dict
 
 
 def main(argv: list[str] | None = None, simulate=None) -> int:
     """The command. simulate: in place of engine.simulate, same signature. Returns the exit code (0, 1, 2 or 130)."""
-    argv = list(sys.argv[1:] if argv is None else argv)
-    faults: list[str] = []
-    order = read_order(argv, faults)
-    if faults:
-        print(cli.complaint(f"python -m {MODULE}", faults), file=sys.stderr)
-        return cli.EXIT_BAD_INPUT
-    from campaigns.session import guarded
-
-    return guarded(MODULE, argv, order.out, partial(sweep, order, argv, simulate))
+    return cli.command(MODULE, argv, read_order, partial(sweep, simulate=simulate))
 
 
 def parser():
     """The options of this campaign."""
-    exits = "exit codes: 0 done, 1 stopped (disk full, folder in use, no report), 2 bad input, 130 Ctrl-C"
-    parser = cli.parser(MODULE, __doc__, exits)
+    parser = cli.parser(MODULE, __doc__)
     what = parser.add_argument_group("what is run")
     cli.add(what, "--steepness", "A B ...", "wave steepnesses kA (default: 49 values from 0.016 to 0.16)")
     cli.add(what, "--steepness-range", "LO HI COUNT", "evenly spaced steepnesses, both ends included")
@@ -88,16 +73,10 @@ def parser():
 def read_order(argv: list[str], faults: list[str]) -> Order:
     """The order in the words of the command line; every fault, of options and scenes, is appended to `faults`."""
     options = cli.split(parser(), argv, faults)
-    periods = cli.value(options.periods, "--periods", PERIODS, cli.whole(1), cli.WHOLE.format(1), faults)
-    usual = min(TRANSIENT, periods // 3)
-    transient = cli.value(options.transient, "--transient", usual, cli.whole(0), cli.WHOLE.format(0), faults)
-    if transient >= periods:
-        faults.append(f"--transient: given {transient} of {periods} periods; allowed: less than --periods")
+    periods, transient = cli.lengths(options, PERIODS, TRANSIENT, 3, faults)
     steepness = _steepness(options, faults)
-    jobs = cli.value(options.jobs, "--jobs", cli.default_jobs(), cli.whole(1), cli.WHOLE.format(1), faults)
-    backend, address = cli.backend(options, faults)
-    out = cli.folder(options, CAMPAIGN, faults)
-    name = cli.value(options.scene, "--scene", SCENE, str, "a scene file or the name of a scene", faults)
+    how = cli.running(options, CAMPAIGN, faults)
+    name = cli.scene_name(options, SCENE, faults)
     taken = {SWEPT: "use --steepness", "waves.amplitude_m": "use --steepness", "motion.dimensions": "use --dimensions"}
     changes = cli.assignments(options.set, taken, faults)
     allowed = "one of " + ", ".join(DIMENSIONS)
@@ -110,8 +89,7 @@ def read_order(argv: list[str], faults: list[str]) -> Order:
     spatial, added = ({}, False) if dimensions == "2" or faults else _in_space(scenes, faults)
     scenes = spatial if dimensions == "3" else scenes
     source = {"scene": name, "set": changes}
-    how = (out, jobs, backend, address, not options.no_report, not options.no_accuracy)
-    return Order(scenes, spatial, dimensions, added, periods, transient, *how, source)
+    return Order(scenes, spatial, dimensions, added, periods, transient, not options.no_accuracy, how, source)
 
 
 def _in_space(scenes: dict, faults: list[str]) -> tuple[dict, bool]:
@@ -189,20 +167,18 @@ def _scenes(name: str, changes: dict, steepness: list[float], analysed: bool, fa
 def sweep(order: Order, argv: list[str], simulate) -> int:
     """Run it: compile, run, table, provenance, report. Raises CampaignStopped, OSError, KeyboardInterrupt."""
     from campaigns import session, sweep_accuracy
-    from campaigns.folder import claimed
     from campaigns.row_store import made_by
     from campaigns.rows import COLUMNS, STROBE_TOLERANCE, buoy_row, regime_of
-    from campaigns.runner import Plan, make_job
+    from campaigns.runner import make_job, plan_of
     from campaigns.seeds import SEED_MPS
     from campaigns.sweep_dimensions import run_where_needed
 
     if simulate is None:
         from engine import simulate
-    start = time.perf_counter()
     describe = partial(buoy_row, transient_periods=order.transient, simulate=simulate)
-    maker = made_by({"transient": order.transient}, "analysis", "engine", "campaigns/rows.py", "reports/buoy_motion.py",
-                    "campaigns/sweep_accuracy.py")  # fmt: skip
-    plan = Plan(order.out, simulate, describe, COLUMNS, order.backend, order.jobs, order.dask_address, row_maker=maker)
+    sources = ("analysis", "engine", "campaigns/rows.py", "campaigns/sweep_accuracy.py", "reports/buoy_motion.py")
+    maker = made_by({"transient": order.transient}, *sources)
+    plan = plan_of(order.how, simulate, describe, COLUMNS, maker)
     jobs = [
         make_job(scene, order.periods, labels={"steepness": value, "dimensions": scene.motion.dimensions})
         for value, scene in order.scenes.items()
@@ -217,18 +193,13 @@ def sweep(order: Order, argv: list[str], simulate) -> int:
         "push_mps": SEED_MPS if order.push_added else None,
         "accuracy": order.accuracy,
     }
-    with claimed(order.out):
-        record = session.begin(CAMPAIGN, MODULE, argv, plan, jobs, parameters)
-        timing, summary = session.run(plan, jobs)
-        if order.dimensions == "auto":
-            timing, summary = run_where_needed(plan, jobs, order.spatial, order.periods, timing, summary)
-        if order.accuracy:
-            verdict = partial(regime_of, transient_periods=order.transient)
-            again = sweep_accuracy.repeat(plan, summary.rows, order.periods, "steepness", verdict)
-            timing = timing | {name: timing[name] + seconds for name, seconds in again.items()}
-        session.finish(order.out, record, summary, timing)
-        fault = session.report(order.out, order.report, timing, start)
-    return session.say(order.out, summary, timing, order.report, fault)
+    runs = session.run
+    if order.dimensions == "auto":
+        runs = partial(run_where_needed, spatial=order.spatial, periods=order.periods)
+    if order.accuracy:
+        verdict = partial(regime_of, transient_periods=order.transient)
+        runs = sweep_accuracy.and_again(runs, order.periods, "steepness", verdict)
+    return session.conduct(CAMPAIGN, MODULE, argv, plan, jobs, parameters, report=order.how.report, runs=runs)
 
 
 if __name__ == "__main__":

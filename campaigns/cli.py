@@ -9,14 +9,30 @@ import argparse
 import difflib
 import math
 import os
+import sys
 from collections.abc import Callable
+from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 
 BACKENDS = ("loky", "threading", "dask")
 EXIT_OK, EXIT_FAILED, EXIT_BAD_INPUT, EXIT_INTERRUPTED = 0, 1, 2, 130
 
+EXITS = "exit codes: 0 done, 1 stopped (disk full, folder in use, no report), 2 bad input, 130 Ctrl-C"
+
 WHOLE = "a whole number, {} or above"
 FRACTION = "a finite number, 0 or above"
+
+
+@dataclass(frozen=True)
+class Running:
+    """How and where a campaign runs; dask_address None: no scheduler, or a local one."""
+
+    out: Path
+    jobs: int
+    backend: str
+    dask_address: str | None
+    report: bool
 
 
 class _Unparsable(Exception):
@@ -34,7 +50,23 @@ class _Parser(argparse.ArgumentParser):
         raise _Unparsable(message)
 
 
-def parser(module: str, description: str, epilog: str) -> argparse.ArgumentParser:
+def command(module: str, argv: list[str] | None, read_order: Callable, work: Callable) -> int:
+    """A campaign's command, from the words of its line (None: those of this process) to its exit code.
+
+    read_order(argv, faults) -> the order, checked, with a `Running` named how; work(order, argv) -> exit code.
+    """
+    argv = list(sys.argv[1:] if argv is None else argv)
+    faults: list[str] = []
+    order = read_order(argv, faults)
+    if faults:
+        print(complaint(f"python -m {module}", faults), file=sys.stderr)
+        return EXIT_BAD_INPUT
+    from campaigns.session import guarded
+
+    return guarded(module, argv, order.how.out, partial(work, order, argv))
+
+
+def parser(module: str, description: str, epilog: str = EXITS) -> argparse.ArgumentParser:
     """An empty parser for `python -m module`; add options with `add`, read the line with `split`."""
     return _Parser(
         prog=f"python -m {module}",
@@ -135,6 +167,30 @@ def one_of(words: tuple[str, ...]) -> Callable[[str], str]:
         return text
 
     return convert
+
+
+def running(options: argparse.Namespace, campaign: str, faults: list[str]) -> Running:
+    """The options that `add_running` adds."""
+    jobs = value(options.jobs, "--jobs", default_jobs(), whole(1), WHOLE.format(1), faults)
+    name, address = backend(options, faults)
+    return Running(folder(options, campaign, faults), jobs, name, address, not options.no_report)
+
+
+def lengths(
+    options: argparse.Namespace, periods: int, transient: int, share: int, faults: list[str]
+) -> tuple[int, int]:
+    """--periods and --transient in wave periods; by default these, the transient at most periods/share."""
+    periods = value(options.periods, "--periods", periods, whole(1), WHOLE.format(1), faults)
+    usual = min(transient, periods // share)
+    transient = value(options.transient, "--transient", usual, whole(0), WHOLE.format(0), faults)
+    if transient >= periods:
+        faults.append(f"--transient: given {transient} of {periods} periods; allowed: less than --periods")
+    return periods, transient
+
+
+def scene_name(options: argparse.Namespace, usual: str, faults: list[str]) -> str:
+    """--scene: a file or a name, not looked up yet."""
+    return value(options.scene, "--scene", usual, str, "a scene file or the name of a scene", faults)
 
 
 def backend(options: argparse.Namespace, faults: list[str]) -> tuple[str, str | None]:

@@ -12,8 +12,6 @@ starts come from a fixed seed.
 import sys
 import time
 from dataclasses import dataclass
-from functools import partial
-from pathlib import Path
 
 from campaigns import cli
 
@@ -32,27 +30,17 @@ class Order:
     forces: tuple[float, float, int]
     frequencies: tuple[float, float, int]
     effort: float
-    out: Path
-    report: bool
+    how: cli.Running
 
 
 def main(argv: list[str] | None = None) -> int:
     """The command. Returns the exit code (0, 1, 2 or 130)."""
-    argv = list(sys.argv[1:] if argv is None else argv)
-    faults: list[str] = []
-    order = read_order(argv, faults)
-    if faults:
-        print(cli.complaint(f"python -m {MODULE}", faults), file=sys.stderr)
-        return cli.EXIT_BAD_INPUT
-    from campaigns.session import guarded
-
-    return guarded(MODULE, argv, order.out, partial(study, order, argv))
+    return cli.command(MODULE, argv, read_order, study)
 
 
 def parser():
     """The options of this campaign."""
-    exits = "exit codes: 0 done, 1 stopped (disk full, folder in use, no report), 2 bad input, 130 Ctrl-C"
-    parser = cli.parser(MODULE, __doc__, exits)
+    parser = cli.parser(MODULE, __doc__)
     what = parser.add_argument_group("what is studied")
     cli.add(what, "--set", "KEY=VALUE ...", "change damping, frequency, force, lift or phase (default: the paper's)")
     usual = "(default: {} {} {})".format
@@ -80,7 +68,8 @@ def read_order(argv: list[str], faults: list[str]) -> Order:
         return number
 
     effort = cli.value(options.effort, "--effort", 1.0, share, "a number from 0.001 to 100", faults)
-    return Order(changes, forces, frequencies, effort, cli.folder(options, CAMPAIGN, faults), not options.no_report)
+    how = cli.Running(cli.folder(options, CAMPAIGN, faults), 1, "threading", None, not options.no_report)
+    return Order(changes, forces, frequencies, effort, how)
 
 
 def _changes(words: list[str] | None, faults: list[str]) -> dict[str, float]:
@@ -127,16 +116,16 @@ def study(order: Order, argv: list[str]) -> int:
     from campaigns.folder import claimed
 
     begun = time.perf_counter()
-    with claimed(order.out):
+    with claimed(order.how.out):
         record = provenance.gather(CAMPAIGN, provenance.command_line(MODULE, argv))
         record |= oscillator_parts.parameters(order)
-        if provenance.read_if_same(order.out / "provenance.json", record) is None:
-            provenance.write(order.out / "provenance.json", record)
+        if provenance.read_if_same(order.how.out / "provenance.json", record) is None:
+            provenance.write(order.how.out / "provenance.json", record)
         oscillator_parts.write_equation(order)
         timing, summary = oscillator_parts.run(order)
-        session.finish(order.out, record, summary, timing)
-        fault = session.report(order.out, order.report, timing, begun)
-    return session.say(order.out, summary, timing, order.report, fault)
+        session.finish(order.how.out, record, summary, timing)
+        fault = session.report(order.how.out, order.how.report, timing, begun)
+    return session.say(order.how.out, summary, timing, order.how.report, fault)
 
 
 if __name__ == "__main__":

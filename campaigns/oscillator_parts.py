@@ -220,17 +220,17 @@ def write_equation(order: Order) -> None:
     """scene.toml: the five numbers of eq. (33), as run."""
     lines = ["# eq. (33), dimensionless, as run", "[oscillator]"]
     lines += [f"{key} = {value!r}" for key, value in asdict(SnapOscillator(**order.changes)).items()]
-    write_atomic(order.out / "scene.toml", ("\n".join(lines) + "\n").encode())
+    write_atomic(order.how.out / "scene.toml", ("\n".join(lines) + "\n").encode())
 
 
 def run(order: Order) -> tuple[dict[str, float], Summary]:
     """Do every part that is not there yet; keep table.csv up to date. Returns times and the summary."""
     oscillator = SnapOscillator(**order.changes)
     keys = {part: _key(part, order) for part in PARTS}
-    table = Table(order.out / "table.csv", COLUMNS, list(keys.values()))
+    table = Table(order.how.out / "table.csv", COLUMNS, list(keys.values()))
     missing = []
     for part, key in keys.items():
-        row = read_row(trajectory_path(order.out, key))
+        row = read_row(trajectory_path(order.how.out, key))
         if row is None:
             missing.append(part)
         else:
@@ -271,5 +271,5 @@ def _done(part: str, oscillator: SnapOscillator, order: Order, key: str) -> dict
     except Exception as error:  # one part that fails must not take the others along
         return {"part": part, "status": "error", "message": f"{type(error).__name__}: {error}", "run_key": key}
     row = {"part": part, "status": "ok", **row, "wall_s": round(time.perf_counter() - begun, 3)}
-    write_atomic(trajectory_path(order.out, key), to_netcdf(arrays, row))
+    write_atomic(trajectory_path(order.how.out, key), to_netcdf(arrays, row))
     return {**row, "run_key": key}

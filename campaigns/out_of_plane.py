@@ -11,10 +11,8 @@ counterparts in three dimensions. Nothing is random.
 """
 
 import sys
-import time
 from dataclasses import asdict, dataclass, replace
 from functools import partial
-from pathlib import Path
 
 from campaigns import cli
 from campaigns.seeds import SEED_MPS, velocity
@@ -81,32 +79,19 @@ class Order:
     base: Case
     periods: int
     transient: int
-    out: Path
-    jobs: int
-    backend: str
-    dask_address: str | None
-    report: bool
     accuracy: bool
+    how: cli.Running
     source: dict
 
 
 def main(argv: list[str] | None = None, simulate=None) -> int:
     """The command. simulate: in place of engine.simulate, same signature. Returns the exit code (0, 1, 2 or 130)."""
-    argv = list(sys.argv[1:] if argv is None else argv)
-    faults: list[str] = []
-    order = read_order(argv, faults)
-    if faults:
-        print(cli.complaint(f"python -m {MODULE}", faults), file=sys.stderr)
-        return cli.EXIT_BAD_INPUT
-    from campaigns.session import guarded
-
-    return guarded(MODULE, argv, order.out, partial(study, order, argv, simulate))
+    return cli.command(MODULE, argv, read_order, partial(study, simulate=simulate))
 
 
 def parser():
     """The options of this campaign."""
-    exits = "exit codes: 0 done, 1 stopped (disk full, folder in use, no report), 2 bad input, 130 Ctrl-C"
-    parser = cli.parser(MODULE, __doc__, exits)
+    parser = cli.parser(MODULE, __doc__)
     what = parser.add_argument_group("what is run")
     cli.add(what, "--periods", "N", f"length of every run in wave periods (default: {PERIODS})")
     leave_out = f"wave periods left out of the comparison (default: {TRANSIENT}, at most a fifth of --periods)"
@@ -122,20 +107,13 @@ def parser():
 def read_order(argv: list[str], faults: list[str]) -> Order:
     """The order in the words of the command line; every fault, of options and scenes, is appended to `faults`."""
     options = cli.split(parser(), argv, faults)
-    periods = cli.value(options.periods, "--periods", PERIODS, cli.whole(1), cli.WHOLE.format(1), faults)
-    usual = min(TRANSIENT, periods // 5)
-    transient = cli.value(options.transient, "--transient", usual, cli.whole(0), cli.WHOLE.format(0), faults)
-    if transient >= periods:
-        faults.append(f"--transient: given {transient} of {periods} periods; allowed: less than --periods")
-    jobs = cli.value(options.jobs, "--jobs", cli.default_jobs(), cli.whole(1), cli.WHOLE.format(1), faults)
-    backend, address = cli.backend(options, faults)
-    out = cli.folder(options, CAMPAIGN, faults)
-    name = cli.value(options.scene, "--scene", SCENE, str, "a scene file or the name of a scene", faults)
+    periods, transient = cli.lengths(options, PERIODS, TRANSIENT, 5, faults)
+    how = cli.running(options, CAMPAIGN, faults)
+    name = cli.scene_name(options, SCENE, faults)
     changes = cli.assignments(options.set, _TAKEN, faults)
     base, scenes = _scenes(name, changes, faults)
     source = {"scene": name, "set": changes}
-    how = (out, jobs, backend, address, not options.no_report, not options.no_accuracy)
-    return Order(scenes, base, periods, transient, *how, source)
+    return Order(scenes, base, periods, transient, not options.no_accuracy, how, source)
 
 
 def cases(base: Case) -> list[Case]:
@@ -197,19 +175,17 @@ def _scenes(name: str, changes: dict, faults: list[str]) -> tuple[Case | None, d
 def study(order: Order, argv: list[str], simulate) -> int:
     """Run it: compile, run, table, provenance, report. Raises CampaignStopped, OSError, KeyboardInterrupt."""
     from campaigns import session, sweep_accuracy
-    from campaigns.folder import claimed
     from campaigns.offplane_rows import COLUMNS, offplane_row, rope_motion
     from campaigns.row_store import made_by
-    from campaigns.runner import Plan, make_job
+    from campaigns.runner import make_job, plan_of
 
     if simulate is None:
         from engine import simulate
-    start = time.perf_counter()
     judged = frozenset(scene.key() for case, scene in order.scenes.items() if compared(case, order.base))
     describe = partial(offplane_row, transient_periods=order.transient, judged=judged)
     sources = ("analysis", "engine", "campaigns/offplane_rows.py", "campaigns/rows.py", "reports/buoy_motion.py")
     maker = made_by({"transient": order.transient, "judged": sorted(judged)}, *sources)
-    plan = Plan(order.out, simulate, describe, COLUMNS, order.backend, order.jobs, order.dask_address, row_maker=maker)
+    plan = plan_of(order.how, simulate, describe, COLUMNS, maker)
     jobs = []
     for case, scene in order.scenes.items():
         periods = min(order.periods, SHAPE_PERIODS) if case.profiles else order.periods
@@ -221,23 +197,17 @@ def study(order: Order, argv: list[str], simulate) -> int:
         "periods": order.periods,
         "transient": order.transient,
     }
-    with claimed(order.out):
-        record = session.begin(CAMPAIGN, MODULE, argv, plan, jobs, parameters)
-        timing, summary = session.run(plan, jobs)
-        if order.accuracy:
-            bases = [row for row in summary.rows if row["run_key"] in _keys(jobs, order.base)]
-            verdict = partial(rope_motion, transient_periods=order.transient)
-            again = sweep_accuracy.repeat(plan, bases, order.periods, "steepness", verdict, len(jobs))
-            timing = timing | {name: timing[name] + seconds for name, seconds in again.items()}
-        session.finish(order.out, record, summary, timing)
-        fault = session.report(order.out, order.report, timing, start)
-    return session.say(order.out, summary, timing, order.report, fault)
+    runs = session.run
+    if order.accuracy:
+        verdict = partial(rope_motion, transient_periods=order.transient)
+        runs = sweep_accuracy.and_again(runs, order.periods, "steepness", verdict, _waves(jobs, order.base))
+    return session.conduct(CAMPAIGN, MODULE, argv, plan, jobs, parameters, report=order.how.report, runs=runs)
 
 
-def _keys(jobs: list, base: Case) -> set[str]:
-    """Keys of the runs in three dimensions that the campaign varies: the paper's two waves."""
-    labels = [asdict(base), asdict(replace(base, steepness=SMALL))]
-    return {job.key for job in jobs if {key: job.labels[key] for key in labels[0]} in labels}
+def _waves(jobs: list, base: Case) -> set[str]:
+    """Keys of the runs in three dimensions from which the campaign varies: the paper's two waves."""
+    wanted = [asdict(base), asdict(replace(base, steepness=SMALL))]
+    return {job.key for job in jobs if {key: job.labels[key] for key in wanted[0]} in wanted}
 
 
 if __name__ == "__main__":

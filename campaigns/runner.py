@@ -16,6 +16,7 @@ from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
 
+from campaigns.cli import Running
 from campaigns.folder import CampaignStopped, Table, is_full, trajectory_path
 from campaigns.pools import PoolBroken, opened
 from campaigns.row_store import keep_row, kept_row
@@ -77,6 +78,11 @@ class Plan:
     dask_address: str | None = None
     show_progress: bool = True
     row_maker: str = ""
+
+
+def plan_of(how: Running, simulate: Callable, describe: Callable, columns: tuple[str, ...], row_maker: str) -> Plan:
+    """The plan of a campaign as its command line wants it done."""
+    return Plan(how.out, simulate, describe, columns, how.backend, how.jobs, how.dask_address, row_maker=row_maker)
 
 
 def make_job(

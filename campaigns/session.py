@@ -12,7 +12,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 from campaigns import cli, provenance
-from campaigns.folder import CampaignStopped, trajectory_path
+from campaigns.folder import CampaignStopped, claimed, trajectory_path
 from campaigns.runner import Job, Plan, Summary, run_campaign, write_failure
 
 _COMPILE_RUN_S = 0.1  # long enough to go through every kernel, too short to cost anything
@@ -33,6 +33,21 @@ def guarded(module: str, argv: list[str], out: Path, work: Callable[[], int]) ->
     except OSError as error:
         print(f"{prog}: {write_failure(out, error)}", file=sys.stderr)
     return cli.EXIT_FAILED
+
+
+def conduct(campaign: str, module: str, argv: list[str], plan: Plan, jobs: list[Job], parameters: dict, **how) -> int:
+    """A campaign of simulations from its first run to its last word; returns the exit code.
+
+    how: report, whether one is wanted; runs(plan, jobs), in place of `run`. Raises CampaignStopped, OSError and
+    KeyboardInterrupt, for `guarded`.
+    """
+    start, wanted = time.perf_counter(), how.get("report", True)
+    with claimed(plan.directory):
+        record = begin(campaign, module, argv, plan, jobs, parameters)
+        timing, summary = how.get("runs", run)(plan, jobs)
+        finish(plan.directory, record, summary, timing)
+        fault = report(plan.directory, wanted, timing, start)
+    return say(plan.directory, summary, timing, wanted, fault)
 
 
 def begin(campaign: str, module: str, argv: list[str], plan: Plan, jobs: list[Job], parameters: dict) -> dict:

@@ -12,11 +12,12 @@ from collections.abc import Callable
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
+from time import perf_counter
 
 import numpy as np
 
 from campaigns.folder import trajectory_path
-from campaigns.runner import Job, Plan, make_job, run_campaign
+from campaigns.runner import Job, Plan, Summary, make_job, run_campaign
 
 FOLDER = "accuracy"  # within that of the sweep: a table of its own, and trajectories
 COLUMNS = (
@@ -63,26 +64,36 @@ def chosen(rows: list[dict]) -> list[tuple[str, dict]]:
     return [("regular", regular)] if regular is violent else [("regular", regular), ("violent", violent)]
 
 
-def repeat(
-    plan: Plan, rows: list[dict], periods: int, label: str, verdict: Callable, runs: int = 0
-) -> dict[str, float]:
-    """Do the repeated runs, with a table of their own; returns seconds as `session.run` does, without compilation.
+def and_again(runs: Callable, periods: int, label: str, verdict: Callable, among: set[str] | None = None) -> Callable:
+    """`runs` of a campaign (`session.run` or alike), followed by the repeated runs, with a table of their own.
 
-    rows: to choose from; runs: of the sweep, where it has more than those. label: the column that names a run;
-    verdict(trajectory) -> what it is called, or None. Raises as `run_campaign`.
+    label: the column that names a run; verdict(trajectory) -> what it is called, or None; among: keys of the runs to
+    choose from, None for all. The result raises as `session.run`.
     """
-    from time import perf_counter
 
-    began = perf_counter()
-    length = lengths(max(runs, len(rows)), periods)
+    def both(plan: Plan, jobs: list[Job]):
+        timing, summary = runs(plan, jobs)
+        began = perf_counter()
+        rows = [row for row in summary.rows if among is None or row["run_key"] in among]
+        again = repeat(plan, rows, lengths(len(summary.rows), periods), label, verdict)
+        timing = timing | {
+            "run_s": timing["run_s"] + perf_counter() - began,
+            "analysis_s": timing["analysis_s"] + again.analysis_s,
+        }
+        return timing, summary
+
+    return both
+
+
+def repeat(plan: Plan, rows: list[dict], length: int, label: str, verdict: Callable) -> Summary:
+    """Do the repeated runs over so many wave periods; arguments as for `and_again`."""
     jobs: list[Job] = []
     for role, row in chosen(rows):
         base = trajectory_path(plan.directory, row["run_key"])
         jobs += _jobs(base, role, row[label], length, verdict)
     place = plan.directory / FOLDER
     (place / "trajectories").mkdir(parents=True, exist_ok=True)
-    summary = run_campaign(replace(plan, directory=place, columns=COLUMNS, show_progress=False), jobs)
-    return {"run_s": perf_counter() - began, "analysis_s": summary.analysis_s}
+    return run_campaign(replace(plan, directory=place, columns=COLUMNS, show_progress=False), jobs)
 
 
 def _jobs(base: Path, role: str, label: object, length: int, verdict: Callable) -> list[Job]:

@@ -13,14 +13,13 @@ from campaigns.runner import Job, Plan, Summary, make_job
 _KEPT = ("loop_releases", "regime", "radius_min_m", "radius_max_m")
 
 
-def run_where_needed(
-    plan: Plan, jobs: list[Job], spatial: dict, periods: float, timing: dict, summary: Summary
-) -> tuple[dict, Summary]:
-    """Do the runs in three dimensions that the planar rows ask for; table.csv then holds one row a value.
+def run_where_needed(plan: Plan, jobs: list[Job], spatial: dict, periods: float) -> tuple[dict, Summary]:
+    """Do the planar jobs, then the runs in three dimensions that their rows ask for; table.csv holds one row a value.
 
-    jobs: the planar ones, `summary` their outcome and `timing` its times; spatial: the scene in three dimensions by
-    steepness. Returns times and summary of both halves together. Raises as `session.run`.
+    spatial: the scene in three dimensions by steepness. Returns times and summary of both halves together. Raises as
+    `session.run`.
     """
+    timing, summary = session.run(plan, jobs)
     rows = {row["run_key"]: row for row in summary.rows}
     chosen = [_spatial(job, rows[job.key], spatial, periods) if _loops(rows[job.key]) else job for job in jobs]
     if chosen == jobs:

@@ -10,8 +10,8 @@ is kept). What a step takes from the end and does not find again in these or in 
 
     kinetic sum h m |V-|^2/2 | strain sum h mean(integral of f) | gravity sum h w0 z-
 
-is what the scheme dissipates: in time, stage powers times dt less the change of the energies (the integrator's damping);
-in space, h (N-.q_t- - mean(N.q_t)) (products of means for means of products). Both are small where the solution is
+is what the scheme dissipates: in time, stage powers times dt less the change of energies (the integrator's damping); in
+space, h (N-.q_t- - mean(N.q_t)) (products of means for means of products). Both are small where the solution is
 smooth, and belong to the dissipation of a shock where it is not.
 
 Columns of `energies`: 0 t | 1 kinetic | 2 strain | 3 gravity | 4 work at the end | 5 against shear | 6 viscous |
@@ -66,7 +66,7 @@ def add_powers(p, tables, dt, alpha_m, alpha_f, gamma, C0, K0, C1, K1, Y, Q, sum
     V, A = np.empty((2, half)), np.empty((2, half))
     shear, viscous, axial = np.zeros(2), np.zeros(2), np.zeros(2)
     for k in range(n):
-        a, b = k % 2, 1 - k % 2
+        a = k % 2
         square = before = stretching = 0.0
         for i in range(half):
             q[i] = C0[k, i] + alpha_f * (C1[k, i] - C0[k, i])

@@ -26,7 +26,9 @@ from .sampling import sample
 from .shocks import deforming_element, renew_viscosity
 from .steps import one_stage_step, runge_kutta_step
 
-_COUNTS = "status samples profiles small_steps steps rejected newton failures releases attempts cautious trail energies".split()
+_COUNTS = (
+    "status samples profiles small_steps steps rejected newton failures releases attempts cautious trail energies"
+).split()
 _VALUES = "t dt dt_before low high max_turn min_strain window_end".split()
 STATE = np.dtype([(name, np.int64) for name in _COUNTS] + [(name, np.float64) for name in _VALUES])
 SMALL_STEPS = 3

@@ -185,7 +185,8 @@ class _Batch:
             while True:
                 march(
                     record, self.tables, self.states[b], self.Y[b, :n], self.Y_before[b, :n], self.C[b, :n],
-                    self.K[b, :n], self.samples[b], self.profiles[b], self.energies[b], self.sums[b], *trail.steps, until,
+                    self.K[b, :n], self.samples[b], self.profiles[b], self.energies[b], self.sums[b],
+                    *trail.steps, until,
                 )
                 trail.follow(record, self.tables, self.states[b])
                 if self.states[b]["status"] != OK or self.states[b]["samples"] >= until:

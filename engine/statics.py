@@ -117,7 +117,7 @@ def _in_plane(record, scene, h, force):
     Nx = np.full(n, force[0] if record["end"] == FREE else 0.0)
     Nz = (record["lift"] if record["end"] == BUOY else force[1]) - record["w0"] * (length - s)
     T = np.hypot(Nx, Nz)
-    from .parameters import strain_at
+    from .scales import strain_at
 
     Y[:, 0] = [strain_at(load, scene.tether.tension) if load > 0 else 0.0 for load in T]
     angle = np.arctan2(Nz, Nx)

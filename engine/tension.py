@@ -127,4 +127,5 @@ def stored(eps, p, tables):
         x, x0 = abs(p.p2 * eps + p.p3), abs(p.p3)
         rise = x - x0 + math.log1p(math.exp(-2.0 * x)) - math.log1p(math.exp(-2.0 * x0))
         return barrier + p.p1 / p.p2 * rise + p.p4 * eps + 0.5 * p.p5 * eps * eps
-    return barrier + _tabulated_energy(eps, tables, p.law_at, p.law_n) - _tabulated_energy(0.0, tables, p.law_at, p.law_n)
+    at_rest = _tabulated_energy(0.0, tables, p.law_at, p.law_n)
+    return barrier + _tabulated_energy(eps, tables, p.law_at, p.law_n) - at_rest

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 
 import numpy as np
 
 from analysis.breaking_measures import contour, speed_of
-from .breaking_runs import FAST, SLOW, Line, find, named
 from analysis.breaking_theory import Theory, theory_of
+
+from .breaking_runs import FAST, SLOW, Line, find, named
 from .content import Figure, Picture
 from .figures.energy_shares import EnergyPanel, energy_shares
 from .figures.front_plane import FrontPanel, front_plane
@@ -18,6 +20,7 @@ from .figures.line_panels import LinePanel, folds, line_panels
 from .wording import decimals, listed, number, percent
 
 INSTANT_S = 0.010
+FRAME_S = 0.002  # of the animation
 SHARES = (0.99, 0.9, 0.7, 0.5, 0.3, 0.1, 0.01)
 NEAR_M = (-1.0, 4.0)
 CURVE_POINTS = 120
@@ -25,7 +28,7 @@ LETTERS = "abcd"
 _NUMBERS = {"fast": ("2", "3", "4"), "slow": ("5", "6", "7")}
 
 
-def shown(lines: tuple[Line, ...], cases: tuple[str, ...]) -> list[Line]:
+def shown(lines: tuple[Line, ...], cases: Sequence[str]) -> list[Line]:
     """The cases among these that can be drawn."""
     found = (find(lines, case) for case in cases)
     return [line for line in found if line is not None and line.trajectory is not None and line.trajectory.profiles]
@@ -69,8 +72,8 @@ def _configurations(drawn: list[Line], figure: str) -> Figure:
     room = 0.06 * (high - low)
     picture = line_panels(panels, "$x$ (m)", "$z$ (m)", [(low - room, high + room)] * len(panels), centre=True)
     caption = (
-        f"Configurations every 10 ms (fig. {figure} of the paper), heights much enlarged, the same in all panels. Seen: "
-        f"{'; '.join(words)}. From `x_m` and `z_m` of the profiles."
+        f"Configurations every 10 ms (fig. {figure} of the paper), heights much enlarged, the same in all panels. "
+        f"Seen: {'; '.join(words)}. From `x_m` and `z_m` of the profiles."
     )
     return Figure(picture, caption, f"Shapes of the line every 10 ms, one panel a case: {'; '.join(words)}.")
 
@@ -101,12 +104,13 @@ def _along(drawn: list[Line], column: str, unit: float, label: str, what: str, p
 def folds_figure(lines: tuple[Line, ...]) -> Figure | None:
     """The neighbourhood of the fixed end at the end of every run, in true proportion."""
     panels, words = [], []
-    for line in shown(lines, (*FAST, *SLOW)):
+    order = [case for pair in zip(FAST, SLOW, strict=True) for case in pair]
+    for line in shown(lines, order):
         profiles = line.trajectory.profiles
         time_s = profiles.time_s[-1:]
         title = f"case {line.name}, {1e3 * float(time_s[0]):.0f} ms"
         panels.append(LinePanel(title, profiles.x_m[-1], profiles.z_m[-1], time_s))
-        words.append(f"{line.name} {decimals(line.value('buckled_m'), 2)} m")
+        words.append(f"{decimals(line.value('buckled_m'), 2)} m (case {line.name})")
     if not panels:
         return None
     near = [panel.y[panel.x < NEAR_M[1]] for panel in panels]
@@ -186,8 +190,8 @@ def speeds_figure(lines: tuple[Line, ...]) -> Figure | None:
     )
     caption = (
         f"Speed at which contours of {_percents(SHARES)} % of the static tension run towards the fixed end, against "
-        f"√(T′/m) at their strain (curve); open marks: slow breaks. Contours that a shock overtakes are left out. Seen: "
-        f"{seen}. From `tension_N` of the profiles, between 5 m from either end and until the front arrives."
+        f"√(T′/m) at their strain (curve); open marks: slow breaks. Contours that a shock overtakes are left out. "
+        f"Seen: {seen}. From `tension_N` of the profiles, between 5 m from either end and until the front arrives."
     )
     alt = f"Measured contour speeds on the curve of wave speed over strain: {seen}."
     return Figure(front_speeds(strain, theory.wave_speed(strain), measured), caption, alt)
@@ -221,7 +225,7 @@ def animation_figure(lines: tuple[Line, ...], case: str) -> Figure | None:
     if not drawn:
         return None
     profiles = drawn[0].trajectory.profiles
-    step = max(1, round(0.001 / float(profiles.time_s[1])))
+    step = max(1, round(FRAME_S / float(profiles.time_s[1])))
     rows = slice(None, None, step)
     time_s, x, z, T = (
         profiles.time_s[rows], profiles.x_m[rows], profiles.z_m[rows], profiles.tension_N[rows]
@@ -232,8 +236,8 @@ def animation_figure(lines: tuple[Line, ...], case: str) -> Figure | None:
         f"passes it by {decimals(-drawn[0].value('x_min_m'), 2)} m"
     )
     caption = (
-        f"Case {named(case)} in motion, a frame a millisecond on the page, six frames on paper: {seen}. Heights much "
-        "enlarged; below on the page: tension along the line. From the profiles."
+        f"Case {named(case)} in motion, a frame every {number(1e3 * FRAME_S)} ms on the page, six frames on paper: "
+        f"{seen}. Heights much enlarged; below on the page: tension along the line. From the profiles."
     )
     moving = line_animation(time_s, profiles.s_m, x, z, T)
     return Figure(strip, caption, f"The line of case {named(case)} after the break: {seen}.", moving)

@@ -26,5 +26,4 @@ BREAKING_SOURCES = SOURCES | {
     "solver.courant": ("step over (shortest element that deforms)/(fastest wave)", NUMERICAL),
     "solver.shock_viscosity.quadratic": ("quadratic coefficient of the shock viscosity", NUMERICAL),
     "solver.shock_viscosity.linear": ("linear coefficient of the shock viscosity", NUMERICAL),
-    "output.energy": ("energy budget kept", NUMERICAL),
 }

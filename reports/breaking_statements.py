@@ -6,6 +6,7 @@ Every verdict is computed from the table: "yes", "no", "in part", or a dash wher
 from __future__ import annotations
 
 import math
+from itertools import pairwise
 
 from .breaking_runs import FAST, SLOW, Line, find, of_kind, pairs
 from .content import Column, Table
@@ -35,37 +36,44 @@ def _verdict(checks: list[bool]) -> str:
     return EMPTY if not checks else YES if all(checks) else PART if any(checks) else NO
 
 
+def _compared(found: list[tuple[Line, Line]], column: str) -> str:
+    said = ", ".join(
+        f"{fast.name} {decimals(fast.value(column), 2)} and {slow.name} {decimals(slow.value(column), 2)}"
+        for fast, slow in found
+    )
+    return said or "no pair of runs"
+
+
 def _said(numbers: list[tuple[str, float]], places: int) -> str:
     return ", ".join(f"{name}: {decimals(value, places)}" for name, value in numbers) or "no run shows it"
 
 
 def _speed(lines) -> tuple[str, str, str]:
-    compared = [(fast, slow, slow.value("end_speed_mps") / fast.value("end_speed_mps") - 1.0) for fast, slow in pairs(lines)]
-    said = ", ".join(
-        f"{fast.name} {decimals(fast.value('end_speed_mps'), 2)} and {slow.name} {decimals(slow.value('end_speed_mps'), 2)}"
-        for fast, slow, _ in compared
-    )
+    found = pairs(lines)
     claim = "The maximum speed does not depend on the fracture time."
-    return claim, f"End speeds in m/s: {said or 'no pair of runs'}.", _verdict([abs(off) < SAME_SPEED for *_, off in compared])
+    off = [slow.value("end_speed_mps") / fast.value("end_speed_mps") - 1.0 for fast, slow in found]
+    evidence = f"End speeds in m/s: {_compared(found, 'end_speed_mps')}."
+    return claim, evidence, _verdict([abs(share) < SAME_SPEED for share in off])
 
 
 def _rises(numbers: list[tuple[str, float]], sign: float = 1.0) -> list[bool]:
     values = [sign * value for _, value in numbers]
-    return [after > before for before, after in zip(values, values[1:], strict=False)]
+    return [after > before for before, after in pairwise(values)]
 
 
 def _energy_speed(lines) -> tuple[str, str, str]:
     numbers = [_in_turn(lines, cases, "end_speed_mps") for cases in (FAST, SLOW)]
     claim = "It is higher when the static tension is higher."
-    return claim, f"End speeds in m/s: {_said(numbers[0] + numbers[1], 1)}.", _verdict(_rises(numbers[0]) + _rises(numbers[1]))
+    evidence = f"End speeds in m/s: {_said(numbers[0] + numbers[1], 1)}."
+    return claim, evidence, _verdict(_rises(numbers[0]) + _rises(numbers[1]))
 
 
 def _at_the_end(lines) -> tuple[str, str, str]:
     found = [line for line in of_kind(lines, "case") if math.isfinite(line.value("speed_largest_mps"))]
     numbers = [(line.name, line.value("speed_largest_mps") / line.value("end_speed_most_mps") - 1.0) for line in found]
-    said = ", ".join(f"{name}: {percent(excess)}" for name, excess in numbers)
+    said = ", ".join(f"{name}: {decimals(100 * excess, 2)} %" for name, excess in numbers)
     claim = "The velocity of the end point is the maximum along the line."
-    evidence = f"Largest speed of any node at any time above the largest of the settled end: {said or 'no run shows it'}."
+    evidence = f"Largest speed of any node at any time over the largest of the settled end, less one: {said or 'none'}."
     return claim, evidence, _verdict([excess < 0.01 for _, excess in numbers])
 
 
@@ -81,8 +89,8 @@ def _vertical(lines) -> tuple[str, str, str]:
     folded = [_in_turn(lines, cases, "vertical_m") for cases in (FAST, SLOW)]
     claim = "The vertical motion decreases as the static tension increases."
     evidence = (
-        f"Largest rise or fall in m, beyond the quarter at the fixed end: {_said(numbers[0] + numbers[1], 3)}; with the "
-        f"folds there: {_said(folded[0] + folded[1], 3)}."
+        f"Largest rise or fall in m, beyond the quarter at the fixed end: {_said(numbers[0] + numbers[1], 3)}; with "
+        f"the folds there: {_said(folded[0] + folded[1], 3)}."
     )
     checks = [_rises(one, -1.0) for one in (*numbers, *folded)]
     return claim, evidence, _verdict([check for one in checks for check in one])
@@ -141,41 +149,38 @@ def _shock(lines) -> tuple[str, str, str]:
         straight = find(lines, line.case, "straight")
         seen = f", {decimals(straight.value('shock_birth_m'), 1)} m in the straight run" if straight else ""
         words.append(f"case {line.name} {decimals(line.value('shock_birth_theory_m'), 1)} m{seen}")
-    evidence = f"Exact births, distances from the broken end: {'; '.join(words) or 'none'}. None in cases {listed(none)}."
+    born_at = "; ".join(words) or "none"
+    evidence = f"Exact births, distances from the broken end: {born_at}. None in cases {listed(none)}."
     checks = [find(lines, case) in born for case in ("2", "3") if find(lines, case) in judged]
     return claim, evidence, _verdict(checks)
 
 
 def _tension(lines) -> tuple[str, str, str]:
-    compared = [(fast, slow) for fast, slow in pairs(lines) if math.isfinite(slow.value("tension_spread"))]
-    said = ", ".join(
-        f"{fast.name} {decimals(fast.value('tension_spread'), 2)} and {slow.name} {decimals(slow.value('tension_spread'), 2)}"
-        for fast, slow in compared
-    )
+    found = [(fast, slow) for fast, slow in pairs(lines) if math.isfinite(slow.value("tension_spread"))]
     claim = "In slow breaks the tension is more uniform along the line."
-    evidence = f"Standard deviation of T over its mean when half the strain energy is left: {said or 'no pair of runs'}."
-    return claim, evidence, _verdict([slow.value("tension_spread") < fast.value("tension_spread") for fast, slow in compared])
+    said = _compared(found, "tension_spread")
+    evidence = f"Standard deviation of T over its mean when half the strain energy is left: {said}."
+    return (
+        claim,
+        evidence,
+        _verdict([slow.value("tension_spread") < fast.value("tension_spread") for fast, slow in found]),
+    )
 
 
 def _kinetic_spread(lines) -> tuple[str, str, str]:
     claim = (
-        "In slow breaks a smaller part moves at the maximum speed and less of the line rests: the kinetic energy is more "
-        "uniformly distributed."
+        "In slow breaks a smaller part moves at the maximum speed and less of the line rests: the kinetic energy is "
+        "more uniformly distributed."
     )
-    compared = [(fast, slow) for fast, slow in pairs(lines) if math.isfinite(slow.value("kinetic_spread"))]
-    parts = []
-    for column in ("fast_share", "resting_share", "kinetic_spread"):
-        said = (
-            f"{fast.name} {decimals(fast.value(column), 2)} and {slow.name} {decimals(slow.value(column), 2)}"
-            for fast, slow in compared
-        )
-        parts.append(", ".join(said) or "no pair of runs")
+    found = [(fast, slow) for fast, slow in pairs(lines) if math.isfinite(slow.value("kinetic_spread"))]
     evidence = (
         "When half the strain energy is left, share of the line faster than 0.9 of the settled end speed: "
-        f"{parts[0]}; slower than 0.1: {parts[1]}; share that would hold the kinetic energy at one speed: {parts[2]}."
+        f"{_compared(found, 'fast_share')}; slower than 0.1: {_compared(found, 'resting_share')}; share that would "
+        f"hold the kinetic energy at one speed: {_compared(found, 'kinetic_spread')}."
     )
-    checks = [slow.value(column) < fast.value(column) for fast, slow in compared for column in ("fast_share", "resting_share")]
-    checks += [slow.value("kinetic_spread") > fast.value("kinetic_spread") for fast, slow in compared]
+    falls = ("fast_share", "resting_share")
+    checks = [slow.value(column) < fast.value(column) for fast, slow in found for column in falls]
+    checks += [slow.value("kinetic_spread") > fast.value("kinetic_spread") for fast, slow in found]
     return claim, evidence, _verdict(checks)
 
 
@@ -187,6 +192,9 @@ def _kinetic(lines) -> tuple[str, str, str]:
         for run in pair
     )
     claim = "The total kinetic energy depends only on the static tension, not on the fracture time."
-    evidence = f"Largest kinetic energy over the stored energy, and the work that the decaying force takes out: {said or 'no pair'}."
-    same = [abs(slow.value("kinetic_largest_J") / fast.value("kinetic_largest_J") - 1) < SAME_ENERGY for fast, slow in compared]
-    return claim, evidence, _verdict(same)
+    evidence = (
+        "Largest kinetic energy over the stored energy, and the work that the decaying force takes out: "
+        f"{said or 'no pair of runs'}."
+    )
+    ratios = [slow.value("kinetic_largest_J") / fast.value("kinetic_largest_J") for fast, slow in compared]
+    return claim, evidence, _verdict([abs(ratio - 1.0) < SAME_ENERGY for ratio in ratios])

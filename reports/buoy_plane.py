@@ -4,12 +4,22 @@ from __future__ import annotations
 
 import math
 
-from .buoy_runs import Run, lateral, planar_releases, value
-from .buoy_warnings import COMPARED
-from .content import Column, Heading, Item, Table, Text
-from .folder import Folder
-from .wording import EMPTY, count, decimals, number, percent
+import numpy as np
 
+from .buoy_runs import Run, lateral, planar_releases, value
+from .content import Column, Figure, Heading, Item, Table, Text
+from .figures.transverse_exponents import transverse_exponents
+from .folder import Folder
+from .wording import EMPTY, count, decimals, number, percent, ranges
+
+# What `campaigns.out_of_plane` finds, and tests/reports/test_plane_or_space.py holds it to.
+COMPARED = (
+    "`campaigns.out_of_plane` compares such runs with runs in three dimensions at kA = 0.13 and depths of 21.0, 21.6 "
+    "and 22.0 m, over 200 wave periods: range of r, section, exponent and regime of the buoy are the same within what "
+    "one record leaves open, so for these the planar run is good enough. The path of the buoy in time after the first "
+    "loops, and the shape of the rope in a loop, are not."
+)
+_EXPONENT, _ERROR = "offplane_growth_bits_per_period", "offplane_growth_error"
 _MODES = {
     "2": "Every run was made in the plane of the waves.",
     "3": "Every run was made in three dimensions (`--dimensions 3`).",
@@ -19,18 +29,64 @@ _MODES = {
 
 
 def plane_items(folder: Folder, runs: tuple[Run, ...], transient: int) -> list[Item]:
-    """The section, or nothing where every run is planar and none released a loop."""
+    """The section, or nothing where no run tells of motion across the plane."""
     shown = [run for run in runs if run.in_space or planar_releases(run) > 0]
-    if not shown:
+    across = [run for run in runs if all(map(math.isfinite, _exponent(run)))]
+    if not shown and not across:
         return []
     words = [_MODES.get(str(folder.provenance.get("dimensions")), ""), _push_words(folder, runs)]
-    items: list[Item] = [Heading("Out of the plane"), Text(" ".join(word for word in words if word))]
+    items: list[Item] = [Heading("Out of the plane")]
+    if any(words):
+        items.append(Text(" ".join(word for word in words if word)))
+    if across:
+        items += _across(across, runs)
     if any(not run.in_space for run in shown):
         items.append(Text(f"Planar runs with loop releases are marked 2 under D. {COMPARED}"))
     pairs = [run for run in shown if run.in_space and math.isfinite(planar_radius(run)[0])]
     if pairs:
         items.append(Text(_pair_words(pairs)))
-    return [*items, _table(shown, transient)]
+    return [*items, _table(shown, transient)] if shown else items
+
+
+def _across(across: list[Run], runs) -> list[Item]:
+    """Figure and words on the exponents across the plane; `across`: the runs that have one."""
+    bits, errors = np.array([_exponent(run) for run in across]).T
+    values = [run.steepness for run in across]
+    kinds = (
+        ("decays", bits < -2.0 * errors),
+        ("grows", bits > 2.0 * errors),
+        ("does neither by two standard errors", abs(bits) <= 2.0 * errors),
+    )
+    parts = [f"{word} at kA = {ranges(values, list(chosen))}" for word, chosen in kinds if chosen.any()]
+    least, most = (f"{decimals(end, 3)} (kA = {number(values[i])})" for i, end in
+                   ((int(at), float(bits[at])) for at in (bits.argmin(), bits.argmax())))  # fmt: skip
+    seen = f"from {least} to {most} bits per wave period" if len(across) > 1 else f"{least} bits per wave period"
+    looped = [planar_releases(run) > 0 and run not in across for run in runs]
+    without = ""
+    if any(looped):
+        without = (
+            f" Planar runs that released loops have none (kA = {ranges([run.steepness for run in runs], looped)}): "
+            "there a loop buckles sideways."
+        )
+    caption = (
+        "Exponent of an infinitesimal perturbation across the plane, with one standard error: below zero the planar "
+        f"motion is stable. Seen: {seen}. From `{_EXPONENT}` and `{_ERROR}` of `table.csv`."
+    )
+    return [
+        Text(
+            "Planar runs carry an infinitesimal perturbation across their plane (`output.lateral_growth`): it "
+            f"{'; it '.join(parts)}.{without}"
+        ),
+        Figure(
+            transverse_exponents(np.array(values), bits, errors), caption,
+            f"Exponent across the plane over wave steepness: {seen}.",
+        ),
+    ]  # fmt: skip
+
+
+def _exponent(run: Run) -> tuple[float, float]:
+    """Exponent across the plane and its error in bits per period, nan where there is none."""
+    return tuple(float(run.row.get(column, math.nan)) for column in (_EXPONENT, _ERROR))
 
 
 def planar_radius(run: Run) -> tuple[float, float]:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 from .buoy_figures import PAPER_WINDOW
 from .buoy_physics import Modes
 from .buoy_runs import Run, value
@@ -9,13 +11,7 @@ from .content import Notice
 from .symbols import T_I, TAU_0
 from .wording import count, decimals, listed, number, percent, ranges
 
-# What `campaigns.out_of_plane` found; its report has the numbers.
-COMPARED = (
-    "`campaigns.out_of_plane` compared such runs with runs in three dimensions at kA = 0.13 and depths of 21.0, 21.6 "
-    "and 22.0 m, over 200 wave periods: range of r, section, exponent and regime of the buoy were the same within what "
-    "one record leaves open. The path of the buoy in time after the first loops, and the shape of the rope in a loop, "
-    "were not."
-)
+_RESOLVED_RAD = 0.5 * math.pi  # turn of one element beyond which a loop is no longer resolved
 _MANY = 8  # statements of one kind above which a box sums them up
 
 
@@ -60,7 +56,8 @@ def _end(run: Run) -> str:
 def _turns(runs) -> Notice | None:
     looped = [run for run in runs if value(run, "loop_releases") > 0]
     unresolved = [run for run in runs if run.row["status"] == "turn-unresolved"]
-    if not looped and not unresolved:
+    coarse = [run for run in runs if run.in_space and value(run, "max_turn_rad") > _RESOLVED_RAD]
+    if not looped and not unresolved and not coarse:
         return None
     lines = [f"{_at([run])}: {releases(run)}" for run in looped]
     if len(looped) > _MANY:
@@ -73,12 +70,22 @@ def _turns(runs) -> Notice | None:
         ]
     if unresolved:
         lines.append(f"Ended because a turn could not be resolved: {_at(unresolved)}.")
-    lines.append(
-        "A loop that a plane cannot open was undone by turning everything above it by 2π (columns `loop_releases`, "
-        "`max_turn_rad`). A rope free to leave the plane does not need it."
-    )
+    if looped:
+        lines.append(
+            "A loop that a plane cannot open was undone by turning everything above it by 2π (columns `loop_releases`, "
+            "`max_turn_rad`). A rope free to leave the plane does not need it."
+        )
     if any(not run.in_space for run in looped):
-        lines += [COMPARED, "A sweep with `--dimensions auto` runs these values of kA in three dimensions."]
+        lines.append(
+            "What the planar run is good enough for is said in the section “Out of the plane”; a sweep with "
+            "`--dimensions auto` runs these values of kA in three dimensions."
+        )
+    if coarse:
+        most = max(value(run, "max_turn_rad") for run in coarse)
+        lines.append(
+            f"In three dimensions an element turns by more than π/2, at most by {decimals(most, 2)} rad: "
+            f"{_at(coarse)}. The rope's loops are not resolved there; `tether.nodes` makes the elements shorter."
+        )
     return Notice("warning", "Loops and unresolved turns", tuple(lines))
 
 

@@ -191,7 +191,9 @@ def _table(pairs: list[Pair]) -> Table:
 
 def _with_error(run: Run, name: str) -> str:
     found = run[f"lyapunov_{name}_bits_per_period"]
-    return EMPTY if math.isnan(found) else f"{decimals(found, 3)} ± {decimals(run[f'lyapunov_{name}_error'], 3)}"
+    if math.isnan(found):
+        return EMPTY
+    return f"{decimals(found, 3)}\u00a0±\u00a0{decimals(run[f'lyapunov_{name}_error'], 3)}"
 
 
 def _figure(pairs: list[Pair], transient: int) -> Figure:

@@ -7,11 +7,12 @@ from pathlib import Path
 from .buoy_tables import provenance_items, timing_table
 from .content import Bullets, Column, Heading, Item, Notice, Report, Table, Text
 from .folder import Folder, FolderError, read_folder
-from .offplane_answer import short_answer, speed
+from .offplane_answer import short_answer
 from .offplane_comparison import comparison_items, read_pairs
 from .offplane_runs import COLUMNS, VARIED, WORDS, Run, Study, read_study
 from .offplane_sections import growth_items, history_items, push_items
 from .offplane_varied import dependence_items, direction_items, grid_items, shape_items
+from .offplane_words import speed
 from .scene_table import scene_table
 from .sweep_accuracy import accuracy_items
 from .wording import EMPTY, count, decimals, listed, number
@@ -152,6 +153,10 @@ def _scene_and_times(folder: Folder, study: Study) -> list[Item]:
         "motion.dimensions": _values(study, "dimensions"),
         "start.buoy_velocity_mps": "see the table of runs",
     }
+    if any(run.known("offplane_growth_bits_per_period") for run in study.runs):
+        swept |= {"output.tangent_vectors": "1 in planar runs", "output.lateral_growth": "yes in planar runs"}
+    if any(run["profiles"] for run in study.runs):
+        swept["output.profiles"] = "yes in one run"
     caption = "The scene, from `scene.toml`; defaults are those of the scene `tethered_buoy`."
     table = scene_table(folder.scene, load_scene("tethered_buoy"), swept, caption)
     times = timing_table(folder)

@@ -6,11 +6,13 @@ import numpy as np
 
 from .content import Column, Figure, Heading, Item, Table, Text
 from .figures.offplane_history import History, lateral_histories, seed_histories
-from .offplane_answer import infinitesimal, metres, speed, with_error
+from .offplane_answer import infinitesimal
 from .offplane_runs import BODIES, DISPLACEMENT, Run, Study, envelope
+from .offplane_words import metres, share, speed, spread, with_error
 from .wording import EMPTY, count, number, percent
 
 _SCALED_PERIODS = 20  # of the push figure: past the first loop at every depth
+_DEPARTURE_PERIODS = 4  # after the least value within which the first burst is looked at
 _PLAIN_SPAN = 8  # periods: two bursts or so, so that eight curves of bursts can be told apart
 
 
@@ -43,7 +45,30 @@ def history_items(study: Study) -> list[Item]:
             "paper shows the buoy alone."
         ),
         Figure(lateral_histories(panels), caption, f"Lateral motion on a logarithmic axis for both waves: {seen}."),
+        *(Text(words) for run, trajectory in loaded if (words := _departure(run, trajectory))),
     ]
+
+
+def _departure(run: Run, trajectory) -> str:
+    """How the lateral motion gets from the push to its first burst in the rope, "" where there is none."""
+    if not run.known("rope_first_burst_period"):
+        return ""
+    parts, spans = [], []
+    for body in BODIES:
+        periods, size = envelope(trajectory, body)
+        least = int(np.argmin(np.where(periods < run["rope_first_burst_period"], size, np.inf)))
+        most = least + int(np.argmax(size[least : least + _DEPARTURE_PERIODS + 1]))
+        spans.append(periods[most] - periods[least])
+        nats = number(float(np.log(size[most] / size[least])), 2)
+        parts.append(
+            f"the {body} is at its least, {metres(float(size[least]))}, at t = {number(float(periods[least]), 3)} "
+            f"periods, and at {metres(float(size[most]))} at {number(float(periods[most]), 3)} ({nats} nats)"
+        )
+    return (
+        f"How it leaves the plane at kA = {number(run['steepness'])}: before the first burst of the rope, by the "
+        f"largest value in each wave period, {' and '.join(parts)}. The rise takes "
+        f"{number(float(max(spans)), 2)} wave periods at most."
+    )
 
 
 def _history(run: Run, trajectory, body: str) -> History:
@@ -88,7 +113,7 @@ def growth_items(study: Study) -> list[Item]:
             "half a lateral swing; where those are too few, in one) has a straight part of at least three nats and "
             "nine points that separates what comes before from what comes after; its error is the scatter of the "
             "slopes of its quarters. Otherwise maxima of single periods that stand three nats above the dips on both "
-            "sides are bursts. A rate inside a burst has no limit in the mesh, so none is given."
+            "sides are bursts; no rate is given for the rise of a burst."
         ),
         Table(heads, rows, caption, small=True),
         *([Text(words)] if (words := _agreement(study, runs)) else []),
@@ -116,7 +141,8 @@ def _growth_row(study: Study, run: Run, body: str) -> tuple[str, ...]:
     def cell(name: str, digits: int = 3) -> str:
         return number(run[f"{body}_{name}"], digits)
 
-    window = f"{cell('fit_from_period')} to {cell('fit_to_period')}" if run.known(f"{body}_fit_from_period") else EMPTY
+    ends = (cell("fit_from_period"), cell("fit_to_period"))
+    window = "\u00a0to\u00a0".join(ends) if run.known(f"{body}_fit_from_period") else EMPTY
     return (
         number(run["steepness"]),
         number(run["depth_m"]),
@@ -164,17 +190,13 @@ def push_items(study: Study) -> list[Item]:
                     for name, digits in (("early_gain_s", 6), ("first_burst_m", 3), ("lateral_late_m", 3))
                 )
                 rows.append(
-                    (number(steepness), number(run["nodes"]), _power(run["seed_mps"]), *cells, run["rope_motion"])
+                    (number(steepness), number(run["nodes"]), number(run["seed_mps"]), *cells, run["rope_motion"])
                 )
     caption = (
         "The push and what becomes of it. early |y|/push: largest lateral distance in the first eight wave periods by "
         "the lateral speed of the push, the same for every push as long as the response is linear. From `table.csv`."
     )
     return [*items, Table(heads, tuple(rows), caption, small=True)]
-
-
-def _power(push: float) -> str:
-    return number(push).replace("e-0", "e-")
 
 
 def _push_figure(study: Study, loaded) -> Figure:
@@ -190,9 +212,10 @@ def _push_figure(study: Study, loaded) -> Figure:
         panels.append((f"{body}: per push", "$|y|$/push (s)", scaled))
         panels.append((f"{body}: as it is", "$|y|$ (m)", plain))
     late = [run["rope_lateral_late_m"] for run, _ in loaded]
+    off = max(spread([run[f"{body}_early_gain_s"] for run, _ in loaded]) for body in BODIES)
     seen = (
-        f"the curves per push fall on one another until the first loop; in the second half the rope reaches "
-        f"{metres(min(late))} to {metres(max(late))} whatever the push"
+        f"in the first eight wave periods the largest values per push differ by {share(off)}; in the second half the "
+        f"rope reaches {metres(min(late))} to {metres(max(late))}"
     )
     caption = (
         f"Size of the push at kA = {number(study.base['steepness'])}, H = {number(study.base['depth_m'])} m. Left: "

@@ -7,8 +7,8 @@ import numpy as np
 from .content import Column, Figure, Heading, Item, Table, Text
 from .figures.offplane_dependence import dependence
 from .figures.rope_shape import rope_shapes
-from .offplane_answer import metres, with_error
 from .offplane_runs import BODIES, Run, Study
+from .offplane_words import metres, with_error
 from .symbols import T_I
 from .wording import EMPTY, decimals, listed, number, percent
 
@@ -32,14 +32,13 @@ def dependence_items(study: Study) -> list[Item]:
                 (f"EI = {number(stiffness)} N m²", np.array([run["depth_m"] for run in chosen]), size, decays)
             )
         panels.append((body, curves))
-    lasting = [run for run in runs if run["rope_motion"] != "decay"]
     parts = [
-        f"the {body} reaches {metres(min(found))} to {metres(max(found))} where its motion goes on"
+        f"the {body} reaches {metres(min(found))} to {metres(max(found))} where it does not decay exponentially"
         for body in BODIES
-        if (found := [run[f"{body}_lateral_late_m"] for run in lasting])
+        if (found := [run[f"{body}_lateral_late_m"] for run in runs if run[f"{body}_motion"] != "decay"])
     ]
     decaying = sorted({run["depth_m"] for run in runs if run["rope_motion"] == "decay"})
-    parts += [f"it decays at H = {listed(number(depth) for depth in decaying)} m"] if decaying else []
+    parts += [f"the rope decays at H = {listed(number(depth) for depth in decaying)} m"] if decaying else []
     seen = "; ".join(parts)
     caption = (
         f"Largest lateral distance in the second half of each run at kA = {number(study.base['steepness'])} over the "
@@ -98,9 +97,11 @@ def _stiffness_of_small(runs: list[Run]) -> str:
     off = max(rates) - min(rates)
     stiffnesses = listed(number(run["bending_stiffness_Nm2"]) for run in runs)
     same = "to the last digit" if off == 0 else f"to {number(off, 2)} bits per wave period"
+    slack = max(run["slack_fraction"] for run in runs)
+    taut = "the tether stays taut, and " if slack == 0 else ""
     return (
-        f"At kA = {number(runs[0]['steepness'])} the tether stays taut, and the lateral motion is that of a "
-        f"pendulum: its rate is the same {same} for EI = {stiffnesses} N m²."
+        f"At kA = {number(runs[0]['steepness'])} {taut}the rate of the buoy is the same {same} for EI = {stiffnesses} "
+        "N m²."
     )
 
 
@@ -217,10 +218,9 @@ def grid_items(study: Study) -> list[Item]:
         for run in chosen
     )
     caption = (
-        "The grid. early |y|/push: of the rope, in the first eight wave periods, while the rope goes slack but makes "
-        "no loop yet; what a coarse grid answers there is its own. first burst: of the rope; turn: largest turn within "
-        "one element, which has to stay below π/2 to be called resolved; wall: time per wave period on the machine "
-        "that ran it. From `table.csv`."
+        "The grid. early |y|/push: of the rope, in the first eight wave periods; first burst: of the rope; turn: "
+        "largest turn within one element, which has to stay below π/2 to be called resolved; wall: time per wave "
+        "period on the machine that ran it. From `table.csv`."
     )
     return [Heading("Grid"), Table(heads, rows, caption, small=True)]
 

@@ -79,6 +79,7 @@ SOURCES: dict[str, tuple[str, str]] = {
     "solver.loop_release": ("release of loops that a plane cannot open", NUMERICAL),
     "solver.max_loop_releases": ("most loop releases a run", NUMERICAL),
     "output.step_s": ("output step", NUMERICAL),
+    "output.energy": ("energy budget kept (dry lines)", NUMERICAL),
     "output.profiles": ("profiles along the tether kept", NUMERICAL),
     "output.profiles_step_s": ("output step of the profiles", NUMERICAL),
     "output.tangent_vectors": ("perturbations carried along (Lyapunov exponents)", NUMERICAL),

@@ -12,7 +12,7 @@ def number(value: float | None, digits: int = 4) -> str:
     """A value with `digits` significant digits, without an exponent where it can be read without one; a dash for none.
 
     >>> number(20.391234), number(1611.0), number(2.5e-9), number(float("nan"))
-    ('20.39', '1611', '2.5e-09', '–')
+    ('20.39', '1611', '2.5e-9', '–')
     """
     if value is None or not math.isfinite(value):
         return EMPTY
@@ -21,7 +21,7 @@ def number(value: float | None, digits: int = 4) -> str:
     text = f"{value:.{digits}g}"
     if "e" in text and 1e-4 <= abs(value) < 1e7:
         text = f"{value:.0f}"
-    return _minus(text)
+    return _minus(text.replace("e-0", "e-").replace("e+0", "e").replace("e+", "e"))
 
 
 def decimals(value: float | None, places: int) -> str:

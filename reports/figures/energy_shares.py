@@ -28,7 +28,8 @@ def energy_shares(panels: list[EnergyPanel]) -> Picture:
     with sheet(0.8 + 1.75 * rows) as figure:
         grid = figure.subplots(rows, min(len(panels), 4), squeeze=False, sharey=True)
         for axes, panel in zip(grid.flat, panels, strict=False):
-            shown = axes.stackplot(1e3 * panel.time_s, 100 * np.maximum(panel.shares, 0.0), colors=_COLOURS, linewidth=0)
+            shares = 100 * np.maximum(panel.shares, 0.0)
+            shown = axes.stackplot(1e3 * panel.time_s, shares, colors=_COLOURS, linewidth=0)
             axes.set_title(panel.title)
             axes.set_xlim(0.0, 1e3 * panel.time_s[-1])
             axes.set_ylim(0.0, 100.0)

@@ -1,4 +1,4 @@
-"""Fronts of breaking lines in the plane of place and time, exact characteristics and shocks over the computed tension."""
+"""Fronts of breaking lines over place and time: exact characteristics and shocks over the computed tension."""
 
 from __future__ import annotations
 

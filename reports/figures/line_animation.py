@@ -10,8 +10,8 @@ import numpy as np
 from ..content import Picture
 from ..style import BLUE, INK, SOFT, VERMILION, picture_of, sheet
 
-_FRAMES_PER_SECOND = 15
-_DOTS_PER_INCH = 110
+_FRAMES_PER_SECOND = 10
+_DOTS_PER_INCH = 90
 _STRIP = 6
 
 

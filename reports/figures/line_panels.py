@@ -9,6 +9,8 @@ import numpy as np
 from ..content import Picture
 from ..style import BLUE, SOFT, VERMILION, picture_of, sheet
 
+_WIDTH_IN = 5.6  # of all panels of a row
+
 
 @dataclass(frozen=True)
 class LinePanel:
@@ -25,9 +27,9 @@ def line_panels(panels: list[LinePanel], x_label: str, y_label: str, y_limits: l
 
     y_limits: (low, high) of each panel; centre: mark the fixed end at x = 0.
     """
+    from matplotlib import colormaps
     from matplotlib.cm import ScalarMappable
     from matplotlib.colors import LinearSegmentedColormap, Normalize
-    from matplotlib import colormaps
 
     late = max(float(panel.time_s[-1]) for panel in panels)
     # without its yellow end, which is lost on white paper
@@ -56,10 +58,11 @@ def line_panels(panels: list[LinePanel], x_label: str, y_label: str, y_limits: l
 
 
 def folds(panels: list[LinePanel], x_limits: tuple[float, float], z_limits: tuple[float, float]) -> Picture:
-    """Shapes in true proportion, four panels a row; x and y of each panel (n,), time_s its one instant."""
-    rows = (len(panels) + 3) // 4
-    wide = min(len(panels), 4)
-    with sheet(0.5 + rows * (0.45 + 1.45 * (z_limits[1] - z_limits[0]) / (x_limits[1] - x_limits[0]))) as figure:
+    """Shapes in true proportion, two panels a row; x and y of each panel (n,), time_s its one instant."""
+    wide = min(len(panels), 2)
+    rows = (len(panels) + 1) // 2
+    height = _WIDTH_IN / wide * (z_limits[1] - z_limits[0]) / (x_limits[1] - x_limits[0])
+    with sheet(0.4 + rows * (0.3 + height)) as figure:
         grid = figure.subplots(rows, wide, squeeze=False, sharex=True, sharey=True)
         for axes, panel in zip(grid.flat, panels, strict=False):
             axes.plot(panel.x, panel.y, color=BLUE, linewidth=0.7)

@@ -47,7 +47,7 @@ def lateral_histories(panels: list[tuple[str, list[History]]]) -> Picture:
             axes.set_ylabel(label)
             axes.margins(x=0.01)
         rows[0].plot([], [], ":", color="black", linewidth=1.0, label="in-plane half range of the buoy")
-        rows[0].legend(loc="lower left", ncols=3)
+        figure.legend(*rows[0].get_legend_handles_labels(), loc="outside upper center", ncols=3)
         rows[-1].set_xlabel(r"$t/T_i$ (wave periods)")
         figure.align_ylabels(rows)
         return picture_of(figure)

@@ -1,4 +1,4 @@
-"""Error against run time, log-log: every setting a mark, and a line a method through those that nothing cheaper beats."""
+"""Error against run time, log-log: a mark for every setting, a line a method through what nothing cheaper beats."""
 
 from __future__ import annotations
 

@@ -38,4 +38,4 @@ def test_no_argument_is_a_complete_order():
     assert list(order.scenes) == list(STEEPNESS)
     assert all(scene.waves.steepness == value for value, scene in order.scenes.items())
     assert order.transient < order.periods
-    assert order.out.as_posix() == "results/buoy_sweep"
+    assert order.how.out.as_posix() == "results/buoy_sweep"

@@ -16,13 +16,15 @@ from engine.planar.sweep import sweep_bent
 from engine.planar.sweep_unbent import sweep_unbent
 
 
-def kernel_update(scene, cq, cv, in_motion, Y, C_tilde, F):
-    """The engine's Newton update (n, 6) at a state, with the water F (n, 4) frozen."""
+def kernel_update(scene, cq, cv, in_motion, Y, C_tilde, F, viscosity=None):
+    """The engine's Newton update (n, 6) at a state, with the water F (n, 4) and the viscosity (n, 2) frozen."""
     tables = []
     p = record_of(scene, tables)[0]
     tables = np.concatenate(tables)
     n = len(Y)
     Q, X, E, D = np.zeros((n, WIDTH)), np.zeros((n, 2)), np.zeros((n, SWEEP_WIDTH)), np.zeros((n, 6))
+    if viscosity is not None:
+        Q[:, -2:] = viscosity
     shape(p, tables, Y, Q, X)
     node_quantities(p, tables, cq, cv, in_motion, Y, C_tilde, F, Q)
     sweep = sweep_bent if scene.tether.bending_stiffness_Nm2 > 0 else sweep_unbent
@@ -60,10 +62,11 @@ def square(x):
     return np.sign(x.real) * x * x
 
 
-def residual(scene, cq, cv, in_motion, Y, C_tilde, F):
+def residual(scene, cq, cv, in_motion, Y, C_tilde, F, viscosity=None):
     """All equations as one vector: 6 n of them with bending; without, 4 n.
 
-    Y (n, 6) = eps, S, U, W, phi, kappa;  C_tilde (n, 4) = q~, V~;  F (n, 4) water velocity and acceleration.
+    Y (n, 6) = eps, S, U, W, phi, kappa;  C_tilde (n, 4) = q~, V~;  F (n, 4) water velocity and acceleration;
+    viscosity (n, 2) = B, L of T_v = B |e_t| e_t + L e_t, e_t = cq (1 + eps - |q~|) in motion.
     """
     tether = scene.tether
     bent = tether.bending_stiffness_Nm2 > 0
@@ -76,7 +79,11 @@ def residual(scene, cq, cv, in_motion, Y, C_tilde, F):
     V = np.stack([U, W], 1)
     q_t = cq * (lam[:, None] * t - C_tilde[:, :2])
     V_t = cv * (V - C_tilde[:, 2:])
-    N = tension(tether.tension, eps)[:, None] * t + S[:, None] * n
+    T = tension(tether.tension, eps)
+    if viscosity is not None:
+        e_t = in_motion * cq * (lam - np.hypot(*C_tilde[:, :2].T))
+        T = T + viscosity[:, 0] * square(e_t) + viscosity[:, 1] * e_t
+    N = T[:, None] * t + S[:, None] * n
     rho = scene.water.density_kgpm3 if scene.water is not None else 0.0
     g = scene.gravity_mps2
     weight = (tether.density_kgpm3 - rho) * tether.area_m2 * g
@@ -125,12 +132,12 @@ def unknowns(scene):
     return [0, 1, 2, 3, 4, 5] if scene.tether.bending_stiffness_Nm2 > 0 else [0, 2, 3, 4]
 
 
-def jacobian(scene, cq, cv, in_motion, Y, C_tilde, F):
+def jacobian(scene, cq, cv, in_motion, Y, C_tilde, F, viscosity=None):
     """d residual / d Y[:, unknowns], by complex step; unknowns node by node."""
     columns = []
     for k in range(len(Y)):
         for i in unknowns(scene):
             Z = Y.astype(complex)
             Z[k, i] += 1e-30j
-            columns.append(residual(scene, cq, cv, in_motion, Z, C_tilde, F).imag / 1e-30)
+            columns.append(residual(scene, cq, cv, in_motion, Z, C_tilde, F, viscosity).imag / 1e-30)
     return np.array(columns).T

@@ -16,8 +16,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from engine.march import march
-from engine.parameters import record_of, tension_at
+from engine.parameters import record_of
 from engine.planar import node as planar_node
+from engine.scales import tension_at
 from engine.spatial import node as spatial_node
 from tests.engine.lines import Motion
 from tests.engine.spatial.lines import frames

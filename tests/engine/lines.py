@@ -6,7 +6,7 @@ import importlib
 import numpy as np
 
 from engine import load_scene
-from engine.parameters import tension_at
+from engine.scales import tension_at
 
 DRY = {"water": None, "waves": None}
 STILL = {"waves": None}

@@ -41,7 +41,8 @@ class Run:
             self.state["trail"] = 0
             march(
                 self.record, self.tables, self.state, batch.Y[0], batch.Y_before[0], batch.C[0], batch.K[0],
-                batch.samples[0], batch.profiles[0], batch.energies[0], batch.sums[0], self.T, self.Ys, self.Ks, batch.goals[0],
+                batch.samples[0], batch.profiles[0], batch.energies[0], batch.sums[0],
+                self.T, self.Ys, self.Ks, batch.goals[0],
             )  # fmt: skip
             assert self.state["status"] == OK
             yield int(self.state["trail"])

@@ -77,3 +77,23 @@ def test_update_solves_the_linearised_box_equations(law, end, wet, EI, stage):
             assert np.all(np.abs(left) <= 1e-6 * (np.abs(J) @ np.abs(exact).ravel() + np.abs(r)))
             if EI == 0:
                 assert not D[:, [1, 5]].any()
+
+
+@pytest.mark.parametrize("stage", STAGES)
+@pytest.mark.parametrize("EI", [0.0, 24.0])
+@pytest.mark.parametrize("law", ["linear", "tanh"])
+def test_with_shock_viscosity(law, EI, stage):
+    rng = np.random.default_rng(8)
+    viscous = {"solver.shock_viscosity": {"quadratic": 1.0, "linear": 0.2}, "solver.integrator": "generalized-alpha"}
+    line = {"tether.tension": LAWS[law], "tether.nodes": 9, "tether.bending_stiffness_Nm2": EI}
+    scene = load_scene("tethered_buoy", {**line, "water": None, "waves": None, **ENDS["free"], **viscous})
+    for _ in range(5):
+        Y, C_tilde, F = state_of(rng, scene)
+        coefficients = rng.uniform(0.0, [2.0, 40.0], (9, 2))
+        coefficients[rng.random(9) < 0.3] = 0.0
+        state = (*STAGES[stage], Y, C_tilde, F, coefficients)
+        r, J, D = residual(scene, *state), jacobian(scene, *state), kernel_update(scene, *state)
+        if STAGES[stage][2]:
+            assert np.abs(r - residual(scene, *state[:-1])).max() > 1e-3 * np.abs(r).max()
+        exact = np.linalg.solve(J, -r).reshape(9, -1)
+        assert np.all(np.abs(D[:, unknowns(scene)] - exact).max(0) <= 1e-6 * np.abs(exact).max(0))

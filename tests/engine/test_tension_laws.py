@@ -9,8 +9,9 @@ import numpy as np
 import pytest
 from scipy.interpolate import PchipInterpolator
 
-from engine.parameters import record_of, strain_at, tension_at
-from engine.tension import tension
+from engine.parameters import record_of
+from engine.scales import strain_at, tension_at
+from engine.tension import stored, tension
 from tests.engine.lines import line
 
 STRAIN = [-0.2, -0.05, 0.0, 0.01, 0.04, 0.041, 0.1, 0.3, 0.5]
@@ -90,3 +91,24 @@ def test_the_law_outside_the_kernels_is_the_same(name):
     assert T == pytest.approx([tension_at(e, law) for e in strains], rel=1e-12)
     for load in (0.5 * T[20] + 0.5 * T[21], T[150]):
         assert tension_at(strain_at(load, law), law) == pytest.approx(load, rel=1e-9)
+
+
+@pytest.mark.parametrize("name", LAWS)
+def test_the_barrier_keeps_a_line_from_collapsing(name):
+    """T - P_b (0.5/lambda - 1)^2 below lambda = 1/2; the slope is T', the stored energy its integral."""
+    tables = []
+    guarded = line({"tether.tension": LAWS[name][0], "tether.compression_barrier_N": 2e4})
+    record, bare = record_of(guarded, tables)[0], record_of(line(tension=LAWS[name][0]), [])[0]
+    flat = np.concatenate(tables)
+    strains = np.concatenate([np.linspace(-0.99, -0.51, 40), np.linspace(-0.49, 0.4, 40)])
+    T, slope = np.array([tension(e, record, flat) for e in strains]).T
+    plain = np.array([tension(e, bare, flat)[0] for e in strains])
+    excess = np.where(strains < -0.5, 0.5 / (1.0 + strains) - 1.0, 0.0)
+    assert T == pytest.approx(plain - 2e4 * excess**2, rel=1e-13, abs=1e-9)
+    step = 1e-6
+    high, low = (np.array([tension(e + d, record, flat)[0] for e in strains]) for d in (step, -step))
+    assert slope == pytest.approx((high - low) / (2 * step), rel=1e-4, abs=1.0)
+    energy = np.array([[stored(e + d, record, flat) for e in strains] for d in (step, -step)])
+    assert T == pytest.approx((energy[0] - energy[1]) / (2 * step), rel=1e-5, abs=0.05)
+    assert stored(0.0, record, flat) == pytest.approx(0.0, abs=1e-12)
+    assert tension(-0.999, record, flat)[0] < -1e9

@@ -100,11 +100,14 @@ def test_the_record_of_a_turned_scene_holds_the_vectors_turned(angle):
         return record_of(line(SPACE, turned_end({"end": end, "buoy": None}, angle), {"anchor": anchor}), [])[0]
 
     plain, there = record(0.0), record(angle)
-    for names in ("below_{}", "above_{}", "end_f{}"):
-        vector, turned_vector = (np.array([p[names.format(axis)] for axis in "xyz"]) for p in (plain, there))
-        assert turned_vector == pytest.approx(turned(vector, angle), rel=1e-14)
+    vectors = [[f"{name}{axis}" for axis in "xyz"] for name in ("below_", "above_", "end_f")]
+    vectors.append(["carry1", "carry2", "carry3"])  # the axis of a rotation, which turns with the scene
+    for names in vectors:
+        vector, turned_vector = (np.array([p[name] for name in names]) for p in (plain, there))
+        assert turned_vector == pytest.approx(turned(vector, angle), rel=1e-14, abs=1e-15)
         assert vector.any()
-    same = set(SPATIAL.names) - {f"{name}{axis}" for name in ("below_", "above_", "end_f") for axis in "xyz"}
+    assert there["carry0"] == pytest.approx(plain["carry0"], rel=1e-14)  # its angle, which does not
+    same = set(SPATIAL.names) - {name for names in vectors for name in names} - {"carry0"}
     assert all(plain[name] == there[name] for name in same if not name.startswith("per_"))
 
 

@@ -23,6 +23,7 @@ def distances(found, expected):
     return np.sort(np.abs(found[:, None] / expected - 1), axis=0)[:2].T
 
 
+@pytest.mark.slow
 def test_a_bare_chain_swings_in_both_directions_at_the_zeros_of_j0():
     scene = in_space(DRY, free(), length_m=10.0, nodes=81, area_m2=5e-4, density_kgpm3=1000.0,
                      bending_stiffness_Nm2=1e-6, tension=linear(1e9))  # fmt: skip

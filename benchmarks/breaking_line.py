@@ -1,0 +1,91 @@
+"""Shock capturing of the breaking line: figures and tables of docs/breaking_line.md. About three minutes.
+
+    .venv/bin/python -m benchmarks.breaking_line        # writes docs/breaking_line_*.png
+
+1. The eight cases of the paper as the campaign runs them, on two processes: wall time; figures of the report.
+2. Case 4 without gravity on even grids: error, ripples and place of the shock over viscosity, step and damping.
+"""
+
+import math
+import tempfile
+import time
+from pathlib import Path
+
+import numpy as np
+from PIL import Image
+
+from analysis import breaking_measures as measures
+from analysis.breaking_theory import theory_of
+from campaigns import breaking_line
+from engine import load_scene, simulate
+from reports.breaking_figures import folds_figure, plane_figure
+from reports.breaking_runs import COLUMNS, WORDS, read_lines
+from reports.folder import read_folder
+
+DOCS = Path(__file__).parents[1] / "docs"
+GRIDS = (401, 801)
+CHOICES = {
+    "as shipped": {},
+    "c_l = 0.1": {"solver.shock_viscosity": {"quadratic": 1.0, "linear": 0.1}},
+    "c_l = 0.3": {"solver.shock_viscosity": {"quadratic": 1.0, "linear": 0.3}},
+    "c_l = 0.5": {"solver.shock_viscosity": {"quadratic": 1.0, "linear": 0.5}},
+    "c_q = 0.5": {"solver.shock_viscosity": {"quadratic": 0.5, "linear": 0.2}},
+    "c_q = 2": {"solver.shock_viscosity": {"quadratic": 2.0, "linear": 0.2}},
+    "Courant number 0.5": {"solver.courant": 0.5},
+    "Courant number 0.25": {"solver.courant": 0.25},
+    "Courant number 2": {"solver.courant": 2.0},
+    "rho_inf = 0.8": {"solver.spectral_radius": 0.8},
+    "rho_inf = 0.2": {"solver.spectral_radius": 0.2},
+    "rho_inf = 0": {"solver.spectral_radius": 0.0},
+}
+
+
+def straight(nodes, **changes):
+    """Case 4 without gravity on an even grid."""
+    even = {"tether.nodes": nodes, "tether.grid_stretching": 0.0, "tether.grid_refined": "both"}
+    plain = {"gravity_mps2": 0.0, "end.force_N": [450e3, 0.0, 0.0], **even}
+    return load_scene("breaking_line", {**plain, **changes})
+
+
+def captured(nodes, theory, changes):
+    """One row: mean error of strain, overshoot, rise, shock off by elements; nan where the run fails."""
+    run = simulate(straight(nodes, **changes), duration_s=theory.arrival_s)
+    if run.status != "ok":
+        return [math.nan] * 4
+    above, rise = measures.strain_overshoot(run.profiles, 0.98 * theory.arrival_s)
+    _, places, exact = measures.shock_track(run.profiles, theory)
+    off = np.median(np.abs(places - exact)) * (nodes - 1) / theory.length_m
+    return [1e6 * measures.strain_error(run.profiles, theory), 100 * above, 100 * rise, off]
+
+
+def table():
+    theory = theory_of(straight(GRIDS[0]), 0.2)
+    print("| | error at 401, 801 nodes, 1e-6 | order | overshoot, % | rise, % | shock off, elements |")
+    print("|---|---|---|---|---|---|")
+    for name, changes in CHOICES.items():
+        coarse, fine = (captured(nodes, theory, changes) for nodes in GRIDS)
+        order = math.log2(coarse[0] / fine[0])
+        both = [f"{a:.3g}, {b:.3g}" for a, b in zip(coarse, fine, strict=True)]
+        print(f"| {name} | {both[0]} | {order:.2f} | {both[1]} | {both[2]} | {both[3]} |")
+
+
+def eight():
+    with tempfile.TemporaryDirectory() as place:
+        words = ["--no-companions", "--no-report", "--jobs", "2", "--out", place]
+        breaking_line.main(words)  # compiles
+        lines = read_lines(read_folder(place, COLUMNS, WORDS))
+        for name, figure in (("fronts", plane_figure(lines)), ("folds", folds_figure(lines))):
+            path = DOCS / f"breaking_line_{name}.{figure.picture.kind}"
+            path.write_bytes(figure.picture.data)
+            if path.suffix == ".png":
+                Image.open(path).convert("RGB").quantize(256, Image.Quantize.FASTOCTREE).save(path, optimize=True)
+        for path in Path(place, "trajectories").glob("*"):
+            path.unlink()
+        start = time.perf_counter()
+        breaking_line.main(words)
+        print(f"eight cases, two processes: {time.perf_counter() - start:.1f} s")
+
+
+if __name__ == "__main__":
+    eight()
+    table()

@@ -1,0 +1,87 @@
+"""Scales of a scene: in what Newton updates and step errors are measured, the fastest wave, the static loads."""
+
+import math
+
+import numpy as np
+
+
+def put_scales(record, scene, h):
+    """Inverse scales in which Newton updates and step errors are measured (Table 1: 0.04, 100 N, 1 m/s, 5 rad/m)."""
+    length, g = scene.tether.length_m, scene.gravity_mps2
+    stiff = buckling_load(scene.tether, scene.end)
+    load = max(abs(float(record["lift"])), abs(float(record["w0"])) * length, stiff, 1e-3)
+    if scene.end.force_N is not None:
+        load = max(load, math.hypot(*scene.end.force_N))
+    strain = strain_at(load, scene.tether.tension)
+    if scene.end.kind == "held":
+        stretched = math.hypot(*scene.end.position_m) / length - 1
+        if stretched > strain:
+            strain, load = stretched, max(load, tension_at(stretched, scene.tether.tension))
+    stiffness = max(tension_at(strain, scene.tether.tension), 1e-9) / strain  # secant: what the law offers up to there
+    pulled = end_speed(scene.end)
+    if pulled > 0:  # an end that is pulled away sends out a wave of the force V sqrt(m T/eps)
+        load = max(load, pulled * math.sqrt(float(record["m"]) * stiffness))
+        strain = max(strain, strain_at(load, scene.tether.tension))
+    record["per_strain"] = 1 / strain
+    transit = length * math.sqrt(float(record["m"]) / stiffness)
+    record["release_step"] = min(transit / 12, float(record["max_step"]))
+    record["per_force"] = 20 / load
+    recoil = strain * length / transit if scene.end.force_decay_s else 0.0  # of the end of a line that breaks
+    bent = stiff / float(record["m"])
+    record["per_speed"] = 1 / max(math.sqrt(max(g * length, bent)) / 14, recoil / 14, pulled, 1e-3)
+    record["per_curvature"] = float(np.mean(h)) / 2.5
+
+
+def fastest_wave(record, scene):
+    """Largest axial wave speed sqrt(T'/m), m/s, between no strain and that of the static loads."""
+    strains = np.linspace(0.0, 1.0 / float(record["per_strain"]), 2001)
+    slopes = np.diff([tension_at(strain, scene.tether.tension) for strain in strains]) / strains[1]
+    return math.sqrt(max(slopes.max(), 1e-300) / float(record["m"]))
+
+
+def end_speed(end):
+    """Greatest speed (m/s) at which a held end is moved; of a table the greatest between its rows, nearly."""
+    motion = end.motion
+    if motion is None:
+        return 0.0
+    if motion.law == "harmonic":
+        return 2 * math.pi / motion.period_s * math.hypot(*motion.amplitude_m)
+    steps = np.diff(motion.displacement_m, axis=0) / np.diff(motion.time_s)[:, None]
+    return float(np.linalg.norm(steps, axis=1).max())
+
+
+def buckling_load(tether, end):
+    """Force (N) of bending and twist, of use where a line has no weight: the greater of the compression at which a
+    clamped line buckles, EI (2 pi/L)^2 (Euler), and the tension that M = GIp twist/L overcomes, M^2/(4 EI) (Love).
+    """
+    EI, L = tether.bending_stiffness_Nm2, tether.length_m
+    torque = tether.torsion_stiffness_Nm2 * (end.twist_rad or 0.0) / L
+    return max(EI * (2 * math.pi / L) ** 2, torque**2 / (4 * EI)) if EI > 0 else 0.0
+
+
+def tension_at(strain, law):
+    """T (N) at a strain, outside the kernels."""
+    if law.law == "linear":
+        return law.stiffness_N * strain
+    if law.law == "tanh":
+        p1, p2, p3, p4, p5 = law.p
+        return p1 * math.tanh(p2 * strain + p3) + p4 + p5 * strain
+    from scipy.interpolate import PchipInterpolator
+
+    table = PchipInterpolator(law.strain, law.tension_N)
+    inside = min(max(strain, law.strain[0]), law.strain[-1])
+    return float(table(inside) + table.derivative()(inside) * (strain - inside))
+
+
+def strain_at(load, law):
+    """Smallest positive strain that carries `load` (N), within [1e-9, 10]."""
+    if law.law == "linear":
+        return max(load / law.stiffness_N, 1e-9)
+    from scipy.optimize import brentq
+
+    low, high = 1e-9, 1e-6
+    while tension_at(high, law) < load and high < 10:
+        low, high = high, 2 * high
+    if tension_at(low, law) >= load or tension_at(high, law) < load:
+        return high
+    return brentq(lambda e: tension_at(e, law) - load, low, high)

@@ -1,0 +1,30 @@
+"""What the sweep's report says of planar runs with loop releases is what the out-of-plane campaign finds."""
+
+from dataclasses import replace
+
+import pytest
+
+from campaigns import out_of_plane
+from reports.buoy_plane import COMPARED
+from reports.folder import read_folder
+from reports.offplane_comparison import APART_M, comparison_words, read_pairs
+from reports.offplane_runs import COLUMNS, WORDS, read_study
+
+
+@pytest.mark.slow
+def test_the_planar_run_is_good_enough_for_the_buoy_but_not_for_its_path(tmp_path):
+    """kA = 0.13 at three depths, 200 periods after a transient of 50, planar and in three dimensions."""
+    words = ["--jobs", "2", "--no-report", "--out", str(tmp_path / "out")]
+    order = out_of_plane.read_order(words, faults := [])
+    assert not faults and order.periods - order.transient == 200
+    scenes = {case: scene for case, scene in order.scenes.items() if out_of_plane.compared(case, order.base)}
+    assert out_of_plane.study(replace(order, scenes=scenes), words, None) == 0
+    pairs = read_pairs(read_study(read_folder(tmp_path / "out", COLUMNS, WORDS)))
+    assert [pair.depth for pair in pairs] == ["21", "21.6", "22"]
+    assert all(depth in COMPARED for depth in ("21.0", "21.6", "22.0")) and "200 wave periods" in COMPARED
+    for pair in pairs:
+        assert pair.lacking == [] and pair.exponents_agree and pair.same_regime
+        assert pair.planar["loop_releases"] > 20 and pair.spatial["loop_releases"] == 0
+        assert pair.before_m < 0.1 * APART_M and pair.parted > pair.spatial["rope_first_burst_period"]
+        assert pair.spatial["rope_lateral_max_m"] > 0.2
+    assert "for the buoy the planar run is good enough" in comparison_words(pairs)
