@@ -94,7 +94,7 @@ FULL = Effort(
     works=tuple(work.name for work in WORKS),
     nodes={
         "regular": (6, 11, 21, 41),
-        BUOY: (21, 41, 81, 161),
+        BUOY: (21, 41, 81, 101, 161),
         LINE: (51, 101, 201, 401, 801),
         "pendulum": (6, 11, 21, 41, 81),
     },
