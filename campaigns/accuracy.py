@@ -92,10 +92,21 @@ def study(order: Order, argv: list[str], simulate) -> int:
     second = engine_jobs(accuracy_plan.second_phase(order.effort), known)
     third = engine_jobs(accuracy_plan.third_phase(order.effort), known)
     others = _peer_jobs(order, known) if order.peers and ours else ([], [], [])
-    phases = [mine + theirs for mine, theirs in zip((first, second, third), others, strict=True)]
+    phases = [first + others[0], second + others[1], side_by_side(third, others[2], order.effort.rounds)]
     runs = partial(_in_phases, phases=phases, costs=ours, quick=order.quick)
     jobs = [job for phase in phases for job in phase]
     return session.conduct(CAMPAIGN, MODULE, argv, plan, jobs, _parameters(order), report=order.how.report, runs=runs)
+
+
+def side_by_side(ours: list, others: list, rounds: int) -> list:
+    """Timed jobs in the order in which they run: those of other codes, which run once, in the middle round of ours on
+    the same work, so that the machine's noise meets both."""
+    middle = rounds // 2
+    found = [job for job in ours if job.labels["round"] < middle]
+    rest = [job for job in ours if job.labels["round"] == middle]
+    for work in dict.fromkeys(job.labels["work"] for job in (*rest, *others)):
+        found += [job for job in (*rest, *others) if job.labels["work"] == work]
+    return found + [job for job in ours if job.labels["round"] > middle]
 
 
 def _in_phases(plan, jobs: list, phases: list, costs: bool, quick: bool):

@@ -145,8 +145,9 @@ def second_phase(effort: Effort) -> list[Point]:
 
 
 def third_phase(effort: Effort) -> list[Point]:
-    """What is timed, one at a time: every work's settings take turns, round by round."""
-    return [point for name in effort.works if BY_NAME[name].timed for point in timed(BY_NAME[name], effort)]
+    """What is timed, one at a time: all works' settings take turns, round by round."""
+    points = [point for name in effort.works if BY_NAME[name].timed for point in timed(BY_NAME[name], effort)]
+    return sorted(points, key=lambda point: point.round)
 
 
 def default_setting(point: Point) -> bool:

@@ -26,7 +26,7 @@ EXACT_NEWTON = {"solver.newton_tolerance": 1e-20, "solver.max_newton_iterations"
 TIGHT_NEWTON = {"solver.newton_tolerance": 1e-6}  # of timed points with fixed steps: their error is that of the step
 LONGEST_STEP_S = 2.0  # where errors over tolerances are shown: the shipped 0.1 s would decide, not the tolerance
 LONG_PERIODS = 24
-LONG = ((161, 1e-4), (161, 1e-5), (161, 1e-6), (321, 1e-5))
+LONG = ((161, 1e-4), (161, 1e-6), (161, 1e-5), (321, 1e-5), (641, 1e-5))  # neighbours differ in one of the two
 
 
 @dataclass(frozen=True)

@@ -142,42 +142,51 @@ def predictability_items(study: Study) -> list[Item]:
     """How long refined runs of the violent work stay together."""
     from engine import Trajectory
 
-    rows = [row for row in study.rows if row["kind"] == "long" and row["status"] == "ok"]
     runs = []
-    for row in rows:
-        try:
-            run = Trajectory.load(study.folder.trajectory_path(row["run_key"]))
-        except ValueError:
-            continue
-        runs.append((f"{number(row['nodes'])} nodes, rtol {row['setting']:g}", run.columns))
+    for row in study.rows:
+        if row["kind"] == "long" and row["status"] == "ok":
+            try:
+                runs.append((row, Trajectory.load(study.folder.trajectory_path(row["run_key"])).columns))
+            except ValueError:
+                continue
     if len(runs) < 2:
         return []
     time_s = runs[0][1]["time_s"]
-    pairs = [
-        (f"{coarse} and {fine}", np.abs(a["radius_m"] - b["radius_m"])) for (coarse, a), (fine, b) in pairwise(runs)
-    ]
-    parted = [_parting_time(time_s, distance) for _, distance in pairs]
-    said = [
-        f"{name}: "
-        + (f"{number(1e3 * PARTED_M)} mm apart at t = {at:.0f} s" if at < math.inf else "together to the end")
-        for (name, _), at in zip(pairs, parted, strict=True)
-    ]
-    latest = max(parted)
-    verdict = (
-        f"Refinement does not keep r within {number(1e3 * PARTED_M)} mm past t = {latest:.0f} s: there the motion "
-        "stops being predictable, and only statistics may be compared."
-        if latest < math.inf
-        else f"The finest of them stay within {number(1e3 * PARTED_M)} mm to the end of {time_s[-1]:.0f} s."
-    )
-    caption = (
-        f"Largest difference in r so far between neighbours in refinement, violent work. {verdict} From `radius_m`."
-    )
-    alt = "Differences between refined runs over time on a log scale: " + "; ".join(said) + "."
-    return [
+    pairs, parted = [], {"tolerance": [], "grid": []}
+    for (one, a), (other, b) in pairwise(runs):
+        distance = np.abs(a["radius_m"] - b["radius_m"])
+        if one["nodes"] == other["nodes"]:
+            kind, name = "tolerance", f"{number(one['nodes'])} nodes, rtol {one['setting']:g} and {other['setting']:g}"
+        else:
+            kind, name = "grid", f"rtol {one['setting']:g}, {number(one['nodes'])} and {number(other['nodes'])} nodes"
+        pairs.append((name, distance))
+        parted[kind].append(_parting_time(time_s, distance))
+    said = [f"{name}: {_parted(_parting_time(time_s, distance), time_s[-1])}." for name, distance in pairs]
+    verdict = _limit(parted, float(time_s[-1]))
+    caption = f"Largest difference in r so far between runs that differ in one thing, violent work. {verdict} From
+    `radius_m`." alt = "Differences between refined runs over time on a log scale. " + " ".join(said) return [
         Heading("Predictability of the violent work"),
         Bullets((*said, verdict)),
         Figure(parting(time_s, pairs, PARTED_M), caption, alt),
     ]
+
+
+def _parted(at: float, end_s: float) -> str:
+    apart = number(1e3 * PARTED_M)
+    return f"{apart} mm apart at t = {at:.0f} s" if at < math.inf else f"within {apart} mm to the end, {end_s:.0f} s"
+
+
+def _limit(parted: dict[str, list[float]], end_s: float) -> str:
+    """The verdict: what refinement in tolerance and in the grid gain."""
+    parts = []
+    if parted["tolerance"]:
+        parts.append(f"Refined tolerances on one grid: {_parted(min(parted['tolerance']), end_s)} or later.")
+    if parted["grid"]:
+        finest = parted["grid"][-1]
+        parts.append(f"The two finest grids: {_parted(finest, end_s)}.")
+        if finest < math.inf:
+            parts.append("Past that time only statistics of the motion may be compared, not its course.")
+    return " ".join(parts)
 
 
 def _parting_time(time_s: np.ndarray, distance: np.ndarray) -> float:
