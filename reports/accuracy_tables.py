@@ -163,8 +163,10 @@ def predictability_items(study: Study) -> list[Item]:
         parted[kind].append(_parting_time(time_s, distance))
     said = [f"{name}: {_parted(_parting_time(time_s, distance), time_s[-1])}." for name, distance in pairs]
     verdict = _limit(parted, float(time_s[-1]))
-    caption = f"Largest difference in r so far between runs that differ in one thing, violent work. {verdict} From
-    `radius_m`." alt = "Differences between refined runs over time on a log scale. " + " ".join(said) return [
+    what = "Largest difference in r so far between runs that differ in one thing, violent work."
+    caption = f"{what} {verdict} From `radius_m`."
+    alt = "Differences between refined runs over time on a log scale. " + " ".join(said)
+    return [
         Heading("Predictability of the violent work"),
         Bullets((*said, verdict)),
         Figure(parting(time_s, pairs, PARTED_M), caption, alt),
