@@ -41,6 +41,7 @@ class Order:
     push_added: bool
     periods: int
     transient: int
+    accuracy: bool
     how: cli.Running
     source: dict
 
@@ -63,6 +64,8 @@ def parser():
     cli.add(what, "--set", "KEY=VALUE ...", "change values of the scene, as water.depth_m=22.5 tether.nodes=81")
     three = "2, 3, or auto: 3 where the planar run released loops (default: as the scene says; the shipped one says 2)"
     cli.add(what, "--dimensions", "2|3|auto", three)
+    again = "do not repeat two runs at a tenth of the tolerance and at twice the elements"
+    what.add_argument("--no-accuracy", action="store_true", help=again)
     cli.add_running(parser.add_argument_group("how and where"), f"results/{CAMPAIGN}")
     return parser
 
@@ -86,7 +89,7 @@ def read_order(argv: list[str], faults: list[str]) -> Order:
     spatial, added = ({}, False) if dimensions == "2" or faults else _in_space(scenes, faults)
     scenes = spatial if dimensions == "3" else scenes
     source = {"scene": name, "set": changes}
-    return Order(scenes, spatial, dimensions, added, periods, transient, how, source)
+    return Order(scenes, spatial, dimensions, added, periods, transient, not options.no_accuracy, how, source)
 
 
 def _in_space(scenes: dict, faults: list[str]) -> tuple[dict, bool]:
@@ -163,9 +166,9 @@ def _scenes(name: str, changes: dict, steepness: list[float], analysed: bool, fa
 
 def sweep(order: Order, argv: list[str], simulate) -> int:
     """Run it: compile, run, table, provenance, report. Raises CampaignStopped, OSError, KeyboardInterrupt."""
-    from campaigns import session
+    from campaigns import session, sweep_accuracy
     from campaigns.row_store import made_by
-    from campaigns.rows import COLUMNS, STROBE_TOLERANCE, buoy_row
+    from campaigns.rows import COLUMNS, STROBE_TOLERANCE, buoy_row, regime_of
     from campaigns.runner import make_job, plan_of
     from campaigns.seeds import SEED_MPS
     from campaigns.sweep_dimensions import run_where_needed
@@ -174,7 +177,8 @@ def sweep(order: Order, argv: list[str], simulate) -> int:
     if simulate is None:
         from engine import simulate, simulate_each
     describe = partial(buoy_row, transient_periods=order.transient, simulate=simulate)
-    maker = made_by({"transient": order.transient}, "analysis", "engine", "campaigns/rows.py", "reports/buoy_motion.py")
+    sources = ("analysis", "engine", "campaigns/rows.py", "campaigns/sweep_accuracy.py", "reports/buoy_motion.py")
+    maker = made_by({"transient": order.transient}, *sources)
     plan = plan_of(order.how, simulate, describe, COLUMNS, maker, simulate_each=simulate_each)
     jobs = [
         make_job(scene, order.periods, labels={"steepness": value, "dimensions": scene.motion.dimensions})
@@ -188,10 +192,14 @@ def sweep(order: Order, argv: list[str], simulate) -> int:
         "strobe_tolerance": STROBE_TOLERANCE,
         "dimensions": order.dimensions,
         "push_mps": SEED_MPS if order.push_added else None,
+        "accuracy": order.accuracy,
     }
     runs = session.run
     if order.dimensions == "auto":
         runs = partial(run_where_needed, spatial=order.spatial, periods=order.periods)
+    if order.accuracy:
+        verdict = partial(regime_of, transient_periods=order.transient)
+        runs = sweep_accuracy.and_again(runs, order.periods, "steepness", verdict)
     return session.conduct(CAMPAIGN, MODULE, argv, plan, jobs, parameters, report=order.how.report, runs=runs)
 
 

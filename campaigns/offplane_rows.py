@@ -127,6 +127,11 @@ def _lateral(values, scene, row) -> dict[str, object]:
     }
 
 
+def rope_motion(trajectory, transient_periods: int) -> str | None:
+    """What the rope does across the plane, as `offplane_row` names it."""
+    return offplane_row(trajectory, transient_periods).get("rope_motion")
+
+
 def bows(profiles) -> tuple[float, float]:
     """Largest distance of a node from the straight line between the ends of the tether: (in the plane x-z, across it).
 

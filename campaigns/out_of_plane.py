@@ -79,6 +79,7 @@ class Order:
     base: Case
     periods: int
     transient: int
+    accuracy: bool
     how: cli.Running
     source: dict
 
@@ -97,6 +98,8 @@ def parser():
     cli.add(what, "--transient", "N", leave_out)
     cli.add(what, "--scene", "FILE_OR_NAME", f"scene to start from (default: {SCENE}, the paper's Table 1)")
     cli.add(what, "--set", "KEY=VALUE ...", "change values of the scene, as water.depth_m=22.5 tether.nodes=81")
+    again = "do not repeat two runs at a tenth of the tolerance and at twice the elements"
+    what.add_argument("--no-accuracy", action="store_true", help=again)
     cli.add_running(parser.add_argument_group("how and where"), f"results/{CAMPAIGN}")
     return parser
 
@@ -110,7 +113,7 @@ def read_order(argv: list[str], faults: list[str]) -> Order:
     changes = cli.assignments(options.set, _TAKEN, faults)
     base, scenes = _scenes(name, changes, faults)
     source = {"scene": name, "set": changes}
-    return Order(scenes, base, periods, transient, how, source)
+    return Order(scenes, base, periods, transient, not options.no_accuracy, how, source)
 
 
 def cases(base: Case) -> list[Case]:
@@ -171,8 +174,8 @@ def _scenes(name: str, changes: dict, faults: list[str]) -> tuple[Case | None, d
 
 def study(order: Order, argv: list[str], simulate) -> int:
     """Run it: compile, run, table, provenance, report. Raises CampaignStopped, OSError, KeyboardInterrupt."""
-    from campaigns import session
-    from campaigns.offplane_rows import COLUMNS, offplane_row
+    from campaigns import session, sweep_accuracy
+    from campaigns.offplane_rows import COLUMNS, offplane_row, rope_motion
     from campaigns.row_store import made_by
     from campaigns.runner import make_job, plan_of
 
@@ -194,7 +197,17 @@ def study(order: Order, argv: list[str], simulate) -> int:
         "periods": order.periods,
         "transient": order.transient,
     }
-    return session.conduct(CAMPAIGN, MODULE, argv, plan, jobs, parameters, report=order.how.report)
+    runs = session.run
+    if order.accuracy:
+        verdict = partial(rope_motion, transient_periods=order.transient)
+        runs = sweep_accuracy.and_again(runs, order.periods, "steepness", verdict, _waves(jobs, order.base))
+    return session.conduct(CAMPAIGN, MODULE, argv, plan, jobs, parameters, report=order.how.report, runs=runs)
+
+
+def _waves(jobs: list, base: Case) -> set[str]:
+    """Keys of the runs in three dimensions from which the campaign varies: the paper's two waves."""
+    wanted = [asdict(base), asdict(replace(base, steepness=SMALL))]
+    return {job.key for job in jobs if {key: job.labels[key] for key in wanted[0]} in wanted}
 
 
 if __name__ == "__main__":

@@ -112,6 +112,11 @@ def buoy_row(trajectory, transient_periods: int, simulate=None) -> dict[str, obj
     return row
 
 
+def regime_of(trajectory, transient_periods: int) -> str | None:
+    """The regime that `buoy_row` names, without a repetition of runs that look chaotic; None where it names none."""
+    return buoy_row(trajectory, transient_periods).get("regime")
+
+
 def across_plane(growth, transient_periods: int) -> dict[str, object]:
     """Exponent of infinitesimal perturbations across the plane, by column of the table; {} where none was carried."""
     from analysis import transverse_lyapunov

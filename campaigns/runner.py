@@ -24,7 +24,10 @@ from campaigns.row_store import keep_row, kept_row
 
 @dataclass(frozen=True)
 class Job:
-    """One run to do: its content key, the engine's source hash, the scene, the length, and columns that name it."""
+    """One run to do: its content key, the engine's source hash, the scene, the length, and columns that name it.
+
+    simulate, describe: in place of the plan's, for campaigns whose runs are not all made or described alike.
+    """
 
     key: str
     engine: str
@@ -32,6 +35,8 @@ class Job:
     periods: float | None = None
     duration_s: float | None = None
     labels: dict[str, object] = field(default_factory=dict)
+    simulate: Callable | None = None
+    describe: Callable | None = None
 
 
 @dataclass(frozen=True)
@@ -86,14 +91,26 @@ def plan_of(
     return Plan(how.out, simulate, describe, columns, *where, row_maker=row_maker, **more)
 
 
-def make_job(scene, periods: float | None = None, duration_s: float | None = None, labels: dict | None = None) -> Job:
-    """A job with its content key: sha256 over the scene's key, the run length and the engine's source hash."""
+def make_job(
+    scene,
+    periods: float | None = None,
+    duration_s: float | None = None,
+    labels: dict | None = None,
+    simulate: Callable | None = None,
+    describe: Callable | None = None,
+    made: str = "",
+) -> Job:
+    """A job with its content key: sha256 over the scene's key, the run length and the engine's source hash.
+
+    made: what else the result depends on, where the run is not the engine's own or not the only one of its scene.
+    """
     from engine import source_hash
 
     engine = source_hash()
     content = {"scene": scene.key(), "periods": periods, "duration_s": duration_s, "engine": engine}
+    content |= {"made": made} if made else {}
     key = hashlib.sha256(json.dumps(content, sort_keys=True).encode()).hexdigest()
-    return Job(key, engine, scene, periods, duration_s, dict(labels or {}))
+    return Job(key, engine, scene, periods, duration_s, dict(labels or {}), simulate, describe)
 
 
 def run_campaign(plan: Plan, jobs: list[Job]) -> Summary:
@@ -177,7 +194,7 @@ def run_one(plan: Plan, job: Job) -> Outcome:
     if source_hash() != job.engine:
         return other_sources(job)
     try:
-        trajectory = plan.simulate(job.scene, periods=job.periods, duration_s=job.duration_s)
+        trajectory = (job.simulate or plan.simulate)(job.scene, periods=job.periods, duration_s=job.duration_s)
     except (Exception, SystemExit) as error:
         if is_full(error):
             return _stopped(job, plan, error)
@@ -225,7 +242,7 @@ def _described(plan: Plan, job: Job, trajectory, computed: bool) -> Outcome:
     row = kept_row(plan.directory, job.key, plan.row_maker) if plan.row_maker and not computed else None
     if row is None:
         try:
-            row = plan.describe(trajectory)
+            row = (job.describe or plan.describe)(trajectory)
         except Exception as error:
             row = {"status": "analysis-failed", "message": _reason(error)}
         else:

@@ -11,6 +11,7 @@ from pathlib import Path
 
 # Campaign as named in provenance.json: the module whose `report(directory)` gives the content.
 CONTENTS = {
+    "accuracy": "reports.accuracy_content",
     "buoy_sweep": "reports.buoy_sweep",
     "oscillator": "reports.oscillator_content",
     "breaking_line": "reports.breaking_line",

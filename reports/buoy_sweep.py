@@ -18,6 +18,7 @@ from .buoy_warnings import warnings
 from .content import Bullets, Figure, Heading, Item, Notice, Report, Text
 from .figures.orbit_diagram import orbit_diagram_over
 from .folder import Folder, read_folder
+from .sweep_accuracy import accuracy_items
 from .symbols import T_I
 from .wording import count, decimals, number, percent
 
@@ -35,6 +36,7 @@ def report(directory: str | Path) -> Report:
         *_chosen(folder, runs, transient, tolerance, modes),
         *regime_items(folder, runs, transient),
         *plane_items(folder, runs, transient),
+        *accuracy_items(folder.directory, "kA"),
         Heading("Warnings"),
         *warnings(runs, folder.scene, modes),
         *runs_items(runs, transient, tolerance),

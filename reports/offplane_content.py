@@ -14,6 +14,7 @@ from .offplane_sections import growth_items, history_items, push_items
 from .offplane_varied import dependence_items, direction_items, grid_items, shape_items
 from .offplane_words import speed
 from .scene_table import scene_table
+from .sweep_accuracy import accuracy_items
 from .wording import EMPTY, count, decimals, listed, number
 
 _RESOLVED_RAD = 1.5707963267948966  # a quarter of a turn in one element
@@ -46,6 +47,7 @@ def report(directory: str | Path) -> Report:
         *grid_items(study),
         *shape_items(study),
         *comparison_items(study, pairs),
+        *accuracy_items(folder.directory, "kA"),
         Heading("Warnings"),
         *_warnings(study),
         Heading("Table of runs"),

@@ -15,7 +15,7 @@ from campaigns import buoy_sweep
 from tests.campaigns.fake_engine import FakeEngine
 
 ROOT = Path(__file__).parents[2]
-USUAL = ["--periods", "6", "--transient", "2", "--no-report"]
+USUAL = ["--periods", "6", "--transient", "2", "--no-report", "--no-accuracy"]
 
 
 def rows_of(out):

@@ -1,4 +1,4 @@
-"""The buoy scene in MoorDyn (2.7.2 from PyPI), stepped for `benchmarks.planar_speed`.
+"""The buoy scene in MoorDyn (2.7.2 from PyPI), for `campaigns.accuracy` and `benchmarks.planar_speed`.
 
 How it is made a fair opponent
 - Same rope, buoy, water, gravity, start and wave. The rope is a MoorDyn line without bending and without internal
@@ -14,7 +14,7 @@ How it is made a fair opponent
   iterations, cost MoorDyn nothing. (With its own kinematics, WaveKin = 7, a step of 10 segments was measured to cost
   2.9 times as much.)
 What is left different: no bending and no compression in its rope, so each code is held against its own refined limit.
-Where the rope stays taut the two limits agree to 0.04 mm (kA = 0.016); `planar_speed` prints both comparisons.
+Where the rope stays taut the two limits agree to 0.04 mm (kA = 0.016).
 Schemes: RK4. RK2 and the midpoint scheme with 3 and 5 iterations were off by 0.04 to 0.8 m at similar cost, RK3, Heun
 and Adams-Bashforth ended in NaN (all at 10 and 20 segments, without damping).
 """
@@ -33,6 +33,17 @@ from engine.waves import wave_number
 BED = -100.0  # m: MoorDyn's still water level is z = 0, far above the buoy
 PORT_AREA = 1e-3  # m2, drag area times coefficient of the point that takes the load
 SAMPLE = 0.05  # s
+NOTES = (
+    "no bending and no compression in its rope (tension only); its points feel no wave acceleration, so the load of "
+    "eq. (30) and the extrapolated wave are handed to it and cost it nothing; drag of the buoy on the vector of the "
+    "relative velocity, handed over too; RK4, no damping; with 20 segments and more the violent work ends in NaN at "
+    "every step tried, so that it has no refined run there (campaigns/peer_moordyn.py)"
+)
+# segments, steps a period; the steps are the longest, to the next hundred, that stay stable
+_STABLE = ((5, 900), (8, 1200), (10, 1500), (16, 2500), (23, 3700))
+_REFINED = ((80, 14000), (40, 8000))
+SETTINGS = dict.fromkeys(("regular", "snap", "violent"), _STABLE)
+REFINED = dict.fromkeys(("regular", "snap"), _REFINED) | {"violent": ((40, 16000),)}
 
 INPUT = """--- MoorDyn input ---
 tethered buoy
@@ -144,6 +155,26 @@ def run(scene, segments, steps_per_period, periods):
     steps_per_period : a multiple of the samples in a period.
     Returns radius (m) every `SAMPLE` seconds, and the milliseconds per wave period spent in its stepping calls.
     """
+    places, spent = stepped(scene, segments, steps_per_period, periods)
+    return np.hypot(places[:, 0], places[:, 1]), 1e3 * spent / periods
+
+
+def simulate(scene, duration_s, segments, steps_per_period):
+    """A run as the engine's record: a Trajectory of the buoy's places."""
+    from campaigns.peer_record import as_trajectory
+
+    periods = round(duration_s / scene.waves.period_s)
+    with silent(), np.errstate(all="ignore"):  # a run that ends in NaN complains at length
+        places, spent = stepped(scene, segments, round(steps_per_period), periods)
+    found = np.column_stack([places[:, 0], 0 * places[:, 0], places[:, 1]])
+    sound = np.isfinite(found).all()
+    status, message = ("ok", "") if sound else ("not-finite", "MoorDyn returned values that are not finite")
+    statistics = {"wall_s": spent, "steps": round(steps_per_period) * periods}
+    return as_trajectory(scene, status, message, SAMPLE * np.arange(len(found)), found, statistics)
+
+
+def stepped(scene, segments, steps_per_period, periods):
+    """x, z of the buoy from the anchor (m, 2), m, every `SAMPLE` seconds, and the seconds spent in stepping calls."""
     import cmoordyn
     import moordyn
 
@@ -156,22 +187,20 @@ def run(scene, segments, steps_per_period, periods):
     water, instance = airy(scene), create(scene, segments, step_s)
     point, buoy = moordyn.GetPoint(instance, 2), segments + 2  # coordinates: line nodes, anchor, buoy, ground
     places_before = velocity_before = None
-    radius, spent = [], 0.0
+    kept, spent = [], 0.0
     for i in range(steps_per_period * periods + 1):
         places = np.array(cmoordyn.ext_wave_coords(instance)).reshape(-1, 3)
         velocity = np.array(moordyn.GetPointVel(point))
         if i == 0:
             places_before, velocity_before = places, velocity
         if i % every == 0:
-            radius.append(math.hypot(places[buoy, 0], places[buoy, 2] - BED))
+            kept.append((places[buoy, 0], places[buoy, 2] - BED))
         ahead = 1.5 * places - 0.5 * places_before
         velocity_ahead = 1.5 * velocity - 0.5 * velocity_before
         places_before, velocity_before = places, velocity
         U, rate = np.zeros_like(places), np.zeros_like(places)
         # the last of the coordinates is the ground body's, at MoorDyn's origin, and takes no load
-        U[:-1, 0], U[:-1, 2], rate[:-1, 0], rate[:-1, 2] = water(
-            ahead[:-1, 0], ahead[:-1, 2] - BED, (i + 0.5) * step_s
-        )
+        U[:-1, 0], U[:-1, 2], rate[:-1, 0], rate[:-1, 2] = water(ahead[:-1, 0], ahead[:-1, 2] - BED, (i + 0.5) * step_s)
         relative = U[buoy] - velocity_ahead
         load = drag * np.linalg.norm(relative) * relative + inertia * rate[buoy]
         U[buoy] = velocity_ahead + load / math.sqrt(port * np.linalg.norm(load))
@@ -180,4 +209,4 @@ def run(scene, segments, steps_per_period, periods):
         cmoordyn.step(instance, [], [], i * step_s, step_s)
         spent += time.perf_counter() - began
     moordyn.Close(instance)
-    return np.array(radius), 1e3 * spent / periods
+    return np.array(kept), spent

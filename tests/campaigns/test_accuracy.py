@@ -1,0 +1,155 @@
+"""The accuracy campaign: known errors come back with their orders, what fails is a row, nothing is done twice."""
+
+import csv
+import math
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+
+from campaigns import accuracy, accuracy_plan
+from campaigns.accuracy_points import ADAPTIVE, FULL, ORDERS, Point
+from campaigns.accuracy_rows import COLUMNS, point_row, rms_mm
+from campaigns.accuracy_works import BY_NAME, WORKS
+from engine import load_scene
+from reports.accuracy_study import COLUMNS as READ
+from tests.campaigns.conftest import ROOT, rows_of
+from tests.campaigns.fake_methods import GRID_M, KnownErrors
+
+USUAL = ["--quick", "--backend", "threading", "--jobs", "2", "--no-report"]
+
+
+@pytest.fixture(scope="module")
+def out(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("accuracy") / "out"
+    assert accuracy.main([*USUAL, "--out", str(folder)], simulate=KnownErrors()) == 0
+    return folder
+
+
+def orders_of(folder):
+    with open(folder / "orders.csv", newline="") as file:
+        return list(csv.DictReader(file))
+
+
+def test_every_series_shows_the_order_that_was_put_in(out):
+    rows = orders_of(out)
+    judged = [row for row in rows if row["kind"] in ("time", "space")]
+    assert {(row["work"], row["method"]) for row in judged} >= {
+        ("regular", method) for method in ORDERS if method != "paper-box"
+    }
+    for row in judged:
+        assert row["within"] == "1" and abs(float(row["order"]) - float(row["theory"])) < 0.05, row
+
+
+def test_the_error_of_a_point_is_that_of_its_grid_against_the_reference(out):
+    rows = [row for row in rows_of(out) if row["work"] == "regular"]
+    reference = next(row for row in rows if row["kind"] == "reference")
+    assert reference["error"] == "" and reference["nodes"] == "641"
+    # far below the first error, that of the step
+    points = [row for row in rows if row["kind"] == "point" and row["method"] == "backward-euler"]
+    coarse, fine = (
+        next(row for row in points if row["nodes"] == n and row["setting"] == "0.00625") for n in ("11", "41")
+    )
+    assert float(coarse["error"]) > float(fine["error"])
+    expected = 1e3 * GRID_M / 10**2 / math.sqrt(2.0)
+    tight = next(
+        r
+        for r in rows
+        if r["kind"] == "point" and r["method"] == "esdirk43" and r["nodes"] == "11" and r["setting"] == "0.001"
+    )
+    assert float(tight["error"]) == pytest.approx(expected, rel=0.1)
+
+
+def test_errors_of_tolerances_fall_with_the_tolerance(out):
+    slopes = {
+        row["method"]: float(row["order"])
+        for row in orders_of(out)
+        if row["kind"] == "tolerance" and row["work"] == "regular"
+    }
+    assert set(slopes) == set(ADAPTIVE)
+    assert all(slope == pytest.approx(1.0, abs=0.05) for slope in slopes.values())  # the fake's error is rtol itself
+
+
+def test_the_same_command_computes_nothing_and_changes_nothing(out, capsys):
+    before = {name: (out / name).read_bytes() for name in ("table.csv", "orders.csv", "provenance.json")}
+    assert accuracy.main([*USUAL, "--out", str(out)], simulate=KnownErrors(failing=tuple(ORDERS))) == 0
+    assert ": 0 computed" in capsys.readouterr().out
+    assert {name: (out / name).read_bytes() for name in before} == before
+
+
+def test_what_fails_is_a_row_and_has_no_error(tmp_path):
+    engine = KnownErrors(failing=("midpoint",), raises=(6,))
+    assert (
+        accuracy.main([*USUAL, "--works", "regular", "pendulum", "--out", str(tmp_path / "out")], simulate=engine) == 0
+    )
+    rows = rows_of(tmp_path / "out")
+    early = [row for row in rows if row["method"] == "midpoint" and row["kind"] == "point" and row["nodes"] != "6"]
+    assert early and all(row["status"] == "newton-failed" and row["error"] == "" for row in early)
+    broken = [row for row in rows if row["nodes"] == "6"]
+    assert broken and all(row["status"] == "error" for row in broken)
+    series = next(row for row in orders_of(tmp_path / "out") if row["method"] == "midpoint" and row["kind"] == "time")
+    assert series["order"] == "" and "newton-failed" in series["note"]
+
+
+def test_a_reference_that_failed_leaves_points_without_errors(tmp_path):
+    engine = KnownErrors(raises=(641,))
+    assert accuracy.main([*USUAL, "--works", "regular", "--out", str(tmp_path / "out")], simulate=engine) == 0
+    points = [row for row in rows_of(tmp_path / "out") if row["kind"] == "point"]
+    assert points and all(row["status"] == "ok" and row["error"] == "" for row in points)
+
+
+def test_every_fault_is_named_at_once_and_nothing_is_written(tmp_path, capsys):
+    words = ["--works", "regular", "stormy", "--rounds", "9", "--jobs", "0", "--bogus"]
+    assert accuracy.main([*words, "--out", str(tmp_path / "new")]) == 2
+    said = capsys.readouterr().err
+    for word in ("stormy", "--rounds", "--jobs", "--bogus"):
+        assert word in said
+    assert not (tmp_path / "new").exists()
+
+
+def test_help_loads_nothing_heavy():
+    code = "import sys, campaigns.accuracy as a; a.parser().format_help(); print(*sys.modules)"
+    loaded = subprocess.run([sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True, check=True).stdout
+    assert not {"numpy", "numba", "pandas", "scipy", "matplotlib", "pydantic"} & set(loaded.split())
+
+
+def test_every_setting_of_the_full_campaign_is_a_sound_scene_and_appears_once():
+    points = [
+        point
+        for phase in (accuracy_plan.first_phase, accuracy_plan.second_phase, accuracy_plan.third_phase)
+        for point in phase(FULL)
+    ]
+    assert len(set(points)) == len(points)
+    kinds = {(point.work, point.method.partition(",")[0], point.control) for point in points}
+    for work, method, control in kinds:
+        one = next(p for p in points if (p.work, p.method.partition(",")[0], p.control) == (work, method, control))
+        scene = BY_NAME[work].made(one.changes())  # raises where the scene is faulty
+        assert scene.tether.nodes == one.nodes
+    timed = {point.work for point in points if point.kind == "point"}
+    assert timed == {work.name for work in WORKS if work.timed} and len(timed) >= 5
+    assert {point.method for point in points} >= set(ORDERS)
+
+
+def test_rounds_differ_by_a_tenth():
+    settings = [
+        Point("regular", "point", "esdirk43", 41, "rtol", 0.03, round).changes()["solver.rtol"] for round in range(3)
+    ]
+    assert settings == pytest.approx([0.03, 0.027, 0.033])
+
+
+def test_the_report_reads_columns_that_the_table_has():
+    assert set(READ) <= set(COLUMNS)
+
+
+def test_rms_of_series_and_of_places():
+    t = np.linspace(0.0, 1.0, 1001)
+    assert rms_mm(3e-3 + 0 * t, 0 * t) == pytest.approx(3.0)
+    assert rms_mm(np.full((5, 3), 1e-3), np.zeros((5, 3))) == pytest.approx(math.sqrt(3.0))
+    assert rms_mm(t, t[:-1]) == math.inf
+
+
+def test_a_run_that_ended_early_has_no_error():
+    run = KnownErrors(failing=("esdirk43",))(load_scene("tethered_buoy"), duration_s=50.0)
+    row = point_row(run, "regular")
+    assert row["status"] == "newton-failed" and "error" not in row and set(row) <= set(COLUMNS)

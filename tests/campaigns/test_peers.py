@@ -1,0 +1,81 @@
+"""Other codes: scipy on the engine's own equations agrees with the engine, and what is not installed is said."""
+
+import math
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+
+from campaigns import peer_scipy, peers
+from campaigns.accuracy_rows import rms_mm, samples_of
+from campaigns.accuracy_works import BY_NAME
+from campaigns.peer_record import as_trajectory
+from engine import load_scene, simulate
+
+
+@pytest.mark.parametrize("name, nodes, duration_s, cap_mm", [("regular", 6, 10.0, 0.005), ("pendulum", 4, 2.0, 0.005)])
+def test_the_resolvent_gives_the_equations_of_the_engine(name, nodes, duration_s, cap_mm):
+    """Two integrators, one grid, tight tolerances: the motions differ by their errors in time alone."""
+    work = BY_NAME[name]
+    scene = work.made({"tether.nodes": nodes, "solver.rtol": 1e-6})
+    ours = simulate(scene, duration_s=duration_s)
+    theirs = peer_scipy.run(scene, duration_s, "Radau", 1e-5)
+    assert theirs.status == "ok" and theirs.statistics["newton_failures"] == 0
+    found, expected = samples_of(work, theirs), samples_of(work, ours)
+    assert np.ptp(expected, axis=0).max() > 0.05
+    assert rms_mm(found, expected) < cap_mm
+
+
+def test_a_breaking_line_comes_back_with_its_strain():
+    scene = peers.scene_of("break-1-slow", 21)
+    run = peer_scipy.run(scene, 0.02, "Radau", 1e-3)
+    assert run.status == "ok" and run.profiles.strain.shape == (5, 21)
+    assert run.profiles.strain[0] == pytest.approx(run.profiles.strain[0, 0], rel=1e-9)
+    assert run.profiles.strain[-1, -1] < 0.9 * run.profiles.strain[0, -1]
+
+
+def test_the_pendulum_with_a_rope_of_no_mass_is_the_elastic_spherical_pendulum():
+    """M x'' = -M g z - (EA/L)(|x| - L) x/|x|: three equations by scipy, 1e-11. The mass of the rope, a millionth of the
+    bob's, counts as its third."""
+    work = BY_NAME["pendulum"]
+    scene = work.made({"tether.density_kgpm3": 5e-3, "tether.nodes": 6, "solver.rtol": 1e-6, "buoy.mass_kg": 2.0})
+    run = simulate(scene, duration_s=work.duration_s)
+    assert run.status == "ok"
+    M, L, EA, g = 2.0, scene.tether.length_m, scene.tether.tension.stiffness_N, scene.gravity_mps2
+
+    def rates(t, y):
+        r = math.sqrt(y[0] ** 2 + y[1] ** 2 + y[2] ** 2)
+        pull = EA / (L * M) * (r - L) / r
+        return [*y[3:], -pull * y[0], -pull * y[1], -pull * y[2] - g]
+
+    start = [0.0, 0.0, -L * (1 + M * g / EA), *scene.start.buoy_velocity_mps]
+    t = run.columns["time_s"]
+    exact = solve_ivp(rates, (0.0, t[-1]), start, t_eval=t, rtol=1e-11, atol=1e-11).y[:3].T
+    assert rms_mm(samples_of(work, run), exact) < 0.1
+
+
+def test_a_code_that_is_not_installed_is_a_row(tmp_path, monkeypatch):
+    monkeypatch.setattr(peers.importlib.util, "find_spec", lambda name: None if name != "scipy" else object())
+    first, second, timed = peers.peer_jobs(tmp_path, ("snap", "pendulum"), False, {})
+    assert first == [] and second == []
+    missing = [job for job in timed if not job.labels["peer_version"]]
+    assert {job.labels["method"] for job in missing} == {"MoorDyn", "CableDyn", "PyElastica"}
+    for job in missing:
+        run = job.simulate(job.scene, duration_s=1.0)
+        row = job.describe(run)
+        assert row["status"] == "not-installed" and "pip install" in row["message"] and "error" not in row
+
+
+def test_what_another_code_raises_is_its_record():
+    def broken(scene, duration_s, nodes, setting):
+        raise RuntimeError("NaN in node positions")
+
+    run = peers._called(load_scene("tethered_buoy"), duration_s=1.0, call=broken)
+    assert run.status == "solver-failed" and "NaN in node positions" in run.message
+
+
+def test_a_foreign_record_invents_nothing():
+    places = np.array([[3.0, 0.0, 4.0], [0.0, 0.0, 5.0]])
+    run = as_trajectory(load_scene("tethered_buoy"), "ok", "", np.array([0.0, 0.05]), places, {"wall_s": 1.0})
+    assert run.columns["radius_m"] == pytest.approx([5.0, 5.0])
+    assert np.isnan(run.columns["tension_top_N"]).all()
