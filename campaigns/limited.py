@@ -6,11 +6,15 @@ too, later.
 """
 
 import multiprocessing
+import os
 import resource
 import signal
+import threading
 import time
 import traceback
 from collections.abc import Callable
+
+from campaigns.pools import end_with
 
 DONE, RAISED, LATE, DIED = "done", "raised", "late", "died"
 PATIENCE = 5.0  # times the limit, in seconds of the wall clock
@@ -25,7 +29,7 @@ def limited(call: Callable, limit_s: float) -> tuple[str, object, float]:
     ways = multiprocessing.get_context("fork")
     ours, theirs = ways.Pipe(duplex=False)
     began = time.perf_counter()
-    process = ways.Process(target=_answer, args=(theirs, call, limit_s), daemon=True)
+    process = ways.Process(target=_answer, args=(theirs, call, limit_s, os.getpid()), daemon=True)
     process.start()
     theirs.close()
     try:
@@ -41,7 +45,8 @@ def limited(call: Callable, limit_s: float) -> tuple[str, object, float]:
     return kind, answer, time.perf_counter() - began
 
 
-def _answer(pipe, call: Callable, limit_s: float) -> None:
+def _answer(pipe, call: Callable, limit_s: float, parent: int) -> None:
+    threading.Thread(target=end_with, args=(parent,), daemon=True).start()
     seconds = max(1, int(-(-limit_s // 1)))
     resource.setrlimit(resource.RLIMIT_CPU, (seconds, resource.getrlimit(resource.RLIMIT_CPU)[1]))
     try:

@@ -53,10 +53,11 @@ def _ignore_interrupt() -> None:
 
 def _prepare_worker(campaign: int) -> None:
     _ignore_interrupt()
-    threading.Thread(target=_end_with, args=(campaign,), daemon=True).start()
+    threading.Thread(target=end_with, args=(campaign,), daemon=True).start()
 
 
-def _end_with(campaign: int) -> None:
+def end_with(campaign: int) -> None:
+    """End this process when its parent has ended."""
     # A killed campaign leaves its workers behind: at work, beside the campaign that is started next, or waiting for
     # five minutes. The system gives an orphan another parent, and that it can see.
     while os.getppid() == campaign:

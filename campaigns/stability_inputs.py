@@ -2,7 +2,7 @@
 
 import math
 
-from campaigns.stability_cases import ABOVE_BAR, DRY, REFUSED, Case, free, held
+from campaigns.stability_cases import ABOVE_BAR, DRY, REFUSED, REGULAR, Case, free, held
 
 
 def inputs() -> list[Case]:
@@ -24,6 +24,9 @@ def inputs() -> list[Case]:
     refused("a current with coincident heights", {"current": height})
     twice = {"law": "table", "time_s": [0.0, 1.0, 1.0], "displacement_m": [[0.0, 0.0, 0.0]] * 3}
     refused("an end moved with coincident times", {**DRY, **held(0, 0, 20), "end.motion": twice})
+    hardly = {**REGULAR, "tether.grid_stretching": 1e-310}
+    coincident = "a stretching of 1e-310: no coincident nodes"
+    cases.append(Case("input", coincident, hardly, 10.0, "as_fine", 0.02, options={"nodes": 81}, quick=True))
     refused("two nodes", {"tether.nodes": 2})
     refused("a million nodes", {"tether.nodes": 10**6})
     refused("samples every 1e-12 s", {"output.step_s": 1e-12})

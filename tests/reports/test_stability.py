@@ -99,7 +99,7 @@ def test_the_statements_follow_the_tables(tmp_path):
     assert "Nothing unexplained" in text
     assert "Ill-posed in slack. Seen in: none (newton-failed)." in text
     assert "nodes: 2" in text and "faulty scene" not in text
-    assert "moves by 2e-09 of its range" in text
+    assert "moves by 2e-9 of its range" in text
     assert "400 to 1000 floating-point operations" in text
     assert "within 2e-07, for every method" in text
     assert "A line could not be judged: its worker process ended" in text
