@@ -35,7 +35,8 @@ COLUMNS = (
     "rough",
     "note",
 )
-WITHIN = 0.15
+WITHIN = 0.15  # of theory, the last slope
+STEADY = 0.6  # of theory, every slope: where they jump about, the last is right by chance
 # an adaptive method keeps its estimate of the error of a step, of order p_e + 1, at rtol: the error goes with
 # rtol^(p/(p_e + 1)), p_e = 3 for esdirk43 (p = 4) and 2 for trbdf2 (p = 2), whose estimate is that of its own order
 TOLERANCE_SLOPE = {"esdirk43": 1.0, "trbdf2": 2.0 / 3.0}
@@ -136,6 +137,7 @@ def _judged(work, kind, method, theory, errors, settings, note) -> dict:
         slopes = np.log2(np.divide(errors[:-1], errors[1:])) if len(errors) > 1 else np.array([])
     known = slopes[np.isfinite(slopes)]
     order = float(known[-1]) if len(known) else math.nan
+    steady = np.all(np.abs(known - theory) <= STEADY)
     return {
         "work": work.name,
         "kind": kind,
@@ -146,7 +148,7 @@ def _judged(work, kind, method, theory, errors, settings, note) -> dict:
         "errors": " ".join(f"{error:.4g}" for error in errors),
         "unit": UNITS[work.measure],
         "settings": " ".join(f"{setting:g}" for setting in settings),
-        "within": "" if math.isnan(order) else int(abs(order - theory) <= WITHIN),
+        "within": "" if math.isnan(order) else int(bool(abs(order - theory) <= WITHIN and steady)),
         "rough": work.rough,
         "note": note,
     }

@@ -63,6 +63,7 @@ class Setting:
     def named(self) -> str:
         """The setting in words: "41 nodes, rtol 0.03"."""
         words = {"rtol": "rtol {:g}", "step_s": "step {:.4g} s", "courant": "Courant {:g}"}
+        words["steps per period"] = "{:g} a period"
         where = "segments" if self.peer and not self.method.startswith("scipy") else "nodes"
         return f"{self.nodes} {where}, " + words.get(self.control, self.control + " {:g}").format(self.value)
 

@@ -100,7 +100,7 @@ def _tolerances(study: Study) -> list[Item]:
     cells = tuple(
         (
             row["work"], row["method"], decimals(float(row["theory"]), 2), decimals(float(row["order"]), 2),
-            " ".join(f"{float(error):.2g}" for error in row["errors"].split()) + f" {row['unit']}", row["settings"],
+            " ".join(number(float(error), 2) for error in row["errors"].split()) + f" {row['unit']}", row["settings"],
         )
         for row in rows
     )  # fmt: skip
@@ -205,30 +205,18 @@ def peer_items(study: Study) -> list[Item]:
     items: list[Item] = [Heading("Other codes")]
     if isinstance(peers, dict):
         items.append(Bullets(tuple(f"{name}: {text}" for name, text in peers.items())))
-    rows = []
-    for work in study.works:
-        timed = study.timed(work)
-        factor, unit = per_period(study, work)
-        for name in dict.fromkeys(one.method for one in timed if one.peer):
-            theirs = [one for one in timed if one.method == name]
-            for level in LEVELS[study.works[work]["unit"]]:
-                ours = within([one for one in timed if not one.peer], level)
-                other = within(theirs, level)
-                if ours and other:
-                    rows.append((
-                        work, name, f"{level:g} {study.works[work]['unit']}", decimals(factor * other.wall_s, 2),
-                        other.named, decimals(factor * ours.wall_s, 2), f"{ours.method}, {ours.named}",
-                        decimals(other.wall_s / ours.wall_s, 1), unit, number(other.against_ours, 2),
-                    ))  # fmt: skip
+    rows = [row for work in study.works for row in _beside_ours(study, work)]
     columns = (
-        Column("work", align="left"), Column("code", align="left"), Column("within"), Column("its time"),
-        Column("its setting", align="left"), Column("our time"), Column("our setting", align="left"), Column("ratio"),
-        Column("unit", align="left"), Column("it against our limit"),
+        Column("work", align="left"), Column("code", align="left"), Column("within"), Column("its time", "ms"),
+        Column("ours", "ms"), Column("ratio"), Column("its setting", align="left"), Column("our setting", align="left"),
+        Column("off ours"),
     )  # fmt: skip
     if rows:
         caption = (
-            "Cheapest settings within an error, each code against its own refined run; ratio: its time over ours. "
-            "The last column is its distance from our refined run, in which the differences of the models show."
+            "Cheapest settings within an error, each code against its own refined run (scipy against ours: it solves "
+            "our equations); ratio: its time over ours, of buoys per wave period. Off ours: its distance from our "
+            "refined run, in which the differences of the models show. The two finest levels that it reaches. From "
+            "`table.csv`."
         )
         items.append(Table(columns, tuple(rows), caption, small=True))
     missing = list(dict.fromkeys((one.method, one.status, one.message) for one in own if one.failed))
@@ -237,6 +225,27 @@ def peer_items(study: Study) -> list[Item]:
         caption = "Settings of other codes without a result. From `table.csv`."
         items.append(Table(heads, tuple(missing), caption, small=True))
     return items
+
+
+def _beside_ours(study: Study, work: str) -> list[tuple[str, ...]]:
+    """Rows of other codes on a work, at the two finest levels that each reaches."""
+    timed, unit = study.timed(work), study.works[work]["unit"]
+    factor, _ = per_period(study, work)
+    rows = []
+    for name in dict.fromkeys(one.method for one in timed if one.peer):
+        pairs = [
+            (level, ours, other)
+            for level in LEVELS[unit]
+            if (ours := within([one for one in timed if not one.peer], level))
+            and (other := within([one for one in timed if one.method == name], level))
+        ]
+        for level, ours, other in pairs[-2:]:
+            rows.append((
+                work, name, f"{level:g} {unit}", decimals(factor * other.wall_s, 2), decimals(factor * ours.wall_s, 2),
+                number(other.wall_s / ours.wall_s, 3), other.named, f"{ours.method}: {ours.named}",
+                f"{number(other.against_ours, 2)} {unit}" if math.isfinite(other.against_ours) else EMPTY,
+            ))  # fmt: skip
+    return rows
 
 
 def level_answer(study: Study, work: str) -> str:

@@ -12,6 +12,7 @@ from campaigns import accuracy, accuracy_plan
 from campaigns.accuracy_points import ADAPTIVE, FULL, ORDERS, Point
 from campaigns.accuracy_rows import COLUMNS, point_row, rms_mm
 from campaigns.accuracy_works import BY_NAME, WORKS
+from campaigns.runner import Job
 from engine import load_scene
 from reports.accuracy_study import COLUMNS as READ
 from tests.campaigns.conftest import ROOT, rows_of
@@ -153,3 +154,26 @@ def test_a_run_that_ended_early_has_no_error():
     run = KnownErrors(failing=("esdirk43",))(load_scene("tethered_buoy"), duration_s=50.0)
     row = point_row(run, "regular")
     assert row["status"] == "newton-failed" and "error" not in row and set(row) <= set(COLUMNS)
+
+
+def test_other_codes_run_beside_the_middle_round_of_ours():
+    def jobs(kind, rounds):
+        return [Job(f"{kind}-{work}-{k}", "", None, labels={"work": work, "round": k}) for k in rounds for work in "ab"]
+
+    found = [job.key for job in accuracy.side_by_side(jobs("ours", range(3)), jobs("theirs", [0]), 3)]
+    assert found == [
+        "ours-a-0", "ours-b-0", "ours-a-1", "theirs-a-0", "ours-b-1", "theirs-b-0", "ours-a-2", "ours-b-2"
+    ]  # fmt: skip
+
+
+@pytest.mark.slow
+def test_every_integrator_shows_its_order_on_smooth_works_of_the_engine(tmp_path):
+    out = tmp_path / "out"
+    words = ["--works", "regular-smooth", "pendulum", "--quick", "--no-peers", "--no-report"]
+    assert accuracy.main([*words, "--out", str(out)]) == 0
+    judged = [row for row in orders_of(out) if row["kind"] in ("time", "space")]
+    shown = {(row["work"], row["method"]) for row in judged if row["kind"] == "time"}
+    engine = [method for method in ORDERS if method != "paper-box"]
+    assert shown == {(work, method) for work in ("regular-smooth", "pendulum") for method in engine}
+    assert [row for row in judged if row["within"] != "1"] == []
+    assert (out / "costs.json").exists()
