@@ -28,9 +28,9 @@ def wave_number(period_s, depth_m, gravity_mps2=9.81):
     from scipy.optimize import brentq
 
     k_deep = (2 * math.pi / period_s) ** 2 / gravity_mps2
-    x0 = k_deep * depth_m  # with x = kH: x tanh x = x0, and x lies between max(x0, sqrt(x0)) and sqrt(x0) + x0
-    least, most = 0.999 * max(x0, math.sqrt(x0)), 1.001 * (x0 + math.sqrt(x0))  # a bracket that suits every size of x0
-    x = brentq(lambda x: x * math.tanh(x) - x0, least, most, xtol=1e-300, rtol=1e-15)
+    x0 = k_deep * depth_m  # with x = kH: x tanh x = x0, and x lies between max(x0, sqrt(x0)) / 1 and sqrt(x0) + x0
+    low, high = 0.5 * x0, x0 + math.sqrt(x0) + 1e-12  # for tiny x0 many decades apart: hence so many iterations
+    x = brentq(lambda x: x * math.tanh(x) - x0, low, high, xtol=1e-300, rtol=1e-15, maxiter=5000)
     return x / depth_m
 
 

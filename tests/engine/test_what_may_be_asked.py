@@ -1,11 +1,14 @@
 """What no run could do is refused before it starts, with the key to change; a missing equilibrium has its reason."""
 
+import math
+
 import pytest
 
 from engine import SceneError, load_scene, simulate
 from engine.parameters import NOT_STRETCHED, grid
 from engine.room import MOST_PROFILE_VALUES, MOST_SAMPLES, MOST_STEPS
 from engine.scene_values import LARGEST, SMALLEST
+from engine.waves import wave_number
 
 STILL = {"waves": None}
 DRY = {"water": None, "waves": None}
@@ -104,3 +107,10 @@ def test_a_grid_that_is_stretched_as_far_as_can_be_has_no_coincident_nodes(refin
 def test_stretching_sets_in_without_a_jump():
     even, hardly = grid(20.0, 41, 0.0), grid(20.0, 41, 1.01 * NOT_STRETCHED)
     assert hardly == pytest.approx(even, rel=1e-9)
+
+
+@pytest.mark.parametrize("period_s", [SMALLEST, 1e-6, 0.5, 60.0, 1e6, LARGEST])
+@pytest.mark.parametrize("depth_m", [SMALLEST, 1e-6, 21.0, 1e6, LARGEST])
+def test_every_wave_that_a_scene_may_have_obeys_the_dispersion_relation(period_s, depth_m):
+    k, omega = wave_number(period_s, depth_m), 2 * math.pi / period_s
+    assert 9.81 * k * math.tanh(k * depth_m) == pytest.approx(omega**2, rel=1e-13)
