@@ -27,6 +27,8 @@ from engine.dimensions import conserved, size_of, work_arrays
 from engine.elementary import copy_into
 from engine.guards import NEWTON_FAILED, OK
 from engine.newton import newton
+from engine.parameters import record_of
+from engine.statics import first_guess, settle
 
 RESOLVENT_S = 1e-7
 NEWTON_TOLERANCE, MOST = 1e-14, 20
@@ -80,6 +82,22 @@ def at_start(p, Y, C):
     conserved(p, Y, C)
 
 
+def at_rest(scene):
+    """(status, record, tables, Y) of the static equilibrium with the velocities of the start, a straight share each."""
+    tables: list = []
+    record = record_of(scene, tables)[0]
+    tables = np.concatenate(tables)
+    at, n = int(record["grid_at"]), int(record["nodes"])
+    h = tables[at : at + n - 1]
+    Y = first_guess(record, scene, h)
+    axes = "xyz" if scene.motion.dimensions == 3 else "xz"
+    status = settle(record, tables, Y, np.zeros(len(axes)))
+    share = np.concatenate([[0.0], np.cumsum(h)]) / h.sum()
+    for i, axis in enumerate(axes):
+        Y[:, len(axes) + i] = record[f"start_{axis}"] * share
+    return int(status), record, tables, Y
+
+
 class _Stopped(Exception):
     pass
 
@@ -88,12 +106,7 @@ class Equations:
     """f and its Jacobian for solve_ivp, with counts. faults: calls in which Newton's method did not converge."""
 
     def __init__(self, scene):
-        from engine.simulate import _Batch
-
-        batch = _Batch([scene], [1.0])
-        self.record, self.tables = batch.records[0], batch.tables
-        self.Y = batch.Y[0]
-        self.status = int(batch.states[0]["status"])
+        self.status, self.record, self.tables, self.Y = at_rest(scene)
         self.work, self.size = start_arrays(self.record)
         n = len(self.Y)
         self.base, self.moved = np.zeros((n, self.size)), np.zeros((n, self.size))
