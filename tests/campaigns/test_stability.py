@@ -88,6 +88,7 @@ def few(monkeypatch):
     return cases
 
 
+@pytest.mark.slow
 def test_a_campaign_leaves_its_files_and_is_not_done_twice(few, tmp_path, capsys):
     words = ["--fuzz", "6", "--drift-periods", "0", "--out", str(tmp_path / "out"), "--jobs", "1"]
     assert stability.main(words) == 0
