@@ -8,6 +8,7 @@ from campaigns.accuracy_points import (
     FIXED,
     LONG,
     ORDERS,
+    STRETCHED,
     VISCOUS,
     Effort,
     Point,
@@ -104,6 +105,8 @@ def _of_a_motion(work: Work, effort: Effort) -> list[tuple[str, int, str, float]
         for steps in own(effort.steps, work)
     ]
     if work.scene == BUOY and work.name != "pendulum":
+        stretched = REFERENCE_METHOD + STRETCHED
+        found += [(stretched, n, "rtol", rtol) for n in nodes[:4] for rtol in effort.rtols[:3]]
         box = [(n, steps) for n in effort.box_nodes for steps in effort.box_steps]
         found += [("paper-box", n, "step_s", work.period_s / steps) for n, steps in box]
     return found

@@ -20,13 +20,19 @@ FACTORS = (1.0, 0.9, 1.1)
 ORDERS = {"esdirk43": 4, "trbdf2": 2, "generalized-alpha": 2, "midpoint": 2, "backward-euler": 1, "paper-box": 2}
 ADAPTIVE = ("esdirk43", "trbdf2")
 FIXED = ("generalized-alpha", "midpoint", "backward-euler")
-VISCOUS = ", shock viscosity"
+VISCOUS, STRETCHED = ", shock viscosity", ", stretched grid"  # of a line with either
+STRETCHING = 1.0
 DEFAULT_NODES, DEFAULT_RTOL = 41, 0.03
 EXACT_NEWTON = {"solver.newton_tolerance": 1e-20, "solver.max_newton_iterations": 50}
 TIGHT_NEWTON = {"solver.newton_tolerance": 1e-6}  # of timed points with fixed steps: their error is that of the step
 LONGEST_STEP_S = 2.0  # where errors over tolerances are shown: the shipped 0.1 s would decide, not the tolerance
 LONG_PERIODS = 24
 LONG = ((161, 1e-4), (161, 1e-6), (161, 1e-5), (321, 1e-5), (641, 1e-5))  # neighbours differ in one of the two
+
+
+def plain(method: str) -> str:
+    """The integrator or scheme of a line."""
+    return method.removesuffix(VISCOUS).removesuffix(STRETCHED)
 
 
 @dataclass(frozen=True)
@@ -47,8 +53,10 @@ class Point:
 
     def changes(self) -> dict[str, object]:
         """The keys of the scene that make it this point."""
-        method = self.method.removesuffix(VISCOUS)
+        method = plain(self.method)
         keys = {"tether.nodes": self.nodes}
+        if self.method.endswith(STRETCHED):
+            keys["tether.grid_stretching"] = STRETCHING
         if method == "paper-box":
             keys["solver.scheme"] = method
         else:

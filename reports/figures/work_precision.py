@@ -18,7 +18,7 @@ _LOOKS = {  # method: colour, mark
     "paper-box": (SOFT, "p"),
 }
 _OTHERS = ((VERMILION, "X"), (INK, "P"), (VERMILION, "*"), (INK, "h"), (SOFT, "<"))
-VISCOUS = ", shock viscosity"
+DASHED = (", shock viscosity", ", stretched grid")
 
 
 @dataclass(frozen=True, eq=False)
@@ -49,8 +49,8 @@ def work_precision(
         axes = figure.subplots()
         others = iter(_OTHERS)
         for curve in curves:
-            colour, mark = _LOOKS.get(curve.name.removesuffix(VISCOUS)) or next(others, _OTHERS[-1])
-            dashed = "--" if curve.name.endswith(VISCOUS) else "-"
+            colour, mark = _LOOKS.get(curve.name.partition(",")[0]) or next(others, _OTHERS[-1])
+            dashed = "--" if curve.name.endswith(DASHED) else "-"
             axes.plot(curve.time, curve.error, mark, color=colour, markersize=2.6, alpha=0.45, linestyle="none")
             front = cheapest(curve.time, curve.error)
             width = 1.6 if curve.peer else 1.0
