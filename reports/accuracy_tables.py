@@ -84,8 +84,8 @@ def _why(smooth: list[dict], judged: list[dict]) -> str:
         )
     if any("shock viscosity" in row["method"] for row in off):
         words.append(
-            "Shock viscosity acts where strain rates have an extreme: ripples of the grid's own waves, which the midpoint "
-            "rule does not damp, switch it on and cost part of the order. "
+            "Shock viscosity acts where strain rates have an extreme: ripples of the grid's own waves, which the "
+            "midpoint rule does not damp, switch it on and cost part of the order. "
         )
     if any(row["rough"] for row in judged):
         words.append("Works that are not smooth show no order past the point that makes them so; the table says what.")
