@@ -3,6 +3,7 @@
 import csv
 import json
 import os
+import signal
 import subprocess
 import sys
 import time
@@ -56,7 +57,13 @@ def start_sweep(out, *options, session=False, **fake):
         stderr=subprocess.PIPE,
         text=True,
         start_new_session=session,
+        preexec_fn=_hear_interrupts,
     )
+
+
+def _hear_interrupts():
+    # Whoever starts the tests in the background of a script hands down a Ctrl-C that is ignored.
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
 
 
 def until(condition, process, seconds=40.0):
