@@ -36,15 +36,9 @@ def seconds(arguments, kernels):
 
 
 def command_lines():
-    """Names of the modules of campaigns and reports that can be run."""
-    names = []
-    for package in ("campaigns", "reports"):
-        for path in sorted((ROOT / package).glob("*.py")):
-            if path.name == "__main__.py":
-                names.append(package)
-            elif '__name__ == "__main__"' in path.read_text():
-                names.append(f"{package}.{path.stem}")
-    return names
+    """Names of the packages of campaigns and reports that can be run."""
+    mains = [path for package in ("campaigns", "reports") for path in sorted((ROOT / package).rglob("__main__.py"))]
+    return [".".join(path.parent.relative_to(ROOT).parts) for path in mains]
 
 
 def main():

@@ -54,7 +54,7 @@ def test_no_import_against_the_flow(package):
     ("package", "source"),
     [
         ("engine", "def f():\n    from analysis import spectrum"),
-        ("engine", "import campaigns.runner as r"),
+        ("engine", "import campaigns.machinery.runner as r"),
         ("analysis", "from engine.scene import Scene"),
         ("reports", "from campaigns import cli"),
         ("campaigns", "import benchmarks"),

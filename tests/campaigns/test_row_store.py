@@ -2,7 +2,7 @@
 
 import json
 
-from campaigns.row_store import keep_row, kept_row, made_by
+from campaigns.machinery.row_store import keep_row, kept_row, made_by
 
 ROW = {"status": "ok", "radius_max_m": 21.5, "strobed_period": None, "regime": "period-1"}
 
@@ -32,4 +32,6 @@ def test_a_folder_that_cannot_be_written_costs_only_the_row(tmp_path):
 def test_the_maker_changes_with_settings_and_sources():
     assert made_by({"transient": 100}, "analysis") == made_by({"transient": 100}, "analysis")
     assert made_by({"transient": 100}, "analysis") != made_by({"transient": 50}, "analysis")
-    assert made_by({"transient": 100}, "analysis") != made_by({"transient": 100}, "analysis", "campaigns/rows.py")
+    assert made_by({"transient": 100}, "analysis") != made_by(
+        {"transient": 100}, "analysis", "campaigns/buoy_sweep/rows.py"
+    )
