@@ -66,6 +66,15 @@ def test_the_rule_sees_every_form_of_import(package, source):
     assert forbidden(package, imported(source, (package, "inner")))
 
 
+def test_every_campaign_can_be_run_and_has_a_report():
+    from reports import CONTENTS
+
+    folders = {path.parent.name for path in (ROOT / "campaigns").glob("*/__init__.py")} - {"machinery"}
+    assert folders == set(CONTENTS)
+    for name in folders:
+        assert (ROOT / "campaigns" / name / "__main__.py").exists() and (ROOT / "reports" / name / "report.py").exists()
+
+
 def test_benchmarks_and_tests_are_not_installed():
     import tomllib
 

@@ -1,6 +1,4 @@
-"""The list of the engine's runs of the accuracy campaign, in the order of its table (`accuracy_points` says what
-kinds).
-"""
+"""The list of the engine's runs of the accuracy campaign, in the order of its table (`points` says what kinds)."""
 
 from campaigns.accuracy.points import ADAPTIVE, DEFAULT_RTOL, FIXED, LONG, ORDERS, STRETCHED, VISCOUS, Effort, Point
 from campaigns.accuracy.works import BUOY, BY_NAME, STRAIN, Work

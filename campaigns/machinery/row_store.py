@@ -13,12 +13,19 @@ from engine.atomic import write_atomic
 
 
 def made_by(settings: dict, *sources: str) -> str:
-    """Hash of settings (plain values) and of every .py file in the given folders of the project, or given files."""
+    """Hash of settings (plain values) and of every .py file in the given folders of the project, or given files.
+
+    Raises FileNotFoundError for a source that is not there, or a folder with no .py file: rows would outlive what made
+    them.
+    """
     root = Path(__file__).resolve().parents[2]
     digest = hashlib.sha256(json.dumps(settings, sort_keys=True).encode())
     for source in sources:
         path = root / source
-        for file in sorted(path.rglob("*.py")) if path.is_dir() else [path]:
+        files = sorted(path.rglob("*.py")) if path.is_dir() else [path]
+        if not files:
+            raise FileNotFoundError(f"no source in {path}")
+        for file in files:
             digest.update(file.relative_to(root).as_posix().encode() + b"\0" + file.read_bytes() + b"\0")
     return digest.hexdigest()
 

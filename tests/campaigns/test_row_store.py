@@ -2,6 +2,8 @@
 
 import json
 
+import pytest
+
 from campaigns.machinery.row_store import keep_row, kept_row, made_by
 
 ROW = {"status": "ok", "radius_max_m": 21.5, "strobed_period": None, "regime": "period-1"}
@@ -35,3 +37,9 @@ def test_the_maker_changes_with_settings_and_sources():
     assert made_by({"transient": 100}, "analysis") != made_by(
         {"transient": 100}, "analysis", "campaigns/buoy_sweep/rows.py"
     )
+
+
+@pytest.mark.parametrize("source", ["campaigns/rows_that_moved.py", "reports/templates"])
+def test_a_source_that_is_not_there_is_an_error(source):
+    with pytest.raises(FileNotFoundError):
+        made_by({}, "engine", source)
