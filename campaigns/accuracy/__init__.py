@@ -86,9 +86,10 @@ def study(order: Order, argv: list[str], simulate) -> int:
     if ours:
         from engine import simulate
     plan = plan_of(order.how, simulate, _undescribed, COLUMNS, _maker())
-    known: dict[str, str] = {}
+    known: dict[tuple[str, str], str] = {}
     first = engine_jobs(first_phase(order.effort), known)
-    known |= {job.labels["work"]: str(_file(order.how.out, job.key)) for job in first}
+    for job in first:
+        known[job.labels["work"], job.labels["kind"]] = str(_file(order.how.out, job.key))
     second = engine_jobs(second_phase(order.effort), known)
     third = engine_jobs(third_phase(order.effort), known)
     others = _peer_jobs(order, known) if order.peers and ours else ([], [], [])
@@ -136,8 +137,8 @@ def _maker() -> str:
     return made_by({}, "analysis/line_waves", "engine", "campaigns/accuracy/rows.py", "campaigns/accuracy/works.py")
 
 
-def engine_jobs(points: list[Point], references: dict[str, str]) -> list:
-    """Jobs of the engine's points; references: file of each work's reference."""
+def engine_jobs(points: list[Point], references: dict[tuple[str, str], str]) -> list:
+    """Jobs of the engine's points; references: files of what errors are taken against, by work and kind."""
     from campaigns.accuracy.rows import point_row
     from campaigns.machinery.runner import make_job
 
@@ -145,7 +146,8 @@ def engine_jobs(points: list[Point], references: dict[str, str]) -> list:
     for point in points:
         work = BY_NAME[point.work]
         length_s = LONG_PERIODS * PERIOD_S if point.kind == "long" else work.duration_s
-        reference = "" if point.kind in ("reference", "long") else references.get(work.name, "")
+        against = "grid" if point.kind == "tolerance" else "reference"
+        reference = "" if point.kind in ("reference", "long") else references.get((work.name, against), "")
         describe = partial(point_row, work_name=work.name, reference=reference)
         scene = work.made(point.changes())
         made = f"{point.kind}-{point.round}"
@@ -159,10 +161,11 @@ def _file(out: Path, key: str) -> Path:
     return trajectory_path(out, key)
 
 
-def _peer_jobs(order: Order, references: dict[str, str]) -> tuple[list, list, list]:
+def _peer_jobs(order: Order, references: dict[tuple[str, str], str]) -> tuple[list, list, list]:
     from campaigns.accuracy.peers import peer_jobs
 
-    return peer_jobs(order.how.out, order.effort.works, order.quick, references)
+    ours = {work: path for (work, kind), path in references.items() if kind == "reference"}
+    return peer_jobs(order.how.out, order.effort.works, order.quick, ours)
 
 
 def _parameters(order: Order) -> dict[str, object]:

@@ -3,8 +3,8 @@
 Series in time and in space are judged by the differences of neighbours in the series, which need no reference; their
 slopes are log2 of the ratios of successive differences, the order the last of them. Works in which the rope goes slack
 are also judged by their samples before it first does ("-early"). Breaking lines are refined in time and space at once,
-and judged by their errors against the exact solution. Tolerances of one grid: slope of the error against the tolerance,
-least squares.
+and judged by their errors against the exact solution. Tolerances of one grid, against a run on it: slope
+of the error against the tolerance, least squares.
 """
 
 import csv

@@ -9,6 +9,7 @@ SPACE_STEPS = 400  # per period, of smooth works in space; rough ones need a tol
 SPACE_RTOL = 1e-5
 LINE_WAVE_MPS = 1000.0  # about the fastest wave of the breaking line: steps are an element's length over it
 MOST_ADAPTIVE_LINE = 401  # nodes of breaking lines with steps under control: beyond, some take minutes to fail
+TOLERANCE_NODES, TOLERANCE_REFERENCE = 161, 1e-6
 REFERENCE_METHOD = "esdirk43"
 
 
@@ -26,6 +27,11 @@ def references(work: Work) -> list[Point]:
         Point(work.name, "check" if i else "reference", REFERENCE_METHOD, nodes, "rtol", rtol)
         for i, (nodes, rtol) in enumerate(settings)
     ]
+
+
+def grid_reference(work: Work) -> list[Point]:
+    """A run on the grid of `tolerances` at a tolerance beyond them: their errors against it are those in time alone."""
+    return [Point(work.name, "grid", REFERENCE_METHOD, TOLERANCE_NODES, "rtol", TOLERANCE_REFERENCE)]
 
 
 def long_runs(work: Work) -> list[Point]:
@@ -67,9 +73,12 @@ def in_both(work: Work, effort: Effort) -> list[Point]:
 
 
 def tolerances(work: Work, effort: Effort) -> list[Point]:
-    """One fine grid, that of the reference of the violent work, over tolerances."""
-    nodes = min(work.reference[0], 161)
-    return [Point(work.name, "tolerance", method, nodes, "rtol", rtol) for method in ADAPTIVE for rtol in effort.rtols]
+    """One fine grid over tolerances."""
+    return [
+        Point(work.name, "tolerance", method, TOLERANCE_NODES, "rtol", rtol)
+        for method in ADAPTIVE
+        for rtol in effort.rtols
+    ]
 
 
 def timed(work: Work, effort: Effort) -> list[Point]:
@@ -115,7 +124,8 @@ def _of_a_line(work: Work, effort: Effort) -> list[tuple[str, int, str, float]]:
 
 def first_phase(effort: Effort) -> list[Point]:
     """References alone: everything else is described by its distance from them."""
-    return [point for name in effort.works for point in references(BY_NAME[name])[:1]]
+    works = [work for name in effort.works if (work := BY_NAME[name]).reference is not None]
+    return [point for work in works for point in (references(work)[0], *grid_reference(work))]
 
 
 def second_phase(effort: Effort) -> list[Point]:

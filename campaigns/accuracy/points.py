@@ -5,7 +5,8 @@ kind of a point:
     reference   what errors are taken against        check    how far that is converged
     point       timed: error against run time, in rounds that take turns
     time        steps halved on one grid             space    grids doubled, one step or tolerance
-    tolerance   tolerances of one grid               long     how long two refined runs stay together
+    tolerance   tolerances of one grid               grid     what errors of tolerances are taken against
+    long        how long refined runs stay together
     both        elements and steps halved, at a Courant number of one
 
 Near a snap the error of a loose setting is partly luck: every round takes another tolerance or step, `FACTORS` times

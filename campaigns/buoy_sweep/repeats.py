@@ -93,7 +93,9 @@ def repeat(plan: Plan, rows: list[dict], length: int, label: str, verdict: Calla
         jobs += _jobs(base, role, row[label], length, verdict)
     place = plan.directory / FOLDER
     (place / "trajectories").mkdir(parents=True, exist_ok=True)
-    return run_campaign(replace(plan, directory=place, columns=COLUMNS, show_progress=False), jobs)
+    where = plan.backend, plan.jobs, plan.dask_address
+    own = Plan(place, plan.simulate, plan.describe, COLUMNS, *where, show_progress=False, row_maker=plan.row_maker)
+    return run_campaign(own, jobs)
 
 
 def _jobs(base: Path, role: str, label: object, length: int, verdict: Callable) -> list[Job]:

@@ -62,7 +62,10 @@ def claimed(directory: Path) -> Iterator[None]:
             lock.write(f"process {os.getpid()} on {socket.gethostname()}")
             lock.flush()
         _drop_temporaries(directory)
-        yield
+        try:
+            yield
+        finally:
+            _drop_temporaries(directory)  # of workers that were ended while they wrote
 
 
 def _drop_temporaries(directory: Path) -> None:

@@ -69,6 +69,8 @@ def _about(study: Study, work: str) -> str:
     if reference is not None:
         rough += f" Reference: {number(reference['nodes'])} nodes, rtol {reference['setting']:g}"
         rough += f"; of the runs that check it, {'; '.join(said)}." if said else "."
+        if any(one.nodes == reference["nodes"] and not one.peer for one in study.timed(work)):
+            rough += " Settings on the grid of the reference show their error in time alone."
     return what + rough
 
 

@@ -1,6 +1,6 @@
 """What a report says, before anyone decides what it looks like.
 
-A report is one flat list of the frozen records below. `reports.html` and `reports.pdf` each walk the same list, so the
+A report is one flat list of the frozen records below. `html` and `pdf` each walk the same list, so the
 page and the PDF cannot drift apart. Text is plain text: the renderers escape it. Two marks are understood (`spans`): a
 pair of backquotes for a file, column or key name, because captions name their columns all the time, and the subscripts
 made by `sub`, because the symbols of the paper have them.
