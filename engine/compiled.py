@@ -14,12 +14,23 @@ from functools import cache
 from pathlib import Path
 
 import numba
-from numba import config
+from numba import config, types
 
 from .fused import with_fused_sums
 
 _ROOT = Path(__file__).parent
 _KEPT_CACHES = 6
+
+
+def _mangled_by_contents(record):
+    return "Record", (hashlib.sha256(record.name.encode()).hexdigest()[:16],)
+
+
+# Numba writes a record into the names of compiled functions as a number that counts the types its process has met.
+# Two processes give one number to two records: code that one stored for the planar record and the other for the
+# spatial one then has one name, and a process that loads both gets one of them for both. Names are only names: other
+# users of Numba in the process lose nothing by names that tell records apart.
+types.Record.mangling_args = property(_mangled_by_contents)
 
 
 @cache
