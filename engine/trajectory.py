@@ -165,7 +165,11 @@ class Trajectory:
         Raises OSError (nothing is left behind), ValueError for an attribute name that the record or the format uses
         itself.
         """
-        write_atomic(path, _netcdf_bytes(self, attributes or {}))
+        write_atomic(path, self.to_bytes(attributes))
+
+    def to_bytes(self, attributes: dict[str, str] | None = None) -> bytes:
+        """The content of the file that `save` writes, for whoever has to send it first. Raises ValueError as `save`."""
+        return _netcdf_bytes(self, attributes or {})
 
     @staticmethod
     def load(path: str | Path) -> "Trajectory":
@@ -178,12 +182,17 @@ class Trajectory:
             content = Path(path).read_bytes()
         except OSError as error:
             raise TrajectoryError(f"{path}: cannot be read: {error.strerror or error}") from None
+        return Trajectory.from_bytes(content, str(path))
+
+    @staticmethod
+    def from_bytes(content: bytes, name: str = "the record") -> "Trajectory":
+        """The record of a file's content, for whoever was sent it. Raises TrajectoryError, which calls it by name."""
         try:
             return _from_netcdf_bytes(content)
         except TrajectoryError as error:
-            raise TrajectoryError(f"{path}: {error}") from None
+            raise TrajectoryError(f"{name}: {error}") from None
         except Exception as error:  # a damaged header can make the reader fail in any way at all
-            raise TrajectoryError(f"{path}: truncated, damaged, or not a netCDF-3 file ({error})") from None
+            raise TrajectoryError(f"{name}: truncated, damaged, or not a netCDF-3 file ({error})") from None
 
 
 def _variables(run: Trajectory) -> list[tuple[str, tuple[str, ...], np.ndarray, str, str]]:

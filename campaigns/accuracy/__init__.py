@@ -18,6 +18,7 @@ from pathlib import Path
 from campaigns.accuracy.points import FACTORS, FULL, LONG_PERIODS, QUICK, Effort, Point
 from campaigns.accuracy.works import BY_NAME, PERIOD_S, UNITS, Work
 from campaigns.machinery import cli
+from campaigns.machinery.kept_run import KeptRun
 
 CAMPAIGN = "accuracy"
 MODULE = "campaigns.accuracy"
@@ -86,10 +87,10 @@ def study(order: Order, argv: list[str], simulate) -> int:
     if ours:
         from engine import simulate
     plan = plan_of(order.how, simulate, _undescribed, COLUMNS, _maker())
-    known: dict[tuple[str, str], str] = {}
+    known: dict[tuple[str, str], KeptRun] = {}
     first = engine_jobs(first_phase(order.effort), known)
     for job in first:
-        known[job.labels["work"], job.labels["kind"]] = str(_file(order.how.out, job.key))
+        known[job.labels["work"], job.labels["kind"]] = KeptRun(_file(order.how.out, job.key))
     second = engine_jobs(second_phase(order.effort), known)
     third = engine_jobs(third_phase(order.effort), known)
     others = _peer_jobs(order, known) if order.peers and ours else ([], [], [])
@@ -137,8 +138,8 @@ def _maker() -> str:
     return made_by({}, "analysis/line_waves", "engine", "campaigns/accuracy/rows.py", "campaigns/accuracy/works.py")
 
 
-def engine_jobs(points: list[Point], references: dict[tuple[str, str], str]) -> list:
-    """Jobs of the engine's points; references: files of what errors are taken against, by work and kind."""
+def engine_jobs(points: list[Point], references: dict[tuple[str, str], KeptRun]) -> list:
+    """Jobs of the engine's points; references: the runs that errors are taken against, by work and kind."""
     from campaigns.accuracy.rows import point_row
     from campaigns.machinery.runner import make_job
 
@@ -147,7 +148,7 @@ def engine_jobs(points: list[Point], references: dict[tuple[str, str], str]) -> 
         work = BY_NAME[point.work]
         length_s = LONG_PERIODS * PERIOD_S if point.kind == "long" else work.duration_s
         against = "grid" if point.kind == "tolerance" else "reference"
-        reference = "" if point.kind in ("reference", "long") else references.get((work.name, against), "")
+        reference = None if point.kind in ("reference", "long") else references.get((work.name, against))
         describe = partial(point_row, work_name=work.name, reference=reference)
         scene = work.made(point.changes())
         made = f"{point.kind}-{point.round}"
@@ -161,7 +162,7 @@ def _file(out: Path, key: str) -> Path:
     return trajectory_path(out, key)
 
 
-def _peer_jobs(order: Order, references: dict[tuple[str, str], str]) -> tuple[list, list, list]:
+def _peer_jobs(order: Order, references: dict[tuple[str, str], KeptRun]) -> tuple[list, list, list]:
     from campaigns.accuracy.peers import peer_jobs
 
     ours = {work: path for (work, kind), path in references.items() if kind == "reference"}

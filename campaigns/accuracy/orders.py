@@ -19,6 +19,7 @@ from campaigns.accuracy.points import ORDERS, plain
 from campaigns.accuracy.rows import kept_samples, rms_mm
 from campaigns.accuracy.works import BY_NAME, UNITS
 from campaigns.machinery.folder import trajectory_path
+from campaigns.machinery.kept_run import KeptRun
 from engine.atomic import write_atomic
 
 COLUMNS = (
@@ -95,7 +96,7 @@ def first_slack(out: Path, work, rows: list[dict]) -> int:
 
 def _by_differences(out: Path, work, kind: str, method: str, theory: float, series: list[dict], early: int = 0) -> dict:
     """early: number of samples that are compared, 0 for all."""
-    samples = [kept_samples(work, str(trajectory_path(out, row["run_key"]))) for row in series]
+    samples = [kept_samples(work, KeptRun(trajectory_path(out, row["run_key"]))) for row in series]
     if early:
         samples = [None if values is None else values[:early] for values in samples]
         kind = f"{kind}-early"

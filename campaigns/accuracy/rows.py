@@ -2,11 +2,11 @@
 
 import functools
 import math
-from pathlib import Path
 
 import numpy as np
 
 from campaigns.accuracy.works import BY_NAME, PLACE, RADIUS, UNITS, Work
+from campaigns.machinery.kept_run import KeptRun
 
 COLUMNS = (
     "work",
@@ -46,10 +46,12 @@ STATISTICS = (
 EARLY = 0.5  # share of the run over which error_early is taken
 
 
-def point_row(trajectory, work_name: str, reference: str = "", ours: str = "") -> dict[str, object]:
+def point_row(
+    trajectory, work_name: str, reference: KeptRun | None = None, ours: KeptRun | None = None
+) -> dict[str, object]:
     """The columns of `COLUMNS` that a run fills; those left out are unknown.
 
-    reference, ours: files of the runs that error and error_against_ours are taken against, "" for none; the error of a
+    reference, ours: the runs that error and error_against_ours are taken against, None for none; the error of a
     breaking line is taken against the exact solution. A run that ended early has no error.
     """
     work = BY_NAME[work_name]
@@ -75,17 +77,15 @@ def samples_of(work: Work, trajectory) -> np.ndarray:
 
 
 @functools.lru_cache(maxsize=32)
-def _kept(work_name: str, path: str, stamp: int) -> np.ndarray | None:
-    from engine import Trajectory
-
-    run = Trajectory.load(Path(path))
+def _kept(work_name: str, kept: KeptRun, stamp: object) -> np.ndarray | None:
+    run = kept.load()
     return samples_of(BY_NAME[work_name], run) if run.status == "ok" else None
 
 
-def kept_samples(work: Work, path: str) -> np.ndarray | None:
-    """The samples of a run kept in a file; None where there is none, or where it ended early."""
-    file = Path(path)
-    return _kept(work.name, path, file.stat().st_mtime_ns) if file.exists() else None
+def kept_samples(work: Work, kept: KeptRun) -> np.ndarray | None:
+    """The samples of a finished run; None where there is none, or where it ended early."""
+    stamp = kept.stamp()
+    return None if stamp is None else _kept(work.name, kept, stamp)
 
 
 def _errors(found: np.ndarray, reference: np.ndarray) -> dict[str, float]:

@@ -11,12 +11,12 @@ import math
 from collections.abc import Callable
 from dataclasses import replace
 from functools import partial
-from pathlib import Path
 from time import perf_counter
 
 import numpy as np
 
 from campaigns.machinery.folder import trajectory_path
+from campaigns.machinery.kept_run import KeptRun
 from campaigns.machinery.runner import Job, Plan, Summary, make_job, run_campaign
 
 FOLDER = "accuracy"  # within that of the sweep: a table of its own, and trajectories
@@ -89,7 +89,7 @@ def repeat(plan: Plan, rows: list[dict], length: int, label: str, verdict: Calla
     """Do the repeated runs over so many wave periods; arguments as for `and_again`."""
     jobs: list[Job] = []
     for role, row in chosen(rows):
-        base = trajectory_path(plan.directory, row["run_key"])
+        base = KeptRun(trajectory_path(plan.directory, row["run_key"]))
         jobs += _jobs(base, role, row[label], length, verdict)
     place = plan.directory / FOLDER
     (place / "trajectories").mkdir(parents=True, exist_ok=True)
@@ -98,12 +98,11 @@ def repeat(plan: Plan, rows: list[dict], length: int, label: str, verdict: Calla
     return run_campaign(own, jobs)
 
 
-def _jobs(base: Path, role: str, label: object, length: int, verdict: Callable) -> list[Job]:
-    from engine import Trajectory
+def _jobs(base: KeptRun, role: str, label: object, length: int, verdict: Callable) -> list[Job]:
     from engine.scene import scene_from_toml
     from reports.buoy_sweep.motion import tighter_scene
 
-    scene = Trajectory.load(base).scene
+    scene = base.load().scene
     finer = scene_from_toml(scene.to_toml(), {"tether.nodes": 2 * scene.tether.nodes - 1})
     found = []
     for run, made in ((AS_RUN, scene), (TIGHTER, tighter_scene(scene)), (FINER, finer)):
@@ -116,11 +115,9 @@ def _jobs(base: Path, role: str, label: object, length: int, verdict: Callable) 
     return found
 
 
-def cut(scene, periods=None, duration_s=None, *, base: Path, length: int):
+def cut(scene, periods=None, duration_s=None, *, base: KeptRun, length: int):
     """The first wave periods of the run as it was made; the share of its seconds and iterations that is theirs."""
-    from engine import Trajectory
-
-    return first_periods(Trajectory.load(base), length)
+    return first_periods(base.load(), length)
 
 
 def first_periods(trajectory, length: int):
@@ -144,10 +141,8 @@ def first_periods(trajectory, length: int):
     return replace(trajectory, columns=kept, statistics=trajectory.statistics | scaled, profiles=None, tangent=tangent)
 
 
-def accuracy_row(trajectory, base: Path, length: int, verdict: Callable) -> dict[str, object]:
-    """The columns of `COLUMNS` that a repeated run fills. base: file of the run as it was made."""
-    from engine import Trajectory
-
+def accuracy_row(trajectory, base: KeptRun, length: int, verdict: Callable) -> dict[str, object]:
+    """The columns of `COLUMNS` that a repeated run fills. base: the run as it was made."""
     scene = trajectory.scene
     row = {
         "status": trajectory.status,
@@ -159,7 +154,7 @@ def accuracy_row(trajectory, base: Path, length: int, verdict: Callable) -> dict
     row |= {name: trajectory.statistics.get(name) for name in ("wall_s", "newton_iterations", "loop_releases")}
     if trajectory.status != "ok":
         return row
-    original = first_periods(Trajectory.load(base), length)
+    original = first_periods(base.load(), length)
     r, r0 = trajectory.columns["radius_m"], original.columns["radius_m"]
     early = round(EARLY * scene.waves.period_s / scene.sample_step_s()) + 1
     row |= {"error_early_m": _rms(r[:early] - r0[:early]), "error_m": _rms(r - r0)} if len(r) == len(r0) else {}

@@ -9,6 +9,7 @@ import argparse
 import difflib
 import math
 import os
+import re
 import sys
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -84,9 +85,9 @@ def add(group, option: str, metavar: str, help: str) -> None:
 
 def add_running(group, default_out: str) -> None:
     """Add the options that say how and where a campaign runs, the same for all campaigns."""
-    add(group, "--jobs", "N", f"runs at the same time (default: {default_jobs()})")
+    add(group, "--jobs", "N", f"runs at the same time, but on a cluster of your own (default: {default_jobs()})")
     add(group, "--backend", "|".join(BACKENDS), "processes, threads or a dask cluster (default: loky, processes)")
-    add(group, "--dask-address", "ADDRESS", "scheduler of a dask cluster that sees this folder (default: a local one)")
+    add(group, "--dask-address", "ADDRESS", "scheduler of a dask cluster, tcp://HOST:PORT (default: a local one)")
     add(group, "--out", "DIR", f"folder of the results; runs found there are not done again (default: {default_out})")
     group.add_argument("--no-report", action="store_true", help="leave out report.html and report.pdf")
 
@@ -197,7 +198,7 @@ def backend(options: argparse.Namespace, faults: list[str]) -> tuple[str, str | 
     """The backend and the address of its scheduler (None: none, or a local cluster)."""
     name = value(options.backend, "--backend", "loky", one_of(BACKENDS), "one of " + ", ".join(BACKENDS), faults)
     allowed = "the address of a scheduler, as tcp://HOST:PORT"
-    address = value(options.dask_address, "--dask-address", None, str, allowed, faults)
+    address = value(options.dask_address, "--dask-address", None, _scheduler, allowed, faults)
     if address is not None and name != "dask":
         faults.append(f"--dask-address: given with --backend {name}; allowed: with --backend dask only")
     if name == "dask":
@@ -206,6 +207,13 @@ def backend(options: argparse.Namespace, faults: list[str]) -> tuple[str, str | 
         if find_spec("distributed") is None:
             faults.append("--backend: given 'dask', which is not installed; allowed: loky, threading")
     return name, address
+
+
+def _scheduler(text: str) -> str:
+    found = re.fullmatch(r"((tcp|tls|ws|wss)://)?([^\s:/]+|\[[0-9A-Fa-f:]+\]):(\d{1,5})/?", text)
+    if not found or not 0 < int(found[4]) < 65536:
+        raise ValueError(text)
+    return text
 
 
 def folder(options: argparse.Namespace, campaign: str, faults: list[str]) -> Path:

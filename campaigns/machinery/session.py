@@ -71,22 +71,28 @@ def run(plan: Plan, jobs: list[Job], compile_run_s: float = _COMPILE_RUN_S) -> t
     compile_run_s: length of the run that only compiles, long enough for the scenes at hand to go through every kernel.
     """
     missing = [job for job in jobs if not trajectory_path(plan.directory, job.key).exists()]
-    # A plane, space, and runs side by side have machine code of their own.
-    groups = grouped(plan, missing)
-    together = {job.key for group in groups for job in group.jobs}
-    first_of_a_kind = {job.scene.motion.dimensions: job for job in reversed(missing) if job.key not in together}
     start = time.perf_counter()
-    if missing:
+    if missing and plan.sends and plan.dask_address is not None:
+        print("each worker compiles the engine in its first run, unless it has done so before", file=sys.stderr)
+    elif missing:
         print("compiling the engine, or loading it compiled ...", file=sys.stderr)
-    for job in first_of_a_kind.values():
-        _compile(plan.simulate, job.scene, compile_run_s)
-    for group in groups[:1]:
-        _compile(partial(_a_pair, plan.simulate_each), group.jobs[0].scene, compile_run_s)
+        _compile_all(plan, missing, compile_run_s)
     timing = {"compile_s": time.perf_counter() - start}
     start = time.perf_counter()
     summary = run_campaign(plan, jobs)
     timing |= {"run_s": time.perf_counter() - start, "analysis_s": summary.analysis_s}
     return timing, summary
+
+
+def _compile_all(plan: Plan, missing: list[Job], compile_run_s: float) -> None:
+    # A plane, space, and runs side by side have machine code of their own.
+    groups = grouped(plan, missing)
+    together = {job.key for group in groups for job in group.jobs}
+    first_of_a_kind = {job.scene.motion.dimensions: job for job in reversed(missing) if job.key not in together}
+    for job in first_of_a_kind.values():
+        _compile(plan.simulate, job.scene, compile_run_s)
+    for group in groups[:1]:
+        _compile(partial(_a_pair, plan.simulate_each), group.jobs[0].scene, compile_run_s)
 
 
 def _a_pair(simulate_each: Callable, scene: object, duration_s: float) -> None:

@@ -1,7 +1,8 @@
 """Runs of a campaign that share a worker: the engine computes several at once faster than one after another.
 
 A group of jobs goes to a worker as one task. The worker saves every run, and makes its row, as soon as it ends: a
-killed campaign loses what was running and nothing else. What a group leaves undone - the engine raised, the worker
+killed campaign loses what was running and nothing else. On a cluster the runs of a group are sent when its last one has
+ended, so groups there are small. What a group leaves undone - the engine raised, the worker
 died - is left to `campaigns.machinery.runner`, which runs it job by job and finds on disk what was finished.
 """
 
@@ -10,10 +11,12 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import partial
 
+from campaigns.machinery.one_run import kept, other_sources
 from campaigns.machinery.pools import PoolBroken
-from campaigns.machinery.runner import Job, Outcome, Plan, kept, other_sources
+from campaigns.machinery.runner import Job, Outcome, Plan
 
 MOST = 96  # jobs of a group: results reach the table group by group
+MOST_SENT = 8  # where a group's runs are sent together: one for each lane, so a lost worker costs what was running
 FEWEST = 4  # jobs for each worker below which they are not put together
 
 
@@ -43,7 +46,7 @@ def grouped(plan: Plan, jobs: list[Job]) -> list[Group]:
         if len(members) < FEWEST:
             continue
         workers = max(1, min(plan.jobs, len(members) // FEWEST))
-        count = workers * math.ceil(len(members) / (workers * MOST))
+        count = workers * math.ceil(len(members) / (workers * (MOST_SENT if plan.sends else MOST)))
         # dealt like cards: neighbours cost alike, and so the groups do
         found += [tuple(members[first::count]) for first in range(count)]
     return [Group(number, members) for number, members in enumerate(found)]
@@ -73,7 +76,7 @@ def outcomes_side_by_side(plan: Plan, execute: Callable, jobs: list[Job]) -> Ite
     waiting = {group.number: group for group in grouped(plan, jobs)}
     while waiting:
         try:
-            for number, outcomes in execute(partial(run_group, plan), list(waiting.values())):
+            for number, outcomes in execute(partial(run_group, plan.for_workers()), list(waiting.values())):
                 del waiting[number]
                 yield from outcomes
         except PoolBroken as broken:

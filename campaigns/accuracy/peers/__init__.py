@@ -13,6 +13,7 @@ from pathlib import Path
 
 from campaigns.accuracy.peers import cabledyn, elastica, moordyn
 from campaigns.accuracy.works import BY_NAME
+from campaigns.machinery.kept_run import KeptRun
 
 REFERENCE, CHECK, TIMED, OURS = "peer-reference", "peer-check", "peer", "ours-for-peer"
 OURS_REFINED = (321, 1e-5)
@@ -86,7 +87,9 @@ PEERS = (
 )  # fmt: skip
 
 
-def peer_jobs(out: Path, works: tuple[str, ...], quick: bool, references: dict[str, str]) -> tuple[list, list, list]:
+def peer_jobs(
+    out: Path, works: tuple[str, ...], quick: bool, references: dict[str, KeptRun]
+) -> tuple[list, list, list]:
     """Jobs of all other codes: (their references and ours for them, what checks those, what is timed)."""
     from campaigns.machinery.folder import trajectory_path
 
@@ -99,16 +102,16 @@ def peer_jobs(out: Path, works: tuple[str, ...], quick: bool, references: dict[s
                 continue
             if not version:
                 away = partial(absent, package=peer.package)
-                timed.append(_job(peer, work, TIMED, *settings[0], "", away, "", ""))
+                timed.append(_job(peer, work, TIMED, *settings[0], "", away, None, None))
                 continue
-            ours = own = references.get(work, "")
+            ours = own = references.get(work)
             if peer.ours:
                 first.append(_ours(peer, work))
-                ours = str(trajectory_path(out, first[-1].key))
+                ours = KeptRun(trajectory_path(out, first[-1].key))
             refined = peer.refined.get(work, ())
             for nodes, value in refined[:1]:
-                first.append(_job(peer, work, REFERENCE, nodes, value, version, None, "", ours))
-                own = str(trajectory_path(out, first[-1].key))
+                first.append(_job(peer, work, REFERENCE, nodes, value, version, None, None, ours))
+                own = KeptRun(trajectory_path(out, first[-1].key))
             second += [_job(peer, work, CHECK, nodes, value, version, None, own, ours) for nodes, value in refined[1:]]
             timed += [_job(peer, work, TIMED, nodes, value, version, None, own, ours) for nodes, value in settings]
     return first, second, timed
@@ -136,7 +139,7 @@ def _ours(peer: Peer, work: str):
     )
 
 
-def _job(peer: Peer, work: str, kind: str, nodes: int, value: float, version: str, run, own: str, ours: str):
+def _job(peer: Peer, work: str, kind: str, nodes: int, value: float, version: str, run, own, ours):
     from campaigns.accuracy.rows import point_row
     from campaigns.machinery.row_store import made_by
     from campaigns.machinery.runner import make_job

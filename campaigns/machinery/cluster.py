@@ -1,0 +1,213 @@
+"""Runs on a dask cluster: its workers are other processes, maybe on other machines that see no folder of ours.
+
+dask's own futures are used, not joblib's backend for dask, which waits for ever when a worker is lost (joblib 1.6).
+What goes wrong, and what becomes of it:
+
+    a worker dies          dask gives its runs to another one; a run whose workers die more often than the scheduler
+                           allows is a suspect of `PoolBroken`, and is tried alone once more
+    no worker is there     the campaign waits JOIN_S for the first one, GONE_S for one to come back, and stops
+    the scheduler dies     the campaign stops; so it does where a worker has other sources or libraries than we have
+
+"Stops" is CampaignStopped, one line: finished runs are on disk, and the same command goes on.
+"""
+
+import contextlib
+import logging
+import platform
+import queue
+import sys
+import time
+from collections.abc import Callable, Iterator
+from functools import cache, partial
+from importlib import metadata
+
+from campaigns.machinery.folder import CampaignStopped
+from campaigns.machinery.pools import PoolBroken, first_line, ignore_interrupt
+from campaigns.machinery.row_store import made_by
+
+JOIN_S = 30.0  # for the scheduler to answer, and then for its first worker
+GONE_S = 120.0  # without any worker in the midst of a campaign
+_LOOK_S, _SAY_S = 2.0, 10.0
+_NUMBERS = ("numpy", "scipy", "numba", "llvmlite")  # a worker with another version would give other last digits
+_PARTS = ("engine", "analysis", "campaigns", "reports")
+
+
+class _OtherVersion(Exception):
+    """Raised in a worker that must not take part; str() says why."""
+
+
+@contextlib.contextmanager
+def client(jobs: int, address: str | None) -> Iterator:
+    """A client of the scheduler at `address`, or of a local cluster of `jobs` processes (None).
+
+    Raises CampaignStopped where no scheduler answers, no worker joins, or one has other sources.
+    """
+    import dask
+    from distributed import Client, LocalCluster
+
+    local = address is None
+    with contextlib.ExitStack() as stack:
+        if local:
+            # A run whose worker dies is not tried again by dask: the runner does that, one run at a time.
+            stack.enter_context(dask.config.set({"distributed.scheduler.allowed-failures": 0}))
+            address = stack.enter_context(
+                LocalCluster(n_workers=jobs, threads_per_worker=1, dashboard_address=None, silence_logs="CRITICAL")
+            )
+        stack.enter_context(_quiet())
+        try:
+            found = stack.enter_context(Client(address, timeout=JOIN_S))
+        except (OSError, TimeoutError, ValueError) as error:
+            raise CampaignStopped(f"no dask cluster at {address}: {first_line(error)}") from error
+        try:
+            found.wait_for_workers(1, timeout=JOIN_S)
+        except TimeoutError:
+            start = f"start one: dask worker {address} --nthreads 1"
+            raise CampaignStopped(f"the scheduler at {address} has no worker after {JOIN_S:g} s; {start}") from None
+        if local:
+            found.register_plugin(_deaf_to_interrupts())
+        _check(found)
+        yield found
+
+
+@contextlib.contextmanager
+def _quiet() -> Iterator[None]:
+    # A lost connection ends the campaign in one line of its own; dask adds a page, from threads of its own.
+    loggers = [logging.getLogger(name) for name in ("distributed", "distributed.client", "asyncio", "tornado")]
+    before = [logger.level for logger in loggers]
+    for logger in loggers:
+        logger.setLevel(logging.CRITICAL + 1)
+    try:
+        yield
+    finally:
+        for logger, level in zip(loggers, before, strict=True):
+            logger.setLevel(level)
+
+
+def _deaf_to_interrupts():
+    from distributed import WorkerPlugin
+
+    class DeafToInterrupts(WorkerPlugin):
+        """As `ignore_interrupt`, also for workers that dask starts in place of lost ones."""
+
+        def setup(self, worker):
+            ignore_interrupt()
+
+    return DeafToInterrupts()
+
+
+@cache
+def facts() -> dict[str, str]:
+    """What decides the numbers that this process computes: versions, and a hash of the sources of each package."""
+    versions = {name: metadata.version(name) for name in _NUMBERS}
+    sources = {f"sources of {part}": made_by({}, part)[:12] for part in _PARTS}
+    return {"Python": ".".join(platform.python_version_tuple()[:2])} | versions | sources
+
+
+def difference(here: dict[str, str], there: dict[str, str]) -> str:
+    """What sets a worker apart, in words; "" for nothing."""
+    off = [f"{name} {there.get(name, 'none')} (here: {here[name]})" for name in here if there.get(name) != here[name]]
+    return ", ".join(off)
+
+
+def _check(found) -> None:
+    faults = []
+    try:
+        found.run_on_scheduler(facts)  # it computes nothing, but dask unpacks there what it hands on
+    except ImportError as error:
+        faults.append(f"the scheduler: {first_line(error)}")
+    for worker, there in found.run(facts, on_error="return").items():
+        if isinstance(there, OSError):
+            continue  # it has just gone; whoever comes in its place is asked with its first run
+        off = first_line(there) if isinstance(there, Exception) else difference(facts(), there)
+        if off:
+            faults.append(f"{worker}: {off}")
+    if faults:
+        raise CampaignStopped(_refusal(faults))
+
+
+def _refusal(faults: list[str]) -> str:
+    cure = "install there what is installed here, and start it again"
+    return f"refused, not the same version as here: {'; '.join(faults)}; {cure}"
+
+
+def _asked(call: Callable, here: dict[str, str], job: object) -> object:
+    # In the worker; one that joined late has not been asked before.
+    if off := difference(here, facts()):
+        from distributed import get_worker
+
+        raise _OtherVersion(f"{get_worker().address}: {off}")
+    return call(job)
+
+
+def results(found, call: Callable, work: list) -> Iterator:
+    """call(job) for every job, as results come. Raises PoolBroken with the jobs that dask gave up, CampaignStopped."""
+    from distributed import KilledWorker
+
+    came: queue.Queue = queue.Queue()
+    ask = partial(_asked, call, facts())
+    futures = {found.submit(ask, job, pure=False): job for job in work}
+    for future in futures:
+        future.add_done_callback(partial(_fetch, came))
+    left, killed, last = set(futures), [], None
+    try:
+        while left:
+            future, result, error = _next(found, came)
+            left.discard(future)
+            if error is None:
+                yield result
+            elif isinstance(error, KilledWorker):
+                killed.append(futures[future])
+                last = error
+            else:
+                raise CampaignStopped(_reason(found, error)) from error
+            future.release()
+    finally:
+        with contextlib.suppress(Exception):  # of a scheduler that is gone: there is nothing to cancel
+            found.cancel(list(left))
+    if killed:
+        raise PoolBroken(killed, first_line(last))
+
+
+def _fetch(came: queue.Queue, future) -> None:
+    # In a thread of dask's: the content of a run arrives while the campaign writes the one before.
+    try:
+        came.put((future, future.result(), None))
+    except BaseException as error:
+        came.put((future, None, error))
+
+
+def _next(found, came: queue.Queue) -> tuple:
+    """The next result, however long it takes, while there is somebody who could be at it."""
+    alone_since, said = None, False
+    while True:
+        try:
+            return came.get(timeout=_LOOK_S)
+        except queue.Empty:
+            pass
+        try:
+            there = found.nthreads()
+        except Exception as error:
+            raise CampaignStopped(_reason(found, error)) from error
+        if there:
+            alone_since = None
+            continue
+        alone_since = alone_since or time.monotonic()
+        gone_s = time.monotonic() - alone_since
+        if gone_s > GONE_S:
+            raise CampaignStopped(f"the dask cluster has had no worker for {GONE_S:g} s; {_GO_ON}")
+        if gone_s > _SAY_S and not said:
+            print(f"\nthe dask cluster has no worker; waiting {GONE_S:g} s for one to join", file=sys.stderr)
+            said = True
+
+
+_GO_ON = "finished runs are kept; mend the cluster and run the same command again"
+
+
+def _reason(found, error: BaseException) -> str:
+    from concurrent.futures import CancelledError
+
+    if isinstance(error, _OtherVersion):
+        return _refusal([str(error)])
+    if isinstance(error, CancelledError | OSError):
+        return f"the dask scheduler has ended or dropped the runs ({first_line(error)}); {_GO_ON}"
+    return f"a worker cannot do its part: {type(error).__name__}: {first_line(error)}; {_GO_ON}"
