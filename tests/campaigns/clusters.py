@@ -9,6 +9,8 @@ import sys
 import time
 from pathlib import Path
 
+import psutil
+
 ROOT = Path(__file__).parents[2]
 SECONDS = 60.0  # for a process to start: a loaded machine of two cores needs ten
 
@@ -20,22 +22,26 @@ def can_hide() -> bool:
 
 
 class Cluster:
-    """A scheduler and its workers. place: folder of theirs; hidden: folder that the workers shall not see."""
+    """A scheduler and its workers.
 
-    def __init__(self, place: Path, hidden: Path, sources: Path):
+    place: folder of theirs; hidden: folder that the workers shall not see; sources: PYTHONPATH of the scheduler; words:
+    its command, which says its port, in place of our own.
+    """
+
+    def __init__(self, place: Path, hidden: Path, sources: Path = ROOT, words: list[str] | None = None):
         self.place, self.hidden, self.workers = place, hidden, []
         place.mkdir()
         file = place / "scheduler.json"
-        words = ["distributed.cli.dask_scheduler", "--host", "127.0.0.1", "--port", "0", "--no-dashboard"]
-        words = [sys.executable, "-m", *words, "--scheduler-file", str(file)]
+        own = [sys.executable, "-m", "distributed.cli.dask_scheduler", "--host", "127.0.0.1", "--port", "0"]
+        words = [*(words or own), "--no-dashboard", "--scheduler-file", str(file)]
         self.scheduler = self._start("scheduler", words, sources)
         self._wait(file.exists, self.scheduler)
         self.address = json.loads(file.read_text())["address"]
 
-    def add_worker(self, sources: Path = ROOT):
-        """Start a worker of one thread with this PYTHONPATH; returns its process without waiting for it."""
-        words = [sys.executable, "-m", "distributed.cli.dask_worker", self.address, "--nthreads", "1"]
-        words += ["--no-dashboard", "--no-nanny"]
+    def add_worker(self, sources: Path = ROOT, words: list[str] | None = None):
+        """Start a worker of one thread with this PYTHONPATH, or by this command; returns its process, not waiting."""
+        own = [sys.executable, "-m", "distributed.cli.dask_worker", self.address, "--nthreads", "1", "--no-nanny"]
+        words = [*(words or own), "--no-dashboard"]
         if can_hide():
             words = ["unshare", "-rm", "sh", "-c", 'mount -t tmpfs none "$0" && exec "$@"', str(self.hidden), *words]
         worker = self._start(f"worker-{len(self.workers)}", words, sources)
@@ -49,15 +55,17 @@ class Cluster:
         with Client(self.address) as client:
             client.wait_for_workers(count, timeout=SECONDS)
 
-    def caches(self) -> list[set[str]]:
-        """Names of the files of machine code of each worker."""
+    def caches(self) -> list[dict[str, int]]:
+        """Files of machine code of each worker, with the time they were written."""
         folders = [self.place / f"worker-{number}" / "cache" for number in range(len(self.workers))]
-        return [{path.name for path in folder.rglob("*.nb?")} for folder in folders]
+        return [{path.name: path.stat().st_mtime_ns for path in folder.rglob("*.nb?")} for folder in folders]
 
     def end(self) -> None:
         """End what is left of it."""
         for process in (*self.workers, self.scheduler):
-            process.kill()
+            for one in (*_children(process), process):
+                with contextlib.suppress(psutil.NoSuchProcess):
+                    one.kill()
             process.wait()
 
     def _start(self, name: str, words: list[str], sources: Path):
@@ -73,6 +81,13 @@ class Cluster:
         while not condition():
             assert process.poll() is None and time.monotonic() < end, "the scheduler did not start"
             time.sleep(0.05)
+
+
+def _children(process) -> list:
+    try:
+        return psutil.Process(process.pid).children(recursive=True)
+    except psutil.NoSuchProcess:
+        return []
 
 
 @contextlib.contextmanager

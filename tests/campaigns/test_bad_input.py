@@ -51,6 +51,8 @@ def test_faults_of_options_and_scene_come_together(tmp_path, monkeypatch, capsys
         ("stray", "stray"),
         ("--no-report=yes", "--no-report"),
         ("--backend threading --dask-address tcp://a:1", "with --backend dask only"),
+        ("--backend dask --dask-address tcp://a", "'tcp://a'"),
+        ("--backend dask --dask-address a:99999", "tcp://HOST:PORT"),
         ("--set end.kind=held end.position_m=[0,0,20] buoy=none", "end.kind"),
     ],
 )
