@@ -29,7 +29,7 @@ JOIN_S = 30.0  # for the scheduler to answer, and then for its first worker
 GONE_S = 120.0  # without any worker in the midst of a campaign
 _LOOK_S, _SAY_S = 2.0, 10.0
 _NUMBERS = ("numpy", "scipy", "numba", "llvmlite")  # a worker with another version would give other last digits
-_PARTS = ("engine", "analysis", "campaigns", "reports")
+_PARTS = ("machine_code", "engine", "analysis", "campaigns", "reports")
 
 
 class _OtherVersion(Exception):

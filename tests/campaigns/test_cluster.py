@@ -145,7 +145,7 @@ def test_interrupt(cluster, place, tmp_path):
 
 def changed(folder):
     """A copy of the workbench that differs in a comment."""
-    for part in ("engine", "analysis", "campaigns", "reports", "tests"):
+    for part in ("machine_code", "engine", "analysis", "campaigns", "reports", "tests"):
         shutil.copytree(ROOT / part, folder / part, ignore=shutil.ignore_patterns("__pycache__"))
     with open(folder / "engine" / "scales.py", "a") as file:
         file.write("# changed\n")
