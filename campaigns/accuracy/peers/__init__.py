@@ -150,7 +150,7 @@ def _job(peer: Peer, work: str, kind: str, nodes: int, value: float, version: st
     }  # fmt: skip
     simulate = run or partial(_called, call=peer.run, nodes=nodes, setting=value)
     describe = partial(point_row, work_name=work, reference=own, ours=ours)
-    sources = made_by({}, *(f"campaigns/accuracy/peers/{name}.py" for name in (peer.module, "record")))
+    sources = made_by({}, *(f"campaigns/accuracy/peers/{name}.py" for name in (peer.module, "deck", "record")))
     made = f"{peer.name} {version} {kind} {nodes} {value!r} {sources}"
     scene = scene_of(work, nodes if peer.package == "scipy" else None)
     return make_job(

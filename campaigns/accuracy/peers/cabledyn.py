@@ -15,6 +15,7 @@ from pathlib import Path
 
 import numpy as np
 
+from campaigns.accuracy.peers.deck import system
 from engine.waves import wave_number
 
 SAMPLE = 0.05
@@ -31,20 +32,7 @@ REFINED = dict.fromkeys(SETTINGS, ((40, 0.00125), (40, 0.0025)))
 
 DECK = """---------------------- CableDyn Input File ----------------------
 tethered buoy
----------------------- LINE TYPES ----------------------
-Name   Diam   Mass/m  EA  BA  EI  Cd  Ca  CdAx  CaAx
-(-)    (m)    (kg/m)  (N) (N-s) (N-m^2) (-) (-) (-) (-)
-rope {diameter!r} {mass!r} {stiffness!r} 0.0 0.0 {drag_normal!r} {added_mass!r} {drag_tangential!r} 0.0
----------------------- POINTS --------------------------
-ID Attachment X Y Z Mass Volume CdA Ca
-(-) (-) (m) (m) (m) (kg) (m^3) (m^2) (-)
-1 Fixed 0 0 {bed!r} 0 0 0 0
-2 Free 0 0 {top!r} {buoy_mass!r} {volume!r} {area!r} {buoy_added!r}
----------------------- LINES ---------------------------
-ID Type AttachA AttachB Length Segments Outputs
-(-) (-) (-) (-) (m) (-) (-)
-1 rope 1 2 {length!r} {segments} -
----------------------- OPTIONS -------------------------
+{system}---------------------- OPTIONS -------------------------
 {step!r} dtM
 {until!r} TMax
 {gravity!r} g
@@ -76,18 +64,10 @@ def simulate(scene, duration_s, segments, step_s):
 
 
 def _deck(scene, segments, step_s, until_s) -> str:
-    tether, buoy, density, depth = scene.tether, scene.buoy, scene.water.density_kgpm3, scene.water.depth_m
-    volume = math.pi * buoy.diameter_m**3 / 6
-    lift = (density * volume - buoy.mass_kg) * scene.gravity_mps2
-    weight = (tether.density_kgpm3 - density) * tether.area_m2 * scene.gravity_mps2 * tether.length_m
-    strain = (lift - 0.5 * weight) / tether.tension.stiffness_N
+    buoy, density, depth = scene.buoy, scene.water.density_kgpm3, scene.water.depth_m
     amplitude = scene.waves.steepness / wave_number(scene.waves.period_s, depth, scene.gravity_mps2)
     return DECK.format(
-        diameter=2 * math.sqrt(tether.area_m2 / math.pi), mass=tether.density_kgpm3 * tether.area_m2,
-        stiffness=tether.tension.stiffness_N, drag_normal=tether.drag_normal, added_mass=tether.added_mass,
-        drag_tangential=tether.drag_tangential, bed=-depth, top=-depth + tether.length_m * (1 + strain),
-        buoy_mass=buoy.mass_kg, volume=volume, area=buoy.drag * math.pi / 4 * buoy.diameter_m**2,
-        buoy_added=buoy.added_mass_kg / (density * volume), length=tether.length_m, segments=segments, step=step_s,
+        system=system(scene, segments, -depth, buoy.drag * math.pi / 4 * buoy.diameter_m**2), step=step_s,
         until=until_s, gravity=scene.gravity_mps2, density=density, depth=depth, height=2 * float(amplitude),
         period=scene.waves.period_s,
     )  # fmt: skip

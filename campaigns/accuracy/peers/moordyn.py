@@ -28,6 +28,7 @@ from pathlib import Path
 
 import numpy as np
 
+from campaigns.accuracy.peers.deck import system, volume
 from engine.waves import wave_number
 
 BED = -100.0  # m: MoorDyn's still water level is z = 0, far above the buoy
@@ -47,20 +48,7 @@ REFINED = dict.fromkeys(("regular", "snap"), _REFINED) | {"violent": ((40, 16000
 
 INPUT = """--- MoorDyn input ---
 tethered buoy
----------------------- LINE TYPES ----------------------
-Name   Diam   Mass/m  EA  BA  EI  Cd  Ca  CdAx  CaAx
-(-)    (m)    (kg/m)  (N) (N-s) (N-m^2) (-) (-) (-) (-)
-rope {diameter!r} {mass!r} {stiffness!r} 0.0 0.0 {drag_normal!r} {added_mass!r} {drag_tangential!r} 0.0
----------------------- POINTS --------------------------
-ID Attachment X Y Z Mass Volume CdA Ca
-(-) (-) (m) (m) (m) (kg) (m^3) (m^2) (-)
-1 Fixed 0 0 {bed!r} 0 0 0 0
-2 Free 0 0 {top!r} {buoy_mass!r} {volume!r} {area!r} {buoy_added!r}
----------------------- LINES ---------------------------
-ID Type AttachA AttachB Length Segments Outputs
-(-) (-) (-) (-) (m) (-) (-)
-1 rope 1 2 {length!r} {segments} -
----------------------- OPTIONS -------------------------
+{system}---------------------- OPTIONS -------------------------
 0 writeLog
 1 disableOutput
 1 disableOutTime
@@ -102,28 +90,14 @@ def silent():
                 os.close(copy)
 
 
-def volume(scene):
-    return math.pi * scene.buoy.diameter_m**3 / 6
-
-
 def create(scene, segments, step_s):
     """A MoorDyn instance at rest in its static equilibrium."""
     import cmoordyn
     import moordyn
 
-    tether, buoy, density = scene.tether, scene.buoy, scene.water.density_kgpm3
-    lift = (density * volume(scene) - buoy.mass_kg) * scene.gravity_mps2
-    stiffness = tether.tension.stiffness_N
-    weight = (tether.density_kgpm3 - density) * tether.area_m2 * scene.gravity_mps2 * tether.length_m
-    # MoorDyn's own search for the equilibrium stops short of it, and without damping the rest would ring on
-    strain = (lift - 0.5 * weight) / stiffness
     text = INPUT.format(
-        diameter=2 * math.sqrt(tether.area_m2 / math.pi), mass=tether.density_kgpm3 * tether.area_m2,
-        stiffness=stiffness, drag_normal=tether.drag_normal, drag_tangential=tether.drag_tangential,
-        added_mass=tether.added_mass, bed=BED, top=BED + tether.length_m * (1 + strain),
-        buoy_mass=buoy.mass_kg, volume=volume(scene), area=PORT_AREA,
-        buoy_added=buoy.added_mass_kg / (density * volume(scene)), length=tether.length_m, segments=segments,
-        step=step_s, gravity=scene.gravity_mps2, density=density, depth=-BED + 0.5,
+        system=system(scene, segments, BED, PORT_AREA), step=step_s, gravity=scene.gravity_mps2,
+        density=scene.water.density_kgpm3, depth=-BED + 0.5,
     )  # fmt: skip
     with tempfile.TemporaryDirectory() as folder, silent():
         path = Path(folder, "lines.txt")
