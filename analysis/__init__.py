@@ -4,7 +4,7 @@ Nothing here knows the cable, so the same functions serve the tethered buoy, eq.
 first sample of a record. Names are imported on first use: `import analysis` costs nothing.
 """
 
-from importlib import import_module
+from analysis.on_first_use import on_first_use
 
 _HOME = {
     "Spectrum": "spectra",
@@ -62,18 +62,6 @@ _HOME = {
     "Verdict": "verdicts",
     "regime": "verdicts",
 }
-# No module bears the name of a function: importing a submodule binds its name here and would hide the function.
 
 __all__ = [*_HOME]
-
-
-def __getattr__(name):
-    if name not in _HOME:
-        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    value = getattr(import_module(f"{__name__}.{_HOME[name]}"), name)
-    globals()[name] = value
-    return value
-
-
-def __dir__():
-    return sorted(set(globals()) | set(_HOME))
+__getattr__, __dir__ = on_first_use(__name__, _HOME)

@@ -12,7 +12,7 @@ five numbers p1 ... p5 of eq. (20) and the mass per unit unstretched length; p1 
 on first use.
 """
 
-from importlib import import_module
+from analysis.on_first_use import on_first_use
 
 _HOME = {
     "PAPER_LAW": "law",
@@ -34,15 +34,4 @@ _HOME = {
 }
 
 __all__ = [*_HOME]
-
-
-def __getattr__(name):
-    if name not in _HOME:
-        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    value = getattr(import_module(f"{__name__}.{_HOME[name]}"), name)
-    globals()[name] = value
-    return value
-
-
-def __dir__():
-    return sorted(set(globals()) | set(_HOME))
+__getattr__, __dir__ = on_first_use(__name__, _HOME)

@@ -8,7 +8,7 @@ missed, `strobing` carries state and tangent over a forcing period; the rest ask
 dimensionless, as in the paper. Names are imported on first use.
 """
 
-from importlib import import_module
+from analysis.on_first_use import on_first_use
 
 _HOME = {
     "SnapOscillator": "equation",
@@ -33,15 +33,4 @@ _HOME = {
 }
 
 __all__ = [*_HOME]
-
-
-def __getattr__(name):
-    if name not in _HOME:
-        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    value = getattr(import_module(f"{__name__}.{_HOME[name]}"), name)
-    globals()[name] = value
-    return value
-
-
-def __dir__():
-    return sorted(set(globals()) | set(_HOME))
+__getattr__, __dir__ = on_first_use(__name__, _HOME)
