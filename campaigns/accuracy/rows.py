@@ -8,6 +8,16 @@ import numpy as np
 from campaigns.accuracy.works import BY_NAME, PLACE, RADIUS, UNITS, Work
 from campaigns.machinery.kept_run import KeptRun
 
+STATISTICS = (
+    "wall_s",
+    "end_time_s",
+    "steps",
+    "rejected_steps",
+    "newton_iterations",
+    "newton_failures",
+    "loop_releases",
+    "max_turn_rad",
+)
 COLUMNS = (
     "work",
     "kind",
@@ -21,27 +31,10 @@ COLUMNS = (
     "error_early",
     "error_unit",
     "error_against_ours",
-    "wall_s",
-    "end_time_s",
-    "steps",
-    "rejected_steps",
-    "newton_iterations",
-    "newton_failures",
-    "loop_releases",
-    "max_turn_rad",
+    *STATISTICS,
     "peer_version",
     "run_key",
     "message",
-)
-STATISTICS = (
-    "wall_s",
-    "end_time_s",
-    "steps",
-    "rejected_steps",
-    "newton_iterations",
-    "newton_failures",
-    "loop_releases",
-    "max_turn_rad",
 )
 EARLY = 0.5  # share of the run over which error_early is taken
 

@@ -11,6 +11,15 @@ import numpy as np
 from analysis import breaking_measures as measures
 from analysis.breaking_theory import theory_of
 
+_STATISTICS = (
+    "max_turn_rad",
+    "min_strain",
+    "steps",
+    "newton_iterations",
+    "newton_failures",
+    "end_time_s",
+    "wall_s",
+)
 COLUMNS = (
     "case",
     "kind",
@@ -70,26 +79,11 @@ COLUMNS = (
     "remainder_largest_J",
     "lost_at_arrival_J",
     "lost_at_arrival_theory_J",
-    "max_turn_rad",
-    "min_strain",
-    "steps",
-    "newton_iterations",
-    "newton_failures",
-    "end_time_s",
-    "wall_s",
+    *_STATISTICS,
     "run_key",
     "message",
 )
 
-_STATISTICS = (
-    "max_turn_rad",
-    "min_strain",
-    "steps",
-    "newton_iterations",
-    "newton_failures",
-    "end_time_s",
-    "wall_s",
-)
 BEFORE_ARRIVAL = 0.98  # of the time at which something is at the fixed end: ripples are looked for up to then
 COMMON_S = 0.12  # the shortest of the paper's run lengths, to compare recoil at one time
 

@@ -56,15 +56,11 @@ def parser():
     what = parser.add_argument_group("what is run")
     cli.add(what, "--steepness", "A B ...", "wave steepnesses kA (default: 49 values from 0.016 to 0.16)")
     cli.add(what, "--steepness-range", "LO HI COUNT", "evenly spaced steepnesses, both ends included")
-    cli.add(what, "--periods", "N", f"length of every run in wave periods (default: {PERIODS})")
-    leave_out = f"wave periods left out of the analysis (default: {TRANSIENT}, at most a third of --periods)"
-    cli.add(what, "--transient", "N", leave_out)
-    cli.add(what, "--scene", "FILE_OR_NAME", f"scene to start from (default: {SCENE}, the paper's Table 1)")
-    cli.add(what, "--set", "KEY=VALUE ...", "change values of the scene, as water.depth_m=22.5 tether.nodes=81")
+    usual = {"periods": PERIODS, "transient": TRANSIENT, "scene": SCENE}
+    cli.add_lengths_and_scene(what, usual, "analysis", "a third")
     three = "2, 3, or auto: 3 where the planar run released loops (default: as the scene says; the shipped one says 2)"
     cli.add(what, "--dimensions", "2|3|auto", three)
-    again = "do not repeat two runs at a tenth of the tolerance and at twice the elements"
-    what.add_argument("--no-accuracy", action="store_true", help=again)
+    cli.add_accuracy(what)
     cli.add_running(parser.add_argument_group("how and where"), f"results/{CAMPAIGN}")
     return parser
 

@@ -92,6 +92,22 @@ def add_running(group, default_out: str) -> None:
     group.add_argument("--no-report", action="store_true", help="leave out report.html and report.pdf")
 
 
+def add_lengths_and_scene(group, usual: dict, left_out_of: str, share: str) -> None:
+    """Add --periods, --transient, --scene and --set for a campaign of a buoy in waves. usual: its defaults by option;
+    left_out_of: what the transient is left out of; share: of --periods, which it is at most."""
+    add(group, "--periods", "N", f"length of every run in wave periods (default: {usual['periods']})")
+    words = f"wave periods left out of the {left_out_of} (default: {usual['transient']}, at most {share} of --periods)"
+    add(group, "--transient", "N", words)
+    add(group, "--scene", "FILE_OR_NAME", f"scene to start from (default: {usual['scene']}, the paper's Table 1)")
+    add(group, "--set", "KEY=VALUE ...", "change values of the scene, as water.depth_m=22.5 tether.nodes=81")
+
+
+def add_accuracy(group) -> None:
+    """Add --no-accuracy (`campaigns.buoy_sweep.repeats`)."""
+    again = "do not repeat two runs at a tenth of the tolerance and at twice the elements"
+    group.add_argument("--no-accuracy", action="store_true", help=again)
+
+
 def default_jobs() -> int:
     """Two, or one where there is only one core."""
     return min(2, os.cpu_count() or 1)

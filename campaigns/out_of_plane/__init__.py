@@ -92,13 +92,9 @@ def parser():
     """The options of this campaign."""
     parser = cli.parser(MODULE, __doc__)
     what = parser.add_argument_group("what is run")
-    cli.add(what, "--periods", "N", f"length of every run in wave periods (default: {PERIODS})")
-    leave_out = f"wave periods left out of the comparison (default: {TRANSIENT}, at most a fifth of --periods)"
-    cli.add(what, "--transient", "N", leave_out)
-    cli.add(what, "--scene", "FILE_OR_NAME", f"scene to start from (default: {SCENE}, the paper's Table 1)")
-    cli.add(what, "--set", "KEY=VALUE ...", "change values of the scene, as water.depth_m=22.5 tether.nodes=81")
-    again = "do not repeat two runs at a tenth of the tolerance and at twice the elements"
-    what.add_argument("--no-accuracy", action="store_true", help=again)
+    usual = {"periods": PERIODS, "transient": TRANSIENT, "scene": SCENE}
+    cli.add_lengths_and_scene(what, usual, "comparison", "a fifth")
+    cli.add_accuracy(what)
     cli.add_running(parser.add_argument_group("how and where"), f"results/{CAMPAIGN}")
     return parser
 
