@@ -20,7 +20,8 @@ _PACKAGES = (
     "matplotlib", "jinja2", "typst",
 )  # fmt: skip
 _OF_THE_OCCASION = {
-    "command", "jobs", "backend", "host", "cpu_count", "platform", "started_utc", "finished_utc", "timing", "runs"
+    "command", "jobs", "backend", "dask_address", "host", "cpu_count", "platform", "started_utc", "finished_utc",
+    "timing", "runs",
 }  # fmt: skip
 
 

@@ -57,7 +57,7 @@ def begin(campaign: str, module: str, argv: list[str], plan: Plan, jobs: list[Jo
     from engine.atomic import write_atomic
 
     record = provenance.gather(campaign, provenance.command_line(module, argv))
-    record |= {**parameters, "backend": plan.backend, "jobs": plan.jobs}
+    record |= {**parameters, "backend": plan.backend, "jobs": plan.jobs, "dask_address": plan.dask_address}
     head = f"# the scene of the first run of {campaign}; what varies over the runs is listed in provenance.json\n"
     write_atomic(plan.directory / "scene.toml", (head + jobs[0].scene.to_toml()).encode())
     if provenance.read_if_same(plan.directory / "provenance.json", record) is None:

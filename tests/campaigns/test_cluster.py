@@ -1,6 +1,7 @@
 """A cluster whose workers see no folder of the campaign: the same table, and whatever dies costs what was running."""
 
 import csv
+import json
 import os
 import shutil
 import signal
@@ -61,6 +62,7 @@ def test_the_results_are_those_of_processes(cluster, place):
     done(start_sweep(place / "dask", *words, *at(cluster), breaks=(0.03,), raises=(0.05,)))
     assert rows_of(place / "dask") == rows_of(place / "loky")
     assert contents(place / "dask") == contents(place / "loky") and len(contents(place / "dask")) == len(VALUES) - 1
+    assert json.loads((place / "dask" / "provenance.json").read_text())["dask_address"] == cluster.address
     files = finished(place / "dask")
     done(start_sweep(place / "dask", *words, *at(cluster)))
     assert files.items() <= finished(place / "dask").items()
