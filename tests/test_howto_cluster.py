@@ -12,6 +12,7 @@ from pathlib import Path
 
 import pytest
 
+from campaigns.machinery.cluster import GONE_S, JOIN_S
 from tests.campaigns.clusters import ROOT, Cluster, can_hide
 from tests.campaigns.conftest import finished, rows_of, until
 
@@ -42,10 +43,12 @@ def without_times(path):
         return [{name: entry for name, entry in row.items() if name not in TIMES} for row in csv.DictReader(file)]
 
 
-def test_the_page_shows_three_commands_and_names_only_options_there_are():
+def test_the_page_shows_three_commands_and_its_numbers_are_those_of_the_code():
     scheduler, worker, campaign = commands()
     assert [words[0] for words in (scheduler, worker, campaign)] == [".venv/bin/dask"] * 2 + [".venv/bin/python"]
     assert scheduler[1] == "scheduler" and worker[1:3] == ["worker", campaign[-1]] and "--dask-address" in campaign
+    assert f"in {JOIN_S:g} s, or none is left for {GONE_S:g} s" in PAGE
+    assert all(name in PAGE for name in ("buoy_sweep", "out_of_plane", "breaking_line", "accuracy"))
 
 
 @pytest.mark.slow
