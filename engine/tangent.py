@@ -175,7 +175,7 @@ def linearise(p, tables, t, rate, moving_water, Y, K, X, F, C_tilde, Q, E, J, wo
             C_tilde[k, m] = Q[k, 5 + m] - K[k, m] / rate
             C_tilde[k, 2 + m] = Y[k, 2 + m] - K[k, 2 + m] / rate
     node.node_quantities(p, tables, rate, rate, 1.0, Y, C_tilde, F, Q)
-    sweep.sweep_bent(p, tables, t, rate, rate, 1.0, Y, C_tilde, F, Q, E, D)
+    sweep.sweep_from_below(p, tables, t, rate, rate, 1.0, Y, C_tilde, F, Q, E, D)
     if moving_water > 0.0:
         water_slopes(p, tables, t, X, X_moved, F_ahead, F_behind, J)
 
