@@ -1,48 +1,110 @@
-"""Where a sweep is: at one node (a whole number), or at two at once (a pair), one from each end of the tether.
+"""Where a sweep is: at one node (a whole number), or at two at once (a pair of them), as two lanes of a vector.
 
-The same source then serves one half of a tether after another, as a batch does them (`engine.lanes`), and both halves
-of a run alone as the two lanes of a vector, bit for bit the same. A way d is 1 (up) or -1 (down), of a pair (1, -1).
+The same source then serves the halves of a tether one after the other, as a batch does them (`engine.lanes`), and both
+at once, as a run alone does, bit for bit the same. A way d is 1 (up) or -1 (down); of a pair (1, -1), or (1, 1) where
+both lanes do the same because one of them has nothing to do: one compiled form serves it all.
 """
 
 from llvmlite import ir
-from numba.core import types
+from numba.core import cgutils, types
 from numba.extending import intrinsic, overload
+from numba.np import arrayobj
 
 from ..lanes.vector import Lanes
 
-PAIR = Lanes(2)
+PAIR, PLACES = Lanes(2), types.UniTuple(types.intp, 2)
 _OPTIONS = {"nogil": True, "error_model": "numpy", "boundscheck": False}
+
+
+def _join(context, builder, values):
+    """An LLVM value for each place -> a number, or a vector of two."""
+    if len(values) == 1:
+        return values[0]
+    vector = ir.Constant(context.get_data_type(PAIR), ir.Undefined)
+    for lane, value in enumerate(values):
+        vector = builder.insert_element(vector, value, ir.Constant(ir.IntType(32), lane))
+    return vector
+
+
+def _places(builder, kind, k):
+    """The whole numbers in k."""
+    return cgutils.unpack_tuple(builder, k, kind.count) if isinstance(kind, types.UniTuple) else [k]
+
+
+def _kinds(array, k):
+    """Types of a place and of a number there."""
+    return (PLACES, PAIR) if isinstance(k, types.BaseTuple) else (types.intp, array.dtype)
+
+
+def _pointer(context, builder, kind, array, row, column):
+    at = context.get_constant(types.intp, column)
+    return cgutils.get_item_pointer(context, builder, kind, array, [row, at], wraparound=False)
+
+
+@intrinsic(prefer_literal=True)
+def take(context, array, k, first, count):
+    """The numbers array[k, first], ... array[k, first + count - 1]."""
+    begin, end = first.literal_value, first.literal_value + count.literal_value
+    place, number = _kinds(array, k)
+    result = types.UniTuple(number, end - begin)
+
+    def generate(context, builder, signature, values):
+        source = arrayobj.make_array(array)(context, builder, values[0])
+        rows = _places(builder, place, values[1])
+        taken = []
+        for i in range(begin, end):
+            pointers = [_pointer(context, builder, array, source, row, i) for row in rows]
+            loaded = [arrayobj.load_item(context, builder, array, pointer) for pointer in pointers]
+            taken.append(_join(context, builder, loaded))
+        return context.make_tuple(builder, result, taken)
+
+    return result(array, place, first, count), generate
+
+
+@intrinsic(prefer_literal=True)
+def put(context, array, k, first, numbers):
+    """array[k, first], array[k, first + 1] ... = numbers."""
+    begin = first.literal_value
+    place, number = _kinds(array, k)
+    given = types.UniTuple(number, len(numbers))
+
+    def generate(context, builder, signature, values):
+        target = arrayobj.make_array(array)(context, builder, values[0])
+        rows = _places(builder, place, values[1])
+        for i, value in enumerate(cgutils.unpack_tuple(builder, values[3], len(numbers))):
+            for lane, row in enumerate(rows):
+                part = value if len(rows) == 1 else builder.extract_element(value, ir.Constant(ir.IntType(32), lane))
+                arrayobj.store_item(
+                    context, builder, array, part, _pointer(context, builder, array, target, row, begin + i)
+                )
+
+    return types.void(array, place, first, given), generate
 
 
 @intrinsic
 def both(context, lower, upper):
-    """Two numbers as one vector."""
+    """Two tuples of numbers as one of vectors."""
+    kind = types.UniTuple(types.float64, len(lower))
+    result = types.UniTuple(PAIR, len(lower))
 
     def generate(context, builder, signature, values):
-        vector = ir.Constant(context.get_data_type(PAIR), ir.Undefined)
-        for lane, value in enumerate(values):
-            vector = builder.insert_element(vector, value, ir.Constant(ir.IntType(32), lane))
-        return vector
+        parts = zip(*(cgutils.unpack_tuple(builder, value, len(lower)) for value in values), strict=True)
+        return context.make_tuple(builder, result, [_join(context, builder, pair) for pair in parts])
 
-    return PAIR(types.float64, types.float64), generate
+    return result(kind, kind), generate
 
 
-@intrinsic
-def lane(context, vector, number):
-    """Number 0 or 1 of a pair."""
+@intrinsic(prefer_literal=True)
+def lane(context, vectors, number):
+    """Numbers of lane 0 or 1 of a tuple of vectors."""
+    result = types.UniTuple(types.float64, len(vectors))
+    at = ir.Constant(ir.IntType(32), number.literal_value)
 
     def generate(context, builder, signature, values):
-        return builder.extract_element(*values)
+        parts = cgutils.unpack_tuple(builder, values[0], len(vectors))
+        return context.make_tuple(builder, result, [builder.extract_element(part, at) for part in parts])
 
-    return types.float64(vector, types.intp), generate
-
-
-def take(array, k, i):
-    """array[k, i]."""
-
-
-def put(array, k, i, value):
-    """array[k, i] = value."""
+    return result(vectors, number), generate
 
 
 def move(k, d):
@@ -51,25 +113,6 @@ def move(k, d):
 
 def half_box(tables, first, k, d):
     """Half the length (m) of the box from k on the way d, negative downwards; tables[first] is the first length."""
-
-
-@overload(take, jit_options=_OPTIONS)
-def _take(array, k, i):
-    if isinstance(k, types.Integer):
-        return lambda array, k, i: array[k, i]
-    return lambda array, k, i: both(array[k[0], i], array[k[1], i])
-
-
-@overload(put, jit_options=_OPTIONS)
-def _put(array, k, i, value):
-    def put_one(array, k, i, value):
-        array[k, i] = value
-
-    def put_two(array, k, i, value):
-        array[k[0], i] = lane(value, 0)
-        array[k[1], i] = lane(value, 1)
-
-    return put_one if isinstance(k, types.Integer) else put_two
 
 
 @overload(move, jit_options=_OPTIONS)
@@ -83,4 +126,9 @@ def _move(k, d):
 def _half_box(tables, first, k, d):
     if isinstance(k, types.Integer):
         return lambda tables, first, k, d: 0.5 * d * tables[first + min(k, k + d)]
-    return lambda tables, first, k, d: both(0.5 * tables[first + k[0]], -0.5 * tables[first + k[1] - 1])
+
+    def of_two(tables, first, k, d):
+        lower = 0.5 * d[0] * tables[first + min(k[0], k[0] + d[0])]
+        return both((lower,), (0.5 * d[1] * tables[first + min(k[1], k[1] + d[1])],))[0]
+
+    return of_two

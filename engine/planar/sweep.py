@@ -39,26 +39,6 @@ WIDTH, WITH_INVERSE = 24, 33
 
 
 @kernel
-def _node(Y, Q, k):
-    """What the boxes on both sides of a place need of it."""
-    return (
-        (take(Y, k, 2), take(Y, k, 3), take(Y, k, 4), take(Y, k, 5)),
-        (take(Q, k, 0), take(Q, k, 1), take(Q, k, 2), take(Q, k, 3), take(Q, k, 4), take(Q, k, 5), take(Q, k, 6)),
-        (take(Q, k, 7), take(Q, k, 8), take(Q, k, 9), take(Q, k, 10)),
-        (take(Q, k, 11), take(Q, k, 12), take(Q, k, 13), take(Q, k, 14)),
-        (take(Q, k, 15), take(Q, k, 16), take(Q, k, 17)),
-        (take(Q, k, 18), take(Q, k, 19), take(Q, k, 20)),
-    )
-
-
-@kernel
-def _store(E, k, first, values):
-    """Values, one after the other, into the row of a place."""
-    for i in range(len(values)):
-        put(E, k, first + i, values[i])
-
-
-@kernel
 def eliminate(p, tables, cq, k, d, count, relation, Y, Q, E):
     """From the relation v = R y + r at k (12 numbers, row-major) through `count` boxes on the way d.
 
@@ -68,13 +48,17 @@ def eliminate(p, tables, cq, k, d, count, relation, Y, Q, E):
     EI = p.EI
     R00, R01, R02, R10, R11, R12, R20, R21, R22, r0, r1, r2 = relation
     least = np.inf
-    here = _node(Y, Q, k)
+    Y_here, Q_here = take(Y, k, 2, 4), take(Q, k, 0, 21)
     for _ in range(count):
-        a, below = k, here
+        a, Y_below, Q_below = k, Y_here, Q_here
         k = move(k, d)
-        here = _node(Y, Q, k)
-        (Ua, Wa, phi_a, kap_a), (ca, sa, fa, Nxa, Nza, qxa, qza), (qta, wta, Gxa, Gza), dGa, (Xa, XZa, Za), Ma = below
-        (Ub, Wb, phi_b, kap_b), (cb, sb, fb, Nxb, Nzb, qxb, qzb), (qtb, wtb, Gxb, Gzb), dGb, (Xb, XZb, Zb), Mb = here
+        Y_here, Q_here = take(Y, k, 2, 4), take(Q, k, 0, 21)
+        Ua, Wa, phi_a, kap_a = Y_below
+        Ub, Wb, phi_b, kap_b = Y_here
+        (ca, sa, fa, Nxa, Nza, qxa, qza, qta, wta, Gxa, Gza, Gexa, Geza, Gpxa, Gpza, Xa, XZa, Za, Ma, Mea, MSa) = (
+            Q_below
+        )
+        (cb, sb, fb, Nxb, Nzb, qxb, qzb, qtb, wtb, Gxb, Gzb, Gexb, Gezb, Gpxb, Gpzb, Xb, XZb, Zb, Mb, Meb, MSb) = Q_here
         e = half_box(tables, p.grid_at, a, d)
         ec = e * cq
         # compatibility: dV_b = (R_a + Ca) y_a + Cb y_b + ..., with Ca = ec dq/dy
@@ -88,27 +72,27 @@ def eliminate(p, tables, cq, k, d, count, relation, Y, Q, E):
         # momentum; K = e (dG/dV_a + dG/dV_b), J = e dG/dV_b
         Jxx, Jxz, Jzz = e * Xb, e * XZb, e * Zb
         Kxx, Kxz, Kzz = e * Xa + Jxx, e * XZa + Jxz, e * Za + Jzz
-        A00 = -fa * ca - e * dGa[0] - Kxx * R00 - Kxz * R10 - Jxx * Ca0 - Jxz * Ca2
+        A00 = -fa * ca - e * Gexa - Kxx * R00 - Kxz * R10 - Jxx * Ca0 - Jxz * Ca2
         A01 = sa - Kxx * R01 - Kxz * R11
-        A02 = Nza - e * dGa[2] - Kxx * R02 - Kxz * R12 - Jxx * Ca1 - Jxz * Ca3
-        A10 = -fa * sa - e * dGa[1] - Kxz * R00 - Kzz * R10 - Jxz * Ca0 - Jzz * Ca2
+        A02 = Nza - e * Gpxa - Kxx * R02 - Kxz * R12 - Jxx * Ca1 - Jxz * Ca3
+        A10 = -fa * sa - e * Geza - Kxz * R00 - Kzz * R10 - Jxz * Ca0 - Jzz * Ca2
         A11 = -ca - Kxz * R01 - Kzz * R11
-        A12 = -Nxa - e * dGa[3] - Kxz * R02 - Kzz * R12 - Jxz * Ca1 - Jzz * Ca3
-        A20 = e * Ma[1] - 2.0 * EI * R20
-        A21 = e * Ma[2] - 2.0 * EI * R21
+        A12 = -Nxa - e * Gpza - Kxz * R02 - Kzz * R12 - Jxz * Ca1 - Jzz * Ca3
+        A20 = e * Mea - 2.0 * EI * R20
+        A21 = e * MSa - 2.0 * EI * R21
         A22 = -stiff - 2.0 * EI * R22
-        B00 = fb * cb - e * dGb[0] - Jxx * Cb0 - Jxz * Cb2
+        B00 = fb * cb - e * Gexb - Jxx * Cb0 - Jxz * Cb2
         B01 = -sb
-        B02 = -Nzb - e * dGb[2] - Jxx * Cb1 - Jxz * Cb3
-        B10 = fb * sb - e * dGb[1] - Jxz * Cb0 - Jzz * Cb2
+        B02 = -Nzb - e * Gpxb - Jxx * Cb1 - Jxz * Cb3
+        B10 = fb * sb - e * Gezb - Jxz * Cb0 - Jzz * Cb2
         B11 = cb
-        B12 = Nxb - e * dGb[3] - Jxz * Cb1 - Jzz * Cb3
-        B20 = e * Mb[1]
-        B21 = e * Mb[2]
+        B12 = Nxb - e * Gpzb - Jxz * Cb1 - Jzz * Cb3
+        B20 = e * Meb
+        B21 = e * MSb
         B22 = stiff
         g0 = Nxa - Nxb + e * (Gxa + Gxb) + Kxx * r0 + Kxz * r1 - Jxx * cx - Jxz * cz
         g1 = Nza - Nzb + e * (Gza + Gzb) + Kxz * r0 + Kzz * r1 - Jxz * cx - Jzz * cz
-        g2 = -EI * (kap_b - kap_a) - e * (Ma[0] + Mb[0]) - EI * turn + 2.0 * EI * r2
+        g2 = -EI * (kap_b - kap_a) - e * (Ma + Mb) - EI * turn + 2.0 * EI * r2
         # inverse of A
         i00, i01, i02 = A11 * A22 - A12 * A21, A02 * A21 - A01 * A22, A01 * A12 - A02 * A11
         i10, i11, i12 = A12 * A20 - A10 * A22, A00 * A22 - A02 * A20, A02 * A10 - A00 * A12
@@ -119,7 +103,7 @@ def eliminate(p, tables, cq, k, d, count, relation, Y, Q, E):
         i00, i01, i02, i10, i11, i12 = f * i00, f * i01, f * i02, f * i10, f * i11, f * i12
         i20, i21, i22 = f * i20, f * i21, f * i22
         if E.shape[1] > WIDTH:
-            _store(E, a, 24, (i00, i01, i02, i10, i11, i12, i20, i21, i22))
+            put(E, a, 24, (i00, i01, i02, i10, i11, i12, i20, i21, i22))
         P00 = -(i00 * B00 + i01 * B10 + i02 * B20)
         P01 = -(i00 * B01 + i01 * B11 + i02 * B21)
         P02 = -(i00 * B02 + i01 * B12 + i02 * B22)
@@ -132,8 +116,8 @@ def eliminate(p, tables, cq, k, d, count, relation, Y, Q, E):
         p0 = i00 * g0 + i01 * g1 + i02 * g2
         p1 = i10 * g0 + i11 * g1 + i12 * g2
         p2 = i20 * g0 + i21 * g1 + i22 * g2
-        _store(E, a, 0, (P00, P01, P02, P10, P11, P12, P20, P21, P22, p0, p1, p2))
-        _store(E, a, 12, (R00, R01, R02, R10, R11, R12, R20, R21, R22, r0, r1, r2))
+        put(E, a, 0, (P00, P01, P02, P10, P11, P12, P20, P21, P22, p0, p1, p2))
+        put(E, a, 12, (R00, R01, R02, R10, R11, R12, R20, R21, R22, r0, r1, r2))
         # v_b = R_b y_b + r_b
         X00, X01, X02 = R00 + Ca0, R01, R02 + Ca1
         X10, X11, X12 = R10 + Ca2, R11, R12 + Ca3
@@ -163,12 +147,10 @@ def eliminate(p, tables, cq, k, d, count, relation, Y, Q, E):
 def update_node(E, k, y, D):
     """y and v = R y + r of a place, into D."""
     y0, y1, y2 = y
-    put(D, k, 0, y0)
-    put(D, k, 1, y1)
-    put(D, k, 4, y2)
-    put(D, k, 2, take(E, k, 12) * y0 + take(E, k, 13) * y1 + take(E, k, 14) * y2 + take(E, k, 21))
-    put(D, k, 3, take(E, k, 15) * y0 + take(E, k, 16) * y1 + take(E, k, 17) * y2 + take(E, k, 22))
-    put(D, k, 5, take(E, k, 18) * y0 + take(E, k, 19) * y1 + take(E, k, 20) * y2 + take(E, k, 23))
+    R00, R01, R02, R10, R11, R12, R20, R21, R22, r0, r1, r2 = take(E, k, 12, 12)
+    U = R00 * y0 + R01 * y1 + R02 * y2 + r0
+    W = R10 * y0 + R11 * y1 + R12 * y2 + r1
+    put(D, k, 0, (y0, y1, U, W, y2, R20 * y0 + R21 * y1 + R22 * y2 + r2))
 
 
 @kernel
@@ -177,10 +159,11 @@ def back_substitute(E, k, d, count, y, D):
     y0, y1, y2 = y
     for _ in range(count):
         k = move(k, d)
+        P00, P01, P02, P10, P11, P12, P20, P21, P22, p0, p1, p2 = take(E, k, 0, 12)
         y0, y1, y2 = (
-            take(E, k, 0) * y0 + take(E, k, 1) * y1 + take(E, k, 2) * y2 + take(E, k, 9),
-            take(E, k, 3) * y0 + take(E, k, 4) * y1 + take(E, k, 5) * y2 + take(E, k, 10),
-            take(E, k, 6) * y0 + take(E, k, 7) * y1 + take(E, k, 8) * y2 + take(E, k, 11),
+            P00 * y0 + P01 * y1 + P02 * y2 + p0,
+            P10 * y0 + P11 * y1 + P12 * y2 + p1,
+            P20 * y0 + P21 * y1 + P22 * y2 + p2,
         )
         update_node(E, k, (y0, y1, y2), D)
     return y0, y1, y2
@@ -200,8 +183,8 @@ def _meet(E, m, relation, A, g, D):
     f = 1.0 / det
     i00, i01, i02, i10, i11, i12 = f * i00, f * i01, f * i02, f * i10, f * i11, f * i12
     i20, i21, i22 = f * i20, f * i21, f * i22
-    _store(E, m, 0, (i00, i01, i02, i10, i11, i12, i20, i21, i22))
-    _store(E, m, 12, relation)
+    put(E, m, 0, (i00, i01, i02, i10, i11, i12, i20, i21, i22))
+    put(E, m, 12, relation)
     y = (
         i00 * g[0] + i01 * g[1] + i02 * g[2],
         i10 * g[0] + i11 * g[1] + i12 * g[2],
@@ -222,7 +205,7 @@ def _anchor(Y):
 def sweep_from_below(p, tables, t, cq, cv, in_motion, Y, C_tilde, F, Q, E, D):
     """One-sided: fill D (n, 6) with the Newton update; returns False where a pivot block is singular."""
     b = Y.shape[0] - 1
-    relation, least = eliminate(p, tables, cq, 0, 1, b, _anchor(Y), Y, Q, E)
+    relation, least = _up(p, tables, cq, 0, b, _anchor(Y), Y, Q, E)
     R00, R01, R02, R10, R11, R12, R20, R21, R22, r0, r1, r2 = relation
     ex, ez, eN, Dxx, Dxz, Dzz = planar_end(
         p, tables, t, cv, in_motion, Q[b, 3], Q[b, 4], Y[b, 2], Y[b, 3], C_tilde[b, 2], C_tilde[b, 3], F[b]
@@ -239,7 +222,7 @@ def sweep_from_below(p, tables, t, cq, cv, in_motion, Y, C_tilde, F, Q, E, D):
     y, det = _meet(E, b, relation, A, g, D)
     if E.shape[1] > WIDTH:
         E[b, 24], E[b, 25], E[b, 26] = Dxx, Dxz, Dzz
-    back_substitute(E, b, -1, b, y, D)
+    _down(p, E, b, b, y, D)
     return smaller(least, abs(det)) != 0.0
 
 
@@ -273,26 +256,37 @@ def sweep_both_ways(p, tables, t, cq, cv, in_motion, Y, C_tilde, F, Q, E, D):
 
 
 @kernel
+def _up_in_pairs(p, tables, cq, k, count, relation, Y, Q, E):
+    """The same in both lanes."""
+    result, least = eliminate(p, tables, cq, (k, k), (1, 1), count, both(relation, relation), Y, Q, E)
+    return lane(result, 0), lane((least,), 0)[0]
+
+
+@kernel
+def _up_alone(p, tables, cq, k, count, relation, Y, Q, E):
+    return eliminate(p, tables, cq, k, 1, count, relation, Y, Q, E)
+
+
+@kernel
+def _down_in_pairs(p, E, k, count, y, D):
+    return lane(back_substitute(E, (k, k), (-1, -1), count, both(y, y), D), 0)
+
+
+@kernel
+def _down_alone(p, E, k, count, y, D):
+    return back_substitute(E, k, -1, count, y, D)
+
+
+@kernel
 def _at_once(p, tables, cq, anchor, end, Y, Q, E):
     """Both halves as the two lanes of a vector; of an even number of nodes the lower half has one box more."""
     n = Y.shape[0]
     count = (n - 1) // 2
-    starts = (
-        both(anchor[0], end[0]), both(anchor[1], end[1]), both(anchor[2], end[2]), both(anchor[3], end[3]),
-        both(anchor[4], end[4]), both(anchor[5], end[5]), both(anchor[6], end[6]), both(anchor[7], end[7]),
-        both(anchor[8], end[8]), both(anchor[9], end[9]), both(anchor[10], end[10]), both(anchor[11], end[11]),
-    )  # fmt: skip
-    r, both_least = eliminate(p, tables, cq, (0, n - 1), (1, -1), count, starts, Y, Q, E)
-    below = (
-        lane(r[0], 0), lane(r[1], 0), lane(r[2], 0), lane(r[3], 0), lane(r[4], 0), lane(r[5], 0),
-        lane(r[6], 0), lane(r[7], 0), lane(r[8], 0), lane(r[9], 0), lane(r[10], 0), lane(r[11], 0),
-    )  # fmt: skip
-    above = (
-        lane(r[0], 1), lane(r[1], 1), lane(r[2], 1), lane(r[3], 1), lane(r[4], 1), lane(r[5], 1),
-        lane(r[6], 1), lane(r[7], 1), lane(r[8], 1), lane(r[9], 1), lane(r[10], 1), lane(r[11], 1),
-    )  # fmt: skip
-    below, least = eliminate(p, tables, cq, count, 1, n // 2 - count, below, Y, Q, E)
-    return below, above, smaller(least, smaller(lane(both_least, 0), lane(both_least, 1)))
+    relations, leasts = eliminate(p, tables, cq, (0, n - 1), (1, -1), count, both(anchor, end), Y, Q, E)
+    below, above = lane(relations, 0), lane(relations, 1)
+    least = smaller(lane((leasts,), 0)[0], lane((leasts,), 1)[0])
+    below, of_rest = _up_in_pairs(p, tables, cq, count, n // 2 - count, below, Y, Q, E)
+    return below, above, smaller(least, of_rest)
 
 
 @kernel
@@ -308,9 +302,8 @@ def _in_turn(p, tables, cq, anchor, end, Y, Q, E):
 def _back_at_once(p, E, y, D):
     n = D.shape[0]
     count = (n - 1) // 2
-    lower = back_substitute(E, n // 2, -1, n // 2 - count, y, D)
-    pairs = both(lower[0], y[0]), both(lower[1], y[1]), both(lower[2], y[2])
-    back_substitute(E, (count, n // 2), (-1, 1), count, pairs, D)
+    lower = _down_in_pairs(p, E, n // 2, n // 2 - count, y, D)
+    back_substitute(E, (count, n // 2), (-1, 1), count, both(lower, y), D)
 
 
 @kernel
@@ -332,6 +325,8 @@ def _always(p, t, in_motion):
     return True
 
 
+_up = by_kind(_up_in_pairs, _up_in_pairs, _up_alone)
+_down = by_kind(_down_in_pairs, _down_in_pairs, _down_alone)
 _halves = by_kind(_at_once, _at_once, _in_turn)
 _back_to_ends = by_kind(_back_at_once, _back_at_once, _back_in_turn)
 _two_sided = by_kind(_regular_end, _regular_end, _always)
