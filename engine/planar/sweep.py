@@ -313,28 +313,25 @@ def _back_in_turn(p, E, y, D):
     back_substitute(E, n // 2, 1, (n - 1) // 2, y, D)
 
 
-@kernel
-def _regular_end(p, t, in_motion):
-    """Is D of the upper end regular? (A buoy's is not in statics, where there is no inertia.)"""
-    return (p.end == BUOY and in_motion > 0.0) or (p.end == HELD and (in_motion == 0.0 or not released(p, t)))
-
-
-@kernel
-def _always(p, t, in_motion):
-    """Runs of a batch have a buoy and are in motion."""
-    return True
-
-
 _up = by_kind(_up_in_pairs, _up_in_pairs, _up_alone)
 _down = by_kind(_down_in_pairs, _down_in_pairs, _down_alone)
 _halves = by_kind(_at_once, _at_once, _in_turn)
 _back_to_ends = by_kind(_back_at_once, _back_at_once, _back_in_turn)
-_two_sided = by_kind(_regular_end, _regular_end, _always)
+
+
+@kernel
+def _either(p, tables, t, cq, cv, in_motion, Y, C_tilde, F, Q, E, D):
+    """Two-sided where D of the upper end is regular: a held end, a buoy in motion (in statics it has no inertia)."""
+    buoy, held = p.end == BUOY and in_motion > 0.0, p.end == HELD and (in_motion == 0.0 or not released(p, t))
+    if buoy or held:
+        return sweep_both_ways(p, tables, t, cq, cv, in_motion, Y, C_tilde, F, Q, E, D)
+    return sweep_from_below(p, tables, t, cq, cv, in_motion, Y, C_tilde, F, Q, E, D)
+
+
+_sweep = by_kind(_either, _either, sweep_both_ways)
 
 
 @kernel
 def sweep_bent(p, tables, t, cq, cv, in_motion, Y, C_tilde, F, Q, E, D):
     """Fill D (n, 6) with the Newton update; returns False where a pivot block is singular."""
-    if _two_sided(p, t, in_motion):
-        return sweep_both_ways(p, tables, t, cq, cv, in_motion, Y, C_tilde, F, Q, E, D)
-    return sweep_from_below(p, tables, t, cq, cv, in_motion, Y, C_tilde, F, Q, E, D)
+    return _sweep(p, tables, t, cq, cv, in_motion, Y, C_tilde, F, Q, E, D)
