@@ -22,14 +22,13 @@ Columns of Q (row k is node k):
 
 import math
 
-from ..choose import larger
-from ..compiled import by_kind, kernel
-from ..currents import planar_current
+from ..compiled import kernel
+from ..currents import current_field
 from ..elementary import sincos
 from ..shocks import shock_tension
 from ..tension import tension
 from ..waves import wave_field
-from .places import both, lane, put, take
+from .places import count_of_places, place, put, take
 
 WIDTH = 23
 
@@ -38,37 +37,18 @@ WIDTH = 23
 def shape(p, tables, Y, Q, X):
     """Directions, q and positions: X[0] is the anchor, and each element adds h times the mean of q."""
     n = Y.shape[0]
-    _directions(p, Y, Q)
+    for j in range(count_of_places(p, n)):
+        k = place(p, j, n)
+        s, c = sincos(take(Y, k, 4, 1)[0])
+        lam = 1.0 + take(Y, k, 0, 1)[0]
+        put(Q, k, 0, (c, s))
+        put(Q, k, 5, (lam * c, lam * s))
     X[0, 0] = 0.0
     X[0, 1] = 0.0
     for k in range(1, n):
         half = 0.5 * tables[p.grid_at + k - 1]
         X[k, 0] = X[k - 1, 0] + half * (Q[k - 1, 5] + Q[k, 5])
         X[k, 1] = X[k - 1, 1] + half * (Q[k - 1, 6] + Q[k, 6])
-
-
-@kernel
-def _directions_at(k, Y, Q):
-    s, c = sincos(take(Y, k, 4, 1)[0])
-    lam = 1.0 + take(Y, k, 0, 1)[0]
-    put(Q, k, 0, (c, s))
-    put(Q, k, 5, (lam * c, lam * s))
-
-
-@kernel
-def _directions_in_pairs(p, Y, Q):
-    n = Y.shape[0]
-    for k in range(0, n, 2):
-        _directions_at((k, min(k + 1, n - 1)), Y, Q)
-
-
-@kernel
-def _directions_one_by_one(p, Y, Q):
-    for k in range(Y.shape[0]):
-        _directions_at(k, Y, Q)
-
-
-_directions = by_kind(_directions_in_pairs, _directions_in_pairs, _directions_one_by_one)
 
 
 @kernel
@@ -82,98 +62,71 @@ def water(p, tables, t, in_motion, X, F):
     if p.waves and in_motion > 0.0:
         wave_field(p, t, X, F)
     if p.current:
-        planar_current(p, tables, t, X, F)
-
-
-@kernel
-def _quantities_at(p, tables, cq, cv, in_motion, k, Y, C_tilde, F, Q):
-    """Row k of Q, or two rows at once where k is a pair."""
-    eps, S, U, W = take(Y, k, 0, 4)
-    qx_tilde, qz_tilde, U_tilde, W_tilde = take(C_tilde, k, 0, 4)
-    Uw, Ww, Uw_t, Ww_t = take(F, k, 0, 4)
-    c, s = take(Q, k, 0, 2)
-    qx, qz = take(Q, k, 5, 2)
-    T, slope = _tension(p, tables, eps)
-    lam = 1.0 + eps
-    if p.viscous:
-        before = math.sqrt(qx_tilde * qx_tilde + qz_tilde * qz_tilde)
-        B, L = take(Q, k, 21, 2)
-        extra, stiffer = shock_tension(in_motion * cq, lam - before, B, L)
-        T += extra
-        slope += stiffer
-    put(Q, k, 2, (slope, T * c - S * s, T * s + S * c, qx, qz, cq * (qx - qx_tilde), cq * (qz - qz_tilde)))
-    ax = cv * (U - U_tilde)
-    az = cv * (W - W_tilde)
-    Gx, Gz = p.m * ax, p.m * az + p.w0
-    Gxx = p.m * cv
-    Gxz = 0.0
-    Gzz = Gxx
-    Gex = Gez = Gpx = Gpz = 0.0
-    if p.wet:
-        root = math.sqrt(larger(lam, 0.0))
-        ur = in_motion * U - Uw
-        wr = in_motion * W - Ww
-        vt = ur * c + wr * s
-        vn = wr * c - ur * s
-        kt = 2.0 * p.ct * root * abs(vt)
-        kn = 2.0 * p.cn * root * abs(vn)
-        a = 0.5 * kt * vt
-        b = 0.5 * kn * vn
-        half_inverse = 0.5 / lam
-        Gex = (a * c - b * s) * half_inverse
-        Gez = (a * s + b * c) * half_inverse
-        b_phi = p.Rw * (Uw_t * c + Ww_t * s) - p.ma * (ax * c + az * s) - kn * vt
-        b += p.ma * (az * c - ax * s) - p.Rw * (Ww_t * c - Uw_t * s)
-        Gx += a * c - b * s
-        Gz += a * s + b * c
-        along = kt * vn - b
-        across = a + b_phi
-        Gpx = along * c - across * s
-        Gpz = along * s + across * c
-        dt_ = in_motion * kt
-        dn = in_motion * kn + p.ma * cv
-        Gxx += dt_ * c * c + dn * s * s
-        Gxz = (dt_ - dn) * c * s
-        Gzz += dt_ * s * s + dn * c * c
-    put(Q, k, 9, (Gx, Gz, Gex, Gez, Gpx, Gpz, Gxx, Gxz, Gzz))
-    if p.bent:
-        square = lam * lam
-        put(Q, k, 18, (square * lam * S, 3.0 * square * S, square * lam))
-
-
-@kernel
-def _in_pairs(p, tables, cq, cv, in_motion, Y, C_tilde, F, Q):
-    n = Y.shape[0]
-    for k in range(0, n, 2):
-        _quantities_at(p, tables, cq, cv, in_motion, (k, min(k + 1, n - 1)), Y, C_tilde, F, Q)
-
-
-@kernel
-def _one_by_one(p, tables, cq, cv, in_motion, Y, C_tilde, F, Q):
-    for k in range(Y.shape[0]):
-        _quantities_at(p, tables, cq, cv, in_motion, k, Y, C_tilde, F, Q)
-
-
-@kernel
-def _tension_of_pair(p, tables, eps):
-    """`tension` at two strains, one after the other: a tabulated law branches."""
-    T, slope = both(tension(lane((eps,), 0)[0], p, tables), tension(lane((eps,), 1)[0], p, tables))
-    return T, slope
-
-
-@kernel
-def _tension_of_lanes(p, tables, eps):
-    return tension(eps, p, tables)
-
-
-_tension = by_kind(_tension_of_pair, _tension_of_pair, _tension_of_lanes)
-_quantities = by_kind(_in_pairs, _in_pairs, _one_by_one)
+        current_field(p, tables, t, X, F)
 
 
 @kernel
 def node_quantities(p, tables, cq, cv, in_motion, Y, C_tilde, F, Q):
-    """Fill Q (columns in the head of this file) from Y, the integrator's C~ = (q~, V~) and the water F.
-
-    A run alone takes two nodes at a time (`engine.planar.places`): the numbers are the same.
-    """
-    _quantities(p, tables, cq, cv, in_motion, Y, C_tilde, F, Q)
+    """Fill Q (columns in the head of this file) from Y, the integrator's C~ = (q~, V~) and the water F."""
+    for k in range(Y.shape[0]):
+        eps, S, U, W = Y[k, 0], Y[k, 1], Y[k, 2], Y[k, 3]
+        c, s = Q[k, 0], Q[k, 1]
+        T, slope = tension(eps, p, tables)
+        lam = 1.0 + eps
+        if p.viscous:
+            before = math.sqrt(C_tilde[k, 0] ** 2 + C_tilde[k, 1] ** 2)
+            extra, stiffer = shock_tension(in_motion * cq, lam - before, Q[k, 21], Q[k, 22])
+            T += extra
+            slope += stiffer
+        Q[k, 2] = slope
+        Q[k, 3] = T * c - S * s
+        Q[k, 4] = T * s + S * c
+        Q[k, 7] = cq * (Q[k, 5] - C_tilde[k, 0])
+        Q[k, 8] = cq * (Q[k, 6] - C_tilde[k, 1])
+        ax = cv * (U - C_tilde[k, 2])
+        az = cv * (W - C_tilde[k, 3])
+        Gx, Gz = p.m * ax, p.m * az + p.w0
+        Gxx = p.m * cv
+        Gxz = 0.0
+        Gzz = Gxx
+        Gex = Gez = Gpx = Gpz = 0.0
+        if p.wet:
+            root = math.sqrt(max(lam, 0.0))
+            ur = in_motion * U - F[k, 0]
+            wr = in_motion * W - F[k, 1]
+            vt = ur * c + wr * s
+            vn = wr * c - ur * s
+            kt = 2.0 * p.ct * root * abs(vt)
+            kn = 2.0 * p.cn * root * abs(vn)
+            a = 0.5 * kt * vt
+            b = 0.5 * kn * vn
+            half_inverse = 0.5 / lam
+            Gex = (a * c - b * s) * half_inverse
+            Gez = (a * s + b * c) * half_inverse
+            b_phi = p.Rw * (F[k, 2] * c + F[k, 3] * s) - p.ma * (ax * c + az * s) - kn * vt
+            b += p.ma * (az * c - ax * s) - p.Rw * (F[k, 3] * c - F[k, 2] * s)
+            Gx += a * c - b * s
+            Gz += a * s + b * c
+            along = kt * vn - b
+            across = a + b_phi
+            Gpx = along * c - across * s
+            Gpz = along * s + across * c
+            dt_ = in_motion * kt
+            dn = in_motion * kn + p.ma * cv
+            Gxx += dt_ * c * c + dn * s * s
+            Gxz = (dt_ - dn) * c * s
+            Gzz += dt_ * s * s + dn * c * c
+        Q[k, 9] = Gx
+        Q[k, 10] = Gz
+        Q[k, 11] = Gex
+        Q[k, 12] = Gez
+        Q[k, 13] = Gpx
+        Q[k, 14] = Gpz
+        Q[k, 15] = Gxx
+        Q[k, 16] = Gxz
+        Q[k, 17] = Gzz
+        if p.bent:
+            square = lam * lam
+            Q[k, 18] = square * lam * S
+            Q[k, 19] = 3.0 * square * S
+            Q[k, 20] = square * lam

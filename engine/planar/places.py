@@ -10,6 +10,7 @@ from numba.core import cgutils, types
 from numba.extending import intrinsic, overload
 from numba.np import arrayobj
 
+from ..compiled import by_kind, kernel
 from ..lanes.vector import Lanes
 
 PAIR, PLACES = Lanes(2), types.UniTuple(types.intp, 2)
@@ -132,3 +133,28 @@ def _half_box(tables, first, k, d):
         return both((lower,), (0.5 * d[1] * tables[first + min(k[1], k[1] + d[1])],))[0]
 
     return of_two
+
+
+@kernel
+def _two_nodes(p, j, n):
+    return 2 * j, min(2 * j + 1, n - 1)
+
+
+@kernel
+def _one_node(p, j, n):
+    return j
+
+
+@kernel
+def _half(p, n):
+    return (n + 1) // 2
+
+
+@kernel
+def _all(p, n):
+    return n
+
+
+# Nodes two at a time in a run alone, one by one in a batch: place number j of so many.
+place = by_kind(_two_nodes, _two_nodes, _one_node)
+count_of_places = by_kind(_half, _half, _all)
