@@ -22,8 +22,9 @@ Columns of Q (row k is node k):
 
 import math
 
+from ..choose import larger
 from ..compiled import kernel
-from ..currents import current_field
+from ..currents import planar_current
 from ..elementary import sincos
 from ..shocks import shock_tension
 from ..tension import tension
@@ -62,7 +63,7 @@ def water(p, tables, t, in_motion, X, F):
     if p.waves and in_motion > 0.0:
         wave_field(p, t, X, F)
     if p.current:
-        current_field(p, tables, t, X, F)
+        planar_current(p, tables, t, X, F)
 
 
 @kernel
@@ -74,7 +75,7 @@ def node_quantities(p, tables, cq, cv, in_motion, Y, C_tilde, F, Q):
         T, slope = tension(eps, p, tables)
         lam = 1.0 + eps
         if p.viscous:
-            before = math.sqrt(C_tilde[k, 0] ** 2 + C_tilde[k, 1] ** 2)
+            before = math.sqrt(C_tilde[k, 0] * C_tilde[k, 0] + C_tilde[k, 1] * C_tilde[k, 1])
             extra, stiffer = shock_tension(in_motion * cq, lam - before, Q[k, 21], Q[k, 22])
             T += extra
             slope += stiffer
@@ -91,7 +92,7 @@ def node_quantities(p, tables, cq, cv, in_motion, Y, C_tilde, F, Q):
         Gzz = Gxx
         Gex = Gez = Gpx = Gpz = 0.0
         if p.wet:
-            root = math.sqrt(max(lam, 0.0))
+            root = math.sqrt(larger(lam, 0.0))
             ur = in_motion * U - F[k, 0]
             wr = in_motion * W - F[k, 1]
             vt = ur * c + wr * s
