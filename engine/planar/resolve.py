@@ -10,7 +10,7 @@ known terms. At the upper end `top` is the known part of its residual.
 """
 
 from ..compiled import kernel
-from .sweep import back_substitute, update_node
+from .elimination import back_substitute, update_node
 
 
 @kernel
