@@ -26,7 +26,7 @@ from .choose import larger, some, where
 from .compiled import kernel
 from .elementary import copy_into
 from .ends import BUOY
-from .planar import elimination, node, sweep
+from .planar import node, sweep
 from .planar.resolve import resolve_bent
 from .steps import add_rates, plan_stage
 
@@ -175,7 +175,7 @@ def linearise(p, tables, t, rate, moving_water, Y, K, X, F, C_tilde, Q, E, J, wo
             C_tilde[k, m] = Q[k, 5 + m] - K[k, m] / rate
             C_tilde[k, 2 + m] = Y[k, 2 + m] - K[k, 2 + m] / rate
     node.node_quantities(p, tables, rate, rate, 1.0, Y, C_tilde, F, Q)
-    sweep.sweep_from_below(p, tables, t, rate, rate, 1.0, Y, C_tilde, F, Q, E, D)
+    sweep.sweep_bent(p, tables, t, rate, rate, 1.0, Y, C_tilde, F, Q, E, D)
     if moving_water > 0.0:
         water_slopes(p, tables, t, X, X_moved, F_ahead, F_behind, J)
 
@@ -215,7 +215,7 @@ def carry(p, tables, period, count, T, trail_Y, trail_K, vectors, rates, waters,
     """
     number, n, s = vectors.shape[0], vectors.shape[1], trail_Y.shape[1]
     X, F, Q = np.zeros((n, 2)), np.zeros((n, 4)), np.zeros((n, node.WIDTH))
-    E, C_tilde, J = np.zeros((n, elimination.WITH_INVERSE)), np.zeros((n, 4)), np.zeros((n, 8))
+    E, C_tilde, J = np.zeros((n, sweep.WITH_INVERSE)), np.zeros((n, 4)), np.zeros((n, 8))
     D, gamma = np.zeros((n, 6)), np.zeros((n, 2))
     work = (D, np.zeros((n, 2)), np.zeros((n, 4)), np.zeros((n, 4)))
     dCs, dKs, dC_tilde = np.zeros((number, n, 4)), np.zeros((number, s, n, 4)), np.zeros((n, 4))

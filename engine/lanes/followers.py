@@ -4,7 +4,7 @@ import numpy as np
 
 from ..lateral import COEFFICIENTS
 from ..lateral import WIDTH as LATERAL_WIDTH
-from ..planar import elimination, node
+from ..planar import node, sweep
 from .follow import LENGTH, RATE, follow
 from .vector import COUNT, lane_zeros
 
@@ -25,7 +25,7 @@ class Followers:
             self.numbers, lane_zeros(s), lane_zeros(3), self.Y, self.K, self.vectors, self.rates, self.waters,
             lane_zeros(k, s, n, 4), lane_zeros(k, n, 4),
         )  # fmt: skip
-        widths = 2, 4, node.WIDTH, elimination.WITH_INVERSE, 6, 4, 4, 4, 8, 2, 2, 4, 4
+        widths = 2, 4, node.WIDTH, sweep.WITH_INVERSE, 6, 4, 4, 4, 8, 2, 2, 4, 4
         self.work = tuple(lane_zeros(n, width) for width in widths)
         self.weights, self.across, self.across_rates = lane_zeros(n, 2), lane_zeros(n, 2), lane_zeros(n, 2)
         self.lateral = (

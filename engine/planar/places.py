@@ -1,20 +1,18 @@
-"""Where a sweep is: at one node (a whole number), or at two at once (a pair of them), as two lanes of a vector.
+"""Places: one node (a whole number), or two nodes at once (a pair of them) as two lanes of a vector.
 
-The same source then serves the halves of a tether one after the other, as a batch does them (`engine.lanes`), and both
-at once, as a run alone does, bit for bit the same. A way d is 1 (up) or -1 (down); of a pair (1, -1), or (1, 1) where
-both lanes do the same because one of them has nothing to do: one compiled form serves it all.
+What is done at every node for itself is written once for a place. A run alone does it at two nodes at a time, a batch,
+whose numbers are vectors already (`engine.lanes`), at one after the other: the same operations, bit for bit.
 """
 
 from llvmlite import ir
 from numba.core import cgutils, types
-from numba.extending import intrinsic, overload
+from numba.extending import intrinsic
 from numba.np import arrayobj
 
 from ..compiled import by_kind, kernel
 from ..lanes.vector import Lanes
 
 PAIR, PLACES = Lanes(2), types.UniTuple(types.intp, 2)
-_OPTIONS = {"nogil": True, "error_model": "numpy", "boundscheck": False}
 
 
 def _join(context, builder, values):
@@ -108,33 +106,6 @@ def lane(context, vectors, number):
     return result(vectors, number), generate
 
 
-def move(k, d):
-    """The next place on the way d."""
-
-
-def half_box(tables, first, k, d):
-    """Half the length (m) of the box from k on the way d, negative downwards; tables[first] is the first length."""
-
-
-@overload(move, jit_options=_OPTIONS)
-def _move(k, d):
-    if isinstance(k, types.Integer):
-        return lambda k, d: k + d
-    return lambda k, d: (k[0] + d[0], k[1] + d[1])
-
-
-@overload(half_box, jit_options=_OPTIONS)
-def _half_box(tables, first, k, d):
-    if isinstance(k, types.Integer):
-        return lambda tables, first, k, d: 0.5 * d * tables[first + min(k, k + d)]
-
-    def of_two(tables, first, k, d):
-        lower = 0.5 * d[0] * tables[first + min(k[0], k[0] + d[0])]
-        return both((lower,), (0.5 * d[1] * tables[first + min(k[1], k[1] + d[1])],))[0]
-
-    return of_two
-
-
 @kernel
 def _two_nodes(p, j, n):
     return 2 * j, min(2 * j + 1, n - 1)
@@ -155,6 +126,6 @@ def _all(p, n):
     return n
 
 
-# Nodes two at a time in a run alone, one by one in a batch: place number j of so many.
+# place number j of so many; of an odd number of nodes the last place is one node twice
 place = by_kind(_two_nodes, _two_nodes, _one_node)
 count_of_places = by_kind(_half, _half, _all)

@@ -1,4 +1,4 @@
-"""Another right-hand side for the matrix that `sweep_from_below` (`engine.planar.sweep`) has eliminated: up, then down.
+"""Another right-hand side for the matrix that `engine.planar.sweep.sweep_bent` has eliminated: one pass up, one down.
 
 The tangent dynamics of a stage is linear in the perturbation, with Newton's matrix at the converged state:
 
@@ -10,12 +10,12 @@ known terms. At the upper end `top` is the known part of its residual.
 """
 
 from ..compiled import kernel
-from .elimination import back_substitute, update_node
+from .sweep import back_substitute
 
 
 @kernel
 def resolve_bent(p, tables, cq, Q, E, dq_tilde, gamma, top_x, top_z, D):
-    """Fill D (n, 6) with the perturbation dY; E comes from `sweep_from_below` at the same state.
+    """Fill D (n, 6) with the perturbation dY; E comes from `sweep_bent` at the same state.
 
     dq_tilde (n, 2), gamma (n, 2) N/m; top_x, top_z in the units of the end's condition. Overwrites p and r in E.
     """
@@ -33,22 +33,15 @@ def resolve_bent(p, tables, cq, Q, E, dq_tilde, gamma, top_x, top_z, D):
         g0 = e * (gamma[a, 0] + gamma[k, 0]) + Kxx * r0 + Kxz * r1 - Jxx * cx - Jxz * cz
         g1 = e * (gamma[a, 1] + gamma[k, 1]) + Kxz * r0 + Kzz * r1 - Jxz * cx - Jzz * cz
         g2 = 2.0 * p.EI * r2
-        p0 = E[a, 24] * g0 + E[a, 25] * g1 + E[a, 26] * g2
-        p1 = E[a, 27] * g0 + E[a, 28] * g1 + E[a, 29] * g2
-        p2 = E[a, 30] * g0 + E[a, 31] * g1 + E[a, 32] * g2
+        p0 = E[k, 24] * g0 + E[k, 25] * g1 + E[k, 26] * g2
+        p1 = E[k, 27] * g0 + E[k, 28] * g1 + E[k, 29] * g2
+        p2 = E[k, 30] * g0 + E[k, 31] * g1 + E[k, 32] * g2
         ca, sa = Q[a, 0], Q[a, 1]
         r0 += (E[a, 12] + ec * ca) * p0 + E[a, 13] * p1 + (E[a, 14] - ec * Q[a, 6]) * p2 - cx
         r1 += (E[a, 15] + ec * sa) * p0 + E[a, 16] * p1 + (E[a, 17] + ec * Q[a, 5]) * p2 - cz
         r2 = -E[a, 18] * p0 - E[a, 19] * p1 - (E[a, 20] + 1.0 / e) * p2 - r2
-        E[a, 9], E[a, 10], E[a, 11] = p0, p1, p2
+        E[k, 9], E[k, 10], E[k, 11] = p0, p1, p2
         E[k, 21], E[k, 22], E[k, 23] = r0, r1, r2
-    b = n - 1
-    g0 = -top_x - E[b, 24] * r0 - E[b, 25] * r1
-    g1 = -top_z - E[b, 25] * r0 - E[b, 26] * r1
-    y = (
-        E[b, 0] * g0 + E[b, 1] * g1 - E[b, 2] * r2,
-        E[b, 3] * g0 + E[b, 4] * g1 - E[b, 5] * r2,
-        E[b, 6] * g0 + E[b, 7] * g1 - E[b, 8] * r2,
-    )
-    update_node(E, b, y, D)
-    back_substitute(E, b, -1, b, y, D)
+    g0 = -top_x - E[0, 24] * r0 - E[0, 25] * r1
+    g1 = -top_z - E[0, 25] * r0 - E[0, 26] * r1
+    back_substitute(E, g0, g1, -r2, D)
