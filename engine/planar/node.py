@@ -22,14 +22,13 @@ Columns of Q (row k is node k):
 
 import math
 
-from ..choose import larger, where
-from ..compiled import by_kind, kernel
+from ..choose import larger
+from ..compiled import kernel
 from ..currents import planar_current
 from ..elementary import sincos
 from ..shocks import shock_tension
-from ..tension import LINEAR, tension
 from ..waves import wave_field
-from .places import both, count_of_places, lane, place, put, take
+from .places import count_of_places, place, put, take, tension_at
 
 WIDTH = 23
 
@@ -64,27 +63,6 @@ def water(p, tables, t, in_motion, X, F):
         wave_field(p, t, X, F)
     if p.current:
         planar_current(p, tables, t, X, F)
-
-
-@kernel
-def _of_pair(p, tables, eps):
-    """`tension` at two strains: at once for the usual law, else at one after the other, as a table branches.
-
-    At 41 nodes `node_quantities` takes 0.64 us with the usual law apart, and 1.7 without.
-    """
-    if p.law == LINEAR and p.barrier == 0.0:
-        return p.p1 * eps, where(eps > 0.0, p.p1, p.p1)
-    below, above = tension(lane((eps,), 0)[0], p, tables), tension(lane((eps,), 1)[0], p, tables)
-    T, slope = both(below, above)
-    return T, slope
-
-
-@kernel
-def _of_batch(p, tables, eps):
-    return tension(eps, p, tables)
-
-
-tension_at = by_kind(_of_pair, _of_pair, _of_batch)
 
 
 @kernel
