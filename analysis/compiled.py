@@ -6,6 +6,8 @@ The engine does the same for its own kernels; neither package imports the other,
 throw away the machine code of the other.
 """
 
+import contextlib
+import fcntl
 import hashlib
 import os
 import tempfile
@@ -76,6 +78,28 @@ def _last_change(folder):
         return 0.0
 
 
+def one_at_a_time(dispatcher, folder):
+    """Let one process at a time look up or store machine code in `folder`; returns the dispatcher.
+
+    Numba chooses the file of a new piece of code and then writes it: two processes that compile a kernel for two kinds
+    of arguments at the same moment choose the same file, and from then on one kind is handed the code of the other.
+    """
+    store = dispatcher._cache._cache_file
+
+    def alone(method):
+        def call(*arguments):
+            with contextlib.ExitStack() as stack:
+                with contextlib.suppress(OSError):  # a folder that was dropped as old: nothing is found, nothing kept
+                    lock = stack.enter_context(open(folder / ".lock", "a"))
+                    fcntl.flock(lock, fcntl.LOCK_EX)
+                return method(*arguments)
+
+        return call
+
+    store.load, store.save = alone(store.load), alone(store.save)
+    return dispatcher
+
+
 def kernel(function):
     """Compile a kernel: no Python objects, no GIL, fused multiply-add allowed, cached on disk.
 
@@ -87,8 +111,9 @@ def kernel(function):
     if folder is not None:
         config.CACHE_DIR = str(folder)
     try:
-        return numba.njit(
+        dispatcher = numba.njit(
             cache=folder is not None, nogil=True, fastmath={"contract"}, error_model="numpy", boundscheck=False
         )(function)
     finally:
         config.CACHE_DIR = saved
+    return dispatcher if folder is None else one_at_a_time(dispatcher, folder)

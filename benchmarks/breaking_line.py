@@ -18,9 +18,9 @@ from analysis import breaking_measures as measures
 from analysis.breaking_theory import theory_of
 from campaigns import breaking_line
 from engine import load_scene, simulate
-from reports.breaking_figures import folds_figure, plane_figure
-from reports.breaking_runs import COLUMNS, WORDS, read_lines
-from reports.folder import read_folder
+from reports.breaking_line.figures import folds_figure, plane_figure
+from reports.breaking_line.runs import COLUMNS, WORDS, read_lines
+from reports.parts.folder import read_folder
 
 DOCS = Path(__file__).parents[1] / "docs"
 GRIDS = (401, 801)

@@ -6,7 +6,7 @@ Work 1  kA = 0.13, H = 22.5 m, ten wave periods from rest: slack and snap every 
 Work 2  kA = 0.08, 0.09 ... 0.16, H = 21.6 m, 50 s: the median and the largest error over the nine values.
 Error   rms over the samples (every 0.05 s) of r(t) - r(t) of a refined run. How far a second refined run, with other
         nodes and tolerance, is from the first is printed beside it. Both codes are held against their own refined run;
-        what makes MoorDyn comparable, and what is left different, is said in `campaigns.peer_moordyn`.
+        what makes MoorDyn comparable, and what is left different, is said in `campaigns.accuracy.peers.moordyn`.
 Time    of stepping alone (`wall_s`; MoorDyn: its stepping calls): no compilation, statics or input. One core.
 Noise   Settings take turns (A B C A B C ...), so that the machine's noise meets all; medians over the rounds. Near a
         snap the error of a loose tolerance is partly luck: every round multiplies rtol by another factor between 0.8
@@ -23,7 +23,7 @@ from pathlib import Path
 
 import numpy as np
 
-from campaigns import peer_moordyn
+from campaigns.accuracy.peers import moordyn
 from engine import load_scene, simulate, source_hash
 
 PERIODS = 10
@@ -46,7 +46,7 @@ def scene(base, nodes, rtol, stretching=0.0, integrator="esdirk43", **more):
         "tethered_buoy",
         base | more | {
             "tether.nodes": nodes, "tether.grid_stretching": stretching, "solver.rtol": rtol,
-            "solver.integrator": integrator, "output.step_s": peer_moordyn.SAMPLE,
+            "solver.integrator": integrator, "output.step_s": moordyn.SAMPLE,
         },
     )  # fmt: skip
 
@@ -76,8 +76,8 @@ def refined(base, nodes, rtol, **more):
 
 def refined_moordyn(base, segments, steps):
     wanted = scene(base, 41, 0.03)
-    name = f"moordyn-{peer_moordyn.version()}-{wanted.key()[:16]}-{segments}-{steps}"
-    return kept(name, lambda: peer_moordyn.run(wanted, segments, steps, PERIODS)[0])
+    name = f"moordyn-{moordyn.version()}-{wanted.key()[:16]}-{segments}-{steps}"
+    return kept(name, lambda: moordyn.run(wanted, segments, steps, PERIODS)[0])
 
 
 def rms_mm(a, b):
@@ -183,7 +183,7 @@ def moordyn_settings():
 
     def measure(segments, steps):
         def once(j):
-            radius, ms = peer_moordyn.run(wanted, segments, steps, PERIODS)
+            radius, ms = moordyn.run(wanted, segments, steps, PERIODS)
             return ms, rms_mm(radius, reference), np.nan
 
         return once
@@ -239,8 +239,8 @@ def main():
     whole = time.perf_counter() - began
     stepping = run.statistics["wall_s"]
     print(f"one call of simulate, {PERIODS} periods: {1e3 * whole:.1f} ms, of which stepping {1e3 * stepping:.1f}")
-    with_moordyn = not given.without_moordyn and peer_moordyn.version() is not None
-    print(f"MoorDyn: {peer_moordyn.version() or 'not installed: pip install moordyn==2.7.2'}")
+    with_moordyn = not given.without_moordyn and moordyn.version() is not None
+    print(f"MoorDyn: {moordyn.version() or 'not installed: pip install moordyn==2.7.2'}")
     work_1(given.rounds, with_moordyn)
     work_2(given.rounds)
     print(f"load at the end: {os.getloadavg()[0]:.1f}")

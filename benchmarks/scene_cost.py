@@ -1,10 +1,11 @@
 """What each part of a scene costs: operations and microseconds per Newton iteration with and without it, side by side
 on one core.    python -m benchmarks.scene_cost
 
-The scenes, the counting and the timing are those of `campaigns.scene_shares`, which puts them into the report.
+The scenes, the counting and the timing are those of `campaigns.stability.scene_shares`, which puts them into the
+report.
 """
 
-from campaigns.scene_shares import TABLE_1, measured
+from campaigns.stability.scene_shares import TABLE_1, measured
 
 
 def main():

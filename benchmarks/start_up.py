@@ -5,7 +5,7 @@
 Cold    a process, from nothing to the end of a simulation of one wave period of the shipped scene, with
         an empty folder for compiled kernels; less the same with the kernels there, it is the compilation.
 Cached  the same process with the kernels there; beside it an empty Python process and the imports alone.
-Help    `python -m NAME --help` of every module of campaigns and reports that is a command line.
+Help    `python -m NAME --help` of everything in campaigns and reports that is a command line.
 Everything runs as a process of its own, in turns (A B C A B C ...), on one core; medians over the rounds, wall clock.
 """
 
@@ -36,15 +36,9 @@ def seconds(arguments, kernels):
 
 
 def command_lines():
-    """Names of the modules of campaigns and reports that can be run."""
-    names = []
-    for package in ("campaigns", "reports"):
-        for path in sorted((ROOT / package).glob("*.py")):
-            if path.name == "__main__.py":
-                names.append(package)
-            elif '__name__ == "__main__"' in path.read_text():
-                names.append(f"{package}.{path.stem}")
-    return names
+    """Names of the packages of campaigns and reports that can be run."""
+    mains = [path for package in ("campaigns", "reports") for path in sorted((ROOT / package).rglob("__main__.py"))]
+    return [".".join(path.parent.relative_to(ROOT).parts) for path in mains]
 
 
 def main():

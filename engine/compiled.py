@@ -5,6 +5,8 @@ and the old machine code comes back. The cache folder is therefore named by a ha
 The folder is set only while a kernel is being declared, so other users of Numba in the process keep their own.
 """
 
+import contextlib
+import fcntl
 import hashlib
 import os
 import tempfile
@@ -12,12 +14,23 @@ from functools import cache
 from pathlib import Path
 
 import numba
-from numba import config
+from numba import config, types
 
 from .fused import with_fused_sums
 
 _ROOT = Path(__file__).parent
 _KEPT_CACHES = 6
+
+
+def _mangled_by_contents(record):
+    return "Record", (hashlib.sha256(record.name.encode()).hexdigest()[:16],)
+
+
+# Numba writes a record into the names of compiled functions as a number that counts the types its process has met.
+# Two processes give one number to two records: code that one stored for the planar record and the other for the
+# spatial one then has one name, and a process that loads both gets one of them for both. Names are only names: other
+# users of Numba in the process lose nothing by names that tell records apart.
+types.Record.mangling_args = property(_mangled_by_contents)
 
 
 @cache
@@ -69,6 +82,28 @@ def _drop_old(root, current):
             continue
 
 
+def one_at_a_time(dispatcher, folder):
+    """Let one process at a time look up or store machine code in `folder`; returns the dispatcher.
+
+    Numba chooses the file of a new piece of code and then writes it: two processes that compile a kernel for two kinds
+    of arguments at the same moment choose the same file, and from then on one kind is handed the code of the other.
+    """
+    store = dispatcher._cache._cache_file
+
+    def alone(method):
+        def call(*arguments):
+            with contextlib.ExitStack() as stack:
+                with contextlib.suppress(OSError):  # a folder that was dropped as old: nothing is found, nothing kept
+                    lock = stack.enter_context(open(folder / ".lock", "a"))
+                    fcntl.flock(lock, fcntl.LOCK_EX)
+                return method(*arguments)
+
+        return call
+
+    store.load, store.save = alone(store.load), alone(store.save)
+    return dispatcher
+
+
 def kernel(function):
     """Compile a kernel: no Python objects, no GIL, sums of products fused (`engine.fused`), cached on disk.
 
@@ -80,11 +115,12 @@ def kernel(function):
     if folder is not None:
         config.CACHE_DIR = str(folder)
     try:
-        return numba.njit(cache=folder is not None, nogil=True, error_model="numpy", boundscheck=False)(
+        dispatcher = numba.njit(cache=folder is not None, nogil=True, error_model="numpy", boundscheck=False)(
             with_fused_sums(function)
         )
     finally:
         config.CACHE_DIR = saved
+    return dispatcher if folder is None else one_at_a_time(dispatcher, folder)
 
 
 def by_kind(planar, spatial, lanes=None):

@@ -9,15 +9,9 @@ from __future__ import annotations
 from importlib import import_module
 from pathlib import Path
 
-# Campaign as named in provenance.json: the module whose `report(directory)` gives the content.
-CONTENTS = {
-    "accuracy": "reports.accuracy_content",
-    "buoy_sweep": "reports.buoy_sweep",
-    "oscillator": "reports.oscillator_content",
-    "breaking_line": "reports.breaking_line",
-    "out_of_plane": "reports.offplane_content",
-    "stability": "reports.stability_content",
-}
+# Campaigns as named in provenance.json; the folder of that name has a module `report`, whose `report(directory)` gives
+# the content.
+CONTENTS = ("accuracy", "breaking_line", "buoy_sweep", "oscillator", "out_of_plane", "stability")
 
 __all__ = ["CONTENTS", "build"]
 
@@ -32,17 +26,17 @@ def build(directory: str | Path) -> tuple[Path, Path]:
     """
     from engine.atomic import write_atomic
 
-    from .folder import FolderError, campaign_of
-    from .html import render_html
-    from .pdf import render_pdf
+    from .parts.folder import FolderError, campaign_of
+    from .parts.html import render_html
+    from .parts.pdf import render_pdf
 
     directory = Path(directory)
     campaign = campaign_of(directory)
     if campaign not in CONTENTS and campaign is not None:
-        known = ", ".join(sorted(CONTENTS))
+        known = ", ".join(CONTENTS)
         raise FolderError(directory, [f"provenance.json names the campaign {campaign!r}; reports exist for {known}"])
     # Without a readable provenance the folder is no campaign: the reader of any content lists all that is wrong.
-    report = import_module(CONTENTS[campaign or "buoy_sweep"]).report(directory)
+    report = import_module(f"reports.{campaign or 'buoy_sweep'}.report").report(directory)
     pages = {directory / "report.html": render_html(report), directory / "report.pdf": render_pdf(report)}
     for path, content in pages.items():
         write_atomic(path, content)

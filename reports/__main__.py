@@ -19,7 +19,7 @@ def main(arguments: list[str] | None = None) -> int:
     directory = parser.parse_args(arguments).directory
 
     from . import build
-    from .folder import FolderError
+    from .parts.folder import FolderError
 
     try:
         for path in build(directory):

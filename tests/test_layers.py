@@ -54,7 +54,7 @@ def test_no_import_against_the_flow(package):
     ("package", "source"),
     [
         ("engine", "def f():\n    from analysis import spectrum"),
-        ("engine", "import campaigns.runner as r"),
+        ("engine", "import campaigns.machinery.runner as r"),
         ("analysis", "from engine.scene import Scene"),
         ("reports", "from campaigns import cli"),
         ("campaigns", "import benchmarks"),
@@ -64,6 +64,15 @@ def test_no_import_against_the_flow(package):
 )
 def test_the_rule_sees_every_form_of_import(package, source):
     assert forbidden(package, imported(source, (package, "inner")))
+
+
+def test_every_campaign_can_be_run_and_has_a_report():
+    from reports import CONTENTS
+
+    folders = {path.parent.name for path in (ROOT / "campaigns").glob("*/__init__.py")} - {"machinery"}
+    assert folders == set(CONTENTS)
+    for name in folders:
+        assert (ROOT / "campaigns" / name / "__main__.py").exists() and (ROOT / "reports" / name / "report.py").exists()
 
 
 def test_benchmarks_and_tests_are_not_installed():

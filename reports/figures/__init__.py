@@ -1,1 +1,1 @@
-"""One drawing a file: plain arrays in, a `reports.content.Picture` out."""
+"""One drawing a file: plain arrays in, a `reports.parts.content.Picture` out."""

@@ -6,8 +6,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..content import Picture
-from ..style import BLUE, GREEN, ORANGE, SKY, VERMILION, picture_of, sheet
+from ..parts.content import Picture
+from ..parts.style import BLUE, GREEN, ORANGE, SKY, VERMILION, picture_of, sheet
 
 KINDS = ("strain", "kinetic", "taken out by the end force", "dissipated", "bending")
 _COLOURS = (SKY, BLUE, ORANGE, VERMILION, GREEN)

@@ -6,8 +6,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..content import Picture
-from ..style import INK, VERMILION, picture_of, sheet
+from ..parts.content import Picture
+from ..parts.style import INK, VERMILION, picture_of, sheet
 
 _COLUMNS = 300
 

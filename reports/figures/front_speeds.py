@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..content import Picture
-from ..style import BLUE, GREEN, INK, ORANGE, PURPLE, SKY, VERMILION, picture_of, sheet
+from ..parts.content import Picture
+from ..parts.style import BLUE, GREEN, INK, ORANGE, PURPLE, SKY, VERMILION, picture_of, sheet
 
 _MARKS = (("o", BLUE), ("s", VERMILION), ("^", GREEN), ("D", ORANGE))
 _SLOW = (("o", SKY), ("s", PURPLE), ("^", "#7ad1b5"), ("D", "#f3cf7a"))

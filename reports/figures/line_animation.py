@@ -7,8 +7,8 @@ from pathlib import Path
 
 import numpy as np
 
-from ..content import Picture
-from ..style import BLUE, INK, SOFT, VERMILION, picture_of, sheet
+from ..parts.content import Picture
+from ..parts.style import BLUE, INK, SOFT, VERMILION, picture_of, sheet
 
 _FRAMES_PER_SECOND = 10
 _DOTS_PER_INCH = 90

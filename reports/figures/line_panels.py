@@ -6,8 +6,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..content import Picture
-from ..style import BLUE, SOFT, VERMILION, picture_of, sheet
+from ..parts.content import Picture
+from ..parts.style import BLUE, SOFT, VERMILION, picture_of, sheet
 
 _WIDTH_IN = 5.6  # of all panels of a row
 

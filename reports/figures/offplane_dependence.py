@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..content import Picture
-from ..style import BLUE, GREEN, PURPLE, VERMILION, picture_of, sheet
+from ..parts.content import Picture
+from ..parts.style import BLUE, GREEN, PURPLE, VERMILION, picture_of, sheet
 
 
 def dependence(panels: list[tuple[str, list[tuple[str, np.ndarray, np.ndarray, np.ndarray]]]], label: str) -> Picture:

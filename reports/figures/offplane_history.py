@@ -6,8 +6,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..content import Picture
-from ..style import BLUE, VERMILION, picture_of, sheet
+from ..parts.content import Picture
+from ..parts.style import BLUE, VERMILION, picture_of, sheet
 from .time_series import envelope
 
 _DECADES_BELOW = 1.5  # room for the swings through zero below the least of the envelope

@@ -6,8 +6,8 @@ import numpy as np
 
 from analysis import density_image, orbit_diagram
 
-from ..content import Picture
-from ..style import BLUE, DENSITY_COLOURS, SKY, SOFT, VERMILION, picture_of, sheet
+from ..parts.content import Picture
+from ..parts.style import BLUE, DENSITY_COLOURS, SKY, SOFT, VERMILION, picture_of, sheet
 
 _ROWS = 200  # pixels of the value axis: one is thick enough to be seen in print
 

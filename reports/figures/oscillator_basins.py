@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..content import Picture
-from ..style import BLUE, GREEN, INK, ORANGE, PURPLE, SKY, VERMILION, picture_of, sheet
+from ..parts.content import Picture
+from ..parts.style import BLUE, GREEN, INK, ORANGE, PURPLE, SKY, VERMILION, picture_of, sheet
 from .oscillator_section import DISPLACEMENT, VELOCITY
 
 _COLOURS = (VERMILION, ORANGE, GREEN, PURPLE, BLUE)

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..content import Picture
-from ..style import BLUE, DENSITY_COLOURS, SOFT, VERMILION, picture_of, sheet
+from ..parts.content import Picture
+from ..parts.style import BLUE, DENSITY_COLOURS, SOFT, VERMILION, picture_of, sheet
 
 _ROWS = 320
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..content import Picture
-from ..style import BLUE, INK, SKY, SOFT, VERMILION, picture_of, sheet
+from ..parts.content import Picture
+from ..parts.style import BLUE, INK, SKY, SOFT, VERMILION, picture_of, sheet
 
 
 def oscillator_errors(convergence: np.ndarray, of_start: np.ndarray) -> Picture:

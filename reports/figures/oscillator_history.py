@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..content import Picture
-from ..style import INK, SKY, SOFT, picture_of, sheet
+from ..parts.content import Picture
+from ..parts.style import INK, SKY, SOFT, picture_of, sheet
 
 
 def oscillator_history(periods: np.ndarray, displacement: np.ndarray, velocity: np.ndarray) -> Picture:

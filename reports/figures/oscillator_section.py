@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..content import Picture
-from ..style import INK, VERMILION, picture_of, sheet
+from ..parts.content import Picture
+from ..parts.style import INK, VERMILION, picture_of, sheet
 
 DISPLACEMENT, VELOCITY = r"displacement $\gamma$ (–)", r"velocity $\dot\gamma$ (–)"
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..content import Picture
-from ..style import BLUE, GREEN, INK, ORANGE, PURPLE, picture_of, sheet
+from ..parts.content import Picture
+from ..parts.style import BLUE, GREEN, INK, ORANGE, PURPLE, picture_of, sheet
 
 
 def parting(time_s: np.ndarray, pairs: list[tuple[str, np.ndarray]], limit_m: float) -> Picture:

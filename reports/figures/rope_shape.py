@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..content import Picture
-from ..style import picture_of, sheet
+from ..parts.content import Picture
+from ..parts.style import picture_of, sheet
 
 
 def rope_shapes(moments: list[tuple[str, np.ndarray, np.ndarray, np.ndarray]]) -> Picture:

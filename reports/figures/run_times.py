@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..content import Picture
-from ..style import BLUE, VERMILION, picture_of, sheet
+from ..parts.content import Picture
+from ..parts.style import BLUE, VERMILION, picture_of, sheet
 
 
 def run_times(steepness: np.ndarray, wall_s: np.ndarray, newton_per_period: np.ndarray, failed: np.ndarray) -> Picture:

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..content import Picture
-from ..style import BLUE, ORANGE, picture_of, sheet
+from ..parts.content import Picture
+from ..parts.style import BLUE, ORANGE, picture_of, sheet
 
 
 def scene_shares(names: list[str], operations: np.ndarray, times: np.ndarray) -> Picture:

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..content import Picture
-from ..style import BLUE, kind_for, picture_of, sheet
+from ..parts.content import Picture
+from ..parts.style import BLUE, kind_for, picture_of, sheet
 
 
 def section(panels: list[tuple[str, np.ndarray, np.ndarray]]) -> Picture:

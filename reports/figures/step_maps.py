@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..content import Picture
-from ..style import BLUE, SOFT, VERMILION, picture_of, sheet
+from ..parts.content import Picture
+from ..parts.style import BLUE, SOFT, VERMILION, picture_of, sheet
 
 ROOM = 1.25  # half width of a panel; what lies outside is drawn on its edge
 

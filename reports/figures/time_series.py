@@ -7,8 +7,8 @@ from itertools import pairwise
 
 import numpy as np
 
-from ..content import Picture
-from ..style import INK, SKY, picture_of, sheet
+from ..parts.content import Picture
+from ..parts.style import INK, SKY, picture_of, sheet
 
 _BINS = 900  # columns of the whole-record view: about two a printed millimetre
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..content import Picture
-from ..style import BLUE, SOFT, picture_of, sheet
+from ..parts.content import Picture
+from ..parts.style import BLUE, SOFT, picture_of, sheet
 
 
 def transverse_exponents(steepness: np.ndarray, bits: np.ndarray, errors: np.ndarray) -> Picture:

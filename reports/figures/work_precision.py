@@ -6,8 +6,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..content import Picture
-from ..style import BLUE, GREEN, INK, ORANGE, PURPLE, SKY, SOFT, VERMILION, picture_of, sheet
+from ..parts.content import Picture
+from ..parts.style import BLUE, GREEN, INK, ORANGE, PURPLE, SKY, SOFT, VERMILION, picture_of, sheet
 
 _LOOKS = {  # method: colour, mark
     "esdirk43": (BLUE, "o"),
@@ -16,8 +16,13 @@ _LOOKS = {  # method: colour, mark
     "midpoint": (PURPLE, "v"),
     "backward-euler": (SKY, "D"),
     "paper-box": (SOFT, "p"),
+    "scipy Radau": (VERMILION, "X"),
+    "scipy BDF": (VERMILION, "*"),
+    "MoorDyn": (INK, "P"),
+    "CableDyn": (SOFT, "<"),
+    "PyElastica": (INK, "h"),
 }
-_OTHERS = ((VERMILION, "X"), (INK, "P"), (VERMILION, "*"), (INK, "h"), (SOFT, "<"))
+_OTHER = (SOFT, ".")
 DASHED = (", shock viscosity", ", stretched grid")
 
 
@@ -47,9 +52,8 @@ def work_precision(
     """The diagram. marked: (time, error) of the shipped setting, ringed; None where it is not among the marks."""
     with sheet(3.7) as figure:
         axes = figure.subplots()
-        others = iter(_OTHERS)
         for curve in curves:
-            colour, mark = _LOOKS.get(curve.name.partition(",")[0]) or next(others, _OTHERS[-1])
+            colour, mark = _LOOKS.get(curve.name.partition(",")[0], _OTHER)
             dashed = "--" if curve.name.endswith(DASHED) else "-"
             axes.plot(curve.time, curve.error, mark, color=colour, markersize=2.6, alpha=0.45, linestyle="none")
             front = cheapest(curve.time, curve.error)

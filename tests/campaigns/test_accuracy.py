@@ -8,13 +8,14 @@ import sys
 import numpy as np
 import pytest
 
-from campaigns import accuracy, accuracy_plan
-from campaigns.accuracy_points import ADAPTIVE, FULL, ORDERS, Point
-from campaigns.accuracy_rows import COLUMNS, point_row, rms_mm
-from campaigns.accuracy_works import BY_NAME, WORKS
-from campaigns.runner import Job
+from campaigns import accuracy
+from campaigns.accuracy.plan import first_phase, second_phase, third_phase
+from campaigns.accuracy.points import ADAPTIVE, FULL, ORDERS, Point
+from campaigns.accuracy.rows import COLUMNS, point_row, rms_mm
+from campaigns.accuracy.works import BY_NAME, WORKS
+from campaigns.machinery.runner import Job
 from engine import load_scene
-from reports.accuracy_study import COLUMNS as READ
+from reports.accuracy.study import COLUMNS as READ
 from tests.campaigns.conftest import ROOT, rows_of
 from tests.campaigns.fake_methods import GRID_M, KnownErrors
 
@@ -116,11 +117,7 @@ def test_help_loads_nothing_heavy():
 
 
 def test_every_setting_of_the_full_campaign_is_a_sound_scene_and_appears_once():
-    points = [
-        point
-        for phase in (accuracy_plan.first_phase, accuracy_plan.second_phase, accuracy_plan.third_phase)
-        for point in phase(FULL)
-    ]
+    points = [point for phase in (first_phase, second_phase, third_phase) for point in phase(FULL)]
     assert len(set(points)) == len(points)
     kinds = {(point.work, point.method.partition(",")[0], point.control) for point in points}
     for work, method, control in kinds:

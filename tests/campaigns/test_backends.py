@@ -57,7 +57,7 @@ def test_running_dask_cluster_is_used(sweep):
 
 def test_dask_scheduler_that_is_not_there_is_one_line(sweep, capfd, monkeypatch):
     pytest.importorskip("distributed")
-    monkeypatch.setattr("campaigns.pools._DASK_WAIT_S", 1)
+    monkeypatch.setattr("campaigns.machinery.pools._DASK_WAIT_S", 1)
     code, rows, _ = sweep("--steepness", "0.02", "--dask-address", "tcp://127.0.0.1:1", backend="dask")
     error = capfd.readouterr().err
     assert (code, rows) == (1, [])

@@ -101,6 +101,7 @@ def test_gravity_and_bending_hardly_move_the_shock():
     assert abs(np.mean(places - where) - np.mean(bare - there)) < 0.05
 
 
+@pytest.mark.slow
 def test_three_dimensions_give_the_planar_break():
     """They solve the same equations in other unknowns; folds magnify what rounding leaves."""
     scenes = [scene_of("4", **{"tether.nodes": 401, "motion.dimensions": d}) for d in (2, 3)]

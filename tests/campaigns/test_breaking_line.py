@@ -8,9 +8,9 @@ import pytest
 
 from campaigns import breaking_line
 from campaigns.breaking_line import CASES, LENGTHS_S, SERIES_NODES, STIFFNESSES_NM2
-from campaigns.breaking_rows import COLUMNS
+from campaigns.breaking_line.rows import COLUMNS
 from engine import load_scene, simulate
-from reports.breaking_runs import COLUMNS as READ
+from reports.breaking_line.runs import COLUMNS as READ
 from tests.campaigns.conftest import ROOT, finished, rows_of
 
 USUAL = ["--no-companions", "--set", "tether.nodes=101", "--backend", "threading", "--jobs", "2", "--no-report"]

@@ -39,7 +39,7 @@ def test_analysis_that_fails_is_a_row_and_the_record_is_kept(sweep, monkeypatch)
     def broken(*_):
         raise FloatingPointError("no such thing")
 
-    monkeypatch.setattr("campaigns.rows.settled", broken)
+    monkeypatch.setattr("campaigns.buoy_sweep.rows.settled", broken)
     code, rows, _ = sweep("--steepness", "0.05")
     assert (code, rows[0]["status"]) == (0, "analysis-failed")
     assert "no such thing" in rows[0]["message"]
@@ -76,7 +76,7 @@ def test_all_runs_failing_is_still_a_table(sweep):
 def test_engine_that_changes_under_the_campaign_stops_it(sweep, monkeypatch, capfd):
     hashes = iter(["before"])
     monkeypatch.setattr("engine.compiled.source_hash", lambda: next(hashes, "after"))
-    monkeypatch.setattr("campaigns.provenance.gather", lambda *_: {"campaign": "buoy_sweep"})
+    monkeypatch.setattr("campaigns.machinery.provenance.gather", lambda *_: {"campaign": "buoy_sweep"})
     code, rows, begun = sweep("--steepness", "0.05")
     assert (code, rows, begun) == (1, [], [])
     assert "sources" in capfd.readouterr().err

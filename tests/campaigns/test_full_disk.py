@@ -68,9 +68,10 @@ def test_no_space_within_a_run_stops_the_campaign(sweep, capfd):
 
 def test_table_that_does_not_fit_leaves_the_old_one(sweep, monkeypatch):
     _, rows, _ = sweep("--steepness", "0.01", "0.02")
+
     def full(*_):
         raise OSError(28, "No space left on device")
 
-    monkeypatch.setattr("campaigns.folder.write_atomic", full)
+    monkeypatch.setattr("campaigns.machinery.folder.write_atomic", full)
     code, left, _ = sweep("--steepness", *VALUES)
     assert (code, left) == (1, rows)

@@ -10,7 +10,9 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from campaigns import fuzz, fuzz_faults, fuzz_scenes, limited
+from campaigns.stability import fuzz, limited
+from campaigns.stability.fuzz.faults import extreme_scene, faults_of
+from campaigns.stability.fuzz.scenes import plain_scene
 from engine.scene import build_scene
 
 SEED = 20240
@@ -25,7 +27,7 @@ def test_a_valid_scene_is_answered(number):
 
 def test_invalid_scenes_are_refused_with_what_is_allowed():
     for number in range(150):
-        lines = fuzz_faults.faults_of(fuzz.invalid_case(SEED, number))
+        lines = faults_of(fuzz.invalid_case(SEED, number))
         assert lines
         for line in lines:
             assert fuzz.CLEAR.match(line) and len(line) <= 400, line
@@ -54,9 +56,9 @@ def test_random_scenes_reach_every_part_of_a_scene():
 
 def test_an_extreme_scene_is_still_valid_and_differs():
     rng = np.random.default_rng(3)
-    raw = fuzz_scenes.plain_scene(rng)
-    other = fuzz_faults.extreme_scene(rng, raw)
-    assert other != raw and not fuzz_faults.faults_of(other)
+    raw = plain_scene(rng)
+    other = extreme_scene(rng, raw)
+    assert other != raw and not faults_of(other)
 
 
 def made(status="ok", message="", samples=11, spoil=None):

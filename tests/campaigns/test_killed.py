@@ -47,9 +47,7 @@ def test_interrupt(tmp_path, backend):
     if backend == "dask":
         pytest.importorskip("distributed")
     out, log = tmp_path / "out", tmp_path / "log"
-    process = start_sweep(
-        out, "--steepness", *VALUES, "--backend", backend, session=True, log=str(log), sleep_s=0.3
-    )
+    process = start_sweep(out, "--steepness", *VALUES, "--backend", backend, session=True, log=str(log), sleep_s=0.3)
     until(lambda: len(finished(out)) >= 3, process)
     os.killpg(process.pid, signal.SIGINT)  # a terminal sends it to every process of the campaign
     _, error = process.communicate(timeout=30)

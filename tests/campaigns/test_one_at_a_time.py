@@ -1,6 +1,6 @@
 """Two campaigns never write into one folder at the same time, and a dead one does not keep the folder."""
 
-from campaigns.folder import claimed
+from campaigns.machinery.folder import claimed
 from tests.campaigns.conftest import finished, start_sweep, until
 
 

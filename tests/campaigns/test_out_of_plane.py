@@ -8,11 +8,11 @@ import numpy as np
 import pytest
 
 from campaigns import out_of_plane
-from campaigns.offplane_rows import COLUMNS, bows, offplane_row
-from campaigns.seeds import DIRECTIONS, SEED_MPS, in_space, velocity
+from campaigns.buoy_sweep.seeds import DIRECTIONS, SEED_MPS, in_space, velocity
+from campaigns.out_of_plane.rows import COLUMNS, bows, offplane_row
 from engine import load_scene
 from engine.trajectory import Profiles
-from reports.offplane_runs import COLUMNS as READ
+from reports.out_of_plane.runs import COLUMNS as READ
 from tests.campaigns.conftest import ROOT, rows_of
 from tests.campaigns.fake_space import BURST_M, BURST_PERIODS, LARGE_RATE, SMALL_RATE, SpaceEngine
 

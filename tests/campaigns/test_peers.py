@@ -6,10 +6,11 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from campaigns import peer_scipy, peers
-from campaigns.accuracy_rows import rms_mm, samples_of
-from campaigns.accuracy_works import BY_NAME
-from campaigns.peer_record import as_trajectory
+from campaigns.accuracy import peers
+from campaigns.accuracy.peers import scipy as peer_scipy
+from campaigns.accuracy.peers.record import as_trajectory
+from campaigns.accuracy.rows import rms_mm, samples_of
+from campaigns.accuracy.works import BY_NAME
 from engine import load_scene, simulate
 
 

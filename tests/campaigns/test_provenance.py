@@ -8,8 +8,9 @@ import subprocess
 import numpy
 import pytest
 
-from campaigns import buoy_sweep, provenance
-from campaigns.rows import COLUMNS
+from campaigns import buoy_sweep
+from campaigns.buoy_sweep.rows import COLUMNS
+from campaigns.machinery import provenance
 from engine import load_scene, source_hash
 from tests.campaigns.conftest import ROOT, USUAL, rows_of
 from tests.campaigns.fake_engine import FakeEngine

@@ -2,7 +2,9 @@
 
 import json
 
-from campaigns.row_store import keep_row, kept_row, made_by
+import pytest
+
+from campaigns.machinery.row_store import keep_row, kept_row, made_by
 
 ROW = {"status": "ok", "radius_max_m": 21.5, "strobed_period": None, "regime": "period-1"}
 
@@ -32,4 +34,12 @@ def test_a_folder_that_cannot_be_written_costs_only_the_row(tmp_path):
 def test_the_maker_changes_with_settings_and_sources():
     assert made_by({"transient": 100}, "analysis") == made_by({"transient": 100}, "analysis")
     assert made_by({"transient": 100}, "analysis") != made_by({"transient": 50}, "analysis")
-    assert made_by({"transient": 100}, "analysis") != made_by({"transient": 100}, "analysis", "campaigns/rows.py")
+    assert made_by({"transient": 100}, "analysis") != made_by(
+        {"transient": 100}, "analysis", "campaigns/buoy_sweep/rows.py"
+    )
+
+
+@pytest.mark.parametrize("source", ["campaigns/rows_that_moved.py", "reports/templates"])
+def test_a_source_that_is_not_there_is_an_error(source):
+    with pytest.raises(FileNotFoundError):
+        made_by({}, "engine", source)

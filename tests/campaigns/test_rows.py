@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from campaigns.rows import COLUMNS, buoy_row
+from campaigns.buoy_sweep.rows import COLUMNS, buoy_row
 from engine import load_scene
 from engine.trajectory import TangentGrowth
 from tests.campaigns.fake_engine import STATISTICS, sines

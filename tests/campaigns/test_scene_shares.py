@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from campaigns.operation_counts import operations
-from campaigns.scene_shares import SCENES, TABLE_1, scene_of
+from campaigns.stability.operation_counts import operations
+from campaigns.stability.scene_shares import SCENES, TABLE_1, scene_of
 from engine import load_scene
 
 WAVES = {"wave_field", "smooth_start", "small_sincos", "small_exponentials", "wave_field_3d"}

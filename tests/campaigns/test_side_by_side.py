@@ -4,10 +4,10 @@ from functools import partial
 
 import pytest
 
-from campaigns.folder import CampaignStopped
-from campaigns.rows import COLUMNS, buoy_row
-from campaigns.runner import Plan, make_job, run_campaign
-from campaigns.side_by_side import FEWEST, MOST, grouped
+from campaigns.buoy_sweep.rows import COLUMNS, buoy_row
+from campaigns.machinery.folder import CampaignStopped
+from campaigns.machinery.runner import Plan, make_job, run_campaign
+from campaigns.machinery.side_by_side import FEWEST, MOST, grouped
 from engine import load_scene
 from tests.campaigns.conftest import finished, rows_of
 from tests.campaigns.fake_engine import FakeEngine

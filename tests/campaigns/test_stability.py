@@ -8,9 +8,10 @@ from pathlib import Path
 
 import pytest
 
-from campaigns import stability, stability_cases, stability_run, stability_tasks
-from campaigns.stability_cases import ABOVE_BAR, REFUSED, Case
-from campaigns.stability_run import case_row
+from campaigns import stability
+from campaigns.stability import run, tasks
+from campaigns.stability.cases import ABOVE_BAR, REFUSED, Case, all_cases
+from campaigns.stability.run import case_row
 
 ROOT = Path(__file__).resolve().parents[2]
 CALM = {"waves.steepness": 0.016, "water.depth_m": 22.5, "tether.nodes": 5}
@@ -37,7 +38,7 @@ def test_verdicts(case, verdict, status):
     row = case_row(case)
     assert (row["verdict"], row["run_status"]) == (verdict, status), row
     assert row["status"] == ("unexplained" if verdict == "unexplained" else "ok")
-    assert set(row) <= set(stability_run.COLUMNS)
+    assert set(row) <= set(run.COLUMNS)
     assert row["message"] or status == "ok"
 
 
@@ -57,17 +58,17 @@ def test_a_case_that_does_not_return_raises_or_dies_is_unexplained(monkeypatch):
         (lambda *_: 1 / 0, "traceback"),
         (lambda *_: os._exit(1), "crash"),
     ):
-        monkeypatch.setattr(stability_run, "_judged", way)
+        monkeypatch.setattr(run, "_judged", way)
         row = case_row(Case("x", "y", STILL, 1.0, options={"limit_s": 0.5}))
         assert (row["verdict"], row["run_status"]) == ("unexplained", status)
 
 
 def test_every_case_says_why_it_may_end_otherwise_and_has_a_name_of_its_own():
-    cases = stability_cases.all_cases()
+    cases = all_cases()
     names = [(case.group, case.name) for case in cases]
     assert len(set(names)) == len(names)
     for case in cases:
-        assert case.check in dir(__import__("campaigns.stability_checks", fromlist=["*"])), case
+        assert case.check in dir(__import__("campaigns.stability.checks", fromlist=["*"])), case
         assert case.limit or set(case.ends) <= {REFUSED}, case
         assert case.bar > 0 or case.check == "finite", case
     assert {case.group for case in cases if case.quick} == {case.group for case in cases}
@@ -81,10 +82,10 @@ def few(monkeypatch):
         Case("EI", "calm", CALM, 2.0, "refined", 0.05),
         Case("input", "invalid", {"tether.nodes": 1}, 2.0, ends=(REFUSED,)),
     ]
-    monkeypatch.setattr(stability_tasks, "all_cases", lambda: cases)
-    monkeypatch.setattr("campaigns.step_maps.LINES", {"taut": ("taut", 0.02, 0.05, 2)})
-    monkeypatch.setattr("campaigns.step_maps.METHODS", ("backward-euler",))
-    monkeypatch.setattr("campaigns.scene_shares.SCENES", {"Table 1": {"tether.nodes": 5}})
+    monkeypatch.setattr(tasks, "all_cases", lambda: cases)
+    monkeypatch.setattr("campaigns.stability.step_maps.LINES", {"taut": ("taut", 0.02, 0.05, 2)})
+    monkeypatch.setattr("campaigns.stability.step_maps.METHODS", ("backward-euler",))
+    monkeypatch.setattr("campaigns.stability.scene_shares.SCENES", {"Table 1": {"tether.nodes": 5}})
     return cases
 
 

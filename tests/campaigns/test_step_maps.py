@@ -1,14 +1,14 @@
 """Law: a step multiplies every mode of a straight line by its method's stability function R(lambda dt).
 
-Modes and rates are closed forms of the box equations (`campaigns.step_maps`); the eigenvalues come from the engine's
-own step, by central differences of 1e-6, and are good to 1e-5 or so. Taut, nothing may grow at any step.
+Modes and rates are closed forms of the box equations (`campaigns.stability.step_maps`); the eigenvalues come from the
+engine's own step, by central differences of 1e-6, and are good to 1e-5 or so. Taut, nothing may grow at any step.
 Compressed, what grows has to grow.
 """
 
 import numpy as np
 import pytest
 
-from campaigns import step_maps
+from campaigns.stability import step_maps
 
 METHODS = step_maps.METHODS
 ORDER = {"esdirk43": 4, "trbdf2": 2, "generalized-alpha": 2, "backward-euler": 1, "midpoint": 2}

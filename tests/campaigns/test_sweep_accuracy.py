@@ -8,11 +8,11 @@ import numpy as np
 import pytest
 
 from campaigns import buoy_sweep
-from campaigns.sweep_accuracy import AS_RUN, COLUMNS, EARLY, FINER, SHARE, TIGHTER, chosen, first_periods, lengths
+from campaigns.buoy_sweep.repeats import AS_RUN, COLUMNS, EARLY, FINER, SHARE, TIGHTER, chosen, first_periods, lengths
 from engine import load_scene
 from engine.trajectory import TangentGrowth
-from reports.content import Text
-from reports.sweep_accuracy import accuracy_items
+from reports.buoy_sweep.repeats import accuracy_items
+from reports.parts.content import Text
 from tests.campaigns.conftest import rows_of
 from tests.campaigns.fake_engine import FakeEngine, sines
 

@@ -46,6 +46,7 @@ def loaded(load, count):
     return np.array([brentq(condition, grid[i], grid[i + 1], xtol=1e-13) for i in changes])
 
 
+@pytest.mark.slow
 def test_a_chain_with_a_tip_load_swings_at_its_bessel_frequencies():
     exact = loaded(5.0, 4)
     coarse, middle, fine = (hanging(nodes, 0.0, 5.0)[:4] / exact - 1 for nodes in (41, 81, 161))

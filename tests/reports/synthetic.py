@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
-from campaigns.rows import COLUMNS, buoy_row
+from campaigns.buoy_sweep.rows import COLUMNS, buoy_row
 from engine.scene import load_scene
 from engine.trajectory import Trajectory
 

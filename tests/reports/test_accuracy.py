@@ -9,10 +9,10 @@ import pytest
 
 from campaigns import accuracy
 from reports import build
-from reports.accuracy_sections import within
-from reports.accuracy_study import read_study
+from reports.accuracy.sections import within
+from reports.accuracy.study import read_study
 from reports.figures.work_precision import cheapest
-from reports.folder import FolderError
+from reports.parts.folder import FolderError
 from tests.campaigns.fake_methods import KnownErrors
 
 WORDS = ["--quick", "--backend", "threading", "--jobs", "2", "--no-report"]

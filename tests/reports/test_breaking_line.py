@@ -8,9 +8,9 @@ import pytest
 
 from campaigns import breaking_line
 from reports import build
-from reports.breaking_runs import COLUMNS, WORDS, read_lines
-from reports.breaking_statements import statements_table
-from reports.folder import read_folder
+from reports.breaking_line.runs import COLUMNS, WORDS, read_lines
+from reports.breaking_line.statements import statements_table
+from reports.parts.folder import read_folder
 from tests.campaigns.test_breaking_line import failing
 
 USUAL = ["--backend", "threading", "--jobs", "2", "--no-report"]

@@ -6,7 +6,7 @@ import pytest
 
 from campaigns import oscillator
 from reports import build
-from reports.folder import FolderError
+from reports.parts.folder import FolderError
 
 
 @pytest.fixture(scope="module")

@@ -7,7 +7,7 @@ import pytest
 
 from campaigns import out_of_plane
 from reports import build
-from reports.folder import FolderError
+from reports.parts.folder import FolderError
 from tests.campaigns.fake_space import SpaceEngine
 
 WORDS = ["--periods", "80", "--transient", "20", "--backend", "threading", "--jobs", "2"]

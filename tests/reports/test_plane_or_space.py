@@ -5,10 +5,10 @@ from dataclasses import replace
 import pytest
 
 from campaigns import out_of_plane
-from reports.buoy_plane import COMPARED
-from reports.folder import read_folder
-from reports.offplane_comparison import APART_M, comparison_words, read_pairs
-from reports.offplane_runs import COLUMNS, WORDS, read_study
+from reports.buoy_sweep.plane import COMPARED
+from reports.out_of_plane.comparison import APART_M, comparison_words, read_pairs
+from reports.out_of_plane.runs import COLUMNS, WORDS, read_study
+from reports.parts.folder import read_folder
 
 
 @pytest.mark.slow

@@ -6,10 +6,10 @@ import re
 
 import pytest
 
-from campaigns.stability_run import COLUMNS
-from campaigns.stability_tasks import FUZZ_COLUMNS
+from campaigns.stability.run import COLUMNS
+from campaigns.stability.tasks import FUZZ_COLUMNS
 from reports import build
-from reports.folder import FolderError
+from reports.parts.folder import FolderError
 
 METHOD = {
     "re": [0.5, 1.5, 9.0],

@@ -5,7 +5,7 @@ import json
 import pytest
 import typst
 
-from reports.content import (
+from reports.parts.content import (
     Bullets,
     Column,
     Figure,
@@ -20,8 +20,8 @@ from reports.content import (
     spans,
     sub,
 )
-from reports.html import render_html
-from reports.pdf import quote, render_pdf, typst_source
+from reports.parts.html import render_html
+from reports.parts.pdf import quote, render_pdf, typst_source
 from tests.reports.conftest import ODD_TITLE, Page
 
 ODD = [

@@ -5,17 +5,17 @@ import math
 import numpy as np
 import pytest
 
-from campaigns import rows
+from campaigns.buoy_sweep import rows
 from engine import load_scene
 from engine.waves import wave_number
-from reports.buoy_figures import spectrum_window
-from reports.buoy_motion import LONGEST_PERIOD
-from reports.buoy_physics import natural_frequencies, water_surface_m
-from reports.buoy_runs import COLUMNS
+from reports.buoy_sweep.figures import spectrum_window
+from reports.buoy_sweep.motion import LONGEST_PERIOD
+from reports.buoy_sweep.physics import natural_frequencies, water_surface_m
+from reports.buoy_sweep.runs import COLUMNS
 from reports.figures.time_series import envelope
-from reports.scene_table import scene_table
-from reports.sources import SOURCES
-from reports.wording import number, ranges
+from reports.parts.scene_table import scene_table
+from reports.parts.sources import SOURCES
+from reports.parts.wording import number, ranges
 
 
 def test_table_and_report_agree_on_columns_and_on_the_longest_period():

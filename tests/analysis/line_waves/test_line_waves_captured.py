@@ -30,9 +30,8 @@ def order(cells, found):
     return -np.polyfit(np.log(cells), np.log(found), 1)[0]
 
 
-@pytest.mark.parametrize(
-    "case", [pytest.param("1p", marks=pytest.mark.slow), pytest.param("2p", marks=pytest.mark.slow), "3p", "4p"]
-)
+@pytest.mark.slow
+@pytest.mark.parametrize("case", ["1p", "2p", "3p", "4p"])
 def test_second_order_where_the_wave_is_smooth(case):
     cells = (200, 400, 800)
     _, _, found = errors(case, [0.03, 0.04], cells)

@@ -27,6 +27,7 @@ def basins():
     return snap_basins(PAPER, random_starts(600, 8), 3000)
 
 
+@pytest.mark.slow
 def test_about_six_in_a_hundred_starts_end_on_the_orbit_of_period_8(basins):
     assert [len(orbit) for orbit in basins.orbits] == [8]
     assert abs(basins.shares[0] - 0.06) < 3 * basins.errors[0]

@@ -1,0 +1,212 @@
+"""The buoy scene in MoorDyn (2.7.2 from PyPI), for `campaigns.accuracy` and `benchmarks.planar_speed`.
+
+How it is made a fair opponent
+- Same rope, buoy, water, gravity, start and wave. The rope is a MoorDyn line without bending and without internal
+  damping (BA = 0: measured, any damping only adds to its error here), the buoy a free point.
+- MoorDyn's points feel no wave acceleration; without it the rope never goes slack and the work is a different, trivial
+  one. The water velocity at each point is an input (WaveKin = 1), and the drag of a point is all that it does. So the
+  point gets a tiny drag area, and a velocity for which its drag IS the load of eq. (30): drag on the vector relative
+  velocity plus (rho V + M_a) dU_w/dt. The load is evaluated half a step ahead, at positions and velocities extrapolated
+  from the last two steps, and held over the step: second order in the step.
+- Its own kinematics stop at the still water level; here the still level lies far above the buoy and the velocities and
+  accelerations of extrapolated Airy waves are handed over at every node: full buoyancy and the same wave everywhere.
+- Only the calls that step it are timed. The wave kinematics and the load of the buoy, part of every one of our Newton
+  iterations, cost MoorDyn nothing. (With its own kinematics, WaveKin = 7, a step of 10 segments was measured to cost
+  2.9 times as much.)
+What is left different: no bending and no compression in its rope, so each code is held against its own refined limit.
+Where the rope stays taut the two limits agree to 0.04 mm (kA = 0.016).
+Schemes: RK4. RK2 and the midpoint scheme with 3 and 5 iterations were off by 0.04 to 0.8 m at similar cost, RK3, Heun
+and Adams-Bashforth ended in NaN (all at 10 and 20 segments, without damping).
+"""
+
+import math
+import os
+import tempfile
+import time
+from contextlib import contextmanager
+from pathlib import Path
+
+import numpy as np
+
+from engine.waves import wave_number
+
+BED = -100.0  # m: MoorDyn's still water level is z = 0, far above the buoy
+PORT_AREA = 1e-3  # m2, drag area times coefficient of the point that takes the load
+SAMPLE = 0.05  # s
+NOTES = (
+    "no bending and no compression in its rope (tension only); its points feel no wave acceleration, so the load of "
+    "eq. (30) and the extrapolated wave are handed to it and cost it nothing; drag of the buoy on the vector of the "
+    "relative velocity, handed over too; RK4, no damping; with 20 segments and more the violent work ends in NaN at "
+    "every step tried, so that it has no refined run there (campaigns/accuracy/peers/moordyn.py)"
+)
+# segments, steps a period; the steps are the longest, to the next hundred, that stay stable
+_STABLE = ((5, 900), (8, 1200), (10, 1500), (16, 2500), (23, 3700))
+_REFINED = ((80, 14000), (40, 8000))
+SETTINGS = dict.fromkeys(("regular", "snap", "violent"), _STABLE)
+REFINED = dict.fromkeys(("regular", "snap"), _REFINED) | {"violent": ((40, 16000),)}
+
+INPUT = """--- MoorDyn input ---
+tethered buoy
+---------------------- LINE TYPES ----------------------
+Name   Diam   Mass/m  EA  BA  EI  Cd  Ca  CdAx  CaAx
+(-)    (m)    (kg/m)  (N) (N-s) (N-m^2) (-) (-) (-) (-)
+rope {diameter!r} {mass!r} {stiffness!r} 0.0 0.0 {drag_normal!r} {added_mass!r} {drag_tangential!r} 0.0
+---------------------- POINTS --------------------------
+ID Attachment X Y Z Mass Volume CdA Ca
+(-) (-) (m) (m) (m) (kg) (m^3) (m^2) (-)
+1 Fixed 0 0 {bed!r} 0 0 0 0
+2 Free 0 0 {top!r} {buoy_mass!r} {volume!r} {area!r} {buoy_added!r}
+---------------------- LINES ---------------------------
+ID Type AttachA AttachB Length Segments Outputs
+(-) (-) (-) (-) (m) (-) (-)
+1 rope 1 2 {length!r} {segments} -
+---------------------- OPTIONS -------------------------
+0 writeLog
+1 disableOutput
+1 disableOutTime
+RK4 tScheme
+{step!r} dtM
+{gravity!r} g
+{density!r} rho
+{depth!r} WtrDpth
+1 WaveKin
+0.1 dtIC
+200 TmaxIC
+1e-9 threshIC
+---------------------- END -----------------------------
+"""
+
+
+def version():
+    """Version of the installed MoorDyn, or None."""
+    from importlib import metadata
+
+    try:
+        return metadata.version("moordyn")
+    except metadata.PackageNotFoundError:
+        return None
+
+
+@contextmanager
+def silent():
+    """MoorDyn greets on the process's own stdout and stderr."""
+    saved = [os.dup(1), os.dup(2)]
+    with open(os.devnull, "w") as sink:
+        for number in (1, 2):
+            os.dup2(sink.fileno(), number)
+        try:
+            yield
+        finally:
+            for number, copy in zip((1, 2), saved, strict=True):
+                os.dup2(copy, number)
+                os.close(copy)
+
+
+def volume(scene):
+    return math.pi * scene.buoy.diameter_m**3 / 6
+
+
+def create(scene, segments, step_s):
+    """A MoorDyn instance at rest in its static equilibrium."""
+    import cmoordyn
+    import moordyn
+
+    tether, buoy, density = scene.tether, scene.buoy, scene.water.density_kgpm3
+    lift = (density * volume(scene) - buoy.mass_kg) * scene.gravity_mps2
+    stiffness = tether.tension.stiffness_N
+    weight = (tether.density_kgpm3 - density) * tether.area_m2 * scene.gravity_mps2 * tether.length_m
+    # MoorDyn's own search for the equilibrium stops short of it, and without damping the rest would ring on
+    strain = (lift - 0.5 * weight) / stiffness
+    text = INPUT.format(
+        diameter=2 * math.sqrt(tether.area_m2 / math.pi), mass=tether.density_kgpm3 * tether.area_m2,
+        stiffness=stiffness, drag_normal=tether.drag_normal, drag_tangential=tether.drag_tangential,
+        added_mass=tether.added_mass, bed=BED, top=BED + tether.length_m * (1 + strain),
+        buoy_mass=buoy.mass_kg, volume=volume(scene), area=PORT_AREA,
+        buoy_added=buoy.added_mass_kg / (density * volume(scene)), length=tether.length_m, segments=segments,
+        step=step_s, gravity=scene.gravity_mps2, density=density, depth=-BED + 0.5,
+    )  # fmt: skip
+    with tempfile.TemporaryDirectory() as folder, silent():
+        path = Path(folder, "lines.txt")
+        path.write_text(text)
+        instance = moordyn.Create(str(path))
+        moordyn.SetVerbosity(instance, moordyn.LEVEL_ERR)
+        moordyn.Init(instance, [], [])
+        cmoordyn.ext_wave_init(instance)
+    return instance
+
+
+def airy(scene):
+    """Function (x, z, t) -> U, W, dU/dt, dW/dt of the scene's wave; z above the bed."""
+    depth, omega = scene.water.depth_m, 2 * math.pi / scene.waves.period_s
+    k = wave_number(scene.waves.period_s, depth, scene.gravity_mps2)
+    speed = scene.waves.steepness / k * omega / math.sinh(k * depth)
+
+    def water(x, z, t):
+        psi = k * x - omega * t
+        u, w = speed * np.cosh(k * z), speed * np.sinh(k * z)
+        return u * np.cos(psi), w * np.sin(psi), u * omega * np.sin(psi), -w * omega * np.cos(psi)
+
+    return water
+
+
+def run(scene, segments, steps_per_period, periods):
+    """Step MoorDyn through some wave periods.
+
+    steps_per_period : a multiple of the samples in a period.
+    Returns radius (m) every `SAMPLE` seconds, and the milliseconds per wave period spent in its stepping calls.
+    """
+    places, spent = stepped(scene, segments, steps_per_period, periods)
+    return np.hypot(places[:, 0], places[:, 1]), 1e3 * spent / periods
+
+
+def simulate(scene, duration_s, segments, steps_per_period):
+    """A run as the engine's record: a Trajectory of the buoy's places."""
+    from campaigns.accuracy.peers.record import as_trajectory
+
+    periods = round(duration_s / scene.waves.period_s)
+    with silent(), np.errstate(all="ignore"):  # a run that ends in NaN complains at length
+        places, spent = stepped(scene, segments, round(steps_per_period), periods)
+    found = np.column_stack([places[:, 0], 0 * places[:, 0], places[:, 1]])
+    sound = np.isfinite(found).all()
+    status, message = ("ok", "") if sound else ("not-finite", "MoorDyn returned values that are not finite")
+    statistics = {"wall_s": spent, "steps": round(steps_per_period) * periods}
+    return as_trajectory(scene, status, message, SAMPLE * np.arange(len(found)), found, statistics)
+
+
+def stepped(scene, segments, steps_per_period, periods):
+    """x, z of the buoy from the anchor (m, 2), m, every `SAMPLE` seconds, and the seconds spent in stepping calls."""
+    import cmoordyn
+    import moordyn
+
+    period, density = scene.waves.period_s, scene.water.density_kgpm3
+    step_s, every = period / steps_per_period, round(steps_per_period * SAMPLE / period)
+    assert steps_per_period == every * round(period / SAMPLE)
+    drag = 0.5 * density * scene.buoy.drag * math.pi / 4 * scene.buoy.diameter_m**2
+    inertia = density * volume(scene) + scene.buoy.added_mass_kg
+    port = 0.5 * density * PORT_AREA
+    water, instance = airy(scene), create(scene, segments, step_s)
+    point, buoy = moordyn.GetPoint(instance, 2), segments + 2  # coordinates: line nodes, anchor, buoy, ground
+    places_before = velocity_before = None
+    kept, spent = [], 0.0
+    for i in range(steps_per_period * periods + 1):
+        places = np.array(cmoordyn.ext_wave_coords(instance)).reshape(-1, 3)
+        velocity = np.array(moordyn.GetPointVel(point))
+        if i == 0:
+            places_before, velocity_before = places, velocity
+        if i % every == 0:
+            kept.append((places[buoy, 0], places[buoy, 2] - BED))
+        ahead = 1.5 * places - 0.5 * places_before
+        velocity_ahead = 1.5 * velocity - 0.5 * velocity_before
+        places_before, velocity_before = places, velocity
+        U, rate = np.zeros_like(places), np.zeros_like(places)
+        # the last of the coordinates is the ground body's, at MoorDyn's origin, and takes no load
+        U[:-1, 0], U[:-1, 2], rate[:-1, 0], rate[:-1, 2] = water(ahead[:-1, 0], ahead[:-1, 2] - BED, (i + 0.5) * step_s)
+        relative = U[buoy] - velocity_ahead
+        load = drag * np.linalg.norm(relative) * relative + inertia * rate[buoy]
+        U[buoy] = velocity_ahead + load / math.sqrt(port * np.linalg.norm(load))
+        cmoordyn.ext_wave_set(instance, U.ravel().tolist(), rate.ravel().tolist(), i * step_s)
+        began = time.perf_counter()
+        cmoordyn.step(instance, [], [], i * step_s, step_s)
+        spent += time.perf_counter() - began
+    moordyn.Close(instance)
+    return np.array(kept), spent

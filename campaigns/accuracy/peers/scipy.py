@@ -1,0 +1,185 @@
+"""scipy's solve_ivp on the engine's own semi-discrete equations.
+
+The box equations in space, left continuous in time, are differential-algebraic: rates of q and V appear as sums of
+neighbouring nodes, shear forces and curvatures without rates at all. A solver of ordinary differential equations gets
+them through the resolvent of backward Euler. With E(C) the state to which one step of length e leads from C,
+
+    dC/dt = f(t, C) = (E(C) - C)/e,        e = 1e-7 s
+
+E is one call of the engine's Newton method, converged until the square of its last update is 1e-14, so the equations
+are those of the engine letter for letter: same box, same water, same ends, same positions. f is a function of the
+conserved variables alone. It differs from the limit e -> 0 by e/2 times the second derivative, 1e-7 of a motion of one
+radian a second, and whatever violates an algebraic equation decays at 1/e: stiff, which is what Radau and BDF are for.
+Their Jacobian is made by differences in compiled code, which costs them less than scipy's own would. Loop releases are
+no part of it.
+
+What is timed is solve_ivp alone, after everything is compiled.
+"""
+
+import math
+import time
+
+import numpy as np
+
+from campaigns.accuracy.peers.record import as_trajectory
+from engine.compiled import kernel
+from engine.dimensions import conserved, size_of, work_arrays
+from engine.elementary import copy_into
+from engine.guards import NEWTON_FAILED, OK
+from engine.newton import newton
+from engine.parameters import record_of
+from engine.statics import first_guess, settle
+
+RESOLVENT_S = 1e-7
+NEWTON_TOLERANCE, MOST = 1e-14, 20
+NUDGE = 1e-7
+LONGEST_S = 10.0  # of run time; a solver that needs more is stopped
+
+
+@kernel
+def rates(p, tables, t, C, Y, work, out):
+    """f(t, C) into out (n, conserved); Y (n, unknowns): guess in, solution out. Returns the code of Newton's method."""
+    X, F, Q, E, D, C_tilde = work
+    half = size_of(p)[1] // 2
+    copy_into(C_tilde, C)
+    code, _ = newton(
+        p, tables, t, 1.0, 1.0 / RESOLVENT_S, 1.0 / RESOLVENT_S, NEWTON_TOLERANCE, MOST, Y, C_tilde, X, F, Q, E, D
+    )
+    for k in range(C.shape[0]):
+        for i in range(half):
+            out[k, i] = (Q[k, 5 + i] - C[k, i]) / RESOLVENT_S
+            out[k, half + i] = (Y[k, half + i] - C[k, half + i]) / RESOLVENT_S
+    return code
+
+
+@kernel
+def jacobian(p, tables, t, C, Y, work, base, moved, J):
+    """df/dC by differences, column by column, into J (n c, n c)."""
+    code = rates(p, tables, t, C, Y, work, base)
+    n, size = C.shape
+    trial, shifted = Y.copy(), C.copy()
+    for k in range(n):
+        for i in range(size):
+            copy_into(trial, Y)
+            shifted[k, i] = C[k, i] + NUDGE
+            code = max(code, rates(p, tables, t, shifted, trial, work, moved))
+            shifted[k, i] = C[k, i]
+            for a in range(n):
+                for b in range(size):
+                    J[a * size + b, k * size + i] = (moved[a, b] - base[a, b]) / NUDGE
+    return code
+
+
+@kernel
+def start_arrays(p):
+    """Work arrays for one line, and the number of conserved variables of a node."""
+    return work_arrays(p, p.nodes), size_of(p)[1]
+
+
+@kernel
+def at_start(p, Y, C):
+    """The conserved variables C (n, c) of a state Y."""
+    conserved(p, Y, C)
+
+
+def at_rest(scene):
+    """(status, record, tables, Y) of the static equilibrium with the velocities of the start, a straight share each."""
+    tables: list = []
+    record = record_of(scene, tables)[0]
+    tables = np.concatenate(tables)
+    at, n = int(record["grid_at"]), int(record["nodes"])
+    h = tables[at : at + n - 1]
+    Y = first_guess(record, scene, h)
+    axes = "xyz" if scene.motion.dimensions == 3 else "xz"
+    status = settle(record, tables, Y, np.zeros(len(axes)))
+    share = np.concatenate([[0.0], np.cumsum(h)]) / h.sum()
+    for i, axis in enumerate(axes):
+        Y[:, len(axes) + i] = record[f"start_{axis}"] * share
+    return int(status), record, tables, Y
+
+
+class _Stopped(Exception):
+    pass
+
+
+class Equations:
+    """f and its Jacobian for solve_ivp, with counts. faults: calls in which Newton's method did not converge."""
+
+    def __init__(self, scene):
+        self.status, self.record, self.tables, self.Y = at_rest(scene)
+        self.work, self.size = start_arrays(self.record)
+        n = len(self.Y)
+        self.base, self.moved = np.zeros((n, self.size)), np.zeros((n, self.size))
+        self.J = np.zeros((n * self.size, n * self.size))
+        self.calls = self.jacobians = self.faults = 0
+        self.ends_s = np.inf
+
+    def start(self) -> np.ndarray:
+        """The conserved variables at t = 0, flat."""
+        C = np.zeros((len(self.Y), self.size))
+        at_start(self.record, self.Y, C)
+        return C.ravel()
+
+    def f(self, t, C):
+        if time.perf_counter() > self.ends_s:
+            raise _Stopped
+        self.calls += 1
+        code = rates(self.record, self.tables, t, C.reshape(-1, self.size), self.Y, self.work, self.base)
+        self.faults += code != OK
+        return self.base.ravel().copy()
+
+    def jac(self, t, C):
+        self.jacobians += 1
+        shape = C.reshape(-1, self.size)
+        code = jacobian(self.record, self.tables, t, shape, self.Y, self.work, self.base, self.moved, self.J)
+        self.faults += code == NEWTON_FAILED
+        return self.J.copy()
+
+
+def run(scene, duration_s, method="Radau", rtol=1e-3, periods=None):
+    """One run of solve_ivp: a Trajectory with the upper end's places and, where the scene asks, strain profiles.
+
+    method: "Radau" or "BDF"; rtol: its relative tolerance, the absolute one is rtol times 1e-2 (strain, m/s, of order
+    0.04 and 1). statistics: rhs_calls, jacobians; wall_s of solve_ivp alone.
+    """
+    from scipy.integrate import solve_ivp
+
+    equations = Equations(scene)
+    if equations.status != OK:
+        return as_trajectory(scene, "statics-failed", "no static equilibrium", np.empty(0), np.empty((0, 3)), {})
+    C0 = equations.start()
+    equations.f(0.0, C0)
+    equations.jac(0.0, C0)
+    equations.calls = equations.jacobians = equations.faults = 0
+    t = scene.sample_step_s() * np.arange(math.floor(duration_s / scene.sample_step_s() * (1 + 1e-12) + 1e-9) + 1)
+    began = time.perf_counter()
+    equations.ends_s = began + LONGEST_S
+    status, message, found = "ok", "", None
+    try:
+        found = solve_ivp(
+            equations.f, (0.0, t[-1]), C0, method=method, t_eval=t, rtol=rtol, atol=1e-2 * rtol, jac=equations.jac
+        )
+    except _Stopped:
+        status, message = "too-slow", f"stopped after {LONGEST_S:g} s of run time"
+    except (ValueError, np.linalg.LinAlgError) as error:
+        status, message = "solver-failed", str(error)
+    wall_s = time.perf_counter() - began
+    if found is not None and not found.success:
+        status, message = "solver-failed", found.message
+    statistics = {"wall_s": wall_s, "rhs_calls": equations.calls, "jacobians": equations.jacobians}
+    statistics |= {"newton_failures": equations.faults, "steps": 0 if found is None else found.nlu}
+    if found is None:
+        return as_trajectory(scene, status, message, t[:0], np.empty((0, 3)), statistics)
+    C = found.y.T.reshape(len(found.t), -1, equations.size)
+    places, strain, s = _lines(C, scene, equations)
+    return as_trajectory(scene, status, message, found.t, places, statistics, strain, s)
+
+
+def _lines(C, scene, equations):
+    """Upper end (m, 3), strain (m, n) and arc length (n,) of conserved variables (m, n, c)."""
+    record, half = equations.record, equations.size // 2
+    h = equations.tables[record["grid_at"] : record["grid_at"] + int(record["nodes"]) - 1]
+    q = C[:, :, :half]
+    top = np.einsum("k,mki->mi", 0.5 * h, q[:, 1:] + q[:, :-1])
+    places = top if half == 3 else np.stack([top[:, 0], 0 * top[:, 0], top[:, 1]], axis=1)
+    return places, np.linalg.norm(q, axis=2) - 1.0, np.concatenate([[0.0], np.cumsum(h)])

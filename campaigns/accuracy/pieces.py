@@ -1,0 +1,136 @@
+"""What each piece of a run costs at the default setting: `costs.json`, microseconds per Newton iteration and per run.
+
+Assembly, waves and elimination are timed by themselves, each repeated on the state of the buoy in mid motion; what a
+Newton iteration of a whole run costs beyond them is the rest of Newton's method and of the stages. Output is the
+difference between runs that keep a sample every hundredth of a period and hardly any; Python is what a call of
+`simulate` takes beyond its stepping: the scene as numbers, statics, the record.
+"""
+
+import json
+import time
+from pathlib import Path
+
+import numpy as np
+
+from campaigns.accuracy.works import BUOY
+from engine.atomic import write_atomic
+
+REPEATS, ROUNDS = 5_000, 15
+PERIODS = 40
+CHANGES = {"waves.steepness": 0.13, "water.depth_m": 22.5}  # Table 1 in the waves of the snapping work
+STAGE_S = 0.02  # of the implicit stage that is assembled: about that of a usual step
+
+
+def keep(out: Path, quick: bool = False) -> None:
+    """Write costs.json unless it is there already, from this very engine. Raises OSError."""
+    from engine import source_hash
+
+    path = out / "costs.json"
+    try:
+        if json.loads(path.read_text(encoding="utf-8"))["engine"] == source_hash():
+            return
+    except (OSError, ValueError, KeyError, TypeError):
+        pass
+    content = {"engine": source_hash(), **costs(rounds=3 if quick else ROUNDS)}
+    write_atomic(path, (json.dumps(content, indent=2) + "\n").encode())
+
+
+def costs(rounds: int = ROUNDS) -> dict[str, object]:
+    """What every piece costs: a Newton iteration in `per_iteration_us`, a whole run in `stepping_ms`, `python_ms`.
+
+    All take turns, and the least of the rounds counts: what else the machine does only adds.
+    """
+    from engine import load_scene, simulate
+
+    scene = load_scene(BUOY, CHANGES)
+    sparse = load_scene(BUOY, CHANGES | {"output.step_s": PERIODS * scene.waves.period_s})
+    run = simulate(scene, periods=PERIODS)
+    loops, arguments = _loops(), _arguments(run)
+    least = dict.fromkeys(("call", "run", "sparse", *loops), np.inf)
+
+    def kept(name: str, seconds: float) -> None:
+        least[name] = min(least[name], seconds)
+
+    for loop in loops.values():
+        loop(*arguments, 10)
+    for _ in range(rounds):
+        began = time.perf_counter()
+        run = simulate(scene, periods=PERIODS)
+        kept("call", time.perf_counter() - began - run.statistics["wall_s"])
+        kept("run", run.statistics["wall_s"])
+        kept("sparse", simulate(sparse, periods=PERIODS).statistics["wall_s"])
+        for name, loop in loops.items():
+            began = time.perf_counter()
+            loop(*arguments, REPEATS)
+            kept(name, (time.perf_counter() - began) / REPEATS)
+    iterations = run.statistics["newton_iterations"]
+    output = max(least["run"] - least["sparse"], 0.0)
+    seconds = {
+        "assembly": least["assembly"],
+        "waves": least["waves"],
+        "elimination": least["all"] - least["assembly"] - least["waves"],
+        "rest of Newton and stages": (least["run"] - output) / iterations - least["all"],
+        "output": output / iterations,
+    }
+    return {
+        "nodes": scene.tether.nodes,
+        "rtol": scene.solver.rtol,
+        "integrator": scene.solver.integrator,
+        "periods": PERIODS,
+        "newton_iterations": iterations,
+        "steps": run.statistics["steps"],
+        "per_iteration_us": {name: 1e6 * value for name, value in seconds.items()},
+        "stepping_ms": 1e3 * least["run"],
+        "python_ms": 1e3 * least["call"],
+    }
+
+
+def _arguments(run) -> tuple:
+    """What the loops take: record, tables, state, C~ and the work arrays of Newton's method."""
+    from engine.parameters import record_of
+    from engine.planar import state
+
+    tables: list = []
+    p = record_of(run.scene, tables)[0]
+    n = int(p["nodes"])
+    return p, np.concatenate(tables), *_mid_motion(run, n), *state.work_arrays(p, n)[:5]
+
+
+def _mid_motion(run, n: int) -> tuple[np.ndarray, np.ndarray]:
+    """A state (n, 6) like those of the run: the straight line between its ends, stretched and moving."""
+    top = {name: float(run.columns[name][-1]) for name in ("x_m", "z_m", "radius_m")}
+    length = run.scene.tether.length_m
+    share = np.linspace(0.0, 1.0, n)
+    Y = np.zeros((n, 6))
+    Y[:, 0] = top["radius_m"] / length - 1.0
+    Y[:, 2] = 0.5 * share
+    Y[:, 3] = 0.2 * share
+    Y[:, 4] = np.arctan2(top["z_m"], top["x_m"])
+    C = np.column_stack([(1 + Y[:, 0]) * np.cos(Y[:, 4]), (1 + Y[:, 0]) * np.sin(Y[:, 4]), Y[:, 2], Y[:, 3]])
+    return Y, C
+
+
+def _loops() -> dict:
+    import numba
+
+    from engine.planar import node, state
+
+    rate = 1.0 / STAGE_S
+
+    @numba.njit
+    def assembly(p, tables, Y, C, X, F, Q, E, D, count):
+        for _ in range(count):
+            node.shape(p, tables, Y, Q, X)
+            node.node_quantities(p, tables, rate, rate, 1.0, Y, C, F, Q)
+
+    @numba.njit
+    def waves(p, tables, Y, C, X, F, Q, E, D, count):
+        for i in range(count):
+            node.water(p, tables, 1e-3 * i, 1.0, X, F)
+
+    @numba.njit
+    def everything(p, tables, Y, C, X, F, Q, E, D, count):
+        for i in range(count):
+            state.assemble(p, tables, 1e-3 * i, 1.0, rate, rate, Y, C, X, F, Q, E, D)
+
+    return {"assembly": assembly, "waves": waves, "all": everything}

@@ -1,0 +1,127 @@
+"""A run of the accuracy campaign as one row: what it was, its error, what it cost."""
+
+import functools
+import math
+from pathlib import Path
+
+import numpy as np
+
+from campaigns.accuracy.works import BY_NAME, PLACE, RADIUS, UNITS, Work
+
+COLUMNS = (
+    "work",
+    "kind",
+    "method",
+    "nodes",
+    "control",
+    "setting",
+    "round",
+    "status",
+    "error",
+    "error_early",
+    "error_unit",
+    "error_against_ours",
+    "wall_s",
+    "end_time_s",
+    "steps",
+    "rejected_steps",
+    "newton_iterations",
+    "newton_failures",
+    "loop_releases",
+    "max_turn_rad",
+    "peer_version",
+    "run_key",
+    "message",
+)
+STATISTICS = (
+    "wall_s",
+    "end_time_s",
+    "steps",
+    "rejected_steps",
+    "newton_iterations",
+    "newton_failures",
+    "loop_releases",
+    "max_turn_rad",
+)
+EARLY = 0.5  # share of the run over which error_early is taken
+
+
+def point_row(trajectory, work_name: str, reference: str = "", ours: str = "") -> dict[str, object]:
+    """The columns of `COLUMNS` that a run fills; those left out are unknown.
+
+    reference, ours: files of the runs that error and error_against_ours are taken against, "" for none; the error of a
+    breaking line is taken against the exact solution. A run that ended early has no error.
+    """
+    work = BY_NAME[work_name]
+    row = {"status": trajectory.status, "message": trajectory.message, "error_unit": UNITS[work.measure]}
+    row |= {name: trajectory.statistics[name] for name in STATISTICS if name in trajectory.statistics}
+    if trajectory.status != "ok":
+        return row
+    if work.measure in (RADIUS, PLACE):
+        if reference and (samples := kept_samples(work, reference)) is not None:
+            row |= _errors(samples_of(work, trajectory), samples)
+        if ours and (samples := kept_samples(work, ours)) is not None:
+            row["error_against_ours"] = rms_mm(samples_of(work, trajectory), samples)
+    else:
+        row["error"] = strain_error(trajectory)
+    return row
+
+
+def samples_of(work: Work, trajectory) -> np.ndarray:
+    """What is compared: r (m,) in m, or places (m, 3)."""
+    if work.measure == RADIUS:
+        return trajectory.columns["radius_m"]
+    return np.stack([trajectory.columns[name] for name in ("x_m", "y_m", "z_m")], axis=1)
+
+
+@functools.lru_cache(maxsize=32)
+def _kept(work_name: str, path: str, stamp: int) -> np.ndarray | None:
+    from engine import Trajectory
+
+    run = Trajectory.load(Path(path))
+    return samples_of(BY_NAME[work_name], run) if run.status == "ok" else None
+
+
+def kept_samples(work: Work, path: str) -> np.ndarray | None:
+    """The samples of a run kept in a file; None where there is none, or where it ended early."""
+    file = Path(path)
+    return _kept(work.name, path, file.stat().st_mtime_ns) if file.exists() else None
+
+
+def _errors(found: np.ndarray, reference: np.ndarray) -> dict[str, float]:
+    early = int(EARLY * len(reference))
+    return {"error": rms_mm(found, reference), "error_early": rms_mm(found[:early], reference[:early])}
+
+
+def rms_mm(found: np.ndarray, reference: np.ndarray) -> float:
+    """rms distance in mm of two series of the same length in m; inf where the lengths differ."""
+    if found.shape != reference.shape:
+        return math.inf
+    square = (found - reference) ** 2
+    return 1e3 * float(np.sqrt(np.mean(square.sum(axis=1) if square.ndim == 2 else square)))
+
+
+def strain_error(trajectory) -> float:
+    """Mean over line and profiles of |strain - exact strain|, per cent of the static strain."""
+    lines = trajectory.profiles
+    scene = trajectory.scene
+    times, places = lines.time_s[1:], lines.s_m
+    exact = _exact(
+        tuple(scene.tether.tension.p),
+        scene.tether.density_kgpm3 * scene.tether.area_m2,
+        scene.tether.length_m,
+        scene.end.force_N[0],
+        scene.end.force_decay_s,
+        tuple(times),
+        tuple(places),
+    )
+    off = np.abs(lines.strain[1:] - exact)
+    share = np.trapezoid(off, places, axis=1) / scene.tether.length_m
+    return 100.0 * float(share.mean()) / float(lines.strain[0].mean())
+
+
+@functools.lru_cache(maxsize=64)
+def _exact(law, mass, length, force_N, decay_s, times, places) -> np.ndarray:
+    from analysis.line_waves import reference_break
+
+    return reference_break(law, mass, length, force_N, decay_s, np.array(times), np.array(places)).strain

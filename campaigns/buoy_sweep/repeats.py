@@ -1,0 +1,173 @@
+"""A sweep's own error against run time: two of its runs again, tighter and finer, in the folder `accuracy` of its own.
+
+The run whose tension peaks lowest (the regular one) and the one whose tension peaks highest (the violent one) are
+repeated at a tenth of the tolerance and at twice the elements. Error in r: rms over the first ten wave periods, and
+over all that were repeated; error in the verdict: whether the run still is called what it was, from records of one
+length. Repeating both costs about as much as nine runs of the sweep, so a sweep of few runs repeats only as many
+periods as its share allows, and ten at least; where those are too few for a verdict there is none.
+"""
+
+import math
+from collections.abc import Callable
+from dataclasses import replace
+from functools import partial
+from pathlib import Path
+from time import perf_counter
+
+import numpy as np
+
+from campaigns.machinery.folder import trajectory_path
+from campaigns.machinery.runner import Job, Plan, Summary, make_job, run_campaign
+
+FOLDER = "accuracy"  # within that of the sweep: a table of its own, and trajectories
+COLUMNS = (
+    "role",
+    "label",
+    "run",
+    "status",
+    "periods",
+    "nodes",
+    "rtol",
+    "step_s",
+    "error_early_m",
+    "error_m",
+    "verdict",
+    "same_verdict",
+    "wall_s",
+    "newton_iterations",
+    "loop_releases",
+    "run_key",
+    "message",
+)
+AS_RUN, TIGHTER, FINER = "as run", "a tenth of the tolerance", "twice the elements"
+EARLY = 10  # wave periods
+SHARE = 0.25  # of the cost of the sweep that the repeated runs may cost
+COST = 8.6  # runs of the sweep that repeating both over their whole length costs: (2.3 + 2.0) each (measured)
+
+
+def lengths(runs: int, periods: int) -> int:
+    """Wave periods to repeat, for a sweep of so many runs of that length."""
+    allowed = SHARE * runs / COST
+    return min(periods, max(EARLY, math.floor(periods * allowed)))
+
+
+def chosen(rows: list[dict]) -> list[tuple[str, dict]]:
+    """(role, row) of the regular and the violent run; one where the sweep has but one, none where none ended."""
+    good = [row for row in rows if row["status"] == "ok" and row.get("run_key")]
+    if not good:
+        return []
+
+    def peak(row) -> float:
+        return row["tension_top_max_N"] if row.get("tension_top_max_N") is not None else -math.inf
+
+    regular, violent = min(good, key=peak), max(good, key=peak)
+    return [("regular", regular)] if regular is violent else [("regular", regular), ("violent", violent)]
+
+
+def and_again(runs: Callable, periods: int, label: str, verdict: Callable, among: set[str] | None = None) -> Callable:
+    """`runs` of a campaign (`session.run` or alike), followed by the repeated runs, with a table of their own.
+
+    label: the column that names a run; verdict(trajectory) -> what it is called, or None; among: keys of the runs to
+    choose from, None for all. The result raises as `session.run`.
+    """
+
+    def both(plan: Plan, jobs: list[Job]):
+        timing, summary = runs(plan, jobs)
+        began = perf_counter()
+        rows = [row for row in summary.rows if among is None or row["run_key"] in among]
+        again = repeat(plan, rows, lengths(len(summary.rows), periods), label, verdict)
+        timing = timing | {
+            "run_s": timing["run_s"] + perf_counter() - began,
+            "analysis_s": timing["analysis_s"] + again.analysis_s,
+        }
+        return timing, summary
+
+    return both
+
+
+def repeat(plan: Plan, rows: list[dict], length: int, label: str, verdict: Callable) -> Summary:
+    """Do the repeated runs over so many wave periods; arguments as for `and_again`."""
+    jobs: list[Job] = []
+    for role, row in chosen(rows):
+        base = trajectory_path(plan.directory, row["run_key"])
+        jobs += _jobs(base, role, row[label], length, verdict)
+    place = plan.directory / FOLDER
+    (place / "trajectories").mkdir(parents=True, exist_ok=True)
+    where = plan.backend, plan.jobs, plan.dask_address
+    own = Plan(place, plan.simulate, plan.describe, COLUMNS, *where, show_progress=False, row_maker=plan.row_maker)
+    return run_campaign(own, jobs)
+
+
+def _jobs(base: Path, role: str, label: object, length: int, verdict: Callable) -> list[Job]:
+    from engine import Trajectory
+    from engine.scene import scene_from_toml
+    from reports.buoy_sweep.motion import tighter_scene
+
+    scene = Trajectory.load(base).scene
+    finer = scene_from_toml(scene.to_toml(), {"tether.nodes": 2 * scene.tether.nodes - 1})
+    found = []
+    for run, made in ((AS_RUN, scene), (TIGHTER, tighter_scene(scene)), (FINER, finer)):
+        labels = {"role": role, "label": label, "run": run, "periods": length}
+        describe = partial(accuracy_row, base=base, length=length, verdict=verdict)
+        simulate = partial(cut, base=base, length=length) if run == AS_RUN else None
+        found.append(
+            make_job(made, length, labels=labels, simulate=simulate, describe=describe, made=f"accuracy {run}")
+        )
+    return found
+
+
+def cut(scene, periods=None, duration_s=None, *, base: Path, length: int):
+    """The first wave periods of the run as it was made; the share of its seconds and iterations that is theirs."""
+    from engine import Trajectory
+
+    return first_periods(Trajectory.load(base), length)
+
+
+def first_periods(trajectory, length: int):
+    """A Trajectory cut to so many wave periods; its counts are scaled, its extremes are those of the whole."""
+    scene, columns = trajectory.scene, trajectory.columns
+    samples = round(length * scene.waves.period_s / scene.sample_step_s()) + 1
+    whole = len(columns["time_s"])
+    if samples >= whole:
+        return trajectory
+    share = samples / whole
+    scaled = {"wall_s": share * trajectory.statistics["wall_s"]}
+    scaled["newton_iterations"] = round(share * trajectory.statistics["newton_iterations"])
+    tangent = trajectory.tangent
+    if tangent is not None:
+        lateral = None if tangent.lateral_nats is None else tangent.lateral_nats[:length]
+        tangent = replace(
+            tangent, growth_nats=tangent.growth_nats[:length], released=tangent.released[:length], lateral_nats=lateral
+        )
+        scaled["loop_releases"] = int(tangent.released.sum())
+    kept = {name: values[:samples] for name, values in columns.items()}
+    return replace(trajectory, columns=kept, statistics=trajectory.statistics | scaled, profiles=None, tangent=tangent)
+
+
+def accuracy_row(trajectory, base: Path, length: int, verdict: Callable) -> dict[str, object]:
+    """The columns of `COLUMNS` that a repeated run fills. base: file of the run as it was made."""
+    from engine import Trajectory
+
+    scene = trajectory.scene
+    row = {
+        "status": trajectory.status,
+        "message": trajectory.message,
+        "nodes": scene.tether.nodes,
+        "rtol": None if scene.solver.step_s else scene.solver.rtol,
+        "step_s": scene.solver.step_s,
+    }
+    row |= {name: trajectory.statistics.get(name) for name in ("wall_s", "newton_iterations", "loop_releases")}
+    if trajectory.status != "ok":
+        return row
+    original = first_periods(Trajectory.load(base), length)
+    r, r0 = trajectory.columns["radius_m"], original.columns["radius_m"]
+    early = round(EARLY * scene.waves.period_s / scene.sample_step_s()) + 1
+    row |= {"error_early_m": _rms(r[:early] - r0[:early]), "error_m": _rms(r - r0)} if len(r) == len(r0) else {}
+    said, before = verdict(trajectory), verdict(original)
+    if said is not None and before is not None:
+        row |= {"verdict": said, "same_verdict": int(said == before)}
+    return row
+
+
+def _rms(values: np.ndarray) -> float:
+    return float(np.sqrt(np.mean(values**2)))

@@ -1,0 +1,186 @@
+"""A run of the tethered buoy as one row of numbers: what the engine counted, and what the analysis measures.
+
+A column whose analysis does not apply to a run stays empty (None), never 0: a run that ended inside the transient has
+its statistics and nothing more. Extremes and slack are taken after the transient, the emergence over the whole run.
+"""
+
+import math
+
+import numpy as np
+
+from reports.buoy_sweep.motion import LONGEST_PERIOD, STROBE_TOLERANCE, carried, state_of, tighter_scene, verdict_of
+
+COLUMNS = (
+    "steepness",
+    "dimensions",
+    "status",
+    "regime",
+    "regime_tighter",
+    "strobed_period",
+    "radius_min_m",
+    "radius_max_m",
+    "angle_min_rad",
+    "angle_max_rad",
+    "tension_top_min_N",
+    "tension_top_max_N",
+    "slack_fraction",
+    "lyapunov_wolf_bits_per_period",
+    "lyapunov_wolf_error",
+    "lyapunov_tangent_bits_per_period",
+    "lyapunov_tangent_error",
+    "offplane_growth_bits_per_period",
+    "offplane_growth_error",
+    "max_buoy_height_above_water_m",
+    "max_turn_rad",
+    "min_strain",
+    "loop_releases",
+    "buoy_lateral_max_m",
+    "rope_lateral_max_m",
+    "planar_loop_releases",
+    "planar_regime",
+    "planar_radius_min_m",
+    "planar_radius_max_m",
+    "steps",
+    "rejected_steps",
+    "newton_iterations",
+    "newton_failures",
+    "end_time_s",
+    "wall_s",
+    "run_key",
+    "message",
+)
+
+LEAST_JUDGED = 40  # periods after the transient below which no verdict is possible
+STATISTICS = (
+    "max_turn_rad",
+    "min_strain",
+    "loop_releases",
+    "steps",
+    "rejected_steps",
+    "newton_iterations",
+    "newton_failures",
+    "end_time_s",
+    "wall_s",
+)
+
+
+def buoy_row(trajectory, transient_periods: int, simulate=None) -> dict[str, object]:
+    """The columns of `COLUMNS` that a trajectory of the tethered buoy fills; those left out are unknown.
+
+    trajectory: an engine Trajectory of a scene with waves and a buoy, run to its end or not.
+    transient_periods: wave periods left out of extremes, slack and strobed period; a record that does not outlast them
+    by one period fills none of these.
+    regime and exponents: of scenes with output.tangent_vectors, run to their end; all periods count, those with a loop
+    release too. A run in three dimensions has no tangent exponent, and the regime that its samples alone show.
+    offplane_growth: of scenes with output.lateral_growth; none where a loop was released after the transient, because
+    across the plane a loop has no rate of its own.
+    buoy_lateral_max_m, rope_lateral_max_m: largest |y| of the buoy, and of any node, after the transient, in three
+    dimensions. The columns planar_ are filled by `campaigns.buoy_sweep.dimensions`.
+    simulate: to repeat a run that looks chaotic at a ten times tighter tolerance (regime_tighter); None: not done.
+    max_buoy_height_above_water_m: highest point of the sphere less the still water depth, negative while it stays
+    below.
+    """
+    row = {"status": trajectory.status, "message": trajectory.message}
+    row |= {name: _number(trajectory.statistics.get(name)) for name in STATISTICS}
+    columns = sound_part(trajectory.columns)
+    scene = trajectory.scene
+    if len(columns["time_s"]) and scene.water is not None:
+        top_m = float(np.max(columns["z_m"])) + 0.5 * scene.buoy.diameter_m
+        row["max_buoy_height_above_water_m"] = top_m - scene.water.depth_m
+    step_s, period_s = scene.sample_step_s(), scene.waves.period_s
+    recorded_s = (len(columns["time_s"]) - 1) * step_s
+    if recorded_s >= (transient_periods + 1) * period_s - 1e-6 * step_s:
+        row |= settled(columns, step_s, period_s, transient_periods)
+        in_space = scene.motion.dimensions == 3
+        if in_space:
+            after = round(transient_periods * period_s / step_s)
+            row["buoy_lateral_max_m"] = float(np.abs(columns["y_m"][after:]).max())
+            row["rope_lateral_max_m"] = float(columns["offplane_m"][after:].max())
+        if trajectory.status == "ok" and trajectory.tangent is not None:
+            row |= across_plane(trajectory.tangent, transient_periods)
+        enough = recorded_s >= (transient_periods + LEAST_JUDGED) * period_s - 1e-6 * step_s
+        if trajectory.status == "ok" and (carried(trajectory) or (in_space and enough)):
+            tighter, verdict, tangent, wolf = _verdict(trajectory, transient_periods, simulate)
+            row |= {
+                "regime": verdict.regime,
+                "regime_tighter": tighter,
+                "lyapunov_tangent_bits_per_period": _number(tangent.value),
+                "lyapunov_tangent_error": _number(tangent.error),
+                "lyapunov_wolf_bits_per_period": _number(wolf.value),
+                "lyapunov_wolf_error": _number(wolf.error),
+            }
+    return row
+
+
+def regime_of(trajectory, transient_periods: int) -> str | None:
+    """The regime that `buoy_row` names, without a repetition of runs that look chaotic; None where it names none."""
+    return buoy_row(trajectory, transient_periods).get("regime")
+
+
+def across_plane(growth, transient_periods: int) -> dict[str, object]:
+    """Exponent of infinitesimal perturbations across the plane, by column of the table; {} where none was carried."""
+    from analysis import transverse_lyapunov
+
+    if growth.lateral_nats is None:
+        return {}
+    found = transverse_lyapunov(growth.lateral_nats, transient_periods, growth.released)
+    return {"offplane_growth_bits_per_period": _number(found.value), "offplane_growth_error": _number(found.error)}
+
+
+def _verdict(trajectory, transient_periods: int, simulate):
+    """(regime at a ten times tighter tolerance or None, Verdict, tangent and Wolf exponents) of a finished run."""
+    verdict, tangent, wolf = verdict_of(trajectory, transient_periods)
+    if verdict.regime != "chaotic" or simulate is None:
+        return None, verdict, tangent, wolf
+    scene = tighter_scene(trajectory.scene)
+    again = simulate(scene, duration_s=float(trajectory.columns["time_s"][-1]))
+    tighter = verdict_of(again, transient_periods)[0].regime if again.status == "ok" else again.status
+    return tighter, verdict_of(trajectory, transient_periods, tighter)[0], tangent, wolf
+
+
+def settled(columns, step_s: float, period_s: float, transient_periods: int) -> dict[str, object]:
+    """Extremes, slack and strobed period of what follows the transient, by column of the table."""
+    from analysis import extremes, slack_fraction
+
+    transient_s = transient_periods * period_s
+    # Tension snaps between samples: its extremes come from the columns that saw every step of the solver.
+    radius, angle, low, high = (
+        extremes(columns[name], step_s, transient_s)
+        for name in ("radius_m", "angle_rad", "tension_top_low_N", "tension_top_high_N")
+    )
+    return {
+        "strobed_period": strobed_period(columns, step_s, period_s, transient_periods),
+        "radius_min_m": radius.minimum,
+        "radius_max_m": radius.maximum,
+        "angle_min_rad": angle.minimum,
+        "angle_max_rad": angle.maximum,
+        "tension_top_min_N": low.minimum,
+        "tension_top_max_N": high.maximum,
+        "slack_fraction": slack_fraction(columns["tension_top_N"], step_s, transient_s=transient_s).fraction,
+    }
+
+
+def strobed_period(columns, step_s: float, period_s: float, transient_periods: int) -> int | None:
+    """After how many wave periods the buoy's motion repeats, or None where no number up to LONGEST_PERIOD does.
+
+    Position (x, z) and velocity (along and across the radius) of the buoy, once a period after the transient. Positions
+    have to repeat within STROBE_TOLERANCE of the larger extent of the path, velocities of their larger range: so a
+    millimetre counts the same in every direction, and a buoy that turns round and round needs no other treatment.
+    """
+    from analysis import detect_period, poincare_section
+
+    coordinates, scale = state_of(columns, step_s, period_s, transient_periods)
+    section = poincare_section(coordinates, step_s, period_s, transient_periods=transient_periods)
+    return detect_period(section.points, LONGEST_PERIOD, STROBE_TOLERANCE, scale).period
+
+
+def sound_part(columns) -> dict[str, np.ndarray]:
+    """The samples before the first that is not finite: a run that blew up keeps what it had before."""
+    arrays = {name: np.asarray(values, dtype=float) for name, values in columns.items()}
+    sound = np.all([np.isfinite(values) for values in arrays.values()], axis=0)
+    end = len(sound) if sound.all() else int(np.argmin(sound))
+    return {name: values[:end] for name, values in arrays.items()}
+
+
+def _number(entry: object) -> object:
+    return None if entry is None or not math.isfinite(entry) else entry

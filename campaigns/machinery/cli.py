@@ -1,0 +1,263 @@
+"""Command-line pieces shared by the campaigns: options that collect their faults instead of stopping at the first.
+
+argparse stops at the first bad value. Here every option takes its words unjudged, the functions below turn them into
+values, and whatever is wrong is appended to one list of faults, to be shown together with the faults of the scene.
+Nothing heavy is imported: `--help` has to appear at once.
+"""
+
+import argparse
+import difflib
+import math
+import os
+import sys
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import partial
+from pathlib import Path
+
+BACKENDS = ("loky", "threading", "dask")
+EXIT_OK, EXIT_FAILED, EXIT_BAD_INPUT, EXIT_INTERRUPTED = 0, 1, 2, 130
+
+EXITS = "exit codes: 0 done, 1 stopped (disk full, folder in use, no report), 2 bad input, 130 Ctrl-C"
+
+WHOLE = "a whole number, {} or above"
+FRACTION = "a finite number, 0 or above"
+
+
+@dataclass(frozen=True)
+class Running:
+    """How and where a campaign runs; dask_address None: no scheduler, or a local one."""
+
+    out: Path
+    jobs: int
+    backend: str
+    dask_address: str | None
+    report: bool
+
+
+class _Unparsable(Exception):
+    """argparse could not even split the line into options; its message is the fault."""
+
+
+class _Formatter(argparse.RawDescriptionHelpFormatter):
+    # Every option accepts any number of words (see `value`); the help shows the words it wants, as the metavar says.
+    def _format_args(self, action, default_metavar):
+        return action.metavar or ""
+
+
+class _Parser(argparse.ArgumentParser):
+    def error(self, message):
+        raise _Unparsable(message)
+
+
+def command(module: str, argv: list[str] | None, read_order: Callable, work: Callable) -> int:
+    """A campaign's command, from the words of its line (None: those of this process) to its exit code.
+
+    read_order(argv, faults) -> the order, checked, with a `Running` named how; work(order, argv) -> exit code.
+    """
+    argv = list(sys.argv[1:] if argv is None else argv)
+    faults: list[str] = []
+    order = read_order(argv, faults)
+    if faults:
+        print(complaint(f"python -m {module}", faults), file=sys.stderr)
+        return EXIT_BAD_INPUT
+    from campaigns.machinery.session import guarded
+
+    return guarded(module, argv, order.how.out, partial(work, order, argv))
+
+
+def parser(module: str, description: str, epilog: str = EXITS) -> argparse.ArgumentParser:
+    """An empty parser for `python -m module`; add options with `add`, read the line with `split`."""
+    return _Parser(
+        prog=f"python -m {module}",
+        description=description,
+        epilog=epilog,
+        formatter_class=_Formatter,
+        allow_abbrev=False,
+    )
+
+
+def add(group, option: str, metavar: str, help: str) -> None:
+    """Add an option that takes words; given twice, the words add up (so `--set A --set B` is `--set A B`)."""
+    group.add_argument(option, metavar=metavar, nargs="*", action="extend", help=help)
+
+
+def add_running(group, default_out: str) -> None:
+    """Add the options that say how and where a campaign runs, the same for all campaigns."""
+    add(group, "--jobs", "N", f"runs at the same time (default: {default_jobs()})")
+    add(group, "--backend", "|".join(BACKENDS), "processes, threads or a dask cluster (default: loky, processes)")
+    add(group, "--dask-address", "ADDRESS", "scheduler of a dask cluster that sees this folder (default: a local one)")
+    add(group, "--out", "DIR", f"folder of the results; runs found there are not done again (default: {default_out})")
+    group.add_argument("--no-report", action="store_true", help="leave out report.html and report.pdf")
+
+
+def default_jobs() -> int:
+    """Two, or one where there is only one core."""
+    return min(2, os.cpu_count() or 1)
+
+
+def split(parser: argparse.ArgumentParser, argv: list[str], faults: list[str]) -> argparse.Namespace:
+    """The words given to each option (None: option not given); unknown words become faults."""
+    try:
+        options, unknown = parser.parse_known_args(argv)
+    except _Unparsable as error:
+        faults.append(str(error))
+        return parser.parse_args([])
+    known = [name for action in parser._actions for name in action.option_strings]
+    for word in unknown:
+        if not word.startswith("-") and unknown[0].startswith("-"):
+            continue  # the value of an unknown option, which has been named
+        name = word.partition("=")[0]
+        close = difflib.get_close_matches(name, known, n=1)
+        faults.append(f"{name}: no such option" + (f"; did you mean {close[0]}?" if close else ""))
+    return options
+
+
+def value(words: list[str] | None, option: str, default, convert: Callable, allowed: str, faults: list[str]):
+    """The one value of an option, or `default` where it was not given or is at fault.
+
+    convert: from text, raising ValueError for what is not allowed; allowed: the same in words.
+    """
+    if words is None:
+        return default
+    if len(words) != 1:
+        faults.append(f"{option}: given {' '.join(words) or 'nothing'}; allowed: one value, {allowed}")
+        return default
+    return values(words, option, [default], convert, allowed, faults)[0]
+
+
+def values(words: list[str], option: str, default: list, convert: Callable, allowed: str, faults: list[str]) -> list:
+    """The values of an option that takes several; `default` where one of them is at fault."""
+    found, sound = [], True
+    for word in words:
+        try:
+            found.append(convert(word))
+        except ValueError:
+            sound = False
+            faults.append(f"{option}: given {word!r}; allowed: {allowed}")
+    return found if sound else default
+
+
+def whole(least: int) -> Callable[[str], int]:
+    """A converter for whole numbers from `least` on."""
+
+    def convert(text: str) -> int:
+        number = int(text)
+        if number < least:
+            raise ValueError(text)
+        return number
+
+    return convert
+
+
+def fraction(text: str) -> float:
+    """Convert text to a finite number that is not negative."""
+    number = float(text)
+    if not math.isfinite(number) or number < 0.0:
+        raise ValueError(text)
+    return number
+
+
+def one_of(words: tuple[str, ...]) -> Callable[[str], str]:
+    """A converter that lets only some words through."""
+
+    def convert(text: str) -> str:
+        if text not in words:
+            raise ValueError(text)
+        return text
+
+    return convert
+
+
+def running(options: argparse.Namespace, campaign: str, faults: list[str]) -> Running:
+    """The options that `add_running` adds."""
+    jobs = value(options.jobs, "--jobs", default_jobs(), whole(1), WHOLE.format(1), faults)
+    name, address = backend(options, faults)
+    return Running(folder(options, campaign, faults), jobs, name, address, not options.no_report)
+
+
+def lengths(
+    options: argparse.Namespace, periods: int, transient: int, share: int, faults: list[str]
+) -> tuple[int, int]:
+    """--periods and --transient in wave periods; by default these, the transient at most periods/share."""
+    periods = value(options.periods, "--periods", periods, whole(1), WHOLE.format(1), faults)
+    usual = min(transient, periods // share)
+    transient = value(options.transient, "--transient", usual, whole(0), WHOLE.format(0), faults)
+    if transient >= periods:
+        faults.append(f"--transient: given {transient} of {periods} periods; allowed: less than --periods")
+    return periods, transient
+
+
+def scene_name(options: argparse.Namespace, usual: str, faults: list[str]) -> str:
+    """--scene: a file or a name, not looked up yet."""
+    return value(options.scene, "--scene", usual, str, "a scene file or the name of a scene", faults)
+
+
+def backend(options: argparse.Namespace, faults: list[str]) -> tuple[str, str | None]:
+    """The backend and the address of its scheduler (None: none, or a local cluster)."""
+    name = value(options.backend, "--backend", "loky", one_of(BACKENDS), "one of " + ", ".join(BACKENDS), faults)
+    allowed = "the address of a scheduler, as tcp://HOST:PORT"
+    address = value(options.dask_address, "--dask-address", None, str, allowed, faults)
+    if address is not None and name != "dask":
+        faults.append(f"--dask-address: given with --backend {name}; allowed: with --backend dask only")
+    if name == "dask":
+        from importlib.util import find_spec
+
+        if find_spec("distributed") is None:
+            faults.append("--backend: given 'dask', which is not installed; allowed: loky, threading")
+    return name, address
+
+
+def folder(options: argparse.Namespace, campaign: str, faults: list[str]) -> Path:
+    """The folder of the results; a fault where it cannot be one, or holds what another campaign left."""
+    out = value(options.out, "--out", Path("results", campaign), Path, "a folder", faults)
+    parent = next((path for path in (out, *out.absolute().parents) if path.exists()), out)
+    if not parent.is_dir():
+        faults.append(f"--out: given {str(out)!r}, but {parent} is a file; allowed: a folder, new or of this campaign")
+    elif not os.access(parent, os.W_OK):
+        faults.append(f"--out: given {str(out)!r}, but {parent} cannot be written to; allowed: a folder that can")
+    elif (owner := _owner(out)) not in ("", campaign):
+        faults.append(f"--out: given {str(out)!r}, which holds {owner}; allowed: a folder, new or of this campaign")
+    return out
+
+
+def _owner(out: Path) -> str:
+    import json
+
+    try:
+        return str(json.loads((out / "provenance.json").read_text(encoding="utf-8"))["campaign"])
+    except FileNotFoundError:
+        return "a table.csv that no campaign wrote" if (out / "table.csv").exists() else ""
+    except (OSError, ValueError, KeyError, TypeError):
+        return "a provenance.json that no campaign wrote"
+
+
+def assignments(words: list[str] | None, taken: dict[str, str], faults: list[str]) -> dict[str, object]:
+    """The scene overrides of `--set KEY=VALUE ...`.
+
+    taken: keys that the campaign itself sets -> what to use instead.
+    """
+    from engine.scene import SceneError, parse_assignment
+
+    found = {}
+    for word in words or []:
+        try:
+            key, given = parse_assignment(word)
+        except SceneError as error:
+            faults.extend(error.faults)
+            continue
+        if key in taken:
+            faults.append(f"--set {key}: this campaign sets it; {taken[key]}")
+        else:
+            found[key] = given
+    if words == []:
+        faults.append("--set: given nothing; allowed: KEY=VALUE, one or more")
+    return found
+
+
+def complaint(prog: str, faults: list[str]) -> str:
+    """One message with every fault, for exit code 2."""
+    lines = list(dict.fromkeys(faults))
+    if len(lines) == 1:
+        return f"{prog}: {lines[0]}\nnothing was run or written"
+    return "\n".join([f"{prog}: {len(lines)} faults", *(f"  {line}" for line in lines), "nothing was run or written"])

@@ -1,0 +1,123 @@
+"""A campaign's folder: written so that a kill, a crash or a full disk at any moment leaves it readable.
+
+Every file appears whole or not at all: written under a temporary name, forced to disk, renamed. A lock keeps two
+campaigns out of the same folder; the system drops it when its holder dies, however it dies.
+"""
+
+import contextlib
+import csv
+import errno
+import fcntl
+import io
+import json
+import math
+import os
+import socket
+import time
+from collections.abc import Iterator
+from pathlib import Path
+
+from engine.atomic import write_atomic
+
+_NO_SPACE = {errno.ENOSPC, errno.EDQUOT, errno.EFBIG}
+
+
+class CampaignStopped(Exception):
+    """The campaign cannot go on, for a reason outside its runs; str() is one line for the user."""
+
+
+def trajectory_path(directory: Path, key: str) -> Path:
+    """Where the run with this content key is kept."""
+    return directory / "trajectories" / f"{key}.nc"
+
+
+def is_full(error: BaseException | None) -> bool:
+    """Whether an exception, or one that it was raised from, says that nothing more fits on the disk."""
+    while error is not None:
+        if isinstance(error, OSError) and error.errno in _NO_SPACE:
+            return True
+        error = error.__cause__ or error.__context__
+    return False
+
+
+@contextlib.contextmanager
+def claimed(directory: Path) -> Iterator[None]:
+    """Create the folder and hold it for this process alone.
+
+    Raises CampaignStopped when another campaign is running in it, OSError when it cannot be made.
+    """
+    (directory / "trajectories").mkdir(parents=True, exist_ok=True)
+    with open(directory / ".lock", "a+", encoding="utf-8") as lock:
+        try:
+            fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except BlockingIOError:
+            lock.seek(0)
+            holder = lock.read().strip() or "another process"
+            raise CampaignStopped(
+                f"{directory} is in use by {holder}; wait for it to end, or give another folder with --out"
+            ) from None
+        # The words in the file only inform; the lock is the flock. The file stays: unlinking it would open a race.
+        with contextlib.suppress(OSError):
+            lock.truncate(0)
+            lock.write(f"process {os.getpid()} on {socket.gethostname()}")
+            lock.flush()
+        _drop_temporaries(directory)
+        try:
+            yield
+        finally:
+            _drop_temporaries(directory)  # of workers that were ended while they wrote
+
+
+def _drop_temporaries(directory: Path) -> None:
+    for place in (directory, directory / "trajectories"):
+        for path in place.glob(".*.tmp"):
+            with contextlib.suppress(OSError):
+                path.unlink()
+
+
+class Table:
+    """table.csv while it grows: rows by run key, always written in the order of the campaign.
+
+    Rows may arrive in any order; the file is rewritten as they come, at most twice a second, and by `write`.
+    """
+
+    def __init__(self, path: Path, columns: tuple[str, ...], keys: list[str]):
+        self.path, self.columns, self.keys = path, columns, keys
+        self.rows: dict[str, dict[str, object]] = {}
+        self._written_s = -math.inf
+
+    def add(self, key: str, row: dict[str, object]) -> None:
+        """Take in a row and bring the file up to date unless that was done a moment ago. Raises OSError."""
+        unknown = set(row) - set(self.columns)
+        if unknown:
+            raise KeyError(f"the table has no column {', '.join(sorted(unknown))}")
+        self.rows[key] = row
+        if time.monotonic() - self._written_s > 0.5:
+            self.write()
+
+    def in_order(self) -> list[dict[str, object]]:
+        """The rows there are, in the order of the campaign."""
+        return [self.rows[key] for key in self.keys if key in self.rows]
+
+    def write(self) -> None:
+        """Rewrite the file. Raises OSError."""
+        text = io.StringIO()
+        writer = csv.writer(text, lineterminator="\n")
+        writer.writerow(self.columns)
+        writer.writerows([_cell(row.get(column)) for column in self.columns] for row in self.in_order())
+        write_atomic(self.path, text.getvalue().encode())
+        self._written_s = time.monotonic()
+
+
+def _cell(entry: object) -> str:
+    # Unknown is empty, never 0 and never the word nan.
+    if entry is None or (isinstance(entry, float) and math.isnan(entry)):
+        return ""
+    if hasattr(entry, "item"):
+        return _cell(entry.item())
+    return repr(entry) if isinstance(entry, float) else " ".join(str(entry).split())
+
+
+def write_json(path: Path, content: dict) -> None:
+    """Write a JSON file whole. Raises OSError."""
+    write_atomic(path, (json.dumps(content, indent=2, allow_nan=False) + "\n").encode())

@@ -1,0 +1,56 @@
+"""A call in a process of its own, ended when its time is up: the only way out of machine code that does not return.
+
+The process is a fork of the caller, so compiled kernels are at hand and nothing has to be loaded again. The time is
+that of the processor, so that a busy machine does not make a slow call a hanging one; a call that only waits is ended
+too, later.
+"""
+
+import multiprocessing
+import os
+import resource
+import signal
+import threading
+import time
+import traceback
+from collections.abc import Callable
+
+from campaigns.machinery.pools import end_with
+
+DONE, RAISED, LATE, DIED = "done", "raised", "late", "died"
+PATIENCE = 5.0  # times the limit, in seconds of the wall clock
+
+
+def limited(call: Callable, limit_s: float) -> tuple[str, object, float]:
+    """(DONE, what `call()` returns) | (RAISED, (class name, message, traceback)) | (LATE, None) | (DIED, exit code).
+
+    limit_s: of processor time, rounded up to whole seconds. The third entry is the wall time in s. The result has to
+    pass through a pipe (pickle).
+    """
+    ways = multiprocessing.get_context("fork")
+    ours, theirs = ways.Pipe(duplex=False)
+    began = time.perf_counter()
+    process = ways.Process(target=_answer, args=(theirs, call, limit_s, os.getpid()), daemon=True)
+    process.start()
+    theirs.close()
+    try:
+        kind, answer = ours.recv() if ours.poll(PATIENCE * limit_s) else (LATE, None)
+    except EOFError:
+        process.join()
+        spent = process.exitcode == -signal.SIGXCPU
+        kind, answer = (LATE, None) if spent else (DIED, process.exitcode)
+    finally:
+        process.kill()
+        process.join()
+        ours.close()
+    return kind, answer, time.perf_counter() - began
+
+
+def _answer(pipe, call: Callable, limit_s: float, parent: int) -> None:
+    threading.Thread(target=end_with, args=(parent,), daemon=True).start()
+    seconds = max(1, int(-(-limit_s // 1)))
+    resource.setrlimit(resource.RLIMIT_CPU, (seconds, resource.getrlimit(resource.RLIMIT_CPU)[1]))
+    try:
+        answer = DONE, call()
+    except Exception as error:
+        answer = RAISED, (type(error).__name__, str(error), traceback.format_exc())
+    pipe.send(answer)

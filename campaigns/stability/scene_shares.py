@@ -1,0 +1,61 @@
+"""What each part of a scene costs: operations counted and microseconds taken, with and without it, side by side.
+
+The same tether and buoy, the same fixed steps (TR-BDF2, 5 ms), one part taken away or added at a time. Times are
+medians over rounds in which the scenes take turns on one core; operations are exact
+(`campaigns.stability.operation_counts`).
+"""
+
+import statistics
+
+ROUNDS, LENGTH_S = 7, 40.0
+QUICK_ROUNDS, QUICK_LENGTH_S = 3, 10.0
+TABLE_1 = "waves, water, bending (Table 1)"
+_FIXED = {"solver.integrator": "trbdf2", "solver.step_s": 0.005, "waves.steepness": 0.016}
+_DRY = {"water": None, "waves": None, "output.step_s": 0.05}
+_PROFILE = {"law": "profile", "height_m": [0.0, 10.0, 21.0], "velocity_mps": [[0.0, 0, 0], [0.2, 0, 0], [0.3, 0, 0]]}
+SCENES = {
+    TABLE_1: _FIXED,
+    "and a current profile": {**_FIXED, "current": _PROFILE},
+    "and profiles kept every 0.05 s": {**_FIXED, "output.profiles": True},
+    "still water: no waves": {**_FIXED, "waves": None, "output.step_s": 0.05},
+    "no bending": {**_FIXED, "tether.bending_stiffness_Nm2": 0.0},
+    "dry: no water": {**_FIXED, **_DRY},
+    "dry, no bending": {**_FIXED, **_DRY, "tether.bending_stiffness_Nm2": 0.0},
+    "three dimensions": {**_FIXED, "motion.dimensions": 3},
+    "three dimensions, dry": {**_FIXED, **_DRY, "motion.dimensions": 3},
+    "three dimensions, no bending": {**_FIXED, "motion.dimensions": 3, "tether.bending_stiffness_Nm2": 0.0},
+}
+
+
+def scene_of(changes: dict):
+    """Table 1 with changes; a part that is set to None takes the values set within it along."""
+    from engine import load_scene
+
+    gone = {key for key, value in changes.items() if value is None}
+    return load_scene("tethered_buoy", {k: v for k, v in changes.items() if k in gone or k.split(".")[0] not in gone})
+
+
+def measured(quick: bool = False) -> dict[str, object]:
+    """{"rounds", "length_s", "scenes": {name: {"newton", "functions", "output", "kernels", "us_per_newton",
+    "us_per_step", "newton_per_step"}}}."""
+    from campaigns.stability.operation_counts import operations
+    from engine import simulate
+
+    rounds, length_s = (QUICK_ROUNDS, QUICK_LENGTH_S) if quick else (ROUNDS, LENGTH_S)
+    scenes = {name: scene_of(changes) for name, changes in SCENES.items()}
+    runs = {name: [] for name in scenes}
+    for scene in scenes.values():
+        simulate(scene, duration_s=0.5)
+    for _ in range(rounds):
+        for name, scene in scenes.items():
+            runs[name].append(simulate(scene, duration_s=length_s).statistics)
+    found = {}
+    for name, scene in scenes.items():
+        spent = statistics.median(run["wall_s"] for run in runs[name])
+        one = runs[name][0]
+        found[name] = operations(scene) | {
+            "us_per_newton": 1e6 * spent / one["newton_iterations"],
+            "us_per_step": 1e6 * spent / one["steps"],
+            "newton_per_step": one["newton_iterations"] / one["steps"],
+        }
+    return {"rounds": rounds, "length_s": length_s, "scenes": found}

@@ -1,0 +1,173 @@
+"""What a report says, before anyone decides what it looks like.
+
+A report is one flat list of the frozen records below. `html` and `pdf` each walk the same list, so the
+page and the PDF cannot drift apart. Text is plain text: the renderers escape it. Two marks are understood (`spans`): a
+pair of backquotes for a file, column or key name, because captions name their columns all the time, and the subscripts
+made by `sub`, because the symbols of the paper have them.
+"""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from typing import Literal
+
+
+@dataclass(frozen=True)
+class Heading:
+    """A numbered heading; level 1 opens a section and appears in the contents, level 2 divides it."""
+
+    text: str
+    level: Literal[1, 2] = 1
+
+
+@dataclass(frozen=True)
+class Text:
+    """One paragraph."""
+
+    text: str
+
+
+@dataclass(frozen=True)
+class Bullets:
+    """A list of short statements."""
+
+    lines: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class Equation:
+    """A displayed equation, written once in Typst mathematics.
+
+    `math` is the Typst source between the dollar signs, `spoken` what a screen reader says, `number` the number the
+    equation carries in the 1998 paper, empty when it has none there.
+    """
+
+    math: str
+    spoken: str
+    number: str = ""
+
+
+@dataclass(frozen=True)
+class Picture:
+    """The bytes of one drawing: `kind` is "svg", "png", or "gif" for one that moves."""
+
+    data: bytes
+    kind: Literal["svg", "png", "gif"]
+
+
+@dataclass(frozen=True)
+class Figure:
+    """A drawing with its caption (what is seen, from which columns) and its description for those who cannot see it.
+
+    `moving`: shown instead of `picture` where a drawing can move, on the page.
+    Raises ValueError when caption or description is empty: a figure without them is not allowed into a report.
+    """
+
+    picture: Picture
+    caption: str
+    alt: str
+    moving: Picture | None = None
+
+    def __post_init__(self) -> None:
+        if not self.caption.strip() or not self.alt.strip():
+            raise ValueError("a figure needs a caption and a text alternative")
+
+
+@dataclass(frozen=True)
+class Column:
+    """A table column: its title, the unit shown under the title ("" for none), and how its cells are set."""
+
+    title: str
+    unit: str = ""
+    align: Literal["left", "right"] = "right"
+
+
+@dataclass(frozen=True)
+class Table:
+    """A table of strings. `small` asks for the smaller type that many columns need.
+
+    Raises ValueError when a row has not one cell for every column.
+    """
+
+    columns: tuple[Column, ...]
+    rows: tuple[tuple[str, ...], ...]
+    caption: str
+    small: bool = False
+
+    def __post_init__(self) -> None:
+        if any(len(row) != len(self.columns) for row in self.rows):
+            raise ValueError("every row of a table needs one cell for every column")
+
+
+@dataclass(frozen=True)
+class Notice:
+    """A box that must not be overlooked: a "note" informs, a "warning" limits what the report may be used for."""
+
+    kind: Literal["note", "warning"]
+    title: str
+    lines: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class Listing:
+    """Text kept as it is, letter for letter: a command, a scene file."""
+
+    text: str
+
+
+Item = Heading | Text | Bullets | Equation | Figure | Table | Notice | Listing
+
+
+@dataclass(frozen=True)
+class Report:
+    """A whole report: its title, one line under it, and its items in reading order."""
+
+    title: str
+    subtitle: str
+    items: tuple[Item, ...]
+
+
+# Characters of Unicode's private area: no text from outside carries them, so no text from outside becomes a subscript.
+_DOWN, _UP = "\ue000", "\ue001"
+_MARKS = re.compile(f"`([^`\\n]+)`|{_DOWN}([^{_UP}]*){_UP}")
+
+
+def sub(text: str) -> str:
+    """The text as a subscript: "T" + sub("i")."""
+    return f"{_DOWN}{text}{_UP}"
+
+
+def spans(text: str) -> list[tuple[str, str]]:
+    """Split text into (style, piece), style being "", "code" or "sub"; a backquote without a partner stays as written.
+
+    >>> spans("from `time_s` on")
+    [('', 'from '), ('code', 'time_s'), ('', ' on')]
+    """
+    pieces, at = [], 0
+    for found in _MARKS.finditer(text):
+        pieces.append(("", text[at : found.start()]))
+        pieces.append(("code", found[1]) if found[1] is not None else ("sub", found[2]))
+        at = found.end()
+    pieces.append(("", text[at:]))
+    return [(style, piece) for style, piece in pieces if piece]
+
+
+def plain(text: str) -> str:
+    """The text without its marks, for places that take letters only, such as a text alternative."""
+    return "".join(piece for _, piece in spans(text))
+
+
+def section_ids(items: tuple[Item, ...]) -> dict[int, str]:
+    """Index of every heading in the list -> its number, "1", "1.1", ...: one numbering for both renderers."""
+    numbers, section, division = {}, 0, 0
+    for index, item in enumerate(items):
+        if not isinstance(item, Heading):
+            continue
+        if item.level == 1:
+            section, division = section + 1, 0
+            numbers[index] = str(section)
+        else:
+            division += 1
+            numbers[index] = f"{section}.{division}"
+    return numbers

@@ -1,0 +1,70 @@
+"""Machine code that several processes store at once: every kind of arguments finds its own again."""
+
+import multiprocessing
+import os
+import subprocess
+import sys
+from types import SimpleNamespace
+
+import pytest
+from numba.core.caching import IndexDataCacheFile
+
+import analysis.compiled
+import engine.compiled
+
+PROCESSES, KINDS = 4, 12
+
+
+def store_of(package, folder):
+    store = IndexDataCacheFile(str(folder), "kernel", "stamp")
+    package.one_at_a_time(SimpleNamespace(_cache=SimpleNamespace(_cache_file=store)), folder)
+    return store
+
+
+def compile_kinds(package, folder, process):
+    store = store_of(package, folder)
+    for kind in range(KINDS):
+        store.save((process, kind), f"code of {process}, {kind}")
+
+
+@pytest.mark.parametrize("package", [engine.compiled, analysis.compiled], ids=["engine", "analysis"])
+def test_every_kind_finds_its_own_code(package, tmp_path):
+    fork = multiprocessing.get_context("fork")
+    processes = [fork.Process(target=compile_kinds, args=(package, tmp_path, i)) for i in range(PROCESSES)]
+    for process in processes:
+        process.start()
+    for process in processes:
+        process.join()
+        assert process.exitcode == 0
+    store = store_of(package, tmp_path)
+    for process in range(PROCESSES):
+        for kind in range(KINDS):
+            assert store.load((process, kind)) == f"code of {process}, {kind}"
+
+
+LAW = """
+import sys
+import numpy as np
+from engine import load_scene, parameters, tension
+for dimensions in map(int, sys.argv[1:]):
+    tables = []
+    record = parameters.record_of(load_scene("tethered_buoy", {"motion.dimensions": dimensions}), tables)[0]
+    print(*tension.tension(0.1, record, np.concatenate(tables)))
+"""
+
+
+def test_code_stored_by_one_process_each_is_told_apart_where_both_are_loaded(tmp_path):
+    """The tension law takes the planar record or the spatial one; Table 1 has T = EA eps = 5000 N, EA = 50 kN."""
+
+    def said(*dimensions):
+        environment = os.environ | {"TETHER_CACHE_DIR": str(tmp_path)}
+        run = subprocess.run(
+            [sys.executable, "-c", LAW, *dimensions], env=environment, capture_output=True, text=True, check=True
+        )
+        return run.stdout.split()
+
+    law = ["5000.0", "50000.0"]
+    assert said("2") == law
+    assert said("3") == law
+    assert said("2", "3") == law * 2
+    assert said("3", "2") == law * 2
