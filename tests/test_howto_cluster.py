@@ -12,6 +12,8 @@ from pathlib import Path
 
 import pytest
 
+import analysis.compiled
+import engine.compiled
 from campaigns.machinery.cluster import GONE_S, JOIN_S
 from tests.campaigns.clusters import ROOT, Cluster, can_hide
 from tests.campaigns.conftest import finished, rows_of, until
@@ -59,6 +61,8 @@ def test_the_commands_of_the_page_with_a_worker_killed_give_the_table_of_one_mac
     place.mkdir()
     cluster = Cluster(tmp_path / "cluster", place, ROOT, scheduler)
     try:
+        # the machine code of these tests, if they have any: a place of its own, but not a minute of compilation
+        cluster.bring_machine_code(engine.compiled.cache_directory(), analysis.compiled.cache_directory())
         cluster.add_worker(words=worker)
         cluster.wait_for_workers(2)
         how = {"cwd": place, "env": os.environ | {"PYTHONPATH": str(ROOT)}, "text": True}

@@ -55,6 +55,11 @@ class Cluster:
         with Client(self.address) as client:
             client.wait_for_workers(count, timeout=SECONDS)
 
+    def bring_machine_code(self, *folders: Path) -> None:
+        """Lay copies of folders of machine code into the cache of the worker that is started next."""
+        for folder in folders:
+            shutil.copytree(folder, self.place / f"worker-{len(self.workers)}" / "cache" / folder.name)
+
     def caches(self) -> list[dict[str, int]]:
         """Files of machine code of each worker, with the time they were written."""
         folders = [self.place / f"worker-{number}" / "cache" for number in range(len(self.workers))]
@@ -70,7 +75,7 @@ class Cluster:
 
     def _start(self, name: str, words: list[str], sources: Path):
         home = self.place / name
-        home.mkdir()
+        home.mkdir(exist_ok=True)
         env = {**os.environ, "PYTHONPATH": str(sources), "HOME": str(home), "TMPDIR": str(home)}
         env |= {"TETHER_CACHE_DIR": str(home / "cache"), "XDG_CACHE_HOME": str(home / "xdg")}
         with open(home / "log", "w") as log:
