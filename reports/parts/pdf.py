@@ -13,12 +13,14 @@ from pathlib import Path
 from .content import (
     Bullets,
     Equation,
+    Explorer,
     Figure,
     Heading,
     Item,
     Listing,
     Notice,
     Report,
+    Sheet,
     Table,
     Text,
     plain,
@@ -81,6 +83,10 @@ def typst_source(report: Report) -> tuple[str, dict[str, bytes]]:
         )
     ]
     for index, (item, following) in enumerate(zip_longest(report.items, report.items[1:])):
+        if isinstance(item, Sheet):
+            continue  # the page has a sheet for every run; on paper they would be hundreds
+        if isinstance(item, Explorer):
+            item = item.figure
         if isinstance(item, Figure):
             name = f"figure-{len(pictures) + 1}.{item.picture.kind}"
             pictures[name] = item.picture.data
@@ -107,7 +113,8 @@ def quote(text: str) -> str:
 def _inline(text: str) -> str:
     """A Typst content expression for text with `code` spans."""
     forms = {"": "text", "code": "raw", "sub": "sub"}
-    pieces = [f"{forms[style]}({quote(piece)})" for style, piece in spans(text)]
+    # the places that links lead to are on the page only
+    pieces = [f"{forms.get(style, 'text')}({quote(piece)})" for style, piece in spans(text)]
     return " + ".join(pieces) or '""'
 
 
