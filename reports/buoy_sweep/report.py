@@ -13,6 +13,7 @@ from ..parts.provenance import provenance_items
 from ..parts.symbols import T_I
 from ..parts.wording import count, decimals, number, percent
 from .answer import short_answer
+from .close_up import close_up_items
 from .equations import equation_items
 from .figures import run_items, section_figure
 from .physics import Modes, natural_frequencies
@@ -36,6 +37,7 @@ def report(directory: str | Path) -> Report:
         *_question(runs, transient, tolerance, modes),
         *_orbit(runs, transient),
         *_chosen(folder, runs, transient, tolerance, modes),
+        *close_up_items(folder.directory),
         *regime_items(folder, runs, transient),
         *plane_items(folder, runs, transient),
         *accuracy_items(folder.directory, "kA"),

@@ -60,7 +60,8 @@ class Picture:
 class Figure:
     """A drawing with its caption (what is seen, from which columns) and its description for those who cannot see it.
 
-    `moving`: shown instead of `picture` where a drawing can move, on the page.
+    `moving`: shown below `picture` on the page, in a part that can be closed; those who asked their system for less
+    motion see `picture` alone.
     Raises ValueError when caption or description is empty: a figure without them is not allowed into a report.
     """
 
@@ -212,11 +213,13 @@ def plain(text: str) -> str:
 
 
 def first_sentence(text: str) -> str:
-    """What a list of figures says of one: its caption, without marks, up to the first colon, semicolon or full stop.
+    """What a list of figures says of one: its caption up to the first colon, semicolon or full stop.
 
     A stop within a number or after an abbreviation ("fig. 9") is none: a sentence ends before a capital.
     """
-    return re.split(r"[:;] |\.(?= +[A-ZΑ-Ω])|\.$", plain(text))[0].strip()
+    marks_hidden = _MARKS.sub(lambda found: "x" * len(found[0]), text)
+    end = re.search(r"[:;] |\.(?= +[A-ZΑ-Ω])|\.$", marks_hidden)
+    return text[: end.start()] if end else text
 
 
 def section_ids(items: tuple[Item, ...]) -> dict[int, str]:

@@ -7,8 +7,10 @@ Text is drawn as outlines, so no font of the machine takes part.
 from __future__ import annotations
 
 import io
-from collections.abc import Iterator
+import tempfile
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from pathlib import Path
 
 import matplotlib
 from matplotlib.figure import Figure
@@ -74,6 +76,25 @@ def picture_of(figure: Figure, kind: str = "svg") -> Picture:
     metadata = {"Date": None, "Creator": None} if kind == "svg" else {"Software": None}
     figure.savefig(target, format=kind, dpi=DOTS_PER_INCH, metadata=metadata)
     return Picture(target.getvalue(), kind)
+
+
+def moving_picture(figure: Figure, frames: int, show: Callable[[int], None], per_second: int, dots=90) -> Picture:
+    """The drawing as a GIF of so many frames, `show(k)` draws frame k. One layout for all; call it inside `sheet`."""
+    from matplotlib.animation import PillowWriter
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+
+    FigureCanvasAgg(figure)
+    show(0)
+    figure.draw_without_rendering()
+    figure.set_layout_engine("none")
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder, "moving.gif")
+        writer = PillowWriter(fps=per_second)
+        with writer.saving(figure, str(path), dpi=dots):
+            for frame in range(frames):
+                show(frame)
+                writer.grab_frame()
+        return Picture(path.read_bytes(), "gif")
 
 
 def kind_for(points: int) -> str:

@@ -7,6 +7,7 @@ variable AXE_CORE, or installed once by npm into pytest's cache; without either 
 import os
 import shutil
 import subprocess
+from itertools import pairwise
 from pathlib import Path
 
 import pytest
@@ -70,7 +71,7 @@ def test_axe_would_have_found_something(built, axe, tmp_path):
 def test_headings_go_down_one_level_at_a_time_and_there_is_one_title(page):
     levels = [HEADINGS[tag] for tag, _ in page.tags if tag in HEADINGS]
     assert levels[0] == 1 and levels.count(1) == 1
-    assert all(after <= before + 1 for before, after in zip(levels, levels[1:], strict=False))
+    assert all(after <= before + 1 for before, after in pairwise(levels))
 
 
 def test_landmarks_skip_link_and_language(page):
