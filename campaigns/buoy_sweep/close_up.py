@@ -1,7 +1,7 @@
 """The most violent run of a sweep again with the whole tether kept, for the moving picture of its report.
 
 Samples of the buoy do not show the tether; profiles of every run would be gigabytes. So the first wave periods of the
-run whose tension peaks highest are computed once more, with the line kept twenty-four times a period, in the folder
+run whose tension peaks highest are computed once more, with the line kept sixteen times a period, in the folder
 `close_up` of its own: a hundredth of a sweep. Where no run goes slack nothing snaps, and nothing is computed.
 """
 
@@ -10,12 +10,12 @@ from time import perf_counter
 
 from campaigns.buoy_sweep.repeats import chosen
 from campaigns.machinery.folder import trajectory_path
-from campaigns.machinery.runner import Plan, Summary, make_job, run_campaign
+from campaigns.machinery.runner import Job, Plan, Summary, make_job, run_campaign
 
 FOLDER = "close_up"  # within that of the sweep: a table of its own, and a trajectory
 COLUMNS = ("steepness", "status", "periods", "wall_s", "run_key", "message")
 PERIODS = 12  # the first snaps come after five
-FRAMES = 24  # of the line, a wave period
+FRAMES = 16  # of the line, a wave period
 
 
 def and_close_up(runs: Callable, periods: int) -> Callable:
@@ -32,21 +32,25 @@ def and_close_up(runs: Callable, periods: int) -> Callable:
 
 def close_up(plan: Plan, rows: list[dict], periods: int) -> Summary | None:
     """Compute the run, unless it is there; None where no run goes slack."""
-    slack = [row for row in rows if (row.get("slack_fraction") or 0.0) > 0.0]
-    if not slack or not (picked := chosen(slack)):
+    picked = chosen([row for row in rows if (row.get("slack_fraction") or 0.0) > 0.0])
+    place = plan.directory / FOLDER
+    if not picked and not place.exists():
         return None
+    (place / "trajectories").mkdir(parents=True, exist_ok=True)
+    own = Plan(place, plan.simulate, close_up_row, COLUMNS, "threading", 1, show_progress=False)
+    # without a job the table of an earlier sweep in this folder is emptied
+    return run_campaign(own, [_job(plan, row, periods) for _, row in picked[-1:]])
+
+
+def _job(plan: Plan, row: dict, periods: int) -> Job:
     from engine import Trajectory
     from engine.scene import scene_from_toml
 
-    _, row = picked[-1]
     scene = Trajectory.load(trajectory_path(plan.directory, row["run_key"])).scene
     # Perturbations are carried along as in the sweep: leaving them out would need machine code of its own (20 s).
     kept = {"output.profiles": True, "output.profiles_step_s": scene.waves.period_s / FRAMES}
     scene = scene_from_toml(scene.to_toml(), kept)
-    place = plan.directory / FOLDER
-    (place / "trajectories").mkdir(parents=True, exist_ok=True)
-    own = Plan(place, plan.simulate, close_up_row, COLUMNS, "threading", 1, show_progress=False)
-    return run_campaign(own, [make_job(scene, periods, labels={"steepness": row["steepness"], "periods": periods})])
+    return make_job(scene, periods, labels={"steepness": row["steepness"], "periods": periods})
 
 
 def close_up_row(trajectory) -> dict[str, object]:

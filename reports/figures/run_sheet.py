@@ -130,8 +130,9 @@ class _Frame:
         return "".join(parts)
 
     def line(self, x: np.ndarray, y: np.ndarray, kind: str = "line") -> str:
-        """A polyline."""
-        return self._path(kind, _relative(self._fine(x, y)))
+        """A polyline through the points that are finite."""
+        sound = np.isfinite(y)
+        return self._path(kind, _relative(self._fine(x[sound], y[sound]))) if sound.any() else ""
 
     def dots(self, x: np.ndarray, y: np.ndarray) -> str:
         """Round dots: strokes of no length."""

@@ -9,7 +9,7 @@ import numpy as np
 from ..parts.content import Picture
 from ..parts.style import BLUE, INK, ORANGE, SKY, SOFT, VERMILION, moving_picture, picture_of, sheet
 
-_FRAMES_PER_SECOND = 12
+_FRAMES_PER_SECOND = 8
 _STILLS = 6
 _MARGIN_M = 1.0
 
