@@ -121,7 +121,8 @@ def _evidence(run: Run) -> Table | None:
     heads = (Column("test", align="left"), Column("value"), Column("threshold"), Column("met"))
     reason = str(run.row.get("regime_reason") or "").strip()
     caption = f"Why it is called {run.row['regime']}: {reason}." if reason else "Evidence, in the order of the tests."
-    return Table(heads, tuple(tests), caption, small=True)
+    rows = tuple((name, *(cell.replace("-", "−") for cell in cells)) for name, *cells in tests)
+    return Table(heads, rows, caption, small=True)
 
 
 def _glance(trajectory, run: Run, transient: int, modes: Modes | None) -> Glance:

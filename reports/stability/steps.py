@@ -33,8 +33,8 @@ def map_items(study: Study) -> list[Item]:
         largest = max(entry["largest"] for entry in line["methods"].values())
         seen = f"{line['title']}, steps of {number(line['step_s'], 3)} s; largest modulus {number(largest, 7)}"
         caption = (
-            f"A line {seen}. Dots: inside or on the unit circle; crosses: outside, those beyond the panel on its edge. "
-            "From `step_maps.json`."
+            f"A line {seen}. Eigenvalues μ, dots: inside or on the unit circle; crosses: outside, those beyond the "
+            "panel on its edge. From `step_maps.json`."
         )
         items.append(
             Figure(step_maps(values), caption, f"Eigenvalues in the complex plane beside the unit circle: {seen}.")

@@ -15,9 +15,17 @@ import time
 from pathlib import Path
 
 NAMES = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable")
-OPTIONS = ("--headless=new", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage", "--hide-scrollbars",
-           "--no-first-run", "--disable-extensions", "--disable-background-networking", "--remote-debugging-pipe",
-           "--force-prefers-reduced-motion")  # fmt: skip
+OPTIONS = (
+    "--headless=new",
+    "--no-sandbox",
+    "--disable-gpu",
+    "--disable-dev-shm-usage",
+    "--hide-scrollbars",
+    "--no-first-run",
+    "--disable-extensions",
+    "--disable-background-networking",
+    "--remote-debugging-pipe",
+)
 DEADLINE_S = 60.0
 
 
@@ -29,8 +37,13 @@ def installed() -> str | None:
 class Chromium:
     """One browser with one tab; use it in a `with` block, which ends both."""
 
-    def __init__(self, width: int = 1200, height: int = 900, dark: bool = False, scripts: bool = True):
-        self._size, self._dark, self._scripts = (width, height), dark, scripts
+    def __init__(self, width: int = 1200, height: int = 900, dark: bool = False, scripts: bool = True,
+                 still: bool = False):  # fmt: skip
+        self._size, self._scripts = (width, height), scripts
+        self._wishes = {
+            "prefers-color-scheme": "dark" if dark else "light",
+            "prefers-reduced-motion": "reduce" if still else "no-preference",
+        }
         self._number, self._rest, self._events = 0, b"", []
 
     def __enter__(self):
@@ -55,8 +68,8 @@ class Chromium:
             self.call(f"{domain}.enable")
         width, height = self._size
         self.call("Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=1, mobile=False)
-        scheme = {"name": "prefers-color-scheme", "value": "dark" if self._dark else "light"}
-        self.call("Emulation.setEmulatedMedia", features=[scheme])
+        wishes = [{"name": name, "value": wish} for name, wish in self._wishes.items()]
+        self.call("Emulation.setEmulatedMedia", features=wishes)
         self.call("Emulation.setScriptExecutionDisabled", value=not self._scripts)
         return self
 

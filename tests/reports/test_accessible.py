@@ -12,6 +12,8 @@ from pathlib import Path
 
 import pytest
 
+from reports.parts.content import Figure, Picture, Report
+from reports.parts.html import render_html
 from tests.reports.chromium import Chromium, installed
 
 HEADINGS = {f"h{level}": level for level in range(1, 7)}
@@ -87,3 +89,17 @@ def test_every_header_of_a_table_says_what_it_heads(page):
     headers = [attributes.get("scope") for tag, attributes in page.tags if tag == "th"]
     assert set(headers) == {"col", "row"}
     assert [tag for tag, _ in page.tags].count("caption") == [tag for tag, _ in page.tags].count("table")
+
+
+@needs_browser
+@pytest.mark.slow
+@pytest.mark.parametrize("still", [False, True])
+def test_moving_pictures_are_hidden_from_those_who_asked_for_less_motion(tmp_path, still):
+    dot = Picture(b'<svg xmlns="http://www.w3.org/2000/svg" width="9" height="9"><circle r="4"/></svg>', "svg")
+    report = Report("a", "b", (Figure(dot, "A caption.", "A text.", Picture(b"GIF89a", "gif")),))
+    (tmp_path / "report.html").write_bytes(render_html(report))
+    with Chromium(still=still) as chromium:
+        chromium.open(tmp_path / "report.html")
+        shown = chromium.value("document.querySelector('.moving').getBoundingClientRect().height > 0")
+        assert shown is not still
+        assert chromium.value("document.querySelector('figure > img').getBoundingClientRect().height > 0")
