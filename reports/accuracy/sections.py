@@ -91,9 +91,10 @@ def _diagram(study: Study, work: str, timed: list[Setting]) -> Figure:
     seen = f"{count(len(timed), 'setting')} of {count(len(names), 'method')}; the least error, {number(best.error, 2)} "
     seen += f"{unit_of_error}, has {best.method} ({best.named}) in {number(factor * best.wall_s, 3)} {unit}"
     dashed = any("," in name for name in names)
+    title = study.works[work]["title"]
     special = "; dashed: with shock viscosity, or on a stretched grid" if dashed else ""
     caption = (
-        f"Error against run time, {study.works[work]['title']}. A mark is a setting (median of its rounds), a line "
+        f"Error against run time, {title[0].lower()}{title[1:]}. A mark is a setting (median of its rounds), a line "
         f"joins what nothing cheaper of the same method beats{special}. Other codes (thick) are held against their own "
         f"refined runs. Seen: {seen}. From `error` and `wall_s` of `table.csv`."
     )

@@ -215,10 +215,10 @@ def plain(text: str) -> str:
 def first_sentence(text: str) -> str:
     """What a list of figures says of one: its caption up to the first colon, semicolon or full stop.
 
-    A stop within a number or after an abbreviation ("fig. 9") is none: a sentence ends before a capital.
+    What stands in brackets does not count, nor the stop of an abbreviation ("fig. 9").
     """
-    marks_hidden = _MARKS.sub(lambda found: "x" * len(found[0]), text)
-    end = re.search(r"[:;] |\.(?= +[A-ZΑ-Ω])|\.$", marks_hidden)
+    hidden = re.sub(rf"{_MARKS.pattern}|\([^()]*\)", lambda found: "x" * len(found[0]), text)
+    end = re.search(r"[:;] |(?<!fig)(?<!figs)(?<!eq)(?<! al)\.( |$)", hidden)
     return text[: end.start()] if end else text
 
 

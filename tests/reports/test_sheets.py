@@ -84,6 +84,8 @@ def test_a_link_is_a_mark_of_its_own_and_plain_text_without_it():
         ("Radius at t = 0.5 s. From `a.csv`.", "Radius at t = 0.5 s"),
         ("Tension (fig. 9) over t: up to 3 N.", "Tension (fig. 9) over t"),
         ("From `a: b` on; then", "From `a: b` on"),
+        ("Runs in space (D = 3; see fig. 2). loops: of each", "Runs in space (D = 3; see fig. 2)"),
+        ("By Wolf et al. against t. From", "By Wolf et al. against t"),
         ("One", "One"),
     ],
 )
