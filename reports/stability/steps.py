@@ -45,8 +45,8 @@ def map_items(study: Study) -> list[Item]:
         Column("distance from closed form"), Column("should grow"), Column("grow"),
     )  # fmt: skip
     caption = (
-        "Eigenvalues by line and method. Distance: the largest of those of the closed form's eigenvalues "
-        "R(λ Δt) from the nearest one found. Grow: how many modes should and do lie outside the unit circle. From `step_maps.json`."
+        "Eigenvalues by line and method. Distance: the largest of those of the closed form's eigenvalues R(λ Δt) from "
+        "the nearest one found. Grow: how many modes should and do lie outside the unit circle. From `step_maps.json`."
     )
     return [*items, Table(columns, tuple(rows), caption, small=True)]
 
