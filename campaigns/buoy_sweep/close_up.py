@@ -1,7 +1,7 @@
 """The most violent run of a sweep again with the whole tether kept, for the moving picture of its report.
 
 Samples of the buoy do not show the tether; profiles of every run would be gigabytes. So the first wave periods of the
-run whose tension peaks highest are computed once more, with the line kept sixteen times a period, in the folder
+run whose tension peaks highest are computed once more, with the line kept twenty-four times a period, in the folder
 `close_up` of its own: a hundredth of a sweep. Where no run goes slack nothing snaps, and nothing is computed.
 """
 
@@ -15,7 +15,7 @@ from campaigns.machinery.runner import Job, Plan, Summary, make_job, run_campaig
 FOLDER = "close_up"  # within that of the sweep: a table of its own, and a trajectory
 COLUMNS = ("steepness", "status", "periods", "wall_s", "run_key", "message")
 PERIODS = 12  # the first snaps come after five
-FRAMES = 16  # of the line, a wave period
+FRAMES = 24  # of the line, a wave period
 
 
 def and_close_up(runs: Callable, periods: int) -> Callable:

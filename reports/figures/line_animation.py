@@ -32,7 +32,7 @@ def line_animation(time_s, s_m, x_m, z_m, tension_N) -> Picture:
             pull.set_data(s_m, 1e-3 * tension_N[row])
             clock.set_text(f"t = {1e3 * time_s[row]:.0f} ms")
 
-        return moving_picture(figure, len(time_s), show, _FRAMES_PER_SECOND)
+        return moving_picture(figure, [curve, end, pull, clock], len(time_s), show, _FRAMES_PER_SECOND)
 
 
 def line_strip(time_s: np.ndarray, x_m: np.ndarray, z_m: np.ndarray) -> Picture:

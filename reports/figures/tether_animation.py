@@ -9,7 +9,7 @@ import numpy as np
 from ..parts.content import Picture
 from ..parts.style import BLUE, INK, ORANGE, SKY, SOFT, VERMILION, moving_picture, picture_of, sheet
 
-_FRAMES_PER_SECOND = 8
+_FRAMES_PER_SECOND = 12
 _STILLS = 6
 _MARGIN_M = 1.0
 
@@ -45,7 +45,7 @@ def tether_animation(snap: Snap) -> Picture:
             clock.set_text(f"$t/T_i$ = {snap.periods[row]:.2f}")
             moment.set_data([snap.periods[row]], [1e-3 * np.interp(snap.periods[row], *snap.record)])
 
-        return moving_picture(figure, len(snap.periods), show, _FRAMES_PER_SECOND, 80)
+        return moving_picture(figure, [*drawn.moving, clock, moment], len(snap.periods), show, _FRAMES_PER_SECOND)
 
 
 def tether_stills(snap: Snap, rows: np.ndarray) -> Picture:
@@ -97,6 +97,7 @@ class _Scene:
         (self.slack,) = axes.plot([], [], color=VERMILION, linewidth=2.4, solid_capstyle="round")
         self.buoy = axes.add_patch(Circle((0.0, 0.0), radius, facecolor=ORANGE, edgecolor=INK, linewidth=0.8, zorder=3))
         axes.plot([0.0], [0.0], "^", color=INK, markersize=5)
+        self.moving = [self.surface, self.rope, self.slack, self.buoy]
 
     def show(self, row: int) -> None:
         """Draw one frame."""
