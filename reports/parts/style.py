@@ -100,7 +100,8 @@ def moving_picture(figure: Figure, artists: list, frames: int, show: Callable[[i
             artist.draw(canvas.get_renderer())
         images.append(Image.fromarray(np.array(canvas.buffer_rgba())).convert("RGB"))
     sample = np.hstack([np.asarray(images[frame]) for frame in range(0, frames, max(1, frames // 6))])
-    palette = Image.fromarray(sample).quantize(_COLOURS)
+    # not by how often a colour comes: a small red dot would turn brown
+    palette = Image.fromarray(sample).quantize(_COLOURS, Image.Quantize.MAXCOVERAGE)
     first, *rest = (image.quantize(palette=palette, dither=Image.Dither.NONE) for image in images)
     target = io.BytesIO()
     first.save(target, "gif", save_all=True, append_images=rest, duration=round(1000 / per_second), loop=0)

@@ -1,15 +1,19 @@
 """The close-up of a sweep: the run that goes slack and peaks highest, once more with its line, and never twice."""
 
 import csv
+import io
 from dataclasses import dataclass, replace
 
 import numpy as np
 import pytest
+from matplotlib.colors import to_rgb
+from PIL import Image
 
 from campaigns import buoy_sweep
 from campaigns.buoy_sweep.close_up import FRAMES, PERIODS
 from engine import Trajectory
 from engine.trajectory import Profiles
+from reports.parts.style import VERMILION
 from tests.campaigns.fake_engine import FakeEngine, sines
 
 WORDS = ["--steepness", "0.02", "0.05", "0.13", "--periods", "15", "--transient", "3", "--backend", "threading",
@@ -106,3 +110,8 @@ def test_the_report_shows_it_moving_and_as_stills_the_same_each_time(sweep):
     assert figure.picture.kind == "svg" and figure.moving.data.startswith(b"GIF89a")
     assert "kA = 0.13" in figure.caption and len(figure.moving.data) < 1e6
     assert close_up_items(out) == [heading, figure]
+    with Image.open(io.BytesIO(figure.moving.data)) as moving:
+        colours = np.array([colour for _, colour in moving.convert("RGB").getcolors(1 << 20)])
+    for wanted in ("#ffffff", VERMILION):  # paper, and the small dot that marks the moment
+        off = np.abs(colours - 255 * np.array(to_rgb(wanted))).sum(axis=1)
+        assert off.min() < 24
