@@ -114,4 +114,4 @@ def test_the_report_shows_it_moving_and_as_stills_the_same_each_time(sweep):
         colours = np.array([colour for _, colour in moving.convert("RGB").getcolors(1 << 20)])
     for wanted in ("#ffffff", VERMILION):  # paper, and the small dot that marks the moment
         off = np.abs(colours - 255 * np.array(to_rgb(wanted))).sum(axis=1)
-        assert off.min() < 24
+        assert off.min() < 60, "20 of 256 in each of red, green and blue; brown instead of vermilion is 177 off"
