@@ -7,7 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..parts.content import Picture
-from ..parts.style import BLUE, INK, ORANGE, SKY, SOFT, VERMILION, moving_picture, picture_of, sheet
+from ..parts.moving import moving_picture
+from ..parts.style import BLUE, INK, ORANGE, SKY, SOFT, VERMILION, picture_of, sheet
 
 _FRAMES_PER_SECOND = 12
 _STILLS = 6
