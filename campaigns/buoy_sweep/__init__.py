@@ -162,6 +162,7 @@ def _scenes(name: str, changes: dict, steepness: list[float], analysed: bool, fa
 def sweep(order: Order, argv: list[str], simulate) -> int:
     """Run it: compile, run, table, provenance, report. Raises CampaignStopped, OSError, KeyboardInterrupt."""
     from campaigns.buoy_sweep import repeats
+    from campaigns.buoy_sweep.close_up import and_close_up
     from campaigns.buoy_sweep.dimensions import run_where_needed
     from campaigns.buoy_sweep.rows import COLUMNS, STROBE_TOLERANCE, buoy_row, regime_of
     from campaigns.buoy_sweep.seeds import SEED_MPS
@@ -202,4 +203,5 @@ def sweep(order: Order, argv: list[str], simulate) -> int:
     if order.accuracy:
         verdict = partial(regime_of, transient_periods=order.transient)
         runs = repeats.and_again(runs, order.periods, "steepness", verdict)
+    runs = and_close_up(runs, order.periods)
     return session.conduct(CAMPAIGN, MODULE, argv, plan, jobs, parameters, report=order.how.report, runs=runs)

@@ -8,7 +8,15 @@ import math
 
 import numpy as np
 
-from reports.buoy_sweep.motion import LONGEST_PERIOD, STROBE_TOLERANCE, carried, state_of, tighter_scene, verdict_of
+from reports.buoy_sweep.motion import (
+    LONGEST_PERIOD,
+    STROBE_TOLERANCE,
+    carried,
+    evidence_text,
+    state_of,
+    tighter_scene,
+    verdict_of,
+)
 
 COLUMNS = (
     "steepness",
@@ -16,6 +24,8 @@ COLUMNS = (
     "status",
     "regime",
     "regime_tighter",
+    "regime_reason",
+    "evidence",
     "strobed_period",
     "radius_min_m",
     "radius_max_m",
@@ -70,8 +80,9 @@ def buoy_row(trajectory, transient_periods: int, simulate=None) -> dict[str, obj
     trajectory: an engine Trajectory of a scene with waves and a buoy, run to its end or not.
     transient_periods: wave periods left out of extremes, slack and strobed period; a record that does not outlast them
     by one period fills none of these.
-    regime and exponents: of scenes with output.tangent_vectors, run to their end; all periods count, those with a loop
-    release too. A run in three dimensions has no tangent exponent, and the regime that its samples alone show.
+    regime, the reason for it in a sentence, the tests behind it (`motion.evidence_text`) and exponents: of scenes with
+    output.tangent_vectors, run to their end; all periods count, those with a loop release too. A run in three
+    dimensions has no tangent exponent, and the regime that its samples alone show.
     offplane_growth: of scenes with output.lateral_growth; none where a loop was released after the transient, because
     across the plane a loop has no rate of its own.
     buoy_lateral_max_m, rope_lateral_max_m: largest |y| of the buoy, and of any node, after the transient, in three
@@ -104,6 +115,8 @@ def buoy_row(trajectory, transient_periods: int, simulate=None) -> dict[str, obj
             row |= {
                 "regime": verdict.regime,
                 "regime_tighter": tighter,
+                "regime_reason": verdict.reason,
+                "evidence": evidence_text(verdict),
                 "lyapunov_tangent_bits_per_period": _number(tangent.value),
                 "lyapunov_tangent_error": _number(tangent.error),
                 "lyapunov_wolf_bits_per_period": _number(wolf.value),

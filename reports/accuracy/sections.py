@@ -91,11 +91,12 @@ def _diagram(study: Study, work: str, timed: list[Setting]) -> Figure:
     seen = f"{count(len(timed), 'setting')} of {count(len(names), 'method')}; the least error, {number(best.error, 2)} "
     seen += f"{unit_of_error}, has {best.method} ({best.named}) in {number(factor * best.wall_s, 3)} {unit}"
     dashed = any("," in name for name in names)
+    title = study.works[work]["title"]
+    special = "; dashed: with shock viscosity, or on a stretched grid" if dashed else ""
     caption = (
-        f"Error against run time. A mark is a setting (median of its rounds), a line joins what nothing cheaper of the "
-        f"same method beats{'; dashed: with shock viscosity, or on a stretched grid' if dashed else ''}. Other "
-        f"codes (thick) are held against their own refined runs. Seen: {seen}. From `error` and `wall_s` of "
-        "`table.csv`."
+        f"Error against run time, {title[0].lower()}{title[1:]}. A mark is a setting (median of its rounds), a line "
+        f"joins what nothing cheaper of the same method beats{special}. Other codes (thick) are held against their own "
+        f"refined runs. Seen: {seen}. From `error` and `wall_s` of `table.csv`."
     )
     return Figure(picture, caption, f"Error over stepping time for every method, both on log scales: {seen}.")
 

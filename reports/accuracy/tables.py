@@ -40,7 +40,7 @@ def order_items(study: Study) -> list[Item]:
         Column("measured"),
         Column("slopes, coarse to fine", align="left"),
         Column("last difference"),
-        Column("", align="left"),
+        Column("verdict", align="left"),
     )
     rows = tuple(
         (

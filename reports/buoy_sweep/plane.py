@@ -10,7 +10,7 @@ from ..figures.transverse_exponents import transverse_exponents
 from ..parts.content import Column, Figure, Heading, Item, Table, Text
 from ..parts.folder import Folder
 from ..parts.wording import EMPTY, count, decimals, number, percent, ranges
-from .runs import Run, lateral, planar_releases, value
+from .runs import Run, lateral, linked, planar_releases, value
 
 # What `campaigns.out_of_plane` finds, and tests/reports/test_plane_or_space.py holds it to.
 COMPARED = (
@@ -143,7 +143,7 @@ def _table(runs: list[Run], transient: int) -> Table:
     )
     rows = tuple(
         (
-            number(run.steepness),
+            linked(run),
             "3" if run.in_space else "2",
             number(planar_releases(run)),
             number(value(run, "loop_releases")) if run.in_space else EMPTY,

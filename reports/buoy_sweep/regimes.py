@@ -11,7 +11,7 @@ from ..parts.content import Column, Figure, Heading, Item, Table, Text
 from ..parts.folder import Folder
 from ..parts.wording import EMPTY, decimals, number
 from .motion import verdict_of
-from .runs import PAPER_STEEPNESS, Run, load, value
+from .runs import PAPER_STEEPNESS, Run, linked, load, value
 
 EXPONENTS = (
     ("tangent dynamics", "lyapunov_tangent_bits_per_period", "lyapunov_tangent_error"),
@@ -74,7 +74,7 @@ def _table(runs: list[Run], transient: int) -> Table:
     sigmas = (Column(f"σ, {label}", "bits/T") for label, *_ in EXPONENTS)
     heads = (Column("kA"), Column("regime", align="left"), *sigmas)
     rows = tuple(
-        (number(run.steepness), run.row["regime"], *(_with_error(run, *names) for _, *names in EXPONENTS))
+        (linked(run), run.row["regime"], *(_with_error(run, *names) for _, *names in EXPONENTS))
         for run in runs
     )
     caption = (

@@ -13,6 +13,7 @@ from ..parts.provenance import provenance_items
 from ..parts.symbols import T_I
 from ..parts.wording import count, decimals, number, percent
 from .answer import short_answer
+from .close_up import close_up_items
 from .equations import equation_items
 from .figures import run_items, section_figure
 from .physics import Modes, natural_frequencies
@@ -20,6 +21,7 @@ from .plane import plane_items
 from .regimes import exponent_curves, judged, regime_items
 from .repeats import accuracy_items
 from .runs import COLUMNS, Run, chosen_runs, load, read_runs, value
+from .sheets import explorer, sheet_items
 from .tables import runs_items, scene_items, time_items
 from .warnings import warnings
 
@@ -35,6 +37,7 @@ def report(directory: str | Path) -> Report:
         *_question(runs, transient, tolerance, modes),
         *_orbit(runs, transient),
         *_chosen(folder, runs, transient, tolerance, modes),
+        *close_up_items(folder.directory),
         *regime_items(folder, runs, transient),
         *plane_items(folder, runs, transient),
         *accuracy_items(folder.directory, "kA"),
@@ -46,6 +49,7 @@ def report(directory: str | Path) -> Report:
         Heading("Equations"),
         *equation_items(folder.scene.tether.tension.law),
         *provenance_items(folder),
+        *sheet_items(folder, runs, transient, modes),
     ]
     title = folder.scene.title or folder.scene.name
     return Report("Tethered buoy: a sweep of wave steepness", title, tuple(items))
@@ -109,14 +113,8 @@ def _orbit(runs: tuple[Run, ...], transient: int) -> list[Item]:
         f"Below: share of the time without tension{exponents}. Seen: {seen}{share}.{left_out} From `radius_m` of every "
         "trajectory, `slack_fraction` of `table.csv`."
     )
-    return [
-        heading,
-        Figure(
-            picture,
-            caption,
-            f"Orbit diagram of strobed radius over wave steepness, slack fraction below: {seen}{share}.",
-        ),
-    ]
+    alt = f"Orbit diagram of strobed radius over wave steepness, slack fraction below: {seen}{share}."
+    return [heading, explorer(runs, Figure(picture, caption, alt))]
 
 
 def _chosen(folder: Folder, runs: tuple[Run, ...], transient: int, tolerance: float, modes: Modes | None) -> list[Item]:

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
+from ..parts.content import link
 from ..parts.folder import Folder
+from ..parts.wording import number
 from .physics import water_surface_m
 
 COLUMNS = (
@@ -52,7 +54,7 @@ class Run:
     """One row of the table with what its trajectory adds.
 
     `section` (m, 2) strobed r (m) and r' (m/s) after the transient, empty where the run is shorter; `fault` why the
-    trajectory of a run that should have one could not be read, else "".
+    trajectory of a run that should have one could not be read, else ""; `anchor` the place of its sheet in the report.
     """
 
     row: dict
@@ -60,6 +62,7 @@ class Run:
     section: np.ndarray
     emergence: Emergence | None
     fault: str
+    anchor: str = ""
 
     @property
     def steepness(self) -> float:
@@ -84,7 +87,8 @@ def read_runs(folder: Folder) -> tuple[Run, ...]:
     """Every run of the table, by steepness; a trajectory that cannot be read leaves a run with a `fault`."""
     transient = int(folder.provenance.get("transient") or 0)
     table = folder.table.sort_values("steepness", kind="stable")
-    return tuple(_read_run(folder, row, transient) for row in table.to_dict("records"))
+    rows = enumerate(table.to_dict("records"), 1)
+    return tuple(replace(_read_run(folder, row, transient), anchor=f"run-{place}") for place, row in rows)
 
 
 def load(folder: Folder, run: Run):
@@ -183,10 +187,15 @@ def several_points(run: Run, tolerance: float) -> bool:
     return bool(np.ptp(orbit_radii(run)) > tolerance * width)
 
 
+def linked(run: Run) -> str:
+    """The run's steepness, as a link to its sheet."""
+    return link(number(run.steepness), run.anchor)
+
+
 def value(run: Run, column: str) -> float:
     """A number of the run's row, nan where the table leaves it empty."""
-    number = run.row[column]
-    return math.nan if number is None or number == "" else float(number)
+    found = run.row[column]
+    return math.nan if found is None or found == "" else float(found)
 
 
 def lateral(run: Run, body: str) -> float:

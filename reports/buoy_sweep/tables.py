@@ -15,7 +15,7 @@ from ..parts.symbols import OMEGA_I, OMEGA_R, OMEGA_THETA, T_S
 from ..parts.wording import EMPTY, decimals, listed, number, percent
 from .motion import LONGEST_PERIOD
 from .physics import Modes
-from .runs import Run, period_length, value
+from .runs import Run, linked, period_length, value
 
 
 def runs_items(runs: tuple[Run, ...], transient: int, tolerance: float) -> list[Item]:
@@ -45,7 +45,7 @@ def runs_items(runs: tuple[Run, ...], transient: int, tolerance: float) -> list[
     )
     rows = tuple(
         (
-            number(run.steepness),
+            linked(run),
             *(["3" if run.in_space else "2"] if space else []),
             run.row["status"],
             _period_cell(run),
@@ -57,7 +57,8 @@ def runs_items(runs: tuple[Run, ...], transient: int, tolerance: float) -> list[
         "Every run of `table.csv`. N (`strobed_period`): the buoy's motion repeats after N wave periods to "
         f"{percent(tolerance)} of its range, N ≤ {LONGEST_PERIOD}; “none” where no N does. T: tension at the top. "
         f"slack: share of the time without tension. N, r, θ, T and slack leave out the first {transient} wave "
-        "periods. turn: largest turn of the tether within one element. loops: loop releases. A dash: not known."
+        "periods. turn: largest turn of the tether within one element. loops: loop releases. A dash: not known. On the "
+        "page kA leads to the sheet of the run."
         + (" D: dimensions of the motion." if space else "")
     )
     return [Heading("Table of runs"), Table(heads, rows, caption, small=True)]

@@ -29,7 +29,7 @@ def energy_shares(panels: list[EnergyPanel]) -> Picture:
         grid = figure.subplots(rows, min(len(panels), 4), squeeze=False, sharey=True)
         for axes, panel in zip(grid.flat, panels, strict=False):
             shares = 100 * np.maximum(panel.shares, 0.0)
-            shown = axes.stackplot(1e3 * panel.time_s, shares, colors=_COLOURS, linewidth=0)
+            shown = axes.stackplot(1e3 * panel.time_s, shares, colors=_COLOURS, linewidth=0.6, edgecolor="white")
             axes.set_title(panel.title)
             axes.set_xlim(0.0, 1e3 * panel.time_s[-1])
             axes.set_ylim(0.0, 100.0)

@@ -2,27 +2,20 @@
 
 from __future__ import annotations
 
-import tempfile
-from pathlib import Path
-
 import numpy as np
 
 from ..parts.content import Picture
+from ..parts.moving import moving_picture
 from ..parts.style import BLUE, INK, SOFT, VERMILION, picture_of, sheet
 
 _FRAMES_PER_SECOND = 10
-_DOTS_PER_INCH = 90
 _STRIP = 6
 
 
 def line_animation(time_s, s_m, x_m, z_m, tension_N) -> Picture:
     """The GIF: shape above, tension along the line below; times (m,), places (n,), the other arrays (m, n)."""
-    from matplotlib.animation import PillowWriter
-    from matplotlib.backends.backend_agg import FigureCanvasAgg
-
     limits = _limits(x_m, z_m)
-    with sheet(3.6) as figure, tempfile.TemporaryDirectory() as folder:
-        FigureCanvasAgg(figure)
+    with sheet(3.6) as figure:
         shape, along = figure.subplots(2, 1)
         (curve,) = shape.plot([], [], color=BLUE, linewidth=1.2)
         (end,) = shape.plot([], [], "o", color=VERMILION, markersize=4)
@@ -33,19 +26,14 @@ def line_animation(time_s, s_m, x_m, z_m, tension_N) -> Picture:
         along.set_xlabel("$s$ (m), unstretched, from the fixed end")
         along.set_ylabel("$T$ (kN)")
         clock = shape.set_title("t = 0 ms")
-        # every frame has the same layout, found once
-        figure.draw_without_rendering()
-        figure.set_layout_engine("none")
-        path = Path(folder, "line.gif")
-        writer = PillowWriter(fps=_FRAMES_PER_SECOND)
-        with writer.saving(figure, str(path), dpi=_DOTS_PER_INCH):
-            for row, time in enumerate(time_s):
-                curve.set_data(x_m[row], z_m[row])
-                end.set_data(x_m[row, -1:], z_m[row, -1:])
-                pull.set_data(s_m, 1e-3 * tension_N[row])
-                clock.set_text(f"t = {1e3 * time:.0f} ms")
-                writer.grab_frame()
-        return Picture(path.read_bytes(), "gif")
+
+        def show(row: int) -> None:
+            curve.set_data(x_m[row], z_m[row])
+            end.set_data(x_m[row, -1:], z_m[row, -1:])
+            pull.set_data(s_m, 1e-3 * tension_N[row])
+            clock.set_text(f"t = {1e3 * time_s[row]:.0f} ms")
+
+        return moving_picture(figure, [curve, end, pull, clock], len(time_s), show, _FRAMES_PER_SECOND)
 
 
 def line_strip(time_s: np.ndarray, x_m: np.ndarray, z_m: np.ndarray) -> Picture:

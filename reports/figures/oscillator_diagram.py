@@ -50,7 +50,7 @@ def oscillator_diagram(values, strobed, exponents, errors, slack, label: str, ma
         middle.legend(loc="lower center", bbox_to_anchor=(0.5, 0.99), ncols=3, markerscale=4, borderpad=0.1)
         low.plot(across.ravel(), slack.ravel(), ".", color=BLUE, markersize=1.3)
         low.set_ylim(-0.03, 1.03)
-        low.set_ylabel("slack\nshare")
+        low.set_ylabel("slack share\n(–)")
         low.set_xlabel(label)
         for at, text in marks:
             if values[0] <= at <= values[-1]:

@@ -12,7 +12,7 @@ ROOM = 1.25  # half width of a panel; what lies outside is drawn on its edge
 
 def step_maps(methods: dict[str, np.ndarray]) -> Picture:
     """methods: name -> eigenvalues (m,) complex. Crosses: outside the circle; beyond the panel, on its edge."""
-    with sheet(1.75) as figure:
+    with sheet(1.95) as figure:
         panels = figure.subplots(1, len(methods), squeeze=False, sharey=True)[0]
         turn = np.linspace(0.0, 2.0 * np.pi, 200)
         for axes, (name, values) in zip(panels, methods.items(), strict=True):
@@ -25,4 +25,6 @@ def step_maps(methods: dict[str, np.ndarray]) -> Picture:
             axes.plot(shown.real[outside], shown.imag[outside], "x", color=VERMILION, markersize=4.0)
             axes.set(xlim=(-ROOM, ROOM), ylim=(-ROOM, ROOM), aspect="equal", xticks=(-1, 0, 1), yticks=(-1, 0, 1))
             axes.set_title(name, fontsize=7.0)
+            axes.set_xlabel(r"Re $\mu$ (–)")
+        panels[0].set_ylabel(r"Im $\mu$ (–)")
         return picture_of(figure)

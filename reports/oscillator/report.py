@@ -166,9 +166,9 @@ def _exponents(study: Study) -> list[Item]:
     )
     seen = f"the mean ends at {_with_error(study.number('exponents', 'lambda_1_nats_per_time'), error)}"
     caption = (
-        f"Left: {LAMBDA_1} as the averages grow longer; {seen}. Right: scatter of the mean of k starts against k "
-        "(bars: two "
-        "standard errors of the scatter); an honest error falls as the line does. From the part `exponents`."
+        f"Errors of the largest exponent. Left: {LAMBDA_1} as the averages grow longer; {seen}. Right: scatter of the "
+        "mean of k starts against k (bars: two standard errors of the scatter); an honest error falls as the line "
+        "does. From the part `exponents`."
     )
     figure = Figure(
         oscillator_errors(arrays["convergence"], of_start),

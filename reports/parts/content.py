@@ -2,8 +2,8 @@
 
 A report is one flat list of the frozen records below. `html` and `pdf` each walk the same list, so the
 page and the PDF cannot drift apart. Text is plain text: the renderers escape it. Two marks are understood (`spans`): a
-pair of backquotes for a file, column or key name, because captions name their columns all the time, and the subscripts
-made by `sub`, because the symbols of the paper have them.
+pair of backquotes for a file, column or key name, because captions name their columns all the time, and what `sub` and
+`link` make: subscripts, because the symbols of the paper have them, and links within the page.
 """
 
 from __future__ import annotations
@@ -60,7 +60,8 @@ class Picture:
 class Figure:
     """A drawing with its caption (what is seen, from which columns) and its description for those who cannot see it.
 
-    `moving`: shown instead of `picture` where a drawing can move, on the page.
+    `moving`: shown below `picture` on the page, in a part that can be closed; those who asked their system for less
+    motion see `picture` alone.
     Raises ValueError when caption or description is empty: a figure without them is not allowed into a report.
     """
 
@@ -116,7 +117,51 @@ class Listing:
     text: str
 
 
-Item = Heading | Text | Bullets | Equation | Figure | Table | Notice | Listing
+@dataclass(frozen=True)
+class Explorer:
+    """A diagram to look around in, for a page whose reader allows scripts; `figure` stands for it everywhere else.
+
+    A diagram has columns of points over a parameter, one column a run, and curves of one value a run below.
+    `title`: its heading; `x_label`, `y_label`: with units; `columns`: the runs from left to right, at least one. Each
+    shows the `Sheet` of its anchor when it is chosen. `lower`: (label, values, errors) of the curves below, NaN where a
+    run has none.
+    """
+
+    figure: Figure
+    title: str
+    x_label: str
+    y_label: str
+    columns: tuple[ExplorerColumn, ...]
+    lower: tuple[tuple[str, tuple[float, ...], tuple[float, ...]], ...] = ()
+
+
+@dataclass(frozen=True)
+class ExplorerColumn:
+    """One run of an explorer: its parameter, its points (or none), its name in a list, the anchor of its sheet."""
+
+    at: float
+    points: tuple[float, ...]
+    name: str
+    anchor: str
+
+
+@dataclass(frozen=True)
+class Sheet:
+    """All about one run on a few square inches of the page; the PDF, which shows chosen runs in full, leaves it out.
+
+    `drawing`: an <svg> element with its text alternative, made here and not from outside, in the colours of the page;
+    "" for a run without a record. `facts`: (name, value); `table`: the evidence, None where there is none.
+    """
+
+    anchor: str
+    title: str
+    facts: tuple[tuple[str, str], ...]
+    lines: tuple[str, ...] = ()
+    drawing: str = ""
+    table: Table | None = None
+
+
+Item = Heading | Text | Bullets | Equation | Figure | Table | Notice | Listing | Explorer | Sheet
 
 
 @dataclass(frozen=True)
@@ -130,7 +175,8 @@ class Report:
 
 # Characters of Unicode's private area: no text from outside carries them, so no text from outside becomes a subscript.
 _DOWN, _UP = "\ue000", "\ue001"
-_MARKS = re.compile(f"`([^`\\n]+)`|{_DOWN}([^{_UP}]*){_UP}")
+_TO, _SAY, _BACK = "\ue002", "\ue003", "\ue004"
+_MARKS = re.compile(f"`([^`\\n]+)`|{_DOWN}([^{_UP}]*){_UP}|{_TO}([^{_SAY}]*){_SAY}([^{_BACK}]*){_BACK}")
 
 
 def sub(text: str) -> str:
@@ -138,8 +184,15 @@ def sub(text: str) -> str:
     return f"{_DOWN}{text}{_UP}"
 
 
+def link(text: str, anchor: str) -> str:
+    """The text as a link to a place of the page; where there is no such place, in the PDF, the text alone."""
+    return f"{_TO}{anchor}{_SAY}{text}{_BACK}"
+
+
 def spans(text: str) -> list[tuple[str, str]]:
-    """Split text into (style, piece), style being "", "code" or "sub"; a backquote without a partner stays as written.
+    """Split text into (style, piece), style being "", "code", "sub" or, for a link, "#" and its anchor.
+
+    A backquote without a partner stays as written.
 
     >>> spans("from `time_s` on")
     [('', 'from '), ('code', 'time_s'), ('', ' on')]
@@ -147,7 +200,8 @@ def spans(text: str) -> list[tuple[str, str]]:
     pieces, at = [], 0
     for found in _MARKS.finditer(text):
         pieces.append(("", text[at : found.start()]))
-        pieces.append(("code", found[1]) if found[1] is not None else ("sub", found[2]))
+        code, below, anchor, said = found.groups()
+        pieces.append(("code", code) if code else ("sub", below) if below is not None else (f"#{anchor}", said))
         at = found.end()
     pieces.append(("", text[at:]))
     return [(style, piece) for style, piece in pieces if piece]
@@ -156,6 +210,16 @@ def spans(text: str) -> list[tuple[str, str]]:
 def plain(text: str) -> str:
     """The text without its marks, for places that take letters only, such as a text alternative."""
     return "".join(piece for _, piece in spans(text))
+
+
+def first_sentence(text: str) -> str:
+    """What a list of figures says of one: its caption up to the first colon, semicolon or full stop.
+
+    What stands in brackets does not count, nor the stop of an abbreviation ("fig. 9").
+    """
+    hidden = re.sub(rf"{_MARKS.pattern}|\([^()]*\)", lambda found: "x" * len(found[0]), text)
+    end = re.search(r"[:;] |(?<!fig)(?<!figs)(?<!eq)(?<! al)\.( |$)", hidden)
+    return text[: end.start()] if end else text
 
 
 def section_ids(items: tuple[Item, ...]) -> dict[int, str]:

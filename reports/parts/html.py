@@ -1,11 +1,28 @@
-"""A report as one HTML page that needs nothing else: no network, no script, figures and equations inside."""
+"""A report as one HTML page that needs nothing else: no network, figures and equations inside.
+
+The one script there is, of the explorer (`templates/explorer.js`), adds to a page that says everything without it; a
+report without an explorer has none.
+"""
 
 from __future__ import annotations
 
 import base64
 
-from .content import Equation, Figure, Heading, Picture, Report, Table, plain, section_ids, spans
+from .content import (
+    Equation,
+    Explorer,
+    Figure,
+    Heading,
+    Picture,
+    Report,
+    Table,
+    first_sentence,
+    plain,
+    section_ids,
+    spans,
+)
 from .equations import equation_svg
+from .explorer_data import explorer_json
 
 _MEDIA = {"svg": "image/svg+xml", "png": "image/png", "gif": "image/gif"}
 
@@ -21,7 +38,8 @@ def render_html(report: Report) -> bytes:
         trim_blocks=True,
         lstrip_blocks=True,
     )
-    environment.globals.update(spans=spans, plain=plain, data_uri=data_uri, equation_svg=equation_svg)
+    environment.globals.update(spans=spans, plain=plain, data_uri=data_uri)
+    environment.globals.update(equation_svg=equation_svg, explorer_json=explorer_json, first_sentence=first_sentence)
     template = environment.get_template("report.html.jinja")
     return template.render(report=report, blocks=_numbered(report)).encode()
 
@@ -39,8 +57,8 @@ def _numbered(report: Report) -> list[dict]:
         number = None
         if isinstance(item, Heading):
             number = sections[index]
-        elif isinstance(item, (Figure, Table, Equation)):
-            counts[kind] = counts.get(kind, 0) + 1
-            number = counts[kind]
+        elif isinstance(item, (Figure, Explorer, Table, Equation)):
+            counted = "figure" if isinstance(item, Explorer) else kind
+            number = counts[counted] = counts.get(counted, 0) + 1
         blocks.append({"kind": kind, "item": item, "number": number})
     return blocks

@@ -13,14 +13,17 @@ from pathlib import Path
 from .content import (
     Bullets,
     Equation,
+    Explorer,
     Figure,
     Heading,
     Item,
     Listing,
     Notice,
     Report,
+    Sheet,
     Table,
     Text,
+    first_sentence,
     plain,
     section_ids,
     spans,
@@ -52,6 +55,14 @@ _PREAMBLE = """\
 #v(1em)
 #outline(title: [Contents], depth: 2, indent: 1.2em)
 """
+# A list of figures shows the first sentence of each caption; `shown` is on while one is set.
+_FIGURES = """\
+#let shown = state("list-of-figures", false)
+#let said(whole, short) = context if shown.get() { short } else { whole }
+#shown.update(true)
+#outline(title: [Figures], target: figure.where(kind: image))
+#shown.update(false)
+"""
 _SHORT_TABLE = 12  # rows up to which a table is kept on one page
 _COLOURS = {"note": ('rgb("#0b5c94")', 'rgb("#eef4f9")'), "warning": ('rgb("#9a4a00")', 'rgb("#fff4e5")')}
 
@@ -80,7 +91,14 @@ def typst_source(report: Report) -> tuple[str, dict[str, bytes]]:
             title=quote(report.title), short_title=quote(_short(report.title)), subtitle=quote(report.subtitle)
         )
     ]
+    if any(isinstance(item, (Figure, Explorer)) for item in report.items):
+        parts.append(_FIGURES)
+    parts.append("#pagebreak(weak: true)")
     for index, (item, following) in enumerate(zip_longest(report.items, report.items[1:])):
+        if isinstance(item, Sheet):
+            continue  # the page has a sheet for every run; on paper they would be hundreds
+        if isinstance(item, Explorer):
+            item = item.figure
         if isinstance(item, Figure):
             name = f"figure-{len(pictures) + 1}.{item.picture.kind}"
             pictures[name] = item.picture.data
@@ -107,7 +125,8 @@ def quote(text: str) -> str:
 def _inline(text: str) -> str:
     """A Typst content expression for text with `code` spans."""
     forms = {"": "text", "code": "raw", "sub": "sub"}
-    pieces = [f"{forms[style]}({quote(piece)})" for style, piece in spans(text)]
+    # the places that links lead to are on the page only
+    pieces = [f"{forms.get(style, 'text')}({quote(piece)})" for style, piece in spans(text)]
     return " + ".join(pieces) or '""'
 
 
@@ -136,7 +155,8 @@ def _block(item: Item) -> str:
 
 def _figure(item: Figure, name: str) -> str:
     image = f"image({quote(name)}, width: 100%, alt: {quote(plain(item.alt))})"
-    return f"#figure({image}, caption: {_inline(item.caption)})"
+    caption = f"said({_inline(item.caption)}, {_inline(first_sentence(item.caption))})"
+    return f"#figure({image}, caption: {caption})"
 
 
 def _table(item: Table) -> str:

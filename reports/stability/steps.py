@@ -33,8 +33,8 @@ def map_items(study: Study) -> list[Item]:
         largest = max(entry["largest"] for entry in line["methods"].values())
         seen = f"{line['title']}, steps of {number(line['step_s'], 3)} s; largest modulus {number(largest, 7)}"
         caption = (
-            f"A line {seen}. Dots: inside or on the unit circle; crosses: outside, those beyond the panel on its edge. "
-            "From `step_maps.json`."
+            f"A line {seen}. Eigenvalues μ, dots: inside or on the unit circle; crosses: outside, those beyond the "
+            "panel on its edge. From `step_maps.json`."
         )
         items.append(
             Figure(step_maps(values), caption, f"Eigenvalues in the complex plane beside the unit circle: {seen}.")
@@ -45,8 +45,8 @@ def map_items(study: Study) -> list[Item]:
         Column("distance from closed form"), Column("should grow"), Column("grow"),
     )  # fmt: skip
     caption = (
-        "Distance: the largest of the distances of the closed form's eigenvalues R(λ Δt) from the nearest one found. "
-        "Grow: how many modes should and do lie outside the unit circle. From `step_maps.json`."
+        "Eigenvalues by line and method. Distance: the largest of those of the closed form's eigenvalues R(λ Δt) from "
+        "the nearest one found. Grow: how many modes should and do lie outside the unit circle. From `step_maps.json`."
     )
     return [*items, Table(columns, tuple(rows), caption, small=True)]
 
@@ -81,9 +81,9 @@ def share_items(study: Study) -> list[Item]:
         Column("iteration", "µs"), Column("step", "µs"), Column("kernels that only some scenes call", align="left"),
     )  # fmt: skip
     caption = (
-        "operations: floating-point operations of one Newton iteration on 41 nodes, functions: of them square roots, "
-        "exponentials and the like; output: of one stored sample. Counted from the kernels' own sources. Times: "
-        f"medians of {study.shares['rounds']} rounds in turns on one core. From `scene_shares.json`."
+        "Cost of the parts of a scene. Operations: floating-point ones of one Newton iteration on 41 nodes, functions: "
+        "of them square roots, exponentials and the like; output: of one stored sample. Counted from the kernels' own "
+        f"sources. Times: medians of {study.shares['rounds']} rounds in turns on one core. From `scene_shares.json`."
     )
     low, high = operations.min() / operations[0], operations.max() / operations[0]
     seen = f"from {number(low, 2)} to {number(high, 2)} of the first scene's operations"

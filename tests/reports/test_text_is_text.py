@@ -8,12 +8,15 @@ import typst
 from reports.parts.content import (
     Bullets,
     Column,
+    Explorer,
+    ExplorerColumn,
     Figure,
     Heading,
     Listing,
     Notice,
     Picture,
     Report,
+    Sheet,
     Table,
     Text,
     plain,
@@ -44,10 +47,13 @@ def everywhere(text: str) -> Report:
     """A report that has the text in every place where text can be."""
     some = text or "x"
     column = Column(some, some, "left")
+    drawing = Figure(Picture(DOT, "svg"), f"{some} caption", f"{some} alternative")
     items = [
         Heading(text), Text(text), Bullets((text, text)), Listing(text), Notice("note", text, (text,)),
-        Figure(Picture(DOT, "svg"), f"{some} caption", f"{some} alternative"), Heading(text, 2),
+        drawing, Heading(text, 2),
         Table((column, column), ((text, text),), text), Table((column,), ((text,),) * 40, text, small=True),
+        Explorer(drawing, text, text, text, (ExplorerColumn(0.1, (1.0,), text, "run-1"),)),
+        Sheet("run-1", text, ((text, text),), (text,), "", Table((column,), ((text,),), text)),
     ]  # fmt: skip
     return Report(text, text, tuple(items))
 

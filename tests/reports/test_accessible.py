@@ -1,0 +1,105 @@
+"""The page can be used without seeing it and without a mouse: checked by axe-core in a browser, and by its structure.
+
+axe-core (Deque, MPL-2.0, 0.6 MB) is not part of this project. Its axe.min.js is taken from the path in the environment
+variable AXE_CORE, or installed once by npm into pytest's cache; without either the check is skipped.
+"""
+
+import os
+import shutil
+import subprocess
+from itertools import pairwise
+from pathlib import Path
+
+import pytest
+
+from reports.parts.content import Figure, Picture, Report
+from reports.parts.html import render_html
+from tests.reports.chromium import Chromium, installed
+
+HEADINGS = {f"h{level}": level for level in range(1, 7)}
+needs_browser = pytest.mark.skipif(installed() is None, reason="no Chromium on this machine to open the report with")
+
+
+@pytest.fixture(scope="module")
+def axe(request) -> str:
+    """The source of axe-core."""
+    given = os.environ.get("AXE_CORE")
+    if given:
+        return Path(given).read_text(encoding="utf-8")
+    if shutil.which("npm") is None:
+        pytest.skip("no axe-core: AXE_CORE names no file, and there is no npm to install it with")
+    place = request.config.cache.mkdir("axe-core")
+    path = place / "node_modules" / "axe-core" / "axe.min.js"
+    if not path.exists():
+        command = ["npm", "install", "--no-save", "--no-audit", "--no-fund", "--prefix", str(place), "axe-core@4"]
+        try:
+            subprocess.run(command, check=True, capture_output=True, timeout=60)
+        except (subprocess.SubprocessError, OSError):
+            pytest.skip("no axe-core: npm could not install it (no network?)")
+    return path.read_text(encoding="utf-8")
+
+
+def violations(path: Path, axe: str, dark: bool) -> list[str]:
+    """What axe-core finds serious or critical on a page, with a run chosen where it has an explorer."""
+    with Chromium(dark=dark) as chromium:
+        chromium.open(path)
+        chromium.value("document.querySelector('#explorer button[value=after]')?.click()")
+        chromium.value(axe + "; true")
+        found = chromium.value("axe.run(document).then((result) => result.violations)")
+    return [
+        f"{one['id']}: {one['help']}: {one['nodes'][0]['html'][:200]} ({len(one['nodes'])})"
+        for one in found
+        if one["impact"] in ("serious", "critical")
+    ]
+
+
+@needs_browser
+@pytest.mark.slow
+@pytest.mark.parametrize("dark", [False, True], ids=["light", "dark"])
+def test_axe_finds_nothing_serious(built, axe, dark):
+    assert violations(built[0], axe, dark) == []
+
+
+@needs_browser
+@pytest.mark.slow
+def test_axe_would_have_found_something(built, axe, tmp_path):
+    """A picture without its text and grey letters on grey are found: the check can fail."""
+    source = built[0].read_text(encoding="utf-8")
+    spoilt = tmp_path / "spoilt.html"
+    spoilt.write_text(source.replace(' alt="', ' data-alt="').replace("--soft: #57606a", "--soft: #c0c4c8"), "utf-8")
+    assert {line.partition(":")[0] for line in violations(spoilt, axe, False)} >= {"image-alt", "color-contrast"}
+
+
+def test_headings_go_down_one_level_at_a_time_and_there_is_one_title(page):
+    levels = [HEADINGS[tag] for tag, _ in page.tags if tag in HEADINGS]
+    assert levels[0] == 1 and levels.count(1) == 1
+    assert all(after <= before + 1 for before, after in pairwise(levels))
+
+
+def test_landmarks_skip_link_and_language(page):
+    tags = [tag for tag, _ in page.tags]
+    assert tags.count("main") == tags.count("nav") == 1
+    assert dict(page.tags)["html"]["lang"] == "en"
+    first_link = next(attributes for tag, attributes in page.tags if tag == "a")
+    assert first_link["class"] == "skip"
+    assert ("main", first_link["href"][1:]) in [(tag, attributes.get("id")) for tag, attributes in page.tags]
+
+
+def test_every_header_of_a_table_says_what_it_heads(page):
+    headers = [attributes.get("scope") for tag, attributes in page.tags if tag == "th"]
+    assert set(headers) == {"col", "row"}
+    assert [tag for tag, _ in page.tags].count("caption") == [tag for tag, _ in page.tags].count("table")
+
+
+@needs_browser
+@pytest.mark.slow
+@pytest.mark.parametrize("still", [False, True])
+def test_moving_pictures_are_hidden_from_those_who_asked_for_less_motion(tmp_path, still):
+    dot = Picture(b'<svg xmlns="http://www.w3.org/2000/svg" width="9" height="9"><circle r="4"/></svg>', "svg")
+    report = Report("a", "b", (Figure(dot, "A caption.", "A text.", Picture(b"GIF89a", "gif")),))
+    (tmp_path / "report.html").write_bytes(render_html(report))
+    with Chromium(still=still) as chromium:
+        chromium.open(tmp_path / "report.html")
+        shown = chromium.value("document.querySelector('.moving').getBoundingClientRect().height > 0")
+        assert shown is not still
+        assert chromium.value("document.querySelector('figure > img').getBoundingClientRect().height > 0")

@@ -1,0 +1,135 @@
+"""Sheets and explorer: drawings keep what they draw, a script reads back what it is given, the page can be sent."""
+
+import base64
+import csv
+import json
+import re
+from itertools import islice, pairwise
+
+import numpy as np
+import pytest
+
+from reports import build
+from reports.buoy_sweep.motion import evidence_text, read_evidence
+from reports.figures.run_sheet import Glance, run_sheet
+from reports.parts.content import Explorer, ExplorerColumn, Figure, Picture, first_sentence, link, plain, spans, sub
+from reports.parts.explorer_data import explorer_json
+
+FIGURE = Figure(Picture(b"", "svg"), "A caption.", "A text.")
+
+
+def glance(peak: float) -> str:
+    """A sheet of a record of 20000 samples that are 1, -1 in turn but for one of height `peak`."""
+    t = np.linspace(0.0, 300.0, 20001)
+    wave = np.cos(np.pi * np.arange(len(t)))
+    wave[7777] = peak
+    nothing = np.empty(0)
+    histories = tuple((name, wave, wave) for name in ("T (kN)", "r (m)", "θ (rad)"))
+    return run_sheet(Glance(t, histories, 294.0, np.empty((0, 2)), (nothing, nothing), (), (nothing, nothing)), "x", 80)
+
+
+def bands(drawing: str) -> list[np.ndarray]:
+    """Corners of every band of a drawing, in fifths of a pixel."""
+    found = []
+    for path in re.findall(r'class="band"[^>]* d="M([^"]*)z"', drawing):
+        start, *steps = path.split("l")
+        numbers = [[int(word) for word in re.findall(r"-?\d+", part)] for part in (start, *steps)]
+        found.append(np.cumsum(numbers, axis=0))
+    return found
+
+
+def test_a_single_high_sample_among_thousands_is_drawn():
+    flat, high = bands(glance(1.0))[0], bands(glance(3.0))[0]
+    assert np.ptp(high[:, 1]) == np.ptp(flat[:, 1]), "both fill the panel between its margins"
+    assert np.sum(high[:, 1] == high[:, 1].min()) <= 2 < np.sum(flat[:, 1] == flat[:, 1].min())
+
+
+def test_a_drawing_of_few_columns_is_small_whatever_the_record():
+    assert len(glance(2.0).encode()) < 12_000
+
+
+def test_a_record_without_a_finite_value_or_without_any_range_is_drawn():
+    t = np.linspace(0.0, 5.0, 11)
+    for values in (np.full(11, np.nan), np.zeros(11), np.full(11, 1e9)):
+        nothing = np.empty(0)
+        exponent = t, values * 0.0
+        record = Glance(t, (("r (m)", values, values),), 0.0, np.zeros((3, 2)), (nothing, nothing), (), exponent)
+        drawn = run_sheet(record, "x", 9)
+        assert "nan" not in drawn
+
+
+def test_explorer_data_reads_back_to_a_hundred_thousandth_of_the_range():
+    rng = np.random.default_rng(3)
+    points = [tuple(rng.normal(20.0, 3.0, size)) for size in (5, 0, 40)]
+    columns = tuple(ExplorerColumn(0.1 * k, values, f"</script> {k}", f"run-{k}") for k, values in enumerate(points))
+    lower = (("slack", (0.1, float("nan"), 0.3), (float("nan"),) * 3),)
+    text = explorer_json(Explorer(FIGURE, "title", "x", "y", columns, lower))
+    assert "<" not in text
+    read = json.loads(text)
+    steps = np.frombuffer(base64.b64decode(read["points"]), dtype="<u2")
+    values = read["low"] + steps / 65535 * (read["high"] - read["low"])
+    assert values == pytest.approx(np.concatenate(points), abs=1e-5 * (read["high"] - read["low"]))
+    assert [column["points"] for column in read["columns"]] == [5, 0, 40]
+    assert read["lower"][0]["values"] == [0.1, None, 0.3] and read["lower"][0]["errors"] == [None] * 3
+
+
+def test_a_link_is_a_mark_of_its_own_and_plain_text_without_it():
+    text = "see " + link("kA = 0.13", "run-7") + " of T" + sub("i")
+    assert spans(text)[1] == ("#run-7", "kA = 0.13") and plain(text) == "see kA = 0.13 of Ti"
+
+
+@pytest.mark.parametrize(
+    ("caption", "said"),
+    [
+        ("Radius at t = 0.5 s. From `a.csv`.", "Radius at t = 0.5 s"),
+        ("Tension (fig. 9) over t: up to 3 N.", "Tension (fig. 9) over t"),
+        ("From `a: b` on; then", "From `a: b` on"),
+        ("Runs in space (D = 3; see fig. 2). loops: of each", "Runs in space (D = 3; see fig. 2)"),
+        ("By Wolf et al. against t. From", "By Wolf et al. against t"),
+        ("One", "One"),
+    ],
+)
+def test_a_list_of_figures_takes_the_first_sentence(caption, said):
+    assert first_sentence(caption) == said
+
+
+def test_evidence_in_a_table_reads_back():
+    from analysis.evidence import Evidence
+    from analysis.verdicts import Verdict
+
+    tests = (
+        Evidence("0-1 test, halves", 0.98765, 0.9, True, "said: a; b / c"),
+        Evidence("period", float("nan"), 0.01, None, ""),
+    )
+    text = evidence_text(Verdict("chaotic", "why", tests, None, 200, 0))
+    assert read_evidence(text) == [("0-1 test, halves", "0.988", "0.9", "yes"), ("period", "–", "0.01", "–")]
+    assert read_evidence("") == read_evidence("no evidence at all") == []
+
+
+def test_every_row_of_the_table_leads_to_its_sheet_and_neighbours_to_each_other(page):
+    links = [attributes["href"] for tag, attributes in page.tags if tag == "a"]
+    for number in range(1, 9):
+        assert links.count(f"#run-{number}") >= 2
+    order = [attributes["id"] for _, attributes in page.tags if attributes.get("class") == "sheet"]
+    assert all(int(after[4:]) == int(before[4:]) + 1 for before, after in pairwise(order))
+
+
+@pytest.mark.slow
+def test_four_hundred_runs_make_a_page_of_less_than_ten_megabytes(folder, tmp_path):
+    """Rows are repeated: what a sheet holds does not depend on which run it is of."""
+    rows = list(csv.DictReader(open(folder / "table.csv", newline="", encoding="utf-8")))
+    sound = [row for row in rows if float(row["steepness"]) > 0.09 and row["status"] == "ok"]
+    evidence = "; ".join(f"name of a test, halves {k}: 0.123/0.456/yes" for k in range(13))
+    place = tmp_path / "many"
+    place.mkdir()
+    (place / "trajectories").symlink_to(folder / "trajectories")
+    for name in ("provenance.json", "scene.toml"):
+        (place / name).write_bytes((folder / name).read_bytes())
+    with open(place / "table.csv", "w", newline="", encoding="utf-8") as file:
+        writer = csv.DictWriter(file, rows[0])
+        writer.writeheader()
+        for number, row in enumerate(islice(sound * 400, 400)):
+            writer.writerow({**row, "steepness": f"{0.0004 * (number + 1):.5g}", "evidence": evidence})
+    html, pdf = build(place)
+    assert html.read_text(encoding="utf-8").count('<section class="sheet"') == 400
+    assert html.stat().st_size < 9e6 and pdf.stat().st_size < 10e6, "room for a moving picture is left"
