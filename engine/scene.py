@@ -7,6 +7,7 @@ The models are in `scene_models`, the shipped scenes in `scenes/*.toml`.
 
 import copy
 import difflib
+import re
 import tomllib
 from collections.abc import Mapping
 from pathlib import Path
@@ -41,9 +42,20 @@ def scene_from_toml(text: str, overrides: Mapping[str, object] | None = None, so
     try:
         raw = tomllib.loads(text)
     except tomllib.TOMLDecodeError as error:
-        raise SceneError(f"{source}: not TOML: {error}") from None
+        raise SceneError(f"{source}: not TOML: {error}{_faulty_line(text, str(error))}") from None
     raw, faults = _overridden(raw, overrides or {})
     return build_scene(raw, faults)
+
+
+def _faulty_line(text: str, message: str) -> str:
+    """The line that the parser's message names, quoted; empty where it names none."""
+    found = re.search(r"at line (\d+)", message)
+    lines = text.splitlines()
+    if found is None or int(found[1]) > len(lines):
+        return ""
+    line = lines[int(found[1]) - 1].strip()
+    comma = "; numbers have a dot, not a comma" if re.search(r"= *-?\d+,\d+\s*(#|$)", line) else ""
+    return f": {shown(line)}{comma}"
 
 
 def parse_assignment(text: str) -> tuple[str, object]:

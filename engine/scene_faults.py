@@ -14,6 +14,7 @@ from pydantic import BaseModel, ValidationError
 # tables whose keys depend on one of them
 _TAGS = {("tether", "tension"): "law", ("current",): "law", ("end", "motion"): "law"}
 _BARE_KEY = re.compile(r"^[A-Za-z0-9_-]+$")
+_NUMBER_TEXT = re.compile(r"^\s*([-+]?\d+)(?:[.,](\d+))?(?:e([-+]?\d+))?\s*(\w*)\s*$")
 FLAT, SOLID = "nested to depth 3", "nested to depth 4"  # kinds of a block of numbers, as pydantic names them
 
 
@@ -47,6 +48,17 @@ def shown(value: object) -> str:
 def fault(key: str, given: object, allowed: str) -> str:
     """One fault line."""
     return f"{key}: given {shown(given)}; allowed: {allowed}"
+
+
+def _meant(given: object) -> str:
+    """A hint for text in the place of a number: "21.6", "21,6", "21.6 m"."""
+    number = _NUMBER_TEXT.match(given) if isinstance(given, str) else None
+    if number is None:
+        return ""
+    whole, part, power, unit = number.groups()
+    text = whole + (f".{part}" if part else "") + (f"e{power}" if power else "")
+    why = "no unit" if unit else "with a dot" if "," in given else "without quotes"
+    return f" ({why}: {text})"
 
 
 def dotted(location: tuple[str | int, ...]) -> str:
@@ -184,5 +196,5 @@ def field_faults(
         elif kind in ("missing", "union_tag_not_found") and not short:
             lines.append(f"{key}: missing; allowed: {allowed}")
         else:
-            lines.append(fault(key, given, allowed))
+            lines.append(fault(key, given, allowed) + (_meant(given) if "number" in allowed else ""))
     return list(dict.fromkeys(lines)), bad

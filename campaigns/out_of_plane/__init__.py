@@ -145,6 +145,7 @@ def compared(case: Case, base: Case) -> bool:
 
 def _scenes(name: str, changes: dict, faults: list[str]) -> tuple[Case | None, dict]:
     from campaigns.buoy_sweep import carries_tangents
+    from campaigns.machinery.plausible import doubts
     from engine import SceneError, load_scene
 
     try:
@@ -167,6 +168,7 @@ def _scenes(name: str, changes: dict, faults: list[str]) -> tuple[Case | None, d
         except SceneError as error:
             faults.extend(fault for fault in error.faults if fault not in faults)
             continue
+        faults.extend(line for line in doubts(made) if line not in faults)
         scenes[case] = made
     return base, scenes
 
