@@ -62,7 +62,7 @@ def main(argv=None):
     record = None
     if options.file is None:
         faults.append("FILE.csv: missing; allowed: the name of a file of columns")
-    elif options.step is None or step is not None:
+    else:
         from analysis.any_series.columns import read_record
 
         record = read_record(options.file, options.column, options.time, step, faults)
