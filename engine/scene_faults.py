@@ -106,7 +106,8 @@ def unknown_key(key: str, given: object, scene_model: type[BaseModel]) -> str:
     return f"{key}: unknown key, given {shown(given)}{suggestion(key, keys)}{allowed}"
 
 
-def _allowed_text(annotation: object, metadata: list[object] | tuple[object, ...] = ()) -> str | None:
+def allowed_text(annotation: object, metadata: list[object] | tuple[object, ...] = ()) -> str | None:
+    """What a field allows, in words: its Allowed, its choices, or the keys of its table; None where nothing says."""
     for item in metadata:
         if isinstance(item, Allowed):
             return item.text
@@ -116,9 +117,9 @@ def _allowed_text(annotation: object, metadata: list[object] | tuple[object, ...
         return "a table with the keys " + ", ".join(annotation.model_fields)
     if get_origin(annotation) is Annotated:
         inner, *more = get_args(annotation)
-        return _allowed_text(inner, more)
+        return allowed_text(inner, more)
     for part in get_args(annotation):
-        text = _allowed_text(part)
+        text = allowed_text(part)
         if text is not None:
             return text
     return None
@@ -143,7 +144,7 @@ def _field_text(model: type[BaseModel], location: tuple[str | int, ...], tag: st
         fields = [owner.model_fields[part] for owner in models if part in owner.model_fields]
         if not fields:  # an index inside a list: the whole list is described
             break
-        text = _allowed_text(fields[0].annotation, fields[0].metadata)
+        text = allowed_text(fields[0].annotation, fields[0].metadata)
         models = section_models(fields[0].annotation)
     return text
 
