@@ -19,10 +19,11 @@ from engine.scene_models import Scene
 
 HEAD = """# Keys of a scene
 
-Made by `python -m engine.reference > docs/scene_keys.md` from the model that checks scenes; a test fails where this page
-is stale. A scene is a TOML file, or a shipped one with changes: `--set water.depth_m=22.5` on a command line,
-`load_scene("tethered_buoy", {"water.depth_m": 22.5})` in Python. SI units; x with the waves, y across, z up from the bed,
-the anchor at the origin. A section with "may be left out" is absent from the physics without it. Symbols: `NOTATION.md`.
+Made by `python -m engine.reference > docs/scene_keys.md` from the model that checks scenes; a test fails where this
+page is stale. A scene is a TOML file, or a shipped one with changes: `--set water.depth_m=22.5` on a command line,
+`load_scene("tethered_buoy", {"water.depth_m": 22.5})` in Python. SI units; x with the waves, y across, z up from the
+bed, the anchor at the origin. A section that may be left out is absent from the physics without it. Symbols and where
+each equation lives: `NOTATION.md`.
 """
 SECTIONS = {
     "": "The scene itself",

@@ -18,7 +18,8 @@ from engine.scene_models import Scene, build_scene
 __all__ = ["Scene", "SceneError", "build_scene", "known_scenes", "load_scene", "parse_assignment", "scene_from_toml"]
 
 _SHIPPED = Path(__file__).with_name("scenes")
-_EXCLUSIVE = {"waves.steepness": "waves.amplitude_m", "waves.amplitude_m": "waves.steepness"}
+# What says how high the waves are: one of these, so that giving one drops another that was inherited.
+_HEIGHTS = ("waves.steepness", "waves.amplitude_m", "waves.components", "waves.jonswap")
 
 
 def known_scenes() -> list[str]:
@@ -30,8 +31,8 @@ def load_scene(name_or_path: str | Path, overrides: Mapping[str, object] | None 
     """A validated scene from a shipped name or a TOML file.
 
     name_or_path: one of `known_scenes()`, or the path of a scene file. overrides: dotted key -> value; a value of None
-    removes an optional key or section, a missing section is created, and waves.amplitude_m drops an inherited
-    waves.steepness and the other way round.
+    removes an optional key or section, a missing section is created, and of waves.steepness, amplitude_m, components
+    and jonswap the one given drops an inherited other.
     Raises SceneError: every fault of the file and of the overrides at once; nothing of that name, unreadable, not TOML.
     """
     return scene_from_toml(_text_of(name_or_path), overrides, source=str(name_or_path))
@@ -124,7 +125,11 @@ def _overridden(raw: dict[str, object], overrides: Mapping[str, object]) -> tupl
             table.pop(parts[-1], None)
         else:
             table[parts[-1]] = _plain(value)
-            other = _EXCLUSIVE.get(key)
-            if other is not None and overrides.get(other) is None:
-                table.pop(other.rpartition(".")[2], None)
+        waves = raw.get("waves")
+        if not isinstance(waves, dict) or value is None:
+            continue
+        if height := next((h for h in _HEIGHTS if f"{key}.".startswith(f"{h}.")), None):
+            for other in _HEIGHTS:
+                if other != height and not any(f"{given}.".startswith(f"{other}.") for given in overrides):
+                    waves.pop(other.rpartition(".")[2], None)
     return raw, tuple(faults)

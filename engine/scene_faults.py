@@ -139,6 +139,8 @@ def _has_tag(model: type[BaseModel], tag: str) -> bool:
 def _field_text(model: type[BaseModel], location: tuple[str | int, ...], tag: str | None) -> str | None:
     models, text = [model], None
     for depth, part in enumerate(location):
+        if isinstance(part, int):  # a table inside a list has its own words, a number those of the whole list
+            continue
         if tag is not None and location[:depth] in _TAGS:
             models = [owner for owner in models if _has_tag(owner, tag)]
         fields = [owner.model_fields[part] for owner in models if part in owner.model_fields]

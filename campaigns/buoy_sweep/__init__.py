@@ -146,9 +146,10 @@ def _growths(scene, changes: dict) -> dict:
 
 
 def _scenes(name: str, changes: dict, steepness: list[float], analysed: bool, faults: list[str]) -> dict:
-    from campaigns.machinery.plausible import doubts
+    from campaigns.machinery.plausible import doubts, irregular
     from engine import SceneError, load_scene
 
+    faults.extend(irregular(name, changes))
     scenes = {}
     for value in steepness:
         try:

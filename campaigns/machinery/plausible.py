@@ -27,6 +27,25 @@ def doubts(scene) -> Iterator[str]:
         yield from _waves(scene)
 
 
+def irregular(name: str, changes: dict) -> Iterator[str]:
+    """The fault of a scene with an irregular sea, for campaigns that count, strobe and judge in wave periods.
+
+    name, changes: as for `load_scene`, before the campaign puts its own waves in their place.
+    """
+    from engine import SceneError, load_scene
+
+    try:
+        waves = load_scene(name, changes).waves
+    except SceneError:
+        return  # told elsewhere
+    if waves is not None and waves.irregular:
+        key = "waves.components" if waves.jonswap is None else "waves.jonswap"
+        yield (
+            f"{key}: given; allowed: one regular wave in this campaign, which strobes and judges motions once per wave "
+            "period; engine.simulate runs irregular waves (docs/howto_waves.md)"
+        )
+
+
 def breaking_steepness(scene) -> float:
     """kA of the highest wave of the scene's period in its depth (Miche 1944)."""
     from engine.waves import wave_number

@@ -59,6 +59,8 @@ MISTAKES = [
     (SWEEP, "--steepness-range 0.2 0.1 5", "0 <= LO < HI"),
     (SWEEP, "--jobs 0", "a whole number, 1 or above"),
     (SWEEP, "--periods 0", "a whole number, 1 or above"),
+    (SWEEP, "--set waves.jonswap.significant_height_m=1.5", "engine.simulate runs irregular waves"),
+    ("campaigns.out_of_plane", "--set waves.jonswap.significant_height_m=1.5", "one regular wave in this campaign"),
     # a place where nothing can be written, or something else is
     (SWEEP, "--out a_file", "a_file is a file; allowed: a folder"),
     (SWEEP, "--out a_file/below", "a_file is a file; allowed: a folder"),
