@@ -6,7 +6,7 @@ import numpy as np
 
 from analysis.any_series.sections import MAXIMA, SAMPLES, STROBED
 
-WIDTH = 118
+WIDTH = 100
 MARK = {True: "yes", False: "no", None: "--"}
 CYCLE = {STROBED: "period", SAMPLES: "sample", MAXIMA: "maximum"}
 SEEN = {
