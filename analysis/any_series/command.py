@@ -50,7 +50,14 @@ def parser():
 
 def main(argv=None):
     """The command: prints the answer, writes --out, returns the exit code."""
-    argv = sys.argv[1:] if argv is None else argv
+    try:
+        return _answer(sys.argv[1:] if argv is None else argv)
+    except KeyboardInterrupt:
+        print("\ninterrupted; the folder holds what was written whole", file=sys.stderr)
+        return INTERRUPTED
+
+
+def _answer(argv):
     faults = []
     options = _split(argv, faults)
     step = _positive(options.step, "--step", "a finite number above 0 [s]", faults)
@@ -80,9 +87,6 @@ def main(argv=None):
         if out is not None:
             write_files(found, out, {"period": period, "step": record.step, "tolerance": found.tolerance})
             print(f"\n{out}: the answer, and its curves as CSV; with figures: python -m reports {out}")
-    except KeyboardInterrupt:
-        print("\ninterrupted; nothing was written", file=sys.stderr)
-        return INTERRUPTED
     except BrokenPipeError:
         # The reader (head, less) has what it wanted.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())

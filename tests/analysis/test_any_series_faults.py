@@ -97,6 +97,16 @@ def test_a_full_disk_leaves_the_answer_and_one_line(tmp_path, monkeypatch, capsy
     assert "VERDICT" in said.out and "the disk is full; the answer above stands" in said.err
 
 
+def test_ctrl_c_is_one_line(tmp_path, monkeypatch, capsys):
+    def stopped(*_):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr("analysis.any_series.study.study", stopped)
+    path = written(tmp_path / "s.csv", np.sin(0.3 * np.arange(400)))
+    assert main([str(path), "--out", str(tmp_path / "out")]) == 130
+    assert "interrupted" in capsys.readouterr().err and not (tmp_path / "out").exists()
+
+
 def test_help_tells_every_option_and_loads_nothing_heavy():
     code = (
         "import sys, analysis.any_series.command as c; print(c.parser().format_help());"

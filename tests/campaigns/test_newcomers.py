@@ -112,6 +112,15 @@ def test_a_folder_that_may_not_be_written_to(place, capsys, monkeypatch):
     assert "cannot be written to; allowed: a folder that can" in capsys.readouterr().err
 
 
+def test_ctrl_c_before_anything_runs(place, capsys, monkeypatch):
+    def stopped(*_):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr("engine.load_scene", stopped, raising=False)
+    assert importlib.import_module(SWEEP).main([]) == 130
+    assert "interrupted; nothing was run or written" in capsys.readouterr().err
+
+
 @pytest.mark.parametrize("package", ["engine", "analysis", "campaigns"])
 def test_an_old_python_is_named_with_what_is_needed(package):
     code = f"import sys; sys.version_info = (3, 9, 2, 'final', 0); import {package}"
