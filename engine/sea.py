@@ -16,7 +16,7 @@ import numpy as np
 from .compiled import by_kind, kernel
 from .elementary import sincos, small_exponentials, small_sincos, smooth_start
 from .jonswap import components
-from .waves import SMALL, TINY, WHEELER, ZERO, wave_field, wave_number
+from .waves import SMALL, TINY, WHEELER, ZERO, wave_number
 
 ROW = 7
 
@@ -111,18 +111,8 @@ def _add_wave(row, depth, above, gain, gain_rate, t, X, Z, F):
 
 
 @kernel
-def waves_or_sea(p, tables, t, X, F):
-    """The waves of a planar scene, regular or not."""
-    if p.sea_n > 0:
-        sea_field(p, tables, t, X, F)
-    else:
-        wave_field(p, t, X, F)
+def no_sea(p, tables, t, X, F):
+    """What runs of one batch have (`engine.lanes`): regular waves only."""
 
 
-@kernel
-def regular_waves(p, tables, t, X, F):
-    """What runs of one batch may have (`engine.lanes`)."""
-    wave_field(p, t, X, F)
-
-
-planar_waves = by_kind(waves_or_sea, waves_or_sea, regular_waves)
+planar_sea = by_kind(sea_field, sea_field, no_sea)

@@ -79,10 +79,10 @@ def water(p, tables, t, in_motion, X, F):
         for i in range(6):
             F[k, i] = 0.0
     if p.waves and in_motion > 0.0:
-        if p.sea_n > 0:
-            sea_field(p, tables, t, X, F)
-        else:
+        if p.sea_n == 0:
             wave_field_3d(p, t, X, F)
+        else:
+            sea_field(p, tables, t, X, F)
     if p.current:
         current_field_3d(p, tables, t, X, F)
 

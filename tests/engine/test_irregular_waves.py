@@ -59,6 +59,7 @@ def test_a_sea_of_one_wave_is_that_wave(law, heading, X):
     assert np.abs(alone).max() > 0.1
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("law", LAWS)
 def test_a_sea_of_one_wave_in_space_is_that_wave(law):
     one, both = {**ONE, "direction_rad": 0.7}, {"waves__above_still_water": law, "motion__dimensions": 3}

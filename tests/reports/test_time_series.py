@@ -18,6 +18,7 @@ def judged(tmp_path_factory):
     return place / "out"
 
 
+@pytest.mark.slow
 def test_the_page_says_the_verdict_and_shows_every_curve(judged):
     html, pdf = build(judged)
     text = html.read_text(encoding="utf-8")
@@ -28,6 +29,7 @@ def test_the_page_says_the_verdict_and_shows_every_curve(judged):
     assert tuple(path.read_bytes() for path in build(judged)) == before
 
 
+@pytest.mark.slow
 def test_what_is_missing_is_named(judged, tmp_path):
     (tmp_path / "provenance.json").write_text((judged / "provenance.json").read_text())
     (tmp_path / "section.csv").write_text("time_s,value_0\n0,x\n")
