@@ -32,7 +32,6 @@ MISTAKES = [
     (SWEEP, "--scene tethered_boy", "did you mean 'tethered_buoy'?"),
     (SWEEP, "--scene nowhere.toml", "there is no scene and no file 'nowhere.toml'"),
     (SWEEP, "--period 5", "did you mean --periods?"),
-    ("campaigns.breaking_line", "--cases 5 --case 1", "did you mean --cases?"),
     ("campaigns.breaking_line", "--cases 5", "one of 1 2 3 4 1p 2p 3p 4p"),
     # a wrong unit
     (SWEEP, "--set tether.length_m=20000", "at most 20 times water.depth_m"),
