@@ -22,8 +22,12 @@ ROW = 7
 
 
 def components_of(scene):
-    """The waves of a scene with irregular ones: periods, amplitudes, phases, directions, each (n,)."""
+    """The waves of a scene, one or many: periods (s), amplitudes (m), phases and directions (rad), each (n,)."""
     waves = scene.waves
+    if not waves.irregular:
+        k = wave_number(waves.period_s, scene.water.depth_m, scene.gravity_mps2)
+        amplitude = waves.amplitude_m if waves.steepness is None else waves.steepness / k
+        return tuple(np.array([one]) for one in (waves.period_s, amplitude, waves.phase_rad, waves.direction_rad))
     if waves.jonswap is not None:
         sea = waves.jonswap
         drawn = components(sea.significant_height_m, waves.period_s, sea.peak_enhancement, sea.components, sea.seed)
@@ -43,7 +47,10 @@ def table_of(scene, direction):
 
 
 def elevation_m(scene, time_s, x_m=0.0, y_m=0.0):
-    """Height of the sea's surface above the still water level (m), at times and places that NumPy can broadcast."""
+    """Height of the surface above the still water level (m), in waves of any kind.
+
+    time_s, x_m, y_m    numbers or arrays that NumPy can broadcast against each other
+    """
     t, x, y = (np.asarray(values, float) for values in (time_s, x_m, y_m))
     eta = np.zeros(np.broadcast_shapes(t.shape, x.shape, y.shape))
     for k, omega, amplitude, phase, cosine, sine, _ in table_of(scene, lambda a: (math.cos(a), math.sin(a))):

@@ -82,6 +82,16 @@ def test_wheeler_stretches_by_the_elevation_of_the_whole_sea():
     assert at_surface == pytest.approx(field(sea(ONE, OTHER), 1.7, np.array([[3.0, 21.0]])), abs=1e-12)
 
 
+def test_the_surface_of_a_sea_of_one_wave_is_that_of_the_wave():
+    t, x = np.linspace(0.0, 9.0, 50), 3.0
+    k = wave_number(5.0, 21.0)
+    for scene in (sea(ONE, waves__ramp_s=4.0), regular(ONE, waves__ramp_s=4.0)):
+        ramp = np.where(t < 4.0, np.sin(np.pi * t / 8.0) ** 2, 1.0)
+        assert elevation_m(scene, t, x) == pytest.approx(
+            0.8 * ramp * np.cos(k * x - 2.0 * np.pi / 5.0 * t + 0.3), abs=1e-12
+        )
+
+
 def test_mirror_and_shift_in_time():
     mirrored = sea(*({**wave, "direction_rad": np.pi} for wave in (ONE, OTHER)))
     here, there = field(sea(ONE, OTHER), 4.2, ROPE), field(mirrored, 4.2, ROPE * [-1.0, 1.0])
