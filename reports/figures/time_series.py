@@ -61,8 +61,9 @@ def time_series(periods: np.ndarray, panels: list[Panel], detail_periods: float 
 def _draw(axes, periods: np.ndarray, panel: Panel, part) -> None:
     t = periods[part]
     if panel.low is not None and panel.high is not None:
-        x, low = envelope(t, panel.low[part])
-        _, high = envelope(t, panel.high[part])
+        low, high = panel.low[part], panel.high[part]
+        index = _kept(low, high)
+        x, low, high = t[index], low[index], high[index]
         axes.fill_between(x, np.minimum(low, high), np.maximum(low, high), color=SKY, alpha=0.5, linewidth=0)
     axes.plot(*envelope(t, panel.values[part]), color=panel.colour, linewidth=0.7)
 
@@ -73,13 +74,18 @@ def envelope(x: np.ndarray, y: np.ndarray, bins: int = _BINS) -> tuple[np.ndarra
     Args: x (n,) increasing, y (n,). Returns x, y of at most 2*bins points; a shorter record comes back as it is.
     Every extreme of y is kept, which simple thinning would lose.
     """
-    if len(x) <= 2 * bins:
-        return x, y
-    edges = np.linspace(0, len(x), bins + 1).astype(int)
-    keep = set()
-    for first, end in pairwise(edges):
-        part = y[first:end]
-        if np.isfinite(part).any():
-            keep.update((first + int(np.nanargmin(part)), first + int(np.nanargmax(part))))
-    index = np.array(sorted(keep))
+    index = _kept(y, bins=bins)
     return x[index], y[index]
+
+
+def _kept(*curves: np.ndarray, bins: int = _BINS) -> np.ndarray:
+    """Where any of the curves, (n,) each, has its least or greatest value within one of `bins` equal spans."""
+    n = len(curves[0])
+    if n <= 2 * bins:
+        return np.arange(n)
+    keep: set[int] = set()
+    for first, end in pairwise(np.linspace(0, n, bins + 1).astype(int)):
+        for part in (curve[first:end] for curve in curves):
+            if np.isfinite(part).any():
+                keep.update((first + int(np.nanargmin(part)), first + int(np.nanargmax(part))))
+    return np.array(sorted(keep), dtype=int)
