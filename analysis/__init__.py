@@ -4,7 +4,16 @@ Nothing here knows the cable, so the same functions serve the tethered buoy, eq.
 first sample of a record. Names are imported on first use: `import analysis` costs nothing.
 """
 
+import sys
+
 from analysis.on_first_use import on_first_use
+
+if sys.version_info < (3, 11):  # noqa: UP036
+    running = ".".join(map(str, sys.version_info[:3]))
+    raise ImportError(
+        f"the tether workbench needs Python 3.11 or newer, and this is {running} ({sys.executable}); "
+        "make its environment with a newer one, for instance python3.12 -m venv .venv"
+    )
 
 _HOME = {
     "Spectrum": "spectra",

@@ -7,3 +7,13 @@ What all share is in `machinery`: `cli` (options and their faults), `session` (c
 run), `side_by_side` (runs that share a worker), `row_store` (rows that need not be made again), `provenance` and
 `machine` (who, where, with what).
 """
+
+import sys
+
+# Said here as well: what a command imports first does not even compile on an older one.
+if sys.version_info < (3, 11):  # noqa: UP036
+    running = ".".join(map(str, sys.version_info[:3]))
+    raise ImportError(
+        f"the tether workbench needs Python 3.11 or newer, and this is {running} ({sys.executable}); "
+        "make its environment with a newer one, for instance python3.12 -m venv .venv"
+    )

@@ -8,6 +8,13 @@ import sys
 from importlib import import_module
 from types import ModuleType
 
+if sys.version_info < (3, 11):  # noqa: UP036
+    running = ".".join(map(str, sys.version_info[:3]))
+    raise ImportError(
+        f"the tether workbench needs Python 3.11 or newer, and this is {running} ({sys.executable}); "
+        "make its environment with a newer one, for instance python3.12 -m venv .venv"
+    )
+
 _HOME = {
     "Scene": "engine.scene",
     "SceneError": "engine.scene",

@@ -8,7 +8,7 @@ import math
 
 import numpy as np
 
-from . import currents, ends, integrators, scales, tension, waves
+from . import currents, ends, integrators, scales, sea, tension, waves
 from .spatial import lift
 
 
@@ -19,7 +19,7 @@ def _dtype(counts, values):
 RECORD = np.dtype(
     _dtype(
         "nodes grid_at law law_at law_n wet waves current cur_at cur_nx cur_nz cur_nt above end end_motion end_at "
-        "end_n bent viscous method stages method_at adaptive max_newton release max_releases at_rest",
+        "end_n sea_n sea_at bent viscous method stages method_at adaptive max_newton release max_releases at_rest",
         "m w0 EI p1 p2 p3 p4 p5 ct cn ma Rw depth k omega amplitude phase direction ramp "
         "M_total M_wave lift C_buoy end_x end_z end_release end_fx end_fz end_decay "
         "barrier c_quadratic c_linear per_strain per_force per_speed per_curvature "
@@ -115,8 +115,13 @@ def _water(record, scene, place):
         record["depth"] = scene.water.depth_m
     if wave is not None:
         k = waves.wave_number(wave.period_s, scene.water.depth_m, scene.gravity_mps2)
-        amplitude = wave.amplitude_m if wave.steepness is None else wave.steepness / k
-        record["waves"] = amplitude != 0
+        if wave.irregular:
+            rows = sea.table_of(scene, _direction)
+            amplitude = 0.0
+            record["waves"], record["sea_n"], record["sea_at"] = bool(rows[:, 2].any()), len(rows), place(rows)
+        else:
+            amplitude = wave.amplitude_m if wave.steepness is None else wave.steepness / k
+            record["waves"] = amplitude != 0
         record["k"], record["omega"] = k, 2 * math.pi / wave.period_s
         record["amplitude"], record["phase"], record["ramp"] = amplitude, wave.phase_rad, wave.ramp_s
         if record.dtype == SPATIAL:

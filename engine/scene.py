@@ -7,6 +7,7 @@ The models are in `scene_models`, the shipped scenes in `scenes/*.toml`.
 
 import copy
 import difflib
+import re
 import tomllib
 from collections.abc import Mapping
 from pathlib import Path
@@ -17,7 +18,8 @@ from engine.scene_models import Scene, build_scene
 __all__ = ["Scene", "SceneError", "build_scene", "known_scenes", "load_scene", "parse_assignment", "scene_from_toml"]
 
 _SHIPPED = Path(__file__).with_name("scenes")
-_EXCLUSIVE = {"waves.steepness": "waves.amplitude_m", "waves.amplitude_m": "waves.steepness"}
+# What says how high the waves are: one of these, so that giving one drops another that was inherited.
+_HEIGHTS = ("waves.steepness", "waves.amplitude_m", "waves.components", "waves.jonswap")
 
 
 def known_scenes() -> list[str]:
@@ -29,8 +31,8 @@ def load_scene(name_or_path: str | Path, overrides: Mapping[str, object] | None 
     """A validated scene from a shipped name or a TOML file.
 
     name_or_path: one of `known_scenes()`, or the path of a scene file. overrides: dotted key -> value; a value of None
-    removes an optional key or section, a missing section is created, and waves.amplitude_m drops an inherited
-    waves.steepness and the other way round.
+    removes an optional key or section, a missing section is created, and of waves.steepness, amplitude_m, components
+    and jonswap the one given drops an inherited other.
     Raises SceneError: every fault of the file and of the overrides at once; nothing of that name, unreadable, not TOML.
     """
     return scene_from_toml(_text_of(name_or_path), overrides, source=str(name_or_path))
@@ -41,9 +43,20 @@ def scene_from_toml(text: str, overrides: Mapping[str, object] | None = None, so
     try:
         raw = tomllib.loads(text)
     except tomllib.TOMLDecodeError as error:
-        raise SceneError(f"{source}: not TOML: {error}") from None
+        raise SceneError(f"{source}: not TOML: {error}{_faulty_line(text, str(error))}") from None
     raw, faults = _overridden(raw, overrides or {})
     return build_scene(raw, faults)
+
+
+def _faulty_line(text: str, message: str) -> str:
+    """The line that the parser's message names, quoted; empty where it names none."""
+    found = re.search(r"at line (\d+)", message)
+    lines = text.splitlines()
+    if found is None or int(found[1]) > len(lines):
+        return ""
+    line = lines[int(found[1]) - 1].strip()
+    comma = "; numbers have a dot, not a comma" if re.search(r"= *-?\d+,\d+\s*(#|$)", line) else ""
+    return f": {shown(line)}{comma}"
 
 
 def parse_assignment(text: str) -> tuple[str, object]:
@@ -112,7 +125,11 @@ def _overridden(raw: dict[str, object], overrides: Mapping[str, object]) -> tupl
             table.pop(parts[-1], None)
         else:
             table[parts[-1]] = _plain(value)
-            other = _EXCLUSIVE.get(key)
-            if other is not None and overrides.get(other) is None:
-                table.pop(other.rpartition(".")[2], None)
+        waves = raw.get("waves")
+        if not isinstance(waves, dict) or value is None:
+            continue
+        if height := next((h for h in _HEIGHTS if f"{key}.".startswith(f"{h}.")), None):
+            for other in _HEIGHTS:
+                if other != height and not any(f"{given}.".startswith(f"{other}.") for given in overrides):
+                    waves.pop(other.rpartition(".")[2], None)
     return raw, tuple(faults)

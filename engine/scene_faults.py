@@ -14,6 +14,7 @@ from pydantic import BaseModel, ValidationError
 # tables whose keys depend on one of them
 _TAGS = {("tether", "tension"): "law", ("current",): "law", ("end", "motion"): "law"}
 _BARE_KEY = re.compile(r"^[A-Za-z0-9_-]+$")
+_NUMBER_TEXT = re.compile(r"^\s*([-+]?\d+)(?:[.,](\d+))?(?:e([-+]?\d+))?\s*(\w*)\s*$")
 FLAT, SOLID = "nested to depth 3", "nested to depth 4"  # kinds of a block of numbers, as pydantic names them
 
 
@@ -47,6 +48,17 @@ def shown(value: object) -> str:
 def fault(key: str, given: object, allowed: str) -> str:
     """One fault line."""
     return f"{key}: given {shown(given)}; allowed: {allowed}"
+
+
+def _meant(given: object) -> str:
+    """A hint for text in the place of a number: "21.6", "21,6", "21.6 m"."""
+    number = _NUMBER_TEXT.match(given) if isinstance(given, str) else None
+    if number is None:
+        return ""
+    whole, part, power, unit = number.groups()
+    text = whole + (f".{part}" if part else "") + (f"e{power}" if power else "")
+    why = "no unit" if unit else "with a dot" if "," in given else "without quotes"
+    return f" ({why}: {text})"
 
 
 def dotted(location: tuple[str | int, ...]) -> str:
@@ -94,7 +106,8 @@ def unknown_key(key: str, given: object, scene_model: type[BaseModel]) -> str:
     return f"{key}: unknown key, given {shown(given)}{suggestion(key, keys)}{allowed}"
 
 
-def _allowed_text(annotation: object, metadata: list[object] | tuple[object, ...] = ()) -> str | None:
+def allowed_text(annotation: object, metadata: list[object] | tuple[object, ...] = ()) -> str | None:
+    """What a field allows, in words: its Allowed, its choices, or the keys of its table; None where nothing says."""
     for item in metadata:
         if isinstance(item, Allowed):
             return item.text
@@ -104,9 +117,9 @@ def _allowed_text(annotation: object, metadata: list[object] | tuple[object, ...
         return "a table with the keys " + ", ".join(annotation.model_fields)
     if get_origin(annotation) is Annotated:
         inner, *more = get_args(annotation)
-        return _allowed_text(inner, more)
+        return allowed_text(inner, more)
     for part in get_args(annotation):
-        text = _allowed_text(part)
+        text = allowed_text(part)
         if text is not None:
             return text
     return None
@@ -126,12 +139,14 @@ def _has_tag(model: type[BaseModel], tag: str) -> bool:
 def _field_text(model: type[BaseModel], location: tuple[str | int, ...], tag: str | None) -> str | None:
     models, text = [model], None
     for depth, part in enumerate(location):
+        if isinstance(part, int):  # a table inside a list has its own words, a number those of the whole list
+            continue
         if tag is not None and location[:depth] in _TAGS:
             models = [owner for owner in models if _has_tag(owner, tag)]
         fields = [owner.model_fields[part] for owner in models if part in owner.model_fields]
         if not fields:  # an index inside a list: the whole list is described
             break
-        text = _allowed_text(fields[0].annotation, fields[0].metadata)
+        text = allowed_text(fields[0].annotation, fields[0].metadata)
         models = section_models(fields[0].annotation)
     return text
 
@@ -184,5 +199,5 @@ def field_faults(
         elif kind in ("missing", "union_tag_not_found") and not short:
             lines.append(f"{key}: missing; allowed: {allowed}")
         else:
-            lines.append(fault(key, given, allowed))
+            lines.append(fault(key, given, allowed) + (_meant(given) if "number" in allowed else ""))
     return list(dict.fromkeys(lines)), bad

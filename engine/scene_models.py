@@ -36,6 +36,7 @@ from engine.scene_values import (
     Vector,
     Vectors,
 )
+from engine.scene_waves import Waves
 
 
 class LinearTension(Section):
@@ -137,18 +138,6 @@ class Water(Section):
 
     depth_m: Positive
     density_kgpm3: Positive
-
-
-class Waves(Section):
-    """One regular linear (Airy) wave: period [Ti], steepness [kA] or amplitude [A]."""
-
-    period_s: Positive
-    steepness: NonNegative | None = None
-    amplitude_m: NonNegative | None = None
-    ramp_s: NonNegative = 0.0  # 0: full amplitude from t = 0, as in the paper
-    phase_rad: Number = 0.0  # added to k x - omega t
-    direction_rad: Number = 0.0  # of travel, from +x
-    above_still_water: Literal["extrapolate", "zero", "wheeler"] = "extrapolate"
 
 
 class UniformCurrent(Section):

@@ -7,6 +7,8 @@ from engine.scene_end_rules import clamp_faults, end_faults, motion_faults
 from engine.scene_faults import fault, shown
 from engine.scene_sound import FAULTY, Sound, not_increasing
 
+_HEIGHTS = ("steepness", "amplitude_m", "components", "jonswap")
+
 
 def cross_faults(raw: dict[str, object], bad: set[tuple[str | int, ...]]) -> list[str]:
     """Every fault between values, one line each.
@@ -55,15 +57,42 @@ def _waves(sound: Sound) -> Iterator[str]:
         yield fault("gravity_mps2", gravity[0], "above 0, because waves are given")
     if not isinstance(sound.raw["waves"], dict):
         return
-    steepness, amplitude = sound.raw["waves"].get("steepness"), sound.raw["waves"].get("amplitude_m")
-    if steepness is None and amplitude is None:
-        yield "waves.steepness: missing; allowed: exactly one of waves.steepness and waves.amplitude_m"
-    if steepness is not None and amplitude is not None:
-        both = f"waves.steepness = {shown(steepness)} and waves.amplitude_m = {shown(amplitude)}"
-        yield f"waves: given {both}; allowed: exactly one of the two"
-    found = sound.values("waves.amplitude_m", "water.depth_m")
-    if found and found[0] >= found[1]:
-        yield fault("waves.amplitude_m", found[0], f"less than water.depth_m, {shown(found[1])}")
+    given = {name: value for name in _HEIGHTS if (value := sound.raw["waves"].get(name)) is not None}
+    if not given:
+        yield "waves.steepness: missing; allowed: exactly one of " + ", ".join(f"waves.{name}" for name in _HEIGHTS)
+    if len(given) > 1:
+        several = " and ".join(f"waves.{name} = {shown(value)}" for name, value in given.items())
+        yield f"waves: given {several}; allowed: exactly one of them"
+    for key in ("waves.amplitude_m", "waves.jonswap.significant_height_m"):
+        found = sound.values(key, "water.depth_m")
+        if found and found[0] >= found[1]:
+            yield fault(key, found[0], f"less than water.depth_m, {shown(found[1])}")
+    if "components" in given or "jonswap" in given:
+        yield from _sea(sound, "components" in given)
+
+
+def _sea(sound: Sound, listed: bool) -> Iterator[str]:
+    """What an irregular sea takes the place of."""
+    phase, angle = sound.value("waves.phase_rad"), sound.value("waves.direction_rad")
+    if phase not in (None, FAULTY, 0):
+        where = "each component has its own" if listed else "waves.jonswap draws those of its components"
+        yield fault("waves.phase_rad", phase, f"0: {where}")
+    if listed and angle not in (None, FAULTY, 0):
+        yield fault("waves.direction_rad", angle, "0: each component has its own")
+    if sound.value("buoy.submergence") not in (None, FAULTY, "full"):
+        allowed = "'full' in irregular waves"
+        yield fault("buoy.submergence", sound.value("buoy.submergence"), allowed)
+    if not listed or not (found := sound.values("waves.components", "water.depth_m")):
+        return
+    if (total := sum(one["amplitude_m"] for one in found[0])) >= found[1]:
+        allowed = f"less than water.depth_m, {shown(found[1])}"
+        yield f"waves.components: given amplitudes of {total:.6g} m in all; allowed: {allowed}"
+    if sound.value("motion.dimensions") in (None, 2):
+        for index, one in enumerate(found[0]):
+            heading = one.get("direction_rad", 0.0)
+            if min(abs(heading), abs(abs(heading) - math.pi)) > 1e-9:
+                key = f"waves.components[{index}].direction_rad"
+                yield fault(key, heading, "0 or pi in a plane (motion.dimensions = 2)")
 
 
 def _current(sound: Sound) -> Iterator[str]:

@@ -35,6 +35,11 @@ Stretching = Annotated[_Float, Field(ge=0, le=5), Allowed("a number from 0 to 5"
 Nodes = Annotated[int, Field(strict=True, ge=3, le=20000), Allowed("a whole number from 3 to 20000")]
 Count = Annotated[int, Field(strict=True, ge=1, le=10**9), Allowed("a whole number from 1 to 1000000000")]
 CountOrZero = Annotated[int, Field(strict=True, ge=0, le=10**9), Allowed("a whole number from 0 to 1000000000")]
+MOST_COMPONENTS = 2000
+Components = Annotated[
+    int, Field(strict=True, ge=1, le=MOST_COMPONENTS), Allowed(f"a whole number from 1 to {MOST_COMPONENTS}")
+]
+PeakEnhancement = Annotated[_Float, Field(ge=1, le=10), Allowed("a number from 1 to 10")]
 Flag = Annotated[bool, Field(strict=True), Allowed("true or false")]
 Text = Annotated[str, Field(strict=True), Allowed("text")]
 Name = Annotated[str, Field(strict=True, pattern=r"^[A-Za-z0-9_.-]+$"), Allowed("letters, digits, and any of _ . -")]

@@ -9,9 +9,9 @@ from __future__ import annotations
 from importlib import import_module
 from pathlib import Path
 
-# Campaigns as named in provenance.json; the folder of that name has a module `report`, whose `report(directory)` gives
-# the content.
-CONTENTS = ("accuracy", "breaking_line", "buoy_sweep", "oscillator", "out_of_plane", "stability")
+# Campaigns as named in provenance.json, and what `python -m analysis` calls itself there; the folder of that name has a
+# module `report`, whose `report(directory)` gives the content.
+CONTENTS = ("accuracy", "breaking_line", "buoy_sweep", "oscillator", "out_of_plane", "stability", "time_series")
 
 __all__ = ["CONTENTS", "build"]
 

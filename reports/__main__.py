@@ -9,7 +9,8 @@ import sys
 def main(arguments: list[str] | None = None) -> int:
     """Build and print the two paths.
 
-    Exit code 2 with one message for a folder that is no finished campaign, 1 for a disk that does not take the files.
+    Exit code 2 with one message for a folder that is no finished campaign, 1 for a disk that does not take the files,
+    130 for Ctrl-C.
     """
     parser = argparse.ArgumentParser(
         prog="python -m reports",
@@ -27,6 +28,9 @@ def main(arguments: list[str] | None = None) -> int:
     except FolderError as error:
         print(error, file=sys.stderr)
         return 2
+    except KeyboardInterrupt:
+        print("\ninterrupted; an earlier report is as it was", file=sys.stderr)
+        return 130
     except OSError as error:
         print(f"the report could not be written: {error}", file=sys.stderr)
         return 1

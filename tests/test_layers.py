@@ -72,7 +72,7 @@ def test_every_campaign_can_be_run_and_has_a_report():
     from reports import CONTENTS
 
     folders = {path.parent.name for path in (ROOT / "campaigns").glob("*/__init__.py")} - {"machinery"}
-    assert folders == set(CONTENTS)
+    assert folders | {"time_series"} == set(CONTENTS)  # python -m analysis: a folder, and no campaign
     for name in folders:
         assert (ROOT / "campaigns" / name / "__main__.py").exists() and (ROOT / "reports" / name / "report.py").exists()
 

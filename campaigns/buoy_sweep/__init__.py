@@ -142,8 +142,10 @@ def _growths(scene, changes: dict) -> dict:
 
 
 def _scenes(name: str, changes: dict, steepness: list[float], analysed: bool, faults: list[str]) -> dict:
+    from campaigns.machinery.plausible import doubts, irregular
     from engine import SceneError, load_scene
 
+    faults.extend(irregular(name, changes))
     scenes = {}
     for value in steepness:
         try:
@@ -155,6 +157,7 @@ def _scenes(name: str, changes: dict, steepness: list[float], analysed: bool, fa
             continue
         if scene.end.kind != "buoy" and value == steepness[0]:
             faults.append(f"end.kind: given {scene.end.kind!r}; allowed: 'buoy' in this campaign")
+        faults.extend(line for line in doubts(scene) if line not in faults)
         scenes[value] = scene
     return scenes
 

@@ -58,7 +58,11 @@ def command(module: str, argv: list[str] | None, read_order: Callable, work: Cal
     """
     argv = list(sys.argv[1:] if argv is None else argv)
     faults: list[str] = []
-    order = read_order(argv, faults)
+    try:
+        order = read_order(argv, faults)
+    except KeyboardInterrupt:
+        print("\ninterrupted; nothing was run or written", file=sys.stderr)
+        return EXIT_INTERRUPTED
     if faults:
         print(complaint(f"python -m {module}", faults), file=sys.stderr)
         return EXIT_BAD_INPUT

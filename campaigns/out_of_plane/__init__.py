@@ -141,6 +141,7 @@ def compared(case: Case, base: Case) -> bool:
 
 def _scenes(name: str, changes: dict, faults: list[str]) -> tuple[Case | None, dict]:
     from campaigns.buoy_sweep import carries_tangents
+    from campaigns.machinery.plausible import doubts, irregular
     from engine import SceneError, load_scene
 
     try:
@@ -150,6 +151,9 @@ def _scenes(name: str, changes: dict, faults: list[str]) -> tuple[Case | None, d
         return None, {}
     if scene.waves is None or scene.water is None or scene.end.kind != "buoy":
         faults.append("--scene: given one without a buoy in waves; allowed: a buoy in waves")
+        return None, {}
+    if scene.waves.irregular:
+        faults.extend(irregular(name, changes))
         return None, {}
     tether = scene.tether
     base = Case(LARGE, scene.water.depth_m, tether.bending_stiffness_Nm2, tether.nodes)
@@ -163,6 +167,7 @@ def _scenes(name: str, changes: dict, faults: list[str]) -> tuple[Case | None, d
         except SceneError as error:
             faults.extend(fault for fault in error.faults if fault not in faults)
             continue
+        faults.extend(line for line in doubts(made) if line not in faults)
         scenes[case] = made
     return base, scenes
 

@@ -4,8 +4,9 @@
 def goes_in_lanes(scene):
     """May this scene share a batch: planar, by a Runge-Kutta method, a buoy at the end, nothing looked up in a table?
 
-    bool. Held and free ends, tabulated laws, currents with a profile and profiles of the line are left out because no
-    sweep needs them, not because they could not: each would want its branches written as choices (`engine.choose`).
+    bool. Held and free ends, tabulated laws, irregular waves, currents with a profile and profiles of the line are left
+    out because no sweep needs them, not because they could not: each would want its branches written as choices
+    (`engine.choose`).
     """
     return (
         scene.solver.scheme != "paper-box"
@@ -14,6 +15,7 @@ def goes_in_lanes(scene):
         and scene.solver.shock_viscosity is None
         and scene.end.kind == "buoy"
         and scene.tether.tension.law != "tabulated"
+        and (scene.waves is None or not scene.waves.irregular)
         and (scene.current is None or scene.current.law == "uniform")
         and scene.output.profiles is False
         and not scene.output.energy

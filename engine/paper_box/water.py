@@ -7,6 +7,7 @@ below. As in the conservation form, positions are renewed in each Newton iterati
 import numpy as np
 
 from ..currents import current_field, current_field_3d
+from ..sea import sea_field
 from ..waves import wave_field, wave_field_3d
 from .frame import TO_ENGINE, TO_PAPER, rotation
 from .line import EULER
@@ -26,13 +27,17 @@ def water_at(line, t, Y, waves=True):
     X = positions(line, Y)[TO_ENGINE]
     if line.spatial:
         X, F = np.ascontiguousarray(X.T), np.zeros((n, 6))
-        if waves and record["waves"]:
+        if waves and record["sea_n"]:
+            sea_field(record, tables, t, X, F)
+        elif waves and record["waves"]:
             wave_field_3d(record, t, X, F)
         if record["current"]:
             current_field_3d(record, tables, t, X, F)
         return F.T[[*TO_PAPER, *(3 + i for i in TO_PAPER)]]
     X, F = np.ascontiguousarray(X[[0, 2]].T), np.zeros((n, 4))
-    if waves and record["waves"]:
+    if waves and record["sea_n"]:
+        sea_field(record, tables, t, X, F)
+    elif waves and record["waves"]:
         wave_field(record, t, X, F)
     if record["current"]:
         current_field(record, tables, t, X, F)

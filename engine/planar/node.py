@@ -26,6 +26,7 @@ from ..choose import larger
 from ..compiled import kernel
 from ..currents import planar_current
 from ..elementary import sincos
+from ..sea import planar_sea
 from ..shocks import shock_tension
 from ..waves import wave_field
 from .places import count_of_places, place, put, take, tension_at
@@ -60,7 +61,10 @@ def water(p, tables, t, in_motion, X, F):
         for i in range(4):
             F[k, i] = 0.0
     if p.waves and in_motion > 0.0:
-        wave_field(p, t, X, F)
+        if p.sea_n == 0:
+            wave_field(p, t, X, F)
+        else:
+            planar_sea(p, tables, t, X, F)
     if p.current:
         planar_current(p, tables, t, X, F)
 

@@ -31,6 +31,7 @@ import math
 
 from ..compiled import kernel
 from ..currents import current_field_3d
+from ..sea import sea_field
 from ..shocks import shock_tension
 from ..tension import tension
 from ..vectors import dot, frame, mixed
@@ -78,7 +79,10 @@ def water(p, tables, t, in_motion, X, F):
         for i in range(6):
             F[k, i] = 0.0
     if p.waves and in_motion > 0.0:
-        wave_field_3d(p, t, X, F)
+        if p.sea_n == 0:
+            wave_field_3d(p, t, X, F)
+        else:
+            sea_field(p, tables, t, X, F)
     if p.current:
         current_field_3d(p, tables, t, X, F)
 

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import numpy as np
 
-from ..parts.folder import FolderError
+from ..parts.folder import FolderError, no_folder
 
 PARTS = (
     "section",
@@ -52,7 +52,7 @@ def read_study(directory: str | Path) -> Study:
     """Read the folder. Raises FolderError naming every file that is missing or cannot be read."""
     directory = Path(directory)
     if not directory.is_dir():
-        raise FolderError(directory, ["there is no such folder"])
+        raise FolderError(directory, [no_folder(directory)])
     faults = [f"{name} is missing ({meaning})" for name, meaning in FILES.items() if not (directory / name).exists()]
     if faults:
         raise FolderError(directory, faults)

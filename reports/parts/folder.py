@@ -50,7 +50,7 @@ def read_folder(directory: str | Path, columns: tuple[str, ...], words: tuple[st
     """
     directory = Path(directory)
     if not directory.is_dir():
-        raise FolderError(directory, ["there is no such folder"])
+        raise FolderError(directory, [no_folder(directory)])
     faults = [f"{name} is missing ({meaning})" for name, meaning in PARTS.items() if not (directory / name).exists()]
     provenance = _read(directory / "provenance.json", _provenance, faults)
     table = _read(directory / "table.csv", lambda path: _table(path, columns, (*WORDS, *words)), faults)
@@ -58,6 +58,12 @@ def read_folder(directory: str | Path, columns: tuple[str, ...], words: tuple[st
     if faults:
         raise FolderError(directory, faults)
     return Folder(directory, provenance, table, scene)
+
+
+def no_folder(directory: Path) -> str:
+    """Why a path that is no folder is none, and what is wanted instead."""
+    there = "it is a file" if directory.exists() else "there is no such folder"
+    return f"{there}; give the folder that a campaign wrote (its --out), for instance results/buoy_sweep"
 
 
 def campaign_of(directory: str | Path) -> str | None:

@@ -8,7 +8,7 @@ import math
 from dataclasses import dataclass
 from pathlib import Path
 
-from ..parts.folder import FolderError
+from ..parts.folder import FolderError, no_folder
 
 FILES = {
     "table.csv": "one row a case",
@@ -54,7 +54,7 @@ def read_study(directory: str | Path) -> Study:
     """Read the folder. Raises FolderError naming every file that is missing or cannot be read."""
     directory = Path(directory)
     if not directory.is_dir():
-        raise FolderError(directory, ["there is no such folder"])
+        raise FolderError(directory, [no_folder(directory)])
     faults = [f"{name} is missing ({meaning})" for name, meaning in FILES.items() if not (directory / name).exists()]
     found = {}
     for name in FILES if not faults else ():

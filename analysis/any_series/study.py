@@ -1,0 +1,195 @@
+"""What one column says: spectrum, section, exponents, 0-1 test, dimension, surrogates, and a verdict with its evidence.
+
+The verdict is that of `verdicts.regime` on the section (`sections`). Two things are asked beyond it:
+
+- A section at maxima is not a linear function of the record, so that linear noise may leave structure in it. Before
+  "chaotic" stands, the section's prediction gain must also beat those of 39 IAAFT surrogates of the record itself, each
+  seen at its own maxima.
+- The exponent of Wolf and that of Rosenstein must not contradict each other about what chaos needs: where both are
+  found, both have to be positive.
+"""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from analysis.any_series.columns import Record
+from analysis.any_series.sections import MAXIMA, NOISE_MULTIPLE, SAMPLES, Seen, seen, successive_maxima
+from analysis.correlation_sums import CorrelationDimension, correlation_dimension
+from analysis.divergence import kantz_lyapunov, rosenstein_lyapunov
+from analysis.embedding_delay import delay_vectors
+from analysis.embedding_dimension import EmbeddingChoice, choose_embedding
+from analysis.evidence import SHARE, Evidence
+from analysis.exponents import Exponent, no_exponent
+from analysis.predictability import prediction_gain
+from analysis.spectra import SpectralPeak, Spectrum, spectral_peaks, spectrum
+from analysis.surrogates import iaaft_surrogates, normal_scores, rank_among
+from analysis.verdicts import Verdict, regime
+from analysis.wolf_plateau import LEAST_PERIODS, wolf_lyapunov
+from analysis.zero_one import ZeroOneTest, zero_one_test
+
+# More samples make exponents no better than their other errors, and take long.
+MOST_SAMPLES = 30_000
+MOST_POINTS = 6_000
+NULL_SAMPLES = 8_192
+SURROGATES = 39
+TOLERANCE = 1e-3
+# What the dimension may rise by from one embedding dimension to the next and still be that of the motion.
+SATURATED = 0.1
+
+
+@dataclass(frozen=True, eq=False)
+class Study:
+    """Everything that was found about a record.
+
+    record, seen       the series and its section
+    spectrum, lines    eq. (31) over the later half of the record, and its highest peaks
+    wolf, rosenstein, kantz    Exponent each [nats per unit of time of the record]
+    zero_one           of the section's first coordinate
+    embedding          delay and dimension of the delay vectors; None for a record of fewer than 20 mean periods
+    dimensions         CorrelationDimension in m, m + 1 and m + 2 embedding dimensions, m that of `embedding`
+    dimension          (value, error) where these agree, else (NaN, NaN)
+    verdict            Verdict on the section
+    tolerance          share of the range within which the section had to repeat
+    used               samples looked at by exponents and dimension: the last of the record
+    """
+
+    record: Record
+    seen: Seen
+    spectrum: Spectrum
+    lines: tuple[SpectralPeak, ...]
+    wolf: Exponent
+    rosenstein: Exponent
+    kantz: Exponent
+    zero_one: ZeroOneTest
+    embedding: EmbeddingChoice | None
+    dimensions: tuple[CorrelationDimension, ...]
+    dimension: tuple[float, float]
+    verdict: Verdict
+    tolerance: float
+    used: int
+
+
+def study(record, period=None, tolerance=None, seed=0):
+    """The Study of a Record; period: of the forcing, in the record's unit of time, or None (`sections`).
+
+    tolerance: share of the range within which a motion repeats; None: 0.001, or what splines leave of a sine sampled as
+    coarsely. seed: of surrogates and angles. The same record and seed give the same study.
+    """
+    x, step = record.values, record.step
+    view = seen(x, step, period)
+    last = x[-MOST_SAMPLES:]
+    cycles = len(last) / view.mean_period
+    if cycles < LEAST_PERIODS:
+        # Neighbours apart in time by a mean period would have to be sought through the whole record, for nothing.
+        reason = f"{LEAST_PERIODS} mean periods are needed, given {cycles:.3g}"
+        exponents, embedding, dimensions = [no_exponent("none", reason)] * 3, None, ()
+    else:
+        exponents = [estimate(last, step) for estimate in (wolf_lyapunov, rosenstein_lyapunov, kantz_lyapunov)]
+        embedding = choose_embedding(last)
+        dimensions = _dimensions(last, embedding)
+    found = _spectrum(x, step, view, period)
+    # A maximum or a value between samples carries the error of the spline, h^4/384 for a sine.
+    smooth = 0.0 if view.kind == SAMPLES else (2.0 * np.pi / view.mean_period) ** 4 / 384.0
+    tolerance = max(TOLERANCE, smooth) if tolerance is None else tolerance
+    verdict = _verdict(x, view, exponents, tolerance, seed)
+    return Study(
+        record=record,
+        seen=view,
+        spectrum=found,
+        lines=spectral_peaks(found)[:5],
+        wolf=exponents[0],
+        rosenstein=exponents[1],
+        kantz=exponents[2],
+        zero_one=zero_one_test(view.points[-MOST_POINTS:, 0], seed=seed),
+        embedding=embedding,
+        dimensions=dimensions,
+        dimension=_saturated(dimensions),
+        verdict=verdict,
+        tolerance=tolerance,
+        used=len(last),
+    )
+
+
+def _spectrum(x, step, view, period):
+    """Eq. (31) over the later half: in whole forcing periods, or, where none is known, as one period."""
+    length = (len(x) - 1) * step
+    forced = view.period if period is not None and view.kind != SAMPLES else None
+    if forced is not None and (whole := int((1.0 + 1e-9) * length / forced)) >= 2:
+        half = whole // 2
+        return spectrum(x, step, forced, start_periods=whole - half, periods=half)
+    half = len(x) // 2
+    return spectrum(x[-half - 1 :], step, half * step, start_periods=0, periods=1)
+
+
+def _dimensions(x, embedding):
+    found = []
+    for m in range(embedding.dimension, embedding.dimension + 3):
+        vectors = delay_vectors(x, embedding.lag, m)[-MOST_POINTS:]
+        found.append(correlation_dimension(vectors, theiler=max(1, round(embedding.mean_period))))
+    return tuple(found)
+
+
+def _saturated(dimensions):
+    """(value, error) of the middle one where all three agree within their errors or a tenth; else (NaN, NaN)."""
+    values = np.array([one.value for one in dimensions])
+    errors = np.array([one.error for one in dimensions])
+    if len(values) == 0 or not np.all(np.isfinite(values)):
+        return np.nan, np.nan
+    rise = float(values.max() - values.min())
+    if rise > max(SATURATED * values[1], 2.0 * float(np.hypot(errors[0], errors[2]))):
+        return np.nan, np.nan
+    return float(values[1]), float(np.hypot(errors[1], 0.5 * rise))
+
+
+def _verdict(x, view, exponents, tolerance, seed):
+    wolf, rosenstein, _ = (one.in_bits_per_period(view.period) for one in exponents)
+    verdict = regime(
+        strobed=view.points[-MOST_POINTS:],
+        wolf_exponent=wolf,
+        scale=np.ptp(x),
+        tolerance=tolerance,
+        surrogates=SURROGATES,
+        seed=seed,
+    )
+    if verdict.regime != "chaotic":
+        return verdict
+    asked = [_agreement(rosenstein)]
+    if view.kind == MAXIMA:
+        asked.append(_record_null(x, view, seed))
+    failed = [item for item in asked if item.passed is False]
+    verdict = replace(verdict, evidence=(*verdict.evidence, *asked))
+    if not failed:
+        return verdict
+    reason = "chaotic by its section, but " + "; ".join(item.sentence for item in failed)
+    return replace(verdict, regime="undecided", reason=reason)
+
+
+def _agreement(rosenstein):
+    """Does a second method speak against a positive exponent?"""
+    name = "second exponent"
+    if not rosenstein.found:
+        return Evidence(name, np.nan, 0.0, None, f"Rosenstein finds none: {rosenstein.reason}")
+    value, error = rosenstein.value, rosenstein.error
+    passed = bool(value > 0.0)
+    sentence = f"Rosenstein's exponent is {value:.4g} +- {error:.2g} bits per period"
+    return Evidence(name, value, 0.0, passed, sentence, error)
+
+
+def _record_null(x, view, seed):
+    """Rank of the section's prediction gain among those of surrogates of the record, each seen at its own maxima."""
+    name = "record's linear null"
+    part = x[-NULL_SAMPLES:]
+    gain = prediction_gain(successive_maxima(part, NOISE_MULTIPLE * view.noise)[1]).gain
+    gains = []
+    values = np.sort(part)
+    for surrogate in iaaft_surrogates(normal_scores(part), SURROGATES, [seed, 7]):
+        # Back in the record's own values: the instrument is put on again.
+        again = values[np.argsort(np.argsort(surrogate))]
+        gains.append(prediction_gain(successive_maxima(again, NOISE_MULTIPLE * view.noise)[1]).gain)
+    known = [one for one in gains if np.isfinite(one)]
+    if not np.isfinite(gain) or len(known) < 19:
+        return Evidence(name, np.nan, SHARE, None, "too few maxima in the surrogates: no prediction gain")
+    rank = rank_among(gain, known, SHARE)
+    sentence = f"surrogates of the record, seen at their maxima, are predicted worse in {rank.share_below:.0%} of cases"
+    return Evidence(name, rank.share_below, SHARE, rank.above, sentence)

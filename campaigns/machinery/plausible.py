@@ -1,0 +1,97 @@
+"""Scenes that a command refuses because they can hardly be meant: a wrong unit, a wave that has long broken.
+
+The engine runs what it is given (`engine.simulate` takes any of these); a command that is about to compute for minutes
+asks first. The bounds are wide: what is refused is wrong by a factor, not by a few per cent.
+"""
+
+import math
+from collections.abc import Iterator
+
+from engine.scene_faults import fault
+
+# Miche (1944): the highest wave that stands is 2A = 0.142 lambda tanh(kH), so kA = 0.142 pi tanh(kH).
+MICHE = 0.142 * math.pi
+LONGEST_IN_DEPTHS = 20.0
+AREA_RATIO = 100.0
+PERIODS_S = (0.05, 1000.0)
+MOST_STRETCH = 10.0
+PYTHON = "if it is meant, run it from Python: engine.simulate"
+
+
+def doubts(scene) -> Iterator[str]:
+    """Fault lines of a scene with a buoy; none where it is plausible."""
+    yield from _line(scene)
+    if scene.water is not None and scene.buoy is not None:
+        yield from _buoy(scene)
+    if scene.waves is not None:
+        yield from _waves(scene)
+
+
+def irregular(name: str, changes: dict) -> Iterator[str]:
+    """The fault of a scene with an irregular sea, for campaigns that count, strobe and judge in wave periods.
+
+    name, changes: as for `load_scene`, before the campaign puts its own waves in their place.
+    """
+    from engine import SceneError, load_scene
+
+    try:
+        waves = load_scene(name, changes).waves
+    except SceneError:
+        return  # told elsewhere
+    if waves is not None and waves.irregular:
+        key = "waves.components" if waves.jonswap is None else "waves.jonswap"
+        yield (
+            f"{key}: given; allowed: one regular wave in this campaign, which strobes and judges motions once per wave "
+            "period; engine.simulate runs irregular waves (docs/howto_waves.md)"
+        )
+
+
+def breaking_steepness(scene) -> float:
+    """kA of the highest wave of the scene's period in its depth (Miche 1944)."""
+    from engine.waves import wave_number
+
+    depth = scene.water.depth_m
+    return MICHE * math.tanh(wave_number(scene.waves.period_s, depth, scene.gravity_mps2) * depth)
+
+
+def _line(scene) -> Iterator[str]:
+    tether = scene.tether
+    circle = 0.25 * math.pi * tether.diameter_m**2
+    if not 1.0 / AREA_RATIO < circle / tether.area_m2 < AREA_RATIO:
+        allowed = f"about {math.sqrt(4.0 * tether.area_m2 / math.pi):.3g} m, the circle of tether.area_m2"
+        yield fault("tether.diameter_m", tether.diameter_m, f"{allowed} (metres, not millimetres?); {PYTHON}")
+    if scene.water is not None and tether.length_m > LONGEST_IN_DEPTHS * scene.water.depth_m:
+        allowed = f"at most {LONGEST_IN_DEPTHS:g} times water.depth_m, {scene.water.depth_m:g} (metres?); {PYTHON}"
+        yield fault("tether.length_m", tether.length_m, allowed)
+
+
+def _buoy(scene) -> Iterator[str]:
+    buoy, water = scene.buoy, scene.water
+    if buoy.diameter_m >= water.depth_m:
+        allowed = f"less than water.depth_m, {water.depth_m:g} (metres, not millimetres?); {PYTHON}"
+        yield fault("buoy.diameter_m", buoy.diameter_m, allowed)
+        return
+    displaced = water.density_kgpm3 * math.pi * buoy.diameter_m**3 / 6.0
+    if buoy.mass_kg >= displaced:
+        allowed = f"less than the {displaced:.4g} kg of water that it displaces, or it sinks; {PYTHON}"
+        yield fault("buoy.mass_kg", buoy.mass_kg, allowed)
+    law = scene.tether.tension
+    lift = (displaced - buoy.mass_kg) * scene.gravity_mps2
+    if law.law == "linear" and lift > MOST_STRETCH * law.stiffness_N:
+        allowed = f"{lift / MOST_STRETCH:.3g} N at least, as the buoy pulls with {lift:.4g} N (newtons, not kN?)"
+        yield fault("tether.tension.stiffness_N", law.stiffness_N, f"{allowed}; {PYTHON}")
+
+
+def _waves(scene) -> Iterator[str]:
+    waves = scene.waves
+    if not PERIODS_S[0] <= waves.period_s <= PERIODS_S[1]:
+        allowed = f"{PERIODS_S[0]:g} to {PERIODS_S[1]:g} s (seconds, not milliseconds?); {PYTHON}"
+        yield fault("waves.period_s", waves.period_s, allowed)
+        return
+    if abs(waves.direction_rad) > 2.0 * math.pi:
+        allowed = f"-2 pi to 2 pi rad (radians, not degrees: {math.radians(waves.direction_rad):.4g}?); {PYTHON}"
+        yield fault("waves.direction_rad", waves.direction_rad, allowed)
+    if waves.steepness is not None and waves.steepness > (limit := breaking_steepness(scene)):
+        percent = " (a share, not per cent?)" if waves.steepness > 1.0 else ""
+        breaks = f"at most {limit:.3f}, where a wave of {waves.period_s:g} s breaks in this depth{percent}"
+        yield fault("waves.steepness", waves.steepness, f"{breaks}; {PYTHON}")

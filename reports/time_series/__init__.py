@@ -1,0 +1,1 @@
+"""Any column of a file, judged by `python -m analysis --out DIR`: `report.py` says it, `folder.py` reads the folder."""

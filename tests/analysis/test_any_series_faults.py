@@ -1,0 +1,131 @@
+"""What no answer can be given about is refused with every fault and what is allowed; nothing is written."""
+
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from analysis.any_series.command import main
+from tests.analysis.any_series import written
+
+ROOT = Path(__file__).resolve().parents[2]
+ROWS = [f"{0.1 * k:.3f},{np.sin(k):.6f}" for k in range(300)]
+
+
+def changed(row, text):
+    return "\n".join(["t,x", *ROWS[:row], text, *ROWS[row + 1 :]])
+
+
+FILES = {
+    "nan.csv": changed(7, "0.700,nan"),
+    "gap.csv": changed(7, "0.700,"),
+    "word.csv": changed(7, "0.700,broken"),
+    "comma.csv": changed(7, "0.700,1,5"),
+    "semicolon.csv": changed(7, "0.700;1,5").replace(".000,", ".000;").replace(",", ";", 1),
+    "jump.csv": "\n".join(["t,x", *ROWS[:100], *ROWS[150:]]),
+    "back.csv": changed(7, "0.650,0.3").replace("0.600,", "0.800,"),
+    "creep.csv": "\n".join(["t,x", *(f"{k * (1 + 1e-3 * k)},{np.sin(k)}" for k in range(300))]),
+    "short.csv": "\n".join(["t,x", *ROWS[:99]]),
+    "flat.csv": "\n".join(["t,x", *(f"{k},3.5" for k in range(300))]),
+    "twice.csv": "\n".join(["x,x", *ROWS]),
+    "empty.csv": "\n",
+    "good.csv": "\n".join(["t,x", *ROWS]),
+}
+
+
+@pytest.mark.parametrize(
+    ("words", "parts"),
+    [
+        ("", ["FILE.csv: missing"]),
+        ("god.csv --column x", ["no such file", "did you mean 'good.csv'?", "allowed: a text file"]),
+        (". --column x", ["a folder"]),
+        ("image.csv --column x", ["not text", "to_csv"]),
+        ("empty.csv --column x", ["empty"]),
+        ("good.csv", ["--column: not given; allowed: t, x"]),
+        ("good.csv --column X1", ["no column 'X1'", "allowed: t, x"]),
+        ("good.csv --column x --time time", ["--time: no column 'time'"]),
+        ("good.csv --column x --time t --step 0.1", ["given both"]),
+        ("good.csv --column x --step 0,1", ["--step: given '0,1'"]),
+        ("good.csv --column x --step 0.1 --period -5", ["--period: given '-5'", "above 0"]),
+        ("good.csv --column x --step 0.1 --period 0.15", ["samples are 0.1 apart"]),
+        ("good.csv --column x --step 0.1 --period 20", ["of a record of 29.9 s", "40 periods"]),
+        ("good.csv --column x --tolerance 2", ["--tolerance"]),
+        ("good.csv --colum x", ["--colum: no such option; did you mean --column?"]),
+        ("good.csv other.csv --column x", ["other.csv: given beside good.csv"]),
+        ("good.csv --column", ["expected one argument"]),
+        ("nan.csv --column x", ["row 8 below the names, 'nan', is not finite"]),
+        ("gap.csv --column x", ["row 8 below the names, '', is empty"]),
+        ("word.csv --column x", ["'broken', is no number"]),
+        ("comma.csv --column x", ["row 8 below the names has 3 cells, the names are 2"]),
+        ("jump.csv --column x --time t", ["steps of 0.1 s, but of 5.1 s after row 100", "even sampling"]),
+        ("back.csv --column x --time t", ["0.65 follows 0.8", "times in seconds that increase"]),
+        ("creep.csv --column x --time t", ["even sampling"]),
+        ("short.csv --column x", ["given 99 samples; allowed: 100 or more"]),
+        ("flat.csv --column x", ["every value is 3.5", "a series that moves"]),
+        ("twice.csv --column x", ["two columns are called 'x'"]),
+        ("good.csv --column x --out good.csv", ["good.csv is a file"]),
+        ("good.csv --column x --out campaign", ["which holds a campaign"]),
+        ("nan.csv --column y --step 0 --period x --out nan.csv", ["4 faults", "--step", "--period", "--out"]),
+    ],
+)
+def test_faults(tmp_path, monkeypatch, capsys, words, parts):
+    monkeypatch.chdir(tmp_path)
+    for name, text in FILES.items():
+        (tmp_path / name).write_text(text)
+    (tmp_path / "image.csv").write_bytes(bytes(range(128, 256)))
+    (tmp_path / "campaign").mkdir()
+    (tmp_path / "campaign" / "provenance.json").write_text('{"campaign": "buoy_sweep"}')
+    before = sorted(path.name for path in tmp_path.rglob("*"))
+    assert main(words.split()) == 2
+    said = capsys.readouterr()
+    assert said.out == "" and "nothing was computed or written" in said.err
+    for part in parts:
+        assert part in said.err
+    assert sorted(path.name for path in tmp_path.rglob("*")) == before
+
+
+def test_a_full_disk_leaves_the_answer_and_one_line(tmp_path, monkeypatch, capsys):
+    def full(*_):
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr("analysis.any_series.files._write", full)
+    path = written(tmp_path / "s.csv", np.sin(0.3 * np.arange(400)))
+    assert main([str(path), "--out", str(tmp_path / "out")]) == 1
+    said = capsys.readouterr()
+    assert "VERDICT" in said.out and "the disk is full; the answer above stands" in said.err
+
+
+def test_ctrl_c_is_one_line(tmp_path, monkeypatch, capsys):
+    def stopped(*_):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr("analysis.any_series.study.study", stopped)
+    path = written(tmp_path / "s.csv", np.sin(0.3 * np.arange(400)))
+    assert main([str(path), "--out", str(tmp_path / "out")]) == 130
+    assert "interrupted" in capsys.readouterr().err and not (tmp_path / "out").exists()
+
+
+def test_help_tells_every_option_and_loads_nothing_heavy():
+    code = (
+        "import sys, analysis.any_series.command as c; print(c.parser().format_help());"
+        "print(sorted({'numpy', 'numba', 'scipy', 'pandas'} & set(sys.modules)))"
+    )
+    said = subprocess.run([sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True, check=True).stdout
+    assert all(option in said for option in "--column --time --step --period --tolerance --out".split())
+    assert said.strip().endswith("[]")
+
+
+@pytest.mark.parametrize(
+    "text", ["x\ty\n" + "1 \t2\n" * 5, "x;y\n" + "1;2\n" * 5, "# remark\nx y\n" + "1   2\n" * 5, "1,2\n" * 6]
+)
+def test_tables_of_any_common_shape_are_read(tmp_path, text):
+    from analysis.any_series.columns import _table
+
+    (tmp_path / "table").write_text(text)
+    faults = []
+    table = _table(tmp_path / "table", faults)
+    assert not faults and all(
+        [float(cell) for cell in cells][:5] == [1.0 + k] * 5 for k, cells in enumerate(table.values())
+    )
