@@ -39,7 +39,8 @@ def parser():
     parser = cli.parser(MODULE, __doc__)
     what = parser.add_argument_group("what is run")
     cli.add(what, "--parts", "A B ...", f"parts to run (default: {' '.join(PARTS)})")
-    what.add_argument("--quick", action="store_true", help="shorter and fewer runs: shows the report, concludes nothing")
+    shorter = "shorter and fewer runs: shows the report, concludes nothing"
+    what.add_argument("--quick", action="store_true", help=shorter)
     where = parser.add_argument_group("how and where")
     cli.add(where, "--jobs", "N", f"runs at the same time (default: {cli.default_jobs()})")
     found = "folder of the results; runs found there are not done again"
@@ -65,7 +66,7 @@ def read_order(argv: list[str], faults: list[str]) -> Order:
 
 
 def study(order: Order, argv: list[str]) -> int:
-    """Run it: parts, figure data, statements, provenance, report. Raises CampaignStopped, OSError, KeyboardInterrupt."""
+    """Run it: parts, figure data, statements, report. Raises CampaignStopped, OSError, KeyboardInterrupt."""
     from campaigns.machinery import provenance, session
     from campaigns.machinery.folder import claimed
     from campaigns.paper import dependence, parts, results

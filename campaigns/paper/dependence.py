@@ -55,7 +55,7 @@ COLUMNS = (*LABELS, *(name for name in OF_A_RUN if name not in LABELS))
 
 
 def treatments() -> tuple[tuple[str, ...], tuple[str, ...]]:
-    """All that a scene allows, the shipped one first: of waves above still water, and of a buoy that leaves the water."""
+    """All that a scene allows: of waves above still water, and of a buoy that leaves the water."""
     from engine.scene_models import Buoy, Waves
 
     waves, buoy = Waves.model_fields["above_still_water"], Buoy.model_fields["submergence"]

@@ -1,4 +1,4 @@
-"""A statement put to the test: what is claimed, where it was looked, what was found there, and the verdict that follows.
+"""A statement put to the test: what is claimed, where it was looked, what was found, and the verdict that follows.
 
 The verdict is computed from the checks and cannot be written: "holds" where every check passes, "does not hold" where
 none does, "holds if" between, with the places where it does and where it does not; a dash where nothing was checked.
@@ -6,6 +6,7 @@ none does, "holds if" between, with the places where it does and where it does n
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass
 
 from .wording import EMPTY, listed
@@ -39,10 +40,24 @@ class Statement:
         """Of "holds if": where it holds, and where not; else nothing."""
         if self.verdict != HOLDS_IF:
             return ""
-        sides = (listed(where for where, holds in self.checks if holds is wanted) for wanted in (True, False))
+        sides = (_grouped([where for where, holds in self.checks if holds is wanted]) for wanted in (True, False))
         return "{}; not {}".format(*sides)
 
     @property
     def said(self) -> str:
         """Verdict and condition."""
         return f"{self.verdict}: {self.condition}" if self.condition else self.verdict
+
+
+def _grouped(places: list[str]) -> str:
+    """The places in a list; what they share around one number is said once.
+
+    >>> _grouped(["H = 21 m", "H = 22 m"]), _grouped(["r", "theta"])
+    ('H = 21 and 22 m', 'r and theta')
+    """
+    parts = [re.fullmatch(r"(\D*)(\S+)(.*)", place) for place in places]
+    around = {(part[1], part[3]) for part in parts if part}
+    if len(places) < 2 or not all(parts) or len(around) > 1:
+        return listed(places)
+    before, after = around.pop()
+    return f"{before}{listed(part[2] for part in parts)}{after}"
