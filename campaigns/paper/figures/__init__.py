@@ -1,0 +1,106 @@
+"""The data behind figures 2-7 and 9-20 of the paper, from the folders of the campaign's parts: one file a figure.
+
+    write_figure_data(DIR)      DIR/breaking_line, buoy, oscillator, out_of_plane -> DIR/figures/fig_NN.nc
+
+A figure whose part is missing or failed has no file; `left_out.json` says why. Figures are drawn from their files alone
+(`reports.paper.figures`). A file whose sources and makers are unchanged stays as it is; the same sources give the same
+bytes.
+"""
+
+import contextlib
+import json
+from functools import partial
+from pathlib import Path
+
+SOURCES = (
+    "analysis",
+    "engine",
+    "campaigns/paper/figures",
+    "reports/breaking_line",
+    "reports/buoy_sweep",
+    "reports/oscillator/folder.py",
+    "reports/out_of_plane/runs.py",
+    "reports/parts/figure_data.py",
+)
+
+
+def planners() -> dict[int, object]:
+    """Figure of the paper -> what plans its data from the `Parts`."""
+    from campaigns.paper.figures.breaking import breaking
+    from campaigns.paper.figures.buoy import LARGE, SMALL, history, spectra
+    from campaigns.paper.figures.exponents import running_exponents
+    from campaigns.paper.figures.offplane import offplane_histories
+    from campaigns.paper.figures.sections import sections
+    from reports.breaking_line.runs import FAST, SLOW
+
+    def of_line(cases, what):
+        return partial(breaking, cases=cases, what=what)
+
+    def of_buoy(steepness, side):
+        return partial(history, steepness=steepness, side=side)
+
+    def of_spectrum(steepness, *sides):
+        return partial(spectra, steepness=steepness, sides=sides)
+
+    return {
+        2: of_line(FAST, "motion"),
+        3: of_line(FAST, "tension"),
+        4: of_line(FAST, "velocity"),
+        5: of_line(SLOW, "motion"),
+        6: of_line(SLOW, "tension"),
+        7: of_line(SLOW, "velocity"),
+        9: of_buoy(SMALL, "tension"),
+        10: of_buoy(SMALL, "radial"),
+        11: of_buoy(SMALL, "angular"),
+        12: of_spectrum(SMALL, "radial", "angular"),
+        13: of_buoy(LARGE, "tension"),
+        14: running_exponents,
+        15: of_buoy(LARGE, "radial"),
+        16: of_buoy(LARGE, "angular"),
+        17: of_spectrum(LARGE, "radial"),
+        18: of_spectrum(LARGE, "angular"),
+        19: sections,
+        20: offplane_histories,
+    }
+
+
+def write_figure_data(folder: str | Path) -> dict[int, str]:
+    """Write the data of every figure that can be drawn; returns why each of the others cannot, by figure.
+
+    A figure that can no longer be drawn loses its files. Raises OSError, which leaves every file whole.
+    """
+    from campaigns.machinery.folder import write_json
+    from campaigns.machinery.row_store import made_by
+    from campaigns.paper.figures.plans import LeftOut, Parts
+    from reports.parts import figure_data
+    from reports.paper.figures import LEFT_OUT, files_of, place_of
+
+    root = Path(folder)
+    place = place_of(root)
+    place.mkdir(parents=True, exist_ok=True)
+    parts, left_out = Parts(root), {}
+    code = made_by({}, *SOURCES)
+    for number, planned in planners().items():
+        data, *pictures = files_of(root, number)
+        try:
+            plan = planned(parts)
+            digests = [(one.label, one.file, one.sha256) for one in plan.sources]
+            key = made_by({"figure": number, "title": plan.title, "sources": digests, "code": code})
+            if figure_data.made_by_of(data) != key:
+                figure_data.store(data, figure_data.dataset(plan.title, plan.arrays(), plan.sources, key))
+        except LeftOut as reason:
+            left_out[number] = str(reason)
+            for path in (data, *pictures):
+                with contextlib.suppress(FileNotFoundError):
+                    path.unlink()
+    content = {str(number): reason for number, reason in left_out.items()}
+    if _read_json(place / LEFT_OUT) != content:
+        write_json(place / LEFT_OUT, content)
+    return left_out
+
+
+def _read_json(path: Path) -> object:
+    try:
+        return json.loads(path.read_text(encoding="utf-8"))
+    except (OSError, ValueError):
+        return None

@@ -1,0 +1,122 @@
+"""Figures 9-11, 13, 15 and 16: tension, radius and angle against time at the paper's two steepnesses."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import partial
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ...figures.time_series import envelope
+from ...parts.figure_data import sources_of
+from ...parts.style import GREEN, INK, SKY, SOFT, VERMILION
+from ...parts.symbols import L_0, T_I, T_S
+from ...parts.wording import decimals, number, percent
+from .drawing import Drawing, behind, scaled, value
+
+if TYPE_CHECKING:
+    import xarray
+
+DETAIL_PERIODS = 10
+_HEIGHT_IN = 3.7
+
+
+@dataclass(frozen=True)
+class Side:
+    """One of the three histories: name of its array, labels left and right, factor from left to right, levels to mark:
+    (value, name)."""
+
+    column: str
+    label: str
+    other: str
+    factor: float
+    levels: tuple[tuple[float, str], ...]
+    band: tuple[str, str] = ()
+
+
+def drawing(data: xarray.Dataset) -> Drawing:
+    """The figure of a data file. Raises KeyError for one of another figure."""
+    side, words = _tension(data) if "tension_N" in data else _radial(data) if "radius_m" in data else _angular(data)
+    kA = sources_of(data)[0].label
+    caption = (
+        f"{words}, {kA}, against t/{T_I}; above the whole record up to the end of the window of eq. (31) (shaded), "
+        f"below its last {DETAIL_PERIODS} wave periods. {behind(data)}"
+    )
+    return Drawing(_HEIGHT_IN, partial(_fill, data=data, side=side), caption, f"History over time: {words}, {kA}.")
+
+
+def _tension(data: xarray.Dataset) -> tuple[Side, str]:
+    static = value(data, "static_tension_N")
+    low, high = data["tension_low_over_static"].values, data["tension_high_over_static"].values
+    slack = float(np.mean(data["tension_N"].values <= 0.0))
+    seen = f"from {decimals(low.min(), 2)} to {decimals(high.max(), 2)} {T_S}"
+    seen += f", without tension {percent(slack)} of the time" if slack else ", never slack"
+    side = Side(
+        "tension_over_static",
+        r"$T/T_s$ (–)",
+        r"$T$ (kN)",
+        1e-3 * static,
+        ((1.0, "static"), (0.0, "")),
+        ("tension_low_over_static", "tension_high_over_static"),
+    )
+    return side, f"tension at the top end over the static one, {T_S} = {number(static)} N, {seen}"
+
+
+def _radial(data: xarray.Dataset) -> tuple[Side, str]:
+    static, length = value(data, "static_radius_m"), value(data, "unstretched_m")
+    ratio = data["radius_over_static"].values
+    swing = (static * ratio - static) / (static - length)
+    levels = ((1.0, r"static, $r_0$"), (length / static, r"$l_0$: slack below"))
+    seen = (
+        f"from {decimals(ratio.min(), 3)} to {decimals(ratio.max(), 3)}; Δr from {decimals(swing.min(), 2)} to "
+        f"{decimals(swing.max(), 2)} times the static stretch Δl, slack below −1"
+    )
+    words = f"radius over the static one, r₀ = {L_0} + Δl = {decimals(static, 3)} m, {seen}"
+    return Side("radius_over_static", r"$r/r_0$ (–)", r"$r$ (m)", static, levels), words
+
+
+def _angular(data: xarray.Dataset) -> tuple[Side, str]:
+    angle = data["angle_rad"].values
+    seen = f"from {decimals(angle.min(), 3)} to {decimals(angle.max(), 3)} rad"
+    side = Side("angle_rad", r"$\theta$ (rad)", r"$\theta$ (°)", 180.0 / np.pi, ((0.0, "static"),))
+    return side, f"angle from the vertical (static value 0, hence in rad), {seen}"
+
+
+def _fill(figure, data: xarray.Dataset, side: Side) -> None:
+    periods = data["time_s"].values / value(data, "wave_period_s")
+    start, length = value(data, "window_start_periods"), value(data, "window_periods")
+    whole, detail = figure.subplots(2, 1, gridspec_kw={"height_ratios": [1.25, 1.0]})
+    for axes in (whole, detail):
+        last = periods[-1]
+        shown = slice(None) if axes is whole else periods >= last - DETAIL_PERIODS
+        if side.band:
+            low, high = (data[name].values[shown] for name in side.band)
+            x, low = envelope(periods[shown], low)
+            _, high = envelope(periods[shown], high)
+            axes.fill_between(x, np.minimum(low, high), np.maximum(low, high), color=SKY, alpha=0.5, linewidth=0)
+        axes.plot(*envelope(periods[shown], data[side.column].values[shown]), color=INK, linewidth=0.8)
+        axes.set_ylabel(side.label)
+        axes.margins(x=0.0)
+        right = axes.secondary_yaxis("right", functions=scaled(side.factor))
+        right.set_ylabel(side.other)
+        _levels(axes, side, named=axes is detail)
+    whole.axvspan(start, min(start + length, periods[-1]), color=SOFT, alpha=0.12, linewidth=0)
+    seconds = whole.secondary_xaxis("top", functions=scaled(value(data, "wave_period_s")))
+    seconds.set_xlabel(r"$t$ (s)")
+    detail.set_xlabel(r"$t/T_i$ (wave periods)")
+    figure.align_ylabels((whole, detail))
+
+
+def _levels(axes, side: Side, named: bool) -> None:
+    """The static value and other levels that are within sight."""
+    low, high = axes.get_ylim()
+    for (level, name), colour in zip(side.levels, (VERMILION, GREEN), strict=False):
+        if low <= level <= high:
+            axes.axhline(level, color=colour, linewidth=0.8, linestyle=(0, (5, 2)))
+            if name and named:
+                axes.annotate(
+                    name, (1.0, level), xycoords=("axes fraction", "data"), xytext=(-3, 2),
+                    textcoords="offset points", ha="right", va="bottom", fontsize=7.0, color=colour,
+                    bbox={"facecolor": "white", "edgecolor": "none", "pad": 0.6, "alpha": 0.8},
+                )  # fmt: skip
