@@ -11,7 +11,7 @@ from pathlib import Path
 
 # Campaigns as named in provenance.json; the folder of that name has a module `report`, whose `report(directory)` gives
 # the content.
-CONTENTS = ("accuracy", "breaking_line", "buoy_sweep", "oscillator", "out_of_plane", "stability")
+CONTENTS = ("accuracy", "breaking_line", "buoy_sweep", "oscillator", "out_of_plane", "paper", "stability")
 
 __all__ = ["CONTENTS", "build"]
 

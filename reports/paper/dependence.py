@@ -49,7 +49,7 @@ def _gaps(results: Results) -> Table:
         ("EI, GI of the tether", "0.4 and 0.04 N m²", "a published example of the same buoy and rope; EI varied below"),
         ("waves above still water", TREATMENTS["extrapolate"], "the plainest reading; varied below"),
         ("a buoy that leaves the water", TREATMENTS["full"], "eq. (30) as printed; varied below"),
-        ("start of the waves, their phase", "full amplitude from t = 0, crest at the anchor", "“impulsively from rest”"),
+        ("start of the waves, their phase", "all of it from t = 0, crest at the anchor", "“impulsively from rest”"),
         ("EI of the breaking line", "24 N m²", "a solid rod; varied in the part `breaking_line`"),
         ("drag on the breaking line", "none, in air", "not mentioned"),
         ("grids, time steps, tolerances", "see each scene", "each part repeats runs tighter and finer"),

@@ -65,15 +65,15 @@ def _question(folder: Folder, results: Results, placed: tuple[Placed, ...]) -> l
         Heading("Question"),
         Text(
             "The paper simulates a synthetic line that breaks and a buoy on a short tether in waves, and draws "
-            "conclusions from both. Here its figures are drawn again from runs of this workbench, each of its statements "
-            "gets a verdict with a number and the evidence for it, and what it leaves out is varied to see what the "
-            "answer depends on."
+            "conclusions from both. Here its figures are drawn again from runs of this workbench, each of its "
+            "statements gets a verdict with a number and the evidence for it, and what it leaves out is varied to see "
+            "what the answer depends on."
         ),
         Heading("Short answer"),
         Bullets(short_answer(placed)),
     ]
     if folder.provenance.get("quick"):
-        lines = ("This folder was made with `--quick`: runs are short and few, and nothing is to be concluded from it.",)
+        lines = ("This folder was made with `--quick`: runs are short and few; nothing is to be concluded from it.",)
         items.append(Notice("warning", "A quick look", lines))
     if results.missing:
         lines = tuple(f"`{part}`: {why}" for part, why in results.missing.items())
@@ -83,11 +83,12 @@ def _question(folder: Folder, results: Results, placed: tuple[Placed, ...]) -> l
 
 def short_answer(placed: tuple[Placed, ...]) -> tuple[str, ...]:
     """How many statements hold, and which do not."""
-    by_verdict = {word: [one for one in placed if one.statement.verdict == word] for word in (HOLDS, HOLDS_IF, FAILS)}
+    words = HOLDS, HOLDS_IF, FAILS
+    by_verdict = {word: [one for one in placed if one.statement.verdict == word] for word in words}
     open_ones = [one for one in placed if one.statement.verdict == EMPTY]
     lines = [
-        f"Of {count(len(placed), 'statement')}, {len(by_verdict[HOLDS])} hold, {len(by_verdict[HOLDS_IF])} hold under a "
-        f"condition, {len(by_verdict[FAILS])} do not hold"
+        f"Of {count(len(placed), 'statement')}, {len(by_verdict[HOLDS])} hold, {len(by_verdict[HOLDS_IF])} hold under "
+        f"a condition, {len(by_verdict[FAILS])} do not hold"
         + (f", and {len(open_ones)} cannot be decided from this folder." if open_ones else ".")
     ]
     lines += [f"Does not hold ({one.place}): {_quoted(one)}" for one in by_verdict[FAILS]]
@@ -143,8 +144,8 @@ def _figures(directory: Path) -> list[Item]:
     items: list[Item] = [
         Heading("The figures of the paper"),
         Text(
-            "Figures 2 to 7 and 9 to 20 in the layout, units and normalisation of the paper; 1 and 8 are sketches. The "
-            "numbers behind figure N are in `figures/fig_NN.nc`, which names the runs, their settings and their seconds."
+            "Figures 2 to 7 and 9 to 20 in the layout, units and normalisation of the paper; 1 and 8 are sketches. "
+            "The numbers behind figure N are in `figures/fig_NN.nc`, which names runs, settings and seconds."
         ),
     ]
     for heading, numbers in SECTIONS.items():
@@ -160,9 +161,9 @@ def _statements(placed: tuple[Placed, ...]) -> list[Item]:
     items: list[Item] = [
         Heading("The statements of the paper"),
         Text(
-            "Claims are in our words. A verdict follows from checks at every place where it was looked: it “holds” where "
-            "all pass, “does not hold” where none does, and otherwise “holds if”, with the places. Numbers are of the "
-            "runs in this folder; `statements.csv` has the same rows."
+            "Claims are in our words. A verdict follows from checks at each place where it was looked: it “holds” "
+            "where all pass, “does not hold” where none does, and otherwise “holds if”, with the places. Numbers are of "
+            "the runs in this folder; `statements.csv` has the same rows."
         ),
     ]
     for heading, places in TOPICS.items():

@@ -116,7 +116,14 @@ class Listing:
     text: str
 
 
-Item = Heading | Text | Bullets | Equation | Figure | Table | Notice | Listing
+@dataclass(frozen=True)
+class Links:
+    """A list of other files: what each is, and its path from the report's own folder."""
+
+    files: tuple[tuple[str, str], ...]
+
+
+Item = Heading | Text | Bullets | Equation | Figure | Table | Notice | Listing | Links
 
 
 @dataclass(frozen=True)

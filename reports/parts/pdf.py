@@ -16,6 +16,7 @@ from .content import (
     Figure,
     Heading,
     Item,
+    Links,
     Listing,
     Notice,
     Report,
@@ -126,6 +127,8 @@ def _block(item: Item) -> str:
             colour, paper = _COLOURS[item.kind]
             lines = "".join(f"{_inline(line)}, " for line in item.lines)
             return f"#notice({colour}, {paper}, {_inline(item.title)}, ({lines}))"
+        case Links():
+            return f"#list({', '.join(_inline(f'{name}: `{path}`') for name, path in item.files)})"
         case Listing():
             return (
                 f"#block(fill: luma(245), inset: 0.7em, width: 100%, breakable: true, "

@@ -72,8 +72,8 @@ def write_figure_data(folder: str | Path) -> dict[int, str]:
     from campaigns.machinery.folder import write_json
     from campaigns.machinery.row_store import made_by
     from campaigns.paper.figures.plans import LeftOut, Parts
-    from reports.parts import figure_data
     from reports.paper.figures import LEFT_OUT, files_of, place_of
+    from reports.parts import figure_data
 
     root = Path(folder)
     place = place_of(root)
