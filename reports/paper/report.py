@@ -162,8 +162,8 @@ def _statements(placed: tuple[Placed, ...]) -> list[Item]:
         Heading("The statements of the paper"),
         Text(
             "Claims are in our words. A verdict follows from checks at each place where it was looked: it “holds” "
-            "where all pass, “does not hold” where none does, and otherwise “holds if”, with the places. Numbers are of "
-            "the runs in this folder; `statements.csv` has the same rows."
+            "where all pass, “does not hold” where none does, and otherwise “holds if”, with the places. Numbers are "
+            "of the runs in this folder; `statements.csv` has the same rows."
         ),
     ]
     for heading, places in TOPICS.items():
