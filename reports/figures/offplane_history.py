@@ -60,6 +60,7 @@ def fill_lateral_histories(figure, panels: list[tuple[str, list[History]]]) -> l
     rows[0].plot([], [], ":", color="black", linewidth=1.0, label="in-plane half range of the buoy")
     figure.legend(*rows[0].get_legend_handles_labels(), loc="outside upper center", ncols=3)
     rows[-1].set_xlabel(r"$t/T_i$ (wave periods)")
+    rows[-1].locator_params(axis="x", integer=True)
     figure.align_ylabels(rows)
     return list(rows)
 

@@ -10,11 +10,14 @@ from ..parts.provenance import provenance_items, timing_table
 from ..parts.statements import FAILS, HOLDS, HOLDS_IF
 from ..parts.wording import EMPTY, count, decimals, listed, number
 from .dependence import dependence_items
-from .figures import figures_of, left_out
+from .figures import figures_of, left_out, preface
+from .figures import pictures as beside
 from .index import index_items
 from .misprints import misprint_items
 from .results import Results, read_results
 from .statements import Placed, judged
+
+__all__ = ["beside", "report"]
 
 COLUMNS = ("part", "status", "command", "runs", "failed", "compile_s", "run_s", "total_s", "run_key", "message")
 WORDS = ("part", "command")
@@ -147,6 +150,7 @@ def _figures(directory: Path) -> list[Item]:
             "Figures 2 to 7 and 9 to 20 in the layout, units and normalisation of the paper; 1 and 8 are sketches. "
             "The numbers behind figure N are in `figures/fig_NN.nc`, which names runs, settings and seconds."
         ),
+        Text(preface()),
     ]
     for heading, numbers in SECTIONS.items():
         some = [drawn[n] for n in numbers if n in drawn]

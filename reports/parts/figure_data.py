@@ -1,7 +1,8 @@
 """What a figure is drawn from: one netCDF-3 file beside its pictures, so that it can be drawn again without the runs.
 
-A campaign writes the file (`dataset`, `store`), its report draws from it alone (`read`, `sources_of`). The file opens in
-xarray and in any netCDF tool; arrays carry `units` and `long_name`, and the attributes say which results they are from.
+A campaign writes the file (`dataset`, `store`), its report draws from it alone (`parsed`, `sources_of`). The file opens
+in xarray and in any netCDF tool; arrays carry `units` and `long_name`, and the attributes say which results they are
+from.
 The same content gives the same bytes: there is no date and no host in the file.
 """
 

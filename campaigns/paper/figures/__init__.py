@@ -43,24 +43,24 @@ def planners() -> dict[int, object]:
         return partial(spectra, steepness=steepness, sides=sides)
 
     return {
-        2: of_line(FAST, "motion"),
-        3: of_line(FAST, "tension"),
-        4: of_line(FAST, "velocity"),
-        5: of_line(SLOW, "motion"),
-        6: of_line(SLOW, "tension"),
-        7: of_line(SLOW, "velocity"),
-        9: of_buoy(SMALL, "tension"),
-        10: of_buoy(SMALL, "radial"),
-        11: of_buoy(SMALL, "angular"),
-        12: of_spectrum(SMALL, "radial", "angular"),
-        13: of_buoy(LARGE, "tension"),
-        14: running_exponents,
-        15: of_buoy(LARGE, "radial"),
-        16: of_buoy(LARGE, "angular"),
-        17: of_spectrum(LARGE, "radial"),
-        18: of_spectrum(LARGE, "angular"),
-        19: sections,
-        20: offplane_histories,
+        2: of_line(FAST, "motion"),  # fig. 2: x-z motion, fracture in 5 ms
+        3: of_line(FAST, "tension"),  # fig. 3
+        4: of_line(FAST, "velocity"),  # fig. 4
+        5: of_line(SLOW, "motion"),  # fig. 5: fracture in 50 ms
+        6: of_line(SLOW, "tension"),  # fig. 6
+        7: of_line(SLOW, "velocity"),  # fig. 7
+        9: of_buoy(SMALL, "tension"),  # fig. 9: kA = 0.016
+        10: of_buoy(SMALL, "radial"),  # fig. 10
+        11: of_buoy(SMALL, "angular"),  # fig. 11
+        12: of_spectrum(SMALL, "radial", "angular"),  # fig. 12
+        13: of_buoy(LARGE, "tension"),  # fig. 13: kA = 0.13
+        14: running_exponents,  # fig. 14: both
+        15: of_buoy(LARGE, "radial"),  # fig. 15
+        16: of_buoy(LARGE, "angular"),  # fig. 16
+        17: of_spectrum(LARGE, "radial"),  # fig. 17
+        18: of_spectrum(LARGE, "angular"),  # fig. 18
+        19: sections,  # fig. 19: buoy and eq. (33)
+        20: offplane_histories,  # fig. 20
     }
 
 

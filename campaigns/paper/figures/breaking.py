@@ -43,6 +43,6 @@ def _arrays(runs: dict, what: str) -> dict[str, Array]:
             unit, about = _UNITS[column]
             values = getattr(profiles, column)[rows]
             arrays[f"case_{case}_{column}"] = ((time, place), values, unit, f"{about}, case {named(case)}")
-        arrays[f"case_{case}_force_N"] = ((), row["force_N"], "N", "static tension at the end that breaks")
+        arrays[f"case_{case}_force_N"] = ((), trajectory.scene.end.force_N[0], "N", "static horizontal force F_hs")
         arrays[f"case_{case}_fracture_s"] = ((), row["breaking_time_s"], "s", "fracture time t_br")
     return arrays

@@ -1,4 +1,4 @@
-"""Data of figure 14: the largest Lyapunov exponent of both waves against the length of the record, bits per wave period.
+"""Data of figure 14: the largest Lyapunov exponent of both waves over the length of the record, bits per wave period.
 
 Wolf's method on r(t) (eq. (32)), one setting of the plateau of `analysis.wolf_lyapunov`, and beside it the exponent of
 the tangent dynamics, which needs no neighbours: the mean growth of an infinitesimal perturbation up to that time.

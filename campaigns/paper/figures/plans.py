@@ -1,4 +1,4 @@
-"""The parts of the paper's campaign as its figures take them: runs by what the paper calls them, or why there is none."""
+"""The parts of the paper's campaign as its figures take them: runs by name, or why there is none."""
 
 from collections.abc import Callable
 from dataclasses import dataclass, field

@@ -39,6 +39,16 @@ def paper_figures(root: str | Path) -> list[Figure | Notice]:
     return [*drawn.values(), Notice("warning", "Figures of the paper that are left out", lines)]
 
 
+def preface() -> str:
+    """What is known of the paper's own layout of its figures, for the reader of these."""
+    return (
+        "The figures show our runs in the layout of the paper's figures 2-7 and 9-20 (1 and 8 are sketches), as far as "
+        "its text and captions tell it: the copy that this work had holds no pictures. Where they do not name a unit, "
+        "the static state of section 4.2 serves: tension over the static tension, radius over the static radius, the "
+        "angle in rad, both sections in the units of eq. (33); the second axis of each history is in ordinary units."
+    )
+
+
 def figures_of(root: str | Path) -> dict[int, Figure]:
     """The figures that can be drawn, by their number in the paper."""
     return {

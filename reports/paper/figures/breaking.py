@@ -16,10 +16,10 @@ from .drawing import Drawing, behind, value
 if TYPE_CHECKING:
     import xarray
 
-QUANTITIES = {  # array of a case -> (what is shown, label of its axis, unit, decimals)
-    "z_m": ("motion in the x-z plane", "$z$ (m)", "m", 2),
-    "tension_N": ("tension along the line", "$T$ (N)", "N", 0),
-    "speed_mps": ("velocity along the line", "velocity (m/s)", "m/s", 0),
+QUANTITIES = {  # array of a case -> (what is shown, label of its axis, unit)
+    "z_m": ("motion of a breaking line in the x-z plane", "$z$ (m)", "m"),
+    "tension_N": ("tension along a breaking line", "$T$ (N)", "N"),
+    "speed_mps": ("velocity along a breaking line", "velocity (m/s)", "m/s"),
 }
 LETTERS = "abcd"
 F_HS = "F" + sub("h,s")
@@ -29,7 +29,7 @@ def drawing(data: xarray.Dataset) -> Drawing:
     """The figure of a data file. Raises KeyError for one of another figure."""
     cases = [name.split("_")[1] for name in data if str(name).endswith("_force_N")]
     column = next(name for name in QUANTITIES if f"case_{cases[0]}_{name}" in data)
-    what, label, unit, places = QUANTITIES[column]
+    what, label, unit = QUANTITIES[column]
     panels, words = [], []
     for letter, case in zip(LETTERS, cases, strict=True):
         panel = _panel(data, case, column, letter)
@@ -37,9 +37,9 @@ def drawing(data: xarray.Dataset) -> Drawing:
         if column == "z_m":
             recoil = float(panel.x[0, -1] - panel.x[-1, -1])
             least = float(panel.x.min())
-            words.append(f"({letter}) the end recoils {decimals(recoil, 1)} m, x reaches down to {decimals(least, 2)} m")
+            words.append(f"({letter}) the end recoils {decimals(recoil, 1)} m, least x {decimals(least, 2)} m")
         else:
-            low, high = (decimals(float(end), places) for end in (panel.y.min(), panel.y.max()))
+            low, high = (_thousands(float(end)) for end in (panel.y.min(), panel.y.max()))
             words.append(f"({letter}) {low} to {high} {unit}")
     forces = ", ".join(
         f"({letter}) case {named(case)}, {_thousands(value(data, f'case_{case}_force_N'))} N"
@@ -52,10 +52,10 @@ def drawing(data: xarray.Dataset) -> Drawing:
         else "over the unstretched length s from the fixed end; cases 1 and 2, and 3 and 4, share a scale"
     )
     caption = (
-        f"{what} of a breaking line (fracture in {fracture} ms), curves 10 ms apart, dark to bright; {scales}. {F_HS}: "
+        f"{what} (fracture in {fracture} ms), curves 10 ms apart, dark to bright; {scales}. {F_HS}: "
         f"{forces}. Seen: {'; '.join(words)}. {behind(data)}"
     )
-    alt = f"Four panels, {what} of a line that breaks in {fracture} ms, a curve every 10 ms: {'; '.join(words)}."
+    alt = f"Four panels, {what}, fracture in {fracture} ms, a curve every 10 ms: {'; '.join(words)}."
     fill = partial(_fill, panels=panels, cases=cases, label=label, motion=column == "z_m")
     return Drawing(line_panels_height_in(len(panels)), fill, caption, alt)
 

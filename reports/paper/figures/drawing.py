@@ -1,4 +1,4 @@
-"""What every figure of the paper is: a height, what fills the sheet, what to see; and the words on what is behind it."""
+"""What every figure of the paper is: a height, what fills the sheet, what to see; and words on what is behind it."""
 
 from __future__ import annotations
 
@@ -39,9 +39,9 @@ def behind(data: xarray.Dataset) -> str:
     """The scene and the settings behind a figure, and its run time, as the end of its caption."""
     sources = sources_of(data)
     seconds = number(float(data.attrs["run_seconds"]), 3)
-    runs = "run" if len(sources) == 1 else f"{len(sources)} runs"
+    runs = "" if len(sources) == 1 else f" ({len(sources)} runs)"
     settings = "; ".join(dict.fromkeys(words for one in sources if (words := _settings(one))))
-    return f"{settings}. Computed in {seconds} s ({runs})."
+    return f"{settings}. Run time {seconds} s{runs}."
 
 
 def _settings(one: Source) -> str:

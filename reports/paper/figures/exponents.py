@@ -66,7 +66,7 @@ def _fill(figure, data: xarray.Dataset, labels: dict[str, str]) -> None:
     panels[0].set_ylabel(r"$\sigma_m$ (bits per wave period)")
     panels[0].margins(x=0.01)
     if len(panels) > 1:
-        panels[0].set_title("first periods")
+        panels[0].set_title(f"first {LINEAR_PERIODS} wave periods")
         panels[1].set_title("whole record, logarithmic")
         panels[1].set_xscale("log")
         panels[1].set_xlim(10.0, longest)

@@ -42,7 +42,7 @@ def _span(data: xarray.Dataset, name: str) -> str:
 def _fill(figure, data: xarray.Dataset) -> None:
     for axes, (name, title) in zip(figure.subplots(1, 2), PANELS.items(), strict=True):
         x, y = data[f"{name}_displacement"].values, data[f"{name}_velocity"].values
-        size = 2.2 if len(x) <= _FEW else 1.0 if len(x) <= 20 * _FEW else 0.35
+        size = 3.5 if len(x) <= _FEW else 1.4 if len(x) <= 20 * _FEW else 0.35
         # as pixels also in the SVG: a hundred thousand marks would make it unusable
         axes.plot(x, y, ".", color=INK, markersize=size, markeredgewidth=0, rasterized=True)
         axes.axvline(0.0, color=SOFT, linewidth=0.8, linestyle=(0, (2, 2)))

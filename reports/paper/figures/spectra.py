@@ -8,10 +8,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ...figures.spectra import log_limits, mark_modes
+from ...parts.content import sub
 from ...parts.figure_data import sources_of
 from ...parts.style import BLUE, SOFT, VERMILION
-from ...parts.symbols import OMEGA_I, OMEGA_R, OMEGA_THETA, T_I, TAU_0
-from ...parts.wording import listed, number
+from ...parts.symbols import OMEGA_I, T_I, TAU_0
+from ...parts.wording import listed, number, percent
 from .drawing import Drawing, behind, value
 
 if TYPE_CHECKING:
@@ -27,6 +28,7 @@ SIDES = {  # motion -> its label on the axis, name in the text, line as in the p
         ("natural_angular_radps", r"$\omega_{n\theta}$"),
     ),
 }
+OMEGA_NR, OMEGA_NTHETA = "ω" + sub("nr"), "ω" + sub("nθ")  # as section 4.2.1 writes them
 _SHOWN = 2.5  # wave frequencies
 _HEIGHT_IN = 2.9
 
@@ -41,14 +43,14 @@ def drawing(data: xarray.Dataset) -> Drawing:
         amplitude = data[f"{side}_amplitude"].values
         floor = float(np.median(amplitude[data["omega_radps"].values <= _SHOWN * wave]) / amplitude.max())
         words = f"peaks at {listed(number(peak, 3) for peak in peaks)} rad/s" if len(peaks) else "no peak"
-        seen.append(f"{SIDES[side][1]} has {words}, its median up to {_SHOWN} {OMEGA_I} is {number(floor, 2)} of the top")
+        seen.append(f"{SIDES[side][1]} has {words}, its median up to {_SHOWN} {OMEGA_I} is {percent(floor)} of the top")
     kA = sources_of(data)[0].label
     bins = wave / value(data, "periods")
     caption = (
         f"spectrum of the buoy's {' (solid) and '.join(sides)}{' (dashed)' if len(sides) > 1 else ''} motion, {kA}, by "
         f"eq. (31) with {TAU_0} = {number(value(data, 'start_periods'))} {T_I} and n = "
         f"{number(value(data, 'periods'))}; left linear as in the paper, right logarithmic. Arrows: the natural "
-        f"frequencies {OMEGA_R} = {number(value(data, 'natural_radial_radps'), 3)} and {OMEGA_THETA} = "
+        f"frequencies {OMEGA_NR} = {number(value(data, 'natural_radial_radps'), 3)} and {OMEGA_NTHETA} = "
         f"{number(value(data, 'natural_angular_radps'), 3)} rad/s from the buoy's equation of motion and the waves' "
         f"{OMEGA_I} = {number(wave, 3)} rad/s. Seen (largest first; bins of {number(bins, 2)} rad/s): "
         f"{'; '.join(seen)}. {behind(data)}"
@@ -63,13 +65,13 @@ def _fill(figure, data: xarray.Dataset, sides: list[str]) -> None:
     linear, logarithmic = figure.subplots(1, 2)
     largest = 0.0
     marks = [(value(data, "wave_radps"), r"$\omega_i$")]
+    marks += [(value(data, frequency), name) for *_, (frequency, name) in SIDES.values()]
     for side in sides:
-        label, _, colour, dashes, (frequency, name) = SIDES[side]
+        label, _, colour, dashes, _ = SIDES[side]
         amplitude = data[f"{side}_amplitude"].values[shown]
         largest = max(largest, float(amplitude.max()))
-        marks.append((value(data, frequency), name))
         for axes in (linear, logarithmic):
-            axes.plot(omega[shown], amplitude, color=colour, linestyle=dashes, linewidth=1.0, label=label)
+            axes.plot(omega[shown], amplitude, color=colour, linestyle=dashes if len(sides) > 1 else "-", label=label)
     linear.set_ylim(0.0, 1.3 * largest)
     mark_modes(linear, tuple(marks))
     logarithmic.set_yscale("log")
@@ -79,6 +81,8 @@ def _fill(figure, data: xarray.Dataset, sides: list[str]) -> None:
     for axes in (linear, logarithmic):
         axes.set_xlabel(r"$\omega$ (rad/s)")
         axes.set_xlim(0.0, highest)
-    linear.set_ylabel(" and ".join(SIDES[side][0] for side in sides))
+        axes.set_ylabel(" and ".join(SIDES[side][0] for side in sides))
+    linear.set_title("linear")
+    logarithmic.set_title("logarithmic")
     if len(sides) > 1:
         logarithmic.legend(loc="upper right")
