@@ -18,6 +18,8 @@ Without bending S and kappa are zero, y = (eps, phi), v = (U, W), and the same s
 E (n, 24): P (9), p (3), R (9), r (3), row-major; in the row of the anchor, which has no box below, E[0, 0:9] is the
 inverse at the upper end. 2 x 2 in the same places without bending. For other right-hand sides of the same matrix
 (`resolve_bent`) an E (n, 33) also takes in E[k, 24:33], the inverse of that box, and in E[0, 24:28] Dxx, Dxz, Dzx, Dzz.
+
+In the paper: eq. (15) EI kappa, eq. (16) moments, eq. (17), eq. (18) and eq. (19) compatibility, eq. (27) the box.
 """
 
 import numpy as np

@@ -26,6 +26,8 @@ A clamp is a rotational spring, so stiff that the end turns by less than a milli
 
 E (n, 77) is laid out in `engine.spatial.rows`; in the row of the anchor, which has no P and p, E[0, 0:6] is y of the
 upper end and dO1.
+
+In the paper: eq. (13) and eq. (14) torque and bending, eq. (16) moments, eq. (18) compatibility.
 """
 
 from ..compiled import kernel

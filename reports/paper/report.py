@@ -146,11 +146,8 @@ def _figures(directory: Path) -> list[Item]:
     drawn, missing = figures_of(directory), left_out(directory)
     items: list[Item] = [
         Heading("The figures of the paper"),
-        Text(
-            "Figures 2 to 7 and 9 to 20 in the layout, units and normalisation of the paper; 1 and 8 are sketches. "
-            "The numbers behind figure N are in `figures/fig_NN.nc`, which names runs, settings and seconds."
-        ),
         Text(preface()),
+        Text("The numbers behind figure N are in `figures/fig_NN.nc`, which names its runs, settings and seconds."),
     ]
     for heading, numbers in SECTIONS.items():
         some = [drawn[n] for n in numbers if n in drawn]

@@ -32,7 +32,7 @@ class Results:
 
     lines         runs of the breaking line
     static        strain at the static tension by case, from the tension law of the scene
-    sound_mps     speed of sound in air, to compare with
+    steepening    by how much a wave at 0.99 of that strain is faster than at it, as a share, by case
     modes         the paper's estimates from the scene of the buoy
     buoy          rows of the two long runs by steepness;  accuracy: the same runs tighter and finer
     sweep         rows over steepness;  dependence: rows of other depths, treatments and stiffnesses
@@ -43,6 +43,7 @@ class Results:
 
     lines: tuple[Line, ...] = ()
     static: tuple[tuple[str, float], ...] = ()
+    steepening: tuple[tuple[str, float], ...] = ()
     modes: Modes | None = None
     rest_length_m: float = 0.0
     buoy: dict[float, dict] = field(default_factory=dict)
@@ -92,13 +93,15 @@ def _breaking(folder: Path) -> dict:
     from analysis.breaking_theory import theory_of
 
     lines = read_lines(read_folder(folder, LINE_COLUMNS, LINE_WORDS))
-    static = []
+    static, steepening = [], []
     for line in lines:
         if line.kind == "case" and line.ok and line.trajectory is not None and not line.case.endswith("p"):
             theory = theory_of(line.trajectory.scene, float(line.trajectory.columns["time_s"][-1]))
             if theory is not None:
-                static.append((line.name, float(theory.strain_at(1.0))))
-    return {"lines": lines, "static": tuple(static)}
+                strain = float(theory.strain_at(1.0))
+                static.append((line.name, strain))
+                steepening.append((line.name, float(theory.wave_speed(0.99 * strain) / theory.wave_speed(strain) - 1.0)))
+    return {"lines": lines, "static": tuple(static), "steepening": tuple(steepening)}
 
 
 def _buoy(folder: Path) -> dict:
