@@ -94,17 +94,17 @@ def short_answer(placed: tuple[Placed, ...]) -> tuple[str, ...]:
         f"a condition, {len(by_verdict[FAILS])} do not hold"
         + (f", and {len(open_ones)} cannot be decided from this folder." if open_ones else ".")
     ]
-    lines += [f"Does not hold ({one.place}): {_quoted(one)}" for one in by_verdict[FAILS]]
+    lines += [f"Does not hold: {_quoted(one)}." for one in by_verdict[FAILS] if not one.place.startswith("5")]
     lines += [
-        f"Holds if {one.statement.condition} ({one.place}): {_quoted(one)}"
+        f"Holds if {one.statement.condition}: {_quoted(one)}."
         for one in by_verdict[HOLDS_IF]
-        if one.place.startswith("4.2") or one.place.startswith("5")
+        if not one.place.startswith("5")  # conclusions repeat what is said before
     ]
     return tuple(lines)
 
 
 def _quoted(one: Placed) -> str:
-    return f"“{one.statement.claim.rstrip('.')}”. {one.statement.found}"
+    return f"“{one.statement.claim.rstrip('.')}” (no. {one.number}; {one.place})"
 
 
 def _parts(folder: Folder, results: Results) -> list[Item]:
@@ -176,12 +176,12 @@ def _statements(placed: tuple[Placed, ...]) -> list[Item]:
 
 def _table(placed: list[Placed], heading: str) -> Table:
     heads = (
-        Column("", align="left"),
+        Column("no."),
         Column("place", align="left"),
-        Column("the paper", align="left"),
-        Column("verdict", align="left"),
-        Column("the runs", align="left"),
-        Column("decided by, evidence", align="left"),
+        Column("the paper", align="left", share=3),
+        Column("verdict", align="left", share=2),
+        Column("the runs", align="left", share=5),
+        Column("decided by, evidence", align="left", share=4),
     )
     rows = tuple(
         (

@@ -99,8 +99,9 @@ def _breaking(folder: Path) -> dict:
             theory = theory_of(line.trajectory.scene, float(line.trajectory.columns["time_s"][-1]))
             if theory is not None:
                 strain = float(theory.strain_at(1.0))
+                faster = theory.wave_speed(0.99 * strain) / theory.wave_speed(strain) - 1.0
                 static.append((line.name, strain))
-                steepening.append((line.name, float(theory.wave_speed(0.99 * strain) / theory.wave_speed(strain) - 1.0)))
+                steepening.append((line.name, float(faster)))
     return {"lines": lines, "static": tuple(static), "steepening": tuple(steepening)}
 
 

@@ -76,11 +76,15 @@ class Figure:
 
 @dataclass(frozen=True)
 class Column:
-    """A table column: its title, the unit shown under the title ("" for none), and how its cells are set."""
+    """A table column: its title, the unit shown under the title ("" for none), and how its cells are set.
+
+    `share`: of the width that the columns of sentences divide among themselves, in the PDF.
+    """
 
     title: str
     unit: str = ""
     align: Literal["left", "right"] = "right"
+    share: int = 1
 
 
 @dataclass(frozen=True)

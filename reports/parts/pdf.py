@@ -145,7 +145,8 @@ def _figure(item: Figure, name: str) -> str:
 def _table(item: Table) -> str:
     """A table with a header that comes back on every page it runs over."""
     size, inset = ("7.5pt", "(x: 2.6pt, y: 2.8pt)") if item.small else ("9pt", "(x: 5pt, y: 3.4pt)")
-    widths = ", ".join("1fr" if _is_prose(item, index) else "auto" for index in range(len(item.columns)))
+    shares = (f"{column.share}fr" if _is_prose(item, i) else "auto" for i, column in enumerate(item.columns))
+    widths = ", ".join(shares)
     aligns = ", ".join(column.align for column in item.columns)
     header = ", ".join(
         f'[#text(weight: "bold", {_inline(column.title)})'

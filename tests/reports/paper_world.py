@@ -82,8 +82,8 @@ def buoy(steepness: float, **changed) -> dict:
 
 def deep(steepness: float, depth_m: float, **changed) -> dict:
     """A row of the dependence study."""
-    fixed = {"depth_m": depth_m, "above_still_water": "extrapolate", "submergence": "full", "bending_stiffness_Nm2": 0.4}
-    return {**buoy(steepness), **fixed, **changed}
+    treated = {"above_still_water": "extrapolate", "submergence": "full", "bending_stiffness_Nm2": 0.4}
+    return {**buoy(steepness), "depth_m": depth_m, **treated, **changed}
 
 
 def again(label: float, error_m: float = 1e-3) -> dict:
@@ -115,12 +115,13 @@ def pushed(steepness: float, direction: str = "lateral", **changed) -> Run:
 class Oscillator:
     """Eq. (33) with a strange attractor."""
 
-    values = {
-        "lambda_1_bits_per_period": 0.5,
-        "lambda_1_bits_error": 0.01,
-        "section_dimension": 1.7,
-        "section_dimension_error": 0.01,
-    }
+    def __init__(self, **changed: float):
+        self.values = {
+            "lambda_1_bits_per_period": 0.5,
+            "lambda_1_bits_error": 0.01,
+            "section_dimension": 1.7,
+            "section_dimension_error": 0.01,
+        } | changed
 
     def number(self, part: str, column: str) -> float:
         return self.values[column]

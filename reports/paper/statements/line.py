@@ -147,7 +147,7 @@ def same_motion(results: Results) -> Statement:
         way = fast.value("recoil_120ms_m"), slow.value("recoil_120ms_m")
         late = 0.5 * (slow.value("breaking_time_s") - fast.value("breaking_time_s")) * fast.value("end_speed_mps")
         seen.append(abs(way[1] / way[0] - 1.0) < SAME_WAY)
-        shifted.append(abs((way[1] + late) / way[0] - 1.0) < SAME_WAY)
+        shifted.append(seen[-1] or abs((way[1] + late) / way[0] - 1.0) < SAME_WAY)
         words.append(f"{fast.name} {decimals(way[0], 2)}, {slow.name} {decimals(way[1], 2)} + {decimals(late, 2)}")
     return Statement(
         "The motion of the line as a whole is not much changed by the slower break.",
