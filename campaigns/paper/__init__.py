@@ -74,11 +74,14 @@ def study(order: Order, argv: list[str]) -> int:
     begun = time.perf_counter()
     with claimed(order.how.out):
         record = provenance.gather(CAMPAIGN, provenance.command_line(MODULE, argv))
-        record |= {"quick": order.quick, "dependence": dependence.parameters(order.quick)}
-        if provenance.read_if_same(order.how.out / "provenance.json", record) is None:
+        record |= {"quick": order.quick, "dependence": dependence.parameters(order.quick), "made_by": results.maker()}
+        same = provenance.read_if_same(order.how.out / "provenance.json", record) is not None
+        if not same:
             provenance.write(order.how.out / "provenance.json", record)
         timing, summary = parts.run(order)
-        results.write(order.how.out)
-        session.finish(order.how.out, record, summary, timing)
-        fault = session.report(order.how.out, order.how.report, timing, begun)
+        whole = same and not summary.computed and results.there(order.how.out, order.how.report)
+        if not whole:
+            results.write(order.how.out)
+            session.finish(order.how.out, record, summary, timing)
+        fault = session.report(order.how.out, order.how.report and not whole, timing, begun)
     return session.say(order.how.out, summary, timing, order.how.report, fault)

@@ -136,7 +136,7 @@ def world(**changed) -> Results:
         lines=(*(line(case) for case in (*FAST, *SLOW)), *doubled),
         static=tuple(STRAINS.items()),
         steepening=(("1", -0.1), ("2", 0.1), ("3", 0.1), ("4", 0.1)),
-        modes=Modes(2000.0, 0.04, 1.0, 0.19, 1.26),
+        modes=Modes(2000.0, 0.04, 1.0, 0.196, 1.26),
         rest_length_m=20.0,
         buoy={kA: buoy(kA) for kA in (0.016, 0.13)},
         accuracy=(again(0.016), again(0.13)),
