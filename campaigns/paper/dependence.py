@@ -22,7 +22,7 @@ STEEPNESSES = (0.016, 0.13)  # section 4.2.1, 4.2.2
 DEPTHS_M = (20.8, 21.0, 21.3, 21.6, 22.0, 22.5, 23.0, 25.0)
 STIFFNESSES_NM2 = (0.04, 0.1, 0.4, 1.0, 4.0)
 STIFFNESS_DEPTHS_M = (21.0, 21.6, 22.5)
-PERIODS, TRANSIENT = 500, 100
+PERIODS, TRANSIENT = 400, 100
 QUICK_DEPTHS_M, QUICK_PERIODS, QUICK_TRANSIENT = (21.0, 22.5), 45, 5
 SOURCES = ("analysis", "engine", "campaigns/buoy_sweep/rows.py", "reports/buoy_sweep/motion.py")
 

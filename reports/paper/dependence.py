@@ -108,18 +108,20 @@ def _depth_words(results: Results) -> tuple[str, ...]:
             for row in results.dependence
             if row["steepness"] == kA and row["status"] == "ok" and _usual_stiffness(results, row)
         ]
-        positive = [row for row in rows if row[_EXPONENT] - 2.0 * row[_ERROR] > 0.0]
+        positive: dict[tuple[str, str], list[float]] = {}
+        for row in sorted(rows, key=lambda row: row["depth_m"]):
+            if row[_EXPONENT] - 2.0 * row[_ERROR] > 0.0:
+                positive.setdefault((row["above_still_water"], row["submergence"]), []).append(row["depth_m"])
         kinds: dict[str, int] = {}
         for row in rows:
             kind = kind_of(row["regime"]) or "no verdict"
             kinds[kind] = kinds.get(kind, 0) + 1
         said = listed(f"{words} {kind}" for kind, words in sorted(kinds.items()))
         line = f"at kA = {number(kA)} {said} of {count(len(rows), 'run')}"
-        where = listed(
-            f"{number(row['depth_m'])} m ({row['above_still_water']}, {row['submergence']})"
-            for row in sorted(positive, key=lambda row: row["depth_m"])
+        where = "; ".join(
+            f"{word}, {under}: H = {listed(map(number, depths))} m" for (word, under), depths in positive.items()
         )
-        line += f"; exponents in no doubt above zero at H = {where}." if positive else "; no exponent above zero."
+        line += f". Exponents two errors above zero: {where}." if positive else ". No exponent two errors above zero."
         lines.append(line[0].upper() + line[1:])
     return tuple(lines)
 
