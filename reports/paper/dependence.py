@@ -6,7 +6,7 @@ import math
 
 from ..figures.depth_exponents import Curve, depth_exponents, kind_of
 from ..out_of_plane.comparison import comparison_items, read_pairs
-from ..parts.content import Bullets, Column, Figure, Heading, Item, Table, Text
+from ..parts.content import Column, Figure, Heading, Item, Table, Text
 from ..parts.folder import FolderError
 from ..parts.wording import EMPTY, count, decimals, listed, number
 from .results import LARGE, SMALL, Results
@@ -34,7 +34,7 @@ def dependence_items(results: Results) -> list[Item]:
     if not results.dependence:
         return [*items, Text("The part `dependence` is not there, so nothing is shown of what follows from them.")]
     items += [Heading("Depth, waves above still water, buoyancy out of the water", 2), _depth_text(results)]
-    items += [_depth_figure(results), Bullets(_depth_words(results))]
+    items.append(_depth_figure(results))
     items += [_regimes(results, steepness) for steepness in (SMALL, LARGE)]
     items += [Heading("Bending stiffness", 2), *_stiffness(results)]
     return [*items, *_plane(results)]

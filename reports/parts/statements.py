@@ -50,14 +50,15 @@ class Statement:
 
 
 def _grouped(places: list[str]) -> str:
-    """The places in a list; what they share around one number is said once.
+    """The places in a list; what some share around one number is said once.
 
-    >>> _grouped(["H = 21 m", "H = 22 m"]), _grouped(["r", "theta"])
-    ('H = 21 and 22 m', 'r and theta')
+    >>> _grouped(["H = 21 m", "H = 22 m", "H = 22 m with a cap"]), _grouped(["r", "theta"])
+    ('H = 21 and 22 m, and H = 22 m with a cap', 'r and theta')
     """
-    parts = [re.fullmatch(r"(\D*)(\S+)(.*)", place) for place in places]
-    around = {(part[1], part[3]) for part in parts if part}
-    if len(places) < 2 or not all(parts) or len(around) > 1:
-        return listed(places)
-    before, after = around.pop()
-    return f"{before}{listed(part[2] for part in parts)}{after}"
+    groups: dict[tuple[str, str], list[str]] = {}
+    for place in places:
+        part = re.fullmatch(r"(\D*)(\d\S*)(.*)", place)
+        around, number = ((part[1], part[3]), part[2]) if part else ((place, ""), "")
+        groups.setdefault(around, []).append(number)
+    said = [f"{before}{listed(numbers)}{after}" for (before, after), numbers in groups.items()]
+    return ", and ".join(said) if len(said) == 2 and any(" and " in one for one in said) else listed(said)

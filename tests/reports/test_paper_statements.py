@@ -165,6 +165,9 @@ def test_between_both_the_places_are_named():
     other = world(dependence=(deep(0.13, 20.0), deep(0.13, 21.0), deep(0.13, 22.0, regime="period-2")))
     found = verdict(replace(other, buoy={}), "In large waves the motion of the buoy is chaotic.")
     assert found.said == "holds if: H = 20 and 21 m; not H = 22 m"
+    dry = world(dependence=(deep(0.13, 21.0), deep(0.13, 21.0, regime="period-1", submergence="spherical-cap")))
+    found = verdict(dry, "In large waves the motion of the buoy is chaotic.")
+    assert found.said == "holds if: H = 21 m; not H = 21 m with `spherical-cap`"
 
 
 def test_without_results_nothing_is_decided():
@@ -188,4 +191,6 @@ def test_the_file_has_every_statement_with_number_and_evidence():
 def test_statements_group_what_they_share_around_a_number():
     checks = (("H = 21 m", True), ("H = 22 m", True), ("elsewhere", False))
     assert Statement("", "", checks).condition == "H = 21 and 22 m; not elsewhere"
+    more = (*checks, ("H = 23 m, dry", True))
+    assert Statement("", "", more).condition == "H = 21 and 22 m, and H = 23 m, dry; not elsewhere"
     assert Statement("", "", ((" r", math.pi > 3),)).condition == ""

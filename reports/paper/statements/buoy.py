@@ -44,6 +44,16 @@ def _at(row: dict) -> str:
     return f"H = {number(row['depth_m'])} m"
 
 
+def _elsewhere(results: Results, steepness: float) -> list[tuple[str, dict]]:
+    """(where, row) of the runs whose buoy loses buoyancy out of the water, by depth: not as shipped, yet likelier."""
+    if not results.dependence:
+        return []
+    usual = results.usual()["submergence"]
+    others = dict.fromkeys(row["submergence"] for row in results.dependence if row["submergence"] != usual)
+    found = [(under, row) for under in others for row in _good(results.over_depth(steepness, submergence=under))]
+    return [(f"{_at(row)} with `{under}`", row) for under, row in found]
+
+
 def _good(rows) -> list[dict]:
     return [row for row in rows if row["status"] == "ok"]
 
@@ -218,6 +228,8 @@ def positive_exponent(results: Results) -> Statement:
     long = results.buoy.get(LARGE)
     checks = [(_at(row), _positive(row)) for row in rows if row["depth_m"] != results.depth() or long is None]
     words = [f"{_exponent(row)} at {_at(row)}" for row in rows]
+    others = [(where, row) for where, row in _elsewhere(results, LARGE) if _exponent(row) != "none"]
+    words += [f"{_exponent(row)} at {where}" for where, row in others]
     found = ""
     if long is not None and _exponent(long) != "none":
         where = f"H = {number(results.depth())} m"
@@ -226,7 +238,7 @@ def positive_exponent(results: Results) -> Statement:
     return Statement(
         "In large waves the largest Lyapunov exponent is positive.",
         f"{found}Shorter runs: {', '.join(words) or 'none'}.",
-        tuple(checks),
+        (*checks, *((where, _positive(row)) for where, row in others)),
         f"{number(NOT_IN_DOUBT)} standard errors above zero",
     )
 
@@ -234,7 +246,9 @@ def positive_exponent(results: Results) -> Statement:
 def chaotic(results: Results) -> Statement:
     rows, long = _good(results.over_depth(LARGE)), results.buoy.get(LARGE)
     checks = [(_at(row), row["regime"] == "chaotic") for row in rows if row["regime"]]
-    words = ", ".join(f"{row['regime'] or 'no verdict'} at {_at(row)}" for row in rows)
+    others = [(where, row) for where, row in _elsewhere(results, LARGE) if row["regime"]]
+    told = [(_at(row), row) for row in rows] + others
+    words = ", ".join(f"{row['regime'] or 'no verdict'} at {where}" for where, row in told)
     found = ""
     if long is not None and long["regime"]:
         where = f"H = {number(results.depth())} m"
@@ -244,6 +258,7 @@ def chaotic(results: Results) -> Statement:
         tighter = long.get("regime_tighter") or ""
         found += f" (at a tenth of the tolerance: {tighter}). " if tighter else ". "
     claim = "In large waves the motion of the buoy is chaotic."
+    checks += [(where, row["regime"] == "chaotic") for where, row in others]
     return Statement(claim, f"{found}Shorter runs: {words or 'none'}.", tuple(checks), "regime chaotic, all evidence")
 
 
