@@ -176,6 +176,8 @@ def test_without_results_nothing_is_decided():
 
 def test_the_long_run_counts_where_there_are_both():
     short = world(dependence=(deep(0.13, 21.0, regime="undecided"), deep(0.13, 22.5, regime="period-2")))
+    nothing = verdict(replace(short, buoy={}), "In large waves the motion of the buoy is chaotic.")
+    assert dict(nothing.checks) == {"H = 22.5 m": False}
     found = verdict(short, "In large waves the motion of the buoy is chaotic.")
     assert dict(found.checks) == {"H = 21 m": True, "H = 22.5 m": False}
 

@@ -23,6 +23,7 @@ RESONANT = 0.1  # relative distance of a ratio of natural frequencies from 1, 2 
 HIGH_MODE = 4  # half waves
 NOT_IN_DOUBT = 2.0  # standard errors
 REGULAR = "period-1"
+OPEN = ("", "undecided", "transient")  # regimes that decide nothing
 
 
 def _value(row: dict | None, column: str) -> float:
@@ -101,10 +102,10 @@ def regular(results: Results) -> Statement:
     words = ", ".join(f"{row['regime'] or 'no verdict'} at {_at(row)}" for row in rows)
     long = results.buoy.get(SMALL)
     found = f"The long run: {long['regime'] or 'no verdict'}, σ = {_exponent(long)} bits/T. " if long else ""
-    checks = [("the long run", long["regime"] == REGULAR)] if long and long["regime"] else []
-    checks += [(_at(row), row["regime"] == REGULAR) for row in rows if row["regime"]]
+    checks = [("the long run", long["regime"] == REGULAR)] if long and long["regime"] not in OPEN else []
+    checks += [(_at(row), row["regime"] == REGULAR) for row in rows if row["regime"] not in OPEN]
     claim = "In small waves the motion of the buoy is periodic and regular."
-    return Statement(claim, f"{found}Other depths: {words or 'none'}.", tuple(checks), "regime period-1")
+    return Statement(claim, f"{found}Other depths: {words or 'none'}.", tuple(checks), "regime period-1; where it is undecided or a transient, nothing")
 
 
 def decays(results: Results) -> Statement:
@@ -186,18 +187,17 @@ def threshold(results: Results) -> Statement:
 
 def chaos_beyond(results: Results) -> Statement:
     rows = sorted(_good(results.sweep), key=lambda row: row["steepness"])
-    slack = [row for row in rows if _value(row, "slack_fraction") > 0.0 and row["regime"]]
+    slack = [row for row in rows if _value(row, "slack_fraction") > 0.0 and row["regime"] not in OPEN]
     claim = "Wherever the line goes slack and snaps, the motion is chaotic."
-    regular = [bool(row["regime"].startswith("period-")) for row in slack]
+    regular = [row["regime"] != "chaotic" for row in slack]
     values = [row["steepness"] for row in slack]
-    found = f"With a slack line, yet periodic: kA = {ranges(values, regular)}."
-    checks = tuple((f"kA = {number(kA)}", not holds) for kA, holds in zip(values, regular, strict=True))
-    if not checks:
+    if not slack:
         return Statement(claim, "No sweep shows it.", ())
-    aperiodic = f"kA = {ranges(values, [not holds for holds in regular])}"
-    periodic = f"kA = {ranges(values, regular)}"
-    grouped = ((aperiodic, True),) * (not all(regular)) + ((periodic, False),) * any(regular)
-    return Statement(claim, found, grouped, "no period up to 16")
+    found = f"With a slack line, yet periodic or quasi-periodic: kA = {ranges(values, regular)}."
+    chaos = f"kA = {ranges(values, [not holds for holds in regular])}"
+    order = f"kA = {ranges(values, regular)}"
+    grouped = ((chaos, True),) * (not all(regular)) + ((order, False),) * any(regular)
+    return Statement(claim, found, grouped, "regime chaotic; where it is undecided or a transient, nothing")
 
 
 def snapping(results: Results) -> Statement:
@@ -245,12 +245,12 @@ def positive_exponent(results: Results) -> Statement:
 
 def chaotic(results: Results) -> Statement:
     rows, long = _good(results.over_depth(LARGE)), results.buoy.get(LARGE)
-    checks = [(_at(row), row["regime"] == "chaotic") for row in rows if row["regime"]]
-    others = [(where, row) for where, row in _elsewhere(results, LARGE) if row["regime"]]
+    checks = [(_at(row), row["regime"] == "chaotic") for row in rows if row["regime"] not in OPEN]
+    others = _elsewhere(results, LARGE)
     told = [(_at(row), row) for row in rows] + others
     words = ", ".join(f"{row['regime'] or 'no verdict'} at {where}" for where, row in told)
     found = ""
-    if long is not None and long["regime"]:
+    if long is not None and long["regime"] not in OPEN:
         where = f"H = {number(results.depth())} m"
         checks = [check for check in checks if check[0] != where]
         checks = sorted([*checks, (where, long["regime"] == "chaotic")], key=lambda check: check[0])
@@ -258,8 +258,8 @@ def chaotic(results: Results) -> Statement:
         tighter = long.get("regime_tighter") or ""
         found += f" (at a tenth of the tolerance: {tighter}). " if tighter else ". "
     claim = "In large waves the motion of the buoy is chaotic."
-    checks += [(where, row["regime"] == "chaotic") for where, row in others]
-    return Statement(claim, f"{found}Shorter runs: {words or 'none'}.", tuple(checks), "regime chaotic, all evidence")
+    checks += [(where, row["regime"] == "chaotic") for where, row in others if row["regime"] not in OPEN]
+    return Statement(claim, f"{found}Shorter runs: {words or 'none'}.", tuple(checks), "regime chaotic; where it is undecided or a transient, nothing")
 
 
 def exponent_to_zero(results: Results) -> Statement:
