@@ -28,9 +28,9 @@ class Placed:
 
 def judged(results: Results) -> tuple[Placed, ...]:
     """All statements, in the order of the paper."""
-    from . import buoy, closing, line, plane
+    from . import calm, closing, line, plane, violent
 
-    asked = (*closing.METHOD, *line.STATEMENTS, *buoy.STATEMENTS, *plane.STATEMENTS, *closing.CONCLUSIONS)
+    asked = (*closing.METHOD, *line.STATEMENTS, *calm.STATEMENTS, *violent.STATEMENTS, *plane.STATEMENTS, *closing.CONCLUSIONS)
     return tuple(
         Placed(number, place, state(results), evidence) for number, (place, state, evidence) in enumerate(asked, 1)
     )

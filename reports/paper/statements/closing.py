@@ -9,7 +9,7 @@ from ...breaking_line.runs import find, of_kind
 from ...parts.statements import Statement
 from ...parts.wording import number, percent
 from ..results import Results
-from . import buoy, line
+from . import calm, line, violent
 
 PROMISED = 0.01  # section 3: deviation on twice the points
 FINER = "twice the elements"
@@ -71,7 +71,7 @@ CONCLUSIONS = (
     ("5", line.shared(own.tension), "as under 4.1.3"),
     ("5", line.shared(own.speed), line.EXACT),
     ("5", dissipates, "as under 4.1.3; docs/breaking_line.md"),
-    ("5", buoy.regular, "as under 4.2.1"),
-    ("5", buoy.threshold, buoy.SWEEP),
-    ("5", buoy.chaotic, "as under 4.2.2"),
+    ("5", calm.regular, "as under 4.2.1"),
+    ("5", violent.threshold, violent.SWEEP),
+    ("5", violent.chaotic, "as under 4.2.2"),
 )
