@@ -23,7 +23,12 @@ from .measures import Calm, Violent, buckling_waves, calm_measures, violent_meas
 
 SMALL, LARGE = 0.016, 0.13  # section 4.2.1 and 4.2.2
 TREATED = ("above_still_water", "submergence")
-DEPENDENCE_COLUMNS = ("steepness", "depth_m", *TREATED, "bending_stiffness_Nm2", *BUOY_COLUMNS[1:])
+JUDGED = (
+    "regime_tighter",
+    "strobed_period",
+    *(f"lyapunov_{method}_{what}" for method in ("tangent", "wolf") for what in ("bits_per_period", "error")),
+)
+DEPENDENCE_COLUMNS = ("steepness", "depth_m", *TREATED, "bending_stiffness_Nm2", *BUOY_COLUMNS[1:], *JUDGED)
 
 
 @dataclass(frozen=True, eq=False)

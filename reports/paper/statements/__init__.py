@@ -30,7 +30,8 @@ def judged(results: Results) -> tuple[Placed, ...]:
     """All statements, in the order of the paper."""
     from . import calm, closing, line, plane, violent
 
-    asked = (*closing.METHOD, *line.STATEMENTS, *calm.STATEMENTS, *violent.STATEMENTS, *plane.STATEMENTS, *closing.CONCLUSIONS)
+    buoy = (*calm.STATEMENTS, *violent.STATEMENTS, *plane.STATEMENTS)
+    asked = (*closing.METHOD, *line.STATEMENTS, *buoy, *closing.CONCLUSIONS)
     return tuple(
         Placed(number, place, state(results), evidence) for number, (place, state, evidence) in enumerate(asked, 1)
     )
