@@ -2,12 +2,12 @@
 
     python -m campaigns.paper                          everything; run again, it computes nothing
     python -m campaigns.paper --parts breaking_line    one part, beside those that are in the folder already
-    python -m campaigns.paper --quick                  the same in about a minute, too short to conclude from
+    python -m campaigns.paper --quick                  short and few runs in two minutes, to see what there is
 
 Protocol: the other campaigns run as parts, each in a folder of its own with its own report (`campaigns.paper.parts`);
 `dependence` runs the two waves of section 4.2 with other answers to what the paper leaves out. The report, the data of
-the figures and statements.csv are made from these folders alone. Nothing is random. To change a scene, run the
-campaign of that part.
+the figures and statements.csv are made from these folders alone. Random starts of eq. (33) come from a fixed seed,
+nothing else is random. To change a scene, run the campaign of that part.
 """
 
 import time

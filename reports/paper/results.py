@@ -139,11 +139,11 @@ def _sweep(folder: Path) -> dict:
 def _dependence(folder: Path) -> dict:
     import pandas
 
-    table = pandas.read_csv(folder / "table.csv")
+    words = ["status", "regime", "message", *TREATED]
+    table = pandas.read_csv(folder / "table.csv", dtype=dict.fromkeys(words, str))
     absent = [name for name in DEPENDENCE_COLUMNS if name not in table]
     if absent:
         raise ValueError(f"table.csv lacks {', '.join(absent)}")
-    words = ["status", "regime", "message", *TREATED]
     return {"dependence": tuple(table.fillna(dict.fromkeys(words, "")).to_dict("records"))}
 
 
