@@ -23,7 +23,7 @@ RECORD = np.dtype(
         "nodes grid_at law law_at law_n wet waves current cur_at cur_nx cur_nz cur_nt above end end_motion end_at "
         "end_n cap bent viscous method stages method_at adaptive max_newton release max_releases at_rest",
         "m w0 EI p1 p2 p3 p4 p5 ct cn ma Rw depth k omega amplitude phase direction ramp "
-        "M_total M_wave lift C_buoy D_buoy M_added B_whole end_x end_z end_release end_fx end_fz end_decay "
+        "M_total M_wave lift C_buoy D_buoy M_added B_whole impact_loss end_x end_z end_release end_fx end_fz end_decay "
         "barrier c_quadratic c_linear per_strain per_force per_speed per_curvature "
         "order rtol newton_tolerance fixed_step max_step min_step start_x start_z "
         "output_step release_step growth_per_step shortest_wave profile_step window alpha_m alpha_f gamma pace",
@@ -184,7 +184,7 @@ def _end(record, scene, place):
     record["lift"] = (rho_w * volume - buoy.mass_kg) * scene.gravity_mps2
     record["C_buoy"] = 0.5 * rho_w * buoy.drag * math.pi * buoy.diameter_m**2 / 4
     record["cap"] = wet and buoy.submergence == "spherical-cap"
-    record["D_buoy"], record["M_added"] = buoy.diameter_m, added
+    record["D_buoy"], record["M_added"], record["impact_loss"] = buoy.diameter_m, added, buoy.impact_loss
     record["B_whole"] = rho_w * volume * scene.gravity_mps2
     _put(record, "start_", scene.start.buoy_velocity_mps)
 

@@ -134,6 +134,7 @@ class Buoy(Section):
     added_mass_kg: NonNegative
     drag: NonNegative
     submergence: Literal["full", "spherical-cap"] = "full"
+    impact_loss: UnitInterval = 0.0  # of a spherical cap: share of von Karman's loss into spray on the way into water
 
 
 class Water(Section):

@@ -176,6 +176,9 @@ def _solver(sound: Sound) -> Iterator[str]:
             yield fault("buoy.submergence", "spherical-cap", rule)
         if not sound.has("water"):
             yield fault("buoy.submergence", "spherical-cap", "'full', because there is no water")
+    elif sound.value("buoy.impact_loss") not in (None, FAULTY, 0):
+        rule = "0, because buoy.submergence is not 'spherical-cap': the whole sphere is always in the water"
+        yield fault("buoy.impact_loss", sound.value("buoy.impact_loss"), rule)
 
 
 def _output(sound: Sound) -> Iterator[str]:

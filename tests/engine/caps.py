@@ -82,4 +82,25 @@ def condition(scene, t, place, V, V_t, N, U, U_t):
     wet = rho * volume(h, D)
     lift = np.array([0.0, 0.0, 1.0]) * (wet - buoy.mass_kg) * scene.gravity_mps2
     inertia = buoy.mass_kg * V_t + added * (V_t - U_t) + rate * v - 0.5 * (v @ v) * gradient
+    sinking = by_time + np.array(by_place) @ V
+    if sinking > 0:  # what spray takes: a force along the gradient whose power is that share of m' h_t^3/2
+        inertia = inertia - 0.5 * buoy.impact_loss * sinking**2 * gradient
     return N + inertia + drag - wet * U_t - lift
+
+
+def potential(scene, z):
+    """Gravity of buoy and buoyancy (J): M g z + rho g times the integral of the volume from 0 to h."""
+    buoy, rho, g = scene.buoy, scene.water.density_kgpm3, scene.gravity_mps2
+    D = buoy.diameter_m
+    h = scene.water.depth_m - z + D / 2
+    inside = min(max(h, 0.0), D)
+    below = math.pi * inside**3 * (D / 6 - inside / 12) + volume(D, D) * max(h - D, 0.0)
+    return buoy.mass_kg * g * z + rho * g * below
+
+
+def floating_depth(scene, load_N=0.0):
+    """h (m) at which the sphere floats under a load: the root of Archimedes' cubic between 0 and D."""
+    D = scene.buoy.diameter_m
+    wet = (scene.buoy.mass_kg + load_N / scene.gravity_mps2) / scene.water.density_kgpm3
+    roots = np.roots([math.pi / 3, -math.pi * D / 2, 0.0, wet])
+    return float(next(root.real for root in roots if abs(root.imag) < 1e-9 and 0 < root.real < D))

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from engine import load_scene
-from engine.cap import cap_end, cap_end_3d, wetted
+from engine.cap import cap_across, cap_end, cap_end_3d, wetted
 from engine.ends import upper_end, upper_end_3d
 from engine.parameters import record_of
 from tests.engine.caps import CAP, condition, section, volume
@@ -41,9 +41,10 @@ def drawn(axes):
     return V, V + 0.1 * RNG.normal(size=axes), 900 * RNG.normal(size=axes), np.concatenate([U, U_t])
 
 
+@pytest.mark.parametrize("loss", [0.0, 0.7])
 @pytest.mark.parametrize("height", HEIGHTS)
-def test_it_is_lagranges_equation_in_space(height):
-    scene = load_scene("tethered_buoy", CAP | SPACE)
+def test_it_is_lagranges_equation_in_space(height, loss):
+    scene = load_scene("tethered_buoy", CAP | SPACE | {"buoy.impact_loss": loss})
     p, tables = record(scene)
     for _ in range(5):
         place = np.array([*RNG.normal(size=2), height])
@@ -54,9 +55,11 @@ def test_it_is_lagranges_equation_in_space(height):
 
 
 @pytest.mark.parametrize("heading", [0.0, np.pi])
+@pytest.mark.parametrize("loss", [0.0, 0.7])
 @pytest.mark.parametrize("height", HEIGHTS)
-def test_it_is_lagranges_equation_in_a_plane(height, heading):
-    scene = load_scene("tethered_buoy", CAP | {"waves.direction_rad": heading, "waves.phase_rad": 0.4})
+def test_it_is_lagranges_equation_in_a_plane(height, loss, heading):
+    more = {"waves.direction_rad": heading, "waves.phase_rad": 0.4, "buoy.impact_loss": loss}
+    scene = load_scene("tethered_buoy", CAP | more)
     p, tables = record(scene)
     for _ in range(5):
         place = np.array([RNG.normal(), height])
@@ -72,7 +75,8 @@ def test_it_is_lagranges_equation_in_a_plane(height, heading):
 @pytest.mark.parametrize("axes", [2, 3])
 def test_the_derivatives_are_those_of_the_condition(axes, height, in_motion):
     """By velocity, with which the place moves by dV/cq: central differences."""
-    p, tables = record(load_scene("tethered_buoy", CAP | (SPACE if axes == 3 else {})))
+    loss = {"buoy.impact_loss": 0.7}
+    p, tables = record(load_scene("tethered_buoy", CAP | loss | (SPACE if axes == 3 else {})))
     place = np.array([0.3, 0.2, height])[: axes - 1]
     place = np.append(place, height)
     V, V_tilde, N, F = drawn(axes)
@@ -119,3 +123,17 @@ def test_shares_and_their_derivatives_are_those_of_the_geometry():
             assert bend == pytest.approx((ahead[1] - behind[1]) / (2 * step), abs=1e-8)
     assert wetted(p, D) == wetted(p, 9.0) == (0.0, 0.0, 0.0, 0.0, 0.0)
     assert wetted(p, 0.0)[:2] == wetted(p, -9.0)[:2] == (1.0, 0.0)
+
+
+@pytest.mark.parametrize("height", HEIGHTS)
+def test_across_the_plane_it_is_the_condition_in_space(height):
+    """To first order in a velocity across the plane of motion: `engine.lateral`."""
+    flat, _ = record(load_scene("tethered_buoy", CAP))
+    space, _ = record(load_scene("tethered_buoy", CAP | {"motion.dimensions": 3}))
+    V, V_tilde, _, F = drawn(2)
+    Y = np.array([0.0, 0.0, *V, 0.0, 0.0])
+    factor, known = cap_across(flat, T, CV, np.array([0.4, height]), Y, F, 0.3)
+    place, v, water = (0.4, 0.0, height), (V[0], 0.0, V[1]), np.insert(F, [1, 3], 0.0)
+    e, rows = cap_end_3d(space, T, 1e30, CV, 1.0, place, v, (V_tilde[0], 0.3, V_tilde[1]), water)
+    assert factor == pytest.approx(rows[1][1], rel=1e-12, abs=1e-9)
+    assert known == pytest.approx(e[1], rel=1e-12, abs=1e-9)
