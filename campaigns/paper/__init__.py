@@ -74,7 +74,8 @@ def study(order: Order, argv: list[str]) -> int:
     begun = time.perf_counter()
     with claimed(order.how.out):
         record = provenance.gather(CAMPAIGN, provenance.command_line(MODULE, argv))
-        record |= {"quick": order.quick, "dependence": dependence.parameters(order.quick), "made_by": results.maker()}
+        record |= {"jobs": order.how.jobs, "quick": order.quick, "made_by": results.maker()}
+        record |= {"dependence": dependence.parameters(order.quick)}
         same = provenance.read_if_same(order.how.out / "provenance.json", record) is not None
         if not same:
             provenance.write(order.how.out / "provenance.json", record)

@@ -47,6 +47,9 @@ def depth_exponents(panels: list[list[tuple[str, list[Curve]]]], label: str, log
                     seen |= {kind_of(word) for word in curve.regime}
                 if log:
                     place.set_xscale("log")
+                else:
+                    place.set_xticks(sorted({at for curve in curves for at in curve.at}))
+                    place.tick_params("x", rotation=60)
             axes[i][0].set_ylabel(r"$\sigma$ (bits per $T_i$)")
         for place in axes[-1]:
             place.set_xlabel(label)

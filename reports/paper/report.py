@@ -6,7 +6,7 @@ from pathlib import Path
 
 from ..parts.content import Bullets, Column, Heading, Item, Links, Notice, Report, Table, Text
 from ..parts.folder import Folder, read_folder
-from ..parts.provenance import provenance_items, timing_table
+from ..parts.provenance import provenance_items
 from ..parts.statements import FAILS, HOLDS, HOLDS_IF
 from ..parts.wording import EMPTY, count, decimals, listed, number
 from .dependence import dependence_items
@@ -56,7 +56,6 @@ def report(directory: str | Path) -> Report:
         *dependence_items(results),
         *misprint_items(),
         *index_items(),
-        *_times(folder),
         *provenance_items(folder),
     ]
     subtitle = "Tjavaras, Zhu, Liu, Triantafyllou and Yue, Journal of Sound and Vibration 213(4), 709-737, 1998"
@@ -139,7 +138,11 @@ def _parts(folder: Folder, results: Results) -> list[Item]:
     links: list[Item] = [Text("Each part has a report of its own, with all runs, grids, warnings and sources:")]
     links.append(Links(tuple(found)))
     none = Text("The parts' own reports were left out.")
-    return [Heading("Parts"), Table(heads, rows, caption), *(links if found else [none])]
+    seconds = float(folder.table["total_s"].sum())
+    jobs = folder.provenance.get("jobs")
+    at_once = f", {count(jobs, 'run')} at a time" if isinstance(jobs, int) else ""
+    whole = Text(f"All parts together took {decimals(seconds / 60.0, 1)} minutes{at_once}.")
+    return [Heading("Parts"), Table(heads, rows, caption), whole, *(links if found else [none])]
 
 
 def _figures(directory: Path) -> list[Item]:
@@ -200,8 +203,3 @@ def _table(placed: list[Placed], heading: str) -> Table:
     )
     caption = f"{heading}: {verdicts}. From the tables of the parts, by `statements.csv`."
     return Table(heads, rows, caption, small=True)
-
-
-def _times(folder: Folder) -> list[Item]:
-    times = timing_table(folder)
-    return [Heading("Run times"), times] if times else []

@@ -119,10 +119,12 @@ LOST = {
     "In small waves natural and forced": calm(radial_share=0.5, angular_share=0.5),
     "The natural frequencies seen": calm(radial_radps=2.0, angular_radps=2.0),
     "Beyond a threshold": world(sweep=tuple(buoy(kA, slack_fraction=0.0) for kA in (0.05, 0.13))),
-    "Wherever the line goes slack": world(sweep=(buoy(0.13, regime="period-1"),)),
+    "Wherever the line goes slack": world(sweep=(buoy(0.14, regime="period-1"),), buoy={}),
     "In large waves intervals": depths(0.13, slack_fraction=0.0),
     "In large waves the slack line": world(waves_of_buckle=1.0),
-    "In large waves the largest Lyapunov": depths(0.13, lyapunov_tangent_bits_per_period=0.0),
+    "In large waves the largest Lyapunov": depths(
+        0.13, lyapunov_tangent_bits_per_period=0.0, regime="quasi-periodic"
+    ),
     "In large waves the motion of the buoy is chaotic": depths(0.13, regime="quasi-periodic"),
     "In small waves the exponent": depths(
         0.016, lyapunov_wolf_bits_per_period=0.5, lyapunov_tangent_bits_per_period=0.5
@@ -168,6 +170,14 @@ def test_between_both_the_places_are_named():
     dry = world(dependence=(deep(0.13, 21.0), deep(0.13, 21.0, regime="period-1", submergence="spherical-cap")))
     found = verdict(dry, "In large waves the motion of the buoy is chaotic.")
     assert found.said == "holds if: H = 21 m; not H = 21 m with `spherical-cap`"
+
+
+def test_an_exponent_that_could_be_either_decides_nothing_unless_the_regime_does():
+    open_one = deep(0.13, 22.5, regime="undecided", lyapunov_tangent_bits_per_period=0.01)
+    found = verdict(
+        world(dependence=(deep(0.13, 21.0), open_one)), "In large waves the largest Lyapunov exponent is positive."
+    )
+    assert dict(found.checks) == {"H = 21 m": True}
 
 
 def test_without_results_nothing_is_decided():

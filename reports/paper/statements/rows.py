@@ -30,6 +30,12 @@ def positive(row: dict) -> bool:
     return found - NOT_IN_DOUBT * error > 0.0
 
 
+def settled(row: dict) -> bool:
+    """Whether the run says if its exponent is positive: by the exponent itself, or by a regime that excludes it."""
+    below = value(row, "lyapunov_tangent_bits_per_period") + NOT_IN_DOUBT * value(row, "lyapunov_tangent_error") < 0.0
+    return positive(row) or below or row["regime"] not in OPEN
+
+
 def at(row: dict) -> str:
     """The depth of a row, in words."""
     return f"H = {number(row['depth_m'])} m"

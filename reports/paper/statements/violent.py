@@ -11,7 +11,7 @@ from ...parts.statements import Statement
 from ...parts.wording import decimals, number, percent, ranges
 from ..results import LARGE, Results
 from .calm import AGAIN, DEPTHS
-from .rows import NOT_IN_DOUBT, NOTHING, OPEN, at, elsewhere, exponent, good, positive, value
+from .rows import NOT_IN_DOUBT, NOTHING, OPEN, at, elsewhere, exponent, good, positive, settled, value
 
 ONE_LINE = 0.25  # share of the variance on one bin above which a spectrum has a dominant mode
 CONTINUOUS = 0.05  # share of the variance that no line explains, above which a spectrum is continuous
@@ -36,18 +36,21 @@ def threshold(results: Results) -> Statement:
 
 
 def chaos_beyond(results: Results) -> Statement:
-    rows = sorted(good(results.sweep), key=lambda row: row["steepness"])
-    slack = [row for row in rows if value(row, "slack_fraction") > 0.0 and row["regime"] not in OPEN]
+    long = {row["steepness"]: row for row in good(results.buoy.values())}
+    rows = {row["steepness"]: row for row in good(results.sweep)} | long
+    values = sorted(rows)
+    slack = [value(rows[kA], "slack_fraction") > 0.0 for kA in values]
     claim = "Wherever the line goes slack and snaps, the motion is chaotic."
-    regular = [row["regime"] != "chaotic" for row in slack]
-    values = [row["steepness"] for row in slack]
-    if not slack:
-        return Statement(claim, "No sweep shows it.", ())
-    found = f"With a slack line, yet periodic or quasi-periodic: kA = {ranges(values, regular)}."
-    chaos = f"kA = {ranges(values, [not holds for holds in regular])}"
-    order = f"kA = {ranges(values, regular)}"
-    grouped = ((chaos, True),) * (not all(regular)) + ((order, False),) * any(regular)
-    return Statement(claim, found, grouped, f"regime chaotic; {NOTHING}")
+    kinds = [rows[kA]["regime"] for kA in values]
+    chaos = [loose and kind == "chaotic" for loose, kind in zip(slack, kinds, strict=True)]
+    order = [loose and kind not in ("chaotic", *OPEN) for loose, kind in zip(slack, kinds, strict=True)]
+    left = [loose and kind in OPEN for loose, kind in zip(slack, kinds, strict=True)]
+    found = (
+        f"With a slack line chaotic: kA = {ranges(values, chaos)}; periodic or quasi-periodic: kA = "
+        f"{ranges(values, order)}; undecided or a transient: kA = {ranges(values, left)}."
+    )
+    checks = [(f"kA = {ranges(values, some)}", holds) for some, holds in ((chaos, True), (order, False)) if any(some)]
+    return Statement(claim, found, tuple(checks), f"regime chaotic; {NOTHING}")
 
 
 def snapping(results: Results) -> Statement:
@@ -76,7 +79,8 @@ def buckles(results: Results) -> Statement:
 def positive_exponent(results: Results) -> Statement:
     rows = [row for row in good(results.over_depth(LARGE)) if exponent(row) != "none"]
     long = results.buoy.get(LARGE)
-    checks = [(at(row), positive(row)) for row in rows if row["depth_m"] != results.depth() or long is None]
+    short = [row for row in rows if settled(row) and (row["depth_m"] != results.depth() or long is None)]
+    checks = [(at(row), positive(row)) for row in short]
     words = [f"{exponent(row)} at {at(row)}" for row in rows]
     others = [(where, row) for where, row in elsewhere(results, LARGE) if exponent(row) != "none"]
     words += [f"{exponent(row)} at {where}" for where, row in others]
@@ -88,8 +92,8 @@ def positive_exponent(results: Results) -> Statement:
     return Statement(
         "In large waves the largest Lyapunov exponent is positive.",
         f"{found}Shorter runs: {', '.join(words) or 'none'}.",
-        (*checks, *((where, positive(row)) for where, row in others)),
-        f"{number(NOT_IN_DOUBT)} standard errors above zero",
+        (*checks, *((where, positive(row)) for where, row in others if settled(row))),
+        f"{number(NOT_IN_DOUBT)} standard errors above zero; where it is not, and the regime is open too, nothing",
     )
 
 
