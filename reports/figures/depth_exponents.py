@@ -8,8 +8,10 @@ import numpy as np
 
 from ..parts.content import Picture
 from ..parts.style import BLUE, GREEN, INK, ORANGE, PURPLE, SOFT, VERMILION, picture_of, sheet
+from ..parts.wording import number
 
 COLOURS = (BLUE, VERMILION, GREEN, ORANGE, PURPLE)
+BESIDE = 0.14  # of the space between two values
 DASHES = ("-", "--", ":", "-.", "-")
 MARKS = {"periodic": "o", "quasi-periodic": "s", "chaotic": "*", "transient": "v", "undecided": "x", "": "+"}
 
@@ -31,8 +33,13 @@ def kind_of(regime: str) -> str:
 
 
 def depth_exponents(panels: list[list[tuple[str, list[Curve]]]], label: str, log: bool = False) -> Picture:
-    """Rows and columns of panels, each (title, curves), over the parameter named by `label`."""
+    """Rows and columns of panels, each (title, curves), over the parameter named by `label`.
+
+    Its values are evenly spaced, and curves beside each other, so that marks do not hide marks; with `log` both stay
+    where they are, on a logarithmic axis.
+    """
     rows, columns = len(panels), max(len(row) for row in panels)
+    values = sorted({at for row in panels for _, curves in row for curve in curves for at in curve.at})
     with sheet(2.1 * rows + 0.7) as figure:
         axes = figure.subplots(rows, columns, squeeze=False, sharex=True, sharey="row")
         seen: set[str] = set()
@@ -43,13 +50,14 @@ def depth_exponents(panels: list[list[tuple[str, list[Curve]]]], label: str, log
                 place.set_title(title)
                 place.axhline(0.0, color=SOFT, linewidth=0.7)
                 for k, curve in enumerate(curves):
-                    handles |= _drawn(place, curve, COLOURS[k % len(COLOURS)], DASHES[k % len(DASHES)])
+                    aside = BESIDE * (k - 0.5 * (len(curves) - 1))
+                    at = curve.at if log else tuple(values.index(one) + aside for one in curve.at)
+                    handles |= _drawn(place, at, curve, COLOURS[k % len(COLOURS)], DASHES[k % len(DASHES)])
                     seen |= {kind_of(word) for word in curve.regime}
                 if log:
                     place.set_xscale("log")
                 else:
-                    place.set_xticks(sorted({at for curve in curves for at in curve.at}))
-                    place.tick_params("x", rotation=60)
+                    place.set_xticks(range(len(values)), [number(one) for one in values])
             axes[i][0].set_ylabel(r"$\sigma$ (bits per $T_i$)")
         for place in axes[-1]:
             place.set_xlabel(label)
@@ -62,8 +70,8 @@ def depth_exponents(panels: list[list[tuple[str, list[Curve]]]], label: str, log
         return picture_of(figure)
 
 
-def _drawn(place, curve: Curve, colour: str, dash: str) -> dict[str, object]:
-    at, value, error = (np.array(entry, dtype=float) for entry in (curve.at, curve.value, curve.error))
+def _drawn(place, places, curve: Curve, colour: str, dash: str) -> dict[str, object]:
+    at, value, error = (np.array(entry, dtype=float) for entry in (places, curve.value, curve.error))
     bars = place.errorbar(at, value, error, color=colour, linestyle=dash, linewidth=0.9, capsize=1.5, label=curve.name)
     for kind, mark in MARKS.items():
         chosen = np.array([kind_of(word) == kind for word in curve.regime], dtype=bool)

@@ -93,8 +93,8 @@ def _depth_figure(results: Results) -> Figure:
     seen = " ".join(_depth_words(results))
     caption = (
         "Largest Lyapunov exponent (tangent dynamics, one standard error) over the water depth, which the paper does "
-        "not give, for the treatments of waves above still water (colours) and of buoyancy (columns); marks tell the "
-        f"regime. What to see: {seen} From `dependence/table.csv`."
+        "not give (depths evenly spaced), for the treatments of waves above still water (colours) and of buoyancy "
+        f"(columns); marks tell the regime. What to see: {seen} From `dependence/table.csv`."
     )
     alt = f"Exponent over water depth in {len(panels)} rows of panels: {seen}"
     return Figure(depth_exponents(panels, r"$H$ (m)"), caption, alt)
