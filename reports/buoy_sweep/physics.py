@@ -29,9 +29,9 @@ def natural_frequencies(scene) -> Modes | None:
 
         omega_r = sqrt(f'(eps_s)/(l0 (M + M_a))),  omega_theta = sqrt(T_s/(l0 (M + M_a))),  T_s = (rho_w V - M) g
 
-    Returns None where they do not exist: no buoy, no water, no waves, a buoy that sinks, one that rests partly out of the
-    water (a spherical cap: the water plane is then a spring too), or a law without stiffness there. The rope's own mass
-    and added mass are left out, as in the paper.
+    Returns None where they do not exist: no buoy, no water, no waves, a buoy that sinks, one that rests partly out of
+    the water (a spherical cap: the water plane is then a spring too), or a law without stiffness there. The rope's own
+    mass and added mass are left out, as in the paper.
     """
     if scene.buoy is None or scene.water is None or scene.waves is None:
         return None

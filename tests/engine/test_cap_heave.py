@@ -17,7 +17,7 @@ SWINGS = 12
 
 
 def heave_frequency(scene, expected):
-    """Mean over the zero crossings of z about its mean, rad/s; steps of 0.01 s, whose error is (omega dt)^4 and less."""
+    """Mean over the zero crossings of z about its mean, rad/s; steps of 0.01 s, an error of (omega dt)^4 and less."""
     run = simulate(scene, duration_s=(SWINGS + 1.5) * 2 * math.pi / expected)
     assert run.status == "ok"
     t, z = run.columns["time_s"], run.columns["z_m"] - 0.5 * (run.columns["z_m"].max() + run.columns["z_m"].min())
