@@ -15,7 +15,7 @@ water, v = V - U_w, and of the pressure gradient,
 so that in still water no energy is lost or made. With s M_a V_t alone energy would appear on the way in and vanish on
 the way out, with d(s M_a v)/dt alone the other way round (docs/out_of_the_water.md). On the way straight down the last
 term is M_a s' W^2/2, half the impact force of von Karman (1929); the other half takes energy away into spray, and
-buoy.impact_loss says how much of it there is: loss M_a s' h_t^2 n/2 while the cap grows, h_t > 0.
+buoy.impact_loss says how much of it there is: - loss M_a s' h_t^2 n/2 in e while the cap grows, h_t > 0.
 
 Everything here is the difference to the whole sphere, with signs as in e = N + (M + M_a) V_t + ... = 0.
 Derivatives hold the water still at the buoy, but not its surface: the place moves with dX = dV/cq, as Newton's method
@@ -87,7 +87,7 @@ def _loads(p, t, cv, in_motion, x, z, U, W, ax, az, F):
     speed = math.sqrt(square)
     sinking = in_motion * (rate - nx * U - W)
     entering = p.impact_loss * larger(sinking, 0.0)
-    push = 0.5 * (square + entering * larger(sinking, 0.0))
+    push = 0.5 * (square - entering * larger(sinking, 0.0))
     impact_x, impact_z = sinking * u + push * nx, sinking * w + push
     slam = p.M_added * ds
     drag = p.C_buoy * bare
@@ -97,16 +97,16 @@ def _loads(p, t, cv, in_motion, x, z, U, W, ax, az, F):
     Dxx = in_motion * (slam * sinking - drag * speed) - p.M_added * dry * cv
     turning = in_motion * slam * (nx * w - u)
     lost = in_motion * slam * entering
-    across = along * u * w + lost * nx
+    across = along * u * w - lost * nx
     # by the place: through h, whose gradient is -n, and through the slope and the rate of the surface
     more = p.M_added * bend
     gx = more * impact_x + ds * (p.M_added * ax - p.M_wave * F[2]) + p.C_buoy * da * speed * u
     gz = more * impact_z + ds * (p.M_added * az - p.M_wave * F[3] - p.B_whole) + p.C_buoy * da * speed * w
     faster = in_motion * slam * (p.direction * rate_slope + curve * U)
-    Gxx = faster * (u + entering * nx) - slam * push * curve - gx * nx
+    Gxx = faster * (u - entering * nx) - slam * push * curve - gx * nx
     return (
-        ex, ez, Dxx - along * u * u - lost * nx * nx, turning - across, -turning - across, Dxx - along * w * w - lost,
-        Gxx, -gx, faster * (w + entering) - gz * nx, -gz,
+        ex, ez, Dxx - along * u * u + lost * nx * nx, turning - across, -turning - across, Dxx - along * w * w + lost,
+        Gxx, -gx, faster * (w - entering) - gz * nx, -gz,
     )  # fmt: skip
 
 
@@ -160,7 +160,7 @@ def cap_end_3d(p, t, cq, cv, in_motion, X, V, V_tilde, F):
     speed = math.sqrt(square)
     sinking = in_motion * (rate - dot(n, V))
     entering = p.impact_loss * max(sinking, 0.0)
-    push = 0.5 * (square + entering * max(sinking, 0.0))
+    push = 0.5 * (square - entering * max(sinking, 0.0))
     impact = mixed(sinking, v, push, n)
     slam, drag = p.M_added * ds, p.C_buoy * bare
     e = mixed(slam, impact, -drag * speed, v)
@@ -169,11 +169,11 @@ def cap_end_3d(p, t, cq, cv, in_motion, X, V, V_tilde, F):
     g = mixed(1.0, g, ds, mixed(p.M_added, A, -p.M_wave, water))
     g = (g[0], g[1], g[2] - p.B_whole * ds)
     faster = in_motion * slam * (rate_slope + curve * dot(ahead, V))
-    moved = mixed(1.0, mixed(faster, v, faster * entering, n), -slam * push * curve, ahead)
+    moved = mixed(1.0, mixed(faster, v, -faster * entering, n), -slam * push * curve, ahead)
     along = in_motion * drag / speed if speed > 0.0 else 0.0
     diagonal = in_motion * (slam * sinking - drag * speed) - p.M_added * dry * cv
     turning, over = in_motion * slam, 1.0 / cq
-    back = mixed(-turning, v, -turning * entering, n)
+    back = mixed(-turning, v, turning * entering, n)
     x = _row(turning * n[0] - along * v[0], v, back[0] - over * g[0], n, over * moved[0], ahead)
     y = _row(turning * n[1] - along * v[1], v, back[1] - over * g[1], n, over * moved[1], ahead)
     z = _row(turning * n[2] - along * v[2], v, back[2] - over * g[2], n, over * moved[2], ahead)

@@ -114,11 +114,12 @@ def _out_of_water(runs, scene, modes) -> Notice | None:
             f"{percent(top.emergence.out_share)} of the time (kA = {number(top.steepness)}), its centre up to "
             f"{decimals(max(run.emergence.above_wave_m for run in out), 2)} m above the wave."
         )
-    lines.append(_loads_used(scene))
+    lines.append(loads_used(scene))
     return Notice("warning", "The buoy leaves the water", tuple(lines))
 
 
-def _loads_used(scene) -> str:
+def loads_used(scene) -> str:
+    """Which loads the run took for a buoy that comes out of the water, and what is doubtful about them."""
     submergence, above = scene.buoy.submergence, scene.waves.above_still_water
     if submergence == "full":
         loads = "buoyancy, added mass and wave load of the whole sphere at any height"

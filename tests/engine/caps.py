@@ -83,8 +83,8 @@ def condition(scene, t, place, V, V_t, N, U, U_t):
     lift = np.array([0.0, 0.0, 1.0]) * (wet - buoy.mass_kg) * scene.gravity_mps2
     inertia = buoy.mass_kg * V_t + added * (V_t - U_t) + rate * v - 0.5 * (v @ v) * gradient
     sinking = by_time + np.array(by_place) @ V
-    if sinking > 0:  # what spray takes: a force along the gradient whose power is that share of m' h_t^3/2
-        inertia = inertia - 0.5 * buoy.impact_loss * sinking**2 * gradient
+    if sinking > 0:  # what spray takes: a force against the gradient whose power is that share of - m' h_t^3/2
+        inertia = inertia + 0.5 * buoy.impact_loss * sinking**2 * gradient
     return N + inertia + drag - wet * U_t - lift
 
 
