@@ -28,7 +28,7 @@ def drawing(data: xarray.Dataset) -> Drawing:
     for name, label in labels.items():
         found = [
             f"{decimals(value(data, f'{name}_{method}_value'), 3)} ± "
-            f"{decimals(value(data, f'{name}_{method}_error'), 3)} ({words})"
+            f"{number(value(data, f'{name}_{method}_error'), 2)} ({words})"
             for method, (words, *_) in _METHODS.items()
         ]
         ends.append(f"{label}: {' and '.join(found)}")
@@ -38,7 +38,8 @@ def drawing(data: xarray.Dataset) -> Drawing:
         f"after {number(value(data, 'transient_periods'))} wave periods; {labels['large']} solid, {labels['small']} "
         f"dashed. Thin: the method of Wolf et al. on the record; thick and pale: mean growth of an infinitesimal "
         f"perturbation of the same run. Values and standard errors from the whole record ({number(length)} {T_I}): "
-        f"{'; '.join(ends)} bits per wave period. {behind(data)}"
+        f"{'; '.join(ends)} bits per wave period. In a record of a motion that has settled nothing decays any more: there "
+        f"Wolf's value tends to 0, the tangent's does not. {behind(data)}"
     )
     alt = f"Running exponents over the length of the record: {'; '.join(ends)} bits per wave period."
     return Drawing(_HEIGHT_IN, partial(_fill, data=data, labels=labels), caption, alt)
