@@ -38,8 +38,8 @@ def drawing(data: xarray.Dataset) -> Drawing:
         f"after {number(value(data, 'transient_periods'))} wave periods; {labels['large']} solid, {labels['small']} "
         f"dashed. Thin: the method of Wolf et al. on the record; thick and pale: mean growth of an infinitesimal "
         f"perturbation of the same run. Values and standard errors from the whole record ({number(length)} {T_I}): "
-        f"{'; '.join(ends)} bits per wave period. In a record of a motion that has settled nothing decays any more: there "
-        f"Wolf's value tends to 0, the tangent's does not. {behind(data)}"
+        f"{'; '.join(ends)} bits per wave period. Nothing decays any more in a record that has settled: Wolf's value "
+        f"then tends to 0, the tangent's does not. {behind(data)}"
     )
     alt = f"Running exponents over the length of the record: {'; '.join(ends)} bits per wave period."
     return Drawing(_HEIGHT_IN, partial(_fill, data=data, labels=labels), caption, alt)
