@@ -11,7 +11,7 @@ from campaigns.paper.figures.plans import LeftOut, Parts, Plan
 from reports.buoy_sweep.motion import carried
 from reports.parts.figure_data import Array
 
-LINEAR_PERIODS = 200  # drawn on a linear axis, as in the paper; a longer record on a logarithmic one beside it
+LINEAR_PERIODS = 200  # kept whole, for a linear axis as in the paper; a longer record is drawn on a logarithmic one
 LATER_POINTS = 600
 WAVES = {"large": LARGE, "small": SMALL}  # in the order of the paper's key
 
@@ -31,7 +31,10 @@ def running_exponents(parts: Parts) -> Plan:
 def _exponents(runs: dict, transient: int) -> dict[str, Array]:
     from analysis import tangent_lyapunov, wolf_lyapunov
 
-    arrays: dict[str, Array] = {"transient_periods": ((), transient, "1", "wave periods left out at the start")}
+    arrays: dict[str, Array] = {
+        "transient_periods": ((), transient, "1", "wave periods left out at the start"),
+        "linear_periods": ((), LINEAR_PERIODS, "1", "length of the record up to which every value is kept"),
+    }
     for name, trajectory in runs.items():
         scene, kA = trajectory.scene, f"kA = {WAVES[name]:g}"
         period_s, step_s = scene.waves.period_s, scene.sample_step_s()

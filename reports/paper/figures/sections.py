@@ -5,6 +5,7 @@ from __future__ import annotations
 from functools import partial
 from typing import TYPE_CHECKING
 
+from ...parts.figure_data import sources_of
 from ...parts.style import INK, SOFT
 from ...parts.symbols import L_0
 from ...parts.wording import decimals, number
@@ -21,15 +22,16 @@ _FEW = 1000  # points up to which each is drawn as a dot
 def drawing(data: xarray.Dataset) -> Drawing:
     """The figure of a data file. Raises KeyError for one of another figure."""
     force, lift, damping, frequency = (number(value(data, key)) for key in ("force", "lift", "damping", "frequency"))
+    waves = sources_of(data)[0].label
     seen = " and ".join(
-        f"{data.sizes[f'{name}_point']} points with g from {_span(data, f'{name}_displacement')} and g′ from "
+        f"{data.sizes[f'{name}_point']} points with γ from {_span(data, f'{name}_displacement')} and γ′ from "
         f"{_span(data, f'{name}_velocity')} in {title[:3]}"
         for name, title in PANELS.items()
     )
     caption = (
-        f"Poincaré sections, one point a forcing period: (a) the exact model at kA = 0.13, (b) eq. (33) with F = "
-        f"{force}, B − W = {lift}, μ = {damping} and ω = {frequency}. Both in the units of eq. (33): g = (r − {L_0})/D "
-        f"with the buoy's diameter D = {number(value(data, 'diameter_m'))} m, g′ = r′/(D ω) with the natural frequency "
+        f"Poincaré sections, one point a forcing period: (a) the exact model at {waves}, (b) eq. (33) with F = "
+        f"{force}, B − W = {lift}, μ = {damping} and ω = {frequency}. Both in the units of eq. (33): γ = (r − {L_0})/D "
+        f"with the buoy's diameter D = {number(value(data, 'diameter_m'))} m, γ′ = r′/(D ω) with the natural frequency "
         f"{number(value(data, 'natural_radial_radps'), 3)} rad/s; slack left of 0. Seen: {seen}. {behind(data)}"
     )
     return Drawing(_HEIGHT_IN, partial(_fill, data=data), caption, f"Two scatter plots of strobed motion: {seen}.")
