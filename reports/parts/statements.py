@@ -40,7 +40,7 @@ class Statement:
         """Of "holds if": where it holds, and where not; else nothing."""
         if self.verdict != HOLDS_IF:
             return ""
-        sides = (_grouped([where for where, holds in self.checks if holds is wanted]) for wanted in (True, False))
+        sides = (grouped([where for where, holds in self.checks if holds is wanted]) for wanted in (True, False))
         return "{}; not {}".format(*sides)
 
     @property
@@ -49,10 +49,10 @@ class Statement:
         return f"{self.verdict}: {self.condition}" if self.condition else self.verdict
 
 
-def _grouped(places: list[str]) -> str:
+def grouped(places: list[str]) -> str:
     """The places in a list; what some share around one number is said once.
 
-    >>> _grouped(["H = 21 m", "H = 22 m", "H = 22 m with a cap"]), _grouped(["r", "theta"])
+    >>> grouped(["H = 21 m", "H = 22 m", "H = 22 m with a cap"]), grouped(["r", "theta"])
     ('H = 21 and 22 m, and H = 22 m with a cap', 'r and theta')
     """
     groups: dict[tuple[str, str], list[str]] = {}

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 
+from ...parts.statements import grouped
 from ...parts.wording import decimals, number
 from ..results import Results
 
@@ -22,6 +23,14 @@ def exponent(row: dict | None) -> str:
     """The exponent of the tangent dynamics with its error, in words."""
     found, error = (value(row, f"lyapunov_tangent_{name}") for name in ("bits_per_period", "error"))
     return "none" if math.isnan(found) else f"{decimals(found, 3)} ± {decimals(error, 3)}"
+
+
+def by_regime(found: list[tuple[str, dict]]) -> str:
+    """Regimes of (where, row), each with the places that have it."""
+    places: dict[str, list[str]] = {}
+    for where, row in found:
+        places.setdefault(row["regime"] or "no verdict", []).append(where)
+    return "; ".join(f"{regime} at {grouped(some)}" for regime, some in places.items()) or "none"
 
 
 def positive(row: dict) -> bool:
