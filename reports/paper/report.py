@@ -182,9 +182,9 @@ def _table(placed: list[Placed], heading: str) -> Table:
         Column("no."),
         Column("place", align="left"),
         Column("the paper", align="left", share=3),
-        Column("verdict", align="left", share=2),
+        Column("verdict", align="left", share=3),
         Column("the runs", align="left", share=5),
-        Column("decided by, evidence", align="left", share=4),
+        Column("decided by, evidence", align="left", share=3),
     )
     rows = tuple(
         (

@@ -7,7 +7,7 @@ import math
 from ...parts.statements import Statement
 from ...parts.wording import decimals, number, percent
 from ..results import SMALL, Results
-from .rows import NOT_IN_DOUBT, NOTHING, OPEN, at, exponent, good, positive, value
+from .rows import NOT_IN_DOUBT, NOTHING, OPEN, at, by_regime, exponent, good, positive, value
 
 PRINTED_EXTENSION, PRINTED_RADIAL, PRINTED_PENDULUM = 0.04, 1.0, 0.2  # l0, rad/s, rad/s
 PRINTED_DIGIT = 0.05  # they are printed to one digit
@@ -58,13 +58,13 @@ def small_excursion(results: Results) -> Statement:
 
 def regular(results: Results) -> Statement:
     rows = good(results.over_depth(SMALL))
-    words = ", ".join(f"{row['regime'] or 'no verdict'} at {at(row)}" for row in rows)
+    words = by_regime([(at(row), row) for row in rows])
     long = results.buoy.get(SMALL)
     found = f"The long run: {long['regime'] or 'no verdict'}, σ = {exponent(long)} bits/T. " if long else ""
     checks = [("the long run", long["regime"] == REGULAR)] if long and long["regime"] not in OPEN else []
     checks += [(at(row), row["regime"] == REGULAR) for row in rows if row["regime"] not in OPEN]
     claim = "In small waves the motion of the buoy is periodic and regular."
-    return Statement(claim, f"{found}Other depths: {words or 'none'}.", tuple(checks), f"regime period-1; {NOTHING}")
+    return Statement(claim, f"{found}Shorter runs: {words}.", tuple(checks), f"regime period-1; {NOTHING}")
 
 
 def decays(results: Results) -> Statement:

@@ -11,7 +11,7 @@ from ...parts.statements import Statement
 from ...parts.wording import decimals, number, percent, ranges
 from ..results import LARGE, Results
 from .calm import AGAIN, DEPTHS
-from .rows import NOT_IN_DOUBT, NOTHING, OPEN, at, elsewhere, exponent, good, positive, settled, value
+from .rows import NOT_IN_DOUBT, NOTHING, OPEN, at, by_regime, elsewhere, exponent, good, positive, settled, value
 
 ONE_LINE = 0.25  # share of the variance on one bin above which a spectrum has a dominant mode
 CONTINUOUS = 0.05  # share of the variance that no line explains, above which a spectrum is continuous
@@ -101,8 +101,7 @@ def chaotic(results: Results) -> Statement:
     rows, long = good(results.over_depth(LARGE)), results.buoy.get(LARGE)
     checks = [(at(row), row["regime"] == "chaotic") for row in rows if row["regime"] not in OPEN]
     others = elsewhere(results, LARGE)
-    told = [(at(row), row) for row in rows] + others
-    words = ", ".join(f"{row['regime'] or 'no verdict'} at {where}" for where, row in told)
+    words = by_regime([(at(row), row) for row in rows] + others)
     found = ""
     if long is not None and long["regime"] not in OPEN:
         where = f"H = {number(results.depth())} m"
@@ -113,7 +112,7 @@ def chaotic(results: Results) -> Statement:
         found += f" (at a tenth of the tolerance: {tighter}). " if tighter else ". "
     claim = "In large waves the motion of the buoy is chaotic."
     checks += [(where, row["regime"] == "chaotic") for where, row in others if row["regime"] not in OPEN]
-    return Statement(claim, f"{found}Shorter runs: {words or 'none'}.", tuple(checks), f"regime chaotic; {NOTHING}")
+    return Statement(claim, f"{found}Shorter runs: {words}.", tuple(checks), f"regime chaotic; {NOTHING}")
 
 
 def never_repeats(results: Results) -> Statement:
