@@ -39,6 +39,7 @@ import math
 
 import numpy as np
 
+from .cap import cap_across
 from .choose import every, larger, where
 from .compiled import by_kind, kernel
 from .elementary import copy_into, sincos, small_sincos
@@ -107,10 +108,10 @@ _lateral_end = by_kind(_upper_end, _upper_end, _buoy_end)
 
 
 @kernel
-def lateral_stage(p, tables, t, rate, Y, K, Q, F, dC_tilde, H, E, dC):
+def lateral_stage(p, tables, t, rate, X, Y, K, Q, F, dC_tilde, H, E, dC):
     """dC (n, 2) = (q_y, V_y) of one stage, q_y,t = rate (q_y - q~_y) and V_y,t likewise, from dC_tilde (n, 2).
 
-    Y, K, Q, F: the planar state of the stage, its rates, directions (`node.shape`) and water. H, E: work arrays.
+    X, Y, K, Q, F: places and planar state of the stage, its rates, directions (`node.shape`) and water. H, E: work.
     E (n, 15): P (4), p (2), R (6), r (3).
     """
     n = Y.shape[0]
@@ -159,6 +160,9 @@ def lateral_stage(p, tables, t, rate, Y, K, Q, F, dC_tilde, H, E, dC):
         E[k, 12], E[k, 13], E[k, 14] = r0, r1, r2
     b = n - 1
     of_N, of_V, known = _lateral_end(p, t, rate, Y[b], F[b], dC_tilde[b, 1])
+    if p.cap:
+        more, more_known = cap_across(p, t, rate, X[b], Y[b], F[b], dC_tilde[b, 1])
+        of_V, known = of_V + more, known + more_known
     A00 = of_N * (H[b, 4] + H[b, 5] * R20) + of_V * R00
     A01 = of_N * (H[b, 5] * R21 - 1.0) + of_V * R01
     g0 = -known - of_N * H[b, 5] * r2 - of_V * r0
@@ -233,7 +237,7 @@ def carry_lateral(p, tables, period, count, T, trail_Y, trail_K, weights, vector
             node.shape(p, tables, trail_Y[step, i], Q, X)
             node.water(p, tables, t + after, 1.0, X, F)
             known_lateral(a, 0 if euler else i, vector, dK, dC_tilde)
-            lateral_stage(p, tables, t + after, rate, trail_Y[step, i], trail_K[step, i], Q, F, dC_tilde, H, E, dC)
+            lateral_stage(p, tables, t + after, rate, X, trail_Y[step, i], trail_K[step, i], Q, F, dC_tilde, H, E, dC)
             for k in range(n):
                 for m in range(2):
                     dK[i, k, m] = rate * (dC[k, m] - dC_tilde[k, m])

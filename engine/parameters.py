@@ -2,6 +2,8 @@
 
 This is the only place where configuration is read for the kernels. A batch is an array of records and one `tables`
 array; each record knows where its grid, its tension table, its current and its method begin.
+
+In the paper: eq. (9) and eq. (10), which turn mass and area of the stretched line into those of the unstretched one.
 """
 
 import math
@@ -19,9 +21,9 @@ def _dtype(counts, values):
 RECORD = np.dtype(
     _dtype(
         "nodes grid_at law law_at law_n wet waves current cur_at cur_nx cur_nz cur_nt above end end_motion end_at "
-        "end_n sea_n sea_at bent viscous method stages method_at adaptive max_newton release max_releases at_rest",
+        "end_n sea_n sea_at cap bent viscous method stages method_at adaptive max_newton release max_releases at_rest",
         "m w0 EI p1 p2 p3 p4 p5 ct cn ma Rw depth k omega amplitude phase direction ramp "
-        "M_total M_wave lift C_buoy end_x end_z end_release end_fx end_fz end_decay "
+        "M_total M_wave lift C_buoy D_buoy M_added B_whole impact_loss end_x end_z end_release end_fx end_fz end_decay "
         "barrier c_quadratic c_linear per_strain per_force per_speed per_curvature "
         "order rtol newton_tolerance fixed_step max_step min_step start_x start_z "
         "output_step release_step growth_per_step shortest_wave profile_step window alpha_m alpha_f gamma pace",
@@ -186,6 +188,9 @@ def _end(record, scene, place):
     record["M_wave"] = rho_w * volume + added
     record["lift"] = (rho_w * volume - buoy.mass_kg) * scene.gravity_mps2
     record["C_buoy"] = 0.5 * rho_w * buoy.drag * math.pi * buoy.diameter_m**2 / 4
+    record["cap"] = wet and buoy.submergence == "spherical-cap"
+    record["D_buoy"], record["M_added"], record["impact_loss"] = buoy.diameter_m, added, buoy.impact_loss
+    record["B_whole"] = rho_w * volume * scene.gravity_mps2
     _put(record, "start_", scene.start.buoy_velocity_mps)
 
 

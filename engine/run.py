@@ -14,7 +14,7 @@ from .march import SMALL_STEPS, STATE, march
 from .planar import state as planar
 from .spatial import lift
 from .spatial import state as spatial
-from .statics import first_guess, settle
+from .statics import rest_of
 from .statics_advice import why_no_rest
 from .trajectory import EnergyBudget, Profiles, Trajectory
 
@@ -49,10 +49,10 @@ class Run:
         record, state, scene = self.record, self.state, self.scene
         n = int(record["nodes"])
         h = self.tables[record["grid_at"] : record["grid_at"] + n - 1]
-        Y = first_guess(record, scene, h)
         target = scene.end.position_m if record["end"] == HELD else (0.0, 0.0, 0.0)
         axes = "xyz" if self.kind is spatial else "xz"
-        state["status"] = settle(record, self.tables, Y, np.array([target["xyz".index(axis)] for axis in axes]))
+        place = np.array([target["xyz".index(axis)] for axis in axes])
+        state["status"], Y = rest_of(record, scene, self.tables, h, place)
         s = np.concatenate([[0.0], np.cumsum(h)])
         for i, axis in enumerate(axes):
             Y[:, len(axes) + i] = record[f"start_{axis}"] * s / s[-1]

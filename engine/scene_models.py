@@ -124,13 +124,18 @@ class End(Section):
 
 
 class Buoy(Section):
-    """The sphere of eq. (30) [D, M, Ma, Cd]; "full": buoyancy and wave load of the whole sphere at any height."""
+    """The sphere of eq. (30) [D, M, Ma, Cd].
+
+    submergence "full": buoyancy, wave load, added mass and drag of the whole sphere at any height; "spherical-cap": of
+    the part below the linear wave surface (`engine.cap`).
+    """
 
     diameter_m: Positive
     mass_kg: Positive
     added_mass_kg: NonNegative
     drag: NonNegative
-    submergence: Literal["full"] = "full"
+    submergence: Literal["full", "spherical-cap"] = "full"
+    impact_loss: UnitInterval = 0.0  # of a spherical cap: share of von Karman's loss into spray on the way into water
 
 
 class Water(Section):

@@ -199,6 +199,15 @@ def _solver(sound: Sound) -> Iterator[str]:
     if sound.value("solver.scheme") == "paper-box" and stiffness and stiffness[0] == 0:
         rule = "above 0, because solver.scheme is 'paper-box' and eq. (40) divides by EI"
         yield fault("tether.bending_stiffness_Nm2", stiffness[0], rule)
+    if sound.value("buoy.submergence") == "spherical-cap":
+        if sound.value("solver.scheme") == "paper-box":
+            rule = "'full', because solver.scheme is 'paper-box': eq. (30) as printed has the whole sphere in the water"
+            yield fault("buoy.submergence", "spherical-cap", rule)
+        if not sound.has("water"):
+            yield fault("buoy.submergence", "spherical-cap", "'full', because there is no water")
+    elif sound.value("buoy.impact_loss") not in (None, FAULTY, 0):
+        rule = "0, because buoy.submergence is not 'spherical-cap': the whole sphere is always in the water"
+        yield fault("buoy.impact_loss", sound.value("buoy.impact_loss"), rule)
 
 
 def _output(sound: Sound) -> Iterator[str]:

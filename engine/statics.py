@@ -14,6 +14,7 @@ from .ends import BUOY, FREE, HELD
 from .guards import OK, STATICS_FAILED
 from .newton import newton
 from .planar import state as planar
+from .scales import buckling_load, strain_at, tension_at
 from .spatial import lift
 from .spatial import state as spatial
 
@@ -22,6 +23,23 @@ TOLERANCE = 1e-9
 CLOSE, BALANCED = 1e-6, 1e-9  # a line at rest moves less (m), against a resistance less than this share of its load
 MOST = 300  # a stiff line on its way to a clamp passes shear far above its load, by one scale an iteration
 MOST_TURNS = 4  # a bight that the grid does not resolve keeps a folded node
+SPANS = 0.95, 0.98, 0.8, 0.9, 0.7  # shares of its length that a slack line below a floating buoy spans at first
+
+
+def rest_of(record, scene, tables, h, target_m):
+    """Static equilibrium of a scene: a status code and the state. Arguments as for `settle` and `first_guess`.
+
+    Under a buoy that floats the line may stand upright, pressed together between buoy and anchor: a rest too, but one
+    that buckles, and Newton's method meets it as easily as the slack one. Then another guess is tried.
+    """
+    most = abs(float(record["w0"])) * float(np.sum(h)) + buckling_load(scene.tether, scene.end)
+    for span in SPANS:
+        Y = first_guess(record, scene, h, span)
+        code = settle(record, tables, Y, target_m)
+        if not record["cap"] or code != OK or tension_at(float(Y[:, 0].min()), scene.tether.tension) >= -most:
+            break
+        code = STATICS_FAILED
+    return code, Y
 
 
 def settle(record, tables, Y, target_m):
@@ -82,20 +100,21 @@ def planar_stretch_vectors(Y):
     return (1 + Y[:, :1]) * np.column_stack([np.cos(Y[:, 4]), np.sin(Y[:, 4])])
 
 
-def first_guess(record, scene, h):
+def first_guess(record, scene, h, span=SPANS[0]):
     """State (n, 6 or 13) from which `settle` starts: loads carried along a line, or an arc where the ends are slack.
 
-    In space it lies in the vertical plane through the held end, or through the force on a free one.
+    In space it lies in the vertical plane through the held end, or through the force on a free one. span: share of its
+    length that a slack line under a floating buoy spans.
     """
     if "GI" not in record.dtype.names:
-        return _in_plane(record, scene, h, (float(record["end_x"]), float(record["end_z"])))
+        return _in_plane(record, scene, h, (float(record["end_x"]), float(record["end_z"])), span)
     across = {HELD: scene.end.position_m, FREE: scene.end.force_N}.get(int(record["end"]))
     azimuth = math.atan2(across[1], across[0]) if across and (across[0] or across[1]) else 0.0
     force = (math.hypot(float(record["end_x"]), float(record["end_y"])), float(record["end_z"]))
-    return lift.state_in_space(record, h, _in_plane(record, scene, h, force), azimuth)
+    return lift.state_in_space(record, h, _in_plane(record, scene, h, force, span), azimuth)
 
 
-def _in_plane(record, scene, h, force):
+def _in_plane(record, scene, h, force, span):
     n = int(record["nodes"])
     s = np.concatenate([[0.0], np.cumsum(h)])
     length = s[-1]
@@ -103,22 +122,13 @@ def _in_plane(record, scene, h, force):
     if record["end"] == HELD:
         x, y, z = scene.end.position_m
         x = math.hypot(x, y) if y else x
-        chord = math.hypot(x, z)
-        direction = math.atan2(z, x) if chord > 0 else 0.0
-        if chord >= length:
-            Y[:, 0] = chord / length - 1
-            Y[:, 4] = direction
-        else:
-            half = _arc(chord / length)
-            sag = 1.0 if (record["w0"] >= 0) == (x >= 0) else -1.0  # heavy hangs below the chord, light above
-            Y[:, 4] = direction + sag * half * (2 * s / length - 1)
-            Y[:, 5] = 2 * sag * half / length
-        return Y
+        return _to_a_place(Y, s, x, z, record["w0"])
+    up, height = _afloat(record, scene, s) if record["end"] == BUOY else (force[1], None)
+    if height is not None:
+        return _to_a_place(Y, s, 0.0, min(height, span * length), record["w0"])
     Nx = np.full(n, force[0] if record["end"] == FREE else 0.0)
-    Nz = (record["lift"] if record["end"] == BUOY else force[1]) - record["w0"] * (length - s)
+    Nz = up - record["w0"] * (length - s)
     T = np.hypot(Nx, Nz)
-    from .scales import strain_at
-
     Y[:, 0] = [strain_at(load, scene.tether.tension) if load > 0 else 0.0 for load in T]
     angle = np.arctan2(Nz, Nx)
     heaviest = angle[np.argmax(T)] if T.max() > 0 else math.pi / 2
@@ -127,6 +137,50 @@ def _in_plane(record, scene, h, force):
     Y[:, 0] = np.where(against, 0.0, Y[:, 0])
     Y[:, 4] = np.where(against, heaviest, heaviest + np.angle(np.exp(1j * (angle - heaviest))))
     return Y
+
+
+def _to_a_place(Y, s, x, z, w0):
+    """A line stretched straight from the anchor to (x, z), m, or bent to an arc."""
+    length, chord = s[-1], math.hypot(x, z)
+    direction = math.atan2(z, x) if chord > 0 else 0.0
+    if chord >= length:
+        Y[:, 0] = chord / length - 1
+        Y[:, 4] = direction
+    else:
+        half = _arc(chord / length)
+        sag = 1.0 if (w0 >= 0) == (x >= 0) else -1.0  # heavy hangs below the chord, light above
+        Y[:, 4] = direction + sag * half * (2 * s / length - 1)
+        Y[:, 5] = 2 * sag * half / length
+    return Y
+
+
+def _afloat(record, scene, s):
+    """Force (N) with which a buoy holds an upright line, and its height (m) where it floats on a slack one, or None.
+
+    A spherical cap rises until its lift is what the line, longer by then, carries, or until it floats by itself.
+    """
+    from scipy.optimize import brentq
+
+    whole, D, law = float(record["lift"]), float(record["D_buoy"]), scene.tether.tension
+    if not record["cap"] or whole <= 0:
+        return whole, None
+
+    def lift(z):
+        x = min(max((float(record["depth"]) - z) / D + 0.5, 0.0), 1.0)
+        return whole - float(record["B_whole"]) * (1.0 - x * x * (3.0 - 2.0 * x))
+
+    def left(load):
+        """Lift that is not carried where the line is stretched by this load."""
+        loads = load - record["w0"] * (s[-1] - s)
+        strains = np.array([strain_at(T, law) if T > 0 else 0.0 for T in loads])
+        return lift(s[-1] + np.sum(0.5 * np.diff(s) * (strains[1:] + strains[:-1]))) - load
+
+    if left(whole) >= 0:
+        return whole, None
+    if left(0.0) > 0:
+        return brentq(left, 0.0, whole), None
+    surface = float(record["depth"])
+    return 0.0, brentq(lift, surface - D / 2, surface + D / 2)
 
 
 def _arc(ratio):

@@ -38,8 +38,11 @@ def why_no_rest(record, scene):
 
 
 def loads_of(record, scene):
-    """Static forces (N) at the upper and at the lower end, without current; None for a held end, where they follow."""
-    if record["end"] == BUOY:
+    """Static forces (N) at the upper and at the lower end, without current.
+
+    None where they follow from the place: of a held end, and of a buoy that may come out of the water.
+    """
+    if record["end"] == BUOY and not record["cap"]:
         side, up = 0.0, float(record["lift"])
     elif record["end"] == FREE:
         x, y, up = scene.end.force_N

@@ -22,6 +22,7 @@ import math
 
 import numpy as np
 
+from .cap import cap_change
 from .choose import larger, some, where
 from .compiled import kernel
 from .elementary import copy_into
@@ -106,7 +107,18 @@ def _displaced_water(p, tables, going_on, D, Q, J, dF):
 
 
 @kernel
-def tangent_stage(p, tables, rate, going_on, moving_water, Y, dC_tilde, dF, dC, Q, J, F, E, D, gamma):
+def _displaced_end(p, tables, dC_tilde):
+    """dX~ of the last node: by dX = dX~ + dV/rate it moves, the second part of which is in Newton's matrix."""
+    x = z = 0.0
+    for k in range(1, dC_tilde.shape[0]):
+        half = 0.5 * tables[p.grid_at + k - 1]
+        x += half * (dC_tilde[k - 1, 0] + dC_tilde[k, 0])
+        z += half * (dC_tilde[k - 1, 1] + dC_tilde[k, 1])
+    return x, z
+
+
+@kernel
+def tangent_stage(p, tables, t, rate, going_on, moving_water, X, Y, K, dC_tilde, dF, dC, Q, J, F, E, D, gamma):
     """dC (n, 4) of one vector at one stage whose matrix is in E; dF comes in as a first guess and is renewed.
 
     Both where going_on holds, and there until dF is settled. D (n, 6), gamma (n, 2): work.
@@ -115,6 +127,12 @@ def tangent_stage(p, tables, rate, going_on, moving_water, Y, dC_tilde, dF, dC, 
     for _ in range(WATER_ITERATIONS):
         _nodal_change(p, rate, moving_water, dC_tilde[:, 2:], F, Y, Q, dF, gamma)
         top_x, top_z = _top_change(p, rate, dC_tilde[n - 1, 2:], F[n - 1], Y[n - 1], dF[n - 1])
+        if p.cap:
+            dX_tilde = _displaced_end(p, tables, dC_tilde)
+            more_x, more_z = cap_change(
+                p, t, rate, X[n - 1], Y[n - 1], K[n - 1], F[n - 1], dC_tilde[n - 1, 2:], dX_tilde, dF[n - 1]
+            )
+            top_x, top_z = top_x + more_x, top_z + more_z
         resolve_bent(p, tables, rate, Q, E, dC_tilde[:, :2], gamma, top_x, top_z, D)
         for k in range(n):
             dC[k, 0] = where(going_on, D[k, 0] * Q[k, 0] - D[k, 4] * Q[k, 6], dC[k, 0])
@@ -175,15 +193,16 @@ def linearise(p, tables, t, rate, moving_water, Y, K, X, F, C_tilde, Q, E, J, wo
             C_tilde[k, m] = Q[k, 5 + m] - K[k, m] / rate
             C_tilde[k, 2 + m] = Y[k, 2 + m] - K[k, 2 + m] / rate
     node.node_quantities(p, tables, rate, rate, 1.0, Y, C_tilde, F, Q)
-    sweep.sweep_bent(p, tables, t, rate, rate, 1.0, Y, C_tilde, F, Q, E, D)
+    sweep.sweep_bent(p, tables, t, rate, rate, 1.0, Y, C_tilde, X, F, Q, E, D)
     if moving_water > 0.0:
         water_slopes(p, tables, t, X, X_moved, F_ahead, F_behind, J)
 
 
 @kernel
 def carry_stage(
-    p, tables, rate, a, count, here, moving_water, Y, v, vectors, dKs, waters, dC_tilde, dCs, Q, J, F, E, D, gamma
-):
+    p, tables, t, rate, a, count, here, moving_water, X, Y, K, v, vectors, dKs, waters, dC_tilde, dCs,
+    Q, J, F, E, D, gamma,
+):  # fmt: skip
     """Perturbation number v through one linearised stage, where `here` holds: into dCs[v], from vectors[v] and the
     first `count` of dKs[v].
     """
@@ -191,7 +210,7 @@ def carry_stage(
         for m in range(4):
             dC_tilde[k, m] = vectors[v, k, m]
         add_rates(p, a, count, dKs[v], k, dC_tilde[k])
-    tangent_stage(p, tables, rate, here, moving_water, Y, dC_tilde, waters[v], dCs[v], Q, J, F, E, D, gamma)
+    tangent_stage(p, tables, t, rate, here, moving_water, X, Y, K, dC_tilde, waters[v], dCs[v], Q, J, F, E, D, gamma)
 
 
 @kernel
@@ -231,8 +250,8 @@ def carry(p, tables, period, count, T, trail_Y, trail_K, vectors, rates, waters,
             linearise(p, tables, t + after, rate, moving_water, Y, trail_K[step, i], X, F, C_tilde, Q, E, J, work)
             for v in range(number):
                 carry_stage(
-                    p, tables, rate, a, known, True, moving_water, Y, v, vectors, dKs, waters, dC_tilde, dCs,
-                    Q, J, F, E, D, gamma,
+                    p, tables, t + after, rate, a, known, True, moving_water, X, Y, trail_K[step, i], v, vectors, dKs,
+                    waters, dC_tilde, dCs, Q, J, F, E, D, gamma,
                 )  # fmt: skip
                 for k in range(n):
                     for m in range(4):

@@ -6,6 +6,8 @@ The printed tanh law has almost no stiffness in compression: where the scene giv
 P_b (0.5/lambda - 1)^2 below lambda = 1 + eps = 0.5, smooth there, without bound as lambda -> 0.
 `stored` is its integral.
 Table layout in `tables`, n knots: [knots (n) | c0 c1 c2 c3 of each of the n - 1 pieces | slope below | slope above].
+
+f' is T' of eq. (29).
 """
 
 import math

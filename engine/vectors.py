@@ -32,6 +32,12 @@ def symmetric(S, a):
 
 
 @kernel
+def times(rows, a):
+    """The matrix of these three rows times a."""
+    return dot(rows[0], a), dot(rows[1], a), dot(rows[2], a)
+
+
+@kernel
 def quaternion_product(a, b):
     """a o b"""
     return (

@@ -20,14 +20,6 @@ def test_every_file_that_a_document_names_exists(name):
     assert [path for path in paths if not (ROOT / path).exists()] == []
 
 
-def test_each_equation_of_the_paper_is_listed_once():
-    table = NOTATION.partition("## Equations of the paper")[2]
-    listed = []
-    for first, last in re.findall(r"^\| \((\d+)\)(?:-\((\d+)\))? \|", table, flags=re.MULTILINE):
-        listed += range(int(first), int(last or first) + 1)
-    assert listed == list(range(1, 41))
-
-
 def test_every_scene_key_and_column_named_exists():
     named = set(re.findall(r"`((?:tether|buoy|water|waves|anchor|end|current|solver|output)\.\w+)`", NOTATION))
     assert named and named <= set(known_keys(Scene))

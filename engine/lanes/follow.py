@@ -99,7 +99,7 @@ def follow(records, tables, trail, trails, periods, nats, lateral_nats, sideways
         for v in range(count):
             keep(begun, rates[v], dKs[v, 0])
             carry_stage(
-                p, grid, rate, a, s - 1, busy, moving_water, Y, v, vectors, dKs, waters, dC_tilde, dCs,
+                p, grid, t, rate, a, s - 1, busy, moving_water, X, Y, K, v, vectors, dKs, waters, dC_tilde, dCs,
                 Q, J, F, E, D, gamma,
             )  # fmt: skip
             for k in range(Y.shape[0]):
@@ -113,7 +113,7 @@ def follow(records, tables, trail, trails, periods, nats, lateral_nats, sideways
         if sideways:
             keep(begun, across_rates, dK[0])
             known_lateral(a, s - 1, across, dK, known)
-            lateral_stage(p, grid, t, rate, Y, K, Q, F, known, H, E_across, dC)
+            lateral_stage(p, grid, t, rate, X, Y, K, Q, F, known, H, E_across, dC)
             for k in range(Y.shape[0]):
                 for m in range(2):
                     fresh[k, m] = rate * (dC[k, m] - known[k, m])

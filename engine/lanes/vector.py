@@ -1,9 +1,9 @@
 """A vector of numbers as one Numba value: `Lanes(8)` is eight floats, one of each of eight runs, in one register.
 
 A kernel written for floats is compiled for such vectors where it is given them: +, -, *, /, comparisons, abs, sqrt,
-exp, tanh, rint, floor and array elements are defined here, and no branch may depend on them (`engine.choose` has what
-takes the place of branches). Every lane goes through the same IEEE operations as a float would, so that its bits
-are those of the run alone.
+exp, tanh, sin, cos, acos, rint, floor and array elements are defined here, and no branch may depend on them
+(`engine.choose` has what takes the place of branches). Every lane goes through the same IEEE operations as a float
+would, so that its bits are those of the run alone.
 
 Memory: an array whose last axis is the lanes, contiguous and aligned to one vector (`lane_zeros`); kernels see it
 without that axis (`as_lanes`).
@@ -164,7 +164,7 @@ _define(operator.and_, (LaneMask, LaneMask), LaneMask, _instruction("and_"))
 _define(operator.or_, (LaneMask, LaneMask), LaneMask, _instruction("or_"))
 for _function, _name in ((abs, "fabs"), (math.sqrt, "sqrt"), (np.rint, "rint"), (np.floor, "floor")):
     _define(_function, (Lanes,), Lanes, _intrinsic(_name))
-for _function in (math.exp, math.tanh, math.sin, math.cos):
+for _function in (math.exp, math.tanh, math.sin, math.cos, math.acos):
     _define(_function, (Lanes,), Lanes, _lane_by_lane(_function.__name__))
 
 

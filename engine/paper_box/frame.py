@@ -5,6 +5,8 @@ paper's axes 1, 2, 3 here (a right-handed set), and the appendix is used as it s
 then has beta_1 = beta_2 = Omega_1 = Omega_2 = S_b = w = 0.
 
 Arrays carry their components first, (3, ...) and (4, ...), and may be complex: nothing here takes an absolute value.
+
+In the paper: eq. (1) the frame, eq. (2) components, eq. (3) and eq. (4) derivatives, eq. (5) beta, eq. (6) C.
 """
 
 import numpy as np

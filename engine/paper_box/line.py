@@ -1,4 +1,7 @@
-"""What a run of the paper's form needs of its scene: constants of appendix A, grid, scales, and what moves."""
+"""What a run of the paper's form needs of its scene: constants of appendix A, grid, scales, and what moves.
+
+In the paper: eq. (21), with the unknowns of eq. (22).
+"""
 
 from dataclasses import dataclass
 

@@ -13,6 +13,8 @@ R C dU_c/dt that the print leaves out: without it waves act on the tether by dra
 
 water (6, ...): velocity and local acceleration of the water in the paper's axes (`frame`).
 Arguments may be complex (`box` differentiates by complex step): |x| is written so that it stays analytic.
+
+In the paper: eq. (34), eq. (35), eq. (36), eq. (37), eq. (38) and eq. (39) are M, eq. (40) is P.
 """
 
 import numpy as np

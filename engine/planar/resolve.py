@@ -43,5 +43,5 @@ def resolve_bent(p, tables, cq, Q, E, dq_tilde, gamma, top_x, top_z, D):
         E[k, 9], E[k, 10], E[k, 11] = p0, p1, p2
         E[k, 21], E[k, 22], E[k, 23] = r0, r1, r2
     g0 = -top_x - E[0, 24] * r0 - E[0, 25] * r1
-    g1 = -top_z - E[0, 25] * r0 - E[0, 26] * r1
+    g1 = -top_z - E[0, 26] * r0 - E[0, 27] * r1
     back_substitute(E, g0, g1, -r2, D)

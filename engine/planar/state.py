@@ -35,8 +35,8 @@ def assemble(p, tables, t, in_motion, cq, cv, Y, C_tilde, X, F, Q, E, D):
     node.water(p, tables, t, in_motion, X, F)
     node.node_quantities(p, tables, cq, cv, in_motion, Y, C_tilde, F, Q)
     if p.bent:
-        return sweep_bent(p, tables, t, cq, cv, in_motion, Y, C_tilde, F, Q, E, D)
-    return sweep_unbent(p, tables, t, cq, cv, in_motion, Y, C_tilde, F, Q, E, D)
+        return sweep_bent(p, tables, t, cq, cv, in_motion, Y, C_tilde, X, F, Q, E, D)
+    return sweep_unbent(p, tables, t, cq, cv, in_motion, Y, C_tilde, X, F, Q, E, D)
 
 
 @kernel

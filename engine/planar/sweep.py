@@ -17,11 +17,14 @@ Without bending S and kappa are zero, y = (eps, phi), v = (U, W), and the same s
 
 E (n, 24): P (9), p (3), R (9), r (3), row-major; in the row of the anchor, which has no box below, E[0, 0:9] is the
 inverse at the upper end. 2 x 2 in the same places without bending. For other right-hand sides of the same matrix
-(`resolve_bent`) an E (n, 33) also takes in E[k, 24:33], the inverse of that box, and in E[0, 24:27] Dxx, Dxz, Dzz.
+(`resolve_bent`) an E (n, 33) also takes in E[k, 24:33], the inverse of that box, and in E[0, 24:28] Dxx, Dxz, Dzx, Dzz.
+
+In the paper: eq. (15) EI kappa, eq. (16) moments, eq. (17), eq. (18) and eq. (19) compatibility, eq. (27) the box.
 """
 
 import numpy as np
 
+from ..cap import cap_end
 from ..choose import smaller
 from ..compiled import kernel
 from ..ends import planar_end
@@ -30,7 +33,7 @@ WIDTH, WITH_INVERSE = 24, 33
 
 
 @kernel
-def sweep_bent(p, tables, t, cq, cv, in_motion, Y, C_tilde, F, Q, E, D):
+def sweep_bent(p, tables, t, cq, cv, in_motion, Y, C_tilde, X, F, Q, E, D):
     """Fill D (n, 6) with the Newton update; returns False where a pivot block is singular."""
     n = Y.shape[0]
     EI = p.EI
@@ -131,15 +134,22 @@ def sweep_bent(p, tables, t, cq, cv, in_motion, Y, C_tilde, F, Q, E, D):
     ex, ez, eN, Dxx, Dxz, Dzz = planar_end(
         p, tables, t, cv, in_motion, Q[b, 3], Q[b, 4], Y[b, 2], Y[b, 3], C_tilde[b, 2], C_tilde[b, 3], F[b]
     )
+    Dzx = Dxz
+    if p.cap:
+        more = cap_end(
+            p, t, cq, cv, in_motion, X[b, 0], X[b, 1], Y[b, 2], Y[b, 3], C_tilde[b, 2], C_tilde[b, 3], F[b]
+        )
+        ex, ez, Dxx = ex + more[0], ez + more[1], Dxx + more[2]
+        Dxz, Dzx, Dzz = Dxz + more[3], Dzx + more[4], Dzz + more[5]
     c, s, slope = Q[b, 0], Q[b, 1], Q[b, 2]
     A00 = eN * slope * c + Dxx * R00 + Dxz * R10
     A01 = -eN * s + Dxx * R01 + Dxz * R11
     A02 = -eN * Q[b, 4] + Dxx * R02 + Dxz * R12
-    A10 = eN * slope * s + Dxz * R00 + Dzz * R10
-    A11 = eN * c + Dxz * R01 + Dzz * R11
-    A12 = eN * Q[b, 3] + Dxz * R02 + Dzz * R12
+    A10 = eN * slope * s + Dzx * R00 + Dzz * R10
+    A11 = eN * c + Dzx * R01 + Dzz * R11
+    A12 = eN * Q[b, 3] + Dzx * R02 + Dzz * R12
     g0 = -ex - Dxx * r0 - Dxz * r1
-    g1 = -ez - Dxz * r0 - Dzz * r1
+    g1 = -ez - Dzx * r0 - Dzz * r1
     g2 = -Y[b, 5] - r2
     i00, i01, i02 = A11 * R22 - A12 * R21, A02 * R21 - A01 * R22, A01 * A12 - A02 * A11
     i10, i11, i12 = A12 * R20 - A10 * R22, A00 * R22 - A02 * R20, A02 * A10 - A00 * A12
@@ -150,7 +160,7 @@ def sweep_bent(p, tables, t, cq, cv, in_motion, Y, C_tilde, F, Q, E, D):
     E[0, 0], E[0, 1], E[0, 2], E[0, 3], E[0, 4], E[0, 5] = f * i00, f * i01, f * i02, f * i10, f * i11, f * i12
     E[0, 6], E[0, 7], E[0, 8] = f * i20, f * i21, f * i22
     if E.shape[1] > WIDTH:
-        E[0, 24], E[0, 25], E[0, 26] = Dxx, Dxz, Dzz
+        E[0, 24], E[0, 25], E[0, 26], E[0, 27] = Dxx, Dxz, Dzx, Dzz
     back_substitute(E, g0, g1, g2, D)
     return least != 0.0
 

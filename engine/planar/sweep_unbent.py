@@ -5,13 +5,14 @@ Well posed while the tether is in tension only (compression: EI = 0 is ill-posed
 
 import numpy as np
 
+from ..cap import cap_end
 from ..choose import smaller
 from ..compiled import kernel
 from ..ends import planar_end
 
 
 @kernel
-def sweep_unbent(p, tables, t, cq, cv, in_motion, Y, C_tilde, F, Q, E, D):
+def sweep_unbent(p, tables, t, cq, cv, in_motion, Y, C_tilde, X, F, Q, E, D):
     """Fill D (n, 6) with the Newton update, zeros for S and kappa; returns False where a block is singular."""
     n = Y.shape[0]
     R00 = R01 = R10 = R11 = 0.0
@@ -57,12 +58,19 @@ def sweep_unbent(p, tables, t, cq, cv, in_motion, Y, C_tilde, F, Q, E, D):
     ex, ez, eN, Dxx, Dxz, Dzz = planar_end(
         p, tables, t, cv, in_motion, Q[b, 3], Q[b, 4], Y[b, 2], Y[b, 3], C_tilde[b, 2], C_tilde[b, 3], F[b]
     )
+    Dzx = Dxz
+    if p.cap:
+        more = cap_end(
+            p, t, cq, cv, in_motion, X[b, 0], X[b, 1], Y[b, 2], Y[b, 3], C_tilde[b, 2], C_tilde[b, 3], F[b]
+        )
+        ex, ez, Dxx = ex + more[0], ez + more[1], Dxx + more[2]
+        Dxz, Dzx, Dzz = Dxz + more[3], Dzx + more[4], Dzz + more[5]
     A00 = eN * Q[b, 2] * Q[b, 0] + Dxx * R00 + Dxz * R10
     A01 = -eN * Q[b, 4] + Dxx * R01 + Dxz * R11
-    A10 = eN * Q[b, 2] * Q[b, 1] + Dxz * R00 + Dzz * R10
-    A11 = eN * Q[b, 3] + Dxz * R01 + Dzz * R11
+    A10 = eN * Q[b, 2] * Q[b, 1] + Dzx * R00 + Dzz * R10
+    A11 = eN * Q[b, 3] + Dzx * R01 + Dzz * R11
     g0 = -ex - Dxx * r0 - Dxz * r1
-    g1 = -ez - Dxz * r0 - Dzz * r1
+    g1 = -ez - Dzx * r0 - Dzz * r1
     det = A00 * A11 - A01 * A10
     least = smaller(least, abs(det))
     y0, y1 = (A11 * g0 - A01 * g1) / det, (A00 * g1 - A10 * g0) / det

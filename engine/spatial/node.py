@@ -25,6 +25,8 @@ Columns of Q (row k is node k):
     0-2 t | 3 dT/deps | 4 1 + eps | 5-7 q | 8-10 q_t | 11-13 N | 14-16 n | 17-19 b | 20-22 G | 23-25 dG/deps
     26-28 dG/dtheta2 | 29-31 dG/dtheta3 | 32-37 dG/dV: xx xy xz yy yz zz | 38 M2 | 39 M3 | 40 (1+eps)^3 | 41 T
     42 B | 43 L
+
+In the paper: eq. (4) b_s, eq. (5) and eq. (6) beta and C, eq. (11) N_s, eq. (13)-(16) moments, eq. (18) V_s.
 """
 
 import math

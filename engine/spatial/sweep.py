@@ -26,6 +26,8 @@ A clamp is a rotational spring, so stiff that the end turns by less than a milli
 
 E (n, 77) is laid out in `engine.spatial.rows`; in the row of the anchor, which has no P and p, E[0, 0:6] is y of the
 upper end and dO1.
+
+In the paper: eq. (13) and eq. (14) torque and bending, eq. (16) moments, eq. (18) compatibility.
 """
 
 from ..compiled import kernel
@@ -61,7 +63,7 @@ from .upper import solve_upper, spring
 
 
 @kernel
-def sweep(p, tables, t, cq, cv, in_motion, Y, C_tilde, F, Q, E, D):
+def sweep(p, tables, t, cq, cv, in_motion, Y, C_tilde, X, F, Q, E, D):
     """Fill D (n, 12), increments of eps, Sn, Sb, V, theta, O; returns False where a pivot block is singular."""
     last = Y.shape[0] - 1
     EI, GI, O1 = p.EI, p.GI, Y[0, 10]
@@ -154,7 +156,8 @@ def sweep(p, tables, t, cq, cv, in_motion, Y, C_tilde, F, Q, E, D):
         rx, ry, rz = zx + row_dot(Ax, pr), zy + row_dot(Ay, pr), zz + row_dot(Az, pr)
         r2, r3, r1 = z2 + row_dot(A2, pr), z3 + row_dot(A3, pr), z1 + row_dot(A1, pr)
     _store_relation(E[last], Rx, Ry, Rz, R2, R3, R1, rx, ry, rz, r2, r3, r1)
-    return solve_upper(p, tables, t, cv, in_motion, twisted, Y, C_tilde, F, Q, E) and back_substitute(E, twisted, Y, D)
+    sound = solve_upper(p, tables, t, cq, cv, in_motion, twisted, Y, C_tilde, X, F, Q, E)
+    return sound and back_substitute(E, twisted, Y, D)
 
 
 @kernel

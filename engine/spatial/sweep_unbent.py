@@ -4,9 +4,9 @@ Shear forces, curvatures and the roll of the frame are zero, N = T t. Well posed
 """
 
 from ..compiled import kernel
-from ..ends import upper_end_3d
-from ..vectors import dot, mixed, symmetric
+from ..vectors import dot, mixed, symmetric, times
 from .node import vector
+from .upper import end_condition
 
 
 @kernel
@@ -37,7 +37,7 @@ def _inverse(A):
 
 
 @kernel
-def sweep_unbent(p, tables, t, cq, cv, in_motion, Y, C_tilde, F, Q, E, D):
+def sweep_unbent(p, tables, t, cq, cv, in_motion, Y, C_tilde, X, F, Q, E, D):
     """Fill D (n, 12) with the Newton update, zeros for shear, curvature and roll; False where a block is singular.
 
     E (n, 24): columns of P (9), p (3), columns of R (9), r (3).
@@ -81,23 +81,21 @@ def sweep_unbent(p, tables, t, cq, cv, in_motion, Y, C_tilde, F, Q, E, D):
         )
         s = (f * dot(i0, g), f * dot(i1, g), f * dot(i2, g))
         _store(E[k], 0, P, s)
-        X = (mixed(1.0, R[0], ec, dqa[0]), mixed(1.0, R[1], ec, dqa[1]), mixed(1.0, R[2], ec, dqa[2]))
+        on = (mixed(1.0, R[0], ec, dqa[0]), mixed(1.0, R[1], ec, dqa[1]), mixed(1.0, R[2], ec, dqa[2]))
         R = (
-            mixed(1.0, _times(X, P[0]), ec, dqb[0]),
-            mixed(1.0, _times(X, P[1]), ec, dqb[1]),
-            mixed(1.0, _times(X, P[2]), ec, dqb[2]),
+            mixed(1.0, _times(on, P[0]), ec, dqb[0]),
+            mixed(1.0, _times(on, P[1]), ec, dqb[1]),
+            mixed(1.0, _times(on, P[2]), ec, dqb[2]),
         )
-        r = mixed(1.0, _times(X, s), 1.0, z)
+        r = mixed(1.0, _times(on, s), 1.0, z)
         _store(E[k], 12, R, r)
-    residual, eN, S = upper_end_3d(
-        p, tables, t, cv, in_motion, vector(Q[last], 11), vector(Y[last], 3), vector(C_tilde[last], 3), F[last]
-    )
+    residual, eN, S = end_condition(p, tables, t, cq, cv, in_motion, Y, C_tilde, X, F, Q)
     dN, _ = _columns(Q[last])
-    known = symmetric(S, r)
+    known = times(S, r)
     A = (
-        mixed(eN, dN[0], 1.0, symmetric(S, R[0])),
-        mixed(eN, dN[1], 1.0, symmetric(S, R[1])),
-        mixed(eN, dN[2], 1.0, symmetric(S, R[2])),
+        mixed(eN, dN[0], 1.0, times(S, R[0])),
+        mixed(eN, dN[1], 1.0, times(S, R[1])),
+        mixed(eN, dN[2], 1.0, times(S, R[2])),
     )
     i0, i1, i2, det = _inverse(A)
     if det == 0.0:

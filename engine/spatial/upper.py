@@ -9,10 +9,11 @@ import math
 
 import numpy as np
 
+from ..cap import cap_end_3d
 from ..compiled import kernel
 from ..elementary import smooth_start
 from ..ends import HELD, released, upper_end_3d
-from ..vectors import dot, quaternion_product, relative, symmetric
+from ..vectors import dot, mixed, quaternion_product, relative, times
 from .box import nodal_jacobian
 from .node import vector
 from .rows import AT_R, AT_RT, AT_RX, row_of
@@ -50,21 +51,37 @@ def _roll_to_go(p, t, length, Y):
 
 
 @kernel
-def solve_upper(p, tables, t, cv, in_motion, twisted, Y, C_tilde, F, Q, E):
+def end_condition(p, tables, t, cq, cv, in_motion, Y, C_tilde, X, F, Q):
+    """Residual of the upper end (`engine.ends`, `engine.cap`), e_N, and the rows of D."""
+    last = Y.shape[0] - 1
+    V, V_tilde = vector(Y[last], 3), vector(C_tilde[last], 3)
+    e, eN, S = upper_end_3d(p, tables, t, cv, in_motion, vector(Q[last], 11), V, V_tilde, F[last])
+    rows = ((S[0], S[1], S[2]), (S[1], S[3], S[4]), (S[2], S[4], S[5]))
+    if p.cap:
+        more, D = cap_end_3d(p, t, cq, cv, in_motion, vector(X[last], 0), V, V_tilde, F[last])
+        e = mixed(1.0, e, 1.0, more)
+        rows = (
+            mixed(1.0, rows[0], 1.0, D[0]),
+            mixed(1.0, rows[1], 1.0, D[1]),
+            mixed(1.0, rows[2], 1.0, D[2]),
+        )
+    return e, eN, rows
+
+
+@kernel
+def solve_upper(p, tables, t, cq, cv, in_motion, twisted, Y, C_tilde, X, F, Q, E):
     """Solve the conditions of the upper end for y there, and dO1; both into E[0, 0:6]. False where singular."""
     last = Y.shape[0] - 1
     row, node = E[last], Q[last]
-    residual, eN, S = upper_end_3d(
-        p, tables, t, cv, in_motion, vector(node, 11), vector(Y[last], 3), vector(C_tilde[last], 3), F[last]
-    )
+    residual, eN, S = end_condition(p, tables, t, cq, cv, in_motion, Y, C_tilde, X, F, Q)
     count = 6 if twisted else 5
     M = np.zeros((6, 7))
     R1 = row_of(row, AT_R + 25)
     dN, _, roll, _, _ = nodal_jacobian(node, 0.0)
-    known = symmetric(S, vector(row, AT_RX))
-    tau = symmetric(S, vector(row, AT_RT))
+    known = times(S, vector(row, AT_RX))
+    tau = times(S, vector(row, AT_RT))
     for j in range(5):
-        column = symmetric(S, (row[AT_R + j], row[AT_R + 5 + j], row[AT_R + 10 + j]))
+        column = times(S, (row[AT_R + j], row[AT_R + 5 + j], row[AT_R + 10 + j]))
         for i in range(3):
             M[i, j] = column[i]
         M[3, j], M[4, j], M[5, j] = row[AT_R + 15 + j], row[AT_R + 20 + j], R1[j]

@@ -14,7 +14,7 @@ from ..figures.energy_shares import EnergyPanel, energy_shares
 from ..figures.front_plane import FrontPanel, front_plane
 from ..figures.front_speeds import front_speeds
 from ..figures.line_animation import line_animation, line_strip
-from ..figures.line_panels import LinePanel, folds, line_panels
+from ..figures.line_panels import LinePanel, folds, line_panels, paired_limits
 from ..parts.content import Figure, Picture
 from ..parts.wording import decimals, listed, number, percent
 from .runs import FAST, SLOW, Line, find, named
@@ -87,12 +87,7 @@ def _along(drawn: list[Line], column: str, unit: float, label: str, what: str, p
         panels.append(LinePanel(_title(letter, line), profiles.s_m, values, profiles.time_s[rows]))
         spans.append((float(values.min()), float(values.max())))
         words.append(f"case {line.name} {number(spans[-1][0], 3)} to {number(spans[-1][1], 4)} {printed}")
-    limits = []
-    for line in drawn:  # the paper's scales: one for cases 1 and 2, one for 3 and 4
-        pair = "12" if line.case[0] in "12" else "34"
-        together = [span for other, span in zip(drawn, spans, strict=True) if other.case[0] in pair]
-        low, high = min(span[0] for span in together), max(span[1] for span in together)
-        limits.append((low - 0.03 * (high - low), high + 0.05 * (high - low)))
+    limits = paired_limits([line.case for line in drawn], panels)
     picture = line_panels(panels, "$s$ (m)", label, limits, centre=False)
     caption = (
         f"{what}, over the unstretched length s from the fixed end, every 10 ms; cases 1 and 2, and 3 and 4, have one "

@@ -29,8 +29,9 @@ def natural_frequencies(scene) -> Modes | None:
 
         omega_r = sqrt(f'(eps_s)/(l0 (M + M_a))),  omega_theta = sqrt(T_s/(l0 (M + M_a))),  T_s = (rho_w V - M) g
 
-    Returns None where they do not exist: no buoy, no water, no waves, a buoy that sinks, or a law without stiffness
-    there. The rope's own mass and added mass are left out, as in the paper.
+    Returns None where they do not exist: no buoy, no water, no waves, a buoy that sinks, one that rests partly out of
+    the water (a spherical cap: the water plane is then a spring too), or a law without stiffness there. The rope's own
+    mass and added mass are left out, as in the paper.
     """
     if scene.buoy is None or scene.water is None or scene.waves is None:
         return None
@@ -43,6 +44,9 @@ def natural_frequencies(scene) -> Modes | None:
 
     law = scene.tether.tension
     strain = strain_at(pull, law)
+    top_m = length * (1.0 + strain) + 0.5 * buoy.diameter_m
+    if buoy.submergence == "spherical-cap" and top_m > scene.water.depth_m:
+        return None
     # A central difference: outside its kernels the engine gives f, not f'; the error is of order h^2 f''' (1e-10).
     slope = (tension_at(strain + _STEP, law) - tension_at(strain - _STEP, law)) / (2.0 * _STEP)
     if slope <= 0.0:

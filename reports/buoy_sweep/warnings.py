@@ -114,12 +114,20 @@ def _out_of_water(runs, scene, modes) -> Notice | None:
             f"{percent(top.emergence.out_share)} of the time (kA = {number(top.steepness)}), its centre up to "
             f"{decimals(max(run.emergence.above_wave_m for run in out), 2)} m above the wave."
         )
-    lines.append(
-        f"Used here: `buoy.submergence` = {scene.buoy.submergence} (buoyancy, added mass and wave load of the whole "
-        f"sphere at any height) and `waves.above_still_water` = {scene.waves.above_still_water}. Out of the water "
-        "neither is physical, and the choice decides the outcome."
-    )
+    lines.append(loads_used(scene))
     return Notice("warning", "The buoy leaves the water", tuple(lines))
+
+
+def loads_used(scene) -> str:
+    """Which loads the run took for a buoy that comes out of the water, and what is doubtful about them."""
+    submergence, above = scene.buoy.submergence, scene.waves.above_still_water
+    if submergence == "full":
+        loads = "buoyancy, added mass and wave load of the whole sphere at any height"
+        doubt = "Out of the water neither is physical, and the choice decides the outcome."
+    else:
+        loads = "buoyancy, added mass, wave load and drag of the part of the sphere below the linear wave"
+        doubt = "What an impact on the water loses in spray is left out; the choice decides the outcome."
+    return f"Used here: `buoy.submergence` = {submergence} ({loads}) and `waves.above_still_water` = {above}. {doubt}"
 
 
 def _short(runs) -> Notice | None:

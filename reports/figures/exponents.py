@@ -15,12 +15,17 @@ def convergence(curves: list[tuple[str, np.ndarray, np.ndarray]]) -> Picture:
         axes.axhline(0.0, color=SOFT, linewidth=0.7)
         for (label, periods, bits), colour, dashes in zip(curves, (BLUE, VERMILION), ("-", "--"), strict=False):
             axes.plot(periods, bits, dashes, color=colour, linewidth=1.2, label=label)
-        settled = np.concatenate([bits[len(bits) // 10 :] for _, _, bits in curves if len(bits)])
-        if settled.size:
-            low, high = min(settled.min(), 0.0), max(settled.max(), 0.0)
-            margin = 0.15 * max(high - low, 0.02)
-            axes.set_ylim(low - margin, high + margin)
+        settled_limits(axes, [bits for _, _, bits in curves])
         axes.set_xlabel(r"$t/T_i$ (wave periods)")
         axes.set_ylabel(r"$\sigma_m$ (bits per period)")
         axes.legend()
         return picture_of(figure, "svg")
+
+
+def settled_limits(axes, curves: list[np.ndarray]) -> None:
+    """An axis that shows 0 and what the curves do after their first tenth, in which they jump about."""
+    settled = np.concatenate([bits[len(bits) // 10 :] for bits in curves if len(bits)])
+    if settled.size:
+        low, high = min(settled.min(), 0.0), max(settled.max(), 0.0)
+        margin = 0.15 * max(high - low, 0.02)
+        axes.set_ylim(low - margin, high + margin)

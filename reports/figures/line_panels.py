@@ -27,6 +27,31 @@ def line_panels(panels: list[LinePanel], x_label: str, y_label: str, y_limits: l
 
     y_limits: (low, high) of each panel; centre: mark the fixed end at x = 0.
     """
+    with sheet(line_panels_height_in(len(panels))) as figure:
+        fill_line_panels(figure, panels, x_label, y_label, y_limits, centre)
+        return picture_of(figure)
+
+
+def line_panels_height_in(count: int) -> float:
+    """The height of so many panels."""
+    return 0.4 + 1.8 * ((count + 1) // 2)
+
+
+def paired_limits(cases: list[str], panels: list[LinePanel]) -> list[tuple[float, float]]:
+    """The paper's scales: (low, high) of each panel, one scale for cases 1 and 2 and one for 3 and 4."""
+    limits = []
+    for case in cases:
+        pair = "12" if case[0] in "12" else "34"
+        together = [panel.y for other, panel in zip(cases, panels, strict=True) if other[0] in pair]
+        low, high = min(float(y.min()) for y in together), max(float(y.max()) for y in together)
+        limits.append((low - 0.03 * (high - low), high + 0.05 * (high - low)))
+    return limits
+
+
+def fill_line_panels(
+    figure, panels: list[LinePanel], x_label: str, y_label: str, y_limits: list[tuple], centre: bool
+) -> None:
+    """`line_panels` on an open sheet."""
     from matplotlib import colormaps
     from matplotlib.cm import ScalarMappable
     from matplotlib.colors import LinearSegmentedColormap, Normalize
@@ -36,25 +61,23 @@ def line_panels(panels: list[LinePanel], x_label: str, y_label: str, y_limits: l
     colours = LinearSegmentedColormap.from_list("time", colormaps["viridis"](np.linspace(0.0, 0.85, 32)))
     scale = ScalarMappable(Normalize(0.0, 1e3 * late), colours)
     rows = (len(panels) + 1) // 2
-    with sheet(0.4 + 1.8 * rows) as figure:
-        grid = figure.subplots(rows, 2, squeeze=False)
-        for axes, panel, limits in zip(grid.flat, panels, y_limits, strict=False):
-            x = np.broadcast_to(panel.x, panel.y.shape)
-            for row, time_s in enumerate(panel.time_s):
-                axes.plot(x[row], panel.y[row], color=scale.to_rgba(1e3 * time_s), linewidth=0.8)
-            if centre:
-                axes.axvline(0.0, color=SOFT, linewidth=0.7, linestyle=(0, (2, 2)))
-            axes.set_title(panel.title)
-            axes.set_ylim(*limits)
-            axes.margins(x=0.02)
-        for axes in grid.flat[len(panels) :]:
-            axes.set_visible(False)
-        for axes in grid[-1]:
-            axes.set_xlabel(x_label)
-        for axes in grid[:, 0]:
-            axes.set_ylabel(y_label)
-        figure.colorbar(scale, ax=grid, label="$t$ (ms)", shrink=0.6, aspect=30, pad=0.015)
-        return picture_of(figure)
+    grid = figure.subplots(rows, 2, squeeze=False)
+    for axes, panel, limits in zip(grid.flat, panels, y_limits, strict=False):
+        x = np.broadcast_to(panel.x, panel.y.shape)
+        for row, time_s in enumerate(panel.time_s):
+            axes.plot(x[row], panel.y[row], color=scale.to_rgba(1e3 * time_s), linewidth=0.8)
+        if centre:
+            axes.axvline(0.0, color=SOFT, linewidth=0.7, linestyle=(0, (2, 2)))
+        axes.set_title(panel.title)
+        axes.set_ylim(*limits)
+        axes.margins(x=0.02)
+    for axes in grid.flat[len(panels) :]:
+        axes.set_visible(False)
+    for axes in grid[-1]:
+        axes.set_xlabel(x_label)
+    for axes in grid[:, 0]:
+        axes.set_ylabel(y_label)
+    figure.colorbar(scale, ax=grid, label="$t$ (ms)", shrink=0.6, aspect=30, pad=0.015)
 
 
 def folds(panels: list[LinePanel], x_limits: tuple[float, float], z_limits: tuple[float, float]) -> Picture:

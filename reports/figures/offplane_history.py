@@ -28,29 +28,41 @@ class History:
 def lateral_histories(panels: list[tuple[str, list[History]]]) -> Picture:
     """Stacked panels (axis label, runs): every sample thin, the largest value of each period thick; solid for the first
     run, dashed for the second, and the same for the level of its in-plane motion."""
-    with sheet(0.7 + 2.3 * len(panels)) as figure:
-        rows = figure.subplots(len(panels), 1, sharex=True, squeeze=False)[:, 0]
-        for axes, (label, runs) in zip(rows, panels, strict=True):
-            for run, colour, dashes in zip(runs, (BLUE, VERMILION), ("-", (0, (4, 1.5))), strict=False):
-                some = run.size > 0
-                axes.plot(*envelope(run.periods[some], run.size[some]), color=colour, linewidth=0.4, alpha=0.35)
-                drawn = run.envelope > 0
-                axes.plot(
-                    run.envelope_periods[drawn], run.envelope[drawn], color=colour, linestyle=dashes, linewidth=1.1,
-                    label=run.label,
-                )  # fmt: skip
-                axes.axhline(run.inplane_m, color=colour, linestyle=":", linewidth=1.0)
-            axes.set_yscale("log")
-            levels = np.concatenate([run.envelope[run.envelope > 0] for run in runs])
-            top = np.nanmax([run.inplane_m for run in runs] + [levels.max()])
-            axes.set_ylim(levels.min() / 10**_DECADES_BELOW, 4.0 * top)
-            axes.set_ylabel(label)
-            axes.margins(x=0.01)
-        rows[0].plot([], [], ":", color="black", linewidth=1.0, label="in-plane half range of the buoy")
-        figure.legend(*rows[0].get_legend_handles_labels(), loc="outside upper center", ncols=3)
-        rows[-1].set_xlabel(r"$t/T_i$ (wave periods)")
-        figure.align_ylabels(rows)
+    with sheet(lateral_height_in(len(panels))) as figure:
+        fill_lateral_histories(figure, panels)
         return picture_of(figure)
+
+
+def lateral_height_in(count: int) -> float:
+    """The height of so many panels."""
+    return 0.7 + 2.3 * count
+
+
+def fill_lateral_histories(figure, panels: list[tuple[str, list[History]]]) -> list:
+    """`lateral_histories` on an open sheet; returns the axes of the panels."""
+    rows = figure.subplots(len(panels), 1, sharex=True, squeeze=False)[:, 0]
+    for axes, (label, runs) in zip(rows, panels, strict=True):
+        for run, colour, dashes in zip(runs, (BLUE, VERMILION), ("-", (0, (4, 1.5))), strict=False):
+            some = run.size > 0
+            axes.plot(*envelope(run.periods[some], run.size[some]), color=colour, linewidth=0.4, alpha=0.35)
+            drawn = run.envelope > 0
+            axes.plot(
+                run.envelope_periods[drawn], run.envelope[drawn], color=colour, linestyle=dashes, linewidth=1.1,
+                label=run.label,
+            )  # fmt: skip
+            axes.axhline(run.inplane_m, color=colour, linestyle=":", linewidth=1.0)
+        axes.set_yscale("log")
+        levels = np.concatenate([run.envelope[run.envelope > 0] for run in runs])
+        top = np.nanmax([run.inplane_m for run in runs] + [levels.max()])
+        axes.set_ylim(levels.min() / 10**_DECADES_BELOW, 4.0 * top)
+        axes.set_ylabel(label)
+        axes.margins(x=0.01)
+    rows[0].plot([], [], ":", color="black", linewidth=1.0, label="in-plane half range of the buoy")
+    figure.legend(*rows[0].get_legend_handles_labels(), loc="outside upper center", ncols=3)
+    rows[-1].set_xlabel(r"$t/T_i$ (wave periods)")
+    rows[-1].locator_params(axis="x", integer=True)
+    figure.align_ylabels(rows)
+    return list(rows)
 
 
 def seed_histories(panels: list[tuple[str, str, list[tuple[float, np.ndarray, np.ndarray]]]]) -> Picture:

@@ -32,8 +32,8 @@ def spectra(panels: list[SpectrumPanel], highest_radps: float) -> Picture:
             linear.set_ylabel(panel.label)
             linear.set_ylim(0.0, max(float(amplitude.max()), 1e-12) * 1.32)
             logarithmic.set_yscale("log")
-            _log_limits(logarithmic, amplitude)
-            _mark(linear, panel)
+            log_limits(logarithmic, amplitude)
+            mark_modes(linear, panel.marks)
             for frequency, _ in panel.marks:
                 logarithmic.axvline(frequency, color=SOFT, linewidth=0.8, linestyle=(0, (2, 2)))
         grid[0, 0].set_title("linear")
@@ -44,7 +44,7 @@ def spectra(panels: list[SpectrumPanel], highest_radps: float) -> Picture:
         return picture_of(figure)
 
 
-def _log_limits(axes, amplitude: np.ndarray) -> None:
+def log_limits(axes, amplitude: np.ndarray) -> None:
     """Four decades at most below the peak; a spectrum of zeros keeps matplotlib's own limits."""
     peak = float(amplitude.max())
     positive = amplitude[amplitude > 0]
@@ -52,10 +52,10 @@ def _log_limits(axes, amplitude: np.ndarray) -> None:
         axes.set_ylim(max(peak * 1e-4, float(positive.min()) * 0.5), peak * 3)
 
 
-def _mark(axes, panel: SpectrumPanel) -> None:
+def mark_modes(axes, marks: tuple[tuple[float, str], ...]) -> None:
     """Arrows at the top edge with the name of the mode above them, as in the paper."""
     top = axes.get_ylim()[1]
-    for frequency, name in panel.marks:
+    for frequency, name in marks:
         axes.annotate(
             name,
             xy=(frequency, top * 0.80),

@@ -77,11 +77,15 @@ class Figure:
 
 @dataclass(frozen=True)
 class Column:
-    """A table column: its title, the unit shown under the title ("" for none), and how its cells are set."""
+    """A table column: its title, the unit shown under the title ("" for none), and how its cells are set.
+
+    `share`: of the width that the columns of sentences divide among themselves, in the PDF.
+    """
 
     title: str
     unit: str = ""
     align: Literal["left", "right"] = "right"
+    share: int = 1
 
 
 @dataclass(frozen=True)
@@ -161,7 +165,14 @@ class Sheet:
     table: Table | None = None
 
 
-Item = Heading | Text | Bullets | Equation | Figure | Table | Notice | Listing | Explorer | Sheet
+@dataclass(frozen=True)
+class Links:
+    """A list of other files: what each is, and its path from the report's own folder."""
+
+    files: tuple[tuple[str, str], ...]
+
+
+Item = Heading | Text | Bullets | Equation | Figure | Table | Notice | Listing | Explorer | Sheet | Links
 
 
 @dataclass(frozen=True)

@@ -17,6 +17,7 @@ from .content import (
     Figure,
     Heading,
     Item,
+    Links,
     Listing,
     Notice,
     Report,
@@ -145,6 +146,8 @@ def _block(item: Item) -> str:
             colour, paper = _COLOURS[item.kind]
             lines = "".join(f"{_inline(line)}, " for line in item.lines)
             return f"#notice({colour}, {paper}, {_inline(item.title)}, ({lines}))"
+        case Links():
+            return f"#list({', '.join(_inline(f'{name}: `{path}`') for name, path in item.files)})"
         case Listing():
             return (
                 f"#block(fill: luma(245), inset: 0.7em, width: 100%, breakable: true, "
@@ -162,7 +165,8 @@ def _figure(item: Figure, name: str) -> str:
 def _table(item: Table) -> str:
     """A table with a header that comes back on every page it runs over."""
     size, inset = ("7.5pt", "(x: 2.6pt, y: 2.8pt)") if item.small else ("9pt", "(x: 5pt, y: 3.4pt)")
-    widths = ", ".join("1fr" if _is_prose(item, index) else "auto" for index in range(len(item.columns)))
+    shares = (f"{column.share}fr" if _is_prose(item, i) else "auto" for i, column in enumerate(item.columns))
+    widths = ", ".join(shares)
     aligns = ", ".join(column.align for column in item.columns)
     header = ", ".join(
         f'[#text(weight: "bold", {_inline(column.title)})'

@@ -44,7 +44,8 @@ SOURCES: dict[str, tuple[str, str]] = {
     "buoy.mass_kg": ("buoy mass M", TABLE_1),
     "buoy.added_mass_kg": (f"buoy added mass {M_A}", TABLE_1),
     "buoy.drag": (f"buoy drag coefficient {C_D}", TABLE_1),
-    "buoy.submergence": ("wetted part of the buoy", f"{PAPER}, eq. (30): constant buoyancy"),
+    "buoy.submergence": ("part of the buoy that the water loads", f"{PAPER}, eq. (30): the whole sphere at any height"),
+    "buoy.impact_loss": ("share of an impact's energy that goes into spray", "not in the paper"),
     "water.depth_m": ("water depth H", f"{UNSTATED}; chosen because both cases of the paper come out as described"),
     "water.density_kgpm3": (
         f"water density {RHO_W}",

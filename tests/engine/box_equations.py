@@ -28,7 +28,7 @@ def kernel_update(scene, cq, cv, in_motion, Y, C_tilde, F, viscosity=None):
     shape(p, tables, Y, Q, X)
     node_quantities(p, tables, cq, cv, in_motion, Y, C_tilde, F, Q)
     sweep = sweep_bent if scene.tether.bending_stiffness_Nm2 > 0 else sweep_unbent
-    assert sweep(p, tables, 0.0, cq, cv, in_motion, Y, C_tilde, F, Q, E, D)
+    assert sweep(p, tables, 0.0, cq, cv, in_motion, Y, C_tilde, X, F, Q, E, D)
     return D
 
 

@@ -33,7 +33,7 @@ def rates(motion, rate):
 
     def response(C_tilde):
         node_quantities(record, tables, rate, rate, 1.0, Y, C_tilde, F, Q)
-        assert solve(record, tables, 0.0, rate, rate, 1.0, Y, C_tilde, F, Q, E, D)
+        assert solve(record, tables, 0.0, rate, rate, 1.0, Y, C_tilde, X, F, Q, E, D)
         dq = D[:, 0], lam * D[:, 4]
         return np.column_stack([dq[0] * c - dq[1] * s, dq[0] * s + dq[1] * c, D[:, 2], D[:, 3]]).ravel()
 

@@ -36,7 +36,7 @@ def eigenvalues(scene, rate):
     for j in range(2 * n):
         unit = np.zeros((n, 2))
         unit[j // 2, j % 2] = 1.0
-        lateral_stage(p, motion.tables, 0.0, rate, Y, np.zeros((n, 4)), Q, F, unit, *work, dC)
+        lateral_stage(p, motion.tables, 0.0, rate, X, Y, np.zeros((n, 4)), Q, F, unit, *work, dC)
         R[:, j] = dC.ravel()
     mu = np.linalg.eigvals(R)
     found = rate * (1 - 1 / mu[np.abs(mu) > 1e-3])

@@ -52,7 +52,7 @@ def kernel_response(scene, Y, C_tilde, F, dC_tilde):
     node.shape(p, tables, Y, Q, X)
     K = RATE * (np.hstack([Q[:, 5:7], Y[:, 2:4]]) - C_tilde)
     work = np.zeros((NODES, COEFFICIENTS)), np.zeros((NODES, WIDTH))
-    lateral_stage(p, tables, 0.0, RATE, Y, K, Q, F, dC_tilde, *work, dC)
+    lateral_stage(p, tables, 0.0, RATE, X, Y, K, Q, F, dC_tilde, *work, dC)
     return dC
 
 

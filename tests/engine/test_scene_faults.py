@@ -9,6 +9,7 @@ import pytest
 
 from engine import SceneError, load_scene
 from engine.scene import build_scene
+from tests.engine.caps import CAP
 
 SPACE = {"motion.dimensions": 3}
 BLOCK = [[[0.0, 0.0]]]
@@ -48,7 +49,8 @@ SINGLE = [
     ({"tether.tension": {"law": "tanh", "p": [1, 2, 3, 4, "x"]}}, "tether.tension.p[4]", "'x'", "5 finite numbers"),
     ({"tether.tension": {"law": "tabulated", "strain": [], "tension_N": []}}, "tether.tension.strain", "[]", "least 2"),
     ({"buoy.mass_kg": -1611.0}, "buoy.mass_kg", "-1611.0", "above 0"),
-    ({"buoy.submergence": "half"}, "buoy.submergence", "'half'", "'full'"),
+    ({"buoy.submergence": "half"}, "buoy.submergence", "'half'", "one of 'full', 'spherical-cap'"),
+    ({**CAP, "buoy.impact_loss": 1.5}, "buoy.impact_loss", "1.5", "a number from 0 to 1"),
     ({"buoy": 5}, "buoy", "5", "table"),
     ({"end.kind": "loose"}, "end.kind", "'loose'", "'buoy', 'held', 'free'"),
     ({"water.depth_m": 0.0}, "water.depth_m", "0.0", "above 0"),
@@ -103,6 +105,9 @@ CROSS = [
     ({"waves.amplitude_m": 21.0}, "waves.amplitude_m", "less than water.depth_m"),
     ({"waves.direction_rad": 1.0}, "waves.direction_rad", "0 or pi"),
     ({"buoy": None}, "buoy", "missing"),
+    ({"buoy.impact_loss": 0.5}, "buoy.impact_loss", "0, because buoy.submergence is not 'spherical-cap'"),
+    ({**CAP, "solver.scheme": "paper-box"}, "buoy.submergence", "'full', because solver.scheme is 'paper-box'"),
+    ({**CAP, "water": None, "waves": None}, "buoy.submergence", "'full', because there is no water"),
     ({"end": {"kind": "free", "force_N": [0, 0, 9]}}, "buoy", "no buoy"),
     (
         {"end": {"kind": "free", "force_N": [0, 0, 0]}, "buoy": None, "tether.bending_stiffness_Nm2": 0},

@@ -11,6 +11,7 @@ the step; they enter the next step as dt K, and are held to 1e-4 of what they ad
 import numpy as np
 import pytest
 
+from tests.engine.caps import CAP
 from tests.engine.lines import DRY, STILL, free, held, line
 from tests.engine.tangents import Copy, Run, start_of
 
@@ -57,6 +58,10 @@ RUNS = {  # overrides, duration in s
     "tabulated": (STEEP | TABLE, 20.0),
     "wheeler": (STEEP | {"water.depth_m": 21.0, "waves.above_still_water": "wheeler"}, 20.0),
     "zero": (STEEP | {"water.depth_m": 21.0, "waves.above_still_water": "zero"}, 20.0),
+    "in and out of the water": (
+        STEEP | CAP | {"water.depth_m": 21.0, "waves.phase_rad": 0.3, "buoy.impact_loss": 0.4},
+        20.0,
+    ),
     "other way, phase, ramp": (
         STEEP | {"waves.direction_rad": np.pi, "waves.phase_rad": 0.7, "waves.ramp_s": 6.0},
         20.0,

@@ -12,6 +12,7 @@ from reports.buoy_sweep.figures import spectrum_window
 from reports.buoy_sweep.motion import LONGEST_PERIOD
 from reports.buoy_sweep.physics import natural_frequencies, water_surface_m
 from reports.buoy_sweep.runs import COLUMNS
+from reports.buoy_sweep.warnings import loads_used
 from reports.figures.time_series import Panel, band, envelope, time_series
 from reports.parts.scene_table import scene_table
 from reports.parts.sources import SOURCES
@@ -43,6 +44,16 @@ def test_natural_frequencies_are_those_of_a_mass_on_the_tether():
     slope = 3e4 * 5.0 / math.cosh(5.0 * soft.static_strain) ** 2 + 1e4
     assert soft.radial_radps == pytest.approx(math.sqrt(slope / (length * mass)), rel=1e-7)
     assert natural_frequencies(load_scene("tethered_buoy", {"buoy.mass_kg": 1e4})) is None
+
+
+def test_what_is_said_of_a_buoy_partly_in_the_water():
+    """One that rests under water has the modes of the whole sphere; at the surface none are given."""
+    deep, out = ({"buoy.submergence": "spherical-cap", "water.depth_m": depth} for depth in (22.5, 21.0))
+    whole = natural_frequencies(load_scene("tethered_buoy", {"water.depth_m": 22.5}))
+    assert natural_frequencies(load_scene("tethered_buoy", deep)) == whole
+    assert natural_frequencies(load_scene("tethered_buoy", out)) is None
+    assert "whole sphere at any height" in loads_used(load_scene("tethered_buoy"))
+    assert "below the linear wave" in loads_used(load_scene("tethered_buoy", out))
 
 
 def test_the_surface_is_a_wave_of_the_given_height_that_travels_with_x():

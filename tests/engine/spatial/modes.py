@@ -27,7 +27,7 @@ def rates(motion, rate):
 
     def response(C_tilde):
         node.node_quantities(record, tables, rate, rate, 1.0, Y, C_tilde, F, Q)
-        assert solve(record, tables, 0.0, rate, rate, 1.0, Y, C_tilde, F, Q, E, D)
+        assert solve(record, tables, 0.0, rate, rate, 1.0, Y, C_tilde, X, F, Q, E, D)
         dq = D[:, :1] * t + lam * (D[:, 8:9] * normal - D[:, 7:8] * b)
         return np.concatenate([dq, D[:, 3:6]], 1).ravel()
 

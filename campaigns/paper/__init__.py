@@ -1,0 +1,88 @@
+"""The whole paper again: figures 2-7 and 9-20, every statement with a verdict, and what the answer depends on.
+
+    python -m campaigns.paper                          everything; run again, it computes nothing
+    python -m campaigns.paper --parts breaking_line    one part, beside those that are in the folder already
+    python -m campaigns.paper --quick                  short and few runs in two minutes, to see what there is
+
+Protocol: the other campaigns run as parts, each in a folder of its own with its own report (`campaigns.paper.parts`);
+`dependence` runs the two waves of section 4.2 with other answers to what the paper leaves out. The report, the data of
+the figures and statements.csv are made from these folders alone. Random starts of eq. (33) come from a fixed seed,
+nothing else is random. To change a scene, run the campaign of that part.
+"""
+
+import time
+from dataclasses import dataclass
+
+from campaigns.machinery import cli
+
+CAMPAIGN = "paper"
+MODULE = "campaigns.paper"
+PARTS = ("breaking_line", "buoy", "sweep", "dependence", "out_of_plane", "oscillator")
+
+
+@dataclass(frozen=True)
+class Order:
+    """What the command line asks for, checked."""
+
+    parts: tuple[str, ...]
+    quick: bool
+    how: cli.Running
+
+
+def main(argv: list[str] | None = None) -> int:
+    """The command. Returns the exit code (0, 1, 2 or 130)."""
+    return cli.command(MODULE, argv, read_order, study)
+
+
+def parser():
+    """The options of this campaign."""
+    parser = cli.parser(MODULE, __doc__)
+    what = parser.add_argument_group("what is run")
+    cli.add(what, "--parts", "A B ...", f"parts to run (default: {' '.join(PARTS)})")
+    shorter = "shorter and fewer runs: shows the report, concludes nothing"
+    what.add_argument("--quick", action="store_true", help=shorter)
+    where = parser.add_argument_group("how and where")
+    cli.add(where, "--jobs", "N", f"runs at the same time (default: {cli.default_jobs()})")
+    found = "folder of the results; runs found there are not done again"
+    cli.add(where, "--out", "DIR", f"{found} (default: results/{CAMPAIGN})")
+    where.add_argument("--no-report", action="store_true", help="leave out every report.html and report.pdf")
+    return parser
+
+
+def read_order(argv: list[str], faults: list[str]) -> Order:
+    """The order in the words of the command line; every fault is appended to `faults`."""
+    options = cli.split(parser(), argv, faults)
+    allowed = "one of " + " ".join(PARTS)
+    if options.parts == []:
+        faults.append(f"--parts: given nothing; allowed: one or more, each {allowed}")
+    chosen = cli.values(options.parts or list(PARTS), "--parts", list(PARTS), cli.one_of(PARTS), allowed, faults)
+    jobs = cli.value(options.jobs, "--jobs", cli.default_jobs(), cli.whole(1), cli.WHOLE.format(1), faults)
+    out = cli.folder(options, CAMPAIGN, faults)
+    for part in PARTS:
+        if (out / part).exists() and not (out / part).is_dir():
+            faults.append(f"--out: given {str(out)!r}, where {part} is a file; allowed: a folder of this campaign")
+    how = cli.Running(out, jobs, "loky", None, not options.no_report)
+    return Order(tuple(part for part in PARTS if part in chosen), options.quick, how)
+
+
+def study(order: Order, argv: list[str]) -> int:
+    """Run it: parts, figure data, statements, report. Raises CampaignStopped, OSError, KeyboardInterrupt."""
+    from campaigns.machinery import provenance, session
+    from campaigns.machinery.folder import claimed
+    from campaigns.paper import dependence, parts, results
+
+    begun = time.perf_counter()
+    with claimed(order.how.out):
+        record = provenance.gather(CAMPAIGN, provenance.command_line(MODULE, argv))
+        record |= {"jobs": order.how.jobs, "quick": order.quick, "made_by": results.maker()}
+        record |= {"dependence": dependence.parameters(order.quick)}
+        same = provenance.read_if_same(order.how.out / "provenance.json", record) is not None
+        if not same:
+            provenance.write(order.how.out / "provenance.json", record)
+        timing, summary = parts.run(order)
+        whole = same and not summary.computed and results.there(order.how.out, order.how.report)
+        if not whole:
+            results.write(order.how.out)
+            session.finish(order.how.out, record, summary, timing)
+        fault = session.report(order.how.out, order.how.report and not whole, timing, begun)
+    return session.say(order.how.out, summary, timing, order.how.report, fault)

@@ -1,0 +1,108 @@
+"""What the answer of section 4.2 depends on: both waves with other answers to what the paper leaves out.
+
+The depth, at every treatment of the waves above still water and of a buoy that leaves it; the bending stiffness, at the
+depths where the large wave leads to different motions. Runs carry a perturbation, so each has an exponent and a regime
+(`campaigns.buoy_sweep.rows`); they go side by side in the lanes.
+"""
+
+from dataclasses import asdict, dataclass
+from functools import partial
+from itertools import product
+from pathlib import Path
+from typing import get_args
+
+from campaigns.buoy_sweep.rows import COLUMNS as OF_A_RUN
+from campaigns.buoy_sweep.rows import buoy_row
+from campaigns.machinery import session
+from campaigns.machinery.row_store import made_by
+from campaigns.machinery.runner import Plan, Summary, make_job
+
+SCENE = "tethered_buoy"
+STEEPNESSES = (0.016, 0.13)  # section 4.2.1, 4.2.2
+DEPTHS_M = (20.8, 21.0, 21.3, 21.6, 22.0, 22.5, 23.0, 25.0)
+STIFFNESSES_NM2 = (0.04, 0.1, 0.4, 1.0, 4.0)
+STIFFNESS_DEPTHS_M = (21.0, 21.6, 22.5)
+PERIODS, TRANSIENT = 400, 100
+QUICK_DEPTHS_M, QUICK_PERIODS, QUICK_TRANSIENT = (21.0, 22.5), 45, 5
+SOURCES = ("analysis", "engine", "campaigns/buoy_sweep/rows.py", "reports/buoy_sweep/motion.py")
+
+
+@dataclass(frozen=True)
+class Case:
+    """One run, in the words of the table."""
+
+    steepness: float
+    depth_m: float
+    above_still_water: str
+    submergence: str
+    bending_stiffness_Nm2: float
+
+    def changes(self) -> dict[str, object]:
+        """The keys of the scene that make it this case."""
+        return {
+            "waves.steepness": self.steepness,
+            "water.depth_m": self.depth_m,
+            "waves.above_still_water": self.above_still_water,
+            "buoy.submergence": self.submergence,
+            "tether.bending_stiffness_Nm2": self.bending_stiffness_Nm2,
+            "output.tangent_vectors": 1,
+            "output.lateral_growth": True,
+        }
+
+
+LABELS = tuple(Case.__dataclass_fields__)
+COLUMNS = (*LABELS, *(name for name in OF_A_RUN if name not in LABELS))
+
+
+def treatments() -> tuple[tuple[str, ...], tuple[str, ...]]:
+    """All that a scene allows: of waves above still water, and of a buoy that leaves the water."""
+    from engine.scene_models import Buoy, Waves
+
+    waves, buoy = Waves.model_fields["above_still_water"], Buoy.model_fields["submergence"]
+    return get_args(waves.annotation), get_args(buoy.annotation)
+
+
+def cases(quick: bool) -> list[Case]:
+    """Every run, each once; the scene as shipped leads."""
+    from engine import load_scene
+
+    scene = load_scene(SCENE)
+    EI, depth_m = scene.tether.bending_stiffness_Nm2, scene.water.depth_m
+    usual = scene.waves.above_still_water, scene.buoy.submergence
+    depths = QUICK_DEPTHS_M if quick else DEPTHS_M
+    found = [Case(kA, depth_m, *usual, EI) for kA in reversed(STEEPNESSES)]
+    found += [Case(kA, H, *how, EI) for kA, H, how in product(STEEPNESSES, depths, product(*treatments()))]
+    if not quick:
+        # In small waves the line never goes slack, and EI changes nothing: one depth shows it.
+        at = [(STEEPNESSES[0], depth_m), *((STEEPNESSES[1], H) for H in STIFFNESS_DEPTHS_M)]
+        found += [Case(*where, *usual, EI) for where, EI in product(at, STIFFNESSES_NM2)]
+    return list(dict.fromkeys(found))
+
+
+def parameters(quick: bool) -> dict[str, object]:
+    """What the provenance says of this part."""
+    above, submergence = treatments()
+    periods, transient = (QUICK_PERIODS, QUICK_TRANSIENT) if quick else (PERIODS, TRANSIENT)
+    return {
+        "steepness": list(STEEPNESSES),
+        "depths_m": list(QUICK_DEPTHS_M if quick else DEPTHS_M),
+        "above_still_water": list(above),
+        "submergence": list(submergence),
+        "stiffnesses_Nm2": [] if quick else list(STIFFNESSES_NM2),
+        "stiffness_depths_m": [] if quick else list(STIFFNESS_DEPTHS_M),
+        "periods": periods,
+        "transient": transient,
+    }
+
+
+def run(out: Path, jobs: int, quick: bool) -> tuple[dict[str, float], Summary]:
+    """Do the runs that are not there yet; table.csv and trajectories in `out`. Raises as `session.run`."""
+    from engine import load_scene, simulate, simulate_each
+
+    (out / "trajectories").mkdir(parents=True, exist_ok=True)
+    told = parameters(quick)
+    describe = partial(buoy_row, transient_periods=told["transient"], simulate=simulate)
+    maker = made_by({"transient": told["transient"]}, *SOURCES)
+    plan = Plan(out, simulate, describe, COLUMNS, jobs=jobs, row_maker=maker, simulate_each=simulate_each)
+    work = [make_job(load_scene(SCENE, case.changes()), told["periods"], labels=asdict(case)) for case in cases(quick)]
+    return session.run(plan, work)

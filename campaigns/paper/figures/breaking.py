@@ -1,0 +1,48 @@
+"""Data of figures 2-7: the breaking line every 10 ms, four cases a figure (section 4.1), in the paper's own units."""
+
+from campaigns.paper.figures.plans import LeftOut, Parts, Plan
+from reports.breaking_line.figures import instants
+from reports.breaking_line.runs import COLUMNS, WORDS, named
+from reports.parts.figure_data import Array
+
+SHOWN = {  # what a figure shows: the columns of the profiles
+    "motion": ("x_m", "z_m"),
+    "tension": ("tension_N",),
+    "velocity": ("speed_mps",),
+}
+_UNITS = {
+    "x_m": ("m", "horizontal place from the fixed end"),
+    "z_m": ("m", "height above the fixed end"),
+    "tension_N": ("N", "tension"),
+    "speed_mps": ("m s-1", "speed"),
+}
+
+
+def breaking(parts: Parts, cases: tuple[str, ...], what: str) -> Plan:
+    """Figures 2-4 (cases FAST) and 5-7 (SLOW); what: a key of SHOWN."""
+    folder = parts.folder("breaking_line", COLUMNS, WORDS)
+    runs, found = {}, []
+    for case in cases:
+        runs[case] = parts.run(folder, f"case {named(case)}", case=case, kind="case")
+        found.append(runs[case][2])
+        if runs[case][1].profiles is None:
+            raise LeftOut(f"the run of case {named(case)} kept no profiles (`output.profiles`)")
+    title = f"{what.capitalize()} of the breaking line, cases {named(cases[0])} to {named(cases[-1])}"
+    return Plan(title, tuple(found), lambda: _arrays(runs, what))
+
+
+def _arrays(runs: dict, what: str) -> dict[str, Array]:
+    arrays: dict[str, Array] = {}
+    for case, (row, trajectory, _) in runs.items():
+        profiles = trajectory.profiles
+        rows = instants(profiles)
+        time, place = f"case_{case}_time_s", f"case_{case}_s_m"
+        arrays[time] = ((time,), profiles.time_s[rows], "s", f"time since the break began, case {named(case)}")
+        arrays[place] = ((place,), profiles.s_m, "m", "unstretched length from the fixed end")
+        for column in SHOWN[what]:
+            unit, about = _UNITS[column]
+            values = getattr(profiles, column)[rows]
+            arrays[f"case_{case}_{column}"] = ((time, place), values, unit, f"{about}, case {named(case)}")
+        arrays[f"case_{case}_force_N"] = ((), trajectory.scene.end.force_N[0], "N", "static horizontal force F_hs")
+        arrays[f"case_{case}_fracture_s"] = ((), row["breaking_time_s"], "s", "fracture time t_br")
+    return arrays

@@ -1,0 +1,102 @@
+"""Data of figures 9-13 and 15-18: the tethered buoy at the paper's two steepnesses (section 4.2).
+
+Tension over the static tension T_s, radius over the static radius r_0 = l_0 + Dl; the angle has no static value but 0
+and stays in rad. The static state is the first sample of a run, which starts in it. The record is shown up to where the
+window of eq. (31) ends, tau_0 + n T_i = 60 T_i.
+"""
+
+import numpy as np
+
+from campaigns.paper.figures.plans import LeftOut, Parts, Plan
+from reports.buoy_sweep.figures import PAPER_WINDOW
+from reports.buoy_sweep.physics import natural_frequencies
+from reports.buoy_sweep.runs import COLUMNS, PAPER_STEEPNESS
+from reports.parts.figure_data import Array
+
+SMALL, LARGE = PAPER_STEEPNESS
+
+
+def buoy_run(parts: Parts, steepness: float):
+    """Folder, trajectory and Source of the run at a steepness of the paper. Raises LeftOut."""
+    folder = parts.folder("buoy", COLUMNS, ("planar_regime",))
+    _, trajectory, found = parts.run(folder, f"kA = {steepness:g}", steepness=steepness)
+    return folder, trajectory, found
+
+
+def history(parts: Parts, steepness: float, side: str) -> Plan:
+    """Figures 9-11, 13, 15 and 16; side: "tension", "radial" or "angular"."""
+    _, trajectory, found = buoy_run(parts, steepness)
+    what = {"tension": "Tension", "radial": "Radial motion of the buoy", "angular": "Angular motion of the buoy"}[side]
+    return Plan(f"{what} at kA = {steepness:g}", (found,), lambda: _history(trajectory, side))
+
+
+def _history(trajectory, side: str) -> dict[str, Array]:
+    scene, columns = trajectory.scene, trajectory.columns
+    last = round(sum(PAPER_WINDOW) * scene.waves.period_s / scene.sample_step_s()) + 1
+    shown = {name: values[:last] for name, values in columns.items()}
+    along = ("time_s",)
+    arrays: dict[str, Array] = {
+        "time_s": (along, shown["time_s"], "s", "time"),
+        "wave_period_s": ((), scene.waves.period_s, "s", "wave period T_i"),
+        "window_start_periods": ((), PAPER_WINDOW[0], "1", "start of the window of eq. (31), in wave periods"),
+        "window_periods": ((), PAPER_WINDOW[1], "1", "length of the window of eq. (31), in wave periods"),
+    }
+    if side == "tension":
+        static = columns["tension_top_N"][0]
+        words = {"": "tension", "_low": "least tension since the last sample", "_high": "largest tension since then"}
+        for suffix, meaning in words.items():
+            tension = shown[f"tension_top{suffix}_N"]
+            arrays[f"tension{suffix}_N"] = (along, tension, "N", f"{meaning}, at the top end")
+            arrays[f"tension{suffix}_over_static"] = (along, tension / static, "1", f"{meaning} over T_s")
+        return arrays | {"static_tension_N": ((), static, "N", "static tension T_s at the top end")}
+    if side == "radial":
+        static = columns["radius_m"][0]
+        return arrays | {
+            "radius_m": (along, shown["radius_m"], "m", "distance of the buoy from the anchor"),
+            "radius_over_static": (along, shown["radius_m"] / static, "1", "r over r_0"),
+            "static_radius_m": ((), static, "m", "static distance r_0 = l_0 + Dl"),
+            "unstretched_m": ((), scene.tether.length_m, "m", "unstretched length l_0"),
+        }
+    return arrays | {"angle_rad": (along, shown["angle_rad"], "rad", "angle of the buoy from the vertical")}
+
+
+def spectra(parts: Parts, steepness: float, sides: tuple[str, ...]) -> Plan:
+    """Figures 12, 17 and 18: eq. (31) of the radial and the angular motion."""
+    _, trajectory, found = buoy_run(parts, steepness)
+    needed = sum(PAPER_WINDOW)
+    done = trajectory.columns["time_s"][-1] / trajectory.scene.waves.period_s
+    if done < needed - 1e-6:
+        raise LeftOut(f"eq. (31) needs {needed} wave periods, the run at kA = {steepness:g} has {done:.4g}")
+    if natural_frequencies(trajectory.scene) is None:
+        raise LeftOut("the buoy of this scene has no natural frequencies to mark")
+    title = f"Spectrum of the buoy's {' and '.join(sides)} motion at kA = {steepness:g}"
+    return Plan(title, (found,), lambda: _spectra(trajectory, sides))
+
+
+def _spectra(trajectory, sides: tuple[str, ...]) -> dict[str, Array]:
+    from analysis import spectral_peaks, spectrum
+
+    scene = trajectory.scene
+    modes = natural_frequencies(scene)
+    static_m = trajectory.columns["radius_m"][0]
+    arrays: dict[str, Array] = {
+        "wave_radps": ((), modes.wave_radps, "rad s-1", "wave frequency"),
+        "natural_radial_radps": ((), modes.radial_radps, "rad s-1", "natural frequency, radial, section 4.2.1"),
+        "natural_angular_radps": ((), modes.pendulum_radps, "rad s-1", "natural frequency, angular, section 4.2.1"),
+        "static_radius_m": ((), static_m, "m", "static distance r_0 = l_0 + Dl"),
+        "start_periods": ((), PAPER_WINDOW[0], "1", "tau_0/T_i of eq. (31)"),
+        "periods": ((), PAPER_WINDOW[1], "1", "n of eq. (31)"),
+    }
+    for side in sides:
+        column, unit = {"radial": ("radius_m", "1"), "angular": ("angle_rad", "rad")}[side]
+        motion = trajectory.columns[column] / (static_m if side == "radial" else 1.0)
+        found = spectrum(motion, scene.sample_step_s(), scene.waves.period_s, *PAPER_WINDOW)
+        name = "r/r_0" if side == "radial" else "theta"
+        # the mean is bin 0, and no oscillation
+        arrays["omega_radps"] = (("omega_radps",), found.angular_frequency_radps[1:], "rad s-1", "angular frequency")
+        arrays[f"{side}_amplitude"] = (("omega_radps",), found.amplitude[1:], unit, f"eq. (31) of {name}")
+        peaks = np.array([peak.angular_frequency_radps for peak in spectral_peaks(found)])
+        if len(peaks):  # the format has no dimension of length zero
+            about = f"peaks of the spectrum of {name}, largest first"
+            arrays[f"{side}_peaks_radps"] = ((f"{side}_peak",), peaks, "rad s-1", about)
+    return arrays

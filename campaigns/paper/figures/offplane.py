@@ -1,0 +1,44 @@
+"""Data of figure 20: motion across the plane of the waves after a push of 1e-5 m/s, of the buoy and of the rope."""
+
+import numpy as np
+
+from campaigns.paper.figures.buoy import LARGE, SMALL
+from campaigns.paper.figures.plans import Parts, Plan
+from reports.out_of_plane.runs import COLUMNS, DISPLACEMENT, WORDS, envelope
+from reports.parts.figure_data import Array
+
+WAVES = {"small": SMALL, "large": LARGE}  # in the order of the paper's key
+
+
+def offplane_histories(parts: Parts) -> Plan:
+    """Figure 20."""
+    folder = parts.folder("out_of_plane", COLUMNS, WORDS)
+    base = dict(folder.provenance["base"])
+    runs, found = {}, []
+    for name, steepness in WAVES.items():
+        label = f"kA = {steepness:g} with a push across the waves"
+        row, trajectory, one = parts.run(folder, label, **{**base, "steepness": steepness})
+        runs[name] = (row, trajectory)
+        found.append(one)
+    return Plan("Motion across the plane of the waves", tuple(found), lambda: _histories(runs))
+
+
+def _histories(runs: dict) -> dict[str, Array]:
+    arrays: dict[str, Array] = {}
+    for name, (row, trajectory) in runs.items():
+        columns, period_s, kA = trajectory.columns, trajectory.scene.waves.period_s, f"kA = {WAVES[name]:g}"
+        along = (f"{name}_time_s",)
+        arrays[along[0]] = (along, columns["time_s"], "s", "time")
+        for body, column in DISPLACEMENT.items():
+            size = np.abs(columns[column])
+            arrays[f"{name}_{body}_m"] = (along, size, "m", f"distance from the plane, {body}, {kA}")
+            periods, most = envelope(trajectory, body)
+            of_envelope = (f"{name}_periods",)
+            arrays[of_envelope[0]] = (of_envelope, periods, "1", "time in wave periods")
+            about = f"largest distance from the plane in each wave period, {body}, {kA}"
+            arrays[f"{name}_{body}_envelope_m"] = (of_envelope, most, "m", about)
+        arrays[f"{name}_inplane_m"] = ((), row["inplane_m"], "m", f"half the range of the buoy in the plane, {kA}")
+        arrays["wave_period_s"] = ((), period_s, "s", "wave period T_i")
+        arrays["static_radius_m"] = ((), columns["radius_m"][0], "m", "static distance r_0 of the buoy from the anchor")
+        arrays["push_mps"] = ((), row["seed_mps"], "m s-1", "velocity across the waves at t = 0")
+    return arrays

@@ -1,0 +1,171 @@
+"""The parts of the paper's campaign: which command each is, whether it is there already, and its row in table.csv.
+
+    DIR/breaking_line   section 4.1: eight cases and their companions (figures 2-7)
+    DIR/buoy            section 4.2: the paper's two waves, long enough for a verdict (figures 9-19)
+    DIR/sweep           section 4.2: wave steepness between and beyond the two (the threshold)
+    DIR/dependence      section 4.2 with other depths, treatments and stiffnesses (`campaigns.paper.dependence`)
+    DIR/out_of_plane    figure 20
+    DIR/oscillator      eq. (33), figure 19(b)
+
+A part that ended is not even begun again while its sources, its command and its files are what they were; otherwise its
+campaign runs, and does what its own folder lacks.
+"""
+
+import csv
+import hashlib
+import importlib
+import json
+import sys
+import time
+from dataclasses import dataclass
+from pathlib import Path
+
+from campaigns.machinery import cli, provenance
+from campaigns.machinery.folder import CampaignStopped, Table, trajectory_path
+from campaigns.machinery.row_store import made_by
+from campaigns.machinery.runner import Summary
+from campaigns.paper import PARTS, Order, dependence
+
+COLUMNS = (
+    "part",
+    "status",
+    "command",
+    "runs",
+    "failed",
+    "compile_s",
+    "run_s",
+    "total_s",
+    "run_key",
+    "message",
+)
+SOURCES = (
+    "analysis",
+    "engine",
+    *(f"campaigns/{name}" for name in ("machinery", "buoy_sweep", "breaking_line", "oscillator", "out_of_plane")),
+    *(f"reports/{name}" for name in ("parts", "figures", "buoy_sweep", "breaking_line", "oscillator", "out_of_plane")),
+    "reports/templates/report.html.jinja",
+    "campaigns/paper/dependence.py",
+)
+_TIMES = ("compile_s", "run_s")
+
+
+@dataclass(frozen=True)
+class Part:
+    """A campaign with the words of its command line; quick: those of `--quick`. in_jobs: whether it takes --jobs."""
+
+    module: str
+    words: tuple[str, ...] = ()
+    quick: tuple[str, ...] = ()
+    in_jobs: bool = True
+
+    def chosen(self, order: Order) -> tuple[str, ...]:
+        """What is run, without where and how."""
+        return self.quick if order.quick else self.words
+
+    def command(self, order: Order, out: Path) -> list[str]:
+        """The words after `python -m module`."""
+        words = [*self.chosen(order), "--out", str(out)]
+        words += ["--jobs", str(order.how.jobs)] if self.in_jobs else []
+        return words if order.how.report and not order.quick else [*words, "--no-report"]
+
+
+_TWO = ("--steepness", "0.016", "0.13")
+_ONCE = ("--no-accuracy",)  # the part buoy repeats its runs tighter and finer, and out_of_plane has grids of its own
+_SHORT = ("--periods", "60", "--transient", "10", "--no-accuracy")
+CAMPAIGNS = {
+    "breaking_line": Part("campaigns.breaking_line", quick=("--no-companions", "--set", "tether.nodes=401")),
+    "buoy": Part("campaigns.buoy_sweep", (*_TWO, "--periods", "8000", "--transient", "200"), (*_TWO, *_SHORT)),
+    "sweep": Part("campaigns.buoy_sweep", _ONCE, quick=("--steepness-range", "0.016", "0.13", "6", *_SHORT)),
+    "out_of_plane": Part("campaigns.out_of_plane", _ONCE, quick=("--periods", "12", "--no-accuracy")),
+    "oscillator": Part("campaigns.oscillator", quick=("--effort", "0.02"), in_jobs=False),
+}
+assert {*CAMPAIGNS, "dependence"} == set(PARTS)
+
+
+def run(order: Order) -> tuple[dict[str, float], Summary]:
+    """Do every part of the order; keep table.csv up to date. Returns times and the summary, its rows those of parts.
+
+    Raises CampaignStopped where a part stopped, KeyboardInterrupt where it was interrupted.
+    """
+    out = order.how.out
+    keys = {part: _key(part, order) for part in PARTS}
+    _write_scene(out)
+    table = Table(out / "table.csv", COLUMNS, list(PARTS))
+    table.rows |= {row["part"]: row for row in read_rows(out)}
+    timing = dict.fromkeys(_TIMES, 0.0) | {"analysis_s": 0.0}
+    found = 0
+    for part in order.parts:
+        before = table.rows.get(part)
+        if before and before["run_key"] == keys[part] and _whole(out / part, order):
+            found += 1
+            continue
+        print(f"{part} ...", file=sys.stderr)
+        row = _done(part, order)
+        table.add(part, {**row, "run_key": keys[part]})
+        table.write()
+        timing |= {name: timing[name] + row[name] for name in _TIMES}
+    table.write()
+    return timing, Summary(table.in_order(), found, len(order.parts) - found, 0.0)
+
+
+def read_rows(out: Path) -> list[dict[str, str]]:
+    """The rows of table.csv as it is, those of known parts; none where it cannot be read."""
+    try:
+        with open(out / "table.csv", encoding="utf-8", newline="") as file:
+            return [row for row in csv.DictReader(file) if set(row) == set(COLUMNS) and row["part"] in PARTS]
+    except (OSError, ValueError, csv.Error):
+        return []
+
+
+def _key(part: str, order: Order) -> str:
+    told = dependence.parameters(order.quick) if part == "dependence" else CAMPAIGNS[part].chosen(order)
+    content = json.dumps([part, told, made_by({}, *SOURCES)])
+    return hashlib.sha256(content.encode()).hexdigest()
+
+
+def _whole(out: Path, order: Order) -> bool:
+    """Whether the folder of a part still holds all that its table names, and the report where one is wanted."""
+    try:
+        with open(out / "table.csv", encoding="utf-8", newline="") as file:
+            rows = list(csv.DictReader(file))
+    except (OSError, ValueError, csv.Error):
+        return False
+    sound = [trajectory_path(out, row["run_key"]).exists() for row in rows if row["status"] == "ok"]
+    reported = out.name == "dependence" or order.quick or not order.how.report or (out / "report.html").exists()
+    return bool(sound) and all(sound) and reported
+
+
+def _done(part: str, order: Order) -> dict[str, object]:
+    out = order.how.out / part
+    begun = time.perf_counter()
+    if part == "dependence":
+        timing, summary = dependence.run(out, order.how.jobs, order.quick)
+        command = ""
+        counts = len(summary.rows), sum(row["status"] != "ok" for row in summary.rows)
+    else:
+        campaign = CAMPAIGNS[part]
+        words = campaign.command(order, out)
+        _called(part, campaign.module, words)
+        told = json.loads((out / "provenance.json").read_text(encoding="utf-8"))
+        timing, command = told["timing"], " ".join(provenance.command_line(campaign.module, words))
+        counts = told["runs"]["total"], told["runs"]["failed"]
+    row = {"part": part, "status": "ok", "command": command, "runs": counts[0], "failed": counts[1], "message": ""}
+    row |= {name: round(float(timing[name]), 3) for name in _TIMES}
+    return row | {"total_s": round(time.perf_counter() - begun, 3)}
+
+
+def _called(part: str, module: str, words: list[str]) -> None:
+    """Run a campaign in this process. What it has to say it has said itself."""
+    code = importlib.import_module(module).main(words)
+    if code == cli.EXIT_INTERRUPTED:
+        raise KeyboardInterrupt
+    if code != cli.EXIT_OK:
+        raise CampaignStopped(f"its part {part} stopped (above); what is finished is kept, run the same command again")
+
+
+def _write_scene(out: Path) -> None:
+    from engine import load_scene
+    from engine.atomic import write_atomic
+
+    head = "# the scene of section 4.2 at its large wave; every part has the scene it ran in its own folder\n"
+    write_atomic(out / "scene.toml", (head + load_scene(dependence.SCENE).to_toml()).encode())

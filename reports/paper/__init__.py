@@ -1,0 +1,1 @@
+"""The report on the whole paper: its figures redrawn, its statements judged, and what its answer depends on."""

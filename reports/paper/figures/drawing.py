@@ -1,0 +1,69 @@
+"""What every figure of the paper is: a height, what fills the sheet, what to see; and words on what is behind it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from ...parts.figure_data import Source, sources_of
+from ...parts.symbols import RHO_W
+from ...parts.wording import number
+
+if TYPE_CHECKING:
+    import xarray
+    from matplotlib.figure import Figure
+
+
+@dataclass(frozen=True)
+class Drawing:
+    """A figure before it is drawn: its height on the page, what draws it on an open sheet, caption and alternative."""
+
+    height_in: float
+    fill: Callable[[Figure], None]
+    caption: str
+    alt: str
+
+
+def value(data: xarray.Dataset, name: str) -> float:
+    """A single number of a data file."""
+    return float(data[name])
+
+
+def scaled(factor: float) -> tuple[Callable, Callable]:
+    """A second axis of other units: to them and back."""
+    return (lambda there: factor * there), (lambda here: here / factor)
+
+
+def behind(data: xarray.Dataset) -> str:
+    """The scene and the settings behind a figure, and its run time, as the end of its caption."""
+    sources = sources_of(data)
+    seconds = number(float(data.attrs["run_seconds"]), 3)
+    runs = "" if len(sources) == 1 else f" ({len(sources)} runs)"
+    settings = "; ".join(dict.fromkeys(words for one in sources if (words := _settings(one))))
+    return f"{settings}. Run time {seconds} s{runs}."
+
+
+def _settings(one: Source) -> str:
+    from engine.scene import SceneError, scene_from_toml
+
+    try:
+        scene = scene_from_toml(one.settings)
+    except SceneError:
+        return ""  # eq. (33) has no scene; its numbers are in the figure's own arrays
+    tether, solver = scene.tether, scene.solver
+    words = [f"Scene `{scene.name}`"]
+    if scene.water is not None:
+        words.append(f"H = {number(scene.water.depth_m)} m, {RHO_W} = {number(scene.water.density_kgpm3)} kg/m³")
+    words.append(f"EI = {number(tether.bending_stiffness_Nm2)} N m², {tether.nodes} nodes")
+    words.append(f"{solver.integrator}, rtol {number(solver.rtol)}" if not _fixed(solver) else solver.integrator)
+    if scene.buoy is not None:
+        words.append({"full": "constant buoyancy"}.get(scene.buoy.submergence, scene.buoy.submergence))
+    if scene.waves is not None:
+        words.append(f"waves above still water: {scene.waves.above_still_water}")
+    words.append("in a plane" if scene.motion.dimensions == 2 else "in three dimensions")
+    return ", ".join(words)
+
+
+def _fixed(solver) -> bool:
+    return bool(solver.step_s or solver.courant)

@@ -1,0 +1,61 @@
+"""Figure 20: motion across the plane of the waves after a push, on a logarithmic axis, of the buoy and of the rope."""
+
+from __future__ import annotations
+
+from functools import partial
+from typing import TYPE_CHECKING
+
+from ...figures.offplane_history import History, fill_lateral_histories, lateral_height_in
+from ...parts.figure_data import sources_of
+from ...parts.wording import number, percent
+from .drawing import Drawing, behind, scaled, value
+
+if TYPE_CHECKING:
+    import xarray
+
+WAVES, BODIES = ("small", "large"), ("buoy", "rope")
+
+
+def drawing(data: xarray.Dataset) -> Drawing:
+    """The figure of a data file. Raises KeyError for one of another figure."""
+    labels = dict(zip(WAVES, (one.label.partition(" with")[0] for one in sources_of(data)), strict=True))
+    seen = []
+    for name, label in labels.items():
+        inplane = value(data, f"{name}_inplane_m")
+        sizes = {body: float(data[f"{name}_{body}_m"].max()) for body in BODIES}
+        last = float(data[f"{name}_buoy_envelope_m"].values[-1])
+        seen.append(
+            f"at {label} the buoy stays within {number(sizes['buoy'], 2)} m of the plane "
+            f"({percent(sizes['buoy'] / inplane)} of half its range in it) and the rope within "
+            f"{number(sizes['rope'], 2)} m; in the last wave period the buoy is within {number(last, 2)} m"
+        )
+    push = number(value(data, "push_mps"))
+    caption = (
+        f"motion of the buoy across the plane of the waves after a push of {push} m/s, solid and dashed as in the "
+        f"paper, and below, beyond the paper, of the rope (its farthest node). Thick: the largest value in each wave "
+        f"period; thin: every sample; dotted: half the range of the buoy in the plane. Seen: {'; '.join(seen)}. "
+        f"{behind(data)}"
+    )
+    alt = f"Distance from the plane of the waves on a logarithmic axis over time: {'; '.join(seen)}."
+    return Drawing(lateral_height_in(len(BODIES)), partial(_fill, data=data, labels=labels), caption, alt)
+
+
+def _fill(figure, data: xarray.Dataset, labels: dict[str, str]) -> None:
+    period_s, static_m = value(data, "wave_period_s"), value(data, "static_radius_m")
+    panels = []
+    for body, label in zip(BODIES, ("buoy, $|y|$ (m)", "rope, largest $|y|$ (m)"), strict=True):
+        runs = [
+            History(
+                labels[name],
+                data[f"{name}_time_s"].values / period_s,
+                data[f"{name}_{body}_m"].values,
+                data[f"{name}_periods"].values,
+                data[f"{name}_{body}_envelope_m"].values,
+                value(data, f"{name}_inplane_m"),
+            )
+            for name in WAVES
+        ]
+        panels.append((label, runs))
+    for axes in fill_lateral_histories(figure, panels):
+        over = axes.secondary_yaxis("right", functions=scaled(1.0 / static_m))
+        over.set_ylabel(r"$|y|/r_0$ (–)")

@@ -1,0 +1,88 @@
+"""Figures 12, 17 and 18: spectra of the buoy's motion by eq. (31), natural frequencies marked by arrows."""
+
+from __future__ import annotations
+
+from functools import partial
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ...figures.spectra import log_limits, mark_modes
+from ...parts.content import sub
+from ...parts.figure_data import sources_of
+from ...parts.style import BLUE, SOFT, VERMILION
+from ...parts.symbols import OMEGA_I, T_I, TAU_0
+from ...parts.wording import listed, number, percent
+from .drawing import Drawing, behind, value
+
+if TYPE_CHECKING:
+    import xarray
+
+SIDES = {  # motion -> its label on the axis, name in the text, line as in the paper's key, frequency
+    "radial": (r"$|\Delta\tilde r|/r_0$ (–)", "r/r₀", BLUE, "-", ("natural_radial_radps", r"$\omega_{nr}$")),
+    "angular": (
+        r"$|\Delta\tilde\theta|$ (rad)",
+        "θ",
+        VERMILION,
+        (0, (4, 1.5)),
+        ("natural_angular_radps", r"$\omega_{n\theta}$"),
+    ),
+}
+OMEGA_NR, OMEGA_NTHETA = "ω" + sub("nr"), "ω" + sub("nθ")  # as section 4.2.1 writes them
+_SHOWN = 2.5  # wave frequencies
+_HEIGHT_IN = 2.9
+
+
+def drawing(data: xarray.Dataset) -> Drawing:
+    """The figure of a data file. Raises KeyError for one of another figure."""
+    sides = [side for side in SIDES if f"{side}_amplitude" in data]
+    wave = value(data, "wave_radps")
+    seen = []
+    for side in sides:
+        peaks = data[f"{side}_peaks_radps"].values[:4] if f"{side}_peaks_radps" in data else ()
+        amplitude = data[f"{side}_amplitude"].values
+        floor = float(np.median(amplitude[data["omega_radps"].values <= _SHOWN * wave]) / amplitude.max())
+        words = f"peaks at {listed(number(peak, 3) for peak in peaks)} rad/s" if len(peaks) else "no peak"
+        seen.append(f"{SIDES[side][1]} has {words}, its median up to {_SHOWN} {OMEGA_I} is {percent(floor)} of the top")
+    kA = sources_of(data)[0].label
+    bins = wave / value(data, "periods")
+    caption = (
+        f"spectrum of the buoy's {' (solid) and '.join(sides)}{' (dashed)' if len(sides) > 1 else ''} motion, {kA}, by "
+        f"eq. (31) with {TAU_0} = {number(value(data, 'start_periods'))} {T_I} and n = "
+        f"{number(value(data, 'periods'))}; left linear as in the paper, right logarithmic. Arrows: the natural "
+        f"frequencies {OMEGA_NR} = {number(value(data, 'natural_radial_radps'), 3)} and {OMEGA_NTHETA} = "
+        f"{number(value(data, 'natural_angular_radps'), 3)} rad/s from the buoy's equation of motion and the waves' "
+        f"{OMEGA_I} = {number(wave, 3)} rad/s. Seen (largest first; bins of {number(bins, 2)} rad/s): "
+        f"{'; '.join(seen)}. {behind(data)}"
+    )
+    alt = f"Spectrum, linear and logarithmic, {kA}: {'; '.join(seen)}."
+    return Drawing(_HEIGHT_IN, partial(_fill, data=data, sides=sides), caption, alt)
+
+
+def _fill(figure, data: xarray.Dataset, sides: list[str]) -> None:
+    omega, highest = data["omega_radps"].values, _SHOWN * value(data, "wave_radps")
+    shown = omega <= highest
+    linear, logarithmic = figure.subplots(1, 2)
+    largest = 0.0
+    marks = [(value(data, "wave_radps"), r"$\omega_i$")]
+    marks += [(value(data, frequency), name) for *_, (frequency, name) in SIDES.values()]
+    for side in sides:
+        label, _, colour, dashes, _ = SIDES[side]
+        amplitude = data[f"{side}_amplitude"].values[shown]
+        largest = max(largest, float(amplitude.max()))
+        for axes in (linear, logarithmic):
+            axes.plot(omega[shown], amplitude, color=colour, linestyle=dashes if len(sides) > 1 else "-", label=label)
+    linear.set_ylim(0.0, 1.3 * largest)
+    mark_modes(linear, tuple(marks))
+    logarithmic.set_yscale("log")
+    log_limits(logarithmic, np.concatenate([data[f"{side}_amplitude"].values[shown] for side in sides]))
+    for frequency, _ in marks:
+        logarithmic.axvline(frequency, color=SOFT, linewidth=0.8, linestyle=(0, (2, 2)))
+    for axes in (linear, logarithmic):
+        axes.set_xlabel(r"$\omega$ (rad/s)")
+        axes.set_xlim(0.0, highest)
+        axes.set_ylabel(" and ".join(SIDES[side][0] for side in sides))
+    linear.set_title("linear")
+    logarithmic.set_title("logarithmic")
+    if len(sides) > 1:
+        logarithmic.legend(loc="upper right")

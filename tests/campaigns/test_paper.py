@@ -1,0 +1,140 @@
+"""The campaign of the whole paper: its parts are run once, found again, and what stops one stops all."""
+
+import csv
+import json
+from pathlib import Path
+
+import pytest
+
+from campaigns import paper
+from campaigns.machinery.folder import CampaignStopped
+from campaigns.machinery.runner import Summary
+from campaigns.paper import dependence, parts, results
+
+
+@pytest.fixture
+def campaign(tmp_path, monkeypatch):
+    """campaign(*words) -> (exit code, parts begun); parts in `ends` end as it says. Nothing is simulated."""
+    begun, ends, out = [], {}, tmp_path / "out"
+
+    def part(name, module, words):
+        begun.append(name)
+        if name in ends:
+            raise ends[name]
+        folder = Path(words[words.index("--out") + 1])
+        leave(folder)
+        told = {"timing": {"compile_s": 1.0, "run_s": 2.0}, "runs": {"total": 1, "failed": 0}}
+        (folder / "provenance.json").write_text(json.dumps(told))
+        (folder / "report.html").write_text("")
+
+    def depends(folder, jobs, quick):
+        begun.append("dependence")
+        leave(folder)
+        return {"compile_s": 0.0, "run_s": 1.0}, Summary([{"status": "ok"}], 0, 1, 0.0)
+
+    monkeypatch.setattr(parts, "_called", part)
+    monkeypatch.setattr(dependence, "run", depends)
+    monkeypatch.setattr(results, "write", lambda folder: begun.append("writing"))
+    monkeypatch.setattr(results, "there", lambda folder, report: True)
+
+    def run(*words):
+        begun.clear()
+        code = paper.main([*words, "--out", str(out), "--no-report"])
+        return code, list(begun)
+
+    run.out, run.ends = out, ends
+    return run
+
+
+def leave(folder):
+    (folder / "trajectories").mkdir(parents=True, exist_ok=True)
+    (folder / "trajectories" / "key.nc").write_text("")
+    (folder / "table.csv").write_text("status,run_key\nok,key\n")
+
+
+def rows(out):
+    with open(out / "table.csv", newline="") as file:
+        return {row["part"]: row for row in csv.DictReader(file)}
+
+
+def test_every_part_is_run_once_and_then_found(campaign):
+    assert campaign() == (0, [*paper.PARTS, "writing"])
+    before = (campaign.out / "table.csv").read_bytes()
+    provenance = (campaign.out / "provenance.json").read_bytes()
+    assert campaign() == (0, [])
+    assert (campaign.out / "table.csv").read_bytes() == before
+    assert (campaign.out / "provenance.json").read_bytes() == provenance
+    assert campaign("--jobs", "1") == (0, [])
+
+
+def test_a_part_is_run_again_where_something_of_it_is_gone_or_other(campaign):
+    campaign()
+    (campaign.out / "buoy" / "trajectories" / "key.nc").unlink()
+    (campaign.out / "sweep" / "table.csv").write_text("")
+    assert campaign() == (0, ["buoy", "sweep", "writing"])
+    assert campaign("--quick") == (0, [*paper.PARTS, "writing"])
+
+
+def test_parts_chosen_are_run_beside_those_that_are_there(campaign):
+    assert campaign("--parts", "oscillator", "buoy") == (0, ["buoy", "oscillator", "writing"])
+    assert campaign("--parts", "sweep") == (0, ["sweep", "writing"])
+    assert list(rows(campaign.out)) == ["buoy", "sweep", "oscillator"]
+
+
+@pytest.mark.parametrize(("ended", "code"), [(CampaignStopped("the disk is full"), 1), (KeyboardInterrupt(), 130)])
+def test_what_stops_a_part_stops_the_campaign_and_keeps_what_is_done(campaign, ended, code):
+    campaign.ends["sweep"] = ended
+    assert campaign() == (code, ["breaking_line", "buoy", "sweep"])
+    assert list(rows(campaign.out)) == ["breaking_line", "buoy"]
+    campaign.ends.clear()
+    assert campaign() == (0, ["sweep", "dependence", "out_of_plane", "oscillator", "writing"])
+
+
+def test_every_fault_is_told_and_nothing_is_written(tmp_path, capsys):
+    out = tmp_path / "out"
+    assert paper.main(["--parts", "buoys", "--jobs", "0", "--quickly", "--out", str(out)]) == 2
+    told = capsys.readouterr().err
+    assert all(word in told for word in ("buoys", "breaking_line", "--jobs", "--quickly", "nothing was run or written"))
+    assert not out.exists()
+
+
+def test_the_study_varies_one_thing_at_a_time_from_the_shipped_scene():
+    from engine import load_scene
+
+    scene, found = load_scene("tethered_buoy"), dependence.cases(False)
+    assert found[0].changes().items() <= {
+        "waves.steepness": 0.13,
+        "water.depth_m": scene.water.depth_m,
+        "waves.above_still_water": scene.waves.above_still_water,
+        "buoy.submergence": scene.buoy.submergence,
+        "tether.bending_stiffness_Nm2": scene.tether.bending_stiffness_Nm2,
+        "output.tangent_vectors": 1,
+        "output.lateral_growth": True,
+    }.items()
+    above, drowned = dependence.treatments()
+    usual = [case for case in found if case.bending_stiffness_Nm2 == scene.tether.bending_stiffness_Nm2]
+    for kA in (0.016, 0.13):
+        assert {(case.depth_m, case.above_still_water, case.submergence) for case in usual if case.steepness == kA} == {
+            (H, word, under) for H in dependence.DEPTHS_M for word in above for under in drowned
+        }
+    assert len(set(found)) == len(found)
+
+
+@pytest.mark.slow
+def test_a_quick_look_at_everything(tmp_path, capsys):
+    out = tmp_path / "out"
+    words = ["--quick", "--jobs", "2", "--out", str(out)]
+    assert paper.main(words) == 0
+    assert {row["status"] for row in rows(out).values()} == {"ok"} and list(rows(out)) == list(paper.PARTS)
+    page = (out / "report.html").read_text(encoding="utf-8")
+    assert all(f"Fig. {number} of the paper" in page for number in (*range(2, 8), *range(9, 21)))
+    assert "Misprints" in page and "eq. (33)" in page and "nothing is to be concluded" in page
+    with open(out / "statements.csv", newline="", encoding="utf-8") as file:
+        verdicts = {row["statement"]: row["verdict"] for row in csv.DictReader(file)}
+    assert verdicts["The maximum speed does not depend on the fracture time."] == "holds"
+    assert verdicts["At high tension the front runs at about 500 m/s."] == "does not hold"
+    content = {path: path.read_bytes() for path in out.rglob("*") if path.is_file() and path.name != ".lock"}
+    capsys.readouterr()
+    assert paper.main(words) == 0
+    assert "0 computed, 6 found" in capsys.readouterr().out
+    assert {path: path.read_bytes() for path in content} == content

@@ -1,0 +1,219 @@
+"""Figures of the paper: data from the parts' folders, drawn from their files alone, the same bytes each time."""
+
+import json
+import math
+import os
+import shutil
+import subprocess
+import sys
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from campaigns.paper.figures import write_figure_data
+from campaigns.paper.figures.buoy import _history
+from campaigns.paper.figures.sections import _sections
+from engine import load_scene, simulate
+from reports.buoy_sweep.physics import natural_frequencies
+from reports.paper.figures import NUMBERS, draw, files_of, left_out, paper_figures, pictures, place_of
+from reports.parts.figure_data import parsed, sources_of
+from tests.campaigns.conftest import ROOT
+from tests.campaigns.fake_space import BURST_M, SWING, SpaceEngine
+from tests.reports.synthetic import campaign
+
+OF_BUOY = {9, 10, 11, 12, 13, 15, 16, 17, 18}
+
+
+@pytest.fixture(scope="module")
+def root(tmp_path_factory):
+    """The campaign's folder with a part for the buoy alone, of synthetic motions, and the data of its figures."""
+    folder = tmp_path_factory.mktemp("paper")
+    campaign(folder / "buoy", [0.016, 0.13], periods=80)
+    write_figure_data(folder)
+    return folder
+
+
+@pytest.fixture
+def copy(root, tmp_path):
+    return shutil.copytree(root, tmp_path / "copy")
+
+
+def data_of(folder, number):
+    return parsed(files_of(folder, number)[0].read_bytes())
+
+
+def stamps(folder):
+    return {path.name: (path.stat().st_ino, path.stat().st_mtime_ns) for path in place_of(folder).iterdir()}
+
+
+def contents(folder):
+    return {path.name: path.read_bytes() for path in place_of(folder).iterdir()}
+
+
+def test_each_figure_is_there_or_has_a_reason(copy):
+    reasons = write_figure_data(copy)
+    assert set(reasons) == set(NUMBERS) - OF_BUOY
+    assert all(
+        f"the part `{part}` is not there" in reasons[n] for n, part in ((2, "breaking_line"), (20, "out_of_plane"))
+    )
+    assert "carried no perturbation" in reasons[14] and "`oscillator` is not there" in reasons[19]
+    assert json.loads((place_of(copy) / "left_out.json").read_text()) == {str(n): why for n, why in reasons.items()}
+    assert {n for n in NUMBERS if files_of(copy, n)[0].exists()} == OF_BUOY
+
+
+def test_unchanged_sources_leave_the_files_alone_and_lost_ones_come_back_the_same(copy):
+    write_figure_data(copy)
+    before, kept = stamps(copy), contents(copy)
+    write_figure_data(copy)
+    assert stamps(copy) == before
+    files_of(copy, 9)[0].unlink()
+    files_of(copy, 10)[0].write_bytes(b"damaged")
+    write_figure_data(copy)
+    assert contents(copy) == kept
+
+
+def test_a_run_that_is_lost_takes_its_figures_along(copy):
+    _, svg, _ = files_of(copy, 13)
+    svg.write_bytes(b"drawn before")
+    for path in (copy / "buoy" / "trajectories").glob("*1.nc"):  # of kA = 0.13
+        path.write_bytes(path.read_bytes()[:5000])
+    reasons = write_figure_data(copy)
+    for number in (13, 15, 16, 17, 18):
+        assert "the file of kA = 0.13" in reasons[number] and str(copy) not in reasons[number]
+        assert not any(path.exists() for path in files_of(copy, number))
+    assert files_of(copy, 9)[0].exists()
+
+
+def test_a_run_that_failed_is_never_drawn(tmp_path):
+    campaign(tmp_path / "buoy", [0.016, 0.13], periods=80, failing={0.13: ("newton-failed", 70)})
+    reasons = write_figure_data(tmp_path)
+    assert all("ended early (newton-failed" in reasons[number] for number in (13, 15, 16, 17, 18))
+
+
+def test_every_array_has_a_unit_and_every_file_says_what_it_is_from(root):
+    for number in OF_BUOY:
+        data = data_of(root, number)
+        assert all(array.attrs["units"] and array.attrs["long_name"] for array in data.variables.values())
+        (one,) = sources_of(data)
+        assert (root / one.file).exists() and one.key in one.file and 'name = "tethered_buoy"' in one.settings
+        assert data.attrs["run_seconds"] == one.run_s > 0.0
+
+
+def test_the_same_data_file_gives_the_same_drawing(root):
+    content = files_of(root, 10)[0].read_bytes()
+    first, again = draw.__wrapped__(10, content), draw.__wrapped__(10, content)
+    assert first == again
+    svg, png, caption, alt = first
+    assert svg.data.startswith(b"<?xml") and png.data.startswith(b"\x89PNG") and b"<dc:date>" not in svg.data
+    assert "H = 21 m" in caption and "Run time" in caption and alt
+
+
+def test_a_figure_without_sound_data_is_not_drawn_and_said(tmp_path):
+    place_of(tmp_path).mkdir()
+    files_of(tmp_path, 9)[0].write_bytes(b"CDF\x02 damaged")
+    assert set(left_out(tmp_path)) == set(NUMBERS) and pictures(tmp_path) == {}
+    (notice,) = paper_figures(tmp_path)
+    assert notice.kind == "warning" and len(notice.lines) == len(NUMBERS)
+
+
+def test_a_buoy_at_rest_is_1_in_the_units_of_the_figures():
+    scene = load_scene("tethered_buoy", {"waves.steepness": 1e-9})
+    run = simulate(scene, periods=2)
+    tension, radial, angular = (_history(run, side) for side in ("tension", "radial", "angular"))
+    np.testing.assert_allclose(tension["tension_over_static"][1], 1.0, atol=1e-4)
+    np.testing.assert_allclose(radial["radius_over_static"][1], 1.0, atol=1e-6)
+    np.testing.assert_allclose(angular["angle_rad"][1], 0.0, atol=1e-6)
+    modes = natural_frequencies(scene)
+    assert tension["static_tension_N"][1] == pytest.approx(modes.static_tension_N, rel=1e-3)
+    assert radial["static_radius_m"][1] == pytest.approx(20.0 * (1.0 + modes.static_strain), rel=1e-4)
+
+
+def test_a_linear_tether_has_its_tension_where_its_length_is(root):
+    """T/T_s = (r - l_0)/(r_0 - l_0): figures 9 and 10 are one motion."""
+    tension, radial = data_of(root, 9), data_of(root, 10)
+    static, slack = float(radial["static_radius_m"]), float(radial["unstretched_m"])
+    stretch = (static * radial["radius_over_static"] - slack) / (static - slack)
+    np.testing.assert_allclose(tension["tension_over_static"], stretch, atol=1e-12)
+
+
+def test_the_spectrum_of_a_sine_is_half_its_amplitude_over_the_static_radius(root):
+    data = data_of(root, 12)
+    at_wave = int(np.argmin(np.abs(data["omega_radps"].values - float(data["wave_radps"]))))
+    amplitude_m = 12 * 0.016  # of the synthetic motion
+    assert data["radial_amplitude"][at_wave] == pytest.approx(
+        0.5 * amplitude_m / float(data["static_radius_m"]), rel=1e-3
+    )
+
+
+def test_a_free_radial_oscillation_is_a_circle_in_the_section():
+    """g = (r - l_0)/D and g' = r'/(D w_nr): D sin(w_nr t) about l_0 has g^2 + g'^2 = 1."""
+    scene = load_scene("tethered_buoy")
+    omega, diameter, phase = natural_frequencies(scene).radial_radps, scene.buoy.diameter_m, np.linspace(0.0, 6.0, 40)
+    points = np.column_stack([20.0 + diameter * np.sin(phase), omega * diameter * np.cos(phase)])
+    study = SimpleNamespace(arrays={"section": {"section": np.zeros((3, 2))}}, oscillator={"force": 1.4})
+    found = _sections(SimpleNamespace(scene=scene), points, study)
+    size = np.hypot(found["exact_displacement"][1], found["exact_velocity"][1])
+    np.testing.assert_allclose(size, 1.0, atol=1e-12)
+
+
+@pytest.fixture(scope="module")
+def whole(tmp_path_factory):
+    """Every part, short and coarse, made by its own campaign; the one in space by an engine of known answer."""
+    from campaigns import breaking_line, buoy_sweep, oscillator, out_of_plane
+
+    folder = tmp_path_factory.mktemp("paper") / "whole"
+    usual = ["--backend", "threading", "--jobs", "2", "--no-report"]
+    two = ["--steepness", "0.016", "0.13", "--periods", "260", "--transient", "20", "--no-accuracy"]
+    space = ["--periods", "80", "--transient", "10", "--no-accuracy"]
+    parts = {
+        "buoy": (buoy_sweep, [*two, *usual], {}),
+        "breaking_line": (breaking_line, ["--no-companions", "--set", "tether.nodes=101", *usual], {}),
+        "oscillator": (oscillator, ["--effort", "0.01", "--no-report"], {}),
+        "out_of_plane": (out_of_plane, [*space, *usual], {"simulate": SpaceEngine()}),
+    }
+    for name, (module, words, how) in parts.items():
+        assert module.main([*words, "--out", str(folder / name)], **how) == 0
+    assert write_figure_data(folder) == {}
+    return folder
+
+
+@pytest.mark.slow
+def test_all_figures_are_drawn_alike_by_another_process_from_their_files_alone(whole, tmp_path):
+    figures = paper_figures(whole)
+    assert [figure.caption.partition(" of the paper")[0] for figure in figures] == [f"Fig. {n}" for n in NUMBERS]
+    alone = tmp_path / "elsewhere"
+    shutil.copytree(place_of(whole), place_of(alone))
+    code = (
+        "import sys\nfrom reports.paper.figures import pictures\n"
+        "for path, content in pictures(sys.argv[1]).items():\n    path.write_bytes(content)\n"
+    )
+    environment = {**os.environ, "PYTHONHASHSEED": "77", "TZ": "Asia/Tokyo", "SOURCE_DATE_EPOCH": "1"}
+    subprocess.run([sys.executable, "-c", code, str(alone)], cwd=ROOT, env=environment, check=True)
+    kept = pictures(whole)
+    assert len(kept) == 2 * len(NUMBERS)
+    for path, content in kept.items():
+        assert (place_of(alone) / path.name).read_bytes() == content
+        assert len(content) < 500_000
+
+
+@pytest.mark.slow
+def test_the_figures_show_what_the_runs_did(whole):
+    exponents = data_of(whole, 14)
+    for name in ("small", "large"):
+        last = float(exponents[f"{name}_tangent_bits"][-1])
+        assert last == pytest.approx(float(exponents[f"{name}_tangent_value"]), abs=1e-12)
+        assert exponents[f"{name}_wolf_periods"][-1] > 200
+    sideways = data_of(whole, 20)
+    assert float(sideways["push_mps"]) == 1e-5
+    for name in ("large_rope_m", "large_rope_envelope_m"):
+        assert float(sideways[name].max()) == pytest.approx(BURST_M, rel=0.01)
+    assert sideways["large_buoy_m"].max() == pytest.approx(2.0 * 1e-5 / SWING, rel=0.01)
+    for number, force_N in ((3, 45e3), (6, 450e3)):
+        tension = data_of(whole, number)
+        case = "1" if number == 3 else "4p"
+        assert float(tension[f"case_{case}_force_N"]) == force_N
+        np.testing.assert_allclose(tension[f"case_{case}_tension_N"][0], force_N, rtol=0.01)
+        steps = np.diff(tension[f"case_{case}_time_s"].values)
+        np.testing.assert_allclose(steps, 0.010, atol=1e-3)
+    assert math.isclose(float(data_of(whole, 19)["force"]), 1.4)
