@@ -92,6 +92,7 @@ def test_the_front_of_a_run_turns_steep_there(case, within):
     assert measures.shock_birth(run.profiles, theory(case)) == pytest.approx(theory(case).start.distance_m, rel=within)
 
 
+@pytest.mark.slow
 def test_gravity_and_bending_hardly_move_the_shock():
     exact = theory("4")
     run = simulate(scene_of("4", **{"tether.nodes": 601}), duration_s=0.058)

@@ -107,6 +107,7 @@ def test_a_campaign_leaves_its_files_and_is_not_done_twice(few, tmp_path, capsys
     assert (out / "table.csv").read_bytes() == before
 
 
+@pytest.mark.slow
 def test_an_unexplained_case_ends_the_campaign_with_one(few, tmp_path):
     few[:] = [Case("EI", "no rest", YIELDS, 1.0)]
     words = ["--fuzz", "0", "--drift-periods", "0", "--out", str(tmp_path / "out"), "--jobs", "1"]

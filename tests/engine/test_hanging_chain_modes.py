@@ -55,6 +55,7 @@ def test_a_chain_with_a_tip_load_swings_at_its_bessel_frequencies():
     assert np.log2(middle / fine) == pytest.approx(2, abs=0.1)
 
 
+@pytest.mark.slow
 def test_a_bare_chain_swings_at_the_zeros_of_j0():
     exact = jn_zeros(0, 4) / 2 * np.sqrt(GRAVITY / LENGTH)
     assert hanging(161, 1e-6, 0.0)[:4] == pytest.approx(exact, rel=1e-4)

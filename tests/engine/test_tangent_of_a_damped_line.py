@@ -96,6 +96,7 @@ def test_growths_are_those_of_the_stability_function(method, step_s, eigenvalues
     assert np.all(found[count:] < -20 / step_s)
 
 
+@pytest.mark.slow
 def test_short_steps_give_the_real_parts_and_the_trace(eigenvalues):
     """|R(z)| is exp(Re z) but for z^4 and higher of a method of order 3 or 4; dt |lambda| is 0.4 at most."""
     found = growths(leaning(integrator="esdirk43", step_s=0.0025))[: len(eigenvalues)]

@@ -113,6 +113,7 @@ def test_through_a_loop_release():
     assert found[:, 2].max() < TOLERANCE
 
 
+@pytest.mark.slow
 def test_areas_grow_by_the_sum_of_two():
     """Gram-Schmidt keeps the area that two perturbations span; the sum of their growths is its logarithm."""
     run = Run(line(STEEP, nodes=21), 15.0)

@@ -38,6 +38,7 @@ def test_second_order_where_the_wave_is_smooth(case):
     assert order(cells, found) > 1.95 and found[-1] < 1e-6
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("case", "least"), [("1p", 1.8), ("2p", 1.5)])
 def test_through_the_echo_of_the_fixed_end_the_edges_of_the_wave_cost_some_order(case, least):
     cells = (200, 400, 800)

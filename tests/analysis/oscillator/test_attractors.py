@@ -34,6 +34,7 @@ def test_about_six_in_a_hundred_starts_end_on_the_orbit_of_period_8(basins):
     assert basins.shares.sum() == pytest.approx(1.0)
 
 
+@pytest.mark.slow
 def test_newton_finds_the_orbit_of_period_8_with_its_multipliers(basins):
     orbit = periodic_orbit(PAPER, 8, basins.orbits[0][3] + [1e-3, -1e-3])
     assert orbit.period == 8 and orbit.stable and orbit.residual < 1e-12
