@@ -99,9 +99,11 @@ class Chromium:
         return answer["result"]
 
     def open(self, path: Path) -> None:
-        """Load a file and wait until it is complete."""
+        """Load a file and wait until it is complete; RuntimeError for one that cannot be loaded."""
         self._events.clear()
-        self.call("Page.navigate", url=path.absolute().as_uri())
+        reply = self.call("Page.navigate", url=path.absolute().as_uri())
+        if "errorText" in reply:
+            raise RuntimeError(f"{path}: {reply['errorText']}")
         self._until(lambda one: one.get("method") == "Page.loadEventFired", self._events)
 
     def value(self, expression: str):
