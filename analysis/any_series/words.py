@@ -1,5 +1,6 @@
 """A Study as a page of plain text: what was given, what was found with its error, the verdict, and why."""
 
+import re
 import textwrap
 
 import numpy as np
@@ -101,14 +102,17 @@ def _in_cycles(study, text):
     plural = "maxima" if cycle == "maximum" else f"{cycle}s"
     for words in ("forcing period(s)", "forcing periods", "periods", "period(s)"):
         text = text.replace(words, plural)
+    text = re.sub(rf"\b1 {plural}", f"1 {cycle}", text)
     return text.replace("bits per period", f"bits per {cycle}")
 
 
 def _verdict(study):
     word = study.verdict.regime
     if study.verdict.period is not None:
-        plural = {STROBED: "forcing periods", SAMPLES: "samples", MAXIMA: "maxima"}[study.seen.kind]
-        meaning = f"the motion repeats itself after {study.verdict.period} {plural}"
+        word_for = {STROBED: "forcing period", SAMPLES: "sample", MAXIMA: "maximum"}[study.seen.kind]
+        plural = "maxima" if study.seen.kind == MAXIMA else f"{word_for}s"
+        count = study.verdict.period
+        meaning = f"the motion repeats itself after {count} {word_for if count == 1 else plural}"
     else:
         meaning = MEANING[word]
     return _row("VERDICT", f"{word}: {meaning}") + _row("because", _in_cycles(study, study.verdict.reason))

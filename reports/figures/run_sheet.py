@@ -1,8 +1,8 @@
 """One run at a glance, as a small <svg> element: histories, section, spectrum, exponent in nine panels.
 
-A sweep may have hundreds of runs, each with such a drawing inside one page. matplotlib's
-files would be too large for that; written here, a sheet takes 10 to 14 kB. Coordinates are whole numbers, fifths of a pixel apart; colours
-come from the page's style sheet, so that the drawing follows its light and dark form.
+A sweep may have hundreds of runs, each with such a drawing inside one page: files of matplotlib would be too large for
+that, and written here a sheet takes 10 to 14 kB. Coordinates are whole numbers, fifths of a pixel apart; colours come
+from the page's style sheet, so that the drawing follows its light and dark form.
 """
 
 from __future__ import annotations
