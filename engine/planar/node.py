@@ -27,8 +27,8 @@ from ..compiled import kernel
 from ..currents import planar_current
 from ..elementary import sincos
 from ..shocks import shock_tension
-from ..tension import tension
 from ..waves import wave_field
+from .places import count_of_places, place, put, take, tension_at
 
 WIDTH = 23
 
@@ -37,13 +37,12 @@ WIDTH = 23
 def shape(p, tables, Y, Q, X):
     """Directions, q and positions: X[0] is the anchor, and each element adds h times the mean of q."""
     n = Y.shape[0]
-    for k in range(n):
-        s, c = sincos(Y[k, 4])
-        lam = 1.0 + Y[k, 0]
-        Q[k, 0] = c
-        Q[k, 1] = s
-        Q[k, 5] = lam * c
-        Q[k, 6] = lam * s
+    for j in range(count_of_places(p, n)):
+        k = place(p, j, n)
+        s, c = sincos(take(Y, k, 4, 1)[0])
+        lam = 1.0 + take(Y, k, 0, 1)[0]
+        put(Q, k, 0, (c, s))
+        put(Q, k, 5, (lam * c, lam * s))
     X[0, 0] = 0.0
     X[0, 1] = 0.0
     for k in range(1, n):
@@ -68,24 +67,30 @@ def water(p, tables, t, in_motion, X, F):
 
 @kernel
 def node_quantities(p, tables, cq, cv, in_motion, Y, C_tilde, F, Q):
-    """Fill Q (columns in the head of this file) from Y, the integrator's C~ = (q~, V~) and the water F."""
-    for k in range(Y.shape[0]):
-        eps, S, U, W = Y[k, 0], Y[k, 1], Y[k, 2], Y[k, 3]
-        c, s = Q[k, 0], Q[k, 1]
-        T, slope = tension(eps, p, tables)
+    """Fill Q (columns in the head of this file) from Y, the integrator's C~ = (q~, V~) and the water F.
+
+    A run alone takes two nodes at a time (`engine.planar.places`).
+    """
+    n = Y.shape[0]
+    for j in range(count_of_places(p, n)):
+        k = place(p, j, n)
+        eps, S, U, W = take(Y, k, 0, 4)
+        qx_tilde, qz_tilde, U_tilde, W_tilde = take(C_tilde, k, 0, 4)
+        Uw, Ww, Uw_t, Ww_t = take(F, k, 0, 4)
+        c, s = take(Q, k, 0, 2)
+        qx, qz = take(Q, k, 5, 2)
+        T, slope = tension_at(p, tables, eps)
         lam = 1.0 + eps
         if p.viscous:
-            before = math.sqrt(C_tilde[k, 0] * C_tilde[k, 0] + C_tilde[k, 1] * C_tilde[k, 1])
-            extra, stiffer = shock_tension(in_motion * cq, lam - before, Q[k, 21], Q[k, 22])
+            before = math.sqrt(qx_tilde * qx_tilde + qz_tilde * qz_tilde)
+            B, L = take(Q, k, 21, 2)
+            extra, stiffer = shock_tension(in_motion * cq, lam - before, B, L)
             T += extra
             slope += stiffer
-        Q[k, 2] = slope
-        Q[k, 3] = T * c - S * s
-        Q[k, 4] = T * s + S * c
-        Q[k, 7] = cq * (Q[k, 5] - C_tilde[k, 0])
-        Q[k, 8] = cq * (Q[k, 6] - C_tilde[k, 1])
-        ax = cv * (U - C_tilde[k, 2])
-        az = cv * (W - C_tilde[k, 3])
+        put(Q, k, 2, (slope, T * c - S * s, T * s + S * c))
+        put(Q, k, 7, (cq * (qx - qx_tilde), cq * (qz - qz_tilde)))
+        ax = cv * (U - U_tilde)
+        az = cv * (W - W_tilde)
         Gx, Gz = p.m * ax, p.m * az + p.w0
         Gxx = p.m * cv
         Gxz = 0.0
@@ -93,8 +98,8 @@ def node_quantities(p, tables, cq, cv, in_motion, Y, C_tilde, F, Q):
         Gex = Gez = Gpx = Gpz = 0.0
         if p.wet:
             root = math.sqrt(larger(lam, 0.0))
-            ur = in_motion * U - F[k, 0]
-            wr = in_motion * W - F[k, 1]
+            ur = in_motion * U - Uw
+            wr = in_motion * W - Ww
             vt = ur * c + wr * s
             vn = wr * c - ur * s
             kt = 2.0 * p.ct * root * abs(vt)
@@ -104,8 +109,8 @@ def node_quantities(p, tables, cq, cv, in_motion, Y, C_tilde, F, Q):
             half_inverse = 0.5 / lam
             Gex = (a * c - b * s) * half_inverse
             Gez = (a * s + b * c) * half_inverse
-            b_phi = p.Rw * (F[k, 2] * c + F[k, 3] * s) - p.ma * (ax * c + az * s) - kn * vt
-            b += p.ma * (az * c - ax * s) - p.Rw * (F[k, 3] * c - F[k, 2] * s)
+            b_phi = p.Rw * (Uw_t * c + Ww_t * s) - p.ma * (ax * c + az * s) - kn * vt
+            b += p.ma * (az * c - ax * s) - p.Rw * (Ww_t * c - Uw_t * s)
             Gx += a * c - b * s
             Gz += a * s + b * c
             along = kt * vn - b
@@ -117,17 +122,7 @@ def node_quantities(p, tables, cq, cv, in_motion, Y, C_tilde, F, Q):
             Gxx += dt_ * c * c + dn * s * s
             Gxz = (dt_ - dn) * c * s
             Gzz += dt_ * s * s + dn * c * c
-        Q[k, 9] = Gx
-        Q[k, 10] = Gz
-        Q[k, 11] = Gex
-        Q[k, 12] = Gez
-        Q[k, 13] = Gpx
-        Q[k, 14] = Gpz
-        Q[k, 15] = Gxx
-        Q[k, 16] = Gxz
-        Q[k, 17] = Gzz
+        put(Q, k, 9, (Gx, Gz, Gex, Gez, Gpx, Gpz, Gxx, Gxz, Gzz))
         if p.bent:
             square = lam * lam
-            Q[k, 18] = square * lam * S
-            Q[k, 19] = 3.0 * square * S
-            Q[k, 20] = square * lam
+            put(Q, k, 18, (square * lam * S, 3.0 * square * S, square * lam))

@@ -14,6 +14,7 @@ STEEP = {"water.depth_m": 21.6, "waves.steepness": 0.13, "tether.nodes": 21}
 CARRIED = {"output.tangent_vectors": 2, "output.lateral_growth": True}
 KINDS = {  # what every lane has in common
     "the shipped scene": {"tether.nodes": 41},
+    "an even number of nodes": {"tether.nodes": 20},
     "TR-BDF2, stretched grid": {"solver.integrator": "trbdf2", "tether.grid_stretching": 1.5},
     "fixed steps": {"solver.step_s": 0.01},
     "a current, wheeler": {
