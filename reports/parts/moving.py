@@ -1,4 +1,4 @@
-"""A drawing that moves, as a GIF: what moves is drawn over what stays, so that a frame does not cost a whole drawing."""
+"""A drawing that moves, as a GIF: what moves is drawn over what stays: a frame does not cost a whole drawing."""
 
 from __future__ import annotations
 
