@@ -61,7 +61,10 @@ def time_series(periods: np.ndarray, panels: list[Panel], detail_periods: float 
 def _draw(axes, periods: np.ndarray, panel: Panel, part) -> None:
     t = periods[part]
     if panel.low is not None and panel.high is not None:
-        axes.fill_between(*band(t, panel.low[part], panel.high[part]), color=SKY, alpha=0.5, linewidth=0)
+        low, high = panel.low[part], panel.high[part]
+        index = _kept(low, high)
+        x, low, high = t[index], low[index], high[index]
+        axes.fill_between(x, np.minimum(low, high), np.maximum(low, high), color=SKY, alpha=0.5, linewidth=0)
     axes.plot(*envelope(t, panel.values[part]), color=panel.colour, linewidth=0.7)
 
 
@@ -71,30 +74,18 @@ def envelope(x: np.ndarray, y: np.ndarray, bins: int = _BINS) -> tuple[np.ndarra
     Args: x (n,) increasing, y (n,). Returns x, y of at most 2*bins points; a shorter record comes back as it is.
     Every extreme of y is kept, which simple thinning would lose.
     """
-    if len(x) <= 2 * bins:
-        return x, y
-    edges = _edges(len(x), bins)
-    keep = set()
-    for first, end in pairwise(edges):
-        part = y[first:end]
-        if np.isfinite(part).any():
-            keep.update((first + int(np.nanargmin(part)), first + int(np.nanargmax(part))))
-    index = np.array(sorted(keep))
+    index = _kept(y, bins=bins)
     return x[index], y[index]
 
 
-def band(x: np.ndarray, low: np.ndarray, high: np.ndarray, bins: int = _BINS) -> tuple[np.ndarray, ...]:
-    """What lies between two lines, as `envelope` thins one: x, the least of `low` and the greatest of `high`.
-
-    Args: x (n,) increasing, low, high (n,). Returns three arrays of one length, at most 2*bins; a span without a value
-    is nan. The extremes of two lines are at other places, so that their envelopes do not fit together.
-    """
-    if len(x) <= 2 * bins:
-        return x, low, high
-    edges = _edges(len(x), bins)
-    first, end = edges[:-1], edges[1:]
-    return x[(first + end) // 2], np.fmin.reduceat(low, first), np.fmax.reduceat(high, first)
-
-
-def _edges(count: int, bins: int) -> np.ndarray:
-    return np.linspace(0, count, bins + 1).astype(int)
+def _kept(*curves: np.ndarray, bins: int = _BINS) -> np.ndarray:
+    """Where any of the curves, (n,) each, has its least or greatest value within one of `bins` equal spans."""
+    n = len(curves[0])
+    if n <= 2 * bins:
+        return np.arange(n)
+    keep: set[int] = set()
+    for first, end in pairwise(np.linspace(0, n, bins + 1).astype(int)):
+        for part in (curve[first:end] for curve in curves):
+            if np.isfinite(part).any():
+                keep.update((first + int(np.nanargmin(part)), first + int(np.nanargmax(part))))
+    return np.array(sorted(keep), dtype=int)

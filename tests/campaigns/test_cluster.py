@@ -82,7 +82,7 @@ def test_rows_made_from_two_runs_find_the_other_one(cluster, place):
 
 def test_a_worker_killed_in_mid_sweep_costs_its_running_job(cluster, place, tmp_path):
     log = tmp_path / "log"
-    process = start_sweep(place / "out", "--steepness", *VALUES, *at(cluster), log=str(log), sleep_s=0.5)
+    process = start_sweep(place / "out", "--steepness", *VALUES, *at(cluster), log=str(log), sleep_s=0.3)
     until(lambda: len(finished(place / "out")) >= 2, process)
     cluster.workers[0].send_signal(signal.SIGKILL)
     done(process)
@@ -124,7 +124,7 @@ def test_a_run_that_kills_every_worker_stops_the_campaign_and_new_workers_finish
 
 
 def test_a_scheduler_that_dies_stops_the_campaign_in_one_line(cluster, place):
-    process = start_sweep(place / "out", "--steepness", *VALUES, *at(cluster), sleep_s=0.5)
+    process = start_sweep(place / "out", "--steepness", *VALUES, *at(cluster), sleep_s=0.3)
     until(lambda: len(finished(place / "out")) >= 2, process)
     cluster.scheduler.kill()
     error = done(process, code=1)
@@ -135,7 +135,7 @@ def test_a_scheduler_that_dies_stops_the_campaign_in_one_line(cluster, place):
 
 def test_interrupt(cluster, place, tmp_path):
     words = ["--steepness", *VALUES, *at(cluster)]
-    process = start_sweep(place / "out", *words, session=True, sleep_s=0.5)
+    process = start_sweep(place / "out", *words, session=True, sleep_s=0.3)
     until(lambda: len(finished(place / "out")) >= 2, process)
     os.killpg(process.pid, signal.SIGINT)
     assert "to go on with the rest" in done(process, code=130)

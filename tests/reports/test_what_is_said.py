@@ -13,7 +13,7 @@ from reports.buoy_sweep.motion import LONGEST_PERIOD
 from reports.buoy_sweep.physics import natural_frequencies, water_surface_m
 from reports.buoy_sweep.runs import COLUMNS
 from reports.buoy_sweep.warnings import loads_used
-from reports.figures.time_series import Panel, band, envelope, time_series
+from reports.figures.time_series import envelope
 from reports.parts.scene_table import scene_table
 from reports.parts.sources import SOURCES
 from reports.parts.wording import number, ranges
@@ -88,18 +88,6 @@ def test_spectrum_window_never_reaches_beyond_the_record():
         assert window is None or sum(window) <= done + 1e-6
     assert spectrum_window(60.0) == spectrum_window(300.0) == (40, 20)
     assert spectrum_window(9.9) is None
-
-
-def test_the_band_holds_both_lines_where_their_extremes_are_apart():
-    t = np.linspace(0.0, 50.0, 2001)
-    low, high = np.sin(t), np.sin(3.0 * t) + 2.0
-    low[700:900] = np.nan
-    x, least, most = band(t, low, high, bins=100)
-    assert len(x) == len(least) == len(most) == 100 and (np.diff(x) > 0).all()
-    assert np.nanmin(least) == np.nanmin(low) and most.max() == high.max()
-    assert np.isnan(least[36:44]).all() and np.isfinite(np.delete(least, range(34, 46))).all()
-    calm = np.where(t < 25.0, 1.0, low)  # still, and so with fewer extremes than the other line
-    assert time_series(t, [Panel("", high, calm, high)]).data
 
 
 def test_the_envelope_keeps_every_extreme_and_the_order_of_time():
