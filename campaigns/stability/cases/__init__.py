@@ -48,7 +48,7 @@ def all_cases() -> list[Case]:
 
     groups = (
         line.bending, line.stretching, line.laws, line.grids,
-        line.masses, motion.water, motion.waves, motion.starts,
-        motion.snaps, motion.compression, motion.steps, inputs.inputs,
+        line.masses, motion.water, motion.waves, motion.surface,
+        motion.starts, motion.snaps, motion.compression, motion.steps, inputs.inputs,
     )  # fmt: skip
     return [case for group in groups for case in group()]

@@ -143,7 +143,9 @@ def _water(rng, raw, space):
             "direction_rad": heading,
             "ramp_s": pick(rng, 0.0, 0.0, 5.0),
         }
-        if maybe(rng, 0.7):
+        if maybe(rng, 0.25):
+            _sea(rng, raw, space)
+        elif maybe(rng, 0.7):
             raw["waves"]["steepness"] = float(rng.uniform(0.0, 0.4))
         else:
             raw["waves"]["amplitude_m"] = float(rng.uniform(0.0, 0.2)) * raw["water"]["depth_m"]
@@ -161,6 +163,26 @@ def _water(rng, raw, space):
             "law": law, "x_m": [-10.0, 10.0], "height_m": increasing(rng, 0.0, depth, 3), "time_s": [0.0, 5.0],
             "velocity_x_mps": block, "velocity_z_mps": block,
         }  # fmt: skip
+
+
+def _sea(rng, raw, space):
+    """An irregular sea in the place of the regular wave."""
+    waves, depth = raw["waves"], raw["water"]["depth_m"]
+    if maybe(rng, 0.5):
+        waves["jonswap"] = {
+            "significant_height_m": float(rng.uniform(0.01, 0.3)) * depth, "peak_enhancement": float(rng.uniform(1, 7)),
+            "components": int(rng.integers(1, 40)), "seed": int(rng.integers(100)),
+        }  # fmt: skip
+        return
+    del waves["direction_rad"]
+    waves["components"] = [
+        {
+            "period_s": log_uniform(rng, 0.5, 60.0), "amplitude_m": 0.05 * float(rng.random()) * depth,
+            "phase_rad": float(rng.uniform(-4, 4)),
+            "direction_rad": float(rng.uniform(-3, 3)) if space else pick(rng, 0.0, math.pi),
+        }
+        for _ in range(int(rng.integers(1, 5)))
+    ]  # fmt: skip
 
 
 def _solver(rng):
@@ -200,6 +222,11 @@ def _allowed_together(rng, raw):
             solver["scheme"] = "paper-box"
         elif not fixed:
             raw["output"] |= {"tangent_vectors": int(rng.integers(0, 4)), "lateral_growth": maybe(rng, 0.5)}
+
+
+    regular = not {"jonswap", "components"} & set(raw.get("waves", ()))
+    if "water" in raw and "buoy" in raw and regular and "scheme" not in solver and maybe(rng, 0.4):
+        raw["buoy"] |= {"submergence": "spherical-cap", "impact_loss": pick(rng, 0.0, 0.5, 1.0)}
 
 
 def _paper_takes(raw):
