@@ -34,7 +34,8 @@ def why_no_rest(record, scene):
     if record["cap"]:
         return (
             "the iteration did not settle; where the buoy floats on a slack line (buoy.submergence 'spherical-cap'), "
-            "give the line more tether.nodes or tether.bending_stiffness_Nm2, or make water.depth_m larger than its length"
+            "give the line more tether.nodes or tether.bending_stiffness_Nm2, or make water.depth_m larger than its "
+            "length"
         )
     return (
         "the iteration did not settle; try more tether.nodes, a tether.tension with stiffness in compression too, a "
