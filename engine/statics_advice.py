@@ -31,6 +31,12 @@ def why_no_rest(record, scene):
             f"tether.tension still pulls with {pull:.4g} N at a strain of {NEARLY_NOTHING:g}; let it fall to zero "
             "where the line is not stretched"
         )
+    if record["cap"]:
+        return (
+            "the iteration did not settle; where the buoy floats on a slack line (buoy.submergence 'spherical-cap'), "
+            "give the line more tether.nodes or tether.bending_stiffness_Nm2, or make water.depth_m larger than its "
+            "length"
+        )
     return (
         "the iteration did not settle; try more tether.nodes, a tether.tension with stiffness in compression too, a "
         "weaker current, or a held end that the line reaches without being folded"
