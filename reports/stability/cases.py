@@ -16,6 +16,7 @@ TITLES = {
     "mass": "Density and added mass",
     "water": "Water and currents",
     "waves": "Steepness to 0.4, periods of 0.5 to 60 s",
+    "surface": "Buoys partly out of the water, irregular seas",
     "start": "Blows, slack, horizontal and upside-down starts",
     "snap": "Slack taken up at speed",
     "push": "A straight line pushed together",
