@@ -175,12 +175,16 @@ def _afloat(record, scene, s):
         strains = np.array([strain_at(T, law) if T > 0 else 0.0 for T in loads])
         return lift(s[-1] + np.sum(0.5 * np.diff(s) * (strains[1:] + strains[:-1]))) - load
 
+    def zero(function, low, high):
+        """Where it is 0, or nearly so: a guess need not have converged, and extreme scenes do not."""
+        return brentq(function, low, high, full_output=True, disp=False)[0]
+
     if left(whole) >= 0:
         return whole, None
     if left(0.0) > 0:
-        return brentq(left, 0.0, whole), None
+        return zero(left, 0.0, whole), None
     surface = float(record["depth"])
-    return 0.0, brentq(lift, surface - D / 2, surface + D / 2)
+    return 0.0, zero(lift, surface - D / 2, surface + D / 2)
 
 
 def _arc(ratio):

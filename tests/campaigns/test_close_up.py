@@ -17,7 +17,7 @@ from reports.parts.style import VERMILION
 from tests.campaigns.fake_engine import FakeEngine, sines
 
 WORDS = ["--steepness", "0.02", "0.05", "0.13", "--periods", "15", "--transient", "3", "--backend", "threading",
-         "--no-report", "--no-accuracy"]  # fmt: skip
+         "--jobs", "1", "--no-report", "--no-accuracy"]  # fmt: skip
 NODES = 5
 
 
