@@ -46,6 +46,7 @@ def test_through_the_echo_of_the_fixed_end_the_edges_of_the_wave_cost_some_order
     assert order(cells, found) > least and found[-1] < 1e-5
 
 
+@pytest.mark.slow
 def test_first_order_and_the_right_shock_in_case_4():
     # Errors at one time swing with the place of the shock in its cell: several times around 40 ms.
     cells, times = (200, 400, 800, 1600), np.linspace(0.0395, 0.0405, 7)

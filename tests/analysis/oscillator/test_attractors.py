@@ -45,6 +45,7 @@ def test_newton_finds_the_orbit_of_period_8_with_its_multipliers(basins):
     assert (distance[50] / distance[30]) ** (1 / 20) == pytest.approx(np.abs(orbit.multipliers).max(), rel=1e-3)
 
 
+@pytest.mark.slow
 def test_points_of_an_orbit_are_its_own_images():
     for orbit in search_periodic_orbits(PAPER, 3, strobed_states(PAPER, (0.68, 0.0), 60, 100)):
         again = strobed_states(PAPER, orbit.points[0], 4)

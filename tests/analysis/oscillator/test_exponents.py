@@ -82,6 +82,7 @@ def test_dimension_of_the_section():
     assert np.isnan(section_dimension(0.1, -0.05)) and np.isnan(section_dimension(np.nan, -1.0))
 
 
+@pytest.mark.slow
 def test_diagram_agrees_with_single_runs():
     starts = random_starts(3, 4)
     diagram = snap_diagram(PAPER, "force", [0.15, 1.4], starts, transient_periods=100, periods=200, points=50)

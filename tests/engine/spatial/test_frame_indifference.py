@@ -99,7 +99,9 @@ def assert_equal(one, other, relative, tensions=TENSIONS):
         assert np.abs(columns[key] - columns_too[key]).max() < relative * np.abs(columns[key]).max(), key
 
 
-@pytest.mark.parametrize("name", SCENES)
+@pytest.mark.parametrize(
+    "name", [pytest.param(name, marks=pytest.mark.slow) if name == "buoy in small waves" else name for name in SCENES]
+)
 def test_a_turned_scene_gives_the_turned_motion(name):
     straight = seen_from(0.0, 1.0, name)
     assert np.ptp(straight[1][..., 1]) > 0.5  # well out of any plane
