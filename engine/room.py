@@ -3,6 +3,7 @@ of them; a long run in short steps would not end.
 """
 
 from . import parameters
+from .integrators import METHODS
 
 MOST_SAMPLES = 20_000_000  # 2 GB of samples; 1e5 wave periods at a hundred samples each is half of it
 MOST_PROFILE_VALUES = 400_000_000  # 3 GB of profiles
@@ -12,13 +13,18 @@ MOST_STEPS = 1e9  # a day or more of computing on one core
 
 def longest_step(scene):
     """(key, s) of the longest time step that a run of the scene can take."""
-    if scene.solver.courant is not None:
-        return "solver.courant", float(parameters.record_of(scene, [])[0]["fixed_step"])
-    return (
-        ("solver.step_s", scene.solver.step_s)
-        if scene.solver.step_s
-        else ("solver.max_step_s", scene.solver.max_step_s)
-    )
+    solver = scene.solver
+    if solver.step_s:
+        return "solver.step_s", solver.step_s
+    if solver.courant is not None:
+        return "solver.courant", _fixed_step(scene)
+    if solver.scheme == "paper-box" or not METHODS[solver.integrator].ADAPTIVE:
+        return "solver.step_s", _fixed_step(scene)  # its default goes by the period of the waves
+    return "solver.max_step_s", solver.max_step_s
+
+
+def _fixed_step(scene):
+    return float(parameters.record_of(scene, [])[0]["fixed_step"])
 
 
 def check_room(scene, duration_s):

@@ -24,6 +24,8 @@ DRY = {"water": None, "waves": None}
         ({"output.profiles": True, "tether.nodes": 20000}, MOST_PROFILE_VALUES / 1e5, "output.profiles_step_s"),
         ({"solver.max_step_s": 1e-10, "solver.min_step_s": 1e-12}, 1.0, "solver.max_step_s"),
         ({"solver.step_s": 0.01, "output.step_s": 1e3}, 0.011 * MOST_STEPS, "solver.step_s"),
+        ({"solver.integrator": "midpoint", "waves.period_s": 1e-9, "output.step_s": 0.01}, 1.0, "solver.step_s"),
+        ({"solver.scheme": "paper-box", "waves.period_s": 1e-9, "output.step_s": 0.01}, 1.0, "solver.step_s"),
     ],
 )
 def test_more_than_any_run_could_do_is_refused(changes, duration_s, key):
