@@ -89,7 +89,7 @@ def repeat(plan: Plan, rows: list[dict], length: int, label: str, verdict: Calla
     """Do the repeated runs over so many wave periods; arguments as for `and_again`."""
     jobs: list[Job] = []
     for role, row in chosen(rows):
-        base = KeptRun(trajectory_path(plan.directory, row["run_key"]))
+        base = KeptRun(trajectory_path(plan.directory.absolute(), row["run_key"]))
         jobs += _jobs(base, role, row[label], length, verdict)
     place = plan.directory / FOLDER
     (place / "trajectories").mkdir(parents=True, exist_ok=True)

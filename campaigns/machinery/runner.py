@@ -93,7 +93,8 @@ class Plan:
 
     def for_workers(self) -> "Plan":
         """The plan as workers get it."""
-        return replace(self, directory=None) if self.sends else self
+        # A worker kept from an earlier campaign of this process may stand in another folder.
+        return replace(self, directory=None if self.sends else self.directory.absolute())
 
 
 def plan_of(

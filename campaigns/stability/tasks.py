@@ -101,7 +101,8 @@ def run(order) -> tuple[dict[str, float], Summary]:
     start = time.perf_counter()
     undone = {task.key() for task in missing}
     results = {key: kept_row(out, key, maker) for key in (task.key() for task in tasks) if key not in undone}
-    for task, result in _progress(_all(partial(do, out, maker), missing, order.how.jobs), len(tasks), len(results)):
+    call = partial(do, out.absolute(), maker)
+    for task, result in _progress(_all(call, missing, order.how.jobs), len(tasks), len(results)):
         results[task.key()] = result
     # alone on the machine, at the end: it takes times
     cost = kept_row(out, shares.key(), maker) or scene_shares.measured(order.quick)

@@ -2,7 +2,9 @@
 
 import pytest
 
-from tests.campaigns.conftest import finished
+from campaigns import buoy_sweep
+from tests.campaigns.conftest import USUAL, finished
+from tests.campaigns.fake_engine import FakeEngine
 
 VALUES = ("0.02", "0.05", "0.08", "0.13")
 
@@ -22,6 +24,15 @@ def test_number_of_jobs_changes_nothing(sweep, jobs):
     for path in (sweep.out / "trajectories").iterdir():
         path.unlink()
     assert sweep("--steepness", *VALUES, jobs=jobs)[1] == rows
+
+
+def test_workers_kept_from_a_campaign_elsewhere_write_into_the_folder_of_this_one(tmp_path, monkeypatch):
+    for name in ("one", "other"):
+        (tmp_path / name).mkdir()
+        monkeypatch.chdir(tmp_path / name)
+        words = ["--steepness", *VALUES, *USUAL, "--out", "out"]
+        assert buoy_sweep.main(words, simulate=FakeEngine()) == 0
+    assert finished(tmp_path / "one" / "out").keys() == finished(tmp_path / "other" / "out").keys()
 
 
 def test_rows_come_in_the_order_asked_for(sweep):

@@ -156,8 +156,9 @@ def changed(folder):
 
 def absent(folder):
     """What a worker finds where the workbench is not installed, wherever the tests run."""
+    # An editable install finds `campaigns.machinery` behind a package of ours that has no such part.
     (folder / "campaigns").mkdir(parents=True)
-    (folder / "campaigns" / "__init__.py").touch()
+    (folder / "campaigns" / "__init__.py").write_text("raise ModuleNotFoundError(\"No module named 'campaigns'\")\n")
     return folder
 
 
