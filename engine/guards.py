@@ -38,13 +38,13 @@ ADVICE = {
     STRAIN_BELOW_MINUS_ONE: "an element is compressed to nothing (strain <= -1) at t = {t:.6g} s: the tension law has "
     "too little stiffness in compression, or bending is left out in slack",
     NOT_FINITE: "a value that is not a finite number appeared at t = {t:.6g} s; waves extrapolated far above still "
-    "water grow without bound: compare waves.above_still_water = \"zero\"",
+    'water grow without bound: compare waves.above_still_water = "zero"',
     STATICS_FAILED: "no static equilibrium was found from which to start: ",  # goes on: engine.statics_advice
     STEP_LIMIT: "the run stands still at t = {t:.6g} s: 20 000 steps of {dt:.2g} s were tried within the "
     "time of one usual step; raise solver.rtol, or look for what the grid cannot resolve (compression without "
     "bending, for one)",
     TENSION_FLAT: "the tension law has lost its slope at t = {t:.6g} s, by which the paper's form divides: take "
-    "solver.scheme = \"conservation\"",
+    'solver.scheme = "conservation"',
     SHAPE_LOST: "the shape of the tether and the path of its end have parted by t = {t:.6g} s: add nodes, or take "
-    "solver.scheme = \"conservation\"",
+    'solver.scheme = "conservation"',
 }

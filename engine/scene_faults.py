@@ -88,7 +88,7 @@ def known_keys(model: type[BaseModel], prefix: str = "") -> list[str]:
 
 
 def suggestion(key: str, keys: list[str]) -> str:
-    """"; did you mean ...?" for a key that is close to a known one in full or in its last word, else ""."""
+    """ "; did you mean ...?" for a key that is close to a known one in full or in its last word, else ""."""
     close = difflib.get_close_matches(key, keys, n=1, cutoff=0.75)
     if not close:
         last = {known.rpartition(".")[2]: known for known in reversed(keys)}
@@ -164,9 +164,7 @@ def _inside(other: dict, item: dict) -> bool:
     return len(other["loc"]) > len(item["loc"]) and other["loc"][: len(item["loc"])] == item["loc"]
 
 
-def field_faults(
-    error: ValidationError, scene_model: type[BaseModel]
-) -> tuple[list[str], set[tuple[str | int, ...]]]:
+def field_faults(error: ValidationError, scene_model: type[BaseModel]) -> tuple[list[str], set[tuple[str | int, ...]]]:
     """Fault lines of single values, and the locations of the values that are at fault.
 
     error: pydantic's, from validating `scene_model`. Faults between values are left to `cross_faults`.

@@ -121,5 +121,5 @@ def _message(status, t, dt, record):
         return "paper-box: " + ADVICE[STATICS_FAILED]
     said = SAID[status].format(turn=record.max_turn, gap=record.closure)
     seen = f"turn per element up to {record.max_turn:.3g} rad, strain down to {record.min_strain:.3g} before"
-    cure = "add nodes, shorten solver.step_s, or take solver.scheme = \"conservation\""
+    cure = 'add nodes, shorten solver.step_s, or take solver.scheme = "conservation"'
     return f"paper-box: {said} in the step of {dt:.3g} s to t = {t:.6g} s ({seen}): {cure}"

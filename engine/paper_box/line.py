@@ -79,4 +79,3 @@ def line_of(scene, accelerations=False):
         per=np.array([float(record["per_strain"])] + 2 * [force] + 3 * [speed] + 4 * [1.0] + 3 * [curvature]),
         active=PLANE if scene.motion.dimensions == 2 else SPACE,
     )
-

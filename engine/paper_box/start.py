@@ -58,9 +58,7 @@ def settled(line, band, guess, force, target=None, share=1.0):
     axes = 0 if target is None else 3 if line.spatial else 2
     for _ in range(MOST):
         water = share * water_at(line, 0.0, Y, waves=False)
-        code, found, size = newton_update(
-            line, band, Y, water, 0.0, None, float(line.record["per_force"]), force, axes
-        )
+        code, found, size = newton_update(line, band, Y, water, 0.0, None, float(line.record["per_force"]), force, axes)
         if code != OK:
             break
         update, pull = found, np.zeros(3)

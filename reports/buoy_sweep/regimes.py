@@ -74,8 +74,7 @@ def _table(runs: list[Run], transient: int) -> Table:
     sigmas = (Column(f"σ, {label}", "bits/T") for label, *_ in EXPONENTS)
     heads = (Column("kA"), Column("regime", align="left"), *sigmas)
     rows = tuple(
-        (linked(run), run.row["regime"], *(_with_error(run, *names) for _, *names in EXPONENTS))
-        for run in runs
+        (linked(run), run.row["regime"], *(_with_error(run, *names) for _, *names in EXPONENTS)) for run in runs
     )
     caption = (
         f"Regime and largest exponent with one standard error, of what follows the first {transient} wave periods. "

@@ -58,8 +58,7 @@ def runs_items(runs: tuple[Run, ...], transient: int, tolerance: float) -> list[
         f"{percent(tolerance)} of its range, N ≤ {LONGEST_PERIOD}; “none” where no N does. T: tension at the top. "
         f"slack: share of the time without tension. N, r, θ, T and slack leave out the first {transient} wave "
         "periods. turn: largest turn of the tether within one element. loops: loop releases. A dash: not known. On the "
-        "page kA leads to the sheet of the run."
-        + (" D: dimensions of the motion." if space else "")
+        "page kA leads to the sheet of the run." + (" D: dimensions of the motion." if space else "")
     )
     return [Heading("Table of runs"), Table(heads, rows, caption, small=True)]
 

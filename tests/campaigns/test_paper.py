@@ -102,15 +102,18 @@ def test_the_study_varies_one_thing_at_a_time_from_the_shipped_scene():
     from engine import load_scene
 
     scene, found = load_scene("tethered_buoy"), dependence.cases(False)
-    assert found[0].changes().items() <= {
-        "waves.steepness": 0.13,
-        "water.depth_m": scene.water.depth_m,
-        "waves.above_still_water": scene.waves.above_still_water,
-        "buoy.submergence": scene.buoy.submergence,
-        "tether.bending_stiffness_Nm2": scene.tether.bending_stiffness_Nm2,
-        "output.tangent_vectors": 1,
-        "output.lateral_growth": True,
-    }.items()
+    assert (
+        found[0].changes().items()
+        <= {
+            "waves.steepness": 0.13,
+            "water.depth_m": scene.water.depth_m,
+            "waves.above_still_water": scene.waves.above_still_water,
+            "buoy.submergence": scene.buoy.submergence,
+            "tether.bending_stiffness_Nm2": scene.tether.bending_stiffness_Nm2,
+            "output.tangent_vectors": 1,
+            "output.lateral_growth": True,
+        }.items()
+    )
     above, drowned = dependence.treatments()
     usual = [case for case in found if case.bending_stiffness_Nm2 == scene.tether.bending_stiffness_Nm2]
     for kA in (0.016, 0.13):

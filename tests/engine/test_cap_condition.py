@@ -84,9 +84,7 @@ def test_the_derivatives_are_those_of_the_condition(axes, height, in_motion):
         F[axes:] = 0.0
     D = total(p, tables, in_motion, place, V, V_tilde, N, F)[1]
     for j, d in enumerate(1e-4 * np.eye(axes)):
-        ahead, behind = (
-            total(p, tables, in_motion, place + d * s / CQ, V + d * s, V_tilde, N, F)[0] for s in (1, -1)
-        )
+        ahead, behind = (total(p, tables, in_motion, place + d * s / CQ, V + d * s, V_tilde, N, F)[0] for s in (1, -1))
         assert (ahead - behind) / 2e-4 == pytest.approx(D[:, j], rel=1e-6, abs=1e-3)
 
 
@@ -99,7 +97,7 @@ def test_a_sphere_in_the_water_is_the_whole_sphere(axes):
         place = np.append(RNG.normal(size=axes - 1), DEPTH - D / 2 - scene.waves.steepness / p["k"] - RNG.exponential())
         V, V_tilde, N, F = drawn(axes)
         e, J = total(p, tables, 1.0, place, V, V_tilde, N, F)
-        whole = (upper_end if axes == 2 else upper_end_3d)
+        whole = upper_end if axes == 2 else upper_end_3d
         arguments = (*N, *V, *V_tilde) if axes == 2 else (tuple(N), tuple(V), tuple(V_tilde))
         answer = whole(full, tables, T, CV, 1.0, *arguments, F)
         if axes == 2:

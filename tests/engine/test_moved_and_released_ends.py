@@ -25,6 +25,7 @@ def moved(**motion):
 
 def harmonic(t, amplitude, period, phase=0.0, ramp=0.0):
     """amplitude (r(t) sin(2 pi t/period + phase) - its value at 0), r = sin^2(pi t/(2 ramp)), then 1."""
+
     def shape(t):
         r = np.sin(0.5 * np.pi * t / ramp) ** 2 if t < ramp else 1.0
         return r * np.sin(2 * np.pi * t / period + phase)

@@ -122,9 +122,7 @@ LOST = {
     "Wherever the line goes slack": world(sweep=(buoy(0.14, regime="period-1"),), buoy={}),
     "In large waves intervals": depths(0.13, slack_fraction=0.0),
     "In large waves the slack line": world(waves_of_buckle=1.0),
-    "In large waves the largest Lyapunov": depths(
-        0.13, lyapunov_tangent_bits_per_period=0.0, regime="quasi-periodic"
-    ),
+    "In large waves the largest Lyapunov": depths(0.13, lyapunov_tangent_bits_per_period=0.0, regime="quasi-periodic"),
     "In large waves the motion of the buoy is chaotic": depths(0.13, regime="quasi-periodic"),
     "In small waves the exponent": depths(
         0.016, lyapunov_wolf_bits_per_period=0.5, lyapunov_tangent_bits_per_period=0.5

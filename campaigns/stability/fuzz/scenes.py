@@ -223,7 +223,6 @@ def _allowed_together(rng, raw):
         elif not fixed:
             raw["output"] |= {"tangent_vectors": int(rng.integers(0, 4)), "lateral_growth": maybe(rng, 0.5)}
 
-
     regular = not {"jonswap", "components"} & set(raw.get("waves", ()))
     if "water" in raw and "buoy" in raw and regular and "scheme" not in solver and maybe(rng, 0.4):
         raw["buoy"] |= {"submergence": "spherical-cap", "impact_loss": pick(rng, 0.0, 0.5, 1.0)}
