@@ -101,8 +101,11 @@ def scales(scene, modes, small: float, large: float) -> Scales:
     unit_N = (buoy.mass_kg + buoy.added_mass_kg) * modes.radial_radps**2 * buoy.diameter_m
     pushed_kg = water.density_kgpm3 * math.pi / 6.0 * buoy.diameter_m**3 + buoy.added_mass_kg
     rest_m = scene.tether.length_m * (1.0 + modes.static_strain)
-    # largest vertical acceleration of the water at the buoy's place of rest, along r
-    wave_mps2 = large / k * omega**2 * math.sinh(k * rest_m) / math.sinh(k * water.depth_m)
+    # largest vertical acceleration of the water at the buoy's place of rest, along r: A omega^2 sinh kz / sinh kH
+    reach = (
+        math.exp(k * (rest_m - water.depth_m)) * math.expm1(-2.0 * k * rest_m) / math.expm1(-2.0 * k * water.depth_m)
+    )
+    wave_mps2 = large / k * omega**2 * reach
     return Scales(
         small / k,
         2.0 * math.pi / k,
