@@ -8,7 +8,7 @@ from ...parts.statements import Statement
 from ...parts.wording import decimals, number, percent
 from ..measures import EARLY, SETTLED, WINDOW
 from ..results import SMALL, Results
-from .rows import NOT_IN_DOUBT, NOTHING, OPEN, at, by_regime, exponent, good, positive, value
+from .rows import NOT_IN_DOUBT, NOTHING, OPEN, at, by_regime, elsewhere, exponent, good, positive, value
 
 PRINTED_EXTENSION, PRINTED_RADIAL, PRINTED_PENDULUM = 0.04, 1.0, 0.2  # l0, rad/s, rad/s
 PRINTED_DIGIT = 0.05  # they are printed to one digit
@@ -20,7 +20,7 @@ DOMINANT = 0.9  # share of the variance at a few frequencies above which they do
 NEGLIGIBLE = 0.01  # share of the variance below which a coupling is negligible
 DECAYED = 0.5  # what is left after 40 periods, below which a transient decays
 RESONANT = 0.1  # relative distance of a ratio of natural frequencies from 1, 2 or 3
-REGULAR = "period-1"
+REGULAR = "period-"
 
 
 def rest(results: Results) -> Statement:
@@ -81,11 +81,12 @@ def same_trends(results: Results) -> Statement:
 
 
 def always_taut(results: Results) -> Statement:
-    rows, claim = good(results.over_depth(SMALL)), "In small waves the line stays in tension at all times."
+    rows = [(at(row), row) for row in good(results.over_depth(SMALL))] + elsewhere(results, SMALL)
+    claim = "In small waves the line stays in tension at all times."
     least = results.calm.tension_min_N if results.calm else math.nan
     checks = [(f"kA = {number(SMALL)}, the long run", least > 0.0)] if math.isfinite(least) else []
-    checks += [(at(row), value(row, "tension_top_min_N") > 0.0) for row in rows]
-    words = ", ".join(f"{number(value(row, 'tension_top_min_N'), 4)} at {at(row)}" for row in rows)
+    checks += [(where, value(row, "tension_top_min_N") > 0.0) for where, row in rows]
+    words = ", ".join(f"{number(value(row, 'tension_top_min_N'), 4)} at {where}" for where, row in rows)
     found = f"Least top tension, N: {number(least, 4)} over the whole long run; after the transient {words or 'none'}."
     return Statement(claim, found, tuple(checks), "least tension above zero")
 
@@ -100,14 +101,14 @@ def small_excursion(results: Results) -> Statement:
 
 
 def regular(results: Results) -> Statement:
-    rows = good(results.over_depth(SMALL))
-    words = by_regime([(at(row), row) for row in rows])
+    rows = [(at(row), row) for row in good(results.over_depth(SMALL))] + elsewhere(results, SMALL)
+    words = by_regime(rows)
     long = results.buoy.get(SMALL)
     found = f"The long run: {long['regime'] or 'no verdict'}, σ = {exponent(long)} bits/T. " if long else ""
-    checks = [("the long run", long["regime"] == REGULAR)] if long and long["regime"] not in OPEN else []
-    checks += [(at(row), row["regime"] == REGULAR) for row in rows if row["regime"] not in OPEN]
+    checks = [("the long run", long["regime"].startswith(REGULAR))] if long and long["regime"] not in OPEN else []
+    checks += [(where, row["regime"].startswith(REGULAR)) for where, row in rows if row["regime"] not in OPEN]
     claim = "In small waves the motion of the buoy is periodic and regular."
-    return Statement(claim, f"{found}Shorter runs: {words}.", tuple(checks), f"regime period-1; {NOTHING}")
+    return Statement(claim, f"{found}Shorter runs: {words}.", tuple(checks), f"regime period-N; {NOTHING}")
 
 
 def decays(results: Results) -> Statement:
