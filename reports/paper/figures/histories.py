@@ -13,6 +13,7 @@ from ...parts.figure_data import sources_of
 from ...parts.style import GREEN, INK, SKY, SOFT, VERMILION
 from ...parts.symbols import L_0, T_I, T_S
 from ...parts.wording import decimals, number, percent
+from ..snaps import NEAR_ZERO
 from .drawing import Drawing, behind, scaled, value
 
 if TYPE_CHECKING:
@@ -20,7 +21,6 @@ if TYPE_CHECKING:
 
 DETAIL_PERIODS = 10
 _HEIGHT_IN = 3.9
-_NEAR_ZERO = 0.05  # of the static tension: what the paper calls near-zero, in numbers
 
 
 @dataclass(frozen=True)
@@ -52,9 +52,9 @@ def drawing(data: xarray.Dataset) -> Drawing:
 def _tension(data: xarray.Dataset) -> tuple[Side, str, str]:
     static = value(data, "static_tension_N")
     low, high = data["tension_low_over_static"].values, data["tension_high_over_static"].values
-    slack = float(np.mean(data["tension_over_static"].values < _NEAR_ZERO))
+    slack = float(np.mean(data["tension_over_static"].values < NEAR_ZERO))
     seen = f"from {decimals(low.min(), 2)} to {decimals(high.max(), 2)} {T_S}"
-    seen += f", {percent(slack)} of the time below {_NEAR_ZERO} {T_S}" if slack else f", never below {_NEAR_ZERO} {T_S}"
+    seen += f", {percent(slack)} of the time below {NEAR_ZERO} {T_S}" if slack else f", never below {NEAR_ZERO} {T_S}"
     side = Side(
         "tension_over_static",
         r"$T/T_s$ (–)",
