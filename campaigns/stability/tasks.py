@@ -78,8 +78,14 @@ def do(out: Path, maker: str, task: Task) -> tuple[Task, dict]:
         judge = fuzz.judge_valid if task.kind == "valid" else fuzz.judge_invalid
         seed, start, stop = task.what
         result = {"rows": [judge(seed, number) for number in range(start, stop)]}
-    keep_row(out, task.key(), maker, result)
+    if not _crashed(result):  # by the system perhaps, for want of memory: tried again with the next call
+        keep_row(out, task.key(), maker, result)
     return task, result
+
+
+def _crashed(result: dict) -> bool:
+    rows = result.get("rows", [result])
+    return any("crash" in (row.get("run_status"), row.get("outcome")) for row in rows)
 
 
 def run(order) -> tuple[dict[str, float], Summary]:
