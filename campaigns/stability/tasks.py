@@ -111,8 +111,9 @@ def run(order) -> tuple[dict[str, float], Summary]:
     for task, result in _progress(_all(call, missing, order.how.jobs), len(tasks), len(results)):
         results[task.key()] = result
     # alone on the machine, at the end: it takes times
-    cost = kept_row(out, shares.key(), maker) or scene_shares.measured(order.quick)
-    keep_row(out, shares.key(), maker, cost)
+    if (cost := kept_row(out, shares.key(), maker)) is None:
+        cost = scene_shares.measured(order.quick)
+        keep_row(out, shares.key(), maker, cost)
     timing |= {"run_s": time.perf_counter() - start, "analysis_s": 0.0}
     write_json(out / "scene_shares.json", cost)
     write_json(out / "step_maps.json", {task.what: results[task.key()] for task in tasks if task.kind == "map"})

@@ -199,3 +199,15 @@ def test_workers_do_not_see_the_folder(cluster, place):
 
     with Client(cluster.address) as client:
         assert set(map(tuple, client.run(os.listdir, str(place)).values())) == {()}
+
+
+def test_a_stopped_worker_keeps_nobody_from_starting(cluster, place):
+    """dask asks every worker what it is, and waits for one that is stopped for as long as it is."""
+    cluster.workers[0].send_signal(signal.SIGSTOP)
+    process = start_sweep(place / "out", "--steepness", *VALUES, *at(cluster))
+    try:
+        until(lambda: len(finished(place / "out")) >= 2, process)
+    finally:
+        cluster.workers[0].send_signal(signal.SIGCONT)
+    done(process)
+    assert [row["status"] for row in rows_of(place / "out")] == ["ok"] * len(VALUES)
