@@ -58,7 +58,7 @@ def client(jobs: int, address: str | None) -> Iterator:
         stack.enter_context(_quiet())
         try:
             found = stack.enter_context(Client(address, timeout=JOIN_S))
-        except (OSError, TimeoutError, ValueError) as error:
+        except (OSError, TimeoutError, TypeError, ValueError) as error:  # TypeError: tls:// without certificates
             raise CampaignStopped(f"no dask cluster at {address}: {first_line(error)}") from error
         try:
             found.wait_for_workers(1, timeout=JOIN_S)
