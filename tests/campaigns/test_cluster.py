@@ -112,7 +112,8 @@ def test_a_run_that_kills_every_worker_stops_the_campaign_and_new_workers_finish
     monkeypatch.setattr("campaigns.machinery.cluster.GONE_S", 1.0)
     monkeypatch.setattr("campaigns.machinery.cluster._LOOK_S", 0.2)
     words = ["--steepness", *VALUES, "--periods", "6", "--transient", "2", "--no-report", "--no-accuracy", *at(cluster)]
-    assert buoy_sweep.main([*words, "--out", str(place / "out")], simulate=FakeEngine(dies=(0.04,))) == 1
+    deadly = FakeEngine(dies=(0.04,), sleep_s=0.3)  # time for the runs before it to be handed over
+    assert buoy_sweep.main([*words, "--out", str(place / "out")], simulate=deadly) == 1
     error = capfd.readouterr().err
     assert "has had no worker for 1 s" in error and "run the same command again" in error and "Traceback" not in error
     kept = finished(place / "out")
