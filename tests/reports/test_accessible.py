@@ -102,4 +102,4 @@ def test_moving_pictures_are_hidden_from_those_who_asked_for_less_motion(tmp_pat
         chromium.open(tmp_path / "report.html")
         shown = chromium.value("document.querySelector('.moving').getBoundingClientRect().height > 0")
         assert shown is not still
-        assert chromium.value("document.querySelector('figure > img').getBoundingClientRect().height > 0")
+        assert chromium.value("document.querySelector('figure > .wide > img').getBoundingClientRect().height > 0")
