@@ -61,9 +61,10 @@ def _short_answer(study: Study, works: list[str]) -> tuple[str, ...]:
 def _protocol(study: Study) -> str:
     machine = study.folder.provenance.get("machine") or {}
     where = f" on {machine.get('processor')}, {machine.get('cores')} cores," if machine else ""
-    rounds = study.folder.provenance.get("rounds")
+    found = study.folder.provenance.get("rounds")
+    rounds = count(found, "round") if isinstance(found, int) else "rounds"
     return (
-        f"Timed one run at a time{where} settings in turns, {count(rounds, 'round') if isinstance(rounds, int) else 'rounds'}, each with another tolerance or step "
+        f"Timed one run at a time{where} settings in turns, {rounds}, each with another tolerance or step "
         "(0.9 to 1.1 times the one named), because near a snap the error of a loose setting is partly luck; medians "
         "are shown. Time is that of stepping alone: no compilation, statics, input or output of files."
     )

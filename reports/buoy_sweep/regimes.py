@@ -9,6 +9,7 @@ import numpy as np
 from ..figures.exponents import convergence
 from ..parts.content import Column, Figure, Heading, Item, Table, Text
 from ..parts.folder import Folder
+from ..parts.symbols import T_I
 from ..parts.wording import EMPTY, decimals, number
 from .motion import verdict_of
 from .runs import PAPER_STEEPNESS, Run, linked, load, value
@@ -71,7 +72,7 @@ def regime_items(folder: Folder, runs: tuple[Run, ...], transient: int) -> list[
 
 
 def _table(runs: list[Run], transient: int) -> Table:
-    sigmas = (Column(f"σ, {label}", "bits/T") for label, *_ in EXPONENTS)
+    sigmas = (Column(f"σ, {label}", f"bits/{T_I}") for label, *_ in EXPONENTS)
     heads = (Column("kA"), Column("regime", align="left"), *sigmas)
     rows = tuple(
         (linked(run), run.row["regime"], *(_with_error(run, *names) for _, *names in EXPONENTS)) for run in runs
@@ -97,7 +98,7 @@ def _why(run: Run, verdict) -> list[Item]:
         (item.name, _short(item.value), _short(item.threshold), words[item.passed], item.sentence)
         for item in verdict.evidence
     )
-    caption = f"Evidence at kA = {number(run.steepness)}, in the order of the tests. {verdict.reason}."
+    caption = f"Evidence at kA = {number(run.steepness)}, in the order of the tests: {verdict.reason}."
     return [
         Heading(f"Why kA = {number(run.steepness)} is called {verdict.regime}", 2),
         Table(heads, rows, caption, small=True),

@@ -84,7 +84,7 @@ def _spectrum(omega: np.ndarray, amplitude: np.ndarray, marks) -> str:
 
 def _exponent(periods: np.ndarray, bits: np.ndarray) -> str:
     if len(bits) < 2:  # a run may end with its transient, or one period after it
-        return _nothing(2, "no exponent: nothing was carried past the transient")
+        return _nothing(2, "no exponent after the transient")
     settled = bits[len(bits) // 10 :]
     low, high = _limits(np.minimum(settled, 0.0), np.maximum(settled, 0.0), 0.02)
     frame = _Frame(2, 2, (float(periods[0]), float(periods[-1])), (low, high))

@@ -57,7 +57,7 @@ def tether_stills(snap: Snap, rows: np.ndarray) -> Picture:
             axes = grid[letter]
             _Scene(axes, snap).show(int(row))
             axes.set_title(f"({letter}) {snap.periods[row]:.2f}")
-            axes.locator_params(axis="x", nbins=3)
+            axes.locator_params(axis="x", nbins=2, integer=True, min_n_ticks=2)
             if letter != "a":
                 axes.set_ylabel("")
                 axes.tick_params(labelleft=False)

@@ -10,6 +10,7 @@ import numpy as np
 from ..buoy_sweep.runs import strobed
 from ..figures.section_pairs import section_pairs
 from ..parts.content import Bullets, Column, Figure, Heading, Item, Table, Text
+from ..parts.symbols import T_I
 from ..parts.wording import EMPTY, count, decimals, listed, number, percent
 from .runs import Run, Study
 
@@ -168,8 +169,8 @@ def _table(pairs: list[Pair]) -> Table:
         Column("r max", "m"),
         Column("T max", "N"),
         Column("slack", "–"),
-        Column("σ, Wolf", "bits/T"),
-        Column("σ, tangent", "bits/T"),
+        Column("σ, Wolf", f"bits/{T_I}"),
+        Column("σ, tangent", f"bits/{T_I}"),
         Column("regime", align="left"),
         Column("section: across"),
         Column("within"),

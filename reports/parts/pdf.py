@@ -170,7 +170,7 @@ def _table(item: Table) -> str:
     aligns = ", ".join(column.align for column in item.columns)
     header = ", ".join(
         f'[#text(weight: "bold", {_inline(column.title)})'
-        + (f" \\ #text({quote(column.unit)})" if column.unit else "")
+        + (f" \\ #{{ {_inline(column.unit)} }}" if column.unit else "")
         + "]"
         for column in item.columns
     )

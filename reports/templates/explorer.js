@@ -69,6 +69,22 @@
     pen.restore();
   }
 
+  // a run without points is there to be chosen too
+  function drawCross(pen, x, colour) {
+    const y = floor() - 8;
+    pen.strokeStyle = colour;
+    pen.lineWidth = 1.5;
+    pen.beginPath();
+    for (const slope of [-1, 1]) {
+      pen.moveTo(x - 4, y - 4 * slope);
+      pen.lineTo(x + 4, y + 4 * slope);
+    }
+    pen.globalAlpha = 1;
+    pen.stroke();
+    pen.globalAlpha = 0.55;
+    pen.lineWidth = 1;
+  }
+
   function drawPoints(pen, colours) {
     const share = (data.high - data.low) / 65535;
     const gap = least / (view.x1 - view.x0) * (width() - LEFT - RIGHT);
@@ -79,6 +95,7 @@
       const x = across(column.at);
       if (x < LEFT - 8 || x > width() + 8) return;
       if (index === chosen) pen.fillStyle = colours.mark;
+      if (!column.points) drawCross(pen, x, index === chosen ? colours.mark : colours.soft);
       for (const step of column.steps) {
         pen.fillRect(x - half, down(data.low + step * share) - 0.75, 2 * half, 1.5);
       }
