@@ -10,7 +10,7 @@ from ..figures.exponents import convergence
 from ..parts.content import Column, Figure, Heading, Item, Table, Text
 from ..parts.folder import Folder
 from ..parts.symbols import T_I
-from ..parts.wording import EMPTY, decimals, number
+from ..parts.wording import EMPTY, decimals, number, printed
 from .motion import verdict_of
 from .runs import PAPER_STEEPNESS, Run, linked, load, value
 
@@ -95,10 +95,10 @@ def _why(run: Run, verdict) -> list[Item]:
     heads = (Column("test", **left), *numbers, Column("what it says", **left))
     words = {True: "yes", False: "no", None: EMPTY}
     rows = tuple(
-        (item.name, _short(item.value), _short(item.threshold), words[item.passed], item.sentence)
+        (item.name, _short(item.value), _short(item.threshold), words[item.passed], printed(item.sentence))
         for item in verdict.evidence
     )
-    caption = f"Evidence at kA = {number(run.steepness)}, in the order of the tests: {verdict.reason}."
+    caption = f"Evidence at kA = {number(run.steepness)}, in the order of the tests: {printed(verdict.reason)}."
     return [
         Heading(f"Why kA = {number(run.steepness)} is called {verdict.regime}", 2),
         Table(heads, rows, caption, small=True),
