@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from textwrap import shorten
-
 import numpy as np
 
 from ..parts.content import Picture
@@ -25,7 +23,8 @@ def record_and_spectrum(
         upper, lower = figure.subplots(2, 1)
         upper.plot(time[-SHOWN:], values[-SHOWN:], color=INK, linewidth=0.6)
         upper.set_xlabel(f"time ({unit})")
-        upper.set_ylabel(shorten(column, _LONGEST_NAME, placeholder="…"), parse_math=False)
+        shown = column if len(column) <= _LONGEST_NAME else column[: _LONGEST_NAME - 1] + "…"
+        upper.set_ylabel(shown, parse_math=False)
         moving = amplitude[1:]
         lower.semilogy(frequency[1:], np.maximum(moving, 1e-6 * moving.max(initial=1e-300)), color=BLUE, linewidth=0.7)
         lower.set_xlabel(f"angular frequency (rad/{unit})")

@@ -71,9 +71,9 @@ def _figures(judged: Judged) -> list[Item]:
         Heading("What was seen"),
         Figure(
             record_and_spectrum(time, values, frequency, amplitude, (unit, judged.provenance["column"])),
-            f"The record and its amplitude spectrum. Above: the last {min(SHOWN, len(time))} samples (`series.csv`). Below: amplitude of eq. (31) over the "
-            "later half (`spectrum.csv`): lines alone for a regular motion, a continuous floor for chaos and for "
-            "noise.",
+            f"The record and its amplitude spectrum. Above: the last {min(SHOWN, len(time))} samples (`series.csv`). "
+            "Below: amplitude of eq. (31) over the later half (`spectrum.csv`): lines alone for a regular motion, a "
+            "continuous floor for chaos and for noise.",
             "Two panels: the record over time, and its amplitude spectrum on a logarithmic scale.",
         ),
         Figure(
@@ -84,9 +84,9 @@ def _figures(judged: Judged) -> list[Item]:
         ),
         Figure(
             growth_and_dimension([("Rosenstein", steps, rosenstein), ("Kantz", steps, kantz)], slopes, unit),
-            "Growth of small distances, and the dimension. Left: mean logarithm of the distance of neighbours (`divergence.csv`); its straight part is the exponent. "
-            "Right: slope of the correlation sum (`dimension.csv`); where the curves run level together, it is the "
-            "dimension.",
+            "Growth of small distances, and the dimension. Left: mean logarithm of the distance of neighbours "
+            "(`divergence.csv`); its straight part is the exponent. Right: slope of the correlation sum "
+            "(`dimension.csv`); where the curves run level together, it is the dimension.",
             "Two panels: growth of the distance between neighbours, and local slopes of the correlation sum.",
         ),
     ]
