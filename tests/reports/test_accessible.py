@@ -139,6 +139,20 @@ def test_axe_would_have_found_something(built, axe, tmp_path):
     assert {line.partition(":")[0] for line in violations(spoilt, axe)} >= {"image-alt", "color-contrast"}
 
 
+@needs_browser
+@pytest.mark.slow
+def test_on_paper_captions_are_smaller_than_text_and_nothing_moves(every_kind):
+    with Chromium() as chromium:
+        chromium.open(every_kind)
+        chromium.call("Emulation.setEmulatedMedia", media="print")
+        sizes = chromium.value(
+            "['main > p:not(.subtitle)', 'figcaption', 'caption']"
+            ".map((one) => parseFloat(getComputedStyle(document.querySelector(one)).fontSize))"
+        )
+        assert max(sizes[1:]) < sizes[0] == pytest.approx(10.0 / 0.75)
+        assert chromium.value("document.querySelector('.moving').getBoundingClientRect().height") == 0
+
+
 def test_headings_go_down_one_level_at_a_time_and_there_is_one_title(page):
     levels = [HEADINGS[tag] for tag, _ in page.tags if tag in HEADINGS]
     assert levels[0] == 1 and levels.count(1) == 1
