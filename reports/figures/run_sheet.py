@@ -60,7 +60,7 @@ def run_sheet(glance: Glance, label: str, bins: int) -> str:
 
 def _section(points: np.ndarray) -> str:
     if not len(points):
-        return _nothing(0, "no section: the record ends within the transient")
+        return _nothing(0, "no section: no time after the transient")
     r, rate = points.T
     # no narrower than 0.1 m and 0.1 m/s: a settled orbit looks like the points it is
     frame = _Frame(2, 0, _limits(r, r, 0.1), _limits(rate, rate, 0.1))
