@@ -76,7 +76,7 @@ def test_wheel_keys_buttons_and_drags_change_the_view_and_all_brings_it_back(bro
 def test_a_run_without_points_is_seen_too(browser):
     """Of the eight runs, those at kA = 0.12 and 0.16 failed: there, and only there, the lower edge has a cross.
 
-    The lowest point of all stands a twenty-fifth of the panel above the edge, the arms of a cross end 4 pixels above it.
+    The lowest point of all stands a twenty-fifth of the panel above the edge, the arms of a cross end 4 pixels above.
     """
     browser.value("document.querySelector('#explorer button[value=whole]').click()")
     marked = browser.value("""(() => {
