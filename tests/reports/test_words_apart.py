@@ -62,6 +62,7 @@ def snap(way_m: float) -> Snap:
     return Snap(periods, x, z, np.ones_like(x), 1.5, (across, np.full((60, 20), 21.0)), (periods, pull))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("way_m", [0.1, 3.0, 9.0])
 def test_the_tether_at_six_moments_however_far_it_swings(drawn, way_m):
     one = snap(way_m)
