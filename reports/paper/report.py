@@ -167,8 +167,8 @@ def _statements(placed: tuple[Placed, ...]) -> list[Item]:
         Heading("The statements of the paper"),
         Text(
             "Claims are in our words. A verdict follows from checks at each place where it was looked: it “holds” "
-            "where all pass, “does not hold” where none does, and otherwise “holds if”, with the places. Numbers are "
-            "of the runs in this folder; `statements.csv` has the same rows."
+            "where all pass, “does not hold” where none does, and otherwise “holds if”, with the places; a dash: "
+            "the runs in this folder do not decide it. Numbers are of these runs; `statements.csv` has the same rows."
         ),
     ]
     for heading, places in TOPICS.items():
@@ -202,7 +202,13 @@ def _table(placed: list[Placed], heading: str) -> Table:
     )
     verdicts = listed(
         f"{sum(one.statement.verdict == word for one in placed)} {said}"
-        for word, said in ((HOLDS, "hold"), (HOLDS_IF, "hold under a condition"), (FAILS, "do not hold"))
+        for word, said in (
+            (HOLDS, "hold"),
+            (HOLDS_IF, "hold under a condition"),
+            (FAILS, "do not hold"),
+            (EMPTY, "are not decided"),
+        )
+        if word != EMPTY or any(one.statement.verdict == EMPTY for one in placed)
     )
     caption = f"{heading}: {verdicts}. From the tables of the parts, by `statements.csv`."
     return Table(heads, rows, caption, small=True)

@@ -64,7 +64,7 @@ def positive_exponent(results: Results) -> Statement:
     if long is not None and exponent(long) != "none":
         where = f"H = {number(results.depth())} m"
         checks = sorted([*checks, (where, positive(long))], key=lambda check: check[0])
-        found = f"The long run at {where}: σ = {exponent(long)} bits/T. "
+        found = f"The long run at {where}: σ = {exponent(long)} bits per period. "
     return Statement(
         "In large waves the largest Lyapunov exponent is positive.",
         f"{found}Shorter runs: {', '.join(words) or 'none'}.",
