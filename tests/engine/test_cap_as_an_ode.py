@@ -16,11 +16,11 @@ DEPTH, LENGTH, EA, DURATION_S = 21.0, 10.0, 3636.0, 8.0
 THROWN = [0.5, 0.0, 6.0]
 
 
-def scene_of(**waves):
+def scene_of(rtol, **waves):
     given = {"period_s": 5.0, "steepness": 0.16} | waves
     return afloat(
         {"water.depth_m": DEPTH, "waves": given, "buoy.mass_kg": 500.0, "buoy.drag": 0.2, "buoy.impact_loss": 0.3,
-         "tether.added_mass": 0.0, "start.buoy_velocity_mps": THROWN, "solver.rtol": 1e-5},
+         "tether.added_mass": 0.0, "start.buoy_velocity_mps": THROWN, "solver.rtol": rtol},
         depth_m=DEPTH, length_m=LENGTH, area_m2=1e-9, density_kgpm3=1000.0, bending_stiffness_Nm2=1e-6,
         **{"tension.stiffness_N": EA},
     )  # fmt: skip
@@ -61,12 +61,14 @@ def ode(scene):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("above", ["extrapolate", "zero", "wheeler"])
-def test_the_run_is_the_solution_of_the_ode(above):
-    """To 3 mm, over eight seconds of leaps; "zero" jumps at still water, which costs steps of any method accuracy."""
-    scene = scene_of(above_still_water=above)
+@pytest.mark.parametrize(
+    "above, rtol, error_m", [("extrapolate", 1e-5, 4e-3), ("wheeler", 1e-5, 4e-3), ("zero", 1e-4, 6e-2)]
+)
+def test_the_run_is_the_solution_of_the_ode(above, rtol, error_m):
+    """Over eight seconds of leaps. The water of "zero" jumps at still water: a tighter tolerance takes 60000 steps."""
+    scene = scene_of(rtol, above_still_water=above)
     run = simulate(scene, duration_s=DURATION_S)
     exact = ode(scene)
-    assert run.status == "ok" and exact[:, 2].max() > DEPTH + 0.75 + 1.0 and exact[:, 2].min() < DEPTH - 1.5
+    assert run.status == "ok" and exact[:, 2].max() > DEPTH + 2.0 and exact[:, 2].min() < DEPTH - 1.5
     places = run.table()[["x_m", "y_m", "z_m"]].to_numpy()
-    assert np.abs(places - exact).max() < (3e-2 if above == "zero" else 3e-3)
+    assert np.abs(places - exact).max() < error_m
