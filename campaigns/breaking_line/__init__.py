@@ -103,8 +103,8 @@ def planned(name: str, changes: dict, cases: list[str], companions: bool, faults
     try:
         plain = {case: _scene(name, changes, case, {}) for case in cases}
         odd = [line for case, scene in plain.items() for line in (*doubts(scene), *endless(scene, LENGTHS_S[case[0]]))]
-        if odd:  # what theory says of such a line takes long, or is none
-            faults.extend(dict.fromkeys(odd))
+        faults.extend(dict.fromkeys(odd))
+        if faults:  # theory takes seconds, and of an odd line long, for an order that is refused
             return ()
         runs += [Run(case, "case", scene, LENGTHS_S[case[0]]) for case, scene in plain.items()]
         if not companions:

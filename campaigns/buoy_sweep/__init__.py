@@ -142,9 +142,7 @@ def _growths(scene, changes: dict) -> dict:
     return extra
 
 
-def _scenes(
-    name: str, changes: dict, steepness: list[float], periods: int, analysed: bool, faults: list[str]
-) -> dict:
+def _scenes(name: str, changes: dict, steepness: list[float], periods: int, analysed: bool, faults: list[str]) -> dict:
     from campaigns.machinery.plausible import doubts, endless, irregular, waveless
     from engine import SceneError, load_scene
 
