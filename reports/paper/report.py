@@ -16,6 +16,7 @@ from .index import index_items
 from .misprints import misprint_items
 from .results import Results, read_results
 from .statements import Placed, judged
+from .statements.closing import NOT_JUDGED
 
 __all__ = ["beside", "report"]
 
@@ -174,7 +175,9 @@ def _statements(placed: tuple[Placed, ...]) -> list[Item]:
         some = [one for one in placed if one.place.startswith(places)]
         if some:
             items += [Heading(heading, 2), _table(some, heading)]
-    return items
+    heads = tuple(Column(title, align="left") for title in ("place", "the paper", "why"))
+    caption = "What the paper says and no run here can judge: background, analogies, other papers."
+    return [*items, Heading("Not judged", 2), Table(heads, NOT_JUDGED, caption, small=True)]
 
 
 def _table(placed: list[Placed], heading: str) -> Table:

@@ -3,6 +3,7 @@
 import pytest
 
 from campaigns import buoy_sweep
+from campaigns.machinery.folder import CampaignStopped
 from tests.campaigns.conftest import USUAL, finished
 from tests.campaigns.fake_engine import FakeEngine
 
@@ -40,6 +41,7 @@ def test_rows_come_in_the_order_asked_for(sweep):
     assert [row["steepness"] for row in sweep("--steepness", *backwards)[1]] == list(backwards)
 
 
+@pytest.mark.slow
 def test_local_dask_cluster_equals_threads(sweep):
     pytest.importorskip("distributed")
     rows = sweep("--steepness", *VALUES)[1]
@@ -48,6 +50,7 @@ def test_local_dask_cluster_equals_threads(sweep):
     assert sweep("--steepness", *VALUES, backend="dask")[:2] == (0, rows)
 
 
+@pytest.mark.slow
 def test_dask_worker_that_dies_is_a_row(sweep):
     pytest.importorskip("distributed")
     code, rows, begun = sweep("--steepness", *VALUES, backend="dask", dies=(0.05,))
@@ -74,3 +77,12 @@ def test_dask_scheduler_that_is_not_there_is_one_line(sweep, capfd, monkeypatch)
     assert (code, rows) == (1, [])
     assert "no dask cluster at tcp://127.0.0.1:1" in error
     assert "Traceback" not in error
+
+
+def test_dask_scheduler_that_wants_certificates_is_one_line_without_them():
+    pytest.importorskip("distributed")
+    from campaigns.machinery.cluster import client
+
+    address = "tls://127.0.0.1:1"
+    with pytest.raises(CampaignStopped, match=f"no dask cluster at {address}: TLS expects"), client(1, address):
+        pass

@@ -86,6 +86,7 @@ def test_a_link_is_a_mark_of_its_own_and_plain_text_without_it():
         ("From `a: b` on; then", "From `a: b` on"),
         ("Runs in space (D = 3; see fig. 2). loops: of each", "Runs in space (D = 3; see fig. 2)"),
         ("By Wolf et al. against t. From", "By Wolf et al. against t"),
+        ("Fig. 9 of the paper, tension (line). From", "Fig. 9 of the paper, tension (line)"),
         ("One", "One"),
     ],
 )
