@@ -22,7 +22,7 @@ from pathlib import Path
 
 from campaigns.machinery import cli, provenance
 from campaigns.machinery.folder import CampaignStopped, Table, trajectory_path
-from campaigns.machinery.row_store import made_by
+from campaigns.machinery.row_store import made_by, of_the_page
 from campaigns.machinery.runner import Summary
 from campaigns.paper import PARTS, Order, dependence
 
@@ -43,7 +43,6 @@ SOURCES = (
     "engine",
     *(f"campaigns/{name}" for name in ("machinery", "buoy_sweep", "breaking_line", "oscillator", "out_of_plane")),
     *(f"reports/{name}" for name in ("parts", "figures", "buoy_sweep", "breaking_line", "oscillator", "out_of_plane")),
-    "reports/templates/report.html.jinja",
     "campaigns/paper/dependence.py",
 )
 _TIMES = ("compile_s", "run_s")
@@ -119,7 +118,7 @@ def read_rows(out: Path) -> list[dict[str, str]]:
 
 def _key(part: str, order: Order) -> str:
     told = dependence.parameters(order.quick) if part == "dependence" else CAMPAIGNS[part].chosen(order)
-    content = json.dumps([part, told, made_by({}, *SOURCES)])
+    content = json.dumps([part, told, made_by({}, *SOURCES, *of_the_page())])
     return hashlib.sha256(content.encode()).hexdigest()
 
 

@@ -50,10 +50,10 @@ def report(directory: str | Path) -> Report:
     placed = judged(results)
     items = [
         *_question(folder, results, placed),
-        *_parts(folder, results),
+        *_parts(folder),
         *_figures(folder.directory),
         *_statements(placed),
-        *dependence_items(results),
+        *dependence_items(results, folder.scene),
         *misprint_items(),
         *index_items(),
         *provenance_items(folder),
@@ -106,7 +106,7 @@ def _quoted(one: Placed) -> str:
     return f"“{one.statement.claim.rstrip('.')}” (no. {one.number}; {one.place})"
 
 
-def _parts(folder: Folder, results: Results) -> list[Item]:
+def _parts(folder: Folder) -> list[Item]:
     heads = (
         Column("part", align="left"),
         Column("what", align="left"),

@@ -14,6 +14,7 @@ from ..breaking_line.runs import WORDS as LINE_WORDS
 from ..breaking_line.runs import Line, read_lines
 from ..buoy_sweep.physics import Modes, natural_frequencies
 from ..buoy_sweep.runs import COLUMNS as BUOY_COLUMNS
+from ..buoy_sweep.runs import PAPER_STEEPNESS
 from ..oscillator.folder import read_study as read_oscillator
 from ..out_of_plane.runs import COLUMNS as PLANE_COLUMNS
 from ..out_of_plane.runs import WORDS as PLANE_WORDS
@@ -21,7 +22,7 @@ from ..out_of_plane.runs import read_study as read_plane
 from ..parts.folder import Folder, FolderError, read_folder
 from .measures import Calm, Violent, buckling_waves, calm_measures, violent_measures
 
-SMALL, LARGE = 0.016, 0.13  # section 4.2.1 and 4.2.2
+SMALL, LARGE = PAPER_STEEPNESS  # section 4.2.1 and 4.2.2
 TREATED = ("above_still_water", "submergence")
 JUDGED = (
     "regime_tighter",
@@ -117,11 +118,15 @@ def _buoy(folder: Path) -> dict:
     rows = {float(row["steepness"]): row for row in study.table.to_dict("records")}
     modes = natural_frequencies(study.scene)
     found = {"buoy": rows, "modes": modes, "rest_length_m": study.scene.tether.length_m, "accuracy": _again(study)}
-    for name, steepness, measure in (("calm", SMALL, calm_measures), ("violent", LARGE, violent_measures)):
-        row = rows.get(steepness)
-        if row is not None and row["status"] == "ok":
-            trajectory = Trajectory.load(study.trajectory_path(row["run_key"]))
-            found[name] = measure(trajectory, modes, int(study.provenance.get("transient") or 0))
+    runs = {
+        steepness: Trajectory.load(study.trajectory_path(row["run_key"]))
+        for steepness, row in rows.items()
+        if steepness in PAPER_STEEPNESS and row["status"] == "ok"
+    }
+    if SMALL in runs:
+        found["calm"] = calm_measures(runs[SMALL], modes)
+    if LARGE in runs:
+        found["violent"] = violent_measures(runs[LARGE], int(study.provenance.get("transient") or 0))
     return found
 
 

@@ -143,7 +143,7 @@ def world(**changed) -> Results:
         sweep=tuple(buoy(kA) for kA in (0.05, 0.13, 0.14)),
         dependence=rows,
         calm=Calm(20.8, 0.5, 1000.0, 1.0, 0.19, 0.2, 0.2, 0.99, 0.99, 1e-3, 1e-3, 0.2, 0.4),
-        violent=Violent(-100.0, 9000.0, 0.1, 1.0, 0.1, 1.0, 0.5, 1.99, 0.01),
+        violent=Violent(0.1, 1.0, 0.1, 1.0, 0.5, 1.99, 0.01),
         oscillator=Oscillator(),
         plane=Study(None, runs, {"steepness": 0.13}, 50),
         waves_of_buckle=9.0,

@@ -8,8 +8,8 @@ from ...out_of_plane.verdict import COMPARABLE, calm_runs, large_runs
 from ...parts.statements import Statement
 from ...parts.wording import count, decimals, number, percent
 from ..results import Results
+from .rows import NOT_IN_DOUBT
 
-NOT_IN_DOUBT = 2.0  # standard errors
 VISIBLE_M = 0.1  # lateral distance from which a motion of the rope is three-dimensional
 
 
@@ -105,7 +105,7 @@ def spatial(results: Results) -> Statement:
     return Statement(claim, f"Largest lateral distance of the rope: {words}.", checks, f"{number(VISIBLE_M)} m or more")
 
 
-PUSHES = "seven decades of push, four directions, five depths, three stiffnesses, three grids (report out of the plane)"
+PUSHES = "size and direction of the push, depth, stiffness and grid varied (report out of the plane)"
 STATEMENTS = (
     ("4.2.2, eq. (33), fig. 19b", strange, "exact motion, closed form in each piece; λ1 + λ2 = −μ (report on eq. 33)"),
     ("4.2, 4.2.2", planar, "exact symmetry of the scheme"),
