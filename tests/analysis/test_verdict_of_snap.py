@@ -16,7 +16,8 @@ def _verdict(number, periods=400, **given):
     return regime(motion.displacement, SNAP.period / SAMPLES, SNAP.period, seed=number, **given)
 
 
-@pytest.mark.parametrize("number", [pytest.param(0, marks=pytest.mark.slow), 1])
+@pytest.mark.slow
+@pytest.mark.parametrize("number", [0, 1])
 def test_the_displacement_alone_shows_chaos(number):
     verdict = _verdict(number)
     assert verdict.regime == "chaotic", verdict.reason

@@ -40,6 +40,7 @@ def test_rows_come_in_the_order_asked_for(sweep):
     assert [row["steepness"] for row in sweep("--steepness", *backwards)[1]] == list(backwards)
 
 
+@pytest.mark.slow
 def test_local_dask_cluster_equals_threads(sweep):
     pytest.importorskip("distributed")
     rows = sweep("--steepness", *VALUES)[1]
@@ -48,6 +49,7 @@ def test_local_dask_cluster_equals_threads(sweep):
     assert sweep("--steepness", *VALUES, backend="dask")[:2] == (0, rows)
 
 
+@pytest.mark.slow
 def test_dask_worker_that_dies_is_a_row(sweep):
     pytest.importorskip("distributed")
     code, rows, begun = sweep("--steepness", *VALUES, backend="dask", dies=(0.05,))

@@ -18,6 +18,7 @@ from engine.scene import build_scene
 SEED = 20240
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("number", range(30))
 def test_a_valid_scene_is_answered(number):
     row = fuzz.judge_valid(SEED, number)

@@ -42,7 +42,9 @@ def test_kill_9_of_the_campaign(tmp_path):
     check_and_complete(out, log)
 
 
-@pytest.mark.parametrize("backend", ["loky", "threading", "dask"])
+@pytest.mark.parametrize(
+    "backend", ["loky", pytest.param("threading", marks=pytest.mark.slow), pytest.param("dask", marks=pytest.mark.slow)]
+)
 def test_interrupt(tmp_path, backend):
     if backend == "dask":
         pytest.importorskip("distributed")

@@ -32,6 +32,7 @@ def test_smooth_waves_are_of_order_two(case):
     assert np.all(found > 1.9) and errors[0] < 4e-6
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("case", ["1", "2"])
 def test_steep_edges_cost_half_an_order(case):
     found, errors = orders(case, GRIDS[1:])

@@ -97,6 +97,7 @@ def test_verdicts_follow_the_table(study, copy):
     assert verdicts(copy)[SPEED] == "–"
 
 
+@pytest.mark.slow
 def test_what_limits_the_runs_is_said(copy):
     with open(copy / "table.csv", newline="") as file:
         key = next(row["run_key"] for row in csv.DictReader(file) if row["case"] == "4")
@@ -123,6 +124,7 @@ def test_without_profiles_energies_or_theory_a_report_is_made(tmp_path):
     assert "Fronts and shocks" not in text and "fig. 2" not in text
 
 
+@pytest.mark.slow
 def test_the_same_folder_gives_the_same_bytes(study, built):
     first = [path.read_bytes() for path in built]
     assert first == [path.read_bytes() for path in build(study)]

@@ -16,6 +16,7 @@ def study(tmp_path_factory):
     return out
 
 
+@pytest.mark.slow
 def test_same_folder_same_bytes(study):
     first = [path.read_bytes() for path in build(study)]
     assert [path.read_bytes() for path in build(study)] == first

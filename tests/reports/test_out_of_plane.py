@@ -38,18 +38,21 @@ def test_bursts_of_the_rope_over_a_quiet_buoy_do_not_bear_the_paper_out(study):
     assert "fig. 20" in text
 
 
+@pytest.mark.slow
 def test_growth_to_the_size_of_the_motion_in_the_plane_does(tmp_path):
     text = text_of(made(tmp_path / "out", large="growth"))
     assert "“grows exponentially” is borne out" in text
     assert ") is borne out for the buoy" in text and ") is borne out for the rope" in text
 
 
+@pytest.mark.slow
 def test_decay_everywhere_is_said(tmp_path):
     text = text_of(made(tmp_path / "out", large="decay"))
     assert "is not borne out for the buoy" in text
     assert "bits per wave period (fitted over periods" in text
 
 
+@pytest.mark.slow
 def test_same_folder_same_bytes(study):
     first = [path.read_bytes() for path in build(study)]
     assert [path.read_bytes() for path in build(study)] == first
@@ -69,6 +72,7 @@ def test_what_failed_or_is_lost_is_said_and_the_rest_is_shown(tmp_path):
     assert "Runs without a trajectory" in text and "cannot be drawn" in text
 
 
+@pytest.mark.slow
 def test_a_base_that_failed_leaves_a_report(tmp_path):
     text = text_of(made(tmp_path / "out", failing=(21.0, 21.6, 22.0)))
     assert "Runs that failed" in text and "No planar run released loops" in text

@@ -7,6 +7,7 @@ import sys
 from pathlib import Path
 
 import matplotlib
+import pytest
 
 from reports import build
 
@@ -21,6 +22,7 @@ def test_a_copy_elsewhere_in_another_process_gives_the_same_bytes(folder, built,
         assert (copy / path.name).read_bytes() == path.read_bytes()
 
 
+@pytest.mark.slow
 def test_the_reader_s_own_figure_settings_do_not_count_and_stay(folder, built):
     before = [path.read_bytes() for path in built]
     with matplotlib.rc_context({"lines.linewidth": 7.0, "svg.fonttype": "none", "font.size": 20.0}):

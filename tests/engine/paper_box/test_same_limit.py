@@ -32,6 +32,7 @@ def boxed(nodes, step_s, accelerations):
     return path(run(scene, LENGTH_S, accelerations=accelerations))
 
 
+@pytest.mark.slow
 def test_the_difference_from_the_conservation_form_falls_at_order_two(limit):
     errors = np.array(
         [np.abs(boxed(*grid, True) - limit).max(1) for grid in ((6, 0.1), (11, 0.05), (21, 0.025), (41, 0.0125))]

@@ -19,9 +19,10 @@ ENDINGS = {
         "divides by it",
     ),
 }
+SLOW = ("smaller steps", "a law that divides by zero in slack")
 
 
-@pytest.mark.parametrize("case", ENDINGS)
+@pytest.mark.parametrize("case", [pytest.param(name, marks=[pytest.mark.slow] * (name in SLOW)) for name in ENDINGS])
 def test_each_ending_is_named(case):
     overrides, status, words = ENDINGS[case]
     scene = load_scene("tethered_buoy", {**SNAP, **overrides})
@@ -35,6 +36,7 @@ def test_each_ending_is_named(case):
     assert len(table) == math.floor(end / 0.05 + 1e-9) + 1
 
 
+@pytest.mark.slow
 def test_turns_that_the_nodes_do_not_resolve():
     """With the other guard away the turns reach the bound next; both numbers are in the statistics."""
     scene = load_scene("tethered_buoy", {**SNAP, "tether.nodes": 21, "solver.step_s": 0.005})
@@ -44,6 +46,7 @@ def test_turns_that_the_nodes_do_not_resolve():
     assert f"{found.statistics['max_turn_rad']:.3g} rad" in found.message
 
 
+@pytest.mark.slow
 def test_taut_motion_leaves_the_guards_far_away():
     scene = load_scene("tethered_buoy", {**SNAP, "waves.steepness": 0.016, "tether.nodes": 11})
     found = simulate(scene, duration_s=5.0)

@@ -20,7 +20,13 @@ def cases():
             yield name, True
 
 
-@pytest.mark.parametrize("name, struck", list(cases()))
+def marked(name, struck):
+    """The scenes that take seconds are slow ones."""
+    takes_long = name.startswith("the paper's scheme") or (struck and name.startswith("steps far below"))
+    return pytest.param(name, struck, marks=[pytest.mark.slow] * takes_long)
+
+
+@pytest.mark.parametrize("name, struck", [marked(*case) for case in cases()])
 def test_a_run_ends_with_its_reason(name, struck):
     overrides, duration_s, allowed = ENDS[name]
     scene = load_scene("tethered_buoy", {**overrides, **SPACE, **({"start.buoy_velocity_mps": BLOW} if struck else {})})
