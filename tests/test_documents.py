@@ -15,7 +15,7 @@ DOCUMENTS = [
     "NOTATION.md",
     "CHANGELOG.md",
     "CITATION.cff",
-    *(f"docs/{p.name}" for p in (ROOT / "docs").glob("*.md")),
+    *(f"docs/{p.name}" for p in sorted((ROOT / "docs").glob("*.md"))),
 ]
 NOTATION = (ROOT / "NOTATION.md").read_text(encoding="utf-8")
 
