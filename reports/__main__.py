@@ -1,4 +1,4 @@
-"""`python -m reports DIR`: build the report of a campaign's folder again, or of one of `python -m analysis --out`."""
+"""`python -m reports DIR`: build the report of a folder of a campaign, or of `python -m analysis --out`, again."""
 
 from __future__ import annotations
 
