@@ -191,4 +191,7 @@ def _arc(ratio):
     """Half angle a of a circular arc with chord/length = sin(a)/a = ratio, in (0, pi]."""
     from scipy.optimize import brentq
 
-    return brentq(lambda a: math.sin(a) - ratio * a, 1e-9, math.pi) if ratio > 0 else math.pi
+    def excess(a):
+        return math.sin(a) - ratio * a
+
+    return brentq(excess, 1e-9, math.pi) if excess(math.pi) < 0 else math.pi  # else a circle, as far as rounding tells

@@ -103,7 +103,7 @@ class Record:
         """Profiles, or None where the scene does not ask for them."""
         if not self.profile_goal:
             return None
-        values = np.array(self.profiles).reshape(len(self.profiles), 8, -1)
+        values = np.array(self.profiles).reshape(len(self.profiles), 8, len(self.line.s))
         x, y, z, vx, vy, vz, strain, tension = np.moveaxis(values, 1, 0)
         known = {
             "time_s": np.arange(len(values)) * self.profile_step,

@@ -86,6 +86,23 @@ def test_the_judge_tells_a_fault_from_an_answer(run, outcome):
     assert fuzz.outcome_of(run, 1.0)[0] == outcome
 
 
+@pytest.mark.parametrize(
+    ("error", "outcome"),
+    [
+        ("output.step_s: given 0; allowed: > 0", "refused"),
+        ("f(a) and f(b) must have different signs", "traceback"),
+        ("", "traceback"),
+    ],
+)
+def test_an_error_is_a_refusal_only_where_it_names_a_key_and_what_is_allowed(error, outcome, monkeypatch):
+    def raises(raw, length_s):
+        raise ValueError(error)
+
+    monkeypatch.setattr(fuzz, "_run", raises)
+    monkeypatch.setattr(fuzz, "load_kernels", lambda: None)
+    assert fuzz.judge_valid(SEED, 2)["outcome"] == outcome
+
+
 def test_a_call_that_does_not_return_is_ended_and_one_that_dies_is_seen():
     import os
     import time

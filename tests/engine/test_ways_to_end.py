@@ -15,6 +15,7 @@ NO_COMPRESSION = {"law": "tabulated", "strain": [-0.5, 0.0, 0.1], "tension_N": [
 STILL = {"waves": None}
 PAPER = {"solver.scheme": "paper-box", "tether.nodes": 11, "water.depth_m": 21.6}
 FLAT_IN_SLACK = {"law": "tabulated", "strain": [-0.2, -0.1, 0.0, 0.5], "tension_N": [0.0, 0.0, 0.0, 2.5e4]}
+YIELDS = "a tether that yields at half the lift of the buoy: no strain is in equilibrium"
 ENDS = {  # name: (overrides, run length in s, status words allowed)
     "tolerance below the shortest step": (
         {"solver.min_step_s": 0.05, "solver.rtol": 1e-4},
@@ -48,7 +49,7 @@ ENDS = {  # name: (overrides, run length in s, status words allowed)
         5.0,
         {"not-finite"},
     ),
-    "a tether that yields at half the lift of the buoy: no strain is in equilibrium": (
+    YIELDS: (
         {**STILL, "tether.tension": {"law": "tanh", "p": [1000.0, 10.0, 0.0, 0.0, 0.0]}},
         1.0,
         {"statics-failed"},
@@ -86,6 +87,17 @@ def test_a_run_ends_with_its_reason(name):
         assert (samples - 1) * step_s <= end_s < samples * step_s * (1 + 1e-9)
     for column in run.columns.values():
         assert len(column) == samples and np.all(np.isfinite(column))
+
+
+@pytest.mark.parametrize("changes", [
+    {"solver.scheme": "paper-box", "output.profiles": True, "tether.tension": ENDS[YIELDS][0]["tether.tension"]},
+    {"tether.length_m": 1e30, "buoy": None, "end": {"kind": "held", "position_m": [13.0, 0.0, 18.0]}},
+], ids=["profiles of the paper's scheme", "a line folded into nothing"])  # fmt: skip
+def test_without_a_rest_there_is_a_record_all_the_same(changes):
+    run = simulate(load_scene("tethered_buoy", {**STILL, **changes}), duration_s=1.0)
+    assert run.status == "statics-failed" and run.message
+    assert len(run.columns["time_s"]) == 0
+    assert run.profiles is None or run.profiles.x_m.shape == (0, run.scene.tether.nodes)
 
 
 def test_every_status_is_reached():

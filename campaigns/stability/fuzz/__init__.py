@@ -1,7 +1,7 @@
 """Random scenes against the engine: what each does, in one word and one line (`campaigns.stability --fuzz N`).
 
-valid scenes: "ok"; "ended" (a status with its reason; finite samples up to there); "refused" (ValueError with a
-reason).
+valid scenes: "ok"; "ended" (a status with its reason; finite samples up to there); "refused" (ValueError that names a
+key and what is allowed).
 invalid scenes: "refused", every line naming a key and what is allowed.
 Anything else is a fault of the program: "hang" (over the time limit), "crash" (its process died), "traceback",
 "not-finite", "incomplete" (ok, but samples are missing), "silent" (ended without a reason), "accepted" (an invalid
@@ -86,7 +86,7 @@ def _unsound(kind: str, answer: object) -> tuple[str, str]:
     if kind == DONE:
         return "", ""
     name, text, trace = answer
-    if name == "ValueError" and text.strip():
+    if name == "ValueError" and CLEAR.match(text):
         return "refused", text
     return "traceback", trace
 
