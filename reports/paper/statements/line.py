@@ -214,24 +214,19 @@ def proportional(results: Results) -> Statement:
     return Statement(claim, found, checks, f"one ratio to {percent(PROPORTIONAL)}")
 
 
-def slow_buckling(results: Results) -> Statement:
-    numbers = own.in_turn(results.lines, SLOW, "steepest_tilt_rad")
-    return Statement(
-        "In slow breaks too the line buckles near the fixed end, at every tension.",
-        f"Steepest element by the end of the figure, rad: {own.told(numbers, 2)}.",
-        own.each(numbers, lambda value: value > own.BUCKLED_RAD),
-        f"an element steeper than {number(own.BUCKLED_RAD)} rad",
-    )
-
-
 def fast_buckling(results: Results) -> Statement:
-    numbers = own.in_turn(results.lines, FAST, "steepest_tilt_rad")
-    return Statement(
-        "The line buckles at the fixed end.",
-        f"Steepest element by the end of the figure, rad: {own.told(numbers, 2)}.",
-        own.each(numbers, lambda value: value > own.BUCKLED_RAD),
-        f"an element steeper than {number(own.BUCKLED_RAD)} rad",
-    )
+    return _buckled(results, "The line buckles at the fixed end.", FAST)
+
+
+def slow_buckling(results: Results) -> Statement:
+    return _buckled(results, "In slow breaks too the line buckles near the fixed end, at every tension.", SLOW)
+
+
+def _buckled(results: Results, claim: str, cases: tuple[str, ...]) -> Statement:
+    numbers = own.in_turn(results.lines, cases, "steepest_tilt_rad")
+    found = f"Steepest element by the end of the figure, rad: {own.told(numbers, 2)}."
+    checks = own.each(numbers, lambda value: value > own.BUCKLED_RAD)
+    return Statement(claim, found, checks, f"an element steeper than {number(own.BUCKLED_RAD)} rad")
 
 
 def shared(state):
