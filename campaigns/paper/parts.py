@@ -43,7 +43,6 @@ SOURCES = (
     "engine",
     *(f"campaigns/{name}" for name in ("machinery", "buoy_sweep", "breaking_line", "oscillator", "out_of_plane")),
     *(f"reports/{name}" for name in ("parts", "figures", "buoy_sweep", "breaking_line", "oscillator", "out_of_plane")),
-    *(f"reports/templates/{name}" for name in ("report.html.jinja", "report.css", "explorer.js")),
     "campaigns/paper/dependence.py",
 )
 _TIMES = ("compile_s", "run_s")

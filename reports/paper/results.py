@@ -124,13 +124,18 @@ def _buoy(folder: Path) -> dict:
     modes = natural_frequencies(study.scene)
     found = {"buoy": rows, "modes": modes, "rest_length_m": study.scene.tether.length_m, "accuracy": _again(study)}
     found["scales"] = None if modes is None else scales(study.scene, modes, SMALL, LARGE)
-    for name, steepness, measure in (("calm", SMALL, calm_measures), ("violent", LARGE, violent_measures)):
-        row = rows.get(steepness)
-        if row is not None and row["status"] == "ok":
-            trajectory = Trajectory.load(study.trajectory_path(row["run_key"]))
-            transient = int(study.provenance.get("transient") or 0)
-            found[name] = measure(trajectory, modes, transient)
-            rows[steepness] = row | snaps(trajectory, transient)
+    transient = int(study.provenance.get("transient") or 0)
+    runs = {
+        steepness: Trajectory.load(study.trajectory_path(row["run_key"]))
+        for steepness, row in rows.items()
+        if steepness in PAPER_STEEPNESS and row["status"] == "ok"
+    }
+    if SMALL in runs:
+        found["calm"] = calm_measures(runs[SMALL], modes)
+    if LARGE in runs:
+        found["violent"] = violent_measures(runs[LARGE], transient)
+    for steepness, trajectory in runs.items():
+        rows[steepness] |= snaps(trajectory, transient)
     return found
 
 

@@ -17,6 +17,7 @@ from campaigns.paper.figures.sections import _sections
 from engine import load_scene, simulate
 from reports.buoy_sweep.physics import natural_frequencies
 from reports.paper.figures import NUMBERS, draw, figures_of, files_of, left_out, pictures, place_of
+from reports.paper.results import read_results
 from reports.parts.figure_data import parsed, sources_of
 from tests.campaigns.conftest import ROOT
 from tests.campaigns.fake_space import BURST_M, SWING, SpaceEngine
@@ -71,6 +72,13 @@ def test_unchanged_sources_leave_the_files_alone_and_lost_ones_come_back_the_sam
     files_of(copy, 10)[0].write_bytes(b"damaged")
     write_figure_data(copy)
     assert contents(copy) == kept
+
+
+def test_statements_are_judged_by_the_runs_that_the_figures_show(root):
+    found = read_results(root)
+    assert "buoy" not in found.missing and found.calm is not None and found.violent is not None
+    assert 1.0 <= found.calm.excursion_m / (12 * 0.016) <= 2.0  # amplitudes of the synthetic motion off its start
+    assert 0.0 < found.buoy[0.13]["radial_line"] <= 1.0
 
 
 def test_a_run_that_is_lost_takes_its_figures_along(copy):
