@@ -23,23 +23,34 @@ TOLERANCE = 1e-9
 CLOSE, BALANCED = 1e-6, 1e-9  # a line at rest moves less (m), against a resistance less than this share of its load
 MOST = 300  # a stiff line on its way to a clamp passes shear far above its load, by one scale an iteration
 MOST_TURNS = 4  # a bight that the grid does not resolve keeps a folded node
-SPANS = 0.95, 0.98, 0.8, 0.9, 0.7  # shares of its length that a slack line below a floating buoy spans at first
+LEANING = 1.0
+SPANS = 0.95, 0.98, 0.8, 0.9, 0.7, LEANING  # shares of its length that a slack line under a floating buoy spans
 
 
 def rest_of(record, scene, tables, h, target_m):
     """Static equilibrium of a scene: a status code and the state. Arguments as for `settle` and `first_guess`.
 
     Under a buoy that floats the line may stand upright, pressed together between buoy and anchor: a rest too, but one
-    that buckles, and Newton's method meets it as easily as the slack one. Then another guess is tried.
+    that buckles, or tips over about a pinned anchor where the line is too stiff to buckle, and Newton's method meets it
+    as easily as the slack one. Then other guesses are tried, at last a straight line that leans. Of rests that press
+    the line by more than its weight the one that does so least counts, if its bending can bear that.
     """
-    most = abs(float(record["w0"])) * float(np.sum(h)) + buckling_load(scene.tether, scene.end)
+    weight, best = abs(float(record["w0"])) * float(np.sum(h)), None
     for span in SPANS:
         Y = first_guess(record, scene, h, span)
         code = settle(record, tables, Y, target_m)
-        if not record["cap"] or code != OK or tension_at(float(Y[:, 0].min()), scene.tether.tension) >= -most:
+        if not record["cap"]:
+            return code, Y
+        if code != OK:
             break
-        code = STATICS_FAILED
-    return code, Y
+        least = tension_at(float(Y[:, 0].min()), scene.tether.tension)
+        if least >= -weight:
+            return OK, Y
+        if best is None or least > best[0]:
+            best = least, Y
+    if best is not None and best[0] >= -weight - buckling_load(scene.tether, scene.end):
+        return OK, best[1]
+    return STATICS_FAILED, Y
 
 
 def settle(record, tables, Y, target_m):
@@ -104,7 +115,7 @@ def first_guess(record, scene, h, span=SPANS[0]):
     """State (n, 6 or 13) from which `settle` starts: loads carried along a line, or an arc where the ends are slack.
 
     In space it lies in the vertical plane through the held end, or through the force on a free one. span: share of its
-    length that a slack line under a floating buoy spans.
+    length that a slack line under a floating buoy spans upright; LEANING: straight, at the height at which it floats.
     """
     if "GI" not in record.dtype.names:
         return _in_plane(record, scene, h, (float(record["end_x"]), float(record["end_z"])), span)
@@ -124,6 +135,8 @@ def _in_plane(record, scene, h, force, span):
         x = math.hypot(x, y) if y else x
         return _to_a_place(Y, s, x, z, record["w0"])
     up, height = _afloat(record, scene, s) if record["end"] == BUOY else (force[1], None)
+    if height is not None and span == LEANING:
+        return _to_a_place(Y, s, math.sqrt(max(length**2 - height**2, 0.0)), height, record["w0"])
     if height is not None:
         return _to_a_place(Y, s, 0.0, min(height, span * length), record["w0"])
     Nx = np.full(n, force[0] if record["end"] == FREE else 0.0)

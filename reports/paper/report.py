@@ -51,10 +51,10 @@ def report(directory: str | Path) -> Report:
     placed = judged(results)
     items = [
         *_question(folder, results, placed),
-        *_parts(folder, results),
+        *_parts(folder),
         *_figures(folder.directory),
         *_statements(placed),
-        *dependence_items(results),
+        *dependence_items(results, folder.scene),
         *misprint_items(),
         *index_items(),
         *provenance_items(folder),
@@ -85,7 +85,8 @@ def _question(folder: Folder, results: Results, placed: tuple[Placed, ...]) -> l
 
 
 def short_answer(placed: tuple[Placed, ...]) -> tuple[str, ...]:
-    """How many statements hold, and which do not."""
+    """How many statements hold, and which do not, each once: conclusions repeat what is said before."""
+    first = {one.statement.claim: one for one in reversed(placed)}
     words = HOLDS, HOLDS_IF, FAILS
     by_verdict = {word: [one for one in placed if one.statement.verdict == word] for word in words}
     open_ones = [one for one in placed if one.statement.verdict == EMPTY]
@@ -94,11 +95,11 @@ def short_answer(placed: tuple[Placed, ...]) -> tuple[str, ...]:
         f"a condition, {len(by_verdict[FAILS])} do not hold"
         + (f", and {len(open_ones)} cannot be decided from this folder." if open_ones else ".")
     ]
-    lines += [f"Does not hold: {_quoted(one)}." for one in by_verdict[FAILS] if not one.place.startswith("5")]
+    lines += [f"Does not hold: {_quoted(one)}." for one in by_verdict[FAILS] if one is first[one.statement.claim]]
     lines += [
         f"Holds if {one.statement.condition}: {_quoted(one)}."
         for one in by_verdict[HOLDS_IF]
-        if not one.place.startswith("5")  # conclusions repeat what is said before
+        if one is first[one.statement.claim]
     ]
     return tuple(lines)
 
@@ -107,7 +108,7 @@ def _quoted(one: Placed) -> str:
     return f"“{one.statement.claim.rstrip('.')}” (no. {one.number}; {one.place})"
 
 
-def _parts(folder: Folder, results: Results) -> list[Item]:
+def _parts(folder: Folder) -> list[Item]:
     heads = (
         Column("part", align="left"),
         Column("what", align="left"),
@@ -167,8 +168,8 @@ def _statements(placed: tuple[Placed, ...]) -> list[Item]:
         Heading("The statements of the paper"),
         Text(
             "Claims are in our words. A verdict follows from checks at each place where it was looked: it “holds” "
-            "where all pass, “does not hold” where none does, and otherwise “holds if”, with the places. Numbers are "
-            "of the runs in this folder; `statements.csv` has the same rows."
+            "where all pass, “does not hold” where none does, and otherwise “holds if”, with the places; a dash: "
+            "the runs in this folder do not decide it. Numbers are of these runs; `statements.csv` has the same rows."
         ),
     ]
     for heading, places in TOPICS.items():
@@ -202,7 +203,13 @@ def _table(placed: list[Placed], heading: str) -> Table:
     )
     verdicts = listed(
         f"{sum(one.statement.verdict == word for one in placed)} {said}"
-        for word, said in ((HOLDS, "hold"), (HOLDS_IF, "hold under a condition"), (FAILS, "do not hold"))
+        for word, said in (
+            (HOLDS, "hold"),
+            (HOLDS_IF, "hold under a condition"),
+            (FAILS, "do not hold"),
+            (EMPTY, "are not decided"),
+        )
+        if word != EMPTY or any(one.statement.verdict == EMPTY for one in placed)
     )
     caption = f"{heading}: {verdicts}. From the tables of the parts, by `statements.csv`."
     return Table(heads, rows, caption, small=True)

@@ -104,7 +104,7 @@ def regular(results: Results) -> Statement:
     rows = [(at(row), row) for row in good(results.over_depth(SMALL))] + elsewhere(results, SMALL)
     words = by_regime(rows)
     long = results.buoy.get(SMALL)
-    found = f"The long run: {long['regime'] or 'no verdict'}, σ = {exponent(long)} bits/T. " if long else ""
+    found = f"The long run: {long['regime'] or 'no verdict'}, σ = {exponent(long)} bits per period. " if long else ""
     checks = [("the long run", long["regime"].startswith(REGULAR))] if long and long["regime"] not in OPEN else []
     checks += [(where, row["regime"].startswith(REGULAR)) for where, row in rows if row["regime"] not in OPEN]
     claim = "In small waves the motion of the buoy is periodic and regular."
@@ -191,7 +191,7 @@ def exponent_to_zero(results: Results) -> Statement:
     if math.isnan(wolf):
         return Statement(claim, "No run shows it.", ())
     found = (
-        f"Wolf's method on r(t): {decimals(wolf, 3)} ± {decimals(error, 3)} bits/T; by the tangent dynamics "
+        f"Wolf's method on r(t): {decimals(wolf, 3)} ± {decimals(error, 3)} bits per period; by the tangent dynamics "
         f"{exponent(row)}"
     )
     below = value(row, "lyapunov_tangent_bits_per_period") + NOT_IN_DOUBT * value(row, "lyapunov_tangent_error") < 0.0

@@ -64,7 +64,7 @@ def positive_exponent(results: Results) -> Statement:
     if long is not None and exponent(long) != "none":
         where = f"H = {number(results.depth())} m"
         checks = sorted([*checks, (where, positive(long))], key=lambda check: check[0])
-        found = f"The long run at {where}: σ = {exponent(long)} bits/T. "
+        found = f"The long run at {where}: σ = {exponent(long)} bits per period. "
     return Statement(
         "In large waves the largest Lyapunov exponent is positive.",
         f"{found}Shorter runs: {', '.join(words) or 'none'}.",
@@ -142,7 +142,7 @@ def region(results: Results) -> Statement:
     return Statement(claim, words, (("the long run", fills),), "dimension 2 within two errors")
 
 
-SWEEP = "part `sweep`: 49 steepnesses"
+SWEEP = "part `sweep`: one run a steepness"
 STATEMENTS = (
     ("4.2", threshold, SWEEP),
     ("4.2", chaos_beyond, SWEEP),
