@@ -15,7 +15,7 @@ from pathlib import Path
 
 OK, FAILED, BAD_INPUT, INTERRUPTED = 0, 1, 2, 130
 PROG = "python -m analysis"
-# What `files` and `python -m reports` write, told here because importing either takes a second.
+# What `files` and `python -m reports` write, the first one first, told here because importing either takes a second.
 WRITTEN = (
     *("answer.txt", "answer.json", "series.csv", "spectrum.csv", "section.csv", "divergence.csv", "dimension.csv"),
     *("report.html", "report.pdf"),
@@ -140,8 +140,9 @@ def _folder(text, given, faults):
         faults.append(f"--out: given {text!r}; allowed: the name of a folder")
         return None
     out = Path(text)
-    parent = next((path for path in (out, *out.absolute().parents) if path.exists()), out)
-    if not parent.is_dir():
+    # os.path: what may not be looked at is not there, where pathlib raises.
+    parent = next((path for path in (out, *out.absolute().parents) if os.path.exists(path)), out)
+    if not os.path.isdir(parent):
         faults.append(f"--out: given {text!r}, but {parent} is a file; allowed: a folder")
     elif not os.access(parent, os.W_OK):
         faults.append(f"--out: given {text!r}, but {parent} cannot be written to; allowed: a folder that can")
@@ -159,6 +160,8 @@ def _held(out):
     try:
         campaign = json.loads((out / "provenance.json").read_text(encoding="utf-8"))["campaign"]
     except FileNotFoundError:
+        if (out / WRITTEN[0]).exists():
+            return ""  # of a command that a full disk stopped
         foreign = next((name for name in WRITTEN if (out / name).exists()), None)
         return "" if foreign is None else f"a {foreign} that is not known to be of this command"
     except (OSError, ValueError, KeyError, TypeError):

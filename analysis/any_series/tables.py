@@ -6,7 +6,7 @@ has the columns 1, 2, ...), lines that begin with # left out; UTF-8, or UTF-16 w
 
 import csv
 import difflib
-import itertools
+import os
 
 FORMAT = "a text file of columns separated by commas, semicolons, tabs or spaces, with their names in the first line"
 # How files begin that are often given in place of text, what they are, and what to do.
@@ -78,16 +78,15 @@ def _twice(names):
 
 
 def _text(path, faults):
-    if path.is_dir():
+    if os.path.isdir(path):
         faults.append(f"{path}: a folder; allowed: {FORMAT}")
         return None
     try:
         content = path.read_bytes()
     except FileNotFoundError:
         folder = path.absolute().parent
-        # A folder may hold thousands.
-        beside = [other.name for other in itertools.islice(folder.iterdir(), 1000)] if folder.is_dir() else []
-        where = "" if folder.is_dir() else f", nor a folder {folder}"
+        beside = os.listdir(folder)[:1000] if os.access(folder, os.R_OK) else []
+        where = "" if os.path.isdir(folder) else f", nor a folder {folder}"
         faults.append(f"{path}: there is no such file{where}{close_to(path.name, beside)}; allowed: {FORMAT}")
         return None
     except OSError as error:

@@ -61,11 +61,17 @@ def command(module: str, argv: list[str] | None, read_order: Callable, work: Cal
     """
     argv = list(sys.argv[1:] if argv is None else argv)
     faults: list[str] = []
+    # A closed stream (>&-) is None, which progress bars and workers write to.
+    sys.stdout, sys.stderr = (stream or open(os.devnull, "w") for stream in (sys.stdout, sys.stderr))
     try:
         order = read_order(argv, faults)
     except KeyboardInterrupt:
         print("\ninterrupted; nothing was run or written", file=sys.stderr)
         return EXIT_INTERRUPTED
+    except ModuleNotFoundError as missing:
+        install = ".venv/bin/pip install -c constraints.txt -e ."
+        print(f"python -m {module}: no package {missing.name!r} in {sys.executable}: {install}", file=sys.stderr)
+        return EXIT_FAILED
     if faults:
         print(complaint(f"python -m {module}", faults), file=sys.stderr)
         return EXIT_BAD_INPUT

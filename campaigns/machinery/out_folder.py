@@ -16,8 +16,13 @@ def folder_name(text: str) -> Path:
 def fault_of(out: Path, campaign: str) -> str | None:
     """Why results of this campaign must not go there, as a fault line; None where they may."""
     given = f"--out: given {str(out)!r}"
-    parent = next((path for path in (out, *out.absolute().parents) if path.exists()), out)
-    if not parent.is_dir():
+    try:
+        above = out.absolute().parents
+    except FileNotFoundError:
+        return "the folder that this is run in has been removed; allowed: one that is there (cd)"
+    # os.path: what may not be looked at is not there, where pathlib raises.
+    parent = next((path for path in (out, *above) if os.path.exists(path)), out)
+    if not os.path.isdir(parent):
         return f"{given}, but {parent} is a file; {ALLOWED}"
     if not os.access(parent, os.W_OK):
         return f"{given}, but {parent} cannot be written to; allowed: a folder that can"

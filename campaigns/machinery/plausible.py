@@ -70,8 +70,10 @@ def waveless(name: str, changes: dict) -> Iterator[str]:
         scene = load_scene(name, changes)
     except SceneError:
         return
-    if scene.waves is None or scene.water is None or scene.end.kind != "buoy":
+    if scene.waves is None or scene.water is None:
         yield f"--scene: given {name!r}, without a buoy in waves; allowed: a scene with a buoy, water and waves"
+    elif scene.end.kind != "buoy":
+        yield fault("end.kind", scene.end.kind, "'buoy' in this campaign")
 
 
 def breaking_steepness(scene) -> float:

@@ -127,24 +127,25 @@ def test_no_name_is_no_folder(tmp_path, monkeypatch, capsys):
     assert "--out: given ''" in capsys.readouterr().err and len(list(tmp_path.iterdir())) == 1
 
 
-def test_what_is_guarded_is_what_is_written(tmp_path):
-    """The names that the command will not write over are those of the files that it writes."""
-    from analysis.any_series.command import WRITTEN
-
-    path, out = written(tmp_path / "s.csv", np.sin(0.3 * np.arange(400))), tmp_path / "out"
-    assert main([str(path), "--out", str(out)]) == 0
-    assert {file.name for file in out.iterdir()} == {*WRITTEN, "provenance.json"} - {"report.html", "report.pdf"}
-
-
 def test_a_full_disk_leaves_the_answer_and_one_line(tmp_path, monkeypatch, capsys):
     def full(*_):
         raise OSError(28, "No space left on device")
 
-    monkeypatch.setattr("analysis.any_series.files._write", full)
+    from analysis.any_series import files
+
+    write = files._write
+    monkeypatch.setattr(files, "_write", lambda path, text: full() if path.name == "series.csv" else write(path, text))
     path = written(tmp_path / "s.csv", np.sin(0.3 * np.arange(400)))
     assert main([str(path), "--out", str(tmp_path / "out")]) == 1
     said = capsys.readouterr()
     assert "VERDICT" in said.out and "the disk is full; the answer above stands" in said.err
+    monkeypatch.setattr(files, "_write", write)
+    assert main([str(path), "--out", str(tmp_path / "out")]) == 0  # with room again, into the same folder
+    from analysis.any_series.command import WRITTEN
+
+    # What the command will not write over is what it writes.
+    kept = {file.name for file in (tmp_path / "out").iterdir()}
+    assert kept == {*WRITTEN, "provenance.json"} - {"report.html", "report.pdf"}
 
 
 def test_ctrl_c_is_one_line(tmp_path, monkeypatch, capsys):

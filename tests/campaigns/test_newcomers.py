@@ -155,6 +155,24 @@ def test_a_folder_that_may_not_be_written_to(place, capsys, monkeypatch):
     assert "cannot be written to; allowed: a folder that can" in capsys.readouterr().err
 
 
+def test_a_folder_that_is_gone(tmp_path, monkeypatch, capsys):
+    (tmp_path / "gone").mkdir()
+    monkeypatch.chdir(tmp_path / "gone")
+    (tmp_path / "gone").rmdir()
+    assert importlib.import_module(SWEEP).main(["--steepness", "0.1"]) == 2
+    assert "the folder that this is run in has been removed" in capsys.readouterr().err
+
+
+def test_a_missing_package_is_named_with_the_command_that_installs_it(monkeypatch, capsys):
+    def missing(*_):
+        raise ModuleNotFoundError("No module named 'pydantic'", name="pydantic")
+
+    monkeypatch.setattr("engine.load_scene", missing, raising=False)
+    assert importlib.import_module(SWEEP).main([]) == 1
+    said = capsys.readouterr().err
+    assert "no package 'pydantic'" in said and "pip install -c constraints.txt -e ." in said
+
+
 def test_ctrl_c_before_anything_runs(place, capsys, monkeypatch):
     def stopped(*_):
         raise KeyboardInterrupt
