@@ -86,6 +86,8 @@ def kantz_lyapunov(series, step_s, delay=None, dimension=None, theiler=None, hor
     if radius is None:
         noise = noise_level(x, lag) * np.sqrt(2.0 * m)
         radius = max(np.median(distance[:, KANTZ_NEIGHBOURS - 1]), 3.0 * noise)
+        if radius == 0.0:
+            return no_exponent(KANTZ, "neighbours coincide: the series takes too few different values")
     near = (distance <= checked_positive(radius, "radius")) & (index >= 0)
     kept = np.sum(near, axis=1) >= KANTZ_NEIGHBOURS
     rows, index, near = rows[kept], index[kept], near[kept]

@@ -73,6 +73,10 @@ def parse_assignment(text: str) -> tuple[str, object]:
     try:
         parsed = tomllib.loads(f"value = {value}")
     except tomllib.TOMLDecodeError:
+        if value.startswith(("{", "[")):
+            allowed = "a list or table of TOML, in single quotes or the shell takes its double ones"
+            example = "--set 'tether.tension={law=\"linear\", stiffness_N=5e4}'"
+            raise SceneError(f"--set {key}: given {value!r}; allowed: {allowed}: {example}") from None
         return key, value
     return key, parsed["value"] if parsed.keys() == {"value"} else value
 
@@ -81,14 +85,22 @@ def _text_of(name_or_path: str | Path) -> str:
     names = known_scenes()
     path = _SHIPPED / f"{name_or_path}.toml" if name_or_path in names else Path(name_or_path)
     try:
-        return path.read_text(encoding="utf-8")
-    except (FileNotFoundError, IsADirectoryError):
+        return path.read_bytes().decode("utf-8-sig").replace("\r\n", "\n").replace("\r", "\n")
+    except IsADirectoryError:
+        raise SceneError(f"{str(name_or_path)!r} is a folder; allowed: a scene file, or {_shipped(names)}") from None
+    except UnicodeDecodeError:
+        raise SceneError(f"{str(name_or_path)!r} is not text in UTF-8; allowed: a TOML file, saved as UTF-8") from None
+    except FileNotFoundError:
         close = difflib.get_close_matches(str(name_or_path), names, n=1)
         hint = f"; did you mean {close[0]!r}?" if close else ""
-        allowed = f"allowed: a scene file, or one of {', '.join(names)}"
+        allowed = f"allowed: a scene file, or {_shipped(names)}"
         raise SceneError(f"there is no scene and no file {str(name_or_path)!r}{hint}; {allowed}") from None
-    except (OSError, UnicodeDecodeError, ValueError) as error:
+    except (OSError, ValueError) as error:
         raise SceneError(f"{str(name_or_path)!r} cannot be read: {error}") from None
+
+
+def _shipped(names: list[str]) -> str:
+    return f"one of {', '.join(names)}"
 
 
 def _plain(value: object) -> object:
@@ -120,7 +132,8 @@ def _overridden(raw: dict[str, object], overrides: Mapping[str, object]) -> tupl
                 break
         if not isinstance(table, dict):
             if value is not None:
-                faults.append(f"{key}: given {shown(value)}, but {'.'.join(parts[:-1])} is not a table")
+                # Without the value: a sweep gives many, and the fault is one.
+                faults.append(f"{key}: cannot be set, because {'.'.join(parts[:-1])} is not a table")
         elif value is None:
             table.pop(parts[-1], None)
         else:

@@ -1,8 +1,14 @@
 """Where machine code is kept: a folder for each state of the sources, and not too many of them."""
 
+import fcntl
 import os
+import pickle
+import shutil
+from pathlib import Path
 
-from machine_code.store import folder_for, hash_of
+import pytest
+
+from machine_code.store import compiled, folder_for, hash_of
 
 
 def test_every_source_counts_by_name_and_content(tmp_path):
@@ -35,3 +41,83 @@ def test_where_nothing_can_be_written_the_temporary_folder_is_taken(tmp_path, mo
     assert folder_for("mine", "0", 1).is_relative_to(tmp_path / "temporary")
     monkeypatch.setattr("tempfile.tempdir", str(tmp_path / "file"))
     assert folder_for("mine", "0", 1) is None
+
+
+def test_a_relative_folder_stays_where_it_was_when_the_process_goes_elsewhere(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("TETHER_CACHE_DIR", "code")
+    assert folder_for("mine", "0", 1) == tmp_path / "code" / "mine-0"
+
+
+def test_a_user_without_a_home_gets_no_folder_of_that_name(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    for name in ("TETHER_CACHE_DIR", "XDG_CACHE_HOME"):
+        monkeypatch.delenv(name, raising=False)
+    monkeypatch.setattr("os.path.expanduser", lambda path: path)
+    monkeypatch.setattr("tempfile.tempdir", str(tmp_path / "temporary"))
+    (tmp_path / "temporary").mkdir()
+    assert folder_for("mine", "0", 1).is_relative_to(tmp_path / "temporary")
+    assert not (tmp_path / "~").exists()
+
+
+def test_code_that_somebody_else_left_among_the_temporary_files_is_not_run(tmp_path, monkeypatch):
+    (tmp_path / "file").touch()
+    monkeypatch.setenv("TETHER_CACHE_DIR", str(tmp_path / "file"))
+    monkeypatch.setattr("tempfile.tempdir", str(tmp_path))
+    theirs = os.getuid() + 1
+    monkeypatch.setattr("os.getuid", lambda: theirs)
+    assert folder_for("mine", "0", 1) is None
+
+
+def half(x):
+    return 0.5 * x
+
+
+def kept_in(folder):
+    """The kernel as another process would declare it."""
+    return compiled(half, folder)
+
+
+def hits(kernel):
+    """How often its code was found on disk, after one call."""
+    assert kernel(3.0) == 1.5
+    return sum(kernel.stats.cache_hits.values())
+
+
+@pytest.mark.parametrize("ending", [".nbi", ".nbc"])
+@pytest.mark.parametrize("content", [b"", b"half", pickle.dumps("of another hand")])
+def test_damaged_machine_code_is_compiled_again(tmp_path, ending, content):
+    assert [hits(kept_in(tmp_path)) for _ in range(2)] == [0, 1]
+    (file,) = tmp_path.rglob(f"*{ending}")
+    file.write_bytes(content)
+    assert [hits(kept_in(tmp_path)) for _ in range(2)] == [0, 1]
+
+
+def test_old_code_goes_with_its_index(tmp_path, monkeypatch):
+    """A new index numbers from one again: until its code is written, the number is that of the old code."""
+    hits(kept_in(tmp_path))
+    (code,) = tmp_path.rglob("*.nbc")
+    (index,) = tmp_path.rglob("*.nbi")
+    index.write_bytes(b"")
+    kernel = kept_in(tmp_path)
+    monkeypatch.setattr(kernel._cache, "save_overload", lambda *_: None)
+    assert hits(kernel) == 0 and not code.exists() and not index.exists()
+
+
+def test_a_folder_that_cannot_be_written_costs_no_run(tmp_path, capfd):
+    folder = tmp_path / "code"
+    kernel = kept_in(folder)
+    shutil.rmtree(folder)
+    folder.touch()
+    assert hits(kernel) == 0 and hits(kept_in(folder)) == 0
+    assert capfd.readouterr().err.count(f"machine code cannot be kept in {folder}") == 2
+    assert not list(Path(__file__).parent.rglob("test_machine_code.half*"))  # nor beside the source
+
+
+def test_a_process_that_was_stopped_with_the_lock_is_not_waited_for(tmp_path, monkeypatch, capfd):
+    hits(kept_in(tmp_path))
+    monkeypatch.setattr("machine_code.store.PATIENCE_S", 0.05)
+    with open(tmp_path / ".lock", "a") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        assert hits(kept_in(tmp_path)) == 0
+    assert "locked by a process that does not go on" in capfd.readouterr().err

@@ -32,6 +32,11 @@ def test_the_code_says_which_equation_it_is(where, code):
     assert where in (ROOT / code).read_text(encoding="utf-8").lower()
 
 
+def test_the_sketches_are_found_too():
+    told = NOTATION + " ".join(item.caption for item in index_items() if isinstance(item, Table))
+    assert told.count("fig. 1 (") == told.count("fig. 8 (") == 2
+
+
 def test_the_report_has_the_same_list():
     rows = [row for item in index_items() if isinstance(item, Table) for row in item.rows]
     assert {row[0] for row in rows} == {where for where, *_ in LISTED}

@@ -1,20 +1,23 @@
 """A column of a text file as an evenly sampled record, or every reason why it is none.
 
-The file: columns separated by commas, semicolons, tabs or spaces, a dot in numbers, one line of names above them (a
-file of numbers only has the columns 1, 2, ...), lines that begin with # left out.
+The file is that of `tables`, with a dot in its numbers.
 """
 
-import difflib
+import re
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 
+from analysis.any_series.tables import close_to, read_table
+
 # Fewer say nothing in any of the measures.
 LEAST_SAMPLES = 100
 # Share of a step by which a time may miss the even grid: three digits at 30 samples a second miss it by 1.5 %.
 UNEVEN = 0.02
-FORMAT = "a text file of columns separated by commas, semicolons, tabs or spaces, with their names in the first line"
+# Beyond, squares of differences leave the range of numbers.
+LARGEST = 1e100
+_CLOCK = re.compile(r"\d+[-/.]\d+[-/.]\d+|\d+:\d+")
 
 
 @dataclass(frozen=True, eq=False)
@@ -41,7 +44,7 @@ def read_record(path, column, time, step, faults):
     step           sampling step [s], or None
     """
     before = len(faults)
-    table = _table(Path(path), faults)
+    table = read_table(Path(path), faults)
     if table is None:
         return None
     names = list(table)
@@ -50,7 +53,9 @@ def read_record(path, column, time, step, faults):
         if name is None and option == "--column":
             faults.append(f"--column: not given; allowed: {_listed(names)}")
         elif name is not None and name not in names:
-            faults.append(f"{option}: no column {name!r} in {path}{_close(name, names)}; allowed: {_listed(names)}")
+            faults.append(f"{option}: no column {name!r} in {path}{close_to(name, names)}; allowed: {_listed(names)}")
+    if column is not None and column == time:
+        faults.append(f"--column and --time: given {column!r} as both; allowed: two columns")
     x = _numbers(table, column, "--column", faults) if column in names else None
     t = _numbers(table, time, "--time", faults) if time in names else None
     if x is not None:
@@ -67,69 +72,6 @@ def _listed(names):
     return ", ".join(names[:40]) + (f" and {len(names) - 40} more" if len(names) > 40 else "")
 
 
-def _close(name, names):
-    close = difflib.get_close_matches(name, names, n=1)
-    return f"; did you mean {close[0]!r}?" if close else ""
-
-
-def _table(path, faults):
-    """{name: cells (n,) of text}, or None with a fault."""
-    if path.is_dir():
-        faults.append(f"{path}: a folder; allowed: {FORMAT}")
-        return None
-    try:
-        lines = path.read_text(encoding="utf-8-sig").splitlines()
-    except FileNotFoundError:
-        folder = path.absolute().parent
-        beside = [other.name for other in folder.iterdir()] if folder.is_dir() else []
-        where = "" if folder.is_dir() else f", nor a folder {folder}"
-        faults.append(f"{path}: there is no such file{where}{_close(path.name, beside)}; allowed: {FORMAT}")
-        return None
-    except UnicodeDecodeError:
-        faults.append(f"{path}: not text; allowed: {FORMAT} (of a trajectory: its table().to_csv(...))")
-        return None
-    except OSError as error:
-        faults.append(f"{path}: cannot be read: {error.strerror}; allowed: {FORMAT}")
-        return None
-    lines = [line for line in lines if line.strip() and not line.lstrip().startswith("#")]
-    if not lines:
-        faults.append(f"{path}: empty; allowed: {FORMAT}")
-        return None
-    split = _splitter(lines[0])
-    rows = [split(line) for line in lines]
-    names = rows[0]
-    if all(_is_number(cell) for cell in names):
-        names = [str(place + 1) for place in range(len(names))]
-    else:
-        rows = rows[1:]
-    ragged = next((k for k, row in enumerate(rows) if len(row) != len(names)), None)
-    if ragged is not None:
-        given = f"row {ragged + 1} below the names has {len(rows[ragged])} cells, the names are {len(names)}"
-        faults.append(f"{path}: {given}; allowed: {FORMAT}")
-        return None
-    if len(set(names)) < len(names):
-        twice = next(name for name in names if names.count(name) > 1)
-        faults.append(f"{path}: two columns are called {twice!r}; allowed: a name of its own for each")
-        return None
-    return {name: [row[place] for row in rows] for place, name in enumerate(names)}
-
-
-def _splitter(line):
-    """How a line falls into cells, judged by the first one."""
-    for mark in ("\t", ";", ","):
-        if mark in line:
-            return lambda text: [cell.strip().strip('"') for cell in text.split(mark)]
-    return str.split
-
-
-def _is_number(cell):
-    try:
-        float(cell)
-    except ValueError:
-        return False
-    return True
-
-
 def _numbers(table, name, option, faults):
     """A column as floats (n,); None with a fault where a cell is no finite number."""
     values, wrong = np.full(len(table[name]), np.nan), {}
@@ -144,15 +86,28 @@ def _numbers(table, name, option, faults):
     for what, rows in wrong.items():
         first = f"row {rows[0] + 1} below the names, {table[name][rows[0]]!r}, {what}"
         more = f" (so are {len(rows) - 1} more)" if len(rows) > 1 else ""
-        comma = " with a dot, not a comma" if "," in table[name][rows[0]] else ""
-        allowed = f"finite numbers{comma} in every row; cut the record there or fill the gap"
+        allowed = f"finite numbers in every row; {_cure(table[name][rows[0]], option, rows)}"
         faults.append(f"{option} {name}: {first}{more}; allowed: {allowed}")
     return None if wrong else values
+
+
+def _cure(cell, option, rows):
+    """What to do about a cell that is no number, in `rows` of its column."""
+    if _CLOCK.search(cell):
+        return "dates and clock times are not read" + ("; give --step SECONDS in its place" * (option == "--time"))
+    if "," in cell:
+        return "with a dot, not a comma"
+    if rows == [0] and cell and not any(mark.isdigit() for mark in cell):
+        return "a line of units is taken out, or begun with #"
+    return "cut the record there or fill the gap"
 
 
 def _worth_it(x, column, faults):
     if len(x) < LEAST_SAMPLES:
         faults.append(f"--column {column}: given {len(x)} samples; allowed: {LEAST_SAMPLES} or more")
+    elif np.abs(x).max() > LARGEST:
+        allowed = f"at most {LARGEST:g} in size; take a larger unit"
+        faults.append(f"--column {column}: values up to {np.abs(x).max():.3g}; allowed: {allowed}")
     elif np.ptp(x) <= 64 * np.finfo(float).eps * np.abs(x).max():
         faults.append(f"--column {column}: every value is {x[0]:.6g}; allowed: a series that moves")
 
@@ -175,6 +130,9 @@ def _even_step(t, name, faults):
         if abs(forward[k] - usual) <= UNEVEN * usual:
             given = f"steps that creep from {forward[0]:.9g} s to {forward[-1]:.9g} s"
         allowed = f"even sampling (to {UNEVEN:.0%} of a step); interpolate onto even times first"
+        if away.max() <= np.ptp(forward) < 0.9 * step:
+            # Within one digit of the even grid, as times written with few digits are.
+            allowed += f", or, where times are only rounded, give --step {step:.6g} in the place of --time"
         faults.append(f"--time {name}: {given}; allowed: {allowed}")
         return None
     return float(step)

@@ -15,6 +15,11 @@ from pathlib import Path
 
 OK, FAILED, BAD_INPUT, INTERRUPTED = 0, 1, 2, 130
 PROG = "python -m analysis"
+# What `files` and `python -m reports` write, told here because importing either takes a second.
+WRITTEN = (
+    *("answer.txt", "answer.json", "series.csv", "spectrum.csv", "section.csv", "divergence.csv", "dimension.csv"),
+    *("report.html", "report.pdf"),
+)
 SECONDS = "a finite number above 0 [s; samples where neither --time nor --step is given]"
 
 
@@ -63,7 +68,7 @@ def _answer(argv):
     step = _positive(options.step, "--step", "a finite number above 0 [s]", faults)
     period = _positive(options.period, "--period", SECONDS, faults)
     tolerance = _positive(options.tolerance, "--tolerance", "a number above 0 and below 1", faults, below=1.0)
-    out = _folder(options.out, faults)
+    out = _folder(options.out, options.file, faults)
     if options.step is not None and options.time is not None:
         faults.append("--time and --step: given both; allowed: one of them")
     record = None
@@ -127,9 +132,12 @@ def _positive(text, option, allowed, faults, below=math.inf):
     return number
 
 
-def _folder(text, faults):
-    """--out as a path; a fault where it cannot be a folder of this command."""
+def _folder(text, given, faults):
+    """--out as a path; a fault where it cannot be a folder of this command. given: the file that is read."""
     if text is None:
+        return None
+    if not text.strip():
+        faults.append(f"--out: given {text!r}; allowed: the name of a folder")
         return None
     out = Path(text)
     parent = next((path for path in (out, *out.absolute().parents) if path.exists()), out)
@@ -137,20 +145,25 @@ def _folder(text, faults):
         faults.append(f"--out: given {text!r}, but {parent} is a file; allowed: a folder")
     elif not os.access(parent, os.W_OK):
         faults.append(f"--out: given {text!r}, but {parent} cannot be written to; allowed: a folder that can")
-    elif _of_a_campaign(out):
-        faults.append(f"--out: given {text!r}, which holds a campaign; allowed: another folder")
+    elif held := _held(out):
+        faults.append(f"--out: given {text!r}, which holds {held}; allowed: another folder")
+    elif given is not None and Path(given).resolve() in [(out / name).resolve() for name in WRITTEN]:
+        faults.append(f"--out: given {text!r}, where {given} would be written over; allowed: another folder")
     return out
 
 
-def _of_a_campaign(out):
+def _held(out):
+    """What is in a folder that this command must not write over; "" where there is nothing of the kind."""
     import json
 
     try:
-        return json.loads((out / "provenance.json").read_text(encoding="utf-8"))["campaign"] != "time_series"
+        campaign = json.loads((out / "provenance.json").read_text(encoding="utf-8"))["campaign"]
     except FileNotFoundError:
-        return False
+        foreign = next((name for name in WRITTEN if (out / name).exists()), None)
+        return "" if foreign is None else f"a {foreign} that is not known to be of this command"
     except (OSError, ValueError, KeyError, TypeError):
-        return True
+        return "a provenance.json of something else"
+    return "" if campaign == "time_series" else "a campaign"
 
 
 def _fits(period, record, faults):

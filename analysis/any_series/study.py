@@ -1,10 +1,12 @@
 """What one column says: spectrum, section, exponents, 0-1 test, dimension, surrogates, and a verdict with its evidence.
 
-The verdict is that of `verdicts.regime` on the section (`sections`). Two things are asked beyond it:
+The verdict is that of `verdicts.regime` on the section (`sections`). Three things are asked beyond it:
 
 - A section at maxima is not a linear function of the record, so that linear noise may leave structure in it. Before
   "chaotic" stands, the section's prediction gain must also beat those of 39 IAAFT surrogates of the record itself, each
   seen at its own maxima.
+- A motion whose maxima are all alike need not repeat itself: they may come unevenly. A period seen at maxima also needs
+  them to keep time (`_even_times`).
 - The exponent of Wolf and that of Rosenstein must not contradict each other about what chaos needs: where both are
   found, both have to be positive.
 """
@@ -34,6 +36,8 @@ MOST_POINTS = 6_000
 NULL_SAMPLES = 8_192
 SURROGATES = 39
 TOLERANCE = 1e-3
+# Share of the time between maxima by which they may stray from even times in a motion that repeats itself.
+EVEN_TIMES = 0.05
 # What the dimension may rise by from one embedding dimension to the next and still be that of the motion.
 SATURATED = 0.1
 
@@ -152,6 +156,8 @@ def _verdict(x, view, exponents, tolerance, seed):
         surrogates=SURROGATES,
         seed=seed,
     )
+    if view.kind == MAXIMA and verdict.period is not None:
+        return _even_times(verdict, view, tolerance)
     if verdict.regime != "chaotic":
         return verdict
     asked = [_agreement(rosenstein)]
@@ -163,6 +169,27 @@ def _verdict(x, view, exponents, tolerance, seed):
         return verdict
     reason = "chaotic by its section, but " + "; ".join(item.sentence for item in failed)
     return replace(verdict, regime="undecided", reason=reason)
+
+
+def _even_times(verdict, view, tolerance):
+    """The verdict period-N, with whether every Nth maximum keeps to even times: "undecided" where it does not.
+
+    A sine stays within `tolerance` of its range from its maximum for sqrt(tolerance)/pi of a period on either side.
+    """
+    time, between = view.time[-MOST_POINTS:], view.period
+    away = 0.0
+    for first in range(verdict.period):
+        each = time[first :: verdict.period]
+        count = np.arange(len(each))
+        away = max(away, float(np.abs(each - np.polyval(np.polyfit(count, each, 1), count)).max()) / between)
+    most = max(EVEN_TIMES, 1.5 * np.sqrt(tolerance) / np.pi)
+    passed = away <= most
+    sentence = f"maxima that are alike stray from even times by {away:.2g} of the time between maxima"
+    item = Evidence("even times", away, most, passed, sentence)
+    verdict = replace(verdict, evidence=(*verdict.evidence, item))
+    if passed:
+        return verdict
+    return replace(verdict, regime="undecided", period=None, reason=f"no period: {sentence}")
 
 
 def _agreement(rosenstein):

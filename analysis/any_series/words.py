@@ -66,11 +66,12 @@ def _given(study):
 
 
 def _found(study):
-    per = "s" if study.record.unit == "s" else "sample"
+    per, unit = ("s", "s") if study.record.unit == "s" else ("sample", "samples")
     lines = []
     for peak in study.lines[:3]:
         turn = 2.0 * np.pi / peak.angular_frequency_radps
-        lines.append(f"{peak.angular_frequency_radps:.4g} rad/{per} (every {turn:.4g} {per}) with {peak.amplitude:.3g}")
+        place = f"{peak.angular_frequency_radps:.4g} rad/{per} (every {turn:.4g} {unit})"
+        lines.append(f"{place} with {peak.amplitude:.3g}")
     text = "; ".join(lines) or "no line stands out"
     rows = _row("spectrum", f"eq. (31), later half, highest lines: {text}")
     for name, exponent in (("Wolf", study.wolf), ("Rosenstein", study.rosenstein), ("Kantz", study.kantz)):

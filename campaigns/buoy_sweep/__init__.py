@@ -24,6 +24,7 @@ PERIODS, TRANSIENT = 300, 100
 LEAST_ANALYSED = 40  # periods after the transient below which no verdict is possible: exponents are then left out
 SWEPT, TANGENTS, LATERAL = "waves.steepness", "output.tangent_vectors", "output.lateral_growth"
 DIMENSIONS = ("2", "3", "auto")
+MOST_RUNS = 10_000
 
 
 @dataclass(frozen=True)
@@ -78,7 +79,7 @@ def read_order(argv: list[str], faults: list[str]) -> Order:
     dimensions = cli.value(options.dimensions, "--dimensions", None, cli.one_of(DIMENSIONS), allowed, faults)
     told = {} if dimensions is None else {"motion.dimensions": 3 if dimensions == "3" else 2}
     analysed = periods - transient >= LEAST_ANALYSED
-    scenes = _scenes(name, {**changes, **told}, steepness, analysed, faults)
+    scenes = _scenes(name, {**changes, **told}, steepness, periods, analysed, faults)
     if dimensions is None:
         dimensions = "3" if any(scene.motion.dimensions == 3 for scene in scenes.values()) else "2"
     spatial, added = ({}, False) if dimensions == "2" or faults else _in_space(scenes, faults)
@@ -113,9 +114,9 @@ def _steepness(options, faults: list[str]) -> list[float]:
     if options.steepness_range is None:
         return list(STEEPNESS)
     words = options.steepness_range
-    allowed = "LO HI COUNT: two finite numbers, 0 <= LO < HI, and a whole number, 2 or above"
+    allowed = f"LO HI COUNT: two finite numbers, 0 <= LO < HI, and a whole number, 2 or above and at most {MOST_RUNS}"
     try:
-        low, high, count = cli.fraction(words[0]), cli.fraction(words[1]), cli.whole(2)(words[2])
+        low, high, count = cli.fraction(words[0]), cli.fraction(words[1]), cli.whole(2, MOST_RUNS)(words[2])
         if len(words) != 3 or low >= high:
             raise ValueError(words)
     except (ValueError, IndexError):
@@ -141,10 +142,13 @@ def _growths(scene, changes: dict) -> dict:
     return extra
 
 
-def _scenes(name: str, changes: dict, steepness: list[float], analysed: bool, faults: list[str]) -> dict:
-    from campaigns.machinery.plausible import doubts, irregular
+def _scenes(name: str, changes: dict, steepness: list[float], periods: int, analysed: bool, faults: list[str]) -> dict:
+    from campaigns.machinery.plausible import doubts, endless, irregular, waveless
     from engine import SceneError, load_scene
 
+    if lacking := list(waveless(name, changes)):
+        faults.extend(lacking)
+        return {}
     faults.extend(irregular(name, changes))
     scenes = {}
     for value in steepness:
@@ -157,7 +161,8 @@ def _scenes(name: str, changes: dict, steepness: list[float], analysed: bool, fa
             continue
         if scene.end.kind != "buoy" and value == steepness[0]:
             faults.append(f"end.kind: given {scene.end.kind!r}; allowed: 'buoy' in this campaign")
-        faults.extend(line for line in doubts(scene) if line not in faults)
+        found = [*doubts(scene), *endless(scene, periods * scene.waves.period_s)]
+        faults.extend(line for line in found if line not in faults)
         scenes[value] = scene
     return scenes
 

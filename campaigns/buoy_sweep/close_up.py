@@ -9,7 +9,7 @@ from collections.abc import Callable
 from time import perf_counter
 
 from campaigns.buoy_sweep.repeats import chosen
-from campaigns.machinery.folder import trajectory_path
+from campaigns.machinery.folder import claimed, trajectory_path
 from campaigns.machinery.runner import Job, Plan, Summary, make_job, run_campaign
 
 FOLDER = "close_up"  # within that of the sweep: a table of its own, and a trajectory
@@ -36,10 +36,10 @@ def close_up(plan: Plan, rows: list[dict], periods: int) -> Summary | None:
     place = plan.directory / FOLDER
     if not picked and not place.exists():
         return None
-    (place / "trajectories").mkdir(parents=True, exist_ok=True)
     own = Plan(place, plan.simulate, close_up_row, COLUMNS, "threading", 1, show_progress=False)
     # without a job the table of an earlier sweep in this folder is emptied
-    return run_campaign(own, [_job(plan, row, periods) for _, row in picked[-1:]])
+    with claimed(place):
+        return run_campaign(own, [_job(plan, row, periods) for _, row in picked[-1:]])
 
 
 def _job(plan: Plan, row: dict, periods: int) -> Job:

@@ -15,7 +15,7 @@ from time import perf_counter
 
 import numpy as np
 
-from campaigns.machinery.folder import trajectory_path
+from campaigns.machinery.folder import claimed, trajectory_path
 from campaigns.machinery.kept_run import KeptRun
 from campaigns.machinery.runner import Job, Plan, Summary, make_job, run_campaign
 
@@ -92,10 +92,10 @@ def repeat(plan: Plan, rows: list[dict], length: int, label: str, verdict: Calla
         base = KeptRun(trajectory_path(plan.directory.absolute(), row["run_key"]))
         jobs += _jobs(base, role, row[label], length, verdict)
     place = plan.directory / FOLDER
-    (place / "trajectories").mkdir(parents=True, exist_ok=True)
     where = plan.backend, plan.jobs, plan.dask_address
     own = Plan(place, plan.simulate, plan.describe, COLUMNS, *where, show_progress=False, row_maker=plan.row_maker)
-    return run_campaign(own, jobs)
+    with claimed(place):
+        return run_campaign(own, jobs)
 
 
 def _jobs(base: KeptRun, role: str, label: object, length: int, verdict: Callable) -> list[Job]:

@@ -16,12 +16,15 @@ from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 
+from campaigns.machinery.out_folder import fault_of, folder_name
+
 BACKENDS = ("loky", "threading", "dask")
 EXIT_OK, EXIT_FAILED, EXIT_BAD_INPUT, EXIT_INTERRUPTED = 0, 1, 2, 130
 
 EXITS = "exit codes: 0 done, 1 stopped (disk full, folder in use, no report), 2 bad input, 130 Ctrl-C"
 
 WHOLE = "a whole number, {} or above"
+MOST_JOBS, MOST_PERIODS = 1024, 10**9
 FRACTION = "a finite number, 0 or above"
 
 
@@ -122,14 +125,15 @@ def split(parser: argparse.ArgumentParser, argv: list[str], faults: list[str]) -
     try:
         options, unknown = parser.parse_known_args(argv)
     except _Unparsable as error:
-        faults.append(str(error))
+        found = re.fullmatch(r"argument (\S+): ignored explicit argument (.*)", str(error))
+        faults.append(f"{found[1]}: given {found[2]}; allowed: the option alone" if found else str(error))
         return parser.parse_args([])
     known = [name for action in parser._actions for name in action.option_strings]
     for word in unknown:
         if not word.startswith("-") and unknown[0].startswith("-"):
             continue  # the value of an unknown option, which has been named
         name = word.partition("=")[0]
-        close = difflib.get_close_matches(name, known, n=1)
+        close = difflib.get_close_matches(name, known, n=1, cutoff=0.75)
         faults.append(f"{name}: no such option" + (f"; did you mean {close[0]}?" if close else ""))
     return options
 
@@ -159,12 +163,12 @@ def values(words: list[str], option: str, default: list, convert: Callable, allo
     return found if sound else default
 
 
-def whole(least: int) -> Callable[[str], int]:
-    """A converter for whole numbers from `least` on."""
+def whole(least: int, most: float = math.inf) -> Callable[[str], int]:
+    """A converter for whole numbers from `least` to `most`."""
 
     def convert(text: str) -> int:
         number = int(text)
-        if number < least:
+        if not least <= number <= most:
             raise ValueError(text)
         return number
 
@@ -192,16 +196,23 @@ def one_of(words: tuple[str, ...]) -> Callable[[str], str]:
 
 def running(options: argparse.Namespace, campaign: str, faults: list[str]) -> Running:
     """The options that `add_running` adds."""
-    jobs = value(options.jobs, "--jobs", default_jobs(), whole(1), WHOLE.format(1), faults)
+    jobs = jobs_of(options, faults)
     name, address = backend(options, faults)
     return Running(folder(options, campaign, faults), jobs, name, address, not options.no_report)
+
+
+def jobs_of(options: argparse.Namespace, faults: list[str]) -> int:
+    """--jobs: runs at the same time."""
+    allowed = f"a whole number, 1 or above and at most {MOST_JOBS}"
+    return value(options.jobs, "--jobs", default_jobs(), whole(1, MOST_JOBS), allowed, faults)
 
 
 def lengths(
     options: argparse.Namespace, periods: int, transient: int, share: int, faults: list[str]
 ) -> tuple[int, int]:
     """--periods and --transient in wave periods; by default these, the transient at most periods/share."""
-    periods = value(options.periods, "--periods", periods, whole(1), WHOLE.format(1), faults)
+    allowed = f"a whole number, 1 or above and at most {MOST_PERIODS}"
+    periods = value(options.periods, "--periods", periods, whole(1, MOST_PERIODS), allowed, faults)
     usual = min(transient, periods // share)
     transient = value(options.transient, "--transient", usual, whole(0), WHOLE.format(0), faults)
     if transient >= periods:
@@ -237,27 +248,11 @@ def _scheduler(text: str) -> str:
 
 
 def folder(options: argparse.Namespace, campaign: str, faults: list[str]) -> Path:
-    """The folder of the results; a fault where it cannot be one, or holds what another campaign left."""
-    out = value(options.out, "--out", Path("results", campaign), Path, "a folder", faults)
-    parent = next((path for path in (out, *out.absolute().parents) if path.exists()), out)
-    if not parent.is_dir():
-        faults.append(f"--out: given {str(out)!r}, but {parent} is a file; allowed: a folder, new or of this campaign")
-    elif not os.access(parent, os.W_OK):
-        faults.append(f"--out: given {str(out)!r}, but {parent} cannot be written to; allowed: a folder that can")
-    elif (owner := _owner(out)) not in ("", campaign):
-        faults.append(f"--out: given {str(out)!r}, which holds {owner}; allowed: a folder, new or of this campaign")
+    """The folder of the results; a fault where it cannot be one, or holds what is not of this campaign."""
+    out = value(options.out, "--out", Path("results", campaign), folder_name, "a folder", faults)
+    if fault := fault_of(out, campaign):
+        faults.append(fault)
     return out
-
-
-def _owner(out: Path) -> str:
-    import json
-
-    try:
-        return str(json.loads((out / "provenance.json").read_text(encoding="utf-8"))["campaign"])
-    except FileNotFoundError:
-        return "a table.csv that no campaign wrote" if (out / "table.csv").exists() else ""
-    except (OSError, ValueError, KeyError, TypeError):
-        return "a provenance.json that no campaign wrote"
 
 
 def assignments(words: list[str] | None, taken: dict[str, str], faults: list[str]) -> dict[str, object]:

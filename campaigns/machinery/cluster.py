@@ -16,6 +16,7 @@ import logging
 import platform
 import queue
 import sys
+import threading
 import time
 from collections.abc import Callable, Iterator
 from functools import cache, partial
@@ -26,6 +27,7 @@ from campaigns.machinery.pools import PoolBroken, first_line, ignore_interrupt
 from campaigns.machinery.row_store import made_by
 
 JOIN_S = 30.0  # for the scheduler to answer, and then for its first worker
+ASK_S = 10.0  # for all workers to say what they are
 GONE_S = 120.0  # without any worker in the midst of a campaign
 _LOOK_S, _SAY_S = 2.0, 10.0
 _NUMBERS = ("numpy", "scipy", "numba", "llvmlite")  # a worker with another version would give other last digits
@@ -56,7 +58,7 @@ def client(jobs: int, address: str | None) -> Iterator:
         stack.enter_context(_quiet())
         try:
             found = stack.enter_context(Client(address, timeout=JOIN_S))
-        except (OSError, TimeoutError, ValueError) as error:
+        except (OSError, TimeoutError, TypeError, ValueError) as error:  # TypeError: tls:// without certificates
             raise CampaignStopped(f"no dask cluster at {address}: {first_line(error)}") from error
         try:
             found.wait_for_workers(1, timeout=JOIN_S)
@@ -115,7 +117,7 @@ def _check(found) -> None:
         found.run_on_scheduler(facts)  # it computes nothing, but dask unpacks there what it hands on
     except ImportError as error:
         faults.append(f"the scheduler: {first_line(error)}")
-    for worker, there in found.run(facts, on_error="return").items():
+    for worker, there in _answers(found).items():
         if isinstance(there, OSError):
             continue  # it has just gone; whoever comes in its place is asked with its first run
         off = first_line(there) if isinstance(there, Exception) else difference(facts(), there)
@@ -123,6 +125,23 @@ def _check(found) -> None:
             faults.append(f"{worker}: {off}")
     if faults:
         raise CampaignStopped(_refusal(faults))
+
+
+def _answers(found) -> dict[str, object]:
+    """Facts, or what was raised in their place, by worker; nothing where they are not all there within ASK_S."""
+    # dask waits for a worker that is stopped as long as it stays so; whoever has not answered here is asked with its
+    # first run. The thread ends with the connection.
+    came: queue.Queue = queue.Queue()
+
+    def ask() -> None:
+        with contextlib.suppress(Exception):
+            came.put(found.run(facts, on_error="return"))
+
+    threading.Thread(target=ask, daemon=True).start()
+    try:
+        return came.get(timeout=ASK_S)
+    except queue.Empty:
+        return {}
 
 
 def _refusal(faults: list[str]) -> str:

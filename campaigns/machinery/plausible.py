@@ -13,18 +13,34 @@ from engine.scene_faults import fault
 MICHE = 0.142 * math.pi
 LONGEST_IN_DEPTHS = 20.0
 AREA_RATIO = 100.0
+SLENDER = 10.0
+LINE_KGPM3, WATER_KGPM3 = (10.0, 30e3), (100.0, 20e3)
 PERIODS_S = (0.05, 1000.0)
 MOST_STRETCH = 10.0
 PYTHON = "if it is meant, run it from Python: engine.simulate"
 
 
 def doubts(scene) -> Iterator[str]:
-    """Fault lines of a scene with a buoy; none where it is plausible."""
+    """Fault lines of a scene; none where it is plausible."""
     yield from _line(scene)
-    if scene.water is not None and scene.buoy is not None:
+    if scene.water is not None and not WATER_KGPM3[0] <= scene.water.density_kgpm3 <= WATER_KGPM3[1]:
+        yield _density("water.density_kgpm3", scene.water.density_kgpm3, WATER_KGPM3)
+    elif scene.water is not None and scene.buoy is not None:
         yield from _buoy(scene)
     if scene.waves is not None:
         yield from _waves(scene)
+    if scene.end.kind == "free":
+        yield from _end_force(scene)
+
+
+def endless(scene, duration_s: float) -> Iterator[str]:
+    """The fault of a run that would never end, or keep more than memory holds (`engine.room`)."""
+    from engine.room import check_room
+
+    try:
+        check_room(scene, duration_s)
+    except ValueError as error:
+        yield str(error)
 
 
 def irregular(name: str, changes: dict) -> Iterator[str]:
@@ -46,6 +62,18 @@ def irregular(name: str, changes: dict) -> Iterator[str]:
         )
 
 
+def waveless(name: str, changes: dict) -> Iterator[str]:
+    """The fault of a scene without water, waves or buoy, for campaigns of a buoy in waves; name, changes: as above."""
+    from engine import SceneError, load_scene
+
+    try:
+        scene = load_scene(name, changes)
+    except SceneError:
+        return
+    if scene.waves is None or scene.water is None or scene.end.kind != "buoy":
+        yield f"--scene: given {name!r}, without a buoy in waves; allowed: a scene with a buoy, water and waves"
+
+
 def breaking_steepness(scene) -> float:
     """kA of the highest wave of the scene's period in its depth (Miche 1944)."""
     from engine.waves import wave_number
@@ -56,6 +84,11 @@ def breaking_steepness(scene) -> float:
 
 def _line(scene) -> Iterator[str]:
     tether = scene.tether
+    if not LINE_KGPM3[0] <= tether.density_kgpm3 <= LINE_KGPM3[1]:
+        yield _density("tether.density_kgpm3", tether.density_kgpm3, LINE_KGPM3)
+    if (most := 0.25 * math.pi * (tether.length_m / SLENDER) ** 2) < tether.area_m2:
+        allowed = f"at most {most:.3g}, of a line {SLENDER:g} times as long as thick (m2, not mm2?); {PYTHON}"
+        yield fault("tether.area_m2", tether.area_m2, allowed)
     circle = 0.25 * math.pi * tether.diameter_m**2
     if not 1.0 / AREA_RATIO < circle / tether.area_m2 < AREA_RATIO:
         allowed = f"about {math.sqrt(4.0 * tether.area_m2 / math.pi):.3g} m, the circle of tether.area_m2"
@@ -63,6 +96,10 @@ def _line(scene) -> Iterator[str]:
     if scene.water is not None and tether.length_m > LONGEST_IN_DEPTHS * scene.water.depth_m:
         allowed = f"at most {LONGEST_IN_DEPTHS:g} times water.depth_m, {scene.water.depth_m:g} (metres?); {PYTHON}"
         yield fault("tether.length_m", tether.length_m, allowed)
+
+
+def _density(key: str, given: float, bounds: tuple[float, float]) -> str:
+    return fault(key, given, f"{bounds[0]:g} to {bounds[1]:g} (kg/m3, not t/m3 or g/cm3?); {PYTHON}")
 
 
 def _buoy(scene) -> Iterator[str]:
@@ -80,6 +117,15 @@ def _buoy(scene) -> Iterator[str]:
     if law.law == "linear" and lift > MOST_STRETCH * law.stiffness_N:
         allowed = f"{lift / MOST_STRETCH:.3g} N at least, as the buoy pulls with {lift:.4g} N (newtons, not kN?)"
         yield fault("tether.tension.stiffness_N", law.stiffness_N, f"{allowed}; {PYTHON}")
+
+
+def _end_force(scene) -> Iterator[str]:
+    law, force = scene.tether.tension, math.hypot(*scene.end.force_N)
+    if law.law == "tanh":
+        p1, p2, p3, p4, p5 = law.p
+        if p1 * math.tanh(p2 * MOST_STRETCH + p3) + p4 + p5 * MOST_STRETCH < force:
+            reached = f"a law that reaches the {force:.4g} N of end.force_N below a strain of {MOST_STRETCH:g}"
+            yield fault("tether.tension.p", law.p, f"{reached} (newtons, not kN?); {PYTHON}")
 
 
 def _waves(scene) -> Iterator[str]:

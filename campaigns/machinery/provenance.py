@@ -42,7 +42,7 @@ def gather(campaign: str, command: list[str]) -> dict[str, object]:
         "cpu_count": os.cpu_count(),
         "platform": platform.platform(),
         "versions": {"python": platform.python_version()} | {name: _version(name) for name in _PACKAGES},
-        "git": git_state(Path(__file__).parent),
+        "git": git_state(Path(__file__).parents[1]),
         "engine_source_hash": source_hash(),
     }
 

@@ -106,7 +106,7 @@ def read_order(argv: list[str], faults: list[str]) -> Order:
     how = cli.running(options, CAMPAIGN, faults)
     name = cli.scene_name(options, SCENE, faults)
     changes = cli.assignments(options.set, _TAKEN, faults)
-    base, scenes = _scenes(name, changes, faults)
+    base, scenes = _scenes(name, changes, periods, faults)
     source = {"scene": name, "set": changes}
     return Order(scenes, base, periods, transient, not options.no_accuracy, how, source)
 
@@ -139,9 +139,9 @@ def compared(case: Case, base: Case) -> bool:
     return case.depth_m in LOOPING_DEPTHS_M and case in (spatial, planar)
 
 
-def _scenes(name: str, changes: dict, faults: list[str]) -> tuple[Case | None, dict]:
+def _scenes(name: str, changes: dict, periods: int, faults: list[str]) -> tuple[Case | None, dict]:
     from campaigns.buoy_sweep import carries_tangents
-    from campaigns.machinery.plausible import doubts, irregular
+    from campaigns.machinery.plausible import doubts, endless, irregular, waveless
     from engine import SceneError, load_scene
 
     try:
@@ -149,8 +149,8 @@ def _scenes(name: str, changes: dict, faults: list[str]) -> tuple[Case | None, d
     except SceneError as error:
         faults.extend(error.faults)
         return None, {}
-    if scene.waves is None or scene.water is None or scene.end.kind != "buoy":
-        faults.append("--scene: given one without a buoy in waves; allowed: a buoy in waves")
+    if lacking := list(waveless(name, changes)):
+        faults.extend(lacking)
         return None, {}
     if scene.waves.irregular:
         faults.extend(irregular(name, changes))
@@ -167,7 +167,8 @@ def _scenes(name: str, changes: dict, faults: list[str]) -> tuple[Case | None, d
         except SceneError as error:
             faults.extend(fault for fault in error.faults if fault not in faults)
             continue
-        faults.extend(line for line in doubts(made) if line not in faults)
+        found = [*doubts(made), *endless(made, periods * made.waves.period_s)]
+        faults.extend(line for line in found if line not in faults)
         scenes[case] = made
     return base, scenes
 

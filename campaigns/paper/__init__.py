@@ -56,7 +56,7 @@ def read_order(argv: list[str], faults: list[str]) -> Order:
     if options.parts == []:
         faults.append(f"--parts: given nothing; allowed: one or more, each {allowed}")
     chosen = cli.values(options.parts or list(PARTS), "--parts", list(PARTS), cli.one_of(PARTS), allowed, faults)
-    jobs = cli.value(options.jobs, "--jobs", cli.default_jobs(), cli.whole(1), cli.WHOLE.format(1), faults)
+    jobs = cli.jobs_of(options, faults)
     out = cli.folder(options, CAMPAIGN, faults)
     for part in PARTS:
         if (out / part).exists() and not (out / part).is_dir():

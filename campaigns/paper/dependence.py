@@ -14,6 +14,7 @@ from typing import get_args
 from campaigns.buoy_sweep.rows import COLUMNS as OF_A_RUN
 from campaigns.buoy_sweep.rows import buoy_row
 from campaigns.machinery import session
+from campaigns.machinery.folder import claimed
 from campaigns.machinery.row_store import made_by
 from campaigns.machinery.runner import Plan, Summary, make_job
 
@@ -99,10 +100,10 @@ def run(out: Path, jobs: int, quick: bool) -> tuple[dict[str, float], Summary]:
     """Do the runs that are not there yet; table.csv and trajectories in `out`. Raises as `session.run`."""
     from engine import load_scene, simulate, simulate_each
 
-    (out / "trajectories").mkdir(parents=True, exist_ok=True)
     told = parameters(quick)
     describe = partial(buoy_row, transient_periods=told["transient"], simulate=simulate)
     maker = made_by({"transient": told["transient"]}, *SOURCES)
     plan = Plan(out, simulate, describe, COLUMNS, jobs=jobs, row_maker=maker, simulate_each=simulate_each)
     work = [make_job(load_scene(SCENE, case.changes()), told["periods"], labels=asdict(case)) for case in cases(quick)]
-    return session.run(plan, work)
+    with claimed(out):
+        return session.run(plan, work)

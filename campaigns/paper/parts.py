@@ -7,8 +7,8 @@
     DIR/out_of_plane    figure 20
     DIR/oscillator      eq. (33), figure 19(b)
 
-A part that ended is not even begun again while its sources, its command and its files are what they were; otherwise its
-campaign runs, and does what its own folder lacks.
+A part that ended is not even begun again while its sources, its command, its tables and its files are what they were;
+otherwise its campaign runs, and does what its own folder lacks.
 """
 
 import csv
@@ -43,7 +43,7 @@ SOURCES = (
     "engine",
     *(f"campaigns/{name}" for name in ("machinery", "buoy_sweep", "breaking_line", "oscillator", "out_of_plane")),
     *(f"reports/{name}" for name in ("parts", "figures", "buoy_sweep", "breaking_line", "oscillator", "out_of_plane")),
-    "reports/templates/report.html.jinja",
+    *(f"reports/templates/{name}" for name in ("report.html.jinja", "report.css", "explorer.js")),
     "campaigns/paper/dependence.py",
 )
 _TIMES = ("compile_s", "run_s")
@@ -96,12 +96,12 @@ def run(order: Order) -> tuple[dict[str, float], Summary]:
     found = 0
     for part in order.parts:
         before = table.rows.get(part)
-        if before and before["run_key"] == keys[part] and _whole(out / part, order):
+        if before and before["run_key"] == _ended(keys[part], out / part) and _whole(out / part, order):
             found += 1
             continue
         print(f"{part} ...", file=sys.stderr)
         row = _done(part, order)
-        table.add(part, {**row, "run_key": keys[part]})
+        table.add(part, {**row, "run_key": _ended(keys[part], out / part)})
         table.write()
         timing |= {name: timing[name] + row[name] for name in _TIMES}
     table.write()
@@ -121,6 +121,15 @@ def _key(part: str, order: Order) -> str:
     told = dependence.parameters(order.quick) if part == "dependence" else CAMPAIGNS[part].chosen(order)
     content = json.dumps([part, told, made_by({}, *SOURCES)])
     return hashlib.sha256(content.encode()).hexdigest()
+
+
+def _ended(key: str, out: Path) -> str:
+    """The key of a part that ended, by what it is made of and the tables that it left."""
+    # A part that is begun again writes its tables anew, row by row: killed then, they are sound and too short.
+    digest = hashlib.sha256(key.encode())
+    for path in sorted(out.rglob("table.csv")):
+        digest.update(path.relative_to(out).as_posix().encode() + b"\0" + path.read_bytes() + b"\0")
+    return digest.hexdigest()
 
 
 def _whole(out: Path, order: Order) -> bool:

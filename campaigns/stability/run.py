@@ -10,11 +10,14 @@ A verdict is one of
 import math
 from pathlib import Path
 
+from campaigns.machinery.folder import CampaignStopped
+from campaigns.machinery.runner import write_failure
 from campaigns.stability.cases import ABOVE_BAR, Case
 from campaigns.stability.limited import DIED, DONE, LATE, RAISED, limited
 
 LIMIT_S = 300.0
 OK, REFUSED, LIMIT, UNEXPLAINED = "ok", "refused", "known limit", "unexplained"
+_NOT_SAVED = "not saved"
 NEEDS_PROFILES = ("energy", "buckling", "straight")
 COLUMNS = (
     "part", "group", "case", "dimensions", "verdict", "run_status", "measured", "bar", "how", "limit", "length_s",
@@ -28,11 +31,16 @@ STATISTICS = (
 
 
 def case_row(case: Case, path: Path | None = None) -> dict[str, object]:
-    """The row of a case; its run is saved under `path` where one is given."""
+    """The row of a case; its run is saved under `path` where one is given.
+
+    Raises CampaignStopped where that cannot be written: it says nothing of the case.
+    """
     row = {"part": "case", "group": case.group, "case": case.name, "length_s": case.length_s, "bar": case.bar}
     row["dimensions"] = case.changes.get("motion.dimensions", 2)
     limit_s = case.options.get("limit_s", LIMIT_S)
     kind, answer, wall_s = limited(lambda: _judged(case, path), limit_s)
+    if kind == DONE and (fault := answer.pop(_NOT_SAVED, "")):
+        raise CampaignStopped(fault)
     if kind == DONE:
         row |= answer
     else:
@@ -65,7 +73,10 @@ def _judged(case: Case, path: Path | None) -> dict[str, object]:
         verdict = REFUSED if REFUSED in case.ends else UNEXPLAINED
         return {"verdict": verdict, "run_status": REFUSED, "message": str(error), "how": "refused in words"}
     if path is not None:
-        run.save(path, {"run_key": path.stem})
+        try:
+            run.save(path, {"run_key": path.stem})
+        except OSError as error:
+            return {_NOT_SAVED: write_failure(path.parents[1], error)}
     row = {name: run.statistics[name] for name in STATISTICS} | {"run_status": run.status, "message": run.message}
     outcome, _, _ = outcome_of(run, case.length_s)
     if outcome not in ("ok", "ended"):

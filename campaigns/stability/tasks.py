@@ -78,8 +78,14 @@ def do(out: Path, maker: str, task: Task) -> tuple[Task, dict]:
         judge = fuzz.judge_valid if task.kind == "valid" else fuzz.judge_invalid
         seed, start, stop = task.what
         result = {"rows": [judge(seed, number) for number in range(start, stop)]}
-    keep_row(out, task.key(), maker, result)
+    if not _crashed(result):  # by the system perhaps, for want of memory: tried again with the next call
+        keep_row(out, task.key(), maker, result)
     return task, result
+
+
+def _crashed(result: dict) -> bool:
+    rows = result.get("rows", [result])
+    return any("crash" in (row.get("run_status"), row.get("outcome")) for row in rows)
 
 
 def run(order) -> tuple[dict[str, float], Summary]:
@@ -105,8 +111,9 @@ def run(order) -> tuple[dict[str, float], Summary]:
     for task, result in _progress(_all(call, missing, order.how.jobs), len(tasks), len(results)):
         results[task.key()] = result
     # alone on the machine, at the end: it takes times
-    cost = kept_row(out, shares.key(), maker) or scene_shares.measured(order.quick)
-    keep_row(out, shares.key(), maker, cost)
+    if (cost := kept_row(out, shares.key(), maker)) is None:
+        cost = scene_shares.measured(order.quick)
+        keep_row(out, shares.key(), maker, cost)
     timing |= {"run_s": time.perf_counter() - start, "analysis_s": 0.0}
     write_json(out / "scene_shares.json", cost)
     write_json(out / "step_maps.json", {task.what: results[task.key()] for task in tasks if task.kind == "map"})

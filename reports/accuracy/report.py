@@ -6,7 +6,7 @@ from pathlib import Path
 
 from ..parts.content import Bullets, Heading, Item, Report, Text
 from ..parts.provenance import provenance_items, timing_table
-from ..parts.wording import number
+from ..parts.wording import count, number
 from .sections import per_period, shipped, work_items
 from .study import Study, read_study
 from .tables import cost_items, failed_count, level_answer, order_items, peer_items, predictability_items
@@ -61,9 +61,10 @@ def _short_answer(study: Study, works: list[str]) -> tuple[str, ...]:
 def _protocol(study: Study) -> str:
     machine = study.folder.provenance.get("machine") or {}
     where = f" on {machine.get('processor')}, {machine.get('cores')} cores," if machine else ""
-    rounds = study.folder.provenance.get("rounds")
+    found = study.folder.provenance.get("rounds")
+    rounds = count(found, "round") if isinstance(found, int) else "rounds"
     return (
-        f"Timed one run at a time{where} settings in turns, {rounds} round(s), each with another tolerance or step "
+        f"Timed one run at a time{where} settings in turns, {rounds}, each with another tolerance or step "
         "(0.9 to 1.1 times the one named), because near a snap the error of a loose setting is partly luck; medians "
         "are shown. Time is that of stepping alone: no compilation, statics, input or output of files."
     )

@@ -207,8 +207,9 @@ def energy_figure(lines: tuple[Line, ...]) -> Figure | None:
     if not panels:
         return None
     caption = (
-        "Where the stored energy is and went, over time; the weight, below a percent, is left out. Largest kinetic "
-        f"energy, case by case: {listed(words)}. From the energies of the trajectories."
+        "Where the stored energy is and went, over time, from below in the order of the names; the weight, below a "
+        f"percent, is left out. Largest kinetic energy, case by case: {listed(words)}. From the "
+        "energies of the trajectories."
     )
     alt = f"Stacked shares of energy over time; largest kinetic: {listed(words)}."
     return Figure(energy_shares(panels), caption, alt)

@@ -22,7 +22,8 @@ AT_THE_END = 0.01
 
 def statements_table(lines: tuple[Line, ...]) -> Table:
     """Statement, evidence, verdict."""
-    heads = (Column("the paper", align="left"), Column("the runs", align="left"), Column("verdict", align="left"))
+    titles = (("the paper", 3), ("the runs", 5), ("verdict", 2))
+    heads = tuple(Column(title, align="left", share=share) for title, share in titles)
     asked = (
         speed, energy_speed, at_the_end, recoil, vertical, buckling, overshoot, front_speed, faster_fronts, slack_front,
         shock, tension, fast_part, resting_part, kinetic_spread, kinetic,

@@ -68,8 +68,8 @@ def _snap(trajectory) -> Snap | None:
     inside = (lines.time_s >= begin) & (lines.time_s <= begin + _SHOWN_PERIODS * period_s)
     part = (time_s >= begin) & (time_s <= begin + _SHOWN_PERIODS * period_s)
     x, z = lines.x_m[inside], lines.z_m[inside]
-    radius = scene.buoy.diameter_m
-    across = np.linspace(x.min() - 3 * radius, x.max() + 3 * radius, 80)
+    beyond = max(3.0 * scene.buoy.diameter_m, 0.25 * float(z.max()))  # of the rope, on both sides
+    across = np.linspace(x.min() - beyond, x.max() + beyond, 80)
     surface = np.array([water_surface_m(scene, across, time) for time in lines.time_s[inside]])
     return Snap(
         lines.time_s[inside] / period_s, x, z, lines.tension_N[inside], scene.buoy.diameter_m, (across, surface),

@@ -20,14 +20,16 @@ SPECTRUM = Equation(
     "31",
 )
 LAWS = {
-    "linear": Equation("T = f(epsilon) = p_1 epsilon", "Tension is p one times the strain."),
+    "linear": Equation("T = f(epsilon) = p_1 epsilon", "Tension is p one times the strain.", "20"),
     "tanh": Equation(
         "T = f(epsilon) = p_1 tanh(p_2 epsilon + p_3) + p_4 + p_5 epsilon",
         "Tension is p one times the hyperbolic tangent of p two strain plus p three, plus p four, plus p five strain.",
+        "20",
     ),
     "tabulated": Equation(
         'T = f(epsilon) quad upright("monotone cubic through the measured points")',
         "Tension is a monotone cubic through the measured points.",
+        "20",
     ),
 }
 AIRY = Equation(
@@ -48,7 +50,7 @@ def equation_items(law: str) -> list[Item]:
     return [
         Text(
             "The tether is solved by finite differences along its unstretched length, with bending, drag and fluid "
-            "inertia, in conservation form in a plane. At its upper end the buoy obeys"
+            "inertia, in conservation form. At its upper end the buoy obeys"
         ),
         BUOY,
         Text("with the tension of the tether at its top, which follows the strain ε by"),

@@ -9,7 +9,8 @@ import numpy as np
 from ..figures.exponents import convergence
 from ..parts.content import Column, Figure, Heading, Item, Table, Text
 from ..parts.folder import Folder
-from ..parts.wording import EMPTY, decimals, number
+from ..parts.symbols import T_I
+from ..parts.wording import EMPTY, decimals, number, printed
 from .motion import verdict_of
 from .runs import PAPER_STEEPNESS, Run, linked, load, value
 
@@ -71,7 +72,7 @@ def regime_items(folder: Folder, runs: tuple[Run, ...], transient: int) -> list[
 
 
 def _table(runs: list[Run], transient: int) -> Table:
-    sigmas = (Column(f"σ, {label}", "bits/T") for label, *_ in EXPONENTS)
+    sigmas = (Column(f"σ, {label}", f"bits/{T_I}") for label, *_ in EXPONENTS)
     heads = (Column("kA"), Column("regime", align="left"), *sigmas)
     rows = tuple(
         (linked(run), run.row["regime"], *(_with_error(run, *names) for _, *names in EXPONENTS)) for run in runs
@@ -94,10 +95,10 @@ def _why(run: Run, verdict) -> list[Item]:
     heads = (Column("test", **left), *numbers, Column("what it says", **left))
     words = {True: "yes", False: "no", None: EMPTY}
     rows = tuple(
-        (item.name, _short(item.value), _short(item.threshold), words[item.passed], item.sentence)
+        (item.name, _short(item.value), _short(item.threshold), words[item.passed], printed(item.sentence))
         for item in verdict.evidence
     )
-    caption = f"Evidence at kA = {number(run.steepness)}, in the order of the tests. {verdict.reason}."
+    caption = f"Evidence at kA = {number(run.steepness)}, in the order of the tests: {printed(verdict.reason)}."
     return [
         Heading(f"Why kA = {number(run.steepness)} is called {verdict.regime}", 2),
         Table(heads, rows, caption, small=True),

@@ -6,6 +6,8 @@ from pathlib import Path
 
 import numpy as np
 
+from analysis.verdicts import LEAST_POINTS
+
 from ..figures.orbit_diagram import orbit_diagram_over
 from ..parts.content import Bullets, Figure, Heading, Item, Notice, Report, Text
 from ..parts.folder import Folder, read_folder
@@ -69,6 +71,13 @@ def _question(runs: tuple[Run, ...], transient: int, tolerance: float, modes: Mo
         Bullets(short_answer(runs, transient, tolerance, modes)),
     ]
     if not judged(runs):
+        longest = max((run.periods_done for run in runs), default=0.0)
+        remedy = (
+            "A sweep with `--set output.tangent_vectors=1` computes exponents and regimes."
+            if longest - transient >= LEAST_POINTS
+            else f"A verdict takes a run of {transient + LEAST_POINTS} wave periods or more, {LEAST_POINTS} of them "
+            f"beyond the transient; the longest here is of {number(longest, 3)}."
+        )
         items.append(
             Notice(
                 "note",
@@ -76,7 +85,7 @@ def _question(runs: tuple[Run, ...], transient: int, tolerance: float, modes: Mo
                 (
                     "The column `regime` and the columns of exponents are empty: no Lyapunov exponent was computed, "
                     "and none is needed for what is said above. A strobed motion for which no period was found is "
-                    "just that. A sweep with `--set output.tangent_vectors=1` computes exponents and regimes.",
+                    f"just that. {remedy}",
                 ),
             )
         )

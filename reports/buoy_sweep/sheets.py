@@ -9,6 +9,7 @@ import numpy as np
 from ..figures.run_sheet import Glance, run_sheet
 from ..parts.content import Column, Explorer, ExplorerColumn, Figure, Heading, Item, Sheet, Table, Text, link
 from ..parts.folder import Folder
+from ..parts.symbols import OMEGA_I, OMEGA_R
 from ..parts.wording import EMPTY, count, decimals, number, percent
 from .figures import spectrum_window
 from .physics import Modes
@@ -29,7 +30,7 @@ def explorer(runs: tuple[Run, ...], figure: Figure) -> Explorer:
     lower = [("slack fraction (–)", tuple(value(run, "slack_fraction") for run in runs), nothing)]
     if judged(runs):
         curves = exponent_curves(list(runs))[:1]
-        lower += [("σ (bits per Tᵢ)", tuple(values), tuple(errors)) for _, values, errors in curves]
+        lower += [("σ (bits per wave period)", tuple(values), tuple(errors)) for _, values, errors in curves]
     return Explorer(
         figure, "Look around, choose a run", "wave steepness kA (–)", "strobed r (m)", columns, tuple(lower)
     )
@@ -144,13 +145,13 @@ def _glance(trajectory, run: Run, transient: int, modes: Modes | None) -> Glance
         kept = growth[transient:, 0]
         counted = np.arange(1, len(kept) + 1)
         exponent = transient + counted, np.cumsum(kept) / counted / math.log(2.0)
-    natural = ((modes.radial_radps, "ωᵣ"),) if modes else ()
+    natural = ((modes.radial_radps, OMEGA_R),) if modes else ()
     return Glance(
         periods,
         (("T (kN)", low, high), ("r (m)", radius, radius), ("θ (rad)", angle, angle)),
         max(float(periods[-1]) - _END_PERIODS, 0.0),
         run.section[:400],
         spectral,
-        (*natural, (wave, "ωᵢ")),
+        (*natural, (wave, OMEGA_I)),
         exponent,
     )

@@ -9,6 +9,8 @@ from analysis import density_image, orbit_diagram
 from ..parts.content import Picture
 from ..parts.style import BLUE, DENSITY_COLOURS, SKY, SOFT, VERMILION, picture_of, sheet
 
+# any place inside a panel may hold points
+_ABOVE = {"loc": "lower left", "bbox_to_anchor": (0.0, 1.0), "ncols": 2, "borderaxespad": 0.0}
 _ROWS = 200  # pixels of the value axis: one is thick enough to be seen in print
 
 
@@ -58,7 +60,7 @@ def orbit_diagram_over(parameter, strobed, label: str, below, below_label: str, 
         if exponents:
             panels[-1].axhline(0.0, color=SOFT, linewidth=0.7)
             panels[-1].set_ylabel(r"$\sigma$ (bits/$T_i$)")
-            panels[-1].legend(fontsize="small")
+            panels[-1].legend(fontsize="small", **_ABOVE)
         low.set_ylim(bottom=0.0, top=max(0.1, 1.15 * float(np.nanmax(below))) if np.isfinite(below).any() else 1.0)
         if len(missing):
             top.plot(
@@ -71,7 +73,7 @@ def orbit_diagram_over(parameter, strobed, label: str, below, below_label: str, 
                 transform=top.get_xaxis_transform(),
                 label="run without strobed points",
             )
-            top.legend(loc="upper left")
+            top.legend(**_ABOVE)
         everything = np.concatenate([diagram.parameter, np.asarray(missing, float)])
         margin = half * (2 if np.ptp(everything) > 0 else 12)
         top.set_xlim(everything.min() - margin, everything.max() + margin)

@@ -13,7 +13,11 @@ from html import escape
 
 import numpy as np
 
+from ..parts.content import spans, sub
+from ..parts.symbols import T_I
+
 _FINE = 5  # units of a path to a pixel
+_DROP = 3  # pixels from a letter to its subscript
 _ROWS, _HEIGHT, _PITCH, _TOP = 3, 84, 128, 20
 _COLUMNS = ((46, 320), (392, 200), (672, 276))  # left edge and width of the whole record, its end, the rest
 _WIDE, _TALL = 960, _TOP + _ROWS * _PITCH - 6
@@ -47,7 +51,7 @@ def run_sheet(glance: Glance, label: str, bins: int) -> str:
             part = glance.periods >= first
             t = glance.periods[part]
             frame = _Frame(column, row, (float(t[0]), float(t[-1])), limits)
-            parts.append(frame.axes(name if column == 0 else "", "t/Tᵢ" if last else "", y_numbers=column == 0))
+            parts.append(frame.axes(name if column == 0 else "", f"t/{T_I}" if last else "", y_numbers=column == 0))
             parts.append(frame.band(t, low[part], high[part], bins if column == 0 else bins // 2))
     parts += [_section(glance.section), _spectrum(*glance.spectrum, glance.marks), _exponent(*glance.exponent)]
     head = f'<svg class="glance" viewBox="0 0 {_WIDE} {_TALL}" role="img" aria-label="{escape(label)}">'
@@ -56,7 +60,7 @@ def run_sheet(glance: Glance, label: str, bins: int) -> str:
 
 def _section(points: np.ndarray) -> str:
     if not len(points):
-        return _nothing(0, "no section: the record ends within the transient")
+        return _nothing(0, "no section: no time after the transient")
     r, rate = points.T
     # no narrower than 0.1 m and 0.1 m/s: a settled orbit looks like the points it is
     frame = _Frame(2, 0, _limits(r, r, 0.1), _limits(rate, rate, 0.1))
@@ -72,26 +76,43 @@ def _spectrum(omega: np.ndarray, amplitude: np.ndarray, marks) -> str:
     frame = _Frame(2, 1, (0.0, float(omega[-1])), (top - 4, top))
     lines = "".join(frame.mark(at, name) for at, name in marks if at < omega[-1])
     return (
-        frame.axes("spectrum: log₁₀ of |Δr̃| (m) over ω (rad/s)", "")
+        frame.axes(f"spectrum: log{sub('10')} of |Δr̃| (m) over ω (rad/s)", "")
         + lines
         + frame.line(omega, np.maximum(decades, top - 4))
     )
 
 
 def _exponent(periods: np.ndarray, bits: np.ndarray) -> str:
-    if not len(bits):
-        return _nothing(2, "no exponent: no perturbation was carried along")
+    if len(bits) < 2:  # a run may end with its transient, or one period after it
+        return _nothing(2, "no exponent after the transient")
     settled = bits[len(bits) // 10 :]
     low, high = _limits(np.minimum(settled, 0.0), np.maximum(settled, 0.0), 0.02)
     frame = _Frame(2, 2, (float(periods[0]), float(periods[-1])), (low, high))
     zero = frame.line(periods[[0, -1]], np.zeros(2), "zero")
-    text = frame.axes("exponent so far: σ (bits per Tᵢ) over t/Tᵢ", "")
+    text = frame.axes(f"exponent so far: σ (bits per {T_I}) over t/{T_I}", "")
     return text + zero + frame.line(periods, np.clip(bits, low, high))
 
 
 def _nothing(row: int, words: str) -> str:
     left, _ = _COLUMNS[2]
-    return f'<text x="{left}" y="{_TOP + row * _PITCH + 40}">{escape(words)}</text>'
+    return _text(left, _TOP + row * _PITCH + 40, words)
+
+
+def _text(x: int, y: int, words: str, anchor: str = "") -> str:
+    """Words with the subscripts of `sub`: letters of Unicode's own are too small to read here."""
+    kind = f' class="{anchor}"' if anchor else ""
+    down = f'<tspan dy="{_DROP}" class="s">%s</tspan>'
+    parts, lowered = [], False
+    for style, piece in spans(words):
+        said = escape(piece)
+        if style == "sub":
+            parts.append(down % said)
+        elif lowered:
+            parts.append(f'<tspan dy="-{_DROP}">{said}</tspan>')
+        else:
+            parts.append(said)
+        lowered = style == "sub"
+    return f'<text{kind} x="{x}" y="{y}">{"".join(parts)}</text>'
 
 
 def _limits(low: np.ndarray, high: np.ndarray, least: float = 1e-9) -> tuple[float, float]:
@@ -118,15 +139,15 @@ class _Frame:
         low = self.top + _HEIGHT
         parts = [f'<path class="axes" d="M{self.left} {self.top}v{_HEIGHT}h{self.wide}"/>']
         if title:
-            parts.append(f'<text x="{self.left}" y="{self.top - 6}">{escape(title)}</text>')
+            parts.append(_text(self.left, self.top - 6, title))
         if x_title:
-            parts.append(f'<text class="m" x="{self.left + self.wide // 2}" y="{low + 28}">{x_title}</text>')
+            parts.append(_text(self.left + self.wide // 2, low + 28, x_title, "m"))
         for value, said in _ticks(*self.x, 5):
             at = self.left + round((value - self.x[0]) / (self.x[1] - self.x[0]) * self.wide)
-            parts.append(f'<text class="m" x="{at}" y="{low + 14}">{said}</text>')
+            parts.append(_text(at, low + 14, said, "m"))
         for value, said in _ticks(*self.y, 3) if y_numbers else ():
             at = low - round((value - self.y[0]) / (self.y[1] - self.y[0]) * _HEIGHT)
-            parts.append(f'<text class="e" x="{self.left - 4}" y="{at + 4}">{said}</text>')
+            parts.append(_text(self.left - 4, at + 4, said, "e"))
         return "".join(parts)
 
     def line(self, x: np.ndarray, y: np.ndarray, kind: str = "line") -> str:
@@ -155,7 +176,7 @@ class _Frame:
         """A dashed upright with a name at its top."""
         place = self.left + round((at - self.x[0]) / (self.x[1] - self.x[0]) * self.wide)
         upright = f'<path class="mark" d="M{place} {self.top}v{_HEIGHT}"/>'
-        return upright + f'<text x="{place + 3}" y="{self.top + 10}">{escape(name)}</text>'
+        return upright + _text(place + 3, self.top + 10, name)
 
     def _fine(self, x: np.ndarray, y: np.ndarray) -> np.ndarray:
         across = (np.asarray(x) - self.x[0]) / (self.x[1] - self.x[0]) * self.wide

@@ -13,6 +13,7 @@ from ..parts.style import BLUE, INK, ORANGE, SKY, SOFT, VERMILION, picture_of, s
 _FRAMES_PER_SECOND = 12
 _STILLS = 6
 _MARGIN_M = 1.0
+_LEAST_WIDE = 0.4  # of the height of a panel
 
 
 @dataclass(frozen=True, eq=False)
@@ -57,7 +58,7 @@ def tether_stills(snap: Snap, rows: np.ndarray) -> Picture:
             axes = grid[letter]
             _Scene(axes, snap).show(int(row))
             axes.set_title(f"({letter}) {snap.periods[row]:.2f}")
-            axes.locator_params(axis="x", nbins=3)
+            axes.locator_params(axis="x", nbins=2, integer=True, min_n_ticks=2)
             if letter != "a":
                 axes.set_ylabel("")
                 axes.tick_params(labelleft=False)
@@ -90,7 +91,8 @@ class _Scene:
         radius = 0.5 * snap.diameter_m
         left, right = float(snap.x_m.min()) - radius - _MARGIN_M, float(snap.x_m.max()) + radius + _MARGIN_M
         top = max(float(snap.z_m.max()) + radius, float(snap.water[1].max())) + _MARGIN_M
-        axes.set(xlim=(left, right), ylim=(min(float(snap.z_m.min()), 0.0) - 0.3, top), aspect="equal")
+        more = max(0.0, 0.5 * (_LEAST_WIDE * top - (right - left)))  # of a panel too narrow for the numbers below it
+        axes.set(xlim=(left - more, right + more), ylim=(min(float(snap.z_m.min()), 0.0) - 0.3, top), aspect="equal")
         axes.set_xlabel("$x$ (m)")
         axes.set_ylabel("$z$ (m)")
         (self.surface,) = axes.plot([], [], color=SKY, linewidth=1.2)

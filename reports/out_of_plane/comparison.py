@@ -10,6 +10,7 @@ import numpy as np
 from ..buoy_sweep.runs import strobed
 from ..figures.section_pairs import section_pairs
 from ..parts.content import Bullets, Column, Figure, Heading, Item, Table, Text
+from ..parts.symbols import T_I
 from ..parts.wording import EMPTY, count, decimals, listed, number, percent
 from .runs import Run, Study
 
@@ -61,15 +62,24 @@ class Pair:
         return words[0] == words[1] if all(words) else None
 
     @property
-    def lacking(self) -> list[str]:
-        """In what the planar run is not the run in three dimensions."""
-        tests = {
+    def tests(self) -> dict[str, bool | None]:
+        """What the two runs are compared in: whether they agree, None where the records are too short to say."""
+        return {
             "range of r": self.range_off <= MOST_OFF,
             "section": None if math.isnan(self.across) else self.across <= MOST_ACROSS * self.within,
             "exponent": self.exponents_agree,
             "regime": self.same_regime,
         }
-        return [name for name, passed in tests.items() if passed is False]
+
+    @property
+    def lacking(self) -> list[str]:
+        """In what the planar run is not the run in three dimensions."""
+        return [name for name, passed in self.tests.items() if passed is False]
+
+    @property
+    def untold(self) -> list[str]:
+        """In what the two could not be compared."""
+        return [name for name, passed in self.tests.items() if passed is None]
 
 
 def read_pairs(study: Study) -> list[Pair]:
@@ -111,8 +121,14 @@ def comparison_words(pairs: list[Pair]) -> str:
         f"Planar runs with {releases} loop releases at H = {listed(pair.depth for pair in pairs)} m against runs in "
         "three dimensions"
     )
+    untold = list(dict.fromkeys(name for pair in pairs for name in pair.untold))
+    off = max(pair.range_off for pair in pairs)
+    if len(good) == len(pairs) and untold:
+        return (
+            f"{what}: the ends of the ranges of r agree to {percent(off)} of the range. The records are too short to "
+            f"compare {listed(untold)}, so whether the planar run is good enough for the buoy is not told."
+        )
     if len(good) == len(pairs):
-        off = max(pair.range_off for pair in pairs)
         return (
             f"{what}: for the buoy the planar run is good enough there. Range of r (to {percent(off)} of itself), "
             "section, exponent and regime agree within what one record leaves open; the planar run is no substitute "
@@ -153,8 +169,8 @@ def _table(pairs: list[Pair]) -> Table:
         Column("r max", "m"),
         Column("T max", "N"),
         Column("slack", "–"),
-        Column("σ, Wolf", "bits/T"),
-        Column("σ, tangent", "bits/T"),
+        Column("σ, Wolf", f"bits/{T_I}"),
+        Column("σ, tangent", f"bits/{T_I}"),
         Column("regime", align="left"),
         Column("section: across"),
         Column("within"),
@@ -199,8 +215,12 @@ def _with_error(run: Run, name: str) -> str:
 def _figure(pairs: list[Pair], transient: int) -> Figure:
     picture = section_pairs([(f"H = {pair.depth} m", *pair.sections) for pair in pairs], ("planar", "three dimensions"))
     seen = "; ".join(
-        f"{count(len(pair.sections[0]), 'point')} and {len(pair.sections[1])} at H = {pair.depth} m, distance "
-        f"{decimals(pair.across, 3)} (halves of one: {decimals(pair.within, 3)})"
+        f"{count(len(pair.sections[0]), 'point')} and {len(pair.sections[1])} at H = {pair.depth} m, "
+        + (
+            "too few for a distance"
+            if math.isnan(pair.across)
+            else f"distance {decimals(pair.across, 3)} (halves of one: {decimals(pair.within, 3)})"
+        )
         for pair in pairs
     )
     caption = (
@@ -224,4 +244,6 @@ def _pair_words(pair: Pair) -> str:
         if not pair.lacking
         else (f"different in {listed(pair.lacking)}")
     )
+    if pair.untold and not pair.lacking:
+        verdict = f"too short to compare {listed(pair.untold)}"
     return f"H = {pair.depth} m: {parted}{before}; {off}; {verdict}."

@@ -6,6 +6,7 @@ import numpy as np
 
 from ..figures.offplane_history import History, lateral_histories, seed_histories
 from ..parts.content import Column, Figure, Heading, Item, Table, Text
+from ..parts.symbols import T_I
 from ..parts.wording import EMPTY, count, number, percent
 from .answer import infinitesimal
 from .runs import BODIES, DISPLACEMENT, Run, Study, envelope
@@ -86,15 +87,15 @@ def growth_items(study: Study) -> list[Item]:
         Column("H", "m"),
         Column("body", align="left"),
         Column("motion", align="left"),
-        Column("rate", "bits/T"),
-        Column("rate", "nats/T"),
-        Column("infinitesimal", "bits/T"),
-        Column("window", "T"),
+        Column("rate", f"bits/{T_I}"),
+        Column("rate", f"nats/{T_I}"),
+        Column("infinitesimal", f"bits/{T_I}"),
+        Column("window", T_I),
         Column("span", "nats"),
         Column("bursts"),
         Column("median", "m"),
         Column("largest", "m"),
-        Column("first at", "T"),
+        Column("first at", T_I),
         Column("max |y|", "m"),
         Column("of in-plane"),
     )

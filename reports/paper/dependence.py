@@ -43,8 +43,14 @@ def dependence_items(results: Results) -> list[Item]:
 def _gaps(results: Results) -> Table:
     heads = tuple(Column(title, align="left") for title in ("not in the paper", "taken here", "why"))
     depth = f"{number(results.depth())} m" if results.dependence else "see the scene"
+    why = "where the two waves come out as the paper says; varied below"
+    if results.calm is not None and results.scales is not None:
+        # with the whole sphere's buoyancy, as taken here
+        out_m = results.calm.rest_m + 0.5 * results.scales.diameter_m - results.depth()
+        where = f"{number(out_m, 2)} m above" if out_m > 0.0 else f"{number(-out_m, 2)} m below"
+        why += f"; the top of the buoy at rest is then {where} still water" if math.isfinite(out_m) else ""
     rows = (
-        ("water depth H", depth, "where the two waves come out as the paper says; varied below"),
+        ("water depth H", depth, why),
         ("density of the water", "1027 kg/m³", "then the added mass is half the displaced mass"),
         ("EI, GI of the tether", "0.4 and 0.04 N m²", "a published example of the same buoy and rope; EI varied below"),
         ("waves above still water", TREATMENTS["extrapolate"], "the plainest reading; varied below"),

@@ -113,7 +113,8 @@ def index_items() -> list[Item]:
     figures = Table(
         heads,
         tuple((where, what, f"`{code}`", more) for where, what, code, more in FIGURES),
-        "The paper's figures: what draws them, and where there is more. Figs. 1 and 8 are sketches. Data: `figures/`.",
+        "The paper's figures: what draws them, and where there is more. The sketches, fig. 1 (segment of the line) and "
+        "fig. 8 (buoy in waves), are not drawn. Data: `figures/`.",
         small=True,
     )
     equations = Table(

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 WINDOW = (40, 20)  # tau_0/T_i and n of eq. (31) as in fig. 12
+SETTLED = 20  # last wave periods of a record
 EARLY, LATE = (0, 20), (40, 60)  # wave periods between which a free oscillation is compared
 NEAR_BINS = 2  # of eq. (31): a line that is on no bin leaks into its neighbours
 LINES_POINTS = 2000  # strobed points whose lines are looked for
@@ -23,6 +24,8 @@ class Calm:
     radial_share, angular_share   of r and theta that lies at their natural and the wave's frequency
     radial_coupled, angular_coupled   of r at the pendulum's frequency and twice it, of theta at the radial one
     radial_kept, angular_kept   free oscillation in LATE by that in EARLY
+    radial_mean, angular_mean   mean place over SETTLED off that of rest, over half the range there
+    tension_alike     correlation of r and the top tension up to the end of that window
     """
 
     rest_m: float
@@ -38,25 +41,19 @@ class Calm:
     angular_coupled: float
     radial_kept: float
     angular_kept: float
+    radial_mean: float
+    angular_mean: float
+    tension_alike: float
 
 
 @dataclass(frozen=True)
 class Violent:
     """Of the run at the large wave.
 
-    tension_min_N, tension_max_N   at the top, after the transient, between samples too
-    radial_line, angular_line   largest share of the variance of eq. (31) on one bin, and that bin over the wave's
-    radial_at, angular_at
     unexplained       share of the variance of the strobed r, r' that no steady line explains (0 for a torus)
     dimension, dimension_error   correlation dimension of the section r, r'
     """
 
-    tension_min_N: float
-    tension_max_N: float
-    radial_line: float
-    radial_at: float
-    angular_line: float
-    angular_at: float
     unexplained: float
     dimension: float
     dimension_error: float
@@ -70,6 +67,7 @@ def calm_measures(trajectory, modes, transient_periods: int) -> Calm | None:
         return None
     r, theta = columns["radius_m"], columns["angle_rad"]
     wave = 2.0 * np.pi / period_s
+    seen = round(sum(WINDOW) * period_s / step_s)
     radial, pendulum = modes.radial_radps, modes.pendulum_radps
     shares = {
         "radial_share": share_near(r, step_s, period_s, (radial, wave)),
@@ -88,6 +86,9 @@ def calm_measures(trajectory, modes, transient_periods: int) -> Calm | None:
         **shares,
         radial_kept=kept(r, step_s, period_s, radial),
         angular_kept=kept(theta, step_s, period_s, pendulum),
+        radial_mean=_off_rest(r, step_s, period_s),
+        angular_mean=_off_rest(theta, step_s, period_s),
+        tension_alike=float(np.corrcoef(r[:seen], columns["tension_top_N"][:seen])[0, 1]),
     )
 
 
@@ -99,16 +100,11 @@ def violent_measures(trajectory, modes, transient_periods: int) -> Violent | Non
     step_s, period_s = scene.sample_step_s(), scene.waves.period_s
     if (len(columns["time_s"]) - 1) * step_s < sum(WINDOW) * period_s - 1e-9:
         return None
-    after = round(min(transient_periods, WINDOW[0]) * period_s / step_s)
     series = {name: columns[name] for name in ("radius_m", "radius_rate_mps")}
     section = poincare_section(series, step_s, period_s, transient_periods=transient_periods).points
     lines = spectral_lines(section[:LINES_POINTS]) if len(section) >= 32 else None
     dimension = correlation_dimension(section) if len(section) >= 500 else None
     return Violent(
-        float(columns["tension_top_low_N"][after:].min()),
-        float(columns["tension_top_high_N"][after:].max()),
-        *largest_line(columns["radius_m"], step_s, period_s),
-        *largest_line(columns["angle_rad"], step_s, period_s),
         float(np.mean(lines.unexplained)) if lines is not None else float("nan"),
         dimension.value if dimension is not None else float("nan"),
         dimension.error if dimension is not None else float("nan"),
@@ -162,6 +158,11 @@ def kept(series, step_s: float, period_s: float, frequency: float) -> float:
     """
     own, before = free(series, step_s, period_s, frequency, EARLY)
     return free(series, step_s, period_s, own, LATE, 0.0)[1] / before
+
+
+def _off_rest(series, step_s: float, period_s: float) -> float:
+    late = series[-round(SETTLED * period_s / step_s) :]
+    return float((np.mean(late) - series[0]) / (0.5 * np.ptp(late)))
 
 
 def _bins_away(series, step_s: float, period_s: float, frequency: float) -> float:

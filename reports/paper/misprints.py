@@ -13,6 +13,12 @@ ROWS = (
         "multiplied by (1 + ε)²: M′ + Ω × M + (1 + ε)³ t × T = 0",
         "not wrong; this is the form of rows 12 and 13 of eq. (40)",
     ),
+    (
+        "2.2, before eq. (19)",
+        "t = ∂R/∂s₁ = ∂R/∂s (1 + ε), as it reads",
+        "∂R/∂s / (1 + ε)",
+        "ds₁ = (1 + ε) ds; eq. (18) has it right",
+    ),
     ("eq. (23)", "−w₀ k", "along the vertical axis", "the appendix projects the weight on axis 1, eq. (23) on axis 3"),
     (
         "eq. (24), inertia",

@@ -16,6 +16,7 @@ from .index import index_items
 from .misprints import misprint_items
 from .results import Results, read_results
 from .statements import Placed, judged
+from .statements.closing import NOT_JUDGED
 
 __all__ = ["beside", "report"]
 
@@ -166,15 +167,17 @@ def _statements(placed: tuple[Placed, ...]) -> list[Item]:
         Heading("The statements of the paper"),
         Text(
             "Claims are in our words. A verdict follows from checks at each place where it was looked: it “holds” "
-            "where all pass, “does not hold” where none does, and otherwise “holds if”, with the places. Numbers are "
-            "of the runs in this folder; `statements.csv` has the same rows."
+            "where all pass, “does not hold” where none does, and otherwise “holds if”, with the places; a dash: "
+            "the runs in this folder do not decide it. Numbers are of these runs; `statements.csv` has the same rows."
         ),
     ]
     for heading, places in TOPICS.items():
         some = [one for one in placed if one.place.startswith(places)]
         if some:
             items += [Heading(heading, 2), _table(some, heading)]
-    return items
+    heads = tuple(Column(title, align="left") for title in ("place", "the paper", "why"))
+    caption = "What the paper says and no run here can judge: background, analogies, other papers."
+    return [*items, Heading("Not judged", 2), Table(heads, NOT_JUDGED, caption, small=True)]
 
 
 def _table(placed: list[Placed], heading: str) -> Table:
@@ -199,7 +202,13 @@ def _table(placed: list[Placed], heading: str) -> Table:
     )
     verdicts = listed(
         f"{sum(one.statement.verdict == word for one in placed)} {said}"
-        for word, said in ((HOLDS, "hold"), (HOLDS_IF, "hold under a condition"), (FAILS, "do not hold"))
+        for word, said in (
+            (HOLDS, "hold"),
+            (HOLDS_IF, "hold under a condition"),
+            (FAILS, "do not hold"),
+            (EMPTY, "are not decided"),
+        )
+        if word != EMPTY or any(one.statement.verdict == EMPTY for one in placed)
     )
     caption = f"{heading}: {verdicts}. From the tables of the parts, by `statements.csv`."
     return Table(heads, rows, caption, small=True)

@@ -6,6 +6,7 @@ are then undecided.
 
 from __future__ import annotations
 
+import json
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -20,6 +21,7 @@ from ..out_of_plane.runs import WORDS as PLANE_WORDS
 from ..out_of_plane.runs import read_study as read_plane
 from ..parts.folder import Folder, FolderError, read_folder
 from .measures import Calm, Violent, buckling_waves, calm_measures, violent_measures
+from .snaps import Scales, scales, snaps
 
 SMALL, LARGE = 0.016, 0.13  # section 4.2.1 and 4.2.2
 TREATED = ("above_still_water", "submergence")
@@ -38,11 +40,13 @@ class Results:
     lines         runs of the breaking line
     static        strain at the static tension by case, from the tension law of the scene
     steepening    by how much a wave at 0.99 of that strain is faster than at it, as a share, by case
-    modes         the paper's estimates from the scene of the buoy
+    modes, scales   the paper's estimates, and other closed forms, from the scene of the buoy
     buoy          rows of the two long runs by steepness;  accuracy: the same runs tighter and finer
     sweep         rows over steepness;  dependence: rows of other depths, treatments and stiffnesses
+                  (rows at the large wave, with linear waves continued above still water, have `snaps.COLUMNS` too)
     calm, violent numbers of the two motions that no table has
-    oscillator, plane   studies of eq. (33) and of figure 20;  waves_of_buckle: half waves of the slack rope
+    oscillator, plane   studies of eq. (33) and of figure 20
+    buckle        (depth in m, half waves of the slack rope)
     missing       part -> why it is not there
     """
 
@@ -50,6 +54,7 @@ class Results:
     static: tuple[tuple[str, float], ...] = ()
     steepening: tuple[tuple[str, float], ...] = ()
     modes: Modes | None = None
+    scales: Scales | None = None
     rest_length_m: float = 0.0
     buoy: dict[float, dict] = field(default_factory=dict)
     accuracy: tuple[dict, ...] = ()
@@ -59,7 +64,7 @@ class Results:
     violent: Violent | None = None
     oscillator: object | None = None
     plane: object | None = None
-    waves_of_buckle: float | None = None
+    buckle: tuple[float, float] | None = None
     missing: dict[str, str] = field(default_factory=dict)
 
     def depth(self) -> float:
@@ -117,11 +122,14 @@ def _buoy(folder: Path) -> dict:
     rows = {float(row["steepness"]): row for row in study.table.to_dict("records")}
     modes = natural_frequencies(study.scene)
     found = {"buoy": rows, "modes": modes, "rest_length_m": study.scene.tether.length_m, "accuracy": _again(study)}
+    found["scales"] = None if modes is None else scales(study.scene, modes, SMALL, LARGE)
     for name, steepness, measure in (("calm", SMALL, calm_measures), ("violent", LARGE, violent_measures)):
         row = rows.get(steepness)
         if row is not None and row["status"] == "ok":
             trajectory = Trajectory.load(study.trajectory_path(row["run_key"]))
-            found[name] = measure(trajectory, modes, int(study.provenance.get("transient") or 0))
+            transient = int(study.provenance.get("transient") or 0)
+            found[name] = measure(trajectory, modes, transient)
+            rows[steepness] = row | snaps(trajectory, transient)
     return found
 
 
@@ -144,15 +152,33 @@ def _dependence(folder: Path) -> dict:
     absent = [name for name in DEPENDENCE_COLUMNS if name not in table]
     if absent:
         raise ValueError(f"table.csv lacks {', '.join(absent)}")
-    return {"dependence": tuple(table.fillna(dict.fromkeys(words, "")).to_dict("records"))}
+    rows = table.fillna(dict.fromkeys(words, "")).to_dict("records")
+    return {"dependence": tuple(row | _snaps(folder, row, rows[0]) for row in rows)}
+
+
+def _snaps(folder: Path, row: dict, usual: dict) -> dict[str, float]:
+    """`snaps.COLUMNS` of a row at the large wave that differs from the first in depth and buoyancy at most."""
+    from engine.trajectory import Trajectory, TrajectoryError
+
+    same = "above_still_water", "bending_stiffness_Nm2"
+    if row["steepness"] != LARGE or row["status"] != "ok" or any(row[key] != usual[key] for key in same):
+        return {}
+    told = json.loads((folder.parent / "provenance.json").read_text(encoding="utf-8"))
+    try:
+        trajectory = Trajectory.load(folder / "trajectories" / f"{row['run_key']}.nc")
+    except TrajectoryError:
+        return {}
+    return snaps(trajectory, int(told.get("dependence", {}).get("transient") or 0))
 
 
 def _plane(folder: Path) -> dict:
     study = read_plane(read_folder(folder, PLANE_COLUMNS, PLANE_WORDS))
     shaped = next((run for run in study.runs if run["profiles"] and run.ok), None)
     trajectory = study.trajectory(shaped) if shaped is not None else None
-    waves = None if trajectory is None or trajectory.profiles is None else buckling_waves(trajectory.profiles)
-    return {"plane": study, "waves_of_buckle": waves}
+    if trajectory is None or trajectory.profiles is None:
+        return {"plane": study}
+    waves = buckling_waves(trajectory.profiles)
+    return {"plane": study, "buckle": None if waves is None else (float(shaped["depth_m"]), waves)}
 
 
 def _oscillator(folder: Path) -> dict:

@@ -229,7 +229,7 @@ def first_sentence(text: str) -> str:
     What stands in brackets does not count, nor the stop of an abbreviation ("fig. 9").
     """
     hidden = re.sub(rf"{_MARKS.pattern}|\([^()]*\)", lambda found: "x" * len(found[0]), text)
-    end = re.search(r"[:;] |(?<!fig)(?<!figs)(?<!eq)(?<! al)\.( |$)", hidden)
+    end = re.search(r"[:;] |(?<![Ff]ig)(?<![Ff]igs)(?<![Ee]q)(?<! al)\.( |$)", hidden)
     return text[: end.start()] if end else text
 
 

@@ -49,7 +49,8 @@ _PREAMBLE = """\
 #show figure.caption.where(kind: table): set block(sticky: true)
 #set figure(gap: 0.8em)
 #let notice(colour, paper, title, lines) = block(width: 100%, fill: paper, stroke: (left: 2.5pt + colour),
-  inset: (x: 0.9em, y: 0.7em), breakable: true)[#text(weight: "bold", fill: colour, title) #list(..lines)]
+  inset: (x: 0.9em, y: 0.7em), breakable: true)[
+  #block(sticky: true, below: 0.65em, text(weight: "bold", fill: colour, title)) #list(..lines)]
 #align(left)[#text(size: 21pt, weight: "bold", fill: rgb("#0b3c5d"), {title})]
 #v(-0.6em)
 #text(fill: luma(70), {subtitle})
@@ -170,7 +171,7 @@ def _table(item: Table) -> str:
     aligns = ", ".join(column.align for column in item.columns)
     header = ", ".join(
         f'[#text(weight: "bold", {_inline(column.title)})'
-        + (f" \\ #text({quote(column.unit)})" if column.unit else "")
+        + (f" \\ #{{ {_inline(column.unit)} }}" if column.unit else "")
         + "]"
         for column in item.columns
     )

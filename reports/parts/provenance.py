@@ -56,7 +56,8 @@ def _flat(section: dict, prefix: str = "") -> list[tuple[str, str]]:
         elif isinstance(entry, list):
             words = [number(e) if isinstance(e, float) else str(e) for e in entry]
             short = words if len(words) <= 12 else [words[0], words[1], "…", words[-1]]
-            rows.append((prefix + key, ", ".join(short) + (f" ({len(words)} entries)" if short != words else "")))
+            said = ", ".join(short) + (f" ({len(words)} entries)" if short != words else "")
+            rows.append((prefix + key, said or EMPTY))
         else:
-            rows.append((prefix + key, EMPTY if entry is None else str(entry)))
+            rows.append((prefix + key, EMPTY if entry in (None, "") else str(entry)))
     return rows

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Iterable, Sequence
 
 EMPTY = "–"
@@ -40,6 +41,15 @@ def percent(share: float) -> str:
 def _minus(text: str) -> str:
     """The sign as print wants it: a hyphen at the end of a line would leave its number behind."""
     return "−" + text[1:] if text.startswith("-") else text
+
+
+def printed(sentence: str) -> str:
+    """A sentence written for a terminal, with the signs of print.
+
+    >>> printed("growth -0.06 nats, 0.02 +- 0.01, a 0-1 test")
+    'growth −0.06 nats, 0.02 ± 0.01, a 0-1 test'
+    """
+    return re.sub(r"(?<![\w.)])-(?=[\d.])", "−", sentence.replace(" +- ", " ± "))
 
 
 def count(how_many: int, singular: str, plural: str = "") -> str:

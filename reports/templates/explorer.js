@@ -21,7 +21,8 @@
                   y0: data.low - 0.04 * high, y1: data.high + 0.04 * high };
   let view = { ...whole }, chosen = -1, dragged = null;
   const LEFT = 48, RIGHT = 10, TOP = 20, LOWER = 66, GAP = 26, BOTTOM = 44;
-  const least = Math.min(...at.slice(1).map((value, i) => Math.abs(value - at[i])).filter((gap) => gap > 0), wide);
+  // how far the nearest other value of the parameter is: a column is as wide as its place allows
+  const room = at.map((one) => Math.min(...at.map((other) => Math.abs(one - other)).filter((gap) => gap > 0), wide));
 
   const width = () => canvas.clientWidth, height = () => canvas.clientHeight;
   const floor = () => height() - BOTTOM - data.lower.length * (LOWER + GAP); // lower edge of the upper panel, px
@@ -69,16 +70,32 @@
     pen.restore();
   }
 
+  // a run without points is there to be chosen too
+  function drawCross(pen, x, colour) {
+    const y = floor() - 8;
+    pen.strokeStyle = colour;
+    pen.lineWidth = 1.5;
+    pen.beginPath();
+    for (const slope of [-1, 1]) {
+      pen.moveTo(x - 4, y - 4 * slope);
+      pen.lineTo(x + 4, y + 4 * slope);
+    }
+    pen.globalAlpha = 1;
+    pen.stroke();
+    pen.globalAlpha = 0.55;
+    pen.lineWidth = 1;
+  }
+
   function drawPoints(pen, colours) {
     const share = (data.high - data.low) / 65535;
-    const gap = least / (view.x1 - view.x0) * (width() - LEFT - RIGHT);
-    const half = Math.max(0.75, Math.min(0.4 * gap, 6));
+    const scale = (width() - LEFT - RIGHT) / (view.x1 - view.x0);
     pen.fillStyle = colours.points;
     pen.globalAlpha = 0.55;
     columns.forEach((column, index) => {
-      const x = across(column.at);
+      const x = across(column.at), half = Math.max(0.75, Math.min(0.4 * room[index] * scale, 6));
       if (x < LEFT - 8 || x > width() + 8) return;
       if (index === chosen) pen.fillStyle = colours.mark;
+      if (!column.points) drawCross(pen, x, index === chosen ? colours.mark : colours.soft);
       for (const step of column.steps) {
         pen.fillRect(x - half, down(data.low + step * share) - 0.75, 2 * half, 1.5);
       }
@@ -142,7 +159,7 @@
     pen.textAlign = "center";
     pen.textBaseline = "alphabetic";
     for (const [value, said] of ticks(view.x0, view.x1, Math.max(2, (width() - LEFT) / 90))) {
-      pen.fillText(said, across(value), height() - BOTTOM + 16);
+      pen.fillText(said, Math.min(across(value), width() - pen.measureText(said).width / 2), height() - BOTTOM + 16);
     }
     pen.fillText(data.x_label, (LEFT + width() - RIGHT) / 2, height() - 8);
   }

@@ -8,6 +8,7 @@ import numpy as np
 
 from ..figures.series_panels import SHOWN, growth_and_dimension, record_and_spectrum, return_map
 from ..parts.content import Column, Figure, Heading, Item, Listing, Report, Table, Text
+from ..parts.wording import decimals, number, printed
 from .folder import Judged, read_judged
 
 SEEN = {
@@ -69,10 +70,10 @@ def _figures(judged: Judged) -> list[Item]:
     return [
         Heading("What was seen"),
         Figure(
-            record_and_spectrum(time, values, frequency, amplitude, unit),
-            f"Above: the last {min(SHOWN, len(time))} samples (`series.csv`). Below: amplitude of eq. (31) over the "
-            "later half (`spectrum.csv`): lines alone for a regular motion, a continuous floor for chaos and for "
-            "noise.",
+            record_and_spectrum(time, values, frequency, amplitude, (unit, judged.provenance["column"])),
+            f"The record and its amplitude spectrum. Above: the last {min(SHOWN, len(time))} samples (`series.csv`). "
+            "Below: amplitude of eq. (31) over the later half (`spectrum.csv`): lines alone for a regular motion, a "
+            "continuous floor for chaos and for noise.",
             "Two panels: the record over time, and its amplitude spectrum on a logarithmic scale.",
         ),
         Figure(
@@ -83,9 +84,9 @@ def _figures(judged: Judged) -> list[Item]:
         ),
         Figure(
             growth_and_dimension([("Rosenstein", steps, rosenstein), ("Kantz", steps, kantz)], slopes, unit),
-            "Left: mean logarithm of the distance of neighbours (`divergence.csv`); its straight part is the exponent. "
-            "Right: slope of the correlation sum (`dimension.csv`); where the curves run level together, it is the "
-            "dimension.",
+            "Growth of small distances, and the dimension. Left: mean logarithm of the distance of neighbours "
+            "(`divergence.csv`); its straight part is the exponent. Right: slope of the correlation sum "
+            "(`dimension.csv`); where the curves run level together, it is the dimension.",
             "Two panels: growth of the distance between neighbours, and local slopes of the correlation sum.",
         ),
     ]
@@ -97,7 +98,7 @@ def _evidence(judged: Judged) -> list[Item]:
         Column("what it says", align="left"),
     )  # fmt: skip
     rows = tuple(
-        (one["name"], PASSED[one["passed"]], _number(one["value"]), _number(one["threshold"]), one["sentence"])
+        (one["name"], PASSED[one["passed"]], _number(one["value"]), _number(one["threshold"]), printed(one["sentence"]))
         for one in judged.answer["evidence"]
     )
     caption = "Every test behind the word, in the order in which it was made (`analysis/verdicts.py`)."
@@ -113,11 +114,11 @@ def _origin(judged: Judged) -> list[Item]:
 
 
 def _number(value: float | None) -> str:
-    return "none" if value is None else f"{value:.4g}"
+    return "none" if value is None else number(value)
 
 
 def _with_error(value: float | None, error: float | None) -> str:
     if value is None or not error:
         return _number(value)
     digits = int(np.clip(1 - np.floor(np.log10(error)), 0, 12))
-    return f"{value:.{digits}f} ± {error:.{digits}f}"
+    return f"{decimals(value, digits)} ± {decimals(error, digits)}"

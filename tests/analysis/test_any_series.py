@@ -35,6 +35,9 @@ MORE = {
     "henon": (henon(800)[:, 0], 1.0, ("--period", "1"), "chaotic"),
     "white, strobed": (noise(800), 1.0, ("--period", "1"), "undecided"),
     "ar1": (lfilter([1.0], [1.0, -0.95], noise(2500)), 0.1, (), "undecided"),
+    # maxima of one height that come ever faster: alike, and no period
+    "chirp": (np.sin(TIME + 2e-4 * TIME**2), 0.4, (), "undecided"),
+    "two values": (np.sign(np.sin(TIME) + 0.1), 0.4, (), "period-1"),
     "random walk": (np.cumsum(noise(4000)), 0.1, (), "transient"),
 }
 

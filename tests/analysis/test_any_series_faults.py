@@ -32,6 +32,21 @@ FILES = {
     "twice.csv": "\n".join(["x,x", *ROWS]),
     "empty.csv": "\n",
     "good.csv": "\n".join(["t,x", *ROWS]),
+    "both.csv": "\n".join(["t,x", *(row.replace(".", ",") for row in ROWS)]),
+    "units.csv": "\n".join(["t,x", "s,m", *ROWS]),
+    "dates.csv": "\n".join(["t,x", *(f"2026-11-21 13:{k // 60:02d}:{k % 60:02d},{k % 7}" for k in range(300))]),
+    "rounded.csv": "\n".join(["t,x", *(f"{k / 30:.2f},{np.sin(k)}" for k in range(300))]),
+    "huge.csv": "\n".join(["t,x", *(f"{k},{np.sin(k)}e300" for k in range(300))]),
+    "title.csv": "\n".join(["Tank 3", "", "t,x", *ROWS]),
+    "blank.csv": "t x\n" + "\0" * 500,
+    "mine/series.csv": "\n".join(["t,x", *ROWS]),
+}
+BINARY = {
+    "image.csv": bytes(range(128, 256)),
+    "latin1.csv": "t,höhe\n".encode("latin-1"),
+    "table.xlsx": b"PK\x03\x04 and more",
+    "packed.csv.gz": b"\x1f\x8b\x08 and more",
+    "run.nc": b"CDF\x01 and more",
 }
 
 
@@ -41,7 +56,21 @@ FILES = {
         ("", ["FILE.csv: missing"]),
         ("god.csv --column x", ["no such file", "did you mean 'good.csv'?", "allowed: a text file"]),
         (". --column x", ["a folder"]),
-        ("image.csv --column x", ["not text", "to_csv"]),
+        ("image.csv --column x", ["not text", "save it as UTF-8"]),
+        ("latin1.csv --column x", ["not text", "save it as UTF-8"]),
+        ("blank.csv --column x", ["not text"]),
+        ("table.xlsx --column x", ["a spreadsheet", "save the sheet as CSV"]),
+        ("packed.csv.gz --column x", ["compressed", "gunzip"]),
+        ("run.nc --column x", ["netCDF", "table().to_csv(NEW)"]),
+        ("both.csv --column x", ["has 4 cells, the names are 2", "with a dot, not a comma"]),
+        ("units.csv --column x", ["'m', is no number", "a line of units is taken out"]),
+        ("dates.csv --column x --time t", ["dates and clock times are not read; give --step SECONDS"]),
+        ("rounded.csv --column x --time t", ["where times are only rounded, give --step 0.033"]),
+        ("huge.csv --column x", ["at most 1e+100 in size"]),
+        ("title.csv --column x", ["the names are 2 (Tank, 3)", "begun with #"]),
+        ("good.csv --column x --time x", ["given 'x' as both"]),
+        ("mine/series.csv --column x --out mine", ["a series.csv that is not known to be of this command"]),
+        ("whole/series.csv --column x --out whole", ["where whole/series.csv would be written over"]),
         ("empty.csv --column x", ["empty"]),
         ("good.csv", ["--column: not given; allowed: t, x"]),
         ("good.csv --column X1", ["no column 'X1'", "allowed: t, x"]),
@@ -72,10 +101,14 @@ FILES = {
 )
 def test_faults(tmp_path, monkeypatch, capsys, words, parts):
     monkeypatch.chdir(tmp_path)
+    for folder in ("mine", "whole", "campaign"):
+        (tmp_path / folder).mkdir()
     for name, text in FILES.items():
         (tmp_path / name).write_text(text)
-    (tmp_path / "image.csv").write_bytes(bytes(range(128, 256)))
-    (tmp_path / "campaign").mkdir()
+    for name, content in BINARY.items():
+        (tmp_path / name).write_bytes(content)
+    (tmp_path / "whole" / "series.csv").write_text(FILES["good.csv"])
+    (tmp_path / "whole" / "provenance.json").write_text('{"campaign": "time_series"}')
     (tmp_path / "campaign" / "provenance.json").write_text('{"campaign": "buoy_sweep"}')
     before = sorted(path.name for path in tmp_path.rglob("*"))
     assert main(words.split()) == 2
@@ -84,6 +117,23 @@ def test_faults(tmp_path, monkeypatch, capsys, words, parts):
     for part in parts:
         assert part in said.err
     assert sorted(path.name for path in tmp_path.rglob("*")) == before
+
+
+def test_no_name_is_no_folder(tmp_path, monkeypatch, capsys):
+    """As from --out "$RESULTS" with a variable that is not set: not the current folder."""
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "good.csv").write_text(FILES["good.csv"])
+    assert main(["good.csv", "--column", "x", "--out", ""]) == 2
+    assert "--out: given ''" in capsys.readouterr().err and len(list(tmp_path.iterdir())) == 1
+
+
+def test_what_is_guarded_is_what_is_written(tmp_path):
+    """The names that the command will not write over are those of the files that it writes."""
+    from analysis.any_series.command import WRITTEN
+
+    path, out = written(tmp_path / "s.csv", np.sin(0.3 * np.arange(400))), tmp_path / "out"
+    assert main([str(path), "--out", str(out)]) == 0
+    assert {file.name for file in out.iterdir()} == {*WRITTEN, "provenance.json"} - {"report.html", "report.pdf"}
 
 
 def test_a_full_disk_leaves_the_answer_and_one_line(tmp_path, monkeypatch, capsys):
@@ -118,14 +168,23 @@ def test_help_tells_every_option_and_loads_nothing_heavy():
 
 
 @pytest.mark.parametrize(
-    "text", ["x\ty\n" + "1 \t2\n" * 5, "x;y\n" + "1;2\n" * 5, "# remark\nx y\n" + "1   2\n" * 5, "1,2\n" * 6]
+    "text",
+    [
+        "x\ty\n" + "1 \t2\n" * 5,
+        "x;y\n" + "1;2\n" * 5,
+        "# remark\nx y\n" + "1   2\n" * 5,
+        "1,2\n" * 6,
+        '"x, m";"y"\r\n' + '"1";"2"\r\n' * 5,
+        ("x\ty\r\n" + "1\t2\r\n" * 5).encode("utf-16"),
+        ("x,y\n" + "1, 2\n" * 5).encode("utf-8-sig"),
+    ],
 )
 def test_tables_of_any_common_shape_are_read(tmp_path, text):
-    from analysis.any_series.columns import _table
+    from analysis.any_series.tables import read_table
 
-    (tmp_path / "table").write_text(text)
+    (tmp_path / "table").write_bytes(text if isinstance(text, bytes) else text.encode())
     faults = []
-    table = _table(tmp_path / "table", faults)
+    table = read_table(tmp_path / "table", faults)
     assert not faults and all(
         [float(cell) for cell in cells][:5] == [1.0 + k] * 5 for k, cells in enumerate(table.values())
     )

@@ -67,3 +67,9 @@ def test_units_scale(method):
     base = method(x, step)
     assert method(-4.0 * x, step).value == pytest.approx(base.value, rel=1e-9)
     assert method(x, 2.0 * step).value == pytest.approx(0.5 * base.value, rel=1e-9)
+
+
+def test_a_series_of_two_values_has_no_radius():
+    """Most of its delay vectors coincide: the eighth neighbour is at distance 0."""
+    found = kantz_lyapunov(np.sign(np.sin(0.7 * 0.1 * np.arange(2000)) + 0.1), 0.1)
+    assert not found.found and "too few different values" in found.reason

@@ -35,7 +35,7 @@ class Cluster:
         own = [sys.executable, "-m", "distributed.cli.dask_scheduler", "--host", "127.0.0.1", "--port", "0"]
         words = [*(words or own), "--no-dashboard", "--scheduler-file", str(file)]
         self.scheduler = self._start("scheduler", words, sources)
-        self._wait(file.exists, self.scheduler)
+        self._wait(lambda: file.exists() and file.read_text().rstrip().endswith("}"), self.scheduler)
         self.address = json.loads(file.read_text())["address"]
 
     def add_worker(self, sources: Path = ROOT, words: list[str] | None = None):

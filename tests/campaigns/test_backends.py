@@ -3,6 +3,7 @@
 import pytest
 
 from campaigns import buoy_sweep
+from campaigns.machinery.folder import CampaignStopped
 from tests.campaigns.conftest import USUAL, finished
 from tests.campaigns.fake_engine import FakeEngine
 
@@ -76,3 +77,12 @@ def test_dask_scheduler_that_is_not_there_is_one_line(sweep, capfd, monkeypatch)
     assert (code, rows) == (1, [])
     assert "no dask cluster at tcp://127.0.0.1:1" in error
     assert "Traceback" not in error
+
+
+def test_dask_scheduler_that_wants_certificates_is_one_line_without_them():
+    pytest.importorskip("distributed")
+    from campaigns.machinery.cluster import client
+
+    address = "tls://127.0.0.1:1"
+    with pytest.raises(CampaignStopped, match=f"no dask cluster at {address}: TLS expects"), client(1, address):
+        pass

@@ -112,7 +112,8 @@ def test_a_run_that_kills_every_worker_stops_the_campaign_and_new_workers_finish
     monkeypatch.setattr("campaigns.machinery.cluster.GONE_S", 1.0)
     monkeypatch.setattr("campaigns.machinery.cluster._LOOK_S", 0.2)
     words = ["--steepness", *VALUES, "--periods", "6", "--transient", "2", "--no-report", "--no-accuracy", *at(cluster)]
-    assert buoy_sweep.main([*words, "--out", str(place / "out")], simulate=FakeEngine(dies=(0.04,))) == 1
+    deadly = FakeEngine(dies=(0.04,), sleep_s=0.3)  # time for the runs before it to be handed over
+    assert buoy_sweep.main([*words, "--out", str(place / "out")], simulate=deadly) == 1
     error = capfd.readouterr().err
     assert "has had no worker for 1 s" in error and "run the same command again" in error and "Traceback" not in error
     kept = finished(place / "out")
@@ -199,3 +200,15 @@ def test_workers_do_not_see_the_folder(cluster, place):
 
     with Client(cluster.address) as client:
         assert set(map(tuple, client.run(os.listdir, str(place)).values())) == {()}
+
+
+def test_a_stopped_worker_keeps_nobody_from_starting(cluster, place):
+    """dask asks every worker what it is, and waits for one that is stopped for as long as it is."""
+    cluster.workers[0].send_signal(signal.SIGSTOP)
+    process = start_sweep(place / "out", "--steepness", *VALUES, *at(cluster))
+    try:
+        until(lambda: len(finished(place / "out")) >= 2, process)
+    finally:
+        cluster.workers[0].send_signal(signal.SIGCONT)
+    done(process)
+    assert [row["status"] for row in rows_of(place / "out")] == ["ok"] * len(VALUES)

@@ -10,11 +10,14 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
-SWEEP, REPORTS = "campaigns.buoy_sweep", "reports.__main__"
+SWEEP, BREAK, REPORTS = "campaigns.buoy_sweep", "campaigns.breaking_line", "reports.__main__"
 FILES = {
     "comma.toml": 'name = "mine"\n[tether]\nlength_m = 20,5\n',
     "bracket.toml": "[tether\nlength_m = 20\n",
     "text.toml": 'name = "mine"\n[water]\ndepth_m = "21,6"\ndensity_kgpm3 = "1027 kg"\n',
+    "utf16.toml": 'name = "mine"\n'.encode("utf-16"),
+    "latin1.toml": '# Schäkel\nname = "mine"\n'.encode("latin-1"),
+    "own/scene.toml": 'name = "mine"\n',
     "a_file": "mine",
     "old/provenance.json": json.dumps({"campaign": "breaking_line"}),
     "mine/table.csv": "my,own,table\n",
@@ -42,6 +45,19 @@ MISTAKES = [
     (SWEEP, "--set waves.period_s=5000", "seconds, not milliseconds?"),
     (SWEEP, "--dimensions 3 --set waves.direction_rad=90", "radians, not degrees: 1.571?"),
     (SWEEP, "--steepness 13", "a share, not per cent?"),
+    (SWEEP, "--steepness 0.1 --set tether.area_m2=314", "m2, not mm2?"),
+    (SWEEP, "--steepness 0.1 --set tether.density_kgpm3=1.14", "10 to 30000 (kg/m3, not t/m3 or g/cm3?)"),
+    (SWEEP, "--steepness 0.1 --set water.density_kgpm3=1.027", "100 to 20000 (kg/m3, not t/m3 or g/cm3?)"),
+    (BREAK, "--cases 1 --set tether.area_m2=1963", "m2, not mm2?"),
+    (BREAK, "--cases 1 --set tether.tension.p=[1,2,3,4,5]", "a law that reaches the 4.5e+04 N of end.force_N"),
+    # more than any machine does
+    (SWEEP, "--steepness 0.1 --periods 1000000000", "at most 1e+09, a longer step or a shorter run"),
+    (SWEEP, "--steepness 0.1 --periods 9999999999999", "--periods: given '9999999999999'"),
+    (SWEEP, "--steepness 0.1 --set output.step_s=1e-9", "a step of 7.5e-05 s or more, or a shorter run"),
+    (SWEEP, "--steepness 0.1 --jobs 1000000000", "1 or above and at most 1024"),
+    (SWEEP, "--steepness-range 0.1 0.2 1000000000", "2 or above and at most 10000"),
+    ("campaigns.out_of_plane", "--periods 1000000000", "a longer step or a shorter run"),
+    (BREAK, "--cases 1 --set output.step_s=1e-12", "a step of 1e-08 s or more, or a shorter run"),
     # what cannot be
     (SWEEP, "--steepness 0.6", "where a wave of 5 s breaks in this depth"),
     (SWEEP, "--set waves.period_s=-5", "a finite number above 0"),
@@ -53,6 +69,13 @@ MISTAKES = [
     (SWEEP, "--scene text.toml", "(no unit: 1027)"),
     (SWEEP, "--scene comma.toml", "at line 3, column 14): 'length_m = 20,5'; numbers have a dot, not a comma"),
     (SWEEP, "--scene bracket.toml", "at line 1"),
+    (SWEEP, "--scene utf16.toml", "not text in UTF-8; allowed: a TOML file, saved as UTF-8"),
+    (SWEEP, "--scene latin1.toml", "not text in UTF-8; allowed: a TOML file, saved as UTF-8"),
+    (SWEEP, "--scene old", "'old' is a folder; allowed: a scene file"),
+    (SWEEP, "--scene breaking_line", "without a buoy in waves; allowed: a scene with a buoy, water and waves"),
+    (SWEEP, "--set waves=none", "without a buoy in waves; allowed: a scene with a buoy, water and waves"),
+    (SWEEP, "--set tether.tension={law=linear,stiffness_N=5e4}", "in single quotes or the shell takes its double"),
+    (SWEEP, "--steepness 0.1 --no-report=yes", "--no-report: given 'yes'; allowed: the option alone"),
     (SWEEP, "--set waterdepth_m", "KEY=VALUE, for instance water.depth_m=21.6"),
     (SWEEP, "--steepness 0,016", "a finite number, 0 or above"),
     (SWEEP, "--steepness-range 0.2 0.1 5", "0 <= LO < HI"),
@@ -65,6 +88,7 @@ MISTAKES = [
     (SWEEP, "--out a_file/below", "a_file is a file; allowed: a folder"),
     (SWEEP, "--out old", "which holds breaking_line"),
     (SWEEP, "--out mine", "a table.csv that no campaign wrote"),
+    (SWEEP, "--out own", "a scene.toml that no campaign wrote"),
     (REPORTS, "nowhere", "there is no such folder; give the folder that a campaign wrote (its --out)"),
     (REPORTS, "a_file", "it is a file; give the folder that a campaign wrote (its --out)"),
     (REPORTS, ".", "provenance.json is missing"),
@@ -77,7 +101,7 @@ MISTAKES = [
 def place(tmp_path, monkeypatch):
     for name, text in FILES.items():
         (tmp_path / name).parent.mkdir(exist_ok=True)
-        (tmp_path / name).write_text(text)
+        (tmp_path / name).write_bytes(text if isinstance(text, bytes) else text.encode())
     monkeypatch.chdir(tmp_path)
     return tmp_path
 
@@ -94,6 +118,26 @@ def test_the_answer_says_what_to_do(place, capsys, module, words, part):
     said = capsys.readouterr()
     assert said.out == "" and part in said.err
     assert listing(place) == before
+
+
+def test_a_fault_of_every_value_of_a_sweep_is_told_once(place, capsys):
+    assert importlib.import_module(SWEEP).main(["--set", "waves="]) == 2
+    assert "2 faults" in capsys.readouterr().err  # of 49 scenes
+
+
+def test_an_empty_name_is_not_the_current_folder(place, capsys):
+    """As from --out "$RESULTS" with a variable that is not set."""
+    assert importlib.import_module(SWEEP).main(["--out", "", "--steepness", "0.1"]) == 2
+    assert "--out: given ''; allowed: a folder" in capsys.readouterr().err
+
+
+def test_a_campaign_killed_before_its_provenance_goes_on_in_its_folder(tmp_path):
+    from campaigns.machinery.out_folder import fault_of
+
+    (tmp_path / "scene.toml").write_text("as run")
+    assert "scene.toml" in fault_of(tmp_path, "buoy_sweep")
+    (tmp_path / ".lock").touch()
+    assert fault_of(tmp_path, "buoy_sweep") is None
 
 
 def test_several_mistakes_are_told_at_once(place, capsys):

@@ -75,6 +75,15 @@ def test_a_part_is_run_again_where_something_of_it_is_gone_or_other(campaign):
     assert campaign("--quick") == (0, [*paper.PARTS, "writing"])
 
 
+def test_a_part_that_was_killed_when_begun_again_has_not_ended(campaign):
+    """Its table is written while runs come: sound at every moment, and too short."""
+    campaign()
+    for table in ("buoy/table.csv", "sweep/close_up/table.csv"):
+        (campaign.out / table).parent.mkdir(exist_ok=True)
+        (campaign.out / table).write_text("status,run_key\nok,key\nok,key\n")
+    assert campaign() == (0, ["buoy", "sweep", "writing"])
+
+
 def test_parts_chosen_are_run_beside_those_that_are_there(campaign):
     assert campaign("--parts", "oscillator", "buoy") == (0, ["buoy", "oscillator", "writing"])
     assert campaign("--parts", "sweep") == (0, ["sweep", "writing"])

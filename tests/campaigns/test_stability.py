@@ -9,6 +9,8 @@ from pathlib import Path
 import pytest
 
 from campaigns import stability
+from campaigns.machinery.folder import CampaignStopped
+from campaigns.machinery.row_store import kept_row
 from campaigns.stability import run, tasks
 from campaigns.stability.cases import ABOVE_BAR, REFUSED, Case, all_cases
 from campaigns.stability.run import case_row
@@ -61,6 +63,24 @@ def test_a_case_that_does_not_return_raises_or_dies_is_unexplained(monkeypatch):
         monkeypatch.setattr(run, "_judged", way)
         row = case_row(Case("x", "y", STILL, 1.0, options={"limit_s": 0.5}))
         assert (row["verdict"], row["run_status"]) == ("unexplained", status)
+
+
+def test_a_run_that_cannot_be_kept_stops_the_campaign_and_says_nothing_of_its_case(tmp_path):
+    with pytest.raises(CampaignStopped, match="cannot write to"):
+        case_row(Case("x", "rest", STILL, 2.0, "rest", 1e-9), tmp_path / "gone" / "trajectories" / "key.nc")
+
+
+def test_a_process_that_died_is_tried_again_with_the_next_call(tmp_path, monkeypatch):
+    import os
+    from functools import partial
+
+    (tmp_path / "trajectories").mkdir()
+    monkeypatch.setattr("campaigns.stability.fuzz.load_kernels", lambda: None)
+    task = tasks.Task("case", Case("x", "y", STILL, 1.0))
+    for way, kept in ((partial(os._exit, 1), False), (lambda: {"verdict": "ok", "run_status": "ok"}, True)):
+        monkeypatch.setattr(run, "_judged", lambda *_, way=way: way())
+        tasks.do(tmp_path, "maker", task)
+        assert (kept_row(tmp_path, task.key(), "maker") is not None) == kept
 
 
 def test_every_case_says_why_it_may_end_otherwise_and_has_a_name_of_its_own():

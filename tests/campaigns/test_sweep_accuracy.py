@@ -90,8 +90,12 @@ def test_the_table_of_the_sweep_is_its_own(out):
 def test_again_nothing_is_computed(out, tmp_path):
     before = (out / "accuracy" / "table.csv").read_bytes()
     log = tmp_path / "log"
+    killed_within = [out / folder / "trajectories" / ".run.nc.1.tmp" for folder in ("accuracy", "")]
+    for path in killed_within:
+        path.touch()
     assert buoy_sweep.main([*WORDS, "--out", str(out)], simulate=Drifting(log=str(log))) == 0
     assert not log.exists() and (out / "accuracy" / "table.csv").read_bytes() == before
+    assert not any(path.exists() for path in killed_within)
 
 
 def said(folder):

@@ -182,6 +182,11 @@ def test_an_assignment_without_key_or_value_is_a_fault(text):
         parse_assignment(text)
 
 
+def test_a_table_whose_quotes_the_shell_took_is_a_fault():
+    with pytest.raises(SceneError, match="in single quotes"):
+        parse_assignment("tether.tension={law=linear, stiffness_N=3}")
+
+
 def test_a_name_that_does_not_exist_is_answered_with_those_that_do(tmp_path):
     for name in ("tethered_bouy", tmp_path / "none.toml", ""):
         with pytest.raises(SceneError, match="tethered_buoy"):
@@ -200,8 +205,16 @@ def test_a_file_that_is_no_scene_is_a_scene_error(content, tmp_path):
         load_scene(path)
 
 
+@pytest.mark.parametrize(("mark", "end"), [(b"\xef\xbb\xbf", "\n"), (b"", "\r\n"), (b"\xef\xbb\xbf", "\r")])
+def test_a_file_from_any_editor_is_the_same_scene(mark, end, tmp_path):
+    """Editors put a mark before UTF-8 and end lines in three ways."""
+    scene = load_scene("tethered_buoy")
+    (tmp_path / "mine.toml").write_bytes(mark + scene.to_toml().replace("\n", end).encode())
+    assert load_scene(tmp_path / "mine.toml") == scene
+
+
 def test_a_folder_is_a_scene_error(tmp_path):
-    with pytest.raises(SceneError, match="no file"):
+    with pytest.raises(SceneError, match="is a folder"):
         load_scene(tmp_path)
 
 

@@ -7,21 +7,23 @@ from reports.buoy_sweep.physics import Modes
 from reports.out_of_plane.runs import Run, Study
 from reports.paper.measures import Calm, Violent
 from reports.paper.results import Results
+from reports.paper.snaps import Scales
 
 STRAINS = {"1": 0.099, "2": 0.178, "3": 0.228, "4": 0.292}
 DEPTHS = (21.0, 22.5)
 
 
 class Profile:
-    """A trajectory of a break: the end is at its speed after t_br, and nothing pulls behind the slack front."""
+    """A trajectory of a break: all but some first nodes are at their speed after t_br, and nothing pulls any more."""
 
-    def __init__(self, speed_mps: float, reached_s: float, tension_N: float = 0.0):
+    def __init__(self, speed_mps: float, reached_s: float, tension_N: float = 0.0, resting: int = 0):
         import numpy as np
 
         self.profiles = self
         self.time_s = np.linspace(0.0, 0.1, 101)
         self.s_m = np.linspace(0.0, 60.0, 61)
         self.speed_mps = np.where(self.time_s >= reached_s - 1e-9, speed_mps, 0.0)[:, None] * np.ones(61)
+        self.speed_mps[:, :resting] = 0.0
         self.tension_N = np.full((101, 61), tension_N)
 
 
@@ -31,7 +33,7 @@ def line(case: str, kind: str = "case", **changed) -> Line:
     speed = 700.0 * STRAINS[case[0]]
     row = dict.fromkeys(COLUMNS, None) | {"case": case, "kind": kind, "status": "ok"}
     row |= {
-        "force_N": 1e5 * n,
+        "force_N": (45e3, 180e3, 315e3, 450e3)[n - 1],
         "breaking_time_s": 0.05 if slow else 0.005,
         "end_speed_mps": speed,
         "end_speed_most_mps": speed,
@@ -40,6 +42,7 @@ def line(case: str, kind: str = "case", **changed) -> Line:
         "front_speed_theory_mps": (300.0, 700.0, 720.0, 500.0)[n - 1],
         "slack_front_speed_mps": 260.0,
         "slack_front_speed_theory_mps": 260.0,
+        "end_time_s": 1.0,
         "arrival_theory_s": (0.91, 0.7, 0.55, 0.6)[n - 1],
         "recoil_m": 3.0 * n,
         "recoil_120ms_m": 5.0 * n,
@@ -77,6 +80,10 @@ def buoy(steepness: float, **changed) -> dict:
         "lyapunov_wolf_bits_per_period": 0.2 if large else 0.001,
         "lyapunov_wolf_error": 0.01,
     }
+    if large:
+        row |= {"near_zero": 0.5, "compressed": 0.1, "compressed_inwards": 0.9, "begun_inwards": 1.0, "turned": 1.0}
+        row |= {"peak_periods": 0.1, "apart_periods": 2.0}
+        row |= {f"{side}_{what}": size for side in ("radial", "angular") for what, size in (("line", 0.1), ("at", 1.0))}
     return row | changed
 
 
@@ -116,6 +123,7 @@ class Oscillator:
     """Eq. (33) with a strange attractor."""
 
     def __init__(self, **changed: float):
+        self.oscillator = {"frequency": 1.14, "lift": 0.68, "force": 1.4}
         self.values = {
             "lambda_1_bits_per_period": 0.5,
             "lambda_1_bits_error": 0.01,
@@ -142,10 +150,11 @@ def world(**changed) -> Results:
         accuracy=(again(0.016), again(0.13)),
         sweep=tuple(buoy(kA) for kA in (0.05, 0.13, 0.14)),
         dependence=rows,
-        calm=Calm(20.8, 0.5, 1000.0, 1.0, 0.19, 0.2, 0.2, 0.99, 0.99, 1e-3, 1e-3, 0.2, 0.4),
-        violent=Violent(-100.0, 9000.0, 0.1, 1.0, 0.1, 1.0, 0.5, 1.99, 0.01),
+        calm=Calm(20.8, 0.5, 1000.0, 1.0, 0.19, 0.2, 0.1, 0.99, 0.99, 1e-3, 1e-3, 0.2, 0.4, 0.01, 0.01, 0.99),
+        violent=Violent(0.5, 1.99, 0.01),
         oscillator=Oscillator(),
         plane=Study(None, runs, {"steepness": 0.13}, 50),
-        waves_of_buckle=9.0,
+        buckle=(21.0, 9.0),
+        scales=Scales(0.1, 39.0, 1.5, 1.14, 0.68, 1.4),
     )
     return replace(usual, **changed)

@@ -9,14 +9,34 @@ import shutil
 import subprocess
 from itertools import pairwise
 from pathlib import Path
+from typing import get_args
 
 import pytest
 
-from reports.parts.content import Figure, Picture, Report
+from reports.buoy_sweep.equations import BUOY
+from reports.parts.content import (
+    Bullets,
+    Column,
+    Explorer,
+    Figure,
+    Heading,
+    Item,
+    Links,
+    Listing,
+    Notice,
+    Picture,
+    Report,
+    Sheet,
+    Table,
+    Text,
+    link,
+)
 from reports.parts.html import render_html
+from reports.parts.symbols import T_I
 from tests.reports.chromium import Chromium, installed
 
 HEADINGS = {f"h{level}": level for level in range(1, 7)}
+PHONE = {"width": 400, "height": 800}
 needs_browser = pytest.mark.skipif(installed() is None, reason="no Chromium on this machine to open the report with")
 
 
@@ -39,9 +59,35 @@ def axe(request) -> str:
     return path.read_text(encoding="utf-8")
 
 
-def violations(path: Path, axe: str, dark: bool) -> list[str]:
+@pytest.fixture(scope="module")
+def every_kind(tmp_path_factory) -> Path:
+    """A page with every kind of item, long words and wide tables among them, but the explorer and its sheets."""
+    dot = Picture(b'<svg xmlns="http://www.w3.org/2000/svg" width="490" height="200"><circle r="40"/></svg>', "svg")
+    heads = tuple(Column(f"column {k}", "m", "right" if k else "left") for k in range(14))
+    rows = tuple(tuple(f"{k}.{j} `trajectories`" for j in range(14)) for k in range(4))
+    items = (
+        Heading("One"),
+        Text("See " + link("there", "figure-1") + " and `a_rather_long_name_of_a_column_of_the_table_N` of " + T_I),
+        Heading("Two", 2),
+        Bullets(("a", "b")),
+        BUOY,
+        Figure(dot, "A caption.", "A text of five words.", Picture(b"GIF89a", "gif")),
+        Table(heads, rows, "Wide."),
+        Table(heads, rows, "Small.", small=True),
+        *(Notice(kind, "Beware", ("of this", "of `that`")) for kind in ("note", "warning")),
+        Listing("python -m campaigns.any --out /a/rather/long/path/that/has/no/blank/in/it/and/goes/on/and/on"),
+        Links((("the report of a part", "part/report.html"),)),
+    )
+    covered = {type(item) for item in items} | {Explorer, Sheet}
+    assert covered == set(get_args(Item)), "a new kind of item belongs on this page"
+    path = tmp_path_factory.mktemp("kinds") / "report.html"
+    path.write_bytes(render_html(Report("Every kind", "of item", items)))
+    return path
+
+
+def violations(path: Path, axe: str, **window) -> list[str]:
     """What axe-core finds serious or critical on a page, with a run chosen where it has an explorer."""
-    with Chromium(dark=dark) as chromium:
+    with Chromium(**window) as chromium:
         chromium.open(path)
         chromium.value("document.querySelector('#explorer button[value=after]')?.click()")
         chromium.value(axe + "; true")
@@ -55,9 +101,32 @@ def violations(path: Path, axe: str, dark: bool) -> list[str]:
 
 @needs_browser
 @pytest.mark.slow
-@pytest.mark.parametrize("dark", [False, True], ids=["light", "dark"])
-def test_axe_finds_nothing_serious(built, axe, dark):
-    assert violations(built[0], axe, dark) == []
+@pytest.mark.parametrize("window", [{}, {"dark": True}, PHONE], ids=["light", "dark", "phone"])
+def test_axe_finds_nothing_serious(built, every_kind, axe, window):
+    """In a sweep's page; and in one with every kind of item there is, of which the pages of all campaigns are made."""
+    assert violations(built[0], axe, **window) == []
+    assert violations(every_kind, axe, **window) == []
+
+
+@needs_browser
+@pytest.mark.slow
+def test_on_a_telephone_nothing_lies_beside_the_page_and_drawings_keep_their_size(built, every_kind):
+    """Letters of 7.5 pt in a drawing 6.8 in wide are 10 pixels high from 650 pixels on; half size is the least for
+    mathematics of 12 pt."""
+    for page in (built[0], every_kind):
+        with Chromium(**PHONE) as chromium:
+            chromium.open(page)
+            assert chromium.value("document.documentElement.scrollWidth") == PHONE["width"]
+            for drawing in ("figure img", "svg.glance"):
+                widths = chromium.value(
+                    f"[...document.querySelectorAll('{drawing}')].map((one) => one.getBoundingClientRect().width)"
+                )
+                assert all(width >= 650.0 for width in widths), drawing
+            shares = chromium.value(
+                "[...document.querySelectorAll('.equation svg')]"
+                ".map((one) => one.getBoundingClientRect().width / one.width.baseVal.value)"
+            )
+            assert shares and all(share > 0.5 for share in shares)
 
 
 @needs_browser
@@ -67,7 +136,21 @@ def test_axe_would_have_found_something(built, axe, tmp_path):
     source = built[0].read_text(encoding="utf-8")
     spoilt = tmp_path / "spoilt.html"
     spoilt.write_text(source.replace(' alt="', ' data-alt="').replace("--soft: #57606a", "--soft: #c0c4c8"), "utf-8")
-    assert {line.partition(":")[0] for line in violations(spoilt, axe, False)} >= {"image-alt", "color-contrast"}
+    assert {line.partition(":")[0] for line in violations(spoilt, axe)} >= {"image-alt", "color-contrast"}
+
+
+@needs_browser
+@pytest.mark.slow
+def test_on_paper_captions_are_smaller_than_text_and_nothing_moves(every_kind):
+    with Chromium() as chromium:
+        chromium.open(every_kind)
+        chromium.call("Emulation.setEmulatedMedia", media="print")
+        sizes = chromium.value(
+            "['main > p:not(.subtitle)', 'figcaption', 'caption']"
+            ".map((one) => parseFloat(getComputedStyle(document.querySelector(one)).fontSize))"
+        )
+        assert max(sizes[1:]) < sizes[0] == pytest.approx(10.0 / 0.75, abs=0.01)
+        assert chromium.value("document.querySelector('.moving').getBoundingClientRect().height") == 0
 
 
 def test_headings_go_down_one_level_at_a_time_and_there_is_one_title(page):
@@ -102,4 +185,4 @@ def test_moving_pictures_are_hidden_from_those_who_asked_for_less_motion(tmp_pat
         chromium.open(tmp_path / "report.html")
         shown = chromium.value("document.querySelector('.moving').getBoundingClientRect().height > 0")
         assert shown is not still
-        assert chromium.value("document.querySelector('figure > img').getBoundingClientRect().height > 0")
+        assert chromium.value("document.querySelector('figure > .wide > img').getBoundingClientRect().height > 0")

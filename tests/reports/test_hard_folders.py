@@ -24,6 +24,7 @@ def test_all_runs_failed(tmp_path):
 def test_a_single_short_run(tmp_path):
     text = words(campaign(tmp_path / "out", [0.13], periods=6, transient=2))
     assert "1 run, kA = 0.13" in text and "No spectrum" in text and "too few strobed points" in text
+    assert "A verdict takes a run of 42 wave periods or more, 40 of them beyond the transient; the longest" in text
 
 
 def test_a_damaged_and_a_missing_trajectory_cost_only_themselves(tmp_path):

@@ -1,13 +1,17 @@
 """The out-of-plane report: its statements follow the table, its pages need nothing else, and gaps are said."""
 
+import math
 import re
 import shutil
+from dataclasses import replace
 
 import pytest
 
 from campaigns import out_of_plane
 from reports import build
-from reports.parts.folder import FolderError
+from reports.out_of_plane import runs
+from reports.out_of_plane.comparison import comparison_words, read_pairs
+from reports.parts.folder import FolderError, read_folder
 from tests.campaigns.fake_space import SpaceEngine
 
 WORDS = ["--periods", "80", "--transient", "20", "--backend", "threading", "--jobs", "2"]
@@ -36,6 +40,16 @@ def test_bursts_of_the_rope_over_a_quiet_buoy_do_not_bear_the_paper_out(study):
     assert "is not borne out for the buoy" in text and "is not borne out for the rope" in text
     assert "the planar run is good enough" in text
     assert "fig. 20" in text
+
+
+def test_what_records_are_too_short_for_is_not_said(study):
+    """Without a distance of the sections nothing is concluded from them, nor said to agree."""
+    pairs = read_pairs(runs.read_study(read_folder(study, runs.COLUMNS, runs.WORDS)))
+    assert pairs and not any(pair.untold for pair in pairs) and "good enough there" in comparison_words(pairs)
+    short = [replace(pair, across=math.nan) for pair in pairs]
+    assert {name for pair in short for name in pair.untold} == {"section"}
+    said = comparison_words(short)
+    assert "too short to compare section" in said and "good enough for the buoy is not told" in said
 
 
 @pytest.mark.slow

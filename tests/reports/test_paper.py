@@ -41,7 +41,7 @@ def found(tmp_path_factory):
         for EI in ((0.4, 4.0) if under == "full" else (0.4,))
     ]
     rows.append(deep(0.13, 25.0, status="newton-failed"))
-    rows = [dict.fromkeys(DEPENDENCE_COLUMNS) | row | {"run_key": "key"} for row in rows]
+    rows = [{name: row.get(name) for name in DEPENDENCE_COLUMNS} | {"run_key": "key"} for row in rows]
     write(folder / "dependence" / "table.csv", DEPENDENCE_COLUMNS, rows)
     (folder / "buoy").mkdir()
     (folder / "buoy" / "report.html").write_text("")

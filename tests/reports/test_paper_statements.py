@@ -38,6 +38,18 @@ def pulled(tension_N):
     )
 
 
+def apart():
+    """Breaks whose tension is gone where nothing moves yet."""
+    usual = world()
+    return replace(
+        usual,
+        lines=tuple(
+            replace(one, trajectory=Profile(one.value("end_speed_mps"), 0.0, resting=30)) if one.kind == "case" else one
+            for one in usual.lines
+        ),
+    )
+
+
 def sooner():
     """Slow breaks that reach their speed first."""
     usual = world()
@@ -61,6 +73,10 @@ def calm(**changed):
     return world(calm=replace(world().calm, **changed))
 
 
+def scaled(**changed):
+    return world(scales=replace(world().scales, **changed))
+
+
 def violent(**changed):
     return world(violent=replace(world().violent, **changed))
 
@@ -78,6 +94,11 @@ LOST = {
     "The speed of the snap back is proportional": lines("4", end_speed_mps=500.0),
     "Static tensions of 45": world(static=(("1", 0.2), ("2", 0.1))),
     "The wave takes": lines("1", arrival_theory_s=0.3),
+    "The tensions of cases 1, 2 and 3": lines("4", force_N=900e3),
+    "The times that the figures cover": lines(*ALL, end_time_s=0.2),
+    "The speed of the front depends": lines("1", "2", "3", "4", front_speed_theory_mps=500.0),
+    "The front of the velocity runs": apart(),
+    "In slow breaks the wave has time": world(),
     "Lines that break at higher tension": lines(*ALL, recoil_120ms_m=1.0),
     "The vertical motion decreases": lines(*ALL, vertical_m=1.0, vertical_beyond_m=1.0),
     "The line buckles at the fixed end": lines(*ALL, steepest_tilt_rad=0.1),
@@ -104,12 +125,17 @@ LOST = {
     "In fast breaks a part": lines(*ALL, resting_share=0.2),
     "In slow breaks the kinetic energy": lines(*ALL, kinetic_spread=0.5),
     "The total kinetic energy depends only": lines("1p", "2p", "3p", "4p", kinetic_largest_J=1e3),
+    "The waves are long": scaled(wave_length_m=5.0),
+    "Waves of 0.1 m amplitude": replace(scaled(small_amplitude_m=0.2), modes=replace(world().modes, wave_radps=2.0)),
+    "In small waves the buoy oscillates": calm(radial_mean=0.5, angular_mean=-0.5),
+    "In small waves the motion along r shows": calm(tension_alike=0.5),
+    "In eq. (33) all is normalised": scaled(frequency=2.0, lift=2.0, force=2.0),
     "At rest the buoyancy": calm(rest_m=20.5),
     "The natural frequencies are": world(modes=replace(world().modes, radial_radps=2.0, pendulum_radps=1.0)),
     "In small waves the line stays in tension": replace(
         depths(0.016, tension_top_min_N=-1.0), calm=calm(tension_min_N=-1.0).calm
     ),
-    "In small waves the motion along r": calm(excursion_m=1.0),
+    "In small waves the motion along r is": calm(excursion_m=1.0),
     "In small waves the motion of the buoy is periodic": depths(0.016, regime="chaotic"),
     "The transient along r": calm(radial_kept=0.9),
     "The transient along θ": calm(angular_kept=0.1),
@@ -117,11 +143,14 @@ LOST = {
         calm(radial_coupled=0.5, angular_coupled=0.5), modes=replace(world().modes, pendulum_radps=0.5)
     ),
     "In small waves natural and forced": calm(radial_share=0.5, angular_share=0.5),
-    "The natural frequencies seen": calm(radial_radps=2.0, angular_radps=2.0),
+    "The natural frequencies seen": calm(radial_radps=2.0, angular_radps=2.0, radial_bins=9.0, angular_bins=9.0),
     "Beyond a threshold": world(sweep=tuple(buoy(kA, slack_fraction=0.0) for kA in (0.05, 0.13))),
     "Wherever the line goes slack": world(sweep=(buoy(0.14, regime="period-1"),), buoy={}),
-    "In large waves intervals": depths(0.13, slack_fraction=0.0),
-    "In large waves the slack line": world(waves_of_buckle=1.0),
+    "In large waves intervals": depths(0.13, near_zero=0.0),
+    "In large waves the slack line": world(buckle=(21.0, 1.0)),
+    "In large waves the line is at times": depths(0.13, compressed_inwards=0.4),
+    "In large waves the tension builds up": depths(0.13, turned=0.9),
+    "In large waves the peaks": depths(0.13, peak_periods=0.4),
     "In large waves the largest Lyapunov": depths(0.13, lyapunov_tangent_bits_per_period=0.0, regime="quasi-periodic"),
     "In large waves the motion of the buoy is chaotic": depths(0.13, regime="quasi-periodic"),
     "In small waves the exponent": depths(
@@ -129,7 +158,7 @@ LOST = {
     ),
     "In large waves both motions": depths(0.13, strobed_period=2.0),
     "In large waves the spectra are": violent(unexplained=0.01),
-    "In large waves the spectra show": violent(radial_line=0.7, angular_line=0.7),
+    "In large waves the spectra show": depths(0.13, radial_line=0.7),
     "The points of the section": violent(dimension=1.0),
     "The section of eq. (33)": world(oscillator=Oscillator(lambda_1_bits_per_period=-1.0, section_dimension=1.0)),
     "Waves symmetric": plane(pushed(0.13, "along", rope_lateral_max_m=0.1)),
@@ -139,6 +168,8 @@ LOST = {
     "In large waves the response": plane(pushed(0.13, rope_lateral_max_m=0.01)),
     "A line that breaks slowly": lines(*ALL, kinetic_spread=0.5, resting_share=0.2),
 }
+# the printed times of the wave contradict this one: another world, in which it holds
+HELD = {"In slow breaks the wave has time": lines("1p", "2p", "3p", "4p", arrival_theory_s=0.04)}
 CLAIMS = list(dict.fromkeys(one.statement.claim for one in judged(world())))
 
 
@@ -148,7 +179,8 @@ def verdict(results: Results, claim: str) -> Statement:
 
 @pytest.mark.parametrize("claim", CLAIMS)
 def test_what_the_paper_says_holds_in_its_own_world_and_not_in_another(claim):
-    usual = verdict(world(), claim)
+    own = [results for start, results in HELD.items() if claim.startswith(start)]
+    usual = verdict(own[0] if own else world(), claim)
     if claim.startswith("The wave takes"):  # its misprint has a check of its own: one of both can pass
         assert usual.verdict == HOLDS_IF and usual.condition.startswith("as printed")
     else:

@@ -14,6 +14,7 @@ from reports.buoy_sweep.motion import evidence_text, read_evidence
 from reports.figures.run_sheet import Glance, run_sheet
 from reports.parts.content import Explorer, ExplorerColumn, Figure, Picture, first_sentence, link, plain, spans, sub
 from reports.parts.explorer_data import explorer_json
+from reports.parts.symbols import OMEGA_I, OMEGA_R
 
 FIGURE = Figure(Picture(b"", "svg"), "A caption.", "A text.")
 
@@ -58,6 +59,31 @@ def test_a_record_without_a_finite_value_or_without_any_range_is_drawn():
         assert "nan" not in drawn
 
 
+@pytest.mark.parametrize("periods", [0, 1, 2])
+def test_a_run_may_end_any_time_after_its_transient(periods):
+    """Not every run ends as asked: the exponent of one wave period is a number, and no curve."""
+    t, nothing = np.linspace(0.0, 200.0 + 5.0 * periods, 400), np.empty(0)
+    exponent = 40.0 + np.arange(1, periods + 1), np.full(periods, 0.3)
+    histories = tuple((name, np.sin(t), np.sin(t)) for name in ("T (kN)", "r (m)", "θ (rad)"))
+    drawn = run_sheet(Glance(t, histories, 34.0, np.ones((1, 2)), (nothing, nothing), (), exponent), "x", 80)
+    assert ("no exponent" in drawn) is (periods < 2) and "nan" not in drawn
+
+
+def test_words_of_a_sheet_end_within_it_and_subscripts_are_set_below():
+    """Of the letters of a sans-serif face the mean is not wider than 0.55 of its size, 12 pixels."""
+    t = np.linspace(0.0, 9.0, 50)
+    nothing = np.empty(0)
+    marks = ((1.0, OMEGA_R), (1.26, OMEGA_I))
+    for exponent in ((nothing, nothing), (t, t)):
+        spectrum = (t[1:], t[1:]) if len(exponent[0]) else (nothing, nothing)
+        section = np.ones((3, 2)) if len(exponent[0]) else np.empty((0, 2))
+        histories = (("T (kN)", t, t), ("r (m)", t, t), ("θ (rad)", t, t))
+        drawn = run_sheet(Glance(t, histories, 3.0, section, spectrum, marks, exponent), "x", 9)
+        for place, words in re.findall(r'<text x="(\d+)"[^>]*>(.*?)</text>', drawn):
+            assert int(place) + 0.55 * 12.0 * len(re.sub("<[^>]*>", "", words)) < 960.0, words
+        assert not re.search("[ᵢᵣ₀₁]", drawn) and drawn.count('class="s">i<') == (5 if len(exponent[0]) else 2)
+
+
 def test_explorer_data_reads_back_to_a_hundred_thousandth_of_the_range():
     rng = np.random.default_rng(3)
     points = [tuple(rng.normal(20.0, 3.0, size)) for size in (5, 0, 40)]
@@ -86,6 +112,7 @@ def test_a_link_is_a_mark_of_its_own_and_plain_text_without_it():
         ("From `a: b` on; then", "From `a: b` on"),
         ("Runs in space (D = 3; see fig. 2). loops: of each", "Runs in space (D = 3; see fig. 2)"),
         ("By Wolf et al. against t. From", "By Wolf et al. against t"),
+        ("Fig. 9 of the paper, tension (line). From", "Fig. 9 of the paper, tension (line)"),
         ("One", "One"),
     ],
 )

@@ -5,7 +5,10 @@ import pytest
 
 from analysis.any_series.command import main
 from reports import build
+from reports.figures.series_panels import record_and_spectrum
+from reports.parts.content import Figure, first_sentence
 from reports.parts.folder import FolderError
+from reports.time_series.report import report
 
 
 @pytest.fixture(scope="module")
@@ -23,10 +26,17 @@ def test_the_page_says_the_verdict_and_shows_every_curve(judged):
     html, pdf = build(judged)
     text = html.read_text(encoding="utf-8")
     assert "The motion is quasi-periodic" in text and "load_N" in text
+    figures = [item for item in report(judged).items if isinstance(item, Figure)]
+    assert all(len(first_sentence(figure.caption).split()) > 1 for figure in figures), "their names in the contents"
     assert text.count("<figure") == 3 and text.count("alt=") + text.count("aria-label") >= 3
     assert pdf.read_bytes()[:4] == b"%PDF"
     before = html.read_bytes(), pdf.read_bytes()
     assert tuple(path.read_bytes() for path in build(judged)) == before
+
+
+def test_any_name_of_a_column_can_be_drawn():
+    for name in ("$x_{1", "load_N", "a b " * 40, "\\frac", "Zug in N²"):
+        assert b"<svg" in record_and_spectrum(*np.ones((4, 30)), ("s", name)).data
 
 
 @pytest.mark.slow

@@ -52,7 +52,7 @@ def preface() -> str:
 def figures_of(root: str | Path) -> dict[int, Figure]:
     """The figures that can be drawn, by their number in the paper."""
     return {
-        number: Figure(svg, f"Fig. {number} of the paper: {caption}", alt)
+        number: Figure(svg, f"Fig. {number} of the paper, {caption}", alt)
         for number, (svg, _, caption, alt) in _drawn(root).items()
     }
 

@@ -23,6 +23,7 @@ QUANTITIES = {  # array of a case -> (what is shown, label of its axis, unit)
 }
 LETTERS = "abcd"
 F_HS = "F" + sub("h,s")
+TENSIONS = (-0.1, 1.06)  # of the largest static tension of the two cases that share a scale
 
 
 def drawing(data: xarray.Dataset) -> Drawing:
@@ -50,13 +51,16 @@ def drawing(data: xarray.Dataset) -> Drawing:
         "heights much enlarged, one scale for all; dashed: the fixed end"
         if column == "z_m"
         else "over the unstretched length s from the fixed end; cases 1 and 2, and 3 and 4, share a scale"
+        + (", the same in figs. 3 and 6" if column == "tension_N" else "")
     )
     caption = (
         f"{what} (fracture in {fracture} ms), curves 10 ms apart, dark to bright; {scales}. {F_HS}: "
         f"{forces}. Seen: {'; '.join(words)}. {behind(data)}"
     )
     alt = f"Four panels, {what}, fracture in {fracture} ms, a curve every 10 ms: {'; '.join(words)}."
-    fill = partial(_fill, panels=panels, cases=cases, label=label, motion=column == "z_m")
+    forces_N = [value(data, f"case_{case}_force_N") for case in cases]
+    limits = _limits(panels, cases, forces_N if column == "tension_N" else None, motion=column == "z_m")
+    fill = partial(_fill, panels=panels, limits=limits, label=label, motion=column == "z_m")
     return Drawing(line_panels_height_in(len(panels)), fill, caption, alt)
 
 
@@ -66,14 +70,25 @@ def _panel(data: xarray.Dataset, case: str, column: str, letter: str) -> LinePan
     return LinePanel(title, x, data[f"case_{case}_{column}"].values, data[f"case_{case}_time_s"].values)
 
 
-def _fill(figure, panels: list[LinePanel], cases: list[str], label: str, motion: bool) -> None:
-    from matplotlib.ticker import FuncFormatter
+def _limits(panels: list[LinePanel], cases: list[str], forces_N: list[float] | None, motion: bool) -> list[tuple]:
+    """(low, high) of each panel: one scale for all heights, else one for cases 1 and 2 and one for 3 and 4.
 
+    Tensions are shown over the same share of the static one, because figs. 3 and 6 of the paper have identical scales.
+    """
     if motion:
         low, high = min(float(p.y.min()) for p in panels), max(float(p.y.max()) for p in panels)
-        limits = [(low - 0.06 * (high - low), high + 0.06 * (high - low))] * len(panels)
-    else:
-        limits = paired_limits(cases, panels)
+        return [(low - 0.06 * (high - low), high + 0.06 * (high - low))] * len(panels)
+    limits = paired_limits(cases, panels)
+    if forces_N is None:
+        return limits
+    most = [max(N for N, other in zip(forces_N, limits, strict=True) if other == own) for own in limits]
+    low, high = TENSIONS
+    return [(min(a, low * N), max(b, high * N)) for (a, b), N in zip(limits, most, strict=True)]
+
+
+def _fill(figure, panels: list[LinePanel], limits: list[tuple], label: str, motion: bool) -> None:
+    from matplotlib.ticker import FuncFormatter
+
     fill_line_panels(figure, panels, "$x$ (m)" if motion else "$s$ (m)", label, limits, centre=motion)
     if label.endswith("(N)"):
         for axes in figure.axes[: len(panels)]:

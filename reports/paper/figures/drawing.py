@@ -56,7 +56,7 @@ def _settings(one: Source) -> str:
     if scene.water is not None:
         words.append(f"H = {number(scene.water.depth_m)} m, {RHO_W} = {number(scene.water.density_kgpm3)} kg/m³")
     words.append(f"EI = {number(tether.bending_stiffness_Nm2)} N m², {tether.nodes} nodes")
-    words.append(f"{solver.integrator}, rtol {number(solver.rtol)}" if not _fixed(solver) else solver.integrator)
+    words.append(f"{solver.integrator}, {_steps(solver)}")
     if scene.buoy is not None:
         words.append({"full": "constant buoyancy"}.get(scene.buoy.submergence, scene.buoy.submergence))
     if scene.waves is not None:
@@ -65,5 +65,8 @@ def _settings(one: Source) -> str:
     return ", ".join(words)
 
 
-def _fixed(solver) -> bool:
-    return bool(solver.step_s or solver.courant)
+def _steps(solver) -> str:
+    """What sets the length of a step."""
+    if solver.courant:
+        return f"Courant number {number(solver.courant)}"
+    return f"steps of {number(solver.step_s)} s" if solver.step_s else f"rtol {number(solver.rtol)}"

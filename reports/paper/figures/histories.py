@@ -13,6 +13,7 @@ from ...parts.figure_data import sources_of
 from ...parts.style import GREEN, INK, SKY, SOFT, VERMILION
 from ...parts.symbols import L_0, T_I, T_S
 from ...parts.wording import decimals, number, percent
+from ..snaps import NEAR_ZERO
 from .drawing import Drawing, behind, scaled, value
 
 if TYPE_CHECKING:
@@ -20,7 +21,6 @@ if TYPE_CHECKING:
 
 DETAIL_PERIODS = 10
 _HEIGHT_IN = 3.9
-_NEAR_ZERO = 0.05  # of the static tension: what the paper calls near-zero, in numbers
 
 
 @dataclass(frozen=True)
@@ -38,21 +38,23 @@ class Side:
 
 def drawing(data: xarray.Dataset) -> Drawing:
     """The figure of a data file. Raises KeyError for one of another figure."""
-    side, words = _tension(data) if "tension_N" in data else _radial(data) if "radius_m" in data else _angular(data)
+    told = _tension if "tension_N" in data else _radial if "radius_m" in data else _angular
+    side, what, seen = told(data)
     kA = sources_of(data)[0].label
     caption = (
-        f"{words}, {kA}, against t/{T_I}; above up to the end of the window of eq. (31) (shaded), below the last "
-        f"{DETAIL_PERIODS} wave periods of it. Seen: {_swings(data, side)}. {behind(data)}"
+        f"{what}, {kA}, against t/{T_I}; above up to the end of the window of eq. (31) (shaded), below the last "
+        f"{DETAIL_PERIODS} wave periods of it. Seen: {seen}; {_swings(data, side)}. {behind(data)}"
     )
-    return Drawing(_HEIGHT_IN, partial(_fill, data=data, side=side), caption, f"History over time: {words}, {kA}.")
+    alt = f"History over time: {what}, {kA}, {seen}."
+    return Drawing(_HEIGHT_IN, partial(_fill, data=data, side=side), caption, alt)
 
 
-def _tension(data: xarray.Dataset) -> tuple[Side, str]:
+def _tension(data: xarray.Dataset) -> tuple[Side, str, str]:
     static = value(data, "static_tension_N")
     low, high = data["tension_low_over_static"].values, data["tension_high_over_static"].values
-    slack = float(np.mean(data["tension_over_static"].values < _NEAR_ZERO))
+    slack = float(np.mean(data["tension_over_static"].values < NEAR_ZERO))
     seen = f"from {decimals(low.min(), 2)} to {decimals(high.max(), 2)} {T_S}"
-    seen += f", {percent(slack)} of the time below {_NEAR_ZERO} {T_S}" if slack else f", never below {_NEAR_ZERO} {T_S}"
+    seen += f", {percent(slack)} of the time below {NEAR_ZERO} {T_S}" if slack else f", never below {NEAR_ZERO} {T_S}"
     side = Side(
         "tension_over_static",
         r"$T/T_s$ (–)",
@@ -61,10 +63,10 @@ def _tension(data: xarray.Dataset) -> tuple[Side, str]:
         ((1.0, "static"), (0.0, "no tension")),
         ("tension_low_over_static", "tension_high_over_static"),
     )
-    return side, f"tension at the top end over the static one, {T_S} = {number(static)} N, {seen}"
+    return side, f"tension at the top end over the static one ({T_S} = {number(static)} N)", seen
 
 
-def _radial(data: xarray.Dataset) -> tuple[Side, str]:
+def _radial(data: xarray.Dataset) -> tuple[Side, str, str]:
     static, length = value(data, "static_radius_m"), value(data, "unstretched_m")
     ratio = data["radius_over_static"].values
     swing = (static * ratio - static) / (static - length)
@@ -73,15 +75,15 @@ def _radial(data: xarray.Dataset) -> tuple[Side, str]:
         f"from {decimals(ratio.min(), 3)} to {decimals(ratio.max(), 3)}; Δr from {decimals(swing.min(), 2)} to "
         f"{decimals(swing.max(), 2)} times the static stretch Δl, slack below −1"
     )
-    words = f"radius over the static one, r₀ = {L_0} + Δl = {decimals(static, 3)} m, {seen}"
-    return Side("radius_over_static", r"$r/r_0$ (–)", r"$r$ (m)", static, levels), words
+    what = f"radius over the static one (r₀ = {L_0} + Δl = {decimals(static, 3)} m)"
+    return Side("radius_over_static", r"$r/r_0$ (–)", r"$r$ (m)", static, levels), what, seen
 
 
-def _angular(data: xarray.Dataset) -> tuple[Side, str]:
+def _angular(data: xarray.Dataset) -> tuple[Side, str, str]:
     angle = data["angle_rad"].values
     seen = f"from {decimals(angle.min(), 3)} to {decimals(angle.max(), 3)} rad"
     side = Side("angle_rad", r"$\theta$ (rad)", r"$\theta$ (°)", 180.0 / np.pi, ((0.0, "static"),))
-    return side, f"angle from the vertical (static value 0, hence in rad), {seen}"
+    return side, "angle from the vertical (static value 0, hence in rad)", seen
 
 
 def _swings(data: xarray.Dataset, side: Side) -> str:

@@ -9,7 +9,7 @@ from ...breaking_line.runs import find, of_kind
 from ...parts.statements import Statement
 from ...parts.wording import number, percent
 from ..results import Results
-from . import calm, line, violent
+from . import calm, line, snapping, violent
 
 PROMISED = 0.01  # section 3: deviation on twice the points
 FINER = "twice the elements"
@@ -68,10 +68,25 @@ METHOD = (
     ("3", doubled_buoy, "docs/how_far_to_trust_a_run.md: 641 nodes, three other codes"),
 )
 CONCLUSIONS = (
+    ("5", doubled_buoy, "as under 3"),
     ("5", line.shared(own.tension), "as under 4.1.3"),
     ("5", line.shared(own.speed), line.EXACT),
     ("5", dissipates, "as under 4.1.3; docs/breaking_line.md"),
+    ("5", calm.always_taut, "as under 4.2.1"),
     ("5", calm.regular, "as under 4.2.1"),
+    ("5", calm.two_modes, "as under 4.2.1"),
     ("5", violent.threshold, violent.SWEEP),
+    ("5", snapping.snapping, "as under 4.2.2"),
     ("5", violent.chaotic, "as under 4.2.2"),
+)
+NOT_JUDGED = (
+    ("4.1", "synthetic lines stretch up to thirty times more than steel; broken lines damage and injure", "literature"),
+    ("4.1.2", "the acoustic wave drag of a supersonic front is small", "no air in the model"),
+    ("4.1.3", "lines whose strands fail in turn are less destructive", "an observation; rows on 4.1.3 test its reason"),
+    ("4.2", "large motions come of the extensible rope", "only the paper's rope was run"),
+    ("4.2.2", "it resembles piecewise linear oscillators and a bouncing ball", "an analogy: eq. (33), fig. 19b"),
+    ("4.2.2", "the section is four-dimensional, so that its projection hides its structure", "not a result of runs"),
+    ("5", "Euler parameters avoid singularities, bending stiffness an ill-posed problem", "tests of the engine"),
+    ("5", "the fracture time is a principal parameter", "rows on 4.1.3 say what hangs on it and what does not"),
+    ("5", "chaotic buoys leave strong signatures on the surface", "the companion paper; waves are given here"),
 )

@@ -11,6 +11,7 @@ from ...breaking_line.runs import FAST, SLOW, find, of_kind, pairs
 from ...parts.statements import Statement
 from ...parts.wording import decimals, number, percent
 from ..results import Results
+from . import line_fronts
 
 SOUND_MPS = 343.0  # in dry air at 20 degrees C
 PRINTED_STRAIN = {"1": 0.099, "2": 0.178, "3": 0.228, "4": 0.292}
@@ -214,24 +215,19 @@ def proportional(results: Results) -> Statement:
     return Statement(claim, found, checks, f"one ratio to {percent(PROPORTIONAL)}")
 
 
-def slow_buckling(results: Results) -> Statement:
-    numbers = own.in_turn(results.lines, SLOW, "steepest_tilt_rad")
-    return Statement(
-        "In slow breaks too the line buckles near the fixed end, at every tension.",
-        f"Steepest element by the end of the figure, rad: {own.told(numbers, 2)}.",
-        own.each(numbers, lambda value: value > own.BUCKLED_RAD),
-        f"an element steeper than {number(own.BUCKLED_RAD)} rad",
-    )
+def buckling(claim: str, cases: tuple[str, ...]):
+    """The statement that the line buckles, of these cases."""
 
+    def state(results: Results) -> Statement:
+        numbers = own.in_turn(results.lines, cases, "steepest_tilt_rad")
+        return Statement(
+            claim,
+            f"Steepest element by the end of the figure, rad: {own.told(numbers, 2)}.",
+            own.each(numbers, lambda value: value > own.BUCKLED_RAD),
+            f"an element steeper than {number(own.BUCKLED_RAD)} rad",
+        )
 
-def fast_buckling(results: Results) -> Statement:
-    numbers = own.in_turn(results.lines, FAST, "steepest_tilt_rad")
-    return Statement(
-        "The line buckles at the fixed end.",
-        f"Steepest element by the end of the figure, rad: {own.told(numbers, 2)}.",
-        own.each(numbers, lambda value: value > own.BUCKLED_RAD),
-        f"an element steeper than {number(own.BUCKLED_RAD)} rad",
-    )
+    return state
 
 
 def shared(state):
@@ -239,22 +235,28 @@ def shared(state):
     return lambda results: state(results.lines)
 
 
+fast_buckling = buckling("The line buckles at the fixed end.", FAST)
+slow_buckling = buckling("In slow breaks too the line buckles near the fixed end, at every tension.", SLOW)
 EXACT, DOUBLED = "closed form: exact simple wave", "refinement: doubled grids"
 REPORT = "report on the breaking line"
 STATEMENTS = (
     ("abstract", proportional, f"{EXACT} ({REPORT}, fronts and shocks; docs/breaking_line_exact.md)"),
     ("4.1.2", static_strain, "closed form: the tension law inverted"),
+    ("4.1.2", line_fronts.shares_of_strength, "arithmetic"),
     ("4.1.2, fig. 2", crossing, EXACT),
+    ("4.1.2, fig. 2", line_fronts.covered, EXACT),
     ("4.1.2, fig. 2", shared(own.recoil), f"{DOUBLED} (less than 1 mm, docs/breaking_line.md)"),
     ("4.1.2, fig. 2", shared(own.vertical), f"{DOUBLED}; details of folds are not settled by any grid"),
     ("4.1.2, fig. 2", fast_buckling, f"{DOUBLED}; bending stiffness varied ({REPORT})"),
     ("4.1.2, fig. 2", shared(own.overshoot), f"bending stiffness varied: docs/breaking_line.md; {REPORT}"),
     ("4.1.2, fig. 3", front_theory, f"{EXACT}; even grids without gravity ({REPORT})"),
+    ("4.1.2, fig. 3", line_fronts.differs, "closed form: slope of the printed tension law"),
     ("4.1.2", shared(own.front_speed), "closed form: slope of the printed tension law"),
     ("4.1.2", supersonic, "closed form: slope of the printed tension law"),
     ("4.1.2, fig. 3", shared(own.faster_fronts), "closed form: slope of the printed tension law"),
     ("4.1.2, fig. 3", steepens, "closed form: curvature of the printed tension law"),
     ("4.1.2, fig. 3", shock_incomplete, "closed form: characteristics; second method: finite volumes (tests)"),
+    ("4.1.2, figs. 3, 4", line_fronts.together, f"{EXACT}: T and speed are functions of each other"),
     ("4.1.2, fig. 4", shared(own.slack_front), EXACT),
     ("4.1.2, fig. 4", without_tension, DOUBLED),
     ("4.1.2, fig. 4", shared(own.at_the_end), DOUBLED),
@@ -264,6 +266,7 @@ STATEMENTS = (
     ("4.1.3, fig. 5", same_motion, DOUBLED),
     ("4.1.3, fig. 5", slow_buckling, f"{DOUBLED}; bending stiffness varied ({REPORT})"),
     ("4.1.3, fig. 6", shared(own.tension), "exact simple wave for the fronts"),
+    ("4.1.3, fig. 6", line_fronts.in_time, EXACT),
     ("4.1.3, fig. 7", shared(own.speed), EXACT),
     ("4.1.3, fig. 7", dominant, EXACT),
     ("4.1.3, fig. 7", later, EXACT),

@@ -10,6 +10,7 @@ from ...parts.wording import count, decimals, number, percent
 from ..results import Results
 
 NOT_IN_DOUBT = 2.0  # standard errors
+SAME_NUMBER = 0.05
 VISIBLE_M = 0.1  # lateral distance from which a motion of the rope is three-dimensional
 
 
@@ -31,6 +32,22 @@ def strange(results: Results) -> Statement:
         ("dimension not whole", whole > NOT_IN_DOUBT * error),
     )
     return Statement(claim, found, checks, "two errors above zero, and off 1 and 2")
+
+
+def normalised(results: Results) -> Statement:
+    claim = "In eq. (33) all is normalised by the buoy's mass and diameter and the radial natural frequency."
+    own, study = results.scales, results.oscillator
+    if own is None or study is None:
+        return Statement(claim, "No run shows it.", ())
+    pairs = (
+        ("ω", own.frequency, study.oscillator["frequency"]),
+        ("B − W", own.lift, study.oscillator["lift"]),
+        ("F", own.force, study.oscillator["force"]),
+    )
+    told = ", ".join(f"{name} = {number(a, 3)} ({number(b, 3)})" for name, a, b in pairs)
+    found = f"So normalised table 1 and the large wave give, added mass included (printed): {told}."
+    checks = tuple((name, abs(a / b - 1.0) < SAME_NUMBER) for name, a, b in pairs)
+    return Statement(claim, found, checks, f"each within {percent(SAME_NUMBER)} of the number of fig. 19b")
 
 
 def planar(results: Results) -> Statement:
@@ -107,6 +124,7 @@ def spatial(results: Results) -> Statement:
 
 PUSHES = "seven decades of push, four directions, five depths, three stiffnesses, three grids (report out of the plane)"
 STATEMENTS = (
+    ("4.2.2, eq. (33)", normalised, "closed form: table 1, dispersion relation"),
     ("4.2.2, eq. (33), fig. 19b", strange, "exact motion, closed form in each piece; λ1 + λ2 = −μ (report on eq. 33)"),
     ("4.2, 4.2.2", planar, "exact symmetry of the scheme"),
     ("4.2.2, fig. 20", small_decays, f"exponent of an infinitesimal perturbation of planar runs agrees; {PUSHES}"),

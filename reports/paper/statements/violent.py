@@ -8,15 +8,14 @@ from __future__ import annotations
 import math
 
 from ...parts.statements import Statement
-from ...parts.wording import decimals, number, percent, ranges
+from ...parts.wording import count, decimals, number, percent, ranges
 from ..results import LARGE, Results
-from .calm import AGAIN, DEPTHS
+from .calm import DEPTHS
 from .rows import NOT_IN_DOUBT, NOTHING, OPEN, at, by_regime, elsewhere, exponent, good, positive, settled, value
+from .snapping import STATEMENTS as SNAPPING
 
 ONE_LINE = 0.25  # share of the variance on one bin above which a spectrum has a dominant mode
 CONTINUOUS = 0.05  # share of the variance that no line explains, above which a spectrum is continuous
-SLACK, PEAK = 0.01, 2.0  # share of the time; maximum over the static tension
-HIGH_MODE = 4  # half waves
 
 
 def threshold(results: Results) -> Statement:
@@ -53,29 +52,6 @@ def chaos_beyond(results: Results) -> Statement:
     return Statement(claim, found, tuple(checks), f"regime chaotic; {NOTHING}")
 
 
-def snapping(results: Results) -> Statement:
-    rows = good(results.over_depth(LARGE))
-    static = results.modes.static_tension_N if results.modes else math.nan
-    claim = "In large waves intervals of almost no tension are followed by large peaks."
-    if not rows or not math.isfinite(static):
-        return Statement(claim, "No run shows it.", ())
-    words, checks = [], []
-    for row in rows:
-        share, peak = value(row, "slack_fraction"), value(row, "tension_top_max_N") / static
-        checks.append((at(row), share > SLACK and peak > PEAK))
-        words.append(f"{percent(share)} and {number(peak, 2)} at {at(row)}")
-    found = f"Time without tension, and largest over static tension: {', '.join(words)}."
-    return Statement(claim, found, tuple(checks), f"{percent(SLACK)} of the time; {number(PEAK)} times the static one")
-
-
-def buckles(results: Results) -> Statement:
-    claim = "In large waves the slack line buckles into a mode of high order."
-    if results.waves_of_buckle is None:
-        return Statement(claim, "No run shows it.", ())
-    found = f"Half waves along the slack line, median over the samples: {number(results.waves_of_buckle)}."
-    return Statement(claim, found, (("H = 21 m", results.waves_of_buckle >= HIGH_MODE),), f"{HIGH_MODE} or more")
-
-
 def positive_exponent(results: Results) -> Statement:
     rows = [row for row in good(results.over_depth(LARGE)) if exponent(row) != "none"]
     long = results.buoy.get(LARGE)
@@ -88,7 +64,7 @@ def positive_exponent(results: Results) -> Statement:
     if long is not None and exponent(long) != "none":
         where = f"H = {number(results.depth())} m"
         checks = sorted([*checks, (where, positive(long))], key=lambda check: check[0])
-        found = f"The long run at {where}: σ = {exponent(long)} bits/T. "
+        found = f"The long run at {where}: σ = {exponent(long)} bits per period. "
     return Statement(
         "In large waves the largest Lyapunov exponent is positive.",
         f"{found}Shorter runs: {', '.join(words) or 'none'}.",
@@ -132,16 +108,27 @@ def continuous(results: Results) -> Statement:
 
 
 def no_dominant_mode(results: Results) -> Statement:
-    found, claim = results.violent, "In large waves the spectra show no dominant modes."
-    if found is None:
+    claim = "In large waves the spectra show no dominant modes."
+    rows = [(at(row), row) for row in good(results.over_depth(LARGE))] + elsewhere(results, LARGE)
+    long = results.buoy.get(LARGE)
+    rows = [(where, row) for where, row in rows if where != f"H = {number(results.depth())} m" or long is None]
+    rows += [("the long run", long)] if long is not None else []
+    lines = [(where, value(row, "radial_line"), value(row, "angular_line"), row) for where, row in rows]
+    lines = [one for one in lines if math.isfinite(one[1])]
+    if not lines:
         return Statement(claim, "No run shows it.", ())
+    where, _, _, row = lines[-1]
+    sides = [
+        f"{name} {percent(value(row, f'{side}_line'))} at {number(value(row, f'{side}_at'), 3)} of the waves' frequency"
+        for name, side in (("r", "radial"), ("θ", "angular"))
+    ]
+    least = min(lines, key=lambda one: min(one[1:3]))
     words = (
-        f"Largest share of the variance on one bin of eq. (31): r {percent(found.radial_line)} at "
-        f"{number(found.radial_at, 3)} of the waves' frequency, θ {percent(found.angular_line)} at "
-        f"{number(found.angular_at, 3)}."
+        f"Largest share of the variance on one bin of eq. (31), {where}: {', '.join(sides)}. The least of "
+        f"{count(len(lines), 'run')} at other depths and with both buoyancies: {percent(min(least[1:3]))} ({least[0]})."
     )
-    checks = (("r", found.radial_line < ONE_LINE), ("θ", found.angular_line < ONE_LINE))
-    return Statement(claim, words, checks, f"below {percent(ONE_LINE)}")
+    checks = tuple((where, max(r, theta) < ONE_LINE) for where, r, theta, _ in lines)
+    return Statement(claim, words, checks, f"below {percent(ONE_LINE)} in r and θ")
 
 
 def region(results: Results) -> Statement:
@@ -159,12 +146,11 @@ SWEEP = "part `sweep`: 49 steepnesses"
 STATEMENTS = (
     ("4.2", threshold, SWEEP),
     ("4.2", chaos_beyond, SWEEP),
-    ("4.2.2, fig. 13", snapping, f"{DEPTHS}; {AGAIN}"),
-    ("4.2.2", buckles, "shape of the rope, part `out_of_plane`"),
+    *SNAPPING,
     ("4.2.2, fig. 14", positive_exponent, f"tangent dynamics; finite separation agrees (docs/findings.md); {DEPTHS}"),
     ("4.2, 4.2.2", chaotic, f"0-1 test, two surrogates, halves, tighter tolerance; {DEPTHS}"),
     ("4.2.2, figs. 15, 16", never_repeats, f"strobed motion; {DEPTHS}"),
     ("4.2.2, figs. 17, 18", continuous, "lines fitted to the strobed record (CLEAN)"),
-    ("4.2.2, figs. 17, 18", no_dominant_mode, "spectra by eq. (31)"),
+    ("4.2.2, figs. 17, 18", no_dominant_mode, f"spectra by eq. (31); {DEPTHS}, both buoyancies"),
     ("4.2.2, fig. 19a", region, "correlation dimension of the section of the long run"),
 )

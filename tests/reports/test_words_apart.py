@@ -1,0 +1,84 @@
+"""The words of a drawing can be read: none lies on another, numbers of an axis stand apart, none leaves the sheet."""
+
+from itertools import combinations
+
+import numpy as np
+import pytest
+from matplotlib.figure import Figure
+from matplotlib.text import Text
+
+from reports.buoy_sweep.report import report
+from reports.figures.tether_animation import Snap, still_rows, tether_stills
+
+APART = 2.0  # pixels of 100 to an inch, between two numbers of one axis; half a space
+
+
+def crowded(figure) -> list[tuple[str, ...]]:
+    """Words that lie on others, or beyond the edge of the sheet."""
+    figure.draw_without_rendering()
+    numbers, hidden = set(), set()
+    for axis in (axis for axes in figure.axes for axis in (axes.xaxis, axes.yaxis)):
+        low, high = sorted(axis.get_view_interval())
+        for tick in (*axis.get_major_ticks(), *axis.get_minor_ticks()):
+            kept = numbers if low <= tick.get_loc() <= high else hidden
+            kept |= {tick.label1, tick.label2}
+    words = [
+        (one, one.get_window_extent())
+        for one in figure.findobj(Text)
+        if one.get_visible() and one.get_text().strip() and one not in hidden
+    ]
+    found = [
+        (one.get_text(), other.get_text())
+        for (one, a), (other, b) in combinations(words, 2)
+        if min(a.x1, b.x1) - max(a.x0, b.x0) > (-APART if {one, other} <= numbers else 1.0)
+        and min(a.y1, b.y1) - max(a.y0, b.y0) > 1.0
+    ]
+    edge = figure.bbox.padded(1.0)
+    return found + [
+        (one.get_text(),) for one, box in words if not edge.contains(*box.min) or not edge.contains(*box.max)
+    ]
+
+
+@pytest.fixture
+def drawn(monkeypatch):
+    """What is found in every drawing made from here on, one entry a drawing."""
+    entries, save = [], Figure.savefig
+
+    def looked_at(figure, *how, **options):
+        entries.append(crowded(figure))
+        return save(figure, *how, **options)
+
+    monkeypatch.setattr(Figure, "savefig", looked_at)
+    return entries
+
+
+def snap(way_m: float) -> Snap:
+    """A straight line whose upper end goes to and fro by `way_m`."""
+    periods, share = np.linspace(2.0, 5.0, 60), np.linspace(0.0, 1.0, 9)
+    x = way_m * np.sin(periods)[:, None] * share
+    z = np.broadcast_to(20.0 * share, x.shape)
+    across = np.linspace(-way_m - 3.0, way_m + 3.0, 20)
+    pull = 2e3 * np.sin(periods) ** 2
+    return Snap(periods, x, z, np.ones_like(x), 1.5, (across, np.full((60, 20), 21.0)), (periods, pull))
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("way_m", [0.1, 3.0, 9.0])
+def test_the_tether_at_six_moments_however_far_it_swings(drawn, way_m):
+    one = snap(way_m)
+    tether_stills(one, still_rows(one))
+    assert drawn == [[]]
+
+
+def test_words_on_others_are_found(drawn):
+    figure = Figure()
+    axes = figure.add_subplot()
+    axes.set_xlim(1e6, 2e6)
+    axes.set_xticks(np.linspace(1e6, 2e6, 40), [f"{value:.0f}" for value in np.linspace(1e6, 2e6, 40)])
+    assert len(crowded(figure)) >= 39
+
+
+@pytest.mark.slow
+def test_the_drawings_of_a_sweep(folder, drawn):
+    report(folder)
+    assert len(drawn) >= 8 and not any(drawn)
