@@ -6,14 +6,14 @@ first sample of a record. Names are imported on first use: `import analysis` cos
 
 import sys
 
-from analysis.on_first_use import on_first_use
-
 if sys.version_info < (3, 11):  # noqa: UP036
     running = ".".join(map(str, sys.version_info[:3]))
     raise ImportError(
         f"the tether workbench needs Python 3.11 or newer, and this is {running} ({sys.executable}); "
         "make its environment with a newer one, for instance python3.12 -m venv .venv"
     )
+
+from analysis.on_first_use import on_first_use  # not above: an older Python does not get through it
 
 _HOME = {
     "Spectrum": "spectra",

@@ -72,13 +72,8 @@ def rotation_vector(r):
     if square < 0.01 and r[0] > 0.0:  # a = 2 arcsin(sqrt(square)) as a power series, to rounding
         z = square
         ratio = 2.0 + z * (
-            1.0 / 3
-            + z
-            * (
-                3.0 / 20
-                + z * (5.0 / 56 + z * (35.0 / 576 + z * (63.0 / 1408 + z * (231.0 / 6656 + z * (143.0 / 5120)))))
-            )
-        )
+            1.0 / 3 + z * (3.0 / 20 + z * (5.0 / 56 + z * (35.0 / 576 + z * (63.0 / 1408 + z * (231.0 / 6656 + z * (
+                143.0 / 5120)))))))  # fmt: skip
         return (ratio * r[1], ratio * r[2], ratio * r[3]), ratio * math.sqrt(square), 0.5 * ratio * r[0]
     sine = math.sqrt(square)
     angle = 2.0 * math.atan2(sine, r[0])

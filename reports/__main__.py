@@ -1,4 +1,4 @@
-"""`python -m reports DIR`: build the report of a campaign's folder again."""
+"""`python -m reports DIR`: build the report of a folder of a campaign, or of `python -m analysis --out`, again."""
 
 from __future__ import annotations
 
@@ -16,7 +16,8 @@ def main(arguments: list[str] | None = None) -> int:
         prog="python -m reports",
         description="Build report.html and report.pdf of a campaign's folder again, from what the folder holds.",
     )
-    parser.add_argument("directory", metavar="DIR", help="folder of a finished campaign (its --out)")
+    folders = "folder of a finished campaign, or of python -m analysis (its --out)"
+    parser.add_argument("directory", metavar="DIR", help=folders)
     directory = parser.parse_args(arguments).directory
 
     from . import build

@@ -10,14 +10,37 @@ from engine.scene_models import Scene
 from engine.trajectory import COLUMNS
 
 ROOT = Path(__file__).resolve().parents[1]
+DOCUMENTS = [
+    "README.md",
+    "NOTATION.md",
+    "CHANGELOG.md",
+    "CITATION.cff",
+    *(f"docs/{p.name}" for p in sorted((ROOT / "docs").glob("*.md"))),
+]
 NOTATION = (ROOT / "NOTATION.md").read_text(encoding="utf-8")
 
 
-@pytest.mark.parametrize("name", ["NOTATION.md", "README.md", "CITATION.cff"])
+@pytest.mark.parametrize("name", DOCUMENTS)
 def test_every_file_that_a_document_names_exists(name):
     text = (ROOT / name).read_text(encoding="utf-8")
-    paths = re.findall(r"`((?:engine|analysis|reports|campaigns|docs|tests|benchmarks|\.ci)/[\w./-]*)`", text)
-    assert [path for path in paths if not (ROOT / path).exists()] == []
+    paths = re.findall(
+        r"`((?:machine_code|engine|analysis|reports|campaigns|docs|tests|benchmarks|\.ci)/[\w./*-]*)`", text
+    )
+    assert [path for path in paths if not list(ROOT.glob(path.replace("NAME", "*")))] == []
+
+
+def test_the_design_tells_of_every_part():
+    """Each module of engine, analysis and machine_code, each campaign and each report, by its name."""
+    text = (ROOT / "docs" / "design.md").read_text(encoding="utf-8")
+    modules = [path for package in ("engine", "analysis", "machine_code") for path in (ROOT / package).glob("[!_]*.py")]
+    modules = [path.name for path in modules if not path.name.startswith("scene_")]  # told of together
+    packages = [
+        path.parent
+        for place in ("engine", "analysis", "campaigns", "reports")
+        for path in (ROOT / place).glob("*/__init__.py")
+    ]
+    assert [name for name in modules if name not in text] == []
+    assert [path for path in packages if f"{path.name}/" not in text] == []
 
 
 def test_every_scene_key_and_column_named_exists():

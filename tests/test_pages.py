@@ -6,7 +6,7 @@ import tomllib
 
 import pytest
 
-from tests.pages import PAGES, ROOT, blocks, commands, file_of
+from tests.pages import PAGES, blocks, commands, file_of
 
 
 def printed_as_shown(printed, shown):
@@ -44,13 +44,6 @@ def test_every_block_is_sound(page, tmp_path, monkeypatch):
         else:
             assert kind == "text"
     assert "python" in kinds
-
-
-@pytest.mark.parametrize("page", PAGES)
-def test_every_file_that_a_page_names_exists(page):
-    text = (ROOT / "docs" / f"{page}.md").read_text(encoding="utf-8")
-    named = re.findall(r"`((?:engine|analysis|reports|campaigns|docs|tests)/[\w./-]*)`", text)
-    assert [path for path in named if not (ROOT / path).exists()] == []
 
 
 @pytest.mark.slow

@@ -1,7 +1,7 @@
 """Error against run time: every method of the engine, solvers of scipy and other codes on seven works, and a report.
 
-    python -m campaigns.accuracy                          all works, about a quarter of an hour on two cores
-    python -m campaigns.accuracy --quick                  two works, few settings, in half a minute
+    python -m campaigns.accuracy                          all works, about ten minutes on two cores
+    python -m campaigns.accuracy --quick                  three works, few settings, in half a minute
     python -m campaigns.accuracy --works snap violent     some of them
 
 Protocol: refined runs, series of halved steps and of doubled grids first, side by side. Then what is timed, one run at

@@ -178,7 +178,7 @@ def results(found, call: Callable, work: list) -> Iterator:
                 killed.append(futures[future])
                 last = error
             else:
-                raise CampaignStopped(_reason(found, error)) from error
+                raise CampaignStopped(_reason(error)) from error
             future.release()
     finally:
         with contextlib.suppress(Exception):  # of a scheduler that is gone: there is nothing to cancel
@@ -206,7 +206,7 @@ def _next(found, came: queue.Queue) -> tuple:
         try:
             there = found.nthreads()
         except Exception as error:
-            raise CampaignStopped(_reason(found, error)) from error
+            raise CampaignStopped(_reason(error)) from error
         if there:
             alone_since = None
             continue
@@ -222,7 +222,7 @@ def _next(found, came: queue.Queue) -> tuple:
 _GO_ON = "finished runs are kept; mend the cluster and run the same command again"
 
 
-def _reason(found, error: BaseException) -> str:
+def _reason(error: BaseException) -> str:
     from concurrent.futures import CancelledError
 
     if isinstance(error, _OtherVersion):

@@ -118,6 +118,14 @@ def _cell(entry: object) -> str:
     return repr(entry) if isinstance(entry, float) else " ".join(str(entry).split())
 
 
+def read_json(path: Path) -> object:
+    """The content of a JSON file; None where it cannot be read."""
+    try:
+        return json.loads(path.read_text(encoding="utf-8"))
+    except (OSError, ValueError):
+        return None
+
+
 def write_json(path: Path, content: dict) -> None:
     """Write a JSON file whole. Raises OSError."""
     write_atomic(path, (json.dumps(content, indent=2, allow_nan=False) + "\n").encode())

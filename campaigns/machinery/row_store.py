@@ -30,6 +30,13 @@ def made_by(settings: dict, *sources: str) -> str:
     return digest.hexdigest()
 
 
+def of_the_page() -> tuple[str, ...]:
+    """What shapes a report.html and is no .py file, as sources of `made_by`."""
+    place = "reports/templates"
+    found = (Path(__file__).resolve().parents[2] / place).iterdir()
+    return tuple(sorted(f"{place}/{path.name}" for path in found if path.is_file()))
+
+
 def kept_row(directory: Path, key: str, maker: str) -> dict | None:
     """The row of a run as `maker` made it, or None."""
     try:

@@ -1,6 +1,6 @@
 """The whole paper again: figures 2-7 and 9-20, every statement with a verdict, and what the answer depends on.
 
-    python -m campaigns.paper                          everything; run again, it computes nothing
+    python -m campaigns.paper                          everything, in under half an hour on two cores; again: nothing
     python -m campaigns.paper --parts breaking_line    one part, beside those that are in the folder already
     python -m campaigns.paper --quick                  short and few runs in two minutes, to see what there is
 

@@ -17,9 +17,9 @@ from campaigns.machinery import session
 from campaigns.machinery.folder import claimed
 from campaigns.machinery.row_store import made_by
 from campaigns.machinery.runner import Plan, Summary, make_job
+from reports.buoy_sweep.runs import PAPER_STEEPNESS as STEEPNESSES
 
 SCENE = "tethered_buoy"
-STEEPNESSES = (0.016, 0.13)  # section 4.2.1, 4.2.2
 DEPTHS_M = (20.8, 21.0, 21.3, 21.6, 22.0, 22.5, 23.0, 25.0)
 STIFFNESSES_NM2 = (0.04, 0.1, 0.4, 1.0, 4.0)
 STIFFNESS_DEPTHS_M = (21.0, 21.6, 22.5)

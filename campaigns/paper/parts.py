@@ -22,7 +22,7 @@ from pathlib import Path
 
 from campaigns.machinery import cli, provenance
 from campaigns.machinery.folder import CampaignStopped, Table, trajectory_path
-from campaigns.machinery.row_store import made_by
+from campaigns.machinery.row_store import made_by, of_the_page
 from campaigns.machinery.runner import Summary
 from campaigns.paper import PARTS, Order, dependence
 
@@ -119,7 +119,7 @@ def read_rows(out: Path) -> list[dict[str, str]]:
 
 def _key(part: str, order: Order) -> str:
     told = dependence.parameters(order.quick) if part == "dependence" else CAMPAIGNS[part].chosen(order)
-    content = json.dumps([part, told, made_by({}, *SOURCES)])
+    content = json.dumps([part, told, made_by({}, *SOURCES, *of_the_page())])
     return hashlib.sha256(content.encode()).hexdigest()
 
 

@@ -1,6 +1,6 @@
 """Stiff and extreme scenes, random scenes, one-step maps, and what each part of a scene costs: a table and a report.
 
-    python -m campaigns.stability                     everything, in some minutes on two cores
+    python -m campaigns.stability                     everything, in about eight minutes on two cores
     python -m campaigns.stability --quick             the cases that matter most, a few random scenes: half a minute
     python -m campaigns.stability --fuzz 2000         as many random valid scenes, and as many invalid ones
     python -m campaigns.stability --drift-periods 0   leave out the long run

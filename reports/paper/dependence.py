@@ -3,13 +3,18 @@
 from __future__ import annotations
 
 import math
+from typing import TYPE_CHECKING
 
+from ..buoy_sweep.motion import STROBE_TOLERANCE
 from ..figures.depth_exponents import Curve, depth_exponents, kind_of
 from ..out_of_plane.comparison import comparison_items, read_pairs
 from ..parts.content import Column, Figure, Heading, Item, Table, Text
 from ..parts.folder import FolderError
-from ..parts.wording import EMPTY, count, decimals, listed, number
-from .results import LARGE, SMALL, Results
+from ..parts.wording import EMPTY, count, decimals, listed, number, percent
+from .results import LARGE, SMALL, TREATED, Results
+
+if TYPE_CHECKING:
+    from engine import Scene
 
 TREATMENTS = {
     "extrapolate": "linear waves continued above still water",
@@ -21,15 +26,15 @@ TREATMENTS = {
 _EXPONENT, _ERROR = "lyapunov_tangent_bits_per_period", "lyapunov_tangent_error"
 
 
-def dependence_items(results: Results) -> list[Item]:
-    """The section."""
+def dependence_items(results: Results, scene: Scene) -> list[Item]:
+    """The section; scene: that of section 4.2 as shipped."""
     items: list[Item] = [
         Heading("What the paper leaves out"),
         Text(
             "To run section 4 one has to choose what the paper does not say. The first table lists the choices of the "
             "shipped scenes; the rest of this section shows what becomes of the answer with others."
         ),
-        _gaps(results),
+        _gaps(results, scene),
     ]
     if not results.dependence:
         return [*items, Text("The part `dependence` is not there, so nothing is shown of what follows from them.")]
@@ -40,33 +45,40 @@ def dependence_items(results: Results) -> list[Item]:
     return [*items, *_plane(results)]
 
 
-def _gaps(results: Results) -> Table:
+def _gaps(results: Results, scene: Scene) -> Table:
     heads = tuple(Column(title, align="left") for title in ("not in the paper", "taken here", "why"))
-    depth = f"{number(results.depth())} m" if results.dependence else "see the scene"
+    depth, density = f"{number(scene.water.depth_m)} m", f"{number(scene.water.density_kgpm3)} kg/m³"
+    EI, GI = scene.tether.bending_stiffness_Nm2, scene.tether.torsion_stiffness_Nm2
+    breaking = [line.trajectory.scene.tether for line in results.lines if line.trajectory is not None]
+    of_line = f"{number(breaking[0].bending_stiffness_Nm2)} N m²" if breaking else EMPTY
     why = "where the two waves come out as the paper says; varied below"
-    if results.calm is not None and results.scales is not None:
+    if results.calm is not None:
         # with the whole sphere's buoyancy, as taken here
-        out_m = results.calm.rest_m + 0.5 * results.scales.diameter_m - results.depth()
+        out_m = results.calm.rest_m + 0.5 * scene.buoy.diameter_m - scene.water.depth_m
         where = f"{number(out_m, 2)} m above" if out_m > 0.0 else f"{number(-out_m, 2)} m below"
         why += f"; the top of the buoy at rest is then {where} still water" if math.isfinite(out_m) else ""
     rows = (
         ("water depth H", depth, why),
-        ("density of the water", "1027 kg/m³", "then the added mass is half the displaced mass"),
-        ("EI, GI of the tether", "0.4 and 0.04 N m²", "a published example of the same buoy and rope; EI varied below"),
-        ("waves above still water", TREATMENTS["extrapolate"], "the plainest reading; varied below"),
-        ("a buoy that leaves the water", TREATMENTS["full"], "eq. (30) as printed; varied below"),
+        ("density of the water", density, "then the added mass is half the displaced mass"),
+        (
+            "EI, GI of the tether",
+            f"{number(EI)} and {number(GI)} N m²",
+            "a published example of the same buoy and rope; EI varied below",
+        ),
+        ("waves above still water", TREATMENTS[scene.waves.above_still_water], "the plainest reading; varied below"),
+        ("a buoy that leaves the water", TREATMENTS[scene.buoy.submergence], "eq. (30) as printed; varied below"),
         ("start of the waves, their phase", "all of it from t = 0, crest at the anchor", "“impulsively from rest”"),
-        ("EI of the breaking line", "24 N m²", "a solid rod; varied in the part `breaking_line`"),
+        ("EI of the breaking line", of_line, "a solid rod; varied in the part `breaking_line`"),
         ("drag on the breaking line", "none, in air", "not mentioned"),
         ("grids, time steps, tolerances", "see each scene", "each part repeats runs tighter and finer"),
-        ("where the buoy's motion is called periodic", "to 1 % of its range", "not mentioned"),
+        ("where the buoy's motion is called periodic", f"to {percent(STROBE_TOLERANCE)} of its range", "not mentioned"),
     )
     return Table(heads, rows, "What had to be chosen to run section 4, and why it was chosen so.")
 
 
 def _depth_text(results: Results) -> Text:
     row = results.dependence[0]
-    above, drowned = (_all(results, key) for key in ("above_still_water", "submergence"))
+    above, drowned = (_all(results, key) for key in TREATED)
     return Text(
         f"Both waves at {count(len({row['depth_m'] for row in results.dependence}), 'depth')}, with "
         f"{listed(f'`{word}` ({TREATMENTS.get(word, word)})' for word in above)} above still water, and with buoyancy "
@@ -87,7 +99,7 @@ def curve(name: str, rows: list[dict], over: str) -> Curve:
 
 
 def _depth_figure(results: Results) -> Figure:
-    above, drowned = (_all(results, key) for key in ("above_still_water", "submergence"))
+    above, drowned = (_all(results, key) for key in TREATED)
 
     def curves(kA: float, under: str) -> list[Curve]:
         rows = {word: results.over_depth(kA, above_still_water=word, submergence=under) for word in above}
@@ -137,7 +149,7 @@ def _usual_stiffness(results: Results, row: dict) -> bool:
 
 
 def _regimes(results: Results, steepness: float) -> Table:
-    above, drowned = (_all(results, key) for key in ("above_still_water", "submergence"))
+    above, drowned = (_all(results, key) for key in TREATED)
     pairs = [(word, under) for under in drowned for word in above]
     depths = sorted({row["depth_m"] for row in results.over_depth(steepness)})
     heads = (Column("H", "m"), *(Column(f"{word}, {under}", align="left") for word, under in pairs))
@@ -166,8 +178,7 @@ def _cell(row: dict | None) -> str:
 
 def _stiffness(results: Results) -> list[Item]:
     usual = results.usual()
-    treated = "above_still_water", "submergence"
-    rows = [row for row in results.dependence if all(row[key] == usual[key] for key in treated)]
+    rows = [row for row in results.dependence if all(row[key] == usual[key] for key in TREATED)]
     varied = {(row["steepness"], row["depth_m"]) for row in rows if not _usual_stiffness(results, row)}
     if not varied:
         return [Text("The stiffness was not varied.")]

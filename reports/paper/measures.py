@@ -6,11 +6,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-WINDOW = (40, 20)  # tau_0/T_i and n of eq. (31) as in fig. 12
+from ..buoy_sweep.figures import PAPER_WINDOW as WINDOW
+
 SETTLED = 20  # last wave periods of a record
 EARLY, LATE = (0, 20), (40, 60)  # wave periods between which a free oscillation is compared
 NEAR_BINS = 2  # of eq. (31): a line that is on no bin leaks into its neighbours
-LINES_POINTS = 2000  # strobed points whose lines are looked for
+LINES_POINTS = 32, 2000  # strobed points whose lines are looked for: the fewest that allow it, the most
 TURN_RAD = 1e-3  # per element, below which a rope counts as straight
 
 
@@ -59,7 +60,7 @@ class Violent:
     dimension_error: float
 
 
-def calm_measures(trajectory, modes, transient_periods: int) -> Calm | None:
+def calm_measures(trajectory, modes) -> Calm | None:
     """Calm, None for a record shorter than the window of eq. (31) or without natural frequencies."""
     columns, scene = trajectory.columns, trajectory.scene
     step_s, period_s = scene.sample_step_s(), scene.waves.period_s
@@ -92,9 +93,10 @@ def calm_measures(trajectory, modes, transient_periods: int) -> Calm | None:
     )
 
 
-def violent_measures(trajectory, modes, transient_periods: int) -> Violent | None:
+def violent_measures(trajectory, transient_periods: int) -> Violent | None:
     """Violent, None for a record shorter than the window of eq. (31)."""
     from analysis import correlation_dimension, poincare_section, spectral_lines
+    from analysis.correlation_sums import LEAST_POINTS
 
     columns, scene = trajectory.columns, trajectory.scene
     step_s, period_s = scene.sample_step_s(), scene.waves.period_s
@@ -102,8 +104,9 @@ def violent_measures(trajectory, modes, transient_periods: int) -> Violent | Non
         return None
     series = {name: columns[name] for name in ("radius_m", "radius_rate_mps")}
     section = poincare_section(series, step_s, period_s, transient_periods=transient_periods).points
-    lines = spectral_lines(section[:LINES_POINTS]) if len(section) >= 32 else None
-    dimension = correlation_dimension(section) if len(section) >= 500 else None
+    fewest, most = LINES_POINTS
+    lines = spectral_lines(section[:most]) if len(section) >= fewest else None
+    dimension = correlation_dimension(section) if len(section) >= LEAST_POINTS else None
     return Violent(
         float(np.mean(lines.unexplained)) if lines is not None else float("nan"),
         dimension.value if dimension is not None else float("nan"),

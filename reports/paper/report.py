@@ -51,10 +51,10 @@ def report(directory: str | Path) -> Report:
     placed = judged(results)
     items = [
         *_question(folder, results, placed),
-        *_parts(folder, results),
+        *_parts(folder),
         *_figures(folder.directory),
         *_statements(placed),
-        *dependence_items(results),
+        *dependence_items(results, folder.scene),
         *misprint_items(),
         *index_items(),
         *provenance_items(folder),
@@ -85,7 +85,8 @@ def _question(folder: Folder, results: Results, placed: tuple[Placed, ...]) -> l
 
 
 def short_answer(placed: tuple[Placed, ...]) -> tuple[str, ...]:
-    """How many statements hold, and which do not."""
+    """How many statements hold, and which do not, each once: conclusions repeat what is said before."""
+    first = {one.statement.claim: one for one in reversed(placed)}
     words = HOLDS, HOLDS_IF, FAILS
     by_verdict = {word: [one for one in placed if one.statement.verdict == word] for word in words}
     open_ones = [one for one in placed if one.statement.verdict == EMPTY]
@@ -94,11 +95,11 @@ def short_answer(placed: tuple[Placed, ...]) -> tuple[str, ...]:
         f"a condition, {len(by_verdict[FAILS])} do not hold"
         + (f", and {len(open_ones)} cannot be decided from this folder." if open_ones else ".")
     ]
-    lines += [f"Does not hold: {_quoted(one)}." for one in by_verdict[FAILS] if not one.place.startswith("5")]
+    lines += [f"Does not hold: {_quoted(one)}." for one in by_verdict[FAILS] if one is first[one.statement.claim]]
     lines += [
         f"Holds if {one.statement.condition}: {_quoted(one)}."
         for one in by_verdict[HOLDS_IF]
-        if not one.place.startswith("5")  # conclusions repeat what is said before
+        if one is first[one.statement.claim]
     ]
     return tuple(lines)
 
@@ -107,7 +108,7 @@ def _quoted(one: Placed) -> str:
     return f"“{one.statement.claim.rstrip('.')}” (no. {one.number}; {one.place})"
 
 
-def _parts(folder: Folder, results: Results) -> list[Item]:
+def _parts(folder: Folder) -> list[Item]:
     heads = (
         Column("part", align="left"),
         Column("what", align="left"),

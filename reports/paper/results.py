@@ -15,6 +15,7 @@ from ..breaking_line.runs import WORDS as LINE_WORDS
 from ..breaking_line.runs import Line, read_lines
 from ..buoy_sweep.physics import Modes, natural_frequencies
 from ..buoy_sweep.runs import COLUMNS as BUOY_COLUMNS
+from ..buoy_sweep.runs import PAPER_STEEPNESS
 from ..oscillator.folder import read_study as read_oscillator
 from ..out_of_plane.runs import COLUMNS as PLANE_COLUMNS
 from ..out_of_plane.runs import WORDS as PLANE_WORDS
@@ -23,7 +24,7 @@ from ..parts.folder import Folder, FolderError, read_folder
 from .measures import Calm, Violent, buckling_waves, calm_measures, violent_measures
 from .snaps import Scales, scales, snaps
 
-SMALL, LARGE = 0.016, 0.13  # section 4.2.1 and 4.2.2
+SMALL, LARGE = PAPER_STEEPNESS  # section 4.2.1 and 4.2.2
 TREATED = ("above_still_water", "submergence")
 JUDGED = (
     "regime_tighter",

@@ -6,9 +6,11 @@ from pathlib import Path
 
 import numpy as np
 
+from analysis.any_series.words import number as with_digits
+
 from ..figures.series_panels import SHOWN, growth_and_dimension, record_and_spectrum, return_map
 from ..parts.content import Column, Figure, Heading, Item, Listing, Report, Table, Text
-from ..parts.wording import decimals, number, printed
+from ..parts.wording import printed
 from .folder import Judged, read_judged
 
 SEEN = {
@@ -35,12 +37,13 @@ def _verdict(judged: Judged) -> list[Item]:
     for name, one in answer["exponents"].items():
         value = _with_error(one["nats_per_time"], one["error"])
         rows.append((f"exponent, {name.capitalize()}", value, f"nats/{unit}", one["reason"]))
-    rows.append(("K of the 0-1 test", _number(answer["zero_one"]["K"]), "1", answer["zero_one"]["reason"]))
+    rows.append(("K of the 0-1 test", with_digits(answer["zero_one"]["K"]), "1", answer["zero_one"]["reason"]))
     dimension = answer["dimension"]
     delays = answer["embedding"]
-    how = "fewer than 20 mean periods" if delays is None else f"a delay of {delays['delay_samples']} samples"
+    short = answer["exponents"]["wolf"]["reason"]  # what is too short for delays is so for neighbours
+    how = short if delays is None else f"a delay of {delays['delay_samples']} samples"
     rows.append(("correlation dimension", _with_error(dimension["value"], dimension["error"]), "1", how))
-    rows.append(("white noise, at most", _number(answer["noise"]), "as the column", "`analysis/neighbours.py`"))
+    rows.append(("white noise, at most", with_digits(answer["noise"]), "as the column", "`analysis/neighbours.py`"))
     columns = (
         Column("measure", align="left"), Column("value"), Column("unit", align="left"), Column("from", align="left"),
     )  # fmt: skip
@@ -98,7 +101,13 @@ def _evidence(judged: Judged) -> list[Item]:
         Column("what it says", align="left"),
     )  # fmt: skip
     rows = tuple(
-        (one["name"], PASSED[one["passed"]], _number(one["value"]), _number(one["threshold"]), printed(one["sentence"]))
+        (
+            one["name"],
+            PASSED[one["passed"]],
+            with_digits(one["value"]),
+            with_digits(one["threshold"]),
+            printed(one["sentence"]),
+        )
         for one in judged.answer["evidence"]
     )
     caption = "Every test behind the word, in the order in which it was made (`analysis/verdicts.py`)."
@@ -113,12 +122,5 @@ def _origin(judged: Judged) -> list[Item]:
     return [Heading("Where it comes from"), Listing("\n".join(lines)), *said]
 
 
-def _number(value: float | None) -> str:
-    return "none" if value is None else number(value)
-
-
 def _with_error(value: float | None, error: float | None) -> str:
-    if value is None or not error:
-        return _number(value)
-    digits = int(np.clip(1 - np.floor(np.log10(error)), 0, 12))
-    return f"{decimals(value, digits)} ± {decimals(error, digits)}"
+    return with_digits(value, error).replace("+-", "±")

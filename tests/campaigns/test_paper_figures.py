@@ -16,7 +16,7 @@ from campaigns.paper.figures.buoy import _history
 from campaigns.paper.figures.sections import _sections
 from engine import load_scene, simulate
 from reports.buoy_sweep.physics import natural_frequencies
-from reports.paper.figures import NUMBERS, draw, files_of, left_out, paper_figures, pictures, place_of
+from reports.paper.figures import NUMBERS, draw, figures_of, files_of, left_out, pictures, place_of
 from reports.parts.figure_data import parsed, sources_of
 from tests.campaigns.conftest import ROOT
 from tests.campaigns.fake_space import BURST_M, SWING, SpaceEngine
@@ -112,9 +112,7 @@ def test_the_same_data_file_gives_the_same_drawing(root):
 def test_a_figure_without_sound_data_is_not_drawn_and_said(tmp_path):
     place_of(tmp_path).mkdir()
     files_of(tmp_path, 9)[0].write_bytes(b"CDF\x02 damaged")
-    assert set(left_out(tmp_path)) == set(NUMBERS) and pictures(tmp_path) == {}
-    (notice,) = paper_figures(tmp_path)
-    assert notice.kind == "warning" and len(notice.lines) == len(NUMBERS)
+    assert set(left_out(tmp_path)) == set(NUMBERS) and pictures(tmp_path) == figures_of(tmp_path) == {}
 
 
 def test_a_buoy_at_rest_is_1_in_the_units_of_the_figures():
@@ -180,8 +178,8 @@ def whole(tmp_path_factory):
 
 @pytest.mark.slow
 def test_all_figures_are_drawn_alike_by_another_process_from_their_files_alone(whole, tmp_path):
-    figures = paper_figures(whole)
-    assert [figure.caption.partition(" of the paper")[0] for figure in figures] == [f"Fig. {n}" for n in NUMBERS]
+    heads = {number: figure.caption.partition(" of the paper")[0] for number, figure in figures_of(whole).items()}
+    assert heads == {number: f"Fig. {number}" for number in NUMBERS} and left_out(whole) == {}
     alone = tmp_path / "elsewhere"
     shutil.copytree(place_of(whole), place_of(alone))
     code = (

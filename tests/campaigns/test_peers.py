@@ -16,7 +16,7 @@ from engine import load_scene, simulate
 
 @pytest.mark.parametrize(
     "name, nodes, duration_s, cap_mm",
-    [("regular", 6, 10.0, 0.005), pytest.param("pendulum", 4, 2.0, 0.005, marks=pytest.mark.slow)],
+    [("regular", 6, 5.0, 0.005), pytest.param("pendulum", 4, 2.0, 0.005, marks=pytest.mark.slow)],
 )
 def test_the_resolvent_gives_the_equations_of_the_engine(name, nodes, duration_s, cap_mm):
     """Two integrators, one grid, tight tolerances: the motions differ by their errors in time alone."""

@@ -7,13 +7,15 @@ from dataclasses import replace
 
 import pytest
 
+from reports.paper.report import short_answer
 from reports.paper.results import Results
 from reports.paper.statements import COLUMNS, as_csv, judged
 from reports.parts.statements import FAILS, HOLDS, HOLDS_IF, Statement
 from reports.parts.wording import EMPTY
 from tests.reports.paper_world import Oscillator, Profile, again, buoy, deep, line, pushed, world
 
-LINES, ALL = ("1", "2", "3", "4"), ("1", "2", "3", "4", "1p", "2p", "3p", "4p")
+LACKING = HOLDS_IF, FAILS
+ALL = ("1", "2", "3", "4", "1p", "2p", "3p", "4p")
 
 
 def lines(*cases, kind="case", **changed):
@@ -220,6 +222,17 @@ def test_the_long_run_counts_where_there_are_both():
     assert dict(nothing.checks) == {"H = 22.5 m": False}
     found = verdict(short, "In large waves the motion of the buoy is chaotic.")
     assert dict(found.checks) == {"H = 21 m": True, "H = 22.5 m": False}
+
+
+def test_the_short_answer_tells_each_statement_that_does_not_simply_hold_once():
+    """Conclusions too, where they say what section 4 does not."""
+    other = replace(lines(*ALL, resting_share=0.2), dependence=depths(0.13, regime="period-2").dependence, buoy={})
+    placed = judged(other)
+    told = [line.partition("“")[2].partition("”")[0] for line in short_answer(placed)[1:]]
+    lacking = {one.statement.claim.rstrip(".") for one in placed if one.statement.verdict in LACKING}
+    assert sorted(told) == sorted(lacking)
+    assert "In large waves the motion of the buoy is chaotic" in told
+    assert any(claim.startswith("A line that breaks slowly") for claim in told)
 
 
 def test_the_file_has_every_statement_with_number_and_evidence():

@@ -8,7 +8,6 @@ bytes.
 """
 
 import contextlib
-import json
 from functools import partial
 from pathlib import Path
 
@@ -69,7 +68,7 @@ def write_figure_data(folder: str | Path) -> dict[int, str]:
 
     A figure that can no longer be drawn loses its files. Raises OSError, which leaves every file whole.
     """
-    from campaigns.machinery.folder import write_json
+    from campaigns.machinery.folder import read_json, write_json
     from campaigns.machinery.row_store import made_by
     from campaigns.paper.figures.plans import LeftOut, Parts
     from reports.paper.figures import LEFT_OUT, files_of, place_of
@@ -94,13 +93,6 @@ def write_figure_data(folder: str | Path) -> dict[int, str]:
                 with contextlib.suppress(FileNotFoundError):
                     path.unlink()
     content = {str(number): reason for number, reason in left_out.items()}
-    if _read_json(place / LEFT_OUT) != content:
+    if read_json(place / LEFT_OUT) != content:
         write_json(place / LEFT_OUT, content)
     return left_out
-
-
-def _read_json(path: Path) -> object:
-    try:
-        return json.loads(path.read_text(encoding="utf-8"))
-    except (OSError, ValueError):
-        return None

@@ -13,6 +13,7 @@ DRY = {"water": None, "waves": None}
 STILL = {"waves": None}
 SPACE = {"motion.dimensions": 3}
 REFUSED, ABOVE_BAR = "refused", "above bar"
+CHAOS = "the motion is sensitive: its own rounding grows, and no two tolerances give one path for long"
 
 
 @dataclass(frozen=True)
@@ -44,11 +45,11 @@ def free(x, y, z):
 
 def all_cases() -> list[Case]:
     """Every case, in the order of the report."""
-    from campaigns.stability.cases import inputs, line, motion
+    from campaigns.stability.cases import inputs, line, motion, surface
 
     groups = (
         line.bending, line.stretching, line.laws, line.grids,
-        line.masses, motion.water, motion.waves, motion.surface,
+        line.masses, motion.water, motion.waves, surface.surface,
         motion.starts, motion.snaps, motion.compression, motion.steps, inputs.inputs,
     )  # fmt: skip
     return [case for group in groups for case in group()]

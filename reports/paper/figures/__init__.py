@@ -1,6 +1,7 @@
 """Figures 2-7 and 9-20 of the paper drawn from their data files alone, and the drawings kept beside the data.
 
-    paper_figures(DIR)     the figures as records of a report, in the order of the paper
+    figures_of(DIR)        the figures as records of a report, by their number in the paper
+    left_out(DIR)          why each of the others is not there
     pictures(DIR)          fig_NN.svg and fig_NN.png of every figure, as path -> bytes
 
 The files are written by `campaigns.paper.figures`. The same file gives the same bytes, drawn whenever and wherever.
@@ -12,7 +13,7 @@ import json
 from functools import lru_cache
 from pathlib import Path
 
-from ...parts.content import Figure, Notice, Picture
+from ...parts.content import Figure, Picture
 from ...parts.figure_data import FigureDataError, parsed
 
 NUMBERS = (2, 3, 4, 5, 6, 7, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20)  # 1 and 8 are sketches
@@ -28,15 +29,6 @@ def files_of(root: str | Path, number: int) -> tuple[Path, Path, Path]:
     """Data, SVG and PNG of a figure of the paper."""
     stem = place_of(root) / f"fig_{number:02d}"
     return stem.with_suffix(".nc"), stem.with_suffix(".svg"), stem.with_suffix(".png")
-
-
-def paper_figures(root: str | Path) -> list[Figure | Notice]:
-    """Every figure of the paper in its order; one warning at the end for those left out, with the reason for each."""
-    drawn, missing = figures_of(root), left_out(root)
-    if not missing:
-        return [*drawn.values()]
-    lines = tuple(f"Fig. {number} of the paper: {reason}." for number, reason in missing.items())
-    return [*drawn.values(), Notice("warning", "Figures of the paper that are left out", lines)]
 
 
 def preface() -> str:

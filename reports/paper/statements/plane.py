@@ -8,8 +8,8 @@ from ...out_of_plane.verdict import COMPARABLE, calm_runs, large_runs
 from ...parts.statements import Statement
 from ...parts.wording import count, decimals, number, percent
 from ..results import Results
+from .rows import NOT_IN_DOUBT
 
-NOT_IN_DOUBT = 2.0  # standard errors
 SAME_NUMBER = 0.05
 VISIBLE_M = 0.1  # lateral distance from which a motion of the rope is three-dimensional
 
@@ -122,7 +122,7 @@ def spatial(results: Results) -> Statement:
     return Statement(claim, f"Largest lateral distance of the rope: {words}.", checks, f"{number(VISIBLE_M)} m or more")
 
 
-PUSHES = "seven decades of push, four directions, five depths, three stiffnesses, three grids (report out of the plane)"
+PUSHES = "size and direction of the push, depth, stiffness and grid varied (report out of the plane)"
 STATEMENTS = (
     ("4.2.2, eq. (33)", normalised, "closed form: table 1, dispersion relation"),
     ("4.2.2, eq. (33), fig. 19b", strange, "exact motion, closed form in each piece; λ1 + λ2 = −μ (report on eq. 33)"),

@@ -142,7 +142,7 @@ def region(results: Results) -> Statement:
     return Statement(claim, words, (("the long run", fills),), "dimension 2 within two errors")
 
 
-SWEEP = "part `sweep`: 49 steepnesses"
+SWEEP = "part `sweep`: one run a steepness"
 STATEMENTS = (
     ("4.2", threshold, SWEEP),
     ("4.2", chaos_beyond, SWEEP),
