@@ -38,11 +38,13 @@ def test_chaos_needs_an_exponent_positive_by_two_errors(given):
     assert verdict.regime in ("chaotic", "undecided")
 
 
+@pytest.mark.slow
 def test_the_exponent_of_the_tangent_dynamics_goes_before_that_of_the_series():
     assert _verdict(3, wolf_exponent=(0.5, 0.01), tangent_exponent=(-0.1, 0.01)).regime == "undecided"
     assert _verdict(3, wolf_exponent=(-0.1, 0.01), tangent_exponent=(0.5, 0.01)).regime == "chaotic"
 
 
+@pytest.mark.slow
 def test_chaos_must_survive_the_tighter_tolerance():
     exponent = (0.509, 0.01)
     assert _verdict(4, tangent_exponent=exponent, tighter="chaotic").regime == "chaotic"

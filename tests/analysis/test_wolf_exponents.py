@@ -56,12 +56,12 @@ def test_a_limit_cycle_has_exponent_zero():
 @pytest.mark.slow
 @pytest.mark.parametrize("name", TRUTH)
 def test_the_truth_lies_within_two_errors_for_nine_in_ten_noise_seeds(name):
-    """100 seeds of 1 % noise on the same motion."""
+    """50 seeds of 1 % noise on the same motion."""
     inside = 0
-    for seed in range(100):
+    for seed in range(50):
         found = wolf_lyapunov(*series(name, noise=0.01, seed=seed))
         inside += abs(found.value - TRUTH[name]) < 2.0 * found.error
-    assert inside >= 90
+    assert inside >= 45
 
 
 @pytest.mark.slow

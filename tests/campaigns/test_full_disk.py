@@ -30,6 +30,7 @@ def run(out, **fake):
     return process.returncode, error
 
 
+@pytest.mark.slow
 def test_small_disk(small_disk):
     out = small_disk / "out"
     code, error = run(out)

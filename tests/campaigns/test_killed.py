@@ -42,9 +42,8 @@ def test_kill_9_of_the_campaign(tmp_path):
     check_and_complete(out, log)
 
 
-@pytest.mark.parametrize(
-    "backend", ["loky", pytest.param("threading", marks=pytest.mark.slow), pytest.param("dask", marks=pytest.mark.slow)]
-)
+@pytest.mark.slow
+@pytest.mark.parametrize("backend", ["loky", "threading", "dask"])
 def test_interrupt(tmp_path, backend):
     if backend == "dask":
         pytest.importorskip("distributed")

@@ -6,6 +6,7 @@ import subprocess
 import sys
 from types import SimpleNamespace
 
+import pytest
 from numba.core.caching import IndexDataCacheFile
 
 from machine_code.store import one_at_a_time
@@ -15,7 +16,8 @@ PROCESSES, KINDS = 4, 12
 
 def store_of(folder):
     store = IndexDataCacheFile(str(folder), "kernel", "stamp")
-    one_at_a_time(SimpleNamespace(_cache=SimpleNamespace(_cache_file=store)), folder)
+    overloads = SimpleNamespace(_cache_file=store, load_overload=store.load, save_overload=store.save)
+    one_at_a_time(SimpleNamespace(_cache=overloads), folder)
     return store
 
 
@@ -50,6 +52,7 @@ for dimensions in map(int, sys.argv[1:]):
 """
 
 
+@pytest.mark.slow
 def test_code_stored_by_one_process_each_is_told_apart_where_both_are_loaded(tmp_path):
     """The tension law takes the planar record or the spatial one; Table 1 has T = EA eps = 5000 N, EA = 50 kN."""
 

@@ -30,6 +30,7 @@ def test_page_needs_nothing_else_and_names_the_figure_of_the_paper(study):
     assert text.count("<figure") == text.count("<figcaption") == 7
 
 
+@pytest.mark.slow
 def test_a_lost_part_is_said_and_the_rest_is_shown(study):
     import csv
     import shutil

@@ -75,6 +75,7 @@ def test_same_folder_same_bytes(study):
     assert page.count("<figure") == page.count("<figcaption") == page.count("alt=")
 
 
+@pytest.mark.slow
 def test_what_failed_or_is_lost_is_said_and_the_rest_is_shown(tmp_path):
     place = made(tmp_path / "out", raises=(0.016,), failing=(25.0,))
     text = text_of(place)

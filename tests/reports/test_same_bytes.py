@@ -14,6 +14,7 @@ from reports import build
 ROOT = Path(__file__).parents[2]
 
 
+@pytest.mark.slow
 def test_a_copy_elsewhere_in_another_process_gives_the_same_bytes(folder, built, tmp_path):
     copy = shutil.copytree(folder, tmp_path / "elsewhere", ignore=shutil.ignore_patterns("report.*"))
     environment = {**os.environ, "PYTHONHASHSEED": "77", "TZ": "Asia/Tokyo", "SOURCE_DATE_EPOCH": "1"}

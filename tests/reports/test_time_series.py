@@ -34,6 +34,7 @@ def test_the_page_says_the_verdict_and_shows_every_curve(judged):
     assert tuple(path.read_bytes() for path in build(judged)) == before
 
 
+@pytest.mark.slow
 def test_any_name_of_a_column_can_be_drawn():
     for name in ("$x_{1", "load_N", "a b " * 40, "\\frac", "Zug in N²"):
         assert b"<svg" in record_and_spectrum(*np.ones((4, 30)), ("s", name)).data

@@ -67,14 +67,8 @@ def test_second_order_in_space(stretching):
     assert_second_order(moved)
 
 
-@pytest.mark.parametrize(
-    "integrator",
-    [
-        pytest.param("midpoint", marks=pytest.mark.slow),
-        "generalized-alpha",
-        pytest.param("trbdf2", marks=pytest.mark.slow),
-    ],
-)
+@pytest.mark.slow
+@pytest.mark.parametrize("integrator", ["midpoint", "generalized-alpha", "trbdf2"])
 def test_second_order_in_space_and_time(integrator):
     """Elements and steps halved together. One-stage methods leave the shear force at the time of their stage."""
     found = []
