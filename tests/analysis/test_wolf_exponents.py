@@ -34,6 +34,7 @@ def test_clean_records_are_within_a_tenth_and_maps_within_a_fiftieth(name):
     assert found.value > 2.0 * found.error
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", CHAOTIC)
 def test_one_per_cent_of_noise_costs_less_than_a_fifth(name):
     found = wolf_lyapunov(*series(name, noise=0.01))

@@ -14,10 +14,8 @@ from campaigns.accuracy.works import BY_NAME
 from engine import load_scene, simulate
 
 
-@pytest.mark.parametrize(
-    "name, nodes, duration_s, cap_mm",
-    [("regular", 6, 5.0, 0.005), pytest.param("pendulum", 4, 2.0, 0.005, marks=pytest.mark.slow)],
-)
+@pytest.mark.slow
+@pytest.mark.parametrize("name, nodes, duration_s, cap_mm", [("regular", 6, 5.0, 0.005), ("pendulum", 4, 2.0, 0.005)])
 def test_the_resolvent_gives_the_equations_of_the_engine(name, nodes, duration_s, cap_mm):
     """Two integrators, one grid, tight tolerances: the motions differ by their errors in time alone."""
     work = BY_NAME[name]

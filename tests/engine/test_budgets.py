@@ -48,7 +48,9 @@ def gaps(found):
     return np.abs(found["energy"].sum(1) - work).max() / passed, np.abs(outside).max() / passed, impulse
 
 
-@pytest.mark.parametrize("name", CASES)
+@pytest.mark.parametrize(
+    "name", [pytest.param(name, marks=[pytest.mark.slow] * (name == "snapping, in space")) for name in CASES]
+)
 def test_budgets_close(name):
     found = books(name, CASES[name][2])
     assert np.ptp(found["energy"], axis=0).max() > 0.05 * found["passed"][-1]  # it does not only leave as it came

@@ -68,7 +68,9 @@ ENDS = {  # name: (overrides, run length in s, status words allowed)
 }
 
 
-@pytest.mark.parametrize("name", ENDS)
+@pytest.mark.parametrize(
+    "name", [pytest.param(name, marks=[pytest.mark.slow] * name.startswith("the paper's scheme")) for name in ENDS]
+)
 def test_a_run_ends_with_its_reason(name):
     overrides, duration_s, allowed = ENDS[name]
     scene = load_scene("tethered_buoy", overrides)

@@ -53,6 +53,7 @@ def balance(nodes, swings):
     return (total - total[0]) / energies[0, 0]
 
 
+@pytest.mark.slow
 def test_the_error_is_of_second_order():
     worst = [np.abs(balance(nodes, 1)).max() for nodes in (11, 21)]
     assert worst[0] < 0.025
