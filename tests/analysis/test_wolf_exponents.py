@@ -26,7 +26,10 @@ def series(name, noise=0.0, seed=0):
     return systems.noisy(getattr(systems, name)(), noise, seed), 0.1 if name == "two_tone" else 1.0
 
 
-@pytest.mark.parametrize("name", CHAOTIC)
+@pytest.mark.parametrize(
+    "name",
+    [pytest.param(name, marks=[pytest.mark.slow] * (name in ("ueda", "pendulum", "duffing"))) for name in CHAOTIC],
+)
 def test_clean_records_are_within_a_tenth_and_maps_within_a_fiftieth(name):
     found = wolf_lyapunov(*series(name))
     assert found.value == pytest.approx(TRUTH[name], rel=0.02 if name in ("henon", "logistic") else 0.1)

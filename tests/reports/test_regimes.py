@@ -6,6 +6,7 @@ import pytest
 
 from campaigns import buoy_sweep
 
+pytestmark = pytest.mark.slow
 LONG, SHORT = (["--periods", "200", "--transient", "50"], ["--periods", "60", "--transient", "21"])
 SWEPT = ["--steepness", "0.016", "0.13", "--jobs", "1", "--backend", "threading"]
 
