@@ -59,6 +59,7 @@ def test_dask_worker_that_dies_is_a_row(sweep):
     assert begun.count(0.05) == 2
 
 
+@pytest.mark.slow
 def test_running_dask_cluster_is_used(sweep):
     distributed = pytest.importorskip("distributed")
     options = {"n_workers": 1, "threads_per_worker": 1, "dashboard_address": None, "silence_logs": "CRITICAL"}

@@ -48,7 +48,7 @@ def test_analysis_that_fails_is_a_row_and_the_record_is_kept(sweep, monkeypatch)
     assert sweep("--steepness", "0.05")[1][0]["status"] == "ok"
 
 
-@pytest.mark.parametrize("jobs", [1, 2])
+@pytest.mark.parametrize("jobs", [pytest.param(1, marks=pytest.mark.slow), 2])
 def test_run_that_kills_its_process_is_a_row(sweep, jobs):
     code, rows, begun = sweep("--steepness", *VALUES, backend="loky", jobs=jobs, dies=(0.05,))
     assert code == 0

@@ -115,6 +115,7 @@ def test_a_call_that_does_not_return_is_ended_and_one_that_dies_is_seen():
     assert limited.limited(lambda: np.arange(3).sum(), 10)[:2] == (limited.DONE, 3)
 
 
+@pytest.mark.slow
 def test_machine_code_that_does_not_return_is_ended_too():
     import numba
 

@@ -51,6 +51,7 @@ def test_an_early_end_is_a_known_limit_only_where_the_case_names_it():
     assert case_row(Case("x", "a blow", COLLAPSES, 1.0, ends=("step-limit",)))["verdict"] == "unexplained"
 
 
+@pytest.mark.slow
 def test_a_case_that_does_not_return_raises_or_dies_is_unexplained(monkeypatch):
     import os
     import time

@@ -22,6 +22,7 @@ def test_same_folder_same_bytes(study):
     assert [path.read_bytes() for path in build(study)] == first
 
 
+@pytest.mark.slow
 def test_page_needs_nothing_else_and_names_the_figure_of_the_paper(study):
     page = (study / "report.html").read_text(encoding="utf-8")
     text = re.sub(r"base64,[A-Za-z0-9+/=]+", "", page)

@@ -5,6 +5,8 @@ import pytest
 
 from engine import load_scene, simulate
 
+pytestmark = pytest.mark.slow
+
 DRY = {"water": None, "waves": None, "buoy": None, "tether.bending_stiffness_Nm2": 24.0}
 SLANTED = {"end.kind": "held", "end.position_m": [12.0, 0.0, 15.0]}
 SOFT = {

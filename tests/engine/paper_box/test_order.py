@@ -56,7 +56,8 @@ def test_in_space_towards_a_motion_that_was_chosen_first(current, stretching, ca
     assert np.all(np.abs(np.log2(errors[:-1, 4:] / errors[1:, 4:]) - 2) < 0.15), errors
 
 
-@pytest.mark.parametrize("motion", [PLANE, pytest.param(SPACE, marks=pytest.mark.slow)], ids=["in a plane", "in space"])
+@pytest.mark.slow
+@pytest.mark.parametrize("motion", [PLANE, SPACE], ids=["in a plane", "in space"])
 def test_in_time(motion):
     ends = []
     for steps in (40, 80, 160, 320):

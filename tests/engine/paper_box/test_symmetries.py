@@ -5,6 +5,8 @@ import pytest
 
 from engine import load_scene, simulate
 
+pytestmark = pytest.mark.slow
+
 LENGTH_S = 2.5
 
 
