@@ -1,4 +1,4 @@
-"""How fast runs go side by side (`engine.lanes`), against the same runs one by one, on one core and on two.
+"""How fast runs go side by side (`engine.simd`), against the same runs one by one, on one core and on two.
 
     python -m benchmarks.lanes_speed [--rounds N] [--periods N] [--diagram]
 

@@ -19,7 +19,6 @@ import numpy as np
 from PIL import Image
 
 from engine import load_scene, simulate
-from engine.guards import OK
 from engine.paper_box import run
 from engine.paper_box.box import Band, level_of
 from engine.paper_box.ends import force_and_velocity
@@ -28,6 +27,7 @@ from engine.paper_box.line import line_of
 from engine.paper_box.newton import solve
 from engine.paper_box.start import at_rest
 from engine.paper_box.water import positions
+from engine.time.status import OK
 
 FIGURE = Path(__file__).parents[1] / "docs" / "paper_box.png"
 SMALL_S, LARGE_S = 10.0, 30.0

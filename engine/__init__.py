@@ -19,7 +19,7 @@ _HOME = {
     "Scene": "engine.scene",
     "SceneError": "engine.scene",
     "Trajectory": "engine.trajectory",
-    "goes_in_lanes": "engine.lanes.cover",
+    "goes_in_lanes": "engine.simd.cover",
     "load_scene": "engine.scene",
     "simulate": "engine.simulate",
     "simulate_batch": "engine.simulate",

@@ -11,7 +11,7 @@ from numba import types
 
 from machine_code.store import compiled, folder_for, hash_of
 
-from .fused import with_fused_sums
+from .simd.fma import with_fused_sums
 
 _ROOT = Path(__file__).parent
 _KEPT_CACHES = 6
@@ -48,17 +48,17 @@ def cache_directory():
 
 
 def kernel(function):
-    """Compile a kernel: no Python objects, no GIL, sums of products fused (`engine.fused`), cached on disk.
+    """Compile a kernel: no Python objects, no GIL, sums of products fused (`engine.simd.fma`), cached on disk.
 
     No ``fastmath``: what it allows differs from processor to processor and between one run and a batch; it breaks the
-    range reduction of `engine.elementary.sincos` and hides NaN.
+    range reduction of `engine.simd.elementary.sincos` and hides NaN.
     """
     return compiled(with_fused_sums(function), cache_directory())
 
 
 def by_kind(planar, spatial, lanes=None):
     """One name for two kernels or three: `planar` for records of the plane, `spatial` for those with a third dimension,
-    `lanes` for several planar runs at once (`engine.lanes`; None: the planar one serves them too).
+    `lanes` for several planar runs at once (`engine.simd`; None: the planar one serves them too).
 
     The choice is by the type of the first argument, when a kernel that calls the name is compiled: nothing is compiled
     for a scene that does not need it, and nothing is decided at run time.
@@ -70,7 +70,7 @@ def by_kind(planar, spatial, lanes=None):
 
     @overload(either, strict=False, jit_options={"nogil": True, "error_model": "numpy"})
     def chosen(p, *arguments):
-        from .lanes.record import LaneRecord  # knows `engine.parameters`, which knows some of the kernels
+        from .simd.record import LaneRecord  # knows `engine.parameters`, which knows some of the kernels
 
         if "GI" in p.fields:
             return spatial.py_func

@@ -10,8 +10,10 @@ import math
 
 import numpy as np
 
-from . import currents, ends, integrators, scales, sea, tension, waves
+from . import scales
+from .physics import currents, ends, sea, tension, waves
 from .spatial import lift
+from .time import integrators
 
 
 def _dtype(counts, values):

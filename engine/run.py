@@ -1,21 +1,22 @@
-"""One run: its numbers from the static start to the trajectory; `engine.march` or `engine.lanes` advances it."""
+"""One run: its numbers from the static start to the trajectory; `time.time_loop` or `simd` advances it."""
 
 import math
 import time
 
 import numpy as np
 
-from . import energy, parameters
-from .ends import HELD
-from .exponents import Trail
-from .guards import ADVICE, OK, STATICS_FAILED, TURN_UNRESOLVED, WORDS
-from .integrators import RUNGE_KUTTA
-from .march import SMALL_STEPS, STATE, march
+from . import parameters
+from .perturbations.exponents import Trail
+from .physics import energy
+from .physics.ends import HELD
 from .planar import state as planar
 from .spatial import lift
 from .spatial import state as spatial
-from .statics import rest_of
-from .statics_advice import why_no_rest
+from .time.integrators import RUNGE_KUTTA
+from .time.statics import rest_of
+from .time.statics_advice import why_no_rest
+from .time.status import ADVICE, OK, STATICS_FAILED, TURN_UNRESOLVED, WORDS
+from .time.time_loop import SMALL_STEPS, STATE, march
 from .trajectory import EnergyBudget, Profiles, Trajectory
 
 
@@ -23,7 +24,7 @@ class Run:
     """Arrays of one run of a scene over `duration_s`.
 
     record, tables: its parameters; state: (1,) STATE; Y, Y_before (n, unknowns), C, K (n, conserved); samples
-    (goal, 12), profiles (m, n, 6), energies (m', 9), sums (5,) (`engine.energy`); wall_s: what advancing it has taken.
+    (goal, 12), profiles (m, n, 6), energies (m', 9), sums (5,) (`physics.energy`); wall_s: what advancing it has taken.
     """
 
     def __init__(self, scene, duration_s):

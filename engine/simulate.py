@@ -3,8 +3,8 @@
 import math
 from functools import partial
 
-from .room import MOST_SAMPLES, check_room
 from .run import Run
+from .scene.size_limits import MOST_SAMPLES, check_room
 
 PERIODS_PER_CALL = 10
 
@@ -43,10 +43,10 @@ def simulate_batch(scenes, periods=None, duration_s=None, progress=None):
 def simulate_each(scenes, periods=None, duration_s=None, progress=None):
     """As `simulate_batch`, but yields (number of the scene, its Trajectory) as the runs end, in no order.
 
-    Scenes that may share a batch run side by side in the lanes of vectors (`engine.lanes`), eight at a time; the
+    Scenes that may share a batch run side by side in the lanes of vectors (`engine.simd`), eight at a time; the
     others one after another. The results are the same, bit for bit.
     """
-    from .lanes import batch
+    from .simd import batch
 
     scenes = list(scenes)
     jobs = [(i, scene, _duration(scene, periods, duration_s)) for i, scene in enumerate(scenes)]

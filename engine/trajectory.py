@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from engine.atomic import write_atomic
-from engine.scene import Scene, SceneError, scene_from_toml
+from engine.scene.load import Scene, SceneError, scene_from_toml
 
 if TYPE_CHECKING:
     import pandas
@@ -83,7 +83,7 @@ class Profiles:
 
 @dataclass(frozen=True)
 class EnergyBudget:
-    """Where the energy of a dry line is and went since t = 0; each (m,), in J (`engine.energy`).
+    """Where the energy of a dry line is and went since t = 0; each (m,), in J (`engine.physics.energy`).
 
     time_s: ends of steps, the first past each output time. kinetic_J, strain_J, gravity_J: states. end_work_J: done by
     the force at the upper end; bending_J: against the shear forces; viscous_J: by shock viscosity; scheme_space_J,
@@ -114,11 +114,11 @@ class EnergyBudget:
 
 @dataclass(frozen=True)
 class TangentGrowth:
-    """Growth of infinitesimal perturbations, period by period (`engine.tangent`).
+    """Growth of infinitesimal perturbations, period by period (`engine.perturbations.tangent`).
 
     period_s: the wave period, or 1 s without waves. growth_nats (m, k): logarithm of the growth of the k orthonormal
     perturbations in the plane in each of the m complete periods; k may be 0. released (m,): 1 where a loop was released
-    in that period. lateral_nats (m,): growth across the plane (`engine.lateral`), None where not asked for.
+    in that period. lateral_nats (m,): growth across the plane (`perturbations.lateral`), None where not asked for.
     """
 
     period_s: float

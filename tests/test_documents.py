@@ -5,8 +5,8 @@ from pathlib import Path
 
 import pytest
 
-from engine.scene_faults import known_keys
-from engine.scene_models import Scene
+from engine.scene.faults import known_keys
+from engine.scene.models import Scene
 from engine.trajectory import COLUMNS
 
 ROOT = Path(__file__).resolve().parents[1]

@@ -2,16 +2,16 @@
 
 from pathlib import Path
 
-from engine.reference import UNITS, leaves, page
-from engine.scene_faults import known_keys
-from engine.scene_meanings import MEANINGS
-from engine.scene_models import Scene
+from engine.scene.faults import known_keys
+from engine.scene.meanings import MEANINGS
+from engine.scene.models import Scene
+from engine.scene.reference import UNITS, leaves, page
 
 PAGE = Path(__file__).resolve().parents[1] / "docs" / "scene_keys.md"
 
 
 def test_the_page_is_what_the_model_says():
-    stale = "stale: python -m engine.reference > docs/scene_keys.md"
+    stale = "stale: python -m engine.scene.reference > docs/scene_keys.md"
     assert PAGE.read_text(encoding="utf-8") == page(), stale
 
 

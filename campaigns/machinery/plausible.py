@@ -7,7 +7,7 @@ asks first. The bounds are wide: what is refused is wrong by a factor, not by a 
 import math
 from collections.abc import Iterator
 
-from engine.scene_faults import fault
+from engine.scene.faults import fault
 
 # Miche (1944): the highest wave that stands is 2A = 0.142 lambda tanh(kH), so kA = 0.142 pi tanh(kH).
 MICHE = 0.142 * math.pi
@@ -34,8 +34,8 @@ def doubts(scene) -> Iterator[str]:
 
 
 def endless(scene, duration_s: float) -> Iterator[str]:
-    """The fault of a run that would never end, or keep more than memory holds (`engine.room`)."""
-    from engine.room import check_room
+    """The fault of a run that would never end, or keep more than memory holds (`engine.scene.size_limits`)."""
+    from engine.scene.size_limits import check_room
 
     try:
         check_room(scene, duration_s)
@@ -78,7 +78,7 @@ def waveless(name: str, changes: dict) -> Iterator[str]:
 
 def breaking_steepness(scene) -> float:
     """kA of the highest wave of the scene's period in its depth (Miche 1944)."""
-    from engine.waves import wave_number
+    from engine.physics.waves import wave_number
 
     depth = scene.water.depth_m
     return MICHE * math.tanh(wave_number(scene.waves.period_s, depth, scene.gravity_mps2) * depth)

@@ -59,7 +59,7 @@ def factors(method: str, z: np.ndarray, rho: float = 0.5) -> np.ndarray:
         return (1 + z / 2) / (1 - z / 2)
     if method == "generalized-alpha":
         return np.concatenate([np.linalg.eigvals(_generalized_alpha(one, rho)) for one in z])
-    from engine import integrators
+    from engine.time import integrators
 
     A = integrators.METHODS[method].A
     ones = np.ones(len(A))
@@ -102,7 +102,7 @@ def of_line(name: str) -> dict[str, object]:
 def eigenvalues(method: str, strain: float | None, step_s: float, dimensions: int) -> np.ndarray:
     """Eigenvalues of the numerical derivative of the engine's step about one state of rest."""
     from engine import load_scene
-    from engine.one_step import OneStep
+    from engine.time.one_step import OneStep
 
     place = [0.8 * LENGTH_M, 0.0, 0.0] if strain is None else [LENGTH_M * (1 + max(strain, 0.0)), 0.0, 0.0]
     changes = {

@@ -11,7 +11,8 @@ The paper says nothing of steps that fail. Here the first one ends the run, and 
 import math
 import time
 
-from ..guards import (
+from ..time.statics_advice import why_no_rest
+from ..time.status import (
     ADVICE,
     NEWTON_FAILED,
     NOT_FINITE,
@@ -23,7 +24,6 @@ from ..guards import (
     TURN_UNRESOLVED,
     WORDS,
 )
-from ..statics_advice import why_no_rest
 from ..trajectory import Trajectory
 from .box import Band, level_of
 from .law import tension_law

@@ -1,11 +1,11 @@
 """T = f(eps) and f'(eps), eqs. (20) and (29), on arrays of real or complex strains.
 
-`engine.tension` in NumPy, from the same record and the same tables, so that a complex step differentiates f'(eps) too.
+`physics.tension` in NumPy, from the same record and the same tables, so that a complex step differentiates f'(eps) too.
 """
 
 import numpy as np
 
-from ..tension import LINEAR, TANH
+from ..physics.tension import LINEAR, TANH
 
 
 def tension_law(p, tables, eps):
@@ -19,7 +19,7 @@ def tension_law(p, tables, eps):
 
 
 def _tabulated(eps, table, n):
-    """Layout of `table` as in `engine.tension`: knots, four coefficients of each piece, slopes below and above."""
+    """Layout of `table` as in `physics.tension`: knots, four coefficients of each piece, slopes below and above."""
     knots, pieces = table[:n], table[n : n + 4 * (n - 1)].reshape(n - 1, 4)
     inside = np.clip(eps.real, knots[0], knots[-1])
     beyond = eps.real != inside

@@ -6,7 +6,7 @@ iteration. The paper has fixed steps and nothing to fall back upon: a step that 
 
 import numpy as np
 
-from ..guards import NEWTON_FAILED, NOT_FINITE, OK, STRAIN_BELOW_MINUS_ONE, TENSION_FLAT
+from ..time.status import NEWTON_FAILED, NOT_FINITE, OK, STRAIN_BELOW_MINUS_ONE, TENSION_FLAT
 from . import ends
 from .box import level_of, residual
 from .law import tension_law

@@ -9,9 +9,10 @@ import math
 
 import numpy as np
 
-from .. import parameters, statics
-from ..ends import HELD
-from ..guards import NEWTON_FAILED, OK, STATICS_FAILED
+from .. import parameters
+from ..physics.ends import HELD
+from ..time import statics
+from ..time.status import NEWTON_FAILED, OK, STATICS_FAILED
 from .ends import end_force, force_and_velocity
 from .frame import TO_PAPER, parameters_of, rotation, to_local
 from .line import EULER, SPEEDS

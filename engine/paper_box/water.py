@@ -1,4 +1,4 @@
-"""Positions of the nodes, R_s = (1 + eps) t summed from the anchor, and the water there (`engine.waves`, `currents`).
+"""Positions of the nodes, R_s = (1 + eps) t summed from the anchor, and the water there (`physics.waves`, `currents`).
 
 The paper does not say where it takes the water; its kinematics depend on the position, which depends on every node
 below. As in the conservation form, positions are renewed in each Newton iteration and left out of the Jacobian.
@@ -6,9 +6,9 @@ below. As in the conservation form, positions are renewed in each Newton iterati
 
 import numpy as np
 
-from ..currents import current_field, current_field_3d
-from ..sea import sea_field
-from ..waves import wave_field, wave_field_3d
+from ..physics.currents import current_field, current_field_3d
+from ..physics.sea import sea_field
+from ..physics.waves import wave_field, wave_field_3d
 from .frame import TO_ENGINE, TO_PAPER, rotation
 from .line import EULER
 

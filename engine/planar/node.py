@@ -13,7 +13,7 @@ displacement: `in_motion` = 0 keeps it out of the drag, and leaves the waves out
 water's dependence on position.
 
 In a scene with shock viscosity T gains B |e_t| e_t + L e_t, e_t = cq (|q| - |q~|), the coefficients B, L kept from
-step to step (`engine.shocks`).
+step to step (`engine.physics.shocks`).
 
 Columns of Q (row k is node k):
     0 cos phi | 1 sin phi | 2 dT/deps | 3-4 N | 5-6 q | 7-8 q_t | 9-10 G | 11-12 dG/deps | 13-14 dG/dphi
@@ -24,13 +24,13 @@ In the paper: eq. (7) eps, eq. (8) U and W, eq. (11) and eq. (12) N_s, eq. (18) 
 
 import math
 
-from ..choose import larger
 from ..compiled import kernel
-from ..currents import planar_current
-from ..elementary import sincos
-from ..sea import planar_sea
-from ..shocks import shock_tension
-from ..waves import wave_field
+from ..physics.currents import planar_current
+from ..physics.sea import planar_sea
+from ..physics.shocks import shock_tension
+from ..physics.waves import wave_field
+from ..simd.elementary import sincos
+from ..simd.select import larger
 from .places import count_of_places, place, put, take, tension_at
 
 WIDTH = 23

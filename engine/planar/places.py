@@ -1,7 +1,7 @@
 """Places: one node (a whole number), or two nodes at once (a pair of them) as two lanes of a vector.
 
 What is done at every node for itself is written once for a place. A run alone does it at two nodes at a time, a batch,
-whose numbers are vectors already (`engine.lanes`), at one after the other: the same operations, bit for bit.
+whose numbers are vectors already (`engine.simd`), at one after the other: the same operations, bit for bit.
 """
 
 from llvmlite import ir
@@ -9,10 +9,10 @@ from numba.core import cgutils, types
 from numba.extending import intrinsic
 from numba.np import arrayobj
 
-from ..choose import where
 from ..compiled import by_kind, kernel
-from ..lanes.vector import Lanes
-from ..tension import LINEAR, tension
+from ..physics.tension import LINEAR, tension
+from ..simd.select import where
+from ..simd.vector import Lanes
 
 PAIR, PLACES = Lanes(2), types.UniTuple(types.intp, 2)
 

@@ -7,12 +7,13 @@ import math
 
 import numpy as np
 
-from ..choose import finite, larger, smaller, where
 from ..compiled import kernel
-from ..tension import tension
-from . import node, sweep
-from .sweep import sweep_bent
-from .sweep_unbent import sweep_unbent
+from ..physics.tension import tension
+from ..simd.select import finite, larger, smaller, where
+from . import elimination as sweep
+from . import node
+from .elimination import sweep_bent
+from .elimination_unbent import sweep_unbent
 
 
 @kernel
@@ -23,14 +24,14 @@ def size_of(p):
 
 @kernel
 def work_arrays(p, n):
-    """Work arrays of `engine.newton` for n nodes: X, F, Q, E, D, and the integrator's C~."""
+    """Work arrays of `engine.time.newton` for n nodes: X, F, Q, E, D, and the integrator's C~."""
     X, F, Q = np.zeros((n, 2)), np.zeros((n, 4)), np.zeros((n, node.WIDTH))
     return X, F, Q, np.zeros((n, sweep.WIDTH)), np.zeros((n, 6)), np.zeros((n, 4))
 
 
 @kernel
 def assemble(p, tables, t, in_motion, cq, cv, Y, C_tilde, X, F, Q, E, D):
-    """One Newton update into D; returns False where a pivot block is singular. Arguments as for `engine.newton`."""
+    """One Newton update into D; returns False where a pivot block is singular. Arguments as for `time.newton`."""
     node.shape(p, tables, Y, Q, X)
     node.water(p, tables, t, in_motion, X, F)
     node.node_quantities(p, tables, cq, cv, in_motion, Y, C_tilde, F, Q)
@@ -135,7 +136,7 @@ def release_loop(p, tables, Y, upper):
 
 @kernel
 def configuration(p, tables, weights, C0, K0, C1, K1, row):
-    """Fill row (n, 6) with x, y, z, strain, tension, speed at one instant within a step (`engine.sampling`).
+    """Fill row (n, 6) with x, y, z, strain, tension, speed at one instant within a step (`engine.time.sampling`).
 
     Returns the velocity (U, 0, W) of the last node and the largest distance from the plane, 0.
     """

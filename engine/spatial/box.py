@@ -1,9 +1,9 @@
-"""One box in space, linearised: what `engine.spatial.sweep` eliminates (its head states the equations)."""
+"""One box in space, linearised: what `engine.spatial.elimination` eliminates (its head states the equations)."""
 
 from ..compiled import kernel
-from ..vectors import dot, mixed, relative, rotation_vector
 from .node import vector
 from .rows import added, combined, combined3, scaled
+from .vectors import dot, mixed, relative, rotation_vector
 
 
 @kernel
@@ -63,8 +63,38 @@ def rotation_rows(over, J, left, R1, r1, R2, r2, R3, r3):
 
 
 @kernel
-def momentum_row(i, e, Qa, Qb, Rx, Ry, Rz, Ax, Ay, Az, Bx, By, Bz, rx, ry, rz, zx, zy, zz,
-                 dNa, Ga, roll_a, dNb, Gb, roll_b, R1, r1, A1, B1, z1):
+def momentum_row(
+    i,
+    e,
+    Qa,
+    Qb,
+    Rx,
+    Ry,
+    Rz,
+    Ax,
+    Ay,
+    Az,
+    Bx,
+    By,
+    Bz,
+    rx,
+    ry,
+    rz,
+    zx,
+    zy,
+    zz,
+    dNa,
+    Ga,
+    roll_a,
+    dNb,
+    Gb,
+    roll_b,
+    R1,
+    r1,
+    A1,
+    B1,
+    z1,
+):
     """Row i of the momentum equations: coefficients of y_a, the known term, coefficients of y_b."""
     if i == 0:
         u, v, w = 32, 33, 34

@@ -32,12 +32,12 @@ In the paper: eq. (4) b_s, eq. (5) and eq. (6) beta and C, eq. (11) N_s, eq. (13
 import math
 
 from ..compiled import kernel
-from ..currents import current_field_3d
-from ..sea import sea_field
-from ..shocks import shock_tension
-from ..tension import tension
-from ..vectors import dot, frame, mixed
-from ..waves import wave_field_3d
+from ..physics.currents import current_field_3d
+from ..physics.sea import sea_field
+from ..physics.shocks import shock_tension
+from ..physics.tension import tension
+from ..physics.waves import wave_field_3d
+from .vectors import dot, frame, mixed
 
 WIDTH = 44
 

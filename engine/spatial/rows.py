@@ -24,17 +24,18 @@ def added(x, y):
 @kernel
 def combined(a, x, b, y):
     """a x + b y"""
-    return (
-        a * x[0] + b * y[0], a * x[1] + b * y[1], a * x[2] + b * y[2], a * x[3] + b * y[3], a * x[4] + b * y[4]
-    )
+    return (a * x[0] + b * y[0], a * x[1] + b * y[1], a * x[2] + b * y[2], a * x[3] + b * y[3], a * x[4] + b * y[4])
 
 
 @kernel
 def combined3(a, x, b, y, c, z):
     """a x + b y + c z"""
     return (
-        a * x[0] + b * y[0] + c * z[0], a * x[1] + b * y[1] + c * z[1], a * x[2] + b * y[2] + c * z[2],
-        a * x[3] + b * y[3] + c * z[3], a * x[4] + b * y[4] + c * z[4],
+        a * x[0] + b * y[0] + c * z[0],
+        a * x[1] + b * y[1] + c * z[1],
+        a * x[2] + b * y[2] + c * z[2],
+        a * x[3] + b * y[3] + c * z[3],
+        a * x[4] + b * y[4] + c * z[4],
     )
 
 

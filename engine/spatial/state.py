@@ -9,13 +9,13 @@ import math
 import numpy as np
 
 from ..compiled import kernel
-from ..tension import tension
-from ..vectors import dot, frame, least_turn, mixed, quaternion_product, turned
+from ..physics.tension import tension
 from . import node
 from .box import box_rotation
+from .elimination import sweep
+from .elimination_unbent import sweep_unbent
 from .rows import WIDTH
-from .sweep import sweep
-from .sweep_unbent import sweep_unbent
+from .vectors import dot, frame, least_turn, mixed, quaternion_product, turned
 
 
 @kernel
@@ -26,14 +26,14 @@ def size_of(p):
 
 @kernel
 def work_arrays(p, n):
-    """Work arrays of `engine.newton` for n nodes: X, F, Q, E, D, and the integrator's C~."""
+    """Work arrays of `engine.time.newton` for n nodes: X, F, Q, E, D, and the integrator's C~."""
     X, F, Q = np.zeros((n, 3)), np.zeros((n, 6)), np.zeros((n, node.WIDTH))
     return X, F, Q, np.zeros((n, WIDTH)), np.zeros((n, 12)), np.zeros((n, 6))
 
 
 @kernel
 def assemble(p, tables, t, in_motion, cq, cv, Y, C_tilde, X, F, Q, E, D):
-    """One Newton update into D; returns False where a pivot block is singular. Arguments as for `engine.newton`."""
+    """One Newton update into D; returns False where a pivot block is singular. Arguments as for `time.newton`."""
     node.shape(p, tables, Y, Q, X)
     node.water(p, tables, t, in_motion, X, F)
     node.node_quantities(p, tables, cq, cv, in_motion, Y, C_tilde, F, Q)
@@ -153,7 +153,7 @@ def release_loop(p, tables, Y, upper):
 
 @kernel
 def configuration(p, tables, weights, C0, K0, C1, K1, row):
-    """Fill row (n, 6) with x, y, z, strain, tension, speed at one instant within a step (`engine.sampling`).
+    """Fill row (n, 6) with x, y, z, strain, tension, speed at one instant within a step (`engine.time.sampling`).
 
     Returns the velocity of the last node and the largest distance from the plane of the waves (y = 0 without waves).
     """

@@ -9,14 +9,14 @@ import math
 
 import numpy as np
 
-from ..cap import cap_end_3d
 from ..compiled import kernel
-from ..elementary import smooth_start
-from ..ends import HELD, released, upper_end_3d
-from ..vectors import dot, mixed, quaternion_product, relative, times
+from ..physics.ends import HELD, released, upper_end_3d
+from ..physics.submergence import cap_end_3d
+from ..simd.elementary import smooth_start
 from .box import nodal_jacobian
 from .node import vector
 from .rows import AT_R, AT_RT, AT_RX, row_of
+from .vectors import dot, mixed, quaternion_product, relative, times
 
 CLAMP = 1e6
 
@@ -40,9 +40,7 @@ def _roll_to_go(p, t, length, Y):
     No twist: the frame of the anchor, carried from clamp to clamp (`engine.parameters`).
     """
     last = Y.shape[0] - 1
-    carried = quaternion_product(
-        (p.carry0, p.carry1, p.carry2, p.carry3), (Y[0, 6], Y[0, 7], Y[0, 8], Y[0, 9])
-    )
+    carried = quaternion_product((p.carry0, p.carry1, p.carry2, p.carry3), (Y[0, 6], Y[0, 7], Y[0, 8], Y[0, 9]))
     # twist of the frame: what O1 leaves over; as exp(twist/2) it is exact for any number of turns
     twist = 0.5 * (twist_at(p, t) - Y[last, 10] * length)
     target = quaternion_product(carried, (math.cos(twist), math.sin(twist), 0.0, 0.0))
@@ -52,7 +50,7 @@ def _roll_to_go(p, t, length, Y):
 
 @kernel
 def end_condition(p, tables, t, cq, cv, in_motion, Y, C_tilde, X, F, Q):
-    """Residual of the upper end (`engine.ends`, `engine.cap`), e_N, and the rows of D."""
+    """Residual of the upper end (`engine.physics.ends`, `engine.physics.submergence`), e_N, and the rows of D."""
     last = Y.shape[0] - 1
     V, V_tilde = vector(Y[last], 3), vector(C_tilde[last], 3)
     e, eN, S = upper_end_3d(p, tables, t, cv, in_motion, vector(Q[last], 11), V, V_tilde, F[last])

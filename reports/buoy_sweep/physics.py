@@ -60,7 +60,7 @@ def water_surface_m(scene, x_m: np.ndarray, time_s: np.ndarray) -> np.ndarray:
 
     The wave is taken at full amplitude; during a ramp the surface lies closer to H.
     """
-    from engine.waves import wave_number
+    from engine.physics.waves import wave_number
 
     waves, depth = scene.waves, scene.water.depth_m
     k = wave_number(waves.period_s, depth, scene.gravity_mps2)

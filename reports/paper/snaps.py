@@ -94,7 +94,7 @@ class Scales:
 
 def scales(scene, modes, small: float, large: float) -> Scales:
     """Scales of a scene with a buoy and waves; modes: its natural frequencies; the two slopes kA of section 4.2."""
-    from engine.waves import wave_number
+    from engine.physics.waves import wave_number
 
     buoy, water, omega = scene.buoy, scene.water, modes.wave_radps
     k = wave_number(scene.waves.period_s, water.depth_m, scene.gravity_mps2)

@@ -89,7 +89,7 @@ def test_a_worker_loses_no_more_than_the_lanes_hold(plan):
 
 
 def test_lanes_are_as_many_as_runs_are_sent_together():
-    from engine.lanes.vector import COUNT
+    from engine.simd.vector import COUNT
 
     assert MOST_SENT == COUNT
 

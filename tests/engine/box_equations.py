@@ -1,7 +1,7 @@
 """The planar box equations written out in plain NumPy from their statements, for tests that must not trust a kernel.
 
 Everything takes complex arguments, so that a complex step differentiates it to rounding: |x| is sign(Re x) x.
-Statements: model.md 2.2-2.3, and the heads of engine/planar/sweep.py, engine/planar/node.py, engine/ends.py.
+Statements: model.md 2.2-2.3, and the heads of planar/elimination.py, planar/node.py, engine/physics/ends.py.
 """
 
 import math
@@ -10,10 +10,10 @@ import numpy as np
 from scipy.interpolate import PchipInterpolator
 
 from engine.parameters import record_of
+from engine.planar.elimination import WIDTH as SWEEP_WIDTH
+from engine.planar.elimination import sweep_bent
+from engine.planar.elimination_unbent import sweep_unbent
 from engine.planar.node import WIDTH, node_quantities, shape
-from engine.planar.sweep import WIDTH as SWEEP_WIDTH
-from engine.planar.sweep import sweep_bent
-from engine.planar.sweep_unbent import sweep_unbent
 
 
 def kernel_update(scene, cq, cv, in_motion, Y, C_tilde, F, viscosity=None):

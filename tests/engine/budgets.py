@@ -15,11 +15,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from engine.march import march
 from engine.parameters import record_of
 from engine.planar import node as planar_node
 from engine.scales import tension_at
 from engine.spatial import node as spatial_node
+from engine.time.time_loop import march
 from tests.engine.lines import Motion
 from tests.engine.spatial.lines import frames
 

@@ -8,7 +8,7 @@ import math
 import numpy as np
 
 from engine import load_scene
-from engine.waves import wave_number
+from engine.physics.waves import wave_number
 
 CAP = {"buoy.submergence": "spherical-cap"}
 

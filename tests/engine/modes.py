@@ -8,10 +8,11 @@ box equations do not see. R is taken by central differences, with an error of th
 
 import numpy as np
 
-from engine.planar import node, sweep
+from engine.planar import elimination as sweep
+from engine.planar import node
+from engine.planar.elimination import sweep_bent
+from engine.planar.elimination_unbent import sweep_unbent
 from engine.planar.node import node_quantities, shape, water
-from engine.planar.sweep import sweep_bent
-from engine.planar.sweep_unbent import sweep_unbent
 
 CHANGE = 1e-5
 

@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 
 from engine.parameters import record_of
-from engine.waves import wave_field, wave_number
+from engine.physics.waves import wave_field, wave_number
 from tests.engine.lines import line
 
 PERIOD, DEPTH, GRAVITY = 5.0, 21.0, 9.81

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 from engine import load_scene
-from engine.cap import cap_across, cap_end, cap_end_3d, wetted
-from engine.ends import upper_end, upper_end_3d
 from engine.parameters import record_of
+from engine.physics.ends import upper_end, upper_end_3d
+from engine.physics.submergence import cap_across, cap_end, cap_end_3d, wetted
 from tests.engine.caps import CAP, condition, section, volume
 
 RNG = np.random.default_rng(11)
@@ -125,7 +125,7 @@ def test_shares_and_their_derivatives_are_those_of_the_geometry():
 
 @pytest.mark.parametrize("height", HEIGHTS)
 def test_across_the_plane_it_is_the_condition_in_space(height):
-    """To first order in a velocity across the plane of motion: `engine.lateral`."""
+    """To first order in a velocity across the plane of motion: `engine.perturbations.lateral`."""
     flat, _ = record(load_scene("tethered_buoy", CAP))
     space, _ = record(load_scene("tethered_buoy", CAP | {"motion.dimensions": 3}))
     V, V_tilde, _, F = drawn(2)

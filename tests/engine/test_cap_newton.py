@@ -8,9 +8,9 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
-from engine.newton import newton
 from engine.planar import state as planar
 from engine.spatial import state as spatial
+from engine.time.newton import newton
 from tests.engine.caps import CAP
 from tests.engine.lines import Motion, line
 

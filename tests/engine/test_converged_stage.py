@@ -8,11 +8,11 @@ import pytest
 from scipy.optimize import brentq
 
 from engine import load_scene
-from engine.guards import OK
-from engine.newton import newton
 from engine.parameters import record_of
+from engine.planar.elimination import WIDTH as SWEEP_WIDTH
 from engine.planar.node import WIDTH
-from engine.planar.sweep import WIDTH as SWEEP_WIDTH
+from engine.time.newton import newton
+from engine.time.status import OK
 from tests.engine.box_equations import elements, residual
 
 T0 = 3.7  # s, any time

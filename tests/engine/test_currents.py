@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 from scipy.interpolate import RegularGridInterpolator
 
-from engine.currents import current_field
 from engine.parameters import record_of
+from engine.physics.currents import current_field
 from tests.engine.lines import STILL, line
 
 X_M, HEIGHT, TIME = [-10.0, -2.0, 0.0, 7.0, 30.0], [0.0, 1.0, 5.0, 20.0], [0.0, 10.0, 11.0, 60.0]

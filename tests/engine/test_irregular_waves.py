@@ -9,11 +9,11 @@ import pytest
 from scipy.integrate import quad
 
 from engine import load_scene
-from engine.jonswap import HIGHEST, LOWEST, components, spectral_density
-from engine.lanes.cover import goes_in_lanes
 from engine.parameters import record_of
-from engine.sea import ROW, components_of, elevation_m, sea_field
-from engine.waves import wave_field, wave_field_3d, wave_number
+from engine.physics.jonswap import HIGHEST, LOWEST, components, spectral_density
+from engine.physics.sea import ROW, components_of, elevation_m, sea_field
+from engine.physics.waves import wave_field, wave_field_3d, wave_number
+from engine.simd.cover import goes_in_lanes
 
 ONE = {"period_s": 5.0, "amplitude_m": 0.8, "phase_rad": 0.3}
 OTHER = {"period_s": 3.1, "amplitude_m": 0.2, "phase_rad": -1.0}

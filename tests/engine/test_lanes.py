@@ -1,13 +1,13 @@
 """Runs that go side by side are the runs alone, bit for bit, whatever else is in the batch and however it goes.
 
-A batch goes through the lanes of vectors where the engine can (`engine.lanes`); `simulate` alone goes through numbers.
+A batch goes through the lanes of vectors where the engine can (`engine.simd`); `simulate` alone goes through numbers.
 """
 
 import numpy as np
 import pytest
 
 from engine import goes_in_lanes, load_scene, simulate, simulate_batch, simulate_each
-from engine.guards import WORDS
+from engine.time.status import WORDS
 from tests.engine.test_batches import assert_equal
 
 STEEP = {"water.depth_m": 21.6, "waves.steepness": 0.13, "tether.nodes": 21}

@@ -14,7 +14,7 @@ import pytest
 from scipy.optimize import brentq
 
 from engine import simulate
-from engine.lateral import COEFFICIENTS, WIDTH, lateral_stage
+from engine.perturbations.lateral import COEFFICIENTS, WIDTH, lateral_stage
 from engine.planar import node
 from tests.engine.lines import DRY, STILL, equilibrium, line, linear
 

@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 from engine import load_scene
-from engine.lateral import COEFFICIENTS, WIDTH, lateral_stage
 from engine.parameters import record_of
+from engine.perturbations.lateral import COEFFICIENTS, WIDTH, lateral_stage
 from engine.planar import node
 from tests.engine.lines import DRY, free, held
 from tests.engine.space_equations import response

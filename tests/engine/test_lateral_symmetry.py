@@ -2,14 +2,14 @@
 
 The tether stands or hangs straight, at rest, in a vertical current, or bouncing along itself through strains from 0 to
 twice the static one; without waves nothing in the water tells x from y. The same perturbation (q_x, V_x) and (q_y, V_y)
-then grows alike in `engine.tangent` and in `engine.lateral`, step by step and with the same shape; both are solved to
+then grows alike in `tangent` and in `lateral`, step by step and with the same shape; both are solved to
 rounding, and growth of e^10 and decay of e^-30 on the way leave 1e-7 of that. In waves the two differ.
 """
 
 import numpy as np
 import pytest
 
-from engine.lateral import carry_lateral
+from engine.perturbations.lateral import carry_lateral
 from tests.engine.lines import DRY, STILL, free, held, line
 from tests.engine.tangents import Run
 

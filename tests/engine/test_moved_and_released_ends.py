@@ -10,8 +10,8 @@ import pytest
 from scipy.interpolate import PchipInterpolator
 
 from engine import simulate
-from engine.ends import end_velocity, upper_end
 from engine.parameters import record_of
+from engine.physics.ends import end_velocity, upper_end
 from tests.engine.lines import STILL, equilibrium, held, line, positions
 
 PLACE = (3.0, 20.2)

@@ -7,7 +7,7 @@ A Runge-Kutta method has order p when sum b_i Phi_i(tree) = 1/gamma(tree) for ev
 import numpy as np
 import pytest
 
-from engine.integrators import backward_euler, esdirk43, generalized_alpha, midpoint, trbdf2
+from engine.time.integrators import backward_euler, esdirk43, generalized_alpha, midpoint, trbdf2
 
 PAIRS = {"esdirk43": esdirk43, "trbdf2": trbdf2}
 ROUNDING = 1e-14  # the printed coefficients are exact fractions of order one

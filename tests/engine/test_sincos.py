@@ -7,7 +7,7 @@ The stated 1 ulp for |x| < 1e6 is tried with long doubles on small arguments.
 import numpy as np
 import pytest
 
-from engine.elementary import sincos, small_exponentials, small_sincos
+from engine.simd.elementary import sincos, small_exponentials, small_sincos
 
 EPS = np.finfo(float).eps
 

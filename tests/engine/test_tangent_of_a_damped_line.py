@@ -15,7 +15,7 @@ import pytest
 import scipy.linalg
 
 from engine import simulate
-from engine.integrators import METHODS
+from engine.time.integrators import METHODS
 from tests.engine.box_equations import residual
 from tests.engine.lines import equilibrium, line
 

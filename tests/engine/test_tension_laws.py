@@ -10,8 +10,8 @@ import pytest
 from scipy.interpolate import PchipInterpolator
 
 from engine.parameters import record_of
+from engine.physics.tension import stored, tension
 from engine.scales import strain_at, tension_at
-from engine.tension import stored, tension
 from tests.engine.lines import line
 
 STRAIN = [-0.2, -0.05, 0.0, 0.01, 0.04, 0.041, 0.1, 0.3, 0.5]

@@ -7,8 +7,8 @@ they are the numbers of the planar condition. D against central differences of s
 import numpy as np
 import pytest
 
-from engine.ends import upper_end, upper_end_3d
 from engine.parameters import RECORD, SPATIAL, record_of
+from engine.physics.ends import upper_end, upper_end_3d
 from tests.engine.lines import STILL, free, held, line
 from tests.engine.test_water_in_space import turned
 

@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 from scipy.interpolate import RegularGridInterpolator
 
-from engine.currents import current_field, current_field_3d
 from engine.parameters import record_of
-from engine.waves import wave_field, wave_field_3d
+from engine.physics.currents import current_field, current_field_3d
+from engine.physics.waves import wave_field, wave_field_3d
 from tests.engine.lines import STILL, line
 
 RNG = np.random.default_rng(12)

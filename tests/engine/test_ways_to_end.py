@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from engine import load_scene, simulate
-from engine.guards import WORDS
+from engine.time.status import WORDS
 
 NO_COMPRESSION = {"law": "tabulated", "strain": [-0.5, 0.0, 0.1], "tension_N": [0.0, 0.0, 5000.0]}
 STILL = {"waves": None}

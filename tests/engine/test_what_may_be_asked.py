@@ -6,9 +6,9 @@ import pytest
 
 from engine import SceneError, load_scene, simulate
 from engine.parameters import NOT_STRETCHED, grid
-from engine.room import MOST_PROFILE_VALUES, MOST_SAMPLES, MOST_STEPS
-from engine.scene_values import LARGEST, SMALLEST
-from engine.waves import wave_number
+from engine.physics.waves import wave_number
+from engine.scene.size_limits import MOST_PROFILE_VALUES, MOST_SAMPLES, MOST_STEPS
+from engine.scene.values import LARGEST, SMALLEST
 
 STILL = {"waves": None}
 DRY = {"water": None, "waves": None}

@@ -7,7 +7,7 @@ import pytest
 
 from campaigns.buoy_sweep import rows
 from engine import load_scene
-from engine.waves import wave_number
+from engine.physics.waves import wave_number
 from reports.buoy_sweep.figures import spectrum_window
 from reports.buoy_sweep.motion import LONGEST_PERIOD
 from reports.buoy_sweep.physics import natural_frequencies, water_surface_m

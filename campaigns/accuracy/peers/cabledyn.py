@@ -16,7 +16,7 @@ from pathlib import Path
 import numpy as np
 
 from campaigns.accuracy.peers.deck import system
-from engine.waves import wave_number
+from engine.physics.waves import wave_number
 
 SAMPLE = 0.05
 NOTES = (

@@ -29,7 +29,7 @@ from pathlib import Path
 import numpy as np
 
 from campaigns.accuracy.peers.deck import system, volume
-from engine.waves import wave_number
+from engine.physics.waves import wave_number
 
 BED = -100.0  # m: MoorDyn's still water level is z = 0, far above the buoy
 PORT_AREA = 1e-3  # m2, drag area times coefficient of the point that takes the load

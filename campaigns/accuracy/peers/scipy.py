@@ -24,11 +24,11 @@ import numpy as np
 from campaigns.accuracy.peers.record import as_trajectory
 from engine.compiled import kernel
 from engine.dimensions import conserved, size_of, work_arrays
-from engine.elementary import copy_into
-from engine.guards import NEWTON_FAILED, OK
-from engine.newton import newton
 from engine.parameters import record_of
-from engine.statics import first_guess, settle
+from engine.simd.elementary import copy_into
+from engine.time.newton import newton
+from engine.time.statics import first_guess, settle
+from engine.time.status import NEWTON_FAILED, OK
 
 RESOLVENT_S = 1e-7
 NEWTON_TOLERANCE, MOST = 1e-14, 20

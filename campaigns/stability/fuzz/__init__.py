@@ -29,8 +29,8 @@ def valid_case(seed: int, number: int) -> tuple[dict, float]:
     raw = scenes.plain_scene(rng)
     if number % 2:
         raw = faults.extreme_scene(rng, raw)
-    from engine.room import longest_step
     from engine.scene import build_scene
+    from engine.scene.size_limits import longest_step
 
     scene = build_scene(raw)
     asked_s = LENGTH_S if scenes.maybe(rng, 0.2) else SAMPLES * scene.sample_step_s()

@@ -10,13 +10,13 @@ from functools import cache
 import numpy as np
 import pytest
 
-from engine.guards import OK
 from engine.paper_box.box import Band, level_of
 from engine.paper_box.frame import to_fixed, to_local
 from engine.paper_box.line import line_of
 from engine.paper_box.newton import solve
 from engine.paper_box.start import at_rest
 from engine.paper_box.water import positions
+from engine.time.status import OK
 from tests.engine.lines import DRY, energy, free, line, linear
 
 STEP_S, SWING_S = 0.005, 2.5

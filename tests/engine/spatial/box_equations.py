@@ -1,6 +1,6 @@
 """The box equations in space written out in plain NumPy from their statements, for tests that must not trust a kernel.
 
-The elimination in `engine.spatial.sweep` is never looked at here: every equation of its head is a row of `residual`,
+The elimination in `spatial.elimination` is never looked at here: every equation of its head is a row of `residual`,
 the rotation between nodes comes from 3 x 3 matrices, and O1 is an unknown of every node. Complex arguments pass
 through, so that a complex step differentiates to rounding. The scene's part (laws, grid) is that of the planar module.
 """
@@ -10,10 +10,10 @@ import math
 import numpy as np
 
 from engine.parameters import record_of
+from engine.spatial.elimination import sweep
+from engine.spatial.elimination_unbent import sweep_unbent
 from engine.spatial.node import WIDTH, node_quantities, shape
 from engine.spatial.rows import WIDTH as SWEEP_WIDTH
-from engine.spatial.sweep import sweep
-from engine.spatial.sweep_unbent import sweep_unbent
 from engine.spatial.upper import CLAMP
 from tests.engine.box_equations import elements, tension
 

@@ -7,9 +7,9 @@ of the engine for small changes of C~, turned into changes of (q, V): dq = deps 
 import numpy as np
 
 from engine.spatial import node
+from engine.spatial.elimination import sweep
+from engine.spatial.elimination_unbent import sweep_unbent
 from engine.spatial.rows import WIDTH
-from engine.spatial.sweep import sweep
-from engine.spatial.sweep_unbent import sweep_unbent
 from tests.engine.modes import CHANGE
 
 

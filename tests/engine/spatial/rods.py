@@ -10,7 +10,7 @@ from scipy.spatial.transform import Rotation
 
 from engine.parameters import grid, record_of
 from engine.spatial.lift import product, stretch_vectors
-from engine.statics import settle
+from engine.time.statics import settle
 from tests.engine.lines import DRY, equilibrium, line, linear
 
 DENSITY, AREA = 1140.0, 7.85e-5

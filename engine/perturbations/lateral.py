@@ -1,0 +1,246 @@
+"""Lateral perturbations of a planar motion: an infinitesimal one, carried through the accepted steps of a run.
+
+The equations in space (model.md 2.6) are linearised about a motion in the plane x-z; y is across, b = t x n = -y.
+By mirror symmetry the lateral unknowns separate from the planar ones. A rotation theta = (theta_t, theta_n, 0) of the
+frame (t, n, b) gives dt = theta x t = -theta_n b, dn = theta_t b, and, with V_y, dS_b, dO2 (dO1 = 0: torque-free ends),
+
+    q_y = lam theta_n,   N_y = T theta_n - S theta_t - dS_b,   lam = 1 + eps
+    V_y' = q_y,t         N_y' = G_y        EI dO2' - lam^3 dS_b = 0   (terms of EI - GIp are products with O1: none)
+
+Neither strain, speed along t, magnitude of a relative velocity nor position in the plane changes to first order, and
+the water does not depend on y. So, from G = m V_t + w0 z + c_t sqrt(lam) |v_t| v_t t + c_n sqrt(lam) |v_p| v_p
++ (I - t t')(m_a V_t - R a_w), with v_p = v - v_t t and its y component V_y - v_t theta_n,
+
+    G_y = (m + m_a) V_y,t + c_n sqrt(lam) |v_n| V_y
+          + [c_t sqrt(lam) |v_t| v_t - c_n sqrt(lam) |v_n| v_t - t.(m_a V_t - R a_w)] theta_n
+    buoy  N_y + (M + M_a) V_y,t + C |v| V_y = 0;   held  V_y = 0;   free  N_y = 0;   all  dO2 = 0
+    anchor  V_y = 0, dO2 = 0, theta_t = 0 (the roll gauge)
+
+Rotation across a box. The box in space is psi = 2 log(beta_a* o beta_b) = e (O_a + O_b). About a planar turn alpha,
+d psi = J_r^-1 theta_b - J_l^-1 theta_a. With J_l = R(psi) J_r and Theta = theta_t t + theta_n n, the same vector in
+fixed axes, this is Theta_b - Theta_a = J_l d psi, and d psi = e (dO2_a + dO2_b) n makes it
+
+    Theta_b - Theta_a = e sinc(alpha/2) n_m (dO2_a + dO2_b),    n_m = n((phi_a + phi_b)/2)
+
+At a node take Theta along t_m and n_m of the box below it, rho and tau (at the anchor along t and n): the first
+component is then known from the node below, and no turn alpha < 2 pi makes a pivot vanish. With delta = alpha/2,
+theta_n = cos(delta) tau - sin(delta) rho and theta_t = cos(delta) rho + sin(delta) tau.
+
+Elimination as in `planar.elimination`: v = (V_y, dO2, rho) and y = (tau, dS_b). Below a node v = R y + r; rotation
+and compatibility give v_b = X y_a + Z y_b + x, momentum and moment y_a = P y_b + p through one 2 x 2 inverse.
+
+Stages, renormalisation and loop releases are those of `tangent`; C = (q_y, V_y). Its length is the root of the
+energy it would have about rest (`energy_weights`): any length gives the same exponent, but the energy of a pendulum
+does not swing with its phase, and the error of a mean over periods comes from such swings (|q_y|^2 + |V_y|^2/speed^2,
+as in the plane, was tried: thirty times the error at kA = 0.016). Torsional stiffness has no part in it.
+"""
+
+import math
+
+import numpy as np
+
+from ..compiled import by_kind, kernel
+from ..physics.ends import BUOY, HELD, released
+from ..physics.submergence import cap_across
+from ..physics.tension import tension
+from ..planar import node
+from ..simd.elementary import copy_into, sincos, small_sincos
+from ..simd.select import every, larger, where
+from ..time.steps import plan_stage
+from .tangent import period_of
+
+COEFFICIENTS, WIDTH = 10, 15
+
+
+@kernel
+def _coefficients(p, tables, rate, Y, K, Q, F, H):
+    """Nodal coefficients of the lateral equations, H (n, 10).
+
+    0-1 sine and cosine of delta | 2-3 dq_y/dtau, dq_y/drho | 4-5 dN_y/dtau, dN_y/drho (without -dS_b) |
+    6-7 dG_y/dtau, dG_y/drho | 8 dG_y/dV_y | 9 lam^3
+    """
+    for k in range(Y.shape[0]):
+        c, s = Q[k, 0], Q[k, 1]
+        delta = 0.5 * (Y[k, 4] - Y[k - 1, 4]) if k > 0 else 0.0
+        sd, cd = small_sincos(delta)
+        short = abs(delta) < 0.25
+        if not every(short):
+            s_long, c_long = sincos(delta)
+            sd, cd = where(short, sd, s_long), where(short, cd, c_long)
+        lam = 1.0 + Y[k, 0]
+        S = Y[k, 1]
+        T = tension(Y[k, 0], p, tables)[0]
+        tilt = 0.0
+        across = (p.m + p.ma) * rate
+        if p.wet:
+            root = math.sqrt(larger(lam, 0.0))
+            ur, wr = Y[k, 2] - F[k, 0], Y[k, 3] - F[k, 1]
+            vt, vn = ur * c + wr * s, wr * c - ur * s
+            kn = p.cn * root * abs(vn)
+            across += kn
+            tilt = (p.ct * root * abs(vt) - kn) * vt
+            tilt -= c * (p.ma * K[k, 2] - p.Rw * F[k, 2]) + s * (p.ma * K[k, 3] - p.Rw * F[k, 3])
+        H[k, 0], H[k, 1] = sd, cd
+        H[k, 2], H[k, 3] = lam * cd, -lam * sd
+        H[k, 4], H[k, 5] = T * cd - S * sd, -T * sd - S * cd
+        H[k, 6], H[k, 7] = tilt * cd, -tilt * sd
+        H[k, 8] = across
+        H[k, 9] = lam * lam * lam
+
+
+@kernel
+def _upper_end(p, t, rate, Y, F, V_tilde):
+    """Factors of N_y and V_y in the linearised condition of the upper end (`physics.ends`), and its known part."""
+    if p.end == HELD and not released(p, t):
+        return 0.0, 1.0, 0.0
+    if p.end != BUOY:
+        return 1.0, 0.0, 0.0
+    return _buoy_end(p, t, rate, Y, F, V_tilde)
+
+
+@kernel
+def _buoy_end(p, t, rate, Y, F, V_tilde):
+    u, w = Y[2] - F[0], Y[3] - F[1]
+    return 1.0, p.M_total * rate + p.C_buoy * math.sqrt(u * u + w * w), -p.M_total * rate * V_tilde
+
+
+_lateral_end = by_kind(_upper_end, _upper_end, _buoy_end)
+
+
+@kernel
+def lateral_stage(p, tables, t, rate, X, Y, K, Q, F, dC_tilde, H, E, dC):
+    """dC (n, 2) = (q_y, V_y) of one stage, q_y,t = rate (q_y - q~_y) and V_y,t likewise, from dC_tilde (n, 2).
+
+    X, Y, K, Q, F: places and planar state of the stage, its rates, directions (`node.shape`) and water. H, E: work.
+    E (n, 15): P (4), p (2), R (6), r (3).
+    """
+    n = Y.shape[0]
+    _coefficients(p, tables, rate, Y, K, Q, F, H)
+    inertia = (p.m + p.ma) * rate
+    R00 = R01 = R10 = R11 = R20 = R21 = r0 = r1 = r2 = 0.0
+    for i in range(WIDTH):
+        E[0, i] = 0.0
+    for k in range(1, n):
+        a = k - 1
+        e = 0.5 * tables[p.grid_at + a]
+        er = e * rate
+        # from the directions of node a to those of node b: half the turn below a and half the turn of this box
+        s_b, c_b = H[a, 0] * H[k, 1] + H[a, 1] * H[k, 0], H[a, 1] * H[k, 1] - H[a, 0] * H[k, 0]
+        half = 0.5 * (Y[k, 4] - Y[a, 4])
+        f = where(abs(half) > 1e-4, half / (e * H[k, 0]), (1.0 + half * half / 6.0) / e)
+        # v_b = X y_a + Z y_b + x
+        X20, X21, x2 = c_b * R20 + s_b, c_b * R21, c_b * r2
+        X10, X11, x1 = f * (s_b * R20 - c_b) - R10, f * s_b * R21 - R11, f * s_b * r2 - r1
+        at, ar, bt, br = er * H[a, 2], er * H[a, 3], er * H[k, 2], er * H[k, 3]
+        X00 = R00 + at + ar * R20 + br * X20
+        X01 = R01 + ar * R21 + br * X21
+        x0 = r0 + ar * r2 + br * x2 - er * (dC_tilde[a, 0] + dC_tilde[k, 0])
+        # momentum and moment: A y_a + B y_b = g
+        Ja, Jb = e * H[a, 8], e * H[k, 8]
+        below_t, below_r = H[a, 4] + e * H[a, 6], H[a, 5] + e * H[a, 7]
+        above_t, above_r = H[k, 4] - e * H[k, 6], H[k, 5] - e * H[k, 7]
+        A00 = above_r * X20 - below_t - below_r * R20 - Ja * R00 - Jb * X00
+        A01 = above_r * X21 - below_r * R21 + 1.0 - Ja * R01 - Jb * X01
+        A10 = p.EI * (X10 - R10)
+        A11 = p.EI * (X11 - R11) - e * H[a, 9]
+        B00 = above_t - Jb * bt
+        B10 = p.EI * f
+        B11 = -e * H[k, 9]
+        g0 = below_r * r2 - above_r * x2 + Ja * r0 + Jb * x0 - e * inertia * (dC_tilde[a, 1] + dC_tilde[k, 1])
+        g1 = -p.EI * (x1 - r1)
+        d = 1.0 / (A00 * A11 - A01 * A10)
+        P00, P01 = d * (A01 * B10 - A11 * B00), d * (A11 + A01 * B11)
+        P10, P11 = d * (A10 * B00 - A00 * B10), -d * (A10 + A00 * B11)
+        p0, p1 = d * (A11 * g0 - A01 * g1), d * (A00 * g1 - A10 * g0)
+        R00, R01, r0 = X00 * P00 + X01 * P10 + bt, X00 * P01 + X01 * P11, X00 * p0 + X01 * p1 + x0
+        R10, R11, r1 = X10 * P00 + X11 * P10 + f, X10 * P01 + X11 * P11, X10 * p0 + X11 * p1 + x1
+        R20, R21, r2 = X20 * P00 + X21 * P10, X20 * P01 + X21 * P11, X20 * p0 + X21 * p1 + x2
+        E[k, 0], E[k, 1], E[k, 2], E[k, 3], E[k, 4], E[k, 5] = P00, P01, P10, P11, p0, p1
+        E[k, 6], E[k, 7], E[k, 8], E[k, 9], E[k, 10], E[k, 11] = R00, R01, R10, R11, R20, R21
+        E[k, 12], E[k, 13], E[k, 14] = r0, r1, r2
+    b = n - 1
+    of_N, of_V, known = _lateral_end(p, t, rate, Y[b], F[b], dC_tilde[b, 1])
+    if p.cap:
+        more, more_known = cap_across(p, t, rate, X[b], Y[b], F[b], dC_tilde[b, 1])
+        of_V, known = of_V + more, known + more_known
+    A00 = of_N * (H[b, 4] + H[b, 5] * R20) + of_V * R00
+    A01 = of_N * (H[b, 5] * R21 - 1.0) + of_V * R01
+    g0 = -known - of_N * H[b, 5] * r2 - of_V * r0
+    d = 1.0 / (A00 * R11 - A01 * R10)
+    tau, Sb = d * (R11 * g0 + A01 * r1), -d * (A00 * r1 + R10 * g0)
+    for k in range(n - 1, -1, -1):
+        rho = E[k, 10] * tau + E[k, 11] * Sb + E[k, 14]
+        dC[k, 0] = H[k, 2] * tau + H[k, 3] * rho
+        dC[k, 1] = E[k, 6] * tau + E[k, 7] * Sb + E[k, 12]
+        tau, Sb = E[k, 0] * tau + E[k, 1] * Sb + E[k, 4], E[k, 2] * tau + E[k, 3] * Sb + E[k, 5]
+
+
+def energy_weights(p, tables):
+    """Weights (n, 2) of q_y^2 and V_y^2: the energy of a lateral perturbation about rest, J.
+
+    1/2 integral of (T/lam) q_y^2 + (m + m_a) V_y^2, and 1/2 (M + M_a) V_y^2 of the buoy. T and lam are the scales of
+    the scene (`engine.parameters`), so that slack lines have a length too.
+    """
+    n = int(p["nodes"])
+    h = tables[p["grid_at"] : p["grid_at"] + n - 1]
+    shares = 0.25 * (np.append(h, 0.0) + np.append(0.0, h))
+    load, lam = 20.0 / p["per_force"], 1.0 + 1.0 / p["per_strain"]
+    weights = shares[:, None] * np.array([load / lam, p["m"] + p["ma"]])
+    if p["end"] == BUOY:
+        weights[-1, 1] += 0.5 * p["M_total"]
+    return weights
+
+
+@kernel
+def normalise(weights, here, vector, rates):
+    """Bring vector (n, 2) to length one where `here` holds, rates along; returns its length."""
+    square = 0.0
+    for k in range(vector.shape[0]):
+        for m in range(2):
+            square += weights[k, m] * (vector[k, m] * vector[k, m])
+    length = math.sqrt(square)
+    scale = where(here & (length > 0.0), 1.0 / length, 1.0)
+    for k in range(vector.shape[0]):
+        for m in range(2):
+            vector[k, m] *= scale
+            rates[k, m] *= scale
+    return length
+
+
+@kernel
+def known_lateral(a, count, vector, dK, dC_tilde):
+    """dC~ = dC + sum over the first `count` of a_j dK_j, for arrays (n, 2)."""
+    copy_into(dC_tilde, vector)
+    for j in range(count):
+        for k in range(vector.shape[0]):
+            for m in range(2):
+                dC_tilde[k, m] += a[j] * dK[j, k, m]
+
+
+@kernel
+def carry_lateral(p, tables, period, count, T, trail_Y, trail_K, weights, vector, rates, growth):
+    """Carry a lateral perturbation through the first `count` steps of a trail (layout: `engine.perturbations.tangent`).
+
+    vector, rates (n, 2): C = (q_y, V_y) and its rates; C of length one on entry and exit, by weights (n, 2).
+    growth (periods,), nats: what each step adds goes to the period in which it ends (the last, beyond the end).
+    """
+    n, s = vector.shape[0], trail_Y.shape[1]
+    X, F, Q = np.zeros((n, 2)), np.zeros((n, 4)), np.zeros((n, node.WIDTH))
+    H, E = np.zeros((n, COEFFICIENTS)), np.zeros((n, WIDTH))
+    dC, dC_tilde, dK = np.zeros((n, 2)), np.zeros((n, 2)), np.zeros((s, n, 2))
+    a, w = np.empty(s), np.empty(3)
+    for step in range(count):
+        t, dt, euler = T[step, 0], T[step, 1], T[step, 2] > 0.0
+        copy_into(dK[0], rates)
+        for i in range(s - 1 if euler else 1, s):
+            rate, after = plan_stage(p, tables, i, euler, dt, 0.0, a, w)
+            node.shape(p, tables, trail_Y[step, i], Q, X)
+            node.water(p, tables, t + after, 1.0, X, F)
+            known_lateral(a, 0 if euler else i, vector, dK, dC_tilde)
+            lateral_stage(p, tables, t + after, rate, X, trail_Y[step, i], trail_K[step, i], Q, F, dC_tilde, H, E, dC)
+            for k in range(n):
+                for m in range(2):
+                    dK[i, k, m] = rate * (dC[k, m] - dC_tilde[k, m])
+        copy_into(vector, dC)
+        copy_into(rates, dK[s - 1])
+        growth[period_of(t + dt, period, growth.shape[0])] += np.log(normalise(weights, True, vector, rates))

@@ -1,0 +1,1 @@
+"""Laws, one file a law: tension, waves, irregular seas, currents, ends, buoyancy at the surface, shocks, energy."""

@@ -1,0 +1,188 @@
+"""The upper end: buoy (30), held, or free under a force. (Lower end: V = 0, moment-free or clamped; in the sweeps.)
+
+Each condition is as many equations e = 0 as there are dimensions, in the force N and velocity V of the last node, with
+e_N the factor of dN (1 or 0) and D = de/dV:
+
+    buoy   e = N + (M + M_a) V_t + C |v| v - (rho V + M_a) dU_w/dt - (B - W) z,   C = rho C_d A_p / 2, v = V - U_w
+    held   e = V - V_e(t), V_e the velocity at which the end is moved; after its release e = N - F
+    free   e = N - F, where it breaks F cos^2(pi t/(2 t_br)) until t_br and nothing after
+
+The place of a held end follows from V by integration: it is off by what Newton's method leaves over, 1 mm after ten
+oscillations of 1 m at the default tolerances, 1e-6 m where solver.newton_tolerance = 1e-8 (`docs/held_lines.md`). In
+statics V is a displacement, and V_e the one that is left to go (`engine.time.statics` puts it into end_x ... end_z).
+
+Motion of a held end in `tables`, n numbers or knots: velocities, since the displacement follows from them:
+    harmonic  [amplitude x y z | omega | phase | ramp];  displacement amplitude r(t) sin(omega t + phase), r the ramp
+    table     [t (n) | for each of the n - 1 pieces, for x, y, z: v0 v1 v2], v = v0 + v1 d + v2 d^2 at d after its knot
+"""
+
+import math
+
+import numpy as np
+
+from ..compiled import by_kind, kernel
+from ..simd.elementary import bracket, smooth_start
+from ..simd.select import where
+
+BUOY, HELD, FREE = 0, 1, 2
+STILL, HARMONIC, TABLE = 0, 1, 2
+
+
+def harmonic_of(amplitude_m, period_s, phase_rad, ramp_s):
+    """The numbers of a harmonic motion in the layout above."""
+    return np.array([*amplitude_m, 2 * math.pi / period_s, phase_rad, ramp_s])
+
+
+def table_of(time_s, displacement_m):
+    """Knots and velocities of a tabulated motion in the layout above.
+
+    The displacement is the monotone cubic of Fritsch & Carlson (PCHIP) with slopes zero at both ends: beyond them the
+    end is at rest, and a jump of its velocity would be a blow of infinite force.
+    """
+    from scipy.interpolate import CubicHermiteSpline, PchipInterpolator
+
+    values = np.asarray(displacement_m, float)
+    slopes = PchipInterpolator(time_s, values).derivative()(time_s)
+    slopes[[0, -1]] = 0.0
+    rates = CubicHermiteSpline(time_s, values, slopes).derivative().c[::-1]  # (power, piece, component)
+    return np.concatenate([np.asarray(time_s, float), rates.transpose(1, 2, 0).ravel()])
+
+
+@kernel
+def end_velocity(p, tables, t):
+    """Velocity (vx, vy, vz), m/s, at which a held end is moved at time t; zeros where nothing moves it."""
+    at = p.end_at
+    if p.end_motion == HARMONIC:
+        omega = tables[at + 3]
+        angle = omega * t + tables[at + 4]
+        gain, gain_rate = smooth_start(t, tables[at + 5])
+        rate = gain_rate * math.sin(angle) + gain * omega * math.cos(angle)
+        return tables[at] * rate, tables[at + 1] * rate, tables[at + 2] * rate
+    if p.end_motion == TABLE:
+        piece, part, inverse = bracket(tables, at, p.end_n, t)
+        if inverse > 0.0:
+            d = part / inverse
+            c = at + p.end_n + 9 * piece
+            return (
+                tables[c] + d * (tables[c + 1] + d * tables[c + 2]),
+                tables[c + 3] + d * (tables[c + 4] + d * tables[c + 5]),
+                tables[c + 6] + d * (tables[c + 7] + d * tables[c + 8]),
+            )
+    return 0.0, 0.0, 0.0
+
+
+@kernel
+def next_corner(p, tables, t):
+    """Next time (s) after t at which a held end's acceleration jumps: its release, a row of its table, the end of its
+    ramp; infinite where none is left. A step across it would leave the end 1e-5 m from its place.
+    """
+    corner = p.end_release if t < p.end_release else np.inf
+    if p.end_motion == HARMONIC:
+        ramp = tables[p.end_at + 5]
+        if t < ramp < corner:
+            corner = ramp
+    elif p.end_motion == TABLE:
+        for i in range(p.end_n):
+            knot = tables[p.end_at + i]
+            if t < knot:
+                return min(corner, knot)
+    return corner
+
+
+@kernel
+def released(p, t):
+    """Has a held end been let go? Not in a step that ends at the release, whatever the rounding of its time."""
+    return t > p.end_release * (1.0 + 1e-13)
+
+
+@kernel
+def force_left(p, t):
+    """Share of the force on a free end that is left at time t: cos^2(pi t/(2 t_br)) where it breaks (section 4.1.1)."""
+    if p.end_decay == 0.0:
+        return 1.0
+    return math.cos(0.5 * math.pi * t / p.end_decay) ** 2 if t < p.end_decay else 0.0
+
+
+@kernel
+def upper_end(p, tables, t, cv, in_motion, Nx, Nz, U, W, U_tilde, W_tilde, F):
+    """Residual and derivatives of the upper end in a plane, at time t (s).
+
+    F : (4,) water velocity and acceleration there.
+    Returns ex, ez, e_N, Dxx, Dxz, Dzz.
+    """
+    if p.end == HELD:
+        if in_motion == 0.0:
+            return U - p.end_x, W - p.end_z, 0.0, 1.0, 0.0, 1.0
+        if released(p, t):
+            return Nx - p.end_fx, Nz - p.end_fz, 1.0, 0.0, 0.0, 0.0
+        vx, _, vz = end_velocity(p, tables, t)
+        return U - vx, W - vz, 0.0, 1.0, 0.0, 1.0
+    if p.end == FREE:
+        left = force_left(p, t)
+        return Nx - left * p.end_x, Nz - left * p.end_z, 1.0, 0.0, 0.0, 0.0
+    return _buoy_end(p, tables, t, cv, in_motion, Nx, Nz, U, W, U_tilde, W_tilde, F)
+
+
+@kernel
+def _buoy_end(p, tables, t, cv, in_motion, Nx, Nz, U, W, U_tilde, W_tilde, F):
+    """As `upper_end` for a buoy, eq. (30): the one end that runs of one batch may have (`engine.simd`)."""
+    mass = p.M_total
+    ex = Nx + mass * cv * (U - U_tilde)
+    ez = Nz + mass * cv * (W - W_tilde) - p.lift
+    Dxx = mass * cv
+    Dxz = 0.0
+    Dzz = Dxx
+    if p.wet:
+        u = in_motion * U - F[0]
+        w = in_motion * W - F[1]
+        speed = math.sqrt(u * u + w * w)
+        ex += p.C_buoy * speed * u - p.M_wave * F[2]
+        ez += p.C_buoy * speed * w - p.M_wave * F[3]
+        along = in_motion * p.C_buoy / where(speed > 0.0, speed, 1.0)
+        Dxx += in_motion * p.C_buoy * speed + along * u * u
+        Dxz = along * u * w
+        Dzz += in_motion * p.C_buoy * speed + along * w * w
+    return ex, ez, 1.0, Dxx, Dxz, Dzz
+
+
+planar_end = by_kind(upper_end, upper_end, _buoy_end)
+
+
+@kernel
+def upper_end_3d(p, tables, t, cv, in_motion, N, V, V_tilde, F):
+    """Residual and derivatives of the upper end in space, at time t (s).
+
+    N (N), V, V_tilde (m/s): (x, y, z);  F : (6,) water velocity and acceleration there.
+    Returns (ex, ey, ez), e_N, (Dxx, Dxy, Dxz, Dyy, Dyz, Dzz).
+    """
+    free, fixed = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0), (1.0, 0.0, 0.0, 1.0, 0.0, 1.0)
+    if p.end == HELD:
+        if in_motion == 0.0:
+            return (V[0] - p.end_x, V[1] - p.end_y, V[2] - p.end_z), 0.0, fixed
+        if released(p, t):
+            return (N[0] - p.end_fx, N[1] - p.end_fy, N[2] - p.end_fz), 1.0, free
+        vx, vy, vz = end_velocity(p, tables, t)
+        return (V[0] - vx, V[1] - vy, V[2] - vz), 0.0, fixed
+    if p.end == FREE:
+        left = force_left(p, t)
+        return (N[0] - left * p.end_x, N[1] - left * p.end_y, N[2] - left * p.end_z), 1.0, free
+    inertia = p.M_total * cv
+    ex = N[0] + inertia * (V[0] - V_tilde[0])
+    ey = N[1] + inertia * (V[1] - V_tilde[1])
+    ez = N[2] + inertia * (V[2] - V_tilde[2]) - p.lift
+    Dxx = Dyy = Dzz = inertia
+    Dxy = Dxz = Dyz = 0.0
+    if p.wet:
+        u, v, w = in_motion * V[0] - F[0], in_motion * V[1] - F[1], in_motion * V[2] - F[2]
+        speed = math.sqrt(u * u + v * v + w * w)
+        ex += p.C_buoy * speed * u - p.M_wave * F[3]
+        ey += p.C_buoy * speed * v - p.M_wave * F[4]
+        ez += p.C_buoy * speed * w - p.M_wave * F[5]
+        if speed > 0.0:
+            factor = in_motion * p.C_buoy
+            along = factor / speed
+            Dxx += factor * speed + along * u * u
+            Dyy += factor * speed + along * v * v
+            Dzz += factor * speed + along * w * w
+            Dxy, Dxz, Dyz = along * u * v, along * u * w, along * v * w
+    return (ex, ey, ez), 1.0, (Dxx, Dxy, Dxz, Dyy, Dyz, Dzz)

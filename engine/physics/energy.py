@@ -1,0 +1,111 @@
+"""Energy budget of a dry line, from the very numbers of the accepted steps.
+
+At the stage of a one-stage step (rates K_s at C_s, `time.steps`) the box equations, multiplied by V and N, sum to
+
+    N.V at the upper end = sum over elements of h (N-.q_t- + m V-.V_t- + w0 W-),      - the mean of two nodes,
+
+without error but Newton's. N.q_t at a node is f(eps) e_t + T_v e_t + S.q_t: into strain, into viscosity, and against
+the shear forces, which is bending (with the paper's (1+eps)^3 it has no potential where the strain varies, so its work
+is kept). What a step takes from the end and does not find again in these or in the energies
+
+    kinetic sum h m |V-|^2/2 | strain sum h mean(integral of f) | gravity sum h w0 z-
+
+is what the scheme dissipates: in time, stage powers times dt less the change of energies (the integrator's damping); in
+space, h (N-.q_t- - mean(N.q_t)) (products of means for means of products). Both are small where the solution is
+smooth, and belong to the dissipation of a shock where it is not.
+
+Columns of `energies`: 0 t | 1 kinetic | 2 strain | 3 gravity | 4 work at the end | 5 against shear | 6 viscous |
+7 in space | 8 stage powers times dt of kinetic, strain and gravity. All since t = 0, in J; the first three are states.
+"""
+
+import math
+
+import numpy as np
+
+from ..compiled import kernel
+from ..dimensions import shear_force
+from .shocks import shock_tension
+from .tension import stored, tension
+
+WIDTH = 9
+
+
+@kernel
+def energies_of(p, tables, C, row):
+    """Kinetic, strain and gravity energy of a state C (n, 4 or 6) into row[1:4]; gravity from the lower end up."""
+    half = C.shape[1] // 2
+    kinetic = strain = gravity = below = z = 0.0
+    for k in range(C.shape[0]):
+        square = 0.0
+        for i in range(half):
+            square += C[k, i] * C[k, i]
+        here = stored(math.sqrt(square) - 1.0, p, tables)
+        if k > 0:
+            h = tables[p.grid_at + k - 1]
+            for i in range(half, 2 * half):
+                kinetic += 0.125 * h * p.m * (C[k - 1, i] + C[k, i]) ** 2
+            strain += 0.5 * h * (below + here)
+            rise = 0.5 * h * (C[k - 1, half - 1] + C[k, half - 1])
+            gravity += h * p.w0 * (z + 0.5 * rise)
+            z += rise
+        below = here
+    row[1], row[2], row[3] = kinetic, strain, gravity
+
+
+@kernel
+def add_powers(p, tables, dt, alpha_m, alpha_f, gamma, C0, K0, C1, K1, Y, Q, sums):
+    """Add one accepted step to sums (5,): columns 4 to 8 of `energies`.
+
+    C0, K0, C1, K1: before and after; Y: the new state, whose shear forces are the stage's; Q: viscosity of the step.
+    """
+    n, half = C0.shape[0], C0.shape[1] // 2
+    at = Q.shape[1] - 2
+    cq = alpha_m / (alpha_f * gamma * dt)
+    q, S = np.empty(half), np.empty(half)
+    N, rate = np.empty((2, half)), np.empty((2, half))  # of this node and of the one below, in turns
+    V, A = np.empty((2, half)), np.empty((2, half))
+    shear, viscous, axial = np.zeros(2), np.zeros(2), np.zeros(2)
+    for k in range(n):
+        a = k % 2
+        square = before = stretching = 0.0
+        for i in range(half):
+            q[i] = C0[k, i] + alpha_f * (C1[k, i] - C0[k, i])
+            rate[a, i] = K0[k, i] + alpha_m * (K1[k, i] - K0[k, i])
+            V[a, i] = C0[k, half + i] + alpha_f * (C1[k, half + i] - C0[k, half + i])
+            A[a, i] = K0[k, half + i] + alpha_m * (K1[k, half + i] - K0[k, half + i])
+            square += q[i] * q[i]
+            before += (q[i] - rate[a, i] / cq) ** 2
+            stretching += q[i] * rate[a, i]
+        length = math.sqrt(square)
+        stretching /= length
+        T = tension(length - 1.0, p, tables)[0]
+        T_v = shock_tension(cq, length - math.sqrt(before), Q[k, at], Q[k, at + 1])[0] if p.viscous else 0.0
+        shear_force(p, Y, k, q, S)
+        shear[a] = 0.0
+        axial[a], viscous[a] = T * stretching, T_v * stretching
+        for i in range(half):
+            N[a, i] = (T + T_v) * q[i] / length + S[i]
+            shear[a] += S[i] * rate[a, i]
+        if k > 0:
+            h = dt * tables[p.grid_at + k - 1]
+            means = kinetic = 0.0
+            for i in range(half):
+                means += 0.25 * (N[0, i] + N[1, i]) * (rate[0, i] + rate[1, i])
+                kinetic += 0.25 * p.m * (V[0, i] + V[1, i]) * (A[0, i] + A[1, i])
+            sums[1] += 0.5 * h * (shear[0] + shear[1])
+            sums[2] += 0.5 * h * (viscous[0] + viscous[1])
+            sums[3] += h * (means - 0.5 * (axial[0] + axial[1] + viscous[0] + viscous[1] + shear[0] + shear[1]))
+            lift = 0.5 * p.w0 * (V[0, half - 1] + V[1, half - 1])
+            sums[4] += h * (0.5 * (axial[0] + axial[1]) + kinetic + lift)
+    last = (n - 1) % 2
+    for i in range(half):
+        sums[0] += dt * N[last, i] * V[last, i]
+
+
+@kernel
+def store_energies(p, tables, t, C, sums, row):
+    """One row of `energies` at time t."""
+    row[0] = t
+    energies_of(p, tables, C, row)
+    for i in range(5):
+        row[4 + i] = sums[i]

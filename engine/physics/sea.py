@@ -1,0 +1,125 @@
+"""Irregular waves: a sum of linear waves, each with its own period, amplitude, phase and direction.
+
+    U = sum_i U_i,   psi_i = k_i (x cos a_i + y sin a_i) - omega_i t + phase_i,   omega_i^2 = g k_i tanh k_i H
+
+Every term is that of `physics.waves`; linear waves add. Above the still water level `zero` and `extrapolate` act on
+each term alike, and Wheeler's stretching goes by the elevation of the whole sea, z -> z H/(H + eta), with
+eta = sum A_i cos psi_i.
+
+Layout in `tables`, one row a component: k, omega, A, phase, cos a, sin a, A omega/(1 - exp(-2 k H)).
+"""
+
+import math
+
+import numpy as np
+
+from ..compiled import by_kind, kernel
+from ..simd.elementary import sincos, small_exponentials, small_sincos, smooth_start
+from .jonswap import components
+from .waves import SMALL, TINY, WHEELER, ZERO, wave_number
+
+ROW = 7
+
+
+def components_of(scene):
+    """The waves of a scene, one or many: periods (s), amplitudes (m), phases and directions (rad), each (n,)."""
+    waves = scene.waves
+    if not waves.irregular:
+        k = wave_number(waves.period_s, scene.water.depth_m, scene.gravity_mps2)
+        amplitude = waves.amplitude_m if waves.steepness is None else waves.steepness / k
+        return tuple(np.array([one]) for one in (waves.period_s, amplitude, waves.phase_rad, waves.direction_rad))
+    if waves.jonswap is not None:
+        sea = waves.jonswap
+        drawn = components(sea.significant_height_m, waves.period_s, sea.peak_enhancement, sea.components, sea.seed)
+        return (*drawn, np.full(sea.components, waves.direction_rad))
+    listed = [(one.period_s, one.amplitude_m, one.phase_rad, one.direction_rad) for one in waves.components]
+    return tuple(np.array(listed).T)
+
+
+def table_of(scene, direction):
+    """The rows of the sea (head of this file); direction: angle -> its cosine and sine."""
+    depth, rows = scene.water.depth_m, []
+    for period, amplitude, phase, angle in zip(*components_of(scene), strict=True):
+        k, omega = wave_number(period, depth, scene.gravity_mps2), 2.0 * math.pi / period
+        speed = amplitude * omega / (1.0 - math.exp(-2.0 * k * depth))
+        rows.append((k, omega, amplitude, phase, *direction(angle), speed))
+    return np.array(rows)
+
+
+def elevation_m(scene, time_s, x_m=0.0, y_m=0.0):
+    """Height of the surface above the still water level (m), in waves of any kind.
+
+    time_s, x_m, y_m    numbers or arrays that NumPy can broadcast against each other
+    """
+    t, x, y = (np.asarray(values, float) for values in (time_s, x_m, y_m))
+    eta = np.zeros(np.broadcast_shapes(t.shape, x.shape, y.shape))
+    for k, omega, amplitude, phase, cosine, sine, _ in table_of(scene, lambda a: (math.cos(a), math.sin(a))):
+        eta += amplitude * np.cos(k * (x * cosine + y * sine) - omega * t + phase)
+    ramp = scene.waves.ramp_s
+    return eta * (np.where(t < ramp, np.sin(0.5 * math.pi * t / ramp) ** 2, 1.0) if ramp > 0.0 else 1.0)
+
+
+@kernel
+def sea_field(p, tables, t, X, F):
+    """Water velocity and local acceleration at the nodes, added into F, in a plane and in space.
+
+    X : (n, 2) x, z or (n, 3) x, y, z (m);  F : (n, 4) or (n, 6), velocity (m/s), then its local rate (m/s2)
+    """
+    n, size = X.shape
+    gain, gain_rate = smooth_start(t, p.ramp)
+    Z = np.empty(n)
+    for j in range(n):
+        Z[j] = max(X[j, size - 1], 0.0)
+    if p.above == WHEELER:
+        for j in range(n):
+            eta = 0.0
+            for i in range(p.sea_n):
+                row = tables[p.sea_at + ROW * i : p.sea_at + ROW * (i + 1)]
+                place = row[4] * X[j, 0] + (row[5] * X[j, 1] if size == 3 else 0.0)
+                eta += row[2] * sincos(row[0] * place - row[1] * t + row[3])[1]
+            # A trough of the whole sea below the bed has no meaning; rules of the scene keep the usual ones above it.
+            Z[j] = Z[j] * p.depth / max(p.depth + gain * eta, 1e-3 * p.depth)
+    for i in range(p.sea_n):
+        row = tables[p.sea_at + ROW * i : p.sea_at + ROW * (i + 1)]
+        _add_wave(row, p.depth, p.above, gain, gain_rate, t, X, Z, F)
+
+
+@kernel
+def _add_wave(row, depth, above, gain, gain_rate, t, X, Z, F):
+    """One component, by the recurrences of `engine.physics.waves.wave_field`."""
+    n, size = X.shape
+    k, om, phase, cosine, sine = row[0], row[1], row[3], row[4], row[5]
+    u0, u1 = row[6] * gain, row[6] * gain_rate
+    up, down, s, c = 0.0, 0.0, 0.0, 1.0
+    x_below = z_below = 0.0
+    for j in range(n):
+        x = k * (cosine * X[j, 0] + (sine * X[j, 1] if size == 3 else 0.0))
+        z = Z[j]
+        dz, dx = k * (z - z_below), x - x_below
+        x_below, z_below = x, z
+        if j > 0 and abs(dz) < SMALL and abs(dx) < SMALL and up > TINY:
+            e1, e2 = small_exponentials(dz)
+            ds, dc = small_sincos(dx)
+            up, down, s, c = up * e1, down * e2, s * dc + c * ds, c * dc - s * ds
+        else:
+            s, c = sincos(x - om * t + phase)
+            up, down = math.exp(k * (z - depth)), math.exp(-k * (z + depth))
+        more, less = up + down, up - down
+        if above == ZERO and X[j, size - 1] > depth:
+            more = less = 0.0
+        u, u_t = u0 * more * c, u0 * om * more * s + u1 * more * c
+        F[j, 0] += cosine * u
+        F[j, size] += cosine * u_t
+        if size == 3:
+            F[j, 1] += sine * u
+            F[j, 4] += sine * u_t
+        F[j, size - 1] += u0 * less * s
+        F[j, 2 * size - 1] += u1 * less * s - u0 * om * less * c
+
+
+@kernel
+def no_sea(p, tables, t, X, F):
+    """What runs of one batch have (`engine.simd`): regular waves only."""
+
+
+planar_sea = by_kind(sea_field, sea_field, no_sea)

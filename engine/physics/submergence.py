@@ -1,0 +1,189 @@
+"""The sphere of eq. (30) partly out of the water: what its wetted cap has less, or more, than the whole sphere.
+
+The cap reaches h below the surface, 0 <= h <= D; h follows from the height of the centre and the linear wave above it,
+h = H + eta(x, t) - z + D/2. With x = h/D, of the whole sphere there are in the water
+
+    volume   s = pi h^2 (3R - h)/3 / (4 pi R^3/3) = x^2 (3 - 2x)      buoyancy, wave load, added mass
+    section  a = (acos(1 - 2x) - 2 (1 - 2x) sqrt(x (1 - x)))/pi       drag: the part of the circle below the surface
+
+both with continuous first derivatives, and exactly 1 from h = D on: a sphere in the water is that of `physics.ends`, to
+the last bit. The added mass s M_a varies with the depth. Its force is Lagrange's of the energy s M_a |v|^2/2 of the
+water, v = V - U_w, and of the pressure gradient,
+
+    e = ... + s M_a (V_t - dU_w/dt) + M_a s' (h_t v + |v|^2 n/2),    h_t = eta_t + eta_x U - W,    n = (-eta_x, 1)
+
+so that in still water no energy is lost or made. With s M_a V_t alone energy would appear on the way in and vanish on
+the way out, with d(s M_a v)/dt alone the other way round (docs/out_of_the_water.md). On the way straight down the last
+term is M_a s' W^2/2, half the impact force of von Karman (1929); the other half takes energy away into spray, and
+buoy.impact_loss says how much of it there is: - loss M_a s' h_t^2 n/2 in e while the cap grows, h_t > 0.
+
+Everything here is the difference to the whole sphere, with signs as in e = N + (M + M_a) V_t + ... = 0.
+Derivatives hold the water still at the buoy, but not its surface: the place moves with dX = dV/cq, as Newton's method
+and a stage of the tangent dynamics have it.
+"""
+
+import math
+
+from ..compiled import kernel
+from ..simd.elementary import sincos, smooth_start
+from ..simd.select import larger, smaller, where
+from ..spatial.vectors import dot, mixed
+
+
+@kernel
+def surface(p, t, in_motion, along):
+    """Linear wave at `along` (m) in its direction of travel: eta, eta', eta'', eta_t, eta_t'; zeros in statics."""
+    eta = slope = curve = rate = rate_slope = 0.0
+    if p.waves and in_motion > 0.0:
+        gain, gain_rate = smooth_start(t, p.ramp)
+        high, rising = p.amplitude * gain, p.amplitude * gain_rate
+        s, c = sincos(p.k * along - p.omega * t + p.phase)
+        eta = high * c
+        slope = -p.k * high * s
+        curve = -p.k * p.k * high * c
+        rate = p.omega * high * s + rising * c
+        rate_slope = p.k * (p.omega * high * c - rising * s)
+    return eta, slope, curve, rate, rate_slope
+
+
+@kernel
+def wetted(p, h):
+    """Shares of the sphere in the water whose lowest point is h (m) below the surface.
+
+    Returns 1 - s, s' (1/m), s'' (1/m2), 1 - a, a' (1/m).
+    """
+    inverse = 1.0 / p.D_buoy
+    x = larger(smaller(h * inverse, 1.0), 0.0)
+    y = 1.0 - x
+    root = math.sqrt(x * y)
+    middle = y - x
+    crossing = (x > 0.0) & (x < 1.0)
+    volume = x * x * (3.0 - 2.0 * x)
+    section = (math.acos(middle) - 2.0 * middle * root) / math.pi
+    bend = where(crossing, 6.0 * inverse * inverse * middle, 0.0)
+    return 1.0 - volume, 6.0 * inverse * x * y, bend, 1.0 - section, 8.0 / math.pi * inverse * root
+
+
+@kernel
+def cap_end(p, t, cq, cv, in_motion, x, z, U, W, U_tilde, W_tilde, F):
+    """What the cap adds to `engine.physics.ends.upper_end` of a buoy at x, z (m), and to its derivatives.
+
+    F (4,): water velocity and acceleration there. Returns ex, ez, Dxx, Dxz, Dzx, Dzz.
+    """
+    ax, az = cv * (U - U_tilde), cv * (W - W_tilde)
+    ex, ez, Dxx, Dxz, Dzx, Dzz, Gxx, Gxz, Gzx, Gzz = _loads(p, t, cv, in_motion, x, z, U, W, ax, az, F)
+    over = 1.0 / cq
+    return ex, ez, Dxx + over * Gxx, Dxz + over * Gxz, Dzx + over * Gzx, Dzz + over * Gzz
+
+
+@kernel
+def _loads(p, t, cv, in_motion, x, z, U, W, ax, az, F):
+    """Loads of the cap less those of the sphere, their derivatives D by the velocity and G by the place."""
+    eta, slope, curve, rate, rate_slope = surface(p, t, in_motion, p.direction * x)
+    dry, ds, bend, bare, da = wetted(p, p.depth + eta - z + 0.5 * p.D_buoy)
+    nx = -p.direction * slope
+    u, w = in_motion * U - F[0], in_motion * W - F[1]
+    square = u * u + w * w
+    speed = math.sqrt(square)
+    sinking = in_motion * (rate - nx * U - W)
+    entering = p.impact_loss * larger(sinking, 0.0)
+    push = 0.5 * (square - entering * larger(sinking, 0.0))
+    impact_x, impact_z = sinking * u + push * nx, sinking * w + push
+    slam = p.M_added * ds
+    drag = p.C_buoy * bare
+    ex = slam * impact_x + p.M_wave * dry * F[2] - p.M_added * dry * ax - drag * speed * u
+    ez = slam * impact_z + p.M_wave * dry * F[3] - p.M_added * dry * az - drag * speed * w + p.B_whole * dry
+    along = in_motion * drag / where(speed > 0.0, speed, 1.0)
+    Dxx = in_motion * (slam * sinking - drag * speed) - p.M_added * dry * cv
+    turning = in_motion * slam * (nx * w - u)
+    lost = in_motion * slam * entering
+    across = along * u * w - lost * nx
+    # by the place: through h, whose gradient is -n, and through the slope and the rate of the surface
+    more = p.M_added * bend
+    gx = more * impact_x + ds * (p.M_added * ax - p.M_wave * F[2]) + p.C_buoy * da * speed * u
+    gz = more * impact_z + ds * (p.M_added * az - p.M_wave * F[3] - p.B_whole) + p.C_buoy * da * speed * w
+    faster = in_motion * slam * (p.direction * rate_slope + curve * U)
+    Gxx = faster * (u - entering * nx) - slam * push * curve - gx * nx
+    return (
+        ex, ez, Dxx - along * u * u + lost * nx * nx, turning - across, -turning - across, Dxx - along * w * w + lost,
+        Gxx, -gx, faster * (w - entering) - gz * nx, -gz,
+    )  # fmt: skip
+
+
+@kernel
+def cap_change(p, t, cv, X, Y, K, F, dV_tilde, dX_tilde, dF):
+    """Known part of the linearised `cap_end` in the tangent dynamics (`engine.perturbations.tangent`): x and z.
+
+    X (2,), Y (6,), K (4,): place, state and rates of the last node; dV_tilde, dX_tilde: what the perturbation of C~
+    makes of velocity and place there; dF (4,): of the water.
+    """
+    x, z, U, W = X[0], X[1], Y[2], Y[3]
+    G = _loads(p, t, cv, 1.0, x, z, U, W, K[2], K[3], F)
+    eta, slope, _, rate, _ = surface(p, t, 1.0, p.direction * x)
+    dry, ds, _, bare, _ = wetted(p, p.depth + eta - z + 0.5 * p.D_buoy)
+    nx = -p.direction * slope
+    u, w = U - F[0], W - F[1]
+    speed = math.sqrt(u * u + w * w)
+    product = u * dF[0] + w * dF[1]
+    along = product / where(speed > 0.0, speed, 1.0)
+    sinking = rate - nx * U - W
+    slam, drag, inertia = p.M_added * ds, p.C_buoy * bare, p.M_added * dry * cv
+    known_x = G[6] * dX_tilde[0] + G[7] * dX_tilde[1] + inertia * dV_tilde[0] + p.M_wave * dry * dF[2]
+    known_z = G[8] * dX_tilde[0] + G[9] * dX_tilde[1] + inertia * dV_tilde[1] + p.M_wave * dry * dF[3]
+    known_x += drag * (speed * dF[0] + u * along) - slam * (sinking * dF[0] + nx * product)
+    known_z += drag * (speed * dF[1] + w * along) - slam * (sinking * dF[1] + product)
+    return known_x, known_z
+
+
+@kernel
+def cap_across(p, t, cv, X, Y, F, V_tilde):
+    """What the cap adds to the lateral condition of a buoy: factor of V_y, and the known part."""
+    eta, slope, _, rate, _ = surface(p, t, 1.0, p.direction * X[0])
+    dry, ds, _, bare, _ = wetted(p, p.depth + eta - X[1] + 0.5 * p.D_buoy)
+    u, w = Y[2] - F[0], Y[3] - F[1]
+    inertia = p.M_added * dry * cv
+    sinking = rate + p.direction * slope * Y[2] - Y[3]
+    of_V = p.M_added * ds * sinking - inertia - p.C_buoy * bare * math.sqrt(u * u + w * w)
+    return of_V, inertia * V_tilde
+
+
+@kernel
+def cap_end_3d(p, t, cq, cv, in_motion, X, V, V_tilde, F):
+    """As `cap_end` in space: X, V, V_tilde (x, y, z), F (6,). Returns e, and the three rows of D."""
+    eta, slope, curve, rate, rate_slope = surface(p, t, in_motion, p.dir_x * X[0] + p.dir_y * X[1])
+    dry, ds, bend, bare, da = wetted(p, p.depth + eta - X[2] + 0.5 * p.D_buoy)
+    ahead, n = (p.dir_x, p.dir_y, 0.0), (-p.dir_x * slope, -p.dir_y * slope, 1.0)
+    A = (cv * (V[0] - V_tilde[0]), cv * (V[1] - V_tilde[1]), cv * (V[2] - V_tilde[2]))
+    v = (in_motion * V[0] - F[0], in_motion * V[1] - F[1], in_motion * V[2] - F[2])
+    water = (F[3], F[4], F[5])
+    square = dot(v, v)
+    speed = math.sqrt(square)
+    sinking = in_motion * (rate - dot(n, V))
+    entering = p.impact_loss * max(sinking, 0.0)
+    push = 0.5 * (square - entering * max(sinking, 0.0))
+    impact = mixed(sinking, v, push, n)
+    slam, drag = p.M_added * ds, p.C_buoy * bare
+    e = mixed(slam, impact, -drag * speed, v)
+    e = mixed(1.0, e, 1.0, mixed(p.M_wave * dry, water, -p.M_added * dry, A))
+    g = mixed(p.M_added * bend, impact, p.C_buoy * da * speed, v)
+    g = mixed(1.0, g, ds, mixed(p.M_added, A, -p.M_wave, water))
+    g = (g[0], g[1], g[2] - p.B_whole * ds)
+    faster = in_motion * slam * (rate_slope + curve * dot(ahead, V))
+    moved = mixed(1.0, mixed(faster, v, -faster * entering, n), -slam * push * curve, ahead)
+    along = in_motion * drag / speed if speed > 0.0 else 0.0
+    diagonal = in_motion * (slam * sinking - drag * speed) - p.M_added * dry * cv
+    turning, over = in_motion * slam, 1.0 / cq
+    back = mixed(-turning, v, turning * entering, n)
+    x = _row(turning * n[0] - along * v[0], v, back[0] - over * g[0], n, over * moved[0], ahead)
+    y = _row(turning * n[1] - along * v[1], v, back[1] - over * g[1], n, over * moved[1], ahead)
+    z = _row(turning * n[2] - along * v[2], v, back[2] - over * g[2], n, over * moved[2], ahead)
+    return (
+        (e[0], e[1], e[2] + p.B_whole * dry),
+        ((x[0] + diagonal, x[1], x[2]), (y[0], y[1] + diagonal, y[2]), (z[0], z[1], z[2] + diagonal)),
+    )
+
+
+@kernel
+def _row(a, v, b, n, c, ahead):
+    """a v + b n + c ahead"""
+    return mixed(1.0, mixed(a, v, b, n), c, ahead)

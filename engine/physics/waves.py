@@ -1,0 +1,103 @@
+"""Linear (Airy) waves over finite depth: dispersion and kinematics.
+
+With psi = k x cos(direction) - omega t + phase, height z above the bed and amplitude A,
+
+    U = A omega cosh(kz)/sinh(kH) cos psi,   W = A omega sinh(kz)/sinh(kH) sin psi,   omega^2 = g k tanh kH;
+
+accelerations are the local time derivatives. The quotients are written with exp(k(z - H)) and exp(-k(z + H)), which do
+not overflow in deep water. Along the tether psi and kz change little from node to node, so the exponentials and the
+sine and cosine are carried by recurrence, and started anew where an element is too long for the short polynomials.
+No sea floor is modelled: what sinks below the bed is given the motion of the water at the bed, where the formulas would
+grow without bound.
+"""
+
+import math
+
+import numpy as np
+
+from ..compiled import kernel
+from ..simd.elementary import sincos, small_exponentials, small_sincos, smooth_start
+from ..simd.select import every, larger, where
+
+EXTRAPOLATE, ZERO, WHEELER = 0, 1, 2
+SMALL, TINY = 0.25, 1e-250
+
+
+def wave_number(period_s, depth_m, gravity_mps2=9.81):
+    """Wave number k (rad/m) with omega^2 = g k tanh kH, to rounding."""
+    from scipy.optimize import brentq
+
+    k_deep = (2 * math.pi / period_s) ** 2 / gravity_mps2
+    x0 = k_deep * depth_m  # with x = kH: x tanh x = x0, and x lies between max(x0, sqrt(x0)) / 1 and sqrt(x0) + x0
+    low, high = 0.5 * x0, x0 + math.sqrt(x0) + 1e-12  # for tiny x0 many decades apart: hence so many iterations
+    x = brentq(lambda x: x * math.tanh(x) - x0, low, high, xtol=1e-300, rtol=1e-15, maxiter=5000)
+    return x / depth_m
+
+
+@kernel
+def wave_field(p, t, X, F):
+    """Water velocity and local acceleration at the nodes, added into F.
+
+    X : (n, 2) positions x, z (m);  F : (n, 4) U, W (m/s), dU/dt, dW/dt (m/s2)
+    """
+    n = X.shape[0]
+    k, kx = p.k, p.k * p.direction
+    gain, gain_rate = smooth_start(t, p.ramp)
+    speed = p.amplitude * p.omega / (1.0 - math.exp(-2.0 * k * p.depth))
+    u0, u1 = speed * gain, speed * gain_rate
+    om = p.omega
+    up, down, s, c = 0.0, 0.0, 0.0, 1.0
+    x_below = z_below = 0.0
+    for j in range(n):
+        x, z = X[j, 0], larger(X[j, 1], 0.0)
+        dz, dx = k * (z - z_below), kx * (x - x_below)
+        near = (abs(dz) < SMALL) & (abs(dx) < SMALL) & (up > TINY)
+        x_below, z_below = x, z
+        e1, e2 = small_exponentials(dz)
+        ds, dc = small_sincos(dx)
+        near_up, near_down, near_s, near_c = up * e1, down * e2, s * dc + c * ds, c * dc - s * ds
+        if j > 0 and p.above != WHEELER and every(near):
+            up, down, s, c = near_up, near_down, near_s, near_c
+        else:
+            s, c = sincos(kx * x - om * t + p.phase)
+            if p.above == WHEELER:  # stretched so that the crest is where the still water level was
+                z = z * p.depth / (p.depth + p.amplitude * gain * c)
+            up = math.exp(k * (z - p.depth))
+            down = math.exp(-k * (z + p.depth))
+            if j > 0 and p.above != WHEELER:
+                up, down = where(near, near_up, up), where(near, near_down, down)
+                s, c = where(near, near_s, s), where(near, near_c, c)
+        more, less = up + down, up - down
+        if p.above == ZERO:
+            dry = X[j, 1] > p.depth
+            more, less = where(dry, 0.0, more), where(dry, 0.0, less)
+        uc = p.direction * more * c
+        us = p.direction * more * s
+        ws = less * s
+        wc = less * c
+        F[j, 0] += u0 * uc
+        F[j, 1] += u0 * ws
+        F[j, 2] += u0 * om * us + u1 * uc
+        F[j, 3] += u1 * ws - u0 * om * wc
+
+
+@kernel
+def wave_field_3d(p, t, X, F):
+    """Water velocity and local acceleration at the nodes, added into F: the planar field in the plane of the wave.
+
+    X : (n, 3) positions x, y, z (m);  F : (n, 6) U, V, W (m/s), dU/dt, dV/dt, dW/dt (m/s2)
+    The records of three dimensions hold dir_x, dir_y, the direction of travel, and direction = 1 along it.
+    """
+    n = X.shape[0]
+    along, field = np.empty((n, 2)), np.zeros((n, 4))
+    for j in range(n):
+        along[j, 0] = p.dir_x * X[j, 0] + p.dir_y * X[j, 1]
+        along[j, 1] = X[j, 2]
+    wave_field(p, t, along, field)
+    for j in range(n):
+        F[j, 0] += p.dir_x * field[j, 0]
+        F[j, 1] += p.dir_y * field[j, 0]
+        F[j, 2] += field[j, 1]
+        F[j, 3] += p.dir_x * field[j, 2]
+        F[j, 4] += p.dir_y * field[j, 2]
+        F[j, 5] += field[j, 3]

@@ -1,0 +1,148 @@
+"""Scenes by name or from a file, with single values overridden by dotted keys.
+
+    scene = load_scene("tethered_buoy", {"waves.steepness": 0.13, "water.depth_m": 21.6})
+
+The models are in `scene_models`, the shipped scenes in `scenes/*.toml`.
+"""
+
+import copy
+import difflib
+import re
+import tomllib
+from collections.abc import Mapping
+from pathlib import Path
+
+from engine.scene.faults import SceneError, known_keys, shown, unknown_key
+from engine.scene.models import Scene, build_scene
+
+__all__ = ["Scene", "SceneError", "build_scene", "known_scenes", "load_scene", "parse_assignment", "scene_from_toml"]
+
+_SHIPPED = Path(__file__).parents[1] / "scenes"
+# What says how high the waves are: one of these, so that giving one drops another that was inherited.
+_HEIGHTS = ("waves.steepness", "waves.amplitude_m", "waves.components", "waves.jonswap")
+
+
+def known_scenes() -> list[str]:
+    """Names of the scenes that come with the engine."""
+    return sorted(path.stem for path in _SHIPPED.glob("*.toml"))
+
+
+def load_scene(name_or_path: str | Path, overrides: Mapping[str, object] | None = None) -> Scene:
+    """A validated scene from a shipped name or a TOML file.
+
+    name_or_path: one of `known_scenes()`, or the path of a scene file. overrides: dotted key -> value; a value of None
+    removes an optional key or section, a missing section is created, and of waves.steepness, amplitude_m, components
+    and jonswap the one given drops an inherited other.
+    Raises SceneError: every fault of the file and of the overrides at once; nothing of that name, unreadable, not TOML.
+    """
+    return scene_from_toml(_text_of(name_or_path), overrides, source=str(name_or_path))
+
+
+def scene_from_toml(text: str, overrides: Mapping[str, object] | None = None, source: str = "scene text") -> Scene:
+    """A validated scene from TOML text, as `Scene.to_toml` writes it; overrides and SceneError as for `load_scene`."""
+    try:
+        raw = tomllib.loads(text)
+    except tomllib.TOMLDecodeError as error:
+        raise SceneError(f"{source}: not TOML: {error}{_faulty_line(text, str(error))}") from None
+    raw, faults = _overridden(raw, overrides or {})
+    return build_scene(raw, faults)
+
+
+def _faulty_line(text: str, message: str) -> str:
+    """The line that the parser's message names, quoted; empty where it names none."""
+    found = re.search(r"at line (\d+)", message)
+    lines = text.splitlines()
+    if found is None or int(found[1]) > len(lines):
+        return ""
+    line = lines[int(found[1]) - 1].strip()
+    comma = "; numbers have a dot, not a comma" if re.search(r"= *-?\d+,\d+\s*(#|$)", line) else ""
+    return f": {shown(line)}{comma}"
+
+
+def parse_assignment(text: str) -> tuple[str, object]:
+    """("water.depth_m", 21.6) from "water.depth_m=21.6", as given to --set on a command line.
+
+    The value is read as TOML, or is text where it is not TOML; `none` stands for None, which removes the key.
+    Raises SceneError without a key or an equals sign.
+    """
+    key, equals, value = (part.strip() for part in text.partition("="))
+    if not equals or not key:
+        raise SceneError(f"--set: given {text!r}; allowed: KEY=VALUE, for instance water.depth_m=21.6")
+    if value == "none":
+        return key, None
+    try:
+        parsed = tomllib.loads(f"value = {value}")
+    except tomllib.TOMLDecodeError:
+        if value.startswith(("{", "[")):
+            allowed = "a list or table of TOML, in single quotes or the shell takes its double ones"
+            example = "--set 'tether.tension={law=\"linear\", stiffness_N=5e4}'"
+            raise SceneError(f"--set {key}: given {value!r}; allowed: {allowed}: {example}") from None
+        return key, value
+    return key, parsed["value"] if parsed.keys() == {"value"} else value
+
+
+def _text_of(name_or_path: str | Path) -> str:
+    names = known_scenes()
+    path = _SHIPPED / f"{name_or_path}.toml" if name_or_path in names else Path(name_or_path)
+    try:
+        return path.read_bytes().decode("utf-8-sig").replace("\r\n", "\n").replace("\r", "\n")
+    except IsADirectoryError:
+        raise SceneError(f"{str(name_or_path)!r} is a folder; allowed: a scene file, or {_shipped(names)}") from None
+    except UnicodeDecodeError:
+        raise SceneError(f"{str(name_or_path)!r} is not text in UTF-8; allowed: a TOML file, saved as UTF-8") from None
+    except FileNotFoundError:
+        close = difflib.get_close_matches(str(name_or_path), names, n=1)
+        hint = f"; did you mean {close[0]!r}?" if close else ""
+        allowed = f"allowed: a scene file, or {_shipped(names)}"
+        raise SceneError(f"there is no scene and no file {str(name_or_path)!r}{hint}; {allowed}") from None
+    except (OSError, ValueError) as error:
+        raise SceneError(f"{str(name_or_path)!r} cannot be read: {error}") from None
+
+
+def _shipped(names: list[str]) -> str:
+    return f"one of {', '.join(names)}"
+
+
+def _plain(value: object) -> object:
+    """Lists and Python scalars in place of tuples, NumPy arrays and NumPy scalars."""
+    if hasattr(value, "tolist"):
+        value = value.tolist()
+    if isinstance(value, Mapping):
+        return {key: _plain(item) for key, item in value.items()}
+    return [_plain(item) for item in value] if isinstance(value, (list, tuple)) else value
+
+
+def _overridden(raw: dict[str, object], overrides: Mapping[str, object]) -> tuple[dict[str, object], tuple[str, ...]]:
+    raw, faults = copy.deepcopy(raw), []
+    known = set(known_keys(Scene))
+    for key, value in overrides.items():
+        parts = key.split(".") if isinstance(key, str) else [""]
+        if not all(parts):
+            faults.append(f"{key!r}: not a key; allowed: names joined by dots, for instance water.depth_m")
+            continue
+        if key not in known:
+            faults.append(unknown_key(key, value, Scene))
+            continue
+        table = raw
+        for part in parts[:-1]:
+            if table.get(part) is None and value is not None:
+                table[part] = {}
+            table = table.get(part)
+            if not isinstance(table, dict):
+                break
+        if not isinstance(table, dict):
+            if value is not None:
+                # Without the value: a sweep gives many, and the fault is one.
+                faults.append(f"{key}: cannot be set, because {'.'.join(parts[:-1])} is not a table")
+        elif value is None:
+            table.pop(parts[-1], None)
+        else:
+            table[parts[-1]] = _plain(value)
+        waves = raw.get("waves")
+        if not isinstance(waves, dict) or value is None:
+            continue
+        if height := next((h for h in _HEIGHTS if f"{key}.".startswith(f"{h}.")), None):
+            for other in _HEIGHTS:
+                if other != height and not any(f"{given}.".startswith(f"{other}.") for given in overrides):
+                    waves.pop(other.rpartition(".")[2], None)
+    return raw, tuple(faults)

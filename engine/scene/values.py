@@ -1,0 +1,84 @@
+"""Types of the values of a scene: what each allows, in words for a person, and the base of every section."""
+
+from typing import Annotated
+
+from pydantic import AfterValidator, BaseModel, ConfigDict, Discriminator, Field, Tag
+from pydantic_core import PydanticCustomError
+
+from engine.scene.faults import FLAT, SOLID, Allowed
+
+# No length, mass or stiffness of anything lies beyond these, and products of a few of them stay far from where floating
+# point overflows (1.8e308) or loses digits (denormals, below 2.2e-308): sums of squares and cubes are safe everywhere.
+SMALLEST, LARGEST = 1e-30, 1e30
+
+
+def _zero_or_not_tiny(number: float) -> float:
+    if 0 < number < SMALLEST:
+        raise PydanticCustomError("tiny", "a number so small that it can only be meant as 0")
+    return number
+
+
+# Strict leaves: neither "1.0" nor true is a number, and 41.0 is not a count; a whole number is a number.
+_Float = Annotated[float, Field(strict=True, allow_inf_nan=False, ge=-LARGEST, le=LARGEST)]
+_UP_TO = f"{SMALLEST:g} to {LARGEST:g}"
+_MOST = f"{LARGEST:g} in size"
+Number = Annotated[_Float, Allowed("a finite number, at most " + _MOST)]
+Positive = Annotated[_Float, Field(gt=0, ge=SMALLEST), Allowed(f"a finite number above 0, {_UP_TO}")]
+NonNegative = Annotated[
+    _Float, Field(ge=0), AfterValidator(_zero_or_not_tiny), Allowed(f"a finite number, 0 or above: 0, or {_UP_TO}")
+]
+UnitInterval = Annotated[_Float, Field(ge=0, le=1), Allowed("a number from 0 to 1")]
+Tolerance = Annotated[
+    _Float, Field(gt=0, ge=SMALLEST, lt=1), Allowed(f"a number above 0 and below 1, {SMALLEST:g} or more")
+]
+Stretching = Annotated[_Float, Field(ge=0, le=5), Allowed("a number from 0 to 5")]
+Nodes = Annotated[int, Field(strict=True, ge=3, le=20000), Allowed("a whole number from 3 to 20000")]
+Count = Annotated[int, Field(strict=True, ge=1, le=10**9), Allowed("a whole number from 1 to 1000000000")]
+CountOrZero = Annotated[int, Field(strict=True, ge=0, le=10**9), Allowed("a whole number from 0 to 1000000000")]
+MOST_COMPONENTS = 2000
+Components = Annotated[
+    int, Field(strict=True, ge=1, le=MOST_COMPONENTS), Allowed(f"a whole number from 1 to {MOST_COMPONENTS}")
+]
+PeakEnhancement = Annotated[_Float, Field(ge=1, le=10), Allowed("a number from 1 to 10")]
+Flag = Annotated[bool, Field(strict=True), Allowed("true or false")]
+Text = Annotated[str, Field(strict=True), Allowed("text")]
+Name = Annotated[str, Field(strict=True, pattern=r"^[A-Za-z0-9_.-]+$"), Allowed("letters, digits, and any of _ . -")]
+Vector = Annotated[tuple[_Float, _Float, _Float], Allowed("a list of 3 finite numbers [x, y, z], at most " + _MOST)]
+Five = Annotated[tuple[_Float, _Float, _Float, _Float, _Float], Allowed("a list of 5 finite numbers, at most " + _MOST)]
+Series = Annotated[
+    tuple[_Float, ...], Field(min_length=2), Allowed("a list of at least 2 finite numbers, at most " + _MOST)
+]
+Axis = Annotated[
+    tuple[_Float, ...], Field(min_length=1), Allowed("a list of at least 1 finite number, at most " + _MOST)
+]
+Vectors = Annotated[
+    tuple[tuple[_Float, _Float, _Float], ...],
+    Field(min_length=2),
+    Allowed("a list of at least 2 vectors [x, y, z], at most " + _MOST),
+]
+_Flat = tuple[tuple[tuple[_Float, ...], ...], ...]
+_Solid = tuple[_Flat, ...]
+
+
+def _block_kind(value: object) -> str:
+    """FLAT or SOLID: how deep the lists are nested, judged by the first entries."""
+    depth = 0
+    while isinstance(value, (list, tuple)) and value:
+        value, depth = value[0], depth + 1
+    return SOLID if depth > 3 else FLAT
+
+
+Block = Annotated[
+    Annotated[_Flat, Field(min_length=1), Tag(FLAT)] | Annotated[_Solid, Field(min_length=1), Tag(SOLID)],
+    Discriminator(_block_kind),
+    Allowed(
+        f"finite numbers, at most {_MOST}, as nested lists, indexed [time][height][x], or [time][height][y][x] with "
+        "current.y_m"
+    ),
+]
+
+
+class Section(BaseModel):
+    """A part of a scene: immutable, and an unknown key is a fault."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid")

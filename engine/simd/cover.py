@@ -1,0 +1,22 @@
+"""Which scenes may share a batch."""
+
+
+def goes_in_lanes(scene):
+    """May this scene share a batch: planar, by a Runge-Kutta method, a buoy at the end, nothing looked up in a table?
+
+    bool. Held and free ends, tabulated laws, irregular waves, currents with a profile and profiles of the line are left
+    out because no sweep needs them, not because they could not: each would want its branches written as choices
+    (`engine.simd.select`).
+    """
+    return (
+        scene.solver.scheme != "paper-box"
+        and scene.motion.dimensions == 2
+        and scene.solver.integrator in ("esdirk43", "trbdf2")
+        and scene.solver.shock_viscosity is None
+        and scene.end.kind == "buoy"
+        and scene.tether.tension.law != "tabulated"
+        and (scene.waves is None or not scene.waves.irregular)
+        and (scene.current is None or scene.current.law == "uniform")
+        and scene.output.profiles is False
+        and not scene.output.energy
+    )

@@ -1,0 +1,126 @@
+"""Elementary functions that the kernels call at every node, in forms that LLVM can inline.
+
+libm's sin and cos cost more than the rest of a node together; the pair below shares one range reduction.
+"""
+
+import math
+
+import numpy as np
+
+from ..compiled import kernel
+from .select import every, where
+
+# pi/2 in three parts (Cody & Waite 1980): k * PIO2_A and k * PIO2_B are exact for |k| < 2**20.
+PIO2_A = float.fromhex("0x1.921fb544p+0")
+PIO2_B = float.fromhex("0x1.0b4611a6p-34")
+PIO2_C = math.pi / 2 - PIO2_A - PIO2_B + 6.123233995736766e-17
+TWO_OVER_PI = 2.0 / math.pi
+
+
+@kernel
+def sincos(x):
+    """Sine and cosine of one angle, to 1 unit in the last place for |x| < 1e6 rad.
+
+    Taylor polynomials on [-pi/4, pi/4] after reduction by multiples of pi/2: terms up to x^17 and x^18,
+    remainders 1e-19 and below.
+    """
+    k = np.rint(x * TWO_OVER_PI)
+    r = ((x - k * PIO2_A) - k * PIO2_B) - k * PIO2_C
+    z = r * r
+    s = r + r * z * (
+        -1.0 / 6
+        + z
+        * (
+            1.0 / 120
+            + z
+            * (
+                -1.0 / 5040
+                + z
+                * (
+                    1.0 / 362880
+                    + z * (-1.0 / 39916800 + z * (1.0 / 6227020800 + z * (-1.0 / 1307674368000 + z / 355687428096000)))
+                )
+            )
+        )
+    )
+    c = 1.0 + z * (
+        -0.5
+        + z
+        * (
+            1.0 / 24
+            + z
+            * (
+                -1.0 / 720
+                + z
+                * (
+                    1.0 / 40320
+                    + z * (-1.0 / 3628800 + z * (1.0 / 479001600 + z * (-1.0 / 87178291200 + z / 20922789888000)))
+                )
+            )
+        )
+    )
+    quadrant = k - 4.0 * np.floor(0.25 * k)
+    second = quadrant == 1.0
+    last = quadrant == 3.0
+    crossed = second | last
+    sine, cosine = where(crossed, c, s), where(crossed, s, c)
+    return where(quadrant >= 2.0, -sine, sine), where(second | (quadrant == 2.0), -cosine, cosine)
+
+
+@kernel
+def small_exponentials(a):
+    """exp(a) and exp(-a) for |a| <= 0.25 (one even and one odd Taylor polynomial, remainder below 2e-16)."""
+    z = a * a
+    even = 1.0 + z * (0.5 + z * (1.0 / 24 + z * (1.0 / 720 + z * (1.0 / 40320 + z / 3628800))))
+    odd = a * (1.0 + z * (1.0 / 6 + z * (1.0 / 120 + z * (1.0 / 5040 + z * (1.0 / 362880 + z / 39916800)))))
+    return even + odd, even - odd
+
+
+@kernel
+def small_sincos(a):
+    """sin(a) and cos(a) for |a| <= 0.25 (Taylor polynomials, remainder below 2e-16)."""
+    z = a * a
+    s = a * (1.0 + z * (-1.0 / 6 + z * (1.0 / 120 + z * (-1.0 / 5040 + z * (1.0 / 362880 - z / 39916800)))))
+    c = 1.0 + z * (-0.5 + z * (1.0 / 24 + z * (-1.0 / 720 + z * (1.0 / 40320 - z / 3628800))))
+    return s, c
+
+
+@kernel
+def copy_into(target, source):
+    """target[:] = source for arrays (n, m): the slice assignment itself takes Numba half a second to compile."""
+    for k in range(target.shape[0]):
+        for i in range(target.shape[1]):
+            target[k, i] = source[k, i]
+
+
+@kernel
+def bracket(tables, at, n, value):
+    """Where a value lies on an axis of n increasing numbers, tables[at : at + n].
+
+    Returns the lower index, the weight of the upper neighbour, and 1/spacing (0 beyond the ends).
+    """
+    if n == 1 or value <= tables[at]:
+        return 0, 0.0, 0.0
+    if value >= tables[at + n - 1]:
+        return n - 2, 1.0, 0.0
+    low, high = 0, n - 1
+    while high - low > 1:
+        mid = (low + high) // 2
+        if tables[at + mid] <= value:
+            low = mid
+        else:
+            high = mid
+    inverse = 1.0 / (tables[at + low + 1] - tables[at + low])
+    return low, (value - tables[at + low]) * inverse, inverse
+
+
+@kernel
+def smooth_start(t, ramp):
+    """sin^2(pi t/(2 ramp)) and its rate (1/s) up to t = ramp (s), then 1 and 0; ramp = 0: 1 and 0 from the start."""
+    full = t >= ramp
+    gain, rate = where(full, 1.0, 0.0), where(full, 0.0, 0.0)
+    if not every(full):
+        a = 0.5 * math.pi / ramp
+        s = math.sin(a * t)
+        gain, rate = where(full, gain, s * s), where(full, rate, a * math.sin(2.0 * a * t))
+    return gain, rate

@@ -1,0 +1,127 @@
+"""Runs into lanes and out of them: which runs may share a batch, and the arrays in which they do."""
+
+import time
+
+import numpy as np
+
+from ..parameters import RECORD, record_of
+from ..planar import elimination as sweep
+from ..planar import node
+from ..planar.state import conserved
+from ..time.time_loop import STATE
+from .followers import Followers
+from .record import REAL, WHOLE
+from .ticks import LANE, MOVED, RATE, RESTARTED, ROWS, STEP, advance
+from .vector import COUNT, lane_zeros
+
+STEPS = 50  # of a trail before it is followed: lanes with fewer by then wait for the others
+TICKS = 20_000  # between two looks at the clock and at Ctrl-C: a tenth of a second
+# of the whole numbers these decide nothing within the vectors
+OWN = ("at_rest", "max_newton", "max_releases", "release", "end_at")
+
+
+def kind_of(scene):
+    """What scenes must have in common to share a batch: all whole numbers that kernels branch on or count to."""
+    tables = []
+    record = record_of(scene, tables)[0]
+    carried = scene.output.tangent_vectors, scene.output.lateral_growth
+    return (*(int(record[name]) for name in WHOLE if name not in OWN), *(table.size for table in tables), *carried)
+
+
+class Machine:
+    """COUNT lanes for runs of one kind."""
+
+    def __init__(self, run, goal, periods):
+        n, s = int(run.record["nodes"]), max(int(run.record["stages"]), 2)
+        self.runs = [None] * COUNT
+        self.records, self.states = np.zeros(COUNT, RECORD), np.zeros(COUNT, STATE)
+        self.lanes, self.spent = np.zeros(COUNT, LANE), np.zeros(COUNT, np.int64)
+        self.tables, self.samples = np.zeros((COUNT, run.tables.size)), np.zeros((COUNT, goal, 12))
+        self.counts = np.array([run.record[name] for name in WHOLE])
+        self.values, self.in_lanes, self.numbers = lane_zeros(len(REAL)), lane_zeros(run.tables.size), lane_zeros(ROWS)
+        self.Y, self.now, self.before, self.C = lane_zeros(n, 6), lane_zeros(n, 6), lane_zeros(n, 6), lane_zeros(n, 4)
+        self.Ks = lane_zeros(s, n, 4)
+        self.arrays = (
+            self.values, self.in_lanes, self.numbers, lane_zeros(s), lane_zeros(3), self.Y, self.now, self.before,
+            self.C, self.Ks, lane_zeros(3, n, 6), lane_zeros(n, 4),
+        )  # fmt: skip
+        widths = 2, 4, node.WIDTH, sweep.WIDTH, 6, 4, 4, 6
+        self.work = tuple(lane_zeros(n, width) for width in widths)
+        room = STEPS if run.trail.followed else 0
+        self.followers = Followers(run, periods) if run.trail.followed else None
+        self.trail = np.zeros((COUNT, room, 3)), np.zeros((COUNT, room, s, n, 6)), np.zeros((COUNT, room, s, n, 4))
+        for b in range(COUNT):
+            self._fill(b, run)
+
+    def _fill(self, b, run):
+        """Parameters and state of a run into a lane."""
+        self.records[b], self.states[b] = run.record, run.state
+        self.tables[b] = self.in_lanes[:, b] = run.tables
+        self.values[:, b] = [run.record[name] for name in REAL]
+        self.Y[..., b], self.now[..., b], self.before[..., b] = run.Y, run.Y, run.Y_before
+        self.C[..., b] = run.C
+        self.Ks[..., b] = 0.0
+        self.Ks[0, ..., b] = run.K
+        self.numbers[RATE, b] = self.numbers[STEP, b] = 1.0
+
+    def load(self, b, run):
+        """Put a run that has not begun into a lane that is free."""
+        conserved(run.record, run.Y, run.C)
+        self._fill(b, run)
+        self.runs[b] = run
+        if self.followers is not None:
+            self.followers.load(b, run)
+        self.spent[b] = 0
+        self.lanes[b] = 0
+        self.lanes[b]["active"], self.lanes[b]["goal"] = 1, run.goal
+        self.numbers[MOVED, b] = self.numbers[RESTARTED, b] = 1.0
+
+    def unload(self, b):
+        """Take the run of a lane out, wherever it is."""
+        run, self.runs[b] = self.runs[b], None
+        for name in STATE.names:
+            run.state[name] = self.states[b][name]
+        run.Y[:], run.Y_before[:] = self.now[..., b], self.before[..., b]
+        run.C[:], run.K[:] = self.C[..., b], self.Ks[0, ..., b]
+        run.samples[:] = self.samples[b, : run.goal]
+        if self.followers is not None:
+            self.followers.unload(b, run)
+        return run
+
+    def compile(self):
+        """Compile what `advance` needs, or load it compiled, outside the time of any run."""
+        self.advance(0)
+        if self.followers is not None:
+            self._follow([])
+
+    def advance(self, ticks=TICKS):
+        """Make ticks until a run ends; returns the lanes whose runs have ended."""
+        began = time.perf_counter()
+        advance(
+            ticks, self.records, self.tables, self.states, self.lanes, self.spent, self.samples, self.trail,
+            self.counts, self.arrays, self.work,
+        )  # fmt: skip
+        taken = [b for b, run in enumerate(self.runs) if run is not None]
+        ended = [b for b in taken if self.lanes[b]["active"] == 0]
+        if self.followers is not None and (ended or self.states["trail"].max() == STEPS):
+            self._follow(taken)
+        for b in taken:
+            self.runs[b].wall_s += (time.perf_counter() - began) / len(taken)
+        return ended
+
+    def _follow(self, taken):
+        """Carry the perturbations of all lanes through their trails, and empty these."""
+        trails = np.zeros(COUNT, np.int64)
+        for b in taken:
+            trails[b] = self.states[b]["trail"]
+            self.runs[b].trail.mark(self.trail[0][b, : trails[b]])
+        self.followers.follow(self.records, self.tables, self.trail, trails, self.counts, self.values, self.in_lanes)
+        for b in taken:  # the step that a lane is in the middle of begins the next trail
+            if trails[b] < STEPS:
+                for part in self.trail:
+                    part[b, 0] = part[b, trails[b]]
+        self.states["trail"] = 0
+
+    def fraction(self, b):
+        """Share of its run that a lane has done."""
+        return float(self.states[b]["samples"]) / self.runs[b].goal

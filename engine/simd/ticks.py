@@ -1,0 +1,307 @@
+"""The lane machine: several planar runs, each with a step, a stage and an end of its own, one Newton iteration a tick.
+
+Every lane is always within the Newton solve of some stage. A tick is one iteration in all lanes at once; lanes whose
+solve has ended are then moved on, to their next stage, step or trial, by the functions that move a single run on:
+what is arithmetic on nodes in vectors under a mask, what is a decision one lane after another. Where both forms exist,
+they are the same source (`engine.simd.select`), so a lane is bit for bit the run alone.
+
+Rows of `numbers` (.., COUNT) carry what passes between vectors and decisions.
+"""
+
+import math
+
+import numpy as np
+
+from ..compiled import kernel
+from ..physics.tension import tension
+from ..planar import node
+from ..planar.state import configuration, greatest_turn, last_strain
+from ..time.newton import GOING_ON, iterate, judge
+from ..time.sampling import complete_sample, note_top, weights_within
+from ..time.status import OK
+from ..time.steps import (
+    SMALL_STEP_NEWTON,
+    add_rates,
+    embedded_error,
+    guess,
+    least_strain,
+    plan_stage,
+    stage_rates,
+    trial_error,
+)
+from ..time.time_loop import begin_trial, guard_turns, next_step, refused, step_done
+from .elementary import copy_into
+from .record import lane_record
+from .select import smaller, some, where
+from .vector import COUNT, as_lanes
+
+LANE = np.dtype([(name, np.int64) for name in "active stage iteration code goal".split()] + [("best", np.float64)])
+(
+    TIME, RATE, STEP, SOUND, SIZE, LEAST, STAGE, SOLVED, FINISHED, ERROR, TURN, ACCEPTED, MOVED, RESTARTED, DUE,
+    W0, W1, G0, G1, OUT_X, OUT_Z, OUT_U, OUT_W, OUT_TOP, OUT_LEAST,
+) = range(25)  # fmt: skip
+ROWS = 25
+
+
+@kernel
+def keep(mask, source, target):
+    """target = source in the lanes of the mask, for arrays (n, m)."""
+    for k in range(target.shape[0]):
+        for i in range(target.shape[1]):
+            target[k, i] = where(mask, source[k, i], target[k, i])
+
+
+@kernel
+def judge_solves(records, states, lanes, numbers):
+    """Find the lanes whose Newton solve has ended; returns how many."""
+    ended = 0
+    for b in range(COUNT):
+        lane, state = lanes[b], states[b]
+        numbers[SOLVED, b] = numbers[FINISHED, b] = numbers[ACCEPTED, b] = 0.0
+        numbers[MOVED, b] = numbers[RESTARTED, b] = 0.0
+        if lane.active == 0:
+            continue
+        p = records[b]
+        most = SMALL_STEP_NEWTON if state.small else p.max_newton
+        size = numbers[SIZE, b]
+        lane.code = judge(
+            p, lane.iteration, most, p.newton_tolerance, numbers[SOUND, b] != 0.0, size, numbers[LEAST, b], lane.best
+        )
+        lane.iteration += 1
+        lane.best = min(lane.best, size)
+        if lane.code != GOING_ON:
+            ended += 1
+            numbers[MOVED, b] = 1.0
+            numbers[STAGE, b] = float(lane.stage)
+            if lane.code == OK:
+                numbers[SOLVED, b] = 1.0
+                numbers[FINISHED, b] = 1.0 if lane.stage == max(p.stages, 2) - 1 else 0.0
+    return ended
+
+
+@kernel
+def judge_steps(records, tables, states, lanes, numbers, spent):
+    """What the ended solves mean for the steps of their lanes: go on, accept, or try again."""
+    for b in range(COUNT):
+        if numbers[MOVED, b] == 0.0:
+            continue
+        p, state, lane = records[b], states[b], lanes[b]
+        spent[b] += lane.iteration
+        if numbers[SOLVED, b] != 0.0 and numbers[FINISHED, b] == 0.0:
+            continue
+        error = 0.0
+        if lane.code == OK and state.small == 0 and p.adaptive:
+            error = trial_error(p, tables[b], state.trial_dt, numbers[ERROR, b], numbers[LEAST, b])
+        numbers[ERROR, b] = error
+        numbers[RESTARTED, b] = 1.0
+        if not refused(p, state, lane.code, spent[b], error):
+            numbers[ACCEPTED, b] = 1.0
+        spent[b] = 0
+
+
+@kernel
+def sample_lanes(p, tables, records, states, lanes, numbers, C, K, C_new, K_new, row, samples):
+    """Store the samples that lie within the accepted steps (`engine.time.sampling.sample`)."""
+    n = C.shape[0]
+    rows = as_lanes(numbers)
+    while True:
+        due = 0
+        for b in range(COUNT):
+            numbers[DUE, b] = 0.0
+            state = states[b]
+            t = state.samples * records[b].output_step
+            if numbers[ACCEPTED, b] != 0.0 and state.samples < lanes[b].goal and t <= state.t + state.trial_dt:
+                share = (t - state.t) / state.trial_dt
+                w = weights_within(state.small == 0, share, state.trial_dt)
+                numbers[W0, b], numbers[W1, b], numbers[G0, b], numbers[G1, b] = w
+                numbers[DUE, b] = 1.0
+                due += 1
+        if due == 0:
+            break
+        U, _, W, _ = configuration(p, tables, (rows[W0], rows[W1], rows[G0], rows[G1]), C, K, C_new, K_new, row)
+        least = row[0, 4]
+        for k in range(1, n):
+            least = smaller(least, row[k, 4])
+        rows[OUT_X], rows[OUT_Z], rows[OUT_U], rows[OUT_W] = row[n - 1, 0], row[n - 1, 2], U, W
+        rows[OUT_TOP], rows[OUT_LEAST] = row[n - 1, 4], least
+        for b in range(COUNT):
+            if numbers[DUE, b] != 0.0:
+                state = states[b]
+                out = samples[b, state.samples]
+                out[1], out[3], out[4], out[6] = (
+                    numbers[OUT_X, b], numbers[OUT_Z, b], numbers[OUT_U, b], numbers[OUT_W, b],
+                )  # fmt: skip
+                t = state.samples * records[b].output_step
+                complete_sample(state, out, t, numbers[OUT_TOP, b], numbers[OUT_LEAST, b])
+    rows[OUT_TOP] = tension(last_strain(p, C_new), p, tables)[0]
+    for b in range(COUNT):
+        if numbers[ACCEPTED, b] != 0.0:
+            note_top(states[b], numbers[OUT_TOP, b])
+
+
+@kernel
+def record_stages(states, lanes, numbers, Y, K_new, trail):
+    """Solved stages into the trails of their lanes (layout: `perturbations.tangent`); kept or not, as the step will be.
+
+    Y (n, 6, COUNT), K_new (n, 4, COUNT): stages and their rates, as numbers.
+    """
+    _, trail_Y, trail_K = trail
+    for b in range(COUNT):
+        if numbers[SOLVED, b] != 0.0:
+            copy_into(trail_Y[b, states[b].trail, lanes[b].stage], Y[:, :, b])
+            copy_into(trail_K[b, states[b].trail, lanes[b].stage], K_new[:, :, b])
+
+
+@kernel
+def record_steps(states, numbers, trail_T):
+    """Accepted steps into the trails of their lanes; returns whether a trail is full."""
+    full = False
+    for b in range(COUNT):
+        if numbers[ACCEPTED, b] != 0.0:
+            state = states[b]
+            row = trail_T[b, state.trail]
+            row[0], row[1], row[2] = state.t, state.trial_dt, 2.0 if state.small else 0.0
+            state.trail += 1
+            full = full or state.trail == trail_T.shape[1]
+    return full
+
+
+@kernel
+def end_steps(records, tables, states, numbers, Y, one):
+    """Accepted steps: time, guards, and the length of the next step.
+
+    Y (n, 6, COUNT): the new states, as numbers; one (n, 6): work.
+    """
+    for b in range(COUNT):
+        if numbers[ACCEPTED, b] == 0.0:
+            continue
+        p, state = records[b], states[b]
+        step_done(p, state)
+        state.min_strain = min(state.min_strain, numbers[LEAST, b])
+        state.max_turn = max(state.max_turn, numbers[TURN, b])
+        code, released = OK, False
+        if numbers[TURN, b] > math.pi:
+            copy_into(one, Y[:, :, b])
+            code, released = guard_turns(p, tables[b], state, one)
+            copy_into(Y[:, :, b], one)
+        next_step(p, state, code, released, numbers[ERROR, b], p.fixed_step)
+
+
+@kernel
+def plan_lanes(records, tables, states, lanes, numbers, a, w):
+    """Choose the next solve of every lane that has moved; returns how many runs have ended instead."""
+    ended = 0
+    for b in range(COUNT):
+        if numbers[MOVED, b] == 0.0:
+            continue
+        p, state, lane = records[b], states[b], lanes[b]
+        if numbers[RESTARTED, b] != 0.0:
+            if state.status == OK and state.samples < lane.goal:
+                begin_trial(p, tables[b], state)
+            if state.status != OK or state.samples >= lane.goal:
+                lane.active = 0
+                numbers[MOVED, b] = 0.0
+                ended += 1
+                continue
+            lane.stage = max(p.stages, 2) - 1 if state.small else 1
+        else:
+            lane.stage += 1
+        lane.iteration, lane.best = 0, np.inf
+        rate, after = plan_stage(
+            p, tables[b], lane.stage, state.small != 0, state.trial_dt, state.dt_before, a[:, b], w[:, b]
+        )
+        numbers[RATE, b], numbers[TIME, b], numbers[STEP, b] = rate, state.t + after, state.trial_dt
+    return ended
+
+
+@kernel
+def move_states(rows, w, history, now, before, Y):
+    """States, after the decisions: what is kept of the past, and the first guess of the next solve into Y.
+
+    history (3, n, 6): the last three of: the state before, the state, the stages so far.
+    """
+    solved, accepted = rows[SOLVED] != 0.0, rows[ACCEPTED] != 0.0
+    restarted, moved = rows[RESTARTED] != 0.0, rows[MOVED] != 0.0
+    weights = w[0], w[1], w[2]
+    for k in range(Y.shape[0]):
+        for i in range(6):
+            y, state, last = Y[k, i], now[k, i], history[2, k, i]
+            oldest, middle, latest = history[0, k, i], where(solved, last, history[1, k, i]), where(solved, y, last)
+            oldest = where(solved, history[1, k, i], oldest)
+            past = where(accepted, state, before[k, i])
+            state = where(accepted, y, state)
+            oldest, middle, latest = (
+                where(restarted, state, oldest),
+                where(restarted, past, middle),
+                where(restarted, state, latest),
+            )
+            now[k, i], before[k, i] = state, past
+            history[0, k, i], history[1, k, i], history[2, k, i] = oldest, middle, latest
+            Y[k, i] = where(moved, guess(weights, oldest, middle, latest), y)
+
+
+@kernel
+def move_rates(p, rows, a, C_new, K_new, C, Ks, C_tilde):
+    """Conserved variables and rates of accepted steps, and the known part of the next solve into C_tilde."""
+    accepted, moved = rows[ACCEPTED] != 0.0, rows[MOVED] != 0.0
+    count = a.shape[0] - 1
+    for k in range(C.shape[0]):
+        for m in range(4):
+            state = where(accepted, C_new[k, m], C[k, m])
+            C[k, m] = C_new[k, m] = state
+            Ks[0, k, m] = where(accepted, K_new[k, m], Ks[0, k, m])
+        add_rates(p, a, count, Ks, k, C_new[k])
+        for m in range(4):
+            C_tilde[k, m] = where(moved, C_new[k, m], C_tilde[k, m])
+
+
+@kernel
+def advance(ticks, records, own_tables, states, lanes, spent, samples, trail, counts, arrays, work):
+    """Make ticks until a run ends, a trail is full, or `ticks` are made; returns how many were.
+
+    records, states, lanes (COUNT,): RECORD, STATE, LANE; own_tables (COUNT, m): tables, as numbers; spent (COUNT,):
+    iterations of the trial; samples (COUNT, m, 12); trail: (COUNT, l, 3), (COUNT, l, s, n, 6), (COUNT, l, s, n, 4), of
+    which l = 0 keeps nothing. counts: whole numbers of the lane record; arrays, work: see
+    `engine.simd.machine`.
+    """
+    values, in_lanes, numbers, a_all, w_all, Y_all, now, before, C, Ks, history, C_tilde = arrays
+    p = lane_record(counts, as_lanes(values))
+    tables, rows, a, w, Y = as_lanes(in_lanes), as_lanes(numbers), as_lanes(a_all), as_lanes(w_all), as_lanes(Y_all)
+    now, before, history = as_lanes(now), as_lanes(before), as_lanes(history)
+    C, Ks, C_tilde = as_lanes(C), as_lanes(Ks), as_lanes(C_tilde)
+    X, F, Q, E, D = as_lanes(work[0]), as_lanes(work[1]), as_lanes(work[2]), as_lanes(work[3]), as_lanes(work[4])
+    C_new, K_new, row, one = as_lanes(work[5]), as_lanes(work[6]), as_lanes(work[7]), np.empty(Y_all.shape[:2])
+    made, stop = 0, False
+    while True:
+        stop = plan_lanes(records, own_tables, states, lanes, numbers, a_all, w_all) > 0 or stop
+        move_states(rows, w, history, now, before, Y)
+        move_rates(p, rows, a, C_new, K_new, C, Ks, C_tilde)
+        moving = False
+        while not moving and not stop and made < ticks:
+            made += 1
+            sound, size, least = iterate(p, tables, rows[TIME], 1.0, rows[RATE], rows[RATE], Y, C_tilde, X, F, Q, E, D)
+            rows[SOUND], rows[SIZE], rows[LEAST] = where(sound, 1.0, 0.0), size, least
+            moving = judge_solves(records, states, lanes, numbers) > 0
+        if not moving:
+            break
+        node.shape(p, tables, Y, Q, X)
+        stage_rates(p, rows[RATE], Y, Q, C_tilde, C_new, K_new)
+        for j in range(1, Ks.shape[0]):
+            here = (rows[SOLVED] != 0.0) & (rows[STAGE] == float(j))
+            if some(here):
+                keep(here, K_new, Ks[j])
+        if some(rows[FINISHED] != 0.0):
+            rows[ERROR] = embedded_error(p, tables, rows[STEP], Ks, Q, a, row[0])
+            rows[LEAST], rows[TURN] = least_strain(Y), greatest_turn(Y)
+        if trail[0].shape[1] > 0:
+            record_stages(states, lanes, numbers, Y_all, work[6], trail)
+        judge_steps(records, own_tables, states, lanes, numbers, spent)
+        if some(rows[ACCEPTED] != 0.0):
+            sample_lanes(p, tables, records, states, lanes, numbers, C, Ks[0], C_new, K_new, row, samples)
+            if trail[0].shape[1] > 0:
+                stop = record_steps(states, numbers, trail[0]) or stop
+            end_steps(records, own_tables, states, numbers, Y_all, one)
+    for row_number in (SOLVED, FINISHED, ACCEPTED, MOVED, RESTARTED):
+        for b in range(COUNT):
+            numbers[row_number, b] = 0.0
+    return made

@@ -1,0 +1,199 @@
+"""A vector of numbers as one Numba value: `Lanes(8)` is eight floats, one of each of eight runs, in one register.
+
+A kernel written for floats is compiled for such vectors where it is given them: +, -, *, /, comparisons, abs, sqrt,
+exp, tanh, sin, cos, acos, rint, floor and array elements are defined here, and no branch may depend on them
+(`engine.simd.select` has what takes the place of branches). Every lane goes through the same IEEE operations as a float
+would, so that its bits are those of the run alone.
+
+Memory: an array whose last axis is the lanes, contiguous and aligned to one vector (`lane_zeros`); kernels see it
+without that axis (`as_lanes`).
+"""
+
+import math
+import operator
+
+import numpy as np
+from llvmlite import ir
+from numba.core import cgutils, types
+from numba.core.typeconv import Conversion
+from numba.core.typing.templates import AbstractTemplate, infer_global, signature
+from numba.extending import intrinsic, lower_builtin, lower_cast, models, register_model
+from numba.np import arrayobj
+
+COUNT = 8  # lanes of a batch: one AVX-512 register; two or four registers elsewhere
+DOUBLE, BIT = ir.DoubleType(), ir.IntType(1)
+
+
+class Lanes(types.Type):
+    """A float in each of `count` lanes."""
+
+    def __init__(self, count):
+        self.count = count
+        super().__init__(f"lanes({count})")
+
+    def unify(self, context, other):
+        """A variable that is a float in one place and a vector in another is a vector."""
+        return self if isinstance(other, (types.Float, types.Integer)) else None
+
+    def can_convert_from(self, context, other):
+        return Conversion.safe if isinstance(other, (types.Float, types.Integer)) else None
+
+
+class LaneMask(types.Type):
+    """Yes or no in each of `count` lanes."""
+
+    def __init__(self, count):
+        self.count = count
+        super().__init__(f"lane_mask({count})")
+
+    def unify(self, context, other):
+        return self if isinstance(other, types.Boolean) else None
+
+    def can_convert_from(self, context, other):
+        return Conversion.safe if isinstance(other, types.Boolean) else None
+
+
+@register_model(Lanes)
+class _LanesModel(models.PrimitiveModel):
+    def __init__(self, manager, kind):
+        super().__init__(manager, kind, ir.VectorType(DOUBLE, kind.count))
+
+
+@register_model(LaneMask)
+class _LaneMaskModel(models.PrimitiveModel):
+    def __init__(self, manager, kind):
+        super().__init__(manager, kind, ir.VectorType(BIT, kind.count))
+
+
+def spread(builder, value, count):
+    """The same number in every lane."""
+    kind = ir.VectorType(value.type, count)
+    first = builder.insert_element(ir.Constant(kind, ir.Undefined), value, ir.Constant(ir.IntType(32), 0))
+    zeros = ir.Constant(ir.VectorType(ir.IntType(32), count), [0] * count)
+    return builder.shuffle_vector(first, ir.Constant(kind, ir.Undefined), zeros)
+
+
+@lower_cast(types.Float, Lanes)
+@lower_cast(types.Integer, Lanes)
+def _cast(context, builder, from_kind, to_kind, value):
+    return spread(builder, context.cast(builder, value, from_kind, types.float64), to_kind.count)
+
+
+@lower_cast(types.Boolean, LaneMask)
+def _cast_mask(context, builder, from_kind, to_kind, value):
+    return spread(builder, context.cast(builder, value, from_kind, types.boolean), to_kind.count)
+
+
+def _define(function, kinds, result, build):
+    """Type and code of a function of numbers and vectors, at least one of its arguments a vector (or a mask)."""
+    arguments = len(kinds)
+
+    @infer_global(function)
+    class Template(AbstractTemplate):
+        def generic(self, given, keywords):
+            if keywords or len(given) != arguments:
+                return None
+            wide = [a for a in given if isinstance(a, (Lanes, LaneMask))]
+            if not wide:
+                return None
+            counts = {a.count for a in wide}
+            wanted = [kind(wide[0].count) for kind in kinds]
+            plain = {Lanes: (types.Float, types.Integer), LaneMask: (types.Boolean,)}
+            fits = all(a == b or isinstance(a, plain[type(b)]) for a, b in zip(given, wanted, strict=True))
+            return signature(result(wide[0].count), *wanted) if len(counts) == 1 and fits else None
+
+    @lower_builtin(function, *kinds)
+    def lower(context, builder, sig, values):
+        return build(builder, *values)
+
+
+def _instruction(name):
+    return lambda builder, *values: getattr(builder, name)(*values)
+
+
+def _comparison(symbol):
+    return lambda builder, a, b: builder.fcmp_ordered(symbol, a, b)
+
+
+def call_intrinsic(builder, name, *values):
+    """Call of an LLVM intrinsic that exists for vectors."""
+    kind = values[0].type
+    full = f"llvm.{name}.v{kind.count}f64"
+    function = builder.module.globals.get(full)
+    if function is None:
+        function = ir.Function(builder.module, ir.FunctionType(kind, (kind,) * len(values)), full)
+    return builder.call(function, values)
+
+
+def _intrinsic(name):
+    return lambda builder, value: call_intrinsic(builder, name, value)
+
+
+def _lane_by_lane(name):
+    """A function of the C library, called for one lane after another, as for a float."""
+
+    def build(builder, value):
+        function = builder.module.globals.get(name)
+        if function is None:
+            function = ir.Function(builder.module, ir.FunctionType(DOUBLE, (DOUBLE,)), name)
+        result = ir.Constant(value.type, ir.Undefined)
+        for lane in range(value.type.count):
+            at = ir.Constant(ir.IntType(32), lane)
+            result = builder.insert_element(result, builder.call(function, (builder.extract_element(value, at),)), at)
+        return result
+
+    return build
+
+
+for _function, _name in (
+    (operator.add, "fadd"), (operator.sub, "fsub"), (operator.mul, "fmul"), (operator.truediv, "fdiv"),
+    (operator.iadd, "fadd"), (operator.isub, "fsub"), (operator.imul, "fmul"), (operator.itruediv, "fdiv"),
+):  # fmt: skip
+    _define(_function, (Lanes, Lanes), Lanes, _instruction(_name))
+for _function, _symbol in (
+    (operator.lt, "<"),
+    (operator.le, "<="),
+    (operator.gt, ">"),
+    (operator.ge, ">="),
+    (operator.eq, "=="),
+):
+    _define(_function, (Lanes, Lanes), LaneMask, _comparison(_symbol))
+_define(operator.ne, (Lanes, Lanes), LaneMask, lambda builder, a, b: builder.fcmp_unordered("!=", a, b))
+_define(operator.neg, (Lanes,), Lanes, _instruction("fneg"))
+_define(operator.and_, (LaneMask, LaneMask), LaneMask, _instruction("and_"))
+_define(operator.or_, (LaneMask, LaneMask), LaneMask, _instruction("or_"))
+for _function, _name in ((abs, "fabs"), (math.sqrt, "sqrt"), (np.rint, "rint"), (np.floor, "floor")):
+    _define(_function, (Lanes,), Lanes, _intrinsic(_name))
+for _function in (math.exp, math.tanh, math.sin, math.cos, math.acos):
+    _define(_function, (Lanes,), Lanes, _lane_by_lane(_function.__name__))
+
+
+def lane_zeros(*shape):
+    """Zeros (*shape, COUNT) that begin where a vector may."""
+    size = COUNT * int(np.prod(shape))
+    room = np.zeros(size + COUNT)
+    first = -room.ctypes.data // 8 % COUNT
+    return room[first : first + size].reshape(*shape, COUNT)
+
+
+@intrinsic
+def as_lanes(context, array):
+    """View of a contiguous array (..., lanes) as an array (...) of vectors. It does not keep the memory alive."""
+    kind = types.Array(Lanes(COUNT), array.ndim - 1, "C", aligned=True)
+
+    def generate(context, builder, sig, values):
+        source = arrayobj.make_array(array)(context, builder, values[0])
+        target = arrayobj.make_array(kind)(context, builder)
+        vector = context.get_data_type(kind.dtype)
+        dims = array.ndim - 1
+        arrayobj.populate_array(
+            target,
+            data=builder.bitcast(source.data, vector.as_pointer()),
+            shape=cgutils.unpack_tuple(builder, source.shape, array.ndim)[:dims],
+            strides=cgutils.unpack_tuple(builder, source.strides, array.ndim)[:dims],
+            itemsize=context.get_constant(types.intp, 8 * kind.dtype.count),
+            meminfo=None,
+        )
+        return target._getvalue()
+
+    return kind(array), generate

@@ -1,0 +1,107 @@
+"""Vectors of three, quaternions and rows of five as tuples, which Numba keeps in registers.
+
+Quaternions (b0, b1, b2, b3) are the Euler parameters of eq. (5): a frame turned by `a` about the unit vector `e` is
+(cos a/2, e sin a/2), the first column of its rotation is the tangent t, then n, then b.
+"""
+
+import math
+
+from ..compiled import kernel
+
+
+@kernel
+def dot(a, b):
+    """a . b"""
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+
+
+@kernel
+def mixed(x, a, y, b):
+    """x a + y b"""
+    return x * a[0] + y * b[0], x * a[1] + y * b[1], x * a[2] + y * b[2]
+
+
+@kernel
+def symmetric(S, a):
+    """S a for a symmetric S = (xx, xy, xz, yy, yz, zz)."""
+    return (
+        S[0] * a[0] + S[1] * a[1] + S[2] * a[2],
+        S[1] * a[0] + S[3] * a[1] + S[4] * a[2],
+        S[2] * a[0] + S[4] * a[1] + S[5] * a[2],
+    )
+
+
+@kernel
+def times(rows, a):
+    """The matrix of these three rows times a."""
+    return dot(rows[0], a), dot(rows[1], a), dot(rows[2], a)
+
+
+@kernel
+def quaternion_product(a, b):
+    """a o b"""
+    return (
+        a[0] * b[0] - a[1] * b[1] - a[2] * b[2] - a[3] * b[3],
+        a[0] * b[1] + a[1] * b[0] + a[2] * b[3] - a[3] * b[2],
+        a[0] * b[2] - a[1] * b[3] + a[2] * b[0] + a[3] * b[1],
+        a[0] * b[3] + a[1] * b[2] - a[2] * b[1] + a[3] * b[0],
+    )
+
+
+@kernel
+def relative(a, b):
+    """a* o b: the frame b as seen from the frame a."""
+    return quaternion_product((a[0], -a[1], -a[2], -a[3]), b)
+
+
+@kernel
+def frame(q):
+    """t, n, b of a unit quaternion: rows of C, eq. (6) with C31 = 2 (b1 b3 + b0 b2)."""
+    b0, b1, b2, b3 = q
+    return (
+        (b0 * b0 + b1 * b1 - b2 * b2 - b3 * b3, 2.0 * (b1 * b2 + b0 * b3), 2.0 * (b1 * b3 - b0 * b2)),
+        (2.0 * (b1 * b2 - b0 * b3), b0 * b0 - b1 * b1 + b2 * b2 - b3 * b3, 2.0 * (b2 * b3 + b0 * b1)),
+        (2.0 * (b1 * b3 + b0 * b2), 2.0 * (b2 * b3 - b0 * b1), b0 * b0 - b1 * b1 - b2 * b2 + b3 * b3),
+    )
+
+
+@kernel
+def rotation_vector(r):
+    """Rotation vector psi = angle * axis (rad) of a unit quaternion, the angle a in [0, 2 pi], and (a/2) cot(a/2)."""
+    square = r[1] * r[1] + r[2] * r[2] + r[3] * r[3]
+    if square < 0.01 and r[0] > 0.0:  # a = 2 arcsin(sqrt(square)) as a power series, to rounding
+        z = square
+        ratio = 2.0 + z * (
+            1.0 / 3 + z * (3.0 / 20 + z * (5.0 / 56 + z * (35.0 / 576 + z * (63.0 / 1408 + z * (231.0 / 6656 + z * (
+                143.0 / 5120)))))))  # fmt: skip
+        return (ratio * r[1], ratio * r[2], ratio * r[3]), ratio * math.sqrt(square), 0.5 * ratio * r[0]
+    sine = math.sqrt(square)
+    angle = 2.0 * math.atan2(sine, r[0])
+    ratio = angle / sine
+    return (ratio * r[1], ratio * r[2], ratio * r[3]), angle, 0.5 * ratio * r[0]
+
+
+@kernel
+def turned(q, theta):
+    """q o exp(theta/2): the frame q turned by the rotation vector theta, given in its own axes (rad)."""
+    square = 0.25 * (theta[0] * theta[0] + theta[1] * theta[1] + theta[2] * theta[2])
+    if square < 0.01:
+        c = 1.0 + square * (-0.5 + square * (1.0 / 24 + square * (-1.0 / 720 + square / 40320)))
+        s = 1.0 + square * (-1.0 / 6 + square * (1.0 / 120 + square * (-1.0 / 5040 + square / 362880)))
+    else:
+        half = math.sqrt(square)
+        c, s = math.cos(half), math.sin(half) / half
+    s *= 0.5
+    return quaternion_product(q, (c, s * theta[0], s * theta[1], s * theta[2]))
+
+
+@kernel
+def least_turn(a, b):
+    """Unit quaternion of the shortest rotation that takes the unit vector a into b (any axis where they oppose)."""
+    w = 1.0 + dot(a, b)
+    x, y, z = a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]
+    if w < 1e-12:
+        w = 0.0
+        x, y, z = (-a[1], a[0], 0.0) if abs(a[2]) < 0.9 else (0.0, -a[2], a[1])
+    norm = 1.0 / math.sqrt(w * w + x * x + y * y + z * z)
+    return w * norm, x * norm, y * norm, z * norm

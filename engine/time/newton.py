@@ -1,0 +1,63 @@
+"""Newton's method for one stage: every time integrator, and statics, in two and three dimensions, call this routine.
+
+Full step; where the update exceeds one in physical scales (strain, force, speed, angle, curvature) it is shortened to
+one. Positions, and with them the water, are renewed in each iteration but left out of the Jacobian.
+"""
+
+import numpy as np
+
+from ..compiled import kernel
+from ..dimensions import add_update, assemble, shape, tidy, update_size
+from ..simd.select import where
+from .status import NEWTON_FAILED, NOT_FINITE, OK, STRAIN_BELOW_MINUS_ONE
+
+QUADRATIC = 2.0  # the update after one of size e is about 0.7 e^2 ... 1.5 e^2 (measured)
+PATIENCE = 4  # iterations after which an update must halve, in a step that could as well be shortened
+GOING_ON = -1
+
+
+@kernel
+def newton(p, tables, t, in_motion, cq, cv, tolerance, most, Y, C_tilde, X, F, Q, E, D):
+    """Solve one stage for Y in place.
+
+    in_motion: 1.0, or 0.0 in statics (a float: Numba would compile True and False apart);
+    t (s): when the water is taken;  most: iterations allowed;
+    cq, cv (1/s), C_tilde (n, 4 or 6): q_t = cq (q - q~), V_t = cv (V - V~);
+    X, F, Q, E, D: work arrays; on success q in Q (from column 5) and X belong to the final Y.
+    Returns (code, iterations).
+    """
+    best = np.inf
+    tidy(p, Y)
+    for iteration in range(most):
+        sound, size, least = iterate(p, tables, t, in_motion, cq, cv, Y, C_tilde, X, F, Q, E, D)
+        code = judge(p, iteration, most, tolerance, sound, size, least, best)
+        if code == OK:
+            shape(p, tables, Y, Q, X)
+        if code != GOING_ON:
+            return code, iteration + 1
+        best = min(best, size)
+    return NEWTON_FAILED, most
+
+
+@kernel
+def iterate(p, tables, t, in_motion, cq, cv, Y, C_tilde, X, F, Q, E, D):
+    """One iteration. Returns whether the matrix was regular, the size of the update, and the least strain after it."""
+    sound = assemble(p, tables, t, in_motion, cq, cv, Y, C_tilde, X, F, Q, E, D)
+    size = update_size(p, D)
+    return sound, size, add_update(p, where(size <= 1.0, 1.0, 1.0 / size), D, Y)
+
+
+@kernel
+def judge(p, iteration, most, tolerance, sound, size, least, best):
+    """What becomes of a solve after iteration number `iteration` (0, 1 ...): GOING_ON, OK or why it failed."""
+    if not sound:
+        return NEWTON_FAILED
+    if not np.isfinite(size):
+        return NOT_FINITE
+    if least <= -1.0:
+        return STRAIN_BELOW_MINUS_ONE
+    if size < tolerance or QUADRATIC * size * size < tolerance:
+        return OK
+    if iteration >= PATIENCE and size > 0.5 * best and most <= p.max_newton:
+        return NEWTON_FAILED
+    return GOING_ON if iteration + 1 < most else NEWTON_FAILED

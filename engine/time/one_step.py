@@ -1,0 +1,57 @@
+"""One time step of the engine as a map of its state, for those who look at the step itself and not at a run.
+
+    map: (C, K) -> (C', K'),  C the conserved variables (q, V) of every node, K their rates
+
+The step is the one that a run makes (`time.time_loop`), at the fixed step of the scene. Everything else of a state
+(forces, curvatures) follows from C within the step, to Newton's tolerance.
+"""
+
+import numpy as np
+
+from ..run import Run
+from ..spatial import lift
+from .statics import planar_stretch_vectors
+from .status import OK
+
+
+class OneStep:
+    """The step of a scene about a state of rest: at first its static equilibrium.
+
+    scene : fixed steps (solver.step_s), and an output.step_s that is no longer: the run ends at the first sample.
+    Raises ValueError where it has no equilibrium.
+    C, K (n, conserved) : the state and its rates, zero.
+    """
+
+    def __init__(self, scene):
+        self.run = Run(scene, scene.solver.step_s)
+        if self.run.state["status"] != OK:
+            raise ValueError("the scene has no static equilibrium about which to step")
+        self.step_s, self.Y = scene.solver.step_s, self.run.Y.copy()
+        self.begin = self.run.state.copy()
+        # not the first step, for which C would be computed, nor the first sample, which is at the start
+        self.begin["steps"], self.begin["samples"], self.begin["dt"] = 1, 1, self.step_s
+        self.begin["small_steps"] = 0
+        self._rest()
+
+    def rest_at(self, strain):
+        """Take the straight line of another uniform strain, compressed or taut: it rests between its ends as well."""
+        self.Y[:, 0] = strain
+        self._rest()
+
+    def _rest(self):
+        half = self.run.C.shape[1] // 2
+        vectors = lift.stretch_vectors if half == 3 else planar_stretch_vectors
+        self.C = np.hstack([vectors(self.Y), np.zeros((len(self.Y), half))])
+        self.K = np.zeros_like(self.C)
+
+    def __call__(self, C, K):
+        """(C', K') one step later; ValueError where the step fails."""
+        run = self.run
+        for name in self.begin.dtype.names:
+            run.state[name] = self.begin[name]
+        run.Y[:], run.Y_before[:], run.C[:], run.K[:] = self.Y, self.Y, C, K
+        run.advance(1)
+        state = run.state
+        if state["status"] != OK or state["failures"] or state["steps"] != 2:
+            raise ValueError(f"the step of {self.step_s:g} s about this state fails")
+        return run.C.copy(), run.K.copy()

@@ -1,0 +1,210 @@
+"""Static equilibrium of any scene, by the Newton routine of the dynamics.
+
+With cq = 1 and no drag of motion, the velocity of a stage is the displacement from the last iterate; with cv = mu a
+share mu of the masses resists it (N/m per kg). mu falls to zero as the iterates settle, so the last solve is the
+static problem itself: at first a damped motion towards equilibrium, at last Newton's quadratic convergence.
+Waves are left out; a current bends the tether. Held upper ends move to their place in the first iterate.
+"""
+
+import math
+
+import numpy as np
+
+from ..physics.ends import BUOY, FREE, HELD
+from ..planar import state as planar
+from ..scales import buckling_load, strain_at, tension_at
+from ..spatial import lift
+from ..spatial import state as spatial
+from .newton import newton
+from .status import OK, STATICS_FAILED
+
+SOFTEST, FIRST, STIFFEST = 1e-8, 10.0, 1e9
+TOLERANCE = 1e-9
+CLOSE, BALANCED = 1e-6, 1e-9  # a line at rest moves less (m), against a resistance less than this share of its load
+MOST = 300  # a stiff line on its way to a clamp passes shear far above its load, by one scale an iteration
+MOST_TURNS = 4  # a bight that the grid does not resolve keeps a folded node
+LEANING = 1.0
+SPANS = 0.95, 0.98, 0.8, 0.9, 0.7, LEANING  # shares of its length that a slack line under a floating buoy spans
+
+
+def rest_of(record, scene, tables, h, target_m):
+    """Static equilibrium of a scene: a status code and the state. Arguments as for `settle` and `first_guess`.
+
+    Under a buoy that floats the line may stand upright, pressed together between buoy and anchor: a rest too, but one
+    that buckles, or tips over about a pinned anchor where the line is too stiff to buckle, and Newton's method meets it
+    as easily as the slack one. Then other guesses are tried, at last a straight line that leans. Of rests that press
+    the line by more than its weight the one that does so least counts, if its bending can bear that.
+    """
+    weight, best = abs(float(record["w0"])) * float(np.sum(h)), None
+    for span in SPANS:
+        Y = first_guess(record, scene, h, span)
+        code = settle(record, tables, Y, target_m)
+        if not record["cap"]:
+            return code, Y
+        if code != OK:
+            break
+        least = tension_at(float(Y[:, 0].min()), scene.tether.tension)
+        if least >= -weight:
+            return OK, Y
+        if best is None or least > best[0]:
+            best = least, Y
+    if best is not None and best[0] >= -weight - buckling_load(scene.tether, scene.end):
+        return OK, best[1]
+    return STATICS_FAILED, Y
+
+
+def settle(record, tables, Y, target_m):
+    """Move the guess Y (n, 6 or 13) to static equilibrium, in place; the velocities come back as zero.
+
+    record: parameter record (not changed); target_m: (x, z) or (x, y, z) of a held end. Returns a status code. The
+    loop is Python: a score of Newton solves, and nothing more to compile.
+    """
+    p = record.copy()
+    n = int(p["nodes"])
+    space = "GI" in p.dtype.names
+    X, F, Q, E, D, C_tilde = (spatial if space else planar).work_arrays.py_func(p, n)
+    axes = ("end_x", "end_y", "end_z") if space else ("end_x", "end_z")
+    velocity = slice(3, 6) if space else slice(2, 4)
+    half = 0.5 * tables[p["grid_at"] : p["grid_at"] + n - 1, None]
+    mu, turns, settled = FIRST, 0, None
+    for _ in range(400):
+        C_tilde[:, : len(axes)] = lift.stretch_vectors(Y) if space else planar_stretch_vectors(Y)
+        if p["end"] == HELD:
+            q = C_tilde[:, : len(axes)]
+            for axis, place in zip(axes, target_m - np.sum(half * (q[1:] + q[:-1]), axis=0), strict=True):
+                p[axis] = place
+        trial = Y.copy()
+        code, _ = newton(p, tables, 0.0, 0.0, 1.0, mu, TOLERANCE, MOST, trial, C_tilde, X, F, Q, E, D)
+        if settled is not None and (code != OK or (mu == 0.0 and np.abs(trial[:, velocity]).max() > CLOSE)):
+            Y[:] = settled  # something is free to turn: with less resistance rounding errors move it
+            return OK
+        if code != OK:
+            mu = 100.0 * max(mu, SOFTEST)
+            if mu > STIFFEST:
+                return STATICS_FAILED
+            continue
+        moved = np.abs(trial[:, velocity]).max()
+        Y[:] = trial
+        Y[:, velocity] = 0.0
+        if mu == 0.0 and moved < CLOSE:
+            folded = Y[:, 0] < 0.0
+            if p["bent"] or not folded.any() or turns == MOST_TURNS:
+                return OK
+            # without bending compression is no rest: a node turned round carries the same force as tension
+            Y[folded, 0] *= -1.0
+            if space:
+                lift.turn_back(Y, folded)
+            else:
+                Y[folded, 4] += math.pi
+            mu = FIRST
+            turns += 1
+            continue
+        share = mu * moved * float(p["m"]) * 2.0 * np.sum(half) * float(p["per_force"]) / 20.0
+        if p["bent"] and 0.0 < mu and moved < CLOSE and share < BALANCED:
+            settled = Y.copy()
+        mu = 0.0 if mu <= SOFTEST else mu * (0.1 if moved < 1.0 else 0.5)
+    return STATICS_FAILED
+
+
+def planar_stretch_vectors(Y):
+    """q (n, 2) of a planar state."""
+    return (1 + Y[:, :1]) * np.column_stack([np.cos(Y[:, 4]), np.sin(Y[:, 4])])
+
+
+def first_guess(record, scene, h, span=SPANS[0]):
+    """State (n, 6 or 13) from which `settle` starts: loads carried along a line, or an arc where the ends are slack.
+
+    In space it lies in the vertical plane through the held end, or through the force on a free one. span: share of its
+    length that a slack line under a floating buoy spans upright; LEANING: straight, at the height at which it floats.
+    """
+    if "GI" not in record.dtype.names:
+        return _in_plane(record, scene, h, (float(record["end_x"]), float(record["end_z"])), span)
+    across = {HELD: scene.end.position_m, FREE: scene.end.force_N}.get(int(record["end"]))
+    azimuth = math.atan2(across[1], across[0]) if across and (across[0] or across[1]) else 0.0
+    force = (math.hypot(float(record["end_x"]), float(record["end_y"])), float(record["end_z"]))
+    return lift.state_in_space(record, h, _in_plane(record, scene, h, force, span), azimuth)
+
+
+def _in_plane(record, scene, h, force, span):
+    n = int(record["nodes"])
+    s = np.concatenate([[0.0], np.cumsum(h)])
+    length = s[-1]
+    Y = np.zeros((n, 6))
+    if record["end"] == HELD:
+        x, y, z = scene.end.position_m
+        x = math.hypot(x, y) if y else x
+        return _to_a_place(Y, s, x, z, record["w0"])
+    up, height = _afloat(record, scene, s) if record["end"] == BUOY else (force[1], None)
+    if height is not None and span == LEANING:
+        return _to_a_place(Y, s, math.sqrt(max(length**2 - height**2, 0.0)), height, record["w0"])
+    if height is not None:
+        return _to_a_place(Y, s, 0.0, min(height, span * length), record["w0"])
+    Nx = np.full(n, force[0] if record["end"] == FREE else 0.0)
+    Nz = up - record["w0"] * (length - s)
+    T = np.hypot(Nx, Nz)
+    Y[:, 0] = [strain_at(load, scene.tether.tension) if load > 0 else 0.0 for load in T]
+    angle = np.arctan2(Nz, Nx)
+    heaviest = angle[np.argmax(T)] if T.max() > 0 else math.pi / 2
+    # where the load changes sign along the line the guess keeps one direction, with compression
+    against = np.cos(angle - heaviest) < 0
+    Y[:, 0] = np.where(against, 0.0, Y[:, 0])
+    Y[:, 4] = np.where(against, heaviest, heaviest + np.angle(np.exp(1j * (angle - heaviest))))
+    return Y
+
+
+def _to_a_place(Y, s, x, z, w0):
+    """A line stretched straight from the anchor to (x, z), m, or bent to an arc."""
+    length, chord = s[-1], math.hypot(x, z)
+    direction = math.atan2(z, x) if chord > 0 else 0.0
+    if chord >= length:
+        Y[:, 0] = chord / length - 1
+        Y[:, 4] = direction
+    else:
+        half = _arc(chord / length)
+        sag = 1.0 if (w0 >= 0) == (x >= 0) else -1.0  # heavy hangs below the chord, light above
+        Y[:, 4] = direction + sag * half * (2 * s / length - 1)
+        Y[:, 5] = 2 * sag * half / length
+    return Y
+
+
+def _afloat(record, scene, s):
+    """Force (N) with which a buoy holds an upright line, and its height (m) where it floats on a slack one, or None.
+
+    A spherical cap rises until its lift is what the line, longer by then, carries, or until it floats by itself.
+    """
+    from scipy.optimize import brentq
+
+    whole, D, law = float(record["lift"]), float(record["D_buoy"]), scene.tether.tension
+    if not record["cap"] or whole <= 0:
+        return whole, None
+
+    def lift(z):
+        x = min(max((float(record["depth"]) - z) / D + 0.5, 0.0), 1.0)
+        return whole - float(record["B_whole"]) * (1.0 - x * x * (3.0 - 2.0 * x))
+
+    def left(load):
+        """Lift that is not carried where the line is stretched by this load."""
+        loads = load - record["w0"] * (s[-1] - s)
+        strains = np.array([strain_at(T, law) if T > 0 else 0.0 for T in loads])
+        return lift(s[-1] + np.sum(0.5 * np.diff(s) * (strains[1:] + strains[:-1]))) - load
+
+    def zero(function, low, high):
+        """Where it is 0, or nearly so: a guess need not have converged, and extreme scenes do not."""
+        return brentq(function, low, high, full_output=True, disp=False)[0]
+
+    if left(whole) >= 0:
+        return whole, None
+    if left(0.0) > 0:
+        return zero(left, 0.0, whole), None
+    surface = float(record["depth"])
+    return 0.0, zero(lift, surface - D / 2, surface + D / 2)
+
+
+def _arc(ratio):
+    """Half angle a of a circular arc with chord/length = sin(a)/a = ratio, in (0, pi]."""
+    from scipy.optimize import brentq
+
+    def excess(a):
+        return math.sin(a) - ratio * a
+
+    return brentq(excess, 1e-9, math.pi) if excess(math.pi) < 0 else math.pi  # else a circle, as far as rounding tells

@@ -1,0 +1,50 @@
+"""How a run can end: codes inside the kernels, words outside.
+
+A step returns a code, it never raises; the run ends with the first code that smaller steps do not cure.
+"""
+
+OK = 0
+NEWTON_FAILED = 1
+STEP_UNDERFLOW = 2
+TURN_UNRESOLVED = 3
+STRAIN_BELOW_MINUS_ONE = 4
+NOT_FINITE = 5
+STATICS_FAILED = 6
+STEP_LIMIT = 7
+TENSION_FLAT = 8
+SHAPE_LOST = 9
+
+WORDS = {
+    OK: "ok",
+    NEWTON_FAILED: "newton-failed",
+    STEP_UNDERFLOW: "step-underflow",
+    TURN_UNRESOLVED: "turn-unresolved",
+    STRAIN_BELOW_MINUS_ONE: "strain-below-minus-one",
+    NOT_FINITE: "not-finite",
+    STATICS_FAILED: "statics-failed",
+    STEP_LIMIT: "step-limit",
+    TENSION_FLAT: "tension-flat",
+    SHAPE_LOST: "shape-lost",
+}
+
+ADVICE = {
+    OK: "",
+    NEWTON_FAILED: "Newton's method did not converge at t = {t:.6g} s, at the smallest step tried ({dt:.2g} s): "
+    "lower solver.rtol or solver.max_step_s, or add nodes",
+    STEP_UNDERFLOW: "the error control asks for steps below solver.min_step_s at t = {t:.6g} s (last step {dt:.2g} s): "
+    "raise solver.rtol, lower solver.min_step_s, or look for a load or mass that no line of this size could bear",
+    TURN_UNRESOLVED: "the tether turns by {turn:.3g} rad within one element at t = {t:.6g} s ({releases} loop releases "
+    "so far): add nodes, raise solver.max_loop_releases, or study the scene in three dimensions",
+    STRAIN_BELOW_MINUS_ONE: "an element is compressed to nothing (strain <= -1) at t = {t:.6g} s: the tension law has "
+    "too little stiffness in compression, or bending is left out in slack",
+    NOT_FINITE: "a value that is not a finite number appeared at t = {t:.6g} s; waves extrapolated far above still "
+    'water grow without bound: compare waves.above_still_water = "zero"',
+    STATICS_FAILED: "no static equilibrium was found from which to start: ",  # goes on: engine.time.statics_advice
+    STEP_LIMIT: "the run stands still at t = {t:.6g} s: 20 000 steps of {dt:.2g} s were tried within the "
+    "time of one usual step; raise solver.rtol, or look for what the grid cannot resolve (compression without "
+    "bending, for one)",
+    TENSION_FLAT: "the tension law has lost its slope at t = {t:.6g} s, by which the paper's form divides: take "
+    'solver.scheme = "conservation"',
+    SHAPE_LOST: "the shape of the tether and the path of its end have parted by t = {t:.6g} s: add nodes, or take "
+    'solver.scheme = "conservation"',
+}

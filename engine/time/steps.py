@@ -1,0 +1,216 @@
+"""One time step of either family of integrators: a trial state and rates, a result code, an error estimate.
+
+Conserved variables of a node: C = (q, V), four numbers in a plane and six in space; K = dC/dt. A trial never changes
+the accepted state. In Y (n, unknowns) and in C the velocity has the same columns; Q holds q from column 5 on.
+The parts of a Runge-Kutta step serve one run and, with vectors in the place of numbers, several (`engine.simd`).
+"""
+
+import math
+
+import numpy as np
+
+from ..compiled import kernel
+from ..dimensions import error_square, extrapolate, size_of
+from ..physics.tension import tension
+from ..simd.elementary import copy_into
+from ..simd.select import smaller
+from .newton import newton
+from .status import OK
+
+SMALL_STEP_NEWTON = 100  # iterations: after a release each update is cut to one scale, and takes about 20
+
+
+@kernel
+def plan_stage(p, tables, i, small, dt, dt_before, a, w):
+    """What stage i of a step asks for: a (s,) with C~ = C + sum a_j K_j, and w (3,), the weights of the first guess.
+
+    The guess is the polynomial through the latest three (or two, or one) of: the state dt_before (s) earlier (0: there
+    is none), the state, the stages so far; w belongs to the last three of these. small: a step of backward Euler, whose
+    one stage is the last. Returns rate = 1/(a_ii dt) (1/s) and the time of the stage within the step (s).
+    """
+    s = max(p.stages, 2)
+    for j in range(s):
+        a[j] = 0.0
+    w[0], w[1], w[2] = 0.0, 0.0, 1.0
+    if small:
+        if dt_before > 0.0:
+            w[1], w[2] = -dt / dt_before, (dt_before + dt) / dt_before
+        return 1.0 / dt, dt
+    at = p.method_at + s * i
+    at_c = p.method_at + s * s
+    for j in range(i):
+        a[j] = dt * tables[at + j]
+    t = tables[at_c + i] * dt
+    if i > 1 or dt_before > 0.0:
+        t2 = tables[at_c + i - 1] * dt
+        t1 = tables[at_c + i - 2] * dt if i > 1 else -dt_before
+        if i > 2 or (i == 2 and dt_before > 0.0):
+            t0 = tables[at_c + i - 3] * dt if i > 2 else -dt_before
+            w[0] = (t - t1) * (t - t2) / ((t0 - t1) * (t0 - t2))
+            w[1] = (t - t0) * (t - t2) / ((t1 - t0) * (t1 - t2))
+            w[2] = (t - t0) * (t - t1) / ((t2 - t0) * (t2 - t1))
+        else:
+            w[1], w[2] = (t2 - t) / (t2 - t1), (t - t1) / (t2 - t1)
+    return 1.0 / (tables[at + i] * dt), t
+
+
+@kernel
+def add_rates(p, a, count, Ks, k, row):
+    """row += sum over the first `count` of a_j K_j: conserved variables of node k."""
+    for j in range(count):
+        for m in range(size_of(p)[1]):
+            row[m] += a[j] * Ks[j, k, m]
+
+
+@kernel
+def guess(w, oldest, middle, latest):
+    """First guess of one unknown from its last three values."""
+    return w[0] * oldest + w[1] * middle + w[2] * latest
+
+
+@kernel
+def stage_rates(p, rate, Y, Q, C_tilde, C_new, K):
+    """C_new, the conserved variables of a stage solved for Y, and K = rate (C_new - C~)."""
+    size = size_of(p)[1]
+    half = size // 2
+    for k in range(Y.shape[0]):
+        for m in range(half):
+            C_new[k, m] = Q[k, 5 + m]
+            C_new[k, half + m] = Y[k, half + m]
+        for m in range(size):
+            K[k, m] = rate * (C_new[k, m] - C_tilde[k, m])
+
+
+@kernel
+def runge_kutta_step(p, tables, t, dt, dt_before, small, Y, Y_before, C, K, Ys, Ks, C_new, work):
+    """A trial step of a stiffly accurate ESDIRK method, or (small) of backward Euler in its place.
+
+    Y, C, K: accepted state at t and its rates; Y_before: the state dt_before earlier (0: none), for the first guess.
+    Ys (s, n, unknowns), Ks (s, n, conserved): stages; the last of each is the new state and its rates; C_new: its
+    conserved variables.
+    Returns (code, Newton iterations, error in units of the tolerance; 0 for fixed and for small steps).
+    """
+    X, F, Q, E, D, C_tilde = work
+    unknowns, size = size_of(p)
+    s = Ys.shape[0]
+    a, w = np.empty(s), np.empty(3)
+    most = SMALL_STEP_NEWTON if small else p.max_newton
+    iterations = 0
+    copy_into(Ys[0], Y)
+    copy_into(Ks[0], K)
+    for i in range(s - 1 if small else 1, s):
+        rate, after = plan_stage(p, tables, i, small, dt, dt_before, a, w)
+        for k in range(C.shape[0]):
+            for m in range(size):
+                C_tilde[k, m] = C[k, m]
+            add_rates(p, a, 0 if small else i, Ks, k, C_tilde[k])
+        first = small or i == 1
+        oldest, middle, latest = Y if first else Y_before, Y_before if first else Ys[i - 2], Y if first else Ys[i - 1]
+        if i > 2 and not small:
+            oldest = Ys[i - 3]
+        for k in range(Y.shape[0]):
+            for j in range(unknowns):
+                Ys[i, k, j] = guess(w, oldest[k, j], middle[k, j], latest[k, j])
+        code, used = newton(
+            p, tables, t + after, 1.0, rate, rate, p.newton_tolerance, most, Ys[i], C_tilde, X, F, Q, E, D
+        )
+        iterations += used
+        if code != OK:
+            return code, iterations, np.inf
+        stage_rates(p, rate, Ys[i], Q, C_tilde, C_new, Ks[i])
+    if small or p.adaptive == 0:
+        return OK, iterations, 0.0
+    error = embedded_error(p, tables, dt, Ks, Q, a, C_tilde[0])
+    return OK, iterations, trial_error(p, tables, dt, error, least_strain(Ys[s - 1]))
+
+
+@kernel
+def trial_error(p, tables, dt, error, least):
+    """The error by which a step is judged: the embedded estimate, or what buckling at the new least strain asks for."""
+    if p.bent:
+        rate = buckling_rate(p, tables, least)
+        error = max(error, (dt * rate / p.growth_per_step) ** p.order)
+    return error
+
+
+@kernel
+def least_strain(Y):
+    """Least strain along the tether."""
+    least = Y[0, 0]
+    for k in range(1, Y.shape[0]):
+        least = smaller(least, Y[k, 0])
+    return least
+
+
+@kernel
+def buckling_rate(p, tables, least):
+    """Growth rate (1/s) of the fastest buckle that the grid carries under the compression P at the least strain.
+
+    rate^2 = (P k^2 - EI k^4)/(m + m_a) at k^2 = P/(2 EI), or at the shortest wave of the grid, k = pi/h, where that is
+    longer (Triantafyllou & Howell 1994). Small errors made while a tether goes slack choose the side to which it
+    buckles, and an L-stable method with a step much longer than 1/rate damps what should grow, unseen by the error
+    estimate: two runs then part by metres of slack. A step is therefore held to p.growth_per_step e-folds.
+    """
+    P = -tension(least, p, tables)[0]
+    if P <= 0.0:
+        return 0.0
+    square = min(P / (2.0 * p.EI), p.shortest_wave)
+    return math.sqrt(square * (P - p.EI * square) / (p.m + p.ma))
+
+
+@kernel
+def embedded_error(p, tables, dt, Ks, Q, d, errors):
+    """Embedded error estimate over tolerance: rms over nodes of strain, angle and speed errors in scene scales.
+
+    d (s,), errors (conserved,): work.
+    """
+    s, n = Ks.shape[0], Ks.shape[1]
+    at_d = p.method_at + s * s + s
+    for j in range(s):
+        d[j] = dt * tables[at_d + j]
+    total = 0.0
+    for k in range(n):
+        for m in range(size_of(p)[1]):
+            errors[m] = 0.0
+        add_rates(p, d, s, Ks, k, errors)
+        total += error_square(p, k, errors, Q)
+    return math.sqrt(total / n) / p.rtol
+
+
+@kernel
+def one_stage_step(
+    p, tables, t, dt, dt_before, alpha_m, alpha_f, gamma, most, Y, Y_before, C, K, Y_new, K_new, C_new, work
+):
+    """A trial step of the generalized-alpha family (backward Euler and implicit midpoint included).
+
+    With C_s the state and K_s the rates at the stage, t_n + alpha_f dt:
+    K_s = c0 (C_s - C~), c0 = alpha_m/(alpha_f gamma dt), C~ = C_n + alpha_f dt (1 - gamma/alpha_m) K_n;
+    C_(n+1) = C_n + (C_s - C_n)/alpha_f,  K_(n+1) = (K_s - (1 - alpha_m) K_n)/alpha_m.
+    Returns (code, Newton iterations).
+    """
+    X, F, Q, E, D, C_tilde = work
+    unknowns, size = size_of(p)
+    half = size // 2
+    n = Y.shape[0]
+    shift = alpha_f * dt * (1.0 - gamma / alpha_m)
+    for k in range(n):
+        for m in range(size):
+            C_tilde[k, m] = C[k, m] + shift * K[k, m]
+    ratio = alpha_f * dt / dt_before if dt_before > 0.0 else 0.0
+    for k in range(n):
+        for i in range(unknowns):
+            Y_new[k, i] = Y[k, i] + ratio * (Y[k, i] - Y_before[k, i])
+    rate = alpha_m / (alpha_f * gamma * dt)
+    code, used = newton(
+        p, tables, t + alpha_f * dt, 1.0, rate, rate, p.newton_tolerance, most, Y_new, C_tilde, X, F, Q, E, D
+    )
+    if code != OK:
+        return code, used
+    for k in range(n):
+        for m in range(size):
+            C_s = Q[k, 5 + m] if m < half else Y_new[k, m]
+            C_new[k, m] = C[k, m] + (C_s - C[k, m]) / alpha_f
+            K_new[k, m] = (rate * (C_s - C_tilde[k, m]) - (1.0 - alpha_m) * K[k, m]) / alpha_m
+    if alpha_f != 1.0:
+        extrapolate(p, alpha_f, Y, C_new, Y_new)
+    return OK, used

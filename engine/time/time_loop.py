@@ -1,0 +1,215 @@
+"""From one output sample to the next: step control, guards, loop release, even output.
+
+`march` takes one record and one share of the arrays of a batch (`engine.simulate` holds the batch axis); nothing is
+global, each simulation has its own step and its own end.
+
+Loop release: in a plane a loop of slack tether that is pulled tight cannot leave the plane, and shrinks to sqrt(EI/T),
+about 1 cm, which no grid resolves: the turn in one element passes pi. phi is then shifted by 2 pi above that element
+(t, n and q stay as they are, only the curvature drops) and a few steps of backward Euler follow, without error control
+and without rates from before. They last a twelfth of the time in which a wave runs along the tether: the jump of the
+bending moment excites the shortest axial waves of the grid, and shorter steps let them ring (to 2.4 kN of compression
+at 41 nodes where 0.3 kN are real; 20 times shorter steps were tried). The number of releases is part of the result.
+"""
+
+import math
+
+import numpy as np
+
+from ..compiled import kernel
+from ..dimensions import conserved, largest_turn, release_loop, size_of, work_arrays
+from ..physics.ends import next_corner
+from ..physics.energy import add_powers, store_energies
+from ..physics.shocks import deforming_element, renew_viscosity
+from ..simd.elementary import copy_into
+from .integrators import RUNGE_KUTTA
+from .sampling import sample
+from .status import NEWTON_FAILED, NOT_FINITE, OK, STEP_LIMIT, STEP_UNDERFLOW, STRAIN_BELOW_MINUS_ONE, TURN_UNRESOLVED
+from .steps import least_strain, one_stage_step, runge_kutta_step
+
+_COUNTS = (
+    "status samples profiles small_steps steps rejected newton failures releases attempts cautious trail energies "
+    "small cut"
+)
+_VALUES = "t dt dt_before low high max_turn min_strain window_end trial_dt corner"
+STATE = np.dtype([(name, np.int64) for name in _COUNTS.split()] + [(name, np.float64) for name in _VALUES.split()])
+SMALL_STEPS = 3
+SAFETY, SHRINK, GROW = 0.9, 0.2, 4.0
+NO_SLIVER = 1.01  # a step is made a little longer rather than leave next to nothing of the way to a corner
+MOST_ATTEMPTS = 20_000  # steps tried within one `window` of time: more is a run that stands still
+CAUTIOUS_STEPS, CAUTIOUS_GROW = 5, 1.3  # after a failure of Newton's method
+
+
+@kernel
+def guard_turns(p, tables, state, Y):
+    """Watch the turn of every element after a step; release loops. Returns (code, whether a loop was released)."""
+    released = False
+    for _ in range(Y.shape[0]):
+        turn, where = largest_turn(p, Y)
+        state.max_turn = max(state.max_turn, turn)
+        if turn <= math.pi:
+            return OK, released
+        if p.release == 0 or state.releases >= p.max_releases:
+            return TURN_UNRESOLVED, released
+        release_loop(p, tables, Y, where)
+        state.releases += 1
+        released = True
+    return TURN_UNRESOLVED, released
+
+
+@kernel
+def begin_trial(p, tables, state):
+    """Choose the step to try next: trial_dt, whether it is a small one, and whether it is cut at a corner.
+
+    Ends the run where too many were tried within one window of time.
+    """
+    if state.t >= state.window_end:
+        state.window_end = state.t + p.window
+        state.attempts = 0
+    state.attempts += 1
+    if state.attempts > MOST_ATTEMPTS:
+        state.status = STEP_LIMIT
+        return
+    state.small = state.small_steps > 0
+    dt = state.dt
+    state.corner = next_corner(p, tables, state.t) if p.adaptive else p.end_release
+    # the step ends with a corner of a held end's motion
+    state.cut = state.t < state.corner <= state.t + NO_SLIVER * dt
+    state.trial_dt = state.corner - state.t if state.cut else dt
+
+
+@kernel
+def refused(p, state, code, used, error):
+    """Book a trial that took `used` iterations; is it to be tried again with a shorter step (or the run at its end)?"""
+    state.newton += used
+    if code != OK:
+        state.failures += 1
+        _shorten(p, state, code, 0.5 if state.small else 0.25)
+        state.dt_before = 0.0
+        return True
+    if p.adaptive and not state.small and not error <= 1.0:
+        state.rejected += 1
+        _shorten(p, state, OK, max(SHRINK, SAFETY * error ** (-1.0 / p.order)) if np.isfinite(error) else SHRINK)
+        return True
+    state.steps += 1
+    return False
+
+
+@kernel
+def _shorten(p, state, code, factor):
+    """Shorten the step; name the end of the run where it would fall below the shortest allowed."""
+    state.dt = state.trial_dt * factor
+    state.cautious = CAUTIOUS_STEPS if code != OK else 0
+    if state.dt < p.min_step:
+        if code == NEWTON_FAILED or code == NOT_FINITE or code == STRAIN_BELOW_MINUS_ONE:
+            state.status = code
+        else:
+            state.status = STEP_UNDERFLOW
+
+
+@kernel
+def step_done(p, state):
+    """The trial is accepted: move on in time."""
+    state.t = state.corner if state.cut else state.t + state.trial_dt
+    state.dt_before = state.trial_dt
+
+
+@kernel
+def next_step(p, state, code, released, error, longest):
+    """The length of the next step, after an accepted one and what `guard_turns` found; fixed ones grow to `longest`."""
+    if code != OK:
+        state.status = code
+    if released or (state.cut and state.corner == p.end_release):
+        state.small_steps = SMALL_STEPS
+        state.dt = p.release_step
+        state.dt_before = 0.0
+    elif state.small:
+        state.small_steps -= 1
+        if state.small_steps == 0 and p.adaptive == 0:
+            state.dt = p.fixed_step
+    elif p.adaptive:
+        grow = GROW
+        if state.cautious > 0:
+            state.cautious -= 1
+            grow = CAUTIOUS_GROW
+        factor = min(grow, max(SHRINK, SAFETY * max(error, 1e-10) ** (-1.0 / p.order)))
+        state.dt = min(p.max_step, state.trial_dt * factor)
+    else:
+        state.dt = min(longest, 2.0 * state.trial_dt)
+
+
+@kernel
+def record_step(row, stages, rates, t, dt, one_stage, small, Ys, Ks):
+    """One accepted step of the trail (layout: `engine.perturbations.tangent`)."""
+    row[0], row[1], row[2] = t, dt, 2.0 if small else 1.0 if one_stage else 0.0
+    for i in range(Ys.shape[0]):
+        copy_into(stages[i], Ys[i])
+        copy_into(rates[i], Ks[i])
+
+
+@kernel
+def march(p, tables, state, Y, Y_before, C, K, samples, profiles, energies, sums, trail_T, trail_Y, trail_K, until):
+    """Advance one simulation until `until` samples are stored, the trail is full, or it ends.
+
+    p: parameter record; state: STATE record; Y, Y_before (n, unknowns), C, K (n, conserved): the state itself; changed
+    in place. C is kept from call to call: computed anew it would differ by rounding, and the calls would show.
+    samples (m, 12), profiles (m', n, 6): filled in place, columns as in `engine.time.sampling`.
+    energies (m'', 9), sums (5,): rows at the first step past each output time, as in `physics.energy`; m'' = 0: none.
+    trail_T (l, 3), trail_Y (l, s, n, unknowns), trail_K (l, s, n, conserved): accepted steps for tangents;
+    l = 0 keeps none.
+    """
+    n = p.nodes
+    s = max(p.stages, 2)
+    unknowns, size = size_of(p)
+    work = work_arrays(p, n)
+    C_new = np.empty((n, size))
+    Ys, Ks = np.empty((s, n, unknowns)), np.empty((s, n, size))
+    e_t = np.empty(n)
+    if p.viscous and state.steps > 0:
+        renew_viscosity(p, tables, size // 2, C, K, e_t, work[2])
+    if state.steps == 0:
+        conserved(p, Y, C)
+        if energies.shape[0] > 0:
+            store_energies(p, tables, 0.0, C, sums, energies[0])
+            state.energies = 1
+    room = trail_T.shape[0]
+    while state.status == OK and state.samples < until and (room == 0 or state.trail < room):
+        begin_trial(p, tables, state)
+        if state.status != OK:
+            break
+        dt, small, error = state.trial_dt, state.small != 0, 0.0
+        am, af, gamma = (1.0, 1.0, 1.0) if small else (p.alpha_m, p.alpha_f, p.gamma)
+        stiff = small or p.method == RUNGE_KUTTA
+        if stiff:
+            code, used, error = runge_kutta_step(
+                p, tables, state.t, dt, state.dt_before, small, Y, Y_before, C, K, Ys, Ks, C_new, work
+            )
+        else:
+            code, used = one_stage_step(
+                p, tables, state.t, dt, state.dt_before, am, af, gamma, p.max_newton,
+                Y, Y_before, C, K, Ys[s - 1], Ks[s - 1], C_new, work,
+            )  # fmt: skip
+        if refused(p, state, code, used, error):
+            continue
+        sample(p, tables, state, dt, stiff and not small, C, K, C_new, Ks[s - 1], samples, profiles)
+        if energies.shape[0] > 0:
+            add_powers(p, tables, dt, am, af, gamma, C, K, C_new, Ks[s - 1], Ys[s - 1], work[2], sums)
+            if state.energies < energies.shape[0] and state.energies * p.output_step <= state.t + dt:
+                store_energies(p, tables, state.t + dt, C_new, sums, energies[state.energies])
+                state.energies += 1
+        if room > 0:
+            last = state.trail
+            record_step(trail_T[last], trail_Y[last], trail_K[last], state.t, dt, small or not stiff, small, Ys, Ks)
+            state.trail += 1
+        copy_into(Y_before, Y)
+        copy_into(Y, Ys[s - 1])
+        copy_into(K, Ks[s - 1])
+        copy_into(C, C_new)
+        if p.viscous:
+            renew_viscosity(p, tables, size // 2, C, K, e_t, work[2])
+        step_done(p, state)
+        state.min_strain = min(state.min_strain, least_strain(Y))
+        code, released = guard_turns(p, tables, state, Y)
+        longest = p.fixed_step
+        if p.viscous and p.pace > 0.0:
+            longest = p.pace * deforming_element(p, tables, e_t)
+        next_step(p, state, code, released, error, longest)
