@@ -32,14 +32,14 @@ RUN_KEY = Column(
 )
 MESSAGE = Column("message", symbol="message", meaning="what went wrong, in words; empty for a run that ended as asked")
 PERIODS_RUN = Column("periods", "", "periods", "length of the run in wave periods", 0)
-WALL_S = Column("wall_s", "s", "wall", "Wall-clock time of the simulation, without compilation and analysis", 2)
+WALL_S = Column("wall_s", "s", "wall", "wall-clock time of the simulation, without compilation and analysis", 2)
 TURN = Column("max_turn_rad", "rad", "turn", "largest turn of the line within one element, over the whole run", 2)
 MIN_STRAIN = Column("min_strain", "", "ε_min", "smallest strain of any element, over the whole run", 4)
 LOOPS = Column(
     "loop_releases",
     "",
     "loops",
-    "Loop releases: how often the solver opened a loop of slack line that a plane holds",
+    "loop releases: how often the solver opened a loop of slack line that a plane holds",
     0,
 )
 STEPS = Column("steps", "", "steps", "accepted time steps", 0)

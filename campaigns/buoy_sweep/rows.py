@@ -9,6 +9,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from analysis.evidence import evidence_text
 from campaigns.columns import (
     END_S,
     LOOPS,
@@ -30,7 +31,6 @@ from campaigns.judge import (
     LONGEST_PERIOD,
     STROBE_TOLERANCE,
     carried,
-    evidence_text,
     state_of,
     tighter_scene,
     verdict_of,
@@ -121,7 +121,7 @@ def buoy_row(trajectory, transient_periods: int, simulate=None) -> dict[str, obj
     trajectory: an engine Trajectory of a scene with waves and a buoy, run to its end or not.
     transient_periods: wave periods left out of extremes, slack and strobed period; a record that does not outlast them
     by one period fills none of these.
-    regime, the reason for it in a sentence, the tests behind it (`motion.evidence_text`) and exponents: of scenes with
+    regime, the reason for it in a sentence, the tests behind it (`analysis.evidence_text`) and exponents: of scenes with
     output.tangent_vectors, run to their end; all periods count, those with a loop release too. A run in three
     dimensions has no tangent exponent, and the regime that its samples alone show.
     offplane_growth: of scenes with output.lateral_growth; none where a loop was released after the transient, because
