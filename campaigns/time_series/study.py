@@ -1,6 +1,6 @@
 """What one column says: spectrum, section, exponents, 0-1 test, dimension, surrogates, and a verdict with its evidence.
 
-The verdict is that of `verdicts.regime` on the section (`sections`). Three things are asked beyond it:
+The verdict is that of `verdicts.regime` on the section (`section`). Three things are asked beyond it:
 
 - A section at maxima is not a linear function of the record, so that linear noise may leave structure in it. Before
   "chaotic" stands, the section's prediction gain must also beat those of 39 IAAFT surrogates of the record itself, each
@@ -15,8 +15,6 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from analysis.any_series.columns import Record
-from analysis.any_series.sections import MAXIMA, NOISE_MULTIPLE, SAMPLES, Seen, seen, successive_maxima
 from analysis.correlation_sums import CorrelationDimension, correlation_dimension
 from analysis.divergence import kantz_lyapunov, rosenstein_lyapunov
 from analysis.embedding_delay import delay_vectors
@@ -29,6 +27,8 @@ from analysis.surrogates import iaaft_surrogates, normal_scores, rank_among
 from analysis.verdicts import Verdict, regime
 from analysis.wolf_plateau import LEAST_PERIODS, wolf_lyapunov
 from analysis.zero_one import ZeroOneTest, zero_one_test
+from campaigns.time_series.record import Record
+from campaigns.time_series.section import MAXIMA, NOISE_MULTIPLE, SAMPLES, Seen, seen, successive_maxima
 
 # More samples make exponents no better than their other errors, and take long.
 MOST_SAMPLES = 30_000
@@ -74,8 +74,8 @@ class Study:
     used: int
 
 
-def study(record, period=None, tolerance=None, seed=0):
-    """The Study of a Record; period: of the forcing, in the record's unit of time, or None (`sections`).
+def study(record: Record, period: float | None = None, tolerance: float | None = None, seed: int = 0) -> Study:
+    """The Study of a Record; period: of the forcing, in the record's unit of time, or None (`section`).
 
     tolerance: share of the range within which a motion repeats; None: 0.001, or what splines leave of a sine sampled as
     coarsely. seed: of surrogates and angles. The same record and seed give the same study.
@@ -97,41 +97,25 @@ def study(record, period=None, tolerance=None, seed=0):
     smooth = 0.0 if view.kind == SAMPLES else (2.0 * np.pi / view.mean_period) ** 4 / 384.0
     tolerance = max(TOLERANCE, smooth) if tolerance is None else tolerance
     verdict = _verdict(x, view, exponents, tolerance, seed)
-    return Study(
-        record=record,
-        seen=view,
-        spectrum=found,
-        lines=spectral_peaks(found)[:5],
-        wolf=exponents[0],
-        rosenstein=exponents[1],
-        kantz=exponents[2],
-        zero_one=zero_one_test(view.points[-MOST_POINTS:, 0], seed=seed),
-        embedding=embedding,
-        dimensions=dimensions,
-        dimension=_saturated(dimensions),
-        verdict=verdict,
-        tolerance=tolerance,
-        used=len(last),
-    )
+    irregular = zero_one_test(view.points[-MOST_POINTS:, 0], seed=seed)
+    lines, dimension = spectral_peaks(found)[:5], _saturated(dimensions)
+    measures = (*exponents, irregular, embedding, dimensions, dimension)
+    return Study(record, view, found, lines, *measures, verdict, tolerance, len(last))
 
 
 def _spectrum(x, step, view, period):
     """Eq. (31) over the later half: in whole forcing periods, or, where none is known, as one period."""
-    length = (len(x) - 1) * step
-    forced = view.period if period is not None and view.kind != SAMPLES else None
-    if forced is not None and (whole := int((1.0 + 1e-9) * length / forced)) >= 2:
-        half = whole // 2
-        return spectrum(x, step, forced, start_periods=whole - half, periods=half)
+    whole = int((1.0 + 1e-9) * (len(x) - 1) * step / view.period)
+    if period is not None and view.kind != SAMPLES and whole >= 2:
+        return spectrum(x, step, view.period, start_periods=whole - whole // 2, periods=whole // 2)
     half = len(x) // 2
     return spectrum(x[-half - 1 :], step, half * step, start_periods=0, periods=1)
 
 
 def _dimensions(x, embedding):
-    found = []
-    for m in range(embedding.dimension, embedding.dimension + 3):
-        vectors = delay_vectors(x, embedding.lag, m)[-MOST_POINTS:]
-        found.append(correlation_dimension(vectors, theiler=max(1, round(embedding.mean_period))))
-    return tuple(found)
+    theiler, m = max(1, round(embedding.mean_period)), embedding.dimension
+    vectors = (delay_vectors(x, embedding.lag, m + more)[-MOST_POINTS:] for more in range(3))
+    return tuple(correlation_dimension(points, theiler) for points in vectors)
 
 
 def _saturated(dimensions):
@@ -163,12 +147,16 @@ def _verdict(x, view, exponents, tolerance, seed):
     asked = [_agreement(rosenstein)]
     if view.kind == MAXIMA:
         asked.append(_record_null(x, view, seed))
-    failed = [item for item in asked if item.passed is False]
+    return _with(verdict, asked, "chaotic by its section, but ")
+
+
+def _with(verdict, asked, but):
+    """The verdict with more evidence: "undecided", with the reason, where a test failed."""
     verdict = replace(verdict, evidence=(*verdict.evidence, *asked))
+    failed = [item.sentence for item in asked if item.passed is False]
     if not failed:
         return verdict
-    reason = "chaotic by its section, but " + "; ".join(item.sentence for item in failed)
-    return replace(verdict, regime="undecided", reason=reason)
+    return replace(verdict, regime="undecided", period=None, reason=but + "; ".join(failed))
 
 
 def _even_times(verdict, view, tolerance):
@@ -183,13 +171,8 @@ def _even_times(verdict, view, tolerance):
         count = np.arange(len(each))
         away = max(away, float(np.abs(each - np.polyval(np.polyfit(count, each, 1), count)).max()) / between)
     most = max(EVEN_TIMES, 1.5 * np.sqrt(tolerance) / np.pi)
-    passed = away <= most
     sentence = f"maxima that are alike stray from even times by {away:.2g} of the time between maxima"
-    item = Evidence("even times", away, most, passed, sentence)
-    verdict = replace(verdict, evidence=(*verdict.evidence, item))
-    if passed:
-        return verdict
-    return replace(verdict, regime="undecided", period=None, reason=f"no period: {sentence}")
+    return _with(verdict, [Evidence("even times", away, most, away <= most, sentence)], "no period: ")
 
 
 def _agreement(rosenstein):
@@ -198,22 +181,22 @@ def _agreement(rosenstein):
     if not rosenstein.found:
         return Evidence(name, np.nan, 0.0, None, f"Rosenstein finds none: {rosenstein.reason}")
     value, error = rosenstein.value, rosenstein.error
-    passed = bool(value > 0.0)
     sentence = f"Rosenstein's exponent is {value:.4g} +- {error:.2g} bits per period"
-    return Evidence(name, value, 0.0, passed, sentence, error)
+    return Evidence(name, value, 0.0, bool(value > 0.0), sentence, error)
 
 
 def _record_null(x, view, seed):
     """Rank of the section's prediction gain among those of surrogates of the record, each seen at its own maxima."""
     name = "record's linear null"
+
+    def gain_of(series):
+        return prediction_gain(successive_maxima(series, NOISE_MULTIPLE * view.noise)[1]).gain
+
     part = x[-NULL_SAMPLES:]
-    gain = prediction_gain(successive_maxima(part, NOISE_MULTIPLE * view.noise)[1]).gain
-    gains = []
-    values = np.sort(part)
-    for surrogate in iaaft_surrogates(normal_scores(part), SURROGATES, [seed, 7]):
-        # Back in the record's own values: the instrument is put on again.
-        again = values[np.argsort(np.argsort(surrogate))]
-        gains.append(prediction_gain(successive_maxima(again, NOISE_MULTIPLE * view.noise)[1]).gain)
+    gain, values = gain_of(part), np.sort(part)
+    drawn = iaaft_surrogates(normal_scores(part), SURROGATES, [seed, 7])
+    # Back in the record's own values: the instrument is put on again.
+    gains = [gain_of(values[np.argsort(np.argsort(surrogate))]) for surrogate in drawn]
     known = [one for one in gains if np.isfinite(one)]
     if not np.isfinite(gain) or len(known) < 19:
         return Evidence(name, np.nan, SHARE, None, "too few maxima in the surrogates: no prediction gain")

@@ -43,7 +43,7 @@ class Seen:
     mean_period: float
 
 
-def seen(series, step, period=None):
+def seen(series: np.ndarray, step: float, period: float | None = None) -> Seen:
     """The Seen of a series (n,); period: of the forcing, in the unit of step, or None.
 
     ValueError for a record too short for a single neighbourhood (about 90 samples).
@@ -63,7 +63,7 @@ def seen(series, step, period=None):
     return Seen(MAXIMA, locked(height[:, None]), locked(step * place), step * between, noise, chosen.mean_period)
 
 
-def successive_maxima(series, prominence):
+def successive_maxima(series: np.ndarray, prominence: float) -> tuple[np.ndarray, np.ndarray]:
     """Places [samples] and heights of the maxima that stand out by `prominence`, on a cubic spline.
 
     Newton's method on the derivative from the parabola through the three samples; error O(step^4). The first and the
