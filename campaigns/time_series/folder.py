@@ -103,7 +103,10 @@ def curves(study: Study) -> dict[str, Curve]:
     longest = max(len(curve) for curve in grown)
     padded = [np.append(curve, np.full(longest - len(curve), np.nan)) for curve in grown]
     return {
-        "series": [(time, record.step * np.arange(len(record.values))), (Column("value", "", "x", "as read", 6), record.values)],
+        "series": [
+            (time, record.step * np.arange(len(record.values))),
+            (Column("value", "", "x", "as read", 6), record.values),
+        ],
         "spectrum": [
             (frequency, spectrum.angular_frequency_radps),
             (Column("amplitude", "", "|X|", "amplitude of eq. (31)", 6), spectrum.amplitude),

@@ -70,7 +70,9 @@ def _found(study: Study) -> list[tuple[str, str]]:
     lines = []
     for peak in study.lines[:3]:
         turn = 2.0 * np.pi / peak.angular_frequency_radps
-        lines.append(f"{peak.angular_frequency_radps:.4g} rad/{per} (every {turn:.4g} {unit}) with {peak.amplitude:.3g}")
+        lines.append(
+            f"{peak.angular_frequency_radps:.4g} rad/{per} (every {turn:.4g} {unit}) with {peak.amplitude:.3g}"
+        )
     highest = "; ".join(lines) or "no line stands out"
     rows = [("spectrum", f"eq. (31), later half, highest lines: {highest}")]
     for name, exponent in (("Wolf", study.wolf), ("Rosenstein", study.rosenstein), ("Kantz", study.kantz)):

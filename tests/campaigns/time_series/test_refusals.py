@@ -7,10 +7,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from analysis.any_series.command import main
-from tests.analysis.any_series import written
+from campaigns.time_series import WRITTEN, folder, main
+from campaigns.time_series.text_table import read_table
+from tests.campaigns.time_series.columns import written
 
-ROOT = Path(__file__).resolve().parents[2]
+ROOT = Path(__file__).resolve().parents[3]
 ROWS = [f"{0.1 * k:.3f},{np.sin(k):.6f}" for k in range(300)]
 
 
@@ -69,7 +70,7 @@ BINARY = {
         ("huge.csv --column x", ["at most 1e+100 in size"]),
         ("title.csv --column x", ["the names are 2 (Tank, 3)", "begun with #"]),
         ("good.csv --column x --time x", ["given 'x' as both"]),
-        ("mine/series.csv --column x --out mine", ["a series.csv that is not known to be of this command"]),
+        ("mine/series.csv --column x --out mine", ["holds a series.csv that is not known to be of this"]),
         ("whole/series.csv --column x --out whole", ["where whole/series.csv would be written over"]),
         ("empty.csv --column x", ["empty"]),
         ("good.csv", ["--column: not given; allowed: t, x"]),
@@ -95,14 +96,14 @@ BINARY = {
         ("flat.csv --column x", ["every value is 3.5", "a series that moves"]),
         ("twice.csv --column x", ["two columns are called 'x'"]),
         ("good.csv --column x --out good.csv", ["good.csv is a file"]),
-        ("good.csv --column x --out campaign", ["which holds a campaign"]),
+        ("good.csv --column x --out campaign", ["which holds buoy_sweep"]),
         ("nan.csv --column y --step 0 --period x --out nan.csv", ["4 faults", "--step", "--period", "--out"]),
     ],
 )
 def test_faults(tmp_path, monkeypatch, capsys, words, parts):
     monkeypatch.chdir(tmp_path)
-    for folder in ("mine", "whole", "campaign"):
-        (tmp_path / folder).mkdir()
+    for place in ("mine", "whole", "campaign"):
+        (tmp_path / place).mkdir()
     for name, text in FILES.items():
         (tmp_path / name).write_text(text)
     for name, content in BINARY.items():
@@ -113,7 +114,7 @@ def test_faults(tmp_path, monkeypatch, capsys, words, parts):
     before = sorted(path.name for path in tmp_path.rglob("*"))
     assert main(words.split()) == 2
     said = capsys.readouterr()
-    assert said.out == "" and "nothing was computed or written" in said.err
+    assert said.out == "" and "nothing was run or written" in said.err
     for part in parts:
         assert part in said.err
     assert sorted(path.name for path in tmp_path.rglob("*")) == before
@@ -128,21 +129,20 @@ def test_no_name_is_no_folder(tmp_path, monkeypatch, capsys):
 
 
 def test_a_full_disk_leaves_the_answer_and_one_line(tmp_path, monkeypatch, capsys):
-    def full(*_):
-        raise OSError(28, "No space left on device")
+    write = folder.write_atomic
 
-    from analysis.any_series import files
+    def full(path, content):
+        if path.name == "series.csv":
+            raise OSError(28, "No space left on device")
+        write(path, content)
 
-    write = files._write
-    monkeypatch.setattr(files, "_write", lambda path, text: full() if path.name == "series.csv" else write(path, text))
     path = written(tmp_path / "s.csv", np.sin(0.3 * np.arange(400)))
+    monkeypatch.setattr(folder, "write_atomic", full)
     assert main([str(path), "--out", str(tmp_path / "out")]) == 1
     said = capsys.readouterr()
     assert "VERDICT" in said.out and "the disk is full; the answer above stands" in said.err
-    monkeypatch.setattr(files, "_write", write)
+    monkeypatch.setattr(folder, "write_atomic", write)
     assert main([str(path), "--out", str(tmp_path / "out")]) == 0  # with room again, into the same folder
-    from analysis.any_series.command import WRITTEN
-
     # What the command will not write over is what it writes.
     kept = {file.name for file in (tmp_path / "out").iterdir()}
     assert kept == {*WRITTEN, "provenance.json"} - {"report.html", "report.pdf"}
@@ -152,20 +152,19 @@ def test_ctrl_c_is_one_line(tmp_path, monkeypatch, capsys):
     def stopped(*_):
         raise KeyboardInterrupt
 
-    monkeypatch.setattr("analysis.any_series.study.study", stopped)
+    monkeypatch.setattr("campaigns.time_series.study.study", stopped)
     path = written(tmp_path / "s.csv", np.sin(0.3 * np.arange(400)))
     assert main([str(path), "--out", str(tmp_path / "out")]) == 130
     assert "interrupted" in capsys.readouterr().err and not (tmp_path / "out").exists()
 
 
-def test_help_tells_every_option_and_loads_nothing_heavy():
-    code = (
-        "import sys, analysis.any_series.command as c; print(c.parser().format_help());"
-        "print(sorted({'numpy', 'numba', 'scipy', 'pandas'} & set(sys.modules)))"
-    )
-    said = subprocess.run([sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True, check=True).stdout
-    assert all(option in said for option in "--column --time --step --period --tolerance --out".split())
-    assert said.strip().endswith("[]")
+@pytest.mark.parametrize("module", ["analysis", "campaigns.time_series"])
+def test_help_tells_every_option_and_loads_nothing_heavy(module):
+    command = [sys.executable, "-X", "importtime", "-m", module, "--help"]
+    done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=True)
+    assert all(option in done.stdout for option in "--column --time --step --period --tolerance --out".split())
+    loaded = {line.rpartition("|")[2].strip() for line in done.stderr.splitlines()}
+    assert "argparse" in loaded and not {"numpy", "numba", "scipy", "pandas"} & loaded
 
 
 @pytest.mark.parametrize(
@@ -181,11 +180,6 @@ def test_help_tells_every_option_and_loads_nothing_heavy():
     ],
 )
 def test_tables_of_any_common_shape_are_read(tmp_path, text):
-    from analysis.any_series.tables import read_table
-
     (tmp_path / "table").write_bytes(text if isinstance(text, bytes) else text.encode())
-    faults = []
-    table = read_table(tmp_path / "table", faults)
-    assert not faults and all(
-        [float(cell) for cell in cells][:5] == [1.0 + k] * 5 for k, cells in enumerate(table.values())
-    )
+    for k, cells in enumerate(read_table(tmp_path / "table").values()):
+        assert [float(cell) for cell in cells][:5] == [1.0 + k] * 5

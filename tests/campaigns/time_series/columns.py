@@ -4,7 +4,7 @@ import json
 
 import numpy as np
 
-from analysis.any_series.command import main
+from campaigns.time_series import main
 
 
 def written(path, values, step=None):
