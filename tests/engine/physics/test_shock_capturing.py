@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from campaigns.breaking_line import measures
-from tests.engine.breaking import CASES, broken, orders, shock_elements, theory
+from tests.engine.physics.breaking import CASES, broken, orders, shock_elements, theory
 
 GRIDS = (201, 401, 801, 1601)
 
