@@ -23,7 +23,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from analysis.compiled import kernel
-from analysis.line_waves.law import (
+from campaigns.breaking_line.theory.law import (
     checked_law,
     energy,
     riemann,

@@ -8,10 +8,22 @@ from functools import lru_cache
 
 import numpy as np
 
+from campaigns.breaking_line.theory.energy import fitted_energy
+from campaigns.breaking_line.theory.fitted import FittedBreak
+from campaigns.breaking_line.theory.fitting import fitted_break
+from campaigns.breaking_line.theory.law import strain_of_tension, wave_speed
+from campaigns.breaking_line.theory.simple_wave import (
+    BreakTheory,
+    ShockStart,
+    break_theory,
+    shock_start,
+    simple_wave_work,
+)
+
 
 @dataclass(frozen=True, eq=False)
 class Theory:
-    """Theory of one scene: `speeds` (analysis.line_waves.BreakTheory), `start` (ShockStart), `motion` (FittedBreak).
+    """Theory of one scene: `speeds` (BreakTheory), `start` (ShockStart), `motion` (FittedBreak).
 
     `length_m`, `decay_s`, `force_N` of the scene. `end_work_J`: work of the end force, while no echo reaches the end
     before it is zero. `arrival_s`: when the front, or the shock that has overtaken it, is at the fixed end (or when the
@@ -21,9 +33,9 @@ class Theory:
     length_m: float
     decay_s: float
     force_N: float
-    speeds: object
-    start: object
-    motion: object
+    speeds: BreakTheory
+    start: ShockStart
+    motion: FittedBreak
     end_work_J: float
     arrival_s: float
     lost_J: float
@@ -39,14 +51,10 @@ class Theory:
 
     def strain_at(self, share: float) -> float:
         """The strain where the tension is `share` of the static one."""
-        from analysis.line_waves.law import strain_of_tension
-
         return float(strain_of_tension(self.motion.law, share * self.force_N, 0.2))
 
     def wave_speed(self, strain):
         """sqrt(T'/m), m/s, at one strain or several."""
-        from analysis.line_waves.law import wave_speed
-
         return wave_speed(self.motion.law, strain)
 
     def swallowed(self, share: float) -> bool:
@@ -102,8 +110,6 @@ def theory_of(scene, until_s: float) -> Theory | None:
 
 @lru_cache(maxsize=16)
 def _theory(law, mass, length, force, decay, until) -> Theory:
-    from analysis.line_waves import break_theory, fitted_break, fitted_energy, shock_start, simple_wave_work
-
     speeds, start = break_theory(law, mass, length, force), shock_start(law, mass, force, decay)
     motion = fitted_break(law, mass, length, force, decay, until)
     shock = motion.shock

@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from analysis.line_waves import PAPER_LAW, break_theory, fitted_break, fitted_energy
-from analysis.line_waves.law import checked_law, tension, wave_speed
-from tests.analysis.line_waves.paper_line import CASES, FAST, LENGTH, MASS
+from campaigns.breaking_line.theory import PAPER_LAW, break_theory, fitted_break, fitted_energy
+from campaigns.breaking_line.theory.law import checked_law, tension, wave_speed
+from tests.campaigns.breaking_line.paper_line import CASES, FAST, LENGTH, MASS
 
 LAW = checked_law(PAPER_LAW, MASS)
 EVERYWHERE = np.linspace(0.0, LENGTH, 24001)

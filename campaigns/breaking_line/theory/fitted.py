@@ -5,10 +5,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from analysis.compiled import kernel
-from analysis.line_waves import characteristics as row
-from analysis.line_waves.characteristics import Net
-from analysis.line_waves.law import riemann, strain_of_riemann, strain_of_tension, tension, wave_speed
-from analysis.line_waves.simple_wave import (
+from campaigns.breaking_line.theory import characteristics as row
+from campaigns.breaking_line.theory.characteristics import Net
+from campaigns.breaking_line.theory.law import riemann, strain_of_riemann, strain_of_tension, tension, wave_speed
+from campaigns.breaking_line.theory.simple_wave import (
     ShockStart,
     end_force,
     simple_wave_at,

@@ -11,10 +11,9 @@ from itertools import pairwise
 
 import numpy as np
 
-from analysis.line_waves.fitted import strains_at_end
-from analysis.line_waves.law import energy, riemann, strain_of_tension, wave_speed
-from analysis.line_waves.simple_wave import dissipation
-from analysis.line_waves.volumes import barrier_energy
+from campaigns.breaking_line.theory.fitted import strains_at_end
+from campaigns.breaking_line.theory.law import energy, riemann, strain_of_tension, wave_speed
+from campaigns.breaking_line.theory.simple_wave import dissipation
 from analysis.sampling import locked
 
 POINTS = 4001  # per smooth part of the line
@@ -25,12 +24,11 @@ class EnergyBudget:
     """Energies of the breaking line; all (times,), in J.
 
     time_s           [s]
-    stored_J         elastic, barrier included, counted from T = 0
+    stored_J         elastic, counted from T = 0
     kinetic_J        axial
     end_work_J       done on the line by the end force since the start; negative
     lost_J           in shocks since the start
-    closure_J        stored at rest + end work - stored - kinetic - lost: the error of an exact solution; nan for
-                     finite volumes, whose loss is this remainder
+    closure_J        stored at rest + end work - stored - kinetic - lost: the error of the solution
     rest_J           stored before the break, one number
     """
 
@@ -66,24 +64,6 @@ def fitted_energy(motion, times_s):
         work[i] = _end_work(motion, t)
     lost = _lost(motion, times)
     arrays = (times, stored, kinetic, work, lost, rest + work - stored - kinetic - lost)
-    return EnergyBudget(*(locked(array) for array in arrays), float(rest))
-
-
-def captured_energy(parameters, mass, strain0, run, barrier_N=0.0):
-    """Energy budget of a finite-volume motion; what its shocks lose is the remainder.
-
-    parameters, mass, barrier_N    as given to `captured_break`;  strain0  before the break;  run  CapturedBreak
-    Returns an EnergyBudget; before any shock lost_J is the error of the run, second order in the size of the cells.
-    """
-    law = np.array([*parameters, mass], float)
-    least = energy(law, strain_of_tension(law, 0.0, 0.0))
-    length = run.s_m[0] + run.s_m[-1]
-    guarded = np.array([barrier_energy(barrier_N, eps) for eps in run.strain.ravel()]).reshape(run.strain.shape)
-    stored = length * np.mean(energy(law, run.strain) - least + guarded, axis=1)
-    kinetic = length * np.mean(0.5 * mass * run.velocity_mps**2, axis=1)
-    rest = length * (energy(law, strain0) - least)
-    lost = rest + run.end_work_J - stored - kinetic
-    arrays = (run.time_s, stored, kinetic, run.end_work_J, lost, np.full(len(lost), np.nan))
     return EnergyBudget(*(locked(array) for array in arrays), float(rest))
 
 

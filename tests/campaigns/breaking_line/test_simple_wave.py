@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 
-from analysis.line_waves import PAPER_LAW, break_theory, shock_start, simple_wave_work
-from analysis.line_waves import law as closed
-from analysis.line_waves.simple_wave import shock_speed, sonic_strain
-from tests.analysis.line_waves.paper_line import CASES, FAST, LENGTH, MASS, SLOW, TENSIONS
+from campaigns.breaking_line.theory import PAPER_LAW, break_theory, shock_start, simple_wave_work
+from campaigns.breaking_line.theory import law as closed
+from campaigns.breaking_line.theory.simple_wave import shock_speed, sonic_strain
+from tests.campaigns.breaking_line.paper_line import CASES, FAST, LENGTH, MASS, SLOW, TENSIONS
 
 LAW = closed.checked_law(PAPER_LAW, MASS)
 

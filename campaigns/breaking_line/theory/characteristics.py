@@ -20,8 +20,8 @@ from collections import namedtuple
 import numpy as np
 
 from analysis.compiled import kernel
-from analysis.line_waves.law import riemann, strain_of_riemann, strain_of_tension, wave_speed
-from analysis.line_waves.simple_wave import end_force, shock_speed, simple_wave_at
+from campaigns.breaking_line.theory.law import riemann, strain_of_riemann, strain_of_tension, wave_speed
+from campaigns.breaking_line.theory.simple_wave import end_force, shock_speed, simple_wave_at
 
 DONE, CROSSED, FULL, FRONT_AT_WALL = range(4)
 MOST_ROUNDS = 200

@@ -10,10 +10,10 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from analysis import breaking_measures as measures
-from analysis.breaking_theory import theory_of
-from analysis.line_waves import PAPER_LAW
-from tests.analysis.line_waves.paper_line import CASES, LENGTH, MASS
+from campaigns.breaking_line import measures
+from campaigns.breaking_line.theory import theory_of
+from campaigns.breaking_line.theory import PAPER_LAW
+from tests.campaigns.breaking_line.paper_line import CASES, LENGTH, MASS
 
 SHOCKED = ("3", "4", "4p")
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from analysis.line_waves import PAPER_LAW, captured_break, captured_energy, fitted_break, reference_break
-from tests.analysis.line_waves.paper_line import CASES, LENGTH, MASS
+from tests.campaigns.breaking_line.paper_line import CASES, LENGTH, MASS
 
 GAUSS = 0.5 + np.array([-0.5, 0.5]) / np.sqrt(3.0)
 
