@@ -49,9 +49,14 @@ class Quantity:
         if self.digits is None:
             text = "" if entry is None or entry != entry else str(entry)
             return text or EMPTY
-        value = math.nan if entry is None or entry == "" else float(entry)
+        value = number_of(entry)
         hidden = value != 0.0 and abs(value) < 0.5 * 10.0**-self.digits
         return number(value, 2) if hidden else decimals(value, self.digits)
+
+
+def number_of(entry: object) -> float:
+    """An entry of a table as a number, nan where it is empty."""
+    return math.nan if entry is None or entry == "" else float(entry)
 
 
 def read_columns(directory: str | Path) -> dict[str, Quantity]:
