@@ -50,7 +50,9 @@ def orbit_figure(sweep: Sweep, drawn: Sequence[Run], missing: Sequence[Run]) -> 
     """Strobed radius over steepness, slack and exponents below; drawn: runs with points, missing: those without."""
     slack = series(drawn, "slack_fraction")
     values = series(drawn, "steepness")
-    stems = [Curve(np.full(2, x), np.array([0.0, y]), colour=SKY, width=1.2) for x, y in zip(values, slack, strict=True)]
+    stems = [
+        Curve(np.full(2, x), np.array([0.0, y]), colour=SKY, width=1.2) for x, y in zip(values, slack, strict=True)
+    ]
     top = max(0.1, 1.15 * float(np.nanmax(slack))) if np.isfinite(slack).any() else 1.0
     share = [*stems, Curve(values, slack, "", "", "o", BLUE, size=3.5)]
     below = [Panel(share, y_label="slack fraction (–)", level=0.0, settings={"ylim": (0.0, top)})]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -58,7 +58,7 @@ class Run:
     row: Mapping[str, object]
     anchor: str
     periods_done: float = 0.0
-    section: np.ndarray = np.empty((0, 2))
+    section: np.ndarray = field(default_factory=lambda: np.empty((0, 2)))
     emergence: Emergence | None = None
     fault: str = ""
     period: int | None = None
