@@ -6,6 +6,7 @@ import math
 import numpy as np
 
 from campaigns.accuracy.works import BY_NAME, PLACE, RADIUS, UNITS, Work
+from campaigns.columns import Column
 from campaigns.machinery.kept_run import KeptRun
 
 STATISTICS = (
@@ -18,23 +19,28 @@ STATISTICS = (
     "loop_releases",
     "max_turn_rad",
 )
-COLUMNS = (
-    "work",
-    "kind",
-    "method",
-    "nodes",
-    "control",
-    "setting",
-    "round",
-    "status",
-    "error",
-    "error_early",
-    "error_unit",
-    "error_against_ours",
-    *STATISTICS,
-    "peer_version",
-    "run_key",
-    "message",
+COLUMNS = tuple(
+    map(
+        Column,
+        (
+            "work",
+            "kind",
+            "method",
+            "nodes",
+            "control",
+            "setting",
+            "round",
+            "status",
+            "error",
+            "error_early",
+            "error_unit",
+            "error_against_ours",
+            *STATISTICS,
+            "peer_version",
+            "run_key",
+            "message",
+        ),
+    )
 )
 EARLY = 0.5  # share of the run over which error_early is taken
 
