@@ -14,7 +14,7 @@ from analysis import breaking_measures as measures
 from analysis.breaking_theory import theory_of
 from campaigns.breaking_line import LENGTHS_S, planned
 from engine import simulate
-from tests.engine.breaking import CASES, broken, theory
+from tests.engine.physics.breaking import CASES, broken, theory
 
 SPEEDS_MPS = {"1": (43.2, 43.2), "2": (111.2, 111.2), "3": (166.2, 166.2), "4": (228.3, 228.8)}  # in one dimension
 FRONTS_MPS = {"1": 658.0, "2": 1056.0, "3": 1089.0, "4": 800.0}
@@ -84,7 +84,7 @@ def test_shocks_form_in_three_cases_only():
 @pytest.mark.parametrize(("case", "within"), [("3", 0.03), ("4", 0.03), ("4p", 0.01)])
 def test_the_front_of_a_run_turns_steep_there(case, within):
     """Where its slope, followed over the first 40 % of the way, becomes infinite."""
-    from tests.engine.breaking import straight
+    from tests.engine.physics.breaking import straight
 
     step_s = min(5e-4, 0.05 * theory(case).start.time_s)
     fine = straight(case, 3201, **{"output.step_s": step_s, "output.profiles_step_s": step_s})

@@ -12,8 +12,8 @@ from tests.engine.lines import DRY, STILL, equilibrium, free, linear
 from tests.engine.modes import box
 from tests.engine.spatial.lines import held_at, in_space
 from tests.engine.spatial.modes import frequencies
-from tests.engine.test_buoy_modes import axial, pendulum
-from tests.engine.test_hanging_chain_modes import loaded
+from tests.engine.planar.test_buoy_modes import axial, pendulum
+from tests.engine.planar.test_hanging_chain_modes import loaded
 
 WEIGHTLESS = {"gravity_mps2": 0.0}
 

@@ -20,7 +20,7 @@ from scipy.optimize import brentq, root
 from tests.engine.lines import DRY, STILL, equilibrium, held, line, linear
 from tests.engine.lines import positions as planar_positions
 from tests.engine.spatial.lines import forces, frames, held_at, in_space, positions
-from tests.engine.test_tether_in_current import AREA, C_BUOY, EA, LENGTH, LIFT, RHO_W, D, W
+from tests.engine.planar.test_tether_in_current import AREA, C_BUOY, EA, LENGTH, LIFT, RHO_W, D, W
 
 HEIGHT = [0.0, 24.0]
 BOTTOM, SLOPE = np.array([0.3, -0.5, 0.0]), np.array([0.9, 1.1, -0.15])  # linear in height: no corners

@@ -7,7 +7,7 @@ import pytest
 
 from engine import load_scene, simulate
 from tests.engine.spatial.lines import SPACE
-from tests.engine.test_ways_to_end import ENDS
+from tests.engine.time.test_ways_to_end import ENDS
 
 BLOW = [0.0, 1e-3, 0.0]
 IN_A_PLANE = ["loops without release", "more loops than allowed"]  # struck across, a loop leaves the plane

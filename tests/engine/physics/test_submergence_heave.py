@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from engine import simulate
-from tests.engine.caps import afloat, volume
+from tests.engine.physics.caps import afloat, volume
 
 SWINGS = 12
 

@@ -11,7 +11,7 @@ import pytest
 from engine.planar import state as planar
 from engine.spatial import state as spatial
 from engine.time.newton import newton
-from tests.engine.caps import CAP
+from tests.engine.physics.caps import CAP
 from tests.engine.lines import Motion, line
 
 RATE, MOST = 40.0, 8

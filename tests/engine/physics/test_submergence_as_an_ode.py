@@ -10,7 +10,7 @@ from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 
 from engine import simulate
-from tests.engine.caps import Wave, afloat, condition, volume
+from tests.engine.physics.caps import Wave, afloat, condition, volume
 
 DEPTH, LENGTH, EA, DURATION_S = 21.0, 10.0, 3636.0, 8.0
 THROWN = [0.5, 0.0, 6.0]

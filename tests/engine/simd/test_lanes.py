@@ -8,7 +8,7 @@ import pytest
 
 from engine import goes_in_lanes, load_scene, simulate, simulate_batch, simulate_each
 from engine.time.status import WORDS
-from tests.engine.test_batches import assert_equal
+from tests.engine.simd.test_batches import assert_equal
 
 STEEP = {"water.depth_m": 21.6, "waves.steepness": 0.13, "tether.nodes": 21}
 CARRIED = {"output.tangent_vectors": 2, "output.lateral_growth": True}

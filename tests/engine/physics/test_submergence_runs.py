@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 
 from engine import goes_in_lanes, simulate, simulate_batch
-from tests.engine.caps import CAP
+from tests.engine.physics.caps import CAP
 from tests.engine.lines import line
-from tests.engine.test_batches import assert_equal
-from tests.engine.test_lanes import CARRIED, assert_same_growth
-from tests.engine.test_symmetries import differences, mirror_images
+from tests.engine.simd.test_batches import assert_equal
+from tests.engine.simd.test_lanes import CARRIED, assert_same_growth
+from tests.engine.time.test_symmetries import differences, mirror_images
 
 LEAPING = CAP | {"waves.steepness": 0.13, "water.depth_m": 21.0}
 ABOVE = ["extrapolate", "zero", "wheeler"]

@@ -9,7 +9,7 @@ import pytest
 
 from engine import SceneError, load_scene
 from engine.scene import build_scene
-from tests.engine.caps import CAP
+from tests.engine.physics.caps import CAP
 
 SPACE = {"motion.dimensions": 3}
 BLOCK = [[[0.0, 0.0]]]

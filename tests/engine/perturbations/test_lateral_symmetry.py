@@ -11,7 +11,7 @@ import pytest
 
 from engine.perturbations.lateral import carry_lateral
 from tests.engine.lines import DRY, STILL, free, held, line
-from tests.engine.tangents import Run
+from tests.engine.perturbations.tangents import Run
 
 
 def current(w):

@@ -10,7 +10,7 @@ import pytest
 from engine.parameters import RECORD, SPATIAL, record_of
 from engine.physics.ends import upper_end, upper_end_3d
 from tests.engine.lines import STILL, free, held, line
-from tests.engine.test_water_in_space import turned
+from tests.engine.physics.test_water_in_space import turned
 
 SPACE = {"motion.dimensions": 3}
 RNG = np.random.default_rng(4)

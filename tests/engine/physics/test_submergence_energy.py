@@ -13,7 +13,7 @@ from functools import cache
 import numpy as np
 import pytest
 
-from tests.engine.caps import afloat, potential, volume
+from tests.engine.physics.caps import afloat, potential, volume
 from tests.engine.lines import Motion, mean, positions
 
 THROWN = {"up": [0.0, 0.0, 7.0], "aslant": [2.5, 0.0, 7.0]}

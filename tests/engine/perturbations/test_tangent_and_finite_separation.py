@@ -12,7 +12,7 @@ import pytest
 from engine import simulate
 from engine.planar.state import conserved
 from tests.engine.lines import line
-from tests.engine.tangents import Copy, Run, start_of
+from tests.engine.perturbations.tangents import Copy, Run, start_of
 
 APART, PERIODS = 1e-7, 100
 A_PERIOD = 1e-2

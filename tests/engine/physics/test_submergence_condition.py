@@ -9,7 +9,7 @@ from engine import load_scene
 from engine.parameters import record_of
 from engine.physics.ends import upper_end, upper_end_3d
 from engine.physics.submergence import cap_across, cap_end, cap_end_3d, wetted
-from tests.engine.caps import CAP, condition, section, volume
+from tests.engine.physics.caps import CAP, condition, section, volume
 
 RNG = np.random.default_rng(11)
 D, DEPTH, CV, CQ, T = 1.5, 21.0, 80.0, 120.0, 1.7

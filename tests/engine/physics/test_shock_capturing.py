@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from analysis import breaking_measures as measures
-from tests.engine.breaking import CASES, broken, orders, shock_elements, theory
+from tests.engine.physics.breaking import CASES, broken, orders, shock_elements, theory
 
 GRIDS = (201, 401, 801, 1601)
 

@@ -3,7 +3,7 @@
 import pytest
 
 from engine import load_scene
-from tests.engine.test_scene_faults import BLOCK, SPACE, TABLE, faults_of
+from tests.engine.scene.test_scene_faults import BLOCK, SPACE, TABLE, faults_of
 
 HELD = {"kind": "held", "position_m": [0, 0, 19]}
 OSCILLATION = {"law": "harmonic", "amplitude_m": [1, 0, 0], "period_s": 5}
