@@ -58,7 +58,7 @@ COLUMNS = (
     "run_key",
     "message",
 )
-START = (0.68, 0.0)  # model.md 5.3
+START = (0.68, 0.0)  # the rest position of the taut tether
 ZOOMS = (10.0, 100.0)
 LONGEST_ORBIT = 8
 HISTORY_PERIODS = 24
@@ -94,7 +94,7 @@ def zoom_boxes(states):
 
 
 def history(o: SnapOscillator, order: Order):
-    """The first periods from the start of model.md 5.3, with the switching times."""
+    """The first periods from START, with the switching times."""
     motion = snap_motion(o, START, HISTORY_PERIODS, 128)
     arrays = {"time": motion.time, "displacement": motion.displacement, "velocity": motion.velocity}
     if len(motion.switches):

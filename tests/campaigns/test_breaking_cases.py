@@ -1,6 +1,6 @@
 """Law: the eight breaks of section 4.1, with gravity and bending, to the ends of the paper's figures.
 
-What is exact in one dimension holds with gravity and bending as well, within the bounds of the issue: end speeds 0.3 %,
+What is exact in one dimension holds with gravity and bending as well, within these bounds: end speeds 0.3 %,
 fronts 1 %, shocks at the places of theory; folds are resolved (turn of an element below 0.6 rad); no strain passes -1;
 the energy budget closes to 0.1 % of the stored energy.
 """
@@ -16,7 +16,7 @@ from campaigns.breaking_line import LENGTHS_S, planned
 from engine import simulate
 from tests.engine.physics.breaking import CASES, broken, theory
 
-SPEEDS_MPS = {"1": (43.2, 43.2), "2": (111.2, 111.2), "3": (166.2, 166.2), "4": (228.3, 228.8)}  # the issue's figures
+SPEEDS_MPS = {"1": (43.2, 43.2), "2": (111.2, 111.2), "3": (166.2, 166.2), "4": (228.3, 228.8)}  # in one dimension
 FRONTS_MPS = {"1": 658.0, "2": 1056.0, "3": 1089.0, "4": 800.0}
 BIRTHS_M = {"3": 50.0, "4": 3.9, "4p": 39.0}
 

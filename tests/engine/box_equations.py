@@ -1,7 +1,7 @@
 """The planar box equations written out in plain NumPy from their statements, for tests that must not trust a kernel.
 
 Everything takes complex arguments, so that a complex step differentiates it to rounding: |x| is sign(Re x) x.
-Statements: model.md 2.2-2.3, and the heads of planar/elimination.py, planar/node.py, engine/physics/ends.py.
+Statements: THEORY.md, sections 3-5, and the heads of planar/elimination.py, planar/node.py, engine/physics/ends.py.
 """
 
 import math

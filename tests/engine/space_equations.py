@@ -1,4 +1,4 @@
-"""The box equations in space (model.md 2.5, 2.6) written out in plain NumPy, with Euler parameters.
+"""The box equations in space written out in plain NumPy, with Euler parameters.
 
 Unknowns of a node, Z (n, 12): eps, S_n, S_b | V (3) | a rotation vector theta of the frame (t, n, b), in its own axes,
 away from the plane frame of angle phi | Omega (3). The rotation across a box is

@@ -28,7 +28,7 @@ def rate(*parts, periods=300, transient=100):
 
 @pytest.mark.parametrize("wave, seen", [(SMALL, -0.023), (LARGE, -0.13)], ids=["small", "large"])
 def test_pushed_out_of_their_plane_the_papers_two_motions_return(wave, seen):
-    """model.md 2.6: seeded motions in space came back at about these rates, read off decays over tens of periods.
+    """Motions in space with a small push came back at about these rates, read off decays over tens of periods.
 
     "About" is taken as a fifth: on the way the amplitude swings with the phase of its pendulum.
     """

@@ -1,4 +1,4 @@
-"""Law: a lateral perturbation of a buoy at rest is a pendulum, and nothing damps it (model.md 5.1).
+"""Law: a lateral perturbation of a buoy at rest is a pendulum, and nothing damps it.
 
 Tether of constant tension (weightless in water, or so light in air that it does not matter), mass m + m_a per length:
 k L tan k L = (m + m_a) L/(M + M_a) with k^2 = omega^2 (m + m_a)(1 + eps)/T; the light one in air is the mathematical

@@ -1,4 +1,4 @@
-"""Law: perturbations grow as the distance of two trajectories on one step sequence does (model.md section 3, kA = .13).
+"""Law: perturbations grow as the distance of two trajectories on one step sequence does (kA = .13).
 
 The second trajectory starts 1e-7 (of the scales of the scene) from the first, repeats its steps, and is brought back to
 that distance once a period (Benettin et al. 1980); the sum of the logarithms is the finite exponent. Both methods start
@@ -61,7 +61,7 @@ def blocks_of(values, length=50):
 @pytest.mark.slow
 @pytest.mark.parametrize("depth_m, sign, periods", [(22.5, -1, 1000), (21.0, 1, 4000)])
 def test_sign_at_the_two_depths(depth_m, sign, periods):
-    """model.md: trajectories close in at 22.5 m, by about -0.2 bits a period, and part at 21.0 m, by about +0.07.
+    """Two runs on the same steps of another code close in at 22.5 m (-0.2 bits a period) and part at 21.0 m (+0.07).
 
     Blocks of 50 periods give an error of 0.01 nats in 1000 periods in 22.5 m and in 4000 in 21.0 m, where the motion
     wanders more: a fourth of that exponent, so that two errors tell its sign on any machine.

@@ -2,8 +2,8 @@
 
 Order of the L1 error of strain, in the mean over the second half of the way (the error at one time swings with the
 place of the shock in its element): one with a shock, two where the wave stays smooth. A force that falls in 5 ms makes
-edges that are nearly kinks: the order is then between (docs/breaking_line_exact.md). Bounds from the issue: overshoot 1
-%, half an element at 401 nodes, end speeds 0.3 %, fronts 1 %; and none of it where the issue gives no figure.
+edges that are nearly kinks: the order is then between (docs/breaking_line_exact.md). Bounds: overshoot 1 %, half
+an element at 401 nodes, end speeds 0.3 %, fronts 1 %.
 """
 
 import numpy as np

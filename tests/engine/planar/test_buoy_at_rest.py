@@ -3,7 +3,7 @@
     r = L + [(B - W) L - w L^2/2]/EA,   B - W = (rho_w pi D^3/6 - M) g,   w = (rho - rho_w) A g
 
 r = 20.8 m with (B - W)/EA = 0.0400 at rho_w = 1027 (4.2 of the paper: T_s = 2000 N, eps_s = 0.04), and 20.785719 m at
-1025 (independent codes, model.md 5.1). Tolerance: T is linear in s and the trapezoid exact for it: rounding and the
+1025 (independent codes). Tolerance: T is linear in s and the trapezoid exact for it: rounding and the
 tolerance of statics, 1e-8 m.
 """
 

@@ -1,4 +1,4 @@
-"""Law: small free motions of the buoy on its upright tether in still water (section 4.2; model.md 5.1).
+"""Law: small free motions of the buoy on its upright tether in still water (section 4.2 of the paper).
 
 Radial (axial bar with an end mass): lam tan lam = m L/(M + M_a), omega = lam sqrt(EA/m)/L, 0.996 rad/s, then 117 and
 235 rad/s. The box has (2/h) tan(kh/2) for the first k and keeps tan kL: rounding, 1e-7 relative.

@@ -1,6 +1,6 @@
 """A stage that Newton calls converged satisfies the box equations, with the water where the nodes have come to lie.
 
-Airy kinematics and the positions are computed here, from their formulas (model.md 2.3).
+Airy kinematics and the positions are computed here, from their formulas.
 """
 
 import numpy as np

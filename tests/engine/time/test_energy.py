@@ -7,7 +7,7 @@ energy, though the paper's moment equation has (1+eps)^3: off by the strain, 1e-
 
 Measures, over the kinetic energy at the start and 10 s, 4 swings: the rise above the start falls with h^2 (within 0.15
 in the exponent) and is the same for every method; an L-stable or damping method loses what its order allows. Midpoint
-neither loses nor gains. It does not damp the highest modes (model.md section 3, point 3), and on finer grids they
+neither loses nor gains. It does not damp the highest modes, and on finer grids they
 take the run over: it is tried on 21 nodes.
 """
 

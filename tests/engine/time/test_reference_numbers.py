@@ -1,4 +1,4 @@
-"""The tethered buoy of Table 1 against independent codes (model.md 5.2): no number below comes from this engine.
+"""The tethered buoy of Table 1 against independent codes: no number below comes from this engine.
 
 Each run takes about a second.
 """
@@ -76,7 +76,7 @@ def test_steep_waves_run_to_the_end():
     run = ran(buoy(0.13, 21.6), 300)
     assert len(run.columns["time_s"]) == 300 * 100 + 1
     assert all(np.all(np.isfinite(column)) for column in run.columns.values())
-    assert run.statistics["loop_releases"] > 0  # the loops of a plane are counted (model.md 3, 5)
+    assert run.statistics["loop_releases"] > 0  # the loops of a plane are counted
 
 
 def branches(scene, periods=300, last=60):

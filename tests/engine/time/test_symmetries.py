@@ -3,7 +3,7 @@
 Mirror x -> -x: a wave from the other side, with currents and start velocities mirrored, gives the mirrored motion. The
 kernels do the same arithmetic with other signs, so only sines and cosines of other angles round differently: near
 rounding (1e-12 m) for the regular case for 20 periods, and for the violent one (kA = 0.13, H = 21.6) until the tether
-first goes slack. Slack amplifies roundings, to 4 mm in 50 s at such depths (model.md section 3, point 9).
+first goes slack. Slack amplifies roundings, to 4 mm in 50 s at such depths.
 
 Time: a phase of 2 pi changes nothing. An established motion repeats with the wave, and a wave earlier by a quarter
 period gives the same motion a quarter period earlier. Both on steps that fit the period, and with a strong drag on the

@@ -108,7 +108,7 @@ def test_every_status_is_reached():
 
 
 def test_the_first_loop_is_pulled_tight_where_a_published_code_loses_the_solution():
-    """kA = 0.13, H = 21.6 m: between 53 and 54 s (model.md 5.2), at tight tolerance; and then the turn passes pi."""
+    """kA = 0.13, H = 21.6 m: between 53 and 54 s, as in that code, at tight tolerance; and then the turn passes pi."""
     overrides, duration_s, _ = ENDS["loops without release"]
     run = simulate(load_scene("tethered_buoy", {"waves.steepness": 0.13, **overrides}), duration_s=duration_s)
     assert 53.0 <= run.statistics["end_time_s"] <= 54.0
