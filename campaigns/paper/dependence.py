@@ -57,7 +57,8 @@ COLUMNS = (*LABELS, *(name for name in OF_A_RUN if name not in LABELS))
 
 def treatments() -> tuple[tuple[str, ...], tuple[str, ...]]:
     """All that a scene allows: of waves above still water, and of a buoy that leaves the water."""
-    from engine.scene.models import Buoy, Waves
+    from engine.scene.line import Buoy
+    from engine.scene.surroundings import Waves
 
     waves, buoy = Waves.model_fields["above_still_water"], Buoy.model_fields["submergence"]
     return get_args(waves.annotation), get_args(buoy.annotation)

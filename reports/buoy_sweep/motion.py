@@ -7,6 +7,9 @@ from __future__ import annotations
 
 import numpy as np
 
+from analysis.evidence import evidence_text as evidence_text
+from analysis.evidence import read_evidence as read_evidence
+
 LONGEST_PERIOD = 16
 # Share of the motion's range. At the default solver tolerance the default sweep repeats within 0.007 or misses by 0.1.
 STROBE_TOLERANCE = 0.01
@@ -43,30 +46,6 @@ def tighter_scene(scene):
 def carried(trajectory) -> bool:
     """Whether a run carried tangent vectors in its plane, without which there is no verdict."""
     return trajectory.tangent is not None and trajectory.tangent.growth_nats.shape[1] > 0
-
-
-def evidence_text(verdict) -> str:
-    """The tests behind a Verdict as one line: "name: value/threshold/met; ...", a dash for what is not known."""
-    words = {True: "yes", False: "no", None: "–"}
-    tests = (
-        f"{item.name}: {_short(item.value)}/{_short(item.threshold)}/{words[item.passed]}" for item in verdict.evidence
-    )
-    return "; ".join(tests)
-
-
-def read_evidence(text: str) -> list[tuple[str, str, str, str]]:
-    """(name, value, threshold, met) of each test in a line of `evidence_text`; other text is left out."""
-    found = []
-    for part in text.split("; "):
-        name, _, rest = part.rpartition(": ")
-        cells = rest.split("/")
-        if name and len(cells) == 3:
-            found.append((name, *cells))
-    return found
-
-
-def _short(found: float) -> str:
-    return f"{found:.3g}" if np.isfinite(found) else "–"
 
 
 def verdict_of(trajectory, transient_periods: int, tighter: str | None = None):

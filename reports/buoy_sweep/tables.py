@@ -98,8 +98,6 @@ def time_items(folder: Folder, runs: tuple[Run, ...]) -> list[Item]:
 
 def scene_items(folder: Folder, runs: tuple[Run, ...], modes: Modes | None) -> list[Item]:
     """Every parameter with its source, and the closed forms that follow."""
-    from engine import load_scene
-
     values = sorted({run.steepness for run in runs})
     span = number(values[0]) if len(values) == 1 else f"{number(values[0])} to {number(values[-1])}"
     varied = {"waves.steepness": span}
@@ -109,7 +107,7 @@ def scene_items(folder: Folder, runs: tuple[Run, ...], modes: Modes | None) -> l
             varied["start.buoy_velocity_mps"] = f"{number(push)} across the waves in three dimensions"
     table = scene_table(
         folder.scene,
-        load_scene("tethered_buoy"),
+        "tethered_buoy",
         varied,
         "The scene as run, from `scene.toml`; defaults are those of the scene `tethered_buoy`.",
     )
