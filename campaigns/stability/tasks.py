@@ -16,7 +16,8 @@ from pathlib import Path
 from campaigns.columns import Column
 from campaigns.machinery.folder import Table, trajectory_path, write_json
 from campaigns.machinery.plan import Summary
-from campaigns.machinery.pools import PoolBroken, opened
+from campaigns.machinery.pools import opened
+from campaigns.machinery.processes import PoolBroken
 from campaigns.machinery.row_cache import keep_row, kept_row, made_by
 from campaigns.stability.cases import REGULAR, Case, all_cases
 from campaigns.stability.run import COLUMNS, UNEXPLAINED, case_row
