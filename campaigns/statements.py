@@ -11,6 +11,9 @@ import math
 import re
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
+from pathlib import Path
+
+from engine.atomic import write_atomic
 
 FILE = "statements.csv"
 COLUMNS = ("number", "place", "statement", "verdict", "condition", "found", "threshold", "evidence")
@@ -93,6 +96,13 @@ def judge(claim: Claim, results: object) -> Statement:
     checks = [(where, bool(claim.rule.holds(value))) for where, value in measured.checks if math.isfinite(value)]
     found = f"{claim.quantity}: {measured.told}." if measured.told else NOT_SHOWN
     return Statement(claim, tuple(checks), found)
+
+
+def write_statements(folder: Path, claims: Iterable[Claim], results: object) -> None:
+    """Judge the claims and write statements.csv; a file that says the same already stays as it is. Raises OSError."""
+    path, content = folder / FILE, as_csv(judged(claims, results))
+    if not path.exists() or path.read_bytes() != content:
+        write_atomic(path, content)
 
 
 def as_csv(statements: Sequence[Statement]) -> bytes:

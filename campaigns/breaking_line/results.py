@@ -20,10 +20,9 @@ from campaigns.breaking_line.lines import motion_of, of_kind, read_lines
 from campaigns.breaking_line.measures import MARGIN_M, contour, speed_of
 from campaigns.breaking_line.statements import CLAIMS
 from campaigns.breaking_line.theory import Theory, theory_of
-from campaigns.figure_data import store
-from campaigns.statements import FILE as STATEMENTS
-from campaigns.statements import as_csv, judged
-from engine.atomic import write_atomic
+from campaigns.figure_data import made_by_of, store
+from campaigns.machinery.row_cache import made_by
+from campaigns.statements import write_statements
 
 if TYPE_CHECKING:
     import xarray
@@ -43,13 +42,17 @@ class _Lines:
 def write_results(folder: Path) -> None:
     """statements.csv, and exact.nc where the law has a theory. Raises OSError."""
     results = _Lines(folder)
-    write_atomic(folder / STATEMENTS, as_csv(judged(CLAIMS, results)))
-    runs = {line["case"]: motion_of(folder, line) for line in of_kind(results.lines, "case")}
+    write_statements(folder, CLAIMS, results)
+    cases, path = of_kind(results.lines, "case"), folder / EXACT
+    key = made_by({"runs": [line["run_key"] for line in cases]}, "analysis", "engine", "campaigns/breaking_line")
+    if made_by_of(path) == key:
+        return
+    runs = {line["case"]: motion_of(folder, line) for line in cases}
     content = exact({case: run for case, run in runs.items() if run is not None and run.profiles is not None})
     if content is None:
-        (folder / EXACT).unlink(missing_ok=True)
+        path.unlink(missing_ok=True)
     else:
-        store(folder / EXACT, content)
+        store(path, content.assign_attrs(made_by=key))
 
 
 def exact(runs: dict[str, object]) -> xarray.Dataset | None:

@@ -6,7 +6,6 @@ import math
 from pathlib import Path
 
 from ..buoy_sweep.equations import LAWS
-from ..parts.columns import read_columns
 from ..parts.content import Bullets, Equation, Heading, Item, Notice, Report, Text
 from ..parts.folder import Folder, read_folder
 from ..parts.judged import counted, read_statements, statements_table
@@ -56,9 +55,8 @@ VISCOSITY = Equation(
 
 def report(directory: str | Path) -> Report:
     """The content of the report on a breaking-line folder. Raises FolderError for a folder that is not one."""
-    columns = read_columns(directory)
-    words = tuple(name for name, column in columns.items() if column.digits is None)
-    folder = read_folder(directory, tuple(columns), words)
+    folder = read_folder(directory)
+    columns = folder.columns
     lines, judged = read_lines(folder), read_statements(folder.directory)
     verdicts = f"The paper's statements on the breaking line: {counted(judged)}. From `statements.csv`."
     items = [

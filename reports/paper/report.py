@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from ..parts.columns import read_columns, table_of
+from ..parts.columns import table_of
 from ..parts.content import Bullets, Column, Heading, Item, Links, Notice, Report, Table, Text
 from ..parts.folder import Folder, read_folder
 from ..parts.judged import FAILS, HOLDS_IF, Judged, counted, read_statements, statements_table
@@ -63,13 +63,11 @@ VERDICTS = (
 
 def report(directory: str | Path) -> Report:
     """The content of the report on a folder of `campaigns.paper`. Raises FolderError for a folder that is not one."""
-    columns = read_columns(directory)
-    words = tuple(name for name, column in columns.items() if column.digits is None)
-    folder = read_folder(directory, tuple(columns), words)
+    folder = read_folder(directory)
     judged = read_statements(folder.directory)
     items = [
         *_question(folder, judged),
-        *_parts(folder, columns),
+        *_parts(folder),
         *_figures(folder.directory),
         *_statements(judged),
         *dependence_items(folder),
@@ -105,9 +103,11 @@ def short_answer(judged: tuple[Judged, ...]) -> tuple[str, ...]:
     return tuple(lines)
 
 
-def _parts(folder: Folder, columns: dict) -> list[Item]:
-    rows = [row | {"what": PARTS.get(row["part"], "")} for row in folder.table.to_dict("records")]
-    table = table_of(columns, ("part", "runs", "failed", "run_s", "total_s"), rows, "The parts, each in a folder.")
+def _parts(folder: Folder) -> list[Item]:
+    rows = folder.table.to_dict("records")
+    shown = ("part", "runs", "failed", "run_s", "total_s")
+    what = "; ".join(f"`{part}`: {words}" for part, words in PARTS.items())
+    table = table_of(folder.columns, shown, rows, f"The parts, each in a folder of its own ({what}).")
     found = [
         (f"Report on {what}", f"{part}/report.html")
         for part, what in PARTS.items()

@@ -75,7 +75,7 @@ def write_figure_data(folder: str | Path) -> dict[int, str]:
     """
     from campaigns import figure_data
     from campaigns.machinery.folder import read_json, write_json
-    from campaigns.machinery.row_store import made_by
+    from campaigns.machinery.row_cache import made_by
     from campaigns.paper.figures.plans import LeftOut, Parts
 
     root = Path(folder)
