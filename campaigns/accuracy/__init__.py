@@ -138,7 +138,8 @@ def _undescribed(trajectory):
 def _maker() -> str:
     from campaigns.machinery.row_cache import made_by
 
-    return made_by({}, "campaigns/breaking_line/theory", "engine", "campaigns/accuracy/rows.py", "campaigns/accuracy/works.py")
+    own = ("campaigns/accuracy/rows.py", "campaigns/accuracy/works.py")
+    return made_by({}, "campaigns/breaking_line/theory", "engine", *own)
 
 
 def engine_jobs(points: list[Point], references: dict[tuple[str, str], KeptRun]) -> list:

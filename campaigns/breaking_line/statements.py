@@ -84,7 +84,7 @@ CLAIMS = (
     Claim(
         "abstract", "The speed of the snap back is proportional to the initial strain.", "Speed over strain, m/s",
         all_cases(ratio("end_speed_mps", "static_strain"), ".0f", off_one_ratio), below(0.1, "one ratio to 10 %"),
-        f"{EXACT} ({REPORT}, fronts and shocks; docs/breaking_line_exact.md)",
+        f"{EXACT} ({REPORT}, fronts and shocks; docs/breaking_line.md)",
     ),
     Claim(
         "4.1.2", "Static tensions of 45, 180, 315 and 450 kN stretch the line by 9.9, 17.8, 22.8 and 29.2 %.",

@@ -1,7 +1,7 @@
 """Where each numbered equation and each figure of the paper is in the code, as the modules' docstrings say it.
 
-A docstring names what it holds in one paragraph, "In the paper: eq. (7) strain; eq. (8) velocity.", and is the only place
-that does so. `python -m reports.paper.index` prints the tables of NOTATION.md.
+A docstring names what it holds in one paragraph, "In the paper: eq. (7) strain; eq. (8) velocity.", and is the only
+place that does so. `python -m reports.paper.index` prints the tables of NOTATION.md.
 """
 
 from __future__ import annotations

@@ -50,8 +50,8 @@ NOT_JUDGED = (
     ("5", "chaotic buoys leave strong signatures on the surface", "the companion paper; waves are given here"),
 )
 QUESTION = (
-    "The paper simulates a synthetic line that breaks and a buoy on a short tether in waves, and draws conclusions from "
-    "both. Here its figures are drawn again from runs of this workbench, each of its statements gets a verdict with a "
+    "The paper simulates a synthetic line that breaks and a buoy on a short tether in waves, and draws conclusions "
+    "from both. Here its figures are drawn again from runs of this workbench, each of its statements gets a verdict with a "
     "number and the evidence for it, and what it leaves out is varied to see what the answer depends on."
 )
 VERDICTS = (
@@ -117,7 +117,10 @@ def _parts(folder: Folder) -> list[Item]:
     at_once = f", {count(jobs, 'run')} at a time" if isinstance(jobs, int) else ""
     minutes = decimals(float(folder.table["total_s"].sum()) / 60.0, 1)
     whole = Text(f"All parts together took {minutes} minutes{at_once}.")
-    links = [Text("Each part has a report of its own, with all runs, grids, warnings and sources:"), Links(tuple(found))]
+    links = [
+        Text("Each part has a report of its own, with all runs, grids, warnings and sources:"),
+        Links(tuple(found)),
+    ]
     return [Heading("Parts"), table, whole, *(links if found else [Text("The parts' own reports were left out.")])]
 
 
