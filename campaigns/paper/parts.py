@@ -26,7 +26,8 @@ from campaigns.machinery.command import command_line
 from campaigns.machinery.folder import CampaignStopped, Table, trajectory_path
 from campaigns.machinery.plan import Summary
 from campaigns.machinery.row_cache import made_by, of_the_page
-from campaigns.paper import PARTS, Order, dependence
+from campaigns.paper import dependence
+from campaigns.paper.order import PARTS, Order
 
 COLUMNS = (
     Column("part", "", "part", "folder of the part"),
@@ -44,6 +45,7 @@ SOURCES = (
     "analysis",
     "engine",
     *(f"campaigns/{name}" for name in ("machinery", "buoy_sweep", "breaking_line", "oscillator", "out_of_plane")),
+    *(f"campaigns/{name}.py" for name in ("columns", "judge", "study", "statements", "figure_data", "tables")),
     *(f"reports/{name}" for name in ("parts", "figures", "buoy_sweep", "breaking_line", "oscillator", "out_of_plane")),
     "campaigns/paper/dependence.py",
 )
