@@ -7,10 +7,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from analysis.drifts import record_drift
 from analysis.line_spectra import spectral_lines
 from analysis.neighbour_distances import neighbour_growth
 from analysis.predictability import prediction_gain
+from analysis.stationarity import record_drift
 from analysis.surrogates import iaaft_surrogates, noisy_periodic_surrogates, normal_scores, rank_among
 from analysis.zero_one import zero_one_test
 

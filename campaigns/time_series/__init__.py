@@ -145,7 +145,8 @@ def judge(order: Order, argv: list[str]) -> int:
         found = study(record, order.period, order.tolerance)
         print(page(found))
         if out is not None:
-            write_files(found, out, {"period": order.period, "step": record.step, "tolerance": found.tolerance})
+            asked = {"period": order.period, "step": record.step, "tolerance": found.tolerance}
+            write_files(found, out, {"campaign": CAMPAIGN, **asked})
             print(f"\n{out}: the answer, and its curves as CSV; with figures: python -m reports {out}")
     except KeyboardInterrupt:
         print("\ninterrupted; the folder holds what was written whole", file=sys.stderr)
