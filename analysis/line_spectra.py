@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 from threadpoolctl import threadpool_limits
 
-from analysis.sampling import checked_count, checked_series, locked
+from analysis.sampling import checked_columns, checked_count, locked
 
 # Noise exceeds this many times its local mean once in e^12 bins.
 LINE_ABOVE_FLOOR = 12.0
@@ -57,11 +57,10 @@ def spectral_lines(series: ArrayLike, most: int = 64) -> LineSpectrum:
     Source: J. A. Hogbom (CLEAN), Astron. Astrophys. Suppl. 15 (1974) 417; frequency refinement by a windowed transform:
     J. Laskar, Physica D 67 (1993) 257.
     """
-    x = checked_series(series, "series", dimensions=(1, 2))
+    columns = checked_columns(series)
     most = checked_count(most, "most", least=0)
-    if len(x) < 32:
-        raise ValueError(f"series: 32 samples at least are needed to find lines, given {len(x)}")
-    columns = x[:, None] if x.ndim == 1 else x
+    if len(columns) < 32:
+        raise ValueError(f"series: 32 samples at least are needed to find lines, given {len(columns)}")
     mean, size = columns.mean(axis=0), columns.std(axis=0)
     size = np.where(size > 64 * np.finfo(float).eps * np.abs(columns).max(axis=0), size, np.inf)
     z = (columns - mean) / size
@@ -77,12 +76,8 @@ def spectral_lines(series: ArrayLike, most: int = 64) -> LineSpectrum:
     whole = mean + fitted * unit
     variance = z.var(axis=0)
     left = np.mean((z - fitted) ** 2, axis=0) / np.where(variance > 0.0, variance, 1.0)
-    return LineSpectrum(
-        locked(np.array(frequency)),
-        locked(amplitude * unit),
-        locked(whole[:, 0] if x.ndim == 1 else whole),
-        locked(left),
-    )
+    whole = whole[:, 0] if np.ndim(series) == 1 else whole
+    return LineSpectrum(locked(np.array(frequency)), locked(amplitude * unit), locked(whole), locked(left))
 
 
 def _next_line(rest, known):
@@ -141,19 +136,19 @@ def _fit(z, frequency):
     for last in (False, False, False, True):
         turn = 2.0 * np.pi * np.outer(k, frequency)
         cosine, sine = np.cos(turn), np.sin(turn)
-        moving = frequency != 0.5  # half the sampling rate has no sine, and no neighbours to move to
-        basis = np.hstack([cosine, sine[:, moving], np.ones((len(z), 1))])
+        inner = frequency != 0.5  # half the sampling rate has no sine, and no neighbours to move to
+        basis = np.hstack([cosine, sine[:, inner], np.ones((len(z), 1))])
         q, r = np.linalg.qr(basis)
         solved = np.linalg.solve(r, q.T @ z)
         fitted = basis @ solved
         a, b = solved[: len(frequency)], np.zeros((len(frequency), z.shape[1]))
-        b[moving] = solved[len(frequency) : -1]
+        b[inner] = solved[len(frequency) : -1]
         if last:
             return list(frequency), fitted, np.hypot(a, b)
-        slope = 2.0 * np.pi * k[:, None, None] * (cosine[:, :, None] * b - sine[:, :, None] * a)[:, moving]
+        slope = 2.0 * np.pi * k[:, None, None] * (cosine[:, :, None] * b - sine[:, :, None] * a)[:, inner]
         free = slope.reshape(len(z), -1)
         free = (free - q @ (q.T @ free)).reshape(len(z), -1, z.shape[1])
         system = free.transpose(0, 2, 1).reshape(z.size, -1)
         shift = np.linalg.lstsq(system, (z - fitted).ravel(), rcond=1e-6)[0]
-        frequency[moving] += np.clip(shift, -0.5 / len(z), 0.5 / len(z))
+        frequency[inner] += np.clip(shift, -0.5 / len(z), 0.5 / len(z))
         frequency = np.clip(frequency, 0.25 / len(z), 0.5)
