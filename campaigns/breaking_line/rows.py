@@ -8,8 +8,8 @@ import math
 
 import numpy as np
 
-from analysis import breaking_measures as measures
-from analysis.breaking_theory import theory_of
+from campaigns.breaking_line import measures
+from campaigns.breaking_line.theory import theory_of
 from campaigns.columns import Column
 
 _STATISTICS = (
