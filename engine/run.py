@@ -8,15 +8,14 @@ import numpy as np
 from . import parameters
 from .perturbations.exponents import Trail
 from .physics import energy
-from .physics.ends import HELD
 from .planar import state as planar
+from .record import HELD, RUNGE_KUTTA, STATE
 from .spatial import lift
 from .spatial import state as spatial
-from .time.integrators import RUNGE_KUTTA
 from .time.statics import rest_of
 from .time.statics_advice import why_no_rest
 from .time.status import ADVICE, OK, STATICS_FAILED, TURN_UNRESOLVED, WORDS
-from .time.time_loop import SMALL_STEPS, STATE, march
+from .time.time_loop import SMALL_STEPS, march
 from .trajectory import EnergyBudget, Profiles, Trajectory
 
 

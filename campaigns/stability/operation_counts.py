@@ -32,7 +32,7 @@ def operations(scene) -> dict[str, object]:
     profile where the scene keeps them, "kernels": names called}
     """
     from engine import parameters
-    from engine.time.time_loop import STATE
+    from engine.record import STATE
 
     engine, tables = _counted(), []
     record = parameters.record_of(scene, tables).view(np.recarray)[0]

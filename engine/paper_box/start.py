@@ -10,7 +10,7 @@ import math
 import numpy as np
 
 from .. import parameters
-from ..physics.ends import HELD
+from ..record import HELD
 from ..time import statics
 from ..time.status import NEWTON_FAILED, OK, STATICS_FAILED
 from .ends import end_force, force_and_velocity

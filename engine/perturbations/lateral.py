@@ -40,10 +40,11 @@ import math
 import numpy as np
 
 from ..compiled import by_kind, kernel
-from ..physics.ends import BUOY, HELD, released
+from ..physics.ends import released
 from ..physics.submergence import cap_across
 from ..physics.tension import tension
 from ..planar import node
+from ..record import BUOY, HELD
 from ..simd.elementary import copy_into, sincos, small_sincos
 from ..simd.select import every, larger, where
 from ..time.steps import plan_stage
@@ -160,7 +161,7 @@ def lateral_stage(p, tables, t, rate, X, Y, K, Q, F, dC_tilde, H, E, dC):
         E[k, 12], E[k, 13], E[k, 14] = r0, r1, r2
     b = n - 1
     of_N, of_V, known = _lateral_end(p, t, rate, Y[b], F[b], dC_tilde[b, 1])
-    if p.cap:
+    if p.spherical_cap:
         more, more_known = cap_across(p, t, rate, X[b], Y[b], F[b], dC_tilde[b, 1])
         of_V, known = of_V + more, known + more_known
     A00 = of_N * (H[b, 4] + H[b, 5] * R20) + of_V * R00

@@ -23,10 +23,10 @@ import math
 import numpy as np
 
 from ..compiled import kernel
-from ..physics.ends import BUOY
 from ..physics.submergence import cap_change
 from ..planar import elimination as sweep
 from ..planar import node
+from ..record import BUOY
 from ..simd.elementary import copy_into
 from ..simd.select import larger, some, where
 from ..time.steps import add_rates, plan_stage
@@ -128,7 +128,7 @@ def tangent_stage(p, tables, t, rate, going_on, moving_water, X, Y, K, dC_tilde,
     for _ in range(WATER_ITERATIONS):
         _nodal_change(p, rate, moving_water, dC_tilde[:, 2:], F, Y, Q, dF, gamma)
         top_x, top_z = _top_change(p, rate, dC_tilde[n - 1, 2:], F[n - 1], Y[n - 1], dF[n - 1])
-        if p.cap:
+        if p.spherical_cap:
             dX_tilde = _displaced_end(p, tables, dC_tilde)
             more_x, more_z = cap_change(
                 p, t, rate, X[n - 1], Y[n - 1], K[n - 1], F[n - 1], dC_tilde[n - 1, 2:], dX_tilde, dF[n - 1]

@@ -21,11 +21,9 @@ import math
 import numpy as np
 
 from ..compiled import by_kind, kernel
+from ..record import FREE, HARMONIC, HELD, TABLE
 from ..simd.elementary import bracket, smooth_start
 from ..simd.select import where
-
-BUOY, HELD, FREE = 0, 1, 2
-STILL, HARMONIC, TABLE = 0, 1, 2
 
 
 def harmonic_of(amplitude_m, period_s, phase_rad, ramp_s):

@@ -59,7 +59,7 @@ def sweep_unbent(p, tables, t, cq, cv, in_motion, Y, C_tilde, X, F, Q, E, D):
         p, tables, t, cv, in_motion, Q[b, 3], Q[b, 4], Y[b, 2], Y[b, 3], C_tilde[b, 2], C_tilde[b, 3], F[b]
     )
     Dzx = Dxz
-    if p.cap:
+    if p.spherical_cap:
         more = cap_end(p, t, cq, cv, in_motion, X[b, 0], X[b, 1], Y[b, 2], Y[b, 3], C_tilde[b, 2], C_tilde[b, 3], F[b])
         ex, ez, Dxx = ex + more[0], ez + more[1], Dxx + more[2]
         Dxz, Dzx, Dzz = Dxz + more[3], Dzx + more[4], Dzz + more[5]

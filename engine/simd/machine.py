@@ -4,11 +4,11 @@ import time
 
 import numpy as np
 
-from ..parameters import RECORD, record_of
+from ..parameters import record_of
 from ..planar import elimination as sweep
 from ..planar import node
 from ..planar.state import conserved
-from ..time.time_loop import STATE
+from ..record import RECORD, STATE
 from .followers import Followers
 from .record import REAL, WHOLE
 from .ticks import LANE, MOVED, RATE, RESTARTED, ROWS, STEP, advance
@@ -17,7 +17,7 @@ from .vector import COUNT, lane_zeros
 STEPS = 50  # of a trail before it is followed: lanes with fewer by then wait for the others
 TICKS = 20_000  # between two looks at the clock and at Ctrl-C: a tenth of a second
 # of the whole numbers these decide nothing within the vectors
-OWN = ("at_rest", "max_newton", "max_releases", "release", "end_at")
+OWN = ("at_rest", "max_newton", "max_releases", "loop_release", "end_at")
 
 
 def kind_of(scene):

@@ -10,8 +10,9 @@ import math
 import numpy as np
 
 from ..compiled import kernel
-from ..physics.ends import HELD, released, upper_end_3d
+from ..physics.ends import released, upper_end_3d
 from ..physics.submergence import cap_end_3d
+from ..record import HELD
 from ..simd.elementary import smooth_start
 from .box import nodal_jacobian
 from .node import vector
@@ -55,7 +56,7 @@ def end_condition(p, tables, t, cq, cv, in_motion, Y, C_tilde, X, F, Q):
     V, V_tilde = vector(Y[last], 3), vector(C_tilde[last], 3)
     e, eN, S = upper_end_3d(p, tables, t, cv, in_motion, vector(Q[last], 11), V, V_tilde, F[last])
     rows = ((S[0], S[1], S[2]), (S[1], S[3], S[4]), (S[2], S[4], S[5]))
-    if p.cap:
+    if p.spherical_cap:
         more, D = cap_end_3d(p, t, cq, cv, in_motion, vector(X[last], 0), V, V_tilde, F[last])
         e = mixed(1.0, e, 1.0, more)
         rows = (

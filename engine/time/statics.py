@@ -10,8 +10,8 @@ import math
 
 import numpy as np
 
-from ..physics.ends import BUOY, FREE, HELD
 from ..planar import state as planar
+from ..record import BUOY, FREE, HELD, is_spatial
 from ..scales import buckling_load, strain_at, tension_at
 from ..spatial import lift
 from ..spatial import state as spatial
@@ -39,7 +39,7 @@ def rest_of(record, scene, tables, h, target_m):
     for span in SPANS:
         Y = first_guess(record, scene, h, span)
         code = settle(record, tables, Y, target_m)
-        if not record["cap"]:
+        if not record["spherical_cap"]:
             return code, Y
         if code != OK:
             break
@@ -61,7 +61,7 @@ def settle(record, tables, Y, target_m):
     """
     p = record.copy()
     n = int(p["nodes"])
-    space = "GI" in p.dtype.names
+    space = is_spatial(p)
     X, F, Q, E, D, C_tilde = (spatial if space else planar).work_arrays.py_func(p, n)
     axes = ("end_x", "end_y", "end_z") if space else ("end_x", "end_z")
     velocity = slice(3, 6) if space else slice(2, 4)
@@ -117,7 +117,7 @@ def first_guess(record, scene, h, span=SPANS[0]):
     In space it lies in the vertical plane through the held end, or through the force on a free one. span: share of its
     length that a slack line under a floating buoy spans upright; LEANING: straight, at the height at which it floats.
     """
-    if "GI" not in record.dtype.names:
+    if not is_spatial(record):
         return _in_plane(record, scene, h, (float(record["end_x"]), float(record["end_z"])), span)
     across = {HELD: scene.end.position_m, FREE: scene.end.force_N}.get(int(record["end"]))
     azimuth = math.atan2(across[1], across[0]) if across and (across[0] or across[1]) else 0.0
@@ -175,7 +175,7 @@ def _afloat(record, scene, s):
     from scipy.optimize import brentq
 
     whole, D, law = float(record["lift"]), float(record["D_buoy"]), scene.tether.tension
-    if not record["cap"] or whole <= 0:
+    if not record["spherical_cap"] or whole <= 0:
         return whole, None
 
     def lift(z):

@@ -20,18 +20,12 @@ from ..dimensions import conserved, largest_turn, release_loop, size_of, work_ar
 from ..physics.ends import next_corner
 from ..physics.energy import add_powers, store_energies
 from ..physics.shocks import deforming_element, renew_viscosity
+from ..record import RUNGE_KUTTA
 from ..simd.elementary import copy_into
-from .integrators import RUNGE_KUTTA
 from .sampling import sample
 from .status import NEWTON_FAILED, NOT_FINITE, OK, STEP_LIMIT, STEP_UNDERFLOW, STRAIN_BELOW_MINUS_ONE, TURN_UNRESOLVED
 from .steps import least_strain, one_stage_step, runge_kutta_step
 
-_COUNTS = (
-    "status samples profiles small_steps steps rejected newton failures releases attempts cautious trail energies "
-    "small cut"
-)
-_VALUES = "t dt dt_before low high max_turn min_strain window_end trial_dt corner"
-STATE = np.dtype([(name, np.int64) for name in _COUNTS.split()] + [(name, np.float64) for name in _VALUES.split()])
 SMALL_STEPS = 3
 SAFETY, SHRINK, GROW = 0.9, 0.2, 4.0
 NO_SLIVER = 1.01  # a step is made a little longer rather than leave next to nothing of the way to a corner
@@ -48,7 +42,7 @@ def guard_turns(p, tables, state, Y):
         state.max_turn = max(state.max_turn, turn)
         if turn <= math.pi:
             return OK, released
-        if p.release == 0 or state.releases >= p.max_releases:
+        if p.loop_release == 0 or state.releases >= p.max_releases:
             return TURN_UNRESOLVED, released
         release_loop(p, tables, Y, where)
         state.releases += 1

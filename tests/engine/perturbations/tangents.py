@@ -11,9 +11,10 @@ from engine.perturbations.tangent import carry
 from engine.planar import elimination as sweep
 from engine.planar import node
 from engine.planar.state import conserved
+from engine.record import STATE
 from engine.time.status import OK
 from engine.time.steps import runge_kutta_step
-from engine.time.time_loop import STATE, guard_turns, march
+from engine.time.time_loop import guard_turns, march
 
 ROUNDING = 1e-20  # Newton's tolerance: it stops once an update is below 7e-11, one more step of it from rounding
 CHUNK = 400  # steps kept at a time

@@ -14,9 +14,9 @@ import pytest
 from scipy.optimize import brentq
 
 from engine import simulate
-from engine.perturbations.lateral import COEFFICIENTS, WIDTH, lateral_stage
-from engine.planar import node
+from tests.engine.kernels import Stage
 from tests.engine.lines import DRY, STILL, equilibrium, line, linear
+from tests.engine.modes import eigenvalues_of
 
 LENGTH, AREA, EA = 20.0, 7.85e-5, 5e4
 AFLOAT = line(STILL, {"tether.density_kgpm3": 1027.0})
@@ -26,21 +26,13 @@ HANGING = line(LIGHT)
 
 def eigenvalues(scene, rate):
     """lambda (1/s) of small lateral motions about rest, slowest first: a stage makes c (c - A)^-1 of its C~."""
-    motion = equilibrium(scene)
-    Y, p, n = motion.Y, motion.record, len(motion.Y)
-    X, F, Q, dC = np.zeros((n, 2)), np.zeros((n, 4)), np.zeros((n, node.WIDTH)), np.zeros((n, 2))
-    work = np.zeros((n, COEFFICIENTS)), np.zeros((n, WIDTH))
-    node.shape(p, motion.tables, Y, Q, X)
-    node.water(p, motion.tables, 0.0, 1.0, X, F)
-    R = np.empty((2 * n, 2 * n))
-    for j in range(2 * n):
-        unit = np.zeros((n, 2))
-        unit[j // 2, j % 2] = 1.0
-        lateral_stage(p, motion.tables, 0.0, rate, X, Y, np.zeros((n, 4)), Q, F, unit, *work, dC)
-        R[:, j] = dC.ravel()
-    mu = np.linalg.eigvals(R)
-    found = rate * (1 - 1 / mu[np.abs(mu) > 1e-3])
-    return found[np.argsort(np.abs(found))]
+    Y, stage = equilibrium(scene).Y, Stage(scene)
+    n, F = len(Y), stage.water(0.0, Y)
+
+    def response(dC_tilde):
+        return stage.lateral(rate, Y, np.zeros((n, 4)), F, dC_tilde)
+
+    return eigenvalues_of(np.array([response(unit.reshape(n, 2)).ravel() for unit in np.eye(2 * n)]).T, rate)
 
 
 def afloat():

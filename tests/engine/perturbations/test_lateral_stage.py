@@ -1,7 +1,7 @@
 """Law: a lateral stage solves the box equations in space, linearised about a state in the plane.
 
-The equations in space are written out in `space_equations` with Euler parameters, without a kernel of the engine, and
-linearised by complex step. States have every term at work: strains of both signs, shear, bends, turns of up to 2.9 rad
+The equations in space are written out in `box_equations` without a kernel of the engine, and linearised by complex
+step. States have every term at work: strains of both signs, shear, bends, turns of up to 2.9 rad
 in an element, motion, water; they solve nothing, and need not, for the law to hold.
 """
 
@@ -9,11 +9,10 @@ import numpy as np
 import pytest
 
 from engine import load_scene
-from engine.parameters import record_of
-from engine.perturbations.lateral import COEFFICIENTS, WIDTH, lateral_stage
-from engine.planar import node
+from engine.scene import build_scene
+from tests.engine.box_equations import across, lifted, response
+from tests.engine.kernels import Stage
 from tests.engine.lines import DRY, free, held
-from tests.engine.space_equations import response
 
 NODES, RATE = 9, 120.0
 ENDS = {"buoy": {}, "held": held(3.0, 18.0), "free": free(300.0, 900.0)}
@@ -45,29 +44,18 @@ def state_of(rng, wet, turns):
 
 
 def kernel_response(scene, Y, C_tilde, F, dC_tilde):
-    tables = []
-    p = record_of(scene, tables)[0]
-    tables = np.concatenate(tables)
-    Q, X, dC = np.zeros((NODES, node.WIDTH)), np.zeros((NODES, 2)), np.zeros((NODES, 2))
-    node.shape(p, tables, Y, Q, X)
-    K = RATE * (np.hstack([Q[:, 5:7], Y[:, 2:4]]) - C_tilde)
-    work = np.zeros((NODES, COEFFICIENTS)), np.zeros((NODES, WIDTH))
-    lateral_stage(p, tables, 0.0, RATE, X, Y, K, Q, F, dC_tilde, *work, dC)
-    return dC
+    stage = Stage(scene)
+    return stage.lateral(RATE, Y, RATE * (stage.conserved(Y) - C_tilde), F, dC_tilde)
 
 
 def space_response(scene, Y, C_tilde, F, dC_tilde, GI=0.04):
-    def across(pair):
-        return np.insert(pair, [1, 3], 0.0, axis=1)  # (x, z, x, z) -> (x, 0, z, x, 0, z)
-
-    def both(pair):
-        full = np.zeros((NODES, 6))
-        full[:, 1], full[:, 4] = pair.T
-        return full
-
-    Z = np.zeros((NODES, 12))
-    Z[:, 0], Z[:, 1], Z[:, 3], Z[:, 5], Z[:, 11] = Y[:, 0], Y[:, 1], Y[:, 2], Y[:, 3], Y[:, 5]
-    return response(scene, GI, RATE, Y[:, 4], Z, across(C_tilde), across(F), both(dC_tilde))
+    """The same (n, 6), from the equations in space."""
+    sections = scene.as_dict()
+    sections["motion"] |= {"dimensions": 3}
+    sections["tether"] |= {"torsion_stiffness_Nm2": GI}
+    change = np.zeros((NODES, 6))
+    change[:, [1, 4]] = dC_tilde
+    return response(build_scene(sections), RATE, lifted(Y), across(C_tilde), across(F), change)
 
 
 @pytest.mark.parametrize("turns", [0.5, 2.9])

@@ -11,9 +11,9 @@ the step; they enter the next step as dt K, and are held to 1e-4 of what they ad
 import numpy as np
 import pytest
 
-from tests.engine.physics.caps import CAP
 from tests.engine.lines import DRY, STILL, free, held, line
 from tests.engine.perturbations.tangents import Copy, Run, start_of
+from tests.engine.physics.caps import CAP
 
 APART = 3e-7
 TOLERANCE = 1e-4

@@ -7,8 +7,9 @@ they are the numbers of the planar condition. D against central differences of s
 import numpy as np
 import pytest
 
-from engine.parameters import RECORD, SPATIAL, record_of
+from engine.parameters import record_of
 from engine.physics.ends import upper_end, upper_end_3d
+from engine.record import RECORD, SPATIAL
 from tests.engine.lines import STILL, free, held, line
 from tests.engine.physics.test_water_in_space import turned
 

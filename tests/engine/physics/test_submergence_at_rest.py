@@ -6,8 +6,8 @@ On a taut line T belongs to the line's own length; on a slack one of no weight i
 import pytest
 
 from engine import load_scene
-from tests.engine.physics.caps import CAP, floating_depth, volume
 from tests.engine.lines import Motion
+from tests.engine.physics.caps import CAP, floating_depth, volume
 
 DIMENSIONS = [2, 3]
 

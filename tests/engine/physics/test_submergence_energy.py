@@ -13,8 +13,8 @@ from functools import cache
 import numpy as np
 import pytest
 
-from tests.engine.physics.caps import afloat, potential, volume
 from tests.engine.lines import Motion, mean, positions
+from tests.engine.physics.caps import afloat, potential, volume
 
 THROWN = {"up": [0.0, 0.0, 7.0], "aslant": [2.5, 0.0, 7.0]}
 DURATION_S = 12.0

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from engine import goes_in_lanes, simulate, simulate_batch
-from tests.engine.physics.caps import CAP
 from tests.engine.lines import line
+from tests.engine.physics.caps import CAP
 from tests.engine.simd.test_batches import assert_equal
 from tests.engine.simd.test_lanes import CARRIED, assert_same_growth
 from tests.engine.time.test_symmetries import differences, mirror_images

@@ -18,7 +18,7 @@ import numpy as np
 import pytest
 from scipy.optimize import root
 
-from tests.engine.lines import DRY, STILL, equilibrium, held, line, linear, positions
+from tests.engine.lines import DRY, STILL, equilibrium, forces, held, in_space, line, linear, positions
 
 LENGTH, AREA, RHO_W, G = 20.0, 1e-4, 1027.0, 9.81
 # end (x, z), EA, density of the line, water
@@ -76,9 +76,7 @@ def at_rest(case, nodes, EI=0.0):
         bending_stiffness_Nm2=EI, tension=linear(EA),
     )  # fmt: skip
     motion = equilibrium(scene)
-    eps, S, phi = motion.Y[:, 0], motion.Y[:, 1], motion.Y[:, 4]
-    N = np.column_stack([EA * eps * np.cos(phi) - S * np.sin(phi), EA * eps * np.sin(phi) + S * np.cos(phi)])
-    return motion.s, positions(motion.Y, motion.h), N
+    return motion.s, positions(motion.Y, motion.h), forces(motion.Y, EA)[:, [0, 2]]
 
 
 @pytest.mark.parametrize("case", CASES)
@@ -144,3 +142,17 @@ def test_an_upright_held_line_is_a_bar_under_its_own_weight(water, density):
     exact = reach / LENGTH - 1 + w * (motion.s - LENGTH / 2) / EA
     assert motion.Y[:, 0] == pytest.approx(exact, abs=1e-9)
     assert np.cos(motion.Y[:, 4] - np.pi / 2) == pytest.approx(1.0, abs=1e-14)
+
+
+@pytest.mark.parametrize("EI", [0.0, 4.0])
+@pytest.mark.parametrize("azimuth", [0.0, 0.8, np.pi / 2, np.pi, -2.0])
+def test_a_catenary_in_any_vertical_plane_is_that_of_the_plane(azimuth, EI):
+    tether = dict(length_m=LENGTH, area_m2=AREA, density_kgpm3=5000.0, bending_stiffness_Nm2=EI, tension=linear(1e4))
+    around = np.array([np.cos(azimuth), np.sin(azimuth)])
+    plane = equilibrium(line(DRY, held(14.0, 6.0), **tether))
+    space = equilibrium(in_space(DRY, held(*(14 * around), 6.0), **tether))
+    X, Z = positions(plane.Y, plane.h).T
+    assert np.abs(positions(space.Y, space.h) - np.stack([*np.outer(around, X), Z], 1)).max() < 1e-7
+    assert np.abs(space.Y[:, 0] - plane.Y[:, 0]).max() < 1e-9
+    assert np.abs(np.hypot(space.Y[:, 11], space.Y[:, 12]) - np.abs(plane.Y[:, 5])).max() < 1e-7
+    assert np.abs(np.linalg.norm(space.Y[:, 6:10], axis=1) - 1).max() < 1e-14
