@@ -18,6 +18,7 @@ from pathlib import Path
 from campaigns.accuracy.points import FACTORS, FULL, LONG_PERIODS, QUICK, Effort, Point
 from campaigns.accuracy.works import BY_NAME, PERIOD_S, UNITS, Work
 from campaigns.machinery import cli
+from campaigns.machinery.command import command
 from campaigns.machinery.kept_run import KeptRun
 
 CAMPAIGN = "accuracy"
@@ -36,7 +37,7 @@ class Order:
 
 def main(argv: list[str] | None = None, simulate=None) -> int:
     """The command. simulate: in place of engine.simulate, same signature. Returns the exit code (0, 1, 2 or 130)."""
-    return cli.command(MODULE, argv, read_order, partial(study, simulate=simulate))
+    return command(MODULE, argv, read_order, partial(study, simulate=simulate))
 
 
 def parser():
@@ -81,7 +82,7 @@ def study(order: Order, argv: list[str], simulate) -> int:
     from campaigns.accuracy.plan import first_phase, second_phase, third_phase
     from campaigns.accuracy.rows import COLUMNS
     from campaigns.machinery import session
-    from campaigns.machinery.runner import plan_of
+    from campaigns.machinery.plan import plan_of
 
     ours = simulate is None
     if ours:
@@ -95,9 +96,9 @@ def study(order: Order, argv: list[str], simulate) -> int:
     third = engine_jobs(third_phase(order.effort), known)
     others = _peer_jobs(order, known) if order.peers and ours else ([], [], [])
     phases = [first + others[0], second + others[1], side_by_side(third, others[2], order.effort.rounds)]
-    runs = partial(_in_phases, phases=phases, costs=ours, quick=order.quick)
-    jobs = [job for phase in phases for job in phase]
-    return session.conduct(CAMPAIGN, MODULE, argv, plan, jobs, _parameters(order), report=order.how.report, runs=runs)
+    work = partial(_in_phases, plan, phases, costs=ours, quick=order.quick)
+    where = {"backend": order.how.backend, "jobs": order.how.jobs, "dask_address": order.how.dask_address}
+    return session.conduct(CAMPAIGN, MODULE, argv, order.how, _parameters(order) | where, work)
 
 
 def side_by_side(ours: list, others: list, rounds: int) -> list:
@@ -111,16 +112,18 @@ def side_by_side(ours: list, others: list, rounds: int) -> list:
     return found + [job for job in ours if job.labels["round"] > middle]
 
 
-def _in_phases(plan, jobs: list, phases: list, costs: bool, quick: bool):
+def _in_phases(plan, phases: list, costs: bool, quick: bool):
     """References, what is not timed, and what is: the last one run at a time. Then the tables that follow from them."""
     from campaigns.accuracy import orders, pieces
-    from campaigns.machinery import session
+    from campaigns.machinery.runner import run, write_scene
 
+    jobs = [job for phase in phases for job in phase]
+    write_scene(plan.directory, CAMPAIGN, jobs)
     found = sum(_file(plan.directory, key).exists() for key in {job.key for job in jobs})
     timing, done = {"compile_s": 0.0, "run_s": 0.0, "analysis_s": 0.0}, []
     for how, phase in zip((plan, plan, replace(plan, backend="threading", jobs=1)), phases, strict=True):
         done += phase
-        more, summary = session.run(how, done)
+        more, summary = run(how, done)
         timing = {name: timing[name] + more[name] for name in timing}
     orders.write(plan.directory, summary.rows)
     if costs:
@@ -133,7 +136,7 @@ def _undescribed(trajectory):
 
 
 def _maker() -> str:
-    from campaigns.machinery.row_store import made_by
+    from campaigns.machinery.row_cache import made_by
 
     return made_by({}, "campaigns/breaking_line/theory", "engine", "campaigns/accuracy/rows.py", "campaigns/accuracy/works.py")
 
@@ -141,7 +144,7 @@ def _maker() -> str:
 def engine_jobs(points: list[Point], references: dict[tuple[str, str], KeptRun]) -> list:
     """Jobs of the engine's points; references: the runs that errors are taken against, by work and kind."""
     from campaigns.accuracy.rows import point_row
-    from campaigns.machinery.runner import make_job
+    from campaigns.machinery.plan import make_job
 
     jobs = []
     for point in points:

@@ -28,6 +28,7 @@ from campaigns.columns import (
     names,
 )
 from campaigns.judge import (
+    LEAST_JUDGED,
     LONGEST_PERIOD,
     STROBE_TOLERANCE,
     carried,
@@ -48,26 +49,26 @@ EXTREMES = (
     Column("angle_max_rad", "rad", "θ_max", "largest angle of the buoy from the vertical after the transient", 3),
     Column("tension_top_min_N", "N", "T_min", "smallest tension at the top of the line after the transient", 0),
     Column("tension_top_max_N", "N", "T_max", "largest tension at the top of the line after the transient", 0),
-    Column("slack_fraction", "", "slack", "share of the time after the transient without tension at the top", 3),
+    Column("slack_fraction", "", "χ", "share of the time after the transient without tension at the top", 3),
 )
 REGIME = Column("regime", symbol="regime", meaning="period-N, quasi-periodic, chaotic, transient or undecided")
 WOLF = (
-    Column("lyapunov_wolf_bits_per_period", _BITS, "λ_W", "largest Lyapunov exponent of r, by Wolf's method", 3),
-    Column("lyapunov_wolf_error", _BITS, "σ_W", "standard error of the exponent by Wolf's method", 3),
+    Column("lyapunov_wolf_bits_per_period", _BITS, "σ_W", "largest Lyapunov exponent of r, by Wolf's method", 3),
+    Column("lyapunov_wolf_error", _BITS, "± σ_W", "standard error of the exponent by Wolf's method", 3),
 )
 TANGENT = (
-    Column("lyapunov_tangent_bits_per_period", _BITS, "λ_t", "largest Lyapunov exponent, from tangent dynamics", 3),
-    Column("lyapunov_tangent_error", _BITS, "σ_t", "standard error of the exponent from tangent dynamics", 3),
+    Column("lyapunov_tangent_bits_per_period", _BITS, "σ_t", "largest Lyapunov exponent, from tangent dynamics", 3),
+    Column("lyapunov_tangent_error", _BITS, "± σ_t", "standard error of the exponent from tangent dynamics", 3),
 )
 OFFPLANE = (
     Column(
         "offplane_growth_bits_per_period",
         _BITS,
-        "λ_y",
+        "σ_y",
         "growth rate of an infinitesimal perturbation across the plane; empty where loops were released",
         3,
     ),
-    Column("offplane_growth_error", _BITS, "σ_y", "standard error of the growth rate across the plane", 3),
+    Column("offplane_growth_error", _BITS, "± σ_y", "standard error of the growth rate across the plane", 3),
 )
 COLUMNS = (
     STEEPNESS,
@@ -112,8 +113,6 @@ COLUMNS = (
     MESSAGE,
 )
 
-LEAST_JUDGED = 40  # periods after the transient below which no verdict is possible
-
 
 def buoy_row(trajectory, transient_periods: int, simulate=None) -> dict[str, object]:
     """The columns of `COLUMNS` that a trajectory of the tethered buoy fills; those left out are unknown.
@@ -121,8 +120,8 @@ def buoy_row(trajectory, transient_periods: int, simulate=None) -> dict[str, obj
     trajectory: an engine Trajectory of a scene with waves and a buoy, run to its end or not.
     transient_periods: wave periods left out of extremes, slack and strobed period; a record that does not outlast them
     by one period fills none of these.
-    regime, the reason for it in a sentence, the tests behind it (`analysis.evidence_text`) and exponents: of scenes with
-    output.tangent_vectors, run to their end; all periods count, those with a loop release too. A run in three
+    regime, the reason for it in a sentence, the tests behind it (`analysis.evidence_text`) and exponents: of scenes
+    with output.tangent_vectors, run to their end; all periods count, those with a loop release too. A run in three
     dimensions has no tangent exponent, and the regime that its samples alone show.
     offplane_growth: of scenes with output.lateral_growth; none where a loop was released after the transient, because
     across the plane a loop has no rate of its own.

@@ -30,7 +30,7 @@ from analysis.oscillator import (
 from analysis.oscillator.growth import random_starts
 from campaigns.columns import Column
 from campaigns.machinery.folder import Table, trajectory_path
-from campaigns.machinery.runner import Summary
+from campaigns.machinery.plan import Summary
 from campaigns.oscillator import SEED, Order
 from campaigns.oscillator.files import read_row, to_netcdf
 from engine.atomic import write_atomic

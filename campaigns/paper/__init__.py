@@ -14,6 +14,7 @@ import time
 from dataclasses import dataclass
 
 from campaigns.machinery import cli
+from campaigns.machinery.command import command, command_line
 
 CAMPAIGN = "paper"
 MODULE = "campaigns.paper"
@@ -31,7 +32,7 @@ class Order:
 
 def main(argv: list[str] | None = None) -> int:
     """The command. Returns the exit code (0, 1, 2 or 130)."""
-    return cli.command(MODULE, argv, read_order, study)
+    return command(MODULE, argv, read_order, study)
 
 
 def parser():
@@ -73,7 +74,7 @@ def study(order: Order, argv: list[str]) -> int:
 
     begun = time.perf_counter()
     with claimed(order.how.out):
-        record = provenance.gather(CAMPAIGN, provenance.command_line(MODULE, argv))
+        record = provenance.gather(CAMPAIGN, command_line(MODULE, argv))
         record |= {"jobs": order.how.jobs, "quick": order.quick, "made_by": results.maker()}
         record |= {"dependence": dependence.parameters(order.quick)}
         same = provenance.read_if_same(order.how.out / "provenance.json", record) is not None

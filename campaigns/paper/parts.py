@@ -21,10 +21,11 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from campaigns.columns import Column, names
-from campaigns.machinery import cli, provenance
+from campaigns.machinery import cli
+from campaigns.machinery.command import command_line
 from campaigns.machinery.folder import CampaignStopped, Table, trajectory_path
-from campaigns.machinery.row_store import made_by, of_the_page
-from campaigns.machinery.runner import Summary
+from campaigns.machinery.plan import Summary
+from campaigns.machinery.row_cache import made_by, of_the_page
 from campaigns.paper import PARTS, Order, dependence
 
 COLUMNS = tuple(
@@ -161,7 +162,7 @@ def _done(part: str, order: Order) -> dict[str, object]:
         words = campaign.command(order, out)
         _called(part, campaign.module, words)
         told = json.loads((out / "provenance.json").read_text(encoding="utf-8"))
-        timing, command = told["timing"], " ".join(provenance.command_line(campaign.module, words))
+        timing, command = told["timing"], " ".join(command_line(campaign.module, words))
         counts = told["runs"]["total"], told["runs"]["failed"]
     row = {"part": part, "status": "ok", "command": command, "runs": counts[0], "failed": counts[1], "message": ""}
     row |= {name: round(float(timing[name]), 3) for name in _TIMES}

@@ -3,7 +3,7 @@
 from pathlib import Path
 
 from campaigns.machinery.folder import read_json
-from campaigns.machinery.row_store import made_by, of_the_page
+from campaigns.machinery.row_cache import made_by, of_the_page
 from campaigns.paper.figures import write_figure_data
 from engine.atomic import write_atomic
 from reports.paper.figures import LEFT_OUT, files_of, place_of

@@ -14,6 +14,7 @@ import time
 from dataclasses import dataclass
 
 from campaigns.machinery import cli
+from campaigns.machinery.command import command, command_line
 
 CAMPAIGN = "stability"
 MODULE = "campaigns.stability"
@@ -34,7 +35,7 @@ class Order:
 
 def main(argv: list[str] | None = None) -> int:
     """The command. Returns the exit code (0, 1, 2 or 130)."""
-    return cli.command(MODULE, argv, read_order, study)
+    return command(MODULE, argv, read_order, study)
 
 
 def parser():
@@ -85,7 +86,7 @@ def study(order: Order, argv: list[str]) -> int:
 
     begun, out = time.perf_counter(), order.how.out
     with claimed(out):
-        record = provenance.gather(CAMPAIGN, provenance.command_line(MODULE, argv))
+        record = provenance.gather(CAMPAIGN, command_line(MODULE, argv))
         record |= {"seed": order.seed, "quick": order.quick, "fuzz": order.fuzz, "drift_periods": order.drift_periods}
         record["jobs"] = order.how.jobs
         if provenance.read_if_same(out / "provenance.json", record) is None:

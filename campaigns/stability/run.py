@@ -11,8 +11,7 @@ import math
 from pathlib import Path
 
 from campaigns.columns import Column
-from campaigns.machinery.folder import CampaignStopped
-from campaigns.machinery.runner import write_failure
+from campaigns.machinery.folder import CampaignStopped, write_failure
 from campaigns.stability.cases import ABOVE_BAR, Case
 from campaigns.stability.limited import DIED, DONE, LATE, RAISED, limited
 

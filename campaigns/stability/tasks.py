@@ -15,9 +15,9 @@ from pathlib import Path
 
 from campaigns.columns import Column
 from campaigns.machinery.folder import Table, trajectory_path, write_json
+from campaigns.machinery.plan import Summary
 from campaigns.machinery.pools import PoolBroken, opened
-from campaigns.machinery.row_store import keep_row, kept_row, made_by
-from campaigns.machinery.runner import Summary
+from campaigns.machinery.row_cache import keep_row, kept_row, made_by
 from campaigns.stability.cases import REGULAR, Case, all_cases
 from campaigns.stability.run import COLUMNS, UNEXPLAINED, case_row
 

@@ -27,7 +27,8 @@ from engine.spatial import state as spatial
 from engine.time.newton import newton
 from engine.time.status import OK
 from engine.time.steps import runge_kutta_step
-from engine.time.time_loop import STATE, guard_turns, march
+from engine.record import STATE
+from engine.time.time_loop import guard_turns, march
 
 
 def parameters_of(scene, before=()):

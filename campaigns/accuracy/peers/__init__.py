@@ -120,7 +120,7 @@ def peer_jobs(
 def _ours(peer: Peer, work: str):
     """Our own refined run with what the other code does differently."""
     from campaigns.accuracy.rows import point_row
-    from campaigns.machinery.runner import make_job
+    from campaigns.machinery.plan import make_job
 
     nodes, rtol = OURS_REFINED
     labels = {
@@ -141,8 +141,8 @@ def _ours(peer: Peer, work: str):
 
 def _job(peer: Peer, work: str, kind: str, nodes: int, value: float, version: str, run, own, ours):
     from campaigns.accuracy.rows import point_row
-    from campaigns.machinery.row_store import made_by
-    from campaigns.machinery.runner import make_job
+    from campaigns.machinery.plan import make_job
+    from campaigns.machinery.row_cache import made_by
 
     labels = {
         "work": work, "kind": kind, "method": peer.name, "nodes": nodes, "control": peer.control, "setting": value,

@@ -69,7 +69,7 @@ def write_figure_data(folder: str | Path) -> dict[int, str]:
     A figure that can no longer be drawn loses its files. Raises OSError, which leaves every file whole.
     """
     from campaigns.machinery.folder import read_json, write_json
-    from campaigns.machinery.row_store import made_by
+    from campaigns.machinery.row_cache import made_by
     from campaigns.paper.figures.plans import LeftOut, Parts
     from reports.paper.figures import LEFT_OUT, files_of, place_of
     from reports.parts import figure_data

@@ -2,18 +2,15 @@
 
 A group of jobs goes to a worker as one task. The worker saves every run, and makes its row, as soon as it ends: a
 killed campaign loses what was running and nothing else. On a cluster the runs of a group are sent when its last one has
-ended, so groups there are small. What a group leaves undone - the engine raised, the worker
-died - is left to `campaigns.machinery.runner`, which runs it job by job and finds on disk what was finished.
+ended, so groups there are small. What a group leaves undone - the engine raised, the worker died - is left to
+`campaigns.machinery.runner`, which runs it job by job and finds on disk what was finished.
 """
 
 import math
-from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from functools import partial
 
-from campaigns.machinery.one_run import kept, other_sources
-from campaigns.machinery.pools import PoolBroken
-from campaigns.machinery.runner import Job, Outcome, Plan
+from campaigns.machinery.plan import Job, Outcome, Plan
+from campaigns.machinery.worker import kept, other_sources
 
 MOST = 96  # jobs of a group: results reach the table group by group
 MOST_SENT = 8  # where a group's runs are sent together: one for each lane, so a lost worker costs what was running
@@ -28,7 +25,7 @@ class Group:
     jobs: tuple[Job, ...]
 
 
-def grouped(plan: Plan, jobs: list[Job]) -> list[Group]:
+def groups_of(plan: Plan, jobs: list[Job]) -> list[Group]:
     """Groups for the workers, as even as can be; none where the plan or the jobs do not allow it.
 
     Threads are left out: a group cannot be interrupted from within the process.
@@ -69,16 +66,3 @@ def run_group(plan: Plan, group: Group) -> tuple[int, list[Outcome]]:
     except (Exception, SystemExit):
         pass  # run again one by one, each of the jobs left says for itself what is wrong
     return group.number, outcomes
-
-
-def outcomes_side_by_side(plan: Plan, execute: Callable, jobs: list[Job]) -> Iterator[Outcome]:
-    """Outcomes of the jobs that can share a worker, as groups come back; what they leave undone is not among them."""
-    waiting = {group.number: group for group in grouped(plan, jobs)}
-    while waiting:
-        try:
-            for number, outcomes in execute(partial(run_group, plan.for_workers()), list(waiting.values())):
-                del waiting[number]
-                yield from outcomes
-        except PoolBroken as broken:
-            for group in broken.suspects:
-                del waiting[group.number]

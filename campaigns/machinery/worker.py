@@ -10,9 +10,9 @@ import traceback
 from dataclasses import replace
 from pathlib import Path
 
-from campaigns.machinery.folder import is_full, trajectory_path
-from campaigns.machinery.row_store import keep_row, kept_row
-from campaigns.machinery.runner import Job, Outcome, Plan, write_failure
+from campaigns.machinery.folder import is_full, trajectory_path, write_failure
+from campaigns.machinery.plan import Job, Outcome, Plan
+from campaigns.machinery.row_cache import keep_row, kept_row
 from engine.atomic import write_atomic
 
 
