@@ -240,7 +240,7 @@ slow_buckling = buckling("In slow breaks too the line buckles near the fixed end
 EXACT, DOUBLED = "closed form: exact simple wave", "refinement: doubled grids"
 REPORT = "report on the breaking line"
 STATEMENTS = (
-    ("abstract", proportional, f"{EXACT} ({REPORT}, fronts and shocks; docs/breaking_line_exact.md)"),
+    ("abstract", proportional, f"{EXACT} ({REPORT}, fronts and shocks; docs/breaking_line.md)"),
     ("4.1.2", static_strain, "closed form: the tension law inverted"),
     ("4.1.2", line_fronts.shares_of_strength, "arithmetic"),
     ("4.1.2, fig. 2", crossing, EXACT),
