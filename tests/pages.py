@@ -8,7 +8,8 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).resolve().parents[1]
-PAGES = ("tutorial", "howto_tension_law", "howto_waves", "howto_time_series")
+# pages with a block of Python: all their blocks are run, in order
+PAGES = sorted(path.stem for path in (ROOT / "docs").glob("*.md") if "```python" in path.read_text(encoding="utf-8"))
 COMMAND = ".venv/bin/python -m "
 
 
