@@ -63,6 +63,8 @@ _HOME = {
     "mutual_information": "embedding_delay",
     "choose_embedding": "embedding_dimension",
     "Evidence": "evidence",
+    "evidence_text": "evidence",
+    "read_evidence": "evidence",
     "Growth": "growth",
     "growth_or_bursts": "growth",
     "envelope_of": "growth",

@@ -1,6 +1,9 @@
 """The tests behind a verdict (`verdicts.regime`), each a line of evidence: name, value, threshold, passed, sentence."""
 
+from __future__ import annotations
+
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -10,6 +13,9 @@ from analysis.neighbour_distances import neighbour_growth
 from analysis.predictability import prediction_gain
 from analysis.surrogates import iaaft_surrogates, noisy_periodic_surrogates, normal_scores, rank_among
 from analysis.zero_one import zero_one_test
+
+if TYPE_CHECKING:
+    from analysis.verdicts import Verdict
 
 IRREGULAR = 0.9
 SHARE = 0.95
@@ -46,6 +52,30 @@ class Evidence:
     passed: bool | None
     sentence: str
     error: float = float("nan")
+
+
+def evidence_text(verdict: Verdict) -> str:
+    """The tests behind a Verdict as one line: "name: value/threshold/met; ...", a dash for what is not known."""
+    words = {True: "yes", False: "no", None: "–"}
+    tests = (
+        f"{item.name}: {_short(item.value)}/{_short(item.threshold)}/{words[item.passed]}" for item in verdict.evidence
+    )
+    return "; ".join(tests)
+
+
+def read_evidence(text: str) -> list[tuple[str, str, str, str]]:
+    """(name, value, threshold, met) of each test in a line of `evidence_text`; other text is left out."""
+    found = []
+    for part in text.split("; "):
+        name, _, rest = part.rpartition(": ")
+        cells = rest.split("/")
+        if name and len(cells) == 3:
+            found.append((name, *cells))
+    return found
+
+
+def _short(found: float) -> str:
+    return f"{found:.3g}" if np.isfinite(found) else "–"
 
 
 def period_evidence(estimate):

@@ -6,7 +6,7 @@ Rates   forcing periods a second with both exponents, at the paper's parameters.
         pynamicalsys (PyPI; the extra `bench`): `ContinuousDynamicalSystem.lyapunov`, RK4 with T/64 steps, its own QR,
         compiled; equation and Jacobian as it wants them, compiled too. One thread each, compilation left out, in turns
         (A B A B ...), medians over the rounds.
-Error   of the state after ten periods from (0.68, 0), against the digits of model.md 5.3.
+Error   of the state after ten periods from (0.68, 0), against the digits of tests/analysis/oscillator/test_states.py.
 Diagram 800 values of F in [0.1, 2], four starts, 500 + 1000 periods each, exponents at every value.
 """
 

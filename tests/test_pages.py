@@ -34,7 +34,7 @@ def test_every_block_is_sound(page, tmp_path, monkeypatch):
         elif kind == "sh":
             for module, words in commands(text):
                 if module == "analysis":
-                    from analysis.any_series.command import parser
+                    from campaigns.time_series import parser
 
                     assert parser().parse_args(words).column
                 else:
@@ -62,5 +62,5 @@ def test_the_page_runs_from_top_to_bottom(page, tmp_path, monkeypatch, capsys):
             printed = capsys.readouterr().out
         elif kind == "sh":
             for module, words in commands(text):
-                entry = "analysis.any_series.command" if module == "analysis" else module
+                entry = "campaigns.time_series" if module == "analysis" else module
                 assert importlib.import_module(entry).main(words) == 0

@@ -10,7 +10,7 @@ from analysis.oscillator.pieces import tables
 from analysis.oscillator.strobing import MOST_PIECES, next_state, strobed_orbit
 from analysis.sampling import checked_count, checked_series
 
-PAPER_BOX = (-60.0, 20.0, -25.0, 25.0)  # g low, g high, g' low, g' high: model.md 5.3
+PAPER_BOX = (-60.0, 20.0, -25.0, 25.0)  # g low, g high, g' low, g' high: the attractors and their surroundings
 _LOOK_EVERY = 64
 _NEARLY = 1e-3
 
@@ -40,7 +40,7 @@ class SnapBasins:
 def start_grid(columns, rows, box=PAPER_BOX):
     """Starts at the cell centres of a grid over a box in the (g, g') plane, for basins drawn as an image.
 
-    columns, rows   cells along g and g';  box  (g low, g high, g' low, g' high), by default that of model.md 5.3
+    columns, rows   cells along g and g';  box  (g low, g high, g' low, g' high), by default PAPER_BOX
     Returns (rows*columns, 2), g varying fastest.
     """
     columns, rows = checked_count(columns, "columns"), checked_count(rows, "rows")

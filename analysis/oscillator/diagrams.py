@@ -38,8 +38,8 @@ def snap_diagram(
     """Orbit diagram of eq. (33): strobed states and both exponents at each value of one parameter.
 
     over, values        "force", "frequency", "damping" or "lift", and its values (p,)
-    starts              (n, 2) states from which every value is begun; None: `count` random ones from `seed`, in the box
-                        of model.md 5.3. Several, because attractors coexist; the same at every value, so that no
+    starts              (n, 2) states from which every value is begun; None: `count` random ones from `seed`, in
+                        PAPER_BOX. Several, because attractors coexist; the same at every value, so that no
                         value depends on the one before it.
     transient_periods   forcing periods left out;  periods  of the averages, a multiple of `blocks`
     points              strobed states kept, at most `periods`

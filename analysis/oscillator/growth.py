@@ -68,8 +68,8 @@ def snap_exponents(
     A start that is on a periodic attractor by then (`snap_basins` over 1024 further periods, periods up to 32) belongs
     to another attractor, and is counted in `elsewhere`; `keep_periodic` averages over all starts instead.
 
-    starts              (n, 2) states (g, g') at time 0; None: `count` of them, uniformly random in the box of
-                        model.md 5.3, g in [-60, 20], g' in [-25, 25], from `seed`
+    starts              (n, 2) states (g, g') at time 0; None: `count` of them, uniformly random in the box
+                        g in [-60, 20], g' in [-25, 25], from `seed`
     transient_periods   forcing periods before the averages
     periods             of every start's average; a multiple of `blocks`
     Returns SnapExponents. Where every start settled on a periodic orbit, all are kept: the exponents are those of the

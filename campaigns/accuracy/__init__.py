@@ -135,7 +135,7 @@ def _undescribed(trajectory):
 def _maker() -> str:
     from campaigns.machinery.row_store import made_by
 
-    return made_by({}, "analysis/line_waves", "engine", "campaigns/accuracy/rows.py", "campaigns/accuracy/works.py")
+    return made_by({}, "campaigns/breaking_line/theory", "engine", "campaigns/accuracy/rows.py", "campaigns/accuracy/works.py")
 
 
 def engine_jobs(points: list[Point], references: dict[tuple[str, str], KeptRun]) -> list:

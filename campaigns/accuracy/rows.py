@@ -6,6 +6,7 @@ import math
 import numpy as np
 
 from campaigns.accuracy.works import BY_NAME, PLACE, RADIUS, UNITS, Work
+from campaigns.columns import Column
 from campaigns.machinery.kept_run import KeptRun
 
 STATISTICS = (
@@ -18,23 +19,28 @@ STATISTICS = (
     "loop_releases",
     "max_turn_rad",
 )
-COLUMNS = (
-    "work",
-    "kind",
-    "method",
-    "nodes",
-    "control",
-    "setting",
-    "round",
-    "status",
-    "error",
-    "error_early",
-    "error_unit",
-    "error_against_ours",
-    *STATISTICS,
-    "peer_version",
-    "run_key",
-    "message",
+COLUMNS = tuple(
+    map(
+        Column,
+        (
+            "work",
+            "kind",
+            "method",
+            "nodes",
+            "control",
+            "setting",
+            "round",
+            "status",
+            "error",
+            "error_early",
+            "error_unit",
+            "error_against_ours",
+            *STATISTICS,
+            "peer_version",
+            "run_key",
+            "message",
+        ),
+    )
 )
 EARLY = 0.5  # share of the run over which error_early is taken
 
@@ -115,6 +121,7 @@ def strain_error(trajectory) -> float:
 
 @functools.lru_cache(maxsize=64)
 def _exact(law, mass, length, force_N, decay_s, times, places) -> np.ndarray:
-    from analysis.line_waves import reference_break
+    from campaigns.breaking_line.theory import fitted_break
 
-    return reference_break(law, mass, length, force_N, decay_s, np.array(times), np.array(places)).strain
+    motion = fitted_break(law, mass, length, force_N, decay_s, times[-1])
+    return np.array([motion.at(np.array(places), time_s)[0] for time_s in times])

@@ -143,7 +143,7 @@ def _scene(name: str, changes: dict, case: str, further: dict):
 
 def _straight(name: str, changes: dict, case: str, plain) -> list[Run]:
     """The breaks without gravity."""
-    from analysis.breaking_theory import theory_of
+    from campaigns.breaking_line.theory import theory_of
 
     theory = theory_of(plain, LONGEST_S)
     if theory is None:

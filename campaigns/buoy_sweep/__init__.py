@@ -20,6 +20,7 @@ MODULE = "campaigns.buoy_sweep"
 SCENE = "tethered_buoy"
 # From the paper's small wave (0.016) to beyond its large one (0.13); a step of 0.003 meets 0.13 too.
 STEEPNESS = tuple(round(0.016 + 0.003 * step, 3) for step in range(49))
+PAPER_STEEPNESS = (0.016, 0.13)
 PERIODS, TRANSIENT = 300, 100
 LEAST_ANALYSED = 40  # periods after the transient below which no verdict is possible: exponents are then left out
 SWEPT, TANGENTS, LATERAL = "waves.steepness", "output.tangent_vectors", "output.lateral_growth"
@@ -170,8 +171,9 @@ def sweep(order: Order, argv: list[str], simulate) -> int:
     from campaigns.buoy_sweep import repeats
     from campaigns.buoy_sweep.close_up import and_close_up
     from campaigns.buoy_sweep.dimensions import run_where_needed
-    from campaigns.buoy_sweep.rows import COLUMNS, STROBE_TOLERANCE, buoy_row, regime_of
+    from campaigns.buoy_sweep.rows import COLUMNS, buoy_row, regime_of
     from campaigns.buoy_sweep.seeds import SEED_MPS
+    from campaigns.judge import LONGEST_PERIOD, STROBE_TOLERANCE
     from campaigns.machinery import session
     from campaigns.machinery.row_store import made_by
     from campaigns.machinery.runner import make_job, plan_of
@@ -185,7 +187,7 @@ def sweep(order: Order, argv: list[str], simulate) -> int:
         "engine",
         "campaigns/buoy_sweep/rows.py",
         "campaigns/buoy_sweep/repeats.py",
-        "reports/buoy_sweep/motion.py",
+        "campaigns/judge.py",
     )
     maker = made_by({"transient": order.transient}, *sources)
     plan = plan_of(order.how, simulate, describe, COLUMNS, maker, simulate_each=simulate_each)
@@ -199,6 +201,7 @@ def sweep(order: Order, argv: list[str], simulate) -> int:
         "periods": order.periods,
         "transient": order.transient,
         "strobe_tolerance": STROBE_TOLERANCE,
+        "longest_period": LONGEST_PERIOD,
         "dimensions": order.dimensions,
         "push_mps": SEED_MPS if order.push_added else None,
         "accuracy": order.accuracy,

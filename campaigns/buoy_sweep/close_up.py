@@ -9,11 +9,13 @@ from collections.abc import Callable
 from time import perf_counter
 
 from campaigns.buoy_sweep.repeats import chosen
+from campaigns.buoy_sweep.rows import STEEPNESS
+from campaigns.columns import MESSAGE, PERIODS_RUN, RUN_KEY, STATUS, WALL_S
 from campaigns.machinery.folder import claimed, trajectory_path
 from campaigns.machinery.runner import Job, Plan, Summary, make_job, run_campaign
 
 FOLDER = "close_up"  # within that of the sweep: a table of its own, and a trajectory
-COLUMNS = ("steepness", "status", "periods", "wall_s", "run_key", "message")
+COLUMNS = (STEEPNESS, STATUS, PERIODS_RUN, WALL_S, RUN_KEY, MESSAGE)
 PERIODS = 12  # the first snaps come after five
 FRAMES = 24  # of the line, a wave period
 

@@ -15,29 +15,32 @@ from time import perf_counter
 
 import numpy as np
 
+from campaigns.columns import LOOPS, MESSAGE, NEWTON, PERIODS_RUN, RUN_KEY, STATUS, WALL_S, Column
 from campaigns.machinery.folder import claimed, trajectory_path
 from campaigns.machinery.kept_run import KeptRun
 from campaigns.machinery.runner import Job, Plan, Summary, make_job, run_campaign
 
 FOLDER = "accuracy"  # within that of the sweep: a table of its own, and trajectories
 COLUMNS = (
-    "role",
-    "label",
-    "run",
-    "status",
-    "periods",
-    "nodes",
-    "rtol",
-    "step_s",
-    "error_early_m",
-    "error_m",
-    "verdict",
-    "same_verdict",
-    "wall_s",
-    "newton_iterations",
-    "loop_releases",
-    "run_key",
-    "message",
+    Column("role", symbol="role", meaning="which run of the sweep was repeated: the regular or the violent one"),
+    Column("label", symbol="run", meaning="the value of the sweep that names the repeated run", digits=3),
+    Column("run", symbol="repeated", meaning="how it was repeated: as run, tighter, or on a finer grid"),
+    STATUS,
+    PERIODS_RUN,
+    Column("nodes", "", "nodes", "nodes of the line", 0),
+    Column("rtol", "", "rtol", "relative tolerance of the time steps; empty for fixed steps", 4),
+    Column("step_s", "s", "step", "length of fixed time steps; empty for steps under control", 4),
+    Column("error_early_m", "m", "early error", "rms change of r over the first ten wave periods", 6),
+    Column("error_m", "m", "error", "rms change of r over all repeated wave periods", 6),
+    Column("verdict", symbol="verdict", meaning="what the repeated motion is called"),
+    Column(
+        "same_verdict", "", "same", "1 where the repeated motion is called what the run of this length is, else 0", 0
+    ),
+    WALL_S,
+    NEWTON,
+    LOOPS,
+    RUN_KEY,
+    MESSAGE,
 )
 AS_RUN, TIGHTER, FINER = "as run", "a tenth of the tolerance", "twice the elements"
 EARLY = 10  # wave periods
@@ -99,8 +102,8 @@ def repeat(plan: Plan, rows: list[dict], length: int, label: str, verdict: Calla
 
 
 def _jobs(base: KeptRun, role: str, label: object, length: int, verdict: Callable) -> list[Job]:
+    from campaigns.judge import tighter_scene
     from engine.scene import scene_from_toml
-    from reports.buoy_sweep.motion import tighter_scene
 
     scene = base.load().scene
     finer = scene_from_toml(scene.to_toml(), {"tether.nodes": 2 * scene.tether.nodes - 1})

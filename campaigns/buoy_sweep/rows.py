@@ -5,73 +5,114 @@ its statistics and nothing more. Extremes and slack are taken after the transien
 """
 
 import math
+from dataclasses import replace
 
 import numpy as np
 
-from reports.buoy_sweep.motion import (
+from analysis.evidence import evidence_text
+from campaigns.columns import (
+    END_S,
+    LOOPS,
+    MESSAGE,
+    MIN_STRAIN,
+    NEWTON,
+    NEWTON_FAILURES,
+    REJECTED,
+    RUN_KEY,
+    STATISTICS,
+    STATUS,
+    STEPS,
+    TURN,
+    WALL_S,
+    Column,
+    names,
+)
+from campaigns.judge import (
     LONGEST_PERIOD,
     STROBE_TOLERANCE,
     carried,
-    evidence_text,
     state_of,
     tighter_scene,
     verdict_of,
 )
 
+STEEPNESS = Column("steepness", "", "kA", "wave steepness: wave number times amplitude", 3)
+DIMENSIONS = Column("dimensions", "", "D", "dimensions of the motion: 2, in the plane of the waves, or 3", 0)
+_BITS = "bits/period"
+# What is measured after the transient (`settled`), with or without a verdict.
+STROBED = Column("strobed_period", "", "N", "wave periods after which the motion repeats; empty where none is found", 0)
+EXTREMES = (
+    Column("radius_min_m", "m", "r_min", "smallest distance of the buoy from the anchor after the transient", 2),
+    Column("radius_max_m", "m", "r_max", "largest distance of the buoy from the anchor after the transient", 2),
+    Column("angle_min_rad", "rad", "θ_min", "smallest angle of the buoy from the vertical after the transient", 3),
+    Column("angle_max_rad", "rad", "θ_max", "largest angle of the buoy from the vertical after the transient", 3),
+    Column("tension_top_min_N", "N", "T_min", "smallest tension at the top of the line after the transient", 0),
+    Column("tension_top_max_N", "N", "T_max", "largest tension at the top of the line after the transient", 0),
+    Column("slack_fraction", "", "slack", "share of the time after the transient without tension at the top", 3),
+)
+REGIME = Column("regime", symbol="regime", meaning="period-N, quasi-periodic, chaotic, transient or undecided")
+WOLF = (
+    Column("lyapunov_wolf_bits_per_period", _BITS, "λ_W", "largest Lyapunov exponent of r, by Wolf's method", 3),
+    Column("lyapunov_wolf_error", _BITS, "σ_W", "standard error of the exponent by Wolf's method", 3),
+)
+TANGENT = (
+    Column("lyapunov_tangent_bits_per_period", _BITS, "λ_t", "largest Lyapunov exponent, from tangent dynamics", 3),
+    Column("lyapunov_tangent_error", _BITS, "σ_t", "standard error of the exponent from tangent dynamics", 3),
+)
+OFFPLANE = (
+    Column(
+        "offplane_growth_bits_per_period",
+        _BITS,
+        "λ_y",
+        "growth rate of an infinitesimal perturbation across the plane; empty where loops were released",
+        3,
+    ),
+    Column("offplane_growth_error", _BITS, "σ_y", "standard error of the growth rate across the plane", 3),
+)
 COLUMNS = (
-    "steepness",
-    "dimensions",
-    "status",
-    "regime",
-    "regime_tighter",
-    "regime_reason",
-    "evidence",
-    "strobed_period",
-    "radius_min_m",
-    "radius_max_m",
-    "angle_min_rad",
-    "angle_max_rad",
-    "tension_top_min_N",
-    "tension_top_max_N",
-    "slack_fraction",
-    "lyapunov_wolf_bits_per_period",
-    "lyapunov_wolf_error",
-    "lyapunov_tangent_bits_per_period",
-    "lyapunov_tangent_error",
-    "offplane_growth_bits_per_period",
-    "offplane_growth_error",
-    "max_buoy_height_above_water_m",
-    "max_turn_rad",
-    "min_strain",
-    "loop_releases",
-    "buoy_lateral_max_m",
-    "rope_lateral_max_m",
-    "planar_loop_releases",
-    "planar_regime",
-    "planar_radius_min_m",
-    "planar_radius_max_m",
-    "steps",
-    "rejected_steps",
-    "newton_iterations",
-    "newton_failures",
-    "end_time_s",
-    "wall_s",
-    "run_key",
-    "message",
+    STEEPNESS,
+    DIMENSIONS,
+    STATUS,
+    REGIME,
+    Column("regime_tighter", symbol="tighter", meaning="the regime at a tenth of the tolerance, of a chaotic run"),
+    Column("regime_reason", symbol="reason", meaning="why the run has this regime, in words"),
+    Column(
+        "evidence",
+        symbol="evidence",
+        meaning="the tests behind the regime: name: value/threshold/met, one after the other",
+    ),
+    STROBED,
+    *EXTREMES,
+    *WOLF,
+    *TANGENT,
+    *OFFPLANE,
+    Column(
+        "max_buoy_height_above_water_m",
+        "m",
+        "height",
+        "highest point of the sphere above the still water over the whole run; negative if it stays below",
+        2,
+    ),
+    TURN,
+    MIN_STRAIN,
+    LOOPS,
+    Column("buoy_lateral_max_m", "m", "buoy |y|", "largest |y| of the buoy after the transient, in 3-D", 3),
+    Column("rope_lateral_max_m", "m", "rope |y|", "largest |y| of any node of the line after the transient, in 3-D", 3),
+    replace(LOOPS, name="planar_loop_releases", symbol="planar loops", meaning="loop releases of the run in the plane"),
+    Column("planar_regime", symbol="planar regime", meaning="regime of the run in the plane that this run replaces"),
+    Column("planar_radius_min_m", "m", "planar r_min", "smallest radius of the run in the plane", 2),
+    Column("planar_radius_max_m", "m", "planar r_max", "largest radius of the run in the plane", 2),
+    STEPS,
+    REJECTED,
+    NEWTON,
+    NEWTON_FAILURES,
+    END_S,
+    WALL_S,
+    RUN_KEY,
+    MESSAGE,
 )
 
 LEAST_JUDGED = 40  # periods after the transient below which no verdict is possible
-STATISTICS = (
-    "max_turn_rad",
-    "min_strain",
-    "loop_releases",
-    "steps",
-    "rejected_steps",
-    "newton_iterations",
-    "newton_failures",
-    "end_time_s",
-    "wall_s",
-)
 
 
 def buoy_row(trajectory, transient_periods: int, simulate=None) -> dict[str, object]:
@@ -80,7 +121,7 @@ def buoy_row(trajectory, transient_periods: int, simulate=None) -> dict[str, obj
     trajectory: an engine Trajectory of a scene with waves and a buoy, run to its end or not.
     transient_periods: wave periods left out of extremes, slack and strobed period; a record that does not outlast them
     by one period fills none of these.
-    regime, the reason for it in a sentence, the tests behind it (`motion.evidence_text`) and exponents: of scenes with
+    regime, the reason for it in a sentence, the tests behind it (`analysis.evidence_text`) and exponents: of scenes with
     output.tangent_vectors, run to their end; all periods count, those with a loop release too. A run in three
     dimensions has no tangent exponent, and the regime that its samples alone show.
     offplane_growth: of scenes with output.lateral_growth; none where a loop was released after the transient, because
@@ -92,7 +133,7 @@ def buoy_row(trajectory, transient_periods: int, simulate=None) -> dict[str, obj
     below.
     """
     row = {"status": trajectory.status, "message": trajectory.message}
-    row |= {name: _number(trajectory.statistics.get(name)) for name in STATISTICS}
+    row |= {name: _number(trajectory.statistics.get(name)) for name in names(STATISTICS)}
     columns = sound_part(trajectory.columns)
     scene = trajectory.scene
     if len(columns["time_s"]) and scene.water is not None:

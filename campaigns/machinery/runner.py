@@ -15,6 +15,7 @@ from dataclasses import dataclass, field, replace
 from functools import partial
 from pathlib import Path
 
+from campaigns.columns import Column
 from campaigns.machinery.cli import Running
 from campaigns.machinery.folder import CampaignStopped, Table, is_full
 from campaigns.machinery.pools import PoolBroken, opened
@@ -78,7 +79,7 @@ class Plan:
     directory: Path | None
     simulate: Callable
     describe: Callable
-    columns: tuple[str, ...]
+    columns: tuple[Column, ...]
     backend: str = "loky"
     jobs: int = 1
     dask_address: str | None = None
@@ -98,7 +99,7 @@ class Plan:
 
 
 def plan_of(
-    how: Running, simulate: Callable, describe: Callable, columns: tuple[str, ...], row_maker: str, **more
+    how: Running, simulate: Callable, describe: Callable, columns: tuple[Column, ...], row_maker: str, **more
 ) -> Plan:
     """The plan of a campaign as its command line wants it done; more: further fields of the plan."""
     where = how.backend, how.jobs, how.dask_address

@@ -28,37 +28,43 @@ from analysis.oscillator import (
     strobed_states_within,
 )
 from analysis.oscillator.growth import random_starts
+from campaigns.columns import Column
 from campaigns.machinery.folder import Table, trajectory_path
 from campaigns.machinery.runner import Summary
 from campaigns.oscillator import SEED, Order
 from campaigns.oscillator.files import read_row, to_netcdf
 from engine.atomic import write_atomic
 
-COLUMNS = (
-    "part",
-    "status",
-    "lambda_1_nats_per_time",
-    "lambda_1_error",
-    "lambda_1_bits_per_period",
-    "lambda_1_bits_error",
-    "lambda_2_nats_per_time",
-    "sum_plus_damping",
-    "section_dimension",
-    "section_dimension_error",
-    "slack_fraction",
-    "attractors",
-    "aperiodic_share",
-    "grazing_force",
-    "starts",
-    "elsewhere",
-    "periods",
-    "transient",
-    "points",
-    "wall_s",
-    "run_key",
-    "message",
+COLUMNS = tuple(
+    map(
+        Column,
+        (
+            "part",
+            "status",
+            "lambda_1_nats_per_time",
+            "lambda_1_error",
+            "lambda_1_bits_per_period",
+            "lambda_1_bits_error",
+            "lambda_2_nats_per_time",
+            "sum_plus_damping",
+            "section_dimension",
+            "section_dimension_error",
+            "slack_fraction",
+            "attractors",
+            "aperiodic_share",
+            "grazing_force",
+            "starts",
+            "elsewhere",
+            "periods",
+            "transient",
+            "points",
+            "wall_s",
+            "run_key",
+            "message",
+        ),
+    )
 )
-START = (0.68, 0.0)  # model.md 5.3
+START = (0.68, 0.0)  # the rest position of the taut tether
 ZOOMS = (10.0, 100.0)
 LONGEST_ORBIT = 8
 HISTORY_PERIODS = 24
@@ -94,7 +100,7 @@ def zoom_boxes(states):
 
 
 def history(o: SnapOscillator, order: Order):
-    """The first periods from the start of model.md 5.3, with the switching times."""
+    """The first periods from START, with the switching times."""
     motion = snap_motion(o, START, HISTORY_PERIODS, 128)
     arrays = {"time": motion.time, "displacement": motion.displacement, "velocity": motion.velocity}
     if len(motion.switches):

@@ -190,7 +190,7 @@ def study(order: Order, argv: list[str], simulate) -> int:
         "engine",
         "campaigns/out_of_plane/rows.py",
         "campaigns/buoy_sweep/rows.py",
-        "reports/buoy_sweep/motion.py",
+        "campaigns/judge.py",
     )
     maker = made_by({"transient": order.transient, "judged": sorted(judged)}, *sources)
     plan = plan_of(order.how, simulate, describe, COLUMNS, maker)

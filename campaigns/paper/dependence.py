@@ -11,13 +11,14 @@ from itertools import product
 from pathlib import Path
 from typing import get_args
 
+from campaigns.buoy_sweep import PAPER_STEEPNESS as STEEPNESSES
 from campaigns.buoy_sweep.rows import COLUMNS as OF_A_RUN
-from campaigns.buoy_sweep.rows import buoy_row
+from campaigns.buoy_sweep.rows import STEEPNESS, buoy_row
+from campaigns.columns import Column
 from campaigns.machinery import session
 from campaigns.machinery.folder import claimed
 from campaigns.machinery.row_store import made_by
 from campaigns.machinery.runner import Plan, Summary, make_job
-from reports.buoy_sweep.runs import PAPER_STEEPNESS as STEEPNESSES
 
 SCENE = "tethered_buoy"
 DEPTHS_M = (20.8, 21.0, 21.3, 21.6, 22.0, 22.5, 23.0, 25.0)
@@ -25,7 +26,7 @@ STIFFNESSES_NM2 = (0.04, 0.1, 0.4, 1.0, 4.0)
 STIFFNESS_DEPTHS_M = (21.0, 21.6, 22.5)
 PERIODS, TRANSIENT = 400, 100
 QUICK_DEPTHS_M, QUICK_PERIODS, QUICK_TRANSIENT = (21.0, 22.5), 45, 5
-SOURCES = ("analysis", "engine", "campaigns/buoy_sweep/rows.py", "reports/buoy_sweep/motion.py")
+SOURCES = ("analysis", "engine", "campaigns/buoy_sweep/rows.py", "campaigns/judge.py")
 
 
 @dataclass(frozen=True)
@@ -51,13 +52,20 @@ class Case:
         }
 
 
-LABELS = tuple(Case.__dataclass_fields__)
-COLUMNS = (*LABELS, *(name for name in OF_A_RUN if name not in LABELS))
+LABELS = (
+    STEEPNESS,
+    Column("depth_m", "m", "H", "depth of the water", 1),
+    Column("above_still_water", symbol="above water", meaning="treatment of the waves above still water"),
+    Column("submergence", symbol="submergence", meaning="treatment of a buoy that leaves the water"),
+    Column("bending_stiffness_Nm2", "N m²", "EI", "bending stiffness of the line", 2),
+)
+COLUMNS = (*LABELS, *(column for column in OF_A_RUN if column not in LABELS))
 
 
 def treatments() -> tuple[tuple[str, ...], tuple[str, ...]]:
     """All that a scene allows: of waves above still water, and of a buoy that leaves the water."""
-    from engine.scene.models import Buoy, Waves
+    from engine.scene.line import Buoy
+    from engine.scene.surroundings import Waves
 
     waves, buoy = Waves.model_fields["above_still_water"], Buoy.model_fields["submergence"]
     return get_args(waves.annotation), get_args(buoy.annotation)

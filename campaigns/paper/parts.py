@@ -20,23 +20,29 @@ import time
 from dataclasses import dataclass
 from pathlib import Path
 
+from campaigns.columns import Column, names
 from campaigns.machinery import cli, provenance
 from campaigns.machinery.folder import CampaignStopped, Table, trajectory_path
 from campaigns.machinery.row_store import made_by, of_the_page
 from campaigns.machinery.runner import Summary
 from campaigns.paper import PARTS, Order, dependence
 
-COLUMNS = (
-    "part",
-    "status",
-    "command",
-    "runs",
-    "failed",
-    "compile_s",
-    "run_s",
-    "total_s",
-    "run_key",
-    "message",
+COLUMNS = tuple(
+    map(
+        Column,
+        (
+            "part",
+            "status",
+            "command",
+            "runs",
+            "failed",
+            "compile_s",
+            "run_s",
+            "total_s",
+            "run_key",
+            "message",
+        ),
+    )
 )
 SOURCES = (
     "analysis",
@@ -111,7 +117,7 @@ def read_rows(out: Path) -> list[dict[str, str]]:
     """The rows of table.csv as it is, those of known parts; none where it cannot be read."""
     try:
         with open(out / "table.csv", encoding="utf-8", newline="") as file:
-            return [row for row in csv.DictReader(file) if set(row) == set(COLUMNS) and row["part"] in PARTS]
+            return [row for row in csv.DictReader(file) if set(row) == set(names(COLUMNS)) and row["part"] in PARTS]
     except (OSError, ValueError, csv.Error):
         return []
 

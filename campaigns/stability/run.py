@@ -10,6 +10,7 @@ A verdict is one of
 import math
 from pathlib import Path
 
+from campaigns.columns import Column
 from campaigns.machinery.folder import CampaignStopped
 from campaigns.machinery.runner import write_failure
 from campaigns.stability.cases import ABOVE_BAR, Case
@@ -19,11 +20,11 @@ LIMIT_S = 300.0
 OK, REFUSED, LIMIT, UNEXPLAINED = "ok", "refused", "known limit", "unexplained"
 _NOT_SAVED = "not saved"
 NEEDS_PROFILES = ("energy", "buckling", "straight")
-COLUMNS = (
+COLUMNS = tuple(map(Column, (
     "part", "group", "case", "dimensions", "verdict", "run_status", "measured", "bar", "how", "limit", "length_s",
     "end_time_s", "steps", "rejected_steps", "newton_iterations", "newton_failures", "loop_releases", "max_turn_rad",
     "min_strain", "wall_s", "case_wall_s", "status", "run_key", "message",
-)  # fmt: skip
+)))  # fmt: skip
 STATISTICS = (
     "end_time_s", "steps", "rejected_steps", "newton_iterations", "newton_failures", "loop_releases", "max_turn_rad",
     "min_strain", "wall_s",

@@ -13,6 +13,7 @@ from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 
+from campaigns.columns import Column
 from campaigns.machinery.folder import Table, trajectory_path, write_json
 from campaigns.machinery.pools import PoolBroken, opened
 from campaigns.machinery.row_store import keep_row, kept_row, made_by
@@ -25,7 +26,7 @@ SOURCES = (
     "campaigns/stability/fuzz", "campaigns/stability/limited.py", "campaigns/stability/step_maps.py",
     "campaigns/stability/scene_shares.py", "campaigns/stability/operation_counts.py",
 )  # fmt: skip
-FUZZ_COLUMNS = ("kind", "number", "outcome", "status", "message", "wall_s")
+FUZZ_COLUMNS = tuple(map(Column, ("kind", "number", "outcome", "status", "message", "wall_s")))
 CHUNK = {"valid": 20, "invalid": 200}
 DRIFT_BAR = 0.01
 DRIFT_LIMIT_S = 1800.0
@@ -188,7 +189,7 @@ def _table(out: Path, tasks: list[Task], results: dict) -> list[dict]:
     return rows
 
 
-def _write(path: Path, columns: tuple[str, ...], rows: list[dict]) -> None:
+def _write(path: Path, columns: tuple[Column, ...], rows: list[dict]) -> None:
     keys = [str(number) for number in range(len(rows))]
     table = Table(path, columns, keys)
     table.rows = dict(zip(keys, rows, strict=True))

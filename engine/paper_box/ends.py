@@ -1,4 +1,4 @@
-"""Conditions at the two ends, 13 = 7 + 6 (model.md 2.5); in a plane 7 = 4 + 3.
+"""Conditions at the two ends, 13 = 7 + 6; in a plane 7 = 4 + 3.
 
     below  u = v = w = 0,  |beta|^2 = 1,  no roll of the frame about t in the step,  Omega_2 = Omega_3 = 0
     above  three equations of the end in the paper's fixed axes,  Omega_1 = Omega_2 = Omega_3 = 0

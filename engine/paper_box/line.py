@@ -22,7 +22,7 @@ class Line:
 
     R_turn, m_turn: factors of the terms of rows 2 and 3 in which beta turns. As the paper has it (component rates of v
     and v_c) they are R = rho_w pi d^2/4 + m_a and m; with the normal components of the accelerations they would be 0
-    and m + m_a, which does not depend on the roll of the frame (model.md section 1, eq. 24).
+    and m + m_a, which does not depend on the roll of the frame (THEORY.md, section 4).
     per: inverse scales of the thirteen unknowns. active: the unknowns of a plane or of space.
     """
 

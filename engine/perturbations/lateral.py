@@ -1,6 +1,6 @@
 """Lateral perturbations of a planar motion: an infinitesimal one, carried through the accepted steps of a run.
 
-The equations in space (model.md 2.6) are linearised about a motion in the plane x-z; y is across, b = t x n = -y.
+The equations in space are linearised about a motion in the plane x-z; y is across, b = t x n = -y.
 By mirror symmetry the lateral unknowns separate from the planar ones. A rotation theta = (theta_t, theta_n, 0) of the
 frame (t, n, b) gives dt = theta x t = -theta_n b, dn = theta_t b, and, with V_y, dS_b, dO2 (dO1 = 0: torque-free ends),
 

@@ -1,1 +1,1 @@
-"""The planar cable: six unknowns a node (model.md 2.2)."""
+"""The planar cable: six unknowns a node (THEORY.md, section 3)."""

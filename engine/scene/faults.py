@@ -1,7 +1,7 @@
 """Faults of a scene in words: one line each, with the key, what was given and what is allowed.
 
 Faults of a single value are found by pydantic and put into words here; faults between values are found by
-`scene_rules`.
+`rules`.
 """
 
 import difflib

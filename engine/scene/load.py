@@ -2,7 +2,7 @@
 
     scene = load_scene("tethered_buoy", {"waves.steepness": 0.13, "water.depth_m": 21.6})
 
-The models are in `scene_models`, the shipped scenes in `scenes/*.toml`.
+The models are in `models`, the shipped scenes in `engine/scenes/*.toml`.
 """
 
 import copy
@@ -25,6 +25,11 @@ _HEIGHTS = ("waves.steepness", "waves.amplitude_m", "waves.components", "waves.j
 def known_scenes() -> list[str]:
     """Names of the scenes that come with the engine."""
     return sorted(path.stem for path in _SHIPPED.glob("*.toml"))
+
+
+def shipped_text(name: str) -> str:
+    """The TOML text of a shipped scene, with its comments: where each value comes from."""
+    return (_SHIPPED / f"{name}.toml").read_text(encoding="utf-8")
 
 
 def load_scene(name_or_path: str | Path, overrides: Mapping[str, object] | None = None) -> Scene:

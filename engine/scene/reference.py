@@ -1,20 +1,23 @@
-"""`python -m engine.scene.reference`: every key of a scene as a page (docs/scene_keys.md), from the model itself.
+"""Every key of a scene in words: for docs/scene_keys.md and for the scene table of a report.
 
     python -m engine.scene.reference > docs/scene_keys.md
 
-Type, unit, default and what is allowed come from the model, the meaning and the place in the paper from
-`scene_meanings`.
+All of it comes from the declarations of the keys (`values.described`); where the value of a shipped scene comes from is
+the comment beside that value in `engine/scenes/NAME.toml`.
 """
 
 import re
 import sys
+import tomllib
+from dataclasses import dataclass
+from functools import cache
 from typing import Annotated, Literal, get_args, get_origin
 
 from pydantic import BaseModel
 from pydantic_core import PydanticUndefined
 
 from engine.scene.faults import allowed_text, section_models, shown
-from engine.scene.meanings import MEANINGS
+from engine.scene.load import shipped_text
 from engine.scene.models import Scene
 
 HEAD = """# Keys of a scene
@@ -22,8 +25,8 @@ HEAD = """# Keys of a scene
 Made by `python -m engine.scene.reference > docs/scene_keys.md` from the model that checks scenes; a test fails where
 this page is stale. A scene is a TOML file, or a shipped one with changes: `--set water.depth_m=22.5` on a command line,
 `load_scene("tethered_buoy", {"water.depth_m": 22.5})` in Python. SI units; x with the waves, y across, z up from the
-bed, the anchor at the origin. A section that may be left out is absent from the physics without it. Symbols and where
-each equation lives: `NOTATION.md`.
+bed, the anchor at the origin. A section that may be left out is absent from the physics without it. The last column is
+the place in the paper: a number in brackets is an equation.
 """
 SECTIONS = {
     "": "The scene itself",
@@ -46,39 +49,77 @@ UNITS = {
 KINDS = {str: "text", bool: "flag", int: "whole number", float: "number", tuple: "list"}
 
 
+@dataclass(frozen=True)
+class Key:
+    """One key of a scene. kind: of its value, in a word; default, allowed: in words; the others as declared."""
+
+    name: str
+    kind: str
+    unit: str
+    default: str
+    allowed: str
+    meaning: str
+    symbol: str
+    paper: str
+
+
+@cache
+def keys() -> dict[str, Key]:
+    """Every key of a scene by its dotted name, in the order of the models."""
+    return {name: _key(name, field) for name, field in _declared(Scene)}
+
+
+@cache
+def sources(scene: str) -> dict[str, str]:
+    """Where each value of a shipped scene comes from: the comments beside the values in its file, by dotted key."""
+    found, table = {}, ""
+    for line in shipped_text(scene).splitlines():
+        if header := re.match(r"\[([\w.]+)\]", line):
+            table = f"{header[1]}."
+        elif (value := re.match(r"(\w+) *= *(.*?) +# *(.+)", line)) is not None:
+            parsed = tomllib.loads(f"value = {value[2]}")["value"]
+            inner = [f".{part}" for part in parsed] if isinstance(parsed, dict) else [""]
+            found |= {f"{table}{value[1]}{part}": value[3] for part in inner}
+    return found
+
+
 def page() -> str:
     """The page as Markdown."""
     rows: dict[str, list[str]] = {section: [] for section in SECTIONS}
-    for key, field in leaves(Scene):
-        top = key.partition(".")[0] if "." in key or key in SECTIONS else ""
-        rows[top].append(_row(key, field))
+    for key in keys().values():
+        top = key.name.partition(".")[0] if "." in key.name or key.name in SECTIONS else ""
+        cells = (f"`{key.name}`", key.kind, key.unit, key.default, key.allowed, key.meaning, key.symbol, key.paper)
+        rows[top].append("| " + " | ".join(cell.replace("|", "\\|") for cell in cells) + " |")
     parts = [HEAD]
     for section, words in SECTIONS.items():
         title = f"## `{section}`: {words.lower()}" if section else f"## {words}"
         if section and not Scene.model_fields[section].is_required() and Scene.model_fields[section].default is None:
             title += " (may be left out)"
-        head = "| key | type | unit | default | allowed | meaning | in the paper |\n|---|---|---|---|---|---|---|"
+        head = "| key | type | unit | default | allowed | meaning | symbol | paper |\n|" + 8 * "---|"
         parts.append("\n".join([title, "", head, *rows[section], ""]))
     return "\n".join(parts)
 
 
-def leaves(model: type[BaseModel], prefix: str = "") -> list[tuple[str, object]]:
-    """(key, field) of every key, each once: sections that are no table of their own by a law are entered only."""
+def _declared(model: type[BaseModel], prefix: str = "") -> list[tuple[str, object]]:
+    """(key, field) of every declared key, each once; a section without a declaration of its own is entered only."""
     found: dict[str, object] = {}
     for name, field in model.model_fields.items():
-        inner = section_models(field.annotation)
-        if not inner or prefix + name in MEANINGS:
+        if field.description:
             found.setdefault(prefix + name, field)
-        for part in inner:
-            for key, below in leaves(part, f"{prefix}{name}."):
+        for part in section_models(field.annotation):
+            for key, below in _declared(part, f"{prefix}{name}."):
                 found.setdefault(key, below)
     return list(found.items())
 
 
-def _row(key: str, field) -> str:
-    meaning, where = MEANINGS[key]
-    cells = [f"`{key}`", _kind(field), _unit(key, _kind(field)), _default(field), _allowed(key, field), meaning, where]
-    return "| " + " | ".join(cell.replace("|", "\\|") for cell in cells) + " |"
+def _key(name: str, field) -> Key:
+    kind, told = _kind(field), field.json_schema_extra
+    number = "1" if "number" in kind or kind == "list" else ""
+    suffix = re.search(f"_({'|'.join(UNITS)})$", name)
+    unit = UNITS[suffix[1]] if suffix else number
+    return Key(
+        name, kind, unit, _default(field), _allowed(name, field), field.description, told["symbol"], told["paper"]
+    )
 
 
 def _bare(annotation):
@@ -100,14 +141,6 @@ def _kind(field) -> str:
     if get_origin(bare) is tuple or "tuple" in str(bare):
         return "list"
     return KINDS[bare]
-
-
-def _unit(key: str, kind: str) -> str:
-    name = key.rpartition(".")[2]
-    for suffix, unit in UNITS.items():
-        if name.endswith(f"_{suffix}"):
-            return unit
-    return "1" if "number" in kind or kind == "list" else ""
 
 
 def _default(field) -> str:

@@ -1,4 +1,4 @@
-"""Rules between the values of a scene: what one value allows another to be. (Of the two ends: `scene_end_rules`.)"""
+"""Rules between the values of a scene: what one value allows another to be. (Of the two ends: `end_rules`.)"""
 
 import math
 from collections.abc import Iterator

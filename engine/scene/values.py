@@ -1,6 +1,6 @@
 """Types of the values of a scene: what each allows, in words for a person, and the base of every section."""
 
-from typing import Annotated
+from typing import Annotated, Any
 
 from pydantic import AfterValidator, BaseModel, ConfigDict, Discriminator, Field, Tag
 from pydantic_core import PydanticCustomError
@@ -76,6 +76,15 @@ Block = Annotated[
         "current.y_m"
     ),
 ]
+
+
+def described(meaning: str, *default: object, symbol: str = "", paper: str = "", **more: object) -> Any:
+    """The declaration of one scene key.
+
+    meaning: a noun phrase for a person; default: left out where the key is required; symbol: the paper's letter, with
+    an underscore before a subscript; paper: equation, table or section that has it. The unit is the suffix of the key.
+    """
+    return Field(*default, description=meaning, json_schema_extra={"symbol": symbol, "paper": paper}, **more)
 
 
 class Section(BaseModel):

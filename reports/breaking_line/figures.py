@@ -7,8 +7,8 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from analysis.breaking_measures import contour, speed_of
-from analysis.breaking_theory import Theory, theory_of
+from campaigns.breaking_line.measures import contour, speed_of
+from campaigns.breaking_line.theory.of_scene import Theory, theory_of
 
 from ..figures.energy_shares import EnergyPanel, energy_shares
 from ..figures.front_plane import FrontPanel, front_plane

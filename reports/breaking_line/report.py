@@ -13,7 +13,6 @@ from ..parts.scene_table import scene_table
 from ..parts.wording import count, decimals, listed, number, percent
 from . import figures, grids, tables
 from .runs import COLUMNS, WORDS, Line, of_kind, pairs, read_lines
-from .sources import BREAKING_SOURCES
 from .statements import statements_table
 
 ANIMATED = "4"
@@ -208,13 +207,11 @@ def _eight(folder: Folder, lines: tuple[Line, ...]) -> Text | None:
 
 
 def _scene(folder: Folder) -> list[Item]:
-    from engine import load_scene
-
     drawn = folder.provenance.get("cases")
     words = listed(case.replace("p", "′") for case in drawn) if isinstance(drawn, list) and drawn else "as asked"
     swept = {"end.force_N": f"cases {words}", "end.force_decay_s": "0.005 (1 to 4), 0.05 (1′ to 4′)"}
     caption = "The scene as run, from `scene.toml`; defaults are those of the scene `breaking_line`."
-    table = scene_table(folder.scene, load_scene("breaking_line"), swept, caption, BREAKING_SOURCES)
+    table = scene_table(folder.scene, "breaking_line", swept, caption)
     return [Heading("Scene"), table]
 
 

@@ -143,8 +143,6 @@ def _table(study: Study) -> Table:
 
 
 def _scene_and_times(folder: Folder, study: Study) -> list[Item]:
-    from engine import load_scene
-
     swept = {
         "waves.steepness": listed(number(value) for value in study.steepnesses),
         "water.depth_m": _values(study, "depth_m"),
@@ -158,7 +156,7 @@ def _scene_and_times(folder: Folder, study: Study) -> list[Item]:
     if any(run["profiles"] for run in study.runs):
         swept["output.profiles"] = "yes in one run"
     caption = "The scene, from `scene.toml`; defaults are those of the scene `tethered_buoy`."
-    table = scene_table(folder.scene, load_scene("tethered_buoy"), swept, caption)
+    table = scene_table(folder.scene, "tethered_buoy", swept, caption)
     times = timing_table(folder)
     return [*([Heading("Run times"), times] if times else []), Heading("Scene"), table]
 

@@ -101,7 +101,7 @@ def read_results(directory: str | Path) -> Results:
 
 
 def _breaking(folder: Path) -> dict:
-    from analysis.breaking_theory import theory_of
+    from campaigns.breaking_line.theory import theory_of
 
     lines = read_lines(read_folder(folder, LINE_COLUMNS, LINE_WORDS))
     static, steepening = [], []

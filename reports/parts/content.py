@@ -195,6 +195,11 @@ def sub(text: str) -> str:
     return f"{_DOWN}{text}{_UP}"
 
 
+def with_subscripts(text: str) -> str:
+    """The text with its symbols printed: "C_dp" of plain words gets a subscript."""
+    return re.sub(r"\b([A-Za-z]{1,3})_(\w{1,3})\b", lambda found: found[1] + sub(found[2]), text)
+
+
 def link(text: str, anchor: str) -> str:
     """The text as a link to a place of the page; where there is no such place, in the PDF, the text alone."""
     return f"{_TO}{anchor}{_SAY}{text}{_BACK}"

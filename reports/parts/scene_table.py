@@ -1,43 +1,49 @@
-"""The scene of a campaign as a table: every value with its unit, and who decided it."""
+"""The scene of a campaign as a table: every value with its unit, and where it comes from."""
 
 from __future__ import annotations
 
-from .content import Column, Table
-from .sources import SOURCES, unit_of
-from .wording import number
+from typing import TYPE_CHECKING
+
+from .content import Column, Table, with_subscripts
+from .wording import EMPTY, number
+
+if TYPE_CHECKING:
+    from engine import Scene
 
 _NOT_PARAMETERS = {"name", "title"}
+_OURS = "default of this work"
 
 
-def scene_table(scene, default, swept: dict[str, str], caption: str, sources: dict | None = None) -> Table:
-    """Value, unit and source of every parameter.
+def scene_table(scene: Scene, shipped: str, varied: dict[str, str], caption: str) -> Table:
+    """Value, unit and source of every parameter of a scene.
 
-    Args: `scene` as run; `default` the shipped scene of the same kind, whose values have the sources of `sources`, by
-    default `reports.parts.sources`; `swept` maps the keys the campaign varied to the values in words. A value that
-    differs from the default is marked "set by the user".
+    scene: as run. shipped: name of the shipped scene of the same kind; the source of its values is the comment beside
+    them in its file, and a value that differs is marked "set by the user". varied: the keys that the campaign varied,
+    with their values in words.
     """
-    sources = SOURCES if sources is None else sources
-    values, defaults = _flat(scene.as_dict()), _flat(default.as_dict())
+    from engine import load_scene
+    from engine.scene.reference import keys, sources
+
+    told, known = sources(shipped), keys()
+    values, defaults = _flat(scene.as_dict()), _flat(load_scene(shipped).as_dict())
     rows = []
-    for key in [*values, *(key for key in swept if key not in values)]:
-        if key in _NOT_PARAMETERS:
+    for name in [*values, *(name for name in varied if name not in values)]:
+        if name in _NOT_PARAMETERS:
             continue
-        meaning, source = sources.get(key, (key.rpartition(".")[2].replace("_", " "), ""))
-        if key in swept:
-            rows.append((f"`{key}`", meaning, swept[key], unit_of(key), "swept by this campaign"))
-            continue
-        if values[key] != defaults.get(key):
-            before = f" (default {_shown(defaults[key])})" if key in defaults else ""
-            source = f"set by the user{before}"
-        rows.append((f"`{key}`", meaning, _shown(values[key]), unit_of(key), source or "default of this work"))
-    columns = (
-        Column("key", align="left"),
-        Column("parameter", align="left"),
-        Column("value"),
-        Column("unit", align="left"),
-        Column("source", align="left"),
-    )
-    return Table(columns, tuple(rows), caption, small=True)
+        key = known[name]
+        if name in varied:
+            shown, source = varied[name], "varied by this campaign"
+        else:
+            shown, source = _shown(values[name]), told.get(name, _OURS)
+            if values[name] != defaults.get(name):
+                source = "set by the user" + (f" (default {_shown(defaults[name])})" if name in defaults else "")
+        meaning = key.meaning + (f", {key.symbol}" if key.symbol else "")
+        unit = key.unit if key.unit not in ("", "1") else EMPTY
+        rows.append((f"`{name}`", with_subscripts(meaning), shown, unit, with_subscripts(source)))
+    left = {"align": "left"}
+    heads = (Column("key", **left), Column("parameter", **left), Column("value"), Column("unit", **left))
+    where = "Table, section, figure and eq. are those of Tjavaras et al. (1998)."
+    return Table((*heads, Column("source", **left)), tuple(rows), f"{caption} {where}", small=True)
 
 
 def _flat(section: dict, prefix: str = "") -> dict[str, object]:

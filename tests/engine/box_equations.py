@@ -1,7 +1,9 @@
-"""The planar box equations written out in plain NumPy from their statements, for tests that must not trust a kernel.
+"""The box equations written out in plain NumPy from their statements, for tests that must not trust a kernel.
 
-Everything takes complex arguments, so that a complex step differentiates it to rounding: |x| is sign(Re x) x.
-Statements: model.md 2.2-2.3, and the heads of planar/elimination.py, planar/node.py, engine/physics/ends.py.
+They are those in space; in a plane x-z the same equations are asked of a state whose n lies in it, and the rows across
+the plane, which say nothing then, are left out. The elimination is never looked at here: the rotation between nodes
+comes from 3 x 3 matrices, and O1 is an unknown of every node. Everything takes complex arguments, so that a complex
+step differentiates it to rounding: |x| is sign(Re x) x. Statements: THEORY.md, sections 3 to 6.
 """
 
 import math
@@ -9,27 +11,10 @@ import math
 import numpy as np
 from scipy.interpolate import PchipInterpolator
 
-from engine.parameters import record_of
-from engine.planar.elimination import WIDTH as SWEEP_WIDTH
-from engine.planar.elimination import sweep_bent
-from engine.planar.elimination_unbent import sweep_unbent
-from engine.planar.node import WIDTH, node_quantities, shape
+from engine.spatial.upper import CLAMP
+from tests.engine.rotations import conjugate, frames, product, shortest
 
-
-def kernel_update(scene, cq, cv, in_motion, Y, C_tilde, F, viscosity=None):
-    """The engine's Newton update (n, 6) at a state, with the water F (n, 4) and the viscosity (n, 2) frozen."""
-    tables = []
-    p = record_of(scene, tables)[0]
-    tables = np.concatenate(tables)
-    n = len(Y)
-    Q, X, E, D = np.zeros((n, WIDTH)), np.zeros((n, 2)), np.zeros((n, SWEEP_WIDTH)), np.zeros((n, 6))
-    if viscosity is not None:
-        Q[:, -2:] = viscosity
-    shape(p, tables, Y, Q, X)
-    node_quantities(p, tables, cq, cv, in_motion, Y, C_tilde, F, Q)
-    sweep = sweep_bent if scene.tether.bending_stiffness_Nm2 > 0 else sweep_unbent
-    assert sweep(p, tables, 0.0, cq, cv, in_motion, Y, C_tilde, X, F, Q, E, D)
-    return D
+STEP = 1e-30
 
 
 def elements(scene):
@@ -57,87 +42,205 @@ def tension(law, eps):
     return np.where(outside, value + pieces.derivative()(inside) * (eps - inside), value)
 
 
-def square(x):
-    """|x| x."""
-    return np.sign(x.real) * x * x
+def stretched(x):
+    """|x| x for vectors (m, 3)."""
+    return np.sqrt(np.sum(x * x, 1))[:, None] * x
 
 
-def residual(scene, cq, cv, in_motion, Y, C_tilde, F, viscosity=None):
-    """All equations as one vector: 6 n of them with bending; without, 4 n.
+def along(x, t):
+    """The part of vectors x (m, 3) along the unit vectors t."""
+    return np.sum(x * t, 1)[:, None] * t
 
-    Y (n, 6) = eps, S, U, W, phi, kappa;  C_tilde (n, 4) = q~, V~;  F (n, 4) water velocity and acceleration;
-    viscosity (n, 2) = B, L of T_v = B |e_t| e_t + L e_t, e_t = cq (1 + eps - |q~|) in motion.
-    """
-    tether = scene.tether
-    bent = tether.bending_stiffness_Nm2 > 0
-    eps, S, U, W, phi, kappa = Y.T
-    if not bent:
-        S = kappa = np.zeros_like(eps)
-    lam = 1 + eps
-    t = np.stack([np.cos(phi), np.sin(phi)], 1)
-    n = np.stack([-np.sin(phi), np.cos(phi)], 1)
-    V = np.stack([U, W], 1)
-    q_t = cq * (lam[:, None] * t - C_tilde[:, :2])
-    V_t = cv * (V - C_tilde[:, 2:])
-    T = tension(tether.tension, eps)
-    if viscosity is not None:
-        e_t = in_motion * cq * (lam - np.hypot(*C_tilde[:, :2].T))
-        T = T + viscosity[:, 0] * square(e_t) + viscosity[:, 1] * e_t
-    N = T[:, None] * t + S[:, None] * n
-    rho = scene.water.density_kgpm3 if scene.water is not None else 0.0
-    g = scene.gravity_mps2
-    weight = (tether.density_kgpm3 - rho) * tether.area_m2 * g
-    G = tether.density_kgpm3 * tether.area_m2 * V_t + np.array([0, weight])
+
+def water_on_line(scene, lam, t, v, V_t, A):
+    """Drag and fluid inertia (m, 3) per length of line (N/m): lam (m, 1) = 1 + eps, v = V - U, accelerations V_t, A."""
+    tether, rho = scene.tether, scene.water.density_kgpm3 if scene.water is not None else 0.0
+    if not rho:
+        return 0 * V_t, 0 * V_t
     d = tether.diameter_m
     displaced = rho * math.pi * d**2 / 4
     added = tether.added_mass * displaced
-    v = in_motion * V - F[:, :2]
-    along, across = np.sum(v * t, 1), np.sum(v * n, 1)
-    a = 0.5 * rho * math.pi * d * tether.drag_tangential * np.sqrt(lam) * square(along)
-    b = 0.5 * rho * d * tether.drag_normal * np.sqrt(lam) * square(across)
-    b = b + added * np.sum(n * V_t, 1) - (displaced + added) * np.sum(n * F[:, 2:], 1)
-    G = G + a[:, None] * t + b[:, None] * n
+    vt = np.sum(v * t, 1)
+    friction = math.pi * tether.drag_tangential * (np.sign(vt.real) * vt**2)[:, None] * t
+    drag = -0.5 * rho * d * np.sqrt(lam) * (friction + tether.drag_normal * stretched(v - along(v, t)))
+    push = (displaced + added) * A - added * V_t
+    return drag, push - along(push, t)
+
+
+def wet_weight(scene):
+    """Weight in water of a metre of line (N/m), upwards negative: the vector (0, 0, w0)."""
+    tether, rho = scene.tether, scene.water.density_kgpm3 if scene.water is not None else 0.0
+    return np.array([0, 0, (tether.density_kgpm3 - rho) * tether.area_m2 * scene.gravity_mps2])
+
+
+def buoy_of(scene):
+    """Inertia (kg) of the buoy with its added mass, its net lift (3,), and functions of v = V - U and of A (3,): drag
+    and wave load (3,)."""
+    buoy, rho = scene.buoy, scene.water.density_kgpm3 if scene.water is not None else 0.0
+    volume = math.pi * buoy.diameter_m**3 / 6
+    added = buoy.added_mass_kg if rho else 0.0
+    area = math.pi * buoy.diameter_m**2 / 4
+    lift = np.array([0, 0, (rho * volume - buoy.mass_kg) * scene.gravity_mps2])
+
+    def drag(v):
+        return -0.5 * rho * buoy.drag * area * stretched(v[None])[0] if rho else 0 * v
+
+    return buoy.mass_kg + added, lift, drag, lambda A: (rho * volume + added) * A
+
+
+def lifted(Y):
+    """State (n, 13) of one in the plane (n, 6): t = (cos phi, 0, sin phi), n = (-sin phi, 0, cos phi)."""
+    out = np.zeros((len(Y), 13), Y.dtype)
+    for column, at in ((0, 0), (1, 1), (2, 3), (3, 5), (5, 12)):
+        out[:, at] = Y[:, column]
+    upright = np.zeros((len(Y), 4), Y.dtype)
+    upright[:, 0], upright[:, 2] = np.cos(Y[:, 4] / 2), -np.sin(Y[:, 4] / 2)
+    quarter = np.tile([math.sqrt(0.5), math.sqrt(0.5), 0.0, 0.0], (len(Y), 1))  # about x, from y to z
+    out[:, 6:10] = product(upright, quarter)
+    return out
+
+
+def across(pairs):
+    """Pairs of planar vectors (m, 4) as pairs in space (m, 6)."""
+    return np.insert(pairs, [1, 3], 0.0, axis=1)
+
+
+def turns(beta):
+    """Rotation vectors (m - 1, 3) from each frame to the next in their own axes, |psi| < pi, by the matrices alone."""
+    A = frames(beta)
+    R = np.einsum("kia,kja->kij", A[:-1], A[1:])  # of frame a to frame b, in axes of a
+    axis = 0.5 * np.stack([R[:, 2, 1] - R[:, 1, 2], R[:, 0, 2] - R[:, 2, 0], R[:, 1, 0] - R[:, 0, 1]], 1)
+    sine, cosine = np.sqrt(np.sum(axis**2, 1)), 0.5 * (np.trace(R, axis1=1, axis2=2) - 1)
+    angle = np.arcsin(sine)
+    angle = np.where(cosine.real < 0, math.pi - angle, angle)
+    straight = sine == 0
+    return np.where(straight, 1.0, angle / np.where(straight, 1.0, sine))[:, None] * axis
+
+
+def residual(scene, cq, cv, in_motion, Y, C_tilde, F, viscosity=None, twist=0.0):
+    """All equations of a stage as one vector: 6 n in a plane and 12 n - 1 in space; without bending 4 n and 6 n.
+
+    Y (n, 6) or (n, 13) = eps, Sn, Sb, V, beta, O;  C_tilde = q~, V~;  F: water velocity and acceleration;
+    viscosity (n, 2) = B, L of T_v = B |e_t| e_t + L e_t, e_t = cq (1 + eps - |q~|) in motion.
+    """
+    tether, end, plane = scene.tether, scene.end, scene.motion.dimensions == 2
+    if plane:
+        Y, C_tilde, F = lifted(Y), across(C_tilde), across(F)
+    EI, GI = tether.bending_stiffness_Nm2, tether.torsion_stiffness_Nm2
+    eps, S, V, turn = Y[:, 0], Y[:, 1:3], Y[:, 3:6], Y[:, 10:13]
+    if EI == 0:
+        S = np.zeros_like(S)
+    lam = (1 + eps)[:, None]
+    A = frames(Y[:, 6:10])
+    t, n, b = A[:, 0], A[:, 1], A[:, 2]
+    q_t = cq * (lam * t - C_tilde[:, :3])
+    V_t = cv * (V - C_tilde[:, 3:])
+    T = tension(tether.tension, eps)
+    if viscosity is not None:
+        e_t = in_motion * cq * (1 + eps - np.linalg.norm(C_tilde[:, :3], axis=1))
+        T = T + viscosity[:, 0] * np.sign(e_t.real) * e_t**2 + viscosity[:, 1] * e_t
+    N = T[:, None] * t + S[:, :1] * n + S[:, 1:] * b
+    drag, push = water_on_line(scene, lam, t, in_motion * V - F[:, :3], V_t, F[:, 3:])
+    G = tether.density_kgpm3 * tether.area_m2 * V_t + wet_weight(scene) - drag - push
     e = elements(scene)[:, None] / 2
     parts = [
         V[0],
         V[1:] - V[:-1] - e * (q_t[1:] + q_t[:-1]),
         N[1:] - N[:-1] - e * (G[1:] + G[:-1]),
-        _upper_end(scene, cv, in_motion, N[-1], V[-1], C_tilde[-1, 2:], F[-1]),
+        _upper_end(scene, in_motion, N[-1], V[-1], V_t[-1], F[-1]),
     ]
-    curvature = phi[1:] - phi[:-1] - e[:, 0] * (kappa[1:] + kappa[:-1])
-    if bent:
-        M = lam**3 * S
-        moment = tether.bending_stiffness_Nm2 * (kappa[1:] - kappa[:-1]) + e[:, 0] * (M[1:] + M[:-1])
-        parts += [kappa[:1], curvature, moment, kappa[-1:]]
-    return np.concatenate([part.ravel() for part in parts])
+    if plane:
+        parts = [part[..., [0, 2]] for part in parts]
+    if EI == 0:
+        return np.concatenate([part.ravel() for part in parts])
+    # M_s + o x M + (1+eps)^3 t x N = 0 in axes that turn with o = (0, O2, O3), M = (GI O1, EI O2, EI O3)
+    moment, o = turn * [GI, EI, EI], turn * [0, 1, 1]
+    load = np.cross(o, moment) + lam**3 * np.cross([1.0, 0, 0], np.concatenate([0 * S[:, :1], S], 1))
+    rotations = [
+        turns(Y[:, 6:10]) - e * (o[1:] + o[:-1]),
+        moment[1:] - moment[:-1] + e * (load[1:] + load[:-1]),
+        _clamp_or_hinge(scene.anchor, scene, turn[0], A[0], 2 * e[0, 0], 1.0),
+        _clamp_or_hinge(end, scene, turn[-1], A[-1], 2 * e[-1, 0], -1.0),
+    ]
+    if plane:
+        return np.concatenate([part.ravel() for part in (*parts, *(part[..., -1] for part in rotations))])
+    twisted = scene.anchor.rotation == end.rotation == "clamped"
+    last = roll(Y, scene) + turn[-1, 0] * tether.length_m - twist if twisted else turn[-1, 0]
+    return np.concatenate([*(part.ravel() for part in (*parts, *rotations)), [last]])
 
 
-def _upper_end(scene, cv, in_motion, N, V, V_tilde, F):
-    end, buoy = scene.end, scene.buoy
-    if end.kind == "held":
+def _upper_end(scene, in_motion, N, V, V_t, F):
+    if scene.end.kind == "held":
         return V  # position: the last node does not move
-    if end.kind == "free":
-        return N - np.array([end.force_N[0], end.force_N[2]])
-    rho = scene.water.density_kgpm3 if scene.water is not None else 0.0
-    volume = math.pi * buoy.diameter_m**3 / 6
-    added = buoy.added_mass_kg if rho else 0.0
-    v = in_motion * V - F[:2]
-    drag = 0.5 * rho * buoy.drag * math.pi * buoy.diameter_m**2 / 4 * np.sqrt(np.sum(v * v)) * v
-    lift = (rho * volume - buoy.mass_kg) * scene.gravity_mps2
-    return N + (buoy.mass_kg + added) * cv * (V - V_tilde) + drag - (rho * volume + added) * F[2:] - np.array([0, lift])
+    if scene.end.kind == "free":
+        return N - np.array(scene.end.force_N)
+    mass, lift, drag, load = buoy_of(scene)
+    return N + mass * V_t - lift - drag(in_motion * V - F[:3]) - load(F[3:])
+
+
+def direction(clamp, scene):
+    """Unit vector of a clamp: its own, or towards a held end."""
+    vector = np.array(clamp.direction or scene.end.position_m, float)
+    return vector / np.linalg.norm(vector)
+
+
+def _clamp_or_hinge(clamp, scene, turn, frame, h, sign):
+    """No moment, or a spring of stiffness EI CLAMP/h that turns t into the direction d: O = sign k (0, d.b, -d.n)."""
+    if clamp.rotation == "pinned":
+        return turn[1:]
+    d = direction(clamp, scene)
+    return turn[1:] - sign * CLAMP / h * np.array([frame[2] @ d, -(frame[1] @ d)])
+
+
+def roll(Y, scene):
+    """Angle, in (-2 pi, 2 pi), about the tangent from the first frame, carried to the upper clamp by way of the chord,
+    to the last one; two frames that look alike may differ by 2 pi."""
+    chord = np.array(scene.end.position_m) / np.linalg.norm(scene.end.position_m)
+    moved = Y[:1, 6:10]
+    for u, v in ((direction(scene.anchor, scene), chord), (chord, direction(scene.end, scene))):
+        moved = product(shortest(u, v), moved)
+    r = product(conjugate(moved), Y[-1:, 6:10])[0]
+    return 2 * np.arctan(r[1] / r[0]) + (math.copysign(2 * math.pi, r[1].real) if r[0].real < 0 else 0.0)
+
+
+def moved(Y, D):
+    """State Y moved by a small update D (n, 6) or (n, 12), to first order in D: beta o (1, theta/2)."""
+    if Y.shape[1] == 6:
+        return Y + D
+    half = np.concatenate([np.ones((len(D), 1)), 0.5 * D[:, 6:9]], 1)
+    return np.concatenate([Y[:, :6] + D[:, :6], product(Y[:, 6:10], half), Y[:, 10:] + D[:, 9:]], 1)
 
 
 def unknowns(scene):
-    """Columns of Y that are unknown."""
-    return [0, 1, 2, 3, 4, 5] if scene.tether.bending_stiffness_Nm2 > 0 else [0, 2, 3, 4]
+    """Columns of D that are unknown."""
+    bent = scene.tether.bending_stiffness_Nm2 > 0
+    if scene.motion.dimensions == 2:
+        return [0, 1, 2, 3, 4, 5] if bent else [0, 2, 3, 4]
+    return list(range(12)) if bent else [0, 3, 4, 5, 7, 8]
 
 
-def jacobian(scene, cq, cv, in_motion, Y, C_tilde, F, viscosity=None):
-    """d residual / d Y[:, unknowns], by complex step; unknowns node by node."""
+def equations(scene, stage, Y, D, C_tilde, F, **more):
+    """Residual at Y moved by D, stage = (cq, cv, in_motion); in space with bending one row more: theta1 of the first
+    frame is zero, it does not roll."""
+    r = residual(scene, *stage, moved(Y, D), C_tilde, F, **more)
+    return np.append(r, D[0, 6]) if D.shape[1] == 12 and scene.tether.bending_stiffness_Nm2 > 0 else r
+
+
+def jacobian(scene, stage, Y, C_tilde, F, **more):
+    """d equations / d D at D = 0, by complex step; unknowns node by node."""
     columns = []
     for k in range(len(Y)):
         for i in unknowns(scene):
-            Z = Y.astype(complex)
-            Z[k, i] += 1e-30j
-            columns.append(residual(scene, cq, cv, in_motion, Z, C_tilde, F, viscosity).imag / 1e-30)
+            D = np.zeros((len(Y), 6 if scene.motion.dimensions == 2 else 12), complex)
+            D[k, i] = 1j * STEP
+            columns.append(equations(scene, stage, Y, D, C_tilde, F, **more).imag / STEP)
     return np.array(columns).T
+
+
+def response(scene, rate, Y, C_tilde, F, dC_tilde):
+    """Change (n, 6) of (q, V) in space of a linearised stage for a change dC_tilde (n, 6) of C~."""
+    stage = rate, rate, 1.0
+    change = equations(scene, stage, Y, np.zeros((len(Y), 12)), C_tilde + 1j * STEP * dC_tilde, F).imag / STEP
+    D = np.linalg.solve(jacobian(scene, stage, Y, C_tilde, F), -change).reshape(len(Y), -1)
+    Z = moved(Y, 1j * STEP * D)
+    return np.hstack([((1 + Z[:, :1]) * frames(Z[:, 6:10])[:, 0]).imag, Z[:, 3:6].imag]) / STEP

@@ -1,20 +1,28 @@
 """Scenes and states for the tests against closed forms: lines without water or waves, states that no scene can express,
-their energy. A state is Y (n, 6) = (eps, S, U, W, phi, kappa), as in `engine.planar.node`."""
+their forces and their energy.
+
+A state is Y (n, 6) = (eps, S, U, W, phi, kappa) in a plane, Y (n, 13) = (eps, Sn, Sb, V, beta, O) in space.
+"""
 
 import numpy as np
 
 from engine import load_scene
 from engine.run import Run
 from engine.scales import tension_at
+from tests.engine.box_equations import lifted
+from tests.engine.rotations import frames
 
 DRY = {"water": None, "waves": None}
 STILL = {"waves": None}
+SPACE = {"motion.dimensions": 3}
+QUIET = {"solver.newton_tolerance": 1e-14, "solver.max_newton_iterations": 50}  # stages solved to rounding
 WHOLE_STARTER_S = 1e-6  # of a run from a state out of equilibrium: its rates come from steps this short
 
 
-def held(x, z):
-    """Overrides for an upper end held at (x, z), m from the anchor."""
-    return {"end": {"kind": "held", "position_m": [float(x), 0.0, float(z)]}, "buoy": None}
+def held(*place, **more):
+    """Overrides for an upper end held at (x, z) or (x, y, z), m from the anchor; `more` keys of the end."""
+    x, *y, z = (float(p) for p in place)
+    return {"end": {"kind": "held", "position_m": [x, *(y or [0.0]), z], **more}, "buoy": None}
 
 
 def free(x=0.0, z=0.0):
@@ -31,6 +39,11 @@ def line(*parts, **tether):
     return load_scene("tethered_buoy", changes)
 
 
+def in_space(*parts, **tether):
+    """`line` in three dimensions."""
+    return line(*parts, SPACE, **tether)
+
+
 def linear(stiffness_N):
     return {"law": "linear", "stiffness_N": float(stiffness_N)}
 
@@ -39,7 +52,7 @@ class Motion:
     """One simulation, stepped from outside: its state, and the arrays that the kernels take."""
 
     def __init__(self, scene, duration_s=1.0, start=None):
-        self.inner = Run(scene, duration_s)
+        self.scene, self.inner = scene, Run(scene, duration_s)
         self.record, self.tables = self.inner.record, self.inner.tables
         self.status = int(self.inner.state["status"])
         self.h = self.tables[self.record["grid_at"] :][: int(self.record["nodes"]) - 1]
@@ -77,10 +90,25 @@ def equilibrium(scene):
     return motion
 
 
+def axes_of(Y):
+    """t, n, b of a state, (n, 3) each."""
+    return frames((lifted(Y) if Y.shape[1] == 6 else Y)[:, 6:10]).transpose(1, 0, 2)
+
+
 def positions(Y, h):
-    """Nodes (n, 2), m, of a state: the anchor, then sums of h times the mean of q = (1 + eps) t."""
-    q = (1 + Y[:, 0])[:, None] * np.column_stack([np.cos(Y[:, 4]), np.sin(Y[:, 4])])
-    return np.vstack([[0.0, 0.0], np.cumsum(0.5 * h[:, None] * (q[1:] + q[:-1]), axis=0)])
+    """Nodes (n, 2) or (n, 3), m, of a state: the anchor, then sums of h times the mean of q = (1 + eps) t."""
+    q = (1 + Y[:, :1]) * axes_of(Y)[0]
+    if Y.shape[1] == 6:
+        q = q[:, [0, 2]]
+    return np.vstack([0 * q[:1], np.cumsum(0.5 * h[:, None] * (q[1:] + q[:-1]), axis=0)])
+
+
+def forces(Y, tension):
+    """Internal force N (n, 3) of a state under a law: its stiffness, N, or that part of a scene."""
+    t, n, b = axes_of(Y)
+    T = tension * Y[:, 0] if isinstance(tension, float) else np.array([tension_at(eps, tension) for eps in Y[:, 0]])
+    shear = Y[:, 1:2] * n + (Y[:, 2:3] * b if Y.shape[1] == 13 else 0.0)
+    return T[:, None] * t + shear
 
 
 def mean(values):

@@ -8,49 +8,54 @@ box equations do not see. R is taken by central differences, with an error of th
 
 import numpy as np
 
-from engine.planar import elimination as sweep
-from engine.planar import node
-from engine.planar.elimination import sweep_bent
-from engine.planar.elimination_unbent import sweep_unbent
-from engine.planar.node import node_quantities, shape, water
+from tests.engine.kernels import Stage
+from tests.engine.rotations import frames
 
 CHANGE = 1e-5
 
 
-def rates(motion, rate):
-    """Eigenvalues lambda (1/s) of small motions about `motion.Y`, those with |lambda| < 1e3 rate, by size.
-
-    rate : c (1/s), of the order of the eigenvalues wanted
-    """
-    Y, record, tables = motion.Y, motion.record, motion.tables
-    n = Y.shape[0]
-    X, F, Q = np.zeros((n, 2)), np.zeros((n, 4)), np.zeros((n, node.WIDTH))
-    E, D = np.zeros((n, sweep.WIDTH)), np.zeros((n, 6))
-    solve = sweep_bent if record["bent"] else sweep_unbent
-    shape(record, tables, Y, Q, X)
-    water(record, tables, 0.0, 1.0, X, F)
-    c, s, lam = np.cos(Y[:, 4]), np.sin(Y[:, 4]), 1 + Y[:, 0]
-    rest = np.column_stack([lam * c, lam * s, Y[:, 2], Y[:, 3]])
-
-    def response(C_tilde):
-        node_quantities(record, tables, rate, rate, 1.0, Y, C_tilde, F, Q)
-        assert solve(record, tables, 0.0, rate, rate, 1.0, Y, C_tilde, X, F, Q, E, D)
-        dq = D[:, 0], lam * D[:, 4]
-        return np.column_stack([dq[0] * c - dq[1] * s, dq[0] * s + dq[1] * c, D[:, 2], D[:, 3]]).ravel()
-
-    R = np.empty((4 * n, 4 * n))
-    for j in range(4 * n):
-        change = np.zeros(4 * n)
-        change[j] = CHANGE
-        change = change.reshape(n, 4)
-        R[:, j] = (response(rest + change) - response(rest - change)) / (2 * CHANGE)
+def eigenvalues_of(R, rate):
+    """lambda (1/s) of R, those with |lambda| < 1e3 rate, by size."""
     mu = np.linalg.eigvals(R)
     found = rate * (1 - 1 / mu[np.abs(mu) > 1e-3])
     return found[np.argsort(np.abs(found))]
 
 
+def change_of(Y, D):
+    """Change (n, 4) or (n, 6) of (q, V) under a small update D: dq = deps t + (1+eps) (theta3 n - theta2 b)."""
+    lam = 1 + Y[:, :1]
+    if Y.shape[1] == 6:
+        c, s = np.cos(Y[:, 4:5]), np.sin(Y[:, 4:5])
+        dq = D[:, :1] * np.hstack([c, s]) + lam * D[:, 4:5] * np.hstack([-s, c])
+        return np.hstack([dq, D[:, 2:4]])
+    t, n, b = frames(Y[:, 6:10]).transpose(1, 0, 2)
+    return np.hstack([D[:, :1] * t + lam * (D[:, 8:9] * n - D[:, 7:8] * b), D[:, 3:6]])
+
+
+def rates(motion, rate):
+    """Eigenvalues lambda (1/s) of small motions about `motion.Y`, in a plane or in space, by size.
+
+    rate : c (1/s), of the order of the eigenvalues wanted
+    """
+    Y, stage = motion.Y, Stage(motion.scene)
+    F, rest = stage.water(0.0, Y), stage.conserved(Y)
+    R = np.empty((rest.size, rest.size))
+    for j in range(rest.size):
+        change = np.zeros(rest.size)
+        change[j] = CHANGE
+        ahead, behind = (
+            change_of(Y, stage.update(rate, rate, 1.0, Y, rest + sign * change.reshape(rest.shape), F))
+            for sign in (1, -1)
+        )
+        R[:, j] = (ahead - behind).ravel() / (2 * CHANGE)
+    return eigenvalues_of(R, rate)
+
+
 def frequencies(motion, rate):
-    """Angular frequencies (rad/s) of the undamped modes, rising: imaginary parts of the eigenvalues above the axis."""
+    """Angular frequencies (rad/s) of the undamped modes, rising: imaginary parts of the eigenvalues above the axis.
+
+    In space those of a line at rest across each of two planes come twice.
+    """
     found = rates(motion, rate)
     return np.sort(found.imag[found.imag > 1e-6 * rate])
 
@@ -58,3 +63,8 @@ def frequencies(motion, rate):
 def box(k, h):
     """What the box makes of a wave number k: differences over means of exp(iks) give i (2/h) tan(kh/2)."""
     return 2 / h * np.tan(0.5 * k * h)
+
+
+def distance(found, expected, times=1):
+    """Largest relative distance from each expected frequency to the `times` nearest ones found."""
+    return np.sort(np.abs(found[:, None] / expected - 1), axis=0)[:times].max()

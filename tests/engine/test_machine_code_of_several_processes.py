@@ -44,7 +44,8 @@ def test_every_kind_finds_its_own_code(tmp_path):
 LAW = """
 import sys
 import numpy as np
-from engine import load_scene, parameters, tension
+from engine import load_scene, parameters
+from engine.physics import tension
 for dimensions in map(int, sys.argv[1:]):
     tables = []
     record = parameters.record_of(load_scene("tethered_buoy", {"motion.dimensions": dimensions}), tables)[0]

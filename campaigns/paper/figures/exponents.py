@@ -6,9 +6,9 @@ the tangent dynamics, which needs no neighbours: the mean growth of an infinites
 
 import numpy as np
 
+from campaigns.judge import carried
 from campaigns.paper.figures.buoy import LARGE, SMALL, buoy_run
 from campaigns.paper.figures.plans import LeftOut, Parts, Plan
-from reports.buoy_sweep.motion import carried
 from reports.parts.figure_data import Array
 
 LINEAR_PERIODS = 200  # kept whole, for a linear axis as in the paper; a longer record is drawn on a logarithmic one

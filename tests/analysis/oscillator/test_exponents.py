@@ -9,7 +9,7 @@ from analysis.oscillator.pieces import tables
 from analysis.oscillator.strobing import tangent_map
 
 PAPER = SnapOscillator()
-LAMBDA_1 = 0.0640482  # +- 0.0000122, model.md 5.3
+LAMBDA_1 = 0.0640482  # +- 0.0000122, from an independent code
 
 
 def test_largest_exponent_within_three_standard_errors():

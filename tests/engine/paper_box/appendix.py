@@ -3,7 +3,7 @@
 Entries are keyed by row and, for M, the rate that they multiply: ("eps", "S_n", ... of eq. 22). They are functions of a
 namespace of the paper's letters, so that the same text serves numbers, complex numbers and SymPy symbols.
 Eqs. (36), (37) and (40) are copied from the scan; (34), (35), (38) and (39) are missing there and come from the manual
-of a code that descends from the paper's (model.md 2.4). CORRECTED replaces printed entries of (40), nothing else: the
+of a code that descends from the paper's. CORRECTED replaces printed entries of (40), nothing else: the
 print of (36) and (37) is right but for a fourteenth entry.
 """
 

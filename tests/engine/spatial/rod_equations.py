@@ -13,7 +13,9 @@ import numpy as np
 from scipy.integrate import solve_bvp, solve_ivp
 from scipy.optimize import fsolve
 
-from tests.engine.spatial.rods import Rod, force, frames, positions, state_of
+from tests.engine.lines import axes_of, forces, mean, positions
+from tests.engine.rotations import carried
+from tests.engine.spatial.rods import Rod, state_of
 
 
 def rates(rod, y, N):
@@ -23,12 +25,6 @@ def rates(rod, y, N):
     bend = np.cross(M, t, axis=0) / rod.EI
     load = -((1 + eps) ** 3) * np.cross(t, N[:, None] * np.ones_like(t), axis=0)
     return np.vstack([(1 + eps) * t, bend, np.cross(np.cross(t, bend, axis=0), n, axis=0), load])
-
-
-def carried(u, v, x):
-    """Vector x turned by the shortest rotation from the unit vector u to v."""
-    axis = np.cross(u, v)
-    return x + np.cross(axis, x) + np.cross(axis, np.cross(axis, x)) / (1 + u @ v)
 
 
 def any_normal(t):
@@ -44,7 +40,7 @@ def kirchhoff(rod, Y, h, tol=1e-9):
     """
     L = rod.length
     below, above = (np.array(d) / np.linalg.norm(d) for d in (rod.below, rod.above))
-    t, n, b = frames(Y)
+    t, n, b = axes_of(Y)
     s = np.concatenate([[0.0], np.cumsum(h)])
     M = rod.GI * Y[:, 10:11] * t + rod.EI * (Y[:, 11:12] * n + Y[:, 12:13] * b)
     e1 = any_normal(above)
@@ -65,7 +61,7 @@ def kirchhoff(rod, Y, h, tol=1e-9):
         )  # fmt: skip
 
     y = np.vstack([positions(Y, h).T, t.T, n.T, M.T])
-    found = solve_bvp(lambda s, y, N: rates(rod, y, N), ends, s, y, force(rod, Y).mean(0), tol=tol, max_nodes=20000)
+    found = solve_bvp(lambda s, y, N: rates(rod, y, N), ends, s, y, forces(Y, rod.EA).mean(0), tol=tol, max_nodes=20000)
     assert found.success, found.message
     end = found.y[:, -1]
     return found, found.p, end[9:12] @ end[3:6] / rod.GI
@@ -156,7 +152,7 @@ class Localised:
         t = np.stack([np.cos(theta), np.sin(theta) * np.cos(psi), np.sin(theta) * np.sin(psi)], 1)
         fine = np.linspace(s[0], s[-1], 20 * len(s) + 1)
         theta_f, _, rate_f = self.angles(fine - 0.5 * rod.length)
-        roll = -np.concatenate([[0.0], np.cumsum(_means(rate_f * np.cos(theta_f)) * np.diff(fine))])
+        roll = -np.concatenate([[0.0], np.cumsum(mean(rate_f * np.cos(theta_f)) * np.diff(fine))])
         roll = np.interp(s, fine, roll)
         up = np.stack([-np.sin(theta), np.cos(theta) * np.cos(psi), np.cos(theta) * np.sin(psi)], 1)
         side = np.cross(t, up)
@@ -164,7 +160,3 @@ class Localised:
         theta_s = np.gradient(theta, s)
         M = self.torque * t + self.EI * (theta_s[:, None] * side - (rate * np.sin(theta))[:, None] * up)
         return state_of(rod, s, t, n, M, np.array([self.T, 0.0, 0.0]))
-
-
-def _means(values):
-    return 0.5 * (values[1:] + values[:-1])

@@ -11,9 +11,10 @@ Tolerance: order 2 in h; extension and its cube in the moment equation are in th
 import numpy as np
 import pytest
 
-from engine.spatial.lift import product
+from tests.engine.lines import axes_of, forces, positions
+from tests.engine.rotations import conjugate, product, shortest
 from tests.engine.spatial.rod_equations import kirchhoff
-from tests.engine.spatial.rods import Rod, at_rest, force, frames, positions, state_of
+from tests.engine.spatial.rods import Rod, at_rest, state_of
 
 EI, GI, EA = 0.4, 0.3, 1e5
 CASES = {
@@ -27,7 +28,7 @@ CASES = {
 
 def answer(rod, Y, h):
     """O1, N and the place of the middle."""
-    return np.concatenate([Y[:1, 10], force(rod, Y).mean(axis=0), positions(Y, h)[len(h) // 2]])
+    return np.concatenate([Y[:1, 10], forces(Y, EA).mean(axis=0), positions(Y, h)[len(h) // 2]])
 
 
 @pytest.mark.parametrize("case", CASES)
@@ -37,7 +38,7 @@ def test_the_rest_of_a_clamped_rod(case):
     for nodes in (41, 81, 161):
         Y, h = at_rest(rod, nodes)
         answers.append(answer(rod, Y, h))
-        assert force(rod, Y) == pytest.approx(np.tile(answers[-1][1:4], (nodes, 1)), abs=1e-8)
+        assert forces(Y, EA) == pytest.approx(np.tile(answers[-1][1:4], (nodes, 1)), abs=1e-8)
     solution, N, O1 = kirchhoff(rod, Y, h)
     exact = np.concatenate([[O1], N, solution.sol(2.0)[:3]])
     coarse, middle, fine = (np.abs(a - exact) for a in answers)
@@ -85,15 +86,11 @@ def helix(p, theta, O1, length):
 
     open_rod = Rod(EI, GI, EA, length, tuple(end), 0.0)
     exact = state(open_rod, np.linspace(0, length, 200))
-    t = frames(exact)[0][[0, -1]]
+    t = axes_of(exact)[0][[0, -1]]
     chord = end / np.linalg.norm(end)
 
-    def shortest(u, v):
-        q = np.array([1 + u @ v, *np.cross(u, v)])
-        return q / np.linalg.norm(q)
-
-    start = product(product(shortest(chord, t[1]), shortest(t[0], chord)), exact[0, 6:10])
-    r = product(start * [1, -1, -1, -1], exact[-1, 6:10])
+    start = product(product(shortest(chord, t[1]), shortest(t[0], chord)), exact[:1, 6:10])
+    r = product(conjugate(start), exact[-1:, 6:10])[0]
     twist = 2 * np.arctan2(r[1], r[0]) + O1 * length
     rod = Rod(EI, GI, EA, length, tuple(end), twist, tuple(t[0]), tuple(t[1]))
     return rod, F, lambda s: state(rod, s)
@@ -107,7 +104,7 @@ def test_a_uniform_helix(p, theta, O1):
     for nodes in (61, 121, 241):
         Y, h = at_rest(rod, nodes, exact)
         bend = np.hypot(Y[:, 11], Y[:, 12])
-        N = force(rod, Y).mean(axis=0) - [F, 0, 0]
+        N = forces(Y, EA).mean(axis=0) - [F, 0, 0]
         shape = positions(Y, h) - positions(exact(np.linspace(0, 6.0, nodes)), h)
         bent = np.abs(bend - abs(p) * np.sin(theta)).max()
         errors.append([np.linalg.norm(N), abs(Y[0, 10] - O1), bent, np.abs(shape).max()])

@@ -15,8 +15,7 @@ import numpy as np
 import pytest
 
 from engine import load_scene, simulate
-from tests.engine.lines import equilibrium
-from tests.engine.spatial.rods import positions
+from tests.engine.lines import equilibrium, positions
 
 PERIOD, AMPLITUDE, RAMP = 5.0, np.array([1.0, 0.4, 0.5]), 5.0
 CONVERGED = {"solver.newton_tolerance": 1e-8}

@@ -11,8 +11,7 @@ from functools import cache
 import numpy as np
 import pytest
 
-from tests.engine.lines import Motion
-from tests.engine.spatial.lines import frames, positions
+from tests.engine.lines import Motion, axes_of, positions
 from tests.engine.spatial.manufactured import current_table, motion, normals, scene_of
 
 END_S = 1.5
@@ -30,7 +29,7 @@ def errors(run, t, stage_s=None):
     Y, (exact, _) = run.Y, motion(t, run.s / run.s[-1])
     if stage_s is not None:
         exact["S"] = motion(stage_s, run.s / run.s[-1])[0]["S"]
-    t_, n, b = frames(Y[:, 6:10]).transpose(1, 0, 2)
+    t_, n, b = axes_of(Y)
     found = {
         "q": (1 + Y[:, :1]) * t_,
         "n": n,

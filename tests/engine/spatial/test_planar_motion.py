@@ -9,8 +9,7 @@ import numpy as np
 import pytest
 
 from engine import simulate
-from tests.engine.lines import DRY, held, line
-from tests.engine.spatial.lines import SPACE
+from tests.engine.lines import DRY, SPACE, held, line
 
 CALM = {"waves.steepness": 0.016, "water.depth_m": 22.5}
 STEEP = {"waves.steepness": 0.13, "water.depth_m": 22.5}

@@ -7,8 +7,7 @@ kA = 0.13, H = 21.6 m with a lateral blow to the buoy: 15 periods, the first loo
 import numpy as np
 import pytest
 
-from tests.engine.lines import Motion
-from tests.engine.spatial.lines import in_space
+from tests.engine.lines import Motion, in_space
 
 VIOLENT = {"waves.steepness": 0.13, "water.depth_m": 21.6, "output.profiles": True}
 

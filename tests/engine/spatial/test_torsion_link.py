@@ -13,9 +13,9 @@ import numpy as np
 import pytest
 
 from engine import load_scene
-from tests.engine.lines import Motion
+from tests.engine.lines import Motion, positions
 from tests.engine.spatial.rod_equations import Localised
-from tests.engine.spatial.rods import at_rest, positions
+from tests.engine.spatial.rods import at_rest
 
 FAR = 1e4
 

@@ -15,8 +15,9 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 
+from tests.engine.lines import forces, positions
 from tests.engine.spatial.rod_equations import Localised, kirchhoff
-from tests.engine.spatial.rods import Rod, at_rest, force, positions
+from tests.engine.spatial.rods import Rod, at_rest
 
 EI, EA, LENGTH = 0.4, 1e5, 20.0
 
@@ -52,7 +53,7 @@ def found(buckle, nodes):
     """T, M and the deflection in the middle over those of the closed form."""
     rod = buckle.rod(LENGTH, EA)
     Y, h = at_rest(rod, nodes, lambda s: buckle.state(rod, s))
-    N, x = force(rod, Y), positions(Y, h)
+    N, x = forces(Y, EA), positions(Y, h)
     assert np.ptp(N, axis=0).max() < 1e-7
     deflection = np.hypot(*x[nodes // 2, 1:])
     return np.array(
@@ -82,7 +83,7 @@ def test_a_rod_between_clamps_that_are_not_in_line():
     answers = []
     for nodes in (161, 321, 641):
         Y, h = at_rest(rod, nodes, lambda s: buckle.state(aligned, s))
-        answers.append(np.concatenate([force(rod, Y)[0], [rod.GI * Y[0, 10]]]))
+        answers.append(np.concatenate([forces(Y, EA)[0], [rod.GI * Y[0, 10]]]))
     _, N, O1 = kirchhoff(rod, Y, h)
     coarse, middle, fine = (np.abs(answer - [*N, rod.GI * O1]).max() for answer in answers)
     assert np.log2([coarse / middle, middle / fine]) == pytest.approx(2, abs=0.15)

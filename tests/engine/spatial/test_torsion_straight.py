@@ -15,8 +15,8 @@ import numpy as np
 import pytest
 from scipy.optimize import brentq
 
-from tests.engine.lines import Motion, equilibrium
-from tests.engine.spatial.rods import Rod, at_rest, frames, positions
+from tests.engine.lines import Motion, axes_of, equilibrium, positions
+from tests.engine.spatial.rods import Rod, at_rest
 
 EI, GI, EA, LENGTH = 0.4, 0.3, 1e5, 5.0
 
@@ -69,7 +69,7 @@ def test_twist_put_in_slowly_moves_nothing_else():
     for t, Y in history[1:]:
         given = twist * (np.sin(np.pi * t / 8) ** 2 if t < 4 else 1.0)
         assert Y[:, 10] * LENGTH == pytest.approx(given, rel=1e-12, abs=1e-12)
-        assert np.abs(frames(Y)[0][:, 1:]).max() < 1e-9 and np.abs(Y[:, 4:6]).max() < 1e-9
+        assert np.abs(axes_of(Y)[0][:, 1:]).max() < 1e-9 and np.abs(Y[:, 4:6]).max() < 1e-9
 
 
 def buckling_twist(nodes, tension):

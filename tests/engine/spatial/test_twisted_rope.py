@@ -14,9 +14,9 @@ import pytest
 from scipy.optimize import brentq, minimize_scalar
 
 from engine import load_scene
-from tests.engine.lines import Motion
+from tests.engine.lines import Motion, axes_of, forces, positions
 from tests.engine.spatial.rod_equations import Localised, symmetric
-from tests.engine.spatial.rods import Rod, frames, positions
+from tests.engine.spatial.rods import Rod
 
 
 def last_state(nodes, **changes):
@@ -26,8 +26,7 @@ def last_state(nodes, **changes):
     assert motion.run().status == "ok"
     Y = motion.Y
     tether = scene.tether
-    t, n, b = frames(Y)
-    N = tether.tension.stiffness_N * Y[:, :1] * t + Y[:, 1:2] * n + Y[:, 2:3] * b
+    N = forces(Y, tether.tension)
     x = positions(Y, motion.h)
     numbers = [np.linalg.norm(N[nodes // 2]), tether.torsion_stiffness_Nm2 * Y[0, 10], np.hypot(*x[:, :2].T).max()]
     return scene, np.array(numbers), x[-1, 2]
@@ -82,7 +81,7 @@ def test_the_grid_converges_to_the_rod_of_this_length():
 
 def test_the_tangent_turns_from_the_axis_past_a_right_angle():
     motion = Motion(load_scene("twisted_rope", {"output.step_s": 5.0}), 70.0)
-    steepest = np.array([frames(Y)[0][:, 2].min() for _, Y in motion.states()])
+    steepest = np.array([axes_of(Y)[0][:, 2].min() for _, Y in motion.states()])
     assert steepest[2] > 0.9999  # twisted by all its 1.25 turns, and straight
     assert np.all(np.diff(steepest[3:]) < 0)
     assert steepest[-1] < -0.15

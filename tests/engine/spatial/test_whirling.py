@@ -14,21 +14,19 @@ import pytest
 from scipy.integrate import solve_ivp
 from scipy.optimize import root
 
-from tests.engine.lines import DRY, Motion, linear
-from tests.engine.spatial.lines import held_at, in_space, positions
+from tests.engine.lines import DRY, Motion, held, in_space, linear, positions
+from tests.engine.rotations import parameters_of_frames
 
 G, L, M, EA = 9.81, 5.0, 100.0, 2e4
 STEPS = {"solver.rtol": 1e-5, "output.step_s": 0.05}
 
 
-def frames_along(t, across):
-    """Euler parameters (n, 4) of frames with tangents t (n, 3), all in one plane, and one normal `across` it."""
-    b = np.cross(t, across)
-    R = np.stack([t, np.broadcast_to(across, t.shape), b], 2)  # columns t, n, b
-    vector = [R[:, 2, 1] - R[:, 1, 2], R[:, 0, 2] - R[:, 2, 0], R[:, 1, 0] - R[:, 0, 1]]
-    w = np.sqrt(np.maximum(1 + np.trace(R, axis1=1, axis2=2), 0)) / 2
-    assert w.min() > 0.1
-    return np.column_stack([w, *(v / (4 * w) for v in vector)])
+ACROSS = np.array([0.0, 1.0, 0.0])
+
+
+def frames_along(t):
+    """Euler parameters (n, 4) of frames with tangents t (n, 3) in the plane x-z."""
+    return parameters_of_frames(t, np.broadcast_to(ACROSS, t.shape))
 
 
 def bob(duration_s, angle, speed):
@@ -41,7 +39,7 @@ def bob(duration_s, angle, speed):
     t = np.tile([np.sin(angle), 0.0, -np.cos(angle)], (11, 1))
     Y = np.zeros((11, 13))
     Y[:, 0] = strain
-    Y[:, 6:10] = frames_along(t, np.array([0.0, 1.0, 0.0]))
+    Y[:, 6:10] = frames_along(t)
     Y[:, 4] = speed * np.linspace(0, 1, 11)
     return Motion(scene, duration_s, Y)
 
@@ -98,13 +96,13 @@ def test_a_whirling_string_turns_as_a_rigid_body():
         Nx, Nr, x, r = shoot(N, dense_output=True).sol(s)
         assert r.max() > 5.0 and abs(x[-1] - chord) < 1e-8
         scene = in_space(
-            DRY, held_at(chord, 0.0, 0.0), STEPS, {"gravity_mps2": 0.0}, length_m=length, nodes=nodes, area_m2=5e-4,
+            DRY, held(chord, 0.0, 0.0), STEPS, {"gravity_mps2": 0.0}, length_m=length, nodes=nodes, area_m2=5e-4,
             density_kgpm3=1000.0, bending_stiffness_Nm2=0.0, tension=linear(EA),
         )  # fmt: skip
         T = np.hypot(Nx, Nr)
         Y = np.zeros((nodes, 13))
         Y[:, 0] = T / EA
-        Y[:, 6:10] = frames_along(np.stack([Nx / T, 0 * T, Nr / T], 1), np.array([0.0, 1.0, 0.0]))
+        Y[:, 6:10] = frames_along(np.stack([Nx / T, 0 * T, Nr / T], 1))
         Y[:, 4] = -omega * r  # turning from z to -y
         motion = Motion(scene, 0.75 * period, Y)
         motion.inner.state["status"] = 0  # slack and weightless it has no rest, but it does not start from there

@@ -1,0 +1,186 @@
+"""Where tests reach the engine's kernels: this file alone knows their arguments, their work arrays and their columns.
+
+Arrays are per node: state Y (n, 6) in a plane and (n, 13) in space, conserved C = (q, V) (n, 4) or (n, 6), places X
+(n, 2) or (n, 3), water F = (velocity, local acceleration) (n, 4) or (n, 6), a Newton update D (n, 6) or (n, 12).
+"""
+
+from types import SimpleNamespace
+
+import numpy as np
+
+from engine import run as engine_run
+from engine.parameters import record_of
+from engine.perturbations.lateral import COEFFICIENTS, WIDTH, carry_lateral, lateral_stage
+from engine.perturbations.tangent import carry
+from engine.physics.currents import current_field, current_field_3d
+from engine.physics.ends import upper_end, upper_end_3d
+from engine.physics.sea import sea_field
+from engine.physics.waves import wave_field, wave_field_3d
+from engine.planar import node as planar_node
+from engine.planar import state as planar
+from engine.planar.elimination import sweep_bent
+from engine.planar.elimination_unbent import sweep_unbent
+from engine.spatial import elimination as spatial_bent
+from engine.spatial import elimination_unbent as spatial_unbent
+from engine.spatial import node as spatial_node
+from engine.spatial import state as spatial
+from engine.time.newton import newton
+from engine.time.status import OK
+from engine.time.steps import runge_kutta_step
+from engine.time.time_loop import STATE, guard_turns, march
+
+
+def parameters_of(scene, before=()):
+    """The record of a scene, and its tables as one array; `before`: tables that lie in front of its own."""
+    tables = [np.zeros(0), *before]
+    p = record_of(scene, tables)[0]
+    return p, np.concatenate(tables)
+
+
+class Stage:
+    """The kernels of one stage of a scene and their work arrays."""
+
+    def __init__(self, scene, **changes):
+        self.p, self.tables = parameters_of(scene)
+        for name, value in changes.items():
+            self.p[name] = value
+        space = scene.motion.dimensions == 3
+        self.n = int(self.p["nodes"])
+        self.state, self.node = (spatial, spatial_node) if space else (planar, planar_node)
+        bent, unbent = (spatial_bent.sweep, spatial_unbent.sweep_unbent) if space else (sweep_bent, sweep_unbent)
+        self.eliminate = bent if self.p["bent"] else unbent
+        self.work = self.state.work_arrays.py_func(self.p, self.n)
+        self.X, self.F, self.Q, self.E, self.D, self.C_tilde = self.work
+
+    def places(self, Y):
+        """X of a state."""
+        self.node.shape(self.p, self.tables, Y, self.Q, self.X)
+        return self.X.copy()
+
+    def water(self, t, Y):
+        """F of a state at time t."""
+        self.places(Y)
+        self.node.water(self.p, self.tables, t, 1.0, self.X, self.F)
+        return self.F.copy()
+
+    def conserved(self, Y):
+        """C of a state."""
+        C = np.zeros_like(self.C_tilde)
+        self.state.conserved(self.p, Y, C)
+        return C
+
+    def quantities(self, cq, cv, in_motion, Y, C_tilde, F):
+        """What the node kernel makes of a state of the plane: q, N, G, the slope of T, EI kappa_s."""
+        self.places(Y)
+        self.node.node_quantities(self.p, self.tables, cq, cv, in_motion, Y, C_tilde, F, self.Q)
+        Q = self.Q
+        return SimpleNamespace(q=Q[:, 5:7], slope=Q[:, 2], N=Q[:, 3:5], G=Q[:, 9:11], moment_s=-Q[:, 18])
+
+    def update(self, cq, cv, in_motion, Y, C_tilde, F, viscosity=None, t=0.0):
+        """Newton update D at a state, with the water F and the viscosity (n, 2) frozen."""
+        if viscosity is not None:
+            self.Q[:, -2:] = viscosity
+        self.places(Y)
+        self.node.node_quantities(self.p, self.tables, cq, cv, in_motion, Y, C_tilde, F, self.Q)
+        stage = self.p, self.tables, t, cq, cv, in_motion
+        assert self.eliminate(*stage, Y, C_tilde, self.X, F, self.Q, self.E, self.D)
+        return self.D.copy()
+
+    def newton(self, t, cq, cv, tolerance, most, Y, C_tilde):
+        """Solve a stage for Y in place: (code, iterations)."""
+        self.C_tilde[:] = C_tilde
+        work = self.C_tilde, *self.work[:5]
+        return newton(self.p, self.tables, t, 1.0, cq, cv, tolerance, most, Y, *work)
+
+    def lateral(self, rate, Y, K, F, dC_tilde):
+        """Change dC (n, 2) = (q_y, V_y) of a stage in the plane with rates K (n, 4) for a change dC_tilde (n, 2)."""
+        dC = np.zeros((self.n, 2))
+        work = np.zeros((self.n, COEFFICIENTS)), np.zeros((self.n, WIDTH))
+        self.places(Y)
+        lateral_stage(self.p, self.tables, 0.0, rate, self.X, Y, K, self.Q, F, dC_tilde, *work, dC)
+        return dC
+
+
+def waves_at(scene, t, X):
+    """F (m, 4) or (m, 6) of the waves of a scene, regular or not, at any places X (m, 2) or (m, 3)."""
+    p, tables = parameters_of(scene)
+    X = np.ascontiguousarray(X, float)
+    F = np.zeros((len(X), 2 * X.shape[1]))
+    if scene.waves.irregular:
+        sea_field(p, tables, t, X, F)
+    else:
+        (wave_field_3d if X.shape[1] == 3 else wave_field)(p, t, X, F)
+    return F
+
+
+def current_at(scene, t, X, before=()):
+    """F (m, 4) or (m, 6) of the current of a scene at any places X (m, 2) or (m, 3)."""
+    p, tables = parameters_of(scene, before)
+    X = np.ascontiguousarray(X, float)
+    F = np.zeros((len(X), 2 * X.shape[1]))
+    (current_field_3d if X.shape[1] == 3 else current_field)(p, tables, t, X, F)
+    return F
+
+
+def upper_end_of(p, tables, t, rate, in_motion, N, V, V_tilde, F):
+    """Condition e (2,) or (3,) of the upper end, its factor e_N of N, and its derivative D by V, (2, 2) or (3, 3)."""
+    if len(N) == 2:
+        ex, ez, e_N, xx, xz, zz = upper_end(p, tables, t, rate, in_motion, *N, *V, *V_tilde, F)
+        return np.array([ex, ez]), e_N, np.array([[xx, xz], [xz, zz]])
+    e, e_N, D = upper_end_3d(p, tables, t, rate, in_motion, tuple(N), tuple(V), tuple(V_tilde), F)
+    return np.array(e), e_N, np.array(D)[[0, 1, 2, 1, 3, 4, 2, 4, 5]].reshape(3, 3)
+
+
+class Steps:
+    """A run whose accepted steps are kept, chunk by chunk: T (m, 3) = (t, dt, whether it is of one stage), stages Ys
+    (m, s, n, unknowns), their rates Ks (m, s, n, conserved)."""
+
+    def __init__(self, scene, duration_s, chunk=400, **changes):
+        self.inner = engine_run.Run(scene, duration_s)
+        self.record, self.tables, self.state = self.inner.record, self.inner.tables, self.inner.state
+        for name, value in changes.items():
+            self.record[name] = value
+        s = max(int(self.record["stages"]), 2)
+        self.T = np.zeros((chunk, 3))
+        self.Ys, self.Ks = np.zeros((chunk, s, *self.inner.Y.shape)), np.zeros((chunk, s, *self.inner.C.shape))
+
+    def chunks(self):
+        """Yield the number of steps kept, until the run is over; fails if it ends early."""
+        run = self.inner
+        assert self.state["status"] == OK
+        while not run.done():
+            self.state["trail"] = 0
+            march(
+                self.record, self.tables, self.state, run.Y, run.Y_before, run.C, run.K, run.samples,
+                run.profiles, run.energies, run.sums, self.T, self.Ys, self.Ks, run.goal,
+            )  # fmt: skip
+            assert self.state["status"] == OK
+            yield int(self.state["trail"])
+
+    def trail(self, first, count):
+        return [part[first : first + count] for part in (self.T, self.Ys, self.Ks)]
+
+    def carry(self, first, count, vectors, rates, waters):
+        """Perturbations (k, n, 4) in place along kept steps; returns the growth (k,) of each, nats."""
+        growth = np.zeros((1, len(vectors)))
+        carry(self.record, self.tables, 1e9, count, *self.trail(first, count), vectors, rates, waters, growth)
+        return growth[0]
+
+    def carry_lateral(self, first, count, weights, across, rates):
+        """A perturbation (n, 2) across the plane in place along kept steps; returns its growth, nats."""
+        growth = np.zeros(1)
+        carry_lateral(self.record, self.tables, 1e9, count, *self.trail(first, count), weights, across, rates, growth)
+        return growth[0]
+
+    def repeat(self, t, dt, dt_before, one_stage, state, new):
+        """One Runge-Kutta step from state = (Y, Y_before, C, K) into new = (Ys, Ks, C_new); returns its code."""
+        work = self.inner.kind.work_arrays.py_func(self.record, len(state[0]))
+        return runge_kutta_step(self.record, self.tables, t, dt, dt_before, bool(one_stage), *state, *new, work)[0]
+
+    def guard(self, state, Y):
+        """After a step: (code, whether a loop was released); state: (1,) of `new_state`."""
+        return guard_turns(self.record, self.tables, state, Y)
+
+
+def new_state():
+    return np.zeros(1, STATE)[0]

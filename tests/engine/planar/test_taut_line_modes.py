@@ -1,0 +1,96 @@
+"""Law: small free motions of a straight line between held ends are sines of wave number k = j pi/L, with
+
+    axial       omega^2 = EA k^2/m
+    transverse  (m + m_a) omega^2 = T k^2/(1+eps) + EI k^4/(1+eps)^4        (k per unstretched length)
+
+from (3), (16) and (24) linearised about a uniform strain eps: m w_tt = N_s, N = T phi + S, w_s = (1+eps) phi,
+EI phi_ss = -(1+eps)^3 S. Without strain it is the pinned beam under tension (Timoshenko, Vibration Problems in
+Engineering), with EI = 0 the string, with T = 0 the pinned beam. In space every transverse frequency comes twice.
+
+Tolerance: sines satisfy the box equations too, with (2/h) tan(kh/2) for k, so the spatial operator must give that
+number to rounding: 2e-7 relative (central differences of 1e-5, eigenvalues of a matrix of some hundred rows); and the
+closed form itself to the error of the box in k, (kh)^2/12, to the power in which k enters.
+"""
+
+import numpy as np
+import pytest
+
+from tests.engine.lines import DRY, STILL, Motion, equilibrium, held, line, linear, mean
+from tests.engine.modes import box, distance, frequencies
+
+LENGTH, NODES, MASS, EA = 10.0, 31, 0.5, 1e4
+H = LENGTH / (NODES - 1)
+K = np.arange(1, 7) * np.pi / LENGTH
+ALONG_X, UP, LEANING, ASKEW = [1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [-0.8, 0.0, 0.6], [0.4, -0.7, 0.3]
+WATERS = {"dry": 0.0, "wet, no added mass": 0.0, "wet": 1.0, "wet, much added mass": 2.5}
+
+
+def taut(strain, EI, water="dry", direction=ALONG_X, dimensions=2, **solver):
+    place = LENGTH * (1 + strain) * np.array(direction) / np.linalg.norm(direction)
+    return line(
+        DRY if water == "dry" else STILL, held(*place), {"gravity_mps2": 0.0, "motion.dimensions": dimensions}, solver,
+        length_m=LENGTH, nodes=NODES, area_m2=5e-4, density_kgpm3=1000.0, bending_stiffness_Nm2=EI,
+        added_mass=WATERS[water], tension=linear(EA),
+    )  # fmt: skip
+
+
+def transverse(k, strain, EI, mass=MASS):
+    lam = 1 + strain
+    return np.sqrt((EA * strain * k**2 / lam + EI * k**4 / lam**4) / mass)
+
+
+@pytest.mark.parametrize("strain, EI", [(0.02, 0.0), (0.3, 0.0), (0.0, 2.0), (0.02, 2.0), (0.3, 2.0)])
+@pytest.mark.parametrize(
+    "dimensions, direction, water",
+    [
+        (2, ALONG_X, "dry"),
+        (2, UP, "wet, no added mass"),
+        (2, LEANING, "wet, much added mass"),
+        (3, ALONG_X, "wet"),
+        (3, [0.0, 1.0, 0.0], "dry"),
+        (3, [0.0, 0.0, -1.0], "dry"),
+        (3, ASKEW, "wet, much added mass"),
+    ],
+)
+def test_a_line_vibrates_as_a_tensioned_pinned_beam(strain, EI, dimensions, direction, water):
+    """In whatever direction it lies; added mass slows transverse motion and leaves axial motion alone."""
+    mass = MASS + WATERS[water] * 1027.0 * 5e-4
+    found = frequencies(equilibrium(taut(strain, EI, water, direction, dimensions)), 10.0)
+    assert distance(found, transverse(box(K, H), strain, EI, mass), dimensions - 1) < 2e-7
+    assert distance(found, np.sqrt(EA / MASS) * box(K, H)) < 2e-7
+    power = 2 if EI and strain == 0 else 1
+    assert distance(found[:1], transverse(K[:1], strain, EI, mass)) < power * (K[0] * H) ** 2 / 12 * 1.1
+
+
+def test_the_frequencies_come_in_no_other_place():
+    found = frequencies(equilibrium(taut(0.02, 2.0)), 10.0)
+    every = box(np.arange(1, NODES - 1) * np.pi / LENGTH, H)
+    both = np.concatenate([transverse(every, 0.02, 2.0), np.sqrt(EA / MASS) * every])
+    slow = found[found < 200]
+    assert slow.size == np.count_nonzero(both < 200)
+    assert distance(both, slow) < 1e-7
+
+
+@pytest.mark.parametrize("integrator", ["esdirk43", "trbdf2", "midpoint", "generalized-alpha"])
+def test_a_plucked_mode_swings_at_that_frequency(integrator):
+    """Third mode, 10 periods. Time error of the second-order methods: the phase falls behind by (omega dt)^2 times at
+    most 1/12 (midpoint, trapezoidal part of TR-BDF2) ... 1/6; of the fourth-order one by less than (omega dt)^4."""
+    strain, EI, j = 0.02, 2.0, 3
+    omega = transverse(box(K[j - 1], H), strain, EI)
+    period, per_period = 2 * np.pi / omega, 50
+    solver = {"integrator": integrator, "step_s": period / per_period, "newton_tolerance": 1e-13}
+    scene = taut(strain, EI, **{f"solver.{key}": v for key, v in solver.items()}, **{"output.step_s": period / 10})
+    motion = Motion(scene, 10 * period)
+    s, lam, k = motion.s, 1 + strain, j * np.pi / LENGTH
+    start = motion.Y.copy()
+    start[:, 4] += 1e-6 * np.cos(k * s)
+    start[:, 5] = -1e-6 * box(k, H) * np.sin(k * s)
+    start[:, 1] = 1e-6 * EI * box(k, H) ** 2 * np.cos(k * s) / lam**3
+    motion = Motion(scene, 10 * period, start)
+    times, tilt = zip(*((t, Y[0, 4]) for t, Y in motion.states()), strict=True)
+    times, tilt = np.array(times), np.array(tilt) / 1e-6
+    step = 2 * np.pi / per_period
+    phase_error = {"esdirk43": step**4, "trbdf2": step**2 / 6, "midpoint": step**2 / 12, "generalized-alpha": step**2}
+    allowed = phase_error[integrator] * omega * times + 1e-5
+    assert np.all(np.abs(tilt - np.cos(omega * times)) < allowed)
+    assert np.abs(mean(tilt)).max() > 0.5

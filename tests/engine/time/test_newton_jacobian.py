@@ -1,0 +1,142 @@
+"""Law: the elimination solves J D = -residual, with J the derivative of the box equations as they are written down.
+
+The residual is assembled in `box_equations` without the engine's kernels, J by complex step. The water is frozen: its
+dependence on position is left out of the engine's Jacobian by design. Clamps: at states whose end tangents point where
+they should, up to the roll, as in every state the engine meets once it has started; away from there the engine takes
+the derivative for an aligned clamp.
+"""
+
+import numpy as np
+import pytest
+
+from engine import load_scene
+from tests.engine.box_equations import equations, jacobian, lifted, roll, unknowns
+from tests.engine.kernels import Stage
+from tests.engine.rotations import frames, product, turned_by
+
+LAWS = {
+    "linear": {"law": "linear", "stiffness_N": 5e4},
+    "tanh": {"law": "tanh", "p": [2.0e4, 5.0, 0.3, -5.0e3, 1.0e4]},
+    "tabulated": {"law": "tabulated", "strain": [-0.2, 0.0, 0.1, 0.3], "tension_N": [-500.0, 0.0, 3e3, 2e4]},
+}
+HELD = {"end.kind": "held", "buoy": None}
+CLAMPED_BELOW, CLAMPED_ABOVE = {"anchor.rotation": "clamped"}, {"end.rotation": "clamped"}
+ENDS = {
+    "buoy": {},
+    "held": HELD,
+    "free": {"end.kind": "free", "buoy": None},
+    "buoy on a clamped anchor": CLAMPED_BELOW,
+    "held, clamped above": {**HELD, **CLAMPED_ABOVE},
+    "held, clamped twice": {**HELD, **CLAMPED_BELOW, **CLAMPED_ABOVE, "end.twist_rad": 1.3},
+}
+STAGES = {"motion": (200.0, 120.0, 1.0), "statics": (1.0, 10.0, 0.0), "last statics": (1.0, 0.0, 0.0)}
+NODES = 6
+CASES = [
+    (dimensions, end, EI)
+    for dimensions in (2, 3) for end in ENDS for EI in (0.0, 24.0)
+    if "clamped" not in end or (EI and dimensions == 3)
+]  # fmt: skip
+ROUNDING = 1e-9  # of numbers that are zero: those next to them are of order 1 and more
+TURNS = [1e-4, 0.15, 1.0]  # rad between neighbours: both branches of the kernel's rotation vector, and far from small
+
+
+def scene_of(dimensions, law, end, wet, EI, stretching=0.0, tangents=None, **changes):
+    """A scene of few nodes; clamps point along the tangents (2, 3) of the first and the last node."""
+    across = 1.0 if dimensions == 3 else 0.0
+    places = {
+        "held": {"end.position_m": [3.0, -2.0 * across, 18.0]},
+        "free": {"end.force_N": [300, -200 * across, 900]},
+    }
+    overrides = {
+        "motion.dimensions": dimensions,
+        "tether.tension": LAWS[law],
+        "tether.nodes": NODES,
+        "tether.bending_stiffness_Nm2": EI,
+        "tether.torsion_stiffness_Nm2": 0.7 * EI,
+        "tether.grid_stretching": stretching,
+        "tether.diameter_m": 0.05,
+        **ENDS[end],
+        **places.get(ENDS[end].get("end.kind"), {}),
+        **({} if wet else {"water": None, "waves": None}),
+        **changes,
+    }
+    for i, part in enumerate(("anchor", "end")):
+        if overrides.get(f"{part}.rotation") == "clamped":
+            overrides[f"{part}.direction"] = tangents[i].tolist()
+    return load_scene("tethered_buoy", overrides)
+
+
+def directions(rng, turn):
+    """Euler parameters (NODES, 4): from a random first frame, random turns from node to node."""
+    beta = turned_by(rng.normal(0, 1, (1, 3)))
+    for _ in range(NODES - 1):
+        theta = rng.normal(0, turn, (1, 3))
+        beta = np.concatenate([beta, product(beta[-1:], turned_by(theta * min(1.0, 2.9 / np.linalg.norm(theta))))])
+    return beta
+
+
+def state_of(rng, scene, turn, beta=None):
+    """A state with every term of the equations at work: strain of both signs, shear, turns, motion, water; torsion
+    where both ends are clamped."""
+    n, bent = scene.tether.nodes, scene.tether.bending_stiffness_Nm2 > 0
+    strain, V = rng.uniform(-0.15, 0.35, n), rng.normal(0, 2, (n, 3))
+    shear, curvature = rng.normal(0, 300, (n, 2)) * bent, rng.normal(0, 1, (n, 2)) * bent
+    if beta is None:
+        phi = 1.4 + np.cumsum(rng.normal(0, turn, n).clip(-2.9, 2.9))
+        Y = np.column_stack([strain, shear[:, 0], V[:, [0, 2]], phi, curvature[:, 0]])
+        t, V = frames(lifted(Y)[:, 6:10])[:, 0, [0, 2]], V[:, [0, 2]]
+    else:
+        Y = np.column_stack([strain, shear, V, beta, np.zeros(n), curvature])
+        t = frames(beta)[:, 0]
+        if scene.anchor.rotation == scene.end.rotation == "clamped":
+            # 0.3 rad more than the twist: Euler parameters know the rest of a whole number of double turns only
+            Y[:, 10] = (scene.end.twist_rad + 0.3 - roll(Y, scene)) / scene.tether.length_m
+    C_tilde = np.concatenate([(1 + strain[:, None]) * t, V], 1)
+    C_tilde += rng.normal(0, 0.02, C_tilde.shape)
+    return Y, C_tilde, rng.normal(0, 1.5, C_tilde.shape) * (scene.water is not None)
+
+
+def assert_solved(scene, stage, Y, C_tilde, F, **more):
+    still, viscosity = np.zeros((NODES, 12 if Y.shape[1] == 13 else 6)), more.get("viscosity")
+    r = equations(scene, stage, Y, still, C_tilde, F, twist=scene.end.twist_rad, **more)
+    J = jacobian(scene, stage, Y, C_tilde, F, **more)
+    assert len(J) == len(J.T) == len(r)
+    D = Stage(scene).update(*stage, Y, C_tilde, F, viscosity)
+    exact = np.linalg.solve(J, -r).reshape(NODES, -1)
+    # each unknown against the largest of its kind along the line
+    off = np.abs(D[:, unknowns(scene)] - exact).max(0)
+    assert np.all(off <= 1e-6 * np.abs(exact).max(0) + ROUNDING), off / np.abs(exact).max(0)
+    # and each equation against its own terms
+    left = J @ D[:, unknowns(scene)].ravel() + r
+    assert np.all(np.abs(left) <= 1e-6 * (np.abs(J) @ np.abs(exact).ravel() + np.abs(r)) + ROUNDING)
+    assert not np.delete(D, unknowns(scene), axis=1).any()
+    return r
+
+
+@pytest.mark.parametrize("stage", STAGES)
+@pytest.mark.parametrize("wet", [True, False], ids=["wet", "dry"])
+@pytest.mark.parametrize("dimensions, end, EI", CASES)
+def test_update_solves_the_linearised_box_equations(dimensions, end, EI, wet, stage):
+    rng = np.random.default_rng(7)
+    for law, stretching, turn in zip(LAWS, (0.0, 2.0, 0.0), TURNS, strict=True):
+        beta = directions(rng, turn) if dimensions == 3 else None
+        tangents = None if beta is None else frames(beta)[[0, -1], 0]
+        scene = scene_of(dimensions, law, end, wet, EI, stretching, tangents)
+        assert_solved(scene, STAGES[stage], *state_of(rng, scene, turn, beta))
+
+
+@pytest.mark.parametrize("dimensions", [2, 3])
+@pytest.mark.parametrize("EI", [0.0, 24.0])
+@pytest.mark.parametrize("law", ["linear", "tanh"])
+def test_with_shock_viscosity(law, EI, dimensions):
+    rng = np.random.default_rng(8)
+    viscous = {"solver.shock_viscosity": {"quadratic": 1.0, "linear": 0.2}, "solver.integrator": "generalized-alpha"}
+    scene = scene_of(dimensions, law, "free", False, EI, **viscous)
+    for stage in STAGES.values():
+        beta = directions(rng, 0.5) if dimensions == 3 else None
+        state = state_of(rng, scene, 0.5, beta)
+        viscosity = rng.uniform(0.0, [2.0, 40.0], (NODES, 2))
+        viscosity[rng.random(NODES) < 0.3] = 0.0
+        r, without = (assert_solved(scene, stage, *state, viscosity=v) for v in (viscosity, 0.0 * viscosity))
+        if stage[2]:
+            assert np.abs(r - without).max() > 1e-3 * np.abs(r).max()
