@@ -42,7 +42,7 @@ import numpy as np
 from ..compiled import by_kind, kernel
 from ..physics.ends import released
 from ..physics.submergence import cap_across
-from ..physics.tension import tension
+from ..physics.tension.kernels import tension
 from ..planar import columns as col
 from ..planar import node
 from ..record import BEGIN, BUOY, HELD, KIND, STEP

@@ -24,7 +24,7 @@ import numpy as np
 from ..compiled import kernel
 from ..dimensions import shear_force
 from .shocks import shock_tension
-from .tension import stored, tension
+from .tension.kernels import stored, tension
 
 TIME, KINETIC, STRAIN, GRAVITY, END_WORK, SHEAR, VISCOUS, SPACE, POWERS = range(9)  # POWERS: stage powers times dt
 WIDTH = 9

@@ -26,7 +26,7 @@ from ..compiled import kernel
 from ..physics.currents import planar_current
 from ..physics.sea import planar_sea
 from ..physics.shocks import shock_tension
-from ..physics.tension import tension
+from ..physics.tension.kernels import tension
 from ..physics.waves import wave_field
 from ..simd.elementary import sincos
 from ..simd.select import larger

@@ -9,7 +9,7 @@ import numpy as np
 
 from ..arrays import Work
 from ..compiled import kernel
-from ..physics.tension import tension
+from ..physics.tension.kernels import tension
 from ..record import PLACE, SPEED, STRAIN, TENSION
 from ..simd.elementary import within
 from ..simd.select import finite, larger, smaller, where

@@ -16,7 +16,7 @@ import numpy as np
 from .. import record as col
 from ..arrays import Stage
 from ..compiled import kernel
-from ..physics.tension import tension
+from ..physics.tension.kernels import tension
 from ..planar import node
 from ..planar.state import configuration, greatest_turn, last_strain
 from ..time.newton import GOING_ON, iterate, judge

@@ -32,7 +32,7 @@ from ..compiled import kernel
 from ..physics.currents import current_field_3d
 from ..physics.sea import sea_field
 from ..physics.shocks import shock_tension
-from ..physics.tension import tension
+from ..physics.tension.kernels import tension
 from ..physics.waves import wave_field_3d
 from . import columns as col
 from .vectors import dot, frame, mixed, put, quaternion, vector

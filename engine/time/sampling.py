@@ -12,7 +12,7 @@ import numpy as np
 from .. import record as col
 from ..compiled import kernel
 from ..dimensions import configuration, last_strain
-from ..physics.tension import tension
+from ..physics.tension.kernels import tension
 
 
 @kernel

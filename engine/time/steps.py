@@ -13,7 +13,7 @@ import numpy as np
 from ..arrays import Stage
 from ..compiled import kernel
 from ..dimensions import error_square, extrapolate, size_of
-from ..physics.tension import tension
+from ..physics.tension.kernels import tension
 from ..record import STRETCH
 from ..simd.elementary import copy_into
 from ..simd.select import smaller
