@@ -3,7 +3,7 @@
 This is the only place where configuration is read for the kernels. A batch is an array of records and one `tables`
 array; each record knows where its grid, its tension table, its current and its method begin.
 
-In the paper: eq. (9) and eq. (10), which turn mass and area of the stretched line into those of the unstretched one.
+In the paper: eq. (9) mass of a stretched element; eq. (10) area of a stretched element.
 """
 
 import math
@@ -75,15 +75,12 @@ def _tether(record, scene, place):
     record["ma"] = tether.added_mass * displaced
     record["Rw"] = displaced + record["ma"]
     record["barrier"] = tether.compression_barrier_N
-    if law.law == "linear":
-        record["law"], record["p1"] = tension.LINEAR, law.stiffness_N
-    elif law.law == "tanh":
-        record["law"] = tension.TANH
-        for i, value in enumerate(law.p, 1):
-            record[f"p{i}"] = value
-    else:
-        record["law"], record["law_n"] = tension.TABULATED, len(law.strain)
-        record["law_at"] = place(tension.table_of(law.strain, law.tension_N))
+    record["law"] = tension.number_of(law.law)
+    numbers, table = tension.LAWS[record["law"]].numbers(law)
+    for name, value in numbers.items():
+        record[name] = value
+    if len(table):
+        record["law_at"] = place(table)
 
 
 def _water(record, scene, place):
