@@ -21,10 +21,6 @@ def test_the_notation_page_has_the_equations_of_the_docstrings():
     assert shown and shown[1] == markdown("eq."), "stale: python -m reports.paper.index"
 
 
-def test_the_sketches_are_found_too():
-    assert all(f"fig. {number} (" in NOTATION for number in SKETCHES)
-
-
 def test_a_paragraph_that_names_neither_is_refused():
     with pytest.raises(ValueError, match="rows 3 to 5"):
         named_in('"""A module.\n\nIn the paper: eq. 7 strain, and more; rows 3 to 5."""\n')
