@@ -24,7 +24,7 @@ ROOT = Path(__file__).resolve().parents[1]
 ONE_PERIOD = (
     "from engine import load_scene, simulate; assert simulate(load_scene('tethered_buoy'), periods=1).status == 'ok'"
 )
-IMPORTS = "from engine.simulate import simulate"
+IMPORTS = "from engine import simulate"
 
 
 def seconds(arguments, kernels):

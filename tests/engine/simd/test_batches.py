@@ -7,7 +7,7 @@ import pytest
 
 from engine import load_scene, simulate
 from engine.run import Run
-from engine.simulate import simulate_batch
+from engine import simulate_batch
 
 STEEP = {"waves.steepness": 0.13, "water.depth_m": 21.6}
 MEMBERS = [
