@@ -5,6 +5,8 @@ import numpy as np
 LONGEST_PERIOD = 16
 # Share of the motion's range. At the default solver tolerance the default sweep repeats within 0.007 or misses by 0.1.
 STROBE_TOLERANCE = 0.01
+LEAST_JUDGED = 40  # periods after the transient below which no verdict is possible: exponents are then left out
+TANGENTS, LATERAL = "output.tangent_vectors", "output.lateral_growth"
 
 
 def state_of(columns, step_s: float, period_s: float, transient_periods: int) -> tuple[dict, list[float]]:
@@ -85,3 +87,29 @@ def series_verdict(trajectory, transient_periods: int, tangent=None, tighter: st
         max_period=LONGEST_PERIOD,
     )
     return verdict, wolf
+
+
+def in_regular_waves(scene) -> bool:
+    """Whether it is a scene of a buoy in regular waves: motions are strobed and judged once per wave period."""
+    return scene.end.kind == "buoy" and scene.waves is not None and not scene.waves.irregular
+
+
+def carries_tangents(scene) -> bool:
+    """Whether the engine can carry perturbations through this scene, for exponents and a verdict on its regime."""
+    implicit = scene.solver.integrator in ("esdirk43", "trbdf2")
+    return implicit and scene.tether.bending_stiffness_Nm2 > 0 and scene.motion.dimensions == 2
+
+
+def judged_scene(order, changes: dict, least: int = LEAST_JUDGED):
+    """The scene of a study's order with these changes, carrying the perturbations that a verdict needs where it can.
+
+    Where the order does not say (--set): one perturbation in the plane and, unless the order wants none there, one
+    across it. least: periods after the transient from which runs carry any. None where the scene cannot be.
+    """
+    scene = order.scene(changes)
+    if scene is None or order.periods - order.transient < least or not carries_tangents(scene):
+        return scene
+    extra = {} if TANGENTS in order.changes else {TANGENTS: 1}
+    if LATERAL not in order.changes and (extra or scene.output.tangent_vectors):
+        extra[LATERAL] = True
+    return order.scene({**changes, **extra}) if extra else scene

@@ -41,6 +41,13 @@ def is_full(error: BaseException | None) -> bool:
     return False
 
 
+def write_failure(directory: Path | str, error: BaseException) -> str:
+    """One line on a failed write: a full disk in plain words, anything else with the system's reason."""
+    if is_full(error):
+        return f"the disk of {directory} is full; finished runs are kept; make room and run the same command again"
+    return f"cannot write to {directory}: {error}"
+
+
 @contextlib.contextmanager
 def claimed(directory: Path) -> Iterator[None]:
     """Create the folder and hold it for this process alone.

@@ -19,7 +19,9 @@ E (n, 24): P, p, R, r, where `engine.planar.columns` says; the row of the anchor
 inverse at the upper end. For other right-hand sides of the same matrix (`engine.perturbations.resolve`) an E (n, 33)
 also takes in the inverse of every box, and Dxx, Dxz, Dzx, Dzz.
 
-In the paper: eq. (15) EI kappa, eq. (16) moments, eq. (17), eq. (18) and eq. (19) compatibility, eq. (27) the box.
+In the paper: eq. (15) bending moment about b; eq. (16) balance of moments; eq. (17) compatibility; eq. (18)
+compatibility, with the tangent; eq. (19) compatibility in the local frame; eq. (27) box rule: derivative along the
+line.
 """
 
 import numpy as np

@@ -17,7 +17,8 @@ step to step (`engine.physics.shocks`).
 
 Columns of Q: `engine.planar.columns`.
 
-In the paper: eq. (7) eps, eq. (8) U and W, eq. (11) and eq. (12) N_s, eq. (18) V_s, eq. (23) w0, eq. (24) a and b.
+In the paper: eq. (7) strain; eq. (8) velocity; eq. (11) momentum; eq. (12) momentum in the local frame; eq. (18)
+compatibility, with the tangent; eq. (23) weight in water; eq. (24) Morison's force on the line.
 """
 
 import math

@@ -23,7 +23,8 @@ Shock viscosity as in the plane (`engine.planar.node`).
 
 Columns of Q: `engine.spatial.columns`.
 
-In the paper: eq. (4) b_s, eq. (5) and eq. (6) beta and C, eq. (11) N_s, eq. (13)-(16) moments, eq. (18) V_s.
+In the paper: eq. (4) derivative along the line in the local frame; eq. (7) strain; eq. (8) velocity; eq. (11)
+momentum; eq. (12) momentum in the local frame; eq. (23) weight in water; eq. (24) Morison's force on the line.
 """
 
 import math

@@ -14,7 +14,7 @@ from campaigns.accuracy.points import ADAPTIVE, FULL, ORDERS, Point
 from campaigns.accuracy.rows import COLUMNS, point_row, rms_mm
 from campaigns.accuracy.works import BY_NAME, WORKS
 from campaigns.columns import names
-from campaigns.machinery.runner import Job
+from campaigns.machinery.plan import Job
 from engine import load_scene
 from reports.accuracy.study import COLUMNS as READ
 from tests.campaigns.conftest import ROOT, rows_of

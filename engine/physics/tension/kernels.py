@@ -2,6 +2,8 @@
 
 The printed tanh law has almost no stiffness in compression: where the scene gives a barrier P_b, T loses
 P_b (0.5/lambda - 1)^2 below lambda = 1 + eps = 0.5, smooth there, without bound as lambda -> 0.
+
+In the paper: eq. (20) tension law; eq. (29) slope of the tension law.
 """
 
 import math

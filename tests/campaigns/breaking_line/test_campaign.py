@@ -41,19 +41,19 @@ def out(tmp_path_factory):
 
 
 def test_no_argument_is_the_papers_study():
-    runs = order_of().runs
-    cases = [run for run in runs if run.kind == "case"]
-    assert [run.case for run in cases] == list(CASES)
+    runs = order_of().cases
+    cases = [run for run in runs if run.labels["kind"] == "case"]
+    assert [run.labels["case"] for run in cases] == list(CASES)
     for run in cases:
-        assert run.duration_s == LENGTHS_S[run.case[0]]
-        assert run.scene.end.force_decay_s == (0.05 if run.case.endswith("p") else 0.005)
-        assert run.scene.end.force_N[0] == {"1": 45e3, "2": 180e3, "3": 315e3, "4": 450e3}[run.case[0]]
+        assert run.duration_s == LENGTHS_S[run.labels["case"][0]]
+        assert run.scene.end.force_decay_s == (0.05 if run.labels["case"].endswith("p") else 0.005)
+        assert run.scene.end.force_N[0] == {"1": 45e3, "2": 180e3, "3": 315e3, "4": 450e3}[run.labels["case"][0]]
         assert run.scene.tether.bending_stiffness_Nm2 == 24.0 and run.scene.water is None
     assert len({run.scene.key() for run in runs}) == len(runs)
 
 
 def test_both_ends_start_at_one_level():
-    scene = order_of("--cases", "1", "--no-companions").runs[0].scene
+    scene = order_of("--cases", "1", "--no-companions").cases[0].scene
     weight_N = 1140.0 * 1.964e-3 * 9.81 * 60.0
     assert scene.end.force_N[2] == pytest.approx(0.5 * weight_N)
     profiles = simulate(scene, duration_s=0.002).profiles
@@ -61,21 +61,25 @@ def test_both_ends_start_at_one_level():
 
 
 def test_companions():
-    runs = order_of().runs
-    doubled = {run.case: run.scene.tether.nodes for run in runs if run.kind == "doubled"}
+    runs = order_of().cases
+    doubled = {run.labels["case"]: run.scene.tether.nodes for run in runs if run.labels["kind"] == "doubled"}
     assert doubled == dict.fromkeys(CASES, 2 * 1201 - 1)
-    stiff = {run.scene.tether.bending_stiffness_Nm2 for run in runs if run.kind == "stiffness"}
+    stiff = {run.scene.tether.bending_stiffness_Nm2 for run in runs if run.labels["kind"] == "stiffness"}
     assert stiff | {24.0} == set(STIFFNESSES_NM2) == {10.0, 24.0, 100.0}
-    straight = [run for run in runs if run.kind in ("straight", "series")]
-    assert {run.case for run in straight if run.kind == "straight"} == {"3", "4", "4p"}  # where a shock forms
+    straight = [run for run in runs if run.labels["kind"] in ("straight", "series")]
+    assert {run.labels["case"] for run in straight if run.labels["kind"] == "straight"} == {
+        "3",
+        "4",
+        "4p",
+    }  # where a shock forms
     assert all(run.scene.gravity_mps2 == 0.0 for run in straight)
-    nodes = [run.scene.tether.nodes for run in straight if run.kind == "series" and run.case == "4"]
+    nodes = [run.scene.tether.nodes for run in straight if run.labels["kind"] == "series" and run.labels["case"] == "4"]
     assert tuple(nodes) == SERIES_NODES == (201, 401, 801, 1601)
 
 
 def test_a_law_without_theory_has_no_straight_lines():
-    runs = order_of("--cases", "4", "--set", "tether.tension={law='linear', stiffness_N=2e6}").runs
-    assert {run.kind for run in runs} == {"case", "doubled", "stiffness"}
+    runs = order_of("--cases", "4", "--set", "tether.tension={law='linear', stiffness_N=2e6}").cases
+    assert {run.labels["kind"] for run in runs} == {"case", "doubled", "stiffness"}
 
 
 def test_rows(out):
@@ -166,7 +170,7 @@ def test_help_loads_nothing_heavy():
 
 def test_the_shipped_scene_is_case_4():
     shipped = load_scene("breaking_line")
-    (case,) = order_of("--cases", "4", "--no-companions").runs
+    (case,) = order_of("--cases", "4", "--no-companions").cases
     assert shipped.end.force_N[2] == pytest.approx(case.scene.end.force_N[2], rel=1e-6)
     assert shipped.end.force_decay_s == case.scene.end.force_decay_s
     assert shipped.tether == case.scene.tether and shipped.solver == case.scene.solver
