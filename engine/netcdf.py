@@ -68,7 +68,8 @@ def to_bytes(variables: list[Variable], texts: dict[str, str], attributes: dict[
 
 
 def from_bytes(content: bytes, names: tuple[str, ...]) -> tuple[dict[str, str], dict[str, np.ndarray], dict[str, str]]:
-    """(texts of these names, arrays, units) of a file. Raises DamagedError, or whatever a damaged header makes of it."""
+    """(texts of these names, arrays, units) of a file. Raises DamagedError, or whatever a damaged header makes of
+    it."""
     from scipy.io import netcdf_file
 
     with warnings.catch_warnings():

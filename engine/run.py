@@ -120,7 +120,7 @@ class Run:
             "wall_s": self.wall_s,
         }
         heading = float(scene.waves.direction_rad) if self.kind is spatial and scene.waves is not None else 0.0
-        columns = _columns(self.output.samples[: min(int(state["samples"]), self.goal)], heading)
+        columns = columns_of(self.output.samples[: min(int(state["samples"]), self.goal)], heading)
         profiles, tangent = self._profiles(record, state), self.trail.growth(state)
         return Trajectory(scene, WORDS[status], message, columns, statistics, profiles, tangent, self._budget())
 
@@ -151,7 +151,7 @@ def _count(duration_s: float, step_s: float) -> int:
     return int(np.floor(duration_s / step_s * (1 + 1e-12) + 1e-9)) + 1
 
 
-def _columns(samples: np.ndarray, heading: float) -> dict[str, np.ndarray]:
+def columns_of(samples: np.ndarray, heading: float) -> dict[str, np.ndarray]:
     """Columns of the table; the angle from the vertical is taken in the plane of waves that travel along `heading`."""
     t, x, y, z, u, v, w = samples[:, : col.AT_W + 1].T
     r = np.sqrt(x**2 + y**2 + z**2) if y.any() else np.hypot(x, z)
