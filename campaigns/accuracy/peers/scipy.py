@@ -21,7 +21,7 @@ import time
 
 import numpy as np
 
-from campaigns.accuracy.peers.record import as_trajectory
+from campaigns.accuracy.peers.record import as_trajectory, nothing
 from engine.compiled import kernel
 from engine.dimensions import conserved, size_of, work_arrays
 from engine.parameters import record_of
@@ -146,7 +146,7 @@ def run(scene, duration_s, method="Radau", rtol=1e-3, periods=None):
 
     equations = Equations(scene)
     if equations.status != OK:
-        return as_trajectory(scene, "statics-failed", "no static equilibrium", np.empty(0), np.empty((0, 3)), {})
+        return nothing(scene, "statics-failed", "no static equilibrium")
     C0 = equations.start()
     equations.f(0.0, C0)
     equations.jac(0.0, C0)
@@ -169,7 +169,7 @@ def run(scene, duration_s, method="Radau", rtol=1e-3, periods=None):
     statistics = {"wall_s": wall_s, "rhs_calls": equations.calls, "jacobians": equations.jacobians}
     statistics |= {"newton_failures": equations.faults, "steps": 0 if found is None else found.nlu}
     if found is None:
-        return as_trajectory(scene, status, message, t[:0], np.empty((0, 3)), statistics)
+        return nothing(scene, status, message, **statistics)
     C = found.y.T.reshape(len(found.t), -1, equations.size)
     places, strain, s = _lines(C, scene, equations)
     return as_trajectory(scene, status, message, found.t, places, statistics, strain, s)
