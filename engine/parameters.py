@@ -75,15 +75,12 @@ def _tether(record, scene, place):
     record["ma"] = tether.added_mass * displaced
     record["Rw"] = displaced + record["ma"]
     record["barrier"] = tether.compression_barrier_N
-    if law.law == "linear":
-        record["law"], record["p1"] = tension.LINEAR, law.stiffness_N
-    elif law.law == "tanh":
-        record["law"] = tension.TANH
-        for i, value in enumerate(law.p, 1):
-            record[f"p{i}"] = value
-    else:
-        record["law"], record["law_n"] = tension.TABULATED, len(law.strain)
-        record["law_at"] = place(tension.table_of(law.strain, law.tension_N))
+    record["law"] = tension.number_of(law.law)
+    numbers, table = tension.LAWS[record["law"]].numbers(law)
+    for name, value in numbers.items():
+        record[name] = value
+    if len(table):
+        record["law_at"] = place(table)
 
 
 def _water(record, scene, place):
