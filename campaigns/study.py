@@ -196,7 +196,7 @@ class Study:
         """
         order.simulate = simulate
         lengths = {} if self.lengths is None else {"periods": order.periods, "transient": order.transient}
-        parameters = {"scene": order.name, "set": order.changes, **self.parameters(order), **lengths}
+        parameters = {"scene": order.name, "set": order.changes, **lengths, **self.parameters(order)}
         where = {"backend": order.how.backend, "jobs": order.how.jobs, "dask_address": order.how.dask_address}
         return session.conduct(
             self.name, self.called, argv, order.how, {**parameters, **where}, partial(self.work, order)

@@ -3,7 +3,7 @@
 This is the only place where configuration is read for the kernels. A batch is an array of records and one `tables`
 array; each record knows where its grid, its tension table, its current and its method begin.
 
-In the paper: eq. (9) and eq. (10), which turn mass and area of the stretched line into those of the unstretched one.
+In the paper: eq. (9) mass of a stretched element; eq. (10) area of a stretched element.
 """
 
 import math

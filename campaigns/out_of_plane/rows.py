@@ -19,6 +19,7 @@ from campaigns.buoy_sweep.rows import (
     across_plane,
     settled,
     sound_part,
+    strobed_period,
 )
 from campaigns.columns import MESSAGE, PERIODS_RUN, RUN_KEY, STATISTICS, STATUS, Column, names
 
@@ -107,7 +108,8 @@ def offplane_row(trajectory, transient_periods: int, judged: frozenset = frozens
     done = (len(columns["time_s"]) - 1) * step_s / period_s
     if done >= transient_periods + 1 - 1e-6:
         after = round(transient_periods * period_s / step_s)
-        row |= settled(columns, step_s, period_s, transient_periods)
+        row |= settled(columns, step_s, transient_periods * period_s)
+        row["strobed_period"] = strobed_period(columns, step_s, period_s, transient_periods)
         row["inplane_m"] = 0.5 * max(float(np.ptp(columns[name][after:])) for name in ("x_m", "z_m"))
         if trajectory.status == "ok" and trajectory.tangent is not None:
             row |= across_plane(trajectory.tangent, transient_periods)

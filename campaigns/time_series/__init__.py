@@ -18,6 +18,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from campaigns.machinery import cli
+from campaigns.machinery.command import command
 from campaigns.machinery.out_folder import fault_of, folder_name
 
 if TYPE_CHECKING:
@@ -46,7 +47,7 @@ class Order:
 
 def main(argv: list[str] | None = None) -> int:
     """The command: prints the answer, writes --out. Returns the exit code (0, 1, 2 or 130)."""
-    return cli.command(MODULE, argv, read_order, judge)
+    return command(MODULE, argv, read_order, judge)
 
 
 def parser() -> argparse.ArgumentParser:
@@ -145,7 +146,8 @@ def judge(order: Order, argv: list[str]) -> int:
         found = study(record, order.period, order.tolerance)
         print(page(found))
         if out is not None:
-            write_files(found, out, {"period": order.period, "step": record.step, "tolerance": found.tolerance})
+            asked = {"period": order.period, "step": record.step, "tolerance": found.tolerance}
+            write_files(found, out, {"campaign": CAMPAIGN, **asked})
             print(f"\n{out}: the answer, and its curves as CSV; with figures: python -m reports {out}")
     except KeyboardInterrupt:
         print("\ninterrupted; the folder holds what was written whole", file=sys.stderr)
@@ -153,8 +155,4 @@ def judge(order: Order, argv: list[str]) -> int:
     except BrokenPipeError:
         # The reader (head, less) has what it wanted.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-    except OSError as error:
-        why = "the disk is full" if error.errno == 28 else error.strerror
-        print(f"python -m {MODULE}: {out} could not be written: {why}; the answer above stands", file=sys.stderr)
-        return cli.EXIT_FAILED
     return cli.EXIT_OK

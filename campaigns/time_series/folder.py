@@ -22,7 +22,6 @@ from pathlib import Path
 import numpy as np
 
 from campaigns.columns import Column, dictionary
-from campaigns.time_series import CAMPAIGN
 from campaigns.time_series.page import page
 from campaigns.time_series.record import Record
 from campaigns.time_series.study import Study
@@ -31,8 +30,8 @@ from engine.atomic import write_atomic
 Curve = list[tuple[Column, np.ndarray]]
 
 
-def write_files(study: Study, directory: Path, asked: dict[str, float | None]) -> None:
-    """Write the folder; asked: the settings of the command, for provenance.json. Raises OSError.
+def write_files(study: Study, directory: Path, asked: dict[str, object]) -> None:
+    """Write the folder; asked: the campaign and the settings of the command, for provenance.json. Raises OSError.
 
     provenance.json is written last: a folder with it is whole.
     """
@@ -151,13 +150,12 @@ def _table(curve: Curve) -> str:
     return text.getvalue()
 
 
-def _provenance(record: Record, asked: dict[str, float | None]) -> dict[str, object]:
+def _provenance(record: Record, asked: dict[str, object]) -> dict[str, object]:
     return {
-        "campaign": CAMPAIGN,
+        **asked,
         "file": record.path.name,
         "sha256": hashlib.sha256(record.path.read_bytes()).hexdigest(),
         "column": record.column,
-        **asked,
         "python": platform.python_version(),
         "versions": {name: version(name) for name in ("numpy", "scipy", "numba")},
     }

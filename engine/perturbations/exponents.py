@@ -1,4 +1,7 @@
-"""The book-keeping of perturbations for one run: the trail of accepted steps, what follows it, how it grows."""
+"""The book-keeping of perturbations for one run: the trail of accepted steps, what follows it, how it grows.
+
+In the paper: eq. (32) Lyapunov exponent.
+"""
 
 import numpy as np
 

@@ -14,6 +14,8 @@ statics V is a displacement, and V_e the one that is left to go (`engine.time.st
 Motion of a held end in `tables`, n numbers or knots: velocities, since the displacement follows from them:
     harmonic  [amplitude x y z | omega | phase | ramp];  displacement amplitude r(t) sin(omega t + phase), r the ramp
     table     [t (n) | for each of the n - 1 pieces, for x, y, z: v0 v1 v2], v = v0 + v1 d + v2 d^2 at d after its knot
+
+In the paper: eq. (30) motion of the buoy.
 """
 
 import math

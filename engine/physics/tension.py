@@ -8,6 +8,8 @@ P_b (0.5/lambda - 1)^2 below lambda = 1 + eps = 0.5, smooth there, without bound
 Table layout in `tables`, n knots: [knots (n) | c0 c1 c2 c3 of each of the n - 1 pieces | slope below | slope above].
 
 f' is T' of eq. (29).
+
+In the paper: eq. (20) tension law; eq. (29) slope of the tension law.
 """
 
 import math

@@ -19,7 +19,9 @@ E (n, 24): P (9), p (3), R (9), r (3), row-major; in the row of the anchor, whic
 inverse at the upper end. 2 x 2 in the same places without bending. For other right-hand sides of the same matrix
 (`resolve_bent`) an E (n, 33) also takes in E[k, 24:33], the inverse of that box, and in E[0, 24:28] Dxx, Dxz, Dzx, Dzz.
 
-In the paper: eq. (15) EI kappa, eq. (16) moments, eq. (17), eq. (18) and eq. (19) compatibility, eq. (27) the box.
+In the paper: eq. (15) bending moment about b; eq. (16) balance of moments; eq. (17) compatibility; eq. (18)
+compatibility, with the tangent; eq. (19) compatibility in the local frame; eq. (27) box rule: derivative along the
+line.
 """
 
 import numpy as np

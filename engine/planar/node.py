@@ -19,7 +19,8 @@ Columns of Q (row k is node k):
     0 cos phi | 1 sin phi | 2 dT/deps | 3-4 N | 5-6 q | 7-8 q_t | 9-10 G | 11-12 dG/deps | 13-14 dG/dphi
     15-17 dG/dV: xx, xz, zz | 18 M = (1+eps)^3 S | 19 dM/deps | 20 dM/dS | 21 B | 22 L
 
-In the paper: eq. (7) eps, eq. (8) U and W, eq. (11) and eq. (12) N_s, eq. (18) V_s, eq. (23) w0, eq. (24) a and b.
+In the paper: eq. (7) strain; eq. (8) velocity; eq. (11) momentum; eq. (12) momentum in the local frame; eq. (18)
+compatibility, with the tangent; eq. (23) weight in water; eq. (24) Morison's force on the line.
 """
 
 import math

@@ -27,7 +27,8 @@ A clamp is a rotational spring, so stiff that the end turns by less than a milli
 E (n, 77) is laid out in `engine.spatial.rows`; in the row of the anchor, which has no P and p, E[0, 0:6] is y of the
 upper end and dO1.
 
-In the paper: eq. (13) and eq. (14) torque and bending, eq. (16) moments, eq. (18) compatibility.
+In the paper: eq. (13) torque; eq. (14) bending moment about n; eq. (15) bending moment about b; eq. (16) balance of
+moments; eq. (17) compatibility; eq. (18) compatibility, with the tangent; eq. (19) compatibility in the local frame.
 """
 
 from ..compiled import kernel

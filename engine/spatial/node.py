@@ -26,7 +26,8 @@ Columns of Q (row k is node k):
     26-28 dG/dtheta2 | 29-31 dG/dtheta3 | 32-37 dG/dV: xx xy xz yy yz zz | 38 M2 | 39 M3 | 40 (1+eps)^3 | 41 T
     42 B | 43 L
 
-In the paper: eq. (4) b_s, eq. (5) and eq. (6) beta and C, eq. (11) N_s, eq. (13)-(16) moments, eq. (18) V_s.
+In the paper: eq. (4) derivative along the line in the local frame; eq. (7) strain; eq. (8) velocity; eq. (11)
+momentum; eq. (12) momentum in the local frame; eq. (23) weight in water; eq. (24) Morison's force on the line.
 """
 
 import math

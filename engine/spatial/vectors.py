@@ -2,6 +2,8 @@
 
 Quaternions (b0, b1, b2, b3) are the Euler parameters of eq. (5): a frame turned by `a` about the unit vector `e` is
 (cos a/2, e sin a/2), the first column of its rotation is the tangent t, then n, then b.
+
+In the paper: eq. (5) Euler parameters; eq. (6) rotation matrix.
 """
 
 import math

@@ -102,11 +102,11 @@ class Stage:
         return dC
 
 
-def waves_at(scene, t, X):
-    """F (m, 4) or (m, 6) of the waves of a scene, regular or not, at any places X (m, 2) or (m, 3)."""
+def waves_at(scene, t, X, there=0.0):
+    """F (m, 4) or (m, 6) of the waves of a scene, regular or not, at places X (m, 2) or (m, 3), added to `there`."""
     p, tables = parameters_of(scene)
     X = np.ascontiguousarray(X, float)
-    F = np.zeros((len(X), 2 * X.shape[1]))
+    F = np.full((len(X), 2 * X.shape[1]), there)
     if scene.waves.irregular:
         sea_field(p, tables, t, X, F)
     else:

@@ -5,14 +5,11 @@ a peak        from the end of one interval near zero to the start of the next, i
 turned        r' > 0 where the peak begins and r' < 0 where it ends: the line has stopped the buoy and sent it back
 """
 
-from __future__ import annotations
-
 import math
-from dataclasses import dataclass
 
 import numpy as np
 
-from .measures import WINDOW, largest_line
+from campaigns.paper.measures import in_window, largest_line
 
 NEAR_ZERO = 0.05  # of the static tension: what the paper calls near zero, in numbers
 COLUMNS = (
@@ -45,7 +42,7 @@ def snaps(trajectory, transient_periods: int) -> dict[str, float]:
     after = round(transient_periods * period_s / step_s)
     tension, rate = columns["tension_top_N"][after:], columns["radius_rate_mps"][after:]
     found = dict.fromkeys(COLUMNS, math.nan)
-    if (len(columns["time_s"]) - 1) * step_s >= sum(WINDOW) * period_s - 1e-9:
+    if in_window(trajectory):
         for side, name in (("radial", "radius_m"), ("angular", "angle_rad")):
             found[f"{side}_line"], found[f"{side}_at"] = largest_line(columns[name], step_s, period_s)
     if len(tension) < 2:
@@ -74,26 +71,14 @@ def _share(which: np.ndarray) -> float:
     return float(which.mean()) if len(which) else math.nan
 
 
-@dataclass(frozen=True)
-class Scales:
-    """Closed forms of the scene of section 4.2.
+def scales(scene, modes, small: float, large: float) -> dict[str, float]:
+    """Closed forms of a scene with a buoy and waves; modes: its natural frequencies; the two slopes kA of section 4.2.
 
-    small_amplitude_m   amplitude A of the wave of the small slope kA, k from the dispersion relation at depth H
-    wave_length_m, diameter_m   of the waves and of the buoy
-    frequency, lift, force      omega_i/omega_nr, (B - W)/F0, and amplitude of the wave force along r on the buoy at its
+    small_amplitude_m    amplitude A of the wave of the small slope kA, k from the dispersion relation at depth H
+    diameter_over_wave   diameter of the buoy over the length of the waves
+    frequency, lift, force   omega_i/omega_nr, (B - W)/F0, and amplitude of the wave force along r on the buoy at its
         place of rest over F0, at the large slope; F0 = (M + M_a) omega_nr^2 D: omega, B - W and F of eq. (33)
     """
-
-    small_amplitude_m: float
-    wave_length_m: float
-    diameter_m: float
-    frequency: float
-    lift: float
-    force: float
-
-
-def scales(scene, modes, small: float, large: float) -> Scales:
-    """Scales of a scene with a buoy and waves; modes: its natural frequencies; the two slopes kA of section 4.2."""
     from engine.physics.waves import wave_number
 
     buoy, water, omega = scene.buoy, scene.water, modes.wave_radps
@@ -105,12 +90,10 @@ def scales(scene, modes, small: float, large: float) -> Scales:
     reach = (
         math.exp(k * (rest_m - water.depth_m)) * math.expm1(-2.0 * k * rest_m) / math.expm1(-2.0 * k * water.depth_m)
     )
-    wave_mps2 = large / k * omega**2 * reach
-    return Scales(
-        small / k,
-        2.0 * math.pi / k,
-        buoy.diameter_m,
-        omega / modes.radial_radps,
-        modes.static_tension_N / unit_N,
-        pushed_kg * wave_mps2 / unit_N,
-    )
+    return {
+        "small_amplitude_m": small / k,
+        "diameter_over_wave": buoy.diameter_m * k / (2.0 * math.pi),
+        "frequency": omega / modes.radial_radps,
+        "lift": modes.static_tension_N / unit_N,
+        "force": pushed_kg * large / k * omega**2 * reach / unit_N,
+    }

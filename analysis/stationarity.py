@@ -11,8 +11,9 @@ same to their means; on an attractor both scatter. Two signs count as a drift ov
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import ArrayLike
 
-from analysis.sampling import checked_series
+from analysis.sampling import checked_columns, in_deviations
 
 BLOCKS = 8
 LEAST_POINTS = 40
@@ -43,7 +44,7 @@ class Drift:
     reason: str
 
 
-def record_drift(section):
+def record_drift(section: ArrayLike) -> Drift:
     """Whether a strobed record is stationary, by the spread and the mean of eight consecutive blocks (head of file).
 
     section (m,) or (m, d)   one row a forcing period, 40 at least
@@ -52,16 +53,13 @@ def record_drift(section):
     Raises ValueError for values that are not finite.
     Source: block means as in the reverse-arrangements test of J. S. Bendat & A. G. Piersol, Random Data, section 4.5.
     """
-    x = checked_series(section, "section", dimensions=(1, 2))
-    x = x[:, None] if x.ndim == 1 else x
+    x = checked_columns(section, "section")
     if len(x) < LEAST_POINTS:
         reason = f"too short: {LEAST_POINTS} strobed points are needed, given {len(x)}"
         return Drift(None, *[float("nan")] * 5, reason)
-    size = x.std(axis=0)
-    moving = size > 64 * np.finfo(float).eps * np.abs(x).max(axis=0)
-    if not moving.any():
+    z = in_deviations(x, centred=True)
+    if z.shape[1] == 0:
         return Drift(False, 0.0, 0.0, 0.0, 0.0, 1.0, "no motion: the section is one point to the last digits")
-    z = (x[:, moving] - x[:, moving].mean(axis=0)) / size[moving]
     blocks = np.array_split(z, BLOCKS)
     mean = np.array([block.mean(axis=0) for block in blocks])
     spread = np.sqrt([np.mean(block.var(axis=0)) for block in blocks])

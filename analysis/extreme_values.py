@@ -1,17 +1,11 @@
-"""Levels that a series reaches, and the share of time it spends at or below one (a slack tether)."""
+"""The least and greatest value of a series, and the share of time that it spends at or below one (a slack tether)."""
 
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import ArrayLike
 
-from analysis.sampling import (
-    ON_SAMPLE,
-    checked_not_negative,
-    checked_positive,
-    checked_series,
-    locked,
-    record_length_s,
-)
+from analysis.sampling import ON_SAMPLE, checked_not_negative, checked_positive, checked_series, record_length_s
 
 
 @dataclass(frozen=True)
@@ -40,7 +34,9 @@ class Extremes:
     maximum_time_s: float
 
 
-def slack_fraction(tension_N, step_s, threshold_N=0.0, transient_s=0.0):
+def slack_fraction(
+    tension_N: ArrayLike, step_s: float, threshold_N: float = 0.0, transient_s: float = 0.0
+) -> SlackFraction:
     """Share of the time after a transient in which the tension is at or below a threshold.
 
         fraction = 1/t_r * measure{ t : T(t) <= threshold },   T linear between samples
@@ -69,7 +65,7 @@ def slack_fraction(tension_N, step_s, threshold_N=0.0, transient_s=0.0):
     return SlackFraction(min(slack_s / record_s, 1.0), slack_s, record_s, float(threshold_N))
 
 
-def extremes(series, step_s, transient_s=0.0):
+def extremes(series: ArrayLike, step_s: float, transient_s: float = 0.0) -> Extremes:
     """The least and the greatest sample at or after the transient, each with its first time.
 
     Samples only: a peak shorter than the step is missed. Where a record keeps the extremes between its samples as
@@ -92,12 +88,11 @@ def _after(x, step_s, transient_s, interpolate):
     transient_s = checked_not_negative(transient_s, "transient_s")
     given_s = record_length_s(len(x), step_s)
     if len(x) == 0 or given_s < transient_s - ON_SAMPLE * step_s:
-        raise ValueError(
-            f"a record longer than the transient of {transient_s:g} s is needed, given {given_s:g} s ({len(x)} samples)"
-        )
+        wanted = f"a record longer than the transient of {transient_s:g} s is needed"
+        raise ValueError(f"{wanted}, given {given_s:g} s ({len(x)} samples)")
     first = int(np.ceil(transient_s / step_s - ON_SAMPLE))
     time_s, kept = step_s * np.arange(first, len(x)), x[first:]
     if interpolate and time_s[0] - transient_s > ON_SAMPLE * step_s:
         start = np.interp(transient_s / step_s, np.arange(len(x)), x)
         time_s, kept = np.concatenate([[transient_s], time_s]), np.concatenate([[start], kept])
-    return locked(time_s), locked(kept)
+    return time_s, kept
