@@ -134,8 +134,8 @@ def test_what_is_not_needed_is_not_imported(statement, absent):
 @pytest.mark.parametrize(
     "statement",
     [
-        "from engine.simulate import simulate_batch; from engine import simulate",
-        "import engine; simulate = engine.simulate; import engine.simulate",
+        "from engine.simulation import simulate_batch; from engine import simulate",
+        "import engine; simulate = engine.simulate; import engine.simulation",
     ],
 )
 def test_the_public_names_do_not_depend_on_the_order_of_imports(statement):
