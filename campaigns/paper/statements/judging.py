@@ -107,7 +107,7 @@ def elsewhere(results: Results, steepness: float) -> list[tuple[str, Row]]:
     usual = results.usual()["submergence"]
     others = dict.fromkeys(row["submergence"] for row in results.dependence if row["submergence"] != usual)
     found = [(under, row) for under in others for row in results.over_depth(steepness, submergence=under)]
-    return [(f"{at(row)} with `{under}`", row) for under, row in found]
+    return [(f"{at(row)} with {under}", row) for under, row in found]
 
 
 def everywhere(results: Results, steepness: float) -> list[tuple[str, Row]]:
