@@ -15,6 +15,8 @@ from dataclasses import dataclass
 import numba
 import numpy as np
 
+from tests.analysis import maps
+
 
 @dataclass(frozen=True)
 class Flow:
@@ -187,24 +189,14 @@ def benettin(name, time=50_000.0):
     return float(blocks.mean()), float(blocks.std(ddof=1) / np.sqrt(50))
 
 
-def henon(samples=20_000, skip=1000):
+def henon(samples=20_000):
     """x of the Henon map, a = 1.4, b = 0.3; 0.41922 nats/step."""
-    x, y, out = 0.1, 0.1, np.empty(samples)
-    for i in range(skip + samples):
-        if i >= skip:
-            out[i - skip] = x
-        x, y = 1.0 - 1.4 * x * x + y, 0.3 * x
-    return out
+    return maps.henon(samples, skip=999)[:, 0]
 
 
-def logistic(samples=20_000, skip=1000):
+def logistic(samples=20_000):
     """x of the logistic map at r = 4; ln 2 nats/step."""
-    x, out = 0.1234, np.empty(samples)
-    for i in range(skip + samples):
-        if i >= skip:
-            out[i - skip] = x
-        x = 4.0 * x * (1.0 - x)
-    return out
+    return maps.logistic(4.0, samples, 0.1234, 999)
 
 
 def two_tone(samples=20_000, step=0.1, ratio=1.618033988749895):
