@@ -5,6 +5,8 @@
 lambda is in nats per unit of time, sigma in bits per forcing period. Whatever the method, an estimate carries an error,
 and where nothing qualified it is NaN with a reason. It is never 0 for want of an answer: 0 is a result, and says
 "neither grows nor shrinks".
+
+In the paper: eq. (32) Lyapunov exponent.
 """
 
 from __future__ import annotations

@@ -5,6 +5,8 @@
 No window, no removal of the mean: the integral spans n whole forcing periods, so at the bins w_j = 2 pi j/(n T_i) the
 forcing and all its harmonics and subharmonics of order up to n fall on bins and do not leak. Whatever is not a multiple
 of 2 pi/(n T_i), a natural frequency for one, spreads over the bins beside it as 1/(distance in bins).
+
+In the paper: eq. (31) spectral amplitude.
 """
 
 from collections.abc import Iterable

@@ -13,7 +13,9 @@ corrected for either: it stays what Wolf's method gives. m_0 unfolds the motion 
 qualify when half of its vectors end longer than 0.3 of the rms radius of the attractor: growth is then bounded by its
 size, and the exponent too small.
 
-In the paper: eq. (32) and figure 14, where it is not said how the settings were chosen.
+The paper does not say how the settings behind its figure 14 were chosen.
+
+In the paper: eq. (32) Lyapunov exponent.
 """
 
 from collections.abc import Iterable

@@ -89,6 +89,11 @@ def series_verdict(trajectory, transient_periods: int, tangent=None, tighter: st
     return verdict, wolf
 
 
+def in_regular_waves(scene) -> bool:
+    """Whether it is a scene of a buoy in regular waves: motions are strobed and judged once per wave period."""
+    return scene.end.kind == "buoy" and scene.waves is not None and not scene.waves.irregular
+
+
 def carries_tangents(scene) -> bool:
     """Whether the engine can carry perturbations through this scene, for exponents and a verdict on its regime."""
     implicit = scene.solver.integrator in ("esdirk43", "trbdf2")

@@ -5,6 +5,8 @@
 g is the radial displacement from the length at which the tether becomes taut, everything made dimensionless by the
 mass, the buoy's diameter and the natural frequency of the radial motion, so that time is in 1/omega_r. The sign of
 B - W is right as printed. The force a g is continuous at g = 0: the velocity field has a kink there and no jump.
+
+In the paper: eq. (33) snap oscillator.
 """
 
 import math

@@ -15,6 +15,8 @@ share their functions of tau, which are tabled once at even nodes; a node costs 
 det Phi = e^{-mu tau} in both. Curvature bounds, used to exclude hidden crossings (`crossings`): the taut homogeneous
 part is Re(A e^{lambda tau}) with |lambda| = 1, so its second derivative is at most |A|; the slack acceleration is that
 of the steady velocity plus (B - W - mu (v - v_p)) e.
+
+In the paper: eq. (33) snap oscillator, closed form.
 """
 
 import math

@@ -135,7 +135,16 @@ def measures(order: Order) -> Measures:
     """`rows.breaking_row` of every run."""
     from campaigns.breaking_line.rows import COLUMNS, breaking_row
 
-    return Measures(COLUMNS, breaking_row, ("analysis", "engine", "campaigns/breaking_line/rows.py"))
+    own = (f"campaigns/breaking_line/{name}" for name in ("rows.py", "measures.py", "theory"))
+    return Measures(COLUMNS, breaking_row, ("analysis", "engine", *own))
+
+
+def write_results(plan, summary) -> float:
+    """statements.csv and exact.nc of the folder; returns 0, no seconds of the workers' analysis."""
+    from campaigns.breaking_line import results
+
+    results.write_results(plan.directory)
+    return 0.0
 
 
 STUDY = Study(
@@ -149,6 +158,7 @@ STUDY = Study(
     measures=measures,
     parameters=lambda order: {"cases": order.own[0], "companions": order.own[1]},
     runs=lambda order: partial(run, compile_run_s=COMPILE_RUN_S),
+    beside=lambda order: (write_results,),
     together=False,
 )
 main, parser, read_order = STUDY.main, STUDY.parser, STUDY.read_order

@@ -40,13 +40,13 @@ from campaigns.judge import (
 STEEPNESS = Column("steepness", "", "kA", "wave steepness: wave number times amplitude", 3)
 DIMENSIONS = Column("dimensions", "", "D", "dimensions of the motion: 2, in the plane of the waves, or 3", 0)
 _BITS = "bits/period"
-# What is measured after the transient (`settled`), with or without a verdict.
 STROBED = Column("strobed_period", "", "N", "wave periods after which the motion repeats; empty where none is found", 0)
+# What is measured after the transient (`settled`) of any line, with or without a verdict.
 EXTREMES = (
-    Column("radius_min_m", "m", "r_min", "smallest distance of the buoy from the anchor after the transient", 2),
-    Column("radius_max_m", "m", "r_max", "largest distance of the buoy from the anchor after the transient", 2),
-    Column("angle_min_rad", "rad", "θ_min", "smallest angle of the buoy from the vertical after the transient", 3),
-    Column("angle_max_rad", "rad", "θ_max", "largest angle of the buoy from the vertical after the transient", 3),
+    Column("radius_min_m", "m", "r_min", "smallest distance of the upper end from the anchor after the transient", 2),
+    Column("radius_max_m", "m", "r_max", "largest distance of the upper end from the anchor after the transient", 2),
+    Column("angle_min_rad", "rad", "θ_min", "smallest angle of the upper end from the vertical after the transient", 3),
+    Column("angle_max_rad", "rad", "θ_max", "largest angle of the upper end from the vertical after the transient", 3),
     Column("tension_top_min_N", "N", "T_min", "smallest tension at the top of the line after the transient", 0),
     Column("tension_top_max_N", "N", "T_max", "largest tension at the top of the line after the transient", 0),
     Column("slack_fraction", "", "χ", "share of the time after the transient without tension at the top", 3),
@@ -132,7 +132,7 @@ def buoy_row(trajectory, transient_periods: int, simulate=None) -> dict[str, obj
     below.
     """
     row = {"status": trajectory.status, "message": trajectory.message}
-    row |= {name: _number(trajectory.statistics.get(name)) for name in names(STATISTICS)}
+    row |= {name: number(trajectory.statistics.get(name)) for name in names(STATISTICS)}
     columns = sound_part(trajectory.columns)
     scene = trajectory.scene
     if len(columns["time_s"]) and scene.water is not None:
@@ -141,7 +141,8 @@ def buoy_row(trajectory, transient_periods: int, simulate=None) -> dict[str, obj
     step_s, period_s = scene.sample_step_s(), scene.waves.period_s
     recorded_s = (len(columns["time_s"]) - 1) * step_s
     if recorded_s >= (transient_periods + 1) * period_s - 1e-6 * step_s:
-        row |= settled(columns, step_s, period_s, transient_periods)
+        row |= settled(columns, step_s, transient_periods * period_s)
+        row["strobed_period"] = strobed_period(columns, step_s, period_s, transient_periods)
         in_space = scene.motion.dimensions == 3
         if in_space:
             after = round(transient_periods * period_s / step_s)
@@ -157,10 +158,10 @@ def buoy_row(trajectory, transient_periods: int, simulate=None) -> dict[str, obj
                 "regime_tighter": tighter,
                 "regime_reason": verdict.reason,
                 "evidence": evidence_text(verdict),
-                "lyapunov_tangent_bits_per_period": _number(tangent.value),
-                "lyapunov_tangent_error": _number(tangent.error),
-                "lyapunov_wolf_bits_per_period": _number(wolf.value),
-                "lyapunov_wolf_error": _number(wolf.error),
+                "lyapunov_tangent_bits_per_period": number(tangent.value),
+                "lyapunov_tangent_error": number(tangent.error),
+                "lyapunov_wolf_bits_per_period": number(wolf.value),
+                "lyapunov_wolf_error": number(wolf.error),
             }
     return row
 
@@ -177,7 +178,7 @@ def across_plane(growth, transient_periods: int) -> dict[str, object]:
     if growth.lateral_nats is None:
         return {}
     found = transverse_lyapunov(growth.lateral_nats, transient_periods, growth.released)
-    return {"offplane_growth_bits_per_period": _number(found.value), "offplane_growth_error": _number(found.error)}
+    return {"offplane_growth_bits_per_period": number(found.value), "offplane_growth_error": number(found.error)}
 
 
 def _verdict(trajectory, transient_periods: int, simulate):
@@ -191,18 +192,16 @@ def _verdict(trajectory, transient_periods: int, simulate):
     return tighter, verdict_of(trajectory, transient_periods, tighter)[0], tangent, wolf
 
 
-def settled(columns, step_s: float, period_s: float, transient_periods: int) -> dict[str, object]:
-    """Extremes, slack and strobed period of what follows the transient, by column of the table."""
+def settled(columns, step_s: float, transient_s: float) -> dict[str, object]:
+    """Extremes and slack of what follows the transient, by column of the table (`EXTREMES`)."""
     from analysis import extremes, slack_fraction
 
-    transient_s = transient_periods * period_s
     # Tension snaps between samples: its extremes come from the columns that saw every step of the solver.
     radius, angle, low, high = (
         extremes(columns[name], step_s, transient_s)
         for name in ("radius_m", "angle_rad", "tension_top_low_N", "tension_top_high_N")
     )
     return {
-        "strobed_period": strobed_period(columns, step_s, period_s, transient_periods),
         "radius_min_m": radius.minimum,
         "radius_max_m": radius.maximum,
         "angle_min_rad": angle.minimum,
@@ -235,5 +234,6 @@ def sound_part(columns) -> dict[str, np.ndarray]:
     return {name: values[:end] for name, values in arrays.items()}
 
 
-def _number(entry: object) -> object:
+def number(entry: object) -> object:
+    """The number itself; None for one that is unknown or not finite."""
     return None if entry is None or not math.isfinite(entry) else entry

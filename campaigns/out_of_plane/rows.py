@@ -19,6 +19,7 @@ from campaigns.buoy_sweep.rows import (
     across_plane,
     settled,
     sound_part,
+    strobed_period,
 )
 from campaigns.columns import MESSAGE, PERIODS_RUN, RUN_KEY, STATISTICS, STATUS, Column, names
 
@@ -55,7 +56,7 @@ def _lateral_columns(body: str) -> tuple[Column, ...]:
         ("reason", "", "reason", "why the lateral motion of the {body} is called so, in words", None),
     )
     return tuple(
-        Column(f"{body}_{name}", unit, symbol, meaning.format(body=body), digits)
+        Column(f"{body}_{name}", unit, f"{body} {symbol}", meaning.format(body=body), digits)
         for name, unit, symbol, meaning, digits in told
     )
 
@@ -66,7 +67,7 @@ COLUMNS = (
     Column("bending_stiffness_Nm2", "N m²", "EI", "bending stiffness of the line", 2),
     Column("nodes", "", "nodes", "nodes of the line", 0),
     DIMENSIONS,
-    Column("seed_mps", "m/s", "push", "speed of the buoy at t = 0 that lets the motion leave the plane", 10),
+    Column("seed_mps", "m/s", "push", "speed of the buoy at t = 0 that lets the motion leave the plane", 3),
     Column("seed_direction", symbol="direction", meaning="direction of the push; empty for a planar run"),
     Column("profiles", "", "profiles", "1 where the shape of the line was kept, else 0", 0),
     PERIODS_RUN,
@@ -107,7 +108,8 @@ def offplane_row(trajectory, transient_periods: int, judged: frozenset = frozens
     done = (len(columns["time_s"]) - 1) * step_s / period_s
     if done >= transient_periods + 1 - 1e-6:
         after = round(transient_periods * period_s / step_s)
-        row |= settled(columns, step_s, period_s, transient_periods)
+        row |= settled(columns, step_s, transient_periods * period_s)
+        row["strobed_period"] = strobed_period(columns, step_s, period_s, transient_periods)
         row["inplane_m"] = 0.5 * max(float(np.ptp(columns[name][after:])) for name in ("x_m", "z_m"))
         if trajectory.status == "ok" and trajectory.tangent is not None:
             row |= across_plane(trajectory.tangent, transient_periods)

@@ -11,23 +11,13 @@ nothing else is random. To change a scene, run the campaign of that part.
 """
 
 import time
-from dataclasses import dataclass
 
 from campaigns.machinery import cli
 from campaigns.machinery.command import command, command_line
+from campaigns.paper.order import PARTS, Order
 
 CAMPAIGN = "paper"
 MODULE = "campaigns.paper"
-PARTS = ("breaking_line", "buoy", "sweep", "dependence", "out_of_plane", "oscillator")
-
-
-@dataclass(frozen=True)
-class Order:
-    """What the command line asks for, checked."""
-
-    parts: tuple[str, ...]
-    quick: bool
-    how: cli.Running
 
 
 def main(argv: list[str] | None = None) -> int:

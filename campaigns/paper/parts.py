@@ -20,35 +20,32 @@ import time
 from dataclasses import dataclass
 from pathlib import Path
 
-from campaigns.columns import Column, names
+from campaigns.columns import MESSAGE, RUN_KEY, STATUS, Column, names
 from campaigns.machinery import cli
 from campaigns.machinery.command import command_line
 from campaigns.machinery.folder import CampaignStopped, Table, trajectory_path
 from campaigns.machinery.plan import Summary
 from campaigns.machinery.row_cache import made_by, of_the_page
-from campaigns.paper import PARTS, Order, dependence
+from campaigns.paper import dependence
+from campaigns.paper.order import PARTS, Order
 
-COLUMNS = tuple(
-    map(
-        Column,
-        (
-            "part",
-            "status",
-            "command",
-            "runs",
-            "failed",
-            "compile_s",
-            "run_s",
-            "total_s",
-            "run_key",
-            "message",
-        ),
-    )
+COLUMNS = (
+    Column("part", "", "part", "folder of the part"),
+    STATUS,
+    Column("command", "", "command", "what ran it"),
+    Column("runs", "", "runs", "its runs", 0),
+    Column("failed", "", "failed", "runs that did not end as asked", 0),
+    Column("compile_s", "s", "compiling", "compiling", 0),
+    Column("run_s", "s", "computing", "runs with their analysis", 0),
+    Column("total_s", "s", "all", "with compiling and the part's report, in the session that finished it", 0),
+    RUN_KEY,
+    MESSAGE,
 )
 SOURCES = (
     "analysis",
     "engine",
     *(f"campaigns/{name}" for name in ("machinery", "buoy_sweep", "breaking_line", "oscillator", "out_of_plane")),
+    *(f"campaigns/{name}.py" for name in ("columns", "judge", "study", "statements", "figure_data", "tables")),
     *(f"reports/{name}" for name in ("parts", "figures", "buoy_sweep", "breaking_line", "oscillator", "out_of_plane")),
     "campaigns/paper/dependence.py",
 )

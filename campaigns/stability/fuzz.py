@@ -13,7 +13,8 @@ from functools import cache
 
 import numpy as np
 
-from campaigns.stability.limited import DIED, DONE, LATE, limited
+from campaigns.columns import Column
+from campaigns.stability.limited import DONE, limited
 from campaigns.stability.random_faults import VALID, faults_of
 
 LIMIT_S = 60.0
@@ -22,6 +23,14 @@ SAMPLES = 40  # a run lasts for so many output samples ...
 STEPS = 1e4  # ... and for no more of the longest steps: what is asked for has to be possible in the time limit
 CLEAR = re.compile(r"^.+: .*(allowed|unknown key|which law = .* does not have)", re.DOTALL)
 LONGEST_LINE = 400
+COLUMNS = (
+    Column("kind", symbol="scenes", meaning="valid: to be run or refused in words; invalid: to be refused"),
+    Column("number", "", "number", "number of the scene among those of its kind", 0),
+    Column("outcome", symbol="outcome", meaning="ok, ended and refused are sound; anything else is a fault"),
+    Column("status", symbol="ended", meaning="how the run of a valid scene ended"),
+    Column("message", symbol="message", meaning="the reason that the user is given"),
+    Column("wall_s", "s", "wall", "wall-clock time of the scene", 2),
+)
 
 
 @cache
@@ -38,17 +47,7 @@ def judged(kind: str, raw: dict) -> dict[str, object]:
     """What the engine makes of a scene: {"outcome", "status" of its run, "message", "wall_s"}."""
     answer_of = run_valid if kind == VALID else refuse_invalid
     way, answer, wall_s = limited(lambda: answer_of(raw), LIMIT_S)
-    status = ""
-    if way == DONE:
-        outcome, status, message = answer
-    elif way == LATE:
-        outcome, message = "hang", f"no answer within {LIMIT_S:g} s of computing"
-    elif way == DIED:
-        outcome, message = "crash", f"its process ended with exit code {answer}"
-    else:
-        name, text, trace = answer
-        refused = name == "ValueError" and CLEAR.match(text)
-        outcome, message = ("refused", text) if refused else ("traceback", trace)
+    outcome, status, message = answer if way == DONE else (way, "", answer)
     return {"outcome": outcome, "status": status, "message": message, "wall_s": wall_s}
 
 
@@ -60,14 +59,20 @@ def refuse_invalid(raw: dict) -> tuple[str, str, str]:
 
 
 def run_valid(raw: dict) -> tuple[str, str, str]:
-    """(outcome, status, message) of the run of a valid scene. Raises ValueError for one that cannot be run."""
+    """(outcome, status, message) of the run of a valid scene. Raises what is no refusal in words."""
     from engine import simulate
     from engine.scene import build_scene
     from engine.scene.size_limits import longest_step
 
     scene = build_scene(raw)
     length_s = min(SAMPLES * scene.sample_step_s(), STEPS * longest_step(scene)[1])
-    return outcome_of(simulate(scene, duration_s=length_s), length_s)
+    try:
+        run = simulate(scene, duration_s=length_s)
+    except ValueError as error:
+        if not CLEAR.match(str(error)):
+            raise
+        return "refused", "", str(error)
+    return outcome_of(run, length_s)
 
 
 def outcome_of(run, length_s: float) -> tuple[str, str, str]:

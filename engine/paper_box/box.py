@@ -11,6 +11,8 @@ values leave (it returns with the opposite sign in every step).
 The Jacobian is the complex step of g, node by node, exact to rounding; the water is held. The unknowns of node k are
 columns k m ... k m + m - 1 (m = 13, or 7 in a plane), the rows 7 (4) of the lower end, the boxes, 6 (3) of the upper
 end: a band of 19 below and 18 above the diagonal, factored with partial pivoting.
+
+In the paper: eq. (28) the discrete equations.
 """
 
 from typing import NamedTuple
@@ -19,7 +21,7 @@ import numpy as np
 from scipy.linalg import LinAlgError, solve_banded
 
 from . import ends
-from .line import ABOVE_PLANE, BELOW_PLANE, O2, O3, OMEGA, SPEEDS
+from .line import ABOVE_PLANE, BELOW_PLANE, O2, O3, OMEGA, SPEEDS, Line
 from .nodal import P, times_M
 from .water import water_at
 
@@ -35,13 +37,15 @@ class Level(NamedTuple):
     P: np.ndarray
 
 
-def level_of(line, t, Y, waves=True):
+def level_of(line: Line, t: float, Y: np.ndarray, waves: bool = True) -> Level:
     """The time level of the unknowns Y (13, n)."""
     water = water_at(line, t, Y, waves)
     return Level(t, Y, water, P(line, Y, water))
 
 
-def residual(line, Y, water, t, old, force=None):
+def residual(
+    line: Line, Y: np.ndarray, water: np.ndarray, t: float, old: Level | None, force: np.ndarray | None = None
+) -> tuple[tuple, tuple]:
     """Residual rows and Jacobian blocks.
 
     old: the `Level` before, or None at rest with force (3,) on the end. Y (13, n), water (6, n) at time t.

@@ -14,17 +14,18 @@ R C dU_c/dt that the print leaves out: without it waves act on the tether by dra
 water (6, ...): velocity and local acceleration of the water in the paper's axes (`frame`).
 Arguments may be complex (`box` differentiates by complex step): |x| is written so that it stays analytic.
 
-In the paper: eq. (34), eq. (35), eq. (36), eq. (37), eq. (38) and eq. (39) are M, eq. (40) is P.
+In the paper: eq. (34) M, columns of ε … w; eq. (35) M, columns of ε … w; eq. (36) M, column of β₀; eq. (37) M, column
+of β₁; eq. (38) M, column of β₂; eq. (39) M, column of β₃; eq. (40) P.
 """
 
 import numpy as np
 
 from .frame import normal_rates, rotation, turning
 from .law import tension_law
-from .line import EULER
+from .line import EULER, Line
 
 
-def times_M(line, Y, D, water):
+def times_M(line: Line, Y: np.ndarray, D: np.ndarray, water: np.ndarray) -> np.ndarray:
     """M(Y) D, (13, ...), for any D of the shape of Y."""
     eps, u, v, w = Y[0], Y[3], Y[4], Y[5]
     slope = tension_law(line.record, line.tables, eps)[1]
@@ -50,7 +51,7 @@ def times_M(line, Y, D, water):
     )
 
 
-def P(line, Y, water):
+def P(line: Line, Y: np.ndarray, water: np.ndarray) -> np.ndarray:
     """P(Y), (13, ...): eq. (40)."""
     eps, Sn, Sb, u, v, w, b0, b1, b2, b3, O1, O2, O3 = Y
     T, slope = tension_law(line.record, line.tables, eps)
@@ -80,6 +81,6 @@ def P(line, Y, water):
     )
 
 
-def magnitude(x):
+def magnitude(x: np.ndarray) -> np.ndarray:
     """|x|, analytic on either side of zero."""
     return np.where(x.real < 0, -x, x)

@@ -14,6 +14,8 @@ statics V is a displacement, and V_e the one that is left to go (`engine.time.st
 Motion of a held end in `tables`, n numbers or knots: velocities, since the displacement follows from them:
     harmonic  [amplitude x y z | omega | phase | ramp];  displacement amplitude r(t) sin(omega t + phase), r the ramp
     table     [t (n) | for each of the n - 1 pieces, for x, y, z: v0 v1 v2], v = v0 + v1 d + v2 d^2 at d after its knot
+
+In the paper: eq. (30) motion of the buoy.
 """
 
 import math
@@ -26,12 +28,14 @@ from ..simd.elementary import bracket, smooth_start
 from ..simd.select import where
 
 
-def harmonic_of(amplitude_m, period_s, phase_rad, ramp_s):
+def harmonic_of(
+    amplitude_m: tuple[float, float, float], period_s: float, phase_rad: float, ramp_s: float
+) -> np.ndarray:
     """The numbers of a harmonic motion in the layout above."""
     return np.array([*amplitude_m, 2 * math.pi / period_s, phase_rad, ramp_s])
 
 
-def table_of(time_s, displacement_m):
+def table_of(time_s: np.ndarray, displacement_m: np.ndarray) -> np.ndarray:
     """Knots and velocities of a tabulated motion in the layout above.
 
     The displacement is the monotone cubic of Fritsch & Carlson (PCHIP) with slopes zero at both ends: beyond them the

@@ -14,9 +14,10 @@ from ..figures.spectra import SpectrumPanel, spectra
 from ..figures.time_series import Panel as History
 from ..figures.time_series import time_series
 from ..parts.content import Figure, Item, Notice
-from ..parts.style import BLUE, SKY
+from ..parts.style import BLUE, SKY, VERMILION
 from ..parts.symbols import OMEGA_I, OMEGA_R, OMEGA_THETA, T_I, TAU_0
 from ..parts.wording import count, decimals, listed, number, percent
+from ..sweep.quantities import series
 from .runs import PAPER_STEEPNESS, Run, Sweep
 
 _PAPER = {  # figures of the paper at its two steepnesses: tension, r, theta, spectra
@@ -30,26 +31,17 @@ EXPONENTS = (
     ("lyapunov_tangent_bits_per_period", "lyapunov_tangent_error", "tangent dynamics"),
     ("lyapunov_wolf_bits_per_period", "lyapunov_wolf_error", "Wolf, of r"),
 )
+_SIDES = (  # column, name, label of the axis, of the mark, and symbol of the natural frequency
+    ("radius_m", "r", r"$|\Delta\tilde r|$ (m)", r"$\omega_r$", OMEGA_R),
+    ("angle_rad", "θ", r"$|\Delta\tilde\theta|$ (rad)", r"$\omega_\theta$", OMEGA_THETA),
+)
 KA = r"wave steepness $kA$ (–)"
-
-
-def series(runs: Sequence[Run], column: str) -> np.ndarray:
-    """A column of the table over the runs (p,), nan where it is empty."""
-    return np.array([run[column] for run in runs])
-
-
-def over_steepness(runs: Sequence[Run], column: str, name: str = "", error: str = "", look: int = 0) -> Curve:
-    """A column over the steepness as marks, with error bars where a column of errors is named; `look` tells curves
-    apart."""
-    bars = series(runs, error) if error else None
-    mark, colour = (("o", BLUE), ("s", ""))[look]
-    return Curve(series(runs, "steepness"), series(runs, column), name, "", mark, colour, bars, 3.5)
 
 
 def orbit_figure(sweep: Sweep, drawn: Sequence[Run], missing: Sequence[Run]) -> Figure:
     """Strobed radius over steepness, slack and exponents below; drawn: runs with points, missing: those without."""
-    slack = series(drawn, "slack_fraction")
-    values = series(drawn, "steepness")
+    rows = [run.row for run in drawn]
+    values, slack = series(rows, "steepness"), series(rows, "slack_fraction")
     stems = [
         Curve(np.full(2, x), np.array([0.0, y]), colour=SKY, width=1.2) for x, y in zip(values, slack, strict=True)
     ]
@@ -57,8 +49,12 @@ def orbit_figure(sweep: Sweep, drawn: Sequence[Run], missing: Sequence[Run]) -> 
     share = [*stems, Curve(values, slack, "", "", "o", BLUE, size=3.5)]
     below = [Panel(share, y_label="slack fraction (–)", level=0.0, settings={"ylim": (0.0, top)})]
     if sweep.judged:
-        known = [(k, one) for k, one in enumerate(EXPONENTS) if np.isfinite(series(drawn, one[0])).any()]
-        lines = [over_steepness(drawn, column, label, error, k) for k, (column, error, label) in known]
+        looks = zip(EXPONENTS, (("o", BLUE), ("s", VERMILION)), strict=True)
+        lines = [
+            Curve(values, series(rows, column), label, "", *look, series(rows, error), 3.0)
+            for (column, error, label), look in looks
+            if np.isfinite(series(rows, column)).any()
+        ]
         below.append(Panel(lines, y_label=r"$\sigma$ (bits/$T_i$)", level=0.0))
     points = [run.section[:, 0] for run in drawn]
     gone = [run.steepness for run in missing]
@@ -105,7 +101,7 @@ def _histories(run: Run, trajectory) -> Figure:
         seen += f"; slack for {percent(share)} of the time after the transient"
     caption = (
         f"Top tension (fig. {tension}), radius (fig. {radius}) and angle (fig. {angle} of the paper{_apart(run)}) "
-        f"against t/{T_I} at kA = {number(run.steepness)}: {seen}. From `trajectories/{run.word('run_key')[:12]}….nc`: "
+        f"against t/{T_I} at kA = {number(run.steepness)}: {seen}. From `trajectories/{run['run_key'][:12]}….nc`: "
         "`time_s`, `tension_top_N`, `radius_m`, `angle_rad`; the shade behind the tension spans `tension_top_low_N` "
         "to `tension_top_high_N`, its extremes between samples."
     )
@@ -122,17 +118,15 @@ def _spectra(sweep: Sweep, run: Run, trajectory) -> Item:
         return Notice("note", "No spectrum", (few,))
     scene, modes, panels, words = trajectory.scene, sweep.modes, [], []
     wave = 2 * math.pi / scene.waves.period_s
-    sides = (
-        ("radius_m", "r", r"$|\Delta\tilde r|$ (m)", r"$\omega_r$", OMEGA_R, modes and modes.radial_radps),
-        ("angle_rad", "θ", r"$|\Delta\tilde\theta|$ (rad)", r"$\omega_\theta$", OMEGA_THETA, modes and modes.pendulum_radps),
-    )  # fmt: skip
-    expected = "".join(f"{said} = {number(frequency, 3)}, " for *_, said, frequency in sides if frequency)
-    for column, name, label, mark, _, frequency in sides:
+    natural = (modes.radial_radps, modes.pendulum_radps) if modes else (None, None)
+    expected = ""
+    for (column, name, label, mark, symbol), frequency in zip(_SIDES, natural, strict=True):
         found = spectrum(trajectory.columns[column], scene.sample_step_s(), scene.waves.period_s, *window)
         marks = (*(((frequency, mark),) if frequency else ()), (wave, r"$\omega_i$"))
         panels.append(SpectrumPanel(label, found.angular_frequency_radps[1:], found.amplitude[1:], marks))
         peaks = [number(peak.angular_frequency_radps) for peak in spectral_peaks(found)[:4]]
         words.append(f"{name} peaks at {listed(peaks)} rad/s" if peaks else f"{name} shows no peak")
+        expected += f"{symbol} = {number(frequency, 3)}, " if frequency else ""
     start, periods = window
     seen = f"{words[0]}, {words[1]} (largest first; bins are {number(wave / periods, 3)} rad/s wide)"
     caption = (

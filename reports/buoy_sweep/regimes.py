@@ -35,7 +35,7 @@ def regime_items(sweep: Sweep) -> list[Item]:
     close = (run for run, kA in zip(nearest, PAPER_STEEPNESS, strict=True) if abs(run.steepness - kA) <= 0.01)
     shown = list(dict.fromkeys(close))
     for run in shown:
-        heading = Heading(f"Why kA = {number(run.steepness)} is called {run.word('regime')}", 2)
+        heading = Heading(f"Why kA = {number(run.steepness)} is called {run['regime']}", 2)
         items += [heading, table] if (table := evidence_table(run)) else []
     if figure := _convergence(sweep, shown):
         items += [Heading("Convergence of Wolf's exponent", 2), figure]
@@ -44,11 +44,11 @@ def regime_items(sweep: Sweep) -> list[Item]:
 
 def evidence_table(run: Run) -> Table | None:
     """The tests behind the regime, as the row has them (`analysis.evidence_text`)."""
-    tests = read_evidence(run.word("evidence"))
+    tests = read_evidence(run["evidence"])
     if not tests:
         return None
     heads = (Column("test", align="left"), Column("value"), Column("threshold"), Column("met"))
-    reason = printed(run.word("regime_reason").strip())
+    reason = printed(run["regime_reason"].strip())
     caption = f"Evidence at kA = {number(run.steepness)}, in the order of the tests" + (
         f": {reason}." if reason else "."
     )

@@ -33,7 +33,7 @@ def report(directory: str | Path) -> Report:
         *close_up_items(sweep.folder.directory),
         *regime_items(sweep),
         *plane_items(sweep),
-        *accuracy_items(sweep.folder.directory, "kA"),
+        *accuracy_items(sweep.folder.directory),
         Heading("Warnings"),
         *warnings(sweep),
         *runs_items(sweep),
@@ -96,7 +96,7 @@ def _chosen(sweep: Sweep) -> list[Item]:
         )
     )
     for run in sweep.chosen:
-        end = "ended as asked" if run.ok else f"ended early ({run.word('status')})"
+        end = "ended as asked" if run.ok else f"ended early ({run['status']})"
         words = f"This run {end} after {number(run.periods_done)} wave periods. {_strobed(run)}"
         items += [Heading(f"kA = {number(run.steepness)}", 2), Text(words), *run_figures(sweep, run)]
     figure = section_figure(sweep)

@@ -11,11 +11,12 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..parts.columns import Quantity, number_of
+from engine.natural_frequencies import Modes, natural_frequencies
+
+from ..parts.columns import Quantity
 from ..parts.content import link
-from ..parts.folder import Folder, read_folder
+from ..parts.folder import Folder, Row, read_folder
 from ..parts.wording import number, ranges
-from .physics import Modes, natural_frequencies
 
 if TYPE_CHECKING:
     from engine import Trajectory
@@ -44,7 +45,7 @@ class Emergence:
 
 
 @dataclass(frozen=True, eq=False)
-class Run:
+class Run(Row):
     """One row of the table with what its trajectory adds.
 
     section: (m, 2) strobed r (m) and r' (m/s) after the transient, empty where the run is shorter. fault: why the
@@ -55,8 +56,7 @@ class Run:
     close to 1 rad), and the table then says period 6 of a motion that is about to settle on one point.
     """
 
-    row: Mapping[str, object]
-    anchor: str
+    anchor: str = ""
     periods_done: float = 0.0
     section: np.ndarray = field(default_factory=lambda: np.empty((0, 2)))
     emergence: Emergence | None = None
@@ -64,21 +64,9 @@ class Run:
     period: int | None = None
     visited: tuple[float, ...] = ()
 
-    def __getitem__(self, column: str) -> float:
-        """A number of the row, nan where the table leaves it empty or has no such column."""
-        return number_of(self.row.get(column))
-
-    def word(self, column: str) -> str:
-        """A text of the row, "" where there is none."""
-        return str(self.row.get(column) or "")
-
     @property
     def steepness(self) -> float:
         return self["steepness"]
-
-    @property
-    def ok(self) -> bool:
-        return self.row["status"] == "ok"
 
     @property
     def in_space(self) -> bool:
@@ -122,7 +110,7 @@ class Sweep:
     @cached_property
     def judged(self) -> tuple[Run, ...]:
         """The runs with a regime."""
-        return tuple(run for run in self.runs if run.word("regime"))
+        return tuple(run for run in self.runs if run["regime"])
 
     @cached_property
     def chosen(self) -> tuple[Run, ...]:
@@ -142,7 +130,7 @@ class Sweep:
         """The trajectory of a run that has a record."""
         from engine import Trajectory
 
-        return Trajectory.load(self.folder.trajectory_path(run.word("run_key")))
+        return Trajectory.load(self.folder.trajectory_path(run["run_key"]))
 
 
 def read_sweep(directory: str | Path) -> Sweep:
@@ -183,13 +171,13 @@ def _period(row: dict, section: np.ndarray, tolerance: float) -> tuple[int | Non
     """`period` and `visited` of a Run: the points are means over the last half of the section."""
     if row["status"] != "ok" or len(section) < LEAST_POINTS:
         return None, ()
-    length = number_of(row["strobed_period"])
+    length = float(row["strobed_period"])
     if math.isnan(length):
         return 0, ()
     length = int(length)
     rounds = max(len(section) // (2 * length), 1)
     radii = section[-rounds * length :, 0].reshape(-1, length).mean(axis=0)
-    width = number_of(row["radius_max_m"]) - number_of(row["radius_min_m"])
+    width = float(row["radius_max_m"]) - float(row["radius_min_m"])
     apart = length == 1 or np.ptp(radii) > tolerance * width
     return length, tuple(map(float, radii)) if apart else ()
 

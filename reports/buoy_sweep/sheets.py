@@ -8,29 +8,32 @@ import numpy as np
 
 from ..figures.run_sheet import Glance, run_sheet
 from ..parts.columns import plus_minus
-from ..parts.content import Explorer, ExplorerColumn, Figure, Heading, Item, Sheet, Text, link
+from ..parts.content import Explorer, ExplorerColumn, Figure, Heading, Item, Sheet, Text, link, plain
 from ..parts.symbols import OMEGA_I, OMEGA_R
-from ..parts.wording import EMPTY, count, decimals, number, percent
-from .figures import EXPONENTS, series, spectrum_window
+from ..parts.wording import EMPTY, count, decimals, number
+from ..sweep.quantities import series
+from .figures import EXPONENTS, spectrum_window
 from .regimes import evidence_table
 from .runs import Run, Sweep
 
 _MANY = 120  # runs above which a sheet is drawn more coarsely, so that 400 of them stay below 10 MB
 _END_PERIODS = 6.0
 _MOST_POINTS = 400
+# columns that a sheet shows in its title, its drawing, its table or its message
+_ELSEWHERE = ("steepness", "status", "strobed_period", "regime_reason", "evidence", "run_key", "message")
 
 
 def explorer(sweep: Sweep, figure: Figure) -> Explorer:
     """The orbit diagram to look around in; a choice shows the run's sheet."""
-    runs = sweep.runs
+    runs, rows = sweep.runs, [run.row for run in sweep.runs]
     columns = tuple(
         ExplorerColumn(run.steepness, tuple(run.section[:, 0]) if run.ok else (), _name(run), run.anchor)
         for run in runs
     )
-    lower = [("slack fraction (–)", tuple(series(runs, "slack_fraction")), (math.nan,) * len(runs))]
+    lower = [("slack fraction (–)", tuple(series(rows, "slack_fraction")), (math.nan,) * len(runs))]
     for column, error, _ in EXPONENTS if sweep.judged else ():
-        if np.isfinite(values := series(runs, column)).any():
-            lower.append(("σ (bits per wave period)", tuple(values), tuple(series(runs, error))))
+        if np.isfinite(values := series(rows, column)).any():
+            lower.append(("σ (bits per wave period)", tuple(values), tuple(series(rows, error))))
             break
     title, labels = "Look around, choose a run", ("wave steepness kA (–)", "strobed r (m)")
     return Explorer(figure, title, *labels, columns, tuple(lower))
@@ -57,7 +60,7 @@ def _sheet(sweep: Sweep, run: Run, beside: tuple[Run | None, Run | None]) -> She
             f"with section, spectrum and exponent: {span}, tension up to {number(run['tension_top_max_N'])} N."
         )
         drawing = run_sheet(_glance(sweep, run), seen, 160 if len(sweep.runs) <= _MANY else 80)
-    message = run.word("message") or run.fault
+    message = run["message"] or run.fault
     lines = [f"Message: {message}."] if message else []
     if ways := [link(f"kA = {number(one.steepness)}", one.anchor) for one in beside if one is not None]:
         lines.append(f"Next to it: {' and '.join(ways)}.")
@@ -65,48 +68,29 @@ def _sheet(sweep: Sweep, run: Run, beside: tuple[Run | None, Run | None]) -> She
 
 
 def _name(run: Run) -> str:
-    word = run.word("regime") or ("" if run.ok else run.word("status"))
+    word = run["regime"] or ("" if run.ok else run["status"])
     return f"kA = {number(run.steepness)}" + (f", {word}" if word else "")
 
 
 def _facts(sweep: Sweep, run: Run) -> tuple[tuple[str, str], ...]:
-    columns = sweep.columns
-
-    def shown(name: str) -> str:
-        cell = columns[name].cell(run.row.get(name))
-        return cell if cell == EMPTY else f"{cell} {columns[name].unit}".strip()
-
-    def span(quantity: str, unit: str) -> str:
-        low, high = (
-            columns[f"{quantity}_{end}_{unit}"].cell(run[f"{quantity}_{end}_{unit}"]) for end in ("min", "max")
-        )
-        return EMPTY if EMPTY in (low, high) else f"{low} to {high} {unit}"
-
+    """What the row says of the run, in the words and units of the dictionary; the period as the report found it."""
     after = "" if run.ok else f" after {number(run.periods_done, 3)} wave periods"
-    slack = run["slack_fraction"]
-    nothing = f"none of 1 to {sweep.longest}"
-    facts = (
-        ("status", run.word("status") + after),
-        ("regime", shown("regime")),
-        ("at a tenth of the tolerance", shown("regime_tighter")),
-        ("repeats after", EMPTY if run.period is None else count(run.period, "wave period") if run.period else nothing),
-        ("r", span("radius", "m")),
-        ("θ", span("angle", "rad")),
-        ("top tension", span("tension_top", "N")),
-        ("slack", EMPTY if math.isnan(slack) else percent(slack)),
-        *((f"exponent, {label}", _exponent(sweep, run, value, error)) for value, error, label in EXPONENTS),
-        ("loop releases", shown("loop_releases")),
-        ("largest turn", shown("max_turn_rad")),
-        ("steps", shown("steps")),
-        ("wall time", shown("wall_s")),
-        ("file", f"`trajectories/{run.word('run_key')[:12]}….nc`"),
+    period = (
+        EMPTY
+        if run.period is None
+        else count(run.period, "wave period")
+        if run.period
+        else f"none of 1 to {sweep.longest}"
     )
-    return tuple((name, said) for name, said in facts if said != EMPTY)
-
-
-def _exponent(sweep: Sweep, run: Run, value: str, error: str) -> str:
-    found = plus_minus(sweep.columns, run.row, value, error)
-    return found if found == EMPTY else f"{found} bits per period"
+    facts = [("status", run["status"] + after), ("repeats after", period)]
+    errors = {value: error for value, error, _ in EXPONENTS}
+    for name, column in sweep.columns.items():
+        if name in _ELSEWHERE or name in errors.values() or column.cell(run.row[name]) == EMPTY:
+            continue
+        error = errors.get(name)
+        said = plus_minus(sweep.columns, run.row, name, error) if error else column.cell(run.row[name])
+        facts.append((plain(column.head), f"{said} {column.unit}".strip()))
+    return (*facts, ("file", f"`trajectories/{run['run_key'][:12]}….nc`"))
 
 
 def _glance(sweep: Sweep, run: Run) -> Glance:

@@ -6,15 +6,13 @@ import math
 
 import numpy as np
 
-from ..figures.curves import Curve, Panel, curves
 from ..parts.columns import Name, table_of
 from ..parts.content import Figure, Heading, Item, Text
 from ..parts.provenance import timing_table
 from ..parts.scene_table import scene_table
-from ..parts.style import BLUE, VERMILION
 from ..parts.symbols import OMEGA_I, OMEGA_R, OMEGA_THETA, T_S
-from ..parts.wording import EMPTY, count, decimals, listed, number, percent
-from .figures import KA, over_steepness, series
+from ..parts.wording import EMPTY, decimals, listed, number, percent
+from ..sweep.quantities import Measured, over_key, series
 from .runs import Run, Sweep, linked
 
 _RUNS = (
@@ -27,6 +25,7 @@ _PLANE = (
     "max_turn_rad", "radius_min_m", "radius_max_m", "planar_radius_min_m", "planar_radius_max_m", "regime",
     "planar_regime",
 )  # fmt: skip
+_COST = ("wall_s", "newton_iterations")
 _MODES = {
     "2": "Every run was made in the plane of the waves.",
     "3": "Every run was made in three dimensions (`--dimensions 3`).",
@@ -74,22 +73,18 @@ def plane_items(sweep: Sweep) -> list[Item]:
     across = tuple(run for run in sweep.runs if all(math.isfinite(run[name]) for name in _ACROSS))
     if not shown and not across:
         return []
-    words = [_MODES.get(str(sweep.folder.provenance.get("dimensions")), "")]
-    if any(run.in_space for run in sweep.runs):
-        push = sweep.folder.provenance.get("push_mps")
+    told = sweep.folder.provenance
+    words = [_MODES.get(str(told.get("dimensions")), "")]
+    if push := told.get("push_mps"):
         words.append(
             "Without a push the motion would stay exactly in the plane: as the scene has no velocity across the waves, "
             f"the buoy was given {number(push)} m/s there at t = 0 (`push_mps` in `provenance.json`)."
-            if push
-            else "The scene itself gives the buoy a velocity across the waves at t = 0."
         )
     items: list[Item] = [Heading("Out of the plane"), Text(" ".join(filter(None, words)))]
     if across:
         items += _across(sweep, across)
     if any(not run.in_space for run in shown):
         items.append(Text(f"Planar runs with loop releases are marked 2 under D. {COMPARED}"))
-    if pairs := [run for run in shown if run.in_space and math.isfinite(run["planar_radius_min_m"])]:
-        items.append(Text(_replaced(pairs)))
     caption = (
         "Runs in three dimensions (D = 3) and planar runs with loop releases (D = 2). The columns called planar are of "
         "the planar run that a run in three dimensions replaces; the regime of D = 3 is that of the samples alone."
@@ -98,86 +93,52 @@ def plane_items(sweep: Sweep) -> list[Item]:
 
 
 def _across(sweep: Sweep, across: tuple[Run, ...]) -> list[Item]:
-    """Figure and words on the exponents across the plane; `across`: the runs that have one."""
-    bits, errors = (series(across, name) for name in _ACROSS)
+    """Words and figure on the exponents across the plane; `across`: the runs that have one."""
+    bits, errors = (series([run.row for run in across], name) for name in _ACROSS)
     kinds = (
         ("decays", bits < -2.0 * errors),
         ("grows", bits > 2.0 * errors),
         ("does neither by two standard errors", abs(bits) <= 2.0 * errors),
     )
-    told = [
+    found = [
         f"it {word} at {sweep.at([run for run, one in zip(across, chosen, strict=True) if one], across)}"
         for word, chosen in kinds
         if chosen.any()
     ]
-    words = f"Planar runs carry an infinitesimal perturbation across their plane (`output.lateral_growth`): {'; '.join(told)}."
-    if looped := [run for run in sweep.runs if run.planar_releases > 0 and run not in across]:
-        words += f" Planar runs that released loops have none ({sweep.at(looped)}): there a loop buckles sideways."
-    ends = (
-        f"{decimals(float(bits[at]), 3)} (kA = {number(across[at].steepness)})" for at in (bits.argmin(), bits.argmax())
+    words = (
+        "Planar runs that released no loop carry an infinitesimal perturbation across their plane "
+        f"(`output.lateral_growth`): {'; '.join(found)}."
     )
-    seen = f"between {' and '.join(ends)} bits per wave period"
-    panel = Panel(
-        [over_steepness(across, *_ACROSS[:1], error=_ACROSS[1])], KA, "across the plane\n(bits per period)", level=0.0
-    )
+    columns = sweep.columns
+    shown = Measured(columns[_ACROSS[0]].unit, ((columns[_ACROSS[0]], columns[_ACROSS[1]]),))
+    picture = over_key([run.row for run in across], columns["steepness"], [shown])
+    seen = f"from {decimals(float(bits.min()), 3)} to {decimals(float(bits.max()), 3)} bits per wave period"
     caption = (
         "Exponent of an infinitesimal perturbation across the plane, with one standard error: below zero the planar "
         f"motion is stable. Seen: {seen}. From `{_ACROSS[0]}` and `{_ACROSS[1]}` of `table.csv`."
     )
-    alt = f"Exponent across the plane over wave steepness: {seen}."
-    return [Text(words), Figure(curves([[panel]], 2.6), caption, alt)]
-
-
-def _replaced(pairs: list[Run]) -> str:
-    """How far runs in three dimensions are from the planar runs that they replace."""
-
-    def off(run: Run) -> float:
-        return max(abs(run[f"radius_{end}_m"] - run[f"planar_radius_{end}_m"]) for end in ("min", "max"))
-
-    def share(run: Run) -> float:
-        return off(run) / (run["radius_max_m"] - run["radius_min_m"])
-
-    worst = max(pairs, key=share)
-    judged = [run for run in pairs if run.word("regime") and run.word("planar_regime")]
-    same = sum(run.word("regime") == run.word("planar_regime") for run in judged)
-    regimes = (
-        f" The regime is the planar one in {same} of {count(len(judged), 'pair')} with two verdicts." if judged else ""
-    )
-    return (
-        "Against the planar runs they replace, the ends of the range of r differ most at kA = "
-        f"{number(worst.steepness)}: by {decimals(off(worst), 3)} m, {percent(share(worst))} of the range.{regimes}"
-    )
+    return [Text(words), Figure(picture, caption, f"Exponent across the plane over wave steepness: {seen}.")]
 
 
 def time_items(sweep: Sweep) -> list[Item]:
     """What each run cost, and the time split of the campaign."""
-    timed = [run for run in sweep.runs if run.has_record and not math.isnan(run["wall_s"])]
-    items: list[Item] = [_cost(timed)] if timed else []
+    rows = [run.row for run in sweep.runs if run.has_record]
+    items: list[Item] = []
+    if np.isfinite(wall := series(rows, "wall_s")).any():
+        shown = [Measured(sweep.columns[name].unit, ((sweep.columns[name], None),)) for name in _COST]
+        done = sum(run.periods_done for run in sweep.runs if run.has_record)
+        newton = np.nansum(series(rows, "newton_iterations"))
+        seen = (
+            f"{decimals(float(np.nansum(wall)), 1)} s in all runs together, {number(1e3 * np.nansum(wall) / done, 3)} "
+            f"ms and {number(newton / done, 3)} Newton iterations per wave period, "
+            f"{number(1e6 * np.nansum(wall) / max(newton, 1.0), 3)} µs per Newton iteration on average"
+        )
+        caption = f"Cost of each run: {seen}. Crosses: runs that ended early. From `table.csv`."
+        alt = f"Wall time and Newton iterations of each run over wave steepness: {seen}."
+        items.append(Figure(over_key(rows, sweep.columns["steepness"], shown), caption, alt))
     items += [table] if (table := timing_table(sweep.folder)) else []
     nothing = Text("Neither `table.csv` nor `provenance.json` holds times.")
     return [Heading("Run times"), *(items or [nothing])]
-
-
-def _cost(timed: list[Run]) -> Figure:
-    wall, newton = series(timed, "wall_s"), series(timed, "newton_iterations")
-    done, steepness = np.array([run.periods_done for run in timed]), series(timed, "steepness")
-    failed = np.array([not run.ok for run in timed])
-    panels = []
-    for values, label in ((wall, "wall time of the run (s)"), (newton / done, "Newton iterations per period")):
-        good = Curve(steepness[~failed], values[~failed], "ended as asked" if failed.any() else "", "", "o", BLUE)
-        bad = Curve(
-            steepness[failed], values[failed], "ended early" if failed.any() else "", "", "x", VERMILION, size=6.0
-        )
-        top = 1.3 * max(float(values.max()), 1e-9)  # room for the legend above the points
-        panels.append(Panel([good, bad], KA, label, settings={"ylim": (0.0, top)}))
-    seen = (
-        f"{decimals(float(wall.sum()), 1)} s in all runs together, {number(1e3 * wall.sum() / done.sum(), 3)} ms and "
-        f"{number(newton.sum() / done.sum(), 3)} Newton iterations per wave period, "
-        f"{number(1e6 * wall.sum() / max(newton.sum(), 1.0), 3)} µs per Newton iteration on average"
-    )
-    caption = f"Cost of each run: {seen}. From `wall_s` and `newton_iterations` of `table.csv`."
-    alt = f"Wall time and Newton iterations of each run over wave steepness: {seen}."
-    return Figure(curves([panels], 2.4, "upper left"), caption, alt)
 
 
 def scene_items(sweep: Sweep) -> list[Item]:

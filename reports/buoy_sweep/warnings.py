@@ -12,7 +12,6 @@ from .figures import PAPER_WINDOW
 from .runs import Run, Sweep
 
 _RESOLVED_RAD = 0.5 * math.pi  # turn of one element beyond which a loop is no longer resolved
-_MANY = 8  # statements of one kind above which a box sums them up
 
 
 def warnings(sweep: Sweep) -> list[Notice]:
@@ -32,45 +31,35 @@ def warnings(sweep: Sweep) -> list[Notice]:
 
 
 def _failed(sweep: Sweep) -> list[str]:
-    failed, unread = (
-        [run for run in sweep.runs if kind(run)] for kind in (lambda run: not run.ok, lambda run: run.fault)
-    )
-    lines = [f"{_at([run])}: {_end(run)}" for run in failed]
-    if len(failed) > _MANY:
-        groups = [
-            [run for run in failed if run.word("status") == word] for word in sorted({r.word("status") for r in failed})
-        ]
-        lines = [f"{_at(group)}: {group[0].word('status')}; the first of them {_end(group[0])}" for group in groups]
-    lines += [f"{_at([run])}: {run.fault}; figures and strobed values leave this run out." for run in unread[:_MANY]]
-    if more := unread[_MANY:]:
-        lines.append(f"The same is true of {count(len(more), 'further run')}: {_at(more)}.")
+    """One line for every way to end, and one for files that cannot be read, with the message of the first run."""
+    lines = []
+    for word in sorted({run["status"] for run in sweep.runs if not run.ok}):
+        group = [run for run in sweep.runs if run["status"] == word]
+        why = f": {group[0]['message']}" if group[0]["message"] else ""
+        first = "" if len(group) == 1 else f", the first of them ({_at(group[:1])})"
+        lines.append(f"{_at(group)}: {word}{first} after {number(group[0].periods_done, 3)} wave periods{why}")
+    if unread := [run for run in sweep.runs if run.fault]:
+        first = "" if len(unread) == 1 else f"of the first, {_at(unread[:1])}, "
+        lines.append(f"{_at(unread)}: {first}{unread[0].fault}; figures and strobed values leave such a run out.")
     return lines
-
-
-def _end(run: Run) -> str:
-    why = f": {run.word('message')}" if run.word("message") else ""
-    return f"{run.word('status')} after {number(run.periods_done, 3)} wave periods{why}"
 
 
 def _turns(sweep: Sweep) -> list[str]:
     looped = [run for run in sweep.runs if run["loop_releases"] > 0]
-    unresolved = [run for run in sweep.runs if run.word("status") == "turn-unresolved"]
+    unresolved = [run for run in sweep.runs if run["status"] == "turn-unresolved"]
     coarse = [run for run in sweep.runs if run.in_space and run["max_turn_rad"] > _RESOLVED_RAD]
-    lines = [f"{_at([run])}: {releases(run)}" for run in looped]
-    if len(looped) > _MANY:
+    lines = []
+    if looped:
         most = max(looped, key=lambda run: run["loop_releases"])
         total = count(int(sum(run["loop_releases"] for run in looped)), "loop release")
         lines = [
-            f"{total} in {len(looped)} of {count(len(sweep.runs), 'run')}: {sweep.at(looped)}.",
-            f"Most at {_at([most])}: {releases(most)}. All of them are in the table of runs.",
+            f"{total} in {len(looped)} of {count(len(sweep.runs), 'run')}: {sweep.at(looped)}; most at {_at([most])}: "
+            f"{releases(most)}. All of them are in the table of runs.",
+            "A loop that a plane cannot open was undone by turning everything above it by 2π (columns `loop_releases`, "
+            "`max_turn_rad`). A rope free to leave the plane does not need it.",
         ]
     if unresolved:
         lines.append(f"Ended because a turn could not be resolved: {_at(unresolved)}.")
-    if looped:
-        lines.append(
-            "A loop that a plane cannot open was undone by turning everything above it by 2π (columns `loop_releases`, "
-            "`max_turn_rad`). A rope free to leave the plane does not need it."
-        )
     if any(not run.in_space for run in looped):
         lines.append(
             "What the planar run is good enough for is said in the section “Out of the plane”; a sweep with "

@@ -40,6 +40,12 @@ class Quantity:
         """The symbol with its subscripts, or the name in words."""
         return re.sub(r"_(\w+)", lambda found: sub(found[1]), self.symbol) or self.name.replace("_", " ")
 
+    @property
+    def label(self) -> str:
+        """The head with its unit as an axis of a figure has it, in matplotlib's mathematics."""
+        symbol = re.sub(r"_(\w+)", r"$_{\\mathrm{\1}}$", self.symbol) or self.name.replace("_", " ")
+        return f"{symbol} ({self.unit or '–'})"
+
     def cell(self, entry: object) -> str:
         """An entry of this column in print: a dash where the table is empty.
 

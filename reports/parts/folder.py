@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import csv
 import json
+import math
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -23,7 +26,7 @@ PARTS = {
 }
 WORDS = ("status", "regime", "regime_tighter", "run_key", "message")  # columns of text in every table
 
-__all__ = ["Folder", "FolderError", "campaign_of", "no_folder", "read_folder"]
+__all__ = ["Folder", "FolderError", "Row", "no_folder", "provenance_of", "read_folder", "read_rows"]
 
 
 @dataclass(frozen=True)
@@ -75,19 +78,27 @@ def _told(columns: dict[str, Quantity]) -> bool:
     return any(one.digits is not None for one in columns.values())
 
 
+def read_rows(table: Path) -> list[dict[str, str]]:
+    """The rows of a table that a campaign may have left out, as they stand; none where it cannot be read."""
+    try:
+        with open(table, encoding="utf-8", newline="") as file:
+            return list(csv.DictReader(file))
+    except (OSError, ValueError):
+        return []
+
+
 def no_folder(directory: Path) -> str:
     """Why a path that is no folder is none, and what is wanted instead."""
     there = "it is a file" if directory.exists() else "there is no such folder"
     return f"{there}; give the folder that a campaign wrote (its --out), for instance results/buoy_sweep"
 
 
-def campaign_of(directory: str | Path) -> str | None:
-    """The name of the campaign that filled the folder, None without a provenance that can be read."""
-    path = Path(directory) / "provenance.json"
+def provenance_of(directory: str | Path) -> dict:
+    """What is told of the making of a folder, {} where nothing can be read."""
     try:
-        return str(_provenance(path).get("campaign", ""))
+        return _provenance(Path(directory) / "provenance.json")
     except (OSError, ValueError):
-        return None
+        return {}
 
 
 def _read(path: Path, reader, faults: list[str]):
@@ -125,3 +136,23 @@ def _scene(path: Path):
     from engine import load_scene
 
     return load_scene(path)
+
+
+@dataclass(frozen=True, eq=False)
+class Row:
+    """One row of a campaign's table."""
+
+    row: Mapping[str, object]
+
+    def __getitem__(self, column: str):
+        """An entry: text, or a number that is nan where the table leaves it empty or has no such column."""
+        return self.row.get(column, math.nan)
+
+    @property
+    def ok(self) -> bool:
+        """Whether the run reached its full length."""
+        return self["status"] == "ok"
+
+    def known(self, column: str) -> bool:
+        """Whether the row has a number in that column."""
+        return math.isfinite(self[column])

@@ -6,9 +6,9 @@
     strain, velocity, tension = motion.at([25.0, 40.0], 0.04)
 
 No gravity, no bending, no water: m u_t = T(eps)_s, eps_t = u_s. `law` holds the closed forms of the tanh law,
-`simple_wave` the theory, `characteristics`, `fitting` and `fitted` the exact motion, `energy` its budget, `of_scene` all
-that a run is held against. The law is the five numbers p1 ... p5 of eq. (20) and the mass per unit unstretched length;
-p1 = 0 is a linear line.
+`simple_wave` the theory, `characteristics`, `fitting` and `fitted` the exact motion, `energy` its budget, `of_scene`
+all that a run is held against. The law is the five numbers p1 ... p5 of eq. (20) and the mass per unit unstretched
+length; p1 = 0 is a linear line.
 """
 
 from campaigns.breaking_line.theory.energy import EnergyBudget, fitted_energy

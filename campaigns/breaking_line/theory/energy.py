@@ -11,10 +11,10 @@ from itertools import pairwise
 
 import numpy as np
 
+from analysis.sampling import locked
 from campaigns.breaking_line.theory.fitted import strains_at_end
 from campaigns.breaking_line.theory.law import energy, riemann, strain_of_tension, wave_speed
 from campaigns.breaking_line.theory.simple_wave import dissipation
-from analysis.sampling import locked
 
 POINTS = 4001  # per smooth part of the line
 

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from analysis.compiled import kernel
+from analysis.sampling import checked_not_negative, checked_series
 from campaigns.breaking_line.theory import characteristics as row
 from campaigns.breaking_line.theory.characteristics import Net
 from campaigns.breaking_line.theory.law import riemann, strain_of_riemann, strain_of_tension, tension, wave_speed
@@ -13,7 +14,6 @@ from campaigns.breaking_line.theory.simple_wave import (
     end_force,
     simple_wave_at,
 )
-from analysis.sampling import checked_not_negative, checked_series
 
 
 @dataclass(frozen=True, eq=False)

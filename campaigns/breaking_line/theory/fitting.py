@@ -2,12 +2,19 @@
 
 import numpy as np
 
+from analysis.sampling import checked_count, checked_positive, locked
 from campaigns.breaking_line.theory import characteristics as row
 from campaigns.breaking_line.theory.characteristics import CROSSED, DONE, FULL, Case, Net, march
 from campaigns.breaking_line.theory.fitted import FittedBreak, ShockPath, strains_at_end
-from campaigns.breaking_line.theory.law import checked_law, riemann, strain_of_riemann, strain_of_tension, tension, wave_speed
+from campaigns.breaking_line.theory.law import (
+    checked_law,
+    riemann,
+    strain_of_riemann,
+    strain_of_tension,
+    tension,
+    wave_speed,
+)
 from campaigns.breaking_line.theory.simple_wave import shock_speed, shock_start, sonic_strain
-from analysis.sampling import checked_count, checked_positive, locked
 
 # Emission times of the C- that meet the shock are spaced evenly in the log of what is left to the one that is just as
 # fast as the shock. That one never meets it, and the time of meeting, in breaking times, is about the inverse of what

@@ -23,6 +23,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from analysis.compiled import kernel
+from analysis.sampling import checked_positive
 from campaigns.breaking_line.theory.law import (
     checked_law,
     energy,
@@ -33,7 +34,6 @@ from campaigns.breaking_line.theory.law import (
     wave_speed,
     wave_speed_slope,
 )
-from analysis.sampling import checked_positive
 
 SCAN = 4000  # emission times looked at for the first crossing of characteristics
 POINTS = 200  # of the quadrature of the end work

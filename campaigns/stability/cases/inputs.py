@@ -2,7 +2,7 @@
 
 import math
 
-from campaigns.stability.cases import (
+from campaigns.stability.cases.case import (
     ABOVE_BAR,
     DRY,
     FINITE,

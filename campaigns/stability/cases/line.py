@@ -1,6 +1,6 @@
 """Cases of `campaigns.stability` in which the line itself is extreme: stiffness, tension law, grid, mass."""
 
-from campaigns.stability.cases import (
+from campaigns.stability.cases.case import (
     ABOVE_BAR,
     DRY,
     FINITE,

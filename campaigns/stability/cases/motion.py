@@ -1,6 +1,6 @@
-"""Cases of `campaigns.stability` in which the motion or its time steps are extreme: kicks, snaps, compression, steps."""
+"""Cases of `campaigns.stability` in which the motion or its time steps are extreme: kicks, snaps, steps."""
 
-from campaigns.stability.cases import (
+from campaigns.stability.cases.case import (
     ABOVE_BAR,
     DRY,
     FINITE,

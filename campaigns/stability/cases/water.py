@@ -2,7 +2,7 @@
 
 import math
 
-from campaigns.stability.cases import CHAOS, DRY, FINITE, REGULAR, REST, SPACE, STILL, Case, Ending, over
+from campaigns.stability.cases.case import CHAOS, DRY, FINITE, REGULAR, REST, SPACE, STILL, Case, Ending, over
 
 ABOVE = Ending(("not-finite",), "Airy waves continued far above still water grow without bound")
 

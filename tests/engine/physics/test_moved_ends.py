@@ -10,17 +10,16 @@ import pytest
 from scipy.interpolate import PchipInterpolator
 
 from engine import simulate
-from engine.parameters import record_of
-from engine.physics.ends import end_velocity, upper_end
-from tests.engine.lines import STILL, equilibrium, held, line, positions
+from engine.physics.ends import end_velocity
+from tests.engine.kernels import parameters_of, upper_end_of
+from tests.engine.lines import STILL, equilibrium, free, held, line, positions
 
 PLACE = (3.0, 20.2)
 TIMES, DISPLACEMENTS = [1.0, 3.0, 4.0, 8.0, 13.0], [[0, 0, 0], [1, 0, 0.2], [1.5, 0, 0.2], [-1, 0, 0.1], [0, 0, 0.5]]
 
 
 def moved(**motion):
-    end = {"kind": "held", "position_m": [PLACE[0], 0.0, PLACE[1]], "motion": motion}
-    return {"end": end, "buoy": None}
+    return held(*PLACE, motion=motion)
 
 
 def harmonic(t, amplitude, period, phase=0.0, ramp=0.0):
@@ -34,9 +33,8 @@ def harmonic(t, amplitude, period, phase=0.0, ramp=0.0):
 
 
 def velocity(changes, t, dimensions=2):
-    tables = [np.full(5, 1e9)]
-    p = record_of(line(STILL, changes, {"motion.dimensions": dimensions}), tables)[0]
-    return np.array(end_velocity(p, np.concatenate(tables), t))
+    p, tables = parameters_of(line(STILL, changes, {"motion.dimensions": dimensions}), [np.full(5, 1e9)])
+    return np.array(end_velocity(p, tables, t))
 
 
 HARMONIC = {"amplitude_m": [1.0, 0.3, 0.5], "period_s": 5.0}
@@ -54,9 +52,7 @@ def test_the_velocity_is_the_rate_of_the_stated_oscillation(phase, ramp, t):
 def test_a_table_is_passed_through_monotonically_and_at_rest_before_and_after():
     changes = moved(law="table", time_s=TIMES, displacement_m=DISPLACEMENTS)
     t = np.linspace(0, 15, 30001)
-    tables = []
-    p = record_of(line(STILL, changes), tables)[0]
-    tables = np.concatenate(tables)
+    p, tables = parameters_of(line(STILL, changes))
     v = np.array([end_velocity(p, tables, at) for at in t])
     place = np.vstack([np.zeros(3), np.cumsum(0.5 * (v[1:] + v[:-1]) * np.diff(t)[:, None], axis=0)])
     at = [round(knot / 15 * 30000) for knot in TIMES]
@@ -73,7 +69,7 @@ def test_a_table_is_passed_through_monotonically_and_at_rest_before_and_after():
 
 
 def test_what_is_not_moved_has_no_velocity():
-    for changes in ({}, held(3, 19), {"end": {"kind": "free", "force_N": [0, 0, 9]}, "buoy": None}):
+    for changes in ({}, held(3, 19), free(0, 9)):
         assert not velocity(changes, 1.0).any()
 
 
@@ -107,26 +103,23 @@ def test_at_the_default_tolerance_it_is_there_to_a_thousandth_of_its_way():
     assert error_of_position(changes, lambda t: harmonic(t, [1.0, 0.0, 0.5], 5.0, 0.7)) < 1e-3
 
 
-RELEASED = {"end": {"kind": "held", "position_m": [3.0, 0.0, 19.0], "release_s": 2.5}, "buoy": None}
-
-
 @pytest.mark.parametrize("force", [None, [30.0, 0.0, 9.0]])
 def test_an_end_is_held_up_to_its_release_and_free_after_it(force):
-    changes = {**RELEASED, "end": {**RELEASED["end"], "force_N": force}}
-    p = record_of(line(STILL, changes), [])[0]
-    fx, _, fz = force or (0.0, 0.0, 0.0)
-    state = (700.0, 800.0, 0.2, 0.3, 0.1, 0.1, np.zeros(4))
-    kept = (0.2, 0.3, 0.0, 1.0, 0.0, 1.0)
+    p, tables = parameters_of(line(STILL, held(3.0, 19.0, release_s=2.5, force_N=force)))
+    N, V, V_tilde = np.array([700.0, 800.0]), np.array([0.2, 0.3]), np.array([0.1, 0.1])
+    f = np.array(force or [0.0, 0.0, 0.0])[[0, 2]]
     for t in (0.0, 2.0, 2.5, np.nextafter(2.5, 3.0)):  # a step that ends at the release may miss it by rounding
-        assert upper_end(p, np.zeros(3), t, 8.0, 1.0, *state) == kept
+        e, e_N, D = upper_end_of(p, tables, t, 8.0, 1.0, N, V, V_tilde, np.zeros(4))
+        assert np.array_equal(e, V) and e_N == 0.0 and np.array_equal(D, np.eye(2))
     for t in (2.5 + 1e-9, 2.6, 1e6):
-        assert upper_end(p, np.zeros(3), t, 8.0, 1.0, *state) == (700.0 - fx, 800.0 - fz, 1.0, 0.0, 0.0, 0.0)
+        e, e_N, D = upper_end_of(p, tables, t, 8.0, 1.0, N, V, V_tilde, np.zeros(4))
+        assert np.array_equal(e, N - f) and e_N == 1.0 and not D.any()
 
 
 def test_release_and_motion_begin_from_the_equilibrium_of_the_held_end():
     still = equilibrium(line(STILL, held(3, 19)))
     motion = {"law": "harmonic", "amplitude_m": [1.0, 0.0, 0.0], "period_s": 5.0, "phase_rad": 0.7}
-    for end in (RELEASED["end"], {"kind": "held", "position_m": [3.0, 0.0, 19.0], "motion": motion}):
-        start = equilibrium(line(STILL, {"end": end, "buoy": None}))
+    for keys in ({"release_s": 2.5}, {"motion": motion}):
+        start = equilibrium(line(STILL, held(3, 19, **keys)))
         assert np.abs(start.Y - still.Y).max() < 1e-9
         assert positions(start.Y, start.h)[-1] == pytest.approx([3.0, 19.0], abs=1e-9)

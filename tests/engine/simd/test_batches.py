@@ -1,133 +1,186 @@
-"""A batch is its members, each on its own: the same bits as single runs, whatever the others are or do."""
+"""Law: a run in a batch is the run alone, bit for bit, whatever the others are or do, and however it goes.
+
+A batch goes through the lanes of vectors where the engine can (`engine.simd`), run by run elsewhere; `simulate` alone
+goes through numbers.
+"""
 
 from itertools import pairwise
 
 import numpy as np
 import pytest
 
-from engine import load_scene, simulate
+from engine import goes_in_lanes, load_scene, simulate, simulate_batch, simulate_each
 from engine.run import Run
-from engine.simulate import simulate_batch
+from engine.time.status import WORDS
+from tests.engine.lines import DRY, STILL, free, held
+from tests.engine.simd.equal import assert_equal
 
 STEEP = {"waves.steepness": 0.13, "water.depth_m": 21.6}
-MEMBERS = [
-    {**STEEP},
-    {**STEEP, "tether.nodes": 21, "waves.period_s": 4.0, "solver.integrator": "trbdf2"},
-    {
-        **STEEP,
-        "tether.nodes": 61,
-        "tether.grid_stretching": 1.5,
-        "output.profiles": True,
-        "output.profiles_step_s": 1.0,
-    },
-    {**STEEP, "tether.tension": {"law": "tanh", "p": [2.0e4, 5.0, 0.0, 0.0, 1.0e4]}, "solver.integrator": "midpoint"},
-    {
-        **STEEP,
-        "tether.tension": {"law": "tabulated", "strain": [-0.2, 0.0, 0.1], "tension_N": [-5e3, 0.0, 5e3]},
-        "waves.above_still_water": "wheeler",
-    },
-    {
-        **STEEP,
-        "current": {"law": "profile", "height_m": [0.0, 30.0], "velocity_mps": [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0]]},
-        "solver.integrator": "generalized-alpha",
-        "waves.direction_rad": np.pi,
-    },
-    {**STEEP, "tether.bending_stiffness_Nm2": 0.0, "waves.steepness": 0.02, "output.step_s": 0.11},
-    {**STEEP, "waves.ramp_s": 5.0, "solver.integrator": "backward-euler", "output.profiles": True},
+CARRIED = {"output.tangent_vectors": 2, "output.lateral_growth": True}
+TABLE = {"law": "tabulated", "strain": [-0.2, 0.0, 0.1], "tension_N": [-5e3, 0.0, 5e3]}
+TANH = {"law": "tanh", "p": [2.0e4, 5.0, 0.0, 0.0, 1.0e4]}
+PROFILE = {"law": "profile", "height_m": [0.0, 30.0], "velocity_mps": [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0]]}
+GRID = {"tether.nodes": 61, "tether.grid_stretching": 1.5}
+UNBENT = {"tether.bending_stiffness_Nm2": 0.0}
+MIXED = [  # scenes that share a batch, though not all of them lanes
+    {},
+    {"tether.nodes": 21, "waves.period_s": 4.0, "solver.integrator": "trbdf2"},
+    {**GRID, "output.profiles": True, "output.profiles_step_s": 1.0},
+    {"tether.tension": TANH, "solver.integrator": "midpoint"},
+    {"tether.tension": TABLE, "waves.above_still_water": "wheeler"},
+    {"current": PROFILE, "solver.integrator": "generalized-alpha", "waves.direction_rad": np.pi},
+    {**UNBENT, "waves.steepness": 0.02, "output.step_s": 0.11},
+    {"waves.ramp_s": 5.0, "solver.integrator": "backward-euler", "output.profiles": True},
+    {**DRY, "start.buoy_velocity_mps": [1.0, 0.0, 0.0]},
+    STILL | held(12.0, 5.0),
+    {**DRY, **free(50.0, 80.0), **UNBENT, "solver.integrator": "trbdf2", "tether.nodes": 7},
 ]
-DRY = [
-    {"water": None, "waves": None, "start.buoy_velocity_mps": [1.0, 0.0, 0.0]},
-    {"waves": None, "buoy": None, "end.kind": "held", "end.position_m": [12.0, 0.0, 5.0]},
-    {
-        "water": None,
-        "waves": None,
-        "buoy": None,
-        "end.kind": "free",
-        "end.force_N": [50.0, 0.0, 80.0],
-        "tether.bending_stiffness_Nm2": 0.0,
-        "solver.integrator": "trbdf2",
-        "tether.nodes": 7,
+KINDS = {  # what every lane has in common
+    "the shipped scene": {"tether.nodes": 41},
+    "an even number of nodes": {"tether.nodes": 20},
+    "TR-BDF2, stretched grid": {"solver.integrator": "trbdf2", "tether.grid_stretching": 1.5},
+    "fixed steps": {"solver.step_s": 0.01},
+    "a current, wheeler": {
+        "current": {"law": "uniform", "velocity_mps": [0.4, 0.0, 0.1]}, "waves.above_still_water": "wheeler",
     },
-]
-LOSER = {**STEEP, "tether.tension": {"law": "tabulated", "strain": [-0.5, 0.0, 0.1], "tension_N": [0.0, 0.0, 5000.0]}}
-# a law that yields at half the lift of the buoy
-UNSETTLED = {"tether.tension": {"law": "tanh", "p": [1000.0, 10.0, 0.0, 0.0, 0.0]}}
+    "dry above the surface, against x, a ramp": {
+        "waves.above_still_water": "zero", "waves.direction_rad": np.pi, "waves.ramp_s": 7.0,
+    },
+    "a tanh law with a barrier": {"tether.tension": TANH, "tether.compression_barrier_N": 50.0},
+    "no bending, small waves": {**UNBENT, "waves.steepness": 0.02},
+    "no waves, a kick": {**STILL, "start.buoy_velocity_mps": [1.5, 0.0, 0.5]},
+    "in air": {**DRY, "start.buoy_velocity_mps": [2.0, 0.0, -1.0]},
+    "perturbations": {"tether.nodes": 11, **CARRIED},
+    "a tangent vector": {"tether.nodes": 11, "output.tangent_vectors": 1},
+    "lateral growth": {"tether.nodes": 11, "output.lateral_growth": True},
+}  # fmt: skip
+ENDINGS = {  # status word -> what makes a run of the batch end so
+    "turn-unresolved": {"solver.max_loop_releases": 0},
+    "step-underflow": {"solver.rtol": 1e-7, "solver.min_step_s": 0.01},
+    "step-limit": {"solver.rtol": 1e-14, "solver.newton_tolerance": 1e-14, "tether.nodes": 21},
+    "newton-failed": {"solver.min_step_s": 0.01, "solver.max_newton_iterations": 2},
+    "not-finite": {"tether.tension.stiffness_N": 100.0, "waves.period_s": 1.0},
+    "strain-below-minus-one": {"start.buoy_velocity_mps": [0.0, 0.0, -900.0]},
+    "statics-failed": {"buoy.mass_kg": 1e30},
+}
 
 
-def scenes_of(members):
-    return [load_scene("tethered_buoy", member) for member in members]
+def steep(*parts):
+    changes = dict(STEEP)
+    for part in parts:
+        changes |= part
+    return load_scene("tethered_buoy", changes)
 
 
-def assert_equal(one, other):
-    """Everything but the time it took, bit for bit."""
-    assert one.status == other.status and one.message == other.message and one.scene == other.scene
-    for name, column in one.columns.items():
-        assert np.array_equal(column, other.columns[name]), name
-    for name, value in one.statistics.items():
-        if name != "wall_s":
-            assert value == other.statistics[name], name
-    assert (one.profiles is None) == (other.profiles is None)
-    if one.profiles is not None:
-        for name, values in vars(one.profiles).items():
-            assert np.array_equal(values, getattr(other.profiles, name)), name
+def lots(base, values=(0.05, 0.1, 0.13, 0.16), key="waves.steepness"):
+    """Scenes that differ in one value."""
+    return [steep({"tether.nodes": 21}, base, {key: value}) for value in values]
 
 
-@pytest.mark.parametrize("first", [0, 1, 6])
-def test_members_in_waves_equal_single_runs(first):
+def assert_alone(scenes, runs, **length):
+    for scene, run in zip(scenes, runs, strict=True):
+        assert run.status == "ok"
+        assert_equal(run, simulate(scene, **length))
+
+
+@pytest.mark.parametrize("first", [0, 6])
+def test_a_mixed_batch(first):
     """Long enough for several calls of the kernel, whose lengths follow the first member."""
-    scenes = scenes_of(MEMBERS[first:] + MEMBERS[:first])
-    runs = simulate_batch(scenes, periods=12.5)
+    scenes = [steep(member) for member in MIXED[first:] + MIXED[:first]]
+    assert_alone(scenes, simulate_batch(scenes, duration_s=57.0), duration_s=57.0)
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_a_lane_is_the_run_alone(kind):
+    """Over the first loops of the steep ones (t = 53 s), with samples at times of their own."""
+    varied = KINDS[kind].get("waves", 1) is None or "waves.steepness" in KINDS[kind]
+    scenes = lots(KINDS[kind], (0.8, 1.0, 1.3), "tether.drag_normal") if varied else lots(KINDS[kind])
+    assert all(goes_in_lanes(scene) for scene in scenes)
+    runs = simulate_batch(scenes, duration_s=63.3)
+    assert_alone(scenes, runs, duration_s=63.3)
+    if kind == "the shipped scene":
+        for name in ("loop_releases", "newton_failures", "rejected_steps"):
+            assert sum(run.statistics[name] for run in runs) >= 1
+
+
+def test_neither_order_nor_company_matters():
+    """More runs than lanes, of different lengths and kinds: a lane takes what comes when it is free."""
+    scenes = lots({"tether.nodes": 11}, np.linspace(0.02, 0.16, 11)) + lots({}, (0.1, 0.1))
+    first = simulate_batch(scenes, duration_s=21.0)
+    order = np.random.default_rng(3).permutation(len(scenes))
+    again = simulate_batch([scenes[i] for i in order], duration_s=21.0)
+    for place, i in enumerate(order):
+        assert_equal(again[place], first[i])
+    for i in (0, 5, 12):
+        assert_equal(simulate(scenes[i], duration_s=21.0), first[i])
+    assert_equal(first[-1], first[-2])  # of one scene: nothing is shared, nothing is random
+
+
+@pytest.mark.parametrize("integrator", ["esdirk43", "midpoint"], ids=["in lanes", "one by one"])
+def test_periods_count_in_each_members_own_waves(integrator):
+    scenes = lots({"solver.integrator": integrator}, (4.0, 5.0, 6.0), "waves.period_s")
+    runs = simulate_batch(scenes, periods=9)
+    assert_alone(scenes, runs, periods=9)
     for scene, run in zip(scenes, runs, strict=True):
-        assert run.status == "ok"
-        assert_equal(run, simulate(scene, periods=12.5))
-        # periods count in each member's own waves
-        assert run.columns["time_s"][-1] == pytest.approx(12.5 * scene.waves.period_s, abs=scene.sample_step_s())
+        assert run.columns["time_s"][-1] == pytest.approx(9 * scene.waves.period_s, abs=scene.sample_step_s())
 
 
-def test_wet_and_dry_members_equal_single_runs():
-    scenes = scenes_of([*MEMBERS[:3], *DRY])
-    for scene, run in zip(scenes, simulate_batch(scenes, duration_s=12.0), strict=True):
-        assert run.status == "ok"
-        assert_equal(run, simulate(scene, duration_s=12.0))
+@pytest.mark.parametrize(
+    "word, other", [*((word, {}) for word in ENDINGS), ("strain-below-minus-one", {"tether.tension": TABLE})]
+)
+def test_a_run_that_ends_early_disturbs_no_other(word, other):
+    nodes = {"tether.nodes": ENDINGS[word].get("tether.nodes", 41)}
+    good, lost = lots(nodes | other, (0.1, 0.13, 0.15)), steep(nodes, ENDINGS[word])
+    first, ended, *others = simulate_batch([good[0], lost, *good[1:]], duration_s=60.0)
+    assert ended.status == word
+    assert_equal(ended, simulate(lost, duration_s=60.0))
+    assert_alone(good, [first, *others], duration_s=60.0)
 
 
-def test_a_member_that_fails_disturbs_no_other():
-    scenes = scenes_of([MEMBERS[0], LOSER, MEMBERS[1], UNSETTLED, MEMBERS[2]])
-    runs = simulate_batch(scenes, periods=7)
-    assert [run.status == "ok" for run in runs] == [True, False, True, False, True]
-    assert runs[1].status == "strain-below-minus-one" and runs[3].status == "statics-failed"
-    assert 0 < len(runs[1].columns["time_s"]) < 701 and len(runs[3].columns["time_s"]) == 0
-    for scene, run in zip(scenes, runs, strict=True):
-        assert_equal(run, simulate(scene, periods=7))
+def test_the_endings_are_all_there_are():
+    """Of planar runs in the engine's own scheme; tension-flat and shape-lost are the paper's."""
+    assert set(ENDINGS) == set(WORDS.values()) - {"ok", "tension-flat", "shape-lost"}
 
 
-def test_two_equal_members_are_equal():
-    """61 wave periods of a motion that amplifies rounding: nothing is shared, nothing is random."""
-    scene = load_scene("tethered_buoy", STEEP)
-    one, other = simulate_batch([scene, scene], periods=61)
-    assert_equal(one, other)
+def test_runs_come_as_they_end():
+    """A run that ends early is handed out while the others go on, and one in a lane of its own waits for none."""
+    short = steep({"tether.nodes": 11, "solver.max_loop_releases": 0})
+    scenes = [*lots({"tether.nodes": 11}, (0.05, 0.08, 0.1)), short]
+    order = [i for i, _ in simulate_each(scenes, duration_s=150.0)]
+    assert order[0] == 3 and sorted(order) == [0, 1, 2, 3]
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        {"motion.dimensions": 3},
+        {"output.profiles": True},
+        {"solver.integrator": "midpoint"},
+        {"solver.scheme": "paper-box", "solver.step_s": 0.01},
+        {"tether.tension": TABLE},
+        held(3.0, 19.0),
+    ],
+)
+def test_what_the_lanes_do_not_cover_stays_out(change):
+    assert not goes_in_lanes(steep(change))
 
 
 @pytest.mark.parametrize("chunk", [1, 7, 1000, 10**6])
 def test_chunks_do_not_change_the_result(chunk):
-    scene = load_scene("tethered_buoy", {**STEEP, "output.profiles": True})
+    scene = steep({"output.profiles": True})
     batch = Run(scene, 60.0)
     while not batch.done():
         batch.advance(chunk)
     assert_equal(batch.trajectory(), simulate(scene, duration_s=60.0))
 
 
-def test_progress_rises_to_one():
-    for members, periods in (([STEEP], 65), (MEMBERS[:3], 31), ([STEEP, LOSER], 31)):
+def test_progress_rises_to_one_and_does_not_change_the_result():
+    for scenes in ([steep()], [steep(member) for member in MIXED[:3]], [steep(), steep(ENDINGS["turn-unresolved"])]):
         seen = []
-        simulate_batch(scenes_of(members), periods=periods, progress=seen.append)
+        runs = simulate_batch(scenes, periods=65, progress=seen.append)
         assert len(seen) >= 3
         assert all(0 < a <= b <= 1 for a, b in pairwise(seen)) and seen[0] < seen[-1] == 1.0
-
-
-def test_progress_does_not_change_the_result():
-    scene = load_scene("tethered_buoy", STEEP)
-    assert_equal(simulate(scene, periods=25, progress=lambda fraction: None), simulate(scene, periods=25))
+        assert_equal(runs[0], simulate(scenes[0], periods=65))
 
 
 def test_an_exception_from_progress_comes_through():
@@ -137,21 +190,15 @@ def test_an_exception_from_progress_comes_through():
         raise KeyboardInterrupt
 
     with pytest.raises(KeyboardInterrupt):
-        simulate(load_scene("tethered_buoy", STEEP), periods=25, progress=stop)
-
-
-def test_an_empty_batch_is_empty():
-    assert simulate_batch([], duration_s=1.0) == []
+        simulate(steep(), periods=25, progress=stop)
 
 
 @pytest.mark.parametrize(
     "length", [{}, {"periods": 1, "duration_s": 1.0}, {"duration_s": 0.0}, {"periods": -1}, {"duration_s": np.inf}]
 )
 def test_bad_run_lengths_raise(length):
+    assert simulate_batch([], duration_s=1.0) == []
     with pytest.raises(ValueError):
-        simulate(load_scene("tethered_buoy", STEEP), **length)
-
-
-def test_periods_need_waves():
+        simulate(steep(), **length)
     with pytest.raises(ValueError, match="waves"):
-        simulate(load_scene("tethered_buoy", {"waves": None}), periods=1)
+        simulate(steep(STILL), periods=1)

@@ -1,0 +1,117 @@
+"""Scene in, trajectory out: the driver of the kernels, for one scene or a batch."""
+
+import math
+from collections.abc import Callable, Iterable, Iterator
+from functools import partial
+
+from .run import Run
+from .scene.models import Scene
+from .scene.size_limits import MOST_SAMPLES, check_room
+from .trajectory import Trajectory
+
+PERIODS_PER_CALL = 10
+Progress = Callable[[float], None]
+
+
+def simulate(
+    scene: Scene, periods: float | None = None, duration_s: float | None = None, progress: Progress | None = None
+) -> Trajectory:
+    """Simulate one scene from its static equilibrium.
+
+    Parameters
+    ----------
+    scene : Scene
+    periods : float, run length in wave periods (scenes with waves), or
+    duration_s : float, run length in s
+    progress : callable(fraction) called now and then, optional
+
+    Returns
+    -------
+    Trajectory
+        status "ok", or the reason why it ended early, with the samples up to there. Bad arguments raise ValueError;
+        a run never raises.
+    """
+    return simulate_batch([scene], periods, duration_s, progress)[0]
+
+
+def simulate_batch(
+    scenes: Iterable[Scene],
+    periods: float | None = None,
+    duration_s: float | None = None,
+    progress: Progress | None = None,
+) -> list[Trajectory]:
+    """Simulate scenes that differ in any parameter; each has its own steps and its own end.
+
+    Arguments as for `simulate`; the run length in periods is taken for each scene's own wave. Returns a list.
+    """
+    scenes = list(scenes)
+    runs = [None] * len(scenes)
+    for i, run in simulate_each(scenes, periods, duration_s, progress):
+        runs[i] = run
+    return runs
+
+
+def simulate_each(
+    scenes: Iterable[Scene],
+    periods: float | None = None,
+    duration_s: float | None = None,
+    progress: Progress | None = None,
+) -> Iterator[tuple[int, Trajectory]]:
+    """As `simulate_batch`, but yields (number of the scene, its Trajectory) as the runs end, in no order.
+
+    Scenes that may share a batch run side by side in the lanes of vectors (`engine.simd`), eight at a time; the
+    others one after another. The results are the same, bit for bit.
+    """
+    from .simd import batch
+
+    scenes = list(scenes)
+    jobs = [(i, scene, _duration(scene, periods, duration_s)) for i, scene in enumerate(scenes)]
+    ended = 0
+
+    def share(fraction, count=1):
+        if progress is not None:
+            progress((ended + fraction * count) / len(scenes))
+
+    groups = batch.shares(jobs)
+    for group in groups:
+        for i, run in batch.run_through(group, partial(share, count=len(group))):
+            yield i, run.trajectory()
+        ended += len(group)
+    alone = {i for i, _, _ in jobs} - {i for group in groups for i, _, _ in group}
+    for i, scene, length in jobs:
+        if i in alone:
+            yield i, (_by_paper if scene.solver.scheme == "paper-box" else _by_march)(scene, length, share)
+            ended += 1
+
+
+def _by_march(scene: Scene, duration_s: float, progress: Progress) -> Trajectory:
+    run = Run(scene, duration_s)
+    run.compile()
+    chunk = max(1, min(MOST_SAMPLES, round(PERIODS_PER_CALL * _period(scene) / scene.sample_step_s())))
+    while not run.done():
+        run.advance(chunk)
+        progress(run.fraction())
+    return run.trajectory()
+
+
+def _by_paper(scene: Scene, duration_s: float, progress: Progress) -> Trajectory:
+    from .paper_box import run
+
+    return run(scene, duration_s, progress)
+
+
+def _period(scene: Scene) -> float:
+    return scene.waves.period_s if scene.waves is not None else 5.0
+
+
+def _duration(scene: Scene, periods: float | None, duration_s: float | None) -> float:
+    if (periods is None) == (duration_s is None):
+        raise ValueError("give exactly one of periods and duration_s")
+    if periods is not None:
+        if scene.waves is None:
+            raise ValueError("periods needs a scene with waves; give duration_s")
+        duration_s = periods * scene.waves.period_s
+    if not (math.isfinite(duration_s) and duration_s > 0):
+        raise ValueError(f"the run length must be positive and finite, given {duration_s!r} s")
+    check_room(scene, duration_s)
+    return float(duration_s)
