@@ -46,7 +46,7 @@ def main() -> None:
     print_load()
     warm = {
         "an empty Python process": ("-c", "pass"),
-        "imports of the engine, kernels loaded": ("-c", "from engine.simulate import simulate"),
+        "imports of the engine, kernels loaded": ("-c", "from engine import simulate"),
         CACHED: ("-c", ONE_PERIOD),
     } | {f"python -m {name} --help": ("-m", name, "--help") for name in command_lines()}
     with tempfile.TemporaryDirectory() as folder:

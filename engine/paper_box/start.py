@@ -10,12 +10,15 @@ import math
 import numpy as np
 
 from .. import parameters
+from ..planar import columns as col
 from ..record import HELD
+from ..scene.models import Scene
 from ..time import statics
 from ..time.status import NEWTON_FAILED, OK, STATICS_FAILED
+from .box import Band
 from .ends import end_force, force_and_velocity
 from .frame import TO_PAPER, parameters_of, rotation, to_local
-from .line import EULER, SPEEDS
+from .line import EPS, EULER, O3, S_N, SPEEDS, Line
 from .newton import TOLERANCE, newton_update
 from .water import positions, water_at
 
@@ -24,7 +27,7 @@ SHARES = 16  # of the current, where the whole of it does not settle at once
 TINY = 1e-30
 
 
-def at_rest(scene, line, band, start=None):
+def at_rest(scene: Scene, line: Line, band: Band, start: np.ndarray | None = None) -> tuple[int, np.ndarray | None]:
     """The state at t = 0 with its velocities: (code, Y (13, n) or None).
 
     start: (n, 13) equilibrium of the engine in space instead of the planar one: eps, S_n, S_b, velocity in x, y, z,
@@ -100,24 +103,24 @@ def planar_guess(scene, line):
     return code, lifted(Y, azimuth) if code == OK else None
 
 
-def lifted(Y, azimuth=0.0):
+def lifted(Y: np.ndarray, azimuth: float = 0.0) -> np.ndarray:
     """Planar unknowns (n, 6) = eps, S, U, W, phi, kappa as (13, n) at rest, in the plane at `azimuth` from x to y.
 
     The angle from the vertical is a = pi/2 - phi, so n and Omega_3 change their signs against the planar engine.
     """
-    a = math.pi / 2 - Y[:, 4]
+    a = math.pi / 2 - Y[:, col.PHI]
     cos, sin = math.cos(azimuth), math.sin(azimuth)
     up, side, out = np.array([1.0, 0.0, 0.0]), np.array([0.0, cos, sin]), np.array([0.0, -sin, cos])
     t = np.outer(up, np.cos(a)) + np.outer(side, np.sin(a))
     n = np.outer(side, np.cos(a)) - np.outer(up, np.sin(a))
     b = np.outer(out, np.ones_like(a))
     found = np.zeros((13, len(Y)))
-    found[0], found[1], found[12] = Y[:, 0], -Y[:, 1], -Y[:, 5]
+    found[EPS], found[S_N], found[O3] = Y[:, col.EPS], -Y[:, col.SHEAR], -Y[:, col.KAPPA]
     found[EULER] = parameters_of(np.array([t, n, b]))
     return found
 
 
-def from_space(Y):
+def from_space(Y: np.ndarray) -> np.ndarray:
     """The unknowns (n, 13) of the engine in space, Euler parameters and velocities from x, y, z, as (13, n) here."""
     found = np.array(Y, float).T
     C = rotation(found[EULER])[:, TO_PAPER]

@@ -12,6 +12,24 @@ from ..compiled import kernel
 
 
 @kernel
+def put(row, at, a):
+    """row[at : at + 3] = a"""
+    row[at], row[at + 1], row[at + 2] = a
+
+
+@kernel
+def vector(row, at):
+    """(row[at], row[at + 1], row[at + 2])"""
+    return row[at], row[at + 1], row[at + 2]
+
+
+@kernel
+def quaternion(row, at):
+    """(row[at], ..., row[at + 3])"""
+    return row[at], row[at + 1], row[at + 2], row[at + 3]
+
+
+@kernel
 def dot(a, b):
     """a . b"""
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]

@@ -11,8 +11,7 @@ import numpy as np
 import pytest
 
 from campaigns.breaking_line import measures
-from campaigns.breaking_line.theory import theory_of
-from campaigns.breaking_line.theory import PAPER_LAW
+from campaigns.breaking_line.theory import PAPER_LAW, theory_of
 from tests.campaigns.breaking_line.paper_line import CASES, LENGTH, MASS
 
 SHOCKED = ("3", "4", "4p")

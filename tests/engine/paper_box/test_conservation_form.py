@@ -9,10 +9,12 @@ import numpy as np
 import pytest
 
 from engine import parameters
+from engine.arrays import Stage, Work
 from engine.paper_box.frame import rotation
 from engine.paper_box.line import line_of
 from engine.paper_box.nodal import P, times_M
-from engine.planar.node import WIDTH, node_quantities, shape
+from engine.planar import columns as col
+from engine.planar.node import node_quantities, shape
 from tests.engine.paper_box.states import LAWS, scene_of
 
 N = 25
@@ -50,10 +52,12 @@ def test_rows_are_those_of_the_conservation_form(law):
     Y, eps_t, phi_t, V_t, F = planar_states()
     t, n = (np.column_stack(pair) for pair in ((np.cos(Y[:, 4]), np.sin(Y[:, 4])), (-np.sin(Y[:, 4]), np.cos(Y[:, 4]))))
     q_t = eps_t[:, None] * t + ((1 + Y[:, 0]) * phi_t)[:, None] * n
-    Q, X = np.zeros((N, WIDTH)), np.zeros((N, 2))
+    work = Work(*(np.zeros((N, width)) for width in (2, 4, col.NODE_WIDTH, 0, 0, 4)))
+    Q, X = work.Q, work.X
     shape(record, tables, Y, Q, X)
-    C_tilde = np.column_stack([Q[:, 5:7] - q_t, Y[:, 2:4] - V_t])
-    node_quantities(record, tables, 1.0, 1.0, 1.0, Y, C_tilde, F, Q)
+    work.C_tilde[:] = np.column_stack([Q[:, 5:7] - q_t, Y[:, 2:4] - V_t])
+    work.F[:] = F
+    node_quantities(record, tables, Stage(0.0, 1.0, 1.0, 1.0), Y, work)
 
     state, rate, water = paper_states(Y, eps_t, phi_t, V_t, F)
     assert np.allclose(rotation(state[6:10])[0][[1, 0]].T, t)

@@ -6,46 +6,19 @@ both. Copies on a common step sequence differ by the dynamics alone, not by thei
 
 import numpy as np
 
-from engine import run as engine_run
-from engine.perturbations.tangent import carry
-from engine.planar import elimination as sweep
-from engine.planar import node
-from engine.planar.state import conserved
-from engine.record import STATE
 from engine.time.status import OK
-from engine.time.steps import runge_kutta_step
-from engine.time.time_loop import guard_turns, march
+from tests.engine.kernels import Steps, conserved, new_state
 
 ROUNDING = 1e-20  # Newton's tolerance: it stops once an update is below 7e-11, one more step of it from rounding
-CHUNK = 400  # steps kept at a time
 
 
-class Run:
-    """A simulation of one scene, advanced chunk by chunk; its trail stays in `T, Ys, Ks[:count]`."""
+class Run(Steps):
+    """A simulation of one scene, advanced chunk by chunk (`chunks`); its steps stay in `T, Ys, Ks`."""
 
     def __init__(self, scene, duration_s):
-        self.inner = engine_run.Run(scene, duration_s)
-        self.inner.record["newton_tolerance"] = ROUNDING
-        self.inner.record["max_newton"] = 40
-        self.record, self.tables, self.state = self.inner.record, self.inner.tables, self.inner.state
-        n, s = int(self.record["nodes"]), max(int(self.record["stages"]), 2)
-        self.T, self.Ys, self.Ks = np.zeros((CHUNK, 3)), np.zeros((CHUNK, s, n, 6)), np.zeros((CHUNK, s, n, 4))
-        self.count = 0
+        super().__init__(scene, duration_s, newton_tolerance=ROUNDING, max_newton=40)
         self.weight = float(self.record["per_speed"]) ** 2
         self.period_s = scene.waves.period_s if scene.waves is not None else 1.0
-
-    def chunks(self):
-        """Yield the number of steps in the trail until the run is over; fails if it ends early."""
-        inner = self.inner
-        assert self.state["status"] == OK
-        while not inner.done():
-            self.state["trail"] = 0
-            march(
-                self.record, self.tables, self.state, inner.Y, inner.Y_before, inner.C, inner.K,
-                inner.samples, inner.profiles, inner.energies, inner.sums, self.T, self.Ys, self.Ks, inner.goal,
-            )  # fmt: skip
-            assert self.state["status"] == OK
-            yield int(self.state["trail"])
 
     def norm(self, dC):
         """Length of a displacement of C (n, 4), as the engine measures it."""
@@ -71,10 +44,7 @@ class Carried:
         self.growth = np.zeros(len(vectors))
 
     def follow(self, first, count):
-        run, growth = self.run, np.zeros((1, len(self.vectors)))
-        trail = [part[first : first + count] for part in (run.T, run.Ys, run.Ks)]
-        carry(run.record, run.tables, 1e9, count, *trail, self.vectors, self.rates, self.waters, growth)
-        self.growth += growth[0]
+        self.growth += self.run.carry(first, count, self.vectors, self.rates, self.waters)
 
 
 class Copy:
@@ -82,10 +52,9 @@ class Copy:
 
     def __init__(self, run, Y, K, dC, dK):
         n, s = len(Y), run.Ys.shape[1]
-        self.run, self.state = run, np.zeros(1, STATE)[0]
+        self.run, self.state = run, new_state()
         self.C, self.K, self.Y, self.Y_before = np.zeros((n, 4)), np.zeros((n, 4)), np.zeros((n, 6)), np.zeros((n, 6))
         self.C_new, self.Ys, self.Ks = np.zeros((n, 4)), np.zeros((s, n, 6)), np.zeros((s, n, 4))
-        self.work = tuple(np.zeros((n, width)) for width in (2, 4, node.WIDTH, sweep.WIDTH, 6, 4))
         self.displace(Y, K, dC, dK)
 
     def displace(self, Y, K, dC, dK):
@@ -107,29 +76,16 @@ class Copy:
             code = self._try(t, dt, one_stage)
         assert code == OK, f"the copy fails at {t} s"
         self.Y_before[:], self.Y[:], self.C[:], self.K[:] = self.Y, self.Ys[-1], self.C_new, self.Ks[-1]
-        code, released = guard_turns(self.run.record, self.run.tables, self.state, self.Y)
+        code, released = self.run.guard(self.state, self.Y)
         assert code == OK
         self.dt_before = 0.0 if released else dt
         return released
 
     def _try(self, t, dt, one_stage):
-        run = self.run
-        state = (self.Y, self.Y_before, self.C, self.K)
-        return runge_kutta_step(
-            run.record,
-            run.tables,
-            t,
-            dt,
-            self.dt_before,
-            bool(one_stage),
-            *state,
-            self.Ys,
-            self.Ks,
-            self.C_new,
-            self.work,
-        )[0]
+        state, new = (self.Y, self.Y_before, self.C, self.K), (self.Ys, self.Ks, self.C_new)
+        return self.run.repeat(t, dt, self.dt_before, one_stage, state, new)
 
 
 def start_of(run):
     """The state (Y, K) of a run that has not moved yet."""
-    return run.inner.Y.copy(), run.inner.K.copy()
+    return run.inner.motion.Y.copy(), run.inner.motion.K.copy()

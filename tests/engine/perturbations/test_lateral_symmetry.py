@@ -9,7 +9,6 @@ rounding, and growth of e^10 and decay of e^-30 on the way leave 1e-7 of that. I
 import numpy as np
 import pytest
 
-from engine.perturbations.lateral import carry_lateral
 from tests.engine.lines import DRY, STILL, free, held, line
 from tests.engine.perturbations.tangents import Run
 
@@ -46,11 +45,10 @@ def growths(scene, duration_s):
     found = []
     for count in run.chunks():
         for i in range(count):
-            before, growth = planar.growth[0], np.zeros(1)
+            before = planar.growth[0]
             planar.follow(i, 1)
-            trail = [part[i : i + 1] for part in (run.T, run.Ys, run.Ks)]
-            carry_lateral(run.record, run.tables, 1e9, 1, *trail, weights, across, rates, growth)
-            found.append((growth[0], planar.growth[0] - before))
+            growth = run.carry_lateral(i, 1, weights, across, rates)
+            found.append((growth, planar.growth[0] - before))
     return np.array(found), across, planar.vectors[0]
 
 

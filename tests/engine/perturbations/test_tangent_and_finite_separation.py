@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from engine import simulate
-from engine.planar.state import conserved
+from tests.engine.kernels import conserved
 from tests.engine.lines import line
 from tests.engine.perturbations.tangents import Copy, Run, start_of
 

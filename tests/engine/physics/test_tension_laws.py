@@ -10,7 +10,7 @@ import pytest
 from scipy.interpolate import PchipInterpolator
 
 from engine.parameters import record_of
-from engine.physics.tension import stored, tension
+from engine.physics.tension.kernels import stored, tension
 from engine.scales import strain_at, tension_at
 from tests.engine.lines import line
 
