@@ -6,45 +6,19 @@ both. Copies on a common step sequence differ by the dynamics alone, not by thei
 
 import numpy as np
 
-from engine import run as engine_run
-from engine.perturbations.tangent import carry
-from engine.planar import elimination as sweep
-from engine.planar import node
-from engine.planar.state import conserved
 from engine.time.status import OK
-from engine.time.steps import runge_kutta_step
-from engine.time.time_loop import STATE, guard_turns, march
+from tests.engine.kernels import Stage, Steps, new_state
 
 ROUNDING = 1e-20  # Newton's tolerance: it stops once an update is below 7e-11, one more step of it from rounding
-CHUNK = 400  # steps kept at a time
 
 
-class Run:
-    """A simulation of one scene, advanced chunk by chunk; its trail stays in `T, Ys, Ks[:count]`."""
+class Run(Steps):
+    """A simulation of one scene, advanced chunk by chunk, its stages solved to rounding."""
 
     def __init__(self, scene, duration_s):
-        self.inner = engine_run.Run(scene, duration_s)
-        self.inner.record["newton_tolerance"] = ROUNDING
-        self.inner.record["max_newton"] = 40
-        self.record, self.tables, self.state = self.inner.record, self.inner.tables, self.inner.state
-        n, s = int(self.record["nodes"]), max(int(self.record["stages"]), 2)
-        self.T, self.Ys, self.Ks = np.zeros((CHUNK, 3)), np.zeros((CHUNK, s, n, 6)), np.zeros((CHUNK, s, n, 4))
-        self.count = 0
+        super().__init__(scene, duration_s, newton_tolerance=ROUNDING, max_newton=40)
         self.weight = float(self.record["per_speed"]) ** 2
-        self.period_s = scene.waves.period_s if scene.waves is not None else 1.0
-
-    def chunks(self):
-        """Yield the number of steps in the trail until the run is over; fails if it ends early."""
-        inner = self.inner
-        assert self.state["status"] == OK
-        while not inner.done():
-            self.state["trail"] = 0
-            march(
-                self.record, self.tables, self.state, inner.Y, inner.Y_before, inner.C, inner.K,
-                inner.samples, inner.profiles, inner.energies, inner.sums, self.T, self.Ys, self.Ks, inner.goal,
-            )  # fmt: skip
-            assert self.state["status"] == OK
-            yield int(self.state["trail"])
+        self.stage = Stage(scene)
 
     def norm(self, dC):
         """Length of a displacement of C (n, 4), as the engine measures it."""
@@ -56,79 +30,48 @@ class Run:
         dC[0, 2:] = 0.0
         return dC / self.norm(dC)
 
-    def carried(self, vectors):
-        """Perturbations as `carry` takes them, starting from vectors (k, n, 4) with rates that do not matter."""
-        return Carried(self, vectors)
+    def copies(self, apart, vectors):
+        """Two copies, displaced by +-apart vectors (n, 4) from where the run is."""
+        return [Copy(self, sign * apart * vectors) for sign in (1, -1)]
 
 
 class Carried:
-    """The engine's perturbations along a run; `growth` (nats) per vector since the start."""
+    """The engine's perturbations along a run, from vectors (k, n, 4) with rates that do not matter; `growth` (nats)
+    per vector since the start."""
 
     def __init__(self, run, vectors):
-        self.run = run
-        self.vectors, self.rates, self.waters = vectors.copy(), np.zeros_like(vectors), np.zeros_like(vectors)
-        self.growth = np.zeros(len(vectors))
+        self.run, self.vectors = run, vectors.copy()
+        self.rates, self.waters, self.growth = np.zeros_like(vectors), np.zeros_like(vectors), np.zeros(len(vectors))
 
-    def follow(self, first, count):
-        run, growth = self.run, np.zeros((1, len(self.vectors)))
-        trail = [part[first : first + count] for part in (run.T, run.Ys, run.Ks)]
-        carry(run.record, run.tables, 1e9, count, *trail, self.vectors, self.rates, self.waters, growth)
-        self.growth += growth[0]
+    def follow(self, step):
+        """Along one kept step."""
+        self.growth += self.run.carry(step, 1, self.vectors, self.rates, self.waters)
 
 
 class Copy:
-    """A second state on the steps of a run, displaced from a state Y (n, 6) with rates K by dC and dK."""
+    """A second state on the steps of a run, displaced by dC from where the run is."""
 
-    def __init__(self, run, Y, K, dC, dK):
-        n, s = len(Y), run.Ys.shape[1]
-        self.run, self.state = run, np.zeros(1, STATE)[0]
-        self.C, self.K, self.Y, self.Y_before = np.zeros((n, 4)), np.zeros((n, 4)), np.zeros((n, 6)), np.zeros((n, 6))
-        self.C_new, self.Ys, self.Ks = np.zeros((n, 4)), np.zeros((s, n, 6)), np.zeros((s, n, 4))
-        self.work = tuple(np.zeros((n, width)) for width in (2, 4, node.WIDTH, sweep.WIDTH, 6, 4))
-        self.displace(Y, K, dC, dK)
-
-    def displace(self, Y, K, dC, dK):
-        conserved(self.run.record, Y, self.C)
-        self.C += dC
-        self.K[:] = K + dK
-        self.Y[:] = Y
+    def __init__(self, run, dC):
+        Y = run.inner.Y
+        self.run, self.state, self.dt_before = run, new_state(), 0.0
+        self.C, self.K, self.Y = run.stage.conserved(Y) + dC, run.inner.K.copy(), Y.copy()
         turn = np.arctan2(self.C[:, 1], self.C[:, 0]) - Y[:, 4]
         self.Y[:, 4] += (turn + np.pi) % (2 * np.pi) - np.pi
         self.Y[:, 0] = np.hypot(self.C[:, 0], self.C[:, 1]) - 1
         self.Y[:, 2:4] = self.C[:, 2:]
-        self.dt_before = 0.0
+        self.Y_before = self.Y.copy()
+        self.new = np.zeros(run.Ys.shape[1:]), np.zeros(run.Ks.shape[1:]), np.zeros_like(self.C)
 
     def step(self, t, dt, one_stage):
         """Returns whether a loop was released after the step."""
-        code = self._try(t, dt, one_stage)
+        state = self.Y, self.Y_before, self.C, self.K
+        code = self.run.repeat(t, dt, self.dt_before, one_stage, state, self.new)
         if code != OK and self.dt_before > 0.0:  # as after a step that the run had to repeat: another first guess
-            self.dt_before = 0.0
-            code = self._try(t, dt, one_stage)
+            code = self.run.repeat(t, dt, 0.0, one_stage, state, self.new)
         assert code == OK, f"the copy fails at {t} s"
-        self.Y_before[:], self.Y[:], self.C[:], self.K[:] = self.Y, self.Ys[-1], self.C_new, self.Ks[-1]
-        code, released = guard_turns(self.run.record, self.run.tables, self.state, self.Y)
+        Ys, Ks, C_new = self.new
+        self.Y_before[:], self.Y[:], self.C[:], self.K[:] = self.Y, Ys[-1], C_new, Ks[-1]
+        code, released = self.run.guard(self.state, self.Y)
         assert code == OK
         self.dt_before = 0.0 if released else dt
         return released
-
-    def _try(self, t, dt, one_stage):
-        run = self.run
-        state = (self.Y, self.Y_before, self.C, self.K)
-        return runge_kutta_step(
-            run.record,
-            run.tables,
-            t,
-            dt,
-            self.dt_before,
-            bool(one_stage),
-            *state,
-            self.Ys,
-            self.Ks,
-            self.C_new,
-            self.work,
-        )[0]
-
-
-def start_of(run):
-    """The state (Y, K) of a run that has not moved yet."""
-    return run.inner.Y.copy(), run.inner.K.copy()

@@ -9,9 +9,8 @@ rounding, and growth of e^10 and decay of e^-30 on the way leave 1e-7 of that. I
 import numpy as np
 import pytest
 
-from engine.perturbations.lateral import carry_lateral
 from tests.engine.lines import DRY, STILL, free, held, line
-from tests.engine.perturbations.tangents import Run
+from tests.engine.perturbations.tangents import Carried, Run
 
 
 def current(w):
@@ -40,17 +39,15 @@ def growths(scene, duration_s):
     start = run.direction(3)
     start[:, [1, 3]] = 0.0
     start /= run.norm(start)
-    planar = run.carried(start[None])
+    planar = Carried(run, start[None])
     across, rates = np.ascontiguousarray(start[:, [0, 2]]), np.zeros((len(start), 2))
     weights = np.tile([1.0, run.weight], (len(start), 1))
     found = []
     for count in run.chunks():
         for i in range(count):
-            before, growth = planar.growth[0], np.zeros(1)
-            planar.follow(i, 1)
-            trail = [part[i : i + 1] for part in (run.T, run.Ys, run.Ks)]
-            carry_lateral(run.record, run.tables, 1e9, 1, *trail, weights, across, rates, growth)
-            found.append((growth[0], planar.growth[0] - before))
+            before = planar.growth[0]
+            planar.follow(i)
+            found.append((run.carry_lateral(i, 1, weights, across, rates), planar.growth[0] - before))
     return np.array(found), across, planar.vectors[0]
 
 

@@ -71,11 +71,10 @@ def test_the_mirror_holds_through_slack_to_the_growth_of_roundings():
 
 
 def test_a_held_line_on_the_other_side_moves_as_the_mirror_image():
-    parts = [{"tether.bending_stiffness_Nm2": 4.0, "output.profiles": True, "water.depth_m": 22.5}]
-    runs = []
+    stiff, runs = {"tether.bending_stiffness_Nm2": 4.0, "output.profiles": True, "water.depth_m": 22.5}, []
     for sign in (1, -1):
         direction = {"waves.direction_rad": 0.0 if sign > 0 else np.pi}
-        run = simulate(line(*parts, direction, held(sign * 8.0, 17.0)), periods=3)
+        run = simulate(line(stiff, direction, held(sign * 8.0, 17.0)), periods=3)
         assert run.status == "ok"
         runs.append(run.profiles)
     assert np.ptp(runs[0].x_m[:, 20]) > 0.1
