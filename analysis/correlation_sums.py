@@ -10,9 +10,10 @@ the motion is smooth, not because it returns: Theiler's window w leaves them out
 from dataclasses import dataclass, replace
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from analysis.compiled import kernel
-from analysis.sampling import checked_count, checked_series, locked
+from analysis.sampling import checked_columns, checked_count, in_deviations, locked
 
 LEAST_POINTS = 300
 BINS_PER_NAT = 20
@@ -53,7 +54,7 @@ class CorrelationDimension:
     points: int
 
 
-def correlation_dimension(points, theiler=0):
+def correlation_dimension(points: ArrayLike, theiler: int = 0) -> CorrelationDimension:
     """Correlation dimension of a set of points, with the scaling region it was read from (head of this file).
 
     points (m, d) or (m,)   states in the order visited: a section, or an embedding of a series; 300 at least. Each
@@ -69,17 +70,14 @@ def correlation_dimension(points, theiler=0):
     Source: P. Grassberger & I. Procaccia, Physica D 9 (1983) 189; window: J. Theiler, Phys. Rev. A 34 (1986) 2427;
     limit: J.-P. Eckmann & D. Ruelle, Physica D 56 (1992) 185.
     """
-    x = checked_series(points, "points", dimensions=(1, 2))
-    x = x[:, None] if x.ndim == 1 else x
+    x = checked_columns(points, "points")
     theiler = checked_count(theiler, "theiler", least=0)
-    size = x.std(axis=0) if len(x) else np.zeros(x.shape[1])
-    moving = size > 64 * np.finfo(float).eps * np.abs(x).max(axis=0, initial=0.0)
-    if len(x) < max(LEAST_POINTS, 4 * theiler):
-        needed = max(LEAST_POINTS, 4 * theiler)
+    z = np.ascontiguousarray(in_deviations(x))
+    needed = max(LEAST_POINTS, 4 * theiler)
+    if len(x) < needed:
         return _nothing(f"too short: {needed} points are needed, given {len(x)}", len(x))
-    if not moving.any():
+    if z.shape[1] == 0:
         return _nothing("no motion: all points are one to the last digits", len(x))
-    z = np.ascontiguousarray(x[:, moving] / size[moving])
     largest = np.log(np.linalg.norm(np.ptp(z, axis=0)))
     counts = _pairs_by_distance(z, theiler, largest - _NATS, BINS_PER_NAT, _NATS * BINS_PER_NAT + 1)
     pairs = np.cumsum(counts)[:-1]

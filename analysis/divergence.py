@@ -9,6 +9,7 @@ only neighbours as near as the record has, and average the logarithm over the wh
 """
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from analysis.embedding_delay import delay_vectors
 from analysis.embedding_dimension import choose_embedding
@@ -25,7 +26,14 @@ BLOCKS = 8
 KANTZ_NEIGHBOURS = 8
 
 
-def rosenstein_lyapunov(series, step_s, delay=None, dimension=None, theiler=None, horizon=None):
+def rosenstein_lyapunov(
+    series: ArrayLike,
+    step_s: float,
+    delay: int | None = None,
+    dimension: int | None = None,
+    theiler: int | None = None,
+    horizon: int | None = None,
+) -> Exponent:
     """Largest Lyapunov exponent from the mean logarithmic growth between nearest neighbours.
 
         y(k) = < ln |X_{i+k} - X_{j(i)+k}| >,    lambda = slope of y against k step_s in its scaling region
@@ -45,9 +53,7 @@ def rosenstein_lyapunov(series, step_s, delay=None, dimension=None, theiler=None
     setting = _setting(x, delay, dimension, theiler, horizon)
     if isinstance(setting, str):
         return no_exponent(ROSENSTEIN, setting)
-    embedding, lag, m, theiler, horizon = setting
-    points = delay_vectors(x, lag, m)
-    rows = _centres(len(points) - horizon)
+    embedding, m, theiler, horizon, points, rows = setting
     index, distance = nearest_outside(points[: len(points) - horizon], theiler, rows)
     # Zero: an exact repetition (periodic to the last digit), which has no logarithm.
     kept = (index[:, 0] >= 0) & (distance[:, 0] > 1e-12 * np.std(x))
@@ -59,7 +65,15 @@ def rosenstein_lyapunov(series, step_s, delay=None, dimension=None, theiler=None
     return _slope_of(growth, step_s, embedding, ROSENSTEIN, {"dimension": m, "theiler": theiler})
 
 
-def kantz_lyapunov(series, step_s, delay=None, dimension=None, theiler=None, horizon=None, radius=None):
+def kantz_lyapunov(
+    series: ArrayLike,
+    step_s: float,
+    delay: int | None = None,
+    dimension: int | None = None,
+    theiler: int | None = None,
+    horizon: int | None = None,
+    radius: float | None = None,
+) -> Exponent:
     """Largest Lyapunov exponent from the growth of whole neighbourhoods.
 
         y(k) = < ln( mean over j in U_i of |x_{i+k} - x_{j+k}| ) >,    U_i: |X_i - X_j| <= radius
@@ -78,19 +92,16 @@ def kantz_lyapunov(series, step_s, delay=None, dimension=None, theiler=None, hor
     setting = _setting(x, delay, dimension, theiler, horizon)
     if isinstance(setting, str):
         return no_exponent(KANTZ, setting)
-    embedding, lag, m, theiler, horizon = setting
-    points = delay_vectors(x, lag, m)
-    usable = len(points) - horizon
-    rows, last = _centres(usable), (m - 1) * lag
-    index, distance = nearest_outside(points[:usable], theiler, rows, count=4 * KANTZ_NEIGHBOURS)
+    embedding, m, theiler, horizon, points, rows = setting
+    index, distance = nearest_outside(points[: len(points) - horizon], theiler, rows, count=4 * KANTZ_NEIGHBOURS)
     if radius is None:
-        noise = noise_level(x, lag) * np.sqrt(2.0 * m)
+        noise = noise_level(x, embedding.lag) * np.sqrt(2.0 * m)
         radius = max(np.median(distance[:, KANTZ_NEIGHBOURS - 1]), 3.0 * noise)
         if radius == 0.0:
             return no_exponent(KANTZ, "neighbours coincide: the series takes too few different values")
     near = (distance <= checked_positive(radius, "radius")) & (index >= 0)
     kept = np.sum(near, axis=1) >= KANTZ_NEIGHBOURS
-    rows, index, near = rows[kept], index[kept], near[kept]
+    rows, index, near, last = rows[kept], index[kept], near[kept], len(x) - len(points)
     growth, sizes = np.empty((horizon + 1, len(rows))), np.sum(near, axis=1)
     with np.errstate(divide="ignore"):
         for k in range(horizon + 1):
@@ -101,7 +112,10 @@ def kantz_lyapunov(series, step_s, delay=None, dimension=None, theiler=None, hor
 
 
 def _setting(x, delay, dimension, theiler, horizon):
-    """(embedding, delay, dimension, theiler, horizon), or the sentence that says why there is none."""
+    """(embedding, dimension, theiler, horizon, delay vectors, centres), or the sentence that says why there is none.
+
+    Centres are the points asked about, in the order of time: all, or 2000 drawn with a fixed seed.
+    """
     if len(x) < 500 or np.ptp(x) == 0.0:
         return f"500 samples of a series that moves are needed, given {len(x)}"
     embedding = choose_embedding(x, delay)
@@ -111,14 +125,12 @@ def _setting(x, delay, dimension, theiler, horizon):
     horizon = min(max(round(8 * period), 12), len(x) // 4) if horizon is None else checked_count(horizon, "horizon")
     if len(x) - (m - 1) * lag - horizon < LEAST_CENTRES + 2 * theiler:
         return f"too short: {len(x)} samples for delay vectors of {(m - 1) * lag} samples and a horizon of {horizon}"
-    return embedding, lag, m, theiler, horizon
-
-
-def _centres(usable):
-    """Points asked about, in the order of time: all, or 2000 drawn with a fixed seed."""
-    if usable <= CENTRES:
-        return np.arange(usable)
-    return np.sort(np.random.default_rng(0).choice(usable, CENTRES, replace=False))
+    points = delay_vectors(x, lag, m)
+    usable = len(points) - horizon
+    centres = np.arange(usable)
+    if usable > CENTRES:
+        centres = np.sort(np.random.default_rng(0).choice(usable, CENTRES, replace=False))
+    return embedding, m, theiler, horizon, points, centres
 
 
 def _slope_of(growth, step_s, embedding, method, details):
@@ -131,18 +143,12 @@ def _slope_of(growth, step_s, embedding, method, details):
     period = embedding.mean_period
     # Distances along one coordinate swing twice in a mean period.
     region = scaling_region(time_s, curve, cycle=round(period / 2) if period >= 6.0 else 1)
-    details = details | {
-        "time_s": locked(time_s),
-        "curve": locked(curve),
-        "region": region,
-        "embedding": embedding,
-        "centres": growth.shape[1],
-    }
+    details = details | {"time_s": locked(time_s), "curve": locked(curve), "region": region}
+    details |= {"embedding": embedding, "centres": growth.shape[1]}
     if not np.isfinite(region.slope):
         return no_exponent(method, region.reason, details=details)
     part = slice(region.begin, region.end + 1)
-    slopes = [
-        np.polyfit(time_s[part], block[part].mean(axis=1), 1)[0] for block in np.array_split(growth, BLOCKS, axis=1)
-    ]
+    blocks = np.array_split(growth, BLOCKS, axis=1)
+    slopes = [np.polyfit(time_s[part], block[part].mean(axis=1), 1)[0] for block in blocks]
     scatter = np.std(slopes, ddof=1) / np.sqrt(BLOCKS)
     return Exponent(region.slope, float(np.hypot(region.error, scatter)), "nats/time", method, region.reason, details)

@@ -8,6 +8,7 @@ I(L) = sum_ab p_ab(L) ln[ p_ab(L)/(p_a p_b) ]     nats; p_ab: share of pairs (x_
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from analysis.sampling import checked_count, checked_series, locked
 
@@ -35,7 +36,7 @@ class DelayChoice:
     mean_period: float
 
 
-def delay_vectors(series, delay, dimension):
+def delay_vectors(series: ArrayLike, delay: int, dimension: int) -> np.ndarray:
     """The delay vectors of a series, one a row.
 
     series (n,)    samples, any unit
@@ -49,14 +50,12 @@ def delay_vectors(series, delay, dimension):
     delay, dimension = checked_count(delay, "delay"), checked_count(dimension, "dimension")
     rows = len(x) - (dimension - 1) * delay
     if rows < 1:
-        raise ValueError(
-            f"delay vectors of dimension {dimension} and delay {delay} need {(dimension - 1) * delay + 1} samples, "
-            f"given {len(x)}"
-        )
+        wanted = f"delay vectors of dimension {dimension} and delay {delay} need {(dimension - 1) * delay + 1} samples"
+        raise ValueError(f"{wanted}, given {len(x)}")
     return np.stack([x[j * delay : j * delay + rows] for j in range(dimension)], axis=1)
 
 
-def mean_period(series):
+def mean_period(series: ArrayLike) -> float:
     """Mean period of a series in samples: the reciprocal of the mean frequency of its power spectrum.
 
         f = sum_k f_k |X_k|^2 / sum_k |X_k|^2,   mean removed, Hann window
@@ -73,7 +72,7 @@ def mean_period(series):
     return float(min(np.sum(power) / weighted, 0.5 * len(x))) if weighted > 0.0 else 0.5 * len(x)
 
 
-def mutual_information(series, max_delay, cells=None):
+def mutual_information(series: ArrayLike, max_delay: int, cells: int | None = None) -> tuple[np.ndarray, int]:
     """Average mutual information I(L) of a series with itself L samples later [nats], L = 0 ... max_delay.
 
     The cells hold equal shares of the samples, so I does not change under any monotone rescaling of the series.
@@ -102,7 +101,7 @@ def mutual_information(series, max_delay, cells=None):
     return information, cells
 
 
-def choose_delay(series, max_delay=None):
+def choose_delay(series: ArrayLike, max_delay: int | None = None) -> DelayChoice:
     """Delay at the first minimum of the average mutual information.
 
     A minimum is a lag that no other within a tenth of a mean period undercuts, I being smoothed over (1/4, 1/2, 1/4):

@@ -12,6 +12,7 @@ With R_m the distance of a point to its nearest neighbour in m dimensions and z 
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from analysis.embedding_delay import DelayChoice, choose_delay, delay_vectors
 from analysis.neighbours import nearest_outside
@@ -55,7 +56,9 @@ class EmbeddingChoice:
     e2: np.ndarray
 
 
-def false_neighbours(series, delay, max_dimension=8, theiler=0, centres=CENTRES):
+def false_neighbours(
+    series: ArrayLike, delay: int, max_dimension: int = 8, theiler: int = 0, centres: int = CENTRES
+) -> np.ndarray:
     """Share of false nearest neighbours in m = 1 ... max_dimension dimensions.
 
     series (n,)     any unit
@@ -77,7 +80,9 @@ def false_neighbours(series, delay, max_dimension=8, theiler=0, centres=CENTRES)
     return share
 
 
-def cao_averages(series, delay, max_dimension=8, theiler=0, centres=CENTRES):
+def cao_averages(
+    series: ArrayLike, delay: int, max_dimension: int = 8, theiler: int = 0, centres: int = CENTRES
+) -> tuple[np.ndarray, np.ndarray]:
     """Cao's E1 and E2 for m = 1 ... max_dimension - 1.
 
     E1 rises to 1 and stays where the embedding is large enough; E2 differs from 1 at some m for a deterministic series
@@ -97,7 +102,9 @@ def cao_averages(series, delay, max_dimension=8, theiler=0, centres=CENTRES):
         return growth[1:] / growth[:-1], change[1:] / change[:-1]
 
 
-def choose_embedding(series, delay=None, max_dimension=8, theiler=None):
+def choose_embedding(
+    series: ArrayLike, delay: int | None = None, max_dimension: int = 8, theiler: int | None = None
+) -> EmbeddingChoice:
     """Delay and embedding dimension of a series, with every curve that led to them.
 
     series (n,)       any unit
@@ -118,19 +125,10 @@ def choose_embedding(series, delay=None, max_dimension=8, theiler=None):
     kennel = _first(share <= np.nanmin(share) + FALSE_SHARE) if np.nanmin(share) <= FALSE_AT_MOST else None
     cao = _first(e1 >= CAO_LEVEL)
     words = f"false neighbours: {kennel or 'none'}, Cao: {cao or 'none'} of dimensions up to {max_dimension}"
-    return EmbeddingChoice(
-        dimension=kennel or cao or max_dimension,
-        by_false_neighbours=kennel,
-        by_cao=cao,
-        reason=words if kennel or cao else f"{words}: noise, or a motion of higher dimension",
-        lag=lag,
-        mean_period=chosen.mean_period,
-        delay=chosen,
-        theiler=theiler,
-        false_share=locked(share),
-        e1=locked(e1),
-        e2=locked(e2),
-    )
+    chosen_m = kennel or cao or max_dimension
+    reason = words if kennel or cao else f"{words}: noise, or a motion of higher dimension"
+    curves = locked(share), locked(e1), locked(e2)
+    return EmbeddingChoice(chosen_m, kennel, cao, reason, lag, chosen.mean_period, chosen, theiler, *curves)
 
 
 def _first(holds):

@@ -7,14 +7,16 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from analysis.drifts import record_drift
 from analysis.line_spectra import spectral_lines
 from analysis.neighbour_distances import neighbour_growth
 from analysis.predictability import prediction_gain
-from analysis.surrogates import iaaft_surrogates, noisy_periodic_surrogates, normal_scores, rank_among
+from analysis.stationarity import record_drift
+from analysis.surrogates import NullRank, iaaft_surrogates, noisy_periodic_surrogates, normal_scores, rank_among
 from analysis.zero_one import zero_one_test
 
 if TYPE_CHECKING:
+    from analysis.exponents import Exponent
+    from analysis.periods import PeriodEstimate
     from analysis.verdicts import Verdict
 
 IRREGULAR = 0.9
@@ -78,31 +80,29 @@ def _short(found: float) -> str:
     return f"{found:.3g}" if np.isfinite(found) else "–"
 
 
-def period_evidence(estimate):
+def period_evidence(estimate: PeriodEstimate) -> list[Evidence]:
     """Period of the strobed orbit, and the multiplier of the slowest decay towards it."""
-    nan = float("nan")
     if estimate.period is None:
-        return [Evidence("period", nan, estimate.tolerance, False, estimate.reason)]
+        return [Evidence("period", np.nan, estimate.tolerance, False, estimate.reason)]
     n = estimate.period
     multiplier = float(estimate.multiplier[n - 1])
     found = Evidence("period", float(n), estimate.tolerance, True, estimate.reason)
     if estimate.residual[n - 1] == 0.0:
         sentence = "the orbit repeats to the last digit: nothing is left whose decay could be seen"
-        return [found, Evidence("contraction", nan, 1.0, None, sentence)]
+        return [found, Evidence("contraction", np.nan, 1.0, None, sentence)]
     sentence = f"steps over {n} period(s) shrink by the factor {multiplier:.3g} from one to the next"
     if abs(multiplier + 0.5) < 0.15:
         sentence += ", as independent errors about a settled orbit do"
     return [found, Evidence("contraction", multiplier, 1.0, bool(abs(multiplier) < 1.0), sentence)]
 
 
-def exponent_evidence(tangent, wolf):
+def exponent_evidence(tangent: Exponent | None, wolf: Exponent | None) -> Evidence:
     """lambda - 2 error > 0, of the tangent dynamics where there is one, else of the time series."""
-    nan = float("nan")
     source, exponent = ("tangent dynamics", tangent) if tangent is not None and tangent.found else ("time series", wolf)
     if exponent is None:
-        return Evidence("exponent", nan, 0.0, None, "not asked: the orbit repeats, and no exponent was given")
+        return Evidence("exponent", np.nan, 0.0, None, "not asked: the orbit repeats, and no exponent was given")
     if not exponent.found:
-        return Evidence("exponent", nan, 0.0, None, f"no exponent: {exponent.reason}")
+        return Evidence("exponent", np.nan, 0.0, None, f"no exponent: {exponent.reason}")
     passed = bool(exponent.value - 2.0 * exponent.error > 0.0)
     sentence = f"{exponent.value:.4g} +- {exponent.error:.2g} bits per period ({source}): " + (
         "positive by more than two errors" if passed else "not positive by two errors"
@@ -110,7 +110,7 @@ def exponent_evidence(tangent, wolf):
     return Evidence("exponent", exponent.value, 0.0, passed, sentence, exponent.error)
 
 
-def growth_evidence(section):
+def growth_evidence(section: np.ndarray) -> Evidence:
     """Neighbours stay neighbours: the section is that of a torus (or of a period seen through noise)."""
     found = neighbour_growth(section)
     if not np.isfinite(found.growth):
@@ -119,7 +119,7 @@ def growth_evidence(section):
     return Evidence("neighbours", found.growth, STAYS, passed, f"{found.reason} (growth {found.growth:.2f} nats)")
 
 
-def drift_evidence(section, growth):
+def drift_evidence(section: np.ndarray, growth: Evidence) -> Evidence:
     """Still on its way: spread or mean march with time, or neighbours close in."""
     found = record_drift(section)
     closing = bool(growth.value < -STAYS)
@@ -127,7 +127,7 @@ def drift_evidence(section, growth):
     return Evidence("drift", found.spread_change, np.nan, bool(found.drifting or closing), reason)
 
 
-def incommensurate_evidence(section, max_period):
+def incommensurate_evidence(section: np.ndarray, max_period: int) -> Evidence:
     """The strongest line that is not a subharmonic of the forcing up to max_period."""
     spectrum = spectral_lines(section)
     variance = np.var(section, axis=0)
@@ -151,26 +151,23 @@ def incommensurate_evidence(section, max_period):
     return Evidence("incommensurate line", float(turns[best]), LEAST_TURN, True, sentence)
 
 
-def irregular_evidence(section, seed, name="0-1 test"):
+def irregular_evidence(section: np.ndarray, seed: int) -> Evidence:
     """K > 0.9: the median over the coordinates of the 0-1 test; on each band of a section that is visited in turn.
 
     Where the motion visits N bands in turn, the map of N periods has each of them for a section of its own. Without
     that, the jump from band to band hides the spreading of the walk: chaos in two bands wants twice as many periods.
     """
     bands = _bands_in_turn(section)
-    tests = [
-        zero_one_test(section[first::bands, j], seed=[seed, j])
-        for first in range(bands)
-        for j in range(section.shape[1])
-    ]
+    places = [(first, j) for first in range(bands) for j in range(section.shape[1])]
+    tests = [zero_one_test(section[first::bands, j], seed=[seed, j]) for first, j in places]
     values = np.array([test.value for test in tests])
     answered = np.isfinite(values)
     if 2 * answered.sum() < len(values) or not answered.any():
-        return Evidence(name, np.nan, IRREGULAR, None, tests[int(np.argmin(answered))].reason)
+        return Evidence("0-1 test", np.nan, IRREGULAR, None, tests[int(np.argmin(answered))].reason)
     value = float(np.median(values[answered]))
     where = f" in each of {bands} bands visited in turn" if bands > 1 else ""
     sentence = f"K = {value:.3f}{where}: " + ("irregular" if value > IRREGULAR else "not irregular throughout")
-    return Evidence(name, value, IRREGULAR, bool(value > IRREGULAR), sentence)
+    return Evidence("0-1 test", value, IRREGULAR, bool(value > IRREGULAR), sentence)
 
 
 def _bands_in_turn(section):
@@ -189,7 +186,7 @@ def _bands_in_turn(section):
     return 1
 
 
-def null_evidence(section, surrogates, seed):
+def null_evidence(section: np.ndarray, surrogates: int, seed: int) -> list[Evidence]:
     """Rank and margin of the prediction gain among the surrogates of both nulls."""
     items = []
     for (name, _), rank in zip(NULLS, null_ranks(section, surrogates, seed), strict=True):
@@ -204,7 +201,7 @@ def null_evidence(section, surrogates, seed):
     return items
 
 
-def half_evidence(section, surrogates, seed, asked):
+def half_evidence(section: np.ndarray, surrogates: int, seed: int, asked: bool) -> list[Evidence]:
     """0-1 test and both ranks in each half; the lesser value of the two halves is kept."""
     names = ["0-1 test", *(name for name, _ in NULLS)]
     if not asked:
@@ -227,7 +224,7 @@ def half_evidence(section, surrogates, seed, asked):
     return items
 
 
-def null_ranks(section, surrogates, seed):
+def null_ranks(section: np.ndarray, surrogates: int, seed: int | list[int]) -> list[NullRank | None]:
     """NullRank of the prediction gain for each null, None where a gain cannot be had; on the last 1000 points at most.
 
     The linear null is asked of the coordinates' normal scores: it allows any monotone instrument, and iterating towards
@@ -247,7 +244,7 @@ def null_ranks(section, surrogates, seed):
     return ranks
 
 
-def tighter_evidence(tighter, word):
+def tighter_evidence(tighter: Verdict | str | None, word: str) -> Evidence:
     """Whether the verdict survives a tighter tolerance, where someone looked."""
     if tighter is None:
         return Evidence("tighter tolerance", np.nan, np.nan, None, "no spot check at a tighter tolerance was given")

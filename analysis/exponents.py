@@ -5,7 +5,11 @@
 lambda is in nats per unit of time, sigma in bits per forcing period. Whatever the method, an estimate carries an error,
 and where nothing qualified it is NaN with a reason. It is never 0 for want of an answer: 0 is a result, and says
 "neither grows nor shrinks".
+
+In the paper: eq. (32) Lyapunov exponent.
 """
+
+from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
@@ -56,16 +60,16 @@ class Exponent:
         return Exponent, (self.value, self.error, self.unit, self.method, self.reason, dict(self.details))
 
     @property
-    def found(self):
+    def found(self) -> bool:
         """True where there is an estimate: value is a finite number."""
         return bool(np.isfinite(self.value))
 
-    def in_bits_per_period(self, period):
+    def in_bits_per_period(self, period: float) -> Exponent:
         """The same estimate per forcing period, sigma = lambda T_i/ln 2 of eq. (32); `period` in the unit of time of
         the sampling step. `details` stay in the units in which the estimator wrote them."""
         return self._scaled(checked_positive(period, "period") / np.log(2.0), NATS_PER_TIME, BITS_PER_PERIOD)
 
-    def in_nats_per_time(self, period):
+    def in_nats_per_time(self, period: float) -> Exponent:
         """The same estimate per unit of time, lambda = sigma ln 2/T_i; `period` is the forcing period it was stated for
         (in the unit of time wanted)."""
         return self._scaled(np.log(2.0) / checked_positive(period, "period"), BITS_PER_PERIOD, NATS_PER_TIME)
@@ -77,7 +81,9 @@ class Exponent:
         return replace(self, value=self.value * factor, error=self.error * factor, unit=wanted)
 
 
-def no_exponent(method, reason, unit=NATS_PER_TIME, details=None):
+def no_exponent(
+    method: str, reason: str, unit: str = NATS_PER_TIME, details: Mapping[str, object] | None = None
+) -> Exponent:
     """An Exponent without a value: NaN, with the sentence that says why nothing qualified.
 
     method, reason    as in Exponent; reason must not be empty

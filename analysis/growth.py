@@ -23,6 +23,7 @@ from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from analysis.exponents import NATS_PER_TIME, Exponent, no_exponent
 from analysis.sampling import checked_count, checked_positive, checked_series, locked
@@ -59,7 +60,9 @@ class Growth:
     burst_size: np.ndarray
 
 
-def growth_or_bursts(magnitude, step, period, window_periods=4, least_span=LEAST_SPAN_NATS):
+def growth_or_bursts(
+    magnitude: ArrayLike, step: float, period: float, window_periods: int = 4, least_span: float = LEAST_SPAN_NATS
+) -> Growth:
     """Growth, decay, bursts or neither of a record of magnitudes (rules at the head of this file).
 
     magnitude (n,)     |y| or y from t = 0, evenly sampled, any unit
@@ -74,26 +77,23 @@ def growth_or_bursts(magnitude, step, period, window_periods=4, least_span=LEAST
     least_span = checked_positive(least_span, "least_span")
     if period < 2.0 * step:
         raise ValueError(f"period: at least two steps are needed, given {period!r} with steps of {step!r}")
-    time, size = envelope_of(y, step, window_periods * period)
-    if not len(size) or not size.any():
-        return _nothing("every value is zero" if len(y) else "there are no values")
-    line = _straight_part(time, size, least_span)
-    if isinstance(line, _Line):
-        return _exponential(line)
-    time, size = envelope_of(y, step, period)
-    short = _straight_part(time, size, least_span)
-    if isinstance(short, _Line):
-        return _exponential(short)
+    if not envelope_of(y, step, window_periods * period)[1].any():
+        return _without_rate("neither", "every value is zero" if len(y) else "there are no values")
+    lacking = []
+    for span in (window_periods * period, period):
+        time, size = envelope_of(y, step, span)
+        line = _straight_part(time, size, least_span)
+        if isinstance(line, _Line):
+            return _exponential(line)
+        lacking.append(line)
     found = _bursts(size, least_span)
     if not len(found):
-        return _nothing(f"{line}; no burst of {least_span:g} nats")
-    reason = f"{line}; {len(found)} burst{'s' if len(found) > 1 else ''} of at least {least_span:g} nats"
-    rate = no_exponent(METHOD, reason)
-    nan = float("nan")
-    return Growth("bursts", reason, rate, nan, nan, nan, locked(time[found]), locked(size[found]))
+        return _without_rate("neither", f"{lacking[0]}; no burst of {least_span:g} nats")
+    reason = f"{lacking[0]}; {len(found)} burst{'s' if len(found) > 1 else ''} of at least {least_span:g} nats"
+    return _without_rate("bursts", reason, time[found], size[found])
 
 
-def envelope_of(magnitude, step, span):
+def envelope_of(magnitude: ArrayLike, step: float, span: float) -> tuple[np.ndarray, np.ndarray]:
     """Largest value in each complete span of a record, and when: (time (m,), size (m,)).
 
     magnitude (n,) from t = 0; step, span in one unit of time. The first span begins with the second sample, so that
@@ -118,15 +118,13 @@ class _Line:
 def _exponential(line):
     kind = "growth" if line.slope > 0 else "decay"
     reason = f"straight from {line.begin:.4g} to {line.end:.4g}, {line.span:+.2g} nats"
-    rate = Exponent(line.slope, line.error, NATS_PER_TIME, METHOD, reason)
-    return Growth(kind, reason, rate, line.begin, line.end, line.span, locked(np.empty(0)), locked(np.empty(0)))
+    rate, none = Exponent(line.slope, line.error, NATS_PER_TIME, METHOD, reason), locked(np.empty(0))
+    return Growth(kind, reason, rate, line.begin, line.end, line.span, none, none)
 
 
-def _nothing(reason):
-    nan = float("nan")
-    return Growth(
-        "neither", reason, no_exponent(METHOD, reason), nan, nan, nan, locked(np.empty(0)), locked(np.empty(0))
-    )
+def _without_rate(kind, reason, time=(), size=()):
+    bursts = locked(np.array(time, dtype=float)), locked(np.array(size, dtype=float))
+    return Growth(kind, reason, no_exponent(METHOD, reason), np.nan, np.nan, np.nan, *bursts)
 
 
 def _straight_part(time, size, least_span):

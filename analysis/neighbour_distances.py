@@ -16,8 +16,9 @@ further: growth is counted from the mean over n = 1, 2, 3.
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import ArrayLike
 
-from analysis.sampling import checked_count, checked_series, locked
+from analysis.sampling import checked_columns, checked_count, in_deviations, locked
 
 LEAST_POINTS = 40
 EARLY = slice(1, 4)
@@ -42,7 +43,7 @@ class NeighbourGrowth:
     reason: str
 
 
-def neighbour_growth(section, delays=None, theiler=1):
+def neighbour_growth(section: ArrayLike, delays: int | None = None, theiler: int = 1) -> NeighbourGrowth:
     """Growth of the distance between neighbours on a section over a quarter of the record (head of this file).
 
     section (m,) or (m, d)   one row a forcing period, 40 at least
@@ -53,20 +54,15 @@ def neighbour_growth(section, delays=None, theiler=1):
     Raises ValueError for values that are not finite.
     Source: the pairs are those of M. T. Rosenstein, J. J. Collins & C. J. De Luca, Physica D 65 (1993) 117.
     """
-    x = checked_series(section, "section", dimensions=(1, 2))
-    x = x[:, None] if x.ndim == 1 else x
+    x = checked_columns(section, "section")
     delays = -(-3 // x.shape[1]) if delays is None else checked_count(delays, "delays")
     theiler = checked_count(theiler, "theiler", least=0)
-    size = x.std(axis=0)
-    moving = size > 64 * np.finfo(float).eps * np.abs(x).max(axis=0, initial=0.0)
-    nothing = locked(np.zeros(0))
+    z = in_deviations(x)
+    why_not = "no motion: the section is one point to the last digits" if z.shape[1] == 0 else ""
     if len(x) < LEAST_POINTS:
-        reason = f"too short: {LEAST_POINTS} strobed points are needed, given {len(x)}"
-        return NeighbourGrowth(np.nan, np.nan, np.nan, nothing, reason)
-    if not moving.any():
-        reason = "no motion: the section is one point to the last digits"
-        return NeighbourGrowth(np.nan, np.nan, np.nan, nothing, reason)
-    z = x[:, moving] / size[moving]
+        why_not = f"too short: {LEAST_POINTS} strobed points are needed, given {len(x)}"
+    if why_not:
+        return NeighbourGrowth(np.nan, np.nan, np.nan, locked(np.zeros(0)), why_not)
     state = np.hstack([z[lag : len(z) - delays + 1 + lag] for lag in range(delays)])
     horizon = len(state) // 4
     distance = _distance(state, horizon, theiler) / np.sqrt(2.0 * np.sum(state.var(axis=0)))

@@ -3,6 +3,7 @@
 from math import comb
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from analysis.embedding_delay import delay_vectors
 from analysis.sampling import checked_series
@@ -12,7 +13,9 @@ from analysis.sampling import checked_series
 _SEED = 1
 
 
-def nearest_outside(points, theiler, rows=None, count=1):
+def nearest_outside(
+    points: np.ndarray, theiler: int, rows: ArrayLike | None = None, count: int = 1
+) -> tuple[np.ndarray, np.ndarray]:
     """The nearest neighbours of chosen points that lie more than `theiler` samples away in time.
 
     points (n, m)    delay vectors in the order of time
@@ -41,7 +44,7 @@ def nearest_outside(points, theiler, rows=None, count=1):
     return index, distance
 
 
-def noise_level(series, delay, dimension=3, centres=400):
+def noise_level(series: ArrayLike, delay: int, dimension: int = 3, centres: int = 400) -> float:
     """Standard deviation of the white noise on a series, from above: the smaller of two estimates.
 
         differences   median |D^k x| / (0.6745 sqrt(C(2k, k))), least over k = 1 ... 8: noise is what is left when a

@@ -5,9 +5,11 @@ pixel keep the invariant density visible; a logarithmic or rank scale keeps a pi
 of a thousand (equalisation of the histogram, as in the rasterisers used for very large point clouds).
 """
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from analysis.sampling import checked_count, checked_series, locked
 
@@ -23,7 +25,7 @@ class OrbitDiagram:
     parameter: np.ndarray
     columns: tuple[np.ndarray, ...]
 
-    def points(self):
+    def points(self) -> tuple[np.ndarray, np.ndarray]:
         """All points as two arrays (parameter, value) of equal length, for drawing as dots."""
         counts = [len(column) for column in self.columns]
         return np.repeat(self.parameter, counts), np.concatenate(self.columns)
@@ -45,7 +47,7 @@ class DensityImage:
     outside: np.ndarray
 
 
-def orbit_diagram(parameters, strobed, last=None):
+def orbit_diagram(parameters: ArrayLike, strobed: Iterable[ArrayLike], last: int | None = None) -> OrbitDiagram:
     """Columns of strobed points over their parameter values, in rising order.
 
     parameters (p,)   e.g. wave steepness; a value given twice (two starts, coexisting motions) makes one joint column
@@ -57,21 +59,18 @@ def orbit_diagram(parameters, strobed, last=None):
     parameter = checked_series(parameters, "parameters")
     strobed = list(strobed)
     if len(parameter) == 0 or len(parameter) != len(strobed):
-        raise ValueError(
-            f"one array of points per parameter value is needed, given {len(strobed)} arrays for "
-            f"{len(parameter)} values"
-        )
-    if last is not None:
-        last = checked_count(last, "last")
-    arrays = [checked_series(points, f"strobed[{i}]") for i, points in enumerate(strobed)]
-    if last is not None:
-        arrays = [points[-last:] for points in arrays]
+        given = f"{len(strobed)} arrays for {len(parameter)} values"
+        raise ValueError(f"one array of points per parameter value is needed, given {given}")
+    first = 0 if last is None else -checked_count(last, "last")
+    arrays = [checked_series(points, f"strobed[{i}]")[first:] for i, points in enumerate(strobed)]
     values = np.unique(parameter)
     columns = tuple(locked(np.concatenate([arrays[i] for i in np.flatnonzero(parameter == value)])) for value in values)
     return OrbitDiagram(locked(values), columns)
 
 
-def density_image(diagram, value_bins=400, value_range=None):
+def density_image(
+    diagram: OrbitDiagram, value_bins: int = 400, value_range: tuple[float, float] | None = None
+) -> DensityImage:
     """Counts of an orbit diagram per pixel: one pixel column per parameter value, `value_bins` rows.
 
     value_range   (low, high); None spans all points with 2 % of margin. Both ends belong to the image
@@ -79,18 +78,16 @@ def density_image(diagram, value_bins=400, value_range=None):
     Raises ValueError for an empty diagram without a range, or a range that is not low < high.
     """
     value_bins = checked_count(value_bins, "value_bins")
-    low, high = _value_range(diagram) if value_range is None else (float(value_range[0]), float(value_range[1]))
+    low, high = _value_range(diagram) if value_range is None else map(float, value_range)
     if not (np.isfinite(low) and np.isfinite(high) and low < high):
         raise ValueError(f"value_range: low < high, both finite, is needed, given ({low}, {high})")
     edges = np.linspace(low, high, value_bins + 1)
-    counts = np.empty((value_bins, len(diagram.columns)), dtype=np.int64)
-    for i, column in enumerate(diagram.columns):
-        counts[:, i], _ = np.histogram(column, bins=edges)
+    counts = np.stack([np.histogram(column, bins=edges)[0] for column in diagram.columns], axis=1)
     outside = np.array([len(column) for column in diagram.columns]) - counts.sum(axis=0)
     return DensityImage(locked(counts), locked(_cell_edges(diagram.parameter)), locked(edges), locked(outside))
 
 
-def scale_density(counts, how="rank"):
+def scale_density(counts: ArrayLike, how: str = "rank") -> np.ndarray:
     """Counts as brightness in [0, 1] that rises with them; 0 only where there is no point.
 
         linear: c/c_max      log: ln(1 + c)/ln(1 + c_max)      rank: share of the occupied pixels with at most c points
@@ -132,7 +129,6 @@ def _value_range(diagram):
 def _cell_edges(centres):
     """Edges half-way between rising centres; the outer cells are as wide as their inner half says."""
     if len(centres) == 1:
-        half = 0.05 * abs(centres[0]) or 0.5
-        return np.array([centres[0] - half, centres[0] + half])
+        return centres + (0.05 * abs(centres[0]) or 0.5) * np.array([-1.0, 1.0])
     middle = 0.5 * (centres[1:] + centres[:-1])
     return np.concatenate([[2 * centres[0] - middle[0]], middle, [2 * centres[-1] - middle[-1]]])

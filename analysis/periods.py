@@ -24,8 +24,9 @@ residual alone.
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import ArrayLike
 
-from analysis.sampling import checked_count, checked_positive, checked_series, locked
+from analysis.sampling import checked_columns, checked_count, checked_positive, locked
 
 LEAST_POINTS = 16
 POINTS_PER_CANDIDATE = 4
@@ -63,7 +64,9 @@ class PeriodEstimate:
     orbit: np.ndarray | None
 
 
-def detect_period(strobed, max_period=16, tolerance=1e-3, scale=None):
+def detect_period(
+    strobed: ArrayLike, max_period: int = 16, tolerance: float = 1e-3, scale: ArrayLike | None = None
+) -> PeriodEstimate:
     """The smallest period N <= max_period of a strobed motion within a tolerance, or None with the reason.
 
     N qualifies when, over the last part of the record (its last half, at least 3 N points),
@@ -86,8 +89,7 @@ def detect_period(strobed, max_period=16, tolerance=1e-3, scale=None):
     Raises ValueError for values that are not finite, or a scale or tolerance that is not positive.
     Source: definition of a period-N motion of the stroboscopic map; close returns: Dirichlet's theorem.
     """
-    x = checked_series(strobed, "strobed", dimensions=(1, 2))
-    x = x[:, None] if x.ndim == 1 else x
+    x = checked_columns(strobed, "strobed")
     max_period = checked_count(max_period, "max_period")
     tolerance = checked_positive(tolerance, "tolerance")
     scale, rounding = _scale(x, scale)
@@ -96,20 +98,13 @@ def detect_period(strobed, max_period=16, tolerance=1e-3, scale=None):
     testable = min(max_period, points // POINTS_PER_CANDIDATE) if points >= LEAST_POINTS else 0
     for candidate in range(1, testable + 1):
         measures[:, candidate - 1] = _measure(x / scale, candidate, rounding / scale)
-    residual, projected, multiplier, trend = measures
+    residual, projected, _, trend = measures
     repeats = [n for n in range(1, testable + 1) if max(residual[n - 1], projected[n - 1]) <= tolerance]
     period = next((n for n in repeats if not _rivals(n, residual, tolerance)), None)
+    reason = _reason(period, repeats, points, testable, max_period, tolerance, residual, trend)
+    curves = (locked(curve) for curve in (scale, *measures))
     return PeriodEstimate(
-        period=period,
-        reason=_reason(period, repeats, points, testable, max_period, tolerance, residual, trend),
-        tolerance=tolerance,
-        scale=locked(scale),
-        residual=locked(residual),
-        projected=locked(projected),
-        multiplier=locked(multiplier),
-        trend_nats_per_period=locked(trend),
-        points=points,
-        orbit=None if period is None else locked(_orbit(x, period)),
+        period, reason, tolerance, *curves, points, None if period is None else locked(_orbit(x, period))
     )
 
 
@@ -142,12 +137,7 @@ def _measure(x, n, rounding):
     square = np.sum(step[:-n] ** 2)
     multiplier = np.sum(step[:-n] * step[n:]) / square if square > 0.0 else 0.0
     last = size[-n:].max()
-    if last == 0.0:
-        projected = 0.0
-    elif multiplier >= 1.0:
-        projected = np.inf
-    else:
-        projected = last / (1.0 - multiplier)
+    projected = last / (1.0 - multiplier) if multiplier < 1.0 else np.inf if last > 0.0 else 0.0
     early, late = size[: len(size) // 2].max(), size[-(len(size) // 2) :].max()
     trend = 0.0
     if early != late:

@@ -8,9 +8,11 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from analysis.sampling import (
     ON_SAMPLE,
+    checked_columns,
     checked_count,
     checked_positive,
     checked_series,
@@ -39,14 +41,20 @@ class PoincareSection:
     phase: float
     interpolated: bool
 
-    def column(self, name):
+    def column(self, name: str) -> np.ndarray:
         """Strobed values (m,) of one coordinate; ValueError for an unknown name."""
         if name not in self.names:
             raise ValueError(f"no coordinate {name!r} in this section; there are {', '.join(self.names)}")
         return self.points[:, self.names.index(name)]
 
 
-def poincare_section(series, step_s, period_s, phase=0.0, transient_periods=0):
+def poincare_section(
+    series: ArrayLike | Mapping[str, ArrayLike],
+    step_s: float,
+    period_s: float,
+    phase: float = 0.0,
+    transient_periods: int = 0,
+) -> PoincareSection:
     """The motion at one phase of its forcing, once per period, after a transient.
 
         points_k = x((k + phase) T),   k = transient_periods, transient_periods + 1, ... to the end of the record
@@ -71,10 +79,10 @@ def poincare_section(series, step_s, period_s, phase=0.0, transient_periods=0):
     given_s = record_length_s(len(x), step_s)
     last = int(np.floor((given_s + ON_SAMPLE * step_s) / period_s - phase))
     if len(x) == 0 or last < first:
-        raise ValueError(
-            f"a section at phase {phase:g} after {first} transient period(s) needs {first + phase:g} periods of record "
-            f"at least, given {given_s / period_s:.4g} ({given_s:g} s, {len(x)} samples)"
+        wanted = (
+            f"a section at phase {phase:g} after {first} transient period(s) needs {first + phase:g} periods of record"
         )
+        raise ValueError(f"{wanted} at least, given {given_s / period_s:.4g} ({given_s:g} s, {len(x)} samples)")
     index = np.arange(first, last + 1)
     time_s = (index + phase) * period_s
     points, interpolated = values_at(x, step_s, time_s)
@@ -91,6 +99,5 @@ def _coordinates(series):
             lengths = ", ".join(f"{name}: {len(column)}" for name, column in zip(series, columns, strict=True))
             raise ValueError(f"series: coordinates of equal length are needed, given {lengths}")
         return tuple(str(name) for name in series), np.column_stack(columns)
-    x = checked_series(series, dimensions=(1, 2))
-    x = x[:, None] if x.ndim == 1 else x
+    x = checked_columns(series)
     return tuple(str(j) for j in range(x.shape[1])), x

@@ -17,8 +17,9 @@ rank among the surrogates that keep the lines.
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import ArrayLike
 
-from analysis.sampling import checked_count, checked_series
+from analysis.sampling import checked_columns, checked_count, in_deviations
 
 LEAST_PER_COORDINATE = 8
 NEIGHBOURS_PER_COEFFICIENT = 2
@@ -42,7 +43,7 @@ class PredictionGain:
     reason: str
 
 
-def prediction_gain(section, delays=None, theiler=1):
+def prediction_gain(section: ArrayLike, delays: int | None = None, theiler: int = 1) -> PredictionGain:
     """Gain of local-linear over linear one-step prediction on a section (formula at the head of this file).
 
     section (m,) or (m, d)   one row a forcing period
@@ -55,22 +56,17 @@ def prediction_gain(section, delays=None, theiler=1):
     Source: E. N. Lorenz (analogues), J. Atmos. Sci. 26 (1969) 636; J. D. Farmer & J. J. Sidorowich, Phys. Rev. Lett. 59
     (1987) 845; gain over linear prediction as a test: M. Casdagli, J. R. Stat. Soc. B 54 (1992) 303.
     """
-    x = checked_series(section, "section", dimensions=(1, 2))
-    x = x[:, None] if x.ndim == 1 else x
+    x = checked_columns(section, "section")
     delays = -(-3 // x.shape[1]) if delays is None else checked_count(delays, "delays")
     theiler = checked_count(theiler, "theiler", least=0)
-    size = x.std(axis=0)
-    moving = size > 64 * np.finfo(float).eps * np.abs(x).max(axis=0, initial=0.0)
-    if not moving.any():
+    z = in_deviations(x, centred=True)
+    if z.shape[1] == 0:
         return PredictionGain(np.nan, np.nan, np.nan, "no motion: the section is one point to the last digits")
-    z = (x[:, moving] - x[:, moving].mean(axis=0)) / size[moving]
     state, target = _states(z, delays)
     needed = LEAST_PER_COORDINATE * (state.shape[1] + 1) + 2 * theiler
     if len(state) < needed:
-        reason = (
-            f"too short: {needed + delays} points are needed for a state of {state.shape[1]} numbers, given {len(x)}"
-        )
-        return PredictionGain(np.nan, np.nan, np.nan, reason)
+        wanted = f"{needed + delays} points are needed for a state of {state.shape[1]} numbers"
+        return PredictionGain(np.nan, np.nan, np.nan, f"too short: {wanted}, given {len(x)}")
     linear, local = _linear_error(state, target), _local_error(state, target, theiler)
     # Errors at rounding cannot be compared: a clean period-N motion is predicted to the last digit by both.
     floor = 1e-9

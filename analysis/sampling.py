@@ -1,13 +1,14 @@
 """What every measure needs of an evenly sampled record: checked arrays, and its value at a given time."""
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 # A time this close to a sample, in steps, is that sample: 5 s / 0.05 s must not turn into an interpolation, and the
 # error of taking the sample instead is 1e-6 of one step's change.
 ON_SAMPLE = 1e-6
 
 
-def checked_series(values, name="series", dimensions=(1,)):
+def checked_series(values: ArrayLike, name: str = "series", dimensions: tuple[int, ...] = (1,)) -> np.ndarray:
     """Float copy of `values`; ValueError when it has the wrong number of dimensions, or a NaN or infinity (names the
     first), since every measure here would turn one bad sample into a plausible number."""
     array = np.array(values, dtype=float)
@@ -24,7 +25,24 @@ def checked_series(values, name="series", dimensions=(1,)):
     return array
 
 
-def checked_positive(value, name):
+def checked_columns(values: ArrayLike, name: str = "series") -> np.ndarray:
+    """`checked_series` of a series (n,) or (n, d) as columns (n, d)."""
+    x = checked_series(values, name, dimensions=(1, 2))
+    return x[:, None] if x.ndim == 1 else x
+
+
+def in_deviations(x: np.ndarray, centred: bool = False) -> np.ndarray:
+    """The columns of x (n, d) that move by more than their rounding, each in its standard deviation: (n, c), c <= d.
+
+    centred: less their means.
+    """
+    size = x.std(axis=0) if len(x) else np.zeros(x.shape[1])
+    moves = size > 64 * np.finfo(float).eps * np.abs(x).max(axis=0, initial=0.0)
+    kept = x[:, moves]
+    return (kept - kept.mean(axis=0) if centred else kept) / size[moves]
+
+
+def checked_positive(value: float, name: str) -> float:
     """`value` as a float; ValueError unless it is finite and above zero."""
     number = float(value)
     if not (np.isfinite(number) and number > 0.0):
@@ -32,7 +50,7 @@ def checked_positive(value, name):
     return number
 
 
-def checked_not_negative(value, name):
+def checked_not_negative(value: float, name: str) -> float:
     """`value` as a float; ValueError unless it is finite and at least zero."""
     number = float(value)
     if not (np.isfinite(number) and number >= 0.0):
@@ -40,19 +58,19 @@ def checked_not_negative(value, name):
     return number
 
 
-def checked_count(value, name, least=1):
+def checked_count(value: int, name: str, least: int = 1) -> int:
     """`value` as an int; ValueError unless it is a whole number of at least `least`."""
     if isinstance(value, bool) or int(value) != value or value < least:
         raise ValueError(f"{name}: a whole number >= {least} is needed, given {value!r}")
     return int(value)
 
 
-def record_length_s(samples, step_s):
+def record_length_s(samples: int, step_s: float) -> float:
     """Time from the first to the last of `samples` samples [s]; 0 for an empty record."""
     return max(samples - 1, 0) * step_s
 
 
-def values_at(series, step_s, time_s):
+def values_at(series: np.ndarray, step_s: float, time_s: ArrayLike) -> tuple[np.ndarray, bool]:
     """Values of `series` (n,) or (n, d) at `time_s` (m,), and whether they were interpolated.
 
     The samples themselves where every time is a sample; otherwise all of them by one not-a-knot cubic spline, whose
@@ -70,7 +88,7 @@ def values_at(series, step_s, time_s):
     return CubicSpline(np.arange(len(series)), series)(position), True
 
 
-def locked(array):
+def locked(array: ArrayLike) -> np.ndarray:
     """The same array, made read-only: a frozen record must not change through its arrays."""
     array = np.asarray(array)
     array.flags.writeable = False

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from analysis.sampling import checked_series
 
@@ -37,7 +38,9 @@ class ScalingRegion:
     reason: str
 
 
-def scaling_region(time, curve, least_span=LEAST_SPAN_NATS, cycle=1):
+def scaling_region(
+    time: ArrayLike, curve: ArrayLike, least_span: float = LEAST_SPAN_NATS, cycle: int = 1
+) -> ScalingRegion:
     """The longest part of a curve that rises by at least one nat and is straight.
 
     Straight: the slope of each quarter differs by at most 25 % from that of the whole (halves would not do: those of an
@@ -54,18 +57,15 @@ def scaling_region(time, curve, least_span=LEAST_SPAN_NATS, cycle=1):
     t, y = checked_series(time, "time"), checked_series(curve, "curve")
     if len(t) != len(y):
         raise ValueError(f"time and curve: equal lengths are needed, given {len(t)} and {len(y)}")
-    cut = cycle // 2
+    cut = cycle // 2 if len(y) > 2 * cycle else 0
     if len(y) > 2 * cycle:
         width = 2 * cut + 1
         t, y = t[cut : len(t) - cut], np.convolve(y, np.full(width, 1.0 / width), mode="valid")
-    else:
-        cut = 0
-    least = LEAST_POINTS
     # About forty ends are enough to find the region to a few per cent of its length.
     stride = max(1, len(t) // 120)
     best, straight = None, False
-    for begin in range(0, len(t) - least + 1, stride):
-        for end in range(begin + least, len(t) + 1, stride):
+    for begin in range(0, len(t) - LEAST_POINTS + 1, stride):
+        for end in range(begin + LEAST_POINTS, len(t) + 1, stride):
             slope, pieces = _line(t[begin:end], y[begin:end])
             span = slope * (t[end - 1] - t[begin])
             if slope > 0.0 and np.max(np.abs(pieces - slope)) <= MOST_CURVATURE * slope:

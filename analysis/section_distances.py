@@ -10,6 +10,7 @@ of one record, taken with as many points.
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from analysis.sampling import checked_series
 
@@ -30,7 +31,7 @@ class SectionDistance:
     reason: str
 
 
-def section_distance(first, second):
+def section_distance(first: ArrayLike, second: ArrayLike) -> SectionDistance:
     """Distance of two sections, and of the halves of each for comparison.
 
     first (m, d), second (k, d)   points in the order of time, any units: each coordinate is divided by its standard
@@ -55,7 +56,7 @@ def section_distance(first, second):
     return SectionDistance(float(np.mean(across)), float(np.mean(within)), f"halves of {half} points")
 
 
-def energy_distance(first, second):
+def energy_distance(first: np.ndarray, second: np.ndarray) -> float:
     """D of two clouds (m, d) and (k, d): 0 for the same cloud, 1 for two that are each a single point."""
     from scipy.spatial.distance import cdist
 

@@ -5,11 +5,15 @@
 No window, no removal of the mean: the integral spans n whole forcing periods, so at the bins w_j = 2 pi j/(n T_i) the
 forcing and all its harmonics and subharmonics of order up to n fall on bins and do not leak. Whatever is not a multiple
 of 2 pi/(n T_i), a natural frequency for one, spreads over the bins beside it as 1/(distance in bins).
+
+In the paper: eq. (31) spectral amplitude.
 """
 
-from dataclasses import dataclass
+from collections.abc import Iterable
+from dataclasses import dataclass, replace
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from analysis.sampling import (
     ON_SAMPLE,
@@ -62,7 +66,9 @@ class SpectralPeak:
     bins_away: float | None = None
 
 
-def spectrum(series, step_s, forcing_period_s, start_periods=40, periods=20):
+def spectrum(
+    series: ArrayLike, step_s: float, forcing_period_s: float, start_periods: float = 40, periods: int = 20
+) -> Spectrum:
     """Eq. (31) of a record that reaches over tau_0 + n T_i, by the composite trapezoid rule on the sample grid.
 
         X(w_j) = e^{i w_j tau_0} / M * [ (x_0 + x_M)/2 + sum_{k=1}^{M-1} x_k e^{2 pi i j k/M} ],   M = n T_i/step
@@ -89,11 +95,9 @@ def spectrum(series, step_s, forcing_period_s, start_periods=40, periods=20):
     begin_s, window_s = start_periods * forcing_period_s, periods * forcing_period_s
     given_s = record_length_s(len(x), step_s)
     if given_s < begin_s + window_s - ON_SAMPLE * step_s:
-        raise ValueError(
-            f"eq. (31) needs {start_periods + periods:g} forcing periods ({start_periods:g} before the window and "
-            f"{periods} in it; {begin_s + window_s:g} s) of record, given {given_s / forcing_period_s:.4g} "
-            f"({given_s:g} s)"
-        )
+        parts = f"{start_periods:g} before the window and {periods} in it; {begin_s + window_s:g} s"
+        wanted = f"eq. (31) needs {start_periods + periods:g} forcing periods ({parts}) of record"
+        raise ValueError(f"{wanted}, given {given_s / forcing_period_s:.4g} ({given_s:g} s)")
     intervals = _intervals(window_s, step_s)
     window, interpolated = values_at(x, step_s, begin_s + window_s / intervals * np.arange(intervals + 1))
     folded = window[:-1].copy()
@@ -102,19 +106,11 @@ def spectrum(series, step_s, forcing_period_s, start_periods=40, periods=20):
     # e^{+i w t}, as printed, is numpy's inverse transform; start_periods/periods keeps the phase exact for large tau_0.
     transform = np.fft.ifft(folded)[bins] * np.exp(2j * np.pi * np.mod(bins * (start_periods / periods), 1.0))
     bin_radps = 2.0 * np.pi / window_s
-    return Spectrum(
-        angular_frequency_radps=locked(bin_radps * bins),
-        transform=locked(transform),
-        amplitude=locked(np.abs(transform)),
-        bin_radps=bin_radps,
-        forcing_period_s=forcing_period_s,
-        start_periods=start_periods,
-        periods=periods,
-        interpolated=interpolated,
-    )
+    lines = (locked(array) for array in (bin_radps * bins, transform, np.abs(transform)))
+    return Spectrum(*lines, bin_radps, forcing_period_s, start_periods, periods, interpolated)
 
 
-def spectral_peaks(spectrum, least_prominence=0.01):
+def spectral_peaks(spectrum: Spectrum, least_prominence: float = 0.01) -> tuple[SpectralPeak, ...]:
     """The local maxima of a spectrum that stand out, largest first.
 
     A maximum counts when it rises above the higher of the two valleys that part it from higher ground by at least
@@ -142,7 +138,9 @@ def spectral_peaks(spectrum, least_prominence=0.01):
     )
 
 
-def peaks_near(spectrum, frequencies_radps, least_prominence=0.01):
+def peaks_near(
+    spectrum: Spectrum, frequencies_radps: Iterable[float], least_prominence: float = 0.01
+) -> tuple[SpectralPeak | None, ...]:
     """For each given frequency, the nearest peak and by how many bins it misses.
 
         bins_away = (w_peak - w_given)/(2 pi/(n T_i))
@@ -162,15 +160,8 @@ def peaks_near(spectrum, frequencies_radps, least_prominence=0.01):
             answers.append(None)
             continue
         nearest = min(peaks, key=lambda peak: abs(peak.angular_frequency_radps - given))
-        answers.append(
-            SpectralPeak(
-                nearest.angular_frequency_radps,
-                nearest.amplitude,
-                nearest.bin,
-                reference_radps=given,
-                bins_away=(nearest.angular_frequency_radps - given) / spectrum.bin_radps,
-            )
-        )
+        away = (nearest.angular_frequency_radps - given) / spectrum.bin_radps
+        answers.append(replace(nearest, reference_radps=given, bins_away=away))
     return tuple(answers)
 
 

@@ -18,11 +18,13 @@ Why not others: IAAFT alone is beaten by any motion of many lines with bounded n
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from analysis.line_spectra import spectral_lines
-from analysis.sampling import checked_count, checked_series, locked
+from analysis.sampling import checked_columns, checked_count, checked_series, locked
 
 LEAST_POINTS = 32
+Seed = int | list[int]
 # The order mostly stops changing by 50; with several columns it may go on over pairs of nearly equal values.
 MOST_ROUNDS = 100
 
@@ -45,7 +47,7 @@ class NullRank:
     surrogates: np.ndarray
 
 
-def iaaft_surrogates(series, count=1, seed=0):
+def iaaft_surrogates(series: ArrayLike, count: int = 1, seed: Seed = 0) -> np.ndarray:
     """Surrogates of a linear stochastic process: the values of the record exactly, its power spectrum closely.
 
     Alternates between the record's Fourier amplitudes (with the surrogate's phases) and the record's values (in the
@@ -61,16 +63,10 @@ def iaaft_surrogates(series, count=1, seed=0):
     Raises ValueError for values that are not finite or fewer than 32 samples.
     Source: T. Schreiber & A. Schmitz, Phys. Rev. Lett. 77 (1996) 635; several columns: Physica D 142 (2000) 346.
     """
-    x = checked_series(series, "series", dimensions=(1, 2))
-    count = checked_count(count, "count")
-    if len(x) < LEAST_POINTS:
-        raise ValueError(f"series: {LEAST_POINTS} samples at least are needed for surrogates, given {len(x)}")
-    columns = x[:, None] if x.ndim == 1 else x
-    surrogates = _iaaft(columns, count, np.random.default_rng(seed))
-    return surrogates[:, :, 0] if x.ndim == 1 else surrogates
+    return _drawn(series, count, seed, lambda columns: 0.0)
 
 
-def noisy_periodic_surrogates(series, count=1, seed=0):
+def noisy_periodic_surrogates(series: ArrayLike, count: int = 1, seed: Seed = 0) -> np.ndarray:
     """Surrogates of a periodic or quasi-periodic motion in noise: the record's spectral lines plus a redrawn rest.
 
         surrogate_k = lines_k + IAAFT surrogate of (series - lines)_k
@@ -83,17 +79,10 @@ def noisy_periodic_surrogates(series, count=1, seed=0):
     Source: the null of J. Theiler (Phys. Lett. A 196 (1995) 335) and M. Small, D. Yu & R. G. Harrison (Phys. Rev. Lett.
     87 (2001) 188101), made by line removal; why: head of this file.
     """
-    x = checked_series(series, "series", dimensions=(1, 2))
-    count = checked_count(count, "count")
-    if len(x) < LEAST_POINTS:
-        raise ValueError(f"series: {LEAST_POINTS} samples at least are needed for surrogates, given {len(x)}")
-    columns = x[:, None] if x.ndim == 1 else x
-    lines = spectral_lines(columns).fitted
-    surrogates = lines + _iaaft(columns - lines, count, np.random.default_rng(seed))
-    return surrogates[:, :, 0] if x.ndim == 1 else surrogates
+    return _drawn(series, count, seed, lambda columns: spectral_lines(columns).fitted)
 
 
-def normal_scores(series):
+def normal_scores(series: ArrayLike) -> np.ndarray:
     """The record with each column's values replaced by those of a normal distribution in the same order.
 
         y_k = Phi^-1((rank_k - 1/2)/n)
@@ -113,7 +102,7 @@ def normal_scores(series):
     return ndtri((rankdata(x, axis=0) - 0.5) / max(len(x), 1))
 
 
-def rank_among(statistic, surrogates, share=0.95):
+def rank_among(statistic: float, surrogates: ArrayLike, share: float = 0.95) -> NullRank:
     """Is the statistic of a record above the given share of its surrogates'? One-sided rank test.
 
     statistic         of the record; larger speaks against the null
@@ -134,6 +123,16 @@ def rank_among(statistic, surrogates, share=0.95):
     # Of s + 1 equally likely places the record must hold one of the best (1 - share)(s + 1); a tie counts against it.
     above = bool(np.sum(drawn >= value) + 1 <= (1.0 - share) * (len(drawn) + 1) + 1e-9)
     return NullRank(above, float(below), value - float(np.median(drawn)), value, locked(drawn))
+
+
+def _drawn(series, count, seed, kept):
+    """Surrogates of what is left of a record beside the part `kept` (a function of its columns), with this part."""
+    columns, count = checked_columns(series), checked_count(count, "count")
+    if len(columns) < LEAST_POINTS:
+        raise ValueError(f"series: {LEAST_POINTS} samples at least are needed for surrogates, given {len(columns)}")
+    part = kept(columns)
+    surrogates = part + _iaaft(columns - part, count, np.random.default_rng(seed))
+    return surrogates[:, :, 0] if np.ndim(series) == 1 else surrogates
 
 
 def _iaaft(columns, count, rng):

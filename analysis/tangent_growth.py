@@ -11,16 +11,19 @@ and shorter blocks cut through what alternates and make its error larger than it
 """
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from analysis.exponents import BITS_PER_PERIOD, Exponent, no_exponent
-from analysis.sampling import checked_count, checked_series
+from analysis.sampling import checked_columns, checked_count, checked_series
 
 METHOD = "tangent dynamics, Benettin et al. 1980"
 BLOCKS = (8, 10, 12, 16)
 LEAST_PERIODS = 32
 
 
-def tangent_lyapunov(growth_nats, transient_periods=0, left_out=None):
+def tangent_lyapunov(
+    growth_nats: ArrayLike, transient_periods: int = 0, left_out: ArrayLike | None = None
+) -> tuple[Exponent, ...]:
     """The exponents of a tangent map, one `Exponent` a perturbation, in bits per forcing period.
 
     growth_nats (m,) or (m, k)   logarithm of the growth in each forcing period, nats; fastest first
@@ -30,8 +33,7 @@ def tangent_lyapunov(growth_nats, transient_periods=0, left_out=None):
     Returns a tuple of Exponent; NaN with the reason where fewer than 32 periods count. Raises ValueError for values
     that are not finite or lengths that do not fit.
     """
-    growth = checked_series(growth_nats, "growth_nats", dimensions=(1, 2))
-    growth = growth[:, None] if growth.ndim == 1 else growth
+    growth = checked_columns(growth_nats, "growth_nats")
     start = checked_count(transient_periods, "transient_periods", least=0)
     counted = np.ones(len(growth), dtype=bool) if left_out is None else ~np.asarray(left_out, dtype=bool)
     if counted.shape != (len(growth),):
@@ -49,7 +51,9 @@ def tangent_lyapunov(growth_nats, transient_periods=0, left_out=None):
     )
 
 
-def transverse_lyapunov(growth_nats, transient_periods=0, released=None):
+def transverse_lyapunov(
+    growth_nats: ArrayLike, transient_periods: int = 0, released: ArrayLike | None = None
+) -> Exponent:
     """The exponent across the plane of a planar motion, in bits per forcing period (Pikovsky & Grassberger 1991).
 
     A motion confined to an invariant plane stays there against an infinitesimal push out of it where this exponent is

@@ -21,6 +21,7 @@ the present one; hence the prediction gain.
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from analysis.evidence import (
     Evidence,
@@ -37,7 +38,7 @@ from analysis.evidence import (
 from analysis.exponents import BITS_PER_PERIOD, Exponent
 from analysis.periods import detect_period
 from analysis.poincare import poincare_section
-from analysis.sampling import checked_count, checked_positive, checked_series
+from analysis.sampling import checked_columns, checked_count, checked_positive, checked_series
 from analysis.wolf_plateau import wolf_lyapunov
 
 LEAST_POINTS = 40
@@ -66,7 +67,7 @@ class Verdict:
     points: int
     seed: int
 
-    def named(self, name):
+    def named(self, name: str) -> Evidence:
         """The Evidence of that name; ValueError where there is none."""
         for item in self.evidence:
             if item.name == name:
@@ -75,21 +76,21 @@ class Verdict:
 
 
 def regime(
-    series=None,
-    step_s=None,
-    period_s=None,
+    series: ArrayLike | None = None,
+    step_s: float | None = None,
+    period_s: float | None = None,
     *,
-    strobed=None,
-    transient_periods=0,
-    tangent_exponent=None,
-    wolf_exponent=None,
-    tighter=None,
-    scale=None,
-    tolerance=1e-3,
-    max_period=16,
-    surrogates=39,
-    seed=0,
-):
+    strobed: ArrayLike | None = None,
+    transient_periods: int = 0,
+    tangent_exponent: Exponent | tuple[float, float] | None = None,
+    wolf_exponent: Exponent | tuple[float, float] | None = None,
+    tighter: Verdict | str | None = None,
+    scale: ArrayLike | None = None,
+    tolerance: float = 1e-3,
+    max_period: int = 16,
+    surrogates: int = 39,
+    seed: int = 0,
+) -> Verdict:
     """The regime of a periodically forced motion with the evidence for it (rules at the head of this file).
 
     series (n,) or (n, d)    samples from t = 0, any unit: one coordinate, or all there are. A single coordinate is seen
@@ -185,8 +186,7 @@ def _section(series, step_s, period_s, strobed, transient_periods, scale):
         raise ValueError("either series or strobed is needed, not both and not neither")
     first = checked_count(transient_periods, "transient_periods", least=0)
     if strobed is not None:
-        x = checked_series(strobed, "strobed", dimensions=(1, 2))[first:]
-        return (x[:, None] if x.ndim == 1 else x), scale
+        return checked_columns(strobed, "strobed")[first:], scale
     if step_s is None or period_s is None:
         raise ValueError("step_s and period_s are needed with a series")
     x = checked_series(series, dimensions=(1, 2))

@@ -24,6 +24,7 @@ old pair is retained. Ours, and why:
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from analysis.compiled import kernel
 from analysis.embedding_delay import delay_vectors
@@ -78,7 +79,16 @@ class WolfRun:
     gaps: int
 
 
-def wolf_run(series, step_s, delay, dimension, evolution, theiler, noise=0.0, lengths=1.0):
+def wolf_run(
+    series: ArrayLike,
+    step_s: float,
+    delay: int,
+    dimension: int,
+    evolution: int,
+    theiler: int,
+    noise: float = 0.0,
+    lengths: float = 1.0,
+) -> WolfRun:
     """Largest exponent of a series by Wolf's method with one setting.
 
     series (n,)    any unit
@@ -115,26 +125,11 @@ def wolf_run(series, step_s, delay, dimension, evolution, theiler, noise=0.0, le
         convergence = np.cumsum(np.where(followed, growth, 0.0)) / (np.cumsum(followed) * evolution * step_s)
     start_length = end_length / np.exp(growth)
     excess = noise**2 * dimension * (start_length**-2.0 - end_length**-2.0) / (evolution * step_s)
-    return WolfRun(
-        value=value,
-        error=error,
-        reason=reason,
-        delay=int(delay),
-        dimension=int(dimension),
-        evolution=evolution,
-        theiler=int(theiler),
-        floor=floor,
-        longest=longest,
-        size=size,
-        growth=locked(growth),
-        end_length=locked(end_length),
-        time_s=locked((np.arange(count) + 1.0) * evolution * step_s),
-        convergence=locked(convergence),
-        noise_bias=float(np.mean(excess[followed])) if np.any(followed) else np.nan,
-        replacements=int(tally[0]),
-        unfit=int(tally[1]),
-        gaps=int(tally[2]),
-    )
+    bias = float(np.mean(excess[followed])) if np.any(followed) else np.nan
+    settings = (int(delay), int(dimension), evolution, int(theiler), floor, longest, size)
+    time_s = (np.arange(count) + 1.0) * evolution * step_s
+    curves = (locked(curve) for curve in (growth, end_length, time_s, convergence))
+    return WolfRun(value, error, reason, *settings, *curves, bias, *(int(times) for times in tally))
 
 
 def _candidates(points, evolution, count, floor, longest):

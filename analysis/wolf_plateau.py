@@ -13,10 +13,15 @@ corrected for either: it stays what Wolf's method gives. m_0 unfolds the motion 
 qualify when half of its vectors end longer than 0.3 of the rms radius of the attractor: growth is then bounded by its
 size, and the exponent too small.
 
-In the paper: eq. (32) and figure 14, where it is not said how the settings were chosen.
+The paper does not say how the settings behind its figure 14 were chosen.
+
+In the paper: eq. (32) Lyapunov exponent.
 """
 
+from collections.abc import Iterable
+
 import numpy as np
+from numpy.typing import ArrayLike
 
 from analysis.embedding_dimension import choose_embedding
 from analysis.exponents import NATS_PER_TIME, Exponent, no_exponent
@@ -32,7 +37,15 @@ LEAST_SETTINGS = 3
 LEAST_PERIODS = 20
 
 
-def wolf_lyapunov(series, step_s, delay=None, dimensions=None, evolutions=None, theiler=None, noise=None):
+def wolf_lyapunov(
+    series: ArrayLike,
+    step_s: float,
+    delay: int | None = None,
+    dimensions: Iterable[int] | None = None,
+    evolutions: Iterable[int] | None = None,
+    theiler: int | None = None,
+    noise: float | None = None,
+) -> Exponent:
     """Largest Lyapunov exponent of a series: the median of Wolf's method over a plateau of settings.
 
         lambda = 1/(K e) sum_k ln(L'_k/L_k)   for each (m, e);   value = median, error: head of this file
@@ -57,8 +70,7 @@ def wolf_lyapunov(series, step_s, delay=None, dimensions=None, evolutions=None, 
     if len(x) < 500 or np.ptp(x) == 0.0:
         return no_exponent(METHOD, f"500 samples of a series that moves are needed, given {len(x)}")
     embedding = choose_embedding(x, delay)
-    lag = embedding.lag
-    period = embedding.mean_period
+    lag, period = embedding.lag, embedding.mean_period
     if len(x) < LEAST_PERIODS * period:
         return no_exponent(METHOD, f"{LEAST_PERIODS} mean periods are needed, given {len(x) / period:.3g}")
     if dimensions is None:
@@ -73,13 +85,8 @@ def wolf_lyapunov(series, step_s, delay=None, dimensions=None, evolutions=None, 
         window = max(round(period), (m - 1) * lag) if theiler is None else int(theiler)
         return wolf_run(x, step_s, lag, m, e, window, noise, lengths)
 
-    details = {
-        "dimensions": tuple(dimensions),
-        "evolutions": tuple(evolutions),
-        "noise": noise,
-        "embedding": embedding,
-    }
-    return _plateau(run, details)
+    settings = {"dimensions": tuple(dimensions), "evolutions": tuple(evolutions)}
+    return _plateau(run, settings | {"noise": noise, "embedding": embedding})
 
 
 def _plateau(run, details):

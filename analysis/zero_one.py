@@ -16,6 +16,7 @@ Sampled many times per period, any smooth motion looks regular to this test, cha
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from analysis.sampling import checked_count, checked_series, locked
 
@@ -42,7 +43,7 @@ class ZeroOneTest:
     points: int
 
 
-def zero_one_test(section, angles=200, seed=0):
+def zero_one_test(section: ArrayLike, angles: int = 200, seed: int | list[int] = 0) -> ZeroOneTest:
     """K of the 0-1 test for chaos on one strobed coordinate, by the correlation method.
 
         K = median over c of corr(n, D_c(n)),   1 <= n <= N/10       (formulas at the head of this file)

@@ -14,9 +14,9 @@ from pathlib import Path
 import numpy as np
 from PIL import Image
 
-from analysis import breaking_measures as measures
-from analysis.breaking_theory import theory_of
 from campaigns import breaking_line
+from campaigns.breaking_line import measures
+from campaigns.breaking_line.theory import theory_of
 from engine import load_scene, simulate
 from reports.breaking_line.figures import folds_figure, plane_figure
 from reports.breaking_line.runs import COLUMNS, WORDS, read_lines

@@ -8,10 +8,12 @@ from functools import cache
 from pathlib import Path
 
 from numba import types
+from numba.extending import overload
 
 from machine_code.store import compiled, folder_for, hash_of
 
 from .simd.fma import with_fused_sums
+from .simd.record import LaneRecord
 
 _ROOT = Path(__file__).parent
 _KEPT_CACHES = 6
@@ -57,21 +59,19 @@ def kernel(function):
 
 
 def by_kind(planar, spatial, lanes=None):
-    """One name for two kernels or three: `planar` for records of the plane, `spatial` for those with a third dimension,
-    `lanes` for several planar runs at once (`engine.simd`; None: the planar one serves them too).
+    """One name for kernels that do the same for different kinds of runs.
 
-    The choice is by the type of the first argument, when a kernel that calls the name is compiled: nothing is compiled
-    for a scene that does not need it, and nothing is decided at run time.
+    A kernel that calls the returned name gets `planar`, `spatial` or `lanes`, by the type of the first argument: a
+    RECORD, a SPATIAL (`engine.record`) or a LaneRecord (`engine.simd.record`: several planar runs at once). Numba
+    chooses while it compiles the caller. So a scene compiles only the kernels that it uses, and no run pays for the
+    choice. lanes = None: the planar kernel serves several runs at once too.
     """
-    from numba.extending import overload
 
     def either(*arguments):
         raise NotImplementedError("only compiled kernels call this")
 
     @overload(either, strict=False, jit_options={"nogil": True, "error_model": "numpy"})
     def chosen(p, *arguments):
-        from .simd.record import LaneRecord  # knows `engine.parameters`, which knows some of the kernels
-
         if "GI" in p.fields:
             return spatial.py_func
         return (lanes if lanes is not None and isinstance(p, LaneRecord) else planar).py_func

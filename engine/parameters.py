@@ -1,47 +1,20 @@
-"""Scene -> numbers: one record of scalars a simulation and a share of one flat array of tables.
+"""Scene -> numbers: a record of scalars (`engine.record`) and a share of one flat array of tables.
 
 This is the only place where configuration is read for the kernels. A batch is an array of records and one `tables`
 array; each record knows where its grid, its tension table, its current and its method begin.
 
-In the paper: eq. (9) and eq. (10), which turn mass and area of the stretched line into those of the unstretched one.
+In the paper: eq. (9) mass of a stretched element; eq. (10) area of a stretched element.
 """
 
 import math
 
 import numpy as np
 
+from . import record as codes
 from . import scales
 from .physics import currents, ends, sea, tension, waves
 from .spatial import lift
 from .time import integrators
-
-
-def _dtype(counts, values):
-    return [(name, np.int64) for name in counts.split()] + [(name, np.float64) for name in values.split()]
-
-
-RECORD = np.dtype(
-    _dtype(
-        "nodes grid_at law law_at law_n wet waves current cur_at cur_nx cur_nz cur_nt above end end_motion end_at "
-        "end_n sea_n sea_at cap bent viscous method stages method_at adaptive max_newton release max_releases at_rest",
-        "m w0 EI p1 p2 p3 p4 p5 ct cn ma Rw depth k omega amplitude phase direction ramp "
-        "M_total M_wave lift C_buoy D_buoy M_added B_whole impact_loss end_x end_z end_release end_fx end_fz end_decay "
-        "barrier c_quadratic c_linear per_strain per_force per_speed per_curvature "
-        "order rtol newton_tolerance fixed_step max_step min_step start_x start_z "
-        "output_step release_step growth_per_step shortest_wave profile_step window alpha_m alpha_f gamma pace",
-    )
-)
-# Three dimensions have a type of their own: a kernel that serves both is compiled for each on its first use. Their own
-# fields come first: Numba would take a record that only goes on after the planar fields for a planar one.
-SPATIAL = np.dtype(
-    _dtype(
-        "cur_ny clamp_below clamp_above",
-        "GI dir_x dir_y end_y end_fy start_y below_x below_y below_z above_x above_y above_z "
-        "carry0 carry1 carry2 carry3 twist twist_ramp",
-    )
-    + RECORD.descr
-)
-
 
 NOT_STRETCHED = 1e-6  # below this spacings differ by less than 1e-12, and the quotients of tanh lose their digits
 
@@ -65,7 +38,7 @@ def record_of(scene, tables):
 
     Returns a (1,) structured array of dtype `RECORD`, or `SPATIAL` for motion.dimensions = 3.
     """
-    p = np.zeros(1, RECORD if scene.motion.dimensions == 2 else SPATIAL)
+    p = np.zeros(1, codes.RECORD if scene.motion.dimensions == 2 else codes.SPATIAL)
     record = p[0]
 
     def place(values):
@@ -79,7 +52,7 @@ def record_of(scene, tables):
     _tether(record, scene, place)
     _water(record, scene, place)
     _end(record, scene, place)
-    if p.dtype == SPATIAL:
+    if codes.is_spatial(p):
         _turning(record, scene)
     _solver(record, scene, place, h)
     return p
@@ -102,15 +75,12 @@ def _tether(record, scene, place):
     record["ma"] = tether.added_mass * displaced
     record["Rw"] = displaced + record["ma"]
     record["barrier"] = tether.compression_barrier_N
-    if law.law == "linear":
-        record["law"], record["p1"] = tension.LINEAR, law.stiffness_N
-    elif law.law == "tanh":
-        record["law"] = tension.TANH
-        for i, value in enumerate(law.p, 1):
-            record[f"p{i}"] = value
-    else:
-        record["law"], record["law_n"] = tension.TABULATED, len(law.strain)
-        record["law_at"] = place(tension.table_of(law.strain, law.tension_N))
+    record["law"] = tension.number_of(law.law)
+    numbers, table = tension.LAWS[record["law"]].numbers(law)
+    for name, value in numbers.items():
+        record[name] = value
+    if len(table):
+        record["law_at"] = place(table)
 
 
 def _water(record, scene, place):
@@ -128,12 +98,12 @@ def _water(record, scene, place):
             record["waves"] = amplitude != 0
         record["k"], record["omega"] = k, 2 * math.pi / wave.period_s
         record["amplitude"], record["phase"], record["ramp"] = amplitude, wave.phase_rad, wave.ramp_s
-        if record.dtype == SPATIAL:
+        if codes.is_spatial(record):
             record["direction"] = 1.0
             record["dir_x"], record["dir_y"] = _direction(wave.direction_rad)
         else:
             record["direction"] = math.cos(wave.direction_rad)
-        record["above"] = {"extrapolate": waves.EXTRAPOLATE, "zero": waves.ZERO, "wheeler": waves.WHEELER}[
+        record["above"] = {"extrapolate": codes.EXTRAPOLATE, "zero": codes.ZERO, "wheeler": codes.WHEELER}[
             wave.above_still_water
         ]
     if current is not None:
@@ -146,7 +116,7 @@ def _direction(angle):
 
 
 def _current(record, current, place):
-    spatial = record.dtype == SPATIAL
+    spatial = codes.is_spatial(record)
     if current.law == "table":
         x, y, z, t = current.x_m, current.y_m or (0.0,), current.height_m, current.time_s
         u, w = np.array(current.velocity_x_mps), np.array(current.velocity_z_mps)
@@ -167,13 +137,13 @@ def _current(record, current, place):
 def _put(record, name, vector):
     """A vector [x, y, z] into the fields name_x or namex, ...; in a plane without y."""
     for axis, value in zip("xyz", vector, strict=True):
-        if axis != "y" or record.dtype == SPATIAL:
+        if axis != "y" or codes.is_spatial(record):
             record[name + axis] = value
 
 
 def _end(record, scene, place):
     end, buoy = scene.end, scene.buoy
-    record["end"] = {"buoy": ends.BUOY, "held": ends.HELD, "free": ends.FREE}[end.kind]
+    record["end"] = {"buoy": codes.BUOY, "held": codes.HELD, "free": codes.FREE}[end.kind]
     record["end_release"] = math.inf
     if end.kind == "free":
         _put(record, "end_", end.force_N)
@@ -190,7 +160,7 @@ def _end(record, scene, place):
     record["M_wave"] = rho_w * volume + added
     record["lift"] = (rho_w * volume - buoy.mass_kg) * scene.gravity_mps2
     record["C_buoy"] = 0.5 * rho_w * buoy.drag * math.pi * buoy.diameter_m**2 / 4
-    record["cap"] = wet and buoy.submergence == "spherical-cap"
+    record["spherical_cap"] = wet and buoy.submergence == "spherical-cap"
     record["D_buoy"], record["M_added"], record["impact_loss"] = buoy.diameter_m, added, buoy.impact_loss
     record["B_whole"] = rho_w * volume * scene.gravity_mps2
     _put(record, "start_", scene.start.buoy_velocity_mps)
@@ -204,10 +174,10 @@ def _held(record, end, place):
     if motion is None:
         return
     if motion.law == "harmonic":
-        record["end_motion"] = ends.HARMONIC
+        record["end_motion"] = codes.HARMONIC
         record["end_at"] = place(ends.harmonic_of(motion.amplitude_m, motion.period_s, motion.phase_rad, motion.ramp_s))
     else:
-        record["end_motion"], record["end_n"] = ends.TABLE, len(motion.time_s)
+        record["end_motion"], record["end_n"] = codes.TABLE, len(motion.time_s)
         record["end_at"] = place(ends.table_of(motion.time_s, motion.displacement_m))
 
 
@@ -242,13 +212,13 @@ def _solver(record, scene, place, h):
     record["adaptive"] = method.ADAPTIVE and solver.step_s is None
     if method.ADAPTIVE:
         stages = len(method.A)
-        record["method"], record["stages"] = integrators.RUNGE_KUTTA, stages
+        record["method"], record["stages"] = codes.RUNGE_KUTTA, stages
         record["method_at"] = place(
             np.concatenate([method.A.ravel(), method.A.sum(axis=1), method.A[-1] - method.B_EMBEDDED])
         )
         record["order"] = min(method.ORDER, method.EMBEDDED_ORDER) + 1
     else:
-        record["method"] = integrators.ONE_STAGE
+        record["method"] = codes.ONE_STAGE
         record["alpha_m"], record["alpha_f"], record["gamma"] = method.alphas(solver.spectral_radius)
     period = scene.waves.period_s if scene.waves is not None else None
     record["output_step"] = scene.output.step_s or (period / 100 if period else 0.05)
@@ -262,10 +232,10 @@ def _solver(record, scene, place, h):
     record["shortest_wave"] = (math.pi / h.min()) ** 2
     record["newton_tolerance"] = solver.newton_tolerance or 1e-2 * solver.rtol
     record["max_newton"] = solver.max_newton_iterations
-    record["release"], record["max_releases"] = solver.loop_release, solver.max_loop_releases
+    record["loop_release"], record["max_releases"] = solver.loop_release, solver.max_loop_releases
     moving = scene.end.kind == "buoy" and any(scene.start.buoy_velocity_mps)
     impulsive = record["waves"] and scene.waves.ramp_s == 0
-    moved = record["end_motion"] != ends.STILL or bool(scene.end.twist_ramp_s)
+    moved = record["end_motion"] != codes.STILL or bool(scene.end.twist_ramp_s)
     record["at_rest"] = not (moving or impulsive or moved)
     scales.put_scales(record, scene, h)
     if solver.courant is not None:

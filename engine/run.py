@@ -6,25 +6,26 @@ import time
 import numpy as np
 
 from . import parameters
-from .perturbations.exponents import Trail
+from . import record as col
+from .arrays import Motion, Output
+from .perturbations.exponents import Followed
 from .physics import energy
-from .physics.ends import HELD
 from .planar import state as planar
+from .planar.columns import EPS, PHI
 from .spatial import lift
 from .spatial import state as spatial
-from .time.integrators import RUNGE_KUTTA
 from .time.statics import rest_of
 from .time.statics_advice import why_no_rest
 from .time.status import ADVICE, OK, STATICS_FAILED, TURN_UNRESOLVED, WORDS
-from .time.time_loop import SMALL_STEPS, STATE, march
+from .time.time_loop import SMALL_STEPS, march
 from .trajectory import EnergyBudget, Profiles, Trajectory
 
 
 class Run:
     """Arrays of one run of a scene over `duration_s`.
 
-    record, tables: its parameters; state: (1,) STATE; Y, Y_before (n, unknowns), C, K (n, conserved); samples
-    (goal, 12), profiles (m, n, 6), energies (m', 9), sums (5,) (`physics.energy`); wall_s: what advancing it has taken.
+    record, tables: its parameters; state: STATE; motion, output: Motion and Output (`engine.arrays`); trail: what
+    follows its perturbations; goal: samples to store; wall_s: time (s) that advancing it has taken.
     """
 
     def __init__(self, scene, duration_s):
@@ -37,37 +38,41 @@ class Run:
         self.goal = _count(duration_s, self.record["output_step"])
         profiled = _count(duration_s, self.record["profile_step"]) if self.record["profile_step"] > 0 else 0
         unknowns, conserved = self.kind.size_of.py_func(None)
-        self.samples, self.profiles = np.zeros((self.goal, 12)), np.zeros((profiled, n, 6))
-        self.energies, self.sums = np.zeros((self.goal if scene.output.energy else 0, energy.WIDTH)), np.zeros(5)
-        self.state = np.zeros(1, STATE)[0]
-        self.Y, self.C, self.K = np.zeros((n, unknowns)), np.zeros((n, conserved)), np.zeros((n, conserved))
-        self.trail = Trail(scene, self.record, self.tables, duration_s)
-        self._start()
-        self.Y_before = self.Y.copy()
+        self.output = Output(
+            np.zeros((self.goal, col.SAMPLE_WIDTH)),
+            np.zeros((profiled, n, col.PROFILE_WIDTH)),
+            np.zeros((self.goal if scene.output.energy else 0, energy.WIDTH)),
+            np.zeros(energy.WIDTH - energy.SUMS),
+        )
+        self.state = np.zeros(1, col.STATE)[0]
+        self.trail = Followed(scene, self.record, self.tables, duration_s)
+        Y = self._start(np.zeros((n, unknowns)))
+        self.motion = Motion(Y, Y.copy(), np.zeros((n, conserved)), np.zeros((n, conserved)))
         self.wall_s = 0.0
 
-    def _start(self):
+    def _start(self, Y):
+        """Put the state at t = 0 into Y, and what a run begins with into its `state`; returns Y."""
         record, state, scene = self.record, self.state, self.scene
         n = int(record["nodes"])
         h = self.tables[record["grid_at"] : record["grid_at"] + n - 1]
-        target = scene.end.position_m if record["end"] == HELD else (0.0, 0.0, 0.0)
+        target = scene.end.position_m if record["end"] == col.HELD else (0.0, 0.0, 0.0)
         axes = "xyz" if self.kind is spatial else "xz"
         place = np.array([target["xyz".index(axis)] for axis in axes])
-        state["status"], Y = rest_of(record, scene, self.tables, h, place)
+        state["status"], Y[:] = rest_of(record, scene, self.tables, h, place)
         s = np.concatenate([[0.0], np.cumsum(h)])
         for i, axis in enumerate(axes):
             Y[:, len(axes) + i] = record[f"start_{axis}"] * s / s[-1]
-        self.Y[:] = Y
         state["low"], state["high"] = np.inf, -np.inf
-        state["min_strain"] = Y[:, 0].min()
-        state["max_turn"] = lift.turns(Y).max() if self.kind is spatial else np.abs(np.diff(Y[:, 4])).max()
+        state["min_strain"] = Y[:, EPS].min()
+        state["max_turn"] = lift.turns(Y).max() if self.kind is spatial else np.abs(np.diff(Y[:, PHI])).max()
         if state["status"] == OK and record["bent"] and state["max_turn"] > math.pi:
             state["status"] = TURN_UNRESOLVED
         # a sudden start has rates at t = 0 that are not zero: steps that need none come first, or the order falls to 1
-        needs_rates = record["method"] == RUNGE_KUTTA or record["alpha_m"] != record["gamma"]
+        needs_rates = record["method"] == col.RUNGE_KUTTA or record["alpha_m"] != record["gamma"]
         starter = needs_rates and not record["at_rest"]
         state["small_steps"] = SMALL_STEPS if starter else 0
         state["dt"] = 1e-3 * record["max_step"] if record["adaptive"] or starter else record["fixed_step"]
+        return Y
 
     def done(self):
         """Has it ended, at its goal or before?"""
@@ -87,10 +92,7 @@ class Run:
         began = time.perf_counter()
         until = min(self.goal, self.state["samples"] + chunk)
         while True:
-            march(
-                self.record, self.tables, self.state, self.Y, self.Y_before, self.C, self.K, self.samples,
-                self.profiles, self.energies, self.sums, *self.trail.steps, until,
-            )  # fmt: skip
+            march(self.record, self.tables, self.state, self.motion, self.output, self.trail.steps, until)
             self.trail.follow(self.record, self.tables, self.state)
             if self.state["status"] != OK or self.state["samples"] >= until:
                 break
@@ -117,14 +119,14 @@ class Run:
             "wall_s": self.wall_s,
         }
         heading = float(scene.waves.direction_rad) if self.kind is spatial and scene.waves is not None else 0.0
-        columns = _columns(self.samples[: min(int(state["samples"]), self.goal)], heading)
+        columns = _columns(self.output.samples[: min(int(state["samples"]), self.goal)], heading)
         profiles, tangent = self._profiles(record, state), self.trail.growth(state)
         return Trajectory(scene, WORDS[status], message, columns, statistics, profiles, tangent, self._budget())
 
     def _budget(self):
         if not self.scene.output.energy:
             return None
-        rows = self.energies[: int(self.state["energies"])]
+        rows = self.output.energies[: int(self.state["energies"])]
         time_s, kinetic, strain, gravity, work, shear, viscous, space, powers = rows.T.copy()
         total = kinetic + strain + gravity
         return EnergyBudget(time_s, kinetic, strain, gravity, work, shear, viscous, space, powers - (total - total[:1]))
@@ -135,11 +137,11 @@ class Run:
             return None
         n = int(record["nodes"])
         h = self.tables[record["grid_at"] : record["grid_at"] + n - 1]
-        values = self.profiles[:count]
+        values = self.output.profiles[:count]
         return Profiles(
             np.arange(count) * float(record["profile_step"]),
             np.concatenate([[0.0], np.cumsum(h)]),
-            *(np.ascontiguousarray(values[:, :, i]) for i in range(6)),
+            *(np.ascontiguousarray(values[:, :, i]) for i in range(col.PROFILE_WIDTH)),
         )
 
 
@@ -150,7 +152,7 @@ def _count(duration_s, step_s):
 
 def _columns(samples, heading):
     """Columns of the table; the angle from the vertical is taken in the plane of waves that travel along `heading`."""
-    t, x, y, z, u, v, w = samples[:, :7].T
+    t, x, y, z, u, v, w = samples[:, : col.AT_W + 1].T
     r = np.sqrt(x**2 + y**2 + z**2) if y.any() else np.hypot(x, z)
     along, rate = (
         (x, u) if heading == 0 else tuple(np.cos(heading) * a + np.sin(heading) * b for a, b in ((x, y), (u, v)))
@@ -168,9 +170,9 @@ def _columns(samples, heading):
         "radius_rate_mps": radius_rate,
         "angle_rad": np.unwrap(np.arctan2(along, z)),
         "angle_rate_radps": angle_rate,
-        "offplane_m": samples[:, 11].copy(),
-        "tension_top_N": samples[:, 7].copy(),
-        "tension_min_N": samples[:, 8].copy(),
-        "tension_top_low_N": samples[:, 9].copy(),
-        "tension_top_high_N": samples[:, 10].copy(),
+        "offplane_m": samples[:, col.OFFPLANE].copy(),
+        "tension_top_N": samples[:, col.TOP].copy(),
+        "tension_min_N": samples[:, col.LEAST].copy(),
+        "tension_top_low_N": samples[:, col.TOP_LOW].copy(),
+        "tension_top_high_N": samples[:, col.TOP_HIGH].copy(),
     }

@@ -1,8 +1,12 @@
 """Scales of a scene: in what Newton updates and step errors are measured, the fastest wave, the static loads."""
 
 import math
+from functools import cache
+from types import SimpleNamespace
 
 import numpy as np
+
+from .physics.tension import LAWS, number_of
 
 
 def put_scales(record, scene, h):
@@ -59,24 +63,25 @@ def buckling_load(tether, end):
     return max(EI * (2 * math.pi / L) ** 2, torque**2 / (4 * EI)) if EI > 0 else 0.0
 
 
+@cache
+def _numbers_of(law):
+    """(module, parameters, table) of a law, as its kernels have them."""
+    module = LAWS[number_of(law.law)]
+    numbers, table = module.numbers(law)
+    return module, SimpleNamespace(law_at=0, **numbers), table
+
+
 def tension_at(strain, law):
     """T (N) at a strain, outside the kernels."""
-    if law.law == "linear":
-        return law.stiffness_N * strain
-    if law.law == "tanh":
-        p1, p2, p3, p4, p5 = law.p
-        return p1 * math.tanh(p2 * strain + p3) + p4 + p5 * strain
-    from scipy.interpolate import PchipInterpolator
-
-    table = PchipInterpolator(law.strain, law.tension_N)
-    inside = min(max(strain, law.strain[0]), law.strain[-1])
-    return float(table(inside) + table.derivative()(inside) * (strain - inside))
+    module, p, table = _numbers_of(law)
+    return float(module.value(strain, p, table)[0])
 
 
 def strain_at(load, law):
     """Smallest positive strain that carries `load` (N), within [1e-9, 10]."""
-    if law.law == "linear":
-        return max(load / law.stiffness_N, 1e-9)
+    closed = getattr(_numbers_of(law)[0], "strain_under", None)
+    if closed is not None:
+        return max(closed(load, law), 1e-9)
     from scipy.optimize import brentq
 
     low, high = 1e-9, 1e-6

@@ -13,7 +13,8 @@ from pathlib import Path
 # module `report`, whose `report(directory)` gives the content. Where it has a `beside(directory)` too, that gives
 # drawings to keep as files: path -> bytes.
 CONTENTS = (
-    "accuracy", "breaking_line", "buoy_sweep", "oscillator", "out_of_plane", "paper", "stability", "time_series"
+    "accuracy", "breaking_line", "buoy_sweep", "oscillator", "out_of_plane", "paper", "stability", "sweep",
+    "time_series",
 )  # fmt: skip
 
 __all__ = ["CONTENTS", "build"]

@@ -1,21 +1,25 @@
-"""The blocks of a page that someone would copy: TOML files, Python, commands."""
+"""The blocks of a page that someone would copy: TOML files, Python, commands, and what they print."""
 
 import re
 import shlex
+from collections.abc import Iterator
 from pathlib import Path
 
+import pytest
+
 ROOT = Path(__file__).resolve().parents[1]
-PAGES = ("tutorial", "howto_tension_law", "howto_waves", "howto_time_series")
+# pages with a block of Python: all their blocks are run, in order
+PAGES = sorted(path.stem for path in (ROOT / "docs").glob("*.md") if "```python" in path.read_text(encoding="utf-8"))
 COMMAND = ".venv/bin/python -m "
 
 
-def blocks(name):
+def blocks(name: str) -> list[tuple[str, str]]:
     """(kind, text) of every fenced block of docs/NAME.md, in order."""
     text = (ROOT / "docs" / f"{name}.md").read_text(encoding="utf-8")
     return re.findall(r"^```(\w+)\n(.*?)^```$", text, flags=re.DOTALL | re.MULTILINE)
 
 
-def commands(text):
+def commands(text: str) -> Iterator[tuple[str, list[str]]]:
     """(module, words) of each line of a block of commands."""
     for line in text.strip().splitlines():
         assert line.startswith(COMMAND), line
@@ -23,7 +27,16 @@ def commands(text):
         yield module, words
 
 
-def file_of(text):
+def file_of(text: str) -> str | None:
     """Name under which the page says to save a TOML block, or None for a part of a scene."""
     found = re.match(r"# (\w+\.toml)\n", text)
     return found and found[1]
+
+
+def compare(printed: str, shown: str) -> None:
+    """Words are the same exactly, numbers to two units of the last digit (another machine rounds otherwise)."""
+    number = r"-?\d+(?:\.\d+)?(?:e-?\d+)?"
+    assert re.sub(number, "#", printed).split() == re.sub(number, "#", shown).split()
+    for found, said in zip(re.findall(number, printed), re.findall(number, shown), strict=True):
+        if "e" not in said:
+            assert float(found) == pytest.approx(float(said), abs=2.01 * 10.0 ** -len(said.partition(".")[2]))

@@ -8,29 +8,17 @@ missed, `strobing` carries state and tangent over a forcing period; the rest ask
 dimensionless, as in the paper. Names are imported on first use.
 """
 
-from analysis.on_first_use import on_first_use
+import lazy_loader
 
-_HOME = {
-    "SnapOscillator": "equation",
-    "SnapMotion": "motions",
-    "snap_motion": "motions",
-    "strobed_states": "motions",
-    "strobed_states_within": "motions",
-    "SnapExponents": "growth",
-    "snap_exponents": "growth",
-    "section_dimension": "growth",
-    "SnapDiagram": "diagrams",
-    "snap_diagram": "diagrams",
-    "SnapBasins": "basin_grids",
-    "snap_basins": "basin_grids",
-    "start_grid": "basin_grids",
-    "PeriodicOrbit": "newton_orbits",
-    "periodic_orbit": "newton_orbits",
-    "search_periodic_orbits": "newton_orbits",
-    "Grazing": "grazing",
-    "grazing_force": "grazing",
-    "clearance": "grazing",
-}
-
-__all__ = [*_HOME]
-__getattr__, __dir__ = on_first_use(__name__, _HOME)
+__getattr__, __dir__, __all__ = lazy_loader.attach(
+    __name__,
+    submod_attrs={
+        "basin_grids": ["SnapBasins", "snap_basins", "start_grid"],
+        "diagrams": ["SnapDiagram", "snap_diagram"],
+        "equation": ["SnapOscillator"],
+        "grazing": ["Grazing", "clearance", "grazing_force"],
+        "growth": ["SnapExponents", "section_dimension", "snap_exponents"],
+        "motions": ["SnapMotion", "snap_motion", "strobed_states", "strobed_states_within"],
+        "newton_orbits": ["PeriodicOrbit", "periodic_orbit", "search_periodic_orbits"],
+    },
+)

@@ -3,12 +3,15 @@
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from analysis.compiled import kernel
+from analysis.oscillator.equation import SnapOscillator
+from analysis.oscillator.motions import checked_starts
 from analysis.oscillator.newton_orbits import periodic_orbit
 from analysis.oscillator.pieces import tables
 from analysis.oscillator.strobing import MOST_PIECES, next_state, strobed_orbit
-from analysis.sampling import checked_count, checked_series
+from analysis.sampling import checked_count
 
 PAPER_BOX = (-60.0, 20.0, -25.0, 25.0)  # g low, g high, g' low, g' high: the attractors and their surroundings
 _LOOK_EVERY = 64
@@ -31,13 +34,13 @@ class SnapBasins:
 
     label: np.ndarray
     settled: np.ndarray
-    orbits: tuple
+    orbits: tuple[np.ndarray, ...]
     shares: np.ndarray
     errors: np.ndarray
     periods: int
 
 
-def start_grid(columns, rows, box=PAPER_BOX):
+def start_grid(columns: int, rows: int, box: tuple[float, float, float, float] = PAPER_BOX) -> np.ndarray:
     """Starts at the cell centres of a grid over a box in the (g, g') plane, for basins drawn as an image.
 
     columns, rows   cells along g and g';  box  (g low, g high, g' low, g' high), by default PAPER_BOX
@@ -49,7 +52,9 @@ def start_grid(columns, rows, box=PAPER_BOX):
     return np.stack(np.meshgrid(g, v), axis=-1).reshape(-1, 2)
 
 
-def snap_basins(oscillator, starts, periods=3000, longest_period=32):
+def snap_basins(
+    oscillator: SnapOscillator, starts: ArrayLike, periods: int = 3000, longest_period: int = 32
+) -> SnapBasins:
     """Basins of eq. (33): the periodic attractors that starts end on, each verified by Newton's method.
 
     An orbit that repeats itself to 1e-3 after p periods is a candidate only: attraction may be slow (the period-8 orbit
@@ -64,13 +69,12 @@ def snap_basins(oscillator, starts, periods=3000, longest_period=32):
     Returns SnapBasins. ValueError for starts that are not finite. A start whose orbit cannot be computed is aperiodic.
     Source: basins by recurrence, after Datseris & Wagemakers 2022, with Newton's method in place of cells.
     """
-    starts = np.atleast_2d(checked_series(starts, "starts", (1, 2)))
+    starts = checked_starts(starts)
     periods, longest = checked_count(periods, "periods"), checked_count(longest_period, "longest_period")
     table = tables(oscillator)
-    label, settled = np.full(len(starts), -1), np.full(len(starts), -1)
+    label, settled, done = np.full(len(starts), -1), np.full(len(starts), -1), np.zeros(len(starts), np.int64)
     orbits: list[np.ndarray] = []
-    state, done = starts.copy(), np.zeros(len(starts), np.int64)
-    waiting = np.arange(len(starts))
+    state, waiting = starts.copy(), np.arange(len(starts))
     while len(waiting):
         ends, period, spent = _until_repeated(state[waiting], periods - done[waiting], longest, table)
         state[waiting], done[waiting] = ends, done[waiting] + spent

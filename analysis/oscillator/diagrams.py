@@ -3,9 +3,11 @@
 from dataclasses import astuple, dataclass, replace
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from analysis.oscillator.equation import SnapOscillator
 from analysis.oscillator.growth import random_starts, standard_error
+from analysis.oscillator.motions import checked_starts
 from analysis.oscillator.strobing import growth_over_values
 from analysis.sampling import checked_count, checked_series
 
@@ -33,8 +35,17 @@ class SnapDiagram:
 
 
 def snap_diagram(
-    oscillator, over, values, starts=None, count=4, transient_periods=500, periods=1000, points=200, blocks=10, seed=0
-):
+    oscillator: SnapOscillator,
+    over: str,
+    values: ArrayLike,
+    starts: ArrayLike | None = None,
+    count: int = 4,
+    transient_periods: int = 500,
+    periods: int = 1000,
+    points: int = 200,
+    blocks: int = 10,
+    seed: int = 0,
+) -> SnapDiagram:
     """Orbit diagram of eq. (33): strobed states and both exponents at each value of one parameter.
 
     over, values        "force", "frequency", "damping" or "lift", and its values (p,)
@@ -54,8 +65,8 @@ def snap_diagram(
     points, transient = checked_count(points, "points"), checked_count(transient_periods, "transient_periods", 0)
     if periods % blocks or points > periods:
         raise ValueError(f"periods: a multiple of blocks = {blocks}, at least points = {points}, given {periods}")
-    starts = random_starts(count, seed) if starts is None else np.atleast_2d(checked_series(starts, "starts", (1, 2)))
-    all_of_them: list[SnapOscillator] = [replace(oscillator, **{over: float(value)}) for value in values]
+    starts = random_starts(count, seed) if starts is None else checked_starts(starts)
+    all_of_them = [replace(oscillator, **{over: float(value)}) for value in values]
     parameters = np.array([astuple(one) for one in all_of_them], dtype=float)
     sums, section, _, slack = growth_over_values(parameters, starts, transient, blocks, periods // blocks, points)
     length = periods // blocks * np.array([one.period for one in all_of_them])

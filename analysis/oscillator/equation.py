@@ -5,6 +5,8 @@
 g is the radial displacement from the length at which the tether becomes taut, everything made dimensionless by the
 mass, the buoy's diameter and the natural frequency of the radial motion, so that time is in 1/omega_r. The sign of
 B - W is right as printed. The force a g is continuous at g = 0: the velocity field has a kink there and no jump.
+
+In the paper: eq. (33) snap oscillator.
 """
 
 import math
@@ -33,7 +35,7 @@ class SnapOscillator:
     lift: float = 0.68
     phase: float = 0.0
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         checked_not_negative(self.damping, "damping")
         checked_positive(self.frequency, "frequency")
         checked_not_negative(self.force, "force")
@@ -46,11 +48,11 @@ class SnapOscillator:
             raise ValueError("damping, frequency: no linear response exists at resonance without damping")
 
     @property
-    def period(self):
+    def period(self) -> float:
         """Forcing period T = 2 pi/omega, in units of time."""
         return 2.0 * math.pi / self.frequency
 
     @property
-    def impedance(self):
+    def impedance(self) -> float:
         """sqrt((1 - omega^2)^2 + (mu omega)^2): F over this is the amplitude of the always taut motion."""
         return math.hypot(1.0 - self.frequency**2, self.damping * self.frequency)

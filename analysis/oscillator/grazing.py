@@ -5,6 +5,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from scipy.optimize import brentq
 
+from analysis.oscillator.equation import SnapOscillator
 from analysis.oscillator.pieces import motion, tables
 
 _SCAN = 512
@@ -26,7 +27,7 @@ class Grazing:
     velocity: float
 
 
-def clearance(oscillator):
+def clearance(oscillator: SnapOscillator) -> tuple[float, float, float]:
     """Least displacement of the motion of period T that is always taut, and when: (g, g', time).
 
     The motion is the fixed point of the taut piece over a period, g's minimum the root of g' with g'' > 0. It is a
@@ -55,7 +56,7 @@ def clearance(oscillator):
     return (*state(tau), tau % oscillator.period)
 
 
-def grazing_force(oscillator):
+def grazing_force(oscillator: SnapOscillator) -> Grazing:
     """The forcing F below which eq. (33) has a motion without slack: its always taut motion touches g = 0 there.
 
     Found by solving clearance(F) = 0 for F, the clearance from the closed form of the taut piece, between F = 0 and

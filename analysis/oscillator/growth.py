@@ -3,12 +3,15 @@
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from analysis.exponents import NATS_PER_TIME, Exponent, no_exponent
 from analysis.oscillator.basin_grids import PAPER_BOX, snap_basins
+from analysis.oscillator.equation import SnapOscillator
+from analysis.oscillator.motions import checked_starts
 from analysis.oscillator.pieces import tables
 from analysis.oscillator.strobing import growth_of_starts
-from analysis.sampling import checked_count, checked_series
+from analysis.sampling import checked_count
 
 METHOD = "tangent map of eq. (33), QR every period (Benettin et al. 1980)"
 _WATCHED = 1024  # periods after the averages in which a start may show that it was on a periodic orbit
@@ -45,7 +48,7 @@ class SnapExponents:
     convergence: np.ndarray
 
 
-def section_dimension(first, second):
+def section_dimension(first: float, second: float) -> float:
     """Kaplan-Yorke dimension of the section of a flow with these two exponents, D = 1 + first/|second|.
 
     The section is two-dimensional, so first > 0 > second gives 1 < D < 2 where their sum is negative; first <= 0 is an
@@ -58,8 +61,15 @@ def section_dimension(first, second):
 
 
 def snap_exponents(
-    oscillator, starts=None, count=64, transient_periods=500, periods=2000, blocks=20, keep_periodic=False, seed=0
-):
+    oscillator: SnapOscillator,
+    starts: ArrayLike | None = None,
+    count: int = 64,
+    transient_periods: int = 500,
+    periods: int = 2000,
+    blocks: int = 20,
+    keep_periodic: bool = False,
+    seed: int = 0,
+) -> SnapExponents:
     """Both exponents of eq. (33) from the exact tangent map, averaged over independent starts.
 
     lambda_i = mean of ln R_ii over the periods / T;   error = s.d. over starts/sqrt(n)
@@ -82,7 +92,7 @@ def snap_exponents(
     if periods % blocks:
         raise ValueError(f"periods: a multiple of blocks = {blocks} is needed, given {periods}")
     transient = checked_count(transient_periods, "transient_periods", 0)
-    starts = random_starts(count, seed) if starts is None else np.atleast_2d(checked_series(starts, "starts", (1, 2)))
+    starts = random_starts(count, seed) if starts is None else checked_starts(starts)
     table = tables(oscillator)
     sums, _, end, slack = growth_of_starts(starts, transient, blocks, periods // blocks, 0, table)
     rates = sums / (periods // blocks * oscillator.period)
@@ -94,14 +104,14 @@ def snap_exponents(
     return _averaged(oscillator, rates[on], slack[on], periods, int((~on).sum()))
 
 
-def random_starts(count, seed, box=PAPER_BOX):
+def random_starts(count: int, seed: int, box: tuple[float, float, float, float] = PAPER_BOX) -> np.ndarray:
     """(count, 2) states, uniform in the box (g low, g high, g' low, g' high)."""
     generator = np.random.default_rng(seed)
     low, high = np.array(box[0::2]), np.array(box[1::2])
     return low + (high - low) * generator.random((checked_count(count, "count"), 2))
 
 
-def standard_error(values):
+def standard_error(values: ArrayLike) -> np.ndarray:
     """Standard error of the mean over the first axis; NaN for fewer than two values."""
     values = np.asarray(values)
     if len(values) < 2:
@@ -122,20 +132,10 @@ def _averaged(oscillator, rates, slack, periods, elsewhere):
     running = np.cumsum(rates[:, :, 0], axis=1) / np.arange(1, blocks + 1)
     time = np.arange(1, blocks + 1) * (periods // blocks * oscillator.period)
     convergence = np.column_stack([time, running.mean(axis=0), standard_error(running)])
-    return SnapExponents(
-        Exponent(first, error[0], NATS_PER_TIME, METHOD, reason),
-        Exponent(second, error[1], NATS_PER_TIME, METHOD, reason),
-        float(by_blocks[0]),
-        dimension,
-        float(share * error[0]) if np.isfinite(dimension) else np.nan,
-        of_start,
-        rates,
-        periods,
-        starts,
-        elsewhere,
-        float(slack.mean()),
-        convergence,
-    )
+    both = (Exponent(*found, NATS_PER_TIME, METHOD, reason) for found in ((first, error[0]), (second, error[1])))
+    uncertain = float(share * error[0]) if np.isfinite(dimension) else np.nan
+    measures = (float(by_blocks[0]), dimension, uncertain, of_start, rates)
+    return SnapExponents(*both, *measures, periods, starts, elsewhere, float(slack.mean()), convergence)
 
 
 def _nothing(rates, periods):

@@ -3,15 +3,17 @@
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from analysis.compiled import kernel
 from analysis.oscillator.crossings import state_at
+from analysis.oscillator.equation import SnapOscillator
 from analysis.oscillator.pieces import tables
 from analysis.oscillator.strobing import MOST_PIECES, next_state, strobed_orbit
 from analysis.sampling import checked_count, checked_series
 
 
-def checked_start(start):
+def checked_start(start: ArrayLike) -> tuple[float, float]:
     """(g, g') as two finite floats; ValueError otherwise."""
     state = checked_series(start, "start")
     if state.shape != (2,):
@@ -19,7 +21,12 @@ def checked_start(start):
     return float(state[0]), float(state[1])
 
 
-def strobed_states(oscillator, start, points, transient_periods=0):
+def checked_starts(starts: ArrayLike) -> np.ndarray:
+    """Finite states (n, 2), from these or from a single pair; ValueError otherwise."""
+    return np.atleast_2d(checked_series(starts, "starts", (1, 2)))
+
+
+def strobed_states(oscillator: SnapOscillator, start: ArrayLike, points: int, transient_periods: int = 0) -> np.ndarray:
     """The stroboscopic section of one orbit of eq. (33), the paper's figure 19(b): states once a forcing period.
 
     start               (g, g') at time 0, where the forcing has the phase `oscillator.phase`
@@ -36,7 +43,14 @@ def strobed_states(oscillator, start, points, transient_periods=0):
     return strobed_orbit(x, v, transient, points, tables(oscillator))
 
 
-def strobed_states_within(oscillator, start, boxes, points, most_periods, transient_periods=0):
+def strobed_states_within(
+    oscillator: SnapOscillator,
+    start: ArrayLike,
+    boxes: ArrayLike,
+    points: int,
+    most_periods: int,
+    transient_periods: int = 0,
+) -> tuple[tuple[np.ndarray, ...], int]:
     """Strobed states of one orbit of eq. (33) that fall into given boxes of the section: zooms with points to spare.
 
     start, transient_periods   as in `strobed_states`
@@ -72,7 +86,13 @@ class SnapMotion:
     slack_fraction: float
 
 
-def snap_motion(oscillator, start, periods, samples_per_period=64, transient_periods=0):
+def snap_motion(
+    oscillator: SnapOscillator,
+    start: ArrayLike,
+    periods: int,
+    samples_per_period: int = 64,
+    transient_periods: int = 0,
+) -> SnapMotion:
     """The motion of eq. (33) evaluated from its closed form, with the switching times between taut and slack.
 
     start                (g, g') at time 0;  transient_periods  left out in front

@@ -3,11 +3,13 @@
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import ArrayLike
 
-from analysis.oscillator.motions import checked_start
+from analysis.oscillator.equation import SnapOscillator
+from analysis.oscillator.motions import checked_start, checked_starts
 from analysis.oscillator.pieces import tables
 from analysis.oscillator.strobing import strobed_orbit, tangent_map
-from analysis.sampling import checked_count, checked_series
+from analysis.sampling import checked_count
 
 # Of the residual, relative to the size of the orbit. Newton's method goes on until rounding stops it; what is left then
 # must be below the second number, or it was no convergence.
@@ -33,12 +35,14 @@ class PeriodicOrbit:
     iterations: int
 
     @property
-    def stable(self):
+    def stable(self) -> bool:
         """Both multipliers inside the unit circle."""
         return bool(np.abs(self.multipliers).max() < 1.0)
 
 
-def periodic_orbit(oscillator, period, guess, iterations=50):
+def periodic_orbit(
+    oscillator: SnapOscillator, period: int, guess: ArrayLike, iterations: int = 50
+) -> PeriodicOrbit | None:
     """A periodic orbit of eq. (33) near a guess: Newton's method on P^period(x) - x = 0 with the exact tangent map.
 
     A step that does not shorten the residual is halved, up to ten times. Where that does not help either, the residual
@@ -74,7 +78,7 @@ def periodic_orbit(oscillator, period, guess, iterations=50):
     return None
 
 
-def search_periodic_orbits(oscillator, period, starts):
+def search_periodic_orbits(oscillator: SnapOscillator, period: int, starts: ArrayLike) -> tuple[PeriodicOrbit, ...]:
     """Periodic orbits of eq. (33) of one least period: Newton's method from many starts, each orbit once.
 
     period   least period wanted, in forcing periods;  starts  (n, 2) guesses: points of a section, or a grid
@@ -82,7 +86,7 @@ def search_periodic_orbits(oscillator, period, starts):
     method finds stable and unstable orbits alike, and a search from starts proves no completeness.
     """
     found: list[PeriodicOrbit] = []
-    for start in np.atleast_2d(checked_series(starts, "starts", (1, 2))):
+    for start in checked_starts(starts):
         orbit = periodic_orbit(oscillator, period, start)
         if orbit is None or orbit.period != period:
             continue

@@ -15,14 +15,18 @@ share their functions of tau, which are tabled once at even nodes; a node costs 
 det Phi = e^{-mu tau} in both. Curvature bounds, used to exclude hidden crossings (`crossings`): the taut homogeneous
 part is Re(A e^{lambda tau}) with |lambda| = 1, so its second derivative is at most |A|; the slack acceleration is that
 of the steady velocity plus (B - W - mu (v - v_p)) e.
+
+In the paper: eq. (33) snap oscillator, closed form.
 """
 
 import math
+from dataclasses import astuple
 from typing import NamedTuple
 
 import numpy as np
 
 from analysis.compiled import kernel
+from analysis.oscillator.equation import SnapOscillator
 
 NODES = 64  # least number of intervals in a window; an interval is also at most 0.1 long (1/60 of a natural period)
 LONGEST_INTERVAL = 0.1
@@ -146,7 +150,6 @@ def piecewise(mu, omega, force, lift, phase):
     return Piecewise(k, theta, tau, phi, q, steady, reach, size)
 
 
-def tables(oscillator):
+def tables(oscillator: SnapOscillator) -> Piecewise:
     """The `Piecewise` record of a SnapOscillator."""
-    o = oscillator
-    return piecewise(float(o.damping), float(o.frequency), float(o.force), float(o.lift), float(o.phase))
+    return piecewise(*(float(number) for number in astuple(oscillator)))

@@ -11,14 +11,14 @@ against their own refined runs and against ours; what is not installed is a row 
 """
 
 import os
-from dataclasses import asdict, dataclass, replace
+from collections.abc import Callable
+from dataclasses import dataclass, replace
 from functools import partial
-from pathlib import Path
 
-from campaigns.accuracy.points import FACTORS, FULL, LONG_PERIODS, QUICK, Effort, Point
-from campaigns.accuracy.works import BY_NAME, PERIOD_S, UNITS, Work
+from campaigns.accuracy.points import FACTORS, FULL, QUICK, Effort
+from campaigns.accuracy.works import BY_NAME, UNITS
 from campaigns.machinery import cli
-from campaigns.machinery.kept_run import KeptRun
+from campaigns.machinery.command import command
 
 CAMPAIGN = "accuracy"
 MODULE = "campaigns.accuracy"
@@ -34,9 +34,9 @@ class Order:
     how: cli.Running
 
 
-def main(argv: list[str] | None = None, simulate=None) -> int:
+def main(argv: list[str] | None = None, simulate: Callable | None = None) -> int:
     """The command. simulate: in place of engine.simulate, same signature. Returns the exit code (0, 1, 2 or 130)."""
-    return cli.command(MODULE, argv, read_order, partial(study, simulate=simulate))
+    return command(MODULE, argv, read_order, partial(study, simulate=simulate))
 
 
 def parser():
@@ -62,135 +62,75 @@ def read_order(argv: list[str], faults: list[str]) -> Order:
     allowed = "one of " + ", ".join(FULL.works)
     words = options.works or list(effort.works)
     works = cli.values(words, "--works", list(effort.works), cli.one_of(FULL.works), allowed, faults)
-
-    def rounds(text: str) -> int:
-        number = cli.whole(1)(text)
-        if number > len(FACTORS):
-            raise ValueError(text)
-        return number
-
     said = f"a whole number from 1 to {len(FACTORS)}"
-    count = cli.value(options.rounds, "--rounds", effort.rounds, rounds, said, faults)
+    count = cli.value(options.rounds, "--rounds", effort.rounds, cli.whole(1, len(FACTORS)), said, faults)
     effort = replace(effort, works=tuple(name for name in FULL.works if name in works), rounds=count)
     how = cli.running(options, CAMPAIGN, faults)
     return Order(effort, options.quick, not options.no_peers, how)
 
 
-def study(order: Order, argv: list[str], simulate) -> int:
+def study(order: Order, argv: list[str], simulate: Callable | None) -> int:
     """Run it: untimed runs, timed ones, tables, report. Raises CampaignStopped, OSError, KeyboardInterrupt."""
-    from campaigns.accuracy.plan import first_phase, second_phase, third_phase
-    from campaigns.accuracy.rows import COLUMNS
     from campaigns.machinery import session
-    from campaigns.machinery.runner import plan_of
 
-    ours = simulate is None
+    where = {"backend": order.how.backend, "jobs": order.how.jobs, "dask_address": order.how.dask_address}
+    work = partial(done, order, simulate)
+    return session.conduct(CAMPAIGN, MODULE, argv, order.how, _parameters(order) | where, work)
+
+
+def done(order: Order, simulate: Callable | None):
+    """References, what is not timed, and what is: the last one run at a time. Then the tables that follow from them.
+
+    Returns times and summary.
+    """
+    from campaigns.accuracy import jobs, orders, pieces
+    from campaigns.accuracy.rows import COLUMNS
+    from campaigns.machinery.folder import trajectory_path
+    from campaigns.machinery.plan import plan_of
+    from campaigns.machinery.row_cache import made_by
+    from campaigns.machinery.runner import run, write_scene
+
+    out, ours = order.how.out, simulate is None
     if ours:
         from engine import simulate
-    plan = plan_of(order.how, simulate, _undescribed, COLUMNS, _maker())
-    known: dict[tuple[str, str], KeptRun] = {}
-    first = engine_jobs(first_phase(order.effort), known)
-    for job in first:
-        known[job.labels["work"], job.labels["kind"]] = KeptRun(_file(order.how.out, job.key))
-    second = engine_jobs(second_phase(order.effort), known)
-    third = engine_jobs(third_phase(order.effort), known)
-    others = _peer_jobs(order, known) if order.peers and ours else ([], [], [])
-    phases = [first + others[0], second + others[1], side_by_side(third, others[2], order.effort.rounds)]
-    runs = partial(_in_phases, phases=phases, costs=ours, quick=order.quick)
-    jobs = [job for phase in phases for job in phase]
-    return session.conduct(CAMPAIGN, MODULE, argv, plan, jobs, _parameters(order), report=order.how.report, runs=runs)
-
-
-def side_by_side(ours: list, others: list, rounds: int) -> list:
-    """Timed jobs in the order in which they run: those of other codes, which run once, in the middle round of ours on
-    the same work, so that the machine's noise meets both."""
-    middle = rounds // 2
-    found = [job for job in ours if job.labels["round"] < middle]
-    rest = [job for job in ours if job.labels["round"] == middle]
-    for work in dict.fromkeys(job.labels["work"] for job in (*rest, *others)):
-        found += [job for job in (*rest, *others) if job.labels["work"] == work]
-    return found + [job for job in ours if job.labels["round"] > middle]
-
-
-def _in_phases(plan, jobs: list, phases: list, costs: bool, quick: bool):
-    """References, what is not timed, and what is: the last one run at a time. Then the tables that follow from them."""
-    from campaigns.accuracy import orders, pieces
-    from campaigns.machinery import session
-
-    found = sum(_file(plan.directory, key).exists() for key in {job.key for job in jobs})
-    timing, done = {"compile_s": 0.0, "run_s": 0.0, "analysis_s": 0.0}, []
+    maker = made_by({}, "analysis/line_waves", "engine", "campaigns/accuracy/rows.py", "campaigns/accuracy/works.py")
+    plan = plan_of(order.how, simulate, jobs.point_row, COLUMNS, maker)
+    phases = jobs.phases(out, order.effort, order.quick, order.peers and ours)
+    write_scene(out, CAMPAIGN, next(filter(None, phases)))
+    found = sum(trajectory_path(out, key).exists() for key in {job.key for phase in phases for job in phase})
+    timing, known = {"compile_s": 0.0, "run_s": 0.0, "analysis_s": 0.0}, []
     for how, phase in zip((plan, plan, replace(plan, backend="threading", jobs=1)), phases, strict=True):
-        done += phase
-        more, summary = session.run(how, done)
+        known += phase
+        more, summary = run(how, known)
         timing = {name: timing[name] + more[name] for name in timing}
-    orders.write(plan.directory, summary.rows)
-    if costs:
-        pieces.keep(plan.directory, quick)
+    orders.write(out, summary.rows)
+    if ours:
+        pieces.keep(out, order.quick)
     return timing, replace(summary, computed=len(summary.rows) - found, found=found)
-
-
-def _undescribed(trajectory):
-    raise NotImplementedError("every run of this campaign is described by its own job")
-
-
-def _maker() -> str:
-    from campaigns.machinery.row_store import made_by
-
-    return made_by({}, "analysis/line_waves", "engine", "campaigns/accuracy/rows.py", "campaigns/accuracy/works.py")
-
-
-def engine_jobs(points: list[Point], references: dict[tuple[str, str], KeptRun]) -> list:
-    """Jobs of the engine's points; references: the runs that errors are taken against, by work and kind."""
-    from campaigns.accuracy.rows import point_row
-    from campaigns.machinery.runner import make_job
-
-    jobs = []
-    for point in points:
-        work = BY_NAME[point.work]
-        length_s = LONG_PERIODS * PERIOD_S if point.kind == "long" else work.duration_s
-        against = "grid" if point.kind == "tolerance" else "reference"
-        reference = None if point.kind in ("reference", "long") else references.get((work.name, against))
-        describe = partial(point_row, work_name=work.name, reference=reference)
-        scene = work.made(point.changes())
-        made = f"{point.kind}-{point.round}"
-        jobs.append(make_job(scene, duration_s=length_s, labels=asdict(point), describe=describe, made=made))
-    return jobs
-
-
-def _file(out: Path, key: str) -> Path:
-    from campaigns.machinery.folder import trajectory_path
-
-    return trajectory_path(out, key)
-
-
-def _peer_jobs(order: Order, references: dict[tuple[str, str], KeptRun]) -> tuple[list, list, list]:
-    from campaigns.accuracy.peers import peer_jobs
-
-    ours = {work: path for (work, kind), path in references.items() if kind == "reference"}
-    return peer_jobs(order.how.out, order.effort.works, order.quick, ours)
 
 
 def _parameters(order: Order) -> dict[str, object]:
     from campaigns.accuracy.peers import notes
     from campaigns.machinery.machine import machine
 
+    works = {
+        work.name: {
+            "title": work.title,
+            "measure": work.measure,
+            "unit": UNITS[work.measure],
+            "period_s": work.period_s,
+            "duration_s": work.duration_s,
+            "rough": work.rough,
+        }
+        for work in (BY_NAME[name] for name in order.effort.works)
+    }
     return {
-        "works": {name: _described(BY_NAME[name]) for name in order.effort.works},
+        "works": works,
         "quick": order.quick,
         "rounds": order.effort.rounds,
         "peers": order.peers,
         "peer_notes": notes(order.effort.works, order.quick) if order.peers else {},
         "machine": machine(),
-    }
-
-
-def _described(work: Work) -> dict[str, object]:
-    return {
-        "title": work.title,
-        "measure": work.measure,
-        "unit": UNITS[work.measure],
-        "period_s": work.period_s,
-        "duration_s": work.duration_s,
-        "rough": work.rough,
     }
 
 

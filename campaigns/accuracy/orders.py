@@ -7,8 +7,6 @@ and judged by their errors against the exact solution. Tolerances of one grid, a
 of the error against the tolerance, least squares.
 """
 
-import csv
-import io
 import math
 from itertools import pairwise
 from pathlib import Path
@@ -18,38 +16,37 @@ import numpy as np
 from campaigns.accuracy.points import ORDERS, plain
 from campaigns.accuracy.rows import kept_samples, rms_mm
 from campaigns.accuracy.works import BY_NAME, UNITS
-from campaigns.machinery.folder import trajectory_path
+from campaigns.columns import Column
+from campaigns.machinery.folder import Table, trajectory_path
 from campaigns.machinery.kept_run import KeptRun
-from engine.atomic import write_atomic
 
-COLUMNS = (
-    "work",
-    "kind",
-    "method",
-    "theory",
-    "order",
-    "slopes",
-    "errors",
-    "unit",
-    "settings",
-    "within",
-    "rough",
-    "note",
-)
 WITHIN = 0.15  # of theory, the last slope
 STEADY = 0.6  # of theory, every slope: where they jump about, the last is right by chance
+COLUMNS = (
+    Column("work", symbol="work", meaning="what is simulated"),
+    Column("kind", symbol="refined", meaning="what is halved: time, space or both; or the tolerance"),
+    Column("method", symbol="method", meaning="integrator or scheme"),
+    Column("theory", "", "theory", "order that theory gives", 2),
+    Column("order", "", "measured", "last of the slopes", 2),
+    Column("slopes", symbol="slopes", meaning="log2 of the ratios of neighbours, coarse to fine"),
+    Column("errors", symbol="errors", meaning="differences of neighbours, or errors, coarse to fine"),
+    Column("unit", symbol="unit", meaning="of the errors"),
+    Column("settings", symbol="settings", meaning="steps, nodes or tolerances of the series"),
+    Column("within", "", "within", f"1 where the last slope is within {WITHIN:g} of theory and none is far off", 0),
+    Column("rough", symbol="not smooth", meaning="why no order is expected"),
+    Column("note", symbol="note", meaning="runs that ended early"),
+)
 # an adaptive method keeps its estimate of the error of a step, of order p_e + 1, at rtol: the error goes with
 # rtol^(p/(p_e + 1)), p_e = 3 for esdirk43 (p = 4) and 2 for trbdf2 (p = 2), whose estimate is that of its own order
 TOLERANCE_SLOPE = {"esdirk43": 1.0, "trbdf2": 2.0 / 3.0}
 
 
 def write(out: Path, rows: list[dict]) -> None:
-    """Write orders.csv beside table.csv. Raises OSError."""
-    text = io.StringIO()
-    writer = csv.DictWriter(text, COLUMNS, lineterminator="\n")
-    writer.writeheader()
-    writer.writerows(orders(out, rows))
-    write_atomic(out / "orders.csv", text.getvalue().encode())
+    """Write orders.csv and its dictionary beside table.csv. Raises OSError."""
+    found = orders(out, rows)
+    table = Table(out / "orders.csv", COLUMNS, list(map(str, range(len(found)))))
+    table.rows = dict(zip(table.keys, found, strict=True))
+    table.write()
 
 
 def orders(out: Path, rows: list[dict]) -> list[dict]:

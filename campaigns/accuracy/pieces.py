@@ -86,14 +86,16 @@ def costs(rounds: int = ROUNDS) -> dict[str, object]:
 
 
 def _arguments(run) -> tuple:
-    """What the loops take: record, tables, state, C~ and the work arrays of Newton's method."""
+    """What the loops take: record, tables, state, and the work arrays of Newton's method."""
     from engine.parameters import record_of
     from engine.planar import state
 
     tables: list = []
     p = record_of(run.scene, tables)[0]
     n = int(p["nodes"])
-    return p, np.concatenate(tables), *_mid_motion(run, n), *state.work_arrays(p, n)[:5]
+    work = state.work_arrays(p, n)
+    Y, work.C_tilde[:] = _mid_motion(run, n)
+    return p, np.concatenate(tables), Y, work
 
 
 def _mid_motion(run, n: int) -> tuple[np.ndarray, np.ndarray]:
@@ -113,24 +115,25 @@ def _mid_motion(run, n: int) -> tuple[np.ndarray, np.ndarray]:
 def _loops() -> dict:
     import numba
 
+    from engine.arrays import Stage
     from engine.planar import node, state
 
     rate = 1.0 / STAGE_S
 
     @numba.njit
-    def assembly(p, tables, Y, C, X, F, Q, E, D, count):
+    def assembly(p, tables, Y, work, count):
         for _ in range(count):
-            node.shape(p, tables, Y, Q, X)
-            node.node_quantities(p, tables, rate, rate, 1.0, Y, C, F, Q)
+            node.shape(p, tables, Y, work.Q, work.X)
+            node.node_quantities(p, tables, Stage(0.0, 1.0, rate, rate), Y, work)
 
     @numba.njit
-    def waves(p, tables, Y, C, X, F, Q, E, D, count):
+    def waves(p, tables, Y, work, count):
         for i in range(count):
-            node.water(p, tables, 1e-3 * i, 1.0, X, F)
+            node.water(p, tables, 1e-3 * i, 1.0, work.X, work.F)
 
     @numba.njit
-    def everything(p, tables, Y, C, X, F, Q, E, D, count):
+    def everything(p, tables, Y, work, count):
         for i in range(count):
-            state.assemble(p, tables, 1e-3 * i, 1.0, rate, rate, Y, C, X, F, Q, E, D)
+            state.assemble(p, tables, Stage(1e-3 * i, 1.0, rate, rate), Y, work)
 
     return {"assembly": assembly, "waves": waves, "all": everything}

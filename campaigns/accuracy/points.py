@@ -1,4 +1,4 @@
-"""What the accuracy campaign runs of the engine: settings of every method, over nodes and over steps or tolerances.
+"""What one run of the accuracy campaign is: a setting of a method on a work, over nodes and over steps or tolerances.
 
 kind of a point:
 
@@ -23,7 +23,6 @@ ADAPTIVE = ("esdirk43", "trbdf2")
 FIXED = ("generalized-alpha", "midpoint", "backward-euler")
 VISCOUS, STRETCHED = ", shock viscosity", ", stretched grid"  # of a line with either
 STRETCHING = 1.0
-DEFAULT_NODES, DEFAULT_RTOL = 41, 0.03
 EXACT_NEWTON = {"solver.newton_tolerance": 1e-20, "solver.max_newton_iterations": 50}
 TIGHT_NEWTON = {"solver.newton_tolerance": 1e-6}  # of timed points with fixed steps: their error is that of the step
 LONGEST_STEP_S = 2.0  # where errors over tolerances are shown: the shipped 0.1 s would decide, not the tolerance

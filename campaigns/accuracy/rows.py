@@ -6,36 +6,44 @@ import math
 import numpy as np
 
 from campaigns.accuracy.works import BY_NAME, PLACE, RADIUS, UNITS, Work
+from campaigns.columns import (
+    END_S,
+    LOOPS,
+    MESSAGE,
+    NEWTON,
+    NEWTON_FAILURES,
+    REJECTED,
+    RUN_KEY,
+    STATUS,
+    STEPS,
+    TURN,
+    WALL_S,
+    Column,
+    names,
+)
 from campaigns.machinery.kept_run import KeptRun
 
-STATISTICS = (
-    "wall_s",
-    "end_time_s",
-    "steps",
-    "rejected_steps",
-    "newton_iterations",
-    "newton_failures",
-    "loop_releases",
-    "max_turn_rad",
-)
+COUNTED = (END_S, STEPS, REJECTED, NEWTON, NEWTON_FAILURES, LOOPS, TURN)
 COLUMNS = (
-    "work",
-    "kind",
-    "method",
-    "nodes",
-    "control",
-    "setting",
-    "round",
-    "status",
-    "error",
-    "error_early",
-    "error_unit",
-    "error_against_ours",
-    *STATISTICS,
-    "peer_version",
-    "run_key",
-    "message",
+    Column("work", symbol="work", meaning="what is simulated"),
+    Column("kind", symbol="kind", meaning="what the run is for"),
+    Column("method", symbol="method", meaning="integrator or scheme of the engine, or the other code"),
+    Column("nodes", "", "nodes", "nodes of the line; segments or elements of other codes", 0),
+    Column("control", symbol="control", meaning="what is varied: a tolerance, a step, a Courant number"),
+    Column("setting", "", "setting", "its value in the first round", 6),
+    Column("round", "", "round", "turn of a timed setting", 0),
+    STATUS,
+    Column("error", "", "error", "distance from the reference, or from the exact solution, in error_unit", 4),
+    Column("error_early", "", "early", "the same over the first half of the run", 4),
+    Column("error_unit", symbol="unit", meaning="mm, or per cent of the static strain"),
+    Column("error_against_ours", "", "off ours", "distance of another code from our refined run, in error_unit", 4),
+    WALL_S,
+    *COUNTED,
+    Column("peer_version", symbol="version", meaning="of the other code"),
+    RUN_KEY,
+    MESSAGE,
 )
+STATISTICS = names((WALL_S, *COUNTED))
 EARLY = 0.5  # share of the run over which error_early is taken
 
 
@@ -115,6 +123,7 @@ def strain_error(trajectory) -> float:
 
 @functools.lru_cache(maxsize=64)
 def _exact(law, mass, length, force_N, decay_s, times, places) -> np.ndarray:
-    from analysis.line_waves import reference_break
+    from campaigns.breaking_line.theory import fitted_break
 
-    return reference_break(law, mass, length, force_N, decay_s, np.array(times), np.array(places)).strain
+    motion = fitted_break(law, mass, length, force_N, decay_s, times[-1])
+    return np.array([motion.at(np.array(places), time_s)[0] for time_s in times])

@@ -9,7 +9,7 @@ Errors, over the even samples of a run:
 The buoy is that of Table 1. The pendulum is a rope of its diameter, softer and shorter, with 2 kg at its lower end, in
 air, pushed along and across: smooth, in three dimensions, and what every peer of rods can do. The breaking line is that
 of section 4.1 without gravity on an even grid: it stays straight, so that the exact solution in one dimension
-(`analysis.line_waves`) is the reference.
+(`campaigns.breaking_line.theory`) is the reference.
 """
 
 from dataclasses import dataclass

@@ -11,13 +11,13 @@ up to the arrival of the front, to be held against the exact solution: one fine 
 shock, and a series of grids for case 4 and for case 3', which stays smooth. Nothing is random.
 """
 
-from dataclasses import dataclass
 from functools import partial
 
 from campaigns.machinery import cli
+from campaigns.machinery.runner import run
+from campaigns.study import Case, Measures, Order, Study
 
 CAMPAIGN = "breaking_line"
-MODULE = "campaigns.breaking_line"
 SCENE = "breaking_line"
 FORCES_N = {"1": 45e3, "2": 180e3, "3": 315e3, "4": 450e3}
 LENGTHS_S = {"1": 0.20, "2": 0.14, "3": 0.13, "4": 0.12}
@@ -32,54 +32,16 @@ COMPILE_RUN_S = 0.001
 LONGEST_S = 0.2
 
 
-@dataclass(frozen=True)
-class Run:
-    """One run to do: the paper's case, the kind of run (see `planned`), its scene and length."""
-
-    case: str
-    kind: str
-    scene: object
-    duration_s: float
-
-
-@dataclass(frozen=True)
-class Order:
-    """What the command line asks for, checked."""
-
-    runs: tuple[Run, ...]
-    how: cli.Running
-    source: dict
-
-
-def main(argv: list[str] | None = None, simulate=None) -> int:
-    """The command. simulate: in place of engine.simulate, same signature. Returns the exit code (0, 1, 2 or 130)."""
-    return cli.command(MODULE, argv, read_order, partial(break_lines, simulate=simulate))
-
-
-def parser():
-    """The options of this campaign."""
-    parser = cli.parser(MODULE, __doc__)
-    what = parser.add_argument_group("what is run")
-    cli.add(what, "--cases", "A B ...", f"cases of the paper (default: {' '.join(CASES)}; p: fracture in 50 ms)")
-    cli.add(what, "--scene", "FILE_OR_NAME", f"scene to start from (default: {SCENE})")
-    cli.add(what, "--set", "KEY=VALUE ...", "change values of the scene, as tether.nodes=401")
+def options(group) -> None:
+    """Add the options that other studies do not have."""
+    cli.add(group, "--cases", "A B ...", f"cases of the paper (default: {' '.join(CASES)}; p: fracture in 50 ms)")
     leave_out = "leave out the doubled grids, the other bending stiffnesses and the breaks without gravity"
-    what.add_argument("--no-companions", action="store_true", help=leave_out)
-    cli.add_running(parser.add_argument_group("how and where"), f"results/{CAMPAIGN}")
-    return parser
+    group.add_argument("--no-companions", action="store_true", help=leave_out)
 
 
-def read_order(argv: list[str], faults: list[str]) -> Order:
-    """The order in the words of the command line; every fault, of options and scenes, is appended to `faults`."""
-    options = cli.split(parser(), argv, faults)
-    cases = _cases(options.cases, faults)
-    how = cli.running(options, CAMPAIGN, faults)
-    name = cli.scene_name(options, SCENE, faults)
-    taken = dict.fromkeys(("end", "end.force_N", "end.force_decay_s", "end.kind"), "use --cases")
-    changes = cli.assignments(options.set, taken, faults)
-    runs = planned(name, changes, cases, not options.no_companions, faults)
-    source = {"scene": name, "set": changes, "cases": cases, "companions": not options.no_companions}
-    return Order(runs, how, source)
+def read(options, faults: list[str]) -> tuple[list[str], bool]:
+    """(cases, whether with companions)."""
+    return _cases(options.cases, faults), not options.no_companions
 
 
 def _cases(words: list[str] | None, faults: list[str]) -> list[str]:
@@ -90,7 +52,7 @@ def _cases(words: list[str] | None, faults: list[str]) -> list[str]:
     return list(dict.fromkeys(found))
 
 
-def planned(name: str, changes: dict, cases: list[str], companions: bool, faults: list[str]) -> tuple[Run, ...]:
+def planned(name: str, changes: dict, cases: list[str], companions: bool, faults: list[str]) -> tuple[Case, ...]:
     """The runs in the order of the table.
 
     kind: "case"; "doubled" (twice the elements); "stiffness" (case 4, doubled, with another EI); without gravity on an
@@ -99,14 +61,14 @@ def planned(name: str, changes: dict, cases: list[str], companions: bool, faults
     from campaigns.machinery.plausible import doubts, endless
     from engine import SceneError
 
-    runs: list[Run] = []
+    runs: list[Case] = []
     try:
         plain = {case: _scene(name, changes, case, {}) for case in cases}
         odd = [line for case, scene in plain.items() for line in (*doubts(scene), *endless(scene, LENGTHS_S[case[0]]))]
         faults.extend(dict.fromkeys(odd))
         if faults:  # theory takes seconds, and of an odd line long, for an order that is refused
             return ()
-        runs += [Run(case, "case", scene, LENGTHS_S[case[0]]) for case, scene in plain.items()]
+        runs += [_run(case, "case", scene, LENGTHS_S[case[0]]) for case, scene in plain.items()]
         if not companions:
             return tuple(runs)
         doubled = {case: _finer(scene) for case, scene in plain.items()}
@@ -114,14 +76,18 @@ def planned(name: str, changes: dict, cases: list[str], companions: bool, faults
             if EI != plain[STIFFNESS_CASE].tether.bending_stiffness_Nm2:
                 further = {**doubled[STIFFNESS_CASE], "tether.bending_stiffness_Nm2": EI}
                 scene = _scene(name, changes, STIFFNESS_CASE, further)
-                runs.append(Run(STIFFNESS_CASE, "stiffness", scene, LENGTHS_S[STIFFNESS_CASE]))
+                runs.append(_run(STIFFNESS_CASE, "stiffness", scene, LENGTHS_S[STIFFNESS_CASE]))
         for case in cases:
             runs += _straight(name, changes, case, plain[case])
         for case in cases:
-            runs.append(Run(case, "doubled", _scene(name, changes, case, doubled[case]), LENGTHS_S[case[0]]))
+            runs.append(_run(case, "doubled", _scene(name, changes, case, doubled[case]), LENGTHS_S[case[0]]))
     except SceneError as error:
         faults.extend(fault for fault in error.faults if fault not in faults)
     return tuple(runs)
+
+
+def _run(case: str, kind: str, scene, duration_s: float) -> Case:
+    return Case({"case": case, "kind": kind}, scene, duration_s=duration_s)
 
 
 def _finer(scene) -> dict[str, object]:
@@ -141,9 +107,9 @@ def _scene(name: str, changes: dict, case: str, further: dict):
     return load_scene(name, {**settings, "end.force_N": [force_N, 0.0, 0.5 * weight_N]})
 
 
-def _straight(name: str, changes: dict, case: str, plain) -> list[Run]:
+def _straight(name: str, changes: dict, case: str, plain) -> list[Case]:
     """The breaks without gravity."""
-    from analysis.breaking_theory import theory_of
+    from campaigns.breaking_line.theory import theory_of
 
     theory = theory_of(plain, LONGEST_S)
     if theory is None:
@@ -160,26 +126,39 @@ def _straight(name: str, changes: dict, case: str, plain) -> list[Run]:
         "output.profiles_step_s": step_s,
     }
     return [
-        Run(case, kind, _scene(name, changes, case, {**straight, "tether.nodes": nodes}), theory.arrival_s)
+        _run(case, kind, _scene(name, changes, case, {**straight, "tether.nodes": nodes}), theory.arrival_s)
         for kind, nodes in kinds
     ]
 
 
-def break_lines(order: Order, argv: list[str], simulate) -> int:
-    """Run it: compile, run, table, provenance, report. Raises CampaignStopped, OSError, KeyboardInterrupt."""
+def measures(order: Order) -> Measures:
+    """`rows.breaking_row` of every run."""
     from campaigns.breaking_line.rows import COLUMNS, breaking_row
-    from campaigns.machinery import session
-    from campaigns.machinery.row_store import made_by
-    from campaigns.machinery.runner import make_job, plan_of
 
-    if simulate is None:
-        from engine import simulate
-    sources = ("analysis", "engine", "campaigns/breaking_line/rows.py")
-    plan = plan_of(order.how, simulate, breaking_row, COLUMNS, made_by({}, *sources))
-    jobs = [
-        make_job(run.scene, duration_s=run.duration_s, labels={"case": run.case, "kind": run.kind})
-        for run in order.runs
-    ]
-    compiled = partial(session.run, compile_run_s=COMPILE_RUN_S)
-    how = {"report": order.how.report, "runs": compiled}
-    return session.conduct(CAMPAIGN, MODULE, argv, plan, jobs, order.source, **how)
+    own = (f"campaigns/breaking_line/{name}" for name in ("rows.py", "measures.py", "theory"))
+    return Measures(COLUMNS, breaking_row, ("analysis", "engine", *own))
+
+
+def write_results(plan, summary) -> float:
+    """statements.csv and exact.nc of the folder; returns 0, no seconds of the workers' analysis."""
+    from campaigns.breaking_line import results
+
+    results.write_results(plan.directory)
+    return 0.0
+
+
+STUDY = Study(
+    name=CAMPAIGN,
+    protocol=__doc__,
+    scene=SCENE,
+    taken=dict.fromkeys(("end", "end.force_N", "end.force_decay_s", "end.kind"), "use --cases"),
+    options=options,
+    read=read,
+    cases=lambda order: planned(order.name, order.changes, *order.own, order.faults),
+    measures=measures,
+    parameters=lambda order: {"cases": order.own[0], "companions": order.own[1]},
+    runs=lambda order: partial(run, compile_run_s=COMPILE_RUN_S),
+    beside=lambda order: (write_results,),
+    together=False,
+)
+main, parser, read_order = STUDY.main, STUDY.parser, STUDY.read_order

@@ -5,41 +5,29 @@ run whose tension peaks highest are computed once more, with the line kept twent
 `close_up` of its own: a hundredth of a sweep. Where no run goes slack nothing snaps, and nothing is computed.
 """
 
-from collections.abc import Callable
-from time import perf_counter
-
 from campaigns.buoy_sweep.repeats import chosen
+from campaigns.buoy_sweep.rows import STEEPNESS
+from campaigns.columns import MESSAGE, PERIODS_RUN, RUN_KEY, STATUS, WALL_S
 from campaigns.machinery.folder import claimed, trajectory_path
-from campaigns.machinery.runner import Job, Plan, Summary, make_job, run_campaign
+from campaigns.machinery.plan import Job, Plan, Summary, make_job
+from campaigns.machinery.runner import run_campaign
 
 FOLDER = "close_up"  # within that of the sweep: a table of its own, and a trajectory
-COLUMNS = ("steepness", "status", "periods", "wall_s", "run_key", "message")
+COLUMNS = (STEEPNESS, STATUS, PERIODS_RUN, WALL_S, RUN_KEY, MESSAGE)
 PERIODS = 12  # the first snaps come after five
 FRAMES = 24  # of the line, a wave period
 
 
-def and_close_up(runs: Callable, periods: int) -> Callable:
-    """`runs` of a campaign (`session.run` or alike), followed by the close-up. The result raises as `session.run`."""
-
-    def both(plan: Plan, jobs: list):
-        timing, summary = runs(plan, jobs)
-        began = perf_counter()
-        close_up(plan, summary.rows, min(periods, PERIODS))
-        return timing | {"run_s": timing["run_s"] + perf_counter() - began}, summary
-
-    return both
-
-
-def close_up(plan: Plan, rows: list[dict], periods: int) -> Summary | None:
-    """Compute the run, unless it is there; None where no run goes slack."""
-    picked = chosen([row for row in rows if (row.get("slack_fraction") or 0.0) > 0.0])
+def close_up(plan: Plan, summary: Summary, periods: int) -> float:
+    """Compute the run, unless it is there or no run goes slack; 0 s of analysis. periods: those of the sweep."""
+    picked = chosen([row for row in summary.rows if (row.get("slack_fraction") or 0.0) > 0.0])
     place = plan.directory / FOLDER
-    if not picked and not place.exists():
-        return None
-    own = Plan(place, plan.simulate, close_up_row, COLUMNS, "threading", 1, show_progress=False)
-    # without a job the table of an earlier sweep in this folder is emptied
-    with claimed(place):
-        return run_campaign(own, [_job(plan, row, periods) for _, row in picked[-1:]])
+    if picked or place.exists():
+        own = Plan(place, plan.simulate, close_up_row, COLUMNS, "threading", 1, show_progress=False)
+        # without a job the table of an earlier sweep in this folder is emptied
+        with claimed(place):
+            run_campaign(own, [_job(plan, row, min(periods, PERIODS)) for _, row in picked[-1:]])
+    return 0.0
 
 
 def _job(plan: Plan, row: dict, periods: int) -> Job:

@@ -7,24 +7,24 @@ that a sweep run again decides the same from the files.
 
 from dataclasses import replace
 
-from campaigns.machinery import session
-from campaigns.machinery.runner import Job, Plan, Summary, make_job
+from campaigns.buoy_sweep.seeds import in_space
+from campaigns.machinery.plan import Job, Plan, Summary, make_job
+from campaigns.machinery.runner import run
 
 _KEPT = ("loop_releases", "regime", "radius_min_m", "radius_max_m")
 
 
-def run_where_needed(plan: Plan, jobs: list[Job], spatial: dict, periods: float) -> tuple[dict, Summary]:
+def run_where_needed(plan: Plan, jobs: list[Job], periods: float) -> tuple[dict, Summary]:
     """Do the planar jobs, then the runs in three dimensions that their rows ask for; table.csv holds one row a value.
 
-    spatial: the scene in three dimensions by steepness. Returns times and summary of both halves together. Raises as
-    `session.run`.
+    Returns times and summary of both halves together. Raises as `runner.run`.
     """
-    timing, summary = session.run(plan, jobs)
+    timing, summary = run(plan, jobs)
     rows = {row["run_key"]: row for row in summary.rows}
-    chosen = [_spatial(job, rows[job.key], spatial, periods) if _loops(rows[job.key]) else job for job in jobs]
+    chosen = [_spatial(job, rows[job.key], periods) if _loops(rows[job.key]) else job for job in jobs]
     if chosen == jobs:
         return timing, summary
-    more, final = session.run(plan, chosen)
+    more, final = run(plan, chosen)
     times = {name: timing[name] + more[name] for name in timing}
     # The second half finds what the first has computed: what is new is what both computed.
     computed = summary.computed + final.computed
@@ -36,6 +36,6 @@ def _loops(row: dict) -> bool:
     return bool(row.get("loop_releases"))
 
 
-def _spatial(job: Job, row: dict, spatial: dict, periods: float) -> Job:
+def _spatial(job: Job, row: dict, periods: float) -> Job:
     kept = {f"planar_{name}": row.get(name) for name in _KEPT}
-    return make_job(spatial[job.labels["steepness"]], periods, labels={**job.labels, **kept, "dimensions": 3})
+    return make_job(in_space(job.scene)[0], periods, labels={**job.labels, **kept, "dimensions": 3})

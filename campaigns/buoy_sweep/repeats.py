@@ -11,33 +11,37 @@ import math
 from collections.abc import Callable
 from dataclasses import replace
 from functools import partial
-from time import perf_counter
 
 import numpy as np
 
+from campaigns.columns import LOOPS, MESSAGE, NEWTON, PERIODS_RUN, RUN_KEY, STATUS, WALL_S, Column
+from campaigns.judge import tighter_scene
 from campaigns.machinery.folder import claimed, trajectory_path
 from campaigns.machinery.kept_run import KeptRun
-from campaigns.machinery.runner import Job, Plan, Summary, make_job, run_campaign
+from campaigns.machinery.plan import Job, Plan, Summary, make_job
+from campaigns.machinery.runner import run_campaign
 
 FOLDER = "accuracy"  # within that of the sweep: a table of its own, and trajectories
 COLUMNS = (
-    "role",
-    "label",
-    "run",
-    "status",
-    "periods",
-    "nodes",
-    "rtol",
-    "step_s",
-    "error_early_m",
-    "error_m",
-    "verdict",
-    "same_verdict",
-    "wall_s",
-    "newton_iterations",
-    "loop_releases",
-    "run_key",
-    "message",
+    Column("role", symbol="role", meaning="which run of the sweep was repeated: the regular or the violent one"),
+    Column("label", symbol="run", meaning="the value of the sweep that names the repeated run", digits=3),
+    Column("run", symbol="repeated", meaning="how it was repeated: as run, tighter, or on a finer grid"),
+    STATUS,
+    PERIODS_RUN,
+    Column("nodes", "", "nodes", "nodes of the line", 0),
+    Column("rtol", "", "rtol", "relative tolerance of the time steps; empty for fixed steps", 4),
+    Column("step_s", "s", "step", "length of fixed time steps; empty for steps under control", 4),
+    Column("error_early_m", "m", "early error", "rms change of r over the first ten wave periods", 6),
+    Column("error_m", "m", "error", "rms change of r over all repeated wave periods", 6),
+    Column("verdict", symbol="verdict", meaning="what the repeated motion is called"),
+    Column(
+        "same_verdict", "", "same", "1 where the repeated motion is called what the run of this length is, else 0", 0
+    ),
+    WALL_S,
+    NEWTON,
+    LOOPS,
+    RUN_KEY,
+    MESSAGE,
 )
 AS_RUN, TIGHTER, FINER = "as run", "a tenth of the tolerance", "twice the elements"
 EARLY = 10  # wave periods
@@ -64,43 +68,27 @@ def chosen(rows: list[dict]) -> list[tuple[str, dict]]:
     return [("regular", regular)] if regular is violent else [("regular", regular), ("violent", violent)]
 
 
-def and_again(runs: Callable, periods: int, label: str, verdict: Callable, among: set[str] | None = None) -> Callable:
-    """`runs` of a campaign (`session.run` or alike), followed by the repeated runs, with a table of their own.
+def repeat(
+    plan: Plan, summary: Summary, periods: int, label: str, verdict: Callable, among: set[str] | None = None
+) -> float:
+    """Do the repeated runs of a sweep over its share of the wave periods; returns seconds of analysis.
 
     label: the column that names a run; verdict(trajectory) -> what it is called, or None; among: keys of the runs to
-    choose from, None for all. The result raises as `session.run`.
+    choose from, None for all. Raises as `runner.run_campaign`.
     """
-
-    def both(plan: Plan, jobs: list[Job]):
-        timing, summary = runs(plan, jobs)
-        began = perf_counter()
-        rows = [row for row in summary.rows if among is None or row["run_key"] in among]
-        again = repeat(plan, rows, lengths(len(summary.rows), periods), label, verdict)
-        timing = timing | {
-            "run_s": timing["run_s"] + perf_counter() - began,
-            "analysis_s": timing["analysis_s"] + again.analysis_s,
-        }
-        return timing, summary
-
-    return both
-
-
-def repeat(plan: Plan, rows: list[dict], length: int, label: str, verdict: Callable) -> Summary:
-    """Do the repeated runs over so many wave periods; arguments as for `and_again`."""
+    rows = [row for row in summary.rows if among is None or row["run_key"] in among]
+    length = lengths(len(summary.rows), periods)
     jobs: list[Job] = []
     for role, row in chosen(rows):
         base = KeptRun(trajectory_path(plan.directory.absolute(), row["run_key"]))
         jobs += _jobs(base, role, row[label], length, verdict)
-    place = plan.directory / FOLDER
-    where = plan.backend, plan.jobs, plan.dask_address
-    own = Plan(place, plan.simulate, plan.describe, COLUMNS, *where, show_progress=False, row_maker=plan.row_maker)
-    with claimed(place):
-        return run_campaign(own, jobs)
+    own = replace(plan, directory=plan.directory / FOLDER, columns=COLUMNS, show_progress=False, simulate_each=None)
+    with claimed(own.directory):
+        return run_campaign(own, jobs).analysis_s
 
 
 def _jobs(base: KeptRun, role: str, label: object, length: int, verdict: Callable) -> list[Job]:
     from engine.scene import scene_from_toml
-    from reports.buoy_sweep.motion import tighter_scene
 
     scene = base.load().scene
     finer = scene_from_toml(scene.to_toml(), {"tether.nodes": 2 * scene.tether.nodes - 1})

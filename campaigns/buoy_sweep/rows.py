@@ -5,72 +5,112 @@ its statistics and nothing more. Extremes and slack are taken after the transien
 """
 
 import math
+from dataclasses import replace
 
 import numpy as np
 
-from reports.buoy_sweep.motion import (
+from analysis.evidence import evidence_text
+from campaigns.columns import (
+    END_S,
+    LOOPS,
+    MESSAGE,
+    MIN_STRAIN,
+    NEWTON,
+    NEWTON_FAILURES,
+    REJECTED,
+    RUN_KEY,
+    STATISTICS,
+    STATUS,
+    STEPS,
+    TURN,
+    WALL_S,
+    Column,
+    names,
+)
+from campaigns.judge import (
+    LEAST_JUDGED,
     LONGEST_PERIOD,
     STROBE_TOLERANCE,
     carried,
-    evidence_text,
     state_of,
     tighter_scene,
     verdict_of,
 )
 
-COLUMNS = (
-    "steepness",
-    "dimensions",
-    "status",
-    "regime",
-    "regime_tighter",
-    "regime_reason",
-    "evidence",
-    "strobed_period",
-    "radius_min_m",
-    "radius_max_m",
-    "angle_min_rad",
-    "angle_max_rad",
-    "tension_top_min_N",
-    "tension_top_max_N",
-    "slack_fraction",
-    "lyapunov_wolf_bits_per_period",
-    "lyapunov_wolf_error",
-    "lyapunov_tangent_bits_per_period",
-    "lyapunov_tangent_error",
-    "offplane_growth_bits_per_period",
-    "offplane_growth_error",
-    "max_buoy_height_above_water_m",
-    "max_turn_rad",
-    "min_strain",
-    "loop_releases",
-    "buoy_lateral_max_m",
-    "rope_lateral_max_m",
-    "planar_loop_releases",
-    "planar_regime",
-    "planar_radius_min_m",
-    "planar_radius_max_m",
-    "steps",
-    "rejected_steps",
-    "newton_iterations",
-    "newton_failures",
-    "end_time_s",
-    "wall_s",
-    "run_key",
-    "message",
+STEEPNESS = Column("steepness", "", "kA", "wave steepness: wave number times amplitude", 3)
+DIMENSIONS = Column("dimensions", "", "D", "dimensions of the motion: 2, in the plane of the waves, or 3", 0)
+_BITS = "bits/period"
+STROBED = Column("strobed_period", "", "N", "wave periods after which the motion repeats; empty where none is found", 0)
+# What is measured after the transient (`settled`) of any line, with or without a verdict.
+EXTREMES = (
+    Column("radius_min_m", "m", "r_min", "smallest distance of the buoy from the anchor after the transient", 2),
+    Column("radius_max_m", "m", "r_max", "largest distance of the buoy from the anchor after the transient", 2),
+    Column("angle_min_rad", "rad", "θ_min", "smallest angle of the buoy from the vertical after the transient", 3),
+    Column("angle_max_rad", "rad", "θ_max", "largest angle of the buoy from the vertical after the transient", 3),
+    Column("tension_top_min_N", "N", "T_min", "smallest tension at the top of the line after the transient", 0),
+    Column("tension_top_max_N", "N", "T_max", "largest tension at the top of the line after the transient", 0),
+    Column("slack_fraction", "", "χ", "share of the time after the transient without tension at the top", 3),
 )
-
-LEAST_JUDGED = 40  # periods after the transient below which no verdict is possible
-STATISTICS = (
-    "max_turn_rad",
-    "min_strain",
-    "loop_releases",
-    "steps",
-    "rejected_steps",
-    "newton_iterations",
-    "newton_failures",
-    "end_time_s",
-    "wall_s",
+REGIME = Column("regime", symbol="regime", meaning="period-N, quasi-periodic, chaotic, transient or undecided")
+WOLF = (
+    Column("lyapunov_wolf_bits_per_period", _BITS, "σ_W", "largest Lyapunov exponent of r, by Wolf's method", 3),
+    Column("lyapunov_wolf_error", _BITS, "± σ_W", "standard error of the exponent by Wolf's method", 3),
+)
+TANGENT = (
+    Column("lyapunov_tangent_bits_per_period", _BITS, "σ_t", "largest Lyapunov exponent, from tangent dynamics", 3),
+    Column("lyapunov_tangent_error", _BITS, "± σ_t", "standard error of the exponent from tangent dynamics", 3),
+)
+OFFPLANE = (
+    Column(
+        "offplane_growth_bits_per_period",
+        _BITS,
+        "σ_y",
+        "growth rate of an infinitesimal perturbation across the plane; empty where loops were released",
+        3,
+    ),
+    Column("offplane_growth_error", _BITS, "± σ_y", "standard error of the growth rate across the plane", 3),
+)
+COLUMNS = (
+    STEEPNESS,
+    DIMENSIONS,
+    STATUS,
+    REGIME,
+    Column("regime_tighter", symbol="tighter", meaning="the regime at a tenth of the tolerance, of a chaotic run"),
+    Column("regime_reason", symbol="reason", meaning="why the run has this regime, in words"),
+    Column(
+        "evidence",
+        symbol="evidence",
+        meaning="the tests behind the regime: name: value/threshold/met, one after the other",
+    ),
+    STROBED,
+    *EXTREMES,
+    *WOLF,
+    *TANGENT,
+    *OFFPLANE,
+    Column(
+        "max_buoy_height_above_water_m",
+        "m",
+        "height",
+        "highest point of the sphere above the still water over the whole run; negative if it stays below",
+        2,
+    ),
+    TURN,
+    MIN_STRAIN,
+    LOOPS,
+    Column("buoy_lateral_max_m", "m", "buoy |y|", "largest |y| of the buoy after the transient, in 3-D", 3),
+    Column("rope_lateral_max_m", "m", "rope |y|", "largest |y| of any node of the line after the transient, in 3-D", 3),
+    replace(LOOPS, name="planar_loop_releases", symbol="planar loops", meaning="loop releases of the run in the plane"),
+    Column("planar_regime", symbol="planar regime", meaning="regime of the run in the plane that this run replaces"),
+    Column("planar_radius_min_m", "m", "planar r_min", "smallest radius of the run in the plane", 2),
+    Column("planar_radius_max_m", "m", "planar r_max", "largest radius of the run in the plane", 2),
+    STEPS,
+    REJECTED,
+    NEWTON,
+    NEWTON_FAILURES,
+    END_S,
+    WALL_S,
+    RUN_KEY,
+    MESSAGE,
 )
 
 
@@ -80,8 +120,8 @@ def buoy_row(trajectory, transient_periods: int, simulate=None) -> dict[str, obj
     trajectory: an engine Trajectory of a scene with waves and a buoy, run to its end or not.
     transient_periods: wave periods left out of extremes, slack and strobed period; a record that does not outlast them
     by one period fills none of these.
-    regime, the reason for it in a sentence, the tests behind it (`motion.evidence_text`) and exponents: of scenes with
-    output.tangent_vectors, run to their end; all periods count, those with a loop release too. A run in three
+    regime, the reason for it in a sentence, the tests behind it (`analysis.evidence_text`) and exponents: of scenes
+    with output.tangent_vectors, run to their end; all periods count, those with a loop release too. A run in three
     dimensions has no tangent exponent, and the regime that its samples alone show.
     offplane_growth: of scenes with output.lateral_growth; none where a loop was released after the transient, because
     across the plane a loop has no rate of its own.
@@ -92,7 +132,7 @@ def buoy_row(trajectory, transient_periods: int, simulate=None) -> dict[str, obj
     below.
     """
     row = {"status": trajectory.status, "message": trajectory.message}
-    row |= {name: _number(trajectory.statistics.get(name)) for name in STATISTICS}
+    row |= {name: number(trajectory.statistics.get(name)) for name in names(STATISTICS)}
     columns = sound_part(trajectory.columns)
     scene = trajectory.scene
     if len(columns["time_s"]) and scene.water is not None:
@@ -101,7 +141,8 @@ def buoy_row(trajectory, transient_periods: int, simulate=None) -> dict[str, obj
     step_s, period_s = scene.sample_step_s(), scene.waves.period_s
     recorded_s = (len(columns["time_s"]) - 1) * step_s
     if recorded_s >= (transient_periods + 1) * period_s - 1e-6 * step_s:
-        row |= settled(columns, step_s, period_s, transient_periods)
+        row |= settled(columns, step_s, transient_periods * period_s)
+        row["strobed_period"] = strobed_period(columns, step_s, period_s, transient_periods)
         in_space = scene.motion.dimensions == 3
         if in_space:
             after = round(transient_periods * period_s / step_s)
@@ -117,10 +158,10 @@ def buoy_row(trajectory, transient_periods: int, simulate=None) -> dict[str, obj
                 "regime_tighter": tighter,
                 "regime_reason": verdict.reason,
                 "evidence": evidence_text(verdict),
-                "lyapunov_tangent_bits_per_period": _number(tangent.value),
-                "lyapunov_tangent_error": _number(tangent.error),
-                "lyapunov_wolf_bits_per_period": _number(wolf.value),
-                "lyapunov_wolf_error": _number(wolf.error),
+                "lyapunov_tangent_bits_per_period": number(tangent.value),
+                "lyapunov_tangent_error": number(tangent.error),
+                "lyapunov_wolf_bits_per_period": number(wolf.value),
+                "lyapunov_wolf_error": number(wolf.error),
             }
     return row
 
@@ -137,7 +178,7 @@ def across_plane(growth, transient_periods: int) -> dict[str, object]:
     if growth.lateral_nats is None:
         return {}
     found = transverse_lyapunov(growth.lateral_nats, transient_periods, growth.released)
-    return {"offplane_growth_bits_per_period": _number(found.value), "offplane_growth_error": _number(found.error)}
+    return {"offplane_growth_bits_per_period": number(found.value), "offplane_growth_error": number(found.error)}
 
 
 def _verdict(trajectory, transient_periods: int, simulate):
@@ -151,18 +192,16 @@ def _verdict(trajectory, transient_periods: int, simulate):
     return tighter, verdict_of(trajectory, transient_periods, tighter)[0], tangent, wolf
 
 
-def settled(columns, step_s: float, period_s: float, transient_periods: int) -> dict[str, object]:
-    """Extremes, slack and strobed period of what follows the transient, by column of the table."""
+def settled(columns, step_s: float, transient_s: float) -> dict[str, object]:
+    """Extremes and slack of what follows the transient, by column of the table (`EXTREMES`)."""
     from analysis import extremes, slack_fraction
 
-    transient_s = transient_periods * period_s
     # Tension snaps between samples: its extremes come from the columns that saw every step of the solver.
     radius, angle, low, high = (
         extremes(columns[name], step_s, transient_s)
         for name in ("radius_m", "angle_rad", "tension_top_low_N", "tension_top_high_N")
     )
     return {
-        "strobed_period": strobed_period(columns, step_s, period_s, transient_periods),
         "radius_min_m": radius.minimum,
         "radius_max_m": radius.maximum,
         "angle_min_rad": angle.minimum,
@@ -195,5 +234,6 @@ def sound_part(columns) -> dict[str, np.ndarray]:
     return {name: values[:end] for name, values in arrays.items()}
 
 
-def _number(entry: object) -> object:
+def number(entry: object) -> object:
+    """The number itself; None for one that is unknown or not finite."""
     return None if entry is None or not math.isfinite(entry) else entry

@@ -10,10 +10,8 @@ import difflib
 import math
 import os
 import re
-import sys
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import partial
 from pathlib import Path
 
 from campaigns.machinery.out_folder import fault_of, folder_name
@@ -24,7 +22,7 @@ EXIT_OK, EXIT_FAILED, EXIT_BAD_INPUT, EXIT_INTERRUPTED = 0, 1, 2, 130
 EXITS = "exit codes: 0 done, 1 stopped (disk full, folder in use, no report), 2 bad input, 130 Ctrl-C"
 
 WHOLE = "a whole number, {} or above"
-MOST_JOBS, MOST_PERIODS = 1024, 10**9
+MOST_JOBS, MOST_PERIODS, MOST_RUNS = 1024, 10**9, 10_000
 FRACTION = "a finite number, 0 or above"
 
 
@@ -37,6 +35,19 @@ class Running:
     backend: str
     dask_address: str | None
     report: bool
+
+
+@dataclass(frozen=True)
+class Lengths:
+    """The usual length of a run and of its transient, in wave periods.
+
+    share: the transient is at most periods/share where none is given; left_out_of: of what it is left out, in words.
+    """
+
+    periods: int
+    transient: int
+    share: int = 3
+    left_out_of: str = "analysis"
 
 
 class _Unparsable(Exception):
@@ -52,32 +63,6 @@ class _Formatter(argparse.RawDescriptionHelpFormatter):
 class _Parser(argparse.ArgumentParser):
     def error(self, message):
         raise _Unparsable(message)
-
-
-def command(module: str, argv: list[str] | None, read_order: Callable, work: Callable) -> int:
-    """A campaign's command, from the words of its line (None: those of this process) to its exit code.
-
-    read_order(argv, faults) -> the order, checked, with a `Running` named how; work(order, argv) -> exit code.
-    """
-    argv = list(sys.argv[1:] if argv is None else argv)
-    faults: list[str] = []
-    # A closed stream (>&-) is None, which progress bars and workers write to.
-    sys.stdout, sys.stderr = (stream or open(os.devnull, "w") for stream in (sys.stdout, sys.stderr))
-    try:
-        order = read_order(argv, faults)
-    except KeyboardInterrupt:
-        print("\ninterrupted; nothing was run or written", file=sys.stderr)
-        return EXIT_INTERRUPTED
-    except ModuleNotFoundError as missing:
-        install = ".venv/bin/pip install -c constraints.txt -e ."
-        print(f"python -m {module}: no package {missing.name!r} in {sys.executable}: {install}", file=sys.stderr)
-        return EXIT_FAILED
-    if faults:
-        print(complaint(f"python -m {module}", faults), file=sys.stderr)
-        return EXIT_BAD_INPUT
-    from campaigns.machinery.session import guarded
-
-    return guarded(module, argv, order.how.out, partial(work, order, argv))
 
 
 def parser(module: str, description: str, epilog: str = EXITS) -> argparse.ArgumentParser:
@@ -105,13 +90,17 @@ def add_running(group, default_out: str) -> None:
     group.add_argument("--no-report", action="store_true", help="leave out report.html and report.pdf")
 
 
-def add_lengths_and_scene(group, usual: dict, left_out_of: str, share: str) -> None:
-    """Add --periods, --transient, --scene and --set for a campaign of a buoy in waves. usual: its defaults by option;
-    left_out_of: what the transient is left out of; share: of --periods, which it is at most."""
-    add(group, "--periods", "N", f"length of every run in wave periods (default: {usual['periods']})")
-    words = f"wave periods left out of the {left_out_of} (default: {usual['transient']}, at most {share} of --periods)"
+def add_lengths(group, usual: Lengths) -> None:
+    """Add --periods and --transient; usual: their defaults."""
+    add(group, "--periods", "N", f"length of every run in wave periods (default: {usual.periods})")
+    most = f"at most 1/{usual.share} of --periods"
+    words = f"wave periods left out of the {usual.left_out_of} (default: {usual.transient}, {most})"
     add(group, "--transient", "N", words)
-    add(group, "--scene", "FILE_OR_NAME", f"scene to start from (default: {usual['scene']}, the paper's Table 1)")
+
+
+def add_scene(group, usual: str) -> None:
+    """Add --scene, by default the usual one, and --set."""
+    add(group, "--scene", "FILE_OR_NAME", f"scene to start from (default: {usual})")
     add(group, "--set", "KEY=VALUE ...", "change values of the scene, as water.depth_m=22.5 tether.nodes=81")
 
 
@@ -213,17 +202,30 @@ def jobs_of(options: argparse.Namespace, faults: list[str]) -> int:
     return value(options.jobs, "--jobs", default_jobs(), whole(1, MOST_JOBS), allowed, faults)
 
 
-def lengths(
-    options: argparse.Namespace, periods: int, transient: int, share: int, faults: list[str]
-) -> tuple[int, int]:
-    """--periods and --transient in wave periods; by default these, the transient at most periods/share."""
+def lengths(options: argparse.Namespace, usual: Lengths, faults: list[str]) -> tuple[int, int]:
+    """--periods and --transient in wave periods; usual: their defaults."""
     allowed = f"a whole number, 1 or above and at most {MOST_PERIODS}"
-    periods = value(options.periods, "--periods", periods, whole(1, MOST_PERIODS), allowed, faults)
-    usual = min(transient, periods // share)
-    transient = value(options.transient, "--transient", usual, whole(0), WHOLE.format(0), faults)
+    periods = value(options.periods, "--periods", usual.periods, whole(1, MOST_PERIODS), allowed, faults)
+    most = min(usual.transient, periods // usual.share)
+    transient = value(options.transient, "--transient", most, whole(0), WHOLE.format(0), faults)
     if transient >= periods:
         faults.append(f"--transient: given {transient} of {periods} periods; allowed: less than --periods")
     return periods, transient
+
+
+def evenly(words: list[str], option: str, faults: list[str], least: float = -math.inf) -> list[float]:
+    """The values of LO HI COUNT, both ends included; none where the words are at fault. least: LO is not below."""
+    try:
+        low, high, count = float(words[0]), float(words[1]), whole(2, MOST_RUNS)(words[2])
+        if len(words) != 3 or not least <= low < high < math.inf or low == -math.inf:
+            raise ValueError(words)
+    except (ValueError, IndexError):
+        floor = "" if least == -math.inf else f"{least:g} <= "
+        allowed = f"two finite numbers, {floor}LO < HI, and a whole number, 2 or above and at most {MOST_RUNS}"
+        faults.append(f"{option}: given {' '.join(words) or 'nothing'}; allowed: LO HI COUNT: {allowed}")
+        return []
+    # Twelve digits: 0.13 of a range is the 0.13 that a list of values reads, and so the same run.
+    return [float(f"{low + (high - low) * step / (count - 1):.12g}") for step in range(count)]
 
 
 def scene_name(options: argparse.Namespace, usual: str, faults: list[str]) -> str:

@@ -24,7 +24,7 @@ from importlib import metadata
 
 from campaigns.machinery.folder import CampaignStopped
 from campaigns.machinery.pools import PoolBroken, first_line, ignore_interrupt
-from campaigns.machinery.row_store import made_by
+from campaigns.machinery.row_cache import made_by
 
 JOIN_S = 30.0  # for the scheduler to answer, and then for its first worker
 ASK_S = 10.0  # for all workers to say what they are

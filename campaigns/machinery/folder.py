@@ -17,6 +17,7 @@ import time
 from collections.abc import Iterator
 from pathlib import Path
 
+from campaigns.columns import Column, dictionary, dictionary_path, names
 from engine.atomic import write_atomic
 
 _NO_SPACE = {errno.ENOSPC, errno.EDQUOT, errno.EFBIG}
@@ -38,6 +39,13 @@ def is_full(error: BaseException | None) -> bool:
             return True
         error = error.__cause__ or error.__context__
     return False
+
+
+def write_failure(directory: Path | str, error: BaseException) -> str:
+    """One line on a failed write: a full disk in plain words, anything else with the system's reason."""
+    if is_full(error):
+        return f"the disk of {directory} is full; finished runs are kept; make room and run the same command again"
+    return f"cannot write to {directory}: {error}"
 
 
 @contextlib.contextmanager
@@ -78,17 +86,19 @@ def _drop_temporaries(directory: Path) -> None:
 class Table:
     """table.csv while it grows: rows by run key, always written in the order of the campaign.
 
-    Rows may arrive in any order; the file is rewritten as they come, at most twice a second, and by `write`.
+    Rows may arrive in any order; the file is rewritten as they come, at most twice a second, and by `write`. The
+    dictionary of its columns (columns.csv) is written before the table is.
     """
 
-    def __init__(self, path: Path, columns: tuple[str, ...], keys: list[str]):
+    def __init__(self, path: Path, columns: tuple[Column, ...], keys: list[str]):
         self.path, self.columns, self.keys = path, columns, keys
+        self.names = names(columns)
         self.rows: dict[str, dict[str, object]] = {}
         self._written_s = -math.inf
 
     def add(self, key: str, row: dict[str, object]) -> None:
         """Take in a row and bring the file up to date unless that was done a moment ago. Raises OSError."""
-        unknown = set(row) - set(self.columns)
+        unknown = set(row) - set(self.names)
         if unknown:
             raise KeyError(f"the table has no column {', '.join(sorted(unknown))}")
         self.rows[key] = row
@@ -101,10 +111,12 @@ class Table:
 
     def write(self) -> None:
         """Rewrite the file. Raises OSError."""
+        if self._written_s == -math.inf:
+            write_atomic(dictionary_path(self.path), dictionary(self.columns))
         text = io.StringIO()
         writer = csv.writer(text, lineterminator="\n")
-        writer.writerow(self.columns)
-        writer.writerows([_cell(row.get(column)) for column in self.columns] for row in self.in_order())
+        writer.writerow(self.names)
+        writer.writerows([_cell(row.get(name)) for name in self.names] for row in self.in_order())
         write_atomic(self.path, text.getvalue().encode())
         self._written_s = time.monotonic()
 

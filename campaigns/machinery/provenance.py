@@ -52,11 +52,6 @@ def now_utc() -> str:
     return datetime.now(UTC).strftime("%Y-%m-%dT%H:%M:%SZ")
 
 
-def command_line(module: str, argv: list[str]) -> list[str]:
-    """The command as the user would type it again."""
-    return ["python", "-m", module, *argv]
-
-
 def git_state(directory: Path) -> dict[str, object]:
     """{"commit", "dirty"} of the checkout that holds `directory`; both null outside one, or without git."""
     commit = _git(directory, "rev-parse", "HEAD")

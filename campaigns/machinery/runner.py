@@ -1,130 +1,68 @@
-"""A campaign's runs from its side: which there are, which are missing, who does them, what becomes of the table.
-
-A run's content key is the hash of its scene, its length and the engine's sources. `trajectories/<key>.nc` is written
-whole or not at all, and its presence is what "finished" means: rows are always made again from the files, so a table
-can be lost at no cost. What a worker does is in `campaigns.machinery.one_run`: on this machine it writes the file, and
-only rows and timings travel; on a cluster it sends the content, and the campaign writes it.
-"""
+"""Runs all simulations of a campaign that are not on disk yet and keeps table.csv up to date."""
 
 import contextlib
-import hashlib
-import json
 import sys
-from collections.abc import Callable
-from dataclasses import dataclass, field, replace
+import time
+from collections.abc import Callable, Iterator
 from functools import partial
 from pathlib import Path
 
-from campaigns.machinery.cli import Running
-from campaigns.machinery.folder import CampaignStopped, Table, is_full
+from campaigns.machinery.batches import groups_of, run_group
+from campaigns.machinery.folder import CampaignStopped, Table, trajectory_path
+from campaigns.machinery.plan import Job, Outcome, Plan, Summary
 from campaigns.machinery.pools import PoolBroken, opened
+from campaigns.machinery.worker import failed, received, reuse, run_one
+from engine.atomic import write_atomic
+
+COMPILE_RUN_S = 0.1  # long enough to go through every kernel, too short to cost anything
 
 
-@dataclass(frozen=True)
-class Job:
-    """One run to do: its content key, the engine's source hash, the scene, the length, and columns that name it.
+def run(plan: Plan, jobs: list[Job], compile_run_s: float = COMPILE_RUN_S) -> tuple[dict[str, float], Summary]:
+    """Compile and do the runs; returns the times of both and the summary.
 
-    simulate, describe: in place of the plan's, for campaigns whose runs are not all made or described alike.
+    compile_run_s: length of the run that only compiles, long enough for the scenes at hand to go through every kernel.
     """
-
-    key: str
-    engine: str
-    scene: object
-    periods: float | None = None
-    duration_s: float | None = None
-    labels: dict[str, object] = field(default_factory=dict)
-    simulate: Callable | None = None
-    describe: Callable | None = None
-
-
-@dataclass(frozen=True)
-class Outcome:
-    """What a worker hands back. `stop`: why the whole campaign has to stop, "" to go on.
-
-    content, described: the run's file and what `describe` made of it, from a worker that does not see the folder.
-    """
-
-    key: str
-    row: dict[str, object]
-    computed: bool
-    analysis_s: float = 0.0
-    stop: str = ""
-    content: bytes = b""
-    described: dict[str, object] | None = None
+    missing = [job for job in jobs if not trajectory_path(plan.directory, job.key).exists()]
+    start = time.perf_counter()
+    if missing and plan.sends and plan.dask_address is not None:
+        print("each worker compiles the engine in its first run, unless it has done so before", file=sys.stderr)
+    elif missing:
+        print("compiling the engine, or loading it compiled ...", file=sys.stderr)
+        _compile_all(plan, missing, compile_run_s)
+    compiled = time.perf_counter()
+    summary = run_campaign(plan, jobs)
+    run_s = time.perf_counter() - compiled
+    return {"compile_s": compiled - start, "run_s": run_s, "analysis_s": summary.analysis_s}, summary
 
 
-@dataclass(frozen=True)
-class Summary:
-    """A campaign's rows in order, how many were found or computed, and the analysis time summed over workers."""
-
-    rows: list[dict[str, object]]
-    found: int
-    computed: int
-    analysis_s: float
+def write_scene(directory: Path, campaign: str, jobs: list[Job]) -> None:
+    """Write scene.toml. Raises OSError."""
+    head = f"# the scene of the first run of {campaign}; what varies over the runs is listed in provenance.json\n"
+    write_atomic(directory / "scene.toml", (head + jobs[0].scene.to_toml()).encode())
 
 
-@dataclass(frozen=True)
-class Plan:
-    """How to run: where, with which functions, and on what.
-
-    simulate(scene, periods=, duration_s=) -> Trajectory, and describe(trajectory) -> row, have to be
-    importable or picklable by cloudpickle. columns: of the table, among them run_key, status and message.
-    row_maker: hash of whatever shapes a row (`campaigns.machinery.row_store.made_by`); empty: rows are not kept.
-    simulate_each(scenes, periods=, duration_s=): yields (number of the scene, Trajectory) as runs end; where it is
-    given, runs that can go side by side share a worker (`campaigns.machinery.side_by_side`).
-    directory: None in the plan that a worker gets which does not see the folder.
-    """
-
-    directory: Path | None
-    simulate: Callable
-    describe: Callable
-    columns: tuple[str, ...]
-    backend: str = "loky"
-    jobs: int = 1
-    dask_address: str | None = None
-    show_progress: bool = True
-    row_maker: str = ""
-    simulate_each: Callable | None = None
-
-    @property
-    def sends(self) -> bool:
-        """Whether workers send what they computed, because they need not see the folder."""
-        return self.backend == "dask"
-
-    def for_workers(self) -> "Plan":
-        """The plan as workers get it."""
-        # A worker kept from an earlier campaign of this process may stand in another folder.
-        return replace(self, directory=None if self.sends else self.directory.absolute())
+def _compile_all(plan: Plan, missing: list[Job], compile_run_s: float) -> None:
+    # A plane, space, and runs side by side have machine code of their own.
+    groups = groups_of(plan, missing)
+    together = {job.key for group in groups for job in group.jobs}
+    first_of_a_kind = {job.scene.motion.dimensions: job for job in reversed(missing) if job.key not in together}
+    for job in first_of_a_kind.values():
+        _compile(plan.simulate, job.scene, compile_run_s)
+    for group in groups[:1]:
+        _compile(
+            lambda scene, duration_s: list(plan.simulate_each([scene, scene], duration_s=duration_s)),
+            group.jobs[0].scene,
+            compile_run_s,
+        )
 
 
-def plan_of(
-    how: Running, simulate: Callable, describe: Callable, columns: tuple[str, ...], row_maker: str, **more
-) -> Plan:
-    """The plan of a campaign as its command line wants it done; more: further fields of the plan."""
-    where = how.backend, how.jobs, how.dask_address
-    return Plan(how.out, simulate, describe, columns, *where, row_maker=row_maker, **more)
-
-
-def make_job(
-    scene,
-    periods: float | None = None,
-    duration_s: float | None = None,
-    labels: dict | None = None,
-    simulate: Callable | None = None,
-    describe: Callable | None = None,
-    made: str = "",
-) -> Job:
-    """A job with its content key: sha256 over the scene's key, the run length and the engine's source hash.
-
-    made: what else the result depends on, where the run is not the engine's own or not the only one of its scene.
-    """
-    from engine import source_hash
-
-    engine = source_hash()
-    content = {"scene": scene.key(), "periods": periods, "duration_s": duration_s, "engine": engine}
-    content |= {"made": made} if made else {}
-    key = hashlib.sha256(json.dumps(content, sort_keys=True).encode()).hexdigest()
-    return Job(key, engine, scene, periods, duration_s, dict(labels or {}), simulate, describe)
+def _compile(simulate: Callable, scene: object, duration_s: float) -> None:
+    # Two workers that start together would each compile for ten seconds; after this they find the code on disk.
+    try:
+        simulate(scene, duration_s=duration_s)
+    except Exception as error:
+        # Not the place to judge a scene: the run itself fails in the same way, and that failure becomes its row.
+        print(f"the first simulation failed ({type(error).__name__}); its run will say why", file=sys.stderr)
 
 
 def run_campaign(plan: Plan, jobs: list[Job]) -> Summary:
@@ -132,20 +70,15 @@ def run_campaign(plan: Plan, jobs: list[Job]) -> Summary:
 
     Raises CampaignStopped (disk full, folder lost) or KeyboardInterrupt; finished runs and their rows are then on disk.
     """
-    from campaigns.machinery.one_run import reuse
-
     jobs = list({job.key: job for job in jobs}.values())
     table = Table(plan.directory / "table.csv", plan.columns, [job.key for job in jobs])
-    outcomes = {}
-    for job in jobs:
-        if (outcome := reuse(plan, job)) is not None:
-            outcomes[job.key] = outcome
-            table.rows[job.key] = outcome.row
+    outcomes = {job.key: outcome for job in jobs if (outcome := reuse(plan, job)) is not None}
+    table.rows = {key: outcome.row for key, outcome in outcomes.items()}
     found = len(outcomes)
     table.write()
     missing = [job for job in jobs if job.key not in outcomes]
     try:
-        for outcome in _with_progress(plan, _compute_all(plan, missing), len(jobs), found):
+        for outcome in _with_progress(plan, _computed(plan, missing), len(jobs), found):
             if outcome.stop:
                 raise CampaignStopped(outcome.stop)
             outcomes[outcome.key] = outcome
@@ -159,7 +92,7 @@ def run_campaign(plan: Plan, jobs: list[Job]) -> Summary:
     return Summary(table.in_order(), found, computed, sum(outcome.analysis_s for outcome in outcomes.values()))
 
 
-def _with_progress(plan: Plan, outcomes, total: int, found: int):
+def _with_progress(plan: Plan, outcomes: Iterator[Outcome], total: int, found: int) -> Iterator[Outcome]:
     from tqdm import tqdm
 
     terminal = sys.stderr.isatty()
@@ -171,39 +104,43 @@ def _with_progress(plan: Plan, outcomes, total: int, found: int):
             yield outcome
 
 
-def _compute_all(plan: Plan, jobs: list[Job]):
-    """Outcomes of all jobs as they come. A run that kills its worker twice, the second time alone, is given up."""
+def _computed(plan: Plan, jobs: list[Job]) -> Iterator[Outcome]:
+    """Outcomes of all jobs as they come: those that can share a worker first, then what these leave undone, one by one.
+
+    A run that kills its worker twice, the second time alone, is given up.
+    """
     if not jobs:
         return
-    from campaigns.machinery.one_run import received, run_one
-    from campaigns.machinery.side_by_side import outcomes_side_by_side
-
     pending = {job.key: job for job in jobs}
-    call = partial(run_one, plan.for_workers())
+    sent = plan.for_workers()
     with opened(plan.backend, min(plan.jobs, len(jobs)), plan.dask_address) as execute:
-        for outcome in outcomes_side_by_side(plan, execute, jobs):
-            yield received(plan, pending.pop(outcome.key), outcome)
+        groups = {group.number: group for group in groups_of(plan, jobs)}
+        for number, outcomes in _survivors(execute, partial(run_group, sent), groups):
+            del groups[number]
+            for outcome in outcomes:
+                yield received(plan, pending.pop(outcome.key), outcome)
         while pending:
             try:
-                for outcome in execute(call, list(pending.values())):
+                for outcome in execute(partial(run_one, sent), list(pending.values())):
                     yield received(plan, pending.pop(outcome.key), outcome)
             except PoolBroken as broken:
                 for job in broken.suspects:
                     del pending[job.key]
-                    yield received(plan, job, _alone(execute, call, job))
+                    yield received(plan, job, _alone(execute, partial(run_one, sent), job))
+
+
+def _survivors(execute: Callable, call: Callable, groups: dict) -> Iterator:
+    """Results of all groups but those that may have killed a worker; groups: those left, which the caller takes out."""
+    while groups:
+        try:
+            yield from execute(call, list(groups.values()))
+        except PoolBroken as broken:
+            for group in broken.suspects:
+                del groups[group.number]
 
 
 def _alone(execute: Callable, call: Callable, job: Job) -> Outcome:
     try:
         return next(iter(execute(call, [job], alone=True)))
     except PoolBroken as broken:
-        from campaigns.machinery.one_run import failed
-
         return failed(job, "worker-died", f"its process ended twice, the second time running alone: {broken}")
-
-
-def write_failure(directory: Path | str, error: BaseException) -> str:
-    """One line on a failed write: a full disk in plain words, anything else with the system's reason."""
-    if is_full(error):
-        return f"the disk of {directory} is full; finished runs are kept; make room and run the same command again"
-    return f"cannot write to {directory}: {error}"

@@ -9,16 +9,16 @@ choose. Every part is one row of table.csv, and its arrays are one file; parts f
 starts come from a fixed seed.
 """
 
-import time
 from dataclasses import dataclass
+from functools import partial
 
 from campaigns.machinery import cli
+from campaigns.machinery.command import command
 
 CAMPAIGN = "oscillator"
 MODULE = "campaigns.oscillator"
 PARAMETERS = ("damping", "frequency", "force", "lift", "phase")
 FORCES, FREQUENCIES = (0.1, 2.0, 800), (0.5, 2.0, 800)
-SEED = 0
 
 
 @dataclass(frozen=True)
@@ -34,7 +34,7 @@ class Order:
 
 def main(argv: list[str] | None = None) -> int:
     """The command. Returns the exit code (0, 1, 2 or 130)."""
-    return cli.command(MODULE, argv, read_order, study)
+    return command(MODULE, argv, read_order, study)
 
 
 def parser():
@@ -111,18 +111,8 @@ def _range(words: list[str] | None, option: str, usual: tuple, faults: list[str]
 
 def study(order: Order, argv: list[str]) -> int:
     """Run it: parts, table, provenance, report. Raises CampaignStopped, OSError, KeyboardInterrupt."""
-    from campaigns.machinery import provenance, session
-    from campaigns.machinery.folder import claimed
-    from campaigns.oscillator import parts
+    from campaigns.machinery import session
+    from campaigns.oscillator import keep
 
-    begun = time.perf_counter()
-    with claimed(order.how.out):
-        record = provenance.gather(CAMPAIGN, provenance.command_line(MODULE, argv))
-        record |= parts.parameters(order)
-        if provenance.read_if_same(order.how.out / "provenance.json", record) is None:
-            provenance.write(order.how.out / "provenance.json", record)
-        parts.write_equation(order)
-        timing, summary = parts.run(order)
-        session.finish(order.how.out, record, summary, timing)
-        fault = session.report(order.how.out, order.how.report, timing, begun)
-    return session.say(order.how.out, summary, timing, order.how.report, fault)
+    work = partial(keep.done, order)
+    return session.conduct(CAMPAIGN, MODULE, argv, order.how, keep.parameters(order), work)

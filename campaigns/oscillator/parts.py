@@ -1,20 +1,16 @@
-"""The parts of the study of eq. (33): what each computes, and how it is kept.
+"""The parts of the study of eq. (33): what each computes.
 
-A part is a function of the oscillator and the order; it gives arrays and the numbers of its row. The arrays are one
-netCDF-3 file, trajectories/<key>.nc, the key a hash of the part, its parameters and the sources of `analysis`;
-the row's numbers are attributes of that file, so the table can be made again from the files.
+A part is a function of the oscillator and the order; it gives arrays and the numbers of its row, and
+`campaigns.oscillator.keep` keeps both.
 """
 
-import contextlib
-import hashlib
-import json
-import sys
-import time
-from dataclasses import asdict, replace
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from analysis.compiled import source_hash
 from analysis.oscillator import (
     SnapOscillator,
     grazing_force,
@@ -27,36 +23,38 @@ from analysis.oscillator import (
     strobed_states,
     strobed_states_within,
 )
+from analysis.oscillator.basin_grids import PAPER_BOX
 from analysis.oscillator.growth import random_starts
-from campaigns.machinery.folder import Table, trajectory_path
-from campaigns.machinery.runner import Summary
-from campaigns.oscillator import SEED, Order
-from campaigns.oscillator.files import read_row, to_netcdf
-from engine.atomic import write_atomic
+from campaigns.columns import MESSAGE, RUN_KEY, STATUS, Column
 
+if TYPE_CHECKING:
+    from campaigns.oscillator import Order
+
+SEED = 0
+Result = tuple[dict[str, np.ndarray], dict[str, object]]  # arrays by name, numbers of the row
 COLUMNS = (
-    "part",
-    "status",
-    "lambda_1_nats_per_time",
-    "lambda_1_error",
-    "lambda_1_bits_per_period",
-    "lambda_1_bits_error",
-    "lambda_2_nats_per_time",
-    "sum_plus_damping",
-    "section_dimension",
-    "section_dimension_error",
-    "slack_fraction",
-    "attractors",
-    "aperiodic_share",
-    "grazing_force",
-    "starts",
-    "elsewhere",
-    "periods",
-    "transient",
-    "points",
-    "wall_s",
-    "run_key",
-    "message",
+    Column("part", symbol="part", meaning="what is computed"),
+    STATUS,
+    Column("lambda_1_nats_per_time", "nats/time", "λ_1", "largest exponent, mean over the starts", 6),
+    Column("lambda_1_error", "nats/time", "error", "its standard error", 6),
+    Column("lambda_1_bits_per_period", "bits/period", "λ_1", "the same in bits per forcing period", 6),
+    Column("lambda_1_bits_error", "bits/period", "error", "its standard error", 6),
+    Column("lambda_2_nats_per_time", "nats/time", "λ_2", "smaller exponent", 6),
+    Column("sum_plus_damping", "nats/time", "λ_1 + λ_2 + μ", "zero in theory", 4),
+    Column("section_dimension", "", "D", "Kaplan-Yorke dimension of the section", 4),
+    Column("section_dimension_error", "", "error", "its standard error", 4),
+    Column("slack_fraction", "", "χ", "share of the time in which the tether is slack", 3),
+    Column("attractors", "", "attractors", "periodic attractors found", 0),
+    Column("aperiodic_share", "", "aperiodic", "share of the starts that do not settle on a periodic attractor", 3),
+    Column("grazing_force", "", "F", "forcing at which the taut motion first goes slack", 10),
+    Column("starts", "", "starts", "motions followed", 0),
+    Column("elsewhere", "", "elsewhere", "starts left out because they settled on a periodic attractor", 0),
+    Column("periods", "", "periods", "forcing periods of each motion", 0),
+    Column("transient", "", "left out", "forcing periods left out before", 0),
+    Column("points", "", "points", "points, orbits or values in the arrays of the part", 0),
+    Column("wall_s", "s", "wall", "wall-clock time of the part", 2),
+    RUN_KEY,
+    MESSAGE,
 )
 START = (0.68, 0.0)  # the rest position of the taut tether
 ZOOMS = (10.0, 100.0)
@@ -68,7 +66,7 @@ def _scaled(usual: int, effort: float, least: int) -> int:
     return max(least, round(usual * effort))
 
 
-def section(o: SnapOscillator, order: Order):
+def section(o: SnapOscillator, order: Order) -> Result:
     """Figure 19(b), and two nested zooms round the place that the orbit visits most."""
     points, transient = _scaled(120_000, order.effort, 500), 1000
     states = strobed_states(o, START, points, transient)
@@ -80,7 +78,7 @@ def section(o: SnapOscillator, order: Order):
     return arrays, {"points": points, "transient": transient, "periods": seen}
 
 
-def zoom_boxes(states):
+def zoom_boxes(states: np.ndarray) -> np.ndarray:
     """Boxes (2, 4), a tenth and a hundredth of the section's extent, round its densest point."""
     from scipy.spatial import cKDTree
 
@@ -93,7 +91,7 @@ def zoom_boxes(states):
     return np.array([[centre[0] - h[0], centre[0] + h[0], centre[1] - h[1], centre[1] + h[1]] for h in half])
 
 
-def history(o: SnapOscillator, order: Order):
+def history(o: SnapOscillator, order: Order) -> Result:
     """The first periods from START, with the switching times."""
     motion = snap_motion(o, START, HISTORY_PERIODS, 128)
     arrays = {"time": motion.time, "displacement": motion.displacement, "velocity": motion.velocity}
@@ -102,7 +100,7 @@ def history(o: SnapOscillator, order: Order):
     return arrays, {"periods": HISTORY_PERIODS, "slack_fraction": motion.slack_fraction}
 
 
-def exponents(o: SnapOscillator, order: Order):
+def exponents(o: SnapOscillator, order: Order) -> Result:
     """Both exponents over many random starts, with their errors, and how they settle with time."""
     starts, periods, transient = _scaled(512, order.effort, 16), 10_000, 1000
     found = snap_exponents(o, count=starts, transient_periods=transient, periods=periods, blocks=50, seed=SEED)
@@ -126,7 +124,7 @@ def exponents(o: SnapOscillator, order: Order):
     return arrays | {"block_error": np.array([found.block_error])}, row
 
 
-def _diagram(o: SnapOscillator, over: str, span: tuple[float, float, int], effort: float):
+def _diagram(o: SnapOscillator, over: str, span: tuple[float, float, int], effort: float) -> Result:
     values = np.linspace(span[0], span[1], _scaled(span[2], min(effort, 1.0), 2))
     found = snap_diagram(o, over, values, count=4, transient_periods=500, periods=1000, points=150, seed=SEED)
     arrays = {
@@ -139,29 +137,29 @@ def _diagram(o: SnapOscillator, over: str, span: tuple[float, float, int], effor
     return arrays, {"starts": 4, "periods": 1000, "transient": 500, "points": len(values)}
 
 
-def diagram_force(o: SnapOscillator, order: Order):
+def diagram_force(o: SnapOscillator, order: Order) -> Result:
     """Orbit diagram over F with exponents."""
     return _diagram(o, "force", order.forces, order.effort)
 
 
-def diagram_frequency(o: SnapOscillator, order: Order):
+def diagram_frequency(o: SnapOscillator, order: Order) -> Result:
     """Orbit diagram over omega with exponents."""
     return _diagram(o, "frequency", order.frequencies, order.effort)
 
 
-def basins(o: SnapOscillator, order: Order):
+def basins(o: SnapOscillator, order: Order) -> Result:
     """Where a grid of starts ends, and the shares."""
     columns, rows = (_scaled(n, order.effort**0.5, 8) for n in (120, 75))
     found = snap_basins(o, start_grid(columns, rows), 3000)
     arrays = {"label": found.label.reshape(rows, columns), "settled": found.settled, "shares": found.shares}
-    arrays["errors"] = found.errors
+    arrays |= {"errors": found.errors, "box": np.array(PAPER_BOX)}
     for number, orbit in enumerate(found.orbits):
         arrays[f"orbit_{number + 1}"] = orbit
     row = {"starts": columns * rows, "periods": 3000, "attractors": len(found.orbits)}
     return arrays, row | {"aperiodic_share": float(found.shares[-1])}
 
 
-def orbits(o: SnapOscillator, order: Order):
+def orbits(o: SnapOscillator, order: Order) -> Result:
     """Periodic orbits up to period 8, stable and unstable, by Newton's method from points of the section and a grid."""
     guesses = _scaled(400, order.effort, 20)
     basin = snap_basins(o, random_starts(_scaled(300, order.effort, 40), SEED), 1500)
@@ -177,7 +175,7 @@ def orbits(o: SnapOscillator, order: Order):
     return arrays, {"points": len(table), "starts": len(starts)}
 
 
-def grazing(o: SnapOscillator, order: Order):
+def grazing(o: SnapOscillator, order: Order) -> Result:
     """The forcing below which the taut motion never goes slack; random starts just below and just above it."""
     found = grazing_force(o)
     arrays = {"grazing": np.array([found.force, found.time, found.clearance, found.velocity])}
@@ -202,74 +200,3 @@ PARTS = {
     "diagram-force": diagram_force,
     "diagram-frequency": diagram_frequency,
 }
-
-
-def parameters(order: Order) -> dict:
-    """What the provenance says of this study besides who ran it, where and with what."""
-    return {
-        "oscillator": asdict(SnapOscillator(**order.changes)),
-        "force_range": list(order.forces),
-        "frequency_range": list(order.frequencies),
-        "effort": order.effort,
-        "seed": SEED,
-        "analysis_source_hash": source_hash(),
-    }
-
-
-def write_equation(order: Order) -> None:
-    """scene.toml: the five numbers of eq. (33), as run."""
-    lines = ["# eq. (33), dimensionless, as run", "[oscillator]"]
-    lines += [f"{key} = {value!r}" for key, value in asdict(SnapOscillator(**order.changes)).items()]
-    write_atomic(order.how.out / "scene.toml", ("\n".join(lines) + "\n").encode())
-
-
-def run(order: Order) -> tuple[dict[str, float], Summary]:
-    """Do every part that is not there yet; keep table.csv up to date. Returns times and the summary."""
-    oscillator = SnapOscillator(**order.changes)
-    keys = {part: _key(part, order) for part in PARTS}
-    table = Table(order.how.out / "table.csv", COLUMNS, list(keys.values()))
-    missing = []
-    for part, key in keys.items():
-        row = read_row(trajectory_path(order.how.out, key))
-        if row is None:
-            missing.append(part)
-        else:
-            table.rows[key] = {**row, "run_key": key}
-    table.write()
-    timing = {"compile_s": _compile(oscillator) if missing else 0.0}
-    begun = time.perf_counter()
-    try:
-        for part in missing:
-            print(f"{part} ...", file=sys.stderr)
-            table.add(keys[part], _done(part, oscillator, order, keys[part]))
-    finally:
-        with contextlib.suppress(OSError):
-            table.write()
-    timing |= {"run_s": time.perf_counter() - begun, "analysis_s": 0.0}
-    return timing, Summary(table.in_order(), len(PARTS) - len(missing), len(missing), 0.0)
-
-
-def _key(part: str, order: Order) -> str:
-    content = {"part": part, **parameters(order)}
-    unused = {"diagram-force": "frequency_range", "diagram-frequency": "force_range"}.get(part)
-    for name in ("force_range", "frequency_range") if not part.startswith("diagram") else (unused,):
-        del content[name]
-    return hashlib.sha256(json.dumps(content, sort_keys=True).encode()).hexdigest()
-
-
-def _compile(oscillator: SnapOscillator) -> float:
-    print("compiling eq. (33), or loading it compiled ...", file=sys.stderr)
-    begun = time.perf_counter()
-    snap_exponents(oscillator, count=2, transient_periods=1, periods=2, blocks=2)
-    return time.perf_counter() - begun
-
-
-def _done(part: str, oscillator: SnapOscillator, order: Order, key: str) -> dict:
-    begun = time.perf_counter()
-    try:
-        arrays, row = PARTS[part](oscillator, order)
-    except Exception as error:  # one part that fails must not take the others along
-        return {"part": part, "status": "error", "message": f"{type(error).__name__}: {error}", "run_key": key}
-    row = {"part": part, "status": "ok", **row, "wall_s": round(time.perf_counter() - begun, 3)}
-    write_atomic(trajectory_path(order.how.out, key), to_netcdf(arrays, row))
-    return {**row, "run_key": key}

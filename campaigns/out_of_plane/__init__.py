@@ -10,15 +10,15 @@ perturbation across their plane, whose exponent needs no push, and those with lo
 counterparts in three dimensions. Nothing is random.
 """
 
+from collections.abc import Callable, Iterator
 from dataclasses import asdict, dataclass, replace
 from functools import partial
 
+from campaigns.buoy_sweep import ROW_SOURCES
 from campaigns.buoy_sweep.seeds import SEED_MPS, velocity
 from campaigns.machinery import cli
+from campaigns.study import Case, Lengths, Measures, Order, Study, job_of
 
-CAMPAIGN = "out_of_plane"
-MODULE = "campaigns.out_of_plane"
-SCENE = "tethered_buoy"
 SMALL, LARGE = 0.016, 0.13  # the paper's two waves
 DEPTHS_M = (21.0, 21.6, 22.0, 22.5, 25.0)
 LOOPING_DEPTHS_M = (21.0, 21.6, 22.0)  # where planar runs of the large wave have to release loops
@@ -26,7 +26,6 @@ STIFFNESSES_NM2 = (0.1, 0.4, 4.0)
 NODES = (41, 81, 161)
 PUSH_NODES = 81  # on 41 the rope answers a small push before the first loop by what the steps happen to be
 SEEDS_MPS = (1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10)
-PERIODS, TRANSIENT = 250, 50
 SHAPE_PERIODS, SHAPE_STEP_S = 40, 0.1
 _TAKEN = {
     "waves.steepness": "it runs the paper's two",
@@ -42,7 +41,7 @@ _TAKEN = {
 
 
 @dataclass(frozen=True)
-class Case:
+class Variant:
     """One run: what varies over the campaign, in the words of the table. profiles: 1 keeps the shape of the rope."""
 
     steepness: float
@@ -55,7 +54,7 @@ class Case:
     profiles: int = 0
 
     def changes(self) -> dict[str, object]:
-        """The keys of the scene that make it this case."""
+        """The keys of the scene that make it this variant."""
         keys = {
             "waves.steepness": self.steepness,
             "water.depth_m": self.depth_m,
@@ -70,48 +69,7 @@ class Case:
         return keys
 
 
-@dataclass(frozen=True)
-class Order:
-    """What the command line asks for, checked: the scene of every case, and how to run them."""
-
-    scenes: dict
-    base: Case
-    periods: int
-    transient: int
-    accuracy: bool
-    how: cli.Running
-    source: dict
-
-
-def main(argv: list[str] | None = None, simulate=None) -> int:
-    """The command. simulate: in place of engine.simulate, same signature. Returns the exit code (0, 1, 2 or 130)."""
-    return cli.command(MODULE, argv, read_order, partial(study, simulate=simulate))
-
-
-def parser():
-    """The options of this campaign."""
-    parser = cli.parser(MODULE, __doc__)
-    what = parser.add_argument_group("what is run")
-    usual = {"periods": PERIODS, "transient": TRANSIENT, "scene": SCENE}
-    cli.add_lengths_and_scene(what, usual, "comparison", "a fifth")
-    cli.add_accuracy(what)
-    cli.add_running(parser.add_argument_group("how and where"), f"results/{CAMPAIGN}")
-    return parser
-
-
-def read_order(argv: list[str], faults: list[str]) -> Order:
-    """The order in the words of the command line; every fault, of options and scenes, is appended to `faults`."""
-    options = cli.split(parser(), argv, faults)
-    periods, transient = cli.lengths(options, PERIODS, TRANSIENT, 5, faults)
-    how = cli.running(options, CAMPAIGN, faults)
-    name = cli.scene_name(options, SCENE, faults)
-    changes = cli.assignments(options.set, _TAKEN, faults)
-    base, scenes = _scenes(name, changes, periods, faults)
-    source = {"scene": name, "set": changes}
-    return Order(scenes, base, periods, transient, not options.no_accuracy, how, source)
-
-
-def cases(base: Case) -> list[Case]:
+def variants(base: Variant) -> list[Variant]:
     """Every run, each once. base: the large wave in the scene as it is; it leads, its small counterpart follows."""
     small = replace(base, steepness=SMALL)
     fine = replace(base, nodes=max(base.nodes, PUSH_NODES))
@@ -132,87 +90,82 @@ def cases(base: Case) -> list[Case]:
     return list(dict.fromkeys(found))
 
 
-def compared(case: Case, base: Case) -> bool:
-    """Whether a case takes part in the comparison of planar runs with runs in three dimensions."""
-    spatial = replace(base, depth_m=case.depth_m)
+def compared(one: Variant, base: Variant) -> bool:
+    """Whether a variant takes part in the comparison of planar runs with runs in three dimensions."""
+    spatial = replace(base, depth_m=one.depth_m)
     planar = replace(spatial, dimensions=2, seed_mps=0.0, seed_direction="")
-    return case.depth_m in LOOPING_DEPTHS_M and case in (spatial, planar)
+    return one.depth_m in LOOPING_DEPTHS_M and one in (spatial, planar)
 
 
-def _scenes(name: str, changes: dict, periods: int, faults: list[str]) -> tuple[Case | None, dict]:
-    from campaigns.buoy_sweep import carries_tangents
-    from campaigns.machinery.plausible import doubts, endless, irregular, waveless
-    from engine import SceneError, load_scene
+def cases(order: Order) -> Iterator[Case]:
+    """Every run of `variants` with its scene; planar ones carry perturbations."""
+    from campaigns.judge import judged_scene
 
-    try:
-        scene = load_scene(name, changes)
-    except SceneError as error:
-        faults.extend(error.faults)
-        return None, {}
-    if lacking := list(waveless(name, changes)):
-        faults.extend(lacking)
-        return None, {}
-    if scene.waves.irregular:
-        faults.extend(irregular(name, changes))
-        return None, {}
+    base = base_of(order)
+    for one in variants(base) if base is not None else ():
+        scene = judged_scene(order, one.changes(), least=0)
+        if scene is not None:
+            periods = min(order.periods, SHAPE_PERIODS) if one.profiles else order.periods
+            yield Case({**asdict(one), "periods": periods}, scene, periods)
+
+
+def base_of(order: Order) -> Variant | None:
+    """The large wave in the scene as it is, from which the campaign varies; None, and told why, where it cannot be."""
+    scene = order.base()
+    if scene is None:
+        order.scene({})
+        return None
     tether = scene.tether
-    base = Case(LARGE, scene.water.depth_m, tether.bending_stiffness_Nm2, tether.nodes)
-    scenes = {}
-    for case in cases(base):
-        try:
-            made = load_scene(name, {**changes, **case.changes()})
-            if carries_tangents(made):
-                carried = {"output.tangent_vectors": 1, "output.lateral_growth": True}
-                made = load_scene(name, {**changes, **case.changes(), **carried})
-        except SceneError as error:
-            faults.extend(fault for fault in error.faults if fault not in faults)
-            continue
-        found = [*doubts(made), *endless(made, periods * made.waves.period_s)]
-        faults.extend(line for line in found if line not in faults)
-        scenes[case] = made
-    return base, scenes
+    return Variant(LARGE, scene.water.depth_m, tether.bending_stiffness_Nm2, tether.nodes)
 
 
-def study(order: Order, argv: list[str], simulate) -> int:
-    """Run it: compile, run, table, provenance, report. Raises CampaignStopped, OSError, KeyboardInterrupt."""
-    from campaigns.buoy_sweep import repeats
-    from campaigns.machinery import session
-    from campaigns.machinery.row_store import made_by
-    from campaigns.machinery.runner import make_job, plan_of
-    from campaigns.out_of_plane.rows import COLUMNS, offplane_row, rope_motion
+def measures(order: Order) -> Measures:
+    """`rows.offplane_row` of every run."""
+    from campaigns.out_of_plane.rows import COLUMNS, offplane_row
 
-    if simulate is None:
-        from engine import simulate
-    judged = frozenset(scene.key() for case, scene in order.scenes.items() if compared(case, order.base))
-    describe = partial(offplane_row, transient_periods=order.transient, judged=judged)
-    sources = (
-        "analysis",
-        "engine",
-        "campaigns/out_of_plane/rows.py",
-        "campaigns/buoy_sweep/rows.py",
-        "reports/buoy_sweep/motion.py",
-    )
-    maker = made_by({"transient": order.transient, "judged": sorted(judged)}, *sources)
-    plan = plan_of(order.how, simulate, describe, COLUMNS, maker)
-    jobs = []
-    for case, scene in order.scenes.items():
-        periods = min(order.periods, SHAPE_PERIODS) if case.profiles else order.periods
-        jobs.append(make_job(scene, periods, labels={**asdict(case), "periods": periods}))
-    parameters = {
-        **order.source,
-        "base": asdict(order.base),
-        "looping_depths_m": list(LOOPING_DEPTHS_M),
-        "periods": order.periods,
-        "transient": order.transient,
-    }
-    runs = session.run
-    if order.accuracy:
+    base = base_of(order)
+    judged = frozenset(case.scene.key() for case in order.cases if compared(variant(case), base))
+    row = partial(offplane_row, transient_periods=order.transient, judged=judged)
+    sources = (*ROW_SOURCES, "campaigns/out_of_plane/rows.py")
+    return Measures(COLUMNS, row, sources, {"transient": order.transient, "judged": sorted(judged)})
+
+
+def variant(case: Case) -> Variant:
+    """The variant that a case is."""
+    return Variant(**{name: case.labels[name] for name in Variant.__dataclass_fields__})
+
+
+def parameters(order: Order) -> dict[str, object]:
+    """What the provenance says of this campaign."""
+    return {"base": asdict(base_of(order)), "looping_depths_m": list(LOOPING_DEPTHS_M)}
+
+
+def beside(order: Order) -> Iterator[Callable]:
+    """Two of the runs at the paper's two waves again, tighter and finer."""
+    from campaigns.buoy_sweep.repeats import repeat
+    from campaigns.out_of_plane.rows import rope_motion
+
+    if order.own:
+        base = base_of(order)
+        waves = (base, replace(base, steepness=SMALL))
+        among = {job_of(case, order).key for case in order.cases if variant(case) in waves}
         verdict = partial(rope_motion, transient_periods=order.transient)
-        runs = repeats.and_again(runs, order.periods, "steepness", verdict, _waves(jobs, order.base))
-    return session.conduct(CAMPAIGN, MODULE, argv, plan, jobs, parameters, report=order.how.report, runs=runs)
+        yield partial(repeat, periods=order.periods, label="steepness", verdict=verdict, among=among)
 
 
-def _waves(jobs: list, base: Case) -> set[str]:
-    """Keys of the runs in three dimensions from which the campaign varies: the paper's two waves."""
-    wanted = [asdict(base), asdict(replace(base, steepness=SMALL))]
-    return {job.key for job in jobs if {key: job.labels[key] for key in wanted[0]} in wanted}
+STUDY = Study(
+    name="out_of_plane",
+    protocol=__doc__,
+    scene="tethered_buoy",
+    lengths=Lengths(periods=250, transient=50, share=5, left_out_of="comparison"),
+    in_waves=True,
+    taken=_TAKEN,
+    options=cli.add_accuracy,
+    read=lambda options, faults: not options.no_accuracy,
+    cases=cases,
+    measures=measures,
+    parameters=parameters,
+    beside=beside,
+    together=False,
+)
+main, parser, read_order = STUDY.main, STUDY.parser, STUDY.read_order

@@ -7,62 +7,86 @@ but the exponent of an infinitesimal perturbation across its plane (offplane_gro
 
 import numpy as np
 
-from campaigns.buoy_sweep.rows import STATISTICS, across_plane, settled, sound_part
+from campaigns.buoy_sweep.rows import (
+    DIMENSIONS,
+    EXTREMES,
+    OFFPLANE,
+    REGIME,
+    STEEPNESS,
+    STROBED,
+    TANGENT,
+    WOLF,
+    across_plane,
+    settled,
+    sound_part,
+    strobed_period,
+)
+from campaigns.columns import MESSAGE, PERIODS_RUN, RUN_KEY, STATISTICS, STATUS, Column, names
 
 EARLY_PERIODS = 8  # before the first loop at every depth of the campaign: still linear in the push
 _BODIES = {"buoy": "y_m", "rope": "offplane_m"}
-_LATERAL = (
-    "{}_motion",
-    "{}_rate_bits_per_period",
-    "{}_rate_error",
-    "{}_rate_nats_per_period",
-    "{}_fit_from_period",
-    "{}_fit_to_period",
-    "{}_fit_span_nats",
-    "{}_bursts",
-    "{}_burst_median_m",
-    "{}_burst_max_m",
-    "{}_first_burst_period",
-    "{}_first_burst_m",
-    "{}_lateral_max_m",
-    "{}_lateral_late_m",
-    "{}_share_of_inplane",
-    "{}_early_gain_s",
-    "{}_reason",
-)
+
+
+def _lateral_columns(body: str) -> tuple[Column, ...]:
+    """What is measured of the distance from the plane of the waves of the buoy or of the rope."""
+    rate = "growth rate of the {body}'s lateral distance where it grows or decays exponentially{}".format
+    told = (
+        ("motion", "", "motion", "growth, decay, bursts ...: how the lateral distance of the {body} behaves", None),
+        ("rate_bits_per_period", "bits/period", "rate", rate("", body=body), 3),
+        ("rate_error", "bits/period", "σ rate", "standard error of the growth rate of the {body}", 3),
+        ("rate_nats_per_period", "nats/period", "rate", rate(", in nats", body=body), 3),
+        ("fit_from_period", "periods", "from", "begin of the window in which the rate of the {body} was fitted", 1),
+        ("fit_to_period", "periods", "to", "end of the window in which the rate of the {body} was fitted", 1),
+        ("fit_span_nats", "nats", "span", "growth of the {body}'s lateral distance over the window of the fit", 1),
+        ("bursts", "", "bursts", "bursts of the {body} away from the plane", 0),
+        ("burst_median_m", "m", "median", "median size of the bursts of the {body}", 3),
+        ("burst_max_m", "m", "largest", "size of the largest burst of the {body}", 3),
+        ("first_burst_period", "periods", "first at", "time of the first burst of the {body}", 1),
+        ("first_burst_m", "m", "first", "size of the first burst of the {body}", 3),
+        ("lateral_max_m", "m", "max |y|", "largest lateral distance of the {body} over the whole run", 2),
+        ("lateral_late_m", "m", "late |y|", "largest lateral distance of the {body} in the second half of the run", 3),
+        ("share_of_inplane", "", "of in-plane", "lateral_max_m of the {body} divided by inplane_m", 3),
+        (
+            "early_gain_s",
+            "s",
+            "early |y|/push",
+            f"largest lateral distance of the {{body}} in the first {EARLY_PERIODS} periods by the speed of the push",
+            3,
+        ),
+        ("reason", "", "reason", "why the lateral motion of the {body} is called so, in words", None),
+    )
+    return tuple(
+        Column(f"{body}_{name}", unit, symbol, meaning.format(body=body), digits)
+        for name, unit, symbol, meaning, digits in told
+    )
+
+
 COLUMNS = (
-    "steepness",
-    "depth_m",
-    "bending_stiffness_Nm2",
-    "nodes",
-    "dimensions",
-    "seed_mps",
-    "seed_direction",
-    "profiles",
-    "periods",
-    "status",
-    *(name.format(body) for body in _BODIES for name in _LATERAL),
-    "inplane_m",
-    "bow_inplane_m",
-    "bow_lateral_m",
-    "radius_min_m",
-    "radius_max_m",
-    "angle_min_rad",
-    "angle_max_rad",
-    "tension_top_min_N",
-    "tension_top_max_N",
-    "slack_fraction",
-    "strobed_period",
-    "regime",
-    "lyapunov_wolf_bits_per_period",
-    "lyapunov_wolf_error",
-    "lyapunov_tangent_bits_per_period",
-    "lyapunov_tangent_error",
-    "offplane_growth_bits_per_period",
-    "offplane_growth_error",
+    STEEPNESS,
+    Column("depth_m", "m", "H", "depth of the water", 1),
+    Column("bending_stiffness_Nm2", "N m²", "EI", "bending stiffness of the line", 2),
+    Column("nodes", "", "nodes", "nodes of the line", 0),
+    DIMENSIONS,
+    Column("seed_mps", "m/s", "push", "speed of the buoy at t = 0 that lets the motion leave the plane", 10),
+    Column("seed_direction", symbol="direction", meaning="direction of the push; empty for a planar run"),
+    Column("profiles", "", "profiles", "1 where the shape of the line was kept, else 0", 0),
+    PERIODS_RUN,
+    STATUS,
+    *(column for body in _BODIES for column in _lateral_columns(body)),
+    Column("inplane_m", "m", "in-plane", "half the larger range of the buoy's x and z after the transient", 2),
+    Column("bow_inplane_m", "m", "bow", "largest distance of a node from the chord of the line, in the plane", 2),
+    Column(
+        "bow_lateral_m", "m", "bow |y|", "largest distance of a node from the chord of the line, across the plane", 3
+    ),
+    *EXTREMES,
+    STROBED,
+    REGIME,
+    *WOLF,
+    *TANGENT,
+    *OFFPLANE,
     *STATISTICS,
-    "run_key",
-    "message",
+    RUN_KEY,
+    MESSAGE,
 )
 
 
@@ -78,13 +102,14 @@ def offplane_row(trajectory, transient_periods: int, judged: frozenset = frozens
     plane of the waves and across it (runs with profiles).
     """
     row = {"status": trajectory.status, "message": trajectory.message}
-    row |= {name: trajectory.statistics.get(name) for name in STATISTICS}
+    row |= {name: trajectory.statistics.get(name) for name in names(STATISTICS)}
     columns, scene = sound_part(trajectory.columns), trajectory.scene
     step_s, period_s = scene.sample_step_s(), scene.waves.period_s
     done = (len(columns["time_s"]) - 1) * step_s / period_s
     if done >= transient_periods + 1 - 1e-6:
         after = round(transient_periods * period_s / step_s)
-        row |= settled(columns, step_s, period_s, transient_periods)
+        row |= settled(columns, step_s, transient_periods * period_s)
+        row["strobed_period"] = strobed_period(columns, step_s, period_s, transient_periods)
         row["inplane_m"] = 0.5 * max(float(np.ptp(columns[name][after:])) for name in ("x_m", "z_m"))
         if trajectory.status == "ok" and trajectory.tangent is not None:
             row |= across_plane(trajectory.tangent, transient_periods)
@@ -147,7 +172,7 @@ def bows(profiles) -> tuple[float, float]:
 
 def _regime(trajectory, transient_periods: int) -> dict[str, object]:
     from analysis import tangent_lyapunov
-    from reports.buoy_sweep.motion import series_verdict
+    from campaigns.judge import series_verdict
 
     verdict, wolf = series_verdict(trajectory, transient_periods)
     row = {

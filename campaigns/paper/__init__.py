@@ -11,27 +11,18 @@ nothing else is random. To change a scene, run the campaign of that part.
 """
 
 import time
-from dataclasses import dataclass
 
 from campaigns.machinery import cli
+from campaigns.machinery.command import command, command_line
+from campaigns.paper.order import PARTS, Order
 
 CAMPAIGN = "paper"
 MODULE = "campaigns.paper"
-PARTS = ("breaking_line", "buoy", "sweep", "dependence", "out_of_plane", "oscillator")
-
-
-@dataclass(frozen=True)
-class Order:
-    """What the command line asks for, checked."""
-
-    parts: tuple[str, ...]
-    quick: bool
-    how: cli.Running
 
 
 def main(argv: list[str] | None = None) -> int:
     """The command. Returns the exit code (0, 1, 2 or 130)."""
-    return cli.command(MODULE, argv, read_order, study)
+    return command(MODULE, argv, read_order, study)
 
 
 def parser():
@@ -73,7 +64,7 @@ def study(order: Order, argv: list[str]) -> int:
 
     begun = time.perf_counter()
     with claimed(order.how.out):
-        record = provenance.gather(CAMPAIGN, provenance.command_line(MODULE, argv))
+        record = provenance.gather(CAMPAIGN, command_line(MODULE, argv))
         record |= {"jobs": order.how.jobs, "quick": order.quick, "made_by": results.maker()}
         record |= {"dependence": dependence.parameters(order.quick)}
         same = provenance.read_if_same(order.how.out / "provenance.json", record) is not None

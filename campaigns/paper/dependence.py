@@ -11,13 +11,15 @@ from itertools import product
 from pathlib import Path
 from typing import get_args
 
+from campaigns.buoy_sweep import PAPER_STEEPNESS as STEEPNESSES
+from campaigns.buoy_sweep import ROW_SOURCES
 from campaigns.buoy_sweep.rows import COLUMNS as OF_A_RUN
-from campaigns.buoy_sweep.rows import buoy_row
-from campaigns.machinery import session
+from campaigns.buoy_sweep.rows import STEEPNESS, buoy_row
+from campaigns.columns import Column
+from campaigns.machinery.cli import Running
 from campaigns.machinery.folder import claimed
-from campaigns.machinery.row_store import made_by
-from campaigns.machinery.runner import Plan, Summary, make_job
-from reports.buoy_sweep.runs import PAPER_STEEPNESS as STEEPNESSES
+from campaigns.machinery.plan import Summary
+from campaigns.study import Measures, Order, Study
 
 SCENE = "tethered_buoy"
 DEPTHS_M = (20.8, 21.0, 21.3, 21.6, 22.0, 22.5, 23.0, 25.0)
@@ -25,11 +27,10 @@ STIFFNESSES_NM2 = (0.04, 0.1, 0.4, 1.0, 4.0)
 STIFFNESS_DEPTHS_M = (21.0, 21.6, 22.5)
 PERIODS, TRANSIENT = 400, 100
 QUICK_DEPTHS_M, QUICK_PERIODS, QUICK_TRANSIENT = (21.0, 22.5), 45, 5
-SOURCES = ("analysis", "engine", "campaigns/buoy_sweep/rows.py", "reports/buoy_sweep/motion.py")
 
 
 @dataclass(frozen=True)
-class Case:
+class Variant:
     """One run, in the words of the table."""
 
     steepness: float
@@ -39,7 +40,7 @@ class Case:
     bending_stiffness_Nm2: float
 
     def changes(self) -> dict[str, object]:
-        """The keys of the scene that make it this case."""
+        """The keys of the scene that make it this variant."""
         return {
             "waves.steepness": self.steepness,
             "water.depth_m": self.depth_m,
@@ -51,8 +52,14 @@ class Case:
         }
 
 
-LABELS = tuple(Case.__dataclass_fields__)
-COLUMNS = (*LABELS, *(name for name in OF_A_RUN if name not in LABELS))
+LABELS = (
+    STEEPNESS,
+    Column("depth_m", "m", "H", "depth of the water", 1),
+    Column("above_still_water", symbol="above water", meaning="treatment of the waves above still water"),
+    Column("submergence", symbol="submergence", meaning="treatment of a buoy that leaves the water"),
+    Column("bending_stiffness_Nm2", "N m²", "EI", "bending stiffness of the line", 2),
+)
+COLUMNS = (*LABELS, *(column for column in OF_A_RUN if column not in LABELS))
 
 
 def treatments() -> tuple[tuple[str, ...], tuple[str, ...]]:
@@ -64,7 +71,7 @@ def treatments() -> tuple[tuple[str, ...], tuple[str, ...]]:
     return get_args(waves.annotation), get_args(buoy.annotation)
 
 
-def cases(quick: bool) -> list[Case]:
+def variants(quick: bool) -> list[Variant]:
     """Every run, each once; the scene as shipped leads."""
     from engine import load_scene
 
@@ -72,12 +79,12 @@ def cases(quick: bool) -> list[Case]:
     EI, depth_m = scene.tether.bending_stiffness_Nm2, scene.water.depth_m
     usual = scene.waves.above_still_water, scene.buoy.submergence
     depths = QUICK_DEPTHS_M if quick else DEPTHS_M
-    found = [Case(kA, depth_m, *usual, EI) for kA in reversed(STEEPNESSES)]
-    found += [Case(kA, H, *how, EI) for kA, H, how in product(STEEPNESSES, depths, product(*treatments()))]
+    found = [Variant(kA, depth_m, *usual, EI) for kA in reversed(STEEPNESSES)]
+    found += [Variant(kA, H, *how, EI) for kA, H, how in product(STEEPNESSES, depths, product(*treatments()))]
     if not quick:
         # In small waves the line never goes slack, and EI changes nothing: one depth shows it.
         at = [(STEEPNESSES[0], depth_m), *((STEEPNESSES[1], H) for H in STIFFNESS_DEPTHS_M)]
-        found += [Case(*where, *usual, EI) for where, EI in product(at, STIFFNESSES_NM2)]
+        found += [Variant(*where, *usual, EI) for where, EI in product(at, STIFFNESSES_NM2)]
     return list(dict.fromkeys(found))
 
 
@@ -97,14 +104,17 @@ def parameters(quick: bool) -> dict[str, object]:
     }
 
 
-def run(out: Path, jobs: int, quick: bool) -> tuple[dict[str, float], Summary]:
-    """Do the runs that are not there yet; table.csv and trajectories in `out`. Raises as `session.run`."""
-    from engine import load_scene, simulate, simulate_each
+def measures(order: Order) -> Measures:
+    """`campaigns.buoy_sweep.rows.buoy_row` of every run."""
+    row = partial(buoy_row, transient_periods=order.transient, simulate=order.simulate)
+    return Measures(COLUMNS, row, ROW_SOURCES, {"transient": order.transient})
 
+
+def run(out: Path, jobs: int, quick: bool) -> tuple[dict[str, float], Summary]:
+    """Do the runs that are not there yet; table.csv and trajectories in `out`. Raises as `Study.work`."""
     told = parameters(quick)
-    describe = partial(buoy_row, transient_periods=told["transient"], simulate=simulate)
-    maker = made_by({"transient": told["transient"]}, *SOURCES)
-    plan = Plan(out, simulate, describe, COLUMNS, jobs=jobs, row_maker=maker, simulate_each=simulate_each)
-    work = [make_job(load_scene(SCENE, case.changes()), told["periods"], labels=asdict(case)) for case in cases(quick)]
+    how = Running(out, jobs, "loky", None, report=False)
+    order = Order(how, SCENE, {}, told["periods"], told["transient"])
+    order.cases = [order.case(asdict(variant), variant.changes()) for variant in variants(quick)]
     with claimed(out):
-        return session.run(plan, work)
+        return Study("dependence", __doc__, SCENE, lambda order: order.cases, measures).work(order)

@@ -20,28 +20,32 @@ import time
 from dataclasses import dataclass
 from pathlib import Path
 
-from campaigns.machinery import cli, provenance
+from campaigns.columns import MESSAGE, RUN_KEY, STATUS, Column, names
+from campaigns.machinery import cli
+from campaigns.machinery.command import command_line
 from campaigns.machinery.folder import CampaignStopped, Table, trajectory_path
-from campaigns.machinery.row_store import made_by, of_the_page
-from campaigns.machinery.runner import Summary
-from campaigns.paper import PARTS, Order, dependence
+from campaigns.machinery.plan import Summary
+from campaigns.machinery.row_cache import made_by, of_the_page
+from campaigns.paper import dependence
+from campaigns.paper.order import PARTS, Order
 
 COLUMNS = (
-    "part",
-    "status",
-    "command",
-    "runs",
-    "failed",
-    "compile_s",
-    "run_s",
-    "total_s",
-    "run_key",
-    "message",
+    Column("part", "", "part", "folder of the part"),
+    STATUS,
+    Column("command", "", "command", "what ran it"),
+    Column("runs", "", "runs", "its runs", 0),
+    Column("failed", "", "failed", "runs that did not end as asked", 0),
+    Column("compile_s", "s", "compiling", "compiling", 0),
+    Column("run_s", "s", "computing", "runs with their analysis", 0),
+    Column("total_s", "s", "all", "with compiling and the part's report, in the session that finished it", 0),
+    RUN_KEY,
+    MESSAGE,
 )
 SOURCES = (
     "analysis",
     "engine",
     *(f"campaigns/{name}" for name in ("machinery", "buoy_sweep", "breaking_line", "oscillator", "out_of_plane")),
+    *(f"campaigns/{name}.py" for name in ("columns", "judge", "study", "statements", "figure_data", "tables")),
     *(f"reports/{name}" for name in ("parts", "figures", "buoy_sweep", "breaking_line", "oscillator", "out_of_plane")),
     "campaigns/paper/dependence.py",
 )
@@ -111,7 +115,7 @@ def read_rows(out: Path) -> list[dict[str, str]]:
     """The rows of table.csv as it is, those of known parts; none where it cannot be read."""
     try:
         with open(out / "table.csv", encoding="utf-8", newline="") as file:
-            return [row for row in csv.DictReader(file) if set(row) == set(COLUMNS) and row["part"] in PARTS]
+            return [row for row in csv.DictReader(file) if set(row) == set(names(COLUMNS)) and row["part"] in PARTS]
     except (OSError, ValueError, csv.Error):
         return []
 
@@ -155,7 +159,7 @@ def _done(part: str, order: Order) -> dict[str, object]:
         words = campaign.command(order, out)
         _called(part, campaign.module, words)
         told = json.loads((out / "provenance.json").read_text(encoding="utf-8"))
-        timing, command = told["timing"], " ".join(provenance.command_line(campaign.module, words))
+        timing, command = told["timing"], " ".join(command_line(campaign.module, words))
         counts = told["runs"]["total"], told["runs"]["failed"]
     row = {"part": part, "status": "ok", "command": command, "runs": counts[0], "failed": counts[1], "message": ""}
     row |= {name: round(float(timing[name]), 3) for name in _TIMES}

@@ -3,17 +3,14 @@
 from pathlib import Path
 
 from campaigns.machinery.folder import read_json
-from campaigns.machinery.row_store import made_by, of_the_page
-from campaigns.paper.figures import write_figure_data
-from engine.atomic import write_atomic
-from reports.paper.figures import LEFT_OUT, files_of, place_of
-from reports.paper.figures import NUMBERS as FIGURES
-from reports.paper.results import read_results
-from reports.paper.statements import as_csv, judged
+from campaigns.machinery.row_cache import made_by, of_the_page
+from campaigns.paper.figures import LEFT_OUT, files_of, place_of, write_figure_data
+from campaigns.paper.figures import NUMBERS as FIGURES
+from campaigns.statements import FILE as STATEMENTS
+from campaigns.statements import write_statements
 
-STATEMENTS = "statements.csv"
 PAGES = ("report.html", "report.pdf")
-SOURCES = ("analysis", "engine", "campaigns/paper", "reports")
+SOURCES = ("analysis", "engine", "campaigns", "reports")
 
 
 def maker() -> str:
@@ -35,14 +32,8 @@ def there(out: Path, report: bool) -> bool:
 
 def write(out: Path) -> None:
     """Figures' data and statements.csv; files that say the same already stay as they are. Raises OSError."""
+    from campaigns.paper.measured import read_results
+    from campaigns.paper.statements import CLAIMS
+
     write_figure_data(out)
-    _changed(out / STATEMENTS, as_csv(judged(read_results(out))))
-
-
-def _changed(path: Path, content: bytes) -> None:
-    try:
-        if path.read_bytes() == content:
-            return
-    except OSError:
-        pass
-    write_atomic(path, content)
+    write_statements(out, CLAIMS, read_results(out))

@@ -10,10 +10,10 @@ with a time limit, and says how its verdict is known: energy, refinement, closed
 seed. A verdict "unexplained" ends the campaign with exit code 1.
 """
 
-import time
 from dataclasses import dataclass
 
 from campaigns.machinery import cli
+from campaigns.machinery.command import command
 
 CAMPAIGN = "stability"
 MODULE = "campaigns.stability"
@@ -34,7 +34,7 @@ class Order:
 
 def main(argv: list[str] | None = None) -> int:
     """The command. Returns the exit code (0, 1, 2 or 130)."""
-    return cli.command(MODULE, argv, read_order, study)
+    return command(MODULE, argv, read_order, study)
 
 
 def parser():
@@ -79,19 +79,16 @@ def read_order(argv: list[str], faults: list[str]) -> Order:
 
 def study(order: Order, argv: list[str]) -> int:
     """Run it: tasks, tables, provenance, report. Raises CampaignStopped, OSError, KeyboardInterrupt."""
-    from campaigns.machinery import provenance, session
-    from campaigns.machinery.folder import claimed
+    from campaigns.machinery import session
     from campaigns.stability import tasks
 
-    begun, out = time.perf_counter(), order.how.out
-    with claimed(out):
-        record = provenance.gather(CAMPAIGN, provenance.command_line(MODULE, argv))
-        record |= {"seed": order.seed, "quick": order.quick, "fuzz": order.fuzz, "drift_periods": order.drift_periods}
-        record["jobs"] = order.how.jobs
-        if provenance.read_if_same(out / "provenance.json", record) is None:
-            provenance.write(out / "provenance.json", record)
-        timing, summary = tasks.run(order)
-        session.finish(out, record, summary, timing)
-        fault = session.report(out, order.how.report, timing, begun)
-    code = session.say(out, summary, timing, order.how.report, fault)
-    return code or (cli.EXIT_FAILED if any(row["status"] != "ok" for row in summary.rows) else cli.EXIT_OK)
+    rows = []
+
+    def work():
+        timing, summary = tasks.done(order)
+        rows.extend(summary.rows)
+        return timing, summary
+
+    parameters = {"seed": order.seed, "quick": order.quick, "fuzz": order.fuzz, "drift_periods": order.drift_periods}
+    code = session.conduct(CAMPAIGN, MODULE, argv, order.how, parameters | {"jobs": order.how.jobs}, work)
+    return code or (cli.EXIT_FAILED if any(row["status"] != "ok" for row in rows) else cli.EXIT_OK)

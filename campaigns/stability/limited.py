@@ -16,15 +16,14 @@ from collections.abc import Callable
 
 from campaigns.machinery.pools import end_with
 
-DONE, RAISED, LATE, DIED = "done", "raised", "late", "died"
+DONE, RAISED, LATE, DIED = "done", "traceback", "hang", "crash"
 PATIENCE = 5.0  # times the limit, in seconds of the wall clock
 
 
 def limited(call: Callable, limit_s: float) -> tuple[str, object, float]:
-    """(DONE, what `call()` returns) | (RAISED, (class name, message, traceback)) | (LATE, None) | (DIED, exit code).
+    """(DONE, what `call()` returns, s), or (RAISED, LATE or DIED, what happened in words, s); s: wall time.
 
-    limit_s: of processor time, rounded up to whole seconds. The third entry is the wall time in s. The result has to
-    pass through a pipe (pickle).
+    limit_s: of processor time, rounded up to whole seconds. The result has to pass through a pipe (pickle).
     """
     ways = multiprocessing.get_context("fork")
     ours, theirs = ways.Pipe(duplex=False)
@@ -32,17 +31,18 @@ def limited(call: Callable, limit_s: float) -> tuple[str, object, float]:
     process = ways.Process(target=_answer, args=(theirs, call, limit_s, os.getpid()), daemon=True)
     process.start()
     theirs.close()
+    late = LATE, f"no answer within {limit_s:g} s of computing"
     try:
-        kind, answer = ours.recv() if ours.poll(PATIENCE * limit_s) else (LATE, None)
+        way, answer = ours.recv() if ours.poll(PATIENCE * limit_s) else late
     except EOFError:
         process.join()
-        spent = process.exitcode == -signal.SIGXCPU
-        kind, answer = (LATE, None) if spent else (DIED, process.exitcode)
+        died = DIED, f"its process ended with exit code {process.exitcode}"
+        way, answer = late if process.exitcode == -signal.SIGXCPU else died
     finally:
         process.kill()
         process.join()
         ours.close()
-    return kind, answer, time.perf_counter() - began
+    return way, answer, time.perf_counter() - began
 
 
 def _answer(pipe, call: Callable, limit_s: float, parent: int) -> None:
@@ -51,6 +51,6 @@ def _answer(pipe, call: Callable, limit_s: float, parent: int) -> None:
     resource.setrlimit(resource.RLIMIT_CPU, (seconds, resource.getrlimit(resource.RLIMIT_CPU)[1]))
     try:
         answer = DONE, call()
-    except Exception as error:
-        answer = RAISED, (type(error).__name__, str(error), traceback.format_exc())
+    except Exception:
+        answer = RAISED, traceback.format_exc()
     pipe.send(answer)

@@ -10,24 +10,35 @@ A verdict is one of
 import math
 from pathlib import Path
 
-from campaigns.machinery.folder import CampaignStopped
-from campaigns.machinery.runner import write_failure
-from campaigns.stability.cases import ABOVE_BAR, Case
-from campaigns.stability.limited import DIED, DONE, LATE, RAISED, limited
+from campaigns.columns import MESSAGE, RUN_KEY, STATISTICS, STATUS, WALL_S, Column, names
+from campaigns.machinery.folder import CampaignStopped, write_failure
+from campaigns.stability.cases.case import ABOVE_BAR, REFUSED, Case
+from campaigns.stability.limited import DONE, limited
 
 LIMIT_S = 300.0
-OK, REFUSED, LIMIT, UNEXPLAINED = "ok", "refused", "known limit", "unexplained"
+OK, LIMIT, UNEXPLAINED = "ok", "known limit", "unexplained"
 _NOT_SAVED = "not saved"
 NEEDS_PROFILES = ("energy", "buckling", "straight")
+COUNTED = tuple(column for column in STATISTICS if column != WALL_S)
 COLUMNS = (
-    "part", "group", "case", "dimensions", "verdict", "run_status", "measured", "bar", "how", "limit", "length_s",
-    "end_time_s", "steps", "rejected_steps", "newton_iterations", "newton_failures", "loop_releases", "max_turn_rad",
-    "min_strain", "wall_s", "case_wall_s", "status", "run_key", "message",
-)  # fmt: skip
-STATISTICS = (
-    "end_time_s", "steps", "rejected_steps", "newton_iterations", "newton_failures", "loop_releases", "max_turn_rad",
-    "min_strain", "wall_s",
-)  # fmt: skip
+    Column("part", symbol="part", meaning="case: one run that is judged; fuzz: all random scenes of one kind"),
+    Column("group", symbol="group", meaning="what is extreme in the case"),
+    Column("case", symbol="case", meaning="the case within its group"),
+    Column("dimensions", "", "D", "dimensions of the motion", 0),
+    Column("verdict", symbol="verdict", meaning="ok, refused, known limit or unexplained"),
+    Column("run_status", symbol="ended", meaning="how the run ended"),
+    Column("measured", "", "measured", "the number that the check measured", 4),
+    Column("bar", "", "bar", "what the number has to stay below", 4),
+    Column("how", symbol="how we know", meaning="the check"),
+    Column("limit", symbol="why", meaning="why another ending is expected"),
+    Column("length_s", "s", "run", "length of the run that was asked for", 2),
+    *COUNTED,
+    WALL_S,
+    Column("case_wall_s", "s", "wall", "wall-clock time of all runs of the case", 2),
+    STATUS,
+    RUN_KEY,
+    MESSAGE,
+)
 
 
 def case_row(case: Case, path: Path | None = None) -> dict[str, object]:
@@ -35,24 +46,29 @@ def case_row(case: Case, path: Path | None = None) -> dict[str, object]:
 
     Raises CampaignStopped where that cannot be written: it says nothing of the case.
     """
-    row = {"part": "case", "group": case.group, "case": case.name, "length_s": case.length_s, "bar": case.bar}
-    row["dimensions"] = case.changes.get("motion.dimensions", 2)
-    limit_s = case.options.get("limit_s", LIMIT_S)
-    kind, answer, wall_s = limited(lambda: _judged(case, path), limit_s)
-    if kind == DONE and (fault := answer.pop(_NOT_SAVED, "")):
+    way, answer, wall_s = limited(lambda: _judged(case, path), case.options.get("limit_s", LIMIT_S))
+    if way != DONE:
+        answer = {"verdict": UNEXPLAINED, "run_status": way, "message": answer}
+    if fault := answer.pop(_NOT_SAVED, ""):
         raise CampaignStopped(fault)
-    if kind == DONE:
-        row |= answer
-    else:
-        said = {
-            LATE: ("hang", f"no answer within {limit_s:g} s of computing"),
-            DIED: ("crash", f"its process ended with exit code {answer}"),
-            RAISED: ("traceback", answer[2] if kind == RAISED else ""),
-        }
-        row["run_status"], row["message"] = said[kind]
-        row["verdict"] = UNEXPLAINED
-    explained = row["verdict"] != UNEXPLAINED
-    return row | {"case_wall_s": wall_s, "status": "ok" if explained else UNEXPLAINED}
+    return named(case) | answer | {"case_wall_s": wall_s, "status": _status(answer["verdict"])}
+
+
+def named(case: Case) -> dict[str, object]:
+    """The columns that say which case it is."""
+    dimensions = case.changes.get("motion.dimensions", 2)
+    row = {"part": "case", "group": case.group, "case": case.name, "length_s": case.length_s, "bar": case.bar}
+    return row | {"dimensions": dimensions}
+
+
+def died(case: Case, said: str) -> dict[str, object]:
+    """The row of a case whose worker process ended."""
+    ended = {"verdict": UNEXPLAINED, "run_status": "crash", "status": UNEXPLAINED, "message": said}
+    return named(case) | ended
+
+
+def _status(verdict: str) -> str:
+    return UNEXPLAINED if verdict == UNEXPLAINED else "ok"
 
 
 def _judged(case: Case, path: Path | None) -> dict[str, object]:
@@ -66,26 +82,27 @@ def _judged(case: Case, path: Path | None) -> dict[str, object]:
     if case.check in NEEDS_PROFILES or (case.check == "stays" and changes.get("buoy", 1) is None):
         changes["output.profiles"] = True
     try:
-        scene = load_scene(case.scene, changes)
+        scene = load_scene("tethered_buoy", changes)
         with np.errstate(all="ignore"):
             run = simulate(scene, duration_s=case.length_s)
     except (SceneError, ValueError) as error:
-        verdict = REFUSED if REFUSED in case.ends else UNEXPLAINED
+        verdict = REFUSED if REFUSED in case.ending.statuses else UNEXPLAINED
         return {"verdict": verdict, "run_status": REFUSED, "message": str(error), "how": "refused in words"}
     if path is not None:
         try:
             run.save(path, {"run_key": path.stem})
         except OSError as error:
             return {_NOT_SAVED: write_failure(path.parents[1], error)}
-    row = {name: run.statistics[name] for name in STATISTICS} | {"run_status": run.status, "message": run.message}
+    row = {name: run.statistics[name] for name in names(STATISTICS)}
+    row |= {"run_status": run.status, "message": run.message}
     outcome, _, _ = outcome_of(run, case.length_s)
     if outcome not in ("ok", "ended"):
         return row | {"verdict": UNEXPLAINED, "run_status": outcome}
     if run.status != "ok":
-        known = run.status in case.ends
+        known = run.status in case.ending.statuses
         verdict = UNEXPLAINED if not known else REFUSED if run.status == "statics-failed" else LIMIT
-        return row | {"verdict": verdict, "how": "ended with its reason", "limit": case.limit}
+        return row | {"verdict": verdict, "how": "ended with its reason", "limit": case.ending.why}
     measured, how = getattr(checks, case.check)(run, case)
-    verdict = OK if measured <= case.bar else LIMIT if ABOVE_BAR in case.ends else UNEXPLAINED
+    verdict = OK if measured <= case.bar else LIMIT if ABOVE_BAR in case.ending.statuses else UNEXPLAINED
     row |= {"verdict": verdict, "measured": measured if math.isfinite(measured) else None, "how": how}
-    return row | ({"limit": case.limit} if verdict == LIMIT else {})
+    return row | ({"limit": case.ending.why} if verdict == LIMIT else {})

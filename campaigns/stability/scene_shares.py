@@ -1,8 +1,7 @@
-"""What each part of a scene costs: operations counted and microseconds taken, with and without it, side by side.
+"""What each part of a scene costs: microseconds of a Newton iteration with and without it, side by side.
 
 The same tether and buoy, the same fixed steps (TR-BDF2, 5 ms), one part taken away or added at a time. Times are
-medians over rounds in which the scenes take turns on one core; operations are exact
-(`campaigns.stability.operation_counts`).
+medians over rounds in which the scenes take turns on one core.
 """
 
 import statistics
@@ -36,9 +35,7 @@ def scene_of(changes: dict):
 
 
 def measured(quick: bool = False) -> dict[str, object]:
-    """{"rounds", "length_s", "scenes": {name: {"newton", "functions", "output", "kernels", "us_per_newton",
-    "us_per_step", "newton_per_step"}}}."""
-    from campaigns.stability.operation_counts import operations
+    """{"rounds", "length_s", "scenes": {name: {"us_per_newton", "us_per_step", "newton_per_step"}}}."""
     from engine import simulate
 
     rounds, length_s = (QUICK_ROUNDS, QUICK_LENGTH_S) if quick else (ROUNDS, LENGTH_S)
@@ -49,13 +46,14 @@ def measured(quick: bool = False) -> dict[str, object]:
     for _ in range(rounds):
         for name, scene in scenes.items():
             runs[name].append(simulate(scene, duration_s=length_s).statistics)
-    found = {}
-    for name, scene in scenes.items():
-        spent = statistics.median(run["wall_s"] for run in runs[name])
-        one = runs[name][0]
-        found[name] = operations(scene) | {
-            "us_per_newton": 1e6 * spent / one["newton_iterations"],
-            "us_per_step": 1e6 * spent / one["steps"],
-            "newton_per_step": one["newton_iterations"] / one["steps"],
-        }
-    return {"rounds": rounds, "length_s": length_s, "scenes": found}
+    return {"rounds": rounds, "length_s": length_s, "scenes": {name: _cost(found) for name, found in runs.items()}}
+
+
+def _cost(runs: list[dict]) -> dict[str, float]:
+    """The costs of a scene from the statistics of its runs, which do the same work."""
+    spent, one = statistics.median(run["wall_s"] for run in runs), runs[0]
+    return {
+        "us_per_newton": 1e6 * spent / one["newton_iterations"],
+        "us_per_step": 1e6 * spent / one["steps"],
+        "newton_per_step": one["newton_iterations"] / one["steps"],
+    }

@@ -6,34 +6,37 @@ step_maps.json, scene_shares.json, scene.toml (the scene from which cases start)
 """
 
 import hashlib
+import json
 import sys
 import time
 from collections import Counter
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 
+from campaigns.columns import Column
 from campaigns.machinery.folder import Table, trajectory_path, write_json
+from campaigns.machinery.plan import Summary
 from campaigns.machinery.pools import PoolBroken, opened
-from campaigns.machinery.row_store import keep_row, kept_row, made_by
-from campaigns.machinery.runner import Summary
-from campaigns.stability.cases import REGULAR, Case, all_cases
-from campaigns.stability.run import COLUMNS, UNEXPLAINED, case_row
+from campaigns.machinery.row_cache import keep_row, kept_row, made_by
+from campaigns.stability import fuzz, random_faults, run, scene_shares, step_maps
+from campaigns.stability.cases import all_cases
+from campaigns.stability.cases.case import REGULAR, Case
 
-SOURCES = (
-    "engine", "campaigns/stability/cases", "campaigns/stability/checks.py", "campaigns/stability/run.py",
-    "campaigns/stability/fuzz", "campaigns/stability/limited.py", "campaigns/stability/step_maps.py",
-    "campaigns/stability/scene_shares.py", "campaigns/stability/operation_counts.py",
-)  # fmt: skip
-FUZZ_COLUMNS = ("kind", "number", "outcome", "status", "message", "wall_s")
-CHUNK = {"valid": 20, "invalid": 200}
+SOURCES = ("engine", "campaigns/stability")
+CHUNK = {random_faults.VALID: 20, random_faults.INVALID: 200}
 DRIFT_BAR = 0.01
 DRIFT_LIMIT_S = 1800.0
 
 
 @dataclass(frozen=True)
 class Task:
-    """One piece of work. kind: "case", "valid", "invalid", "map" or "shares"; what: a number, a range or a Case."""
+    """One piece of work.
+
+    kind: "case" (what: a Case), "map" (the name of a line), "shares" (whether few rounds do), "drawn" (kind of scenes,
+    seed, count), or "random" (the same, first and last number).
+    """
 
     kind: str
     what: object
@@ -44,84 +47,89 @@ class Task:
 
 
 def planned(order) -> list[Task]:
-    """Every task, the longest first."""
-    from campaigns.stability import step_maps
-
-    tasks = []
-    if order.drift_periods:
-        tasks.append(Task("case", drift_case(order.drift_periods)))
-    cases = [case for case in all_cases() if case.quick or not order.quick]
-    tasks += [Task("case", case) for case in cases]
+    """Every task that workers do, the longest first."""
+    tasks = [Task("case", drift_case(order.drift_periods))] if order.drift_periods else []
+    tasks += [Task("case", case) for case in all_cases() if case.quick or not order.quick]
     for kind, size in CHUNK.items():
-        ends = range(0, order.fuzz, size)
-        tasks += [Task(kind, (order.seed, start, min(start + size, order.fuzz))) for start in ends]
+        for first in range(0, order.fuzz, size):
+            tasks.append(Task("random", (kind, order.seed, order.fuzz, first, min(first + size, order.fuzz))))
     return [*tasks, *(Task("map", name) for name in step_maps.LINES)]
 
 
 def drift_case(periods: int) -> Case:
     """The long regular run, strobed at the wave period."""
-    scene = {**REGULAR, "output.step_s": 5.0}
-    options = {"limit_s": DRIFT_LIMIT_S}
+    scene, options = {**REGULAR, "output.step_s": 5.0}, {"limit_s": DRIFT_LIMIT_S}
     return Case("drift", f"{periods} regular waves", scene, 5.0 * periods, "drift", DRIFT_BAR, options=options)
+
+
+def kept(out: Path, maker: str, task: Task, make: Callable[[], dict]) -> dict:
+    """The result of a task as it is kept, or as it is made now and kept."""
+    result = kept_row(out, task.key(), maker)
+    if result is None:
+        result = make()
+        keep_row(out, task.key(), maker, result)
+    return result
+
+
+def scenes(out: Path, maker: str, kind: str, seed: int, count: int) -> list[dict]:
+    """The random scenes of a kind, drawn once."""
+    task = Task("drawn", (kind, seed, count))
+    return kept(out, maker, task, lambda: {"scenes": random_faults.drawn(kind, seed, count)})["scenes"]
 
 
 def do(out: Path, maker: str, task: Task) -> tuple[Task, dict]:
     """(task, its result) in a worker."""
-    from campaigns.stability import fuzz, step_maps
-
     fuzz.load_kernels()
     if task.kind == "case":
-        result = case_row(task.what, trajectory_path(out, task.key()))
+        result = run.case_row(task.what, trajectory_path(out, task.key()))
     elif task.kind == "map":
         result = step_maps.of_line(task.what)
     else:
-        judge = fuzz.judge_valid if task.kind == "valid" else fuzz.judge_invalid
-        seed, start, stop = task.what
-        result = {"rows": [judge(seed, number) for number in range(start, stop)]}
+        kind, seed, count, first, last = task.what
+        drawn = list(enumerate(scenes(out, maker, kind, seed, count)))[first:last]
+        result = {"rows": [{"kind": kind, "number": number, **fuzz.judged(kind, raw)} for number, raw in drawn]}
     if not _crashed(result):  # by the system perhaps, for want of memory: tried again with the next call
         keep_row(out, task.key(), maker, result)
     return task, result
 
 
 def _crashed(result: dict) -> bool:
-    rows = result.get("rows", [result])
-    return any("crash" in (row.get("run_status"), row.get("outcome")) for row in rows)
+    return any("crash" in (row.get("run_status"), row.get("outcome")) for row in result.get("rows", [result]))
 
 
-def run(order) -> tuple[dict[str, float], Summary]:
+def done(order) -> tuple[dict[str, float], Summary]:
     """Do all that is not there yet; write the tables. Returns the times and the summary for the session."""
-    from campaigns.stability import fuzz, scene_shares
     from engine import load_scene
     from engine.atomic import write_atomic
 
     out, maker = order.how.out, made_by({}, *SOURCES)
     write_atomic(out / "scene.toml", load_scene("tethered_buoy").to_toml().encode())
-    tasks = planned(order)
-    missing = [task for task in tasks if kept_row(out, task.key(), maker) is None]
-    shares = Task("shares", order.quick)
+    tasks, shares = planned(order), Task("shares", order.quick)
+    results = {task.key(): kept_row(out, task.key(), maker) for task in tasks}
+    missing = [task for task in tasks if results[task.key()] is None]
     start = time.perf_counter()
     if missing or kept_row(out, shares.key(), maker) is None:
         print("compiling the engine, or loading it compiled ...", file=sys.stderr)
         fuzz.load_kernels()
     timing = {"compile_s": time.perf_counter() - start}
     start = time.perf_counter()
-    undone = {task.key() for task in missing}
-    results = {key: kept_row(out, key, maker) for key in (task.key() for task in tasks) if key not in undone}
+    drawn = {kind: scenes(out, maker, kind, order.seed, order.fuzz) for kind in CHUNK if order.fuzz}
     call = partial(do, out.absolute(), maker)
-    for task, result in _progress(_all(call, missing, order.how.jobs), len(tasks), len(results)):
+    for task, result in _progress(_all(call, missing, order.how.jobs), len(tasks), len(tasks) - len(missing)):
         results[task.key()] = result
     # alone on the machine, at the end: it takes times
-    if (cost := kept_row(out, shares.key(), maker)) is None:
-        cost = scene_shares.measured(order.quick)
-        keep_row(out, shares.key(), maker, cost)
-    timing |= {"run_s": time.perf_counter() - start, "analysis_s": 0.0}
-    write_json(out / "scene_shares.json", cost)
+    write_json(out / "scene_shares.json", kept(out, maker, shares, lambda: scene_shares.measured(order.quick)))
     write_json(out / "step_maps.json", {task.what: results[task.key()] for task in tasks if task.kind == "map"})
-    rows = _table(out, tasks, results)
+    rows = [results[task.key()] | {"run_key": task.key()} for task in tasks if task.kind == "case"]
+    random = [row for task in tasks if task.kind == "random" for row in results[task.key()]["rows"]]
+    rows += [_of_kind(order, kind, drawn[kind], [row for row in random if row["kind"] == kind]) for kind in drawn]
+    _write(out / "fuzz.csv", fuzz.COLUMNS, random)
+    _write(out / "table.csv", run.COLUMNS, rows)
+    timing |= {"run_s": time.perf_counter() - start, "analysis_s": 0.0}
     return timing, Summary(rows, len(tasks) - len(missing), len(missing), 0.0)
 
 
-def _progress(results, total: int, found: int):
+def _progress(results: Iterator, total: int, found: int) -> Iterator:
     from tqdm import tqdm
 
     with tqdm(total=total, initial=found, unit="task", desc="tasks", mininterval=1.0, disable=total == found) as bar:
@@ -130,7 +138,7 @@ def _progress(results, total: int, found: int):
             yield result
 
 
-def _all(call, tasks: list[Task], jobs: int):
+def _all(call: Callable, tasks: list[Task], jobs: int) -> Iterator[tuple[Task, dict]]:
     """Results of all tasks as they come; a task whose worker dies is judged so."""
     pending = {task.key(): task for task in tasks}
     if not tasks:
@@ -144,51 +152,42 @@ def _all(call, tasks: list[Task], jobs: int):
             except PoolBroken as broken:
                 for task in broken.suspects:
                     del pending[task.key()]
-                    yield task, _died(task, broken)
+                    yield task, _died(task, f"its worker process ended: {broken}")
 
 
-def _died(task: Task, broken: PoolBroken) -> dict:
-    said = f"its worker process ended: {broken}"
+def _died(task: Task, said: str) -> dict:
     if task.kind == "case":
-        case = task.what
-        return {
-            "part": "case", "group": case.group, "case": case.name, "verdict": UNEXPLAINED, "run_status": "crash",
-            "status": UNEXPLAINED, "message": said,
-        }  # fmt: skip
+        return run.died(task.what, said)
     if task.kind == "map":
         return {"fault": said}
-    _, start, stop = task.what
+    kind, _, _, first, last = task.what
+    row = {"kind": kind, "outcome": "crash", "status": "", "message": said, "wall_s": 0.0}
+    return {"rows": [{**row, "number": number} for number in range(first, last)]}
+
+
+def _of_kind(order, kind: str, drawn: list[dict], rows: list[dict]) -> dict:
+    """The row of all random scenes of a kind: outcomes counted, and the smallest unsound scene where there is one."""
+    counts = Counter(row["outcome"] for row in rows)
+    unsound = sum(many for word, many in counts.items() if word not in fuzz.SOUND)
+    message = ", ".join(f"{word} {many}" for word, many in sorted(counts.items()))
+    if unsound:
+        known = {json.dumps(raw): row["outcome"] for raw, row in zip(drawn, rows, strict=True)}
+
+        def is_unsound(raw: dict) -> bool:
+            outcome = known.get(json.dumps(raw)) or fuzz.judged(kind, raw)["outcome"]
+            return outcome not in fuzz.SOUND
+
+        found = random_faults.smallest(kind, order.seed, order.fuzz, is_unsound)
+        message += f"; the smallest scene of this kind that is unsound: {json.dumps(found)}"
+    verdict = run.UNEXPLAINED if unsound else run.OK
     return {
-        "rows": [
-            {"number": n, "outcome": "crash", "status": "", "message": said, "wall_s": 0.0} for n in range(start, stop)
-        ]
-    }
+        "part": "fuzz", "group": "random", "case": f"{len(rows)} {kind} scenes", "how": "outcomes", "verdict": verdict,
+        "status": verdict, "measured": float(unsound), "bar": 0.0, "message": message, "run_status": "",
+        "wall_s": sum(row["wall_s"] for row in rows), "run_key": f"fuzz-{kind}",
+    }  # fmt: skip
 
 
-def _table(out: Path, tasks: list[Task], results: dict) -> list[dict]:
-    from campaigns.stability import fuzz
-
-    rows = [results[task.key()] | {"run_key": task.key()} for task in tasks if task.kind == "case"]
-    random = []
-    for kind in CHUNK:
-        found = [row for task in tasks if task.kind == kind for row in results[task.key()]["rows"]]
-        random += [{"kind": kind, **row} for row in found]
-        if found:
-            counts = Counter(row["outcome"] for row in found)
-            unsound = [row for row in found if row["outcome"] not in fuzz.SOUND]
-            said = ", ".join(f"{word} {count}" for word, count in sorted(counts.items()))
-            rows.append({
-                "part": "fuzz", "group": "random", "case": f"{len(found)} {kind} scenes", "how": "outcomes",
-                "verdict": UNEXPLAINED if unsound else "ok", "status": UNEXPLAINED if unsound else "ok",
-                "measured": float(len(unsound)), "bar": 0.0, "message": said, "run_status": "",
-                "wall_s": sum(row["wall_s"] for row in found), "run_key": f"fuzz-{kind}",
-            })  # fmt: skip
-    _write(out / "fuzz.csv", FUZZ_COLUMNS, random)
-    _write(out / "table.csv", COLUMNS, rows)
-    return rows
-
-
-def _write(path: Path, columns: tuple[str, ...], rows: list[dict]) -> None:
+def _write(path: Path, columns: tuple[Column, ...], rows: list[dict]) -> None:
     keys = [str(number) for number in range(len(rows))]
     table = Table(path, columns, keys)
     table.rows = dict(zip(keys, rows, strict=True))

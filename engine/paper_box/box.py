@@ -11,6 +11,8 @@ values leave (it returns with the opposite sign in every step).
 The Jacobian is the complex step of g, node by node, exact to rounding; the water is held. The unknowns of node k are
 columns k m ... k m + m - 1 (m = 13, or 7 in a plane), the rows 7 (4) of the lower end, the boxes, 6 (3) of the upper
 end: a band of 19 below and 18 above the diagonal, factored with partial pivoting.
+
+In the paper: eq. (28) the discrete equations.
 """
 
 from typing import NamedTuple

@@ -10,7 +10,8 @@ axis 1. Rows are written without absolute values, for complex steps.
 
 import numpy as np
 
-from ..physics.ends import BUOY, HELD, end_velocity, released
+from ..physics.ends import end_velocity, released
+from ..record import BUOY, HELD
 from .frame import TO_PAPER, roll, to_fixed
 from .law import tension_law
 from .line import EULER, OMEGA, SPEEDS

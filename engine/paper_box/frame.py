@@ -6,7 +6,8 @@ then has beta_1 = beta_2 = Omega_1 = Omega_2 = S_b = w = 0.
 
 Arrays carry their components first, (3, ...) and (4, ...), and may be complex: nothing here takes an absolute value.
 
-In the paper: eq. (1) the frame, eq. (2) components, eq. (3) and eq. (4) derivatives, eq. (5) beta, eq. (6) C.
+In the paper: eq. (1) local frame from the fixed one; eq. (2) components of a vector; eq. (3) rate of a vector in the
+local frame; eq. (4) derivative along the line in the local frame; eq. (5) Euler parameters; eq. (6) rotation matrix.
 """
 
 import numpy as np

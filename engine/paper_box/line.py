@@ -1,6 +1,6 @@
 """What a run of the paper's form needs of its scene: constants of appendix A, grid, scales, and what moves.
 
-In the paper: eq. (21), with the unknowns of eq. (22).
+In the paper: eq. (21) the thirteen equations; eq. (22) the thirteen unknowns.
 """
 
 from dataclasses import dataclass

@@ -14,7 +14,8 @@ R C dU_c/dt that the print leaves out: without it waves act on the tether by dra
 water (6, ...): velocity and local acceleration of the water in the paper's axes (`frame`).
 Arguments may be complex (`box` differentiates by complex step): |x| is written so that it stays analytic.
 
-In the paper: eq. (34), eq. (35), eq. (36), eq. (37), eq. (38) and eq. (39) are M, eq. (40) is P.
+In the paper: eq. (34) M, columns of ε … w; eq. (35) M, columns of ε … w; eq. (36) M, column of β₀; eq. (37) M, column
+of β₁; eq. (38) M, column of β₂; eq. (39) M, column of β₃; eq. (40) P.
 """
 
 import numpy as np

@@ -10,12 +10,13 @@ import math
 import numpy as np
 
 from .. import parameters
-from ..physics.ends import HELD
+from ..planar import columns as col
+from ..record import HELD
 from ..time import statics
 from ..time.status import NEWTON_FAILED, OK, STATICS_FAILED
 from .ends import end_force, force_and_velocity
 from .frame import TO_PAPER, parameters_of, rotation, to_local
-from .line import EULER, SPEEDS
+from .line import EPS, EULER, O3, S_N, SPEEDS
 from .newton import TOLERANCE, newton_update
 from .water import positions, water_at
 
@@ -105,14 +106,14 @@ def lifted(Y, azimuth=0.0):
 
     The angle from the vertical is a = pi/2 - phi, so n and Omega_3 change their signs against the planar engine.
     """
-    a = math.pi / 2 - Y[:, 4]
+    a = math.pi / 2 - Y[:, col.PHI]
     cos, sin = math.cos(azimuth), math.sin(azimuth)
     up, side, out = np.array([1.0, 0.0, 0.0]), np.array([0.0, cos, sin]), np.array([0.0, -sin, cos])
     t = np.outer(up, np.cos(a)) + np.outer(side, np.sin(a))
     n = np.outer(side, np.cos(a)) - np.outer(up, np.sin(a))
     b = np.outer(out, np.ones_like(a))
     found = np.zeros((13, len(Y)))
-    found[0], found[1], found[12] = Y[:, 0], -Y[:, 1], -Y[:, 5]
+    found[EPS], found[S_N], found[O3] = Y[:, col.EPS], -Y[:, col.SHEAR], -Y[:, col.KAPPA]
     found[EULER] = parameters_of(np.array([t, n, b]))
     return found
 

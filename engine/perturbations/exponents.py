@@ -1,7 +1,12 @@
-"""The book-keeping of perturbations for one run: the trail of accepted steps, what follows it, how it grows."""
+"""The book-keeping of perturbations for one run: the trail of accepted steps, what follows it, how it grows.
+
+In the paper: eq. (32) Lyapunov exponent.
+"""
 
 import numpy as np
 
+from ..arrays import Trail
+from ..record import RESTART
 from ..trajectory import TangentGrowth
 from .lateral import carry_lateral, energy_weights
 from .tangent import carry
@@ -10,7 +15,7 @@ STEPS = 200  # of the trail before it is followed: 8 MB at 41 nodes
 SEED = 20  # of the first perturbations: any will do, they turn to the fastest growth by themselves
 
 
-class Trail:
+class Followed:
     """Steps as `march` stores them, and the perturbations that follow; empty where the scene asks for none."""
 
     def __init__(self, scene, record, tables, duration_s):
@@ -19,7 +24,7 @@ class Trail:
         self.followed = self.count > 0 or self.sideways
         room = STEPS if self.followed else 0
         unknowns, conserved = (6, 4) if scene.motion.dimensions == 2 else (13, 6)
-        self.steps = (np.zeros((room, 3)), np.zeros((room, s, n, unknowns)), np.zeros((room, s, n, conserved)))
+        self.steps = Trail(np.zeros((room, 3)), np.zeros((room, s, n, unknowns)), np.zeros((room, s, n, conserved)))
         self.period_s = scene.waves.period_s if scene.waves is not None else 1.0
         if not self.followed:
             return
@@ -48,17 +53,18 @@ class Trail:
             return
         count = int(state["trail"])
         state["trail"] = 0
-        self.mark(self.steps[0][:count])
+        self.mark(self.steps.T[:count])
         if self.count:
-            carry(record, tables, self.period_s, count, *self.steps, self.vectors, self.rates, self.waters, self.nats)
+            carry(record, tables, self.period_s, count, self.steps, self.vectors, self.rates, self.waters, self.nats)
         if self.sideways:
             vector = self.weights, self.lateral, self.lateral_rates
-            carry_lateral(record, tables, self.period_s, count, *self.steps, *vector, self.lateral_nats)
+            carry_lateral(record, tables, self.period_s, count, self.steps, *vector, self.lateral_nats)
 
     def mark(self, T):
         """Mark the periods in which a loop was released, from the steps (m, 3) of a trail."""
-        ends = np.minimum(((T[:, 0] + T[:, 1]) / self.period_s - 1e-9).astype(int), len(self.released) - 1)
-        self.released[ends[(T[:, 2] > 1) & (T[:, 0] > 0.01 * self.period_s)]] = 1.0
+        t, dt, kind = T.T
+        ends = np.minimum(((t + dt) / self.period_s - 1e-9).astype(int), len(self.released) - 1)
+        self.released[ends[(kind == RESTART) & (t > 0.01 * self.period_s)]] = 1.0
 
     def growth(self, state):
         """Growth of the complete periods, or None."""

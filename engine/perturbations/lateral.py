@@ -40,52 +40,56 @@ import math
 import numpy as np
 
 from ..compiled import by_kind, kernel
-from ..physics.ends import BUOY, HELD, released
+from ..physics.ends import released
 from ..physics.submergence import cap_across
-from ..physics.tension import tension
+from ..physics.tension.kernels import tension
+from ..planar import columns as col
 from ..planar import node
-from ..simd.elementary import copy_into, sincos, small_sincos
+from ..record import BEGIN, BUOY, HELD, KIND, STEP
+from ..simd.elementary import copy_into, put3, sincos, small_sincos
 from ..simd.select import every, larger, where
 from ..time.steps import plan_stage
-from .tangent import period_of
+from .tangent import Base, period_of
 
-COEFFICIENTS, WIDTH = 10, 15
+# Columns of H, coefficients of a node: sine and cosine of half the turn of the box below it, then derivatives by tau
+# and rho of q_y, N_y (without -dS_b) and G_y, dG_y/dV_y, and (1 + eps)^3
+SIN_HALF, COS_HALF, Q_TAU, Q_RHO, N_TAU, N_RHO, G_TAU, G_RHO, G_V, CUBE = range(10)
+COEFFICIENTS = 10
+P, P_KNOWN, R, R_KNOWN, WIDTH = 0, 4, 6, 12, 15  # columns of E: P (2 x 2), p (2), R (3 x 2), r (3)
+QY, VY = 0, 1  # columns of dC, dK
 
 
 @kernel
-def _coefficients(p, tables, rate, Y, K, Q, F, H):
-    """Nodal coefficients of the lateral equations, H (n, 10).
-
-    0-1 sine and cosine of delta | 2-3 dq_y/dtau, dq_y/drho | 4-5 dN_y/dtau, dN_y/drho (without -dS_b) |
-    6-7 dG_y/dtau, dG_y/drho | 8 dG_y/dV_y | 9 lam^3
-    """
+def _coefficients(p, tables, base, Q, F, H):
+    """Nodal coefficients of the lateral equations, H (n, 10)."""
+    Y, K = base.Y, base.K
     for k in range(Y.shape[0]):
-        c, s = Q[k, 0], Q[k, 1]
-        delta = 0.5 * (Y[k, 4] - Y[k - 1, 4]) if k > 0 else 0.0
+        c, s = Q[k, col.COS], Q[k, col.SIN]
+        delta = 0.5 * (Y[k, col.PHI] - Y[k - 1, col.PHI]) if k > 0 else 0.0
         sd, cd = small_sincos(delta)
         short = abs(delta) < 0.25
         if not every(short):
             s_long, c_long = sincos(delta)
             sd, cd = where(short, sd, s_long), where(short, cd, c_long)
-        lam = 1.0 + Y[k, 0]
-        S = Y[k, 1]
-        T = tension(Y[k, 0], p, tables)[0]
+        lam = 1.0 + Y[k, col.EPS]
+        S = Y[k, col.SHEAR]
+        T = tension(Y[k, col.EPS], p, tables)[0]
         tilt = 0.0
-        across = (p.m + p.ma) * rate
+        across = (p.m + p.ma) * base.rate
         if p.wet:
             root = math.sqrt(larger(lam, 0.0))
-            ur, wr = Y[k, 2] - F[k, 0], Y[k, 3] - F[k, 1]
+            ur, wr = Y[k, col.VX] - F[k, col.UX], Y[k, col.VZ] - F[k, col.UZ]
             vt, vn = ur * c + wr * s, wr * c - ur * s
             kn = p.cn * root * abs(vn)
             across += kn
             tilt = (p.ct * root * abs(vt) - kn) * vt
-            tilt -= c * (p.ma * K[k, 2] - p.Rw * F[k, 2]) + s * (p.ma * K[k, 3] - p.Rw * F[k, 3])
-        H[k, 0], H[k, 1] = sd, cd
-        H[k, 2], H[k, 3] = lam * cd, -lam * sd
-        H[k, 4], H[k, 5] = T * cd - S * sd, -T * sd - S * cd
-        H[k, 6], H[k, 7] = tilt * cd, -tilt * sd
-        H[k, 8] = across
-        H[k, 9] = lam * lam * lam
+            tilt -= c * (p.ma * K[k, col.VX] - p.Rw * F[k, col.AX]) + s * (p.ma * K[k, col.VZ] - p.Rw * F[k, col.AZ])
+        H[k, SIN_HALF], H[k, COS_HALF] = sd, cd
+        H[k, Q_TAU], H[k, Q_RHO] = lam * cd, -lam * sd
+        H[k, N_TAU], H[k, N_RHO] = T * cd - S * sd, -T * sd - S * cd
+        H[k, G_TAU], H[k, G_RHO] = tilt * cd, -tilt * sd
+        H[k, G_V] = across
+        H[k, CUBE] = lam * lam * lam
 
 
 @kernel
@@ -100,7 +104,7 @@ def _upper_end(p, t, rate, Y, F, V_tilde):
 
 @kernel
 def _buoy_end(p, t, rate, Y, F, V_tilde):
-    u, w = Y[2] - F[0], Y[3] - F[1]
+    u, w = Y[col.VX] - F[col.UX], Y[col.VZ] - F[col.UZ]
     return 1.0, p.M_total * rate + p.C_buoy * math.sqrt(u * u + w * w), -p.M_total * rate * V_tilde
 
 
@@ -108,14 +112,15 @@ _lateral_end = by_kind(_upper_end, _upper_end, _buoy_end)
 
 
 @kernel
-def lateral_stage(p, tables, t, rate, X, Y, K, Q, F, dC_tilde, H, E, dC):
+def lateral_stage(p, tables, base, X, Q, F, dC_tilde, H, E, dC):
     """dC (n, 2) = (q_y, V_y) of one stage, q_y,t = rate (q_y - q~_y) and V_y,t likewise, from dC_tilde (n, 2).
 
-    X, Y, K, Q, F: places and planar state of the stage, its rates, directions (`node.shape`) and water. H, E: work.
-    E (n, 15): P (4), p (2), R (6), r (3).
+    base: Base, the planar stage (`engine.perturbations.tangent`); X, Q: its places and directions (`node.shape`); F:
+    the water there. H (n, 10), E (n, 15): work.
     """
+    rate, Y = base.rate, base.Y
     n = Y.shape[0]
-    _coefficients(p, tables, rate, Y, K, Q, F, H)
+    _coefficients(p, tables, base, Q, F, H)
     inertia = (p.m + p.ma) * rate
     R00 = R01 = R10 = R11 = R20 = R21 = r0 = r1 = r2 = 0.0
     for i in range(WIDTH):
@@ -125,28 +130,31 @@ def lateral_stage(p, tables, t, rate, X, Y, K, Q, F, dC_tilde, H, E, dC):
         e = 0.5 * tables[p.grid_at + a]
         er = e * rate
         # from the directions of node a to those of node b: half the turn below a and half the turn of this box
-        s_b, c_b = H[a, 0] * H[k, 1] + H[a, 1] * H[k, 0], H[a, 1] * H[k, 1] - H[a, 0] * H[k, 0]
-        half = 0.5 * (Y[k, 4] - Y[a, 4])
-        f = where(abs(half) > 1e-4, half / (e * H[k, 0]), (1.0 + half * half / 6.0) / e)
+        s_b, c_b = (
+            H[a, SIN_HALF] * H[k, COS_HALF] + H[a, COS_HALF] * H[k, SIN_HALF],
+            H[a, COS_HALF] * H[k, COS_HALF] - H[a, SIN_HALF] * H[k, SIN_HALF],
+        )
+        half = 0.5 * (Y[k, col.PHI] - Y[a, col.PHI])
+        f = where(abs(half) > 1e-4, half / (e * H[k, SIN_HALF]), (1.0 + half * half / 6.0) / e)
         # v_b = X y_a + Z y_b + x
         X20, X21, x2 = c_b * R20 + s_b, c_b * R21, c_b * r2
         X10, X11, x1 = f * (s_b * R20 - c_b) - R10, f * s_b * R21 - R11, f * s_b * r2 - r1
-        at, ar, bt, br = er * H[a, 2], er * H[a, 3], er * H[k, 2], er * H[k, 3]
+        at, ar, bt, br = er * H[a, Q_TAU], er * H[a, Q_RHO], er * H[k, Q_TAU], er * H[k, Q_RHO]
         X00 = R00 + at + ar * R20 + br * X20
         X01 = R01 + ar * R21 + br * X21
-        x0 = r0 + ar * r2 + br * x2 - er * (dC_tilde[a, 0] + dC_tilde[k, 0])
+        x0 = r0 + ar * r2 + br * x2 - er * (dC_tilde[a, QY] + dC_tilde[k, QY])
         # momentum and moment: A y_a + B y_b = g
-        Ja, Jb = e * H[a, 8], e * H[k, 8]
-        below_t, below_r = H[a, 4] + e * H[a, 6], H[a, 5] + e * H[a, 7]
-        above_t, above_r = H[k, 4] - e * H[k, 6], H[k, 5] - e * H[k, 7]
+        Ja, Jb = e * H[a, G_V], e * H[k, G_V]
+        below_t, below_r = H[a, N_TAU] + e * H[a, G_TAU], H[a, N_RHO] + e * H[a, G_RHO]
+        above_t, above_r = H[k, N_TAU] - e * H[k, G_TAU], H[k, N_RHO] - e * H[k, G_RHO]
         A00 = above_r * X20 - below_t - below_r * R20 - Ja * R00 - Jb * X00
         A01 = above_r * X21 - below_r * R21 + 1.0 - Ja * R01 - Jb * X01
         A10 = p.EI * (X10 - R10)
-        A11 = p.EI * (X11 - R11) - e * H[a, 9]
+        A11 = p.EI * (X11 - R11) - e * H[a, CUBE]
         B00 = above_t - Jb * bt
         B10 = p.EI * f
-        B11 = -e * H[k, 9]
-        g0 = below_r * r2 - above_r * x2 + Ja * r0 + Jb * x0 - e * inertia * (dC_tilde[a, 1] + dC_tilde[k, 1])
+        B11 = -e * H[k, CUBE]
+        g0 = below_r * r2 - above_r * x2 + Ja * r0 + Jb * x0 - e * inertia * (dC_tilde[a, VY] + dC_tilde[k, VY])
         g1 = -p.EI * (x1 - r1)
         d = 1.0 / (A00 * A11 - A01 * A10)
         P00, P01 = d * (A01 * B10 - A11 * B00), d * (A11 + A01 * B11)
@@ -155,24 +163,29 @@ def lateral_stage(p, tables, t, rate, X, Y, K, Q, F, dC_tilde, H, E, dC):
         R00, R01, r0 = X00 * P00 + X01 * P10 + bt, X00 * P01 + X01 * P11, X00 * p0 + X01 * p1 + x0
         R10, R11, r1 = X10 * P00 + X11 * P10 + f, X10 * P01 + X11 * P11, X10 * p0 + X11 * p1 + x1
         R20, R21, r2 = X20 * P00 + X21 * P10, X20 * P01 + X21 * P11, X20 * p0 + X21 * p1 + x2
-        E[k, 0], E[k, 1], E[k, 2], E[k, 3], E[k, 4], E[k, 5] = P00, P01, P10, P11, p0, p1
-        E[k, 6], E[k, 7], E[k, 8], E[k, 9], E[k, 10], E[k, 11] = R00, R01, R10, R11, R20, R21
-        E[k, 12], E[k, 13], E[k, 14] = r0, r1, r2
+        E[k, P], E[k, P + 1], E[k, P + 2], E[k, P + 3] = P00, P01, P10, P11
+        E[k, P_KNOWN], E[k, P_KNOWN + 1] = p0, p1
+        put3(E, k, R, R00, R01, R10)
+        put3(E, k, R + 3, R11, R20, R21)
+        put3(E, k, R_KNOWN, r0, r1, r2)
     b = n - 1
-    of_N, of_V, known = _lateral_end(p, t, rate, Y[b], F[b], dC_tilde[b, 1])
-    if p.cap:
-        more, more_known = cap_across(p, t, rate, X[b], Y[b], F[b], dC_tilde[b, 1])
+    of_N, of_V, known = _lateral_end(p, base.t, rate, Y[b], F[b], dC_tilde[b, VY])
+    if p.spherical_cap:
+        more, more_known = cap_across(p, base.t, rate, X[b], Y[b], F[b], dC_tilde[b, VY])
         of_V, known = of_V + more, known + more_known
-    A00 = of_N * (H[b, 4] + H[b, 5] * R20) + of_V * R00
-    A01 = of_N * (H[b, 5] * R21 - 1.0) + of_V * R01
-    g0 = -known - of_N * H[b, 5] * r2 - of_V * r0
+    A00 = of_N * (H[b, N_TAU] + H[b, N_RHO] * R20) + of_V * R00
+    A01 = of_N * (H[b, N_RHO] * R21 - 1.0) + of_V * R01
+    g0 = -known - of_N * H[b, N_RHO] * r2 - of_V * r0
     d = 1.0 / (A00 * R11 - A01 * R10)
     tau, Sb = d * (R11 * g0 + A01 * r1), -d * (A00 * r1 + R10 * g0)
     for k in range(n - 1, -1, -1):
-        rho = E[k, 10] * tau + E[k, 11] * Sb + E[k, 14]
-        dC[k, 0] = H[k, 2] * tau + H[k, 3] * rho
-        dC[k, 1] = E[k, 6] * tau + E[k, 7] * Sb + E[k, 12]
-        tau, Sb = E[k, 0] * tau + E[k, 1] * Sb + E[k, 4], E[k, 2] * tau + E[k, 3] * Sb + E[k, 5]
+        rho = E[k, R + 4] * tau + E[k, R + 5] * Sb + E[k, R_KNOWN + 2]
+        dC[k, QY] = H[k, Q_TAU] * tau + H[k, Q_RHO] * rho
+        dC[k, VY] = E[k, R] * tau + E[k, R + 1] * Sb + E[k, R_KNOWN]
+        tau, Sb = (
+            E[k, P] * tau + E[k, P + 1] * Sb + E[k, P_KNOWN],
+            E[k, P + 2] * tau + E[k, P + 3] * Sb + E[k, P_KNOWN + 1],
+        )
 
 
 def energy_weights(p, tables):
@@ -218,26 +231,27 @@ def known_lateral(a, count, vector, dK, dC_tilde):
 
 
 @kernel
-def carry_lateral(p, tables, period, count, T, trail_Y, trail_K, weights, vector, rates, growth):
-    """Carry a lateral perturbation through the first `count` steps of a trail (layout: `engine.perturbations.tangent`).
+def carry_lateral(p, tables, period, count, trail, weights, vector, rates, growth):
+    """Carry a lateral perturbation through the first `count` steps of a Trail (`engine.arrays`).
 
     vector, rates (n, 2): C = (q_y, V_y) and its rates; C of length one on entry and exit, by weights (n, 2).
-    growth (periods,), nats: what each step adds goes to the period in which it ends (the last, beyond the end).
+    growth (periods,), nats: what each step adds goes to the period (s) in which it ends (the last, beyond the end).
     """
-    n, s = vector.shape[0], trail_Y.shape[1]
-    X, F, Q = np.zeros((n, 2)), np.zeros((n, 4)), np.zeros((n, node.WIDTH))
+    n, s = vector.shape[0], trail.Y.shape[1]
+    X, F, Q = np.zeros((n, 2)), np.zeros((n, 4)), np.zeros((n, col.NODE_WIDTH))
     H, E = np.zeros((n, COEFFICIENTS)), np.zeros((n, WIDTH))
     dC, dC_tilde, dK = np.zeros((n, 2)), np.zeros((n, 2)), np.zeros((s, n, 2))
     a, w = np.empty(s), np.empty(3)
     for step in range(count):
-        t, dt, euler = T[step, 0], T[step, 1], T[step, 2] > 0.0
+        t, dt, euler = trail.T[step, BEGIN], trail.T[step, STEP], trail.T[step, KIND] > 0.0
         copy_into(dK[0], rates)
         for i in range(s - 1 if euler else 1, s):
             rate, after = plan_stage(p, tables, i, euler, dt, 0.0, a, w)
-            node.shape(p, tables, trail_Y[step, i], Q, X)
-            node.water(p, tables, t + after, 1.0, X, F)
+            base = Base(t + after, rate, 1.0, trail.Y[step, i], trail.K[step, i])
+            node.shape(p, tables, base.Y, Q, X)
+            node.water(p, tables, base.t, 1.0, X, F)
             known_lateral(a, 0 if euler else i, vector, dK, dC_tilde)
-            lateral_stage(p, tables, t + after, rate, X, trail_Y[step, i], trail_K[step, i], Q, F, dC_tilde, H, E, dC)
+            lateral_stage(p, tables, base, X, Q, F, dC_tilde, H, E, dC)
             for k in range(n):
                 for m in range(2):
                     dK[i, k, m] = rate * (dC[k, m] - dC_tilde[k, m])

@@ -14,19 +14,21 @@ A loop release changes neither t, n, q nor V, so C, and with it dC, goes through
 that follow start from C alone. What the release itself does - another tether shape from one moment to the next - is not
 a derivative; the periods in which one happens are marked. What it does to the exponents: docs/findings.md.
 
-`march` stores the accepted steps in a trail: T (m, 3): t, dt, 1 for a step of backward Euler, 2 for one that a
-sudden start or a release asked for; Ys (m, s, n, 6) and Ks (m, s, n, 4), stages, of which backward Euler uses the last.
+`march` stores the accepted steps in a Trail (`engine.arrays`); of the stages backward Euler uses the last.
 """
 
 import math
+from typing import NamedTuple
 
 import numpy as np
 
+from ..arrays import Stage, Work
 from ..compiled import kernel
-from ..physics.ends import BUOY
 from ..physics.submergence import cap_change
-from ..planar import elimination as sweep
+from ..planar import columns as col
 from ..planar import node
+from ..planar.elimination import eliminate_bent
+from ..record import BEGIN, BUOY, KIND, STEP
 from ..simd.elementary import copy_into
 from ..simd.select import larger, some, where
 from ..time.steps import add_rates, plan_stage
@@ -35,21 +37,56 @@ from .resolve import resolve_bent
 WATER_ITERATIONS, WATER_TOLERANCE, NUDGE = 8, 1e-7, 1e-6
 
 
+class Base(NamedTuple):
+    """The stage that is perturbed: t (s), rate (1/s) = 1/(a_ii dt), Y (n, 6), its rates K (n, 4); moving_water: 1.0
+    where the water depends on the place of a node, else 0.0."""
+
+    t: float
+    rate: float
+    moving_water: float
+    Y: np.ndarray
+    K: np.ndarray
+
+
+class Water(NamedTuple):
+    """How the water at the nodes changes: J (n, 8), dF/dx (4) and dF/dz (4); and work arrays: gamma (n, 2), the change
+    of G; places (n, 2) and water (n, 4) ahead of and behind a node."""
+
+    J: np.ndarray
+    gamma: np.ndarray
+    X_moved: np.ndarray
+    F_ahead: np.ndarray
+    F_behind: np.ndarray
+
+
+class Carried(NamedTuple):
+    """Perturbations that are carried along: C, K, F (k, n, 4), conserved variables, their rates and a first guess of
+    the water's change; of the stages of a step Ks (k, s, n, 4); of one stage C_tilde (n, 4), Cs (k, n, 4)."""
+
+    C: np.ndarray
+    K: np.ndarray
+    F: np.ndarray
+    Ks: np.ndarray
+    C_tilde: np.ndarray
+    Cs: np.ndarray
+
+
 @kernel
-def _nodal_change(p, cv, in_F, dV_tilde, F, Y, Q, dF, gamma):
-    """gamma (n, 2): change of G that comes from V~ and the water; in_F 0.0 leaves the water out."""
+def _nodal_change(p, base, dC_tilde, work, dF, gamma):
+    """gamma (n, 2): change of G that comes from V~ and, where it moves, the water."""
+    Y, cv, Q, F = base.Y, base.rate, work.Q, work.F
     for k in range(Y.shape[0]):
-        c, s = Q[k, 0], Q[k, 1]
-        a, b = dV_tilde[k, 0], dV_tilde[k, 1]
+        c, s = Q[k, col.COS], Q[k, col.SIN]
+        a, b = dC_tilde[k, col.VX], dC_tilde[k, col.VZ]
         across = p.ma * cv * (b * c - a * s)
         gx = -p.m * cv * a + across * s
         gz = -p.m * cv * b - across * c
-        if in_F > 0.0:
-            root = math.sqrt(larger(1.0 + Y[k, 0], 0.0))
-            ur, wr = Y[k, 2] - F[k, 0], Y[k, 3] - F[k, 1]
-            along = 2.0 * p.ct * root * abs(ur * c + wr * s) * (dF[k, 0] * c + dF[k, 1] * s)
-            normal = 2.0 * p.cn * root * abs(wr * c - ur * s) * (dF[k, 1] * c - dF[k, 0] * s)
-            normal += p.Rw * (dF[k, 3] * c - dF[k, 2] * s)
+        if base.moving_water > 0.0:
+            root = math.sqrt(larger(1.0 + Y[k, col.EPS], 0.0))
+            ur, wr = Y[k, col.VX] - F[k, col.UX], Y[k, col.VZ] - F[k, col.UZ]
+            along = 2.0 * p.ct * root * abs(ur * c + wr * s) * (dF[k, col.UX] * c + dF[k, col.UZ] * s)
+            normal = 2.0 * p.cn * root * abs(wr * c - ur * s) * (dF[k, col.UZ] * c - dF[k, col.UX] * s)
+            normal += p.Rw * (dF[k, col.AZ] * c - dF[k, col.AX] * s)
             gx -= along * c - normal * s
             gz -= along * s + normal * c
         gamma[k, 0] = gx
@@ -57,25 +94,26 @@ def _nodal_change(p, cv, in_F, dV_tilde, F, Y, Q, dF, gamma):
 
 
 @kernel
-def _top_change(p, cv, dV_tilde, F, Y, dF):
-    """Known part of the linearised condition of the upper end (`engine.physics.ends`), last node's rows given."""
-    x = -p.M_total * cv * dV_tilde[0]
-    z = -p.M_total * cv * dV_tilde[1]
+def _top_change(p, cv, dC_tilde, F, Y, dF):
+    """Known part of the linearised condition of the upper end (`engine.physics.ends`); arguments: last node's rows."""
+    x = -p.M_total * cv * dC_tilde[col.VX]
+    z = -p.M_total * cv * dC_tilde[col.VZ]
     if p.wet:
-        u, w = Y[2] - F[0], Y[3] - F[1]
+        u, w = Y[col.VX] - F[col.UX], Y[col.VZ] - F[col.UZ]
         speed = math.sqrt(u * u + w * w)
-        along = (u * dF[0] + w * dF[1]) / where(speed > 0.0, speed, 1.0)
-        x -= p.C_buoy * (speed * dF[0] + u * along)
-        z -= p.C_buoy * (speed * dF[1] + w * along)
-        x -= p.M_wave * dF[2]
-        z -= p.M_wave * dF[3]
+        along = (u * dF[col.UX] + w * dF[col.UZ]) / where(speed > 0.0, speed, 1.0)
+        x -= p.C_buoy * (speed * dF[col.UX] + u * along)
+        z -= p.C_buoy * (speed * dF[col.UZ] + w * along)
+        x -= p.M_wave * dF[col.AX]
+        z -= p.M_wave * dF[col.AZ]
     buoy = 1.0 if p.end == BUOY else 0.0
     return buoy * x, buoy * z
 
 
 @kernel
-def water_slopes(p, tables, t, X, X_moved, F_ahead, F_behind, J):
-    """J (n, 8): how the water at each node depends on its place, dF/dx (4) and dF/dz (4), by central differences."""
+def water_slopes(p, tables, t, X, water):
+    """water.J: how the water at the nodes depends on their places X (n, 2), by central differences."""
+    J, _, X_moved, F_ahead, F_behind = water
     for axis in range(2):
         for sign in (1.0, -1.0):
             for k in range(X.shape[0]):
@@ -88,17 +126,23 @@ def water_slopes(p, tables, t, X, X_moved, F_ahead, F_behind, J):
 
 
 @kernel
-def _displaced_water(p, tables, going_on, D, Q, J, dF):
-    """dF: water at the nodes displaced by dY minus water where they are, where going_on holds.
+def _displaced_water(p, tables, going_on, work, J, dF):
+    """dF: water at the nodes displaced by dY (in work.D) minus water where they are, where going_on holds.
 
     Returns the largest change of dF by this call, and the largest dF.
     """
+    D, Q = work.D, work.Q
     x = z = change = largest = 0.0
     for k in range(D.shape[0]):
         if k > 0:
             half, j = 0.5 * tables[p.grid_at + k - 1], k - 1
-            x += half * (D[k, 0] * Q[k, 0] - D[k, 4] * Q[k, 6] + D[j, 0] * Q[j, 0] - D[j, 4] * Q[j, 6])
-            z += half * (D[k, 0] * Q[k, 1] + D[k, 4] * Q[k, 5] + D[j, 0] * Q[j, 1] + D[j, 4] * Q[j, 5])
+            eps, phi, eps_below, phi_below = D[k, col.EPS], D[k, col.PHI], D[j, col.EPS], D[j, col.PHI]
+            x += half * (
+                eps * Q[k, col.COS] - phi * Q[k, col.QZ] + eps_below * Q[j, col.COS] - phi_below * Q[j, col.QZ]
+            )
+            z += half * (
+                eps * Q[k, col.SIN] + phi * Q[k, col.QX] + eps_below * Q[j, col.SIN] + phi_below * Q[j, col.QX]
+            )
         for m in range(4):
             value = J[k, m] * x + J[k, 4 + m] * z
             change = larger(change, abs(value - dF[k, m]))
@@ -113,36 +157,40 @@ def _displaced_end(p, tables, dC_tilde):
     x = z = 0.0
     for k in range(1, dC_tilde.shape[0]):
         half = 0.5 * tables[p.grid_at + k - 1]
-        x += half * (dC_tilde[k - 1, 0] + dC_tilde[k, 0])
-        z += half * (dC_tilde[k - 1, 1] + dC_tilde[k, 1])
+        x += half * (dC_tilde[k - 1, col.CX] + dC_tilde[k, col.CX])
+        z += half * (dC_tilde[k - 1, col.CZ] + dC_tilde[k, col.CZ])
     return x, z
 
 
 @kernel
-def tangent_stage(p, tables, t, rate, going_on, moving_water, X, Y, K, dC_tilde, dF, dC, Q, J, F, E, D, gamma):
-    """dC (n, 4) of one vector at one stage whose matrix is in E; dF comes in as a first guess and is renewed.
+def tangent_stage(p, tables, base, going_on, dC_tilde, dF, dC, work, water):
+    """dC (n, 4) of one perturbation at one stage whose matrix is in work.E; dF (n, 4) comes in as a first guess.
 
-    Both where going_on holds, and there until dF is settled. D (n, 6), gamma (n, 2): work.
+    Both are renewed where going_on holds, and there until dF is settled. dC_tilde (n, 4): what the perturbation makes
+    of C~; base: Base; work, water: as `linearise` has left them.
     """
-    n = Y.shape[0]
+    D, Q, F = work.D, work.Q, work.F
+    last = base.Y.shape[0] - 1
     for _ in range(WATER_ITERATIONS):
-        _nodal_change(p, rate, moving_water, dC_tilde[:, 2:], F, Y, Q, dF, gamma)
-        top_x, top_z = _top_change(p, rate, dC_tilde[n - 1, 2:], F[n - 1], Y[n - 1], dF[n - 1])
-        if p.cap:
+        _nodal_change(p, base, dC_tilde, work, dF, water.gamma)
+        top_x, top_z = _top_change(p, base.rate, dC_tilde[last], F[last], base.Y[last], dF[last])
+        if p.spherical_cap:
             dX_tilde = _displaced_end(p, tables, dC_tilde)
             more_x, more_z = cap_change(
-                p, t, rate, X[n - 1], Y[n - 1], K[n - 1], F[n - 1], dC_tilde[n - 1, 2:], dX_tilde, dF[n - 1]
-            )
+                p, base.t, base.rate, work.X[last], base.Y[last], base.K[last], F[last], dC_tilde[last, 2:], dX_tilde,
+                dF[last],
+            )  # fmt: skip
             top_x, top_z = top_x + more_x, top_z + more_z
-        resolve_bent(p, tables, rate, Q, E, dC_tilde[:, :2], gamma, top_x, top_z, D)
-        for k in range(n):
-            dC[k, 0] = where(going_on, D[k, 0] * Q[k, 0] - D[k, 4] * Q[k, 6], dC[k, 0])
-            dC[k, 1] = where(going_on, D[k, 0] * Q[k, 1] + D[k, 4] * Q[k, 5], dC[k, 1])
-            dC[k, 2] = where(going_on, D[k, 2], dC[k, 2])
-            dC[k, 3] = where(going_on, D[k, 3], dC[k, 3])
-        if moving_water == 0.0:
+        resolve_bent(p, tables, base.rate, work, dC_tilde, water.gamma, top_x, top_z)
+        for k in range(last + 1):
+            eps, phi = D[k, col.EPS], D[k, col.PHI]
+            dC[k, col.CX] = where(going_on, eps * Q[k, col.COS] - phi * Q[k, col.QZ], dC[k, col.CX])
+            dC[k, col.CZ] = where(going_on, eps * Q[k, col.SIN] + phi * Q[k, col.QX], dC[k, col.CZ])
+            dC[k, col.VX] = where(going_on, D[k, col.VX], dC[k, col.VX])
+            dC[k, col.VZ] = where(going_on, D[k, col.VZ], dC[k, col.VZ])
+        if base.moving_water == 0.0:
             break
-        change, largest = _displaced_water(p, tables, going_on, D, Q, J, dF)
+        change, largest = _displaced_water(p, tables, going_on, work, water.J, dF)
         going_on = going_on & (change > WATER_TOLERANCE * largest)
         if not some(going_on):
             break
@@ -181,37 +229,35 @@ def orthonormalise(weight, here, vectors, rates, lengths):
 
 
 @kernel
-def linearise(p, tables, t, rate, moving_water, Y, K, X, F, C_tilde, Q, E, J, work):
-    """Newton's matrix, eliminated, at a stage Y with rates K: into E (n, 33); Q, F, X and J (n, 8) belong to it.
-
-    work: D (n, 6), places (n, 2), water (n, 4) twice.
-    """
-    D, X_moved, F_ahead, F_behind = work
-    node.shape(p, tables, Y, Q, X)
-    node.water(p, tables, t, 1.0, X, F)
+def linearise(p, tables, base, work, water):
+    """Newton's matrix, eliminated, at a stage (Base): into work.E (n, 33); work.Q, F, X and water.J belong to it."""
+    Y, K, Q, C_tilde, rate = base.Y, base.K, work.Q, work.C_tilde, base.rate
+    node.shape(p, tables, Y, Q, work.X)
+    node.water(p, tables, base.t, 1.0, work.X, work.F)
     for k in range(Y.shape[0]):
         for m in range(2):
-            C_tilde[k, m] = Q[k, 5 + m] - K[k, m] / rate
-            C_tilde[k, 2 + m] = Y[k, 2 + m] - K[k, 2 + m] / rate
-    node.node_quantities(p, tables, rate, rate, 1.0, Y, C_tilde, F, Q)
-    sweep.sweep_bent(p, tables, t, rate, rate, 1.0, Y, C_tilde, X, F, Q, E, D)
-    if moving_water > 0.0:
-        water_slopes(p, tables, t, X, X_moved, F_ahead, F_behind, J)
+            C_tilde[k, m] = Q[k, col.QX + m] - K[k, m] / rate
+            C_tilde[k, col.VX + m] = Y[k, col.VX + m] - K[k, col.VX + m] / rate
+    stage = Stage(base.t, 1.0, rate, rate)
+    node.node_quantities(p, tables, stage, Y, work)
+    eliminate_bent(p, tables, stage, Y, work)
+    if base.moving_water > 0.0:
+        water_slopes(p, tables, base.t, work.X, water)
 
 
 @kernel
-def carry_stage(
-    p, tables, t, rate, a, count, here, moving_water, X, Y, K, v, vectors, dKs, waters, dC_tilde, dCs,
-    Q, J, F, E, D, gamma,
-):  # fmt: skip
-    """Perturbation number v through one linearised stage, where `here` holds: into dCs[v], from vectors[v] and the
-    first `count` of dKs[v].
+def carry_stage(p, tables, base, a, count, here, v, carried, work, water):
+    """Perturbation number v through one linearised stage, where `here` holds: into carried.Cs[v].
+
+    a (s,): the coefficients of the first `count` of carried.Ks[v]; base: Base; carried: Carried; work, water: as
+    `linearise` has left them.
     """
-    for k in range(Y.shape[0]):
+    dC_tilde = carried.C_tilde
+    for k in range(dC_tilde.shape[0]):
         for m in range(4):
-            dC_tilde[k, m] = vectors[v, k, m]
-        add_rates(p, a, count, dKs[v], k, dC_tilde[k])
-    tangent_stage(p, tables, t, rate, here, moving_water, X, Y, K, dC_tilde, waters[v], dCs[v], Q, J, F, E, D, gamma)
+            dC_tilde[k, m] = carried.C[v, k, m]
+        add_rates(p, a, count, carried.Ks[v], k, dC_tilde[k])
+    tangent_stage(p, tables, base, here, dC_tilde, carried.F[v], carried.Cs[v], work, water)
 
 
 @kernel
@@ -227,33 +273,30 @@ def period_of(t, period, periods):
 
 
 @kernel
-def carry(p, tables, period, count, T, trail_Y, trail_K, vectors, rates, waters, growth):
-    """Carry perturbations through the first `count` steps of a trail.
+def carry(p, tables, period, count, trail, vectors, rates, waters, growth):
+    """Carry perturbations through the first `count` steps of a Trail.
 
     vectors, rates (k, n, 4): dC and dK, orthonormal in C on entry and exit; waters (k, n, 4): first guesses of dF.
-    growth (periods, k), nats: what each step adds goes to the period in which it ends (the last, beyond the end).
+    growth (periods, k), nats: what each step adds goes to the period (s) in which it ends (the last, beyond the end).
     """
-    number, n, s = vectors.shape[0], vectors.shape[1], trail_Y.shape[1]
-    X, F, Q = np.zeros((n, 2)), np.zeros((n, 4)), np.zeros((n, node.WIDTH))
-    E, C_tilde, J = np.zeros((n, sweep.WITH_INVERSE)), np.zeros((n, 4)), np.zeros((n, 8))
-    D, gamma = np.zeros((n, 6)), np.zeros((n, 2))
-    work = (D, np.zeros((n, 2)), np.zeros((n, 4)), np.zeros((n, 4)))
-    dCs, dKs, dC_tilde = np.zeros((number, n, 4)), np.zeros((number, s, n, 4)), np.zeros((n, 4))
+    number, n, s = vectors.shape[0], vectors.shape[1], trail.Y.shape[1]
+    X, F, Q = np.zeros((n, 2)), np.zeros((n, 4)), np.zeros((n, col.NODE_WIDTH))
+    work = Work(X, F, Q, np.zeros((n, col.WITH_INVERSE)), np.zeros((n, 6)), np.zeros((n, 4)))
+    water = Water(np.zeros((n, 8)), np.zeros((n, 2)), np.zeros((n, 2)), np.zeros((n, 4)), np.zeros((n, 4)))
+    dKs, dC_tilde, dCs = np.zeros((number, s, n, 4)), np.zeros((n, 4)), np.zeros((number, n, 4))
+    carried = Carried(vectors, rates, waters, dKs, dC_tilde, dCs)
     a, w, lengths = np.empty(s), np.empty(3), np.empty(number)
     moving_water = water_moves(p)
     for step in range(count):
-        t, dt, euler = T[step, 0], T[step, 1], T[step, 2] > 0.0
+        t, dt, euler = trail.T[step, BEGIN], trail.T[step, STEP], trail.T[step, KIND] > 0.0
         for v in range(number):
             copy_into(dKs[v, 0], rates[v])
         for i in range(s - 1 if euler else 1, s):
             rate, after = plan_stage(p, tables, i, euler, dt, 0.0, a, w)
-            Y, known = trail_Y[step, i], 0 if euler else i
-            linearise(p, tables, t + after, rate, moving_water, Y, trail_K[step, i], X, F, C_tilde, Q, E, J, work)
+            base = Base(t + after, rate, moving_water, trail.Y[step, i], trail.K[step, i])
+            linearise(p, tables, base, work, water)
             for v in range(number):
-                carry_stage(
-                    p, tables, t + after, rate, a, known, True, moving_water, X, Y, trail_K[step, i], v, vectors, dKs,
-                    waters, dC_tilde, dCs, Q, J, F, E, D, gamma,
-                )  # fmt: skip
+                carry_stage(p, tables, base, a, 0 if euler else i, True, v, carried, work, water)
                 for k in range(n):
                     for m in range(4):
                         dKs[v, i, k, m] = rate * (dCs[v, k, m] - dC_tilde[k, m])

@@ -14,6 +14,8 @@ statics V is a displacement, and V_e the one that is left to go (`engine.time.st
 Motion of a held end in `tables`, n numbers or knots: velocities, since the displacement follows from them:
     harmonic  [amplitude x y z | omega | phase | ramp];  displacement amplitude r(t) sin(omega t + phase), r the ramp
     table     [t (n) | for each of the n - 1 pieces, for x, y, z: v0 v1 v2], v = v0 + v1 d + v2 d^2 at d after its knot
+
+In the paper: eq. (30) motion of the buoy.
 """
 
 import math
@@ -21,11 +23,9 @@ import math
 import numpy as np
 
 from ..compiled import by_kind, kernel
+from ..record import FREE, HARMONIC, HELD, TABLE
 from ..simd.elementary import bracket, smooth_start
 from ..simd.select import where
-
-BUOY, HELD, FREE = 0, 1, 2
-STILL, HARMONIC, TABLE = 0, 1, 2
 
 
 def harmonic_of(amplitude_m, period_s, phase_rad, ramp_s):

@@ -14,8 +14,7 @@ is what the scheme dissipates: in time, stage powers times dt less the change of
 space, h (N-.q_t- - mean(N.q_t)) (products of means for means of products). Both are small where the solution is
 smooth, and belong to the dissipation of a shock where it is not.
 
-Columns of `energies`: 0 t | 1 kinetic | 2 strain | 3 gravity | 4 work at the end | 5 against shear | 6 viscous |
-7 in space | 8 stage powers times dt of kinetic, strain and gravity. All since t = 0, in J; the first three are states.
+Columns of `energies`: time (s), then J; the first three are states, the others have grown since t = 0.
 """
 
 import math
@@ -25,14 +24,16 @@ import numpy as np
 from ..compiled import kernel
 from ..dimensions import shear_force
 from .shocks import shock_tension
-from .tension import stored, tension
+from .tension.kernels import stored, tension
 
+TIME, KINETIC, STRAIN, GRAVITY, END_WORK, SHEAR, VISCOUS, SPACE, POWERS = range(9)  # POWERS: stage powers times dt
 WIDTH = 9
+SUMS = END_WORK  # the running sums are the columns from here on
 
 
 @kernel
 def energies_of(p, tables, C, row):
-    """Kinetic, strain and gravity energy of a state C (n, 4 or 6) into row[1:4]; gravity from the lower end up."""
+    """Kinetic, strain and gravity energy of a state C (n, 4 or 6) into a row; gravity from the lower end up."""
     half = C.shape[1] // 2
     kinetic = strain = gravity = below = z = 0.0
     for k in range(C.shape[0]):
@@ -49,15 +50,18 @@ def energies_of(p, tables, C, row):
             gravity += h * p.w0 * (z + 0.5 * rise)
             z += rise
         below = here
-    row[1], row[2], row[3] = kinetic, strain, gravity
+    row[KINETIC], row[STRAIN], row[GRAVITY] = kinetic, strain, gravity
 
 
 @kernel
-def add_powers(p, tables, dt, alpha_m, alpha_f, gamma, C0, K0, C1, K1, Y, Q, sums):
-    """Add one accepted step to sums (5,): columns 4 to 8 of `energies`.
+def add_powers(p, tables, dt, alphas, before, C1, K1, Y, Q, sums):
+    """Add one accepted step of dt (s) to sums (5,): END_WORK and what follows it.
 
-    C0, K0, C1, K1: before and after; Y: the new state, whose shear forces are the stage's; Q: viscosity of the step.
+    alphas: (alpha_m, alpha_f, gamma) of the step; before: Motion; C1, K1 (n, conserved): after it; Y: the new state,
+    whose shear forces are the stage's; Q: nodal quantities, for the viscosity of the step.
     """
+    alpha_m, alpha_f, gamma = alphas
+    C0, K0 = before.C, before.K
     n, half = C0.shape[0], C0.shape[1] // 2
     at = Q.shape[1] - 2
     cq = alpha_m / (alpha_f * gamma * dt)
@@ -92,20 +96,22 @@ def add_powers(p, tables, dt, alpha_m, alpha_f, gamma, C0, K0, C1, K1, Y, Q, sum
             for i in range(half):
                 means += 0.25 * (N[0, i] + N[1, i]) * (rate[0, i] + rate[1, i])
                 kinetic += 0.25 * p.m * (V[0, i] + V[1, i]) * (A[0, i] + A[1, i])
-            sums[1] += 0.5 * h * (shear[0] + shear[1])
-            sums[2] += 0.5 * h * (viscous[0] + viscous[1])
-            sums[3] += h * (means - 0.5 * (axial[0] + axial[1] + viscous[0] + viscous[1] + shear[0] + shear[1]))
+            sums[SHEAR - SUMS] += 0.5 * h * (shear[0] + shear[1])
+            sums[VISCOUS - SUMS] += 0.5 * h * (viscous[0] + viscous[1])
+            sums[SPACE - SUMS] += h * (
+                means - 0.5 * (axial[0] + axial[1] + viscous[0] + viscous[1] + shear[0] + shear[1])
+            )
             lift = 0.5 * p.w0 * (V[0, half - 1] + V[1, half - 1])
-            sums[4] += h * (0.5 * (axial[0] + axial[1]) + kinetic + lift)
+            sums[POWERS - SUMS] += h * (0.5 * (axial[0] + axial[1]) + kinetic + lift)
     last = (n - 1) % 2
     for i in range(half):
-        sums[0] += dt * N[last, i] * V[last, i]
+        sums[END_WORK - SUMS] += dt * N[last, i] * V[last, i]
 
 
 @kernel
 def store_energies(p, tables, t, C, sums, row):
     """One row of `energies` at time t."""
-    row[0] = t
+    row[TIME] = t
     energies_of(p, tables, C, row)
-    for i in range(5):
-        row[4 + i] = sums[i]
+    for i in range(WIDTH - SUMS):
+        row[SUMS + i] = sums[i]

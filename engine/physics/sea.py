@@ -14,9 +14,10 @@ import math
 import numpy as np
 
 from ..compiled import by_kind, kernel
+from ..record import WHEELER, ZERO
 from ..simd.elementary import sincos, small_exponentials, small_sincos, smooth_start
 from .jonswap import components
-from .waves import SMALL, TINY, WHEELER, ZERO, wave_number
+from .waves import SMALL, TINY, wave_number
 
 ROW = 7
 

@@ -27,7 +27,7 @@ import math
 import numpy as np
 
 from ..compiled import kernel
-from .tension import tension
+from .tension.kernels import tension
 
 DEFORMING = 0.01  # of the largest strain rate
 

@@ -16,10 +16,10 @@ import math
 import numpy as np
 
 from ..compiled import kernel
+from ..record import WHEELER, ZERO
 from ..simd.elementary import sincos, small_exponentials, small_sincos, smooth_start
 from ..simd.select import every, larger, where
 
-EXTRAPOLATE, ZERO, WHEELER = 0, 1, 2
 SMALL, TINY = 0.25, 1e-250
 
 

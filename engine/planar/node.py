@@ -15,11 +15,10 @@ water's dependence on position.
 In a scene with shock viscosity T gains B |e_t| e_t + L e_t, e_t = cq (|q| - |q~|), the coefficients B, L kept from
 step to step (`engine.physics.shocks`).
 
-Columns of Q (row k is node k):
-    0 cos phi | 1 sin phi | 2 dT/deps | 3-4 N | 5-6 q | 7-8 q_t | 9-10 G | 11-12 dG/deps | 13-14 dG/dphi
-    15-17 dG/dV: xx, xz, zz | 18 M = (1+eps)^3 S | 19 dM/deps | 20 dM/dS | 21 B | 22 L
+Columns of Q: `engine.planar.columns`.
 
-In the paper: eq. (7) eps, eq. (8) U and W, eq. (11) and eq. (12) N_s, eq. (18) V_s, eq. (23) w0, eq. (24) a and b.
+In the paper: eq. (7) strain; eq. (8) velocity; eq. (11) momentum; eq. (12) momentum in the local frame; eq. (18)
+compatibility, with the tangent; eq. (23) weight in water; eq. (24) Morison's force on the line.
 """
 
 import math
@@ -28,30 +27,27 @@ from ..compiled import kernel
 from ..physics.currents import planar_current
 from ..physics.sea import planar_sea
 from ..physics.shocks import shock_tension
+from ..physics.tension.kernels import tension
 from ..physics.waves import wave_field
 from ..simd.elementary import sincos
 from ..simd.select import larger
-from .places import count_of_places, place, put, take, tension_at
-
-WIDTH = 23
+from . import columns as col
 
 
 @kernel
 def shape(p, tables, Y, Q, X):
-    """Directions, q and positions: X[0] is the anchor, and each element adds h times the mean of q."""
-    n = Y.shape[0]
-    for j in range(count_of_places(p, n)):
-        k = place(p, j, n)
-        s, c = sincos(take(Y, k, 4, 1)[0])
-        lam = 1.0 + take(Y, k, 0, 1)[0]
-        put(Q, k, 0, (c, s))
-        put(Q, k, 5, (lam * c, lam * s))
+    """Directions and q into Q, positions into X (n, 2): X[0] is the anchor, an element adds h times its mean q."""
+    for k in range(Y.shape[0]):
+        s, c = sincos(Y[k, col.PHI])
+        lam = 1.0 + Y[k, col.EPS]
+        Q[k, col.COS], Q[k, col.SIN] = c, s
+        Q[k, col.QX], Q[k, col.QZ] = lam * c, lam * s
     X[0, 0] = 0.0
     X[0, 1] = 0.0
-    for k in range(1, n):
+    for k in range(1, Y.shape[0]):
         half = 0.5 * tables[p.grid_at + k - 1]
-        X[k, 0] = X[k - 1, 0] + half * (Q[k - 1, 5] + Q[k, 5])
-        X[k, 1] = X[k - 1, 1] + half * (Q[k - 1, 6] + Q[k, 6])
+        X[k, 0] = X[k - 1, 0] + half * (Q[k - 1, col.QX] + Q[k, col.QX])
+        X[k, 1] = X[k - 1, 1] + half * (Q[k - 1, col.QZ] + Q[k, col.QZ])
 
 
 @kernel
@@ -72,40 +68,42 @@ def water(p, tables, t, in_motion, X, F):
 
 
 @kernel
-def node_quantities(p, tables, cq, cv, in_motion, Y, C_tilde, F, Q):
-    """Fill Q (columns in the head of this file) from Y, the integrator's C~ = (q~, V~) and the water F.
+def node_quantities(p, tables, stage, Y, work):
+    """Fill Q from Y (n, 6), the integrator's C~ = (q~, V~) and the water F; `shape` and `water` have been called.
 
-    A run alone takes two nodes at a time (`engine.planar.places`).
+    p, tables: parameters (`engine.record`); stage: Stage; work: Work, of which C_tilde and F are read.
     """
-    n = Y.shape[0]
-    for j in range(count_of_places(p, n)):
-        k = place(p, j, n)
-        eps, S, U, W = take(Y, k, 0, 4)
-        qx_tilde, qz_tilde, U_tilde, W_tilde = take(C_tilde, k, 0, 4)
-        Uw, Ww, Uw_t, Ww_t = take(F, k, 0, 4)
-        c, s = take(Q, k, 0, 2)
-        qx, qz = take(Q, k, 5, 2)
-        T, slope = tension_at(p, tables, eps)
+    _, in_motion, cq, cv = stage
+    F, Q, C_tilde = work.F, work.Q, work.C_tilde
+    for k in range(Y.shape[0]):
+        eps, S = Y[k, col.EPS], Y[k, col.SHEAR]
+        c, s = Q[k, col.COS], Q[k, col.SIN]
         lam = 1.0 + eps
+        # force in the line, with the viscosity of shocks
+        T, slope = tension(eps, p, tables)
         if p.viscous:
-            before = math.sqrt(qx_tilde * qx_tilde + qz_tilde * qz_tilde)
-            B, L = take(Q, k, 21, 2)
-            extra, stiffer = shock_tension(in_motion * cq, lam - before, B, L)
+            qx, qz = C_tilde[k, col.CX], C_tilde[k, col.CZ]
+            before = math.sqrt(qx * qx + qz * qz)
+            extra, stiffer = shock_tension(in_motion * cq, lam - before, Q[k, col.SHOCK_B], Q[k, col.SHOCK_L])
             T += extra
             slope += stiffer
-        put(Q, k, 2, (slope, T * c - S * s, T * s + S * c))
-        put(Q, k, 7, (cq * (qx - qx_tilde), cq * (qz - qz_tilde)))
-        ax = cv * (U - U_tilde)
-        az = cv * (W - W_tilde)
+        Q[k, col.SLOPE] = slope
+        Q[k, col.NX], Q[k, col.NZ] = T * c - S * s, T * s + S * c
+        # rates of q and V; inertia and weight
+        Q[k, col.QX_T] = cq * (Q[k, col.QX] - C_tilde[k, col.CX])
+        Q[k, col.QZ_T] = cq * (Q[k, col.QZ] - C_tilde[k, col.CZ])
+        ax = cv * (Y[k, col.VX] - C_tilde[k, col.VX])
+        az = cv * (Y[k, col.VZ] - C_tilde[k, col.VZ])
         Gx, Gz = p.m * ax, p.m * az + p.w0
         Gxx = p.m * cv
         Gxz = 0.0
         Gzz = Gxx
         Gex = Gez = Gpx = Gpz = 0.0
         if p.wet:
+            # drag along and across the line; kt, kn are its slopes
             root = math.sqrt(larger(lam, 0.0))
-            ur = in_motion * U - Uw
-            wr = in_motion * W - Ww
+            ur = in_motion * Y[k, col.VX] - F[k, col.UX]
+            wr = in_motion * Y[k, col.VZ] - F[k, col.UZ]
             vt = ur * c + wr * s
             vn = wr * c - ur * s
             kt = 2.0 * p.ct * root * abs(vt)
@@ -115,6 +113,8 @@ def node_quantities(p, tables, cq, cv, in_motion, Y, C_tilde, F, Q):
             half_inverse = 0.5 / lam
             Gex = (a * c - b * s) * half_inverse
             Gez = (a * s + b * c) * half_inverse
+            # added mass and the pressure gradient act across the line, and turn with it
+            Uw_t, Ww_t = F[k, col.AX], F[k, col.AZ]
             b_phi = p.Rw * (Uw_t * c + Ww_t * s) - p.ma * (ax * c + az * s) - kn * vt
             b += p.ma * (az * c - ax * s) - p.Rw * (Ww_t * c - Uw_t * s)
             Gx += a * c - b * s
@@ -123,12 +123,16 @@ def node_quantities(p, tables, cq, cv, in_motion, Y, C_tilde, F, Q):
             across = a + b_phi
             Gpx = along * c - across * s
             Gpz = along * s + across * c
+            # by the velocity: a tensor with the axes t and n
             dt_ = in_motion * kt
             dn = in_motion * kn + p.ma * cv
             Gxx += dt_ * c * c + dn * s * s
             Gxz = (dt_ - dn) * c * s
             Gzz += dt_ * s * s + dn * c * c
-        put(Q, k, 9, (Gx, Gz, Gex, Gez, Gpx, Gpz, Gxx, Gxz, Gzz))
+        Q[k, col.GX], Q[k, col.GZ] = Gx, Gz
+        Q[k, col.GX_EPS], Q[k, col.GZ_EPS] = Gex, Gez
+        Q[k, col.GX_PHI], Q[k, col.GZ_PHI] = Gpx, Gpz
+        Q[k, col.GXX], Q[k, col.GXZ], Q[k, col.GZZ] = Gxx, Gxz, Gzz
         if p.bent:
             square = lam * lam
-            put(Q, k, 18, (square * lam * S, 3.0 * square * S, square * lam))
+            Q[k, col.M], Q[k, col.M_EPS], Q[k, col.M_SHEAR] = square * lam * S, 3.0 * square * S, square * lam

@@ -7,13 +7,16 @@ import math
 
 import numpy as np
 
+from ..arrays import Work
 from ..compiled import kernel
-from ..physics.tension import tension
+from ..physics.tension.kernels import tension
+from ..record import PLACE, SPEED, STRAIN, TENSION
+from ..simd.elementary import within
 from ..simd.select import finite, larger, smaller, where
-from . import elimination as sweep
+from . import columns as col
 from . import node
-from .elimination import sweep_bent
-from .elimination_unbent import sweep_unbent
+from .elimination import eliminate_bent
+from .elimination_unbent import eliminate_unbent
 
 
 @kernel
@@ -24,20 +27,23 @@ def size_of(p):
 
 @kernel
 def work_arrays(p, n):
-    """Work arrays of `engine.time.newton` for n nodes: X, F, Q, E, D, and the integrator's C~."""
-    X, F, Q = np.zeros((n, 2)), np.zeros((n, 4)), np.zeros((n, node.WIDTH))
-    return X, F, Q, np.zeros((n, sweep.WIDTH)), np.zeros((n, 6)), np.zeros((n, 4))
+    """Work arrays (`engine.record.Work`) of a Newton solve with n nodes."""
+    X, F, Q = np.zeros((n, 2)), np.zeros((n, 4)), np.zeros((n, col.NODE_WIDTH))
+    return Work(X, F, Q, np.zeros((n, col.BOX_WIDTH)), np.zeros((n, 6)), np.zeros((n, 4)))
 
 
 @kernel
-def assemble(p, tables, t, in_motion, cq, cv, Y, C_tilde, X, F, Q, E, D):
-    """One Newton update into D; returns False where a pivot block is singular. Arguments as for `time.newton`."""
-    node.shape(p, tables, Y, Q, X)
-    node.water(p, tables, t, in_motion, X, F)
-    node.node_quantities(p, tables, cq, cv, in_motion, Y, C_tilde, F, Q)
+def assemble(p, tables, stage, Y, work):
+    """One Newton update into work.D (n, 6); returns False where a pivot block is singular.
+
+    p, tables: parameters (`engine.record`); stage: Stage; Y (n, 6); work: Work.
+    """
+    node.shape(p, tables, Y, work.Q, work.X)
+    node.water(p, tables, stage.t, stage.in_motion, work.X, work.F)
+    node.node_quantities(p, tables, stage, Y, work)
     if p.bent:
-        return sweep_bent(p, tables, t, cq, cv, in_motion, Y, C_tilde, X, F, Q, E, D)
-    return sweep_unbent(p, tables, t, cq, cv, in_motion, Y, C_tilde, X, F, Q, E, D)
+        return eliminate_bent(p, tables, stage, Y, work)
+    return eliminate_unbent(p, tables, stage, Y, work)
 
 
 @kernel
@@ -45,11 +51,11 @@ def update_size(p, D):
     """Largest entry of a Newton update in the scales of the scene (dimensionless)."""
     size = total = 0.0
     for k in range(D.shape[0]):
-        stretched = larger(abs(D[k, 0]) * p.per_strain, abs(D[k, 1]) * p.per_force)
-        moved = larger(abs(D[k, 2]), abs(D[k, 3])) * p.per_speed
-        turned = larger(abs(D[k, 4]), abs(D[k, 5]) * p.per_curvature)
+        stretched = larger(abs(D[k, col.EPS]) * p.per_strain, abs(D[k, col.SHEAR]) * p.per_force)
+        moved = larger(abs(D[k, col.VX]), abs(D[k, col.VZ])) * p.per_speed
+        turned = larger(abs(D[k, col.PHI]), abs(D[k, col.KAPPA]) * p.per_curvature)
         size = larger(size, larger(larger(stretched, moved), turned))
-        total += ((D[k, 0] + D[k, 1]) + (D[k, 2] + D[k, 3])) + (D[k, 4] + D[k, 5])
+        total += ((D[k, col.EPS] + D[k, col.SHEAR]) + (D[k, col.VX] + D[k, col.VZ])) + (D[k, col.PHI] + D[k, col.KAPPA])
     return where(finite(total), size, np.inf)
 
 
@@ -60,7 +66,7 @@ def add_update(p, factor, D, Y):
     for k in range(Y.shape[0]):
         for i in range(6):
             Y[k, i] += factor * D[k, i]
-        least = smaller(least, Y[k, 0])
+        least = smaller(least, Y[k, col.EPS])
     return least
 
 
@@ -73,11 +79,11 @@ def tidy(p, Y):
 def conserved(p, Y, C):
     """C (n, 4) of a state Y (n, 6)."""
     for k in range(Y.shape[0]):
-        lam = 1.0 + Y[k, 0]
-        C[k, 0] = lam * math.cos(Y[k, 4])
-        C[k, 1] = lam * math.sin(Y[k, 4])
-        C[k, 2] = Y[k, 2]
-        C[k, 3] = Y[k, 3]
+        lam = 1.0 + Y[k, col.EPS]
+        C[k, col.CX] = lam * math.cos(Y[k, col.PHI])
+        C[k, col.CZ] = lam * math.sin(Y[k, col.PHI])
+        C[k, col.VX] = Y[k, col.VX]
+        C[k, col.VZ] = Y[k, col.VZ]
 
 
 @kernel
@@ -85,19 +91,19 @@ def extrapolate(p, alpha_f, Y, C_new, Y_new):
     """From the stage of a one-stage step to its end: Y_new comes in as the stage; eps and t are taken from C_new."""
     for k in range(Y.shape[0]):
         # not the shear force: nothing ties it to its past, and errors of it would alternate for ever
-        for i in range(2, 6):
+        for i in range(col.VX, col.KAPPA + 1):
             Y_new[k, i] = Y[k, i] + (Y_new[k, i] - Y[k, i]) / alpha_f
-        turn = math.atan2(C_new[k, 1], C_new[k, 0]) - Y_new[k, 4]
-        Y_new[k, 4] += turn - 2.0 * math.pi * np.rint(turn / (2.0 * math.pi))
-        Y_new[k, 0] = math.sqrt(C_new[k, 0] ** 2 + C_new[k, 1] ** 2) - 1.0
+        turn = math.atan2(C_new[k, col.CZ], C_new[k, col.CX]) - Y_new[k, col.PHI]
+        Y_new[k, col.PHI] += turn - 2.0 * math.pi * np.rint(turn / (2.0 * math.pi))
+        Y_new[k, col.EPS] = math.sqrt(C_new[k, col.CX] ** 2 + C_new[k, col.CZ] ** 2) - 1.0
 
 
 @kernel
 def error_square(p, k, ec, Q):
     """Squared error of node k in scene scales, from the errors `ec` (4,) of its conserved variables."""
-    axial = (ec[0] * Q[k, 0] + ec[1] * Q[k, 1]) * p.per_strain
-    turned = ec[1] * Q[k, 0] - ec[0] * Q[k, 1]
-    speed = (ec[2] * ec[2] + ec[3] * ec[3]) * p.per_speed * p.per_speed
+    axial = (ec[col.CX] * Q[k, col.COS] + ec[col.CZ] * Q[k, col.SIN]) * p.per_strain
+    turned = ec[col.CZ] * Q[k, col.COS] - ec[col.CX] * Q[k, col.SIN]
+    speed = (ec[col.VX] * ec[col.VX] + ec[col.VZ] * ec[col.VZ]) * p.per_speed * p.per_speed
     return axial * axial + turned * turned + speed
 
 
@@ -106,7 +112,7 @@ def largest_turn(p, Y):
     """Largest |phi_k - phi_(k-1)| (rad) and the upper node of its element."""
     turn, element = 0.0, 0
     for k in range(1, Y.shape[0]):
-        d = abs(Y[k, 4] - Y[k - 1, 4])
+        d = abs(Y[k, col.PHI] - Y[k - 1, col.PHI])
         if d > turn:
             turn, element = d, k
     return turn, element
@@ -117,7 +123,7 @@ def greatest_turn(Y):
     """Largest |phi_k - phi_(k-1)| (rad) alone."""
     turn = 0.0
     for k in range(1, Y.shape[0]):
-        turn = larger(turn, abs(Y[k, 4] - Y[k - 1, 4]))
+        turn = larger(turn, abs(Y[k, col.PHI] - Y[k - 1, col.PHI]))
     return turn
 
 
@@ -125,13 +131,13 @@ def greatest_turn(Y):
 def release_loop(p, tables, Y, upper):
     """Shift phi by 2 pi from node `upper` up, against the turn; new first guesses for curvature and shear nearby."""
     n = Y.shape[0]
-    shift = -2.0 * math.pi if Y[upper, 4] > Y[upper - 1, 4] else 2.0 * math.pi
+    shift = -2.0 * math.pi if Y[upper, col.PHI] > Y[upper - 1, col.PHI] else 2.0 * math.pi
     for k in range(upper, n):
-        Y[k, 4] += shift
+        Y[k, col.PHI] += shift
     for k in range(max(1, upper - 2), min(n - 1, upper + 2)):
         h = tables[p.grid_at + k - 1] + tables[p.grid_at + k]
-        Y[k, 5] = (Y[k + 1, 4] - Y[k - 1, 4]) / h
-        Y[k, 1] = 0.0
+        Y[k, col.KAPPA] = (Y[k + 1, col.PHI] - Y[k - 1, col.PHI]) / h
+        Y[k, col.SHEAR] = 0.0
 
 
 @kernel
@@ -140,23 +146,22 @@ def configuration(p, tables, weights, C0, K0, C1, K1, row):
 
     Returns the velocity (U, 0, W) of the last node and the largest distance from the plane, 0.
     """
-    w0, w1, g0, g1 = weights
     n = C0.shape[0]
     x = z = qx_below = qz_below = U = W = 0.0
     for k in range(n):
-        qx = w0 * C0[k, 0] + w1 * C1[k, 0] + g0 * K0[k, 0] + g1 * K1[k, 0]
-        qz = w0 * C0[k, 1] + w1 * C1[k, 1] + g0 * K0[k, 1] + g1 * K1[k, 1]
-        U = w0 * C0[k, 2] + w1 * C1[k, 2] + g0 * K0[k, 2] + g1 * K1[k, 2]
-        W = w0 * C0[k, 3] + w1 * C1[k, 3] + g0 * K0[k, 3] + g1 * K1[k, 3]
+        qx = within(weights, C0, C1, K0, K1, k, col.CX)
+        qz = within(weights, C0, C1, K0, K1, k, col.CZ)
+        U = within(weights, C0, C1, K0, K1, k, col.VX)
+        W = within(weights, C0, C1, K0, K1, k, col.VZ)
         if k > 0:
             half = 0.5 * tables[p.grid_at + k - 1]
             x += half * (qx_below + qx)
             z += half * (qz_below + qz)
         qx_below, qz_below = qx, qz
         eps = math.sqrt(qx * qx + qz * qz) - 1.0
-        row[k, 0], row[k, 1], row[k, 2], row[k, 3] = x, 0.0, z, eps
-        row[k, 4] = tension(eps, p, tables)[0]
-        row[k, 5] = math.sqrt(U * U + W * W)
+        row[k, PLACE], row[k, PLACE + 1], row[k, PLACE + 2], row[k, STRAIN] = x, 0.0, z, eps
+        row[k, TENSION] = tension(eps, p, tables)[0]
+        row[k, SPEED] = math.sqrt(U * U + W * W)
     return U, 0.0, W, 0.0
 
 
@@ -164,11 +169,11 @@ def configuration(p, tables, weights, C0, K0, C1, K1, row):
 def last_strain(p, C):
     """Strain of the last node."""
     k = C.shape[0] - 1
-    return math.sqrt(C[k, 0] * C[k, 0] + C[k, 1] * C[k, 1]) - 1.0
+    return math.sqrt(C[k, col.CX] * C[k, col.CX] + C[k, col.CZ] * C[k, col.CZ]) - 1.0
 
 
 @kernel
 def shear_force(p, Y, k, q, S):
     """S n of node k into S (2,), where n is normal to q."""
-    f = Y[k, 1] / math.sqrt(q[0] * q[0] + q[1] * q[1])
+    f = Y[k, col.SHEAR] / math.sqrt(q[0] * q[0] + q[1] * q[1])
     S[0], S[1] = -f * q[1], f * q[0]

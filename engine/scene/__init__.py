@@ -1,5 +1,9 @@
-"""Scenes: what is simulated. `load` reads them, `models` declares every key, `rules` compares keys with each other."""
+"""Scenes: what is simulated. `load` reads them, `models` declares every key, `rules` compares keys with each other.
 
-from .load import Scene, SceneError, build_scene, known_scenes, load_scene, parse_assignment, scene_from_toml
+Names are imported on first use: `engine.physics.tension` declares keys too, with the types of `values`.
+"""
 
-__all__ = ["Scene", "SceneError", "build_scene", "known_scenes", "load_scene", "parse_assignment", "scene_from_toml"]
+import lazy_loader
+
+_NAMES = ["Scene", "SceneError", "build_scene", "known_scenes", "load_scene", "parse_assignment", "scene_from_toml"]
+__getattr__, __dir__, __all__ = lazy_loader.attach(__name__, submod_attrs={"load": _NAMES})

@@ -5,8 +5,8 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
+from engine.physics.tension import TensionLaw
 from engine.scene.values import (
-    Five,
     Nodes,
     NonNegative,
     Number,
@@ -19,32 +19,6 @@ from engine.scene.values import (
     Vectors,
     described,
 )
-
-
-class LinearTension(Section):
-    """T = stiffness_N * eps, in tension and in compression [f(eps) = p1 eps, section 4.2]."""
-
-    law: Literal["linear"] = described("form of the tension law; the other keys depend on it", paper="(20)")
-    stiffness_N: Positive = described(
-        "linear: T = stiffness eps, in tension and compression", symbol="p_1", paper="(20), section 4.2"
-    )
-
-
-class TanhTension(Section):
-    """T = p1 tanh(p2 eps + p3) + p4 + p5 eps [section 4.1.1]."""
-
-    law: Literal["tanh"]
-    p: Five = described(
-        "tanh: T = p1 tanh(p2 eps + p3) + p4 + p5 eps", symbol="p_1 ... p_5", paper="(20), section 4.1.1"
-    )
-
-
-class TabulatedTension(Section):
-    """T interpolated through measured points; strain increasing, tension never falling."""
-
-    law: Literal["tabulated"]
-    strain: Series = described("tabulated: strains of the measured points, increasing", paper="(20)")
-    tension_N: Series = described("tabulated: tensions at these strains, never falling", paper="(20)")
 
 
 class Tether(Section):
@@ -79,9 +53,7 @@ class Tether(Section):
         "tangential drag coefficient, on pi times the diameter", 0.1, symbol="C_dt", paper="(24)"
     )
     added_mass: NonNegative = described("normal added mass over rho_w pi d^2/4", 1.0, paper="(24)")
-    tension: Annotated[LinearTension | TanhTension | TabulatedTension, Field(discriminator="law")] = described(
-        "tension law", symbol="T = f(eps)", paper="(20)"
-    )
+    tension: TensionLaw = described("tension law", symbol="T = f(eps)", paper="(20)")
     compression_barrier_N: NonNegative = described(
         "barrier: T loses P_b (0.5/(1 + eps) - 1)^2 below a strain of -1/2", 0.0, symbol="P_b"
     )

@@ -80,7 +80,7 @@ class Solver(Section):
         "internal viscosity confined to shocks; by default none", None, paper="section 4.1"
     )
     max_step_s: Positive = described("longest step", 0.1)
-    min_step_s: Positive = described("shortest step, below which the run ends as step-too-small", 1e-9)
+    min_step_s: Positive = described("shortest step, below which the run ends as step-underflow", 1e-9)
     newton_tolerance: Tolerance | None = described("tolerance of the scaled Newton update; by default rtol/100", None)
     max_newton_iterations: Count = described("Newton iterations after which a step is cut", 12)
     growth_per_step: Positive = described("e-folds that the fastest buckle may grow in one adaptive step", 2.0)

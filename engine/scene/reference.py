@@ -25,9 +25,20 @@ HEAD = """# Keys of a scene
 Made by `python -m engine.scene.reference > docs/scene_keys.md` from the model that checks scenes; a test fails where
 this page is stale. A scene is a TOML file, or a shipped one with changes: `--set water.depth_m=22.5` on a command line,
 `load_scene("tethered_buoy", {"water.depth_m": 22.5})` in Python. SI units; x with the waves, y across, z up from the
-bed, the anchor at the origin. A section that may be left out is absent from the physics without it. The last column is
-the place in the paper: a number in brackets is an equation.
+bed, the anchor at the origin. A section that may be left out is absent from the physics without it. Numbers are finite,
+at most 1e+30 in size, and 0 or at least 1e-30 where the sign is restricted. The last column is the place in the paper:
+a number in brackets is an equation.
 """
+ON_THE_PAGE = {  # what every number has in common is told once, above
+    "a finite number above 0, 1e-30 to 1e+30": "> 0",
+    "a finite number, 0 or above: 0, or 1e-30 to 1e+30": ">= 0",
+    ", at most 1e+30 in size": "",
+    "a finite number": "number",
+    "finite number": "number",
+    "a list of ": "",
+    "a number from ": "",
+    "a whole number from ": "whole, ",
+}
 SECTIONS = {
     "": "The scene itself",
     "tether": "The line",
@@ -88,14 +99,17 @@ def page() -> str:
     rows: dict[str, list[str]] = {section: [] for section in SECTIONS}
     for key in keys().values():
         top = key.name.partition(".")[0] if "." in key.name or key.name in SECTIONS else ""
-        cells = (f"`{key.name}`", key.kind, key.unit, key.default, key.allowed, key.meaning, key.symbol, key.paper)
+        allowed = key.allowed
+        for words, short in ON_THE_PAGE.items():
+            allowed = allowed.replace(words, short)
+        cells = (f"`{key.name}`", key.unit, key.default, allowed, key.meaning, key.symbol, key.paper)
         rows[top].append("| " + " | ".join(cell.replace("|", "\\|") for cell in cells) + " |")
     parts = [HEAD]
     for section, words in SECTIONS.items():
         title = f"## `{section}`: {words.lower()}" if section else f"## {words}"
         if section and not Scene.model_fields[section].is_required() and Scene.model_fields[section].default is None:
             title += " (may be left out)"
-        head = "| key | type | unit | default | allowed | meaning | symbol | paper |\n|" + 8 * "---|"
+        head = "| key | unit | default | allowed | meaning | symbol | paper |\n|" + 7 * "---|"
         parts.append("\n".join([title, "", head, *rows[section], ""]))
     return "\n".join(parts)
 

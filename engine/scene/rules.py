@@ -3,6 +3,7 @@
 import math
 from collections.abc import Iterator
 
+from engine.physics.tension import LAWS, NAMES
 from engine.scene.end_rules import clamp_faults, end_faults, motion_faults
 from engine.scene.faults import fault, shown
 from engine.scene.lookup import FAULTY, Sound, not_increasing
@@ -25,26 +26,8 @@ def cross_faults(raw: dict[str, object], bad: set[tuple[str | int, ...]]) -> lis
 
 def _tension(sound: Sound) -> Iterator[str]:
     law = sound.value("tether.tension.law")
-    if law == "tanh" and (found := sound.values("tether.tension.p")):
-        p1, p2, _, _, p5 = found[0]
-        if min(p5, p1 * p2 + p5) < 0:
-            rule = "a tension that never falls with strain: p5 >= 0 and p1 p2 + p5 >= 0"
-            yield fault("tether.tension.p", list(found[0]), rule)
-    if law != "tabulated":
-        return
-    if found := sound.values("tether.tension.strain"):
-        yield from not_increasing("tether.tension.strain", found[0])
-        if found[0][0] <= -1:
-            yield fault("tether.tension.strain[0]", found[0][0], "strains above -1")
-    if found := sound.values("tether.tension.tension_N"):
-        tension = found[0]
-        for index in range(1, len(tension)):
-            if tension[index] < tension[index - 1]:
-                given = f"given {shown(tension[index])} after {shown(tension[index - 1])}"
-                yield f"tether.tension.tension_N[{index}]: {given}; allowed: a tension that never falls with strain"
-                break
-    if (found := sound.values("tether.tension.strain", "tether.tension.tension_N")) and len(found[0]) != len(found[1]):
-        yield f"tether.tension.tension_N: given {len(found[1])} values; allowed: as many as strain has, {len(found[0])}"
+    if law in NAMES:
+        yield from LAWS[NAMES.index(law)].faults(sound)
 
 
 def _waves(sound: Sound) -> Iterator[str]:

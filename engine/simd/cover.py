@@ -1,5 +1,7 @@
 """Which scenes may share a batch."""
 
+from ..physics.tension import LAWS, number_of
+
 
 def goes_in_lanes(scene):
     """May this scene share a batch: planar, by a Runge-Kutta method, a buoy at the end, nothing looked up in a table?
@@ -14,7 +16,7 @@ def goes_in_lanes(scene):
         and scene.solver.integrator in ("esdirk43", "trbdf2")
         and scene.solver.shock_viscosity is None
         and scene.end.kind == "buoy"
-        and scene.tether.tension.law != "tabulated"
+        and LAWS[number_of(scene.tether.tension.law)].IN_LANES
         and (scene.waves is None or not scene.waves.irregular)
         and (scene.current is None or scene.current.law == "uniform")
         and scene.output.profiles is False

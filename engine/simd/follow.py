@@ -4,11 +4,14 @@ The steps of a lane's trail are its own; a lane whose trail is at its end waits 
 of `engine.perturbations.tangent` and `engine.perturbations.lateral`, in vectors; the logarithms are taken lane by lane.
 """
 
+from typing import NamedTuple
+
 import numpy as np
 
+from .. import record as col
 from ..compiled import kernel
 from ..perturbations.lateral import known_lateral, lateral_stage, normalise
-from ..perturbations.tangent import carry_stage, linearise, orthonormalise, period_of, water_moves
+from ..perturbations.tangent import Base, carry_stage, linearise, orthonormalise, period_of, water_moves
 from ..planar import node
 from ..time.steps import plan_stage
 from .elementary import copy_into
@@ -20,12 +23,12 @@ TIME, RATE, STAGE, BEGUN, BUSY, ENDED, LENGTH = range(7)  # rows of numbers; len
 
 
 @kernel
-def plan_turn(records, tables, trail, trails, step, stage, numbers, a, w, Y, K):
-    """The next stage of every lane that has steps left, as numbers; returns how many have.
+def plan_turn(records, tables, trail, trails, step, stage, turn):
+    """The next stage of every lane that has steps left, into a Turn of numbers; returns how many have.
 
-    trails (COUNT,): steps in the trail of a lane; step, stage (COUNT,): where it is; Y, K (n, ., COUNT): taken out.
+    trails (COUNT,): steps in the trail of a lane; step, stage (COUNT,): where it is.
     """
-    trail_T, trail_Y, trail_K = trail
+    numbers, a, w, Y, K, _ = turn
     busy = 0
     for b in range(COUNT):
         numbers[BUSY, b] = numbers[BEGUN, b] = numbers[ENDED, b] = 0.0
@@ -33,16 +36,16 @@ def plan_turn(records, tables, trail, trails, step, stage, numbers, a, w, Y, K):
             continue
         busy += 1
         numbers[BUSY, b] = 1.0
-        p, row = records[b], trail_T[b, step[b]]
-        last, euler = max(p.stages, 2) - 1, row[2] > 0.0
+        p, row = records[b], trail.T[b, step[b]]
+        last, euler = max(p.stages, 2) - 1, row[col.KIND] > 0.0
         if stage[b] == 0:
             stage[b] = last if euler else 1
             numbers[BEGUN, b] = 1.0
         numbers[ENDED, b] = 1.0 if stage[b] == last else 0.0
-        rate, after = plan_stage(p, tables[b], stage[b], euler, row[1], 0.0, a[:, b], w[:, b])
-        numbers[RATE, b], numbers[TIME, b], numbers[STAGE, b] = rate, row[0] + after, float(stage[b])
-        copy_into(Y[:, :, b], trail_Y[b, step[b], stage[b]])
-        copy_into(K[:, :, b], trail_K[b, step[b], stage[b]])
+        rate, after = plan_stage(p, tables[b], stage[b], euler, row[col.STEP], 0.0, a[:, b], w[:, b])
+        numbers[RATE, b], numbers[TIME, b], numbers[STAGE, b] = rate, row[col.BEGIN] + after, float(stage[b])
+        copy_into(Y[:, :, b], trail.Y[b, step[b], stage[b]])
+        copy_into(K[:, :, b], trail.K[b, step[b], stage[b]])
     return busy
 
 
@@ -55,7 +58,7 @@ def end_turn(trail_T, step, stage, numbers, periods, vectors, sideways, nats, la
         if numbers[ENDED, b] == 0.0:
             stage[b] += 1
             continue
-        at = period_of(trail_T[b, step[b], 0] + trail_T[b, step[b], 1], periods[b], nats.shape[1])
+        at = period_of(trail_T[b, step[b], col.BEGIN] + trail_T[b, step[b], col.STEP], periods[b], nats.shape[1])
         for v in range(vectors):
             nats[b, at, v] += np.log(numbers[LENGTH + v, b])
         if sideways:
@@ -64,62 +67,79 @@ def end_turn(trail_T, step, stage, numbers, periods, vectors, sideways, nats, la
         step[b] += 1
 
 
+class Turn(NamedTuple):
+    """What a turn of all lanes works on, COUNT the last axis: numbers (LENGTH + k + 1,), a (s,), w (3,) as in
+    `plan_stage`; Y (n, 6), K (n, 4): the stage and its rates; K_new (n, 4): rates of a perturbation."""
+
+    numbers: np.ndarray
+    a: np.ndarray
+    w: np.ndarray
+    Y: np.ndarray
+    K: np.ndarray
+    K_new: np.ndarray
+
+
+class Across(NamedTuple):
+    """The lateral perturbation of every lane, COUNT the last axis: weights, C, K (n, 2), rates Ks (s, n, 2) of the
+    stages of a step; work: C_new, C_tilde, K_new (n, 2), H and E (`engine.perturbations.lateral`)."""
+
+    weights: np.ndarray
+    C: np.ndarray
+    K: np.ndarray
+    Ks: np.ndarray
+    C_new: np.ndarray
+    C_tilde: np.ndarray
+    K_new: np.ndarray
+    H: np.ndarray
+    E: np.ndarray
+
+
 @kernel
-def follow(records, tables, trail, trails, periods, nats, lateral_nats, sideways, counts, arrays, work, lateral):
-    """Carry the perturbations of all lanes through their trails (arrays: `engine.simd.machine.Followers`)."""
-    values, in_lanes, numbers, a_all, w_all, Y_all, K_all, vectors, rates, waters, dKs, dCs = arrays
-    p = lane_record(counts, as_lanes(values))
-    grid, rows, a, Y, K = as_lanes(in_lanes), as_lanes(numbers), as_lanes(a_all), as_lanes(Y_all), as_lanes(K_all)
-    vectors, rates, waters, dKs, dCs = (
-        as_lanes(vectors),
-        as_lanes(rates),
-        as_lanes(waters),
-        as_lanes(dKs),
-        as_lanes(dCs),
-    )
-    X, F, Q, E, D = as_lanes(work[0]), as_lanes(work[1]), as_lanes(work[2]), as_lanes(work[3]), as_lanes(work[4])
-    C_tilde, dC_tilde, dK_new = as_lanes(work[5]), as_lanes(work[6]), as_lanes(work[7])
-    J, gamma = as_lanes(work[8]), as_lanes(work[9])
-    room = D, as_lanes(work[10]), as_lanes(work[11]), as_lanes(work[12])
-    weights, across, across_rates, dK, dC = (
-        as_lanes(lateral[0]), as_lanes(lateral[1]), as_lanes(lateral[2]), as_lanes(lateral[3]), as_lanes(lateral[4]),
-    )  # fmt: skip
-    known, fresh, H, E_across = as_lanes(lateral[5]), as_lanes(lateral[6]), as_lanes(lateral[7]), as_lanes(lateral[8])
-    count, s = vectors.shape[0], a.shape[0]
+def follow(records, tables, trail, trails, periods, nats, lateral_nats, sideways, p_lanes, turn_of, carried, room):
+    """Carry the perturbations of all lanes through their trails.
+
+    records (COUNT,): RECORD; tables (COUNT, m); trail: Trail with COUNT as its first axis; trails (COUNT,): steps in
+    it; periods (COUNT,), s; nats (COUNT, periods, k), lateral_nats (COUNT, periods): growth, added to; sideways: 1 with
+    a lateral perturbation; p_lanes: counts, values and tables of the lane record; turn_of: Turn; carried: Carried and
+    Across; room: Work and Water; COUNT is the last axis of all their arrays.
+    """
+    counts, values, in_lanes = p_lanes
+    p, grid = lane_record(counts, as_lanes(values)), as_lanes(in_lanes)
+    turn, own, across = as_lanes(turn_of), as_lanes(carried[0]), as_lanes(carried[1])
+    work, water = as_lanes(room[0]), as_lanes(room[1])
+    numbers, rows, Y, K_new = turn_of.numbers, turn.numbers, turn.Y, turn.K_new
+    count, s = own.C.shape[0], turn.a.shape[0]
     moving_water = water_moves(p)
     step, stage = np.zeros(COUNT, np.int64), np.zeros(COUNT, np.int64)
-    while plan_turn(records, tables, trail, trails, step, stage, numbers, a_all, w_all, Y_all, K_all) > 0:
-        t, rate = rows[TIME], rows[RATE]
+    while plan_turn(records, tables, trail, trails, step, stage, turn_of) > 0:
+        base = Base(rows[TIME], rows[RATE], moving_water, Y, turn.K)
         begun, ended, busy = rows[BEGUN] != 0.0, rows[ENDED] != 0.0, rows[BUSY] != 0.0
         if count > 0:
-            linearise(p, grid, t, rate, moving_water, Y, K, X, F, C_tilde, Q, E, J, room)
+            linearise(p, grid, base, work, water)
         else:
-            node.shape(p, grid, Y, Q, X)
-            node.water(p, grid, t, 1.0, X, F)
+            node.shape(p, grid, Y, work.Q, work.X)
+            node.water(p, grid, base.t, 1.0, work.X, work.F)
         for v in range(count):
-            keep(begun, rates[v], dKs[v, 0])
-            carry_stage(
-                p, grid, t, rate, a, s - 1, busy, moving_water, X, Y, K, v, vectors, dKs, waters, dC_tilde, dCs,
-                Q, J, F, E, D, gamma,
-            )  # fmt: skip
+            keep(begun, own.K[v], own.Ks[v, 0])
+            carry_stage(p, grid, base, turn.a, s - 1, busy, v, own, work, water)
             for k in range(Y.shape[0]):
                 for m in range(4):
-                    dK_new[k, m] = rate * (dCs[v, k, m] - dC_tilde[k, m])
+                    K_new[k, m] = base.rate * (own.Cs[v, k, m] - own.C_tilde[k, m])
             for j in range(1, s):
-                keep(busy & (rows[STAGE] == float(j)), dK_new, dKs[v, j])
-            keep(ended, dCs[v], vectors[v])
-            keep(ended, dK_new, rates[v])
-        orthonormalise(p.per_speed * p.per_speed, ended, vectors, rates, rows[LENGTH : LENGTH + count])
+                keep(busy & (rows[STAGE] == float(j)), K_new, own.Ks[v, j])
+            keep(ended, own.Cs[v], own.C[v])
+            keep(ended, K_new, own.K[v])
+        orthonormalise(p.per_speed * p.per_speed, ended, own.C, own.K, rows[LENGTH : LENGTH + count])
         if sideways:
-            keep(begun, across_rates, dK[0])
-            known_lateral(a, s - 1, across, dK, known)
-            lateral_stage(p, grid, t, rate, X, Y, K, Q, F, known, H, E_across, dC)
+            keep(begun, across.K, across.Ks[0])
+            known_lateral(turn.a, s - 1, across.C, across.Ks, across.C_tilde)
+            lateral_stage(p, grid, base, work.X, work.Q, work.F, across.C_tilde, across.H, across.E, across.C_new)
             for k in range(Y.shape[0]):
                 for m in range(2):
-                    fresh[k, m] = rate * (dC[k, m] - known[k, m])
+                    across.K_new[k, m] = base.rate * (across.C_new[k, m] - across.C_tilde[k, m])
             for j in range(1, s):
-                keep(busy & (rows[STAGE] == float(j)), fresh, dK[j])
-            keep(ended, dC, across)
-            keep(ended, fresh, across_rates)
-            rows[LENGTH + count] = normalise(weights, ended, across, across_rates)
-        end_turn(trail[0], step, stage, numbers, periods, count, sideways, nats, lateral_nats)
+                keep(busy & (rows[STAGE] == float(j)), across.K_new, across.Ks[j])
+            keep(ended, across.C_new, across.C)
+            keep(ended, across.K_new, across.K)
+            rows[LENGTH + count] = normalise(across.weights, ended, across.C, across.K)
+        end_turn(trail.T, step, stage, numbers, periods, count, sideways, nats, lateral_nats)

@@ -2,12 +2,18 @@
 
 import numpy as np
 
+from ..arrays import Work
 from ..perturbations.lateral import COEFFICIENTS
 from ..perturbations.lateral import WIDTH as LATERAL_WIDTH
-from ..planar import elimination as sweep
-from ..planar import node
-from .follow import LENGTH, RATE, follow
+from ..perturbations.tangent import Carried, Water
+from ..planar import columns as col
+from .follow import LENGTH, RATE, Across, Turn, follow
 from .vector import COUNT, lane_zeros
+
+
+def lane_work(n, width):
+    """Work arrays of a Newton solve in all lanes; width: of E."""
+    return Work(*(lane_zeros(n, each) for each in (2, 4, col.NODE_WIDTH, width, 6, 4)))
 
 
 class Followers:
@@ -19,41 +25,44 @@ class Followers:
         self.sideways = run.trail.sideways
         self.periods = np.ones(COUNT)
         self.nats, self.lateral_nats = np.zeros((COUNT, periods + 1, k)), np.zeros((COUNT, periods + 1))
-        self.vectors, self.rates, self.waters = (lane_zeros(k, n, 4) for _ in range(3))
-        self.numbers, self.Y, self.K = lane_zeros(LENGTH + k + 1), lane_zeros(n, 6), lane_zeros(n, 4)
-        self.numbers[RATE] = 1.0
-        self.own = (
-            self.numbers, lane_zeros(s), lane_zeros(3), self.Y, self.K, self.vectors, self.rates, self.waters,
-            lane_zeros(k, s, n, 4), lane_zeros(k, n, 4),
-        )  # fmt: skip
-        widths = 2, 4, node.WIDTH, sweep.WITH_INVERSE, 6, 4, 4, 4, 8, 2, 2, 4, 4
-        self.work = tuple(lane_zeros(n, width) for width in widths)
-        self.weights, self.across, self.across_rates = lane_zeros(n, 2), lane_zeros(n, 2), lane_zeros(n, 2)
-        self.lateral = (
-            self.weights, self.across, self.across_rates, lane_zeros(s, n, 2), lane_zeros(n, 2), lane_zeros(n, 2),
-            lane_zeros(n, 2), lane_zeros(n, COEFFICIENTS), lane_zeros(n, LATERAL_WIDTH),
-        )  # fmt: skip
+        self.turn = Turn(
+            lane_zeros(LENGTH + k + 1),
+            lane_zeros(s),
+            lane_zeros(3),
+            lane_zeros(n, 6),
+            lane_zeros(n, 4),
+            lane_zeros(n, 4),
+        )
+        self.turn.numbers[RATE] = 1.0
+        C, K, F, Cs = (lane_zeros(k, n, 4) for _ in range(4))
+        self.carried = Carried(C, K, F, lane_zeros(k, s, n, 4), lane_zeros(n, 4), Cs)
+        weights, C, K, C_new, C_tilde, K_new = (lane_zeros(n, 2) for _ in range(6))
+        work = lane_zeros(n, COEFFICIENTS), lane_zeros(n, LATERAL_WIDTH)
+        self.across = Across(weights, C, K, lane_zeros(s, n, 2), C_new, C_tilde, K_new, *work)
+        water = Water(*(lane_zeros(n, width) for width in (8, 2, 2, 4, 4)))
+        self.room = lane_work(n, col.WITH_INVERSE), water
 
     def load(self, b, run):
         """Put the perturbations of a run, and the state it starts from, into a lane."""
         trail = run.trail
         self.periods[b] = trail.period_s
         self.nats[b] = self.lateral_nats[b] = 0.0
-        self.Y[..., b], self.K[..., b] = run.Y, run.K
+        self.turn.Y[..., b], self.turn.K[..., b] = run.motion.Y, run.motion.K
         if self.count:
-            self.vectors[..., b], self.rates[..., b], self.waters[..., b] = trail.vectors, trail.rates, trail.waters
+            for part, given in zip(self.carried[:3], (trail.vectors, trail.rates, trail.waters), strict=True):
+                part[..., b] = given
         if self.sideways:
-            self.weights[..., b], self.across[..., b] = trail.weights, trail.lateral
-            self.across_rates[..., b] = trail.lateral_rates
+            for part, given in zip(self.across[:3], (trail.weights, trail.lateral, trail.lateral_rates), strict=True):
+                part[..., b] = given
 
     def unload(self, b, run):
         """What has grown, back to the run."""
         periods = len(run.trail.nats)
         run.trail.nats[:], run.trail.lateral_nats[:] = self.nats[b, :periods], self.lateral_nats[b, :periods]
 
-    def follow(self, records, tables, trail, trails, counts, values, in_lanes):
-        """Through the trails (COUNT, l, ...), of which `trails` steps each are to be followed."""
+    def follow(self, records, tables, trail, trails, counts, arrays):
+        """Through the trails (COUNT, l, ...), of which `trails` steps each are to be followed; arrays: Arrays."""
         follow(
-            records, tables, trail, trails, self.periods, self.nats, self.lateral_nats, int(self.sideways), counts,
-            (values, in_lanes, *self.own), self.work, self.lateral,
+            records, tables, trail, trails, self.periods, self.nats, self.lateral_nats, int(self.sideways),
+            (counts, arrays.values, arrays.tables), self.turn, (self.carried, self.across), self.room,
         )  # fmt: skip

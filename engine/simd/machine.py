@@ -4,20 +4,20 @@ import time
 
 import numpy as np
 
-from ..parameters import RECORD, record_of
-from ..planar import elimination as sweep
-from ..planar import node
+from ..arrays import Trail
+from ..parameters import record_of
+from ..planar import columns as col
 from ..planar.state import conserved
-from ..time.time_loop import STATE
-from .followers import Followers
+from ..record import PROFILE_WIDTH, RECORD, SAMPLE_WIDTH, STATE
+from .followers import Followers, lane_work
 from .record import REAL, WHOLE
-from .ticks import LANE, MOVED, RATE, RESTARTED, ROWS, STEP, advance
+from .ticks import LANE, MOVED, RATE, RESTARTED, ROWS, STEP, Arrays, advance
 from .vector import COUNT, lane_zeros
 
 STEPS = 50  # of a trail before it is followed: lanes with fewer by then wait for the others
 TICKS = 20_000  # between two looks at the clock and at Ctrl-C: a tenth of a second
 # of the whole numbers these decide nothing within the vectors
-OWN = ("at_rest", "max_newton", "max_releases", "release", "end_at")
+OWN = ("at_rest", "max_newton", "max_releases", "loop_release", "end_at")
 
 
 def kind_of(scene):
@@ -36,37 +36,37 @@ class Machine:
         self.runs = [None] * COUNT
         self.records, self.states = np.zeros(COUNT, RECORD), np.zeros(COUNT, STATE)
         self.lanes, self.spent = np.zeros(COUNT, LANE), np.zeros(COUNT, np.int64)
-        self.tables, self.samples = np.zeros((COUNT, run.tables.size)), np.zeros((COUNT, goal, 12))
+        self.tables, self.samples = np.zeros((COUNT, run.tables.size)), np.zeros((COUNT, goal, SAMPLE_WIDTH))
         self.counts = np.array([run.record[name] for name in WHOLE])
-        self.values, self.in_lanes, self.numbers = lane_zeros(len(REAL)), lane_zeros(run.tables.size), lane_zeros(ROWS)
-        self.Y, self.now, self.before, self.C = lane_zeros(n, 6), lane_zeros(n, 6), lane_zeros(n, 6), lane_zeros(n, 4)
-        self.Ks = lane_zeros(s, n, 4)
-        self.arrays = (
-            self.values, self.in_lanes, self.numbers, lane_zeros(s), lane_zeros(3), self.Y, self.now, self.before,
-            self.C, self.Ks, lane_zeros(3, n, 6), lane_zeros(n, 4),
+        self.arrays = Arrays(
+            values=lane_zeros(len(REAL)), tables=lane_zeros(run.tables.size), numbers=lane_zeros(ROWS),
+            a=lane_zeros(s), w=lane_zeros(3), Y=lane_zeros(n, 6), now=lane_zeros(n, 6), before=lane_zeros(n, 6),
+            C=lane_zeros(n, 4), Ks=lane_zeros(s, n, 4), history=lane_zeros(3, n, 6),
+            C_new=lane_zeros(n, 4), K_new=lane_zeros(n, 4), row=lane_zeros(n, PROFILE_WIDTH),
         )  # fmt: skip
-        widths = 2, 4, node.WIDTH, sweep.WIDTH, 6, 4, 4, 6
-        self.work = tuple(lane_zeros(n, width) for width in widths)
+        self.work = lane_work(n, col.BOX_WIDTH)
         room = STEPS if run.trail.followed else 0
         self.followers = Followers(run, periods) if run.trail.followed else None
-        self.trail = np.zeros((COUNT, room, 3)), np.zeros((COUNT, room, s, n, 6)), np.zeros((COUNT, room, s, n, 4))
+        steps = COUNT, room
+        self.trail = Trail(np.zeros((*steps, 3)), np.zeros((*steps, s, n, 6)), np.zeros((*steps, s, n, 4)))
         for b in range(COUNT):
             self._fill(b, run)
 
     def _fill(self, b, run):
         """Parameters and state of a run into a lane."""
+        lane, motion = self.arrays, run.motion
         self.records[b], self.states[b] = run.record, run.state
-        self.tables[b] = self.in_lanes[:, b] = run.tables
-        self.values[:, b] = [run.record[name] for name in REAL]
-        self.Y[..., b], self.now[..., b], self.before[..., b] = run.Y, run.Y, run.Y_before
-        self.C[..., b] = run.C
-        self.Ks[..., b] = 0.0
-        self.Ks[0, ..., b] = run.K
-        self.numbers[RATE, b] = self.numbers[STEP, b] = 1.0
+        self.tables[b] = lane.tables[:, b] = run.tables
+        lane.values[:, b] = [run.record[name] for name in REAL]
+        lane.Y[..., b], lane.now[..., b], lane.before[..., b] = motion.Y, motion.Y, motion.Y_before
+        lane.C[..., b] = motion.C
+        lane.Ks[..., b] = 0.0
+        lane.Ks[0, ..., b] = motion.K
+        lane.numbers[RATE, b] = lane.numbers[STEP, b] = 1.0
 
     def load(self, b, run):
         """Put a run that has not begun into a lane that is free."""
-        conserved(run.record, run.Y, run.C)
+        conserved(run.record, run.motion.Y, run.motion.C)
         self._fill(b, run)
         self.runs[b] = run
         if self.followers is not None:
@@ -74,16 +74,17 @@ class Machine:
         self.spent[b] = 0
         self.lanes[b] = 0
         self.lanes[b]["active"], self.lanes[b]["goal"] = 1, run.goal
-        self.numbers[MOVED, b] = self.numbers[RESTARTED, b] = 1.0
+        self.arrays.numbers[MOVED, b] = self.arrays.numbers[RESTARTED, b] = 1.0
 
     def unload(self, b):
         """Take the run of a lane out, wherever it is."""
         run, self.runs[b] = self.runs[b], None
         for name in STATE.names:
             run.state[name] = self.states[b][name]
-        run.Y[:], run.Y_before[:] = self.now[..., b], self.before[..., b]
-        run.C[:], run.K[:] = self.C[..., b], self.Ks[0, ..., b]
-        run.samples[:] = self.samples[b, : run.goal]
+        lane = self.arrays
+        for part, found in zip(run.motion, (lane.now, lane.before, lane.C, lane.Ks[0]), strict=True):
+            part[:] = found[..., b]
+        run.output.samples[:] = self.samples[b, : run.goal]
         if self.followers is not None:
             self.followers.unload(b, run)
         return run
@@ -114,8 +115,8 @@ class Machine:
         trails = np.zeros(COUNT, np.int64)
         for b in taken:
             trails[b] = self.states[b]["trail"]
-            self.runs[b].trail.mark(self.trail[0][b, : trails[b]])
-        self.followers.follow(self.records, self.tables, self.trail, trails, self.counts, self.values, self.in_lanes)
+            self.runs[b].trail.mark(self.trail.T[b, : trails[b]])
+        self.followers.follow(self.records, self.tables, self.trail, trails, self.counts, self.arrays)
         for b in taken:  # the step that a lane is in the middle of begins the next trail
             if trails[b] < STEPS:
                 for part in self.trail:

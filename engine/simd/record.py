@@ -11,7 +11,7 @@ from numba.core.typing.templates import AttributeTemplate, infer_getattr
 from numba.extending import intrinsic, lower_getattr_generic, models, register_model
 from numba.np import arrayobj
 
-from ..parameters import RECORD
+from ..record import RECORD
 from .vector import Lanes
 
 WHOLE = tuple(name for name in RECORD.names if RECORD[name] == np.int64)
@@ -19,7 +19,7 @@ REAL = tuple(name for name in RECORD.names if RECORD[name] == np.float64)
 
 
 class LaneRecord(types.Type):
-    """Parameters of `count` planar runs (`engine.parameters.RECORD`)."""
+    """Parameters of `count` planar runs (`engine.record.RECORD`)."""
 
     fields: ClassVar[dict] = {
         name: (whole, row) for whole, group in ((True, WHOLE), (False, REAL)) for row, name in enumerate(group)

@@ -9,11 +9,14 @@ Rows of `numbers` (.., COUNT) carry what passes between vectors and decisions.
 """
 
 import math
+from typing import NamedTuple
 
 import numpy as np
 
+from .. import record as col
+from ..arrays import Stage
 from ..compiled import kernel
-from ..physics.tension import tension
+from ..physics.tension.kernels import tension
 from ..planar import node
 from ..planar.state import configuration, greatest_turn, last_strain
 from ..time.newton import GOING_ON, iterate, judge
@@ -41,6 +44,31 @@ LANE = np.dtype([(name, np.int64) for name in "active stage iteration code goal"
     W0, W1, G0, G1, OUT_X, OUT_Z, OUT_U, OUT_W, OUT_TOP, OUT_LEAST,
 ) = range(25)  # fmt: skip
 ROWS = 25
+
+
+class Arrays(NamedTuple):
+    """Arrays of all lanes, whose last axis is COUNT; s stages, n nodes.
+
+    values: fields of the records; tables; numbers (ROWS,); a (s,), w (3,): `plan_stage`; Y, now, before (n, 6):
+    iterate, accepted state, the one before; C (n, 4), Ks (s, n, 4): conserved variables, rates of the state and the
+    stages; history (3, n, 6): states for the first guess; C_new, K_new (n, 4), row (n, 6): of the stage that was
+    solved.
+    """
+
+    values: np.ndarray
+    tables: np.ndarray
+    numbers: np.ndarray
+    a: np.ndarray
+    w: np.ndarray
+    Y: np.ndarray
+    now: np.ndarray
+    before: np.ndarray
+    C: np.ndarray
+    Ks: np.ndarray
+    history: np.ndarray
+    C_new: np.ndarray
+    K_new: np.ndarray
+    row: np.ndarray
 
 
 @kernel
@@ -102,7 +130,7 @@ def judge_steps(records, tables, states, lanes, numbers, spent):
 @kernel
 def sample_lanes(p, tables, records, states, lanes, numbers, C, K, C_new, K_new, row, samples):
     """Store the samples that lie within the accepted steps (`engine.time.sampling.sample`)."""
-    n = C.shape[0]
+    last = C.shape[0] - 1
     rows = as_lanes(numbers)
     while True:
         due = 0
@@ -119,18 +147,17 @@ def sample_lanes(p, tables, records, states, lanes, numbers, C, K, C_new, K_new,
         if due == 0:
             break
         U, _, W, _ = configuration(p, tables, (rows[W0], rows[W1], rows[G0], rows[G1]), C, K, C_new, K_new, row)
-        least = row[0, 4]
-        for k in range(1, n):
-            least = smaller(least, row[k, 4])
-        rows[OUT_X], rows[OUT_Z], rows[OUT_U], rows[OUT_W] = row[n - 1, 0], row[n - 1, 2], U, W
-        rows[OUT_TOP], rows[OUT_LEAST] = row[n - 1, 4], least
+        least = row[0, col.TENSION]
+        for k in range(1, last + 1):
+            least = smaller(least, row[k, col.TENSION])
+        rows[OUT_X], rows[OUT_Z], rows[OUT_U], rows[OUT_W] = row[last, col.PLACE], row[last, col.PLACE + 2], U, W
+        rows[OUT_TOP], rows[OUT_LEAST] = row[last, col.TENSION], least
         for b in range(COUNT):
             if numbers[DUE, b] != 0.0:
                 state = states[b]
                 out = samples[b, state.samples]
-                out[1], out[3], out[4], out[6] = (
-                    numbers[OUT_X, b], numbers[OUT_Z, b], numbers[OUT_U, b], numbers[OUT_W, b],
-                )  # fmt: skip
+                out[col.AT_X], out[col.AT_Z] = numbers[OUT_X, b], numbers[OUT_Z, b]
+                out[col.AT_U], out[col.AT_W] = numbers[OUT_U, b], numbers[OUT_W, b]
                 t = state.samples * records[b].output_step
                 complete_sample(state, out, t, numbers[OUT_TOP, b], numbers[OUT_LEAST, b])
     rows[OUT_TOP] = tension(last_strain(p, C_new), p, tables)[0]
@@ -145,11 +172,10 @@ def record_stages(states, lanes, numbers, Y, K_new, trail):
 
     Y (n, 6, COUNT), K_new (n, 4, COUNT): stages and their rates, as numbers.
     """
-    _, trail_Y, trail_K = trail
     for b in range(COUNT):
         if numbers[SOLVED, b] != 0.0:
-            copy_into(trail_Y[b, states[b].trail, lanes[b].stage], Y[:, :, b])
-            copy_into(trail_K[b, states[b].trail, lanes[b].stage], K_new[:, :, b])
+            copy_into(trail.Y[b, states[b].trail, lanes[b].stage], Y[:, :, b])
+            copy_into(trail.K[b, states[b].trail, lanes[b].stage], K_new[:, :, b])
 
 
 @kernel
@@ -160,7 +186,8 @@ def record_steps(states, numbers, trail_T):
         if numbers[ACCEPTED, b] != 0.0:
             state = states[b]
             row = trail_T[b, state.trail]
-            row[0], row[1], row[2] = state.t, state.trial_dt, 2.0 if state.small else 0.0
+            row[col.BEGIN], row[col.STEP] = state.t, state.trial_dt
+            row[col.KIND] = col.RESTART if state.small else col.CONTROLLED
             state.trail += 1
             full = full or state.trail == trail_T.shape[1]
     return full
@@ -260,47 +287,50 @@ def advance(ticks, records, own_tables, states, lanes, spent, samples, trail, co
     """Make ticks until a run ends, a trail is full, or `ticks` are made; returns how many were.
 
     records, states, lanes (COUNT,): RECORD, STATE, LANE; own_tables (COUNT, m): tables, as numbers; spent (COUNT,):
-    iterations of the trial; samples (COUNT, m, 12); trail: (COUNT, l, 3), (COUNT, l, s, n, 6), (COUNT, l, s, n, 4), of
-    which l = 0 keeps nothing. counts: whole numbers of the lane record; arrays, work: see
-    `engine.simd.machine`.
+    iterations of the trial; samples (COUNT, m, 12); trail: Trail with COUNT as its first axis, of which l = 0 keeps
+    nothing; counts: whole numbers of the lane record; arrays: Arrays; work: Work with COUNT as its last axis.
     """
-    values, in_lanes, numbers, a_all, w_all, Y_all, now, before, C, Ks, history, C_tilde = arrays
-    p = lane_record(counts, as_lanes(values))
-    tables, rows, a, w, Y = as_lanes(in_lanes), as_lanes(numbers), as_lanes(a_all), as_lanes(w_all), as_lanes(Y_all)
-    now, before, history = as_lanes(now), as_lanes(before), as_lanes(history)
-    C, Ks, C_tilde = as_lanes(C), as_lanes(Ks), as_lanes(C_tilde)
-    X, F, Q, E, D = as_lanes(work[0]), as_lanes(work[1]), as_lanes(work[2]), as_lanes(work[3]), as_lanes(work[4])
-    C_new, K_new, row, one = as_lanes(work[5]), as_lanes(work[6]), as_lanes(work[7]), np.empty(Y_all.shape[:2])
+    numbers = arrays.numbers
+    lane = as_lanes(arrays)
+    w, a, C_new, K_new, row = lane.w, lane.a, lane.C_new, lane.K_new, lane.row
+    Y, C, Ks, rows, tables = lane.Y, lane.C, lane.Ks, lane.numbers, lane.tables
+    own = as_lanes(work)
+    p = lane_record(counts, lane.values)
+    one = np.empty(arrays.Y.shape[:2])
     made, stop = 0, False
     while True:
-        stop = plan_lanes(records, own_tables, states, lanes, numbers, a_all, w_all) > 0 or stop
-        move_states(rows, w, history, now, before, Y)
-        move_rates(p, rows, a, C_new, K_new, C, Ks, C_tilde)
+        # every lane that has moved begins its next solve
+        stop = plan_lanes(records, own_tables, states, lanes, numbers, arrays.a, arrays.w) > 0 or stop
+        move_states(rows, w, lane.history, lane.now, lane.before, Y)
+        move_rates(p, rows, a, C_new, K_new, C, Ks, own.C_tilde)
+        # Newton iterations in all lanes, until a solve has ended
         moving = False
         while not moving and not stop and made < ticks:
             made += 1
-            sound, size, least = iterate(p, tables, rows[TIME], 1.0, rows[RATE], rows[RATE], Y, C_tilde, X, F, Q, E, D)
+            sound, size, least = iterate(p, tables, Stage(rows[TIME], 1.0, rows[RATE], rows[RATE]), Y, own)
             rows[SOUND], rows[SIZE], rows[LEAST] = where(sound, 1.0, 0.0), size, least
             moving = judge_solves(records, states, lanes, numbers) > 0
         if not moving:
             break
-        node.shape(p, tables, Y, Q, X)
-        stage_rates(p, rows[RATE], Y, Q, C_tilde, C_new, K_new)
+        # rates of the solved stages, and of finished steps their errors
+        node.shape(p, tables, Y, own.Q, own.X)
+        stage_rates(p, rows[RATE], Y, own.Q, own.C_tilde, C_new, K_new)
         for j in range(1, Ks.shape[0]):
             here = (rows[SOLVED] != 0.0) & (rows[STAGE] == float(j))
             if some(here):
                 keep(here, K_new, Ks[j])
         if some(rows[FINISHED] != 0.0):
-            rows[ERROR] = embedded_error(p, tables, rows[STEP], Ks, Q, a, row[0])
+            rows[ERROR] = embedded_error(p, tables, rows[STEP], Ks, own.Q, a, row[0])
             rows[LEAST], rows[TURN] = least_strain(Y), greatest_turn(Y)
-        if trail[0].shape[1] > 0:
-            record_stages(states, lanes, numbers, Y_all, work[6], trail)
+        if trail.T.shape[1] > 0:
+            record_stages(states, lanes, numbers, arrays.Y, arrays.K_new, trail)
+        # accepted, or to be tried again
         judge_steps(records, own_tables, states, lanes, numbers, spent)
         if some(rows[ACCEPTED] != 0.0):
             sample_lanes(p, tables, records, states, lanes, numbers, C, Ks[0], C_new, K_new, row, samples)
-            if trail[0].shape[1] > 0:
-                stop = record_steps(states, numbers, trail[0]) or stop
-            end_steps(records, own_tables, states, numbers, Y_all, one)
+            if trail.T.shape[1] > 0:
+                stop = record_steps(states, numbers, trail.T) or stop
+            end_steps(records, own_tables, states, numbers, arrays.Y, one)
     for row_number in (SOLVED, FINISHED, ACCEPTED, MOVED, RESTARTED):
         for b in range(COUNT):
             numbers[row_number, b] = 0.0

@@ -176,24 +176,41 @@ def lane_zeros(*shape):
     return room[first : first + size].reshape(*shape, COUNT)
 
 
+def _lane_array(array):
+    """Type of the view that `as_lanes` gives of an array."""
+    return types.Array(Lanes(COUNT), array.ndim - 1, "C", aligned=True)
+
+
+def _view(context, builder, array, value):
+    """The view itself: the same data, one axis less."""
+    kind = _lane_array(array)
+    source = arrayobj.make_array(array)(context, builder, value)
+    target = arrayobj.make_array(kind)(context, builder)
+    arrayobj.populate_array(
+        target,
+        data=builder.bitcast(source.data, context.get_data_type(kind.dtype).as_pointer()),
+        shape=cgutils.unpack_tuple(builder, source.shape, array.ndim)[: kind.ndim],
+        strides=cgutils.unpack_tuple(builder, source.strides, array.ndim)[: kind.ndim],
+        itemsize=context.get_constant(types.intp, 8 * kind.dtype.count),
+        meminfo=None,
+    )
+    return target._getvalue()
+
+
 @intrinsic
-def as_lanes(context, array):
-    """View of a contiguous array (..., lanes) as an array (...) of vectors. It does not keep the memory alive."""
-    kind = types.Array(Lanes(COUNT), array.ndim - 1, "C", aligned=True)
+def as_lanes(context, arrays):
+    """View of a contiguous array (..., lanes) as an array (...) of vectors, or of each array of a (named) tuple.
 
-    def generate(context, builder, sig, values):
-        source = arrayobj.make_array(array)(context, builder, values[0])
-        target = arrayobj.make_array(kind)(context, builder)
-        vector = context.get_data_type(kind.dtype)
-        dims = array.ndim - 1
-        arrayobj.populate_array(
-            target,
-            data=builder.bitcast(source.data, vector.as_pointer()),
-            shape=cgutils.unpack_tuple(builder, source.shape, array.ndim)[:dims],
-            strides=cgutils.unpack_tuple(builder, source.strides, array.ndim)[:dims],
-            itemsize=context.get_constant(types.intp, 8 * kind.dtype.count),
-            meminfo=None,
-        )
-        return target._getvalue()
+    A view does not keep the memory alive.
+    """
+    if isinstance(arrays, types.Array):
+        return _lane_array(arrays)(arrays), lambda c, b, sig, values: _view(c, b, arrays, values[0])
+    kinds = tuple(_lane_array(array) for array in arrays)
+    result = types.BaseTuple.from_types(kinds, getattr(arrays, "instance_class", None))
 
-    return kind(array), generate
+    def generate(context, builder, signature, values):
+        parts = cgutils.unpack_tuple(builder, values[0], len(kinds))
+        views = [_view(context, builder, array, part) for array, part in zip(arrays, parts, strict=True)]
+        return context.make_tuple(builder, result, views)
+
+    return result(arrays), generate

@@ -1,31 +1,54 @@
 """One box in space, linearised: what `engine.spatial.elimination` eliminates (its head states the equations)."""
 
+from typing import NamedTuple
+
 from ..compiled import kernel
-from .node import vector
+from . import columns as col
 from .rows import added, combined, combined3, scaled
-from .vectors import dot, mixed, relative, rotation_vector
+from .vectors import dot, mixed, quaternion, relative, rotation_vector, vector
+
+
+class Rows(NamedTuple):
+    """Rows of five numbers, by y, for the six components of v = (V, O2, O3, theta1)."""
+
+    x: tuple
+    y: tuple
+    z: tuple
+    O2: tuple
+    O3: tuple
+    theta1: tuple
+
+
+class Nodal(NamedTuple):
+    """Of one node: dN by y (five 3-vectors), e dG (of eps, theta2, theta3), dN/dtheta1, dM2 and dM3 by y at fixed O."""
+
+    N: tuple
+    G: tuple
+    roll: tuple
+    M2: tuple
+    M3: tuple
 
 
 @kernel
 def box_rotation(Y, a, b):
     """psi of a box, its length (rad), and (a/2) cot(a/2)."""
-    return rotation_vector(relative((Y[a, 6], Y[a, 7], Y[a, 8], Y[a, 9]), (Y[b, 6], Y[b, 7], Y[b, 8], Y[b, 9])))
+    return rotation_vector(relative(quaternion(Y[a], col.BETA), quaternion(Y[b], col.BETA)))
 
 
 @kernel
 def nodal_jacobian(row, e):
-    """Of one node by y: dN (five 3-vectors), e dG (of eps, theta2, theta3), dN/dtheta1, dM2 and dM3 at fixed O."""
-    t, n, b = vector(row, 0), vector(row, 14), vector(row, 17)
-    T = row[41]
-    N = vector(row, 11)
+    """`Nodal` of a row of Q; e: half the length of the element."""
+    t, n, b = vector(row, col.T_VECTOR), vector(row, col.N_VECTOR), vector(row, col.B_VECTOR)
+    T, cube = row[col.TENSION], row[col.CUBE]
+    N = vector(row, col.N)
     Sn, Sb = dot(N, n), dot(N, b)
-    dN = mixed(row[3], t, 0.0, t), n, b, mixed(Sb, t, -T, b), mixed(-Sn, t, T, n)
-    Ge, G2, G3 = vector(row, 23), vector(row, 26), vector(row, 29)
-    lead = 3.0 * row[40] / row[4]
-    dM2 = (lead * Sb, 0.0, row[40], 0.0, 0.0)
-    dM3 = (lead * Sn, row[40], 0.0, 0.0, 0.0)
-    roll = mixed(Sn, b, -Sb, n)  # dN/dtheta1
-    return dN, (mixed(e, Ge, 0.0, Ge), mixed(e, G2, 0.0, G2), mixed(e, G3, 0.0, G3)), roll, dM2, dM3
+    dN = mixed(row[col.SLOPE], t, 0.0, t), n, b, mixed(Sb, t, -T, b), mixed(-Sn, t, T, n)
+    Ge, G2, G3 = vector(row, col.G_EPS), vector(row, col.G_THETA2), vector(row, col.G_THETA3)
+    lead = 3.0 * cube / row[col.STRETCHED]
+    dM2 = (lead * Sb, 0.0, cube, 0.0, 0.0)
+    dM3 = (lead * Sn, cube, 0.0, 0.0, 0.0)
+    dG = mixed(e, Ge, 0.0, Ge), mixed(e, G2, 0.0, G2), mixed(e, G3, 0.0, G3)
+    return Nodal(dN, dG, mixed(Sn, b, -Sb, n), dM2, dM3)
 
 
 @kernel
@@ -41,76 +64,82 @@ def jacobian_of_rotation(psi, angle, g):
 
 
 @kernel
-def rotation_rows(over, J, left, R1, r1, R2, r2, R3, r3):
-    """(theta1, O2, O3)_b = A y_a + B y_b + z from the rotation equations; `over` = 1/e, `left` what is left of them.
+def across_box(Y, Q, k, e, cq, J, psi, R, r):
+    """v of node k as v_b = A y_a + B y_b + z, from rotation and compatibility; v_a = R y_a + r.
 
-    Columns of y are zero but for the angles; theta1 of node a is R1 y_a + r1.
+    e: half the element; J, psi: of its rotation. Returns A and B (Rows) and z, six numbers.
     """
+    a = k - 1
+    Qa, Qb = Q[a], Q[k]
     (J11, J12, J13), (J21, J22, J23), (J31, J32, J33) = J
-    inverse = 1.0 / J11
-    A1 = added(R1, (0.0, 0.0, 0.0, J21 * inverse, J31 * inverse))
+    _, _, _, r2, r3, r1 = r
+    # rotation: theta1, then O2 and O3
+    over, inverse = 1.0 / e, 1.0 / J11
+    left = psi[0], psi[1] - e * (Y[a, col.O2] + Y[k, col.O2]), psi[2] - e * (Y[a, col.O3] + Y[k, col.O3])
+    A1 = added(R.theta1, (0.0, 0.0, 0.0, J21 * inverse, J31 * inverse))
     B1 = (0.0, 0.0, 0.0, -J12 * inverse, -J13 * inverse)
     z1 = r1 - left[0] * inverse
-    A2 = combined3(J21 * over, A1, -J12 * over, R1, -1.0, R2)
+    A2 = combined3(J21 * over, A1, -J12 * over, R.theta1, -1.0, R.O2)
     A2 = added(A2, (0.0, 0.0, 0.0, -J22 * over, -J32 * over))
     B2 = added(scaled(J21 * over, B1), (0.0, 0.0, 0.0, J22 * over, J23 * over))
     z2 = over * (J21 * z1 - J12 * r1 + left[1]) - r2
-    A3 = combined3(J31 * over, A1, -J13 * over, R1, -1.0, R3)
+    A3 = combined3(J31 * over, A1, -J13 * over, R.theta1, -1.0, R.O3)
     A3 = added(A3, (0.0, 0.0, 0.0, -J23 * over, -J33 * over))
     B3 = added(scaled(J31 * over, B1), (0.0, 0.0, 0.0, J32 * over, J33 * over))
     z3 = over * (J31 * z1 - J13 * r1 + left[2]) - r3
-    return A1, B1, z1, A2, B2, z2, A3, B3, z3
+    # compatibility: V
+    ec = e * cq
+    ta, na, ba = vector(Qa, col.T_VECTOR), vector(Qa, col.N_VECTOR), vector(Qa, col.B_VECTOR)
+    tb, nb, bb = vector(Qb, col.T_VECTOR), vector(Qb, col.N_VECTOR), vector(Qb, col.B_VECTOR)
+    la, lb = ec * Qa[col.STRETCHED], ec * Qb[col.STRETCHED]
+    Ax = added(R.x, (ec * ta[0], 0.0, 0.0, -la * ba[0], la * na[0]))
+    Ay = added(R.y, (ec * ta[1], 0.0, 0.0, -la * ba[1], la * na[1]))
+    Az = added(R.z, (ec * ta[2], 0.0, 0.0, -la * ba[2], la * na[2]))
+    Bx = (ec * tb[0], 0.0, 0.0, -lb * bb[0], lb * nb[0])
+    By = (ec * tb[1], 0.0, 0.0, -lb * bb[1], lb * nb[1])
+    Bz = (ec * tb[2], 0.0, 0.0, -lb * bb[2], lb * nb[2])
+    zx, zy, zz = compatibility_left(Y, Q, k, e, r)
+    return Rows(Ax, Ay, Az, A2, A3, A1), Rows(Bx, By, Bz, B2, B3, B1), (zx, zy, zz, z2, z3, z1)
 
 
 @kernel
-def momentum_row(
-    i,
-    e,
-    Qa,
-    Qb,
-    Rx,
-    Ry,
-    Rz,
-    Ax,
-    Ay,
-    Az,
-    Bx,
-    By,
-    Bz,
-    rx,
-    ry,
-    rz,
-    zx,
-    zy,
-    zz,
-    dNa,
-    Ga,
-    roll_a,
-    dNb,
-    Gb,
-    roll_b,
-    R1,
-    r1,
-    A1,
-    B1,
-    z1,
-):
-    """Row i of the momentum equations: coefficients of y_a, the known term, coefficients of y_b."""
+def compatibility_left(Y, Q, k, e, r):
+    """r less what is left of the compatibility of box k: the known part of V_b."""
+    Va, Vb = vector(Y[k - 1], col.V), vector(Y[k], col.V)
+    qa, qb = vector(Q[k - 1], col.Q_T), vector(Q[k], col.Q_T)
+    return (
+        r[0] - (Vb[0] - Va[0] - e * (qa[0] + qb[0])),
+        r[1] - (Vb[1] - Va[1] - e * (qa[1] + qb[1])),
+        r[2] - (Vb[2] - Va[2] - e * (qa[2] + qb[2])),
+    )
+
+
+@kernel
+def momentum_row(i, e, Qa, Qb, at_a, at_b, R, r, A, B, z):
+    """Row i (0, 1, 2: x, y, z) of the momentum equations: coefficients of y_a, the known term, coefficients of y_b.
+
+    e: half the element; Qa, Qb: rows of Q; at_a, at_b: Nodal; v_a = R y_a + r and v_b = A y_a + B y_b + z.
+    """
     if i == 0:
-        u, v, w = 32, 33, 34
+        u, v, w = col.G_V, col.G_V + 1, col.G_V + 2
     elif i == 1:
-        u, v, w = 33, 35, 36
+        u, v, w = col.G_V + 1, col.G_V + 3, col.G_V + 4
     else:
-        u, v, w = 34, 36, 37
+        u, v, w = col.G_V + 2, col.G_V + 4, col.G_V + 5
     ax, ay, az, bx, by, bz = e * Qa[u], e * Qa[v], e * Qa[w], e * Qb[u], e * Qb[v], e * Qb[w]
-    row = added(combined3(-ax, Rx, -ay, Ry, -az, Rz), combined3(-bx, Ax, -by, Ay, -bz, Az))
-    row = combined3(1.0, row, roll_b[i], A1, -roll_a[i], R1)
-    own = (dNa[0][i] + Ga[0][i], dNa[1][i], dNa[2][i], dNa[3][i] + Ga[1][i], dNa[4][i] + Ga[2][i])
-    known = Qa[11 + i] - Qb[11 + i] + e * (Qa[20 + i] + Qb[20 + i]) - roll_b[i] * z1 + roll_a[i] * r1
-    known += ax * rx + ay * ry + az * rz + bx * zx + by * zy + bz * zz
-    above = (dNb[0][i] - Gb[0][i], dNb[1][i], dNb[2][i], dNb[3][i] - Gb[1][i], dNb[4][i] - Gb[2][i])
-    above = combined3(1.0, above, roll_b[i], B1, -bx, Bx)
-    return combined(1.0, row, -1.0, own), known, combined3(1.0, above, -by, By, -bz, Bz)
+    roll_a, roll_b = at_a.roll[i], at_b.roll[i]
+    # by y_a through V_a, V_b and the rolls, then directly
+    row = added(combined3(-ax, R.x, -ay, R.y, -az, R.z), combined3(-bx, A.x, -by, A.y, -bz, A.z))
+    row = combined3(1.0, row, roll_b, A.theta1, -roll_a, R.theta1)
+    N, G = at_a.N, at_a.G
+    own = (N[0][i] + G[0][i], N[1][i], N[2][i], N[3][i] + G[1][i], N[4][i] + G[2][i])
+    known = Qa[col.N + i] - Qb[col.N + i] + e * (Qa[col.G + i] + Qb[col.G + i]) - roll_b * z[5] + roll_a * r[5]
+    known += ax * r[0] + ay * r[1] + az * r[2] + bx * z[0] + by * z[1] + bz * z[2]
+    # by y_b
+    N, G = at_b.N, at_b.G
+    above = (N[0][i] - G[0][i], N[1][i], N[2][i], N[3][i] - G[1][i], N[4][i] - G[2][i])
+    above = combined3(1.0, above, roll_b, B.theta1, -bx, B.x)
+    return combined(1.0, row, -1.0, own), known, combined3(1.0, above, -by, B.y, -bz, B.z)
 
 
 @kernel

@@ -24,200 +24,72 @@ At the upper end one small solve, then back substitution.
 
 A clamp is a rotational spring, so stiff that the end turns by less than a millionth of the turn of its element.
 
-E (n, 77) is laid out in `engine.spatial.rows`; in the row of the anchor, which has no P and p, E[0, 0:6] is y of the
-upper end and dO1.
+E (n, 77): P, p, p', R, r, r' where `engine.spatial.columns` says; the row of the anchor, which has no P and p, begins
+with y of the upper end and dO1.
 
-In the paper: eq. (13) and eq. (14) torque and bending, eq. (16) moments, eq. (18) compatibility.
+In the paper: eq. (13) torque; eq. (14) bending moment about n; eq. (15) bending moment about b; eq. (16) balance of
+moments; eq. (17) compatibility; eq. (18) compatibility, with the tangent; eq. (19) compatibility in the local frame.
 """
 
 from ..compiled import kernel
 from ..physics.ends import released
+from . import columns as col
 from .box import (
+    Rows,
+    across_box,
     box_rotation,
     factors,
     jacobian_of_rotation,
     momentum_row,
     nodal_jacobian,
-    rotation_rows,
     solve_box,
     solve_box_rows,
 )
-from .node import vector
-from .rows import (
-    AT_P,
-    AT_PX,
-    AT_R,
-    AT_RT,
-    AT_RX,
-    added,
-    combined,
-    combined3,
-    put_row,
-    row_dot,
-    row_of,
-    row_times,
-    scaled,
-)
+from .rows import added, combined, combined3, put_row, row_dot, row_of, row_times, scaled
 from .upper import solve_upper, spring
-from .vectors import dot, mixed, symmetric
+from .vectors import dot, mixed, symmetric, vector
 
 
 @kernel
-def sweep(p, tables, t, cq, cv, in_motion, Y, C_tilde, X, F, Q, E, D):
-    """Fill D (n, 12), increments of eps, Sn, Sb, V, theta, O; returns False where a pivot block is singular."""
+def eliminate_bent(p, tables, stage, Y, work):
+    """Fill work.D (n, 12) with the Newton update; returns False where a pivot block is singular.
+
+    p, tables: parameters (`engine.record`); stage: Stage; Y (n, 13); work: Work, whose Q, F and X belong to Y.
+    """
+    Q, E, cq = work.Q, work.E, stage.cq
     last = Y.shape[0] - 1
-    EI, GI, O1 = p.EI, p.GI, Y[0, 10]
-    twisted = p.clamp_below and p.clamp_above and not released(p, t)
-    zero = (0.0, 0.0, 0.0, 0.0, 0.0)
-    Rx = Ry = Rz = R2 = R3 = R1 = zero
-    rx, ry, rz, r2, r3, r1 = -Y[0, 3], -Y[0, 4], -Y[0, 5], -Y[0, 11], -Y[0, 12], 0.0
+    EI, GI, O1 = p.EI, p.GI, Y[0, col.O1]
+    twisted = p.clamp_below and p.clamp_above and not released(p, stage.t)
+    R, r = _at_anchor(p, tables, Y, Q)
     w2 = w3 = w1 = wx = wy = wz = 0.0  # r': response to dO1
-    if p.clamp_below:
-        k_rotation = spring(p, tables, 0)
-        direction = (p.below_x, p.below_y, p.below_z)
-        R2, R3 = (0.0, 0.0, 0.0, k_rotation, 0.0), (0.0, 0.0, 0.0, 0.0, k_rotation)
-        r2 += k_rotation * dot(direction, vector(Q[0], 17))
-        r3 -= k_rotation * dot(direction, vector(Q[0], 14))
     for k in range(1, last + 1):
-        _store_relation(E[k - 1], Rx, Ry, Rz, R2, R3, R1, rx, ry, rz, r2, r3, r1)
+        _store_relation(E[k - 1], R, r)
         a = k - 1
         e = 0.5 * tables[p.grid_at + a]
-        ec, over = e * cq, 1.0 / e
+        over = 1.0 / e
         Qa, Qb = Q[a], Q[k]
-        # rotation: theta1, O2, O3 of b
+        # rotation and compatibility: v_b = A y_a + B y_b + z
         psi, angle, g = box_rotation(Y, a, k)
         J = jacobian_of_rotation(psi, angle, g)
-        left = psi[0], psi[1] - e * (Y[a, 11] + Y[k, 11]), psi[2] - e * (Y[a, 12] + Y[k, 12])
-        A1, B1, z1, A2, B2, z2, A3, B3, z3 = rotation_rows(over, J, left, R1, r1, R2, r2, R3, r3)
-        # compatibility: V_b = A y_a + B y_b + z
-        ta, na, ba, tb, nb, bb = (
-            vector(Qa, 0),
-            vector(Qa, 14),
-            vector(Qa, 17),
-            vector(Qb, 0),
-            vector(Qb, 14),
-            vector(Qb, 17),
-        )
-        la, lb = ec * Qa[4], ec * Qb[4]
-        Ax = added(Rx, (ec * ta[0], 0.0, 0.0, -la * ba[0], la * na[0]))
-        Ay = added(Ry, (ec * ta[1], 0.0, 0.0, -la * ba[1], la * na[1]))
-        Az = added(Rz, (ec * ta[2], 0.0, 0.0, -la * ba[2], la * na[2]))
-        Bx = (ec * tb[0], 0.0, 0.0, -lb * bb[0], lb * nb[0])
-        By = (ec * tb[1], 0.0, 0.0, -lb * bb[1], lb * nb[1])
-        Bz = (ec * tb[2], 0.0, 0.0, -lb * bb[2], lb * nb[2])
-        zx = rx - (Y[k, 3] - Y[a, 3] - e * (Qa[8] + Qb[8]))
-        zy = ry - (Y[k, 4] - Y[a, 4] - e * (Qa[9] + Qb[9]))
-        zz = rz - (Y[k, 5] - Y[a, 5] - e * (Qa[10] + Qb[10]))
-        # momentum: K V_a-part, J V_b-part of e dG/dV
-        dNa, Ga, roll_a, dM2a, dM3a = nodal_jacobian(Qa, e)
-        dNb, Gb, roll_b, dM2b, dM3b = nodal_jacobian(Qb, e)
-        Mx, gx, BMx = momentum_row(
-            0,
-            e,
-            Qa,
-            Qb,
-            Rx,
-            Ry,
-            Rz,
-            Ax,
-            Ay,
-            Az,
-            Bx,
-            By,
-            Bz,
-            rx,
-            ry,
-            rz,
-            zx,
-            zy,
-            zz,
-            dNa,
-            Ga,
-            roll_a,
-            dNb,
-            Gb,
-            roll_b,
-            R1,
-            r1,
-            A1,
-            B1,
-            z1,
-        )
-        My, gy, BMy = momentum_row(
-            1,
-            e,
-            Qa,
-            Qb,
-            Rx,
-            Ry,
-            Rz,
-            Ax,
-            Ay,
-            Az,
-            Bx,
-            By,
-            Bz,
-            rx,
-            ry,
-            rz,
-            zx,
-            zy,
-            zz,
-            dNa,
-            Ga,
-            roll_a,
-            dNb,
-            Gb,
-            roll_b,
-            R1,
-            r1,
-            A1,
-            B1,
-            z1,
-        )
-        Mz, gz, BMz = momentum_row(
-            2,
-            e,
-            Qa,
-            Qb,
-            Rx,
-            Ry,
-            Rz,
-            Ax,
-            Ay,
-            Az,
-            Bx,
-            By,
-            Bz,
-            rx,
-            ry,
-            rz,
-            zx,
-            zy,
-            zz,
-            dNa,
-            Ga,
-            roll_a,
-            dNb,
-            Gb,
-            roll_b,
-            R1,
-            r1,
-            A1,
-            B1,
-            z1,
-        )
-        # moments
-        M2 = combined3(EI, A2, -EI, R2, -e, dM2a)
-        M3 = combined3(EI, A3, -EI, R3, e, dM3a)
-        BM2 = combined(EI, B2, -e, dM2b)
-        BM3 = combined(EI, B3, e, dM3b)
-        g2 = -EI * (Y[k, 11] - Y[a, 11]) + e * (Qa[38] + Qb[38]) - EI * (z2 - r2)
-        g3 = -EI * (Y[k, 12] - Y[a, 12]) - e * (Qa[39] + Qb[39]) - EI * (z3 - r3)
+        A, B, z = across_box(Y, Q, k, e, cq, J, psi, R, r)
+        # momentum, three rows M y_a + BM y_b = g
+        at_a, at_b = nodal_jacobian(Qa, e), nodal_jacobian(Qb, e)
+        Mx, gx, BMx = momentum_row(0, e, Qa, Qb, at_a, at_b, R, r, A, B, z)
+        My, gy, BMy = momentum_row(1, e, Qa, Qb, at_a, at_b, R, r, A, B, z)
+        Mz, gz, BMz = momentum_row(2, e, Qa, Qb, at_a, at_b, R, r, A, B, z)
+        # moments, two rows; a torque couples the curvatures
+        _, _, _, r2, r3, _ = r
+        _, _, _, z2, z3, z1 = z
+        M2 = combined3(EI, A.O2, -EI, R.O2, -e, at_a.M2)
+        M3 = combined3(EI, A.O3, -EI, R.O3, e, at_a.M3)
+        BM2 = combined(EI, B.O2, -e, at_b.M2)
+        BM3 = combined(EI, B.O3, e, at_b.M3)
+        g2 = -EI * (Y[k, col.O2] - Y[a, col.O2]) + e * (Qa[col.M2] + Qb[col.M2]) - EI * (z2 - r2)
+        g3 = -EI * (Y[k, col.O3] - Y[a, col.O3]) - e * (Qa[col.M3] + Qb[col.M3]) - EI * (z3 - r3)
         if O1 != 0.0:
             couple = e * GI * O1
-            M2, M3 = combined3(1.0, M2, couple, R3, couple, A3), combined3(1.0, M3, -couple, R2, -couple, A2)
-            BM2, BM3 = combined(1.0, BM2, couple, B3), combined(1.0, BM3, -couple, B2)
+            M2, M3 = combined3(1.0, M2, couple, R.O3, couple, A.O3), combined3(1.0, M3, -couple, R.O2, -couple, A.O2)
+            BM2, BM3 = combined(1.0, BM2, couple, B.O3), combined(1.0, BM3, -couple, B.O2)
             g2 -= couple * (r3 + z3)
             g3 += couple * (r2 + z2)
         # y_a = P y_b + p + p' dO1
@@ -225,79 +97,114 @@ def sweep(p, tables, t, cq, cv, in_motion, Y, C_tilde, X, F, Q, E, D):
         if not sound:
             return False
         P = solve_box_rows(solver, BMx, BMy, BMz, BM2, BM3)
-        pr = solve_box(solver, gx, gy, gz, g2, g3)
+        known_a = solve_box(solver, gx, gy, gz, g2, g3)
         for i in range(5):
-            put_row(E[k], 5 * i, P[i])
-        put_row(E[k], AT_P, pr)
+            put_row(E[k], col.P + 5 * i, P[i])
+        put_row(E[k], col.P_KNOWN, known_a)
         if twisted:
             # the same equations with dO1 for their only known term
             y2 = over * (J[1][0] - J[0][1]) * w1 - w2
             y3 = over * (J[2][0] - J[0][2]) * w1 - w3
             couple = e * GI * O1
-            D2 = -e * GI * (Y[a, 12] + Y[k, 12]) - couple * (w3 + y3) - EI * (y2 - w2)
-            D3 = e * GI * (Y[a, 11] + Y[k, 11]) + couple * (w2 + y2) - EI * (y3 - w3)
-            Ja, Jb = (Qa[32], Qa[33], Qa[34], Qa[35], Qa[36], Qa[37]), (Qb[32], Qb[33], Qb[34], Qb[35], Qb[36], Qb[37])
+            D2 = -e * GI * (Y[a, col.O3] + Y[k, col.O3]) - couple * (w3 + y3) - EI * (y2 - w2)
+            D3 = e * GI * (Y[a, col.O2] + Y[k, col.O2]) + couple * (w2 + y2) - EI * (y3 - w3)
             w = (wx, wy, wz)
-            known = mixed(w1, roll_a, -w1, roll_b)
-            known = mixed(1.0, known, e, mixed(1.0, symmetric(Ja, w), 1.0, symmetric(Jb, w)))
+            known = mixed(w1, at_a.roll, -w1, at_b.roll)
+            known = mixed(1.0, known, e, mixed(1.0, symmetric(_inertia(Qa), w), 1.0, symmetric(_inertia(Qb), w)))
             px = solve_box(solver, known[0], known[1], known[2], D2, D3)
-            put_row(E[k], AT_PX, px)
-            wx, wy, wz = wx + row_dot(Ax, px), wy + row_dot(Ay, px), wz + row_dot(Az, px)
-            w2, w3, w1 = y2 + row_dot(A2, px), y3 + row_dot(A3, px), w1 + row_dot(A1, px)
-            E[k, AT_RT], E[k, AT_RT + 1], E[k, AT_RT + 2] = wx, wy, wz
-            E[k, AT_RT + 3], E[k, AT_RT + 4], E[k, AT_RT + 5] = w2, w3, w1
-        Rx, Ry, Rz = added(row_times(Ax, P), Bx), added(row_times(Ay, P), By), added(row_times(Az, P), Bz)
-        R2, R3, R1 = added(row_times(A2, P), B2), added(row_times(A3, P), B3), added(row_times(A1, P), B1)
-        rx, ry, rz = zx + row_dot(Ax, pr), zy + row_dot(Ay, pr), zz + row_dot(Az, pr)
-        r2, r3, r1 = z2 + row_dot(A2, pr), z3 + row_dot(A3, pr), z1 + row_dot(A1, pr)
-    _store_relation(E[last], Rx, Ry, Rz, R2, R3, R1, rx, ry, rz, r2, r3, r1)
-    sound = solve_upper(p, tables, t, cq, cv, in_motion, twisted, Y, C_tilde, X, F, Q, E)
-    return sound and back_substitute(E, twisted, Y, D)
+            put_row(E[k], col.P_TORQUE, px)
+            wx, wy, wz = wx + row_dot(A.x, px), wy + row_dot(A.y, px), wz + row_dot(A.z, px)
+            w2, w3, w1 = y2 + row_dot(A.O2, px), y3 + row_dot(A.O3, px), w1 + row_dot(A.theta1, px)
+            _store_known(E[k], col.R_TORQUE, (wx, wy, wz, w2, w3, w1))
+        # v_b = R y_b + r
+        R = Rows(
+            added(row_times(A.x, P), B.x),
+            added(row_times(A.y, P), B.y),
+            added(row_times(A.z, P), B.z),
+            added(row_times(A.O2, P), B.O2),
+            added(row_times(A.O3, P), B.O3),
+            added(row_times(A.theta1, P), B.theta1),
+        )
+        r = (
+            z[0] + row_dot(A.x, known_a),
+            z[1] + row_dot(A.y, known_a),
+            z[2] + row_dot(A.z, known_a),
+            z2 + row_dot(A.O2, known_a),
+            z3 + row_dot(A.O3, known_a),
+            z1 + row_dot(A.theta1, known_a),
+        )
+    _store_relation(E[last], R, r)
+    return solve_upper(p, tables, stage, twisted, Y, work) and back_substitute(E, twisted, work.D)
 
 
 @kernel
-def _store_relation(row, Rx, Ry, Rz, R2, R3, R1, rx, ry, rz, r2, r3, r1):
+def _at_anchor(p, tables, Y, Q):
+    """R (Rows) and r, six numbers, of the anchor: it does not move, and turns freely or against the spring of a
+    clamp."""
+    zero = (0.0, 0.0, 0.0, 0.0, 0.0)
+    R2 = R3 = zero
+    r2, r3 = -Y[0, col.O2], -Y[0, col.O3]
+    if p.clamp_below:
+        k_rotation = spring(p, tables, 0)
+        direction = (p.below_x, p.below_y, p.below_z)
+        R2, R3 = (0.0, 0.0, 0.0, k_rotation, 0.0), (0.0, 0.0, 0.0, 0.0, k_rotation)
+        r2 += k_rotation * dot(direction, vector(Q[0], col.B_VECTOR))
+        r3 -= k_rotation * dot(direction, vector(Q[0], col.N_VECTOR))
+    x, y, z = vector(Y[0], col.V)
+    return Rows(zero, zero, zero, R2, R3, zero), (-x, -y, -z, r2, r3, 0.0)
+
+
+@kernel
+def _inertia(row):
+    """dG/dV of a row of Q: xx, xy, xz, yy, yz, zz."""
+    xx, xy, xz = vector(row, col.G_V)
+    yy, yz, zz = vector(row, col.G_V + 3)
+    return xx, xy, xz, yy, yz, zz
+
+
+@kernel
+def _store_relation(row, R, r):
     """R and r of one node into its row of E."""
-    put_row(row, AT_R, Rx)
-    put_row(row, AT_R + 5, Ry)
-    put_row(row, AT_R + 10, Rz)
-    put_row(row, AT_R + 15, R2)
-    put_row(row, AT_R + 20, R3)
-    put_row(row, AT_R + 25, R1)
-    row[AT_RX], row[AT_RX + 1], row[AT_RX + 2] = rx, ry, rz
-    row[AT_RX + 3], row[AT_RX + 4], row[AT_RX + 5] = r2, r3, r1
+    for i in range(6):
+        put_row(row, col.R + 5 * i, R[i])
+    _store_known(row, col.R_KNOWN, r)
 
 
 @kernel
-def back_substitute(E, twisted, Y, D):
-    """From y of the upper end and dO1 in E[0, 0:6] down the line: the increments of every node, into D."""
-    y = row_of(E[0], 0)
-    torque = E[0, 5]
+def _store_known(row, at, r):
+    """row[at : at + 6] = r"""
+    row[at], row[at + 1], row[at + 2], row[at + 3], row[at + 4], row[at + 5] = r
+
+
+@kernel
+def back_substitute(E, twisted, D):
+    """From y of the upper end and dO1 in the first row of E down the line: the increments of every node, into D."""
+    y = row_of(E[0], col.TOP)
+    torque = E[0, col.TOP_TORQUE]
     for k in range(E.shape[0] - 1, -1, -1):
         row, out = E[k], D[k]
-        out[0], out[1], out[2], out[7], out[8] = y
-        out[3] = row_dot(row_of(row, AT_R), y) + row[AT_RX]
-        out[4] = row_dot(row_of(row, AT_R + 5), y) + row[AT_RX + 1]
-        out[5] = row_dot(row_of(row, AT_R + 10), y) + row[AT_RX + 2]
-        out[10] = row_dot(row_of(row, AT_R + 15), y) + row[AT_RX + 3]
-        out[11] = row_dot(row_of(row, AT_R + 20), y) + row[AT_RX + 4]
-        out[6] = row_dot(row_of(row, AT_R + 25), y) + row[AT_RX + 5]
-        out[9] = torque
+        out[col.EPS], out[col.SHEAR_N], out[col.SHEAR_B], out[col.THETA2], out[col.THETA3] = y
+        out[col.V] = row_dot(row_of(row, col.R), y) + row[col.R_KNOWN]
+        out[col.V + 1] = row_dot(row_of(row, col.R + 5), y) + row[col.R_KNOWN + 1]
+        out[col.V + 2] = row_dot(row_of(row, col.R + 10), y) + row[col.R_KNOWN + 2]
+        out[col.D_O2] = row_dot(row_of(row, col.R + 15), y) + row[col.R_KNOWN + 3]
+        out[col.D_O3] = row_dot(row_of(row, col.R + 20), y) + row[col.R_KNOWN + 4]
+        out[col.THETA1] = row_dot(row_of(row, col.R + col.ROLL), y) + row[col.R_KNOWN + 5]
+        out[col.D_O1] = torque
         if twisted and k > 0:
-            out[3] += torque * row[AT_RT]
-            out[4] += torque * row[AT_RT + 1]
-            out[5] += torque * row[AT_RT + 2]
-            out[10] += torque * row[AT_RT + 3]
-            out[11] += torque * row[AT_RT + 4]
-            out[6] += torque * row[AT_RT + 5]
+            for i in range(3):
+                out[col.V + i] += torque * row[col.R_TORQUE + i]
+            out[col.D_O2] += torque * row[col.R_TORQUE + 3]
+            out[col.D_O3] += torque * row[col.R_TORQUE + 4]
+            out[col.THETA1] += torque * row[col.R_TORQUE + 5]
         if k > 0:
             y = (
-                row_dot(row_of(row, 0), y) + row[AT_P],
-                row_dot(row_of(row, 5), y) + row[AT_P + 1],
-                row_dot(row_of(row, 10), y) + row[AT_P + 2],
-                row_dot(row_of(row, 15), y) + row[AT_P + 3],
-                row_dot(row_of(row, 20), y) + row[AT_P + 4],
+                row_dot(row_of(row, col.P), y) + row[col.P_KNOWN],
+                row_dot(row_of(row, col.P + 5), y) + row[col.P_KNOWN + 1],
+                row_dot(row_of(row, col.P + 10), y) + row[col.P_KNOWN + 2],
+                row_dot(row_of(row, col.P + 15), y) + row[col.P_KNOWN + 3],
+                row_dot(row_of(row, col.P + 20), y) + row[col.P_KNOWN + 4],
             )
             if twisted:
-                y = added(y, scaled(torque, row_of(row, AT_PX)))
+                y = added(y, scaled(torque, row_of(row, col.P_TORQUE)))
     return True

@@ -9,6 +9,11 @@ import math
 
 import numpy as np
 
+from ..planar import columns as planar_col
+from . import columns as col
+
+BETA = slice(col.BETA, col.BETA + 4)
+
 
 def product(a, b):
     """Quaternion product of arrays (..., 4)."""
@@ -36,7 +41,7 @@ def shortest_rotation(u, v):
 
 def stretch_vectors(Y):
     """q (n, 3) of states Y (n, 13)."""
-    b0, b1, b2, b3 = Y[:, 6:10].T
+    b0, b1, b2, b3 = Y[:, BETA].T
     t = np.stack([b0**2 + b1**2 - b2**2 - b3**2, 2 * (b1 * b2 + b0 * b3), 2 * (b1 * b3 - b0 * b2)], axis=1)
     return (1 + Y[:, :1]) * t
 
@@ -44,27 +49,27 @@ def stretch_vectors(Y):
 def state_in_space(record, h, planar, azimuth):
     """State (n, 13) of a planar one (n, 6), with the twist that a clamped upper end has from the start."""
     n = len(planar)
-    half = 0.5 * planar[:, 4]
+    half = 0.5 * planar[:, planar_col.PHI]
     zero = np.zeros(n)
     beta = np.stack([np.cos(half), zero, -np.sin(half), zero], axis=1)
     if azimuth:
         beta = product(np.array([math.cos(0.5 * azimuth), 0.0, 0.0, math.sin(0.5 * azimuth)]), beta)
     Y = np.zeros((n, 13))
     if record["clamp_below"] and record["clamp_above"] and record["twist_ramp"] == 0:
-        Y[:, 10] = float(record["twist"]) / np.sum(h)
-    Y[:, 0] = planar[:, 0]
-    Y[:, 2] = planar[:, 1]
-    Y[:, 6:10] = beta
-    Y[:, 11] = -planar[:, 5]
+        Y[:, col.O1] = float(record["twist"]) / np.sum(h)
+    Y[:, col.EPS] = planar[:, planar_col.EPS]
+    Y[:, col.SHEAR_B] = planar[:, planar_col.SHEAR]
+    Y[:, BETA] = beta
+    Y[:, col.O2] = -planar[:, planar_col.KAPPA]
     return Y
 
 
 def turns(Y):
     """Turn (n - 1,), rad, of the frame of a state (n, 13) from node to node."""
-    r = product(Y[:-1, 6:10] * [1.0, -1.0, -1.0, -1.0], Y[1:, 6:10])
+    r = product(Y[:-1, BETA] * [1.0, -1.0, -1.0, -1.0], Y[1:, BETA])
     return 2.0 * np.arctan2(np.linalg.norm(r[:, 1:], axis=1), r[:, 0])
 
 
 def turn_back(Y, nodes):
     """Turn the frames of some nodes by pi about b: t changes its sign."""
-    Y[nodes, 6:10] = product(Y[nodes, 6:10], np.array([0.0, 0.0, 0.0, 1.0]))
+    Y[nodes, BETA] = product(Y[nodes, BETA], np.array([0.0, 0.0, 0.0, 1.0]))

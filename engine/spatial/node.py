@@ -21,12 +21,10 @@ the water's dependence on position.
 
 Shock viscosity as in the plane (`engine.planar.node`).
 
-Columns of Q (row k is node k):
-    0-2 t | 3 dT/deps | 4 1 + eps | 5-7 q | 8-10 q_t | 11-13 N | 14-16 n | 17-19 b | 20-22 G | 23-25 dG/deps
-    26-28 dG/dtheta2 | 29-31 dG/dtheta3 | 32-37 dG/dV: xx xy xz yy yz zz | 38 M2 | 39 M3 | 40 (1+eps)^3 | 41 T
-    42 B | 43 L
+Columns of Q: `engine.spatial.columns`.
 
-In the paper: eq. (4) b_s, eq. (5) and eq. (6) beta and C, eq. (11) N_s, eq. (13)-(16) moments, eq. (18) V_s.
+In the paper: eq. (4) derivative along the line in the local frame; eq. (7) strain; eq. (8) velocity; eq. (11)
+momentum; eq. (12) momentum in the local frame; eq. (23) weight in water; eq. (24) Morison's force on the line.
 """
 
 import math
@@ -35,41 +33,28 @@ from ..compiled import kernel
 from ..physics.currents import current_field_3d
 from ..physics.sea import sea_field
 from ..physics.shocks import shock_tension
-from ..physics.tension import tension
+from ..physics.tension.kernels import tension
 from ..physics.waves import wave_field_3d
-from .vectors import dot, frame, mixed
-
-WIDTH = 44
-
-
-@kernel
-def put(row, at, a):
-    """row[at : at + 3] = a"""
-    row[at], row[at + 1], row[at + 2] = a
-
-
-@kernel
-def vector(row, at):
-    """(row[at], row[at + 1], row[at + 2])"""
-    return row[at], row[at + 1], row[at + 2]
+from . import columns as col
+from .vectors import dot, frame, mixed, put, quaternion, vector
 
 
 @kernel
 def shape(p, tables, Y, Q, X):
-    """Frames, q and positions: X[0] is the anchor, and each element adds h times the mean of q."""
+    """Frames and q into Q, positions into X (n, 3): X[0] is the anchor, an element adds h times its mean q."""
     for k in range(Y.shape[0]):
-        t, n, b = frame((Y[k, 6], Y[k, 7], Y[k, 8], Y[k, 9]))
-        lam = 1.0 + Y[k, 0]
-        put(Q[k], 0, t)
-        put(Q[k], 14, n)
-        put(Q[k], 17, b)
-        Q[k, 4] = lam
-        put(Q[k], 5, (lam * t[0], lam * t[1], lam * t[2]))
+        t, n, b = frame(quaternion(Y[k], col.BETA))
+        lam = 1.0 + Y[k, col.EPS]
+        put(Q[k], col.T_VECTOR, t)
+        put(Q[k], col.N_VECTOR, n)
+        put(Q[k], col.B_VECTOR, b)
+        Q[k, col.STRETCHED] = lam
+        put(Q[k], col.Q, (lam * t[0], lam * t[1], lam * t[2]))
     put(X[0], 0, (0.0, 0.0, 0.0))
     for k in range(1, Y.shape[0]):
         half = 0.5 * tables[p.grid_at + k - 1]
         for i in range(3):
-            X[k, i] = X[k - 1, i] + half * (Q[k - 1, 5 + i] + Q[k, 5 + i])
+            X[k, i] = X[k - 1, i] + half * (Q[k - 1, col.Q + i] + Q[k, col.Q + i])
 
 
 @kernel
@@ -90,33 +75,43 @@ def water(p, tables, t, in_motion, X, F):
 
 
 @kernel
-def node_quantities(p, tables, cq, cv, in_motion, Y, C_tilde, F, Q):
-    """Fill Q (columns in the head of this file) from Y, the integrator's C~ = (q~, V~) and the water F."""
+def node_quantities(p, tables, stage, Y, work):
+    """Fill Q from Y (n, 13), the integrator's C~ = (q~, V~) and the water F; `shape` and `water` have been called.
+
+    p, tables: parameters (`engine.record`); stage: Stage; work: Work, of which C_tilde and F are read.
+    """
+    _, in_motion, cq, cv = stage
     for k in range(Y.shape[0]):
-        row = Q[k]
-        eps, Sn, Sb = Y[k, 0], Y[k, 1], Y[k, 2]
+        row, known, water = work.Q[k], work.C_tilde[k], work.F[k]
+        eps, Sn, Sb = Y[k, col.EPS], Y[k, col.SHEAR_N], Y[k, col.SHEAR_B]
+        t, n, b = vector(row, col.T_VECTOR), vector(row, col.N_VECTOR), vector(row, col.B_VECTOR)
+        lam = row[col.STRETCHED]
+        # force in the line, with the viscosity of shocks
         T, slope = tension(eps, p, tables)
-        t, n, b = vector(row, 0), vector(row, 14), vector(row, 17)
-        lam = row[4]
         if p.viscous:
-            before = (C_tilde[k, 0], C_tilde[k, 1], C_tilde[k, 2])
-            extra, stiffer = shock_tension(in_motion * cq, lam - math.sqrt(dot(before, before)), row[42], row[43])
+            before = vector(known, 0)
+            stretched = lam - math.sqrt(dot(before, before))
+            extra, stiffer = shock_tension(in_motion * cq, stretched, row[col.SHOCK_B], row[col.SHOCK_L])
             T += extra
             slope += stiffer
-        row[3], row[41] = slope, T
+        row[col.SLOPE], row[col.TENSION] = slope, T
         for i in range(3):
-            row[8 + i] = cq * (row[5 + i] - C_tilde[k, i])
-            row[11 + i] = T * t[i] + Sn * n[i] + Sb * b[i]
-        A = (cv * (Y[k, 3] - C_tilde[k, 3]), cv * (Y[k, 4] - C_tilde[k, 4]), cv * (Y[k, 5] - C_tilde[k, 5]))
+            row[col.Q_T + i] = cq * (row[col.Q + i] - known[i])
+            row[col.N + i] = T * t[i] + Sn * n[i] + Sb * b[i]
+        # inertia and weight
+        V, V_tilde = vector(Y[k], col.V), vector(known, col.V)
+        A = (cv * (V[0] - V_tilde[0]), cv * (V[1] - V_tilde[1]), cv * (V[2] - V_tilde[2]))
         Gx, Gy, Gz = p.m * A[0], p.m * A[1], p.m * A[2] + p.w0
         Jxx = Jyy = Jzz = p.m * cv
         Jxy = Jxz = Jyz = 0.0
         if p.wet:
+            # velocity against the water, and what of the acceleration acts across the line
             root = math.sqrt(max(lam, 0.0))
-            v = (in_motion * Y[k, 3] - F[k, 0], in_motion * Y[k, 4] - F[k, 1], in_motion * Y[k, 5] - F[k, 2])
+            v = (in_motion * V[0] - water[0], in_motion * V[1] - water[1], in_motion * V[2] - water[2])
             vt, vn, vb = dot(v, t), dot(v, n), dot(v, b)
             speed = math.sqrt(vn * vn + vb * vb)
-            w = (p.ma * A[0] - p.Rw * F[k, 3], p.ma * A[1] - p.Rw * F[k, 4], p.ma * A[2] - p.Rw * F[k, 5])
+            a_w = vector(water, col.ACCELERATION)
+            w = (p.ma * A[0] - p.Rw * a_w[0], p.ma * A[1] - p.Rw * a_w[1], p.ma * A[2] - p.Rw * a_w[2])
             wt, wn, wb = dot(w, t), dot(w, n), dot(w, b)
             ct, cn = p.ct * root, p.cn * root
             along = ct * abs(vt)
@@ -128,15 +123,16 @@ def node_quantities(p, tables, cq, cv, in_motion, Y, C_tilde, F, Q):
             Gy += force[1]
             Gz += force[2]
             half = 0.5 / lam
-            drag = mixed(1.0, mixed(half * a, t, half * dn, n), half * db, b)
-            put(row, 23, drag)
+            put(row, col.G_EPS, mixed(1.0, mixed(half * a, t, half * dn, n), half * db, b))
             # t turns towards d = -b (theta2) and d = n (theta3): v_p loses (v.d) t + v_t d
             inverse = cn / speed if speed > 0.0 else 0.0
             lead = 2.0 * along - across
             turn2 = -vt * vb * inverse
             turn3 = -vt * vn * inverse
-            put(row, 26, mixed(1.0, mixed(-lead * vb + wb, t, -turn2 * vn, n), -a + across * vt - turn2 * vb + wt, b))
-            put(row, 29, mixed(1.0, mixed(lead * vn - wn, t, a - across * vt + turn3 * vn - wt, n), turn3 * vb, b))
+            by2 = mixed(1.0, mixed(-lead * vb + wb, t, -turn2 * vn, n), -a + across * vt - turn2 * vb + wt, b)
+            by3 = mixed(1.0, mixed(lead * vn - wn, t, a - across * vt + turn3 * vn - wt, n), turn3 * vb, b)
+            put(row, col.G_THETA2, by2)
+            put(row, col.G_THETA3, by3)
             # dG/dV = Dt tt' + (Dp + m_a cv) P + Ds v_p v_p'
             Dt = 2.0 * in_motion * along
             Dp = in_motion * across + p.ma * cv
@@ -149,12 +145,12 @@ def node_quantities(p, tables, cq, cv, in_motion, Y, C_tilde, F, Q):
             Jyy += Dp + Dt * t[1] * t[1] + Ds * vp[1] * vp[1]
             Jyz += Dt * t[1] * t[2] + Ds * vp[1] * vp[2]
             Jzz += Dp + Dt * t[2] * t[2] + Ds * vp[2] * vp[2]
-        put(row, 20, (Gx, Gy, Gz))
-        put(row, 32, (Jxx, Jxy, Jxz))
-        put(row, 35, (Jyy, Jyz, Jzz))
+        put(row, col.G, (Gx, Gy, Gz))
+        put(row, col.G_V, (Jxx, Jxy, Jxz))
+        put(row, col.G_V + 3, (Jyy, Jyz, Jzz))
         if p.bent:
             cube = lam * lam * lam
-            row[38], row[39], row[40] = cube * Sb, cube * Sn, cube
-            if Y[k, 10] != 0.0:
-                row[38] -= p.GI * Y[k, 10] * Y[k, 12]
-                row[39] -= p.GI * Y[k, 10] * Y[k, 11]
+            row[col.M2], row[col.M3], row[col.CUBE] = cube * Sb, cube * Sn, cube
+            if Y[k, col.O1] != 0.0:
+                row[col.M2] -= p.GI * Y[k, col.O1] * Y[k, col.O3]
+                row[col.M3] -= p.GI * Y[k, col.O1] * Y[k, col.O2]

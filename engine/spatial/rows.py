@@ -1,12 +1,6 @@
-"""Rows of five numbers, one for each of y = (eps, Sn, Sb, theta2, theta3), as tuples; layout of the sweep's array E.
-
-A row of E (n, 77), one for each node: P (25) | p (5) | p' (5) | R (30), rows V, O2, O3, theta1 | r (6) | r' (6).
-"""
+"""Rows of five numbers, one for each of y = (eps, Sn, Sb, theta2, theta3), as tuples."""
 
 from ..compiled import kernel
-
-WIDTH = 77
-AT_P, AT_PX, AT_R, AT_RX, AT_RT = 25, 30, 35, 65, 71  # p, p', R, r, r'
 
 
 @kernel

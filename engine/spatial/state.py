@@ -8,14 +8,17 @@ import math
 
 import numpy as np
 
+from ..arrays import Work
 from ..compiled import kernel
-from ..physics.tension import tension
+from ..physics.tension.kernels import tension
+from ..record import PLACE, SPEED, STRAIN, TENSION
+from ..simd.elementary import within
+from . import columns as col
 from . import node
 from .box import box_rotation
-from .elimination import sweep
-from .elimination_unbent import sweep_unbent
-from .rows import WIDTH
-from .vectors import dot, frame, least_turn, mixed, quaternion_product, turned
+from .elimination import eliminate_bent
+from .elimination_unbent import eliminate_unbent
+from .vectors import dot, frame, least_turn, mixed, put, quaternion, quaternion_product, turned, vector
 
 
 @kernel
@@ -26,20 +29,23 @@ def size_of(p):
 
 @kernel
 def work_arrays(p, n):
-    """Work arrays of `engine.time.newton` for n nodes: X, F, Q, E, D, and the integrator's C~."""
-    X, F, Q = np.zeros((n, 3)), np.zeros((n, 6)), np.zeros((n, node.WIDTH))
-    return X, F, Q, np.zeros((n, WIDTH)), np.zeros((n, 12)), np.zeros((n, 6))
+    """Work arrays (`engine.arrays.Work`) of a Newton solve with n nodes."""
+    X, F, Q = np.zeros((n, 3)), np.zeros((n, 6)), np.zeros((n, col.NODE_WIDTH))
+    return Work(X, F, Q, np.zeros((n, col.BOX_WIDTH)), np.zeros((n, 12)), np.zeros((n, 6)))
 
 
 @kernel
-def assemble(p, tables, t, in_motion, cq, cv, Y, C_tilde, X, F, Q, E, D):
-    """One Newton update into D; returns False where a pivot block is singular. Arguments as for `time.newton`."""
-    node.shape(p, tables, Y, Q, X)
-    node.water(p, tables, t, in_motion, X, F)
-    node.node_quantities(p, tables, cq, cv, in_motion, Y, C_tilde, F, Q)
+def assemble(p, tables, stage, Y, work):
+    """One Newton update into work.D (n, 12); returns False where a pivot block is singular.
+
+    p, tables: parameters (`engine.record`); stage: Stage; Y (n, 13); work: Work.
+    """
+    node.shape(p, tables, Y, work.Q, work.X)
+    node.water(p, tables, stage.t, stage.in_motion, work.X, work.F)
+    node.node_quantities(p, tables, stage, Y, work)
     if p.bent:
-        return sweep(p, tables, t, cq, cv, in_motion, Y, C_tilde, X, F, Q, E, D)
-    return sweep_unbent(p, tables, t, cq, cv, in_motion, Y, C_tilde, X, F, Q, E, D)
+        return eliminate_bent(p, tables, stage, Y, work)
+    return eliminate_unbent(p, tables, stage, Y, work)
 
 
 @kernel
@@ -48,12 +54,15 @@ def update_size(p, D):
     size = 0.0
     for k in range(D.shape[0]):
         d = D[k]
-        force, speed = max(abs(d[1]), abs(d[2])), max(abs(d[3]), abs(d[4]), abs(d[5]))
-        angle, curvature = max(abs(d[6]), abs(d[7]), abs(d[8])), max(abs(d[9]), abs(d[10]), abs(d[11]))
-        size = max(
-            size, abs(d[0]) * p.per_strain, force * p.per_force, speed * p.per_speed, angle, curvature * p.per_curvature
+        V, theta, turn = vector(d, col.V), vector(d, col.THETA1), vector(d, col.D_O1)
+        force, speed = max(abs(d[col.SHEAR_N]), abs(d[col.SHEAR_B])), max(abs(V[0]), abs(V[1]), abs(V[2]))
+        angle, curvature = (
+            max(abs(theta[0]), abs(theta[1]), abs(theta[2])),
+            max(abs(turn[0]), abs(turn[1]), abs(turn[2])),
         )
-        if not np.isfinite(d[0] + d[3] + d[4] + d[5] + d[6] + d[7] + d[8]):
+        strain = abs(d[col.EPS]) * p.per_strain
+        size = max(size, strain, force * p.per_force, speed * p.per_speed, angle, curvature * p.per_curvature)
+        if not np.isfinite(d[col.EPS] + V[0] + V[1] + V[2] + theta[0] + theta[1] + theta[2]):
             return np.inf
     return size
 
@@ -63,14 +72,15 @@ def add_update(p, factor, D, Y):
     """Y moved by factor D: the frame turns, everything else is added. Returns the least strain."""
     least = np.inf
     for k in range(Y.shape[0]):
-        d = D[k]
-        for i in range(6):
-            Y[k, i] += factor * d[i]
-        q = turned((Y[k, 6], Y[k, 7], Y[k, 8], Y[k, 9]), (factor * d[6], factor * d[7], factor * d[8]))
-        Y[k, 6], Y[k, 7], Y[k, 8], Y[k, 9] = q
+        d, y = D[k], Y[k]
+        for i in range(col.BETA):
+            y[i] += factor * d[i]
+        theta = vector(d, col.THETA1)
+        turn = (factor * theta[0], factor * theta[1], factor * theta[2])
+        put_quaternion(y, col.BETA, turned(quaternion(y, col.BETA), turn))
         for i in range(3):
-            Y[k, 10 + i] += factor * d[9 + i]
-        least = min(least, Y[k, 0])
+            y[col.O1 + i] += factor * d[col.D_O1 + i]
+        least = min(least, y[col.EPS])
     return least
 
 
@@ -78,44 +88,54 @@ def add_update(p, factor, D, Y):
 def tidy(p, Y):
     """Euler parameters back to length one: extrapolation and rounding change it."""
     for k in range(Y.shape[0]):
-        f = 1.0 / math.sqrt(Y[k, 6] ** 2 + Y[k, 7] ** 2 + Y[k, 8] ** 2 + Y[k, 9] ** 2)
-        for i in range(6, 10):
-            Y[k, i] *= f
+        b0, b1, b2, b3 = quaternion(Y[k], col.BETA)
+        f = 1.0 / math.sqrt(b0**2 + b1**2 + b2**2 + b3**2)
+        for i in range(4):
+            Y[k, col.BETA + i] *= f
 
 
 @kernel
 def conserved(p, Y, C):
     """C (n, 6) of a state Y (n, 13)."""
     for k in range(Y.shape[0]):
-        t = frame((Y[k, 6], Y[k, 7], Y[k, 8], Y[k, 9]))[0]
+        t = frame(quaternion(Y[k], col.BETA))[0]
         for i in range(3):
-            C[k, i] = (1.0 + Y[k, 0]) * t[i]
-            C[k, 3 + i] = Y[k, 3 + i]
+            C[k, i] = (1.0 + Y[k, col.EPS]) * t[i]
+            C[k, col.V + i] = Y[k, col.V + i]
 
 
 @kernel
 def extrapolate(p, alpha_f, Y, C_new, Y_new):
     """From the stage of a one-stage step to its end: Y_new comes in as the stage; eps and t are taken from C_new."""
     for k in range(Y.shape[0]):
-        for i in range(3, 13):  # not the shear forces (`engine.planar.state`)
+        for i in range(col.V, col.O3 + 1):  # not the shear forces (`engine.planar.state`)
             Y_new[k, i] = Y[k, i] + (Y_new[k, i] - Y[k, i]) / alpha_f
     tidy(p, Y_new)
     for k in range(Y.shape[0]):
-        q = (C_new[k, 0], C_new[k, 1], C_new[k, 2])
-        length = math.sqrt(dot(q, q))
-        Y_new[k, 0] = length - 1.0
-        beta = (Y_new[k, 6], Y_new[k, 7], Y_new[k, 8], Y_new[k, 9])
-        beta = quaternion_product(least_turn(frame(beta)[0], mixed(1.0 / length, q, 0.0, q)), beta)
-        Y_new[k, 6], Y_new[k, 7], Y_new[k, 8], Y_new[k, 9] = beta
+        q = vector(C_new[k], 0)
+        Y_new[k, col.EPS] = math.sqrt(dot(q, q)) - 1.0
+        put_quaternion(Y_new[k], col.BETA, _along(quaternion(Y_new[k], col.BETA), q))
+
+
+@kernel
+def put_quaternion(row, at, beta):
+    """row[at : at + 4] = beta"""
+    row[at], row[at + 1], row[at + 2], row[at + 3] = beta
+
+
+@kernel
+def _along(beta, q):
+    """The frame beta turned the shortest way until its t is along q."""
+    return quaternion_product(least_turn(frame(beta)[0], mixed(1.0 / math.sqrt(dot(q, q)), q, 0.0, q)), beta)
 
 
 @kernel
 def error_square(p, k, ec, Q):
     """Squared error of node k in scene scales, from the errors `ec` (6,) of its conserved variables."""
-    e = (ec[0], ec[1], ec[2])
-    axial = dot(e, node.vector(Q[k], 0))
+    e = vector(ec, 0)
+    axial = dot(e, vector(Q[k], col.T_VECTOR))
     across = max(dot(e, e) - axial * axial, 0.0)
-    speed = ec[3] ** 2 + ec[4] ** 2 + ec[5] ** 2
+    speed = ec[col.V] ** 2 + ec[col.V + 1] ** 2 + ec[col.V + 2] ** 2
     return (axial * p.per_strain) ** 2 + across + speed * p.per_speed**2
 
 
@@ -141,14 +161,13 @@ def release_loop(p, tables, Y, upper):
     """
     n = Y.shape[0]
     for k in range(upper, n):
-        for i in range(6, 10):
-            Y[k, i] = -Y[k, i]
+        for i in range(4):
+            Y[k, col.BETA + i] = -Y[k, col.BETA + i]
     for k in range(max(1, upper - 2), min(n - 1, upper + 2)):
         h = tables[p.grid_at + k - 1] + tables[p.grid_at + k]
         below, above = box_rotation(Y, k - 1, k)[0], box_rotation(Y, k, k + 1)[0]
-        for i in range(1, 3):
-            Y[k, 10 + i] = (below[i] + above[i]) / h
-            Y[k, i] = 0.0
+        Y[k, col.O2], Y[k, col.O3] = (below[1] + above[1]) / h, (below[2] + above[2]) / h
+        Y[k, col.SHEAR_N] = Y[k, col.SHEAR_B] = 0.0
 
 
 @kernel
@@ -157,47 +176,43 @@ def configuration(p, tables, weights, C0, K0, C1, K1, row):
 
     Returns the velocity of the last node and the largest distance from the plane of the waves (y = 0 without waves).
     """
-    w0, w1, g0, g1 = weights
     x = (0.0, 0.0, 0.0)
     below = V = x
     cosine, sine = (p.dir_x, p.dir_y) if p.waves else (1.0, 0.0)
     largest = 0.0
     for k in range(C0.shape[0]):
-        a, b, c, d = C0[k], C1[k], K0[k], K1[k]
-        q = (
-            w0 * a[0] + w1 * b[0] + g0 * c[0] + g1 * d[0],
-            w0 * a[1] + w1 * b[1] + g0 * c[1] + g1 * d[1],
-            w0 * a[2] + w1 * b[2] + g0 * c[2] + g1 * d[2],
-        )
-        V = (
-            w0 * a[3] + w1 * b[3] + g0 * c[3] + g1 * d[3],
-            w0 * a[4] + w1 * b[4] + g0 * c[4] + g1 * d[4],
-            w0 * a[5] + w1 * b[5] + g0 * c[5] + g1 * d[5],
-        )
+        q = _vector_within(weights, C0, C1, K0, K1, k, 0)
+        V = _vector_within(weights, C0, C1, K0, K1, k, col.V)
         if k > 0:
             half = 0.5 * tables[p.grid_at + k - 1]
             x = mixed(1.0, x, half, mixed(1.0, below, 1.0, q))
         below = q
         eps = math.sqrt(dot(q, q)) - 1.0
-        row[k, 0], row[k, 1], row[k, 2] = x
-        row[k, 3], row[k, 4], row[k, 5] = eps, tension(eps, p, tables)[0], math.sqrt(dot(V, V))
+        put(row[k], PLACE, x)
+        row[k, STRAIN], row[k, TENSION], row[k, SPEED] = eps, tension(eps, p, tables)[0], math.sqrt(dot(V, V))
         largest = max(largest, abs(cosine * x[1] - sine * x[0]))
     return V[0], V[1], V[2], largest
 
 
 @kernel
+def _vector_within(weights, C0, C1, K0, K1, k, at):
+    """C[k, at : at + 3] at one instant of a step."""
+    return (
+        within(weights, C0, C1, K0, K1, k, at),
+        within(weights, C0, C1, K0, K1, k, at + 1),
+        within(weights, C0, C1, K0, K1, k, at + 2),
+    )
+
+
+@kernel
 def last_strain(p, C):
     """Strain of the last node."""
-    k = C.shape[0] - 1
-    return math.sqrt(C[k, 0] ** 2 + C[k, 1] ** 2 + C[k, 2] ** 2) - 1.0
+    x, y, z = vector(C[C.shape[0] - 1], 0)
+    return math.sqrt(x**2 + y**2 + z**2) - 1.0
 
 
 @kernel
 def shear_force(p, Y, k, q, S):
     """Sn n + Sb b of node k into S (3,), the frame turned the shortest way until its t is along q."""
-    q = (q[0], q[1], q[2])
-    length = math.sqrt(dot(q, q))
-    beta = (Y[k, 6], Y[k, 7], Y[k, 8], Y[k, 9])
-    beta = quaternion_product(least_turn(frame(beta)[0], mixed(1.0 / length, q, 0.0, q)), beta)
-    _, n, b = frame(beta)
-    S[0], S[1], S[2] = mixed(Y[k, 1], n, Y[k, 2], b)
+    _, n, b = frame(_along(quaternion(Y[k], col.BETA), vector(q, 0)))
+    put(S, 0, mixed(Y[k, col.SHEAR_N], n, Y[k, col.SHEAR_B], b))

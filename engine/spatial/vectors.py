@@ -2,11 +2,31 @@
 
 Quaternions (b0, b1, b2, b3) are the Euler parameters of eq. (5): a frame turned by `a` about the unit vector `e` is
 (cos a/2, e sin a/2), the first column of its rotation is the tangent t, then n, then b.
+
+In the paper: eq. (5) Euler parameters; eq. (6) rotation matrix.
 """
 
 import math
 
 from ..compiled import kernel
+
+
+@kernel
+def put(row, at, a):
+    """row[at : at + 3] = a"""
+    row[at], row[at + 1], row[at + 2] = a
+
+
+@kernel
+def vector(row, at):
+    """(row[at], row[at + 1], row[at + 2])"""
+    return row[at], row[at + 1], row[at + 2]
+
+
+@kernel
+def quaternion(row, at):
+    """(row[at], ..., row[at + 3])"""
+    return row[at], row[at + 1], row[at + 2], row[at + 3]
 
 
 @kernel

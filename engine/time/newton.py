@@ -17,22 +17,20 @@ GOING_ON = -1
 
 
 @kernel
-def newton(p, tables, t, in_motion, cq, cv, tolerance, most, Y, C_tilde, X, F, Q, E, D):
-    """Solve one stage for Y in place.
+def newton(p, tables, stage, tolerance, most, Y, work):
+    """Solve one stage for Y (n, unknowns), in place.
 
-    in_motion: 1.0, or 0.0 in statics (a float: Numba would compile True and False apart);
-    t (s): when the water is taken;  most: iterations allowed;
-    cq, cv (1/s), C_tilde (n, 4 or 6): q_t = cq (q - q~), V_t = cv (V - V~);
-    X, F, Q, E, D: work arrays; on success q in Q (from column 5) and X belong to the final Y.
-    Returns (code, iterations).
+    p, tables: parameters (`engine.record`); stage: Stage; tolerance: of an update in the scales of the scene;
+    most: iterations allowed; work: Work, whose C_tilde is given; on success its Q and X hold q and places of the final
+    Y. Returns (code of `engine.time.status`, iterations).
     """
     best = np.inf
     tidy(p, Y)
     for iteration in range(most):
-        sound, size, least = iterate(p, tables, t, in_motion, cq, cv, Y, C_tilde, X, F, Q, E, D)
+        sound, size, least = iterate(p, tables, stage, Y, work)
         code = judge(p, iteration, most, tolerance, sound, size, least, best)
         if code == OK:
-            shape(p, tables, Y, Q, X)
+            shape(p, tables, Y, work.Q, work.X)
         if code != GOING_ON:
             return code, iteration + 1
         best = min(best, size)
@@ -40,11 +38,11 @@ def newton(p, tables, t, in_motion, cq, cv, tolerance, most, Y, C_tilde, X, F, Q
 
 
 @kernel
-def iterate(p, tables, t, in_motion, cq, cv, Y, C_tilde, X, F, Q, E, D):
+def iterate(p, tables, stage, Y, work):
     """One iteration. Returns whether the matrix was regular, the size of the update, and the least strain after it."""
-    sound = assemble(p, tables, t, in_motion, cq, cv, Y, C_tilde, X, F, Q, E, D)
-    size = update_size(p, D)
-    return sound, size, add_update(p, where(size <= 1.0, 1.0, 1.0 / size), D, Y)
+    sound = assemble(p, tables, stage, Y, work)
+    size = update_size(p, work.D)
+    return sound, size, add_update(p, where(size <= 1.0, 1.0, 1.0 / size), work.D, Y)
 
 
 @kernel

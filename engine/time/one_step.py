@@ -8,6 +8,7 @@ The step is the one that a run makes (`time.time_loop`), at the fixed step of th
 
 import numpy as np
 
+from ..planar.columns import EPS  # in space the same column
 from ..run import Run
 from ..spatial import lift
 from .statics import planar_stretch_vectors
@@ -26,7 +27,7 @@ class OneStep:
         self.run = Run(scene, scene.solver.step_s)
         if self.run.state["status"] != OK:
             raise ValueError("the scene has no static equilibrium about which to step")
-        self.step_s, self.Y = scene.solver.step_s, self.run.Y.copy()
+        self.step_s, self.Y = scene.solver.step_s, self.run.motion.Y.copy()
         self.begin = self.run.state.copy()
         # not the first step, for which C would be computed, nor the first sample, which is at the start
         self.begin["steps"], self.begin["samples"], self.begin["dt"] = 1, 1, self.step_s
@@ -35,11 +36,11 @@ class OneStep:
 
     def rest_at(self, strain):
         """Take the straight line of another uniform strain, compressed or taut: it rests between its ends as well."""
-        self.Y[:, 0] = strain
+        self.Y[:, EPS] = strain
         self._rest()
 
     def _rest(self):
-        half = self.run.C.shape[1] // 2
+        half = self.run.motion.C.shape[1] // 2
         vectors = lift.stretch_vectors if half == 3 else planar_stretch_vectors
         self.C = np.hstack([vectors(self.Y), np.zeros((len(self.Y), half))])
         self.K = np.zeros_like(self.C)
@@ -49,9 +50,10 @@ class OneStep:
         run = self.run
         for name in self.begin.dtype.names:
             run.state[name] = self.begin[name]
-        run.Y[:], run.Y_before[:], run.C[:], run.K[:] = self.Y, self.Y, C, K
+        for part, given in zip(run.motion, (self.Y, self.Y, C, K), strict=True):
+            part[:] = given
         run.advance(1)
         state = run.state
         if state["status"] != OK or state["failures"] or state["steps"] != 2:
             raise ValueError(f"the step of {self.step_s:g} s about this state fails")
-        return run.C.copy(), run.K.copy()
+        return run.motion.C.copy(), run.motion.K.copy()

@@ -4,16 +4,15 @@ Runge-Kutta steps carry rates at both ends: cubic Hermite interpolation of the c
 one-stage methods (order 2 and less, undamped rates) are interpolated linearly. Positions are the sums of the
 interpolated q, tensions f(|q| - 1), so every column of a sample belongs to one configuration.
 
-samples: 0 t | 1-3 x, y, z | 4-6 velocity | 7 tension at the top | 8 least tension along the tether |
-9-10 least and greatest tension at the top over all steps since the sample before | 11 largest distance from the plane
-profiles: x | y | z | strain | tension | speed, per node
+Columns of samples and profiles: `engine.record`.
 """
 
 import numpy as np
 
+from .. import record as col
 from ..compiled import kernel
 from ..dimensions import configuration, last_strain
-from ..physics.tension import tension
+from ..physics.tension.kernels import tension
 
 
 @kernel
@@ -26,21 +25,29 @@ def weights_within(hermite, theta, dt):
 
 
 @kernel
-def sample(p, tables, state, dt, hermite, C0, K0, C1, K1, samples, profiles):
-    """Store the samples and profiles that lie within the step from state.t to state.t + dt."""
+def sample(p, tables, state, dt, hermite, before, C1, K1, output):
+    """Store the samples and profiles that lie within the step from state.t to state.t + dt.
+
+    before: Motion at its begin; C1, K1 (n, conserved): conserved variables and rates at its end; output: Output.
+    """
+    C0, K0 = before.C, before.K
+    samples, profiles = output.samples, output.profiles
     n = C0.shape[0]
     end = state.t + dt
-    row = np.empty((n, 6))
+    row = np.empty((n, col.PROFILE_WIDTH))
     while state.samples < samples.shape[0] and state.samples * p.output_step <= end:
         t = state.samples * p.output_step
         weights = weights_within(hermite, (t - state.t) / dt, dt)
         out = samples[state.samples]
-        out[4], out[5], out[6], out[11] = configuration(p, tables, weights, C0, K0, C1, K1, row)
-        least = row[0, 4]
+        out[col.AT_U], out[col.AT_V], out[col.AT_W], out[col.OFFPLANE] = configuration(
+            p, tables, weights, C0, K0, C1, K1, row
+        )
+        least = row[0, col.TENSION]
         for k in range(1, n):
-            least = min(least, row[k, 4])
-        out[1], out[2], out[3] = row[n - 1, 0], row[n - 1, 1], row[n - 1, 2]
-        complete_sample(state, out, t, row[n - 1, 4], least)
+            least = min(least, row[k, col.TENSION])
+        for i in range(3):
+            out[col.AT_X + i] = row[n - 1, col.PLACE + i]
+        complete_sample(state, out, t, row[n - 1, col.TENSION], least)
     while state.profiles < profiles.shape[0] and state.profiles * p.profile_step <= end:
         t = state.profiles * p.profile_step
         weights = weights_within(hermite, (t - state.t) / dt, dt)
@@ -52,7 +59,8 @@ def sample(p, tables, state, dt, hermite, C0, K0, C1, K1, samples, profiles):
 @kernel
 def complete_sample(state, out, t, top, least):
     """Time and tensions of a sample `out` that has its place and velocity; the sample is then booked."""
-    out[0], out[7], out[8], out[9], out[10] = t, top, least, min(state.low, top), max(state.high, top)
+    out[col.TIME], out[col.TOP], out[col.LEAST] = t, top, least
+    out[col.TOP_LOW], out[col.TOP_HIGH] = min(state.low, top), max(state.high, top)
     state.low, state.high = top, top
     state.samples += 1
 

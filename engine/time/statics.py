@@ -10,9 +10,12 @@ import math
 
 import numpy as np
 
-from ..physics.ends import BUOY, FREE, HELD
+from ..arrays import Stage
+from ..planar import columns as col
 from ..planar import state as planar
+from ..record import BUOY, FREE, HELD, is_spatial
 from ..scales import buckling_load, strain_at, tension_at
+from ..spatial import columns as spatial_col
 from ..spatial import lift
 from ..spatial import state as spatial
 from .newton import newton
@@ -39,11 +42,11 @@ def rest_of(record, scene, tables, h, target_m):
     for span in SPANS:
         Y = first_guess(record, scene, h, span)
         code = settle(record, tables, Y, target_m)
-        if not record["cap"]:
+        if not record["spherical_cap"]:
             return code, Y
         if code != OK:
             break
-        least = tension_at(float(Y[:, 0].min()), scene.tether.tension)
+        least = tension_at(float(Y[:, col.EPS].min()), scene.tether.tension)
         if least >= -weight:
             return OK, Y
         if best is None or least > best[0]:
@@ -61,10 +64,11 @@ def settle(record, tables, Y, target_m):
     """
     p = record.copy()
     n = int(p["nodes"])
-    space = "GI" in p.dtype.names
-    X, F, Q, E, D, C_tilde = (spatial if space else planar).work_arrays.py_func(p, n)
+    space = is_spatial(p)
+    work = (spatial if space else planar).work_arrays.py_func(p, n)
+    C_tilde = work.C_tilde
     axes = ("end_x", "end_y", "end_z") if space else ("end_x", "end_z")
-    velocity = slice(3, 6) if space else slice(2, 4)
+    velocity = slice(spatial_col.V, spatial_col.BETA) if space else slice(col.VX, col.PHI)
     half = 0.5 * tables[p["grid_at"] : p["grid_at"] + n - 1, None]
     mu, turns, settled = FIRST, 0, None
     for _ in range(400):
@@ -74,7 +78,7 @@ def settle(record, tables, Y, target_m):
             for axis, place in zip(axes, target_m - np.sum(half * (q[1:] + q[:-1]), axis=0), strict=True):
                 p[axis] = place
         trial = Y.copy()
-        code, _ = newton(p, tables, 0.0, 0.0, 1.0, mu, TOLERANCE, MOST, trial, C_tilde, X, F, Q, E, D)
+        code, _ = newton(p, tables, Stage(0.0, 0.0, 1.0, mu), TOLERANCE, MOST, trial, work)
         if settled is not None and (code != OK or (mu == 0.0 and np.abs(trial[:, velocity]).max() > CLOSE)):
             Y[:] = settled  # something is free to turn: with less resistance rounding errors move it
             return OK
@@ -87,15 +91,15 @@ def settle(record, tables, Y, target_m):
         Y[:] = trial
         Y[:, velocity] = 0.0
         if mu == 0.0 and moved < CLOSE:
-            folded = Y[:, 0] < 0.0
+            folded = Y[:, col.EPS] < 0.0
             if p["bent"] or not folded.any() or turns == MOST_TURNS:
                 return OK
             # without bending compression is no rest: a node turned round carries the same force as tension
-            Y[folded, 0] *= -1.0
+            Y[folded, col.EPS] *= -1.0
             if space:
                 lift.turn_back(Y, folded)
             else:
-                Y[folded, 4] += math.pi
+                Y[folded, col.PHI] += math.pi
             mu = FIRST
             turns += 1
             continue
@@ -108,7 +112,7 @@ def settle(record, tables, Y, target_m):
 
 def planar_stretch_vectors(Y):
     """q (n, 2) of a planar state."""
-    return (1 + Y[:, :1]) * np.column_stack([np.cos(Y[:, 4]), np.sin(Y[:, 4])])
+    return (1 + Y[:, :1]) * np.column_stack([np.cos(Y[:, col.PHI]), np.sin(Y[:, col.PHI])])
 
 
 def first_guess(record, scene, h, span=SPANS[0]):
@@ -117,7 +121,7 @@ def first_guess(record, scene, h, span=SPANS[0]):
     In space it lies in the vertical plane through the held end, or through the force on a free one. span: share of its
     length that a slack line under a floating buoy spans upright; LEANING: straight, at the height at which it floats.
     """
-    if "GI" not in record.dtype.names:
+    if not is_spatial(record):
         return _in_plane(record, scene, h, (float(record["end_x"]), float(record["end_z"])), span)
     across = {HELD: scene.end.position_m, FREE: scene.end.force_N}.get(int(record["end"]))
     azimuth = math.atan2(across[1], across[0]) if across and (across[0] or across[1]) else 0.0
@@ -142,13 +146,13 @@ def _in_plane(record, scene, h, force, span):
     Nx = np.full(n, force[0] if record["end"] == FREE else 0.0)
     Nz = up - record["w0"] * (length - s)
     T = np.hypot(Nx, Nz)
-    Y[:, 0] = [strain_at(load, scene.tether.tension) if load > 0 else 0.0 for load in T]
+    Y[:, col.EPS] = [strain_at(load, scene.tether.tension) if load > 0 else 0.0 for load in T]
     angle = np.arctan2(Nz, Nx)
     heaviest = angle[np.argmax(T)] if T.max() > 0 else math.pi / 2
     # where the load changes sign along the line the guess keeps one direction, with compression
     against = np.cos(angle - heaviest) < 0
-    Y[:, 0] = np.where(against, 0.0, Y[:, 0])
-    Y[:, 4] = np.where(against, heaviest, heaviest + np.angle(np.exp(1j * (angle - heaviest))))
+    Y[:, col.EPS] = np.where(against, 0.0, Y[:, col.EPS])
+    Y[:, col.PHI] = np.where(against, heaviest, heaviest + np.angle(np.exp(1j * (angle - heaviest))))
     return Y
 
 
@@ -157,13 +161,13 @@ def _to_a_place(Y, s, x, z, w0):
     length, chord = s[-1], math.hypot(x, z)
     direction = math.atan2(z, x) if chord > 0 else 0.0
     if chord >= length:
-        Y[:, 0] = chord / length - 1
-        Y[:, 4] = direction
+        Y[:, col.EPS] = chord / length - 1
+        Y[:, col.PHI] = direction
     else:
         half = _arc(chord / length)
         sag = 1.0 if (w0 >= 0) == (x >= 0) else -1.0  # heavy hangs below the chord, light above
-        Y[:, 4] = direction + sag * half * (2 * s / length - 1)
-        Y[:, 5] = 2 * sag * half / length
+        Y[:, col.PHI] = direction + sag * half * (2 * s / length - 1)
+        Y[:, col.KAPPA] = 2 * sag * half / length
     return Y
 
 
@@ -175,7 +179,7 @@ def _afloat(record, scene, s):
     from scipy.optimize import brentq
 
     whole, D, law = float(record["lift"]), float(record["D_buoy"]), scene.tether.tension
-    if not record["cap"] or whole <= 0:
+    if not record["spherical_cap"] or whole <= 0:
         return whole, None
 
     def lift(z):

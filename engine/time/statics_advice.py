@@ -2,7 +2,7 @@
 
 import math
 
-from ..physics.ends import BUOY, FREE
+from ..record import BUOY, FREE
 from ..scales import tension_at
 
 MOST_STRAIN = 10.0  # up to which the engine looks for the strain under a load (`scales.strain_at`)
@@ -31,7 +31,7 @@ def why_no_rest(record, scene):
             f"tether.tension still pulls with {pull:.4g} N at a strain of {NEARLY_NOTHING:g}; let it fall to zero "
             "where the line is not stretched"
         )
-    if record["cap"]:
+    if record["spherical_cap"]:
         return (
             "the iteration did not settle; where the buoy floats on a slack line (buoy.submergence 'spherical-cap'), "
             "give the line more tether.nodes or tether.bending_stiffness_Nm2, or make water.depth_m larger than its "
@@ -48,7 +48,7 @@ def loads_of(record, scene):
 
     None where they follow from the place: of a held end, and of a buoy that may come out of the water.
     """
-    if record["end"] == BUOY and not record["cap"]:
+    if record["end"] == BUOY and not record["spherical_cap"]:
         side, up = 0.0, float(record["lift"])
     elif record["end"] == FREE:
         x, y, up = scene.end.force_N

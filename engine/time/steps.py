@@ -1,7 +1,8 @@
 """One time step of either family of integrators: a trial state and rates, a result code, an error estimate.
 
 Conserved variables of a node: C = (q, V), four numbers in a plane and six in space; K = dC/dt. A trial never changes
-the accepted state. In Y (n, unknowns) and in C the velocity has the same columns; Q holds q from column 5 on.
+the accepted state. In Y (n, unknowns) and in C the velocity has the same columns; Q holds q from column
+`engine.record.STRETCH` on.
 The parts of a Runge-Kutta step serve one run and, with vectors in the place of numbers, several (`engine.simd`).
 """
 
@@ -9,9 +10,11 @@ import math
 
 import numpy as np
 
+from ..arrays import Stage
 from ..compiled import kernel
 from ..dimensions import error_square, extrapolate, size_of
-from ..physics.tension import tension
+from ..physics.tension.kernels import tension
+from ..record import STRETCH
 from ..simd.elementary import copy_into
 from ..simd.select import smaller
 from .newton import newton
@@ -75,22 +78,23 @@ def stage_rates(p, rate, Y, Q, C_tilde, C_new, K):
     half = size // 2
     for k in range(Y.shape[0]):
         for m in range(half):
-            C_new[k, m] = Q[k, 5 + m]
+            C_new[k, m] = Q[k, STRETCH + m]
             C_new[k, half + m] = Y[k, half + m]
         for m in range(size):
             K[k, m] = rate * (C_new[k, m] - C_tilde[k, m])
 
 
 @kernel
-def runge_kutta_step(p, tables, t, dt, dt_before, small, Y, Y_before, C, K, Ys, Ks, C_new, work):
-    """A trial step of a stiffly accurate ESDIRK method, or (small) of backward Euler in its place.
+def runge_kutta_step(p, tables, step, before, trial, work):
+    """A trial step of a stiffly accurate ESDIRK method, or (step.small) of backward Euler in its place.
 
-    Y, C, K: accepted state at t and its rates; Y_before: the state dt_before earlier (0: none), for the first guess.
-    Ys (s, n, unknowns), Ks (s, n, conserved): stages; the last of each is the new state and its rates; C_new: its
-    conserved variables.
+    step: Step; before: Motion, not changed; trial: Trial, filled; work: Work.
     Returns (code, Newton iterations, error in units of the tolerance; 0 for fixed and for small steps).
     """
-    X, F, Q, E, D, C_tilde = work
+    t, dt, dt_before, small = step
+    Y, Y_before, C, K = before
+    Ys, Ks, C_new = trial
+    C_tilde = work.C_tilde
     unknowns, size = size_of(p)
     s = Ys.shape[0]
     a, w = np.empty(s), np.empty(3)
@@ -104,6 +108,7 @@ def runge_kutta_step(p, tables, t, dt, dt_before, small, Y, Y_before, C, K, Ys, 
             for m in range(size):
                 C_tilde[k, m] = C[k, m]
             add_rates(p, a, 0 if small else i, Ks, k, C_tilde[k])
+        # first guess: the polynomial through the latest three of state before, state, stages
         first = small or i == 1
         oldest, middle, latest = Y if first else Y_before, Y_before if first else Ys[i - 2], Y if first else Ys[i - 1]
         if i > 2 and not small:
@@ -111,16 +116,15 @@ def runge_kutta_step(p, tables, t, dt, dt_before, small, Y, Y_before, C, K, Ys, 
         for k in range(Y.shape[0]):
             for j in range(unknowns):
                 Ys[i, k, j] = guess(w, oldest[k, j], middle[k, j], latest[k, j])
-        code, used = newton(
-            p, tables, t + after, 1.0, rate, rate, p.newton_tolerance, most, Ys[i], C_tilde, X, F, Q, E, D
-        )
+        stage = Stage(t + after, 1.0, rate, rate)
+        code, used = newton(p, tables, stage, p.newton_tolerance, most, Ys[i], work)
         iterations += used
         if code != OK:
             return code, iterations, np.inf
-        stage_rates(p, rate, Ys[i], Q, C_tilde, C_new, Ks[i])
+        stage_rates(p, rate, Ys[i], work.Q, C_tilde, C_new, Ks[i])
     if small or p.adaptive == 0:
         return OK, iterations, 0.0
-    error = embedded_error(p, tables, dt, Ks, Q, a, C_tilde[0])
+    error = embedded_error(p, tables, dt, Ks, work.Q, a, C_tilde[0])
     return OK, iterations, trial_error(p, tables, dt, error, least_strain(Ys[s - 1]))
 
 
@@ -178,17 +182,21 @@ def embedded_error(p, tables, dt, Ks, Q, d, errors):
 
 
 @kernel
-def one_stage_step(
-    p, tables, t, dt, dt_before, alpha_m, alpha_f, gamma, most, Y, Y_before, C, K, Y_new, K_new, C_new, work
-):
+def one_stage_step(p, tables, step, alphas, most, before, trial, work):
     """A trial step of the generalized-alpha family (backward Euler and implicit midpoint included).
 
     With C_s the state and K_s the rates at the stage, t_n + alpha_f dt:
     K_s = c0 (C_s - C~), c0 = alpha_m/(alpha_f gamma dt), C~ = C_n + alpha_f dt (1 - gamma/alpha_m) K_n;
     C_(n+1) = C_n + (C_s - C_n)/alpha_f,  K_(n+1) = (K_s - (1 - alpha_m) K_n)/alpha_m.
-    Returns (code, Newton iterations).
+    alphas: (alpha_m, alpha_f, gamma); most: Newton iterations allowed; step, before, trial, work: as for
+    `runge_kutta_step`. Returns (code, Newton iterations).
     """
-    X, F, Q, E, D, C_tilde = work
+    t, dt, dt_before, _ = step
+    alpha_m, alpha_f, gamma = alphas
+    Y, Y_before, C, K = before
+    last = trial.Y.shape[0] - 1
+    Y_new, K_new, C_new = trial.Y[last], trial.K[last], trial.C
+    Q, C_tilde = work.Q, work.C_tilde
     unknowns, size = size_of(p)
     half = size // 2
     n = Y.shape[0]
@@ -201,14 +209,13 @@ def one_stage_step(
         for i in range(unknowns):
             Y_new[k, i] = Y[k, i] + ratio * (Y[k, i] - Y_before[k, i])
     rate = alpha_m / (alpha_f * gamma * dt)
-    code, used = newton(
-        p, tables, t + alpha_f * dt, 1.0, rate, rate, p.newton_tolerance, most, Y_new, C_tilde, X, F, Q, E, D
-    )
+    stage = Stage(t + alpha_f * dt, 1.0, rate, rate)
+    code, used = newton(p, tables, stage, p.newton_tolerance, most, Y_new, work)
     if code != OK:
         return code, used
     for k in range(n):
         for m in range(size):
-            C_s = Q[k, 5 + m] if m < half else Y_new[k, m]
+            C_s = Q[k, STRETCH + m] if m < half else Y_new[k, m]
             C_new[k, m] = C[k, m] + (C_s - C[k, m]) / alpha_f
             K_new[k, m] = (rate * (C_s - C_tilde[k, m]) - (1.0 - alpha_m) * K[k, m]) / alpha_m
     if alpha_f != 1.0:

@@ -1,7 +1,6 @@
 """From one output sample to the next: step control, guards, loop release, even output.
 
-`march` takes one record and one share of the arrays of a batch (`engine.simulate` holds the batch axis); nothing is
-global, each simulation has its own step and its own end.
+`march` advances one run; each has its own step and its own end.
 
 Loop release: in a plane a loop of slack tether that is pulled tight cannot leave the plane, and shrinks to sqrt(EI/T),
 about 1 cm, which no grid resolves: the turn in one element passes pi. phi is then shifted by 2 pi above that element
@@ -15,23 +14,18 @@ import math
 
 import numpy as np
 
+from ..arrays import Step, Trial
 from ..compiled import kernel
 from ..dimensions import conserved, largest_turn, release_loop, size_of, work_arrays
 from ..physics.ends import next_corner
 from ..physics.energy import add_powers, store_energies
 from ..physics.shocks import deforming_element, renew_viscosity
+from ..record import BEGIN, CONTROLLED, EULER, KIND, RESTART, RUNGE_KUTTA, STEP
 from ..simd.elementary import copy_into
-from .integrators import RUNGE_KUTTA
 from .sampling import sample
 from .status import NEWTON_FAILED, NOT_FINITE, OK, STEP_LIMIT, STEP_UNDERFLOW, STRAIN_BELOW_MINUS_ONE, TURN_UNRESOLVED
 from .steps import least_strain, one_stage_step, runge_kutta_step
 
-_COUNTS = (
-    "status samples profiles small_steps steps rejected newton failures releases attempts cautious trail energies "
-    "small cut"
-)
-_VALUES = "t dt dt_before low high max_turn min_strain window_end trial_dt corner"
-STATE = np.dtype([(name, np.int64) for name in _COUNTS.split()] + [(name, np.float64) for name in _VALUES.split()])
 SMALL_STEPS = 3
 SAFETY, SHRINK, GROW = 0.9, 0.2, 4.0
 NO_SLIVER = 1.01  # a step is made a little longer rather than leave next to nothing of the way to a corner
@@ -48,7 +42,7 @@ def guard_turns(p, tables, state, Y):
         state.max_turn = max(state.max_turn, turn)
         if turn <= math.pi:
             return OK, released
-        if p.release == 0 or state.releases >= p.max_releases:
+        if p.loop_release == 0 or state.releases >= p.max_releases:
             return TURN_UNRESOLVED, released
         release_loop(p, tables, Y, where)
         state.releases += 1
@@ -138,74 +132,74 @@ def next_step(p, state, code, released, error, longest):
 
 
 @kernel
-def record_step(row, stages, rates, t, dt, one_stage, small, Ys, Ks):
-    """One accepted step of the trail (layout: `engine.perturbations.tangent`)."""
-    row[0], row[1], row[2] = t, dt, 2.0 if small else 1.0 if one_stage else 0.0
-    for i in range(Ys.shape[0]):
-        copy_into(stages[i], Ys[i])
-        copy_into(rates[i], Ks[i])
+def record_step(trail, at, step, kind, trial):
+    """One accepted step into row `at` of the trail (`engine.perturbations.tangent`); kind: of `engine.record`."""
+    row = trail.T[at]
+    row[BEGIN], row[STEP], row[KIND] = step.t, step.dt, kind
+    for i in range(trial.Y.shape[0]):
+        copy_into(trail.Y[at, i], trial.Y[i])
+        copy_into(trail.K[at, i], trial.K[i])
 
 
 @kernel
-def march(p, tables, state, Y, Y_before, C, K, samples, profiles, energies, sums, trail_T, trail_Y, trail_K, until):
+def march(p, tables, state, motion, output, trail, until):
     """Advance one simulation until `until` samples are stored, the trail is full, or it ends.
 
-    p: parameter record; state: STATE record; Y, Y_before (n, unknowns), C, K (n, conserved): the state itself; changed
-    in place. C is kept from call to call: computed anew it would differ by rounding, and the calls would show.
-    samples (m, 12), profiles (m', n, 6): filled in place, columns as in `engine.time.sampling`.
-    energies (m'', 9), sums (5,): rows at the first step past each output time, as in `physics.energy`; m'' = 0: none.
-    trail_T (l, 3), trail_Y (l, s, n, unknowns), trail_K (l, s, n, conserved): accepted steps for tangents;
-    l = 0 keeps none.
+    p, tables: parameters; state: STATE record (`engine.record`); motion: Motion, the state itself; both are changed in
+    place. motion.C is kept from call to call: computed anew it would differ by rounding, and the calls would show.
+    output: Output, columns of samples and profiles in `engine.record`, of energies in `engine.physics.energy`, a row of
+    which is stored at the first step past each output time. trail: Trail of accepted steps. Where an array of output or
+    trail has no rows, nothing is kept in it.
     """
-    n = p.nodes
+    Y, Y_before, C, K = motion
+    energies = output.energies
     s = max(p.stages, 2)
     unknowns, size = size_of(p)
-    work = work_arrays(p, n)
-    C_new = np.empty((n, size))
-    Ys, Ks = np.empty((s, n, unknowns)), np.empty((s, n, size))
-    e_t = np.empty(n)
+    work = work_arrays(p, p.nodes)
+    trial = Trial(np.empty((s, p.nodes, unknowns)), np.empty((s, p.nodes, size)), np.empty((p.nodes, size)))
+    e_t = np.empty(p.nodes)
     if p.viscous and state.steps > 0:
-        renew_viscosity(p, tables, size // 2, C, K, e_t, work[2])
+        renew_viscosity(p, tables, size // 2, C, K, e_t, work.Q)
     if state.steps == 0:
         conserved(p, Y, C)
         if energies.shape[0] > 0:
-            store_energies(p, tables, 0.0, C, sums, energies[0])
+            store_energies(p, tables, 0.0, C, output.sums, energies[0])
             state.energies = 1
-    room = trail_T.shape[0]
+    room = trail.T.shape[0]
     while state.status == OK and state.samples < until and (room == 0 or state.trail < room):
+        # try a step, by the method of the scene or, where a small one is due, by backward Euler
         begin_trial(p, tables, state)
         if state.status != OK:
             break
-        dt, small, error = state.trial_dt, state.small != 0, 0.0
-        am, af, gamma = (1.0, 1.0, 1.0) if small else (p.alpha_m, p.alpha_f, p.gamma)
+        small, error = state.small != 0, 0.0
+        step = Step(state.t, state.trial_dt, state.dt_before, small)
+        alphas = (1.0, 1.0, 1.0) if small else (p.alpha_m, p.alpha_f, p.gamma)
         stiff = small or p.method == RUNGE_KUTTA
         if stiff:
-            code, used, error = runge_kutta_step(
-                p, tables, state.t, dt, state.dt_before, small, Y, Y_before, C, K, Ys, Ks, C_new, work
-            )
+            code, used, error = runge_kutta_step(p, tables, step, motion, trial, work)
         else:
-            code, used = one_stage_step(
-                p, tables, state.t, dt, state.dt_before, am, af, gamma, p.max_newton,
-                Y, Y_before, C, K, Ys[s - 1], Ks[s - 1], C_new, work,
-            )  # fmt: skip
+            code, used = one_stage_step(p, tables, step, alphas, p.max_newton, motion, trial, work)
         if refused(p, state, code, used, error):
             continue
-        sample(p, tables, state, dt, stiff and not small, C, K, C_new, Ks[s - 1], samples, profiles)
+        # what lies within the accepted step goes into the output
+        Y_new, K_new = trial.Y[s - 1], trial.K[s - 1]
+        sample(p, tables, state, step.dt, stiff and not small, motion, trial.C, K_new, output)
         if energies.shape[0] > 0:
-            add_powers(p, tables, dt, am, af, gamma, C, K, C_new, Ks[s - 1], Ys[s - 1], work[2], sums)
-            if state.energies < energies.shape[0] and state.energies * p.output_step <= state.t + dt:
-                store_energies(p, tables, state.t + dt, C_new, sums, energies[state.energies])
+            add_powers(p, tables, step.dt, alphas, motion, trial.C, K_new, Y_new, work.Q, output.sums)
+            if state.energies < energies.shape[0] and state.energies * p.output_step <= step.t + step.dt:
+                store_energies(p, tables, step.t + step.dt, trial.C, output.sums, energies[state.energies])
                 state.energies += 1
         if room > 0:
-            last = state.trail
-            record_step(trail_T[last], trail_Y[last], trail_K[last], state.t, dt, small or not stiff, small, Ys, Ks)
+            kind = RESTART if small else CONTROLLED if stiff else EULER
+            record_step(trail, state.trail, step, kind, trial)
             state.trail += 1
+        # the trial becomes the state
         copy_into(Y_before, Y)
-        copy_into(Y, Ys[s - 1])
-        copy_into(K, Ks[s - 1])
-        copy_into(C, C_new)
+        copy_into(Y, Y_new)
+        copy_into(K, K_new)
+        copy_into(C, trial.C)
         if p.viscous:
-            renew_viscosity(p, tables, size // 2, C, K, e_t, work[2])
+            renew_viscosity(p, tables, size // 2, C, K, e_t, work.Q)
         step_done(p, state)
         state.min_strain = min(state.min_strain, least_strain(Y))
         code, released = guard_turns(p, tables, state, Y)

@@ -2,14 +2,22 @@
 
 from __future__ import annotations
 
+import math
 from pathlib import Path
 
-from ..parts.content import Bullets, Heading, Item, Report, Text
+from ..parts.content import Bullets, Column, Heading, Item, Report, Table, Text
 from ..parts.provenance import provenance_items, timing_table
-from ..parts.wording import count, number
-from .sections import per_period, shipped, work_items
+from ..parts.wording import EMPTY, count, decimals, number
+from .orders import order_items, predictability_items, smooth_series
 from .study import Study, read_study
-from .tables import cost_items, failed_count, level_answer, order_items, peer_items, predictability_items
+from .work import LEVELS, level_answer, per_period, shipped, within, work_items
+
+QUESTION = (
+    "What does an error cost? Every method of the engine, scipy's solvers on the engine's own equations in space, "
+    "and other codes where they are installed, run the same works. The error of each run is set against the time it "
+    "took. The diagrams show which grid and tolerance to choose; the tables of slopes show whether a method keeps "
+    "its order."
+)
 
 
 def report(directory: str | Path) -> Report:
@@ -19,12 +27,7 @@ def report(directory: str | Path) -> Report:
     times = timing_table(study.folder)
     items: list[Item] = [
         Heading("Question"),
-        Text(
-            "What does an error cost? Every method of the engine, scipy's solvers on the engine's own equations in "
-            "space, and other codes where they are installed, run the same works; each run's error is set against "
-            "the time it took. Which grid and tolerance to choose follows from the diagrams; whether a method keeps "
-            "its order, from the tables of slopes."
-        ),
+        Text(QUESTION),
         Heading("Short answer"),
         Bullets(_short_answer(study, works)),
         Heading("Error against run time"),
@@ -41,30 +44,100 @@ def report(directory: str | Path) -> Report:
 
 
 def _short_answer(study: Study, works: list[str]) -> tuple[str, ...]:
-    lines = [level_answer(study, name) for name in works]
+    lines = [answer for name in works if (answer := level_answer(study, name))]
     for name in works:
-        one = shipped(study, name)
-        if one is not None:
+        if (one := shipped(study, name)) is not None:
             factor, unit = per_period(study, name)
             lines.append(
-                f"The shipped setting (41 nodes, rtol 0.03) on {name}: {number(one.error, 2)} "
-                f"{study.works[name]['unit']} in "
+                f"The shipped setting (41 nodes, rtol 0.03) on {name}: {number(one.error, 2)} {study.unit(name)} in "
                 f"{number(factor * one.wall_s, 3)} {unit} (worst of {one.rounds} rounds {number(one.worst, 2)})."
             )
-    judged = [row for row in study.orders if row["kind"] != "tolerance" and not row["rough"] and row["within"]]
-    if judged:
-        good = sum(row["within"] == "1" for row in judged)
-        lines.append(f"Orders: {good} of {len(judged)} series on smooth works end within 0.15 of theory.")
-    return tuple(line for line in (*lines, failed_count(study)) if line)
+    good, smooth, _ = smooth_series(study)
+    if smooth:
+        lines.append(f"Orders: {good} of {smooth} series on smooth works end within 0.15 of theory.")
+    bad = sum(bool(one.failed) and not one.peer for one in study.settings)
+    return (*lines, f"Settings of ours that ended early in a round and are left out: {bad}.")
 
 
 def _protocol(study: Study) -> str:
-    machine = study.folder.provenance.get("machine") or {}
-    where = f" on {machine.get('processor')}, {machine.get('cores')} cores," if machine else ""
-    found = study.folder.provenance.get("rounds")
+    machine, found = study.folder.provenance.get("machine"), study.folder.provenance.get("rounds")
+    where = f" on {machine.get('processor')}, {machine.get('cores')} cores" if machine else ""
     rounds = count(found, "round") if isinstance(found, int) else "rounds"
     return (
-        f"Timed one run at a time{where} settings in turns, {rounds}, each with another tolerance or step "
-        "(0.9 to 1.1 times the one named), because near a snap the error of a loose setting is partly luck; medians "
-        "are shown. Time is that of stepping alone: no compilation, statics, input or output of files."
+        f"Timed one run at a time{where}. The settings take turns, {rounds}, each with another tolerance or step (0.9 "
+        "to 1.1 times the one named), because near a snap the error of a loose setting is partly luck; medians are "
+        "shown. Time is that of stepping alone: no compilation, statics, input or output of files."
     )
+
+
+def cost_items(study: Study) -> list[Item]:
+    """Where the time of the shipped setting goes."""
+    costs = study.costs
+    if costs is None:
+        return []
+    pieces, python = costs["per_iteration_us"], costs["python_ms"]
+    total = sum(pieces.values())
+    rows = [(name, decimals(value, 2), decimals(100 * value / total, 0)) for name, value in pieces.items()]
+    rows.append(("stepping, all", decimals(total, 2), "100"))
+    each = [number(costs[name] / costs["periods"], 3) for name in ("newton_iterations", "steps")]
+    caption = (
+        f"The shipped setting ({costs['nodes']} nodes, rtol {costs['rtol']:g}, {costs['integrator']}) on the snapping "
+        f"buoy over {costs['periods']} wave periods: {each[0]} Newton iterations and {each[1]} steps a period. "
+        "Assembly, waves and elimination are timed by themselves, the rest by difference. From `costs.json`."
+    )
+    said = (
+        f"A call of `simulate` over {costs['periods']} periods takes {decimals(costs['stepping_ms'], 1)} ms of "
+        f"stepping and {decimals(python, 1)} ms of Python (the scene as numbers, statics, the record: "
+        f"{decimals(100 * python / (python + costs['stepping_ms']), 0)} %)."
+    )
+    columns = (Column("piece", align="left"), Column("per Newton iteration", "µs"), Column("share", "%"))
+    return [Heading("Cost of each piece"), Table(columns, tuple(rows), caption), Text(said)]
+
+
+def peer_items(study: Study) -> list[Item]:
+    """Other codes: what is left different, what they cost beside ours, what is not installed."""
+    own = [one for one in study.settings if one.peer]
+    if not own:
+        return []
+    notes = study.folder.provenance.get("peer_notes") or {}
+    items: list[Item] = [Heading("Other codes"), Bullets(tuple(f"{name}: {text}" for name, text in notes.items()))]
+    rows = [row for work in study.works for row in _beside_ours(study, work)]
+    columns = (
+        Column("work", align="left"), Column("code", align="left"), Column("within"), Column("its time", "ms"),
+        Column("ours", "ms"), Column("ratio"), Column("its setting", align="left"), Column("our setting", align="left"),
+        Column("off ours"),
+    )  # fmt: skip
+    if rows:
+        caption = (
+            "Cheapest settings within an error, each code against its own refined run (scipy against ours: it solves "
+            "our equations); ratio: its time over ours, of buoys per wave period. Off ours: its distance from our "
+            "refined run, in which the differences of the models show. The two finest levels that it reaches. From "
+            "`table.csv`."
+        )
+        items.append(Table(columns, tuple(rows), caption, small=True))
+    missing = tuple(dict.fromkeys((one.method, one.status, one.message) for one in own if one.failed))
+    if missing:
+        heads = tuple(Column(title, align="left") for title in ("code", "outcome", "why"))
+        items.append(Table(heads, missing, "Settings of other codes without a result. From `table.csv`.", small=True))
+    return items
+
+
+def _beside_ours(study: Study, work: str) -> list[tuple[str, ...]]:
+    """Rows of other codes on a work, at the two finest levels that each reaches."""
+    timed, unit = study.timed(work), study.unit(work)
+    factor, _ = per_period(study, work)
+    rows = []
+    for name in dict.fromkeys(one.method for one in timed if one.peer):
+        pairs = [
+            (level, ours, other)
+            for level in LEVELS[unit]
+            if (ours := within([one for one in timed if not one.peer], level))
+            and (other := within([one for one in timed if one.method == name], level))
+        ]
+        for level, ours, other in pairs[-2:]:
+            rows.append((
+                work, name, f"{level:g} {unit}", decimals(factor * other.wall_s, 2), decimals(factor * ours.wall_s, 2),
+                number(other.wall_s / ours.wall_s, 3), other.named, f"{ours.method}: {ours.named}",
+                f"{number(other.against_ours, 2)} {unit}" if math.isfinite(other.against_ours) else EMPTY,
+            ))  # fmt: skip
+    return rows

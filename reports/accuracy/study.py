@@ -2,39 +2,15 @@
 
 from __future__ import annotations
 
-import csv
-import json
 import math
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 
+from ..parts.files import read_files
 from ..parts.folder import Folder, FolderError, read_folder
 
-COLUMNS = (
-    "work",
-    "kind",
-    "method",
-    "nodes",
-    "control",
-    "setting",
-    "round",
-    "status",
-    "error",
-    "error_early",
-    "error_unit",
-    "error_against_ours",
-    "wall_s",
-    "end_time_s",
-    "steps",
-    "newton_iterations",
-    "loop_releases",
-    "peer_version",
-    "run_key",
-    "message",
-)
-WORDS = ("work", "kind", "method", "control", "error_unit", "peer_version")
 OURS, PEER = "point", "peer"
 
 
@@ -83,6 +59,10 @@ class Study:
         """Rows of a work with the given entries."""
         return [row for row in self.rows if row["work"] == work and all(row[k] == v for k, v in wanted.items())]
 
+    def unit(self, work: str) -> str:
+        """Unit of the errors of a work."""
+        return self.works[work]["unit"]
+
     def timed(self, work: str) -> list[Setting]:
         """Settings of a work that ended as asked in every round."""
         return [one for one in self.settings if one.work == work and one.failed == 0 and math.isfinite(one.error)]
@@ -90,12 +70,15 @@ class Study:
 
 def read_study(directory: str | Path) -> Study:
     """Read the folder. Raises FolderError naming every file that is missing or cannot be read."""
-    folder = read_folder(directory, COLUMNS, WORDS)
+    folder = read_folder(directory)
     works = folder.provenance.get("works")
     if not isinstance(works, dict) or not all(isinstance(entry, dict) and "title" in entry for entry in works.values()):
         raise FolderError(folder.directory, ["provenance.json cannot be read: it does not describe the works"])
     rows = tuple(folder.table.to_dict("records"))
-    return Study(folder, works, rows, tuple(_settings(rows)), _orders(folder.directory), _costs(folder.directory))
+    wanted = {"orders.csv": "orders of convergence"}
+    costs = folder.directory / "costs.json"  # not there without the engine's own runs
+    found = read_files(directory, wanted | ({"costs.json": "cost of each piece"} if costs.exists() else {}))
+    return Study(folder, works, rows, tuple(_settings(rows)), tuple(found["orders.csv"]), found.get("costs.json"))
 
 
 def _settings(rows: tuple[dict, ...]) -> list[Setting]:
@@ -118,27 +101,7 @@ def _setting(group: list[dict]) -> Setting:
     errors = [float(row["error"]) for row in good]
     first = group[0]
     return Setting(
-        first["work"], first["method"], _whole(first["nodes"]), first["control"], float(first["setting"]),
+        first["work"], first["method"], int(first["nodes"]), first["control"], float(first["setting"]),
         median("error"), max(errors, default=math.nan), median("error_against_ours"), median("wall_s"), len(group),
         len(group) - len(good), first["kind"] == PEER, bad["status"], bad["message"],
     )  # fmt: skip
-
-
-def _whole(value: float) -> int:
-    return int(value) if math.isfinite(value) else 0
-
-
-def _orders(directory: Path) -> tuple[dict, ...]:
-    try:
-        with open(directory / "orders.csv", encoding="utf-8", newline="") as file:
-            return tuple(csv.DictReader(file))
-    except (OSError, ValueError):
-        return ()
-
-
-def _costs(directory: Path) -> dict | None:
-    try:
-        content = json.loads((directory / "costs.json").read_text(encoding="utf-8"))
-        return content if isinstance(content.get("per_iteration_us"), dict) else None
-    except (OSError, ValueError, AttributeError):
-        return None

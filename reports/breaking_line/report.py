@@ -6,18 +6,37 @@ import math
 from pathlib import Path
 
 from ..buoy_sweep.equations import LAWS
-from ..parts.content import Bullets, Equation, Figure, Heading, Item, Notice, Report, Text
+from ..parts.content import Bullets, Equation, Heading, Item, Notice, Report, Text
 from ..parts.folder import Folder, read_folder
+from ..parts.judged import counted, read_statements, statements_table
 from ..parts.provenance import provenance_items, timing_table
 from ..parts.scene_table import scene_table
 from ..parts.wording import count, decimals, listed, number, percent
-from . import figures, grids, tables
-from .runs import COLUMNS, WORDS, Line, of_kind, pairs, read_lines
-from .statements import statements_table
+from . import figures, tables
+from .runs import FAST, SLOW, Line, find, named, of_kind, read_exact, read_lines
 
 ANIMATED = "4"
 MOST_TURN_RAD = 0.6
 CLOSED = 1e-3  # of the stored energy
+QUESTION = (
+    "A taut synthetic line breaks at one end. How does it recoil: how fast are the end and the fronts, where do shocks "
+    "form, what happens at the fixed end, and where does the stored energy go? This is section 4.1 of Tjavaras, Zhu, "
+    "Liu, Triantafyllou and Yue, “The mechanics of highly-extensible cables”, Journal of Sound and Vibration 213(4), "
+    "1998 (“the paper”): four static tensions, fracture in 5 ms (cases 1 to 4) and in 50 ms (1′ to 4′)."
+)
+THEORY = (
+    "Without gravity and bending the line is a one-dimensional elastic wave. The unloading that leaves the broken end "
+    "is a simple wave: every tension runs at its own speed √(T′/m). Where the law is concave, above its inflection, "
+    "lower tensions are faster than higher ones: the front steepens, and a shock forms that obeys the conditions of "
+    "Rankine and Hugoniot. The exact solution follows characteristics and fits the shock between them "
+    "(`campaigns/breaking_line/theory`)."
+)
+BUDGET = (
+    "Work and dissipation are added up step by step from the equations that each step solves: the force at the end, "
+    "the shock viscosity, the shear forces (bending has no potential in the paper's equations where the strain "
+    "varies), and what the scheme itself dissipates in space and in time. The remainder tells how well the equations "
+    "were solved."
+)
 MOTION = Equation(
     "m (partial bold(V)) / (partial t) = (partial bold(N)) / (partial s) - m g bold(k), quad "
     "(partial bold(q)) / (partial t) = (partial bold(V)) / (partial s), quad bold(q) = (1 + epsilon) bold(t)",
@@ -36,22 +55,26 @@ VISCOSITY = Equation(
 
 def report(directory: str | Path) -> Report:
     """The content of the report on a breaking-line folder. Raises FolderError for a folder that is not one."""
-    folder = read_folder(directory, COLUMNS, WORDS)
-    lines = read_lines(folder)
+    folder = read_folder(directory)
+    columns = folder.columns
+    lines, judged = read_lines(folder), read_statements(folder.directory)
+    verdicts = f"The paper's statements on the breaking line: {counted(judged)}. From `statements.csv`."
     items = [
-        *_question(lines),
-        Heading("The cases"),
-        tables.cases_table(lines),
-        *_warnings(lines),
-        *_paper_figures(lines),
-        *_fronts(lines),
-        *_energy(lines),
-        Heading("The paper's statements"),
-        statements_table(lines),
-        *_section("Bending stiffness", grids.stiffness_table(lines)),
-        *_grids(lines),
-        Heading("Run times"),
-        *filter(None, (_eight(folder, lines), tables.cost_table(lines), timing_table(folder))),
+        Heading("Question"),
+        Text(QUESTION),
+        Heading("Short answer"),
+        Bullets(tuple(_answer(lines))),
+        *_section("The cases", tables.cases_table(lines, columns), *_warnings(lines)),
+        *_section("Fast breaks", *figures.paper_figures(lines, FAST)),
+        *_section("Slow breaks", *figures.paper_figures(lines, SLOW)),
+        *_section("At the fixed end", figures.folds_figure(lines)),
+        *_section("In motion", figures.animation_figure(lines, ANIMATED)),
+        *_fronts(folder, lines, columns),
+        *_section("Energy", figures.energy_figure(lines), tables.energy_table(lines, columns), text=BUDGET),
+        *_section("The paper's statements", statements_table(judged, verdicts)),
+        *_section("Bending stiffness", tables.stiffness_table(lines, columns)),
+        *_section("Doubled grids", tables.doubled_table(lines, columns)),
+        *_section("Run times", tables.cost_table(lines, columns), timing_table(folder)),
         *_scene(folder),
         *_equations(folder),
         *provenance_items(folder),
@@ -59,19 +82,9 @@ def report(directory: str | Path) -> Report:
     return Report("The breaking synthetic line", folder.scene.title or folder.scene.name, tuple(items))
 
 
-def _question(lines: tuple[Line, ...]) -> list[Item]:
-    return [
-        Heading("Question"),
-        Text(
-            "A taut synthetic line breaks at one end. How does it recoil: how fast are the end and the fronts, where "
-            "do shocks form, what happens at the fixed end, and where does the stored energy go? This is section 4.1 "
-            "of Tjavaras, Zhu, Liu, Triantafyllou and Yue, “The mechanics of highly-extensible cables”, Journal of "
-            "Sound and Vibration 213(4), 1998 (“the paper”): four static tensions, fracture in 5 ms (cases 1 to 4) "
-            "and in 50 ms (1′ to 4′)."
-        ),
-        Heading("Short answer"),
-        Bullets(tuple(line for line in (*_answer(lines),) if line)),
-    ]
+def _section(heading: str, *items: Item | None, text: str = "") -> list[Item]:
+    found = [item for item in items if item is not None]
+    return [Heading(heading), *([Text(text)] if text else []), *found] if found else []
 
 
 def _answer(lines: tuple[Line, ...]) -> list[str]:
@@ -93,16 +106,14 @@ def _answer(lines: tuple[Line, ...]) -> list[str]:
     if left:
         words = listed(f"{decimals(-line.value('x_min_m'), 2)} m (case {line.name})" for line in left)
         said.append(f"The line passes the fixed end by {words}.")
-    taken = pairs(lines)
-    if taken and all(math.isfinite(line.share("end_work_J")) for pair in taken for line in pair):
-        words = listed(f"{percent(-one.share('end_work_J'))} in {one.name}" for pair in taken for one in pair)
-        said.append(
-            f"The kinetic energy does depend on the fracture time: of what was stored the decaying end force takes out "
-            f"{words}."
-        )
+    pairs = [(find(lines, fast), find(lines, slow)) for fast, slow in zip(FAST, SLOW, strict=True)]
+    taken = [line for pair in pairs if None not in pair for line in pair if math.isfinite(line.share("end_work_J"))]
+    if taken:
+        words = listed(f"{percent(-line.share('end_work_J'))} in {line.name}" for line in taken)
+        said.append(f"The kinetic energy depends on the fracture time: the decaying end force takes out {words}.")
     closed = [line for line in good if math.isfinite(line.value("remainder_largest_J"))]
     if closed:
-        worst = max(line.value("remainder_largest_J") / line.value("stored_J") for line in closed)
+        worst = max(line.share("remainder_largest_J") for line in closed)
         said.append(f"At no time is more than {percent(worst)} of the stored energy unaccounted for.")
     return said
 
@@ -129,93 +140,34 @@ def _warnings(lines: tuple[Line, ...]) -> list[Item]:
     told += [
         f"The energy budget of case {line.name} does not close to {percent(CLOSED)}."
         for line in of_kind(lines, "case")
-        if line.value("remainder_largest_J") > CLOSED * line.value("stored_J")
+        if line.share("remainder_largest_J") > CLOSED
     ]
     return [Notice("warning", "What limits these runs", tuple(told))] if told else []
 
 
 def _run(line: Line) -> str:
-    """A run in words."""
     stiffness = f", EI = {number(line.value('bending_stiffness_Nm2'))} N m²" if line.kind == "stiffness" else ""
     return f"Case {line.name}{tables.KINDS.get(line.kind, '')}{stiffness}, {number(line.value('nodes'))} nodes"
 
 
-def _paper_figures(lines: tuple[Line, ...]) -> list[Item]:
-    items: list[Item] = []
-    for heading, speed in (("Fast breaks", "fast"), ("Slow breaks", "slow")):
-        drawn = figures.paper_figures(lines, speed)
-        items += [Heading(heading), *drawn] if drawn else []
-    moving = figures.animation_figure(lines, ANIMATED)
-    folded = figures.folds_figure(lines)
-    return [*items, *_section("At the fixed end", folded), *_section("In motion", moving)]
-
-
-def _section(heading: str, item: Item | None) -> list[Item]:
-    return [Heading(heading), item] if item is not None else []
-
-
-def _fronts(lines: tuple[Line, ...]) -> list[Item]:
+def _fronts(folder: Folder, lines: tuple[Line, ...], columns: tables.Columns) -> list[Item]:
     if not any(math.isfinite(line.value("front_speed_theory_mps")) for line in of_kind(lines, "case")):
         return []
-    theory = (
-        "Without gravity and bending the line is a one-dimensional elastic wave. The unloading that leaves the broken "
-        "end is a simple wave: every tension runs at its own speed √(T′/m). Where the law is concave, above its "
-        "inflection, lower tensions are faster than higher ones: the front steepens, and a shock forms that obeys the "
-        "conditions of Rankine and Hugoniot. The exact solution used here follows characteristics and fits the shock "
-        "between them (`analysis/line_waves`)."
-    )
-    pictures: list[Figure | None] = [figures.plane_figure(lines), figures.speeds_figure(lines)]
-    shown = (*pictures, tables.speeds_table(lines), tables.shocks_table(lines), grids.series_table(lines))
-    return [Heading("Fronts and shocks"), Text(theory), *filter(None, shown)]
-
-
-def _energy(lines: tuple[Line, ...]) -> list[Item]:
-    table = tables.energy_table(lines)
-    if table is None:
-        return []
-    text = (
-        "Work and dissipation are added up step by step from the equations that each step solves: the force at the end "
-        "on its way, the shock viscosity, the shear forces (bending has no potential in the paper's equations where "
-        "the strain varies), and what the scheme itself dissipates, in space by taking products of means for means of "
-        "products, in time by the damping of the integrator. What remains tells how well the equations were solved."
-    )
-    return [Heading("Energy"), Text(text), *filter(None, (figures.energy_figure(lines), table))]
-
-
-def _grids(lines: tuple[Line, ...]) -> list[Item]:
-    table = grids.doubled_table(lines)
-    if table is None:
-        return []
-    text = (
-        "What twice the elements change at most, over the cases: "
-        f"{listed(grids.changes_said(lines))}. What is left in the folds is the spread of their details: a fold that "
-        "is pushed together chooses its side by small numbers."
-    )
-    return [Heading("Doubled grids"), Text(text), table]
-
-
-def _eight(folder: Folder, lines: tuple[Line, ...]) -> Text | None:
-    walls = [line.value("wall_s") for line in lines if line.kind == "case" and math.isfinite(line.value("wall_s"))]
-    if not walls:
-        return None
-    jobs = folder.provenance.get("jobs")
-    at_once = f" at {jobs} at once" if isinstance(jobs, int) else ""
-    return Text(
-        f"The {count(len(walls), 'case')} take {decimals(sum(walls), 1)} s of computing after compilation, "
-        f"{decimals(min(walls), 1)} to {decimals(max(walls), 1)} s each{at_once}; the rest are companions."
-    )
+    exact = read_exact(folder)
+    drawn = [] if exact is None else [figures.plane_figure(lines, exact), figures.speeds_figure(exact)]
+    found = (table(lines, columns) for table in (tables.speeds_table, tables.shocks_table, tables.series_table))
+    return _section("Fronts and shocks", *drawn, *found, text=THEORY)
 
 
 def _scene(folder: Folder) -> list[Item]:
-    drawn = folder.provenance.get("cases")
-    words = listed(case.replace("p", "′") for case in drawn) if isinstance(drawn, list) and drawn else "as asked"
-    swept = {"end.force_N": f"cases {words}", "end.force_decay_s": "0.005 (1 to 4), 0.05 (1′ to 4′)"}
+    cases = listed(named(case) for case in folder.provenance.get("cases") or ["as asked"])
+    varied = {"end.force_N": f"cases {cases}", "end.force_decay_s": "0.005 (1 to 4), 0.05 (1′ to 4′)"}
     caption = "The scene as run, from `scene.toml`; defaults are those of the scene `breaking_line`."
-    table = scene_table(folder.scene, "breaking_line", swept, caption)
-    return [Heading("Scene"), table]
+    return [Heading("Scene"), scene_table(folder.scene, "breaking_line", varied, caption)]
 
 
 def _equations(folder: Folder) -> list[Item]:
+    shocks = "Shocks are captured by a viscosity; a limiter a is zero where the strain rate varies smoothly:"
     return [
         Heading("Equations"),
         Text("In fixed axes and conservation form, with the shear force from the bending moments:"),
@@ -224,9 +176,6 @@ def _equations(folder: Folder) -> list[Item]:
         LAWS[folder.scene.tether.tension.law],
         Text("and, at the end that breaks,"),
         FORCE,
-        Text(
-            "Shocks are captured by a viscosity that a limiter a confines to them (a = 0 where the strain rate varies "
-            "smoothly):"
-        ),
+        Text(shocks),
         VISCOSITY,
     ]

@@ -1,180 +1,152 @@
-"""Tables of the breaking line: cases, speeds and shocks against theory, energy, cost."""
+"""Tables of the breaking line: cases, speeds and shocks against theory, energy, grids, stiffness, cost."""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
+from dataclasses import replace
 
-from ..parts.content import Column, Table
-from ..parts.wording import decimals, number
-from .runs import Line, of_kind
+from ..parts.columns import Quantity, table_of
+from ..parts.content import Table
+from ..parts.wording import EMPTY, decimals
+from .runs import Line, find, of_kind
 
-# title, unit, column, decimals
+Columns = dict[str, Quantity]
+KINDS = {"doubled": ", doubled grid", "straight": ", straight", "stiffness": ", doubled grid", "series": ", straight"}
 CASES = (
-    ("end speed", "m/s", "end_speed_mps", 2),
-    ("recoil", "m", "recoil_m", 2),
-    ("x min", "m", "x_min_m", 3),
-    ("left of it", "m", "left_of_fixed_end_m", 2),
-    ("vertical", "m", "vertical_m", 3),
-    ("beyond", "m", "vertical_beyond_m", 3),
-    ("tilt", "rad", "steepest_tilt_rad", 2),
-    ("folded", "m", "buckled_m", 2),
-    ("turn", "rad", "max_turn_rad", 2),
-    ("ε min", "–", "min_strain", 3),
-    ("wall", "s", "wall_s", 2),
-)
+    "case", "force_N", "status", "end_speed_mps", "recoil_m", "x_min_m", "left_of_fixed_end_m", "vertical_m",
+    "vertical_beyond_m", "steepest_tilt_rad", "buckled_m", "max_turn_rad", "min_strain",
+)  # fmt: skip
 SPEEDS = (
-    ("end speed", "m/s", "end_speed_mps", 2),
-    ("exact", "m/s", "end_speed_theory_mps", 2),
-    ("shocked", "m/s", "end_speed_shocked_theory_mps", 2),
-    ("off", "%", "end_speed_error", 3),
-    ("front", "m/s", "front_speed_mps", 1),
-    ("exact", "m/s", "front_speed_theory_mps", 1),
-    ("slack front", "m/s", "slack_front_speed_mps", 1),
-    ("exact", "m/s", "slack_front_speed_theory_mps", 1),
-    ("above", "%", "strain_overshoot", 2),
-    ("rise", "%", "strain_rise", 2),
-    ("|ε − exact|", "10⁻⁶", "strain_error", 2),
-)
+    "case", "nodes", "end_speed_mps", "end_speed_theory_mps", "end_speed_shocked_theory_mps", "end_speed_error",
+    "front_speed_mps", "front_speed_theory_mps", "slack_front_speed_mps", "slack_front_speed_theory_mps",
+    "strain_overshoot", "strain_rise", "strain_error",
+)  # fmt: skip
 SHOCKS = (
-    ("born at", "m", "shock_birth_m", 2),
-    ("exact", "m", "shock_birth_theory_m", 2),
-    ("at time", "ms", "shock_birth_theory_s", 2),
-    ("speed", "m/s", "shock_speed_mps", 1),
-    ("exact", "m/s", "shock_speed_theory_mps", 1),
-    ("off by", "mm", "shock_offset_m", 1),
-    ("at most", "mm", "shock_offset_largest_m", 1),
-    ("elements", "", "shock_offset_elements", 2),
-)
-_SCALES = {
-    "strain_error": 1e6, "shock_birth_theory_s": 1e3, "shock_offset_m": 1e3, "shock_offset_largest_m": 1e3,
-    "end_speed_error": 100.0, "strain_overshoot": 100.0, "strain_rise": 100.0,
-}  # fmt: skip
-_ENERGIES = (
-    ("kinetic", ("kinetic_J",)),
-    ("strain", ("strain_J",)),
-    ("weight", ("gravity_J",)),
-    ("bending", ("bending_J",)),
-    ("taken out", ("end_work_J",)),
-    ("exact", ("end_work_theory_J",)),
-    ("viscosity", ("viscous_J",)),
-    ("scheme", ("scheme_space_J", "scheme_time_J")),
-    ("remainder", ("remainder_J",)),
-)
-KINDS = {
-    "case": "", "doubled": ", doubled grid", "straight": ", straight", "stiffness": ", doubled grid",
-    "series": ", straight",
-}  # fmt: skip
+    "case", "nodes", "shock_birth_m", "shock_birth_theory_m", "shock_birth_theory_s", "shock_speed_mps",
+    "shock_speed_theory_mps", "shock_offset_m", "shock_offset_largest_m", "shock_offset_elements",
+)  # fmt: skip
+SERIES = (
+    "case", "nodes", "order", "strain_error", "strain_overshoot", "strain_rise", "shock_offset_elements",
+    "end_speed_error",
+)  # fmt: skip
+ENERGIES = (
+    "kinetic_J", "strain_J", "gravity_J", "bending_J", "end_work_J", "end_work_theory_J", "viscous_J", "scheme_space_J",
+    "scheme_time_J", "remainder_J", "lost_at_arrival_J", "lost_at_arrival_theory_J",
+)  # fmt: skip
+DOUBLED = (
+    "end_speed_mps", "front_speed_mps", "recoil_m", "x_min_m", "vertical_m", "steepest_tilt_rad", "buckled_m",
+    "kinetic_J", "viscous_J", "bending_J",
+)  # fmt: skip
+COST = (
+    "case", "nodes", "bending_stiffness_Nm2", "steps", "newton_iterations", "newton_failures", "max_turn_rad", "wall_s",
+)  # fmt: skip
 
 
-def cases_table(lines: tuple[Line, ...]) -> Table:
+def cases_table(lines: tuple[Line, ...], columns: Columns) -> Table:
     """Every case that was asked for, failed ones included."""
-    heads = (Column("case"), Column("F", "kN"), Column("status", align="left"), *heads_of(CASES))
-    rows = tuple(
-        (line.name, decimals(1e-3 * line.value("force_N"), 0), line.row["status"], *cells_of(line, CASES))
-        for line in lines
-        if line.kind == "case"
-    )
-    caption = (
-        "The cases of `table.csv`; primes: fracture in 50 ms. End speed: median from 5 ms after the break on. x min: "
-        "leftmost point, the fixed end is at 0; left of it: unstretched length that has been there. vertical: largest "
-        "rise or fall of any node, and beyond the quarter at the fixed end. tilt: steepest element, followed round; "
-        "folded: length up to where one is steeper than 0.2 rad at the end. turn: within one element."
-    )
-    return Table(heads, rows, caption, small=True)
+    cases = [line for line in lines if line.kind == "case"]
+    return _table(columns, CASES, cases, "The cases of `table.csv`; primes: fracture in 50 ms.")
 
 
-def speeds_table(lines: tuple[Line, ...]) -> Table:
+def speeds_table(lines: tuple[Line, ...], columns: Columns) -> Table:
     """Speeds of the end and of fronts, and errors of strain: all cases, and the straight lines."""
-    heads = (Column("run", align="left"), Column("nodes"), *heads_of(SPEEDS))
-    rows = tuple(named_row(line, SPEEDS) for kind in ("case", "straight") for line in of_kind(lines, kind))
-    caption = (
-        "Speeds against exact theory. shocked: the exact end speed behind a shock of full strength; off: largest "
-        "difference from the exact motion at any time. front: contours of 80 to 98 % of the static tension, "
-        "extrapolated to all of it, before a shock meets them; slack front: contours of small strain, extrapolated to "
-        "no tension; a dash where too little of either is seen. Until something arrives at the fixed end: strain above "
-        "the static one, its largest rise towards the broken end (exact: none), both over the static one, and the mean "
-        "of |ε − exact|."
-    )
-    return Table(heads, rows, caption, small=True)
+    shown = [line for kind in ("case", "straight") for line in of_kind(lines, kind)]
+    caption = "Speeds against exact theory; straight: without gravity, on an even grid. An exact wave has no rise."
+    return _table(columns, SPEEDS, shown, caption)
 
 
-def shocks_table(lines: tuple[Line, ...]) -> Table | None:
+def shocks_table(lines: tuple[Line, ...], columns: Columns) -> Table | None:
     """Shocks where theory has one."""
-    shocked = [
-        line
-        for kind in ("straight", "case", "doubled")
-        for line in of_kind(lines, kind)
-        if math.isfinite(line.value("shock_birth_theory_m"))
-    ]
-    if not shocked:
+    shown = [line for kind in ("straight", "case", "doubled") for line in of_kind(lines, kind)]
+    shocked = [line for line in shown if math.isfinite(line.value("shock_birth_theory_m"))]
+    return _table(columns, SHOCKS, shocked, "Shocks against exact theory.") if shocked else None
+
+
+def series_table(lines: tuple[Line, ...], columns: Columns) -> Table | None:
+    """Convergence to the exact motion, grid by grid."""
+    found = sorted(of_kind(lines, "series"), key=lambda line: (line.case, line.value("nodes")))
+    rows, before = [], None
+    for line in found:
+        order = math.nan
+        if before is not None and before.case == line.case:
+            ratio = (line.value("nodes") - 1) / (before.value("nodes") - 1)
+            order = math.log(before.value("strain_error") / line.value("strain_error")) / math.log(ratio)
+        rows.append(line.row | {"case": line.name, "order": order})
+        before = line
+    if not rows:
         return None
-    heads = (Column("run", align="left"), Column("nodes"), *heads_of(SHOCKS))
-    caption = (
-        "Shocks. born at: distance from the broken end at which the front turns vertical, extrapolated from its "
-        "steepening over the first 40 % of the way; exact: where characteristics first cross, and when. speed: over "
-        "all profiles that show it. off by: place less the exact one, mean, largest, and median in elements. straight: "
-        "without gravity, on an even grid."
-    )
-    return Table(heads, tuple(named_row(line, SHOCKS) for line in shocked), caption, small=True)
+    more = columns | {"order": Quantity("order", "", "order", "order of the mean of |ε − exact|", 2)}
+    return table_of(more, SERIES, rows, "Convergence on even grids, without gravity.")
 
 
-def energy_table(lines: tuple[Line, ...]) -> Table | None:
+def stiffness_table(lines: tuple[Line, ...], columns: Columns) -> Table | None:
+    """What the bending stiffness changes, on doubled grids."""
+    found = list(of_kind(lines, "stiffness"))
+    found += [line for line in of_kind(lines, "doubled") if line.case in {other.case for other in found}]
+    if not found:
+        return None
+    found.sort(key=lambda line: (line.case, line.value("bending_stiffness_Nm2")))
+    names = ("case", "bending_stiffness_Nm2", *CASES[3:], "bending_J")
+    rows = [_named(line) | shares(line, ("bending_J",)) for line in found]
+    caption = "Bending stiffness, which the paper does not give, on grids of twice the elements."
+    return table_of(in_percent(columns, ("bending_J",)), names, rows, caption)
+
+
+def energy_table(lines: tuple[Line, ...], columns: Columns) -> Table | None:
     """The energy budget at the end of every case, in shares of what was stored."""
     found = [line for line in of_kind(lines, "case") if math.isfinite(line.value("stored_J"))]
     if not found:
         return None
-    heads = (
-        Column("case"),
-        Column("stored", "kJ"),
-        *(Column(title, "%") for title, _ in _ENERGIES),
-        Column("lost by then", "%"),
-        Column("exact", "%"),
-    )
-    rows = []
-    for line in found:
-        cells = [decimals(100 * line.share(*columns), 4 if title in ("remainder", "weight", "scheme") else 2)
-                 for title, columns in _ENERGIES]  # fmt: skip
-        lost = [decimals(100 * line.share(f"lost_at_arrival{part}_J"), 3) for part in ("", "_theory")]
-        rows.append((line.name, decimals(1e-3 * line.value("stored_J"), 1), *cells, *lost))
-    caption = (
-        "Energy at the end of each run, in shares of the strain energy stored at the start. weight: change of its "
-        "energy. taken out (below zero): work of the decaying end force, beside the exact simple wave. viscosity, "
-        "scheme: dissipated by the shock viscosity and by the discretisation, added up step by step. remainder: at the "
-        "start + work − all the rest. lost by then: dissipated when front or shock is at the fixed end, beside the "
-        "exact loss."
-    )
-    return Table(heads, tuple(rows), caption, small=True)
+    rows = [_named(line) | shares(line, ENERGIES) for line in found]
+    caption = "Energy at the end of each run, in shares of the strain energy stored at the start."
+    return table_of(in_percent(columns, ENERGIES), ("case", "stored_J", *ENERGIES), rows, caption)
 
 
-def cost_table(lines: tuple[Line, ...]) -> Table:
+def doubled_table(lines: tuple[Line, ...], columns: Columns) -> Table | None:
+    """Quoted quantities and what a doubled grid changes."""
+    percent = [name for name in DOUBLED if name.endswith("_J")]
+    rows = [
+        {"case": line.name} | _changes(line, fine, in_percent(columns, percent))
+        for fine in of_kind(lines, "doubled")
+        if (line := find(lines, fine.case)) is not None
+    ]
+    if not rows:
+        return None
+    caption = "What twice the elements change: the value at the reported grid, and the change in brackets."
+    own = {name: lambda row, name=name: row[name] for name in DOUBLED}
+    return table_of(in_percent(columns, percent), ("case", *DOUBLED), rows, caption, own)
+
+
+def cost_table(lines: tuple[Line, ...], columns: Columns) -> Table:
     """Steps, Newton iterations and wall time of every run."""
-    entries = (
-        ("steps", "", "steps", 0),
-        ("Newton", "", "newton_iterations", 0),
-        ("failures", "", "newton_failures", 0),
-        ("turn", "rad", "max_turn_rad", 2),
-        ("wall", "s", "wall_s", 2),
-    )
-    heads = (Column("run", align="left"), Column("nodes"), Column("EI", "N m²"), *heads_of(entries))
-    rows = tuple(
-        (
-            f"{line.name}{KINDS.get(line.kind, '')}",
-            number(line.value("nodes")),
-            number(line.value("bending_stiffness_Nm2")),
-            *cells_of(line, entries),
-        )
-        for line in lines
-    )
-    return Table(heads, rows, "Every run of `table.csv`: work and wall time, compilation left out.", small=True)
+    return _table(columns, COST, lines, "Every run of `table.csv`: work and wall time, compilation left out.")
 
 
-def heads_of(entries) -> tuple[Column, ...]:
-    return tuple(Column(title, unit) for title, unit, *_ in entries)
+def shares(line: Line, names: Iterable[str]) -> dict[str, float]:
+    """Energies in per cent of the stored one."""
+    return {name: 100.0 * line.share(name) for name in names}
 
 
-def cells_of(line: Line, entries) -> tuple[str, ...]:
-    return tuple(decimals(_SCALES.get(column, 1.0) * line.value(column), places) for _, _, column, places in entries)
+def in_percent(columns: Columns, names: Iterable[str]) -> Columns:
+    """The dictionary with these energies in per cent of the stored one."""
+    return columns | {name: replace(columns[name], unit="%", digits=2) for name in names}
 
 
-def named_row(line: Line, entries) -> tuple[str, ...]:
-    return (f"{line.name}{KINDS[line.kind]}", number(line.value("nodes")), *cells_of(line, entries))
+def _changes(line: Line, fine: Line, columns: Columns) -> dict[str, str]:
+    cells = {}
+    for name in DOUBLED:
+        both = [100.0 * run.share(name) if name.endswith("_J") else run.value(name) for run in (line, fine)]
+        change = decimals(both[1] - both[0], columns[name].digits)
+        known = all(map(math.isfinite, both))
+        signed = change if change.startswith("−") else f"+{change}"
+        cells[name] = f"{columns[name].cell(both[0])} ({signed})" if known else EMPTY
+    return cells
+
+
+def _named(line: Line) -> dict[str, object]:
+    return line.row | {"case": f"{line.name}{KINDS.get(line.kind, '')}"}
+
+
+def _table(columns: Columns, names: tuple[str, ...], lines: Iterable[Line], caption: str) -> Table:
+    return table_of(columns, names, [_named(line) for line in lines], caption)

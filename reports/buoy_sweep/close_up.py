@@ -8,9 +8,9 @@ import numpy as np
 
 from ..figures.tether_animation import Snap, still_rows, tether_animation, tether_stills
 from ..parts.content import Figure, Heading, Item
+from ..parts.folder import read_rows
 from ..parts.symbols import T_I
 from ..parts.wording import decimals, number
-from .physics import water_surface_m
 
 _SHOWN_PERIODS = 3.0
 
@@ -37,25 +37,17 @@ def _kept(folder: Path):
     """The newest trajectory of the folder's table, None without a sound one."""
     from engine.trajectory import Trajectory, TrajectoryError
 
-    keys = _keys(folder.parent / "table.csv")
+    keys = [row["run_key"] for row in read_rows(folder.parent / "table.csv") if row.get("status") == "ok"]
     try:
         return Trajectory.load(folder / f"{keys[-1]}.nc") if keys else None
     except (TrajectoryError, OSError):
         return None
 
 
-def _keys(table: Path) -> list[str]:
-    import csv
-
-    try:
-        with open(table, encoding="utf-8", newline="") as file:
-            return [row["run_key"] for row in csv.DictReader(file) if row["status"] == "ok"]
-    except (OSError, ValueError, KeyError):
-        return []
-
-
 def _snap(trajectory) -> Snap | None:
     """The wave periods about the highest tension, None where the run has no profiles or no whole period."""
+    from engine.physics.sea import elevation_m
+
     lines, columns, scene = trajectory.profiles, trajectory.columns, trajectory.scene
     period_s = scene.waves.period_s
     if lines is None or len(lines.time_s) < 2 or lines.time_s[-1] < period_s:
@@ -70,7 +62,7 @@ def _snap(trajectory) -> Snap | None:
     x, z = lines.x_m[inside], lines.z_m[inside]
     beyond = max(3.0 * scene.buoy.diameter_m, 0.25 * float(z.max()))  # of the rope, on both sides
     across = np.linspace(x.min() - beyond, x.max() + beyond, 80)
-    surface = np.array([water_surface_m(scene, across, time) for time in lines.time_s[inside]])
+    surface = scene.water.depth_m + elevation_m(scene, lines.time_s[inside][:, None], across)
     return Snap(
         lines.time_s[inside] / period_s, x, z, lines.tension_N[inside], scene.buoy.diameter_m, (across, surface),
         (time_s[part] / period_s, top[part]),

@@ -1,19 +1,24 @@
-"""Figures of single runs of a buoy sweep, each with the caption that says what is seen in it."""
+"""Figures of a buoy sweep and of its chosen runs, each with the caption that says what is seen in it."""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 
 import numpy as np
 
+from ..figures.curves import Curve, Panel
+from ..figures.orbit_diagram import orbit_diagram_over
 from ..figures.section import section
 from ..figures.spectra import SpectrumPanel, spectra
-from ..figures.time_series import Panel, time_series
-from ..parts.content import Figure, Heading, Item, Notice, Text
+from ..figures.time_series import Panel as History
+from ..figures.time_series import time_series
+from ..parts.content import Figure, Item, Notice
+from ..parts.style import BLUE, SKY, VERMILION
 from ..parts.symbols import OMEGA_I, OMEGA_R, OMEGA_THETA, T_I, TAU_0
-from ..parts.wording import count, decimals, listed, number
-from .physics import Modes
-from .runs import PAPER_STEEPNESS, Run, orbit_radii, period_length, several_points, value
+from ..parts.wording import count, decimals, listed, number, percent
+from ..sweep.quantities import series
+from .runs import PAPER_STEEPNESS, Run, Sweep
 
 _PAPER = {  # figures of the paper at its two steepnesses: tension, r, theta, spectra
     PAPER_STEEPNESS[0]: ("9", "10", "11", "fig. 12"),
@@ -21,111 +26,116 @@ _PAPER = {  # figures of the paper at its two steepnesses: tension, r, theta, sp
 }
 PAPER_WINDOW = (40, 20)  # tau_0/T_i and n of eq. (31) in the paper
 _LEAST_WINDOW = 5  # wave periods: fewer bins than this below the wave frequency say nothing
+# name, its error, label of the curve: the largest exponents in the table
+EXPONENTS = (
+    ("lyapunov_tangent_bits_per_period", "lyapunov_tangent_error", "tangent dynamics"),
+    ("lyapunov_wolf_bits_per_period", "lyapunov_wolf_error", "Wolf, of r"),
+)
+_SIDES = (  # column, name, label of the axis, of the mark, and symbol of the natural frequency
+    ("radius_m", "r", r"$|\Delta\tilde r|$ (m)", r"$\omega_r$", OMEGA_R),
+    ("angle_rad", "θ", r"$|\Delta\tilde\theta|$ (rad)", r"$\omega_\theta$", OMEGA_THETA),
+)
+KA = r"wave steepness $kA$ (–)"
 
 
-def run_items(run: Run, trajectory, tolerance: float, modes: Modes | None) -> list[Item]:
-    """Heading, a sentence, histories and spectra of one run."""
-    end = "ended as asked" if run.ok else f"ended early ({run.row['status']})"
-    items: list[Item] = [
-        Heading(f"kA = {number(run.steepness)}", 2),
-        Text(f"This run {end} after {number(run.periods_done)} wave periods. {_strobed_words(run, tolerance)}"),
-        _histories(run, trajectory),
+def orbit_figure(sweep: Sweep, drawn: Sequence[Run], missing: Sequence[Run]) -> Figure:
+    """Strobed radius over steepness, slack and exponents below; drawn: runs with points, missing: those without."""
+    rows = [run.row for run in drawn]
+    values, slack = series(rows, "steepness"), series(rows, "slack_fraction")
+    stems = [
+        Curve(np.full(2, x), np.array([0.0, y]), colour=SKY, width=1.2) for x, y in zip(values, slack, strict=True)
     ]
-    return items + _spectra(run, trajectory, modes)
+    top = max(0.1, 1.15 * float(np.nanmax(slack))) if np.isfinite(slack).any() else 1.0
+    share = [*stems, Curve(values, slack, "", "", "o", BLUE, size=3.5)]
+    below = [Panel(share, y_label="slack fraction (–)", level=0.0, settings={"ylim": (0.0, top)})]
+    if sweep.judged:
+        looks = zip(EXPONENTS, (("o", BLUE), ("s", VERMILION)), strict=True)
+        lines = [
+            Curve(values, series(rows, column), label, "", *look, series(rows, error), 3.0)
+            for (column, error, label), look in looks
+            if np.isfinite(series(rows, column)).any()
+        ]
+        below.append(Panel(lines, y_label=r"$\sigma$ (bits/$T_i$)", level=0.0))
+    points = [run.section[:, 0] for run in drawn]
+    gone = [run.steepness for run in missing]
+    picture = orbit_diagram_over(values, points, (KA, "strobed $r$ (m)"), below, gone)
+    spread = max(drawn, key=lambda run: np.ptp(run.section[:, 0]))
+    seen = (
+        f"{count(len(drawn), 'column')} of up to {max(map(len, points))} points; the strobed radius spreads most at kA "
+        f"= {number(spread.steepness)}, over {decimals(float(np.ptp(spread.section[:, 0])), 2)} m"
+    )
+    if np.isfinite(slack).any():
+        seen += f", and the slack fraction reaches {percent(float(np.nanmax(slack)))}"
+    caption = (
+        f"Radius at t = k{T_I}, k ≥ {sweep.transient}, over wave steepness; the darker, the more points fall on one "
+        "place. Below: share of the time without tension"
+        + (", and the largest exponents with one standard error" if sweep.judged else "")
+        + f". Seen: {seen}."
+        + (f" Crosses: {count(len(missing), 'run')} without points." if missing else "")
+        + " From `radius_m` of every trajectory, `slack_fraction` of `table.csv`."
+    )
+    alt = f"Orbit diagram of strobed radius over wave steepness, slack fraction below: {seen}."
+    return Figure(picture, caption, alt)
 
 
-def _strobed_words(run: Run, tolerance: float) -> str:
-    length = period_length(run)
-    if length == 1 or several_points(run, tolerance):
-        radii = listed(decimals(point, 3) for point in orbit_radii(run))
-        return f"Strobed at t = k{T_I} it visits {count(length, 'point')}, r = {radii} m."
-    if len(run.section):
-        low, high = run.section[:, 0].min(), run.section[:, 0].max()
-        return f"Strobed at t = k{T_I} its radius lies between {decimals(low, 3)} and {decimals(high, 3)} m."
-    return "It is too short for strobed values after the transient."
+def run_figures(sweep: Sweep, run: Run) -> list[Item]:
+    """Histories and spectra of one run."""
+    trajectory = sweep.trajectory(run)
+    return [_histories(run, trajectory), _spectra(sweep, run, trajectory)]
 
 
 def _histories(run: Run, trajectory) -> Figure:
-    columns, period_s = trajectory.columns, trajectory.scene.waves.period_s
+    columns = trajectory.columns
     low, high = columns["tension_top_low_N"] / 1e3, columns["tension_top_high_N"] / 1e3
-    picture = time_series(
-        columns["time_s"] / period_s,
-        [
-            Panel("top tension (kN)", columns["tension_top_N"] / 1e3, low, high),
-            Panel(r"$r$ (m)", columns["radius_m"]),
-            Panel(r"$\theta$ (rad)", columns["angle_rad"]),
-        ],
-    )
+    panels = [
+        History("top tension (kN)", columns["tension_top_N"] / 1e3, low, high),
+        History(r"$r$ (m)", columns["radius_m"]),
+        History(r"$\theta$ (rad)", columns["angle_rad"]),
+    ]
     tension, radius, angle, _ = _PAPER[_nearer(run.steepness)]
     seen = (
-        f"tension from {number(1e3 * np.nanmin(low))} to {number(1e3 * np.nanmax(high))} N{_slack_words(run)}, r from "
-        f"{_span(columns['radius_m'], 3)} m, θ from {_span(columns['angle_rad'], 3)} rad"
+        f"tension from {number(1e3 * np.nanmin(low))} to {number(1e3 * np.nanmax(high))} N, r from "
+        f"{_span(columns['radius_m'])} m, θ from {_span(columns['angle_rad'])} rad"
     )
+    if not math.isnan(share := run["slack_fraction"]):
+        seen += f"; slack for {percent(share)} of the time after the transient"
     caption = (
         f"Top tension (fig. {tension}), radius (fig. {radius}) and angle (fig. {angle} of the paper{_apart(run)}) "
-        f"against t/{T_I} at kA = {number(run.steepness)}: {seen}. From `trajectories/{run.row['run_key'][:12]}….nc`: "
+        f"against t/{T_I} at kA = {number(run.steepness)}: {seen}. From `trajectories/{run['run_key'][:12]}….nc`: "
         "`time_s`, `tension_top_N`, `radius_m`, `angle_rad`; the shade behind the tension spans `tension_top_low_N` "
         "to `tension_top_high_N`, its extremes between samples."
     )
     alt = f"Three stacked curves over {number(run.periods_done)} wave periods at kA {number(run.steepness)}: {seen}."
-    return Figure(picture, caption, alt)
+    return Figure(time_series(columns["time_s"] / trajectory.scene.waves.period_s, panels), caption, alt)
 
 
-def _slack_words(run: Run) -> str:
-    share = value(run, "slack_fraction")
-    if math.isnan(share):
-        return ""
-    return f" (slack {number(100 * share, 3)} % of the time after the transient)" if share > 0 else " (never slack)"
-
-
-def _spectra(run: Run, trajectory, modes: Modes | None) -> list[Item]:
+def _spectra(sweep: Sweep, run: Run, trajectory) -> Item:
     from analysis import spectral_peaks, spectrum
 
     window = spectrum_window(run.periods_done)
     if window is None:
-        return [
-            Notice(
-                "note",
-                "No spectrum",
-                (
-                    f"{number(run.periods_done, 3)} wave periods are too few: even the shortened window needs "
-                    f"{2 * _LEAST_WINDOW}.",
-                ),
-            )
-        ]
-    start, periods = window
-    scene, panels, words = trajectory.scene, [], []
+        few = f"{number(run.periods_done, 3)} wave periods are too few: the shortened window needs {2 * _LEAST_WINDOW}."
+        return Notice("note", "No spectrum", (few,))
+    scene, modes, panels, words = trajectory.scene, sweep.modes, [], []
     wave = 2 * math.pi / scene.waves.period_s
     natural = (modes.radial_radps, modes.pendulum_radps) if modes else (None, None)
-    sides = (
-        ("radius_m", "r", r"$|\Delta\tilde r|$ (m)", r"$\omega_r$", natural[0]),
-        ("angle_rad", "θ", r"$|\Delta\tilde\theta|$ (rad)", r"$\omega_\theta$", natural[1]),
-    )
-    for column, name, label, mark, frequency in sides:
-        found = spectrum(trajectory.columns[column], scene.sample_step_s(), scene.waves.period_s, start, periods)
-        marks = ((frequency, mark),) if frequency else ()
-        panels.append(
-            SpectrumPanel(
-                label, found.angular_frequency_radps[1:], found.amplitude[1:], (*marks, (wave, r"$\omega_i$"))
-            )
-        )
+    expected = ""
+    for (column, name, label, mark, symbol), frequency in zip(_SIDES, natural, strict=True):
+        found = spectrum(trajectory.columns[column], scene.sample_step_s(), scene.waves.period_s, *window)
+        marks = (*(((frequency, mark),) if frequency else ()), (wave, r"$\omega_i$"))
+        panels.append(SpectrumPanel(label, found.angular_frequency_radps[1:], found.amplitude[1:], marks))
         peaks = [number(peak.angular_frequency_radps) for peak in spectral_peaks(found)[:4]]
         words.append(f"{name} peaks at {listed(peaks)} rad/s" if peaks else f"{name} shows no peak")
-    *_, paper = _PAPER[_nearer(run.steepness)]
-    expected = (
-        f"{OMEGA_R} = {number(modes.radial_radps, 3)}, {OMEGA_THETA} = {number(modes.pendulum_radps, 3)}, "
-        if modes
-        else ""
-    )
+        expected += f"{symbol} = {number(frequency, 3)}, " if frequency else ""
+    start, periods = window
     seen = f"{words[0]}, {words[1]} (largest first; bins are {number(wave / periods, 3)} rad/s wide)"
     caption = (
-        f"Spectra of r and θ at kA = {number(run.steepness)} ({paper} of the paper{_apart(run)}), eq. (31) with "
-        f"{TAU_0} = {number(start)} {T_I} and n = {periods}: {seen}. Marks: {expected}{OMEGA_I} = {number(wave, 4)} "
-        "rad/s. From `radius_m` and `angle_rad`; the mean (ω = 0) is left out."
+        f"Spectra of r and θ at kA = {number(run.steepness)} ({_PAPER[_nearer(run.steepness)][-1]} of the "
+        f"paper{_apart(run)}), eq. (31) with {TAU_0} = {number(start)} {T_I} and n = {periods}: {seen}. Marks: "
+        f"{expected}{OMEGA_I} = {number(wave, 4)} rad/s. From `radius_m` and `angle_rad`; the mean (ω = 0) is left out."
     )
-    return [
-        Figure(spectra(panels, 2.5 * wave), caption, f"Spectra of radius and angle, linear and logarithmic: {seen}.")
-    ]
+    alt = f"Spectra of radius and angle, linear and logarithmic: {seen}."
+    return Figure(spectra(panels, 2.5 * wave), caption, alt)
 
 
 def spectrum_window(periods_done: float) -> tuple[int, int] | None:
@@ -136,36 +146,28 @@ def spectrum_window(periods_done: float) -> tuple[int, int] | None:
     return (whole - whole // 2, whole // 2) if whole // 2 >= _LEAST_WINDOW else None
 
 
-def section_figure(runs: tuple[Run, ...], transient: int, tolerance: float) -> Figure | None:
+def section_figure(sweep: Sweep) -> Figure | None:
     """Poincare sections of the chosen runs side by side; None when none of them outlasts the transient."""
-    panels, words = [], []
-    for run in runs:
-        points = run.section
-        if not len(points):
-            continue
-        panels.append((f"kA = {number(run.steepness)}", points[:, 0], points[:, 1]))
-        shape = f"r from {_span(points[:, 0], 3)} m, r' from {_span(points[:, 1], 3)} m/s"
-        length = period_length(run)
-        if length == 1 or several_points(run, tolerance):
-            shape = f"{count(length, 'point')} visited in turn, {shape}"
-        words.append(f"at kA = {number(run.steepness)} {shape}")
-    if not panels:
+    shown = [run for run in sweep.chosen if len(run.section)]
+    if not shown:
         return None
+    picture = section([(f"kA = {number(run.steepness)}", run.section) for run in shown])
+    words = []
+    for run in shown:
+        r, rate = run.section.T
+        visits = f"{count(len(run.visited), 'point')} visited in turn, " if run.visited else ""
+        words.append(f"at kA = {number(run.steepness)} {visits}r from {_span(r)} m, r' from {_span(rate)} m/s")
+    seen = "; ".join(words)
     caption = (
-        f"Poincaré sections r, r' at t = k{T_I}, k ≥ {transient} (fig. 19a of the paper, at kA = 0.13): "
-        f"{'; '.join(words)}. From `radius_m` and `radius_rate_mps`. No axis spans less than 0.1 m or 0.1 m/s."
+        f"Poincaré sections r, r' at t = k{T_I}, k ≥ {sweep.transient} (fig. 19a of the paper, at kA = 0.13): {seen}. "
+        "From `radius_m` and `radius_rate_mps`. No axis spans less than 0.1 m or 0.1 m/s."
     )
-    return Figure(
-        section(panels),
-        caption,
-        f"Points of the strobed motion in the plane of radius and radial speed: {'; '.join(words)}.",
-    )
+    return Figure(picture, caption, f"Points of the strobed motion in the plane of radius and radial speed: {seen}.")
 
 
 def _nearer(steepness: float) -> float:
     """Which of the paper's two cases a run is compared with."""
-    low, high = PAPER_STEEPNESS
-    return low if abs(steepness - low) < abs(steepness - high) else high
+    return min(PAPER_STEEPNESS, key=lambda paper: abs(steepness - paper))
 
 
 def _apart(run: Run) -> str:
@@ -174,5 +176,5 @@ def _apart(run: Run) -> str:
     return "" if abs(run.steepness - paper) <= 0.02 * paper else f", there at kA = {number(paper)}"
 
 
-def _span(values: np.ndarray, places: int) -> str:
-    return f"{decimals(float(np.nanmin(values)), places)} to {decimals(float(np.nanmax(values)), places)}"
+def _span(values: np.ndarray) -> str:
+    return f"{decimals(float(np.nanmin(values)), 3)} to {decimals(float(np.nanmax(values)), 3)}"

@@ -4,43 +4,22 @@ from __future__ import annotations
 
 import math
 
-import numpy as np
+from analysis import read_evidence
 
 from ..figures.exponents import convergence
 from ..parts.content import Column, Figure, Heading, Item, Table, Text
-from ..parts.folder import Folder
-from ..parts.symbols import T_I
-from ..parts.wording import EMPTY, decimals, number, printed
-from .motion import verdict_of
-from .runs import PAPER_STEEPNESS, Run, linked, load, value
-
-EXPONENTS = (
-    ("tangent dynamics", "lyapunov_tangent_bits_per_period", "lyapunov_tangent_error"),
-    ("Wolf, of r", "lyapunov_wolf_bits_per_period", "lyapunov_wolf_error"),
-)
+from ..parts.wording import decimals, number, printed
+from .figures import EXPONENTS
+from .runs import PAPER_STEEPNESS, Run, Sweep
+from .tables import sweep_table
 
 
-def judged(runs: tuple[Run, ...]) -> list[Run]:
-    """The runs with a regime."""
-    return [run for run in runs if run.row["regime"]]
-
-
-def exponent_curves(runs: list[Run]) -> list[tuple[str, np.ndarray, np.ndarray]]:
-    """Label, values and errors (p,) of each exponent over the runs, bits per period; NaN where there is none."""
-    curves = []
-    for label, column, error in EXPONENTS:
-        values = np.array([value(run, column) for run in runs])
-        errors = np.array([value(run, error) for run in runs])
-        if np.isfinite(values).any():
-            curves.append((label, values, errors))
-    return curves
-
-
-def regime_items(folder: Folder, runs: tuple[Run, ...], transient: int) -> list[Item]:
+def regime_items(sweep: Sweep) -> list[Item]:
     """The section, or nothing where no run has a regime."""
-    found = judged(runs)
-    if not found:
+    if not sweep.judged:
         return []
+    caption = f"Regime and largest exponent with one standard error, after the first {sweep.transient} wave periods."
+    names = ("steepness", "regime", *((value, error) for value, error, _ in EXPONENTS))
     items: list[Item] = [
         Heading("Exponents and regimes"),
         Text(
@@ -50,70 +29,51 @@ def regime_items(folder: Folder, runs: tuple[Run, ...], transient: int) -> list[
             "(`regime_tighter`). What fulfils no definition is undecided. A chaotic transient longer than the record "
             "is not told from chaos, and weak chaos needs long records: 0.06 bits a period took 7000 periods."
         ),
-        _table(found, transient),
+        sweep_table(sweep, names, sweep.judged, caption),
     ]
-    curves = []
-    for steepness in PAPER_STEEPNESS:
-        run = min(found, key=lambda one: abs(one.steepness - steepness))
-        if abs(run.steepness - steepness) > 0.01 or any(run.steepness == done for done, *_ in curves):
-            continue
-        trajectory = load(folder, run)
-        if trajectory is None:
-            continue
-        verdict, _, wolf = verdict_of(trajectory, transient, run.row.get("regime_tighter") or None)
-        items += _why(run, verdict)
-        if wolf.found and "run" in wolf.details:
-            one = wolf.details["run"]
-            period_s = trajectory.scene.waves.period_s
-            curves.append((run.steepness, one.time_s / period_s, one.convergence * period_s / math.log(2.0)))
-    if curves:
-        items += [Heading("Convergence of Wolf's exponent", 2), _convergence(curves)]
+    nearest = [min(sweep.judged, key=lambda run: abs(run.steepness - kA)) for kA in PAPER_STEEPNESS]
+    close = (run for run, kA in zip(nearest, PAPER_STEEPNESS, strict=True) if abs(run.steepness - kA) <= 0.01)
+    shown = list(dict.fromkeys(close))
+    for run in shown:
+        heading = Heading(f"Why kA = {number(run.steepness)} is called {run['regime']}", 2)
+        items += [heading, table] if (table := evidence_table(run)) else []
+    if figure := _convergence(sweep, shown):
+        items += [Heading("Convergence of Wolf's exponent", 2), figure]
     return items
 
 
-def _table(runs: list[Run], transient: int) -> Table:
-    sigmas = (Column(f"σ, {label}", f"bits/{T_I}") for label, *_ in EXPONENTS)
-    heads = (Column("kA"), Column("regime", align="left"), *sigmas)
-    rows = tuple(
-        (linked(run), run.row["regime"], *(_with_error(run, *names) for _, *names in EXPONENTS)) for run in runs
+def evidence_table(run: Run) -> Table | None:
+    """The tests behind the regime, as the row has them (`analysis.evidence_text`)."""
+    tests = read_evidence(run["evidence"])
+    if not tests:
+        return None
+    heads = (Column("test", align="left"), Column("value"), Column("threshold"), Column("met"))
+    reason = printed(run["regime_reason"].strip())
+    caption = f"Evidence at kA = {number(run.steepness)}, in the order of the tests" + (
+        f": {reason}." if reason else "."
     )
-    caption = (
-        f"Regime and largest exponent with one standard error, of what follows the first {transient} wave periods. "
-        "From `regime`, `lyapunov_tangent_bits_per_period` and `lyapunov_wolf_bits_per_period` of `table.csv`."
-    )
+    rows = tuple((name, *(cell.replace("-", "−") for cell in cells)) for name, *cells in tests)
     return Table(heads, rows, caption, small=True)
 
 
-def _with_error(run: Run, column: str, error: str) -> str:
-    found = value(run, column)
-    return EMPTY if math.isnan(found) else f"{decimals(found, 3)} ± {decimals(value(run, error), 3)}"
+def _convergence(sweep: Sweep, shown: list[Run]) -> Figure | None:
+    from analysis import wolf_lyapunov
 
-
-def _why(run: Run, verdict) -> list[Item]:
-    left = {"align": "left"}
-    numbers = (Column("value"), Column("threshold"), Column("met"))
-    heads = (Column("test", **left), *numbers, Column("what it says", **left))
-    words = {True: "yes", False: "no", None: EMPTY}
-    rows = tuple(
-        (item.name, _short(item.value), _short(item.threshold), words[item.passed], printed(item.sentence))
-        for item in verdict.evidence
-    )
-    caption = f"Evidence at kA = {number(run.steepness)}, in the order of the tests: {printed(verdict.reason)}."
-    return [
-        Heading(f"Why kA = {number(run.steepness)} is called {verdict.regime}", 2),
-        Table(heads, rows, caption, small=True),
-    ]
-
-
-def _short(found: float) -> str:
-    return number(float(f"{found:.3g}")) if math.isfinite(found) else EMPTY
-
-
-def _convergence(curves: list) -> Figure:
-    ends = "; ".join(f"{decimals(float(bits[-1]), 3)} at kA = {number(steepness)}" for steepness, _, bits in curves)
-    labelled = [(f"kA = {number(steepness)}", periods, bits) for steepness, periods, bits in curves]
+    curves = []
+    for run in (run for run in shown if run.has_record):
+        trajectory = sweep.trajectory(run)
+        step_s, period_s = trajectory.scene.sample_step_s(), trajectory.scene.waves.period_s
+        after = round(sweep.transient * period_s / step_s)
+        wolf = wolf_lyapunov(trajectory.columns["radius_m"][after:], step_s)
+        if wolf.found and "run" in wolf.details:
+            one = wolf.details["run"]
+            bits = one.convergence * period_s / math.log(2.0)
+            curves.append((f"kA = {number(run.steepness)}", one.time_s / period_s, bits))
+    if not curves:
+        return None
+    ends = "; ".join(f"{decimals(float(bits[-1]), 3)} at {name}" for name, _, bits in curves)
     caption = (
         "Largest exponent of r(t) by the method of Wolf et al. against the length of the record used (fig. 14 of the "
         f"paper; one of the settings of the plateau). At the end: {ends} bits per wave period. From `radius_m`."
     )
-    return Figure(convergence(labelled), caption, f"Convergence of Wolf's exponent over the record: {ends} at the end.")
+    return Figure(convergence(curves), caption, f"Convergence of Wolf's exponent over the record: {ends} at the end.")

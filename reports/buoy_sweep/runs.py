@@ -1,47 +1,42 @@
-"""The runs of a buoy sweep as the report looks at them: table row, strobed motion, height of the buoy."""
+"""A buoy sweep as its report sees it: every run's row with what its trajectory adds, read once for all sections."""
 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
+from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..parts.content import link
-from ..parts.folder import Folder
-from ..parts.wording import number
-from .physics import water_surface_m
+from engine.natural_frequencies import Modes, natural_frequencies
 
-COLUMNS = (
-    "steepness",
-    "status",
-    "regime",
-    "radius_min_m",
-    "radius_max_m",
-    "angle_min_rad",
-    "angle_max_rad",
-    "tension_top_min_N",
-    "tension_top_max_N",
-    "slack_fraction",
-    "max_turn_rad",
-    "loop_releases",
-    "steps",
-    "rejected_steps",
-    "newton_iterations",
-    "wall_s",
-    "run_key",
-    "message",
-)
+from ..parts.columns import Quantity
+from ..parts.content import link
+from ..parts.folder import Folder, Row, read_folder
+from ..parts.wording import number, ranges
+
+if TYPE_CHECKING:
+    from engine import Trajectory
+
 PAPER_STEEPNESS = (0.016, 0.13)
-LEAST_POINTS = 16  # strobed points below which it does not look
+LEAST_POINTS = 16  # strobed points below which no period is looked for
+# columns without which there is no report; all others may be of a later version
+NEEDED = (
+    "steepness", "dimensions", "status", "regime", "regime_tighter", "regime_reason", "evidence", "strobed_period",
+    "radius_min_m", "radius_max_m", "tension_top_max_N", "slack_fraction", "max_turn_rad", "loop_releases",
+    "newton_iterations", "wall_s", "run_key", "message",
+)  # fmt: skip
 
 
 @dataclass(frozen=True)
 class Emergence:
     """How far the buoy leaves the water, over the whole record.
 
-    `above_still_m` highest centre above the still-water line, `above_wave_m` above the linear wave at its place;
-    `out_share` share of the samples with the whole sphere above that wave.
+    `above_still_m` highest centre above the still-water line, `above_wave_m` above the wave at its place; `out_share`
+    share of the samples with the whole sphere above that wave.
     """
 
     above_still_m: float
@@ -50,76 +45,144 @@ class Emergence:
 
 
 @dataclass(frozen=True, eq=False)
-class Run:
+class Run(Row):
     """One row of the table with what its trajectory adds.
 
-    `section` (m, 2) strobed r (m) and r' (m/s) after the transient, empty where the run is shorter; `fault` why the
-    trajectory of a run that should have one could not be read, else ""; `anchor` the place of its sheet in the report.
+    section: (m, 2) strobed r (m) and r' (m/s) after the transient, empty where the run is shorter. fault: why the
+    trajectory of a run that should have one could not be read, else "". anchor: the place of its sheet in the report.
+    period: wave periods after which it repeats, 0 where no number fits, None where nobody could say. visited: strobed
+    r (m) of the points it visits in turn, () where it has no period or where these points lie within the tolerance: a
+    pendulum swing that dies out slowly comes back to nearly the same place every six wave periods (omega_theta T_i is
+    close to 1 rad), and the table then says period 6 of a motion that is about to settle on one point.
     """
 
-    row: dict
-    periods_done: float
-    section: np.ndarray
-    emergence: Emergence | None
-    fault: str
     anchor: str = ""
+    periods_done: float = 0.0
+    section: np.ndarray = field(default_factory=lambda: np.empty((0, 2)))
+    emergence: Emergence | None = None
+    fault: str = ""
+    period: int | None = None
+    visited: tuple[float, ...] = ()
 
     @property
     def steepness(self) -> float:
-        return float(self.row["steepness"])
-
-    @property
-    def ok(self) -> bool:
-        return self.row["status"] == "ok"
+        return self["steepness"]
 
     @property
     def in_space(self) -> bool:
-        """Whether the run was made in three dimensions; a table without the column is of planar runs."""
-        return self.row.get("dimensions") == 3
+        return self["dimensions"] == 3
 
     @property
     def has_record(self) -> bool:
         """Whether there is enough of a record to draw: one wave period at least."""
         return not self.fault and self.periods_done >= 1.0
 
-
-def read_runs(folder: Folder) -> tuple[Run, ...]:
-    """Every run of the table, by steepness; a trajectory that cannot be read leaves a run with a `fault`."""
-    transient = int(folder.provenance.get("transient") or 0)
-    table = folder.table.sort_values("steepness", kind="stable")
-    rows = enumerate(table.to_dict("records"), 1)
-    return tuple(replace(_read_run(folder, row, transient), anchor=f"run-{place}") for place, row in rows)
+    @property
+    def planar_releases(self) -> float:
+        """Loop releases of the planar run: its own, or those of the run that a run in three dimensions replaces."""
+        return self["planar_loop_releases" if self.in_space else "loop_releases"]
 
 
-def load(folder: Folder, run: Run):
-    """The trajectory of a run (`engine.Trajectory`)."""
-    from engine import Trajectory
+@dataclass(frozen=True, eq=False)
+class Sweep:
+    """The folder and all facts that more than one section of the report uses.
 
-    return Trajectory.load(folder.trajectory_path(run.row["run_key"]))
+    transient: wave periods left out of strobed values and extremes. tolerance: of its range, within which a motion
+    repeats. longest: largest number of wave periods tried. modes: natural frequencies, None where there are none.
+    """
+
+    folder: Folder
+    runs: tuple[Run, ...]
+    transient: int
+    tolerance: float
+    longest: int
+    modes: Modes | None
+
+    @property
+    def columns(self) -> Mapping[str, Quantity]:
+        return self.folder.columns
+
+    @cached_property
+    def good(self) -> tuple[Run, ...]:
+        """The runs that reached their full length."""
+        return tuple(run for run in self.runs if run.ok)
+
+    @cached_property
+    def judged(self) -> tuple[Run, ...]:
+        """The runs with a regime."""
+        return tuple(run for run in self.runs if run["regime"])
+
+    @cached_property
+    def chosen(self) -> tuple[Run, ...]:
+        """The runs drawn in full: nearest the paper's two steepnesses, then the first that visits several points."""
+        drawable = [run for run in self.runs if run.has_record]
+        good = [run for run in drawable if run.ok] or drawable
+        nearest = [min(good, key=lambda run: abs(run.steepness - kA)) for kA in PAPER_STEEPNESS if good]
+        several = [run for run in good if len(run.visited) > 1 and run not in nearest]
+        return tuple(sorted(dict.fromkeys([*nearest, *several[:1]]), key=lambda run: run.steepness))
+
+    def at(self, chosen: Iterable[Run], among: Iterable[Run] | None = None) -> str:
+        """ "kA = 0.01 to 0.03 and 0.05": the chosen of the runs, neighbours joined."""
+        chosen, among = set(chosen), tuple(among or self.runs)
+        return f"kA = {ranges([run.steepness for run in among], [run in chosen for run in among])}"
+
+    def trajectory(self, run: Run) -> Trajectory:
+        """The trajectory of a run that has a record."""
+        from engine import Trajectory
+
+        return Trajectory.load(self.folder.trajectory_path(run["run_key"]))
 
 
-def _read_run(folder: Folder, row: dict, transient: int) -> Run:
+def read_sweep(directory: str | Path) -> Sweep:
+    """The facts of a sweep's folder, runs by steepness; a trajectory that cannot be read leaves a run with a `fault`.
+
+    Raises FolderError for a folder that is no finished sweep.
+    """
+    folder = read_folder(directory, NEEDED)
+    told = folder.provenance
+    transient, tolerance = int(told.get("transient") or 0), float(told.get("strobe_tolerance") or 0.01)
+    rows = folder.table.sort_values("steepness", kind="stable").to_dict("records")
+    runs = tuple(_read_run(folder, row, f"run-{place}", transient, tolerance) for place, row in enumerate(rows, 1))
+    longest = int(told.get("longest_period") or 16)
+    return Sweep(folder, runs, transient, tolerance, longest, natural_frequencies(folder.scene))
+
+
+def _read_run(folder: Folder, row: dict, anchor: str, transient: int, tolerance: float) -> Run:
     from engine.trajectory import Trajectory, TrajectoryError
 
-    nothing = np.empty((0, 2))
     path = folder.trajectory_path(row["run_key"])
     if not path.exists():
         # A run that died may well have left nothing; its status says so already.
-        return Run(row, 0.0, nothing, None, f"its file {path.name} is missing" if row["status"] == "ok" else "")
+        return Run(row, anchor, fault=f"its file {path.name} is missing" if row["status"] == "ok" else "")
     try:
         trajectory = Trajectory.load(path)
     except TrajectoryError as error:
         reason = str(error).removeprefix(f"{path}: ")  # the report must not depend on where its folder lies
-        return Run(row, 0.0, nothing, None, f"its file {path.name} cannot be read ({reason})")
-    columns = trajectory.columns
-    if len(columns["time_s"]) < 2:
-        return Run(row, 0.0, nothing, None, "")
-    period_s = trajectory.scene.waves.period_s
-    done = float(columns["time_s"][-1]) / period_s
-    return Run(row, done, strobed(trajectory, transient), _emergence(trajectory), "")
+        return Run(row, anchor, fault=f"its file {path.name} cannot be read ({reason})")
+    time_s = trajectory.columns["time_s"]
+    if len(time_s) < 2:
+        return Run(row, anchor)
+    done, section = float(time_s[-1]) / trajectory.scene.waves.period_s, strobed(trajectory, transient)
+    found = _period(row, section, tolerance)
+    return Run(row, anchor, done, section, _emergence(trajectory), "", *found)
 
 
-def strobed(trajectory, transient: int) -> np.ndarray:
+def _period(row: dict, section: np.ndarray, tolerance: float) -> tuple[int | None, tuple[float, ...]]:
+    """`period` and `visited` of a Run: the points are means over the last half of the section."""
+    if row["status"] != "ok" or len(section) < LEAST_POINTS:
+        return None, ()
+    length = float(row["strobed_period"])
+    if math.isnan(length):
+        return 0, ()
+    length = int(length)
+    rounds = max(len(section) // (2 * length), 1)
+    radii = section[-rounds * length :, 0].reshape(-1, length).mean(axis=0)
+    width = float(row["radius_max_m"]) - float(row["radius_min_m"])
+    apart = length == 1 or np.ptp(radii) > tolerance * width
+    return length, tuple(map(float, radii)) if apart else ()
+
+
+def strobed(trajectory: Trajectory, transient: int) -> np.ndarray:
     """r (m) and r' (m/s) at t = k T_i, k >= transient, as (m, 2); empty for a record that ends before."""
     from analysis import poincare_section
 
@@ -132,77 +195,18 @@ def strobed(trajectory, transient: int) -> np.ndarray:
     return poincare_section(series, scene.sample_step_s(), scene.waves.period_s, transient_periods=transient).points
 
 
-def _emergence(trajectory) -> Emergence | None:
+def _emergence(trajectory: Trajectory) -> Emergence | None:
+    from engine.physics.sea import elevation_m
+
     scene, columns = trajectory.scene, trajectory.columns
     if scene.water is None or scene.waves is None or scene.buoy is None:
         return None
-    height = columns["z_m"] - water_surface_m(scene, columns["x_m"], columns["time_s"])
-    return Emergence(
-        float(np.nanmax(columns["z_m"]) - scene.water.depth_m),
-        float(np.nanmax(height)),
-        float(np.mean(height > 0.5 * scene.buoy.diameter_m)),
-    )
-
-
-def chosen_runs(runs: tuple[Run, ...], tolerance: float) -> tuple[Run, ...]:
-    """The runs drawn in full: nearest the paper's two steepnesses, then the first whose points are several."""
-    drawable = [run for run in runs if run.has_record]
-    good = [run for run in drawable if run.ok] or drawable
-    chosen: list[Run] = []
-    for steepness in PAPER_STEEPNESS:
-        if good:
-            nearest = min(good, key=lambda run: abs(run.steepness - steepness))
-            chosen += [nearest] if nearest not in chosen else []
-    longer = next((run for run in good if several_points(run, tolerance) and run not in chosen), None)
-    return tuple(sorted([*chosen, *([longer] if longer else [])], key=lambda run: run.steepness))
-
-
-def period_length(run: Run) -> int | None:
-    """After how many wave periods the run repeats: `strobed_period` of the table; 0 where no number fits.
-
-    None where nobody could say: a run that failed, too few strobed points, or a table without the column.
-    """
-    if not run.ok or len(run.section) < LEAST_POINTS or "strobed_period" not in run.row:
-        return None
-    found = value(run, "strobed_period")
-    return 0 if math.isnan(found) else int(found)
-
-
-def orbit_radii(run: Run) -> list[float]:
-    """Strobed r (m) of the points that a run of known period visits in turn: their means over the last half."""
-    length = period_length(run)
-    rounds = max(len(run.section) // (2 * length), 1)
-    return list(run.section[-rounds * length :, 0].reshape(-1, length).mean(axis=0))
-
-
-def several_points(run: Run, tolerance: float) -> bool:
-    """Whether a run of period 2 or longer visits points that differ in r by more than the tolerance of its range.
-
-    A pendulum swing that dies out slowly comes back to nearly the same place every six wave periods (omega_theta T_i
-    is close to 1 rad): the table then says period 6 of what is about to settle on one point.
-    """
-    if (period_length(run) or 0) < 2:
-        return False
-    width = value(run, "radius_max_m") - value(run, "radius_min_m")
-    return bool(np.ptp(orbit_radii(run)) > tolerance * width)
+    above = columns["z_m"] - scene.water.depth_m
+    height = above - elevation_m(scene, columns["time_s"], columns["x_m"])
+    out = float(np.mean(height > 0.5 * scene.buoy.diameter_m))
+    return Emergence(float(np.nanmax(above)), float(np.nanmax(height)), out)
 
 
 def linked(run: Run) -> str:
     """The run's steepness, as a link to its sheet."""
     return link(number(run.steepness), run.anchor)
-
-
-def value(run: Run, column: str) -> float:
-    """A number of the run's row, nan where the table leaves it empty."""
-    found = run.row[column]
-    return math.nan if found is None or found == "" else float(found)
-
-
-def lateral(run: Run, body: str) -> float:
-    """Largest lateral distance of the "buoy" or the "rope" after the transient in m, nan for a planar run."""
-    return float(run.row[f"{body}_lateral_max_m"]) if run.in_space else math.nan
-
-
-def planar_releases(run: Run) -> float:
-    """Loop releases of the planar run of the same scene: its own, or those of the run it replaces; nan if unknown."""
-    return value(run, "loop_releases") if not run.in_space else float(run.row.get("planar_loop_releases", math.nan))

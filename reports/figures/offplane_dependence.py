@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from ..parts.content import Picture
-from ..parts.style import BLUE, GREEN, PURPLE, VERMILION, picture_of, sheet
+from .curves import COLOURS, Curve, Panel, curves
 
 
 def dependence(panels: list[tuple[str, list[tuple[str, np.ndarray, np.ndarray, np.ndarray]]]], label: str) -> Picture:
@@ -13,18 +13,12 @@ def dependence(panels: list[tuple[str, list[tuple[str, np.ndarray, np.ndarray, n
 
     Filled marks: the motion goes on; open ones: it decays, and the mark is what is left of it.
     """
-    with sheet(2.9) as figure:
-        for axes, (title, curves) in zip(figure.subplots(1, len(panels), squeeze=False)[0], panels, strict=True):
-            for (name, depth, size, decays), colour, mark in zip(
-                curves, (BLUE, VERMILION, GREEN, PURPLE), "os^D", strict=False
-            ):
-                axes.plot(depth, size, "-", color=colour, linewidth=0.6, alpha=0.6)
-                axes.plot(depth[~decays], size[~decays], mark, color=colour, markersize=4.5, label=name)
-                axes.plot(depth[decays], size[decays], mark, color=colour, markersize=4.5, fillstyle="none")
-            axes.set_yscale("log")
-            axes.set_title(title)
-            axes.set_xlabel("depth $H$ (m)")
-            axes.set_ylabel(label)
-            axes.margins(0.06)
-        axes.legend(loc="upper right")
-        return picture_of(figure)
+    drawn = []
+    for title, found in panels:
+        lines = []
+        for (name, depth, size, decays), colour, mark in zip(found, COLOURS, "os^D", strict=False):
+            lines.append(Curve(depth, size, colour=colour, width=0.6, alpha=0.6))
+            lines.append(Curve(depth[~decays], size[~decays], name, "", mark, colour, size=4.5))
+            lines.append(Curve(depth[decays], size[decays], "", "", mark, colour, size=4.5, filled=False))
+        drawn.append(Panel(lines, "depth $H$ (m)", label, title, log="y"))
+    return curves([drawn], 2.9, "below")

@@ -7,12 +7,9 @@ import math
 import numpy as np
 
 from ..figures.oscillator_basins import oscillator_basins
-from ..parts.content import Figure, Heading, Item, Text
-from ..parts.wording import number, percent
+from ..parts.content import Column, Figure, Heading, Item, Table, Text
+from ..parts.wording import decimals, number
 from .folder import Study
-from .tables import orbit_table
-
-BOX = (-60.0, 20.0, -25.0, 25.0)  # of the starts, analysis.oscillator.basin_grids.PAPER_BOX
 
 
 def basin_items(study: Study) -> list[Item]:
@@ -21,73 +18,90 @@ def basin_items(study: Study) -> list[Item]:
     arrays = study.arrays.get("basins")
     if arrays is None:
         return [heading, Text(f"There are no basins: {study.faults['basins']}.")]
-    shares, errors = arrays["shares"], arrays["errors"]
+    shares = arrays["shares"]
     orbits = [arrays[f"orbit_{index + 1}"] for index in range(len(shares) - 1)]
     names = [f"period {len(orbit)}" for orbit in orbits] + ["aperiodic"]
     section = study.arrays.get("section", {}).get("section", np.empty((0, 2)))[:20000]
-    told = ", ".join(
-        f"{name} {percent(float(share))} (± {number(100 * float(error), 2)})"
-        for name, share, error in zip(names, shares, errors, strict=True)
+    rows = tuple(
+        (name, decimals(100.0 * share, 2), decimals(100.0 * error, 2))
+        for name, share, error in zip(names, shares, arrays["errors"], strict=True)
         if share > 0
     )
+    heads = (Column("the motion ends on", align="left"), Column("share of the starts", "%"), Column("error", "%"))
     settled = arrays["settled"][arrays["settled"] >= 0]
-    late = f"; the last of the settled ones did so after {int(settled.max())}" if len(settled) else ""
+    late = f" The last start that settled did so after {int(settled.max())} periods." if len(settled) else ""
     caption = (
-        f"Where a grid of {arrays['label'].size} starts ends within {study.rows['basins']['periods']} "
-        f"periods{late}; dots: "
-        f"strobed points of the periodic attractors; black: the section. Shares of the starts: {told}. From the part "
-        "`basins`."
+        f"Where a grid of {arrays['label'].size} starts ends within {study.rows['basins']['periods']} periods. Dots: "
+        f"strobed points of the periodic attractors; black: the section.{late} From the part `basins`."
     )
-    return [
-        heading,
-        Text(
-            "A start counts as settled when Newton's method, begun from its strobed state, finds a stable periodic "
-            "orbit "
-            "that the start's own motion then approaches. The rest is aperiodic: on the chaotic attractor, or on "
-            "its way."
-        ),
-        Figure(
-            oscillator_basins(arrays["label"], BOX, names, orbits, section),
-            caption,
-            f"Basins of attraction over displacement and velocity; shares of the starts: {told}.",
-        ),
-    ]
+    text = (
+        "A start counts as settled when Newton's method, begun from its strobed state, finds a stable periodic orbit "
+        "that the start's own motion then approaches. The rest is aperiodic: on the chaotic attractor, or on its way."
+    )
+    alt = f"Basins of attraction of {len(orbits)} periodic orbits over displacement and velocity."
+    figure = Figure(oscillator_basins(arrays["label"], tuple(arrays["box"]), names, orbits, section), caption, alt)
+    return [heading, Text(text), figure, Table(heads, rows, "Shares of the starts, with one standard error.")]
 
 
 def orbit_items(study: Study) -> list[Item]:
     """The periodic orbits with their multipliers."""
-    heading = Heading("Periodic orbits")
-    table = orbit_table(study)
-    if table is None:
+    heading, arrays = Heading("Periodic orbits"), study.arrays.get("orbits", {})
+    if "table" not in arrays:
         return [heading, Text("Newton's method met no periodic orbit from any of its starts.")]
     text = (
         "Newton's method on the strobed map with the exact tangent map, from points of the section, a grid and the "
-        "attractors found. A chaotic attractor is threaded by unstable orbits; those below are the ones that were "
-        "met, and "
-        "no list from a search is complete. The product of the two multipliers must be e to the −μpT."
+        "attractors found. A chaotic attractor holds infinitely many unstable orbits; the table has those that were "
+        "met. The product of the two multipliers must be e to the −μpT."
     )
-    return [heading, Text(text), table]
+    damping, frequency = study.oscillator["damping"], study.oscillator["frequency"]
+    rows = []
+    for period, real1, imag1, real2, imag2, residual, first in arrays["table"]:
+        m1, m2 = complex(real1, imag1), complex(real2, imag2)
+        wanted = math.exp(-damping * period * 2.0 * math.pi / frequency)
+        point = arrays["points"][int(first)]
+        rows.append((
+            str(int(period)), "stable" if max(abs(m1), abs(m2)) < 1 else "unstable",
+            f"{decimals(point[0], 6)}, {decimals(point[1], 6)}", _complex(m1), _complex(m2),
+            f"{abs((m1 * m2).real / wanted - 1.0):.0e}", f"{residual:.0e}",
+        ))  # fmt: skip
+    columns = (
+        Column("period"), Column("stability", align="left"), Column("leftmost strobed point (γ, velocity)"),
+        Column("multiplier 1"), Column("multiplier 2"), Column("product off by", "relative"), Column("residual"),
+    )  # fmt: skip
+    caption = f"Periodic orbits met by Newton's method ({len(rows)}), by period. From the part `orbits`."
+    return [heading, Text(text), Table(columns, tuple(rows), caption, small=True)]
+
+
+def _complex(value: complex) -> str:
+    if value.imag == 0.0:
+        return number(value.real, 6)
+    sign = "+" if value.imag > 0 else "−"
+    return f"{number(value.real, 6)} {sign} {number(abs(value.imag), 6)}i"
 
 
 def grazing_items(study: Study) -> list[Item]:
     """The threshold of slack, and what random starts do at it."""
     heading = Heading("Grazing")
-    arrays = study.arrays.get("grazing")
-    force = study.number("grazing", "grazing_force")
+    arrays, force = study.arrays.get("grazing"), study.number("grazing", "grazing_force")
     if arrays is None or not math.isfinite(force):
-        reason = study.faults.get(
-            "grazing", "without lift the tether is slack at any forcing, and without damping no taut motion attracts"
-        )
-        return [heading, Text(f"There is no threshold: {reason}.")]
-    _, time, clearance, velocity = arrays["grazing"]
-    below, above = arrays["slack_below"], arrays["slack_above"]
+        usual = "without lift the tether is slack at any forcing, and without damping no taut motion attracts"
+        return [heading, Text(f"There is no threshold: {study.faults.get('grazing', usual)}.")]
     text = (
-        "Solved for: the forcing at which the periodic motion that is always taut touches γ = 0. F = "
-        f"{force:.15g}, where "
-        f"the least displacement is {clearance:.1e} and the velocity there {velocity:.1e}, at the time "
-        f"{number(time, 6)} "
-        f"after the strobe. Below this F that motion has no slack. It need not be the only one: of {len(below)} random "
-        f"starts, {int((below > 0).sum())} are slack at some time in the last 100 of 2100 periods at 0.999 F, and "
-        f"{int((above > 0).sum())} at 1.001 F. Starts that are slack below the threshold are on another attractor."
+        "The threshold is the forcing at which the periodic motion that is always taut touches γ = 0. Below it that "
+        "motion has no slack. Random starts that are slack below the threshold are on another attractor."
     )
-    return [heading, Text(text)]
+    _, time, clearance, velocity = arrays["grazing"]
+    slack = {share: arrays[name] > 0 for share, name in (("0.999", "slack_below"), ("1.001", "slack_above"))}
+    rows = [
+        ("forcing F", f"{force:.15g}"),
+        ("least displacement γ at F", f"{clearance:.1e}"),
+        ("velocity at that time", f"{velocity:.1e}"),
+        ("time after the strobe", number(time, 6)),
+        *(
+            (f"starts that are slack at {share} F", f"{int(some.sum())} of {len(some)}")
+            for share, some in slack.items()
+        ),
+    ]
+    caption = "Grazing. Slack: at some time in the last 100 of 2100 periods. From the part `grazing`."
+    table = Table((Column("what", align="left"), Column("value")), tuple(rows), caption)
+    return [heading, Text(text), table]

@@ -2,28 +2,19 @@
 
 from __future__ import annotations
 
-import csv
-import json
-import math
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 
-from ..parts.folder import FolderError, no_folder
+from ..parts.columns import Quantity, read_columns
+from ..parts.files import read_files, value
+from ..parts.folder import FolderError
 
-PARTS = (
-    "section",
-    "history",
-    "exponents",
-    "orbits",
-    "basins",
-    "grazing",
-    "diagram-force",
-    "diagram-frequency",
-)
+PARTS = ("section", "history", "exponents", "orbits", "basins", "grazing", "diagram-force", "diagram-frequency")
 FILES = {
     "table.csv": "one row a part",
+    "columns.csv": "what its columns are",
     "scene.toml": "the numbers of eq. (33) as run",
     "provenance.json": "what ran, where and for how long",
     "trajectories": "the arrays, one netCDF file each",
@@ -37,6 +28,7 @@ class Study:
 
     directory: Path
     provenance: dict
+    columns: dict[str, Quantity]
     rows: dict[str, dict[str, str]]
     arrays: dict[str, dict[str, np.ndarray]]
     oscillator: dict[str, float]
@@ -44,43 +36,34 @@ class Study:
 
     def number(self, part: str, column: str) -> float:
         """A cell of table.csv as a number; NaN where it is empty."""
-        text = self.rows.get(part, {}).get(column, "")
-        return float(text) if text else math.nan
+        return value(self.rows.get(part, {}), column)
 
 
 def read_study(directory: str | Path) -> Study:
     """Read the folder. Raises FolderError naming every file that is missing or cannot be read."""
     directory = Path(directory)
-    if not directory.is_dir():
-        raise FolderError(directory, [no_folder(directory)])
-    faults = [f"{name} is missing ({meaning})" for name, meaning in FILES.items() if not (directory / name).exists()]
-    if faults:
-        raise FolderError(directory, faults)
+    found = read_files(directory, FILES)
     try:
-        provenance = json.loads((directory / "provenance.json").read_text(encoding="utf-8"))
-        oscillator = {key: float(entry) for key, entry in provenance["oscillator"].items()}
-    except (OSError, ValueError, KeyError, TypeError, AttributeError) as error:
-        raise FolderError(directory, [f"provenance.json cannot be read: {error!r}"]) from error
-    try:
-        with open(directory / "table.csv", encoding="utf-8", newline="") as file:
-            rows = {row["part"]: row for row in csv.DictReader(file)}
-    except (OSError, ValueError, KeyError) as error:
-        raise FolderError(directory, [f"table.csv cannot be read: {error!r}"]) from error
+        oscillator = {key: float(entry) for key, entry in found["provenance.json"]["oscillator"].items()}
+        rows = {row["part"]: row for row in found["table.csv"]}
+    except (KeyError, TypeError, ValueError, AttributeError) as error:
+        fault = f"provenance.json or table.csv is not of this campaign: {error!r}"
+        raise FolderError(directory, [fault]) from error
     if not rows:
         raise FolderError(directory, ["table.csv cannot be read: it has no rows"])
-    arrays, without = {}, {}
+    arrays, faults = {}, {}
     for part in PARTS:
         try:
-            arrays[part] = _arrays(directory, rows[part])
+            arrays[part] = _arrays(directory / "trajectories" / f"{rows[part]['run_key']}.nc")
         except KeyError:
-            without[part] = "it has no row in table.csv"
+            faults[part] = "it has no row in table.csv"
         except (OSError, ValueError, TypeError) as error:
-            without[part] = rows[part]["message"] or f"its arrays cannot be read ({type(error).__name__})"
-    return Study(directory, provenance, rows, arrays, oscillator, without)
+            faults[part] = rows[part]["message"] or f"its arrays cannot be read ({type(error).__name__})"
+    return Study(directory, found["provenance.json"], read_columns(directory), rows, arrays, oscillator, faults)
 
 
-def _arrays(directory: Path, row: dict[str, str]) -> dict[str, np.ndarray]:
-    from scipy.io import netcdf_file
+def _arrays(path: Path) -> dict[str, np.ndarray]:
+    import xarray
 
-    with netcdf_file(directory / "trajectories" / f"{row['run_key']}.nc", "r", mmap=False) as file:
-        return {name: np.array(variable[:]) for name, variable in file.variables.items()}
+    with xarray.open_dataset(path, engine="scipy") as file:
+        return {str(name): variable.values for name, variable in file.load().data_vars.items()}

@@ -8,10 +8,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..buoy_sweep.runs import strobed
-from ..figures.section_pairs import section_pairs
-from ..parts.content import Bullets, Column, Figure, Heading, Item, Table, Text
+from ..figures.section import section_pairs
+from ..parts.content import Column, Figure, Heading, Item, Table, Text
 from ..parts.symbols import T_I
-from ..parts.wording import EMPTY, count, decimals, listed, number, percent
+from ..parts.wording import decimals, listed, number, percent
 from .runs import Run, Study
 
 APART_M = 0.01  # distance of the two radii from which the runs count as parted
@@ -139,11 +139,17 @@ def comparison_words(pairs: list[Pair]) -> str:
 
 
 def comparison_items(study: Study, pairs: list[Pair]) -> list[Item]:
-    """The section: table, sections over each other, what follows."""
+    """The section: runs, what they are compared in, sections over each other, what follows."""
     heading = Heading("Planar with loop release, or three dimensions?")
     if not pairs:
         return [heading, Text("No planar run released loops and ended as asked, as its counterpart did.")]
     periods = number(pairs[0].planar["periods"] - study.transient)
+    runs = [run for pair in pairs for run in (pair.planar, pair.spatial)]
+    names = [
+        "depth_m", "dimensions", "loop_releases", "max_turn_rad", "radius_min_m", "radius_max_m", "tension_top_max_N",
+        "slack_fraction", ("lyapunov_wolf_bits_per_period", "lyapunov_wolf_error"),
+        ("lyapunov_tangent_bits_per_period", "lyapunov_tangent_error"), "regime", "wall_s",
+    ]  # fmt: skip
     return [
         heading,
         Text(
@@ -152,98 +158,42 @@ def comparison_items(study: Study, pairs: list[Pair]) -> list[Item]:
             f"judged by the {periods} wave periods after the first {study.transient}, and both by their samples alone "
             "(`regime` without the tangent exponent, which runs in three dimensions do not have):"
         ),
-        _table(pairs),
+        study.table(names, runs, "Planar runs (D = 2) and their counterparts (D = 3)."),
+        _compared(pairs),
         _figure(pairs, study.transient),
-        Bullets(tuple(_pair_words(pair) for pair in pairs)),
         Text(comparison_words(pairs)),
     ]
 
 
-def _table(pairs: list[Pair]) -> Table:
+def _compared(pairs: list[Pair]) -> Table:
+    """What the runs of each pair differ in, by the tests of `Pair`."""
+    words = {True: "same", False: "different", None: "too short"}
     heads = (
-        Column("H", "m"),
-        Column("run", align="left"),
-        Column("loops"),
-        Column("turn", "rad"),
-        Column("r min", "m"),
-        Column("r max", "m"),
-        Column("T max", "N"),
-        Column("slack", "–"),
-        Column("σ, Wolf", f"bits/{T_I}"),
-        Column("σ, tangent", f"bits/{T_I}"),
-        Column("regime", align="left"),
-        Column("section: across"),
-        Column("within"),
-        Column("wall", "s"),
-    )
-    rows = []
-    for pair in pairs:
-        for name, run in (("planar", pair.planar), ("3-D", pair.spatial)):
-            rows.append(
-                (
-                    pair.depth,
-                    name,
-                    number(run["loop_releases"]),
-                    decimals(run["max_turn_rad"], 2),
-                    decimals(run["radius_min_m"], 3),
-                    decimals(run["radius_max_m"], 3),
-                    decimals(run["tension_top_max_N"], 0),
-                    decimals(run["slack_fraction"], 3),
-                    _with_error(run, "wolf"),
-                    _with_error(run, "tangent"),
-                    run["regime"] or EMPTY,
-                    decimals(pair.across, 3) if name == "planar" else "",
-                    decimals(pair.within, 3) if name == "planar" else "",
-                    decimals(run["wall_s"], 1),
-                )
-            )
+        Column("H", "m"), Column("apart at", T_I), Column("before", "mm"), Column("ends of r"), Column("across"),
+        Column("within"), *(Column(name, align="left") for name in pairs[0].tests),
+    )  # fmt: skip
+    rows = tuple(
+        (
+            pair.depth, number(pair.parted, 3), number(1e3 * pair.before_m, 2), percent(pair.range_off),
+            decimals(pair.across, 3), decimals(pair.within, 3), *(words[passed] for passed in pair.tests.values()),
+        )
+        for pair in pairs
+    )  # fmt: skip
     caption = (
-        "Planar runs and their counterparts. loops: loop releases; turn: largest turn in one element; T: tension at "
-        "the top; σ: largest exponent. Section: energy distance of the strobed r, r' of the two runs (0 equal, 1 "
-        "apart), and, within, of the halves of each. From `table.csv` and the trajectories."
+        "What the runs of a pair differ in. apart at: when the radii first differ by a centimetre; before: their "
+        "largest difference before the first loop; ends of r: difference of the ends of the ranges by the range; "
+        "across, within: energy distance of the strobed r, r' of the two runs (0 equal, 1 apart), and of the halves "
+        f"of each. Same is a range within {percent(MOST_OFF)}, a section within {number(MOST_ACROSS)} times the "
+        "halves, an exponent within two errors."
     )
-    return Table(heads, tuple(rows), caption, small=True)
-
-
-def _with_error(run: Run, name: str) -> str:
-    found = run[f"lyapunov_{name}_bits_per_period"]
-    if math.isnan(found):
-        return EMPTY
-    return f"{decimals(found, 3)}\u00a0±\u00a0{decimals(run[f'lyapunov_{name}_error'], 3)}"
+    return Table(heads, rows, caption, small=True)
 
 
 def _figure(pairs: list[Pair], transient: int) -> Figure:
     picture = section_pairs([(f"H = {pair.depth} m", *pair.sections) for pair in pairs], ("planar", "three dimensions"))
-    seen = "; ".join(
-        f"{count(len(pair.sections[0]), 'point')} and {len(pair.sections[1])} at H = {pair.depth} m, "
-        + (
-            "too few for a distance"
-            if math.isnan(pair.across)
-            else f"distance {decimals(pair.across, 3)} (halves of one: {decimals(pair.within, 3)})"
-        )
-        for pair in pairs
-    )
+    seen = listed(f"{len(pair.sections[0])} and {len(pair.sections[1])} points at H = {pair.depth} m" for pair in pairs)
     caption = (
         f"Poincaré sections of planar runs with loop release and of runs in three dimensions, after {transient} wave "
         f"periods: {seen}. From `radius_m` and `radius_rate_mps`."
     )
     return Figure(picture, caption, f"Sections of planar and three-dimensional runs over each other: {seen}.")
-
-
-def _pair_words(pair: Pair) -> str:
-    parted = (
-        "the radii never differ by a centimetre"
-        if math.isnan(pair.parted)
-        else f"the radii first differ by a centimetre at t = {number(pair.parted, 3)} wave periods"
-    )
-    first = pair.spatial["rope_first_burst_period"]
-    before = "" if math.isnan(first) else f" (before the first loop, by {number(1e3 * pair.before_m, 2)} mm at most)"
-    off = f"the ends of the ranges of r differ by {percent(pair.range_off)} of the range"
-    verdict = (
-        "no difference that one record would not show by itself"
-        if not pair.lacking
-        else (f"different in {listed(pair.lacking)}")
-    )
-    if pair.untold and not pair.lacking:
-        verdict = f"too short to compare {listed(pair.untold)}"
-    return f"H = {pair.depth} m: {parted}{before}; {off}; {verdict}."

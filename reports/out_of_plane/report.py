@@ -5,24 +5,28 @@ from __future__ import annotations
 from pathlib import Path
 
 from ..buoy_sweep.repeats import accuracy_items
-from ..parts.content import Bullets, Column, Heading, Item, Notice, Report, Table, Text
+from ..parts.content import Bullets, Heading, Item, Notice, Report, Text
 from ..parts.folder import Folder, FolderError, read_folder
 from ..parts.provenance import provenance_items, timing_table
 from ..parts.scene_table import scene_table
-from ..parts.wording import EMPTY, count, decimals, listed, number
+from ..parts.wording import count, decimals, listed, number
 from .answer import short_answer
 from .comparison import comparison_items, read_pairs
-from .runs import COLUMNS, VARIED, WORDS, Run, Study, read_study
+from .runs import NEEDED, VARIED, Run, Study, read_study
 from .sections import growth_items, history_items, push_items
 from .varied import dependence_items, direction_items, grid_items, shape_items
 from .words import speed
 
+_RUNS = (
+    *VARIED[:-1], "periods", "status", "buoy_motion", "rope_motion", "max_turn_rad", "loop_releases",
+    "newton_iterations", "wall_s",
+)  # fmt: skip
 _RESOLVED_RAD = 1.5707963267948966  # a quarter of a turn in one element
 
 
 def report(directory: str | Path) -> Report:
     """The content of the report on an out-of-plane folder. Raises FolderError for a folder that is not one."""
-    folder = read_folder(directory, COLUMNS, WORDS)
+    folder = read_folder(directory, NEEDED)
     base = folder.provenance.get("base")
     if not isinstance(base, dict) or set(base) != set(VARIED) or "transient" not in folder.provenance:
         raise FolderError(folder.directory, ["provenance.json cannot be read: it does not name base and transient"])
@@ -47,11 +51,11 @@ def report(directory: str | Path) -> Report:
         *grid_items(study),
         *shape_items(study),
         *comparison_items(study, pairs),
-        *accuracy_items(folder.directory, "kA"),
+        *accuracy_items(folder.directory),
         Heading("Warnings"),
         *_warnings(study),
         Heading("Table of runs"),
-        _table(study),
+        study.table(_RUNS, study.runs, "Every run."),
         *_scene_and_times(folder, study),
         *provenance_items(folder),
     ]
@@ -60,22 +64,22 @@ def report(directory: str | Path) -> Report:
 
 
 def _warnings(study: Study) -> list[Item]:
-    boxes = []
-    failed = [run for run in study.runs if not run.ok]
-    if failed:
-        lines = tuple(
-            f"{_name(run)}: {run['status']}" + (f": {run['message']}" if run["message"] else "") for run in failed
-        )
-        boxes.append(Notice("warning", "Runs that failed", lines))
+    pushed = [run for run in study.runs if run.pushed]
     lost = [run for run in study.runs if run.ok and not study.folder.trajectory_path(run["run_key"]).exists()]
-    if lost:
-        lines = tuple(f"{_name(run)}: its trajectory is missing; figures leave it out." for run in lost)
-        boxes.append(Notice("warning", "Runs without a trajectory", lines))
-    pushed = [run for run in study.runs if run.ok and run["dimensions"] == 3 and run["seed_direction"] != "along"]
-    looped = [run for run in pushed if run["loop_releases"] > 0]
-    if looped:
-        lines = tuple(f"{_name(run)}: {count(int(run['loop_releases']), 'release')}" for run in looped)
-        boxes.append(Notice("warning", "Loops released in three dimensions", lines))
+    kinds = (
+        ("Runs that failed", [run for run in study.runs if not run.ok], _end),
+        ("Runs without a trajectory", lost, lambda run: "its trajectory is missing; figures leave it out"),
+        (
+            "Loops released in three dimensions",
+            [run for run in pushed if run["loop_releases"] > 0],
+            lambda run: count(int(run["loop_releases"]), "release"),
+        ),
+    )
+    boxes = [
+        Notice("warning", title, tuple(f"{_name(run)}: {said(run)}." for run in runs))
+        for title, runs, said in kinds
+        if runs
+    ]
     coarse = [run for run in pushed if run["max_turn_rad"] > _RESOLVED_RAD]
     if coarse:
         grids = sorted({int(run["nodes"]) for run in coarse})
@@ -93,53 +97,16 @@ def _warnings(study: Study) -> list[Item]:
     ]
 
 
+def _end(run: Run) -> str:
+    return f"{run['status']}: {run['message']}" if run["message"] else run["status"]
+
+
 def _name(run: Run) -> str:
     planar = "planar" if run["dimensions"] == 2 else f"push {speed(run['seed_mps'])} {run['seed_direction']}"
     return (
         f"kA = {number(run['steepness'])}, H = {number(run['depth_m'])} m, EI = {number(run['bending_stiffness_Nm2'])} "
         f"N m², {number(run['nodes'])} nodes, {planar}"
     )
-
-
-def _table(study: Study) -> Table:
-    heads = (
-        Column("kA"),
-        Column("H", "m"),
-        Column("EI", "N\u00a0m²"),
-        Column("nodes"),
-        Column("D"),
-        Column("push", "m/s"),
-        Column("direction", align="left"),
-        Column("periods"),
-        Column("status", align="left"),
-        Column("buoy", align="left"),
-        Column("rope", align="left"),
-        Column("turn", "rad"),
-        Column("loops"),
-        Column("Newton"),
-        Column("wall", "s"),
-    )
-    rows = tuple(
-        (
-            number(run["steepness"]),
-            number(run["depth_m"]),
-            number(run["bending_stiffness_Nm2"]),
-            number(run["nodes"]),
-            number(run["dimensions"]),
-            number(run["seed_mps"]) if run["dimensions"] == 3 else EMPTY,
-            run["seed_direction"] or EMPTY,
-            number(run["periods"]),
-            run["status"],
-            run["buoy_motion"] or EMPTY,
-            run["rope_motion"] or EMPTY,
-            decimals(run["max_turn_rad"], 2),
-            number(run["loop_releases"]),
-            number(run["newton_iterations"]),
-            decimals(run["wall_s"], 2),
-        )
-        for run in study.runs
-    )
-    return Table(heads, rows, "Every run. D: dimensions of the motion. From `table.csv`.", small=True)
 
 
 def _scene_and_times(folder: Folder, study: Study) -> list[Item]:

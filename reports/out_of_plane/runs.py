@@ -2,91 +2,38 @@
 
 from __future__ import annotations
 
-import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
-from ..parts.folder import Folder
+from ..parts.columns import Name, table_of
+from ..parts.content import Table
+from ..parts.folder import Folder, Row
+from ..parts.wording import number
 
 VARIED = (
-    "steepness",
-    "depth_m",
-    "bending_stiffness_Nm2",
-    "nodes",
-    "dimensions",
-    "seed_mps",
-    "seed_direction",
-    "profiles",
-)
-WORDS = ("seed_direction", "buoy_motion", "buoy_reason", "rope_motion", "rope_reason")
-_OF_A_BODY = (
-    "motion",
-    "rate_bits_per_period",
-    "rate_error",
-    "rate_nats_per_period",
-    "fit_from_period",
-    "fit_to_period",
-    "fit_span_nats",
-    "bursts",
-    "burst_median_m",
-    "burst_max_m",
-    "first_burst_period",
-    "first_burst_m",
-    "lateral_max_m",
-    "lateral_late_m",
-    "share_of_inplane",
-    "early_gain_s",
-    "reason",
-)
-COLUMNS = (
-    *VARIED,
-    "periods",
-    "status",
-    *(f"{body}_{name}" for body in ("buoy", "rope") for name in _OF_A_BODY),
-    "inplane_m",
-    "bow_inplane_m",
-    "bow_lateral_m",
-    "radius_min_m",
-    "radius_max_m",
-    "tension_top_max_N",
-    "slack_fraction",
-    "regime",
-    "lyapunov_wolf_bits_per_period",
-    "lyapunov_wolf_error",
-    "lyapunov_tangent_bits_per_period",
-    "lyapunov_tangent_error",
-    "offplane_growth_bits_per_period",
-    "offplane_growth_error",
-    "max_turn_rad",
-    "loop_releases",
-    "newton_iterations",
-    "end_time_s",
-    "wall_s",
-    "run_key",
-    "message",
-)
+    "steepness", "depth_m", "bending_stiffness_Nm2", "nodes", "dimensions", "seed_mps", "seed_direction", "profiles",
+)  # fmt: skip
+NEEDED = (
+    *VARIED, "periods", "status", "buoy_motion", "rope_motion", "inplane_m", "regime", "max_turn_rad", "loop_releases",
+    "run_key", "message",
+)  # fmt: skip
 BODIES = ("buoy", "rope")
 DISPLACEMENT = {"buoy": "y_m", "rope": "offplane_m"}  # column of a trajectory
 
 
-@dataclass(frozen=True, eq=False)
-class Run:
+class Run(Row):
     """One row of the table."""
 
-    row: dict
-
-    def __getitem__(self, column: str):
-        """An entry of the row: text, or a number that is NaN where the table leaves it empty."""
-        return self.row[column]
-
     @property
-    def ok(self) -> bool:
-        return self.row["status"] == "ok"
+    def pushed(self) -> bool:
+        """Whether it is a run in three dimensions that ended as asked, with a push out of the plane."""
+        return self.ok and self["dimensions"] == 3 and self["seed_direction"] != "along"
 
-    def known(self, column: str) -> bool:
-        """Whether the row has a number in that column."""
-        return math.isfinite(self.row[column])
+    def grows(self) -> bool:
+        """Whether buoy or rope leave the plane exponentially."""
+        return any(self[f"{body}_motion"] == "growth" for body in BODIES)
 
 
 @dataclass(frozen=True, eq=False)
@@ -110,10 +57,10 @@ class Study:
         return self.select(dimensions=2, seed_mps=0.0, seed_direction="", **wanted)
 
     def pushes(self, steepness: float) -> list[Run]:
-        """Runs that differ in the size of the push alone, on the grid that has most of them."""
+        """Runs that differ in the size of the push alone, on the grid that has most of them, as far as they ended."""
         runs = self.select(steepness=steepness, seed_mps=None, nodes=None)
         grids = [run["nodes"] for run in runs]
-        return [run for run in runs if run["nodes"] == max(grids, key=grids.count)]
+        return [run for run in runs if run.ok and run["nodes"] == max(grids, key=grids.count)]
 
     def one(self, **wanted) -> Run | None:
         """The one run that is as the base but for `wanted`, None where there is none that ended as asked."""
@@ -133,13 +80,16 @@ class Study:
         except TrajectoryError:
             return None
 
+    def table(self, names: Sequence[Name], runs: Sequence[Run], caption: str) -> Table:
+        """A table of runs in the words of the dictionary."""
+        own = {name: (lambda row, name=name: number(row[name])) for name in VARIED if name != "seed_direction"}
+        return table_of(self.folder.columns, names, [run.row for run in runs], caption, own)
+
 
 def read_study(folder: Folder) -> Study:
     """The rows of the folder's table, and the base that its provenance names."""
-    base = dict(folder.provenance["base"])
-    assert set(base) == set(VARIED)
-    runs = tuple(Run(row) for row in folder.table.to_dict("records"))
-    return Study(folder, runs, base, int(folder.provenance["transient"]))
+    rows = folder.table.to_dict("records")
+    return Study(folder, tuple(map(Run, rows)), dict(folder.provenance["base"]), int(folder.provenance["transient"]))
 
 
 def envelope(trajectory, body: str, span: int = 1) -> tuple[np.ndarray, np.ndarray]:

@@ -1,11 +1,8 @@
-"""Sizes, speeds, rates and relative differences of the out-of-plane report, as its sentences and tables put them."""
+"""Sizes, speeds and relative differences of the out-of-plane report, as its sentences put them."""
 
 from __future__ import annotations
 
-import math
-
-from ..parts.wording import EMPTY, decimals, number, percent
-from .runs import Run
+from ..parts.wording import number, percent
 
 
 def metres(size: float) -> str:
@@ -19,22 +16,6 @@ def metres(size: float) -> str:
 def speed(push: float) -> str:
     """A push with its unit: 1e-5 m/s."""
     return f"{number(push)}\u00a0m/s"
-
-
-def plus_minus(found: float, error: float) -> str:
-    """A value with its error, to the first digit of the error or, after a 1, to the second; it stays on one line."""
-    places = 4
-    if error > 0:
-        first = math.floor(math.log10(error))
-        places = max(2, min(6, (1 if error < 2 * 10**first else 0) - first))
-    return f"{decimals(found, places)}\u00a0±\u00a0{decimals(error, places)}"
-
-
-def with_error(run: Run, body: str) -> str:
-    """ "−0.0398 ± 0.0008" bits per period, or a dash."""
-    if not run.known(f"{body}_rate_bits_per_period"):
-        return EMPTY
-    return plus_minus(run[f"{body}_rate_bits_per_period"], run[f"{body}_rate_error"])
 
 
 def share(size: float) -> str:

@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 import math
+from pathlib import Path
 from typing import TYPE_CHECKING
 
-from ..buoy_sweep.motion import STROBE_TOLERANCE
 from ..figures.depth_exponents import Curve, depth_exponents, kind_of
 from ..out_of_plane.comparison import comparison_items, read_pairs
+from ..out_of_plane.runs import read_study
+from ..parts.columns import Quantity, plus_minus, read_columns
 from ..parts.content import Column, Figure, Heading, Item, Table, Text
-from ..parts.folder import FolderError
-from ..parts.wording import EMPTY, count, decimals, listed, number, percent
-from .results import LARGE, SMALL, TREATED, Results
+from ..parts.folder import Folder, FolderError, read_folder
+from ..parts.wording import EMPTY, listed, number, percent
 
 if TYPE_CHECKING:
     from engine import Scene
@@ -23,202 +24,181 @@ TREATMENTS = {
     "full": "buoyancy and wave load of the whole sphere always",
     "spherical-cap": "of the wetted part",
 }
-_EXPONENT, _ERROR = "lyapunov_tangent_bits_per_period", "lyapunov_tangent_error"
+VALUE, ERROR = "lyapunov_tangent_bits_per_period", "lyapunov_tangent_error"
+ABOVE, DROWNED, EI, DEPTH = "above_still_water", "submergence", "bending_stiffness_Nm2", "depth_m"
+SHORT = (
+    "To run section 4 one has to choose what the paper does not say. The first table lists the choices of the shipped "
+    "scenes; the rest of this section shows what becomes of the answer with others."
+)
 
 
-def dependence_items(results: Results, scene: Scene) -> list[Item]:
-    """The section; scene: that of section 4.2 as shipped."""
-    items: list[Item] = [
-        Heading("What the paper leaves out"),
-        Text(
-            "To run section 4 one has to choose what the paper does not say. The first table lists the choices of the "
-            "shipped scenes; the rest of this section shows what becomes of the answer with others."
-        ),
-        _gaps(results, scene),
-    ]
-    if not results.dependence:
+def dependence_items(folder: Folder) -> list[Item]:
+    """The section, from the parts of the paper's folder."""
+    items: list[Item] = [Heading("What the paper leaves out"), Text(SHORT), _gaps(folder.directory, folder.scene)]
+    try:
+        rows, columns = _table(folder.directory / "dependence")
+    except (FolderError, OSError, ValueError):
         return [*items, Text("The part `dependence` is not there, so nothing is shown of what follows from them.")]
-    items += [Heading("Depth, waves above still water, buoyancy out of the water", 2), _depth_text(results)]
-    items.append(_depth_figure(results))
-    items += [_regimes(results, steepness) for steepness in (SMALL, LARGE)]
-    items += [Heading("Bending stiffness", 2), *_stiffness(results)]
-    return [*items, *_plane(results)]
+    items += [Heading("Depth, waves above still water, buoyancy out of the water", 2), _depth_figure(rows)]
+    items += [_regimes(rows, columns, steepness) for steepness in _values(rows, "steepness")]
+    return [*items, *_stiffness(rows), *_plane(folder.directory / "out_of_plane")]
 
 
-def _gaps(results: Results, scene: Scene) -> Table:
-    heads = tuple(Column(title, align="left") for title in ("not in the paper", "taken here", "why"))
-    depth, density = f"{number(scene.water.depth_m)} m", f"{number(scene.water.density_kgpm3)} kg/m³"
-    EI, GI = scene.tether.bending_stiffness_Nm2, scene.tether.torsion_stiffness_Nm2
-    breaking = [line.trajectory.scene.tether for line in results.lines if line.trajectory is not None]
-    of_line = f"{number(breaking[0].bending_stiffness_Nm2)} N m²" if breaking else EMPTY
+def _gaps(directory: Path, scene: Scene) -> Table:
+    from engine import load_scene
+    from engine.natural_frequencies import natural_frequencies
+
+    line, told = load_scene("breaking_line").tether, _provenance(directory / "buoy")
+    modes = natural_frequencies(scene)
     why = "where the two waves come out as the paper says; varied below"
-    if results.calm is not None:
-        # with the whole sphere's buoyancy, as taken here
-        out_m = results.calm.rest_m + 0.5 * scene.buoy.diameter_m - scene.water.depth_m
+    if modes is not None:
+        rest_m = scene.tether.length_m * (1.0 + modes.static_strain)
+        out_m = rest_m + 0.5 * scene.buoy.diameter_m - scene.water.depth_m
         where = f"{number(out_m, 2)} m above" if out_m > 0.0 else f"{number(-out_m, 2)} m below"
-        why += f"; the top of the buoy at rest is then {where} still water" if math.isfinite(out_m) else ""
+        why += f"; the top of the buoy at rest is then {where} still water"
+    stiff = f"{number(scene.tether.bending_stiffness_Nm2)} and {number(scene.tether.torsion_stiffness_Nm2)} N m²"
+    repeats = f"to {percent(told['strobe_tolerance'])} of its range" if "strobe_tolerance" in told else EMPTY
     rows = (
-        ("water depth H", depth, why),
-        ("density of the water", density, "then the added mass is half the displaced mass"),
+        ("water depth H", f"{number(scene.water.depth_m)} m", why),
         (
-            "EI, GI of the tether",
-            f"{number(EI)} and {number(GI)} N m²",
-            "a published example of the same buoy and rope; EI varied below",
+            "density of the water",
+            f"{number(scene.water.density_kgpm3)} kg/m³",
+            "then the added mass is half the displaced mass",
         ),
+        ("EI, GI of the tether", stiff, "a published example of the same buoy and rope; EI varied below"),
         ("waves above still water", TREATMENTS[scene.waves.above_still_water], "the plainest reading; varied below"),
         ("a buoy that leaves the water", TREATMENTS[scene.buoy.submergence], "eq. (30) as printed; varied below"),
         ("start of the waves, their phase", "all of it from t = 0, crest at the anchor", "“impulsively from rest”"),
-        ("EI of the breaking line", of_line, "a solid rod; varied in the part `breaking_line`"),
+        (
+            "EI of the breaking line",
+            f"{number(line.bending_stiffness_Nm2)} N m²",
+            "a solid rod; varied in the part `breaking_line`",
+        ),
         ("drag on the breaking line", "none, in air", "not mentioned"),
         ("grids, time steps, tolerances", "see each scene", "each part repeats runs tighter and finer"),
-        ("where the buoy's motion is called periodic", f"to {percent(STROBE_TOLERANCE)} of its range", "not mentioned"),
+        ("where the buoy's motion is called periodic", repeats, "not mentioned"),
     )
+    heads = tuple(Column(title, align="left") for title in ("not in the paper", "taken here", "why"))
     return Table(heads, rows, "What had to be chosen to run section 4, and why it was chosen so.")
 
 
-def _depth_text(results: Results) -> Text:
-    row = results.dependence[0]
-    above, drowned = (_all(results, key) for key in TREATED)
-    return Text(
-        f"Both waves at {count(len({row['depth_m'] for row in results.dependence}), 'depth')}, with "
-        f"{listed(f'`{word}` ({TREATMENTS.get(word, word)})' for word in above)} above still water, and with buoyancy "
-        f"{listed(f'`{word}` ({TREATMENTS.get(word, word)})' for word in drowned)}; everything else as shipped (EI = "
-        f"{number(row['bending_stiffness_Nm2'])} N m²)."
-    )
+def _provenance(part: Path) -> dict:
+    import json
+
+    try:
+        return json.loads((part / "provenance.json").read_text(encoding="utf-8"))
+    except (OSError, ValueError):
+        return {}
 
 
-def _all(results: Results, key: str) -> list[str]:
-    return list(dict.fromkeys(row[key] for row in results.dependence))
+def _table(part: Path) -> tuple[list[dict], dict[str, Quantity]]:
+    import pandas
+
+    columns = read_columns(part)
+    words = [name for name, column in columns.items() if column.digits is None]
+    table = pandas.read_csv(part / "table.csv", dtype=dict.fromkeys(words, str)).fillna(dict.fromkeys(words, ""))
+    return table.to_dict("records"), columns
+
+
+def _values(rows: list[dict], key: str) -> list:
+    return sorted({row[key] for row in rows})
+
+
+def _like(rows: list[dict], **wanted) -> list[dict]:
+    """Rows that are as the scene as shipped, which leads the study, but for depth and what is wanted, by depth."""
+    keys = {key: rows[0][key] for key in (ABOVE, DROWNED, EI)} | wanted
+    found = [row for row in rows if all(row[key] == entry for key, entry in keys.items())]
+    return sorted(found, key=lambda row: (row[DEPTH], row[EI]))
 
 
 def curve(name: str, rows: list[dict], over: str) -> Curve:
     """Exponent over a column of the table, of the runs that ended as asked."""
     good = [row for row in rows if row["status"] == "ok"]
-    columns = zip(*((row[over], row[_EXPONENT], row[_ERROR], row["regime"]) for row in good), strict=True)
+    columns = zip(*((row[over], row[VALUE], row[ERROR], row["regime"]) for row in good), strict=True)
     return Curve(name, *columns) if good else Curve(name, (), (), (), ())
 
 
-def _depth_figure(results: Results) -> Figure:
-    above, drowned = (_all(results, key) for key in TREATED)
-
-    def curves(kA: float, under: str) -> list[Curve]:
-        rows = {word: results.over_depth(kA, above_still_water=word, submergence=under) for word in above}
-        return [curve(f"waves: {word}", found, "depth_m") for word, found in rows.items()]
-
+def _depth_figure(rows: list[dict]) -> Figure:
     panels = [
-        [(f"kA = {number(kA)}, buoyancy {under}", curves(kA, under)) for under in drowned] for kA in (SMALL, LARGE)
+        [
+            (
+                f"kA = {number(kA)}, buoyancy {under}",
+                [
+                    curve(f"waves: {word}", _like(rows, steepness=kA, **{ABOVE: word, DROWNED: under}), DEPTH)
+                    for word in dict.fromkeys(row[ABOVE] for row in rows)
+                ],
+            )
+            for under in dict.fromkeys(row[DROWNED] for row in rows)
+        ]
+        for kA in _values(rows, "steepness")
     ]
-    seen = " ".join(_depth_words(results))
     caption = (
         "Largest Lyapunov exponent (tangent dynamics, one standard error) over the water depth, which the paper does "
         "not give (depths evenly spaced), for the treatments of waves above still water (colours) and of buoyancy "
-        f"(columns); marks tell the regime. What to see: {seen} From `dependence/table.csv`."
+        f"(columns); marks tell the regime. {_treatments(rows)} From `dependence/table.csv`."
     )
-    alt = f"Exponent over water depth in {len(panels)} rows of panels: {seen}"
+    alt = f"Exponent over water depth in {len(panels)} rows of panels, marked by regime."
     return Figure(depth_exponents(panels, r"$H$ (m)"), caption, alt)
 
 
-def _depth_words(results: Results) -> tuple[str, ...]:
-    lines = []
-    for kA in (SMALL, LARGE):
-        rows = [
-            row
-            for row in results.dependence
-            if row["steepness"] == kA and row["status"] == "ok" and _usual_stiffness(results, row)
-        ]
-        positive: dict[tuple[str, str], list[float]] = {}
-        for row in sorted(rows, key=lambda row: row["depth_m"]):
-            if row[_EXPONENT] - 2.0 * row[_ERROR] > 0.0:
-                positive.setdefault((row["above_still_water"], row["submergence"]), []).append(row["depth_m"])
-        kinds: dict[str, int] = {}
-        for row in rows:
-            kind = kind_of(row["regime"]) or "no verdict"
-            kinds[kind] = kinds.get(kind, 0) + 1
-        said = listed(f"{words} {kind}" for kind, words in sorted(kinds.items()))
-        line = f"at kA = {number(kA)} {said} of {count(len(rows), 'run')}"
-        where = "; ".join(
-            f"{word}, {under}: H = {listed(map(number, depths))} m" for (word, under), depths in positive.items()
-        )
-        line += f". Exponents two errors above zero: {where}." if positive else ". No exponent two errors above zero."
-        lines.append(line[0].upper() + line[1:])
-    return tuple(lines)
+def _treatments(rows: list[dict]) -> str:
+    said = dict.fromkeys(word for key in (ABOVE, DROWNED) for word in (row[key] for row in rows))
+    return "; ".join(f"`{word}`: {TREATMENTS.get(word, word)}" for word in said) + "."
 
 
-def _usual_stiffness(results: Results, row: dict) -> bool:
-    return row["bending_stiffness_Nm2"] == results.usual()["bending_stiffness_Nm2"]
-
-
-def _regimes(results: Results, steepness: float) -> Table:
-    above, drowned = (_all(results, key) for key in TREATED)
-    pairs = [(word, under) for under in drowned for word in above]
-    depths = sorted({row["depth_m"] for row in results.over_depth(steepness)})
+def _regimes(rows: list[dict], columns: dict[str, Quantity], steepness: float) -> Table:
+    pairs = list(dict.fromkeys((row[ABOVE], row[DROWNED]) for row in rows))
     heads = (Column("H", "m"), *(Column(f"{word}, {under}", align="left") for word, under in pairs))
     by_place = [
-        {row["depth_m"]: row for row in results.over_depth(steepness, above_still_water=word, submergence=under)}
+        {row[DEPTH]: row for row in _like(rows, steepness=steepness, **{ABOVE: word, DROWNED: under})}
         for word, under in pairs
     ]
-    rows = tuple((number(depth), *(_cell(rows.get(depth)) for rows in by_place)) for depth in depths)
+    depths = sorted({depth for found in by_place for depth in found})
+    cells = tuple((number(H), *(_cell(found.get(H), columns) for found in by_place)) for H in depths)
     caption = (
         f"Regime and largest exponent, bits per wave period, at kA = {number(steepness)}, by depth, treatment of the "
-        "waves above still water and of buoyancy. From `dependence/table.csv`."
+        "waves above still water and of buoyancy."
     )
-    return Table(heads, rows, caption, small=True)
+    return Table(heads, cells, caption, small=True)
 
 
-def _cell(row: dict | None) -> str:
-    if row is None:
-        return EMPTY
-    if row["status"] != "ok":
-        return row["status"]
-    said = f"{row['regime'] or 'no verdict'}"
-    if math.isfinite(row[_EXPONENT]):
-        said += f", {decimals(row[_EXPONENT], 3)}\u00a0±\u00a0{decimals(row[_ERROR], 3)}"
-    return said
+def _cell(row: dict | None, columns: dict[str, Quantity]) -> str:
+    if row is None or row["status"] != "ok":
+        return EMPTY if row is None else row["status"]
+    regime = row["regime"] or "no verdict"
+    return f"{regime}, {plus_minus(columns, row, VALUE, ERROR)}" if math.isfinite(row[VALUE]) else regime
 
 
-def _stiffness(results: Results) -> list[Item]:
-    usual = results.usual()
-    rows = [row for row in results.dependence if all(row[key] == usual[key] for key in TREATED)]
-    varied = {(row["steepness"], row["depth_m"]) for row in rows if not _usual_stiffness(results, row)}
+def _stiffness(rows: list[dict]) -> list[Item]:
+    usual = [row for row in rows if all(row[key] == rows[0][key] for key in (ABOVE, DROWNED))]
+    varied = sorted({(row["steepness"], row[DEPTH]) for row in usual if row[EI] != rows[0][EI]})
+    heading = Heading("Bending stiffness", 2)
     if not varied:
-        return [Text("The stiffness was not varied.")]
-
-    def at(steepness: float, depth: float) -> list[dict]:
-        found = [row for row in rows if (row["steepness"], row["depth_m"]) == (steepness, depth)]
-        return sorted(found, key=lambda row: row["bending_stiffness_Nm2"])
-
-    panel = [
-        [
-            (
-                f"kA = {number(kA)}",
-                [curve(f"H = {number(H)} m", at(kA, H), "bending_stiffness_Nm2") for k, H in sorted(varied) if k == kA],
-            )
-            for kA in sorted({k for k, _ in varied})
-        ]
-    ]
-    spread = []
-    for kA, H in sorted(varied):
-        good = [row for row in at(kA, H) if row["status"] == "ok"]
-        ends = [(min(row[c] for row in good), max(row[c] for row in good)) for c in ("radius_min_m", "radius_max_m")]
-        off = max(high - low for low, high in ends)
+        return [heading, Text("The stiffness was not varied.")]
+    panel, spread = {}, []
+    for kA, H in varied:
+        some = sorted((row for row in usual if (row["steepness"], row[DEPTH]) == (kA, H)), key=lambda row: row[EI])
+        panel.setdefault(f"kA = {number(kA)}", []).append(curve(f"H = {number(H)} m", some, EI))
+        good = [row for row in some if row["status"] == "ok"]
+        ends = [[row[end] for row in good] for end in ("radius_min_m", "radius_max_m")]
+        off = max(max(values) - min(values) for values in ends)
         kinds = listed(dict.fromkeys(kind_of(row["regime"]) or "no verdict" for row in good))
-        at_ends = f"ends of the range of r within {number(off, 2)} m"
-        spread.append(f"kA = {number(kA)}, H = {number(H)} m: {at_ends}; {kinds}")
+        spread.append(
+            f"kA = {number(kA)}, H = {number(H)} m: ends of the range of r within {number(off, 2)} m; {kinds}"
+        )
     caption = (
-        "Largest exponent over the bending stiffness of the tether, which the paper does not give. What to see: "
-        f"{'; '.join(spread)}. A positive exponent of a run whose buoy repeats its motion belongs to the folds of the "
+        "Largest exponent over the bending stiffness of the tether, which the paper does not give. "
+        f"{'. '.join(spread)}. A positive exponent of a run whose buoy repeats its motion belongs to the folds of the "
         "slack rope. From `dependence/table.csv`."
     )
-    picture = depth_exponents(panel, r"$EI$ (N m$^2$)", log=True)
-    return [Figure(picture, caption, f"Exponent over bending stiffness: {'; '.join(spread)}.")]
+    picture = depth_exponents([list(panel.items())], r"$EI$ (N m$^2$)", log=True)
+    return [heading, Figure(picture, caption, f"Exponent over bending stiffness: {'. '.join(spread)}.")]
 
 
-def _plane(results: Results) -> list[Item]:
+def _plane(part: Path) -> list[Item]:
     heading = Heading("Two dimensions or three", 2)
-    if results.plane is None:
-        return [heading, Text("The part `out_of_plane` is not there.")]
     try:
-        pairs = read_pairs(results.plane)
+        study = read_study(read_folder(part))
+        return [heading, *comparison_items(study, read_pairs(study))[1:]]
     except FolderError:
-        pairs = []
-    return [heading, *comparison_items(results.plane, pairs)[1:]]
+        return [heading, Text("The part `out_of_plane` is not there.")]

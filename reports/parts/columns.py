@@ -14,10 +14,9 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from .content import Column, Table, sub
-from .folder import FolderError
+from .faults import FolderError
 from .wording import EMPTY, decimals, number
 
-FILE = "columns.csv"
 HEADER = ("name", "unit", "symbol", "meaning", "digits")
 Name = str | tuple[str, str]  # a column, or a value and its standard error in one column
 
@@ -41,6 +40,12 @@ class Quantity:
         """The symbol with its subscripts, or the name in words."""
         return re.sub(r"_(\w+)", lambda found: sub(found[1]), self.symbol) or self.name.replace("_", " ")
 
+    @property
+    def label(self) -> str:
+        """The head with its unit as an axis of a figure has it, in matplotlib's mathematics."""
+        symbol = re.sub(r"_(\w+)", r"$_{\\mathrm{\1}}$", self.symbol) or self.name.replace("_", " ")
+        return f"{symbol} ({self.unit or '–'})"
+
     def cell(self, entry: object) -> str:
         """An entry of this column in print: a dash where the table is empty.
 
@@ -49,19 +54,24 @@ class Quantity:
         if self.digits is None:
             text = "" if entry is None or entry != entry else str(entry)
             return text or EMPTY
-        value = math.nan if entry is None or entry == "" else float(entry)
+        value = number_of(entry)
         hidden = value != 0.0 and abs(value) < 0.5 * 10.0**-self.digits
         return number(value, 2) if hidden else decimals(value, self.digits)
 
 
-def read_columns(directory: str | Path) -> dict[str, Quantity]:
-    """The dictionary of a folder's table by name, in the order of the table.
+def number_of(entry: object) -> float:
+    """An entry of a table as a number, nan where it is empty."""
+    return math.nan if entry is None or entry == "" else float(entry)
 
-    Raises FolderError where the folder has none, as folders made before there were dictionaries, or an unsound one.
+
+def read_columns(directory: str | Path, table: str = "table.csv") -> dict[str, Quantity]:
+    """The dictionary of a table of a folder by name, in the order of the table: columns.csv, or X_columns.csv of X.csv.
+
+    Raises FolderError where there is none, as in folders made before there were dictionaries, or an unsound one.
     """
-    path = Path(directory) / FILE
+    name = "columns.csv" if table == "table.csv" else f"{table.removesuffix('.csv')}_columns.csv"
     try:
-        with open(path, encoding="utf-8", newline="") as file:
+        with open(Path(directory, name), encoding="utf-8", newline="") as file:
             reader = csv.DictReader(file)
             if tuple(reader.fieldnames or ()) != HEADER:
                 raise ValueError(f"its first line is not {','.join(HEADER)}")
@@ -70,10 +80,10 @@ def read_columns(directory: str | Path) -> dict[str, Quantity]:
             raise ValueError(f"a row has not {len(HEADER)} entries")
         found = [Quantity(**{**row, "digits": int(row["digits"]) if row["digits"] else None}) for row in rows]
     except FileNotFoundError:
-        fault = f"{FILE} is missing (made by an older version: run the command again, finished runs are found)"
+        fault = f"{name} is missing (made by an older version: run the command again, finished runs are found)"
         raise FolderError(Path(directory), [fault]) from None
-    except (OSError, ValueError, TypeError) as error:
-        raise FolderError(Path(directory), [f"{FILE} cannot be read: {error}"]) from None
+    except (OSError, ValueError) as error:
+        raise FolderError(Path(directory), [f"{name} cannot be read: {error}"]) from None
     return {column.name: column for column in found}
 
 

@@ -2,10 +2,16 @@
 
 from __future__ import annotations
 
+import csv
 import json
+import math
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
+
+from .columns import Quantity, read_columns
+from .faults import FolderError
 
 if TYPE_CHECKING:
     import pandas
@@ -20,44 +26,65 @@ PARTS = {
 }
 WORDS = ("status", "regime", "regime_tighter", "run_key", "message")  # columns of text in every table
 
-
-class FolderError(ValueError):
-    """The folder cannot be reported on; `faults` lists every reason, str() shows them all."""
-
-    def __init__(self, directory: Path, faults: list[str]):
-        self.faults = tuple(faults)
-        super().__init__("\n".join([f"no report can be made of {directory}:", *(f"  - {fault}" for fault in faults)]))
+__all__ = ["Folder", "FolderError", "Row", "campaign_of", "no_folder", "read_folder", "read_rows"]
 
 
 @dataclass(frozen=True)
 class Folder:
-    """What a finished campaign left behind, read and checked: the trajectories stay on disk until asked for."""
+    """What a finished campaign left behind, read and checked: the trajectories stay on disk until asked for.
+
+    columns: what the columns of the table are, by name.
+    """
 
     directory: Path
     provenance: dict
     table: pandas.DataFrame
     scene: Scene
+    columns: dict[str, Quantity]
 
     def trajectory_path(self, run_key: str) -> Path:
         return self.directory / "trajectories" / f"{run_key}.nc"
 
 
-def read_folder(directory: str | Path, columns: tuple[str, ...], words: tuple[str, ...] = ()) -> Folder:
-    """Read and check a campaign's folder.
+def read_folder(directory: str | Path, columns: tuple[str, ...] = (), words: tuple[str, ...] = ()) -> Folder:
+    """Read and check a campaign's folder: its table has the columns of its dictionary, and text where that says so.
 
-    Args: `columns` the columns its table must have; `words` those of them that hold text, besides WORDS.
+    columns: those without which there is no report. words: columns of text beyond those the dictionary tells.
     Raises FolderError naming every part that is missing or cannot be read.
     """
     directory = Path(directory)
     if not directory.is_dir():
         raise FolderError(directory, [no_folder(directory)])
     faults = [f"{name} is missing ({meaning})" for name, meaning in PARTS.items() if not (directory / name).exists()]
+    try:
+        told = read_columns(directory)
+    except FolderError as error:
+        faults += error.faults
+        told = {}
+    text = {*WORDS, *words, *(name for name, one in told.items() if one.digits is None and _told(told))}
+    numbers = [*columns, *(name for name, one in told.items() if one.digits is not None)]
     provenance = _read(directory / "provenance.json", _provenance, faults)
-    table = _read(directory / "table.csv", lambda path: _table(path, columns, (*WORDS, *words)), faults)
+    table = _read(directory / "table.csv", lambda path: _table(path, columns, text, numbers), faults)
     scene = _read(directory / "scene.toml", _scene, faults)
+    if table is not None and told and (unknown := [name for name in table.columns if name not in told]):
+        faults.append(f"columns.csv does not tell of all columns of table.csv: {', '.join(unknown)}")
     if faults:
         raise FolderError(directory, faults)
-    return Folder(directory, provenance, table, scene)
+    return Folder(directory, provenance, table, scene, told)
+
+
+def _told(columns: dict[str, Quantity]) -> bool:
+    """Whether a dictionary says more than names."""
+    return any(one.digits is not None for one in columns.values())
+
+
+def read_rows(table: Path) -> list[dict[str, str]]:
+    """The rows of a table that a campaign may have left out, as they stand; none where it cannot be read."""
+    try:
+        with open(table, encoding="utf-8", newline="") as file:
+            return list(csv.DictReader(file))
+    except (OSError, ValueError):
+        return []
 
 
 def no_folder(directory: Path) -> str:
@@ -92,24 +119,41 @@ def _provenance(path: Path) -> dict:
     return content
 
 
-def _table(path: Path, columns: tuple[str, ...], words: tuple[str, ...]) -> pandas.DataFrame:
+def _table(path: Path, needed: tuple[str, ...], text: set[str], numbers: list[str]) -> pandas.DataFrame:
     import pandas
 
-    text = dict.fromkeys(words, str)
-    table = pandas.read_csv(path, dtype=text, keep_default_na=True)
-    absent = [column for column in columns if column not in table.columns]
+    table = pandas.read_csv(path, dtype=dict.fromkeys(text, str), keep_default_na=True)
+    absent = [column for column in needed if column not in table.columns]
     if absent:
         raise ValueError(f"column{'s' if len(absent) > 1 else ''} missing: {', '.join(absent)}")
     if table.empty:
         raise ValueError("it has no rows")
-    for column in columns:
-        if column not in text:
-            table[column] = pandas.to_numeric(table[column])
-    filled = {column: table[column].fillna("") for column in text if column in table.columns}
-    return table.assign(**filled)
+    changed = {name: table[name].fillna("") for name in table.columns if name in text}
+    changed |= {name: pandas.to_numeric(table[name]) for name in numbers if name in table.columns and name not in text}
+    return table.assign(**changed)
 
 
 def _scene(path: Path):
     from engine import load_scene
 
     return load_scene(path)
+
+
+@dataclass(frozen=True, eq=False)
+class Row:
+    """One row of a campaign's table."""
+
+    row: Mapping[str, object]
+
+    def __getitem__(self, column: str):
+        """An entry: text, or a number that is nan where the table leaves it empty or has no such column."""
+        return self.row.get(column, math.nan)
+
+    @property
+    def ok(self) -> bool:
+        """Whether the run reached its full length."""
+        return self["status"] == "ok"
+
+    def known(self, column: str) -> bool:
+        """Whether the row has a number in that column."""
+        return math.isfinite(self[column])

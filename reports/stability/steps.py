@@ -7,7 +7,7 @@ import numpy as np
 from ..figures.scene_shares import scene_shares
 from ..figures.step_maps import step_maps
 from ..parts.content import Column, Figure, Heading, Item, Table, Text
-from ..parts.wording import EMPTY, number
+from ..parts.wording import EMPTY, decimals, number
 from .folder import Study
 
 
@@ -18,10 +18,11 @@ def map_items(study: Study) -> list[Item]:
         Text(
             "The map from one step to the next is differenced about a state of rest, with all its unknowns: the "
             "conserved variables q and V of every node and their rates. A method multiplies a mode of rate λ by its "
-            "stability function R(λ Δt). Taut, rates are imaginary and nothing may leave the unit circle, however long "
-            "the step. Under compression rates are real, and what grows has to lie outside: a step of many e-folds "
-            "damps what should grow, or lets it grow the wrong way round, in every implicit method. Steps that control "
-            "their own length are held to two e-folds of the fastest buckle for this reason (`solver.growth_per_step`)."
+            "stability function R(λ Δt). In a taut line the rates are imaginary and no eigenvalue may leave the unit "
+            "circle, however long the step. Under compression the rates are real, and the modes that grow must have "
+            "eigenvalues outside: a step of many e-folds damps them instead, in every implicit method. Steps that "
+            "control their own length are held to two e-folds of the fastest buckle for this reason "
+            "(`solver.growth_per_step`)."
         ),
     ]
     rows = []
@@ -45,58 +46,42 @@ def map_items(study: Study) -> list[Item]:
         Column("distance from closed form"), Column("should grow"), Column("grow"),
     )  # fmt: skip
     caption = (
-        "Eigenvalues by line and method. Distance: the largest of those of the closed form's eigenvalues R(λ Δt) from "
-        "the nearest one found. Grow: how many modes should and do lie outside the unit circle. From `step_maps.json`."
+        "Eigenvalues by line and method. Distance: the largest of those of the closed form's eigenvalues R(λ Δt) "
+        "from the nearest one found. Grow: how many modes should and do lie outside the unit circle. From "
+        "`step_maps.json`."
     )
     return [*items, Table(columns, tuple(rows), caption, small=True)]
 
 
 def _row(line: dict, name: str, entry: dict) -> tuple[str, ...]:
-    excess = entry["largest"] - 1
+    excess = f"{entry['largest'] - 1:.1e}".replace("-", "−")
     distance = f"{entry['distance']:.1e}" if "distance" in entry else EMPTY
-    growing = (str(entry["growing"]), str(entry["growing_found"])) if "growing" in entry else (EMPTY, EMPTY)
-    return line["title"], name, number(line["step_s"], 3), f"{excess:.1e}".replace("-", "−"), distance, *growing
+    growing = tuple(str(entry.get(key, EMPTY)) for key in ("growing", "growing_found"))
+    return line["title"], name, number(line["step_s"], 3), excess, distance, *growing
 
 
 def share_items(study: Study) -> list[Item]:
-    """Operations and times of scenes with parts taken away and added."""
+    """Times of scenes with parts taken away and added."""
     scenes = study.shares["scenes"]
-    names = list(scenes)
-    operations = np.array([scenes[name]["newton"] for name in names], float)
-    times = np.array([scenes[name]["us_per_newton"] for name in names])
+    times = np.array([scene["us_per_newton"] for scene in scenes.values()])
+    shares = times / times[0]
     rows = tuple(
-        (
-            name,
-            str(entry["newton"]),
-            str(entry["functions"]),
-            str(entry["output"]),
-            number(entry["us_per_newton"], 3),
-            number(entry["us_per_step"], 3),
-            ", ".join(word for word in PARTS if word in entry["kernels"]) or EMPTY,
-        )
-        for name, entry in scenes.items()
+        (name, number(scene["us_per_newton"], 3), decimals(share, 2), number(scene["us_per_step"], 3))
+        for (name, scene), share in zip(scenes.items(), shares, strict=True)
     )
     columns = (
-        Column("scene", align="left"), Column("operations"), Column("functions"), Column("output"),
-        Column("iteration", "µs"), Column("step", "µs"), Column("kernels that only some scenes call", align="left"),
+        Column("scene", align="left"), Column("Newton iteration", "µs"), Column("share of the first"),
+        Column("step", "µs"),
     )  # fmt: skip
+    rounds = study.shares["rounds"]
     caption = (
-        "Cost of the parts of a scene. Operations: floating-point ones of one Newton iteration on 41 nodes, functions: "
-        "of them square roots, exponentials and the like; output: of one stored sample. Counted from the kernels' own "
-        f"sources. Times: medians of {study.shares['rounds']} rounds in turns on one core. From `scene_shares.json`."
+        f"Cost of the parts of a scene: medians of {rounds} rounds in turns on one core. From `scene_shares.json`."
     )
-    low, high = operations.min() / operations[0], operations.max() / operations[0]
-    seen = f"from {number(low, 2)} to {number(high, 2)} of the first scene's operations"
+    seen = f"{number(shares.min(), 2)} to {number(shares.max(), 2)} times the time of the first scene"
     figure = Figure(
-        scene_shares(names, operations, times),
-        f"What each part of a scene costs: {seen}. Memory traffic and what all scenes share keep times closer together "
-        "than operations. From `scene_shares.json`.",
-        f"Bars of operations and time per Newton iteration for {len(names)} scenes: {seen}.",
+        scene_shares(list(scenes), times),
+        f"What each part of a scene costs: a Newton iteration takes {seen}. A scene without a part does not compute "
+        "it. From `scene_shares.json`.",
+        f"Bars of the time of a Newton iteration for {len(scenes)} scenes: {seen}.",
     )
     return [Heading("What a scene does not need"), figure, Table(columns, rows, caption, small=True)]
-
-
-PARTS = (
-    "sweep_bent", "sweep_unbent", "sweep", "wave_field", "wave_field_3d", "current_field", "planar_current",
-    "current_field_3d", "shock_tension", "rotation_vector",
-)  # fmt: skip

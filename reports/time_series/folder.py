@@ -2,54 +2,52 @@
 
 from __future__ import annotations
 
-import csv
 import json
 from dataclasses import dataclass
 from pathlib import Path
-
-import numpy as np
+from typing import TYPE_CHECKING
 
 from ..parts.folder import FolderError, no_folder
+
+if TYPE_CHECKING:
+    import pandas
 
 CURVES = ("series", "spectrum", "section", "divergence", "dimension")
 
 
 @dataclass(frozen=True, eq=False)
 class Judged:
-    """What the command left: `answer` and `provenance` as written, `page` its text, `curves` by file and column (n,),
-    NaN where a cell is empty, in the order of the columns."""
+    """What the command left: `answer` and `provenance` as written, `page` its text, `curves` by file, NaN where a cell
+    is empty."""
 
     answer: dict
     provenance: dict
     page: str
-    curves: dict[str, dict[str, np.ndarray]]
+    curves: dict[str, pandas.DataFrame]
 
 
 def read_judged(directory: str | Path) -> Judged:
     """Read the folder. Raises FolderError naming every file that is missing or cannot be read."""
+    import pandas
+
     directory = Path(directory)
     if not directory.is_dir():
         raise FolderError(directory, [no_folder(directory)])
-    faults: list[str] = []
-
-    def read(name, reader):
+    found, faults = {}, []
+    readers = {"answer.json": _json, "provenance.json": _json, "answer.txt": lambda path: path.read_text("utf-8")}
+    readers |= {f"{name}.csv": lambda path: pandas.read_csv(path, dtype=float) for name in CURVES}
+    for name, reader in readers.items():
         try:
-            return reader((directory / name).read_text(encoding="utf-8"))
+            found[name] = reader(directory / name)
         except FileNotFoundError:
             faults.append(f"{name} is missing (python -m analysis writes it)")
-        except (OSError, ValueError, KeyError, IndexError) as error:
+        except (OSError, ValueError) as error:
             faults.append(f"{name} cannot be read: {error}")
-        return None
-
-    answer, provenance = read("answer.json", json.loads), read("provenance.json", json.loads)
-    page = read("answer.txt", str)
-    curves = {name: read(f"{name}.csv", _columns) for name in CURVES}
     if faults:
         raise FolderError(directory, faults)
-    return Judged(answer, provenance, page, curves)
+    curves = {name: found[f"{name}.csv"] for name in CURVES}
+    return Judged(found["answer.json"], found["provenance.json"], found["answer.txt"], curves)
 
 
-def _columns(text: str) -> dict[str, np.ndarray]:
-    head, *rows = csv.reader(text.splitlines())
-    cells = np.array([[float(cell) if cell else np.nan for cell in row] for row in rows]).reshape(-1, len(head))
-    return dict(zip(head, cells.T, strict=True))
+def _json(path: Path) -> dict:
+    return json.loads(path.read_text(encoding="utf-8"))

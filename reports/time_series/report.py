@@ -2,11 +2,8 @@
 
 from __future__ import annotations
 
+import math
 from pathlib import Path
-
-import numpy as np
-
-from analysis.any_series.words import number as with_digits
 
 from ..figures.series_panels import SHOWN, growth_and_dimension, record_and_spectrum, return_map
 from ..parts.content import Column, Figure, Heading, Item, Listing, Report, Table, Text
@@ -25,62 +22,56 @@ def report(directory: str | Path) -> Report:
     """The content of the report on a folder of `python -m analysis`. Raises FolderError for any other."""
     judged = read_judged(directory)
     source = judged.provenance
-    items = [*_verdict(judged), *_figures(judged), *_evidence(judged), *_origin(judged)]
+    items = [*_verdict(judged.answer), *_figures(judged), *_evidence(judged.answer), *_origin(judged)]
     title, under = f"Regular or chaotic: {source['column']}", f"column {source['column']} of {source['file']}"
     return Report(title, under, tuple(items))
 
 
-def _verdict(judged: Judged) -> list[Item]:
-    answer = judged.answer
-    section, unit = answer["section"], answer["unit_of_time"]
+def _verdict(answer: dict) -> list[Item]:
+    unit, section, delays = answer["unit_of_time"], answer["section"], answer["embedding"]
     rows = []
     for name, one in answer["exponents"].items():
-        value = _with_error(one["nats_per_time"], one["error"])
+        value = _digits(one["nats_per_time"], one["error"])
         rows.append((f"exponent, {name.capitalize()}", value, f"nats/{unit}", one["reason"]))
-    rows.append(("K of the 0-1 test", with_digits(answer["zero_one"]["K"]), "1", answer["zero_one"]["reason"]))
-    dimension = answer["dimension"]
-    delays = answer["embedding"]
-    short = answer["exponents"]["wolf"]["reason"]  # what is too short for delays is so for neighbours
+    # A record that is too short for delays is too short for neighbours.
+    short = answer["exponents"]["wolf"]["reason"]
     how = short if delays is None else f"a delay of {delays['delay_samples']} samples"
-    rows.append(("correlation dimension", _with_error(dimension["value"], dimension["error"]), "1", how))
-    rows.append(("white noise, at most", with_digits(answer["noise"]), "as the column", "`analysis/neighbours.py`"))
-    columns = (
-        Column("measure", align="left"), Column("value"), Column("unit", align="left"), Column("from", align="left"),
-    )  # fmt: skip
+    rows += [
+        ("K of the 0-1 test", _digits(answer["zero_one"]["K"]), "1", answer["zero_one"]["reason"]),
+        ("correlation dimension", _digits(**answer["dimension"]), "1", how),
+        ("white noise, at most", _digits(answer["noise"]), "as the column", "`analysis/neighbours.py`"),
+    ]
+    step = f"{answer['samples']} samples, one every {answer['step']:.6g} {unit}"
     return [
         Heading("Answer"),
         Text(f"The motion is {answer['regime']}: {answer['reason']}."),
-        Text(
-            f"{answer['samples']} samples, one every {answer['step']:.6g} {unit}, seen {SEEN[section['kind']]}: "
-            f"{section['points']} points."
+        Text(f"{step}, seen {SEEN[section['kind']]}: {section['points']} points."),
+        Table(
+            _heads("measure", "value", "unit", "from"),
+            tuple(rows),
+            "Measures with one standard error; none: no value, for the reason beside it.",
         ),
-        Table(columns, tuple(rows), "Measures with one standard error; none: no value, for the reason beside it."),
     ]
 
 
 def _figures(judged: Judged) -> list[Item]:
-    answer, curves = judged.answer, judged.curves
-    unit = "s" if answer["unit_of_time"] == "s" else "samples"
-    time, values = curves["series"].values()
-    frequency, amplitude = curves["spectrum"].values()
-    _, first, *_ = curves["section"].values()
-    steps, rosenstein, kantz = curves["divergence"].values()
-    table = curves["dimension"]
-    slopes = []
-    for delays in np.unique(table["delays"]):
-        own = table["delays"] == delays
-        slopes.append((int(delays), table["radius"][own], table["slope"][own]))
+    unit = judged.answer["unit_of_time"]
+    curves = {name: table.to_numpy().T for name, table in judged.curves.items()}
+    time, values = curves["series"]
+    steps, rosenstein, kantz = curves["divergence"]
+    table = judged.curves["dimension"]
+    slopes = [(int(m), own["radius"].to_numpy(), own["slope"].to_numpy()) for m, own in table.groupby("delays")]
     return [
         Heading("What was seen"),
         Figure(
-            record_and_spectrum(time, values, frequency, amplitude, (unit, judged.provenance["column"])),
+            record_and_spectrum(time, values, *curves["spectrum"], (unit, judged.provenance["column"])),
             f"The record and its amplitude spectrum. Above: the last {min(SHOWN, len(time))} samples (`series.csv`). "
             "Below: amplitude of eq. (31) over the later half (`spectrum.csv`): lines alone for a regular motion, a "
             "continuous floor for chaos and for noise.",
             "Two panels: the record over time, and its amplitude spectrum on a logarithmic scale.",
         ),
         Figure(
-            return_map(first),
+            return_map(curves["section"][1]),
             "The section (`section.csv`). Left: each point against the one before it; N spots for period N, a closed "
             "curve for a torus, a folded curve for chaos, a cloud for noise. Right: in the order of time.",
             "Two panels: the return map of the section, and its points in order.",
@@ -95,23 +86,14 @@ def _figures(judged: Judged) -> list[Item]:
     ]
 
 
-def _evidence(judged: Judged) -> list[Item]:
-    columns = (
-        Column("test", align="left"), Column("passed", align="left"), Column("value"), Column("compared with"),
-        Column("what it says", align="left"),
-    )  # fmt: skip
-    rows = tuple(
-        (
-            one["name"],
-            PASSED[one["passed"]],
-            with_digits(one["value"]),
-            with_digits(one["threshold"]),
-            printed(one["sentence"]),
-        )
-        for one in judged.answer["evidence"]
-    )
+def _evidence(answer: dict) -> list[Item]:
+    rows = []
+    for one in answer["evidence"]:
+        numbers = _digits(one["value"]), _digits(one["threshold"])
+        rows.append((one["name"], PASSED[one["passed"]], *numbers, printed(one["sentence"])))
+    heads = _heads("test", "passed", "value", "compared with", "meaning")
     caption = "Every test behind the word, in the order in which it was made (`analysis/verdicts.py`)."
-    return [Heading("Evidence"), Table(columns, rows, caption, small=True)]
+    return [Heading("Evidence"), Table(heads, tuple(rows), caption, small=True)]
 
 
 def _origin(judged: Judged) -> list[Item]:
@@ -122,5 +104,16 @@ def _origin(judged: Judged) -> list[Item]:
     return [Heading("Where it comes from"), Listing("\n".join(lines)), *said]
 
 
-def _with_error(value: float | None, error: float | None) -> str:
-    return with_digits(value, error).replace("+-", "±")
+def _heads(*titles: str) -> tuple[Column, ...]:
+    numbers = ("value", "compared with")
+    return tuple(Column(title, align="right" if title in numbers else "left") for title in titles)
+
+
+def _digits(value: float | None, error: float | None = None) -> str:
+    """A value with the digits that its error leaves, or four; "none" where there is no value."""
+    if value is None:
+        return "none"
+    if not error:
+        return f"{value:.4g}"
+    places = min(max(1 - math.floor(math.log10(error)), 0), 12)
+    return f"{value:.{places}f} ± {error:.{places}f}"

@@ -11,7 +11,8 @@ import pytest
 
 from campaigns import buoy_sweep
 from campaigns.buoy_sweep.rows import COLUMNS, buoy_row
-from campaigns.machinery.runner import Plan, make_job, run_campaign
+from campaigns.machinery.plan import Plan, make_job
+from campaigns.machinery.runner import run_campaign
 from engine import Trajectory, load_scene
 from tests.campaigns.clusters import ROOT, can_hide, cluster_of
 from tests.campaigns.conftest import finished, rows_of, start_sweep, until

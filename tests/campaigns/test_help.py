@@ -3,7 +3,7 @@
 import subprocess
 import sys
 
-from campaigns.buoy_sweep import STEEPNESS, read_order
+from campaigns.buoy_sweep import STEEPNESS, STUDY
 from tests.campaigns.conftest import ROOT
 
 OPTIONS = "--steepness --steepness-range --periods --transient --scene --set --jobs --backend --out --no-report"
@@ -21,7 +21,7 @@ def test_help_tells_every_option():
 
 
 def test_help_loads_nothing_heavy():
-    code = "import sys, campaigns.buoy_sweep as b; b.parser().format_help(); print(*sys.modules)"
+    code = "import sys, campaigns.buoy_sweep as b; b.STUDY.parser().format_help(); print(*sys.modules)"
     loaded = subprocess.run([sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True, check=True).stdout
     assert not {"numpy", "numba", "pandas", "pydantic", "joblib", "matplotlib", "dask"} & set(loaded.split())
 
@@ -33,9 +33,9 @@ def test_default_sweep_meets_the_papers_two_values():
 
 def test_no_argument_is_a_complete_order():
     faults = []
-    order = read_order([], faults)
+    order = STUDY.read_order([], faults)
     assert faults == []
-    assert list(order.scenes) == list(STEEPNESS)
-    assert all(scene.waves.steepness == value for value, scene in order.scenes.items())
+    assert [case.labels["steepness"] for case in order.cases] == list(STEEPNESS)
+    assert all(case.scene.waves.steepness == case.labels["steepness"] for case in order.cases)
     assert order.transient < order.periods
     assert order.how.out.as_posix() == "results/buoy_sweep"

@@ -31,7 +31,7 @@ MISTAKES = [
     (SWEEP, "--set depth_m=21", "did you mean 'water.depth_m'?"),
     (SWEEP, "--set tether.stiffness_N=5e4", "did you mean 'tether.tension.stiffness_N'?"),
     (SWEEP, "--set Water.depth_m=21", "did you mean 'water.depth_m'?"),
-    (SWEEP, "--set tether.tension.law=rubber", "one of 'linear', 'tanh', 'tabulated'"),
+    (SWEEP, "--set tether.tension.law=rubber", "one of 'linear', 'tabulated', 'tanh'"),
     (SWEEP, "--scene tethered_boy", "did you mean 'tethered_buoy'?"),
     (SWEEP, "--scene nowhere.toml", "there is no scene and no file 'nowhere.toml'"),
     (SWEEP, "--period 5", "did you mean --periods?"),

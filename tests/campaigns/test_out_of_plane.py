@@ -9,6 +9,7 @@ import pytest
 
 from campaigns import out_of_plane
 from campaigns.buoy_sweep.seeds import DIRECTIONS, SEED_MPS, in_space, velocity
+from campaigns.columns import names
 from campaigns.out_of_plane.rows import COLUMNS, bows, offplane_row
 from engine import load_scene
 from engine.trajectory import Profiles
@@ -35,9 +36,9 @@ def chosen(rows, **wanted):
 def test_everything_the_question_needs_is_run_once():
     order = out_of_plane.read_order([], faults := [])
     assert faults == []
-    keys = [scene.key() for scene in order.scenes.values()]
-    assert len(set(keys)) == len(keys)
-    runs = list(order.scenes)
+    scenes = {out_of_plane.variant(case): case.scene for case in order.cases}
+    assert len({scene.key() for scene in scenes.values()}) == len(order.cases)
+    runs = list(scenes)
     assert {run.steepness for run in runs} == {0.016, 0.13}
     assert {run.seed_mps for run in runs} >= {1e-3, 1e-5, 1e-10}
     assert {run.depth_m for run in runs} == {21.0, 21.6, 22.0, 22.5, 25.0}
@@ -45,16 +46,17 @@ def test_everything_the_question_needs_is_run_once():
     assert {run.nodes for run in runs} == {41, 81, 161}
     assert {run.seed_direction for run in runs} == {*DIRECTIONS, ""}
     planar = [run for run in runs if run.dimensions == 2]
-    assert len(planar) == 10 and all(order.scenes[run].output.lateral_growth for run in planar)
-    compared = [run for run in runs if out_of_plane.compared(run, order.base)]
+    assert len(planar) == 10 and all(scenes[run].output.lateral_growth for run in planar)
+    compared = [run for run in runs if out_of_plane.compared(run, out_of_plane.base_of(order))]
     pairs = [(depth, dimensions) for depth in (21.0, 21.6, 22.0) for dimensions in (2, 3)]
     assert sorted((run.depth_m, run.dimensions) for run in compared) == pairs
 
 
 def test_another_scene_becomes_the_base_of_what_is_varied():
     order = out_of_plane.read_order(["--set", "water.depth_m=23", "tether.nodes=61"], [])
-    assert (order.base.depth_m, order.base.nodes) == (23.0, 61)
-    assert {23.0, 21.0} <= {run.depth_m for run in order.scenes}
+    base = out_of_plane.base_of(order)
+    assert (base.depth_m, base.nodes) == (23.0, 61)
+    assert {23.0, 21.0} <= {case.labels["depth_m"] for case in order.cases}
 
 
 def test_rows_say_decay_with_its_rate_and_bursts_with_their_size(out):
@@ -85,7 +87,7 @@ def test_the_first_response_is_told_by_the_lateral_part_of_the_push(out):
 
 def test_a_planar_row_has_no_lateral_columns(out):
     for row in chosen(rows_of(out), dimensions=2):
-        assert all(row[name] == "" for name in COLUMNS if name.startswith(("buoy_", "rope_")))
+        assert all(row[name] == "" for name in names(COLUMNS) if name.startswith(("buoy_", "rope_")))
         assert row["loop_releases"] != "" and row["radius_max_m"] != ""
 
 
@@ -122,11 +124,11 @@ def test_a_record_that_is_not_finite_is_measured_up_to_there():
     assert row["buoy_motion"] == "growth"
     error = row["buoy_rate_error"] * math.log(2.0)
     assert abs(row["buoy_rate_nats_per_period"] - 5.0 * LARGE_RATE["growth"]) < 3 * error < 0.1
-    assert set(row) <= set(COLUMNS)
+    assert set(row) <= set(names(COLUMNS))
 
 
 def test_the_report_reads_columns_that_the_table_has():
-    assert set(READ) <= set(COLUMNS)
+    assert set(READ) <= set(names(COLUMNS))
 
 
 def test_bows_are_measured_from_the_straight_line():
@@ -169,6 +171,6 @@ def test_every_fault_is_named_at_once_and_nothing_is_written(tmp_path, capsys):
 
 
 def test_help_loads_nothing_heavy():
-    code = "import sys, campaigns.out_of_plane as o; o.parser().format_help(); print(*sys.modules)"
+    code = "import sys, campaigns.out_of_plane as o; o.STUDY.parser().format_help(); print(*sys.modules)"
     loaded = subprocess.run([sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True, check=True).stdout
     assert not {"numpy", "numba", "pandas", "scipy", "matplotlib", "pydantic"} & set(loaded.split())

@@ -8,7 +8,7 @@ import pytest
 
 from campaigns import paper
 from campaigns.machinery.folder import CampaignStopped
-from campaigns.machinery.runner import Summary
+from campaigns.machinery.plan import Summary
 from campaigns.paper import dependence, parts, results
 
 

@@ -10,6 +10,7 @@ import pytest
 
 from campaigns import buoy_sweep
 from campaigns.buoy_sweep.rows import COLUMNS
+from campaigns.columns import names
 from campaigns.machinery import provenance
 from engine import load_scene, source_hash
 from tests.campaigns.conftest import ROOT, USUAL, rows_of
@@ -88,7 +89,7 @@ def test_scene_file_can_be_run_again(sweep, tmp_path):
 
 def test_unknown_is_empty(sweep):
     _, rows, _ = sweep("--steepness", "0.02", "0.05", raises=(0.05,))
-    assert list(rows[0]) == list(COLUMNS)
+    assert list(rows[0]) == list(names(COLUMNS))
     for row in rows:
         assert row["regime"] == ""
         assert all(entry == "" for name, entry in row.items() if "lyapunov" in name or "offplane" in name)

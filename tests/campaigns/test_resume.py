@@ -4,7 +4,7 @@ import itertools
 
 import pytest
 
-from campaigns.machinery.runner import make_job
+from campaigns.machinery.plan import make_job
 from engine import load_scene
 from tests.campaigns.conftest import finished
 

@@ -8,12 +8,12 @@ import pytest
 
 from campaigns.buoy_sweep.repeats import accuracy_row
 from campaigns.buoy_sweep.rows import COLUMNS, buoy_row, regime_of
+from campaigns.machinery.batches import MOST_SENT, Group, groups_of, run_group
 from campaigns.machinery.cluster import difference, facts
 from campaigns.machinery.folder import trajectory_path
 from campaigns.machinery.kept_run import KeptRun
-from campaigns.machinery.one_run import received, reuse, run_one
-from campaigns.machinery.runner import Plan, make_job
-from campaigns.machinery.side_by_side import MOST_SENT, Group, grouped, run_group
+from campaigns.machinery.plan import Plan, make_job
+from campaigns.machinery.worker import received, reuse, run_one
 from engine import Trajectory, load_scene
 from engine.trajectory import TrajectoryError
 from tests.campaigns.conftest import finished
@@ -71,7 +71,7 @@ def test_a_run_that_does_not_fit_on_the_disk_stops_the_campaign(plan, monkeypatc
     def full(*_):
         raise OSError(28, "No space left on device")
 
-    monkeypatch.setattr("campaigns.machinery.one_run.write_atomic", full)
+    monkeypatch.setattr("campaigns.machinery.worker.write_atomic", full)
     assert "is full" in received(plan, one, sent).stop
     assert finished(plan.directory) == {}
 
@@ -84,7 +84,7 @@ def test_a_failed_run_has_nothing_to_send(plan):
 
 def test_a_worker_loses_no_more_than_the_lanes_hold(plan):
     jobs = [job(round(0.01 + 0.002 * number, 3)) for number in range(50)]
-    groups = grouped(plan, jobs)
+    groups = groups_of(plan, jobs)
     assert sum(len(group.jobs) for group in groups) == 50 and max(len(group.jobs) for group in groups) <= MOST_SENT
 
 

@@ -5,9 +5,10 @@ from functools import partial
 import pytest
 
 from campaigns.buoy_sweep.rows import COLUMNS, buoy_row
+from campaigns.machinery.batches import FEWEST, MOST, groups_of
 from campaigns.machinery.folder import CampaignStopped
-from campaigns.machinery.runner import Plan, make_job, run_campaign
-from campaigns.machinery.side_by_side import FEWEST, MOST, grouped
+from campaigns.machinery.plan import Plan, make_job
+from campaigns.machinery.runner import run_campaign
 from engine import load_scene
 from tests.campaigns.conftest import finished, rows_of
 from tests.campaigns.fake_engine import FakeEngine
@@ -82,17 +83,18 @@ def test_a_full_disk_stops_the_campaign_and_keeps_what_is_finished(campaign):
 def test_groups_are_even_and_hold_every_job_once(tmp_path):
     many = jobs_of([round(0.01 + 0.0005 * i, 4) for i in range(250)])
     plan = Plan(tmp_path, None, None, (), "loky", 2, simulate_each=FakeEngine().each)
-    groups = grouped(plan, many)
+    groups = groups_of(plan, many)
     sizes = [len(group.jobs) for group in groups]
     assert len(groups) % 2 == 0 and max(sizes) - min(sizes) <= 1 and max(sizes) <= MOST
     assert sorted(job.key for group in groups for job in group.jobs) == sorted(job.key for job in many)
-    assert grouped(plan, many[: FEWEST - 1]) == []
+    assert groups_of(plan, many[: FEWEST - 1]) == []
 
 
 def test_what_the_engine_runs_one_by_one_is_not_put_together(tmp_path):
     plan = Plan(tmp_path, None, None, (), "loky", 2, simulate_each=FakeEngine().each)
-    assert grouped(plan, jobs_of(VALUES, {"output.profiles": True})) == []
+    assert groups_of(plan, jobs_of(VALUES, {"output.profiles": True})) == []
     assert (
-        grouped(Plan(tmp_path, None, None, (), "threading", 2, simulate_each=FakeEngine().each), jobs_of(VALUES)) == []
+        groups_of(Plan(tmp_path, None, None, (), "threading", 2, simulate_each=FakeEngine().each), jobs_of(VALUES))
+        == []
     )
-    assert grouped(Plan(tmp_path, None, None, (), "loky", 2), jobs_of(VALUES)) == []
+    assert groups_of(Plan(tmp_path, None, None, (), "loky", 2), jobs_of(VALUES)) == []

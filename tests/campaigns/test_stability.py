@@ -9,8 +9,9 @@ from pathlib import Path
 import pytest
 
 from campaigns import stability
+from campaigns.columns import names
 from campaigns.machinery.folder import CampaignStopped
-from campaigns.machinery.row_store import kept_row
+from campaigns.machinery.row_cache import kept_row
 from campaigns.stability import run, tasks
 from campaigns.stability.cases import ABOVE_BAR, REFUSED, Case, all_cases
 from campaigns.stability.run import case_row
@@ -40,7 +41,7 @@ def test_verdicts(case, verdict, status):
     row = case_row(case)
     assert (row["verdict"], row["run_status"]) == (verdict, status), row
     assert row["status"] == ("unexplained" if verdict == "unexplained" else "ok")
-    assert set(row) <= set(run.COLUMNS)
+    assert set(row) <= set(names(run.COLUMNS))
     assert row["message"] or status == "ok"
 
 

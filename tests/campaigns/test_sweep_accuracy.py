@@ -9,6 +9,7 @@ import pytest
 
 from campaigns import buoy_sweep
 from campaigns.buoy_sweep.repeats import AS_RUN, COLUMNS, EARLY, FINER, SHARE, TIGHTER, chosen, first_periods, lengths
+from campaigns.columns import names
 from engine import load_scene
 from engine.trajectory import TangentGrowth
 from reports.buoy_sweep.repeats import accuracy_items
@@ -62,7 +63,7 @@ def test_the_least_and_the_most_violent_run_are_repeated(out):
     assert [(row["role"], row["label"]) for row in rows] == 3 * [("regular", "0.016")] + 3 * [("violent", "0.13")]
     assert [row["run"] for row in rows] == 2 * [AS_RUN, TIGHTER, FINER]
     assert {row["periods"] for row in rows} == {str(EARLY)}
-    assert set(rows[0]) == set(COLUMNS)
+    assert set(rows[0]) == set(names(COLUMNS))
     scene = load_scene("tethered_buoy")
     for base, tighter, finer in (rows[:3], rows[3:]):
         assert float(tighter["rtol"]) == pytest.approx(scene.solver.rtol / 10) and tighter["nodes"] == base["nodes"]
@@ -119,7 +120,7 @@ def test_a_verdict_that_changes_is_said(out, tmp_path):
         row |= {"verdict": "period-1", "same_verdict": "1"}
     rows[-1] |= {"verdict": "chaotic", "same_verdict": "0"}
     with open(copy / "accuracy" / "table.csv", "w", newline="") as file:
-        writer = csv.DictWriter(file, COLUMNS)
+        writer = csv.DictWriter(file, names(COLUMNS))
         writer.writeheader()
         writer.writerows(rows)
     text = said(copy)

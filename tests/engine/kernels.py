@@ -8,18 +8,21 @@ from types import SimpleNamespace
 
 import numpy as np
 
+from engine import arrays
 from engine import run as engine_run
 from engine.parameters import record_of
 from engine.perturbations.lateral import COEFFICIENTS, WIDTH, carry_lateral, lateral_stage
-from engine.perturbations.tangent import carry
+from engine.perturbations.tangent import Base, carry
 from engine.physics.currents import current_field, current_field_3d
 from engine.physics.ends import upper_end, upper_end_3d
 from engine.physics.sea import sea_field
 from engine.physics.waves import wave_field, wave_field_3d
+from engine.planar import columns as col
+from engine.planar import elimination as planar_bent
+from engine.planar import elimination_unbent as planar_unbent
 from engine.planar import node as planar_node
 from engine.planar import state as planar
-from engine.planar.elimination import sweep_bent
-from engine.planar.elimination_unbent import sweep_unbent
+from engine.record import STATE
 from engine.spatial import elimination as spatial_bent
 from engine.spatial import elimination_unbent as spatial_unbent
 from engine.spatial import node as spatial_node
@@ -27,7 +30,7 @@ from engine.spatial import state as spatial
 from engine.time.newton import newton
 from engine.time.status import OK
 from engine.time.steps import runge_kutta_step
-from engine.time.time_loop import STATE, guard_turns, march
+from engine.time.time_loop import guard_turns, march
 
 
 def parameters_of(scene, before=()):
@@ -47,8 +50,8 @@ class Stage:
         space = scene.motion.dimensions == 3
         self.n = int(self.p["nodes"])
         self.state, self.node = (spatial, spatial_node) if space else (planar, planar_node)
-        bent, unbent = (spatial_bent.sweep, spatial_unbent.sweep_unbent) if space else (sweep_bent, sweep_unbent)
-        self.eliminate = bent if self.p["bent"] else unbent
+        bent, unbent = (spatial_bent, spatial_unbent) if space else (planar_bent, planar_unbent)
+        self.eliminate = bent.eliminate_bent if self.p["bent"] else unbent.eliminate_unbent
         self.work = self.state.work_arrays.py_func(self.p, self.n)
         self.X, self.F, self.Q, self.E, self.D, self.C_tilde = self.work
 
@@ -72,32 +75,37 @@ class Stage:
     def quantities(self, cq, cv, in_motion, Y, C_tilde, F):
         """What the node kernel makes of a state of the plane: q, N, G, the slope of T, EI kappa_s."""
         self.places(Y)
-        self.node.node_quantities(self.p, self.tables, cq, cv, in_motion, Y, C_tilde, F, self.Q)
+        self._quantities(arrays.Stage(0.0, in_motion, cq, cv), Y, C_tilde, F)
         Q = self.Q
-        return SimpleNamespace(q=Q[:, 5:7], slope=Q[:, 2], N=Q[:, 3:5], G=Q[:, 9:11], moment_s=-Q[:, 18])
+        q, N, G = (Q[:, at : at + 2] for at in (col.QX, col.NX, col.GX))
+        return SimpleNamespace(q=q, slope=Q[:, col.SLOPE], N=N, G=G, moment_s=-Q[:, col.M])
+
+    def _quantities(self, stage, Y, C_tilde, F):
+        self.C_tilde[:], self.F[:] = C_tilde, F
+        self.node.node_quantities(self.p, self.tables, stage, Y, self.work)
 
     def update(self, cq, cv, in_motion, Y, C_tilde, F, viscosity=None, t=0.0):
         """Newton update D at a state, with the water F and the viscosity (n, 2) frozen."""
         if viscosity is not None:
             self.Q[:, -2:] = viscosity
         self.places(Y)
-        self.node.node_quantities(self.p, self.tables, cq, cv, in_motion, Y, C_tilde, F, self.Q)
-        stage = self.p, self.tables, t, cq, cv, in_motion
-        assert self.eliminate(*stage, Y, C_tilde, self.X, F, self.Q, self.E, self.D)
+        stage = arrays.Stage(t, in_motion, cq, cv)
+        self._quantities(stage, Y, C_tilde, F)
+        assert self.eliminate(self.p, self.tables, stage, Y, self.work)
         return self.D.copy()
 
     def newton(self, t, cq, cv, tolerance, most, Y, C_tilde):
         """Solve a stage for Y in place: (code, iterations)."""
         self.C_tilde[:] = C_tilde
-        work = self.C_tilde, *self.work[:5]
-        return newton(self.p, self.tables, t, 1.0, cq, cv, tolerance, most, Y, *work)
+        return newton(self.p, self.tables, arrays.Stage(t, 1.0, cq, cv), tolerance, most, Y, self.work)
 
     def lateral(self, rate, Y, K, F, dC_tilde):
         """Change dC (n, 2) = (q_y, V_y) of a stage in the plane with rates K (n, 4) for a change dC_tilde (n, 2)."""
         dC = np.zeros((self.n, 2))
         work = np.zeros((self.n, COEFFICIENTS)), np.zeros((self.n, WIDTH))
         self.places(Y)
-        lateral_stage(self.p, self.tables, 0.0, rate, self.X, Y, K, self.Q, F, dC_tilde, *work, dC)
+        base = Base(0.0, rate, 1.0, Y, K)
+        lateral_stage(self.p, self.tables, base, self.X, self.Q, F, dC_tilde, *work, dC)
         return dC
 
 
@@ -142,7 +150,8 @@ class Steps:
             self.record[name] = value
         s = max(int(self.record["stages"]), 2)
         self.T = np.zeros((chunk, 3))
-        self.Ys, self.Ks = np.zeros((chunk, s, *self.inner.Y.shape)), np.zeros((chunk, s, *self.inner.C.shape))
+        motion = self.inner.motion
+        self.Ys, self.Ks = np.zeros((chunk, s, *motion.Y.shape)), np.zeros((chunk, s, *motion.C.shape))
 
     def chunks(self):
         """Yield the number of steps kept, until the run is over; fails if it ends early."""
@@ -150,32 +159,31 @@ class Steps:
         assert self.state["status"] == OK
         while not run.done():
             self.state["trail"] = 0
-            march(
-                self.record, self.tables, self.state, run.Y, run.Y_before, run.C, run.K, run.samples,
-                run.profiles, run.energies, run.sums, self.T, self.Ys, self.Ks, run.goal,
-            )  # fmt: skip
+            trail = arrays.Trail(self.T, self.Ys, self.Ks)
+            march(self.record, self.tables, self.state, run.motion, run.output, trail, run.goal)
             assert self.state["status"] == OK
             yield int(self.state["trail"])
 
     def trail(self, first, count):
-        return [part[first : first + count] for part in (self.T, self.Ys, self.Ks)]
+        return arrays.Trail(*(part[first : first + count] for part in (self.T, self.Ys, self.Ks)))
 
     def carry(self, first, count, vectors, rates, waters):
         """Perturbations (k, n, 4) in place along kept steps; returns the growth (k,) of each, nats."""
         growth = np.zeros((1, len(vectors)))
-        carry(self.record, self.tables, 1e9, count, *self.trail(first, count), vectors, rates, waters, growth)
+        carry(self.record, self.tables, 1e9, count, self.trail(first, count), vectors, rates, waters, growth)
         return growth[0]
 
     def carry_lateral(self, first, count, weights, across, rates):
         """A perturbation (n, 2) across the plane in place along kept steps; returns its growth, nats."""
         growth = np.zeros(1)
-        carry_lateral(self.record, self.tables, 1e9, count, *self.trail(first, count), weights, across, rates, growth)
+        carry_lateral(self.record, self.tables, 1e9, count, self.trail(first, count), weights, across, rates, growth)
         return growth[0]
 
     def repeat(self, t, dt, dt_before, one_stage, state, new):
         """One Runge-Kutta step from state = (Y, Y_before, C, K) into new = (Ys, Ks, C_new); returns its code."""
         work = self.inner.kind.work_arrays.py_func(self.record, len(state[0]))
-        return runge_kutta_step(self.record, self.tables, t, dt, dt_before, bool(one_stage), *state, *new, work)[0]
+        step, before, trial = arrays.Step(t, dt, dt_before, bool(one_stage)), arrays.Motion(*state), arrays.Trial(*new)
+        return runge_kutta_step(self.record, self.tables, step, before, trial, work)[0]
 
     def guard(self, state, Y):
         """After a step: (code, whether a loop was released); state: (1,) of `new_state`."""

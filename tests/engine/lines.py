@@ -58,13 +58,13 @@ class Motion:
         self.h = self.tables[self.record["grid_at"] :][: int(self.record["nodes"]) - 1]
         self.s = np.concatenate([[0.0], np.cumsum(self.h)])
         if start is not None:
-            self.inner.Y[:] = self.inner.Y_before[:] = start
+            self.inner.motion.Y[:] = self.inner.motion.Y_before[:] = start
             self.inner.state["small_steps"] = 3
             self.inner.state["dt"] = WHOLE_STARTER_S / 3
 
     @property
     def Y(self):
-        return self.inner.Y
+        return self.inner.motion.Y
 
     @property
     def time_s(self):

@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from campaigns.buoy_sweep.rows import COLUMNS, buoy_row
+from campaigns.columns import names
 from engine.scene import load_scene
 from engine.trajectory import Trajectory
 
@@ -29,7 +30,7 @@ def campaign(directory: Path, steepness, periods=80, transient=20, failing=None,
         run.save(directory / "trajectories" / f"{key}.nc")
         rows.append({"steepness": value, **buoy_row(run, transient), "run_key": key})
     with open(directory / "table.csv", "w", newline="", encoding="utf-8") as file:
-        writer = csv.DictWriter(file, COLUMNS, lineterminator="\n")
+        writer = csv.DictWriter(file, names(COLUMNS), lineterminator="\n")
         writer.writeheader()
         writer.writerows(rows)
     base = load_scene("tethered_buoy", overrides or {})

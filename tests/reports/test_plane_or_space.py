@@ -1,7 +1,5 @@
 """What the sweep's report says of planar runs with loop releases is what the out-of-plane campaign finds."""
 
-from dataclasses import replace
-
 import pytest
 
 from campaigns import out_of_plane
@@ -17,8 +15,9 @@ def test_the_planar_run_is_good_enough_for_the_buoy_but_not_for_its_path(tmp_pat
     words = ["--jobs", "2", "--no-report", "--out", str(tmp_path / "out")]
     order = out_of_plane.read_order(words, faults := [])
     assert not faults and order.periods - order.transient == 200
-    scenes = {case: scene for case, scene in order.scenes.items() if out_of_plane.compared(case, order.base)}
-    assert out_of_plane.study(replace(order, scenes=scenes), words, None) == 0
+    base = out_of_plane.base_of(order)
+    order.cases = [case for case in order.cases if out_of_plane.compared(out_of_plane.variant(case), base)]
+    assert out_of_plane.STUDY.conduct(order, words) == 0
     pairs = read_pairs(read_study(read_folder(tmp_path / "out", COLUMNS, WORDS)))
     assert [pair.depth for pair in pairs] == ["21", "21.6", "22"]
     assert all(depth in COMPARED for depth in ("21.0", "21.6", "22.0")) and "200 wave periods" in COMPARED

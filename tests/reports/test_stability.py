@@ -6,6 +6,7 @@ import re
 
 import pytest
 
+from campaigns.columns import names
 from campaigns.stability.run import COLUMNS
 from campaigns.stability.tasks import FUZZ_COLUMNS
 from reports import build
@@ -71,8 +72,8 @@ RANDOM = [
 def folder(place, cases=CASES, random=RANDOM):
     place.mkdir()
     for name, columns, rows in (
-        ("table.csv", COLUMNS, [{"part": "case", "dimensions": 2, **row} for row in cases]),
-        ("fuzz.csv", FUZZ_COLUMNS, random),
+        ("table.csv", names(COLUMNS), [{"part": "case", "dimensions": 2, **row} for row in cases]),
+        ("fuzz.csv", names(FUZZ_COLUMNS), random),
     ):
         with open(place / name, "w", newline="", encoding="utf-8") as file:
             writer = csv.DictWriter(file, columns)

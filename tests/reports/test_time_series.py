@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from analysis.any_series.command import main
+from campaigns.time_series import main
 from reports import build
 from reports.figures.series_panels import record_and_spectrum
 from reports.parts.content import Figure, first_sentence

@@ -9,17 +9,14 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import partial
 from importlib import metadata
-from pathlib import Path
 
 from campaigns.accuracy.peers import cabledyn, elastica, moordyn
+from campaigns.accuracy.peers.record import nothing
 from campaigns.accuracy.works import BY_NAME
-from campaigns.machinery.kept_run import KeptRun
-
-REFERENCE, CHECK, TIMED, OURS = "peer-reference", "peer-check", "peer", "ours-for-peer"
-OURS_REFINED = (321, 1e-5)
+from engine.trajectory import Trajectory
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Peer:
     """Another code. package, module: as installed and as imported.
 
@@ -87,75 +84,10 @@ PEERS = (
 )  # fmt: skip
 
 
-def peer_jobs(
-    out: Path, works: tuple[str, ...], quick: bool, references: dict[str, KeptRun]
-) -> tuple[list, list, list]:
-    """Jobs of all other codes: (their references and ours for them, what checks those, what is timed)."""
-    from campaigns.machinery.folder import trajectory_path
-
-    first, second, timed = [], [], []
-    for peer in PEERS:
-        version = peer.version()
-        for work in works:
-            settings = (peer.quick if quick else peer.settings).get(work, ())
-            if not settings:
-                continue
-            if not version:
-                away = partial(absent, package=peer.package)
-                timed.append(_job(peer, work, TIMED, *settings[0], "", away, None, None))
-                continue
-            ours = own = references.get(work)
-            if peer.ours:
-                first.append(_ours(peer, work))
-                ours = KeptRun(trajectory_path(out, first[-1].key))
-            refined = peer.refined.get(work, ())
-            for nodes, value in refined[:1]:
-                first.append(_job(peer, work, REFERENCE, nodes, value, version, None, None, ours))
-                own = KeptRun(trajectory_path(out, first[-1].key))
-            second += [_job(peer, work, CHECK, nodes, value, version, None, own, ours) for nodes, value in refined[1:]]
-            timed += [_job(peer, work, TIMED, nodes, value, version, None, own, ours) for nodes, value in settings]
-    return first, second, timed
-
-
-def _ours(peer: Peer, work: str):
-    """Our own refined run with what the other code does differently."""
-    from campaigns.accuracy.rows import point_row
-    from campaigns.machinery.runner import make_job
-
-    nodes, rtol = OURS_REFINED
-    labels = {
-        "work": work,
-        "kind": OURS,
-        "method": "esdirk43",
-        "nodes": nodes,
-        "control": "rtol",
-        "setting": rtol,
-        "round": 0,
-    }
-    scene = BY_NAME[work].made({**peer.ours, "tether.nodes": nodes, "solver.rtol": rtol})
-    describe = partial(point_row, work_name=work)
-    return make_job(
-        scene, duration_s=BY_NAME[work].duration_s, labels=labels, describe=describe, made=f"{OURS} {peer.name}"
-    )
-
-
-def _job(peer: Peer, work: str, kind: str, nodes: int, value: float, version: str, run, own, ours):
-    from campaigns.accuracy.rows import point_row
-    from campaigns.machinery.row_store import made_by
-    from campaigns.machinery.runner import make_job
-
-    labels = {
-        "work": work, "kind": kind, "method": peer.name, "nodes": nodes, "control": peer.control, "setting": value,
-        "round": 0, "peer_version": version,
-    }  # fmt: skip
-    simulate = run or partial(_called, call=peer.run, nodes=nodes, setting=value)
-    describe = partial(point_row, work_name=work, reference=own, ours=ours)
-    sources = made_by({}, *(f"campaigns/accuracy/peers/{name}.py" for name in (peer.module, "deck", "record")))
-    made = f"{peer.name} {version} {kind} {nodes} {value!r} {sources}"
-    scene = scene_of(work, nodes if peer.package == "scipy" else None)
-    return make_job(
-        scene, duration_s=BY_NAME[work].duration_s, labels=labels, simulate=simulate, describe=describe, made=made
-    )
+def taking_part(works: tuple[str, ...], quick: bool) -> list[tuple[Peer, str, tuple]]:
+    """(code, work, its settings) of all that is asked of other codes."""
+    chosen = ((peer, peer.quick if quick else peer.settings) for peer in PEERS)
+    return [(peer, work, settings[work]) for peer, settings in chosen for work in works if settings.get(work)]
 
 
 def scene_of(work: str, nodes: int | None):
@@ -166,33 +98,27 @@ def scene_of(work: str, nodes: int | None):
     return BY_NAME[work].made(changes)
 
 
-def _called(scene, periods=None, duration_s=None, call=None, nodes=0, setting=0.0):
+def simulation(peer: Peer, version: str, nodes: int, setting: float) -> Callable:
+    """What stands in the place of engine.simulate: the run of another code, or the record that it is not installed."""
+    if not version:
+        return partial(absent, package=peer.package)
+    return partial(called, call=peer.run, nodes=nodes, setting=setting)
+
+
+def called(scene, periods=None, duration_s=None, call=None, nodes=0, setting=0.0) -> Trajectory:
     """The run of another code; what it raises becomes the record of a failed run, so that it is not tried again."""
-    import numpy as np
-
-    from campaigns.accuracy.peers.record import as_trajectory
-
     try:
         return call(scene, duration_s, nodes, setting)
     except Exception as error:
-        said = f"{type(error).__name__}: {error}"
-        return as_trajectory(scene, "solver-failed", said, np.empty(0), np.empty((0, 3)), {})
+        return nothing(scene, "solver-failed", f"{type(error).__name__}: {error}")
 
 
-def absent(scene, periods=None, duration_s=None, package=""):
+def absent(scene, periods=None, duration_s=None, package="") -> Trajectory:
     """The record of a code that is not installed."""
-    import numpy as np
-
-    from campaigns.accuracy.peers.record import as_trajectory
-
-    message = f"not installed; pip install {package}, or the extra bench of this project"
-    return as_trajectory(scene, "not-installed", message, np.empty(0), np.empty((0, 3)), {})
+    return nothing(scene, "not-installed", f"not installed; pip install {package}, or the extra bench of this project")
 
 
 def notes(works: tuple[str, ...], quick: bool) -> dict[str, str]:
     """What is left different, by name of the code, for those that take part."""
-    return {
-        f"{peer.name} {peer.version() or '(not installed)'}": peer.notes
-        for peer in PEERS
-        if set(works) & set(peer.quick if quick else peer.settings)
-    }
+    peers = dict.fromkeys(peer for peer, _, _ in taking_part(works, quick))
+    return {f"{peer.name} {peer.version() or '(not installed)'}": peer.notes for peer in peers}

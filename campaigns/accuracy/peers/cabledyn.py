@@ -48,12 +48,12 @@ Point2pz
 
 def simulate(scene, duration_s, segments, step_s):
     """A run as the engine's record: a Trajectory of the buoy's places, or the program's own words where it fails."""
-    from campaigns.accuracy.peers.record import as_trajectory
+    from campaigns.accuracy.peers.record import as_trajectory, nothing
 
     short = _program(_deck(scene, segments, step_s, 2 * step_s))
     wall_s, fault, table = _program(_deck(scene, segments, step_s, duration_s))
     if fault:
-        return as_trajectory(scene, "solver-failed", fault, np.empty(0), np.empty((0, 3)), {"wall_s": wall_s})
+        return nothing(scene, "solver-failed", fault, wall_s=wall_s)
     every = round(SAMPLE / step_s)
     time_s, x, z = table[::every].T
     places = np.column_stack([x, 0 * x, z + scene.water.depth_m])

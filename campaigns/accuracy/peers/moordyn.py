@@ -1,4 +1,4 @@
-"""The buoy scene in MoorDyn (2.7.2 from PyPI), for `campaigns.accuracy` and `benchmarks.planar_speed`.
+"""The buoy scene in MoorDyn (2.7.2 from PyPI), for `campaigns.accuracy`.
 
 How it is made a fair opponent
 - Same rope, buoy, water, gravity, start and wave. The rope is a MoorDyn line without bending and without internal
@@ -65,16 +65,6 @@ RK4 tScheme
 """
 
 
-def version():
-    """Version of the installed MoorDyn, or None."""
-    from importlib import metadata
-
-    try:
-        return metadata.version("moordyn")
-    except metadata.PackageNotFoundError:
-        return None
-
-
 @contextmanager
 def silent():
     """MoorDyn greets on the process's own stdout and stderr."""
@@ -121,16 +111,6 @@ def airy(scene):
         return u * np.cos(psi), w * np.sin(psi), u * omega * np.sin(psi), -w * omega * np.cos(psi)
 
     return water
-
-
-def run(scene, segments, steps_per_period, periods):
-    """Step MoorDyn through some wave periods.
-
-    steps_per_period : a multiple of the samples in a period.
-    Returns radius (m) every `SAMPLE` seconds, and the milliseconds per wave period spent in its stepping calls.
-    """
-    places, spent = stepped(scene, segments, steps_per_period, periods)
-    return np.hypot(places[:, 0], places[:, 1]), 1e3 * spent / periods
 
 
 def simulate(scene, duration_s, segments, steps_per_period):

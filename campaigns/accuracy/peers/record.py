@@ -26,3 +26,8 @@ def as_trajectory(scene, status, message, time_s, places_m, statistics, strain=N
         unknown = np.full_like(kept, np.nan)
         lines = Profiles(columns["time_s"][::every], s_m, unknown, unknown, unknown, kept, unknown, unknown)
     return Trajectory(scene, status, message, columns, {"end_time_s": end_s, **statistics}, lines)
+
+
+def nothing(scene, status: str, message: str, **statistics: float) -> Trajectory:
+    """A Trajectory without a sample, of a run that gave none."""
+    return as_trajectory(scene, status, message, np.empty(0), np.empty((0, 3)), statistics)

@@ -21,10 +21,12 @@ import time
 
 import numpy as np
 
-from campaigns.accuracy.peers.record import as_trajectory
+from campaigns.accuracy.peers.record import as_trajectory, nothing
+from engine.arrays import Stage
 from engine.compiled import kernel
 from engine.dimensions import conserved, size_of, work_arrays
 from engine.parameters import record_of
+from engine.record import STRETCH
 from engine.simd.elementary import copy_into
 from engine.time.newton import newton
 from engine.time.statics import first_guess, settle
@@ -39,15 +41,13 @@ LONGEST_S = 10.0  # of run time; a solver that needs more is stopped
 @kernel
 def rates(p, tables, t, C, Y, work, out):
     """f(t, C) into out (n, conserved); Y (n, unknowns): guess in, solution out. Returns the code of Newton's method."""
-    X, F, Q, E, D, C_tilde = work
+    Q, rate = work.Q, 1.0 / RESOLVENT_S
     half = size_of(p)[1] // 2
-    copy_into(C_tilde, C)
-    code, _ = newton(
-        p, tables, t, 1.0, 1.0 / RESOLVENT_S, 1.0 / RESOLVENT_S, NEWTON_TOLERANCE, MOST, Y, C_tilde, X, F, Q, E, D
-    )
+    copy_into(work.C_tilde, C)
+    code, _ = newton(p, tables, Stage(t, 1.0, rate, rate), NEWTON_TOLERANCE, MOST, Y, work)
     for k in range(C.shape[0]):
         for i in range(half):
-            out[k, i] = (Q[k, 5 + i] - C[k, i]) / RESOLVENT_S
+            out[k, i] = (Q[k, STRETCH + i] - C[k, i]) / RESOLVENT_S
             out[k, half + i] = (Y[k, half + i] - C[k, half + i]) / RESOLVENT_S
     return code
 
@@ -146,7 +146,7 @@ def run(scene, duration_s, method="Radau", rtol=1e-3, periods=None):
 
     equations = Equations(scene)
     if equations.status != OK:
-        return as_trajectory(scene, "statics-failed", "no static equilibrium", np.empty(0), np.empty((0, 3)), {})
+        return nothing(scene, "statics-failed", "no static equilibrium")
     C0 = equations.start()
     equations.f(0.0, C0)
     equations.jac(0.0, C0)
@@ -169,7 +169,7 @@ def run(scene, duration_s, method="Radau", rtol=1e-3, periods=None):
     statistics = {"wall_s": wall_s, "rhs_calls": equations.calls, "jacobians": equations.jacobians}
     statistics |= {"newton_failures": equations.faults, "steps": 0 if found is None else found.nlu}
     if found is None:
-        return as_trajectory(scene, status, message, t[:0], np.empty((0, 3)), statistics)
+        return nothing(scene, status, message, **statistics)
     C = found.y.T.reshape(len(found.t), -1, equations.size)
     places, strain, s = _lines(C, scene, equations)
     return as_trajectory(scene, status, message, found.t, places, statistics, strain, s)

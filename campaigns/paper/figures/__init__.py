@@ -11,26 +11,31 @@ import contextlib
 from functools import partial
 from pathlib import Path
 
-SOURCES = (
-    "analysis",
-    "engine",
-    "campaigns/paper/figures",
-    "reports/breaking_line",
-    "reports/buoy_sweep",
-    "reports/oscillator/folder.py",
-    "reports/out_of_plane/runs.py",
-    "reports/parts/figure_data.py",
-)
+NUMBERS = (2, 3, 4, 5, 6, 7, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20)  # 1 and 8 are sketches
+LEFT_OUT = "left_out.json"
+SOURCES = ("analysis", "engine", "campaigns/figure_data.py", "campaigns/paper/figures", "campaigns/paper/measures.py")
+
+
+def place_of(root: Path) -> Path:
+    """The folder of data and drawings within the campaign's folder."""
+    return root / "figures"
+
+
+def files_of(root: Path, number: int) -> tuple[Path, Path, Path]:
+    """Data, SVG and PNG of a figure of the paper; the drawings are the report's."""
+    stem = place_of(root) / f"fig_{number:02d}"
+    return stem.with_suffix(".nc"), stem.with_suffix(".svg"), stem.with_suffix(".png")
 
 
 def planners() -> dict[int, object]:
     """Figure of the paper -> what plans its data from the `Parts`."""
+    from campaigns.breaking_line.lines import FAST, SLOW
     from campaigns.paper.figures.breaking import breaking
-    from campaigns.paper.figures.buoy import LARGE, SMALL, history, spectra
+    from campaigns.paper.figures.buoy import history, spectra
     from campaigns.paper.figures.exponents import running_exponents
     from campaigns.paper.figures.offplane import offplane_histories
     from campaigns.paper.figures.sections import sections
-    from reports.breaking_line.runs import FAST, SLOW
+    from campaigns.paper.measures import LARGE, SMALL
 
     def of_line(cases, what):
         return partial(breaking, cases=cases, what=what)
@@ -68,11 +73,10 @@ def write_figure_data(folder: str | Path) -> dict[int, str]:
 
     A figure that can no longer be drawn loses its files. Raises OSError, which leaves every file whole.
     """
+    from campaigns import figure_data
     from campaigns.machinery.folder import read_json, write_json
-    from campaigns.machinery.row_store import made_by
+    from campaigns.machinery.row_cache import made_by
     from campaigns.paper.figures.plans import LeftOut, Parts
-    from reports.paper.figures import LEFT_OUT, files_of, place_of
-    from reports.parts import figure_data
 
     root = Path(folder)
     place = place_of(root)

@@ -1,9 +1,12 @@
 """Data of figures 2-7: the breaking line every 10 ms, four cases a figure (section 4.1), in the paper's own units."""
 
+import numpy as np
+
+from campaigns.breaking_line.lines import named
+from campaigns.figure_data import Array
 from campaigns.paper.figures.plans import LeftOut, Parts, Plan
-from reports.breaking_line.figures import instants
-from reports.breaking_line.runs import COLUMNS, WORDS, named
-from reports.parts.figure_data import Array
+
+INSTANT_S = 0.010
 
 SHOWN = {  # what a figure shows: the columns of the profiles
     "motion": ("x_m", "z_m"),
@@ -20,15 +23,21 @@ _UNITS = {
 
 def breaking(parts: Parts, cases: tuple[str, ...], what: str) -> Plan:
     """Figures 2-4 (cases FAST) and 5-7 (SLOW); what: a key of SHOWN."""
-    folder = parts.folder("breaking_line", COLUMNS, WORDS)
+    part = parts.part("breaking_line")
     runs, found = {}, []
     for case in cases:
-        runs[case] = parts.run(folder, f"case {named(case)}", case=case, kind="case")
+        runs[case] = parts.run(part, f"case {named(case)}", case=case, kind="case")
         found.append(runs[case][2])
         if runs[case][1].profiles is None:
             raise LeftOut(f"the run of case {named(case)} kept no profiles (`output.profiles`)")
     title = f"{what.capitalize()} of the breaking line, cases {named(cases[0])} to {named(cases[-1])}"
     return Plan(title, tuple(found), lambda: _arrays(runs, what))
+
+
+def instants(profiles) -> np.ndarray:
+    """Indices of the profiles every INSTANT_S."""
+    wanted = np.arange(0.0, profiles.time_s[-1] + 1e-9, INSTANT_S)
+    return np.unique(np.searchsorted(profiles.time_s, wanted - 1e-9).clip(max=len(profiles.time_s) - 1))
 
 
 def _arrays(runs: dict, what: str) -> dict[str, Array]:

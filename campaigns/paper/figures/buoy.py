@@ -7,20 +7,17 @@ window of eq. (31) ends, tau_0 + n T_i = 60 T_i.
 
 import numpy as np
 
+from campaigns.figure_data import Array
 from campaigns.paper.figures.plans import LeftOut, Parts, Plan
-from reports.buoy_sweep.figures import PAPER_WINDOW
-from reports.buoy_sweep.physics import natural_frequencies
-from reports.buoy_sweep.runs import COLUMNS, PAPER_STEEPNESS
-from reports.parts.figure_data import Array
-
-SMALL, LARGE = PAPER_STEEPNESS
+from campaigns.paper.measures import WINDOW, in_window
+from engine.natural_frequencies import natural_frequencies
 
 
 def buoy_run(parts: Parts, steepness: float):
-    """Folder, trajectory and Source of the run at a steepness of the paper. Raises LeftOut."""
-    folder = parts.folder("buoy", COLUMNS, ("planar_regime",))
-    _, trajectory, found = parts.run(folder, f"kA = {steepness:g}", steepness=steepness)
-    return folder, trajectory, found
+    """Part, trajectory and Source of the run at a steepness of the paper. Raises LeftOut."""
+    part = parts.part("buoy")
+    _, trajectory, found = parts.run(part, f"kA = {steepness:g}", steepness=steepness)
+    return part, trajectory, found
 
 
 def history(parts: Parts, steepness: float, side: str) -> Plan:
@@ -32,14 +29,14 @@ def history(parts: Parts, steepness: float, side: str) -> Plan:
 
 def _history(trajectory, side: str) -> dict[str, Array]:
     scene, columns = trajectory.scene, trajectory.columns
-    last = round(sum(PAPER_WINDOW) * scene.waves.period_s / scene.sample_step_s()) + 1
+    last = round(sum(WINDOW) * scene.waves.period_s / scene.sample_step_s()) + 1
     shown = {name: values[:last] for name, values in columns.items()}
     along = ("time_s",)
     arrays: dict[str, Array] = {
         "time_s": (along, shown["time_s"], "s", "time"),
         "wave_period_s": ((), scene.waves.period_s, "s", "wave period T_i"),
-        "window_start_periods": ((), PAPER_WINDOW[0], "1", "start of the window of eq. (31), in wave periods"),
-        "window_periods": ((), PAPER_WINDOW[1], "1", "length of the window of eq. (31), in wave periods"),
+        "window_start_periods": ((), WINDOW[0], "1", "start of the window of eq. (31), in wave periods"),
+        "window_periods": ((), WINDOW[1], "1", "length of the window of eq. (31), in wave periods"),
     }
     if side == "tension":
         static = columns["tension_top_N"][0]
@@ -63,10 +60,9 @@ def _history(trajectory, side: str) -> dict[str, Array]:
 def spectra(parts: Parts, steepness: float, sides: tuple[str, ...]) -> Plan:
     """Figures 12, 17 and 18: eq. (31) of the radial and the angular motion."""
     _, trajectory, found = buoy_run(parts, steepness)
-    needed = sum(PAPER_WINDOW)
-    done = trajectory.columns["time_s"][-1] / trajectory.scene.waves.period_s
-    if done < needed - 1e-6:
-        raise LeftOut(f"eq. (31) needs {needed} wave periods, the run at kA = {steepness:g} has {done:.4g}")
+    if not in_window(trajectory):
+        done = trajectory.columns["time_s"][-1] / trajectory.scene.waves.period_s
+        raise LeftOut(f"eq. (31) needs {sum(WINDOW)} wave periods, the run at kA = {steepness:g} has {done:.4g}")
     if natural_frequencies(trajectory.scene) is None:
         raise LeftOut("the buoy of this scene has no natural frequencies to mark")
     title = f"Spectrum of the buoy's {' and '.join(sides)} motion at kA = {steepness:g}"
@@ -84,13 +80,13 @@ def _spectra(trajectory, sides: tuple[str, ...]) -> dict[str, Array]:
         "natural_radial_radps": ((), modes.radial_radps, "rad s-1", "natural frequency, radial, section 4.2.1"),
         "natural_angular_radps": ((), modes.pendulum_radps, "rad s-1", "natural frequency, angular, section 4.2.1"),
         "static_radius_m": ((), static_m, "m", "static distance r_0 = l_0 + Dl"),
-        "start_periods": ((), PAPER_WINDOW[0], "1", "tau_0/T_i of eq. (31)"),
-        "periods": ((), PAPER_WINDOW[1], "1", "n of eq. (31)"),
+        "start_periods": ((), WINDOW[0], "1", "tau_0/T_i of eq. (31)"),
+        "periods": ((), WINDOW[1], "1", "n of eq. (31)"),
     }
     for side in sides:
         column, unit = {"radial": ("radius_m", "1"), "angular": ("angle_rad", "rad")}[side]
         motion = trajectory.columns[column] / (static_m if side == "radial" else 1.0)
-        found = spectrum(motion, scene.sample_step_s(), scene.waves.period_s, *PAPER_WINDOW)
+        found = spectrum(motion, scene.sample_step_s(), scene.waves.period_s, *WINDOW)
         name = "r/r_0" if side == "radial" else "theta"
         # the mean is bin 0, and no oscillation
         arrays["omega_radps"] = (("omega_radps",), found.angular_frequency_radps[1:], "rad s-1", "angular frequency")

@@ -6,10 +6,11 @@ the tangent dynamics, which needs no neighbours: the mean growth of an infinites
 
 import numpy as np
 
-from campaigns.paper.figures.buoy import LARGE, SMALL, buoy_run
+from campaigns.figure_data import Array
+from campaigns.judge import carried
+from campaigns.paper.figures.buoy import buoy_run
 from campaigns.paper.figures.plans import LeftOut, Parts, Plan
-from reports.buoy_sweep.motion import carried
-from reports.parts.figure_data import Array
+from campaigns.paper.measures import LARGE, SMALL
 
 LINEAR_PERIODS = 200  # kept whole, for a linear axis as in the paper; a longer record is drawn on a logarithmic one
 LATER_POINTS = 600
@@ -20,11 +21,11 @@ def running_exponents(parts: Parts) -> Plan:
     """Figure 14."""
     runs, found = {}, []
     for name, steepness in WAVES.items():
-        folder, runs[name], source = buoy_run(parts, steepness)
+        part, runs[name], source = buoy_run(parts, steepness)
         found.append(source)
         if not carried(runs[name]):
             raise LeftOut(f"the run at kA = {steepness:g} carried no perturbation (`output.tangent_vectors`)")
-    transient = int(folder.provenance["transient"])
+    transient = int(part.provenance["transient"])
     return Plan("Running maximum Lyapunov exponents", tuple(found), lambda: _exponents(runs, transient))
 
 

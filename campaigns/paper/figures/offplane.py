@@ -2,25 +2,35 @@
 
 import numpy as np
 
-from campaigns.paper.figures.buoy import LARGE, SMALL
+from campaigns.figure_data import Array
 from campaigns.paper.figures.plans import Parts, Plan
-from reports.out_of_plane.runs import COLUMNS, DISPLACEMENT, WORDS, envelope
-from reports.parts.figure_data import Array
+from campaigns.paper.measures import LARGE, SMALL
 
+DISPLACEMENT = {"buoy": "y_m", "rope": "offplane_m"}  # column of a trajectory
 WAVES = {"small": SMALL, "large": LARGE}  # in the order of the paper's key
 
 
 def offplane_histories(parts: Parts) -> Plan:
     """Figure 20."""
-    folder = parts.folder("out_of_plane", COLUMNS, WORDS)
-    base = dict(folder.provenance["base"])
+    part = parts.part("out_of_plane")
+    base = dict(part.provenance["base"])
     runs, found = {}, []
     for name, steepness in WAVES.items():
         label = f"kA = {steepness:g} with a push across the waves"
-        row, trajectory, one = parts.run(folder, label, **{**base, "steepness": steepness})
+        row, trajectory, one = parts.run(part, label, **{**base, "steepness": steepness})
         runs[name] = (row, trajectory)
         found.append(one)
     return Plan("Motion across the plane of the waves", tuple(found), lambda: _histories(runs))
+
+
+def envelope(trajectory, body: str) -> tuple[np.ndarray, np.ndarray]:
+    """Largest lateral distance in each wave period: (t/T_i (m,), m (m,))."""
+    from analysis import envelope_of
+
+    period_s = trajectory.scene.waves.period_s
+    values = np.abs(trajectory.columns[DISPLACEMENT[body]])
+    time, size = envelope_of(values[np.isfinite(values)], trajectory.scene.sample_step_s(), period_s)
+    return time / period_s, size
 
 
 def _histories(runs: dict) -> dict[str, Array]:

@@ -1,11 +1,13 @@
 """The parts of the paper's campaign as its figures take them: runs by name, or why there is none."""
 
+import json
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from reports.parts.figure_data import Array, Source, source
-from reports.parts.folder import Folder, FolderError, read_folder
+from campaigns.figure_data import Array, Source, source
+from campaigns.machinery.folder import trajectory_path
+from campaigns.tables import Row, read_rows
 
 
 class LeftOut(Exception):
@@ -21,39 +23,49 @@ class Plan:
     arrays: Callable[[], dict[str, Array]]
 
 
+@dataclass(frozen=True)
+class Part:
+    """A part's folder with its table and its provenance."""
+
+    folder: Path
+    rows: tuple[Row, ...]
+    provenance: dict
+
+
 @dataclass(frozen=True, eq=False)
 class Parts:
     """The folder of the campaign, and what was read of it: several figures show the same run."""
 
     root: Path
-    _folders: dict[str, Folder] = field(default_factory=dict)
+    _parts: dict[str, Part] = field(default_factory=dict)
     _runs: dict[Path, tuple] = field(default_factory=dict)
 
-    def folder(self, name: str, columns: tuple[str, ...], words: tuple[str, ...] = ()) -> Folder:
+    def part(self, name: str) -> Part:
         """A part by the name of its folder. Raises LeftOut where it is missing or unfinished."""
-        if name not in self._folders:
+        if name not in self._parts:
+            folder = self.root / name
             try:
-                self._folders[name] = read_folder(self.root / name, columns, words)
-            except FolderError as error:
-                raise LeftOut(f"the part `{name}` is not there: {'; '.join(error.faults)}") from None
-        return self._folders[name]
+                told = json.loads((folder / "provenance.json").read_text(encoding="utf-8"))
+                self._parts[name] = Part(folder, read_rows(folder / "table.csv"), told)
+            except FileNotFoundError as error:
+                raise LeftOut(f"the part `{name}` is not there: {Path(error.filename).name} is missing") from None
+            except (OSError, ValueError, KeyError) as error:
+                raise LeftOut(f"the part `{name}` cannot be read ({type(error).__name__}: {error})") from None
+        return self._parts[name]
 
-    def run(self, folder: Folder, label: str, **wanted):
-        """The one run of a part that is as wanted: (its row, its trajectory, its Source). Raises LeftOut."""
-        table = folder.table
-        for column, entry in wanted.items():
-            table = table[table[column] == entry]
-        if table.empty:
-            raise LeftOut(f"the part `{folder.directory.name}` holds no run of {label}")
-        row = table.iloc[0].to_dict()
+    def run(self, part: Part, label: str, **wanted) -> tuple[Row, object, Source]:
+        """The one run of a part that is as wanted: its row, its trajectory, its Source. Raises LeftOut."""
+        row = next((row for row in part.rows if all(row[column] == entry for column, entry in wanted.items())), None)
+        if row is None:
+            raise LeftOut(f"the part `{part.folder.name}` holds no run of {label}")
         if row["status"] != "ok":
             raise LeftOut(f"the run of {label} ended early ({row['status']}: {row['message']})")
-        path = folder.trajectory_path(row["run_key"])
+        path = trajectory_path(part.folder, row["run_key"])
         if path not in self._runs:
             self._runs[path] = self._load(path, label)
         return row, *self._runs[path]
 
-    def _load(self, path: Path, label: str) -> tuple:
+    def _load(self, path: Path, label: str) -> tuple[object, Source]:
         from engine.trajectory import Trajectory, TrajectoryError
 
         try:

@@ -4,50 +4,55 @@ Lengths over the buoy's diameter D, time in units of the radial natural frequenc
 is slack below 0 in both, and g' = r'/(D w_nr).
 """
 
-from campaigns.paper.figures.buoy import LARGE, buoy_run
+import numpy as np
+
+from campaigns.figure_data import Array, Source, source
+from campaigns.machinery.folder import trajectory_path
+from campaigns.paper.figures.buoy import buoy_run
 from campaigns.paper.figures.plans import LeftOut, Parts, Plan
-from reports.buoy_sweep.physics import natural_frequencies
-from reports.buoy_sweep.runs import strobed
-from reports.oscillator.folder import read_study
-from reports.parts.figure_data import Array, Source, source
-from reports.parts.folder import FolderError
+from campaigns.paper.measures import LARGE, strobed
+from engine.natural_frequencies import natural_frequencies
 
 LEAST_POINTS = 20
 
 
 def sections(parts: Parts) -> Plan:
     """Figure 19."""
-    folder, trajectory, found = buoy_run(parts, LARGE)
-    points = strobed(trajectory, int(folder.provenance["transient"]))
+    part, trajectory, found = buoy_run(parts, LARGE)
+    points = strobed(trajectory, int(part.provenance["transient"]))
     if len(points) < LEAST_POINTS:
         raise LeftOut(f"the section at kA = {LARGE:g} has {len(points)} points, {LEAST_POINTS} are needed")
-    study, other = _oscillator(parts)
+    states, numbers, other = _oscillator(parts)
     title = "Poincaré sections of the exact model and of eq. (33)"
-    return Plan(title, (found, other), lambda: _sections(trajectory, points, study))
+    return Plan(title, (found, other), lambda: _sections(trajectory, points, states, numbers))
 
 
-def _oscillator(parts: Parts) -> tuple[object, Source]:
-    place = parts.root / "oscillator"
+def _oscillator(parts: Parts) -> tuple[np.ndarray, dict[str, float], Source]:
+    """Strobed states (m, 2) of eq. (33), its numbers, and where they are from."""
+    from scipy.io import netcdf_file
+
+    part = parts.part("oscillator")
+    row = next((row for row in part.rows if row["part"] == "section"), None)
+    if row is None:
+        raise LeftOut("the part `oscillator` has no section: it has no row in table.csv")
+    path = trajectory_path(part.folder, row["run_key"])
     try:
-        study = read_study(place)
-    except FolderError as error:
-        raise LeftOut(f"the part `oscillator` is not there: {'; '.join(error.faults)}") from None
-    if "section" in study.faults:
-        raise LeftOut(f"the part `oscillator` has no section: {study.faults['section']}")
-    row = study.rows["section"]
-    path = place / "trajectories" / f"{row['run_key']}.nc"
-    settings = (place / "scene.toml").read_text(encoding="utf-8")
-    return study, source("eq. (33)", parts.root, path, row["run_key"], settings, float(row["wall_s"]))
+        with netcdf_file(path, "r", mmap=False) as file:
+            states = np.array(file.variables["section"][:])
+    except (OSError, ValueError, TypeError, KeyError) as error:
+        reason = row["message"] or f"its arrays cannot be read ({type(error).__name__})"
+        raise LeftOut(f"the part `oscillator` has no section: {reason}") from None
+    settings = (part.folder / "scene.toml").read_text(encoding="utf-8")
+    numbers = {key: float(entry) for key, entry in part.provenance["oscillator"].items()}
+    return states, numbers, source("eq. (33)", parts.root, path, row["run_key"], settings, row["wall_s"])
 
 
-def _sections(trajectory, points, study) -> dict[str, Array]:
+def _sections(trajectory, points, states, numbers) -> dict[str, Array]:
     scene = trajectory.scene
     modes = natural_frequencies(scene)
     length, diameter = scene.tether.length_m, scene.buoy.diameter_m
     radius, rate = points.T
-    states = study.arrays["section"]["section"]
     exact, reduced = ("exact_point",), ("reduced_point",)
-    numbers = {key: ((), entry, "1", f"{key} of eq. (33)") for key, entry in study.oscillator.items()}
     return {
         "exact_radius_m": (exact, radius, "m", "strobed distance of the buoy from the anchor"),
         "exact_rate_mps": (exact, rate, "m s-1", "strobed rate of that distance"),
@@ -58,5 +63,5 @@ def _sections(trajectory, points, study) -> dict[str, Array]:
         "natural_radial_radps": ((), modes.radial_radps, "rad s-1", "radial natural frequency"),
         "reduced_displacement": (reduced, states[:, 0], "1", "gamma of eq. (33)"),
         "reduced_velocity": (reduced, states[:, 1], "1", "its rate"),
-        **numbers,
+        **{key: ((), entry, "1", f"{key} of eq. (33)") for key, entry in numbers.items()},
     }

@@ -14,4 +14,3 @@ METHODS = {
     "backward-euler": backward_euler,
     "generalized-alpha": generalized_alpha,
 }
-RUNGE_KUTTA, ONE_STAGE = 0, 1

@@ -2,7 +2,7 @@
 
 As generalized-alpha with alpha_m = alpha_f = gamma = 1/2.
 
-In the paper: eq. (25) the value, eq. (26) the rate and eq. (27) the slope at the middle of a box.
+In the paper: eq. (25) box rule: value; eq. (26) box rule: rate; eq. (27) box rule: derivative along the line.
 """
 
 ORDER, ADAPTIVE = 2, False

@@ -1,4 +1,9 @@
-"""Figures 2-7: the breaking line every 10 ms - motion, tension and velocity, one panel a case, in the paper's units."""
+"""Figures 2-7: the breaking line every 10 ms - motion, tension and velocity, one panel a case, in the paper's units.
+
+In the paper: fig. 2 motion of the breaking line, 5 ms; fig. 3 tension along the breaking line, 5 ms; fig. 4 velocity
+along the breaking line, 5 ms; fig. 5 motion of the breaking line, 50 ms; fig. 6 tension along the breaking line, 50
+ms; fig. 7 velocity along the breaking line, 50 ms.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""Figure 14: the running maximum Lyapunov exponent of both waves, by Wolf's method and from the tangent dynamics."""
+"""Figure 14: the running maximum Lyapunov exponent of both waves, by Wolf's method and from the tangent dynamics.
+
+In the paper: fig. 14 Lyapunov exponents over time.
+"""
 
 from __future__ import annotations
 

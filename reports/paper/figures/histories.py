@@ -1,4 +1,8 @@
-"""Figures 9-11, 13, 15 and 16: tension, radius and angle against time at the paper's two steepnesses."""
+"""Figures 9-11, 13, 15 and 16: tension, radius and angle against time at the paper's two steepnesses.
+
+In the paper: fig. 9 top tension, kA = 0.016; fig. 10 motion along r, kA = 0.016; fig. 11 motion along θ, kA = 0.016;
+fig. 13 top tension, kA = 0.13; fig. 15 motion along r, kA = 0.13; fig. 16 motion along θ, kA = 0.13.
+"""
 
 from __future__ import annotations
 
@@ -13,13 +17,13 @@ from ...parts.figure_data import sources_of
 from ...parts.style import GREEN, INK, SKY, SOFT, VERMILION
 from ...parts.symbols import L_0, T_I, T_S
 from ...parts.wording import decimals, number, percent
-from ..snaps import NEAR_ZERO
 from .drawing import Drawing, behind, scaled, value
 
 if TYPE_CHECKING:
     import xarray
 
 DETAIL_PERIODS = 10
+NEAR_ZERO = 0.05  # of the static tension: what the paper calls near zero, in numbers
 _HEIGHT_IN = 3.9
 
 

@@ -1,4 +1,7 @@
-"""Figure 20: motion across the plane of the waves after a push, on a logarithmic axis, of the buoy and of the rope."""
+"""Figure 20: motion across the plane of the waves after a push, on a logarithmic axis, of the buoy and of the rope.
+
+In the paper: fig. 20 motion across the plane of the waves.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""Figure 19: Poincare sections of (a) the exact model and (b) eq. (33), in the units of eq. (33)."""
+"""Figure 19: Poincare sections of (a) the exact model and (b) eq. (33), in the units of eq. (33).
+
+In the paper: fig. 19 sections: buoy (a), eq. (33) (b).
+"""
 
 from __future__ import annotations
 

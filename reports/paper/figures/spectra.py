@@ -1,4 +1,7 @@
-"""Figures 12, 17 and 18: spectra of the buoy's motion by eq. (31), natural frequencies marked by arrows."""
+"""Figures 12, 17 and 18: spectra of the buoy's motion by eq. (31), natural frequencies marked by arrows.
+
+In the paper: fig. 12 spectra, kA = 0.016; fig. 17 spectrum of r, kA = 0.13; fig. 18 spectrum of θ, kA = 0.13.
+"""
 
 from __future__ import annotations
 

@@ -6,7 +6,7 @@ import pytest
 from engine.paper_box.law import tension_law
 from engine.paper_box.line import line_of
 from engine.paper_box.nodal import P, times_M
-from engine.physics.tension import tension
+from engine.physics.tension.kernels import tension
 from tests.engine.paper_box.states import LAWS, M_and_P, scene_of, states
 
 ROUNDING = 1e-12  # of the largest entry of the row

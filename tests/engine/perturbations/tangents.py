@@ -52,9 +52,9 @@ class Copy:
     """A second state on the steps of a run, displaced by dC from where the run is."""
 
     def __init__(self, run, dC):
-        Y = run.inner.Y
+        Y = run.inner.motion.Y
         self.run, self.state, self.dt_before = run, new_state(), 0.0
-        self.C, self.K, self.Y = run.stage.conserved(Y) + dC, run.inner.K.copy(), Y.copy()
+        self.C, self.K, self.Y = run.stage.conserved(Y) + dC, run.inner.motion.K.copy(), Y.copy()
         turn = np.arctan2(self.C[:, 1], self.C[:, 0]) - Y[:, 4]
         self.Y[:, 4] += (turn + np.pi) % (2 * np.pi) - np.pi
         self.Y[:, 0] = np.hypot(self.C[:, 0], self.C[:, 1]) - 1

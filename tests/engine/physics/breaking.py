@@ -4,8 +4,8 @@ from functools import cache
 
 import numpy as np
 
-from analysis import breaking_measures as measures
-from analysis.breaking_theory import theory_of
+from campaigns.breaking_line import measures
+from campaigns.breaking_line.theory import theory_of
 from engine import load_scene, simulate
 
 FORCES_N = {"1": 45e3, "2": 180e3, "3": 315e3, "4": 450e3}

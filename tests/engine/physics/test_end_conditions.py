@@ -7,7 +7,7 @@ they are the numbers of the planar condition. D against central differences of s
 import numpy as np
 import pytest
 
-from engine.parameters import RECORD, SPATIAL
+from engine.record import RECORD, SPATIAL
 from tests.engine.kernels import parameters_of, upper_end_of
 from tests.engine.lines import DRY, SPACE, STILL, free, held, line
 from tests.engine.rotations import turned

@@ -1,15 +1,15 @@
-"""Law: a straight line that breaks moves as characteristics with a fitted shock do (analysis.line_waves).
+"""Law: a straight line that breaks moves as characteristics with a fitted shock do (campaigns.breaking_line.theory).
 
 Order of the L1 error of strain, in the mean over the second half of the way (the error at one time swings with the
 place of the shock in its element): one with a shock, two where the wave stays smooth. A force that falls in 5 ms makes
-edges that are nearly kinks: the order is then between (docs/breaking_line_exact.md). Bounds: overshoot 1 %, half
+edges that are nearly kinks: the order is then between (docs/breaking_line.md). Bounds: overshoot 1 %, half
 an element at 401 nodes, end speeds 0.3 %, fronts 1 %.
 """
 
 import numpy as np
 import pytest
 
-from analysis import breaking_measures as measures
+from campaigns.breaking_line import measures
 from tests.engine.physics.breaking import CASES, broken, orders, shock_elements, theory
 
 GRIDS = (201, 401, 801, 1601)

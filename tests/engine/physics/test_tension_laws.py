@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from scipy.interpolate import PchipInterpolator
 
-from engine.physics.tension import stored, tension
+from engine.physics.tension.kernels import stored, tension
 from engine.scales import strain_at, tension_at
 from tests.engine.kernels import parameters_of
 from tests.engine.lines import line

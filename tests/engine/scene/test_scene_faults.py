@@ -42,7 +42,7 @@ SINGLE = [
     ({"tether.drag_normal": -0.1}, "tether.drag_normal", "-0.1", "0 or above"),
     ({"tether.grid_stretching": 5.5}, "tether.grid_stretching", "5.5", "from 0 to 5"),
     ({"tether.density_kgpm3": None}, "tether.density_kgpm3", "missing", "above 0"),
-    ({"tether.tension.law": "cubic"}, "tether.tension.law", "'cubic'", "'linear', 'tanh', 'tabulated'"),
+    ({"tether.tension.law": "cubic"}, "tether.tension.law", "'cubic'", "'linear', 'tabulated', 'tanh'"),
     ({"tether.tension": {"stiffness_N": 5e4}}, "tether.tension.law", "missing", "'tanh'"),
     ({"tether.tension": 5e4}, "tether.tension", "50000.0", "table"),
     ({"tether.tension": {"law": "tanh", "p": [1, 2, 3]}}, "tether.tension.p", "[1, 2, 3]", "5 finite numbers"),

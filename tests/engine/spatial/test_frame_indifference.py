@@ -143,8 +143,8 @@ def test_the_roll_of_the_frames_changes_nothing(name):
     runs = []
     for angle in (0.0, 0.3, 2.0, -3.0):
         motion = Motion(in_space(STEPS, parts(asis)), duration_s)
-        motion.inner.Y[:] = rolled(motion.inner.Y, angle)
-        motion.inner.Y_before[:] = motion.inner.Y
+        motion.Y[:] = rolled(motion.Y, angle)
+        motion.inner.motion.Y_before[:] = motion.Y
         first = axes_of(motion.Y)[1]
         run = motion.run()
         assert run.status == "ok"

@@ -43,7 +43,7 @@ def assert_second_order(found):
         assert np.all(np.abs(slopes - 2) < (0.3 if key == "O1" else 0.1)), (key, slopes)
 
 
-KINDS = [pytest.param(True, id="plane"), pytest.param(False, marks=pytest.mark.slow, id="space")]
+KINDS = [pytest.param(True, id="plane"), pytest.param(False, id="space")]
 
 
 @pytest.mark.parametrize("plane", KINDS)

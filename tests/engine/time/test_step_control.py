@@ -73,7 +73,7 @@ def one_step(run, dt, dt_before):
         assert state["status"] == 0
     assert state["steps"] == before["steps"] + 1
     counts = [int(state[name] - before[name]) for name in ("rejected", "failures")]
-    return run.Y.copy(), run.K.copy(), float(state["dt_before"]), *counts
+    return run.motion.Y.copy(), run.motion.K.copy(), float(state["dt_before"]), *counts
 
 
 @pytest.mark.parametrize("seconds", [2.0, 7.0, 11.0])

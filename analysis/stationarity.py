@@ -1,0 +1,99 @@
+"""Is a strobed record still on its way? Spread and mean of consecutive blocks, and whether they march with time.
+
+A decay c e^{-a k} about any motion makes ln(spread) of equal blocks a straight line in time, and a slow trend does the
+same to their means; on an attractor both scatter. Two signs count as a drift over eight blocks:
+    march     |correlation with time| > 0.97 (once in 10^4 for independent blocks) and a total change that matters:
+              10 % in spread, or a tenth of the standard deviation in a mean
+    collapse  the first block spreads (or, by its mean, lies) three times wider than any block of the later half: a
+              transient that has died out in noise, or on a motion much smaller than itself
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from analysis.sampling import checked_columns, in_deviations
+
+BLOCKS = 8
+LEAST_POINTS = 40
+MARCH = 0.97
+LEAST_CHANGE = 0.1
+COLLAPSE = 3.0
+
+
+@dataclass(frozen=True)
+class Drift:
+    """What the blocks of a record say about its being stationary.
+
+    drifting         True where the record marches or collapses; None where it is too short to say
+    spread_change    ln(spread of the last block/of the first) along the fitted line [nats]
+    spread_march     correlation of ln(spread) with time
+    mean_change      largest change of a coordinate's mean along its fitted line, in its standard deviations
+    mean_march       its correlation with time
+    collapse         width of the first block over the widest of the later half
+    reason           one sentence
+    """
+
+    drifting: bool | None
+    spread_change: float
+    spread_march: float
+    mean_change: float
+    mean_march: float
+    collapse: float
+    reason: str
+
+
+def record_drift(section: ArrayLike) -> Drift:
+    """Whether a strobed record is stationary, by the spread and the mean of eight consecutive blocks (head of file).
+
+    section (m,) or (m, d)   one row a forcing period, 40 at least
+    Returns a Drift; `drifting` is None for a shorter record, and False for one that does not move.
+    A motion whose own slowest cycle is longer than the record cannot be told from a drift and is called one.
+    Raises ValueError for values that are not finite.
+    Source: block means as in the reverse-arrangements test of J. S. Bendat & A. G. Piersol, Random Data, section 4.5.
+    """
+    x = checked_columns(section, "section")
+    if len(x) < LEAST_POINTS:
+        reason = f"too short: {LEAST_POINTS} strobed points are needed, given {len(x)}"
+        return Drift(None, *[float("nan")] * 5, reason)
+    z = in_deviations(x, centred=True)
+    if z.shape[1] == 0:
+        return Drift(False, 0.0, 0.0, 0.0, 0.0, 1.0, "no motion: the section is one point to the last digits")
+    blocks = np.array_split(z, BLOCKS)
+    mean = np.array([block.mean(axis=0) for block in blocks])
+    spread = np.sqrt([np.mean(block.var(axis=0)) for block in blocks])
+    # Rounding of a coordinate is the least spread there is: a decay ends there.
+    logarithm = np.log(np.maximum(spread, 1e-14))
+    spread_change, spread_march = _line(logarithm)
+    changes = [_line(mean[:, j]) for j in range(mean.shape[1])]
+    marching = [pair for pair in changes if abs(pair[1]) > MARCH] or changes
+    mean_change, mean_march = max(marching, key=lambda pair: abs(pair[0]))
+    settled = mean[BLOCKS // 2 :].mean(axis=0)
+    width = np.sqrt(np.mean((mean - settled) ** 2, axis=1) + spread**2)
+    collapse = float(width[0] / max(width[BLOCKS // 2 :].max(), 1e-14))
+    return _judged(spread_change, spread_march, mean_change, mean_march, collapse)
+
+
+def _line(values):
+    """Change along the least-squares line over the blocks, first to last, and the correlation with time."""
+    time = np.arange(len(values)) - 0.5 * (len(values) - 1)
+    away = values - values.mean()
+    total = np.sqrt(np.sum(away**2))
+    if total <= 1e-12 * max(1.0, np.abs(values).max()):
+        return 0.0, 0.0
+    slope = np.sum(time * away) / np.sum(time**2)
+    return float(slope * (len(values) - 1)), float(np.sum(time * away) / (np.sqrt(np.sum(time**2)) * total))
+
+
+def _judged(spread_change, spread_march, mean_change, mean_march, collapse):
+    """The record with its sentence."""
+    signs = []
+    if abs(spread_march) > MARCH and abs(spread_change) > LEAST_CHANGE:
+        signs.append(f"the spread of the section changes steadily, by a factor {np.exp(spread_change):.2g} in all")
+    if abs(mean_march) > MARCH and abs(mean_change) > LEAST_CHANGE:
+        signs.append(f"its mean moves steadily, by {abs(mean_change):.2g} standard deviations")
+    if collapse > COLLAPSE:
+        signs.append(f"its first eighth is {collapse:.2g} times wider than any of the later half")
+    reason = "; ".join(signs) if signs else "spread and mean of eight blocks show no steady change"
+    return Drift(bool(signs), spread_change, spread_march, mean_change, mean_march, collapse, reason)

@@ -1,0 +1,122 @@
+"""The runs of a breaking-line folder as its statements see them: rows of numbers, in the order of the table.
+
+A row has the columns of table.csv as numbers (nan where the table is empty) and, of a case whose file can be read, the
+numbers of `from_motion` and `from_law`.
+"""
+
+import math
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+
+from campaigns.breaking_line.theory.law import checked_law, strain_of_tension, wave_speed
+from campaigns.machinery.folder import trajectory_path
+from campaigns.tables import Row as Line
+from campaigns.tables import read_rows
+
+FAST, SLOW = ("1", "2", "3", "4"), ("1p", "2p", "3p", "4p")
+CASES = (*FAST, *SLOW)
+FRONT = 0.02  # of the static tension lost, of the end speed gained: where a front is taken to be
+MOST_OF = 0.99  # of the settled speed at which it counts as reached
+MOTION = ("tension_behind", "fronts_apart", "reached_s")
+LAW = ("static_strain", "steepening")
+OVER_CASE_4 = {"force_over_4": "force_N", "front_over_4": "front_speed_theory_mps"}
+
+
+def read_lines(folder: Path) -> tuple[Line, ...]:
+    """Every run of the folder's table. Raises OSError, ValueError (`tables.read_rows`)."""
+    rows = read_rows(folder / "table.csv")
+    return over_case_4([line | from_trajectory(line, motion_of(folder, line)) for line in rows])
+
+
+def motion_of(folder: Path, line: Line) -> object | None:
+    """The trajectory of a case that ended as asked; None where there is none."""
+    from engine.trajectory import Trajectory, TrajectoryError
+
+    if line["kind"] != "case" or line["status"] != "ok":
+        return None
+    try:
+        return Trajectory.load(trajectory_path(folder, line["run_key"]))
+    except TrajectoryError:
+        return None
+
+
+def from_trajectory(line: Line, trajectory: object | None) -> Line:
+    """The numbers of MOTION and LAW of a run; nan where its file does not show them."""
+    found: Line = dict.fromkeys((*MOTION, *LAW), math.nan)
+    if trajectory is None:
+        return found
+    found |= from_law(trajectory.scene, line["force_N"])
+    return found | (from_motion(line, trajectory.profiles) if trajectory.profiles is not None else {})
+
+
+def from_law(scene: object, force_N: float) -> Line:
+    """static_strain; steepening: by how much a wave at 0.99 of that strain is faster than at it, as a share."""
+    law = scene.tether.tension
+    if law.law != "tanh":
+        return {}
+    try:
+        numbers = checked_law(law.p, scene.tether.density_kgpm3 * scene.tether.area_m2)
+    except ValueError:  # a law that does not rise everywhere
+        return {}
+    strain = float(strain_of_tension(numbers, force_N, 0.2))
+    return {
+        "static_strain": strain,
+        "steepening": float(wave_speed(numbers, 0.99 * strain) / wave_speed(numbers, strain) - 1.0),
+    }
+
+
+def from_motion(line: Line, profiles: object) -> Line:
+    """What single profiles show.
+
+    tension_behind   median |T| over the static one between slack front and broken end, when the wave is half way
+    fronts_apart     distance, then, of the foremost nodes without FRONT of the tension and with FRONT of the end speed,
+                     over the length of the line
+    reached_s        when the broken end first has MOST_OF of its settled speed
+    """
+    found: Line = {}
+    fast = profiles.speed_mps[:, -1] >= MOST_OF * line["end_speed_mps"]
+    if fast.any():
+        found["reached_s"] = float(profiles.time_s[int(np.argmax(fast))])
+    if math.isnan(line["arrival_theory_s"]):
+        return found
+    row = int(np.argmin(np.abs(profiles.time_s - 0.5 * line["arrival_theory_s"])))
+    tension, speed, s = profiles.tension_N[row], profiles.speed_mps[row], profiles.s_m
+    front_m = s[-1] - line["slack_front_speed_theory_mps"] * (profiles.time_s[row] - line["breaking_time_s"])
+    if (s > front_m).any():
+        found["tension_behind"] = float(np.median(np.abs(tension[s > front_m])) / line["force_N"])
+    loose, moving = tension < (1.0 - FRONT) * line["force_N"], speed > FRONT * line["end_speed_mps"]
+    if loose.any() and moving.any():
+        found["fronts_apart"] = float(abs(s[int(np.argmax(loose))] - s[int(np.argmax(moving))]) / s[-1])
+    return found
+
+
+def over_case_4(lines: Sequence[Line]) -> tuple[Line, ...]:
+    """The lines, with force and front speed over those of case 4."""
+    strongest = find(lines, "4")
+    return tuple(
+        line | {name: line[of] / strongest[of] if strongest else math.nan for name, of in OVER_CASE_4.items()}
+        for line in lines
+    )
+
+
+def named(case: str) -> str:
+    """A case of the command line as the paper writes it: 4, 4′."""
+    return case.replace("p", "′")
+
+
+def of_kind(lines: Sequence[Line], kind: str) -> list[Line]:
+    """The runs of one kind that ended as asked."""
+    return [line for line in lines if line["kind"] == kind and line["status"] == "ok"]
+
+
+def find(lines: Sequence[Line], case: str, kind: str = "case") -> Line | None:
+    """The run of a case and kind that ended as asked, None where there is none."""
+    return next((line for line in of_kind(lines, kind) if line["case"] == case), None)
+
+
+def pairs(lines: Sequence[Line]) -> list[tuple[Line, Line]]:
+    """Fast and slow break of the same tension, where both ended as asked."""
+    found = [(find(lines, fast), find(lines, slow)) for fast, slow in zip(FAST, SLOW, strict=True)]
+    return [(fast, slow) for fast, slow in found if fast is not None and slow is not None]

@@ -1,0 +1,103 @@
+"""What the campaign writes beside its table: statements.csv, and exact.nc, what exact theory says to the figures.
+
+exact.nc (netCDF, opens in xarray) holds, padded with nan along `point`:
+
+    time_s, place_m (curve, point)      exact characteristics that leave the broken end when its force is `share` of the
+                                        static one, and the shock (share nan), of case `curve_case`
+    contour_strain, contour_speed_mps, contour_wave_mps (contour)     measured speeds of contours of tension towards the
+                                        fixed end, and √(T′/m) at their strain, of case `contour_case`
+    wave_strain, wave_mps (strain)      √(T′/m)
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from campaigns.breaking_line.lines import motion_of, of_kind, read_lines
+from campaigns.breaking_line.measures import MARGIN_M, contour, speed_of
+from campaigns.breaking_line.statements import CLAIMS
+from campaigns.breaking_line.theory import Theory, theory_of
+from campaigns.figure_data import made_by_of, store
+from campaigns.machinery.row_cache import made_by
+from campaigns.statements import write_statements
+
+if TYPE_CHECKING:
+    import xarray
+
+EXACT = "exact.nc"
+SHARES = (0.99, 0.9, 0.7, 0.5, 0.3, 0.1, 0.01)  # of the static tension: contours and characteristics that are shown
+WAVES = 200  # strains of the curve of wave speed
+
+
+class _Lines:
+    """Results as the claims of the breaking line take them."""
+
+    def __init__(self, folder: Path):
+        self.lines = read_lines(folder)
+
+
+def write_results(folder: Path) -> None:
+    """statements.csv, and exact.nc where the law has a theory. Raises OSError."""
+    results = _Lines(folder)
+    write_statements(folder, CLAIMS, results)
+    cases, path = of_kind(results.lines, "case"), folder / EXACT
+    key = made_by({"runs": [line["run_key"] for line in cases]}, "analysis", "engine", "campaigns/breaking_line")
+    if made_by_of(path) == key:
+        return
+    runs = {line["case"]: motion_of(folder, line) for line in cases}
+    content = exact({case: run for case, run in runs.items() if run is not None and run.profiles is not None})
+    if content is None:
+        path.unlink(missing_ok=True)
+    else:
+        store(path, content.assign_attrs(made_by=key))
+
+
+def exact(runs: dict[str, object]) -> xarray.Dataset | None:
+    """The content of exact.nc, of trajectories with profiles by case; None where no case has a theory."""
+    import xarray
+
+    curves, contours, theory = [], [], None
+    for case, run in runs.items():
+        found = theory_of(run.scene, float(run.columns["time_s"][-1]))
+        if found is None:
+            continue
+        theory = found
+        curves += [(case, share, *theory.falling(share)) for share in (*SHARES, 0.0)]
+        path = theory.motion.shock
+        if theory.shocked and len(path.time_s):
+            curves.append((case, np.nan, path.time_s, path.place_m))
+        contours += [(case, *row) for row in measured_contours(run.profiles, theory)]
+    if theory is None or not contours:
+        return None
+    cases, shares, *lines = zip(*curves, strict=True)
+    time_s, place_m = ((("curve", "point"), padded(rows)) for rows in lines)
+    variables = {"time_s": time_s, "place_m": place_m}
+    variables |= {"curve_case": ("curve", list(cases)), "share": ("curve", list(shares))}
+    names = ("contour_case", "contour_strain", "contour_speed_mps", "contour_wave_mps")
+    variables |= {name: ("contour", list(row)) for name, row in zip(names, zip(*contours, strict=True), strict=True)}
+    strain = np.linspace(0.0, 1.08 * max(row[1] for row in contours), WAVES)
+    variables |= {"wave_strain": ("strain", strain), "wave_mps": ("strain", theory.wave_speed(strain))}
+    return xarray.Dataset(variables)
+
+
+def measured_contours(profiles: object, theory: Theory) -> list[tuple[float, float, float]]:
+    """(strain, speed, wave speed) of each contour of SHARES that can be followed; none that a shock eats."""
+    found = []
+    for share in (share for share in SHARES if not theory.swallowed(share)):
+        places = contour(profiles, profiles.tension_N, share * theory.force_N)
+        speed = speed_of(profiles.time_s, places, MARGIN_M, theory.length_m - MARGIN_M, theory.arrival_s)
+        if np.isfinite(speed):
+            strain = theory.strain_at(share)
+            found.append((strain, speed, float(theory.wave_speed(strain))))
+    return found
+
+
+def padded(rows: tuple[np.ndarray, ...]) -> np.ndarray:
+    """Rows of different lengths as one array, nan behind the end of each."""
+    out = np.full((len(rows), max(map(len, rows))), np.nan)
+    for row, values in zip(out, rows, strict=True):
+        row[: len(values)] = values
+    return out

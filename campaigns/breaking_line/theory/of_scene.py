@@ -1,0 +1,120 @@
+"""What exact one-dimensional theory says of a breaking line, for a scene: the numbers that a run is held against."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+
+from campaigns.breaking_line.theory.energy import fitted_energy
+from campaigns.breaking_line.theory.fitted import FittedBreak
+from campaigns.breaking_line.theory.fitting import fitted_break
+from campaigns.breaking_line.theory.law import strain_of_tension, wave_speed
+from campaigns.breaking_line.theory.simple_wave import (
+    BreakTheory,
+    ShockStart,
+    break_theory,
+    shock_start,
+    simple_wave_work,
+)
+
+
+@dataclass(frozen=True, eq=False)
+class Theory:
+    """Theory of one scene: `speeds` (BreakTheory), `start` (ShockStart), `motion` (FittedBreak).
+
+    `length_m`, `decay_s`, `force_N` of the scene. `end_work_J`: work of the end force, while no echo reaches the end
+    before it is zero. `arrival_s`: when the front, or the shock that has overtaken it, is at the fixed end (or when the
+    exact motion ends, if that is earlier); `lost_J`: lost in the shock by then.
+    """
+
+    length_m: float
+    decay_s: float
+    force_N: float
+    speeds: BreakTheory
+    start: ShockStart
+    motion: FittedBreak
+    end_work_J: float
+    arrival_s: float
+    lost_J: float
+
+    @property
+    def shocked(self) -> bool:
+        """Whether unloading steepens into a shock on the line, before the front is at the fixed end."""
+        return self.start.distance_m < self.length_m and self.start.time_s < self.speeds.front_arrival_s
+
+    def end_speed(self, time_s: float) -> float:
+        """Speed (m/s) of the broken end at a time up to which the exact motion is known."""
+        return abs(float(self.motion.at([self.length_m], time_s)[1][0]))
+
+    def strain_at(self, share: float) -> float:
+        """The strain where the tension is `share` of the static one."""
+        return float(strain_of_tension(self.motion.law, share * self.force_N, 0.2))
+
+    def wave_speed(self, strain):
+        """sqrt(T'/m), m/s, at one strain or several."""
+        return wave_speed(self.motion.law, strain)
+
+    def swallowed(self, share: float) -> bool:
+        """Whether the shock eats the contour of this share of the static tension before the front is at the wall."""
+        if not self.shocked or not len(self.motion.shock.time_s):
+            return False
+        before = self.motion.shock.time_s <= self.arrival_s
+        return self.strain_at(share) > self.motion.shock.behind[before].min()
+
+    def falling(self, share: float) -> tuple[np.ndarray, np.ndarray]:
+        """Times (m,) and places (m,) of the C- that leaves the broken end when its force is `share` of the static one.
+
+        Straight from the end to the first crossing that is known, through the crossings, to the shock or the wall; a
+        line that the shock meets is ended there.
+        """
+        net, shock = self.motion.net, self.motion.shock
+        emitted = 2.0 * self.decay_s / math.pi * math.acos(math.sqrt(share))
+        speed = float(self.wave_speed(self.strain_at(share)))
+        started = emitted >= net.tau[0] and len(net.T)
+        if started:
+            line = int(np.argmin(np.abs(net.tau[: _begun(net)] - emitted)))
+            crossed = np.isfinite(net.T[line])
+            if crossed.any():
+                order = np.argsort(net.T[line, crossed])
+                times, places = net.T[line, crossed][order], net.S[line, crossed][order]
+                return np.append(net.tau[line], times), np.append(self.length_m, places)
+        end = emitted + self.length_m / speed
+        met = shock.emission_s >= emitted
+        if met.any() and (met & (shock.emission_s > 0.0)).any():
+            row = int(np.flatnonzero(met)[-1])
+            return np.array([emitted, shock.time_s[row]]), np.array([self.length_m, shock.place_m[row]])
+        return np.array([emitted, end]), np.array([self.length_m, 0.0])
+
+
+def _begun(net) -> int:
+    """How many of the C- begin at the broken end before echoes come back there (their times then repeat no order)."""
+    falls = np.flatnonzero(np.diff(net.tau) <= 0.0)
+    return int(falls[0]) + 1 if len(falls) else len(net.tau)
+
+
+def theory_of(scene, until_s: float) -> Theory | None:
+    """The theory of a breaking line up to a time, or None: another law than tanh, or no breaking end."""
+    law = scene.tether.tension
+    if law.law != "tanh" or not scene.end.force_decay_s:
+        return None
+    mass = scene.tether.density_kgpm3 * scene.tether.area_m2
+    case = (tuple(law.p), mass, scene.tether.length_m, math.hypot(*scene.end.force_N), scene.end.force_decay_s, until_s)
+    try:
+        return _theory(*case)
+    except ValueError:  # a law that does not rise everywhere
+        return None
+
+
+@lru_cache(maxsize=16)
+def _theory(law, mass, length, force, decay, until) -> Theory:
+    speeds, start = break_theory(law, mass, length, force), shock_start(law, mass, force, decay)
+    motion = fitted_break(law, mass, length, force, decay, until)
+    shock = motion.shock
+    through = len(shock.time_s) > 0 and shock.place_m[-1] <= 1e-6 * length
+    arrival = min(motion.valid_until_s, speeds.front_arrival_s, shock.time_s[-1] if through else math.inf)
+    lost = float(fitted_energy(motion, [arrival]).lost_J[0])
+    work = simple_wave_work(law, mass, force, decay)
+    return Theory(length, decay, force, speeds, start, motion, work, float(arrival), lost)

@@ -1,0 +1,73 @@
+"""The columns of the campaigns' tables, each declared once, and the dictionary of them that lies beside every table.
+
+A campaign declares its columns in a tuple beside the code that fills a row. `table.csv` has their names as its head,
+and `columns.csv` beside it says what every column is; reports read titles, units and digits there.
+"""
+
+import csv
+import io
+from collections.abc import Iterable
+from dataclasses import astuple, dataclass, fields
+from pathlib import Path
+
+
+@dataclass(frozen=True)
+class Column:
+    """One column of a table.
+
+    unit: as printed under its title, "" for none. symbol: its short title in a report's table. meaning: what it holds,
+    in one sentence. digits: places after the decimal point in a report; None for a column of words.
+    """
+
+    name: str
+    unit: str = ""
+    symbol: str = ""
+    meaning: str = ""
+    digits: int | None = None
+
+
+STATUS = Column("status", symbol="status", meaning="ok, or why the run ended early or has no result")
+RUN_KEY = Column(
+    "run_key", symbol="key", meaning="content key of the run: its file is trajectories/<run_key>.nc, if it has one"
+)
+MESSAGE = Column("message", symbol="message", meaning="what went wrong, in words; empty for a run that ended as asked")
+PERIODS_RUN = Column("periods", "", "periods", "length of the run in wave periods", 0)
+WALL_S = Column("wall_s", "s", "wall", "wall-clock time of the simulation, without compilation and analysis", 2)
+TURN = Column("max_turn_rad", "rad", "turn", "largest turn of the line within one element, over the whole run", 2)
+MIN_STRAIN = Column("min_strain", "", "ε_min", "smallest strain of any element, over the whole run", 4)
+LOOPS = Column(
+    "loop_releases",
+    "",
+    "loops",
+    "loop releases: how often the solver opened a loop of slack line that a plane holds",
+    0,
+)
+STEPS = Column("steps", "", "steps", "accepted time steps", 0)
+REJECTED = Column("rejected_steps", "", "rejected", "time steps that were tried and repeated with a shorter one", 0)
+NEWTON = Column("newton_iterations", "", "Newton", "Newton iterations of all time steps together", 0)
+NEWTON_FAILURES = Column(
+    "newton_failures", "", "failed", "time steps at which the Newton iteration did not converge and was repeated", 0
+)
+END_S = Column("end_time_s", "s", "end", "simulated time at which the run ended", 2)
+
+# What the engine counts in every run (`Trajectory.statistics`), in the order of the tables.
+STATISTICS = (TURN, MIN_STRAIN, LOOPS, STEPS, REJECTED, NEWTON, NEWTON_FAILURES, END_S, WALL_S)
+
+
+def names(columns: Iterable[Column]) -> tuple[str, ...]:
+    """The names of columns, in their order."""
+    return tuple(column.name for column in columns)
+
+
+def dictionary_path(table: Path) -> Path:
+    """Where the columns of a table are told: columns.csv for table.csv, X_columns.csv for any other X.csv."""
+    return table.with_name("columns.csv" if table.name == "table.csv" else f"{table.stem}_columns.csv")
+
+
+def dictionary(columns: Iterable[Column]) -> bytes:
+    """The content of columns.csv: name, unit, symbol, meaning, digits (empty for a column of words)."""
+    text = io.StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    writer.writerow(field.name for field in fields(Column))
+    writer.writerows(astuple(column) for column in columns)
+    return text.getvalue().encode()

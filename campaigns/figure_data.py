@@ -1,0 +1,83 @@
+"""What a figure is drawn from, as a campaign writes it: one netCDF-3 file, so that it can be drawn without the runs.
+
+The file opens in xarray and in any netCDF tool; arrays carry `units` and `long_name`, and the attributes say which
+results they are from. The same content gives the same bytes: there is no date and no host in the file.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import hashlib
+import io
+import json
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from engine.atomic import write_atomic
+
+if TYPE_CHECKING:
+    import xarray
+
+Array = tuple[tuple[str, ...], object, str, str]  # dimensions, values, unit, long name
+
+
+@dataclass(frozen=True)
+class Source:
+    """One result behind a figure.
+
+    `label` what it is called there; `file` within the campaign's folder, with its `sha256`; `key` of the run;
+    `settings` as TOML or JSON; `run_s` the seconds of computing that it took.
+    """
+
+    label: str
+    file: str
+    sha256: str
+    key: str
+    settings: str
+    run_s: float
+
+
+def source(label: str, folder: Path, path: Path, key: str, settings: str, run_s: float) -> Source:
+    """The record of a result file inside a campaign's folder. Raises OSError for a file that cannot be read."""
+    digest = hashlib.sha256(path.read_bytes()).hexdigest()
+    return Source(label, path.relative_to(folder).as_posix(), digest, key, settings, float(run_s))
+
+
+def dataset(title: str, arrays: dict[str, Array], sources: tuple[Source, ...], made_by: str) -> xarray.Dataset:
+    """The labelled content of a data file.
+
+    arrays: name -> (dimensions, values, unit, long name); no dimensions for a single number. made_by: the key of what
+    the file was made from and with, by which `made_by_of` recognises it.
+    """
+    import xarray
+
+    variables = {
+        name: (dimensions, np.asarray(values, dtype=float), {"units": unit, "long_name": long_name})
+        for name, (dimensions, values, unit, long_name) in arrays.items()
+    }
+    attributes = {
+        "Conventions": "CF-1.10",
+        "title": title,
+        "sources": json.dumps([dataclasses.asdict(one) for one in sources], ensure_ascii=False),
+        "run_seconds": float(sum(one.run_s for one in sources)),
+        "made_by": made_by,
+    }
+    return xarray.Dataset(variables, attrs=attributes)
+
+
+def store(path: Path, content: xarray.Dataset) -> None:
+    """Write the file, whole or not at all. Raises OSError."""
+    write_atomic(path, bytes(content.to_netcdf(format="NETCDF3_64BIT", engine="scipy")))
+
+
+def made_by_of(path: Path) -> str | None:
+    """The key of what a data file was made from; None where there is no sound one."""
+    import xarray
+
+    try:
+        return str(xarray.load_dataset(io.BytesIO(path.read_bytes()), engine="scipy").attrs["made_by"])
+    except Exception:  # a damaged header can make the reader fail in any way at all
+        return None

@@ -1,0 +1,115 @@
+"""The verdict on the motion of a buoy in waves: its state as the analysis takes it, its regime, its exponents."""
+
+import numpy as np
+
+LONGEST_PERIOD = 16
+# Share of the motion's range. At the default solver tolerance the default sweep repeats within 0.007 or misses by 0.1.
+STROBE_TOLERANCE = 0.01
+LEAST_JUDGED = 40  # periods after the transient below which no verdict is possible: exponents are then left out
+TANGENTS, LATERAL = "output.tangent_vectors", "output.lateral_growth"
+
+
+def state_of(columns, step_s: float, period_s: float, transient_periods: int) -> tuple[dict, list[float]]:
+    """Position (x, z) and velocity (along and across the radius) of the buoy, and what counts as 1 in each.
+
+    Positions are measured by the larger extent of the path after the transient, velocities by their larger range: so a
+    millimetre counts the same in every direction, and a buoy that turns round and round needs no other treatment.
+    """
+    coordinates = {
+        "x_m": columns["x_m"],
+        "z_m": columns["z_m"],
+        "radial_mps": columns["radius_rate_mps"],
+        "lateral_mps": columns["radius_m"] * columns["angle_rate_radps"],
+    }
+    after = round(transient_periods * period_s / step_s)
+    x, z, radial, lateral = (float(np.ptp(values[after:])) for values in coordinates.values())
+    # A buoy at rest has no range of its own; a micrometre, and a micrometre a second, are rest for this one.
+    path_m, speed_mps = max(x, z, 1e-6), max(radial, lateral, 1e-6)
+    return coordinates, [path_m, path_m, speed_mps, speed_mps]
+
+
+def tighter_scene(scene):
+    """The scene at a tenth of its tolerance, or of its step where that is fixed."""
+    from engine.scene import scene_from_toml
+
+    step_s = scene.solver.step_s
+    key, value = ("solver.step_s", step_s / 10) if step_s else ("solver.rtol", scene.solver.rtol / 10)
+    return scene_from_toml(scene.to_toml(), {key: value})
+
+
+def carried(trajectory) -> bool:
+    """Whether a run carried tangent vectors in its plane, without which there is no verdict."""
+    return trajectory.tangent is not None and trajectory.tangent.growth_nats.shape[1] > 0
+
+
+def verdict_of(trajectory, transient_periods: int, tighter: str | None = None):
+    """The regime of a finished run: (Verdict, tangent Exponent, Wolf Exponent of r).
+
+    A run that carried no tangent vectors, as every run in three dimensions, has a tangent Exponent without a value.
+
+    tighter: the regime of the same run at a tighter tolerance, where someone looked.
+    Both exponents in bits per wave period. Every period after the transient counts, those with a loop release too.
+    """
+    from analysis import tangent_lyapunov
+    from analysis.exponents import BITS_PER_PERIOD, no_exponent
+
+    if not carried(trajectory):
+        tangent = no_exponent("tangent dynamics", "no perturbation was carried along", BITS_PER_PERIOD)
+    else:
+        tangent = tangent_lyapunov(trajectory.tangent.growth_nats, transient_periods)[0]
+    verdict, wolf = series_verdict(trajectory, transient_periods, tangent, tighter)
+    return verdict, tangent, wolf
+
+
+def series_verdict(trajectory, transient_periods: int, tangent=None, tighter: str | None = None):
+    """The regime of a finished run from its samples: (Verdict, Wolf Exponent of r in bits per wave period).
+
+    tangent: the Exponent of its tangent dynamics. A run in three dimensions has none, and the verdict is that of the
+    samples alone; a motion within millimetres of the plane of the waves has its state in that plane.
+    """
+    from analysis import regime, wolf_lyapunov
+
+    scene, columns = trajectory.scene, trajectory.columns
+    step_s, period_s = scene.sample_step_s(), scene.waves.period_s
+    after = round(transient_periods * period_s / step_s)
+    wolf = wolf_lyapunov(columns["radius_m"][after:], step_s).in_bits_per_period(period_s)
+    coordinates, scale = state_of(columns, step_s, period_s, transient_periods)
+    verdict = regime(
+        np.column_stack(list(coordinates.values())),
+        step_s,
+        period_s,
+        transient_periods=transient_periods,
+        tangent_exponent=tangent,
+        wolf_exponent=wolf,
+        tighter=tighter,
+        scale=scale,
+        tolerance=STROBE_TOLERANCE,
+        max_period=LONGEST_PERIOD,
+    )
+    return verdict, wolf
+
+
+def in_regular_waves(scene) -> bool:
+    """Whether it is a scene of a buoy in regular waves: motions are strobed and judged once per wave period."""
+    return scene.end.kind == "buoy" and scene.waves is not None and not scene.waves.irregular
+
+
+def carries_tangents(scene) -> bool:
+    """Whether the engine can carry perturbations through this scene, for exponents and a verdict on its regime."""
+    implicit = scene.solver.integrator in ("esdirk43", "trbdf2")
+    return implicit and scene.tether.bending_stiffness_Nm2 > 0 and scene.motion.dimensions == 2
+
+
+def judged_scene(order, changes: dict, least: int = LEAST_JUDGED):
+    """The scene of a study's order with these changes, carrying the perturbations that a verdict needs where it can.
+
+    Where the order does not say (--set): one perturbation in the plane and, unless the order wants none there, one
+    across it. least: periods after the transient from which runs carry any. None where the scene cannot be.
+    """
+    scene = order.scene(changes)
+    if scene is None or order.periods - order.transient < least or not carries_tangents(scene):
+        return scene
+    extra = {} if TANGENTS in order.changes else {TANGENTS: 1}
+    if LATERAL not in order.changes and (extra or scene.output.tangent_vectors):
+        extra[LATERAL] = True
+    return order.scene({**changes, **extra}) if extra else scene

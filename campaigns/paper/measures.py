@@ -1,0 +1,173 @@
+"""Numbers of the two motions of section 4.2 that their tables do not have: what the paper says of figures 9 to 18."""
+
+import math
+
+import numpy as np
+
+SMALL, LARGE = 0.016, 0.13  # kA of sections 4.2.1 and 4.2.2
+WINDOW = (40, 20)  # tau_0/T_i and n of eq. (31) in the paper
+SETTLED = 20  # last wave periods of a record
+EARLY, LATE = (0, 20), (40, 60)  # wave periods between which a free oscillation is compared
+NEAR_BINS = 2  # of eq. (31): a line that is on no bin leaks into its neighbours
+LINES_POINTS = 32, 2000  # strobed points whose lines are looked for: the fewest that allow it, the most
+TURN_RAD = 1e-3  # per element, below which a rope counts as straight
+
+
+def in_window(trajectory) -> bool:
+    """Whether a record is as long as the window of eq. (31) wants."""
+    scene = trajectory.scene
+    duration_s = (len(trajectory.columns["time_s"]) - 1) * scene.sample_step_s()
+    return duration_s >= sum(WINDOW) * scene.waves.period_s - 1e-9
+
+
+def calm_measures(trajectory, modes) -> dict[str, float]:
+    """Of the run at the small wave; nothing of a record shorter than WINDOW or without natural frequencies.
+
+    Shares are of the variance of eq. (31) in the paper's window, bin 0 left out.
+
+    rest_m, excursion_m       r(0) and the largest |r - r(0)|
+    long_tension_min_N        least top tension of the whole record
+    early_radial_radps, early_angular_radps   frequency of the free oscillations of r and theta in EARLY
+    radial_bins, angular_bins how many bins the peaks nearest the natural frequencies are away, in the paper's window
+    radial_share, angular_share   of r and theta that lies at their natural and the wave's frequency
+    radial_coupled, angular_coupled   of r at the pendulum's frequency and twice it, of theta at the radial one
+    radial_kept, angular_kept free oscillation in LATE by that in EARLY
+    radial_mean, angular_mean mean place over SETTLED off that of rest, over half the range there
+    tension_alike             correlation of r and the top tension up to the end of that window
+    """
+    if modes is None or not in_window(trajectory):
+        return {}
+    columns, scene = trajectory.columns, trajectory.scene
+    step_s, period_s = scene.sample_step_s(), scene.waves.period_s
+    r, theta, wave = columns["radius_m"], columns["angle_rad"], 2.0 * np.pi / period_s
+    seen = round(sum(WINDOW) * period_s / step_s)
+    own = {"radial": (r, modes.radial_radps), "angular": (theta, modes.pendulum_radps)}
+    found = {
+        "rest_m": r[0],
+        "excursion_m": np.abs(r - r[0]).max(),
+        "long_tension_min_N": columns["tension_top_low_N"].min(),
+        "radial_coupled": share_near(r, step_s, period_s, (modes.pendulum_radps, 2.0 * modes.pendulum_radps)),
+        "angular_coupled": share_near(theta, step_s, period_s, (modes.radial_radps,)),
+        "tension_alike": np.corrcoef(r[:seen], columns["tension_top_N"][:seen])[0, 1],
+    }
+    for side, (series, frequency) in own.items():
+        found |= {
+            f"early_{side}_radps": free(series, step_s, period_s, frequency, EARLY)[0],
+            f"{side}_bins": _bins_away(series, step_s, period_s, frequency),
+            f"{side}_share": share_near(series, step_s, period_s, (frequency, wave)),
+            f"{side}_kept": kept(series, step_s, period_s, frequency),
+            f"{side}_mean": _off_rest(series, step_s, period_s),
+        }
+    return {name: float(value) for name, value in found.items()}
+
+
+def violent_measures(trajectory, transient_periods: int) -> dict[str, float]:
+    """Of the run at the large wave; nothing of a record shorter than WINDOW.
+
+    unexplained       share of the variance of the strobed r, r' that no steady line explains (0 for a torus)
+    correlation_dimension, correlation_dimension_error   correlation dimension of the section r, r'
+    """
+    from analysis import correlation_dimension, spectral_lines
+    from analysis.correlation_sums import LEAST_POINTS
+
+    if not in_window(trajectory):
+        return {}
+    section, found = strobed(trajectory, transient_periods), {}
+    fewest, most = LINES_POINTS
+    if len(section) >= fewest:
+        found["unexplained"] = float(np.mean(spectral_lines(section[:most]).unexplained))
+    if len(section) >= LEAST_POINTS:
+        dimension = correlation_dimension(section)
+        found |= {"correlation_dimension": dimension.value, "correlation_dimension_error": dimension.error}
+    return found
+
+
+def strobed(trajectory, transient_periods: int) -> np.ndarray:
+    """r (m) and r' (m/s) at t = k T_i, k >= transient_periods, as (m, 2); empty for a record that ends before."""
+    from analysis import poincare_section
+
+    scene = trajectory.scene
+    series = {name: trajectory.columns[name] for name in ("radius_m", "radius_rate_mps")}
+    finite = np.isfinite(series["radius_m"]) & np.isfinite(series["radius_rate_mps"])
+    end = len(finite) if finite.all() else int(np.argmin(finite))
+    if (end - 1) * scene.sample_step_s() < transient_periods * scene.waves.period_s:
+        return np.empty((0, 2))
+    series = {name: values[:end] for name, values in series.items()}
+    step_s, period_s = scene.sample_step_s(), scene.waves.period_s
+    return poincare_section(series, step_s, period_s, transient_periods=transient_periods).points
+
+
+def share_near(series, step_s: float, period_s: float, frequencies) -> float:
+    """Share of the variance in eq. (31)'s window within NEAR_BINS of any of the frequencies [rad/s]."""
+    from analysis import spectrum
+
+    found = spectrum(series, step_s, period_s, *WINDOW)
+    power = found.amplitude[1:] ** 2
+    omega = found.angular_frequency_radps[1:]
+    near = np.zeros(len(omega), dtype=bool)
+    for frequency in frequencies:
+        near |= np.abs(omega - frequency) <= NEAR_BINS * found.bin_radps
+    return float(power[near].sum() / power.sum())
+
+
+def largest_line(series, step_s: float, period_s: float) -> tuple[float, float]:
+    """Largest share of the variance in eq. (31)'s window that lies on one bin, and the bin over the wave's."""
+    from analysis import spectrum
+
+    found = spectrum(series, step_s, period_s, *WINDOW)
+    power = found.amplitude[1:] ** 2
+    most = int(np.argmax(power))
+    return float(power[most] / power.sum()), (most + 1) / WINDOW[1]
+
+
+def free(series, step_s: float, period_s: float, frequency: float, periods, within: float = 0.1):
+    """(frequency, amplitude) of the oscillation near a frequency over these wave periods, under a Hann window.
+
+    It is that of the largest amplitude no more than the share `within` off the frequency given: at finite size, and
+    with the stretch and weight of the line, the oscillation is slightly off an estimate.
+    """
+    first, last = (round(end * period_s / step_s) for end in periods)
+    x = np.asarray(series[first:last], dtype=float)
+    window = np.hanning(len(x))
+    x = (x - np.average(x, weights=window)) * window
+    trial = frequency * np.linspace(1.0 - within, 1.0 + within, 81)
+    sizes = np.abs(np.exp(1j * np.outer(trial, step_s * np.arange(len(x)))) @ x)
+    most = int(np.argmax(sizes))
+    return float(trial[most]), float(2.0 * sizes[most] / window.sum())
+
+
+def kept(series, step_s: float, period_s: float, frequency: float) -> float:
+    """Amplitude of the free oscillation near a frequency in LATE by that in EARLY.
+
+    At the frequency that it has in EARLY, where it is large: later the wave's frequency less the pendulum's, which
+    lies beside the radial one, may be larger.
+    """
+    own, before = free(series, step_s, period_s, frequency, EARLY)
+    return free(series, step_s, period_s, own, LATE, 0.0)[1] / before
+
+
+def _off_rest(series, step_s: float, period_s: float) -> float:
+    late = series[-round(SETTLED * period_s / step_s) :]
+    return float((np.mean(late) - series[0]) / (0.5 * np.ptp(late)))
+
+
+def _bins_away(series, step_s: float, period_s: float, frequency: float) -> float:
+    from analysis import peaks_near, spectrum
+
+    found = peaks_near(spectrum(series, step_s, period_s, *WINDOW), (frequency,))[0]
+    return math.nan if found is None else float(found.bins_away)
+
+
+def buckling_waves(profiles) -> float | None:
+    """Half waves of the rope while it is slack over its whole length: median number of changes of the turn's side, +1.
+
+    profiles: of a run of a buoy; None where the rope is never slack.
+    """
+    slack = (profiles.tension_N < 0.0).mean(axis=1) > 0.5
+    counts = []
+    for x, z in zip(profiles.x_m[slack], profiles.z_m[slack], strict=True):
+        dx, dz = np.diff(x), np.diff(z)
+        turn = np.arctan2(dx[:-1] * dz[1:] - dz[:-1] * dx[1:], dx[:-1] * dx[1:] + dz[:-1] * dz[1:])
+        side = np.sign(turn[np.abs(turn) > TURN_RAD])
+        counts.append(1 + int(np.count_nonzero(side[1:] != side[:-1])))
+    return float(np.median(counts)) if counts else None

@@ -1,0 +1,250 @@
+"""Section 4.2.2: the buoy in large waves, in their plane: how the line snaps, whether the motion is chaotic."""
+
+import math
+
+from campaigns.paper.measured import Results
+from campaigns.paper.measures import LARGE
+from campaigns.paper.snaps import NEAR_ZERO
+from campaigns.paper.statements.judging import (
+    EXPONENT,
+    LONG,
+    NOT_IN_DOUBT,
+    NOTHING,
+    UNDECIDED,
+    at,
+    at_places,
+    by_regime,
+    elsewhere,
+    everywhere,
+    exponent,
+    of,
+    over_depth,
+    passed,
+    positive,
+    regimes,
+    settled,
+    value_of,
+)  # fmt: skip
+from campaigns.paper.statements.small_waves import AGAIN, DEPTHS
+from campaigns.statements import Claim, Measured, above, below, listed, met, shown, told
+from campaigns.tables import Row
+
+MOSTLY = 0.5  # share
+NO_RUN = "none"  # as `listed` says it
+SLACK, PEAK = 0.01, 2.0  # share of the time; maximum over the static tension
+
+
+def good(rows) -> list[Row]:
+    """The rows of runs that ended as asked, by steepness."""
+    return sorted((row for row in rows if row["status"] == "ok"), key=lambda row: row["steepness"])
+
+
+def threshold(results: Results) -> Measured:
+    """From which wave steepness on the line goes slack."""
+    rows = good(results.sweep)
+    slack = [is_slack(row) for row in rows]
+    if not rows:
+        return Measured()
+    first = slack.index(True) if any(slack) else len(rows)
+    checks = passed(
+        ("there is a threshold", 0 < first < len(rows)),
+        ("slack at all larger waves", any(slack) and all(slack[first:])),
+    )
+    return Measured(checks, f"{spans(slack, rows)} of {spans([True] * len(rows), rows)}")
+
+
+def chaos_beyond(results: Results) -> Measured:
+    """The regimes of all runs whose line goes slack; the long ones where there are both."""
+    rows = good({row["steepness"]: row for row in (*good(results.sweep), *good(results.buoy.values()))}.values())
+    kinds = {
+        "chaotic": _is_chaotic,
+        "periodic or quasi-periodic": lambda regime: regime not in ("chaotic", *UNDECIDED),
+        "undecided or a transient": lambda regime: regime in UNDECIDED,
+    }
+    words = {
+        kind: spans([is_slack(row) and is_so(row["regime"]) for row in rows], rows) for kind, is_so in kinds.items()
+    }
+    checks = [(f"kA = {words[kind]}", kind == "chaotic") for kind in [*kinds][:2] if words[kind] != NO_RUN]
+    return Measured(passed(*checks), "; ".join(f"{kind} {word}" for kind, word in words.items()) if rows else "")
+
+
+def is_slack(row: Row) -> bool:
+    """Whether the line goes slack at all."""
+    return value_of(row, "slack_fraction") > 0.0
+
+
+def spans(chosen: list[bool], rows: list[Row]) -> str:
+    """The steepnesses of the chosen rows in words, neighbours joined into "a to b"."""
+    groups: list[list[float]] = []
+    for before, wanted, row in zip([False, *chosen], chosen, rows, strict=False):
+        if wanted:
+            groups = groups if before else [*groups, []]
+            groups[-1].append(row["steepness"])
+    return listed(f"{one[0]:.4g} to {one[-1]:.4g}" if len(one) > 1 else f"{one[0]:.4g}" for one in groups)
+
+
+def snapping(results: Results) -> Measured:
+    """Share of the time near zero tension, and the largest tension over the static one, at every depth."""
+    static = results.number("estimate_static_tension_N")
+    rows = [row for row in results.over_depth(LARGE) if math.isfinite(value_of(row, "near_zero") * static)]
+    checks, words = [], []
+    for row in rows:
+        share, peak = row["near_zero"], row["tension_top_max_N"] / static
+        checks.append((at(row), share > SLACK and peak > PEAK))
+        words.append(f"{shown(share, '.1%')} and {shown(peak, '.1f')} at {at(row)}")
+    return Measured(passed(*checks), ", ".join(words))
+
+
+def impulsive(results: Results) -> Measured:
+    """Length of the peaks over that of a free rebound: a mass on the taut line takes half a natural period, and at half
+    height a third of one, however it comes in."""
+    elastic = results.number("estimate_wave_radps") / results.number("estimate_radial_radps") / 3.0  # wave periods
+    rows = [(at(row), value_of(row, "peak_periods") / elastic) for row in results.over_depth(LARGE)]
+    known = [(where, share) for where, share in rows if math.isfinite(share)]
+    words = ", ".join(f"{shown(share, '.2f')} at {where}" for where, share in known)
+    return Measured(known, f"of {shown(elastic, '.2f')} wave periods {words}" if known else "")
+
+
+def buckles(results: Results) -> Measured:
+    """Half waves of the slack rope in the run whose shape was kept."""
+    depth_m, waves = results.number("buckle_depth_m"), results.number("buckle_waves")
+    return Measured([(f"H = {depth_m:g} m", waves)], shown(waves, "g")) if math.isfinite(waves) else Measured()
+
+
+def positive_exponent(results: Results) -> Measured:
+    """The exponent of the long run, and of the short ones; at the shipped depth the long run decides."""
+    rows = [(at(row), row) for row in results.over_depth(LARGE) if math.isfinite(value_of(row, EXPONENT))]
+    others = [(where, row) for where, row in elsewhere(results, LARGE) if math.isfinite(value_of(row, EXPONENT))]
+    long, depth = results.buoy.get(LARGE), f"H = {results.depth():g} m"
+    deciding = {where: row for where, row in rows if settled(row)}
+    found = f"shorter runs {', '.join(f'{exponent(row)} at {where}' for where, row in rows + others) or 'none'}"
+    if long is not None:
+        deciding.pop(depth, None)
+        if exponent(long) != "none":
+            deciding[depth] = long
+            found = f"{LONG} at {depth} {exponent(long)}; {found}"
+    checks = sorted((where, positive(row)) for where, row in deciding.items())
+    checks += [(where, positive(row)) for where, row in others if settled(row)]
+    return Measured(passed(*checks), found if rows or others or long else "")
+
+
+def chaotic(results: Results) -> Measured:
+    """The regime of the long run, and of the short ones; at the shipped depth the long run decides."""
+    rows, long = [(at(row), row) for row in results.over_depth(LARGE)], results.buoy.get(LARGE)
+    others, depth = elsewhere(results, LARGE), f"H = {results.depth():g} m"
+    found, deciding = f"shorter runs {by_regime(rows + others)}", dict(rows)
+    if long is not None and long["regime"] not in UNDECIDED:
+        deciding[depth] = long
+        tighter = f" (at a tenth of the tolerance: {again})" if (again := long.get("regime_tighter")) else ""
+        found = f"{LONG} at {depth} {long['regime']}{tighter}; {found}"
+    checks = regimes(sorted(deciding.items(), key=lambda one: one[0]), _is_chaotic) + regimes(others, _is_chaotic)
+    return Measured(checks, found if rows or others or long else "")
+
+
+def _is_chaotic(regime: str) -> bool:
+    return regime == "chaotic"
+
+
+def never_repeats(results: Results) -> Measured:
+    """The strobed period of the short runs; none where the motion does not repeat."""
+    rows = [(at(row), value_of(row, "strobed_period")) for row in results.over_depth(LARGE)]
+    return Measured(passed(*((where, math.isnan(period)) for where, period in rows)), told(rows, "g"))
+
+
+def no_dominant_mode(results: Results) -> Measured:
+    """Largest share of the variance on one bin of eq. (31), of r and theta."""
+    rows, long = everywhere(results, LARGE), results.buoy.get(LARGE)
+    if long is not None:
+        rows = [(where, row) for where, row in rows if where != f"H = {results.depth():g} m"] + [(LONG, long)]
+    lines = [(where, value_of(row, "radial_line"), value_of(row, "angular_line"), row) for where, row in rows]
+    lines = [one for one in lines if math.isfinite(one[1])]
+    if not lines:
+        return Measured()
+    where, r, theta, row = lines[-1]
+    places = [value_of(row, f"{side}_at") for side in ("radial", "angular")]
+    words = ", ".join(
+        f"{name} {shown(share, '.1%')} at {shown(place, '.3g')} of the waves' frequency"
+        for name, share, place in zip(("r", "θ"), (r, theta), places, strict=True)
+    )
+    least, other = min((min(one[1:3]), one[0]) for one in lines)
+    words += f" ({where}); least of {len(lines)} runs {shown(least, '.1%')} ({other})"
+    return Measured([(where, max(r, theta)) for where, r, theta, _ in lines], words)
+
+
+def _fills(results: Results) -> float:
+    return results.number("correlation_dimension") + NOT_IN_DOUBT * results.number("correlation_dimension_error")
+
+
+SWEEP = "part `sweep`: one run a steepness"
+THRESHOLD = Claim(
+    "4.2", "Beyond a threshold of the wave amplitude the line goes slack for part of the cycle and then snaps.",
+    "Slack at kA", threshold, met("taut below one steepness, slack from it on"), SWEEP,
+)  # fmt: skip
+SNAPPING = Claim(
+    "4.2, 4.2.2, fig. 13", "In large waves intervals of almost no tension are followed by large peaks.",
+    f"Time below {NEAR_ZERO} of the static tension, and largest over static tension", snapping,
+    met("1 % of the time; 2 times the static one"), f"{DEPTHS}; {AGAIN}",
+)  # fmt: skip
+CHAOTIC = Claim(
+    "4.2, 4.2.2", "In large waves the motion of the buoy is chaotic.", "Regime", chaotic,
+    met(f"regime chaotic; {NOTHING}"), f"0-1 test, two surrogates, halves, tighter tolerance; {DEPTHS}",
+)  # fmt: skip
+CLAIMS = (
+    THRESHOLD,
+    Claim(
+        "4.2", "Wherever the line goes slack and snaps, the motion is chaotic.", "With a slack line, at kA",
+        chaos_beyond, met(f"regime chaotic; {NOTHING}"), SWEEP,
+    ),
+    SNAPPING,
+    Claim(
+        "4.2.2", "In large waves the line is at times in compression, while the buoy moves towards the anchor.",
+        "Share of the time in compression during which r falls, share of the time in compression, and share of the "
+        "slack intervals that begin while r falls",
+        over_depth(LARGE, ".1%", "compressed_inwards", "compressed", "begun_inwards"),
+        above(MOSTLY, "more than 50 % of the time in compression"), DEPTHS,
+    ),
+    Claim(
+        "4.2.2", "In large waves the slack line buckles into a mode of high order.",
+        "Half waves along the slack line, median over the samples", buckles,
+        above(3.5, "4 or more"), "shape of the rope in three dimensions, part `out_of_plane`; one grid",
+    ),
+    Claim(
+        "4.2.2, fig. 13",
+        "In large waves the tension builds up as the buoy moves away from the anchor; its peaks stop and turn it.",
+        "Share of the peaks that do", over_depth(LARGE, ".1%", "turned"), above(0.99, "more than 99 % of the peaks"),
+        DEPTHS,
+    ),
+    Claim(
+        "4.2.2, fig. 13", "In large waves the peaks of tension are nearly impulses.",
+        "Length at half height over that of a free elastic rebound", impulsive,
+        below(MOSTLY, "shorter than 50 % of the rebound"), f"closed form of an elastic rebound; {DEPTHS}",
+    ),
+    Claim(
+        "4.2.2, fig. 14", "In large waves the largest Lyapunov exponent is positive.", "Bits per period",
+        positive_exponent,
+        met(f"{NOT_IN_DOUBT:g} standard errors above zero; where it is not, and the regime is open too, nothing"),
+        f"tangent dynamics; finite separation agrees (docs/findings.md); {DEPTHS}",
+    ),
+    CHAOTIC,
+    Claim(
+        "4.2.2, figs. 15, 16", "In large waves both motions are non-periodic and irregular.",
+        "Wave periods after which it repeats", never_repeats, met("no period up to 16"),
+        f"strobed motion; {DEPTHS}",
+    ),
+    Claim(
+        "4.2.2, figs. 17, 18", "In large waves the spectra are continuous over a wide range of frequencies.",
+        "Share of the variance of the strobed r, r′ that is on no spectral line",
+        at_places(".1%", {LONG: of("unexplained")}), above(0.05, "above 5 %"),
+        "lines fitted to the strobed record (CLEAN)",
+    ),
+    Claim(
+        "4.2.2, figs. 17, 18", "In large waves the spectra show no dominant modes.",
+        "Largest share of the variance on one bin of eq. (31)", no_dominant_mode, below(0.25, "below 25 % in r and θ"),
+        f"spectra by eq. (31); {DEPTHS}, both buoyancies",
+    ),
+    Claim(
+        "4.2.2, fig. 19a", "The points of the section r, r′ fill a region, without a clear fractal structure.",
+        "Correlation dimension of the section", at_places(".2f", {LONG: of("correlation_dimension")}, _fills),
+        above(2.0, "dimension 2 within two errors"), "correlation dimension of the section of the long run",
+    ),
+)  # fmt: skip

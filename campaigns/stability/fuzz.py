@@ -1,0 +1,89 @@
+"""Random scenes against the engine: what each does, in one word and one line (`campaigns.stability --fuzz N`).
+
+valid scenes: "ok"; "ended" (a status with its reason; finite samples up to there); "refused" (ValueError that names a
+key and what is allowed).
+invalid scenes: "refused", every line naming a key and what is allowed.
+Anything else is a fault of the program: "hang" (over the time limit), "crash" (its process died), "traceback",
+"not-finite", "incomplete" (ok, but samples are missing), "silent" (ended without a reason), "accepted" (an invalid
+scene), "unclear" (a message without a key or without what is allowed).
+"""
+
+import re
+from functools import cache
+
+import numpy as np
+
+from campaigns.columns import Column
+from campaigns.stability.limited import DONE, limited
+from campaigns.stability.random_faults import VALID, faults_of
+
+LIMIT_S = 60.0
+SOUND = ("ok", "ended", "refused")
+SAMPLES = 40  # a run lasts for so many output samples ...
+STEPS = 1e4  # ... and for no more of the longest steps: what is asked for has to be possible in the time limit
+CLEAR = re.compile(r"^.+: .*(allowed|unknown key|which law = .* does not have)", re.DOTALL)
+LONGEST_LINE = 400
+COLUMNS = (
+    Column("kind", symbol="scenes", meaning="valid: to be run or refused in words; invalid: to be refused"),
+    Column("number", "", "number", "number of the scene among those of its kind", 0),
+    Column("outcome", symbol="outcome", meaning="ok, ended and refused are sound; anything else is a fault"),
+    Column("status", symbol="ended", meaning="how the run of a valid scene ended"),
+    Column("message", symbol="message", meaning="the reason that the user is given"),
+    Column("wall_s", "s", "wall", "wall-clock time of the scene", 2),
+)
+
+
+@cache
+def load_kernels() -> None:
+    """Load all machine code, of a plane and of space, once in a process: a fork of it then has nothing to load."""
+    from engine import load_scene, simulate
+
+    carried = {"output.tangent_vectors": 1, "output.lateral_growth": True, "tether.nodes": 5}
+    for changes in ({"motion.dimensions": 3}, carried):
+        simulate(load_scene("tethered_buoy", changes), duration_s=5.05)
+
+
+def judged(kind: str, raw: dict) -> dict[str, object]:
+    """What the engine makes of a scene: {"outcome", "status" of its run, "message", "wall_s"}."""
+    answer_of = run_valid if kind == VALID else refuse_invalid
+    way, answer, wall_s = limited(lambda: answer_of(raw), LIMIT_S)
+    outcome, status, message = answer if way == DONE else (way, "", answer)
+    return {"outcome": outcome, "status": status, "message": message, "wall_s": wall_s}
+
+
+def refuse_invalid(raw: dict) -> tuple[str, str, str]:
+    """(outcome, "", message) of a scene that has to be refused."""
+    lines = faults_of(raw)
+    unclear = [line for line in lines if not CLEAR.match(line) or len(line) > LONGEST_LINE]
+    return "unclear" if unclear else "refused" if lines else "accepted", "", "; ".join(unclear or lines)
+
+
+def run_valid(raw: dict) -> tuple[str, str, str]:
+    """(outcome, status, message) of the run of a valid scene. Raises what is no refusal in words."""
+    from engine import simulate
+    from engine.scene import build_scene
+    from engine.scene.size_limits import longest_step
+
+    scene = build_scene(raw)
+    length_s = min(SAMPLES * scene.sample_step_s(), STEPS * longest_step(scene)[1])
+    try:
+        run = simulate(scene, duration_s=length_s)
+    except ValueError as error:
+        if not CLEAR.match(str(error)):
+            raise
+        return "refused", "", str(error)
+    return outcome_of(run, length_s)
+
+
+def outcome_of(run, length_s: float) -> tuple[str, str, str]:
+    """(outcome, status, message) of a finished run of that length."""
+    arrays = [*run.columns.values()]
+    if run.profiles is not None:
+        lines = run.profiles
+        arrays += [lines.x_m, lines.y_m, lines.z_m, lines.strain, lines.tension_N, lines.speed_mps]
+    if not all(np.isfinite(array).all() for array in arrays):
+        return "not-finite", run.status, run.message
+    if run.status == "ok":
+        missing = len(run.columns["time_s"]) != int(length_s / run.scene.sample_step_s() * (1 + 1e-12) + 1e-9) + 1
+        return ("incomplete" if missing else "ok"), run.status, run.message
+    return ("ended" if run.message else "silent"), run.status, run.message

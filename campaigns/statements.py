@@ -1,0 +1,177 @@
+"""Statements put to the test: what is claimed, what is measured, and the rule that decides.
+
+A `Claim` is a record. `judged` measures it in the results and applies its rule at each place where it looked: the claim
+"holds" where every check passes, it "does not hold" where none does, and it "holds if" between, with the places; a dash
+where nothing was looked at. A verdict is always computed and cannot be written. `statements.csv` has one row a claim.
+"""
+
+import csv
+import io
+import math
+import re
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from engine.atomic import write_atomic
+
+FILE = "statements.csv"
+COLUMNS = ("number", "place", "statement", "verdict", "condition", "found", "threshold", "evidence")
+HOLDS, HOLDS_IF, FAILS, OPEN = "holds", "holds if", "does not hold", "–"
+NOT_SHOWN = "No run shows it."
+Check = tuple[str, float]  # where it was looked, and the number that the rule judges there
+
+
+@dataclass(frozen=True)
+class Rule:
+    """What decides a check: a test of the measured number, and the same in words."""
+
+    holds: Callable[[float], bool]
+    words: str
+
+
+@dataclass(frozen=True)
+class Measured:
+    """What the results say to a claim.
+
+    checks   (where, number) for every place that decides; a number that is nan decides nothing
+    told     the numbers as the reader sees them
+    """
+
+    checks: Sequence[Check] = ()
+    told: str = ""
+
+
+@dataclass(frozen=True)
+class Claim:
+    """A statement of the paper, as data.
+
+    place      section and figure of the paper
+    text       what the paper says, in our words, in a sentence
+    quantity   what is measured, with its unit
+    measure    results -> Measured
+    rule       what a measured number must obey
+    evidence   what else supports the number: refinement, other method, code, closed form
+    """
+
+    place: str
+    text: str
+    quantity: str
+    measure: Callable[[object], Measured]
+    rule: Rule
+    evidence: str
+
+
+@dataclass(frozen=True)
+class Statement:
+    """A claim with its verdict. checks: (where, whether it holds there)."""
+
+    claim: Claim
+    checks: tuple[tuple[str, bool], ...]
+    found: str
+
+    @property
+    def verdict(self) -> str:
+        """HOLDS, HOLDS_IF, FAILS or OPEN."""
+        passed = [holds for _, holds in self.checks]
+        return OPEN if not passed else HOLDS if all(passed) else HOLDS_IF if any(passed) else FAILS
+
+    @property
+    def condition(self) -> str:
+        """Of "holds if": where it holds, and where not; else nothing."""
+        if self.verdict != HOLDS_IF:
+            return ""
+        sides = (grouped([where for where, holds in self.checks if holds is wanted]) for wanted in (True, False))
+        return "{}; not {}".format(*sides)
+
+
+def judged(claims: Iterable[Claim], results: object) -> list[Statement]:
+    """Every claim with its verdict, in the order given."""
+    return [judge(claim, results) for claim in claims]
+
+
+def judge(claim: Claim, results: object) -> Statement:
+    """Measure a claim in the results and apply its rule."""
+    measured = claim.measure(results)
+    checks = [(where, bool(claim.rule.holds(value))) for where, value in measured.checks if math.isfinite(value)]
+    found = f"{claim.quantity}: {measured.told}." if measured.told else NOT_SHOWN
+    return Statement(claim, tuple(checks), found)
+
+
+def write_statements(folder: Path, claims: Iterable[Claim], results: object) -> None:
+    """Judge the claims and write statements.csv; a file that says the same already stays as it is. Raises OSError."""
+    path, content = folder / FILE, as_csv(judged(claims, results))
+    if not path.exists() or path.read_bytes() != content:
+        write_atomic(path, content)
+
+
+def as_csv(statements: Sequence[Statement]) -> bytes:
+    """statements.csv: one row a statement, numbered from 1."""
+    text = io.StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    writer.writerow(COLUMNS)
+    for number, one in enumerate(statements, 1):
+        claim = one.claim
+        said = (claim.text, one.verdict, one.condition, one.found, claim.rule.words, claim.evidence)
+        writer.writerow([number, claim.place, *said])
+    return text.getvalue().encode()
+
+
+def below(limit: float, words: str) -> Rule:
+    """The number is less than the limit."""
+    return Rule(lambda value: value < limit, words)
+
+
+def above(limit: float, words: str) -> Rule:
+    """The number is larger than the limit."""
+    return Rule(lambda value: value > limit, words)
+
+
+def within(limit: float, words: str) -> Rule:
+    """The number is closer to zero than the limit."""
+    return Rule(lambda value: abs(value) < limit, words)
+
+
+def met(words: str) -> Rule:
+    """The measure has decided itself: 1 where the claim holds, 0 where it does not."""
+    return Rule(lambda value: value == 1.0, words)
+
+
+def shown(value: float, form: str) -> str:
+    """A number by a format specification, with the signs of print; a dash for none.
+
+    >>> shown(-0.1234, ".1%"), shown(0.5, ".2f"), shown(float("nan"), ".2f"), shown(-0.0001, ".2f")
+    ('−12.3 %', '0.50', '–', '0.00')
+    """
+    if not math.isfinite(value):
+        return OPEN
+    text = format(value, form)
+    if not re.search("[1-9]", text):
+        text = text.removeprefix("-")
+    return text.replace("-", "−").replace("%", " %")
+
+
+def told(numbers: Iterable[Check], form: str) -> str:
+    """Numbers with their names: "1: 43.2, 2: 111.2"."""
+    return ", ".join(f"{name}: {shown(value, form)}" for name, value in numbers)
+
+
+def listed(words: Iterable[str]) -> str:
+    """ "a", "a and b", "a, b and c"; "none" of nothing."""
+    words = list(words)
+    return words[0] if len(words) == 1 else f"{', '.join(words[:-1])} and {words[-1]}" if words else "none"
+
+
+def grouped(places: list[str]) -> str:
+    """The places in a list; what some share around one number is said once.
+
+    >>> grouped(["H = 21 m", "H = 22 m", "H = 22 m with a cap"]), grouped(["r", "theta"])
+    ('H = 21 and 22 m, and H = 22 m with a cap', 'r and theta')
+    """
+    groups: dict[tuple[str, str], list[str]] = {}
+    for place in places:
+        part = re.fullmatch(r"(\D*)(\d\S*)(.*)", place)
+        around, number = ((part[1], part[3]), part[2]) if part else ((place, ""), "")
+        groups.setdefault(around, []).append(number)
+    said = [f"{before}{listed(numbers)}{after}" for (before, after), numbers in groups.items()]
+    return ", and ".join(said) if len(said) == 2 and any(" and " in one for one in said) else listed(said)

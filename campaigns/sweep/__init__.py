@@ -1,0 +1,127 @@
+"""Sweep of any number in a scene: one run a value, or one a pair of values of two keys; a table, a report.
+
+    python -m campaigns.sweep --vary buoy.mass_kg 200 1600 8
+    python -m campaigns.sweep --vary water.depth_m 21 23 5 --vary waves.steepness 0.02 0.14 7 --periods 80
+    python -m campaigns.sweep --scene hanging_line --duration 20 --vary tether.nodes 21 81 4
+
+Protocol: the same scene, start and length for every value of the keys; the transient is left out of all that is
+measured. A buoy in regular waves gets the rows of `campaigns.buoy_sweep`, with regime and exponents where the run is
+long enough; any other line gets extremes, tension and the solver's counts. Nothing is random.
+"""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import partial
+from itertools import product
+
+from campaigns.machinery import cli
+from campaigns.study import Case, Lengths, Measures, Order, Study
+
+MOST_KEYS = 2
+
+
+@dataclass(frozen=True)
+class Own:
+    """What this campaign's own options say: the keys with their values, and seconds for a scene without waves."""
+
+    varied: tuple
+    duration_s: float | None
+
+
+def options(group) -> None:
+    """Add the options that other studies do not have."""
+    cli.add(group, "--vary", "KEY LO HI COUNT", "a key of the scene and its values, both ends included; once or twice")
+    cli.add(group, "--duration", "S", "length of every run in seconds, for a scene without waves")
+
+
+def read(options, faults: list[str]) -> Own:
+    """What they say."""
+    from campaigns.sweep.keys import varied
+
+    words = options.vary or []
+    allowed = "once or twice KEY LO HI COUNT, for instance buoy.mass_kg 200 1600 8"
+    if not words or len(words) % 4 or len(words) > 4 * MOST_KEYS:
+        faults.append(f"--vary: given {' '.join(words) or 'nothing'}; allowed: {allowed}")
+        words = []
+    found = [varied(words[start : start + 4], faults) for start in range(0, len(words), 4)]
+    keys = tuple(one for one in found if one is not None)
+    if len({one.key for one in keys}) < len(keys):
+        faults.append(f"--vary {keys[0].key}: given twice; allowed: two different keys")
+    seconds = cli.value(options.duration, "--duration", None, cli.fraction, "seconds, a finite number above 0", faults)
+    return Own(keys, seconds)
+
+
+def cases(order: Order) -> Iterator[Case]:
+    """A run for every value, or pair of values."""
+    from campaigns.judge import in_regular_waves, judged_scene
+
+    order.tell(
+        f"--set {one.key}: this campaign sets it; use --vary" for one in order.own.varied if one.key in order.changes
+    )
+    base = order.base()
+    if base is None or not order.own.varied:
+        order.scene({})
+        return
+    duration_s = _duration_s(order, base)
+    for values in product(*(one.values for one in order.own.varied)):
+        changes: dict[str, object] = {}
+        for one, value in zip(order.own.varied, values, strict=True):
+            order.tell(one.put(value, base, changes))
+        scene = order.scene(changes, duration_s)
+        if scene is not None and in_regular_waves(scene):
+            scene = judged_scene(order, changes)
+        if scene is not None:
+            labels = {one.key: value for one, value in zip(order.own.varied, values, strict=True)}
+            yield Case({**labels, "dimensions": scene.motion.dimensions}, scene, duration_s=duration_s)
+
+
+def _duration_s(order: Order, base) -> float | None:
+    """Seconds of every run; None where it is counted in wave periods."""
+    given = order.own.duration_s
+    if base.waves is not None and given is not None:
+        order.tell(["--duration: given for a scene with waves; allowed: --periods"])
+    if base.waves is None and not given:
+        order.tell([f"--duration: given nothing for {order.name!r}, a scene without waves; allowed: seconds, above 0"])
+    return given if base.waves is None else None
+
+
+def measures(order: Order) -> Measures:
+    """The row of a buoy in waves, or that of any line, after the values of the keys."""
+    from campaigns.buoy_sweep import ROW_SOURCES
+    from campaigns.judge import in_regular_waves
+    from campaigns.sweep.rows import BUOY, LINE, sweep_row
+
+    labels = tuple(one.column for one in order.own.varied)
+    measured = BUOY if any(in_regular_waves(case.scene) for case in order.cases) else LINE
+    columns = (*labels, *(column for column in measured if column.name not in {one.name for one in labels}))
+    row = partial(sweep_row, transient_periods=order.transient, simulate=order.simulate)
+    sources = (*ROW_SOURCES, "campaigns/sweep/rows.py")
+    return Measures(columns, row, sources, {"transient": order.transient})
+
+
+def parameters(order: Order) -> dict[str, object]:
+    """What the provenance says of this campaign."""
+    from campaigns.judge import LONGEST_PERIOD, STROBE_TOLERANCE
+
+    told: dict[str, object] = {
+        "vary": {one.key: list(one.values) for one in order.own.varied},
+        "strobe_tolerance": STROBE_TOLERANCE,
+        "longest_period": LONGEST_PERIOD,
+    }
+    if order.own.duration_s is not None:
+        told |= {"duration_s": order.own.duration_s, "periods": None, "transient": 0}
+    return told
+
+
+STUDY = Study(
+    name="sweep",
+    protocol=__doc__,
+    scene="tethered_buoy",
+    lengths=Lengths(periods=120, transient=40),
+    options=options,
+    read=read,
+    cases=cases,
+    measures=measures,
+    parameters=parameters,
+)
+main, parser, read_order = STUDY.main, STUDY.parser, STUDY.read_order

@@ -1,0 +1,158 @@
+"""A column of any file: is it periodic, quasi-periodic or chaotic, and how sure is that?
+
+    python -m analysis FILE.csv --column NAME [--time COLUMN | --step SECONDS] [--period SECONDS] [--out DIR]
+
+Any evenly sampled column will do. With --period, that of the forcing, the motion is judged once per period; a file
+whose rows are a section already takes --period equal to --step. Without it the motion is judged at its maxima, or,
+where less than six samples lie in a mean period, sample by sample. Noise is not called chaos: that word needs a
+positive exponent and what noise does not have (docs/howto_time_series.md).
+"""
+
+import argparse
+import math
+import os
+import sys
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from campaigns.machinery import cli
+from campaigns.machinery.command import command
+from campaigns.machinery.out_folder import fault_of, folder_name
+
+if TYPE_CHECKING:
+    from campaigns.time_series.record import Record
+
+CAMPAIGN, MODULE = "time_series", "analysis"
+# What `folder` and the report write, the first one first, told here because importing either takes a second.
+WRITTEN = (
+    *("answer.txt", "answer.json", "series.csv", "spectrum.csv", "section.csv", "divergence.csv", "dimension.csv"),
+    *("columns.csv", "report.html", "report.pdf"),
+)
+EXITS = "exit codes: 0 done, 1 the folder could not be written, 2 bad input, 130 Ctrl-C"
+SECONDS = "a finite number above 0 [s; samples where neither --time nor --step is given]"
+
+
+@dataclass(frozen=True)
+class Order:
+    """What the command line asks for, checked. period [unit of time of the record], tolerance: None: not given;
+    how.out: the folder, or None."""
+
+    record: "Record | None"
+    period: float | None
+    tolerance: float | None
+    how: cli.Running
+
+
+def main(argv: list[str] | None = None) -> int:
+    """The command: prints the answer, writes --out. Returns the exit code (0, 1, 2 or 130)."""
+    return command(MODULE, argv, read_order, judge)
+
+
+def parser() -> argparse.ArgumentParser:
+    """The options; their words are taken as they come and judged together."""
+    made = cli.parser(MODULE, __doc__, EXITS)
+    made.add_argument("file", metavar="FILE.csv", nargs="*", help="columns of numbers, their names in the first line")
+    made.add_argument("--column", metavar="NAME", help="the column to judge; may be left out where there is only one")
+    made.add_argument("--time", metavar="COLUMN", help="the column of times in seconds, evenly spaced")
+    made.add_argument("--step", metavar="SECONDS", help="sampling step, in place of a column of times")
+    made.add_argument("--period", metavar="SECONDS", help="period of the forcing (default: none is known)")
+    repeats = "a motion repeats within this share of its range (default 0.001; with noise, eight times its share)"
+    made.add_argument("--tolerance", metavar="SHARE", help=repeats)
+    made.add_argument("--out", metavar="DIR", help="folder for the answer and every curve behind it (default: none)")
+    return made
+
+
+def read_order(argv: list[str], faults: list[str]) -> Order:
+    """The order in the words of the command line, its record read; every fault is appended to `faults`."""
+    options = cli.split(parser(), argv, faults)
+
+    def value(option: str, convert: Callable, allowed: str) -> object:
+        text = getattr(options, option[2:])
+        return cli.value(None if text is None else [text], option, None, convert, allowed, faults)
+
+    step = value("--step", above_zero(), "a finite number above 0 [s]")
+    period = value("--period", above_zero(), SECONDS)
+    tolerance = value("--tolerance", above_zero(1.0), "a number above 0 and below 1")
+    out = value("--out", folder_name, "the name of a folder")
+    if options.step is not None and options.time is not None:
+        faults.append("--time and --step: given both; allowed: one of them")
+    given, *others = options.file or [None]
+    faults.extend(f"{word}: given beside {given}; allowed: one file" for word in others)
+    if out is not None and (fault := fault_of(out, CAMPAIGN) or _written_over(out, given)):
+        faults.append(fault)
+    record = None
+    if given is None:
+        faults.append("FILE.csv: missing; allowed: the name of a file of columns")
+    else:
+        from campaigns.time_series.record import read_record
+
+        record = read_record(given, options.column, options.time, step, faults)
+    if record is not None and period is not None and (fault := _no_fit(period, record)):
+        faults.append(fault)
+    return Order(record, period, tolerance, cli.Running(out, 1, "threading", None, False))
+
+
+def above_zero(limit: float = math.inf) -> Callable[[str], float]:
+    """A converter for finite numbers above 0 and below a limit."""
+
+    def convert(text: str) -> float:
+        number = float(text)
+        if not 0.0 < number < limit:
+            raise ValueError(text)
+        return number
+
+    return convert
+
+
+def _written_over(out: Path, given: str | None) -> str:
+    """What in a folder would be lost to this command, as a fault line; "" where nothing would."""
+    # A folder with answer.txt alone is that of a command which a full disk stopped: provenance.json comes last.
+    mine = (out / "provenance.json").exists() or (out / WRITTEN[0]).exists()
+    held = "" if mine else next((name for name in WRITTEN if (out / name).exists()), "")
+    if held:
+        lost = f"which holds a {held} that is not known to be of this command"
+    elif given is not None and Path(given).resolve() in [(out / name).resolve() for name in WRITTEN]:
+        lost = f"where {given} would be written over"
+    else:
+        return ""
+    return f"--out: given {str(out)!r}, {lost}; allowed: another folder"
+
+
+def _no_fit(period: float, record: "Record") -> str:
+    """Why a record cannot be seen once per period, as a fault line; "" where it can."""
+    length = (len(record.values) - 1) * record.step
+    given = f"--period: given {period:.6g} {record.unit}"
+    if abs(period - record.step) <= 1e-6 * record.step:
+        return ""
+    if period < 2.0 * record.step:
+        allowed = f"the step itself (the file is a section), or {2 * record.step:.6g} {record.unit} and more"
+        return f"{given}, samples are {record.step:.6g} apart; allowed: {allowed}"
+    if period > length / 4.0:
+        allowed = "a quarter of it at most (a verdict needs 40 periods, chaos 200)"
+        return f"{given} of a record of {length:.6g} {record.unit}; allowed: {allowed}"
+    return ""
+
+
+def judge(order: Order, argv: list[str]) -> int:
+    """Study the record, print the page, write the folder. Returns the exit code."""
+    from campaigns.time_series.folder import write_files
+    from campaigns.time_series.page import page
+    from campaigns.time_series.study import study
+
+    record, out = order.record, order.how.out
+    try:
+        found = study(record, order.period, order.tolerance)
+        print(page(found))
+        if out is not None:
+            asked = {"period": order.period, "step": record.step, "tolerance": found.tolerance}
+            write_files(found, out, {"campaign": CAMPAIGN, **asked})
+            print(f"\n{out}: the answer, and its curves as CSV; with figures: python -m reports {out}")
+    except KeyboardInterrupt:
+        print("\ninterrupted; the folder holds what was written whole", file=sys.stderr)
+        return cli.EXIT_INTERRUPTED
+    except BrokenPipeError:
+        # The reader (head, less) has what it wanted.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+    return cli.EXIT_OK

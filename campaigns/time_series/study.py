@@ -1,0 +1,205 @@
+"""What one column says: spectrum, section, exponents, 0-1 test, dimension, surrogates, and a verdict with its evidence.
+
+The verdict is that of `verdicts.regime` on the section (`section`). Three things are asked beyond it:
+
+- A section at maxima is not a linear function of the record, so that linear noise may leave structure in it. Before
+  "chaotic" stands, the section's prediction gain must also beat those of 39 IAAFT surrogates of the record itself, each
+  seen at its own maxima.
+- A motion whose maxima are all alike need not repeat itself: they may come unevenly. A period seen at maxima also needs
+  them to keep time (`_even_times`).
+- The exponent of Wolf and that of Rosenstein must not contradict each other about what chaos needs: where both are
+  found, both have to be positive.
+"""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from analysis.correlation_sums import CorrelationDimension, correlation_dimension
+from analysis.divergence import kantz_lyapunov, rosenstein_lyapunov
+from analysis.embedding_delay import delay_vectors
+from analysis.embedding_dimension import EmbeddingChoice, choose_embedding
+from analysis.evidence import SHARE, Evidence
+from analysis.exponents import Exponent, no_exponent
+from analysis.predictability import prediction_gain
+from analysis.spectra import SpectralPeak, Spectrum, spectral_peaks, spectrum
+from analysis.surrogates import iaaft_surrogates, normal_scores, rank_among
+from analysis.verdicts import Verdict, regime
+from analysis.wolf_plateau import LEAST_PERIODS, wolf_lyapunov
+from analysis.zero_one import ZeroOneTest, zero_one_test
+from campaigns.time_series.record import Record
+from campaigns.time_series.section import MAXIMA, NOISE_MULTIPLE, SAMPLES, Seen, seen, successive_maxima
+
+# More samples make exponents no better than their other errors, and take long.
+MOST_SAMPLES = 30_000
+MOST_POINTS = 6_000
+NULL_SAMPLES = 8_192
+SURROGATES = 39
+TOLERANCE = 1e-3
+# Share of the time between maxima by which they may stray from even times in a motion that repeats itself.
+EVEN_TIMES = 0.05
+# What the dimension may rise by from one embedding dimension to the next and still be that of the motion.
+SATURATED = 0.1
+
+
+@dataclass(frozen=True, eq=False)
+class Study:
+    """Everything that was found about a record.
+
+    record, seen       the series and its section
+    spectrum, lines    eq. (31) over the later half of the record, and its highest peaks
+    wolf, rosenstein, kantz    Exponent each [nats per unit of time of the record]
+    zero_one           of the section's first coordinate
+    embedding          delay and dimension of the delay vectors; None for a record of fewer than 20 mean periods
+    dimensions         CorrelationDimension in m, m + 1 and m + 2 embedding dimensions, m that of `embedding`
+    dimension          (value, error) where these agree, else (NaN, NaN)
+    verdict            Verdict on the section
+    tolerance          share of the range within which the section had to repeat
+    used               samples looked at by exponents and dimension: the last of the record
+    """
+
+    record: Record
+    seen: Seen
+    spectrum: Spectrum
+    lines: tuple[SpectralPeak, ...]
+    wolf: Exponent
+    rosenstein: Exponent
+    kantz: Exponent
+    zero_one: ZeroOneTest
+    embedding: EmbeddingChoice | None
+    dimensions: tuple[CorrelationDimension, ...]
+    dimension: tuple[float, float]
+    verdict: Verdict
+    tolerance: float
+    used: int
+
+
+def study(record: Record, period: float | None = None, tolerance: float | None = None, seed: int = 0) -> Study:
+    """The Study of a Record; period: of the forcing, in the record's unit of time, or None (`section`).
+
+    tolerance: share of the range within which a motion repeats; None: 0.001, or what splines leave of a sine sampled as
+    coarsely. seed: of surrogates and angles. The same record and seed give the same study.
+    """
+    x, step = record.values, record.step
+    view = seen(x, step, period)
+    last = x[-MOST_SAMPLES:]
+    cycles = len(last) / view.mean_period
+    if cycles < LEAST_PERIODS:
+        # Neighbours apart in time by a mean period would have to be sought through the whole record, for nothing.
+        reason = f"{LEAST_PERIODS} mean periods are needed, given {cycles:.3g}"
+        exponents, embedding, dimensions = [no_exponent("none", reason)] * 3, None, ()
+    else:
+        exponents = [estimate(last, step) for estimate in (wolf_lyapunov, rosenstein_lyapunov, kantz_lyapunov)]
+        embedding = choose_embedding(last)
+        dimensions = _dimensions(last, embedding)
+    found = _spectrum(x, step, view, period)
+    # A maximum or a value between samples carries the error of the spline, h^4/384 for a sine.
+    smooth = 0.0 if view.kind == SAMPLES else (2.0 * np.pi / view.mean_period) ** 4 / 384.0
+    tolerance = max(TOLERANCE, smooth) if tolerance is None else tolerance
+    verdict = _verdict(x, view, exponents, tolerance, seed)
+    irregular = zero_one_test(view.points[-MOST_POINTS:, 0], seed=seed)
+    lines, dimension = spectral_peaks(found)[:5], _saturated(dimensions)
+    measures = (*exponents, irregular, embedding, dimensions, dimension)
+    return Study(record, view, found, lines, *measures, verdict, tolerance, len(last))
+
+
+def _spectrum(x, step, view, period):
+    """Eq. (31) over the later half: in whole forcing periods, or, where none is known, as one period."""
+    whole = int((1.0 + 1e-9) * (len(x) - 1) * step / view.period)
+    if period is not None and view.kind != SAMPLES and whole >= 2:
+        return spectrum(x, step, view.period, start_periods=whole - whole // 2, periods=whole // 2)
+    half = len(x) // 2
+    return spectrum(x[-half - 1 :], step, half * step, start_periods=0, periods=1)
+
+
+def _dimensions(x, embedding):
+    theiler, m = max(1, round(embedding.mean_period)), embedding.dimension
+    vectors = (delay_vectors(x, embedding.lag, m + more)[-MOST_POINTS:] for more in range(3))
+    return tuple(correlation_dimension(points, theiler) for points in vectors)
+
+
+def _saturated(dimensions):
+    """(value, error) of the middle one where all three agree within their errors or a tenth; else (NaN, NaN)."""
+    values = np.array([one.value for one in dimensions])
+    errors = np.array([one.error for one in dimensions])
+    if len(values) == 0 or not np.all(np.isfinite(values)):
+        return np.nan, np.nan
+    rise = float(values.max() - values.min())
+    if rise > max(SATURATED * values[1], 2.0 * float(np.hypot(errors[0], errors[2]))):
+        return np.nan, np.nan
+    return float(values[1]), float(np.hypot(errors[1], 0.5 * rise))
+
+
+def _verdict(x, view, exponents, tolerance, seed):
+    wolf, rosenstein, _ = (one.in_bits_per_period(view.period) for one in exponents)
+    verdict = regime(
+        strobed=view.points[-MOST_POINTS:],
+        wolf_exponent=wolf,
+        scale=np.ptp(x),
+        tolerance=tolerance,
+        surrogates=SURROGATES,
+        seed=seed,
+    )
+    if view.kind == MAXIMA and verdict.period is not None:
+        return _even_times(verdict, view, tolerance)
+    if verdict.regime != "chaotic":
+        return verdict
+    asked = [_agreement(rosenstein)]
+    if view.kind == MAXIMA:
+        asked.append(_record_null(x, view, seed))
+    return _with(verdict, asked, "chaotic by its section, but ")
+
+
+def _with(verdict, asked, but):
+    """The verdict with more evidence: "undecided", with the reason, where a test failed."""
+    verdict = replace(verdict, evidence=(*verdict.evidence, *asked))
+    failed = [item.sentence for item in asked if item.passed is False]
+    if not failed:
+        return verdict
+    return replace(verdict, regime="undecided", period=None, reason=but + "; ".join(failed))
+
+
+def _even_times(verdict, view, tolerance):
+    """The verdict period-N, with whether every Nth maximum keeps to even times: "undecided" where it does not.
+
+    A sine stays within `tolerance` of its range from its maximum for sqrt(tolerance)/pi of a period on either side.
+    """
+    time, between = view.time[-MOST_POINTS:], view.period
+    away = 0.0
+    for first in range(verdict.period):
+        each = time[first :: verdict.period]
+        count = np.arange(len(each))
+        away = max(away, float(np.abs(each - np.polyval(np.polyfit(count, each, 1), count)).max()) / between)
+    most = max(EVEN_TIMES, 1.5 * np.sqrt(tolerance) / np.pi)
+    sentence = f"maxima that are alike stray from even times by {away:.2g} of the time between maxima"
+    return _with(verdict, [Evidence("even times", away, most, away <= most, sentence)], "no period: ")
+
+
+def _agreement(rosenstein):
+    """Does a second method speak against a positive exponent?"""
+    name = "second exponent"
+    if not rosenstein.found:
+        return Evidence(name, np.nan, 0.0, None, f"Rosenstein finds none: {rosenstein.reason}")
+    value, error = rosenstein.value, rosenstein.error
+    sentence = f"Rosenstein's exponent is {value:.4g} +- {error:.2g} bits per period"
+    return Evidence(name, value, 0.0, bool(value > 0.0), sentence, error)
+
+
+def _record_null(x, view, seed):
+    """Rank of the section's prediction gain among those of surrogates of the record, each seen at its own maxima."""
+    name = "record's linear null"
+
+    def gain_of(series):
+        return prediction_gain(successive_maxima(series, NOISE_MULTIPLE * view.noise)[1]).gain
+
+    part = x[-NULL_SAMPLES:]
+    gain, values = gain_of(part), np.sort(part)
+    drawn = iaaft_surrogates(normal_scores(part), SURROGATES, [seed, 7])
+    # Back in the record's own values: the instrument is put on again.
+    gains = [gain_of(values[np.argsort(np.argsort(surrogate))]) for surrogate in drawn]
+    known = [one for one in gains if np.isfinite(one)]
+    if not np.isfinite(gain) or len(known) < 19:
+        return Evidence(name, np.nan, SHARE, None, "too few maxima in the surrogates: no prediction gain")
+    rank = rank_among(gain, known, SHARE)
+    sentence = f"surrogates of the record, seen at their maxima, are predicted worse in {rank.share_below:.0%} of cases"
+    return Evidence(name, rank.share_below, SHARE, rank.above, sentence)

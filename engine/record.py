@@ -1,0 +1,63 @@
+"""What the kernels know of a scene and of a run: two records of named numbers, and the codes of choices.
+
+`engine.parameters` fills a RECORD (in three dimensions a SPATIAL) from a scene; a STATE holds where a run is. Kernels
+and readers of scenes both import this module; it imports nothing of the engine.
+"""
+
+import numpy as np
+
+BUOY, HELD, FREE = 0, 1, 2  # end: what the upper end is
+STILL, HARMONIC, TABLE = 0, 1, 2  # end_motion: how a held end is moved
+EXTRAPOLATE, ZERO, WHEELER = 0, 1, 2  # above: the water above the still water level
+RUNGE_KUTTA, ONE_STAGE = 0, 1  # method: the two families of time integrators
+
+
+PLACE, STRAIN, TENSION, SPEED = 0, 3, 4, 5  # columns of a profile, one row a node: x, y, z (m); 1; N; m/s
+PROFILE_WIDTH = 6
+# columns of the samples of the upper end: time; place x, y, z; velocity x, y, z; tension there, least tension along the
+# line, least and greatest tension at the upper end since the sample before; largest distance from the plane
+(TIME, AT_X, AT_Y, AT_Z, AT_U, AT_V, AT_W, TOP, LEAST, TOP_LOW, TOP_HIGH, OFFPLANE) = range(12)
+SAMPLE_WIDTH = 12
+BEGIN, STEP, KIND = range(3)  # columns of the times of a trail: t (s), dt (s), one of the next
+CONTROLLED, EULER, RESTART = 0.0, 1.0, 2.0  # a usual step, one of backward Euler, one after a sudden start or release
+STRETCH = 5  # column of the nodal array Q at which q = (1 + eps) t begins, in a plane and in space
+
+
+def _dtype(counts, values):
+    return [(name, np.int64) for name in counts.split()] + [(name, np.float64) for name in values.split()]
+
+
+RECORD = np.dtype(
+    _dtype(
+        "nodes grid_at law law_at law_n wet waves current cur_at cur_nx cur_nz cur_nt above end end_motion end_at "
+        "end_n sea_n sea_at spherical_cap bent viscous method stages method_at adaptive max_newton loop_release "
+        "max_releases at_rest",
+        "m w0 EI p1 p2 p3 p4 p5 ct cn ma Rw depth k omega amplitude phase direction ramp "
+        "M_total M_wave lift C_buoy D_buoy M_added B_whole impact_loss end_x end_z end_release end_fx end_fz end_decay "
+        "barrier c_quadratic c_linear per_strain per_force per_speed per_curvature "
+        "order rtol newton_tolerance fixed_step max_step min_step start_x start_z "
+        "output_step release_step growth_per_step shortest_wave profile_step window alpha_m alpha_f gamma pace",
+    )
+)
+# Three dimensions have a type of their own: a kernel that serves both is compiled for each on its first use. Their own
+# fields come first: Numba would take a record that only goes on after the planar fields for a planar one.
+SPATIAL = np.dtype(
+    _dtype(
+        "cur_ny clamp_below clamp_above",
+        "GI dir_x dir_y end_y end_fy start_y below_x below_y below_z above_x above_y above_z "
+        "carry0 carry1 carry2 carry3 twist twist_ramp",
+    )
+    + RECORD.descr
+)
+STATE = np.dtype(
+    _dtype(
+        "status samples profiles small_steps steps rejected newton failures releases attempts cautious trail energies "
+        "small cut",
+        "t dt dt_before low high max_turn min_strain window_end trial_dt corner",
+    )
+)
+
+
+def is_spatial(record):
+    """Is this record, or its dtype, that of a scene in three dimensions?"""
+    return "GI" in getattr(record, "dtype", record).names

@@ -1,0 +1,112 @@
+"""Curves and marks in panels: the drawing that most figures of a report are, given as records of arrays."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from ..parts.content import Picture
+from ..parts.style import BLUE, GREEN, ORANGE, PURPLE, SKY, SOFT, VERMILION, picture_of, sheet
+
+COLOURS = (BLUE, VERMILION, GREEN, ORANGE, PURPLE, SKY)
+
+
+@dataclass(frozen=True, eq=False)
+class Curve:
+    """One curve: x and y (n,), a name for the legend, and how it looks.
+
+    line, mark: matplotlib's style of the line and of the marks, "" for none. error: standard errors (n,) drawn as bars.
+    colour: "" takes the next of COLOURS. filled: whether marks are.
+    """
+
+    x: np.ndarray
+    y: np.ndarray
+    name: str = ""
+    line: str | tuple = "-"
+    mark: str = ""
+    colour: str | tuple = ""
+    error: np.ndarray | None = None
+    size: float = 4.0
+    width: float = 0.9
+    filled: bool = True
+    alpha: float = 1.0
+
+
+@dataclass(frozen=True, eq=False)
+class Panel:
+    """Curves on one pair of axes.
+
+    log: the axes that are logarithmic, "", "x", "y" or "xy". level: a thin horizontal line there. settings: of
+    matplotlib's `Axes.set`, such as limits. ticks: most numbers on the x axis, None as they come.
+    """
+
+    curves: Sequence[Curve]
+    x_label: str = ""
+    y_label: str = ""
+    title: str = ""
+    log: str = ""
+    level: float | None = None
+    settings: Mapping[str, object] = field(default_factory=dict)
+    ticks: int | None = None
+
+
+def draw(axes, panel: Panel) -> None:
+    """Draw a panel on matplotlib's axes, without its legend."""
+    if panel.level is not None:
+        axes.axhline(panel.level, color=SOFT, linewidth=0.7)
+    for number, curve in enumerate(panel.curves):
+        look = {
+            "color": curve.colour or COLOURS[number % len(COLOURS)],
+            "linestyle": curve.line or "none",
+            "linewidth": curve.width,
+            "marker": curve.mark or None,
+            "markersize": curve.size,
+            "fillstyle": "full" if curve.filled else "none",
+            "alpha": curve.alpha,
+            "label": curve.name or "_",
+        }
+        # marks of many points: an edge would make each of them larger
+        look |= {"markeredgewidth": 0.0} if curve.filled and curve.mark in ("o", "s", "^", "D", ".") else {}
+        if curve.error is None:
+            axes.plot(curve.x, curve.y, **look)
+        else:
+            axes.errorbar(curve.x, curve.y, curve.error, elinewidth=0.8, capsize=1.5, **look)
+    for axis in panel.log:
+        getattr(axes, f"set_{axis}scale")("log")
+    axes.set(xlabel=panel.x_label, ylabel=panel.y_label, title=panel.title)
+    axes.set(**panel.settings)
+    if panel.ticks:
+        axes.locator_params(axis="x", nbins=panel.ticks)
+
+
+def curves(
+    rows: Sequence[Sequence[Panel]],
+    height_in: float,
+    legend: str = "",
+    share: str = "",
+    kind: str = "svg",
+) -> Picture:
+    """Rows of panels as one picture.
+
+    legend: place inside every panel that has named curves, in matplotlib's words; "below" one for all panels, under
+    them; "" none. share: "x" panels of a column have one x axis, "y" those of a row one y axis, "xy" both.
+    """
+    with sheet(height_in) as figure:
+        shared = {"sharex": "col" if "x" in share else "none", "sharey": "row" if "y" in share else "none"}
+        grid = figure.subplots(len(rows), max(map(len, rows)), squeeze=False, **shared)
+        handles: dict[str, object] = {}
+        for places, panels in zip(grid, rows, strict=True):
+            for axes in places[len(panels) :]:
+                axes.set_visible(False)
+            for axes, panel in zip(places, panels, strict=False):
+                draw(axes, panel)
+                found = axes.get_legend_handles_labels()
+                handles |= {name: handle for handle, name in zip(*found, strict=True) if name not in handles}
+                if found[1] and legend not in ("", "below"):
+                    axes.legend(loc=legend)
+        if legend == "below" and handles:
+            figure.legend(handles.values(), handles, loc="outside lower center", ncols=min(len(handles), 4))
+        figure.align_ylabels()
+        return picture_of(figure, kind)

@@ -1,0 +1,68 @@
+"""Maps over two parameters: a number by its shade, a word by its colour; crosses where there is nothing."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..parts.content import Picture
+from ..parts.style import BLUE, GREEN, GRID, ORANGE, PURPLE, SKY, SOFT, VERMILION, picture_of, sheet
+
+# the regimes of the analysis keep their colours in every map; other words take what is left
+_WORDS = {"chaotic": VERMILION, "quasi-periodic": ORANGE, "transient": PURPLE, "undecided": SOFT}
+_OTHERS = (BLUE, SKY, GREEN, "#004c77", "#8fd3c1", "#f0e442", GRID)
+
+
+@dataclass(frozen=True, eq=False)
+class Map:
+    """One quantity over x (p,) and y (q,): `cells` (q, p) of numbers, nan for none, or of words, "" for none.
+
+    label: of the scale of numbers; name: as a caption says it.
+    """
+
+    label: str
+    name: str
+    cells: np.ndarray
+
+
+def maps(places: tuple[np.ndarray, np.ndarray], labels: tuple[str, str], shown: Sequence[Map]) -> Picture:
+    """Maps over the same two parameters, two a row; the values stand evenly, with their numbers on the axes."""
+    from matplotlib.colors import BoundaryNorm, ListedColormap
+    from matplotlib.patches import Patch
+
+    rows = (len(shown) + 1) // 2
+    with sheet(0.4 + 2.4 * rows) as figure:
+        grid = figure.subplots(rows, min(len(shown), 2), squeeze=False)
+        for axes in grid.flat[len(shown) :]:
+            axes.set_visible(False)
+        for axes, one in zip(grid.flat, shown, strict=False):
+            words = one.cells.dtype.kind in "UO"
+            known = one.cells != "" if words else np.isfinite(one.cells)
+            if words:
+                named = sorted({str(word) for word in one.cells[known]})
+                left = iter(_OTHERS * (1 + len(named) // len(_OTHERS)))
+                colours = [_WORDS.get(word) or next(left) for word in named]
+                numbers = np.array([[named.index(word) if word else -1 for word in row] for row in one.cells])
+                norm = BoundaryNorm(np.arange(len(named) + 1) - 0.5, max(len(named), 1))
+                axes.imshow(
+                    np.ma.masked_less(numbers, 0),
+                    origin="lower",
+                    aspect="auto",
+                    cmap=ListedColormap(colours),
+                    norm=norm,
+                )
+                handles = [Patch(facecolor=colour, label=word) for colour, word in zip(colours, named, strict=True)]
+                axes.legend(handles=handles, loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=3, borderaxespad=0.0)
+            else:
+                image = axes.imshow(np.ma.masked_invalid(one.cells), origin="lower", aspect="auto", cmap="cividis")
+                figure.colorbar(image, ax=axes, label=one.label, shrink=0.9)
+            down, across = np.nonzero(~known)
+            axes.plot(across, down, "x", color=VERMILION, markersize=5)
+            axes.grid(False)
+            for axis, values, label in zip((axes.xaxis, axes.yaxis), places, labels, strict=True):
+                kept = np.unique(np.linspace(0, len(values) - 1, min(len(values), 6)).round().astype(int))
+                axis.set_ticks(kept, [f"{values[k]:.4g}" for k in kept])
+                axis.set_label_text(label)
+        return picture_of(figure)

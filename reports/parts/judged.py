@@ -1,0 +1,58 @@
+"""Statements of the paper as a campaign judged them: rows of statements.csv, counts of verdicts, tables."""
+
+from __future__ import annotations
+
+import csv
+from collections.abc import Iterable
+from pathlib import Path
+
+from .content import Column, Table
+from .folder import FolderError
+
+FILE = "statements.csv"
+COLUMNS = ("number", "place", "statement", "verdict", "condition", "found", "threshold", "evidence")
+HOLDS, HOLDS_IF, FAILS, OPEN = "holds", "holds if", "does not hold", "–"
+VERDICTS = {HOLDS: "hold", HOLDS_IF: "hold under a condition", FAILS: "do not hold", OPEN: "are not decided"}
+Judged = dict[str, str]
+
+
+def read_statements(directory: Path) -> tuple[Judged, ...]:
+    """The rows of statements.csv. Raises FolderError where they cannot be read."""
+    try:
+        with open(directory / FILE, encoding="utf-8", newline="") as file:
+            reader = csv.DictReader(file)
+            rows = tuple(reader)
+    except (OSError, ValueError) as error:
+        raise FolderError(directory, [f"{FILE} cannot be read: {error}"]) from None
+    if tuple(reader.fieldnames or ()) != COLUMNS:
+        raise FolderError(directory, [f"{FILE} cannot be read: its first line is not {','.join(COLUMNS)}"])
+    return rows
+
+
+def counted(rows: Iterable[Judged]) -> str:
+    """How many hold, and so on: "3 hold, 1 do not hold"."""
+    verdicts = [row["verdict"] for row in rows]
+    return ", ".join(f"{verdicts.count(word)} {said}" for word, said in VERDICTS.items() if word in verdicts) or "none"
+
+
+def statements_table(rows: Iterable[Judged], caption: str) -> Table:
+    """Number, place, statement, verdict, evidence of the rows."""
+    titles = (("place", 1), ("the paper", 3), ("verdict", 3), ("the runs", 5), ("decided by, evidence", 3))
+    heads = (Column("no."), *(Column(title, align="left", share=share) for title, share in titles))
+    body = tuple(
+        (
+            row["number"],
+            row["place"],
+            row["statement"],
+            said(row),
+            row["found"],
+            f"{row['threshold']}. {row['evidence']}",
+        )
+        for row in rows
+    )
+    return Table(heads, body, caption, small=True)
+
+
+def said(row: Judged) -> str:
+    """Verdict and condition."""
+    return f"{row['verdict']}: {row['condition']}" if row["condition"] else row["verdict"]

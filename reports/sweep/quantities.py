@@ -1,0 +1,84 @@
+"""What a table measures, as a report draws it: its numbers with their errors, least and greatest values together."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..figures.curves import COLOURS, Curve, Panel, curves
+from ..parts.columns import Quantity, number_of
+from ..parts.content import Picture
+
+PER_ROW = 2
+
+
+@dataclass(frozen=True)
+class Measured:
+    """What one panel shows: columns of one unit, each with the column of its standard errors or None."""
+
+    unit: str
+    columns: tuple[tuple[Quantity, Quantity | None], ...]
+
+    @property
+    def label(self) -> str:
+        """The heads with the unit, as the label of an axis."""
+        *others, last = (column.label for column, _ in self.columns)
+        return ", ".join([*(other.rpartition(" (")[0] for other in others), last])
+
+
+def measured(
+    columns: Mapping[str, Quantity], rows: Sequence[Mapping[str, object]], without: Iterable[str]
+) -> list[Measured]:
+    """The numeric columns of a table that are not the same in all rows, in its order.
+
+    A column X_..._error belongs to the column X_... before it; X_min_U and X_max_U share a panel. without: names left
+    out, such as those of the varied keys.
+    """
+    names = [name for name, one in columns.items() if one.digits is not None and name not in set(without)]
+    values = [name for name in names if not name.endswith("_error")]
+    errors = {_owner(name, values): columns[name] for name in names if name.endswith("_error")}
+    found: list[Measured] = []
+    for name in values:
+        known = series(rows, name)
+        if len(np.unique(known[np.isfinite(known)])) < 2:
+            continue
+        least = name.replace("_max_", "_min_")
+        pair = (columns[name], errors.get(name))
+        if found and least != name and found[-1].columns[-1][0].name == least:
+            found[-1] = Measured(found[-1].unit, (*found[-1].columns, pair))
+        else:
+            found.append(Measured(columns[name].unit, (pair,)))
+    return found
+
+
+def series(rows: Iterable[Mapping[str, object]], column: str) -> np.ndarray:
+    """A column of a table over its rows (p,), nan where it is empty."""
+    return np.array([number_of(row.get(column)) for row in rows])
+
+
+def over_key(rows: Sequence[Mapping[str, object]], key: Quantity, shown: Sequence[Measured]) -> Picture:
+    """Every quantity over a varied key, a panel each, with error bars where there are errors.
+
+    Runs that did not reach their full length are crosses.
+    """
+    good = np.array([row["status"] == "ok" for row in rows], dtype=bool)
+    x, panels = series(rows, key.name), []
+    for one in shown:
+        lines = []
+        for (column, error), mark, colour in zip(one.columns, "os^D", COLOURS, strict=False):
+            y, name = series(rows, column.name), column.label.rpartition(" (")[0] if len(one.columns) > 1 else ""
+            bars = series(rows, error.name)[good] if error else None
+            lines.append(Curve(x[good], y[good], name, "", mark, colour, bars, 3.0))
+            lines.append(Curve(x[~good], y[~good], "", "", "x", colour, size=5.0))
+        level = 0.0 if any(error for _, error in one.columns) else None
+        panels.append(Panel(lines, key.label, one.label, level=level))
+    grid = [panels[first : first + PER_ROW] for first in range(0, len(panels), PER_ROW)]
+    return curves(grid, 0.6 + 1.7 * len(grid), "best")
+
+
+def _owner(error: str, values: Sequence[str]) -> str:
+    """The column whose standard errors a column holds: the last one that begins as it does."""
+    stem = error.removesuffix("error")
+    return next((name for name in reversed(values) if name.startswith(stem)), "")

@@ -1,0 +1,171 @@
+"""The report of `campaigns.sweep`: built from the table and its dictionary of columns alone, whatever was varied."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+
+import numpy as np
+
+from ..figures.maps import Map, maps
+from ..parts.columns import Quantity, table_of
+from ..parts.content import Bullets, Column, Figure, Heading, Item, Notice, Report, Table, Text, plain
+from ..parts.folder import Folder, FolderError, read_folder
+from ..parts.provenance import provenance_items, timing_table
+from ..parts.scene_table import scene_table
+from ..parts.wording import EMPTY, count, listed, number, ranges
+from .quantities import Measured, measured, over_key, series
+
+_PANELS, _MAPS, _COLUMNS = 8, 6, 14  # of one figure, of one table
+_LONGEST = 24  # letters of a cell of the tables of runs
+_NOTHING = Text("Every number of the table is the same in all runs, so there is nothing to draw.")
+_COUNTED = ("end_time_s", "periods")  # columns that tell of the run, not of the motion
+
+
+def report(directory: str | Path) -> Report:
+    """The content of the report on a sweep's folder. Raises FolderError for a folder that is not one."""
+    folder = read_folder(directory, ("status", "run_key", "message"))
+    vary = folder.provenance.get("vary")
+    if not isinstance(vary, dict) or not 1 <= len(vary) <= 2 or not set(vary) <= set(folder.columns):
+        raise FolderError(folder.directory, ["provenance.json cannot be read: it does not name what was varied"])
+    keys = [folder.columns[name] for name in vary]
+    rows = folder.table.sort_values(list(vary), kind="stable").to_dict("records")
+    shown = measured(folder.columns, rows, (*vary, *_COUNTED))
+    said = listed(f"`{key.name}`" for key in keys)
+    items = [
+        Heading("Question"),
+        Text(f"What does the scene `{folder.scene.name}` do as {said} {'varies' if len(keys) == 1 else 'vary'}?"),
+        Heading("Short answer"),
+        Bullets(_answer(keys, rows)),
+        *_extremes(folder.columns, keys, rows, shown),
+        *(_panels(keys[0], rows, shown) if len(keys) == 1 else _maps(keys, rows, shown, folder.columns)),
+        Heading("Warnings"),
+        _failed(keys, rows),
+        Heading("Table of runs"),
+        *_tables(folder.columns, keys, rows),
+        *_scene_and_times(folder, keys, rows),
+        *provenance_items(folder),
+    ]
+    return Report(f"Sweep of {said.replace('`', '')}", folder.scene.title or folder.scene.name, tuple(items))
+
+
+def at(keys: Sequence[Quantity], row: Mapping[str, object]) -> str:
+    """Where a row stands: "H = 21 m, kA = 0.1"."""
+    return ", ".join(f"{key.head} = {number(float(row[key.name]))} {key.unit}".strip() for key in keys)
+
+
+def _answer(keys: Sequence[Quantity], rows: Sequence[Mapping[str, object]]) -> tuple[str, ...]:
+    good = sum(row["status"] == "ok" for row in rows)
+    spans = []
+    for key in keys:
+        values = sorted({float(row[key.name]) for row in rows})
+        span = f"{number(values[0])} to {number(values[-1])} {key.unit}".strip()
+        spans.append(f"{key.head} ({key.meaning}) at {count(len(values), 'value')}, {span}")
+    lines = [f"{count(len(rows), 'run')}, {good} of them to their full length: {listed(spans)}."]
+    regimes = [str(row.get("regime") or "") for row in rows]
+    for regime in dict.fromkeys(filter(None, regimes)):
+        chosen = [one == regime for one in regimes]
+        where = ""
+        if len(keys) == 1:
+            where = f", {keys[0].head} = {ranges([float(row[keys[0].name]) for row in rows], chosen)} {keys[0].unit}"
+        lines.append(f"{regime}: {count(sum(chosen), 'run')}{where.rstrip()}.")
+    return tuple(lines)
+
+
+def _extremes(columns, keys, rows, shown: Sequence[Measured]) -> list[Item]:
+    """The least and the greatest value of every quantity, and where."""
+    cells = []
+    for column in (column for one in shown for column, _ in one.columns):
+        values = series(rows, column.name)
+        ends = (rows[int(np.nanargmin(values))], rows[int(np.nanargmax(values))])
+        found = [text for row in ends for text in (column.cell(row[column.name]), at(keys, row))]
+        cells.append((column.meaning or column.head, column.unit or EMPTY, *found))
+    if not cells:
+        return []
+    left = {"align": "left"}
+    heads = (
+        Column("quantity", **left),
+        Column("unit", **left),
+        Column("least"),
+        Column("at", **left),
+        Column("greatest"),
+        Column("at", **left),
+    )
+    return [
+        Table(heads, tuple(cells), "Least and greatest value of every column that is not the same in all runs.", True)
+    ]
+
+
+def _panels(key: Quantity, rows, shown: Sequence[Measured]) -> list[Item]:
+    items: list[Item] = [Heading(f"Over {key.head}")]
+    for part in batched(shown, _PANELS):
+        names = listed(plain(column.head) for one in part for column, _ in one.columns)
+        caption = f"Columns of `table.csv` over {key.head}: {names}. Bars: one standard error; crosses: ended early."
+        items.append(Figure(over_key(rows, key, part), caption, f"Panels over {plain(key.head)} of {names}."))
+    return items if shown else [*items, _NOTHING]
+
+
+def _maps(keys: Sequence[Quantity], rows, shown: Sequence[Measured], columns: Mapping[str, Quantity]) -> list[Item]:
+    places = tuple(np.unique(series(rows, key.name)) for key in keys)
+    cells = [
+        tuple(int(np.searchsorted(values, float(row[key.name]))) for key, values in zip(keys, places, strict=True))
+        for row in rows
+    ]
+    drawn = []
+    if any(row.get("regime") for row in rows):
+        words = np.full((len(places[1]), len(places[0])), "", dtype=object)
+        for (across, up), row in zip(cells, rows, strict=True):
+            words[up, across] = str(row.get("regime") or "")
+        drawn.append(Map("", "regime", words))
+    for column in (column for one in shown for column, _ in one.columns):
+        values = np.full((len(places[1]), len(places[0])), np.nan)
+        for (across, up), value in zip(cells, series(rows, column.name), strict=True):
+            values[up, across] = value
+        drawn.append(Map(column.label, plain(column.head), values))
+    items: list[Item] = [Heading(f"Over {keys[0].head} and {keys[1].head}")]
+    for part in batched(drawn, _MAPS):
+        names = listed(one.name for one in part)
+        caption = f"Columns of `table.csv` over {keys[0].head} and {keys[1].head}: {names}. Crosses: no value."
+        picture = maps(places, (keys[0].label, keys[1].label), part)
+        items.append(Figure(picture, caption, f"Maps over two parameters of {names}."))
+    return items if drawn else [*items, _NOTHING]
+
+
+def batched(items: Sequence, most: int) -> list[Sequence]:
+    """The items in their order, `most` of them at a time."""
+    return [items[first : first + most] for first in range(0, len(items), most)]
+
+
+def _failed(keys: Sequence[Quantity], rows) -> Notice:
+    lines = tuple(
+        f"{at(keys, row)}: {row['status']}" + (f": {row['message']}" if row["message"] else "")
+        for row in rows
+        if row["status"] != "ok"
+    )
+    if not lines:
+        return Notice("note", "Nothing to warn of", ("Every run reached its full length.",))
+    return Notice("warning", "Runs that failed", lines)
+
+
+def _tables(columns: Mapping[str, Quantity], keys: Sequence[Quantity], rows) -> list[Table]:
+    """Every column that says something in some row, in tables that a page can hold; sentences stay in `table.csv`."""
+    own = {key.name: (lambda row, name=key.name: number(float(row[name]))) for key in keys}
+    names = []
+    for name, column in columns.items():
+        cells = {column.cell(row[name]) for row in rows}
+        if name not in own and cells != {EMPTY} and max(map(len, cells)) <= _LONGEST:
+            names.append(name)
+    parts = batched(names, _COLUMNS)
+    captions = [
+        f"Every run, columns {k} of {len(parts)}." if len(parts) > 1 else "Every run." for k in range(1, len(parts) + 1)
+    ]
+    return [table_of(columns, [*own, *part], rows, said, own) for part, said in zip(parts, captions, strict=True)]
+
+
+def _scene_and_times(folder: Folder, keys: Sequence[Quantity], rows) -> list[Item]:
+    varied = {key.name: listed(number(value) for value in np.unique(series(rows, key.name))) for key in keys}
+    shipped = str(folder.provenance.get("scene") or folder.scene.name)
+    caption = "The scene as run, from `scene.toml`, with the first value of what is varied."
+    times = timing_table(folder)
+    table = scene_table(folder.scene, shipped, varied, caption)
+    return [*([Heading("Run times"), times] if times else []), Heading("Scene"), table]

@@ -1,0 +1,133 @@
+"""The breaking line by characteristics: d'Alembert, balances, Rankine-Hugoniot and Lax, second order."""
+
+import numpy as np
+import pytest
+
+from campaigns.breaking_line.theory import PAPER_LAW, break_theory, fitted_break, fitted_energy
+from campaigns.breaking_line.theory.law import checked_law, tension, wave_speed
+from tests.campaigns.breaking_line.paper_line import CASES, FAST, LENGTH, MASS
+
+LAW = checked_law(PAPER_LAW, MASS)
+EVERYWHERE = np.linspace(0.0, LENGTH, 24001)
+
+
+def motion(case, until, lines=200):
+    return fitted_break(PAPER_LAW, MASS, LENGTH, *CASES[case], until, lines)
+
+
+def test_a_linear_line_is_dalembert_through_every_echo():
+    stiffness, force, decay = 5e4, 1e4, 2e-3
+    c = np.sqrt(stiffness / MASS)
+    line = fitted_break((0.0, 10.0, -2.0, 0.0, stiffness), MASS, 1.0, force, decay, 6.5 / c)
+
+    def released(t):  # F(t) - F(0), what leaves the end
+        t = np.clip(t, 0.0, decay)
+        return -force * np.sin(0.5 * np.pi * t / decay) ** 2
+
+    s = np.linspace(0.0, 1.0, 41)
+    for t in np.array([0.4, 1.3, 2.6, 3.7, 5.5, 6.4]) / c:
+        # Images: the fixed end returns T as it is, the free end with the other sign.
+        pull = force + sum(
+            (-1) ** n * (released(t - (2 * n + 1 - s) / c) + released(t - (2 * n + 1 + s) / c)) for n in range(4)
+        )
+        assert line.at(s, t)[2] == pytest.approx(pull, abs=1e-5 * force)
+
+
+@pytest.mark.parametrize("case", ["1", "2p", "3p"])
+@pytest.mark.parametrize("time", [0.02, 0.05])
+def test_the_simple_wave_solves_both_equations(case, time):
+    wave = motion(case, 0.054)
+    s, ds, dt = np.linspace(20.0, 58.0, 77), 1e-4, 1e-8
+    rate = [(b - a) / (2 * dt) for a, b in zip(wave.at(s, time - dt), wave.at(s, time + dt), strict=True)]
+    slope = [(b - a) / (2 * ds) for a, b in zip(wave.at(s - ds, time), wave.at(s + ds, time), strict=True)]
+    assert rate[0] == pytest.approx(slope[1], abs=2e-3 * np.max(np.abs(slope[1])))
+    assert MASS * rate[1] == pytest.approx(slope[2], abs=2e-3 * np.max(np.abs(slope[2])))
+
+
+@pytest.mark.parametrize(("case", "until"), [("4", 0.058), ("3", 0.055), ("4p", 0.073), ("2", 0.12), ("3p", 0.1)])
+def test_energy_is_balanced_with_what_the_shock_loses(case, until):
+    budget = fitted_energy(motion(case, until), [0.3 * until, 0.8 * until, 0.99 * until])
+    assert np.max(np.abs(budget.closure_J)) < 1e-5 * budget.rest_J
+    assert np.all(np.diff(budget.lost_J) >= 0.0) and np.all(np.diff(budget.end_work_J) <= 0.0)
+    assert (budget.lost_J[-1] > 0.0) == (case in ("3", "4", "4p"))
+
+
+def test_length_and_momentum_are_balanced_across_the_shock():
+    wave, stop = motion("4", 0.05), 0.05
+    shock = float(wave.shock.at(stop)[0])
+    total = np.zeros(2)
+    for low, high in ((0.0, np.nextafter(shock, 0.0)), (shock, LENGTH)):
+        s = np.linspace(low, high, 20001)
+        strain, velocity, _ = wave.at(s, stop)
+        total += np.trapezoid(strain, s), np.trapezoid(MASS * velocity, s)
+    t = np.linspace(0.0, stop, 1001)
+    end_speed = np.array([wave.at([LENGTH], now)[1][0] for now in t])
+    pull = 450e3 * np.where(t < FAST, np.cos(0.5 * np.pi * t / FAST) ** 2, 0.0)
+    assert total[0] == pytest.approx(LENGTH * wave.strain0 + np.trapezoid(end_speed, t), abs=2e-5)
+    assert total[1] == pytest.approx(np.trapezoid(pull - 450e3, t), rel=1e-6)  # the fixed end still feels F_s
+
+
+def test_the_shock_obeys_rankine_hugoniot_and_lax_and_turns_sonic():
+    wave = motion("4", 0.055)
+    shock = wave.shock
+    ahead, behind = shock.ahead[1:], shock.behind[1:]
+    inside = shock.time_s[1:] < 0.055
+    points = np.column_stack([shock.time_s, shock.place_m, shock.speed_mps])[1:][inside]
+    for now, s, speed in points[:: len(points) // 9]:
+        strain, velocity, pull = wave.at([s * (1 - 1e-9), s * (1 + 1e-9)], now)
+        assert velocity[1] - velocity[0] == pytest.approx(-speed * (strain[0] - strain[1]), rel=1e-4)
+        assert pull[0] - pull[1] == pytest.approx(MASS * speed**2 * (strain[0] - strain[1]), rel=1e-4)
+    assert np.all(wave_speed(LAW, ahead) < shock.speed_mps[1:]) and np.all(
+        shock.speed_mps[1:] < wave_speed(LAW, behind)
+    )
+    late = break_theory(PAPER_LAW, MASS, LENGTH, 450e3)
+    missing = np.abs(behind[inside] - late.shock_strain)
+    assert missing[-1] < 0.006 and np.all(np.diff(missing) < 0.0)
+    assert shock.speed_mps[-1] < late.shock_speed_mps and shock.speed_mps[-1] == pytest.approx(1027.0, rel=1e-3)
+
+
+def test_the_echo_of_the_shock_adds_half_a_metre_a_second_to_the_end():
+    wave = motion("4", 0.058)
+    theory = break_theory(PAPER_LAW, MASS, LENGTH, 450e3)
+    assert 0.0137 < wave.first_echo_s < 0.0139
+    assert wave.at([LENGTH], 0.0137)[1][0] == pytest.approx(-theory.end_speed_mps, rel=1e-9)
+    late = -wave.at([LENGTH], 0.058)[1][0]
+    assert theory.shock_end_speed_mps - 0.03 < late < theory.shock_end_speed_mps
+
+
+def test_the_error_falls_with_the_square_of_the_lines():
+    finest = motion("4", 0.058, 800)
+    place = [motion("4", 0.058, lines).shock.at(0.04)[0] - finest.shock.at(0.04)[0] for lines in (50, 100, 200)]
+    orders = np.log2(np.abs(place[:-1]) / np.abs(place[1:]))
+    assert np.all(np.abs(orders - 2.0) < 0.2) and abs(place[-1]) < 1e-4
+    strains = [motion("2", 0.12, lines).at(EVERYWHERE, 0.1)[0] for lines in (50, 100, 200, 800)]
+    errors = [np.mean(np.abs(strain - strains[-1])) for strain in strains[:-1]]
+    assert np.all(np.log2(np.divide(errors[:-1], errors[1:])) > 1.5) and errors[-1] < 1e-5
+
+
+def test_the_ends_and_the_undisturbed_part_keep_their_conditions():
+    wave = motion("2", 0.14)
+    for t in (0.001, 0.004, 0.03, 0.08, 0.13):
+        _, velocity, pull = wave.at([0.0, LENGTH], t)
+        force = 180e3 * np.cos(0.5 * np.pi * min(t, FAST) / FAST) ** 2
+        assert velocity[0] == pytest.approx(0.0, abs=1e-12) and pull[1] == pytest.approx(force, abs=1e-3)
+    assert wave.at([1.0], 0.05)[0][0] == wave.strain0
+
+
+@pytest.mark.parametrize(("case", "until"), [("3", 0.0551), ("4p", 0.0738)])
+def test_a_motion_ends_where_a_second_shock_begins_and_says_so(case, until):
+    wave = motion(case, 0.1)
+    assert wave.valid_until_s == pytest.approx(until, abs=1e-4) and wave.reason
+    with pytest.raises(ValueError, match="time_s"):
+        wave.at([30.0], 0.09)
+
+
+def test_no_shock_is_fitted_before_it_begins():
+    assert motion("4p", 0.0515).shock.time_s.size == 0 < motion("4p", 0.0525).shock.time_s.size
+
+
+def test_slack_is_followed_below_the_last_stiffness():
+    wave = motion("4", 0.1)
+    strain, _, pull = wave.at(EVERYWHERE, 0.1)
+    assert strain.min() < -1.0 and np.all(np.isfinite(strain))
+    assert pull == pytest.approx(tension(LAW, strain), rel=1e-12)
