@@ -71,7 +71,7 @@ class Localised:
     """The buckle of an infinitely long rod under tension T and torque M (Coyne 1990; van der Heijden & Thompson 2000).
 
     With m = M/(2 sqrt(EI T)), k = sqrt(T/EI), a = sqrt(1 - m^2), theta and psi the polar angles of t about the axis,
-    1 - cos theta = 2 a^2 sech^2(k a s),  psi = m k s + arctan((a/m) tanh(k a s)); `test_torsion_localised` checks them.
+    1 - cos theta = 2 a^2 sech^2(k a s),  psi = m k s + arctan((a/m) tanh(k a s)).
     """
 
     EI: float

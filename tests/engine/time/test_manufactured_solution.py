@@ -15,7 +15,7 @@ from tests.engine.manufactured import motion, normals, scene_of
 
 END_S = 1.5
 NODES = (21, 41, 81)
-CAPS = {"q": 2e-3, "n": 2e-3, "S": 2.0, "V": 0.03, "O1": 5e-6, "K": 3e-3, "X": 0.01}  # 1, 1, N, m/s, 1/m, 1/m, m
+CAPS = {"q": 2e-3, "n": 2e-3, "S": 2.0, "V": 0.03, "O1": 1e-5, "K": 3e-3, "X": 0.01}  # 1, 1, N, m/s, 1/m, 1/m, m
 
 
 def errors(run, t, plane, stage_s=None):
