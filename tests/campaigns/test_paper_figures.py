@@ -15,7 +15,7 @@ from campaigns.paper.figures import write_figure_data
 from campaigns.paper.figures.buoy import _history
 from campaigns.paper.figures.sections import _sections
 from engine import load_scene, simulate
-from reports.buoy_sweep.physics import natural_frequencies
+from engine.natural_frequencies import natural_frequencies
 from reports.paper.figures import NUMBERS, draw, figures_of, files_of, left_out, pictures, place_of
 from reports.paper.results import read_results
 from reports.parts.figure_data import parsed, sources_of

@@ -2,8 +2,8 @@
 
 from dataclasses import replace
 
+from engine.natural_frequencies import Modes
 from reports.breaking_line.runs import COLUMNS, FAST, SLOW, Line
-from reports.buoy_sweep.physics import Modes
 from reports.out_of_plane.runs import Run, Study
 from reports.paper.measures import Calm, Violent
 from reports.paper.results import Results
