@@ -10,19 +10,22 @@ Layout in `tables`, one row a component: k, omega, A, phase, cos a, sin a, A ome
 """
 
 import math
+from collections.abc import Callable
 
 import numpy as np
 
-from ..compiled import by_kind, kernel
+from ..compiled import kernel
 from ..record import WHEELER, ZERO
+from ..scene.models import Scene
 from ..simd.elementary import sincos, small_exponentials, small_sincos, smooth_start
 from .jonswap import components
 from .waves import SMALL, TINY, wave_number
 
+K, OMEGA, AMPLITUDE, PHASE, COSINE, SINE, SPEED = range(7)  # columns of the table, one row a component
 ROW = 7
 
 
-def components_of(scene):
+def components_of(scene: Scene) -> tuple[np.ndarray, ...]:
     """The waves of a scene, one or many: periods (s), amplitudes (m), phases and directions (rad), each (n,)."""
     waves = scene.waves
     if not waves.irregular:
@@ -37,7 +40,7 @@ def components_of(scene):
     return tuple(np.array(listed).T)
 
 
-def table_of(scene, direction):
+def table_of(scene: Scene, direction: Callable[[float], tuple[float, float]]) -> np.ndarray:
     """The rows of the sea (head of this file); direction: angle -> its cosine and sine."""
     depth, rows = scene.water.depth_m, []
     for period, amplitude, phase, angle in zip(*components_of(scene), strict=True):
@@ -47,7 +50,9 @@ def table_of(scene, direction):
     return np.array(rows)
 
 
-def elevation_m(scene, time_s, x_m=0.0, y_m=0.0):
+def elevation_m(
+    scene: Scene, time_s: float | np.ndarray, x_m: float | np.ndarray = 0.0, y_m: float | np.ndarray = 0.0
+) -> np.ndarray:
     """Height of the surface above the still water level (m), in waves of any kind.
 
     time_s, x_m, y_m    numbers or arrays that NumPy can broadcast against each other
@@ -76,8 +81,8 @@ def sea_field(p, tables, t, X, F):
             eta = 0.0
             for i in range(p.sea_n):
                 row = tables[p.sea_at + ROW * i : p.sea_at + ROW * (i + 1)]
-                place = row[4] * X[j, 0] + (row[5] * X[j, 1] if size == 3 else 0.0)
-                eta += row[2] * sincos(row[0] * place - row[1] * t + row[3])[1]
+                place = row[COSINE] * X[j, 0] + (row[SINE] * X[j, 1] if size == 3 else 0.0)
+                eta += row[AMPLITUDE] * sincos(row[K] * place - row[OMEGA] * t + row[PHASE])[1]
             # A trough of the whole sea below the bed has no meaning; rules of the scene keep the usual ones above it.
             Z[j] = Z[j] * p.depth / max(p.depth + gain * eta, 1e-3 * p.depth)
     for i in range(p.sea_n):
@@ -89,8 +94,8 @@ def sea_field(p, tables, t, X, F):
 def _add_wave(row, depth, above, gain, gain_rate, t, X, Z, F):
     """One component, by the recurrences of `engine.physics.waves.wave_field`."""
     n, size = X.shape
-    k, om, phase, cosine, sine = row[0], row[1], row[3], row[4], row[5]
-    u0, u1 = row[6] * gain, row[6] * gain_rate
+    k, om, phase, cosine, sine = row[K], row[OMEGA], row[PHASE], row[COSINE], row[SINE]
+    u0, u1 = row[SPEED] * gain, row[SPEED] * gain_rate
     up, down, s, c = 0.0, 0.0, 0.0, 1.0
     x_below = z_below = 0.0
     for j in range(n):
@@ -121,6 +126,3 @@ def _add_wave(row, depth, above, gain, gain_rate, t, X, Z, F):
 @kernel
 def no_sea(p, tables, t, X, F):
     """What runs of one batch have (`engine.simd`): regular waves only."""
-
-
-planar_sea = by_kind(sea_field, sea_field, no_sea)

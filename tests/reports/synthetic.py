@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from campaigns.buoy_sweep.rows import COLUMNS, buoy_row
-from campaigns.columns import names
+from campaigns.columns import dictionary, names
 from engine.scene import load_scene
 from engine.trajectory import Trajectory
 
@@ -29,6 +29,7 @@ def campaign(directory: Path, steepness, periods=80, transient=20, failing=None,
         key = f"{index:064x}"
         run.save(directory / "trajectories" / f"{key}.nc")
         rows.append({"steepness": value, **buoy_row(run, transient), "run_key": key})
+    (directory / "columns.csv").write_bytes(dictionary(COLUMNS))
     with open(directory / "table.csv", "w", newline="", encoding="utf-8") as file:
         writer = csv.DictWriter(file, names(COLUMNS), lineterminator="\n")
         writer.writeheader()
@@ -44,6 +45,7 @@ def campaign(directory: Path, steepness, periods=80, transient=20, failing=None,
         "periods": periods,
         "transient": transient,
         "strobe_tolerance": 0.005,
+        "longest_period": 16,
         "steepness": list(steepness),
         "timing": {"compile_s": 6.1, "run_s": 20.5, "analysis_s": 0.8},
     }
