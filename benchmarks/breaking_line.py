@@ -15,7 +15,7 @@ import numpy as np
 from PIL import Image
 
 from campaigns import breaking_line
-from campaigns.breaking_line import measures
+from campaigns.breaking_line import motion_measures as measures
 from campaigns.breaking_line.theory import theory_of
 from engine import load_scene, simulate
 from reports.breaking_line.figures import folds_figure, plane_figure

@@ -11,20 +11,18 @@
 """
 
 import math
-from pathlib import Path
 
 import matplotlib
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
-from PIL import Image
 from scipy.integrate import quad
 from scipy.optimize import brentq
 
+from benchmarks.shared import save
 from engine import load_scene, simulate
 
-DOCS = Path(__file__).parents[1] / "docs"
 COLOURS = plt.get_cmap("viridis")
 
 
@@ -108,7 +106,7 @@ def draw_rope(run, closed):
     space.tick_params(labelsize=7)
     space.set_box_aspect((1, 1, 2.6), zoom=1.35)
     space.view_init(18, -55)
-    saved(figure, "twisted_rope.png")
+    save(figure, "twisted_rope.png")
 
 
 def swinging_line():
@@ -140,7 +138,7 @@ def draw_swing(run):
     axes[0].set(ylabel="z (m)", title="seen along the current")
     axes[1].set(title="seen across it", xlim=(-1.5, 5))
     figure.legend(*axes[0].get_legend_handles_labels(), loc="outside right center", fontsize=8)
-    saved(figure, "swinging_line.png")
+    save(figure, "swinging_line.png")
 
 
 def moved_end():
@@ -151,13 +149,8 @@ def moved_end():
         row = []  # (off by, Newton iterations) in a plane and in space
         for dimensions in (2, 3):
             along = amplitude * [1, dimensions - 2, 1]
-            motion = {
-                "law": "harmonic",
-                "amplitude_m": list(along),
-                "period_s": period,
-                "phase_rad": phase,
-                "ramp_s": ramp,
-            }
+            motion = {"law": "harmonic", "amplitude_m": list(along), "period_s": period, "phase_rad": phase}
+            motion["ramp_s"] = ramp
             end = {"kind": "held", "position_m": list(place), "motion": motion}
             base = {"motion.dimensions": dimensions, "end": end, "buoy": None, "waves.steepness": 0.05}
             run = simulate(load_scene("tethered_buoy", base | changes), duration_s=50.0)
@@ -211,12 +204,6 @@ def falling_chain():
         t = np.interp(x, -table.z_m[table.time_s > 0.1], table.time_s[table.time_s > 0.1]) - 0.1
         exact = quad(lambda u: 2 * math.sqrt((1 - u * u / L) / (2 * g * (1 - u * u / (2 * L)))), 0, math.sqrt(x))[0]
         print(f"  {x} | {t:.4f} | {exact:.4f} | {math.sqrt(2 * x / g):.4f}")
-
-
-def saved(figure, name):
-    figure.savefig(DOCS / name, dpi=100)
-    Image.open(DOCS / name).convert("RGB").quantize(128).save(DOCS / name, optimize=True)
-    print(f"docs/{name}: {(DOCS / name).stat().st_size / 1000:.0f} kB")
 
 
 def main():

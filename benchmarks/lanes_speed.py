@@ -12,16 +12,17 @@ Equal    every trajectory of the batch is compared with the run alone, bit for b
          once without exponents and once as it comes.
 """
 
-import argparse
-import os
 import subprocess
 import sys
 import tempfile
 import time
 from concurrent.futures import ProcessPoolExecutor
+from functools import partial
+from statistics import median
 
 import numpy as np
 
+from benchmarks.shared import in_turns, parser, print_load, seconds
 from engine import load_scene, simulate, simulate_batch
 
 STEEPNESS = np.linspace(0.05, 0.16, 48)
@@ -33,29 +34,28 @@ def scenes(extra, steepness=STEEPNESS):
     return [load_scene("tethered_buoy", WATER | extra | {"waves.steepness": float(value)}) for value in steepness]
 
 
-def timed_batch(extra, periods, steepness=STEEPNESS):
-    """(processor seconds, wall seconds, wave periods) of one batch."""
-    members = scenes(extra, steepness)
-    wall, processor = time.perf_counter(), time.process_time()
+def batch(extra, periods, clock=time.process_time, steepness=STEEPNESS):
+    """Wave periods a second of a batch, by that clock."""
+    members, began = scenes(extra, steepness), clock()
     simulate_batch(members, periods=periods)
-    return time.process_time() - processor, time.perf_counter() - wall, len(members) * periods
+    return len(members) * periods / (clock() - began)
 
 
-def timed_alone(extra, periods):
-    """As `timed_batch`, of every sixth run alone."""
-    members = scenes(extra, STEEPNESS[::6])
-    wall, processor = time.perf_counter(), time.process_time()
+def alone(extra, periods):
+    """The same of every sixth run alone."""
+    members, began = scenes(extra, STEEPNESS[::6]), time.process_time()
     for scene in members:
         simulate(scene, periods=periods)
-    return time.process_time() - processor, time.perf_counter() - wall, len(members) * periods
+    return len(members) * periods / (time.process_time() - began)
 
 
 def on_two(pool, extra, periods):
     """Wave periods a second of wall time by two processes, each with half of the steepnesses."""
     began = time.perf_counter()
-    halves = [pool.submit(timed_batch, extra, periods, STEEPNESS[half::2]) for half in range(2)]
-    total = sum(half.result()[2] for half in halves)
-    return total / (time.perf_counter() - began)
+    halves = [pool.submit(batch, extra, periods, steepness=STEEPNESS[half::2]) for half in range(2)]
+    for half in halves:
+        half.result()
+    return len(STEEPNESS) * periods / (time.perf_counter() - began)
 
 
 def equal(periods):
@@ -74,22 +74,17 @@ def sweep(rounds, periods):
     for name, extra in (("without perturbations", {}), ("with two perturbations", CARRIED)):
         simulate_batch(scenes(extra)[:2], periods=0.1)
         simulate(scenes(extra)[0], periods=0.1)
-        rates = {"alone": [], "batch": [], "batch, wall": [], "two": []}
         with ProcessPoolExecutor(2) as pool:
             on_two(pool, extra, 0.1)
-            for _ in range(rounds):
-                processor, _, total = timed_alone(extra, periods)
-                rates["alone"].append(total / processor)
-                processor, wall, total = timed_batch(extra, periods)
-                rates["batch"].append(total / processor)
-                rates["batch, wall"].append(total / wall)
-                rates["two"].append(on_two(pool, extra, periods))
-        alone, batch, wall, two = (float(np.median(values)) for values in rates.values())
-        print(
-            f"{name}: {alone:.0f} wave periods a second and core alone, {batch:.0f} in a batch ({batch / alone:.1f} "
-            f"times; best round {max(rates['batch']):.0f}); wall {wall:.0f} by one process, {two:.0f} by two "
-            f"({two / wall:.2f} times)"
-        )
+            calls = {
+                "one by one": partial(alone, extra, periods),
+                "in a batch": partial(batch, extra, periods),
+                "in a batch, wall": partial(batch, extra, periods, time.perf_counter),
+                "by two processes, wall": partial(on_two, pool, extra, periods),
+            }
+            rates = {how: median(values) for how, values in in_turns(calls, rounds).items()}
+        for how, rate in rates.items():
+            print(f"{name}, {how}: {rate:.0f} wave periods a second, {rate / rates['one by one']:.2f} times one by one")
 
 
 def diagram():
@@ -105,21 +100,19 @@ def diagram():
             print("   " + "\n   ".join(line for line in done.stdout.splitlines() if line.startswith(("runs", "time"))))
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
-    parser.add_argument("--rounds", type=int, default=5, help="turns of every setting (default 5)")
-    parser.add_argument("--periods", type=float, default=40, help="length of the runs in wave periods (default 40)")
-    parser.add_argument("--diagram", action="store_true", help="also the campaign of 400 runs, twice (minutes)")
-    given = parser.parse_args()
-    print(f"load at the start: {os.getloadavg()[0]:.1f} on {os.cpu_count()} cores; {given.rounds} rounds")
-    began = time.perf_counter()
-    simulate_batch(scenes({})[:2], periods=0.1)
-    print(f"first batch (compilation, or loading what is compiled): {time.perf_counter() - began:.1f} s")
+def main() -> None:
+    options = parser(__doc__, 5)
+    options.add_argument("--periods", type=float, default=40, help="length of the runs in wave periods (default 40)")
+    options.add_argument("--diagram", action="store_true", help="also the campaign of 400 runs, twice (minutes)")
+    given = options.parse_args()
+    print_load()
+    first = seconds(lambda: simulate_batch(scenes({})[:2], periods=0.1))
+    print(f"first batch (compilation, or loading what is compiled): {first:.1f} s")
     sweep(given.rounds, given.periods)
     print(f"48 runs of 12 periods bit for bit those alone: {equal(12)}")
     if given.diagram:
         diagram()
-    print(f"load at the end: {os.getloadavg()[0]:.1f}")
+    print_load()
 
 
 if __name__ == "__main__":

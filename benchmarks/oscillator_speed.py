@@ -4,15 +4,12 @@
 
 Rates   forcing periods a second with both exponents, at the paper's parameters. Ours: `growth_of_starts`, one start.
         pynamicalsys (PyPI; the extra `bench`): `ContinuousDynamicalSystem.lyapunov`, RK4 with T/64 steps, its own QR,
-        compiled; equation and Jacobian as it wants them, compiled too. One thread each, compilation left out, in turns
-        (A B A B ...), medians over the rounds.
+        compiled; equation and Jacobian as it wants them, compiled too. One thread each, compilation left out.
 Error   of the state after ten periods from (0.68, 0), against the digits of tests/analysis/oscillator/test_states.py.
 Diagram 800 values of F in [0.1, 2], four starts, 500 + 1000 periods each, exponents at every value.
 """
 
-import argparse
-import os
-import time
+from functools import partial
 from statistics import median
 
 import numpy as np
@@ -20,19 +17,20 @@ import numpy as np
 from analysis.oscillator import SnapOscillator, snap_diagram, strobed_states
 from analysis.oscillator.pieces import tables
 from analysis.oscillator.strobing import growth_of_starts
+from benchmarks.shared import in_turns, on_one_core, parser, print_load, seconds, show
 
 START = (0.68, 0.0)
 AFTER_TEN = np.array([-20.3682913974351795585, -2.33939200511708733634])
 OURS_PERIODS, THEIRS_PERIODS, STEPS = 1_000_000, 20_000, 64
 
 
-def ours(oscillator, periods):
+def ours(oscillator: SnapOscillator, periods: int) -> np.ndarray:
     """Both exponents over `periods` periods."""
     sums = growth_of_starts(np.array([START]), 100, 10, periods // 10, 0, tables(oscillator))[0]
     return sums.sum(axis=(0, 1)) / (periods * oscillator.period)
 
 
-def toolbox(oscillator):
+def toolbox(oscillator: SnapOscillator):
     """pynamicalsys with eq. (33) in it, or None where it is not installed."""
     try:
         from pynamicalsys import ContinuousDynamicalSystem
@@ -58,48 +56,34 @@ def toolbox(oscillator):
     return system
 
 
-def seconds(call, *arguments):
-    began = time.perf_counter()
-    result = call(*arguments)
-    return time.perf_counter() - began, result
-
-
-def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--rounds", type=int, default=5)
-    parser.add_argument("--core", type=int, default=0)
-    options = parser.parse_args()
-    if hasattr(os, "sched_setaffinity"):
-        os.sched_setaffinity(0, {options.core})
+def main() -> None:
+    given = parser(__doc__, 5).parse_args()
+    on_one_core(given.core)
+    print_load()
     oscillator = SnapOscillator()
     system = toolbox(oscillator)
-    calls = {"ours": (OURS_PERIODS, lambda: ours(oscillator, OURS_PERIODS))}
+    calls = {"ours": lambda: OURS_PERIODS / seconds(partial(ours, oscillator, OURS_PERIODS))}
     ours(oscillator, 100)
     if system is not None:
         system.lyapunov(START, 10 * oscillator.period)
-        calls["pynamicalsys"] = (THEIRS_PERIODS, lambda: system.lyapunov(START, THEIRS_PERIODS * oscillator.period))
-    rates: dict[str, list[float]] = {name: [] for name in calls}
-    exponents = {}
-    for _ in range(options.rounds):
-        for name, (periods, call) in calls.items():
-            wall, exponents[name] = seconds(call)
-            rates[name].append(periods / wall)
+        theirs = partial(system.lyapunov, START, THEIRS_PERIODS * oscillator.period)
+        calls["pynamicalsys"] = lambda: THEIRS_PERIODS / seconds(theirs)
+        print(f"exponents: ours {ours(oscillator, OURS_PERIODS)}, pynamicalsys {theirs()}")
+    rates = in_turns(calls, given.rounds)
     for name, values in rates.items():
-        each = " ".join(f"{value:.3g}" for value in values)
-        print(f"{name:13s} {median(values):10.4g} forcing periods a second   ({each})   exponents {exponents[name]}")
+        show(name, values, "forcing periods a second")
     if system is None:
         print("pynamicalsys is not installed (pip install -e .[bench]): no comparison")
     else:
         ratio = median(a / b for a, b in zip(rates["ours"], rates["pynamicalsys"], strict=True))
-        print(f"ratio         {ratio:10.4g}")
-        theirs = system.trajectory(START, 10 * oscillator.period)[-1, 1:]
-        print(f"error after ten periods: pynamicalsys {np.abs(theirs - AFTER_TEN).max():.2g}, ", end="")
+        print(f"ratio {ratio:.4g}")
+        last = system.trajectory(START, 10 * oscillator.period)[-1, 1:]
+        print(f"error after ten periods: pynamicalsys {np.abs(last - AFTER_TEN).max():.2g}, ", end="")
         print(f"ours {np.abs(strobed_states(oscillator, START, 11)[10] - AFTER_TEN).max():.2g}")
     snap_diagram(oscillator, "force", [1.0], transient_periods=1, periods=10, points=1)
-    wall = median(
-        seconds(snap_diagram, oscillator, "force", np.linspace(0.1, 2.0, 800))[0] for _ in range(min(3, options.rounds))
-    )
-    print(f"orbit diagram of 800 values with exponents, 6000 periods each: {wall:.2f} s")
+    diagram = partial(snap_diagram, oscillator, "force", np.linspace(0.1, 2.0, 800))
+    walls = [seconds(diagram) for _ in range(min(3, given.rounds))]
+    show("orbit diagram of 800 values with exponents, 6000 periods each", walls, "s")
 
 
 if __name__ == "__main__":

@@ -9,15 +9,14 @@
 
 import math
 import time
-from pathlib import Path
 
 import matplotlib
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
-from PIL import Image
 
+from benchmarks.shared import save
 from engine import load_scene, simulate
 from engine.paper_box import run
 from engine.paper_box.box import Band, level_of
@@ -29,7 +28,6 @@ from engine.paper_box.start import at_rest
 from engine.paper_box.water import positions
 from engine.time.status import OK
 
-FIGURE = Path(__file__).parents[1] / "docs" / "paper_box.png"
 SMALL_S, LARGE_S = 10.0, 30.0
 DEPTHS = (22.5, 21.6)
 SEEDED = {"motion.dimensions": 3, "start.buoy_velocity_mps": [0.0, 1e-5, 0.0]}
@@ -168,9 +166,7 @@ def main():
     e0, e1, t0, t1 = large
     large_waves(((e0, t0), (e1, t1)))
     e0.legend(fontsize=7, loc="lower right", title="solid: by the shape, dotted: by the path", title_fontsize=7)
-    figure.savefig(FIGURE, dpi=100)
-    Image.open(FIGURE).convert("RGB").quantize(48).save(FIGURE, optimize=True)
-    print(f"{FIGURE}: {FIGURE.stat().st_size / 1000:.0f} kB")
+    save(figure, "paper_box.png", 48)
 
 
 if __name__ == "__main__":

@@ -1,22 +1,21 @@
-"""What each part of a scene costs: operations and microseconds per Newton iteration with and without it, side by side
-on one core.    python -m benchmarks.scene_cost
+"""What each part of a scene costs: microseconds of a Newton iteration with and without it, side by side.
 
-The scenes, the counting and the timing are those of `campaigns.stability.scene_shares`, which puts them into the
-report.
+    python -m benchmarks.scene_cost [--core N]
+
+Scenes and timing are those of `campaigns.stability.scene_shares`, which puts them into the report of that campaign.
 """
 
+from benchmarks.shared import on_one_core, parser, print_load
 from campaigns.stability.scene_shares import TABLE_1, measured
 
 
-def main():
+def main() -> None:
+    on_one_core(parser(__doc__, 7).parse_args().core)
+    print_load()
     scenes = measured()["scenes"]
-    whole = scenes[TABLE_1]
     for name, cost in scenes.items():
-        time_share, share = cost["us_per_newton"] / whole["us_per_newton"], cost["newton"] / whole["newton"]
-        print(
-            f"{name:34s} {cost['us_per_newton']:6.2f} us, {cost['newton']:6d} operations per Newton iteration   "
-            f"{time_share:5.2f} and {share:5.2f} of Table 1"
-        )
+        share = cost["us_per_newton"] / scenes[TABLE_1]["us_per_newton"]
+        print(f"{name:34s} {cost['us_per_newton']:6.2f} us per Newton iteration   {share:5.2f} of Table 1")
 
 
 if __name__ == "__main__":

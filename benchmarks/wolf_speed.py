@@ -14,6 +14,7 @@ method on 100,000 samples. Every function runs once before it is timed; wall clo
 import argparse
 import time
 import warnings
+from functools import partial
 
 import numpy as np
 
@@ -23,6 +24,7 @@ from analysis.embedding_dimension import choose_embedding
 from analysis.neighbours import noise_level
 from analysis.wolf_pairs import wolf_run
 from analysis.wolf_plateau import wolf_lyapunov
+from benchmarks.shared import seconds
 from tests.analysis import systems
 
 TRUTH = {
@@ -50,33 +52,23 @@ def others():
     try:
         import nolds
 
-        found["nolds lyap_r"] = lambda x, step, e: nolds.lyap_r(
-            x,
-            emb_dim=e.dimension,
-            lag=e.lag,
-            min_tsep=e.theiler,
-            tau=step,
-            trajectory_len=stretch(e),
-            fit="poly",
-        )
+        def rosenstein(x, step, e):
+            how = {"emb_dim": e.dimension, "lag": e.lag, "min_tsep": e.theiler, "trajectory_len": stretch(e)}
+            return nolds.lyap_r(x, tau=step, fit="poly", **how)
+
+        found["nolds lyap_r"] = rosenstein
         found["nolds lyap_e"] = lambda x, step, e: nolds.lyap_e(x, min_tsep=e.theiler, tau=step)[0]
     except ImportError:
         print("nolds is not installed: pip install -c constraints.txt '.[bench]'")
     try:
         import neurokit2
 
-        found["NeuroKit2 rosenstein"] = lambda x, step, e: (
-            neurokit2.complexity_lyapunov(
-                x, delay=e.lag, dimension=e.dimension, separation=e.theiler, len_trajectory=stretch(e)
-            )[0]
-            / step
-        )
-        found["NeuroKit2 makowski"] = lambda x, step, e: (
-            neurokit2.complexity_lyapunov(
-                x, delay=e.lag, dimension=e.dimension, separation=e.theiler, method="makowski"
-            )[0]
-            / step
-        )
+        def neurokit(x, step, e, **how):
+            how |= {"delay": e.lag, "dimension": e.dimension, "separation": e.theiler}
+            return neurokit2.complexity_lyapunov(x, **how)[0]
+
+        found["NeuroKit2 rosenstein"] = lambda x, step, e: neurokit(x, step, e, len_trajectory=stretch(e)) / step
+        found["NeuroKit2 makowski"] = lambda x, step, e: neurokit(x, step, e, method="makowski") / step
     except ImportError:
         print("NeuroKit2 is not installed: see the head of this file")
     return found
@@ -121,12 +113,10 @@ def settings(samples=100_000):
         series, step = record(name, samples, 0.0)
         delay = choose_delay(series)
         noise, evolution = noise_level(series, delay.delay), max(1, round(0.5 * delay.mean_period))
-        times = []
-        for _ in range(4):
-            began = time.perf_counter()
-            wolf_run(series, step, delay.delay, 4, evolution, round(delay.mean_period), noise)
-            times.append(time.perf_counter() - began)
-        print(f"{name:10s} {samples} samples, every {evolution}: {np.median(times[1:]):.3f} s a setting")
+        one = partial(wolf_run, series, step, delay.delay, 4, evolution, round(delay.mean_period), noise)
+        one()
+        times = [seconds(one) for _ in range(3)]
+        print(f"{name:10s} {samples} samples, every {evolution}: {np.median(times):.3f} s a setting")
 
 
 def main():

@@ -1,11 +1,15 @@
 """Campaigns: many runs from one command, one row a run, safe to interrupt and to start again.
 
-Each folder but `machinery` is a campaign to run with `python -m`. Its `__init__` holds the command line and reads like
-a lab protocol; the files beside it hold what only this campaign has, such as a run as one line of numbers (`rows`).
-What all share is in `machinery`: `cli` (options and their faults), `session` (compile, run, report, what is said),
-`folder` (what is on disk, and how it stays readable), `pools` (where runs execute), `runner` (what happens to each
-run), `side_by_side` (runs that share a worker), `row_store` (rows that need not be made again), `provenance` and
-`machine` (who, where, with what).
+Each folder with a `__main__` is a campaign to run with `python -m campaigns.NAME`; its `__init__` reads like a lab
+protocol, and the files beside it hold what only this campaign has, such as a run as one line of numbers (`rows`).
+`study` is what a campaign of simulations is, `columns` what a column of a table is, `judge` the verdict on the motion
+of a buoy. In `machinery`, each module imports only those before it:
+
+    cli, out_folder        options of a command line and their faults
+    folder, provenance     what is on disk, how it stays readable, and who made it with what
+    command, session       a command from its words to its exit code; what surrounds the runs of any campaign
+    plan, worker, batches  the runs to do; one run, or several side by side, where they are made; row_cache keeps rows
+    processes, cluster, pools, runner   where runs execute, and what becomes of each
 """
 
 import sys

@@ -5,10 +5,11 @@ beside the options that all studies share. docs/howto_campaign.md shows a comple
 """
 
 import time
-from argparse import Namespace
+from argparse import ArgumentParser, Namespace
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 from functools import partial
+from typing import TYPE_CHECKING
 
 from campaigns.columns import Column
 from campaigns.machinery import cli, session
@@ -16,6 +17,9 @@ from campaigns.machinery.cli import Lengths
 from campaigns.machinery.command import command
 from campaigns.machinery.plan import Job, Plan, Summary, make_job, plan_of
 from campaigns.machinery.runner import run, write_scene
+
+if TYPE_CHECKING:
+    from engine import Scene
 
 
 @dataclass(frozen=True)
@@ -67,7 +71,7 @@ class Order:
         """Add faults, each once."""
         self.faults.extend(fault for fault in dict.fromkeys(faults) if fault not in self.faults)
 
-    def base(self, changes: Mapping[str, object] | None = None):
+    def base(self, changes: Mapping[str, object] | None = None) -> "Scene | None":
         """The scene with the changes of --set, and these, told nothing about; None where it cannot be."""
         from engine import SceneError, load_scene
 
@@ -76,7 +80,7 @@ class Order:
         except SceneError:
             return None
 
-    def scene(self, changes: Mapping[str, object], duration_s: float | None = None):
+    def scene(self, changes: Mapping[str, object], duration_s: float | None = None) -> "Scene | None":
         """The scene with the changes of --set and these; None where it cannot be, and every fault is told.
 
         duration_s: length of the run where it is not `periods`.
@@ -123,11 +127,11 @@ class Study:
     lengths: Lengths | None = None
     in_waves: bool = False
     taken: Mapping[str, str] = field(default_factory=dict)
-    options: Callable = lambda group: None
-    read: Callable[[Namespace, list[str]], object] = lambda options, faults: None
-    parameters: Callable[[Order], Mapping[str, object]] = lambda order: {}
-    runs: Callable[[Order], Callable] = lambda order: run
-    beside: Callable[[Order], Iterable[Callable[[Plan, Summary], float]]] = lambda order: ()
+    options: Callable[[object], None] | None = None
+    read: Callable[[Namespace, list[str]], object] | None = None
+    parameters: Callable[[Order], Mapping[str, object]] | None = None
+    runs: Callable[[Order], Callable] | None = None
+    beside: Callable[[Order], Iterable[Callable[[Plan, Summary], float]]] | None = None
     together: bool = True
     module: str = ""
 
@@ -140,11 +144,12 @@ class Study:
         """MODULE of python -m MODULE."""
         return self.module or f"campaigns.{self.name}"
 
-    def parser(self):
+    def parser(self) -> ArgumentParser:
         """The options of the command."""
         parser = cli.parser(self.called, self.protocol)
         what = parser.add_argument_group("what is run")
-        self.options(what)
+        if self.options is not None:
+            self.options(what)
         if self.lengths is not None:
             cli.add_lengths(what, self.lengths)
         cli.add_scene(what, self.scene)
@@ -155,7 +160,7 @@ class Study:
         """The order in the words of the command line; every fault, of options and scenes, is appended to `faults`."""
         options = cli.split(self.parser(), argv, faults)
         periods, transient = (None, 0) if self.lengths is None else cli.lengths(options, self.lengths, faults)
-        own = self.read(options, faults)
+        own = self.read(options, faults) if self.read else None
         how = cli.running(options, self.name, faults)
         name = cli.scene_name(options, self.scene, faults)
         changes = cli.assignments(options.set, self.taken, faults)
@@ -182,8 +187,8 @@ class Study:
         plan = plan_of(order.how, order.simulate, measures.row, measures.columns, maker, simulate_each=together)
         jobs = [job_of(case, order) for case in order.cases]
         write_scene(plan.directory, self.name, jobs)
-        timing, summary = self.runs(order)(plan, jobs)
-        for more in self.beside(order):
+        timing, summary = (self.runs(order) if self.runs else run)(plan, jobs)
+        for more in self.beside(order) if self.beside else ():
             began = time.perf_counter()
             timing["analysis_s"] += more(plan, summary)
             timing["run_s"] += time.perf_counter() - began
@@ -195,8 +200,9 @@ class Study:
         Raises CampaignStopped, OSError and KeyboardInterrupt, for `command`.
         """
         order.simulate = simulate
-        lengths = {} if self.lengths is None else {"periods": order.periods, "transient": order.transient}
-        parameters = {"scene": order.name, "set": order.changes, **lengths, **self.parameters(order)}
+        parameters = {"scene": order.name, "set": order.changes}
+        parameters |= {} if self.lengths is None else {"periods": order.periods, "transient": order.transient}
+        parameters |= self.parameters(order) if self.parameters else {}
         where = {"backend": order.how.backend, "jobs": order.how.jobs, "dask_address": order.how.dask_address}
         return session.conduct(
             self.name, self.called, argv, order.how, {**parameters, **where}, partial(self.work, order)

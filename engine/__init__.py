@@ -5,8 +5,6 @@ pandas.
 """
 
 import sys
-from importlib import import_module
-from types import ModuleType
 
 if sys.version_info < (3, 11):  # noqa: UP036
     running = ".".join(map(str, sys.version_info[:3]))
@@ -15,38 +13,15 @@ if sys.version_info < (3, 11):  # noqa: UP036
         "make its environment with a newer one, for instance python3.12 -m venv .venv"
     )
 
-_HOME = {
-    "Scene": "engine.scene",
-    "SceneError": "engine.scene",
-    "Trajectory": "engine.trajectory",
-    "goes_in_lanes": "engine.simd.cover",
-    "load_scene": "engine.scene",
-    "simulate": "engine.simulate",
-    "simulate_batch": "engine.simulate",
-    "simulate_each": "engine.simulate",
-    "source_hash": "engine.compiled",
-}
+import lazy_loader  # not above: an older Python does not get through it
 
-__all__ = list(_HOME)
-
-
-class _Package(ModuleType):
-    """`engine.simulate` is the function, also after something has imported the module of the same name."""
-
-    def __setattr__(self, name: str, value: object) -> None:
-        if name == "simulate" and isinstance(value, ModuleType):
-            value = value.simulate
-        super().__setattr__(name, value)
-
-
-sys.modules[__name__].__class__ = _Package
-
-
-def __getattr__(name: str) -> object:
-    if name not in _HOME:
-        raise AttributeError(f"module 'engine' has no attribute {name!r}")
-    return getattr(import_module(_HOME[name]), name)
-
-
-def __dir__() -> list[str]:
-    return sorted({*globals(), *__all__})
+__getattr__, __dir__, __all__ = lazy_loader.attach(
+    __name__,
+    submod_attrs={
+        "compiled": ["source_hash"],
+        "scene": ["Scene", "SceneError", "load_scene"],
+        "simd.cover": ["goes_in_lanes"],
+        "simulation": ["simulate", "simulate_batch", "simulate_each"],
+        "trajectory": ["Trajectory"],
+    },
+)

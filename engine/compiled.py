@@ -31,7 +31,7 @@ types.Record.mangling_args = property(_mangled_by_contents)
 
 
 @cache
-def source_hash():
+def source_hash() -> str:
     """Hash of everything in the engine that can change a result; part of the key of every stored run.
 
     Returns
@@ -44,7 +44,7 @@ def source_hash():
 
 
 @cache
-def cache_directory():
+def cache_directory() -> Path | None:
     """Folder for the machine code of these sources; None where nothing can be written."""
     return folder_for("kernels", source_hash(), _KEPT_CACHES)
 

@@ -1,7 +1,7 @@
-"""The choice between plane and space, made once for each name when a kernel is compiled (`engine.compiled`).
+"""One name for each pair of kernels of which one serves a plane and the other space (`engine.compiled.by_kind`).
 
-Shared parts of the engine call these names and know nothing of either kind of state; a scene in a plane compiles and
-runs nothing of the third dimension.
+Time stepping, Newton's method and output call these names, because they are the same in two and three dimensions. A
+planar scene neither compiles nor runs anything of the third dimension.
 """
 
 from .compiled import by_kind

@@ -13,13 +13,14 @@ import numpy as np
 from . import record as codes
 from . import scales
 from .physics import currents, ends, sea, tension, waves
+from .scene.models import Scene
 from .spatial import lift
 from .time import integrators
 
 NOT_STRETCHED = 1e-6  # below this spacings differ by less than 1e-12, and the quotients of tanh lose their digits
 
 
-def grid(length_m, nodes, stretching, refined="both"):
+def grid(length_m: float, nodes: int, stretching: float, refined: str = "both") -> np.ndarray:
     """Element lengths (nodes - 1,), m, at even xi; b = 0 (or next to nothing) even elements.
 
     Finer at both ends s(xi) = L/2 (1 + tanh(b (2 xi - 1))/tanh b), at the lower one L (1 + tanh(b (xi - 1))/tanh b), at
@@ -33,7 +34,7 @@ def grid(length_m, nodes, stretching, refined="both"):
     return np.diff(length_m * {"both": 0.5 * (1 + s), "lower": 1 + s, "upper": s}[refined])
 
 
-def record_of(scene, tables):
+def record_of(scene: Scene, tables: list[np.ndarray]) -> np.ndarray:
     """One parameter record; appends the scene's tables to the list of arrays `tables`.
 
     Returns a (1,) structured array of dtype `RECORD`, or `SPATIAL` for motion.dimensions = 3.
@@ -116,7 +117,6 @@ def _direction(angle):
 
 
 def _current(record, current, place):
-    spatial = codes.is_spatial(record)
     if current.law == "table":
         x, y, z, t = current.x_m, current.y_m or (0.0,), current.height_m, current.time_s
         u, w = np.array(current.velocity_x_mps), np.array(current.velocity_z_mps)
@@ -126,12 +126,8 @@ def _current(record, current, place):
         z = current.height_m if current.law == "profile" else (0.0,)
         u, v, w = np.reshape(np.transpose(current.velocity_mps), (3, 1, -1, 1))
     record["current"] = any(component.any() for component in (u, v, w))
-    record["cur_nx"], record["cur_nz"], record["cur_nt"] = len(x), len(z), len(t)
-    if spatial:
-        record["cur_ny"] = len(y)
-        record["cur_at"] = place(currents.table_of((x, y, z, t), (u, v, w)))
-    else:
-        record["cur_at"] = place(currents.table_of((x, z, t), (u, w)))
+    record["cur_nx"], record["cur_ny"], record["cur_nz"], record["cur_nt"] = len(x), len(y), len(z), len(t)
+    record["cur_at"] = place(currents.table_of((x, y, z, t), (u, v, w)))
 
 
 def _put(record, name, vector):

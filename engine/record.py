@@ -29,8 +29,8 @@ def _dtype(counts, values):
 
 RECORD = np.dtype(
     _dtype(
-        "nodes grid_at law law_at law_n wet waves current cur_at cur_nx cur_nz cur_nt above end end_motion end_at "
-        "end_n sea_n sea_at spherical_cap bent viscous method stages method_at adaptive max_newton loop_release "
+        "nodes grid_at law law_at law_n wet waves current cur_at cur_nx cur_ny cur_nz cur_nt above end end_motion "
+        "end_at end_n sea_n sea_at spherical_cap bent viscous method stages method_at adaptive max_newton loop_release "
         "max_releases at_rest",
         "m w0 EI p1 p2 p3 p4 p5 ct cn ma Rw depth k omega amplitude phase direction ramp "
         "M_total M_wave lift C_buoy D_buoy M_added B_whole impact_loss end_x end_z end_release end_fx end_fz end_decay "
@@ -43,7 +43,7 @@ RECORD = np.dtype(
 # fields come first: Numba would take a record that only goes on after the planar fields for a planar one.
 SPATIAL = np.dtype(
     _dtype(
-        "cur_ny clamp_below clamp_above",
+        "clamp_below clamp_above",
         "GI dir_x dir_y end_y end_fy start_y below_x below_y below_z above_x above_y above_z "
         "carry0 carry1 carry2 carry3 twist twist_ramp",
     )
@@ -58,6 +58,6 @@ STATE = np.dtype(
 )
 
 
-def is_spatial(record):
+def is_spatial(record: np.void | np.dtype) -> bool:
     """Is this record, or its dtype, that of a scene in three dimensions?"""
     return "GI" in getattr(record, "dtype", record).names

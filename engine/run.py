@@ -12,6 +12,7 @@ from .perturbations.exponents import Followed
 from .physics import energy
 from .planar import state as planar
 from .planar.columns import EPS, PHI
+from .scene.models import Scene
 from .spatial import lift
 from .spatial import state as spatial
 from .time.statics import rest_of
@@ -28,7 +29,7 @@ class Run:
     follows its perturbations; goal: samples to store; wall_s: time (s) that advancing it has taken.
     """
 
-    def __init__(self, scene, duration_s):
+    def __init__(self, scene: Scene, duration_s: float) -> None:
         self.scene = scene
         self.kind = spatial if scene.motion.dimensions == 3 else planar
         tables = []
@@ -50,7 +51,7 @@ class Run:
         self.motion = Motion(Y, Y.copy(), np.zeros((n, conserved)), np.zeros((n, conserved)))
         self.wall_s = 0.0
 
-    def _start(self, Y):
+    def _start(self, Y: np.ndarray) -> np.ndarray:
         """Put the state at t = 0 into Y, and what a run begins with into its `state`; returns Y."""
         record, state, scene = self.record, self.state, self.scene
         n = int(record["nodes"])
@@ -74,20 +75,20 @@ class Run:
         state["dt"] = 1e-3 * record["max_step"] if record["adaptive"] or starter else record["fixed_step"]
         return Y
 
-    def done(self):
+    def done(self) -> bool:
         """Has it ended, at its goal or before?"""
         return bool(self.state["status"] != OK or self.state["samples"] >= self.goal)
 
-    def fraction(self):
+    def fraction(self) -> float:
         """Share of the run that is done."""
         return 1.0 if self.done() else float(self.state["samples"]) / self.goal
 
-    def compile(self):
+    def compile(self) -> None:
         """Compile what `advance` needs, or load it compiled, outside `wall_s`: no step is made."""
         self.advance(-self.goal)
         self.wall_s = 0.0
 
-    def advance(self, chunk):
+    def advance(self, chunk: int) -> None:
         """March until `chunk` more samples are stored, or the run ends."""
         began = time.perf_counter()
         until = min(self.goal, self.state["samples"] + chunk)
@@ -98,7 +99,7 @@ class Run:
                 break
         self.wall_s += time.perf_counter() - began
 
-    def trajectory(self):
+    def trajectory(self) -> Trajectory:
         """The record of the run, up to where it is."""
         record, state, scene = self.record, self.state, self.scene
         status = int(state["status"])
@@ -119,11 +120,11 @@ class Run:
             "wall_s": self.wall_s,
         }
         heading = float(scene.waves.direction_rad) if self.kind is spatial and scene.waves is not None else 0.0
-        columns = _columns(self.output.samples[: min(int(state["samples"]), self.goal)], heading)
+        columns = columns_of(self.output.samples[: min(int(state["samples"]), self.goal)], heading)
         profiles, tangent = self._profiles(record, state), self.trail.growth(state)
         return Trajectory(scene, WORDS[status], message, columns, statistics, profiles, tangent, self._budget())
 
-    def _budget(self):
+    def _budget(self) -> EnergyBudget | None:
         if not self.scene.output.energy:
             return None
         rows = self.output.energies[: int(self.state["energies"])]
@@ -131,7 +132,7 @@ class Run:
         total = kinetic + strain + gravity
         return EnergyBudget(time_s, kinetic, strain, gravity, work, shear, viscous, space, powers - (total - total[:1]))
 
-    def _profiles(self, record, state):
+    def _profiles(self, record: np.void, state: np.void) -> Profiles | None:
         count = int(state["profiles"])
         if self.scene.output.profiles is False:
             return None
@@ -145,12 +146,12 @@ class Run:
         )
 
 
-def _count(duration_s, step_s):
+def _count(duration_s: float, step_s: float) -> int:
     """Samples from t = 0 to the end, both included where the rounding of a step is all that is missing."""
     return int(np.floor(duration_s / step_s * (1 + 1e-12) + 1e-9)) + 1
 
 
-def _columns(samples, heading):
+def columns_of(samples: np.ndarray, heading: float) -> dict[str, np.ndarray]:
     """Columns of the table; the angle from the vertical is taken in the plane of waves that travel along `heading`."""
     t, x, y, z, u, v, w = samples[:, : col.AT_W + 1].T
     r = np.sqrt(x**2 + y**2 + z**2) if y.any() else np.hypot(x, z)

@@ -6,10 +6,12 @@ from types import SimpleNamespace
 
 import numpy as np
 
-from .physics.tension import LAWS, number_of
+from .physics.tension import LAWS, TensionLaw, number_of
+from .scene.line import End, Tether
+from .scene.models import Scene
 
 
-def put_scales(record, scene, h):
+def put_scales(record: np.void, scene: Scene, h: np.ndarray) -> None:
     """Inverse scales in which Newton updates and step errors are measured (Table 1: 0.04, 100 N, 1 m/s, 5 rad/m)."""
     length, g = scene.tether.length_m, scene.gravity_mps2
     stiff = buckling_load(scene.tether, scene.end)
@@ -36,14 +38,14 @@ def put_scales(record, scene, h):
     record["per_curvature"] = float(np.mean(h)) / 2.5
 
 
-def fastest_wave(record, scene):
+def fastest_wave(record: np.void, scene: Scene) -> float:
     """Largest axial wave speed sqrt(T'/m), m/s, between no strain and that of the static loads."""
     strains = np.linspace(0.0, 1.0 / float(record["per_strain"]), 2001)
     slopes = np.diff([tension_at(strain, scene.tether.tension) for strain in strains]) / strains[1]
     return math.sqrt(max(slopes.max(), 1e-300) / float(record["m"]))
 
 
-def end_speed(end):
+def end_speed(end: End) -> float:
     """Greatest speed (m/s) at which a held end is moved; of a table the greatest between its rows, nearly."""
     motion = end.motion
     if motion is None:
@@ -54,7 +56,7 @@ def end_speed(end):
     return float(np.linalg.norm(steps, axis=1).max())
 
 
-def buckling_load(tether, end):
+def buckling_load(tether: Tether, end: End) -> float:
     """Force (N) of bending and twist, of use where a line has no weight: the greater of the compression at which a
     clamped line buckles, EI (2 pi/L)^2 (Euler), and the tension that M = GIp twist/L overcomes, M^2/(4 EI) (Love).
     """
@@ -71,13 +73,13 @@ def _numbers_of(law):
     return module, SimpleNamespace(law_at=0, **numbers), table
 
 
-def tension_at(strain, law):
+def tension_at(strain: float, law: TensionLaw) -> float:
     """T (N) at a strain, outside the kernels."""
     module, p, table = _numbers_of(law)
     return float(module.value(strain, p, table)[0])
 
 
-def strain_at(load, law):
+def strain_at(load: float, law: TensionLaw) -> float:
     """Smallest positive strain that carries `load` (N), within [1e-9, 10]."""
     closed = getattr(_numbers_of(law)[0], "strain_under", None)
     if closed is not None:

@@ -4,16 +4,14 @@ On disk a netCDF-3 file (it opens in xarray and in any netCDF tool); scene, stat
 attributes, and a digest of the whole content lets `load` tell a damaged file from a sound one.
 """
 
-import hashlib
-import io
 import json
-import warnings
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Annotated
 
 import numpy as np
 
+from engine import netcdf
 from engine.atomic import write_atomic
 from engine.scene.load import Scene, SceneError, scene_from_toml
 
@@ -35,44 +33,30 @@ COLUMNS = {  # name -> (unit, long name), in the order of the table
     "tension_top_low_N": ("N", "least tension at the upper end over all steps since the previous sample"),
     "tension_top_high_N": ("N", "largest tension at the upper end over all steps since the previous sample"),
 }
-PROFILE_COLUMNS = {
-    "x_m": ("m", "position along x, from the anchor"),
-    "y_m": ("m", "position along y, from the anchor"),
-    "z_m": ("m", "height above the anchor"),
-    "strain": ("1", "strain"),
-    "tension_N": ("N", "tension"),
-    "speed_mps": ("m s-1", "speed"),
-}
-
-ENERGY_COLUMNS = {
-    "time_s": ("s", "time of the energies, ends of steps"),
-    "kinetic_J": ("J", "kinetic energy"),
-    "strain_J": ("J", "strain energy"),
-    "gravity_J": ("J", "energy of the weight, from the height of the lower end"),
-    "end_work_J": ("J", "work of the force at the upper end since the start"),
-    "bending_J": ("J", "work against the shear forces since the start: bending"),
-    "viscous_J": ("J", "dissipated by the shock viscosity since the start"),
-    "scheme_space_J": ("J", "dissipated by the discretisation in space since the start"),
-    "scheme_time_J": ("J", "dissipated by the discretisation in time since the start"),
-}
+TEXTS = ("title", "scene", "status", "message", "statistics")  # attributes of a file that are part of the run
 
 
 class TrajectoryError(ValueError):
     """A trajectory file that cannot be read: not there, truncated, damaged, or not one of ours."""
 
 
+def _abouts(record: type) -> dict[str, tuple[str, str]]:
+    """(unit, long name) of each field of a record, as in a file."""
+    return {name: kind.__metadata__[0] for name, kind in record.__annotations__.items()}
+
+
 @dataclass(frozen=True)
 class Profiles:
-    """Quantities along the line. time_s (nt,); s_m (nn,) unstretched arc length; the others (nt, nn), SI units."""
+    """Quantities along the line. time_s (nt,); s_m (nn,); the others (nt, nn), SI units."""
 
-    time_s: np.ndarray
-    s_m: np.ndarray
-    x_m: np.ndarray
-    y_m: np.ndarray
-    z_m: np.ndarray
-    strain: np.ndarray
-    tension_N: np.ndarray
-    speed_mps: np.ndarray
+    time_s: Annotated[np.ndarray, ("s", "time of the profiles")]
+    s_m: Annotated[np.ndarray, ("m", "unstretched arc length from the anchor")]
+    x_m: Annotated[np.ndarray, ("m", "position along x, from the anchor")]
+    y_m: Annotated[np.ndarray, ("m", "position along y, from the anchor")]
+    z_m: Annotated[np.ndarray, ("m", "height above the anchor")]
+    strain: Annotated[np.ndarray, ("1", "strain")]
+    tension_N: Annotated[np.ndarray, ("N", "tension")]
+    speed_mps: Annotated[np.ndarray, ("m s-1", "speed")]
 
     def __post_init__(self) -> None:
         shape = (len(self.time_s), len(self.s_m))
@@ -81,24 +65,25 @@ class Profiles:
                 raise ValueError(f"profiles: {name} has shape {getattr(self, name).shape}, expected {shape}")
 
 
+PROFILE_COLUMNS = {name: about for name, about in _abouts(Profiles).items() if name not in ("time_s", "s_m")}
+
+
 @dataclass(frozen=True)
 class EnergyBudget:
-    """Where the energy of a dry line is and went since t = 0; each (m,), in J (`engine.physics.energy`).
+    """Where the energy of a dry line is and went since t = 0; each (m,) (`engine.physics.energy`).
 
-    time_s: ends of steps, the first past each output time. kinetic_J, strain_J, gravity_J: states. end_work_J: done by
-    the force at the upper end; bending_J: against the shear forces; viscous_J: by shock viscosity; scheme_space_J,
-    scheme_time_J: dissipated by the discretisation. See `remainder_J`.
+    time_s: the first end of a step past each output time. See `remainder_J`.
     """
 
-    time_s: np.ndarray
-    kinetic_J: np.ndarray
-    strain_J: np.ndarray
-    gravity_J: np.ndarray
-    end_work_J: np.ndarray
-    bending_J: np.ndarray
-    viscous_J: np.ndarray
-    scheme_space_J: np.ndarray
-    scheme_time_J: np.ndarray
+    time_s: Annotated[np.ndarray, ("s", "time of the energies, ends of steps")]
+    kinetic_J: Annotated[np.ndarray, ("J", "kinetic energy")]
+    strain_J: Annotated[np.ndarray, ("J", "strain energy")]
+    gravity_J: Annotated[np.ndarray, ("J", "energy of the weight, from the height of the lower end")]
+    end_work_J: Annotated[np.ndarray, ("J", "work of the force at the upper end since the start")]
+    bending_J: Annotated[np.ndarray, ("J", "work against the shear forces since the start: bending")]
+    viscous_J: Annotated[np.ndarray, ("J", "dissipated by the shock viscosity since the start")]
+    scheme_space_J: Annotated[np.ndarray, ("J", "dissipated by the discretisation in space since the start")]
+    scheme_time_J: Annotated[np.ndarray, ("J", "dissipated by the discretisation in time since the start")]
 
     @property
     def stored_J(self) -> float:
@@ -169,7 +154,7 @@ class Trajectory:
 
     def to_bytes(self, attributes: dict[str, str] | None = None) -> bytes:
         """The content of the file that `save` writes, for whoever has to send it first. Raises ValueError as `save`."""
-        return _netcdf_bytes(self, attributes or {})
+        return netcdf.to_bytes(_variables(self), _described(self), attributes or {})
 
     @staticmethod
     def load(path: str | Path) -> "Trajectory":
@@ -188,26 +173,27 @@ class Trajectory:
     def from_bytes(content: bytes, name: str = "the record") -> "Trajectory":
         """The record of a file's content, for whoever was sent it. Raises TrajectoryError, which calls it by name."""
         try:
-            return _from_netcdf_bytes(content)
-        except TrajectoryError as error:
+            return _restored(*netcdf.from_bytes(content, TEXTS))
+        except (TrajectoryError, netcdf.DamagedError) as error:
             raise TrajectoryError(f"{name}: {error}") from None
         except Exception as error:  # a damaged header can make the reader fail in any way at all
             raise TrajectoryError(f"{name}: truncated, damaged, or not a netCDF-3 file ({error})") from None
 
 
-def _variables(run: Trajectory) -> list[tuple[str, tuple[str, ...], np.ndarray, str, str]]:
-    """(name, dimensions, values, unit, long name) of everything stored. A dimension is named after its coordinate."""
+def _variables(run: Trajectory) -> list[netcdf.Variable]:
+    """Everything that is stored of a run; a dimension is named after its coordinate."""
     found = [(name, ("time_s",), run.columns[name], *about) for name, about in COLUMNS.items()]
-    if run.profiles is not None:
-        lines = run.profiles
-        found.append(("s_m", ("s_m",), lines.s_m, "m", "unstretched arc length from the anchor"))
+    lines, budget = run.profiles, run.energy
+    if lines is not None:
+        about = _abouts(Profiles)
+        found.append(("s_m", ("s_m",), lines.s_m, *about["s_m"]))
         if len(lines.time_s):  # the format has no second dimension of length zero
-            found.append(("profile_time_s", ("profile_time_s",), lines.time_s, "s", "time of the profiles"))
-            for name, about in PROFILE_COLUMNS.items():
-                found.append((f"profile_{name}", ("profile_time_s", "s_m"), getattr(lines, name), *about))
-    if run.energy is not None and len(run.energy.time_s):
-        for name, about in ENERGY_COLUMNS.items():
-            found.append((f"energy_{name}", ("energy_time_s",), getattr(run.energy, name), *about))
+            found.append(("profile_time_s", ("profile_time_s",), lines.time_s, *about["time_s"]))
+            for name in PROFILE_COLUMNS:
+                found.append((f"profile_{name}", ("profile_time_s", "s_m"), getattr(lines, name), *about[name]))
+    if budget is not None and len(budget.time_s):
+        for name, about in _abouts(EnergyBudget).items():
+            found.append((f"energy_{name}", ("energy_time_s",), getattr(budget, name), *about))
     if run.tangent is not None and len(run.tangent.released):
         grown = run.tangent
         about = (f"period ({grown.period_s!r} s)", "number of the period, the first is 0")
@@ -219,7 +205,7 @@ def _variables(run: Trajectory) -> list[tuple[str, tuple[str, ...], np.ndarray, 
         if grown.lateral_nats is not None:
             about = ("1", "growth of a perturbation across the plane of the waves, nats")
             found.append(("lateral_nats", ("period",), grown.lateral_nats, *about))
-    return [(name, dimensions, np.asarray(values, dtype=">f8"), *about) for name, dimensions, values, *about in found]
+    return [netcdf.Variable(*variable) for variable in found]
 
 
 def _described(run: Trajectory) -> dict[str, str]:
@@ -238,52 +224,8 @@ def _number(value: object) -> int | float:
     raise TypeError(f"statistics hold numbers, not {type(value).__name__}")
 
 
-def _digest(texts: dict[str, str], arrays: dict[str, np.ndarray]) -> str:
-    content = hashlib.sha256()
-    for name, text in sorted(texts.items()):
-        content.update(f"{name}={len(text.encode())}:{text}\n".encode())
-    for name, values in sorted(arrays.items()):
-        content.update(f"{name}{values.shape}\n".encode())
-        content.update(np.ascontiguousarray(values, dtype=">f8").tobytes())
-    return content.hexdigest()
-
-
-def _netcdf_bytes(run: Trajectory, attributes: dict[str, str]) -> bytes:
-    from scipy.io import netcdf_file
-
-    variables = _variables(run)
-    texts = _described(run)
-    digest = _digest(texts, {name: values for name, _, values, _, _ in variables})
-    buffer = io.BytesIO()
-    file = netcdf_file(buffer, "w", version=2)
-    own = {"Conventions": "CF-1.10", **texts, "content_sha256": digest}
-    taken = [name for name in attributes if name in own or hasattr(file, name)]
-    if taken:
-        raise ValueError(f"attributes: {', '.join(taken)} belong to the record or its format")
-    for name, text in {**own, **attributes}.items():
-        setattr(file, name, text.encode("utf-8"))
-    for name, dimensions, values, unit, long_name in variables:
-        for dimension, length in zip(dimensions, values.shape, strict=True):
-            if dimension not in file.dimensions:
-                file.createDimension(dimension, length or None)  # None: the record dimension, which may be empty
-        variable = file.createVariable(name, "d", dimensions)
-        variable.units, variable.long_name = unit.encode(), long_name.encode()
-        if values.size:
-            variable[:] = values
-    file.flush()
-    return buffer.getvalue()
-
-
-def _from_netcdf_bytes(content: bytes) -> Trajectory:
-    from scipy.io import netcdf_file
-
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")
-        file = netcdf_file(io.BytesIO(content), "r", mmap=False)
-    texts = {name: _text(file, name) for name in ("title", "scene", "status", "message", "statistics")}
-    arrays = {name: np.array(variable.data, dtype=np.float64) for name, variable in file.variables.items()}
-    if _digest(texts, arrays) != _text(file, "content_sha256"):
-        raise TrajectoryError("damaged: the content does not match its own digest")
+def _restored(texts: dict[str, str], arrays: dict[str, np.ndarray], units: dict[str, str]) -> Trajectory:
+    """The run of which a file holds these texts, arrays and units."""
     profiles = None
     if "s_m" in arrays:
         empty = np.empty((0, len(arrays["s_m"])))
@@ -295,29 +237,22 @@ def _from_netcdf_bytes(content: bytes) -> Trajectory:
         raise TrajectoryError(f"holds a scene that this version does not accept: {error}") from None
     energy = None
     if scene.output.energy:
-        energy = EnergyBudget(**{name: arrays.get(f"energy_{name}", np.empty(0)) for name in ENERGY_COLUMNS})
-    tangent = _growth(scene, arrays, file)
+        energy = EnergyBudget(**{name: arrays.get(f"energy_{name}", np.empty(0)) for name in _abouts(EnergyBudget)})
+    tangent = _growth(scene, arrays, units)
     columns = {name: arrays[name] for name in COLUMNS}
     statistics = json.loads(texts["statistics"])
     return Trajectory(scene, texts["status"], texts["message"], columns, statistics, profiles, tangent, energy)
 
 
-def _growth(scene: Scene, arrays: dict[str, np.ndarray], file: object) -> TangentGrowth | None:
+def _growth(scene: Scene, arrays: dict[str, np.ndarray], units: dict[str, str]) -> TangentGrowth | None:
     """What a file holds of perturbations; empty arrays for a run that ended before its first period did."""
     count, sideways = scene.output.tangent_vectors, scene.output.lateral_growth
     if not (count or sideways):
         return None
     if "released" in arrays:
-        period_s = float(file.variables["period"].units.decode().split("(")[1].split()[0])
+        period_s = float(units["period"].split("(")[1].split()[0])
     else:
         period_s = scene.waves.period_s if scene.waves is not None else 1.0
     released = arrays.get("released", np.empty(0))
     growth = arrays.get("growth_nats", np.empty((len(released), count)))
     return TangentGrowth(period_s, growth, released, arrays.get("lateral_nats", np.empty(0)) if sideways else None)
-
-
-def _text(file: object, name: str) -> str:
-    value = getattr(file, name, None)
-    if not isinstance(value, bytes):
-        raise TrajectoryError(f"not a trajectory file: it has no attribute {name!r}")
-    return value.decode("utf-8")

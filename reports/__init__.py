@@ -11,7 +11,8 @@ from pathlib import Path
 
 # Campaigns as named in provenance.json, and what `python -m analysis` calls itself there; the folder of that name has a
 # module `report`, whose `report(directory)` gives the content. Where it has a `beside(directory)` too, that gives
-# drawings to keep as files: path -> bytes.
+# drawings to keep as files: path -> bytes. A campaign of another name whose provenance names what it varied ("vary")
+# gets the report of a sweep.
 CONTENTS = (
     "accuracy", "breaking_line", "buoy_sweep", "oscillator", "out_of_plane", "paper", "stability", "sweep",
     "time_series",
@@ -30,17 +31,19 @@ def build(directory: str | Path) -> tuple[Path, Path]:
     """
     from engine.atomic import write_atomic
 
-    from .parts.folder import FolderError, campaign_of
+    from .parts.folder import FolderError, provenance_of
     from .parts.html import render_html
     from .parts.pdf import render_pdf
 
     directory = Path(directory)
-    campaign = campaign_of(directory)
-    if campaign not in CONTENTS and campaign is not None:
+    made = provenance_of(directory)
+    campaign = made.get("campaign", "buoy_sweep")  # without one, the reader of any content lists all that is wrong
+    name = campaign if campaign in CONTENTS else "sweep" if made.get("vary") else ""
+    if not name:
         known = ", ".join(CONTENTS)
-        raise FolderError(directory, [f"provenance.json names the campaign {campaign!r}; reports exist for {known}"])
-    # Without a readable provenance the folder is no campaign: the reader of any content lists all that is wrong.
-    contents = import_module(f"reports.{campaign or 'buoy_sweep'}.report")
+        fault = f"provenance.json names the campaign {campaign!r} and nothing that it varied; reports exist for {known}"
+        raise FolderError(directory, [fault])
+    contents = import_module(f"reports.{name}.report")
     report = contents.report(directory)
     html, pdf = directory / "report.html", directory / "report.pdf"
     pages = {html: render_html(report), pdf: render_pdf(report)}

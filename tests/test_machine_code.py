@@ -33,13 +33,24 @@ def test_the_latest_folders_of_a_name_stay(tmp_path, monkeypatch):
     assert {path.name for path in tmp_path.iterdir()} == {"mine-4", "mine-3", "mine-2", other.name}
 
 
-def test_where_nothing_can_be_written_the_temporary_folder_is_taken(tmp_path, monkeypatch):
+@pytest.fixture
+def elsewhere(tmp_path, monkeypatch):
+    """Sets up a user whose own folder cannot be written, with the temporary files in tmp_path."""
     (tmp_path / "file").touch()
     monkeypatch.setenv("TETHER_CACHE_DIR", str(tmp_path / "file" / "below"))
-    monkeypatch.setattr("tempfile.tempdir", str(tmp_path / "temporary"))
-    (tmp_path / "temporary").mkdir()
-    assert folder_for("mine", "0", 1).is_relative_to(tmp_path / "temporary")
-    monkeypatch.setattr("tempfile.tempdir", str(tmp_path / "file"))
+    monkeypatch.setattr("tempfile.tempdir", str(tmp_path))
+    return monkeypatch
+
+
+def test_where_nothing_can_be_written_the_temporary_folder_is_taken(tmp_path, elsewhere):
+    assert folder_for("mine", "0", 1).parent.parent == tmp_path
+    elsewhere.setattr("tempfile.tempdir", str(tmp_path / "file"))
+    assert folder_for("mine", "0", 1) is None
+
+
+def test_code_that_somebody_else_left_among_the_temporary_files_is_not_run(elsewhere):
+    theirs = os.getuid() + 1
+    elsewhere.setattr("os.getuid", lambda: theirs)
     assert folder_for("mine", "0", 1) is None
 
 
@@ -49,24 +60,12 @@ def test_a_relative_folder_stays_where_it_was_when_the_process_goes_elsewhere(tm
     assert folder_for("mine", "0", 1) == tmp_path / "code" / "mine-0"
 
 
-def test_a_user_without_a_home_gets_no_folder_of_that_name(tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
+def test_a_user_without_a_home_gets_no_folder_of_that_name(tmp_path, elsewhere):
+    elsewhere.chdir(tmp_path)
     for name in ("TETHER_CACHE_DIR", "XDG_CACHE_HOME"):
-        monkeypatch.delenv(name, raising=False)
-    monkeypatch.setattr("os.path.expanduser", lambda path: path)
-    monkeypatch.setattr("tempfile.tempdir", str(tmp_path / "temporary"))
-    (tmp_path / "temporary").mkdir()
-    assert folder_for("mine", "0", 1).is_relative_to(tmp_path / "temporary")
-    assert not (tmp_path / "~").exists()
-
-
-def test_code_that_somebody_else_left_among_the_temporary_files_is_not_run(tmp_path, monkeypatch):
-    (tmp_path / "file").touch()
-    monkeypatch.setenv("TETHER_CACHE_DIR", str(tmp_path / "file"))
-    monkeypatch.setattr("tempfile.tempdir", str(tmp_path))
-    theirs = os.getuid() + 1
-    monkeypatch.setattr("os.getuid", lambda: theirs)
-    assert folder_for("mine", "0", 1) is None
+        elsewhere.delenv(name, raising=False)
+    elsewhere.setattr("os.path.expanduser", lambda path: path)
+    assert folder_for("mine", "0", 1).is_relative_to(tmp_path) and not (tmp_path / "~").exists()
 
 
 def half(x):

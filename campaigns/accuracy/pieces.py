@@ -116,6 +116,7 @@ def _loops() -> dict:
     import numba
 
     from engine.arrays import Stage
+    from engine.physics.water import water
     from engine.planar import node, state
 
     rate = 1.0 / STAGE_S
@@ -129,7 +130,7 @@ def _loops() -> dict:
     @numba.njit
     def waves(p, tables, Y, work, count):
         for i in range(count):
-            node.water(p, tables, 1e-3 * i, 1.0, work.X, work.F)
+            water(p, tables, 1e-3 * i, 1.0, work.X, work.F)
 
     @numba.njit
     def everything(p, tables, Y, work, count):

@@ -43,10 +43,10 @@ _BITS = "bits/period"
 STROBED = Column("strobed_period", "", "N", "wave periods after which the motion repeats; empty where none is found", 0)
 # What is measured after the transient (`settled`) of any line, with or without a verdict.
 EXTREMES = (
-    Column("radius_min_m", "m", "r_min", "smallest distance of the buoy from the anchor after the transient", 2),
-    Column("radius_max_m", "m", "r_max", "largest distance of the buoy from the anchor after the transient", 2),
-    Column("angle_min_rad", "rad", "θ_min", "smallest angle of the buoy from the vertical after the transient", 3),
-    Column("angle_max_rad", "rad", "θ_max", "largest angle of the buoy from the vertical after the transient", 3),
+    Column("radius_min_m", "m", "r_min", "smallest distance of the upper end from the anchor after the transient", 2),
+    Column("radius_max_m", "m", "r_max", "largest distance of the upper end from the anchor after the transient", 2),
+    Column("angle_min_rad", "rad", "θ_min", "smallest angle of the upper end from the vertical after the transient", 3),
+    Column("angle_max_rad", "rad", "θ_max", "largest angle of the upper end from the vertical after the transient", 3),
     Column("tension_top_min_N", "N", "T_min", "smallest tension at the top of the line after the transient", 0),
     Column("tension_top_max_N", "N", "T_max", "largest tension at the top of the line after the transient", 0),
     Column("slack_fraction", "", "χ", "share of the time after the transient without tension at the top", 3),

@@ -14,24 +14,22 @@ What goes wrong, and what becomes of it:
 import contextlib
 import logging
 import platform
-import queue
 import sys
-import threading
-import time
 from collections.abc import Callable, Iterator
+from concurrent.futures import CancelledError
 from functools import cache, partial
 from importlib import metadata
 
 from campaigns.machinery.folder import CampaignStopped
-from campaigns.machinery.pools import PoolBroken, first_line, ignore_interrupt
+from campaigns.machinery.processes import PoolBroken, first_line, ignore_interrupt
 from campaigns.machinery.row_cache import made_by
 
 JOIN_S = 30.0  # for the scheduler to answer, and then for its first worker
-ASK_S = 10.0  # for all workers to say what they are
 GONE_S = 120.0  # without any worker in the midst of a campaign
-_LOOK_S, _SAY_S = 2.0, 10.0
+LOOK_S = 2.0  # between two looks at the workers that are there
 _NUMBERS = ("numpy", "scipy", "numba", "llvmlite")  # a worker with another version would give other last digits
 _PARTS = ("machine_code", "engine", "analysis", "campaigns", "reports")
+_GO_ON = "finished runs are kept; mend the cluster and run the same command again"
 
 
 class _OtherVersion(Exception):
@@ -42,7 +40,7 @@ class _OtherVersion(Exception):
 def client(jobs: int, address: str | None) -> Iterator:
     """A client of the scheduler at `address`, or of a local cluster of `jobs` processes (None).
 
-    Raises CampaignStopped where no scheduler answers, no worker joins, or one has other sources.
+    Raises CampaignStopped where no scheduler answers, no worker joins, or the scheduler has no workbench.
     """
     import dask
     from distributed import Client, LocalCluster
@@ -52,10 +50,11 @@ def client(jobs: int, address: str | None) -> Iterator:
         if local:
             # A run whose worker dies is not tried again by dask: the runner does that, one run at a time.
             stack.enter_context(dask.config.set({"distributed.scheduler.allowed-failures": 0}))
-            address = stack.enter_context(
-                LocalCluster(n_workers=jobs, threads_per_worker=1, dashboard_address=None, silence_logs="CRITICAL")
-            )
-        stack.enter_context(_quiet())
+            own = {"n_workers": jobs, "threads_per_worker": 1, "dashboard_address": None, "silence_logs": "CRITICAL"}
+            address = stack.enter_context(LocalCluster(**own))
+        # A lost connection ends the campaign in one line of its own; dask adds a page, from threads of its own.
+        stack.callback(logging.disable, logging.root.manager.disable)
+        logging.disable(logging.CRITICAL)
         try:
             found = stack.enter_context(Client(address, timeout=JOIN_S))
         except (OSError, TimeoutError, TypeError, ValueError) as error:  # TypeError: tls:// without certificates
@@ -65,24 +64,13 @@ def client(jobs: int, address: str | None) -> Iterator:
         except TimeoutError:
             start = f"start one: dask worker {address} --nthreads 1"
             raise CampaignStopped(f"the scheduler at {address} has no worker after {JOIN_S:g} s; {start}") from None
+        try:
+            found.run_on_scheduler(facts)  # it computes nothing, but dask unpacks there what it hands on
+        except ImportError as error:
+            raise CampaignStopped(_refusal(f"the scheduler: {first_line(error)}")) from error
         if local:
             found.register_plugin(_deaf_to_interrupts())
-        _check(found)
         yield found
-
-
-@contextlib.contextmanager
-def _quiet() -> Iterator[None]:
-    # A lost connection ends the campaign in one line of its own; dask adds a page, from threads of its own.
-    loggers = [logging.getLogger(name) for name in ("distributed", "distributed.client", "asyncio", "tornado")]
-    before = [logger.level for logger in loggers]
-    for logger in loggers:
-        logger.setLevel(logging.CRITICAL + 1)
-    try:
-        yield
-    finally:
-        for logger, level in zip(loggers, before, strict=True):
-            logger.setLevel(level)
 
 
 def _deaf_to_interrupts():
@@ -105,81 +93,27 @@ def facts() -> dict[str, str]:
     return {"Python": ".".join(platform.python_version_tuple()[:2])} | versions | sources
 
 
-def difference(here: dict[str, str], there: dict[str, str]) -> str:
-    """What sets a worker apart, in words; "" for nothing."""
-    off = [f"{name} {there.get(name, 'none')} (here: {here[name]})" for name in here if there.get(name) != here[name]]
-    return ", ".join(off)
-
-
-def _check(found) -> None:
-    faults = []
-    try:
-        found.run_on_scheduler(facts)  # it computes nothing, but dask unpacks there what it hands on
-    except ImportError as error:
-        faults.append(f"the scheduler: {first_line(error)}")
-    for worker, there in _answers(found).items():
-        if isinstance(there, OSError):
-            continue  # it has just gone; whoever comes in its place is asked with its first run
-        off = first_line(there) if isinstance(there, Exception) else difference(facts(), there)
-        if off:
-            faults.append(f"{worker}: {off}")
-    if faults:
-        raise CampaignStopped(_refusal(faults))
-
-
-def _answers(found) -> dict[str, object]:
-    """Facts, or what was raised in their place, by worker; nothing where they are not all there within ASK_S."""
-    # dask waits for a worker that is stopped as long as it stays so; whoever has not answered here is asked with its
-    # first run. The thread ends with the connection.
-    came: queue.Queue = queue.Queue()
-
-    def ask() -> None:
-        with contextlib.suppress(Exception):
-            came.put(found.run(facts, on_error="return"))
-
-    threading.Thread(target=ask, daemon=True).start()
-    try:
-        return came.get(timeout=ASK_S)
-    except queue.Empty:
-        return {}
-
-
-def _refusal(faults: list[str]) -> str:
-    cure = "install there what is installed here, and start it again"
-    return f"refused, not the same version as here: {'; '.join(faults)}; {cure}"
-
-
-def _asked(call: Callable, here: dict[str, str], job: object) -> object:
-    # In the worker; one that joined late has not been asked before.
-    if off := difference(here, facts()):
-        from distributed import get_worker
-
-        raise _OtherVersion(f"{get_worker().address}: {off}")
-    return call(job)
-
-
 def results(found, call: Callable, work: list) -> Iterator:
     """call(job) for every job, as results come. Raises PoolBroken with the jobs that dask gave up, CampaignStopped."""
     from distributed import KilledWorker
 
-    came: queue.Queue = queue.Queue()
     ask = partial(_asked, call, facts())
     futures = {found.submit(ask, job, pure=False): job for job in work}
-    for future in futures:
-        future.add_done_callback(partial(_fetch, came))
     left, killed, last = set(futures), [], None
     try:
         while left:
-            future, result, error = _next(found, came)
-            left.discard(future)
-            if error is None:
+            for future in _done(found, left):
+                left.discard(future)
+                try:
+                    result = future.result()
+                except KilledWorker as error:
+                    killed.append(futures[future])
+                    last = error
+                    continue
+                except Exception as error:
+                    raise CampaignStopped(_reason(error)) from error
+                future.release()
                 yield result
-            elif isinstance(error, KilledWorker):
-                killed.append(futures[future])
-                last = error
-            else:
-                raise CampaignStopped(_reason(error)) from error
-            future.release()
     finally:
         with contextlib.suppress(Exception):  # of a scheduler that is gone: there is nothing to cancel
             found.cancel(list(left))
@@ -187,46 +121,48 @@ def results(found, call: Callable, work: list) -> Iterator:
         raise PoolBroken(killed, first_line(last))
 
 
-def _fetch(came: queue.Queue, future) -> None:
-    # In a thread of dask's: the content of a run arrives while the campaign writes the one before.
-    try:
-        came.put((future, future.result(), None))
-    except BaseException as error:
-        came.put((future, None, error))
+def _asked(call: Callable, here: dict[str, str], job: object) -> object:
+    # In the worker: each says with its first run, and so one that joined late does, that it computes what we would.
+    there = facts()
+    off = [f"{name} {there.get(name, 'none')} (here: {here[name]})" for name in here if there.get(name) != here[name]]
+    if off:
+        from distributed import get_worker
+
+        raise _OtherVersion(f"{get_worker().address}: {', '.join(off)}")
+    return call(job)
 
 
-def _next(found, came: queue.Queue) -> tuple:
-    """The next result, however long it takes, while there is somebody who could be at it."""
-    alone_since, said = None, False
+def _done(found, left: set) -> set:
+    """The futures that have ended, however long it takes, while there is somebody who could be at them."""
+    from distributed import wait
+
+    alone_s, said = 0.0, False
     while True:
         try:
-            return came.get(timeout=_LOOK_S)
-        except queue.Empty:
+            return wait(left, timeout=LOOK_S, return_when="FIRST_COMPLETED").done
+        except TimeoutError:
             pass
-        try:
-            there = found.nthreads()
         except Exception as error:
             raise CampaignStopped(_reason(error)) from error
-        if there:
-            alone_since = None
-            continue
-        alone_since = alone_since or time.monotonic()
-        gone_s = time.monotonic() - alone_since
-        if gone_s > GONE_S:
+        try:
+            alone_s = 0.0 if found.nthreads() else alone_s + LOOK_S
+        except Exception as error:
+            raise CampaignStopped(_reason(error)) from error
+        if alone_s > GONE_S:
             raise CampaignStopped(f"the dask cluster has had no worker for {GONE_S:g} s; {_GO_ON}")
-        if gone_s > _SAY_S and not said:
+        if alone_s > 0.1 * GONE_S and not said:
             print(f"\nthe dask cluster has no worker; waiting {GONE_S:g} s for one to join", file=sys.stderr)
             said = True
 
 
-_GO_ON = "finished runs are kept; mend the cluster and run the same command again"
-
-
 def _reason(error: BaseException) -> str:
-    from concurrent.futures import CancelledError
-
-    if isinstance(error, _OtherVersion):
-        return _refusal([str(error)])
+    if isinstance(error, _OtherVersion | ImportError):
+        return _refusal(first_line(error))
     if isinstance(error, CancelledError | OSError):
         return f"the dask scheduler has ended or dropped the runs ({first_line(error)}); {_GO_ON}"
     return f"a worker cannot do its part: {type(error).__name__}: {first_line(error)}; {_GO_ON}"
+
+
+def _refusal(fault: str) -> str:
+    cure = "install there what is installed here, and start it again"
+    return f"refused, not the same version as here: {fault}; {cure}"

@@ -9,19 +9,12 @@ loky and threads run through joblib; dask does not (`campaigns.machinery.cluster
 
 import contextlib
 import os
-import signal
 import threading
-import time
 import warnings
 from collections.abc import Callable, Iterator
 
-
-class PoolBroken(Exception):
-    """A worker process died. `suspects`: the unfinished jobs that had been handed out, at least one."""
-
-    def __init__(self, suspects: list, reason: str):
-        self.suspects = suspects
-        super().__init__(reason)
+from campaigns.machinery import cluster
+from campaigns.machinery.processes import PoolBroken, end_with, first_line, ignore_interrupt
 
 
 @contextlib.contextmanager
@@ -34,8 +27,6 @@ def opened(backend: str, jobs: int, address: str | None = None) -> Iterator[Call
     ends with the run at hand. Raises CampaignStopped where a cluster cannot be reached, is lost, or has other sources.
     """
     if backend == "dask":
-        from campaigns.machinery import cluster
-
         with cluster.client(jobs, address) as client:
             yield lambda call, work, alone=False: cluster.results(client, call, work)
     elif backend == "loky":
@@ -44,24 +35,9 @@ def opened(backend: str, jobs: int, address: str | None = None) -> Iterator[Call
         yield lambda call, work, alone=False: _joblib_results("threading", jobs, call, work, alone)
 
 
-def ignore_interrupt() -> None:
-    """Let this process be deaf to Ctrl-C."""
-    # Ctrl-C reaches every process of the terminal; only the campaign itself decides what it means.
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
-
-
 def _prepare_worker(campaign: int) -> None:
     ignore_interrupt()
     threading.Thread(target=end_with, args=(campaign,), daemon=True).start()
-
-
-def end_with(campaign: int) -> None:
-    """End this process when its parent has ended."""
-    # A killed campaign leaves its workers behind: at work, beside the campaign that is started next, or waiting for
-    # five minutes. The system gives an orphan another parent, and that it can see.
-    while os.getppid() == campaign:
-        time.sleep(0.5)
-    os._exit(1)
 
 
 def _joblib_results(backend: str, jobs: int, call: Callable, work: list, alone: bool) -> Iterator:
@@ -99,8 +75,3 @@ def _joblib_results(backend: str, jobs: int, call: Callable, work: list, alone: 
 
 def _numbered(call: Callable, number: int, job: object) -> tuple[int, object]:
     return number, call(job)
-
-
-def first_line(error: BaseException | None) -> str:
-    """An exception in one line."""
-    return str(error).strip().split("\n")[0] or type(error).__name__

@@ -10,7 +10,8 @@ from pathlib import Path
 from campaigns.machinery.batches import groups_of, run_group
 from campaigns.machinery.folder import CampaignStopped, Table, trajectory_path
 from campaigns.machinery.plan import Job, Outcome, Plan, Summary
-from campaigns.machinery.pools import PoolBroken, opened
+from campaigns.machinery.pools import opened
+from campaigns.machinery.processes import PoolBroken
 from campaigns.machinery.worker import failed, received, reuse, run_one
 from engine.atomic import write_atomic
 

@@ -56,7 +56,7 @@ def _lateral_columns(body: str) -> tuple[Column, ...]:
         ("reason", "", "reason", "why the lateral motion of the {body} is called so, in words", None),
     )
     return tuple(
-        Column(f"{body}_{name}", unit, symbol, meaning.format(body=body), digits)
+        Column(f"{body}_{name}", unit, f"{body} {symbol}", meaning.format(body=body), digits)
         for name, unit, symbol, meaning, digits in told
     )
 
@@ -67,7 +67,7 @@ COLUMNS = (
     Column("bending_stiffness_Nm2", "N m²", "EI", "bending stiffness of the line", 2),
     Column("nodes", "", "nodes", "nodes of the line", 0),
     DIMENSIONS,
-    Column("seed_mps", "m/s", "push", "speed of the buoy at t = 0 that lets the motion leave the plane", 10),
+    Column("seed_mps", "m/s", "push", "speed of the buoy at t = 0 that lets the motion leave the plane", 3),
     Column("seed_direction", symbol="direction", meaning="direction of the push; empty for a planar run"),
     Column("profiles", "", "profiles", "1 where the shape of the line was kept, else 0", 0),
     PERIODS_RUN,

@@ -18,7 +18,8 @@ from pathlib import Path
 from campaigns.columns import Column
 from campaigns.machinery.folder import Table, trajectory_path, write_json
 from campaigns.machinery.plan import Summary
-from campaigns.machinery.pools import PoolBroken, opened
+from campaigns.machinery.pools import opened
+from campaigns.machinery.processes import PoolBroken
 from campaigns.machinery.row_cache import keep_row, kept_row, made_by
 from campaigns.stability import fuzz, random_faults, run, scene_shares, step_maps
 from campaigns.stability.cases import all_cases

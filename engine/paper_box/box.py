@@ -21,7 +21,7 @@ import numpy as np
 from scipy.linalg import LinAlgError, solve_banded
 
 from . import ends
-from .line import ABOVE_PLANE, BELOW_PLANE, O2, O3, OMEGA, SPEEDS
+from .line import ABOVE_PLANE, BELOW_PLANE, O2, O3, OMEGA, SPEEDS, Line
 from .nodal import P, times_M
 from .water import water_at
 
@@ -37,13 +37,15 @@ class Level(NamedTuple):
     P: np.ndarray
 
 
-def level_of(line, t, Y, waves=True):
+def level_of(line: Line, t: float, Y: np.ndarray, waves: bool = True) -> Level:
     """The time level of the unknowns Y (13, n)."""
     water = water_at(line, t, Y, waves)
     return Level(t, Y, water, P(line, Y, water))
 
 
-def residual(line, Y, water, t, old, force=None):
+def residual(
+    line: Line, Y: np.ndarray, water: np.ndarray, t: float, old: Level | None, force: np.ndarray | None = None
+) -> tuple[tuple, tuple]:
     """Residual rows and Jacobian blocks.
 
     old: the `Level` before, or None at rest with force (3,) on the end. Y (13, n), water (6, n) at time t.

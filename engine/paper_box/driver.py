@@ -10,7 +10,11 @@ The paper says nothing of steps that fail. Here the first one ends the run, and 
 
 import math
 import time
+from collections.abc import Callable
 
+import numpy as np
+
+from ..scene.models import Scene
 from ..time.statics_advice import why_no_rest
 from ..time.status import (
     ADVICE,
@@ -48,7 +52,15 @@ SAID = {
 }
 
 
-def run(scene, duration_s, progress=None, start=None, accelerations=False, most_turn=MOST_TURN, most_gap=MOST_GAP):
+def run(
+    scene: Scene,
+    duration_s: float,
+    progress: Callable[[float], None] | None = None,
+    start: np.ndarray | None = None,
+    accelerations: bool = False,
+    most_turn: float = MOST_TURN,
+    most_gap: float = MOST_GAP,
+) -> Trajectory:
     """Simulate one scene in the paper's own discrete form.
 
     Parameters

@@ -14,10 +14,10 @@ from ..physics.ends import end_velocity, released
 from ..record import BUOY, HELD
 from .frame import TO_PAPER, roll, to_fixed
 from .law import tension_law
-from .line import EULER, OMEGA, SPEEDS
+from .line import EULER, OMEGA, SPEEDS, Line
 
 
-def lower(Y, Y_old):
+def lower(Y: np.ndarray, Y_old: np.ndarray) -> np.ndarray:
     """Residuals (7, ...) at the anchor. Y, Y_old: (13, ...) its unknowns now and a step ago."""
     beta = Y[EULER]
     b0, b1, b2, b3 = beta
@@ -25,13 +25,13 @@ def lower(Y, Y_old):
     return np.array([*Y[SPEEDS], b0 * b0 + b1 * b1 + b2 * b2 + b3 * b3 - 1, turned, Y[11], Y[12]])
 
 
-def force_and_velocity(line, Y):
+def force_and_velocity(line: Line, Y: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """N (N) and V (m/s) of nodes Y (13, ...) in the paper's fixed axes, (3, ...) each."""
     T = tension_law(line.record, line.tables, Y[0])[0]
     return to_fixed(Y[EULER], np.array([T, Y[1], Y[2]])), to_fixed(Y[EULER], Y[SPEEDS])
 
 
-def buoy_load(line, N, V, water):
+def buoy_load(line: Line, N: np.ndarray, V: np.ndarray, water: np.ndarray) -> np.ndarray:
     """What the inertia of the buoy balances in (30), on the left: N + drag - wave load - net buoyancy, (3, ...)."""
     record = line.record
     slip = V - water[:3]
@@ -41,7 +41,9 @@ def buoy_load(line, N, V, water):
     return load
 
 
-def upper(line, t, dt, Y, Y_old, water, water_old):
+def upper(
+    line: Line, t: float, dt: float, Y: np.ndarray, Y_old: np.ndarray, water: np.ndarray, water_old: np.ndarray
+) -> np.ndarray:
     """Residuals (6, ...) at the upper end after a step of dt to t. Y (13, ...); water (6, ...)."""
     record, tables = line.record, line.tables
     N, V = force_and_velocity(line, Y)
@@ -57,7 +59,7 @@ def upper(line, t, dt, Y, Y_old, water, water_old):
     return np.array([*balance, *Y[OMEGA]])
 
 
-def upper_at_rest(line, force, Y, water):
+def upper_at_rest(line: Line, force: np.ndarray, Y: np.ndarray, water: np.ndarray) -> np.ndarray:
     """Residuals (6, ...) of the upper end in equilibrium; force (3,): on an end without a buoy, paper's axes."""
     N, V = force_and_velocity(line, Y)
     if line.record["end"] == BUOY:
@@ -67,7 +69,7 @@ def upper_at_rest(line, force, Y, water):
     return np.array([*balance, *Y[OMEGA]])
 
 
-def end_force(line):
+def end_force(line: Line) -> np.ndarray:
     """Steady force (3,) on a free end, or on a held one after its release, in the paper's axes."""
     record = line.record
     name = "end_f" if record["end"] == HELD else "end_"
@@ -75,7 +77,7 @@ def end_force(line):
     return np.array([record[name + "z"], record[name + "x"], y])
 
 
-def force_per(line, t):
+def force_per(line: Line, t: float) -> float:
     """Inverse scale of the three balances above: a speed's where the end is held, a force's elsewhere."""
     held = line.record["end"] == HELD and not released(line.record, t)
     return float(line.record["per_speed"] if held else line.record["per_force"])

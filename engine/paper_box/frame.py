@@ -17,7 +17,7 @@ TO_ENGINE = [ALONG, ACROSS, UP]  # (x, y, z) from the paper's axes
 TO_PAPER = [2, 0, 1]  # the paper's axes from (x, y, z)
 
 
-def rotation(beta):
+def rotation(beta: np.ndarray) -> np.ndarray:
     """C of eq. (6), rows t, n, b, (3, 3, ...); C31 has the factor 2 that the print leaves out.
 
     beta (4, ...). Scaled by |beta|^2 where |beta| is not 1: the box rule does not keep it.
@@ -60,24 +60,24 @@ def turning(beta, rate):
     )
 
 
-def to_fixed(beta, local):
+def to_fixed(beta: np.ndarray, local: np.ndarray) -> np.ndarray:
     """Fixed components C' g of a vector given by its local components g (3, ...), eq. (2) the other way round."""
     C = rotation(beta)
     return np.array([C[0, i] * local[0] + C[1, i] * local[1] + C[2, i] * local[2] for i in range(3)])
 
 
-def to_local(beta, fixed):
+def to_local(beta: np.ndarray, fixed: np.ndarray) -> np.ndarray:
     """Local components C G of a vector given in the paper's axes, eq. (2)."""
     C = rotation(beta)
     return np.array([C[i, 0] * fixed[0] + C[i, 1] * fixed[1] + C[i, 2] * fixed[2] for i in range(3)])
 
 
-def roll(beta):
+def roll(beta: np.ndarray) -> np.ndarray:
     """Direction of d(beta) for a roll of the frame about t: beta o (0, 1, 0, 0)."""
     return np.array([-beta[1], beta[0], beta[3], -beta[2]])
 
 
-def parameters_of(C):
+def parameters_of(C: np.ndarray) -> np.ndarray:
     """Euler parameters (4, n) of rotation matrices C (3, 3, n), continuous along the line."""
     C = np.asarray(C)
     beta = np.empty((4, C.shape[2]))
@@ -99,7 +99,7 @@ def parameters_of(C):
     return beta
 
 
-def turns(beta, Omega, h):
+def turns(beta: np.ndarray, Omega: np.ndarray, h: np.ndarray) -> np.ndarray:
     """Turn within each element (rad): the larger of the angle between the frames at its ends and h times mean |Omega|.
 
     beta (4, n), Omega (3, n), h (n - 1,). The frames alone do not see whole turns. The mean of |Omega|, not |mean|: a

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from .. import parameters
+from ..scene.models import Scene
 
 EPS, S_N, S_B, U, V, W, B0, B1, B2, B3, O1, O2, O3 = range(13)
 SPEEDS, EULER, OMEGA = slice(U, W + 1), slice(B0, B3 + 1), slice(O1, O3 + 1)
@@ -53,7 +54,7 @@ class Line:
         return np.concatenate([[0.0], np.cumsum(self.h)])
 
 
-def line_of(scene, accelerations=False):
+def line_of(scene: Scene, accelerations: bool = False) -> Line:
     """The `Line` of a scene. accelerations: true normal accelerations in place of the paper's component rates."""
     tables = []
     record = parameters.record_of(scene, tables)[0]

@@ -8,14 +8,17 @@ import numpy as np
 
 from ..time.status import NEWTON_FAILED, NOT_FINITE, OK, STRAIN_BELOW_MINUS_ONE, TENSION_FLAT
 from . import ends
-from .box import level_of, residual
+from .box import Band, Level, level_of, residual
 from .law import tension_law
+from .line import Line
 from .water import water_at
 
 TOLERANCE = 1e-7  # of the scaled update: what is left does not decay in this rule, so it is left small
 
 
-def solve(line, band, t, old, most, tolerance=TOLERANCE, flat=0.0):
+def solve(
+    line: Line, band: Band, t: float, old: Level, most: int, tolerance: float = TOLERANCE, flat: float = 0.0
+) -> tuple[int, int, Level | None]:
     """The `Level` at time t that follows `old`.
 
     flat: the slope f' (N) at and below which the division of row 1 has lost its meaning.

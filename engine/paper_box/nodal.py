@@ -22,10 +22,10 @@ import numpy as np
 
 from .frame import normal_rates, rotation, turning
 from .law import tension_law
-from .line import EULER
+from .line import EULER, Line
 
 
-def times_M(line, Y, D, water):
+def times_M(line: Line, Y: np.ndarray, D: np.ndarray, water: np.ndarray) -> np.ndarray:
     """M(Y) D, (13, ...), for any D of the shape of Y."""
     eps, u, v, w = Y[0], Y[3], Y[4], Y[5]
     slope = tension_law(line.record, line.tables, eps)[1]
@@ -51,7 +51,7 @@ def times_M(line, Y, D, water):
     )
 
 
-def P(line, Y, water):
+def P(line: Line, Y: np.ndarray, water: np.ndarray) -> np.ndarray:
     """P(Y), (13, ...): eq. (40)."""
     eps, Sn, Sb, u, v, w, b0, b1, b2, b3, O1, O2, O3 = Y
     T, slope = tension_law(line.record, line.tables, eps)
@@ -81,6 +81,6 @@ def P(line, Y, water):
     )
 
 
-def magnitude(x):
+def magnitude(x: np.ndarray) -> np.ndarray:
     """|x|, analytic on either side of zero."""
     return np.where(x.real < 0, -x, x)

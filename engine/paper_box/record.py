@@ -7,6 +7,8 @@ from dataclasses import fields
 
 import numpy as np
 
+from ..record import SAMPLE_WIDTH
+from ..run import columns_of
 from ..trajectory import Profiles
 from .ends import force_and_velocity
 from .frame import TO_ENGINE, turns
@@ -26,8 +28,8 @@ class Record:
         self.step, self.profile_step = float(record["output_step"]), float(record["profile_step"])
         self.goal = int(duration_s / self.step * (1 + 1e-12) + 1e-9) + 1
         self.profile_goal = int(duration_s / self.profile_step * (1 + 1e-12) + 1e-9) + 1 if self.profile_step else 0
-        angle = scene.waves.direction_rad if line.spatial and scene.waves is not None else 0.0
-        self.across = np.array([-round(np.sin(angle), 15), round(np.cos(angle), 15), 0.0])
+        self.heading = scene.waves.direction_rad if line.spatial and scene.waves is not None else 0.0
+        self.across = np.array([-round(np.sin(self.heading), 15), round(np.cos(self.heading), 15), 0.0])
         self.rows, self.profiles = [], []
         self.low, self.high = np.inf, -np.inf
         self.max_turn, self.min_strain = 0.0, np.inf
@@ -69,7 +71,7 @@ class Record:
             top, tension = at[:, -1], at[7]
             offplane = np.abs(self.across @ at[:3]).max()
             low, high = min(self.low, top[7]), max(self.high, top[7])
-            self.rows.append([t, *top[:6], offplane, top[7], tension.min(), low, high])
+            self.rows.append([t, *top[:6], top[7], tension.min(), low, high, offplane])  # as `engine.record` has them
             self.low = self.high = top[7]
         while len(self.profiles) < self.profile_goal and len(self.profiles) * self.profile_step <= reached:
             self.profiles.append(self._between(now, len(self.profiles) * self.profile_step))
@@ -80,24 +82,7 @@ class Record:
 
     def columns(self):
         """Columns of a trajectory (`engine.trajectory.COLUMNS`)."""
-        t, x, y, z, vx, vy, vz, offplane, top, least, low, high = np.array(self.rows).reshape(-1, 12).T.copy()
-        r = np.sqrt(x * x + y * y + z * z)
-        safe, safe_plane = np.where(r > 0, r, np.nan), np.where(np.hypot(x, z) > 0, np.hypot(x, z), np.nan)
-        return {
-            "time_s": t,
-            "x_m": x,
-            "y_m": y,
-            "z_m": z,
-            "radius_m": r,
-            "radius_rate_mps": (x * vx + y * vy + z * vz) / safe,
-            "angle_rad": np.unwrap(np.arctan2(x, z)),
-            "angle_rate_radps": (z * vx - x * vz) / safe_plane**2,
-            "offplane_m": offplane,
-            "tension_top_N": top,
-            "tension_min_N": least,
-            "tension_top_low_N": low,
-            "tension_top_high_N": high,
-        }
+        return columns_of(np.array(self.rows).reshape(-1, SAMPLE_WIDTH), self.heading)
 
     def lines(self):
         """Profiles, or None where the scene does not ask for them."""

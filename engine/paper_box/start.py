@@ -12,11 +12,13 @@ import numpy as np
 from .. import parameters
 from ..planar import columns as col
 from ..record import HELD
+from ..scene.models import Scene
 from ..time import statics
 from ..time.status import NEWTON_FAILED, OK, STATICS_FAILED
+from .box import Band
 from .ends import end_force, force_and_velocity
 from .frame import TO_PAPER, parameters_of, rotation, to_local
-from .line import EPS, EULER, O3, S_N, SPEEDS
+from .line import EPS, EULER, O3, S_N, SPEEDS, Line
 from .newton import TOLERANCE, newton_update
 from .water import positions, water_at
 
@@ -25,7 +27,7 @@ SHARES = 16  # of the current, where the whole of it does not settle at once
 TINY = 1e-30
 
 
-def at_rest(scene, line, band, start=None):
+def at_rest(scene: Scene, line: Line, band: Band, start: np.ndarray | None = None) -> tuple[int, np.ndarray | None]:
     """The state at t = 0 with its velocities: (code, Y (13, n) or None).
 
     start: (n, 13) equilibrium of the engine in space instead of the planar one: eps, S_n, S_b, velocity in x, y, z,
@@ -101,7 +103,7 @@ def planar_guess(scene, line):
     return code, lifted(Y, azimuth) if code == OK else None
 
 
-def lifted(Y, azimuth=0.0):
+def lifted(Y: np.ndarray, azimuth: float = 0.0) -> np.ndarray:
     """Planar unknowns (n, 6) = eps, S, U, W, phi, kappa as (13, n) at rest, in the plane at `azimuth` from x to y.
 
     The angle from the vertical is a = pi/2 - phi, so n and Omega_3 change their signs against the planar engine.
@@ -118,7 +120,7 @@ def lifted(Y, azimuth=0.0):
     return found
 
 
-def from_space(Y):
+def from_space(Y: np.ndarray) -> np.ndarray:
     """The unknowns (n, 13) of the engine in space, Euler parameters and velocities from x, y, z, as (13, n) here."""
     found = np.array(Y, float).T
     C = rotation(found[EULER])[:, TO_PAPER]

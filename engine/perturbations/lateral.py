@@ -43,6 +43,7 @@ from ..compiled import by_kind, kernel
 from ..physics.ends import released
 from ..physics.submergence import cap_across
 from ..physics.tension.kernels import tension
+from ..physics.water import water as flow
 from ..planar import columns as col
 from ..planar import node
 from ..record import BEGIN, BUOY, HELD, KIND, STEP
@@ -188,7 +189,7 @@ def lateral_stage(p, tables, base, X, Q, F, dC_tilde, H, E, dC):
         )
 
 
-def energy_weights(p, tables):
+def energy_weights(p: np.void, tables: np.ndarray) -> np.ndarray:
     """Weights (n, 2) of q_y^2 and V_y^2: the energy of a lateral perturbation about rest, J.
 
     1/2 integral of (T/lam) q_y^2 + (m + m_a) V_y^2, and 1/2 (M + M_a) V_y^2 of the buoy. T and lam are the scales of
@@ -249,7 +250,7 @@ def carry_lateral(p, tables, period, count, trail, weights, vector, rates, growt
             rate, after = plan_stage(p, tables, i, euler, dt, 0.0, a, w)
             base = Base(t + after, rate, 1.0, trail.Y[step, i], trail.K[step, i])
             node.shape(p, tables, base.Y, Q, X)
-            node.water(p, tables, base.t, 1.0, X, F)
+            flow(p, tables, base.t, 1.0, X, F)
             known_lateral(a, 0 if euler else i, vector, dK, dC_tilde)
             lateral_stage(p, tables, base, X, Q, F, dC_tilde, H, E, dC)
             for k in range(n):

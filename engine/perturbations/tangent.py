@@ -18,13 +18,14 @@ a derivative; the periods in which one happens are marked. What it does to the e
 """
 
 import math
-from typing import NamedTuple
+from collections import namedtuple
 
 import numpy as np
 
 from ..arrays import Stage, Work
 from ..compiled import kernel
 from ..physics.submergence import cap_change
+from ..physics.water import water as flow
 from ..planar import columns as col
 from ..planar import node
 from ..planar.elimination import eliminate_bent
@@ -35,40 +36,15 @@ from ..time.steps import add_rates, plan_stage
 from .resolve import resolve_bent
 
 WATER_ITERATIONS, WATER_TOLERANCE, NUDGE = 8, 1e-7, 1e-6
-
-
-class Base(NamedTuple):
-    """The stage that is perturbed: t (s), rate (1/s) = 1/(a_ii dt), Y (n, 6), its rates K (n, 4); moving_water: 1.0
-    where the water depends on the place of a node, else 0.0."""
-
-    t: float
-    rate: float
-    moving_water: float
-    Y: np.ndarray
-    K: np.ndarray
-
-
-class Water(NamedTuple):
-    """How the water at the nodes changes: J (n, 8), dF/dx (4) and dF/dz (4); and work arrays: gamma (n, 2), the change
-    of G; places (n, 2) and water (n, 4) ahead of and behind a node."""
-
-    J: np.ndarray
-    gamma: np.ndarray
-    X_moved: np.ndarray
-    F_ahead: np.ndarray
-    F_behind: np.ndarray
-
-
-class Carried(NamedTuple):
-    """Perturbations that are carried along: C, K, F (k, n, 4), conserved variables, their rates and a first guess of
-    the water's change; of the stages of a step Ks (k, s, n, 4); of one stage C_tilde (n, 4), Cs (k, n, 4)."""
-
-    C: np.ndarray
-    K: np.ndarray
-    F: np.ndarray
-    Ks: np.ndarray
-    C_tilde: np.ndarray
-    Cs: np.ndarray
+# The stage that is perturbed: t (s), rate (1/s) = 1/(a_ii dt), moving_water: 1.0 where the water depends on the place
+# of a node, else 0.0; Y (n, 6), its rates K (n, 4)
+Base = namedtuple("Base", "t rate moving_water Y K")
+# How the water at the nodes changes: J (n, 8), dF/dx (4) and dF/dz (4); work: gamma (n, 2), the change of G; places
+# (n, 2) moved, water (n, 4) ahead of and behind a node
+Water = namedtuple("Water", "J gamma X_moved F_ahead F_behind")
+# Perturbations that are carried: C, K, F (k, n, 4), conserved variables, their rates, a first guess of the water's
+# change; Ks (k, s, n, 4): rates of the stages of a step; C_tilde (n, 4), Cs (k, n, 4): of one stage
+Carried = namedtuple("Carried", "C K F Ks C_tilde Cs")
 
 
 @kernel
@@ -119,7 +95,7 @@ def water_slopes(p, tables, t, X, water):
             for k in range(X.shape[0]):
                 X_moved[k, 0] = X[k, 0] + (sign * NUDGE if axis == 0 else 0.0)
                 X_moved[k, 1] = X[k, 1] + (sign * NUDGE if axis == 1 else 0.0)
-            node.water(p, tables, t, 1.0, X_moved, F_ahead if sign > 0.0 else F_behind)
+            flow(p, tables, t, 1.0, X_moved, F_ahead if sign > 0.0 else F_behind)
         for k in range(X.shape[0]):
             for m in range(4):
                 J[k, 4 * axis + m] = (F_ahead[k, m] - F_behind[k, m]) * (0.5 / NUDGE)
@@ -233,7 +209,7 @@ def linearise(p, tables, base, work, water):
     """Newton's matrix, eliminated, at a stage (Base): into work.E (n, 33); work.Q, F, X and water.J belong to it."""
     Y, K, Q, C_tilde, rate = base.Y, base.K, work.Q, work.C_tilde, base.rate
     node.shape(p, tables, Y, Q, work.X)
-    node.water(p, tables, base.t, 1.0, work.X, work.F)
+    flow(p, tables, base.t, 1.0, work.X, work.F)
     for k in range(Y.shape[0]):
         for m in range(2):
             C_tilde[k, m] = Q[k, col.QX + m] - K[k, m] / rate

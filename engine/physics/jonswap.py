@@ -18,7 +18,9 @@ LOWEST, HIGHEST = 0.5, 3.0  # of the peak frequency
 _POINTS = 200  # over which the energy of one part is summed
 
 
-def spectral_density(frequency, significant_height_m, peak_period_s, gamma):
+def spectral_density(
+    frequency: np.ndarray, significant_height_m: float, peak_period_s: float, gamma: float
+) -> np.ndarray:
     """S(f) in m2/Hz at frequencies (n,) in Hz; zero outside the band, so that its integral is H_s^2/16."""
     edges = np.array([LOWEST, HIGHEST]) / peak_period_s
     fine = np.linspace(*edges, 20_001)
@@ -28,7 +30,9 @@ def spectral_density(frequency, significant_height_m, peak_period_s, gamma):
     return np.where(inside, scale * _shape(np.where(inside, f * peak_period_s, 1.0), gamma), 0.0)
 
 
-def components(significant_height_m, peak_period_s, gamma, count, seed):
+def components(
+    significant_height_m: float, peak_period_s: float, gamma: float, count: int, seed: int
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Periods (s), amplitudes (m) and phases (rad), each (count,), of a sea; the same arguments give the same numbers.
 
     sum A^2/2 = H_s^2/16 to rounding.

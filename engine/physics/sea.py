@@ -10,11 +10,13 @@ Layout in `tables`, one row a component: k, omega, A, phase, cos a, sin a, A ome
 """
 
 import math
+from collections.abc import Callable
 
 import numpy as np
 
-from ..compiled import by_kind, kernel
+from ..compiled import kernel
 from ..record import WHEELER, ZERO
+from ..scene.models import Scene
 from ..simd.elementary import sincos, small_exponentials, small_sincos, smooth_start
 from .jonswap import components
 from .waves import SMALL, TINY, wave_number
@@ -22,7 +24,7 @@ from .waves import SMALL, TINY, wave_number
 ROW = 7
 
 
-def components_of(scene):
+def components_of(scene: Scene) -> tuple[np.ndarray, ...]:
     """The waves of a scene, one or many: periods (s), amplitudes (m), phases and directions (rad), each (n,)."""
     waves = scene.waves
     if not waves.irregular:
@@ -37,7 +39,7 @@ def components_of(scene):
     return tuple(np.array(listed).T)
 
 
-def table_of(scene, direction):
+def table_of(scene: Scene, direction: Callable[[float], tuple[float, float]]) -> np.ndarray:
     """The rows of the sea (head of this file); direction: angle -> its cosine and sine."""
     depth, rows = scene.water.depth_m, []
     for period, amplitude, phase, angle in zip(*components_of(scene), strict=True):
@@ -47,7 +49,9 @@ def table_of(scene, direction):
     return np.array(rows)
 
 
-def elevation_m(scene, time_s, x_m=0.0, y_m=0.0):
+def elevation_m(
+    scene: Scene, time_s: float | np.ndarray, x_m: float | np.ndarray = 0.0, y_m: float | np.ndarray = 0.0
+) -> np.ndarray:
     """Height of the surface above the still water level (m), in waves of any kind.
 
     time_s, x_m, y_m    numbers or arrays that NumPy can broadcast against each other
@@ -121,6 +125,3 @@ def _add_wave(row, depth, above, gain, gain_rate, t, X, Z, F):
 @kernel
 def no_sea(p, tables, t, X, F):
     """What runs of one batch have (`engine.simd`): regular waves only."""
-
-
-planar_sea = by_kind(sea_field, sea_field, no_sea)

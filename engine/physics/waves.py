@@ -23,7 +23,7 @@ from ..simd.select import every, larger, where
 SMALL, TINY = 0.25, 1e-250
 
 
-def wave_number(period_s, depth_m, gravity_mps2=9.81):
+def wave_number(period_s: float, depth_m: float, gravity_mps2: float = 9.81) -> float:
     """Wave number k (rad/m) with omega^2 = g k tanh kH, to rounding."""
     from scipy.optimize import brentq
 

@@ -24,11 +24,8 @@ compatibility, with the tangent; eq. (23) weight in water; eq. (24) Morison's fo
 import math
 
 from ..compiled import kernel
-from ..physics.currents import planar_current
-from ..physics.sea import planar_sea
 from ..physics.shocks import shock_tension
 from ..physics.tension.kernels import tension
-from ..physics.waves import wave_field
 from ..simd.elementary import sincos
 from ..simd.select import larger
 from . import columns as col
@@ -48,23 +45,6 @@ def shape(p, tables, Y, Q, X):
         half = 0.5 * tables[p.grid_at + k - 1]
         X[k, 0] = X[k - 1, 0] + half * (Q[k - 1, col.QX] + Q[k, col.QX])
         X[k, 1] = X[k - 1, 1] + half * (Q[k - 1, col.QZ] + Q[k, col.QZ])
-
-
-@kernel
-def water(p, tables, t, in_motion, X, F):
-    """Velocity and acceleration of the water at the nodes, F (n, 4); untouched zeros where there is none."""
-    if p.wet == 0:
-        return
-    for k in range(F.shape[0]):
-        for i in range(4):
-            F[k, i] = 0.0
-    if p.waves and in_motion > 0.0:
-        if p.sea_n == 0:
-            wave_field(p, t, X, F)
-        else:
-            planar_sea(p, tables, t, X, F)
-    if p.current:
-        planar_current(p, tables, t, X, F)
 
 
 @kernel

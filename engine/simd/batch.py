@@ -1,4 +1,4 @@
-"""Runs through the lanes: which of them go together, a new one where one has ended."""
+"""Which runs share a batch, and how: a lane whose run has ended gets the next run that waits."""
 
 from collections import deque
 

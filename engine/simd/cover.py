@@ -1,9 +1,10 @@
 """Which scenes may share a batch."""
 
 from ..physics.tension import LAWS, number_of
+from ..scene.models import Scene
 
 
-def goes_in_lanes(scene):
+def goes_in_lanes(scene: Scene) -> bool:
     """May this scene share a batch: planar, by a Runge-Kutta method, a buoy at the end, nothing looked up in a table?
 
     bool. Held and free ends, tabulated laws, irregular waves, currents with a profile and profiles of the line are left

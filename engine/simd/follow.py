@@ -4,7 +4,7 @@ The steps of a lane's trail are its own; a lane whose trail is at its end waits 
 of `engine.perturbations.tangent` and `engine.perturbations.lateral`, in vectors; the logarithms are taken lane by lane.
 """
 
-from typing import NamedTuple
+from collections import namedtuple
 
 import numpy as np
 
@@ -12,6 +12,7 @@ from .. import record as col
 from ..compiled import kernel
 from ..perturbations.lateral import known_lateral, lateral_stage, normalise
 from ..perturbations.tangent import Base, carry_stage, linearise, orthonormalise, period_of, water_moves
+from ..physics.water import water as flow
 from ..planar import node
 from ..time.steps import plan_stage
 from .elementary import copy_into
@@ -19,6 +20,12 @@ from .record import lane_record
 from .ticks import keep
 from .vector import COUNT, as_lanes
 
+# What a turn of all lanes works on, COUNT the last axis: numbers (LENGTH + k + 1,); a (s,), w (3,): as in `plan_stage`;
+# Y (n, 6), K (n, 4): the stage and its rates; K_new (n, 4): rates of a perturbation
+Turn = namedtuple("Turn", "numbers a w Y K K_new")
+# The lateral perturbation of every lane, COUNT the last axis: weights, C, K (n, 2), rates Ks (s, n, 2) of the stages of
+# a step; work: C_new, C_tilde, K_new (n, 2), H and E (`engine.perturbations.lateral`)
+Across = namedtuple("Across", "weights C K Ks C_new C_tilde K_new H E")
 TIME, RATE, STAGE, BEGUN, BUSY, ENDED, LENGTH = range(7)  # rows of numbers; lengths of all vectors from LENGTH on
 
 
@@ -67,33 +74,6 @@ def end_turn(trail_T, step, stage, numbers, periods, vectors, sideways, nats, la
         step[b] += 1
 
 
-class Turn(NamedTuple):
-    """What a turn of all lanes works on, COUNT the last axis: numbers (LENGTH + k + 1,), a (s,), w (3,) as in
-    `plan_stage`; Y (n, 6), K (n, 4): the stage and its rates; K_new (n, 4): rates of a perturbation."""
-
-    numbers: np.ndarray
-    a: np.ndarray
-    w: np.ndarray
-    Y: np.ndarray
-    K: np.ndarray
-    K_new: np.ndarray
-
-
-class Across(NamedTuple):
-    """The lateral perturbation of every lane, COUNT the last axis: weights, C, K (n, 2), rates Ks (s, n, 2) of the
-    stages of a step; work: C_new, C_tilde, K_new (n, 2), H and E (`engine.perturbations.lateral`)."""
-
-    weights: np.ndarray
-    C: np.ndarray
-    K: np.ndarray
-    Ks: np.ndarray
-    C_new: np.ndarray
-    C_tilde: np.ndarray
-    K_new: np.ndarray
-    H: np.ndarray
-    E: np.ndarray
-
-
 @kernel
 def follow(records, tables, trail, trails, periods, nats, lateral_nats, sideways, p_lanes, turn_of, carried, room):
     """Carry the perturbations of all lanes through their trails.
@@ -118,7 +98,7 @@ def follow(records, tables, trail, trails, periods, nats, lateral_nats, sideways
             linearise(p, grid, base, work, water)
         else:
             node.shape(p, grid, Y, work.Q, work.X)
-            node.water(p, grid, base.t, 1.0, work.X, work.F)
+            flow(p, grid, base.t, 1.0, work.X, work.F)
         for v in range(count):
             keep(begun, own.K[v], own.Ks[v, 0])
             carry_stage(p, grid, base, turn.a, s - 1, busy, v, own, work, water)

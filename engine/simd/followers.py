@@ -25,14 +25,8 @@ class Followers:
         self.sideways = run.trail.sideways
         self.periods = np.ones(COUNT)
         self.nats, self.lateral_nats = np.zeros((COUNT, periods + 1, k)), np.zeros((COUNT, periods + 1))
-        self.turn = Turn(
-            lane_zeros(LENGTH + k + 1),
-            lane_zeros(s),
-            lane_zeros(3),
-            lane_zeros(n, 6),
-            lane_zeros(n, 4),
-            lane_zeros(n, 4),
-        )
+        turn = LENGTH + k + 1, s, 3, (n, 6), (n, 4), (n, 4)
+        self.turn = Turn(*(lane_zeros(*np.atleast_1d(shape)) for shape in turn))
         self.turn.numbers[RATE] = 1.0
         C, K, F, Cs = (lane_zeros(k, n, 4) for _ in range(4))
         self.carried = Carried(C, K, F, lane_zeros(k, s, n, 4), lane_zeros(n, 4), Cs)

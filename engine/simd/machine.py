@@ -1,4 +1,4 @@
-"""Runs into lanes and out of them: which runs may share a batch, and the arrays in which they do."""
+"""The arrays in which up to COUNT runs advance together, and how a run is put into them and taken out."""
 
 import time
 

@@ -9,7 +9,7 @@ Rows of `numbers` (.., COUNT) carry what passes between vectors and decisions.
 """
 
 import math
-from typing import NamedTuple
+from collections import namedtuple
 
 import numpy as np
 
@@ -19,19 +19,10 @@ from ..compiled import kernel
 from ..physics.tension.kernels import tension
 from ..planar import node
 from ..planar.state import configuration, greatest_turn, last_strain
+from ..time import steps
 from ..time.newton import GOING_ON, iterate, judge
 from ..time.sampling import complete_sample, note_top, weights_within
 from ..time.status import OK
-from ..time.steps import (
-    SMALL_STEP_NEWTON,
-    add_rates,
-    embedded_error,
-    guess,
-    least_strain,
-    plan_stage,
-    stage_rates,
-    trial_error,
-)
 from ..time.time_loop import begin_trial, guard_turns, next_step, refused, step_done
 from .elementary import copy_into
 from .record import lane_record
@@ -44,31 +35,11 @@ LANE = np.dtype([(name, np.int64) for name in "active stage iteration code goal"
     W0, W1, G0, G1, OUT_X, OUT_Z, OUT_U, OUT_W, OUT_TOP, OUT_LEAST,
 ) = range(25)  # fmt: skip
 ROWS = 25
-
-
-class Arrays(NamedTuple):
-    """Arrays of all lanes, whose last axis is COUNT; s stages, n nodes.
-
-    values: fields of the records; tables; numbers (ROWS,); a (s,), w (3,): `plan_stage`; Y, now, before (n, 6):
-    iterate, accepted state, the one before; C (n, 4), Ks (s, n, 4): conserved variables, rates of the state and the
-    stages; history (3, n, 6): states for the first guess; C_new, K_new (n, 4), row (n, 6): of the stage that was
-    solved.
-    """
-
-    values: np.ndarray
-    tables: np.ndarray
-    numbers: np.ndarray
-    a: np.ndarray
-    w: np.ndarray
-    Y: np.ndarray
-    now: np.ndarray
-    before: np.ndarray
-    C: np.ndarray
-    Ks: np.ndarray
-    history: np.ndarray
-    C_new: np.ndarray
-    K_new: np.ndarray
-    row: np.ndarray
+# Arrays of all lanes, whose last axis is COUNT; s stages, n nodes. values: fields of the records; tables; numbers
+# (ROWS,); a (s,), w (3,): as in `plan_stage`; Y, now, before (n, 6): iterate, accepted state, the one before; C (n, 4),
+# Ks (s, n, 4): conserved variables, rates of the state and the stages; history (3, n, 6): states for the first guess;
+# C_new, K_new (n, 4), row (n, 6): of the stage that was solved
+Arrays = namedtuple("Arrays", "values tables numbers a w Y now before C Ks history C_new K_new row")
 
 
 @kernel
@@ -90,7 +61,7 @@ def judge_solves(records, states, lanes, numbers):
         if lane.active == 0:
             continue
         p = records[b]
-        most = SMALL_STEP_NEWTON if state.small else p.max_newton
+        most = steps.SMALL_STEP_NEWTON if state.small else p.max_newton
         size = numbers[SIZE, b]
         lane.code = judge(
             p, lane.iteration, most, p.newton_tolerance, numbers[SOUND, b] != 0.0, size, numbers[LEAST, b], lane.best
@@ -119,7 +90,7 @@ def judge_steps(records, tables, states, lanes, numbers, spent):
             continue
         error = 0.0
         if lane.code == OK and state.small == 0 and p.adaptive:
-            error = trial_error(p, tables[b], state.trial_dt, numbers[ERROR, b], numbers[LEAST, b])
+            error = steps.trial_error(p, tables[b], state.trial_dt, numbers[ERROR, b], numbers[LEAST, b])
         numbers[ERROR, b] = error
         numbers[RESTARTED, b] = 1.0
         if not refused(p, state, lane.code, spent[b], error):
@@ -234,7 +205,7 @@ def plan_lanes(records, tables, states, lanes, numbers, a, w):
         else:
             lane.stage += 1
         lane.iteration, lane.best = 0, np.inf
-        rate, after = plan_stage(
+        rate, after = steps.plan_stage(
             p, tables[b], lane.stage, state.small != 0, state.trial_dt, state.dt_before, a[:, b], w[:, b]
         )
         numbers[RATE, b], numbers[TIME, b], numbers[STEP, b] = rate, state.t + after, state.trial_dt
@@ -243,7 +214,7 @@ def plan_lanes(records, tables, states, lanes, numbers, a, w):
 
 @kernel
 def move_states(rows, w, history, now, before, Y):
-    """States, after the decisions: what is kept of the past, and the first guess of the next solve into Y.
+    """States, after the decisions: what is kept of the past, and the first steps.guess of the next solve into Y.
 
     history (3, n, 6): the last three of: the state before, the state, the stages so far.
     """
@@ -264,7 +235,7 @@ def move_states(rows, w, history, now, before, Y):
             )
             now[k, i], before[k, i] = state, past
             history[0, k, i], history[1, k, i], history[2, k, i] = oldest, middle, latest
-            Y[k, i] = where(moved, guess(weights, oldest, middle, latest), y)
+            Y[k, i] = where(moved, steps.guess(weights, oldest, middle, latest), y)
 
 
 @kernel
@@ -277,7 +248,7 @@ def move_rates(p, rows, a, C_new, K_new, C, Ks, C_tilde):
             state = where(accepted, C_new[k, m], C[k, m])
             C[k, m] = C_new[k, m] = state
             Ks[0, k, m] = where(accepted, K_new[k, m], Ks[0, k, m])
-        add_rates(p, a, count, Ks, k, C_new[k])
+        steps.add_rates(p, a, count, Ks, k, C_new[k])
         for m in range(4):
             C_tilde[k, m] = where(moved, C_new[k, m], C_tilde[k, m])
 
@@ -314,14 +285,14 @@ def advance(ticks, records, own_tables, states, lanes, spent, samples, trail, co
             break
         # rates of the solved stages, and of finished steps their errors
         node.shape(p, tables, Y, own.Q, own.X)
-        stage_rates(p, rows[RATE], Y, own.Q, own.C_tilde, C_new, K_new)
+        steps.stage_rates(p, rows[RATE], Y, own.Q, own.C_tilde, C_new, K_new)
         for j in range(1, Ks.shape[0]):
             here = (rows[SOLVED] != 0.0) & (rows[STAGE] == float(j))
             if some(here):
                 keep(here, K_new, Ks[j])
         if some(rows[FINISHED] != 0.0):
-            rows[ERROR] = embedded_error(p, tables, rows[STEP], Ks, own.Q, a, row[0])
-            rows[LEAST], rows[TURN] = least_strain(Y), greatest_turn(Y)
+            rows[ERROR] = steps.embedded_error(p, tables, rows[STEP], Ks, own.Q, a, row[0])
+            rows[LEAST], rows[TURN] = steps.least_strain(Y), greatest_turn(Y)
         if trail.T.shape[1] > 0:
             record_stages(states, lanes, numbers, arrays.Y, arrays.K_new, trail)
         # accepted, or to be tried again

@@ -1,32 +1,16 @@
 """One box in space, linearised: what `engine.spatial.elimination` eliminates (its head states the equations)."""
 
-from typing import NamedTuple
+from collections import namedtuple
 
 from ..compiled import kernel
 from . import columns as col
 from .rows import added, combined, combined3, scaled
 from .vectors import dot, mixed, quaternion, relative, rotation_vector, vector
 
-
-class Rows(NamedTuple):
-    """Rows of five numbers, by y, for the six components of v = (V, O2, O3, theta1)."""
-
-    x: tuple
-    y: tuple
-    z: tuple
-    O2: tuple
-    O3: tuple
-    theta1: tuple
-
-
-class Nodal(NamedTuple):
-    """Of one node: dN by y (five 3-vectors), e dG (of eps, theta2, theta3), dN/dtheta1, dM2 and dM3 by y at fixed O."""
-
-    N: tuple
-    G: tuple
-    roll: tuple
-    M2: tuple
-    M3: tuple
+# Rows of five numbers, by y, for the six components of v = (V, O2, O3, theta1)
+Rows = namedtuple("Rows", "x y z O2 O3 theta1")
+# Of one node: dN by y (five 3-vectors), e dG (of eps, theta2, theta3), dN/dtheta1, dM2 and dM3 by y at fixed O
+Nodal = namedtuple("Nodal", "N G roll M2 M3")
 
 
 @kernel

@@ -15,7 +15,7 @@ from . import columns as col
 BETA = slice(col.BETA, col.BETA + 4)
 
 
-def product(a, b):
+def product(a: np.ndarray, b: np.ndarray) -> np.ndarray:
     """Quaternion product of arrays (..., 4)."""
     a0, a1, a2, a3 = np.moveaxis(np.asarray(a, float), -1, 0)
     b0, b1, b2, b3 = np.moveaxis(np.asarray(b, float), -1, 0)
@@ -30,7 +30,7 @@ def product(a, b):
     )
 
 
-def shortest_rotation(u, v):
+def shortest_rotation(u: np.ndarray, v: np.ndarray) -> np.ndarray:
     """Quaternion of the shortest rotation that takes the unit vector u into v; about y, or z, where they oppose."""
     scalar, axis = 1.0 + np.dot(u, v), np.cross(u, v)
     if scalar < 1e-12:
@@ -39,14 +39,14 @@ def shortest_rotation(u, v):
     return quaternion / np.linalg.norm(quaternion)
 
 
-def stretch_vectors(Y):
+def stretch_vectors(Y: np.ndarray) -> np.ndarray:
     """q (n, 3) of states Y (n, 13)."""
     b0, b1, b2, b3 = Y[:, BETA].T
     t = np.stack([b0**2 + b1**2 - b2**2 - b3**2, 2 * (b1 * b2 + b0 * b3), 2 * (b1 * b3 - b0 * b2)], axis=1)
     return (1 + Y[:, :1]) * t
 
 
-def state_in_space(record, h, planar, azimuth):
+def state_in_space(record: np.void, h: np.ndarray, planar: np.ndarray, azimuth: float) -> np.ndarray:
     """State (n, 13) of a planar one (n, 6), with the twist that a clamped upper end has from the start."""
     n = len(planar)
     half = 0.5 * planar[:, planar_col.PHI]
@@ -64,12 +64,12 @@ def state_in_space(record, h, planar, azimuth):
     return Y
 
 
-def turns(Y):
+def turns(Y: np.ndarray) -> np.ndarray:
     """Turn (n - 1,), rad, of the frame of a state (n, 13) from node to node."""
     r = product(Y[:-1, BETA] * [1.0, -1.0, -1.0, -1.0], Y[1:, BETA])
     return 2.0 * np.arctan2(np.linalg.norm(r[:, 1:], axis=1), r[:, 0])
 
 
-def turn_back(Y, nodes):
+def turn_back(Y: np.ndarray, nodes: np.ndarray) -> None:
     """Turn the frames of some nodes by pi about b: t changes its sign."""
     Y[nodes, BETA] = product(Y[nodes, BETA], np.array([0.0, 0.0, 0.0, 1.0]))

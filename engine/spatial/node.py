@@ -30,11 +30,8 @@ momentum; eq. (12) momentum in the local frame; eq. (23) weight in water; eq. (2
 import math
 
 from ..compiled import kernel
-from ..physics.currents import current_field_3d
-from ..physics.sea import sea_field
 from ..physics.shocks import shock_tension
 from ..physics.tension.kernels import tension
-from ..physics.waves import wave_field_3d
 from . import columns as col
 from .vectors import dot, frame, mixed, put, quaternion, vector
 
@@ -55,23 +52,6 @@ def shape(p, tables, Y, Q, X):
         half = 0.5 * tables[p.grid_at + k - 1]
         for i in range(3):
             X[k, i] = X[k - 1, i] + half * (Q[k - 1, col.Q + i] + Q[k, col.Q + i])
-
-
-@kernel
-def water(p, tables, t, in_motion, X, F):
-    """Velocity and acceleration of the water at the nodes, F (n, 6); untouched zeros where there is none."""
-    if p.wet == 0:
-        return
-    for k in range(F.shape[0]):
-        for i in range(6):
-            F[k, i] = 0.0
-    if p.waves and in_motion > 0.0:
-        if p.sea_n == 0:
-            wave_field_3d(p, t, X, F)
-        else:
-            sea_field(p, tables, t, X, F)
-    if p.current:
-        current_field_3d(p, tables, t, X, F)
 
 
 @kernel

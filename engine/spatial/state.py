@@ -11,6 +11,7 @@ import numpy as np
 from ..arrays import Work
 from ..compiled import kernel
 from ..physics.tension.kernels import tension
+from ..physics.water import water
 from ..record import PLACE, SPEED, STRAIN, TENSION
 from ..simd.elementary import within
 from . import columns as col
@@ -41,7 +42,7 @@ def assemble(p, tables, stage, Y, work):
     p, tables: parameters (`engine.record`); stage: Stage; Y (n, 13); work: Work.
     """
     node.shape(p, tables, Y, work.Q, work.X)
-    node.water(p, tables, stage.t, stage.in_motion, work.X, work.F)
+    water(p, tables, stage.t, stage.in_motion, work.X, work.F)
     node.node_quantities(p, tables, stage, Y, work)
     if p.bent:
         return eliminate_bent(p, tables, stage, Y, work)

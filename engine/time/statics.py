@@ -15,6 +15,7 @@ from ..planar import columns as col
 from ..planar import state as planar
 from ..record import BUOY, FREE, HELD, is_spatial
 from ..scales import buckling_load, strain_at, tension_at
+from ..scene.models import Scene
 from ..spatial import columns as spatial_col
 from ..spatial import lift
 from ..spatial import state as spatial
@@ -30,7 +31,9 @@ LEANING = 1.0
 SPANS = 0.95, 0.98, 0.8, 0.9, 0.7, LEANING  # shares of its length that a slack line under a floating buoy spans
 
 
-def rest_of(record, scene, tables, h, target_m):
+def rest_of(
+    record: np.void, scene: Scene, tables: np.ndarray, h: np.ndarray, target_m: np.ndarray
+) -> tuple[int, np.ndarray]:
     """Static equilibrium of a scene: a status code and the state. Arguments as for `settle` and `first_guess`.
 
     Under a buoy that floats the line may stand upright, pressed together between buoy and anchor: a rest too, but one
@@ -56,7 +59,7 @@ def rest_of(record, scene, tables, h, target_m):
     return STATICS_FAILED, Y
 
 
-def settle(record, tables, Y, target_m):
+def settle(record: np.void, tables: np.ndarray, Y: np.ndarray, target_m: np.ndarray) -> int:
     """Move the guess Y (n, 6 or 13) to static equilibrium, in place; the velocities come back as zero.
 
     record: parameter record (not changed); target_m: (x, z) or (x, y, z) of a held end. Returns a status code. The
@@ -110,12 +113,12 @@ def settle(record, tables, Y, target_m):
     return STATICS_FAILED
 
 
-def planar_stretch_vectors(Y):
+def planar_stretch_vectors(Y: np.ndarray) -> np.ndarray:
     """q (n, 2) of a planar state."""
     return (1 + Y[:, :1]) * np.column_stack([np.cos(Y[:, col.PHI]), np.sin(Y[:, col.PHI])])
 
 
-def first_guess(record, scene, h, span=SPANS[0]):
+def first_guess(record: np.void, scene: Scene, h: np.ndarray, span: float = SPANS[0]) -> np.ndarray:
     """State (n, 6 or 13) from which `settle` starts: loads carried along a line, or an arc where the ends are slack.
 
     In space it lies in the vertical plane through the held end, or through the force on a free one. span: share of its

@@ -2,14 +2,17 @@
 
 import math
 
+import numpy as np
+
 from ..record import BUOY, FREE
 from ..scales import tension_at
+from ..scene.models import Scene
 
 MOST_STRAIN = 10.0  # up to which the engine looks for the strain under a load (`scales.strain_at`)
 NEARLY_NOTHING = -0.99  # a strain at which next to nothing is left of the line
 
 
-def why_no_rest(record, scene):
+def why_no_rest(record: np.void, scene: Scene) -> str:
     """Why `statics.settle` found no rest, as far as is known: the end of the sentence that `guards.ADVICE` begins."""
     law, loads = scene.tether.tension, loads_of(record, scene)
     if loads is not None:
@@ -43,7 +46,7 @@ def why_no_rest(record, scene):
     )
 
 
-def loads_of(record, scene):
+def loads_of(record: np.void, scene: Scene) -> tuple[float, float] | None:
     """Static forces (N) at the upper and at the lower end, without current.
 
     None where they follow from the place: of a held end, and of a buoy that may come out of the water.

@@ -22,8 +22,8 @@ KINDS = {
     "both": "elements and steps halved",
 }
 REASONS = {  # of series that are off, on smooth works
-    "order 4": "The method of order 4 falls short in waves, where its differences are below 1e-4 mm: drag is |v| v, and "
-    "its second derivative jumps where v changes its sign. In a current that keeps the sign (“regular-smooth”) it shows "
+    "order 4": "The method of order 4 falls short in waves, where its differences are below 1e-4 mm: drag is |v| v; "
+    "its second derivative jumps where v changes its sign. In a current that keeps the sign (“regular-smooth”) it has "
     "its order.",
     "viscosity": "Shock viscosity acts where strain rates have an extreme: ripples of the grid's own waves, which the "
     "midpoint rule does not damp, switch it on and cost part of the order.",

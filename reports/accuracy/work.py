@@ -99,7 +99,7 @@ def _diagram(study: Study, work: str, timed: list[Setting]) -> Figure:
     )
     dashed = "; dashed: with shock viscosity, or on a stretched grid" if any("," in name for name in names) else ""
     caption = (
-        f"Error against run time: {study.works[work]['title']}. A mark is a setting (median of its rounds). A line "
+        f"Error against run time, {study.works[work]['title']}. A mark is a setting (median of its rounds). A line "
         f"joins the settings of a method that no cheaper one beats{dashed}. Other codes (thick) are held against "
         f"their own refined runs. Seen: {seen}. From `error` and `wall_s` of `table.csv`."
     )

@@ -26,7 +26,7 @@ PARTS = {
 }
 WORDS = ("status", "regime", "regime_tighter", "run_key", "message")  # columns of text in every table
 
-__all__ = ["Folder", "FolderError", "Row", "campaign_of", "no_folder", "read_folder", "read_rows"]
+__all__ = ["Folder", "FolderError", "Row", "no_folder", "provenance_of", "read_folder", "read_rows"]
 
 
 @dataclass(frozen=True)
@@ -93,13 +93,12 @@ def no_folder(directory: Path) -> str:
     return f"{there}; give the folder that a campaign wrote (its --out), for instance results/buoy_sweep"
 
 
-def campaign_of(directory: str | Path) -> str | None:
-    """The name of the campaign that filled the folder, None without a provenance that can be read."""
-    path = Path(directory) / "provenance.json"
+def provenance_of(directory: str | Path) -> dict:
+    """What is told of the making of a folder, {} where nothing can be read."""
     try:
-        return str(_provenance(path).get("campaign", ""))
+        return _provenance(Path(directory) / "provenance.json")
     except (OSError, ValueError):
-        return None
+        return {}
 
 
 def _read(path: Path, reader, faults: list[str]):

@@ -53,7 +53,7 @@ def case_items(study: Study) -> list[Item]:
     """One table of all cases, a row with its title before each group."""
     rows = []
     for group in dict.fromkeys(row["group"] for row in study.cases):
-        rows.append({"case": TITLES.get(group, group)})
+        rows.append({"case": f"— {TITLES.get(group, group)} —"})
         rows += [row for row in study.cases if row["group"] == group]
 
     def cell(name: str):

@@ -13,9 +13,10 @@ from engine import run as engine_run
 from engine.parameters import record_of
 from engine.perturbations.lateral import COEFFICIENTS, WIDTH, carry_lateral, lateral_stage
 from engine.perturbations.tangent import Base, carry
-from engine.physics.currents import current_field, current_field_3d
+from engine.physics.currents import current_field
 from engine.physics.ends import upper_end, upper_end_3d
 from engine.physics.sea import sea_field
+from engine.physics.water import water
 from engine.physics.waves import wave_field, wave_field_3d
 from engine.planar import columns as col
 from engine.planar import elimination as planar_bent
@@ -63,7 +64,7 @@ class Stage:
     def water(self, t, Y):
         """F of a state at time t."""
         self.places(Y)
-        self.node.water(self.p, self.tables, t, 1.0, self.X, self.F)
+        water(self.p, self.tables, t, 1.0, self.X, self.F)
         return self.F.copy()
 
     def conserved(self, Y):
@@ -126,7 +127,7 @@ def current_at(scene, t, X, before=()):
     p, tables = parameters_of(scene, before)
     X = np.ascontiguousarray(X, float)
     F = np.zeros((len(X), 2 * X.shape[1]))
-    (current_field_3d if X.shape[1] == 3 else current_field)(p, tables, t, X, F)
+    current_field(p, tables, t, X, F)
     return F
 
 

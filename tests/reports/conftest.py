@@ -1,5 +1,11 @@
-"""Campaign folders and their pages, made once for the tests that only look at them."""
+"""Campaign folders and their pages, made once for the tests that only look at them, and a browser to open them with.
 
+The browser is the Chromium of the machine, driven by Playwright. Where there is none, the tests that open a page are
+skipped, and `pytest` says so with the reason at its end (`-rs` in pyproject.toml).
+"""
+
+import shutil
+from contextlib import contextmanager
 from html.parser import HTMLParser
 from pathlib import Path
 
@@ -49,3 +55,31 @@ def built(folder) -> tuple[Path, Path]:
 @pytest.fixture(scope="session")
 def page(built) -> Page:
     return Page(built[0].read_text(encoding="utf-8"))
+
+
+@pytest.fixture(scope="module")
+def browse():
+    """`with browse(path, width=400, ...) as page:` opens a file in a fresh window of Chromium.
+
+    Options are those of Playwright's `new_context`; `page.asked` lists what the page asked of any network.
+    """
+    names = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable")
+    chromium = next(filter(None, map(shutil.which, names)), None)
+    if chromium is None:
+        pytest.skip("no Chromium on this machine to open a report with")
+    from playwright.sync_api import sync_playwright
+
+    with sync_playwright() as playwright:
+        browser = playwright.chromium.launch(executable_path=chromium, args=["--no-sandbox", "--disable-gpu"])
+
+        @contextmanager
+        def opened(path: Path, width: int = 1200, height: int = 900, **options):
+            with browser.new_context(viewport={"width": width, "height": height}, **options) as context:
+                page = context.new_page()
+                page.asked = []
+                page.on("request", lambda request: page.asked.append(request.url))
+                page.goto(path.absolute().as_uri())
+                yield page
+
+        yield opened
+        browser.close()

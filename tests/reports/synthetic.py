@@ -45,6 +45,7 @@ def campaign(directory: Path, steepness, periods=80, transient=20, failing=None,
         "periods": periods,
         "transient": transient,
         "strobe_tolerance": 0.005,
+        "longest_period": 16,
         "steepness": list(steepness),
         "timing": {"compile_s": 6.1, "run_s": 20.5, "analysis_s": 0.8},
     }

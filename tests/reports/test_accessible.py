@@ -1,12 +1,6 @@
-"""The page can be used without seeing it and without a mouse: checked by axe-core in a browser, and by its structure.
+"""A report can be read by everybody: axe-core finds nothing; on a telephone, in the dark, on paper, without motion."""
 
-axe-core (Deque, MPL-2.0, 0.6 MB) is not part of this project. Its axe.min.js is taken from the path in the environment
-variable AXE_CORE, or installed once by npm into pytest's cache; without either the check is skipped.
-"""
-
-import os
-import shutil
-import subprocess
+from importlib.resources import files
 from itertools import pairwise
 from pathlib import Path
 from typing import get_args
@@ -33,30 +27,10 @@ from reports.parts.content import (
 )
 from reports.parts.html import render_html
 from reports.parts.symbols import T_I
-from tests.reports.chromium import Chromium, installed
 
+AXE = files("axe_playwright_python").joinpath("axe.min.js")
 HEADINGS = {f"h{level}": level for level in range(1, 7)}
 PHONE = {"width": 400, "height": 800}
-needs_browser = pytest.mark.skipif(installed() is None, reason="no Chromium on this machine to open the report with")
-
-
-@pytest.fixture(scope="module")
-def axe(request) -> str:
-    """The source of axe-core."""
-    given = os.environ.get("AXE_CORE")
-    if given:
-        return Path(given).read_text(encoding="utf-8")
-    if shutil.which("npm") is None:
-        pytest.skip("no axe-core: AXE_CORE names no file, and there is no npm to install it with")
-    place = request.config.cache.mkdir("axe-core")
-    path = place / "node_modules" / "axe-core" / "axe.min.js"
-    if not path.exists():
-        command = ["npm", "install", "--no-save", "--no-audit", "--no-fund", "--prefix", str(place), "axe-core@4"]
-        try:
-            subprocess.run(command, check=True, capture_output=True, timeout=60)
-        except (subprocess.SubprocessError, OSError):
-            pytest.skip("no axe-core: npm could not install it (no network?)")
-    return path.read_text(encoding="utf-8")
 
 
 @pytest.fixture(scope="module")
@@ -85,13 +59,11 @@ def every_kind(tmp_path_factory) -> Path:
     return path
 
 
-def violations(path: Path, axe: str, **window) -> list[str]:
+def violations(page) -> list[str]:
     """What axe-core finds serious or critical on a page, with a run chosen where it has an explorer."""
-    with Chromium(**window) as chromium:
-        chromium.open(path)
-        chromium.value("document.querySelector('#explorer button[value=after]')?.click()")
-        chromium.value(axe + "; true")
-        found = chromium.value("axe.run(document).then((result) => result.violations)")
+    page.evaluate("document.querySelector('#explorer button[value=after]')?.click()")
+    page.evaluate(AXE.read_text(encoding="utf-8"))
+    found = page.evaluate("axe.run(document).then((result) => result.violations)")
     return [
         f"{one['id']}: {one['help']}: {one['nodes'][0]['html'][:200]} ({len(one['nodes'])})"
         for one in found
@@ -99,58 +71,58 @@ def violations(path: Path, axe: str, **window) -> list[str]:
     ]
 
 
-@needs_browser
 @pytest.mark.slow
-@pytest.mark.parametrize("window", [{}, {"dark": True}, PHONE], ids=["light", "dark", "phone"])
-def test_axe_finds_nothing_serious(built, every_kind, axe, window):
+@pytest.mark.parametrize("window", [{}, {"color_scheme": "dark"}, PHONE], ids=["light", "dark", "phone"])
+def test_axe_finds_nothing_serious(built, every_kind, browse, window):
     """In a sweep's page; and in one with every kind of item there is, of which the pages of all campaigns are made."""
-    assert violations(built[0], axe, **window) == []
-    assert violations(every_kind, axe, **window) == []
+    for path in (built[0], every_kind):
+        with browse(path, **window) as page:
+            assert violations(page) == []
 
 
-@needs_browser
 @pytest.mark.slow
-def test_on_a_telephone_nothing_lies_beside_the_page_and_drawings_keep_their_size(built, every_kind):
-    """Letters of 7.5 pt in a drawing 6.8 in wide are 10 pixels high from 650 pixels on; half size is the least for
-    mathematics of 12 pt."""
-    for page in (built[0], every_kind):
-        with Chromium(**PHONE) as chromium:
-            chromium.open(page)
-            assert chromium.value("document.documentElement.scrollWidth") == PHONE["width"]
-            for drawing in ("figure img", "svg.glance"):
-                widths = chromium.value(
-                    f"[...document.querySelectorAll('{drawing}')].map((one) => one.getBoundingClientRect().width)"
-                )
-                assert all(width >= 650.0 for width in widths), drawing
-            shares = chromium.value(
-                "[...document.querySelectorAll('.equation svg')]"
-                ".map((one) => one.getBoundingClientRect().width / one.width.baseVal.value)"
-            )
-            assert shares and all(share > 0.5 for share in shares)
-
-
-@needs_browser
-@pytest.mark.slow
-def test_axe_would_have_found_something(built, axe, tmp_path):
+def test_axe_would_have_found_something(built, browse, tmp_path):
     """A picture without its text and grey letters on grey are found: the check can fail."""
     source = built[0].read_text(encoding="utf-8")
     spoilt = tmp_path / "spoilt.html"
     spoilt.write_text(source.replace(' alt="', ' data-alt="').replace("--soft: #57606a", "--soft: #c0c4c8"), "utf-8")
-    assert {line.partition(":")[0] for line in violations(spoilt, axe)} >= {"image-alt", "color-contrast"}
+    with browse(spoilt) as page:
+        assert {line.partition(":")[0] for line in violations(page)} >= {"image-alt", "color-contrast"}
 
 
-@needs_browser
 @pytest.mark.slow
-def test_on_paper_captions_are_smaller_than_text_and_nothing_moves(every_kind):
-    with Chromium() as chromium:
-        chromium.open(every_kind)
-        chromium.call("Emulation.setEmulatedMedia", media="print")
-        sizes = chromium.value(
-            "['main > p:not(.subtitle)', 'figcaption', 'caption']"
-            ".map((one) => parseFloat(getComputedStyle(document.querySelector(one)).fontSize))"
+def test_on_a_telephone_nothing_lies_beside_the_page_and_drawings_keep_their_size(built, every_kind, browse):
+    """Letters of 7.5 pt in a drawing 6.8 in wide are 10 pixels high from 650 pixels on; half size is the least for
+    mathematics of 12 pt."""
+    widths = "(all) => all.map((one) => one.getBoundingClientRect().width)"
+    shares = "(all) => all.map((one) => one.getBoundingClientRect().width / one.width.baseVal.value)"
+    for path in (built[0], every_kind):
+        with browse(path, **PHONE) as page:
+            assert page.evaluate("document.documentElement.scrollWidth") == PHONE["width"]
+            for drawing in ("figure img", "svg.glance"):
+                assert all(width >= 650.0 for width in page.eval_on_selector_all(drawing, widths)), drawing
+            found = page.eval_on_selector_all(".equation svg", shares)
+            assert found and all(share > 0.5 for share in found)
+
+
+@pytest.mark.slow
+def test_on_paper_captions_are_smaller_than_text_and_nothing_moves(every_kind, browse):
+    with browse(every_kind) as page:
+        page.emulate_media(media="print")
+        size = "(one) => parseFloat(getComputedStyle(one).fontSize)"
+        text, *captions = (
+            page.eval_on_selector(one, size) for one in ("main > p:not(.subtitle)", "figcaption", "caption")
         )
-        assert max(sizes[1:]) < sizes[0] == pytest.approx(10.0 / 0.75, abs=0.01)
-        assert chromium.value("document.querySelector('.moving').getBoundingClientRect().height") == 0
+        assert max(captions) < text == pytest.approx(10.0 / 0.75, abs=0.01)
+        assert not page.locator(".moving").is_visible()
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("motion", ["no-preference", "reduce"])
+def test_moving_pictures_are_hidden_from_those_who_asked_for_less_motion(every_kind, browse, motion):
+    with browse(every_kind, reduced_motion=motion) as page:
+        assert page.locator(".moving").is_visible() is (motion == "no-preference")
+        assert page.locator("figure > .wide > img").is_visible()
 
 
 def test_headings_go_down_one_level_at_a_time_and_there_is_one_title(page):
@@ -172,17 +144,3 @@ def test_every_header_of_a_table_says_what_it_heads(page):
     headers = [attributes.get("scope") for tag, attributes in page.tags if tag == "th"]
     assert set(headers) == {"col", "row"}
     assert [tag for tag, _ in page.tags].count("caption") == [tag for tag, _ in page.tags].count("table")
-
-
-@needs_browser
-@pytest.mark.slow
-@pytest.mark.parametrize("still", [False, True])
-def test_moving_pictures_are_hidden_from_those_who_asked_for_less_motion(tmp_path, still):
-    dot = Picture(b'<svg xmlns="http://www.w3.org/2000/svg" width="9" height="9"><circle r="4"/></svg>', "svg")
-    report = Report("a", "b", (Figure(dot, "A caption.", "A text.", Picture(b"GIF89a", "gif")),))
-    (tmp_path / "report.html").write_bytes(render_html(report))
-    with Chromium(still=still) as chromium:
-        chromium.open(tmp_path / "report.html")
-        shown = chromium.value("document.querySelector('.moving').getBoundingClientRect().height > 0")
-        assert shown is not still
-        assert chromium.value("document.querySelector('figure > .wide > img').getBoundingClientRect().height > 0")

@@ -22,10 +22,10 @@ def test_help_loads_nothing_heavy():
 
 
 @pytest.mark.slow
-def test_sixty_long_runs_within_fifteen_seconds_and_ten_megabytes(tmp_path):
+def test_sixty_long_runs_within_fifteen_seconds_of_processor_and_ten_megabytes(tmp_path):
     steepness = [round(0.01 + 0.0025 * k, 4) for k in range(60)]
     folder = campaign(tmp_path / "out", steepness, periods=300, transient=100)
-    start = time.perf_counter()
+    start = time.process_time()
     paths = build(folder)
-    assert time.perf_counter() - start < 15.0
+    assert time.process_time() - start < 15.0
     assert all(path.stat().st_size < 10e6 for path in paths)

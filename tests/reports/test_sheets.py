@@ -10,7 +10,6 @@ import numpy as np
 import pytest
 
 from reports import build
-from reports.buoy_sweep.motion import evidence_text, read_evidence
 from reports.figures.run_sheet import Glance, run_sheet
 from reports.parts.content import Explorer, ExplorerColumn, Figure, Picture, first_sentence, link, plain, spans, sub
 from reports.parts.explorer_data import explorer_json
@@ -120,19 +119,6 @@ def test_a_list_of_figures_takes_the_first_sentence(caption, said):
     assert first_sentence(caption) == said
 
 
-def test_evidence_in_a_table_reads_back():
-    from analysis.evidence import Evidence
-    from analysis.verdicts import Verdict
-
-    tests = (
-        Evidence("0-1 test, halves", 0.98765, 0.9, True, "said: a; b / c"),
-        Evidence("period", float("nan"), 0.01, None, ""),
-    )
-    text = evidence_text(Verdict("chaotic", "why", tests, None, 200, 0))
-    assert read_evidence(text) == [("0-1 test, halves", "0.988", "0.9", "yes"), ("period", "–", "0.01", "–")]
-    assert read_evidence("") == read_evidence("no evidence at all") == []
-
-
 def test_every_row_of_the_table_leads_to_its_sheet_and_neighbours_to_each_other(page):
     links = [attributes["href"] for tag, attributes in page.tags if tag == "a"]
     for number in range(1, 9):
@@ -150,7 +136,7 @@ def test_four_hundred_runs_make_a_page_of_less_than_ten_megabytes(folder, tmp_pa
     place = tmp_path / "many"
     place.mkdir()
     (place / "trajectories").symlink_to(folder / "trajectories")
-    for name in ("provenance.json", "scene.toml"):
+    for name in ("provenance.json", "scene.toml", "columns.csv"):
         (place / name).write_bytes((folder / name).read_bytes())
     with open(place / "table.csv", "w", newline="", encoding="utf-8") as file:
         writer = csv.DictWriter(file, rows[0])

@@ -27,6 +27,6 @@ NAMES = [get_args(law.Model.model_fields["law"].annotation)[0] for law in LAWS]
 TensionLaw = Annotated[reduce(or_, (law.Model for law in LAWS)), Field(discriminator="law")]
 
 
-def number_of(name):
+def number_of(name: str) -> int:
     """The number by which a parameter record names a law."""
     return NAMES.index(name)

@@ -6,6 +6,6 @@ Also the engine's starter: it needs no rates from before, so it opens impulsive 
 ORDER, ADAPTIVE = 1, False
 
 
-def alphas(rho):
+def alphas(rho: float) -> tuple[float, float, float]:
     """(alpha_m, alpha_f, gamma); rho has no part in this method."""
     return 1.0, 1.0, 1.0

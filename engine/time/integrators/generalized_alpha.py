@@ -8,7 +8,7 @@ rho is the spectral radius at infinite frequency: 1 keeps the highest modes (the
 ORDER, ADAPTIVE = 2, False
 
 
-def alphas(rho):
+def alphas(rho: float) -> tuple[float, float, float]:
     """(alpha_m, alpha_f, gamma) for the spectral radius rho in [0, 1]."""
     alpha_m = (3 - rho) / (2 * (1 + rho))
     alpha_f = 1 / (1 + rho)

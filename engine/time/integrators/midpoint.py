@@ -8,6 +8,6 @@ In the paper: eq. (25) box rule: value; eq. (26) box rule: rate; eq. (27) box ru
 ORDER, ADAPTIVE = 2, False
 
 
-def alphas(rho):
+def alphas(rho: float) -> tuple[float, float, float]:
     """(alpha_m, alpha_f, gamma); rho has no part in this method."""
     return 0.5, 0.5, 0.5

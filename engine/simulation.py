@@ -1,15 +1,21 @@
 """Scene in, trajectory out: the driver of the kernels, for one scene or a batch."""
 
 import math
+from collections.abc import Callable, Iterable, Iterator
 from functools import partial
 
 from .run import Run
+from .scene.models import Scene
 from .scene.size_limits import MOST_SAMPLES, check_room
+from .trajectory import Trajectory
 
 PERIODS_PER_CALL = 10
+Progress = Callable[[float], None]
 
 
-def simulate(scene, periods=None, duration_s=None, progress=None):
+def simulate(
+    scene: Scene, periods: float | None = None, duration_s: float | None = None, progress: Progress | None = None
+) -> Trajectory:
     """Simulate one scene from its static equilibrium.
 
     Parameters
@@ -28,7 +34,12 @@ def simulate(scene, periods=None, duration_s=None, progress=None):
     return simulate_batch([scene], periods, duration_s, progress)[0]
 
 
-def simulate_batch(scenes, periods=None, duration_s=None, progress=None):
+def simulate_batch(
+    scenes: Iterable[Scene],
+    periods: float | None = None,
+    duration_s: float | None = None,
+    progress: Progress | None = None,
+) -> list[Trajectory]:
     """Simulate scenes that differ in any parameter; each has its own steps and its own end.
 
     Arguments as for `simulate`; the run length in periods is taken for each scene's own wave. Returns a list.
@@ -40,7 +51,12 @@ def simulate_batch(scenes, periods=None, duration_s=None, progress=None):
     return runs
 
 
-def simulate_each(scenes, periods=None, duration_s=None, progress=None):
+def simulate_each(
+    scenes: Iterable[Scene],
+    periods: float | None = None,
+    duration_s: float | None = None,
+    progress: Progress | None = None,
+) -> Iterator[tuple[int, Trajectory]]:
     """As `simulate_batch`, but yields (number of the scene, its Trajectory) as the runs end, in no order.
 
     Scenes that may share a batch run side by side in the lanes of vectors (`engine.simd`), eight at a time; the
@@ -68,7 +84,7 @@ def simulate_each(scenes, periods=None, duration_s=None, progress=None):
             ended += 1
 
 
-def _by_march(scene, duration_s, progress):
+def _by_march(scene: Scene, duration_s: float, progress: Progress) -> Trajectory:
     run = Run(scene, duration_s)
     run.compile()
     chunk = max(1, min(MOST_SAMPLES, round(PERIODS_PER_CALL * _period(scene) / scene.sample_step_s())))
@@ -78,17 +94,17 @@ def _by_march(scene, duration_s, progress):
     return run.trajectory()
 
 
-def _by_paper(scene, duration_s, progress):
+def _by_paper(scene: Scene, duration_s: float, progress: Progress) -> Trajectory:
     from .paper_box import run
 
     return run(scene, duration_s, progress)
 
 
-def _period(scene):
+def _period(scene: Scene) -> float:
     return scene.waves.period_s if scene.waves is not None else 5.0
 
 
-def _duration(scene, periods, duration_s):
+def _duration(scene: Scene, periods: float | None, duration_s: float | None) -> float:
     if (periods is None) == (duration_s is None):
         raise ValueError("give exactly one of periods and duration_s")
     if periods is not None:

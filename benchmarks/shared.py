@@ -1,0 +1,60 @@
+"""What benchmarks share: one core, settings in turns, medians, and small pictures for the documents."""
+
+import argparse
+import os
+import time
+from collections.abc import Callable
+from pathlib import Path
+from statistics import median
+
+DOCS = Path(__file__).parents[1] / "docs"
+
+
+def parser(doc: str, rounds: int) -> argparse.ArgumentParser:
+    """A command line with --rounds and --core; its description is the first paragraph of the module's text."""
+    parser = argparse.ArgumentParser(description=doc.split("\n\n")[0])
+    parser.add_argument("--rounds", type=int, default=rounds, help=f"turns of every setting (default {rounds})")
+    parser.add_argument("--core", type=int, help="the core to run on (default: the last one allowed; Linux)")
+    return parser
+
+
+def on_one_core(core: int | None) -> None:
+    """Keep this process, and those that it starts, on one core."""
+    if hasattr(os, "sched_setaffinity"):
+        os.sched_setaffinity(0, {max(os.sched_getaffinity(0)) if core is None else core})
+
+
+def print_load() -> None:
+    """The load of the machine, without which no time means anything."""
+    print(f"load: {os.getloadavg()[0]:.1f} on {os.cpu_count()} cores")
+
+
+def seconds(call: Callable[[], object]) -> float:
+    """Wall time of a call."""
+    began = time.perf_counter()
+    call()
+    return time.perf_counter() - began
+
+
+def in_turns(calls: dict[str, Callable[[], float]], rounds: int) -> dict[str, list[float]]:
+    """What each call returns in every round; the calls take turns (A B C A B C ...)."""
+    found: dict[str, list[float]] = {name: [] for name in calls}
+    for _ in range(rounds):
+        for name, call in calls.items():
+            found[name].append(call())
+    return found
+
+
+def show(name: str, values: list[float], unit: str) -> None:
+    """A line with median, least and most."""
+    print(f"{median(values):10.4g} {unit}  {name} ({min(values):.3g} to {max(values):.3g})")
+
+
+def save(figure, name: str, colours: int = 128) -> None:
+    """A figure of Matplotlib as docs/NAME, in few colours, so that the repository stays small."""
+    from PIL import Image
+
+    path = DOCS / name
+    figure.savefig(path, dpi=100)
+    Image.open(path).convert("RGB").quantize(colours).save(path, optimize=True)
+    print(f"docs/{name}: {path.stat().st_size / 1000:.0f} kB")
