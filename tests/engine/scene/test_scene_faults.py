@@ -16,6 +16,8 @@ BLOCK = [[[0.0, 0.0]]]
 TABLE = {
     "law": "table", "time_s": [0], "height_m": [0], "x_m": [0, 1], "velocity_x_mps": BLOCK, "velocity_z_mps": BLOCK
 }  # fmt: skip
+ONE = {"period_s": 5.0, "amplitude_m": 0.8}
+SEA = {"significant_height_m": 1.0}
 BASE = tomllib.loads(load_scene("tethered_buoy").to_toml())
 
 
@@ -84,6 +86,17 @@ SINGLE = [
     ({"solver.loop_release": 1}, "solver.loop_release", "1", "true or false"),
     ({"output.profiles": "yes"}, "output.profiles", "'yes'", "true or false"),
     ({"output.step_s": 0}, "output.step_s", "0", "above 0"),
+    ({"waves.components": []}, "waves.components", "[]", "a list of 1 to 2000 tables"),
+    ({"waves.components": 3}, "waves.components", "3", "a list of 1 to 2000 tables"),
+    ({"waves.components": [{"period_s": 5.0}]}, "waves.components[0].amplitude_m", "missing", "0 or above"),
+    ({"waves.components": [ONE, {**ONE, "amplitude_m": -1.0}]}, "waves.components[1].amplitude_m", "-1.0", "0 or"),
+    ({"waves.components": [{**ONE, "period_s": 0.0}]}, "waves.components[0].period_s", "0.0", "above 0"),
+    ({"waves.components": [{**ONE, "hight_m": 1.0}]}, "waves.components[0].hight_m", "unknown key", ""),
+    ({"waves.jonswap": {**SEA, "seed": -1}}, "waves.jonswap.seed", "-1", "0 to 1000000000"),
+    ({"waves.jonswap": {**SEA, "peak_enhancement": 0.5}}, "waves.jonswap.peak_enhancement", "0.5", "from 1 to 10"),
+    ({"waves.jonswap": {**SEA, "components": 0}}, "waves.jonswap.components", "0", "a whole number from 1 to 2000"),
+    ({"waves.jonswap": {**SEA, "gamma": 3.3}}, "waves.jonswap.gamma", "unknown key", "peak_enhancement"),
+    ({"waves.jonswap.seed": 3}, "waves.jonswap.significant_height_m", "missing", "above 0"),
     ({"name": "../evil name"}, "name", "'../evil name'", "letters"),
     ({"title": 3}, "title", "3", "text"),
 ]
@@ -94,81 +107,6 @@ def test_a_value_at_fault_is_named_shown_and_told_what_is_allowed(changes, key, 
     lines = [line for line in faults_of(changes) if line.startswith(f"{key}: ")]
     assert lines, faults_of(changes)
     assert any(given in line and allowed in line.partition("allowed")[2] for line in lines)
-
-
-CROSS = [
-    ({"water": None}, "water", "waves are given"),
-    ({"water": None, "waves": None, "current": {"law": "uniform", "velocity_mps": [1, 0, 0]}}, "water", "current"),
-    ({"gravity_mps2": 0}, "gravity_mps2", "waves"),
-    ({"waves.steepness": 0.1, "waves.amplitude_m": 0.1}, "waves", "exactly one"),
-    ({"waves.steepness": None}, "waves.steepness", "exactly one"),
-    ({"waves.amplitude_m": 21.0}, "waves.amplitude_m", "less than water.depth_m"),
-    ({"waves.direction_rad": 1.0}, "waves.direction_rad", "0 or pi"),
-    ({"buoy": None}, "buoy", "missing"),
-    ({"buoy.impact_loss": 0.5}, "buoy.impact_loss", "0, because buoy.submergence is not 'spherical-cap'"),
-    ({**CAP, "solver.scheme": "paper-box"}, "buoy.submergence", "'full', because solver.scheme is 'paper-box'"),
-    ({**CAP, "water": None, "waves": None}, "buoy.submergence", "'full', because there is no water"),
-    ({"end": {"kind": "free", "force_N": [0, 0, 9]}}, "buoy", "no buoy"),
-    (
-        {"end": {"kind": "free", "force_N": [0, 0, 0]}, "buoy": None, "tether.bending_stiffness_Nm2": 0},
-        "tether.bending_stiffness_Nm2",
-        "direction",
-    ),
-    ({"end": {"kind": "held"}, "buoy": None}, "end.position_m", "missing"),
-    ({"end": {"kind": "free"}, "buoy": None}, "end.force_N", "missing"),
-    ({"end.position_m": [0, 0, 20]}, "end.position_m", "'held'"),
-    ({"end": {"kind": "free", "force_N": [0, 1, 0]}, "buoy": None}, "end.force_N", "y = 0"),
-    ({"start.buoy_velocity_mps": [0, 1e-5, 0]}, "start.buoy_velocity_mps", "y = 0"),
-    (
-        {"end": {"kind": "held", "position_m": [0, 0, 9]}, "buoy": None, "start.buoy_velocity_mps": [1, 0, 0]},
-        "start.buoy_velocity_mps",
-        "zero",
-    ),
-    ({"current": {"law": "uniform", "velocity_mps": [1, 1, 0]}}, "current.velocity_mps", "y = 0"),
-    (
-        {"current": {"law": "profile", "height_m": [0, 5, 5], "velocity_mps": [[1, 0, 0]] * 3}},
-        "current.height_m[2]",
-        "increasing",
-    ),
-    ({"current": {"law": "profile", "height_m": [0, 5], "velocity_mps": [[1, 0, 0]] * 3}}, "current.velocity_mps", "2"),
-    (
-        {"tether.tension": {"law": "tabulated", "strain": [0, 0.2, 0.1], "tension_N": [0, 1, 2]}},
-        "tether.tension.strain[2]",
-        "increasing",
-    ),
-    (
-        {"tether.tension": {"law": "tabulated", "strain": [0, 0.2], "tension_N": [0, 1, 2]}},
-        "tether.tension.tension_N",
-        "as many as strain has, 2",
-    ),
-    (
-        {"tether.tension": {"law": "tabulated", "strain": [0, 0.2], "tension_N": [1, 0]}},
-        "tether.tension.tension_N[1]",
-        "never falls",
-    ),
-    (
-        {"tether.tension": {"law": "tabulated", "strain": [-1.5, 0.2], "tension_N": [0, 1]}},
-        "tether.tension.strain[0]",
-        "above -1",
-    ),
-    ({"tether.tension": {"law": "tanh", "p": [1.0, -2.0, 0.0, 0.0, 1.0]}}, "tether.tension.p", "never falls"),
-    ({"solver.min_step_s": 1.0}, "solver.min_step_s", "at most"),
-    ({"output.profiles_step_s": 1.0}, "output.profiles_step_s", "output.profiles = true"),
-]
-
-
-@pytest.mark.parametrize(("changes", "key", "allowed"), CROSS)
-def test_values_that_contradict_each_other_are_a_fault(changes, key, allowed):
-    assert any(line.startswith(f"{key}: ") and allowed in line for line in faults_of(changes)), faults_of(changes)
-
-
-def test_a_table_of_currents_has_one_velocity_for_each_point():
-    table = {"law": "table", "time_s": [0, 1], "height_m": [0, 1, 2], "x_m": [0]}
-    good = [[[0.0], [0.0], [0.0]], [[0.0], [0.0], [0.0]]]
-    load_scene("tethered_buoy", {"current": {**table, "velocity_x_mps": good, "velocity_z_mps": good}})
-    for bad in (good[:1], [good[0], good[1][:2]], [good[0], [[0.0], [0.0, 1.0], [0.0]]]):
-        lines = faults_of({"current": {**table, "velocity_x_mps": good, "velocity_z_mps": bad}})
-        assert len(lines) == 1 and lines[0].startswith("current.velocity_z_mps") and "2 times x 3 heights" in lines[0]
 
 
 def test_every_fault_is_reported_at_once_those_between_values_among_them():

@@ -108,11 +108,17 @@ def test_a_scene_made_directly_obeys_the_same_rules():
         Scene(**raw)
 
 
-def test_amplitude_and_steepness_replace_each_other():
-    by_amplitude = load_scene("tethered_buoy", {"waves.amplitude_m": 0.1})
-    assert by_amplitude.waves.amplitude_m == 0.1 and by_amplitude.waves.steepness is None
-    back = scene_from_toml(by_amplitude.to_toml(), {"waves.steepness": 0.2})
-    assert back.waves.amplitude_m is None and back.waves.steepness == 0.2
+HEIGHTS = {"amplitude_m": 0.1, "components": [{"period_s": 5.0, "amplitude_m": 0.8}], "jonswap.significant_height_m": 1}
+
+
+@pytest.mark.parametrize(("name", "value"), HEIGHTS.items())
+def test_what_says_how_high_the_waves_are_takes_the_place_of_what_was_inherited(name, value):
+    scene = load_scene("tethered_buoy", {f"waves.{name}": value})
+    assert scene.waves.steepness is None and getattr(scene.waves, name.partition(".")[0]) is not None
+    assert scene_from_toml(scene.to_toml()) == scene
+    back = scene_from_toml(scene.to_toml(), {"waves.steepness": 0.2})
+    assert back.waves.steepness == 0.2 and not back.waves.irregular and back.waves.amplitude_m is None
+    assert back.key() == load_scene("tethered_buoy", {"waves.steepness": 0.2}).key()
 
 
 def test_none_removes_and_a_scalar_creates_its_section():
