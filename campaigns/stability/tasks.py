@@ -21,12 +21,12 @@ from campaigns.machinery.plan import Summary
 from campaigns.machinery.pools import opened
 from campaigns.machinery.processes import PoolBroken
 from campaigns.machinery.row_cache import keep_row, kept_row, made_by
-from campaigns.stability import fuzz, random_faults, run, scene_shares, step_maps
+from campaigns.stability import fuzz, random_scenes, run, scene_shares, step_maps
 from campaigns.stability.cases import all_cases
 from campaigns.stability.cases.case import REGULAR, Case
 
 SOURCES = ("engine", "campaigns/stability")
-CHUNK = {random_faults.VALID: 20, random_faults.INVALID: 200}
+CHUNK = {random_scenes.VALID: 20, random_scenes.INVALID: 200}
 DRIFT_BAR = 0.01
 DRIFT_LIMIT_S = 1800.0
 
@@ -75,7 +75,7 @@ def kept(out: Path, maker: str, task: Task, make: Callable[[], dict]) -> dict:
 def scenes(out: Path, maker: str, kind: str, seed: int, count: int) -> list[dict]:
     """The random scenes of a kind, drawn once."""
     task = Task("drawn", (kind, seed, count))
-    return kept(out, maker, task, lambda: {"scenes": random_faults.drawn(kind, seed, count)})["scenes"]
+    return kept(out, maker, task, lambda: {"scenes": random_scenes.drawn(kind, seed, count)})["scenes"]
 
 
 def do(out: Path, maker: str, task: Task) -> tuple[Task, dict]:
@@ -178,7 +178,7 @@ def _of_kind(order, kind: str, drawn: list[dict], rows: list[dict]) -> dict:
             outcome = known.get(json.dumps(raw)) or fuzz.judged(kind, raw)["outcome"]
             return outcome not in fuzz.SOUND
 
-        found = random_faults.smallest(kind, order.seed, order.fuzz, is_unsound)
+        found = random_scenes.smallest(kind, order.seed, order.fuzz, is_unsound)
         message += f"; the smallest scene of this kind that is unsound: {json.dumps(found)}"
     verdict = run.UNEXPLAINED if unsound else run.OK
     return {
