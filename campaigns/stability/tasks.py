@@ -16,7 +16,7 @@ from functools import partial
 from pathlib import Path
 
 from campaigns.columns import Column
-from campaigns.machinery.folder import Table, trajectory_path, write_json
+from campaigns.machinery.folder import CampaignStopped, Table, trajectory_path, write_json
 from campaigns.machinery.plan import Summary
 from campaigns.machinery.pools import opened
 from campaigns.machinery.processes import PoolBroken
@@ -140,30 +140,14 @@ def _progress(results: Iterator, total: int, found: int) -> Iterator:
 
 
 def _all(call: Callable, tasks: list[Task], jobs: int) -> Iterator[tuple[Task, dict]]:
-    """Results of all tasks as they come; a task whose worker dies is judged so."""
-    pending = {task.key(): task for task in tasks}
+    """Results of all tasks as they come. Raises CampaignStopped where a worker dies: cases have their own processes."""
     if not tasks:
         return
-    with opened("loky", min(jobs, len(tasks))) as execute:
-        while pending:
-            try:
-                for task, result in execute(call, list(pending.values())):
-                    del pending[task.key()]
-                    yield task, result
-            except PoolBroken as broken:
-                for task in broken.suspects:
-                    del pending[task.key()]
-                    yield task, _died(task, f"its worker process ended: {broken}")
-
-
-def _died(task: Task, said: str) -> dict:
-    if task.kind == "case":
-        return run.died(task.what, said)
-    if task.kind == "map":
-        return {"fault": said}
-    kind, _, _, first, last = task.what
-    row = {"kind": kind, "outcome": "crash", "status": "", "message": said, "wall_s": 0.0}
-    return {"rows": [{**row, "number": number} for number in range(first, last)]}
+    try:
+        with opened("loky", min(jobs, len(tasks))) as execute:
+            yield from execute(call, tasks)
+    except PoolBroken as broken:
+        raise CampaignStopped(f"a worker process ended: {broken}; finished tasks are kept") from broken
 
 
 def _of_kind(order, kind: str, drawn: list[dict], rows: list[dict]) -> dict:
