@@ -191,10 +191,5 @@ class Steps:
         return guard_turns(self.record, self.tables, state, Y)
 
 
-def conserved(p, Y, C):
-    """C (n, 4) of a state in the plane."""
-    planar.conserved(p, Y, C)
-
-
 def new_state():
     return np.zeros(1, STATE)[0]

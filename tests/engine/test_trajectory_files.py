@@ -39,7 +39,9 @@ def assert_same(left: Trajectory, right: Trajectory) -> None:
 @pytest.mark.parametrize("profiles", [None, 0, 1, 40])
 @pytest.mark.parametrize("samples", [0, 1, 500])
 def test_a_run_written_is_the_run_read_bit_for_bit(samples, profiles, tmp_path):
-    run = run_of(samples, profiles)
+    """Also one that failed, with its reason."""
+    failed = {"status": "turn-unresolved", "message": "a turn of 4.2 rad in one element — at t = 3 s"}
+    run = run_of(samples, profiles, **(failed if samples == 1 else {}))
     if samples > 1:
         run.columns["tension_top_N"][3:6] = np.nan, np.inf, -0.0
     run.save(tmp_path / "run.nc")
@@ -49,12 +51,6 @@ def test_a_run_written_is_the_run_read_bit_for_bit(samples, profiles, tmp_path):
     assert (tmp_path / "again.nc").read_bytes() == (tmp_path / "run.nc").read_bytes()
     for name in COLUMNS:
         assert again.columns[name].dtype == np.dtype("float64")
-
-
-def test_a_failed_run_keeps_its_reason(tmp_path):
-    run = run_of(1, status="turn-unresolved", message="a turn of 4.2 rad in one element — at t = 3 s")
-    run.save(tmp_path / "run.nc")
-    assert_same(run, Trajectory.load(tmp_path / "run.nc"))
 
 
 def test_the_table_has_the_agreed_columns():
@@ -125,20 +121,14 @@ def test_a_changed_byte_never_gives_different_numbers(tmp_path):
     assert refused > 100
 
 
-@pytest.mark.parametrize("content", [b"", b"CDF\x01", b"\x89HDF\r\n\x1a\n" + bytes(100), b"time_s,x_m\n0,0\n"])
-def test_a_file_that_is_no_trajectory_is_refused(content, tmp_path):
-    (tmp_path / "run.nc").write_bytes(content)
-    with pytest.raises(TrajectoryError, match=r"run\.nc"):
-        Trajectory.load(tmp_path / "run.nc")
-
-
-def test_a_netcdf_file_of_somebody_else_is_refused(tmp_path):
+def test_what_is_no_trajectory_is_refused(tmp_path):
+    for content in (b"", b"CDF\x01", b"\x89HDF\r\n\x1a\n" + bytes(100), b"time_s,x_m\n0,0\n"):
+        (tmp_path / "run.nc").write_bytes(content)
+        with pytest.raises(TrajectoryError, match=r"run\.nc"):
+            Trajectory.load(tmp_path / "run.nc")
     xarray.Dataset({"a": ("x", [1.0, 2.0])}).to_netcdf(tmp_path / "other.nc", engine="scipy")
     with pytest.raises(TrajectoryError, match="not a trajectory"):
         Trajectory.load(tmp_path / "other.nc")
-
-
-def test_a_missing_file_and_a_folder_are_refused(tmp_path):
     for path in (tmp_path / "none.nc", tmp_path):
         with pytest.raises(TrajectoryError, match="cannot be read"):
             Trajectory.load(path)
@@ -172,30 +162,22 @@ def test_a_full_disk_leaves_the_finished_runs_and_nothing_else(small_disk):
     assert_same(small, Trajectory.load(small_disk / "first.nc"))
 
 
+@pytest.mark.parametrize("fault", [OSError(errno.ENOSPC, "full"), KeyboardInterrupt()], ids=["full disk", "Ctrl-C"])
 @pytest.mark.parametrize("call", ["fsync", "replace"])
-def test_a_failure_at_any_stage_leaves_the_old_file(call, tmp_path, monkeypatch):
+def test_a_failure_at_any_stage_leaves_the_old_file(call, fault, tmp_path, monkeypatch):
     old = run_of(10)
     old.save(tmp_path / "run.nc")
 
-    def full(*_):
-        raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+    def failing(*_):
+        raise fault
 
-    monkeypatch.setattr(os, call, full)
-    with pytest.raises(OSError):
-        run_of(20).save(tmp_path / "run.nc")
+    monkeypatch.setattr(os, call, failing)
+    for name in ("run.nc", "new.nc"):
+        with pytest.raises(type(fault)):
+            run_of(20).save(tmp_path / name)
     monkeypatch.undo()
     assert [path.name for path in tmp_path.iterdir()] == ["run.nc"]
     assert_same(old, Trajectory.load(tmp_path / "run.nc"))
-
-
-def test_an_interrupt_leaves_nothing(tmp_path, monkeypatch):
-    def interrupt(*_):
-        raise KeyboardInterrupt
-
-    monkeypatch.setattr(os, "fsync", interrupt)
-    with pytest.raises(KeyboardInterrupt):
-        run_of(20).save(tmp_path / "run.nc")
-    assert not list(tmp_path.iterdir())
 
 
 def test_others_may_read_the_file_as_the_user_allows(tmp_path):

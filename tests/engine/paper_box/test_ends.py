@@ -3,17 +3,13 @@
 import numpy as np
 import pytest
 
-from engine import load_scene, simulate
+from engine import simulate
+from tests.engine.lines import held, line, linear
 
 pytestmark = pytest.mark.slow
 
-DRY = {"water": None, "waves": None, "buoy": None, "tether.bending_stiffness_Nm2": 24.0}
-SLANTED = {"end.kind": "held", "end.position_m": [12.0, 0.0, 15.0]}
-SOFT = {
-    "tether.tension": {"law": "linear", "stiffness_N": 500.0},
-    "end.kind": "held",
-    "end.position_m": [12.0, 0.0, 18.0],
-}
+AIR = {"water": None, "waves": None, "tether.bending_stiffness_Nm2": 24.0}
+SOFT = {"tether.tension": linear(500.0)}
 SHAKEN = {"law": "harmonic", "amplitude_m": [0.8, 0.0, -0.6], "period_s": 1.5, "phase_rad": 0.3, "ramp_s": 1.0}
 MOVED = {  # from rest: the slope of the first piece is zero
     "law": "table",
@@ -22,12 +18,12 @@ MOVED = {  # from rest: the slope of the first piece is zero
 }
 
 
-def run_of(scheme, nodes, step_s, duration_s=1.0, **overrides):
+def run_of(scheme, nodes, step_s, overrides, duration_s=1.0):
     solver = {"solver.scheme": scheme, "solver.step_s": step_s}
     if scheme == "conservation":
         solver = {"solver.rtol": 1e-5}
-    scene = load_scene("tethered_buoy", {**DRY, **solver, "tether.nodes": nodes, "output.profiles": True,
-                                         "output.step_s": 0.1, **overrides})  # fmt: skip
+    output = {"tether.nodes": nodes, "output.profiles": True, "output.step_s": 0.1}
+    scene = line(AIR, solver, output, overrides)
     found = simulate(scene, duration_s=duration_s)
     assert found.status == "ok", found.message
     return found
@@ -39,11 +35,12 @@ def shape(found):
 
 @pytest.mark.parametrize("motion", [SHAKEN, MOVED], ids=["shaken", "moved by a table"])
 def test_a_moved_end_shakes_the_line_as_in_the_conservation_form(motion):
-    limit = shape(run_of("conservation", 81, None, **SOFT, **{"end.motion": motion}))
+    moved = SOFT | held(12.0, 18.0, motion=motion)
+    limit = shape(run_of("conservation", 81, None, moved))
     assert np.ptp(limit[0][:, 40]) > 0.05  # its middle moves
     errors = []
     for nodes, step_s in ((6, 0.02), (11, 0.01), (21, 0.005)):
-        found = shape(run_of("paper-box", nodes, step_s, **SOFT, **{"end.motion": motion}))
+        found = shape(run_of("paper-box", nodes, step_s, moved))
         errors.append(np.abs(found - limit[:, :, :: 80 // (nodes - 1)]).max())
     assert errors[-1] < 0.015
     assert errors[0] / errors[2] > 8, errors  # 16 at order 2, on grids fine enough for the bends at the ends
@@ -51,10 +48,10 @@ def test_a_moved_end_shakes_the_line_as_in_the_conservation_form(motion):
 
 def test_a_released_end_falls_freely():
     """Let go under its own support force nothing happens; without force the line falls, free of moment."""
-    still = run_of("paper-box", 21, 0.005, 0.5, **SLANTED)
+    still = run_of("paper-box", 21, 0.005, held(12.0, 15.0), 0.5)
     T = still.columns["tension_top_N"][0]
     assert np.abs(still.columns["tension_top_N"] - T).max() < 1e-6 * T
-    dropped = run_of("paper-box", 21, 0.005, 0.5, **SLANTED, **{"end.release_s": 0.2})
+    dropped = run_of("paper-box", 21, 0.005, held(12.0, 15.0, release_s=0.2), 0.5)
     assert np.abs(dropped.columns["tension_top_N"][:3] - T).max() < 1e-6 * T
     assert np.abs(dropped.columns["z_m"][:3] - 15.0).max() < 1e-6
     assert dropped.columns["z_m"][-1] < 14.9
@@ -63,10 +60,9 @@ def test_a_released_end_falls_freely():
 def test_a_held_end_is_in_its_place_in_space():
     """Slack, in a current across the plane of the chord: the shape turns about the chord, the end stays."""
     place = [12.0, 9.0, 5.0]
-    found = run_of("paper-box", 21, 0.005, 0.2, **{
-        "motion.dimensions": 3, "water": {"depth_m": 30.0, "density_kgpm3": 1027.0}, "end.kind": "held",
-        "end.position_m": place, "current": {"law": "uniform", "velocity_mps": [-0.3, 0.5, 0.0]},
-    })  # fmt: skip
+    water = {"depth_m": 30.0, "density_kgpm3": 1027.0}
+    current = {"water": water, "current": {"law": "uniform", "velocity_mps": [-0.3, 0.5, 0.0]}, "motion.dimensions": 3}
+    found = run_of("paper-box", 21, 0.005, current | held(*place), 0.2)
     end = np.array([found.columns[name] for name in ("x_m", "y_m", "z_m")])
     assert np.abs(end - np.array(place)[:, None]).max() < 1e-8
     middle = found.columns["offplane_m"][0]
@@ -76,9 +72,8 @@ def test_a_held_end_is_in_its_place_in_space():
 def test_a_free_end_hangs_under_its_force_in_any_direction():
     """Weightless and stiff against stretching: the line lies along the force."""
     force = [30.0, -40.0, 20.0]
-    found = run_of("paper-box", 5, 0.01, 0.05, **{
-        "motion.dimensions": 3, "gravity_mps2": 0.0, "end.kind": "free", "end.force_N": force,
-    })  # fmt: skip
+    pulled = {"motion.dimensions": 3, "gravity_mps2": 0.0, "buoy": None, "end.kind": "free", "end.force_N": force}
+    found = run_of("paper-box", 5, 0.01, pulled, 0.05)
     end = np.array([found.columns[name][-1] for name in ("x_m", "y_m", "z_m")])
     size = np.linalg.norm(force)
     assert end == pytest.approx(20.0 * (1 + size / 5e4) * np.array(force) / size, rel=1e-9)

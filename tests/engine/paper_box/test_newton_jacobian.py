@@ -11,16 +11,18 @@ import pytest
 
 from engine.paper_box import box, ends
 from engine.paper_box.line import line_of
-from tests.engine.box_equations import tension
+from tests.engine.box_equations import buoy_of, tension
+from tests.engine.lines import free, held
 from tests.engine.paper_box.appendix import C_right
 from tests.engine.paper_box.states import LAWS, M_and_P, scene_of, states
 
 DT, STEP = 0.01, 1e-30
 ENDS = {
-    "buoy": {},
-    "held": {"end.kind": "held", "end.position_m": [3.0, 1.0, 18.0], "buoy": None},
-    "free": {"end.kind": "free", "end.force_N": [300.0, -200.0, 900.0], "buoy": None},
+    "buoy": ({}, {}),
+    "held": (held(3.0, 1.0, 18.0), held(3.0, 18.0)),
+    "free": ({"end": {"kind": "free", "force_N": [300.0, -200.0, 900.0]}, "buoy": None}, free(300.0, 900.0)),
 }
+UP = [1, 2, 0]  # of the paper's fixed axes, the first of which is up: x, y, z
 PLANE = [0, 1, 3, 4, 6, 9, 12]
 
 
@@ -29,15 +31,12 @@ def C_of(beta):
 
 
 def buoy_force(scene, Y, water):
-    """N + drag - wave load - net buoyancy at the last node; axis 1 up."""
-    buoy, rho = scene.buoy, scene.water.density_kgpm3
+    """Mass of the buoy, V, and N less the other forces on it, at the last node; axis 1 up."""
     C = C_of(Y[6:10])
     N, V = (C.T @ np.array(local) for local in ([tension(scene.tether.tension, np.asarray(Y[0])), Y[1], Y[2]], Y[3:6]))
-    volume = np.pi * buoy.diameter_m**3 / 6
-    slip = V - water[:3]
-    drag = 0.5 * rho * buoy.drag * np.pi * buoy.diameter_m**2 / 4 * np.sqrt(slip @ slip) * slip
-    net = (rho * volume - buoy.mass_kg) * scene.gravity_mps2
-    return N, V, N + drag - (rho * volume + buoy.added_mass_kg) * water[3:] - np.array([net, 0, 0])
+    mass, lift, drag, load = buoy_of(scene)
+    outside = (lift + drag((V - water[:3])[UP]) + load(water[3:][UP]))[np.argsort(UP)]
+    return mass, V, N - outside
 
 
 def printed_28(scene, h, Y, water, Y_old, water_old):
@@ -55,15 +54,14 @@ def printed_28(scene, h, Y, water, Y_old, water_old):
         rows.append(box_row)
     top = Y[:, -1]
     if scene.end.kind == "buoy":
-        _, V, now = buoy_force(scene, top, water[:, -1])
+        mass, V, now = buoy_force(scene, top, water[:, -1])
         _, V_old, before = buoy_force(scene, Y_old[:, -1], water_old[:, -1])
-        rows.append((scene.buoy.mass_kg + scene.buoy.added_mass_kg) * (V - V_old) / DT + 0.5 * (now + before))
+        rows.append(mass * (V - V_old) / DT + 0.5 * (now + before))
     elif scene.end.kind == "held":
         rows.append(C_of(top[6:10]).T @ top[3:6])
     else:
-        force = scene.end.force_N
         N = C_of(top[6:10]).T @ np.array([tension(scene.tether.tension, np.asarray(top[0])), top[1], top[2]])
-        rows.append(N - np.array([force[2], force[0], force[1]]))
+        rows.append(N - np.array(scene.end.force_N)[np.argsort(UP)])
     rows.append(top[10:13])
     return np.concatenate(rows)
 
@@ -78,12 +76,7 @@ def rows_of_plane(n):
 @pytest.mark.parametrize("end", ENDS)
 @pytest.mark.parametrize("law", LAWS)
 def test_update_solves_the_printed_equations(law, end, dimensions):
-    overrides = dict(ENDS[end])
-    if dimensions == 2:
-        for key in ("end.position_m", "end.force_N"):
-            if key in overrides:
-                overrides[key] = [overrides[key][0], 0.0, overrides[key][2]]
-    scene = scene_of(law, dimensions, **{"tether.grid_stretching": 1.0, **overrides})
+    scene = scene_of(law, dimensions, **{"tether.grid_stretching": 1.0, **ENDS[end][3 - dimensions]})
     line = line_of(scene)
     n = scene.tether.nodes
     (Y, water), (Y_old, water_old) = states(1, n), states(2, n)

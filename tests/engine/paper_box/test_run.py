@@ -54,16 +54,21 @@ def test_a_batch_may_mix_schemes():
     assert np.abs(boxed.columns["radius_m"] - conserved.columns["radius_m"]).max() < 1e-3
 
 
-@pytest.mark.parametrize(
-    "overrides, key",
-    [
-        ({"tether.bending_stiffness_Nm2": 0.0}, "tether.bending_stiffness_Nm2"),
-        ({"output.tangent_vectors": 1}, "output.tangent_vectors"),
-    ],
-)
-def test_scenes_that_it_cannot_do(overrides, key):
+@pytest.mark.parametrize("key, value", [("tether.bending_stiffness_Nm2", 0.0), ("output.tangent_vectors", 1)])
+def test_scenes_that_it_cannot_do(key, value):
     with pytest.raises(SceneError, match=key):
-        scene_of(**overrides)
+        scene_of(**{key: value})
+
+
+def test_nothing_twists_a_line_with_torque_free_ends():
+    """Omega_1 = 0 in space: with the torsion of a rigid rod the motion is the same."""
+    aside = {"motion.dimensions": 3, "start.buoy_velocity_mps": [0.4, 0.3, -0.1], "solver.newton_tolerance": 1e-10}
+    soft, stiff = (
+        simulate(scene_of(**aside, **{"tether.torsion_stiffness_Nm2": GIp}), duration_s=2.5) for GIp in (0.0, 40.0)
+    )
+    assert soft.status == stiff.status == "ok" and np.ptp(soft.columns["y_m"]) > 0.1
+    for name in ("x_m", "y_m", "z_m", "tension_top_N"):
+        assert np.abs(soft.columns[name] - stiff.columns[name]).max() < 1e-8 * np.abs(soft.columns[name]).max()
 
 
 @pytest.mark.parametrize("azimuth", [0.0, 2.0])

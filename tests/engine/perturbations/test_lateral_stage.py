@@ -14,7 +14,7 @@ from tests.engine.box_equations import across, lifted, response
 from tests.engine.kernels import Stage
 from tests.engine.lines import DRY, free, held
 
-NODES, RATE = 9, 120.0
+NODES, RATE = 7, 120.0
 ENDS = {"buoy": {}, "held": held(3.0, 18.0), "free": free(300.0, 900.0)}
 LAWS = {
     "linear": {"law": "linear", "stiffness_N": 5e4},
@@ -59,23 +59,21 @@ def space_response(scene, Y, C_tilde, F, dC_tilde, GI=0.04):
 
 
 @pytest.mark.parametrize("turns", [0.5, 2.9])
-@pytest.mark.parametrize("law", LAWS)
-@pytest.mark.parametrize("wet", [True, False], ids=["wet", "dry"])
+@pytest.mark.parametrize("wet, law", [(True, "tanh"), (False, "linear")])
 @pytest.mark.parametrize("end", ENDS)
 def test_it_solves_the_linearised_equations_in_space(end, wet, law, turns):
     rng = np.random.default_rng(11)
     scene = scene_of(end, wet, tension=LAWS[law])
-    for _ in range(2):
-        state, dC_tilde = state_of(rng, wet, turns), rng.normal(size=(NODES, 2))
-        exact = space_response(scene, *state, dC_tilde)
-        found = kernel_response(scene, *state, dC_tilde)
-        assert np.abs(exact[:, [0, 2, 3, 5]]).max() < 1e-9 * np.abs(exact).max(), "nothing moves in the plane"
-        for column in (0, 1):
-            expected = exact[:, 1 + 3 * column]
-            assert np.abs(found[:, column] - expected).max() < 1e-8 * np.abs(expected).max()
+    state, dC_tilde = state_of(rng, wet, turns), rng.normal(size=(NODES, 2))
+    exact = space_response(scene, *state, dC_tilde)
+    found = kernel_response(scene, *state, dC_tilde)
+    assert np.abs(exact[:, [0, 2, 3, 5]]).max() < 1e-9 * np.abs(exact).max(), "nothing moves in the plane"
+    for column in (0, 1):
+        expected = exact[:, 1 + 3 * column]
+        assert np.abs(found[:, column] - expected).max() < 1e-8 * np.abs(expected).max()
 
 
-@pytest.mark.parametrize("GI", [0.0004, 24.0, 400.0])
+@pytest.mark.parametrize("GI", [0.0004, 400.0])
 def test_torsional_stiffness_has_no_part_in_it(GI):
     rng = np.random.default_rng(12)
     scene = scene_of("buoy", True)

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from tests.engine.lines import DRY, STILL, free, held, line
-from tests.engine.perturbations.tangents import Run
+from tests.engine.perturbations.tangents import Carried, Run
 
 
 def current(w):
@@ -39,16 +39,15 @@ def growths(scene, duration_s):
     start = run.direction(3)
     start[:, [1, 3]] = 0.0
     start /= run.norm(start)
-    planar = run.carried(start[None])
+    planar = Carried(run, start[None])
     across, rates = np.ascontiguousarray(start[:, [0, 2]]), np.zeros((len(start), 2))
     weights = np.tile([1.0, run.weight], (len(start), 1))
     found = []
     for count in run.chunks():
         for i in range(count):
             before = planar.growth[0]
-            planar.follow(i, 1)
-            growth = run.carry_lateral(i, 1, weights, across, rates)
-            found.append((growth, planar.growth[0] - before))
+            planar.follow(i)
+            found.append((run.carry_lateral(i, 1, weights, across, rates), planar.growth[0] - before))
     return np.array(found), across, planar.vectors[0]
 
 

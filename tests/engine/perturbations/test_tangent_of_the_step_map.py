@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 from tests.engine.lines import DRY, STILL, free, held, line
-from tests.engine.perturbations.tangents import Copy, Run, start_of
+from tests.engine.perturbations.tangents import Carried, Run
 from tests.engine.physics.caps import CAP
 
 APART = 3e-7
@@ -20,37 +20,23 @@ TOLERANCE = 1e-4
 TAUT = {"waves.steepness": 0.016}
 STEEP = {"waves.steepness": 0.13, "water.depth_m": 22.5}
 TANH = {"tether.tension": {"law": "tanh", "p": [2.0e4, 5.0, 0.3, -2.0e4 * np.tanh(0.3), 1.0e4]}}
-TABLE = {
-    "tether.tension": {
-        "law": "tabulated",
-        "strain": [-0.2, 0.0, 0.1, 0.3],
-        "tension_N": [-500.0, 0.0, 3e3, 2e4],
-    }
-}
-HEIGHTS = np.linspace(0.0, 30.0, 16)
-PROFILE = {
-    "current": {
-        "law": "profile",
-        "height_m": HEIGHTS.tolist(),
-        "velocity_mps": [[0.02 * z, 0.0, 0.01 * z - 0.1] for z in HEIGHTS],
-    }
-}
+TABLE = {"tether.tension": {"law": "tabulated", "strain": [-0.2, 0.0, 0.1, 0.3], "tension_N": [-500.0, 0.0, 3e3, 2e4]}}
+HEIGHTS = np.linspace(0.0, 30.0, 16).tolist()
+PROFILE = {"law": "profile", "height_m": HEIGHTS, "velocity_mps": [[0.02 * z, 0.0, 0.01 * z - 0.1] for z in HEIGHTS]}
 VARIABLE = {
-    "current": {
-        "law": "table",
-        "x_m": [-30.0, 30.0],
-        "height_m": [0.0, 40.0],
-        "time_s": [0.0, 30.0],
-        "velocity_x_mps": [[[0.1, 0.3], [0.6, 1.0]], [[0.3, 0.1], [0.9, 0.7]]],
-        "velocity_z_mps": [[[0.0, 0.1], [0.2, 0.0]], [[0.1, 0.0], [0.0, 0.2]]],
-    }
+    "law": "table",
+    "x_m": [-30.0, 30.0],
+    "height_m": [0.0, 40.0],
+    "time_s": [0.0, 30.0],
+    "velocity_x_mps": [[[0.1, 0.3], [0.6, 1.0]], [[0.3, 0.1], [0.9, 0.7]]],
+    "velocity_z_mps": [[[0.0, 0.1], [0.2, 0.0]], [[0.1, 0.0], [0.0, 0.2]]],
 }
 RUNS = {  # overrides, duration in s
     "taut": (TAUT, 15.0),
     "steep, slack and snap": (STEEP, 25.0),
-    "profile": (STEEP | PROFILE, 20.0),
-    "variable current": (STEEP | VARIABLE, 20.0),
-    "no waves": (STILL | PROFILE | {"start.buoy_velocity_mps": [2.0, 0.0, 0.0]}, 10.0),
+    "profile": (STEEP | {"current": PROFILE}, 20.0),
+    "variable current": (STEEP | {"current": VARIABLE}, 20.0),
+    "no waves": (STILL | {"current": PROFILE} | {"start.buoy_velocity_mps": [2.0, 0.0, 0.0]}, 10.0),
     "dry swing": (DRY | {"start.buoy_velocity_mps": [2.0, 0.0, 1.0]}, 20.0),
     "held": (TAUT | held(8.0, 17.0), 10.0),
     "free": (TAUT | free(100.0, 900.0), 1.0),
@@ -74,15 +60,13 @@ RUNS = {  # overrides, duration in s
 
 def faults(run, vectors):
     """Yield (t, fault, fault of the rates, release) after each step: carried perturbation against the two copies."""
-    Y, K = start_of(run)
-    copies = [Copy(run, Y, K, sign * APART * vectors, 0.0 * vectors) for sign in (1, -1)]
-    carried = run.carried(vectors[None])
+    copies, carried = run.copies(APART, vectors), Carried(run, vectors[None])
     for count in run.chunks():
         for i in range(count):
             t, dt, one_stage = run.T[i]
             released = [copy.step(t, dt, one_stage > 0) for copy in copies]
             assert released[0] == released[1]
-            carried.follow(i, 1)
+            carried.follow(i)
             factor = np.exp(carried.growth[0])
             dC, dK = ((getattr(copies[0], name) - getattr(copies[1], name)) / (2 * APART) for name in "CK")
             fault = run.norm(dC - factor * carried.vectors[0]) / run.norm(dC)
@@ -117,17 +101,15 @@ def test_through_a_loop_release():
 def test_areas_grow_by_the_sum_of_two():
     """Gram-Schmidt keeps the area that two perturbations span; the sum of their growths is its logarithm."""
     run = Run(line(STEEP, nodes=21), 15.0)
-    Y, K = start_of(run)
     scale = np.array([1.0, 1.0, *[float(run.record["per_speed"])] * 2])
     pair = np.linalg.qr(np.array([(run.direction(seed) * scale).ravel() for seed in (5, 6)]).T)[0].T
     pair = pair.reshape(2, -1, 4) / scale
-    copies = [[Copy(run, Y, K, sign * APART * dC, 0.0 * dC) for sign in (1, -1)] for dC in pair]
-    carried = run.carried(pair)
+    copies, carried = [run.copies(APART, dC) for dC in pair], Carried(run, pair)
     for count in run.chunks():
         for i in range(count):
             for copy in copies[0] + copies[1]:
                 copy.step(run.T[i, 0], run.T[i, 1], run.T[i, 2] > 0)
-            carried.follow(i, 1)
+            carried.follow(i)
             moved = np.array([((up.C - down.C) * scale).ravel() / (2 * APART) for up, down in copies])
             area = 0.5 * np.linalg.slogdet(moved @ moved.T)[1]
             turned = moved[0] @ moved[1] / np.linalg.norm(moved[0]) / np.linalg.norm(moved[1])

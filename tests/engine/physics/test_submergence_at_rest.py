@@ -5,8 +5,8 @@ On a taut line T belongs to the line's own length; on a slack one of no weight i
 
 import pytest
 
-from engine import load_scene
-from tests.engine.lines import Motion
+from engine.scales import tension_at
+from tests.engine.lines import STILL, equilibrium, line, positions
 from tests.engine.physics.caps import CAP, floating_depth, volume
 
 DIMENSIONS = [2, 3]
@@ -14,17 +14,14 @@ DIMENSIONS = [2, 3]
 
 def rest(changes):
     """Place (x, z) of the buoy, tension at the top, and the scene; fails where no rest is found."""
-    scene = load_scene("tethered_buoy", CAP | {"waves": None} | changes)
-    motion = Motion(scene)
-    assert motion.status == 0
-    row = motion.inner
-    row.advance(1)
-    sample = row.samples[0]
-    return sample[1], sample[3], sample[7], scene
+    scene = line(CAP, STILL, changes)
+    motion = equilibrium(scene)
+    place = positions(motion.Y, motion.h)[-1]
+    return place[0], place[-1], tension_at(motion.Y[-1, 0], scene.tether.tension), scene
 
 
 @pytest.mark.parametrize("dimensions", DIMENSIONS)
-@pytest.mark.parametrize("depth_m", [21.5, 21.2, 20.8, 20.5])
+@pytest.mark.parametrize("depth_m", [21.5, 20.5])
 def test_taut(dimensions, depth_m):
     x, z, T, scene = rest({"water.depth_m": depth_m, "motion.dimensions": dimensions})
     D, g = scene.buoy.diameter_m, scene.gravity_mps2
@@ -38,7 +35,7 @@ def test_taut(dimensions, depth_m):
 
 
 @pytest.mark.parametrize("dimensions", DIMENSIONS)
-@pytest.mark.parametrize("depth_m", [20.4, 20.36, 20.33, 20.3, 20.1, 20.0, 18.0, 12.0])
+@pytest.mark.parametrize("depth_m", [20.4, 20.33, 20.1, 20.0, 12.0])
 def test_slack(dimensions, depth_m):
     """A line as heavy as the water weighs nothing; its bending holds it in a bow, with hundredths of a newton."""
     neutral = {"tether.density_kgpm3": 1027.0}
@@ -62,8 +59,8 @@ def test_a_heavy_slack_line_hangs_on_the_buoy(depth_m):
 def test_a_stiff_slack_line_does_not_stand_up_under_the_buoy(dimensions, EI):
     """Upright it could bear the sphere's weight without buckling, but would tip over about its pinned end."""
     small = {"buoy.diameter_m": 0.2, "buoy.mass_kg": 1.6, "buoy.added_mass_kg": 2.0, "water.depth_m": 1.0}
-    line = {"tether.length_m": 1.1, "tether.bending_stiffness_Nm2": EI, "motion.dimensions": dimensions}
-    x, z, T, scene = rest(small | line)
+    short = {"tether.length_m": 1.1, "tether.bending_stiffness_Nm2": EI, "motion.dimensions": dimensions}
+    x, z, T, scene = rest(small | short)
     weight = (1140.0 - 1027.0) * scene.tether.area_m2 * 9.81 * 1.1
     assert x**2 + z**2 == pytest.approx(1.1**2, rel=1e-2)  # nearly straight
     assert 0.4 * weight < T < 1.1 * weight

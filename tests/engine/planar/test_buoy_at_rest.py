@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from engine import simulate
-from tests.engine.lines import STILL, equilibrium, free, line, linear, positions
+from tests.engine.lines import DRY, STILL, equilibrium, free, held, line, linear, positions
 
 LENGTH, EA, AREA, G = 20.0, 5e4, 7.85e-5, 9.81
 
@@ -56,18 +56,23 @@ def test_the_buoy_stays_at_rest():
 @pytest.mark.parametrize("density", [1140.0, 7800.0])
 def test_a_line_hanging_from_its_anchor_stretches_under_its_own_weight(density, load):
     """Free end below the anchor, dry: L + (w L^2/2 + load L)/EA down; exact for the box as above."""
-    scene = line(
-        {"water": None, "waves": None}, free(0, -load), tension=linear(5e3), density_kgpm3=density, area_m2=1e-4
-    )
-    motion = equilibrium(scene)
+    motion = equilibrium(line(DRY, free(0, -load), tension=linear(5e3), density_kgpm3=density, area_m2=1e-4))
     w = density * 1e-4 * G
     expected = LENGTH + (w * LENGTH**2 / 2 + load * LENGTH) / 5e3
     assert positions(motion.Y, motion.h)[-1] == pytest.approx([0, -expected], abs=1e-8)
     assert 5e3 * motion.Y[:, 0] == pytest.approx(load + w * (LENGTH - motion.s), abs=1e-6)
 
 
+@pytest.mark.parametrize("water, density", [(DRY, 5000.0), (STILL, 5000.0), (STILL, 500.0)])
+def test_an_upright_held_line_is_a_bar_under_its_own_weight(water, density):
+    """eps = eps_mean + w (s - L/2)/EA: the box is exact for it. Rounding."""
+    w = (density - (1027.0 if water is STILL else 0.0)) * 1e-4 * G
+    motion = equilibrium(line(water, held(0, 20.5), area_m2=1e-4, density_kgpm3=density, tension=linear(1e4)))
+    assert motion.Y[:, 0] == pytest.approx(20.5 / LENGTH - 1 + w * (motion.s - LENGTH / 2) / 1e4, abs=1e-9)
+    assert np.cos(motion.Y[:, 4] - np.pi / 2) == pytest.approx(1.0, abs=1e-14)
+
+
 def test_a_weightless_line_points_along_the_force_on_its_free_end():
     """N(s) = F + w (s - L) with w = 0: straight, strained by |F|/EA."""
-    scene = line({"water": None, "waves": None, "gravity_mps2": 0.0}, free(30.0, -40.0), tension=linear(5e3))
-    motion = equilibrium(scene)
+    motion = equilibrium(line(DRY, {"gravity_mps2": 0.0}, free(30.0, -40.0), tension=linear(5e3)))
     assert positions(motion.Y, motion.h)[-1] == pytest.approx(LENGTH * 1.01 * np.array([0.6, -0.8]), abs=1e-8)

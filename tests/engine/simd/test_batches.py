@@ -180,7 +180,7 @@ def test_progress_rises_to_one_and_does_not_change_the_result():
         runs = simulate_batch(scenes, periods=65, progress=seen.append)
         assert len(seen) >= 3
         assert all(0 < a <= b <= 1 for a, b in pairwise(seen)) and seen[0] < seen[-1] == 1.0
-        assert_equal(runs[0], simulate(scenes[0], periods=65))
+    assert_equal(runs[0], simulate(scenes[0], periods=65))
 
 
 def test_an_exception_from_progress_comes_through():

@@ -42,11 +42,6 @@ def test_small_arguments_keep_their_relative_accuracy():
     assert np.max(np.abs(c - np.cos(x.astype(np.longdouble)))) <= 2 * EPS
 
 
-def test_sine_is_odd_and_cosine_even():
-    x = np.random.default_rng(3).uniform(0, 100, 5000)
-    assert np.array_equal(values(sincos, -x), values(sincos, x) * [[-1], [1]])
-
-
 def test_short_polynomials_for_neighbouring_nodes():
     x = np.linspace(-0.25, 0.25, 4001)
     for function, exact in ((small_exponentials, (np.exp(x), np.exp(-x))), (small_sincos, (np.sin(x), np.cos(x)))):

@@ -10,8 +10,7 @@ the length.
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.integrate import solve_bvp, solve_ivp
-from scipy.optimize import fsolve
+from scipy.integrate import solve_bvp
 
 from tests.engine.lines import axes_of, forces, mean, positions
 from tests.engine.rotations import carried
@@ -67,41 +66,12 @@ def kirchhoff(rod, Y, h, tol=1e-9):
     return found, found.p, end[9:12] @ end[3:6] / rod.GI
 
 
-def symmetric(rod, guess):
-    """Rest of a rod between clamps on one axis (x), symmetric about the line through its middle along y.
-
-    On one axis the shape is free to turn about it, which leaves `kirchhoff` singular; a turn by pi about y that takes
-    the rod into itself leaves y, the angle of t from x, and N and M in the plane of x and z for unknowns in the middle,
-    and conditions at one end. guess: these six numbers. Returns (the six numbers, torque M.t).
-    """
-
-    def end_of(z):
-        y0, angle, *loads = z
-        N = np.array([loads[0], 0.0, loads[1]])
-        start = np.array([0, y0, 0, np.cos(angle), 0, np.sin(angle), 0, 1, 0, loads[2], 0, loads[3]])
-        run = solve_ivp(
-            lambda s, y: rates(rod, y[:, None], N)[:, 0], (0, rod.length / 2), start, method="DOP853",
-            rtol=1e-11, atol=1e-12,
-        )  # fmt: skip
-        return run.y[:, -1]
-
-    def miss(z):
-        x, t, n, M = end_of(z).reshape(4, 3)
-        half = 0.5 * (rod.twist - M @ t / rod.GI * rod.length)
-        return [x[0] - rod.place[0] / 2, x[1], x[2], t[1], t[2], np.sin(np.arctan2(n[2], n[1]) - half)]
-
-    z, info, _, message = fsolve(miss, guess, full_output=True, xtol=1e-12)
-    assert np.abs(info["fvec"]).max() < 1e-10, message
-    _, t, _, M = end_of(z).reshape(4, 3)
-    return z, M @ t
-
-
 @dataclass(frozen=True)
 class Localised:
     """The buckle of an infinitely long rod under tension T and torque M (Coyne 1990; van der Heijden & Thompson 2000).
 
     With m = M/(2 sqrt(EI T)), k = sqrt(T/EI), a = sqrt(1 - m^2), theta and psi the polar angles of t about the axis,
-    1 - cos theta = 2 a^2 sech^2(k a s),  psi = m k s + arctan((a/m) tanh(k a s)); `test_torsion_localised` checks them.
+    1 - cos theta = 2 a^2 sech^2(k a s),  psi = m k s + arctan((a/m) tanh(k a s)).
     """
 
     EI: float
@@ -137,13 +107,6 @@ class Localised:
         """The clamped rod of this length along x whose ends are placed as this solution has them."""
         reach = (length - self.shortening) * (1 + self.T / EA)
         return Rod(self.EI, self.GI, EA, length, (reach, 0.0, 0.0), self.rotation(length))
-
-    def middle(self):
-        """Deflection, angle of t, N and M (x, z) in the middle: the guess for `symmetric`."""
-        theta, _, rate = self.angles(np.zeros(1))
-        theta, bend = theta[0], self.EI * rate[0] * np.sin(theta[0])
-        M = self.torque * np.array([np.cos(theta), np.sin(theta)]) + bend * np.array([np.sin(theta), -np.cos(theta)])
-        return [self.deflection, theta, self.T, 0.0, *M]
 
     def state(self, rod, s):
         """State (n, 13) along a rod: M = M e + r x F, with r.M the moment about the axis, and n without roll."""

@@ -21,6 +21,10 @@ SCENES = {
     ),
     "without bending": ({**CALM, "tether.bending_stiffness_Nm2": 0.0}, 50.0),
     "held and shaken": ({**CALM, **held(8.0, 17.0), "end.motion": SHAKEN}, 15.0),
+    "the paper's scheme": (
+        {**CALM, "current": {"law": "uniform", "velocity_mps": [0.5, 0.0, 0.1]}, "tether.nodes": 9,
+         "solver.scheme": "paper-box", "solver.step_s": 0.0125, "solver.newton_tolerance": 1e-10}, 2.5,
+    ),
     "let go in air": ({**DRY, **held(10.0, -15.0), "end.release_s": 0.5, "tether.bending_stiffness_Nm2": 4.0}, 2.0),
 }  # fmt: skip
 
@@ -38,7 +42,7 @@ def distances(plane, space):
     return np.hypot(one.x_m - other.x_m, one.z_m - other.z_m)
 
 
-@pytest.mark.parametrize("name", SCENES)
+@pytest.mark.parametrize("name", [pytest.param(n, marks=[pytest.mark.slow] * (n[-6:] == "scheme")) for n in SCENES])
 def test_a_regular_motion_is_the_same(name):
     parts, duration_s = SCENES[name]
     plane, space = both(parts, duration_s=duration_s)

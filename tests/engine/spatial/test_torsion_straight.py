@@ -15,7 +15,7 @@ import numpy as np
 import pytest
 from scipy.optimize import brentq
 
-from tests.engine.lines import Motion, axes_of, equilibrium, positions
+from tests.engine.lines import Motion, axes_of, positions
 from tests.engine.spatial.rods import Rod, at_rest
 
 EI, GI, EA, LENGTH = 0.4, 0.3, 1e5, 5.0
@@ -104,14 +104,3 @@ def test_past_it_a_straight_rod_leaves_its_line():
         )
         moved = np.abs(Motion(scene, 60.0).run().table()[["tension_min_N"]].to_numpy() / tension - 1).max()
         assert (moved > 1e-3) == buckled
-
-
-def test_mirror():
-    """Twist of the other hand in the mirrored rod gives the mirrored shape and the opposite torque."""
-    right = Rod(EI, GI, EA, LENGTH, (3.0, 1.0, 2.0), 4.0, (1.0, 0.0, 0.0), (0.0, 0.6, 0.8))
-    left = Rod(EI, GI, EA, LENGTH, (3.0, -1.0, 2.0), -4.0, (1.0, 0.0, 0.0), (0.0, -0.6, 0.8))
-    Y, h = at_rest(right, 81)
-    Z, _ = at_rest(left, 81)
-    assert Z[0, 10] == pytest.approx(-Y[0, 10], rel=1e-8)
-    assert positions(Z, h) * [1, -1, 1] == pytest.approx(positions(Y, h), abs=1e-8)
-    assert equilibrium(left.scene(81)).Y[:, 10] == pytest.approx(Z[:, 10], rel=1e-12)

@@ -59,12 +59,9 @@ def stability(A, b, z):
     return 1 + z * (b @ np.linalg.solve(np.eye(len(A)) - z * A, np.ones(len(A))))
 
 
-def test_there_are_as_many_trees_as_cayley_counted():
-    assert [len(trees(n)) for n in range(1, 6)] == [1, 1, 2, 4, 9]
-
-
 @pytest.mark.parametrize("name, main, embedded", [("esdirk43", 4, 3), ("trbdf2", 2, 3)])
 def test_runge_kutta_pairs_have_their_stated_orders(name, main, embedded):
+    assert [len(trees(n)) for n in range(1, 6)] == [1, 1, 2, 4, 9]  # as many as Cayley counted
     method = PAIRS[name]
     assert order(method.A, method.A[-1]) == main == method.ORDER
     assert order(method.A, method.B_EMBEDDED) == embedded == method.EMBEDDED_ORDER
@@ -93,20 +90,15 @@ def test_runge_kutta_pairs_are_l_stable(name):
     assert max(abs(stability(A, b, 1j * w)) for w in y) <= 1 + 1e-12
 
 
-@pytest.mark.parametrize("rho", [0.0, 0.3, 0.5, 0.8, 1.0])
-def test_generalized_alpha_is_second_order_a_stable_and_has_its_spectral_radius(rho):
-    radius_at_infinity, worst, slope = amplification_of(generalized_alpha.alphas(rho))
+FAMILY = [(generalized_alpha, rho, rho, 2) for rho in (0.0, 0.3, 0.5, 0.8, 1.0)]
+
+
+@pytest.mark.parametrize("method, given, rho, order", [*FAMILY, (midpoint, 0.5, 1.0, 2), (backward_euler, 0.5, 0.0, 1)])
+def test_one_stage_methods_are_a_stable_and_have_order_and_spectral_radius(method, given, rho, order):
+    radius_at_infinity, worst, slope = amplification_of(method.alphas(given))
     assert abs(radius_at_infinity - rho) < 1e-7  # a double eigenvalue: the square root of rounding
     assert worst <= 1 + 1e-9
-    assert abs(slope - 3) < 0.05  # local error of order dt^3
-
-
-def test_midpoint_and_backward_euler_are_members_of_the_family():
-    radius, worst, slope = amplification_of(midpoint.alphas(0.5))
-    assert abs(radius - 1) < 1e-7 and worst <= 1 + 1e-9 and abs(slope - 3) < 0.05
-    radius, worst, slope = amplification_of(backward_euler.alphas(0.5))
-    assert radius < 1e-7 and worst <= 1 + 1e-9 and abs(slope - 2) < 0.05
-    assert midpoint.ORDER == generalized_alpha.ORDER == 2 and backward_euler.ORDER == 1
+    assert abs(slope - 1 - order) < 0.05 and method.ORDER == order  # local error of order dt^(order + 1)
 
 
 def amplification(z, alpha_m, alpha_f, gamma):

@@ -14,37 +14,19 @@ import numpy as np
 import pytest
 
 from engine import load_scene, simulate
+from tests.engine.lines import STILL, held
 
 SHEAR = {"law": "profile", "height_m": [0.0, 30.0], "velocity_mps": [[0.2, 0.0, 0.0], [1.5, 0.0, 0.0]]}
 SMALL_WAVES = {"waves.steepness": 0.016, "water.depth_m": 22.5, "waves.ramp_s": 5.0}
+CURRENT = {"waves": None, "current": SHEAR}
+UNBENT, STIFF = {"tether.bending_stiffness_Nm2": 0.0}, {"tether.bending_stiffness_Nm2": 5e3}
+SLACK = STILL | held(14.0, 6.0) | {"tether.bending_stiffness_Nm2": 24.0}
 SCENES = {  # overrides, run length (s), largest difference of positions between the two coarsest grids (m)
-    "static line in a sheared current": (
-        {"waves": None, "current": SHEAR, "tether.bending_stiffness_Nm2": 0.0},
-        0.0,
-        1e-3,
-    ),
-    "the same, stiff in bending": (
-        {"waves": None, "current": SHEAR, "tether.bending_stiffness_Nm2": 5e3},
-        0.0,
-        1e-3,
-    ),
-    "slack line between two points": (
-        {
-            "waves": None,
-            "buoy": None,
-            "end.kind": "held",
-            "end.position_m": [14.0, 0.0, 6.0],
-            "tether.bending_stiffness_Nm2": 24.0,
-        },
-        0.0,
-        0.1,
-    ),
+    "static line in a sheared current": ({**CURRENT, **UNBENT}, 0.0, 1e-3),
+    "the same, stiff in bending": ({**CURRENT, **STIFF}, 0.0, 1e-3),
+    "slack line between two points": (SLACK, 0.0, 0.1),
     "small waves": (SMALL_WAVES, 10.0, 1e-3),
-    "small waves in a sheared current, without bending": (
-        {**SMALL_WAVES, "current": SHEAR, "tether.bending_stiffness_Nm2": 0.0},
-        10.0,
-        1e-3,
-    ),
+    "small waves in a sheared current, without bending": ({**SMALL_WAVES, "current": SHEAR, **UNBENT}, 10.0, 1e-3),
 }
 
 
@@ -82,5 +64,5 @@ def test_second_order_in_space(name, stretching):
         top.append(np.abs(fine_top - coarse_top))
     assert along[0][0] < cap_m
     assert np.all(np.abs(np.log2(np.divide(along[:-1], along[1:])) - 2) < 0.1), along
-    if overrides.get("end.kind") != "held":  # r and theta of a held end are given
+    if overrides is not SLACK:  # r and theta of a held end are given
         assert np.all(np.abs(np.log2(np.divide(top[:-1], top[1:])) - 2) < 0.1), top

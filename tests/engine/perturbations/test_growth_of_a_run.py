@@ -1,0 +1,187 @@
+"""What a run says of its perturbations, in its plane and across it: growth only where asked, a row for each complete
+period, kept on disk, without a trace on the motion; and the signs and rates that are known for the paper's motions.
+"""
+
+import math
+
+import numpy as np
+import pytest
+
+from analysis import transverse_lyapunov
+from engine import SceneError, Trajectory, simulate, simulate_batch
+from tests.engine.lines import line
+from tests.engine.simd.equal import assert_equal
+
+STEEP = {"waves.steepness": 0.13, "water.depth_m": 21.6, "tether.nodes": 21}
+SMALL, LARGE = {"waves.steepness": 0.016}, {"waves.steepness": 0.13}
+ASKED = {
+    "in the plane": {"output.tangent_vectors": 2},
+    "across": {"output.lateral_growth": True},
+    "both": {"output.tangent_vectors": 2, "output.lateral_growth": True},
+}
+PARTS = ("growth_nats", "released", "lateral_nats")
+
+
+def run_of(*parts, periods):
+    return simulate(line(*parts), periods=periods)
+
+
+@pytest.mark.parametrize("asked", ASKED)
+def test_only_where_it_is_asked_and_without_a_trace(asked):
+    """Neither the motion nor the other growth differ by a bit; a longer run begins alike; so it is in a batch."""
+    plain, run, longer = (
+        run_of(STEEP, keys, periods=p) for keys, p in (({}, 6.5), (ASKED[asked], 6.5), (ASKED[asked], 9))
+    )
+    assert plain.tangent is None
+    for name, column in plain.columns.items():
+        np.testing.assert_array_equal(column, run.columns[name])
+    vectors, across = ASKED[asked].get("output.tangent_vectors", 0), asked != "in the plane"
+    assert run.tangent.period_s == 5.0
+    assert run.tangent.growth_nats.shape == (6, vectors) and run.tangent.released.shape == (6,)
+    assert np.isfinite(run.tangent.growth_nats).all()
+    assert (run.tangent.lateral_nats is not None) == across
+    both = run_of(STEEP, ASKED["both"], periods=6.5).tangent
+    other = {"tether.nodes": 11, "waves.period_s": 6.0, "output.tangent_vectors": 1}
+    company = simulate_batch([line(STEEP, other), line(STEEP, ASKED[asked])], duration_s=32.5)
+    assert_equal(company[1], run)
+    assert company[0].tangent.growth_nats.shape == (5, 1) and company[0].tangent.period_s == 6.0
+    np.testing.assert_array_equal(longer.tangent.growth_nats[:6], run.tangent.growth_nats)
+    if vectors:
+        np.testing.assert_array_equal(both.growth_nats, run.tangent.growth_nats)
+    if across:
+        np.testing.assert_array_equal(longer.tangent.lateral_nats[:6], run.tangent.lateral_nats)
+        np.testing.assert_array_equal(both.lateral_nats, run.tangent.lateral_nats)
+
+
+@pytest.mark.parametrize("asked", ASKED)
+def test_releases_are_told_in_their_period(asked):
+    """The shipped scene in 21.6 m releases its first loop between 53 and 54 s, in the eleventh period."""
+    run = run_of({"water.depth_m": 21.6}, ASKED[asked], periods=12)
+    assert run.statistics["loop_releases"] >= 1
+    assert run.tangent.released[10] == 1.0
+    assert not run.tangent.released[:10].any(), "the small steps of the sudden start are no release"
+    stopped = run_of({"water.depth_m": 21.6, "solver.loop_release": False}, ASKED[asked], periods=12)
+    assert stopped.status == "turn-unresolved"
+    assert len(stopped.tangent.growth_nats) == int(stopped.statistics["end_time_s"] // 5.0) == 10
+
+
+@pytest.mark.parametrize("asked", ASKED)
+@pytest.mark.parametrize("periods", [6.5, 0.5])
+def test_saved_and_loaded(periods, asked, tmp_path):
+    """Also without a complete period, and with one of many digits."""
+    run = run_of(STEEP, ASKED[asked], {"waves.period_s": 5.0 + 1e-13 * math.pi}, periods=periods)
+    run.save(tmp_path / "run.nc")
+    again = Trajectory.load(tmp_path / "run.nc")
+    assert again.scene == run.scene and again.tangent.period_s == run.tangent.period_s == 5.0 + 1e-13 * math.pi
+    for name in PARTS:
+        np.testing.assert_array_equal(getattr(again.tangent, name), getattr(run.tangent, name))
+    again.save(tmp_path / "again.nc")
+    assert (tmp_path / "again.nc").read_bytes() == (tmp_path / "run.nc").read_bytes()
+
+
+def test_xarray_opens_the_growth(tmp_path):
+    import xarray
+
+    run = run_of(STEEP, ASKED["both"], periods=2)
+    run.save(tmp_path / "run.nc")
+    with xarray.open_dataset(tmp_path / "run.nc", engine="scipy") as data:
+        assert data["growth_nats"].dims == ("period", "vector")
+        np.testing.assert_array_equal(data["growth_nats"].values, run.tangent.growth_nats)
+        assert data["growth_nats"].attrs["long_name"]
+
+
+@pytest.mark.parametrize(
+    "key, overrides, words",
+    [
+        *((key, overrides, words)
+          for key in ("output.tangent_vectors", "output.lateral_growth")
+          for overrides, words in (
+              ({"tether.bending_stiffness_Nm2": 0.0}, "bending"),
+              ({"solver.integrator": "midpoint"}, "'midpoint'"),
+              ({"solver.integrator": "generalized-alpha"}, "'generalized-alpha'"),
+          )),
+        ("output.tangent_vectors", {"output.tangent_vectors": 85}, "84"),
+        ("output.tangent_vectors", {"output.tangent_vectors": -1}, "-1"),
+        ("output.tangent_vectors", {"output.tangent_vectors": 1.5}, "1.5"),
+        ("output.tangent_vectors", {"output.tangent_vectors": True}, "true"),
+        ("output.lateral_growth", {"output.lateral_growth": 1}, "1"),
+        ("output.lateral_growth", {"output.lateral_growth": "yes"}, "'yes'"),
+    ],
+)  # fmt: skip
+def test_what_has_no_growth_is_refused(key, overrides, words):
+    with pytest.raises(SceneError) as caught:
+        line(STEEP, {key: 2 if key.endswith("vectors") else True}, overrides)
+    (fault,) = caught.value.faults
+    assert fault.startswith(key) and words in fault
+
+
+def rate(*parts, periods=300, transient=100):
+    """Exponent across the plane and its error in nats per wave period, in 22.5 m of water, where no motion releases a
+    loop."""
+    run = run_of({"water.depth_m": 22.5}, ASKED["across"], *parts, periods=periods)
+    assert run.status == "ok" and not run.tangent.released.any()
+    found = transverse_lyapunov(run.tangent.lateral_nats, transient, run.tangent.released)
+    return found.value * math.log(2.0), found.error * math.log(2.0)
+
+
+@pytest.mark.parametrize("wave, seen", [(SMALL, -0.023), (LARGE, -0.13)], ids=["small", "large"])
+def test_pushed_out_of_their_plane_the_papers_two_motions_return(wave, seen):
+    """Seeded motions in space came back at about these rates, read off decays over tens of periods.
+
+    "About" is taken as a fifth: on the way the amplitude swings with the phase of its pendulum.
+    """
+    found, error = rate(wave)
+    assert found < -10 * error
+    assert found == pytest.approx(seen, rel=0.2)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("wave", [SMALL, LARGE], ids=["small", "large"])
+def test_grid_and_tolerance_do_not_make_the_rate(wave):
+    """Equal within two errors and, where the motion has period 1, to what the grid leaves of it: 1e-4 nats of 0.02."""
+    usual, error = rate(wave)
+    found, its_error = rate(wave, {"solver.rtol": 0.003, "tether.nodes": 81})
+    assert abs(found - usual) < 2 * math.hypot(error, its_error)
+    assert wave is LARGE or found == pytest.approx(usual, abs=1e-4)
+
+
+@pytest.mark.slow
+def test_a_buoy_that_moves_along_its_tether_is_damped_alike_to_both_sides():
+    """Drag C |v| v on a motion along r damps what is across it by C |v|, along x or y, and along r by 2 C |v|.
+
+    At kA = 0.016 the buoy moves along r, but for a tenth: the slower pair of exponents in the plane is the one across
+    it, and the faster pair twice that.
+    """
+    run = run_of({"water.depth_m": 22.5}, SMALL, ASKED["both"], {"output.tangent_vectors": 4}, periods=500)
+    planar = run.tangent.growth_nats[100:].mean(axis=0)
+    across = run.tangent.lateral_nats[100:].mean()
+    assert planar[:2].mean() == pytest.approx(across, rel=0.05)
+    assert planar[2:].mean() == pytest.approx(2 * across, rel=0.1)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("depth_m, sign, periods", [(22.5, -1, 400), (21.0, 1, 1150)])
+def test_sign_at_the_two_depths(depth_m, sign, periods):
+    """Trajectories close in at 22.5 m, by about -0.2 bits a period, and part at 21.0 m, by about +0.07.
+
+    Four starts, side by side. Blocks of 50 periods, longer than the motion remembers, give an error of 0.01 nats in
+    800 periods in 22.5 m and in 3800 in 21.0 m, where the motion wanders more: a fourth of that exponent, so that two
+    errors tell its sign.
+    """
+    depth = {"water.depth_m": depth_m, "output.tangent_vectors": 1}
+    scenes = [line(depth, {"start.buoy_velocity_mps": [push, 0.0, 0.0]}) for push in (0.0, 0.1, 0.2, 0.3)]
+    runs = simulate_batch(scenes, periods=periods)
+    assert all(run.status == "ok" for run in runs)
+    blocks = np.concatenate([run.tangent.growth_nats[200:, 0].reshape(-1, 50).mean(axis=1) for run in runs])
+    error = blocks.std(ddof=1) / math.sqrt(len(blocks))
+    assert sign * blocks.mean() > 2 * error
+    assert error < 0.015
+
+
+def test_waves_from_the_other_side_and_torsional_stiffness_change_nothing():
+    usual, other, stiff = (
+        run_of(SMALL, ASKED["across"], change, periods=12).tangent.lateral_nats
+        for change in ({}, {"waves.direction_rad": math.pi}, {"tether.torsion_stiffness_Nm2": 4.0})
+    )
+    np.testing.assert_allclose(other, usual, atol=1e-6)
+    np.testing.assert_array_equal(stiff, usual)
