@@ -1,15 +1,17 @@
 """Statements put to the test: what is claimed, what is measured, and the rule that decides.
 
-A `Claim` is a record. `judged` measures it in the results and applies its rule at each place where it looked: the claim
-"holds" where every check passes, it "does not hold" where none does, and it "holds if" between, with the places; a dash
-where nothing was looked at. A verdict is always computed and cannot be written. `statements.csv` has one row a claim.
+A `Claim` is a record, read from a table (`read_claims`). `judged` measures it in the results and applies its rule at
+each place where it looked: the claim "holds" where every check passes, it "does not hold" where none does, and it
+"holds if" between, with the places; a dash where nothing was looked at. A verdict is always computed and cannot be
+written. `statements.csv` has one row a claim.
 """
 
 import csv
 import io
 import math
 import re
-from collections.abc import Callable, Iterable, Sequence
+import tomllib
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -117,24 +119,50 @@ def as_csv(statements: Sequence[Statement]) -> bytes:
     return text.getvalue().encode()
 
 
-def below(limit: float, words: str) -> Rule:
-    """The number is less than the limit."""
-    return Rule(lambda value: value < limit, words)
+def read_claims(path: Path, measures: Mapping[str, Callable]) -> dict[str, Claim]:
+    """The claims of a .toml file by name, in its order; a claim without a name has its text for one.
+
+    measures: what `by` may be: a measure, or a function that makes one of the entries that are not fields of a Claim.
+    """
+    with open(path, "rb") as file:
+        table = tomllib.load(file)
+    claims = {}
+    for entry in table["claim"]:
+        name, by, evidence = entry.pop("name", entry["text"]), measures[entry.pop("by")], entry.pop("evidence")
+        fields = {field: entry.pop(field) for field in ("place", "text", "quantity")}
+        rule = Rule(_test(entry.pop("rule")), entry.pop("threshold"))
+        measure = by(**entry) if entry else by
+        claims[name] = Claim(**fields, measure=measure, rule=rule, evidence=evidence.format(**table["words"]))
+    return claims
 
 
-def above(limit: float, words: str) -> Rule:
-    """The number is larger than the limit."""
-    return Rule(lambda value: value > limit, words)
+def _test(rule: str) -> Callable[[float], bool]:
+    """A rule in words, "within 0.1", as a test of a number; "met": the measure has decided itself, 1 or 0."""
+    kind, _, limits = rule.rpartition(" ") if rule != "met" else ("at least", "", "1")
+    limit = float(limits)
+    tests = {
+        "below": lambda value: value < limit,
+        "above": lambda value: value > limit,
+        "within": lambda value: abs(value) < limit,
+        "at least": lambda value: value >= limit,
+        "at most": lambda value: value <= limit,
+        "between 0 and": lambda value: 0.0 < value < limit,
+    }
+    return tests[kind]
 
 
-def within(limit: float, words: str) -> Rule:
-    """The number is closer to zero than the limit."""
-    return Rule(lambda value: abs(value) < limit, words)
+def formula(text: str) -> Callable[[Mapping[str, object]], float]:
+    """A formula over the numbers of a row, "a / b - 1"; nan where the row lacks one."""
 
+    def of(row: Mapping[str, object]) -> float:
+        import pandas
 
-def met(words: str) -> Rule:
-    """The measure has decided itself: 1 where the claim holds, 0 where it does not."""
-    return Rule(lambda value: value == 1.0, words)
+        try:
+            return float(pandas.eval(text, local_dict=dict(row), engine="python"))
+        except pandas.errors.UndefinedVariableError:
+            return math.nan
+
+    return of
 
 
 def shown(value: float, form: str) -> str:

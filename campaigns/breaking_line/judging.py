@@ -6,64 +6,57 @@ the fast and the slow break of one tension, "case to case" is in rising tension.
 
 import math
 from collections.abc import Callable, Iterable
+from functools import cache, partial
 from itertools import pairwise
+from pathlib import Path
 
 from campaigns.breaking_line.lines import CASES, FAST, SLOW, Line, find, named, of_kind, pairs
-from campaigns.statements import Check, Measured, shown, told
+from campaigns.statements import Check, Claim, Measured, formula, read_claims, shown, told
 
 Measure = Callable[[object], Measured]
-Number = Callable[[Line], float]
+GROUPS = {"all": CASES, "fast": FAST, "slow": SLOW}
 PRINTED_CROSSING_S = (0.55, 0.91)
 DELAYED = 0.5  # of the difference of the fracture times: by so much a slow break delays the way of the end
 
 
-def column(name: str, scale: float = 1.0) -> Number:
-    """A column of the table."""
-    return lambda line: scale * line[name]
-
-
-def ratio(name: str, other: str) -> Number:
-    """One column over another."""
-    return lambda line: line[name] / line[other]
-
-
-def values(lines: Iterable[Line], cases: Iterable[str], number: Number) -> list[Check]:
-    """(name, number) of the cases that have one, in their order."""
+def values(lines: Iterable[Line], cases: Iterable[str], of: str) -> list[Check]:
+    """(name, number) of the cases that have one, in their order; of: a formula over the columns."""
+    number = formula(of)
     found = (find(lines, case) for case in cases)
-    numbers = [(named(line["case"]), float(number(line))) for line in found if line is not None]
+    numbers = [(named(line["case"]), number(line)) for line in found if line is not None]
     return [(name, value) for name, value in numbers if math.isfinite(value)]
 
 
-def by_case(number: Number, form: str, cases=CASES, only=None, judge: Number | None = None):
+def by_case(of: str, form: str, cases: str = "all", only: tuple[str, ...] = (), judge: str = "") -> Measure:
     """A check for every case, or those in `only`; judge: what the rule judges, where it is not the number told."""
 
     def measure(results) -> Measured:
-        judged = values(results.lines, only or cases, judge or number)
-        return Measured(
-            [(f"case {name}", value) for name, value in judged], told(values(results.lines, cases, number), form)
-        )
+        deciding = values(results.lines, only or GROUPS[cases], judge or of)
+        checks = [(f"case {name}", value) for name, value in deciding]
+        return Measured(checks, told(values(results.lines, GROUPS[cases], of), form))
 
     return measure
 
 
-def case_to_case(number: Number, form: str, *groups):
+def case_to_case(of: str, form: str, cases: str = "all") -> Measure:
     """A check for every step from one case to the next: by how much the number rises."""
 
     def measure(results) -> Measured:
-        found = [values(results.lines, cases, number) for cases in groups]
+        groups = (FAST, SLOW) if cases == "all" else (GROUPS[cases],)
+        found = [values(results.lines, group, of) for group in groups]
         checks = [(f"{a} to {b}", after - before) for one in found for (a, before), (b, after) in pairwise(one)]
         return Measured(checks, told([one for group in found for one in group], form))
 
     return measure
 
 
-def by_pair(number: Number, form: str, compare: Callable[[float, float], float]):
+def by_pair(compare: Callable[[float, float], float], of: str, form: str) -> Measure:
     """A check for every tension: compare(number of the fast break, number of the slow one)."""
 
     def measure(results) -> Measured:
         checks, words = [], []
         for both in pairs(results.lines):
-            numbers = [float(number(line)) for line in both]
+            numbers = [formula(of)(line) for line in both]
             if all(map(math.isfinite, numbers)):
                 names = [named(line["case"]) for line in both]
                 checks.append((" and ".join(names), compare(*numbers)))
@@ -73,43 +66,31 @@ def by_pair(number: Number, form: str, compare: Callable[[float, float], float])
     return measure
 
 
-def all_cases(number: Number, form: str, judge: Callable[[list[float]], float]):
+def all_cases(judge: Callable[[list[float]], float], of: str, form: str) -> Measure:
     """One check of all fast cases together."""
 
     def measure(results) -> Measured:
-        found = values(results.lines, FAST, number)
+        found = values(results.lines, FAST, of)
         checks = [("all cases", judge([value for _, value in found]))] if len(found) > 1 else []
         return Measured(checks, told(found, form) if checks else "")
 
     return measure
 
 
-def smaller(fast: float, slow: float) -> float:
-    """By how much the number of the slow break is the smaller one."""
-    return fast - slow
-
-
-def later(fast: float, slow: float) -> float:
-    """By how much the number of the slow break is the larger one."""
-    return slow - fast
-
-
-def changed(fast: float, slow: float) -> float:
-    """Relative change from the fast to the slow break."""
-    return slow / fast - 1.0
-
-
 def off_one_ratio(ratios: list[float]) -> float:
+    """Largest relative distance of the ratios from their mean."""
     middle = sum(ratios) / len(ratios)
     return max(abs(one / middle - 1.0) for one in ratios)
 
 
 def least_gap(speeds: list[float]) -> float:
+    """Least relative distance of two of the speeds."""
     return min(b / a - 1.0 for a, b in pairwise(sorted(speeds)))
 
 
 def crossing(results) -> Measured:
-    times = values(results.lines, FAST, column("arrival_theory_s"))
+    """The exact times of arrival, as printed and a tenth of them."""
+    times = values(results.lines, FAST, "arrival_theory_s")
     if not times:
         return Measured()
     seen = min(seconds for _, seconds in times), max(seconds for _, seconds in times)
@@ -122,12 +103,13 @@ def crossing(results) -> Measured:
 
 
 def vertical(results) -> Measured:
+    """By how much the largest rise or fall falls from case to case, without and with the folds."""
     checks, words = [], []
     for where, name in (
         ("the folds at the fixed end are left out", "vertical_beyond_m"),
         ("they count", "vertical_m"),
     ):
-        found = [values(results.lines, cases, column(name)) for cases in (FAST, SLOW)]
+        found = [values(results.lines, cases, name) for cases in (FAST, SLOW)]
         falls = [before - after for one in found for (_, before), (_, after) in pairwise(one)]
         checks += [(where, min(falls))] if falls else []
         words.append(told(found[0] + found[1], ".3f"))
@@ -135,6 +117,7 @@ def vertical(results) -> Measured:
 
 
 def same_motion(results) -> Measured:
+    """Way of the end of slow and fast breaks, as seen and with the delay of the slow break taken off."""
     seen, shifted, words = [], [], []
     for fast, slow in pairs(results.lines):
         late = DELAYED * (slow["breaking_time_s"] - fast["breaking_time_s"]) * fast["end_speed_mps"]
@@ -149,7 +132,8 @@ def same_motion(results) -> Measured:
 
 
 def dominant(results) -> Measured:
-    speeds = [speed for _, speed in values(results.lines, FAST, column("end_speed_mps"))]
+    """Change of the end speed over the fracture times over that over the tensions."""
+    speeds = [speed for _, speed in values(results.lines, FAST, "end_speed_mps")]
     both = [abs(slow["end_speed_mps"] - fast["end_speed_mps"]) for fast, slow in pairs(results.lines)]
     if len(speeds) < 2 or not both:
         return Measured()
@@ -163,16 +147,57 @@ def doubled(results) -> Measured:
     found = []
     for line in of_kind(results.lines, "case"):
         fine = find(results.lines, line["case"], "doubled")
-        off = [
-            abs(fine[name] / line[name] - 1.0) for name in ("end_speed_mps", "recoil_m", "kinetic_largest_J") if fine
-        ]
+        asked = ("end_speed_mps", "recoil_m", "kinetic_largest_J") if fine else ()
+        off = [abs(fine[name] / line[name] - 1.0) for name in asked]
         off = [one for one in off if math.isfinite(one)]
         found += [(named(line["case"]), max(off))] if off else []
     return Measured([(f"case {name}", off) for name, off in found], told(found, ".3%"))
 
 
 def shock_incomplete(results) -> Measured:
+    """Whether no shock exists before the fixed end in cases 2 and 3."""
     known = [find(results.lines, case) for case in ("2", "3")]
     known = [line for line in known if line is not None and math.isfinite(line["front_speed_theory_mps"])]
     births = [(f"case {named(line['case'])}", line["shock_birth_theory_m"]) for line in known]
     return Measured([(name, float(math.isnan(birth))) for name, birth in births], told(births, ".1f"))
+
+
+def dissipates(results) -> Measured:
+    """Whether more of the line takes up the kinetic energy of a slow break: by its spread, and by the part at rest."""
+    spread, resting = SPREAD(results), RESTING(results)
+    both = {"judged by the spread of the energy": spread, "judged by the part at rest": resting}
+    checks = [(name, min(value for _, value in one.checks)) for name, one in both.items() if one.checks]
+    return Measured(checks, f"{spread.told}; at rest {resting.told}" if checks else "")
+
+
+SMALLER, LARGER, CHANGED = (
+    partial(by_pair, compare)
+    for compare in (
+        lambda fast, slow: fast - slow,
+        lambda fast, slow: slow - fast,
+        lambda fast, slow: slow / fast - 1.0,
+    )
+)
+SPREAD, RESTING = LARGER("kinetic_spread", ".2f"), SMALLER("resting_share", ".2f")
+MEASURES = {
+    "cases": by_case,
+    "case to case": case_to_case,
+    "smaller in slow": SMALLER,
+    "larger in slow": LARGER,
+    "changed in slow": CHANGED,
+    "one ratio": partial(all_cases, off_one_ratio),
+    "least gap": partial(all_cases, least_gap),
+    "crossing": crossing,
+    "vertical": vertical,
+    "same motion": same_motion,
+    "dominant": dominant,
+    "doubled": doubled,
+    "shock incomplete": shock_incomplete,
+    "dissipates": dissipates,
+}
+
+
+@cache
+def claims() -> dict[str, Claim]:
+    """The claims of statements.toml by name."""
+    return read_claims(Path(__file__).with_name("statements.toml"), MEASURES)

@@ -22,6 +22,10 @@ MOST_OF = 0.99  # of the settled speed at which it counts as reached
 MOTION = ("tension_behind", "fronts_apart", "reached_s")
 LAW = ("static_strain", "steepening")
 OVER_CASE_4 = {"force_over_4": "force_N", "front_over_4": "front_speed_theory_mps"}
+PRINTED = {  # of the four tensions: strain, and share of the strength, which case 4 has
+    "printed_strain": (0.099, 0.178, 0.228, 0.292),
+    "printed_share": (0.10, 0.40, 0.70, 1.0),
+}
 
 
 def read_lines(folder: Path) -> tuple[Line, ...]:
@@ -93,10 +97,12 @@ def from_motion(line: Line, profiles: object) -> Line:
 
 
 def over_case_4(lines: Sequence[Line]) -> tuple[Line, ...]:
-    """The lines, with force and front speed over those of case 4."""
+    """The lines, with force and front speed over those of case 4, and with what the paper prints of their tension."""
     strongest = find(lines, "4")
     return tuple(
-        line | {name: line[of] / strongest[of] if strongest else math.nan for name, of in OVER_CASE_4.items()}
+        line
+        | {name: line[of] / strongest[of] if strongest else math.nan for name, of in OVER_CASE_4.items()}
+        | {name: printed[int(line["case"][0]) - 1] for name, printed in PRINTED.items()}
         for line in lines
     )
 

@@ -16,9 +16,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from campaigns.breaking_line.judging import claims
 from campaigns.breaking_line.lines import motion_of, of_kind, read_lines
 from campaigns.breaking_line.measures import MARGIN_M, contour, speed_of
-from campaigns.breaking_line.statements import CLAIMS
 from campaigns.breaking_line.theory import Theory, theory_of
 from campaigns.figure_data import made_by_of, store
 from campaigns.machinery.row_cache import made_by
@@ -42,7 +42,7 @@ class _Lines:
 def write_results(folder: Path) -> None:
     """statements.csv, and exact.nc where the law has a theory. Raises OSError."""
     results = _Lines(folder)
-    write_statements(folder, CLAIMS, results)
+    write_statements(folder, claims().values(), results)
     cases, path = of_kind(results.lines, "case"), folder / EXACT
     key = made_by({"runs": [line["run_key"] for line in cases]}, "analysis", "engine", "campaigns/breaking_line")
     if made_by_of(path) == key:

@@ -14,7 +14,9 @@ What goes wrong, and what becomes of it:
 import contextlib
 import logging
 import platform
+import queue
 import sys
+import threading
 from collections.abc import Callable, Iterator
 from concurrent.futures import CancelledError
 from functools import cache, partial
@@ -25,6 +27,7 @@ from campaigns.machinery.processes import PoolBroken, first_line, ignore_interru
 from campaigns.machinery.row_cache import made_by
 
 JOIN_S = 30.0  # for the scheduler to answer, and then for its first worker
+ASK_S = 10.0  # for all workers to say what they are
 GONE_S = 120.0  # without any worker in the midst of a campaign
 LOOK_S = 2.0  # between two looks at the workers that are there
 _NUMBERS = ("numpy", "scipy", "numba", "llvmlite")  # a worker with another version would give other last digits
@@ -40,7 +43,7 @@ class _OtherVersion(Exception):
 def client(jobs: int, address: str | None) -> Iterator:
     """A client of the scheduler at `address`, or of a local cluster of `jobs` processes (None).
 
-    Raises CampaignStopped where no scheduler answers, no worker joins, or the scheduler has no workbench.
+    Raises CampaignStopped where no scheduler answers, no worker joins, or scheduler or workers have another version.
     """
     import dask
     from distributed import Client, LocalCluster
@@ -64,10 +67,8 @@ def client(jobs: int, address: str | None) -> Iterator:
         except TimeoutError:
             start = f"start one: dask worker {address} --nthreads 1"
             raise CampaignStopped(f"the scheduler at {address} has no worker after {JOIN_S:g} s; {start}") from None
-        try:
-            found.run_on_scheduler(facts)  # it computes nothing, but dask unpacks there what it hands on
-        except ImportError as error:
-            raise CampaignStopped(_refusal(f"the scheduler: {first_line(error)}")) from error
+        if faults := list(_differences(found)):
+            raise CampaignStopped(_refusal("; ".join(faults)))
         if local:
             found.register_plugin(_deaf_to_interrupts())
         yield found
@@ -91,6 +92,34 @@ def facts() -> dict[str, str]:
     versions = {name: metadata.version(name) for name in _NUMBERS}
     sources = {f"sources of {part}": made_by({}, part)[:12] for part in _PARTS}
     return {"Python": ".".join(platform.python_version_tuple()[:2])} | versions | sources
+
+
+def _differences(found) -> Iterator[str]:
+    """What sets scheduler and workers apart from this process, as far as they say so within ASK_S."""
+    try:
+        found.run_on_scheduler(facts)  # it computes nothing, but dask unpacks there what it hands on
+    except ImportError as error:
+        yield f"the scheduler: {first_line(error)}"
+    came: queue.Queue = queue.Queue()
+
+    def ask() -> None:
+        with contextlib.suppress(Exception):
+            came.put(found.run(facts, on_error="return"))
+
+    # dask waits for a worker that is stopped as long as it stays so; who does not answer is asked with its first run.
+    threading.Thread(target=ask, daemon=True).start()
+    with contextlib.suppress(queue.Empty):
+        for worker, there in came.get(timeout=ASK_S).items():
+            # OSError: it has just gone; whoever comes in its place is asked with its first run
+            if off := first_line(there) if isinstance(there, ImportError) else _difference(there, facts()):
+                yield f"{worker}: {off}"
+
+
+def _difference(there: object, here: dict[str, str]) -> str:
+    if not isinstance(there, dict):
+        return ""
+    off = [f"{name} {there.get(name, 'none')} (here: {here[name]})" for name in here if there.get(name) != here[name]]
+    return ", ".join(off)
 
 
 def results(found, call: Callable, work: list) -> Iterator:
@@ -122,13 +151,11 @@ def results(found, call: Callable, work: list) -> Iterator:
 
 
 def _asked(call: Callable, here: dict[str, str], job: object) -> object:
-    # In the worker: each says with its first run, and so one that joined late does, that it computes what we would.
-    there = facts()
-    off = [f"{name} {there.get(name, 'none')} (here: {here[name]})" for name in here if there.get(name) != here[name]]
-    if off:
+    # In the worker; one that joined late has not been asked before.
+    if off := _difference(facts(), here):
         from distributed import get_worker
 
-        raise _OtherVersion(f"{get_worker().address}: {', '.join(off)}")
+        raise _OtherVersion(f"{get_worker().address}: {off}")
     return call(job)
 
 

@@ -1,4 +1,4 @@
-"""Random valid and invalid scenes for `campaigns.stability`: the same seed and count give the same scenes.
+"""Random valid and invalid scenes for `campaigns.stability`, the same while seed, count and sources stay the same.
 
 A valid scene is a plain one (`campaigns.stability.random_scenes`) that the engine accepts; in every other one up to
 three numbers are then replaced by extreme ones that the engine still accepts. An invalid scene has up to three faults:

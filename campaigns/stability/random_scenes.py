@@ -162,7 +162,9 @@ def plain_scene(draw) -> dict:
         draw(one_of("none", "steep", "high", "sea", "parts")),
         draw(one_of("none", "uniform", "profile", "table")),
     )
-    end = draw(one_of("buoy", "held", "let go", "free", *(["cap"] if wet else []), *(["clamped"] if space else [])))
+    end = draw(
+        one_of("buoy", "held", "let go", "free", "free", *(["cap"] if wet else []), *(["clamped"] * 2 if space else []))
+    )
     solver, output = draw(st.integers(0, len(SOLVERS) - 1)), draw(st.integers(0, len(OUTPUTS) - 1))
     special = draw(one_of(*["none"] * 4, *([] if space else ["perturbed", "paper-box"])))
     raw = {"name": "random", "gravity_mps2": draw(one_of(9.81, 9.81, 1.6, 0.0)), "tether": draw(TETHER)}

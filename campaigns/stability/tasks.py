@@ -124,8 +124,8 @@ def done(order) -> tuple[dict[str, float], Summary]:
     rows = [results[task.key()] | {"run_key": task.key()} for task in tasks if task.kind == "case"]
     random = [row for task in tasks if task.kind == "random" for row in results[task.key()]["rows"]]
     rows += [_of_kind(order, kind, drawn[kind], [row for row in random if row["kind"] == kind]) for kind in drawn]
-    _write(out / "fuzz.csv", fuzz.COLUMNS, random)
-    _write(out / "table.csv", run.COLUMNS, rows)
+    write_table(out / "fuzz.csv", fuzz.COLUMNS, random)
+    write_table(out / "table.csv", run.COLUMNS, rows)
     timing |= {"run_s": time.perf_counter() - start, "analysis_s": 0.0}
     return timing, Summary(rows, len(tasks) - len(missing), len(missing), 0.0)
 
@@ -188,7 +188,8 @@ def _of_kind(order, kind: str, drawn: list[dict], rows: list[dict]) -> dict:
     }  # fmt: skip
 
 
-def _write(path: Path, columns: tuple[Column, ...], rows: list[dict]) -> None:
+def write_table(path: Path, columns: tuple[Column, ...], rows: list[dict]) -> None:
+    """Write rows that are all there, and the dictionary of their columns. Raises OSError."""
     keys = [str(number) for number in range(len(rows))]
     table = Table(path, columns, keys)
     table.rows = dict(zip(keys, rows, strict=True))

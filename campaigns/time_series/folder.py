@@ -10,24 +10,38 @@ columns.csv                what the columns of these files are
 provenance.json            the name under which `python -m reports` knows this folder, file, hash, settings, versions
 """
 
-import csv
 import hashlib
-import io
 import json
 import platform
-from dataclasses import asdict
+from dataclasses import asdict, replace
 from importlib.metadata import version
 from pathlib import Path
 
 import numpy as np
+import pandas
 
-from campaigns.columns import Column, dictionary
+from campaigns.columns import Column, dictionary, names
 from campaigns.time_series.page import page
 from campaigns.time_series.record import Record
+from campaigns.time_series.section import PHASES
 from campaigns.time_series.study import Study
 from engine.atomic import write_atomic
 
-Curve = list[tuple[Column, np.ndarray]]
+# UNIT: that of the record's time, "s" or "samples".
+COLUMNS = (
+    Column("time_UNIT", "UNIT", "t", "time from the first sample", 3),
+    Column("value", "", "x", "the column as read", 6),
+    Column("angular_frequency_rad_per_UNIT", "rad/UNIT", "ω", "angular frequency of the bin", 4),
+    Column("amplitude", "", "|X|", "amplitude of eq. (31)", 6),
+    *(Column(f"value_{j}", "", f"x_{j}", f"coordinate {j} of a point of the section", 6) for j in range(PHASES)),
+    Column("rosenstein_nats", "nats", "", "mean ln of the distance of nearest neighbours", 3),
+    Column("kantz_nats", "nats", "", "mean ln of the mean distance within neighbourhoods", 3),
+    Column("delays", "", "m", "embedding dimension", 0),
+    Column("radius", "", "r", "radius in standard deviations of the coordinates", 4),
+    Column("share_of_pairs", "", "C", "share of the pairs of points that are nearer", 6),
+    Column("slope", "", "", "local slope d ln C/d ln r", 3),
+)
+DIMENSION = names(COLUMNS)[-4:]
 
 
 def write_files(study: Study, directory: Path, asked: dict[str, object]) -> None:
@@ -36,13 +50,13 @@ def write_files(study: Study, directory: Path, asked: dict[str, object]) -> None
     provenance.json is written last: a folder with it is whole.
     """
     directory.mkdir(parents=True, exist_ok=True)
-    tables = curves(study)
-    columns = {column.name: column for curve in tables.values() for column, _ in curve}
     files = {"answer.txt": page(study) + "\n", "answer.json": _json(answer(study))}
-    files |= {f"{name}.csv": _table(curve) for name, curve in tables.items()}
+    files |= {f"{name}.csv": curve.to_csv(index=False) for name, curve in curves(study).items()}
     for name, text in files.items():
         write_atomic(directory / name, text.encode())
-    write_atomic(directory / "columns.csv", dictionary(columns.values()))
+    unit = study.record.unit
+    told = [replace(one, name=one.name.replace("UNIT", unit), unit=one.unit.replace("UNIT", unit)) for one in COLUMNS]
+    write_atomic(directory / "columns.csv", dictionary(told))
     write_atomic(directory / "provenance.json", _json(_provenance(study.record, asked)).encode())
 
 
@@ -92,62 +106,25 @@ def _json(data: object) -> str:
     return json.dumps(data, indent=2, allow_nan=False) + "\n"
 
 
-def curves(study: Study) -> dict[str, Curve]:
-    """The curves behind an answer, by the name of their file: each column with what it is, and its values (n,)."""
+def curves(study: Study) -> dict[str, pandas.DataFrame]:
+    """The curves behind an answer, by the name of their file."""
     record, view, spectrum = study.record, study.seen, study.spectrum
-    unit = record.unit
-    time = Column(f"time_{unit}", unit, "t", "time from the first sample", 3)
-    frequency = Column(f"angular_frequency_rad_per_{unit}", f"rad/{unit}", "ω", "angular frequency of the bin", 4)
-    grown = [one.details.get("curve", np.zeros(0)) for one in (study.rosenstein, study.kantz)]
-    longest = max(len(curve) for curve in grown)
-    padded = [np.append(curve, np.full(longest - len(curve), np.nan)) for curve in grown]
-    return {
-        "series": [
-            (time, record.step * np.arange(len(record.values))),
-            (Column("value", "", "x", "as read", 6), record.values),
-        ],
-        "spectrum": [
-            (frequency, spectrum.angular_frequency_radps),
-            (Column("amplitude", "", "|X|", "amplitude of eq. (31)", 6), spectrum.amplitude),
-        ],
-        "section": [
-            (time, view.time),
-            *(
-                (Column(f"value_{j}", "", f"x_{j}", f"coordinate {j} of a point of the section", 6), values)
-                for j, values in enumerate(view.points.T)
-            ),
-        ],
-        "divergence": [
-            (time, record.step * np.arange(longest)),
-            (Column("rosenstein_nats", "nats", "", "mean ln of the distance of nearest neighbours", 3), padded[0]),
-            (Column("kantz_nats", "nats", "", "mean ln of the mean distance within neighbourhoods", 3), padded[1]),
-        ],
-        "dimension": _dimension(study),
-    }
-
-
-def _dimension(study: Study) -> Curve:
-    columns = (
-        Column("delays", "", "m", "embedding dimension", 0),
-        Column("radius", "", "r", "radius in standard deviations", 4),
-        Column("share_of_pairs", "", "C", "share of the pairs of points that are nearer", 6),
-        Column("slope", "", "", "local slope d ln C/d ln r", 3),
-    )
-    parts = [np.zeros((4, 0))]
+    time, frequency = f"time_{record.unit}", f"angular_frequency_rad_per_{record.unit}"
+    section = {f"value_{j}": values for j, values in enumerate(view.points.T)}
+    grown = {"rosenstein_nats": study.rosenstein, "kantz_nats": study.kantz}
+    divergence = pandas.DataFrame({name: pandas.Series(one.details.get("curve", [])) for name, one in grown.items()})
+    divergence.insert(0, time, record.step * np.arange(len(divergence)))
+    dimension = [pandas.DataFrame(columns=DIMENSION)]
     for j, one in enumerate(study.dimensions):
-        kept = one.correlation_sum > 0.0
-        delays = np.full(int(kept.sum()), study.embedding.dimension + j, dtype=float)
-        parts.append(np.array([delays, one.radius[kept], one.correlation_sum[kept], one.slope[kept]]))
-    return list(zip(columns, np.hstack(parts), strict=True))
-
-
-def _table(curve: Curve) -> str:
-    text = io.StringIO()
-    rows = csv.writer(text, lineterminator="\n")
-    rows.writerow(column.name for column, _ in curve)
-    cells = zip(*(values for _, values in curve), strict=True)
-    rows.writerows(["" if np.isnan(cell) else repr(float(cell)) for cell in row] for row in cells)
-    return text.getvalue()
+        values = (float(study.embedding.dimension + j), one.radius, one.correlation_sum, one.slope)
+        dimension.append(pandas.DataFrame(dict(zip(DIMENSION, values, strict=True)))[one.correlation_sum > 0.0])
+    return {
+        "series": pandas.DataFrame({time: record.step * np.arange(len(record.values)), "value": record.values}),
+        "spectrum": pandas.DataFrame({frequency: spectrum.angular_frequency_radps, "amplitude": spectrum.amplitude}),
+        "section": pandas.DataFrame({time: view.time, **section}),
+        "divergence": divergence,
+        "dimension": pandas.concat(dimension[1:] or dimension),
+    }
 
 
 def _provenance(record: Record, asked: dict[str, object]) -> dict[str, object]:

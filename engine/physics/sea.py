@@ -21,6 +21,7 @@ from ..simd.elementary import sincos, small_exponentials, small_sincos, smooth_s
 from .jonswap import components
 from .waves import SMALL, TINY, wave_number
 
+K, OMEGA, AMPLITUDE, PHASE, COSINE, SINE, SPEED = range(7)  # columns of the table, one row a component
 ROW = 7
 
 
@@ -80,8 +81,8 @@ def sea_field(p, tables, t, X, F):
             eta = 0.0
             for i in range(p.sea_n):
                 row = tables[p.sea_at + ROW * i : p.sea_at + ROW * (i + 1)]
-                place = row[4] * X[j, 0] + (row[5] * X[j, 1] if size == 3 else 0.0)
-                eta += row[2] * sincos(row[0] * place - row[1] * t + row[3])[1]
+                place = row[COSINE] * X[j, 0] + (row[SINE] * X[j, 1] if size == 3 else 0.0)
+                eta += row[AMPLITUDE] * sincos(row[K] * place - row[OMEGA] * t + row[PHASE])[1]
             # A trough of the whole sea below the bed has no meaning; rules of the scene keep the usual ones above it.
             Z[j] = Z[j] * p.depth / max(p.depth + gain * eta, 1e-3 * p.depth)
     for i in range(p.sea_n):
@@ -93,8 +94,8 @@ def sea_field(p, tables, t, X, F):
 def _add_wave(row, depth, above, gain, gain_rate, t, X, Z, F):
     """One component, by the recurrences of `engine.physics.waves.wave_field`."""
     n, size = X.shape
-    k, om, phase, cosine, sine = row[0], row[1], row[3], row[4], row[5]
-    u0, u1 = row[6] * gain, row[6] * gain_rate
+    k, om, phase, cosine, sine = row[K], row[OMEGA], row[PHASE], row[COSINE], row[SINE]
+    u0, u1 = row[SPEED] * gain, row[SPEED] * gain_rate
     up, down, s, c = 0.0, 0.0, 0.0, 1.0
     x_below = z_below = 0.0
     for j in range(n):

@@ -25,6 +25,7 @@ and a stage of the tangent dynamics have it.
 import math
 
 from ..compiled import kernel
+from ..planar import columns as col
 from ..simd.elementary import sincos, smooth_start
 from ..simd.select import larger, smaller, where
 from ..spatial.vectors import dot, mixed
@@ -117,8 +118,8 @@ def cap_change(p, t, cv, X, Y, K, F, dV_tilde, dX_tilde, dF):
     X (2,), Y (6,), K (4,): place, state and rates of the last node; dV_tilde, dX_tilde: what the perturbation of C~
     makes of velocity and place there; dF (4,): of the water.
     """
-    x, z, U, W = X[0], X[1], Y[2], Y[3]
-    G = _loads(p, t, cv, 1.0, x, z, U, W, K[2], K[3], F)
+    x, z, U, W = X[0], X[1], Y[col.VX], Y[col.VZ]
+    G = _loads(p, t, cv, 1.0, x, z, U, W, K[col.VX], K[col.VZ], F)
     eta, slope, _, rate, _ = surface(p, t, 1.0, p.direction * x)
     dry, ds, _, bare, _ = wetted(p, p.depth + eta - z + 0.5 * p.D_buoy)
     nx = -p.direction * slope
@@ -140,9 +141,9 @@ def cap_across(p, t, cv, X, Y, F, V_tilde):
     """What the cap adds to the lateral condition of a buoy: factor of V_y, and the known part."""
     eta, slope, _, rate, _ = surface(p, t, 1.0, p.direction * X[0])
     dry, ds, _, bare, _ = wetted(p, p.depth + eta - X[1] + 0.5 * p.D_buoy)
-    u, w = Y[2] - F[0], Y[3] - F[1]
+    u, w = Y[col.VX] - F[col.UX], Y[col.VZ] - F[col.UZ]
     inertia = p.M_added * dry * cv
-    sinking = rate + p.direction * slope * Y[2] - Y[3]
+    sinking = rate + p.direction * slope * Y[col.VX] - Y[col.VZ]
     of_V = p.M_added * ds * sinking - inertia - p.C_buoy * bare * math.sqrt(u * u + w * w)
     return of_V, inertia * V_tilde
 

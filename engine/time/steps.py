@@ -14,6 +14,7 @@ from ..arrays import Stage
 from ..compiled import kernel
 from ..dimensions import error_square, extrapolate, size_of
 from ..physics.tension.kernels import tension
+from ..planar.columns import EPS  # in space the same column
 from ..record import STRETCH
 from ..simd.elementary import copy_into
 from ..simd.select import smaller
@@ -140,9 +141,9 @@ def trial_error(p, tables, dt, error, least):
 @kernel
 def least_strain(Y):
     """Least strain along the tether."""
-    least = Y[0, 0]
+    least = Y[0, EPS]
     for k in range(1, Y.shape[0]):
-        least = smaller(least, Y[k, 0])
+        least = smaller(least, Y[k, EPS])
     return least
 
 

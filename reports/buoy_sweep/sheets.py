@@ -8,10 +8,10 @@ import numpy as np
 
 from ..figures.run_sheet import Glance, run_sheet
 from ..parts.columns import plus_minus
-from ..parts.content import Explorer, ExplorerColumn, Figure, Heading, Item, Sheet, Text, link, plain
+from ..parts.content import Explorer, ExplorerColumn, Figure, Heading, Item, Sheet, Text, link
 from ..parts.symbols import OMEGA_I, OMEGA_R
 from ..parts.wording import EMPTY, count, decimals, number
-from ..sweep.quantities import series
+from ..sweep.quantities import errors_of, series
 from .figures import EXPONENTS, spectrum_window
 from .regimes import evidence_table
 from .runs import Run, Sweep
@@ -83,13 +83,13 @@ def _facts(sweep: Sweep, run: Run) -> tuple[tuple[str, str], ...]:
         else f"none of 1 to {sweep.longest}"
     )
     facts = [("status", run["status"] + after), ("repeats after", period)]
-    errors = {value: error for value, error, _ in EXPONENTS}
+    errors = errors_of(sweep.columns)
     for name, column in sweep.columns.items():
         if name in _ELSEWHERE or name in errors.values() or column.cell(run.row[name]) == EMPTY:
             continue
         error = errors.get(name)
         said = plus_minus(sweep.columns, run.row, name, error) if error else column.cell(run.row[name])
-        facts.append((plain(column.head), f"{said} {column.unit}".strip()))
+        facts.append((column.head, f"{said} {column.unit}".strip()))
     return (*facts, ("file", f"`trajectories/{run['run_key'][:12]}….nc`"))
 
 

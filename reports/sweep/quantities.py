@@ -37,15 +37,15 @@ def measured(
     out, such as those of the varied keys.
     """
     names = [name for name, one in columns.items() if one.digits is not None and name not in set(without)]
-    values = [name for name in names if not name.endswith("_error")]
-    errors = {_owner(name, values): columns[name] for name in names if name.endswith("_error")}
-    found: list[Measured] = []
-    for name in values:
+    errors, found = errors_of(names), []
+    for name in names:
+        if name.endswith("_error"):
+            continue
         known = series(rows, name)
         if len(np.unique(known[np.isfinite(known)])) < 2:
             continue
         least = name.replace("_max_", "_min_")
-        pair = (columns[name], errors.get(name))
+        pair = (columns[name], columns[errors[name]] if name in errors else None)
         if found and least != name and found[-1].columns[-1][0].name == least:
             found[-1] = Measured(found[-1].unit, (*found[-1].columns, pair))
         else:
@@ -78,7 +78,11 @@ def over_key(rows: Sequence[Mapping[str, object]], key: Quantity, shown: Sequenc
     return curves(grid, 0.6 + 1.7 * len(grid), "best")
 
 
-def _owner(error: str, values: Sequence[str]) -> str:
-    """The column whose standard errors a column holds: the last one that begins as it does."""
-    stem = error.removesuffix("error")
-    return next((name for name in reversed(values) if name.startswith(stem)), "")
+def errors_of(names: Iterable[str]) -> dict[str, str]:
+    """Column -> the column of its standard errors: X_..._error belongs to the columns before it that begin so."""
+    names, found = list(names), {}
+    for place, name in enumerate(names):
+        if name.endswith("_error"):
+            stem = name.removesuffix("error")
+            found |= {owner: name for owner in names[:place] if owner.startswith(stem) and not owner.endswith("_error")}
+    return found

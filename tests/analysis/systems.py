@@ -15,6 +15,8 @@ from dataclasses import dataclass
 import numba
 import numpy as np
 
+from tests.analysis import maps
+
 
 @dataclass(frozen=True)
 class Flow:
@@ -187,50 +189,17 @@ def benettin(name, time=50_000.0):
     return float(blocks.mean()), float(blocks.std(ddof=1) / np.sqrt(50))
 
 
-def henon(samples=20_000, skip=1000):
+def henon(samples=20_000):
     """x of the Henon map, a = 1.4, b = 0.3; 0.41922 nats/step."""
-    x, y, out = 0.1, 0.1, np.empty(samples)
-    for i in range(skip + samples):
-        if i >= skip:
-            out[i - skip] = x
-        x, y = 1.0 - 1.4 * x * x + y, 0.3 * x
-    return out
+    return maps.henon(samples, skip=999)[:, 0]
 
 
-def logistic(samples=20_000, skip=1000):
+def logistic(samples=20_000):
     """x of the logistic map at r = 4; ln 2 nats/step."""
-    x, out = 0.1234, np.empty(samples)
-    for i in range(skip + samples):
-        if i >= skip:
-            out[i - skip] = x
-        x = 4.0 * x * (1.0 - x)
-    return out
+    return maps.logistic(4.0, samples, 0.1234, 999)
 
 
 def two_tone(samples=20_000, step=0.1, ratio=1.618033988749895):
     """sin t + 0.7 sin(ratio t + 1): a torus, exponent 0."""
     t = step * np.arange(samples)
     return np.sin(t) + 0.7 * np.sin(ratio * t + 1.0)
-
-
-def mackey_glass(samples=20_000, step=0.5, delay=17.0, substeps=5):
-    """Mackey-Glass 0.2, 0.1, n = 10, delay 17 (exponent 0.0058 ... 0.007 in the literature), RK4 with cubic history."""
-    h = step / substeps
-    return _mackey_glass(int(1000 / h), samples, substeps, h, round(delay / h))
-
-
-@numba.njit
-def _mackey_glass(skip, samples, substeps, h, lag):
-    n = skip + samples * substeps
-    x = np.empty(n + lag + 2)
-    x[: lag + 1] = 1.2
-    for i in range(lag, lag + n):
-        a, b = x[i - lag], x[i - lag + 1]
-        m = 0.5 * (a + b)
-        fa, fm, fb = 0.2 * a / (1 + a**10), 0.2 * m / (1 + m**10), 0.2 * b / (1 + b**10)
-        k1 = fa - 0.1 * x[i]
-        k2 = fm - 0.1 * (x[i] + 0.5 * h * k1)
-        k3 = fm - 0.1 * (x[i] + 0.5 * h * k2)
-        k4 = fb - 0.1 * (x[i] + h * k3)
-        x[i + 1] = x[i] + h / 6 * (k1 + 2 * k2 + 2 * k3 + k4)
-    return x[lag + skip : lag + n : substeps][:samples].copy()

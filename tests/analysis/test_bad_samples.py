@@ -13,6 +13,17 @@ CALLS = {
     "detect_period": lambda x: analysis.detect_period(x),
     "slack_fraction": lambda x: analysis.slack_fraction(x, 0.1),
     "extremes": lambda x: analysis.extremes(x, 0.1),
+    "zero_one_test": lambda x: analysis.zero_one_test(x),
+    "growth_or_bursts": lambda x: analysis.growth_or_bursts(x, 0.1, 5.0),
+    "wolf_lyapunov": lambda x: analysis.wolf_lyapunov(x, 0.1),
+    "kantz_lyapunov": lambda x: analysis.kantz_lyapunov(x, 0.1),
+    "tangent_lyapunov": lambda x: analysis.tangent_lyapunov(x),
+    "record_drift": lambda x: analysis.record_drift(x),
+    "neighbour_growth": lambda x: analysis.neighbour_growth(x),
+    "prediction_gain": lambda x: analysis.prediction_gain(x),
+    "correlation_dimension": lambda x: analysis.correlation_dimension(x),
+    "spectral_lines": lambda x: analysis.spectral_lines(x),
+    "regime": lambda x: analysis.regime(strobed=x),
 }
 
 

@@ -44,6 +44,7 @@ def test_maps_within_a_tenth(method, series, truth):
     assert region.span >= 1.0 and region.slope == found.value
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["lorenz", "rossler", "ueda"])
 def test_flows_within_a_fifth_by_rosenstein(name):
     found = rosenstein_lyapunov(*systems.record(name))
@@ -65,8 +66,7 @@ def test_regular_motion_and_noise_have_none(method, series):
 def test_units_scale(method):
     x, step = systems.record("rossler", 6000)
     base = method(x, step)
-    assert method(-4.0 * x, step).value == pytest.approx(base.value, rel=1e-9)
-    assert method(x, 2.0 * step).value == pytest.approx(0.5 * base.value, rel=1e-9)
+    assert method(-4.0 * x, 2.0 * step).value == pytest.approx(0.5 * base.value, rel=1e-9)
 
 
 def test_a_series_of_two_values_has_no_radius():

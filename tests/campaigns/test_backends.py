@@ -59,17 +59,6 @@ def test_dask_worker_that_dies_is_a_row(sweep):
     assert begun.count(0.05) == 2
 
 
-@pytest.mark.slow
-def test_running_dask_cluster_is_used(sweep):
-    distributed = pytest.importorskip("distributed")
-    options = {"n_workers": 1, "threads_per_worker": 1, "dashboard_address": None, "silence_logs": "CRITICAL"}
-    with distributed.LocalCluster(**options) as cluster, distributed.Client(cluster) as client:
-        code, rows, _ = sweep("--steepness", *VALUES, "--dask-address", cluster.scheduler_address, backend="dask")
-        done = client.run_on_scheduler(lambda dask_scheduler: dask_scheduler.transition_counter)
-    assert (code, len(rows)) == (0, 4)
-    assert done > 0
-
-
 def test_dask_scheduler_that_is_not_there_is_one_line(sweep, capfd, monkeypatch):
     pytest.importorskip("distributed")
     monkeypatch.setattr("campaigns.machinery.cluster.JOIN_S", 1)

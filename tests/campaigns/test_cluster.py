@@ -137,9 +137,7 @@ def test_a_worker_killed_in_mid_sweep_costs_its_running_job(dask, tmp_path):
 
 
 @pytest.mark.slow
-def test_a_run_that_kills_every_worker_stops_the_campaign_and_new_workers_finish_it(
-    dask, tmp_path, monkeypatch, capfd
-):
+def test_a_run_that_kills_every_worker_stops_the_campaign_and_new_workers_finish_it(dask, tmp_path, monkeypatch, capfd):
     monkeypatch.setattr(cluster, "GONE_S", 1.0)
     monkeypatch.setattr(cluster, "LOOK_S", 0.2)
     found, out = dask(), tmp_path / "out"

@@ -1,8 +1,11 @@
-"""--help tells every option and loads nothing heavy; the defaults are what it promises."""
+"""--help tells every option and loads nothing heavy, the defaults are what it promises, and the list of campaigns."""
 
 import subprocess
 import sys
 
+import pytest
+
+from campaigns.__main__ import main as every_campaign
 from campaigns.buoy_sweep import STEEPNESS, STUDY
 from tests.campaigns.conftest import ROOT
 
@@ -39,3 +42,16 @@ def test_no_argument_is_a_complete_order():
     assert all(case.scene.waves.steepness == case.labels["steepness"] for case in order.cases)
     assert order.transient < order.periods
     assert order.how.out.as_posix() == "results/buoy_sweep"
+
+
+@pytest.mark.parametrize("words", [[], ["--help"]])
+def test_the_list_of_campaigns_is_no_mistake(capsys, words):
+    assert every_campaign(words) == 0
+    said = capsys.readouterr().out
+    assert "buoy_sweep     Sweep of wave steepness" in said and "sweep          Sweep of any number" in said
+
+
+def test_a_campaign_is_run_by_its_name_too(capsys):
+    with pytest.raises(SystemExit) as ended:
+        every_campaign(["sweep", "--help"])
+    assert ended.value.code == 0 and "--vary" in capsys.readouterr().out

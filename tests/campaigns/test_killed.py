@@ -1,4 +1,7 @@
-"""kill -9 and Ctrl-C in mid-sweep leave a readable folder; the same command completes the rest and only that."""
+"""kill -9 and Ctrl-C in mid-sweep leave a readable folder; the same command completes the rest and only that.
+
+Two campaigns never write into one folder at the same time, and a dead one does not keep the folder.
+"""
 
 import os
 import signal
@@ -7,6 +10,7 @@ import time
 import psutil
 import pytest
 
+from campaigns.machinery.folder import claimed
 from engine import Trajectory
 from tests.campaigns.conftest import finished, rows_of, start_sweep, until
 
@@ -60,3 +64,26 @@ def test_interrupt(tmp_path, backend):
     time.sleep(0.7)
     assert len(log.read_text().split()) == begun
     check_and_complete(out, log)
+
+
+def test_second_campaign_in_the_folder_is_turned_away(tmp_path):
+    out = tmp_path / "out"
+    first = start_sweep(out, "--steepness", "0.01", "0.02", "0.03", "0.04", sleep_s=1.0)
+    until(lambda: (out / "table.csv").exists(), first)
+    second = start_sweep(out, "--steepness", "0.05")
+    _, error = second.communicate(timeout=60)
+    assert second.returncode == 1
+    assert f"in use by process {first.pid}" in error
+    assert "0.05" not in (out / "provenance.json").read_text()
+    output = first.communicate(timeout=60)
+    assert first.returncode == 0, output
+    assert len(finished(out)) == 4
+
+
+def test_lock_dies_with_its_holder(tmp_path):
+    first = start_sweep(tmp_path, "--steepness", "0.01", "0.02", "0.03", sleep_s=1.0)
+    until(lambda: (tmp_path / "table.csv").exists(), first)
+    first.kill()
+    first.communicate()
+    with claimed(tmp_path):
+        pass

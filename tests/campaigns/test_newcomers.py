@@ -20,6 +20,7 @@ FILES = {
     "own/scene.toml": 'name = "mine"\n',
     "a_file": "mine",
     "old/provenance.json": json.dumps({"campaign": "breaking_line"}),
+    "broken/provenance.json": "not json",
     "mine/table.csv": "my,own,table\n",
     "part/table.csv": "steepness\n0.1\n",
 }
@@ -93,7 +94,25 @@ MISTAKES = [
     (REPORTS, "a_file", "it is a file; give the folder that a campaign wrote (its --out)"),
     (REPORTS, ".", "provenance.json is missing"),
     (REPORTS, "part", "scene.toml is missing"),
-    ("campaigns.__main__", "", "python -m campaigns.buoy_sweep"),
+    (SWEEP, "--out broken", "a provenance.json that no campaign wrote"),
+    # options
+    (SWEEP, "--steepness", "--steepness: given nothing; allowed: one value or more"),
+    (SWEEP, "--steepness nan", "given 'nan'; allowed: a finite number, 0 or above"),
+    (SWEEP, "--steepness 0.1 --steepness-range 0 1 3", "given both; allowed: one of them"),
+    (SWEEP, "--steepness-range 0.1 0.2 3 4", "LO HI COUNT"),
+    (SWEEP, "--periods 5 6", "--periods: given 5 6; allowed: one value"),
+    (SWEEP, "--periods 10 --transient 10", "less than --periods"),
+    (SWEEP, "--transient 2.5", "given '2.5'; allowed: a whole number, 0 or above"),
+    (SWEEP, "--set", "--set: given nothing; allowed: KEY=VALUE"),
+    (SWEEP, "--set waves.amplitude_m=1", "this campaign sets it; use --steepness"),
+    (SWEEP, "--set end.kind=held end.position_m=[0,0,20] buoy=none", "end.kind"),
+    (SWEEP, "--dimensions 4", "--dimensions: given '4'; allowed: one of 2, 3, auto"),
+    (SWEEP, "--backend dusk", "one of loky, threading, dask"),
+    (SWEEP, "--backend threading --dask-address tcp://a:1", "with --backend dask only"),
+    (SWEEP, "--backend dask --dask-address tcp://a", "given 'tcp://a'; allowed: the address of a scheduler"),
+    (SWEEP, "--backend dask --dask-address a:99999", "tcp://HOST:PORT"),
+    (SWEEP, "stray", "stray: no such option"),
+    ("campaigns.__main__", "buoysweep", "no campaign 'buoysweep'; allowed: accuracy, breaking_line, buoy_sweep"),
 ]
 
 
@@ -114,7 +133,7 @@ def listing(place):
 def test_the_answer_says_what_to_do(place, capsys, module, words, part):
     before = listing(place)
     main = importlib.import_module(module).main
-    assert (main(words.split()) if module != "campaigns.__main__" else main()) == 2
+    assert main(words.split()) == 2
     said = capsys.readouterr()
     assert said.out == "" and part in said.err
     assert listing(place) == before
@@ -141,10 +160,14 @@ def test_a_campaign_killed_before_its_provenance_goes_on_in_its_folder(tmp_path)
 
 
 def test_several_mistakes_are_told_at_once(place, capsys):
-    words = "--steepness 0.6 --jobs 0 --set water.dept=3 tether.length_m=20000 --out a_file --scene tethered_buoy"
+    words = """--steepness 0.1 -1 x --periods 0 --jobs none --backend dusk --dask-address tcp://a:1 --colour red
+        --set buoy.mass_kg=-1 water.dept=3 nonsense waves.steepness=0.1 --out a_file"""
     assert importlib.import_module(SWEEP).main(words.split()) == 2
     said = capsys.readouterr().err
-    for part in ("--jobs", "did you mean 'water.depth_m'?", "a_file is a file"):
+    for part in (
+        "'-1'", "'x'", "--periods", "--jobs", "'dusk'", "--dask-address", "buoy.mass_kg", "'nonsense'",
+        "did you mean 'water.depth_m'?", "use --steepness", "--colour: no such option", "a_file is a file",
+    ):  # fmt: skip
         assert part in said
 
 

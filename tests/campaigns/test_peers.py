@@ -7,6 +7,7 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from campaigns.accuracy import peers
+from campaigns.accuracy.jobs import peer_jobs
 from campaigns.accuracy.peers import scipy as peer_scipy
 from campaigns.accuracy.peers.record import as_trajectory
 from campaigns.accuracy.rows import rms_mm, samples_of
@@ -58,13 +59,12 @@ def test_the_pendulum_with_a_rope_of_no_mass_is_the_elastic_spherical_pendulum()
 
 def test_a_code_that_is_not_installed_is_a_row(tmp_path, monkeypatch):
     monkeypatch.setattr(peers.importlib.util, "find_spec", lambda name: None if name != "scipy" else object())
-    first, second, timed = peers.peer_jobs(tmp_path, ("snap", "pendulum"), False, {})
+    first, second, timed = peer_jobs(tmp_path, ("snap", "pendulum"), False, {})
     assert first == [] and second == []
     missing = [job for job in timed if not job.labels["peer_version"]]
     assert {job.labels["method"] for job in missing} == {"MoorDyn", "CableDyn", "PyElastica"}
     for job in missing:
-        run = job.simulate(job.scene, duration_s=1.0)
-        row = job.describe(run)
+        row = job.describe(job.simulate(job.scene, duration_s=1.0))
         assert row["status"] == "not-installed" and "pip install" in row["message"] and "error" not in row
 
 
@@ -72,7 +72,7 @@ def test_what_another_code_raises_is_its_record():
     def broken(scene, duration_s, nodes, setting):
         raise RuntimeError("NaN in node positions")
 
-    run = peers._called(load_scene("tethered_buoy"), duration_s=1.0, call=broken)
+    run = peers.called(load_scene("tethered_buoy"), duration_s=1.0, call=broken)
     assert run.status == "solver-failed" and "NaN in node positions" in run.message
 
 

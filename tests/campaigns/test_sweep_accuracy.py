@@ -1,7 +1,6 @@
 """A sweep's own error: two of its runs again, tighter and finer, and what is said of them."""
 
 import csv
-import shutil
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -12,8 +11,6 @@ from campaigns.buoy_sweep.repeats import AS_RUN, COLUMNS, EARLY, FINER, SHARE, T
 from campaigns.columns import names
 from engine import load_scene
 from engine.trajectory import TangentGrowth
-from reports.buoy_sweep.repeats import accuracy_items
-from reports.parts.content import Text
 from tests.campaigns.conftest import rows_of
 from tests.campaigns.fake_engine import FakeEngine, sines
 
@@ -99,33 +96,9 @@ def test_again_nothing_is_computed(out, tmp_path):
     assert not any(path.exists() for path in killed_within)
 
 
-def said(folder):
-    return " ".join(item.text for item in accuracy_items(folder, "kA") if isinstance(item, Text))
-
-
-def test_the_report_says_it_and_says_where_it_was_left_out(out, tmp_path):
-    text = said(out)
-    assert "The regular run (kA = 0.016): r changes by" in text and "The violent run (kA = 0.13): r changes by" in text
-    assert text.count("too short for a verdict") == 2
-    plain = tmp_path / "out"
-    assert buoy_sweep.main([*WORDS, "--no-accuracy", "--out", str(plain)], simulate=Drifting()) == 0
-    assert not (plain / "accuracy").exists() and "did not repeat any of its runs" in said(plain)
-
-
-def test_a_verdict_that_changes_is_said(out, tmp_path):
-    copy = tmp_path / "copy"
-    shutil.copytree(out / "accuracy", copy / "accuracy")
-    rows = accuracy_of(copy)
-    for row in rows:
-        row |= {"verdict": "period-1", "same_verdict": "1"}
-    rows[-1] |= {"verdict": "chaotic", "same_verdict": "0"}
-    with open(copy / "accuracy" / "table.csv", "w", newline="") as file:
-        writer = csv.DictWriter(file, names(COLUMNS))
-        writer.writeheader()
-        writer.writerows(rows)
-    text = said(copy)
-    assert "it is called period-1 each time" in text
-    assert "its verdict changes: period-1 (as run)" in text and "chaotic (twice the elements)" in text
+def test_a_sweep_that_leaves_it_out_repeats_nothing(tmp_path):
+    assert buoy_sweep.main([*WORDS, "--no-accuracy", "--out", str(tmp_path)], simulate=Drifting()) == 0
+    assert not (tmp_path / "accuracy").exists()
 
 
 def test_a_short_sweep_pays_no_more_than_its_share():

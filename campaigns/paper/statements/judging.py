@@ -1,68 +1,57 @@
 """Measures of the statements on the buoy: from `Results` to numbers that a rule can judge.
 
-`looks` and `near` are of single numbers (`Results.numbers`), `over_depth` of the rows of the dependence study.
+`numbers` and `near` are of single numbers (`Results.numbers`), `depths` of the rows of the dependence study.
 """
 
 import math
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 
 from campaigns.paper.measured import Results
-from campaigns.statements import Check, Measured, grouped, shown, told
+from campaigns.paper.measures import LARGE
+from campaigns.statements import Check, Measured, formula, grouped, shown, told
 from campaigns.tables import Row
 
-Number = Callable[[Results], float]
 Measure = Callable[[Results], Measured]
 UNDECIDED = ("", "undecided", "transient")  # regimes that decide nothing
-NOTHING = "where it is undecided or a transient, nothing"
 NOT_IN_DOUBT = 2.0  # standard errors
 EXPONENT, ERROR = "lyapunov_tangent_bits_per_period", "lyapunov_tangent_error"
 LONG = "the long run"
 
 
-def of(name: str, over: str = "") -> Number:
-    """One of the results' numbers, or its ratio to another."""
-    return lambda results: results.number(name) / (results.number(over) if over else 1.0)
-
-
-def looks(form: str, judge: Number | None = None, **numbers: Number) -> Measure:
-    """A check for every number, under its name; judge: what the rule judges, where it is not the number told."""
-    return at_places(form, numbers, judge)
-
-
-def at_places(form: str, numbers: dict[str, Number], judge: Number | None = None) -> Measure:
-    """`looks` for names with blanks."""
+def numbers(of: dict[str, str], form: str, judge: str = "") -> Measure:
+    """A check for every place, of a formula over the results' numbers; judge: the formula that the rule judges."""
 
     def measure(results: Results) -> Measured:
-        known = {where: number(results) for where, number in numbers.items()}
+        known = {where: formula(text)(results.numbers) for where, text in of.items()}
         known = {where: value for where, value in known.items() if math.isfinite(value)}
-        checks = [(where, judge(results) if judge else value) for where, value in known.items()]
+        checks = [(where, formula(judge)(results.numbers) if judge else value) for where, value in known.items()]
         return Measured(checks, told(known.items(), form))
 
     return measure
 
 
-def near(form: str, **numbers: tuple[Number, float | Number]) -> Measure:
-    """A check for every number, under its name, of its relative distance from what is printed (told in brackets)."""
+def near(of: dict[str, str], printed: dict[str, float | str], form: str) -> Measure:
+    """A check for every place, of the relative distance of a formula from what is printed (told in brackets)."""
 
     def measure(results: Results) -> Measured:
         checks, words = [], []
-        for where, (number, asked) in numbers.items():
-            value, printed = number(results), asked(results) if callable(asked) else asked
-            if math.isfinite(value) and math.isfinite(printed):
-                checks.append((where, value / printed - 1.0))
-                words.append(f"{where}: {shown(value, form)} ({printed:g})")
+        for where, text in of.items():
+            value, asked = formula(text)(results.numbers), formula(str(printed[where]))(results.numbers)
+            if math.isfinite(value) and math.isfinite(asked):
+                checks.append((where, value / asked - 1.0))
+                words.append(f"{where}: {shown(value, form)} ({asked:g})")
         return Measured(checks, ", ".join(words))
 
     return measure
 
 
-def over_depth(steepness: float, form: str, *columns: str, judge: Callable[[Row], float] | None = None) -> Measure:
-    """A check for every depth, of the first column or of `judge`; all columns are told."""
+def depths(of: str, form: str, also: Sequence[str] = ()) -> Measure:
+    """A check of a column for every depth, at the large wave; `also`: columns that are told besides."""
 
     def measure(results: Results) -> Measured:
-        rows = [row for row in results.over_depth(steepness) if math.isfinite(value_of(row, columns[0]))]
-        words = (" and ".join(shown(value_of(row, name), form) for name in columns) for row in rows)
-        checks = [(at(row), judge(row) if judge else row[columns[0]]) for row in rows]
+        rows = [row for row in results.over_depth(LARGE) if math.isfinite(value_of(row, of))]
+        words = (" and ".join(shown(value_of(row, name), form) for name in (of, *also)) for row in rows)
+        checks = [(at(row), row[of]) for row in rows]
         return Measured(checks, ", ".join(f"{word} at {at(row)}" for word, row in zip(words, rows, strict=True)))
 
     return measure
@@ -107,7 +96,7 @@ def elsewhere(results: Results, steepness: float) -> list[tuple[str, Row]]:
     usual = results.usual()["submergence"]
     others = dict.fromkeys(row["submergence"] for row in results.dependence if row["submergence"] != usual)
     found = [(under, row) for under in others for row in results.over_depth(steepness, submergence=under)]
-    return [(f"{at(row)} with `{under}`", row) for under, row in found]
+    return [(f"{at(row)} with {under}", row) for under, row in found]
 
 
 def everywhere(results: Results, steepness: float) -> list[tuple[str, Row]]:

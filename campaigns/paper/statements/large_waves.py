@@ -1,32 +1,25 @@
-"""Section 4.2.2: the buoy in large waves, in their plane: how the line snaps, whether the motion is chaotic."""
+"""Measures of section 4.2.2, the buoy in large waves: how the line snaps, whether the motion is chaotic."""
 
 import math
 
 from campaigns.paper.measured import Results
 from campaigns.paper.measures import LARGE
-from campaigns.paper.snaps import NEAR_ZERO
 from campaigns.paper.statements.judging import (
     EXPONENT,
     LONG,
-    NOT_IN_DOUBT,
-    NOTHING,
     UNDECIDED,
     at,
-    at_places,
     by_regime,
     elsewhere,
     everywhere,
     exponent,
-    of,
-    over_depth,
     passed,
     positive,
     regimes,
     settled,
     value_of,
 )  # fmt: skip
-from campaigns.paper.statements.small_waves import AGAIN, DEPTHS
-from campaigns.statements import Claim, Measured, above, below, listed, met, shown, told
+from campaigns.statements import Measured, listed, shown, told
 from campaigns.tables import Row
 
 MOSTLY = 0.5  # share
@@ -169,82 +162,3 @@ def no_dominant_mode(results: Results) -> Measured:
     least, other = min((min(one[1:3]), one[0]) for one in lines)
     words += f" ({where}); least of {len(lines)} runs {shown(least, '.1%')} ({other})"
     return Measured([(where, max(r, theta)) for where, r, theta, _ in lines], words)
-
-
-def _fills(results: Results) -> float:
-    return results.number("correlation_dimension") + NOT_IN_DOUBT * results.number("correlation_dimension_error")
-
-
-SWEEP = "part `sweep`: one run a steepness"
-THRESHOLD = Claim(
-    "4.2", "Beyond a threshold of the wave amplitude the line goes slack for part of the cycle and then snaps.",
-    "Slack at kA", threshold, met("taut below one steepness, slack from it on"), SWEEP,
-)  # fmt: skip
-SNAPPING = Claim(
-    "4.2, 4.2.2, fig. 13", "In large waves intervals of almost no tension are followed by large peaks.",
-    f"Time below {NEAR_ZERO} of the static tension, and largest over static tension", snapping,
-    met("1 % of the time; 2 times the static one"), f"{DEPTHS}; {AGAIN}",
-)  # fmt: skip
-CHAOTIC = Claim(
-    "4.2, 4.2.2", "In large waves the motion of the buoy is chaotic.", "Regime", chaotic,
-    met(f"regime chaotic; {NOTHING}"), f"0-1 test, two surrogates, halves, tighter tolerance; {DEPTHS}",
-)  # fmt: skip
-CLAIMS = (
-    THRESHOLD,
-    Claim(
-        "4.2", "Wherever the line goes slack and snaps, the motion is chaotic.", "With a slack line, at kA",
-        chaos_beyond, met(f"regime chaotic; {NOTHING}"), SWEEP,
-    ),
-    SNAPPING,
-    Claim(
-        "4.2.2", "In large waves the line is at times in compression, while the buoy moves towards the anchor.",
-        "Share of the time in compression during which r falls, share of the time in compression, and share of the "
-        "slack intervals that begin while r falls",
-        over_depth(LARGE, ".1%", "compressed_inwards", "compressed", "begun_inwards"),
-        above(MOSTLY, "more than 50 % of the time in compression"), DEPTHS,
-    ),
-    Claim(
-        "4.2.2", "In large waves the slack line buckles into a mode of high order.",
-        "Half waves along the slack line, median over the samples", buckles,
-        above(3.5, "4 or more"), "shape of the rope in three dimensions, part `out_of_plane`; one grid",
-    ),
-    Claim(
-        "4.2.2, fig. 13",
-        "In large waves the tension builds up as the buoy moves away from the anchor; its peaks stop and turn it.",
-        "Share of the peaks that do", over_depth(LARGE, ".1%", "turned"), above(0.99, "more than 99 % of the peaks"),
-        DEPTHS,
-    ),
-    Claim(
-        "4.2.2, fig. 13", "In large waves the peaks of tension are nearly impulses.",
-        "Length at half height over that of a free elastic rebound", impulsive,
-        below(MOSTLY, "shorter than 50 % of the rebound"), f"closed form of an elastic rebound; {DEPTHS}",
-    ),
-    Claim(
-        "4.2.2, fig. 14", "In large waves the largest Lyapunov exponent is positive.", "Bits per period",
-        positive_exponent,
-        met(f"{NOT_IN_DOUBT:g} standard errors above zero; where it is not, and the regime is open too, nothing"),
-        f"tangent dynamics; finite separation agrees (docs/findings.md); {DEPTHS}",
-    ),
-    CHAOTIC,
-    Claim(
-        "4.2.2, figs. 15, 16", "In large waves both motions are non-periodic and irregular.",
-        "Wave periods after which it repeats", never_repeats, met("no period up to 16"),
-        f"strobed motion; {DEPTHS}",
-    ),
-    Claim(
-        "4.2.2, figs. 17, 18", "In large waves the spectra are continuous over a wide range of frequencies.",
-        "Share of the variance of the strobed r, r′ that is on no spectral line",
-        at_places(".1%", {LONG: of("unexplained")}), above(0.05, "above 5 %"),
-        "lines fitted to the strobed record (CLEAN)",
-    ),
-    Claim(
-        "4.2.2, figs. 17, 18", "In large waves the spectra show no dominant modes.",
-        "Largest share of the variance on one bin of eq. (31)", no_dominant_mode, below(0.25, "below 25 % in r and θ"),
-        f"spectra by eq. (31); {DEPTHS}, both buoyancies",
-    ),
-    Claim(
-        "4.2.2, fig. 19a", "The points of the section r, r′ fill a region, without a clear fractal structure.",
-        "Correlation dimension of the section", at_places(".2f", {LONG: of("correlation_dimension")}, _fills),
-        above(2.0, "dimension 2 within two errors"), "correlation dimension of the section of the long run",
-    ),
-)  # fmt: skip

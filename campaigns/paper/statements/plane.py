@@ -1,14 +1,13 @@
-"""Section 4.2.2: eq. (33) with figure 19b, and the motion across the plane of the waves with figure 20."""
+"""Measures of section 4.2.2: eq. (33) with figure 19b, and the motion across the plane of the waves with figure 20."""
 
 import math
 
 from campaigns.paper.measured import STRANGE, Results
 from campaigns.paper.measures import LARGE
-from campaigns.paper.statements.judging import NOT_IN_DOUBT, at, near, of, passed
-from campaigns.statements import Claim, Measured, Rule, above, met, shown, within
+from campaigns.paper.statements.judging import NOT_IN_DOUBT, at, passed
+from campaigns.statements import Measured, shown
 from campaigns.tables import Row
 
-COMPARABLE = 1.0 / 3.0  # share of the in-plane motion from which a lateral motion is called comparable with it
 BODIES = ("buoy", "rope")
 
 
@@ -100,51 +99,3 @@ def spatial(results: Results) -> Measured:
         if math.isfinite(row["rope_lateral_max_m"]):
             most[at(row)] = max(most.get(at(row), 0.0), row["rope_lateral_max_m"])
     return Measured([*most.items()], ", ".join(f"{shown(far, '.2g')} at {where}" for where, far in most.items()))
-
-
-PUSHES = "size and direction of the push, depth, stiffness and grid varied (report out of the plane)"
-CLAIMS = (
-    Claim(
-        "4.2.2, eq. (33)",
-        "In eq. (33) all is normalised by the buoy's mass and diameter and the radial natural frequency.",
-        "So normalised table 1 and the large wave give, added mass included (printed)",
-        near(
-            ".3g",
-            **{
-                "ω": (of("frequency"), of("oscillator_frequency")),
-                "B − W": (of("lift"), of("oscillator_lift")),
-                "F": (of("force"), of("oscillator_force")),
-            },
-        ),
-        within(0.05, "each within 5 % of the number of fig. 19b"), "closed form: table 1, dispersion relation",
-    ),
-    Claim(
-        "4.2.2, eq. (33), fig. 19b", "The section of eq. (33) shows the fractal structure of a strange attractor.",
-        "Largest exponent, and Kaplan-Yorke dimension of the section", strange,
-        met("two errors above zero, and off 1 and 2"),
-        "exact motion, closed form in each piece; λ1 + λ2 = −μ (report on eq. 33)",
-    ),
-    Claim(
-        "4.2, 4.2.2", "Waves symmetric about the plane of the static system move buoy and line in that plane.",
-        "Pushed along the waves, in three dimensions: largest lateral distance of any node", planar,
-        Rule(lambda most: most == 0.0, "exactly none"), "exact symmetry of the scheme",
-    ),
-    Claim(
-        "4.2.2, fig. 20", "In small waves a disturbance across the plane does not grow.", "Runs", small_decays,
-        Rule(lambda growing: growing == 0, "no run grows"),
-        f"exponent of an infinitesimal perturbation of planar runs agrees; {PUSHES}",
-    ),
-    Claim(
-        "4.2.2, fig. 20", "In large waves a disturbance across the plane grows exponentially.", "Runs", large_grows,
-        met("an exponential growth of buoy or rope at that depth"), PUSHES,
-    ),
-    Claim(
-        "4.2.2, fig. 20", "In large waves the motion of the buoy across the plane becomes comparable with that in it.",
-        "Largest share of the in-plane half range of the buoy", comparable,
-        Rule(lambda share: share >= COMPARABLE, f"{COMPARABLE:.1%} or more"), PUSHES,
-    ),
-    Claim(
-        "4.2.2, fig. 20", "In large waves the response as a whole becomes three-dimensional (rope included).",
-        "Largest lateral distance of the rope, m", spatial, above(0.1, "0.1 m or more"), PUSHES,
-    ),
-)  # fmt: skip

@@ -1,27 +1,24 @@
-"""Section 4.2.1: the buoy at rest and in small waves, in their plane."""
+"""Measures of section 4.2.1, the buoy at rest and in small waves, and of section 3, the buoy on twice the points."""
 
 import math
 
 from campaigns.paper.measured import Results
-from campaigns.paper.measures import EARLY, SETTLED, SMALL, WINDOW
+from campaigns.paper.measures import EARLY, SMALL, WINDOW
 from campaigns.paper.statements.judging import (
     LONG,
     NOT_IN_DOUBT,
-    NOTHING,
-    at_places,
     by_regime,
     everywhere,
     exponent,
-    looks,
-    near,
-    of,
     passed,
     positive,
     regimes,
     value_of,
 )  # fmt: skip
-from campaigns.statements import Claim, Measured, Rule, above, below, met, shown, within
+from campaigns.statements import Measured, shown
 
+EARLIEST = f"the first {EARLY[1]} periods"
+FINER = "twice the elements"
 PRINTED_DIGIT = 0.05  # the paper's estimates are printed to one digit
 RESONANT = 0.1  # relative distance of a ratio of natural frequencies from 1, 2 or 3
 NEGLIGIBLE = 0.01  # share of the variance below which a coupling is negligible
@@ -95,96 +92,16 @@ def exponent_to_zero(results: Results) -> Measured:
     return Measured(checks, words)
 
 
-def _stretch(results: Results) -> float:
-    return results.number("rest_m") / results.number("length_m") - 1.0
-
-
-def _excursion(results: Results) -> float:
-    return results.number("excursion_m") / (results.number("rest_m") - results.number("length_m"))
-
-
-EARLIEST = f"the first {EARLY[1]} periods"
-DEPTHS = "section on what the paper leaves out: depths"
-AGAIN = "the same runs tighter and finer (report on the buoy, error against run time)"
-CODES = "two published codes and an ODE agree to 1.4 mm at kA = 0.016 (docs/findings.md)"
-AS_PRINTED = within(PRINTED_DIGIT, f"to {PRINTED_DIGIT:.0%} of the printed number")
-ALWAYS_TAUT = Claim(
-    "4.2, 4.2.1, fig. 9", "In small waves the line stays in tension at all times.",
-    "Least top tension, N, of the short runs after the transient", always_taut,
-    above(0.0, "least tension above zero"), f"{AGAIN}; {CODES}",
-)  # fmt: skip
-REGULAR = Claim(
-    "4.2, 4.2.1", "In small waves the motion of the buoy is periodic and regular.", "Regime", regular,
-    met(f"regime period-N; {NOTHING}"), f"tangent dynamics and Wolf's method; {DEPTHS}",
-)  # fmt: skip
-TWO_MODES = Claim(
-    "4.2.1, fig. 12", "In small waves natural and forced oscillation dominate the spectra of both motions.",
-    "Their share of the variance, eq. (31)", looks(".1%", r=of("radial_share"), θ=of("angular_share")),
-    above(0.9, "more than 90 %"), "spectra by eq. (31)",
-)  # fmt: skip
-CLAIMS = (
-    Claim(
-        "4.2", "The waves are long compared to the buoy, so that Morison's equation gives the loads.",
-        "Diameter over wave length (waves that the buoy radiates are left out)",
-        at_places(".3f", {"the buoy": of("diameter_over_wave")}), below(0.2, "below 0.2"),
-        "closed form: dispersion relation",
-    ),
-    Claim(
-        "4.2", "At rest the buoyancy stretches the line by about 0.04 of its length.", "Stretch over length (printed)",
-        near(".5f", rest=(_stretch, 0.04)), AS_PRINTED, "closed form: (ρ V − M) g = f(ε)",
-    ),
-    Claim(
-        "4.2, 4.2.1", "Waves of 0.1 m amplitude and 5 s period have the slope 0.016 and the frequency 1.26 rad/s.",
-        "Amplitude A of that slope at the depth of the scene, m, and frequency, rad/s (printed)",
-        near(".4f", A=(of("small_amplitude_m"), 0.1), ω=(of("estimate_wave_radps"), 1.26)), AS_PRINTED,
-        "closed form: dispersion relation",
-    ),
-    Claim(
-        "4.2.1", "In small waves the buoy oscillates about its position at rest.",
-        f"Mean of the last {SETTLED} periods off it, over half the range",
-        looks(".2%", r=of("radial_mean"), θ=of("angular_mean")), within(0.1, "within 10 %"), CODES,
-    ),
-    Claim(
-        "4.2.1", "The natural frequencies are about 1.0 rad/s along r and 0.2 rad/s along θ.",
-        "By the paper's formulas, rad/s (printed)",
-        near(".4f", r=(of("estimate_radial_radps"), 1.0), θ=(of("estimate_pendulum_radps"), 0.2)), AS_PRINTED,
-        "closed form",
-    ),
-    ALWAYS_TAUT,
-    Claim(
-        "4.2.1, fig. 10", "In small waves the motion along r is smaller than the static stretch.",
-        "Largest excursion along r over the static stretch", at_places(".3f", {LONG: _excursion}),
-        below(1.0, "smaller than it"), CODES,
-    ),
-    REGULAR,
-    Claim(
-        "4.2.1, fig. 9", "The transient along r decays slowly, by the viscous drag.",
-        "Share of its amplitude that is left after 40 wave periods", at_places(".1%", {LONG: of("radial_kept")}),
-        Rule(lambda left: 0.0 < left < 0.5, "less than 50 % left, and not none"), f"quadratic drag, eq. (30); {CODES}",
-    ),
-    Claim(
-        "4.2.1, figs. 9, 10", "In small waves the motion along r shows the trends of the tension.",
-        f"Correlation of the two over {sum(WINDOW)} periods", at_places(".5f", {LONG: of("tension_alike")}),
-        above(0.9, "above 0.9"), CODES,
-    ),
-    Claim(
-        "4.2.1, figs. 10, 11", "The transient along θ vanishes more slowly than that along r.",
-        "Left after 40 wave periods, θ over r", at_places(".2f", {LONG: of("angular_kept", over="radial_kept")}),
-        above(1.0, "more is left"), CODES,
-    ),
-    Claim(
-        "4.2.1", "There are no internal resonances, and the coupling of r and θ is nearly negligible.",
-        "Frequencies and shares", uncoupled, met("ratio 10 % off 1, 2, 3; shares below 1 %"), "spectra by eq. (31)",
-    ),
-    TWO_MODES,
-    Claim(
-        "4.2.1, fig. 12", "The natural frequencies seen in the spectra agree well with the estimates.",
-        "rad/s", on_estimates, met("within 5 %, or half a bin of fig. 12"),
-        "closed form; shooting and engine agree to 1e-7 (docs/findings.md)",
-    ),
-    Claim(
-        "4.2.2, fig. 14", "In small waves the exponent tends to zero with time, as of a regular motion.",
-        "Bits per period", exponent_to_zero, met("Wolf: zero within two errors; tangent: not above zero"),
-        "two methods: time series and tangent dynamics",
-    ),
-)  # fmt: skip
+def doubled_buoy(results: Results) -> Measured:
+    """Rms change of r over its range, of every repeated run on twice the elements, early and over all of it."""
+    checks = []
+    for again in results.accuracy:
+        row = results.buoy.get(float(again["label"])) if again["run"] == FINER and again["status"] == "ok" else None
+        if row is None:
+            continue
+        span = row["radius_max_m"] - row["radius_min_m"]
+        whole = f"{again['periods']:g} periods"
+        for column, when in (("error_early_m", "the first ten periods"), ("error_m", whole)):
+            checks.append((f"kA = {row['steepness']:g} over {when}", again[column] / span))
+    checks = [check for check in checks if math.isfinite(check[1])]
+    return Measured(checks, ", ".join(f"{shown(off, '.2%')} at {where}" for where, off in checks))

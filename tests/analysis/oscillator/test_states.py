@@ -23,8 +23,10 @@ def test_states_after_one_and_ten_periods():
         (PAPER, (0.68, 0.0)),
         (SnapOscillator(phase=1.0), (-3.0, 2.0)),
         (SnapOscillator(damping=0.3, frequency=0.31, force=2.0, lift=0.1), (-1.0, -0.5)),
-        (SnapOscillator(damping=1.5, frequency=2.7, force=8.0, lift=0.4), (0.3, 4.0)),
         (SnapOscillator(damping=0.0, frequency=0.8, force=0.5, lift=0.9), (2.0, 0.0)),
+        pytest.param(
+            SnapOscillator(damping=1.5, frequency=2.7, force=8.0, lift=0.4), (0.3, 4.0), marks=pytest.mark.slow
+        ),
     ],
 )
 def test_states_and_switches_against_fifty_digits(oscillator, start):

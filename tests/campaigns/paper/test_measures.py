@@ -1,4 +1,4 @@
-"""What is measured of a snapping run, what the scene alone says of eq. (33), and the scales of figs. 3 and 6."""
+"""What is measured of a snapping run and of a slack rope, and what the scene alone says of eq. (33)."""
 
 import math
 from types import SimpleNamespace
@@ -6,11 +6,10 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
+from campaigns.paper.measures import buckling_waves
+from campaigns.paper.snaps import scales, snaps
 from engine import load_scene
-from reports.buoy_sweep.physics import natural_frequencies
-from reports.figures.line_panels import LinePanel
-from reports.paper.figures.breaking import _limits
-from reports.paper.snaps import scales, snaps
+from engine.natural_frequencies import natural_frequencies
 
 PEAK, STATIC_N = 4.0, 2000.0  # of the static tension
 
@@ -47,27 +46,22 @@ def test_compression_is_told_with_the_way_of_the_buoy(sign, inwards):
     assert found["compressed_inwards"] == pytest.approx(inwards, abs=0.01)
 
 
+@pytest.mark.parametrize("waves", [1, 4])
+def test_a_slack_sine_has_its_half_waves(waves):
+    x = np.linspace(0.0, 1.0, 200)
+    shape = {"x_m": x[None, :], "z_m": 0.1 * np.sin(waves * np.pi * x)[None, :]}
+    assert buckling_waves(SimpleNamespace(**shape, tension_N=-np.ones((1, 200)))) == waves
+    assert buckling_waves(SimpleNamespace(**shape, tension_N=np.ones((1, 200)))) is None
+
+
 def test_the_normalised_lift_is_the_static_stretch_over_the_diameter():
     scene = load_scene("tethered_buoy", {"water.depth_m": 300.0})
     modes = natural_frequencies(scene)
     found, twice = scales(scene, modes, 0.016, 0.13), scales(scene, modes, 0.016, 0.26)
     stretch_m = modes.static_strain * scene.tether.length_m
-    assert found.lift == pytest.approx(stretch_m / scene.buoy.diameter_m, rel=1e-4)
-    assert twice.force == pytest.approx(2.0 * found.force)
+    assert found["lift"] == pytest.approx(stretch_m / scene.buoy.diameter_m, rel=1e-4)
+    assert twice["force"] == pytest.approx(2.0 * found["force"])
     deep = scene.gravity_mps2 / modes.wave_radps**2  # 1/k of deep water
-    assert found.small_amplitude_m == pytest.approx(0.016 * deep) and found.wave_length_m == pytest.approx(
-        2.0 * math.pi * deep
-    )
-    assert found.force < 1e-3  # waves do not reach down there
-
-
-def test_tensions_of_fast_and_slow_breaks_have_identical_scales():
-    forces = [45e3, 180e3, 315e3, 450e3]
-
-    def limits(least):
-        panels = [LinePanel("", np.zeros(2), np.array([[least * N, N]]), np.zeros(1)) for N in forces]
-        return _limits(panels, ["1", "2", "3", "4"], forces, motion=False)
-
-    assert limits(-0.045) == limits(-0.01)
-    assert limits(0.0)[0] == limits(0.0)[1] != limits(0.0)[2] == limits(0.0)[3]
-    assert limits(-0.5)[0][0] < -0.5 * 180e3  # nothing is cut off
+    assert found["small_amplitude_m"] == pytest.approx(0.016 * deep)
+    assert found["diameter_over_wave"] == pytest.approx(scene.buoy.diameter_m / (2.0 * math.pi * deep))
+    assert found["force"] < 1e-3  # waves do not reach down there

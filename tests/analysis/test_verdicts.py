@@ -1,10 +1,11 @@
-"""The regime of sections whose regime is known, and what makes a verdict void."""
+"""The regime of sections whose regime is known, what makes a verdict void, and no false alarm in regular records."""
 
 import numpy as np
 import pytest
 
-from analysis import regime
+from analysis import evidence_text, read_evidence, regime
 from analysis.exponents import Exponent
+from tests.analysis.forced_records import KINDS, SAMPLES, record
 from tests.analysis.maps import circle_map, henon, logistic
 
 K = np.arange(300)
@@ -22,11 +23,12 @@ def test_chaotic_maps(section):
     assert regime(strobed=section, tangent_exponent=POSITIVE).regime == "chaotic"
 
 
-@pytest.mark.parametrize("exponent", [None, (0.0, 0.01), (0.005, 0.001)])
 @pytest.mark.parametrize(
-    "section", [circle_map(0.5, 0.6180339, 300), circle_map(0.8, 0.41421356, 300), circle_map(0.5, 0.1314, 300)]
+    ("coupling", "rotation", "exponent"),
+    [(0.5, 0.6180339, None), (0.8, 0.41421356, (0.0, 0.01)), (0.5, 0.1314, (0.005, 0.001))],
 )
-def test_one_to_one_circle_maps_are_quasi_periodic(section, exponent):
+def test_one_to_one_circle_maps_are_quasi_periodic(coupling, rotation, exponent):
+    section = circle_map(coupling, rotation, 300)
     assert regime(strobed=section, wolf_exponent=exponent).regime == "quasi-periodic"
 
 
@@ -63,27 +65,32 @@ def test_noise_is_undecided_even_with_a_positive_exponent():
 
 
 def test_a_regular_word_against_a_positive_tangent_exponent_is_undecided():
-    assert regime(strobed=circle_map(0.5, 0.6180339, 300), tangent_exponent=POSITIVE).regime == "undecided"
+    assert regime(strobed=circle_map(0.5, 0.6180339, 150), tangent_exponent=POSITIVE).regime == "undecided"
     assert regime(strobed=logistic(3.2, 300), scale=0.5, tangent_exponent=POSITIVE).regime == "undecided"
 
 
 def test_a_tighter_tolerance_that_says_otherwise_makes_any_word_undecided():
-    section = circle_map(0.5, 0.6180339, 300)
-    assert regime(strobed=section, tighter=regime(strobed=section)).regime == "quasi-periodic"
+    section = circle_map(0.5, 0.6180339, 200)
+    found = regime(strobed=section)
+    assert regime(strobed=section, tighter=found).regime == found.regime == "quasi-periodic"
     assert regime(strobed=section, tighter="period-2").regime == "undecided"
 
 
 def test_the_same_seed_gives_the_same_verdict_and_the_evidence_can_be_read():
-    first, again = (regime(strobed=henon(250), tangent_exponent=POSITIVE, seed=8) for _ in range(2))
+    first, again, other = (regime(strobed=henon(150), tangent_exponent=POSITIVE, seed=seed) for seed in (8, 8, 9))
     assert [repr(item) for item in first.evidence] == [repr(item) for item in again.evidence]
-    other = regime(strobed=henon(250), tangent_exponent=POSITIVE, seed=9)
     assert other.regime == first.regime
     assert other.named("0-1 test").value != first.named("0-1 test").value
     assert all(item.sentence for item in first.evidence)
+    read = read_evidence(evidence_text(first))
+    assert [item[0] for item in read] == [item.name for item in first.evidence]
+    assert ("0-1 test", f"{first.named('0-1 test').value:.3g}", "0.9", "yes") in read
+    assert read_evidence("") == read_evidence("no evidence at all") == []
     with pytest.raises(ValueError, match="there is period"):
         first.named("nothing")
 
 
+@pytest.mark.slow
 def test_units_and_origin_do_not_matter():
     section = henon(250)
     plain = regime(strobed=section, tangent_exponent=POSITIVE)
@@ -112,7 +119,7 @@ def test_a_motion_at_rest_is_period_1():
 
 
 def test_exponents_come_in_either_unit():
-    section, nats = henon(250), Exponent(0.42, 0.01, "nats/time", "known")
+    section, nats = henon(60), Exponent(0.42, 0.01, "nats/time", "known")
     assert regime(strobed=section, period_s=2.0, tangent_exponent=nats).named("exponent").value == pytest.approx(
         0.84 / np.log(2)
     )
@@ -126,7 +133,6 @@ def test_exponents_come_in_either_unit():
         (dict(), "either series or strobed"),
         (dict(series=np.zeros(100), strobed=np.zeros(100)), "either series or strobed"),
         (dict(series=np.zeros(100)), "step_s and period_s"),
-        (dict(strobed=np.full(100, np.nan)), "not finite"),
         (dict(strobed=np.zeros(100), surrogates=18), "surrogates"),
     ],
 )
@@ -135,9 +141,39 @@ def test_what_makes_no_sense_is_refused(given, message):
         regime(**given)
 
 
+@pytest.mark.slow
 def test_chaos_in_two_bands_is_seen_in_each_band():
     """Two logistic maps visited in turn, a hundred times further apart than they are wide."""
     slow = np.repeat(logistic(3.9, 250), 2)[:, None] + [0.0, 0.3]
     section = slow + 100.0 * (K[:250].repeat(2) * 0 + np.arange(500) % 2)[:, None]
     found = regime(strobed=section, tangent_exponent=POSITIVE).named("0-1 test")
     assert found.passed and "2 bands" in found.sentence
+
+
+# An estimator fooled by noise: a positive exponent, 25 errors away from 0, for every record.
+FOOLED = (0.5, 0.02)
+
+
+@pytest.mark.parametrize("kind", ["noisy-periodic", "noisy-quasi", "ar2"])
+def test_no_false_alarm(kind):
+    verdict = regime(record(kind, 0), 1 / SAMPLES, 1.0, wolf_exponent=FOOLED)
+    assert verdict.regime != "chaotic", verdict.reason
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize("exponent", [FOOLED, None], ids=["fooled", "wolf"])
+def test_no_false_alarm_in_more_than_200_records(kind, exponent):
+    for number in range(100, 136):
+        verdict = regime(record(kind, number), 1 / SAMPLES, 1.0, wolf_exponent=exponent, seed=number)
+        assert verdict.regime != "chaotic", (number, verdict.reason)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("kind", "words", "share"),
+    [("periodic", "period-", 1.0), ("quasi", "quasi-periodic", 0.75), ("transient", ("transient", "period-"), 0.9)],
+)
+def test_most_clean_records_get_their_own_word(kind, words, share):
+    verdicts = [regime(record(kind, number), 1 / SAMPLES, 1.0).regime for number in range(200, 240)]
+    assert sum(word.startswith(words) for word in verdicts) >= share * len(verdicts)

@@ -110,7 +110,7 @@ def test_every_fault_is_told_and_nothing_is_written(tmp_path, capsys):
 def test_the_study_varies_one_thing_at_a_time_from_the_shipped_scene():
     from engine import load_scene
 
-    scene, found = load_scene("tethered_buoy"), dependence.cases(False)
+    scene, found = load_scene("tethered_buoy"), dependence.variants(False)
     assert (
         found[0].changes().items()
         <= {

@@ -1,0 +1,109 @@
+"""`campaigns.sweep`: any number of any scene, one key or two; what cannot be varied is named and nothing is written."""
+
+import csv
+import json
+
+import pytest
+
+from campaigns import buoy_sweep, sweep
+from engine import load_scene
+from tests.campaigns.conftest import USUAL, rows_of
+from tests.campaigns.fake_engine import FakeEngine
+
+HELD = ["--scene", "hanging_line", "--duration", "2"]
+
+
+def run(out, *words, **fake):
+    usual = ["--no-report", "--backend", "threading", "--out", str(out)]
+    assert sweep.main([*map(str, words), *usual], simulate=FakeEngine(**fake)) == 0
+    return rows_of(out)
+
+
+def cases_of(*words):
+    order = sweep.read_order([*map(str, words), "--out", "new"], faults := [])
+    assert faults == []
+    return order.cases
+
+
+def test_two_keys_are_every_pair_of_their_values(tmp_path):
+    short = ["--periods", "6", "--transient", "2"]
+    rows = run(tmp_path, "--vary", "water.depth_m", 21, 23, 3, "--vary", "waves.steepness", 0.02, 0.1, 2, *short)
+    found = [(row["water.depth_m"], row["waves.steepness"]) for row in rows]
+    assert found == [(depth, kA) for depth in ("21.0", "22.0", "23.0") for kA in ("0.02", "0.1")]
+    told = json.loads((tmp_path / "provenance.json").read_text())
+    assert told["campaign"] == "sweep"
+    assert told["vary"] == {"water.depth_m": [21.0, 22.0, 23.0], "waves.steepness": [0.02, 0.1]}
+    with open(tmp_path / "columns.csv", newline="") as file:
+        columns = {row["name"]: row for row in csv.DictReader(file)}
+    assert list(columns) == list(rows[0])
+    assert (columns["water.depth_m"]["unit"], columns["water.depth_m"]["symbol"]) == ("m", "H")
+    assert (columns["waves.steepness"]["digits"], columns["status"]["digits"]) == ("2", "")
+
+
+def test_a_sweep_of_steepness_has_the_rows_of_the_buoy_sweep(tmp_path):
+    rows = run(tmp_path / "any", "--vary", "waves.steepness", 0.02, 0.1, 3, "--periods", 6, "--transient", 2)
+    words = ["--steepness-range", "0.02", "0.1", "3", *USUAL, "--backend", "threading"]
+    assert buoy_sweep.main([*words, "--out", str(tmp_path / "own")], simulate=FakeEngine()) == 0
+    own = rows_of(tmp_path / "own")
+    assert [row["run_key"] for row in rows] == [row["run_key"] for row in own]
+    for row, one in zip(rows, own, strict=True):
+        assert row.pop("waves.steepness") == one["steepness"]
+        assert row.items() <= one.items()
+
+
+def test_whole_numbers_and_elements_of_lists_are_varied():
+    nodes = cases_of(*HELD, "--vary", "tether.nodes", 21, 30, 4)
+    assert [case.scene.tether.nodes for case in nodes] == [21, 24, 27, 30]
+    ends = cases_of(*HELD, "--vary", "end.position_m[2]", -1, 1, 2, "--vary", "end.position_m[0]", 13, 14, 2)
+    held = load_scene("hanging_line").end.position_m
+    places = [(x, held[1], z) for z in (-1.0, 1.0) for x in (13.0, 14.0)]
+    assert [case.scene.end.position_m for case in ends] == places
+    assert all(case.duration_s == 2.0 and case.periods is None for case in ends)
+
+
+def test_a_long_sweep_of_a_buoy_carries_what_a_verdict_needs():
+    (case, *_) = cases_of("--vary", "buoy.mass_kg", 800, 1600, 2)
+    assert case.scene.output.tangent_vectors == 1 and case.scene.output.lateral_growth
+    (case, *_) = cases_of("--vary", "buoy.mass_kg", 800, 1600, 2, "--periods", 40, "--transient", 10)
+    assert case.scene.output.tangent_vectors == 0
+
+
+@pytest.mark.parametrize("name", ["breaking_line", "falling_chain", "hanging_line", "shaken_line", "twisted_rope"])
+def test_any_shipped_scene_can_be_swept(name):
+    assert len(cases_of("--scene", name, "--duration", "0.01", "--vary", "gravity_mps2", 9.5, 9.81, 3)) == 3
+
+
+@pytest.mark.slow
+def test_a_line_without_waves_has_a_row_of_its_own(tmp_path):
+    words = [*HELD, "--vary", "tether.nodes", "11", "31", "3", "--jobs", "1", "--no-report", "--backend", "threading"]
+    assert sweep.main([*words, "--out", str(tmp_path)]) == 0
+    rows = rows_of(tmp_path)
+    assert [row["tether.nodes"] for row in rows] == ["11", "21", "31"] and "regime" not in rows[0]
+    tension = [float(row["tension_top_max_N"]) for row in rows]
+    assert tension == pytest.approx([9.67] * 3, rel=0.01) and tension[2] != tension[1] != tension[0]
+
+
+@pytest.mark.parametrize(
+    ("words", "part"),
+    [
+        ("", "--vary: given nothing; allowed: once or twice KEY LO HI COUNT"),
+        ("--vary buoy.mass_kg 1 2", "once or twice KEY LO HI COUNT"),
+        ("--vary a 1 2 3 --vary b 1 2 3 --vary c 1 2 3", "once or twice KEY LO HI COUNT"),
+        ("--vary buoy.mass 1 2 3", "did you mean 'buoy.mass_kg'?"),
+        ("--vary buoy.mass_kg 2 1 3", "two finite numbers, LO < HI"),
+        ("--vary end.kind 1 2 3", "holds a text; allowed: a key that holds a number"),
+        ("--vary start.buoy_velocity_mps 0 1 2", "allowed: one element of it, as start.buoy_velocity_mps[0]"),
+        ("--vary start.buoy_velocity_mps[3] 0 1 2", "the scene has no such element"),
+        ("--vary buoy.mass_kg 800 900 2 --vary buoy.mass_kg 1 2 3", "given twice; allowed: two different keys"),
+        ("--vary buoy.mass_kg 800 900 2 --set buoy.mass_kg=3", "this campaign sets it; use --vary"),
+        ("--vary buoy.mass_kg 800 1e6 2", "or it sinks"),
+        ("--vary tether.nodes 1 5 2", "a whole number from 3 to 20000"),
+        ("--vary buoy.mass_kg 800 900 2 --duration 5", "given for a scene with waves; allowed: --periods"),
+        ("--scene hanging_line --vary tether.nodes 11 21 2", "a scene without waves; allowed: seconds, above 0"),
+    ],
+)
+def test_what_cannot_be_varied_is_named(tmp_path, monkeypatch, capsys, words, part):
+    monkeypatch.chdir(tmp_path)
+    assert sweep.main(words.split()) == 2
+    assert part in capsys.readouterr().err
+    assert list(tmp_path.iterdir()) == []
