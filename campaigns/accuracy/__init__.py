@@ -93,7 +93,9 @@ def done(order: Order, simulate: Callable | None):
     out, ours = order.how.out, simulate is None
     if ours:
         from engine import simulate
-    maker = made_by({}, "analysis/line_waves", "engine", "campaigns/accuracy/rows.py", "campaigns/accuracy/works.py")
+    maker = made_by(
+        {}, "campaigns/breaking_line/theory", "engine", "campaigns/accuracy/rows.py", "campaigns/accuracy/works.py"
+    )
     plan = plan_of(order.how, simulate, jobs.point_row, COLUMNS, maker)
     phases = jobs.phases(out, order.effort, order.quick, order.peers and ours)
     write_scene(out, CAMPAIGN, next(filter(None, phases)))

@@ -16,6 +16,7 @@ from pathlib import Path
 import numpy as np
 
 from campaigns.accuracy.peers.deck import system
+from engine import Scene, Trajectory
 from engine.physics.waves import wave_number
 
 SAMPLE = 0.05
@@ -46,7 +47,7 @@ Point2pz
 """
 
 
-def simulate(scene, duration_s, segments, step_s):
+def simulate(scene: Scene, duration_s: float, segments: int, step_s: float) -> Trajectory:
     """A run as the engine's record: a Trajectory of the buoy's places, or the program's own words where it fails."""
     from campaigns.accuracy.peers.record import as_trajectory, nothing
 

@@ -29,6 +29,7 @@ from pathlib import Path
 import numpy as np
 
 from campaigns.accuracy.peers.deck import system, volume
+from engine import Scene, Trajectory
 from engine.physics.waves import wave_number
 
 BED = -100.0  # m: MoorDyn's still water level is z = 0, far above the buoy
@@ -113,7 +114,7 @@ def airy(scene):
     return water
 
 
-def simulate(scene, duration_s, segments, steps_per_period):
+def simulate(scene: Scene, duration_s: float, segments: int, steps_per_period: float) -> Trajectory:
     """A run as the engine's record: a Trajectory of the buoy's places."""
     from campaigns.accuracy.peers.record import as_trajectory
 
