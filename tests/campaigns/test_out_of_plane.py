@@ -126,7 +126,6 @@ def test_a_record_that_is_not_finite_is_measured_up_to_there():
     assert set(row) <= set(names(COLUMNS))
 
 
-
 def test_bows_are_measured_from_the_straight_line():
     s = np.linspace(0.0, 1.0, 21)
     along, arch = np.array([[3.0], [0.0]]) * s, np.sin(np.pi * s)
