@@ -24,7 +24,7 @@ from campaigns.machinery.row_cache import keep_row, kept_row, made_by
 from campaigns.stability import fuzz, random_scenes, run, scene_shares, step_maps
 from campaigns.stability.cases import Case, all_cases, regular
 
-SOURCES = ("engine", "campaigns/stability")
+SOURCES = ("engine", "campaigns/stability", "campaigns/stability/random_scenes.toml")
 CHUNK = {random_scenes.VALID: 20, random_scenes.INVALID: 200}
 DRIFT_BAR = 0.01
 DRIFT_LIMIT_S = 1800.0
