@@ -9,7 +9,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from campaigns.stability.cases.case import Case
+from campaigns.stability.cases import Case
 from engine import Trajectory, load_scene, simulate
 from engine.scales import tension_at
 

@@ -1,8 +1,8 @@
 """Random valid and invalid scenes for `campaigns.stability`, the same while seed, count and sources stay the same.
 
-A scene starts as a shipped one on a small grid. Then parts are put in its place (`PARTS`) and numbers scaled, extreme
-numbers last; a change that the engine refuses is drawn again. An invalid scene has up to three faults besides: values
-of a wrong kind or size, entries taken away, unknown keys, rules between values broken. Scenes are strategies of
+A scene starts as a shipped one on a small grid. Then parts of it are replaced (random_scenes.toml) and numbers scaled,
+extreme numbers last; a change that the engine refuses is drawn again. An invalid scene has up to three faults besides:
+values of a wrong kind or size, entries taken away, unknown keys, rules between values broken. Scenes are strategies of
 Hypothesis, which shrinks what is found unsound.
 """
 
@@ -11,15 +11,19 @@ import json
 import math
 import tomllib
 from collections.abc import Callable
+from pathlib import Path
 
 from hypothesis import HealthCheck, Phase, given, reject, seed, settings
 from hypothesis import strategies as st
 
-from campaigns.stability.random_parts import BASES, BROKEN_RULES, EXTREMES, JUNK, PARTS, UNKNOWN
-
 VALID, INVALID = "valid", "invalid"
 MOST_NODES = 61
-CHOICES = [(name, value) for name, values in PARTS.items() for value in values]
+EXTREMES = (5e-324, 1e-310, 1e-200, 1e-30, 1e-12, 1e-6, 1e-3, 1e3, 1e6, 1e12, 1e30, 1e150, 1e200, 1.7e308, 0.0, -0.0)
+JUNK = (None, True, False, "", "text", "1.0", "\x00", "ü" * 300, [], [1.0], [[]], {}, {"a": 1}, -1, -1e-300, 0, 1.5)
+JUNK += (math.nan, math.inf, -math.inf, 10**400, -(10**400), [math.nan] * 3, [1.0] * 7, {"law": "linear"}, {"law": 3})
+UNKNOWN = ("lenght_m", "x", "", "a.b", "law", "nodes", "\n")
+DATA = tomllib.loads(Path(__file__).with_suffix(".toml").read_text(encoding="utf-8"))
+CHOICES = [(name, value) for name, values in DATA["parts"].items() for value in values]
 TRIES = 10  # to make a change that is wanted
 
 
@@ -49,7 +53,7 @@ def one_of(draw, choices: list | tuple) -> object:
 @st.composite
 def valid_scene(draw) -> dict:
     """A scene that the engine accepts, in about every other one with up to three extreme numbers."""
-    raw = shipped(*one_of(draw, BASES))
+    raw = shipped(*one_of(draw, DATA["bases"]))
     raw["tether"]["nodes"] = draw(st.integers(3, MOST_NODES))
     for change, most in ((_part, 12), (_scaled, 4)):
         raw = _changed(draw, raw, change, draw(st.integers(0, most)), _accepted)
@@ -99,7 +103,7 @@ def _part(draw, raw: dict) -> None:
     section, _, key = name.rpartition(".")
     table = raw.setdefault(section, {}) if section else raw
     table.pop(key, None)
-    if value is not None:
+    if value != "none":
         table[key] = copy.deepcopy(value)
 
 
@@ -128,7 +132,7 @@ def _fault(draw, raw: dict) -> None:
         tables = [raw, *(table[key] for table, key in places if isinstance(table[key], dict))]
         one_of(draw, tables)[one_of(draw, UNKNOWN)] = copy.deepcopy(one_of(draw, JUNK))
     else:
-        section, key, value = one_of(draw, BROKEN_RULES)
+        section, key, value = one_of(draw, DATA["broken_rules"])
         if isinstance(raw.setdefault(section, {}), dict):
             raw[section][key] = copy.deepcopy(value)
 

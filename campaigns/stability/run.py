@@ -12,7 +12,7 @@ from pathlib import Path
 
 from campaigns.columns import MESSAGE, RUN_KEY, STATISTICS, STATUS, WALL_S, Column, names
 from campaigns.machinery.folder import CampaignStopped, write_failure
-from campaigns.stability.cases.case import ABOVE_BAR, REFUSED, Case
+from campaigns.stability.cases import ABOVE_BAR, REFUSED, Case
 from campaigns.stability.limited import DONE, limited
 
 LIMIT_S = 300.0

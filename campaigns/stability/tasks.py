@@ -22,10 +22,9 @@ from campaigns.machinery.pools import opened
 from campaigns.machinery.processes import PoolBroken
 from campaigns.machinery.row_cache import keep_row, kept_row, made_by
 from campaigns.stability import fuzz, random_scenes, run, scene_shares, step_maps
-from campaigns.stability.cases import all_cases
-from campaigns.stability.cases.case import REGULAR, Case
+from campaigns.stability.cases import Case, all_cases, regular
 
-SOURCES = ("engine", "campaigns/stability")
+SOURCES = ("engine", "campaigns/stability", "campaigns/stability/random_scenes.toml")
 CHUNK = {random_scenes.VALID: 20, random_scenes.INVALID: 200}
 DRIFT_BAR = 0.01
 DRIFT_LIMIT_S = 1800.0
@@ -59,7 +58,7 @@ def planned(order) -> list[Task]:
 
 def drift_case(periods: int) -> Case:
     """The long regular run, strobed at the wave period."""
-    scene, options = {**REGULAR, "output.step_s": 5.0}, {"limit_s": DRIFT_LIMIT_S}
+    scene, options = {**regular(), "output.step_s": 5.0}, {"limit_s": DRIFT_LIMIT_S}
     return Case("drift", f"{periods} regular waves", scene, 5.0 * periods, "drift", DRIFT_BAR, options=options)
 
 

@@ -15,13 +15,6 @@ import numpy as np
 from engine import Scene, Trajectory
 
 SAMPLE = 0.05
-NOTES = (
-    "the pendulum alone: it has no water, waves or Morison forces; shear deformation and inertia of the turning "
-    "sections, which our rope has not; explicit steps (position Verlet), no damping "
-    "(campaigns/accuracy/peers/elastica.py)"
-)
-SETTINGS = {"pendulum": ((5, 2.5e-5), (10, 2.5e-5), (20, 2.5e-5))}
-REFINED = {"pendulum": ((40, 1.25e-5), (20, 1.25e-5))}
 SHEAR = 1.0 / 3.0  # shear modulus over Young's: incompressible
 
 
