@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from campaigns.stability import fuzz, limited
-from campaigns.stability.random_faults import INVALID, VALID, drawn, faults_of, smallest
+from campaigns.stability.random_scenes import INVALID, VALID, drawn, faults_of, smallest
 from engine.scene import build_scene
 
 SEED = 20240

@@ -13,7 +13,6 @@ from campaigns.columns import names
 from campaigns.out_of_plane.rows import COLUMNS, bows, offplane_row
 from engine import load_scene
 from engine.trajectory import Profiles
-from reports.out_of_plane.runs import COLUMNS as READ
 from tests.campaigns.conftest import ROOT, rows_of
 from tests.campaigns.fake_space import BURST_M, BURST_PERIODS, LARGE_RATE, SMALL_RATE, SpaceEngine
 
@@ -125,10 +124,6 @@ def test_a_record_that_is_not_finite_is_measured_up_to_there():
     error = row["buoy_rate_error"] * math.log(2.0)
     assert abs(row["buoy_rate_nats_per_period"] - 5.0 * LARGE_RATE["growth"]) < 3 * error < 0.1
     assert set(row) <= set(names(COLUMNS))
-
-
-def test_the_report_reads_columns_that_the_table_has():
-    assert set(READ) <= set(names(COLUMNS))
 
 
 def test_bows_are_measured_from_the_straight_line():
