@@ -94,6 +94,14 @@ def copy_into(target, source):
 
 
 @kernel
+def keep(mask, source, target):
+    """target = source in the lanes of the mask, for arrays (n, m)."""
+    for k in range(target.shape[0]):
+        for i in range(target.shape[1]):
+            target[k, i] = where(mask, source[k, i], target[k, i])
+
+
+@kernel
 def put3(A, k, at, x, y, z):
     """A[k, at : at + 3] = x, y, z"""
     A[k, at], A[k, at + 1], A[k, at + 2] = x, y, z

@@ -15,9 +15,8 @@ from ..perturbations.tangent import Base, carry_stage, linearise, orthonormalise
 from ..physics.water import water as flow
 from ..planar import node
 from ..time.steps import plan_stage
-from .elementary import copy_into
+from .elementary import copy_into, keep
 from .record import lane_record
-from .ticks import keep
 from .vector import COUNT, as_lanes
 
 # What a turn of all lanes works on, COUNT the last axis: numbers (LENGTH + k + 1,); a (s,), w (3,): as in `plan_stage`;

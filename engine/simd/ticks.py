@@ -24,7 +24,7 @@ from ..time.newton import GOING_ON, iterate, judge
 from ..time.sampling import complete_sample, note_top, weights_within
 from ..time.status import OK
 from ..time.time_loop import begin_trial, guard_turns, next_step, refused, step_done
-from .elementary import copy_into
+from .elementary import copy_into, keep
 from .record import lane_record
 from .select import smaller, some, where
 from .vector import COUNT, as_lanes
@@ -40,14 +40,6 @@ ROWS = 25
 # Ks (s, n, 4): conserved variables, rates of the state and the stages; history (3, n, 6): states for the first guess;
 # C_new, K_new (n, 4), row (n, 6): of the stage that was solved
 Arrays = namedtuple("Arrays", "values tables numbers a w Y now before C Ks history C_new K_new row")
-
-
-@kernel
-def keep(mask, source, target):
-    """target = source in the lanes of the mask, for arrays (n, m)."""
-    for k in range(target.shape[0]):
-        for i in range(target.shape[1]):
-            target[k, i] = where(mask, source[k, i], target[k, i])
 
 
 @kernel
