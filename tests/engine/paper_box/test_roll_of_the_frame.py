@@ -4,11 +4,11 @@ That M and P are those of appendix A is what `test_newton_jacobian` needs to pas
 """
 
 import numpy as np
+from tests.engine.paper_box.states import scene_of, states
 
 from engine.paper_box.frame import roll, rotation, to_local
 from engine.paper_box.line import line_of
 from engine.paper_box.nodal import times_M
-from tests.engine.paper_box.states import scene_of, states
 
 
 def test_true_accelerations_do_not_depend_on_the_roll_of_the_frame():
