@@ -65,29 +65,6 @@ def _pendulum(t, y, f):
 
 
 @numba.njit
-def _thomas(t, y, f):
-    f[0] = np.sin(y[1]) - 0.18 * y[0]
-    f[1] = np.sin(y[2]) - 0.18 * y[1]
-    f[2] = np.sin(y[0]) - 0.18 * y[2]
-
-
-@numba.njit
-def _chua(t, y, f):
-    h = -0.714 * y[0] + 0.5 * (-1.143 + 0.714) * (abs(y[0] + 1.0) - abs(y[0] - 1.0))
-    f[0] = 15.6 * (y[1] - y[0] - h)
-    f[1] = y[0] - y[1] + y[2]
-    f[2] = -28.0 * y[1]
-
-
-@numba.njit
-def _hyper_rossler(t, y, f):
-    f[0] = -y[1] - y[2]
-    f[1] = y[0] + 0.25 * y[1] + y[3]
-    f[2] = 3.0 + y[0] * y[2]
-    f[3] = -0.5 * y[2] + 0.05 * y[3]
-
-
-@numba.njit
 def _van_der_pol(t, y, f):
     f[0] = y[1]
     f[1] = (1.0 - y[0] * y[0]) * y[1] - y[0]
@@ -105,9 +82,6 @@ FLOWS = {
         Flow("duffing", _duffing, (0.1, 0.1), _first, 2 * np.pi / 50, 5, None),
         Flow("ueda", _ueda, (2.5, 0.0), _first, 2 * np.pi / 50, 5, 0.1034),
         Flow("pendulum", _pendulum, (0.1, 0.0), lambda y: y[:, 1], 2 * np.pi / 0.7 / 50, 8, 0.1400),
-        Flow("thomas", _thomas, (0.1, 0.0, 0.0), _first, 0.2, 5, None),
-        Flow("chua", _chua, (0.7, 0.0, 0.0), _first, 0.05, 10, None),
-        Flow("hyper_rossler", _hyper_rossler, (-20.0, 0.0, 0.0, 15.0), _first, 0.1, 10, 0.112),
         Flow("van_der_pol", _van_der_pol, (1.0, 0.0), _first, 0.1, 4, 0.0),
     )
 }

@@ -28,8 +28,8 @@ def test_the_displacement_alone_shows_chaos(number):
 
 @pytest.mark.slow
 def test_at_least_nine_of_ten_records_of_400_periods_are_chaotic_and_none_is_periodic():
-    words = [_verdict(number).regime for number in range(50)]
-    assert words.count("chaotic") >= 45
+    words = [_verdict(number).regime for number in range(20)]
+    assert words.count("chaotic") >= 18
     assert not any(word.startswith("period-") for word in words)
 
 

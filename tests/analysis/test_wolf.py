@@ -61,12 +61,12 @@ def test_a_limit_cycle_has_exponent_zero():
 @pytest.mark.slow
 @pytest.mark.parametrize("name", TRUTH)
 def test_the_truth_lies_within_two_errors_for_nine_in_ten_noise_seeds(name):
-    """50 seeds of 1 % noise on the same motion."""
+    """20 seeds of 1 % noise on the same motion."""
     inside = 0
-    for seed in range(50):
+    for seed in range(20):
         found = wolf_lyapunov(*series(name, noise=0.01, seed=seed))
         inside += abs(found.value - TRUTH[name]) < 2.0 * found.error
-    assert inside >= 45
+    assert inside >= 18
 
 
 @pytest.mark.slow
@@ -74,14 +74,6 @@ def test_the_truth_lies_within_two_errors_for_nine_in_ten_noise_seeds(name):
 def test_literature_values_agree_with_two_nearby_copies(name):
     value, error = systems.benettin(name, 50_000.0)
     assert abs(value - systems.FLOWS[name].literature) < 4.0 * error + 1e-3
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("name", ["thomas", "chua", "hyper_rossler"])
-def test_systems_beyond_those_of_the_table_are_within_two_errors(name):
-    truth, _ = systems.benettin(name, 50_000.0 if name != "chua" else 20_000.0)
-    found = wolf_lyapunov(*systems.record(name))
-    assert abs(found.value - truth) < 2.0 * found.error
 
 
 ROSSLER, STEP = systems.record("rossler", 6000)

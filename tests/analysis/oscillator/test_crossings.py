@@ -43,16 +43,6 @@ def test_a_near_miss_is_no_crossing(clearance):
     assert found == NONE or found > 2.5
 
 
-def test_a_fixed_step_method_misses_what_is_found_here():
-    oscillator = SnapOscillator(force=0.2)
-    time = 2.5 * oscillator.period / 64  # half-way between the steps of an RK4 with T/64
-    state = touching(1e-5, time + 20 * oscillator.period / 64, oscillator)
-    motion = snap_motion(oscillator, state, 1, samples_per_period=64)
-    assert len(motion.switches) >= 2
-    near = np.abs(motion.time - motion.switches[:2].mean()) < 0.3
-    assert (motion.displacement[near] > 0).all()
-
-
 def test_first_crossing_against_a_fine_scan():
     generator = np.random.default_rng(5)
     oscillator = SnapOscillator()

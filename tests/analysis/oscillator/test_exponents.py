@@ -58,12 +58,6 @@ def test_true_value_is_within_two_errors_as_often_as_it_should():
     assert hits >= 34  # 0.936 for Student's t with 15 degrees: 34 or more of 40 with probability 0.97
 
 
-@pytest.mark.slow
-def test_starts_with_random_seeds_agree_within_their_errors():
-    one, two = (snap_exponents(PAPER, count=64, periods=4000, seed=seed) for seed in (1, 2))
-    assert abs(one.first.value - two.first.value) < 4 * np.hypot(one.first.error, two.first.error)
-
-
 def test_taut_motion_has_the_exponents_of_the_linear_oscillator():
     found = snap_exponents(SnapOscillator(force=0.1), starts=[(0.68, 0.0), (0.7, 0.1)], periods=2000)
     # Complex pair: both are -mu/2 in the limit; over a finite time the orthonormal frame leaves O(1/time).
