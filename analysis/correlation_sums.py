@@ -86,10 +86,8 @@ def correlation_dimension(points: ArrayLike, theiler: int = 0) -> CorrelationDim
     found = _read(pairs, total, logarithm, len(z))
     if not np.isfinite(found.value) or found.value == 0.0:
         return found
-    quarters = [
-        np.cumsum(_pairs_by_distance(part, theiler, largest - _NATS, BINS_PER_NAT, len(counts)))[:-1]
-        for part in np.array_split(z, QUARTERS)
-    ]
+    bins = (largest - _NATS, BINS_PER_NAT, len(counts))
+    quarters = [np.cumsum(_pairs_by_distance(part, theiler, *bins))[:-1] for part in np.array_split(z, QUARTERS)]
     inside = (found.radius >= found.region[0]) & (found.radius <= found.region[1])
     return replace(found, error=float(np.hypot(found.error, _sampling_error(quarters, logarithm, inside))))
 
@@ -129,17 +127,13 @@ def _read(pairs, total, logarithm, points):
     # A gap between the distances of a lattice (a torus of nearly rational frequencies) is no scaling of the set.
     region = _longest(slope, usable[slope[usable] > LEAST_SLOPE])
     if region is None:
-        reason = (
-            f"no scaling region: nowhere are the slopes within {SLOPE_TOLERANCE:.0%} over {LEAST_SPAN_NATS} nats of "
-            f"radius between {LEAST_PAIRS} pairs and {LARGEST_SHARE:.0%} of all"
-        )
+        alike = f"nowhere are the slopes within {SLOPE_TOLERANCE:.0%} over {LEAST_SPAN_NATS} nats of radius"
+        reason = f"no scaling region: {alike} between {LEAST_PAIRS} pairs and {LARGEST_SHARE:.0%} of all"
         return CorrelationDimension(np.nan, np.nan, reason, none, *curve, points)
     first, last = region[0] - half, region[1] + half
     middle = (first + last) // 2
-    value, lower, upper = (
-        float(np.polyfit(logarithm[a : b + 1], ln_share[a : b + 1], 1)[0])
-        for a, b in ((first, last), (first, middle), (middle, last))
-    )
+    ends = (first, last), (first, middle), (middle, last)
+    value, lower, upper = (float(np.polyfit(logarithm[a : b + 1], ln_share[a : b + 1], 1)[0]) for a, b in ends)
     error = 0.5 * abs(upper - lower)
     edges = (float(np.exp(logarithm[first])), float(np.exp(logarithm[last])))
     limit = 2.0 * np.log(points) / (logarithm[-1] - logarithm[last])

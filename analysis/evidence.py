@@ -104,9 +104,8 @@ def exponent_evidence(tangent: Exponent | None, wolf: Exponent | None) -> Eviden
     if not exponent.found:
         return Evidence("exponent", np.nan, 0.0, None, f"no exponent: {exponent.reason}")
     passed = bool(exponent.value - 2.0 * exponent.error > 0.0)
-    sentence = f"{exponent.value:.4g} +- {exponent.error:.2g} bits per period ({source}): " + (
-        "positive by more than two errors" if passed else "not positive by two errors"
-    )
+    judged = "positive by more than two errors" if passed else "not positive by two errors"
+    sentence = f"{exponent.value:.4g} +- {exponent.error:.2g} bits per period ({source}): {judged}"
     return Evidence("exponent", exponent.value, 0.0, passed, sentence, exponent.error)
 
 
@@ -190,37 +189,39 @@ def null_evidence(section: np.ndarray, surrogates: int, seed: int) -> list[Evide
     """Rank and margin of the prediction gain among the surrogates of both nulls."""
     items = []
     for (name, _), rank in zip(NULLS, null_ranks(section, surrogates, seed), strict=True):
-        if rank is None:
-            reason = "too short, or nothing moves: no prediction gain"
-            items += [Evidence(name, np.nan, SHARE, None, reason), _margin(name, np.nan, None, reason)]
-            continue
-        sentence = f"prediction gain {rank.statistic:.2f} nats, above {rank.share_below:.0%} of {surrogates} surrogates"
-        items.append(Evidence(name, rank.share_below, SHARE, rank.above, sentence))
-        passed = bool(rank.advantage > LEAST_ADVANTAGE)
-        items.append(_margin(name, rank.advantage, passed, f"{rank.advantage:.2f} nats above the surrogates' median"))
+        share, above, advantage, passed = np.nan, None, np.nan, None
+        how = far = "too short, or nothing moves: no prediction gain"
+        if rank is not None:
+            share, above, advantage, passed = (
+                rank.share_below,
+                rank.above,
+                rank.advantage,
+                rank.advantage > LEAST_ADVANTAGE,
+            )
+            how = f"prediction gain {rank.statistic:.2f} nats, above {share:.0%} of {surrogates} surrogates"
+            far = f"{advantage:.2f} nats above the surrogates' median"
+        items.append(Evidence(name, share, SHARE, above, how))
+        items.append(Evidence(f"{name}, margin", advantage, LEAST_ADVANTAGE, passed, far))
     return items
 
 
 def half_evidence(section: np.ndarray, surrogates: int, seed: int, asked: bool) -> list[Evidence]:
     """0-1 test and both ranks in each half; the lesser value of the two halves is kept."""
-    names = ["0-1 test", *(name for name, _ in NULLS)]
+    names = ("0-1 test", *(name for name, _ in NULLS))
     if not asked:
         reason = "not asked: the whole record fails already"
         return [Evidence(f"{name}, halves", np.nan, np.nan, None, reason) for name in names]
-    middle = len(section) // 2
-    halves = [section[:middle], section[middle:]]
-    tests = [irregular_evidence(half, seed) for half in halves]
-    ranks = [null_ranks(half, surrogates, [seed, 1 + i]) for i, half in enumerate(halves)]
-    values = [[test.value for test in tests]]
-    passed = [[test.passed for test in tests]]
-    for i in range(len(NULLS)):
-        values.append([np.nan if rank[i] is None else rank[i].share_below for rank in ranks])
-        passed.append([None if rank[i] is None else rank[i].above for rank in ranks])
+    found = []
+    for i, half in enumerate((section[: len(section) // 2], section[len(section) // 2 :])):
+        test, ranks = irregular_evidence(half, seed), null_ranks(half, surrogates, [seed, 1 + i])
+        of_nulls = [(np.nan, None) if rank is None else (rank.share_below, rank.above) for rank in ranks]
+        found.append([(test.value, test.passed), *of_nulls])
     items = []
-    for name, value, agreed, threshold in zip(names, values, passed, (IRREGULAR, SHARE, SHARE), strict=True):
-        verdict = None if None in agreed else bool(all(agreed))
-        sentence = f"first half {value[0]:.3f}, second half {value[1]:.3f}"
-        items.append(Evidence(f"{name}, halves", float(np.min(value)), threshold, verdict, sentence))
+    for name, threshold, halves in zip(names, (IRREGULAR, SHARE, SHARE), zip(*found, strict=True), strict=True):
+        values, agreed = zip(*halves, strict=True)
+        passed = None if None in agreed else all(agreed)
+        sentence = f"first half {values[0]:.3f}, second half {values[1]:.3f}"
+        items.append(Evidence(f"{name}, halves", float(np.min(values)), threshold, passed, sentence))
     return items
 
 
@@ -251,10 +252,6 @@ def tighter_evidence(tighter: Verdict | str | None, word: str) -> Evidence:
     other = tighter if isinstance(tighter, str) else tighter.regime
     sentence = f"the verdict at a tighter tolerance is {other}"
     return Evidence("tighter tolerance", np.nan, np.nan, bool(other == word), sentence)
-
-
-def _margin(name, value, passed, sentence):
-    return Evidence(f"{name}, margin", value, LEAST_ADVANTAGE, passed, sentence)
 
 
 def _turns_off(frequency, max_period):

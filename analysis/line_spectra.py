@@ -119,9 +119,8 @@ def _refine(weighted, start, bin_width):
         return -np.sum(np.abs(np.exp(-2j * np.pi * f * k) @ weighted) ** 2)
 
     high = min(start + bin_width, 0.5)
-    found = minimize_scalar(
-        minus_power, bounds=(start - bin_width, high), method="bounded", options={"xatol": 1e-6 * bin_width}
-    )
+    fine = {"xatol": 1e-6 * bin_width}
+    found = minimize_scalar(minus_power, bounds=(start - bin_width, high), method="bounded", options=fine)
     return 0.5 if 0.5 - found.x < 0.25 / len(weighted) else float(found.x)
 
 

@@ -69,10 +69,8 @@ def neighbour_growth(section: ArrayLike, delays: int | None = None, theiler: int
     early, late = np.log(distance[EARLY]).mean(), np.log(distance[horizon // 2 :]).mean()
     growth = float(late - early)
     rate = growth / (0.75 * horizon - 2.0)
-    reason = (
-        f"neighbours {np.exp(early):.2g} of the section apart are {np.exp(late):.2g} apart {horizon // 2} and more "
-        "periods on"
-    )
+    later = f"are {np.exp(late):.2g} apart {horizon // 2} and more periods on"
+    reason = f"neighbours {np.exp(early):.2g} of the section apart {later}"
     return NeighbourGrowth(growth, float(np.exp(late)), float(rate), locked(distance), reason)
 
 

@@ -17,11 +17,9 @@ def checked_series(values: ArrayLike, name: str = "series", dimensions: tuple[in
         raise ValueError(f"{name}: an array of {allowed} dimension(s) is needed, given shape {array.shape}")
     bad = np.argwhere(~np.isfinite(array))
     if len(bad):
-        where = tuple(int(i) for i in bad[0])
-        raise ValueError(
-            f"{name}: {len(bad)} value(s) not finite, the first at index {where[0] if len(where) == 1 else where} "
-            f"({array[where]}); cut the record before it"
-        )
+        where = tuple(bad[0].tolist())
+        first = f"the first at index {where[0] if len(where) == 1 else where} ({array[where]})"
+        raise ValueError(f"{name}: {len(bad)} value(s) not finite, {first}; cut the record before it")
     return array
 
 
@@ -44,18 +42,16 @@ def in_deviations(x: np.ndarray, centred: bool = False) -> np.ndarray:
 
 def checked_positive(value: float, name: str) -> float:
     """`value` as a float; ValueError unless it is finite and above zero."""
-    number = float(value)
-    if not (np.isfinite(number) and number > 0.0):
+    if not 0.0 < float(value) < np.inf:
         raise ValueError(f"{name}: a finite number > 0 is needed, given {value!r}")
-    return number
+    return float(value)
 
 
 def checked_not_negative(value: float, name: str) -> float:
     """`value` as a float; ValueError unless it is finite and at least zero."""
-    number = float(value)
-    if not (np.isfinite(number) and number >= 0.0):
+    if not 0.0 <= float(value) < np.inf:
         raise ValueError(f"{name}: a finite number >= 0 is needed, given {value!r}")
-    return number
+    return float(value)
 
 
 def checked_count(value: int, name: str, least: int = 1) -> int:

@@ -80,10 +80,8 @@ def _why_not(phi):
         return "no motion: the section is one point to the last digits"
     per_step = span / np.mean(np.abs(np.diff(phi)))
     if per_step > MOST_RANGE_PER_STEP:
-        return (
-            f"oversampled: the range is {per_step:.3g} mean steps, more than {MOST_RANGE_PER_STEP:g}; the test needs "
-            "the motion once per forcing period, not every sample of it"
-        )
+        given = f"the range is {per_step:.3g} mean steps, more than {MOST_RANGE_PER_STEP:g}"
+        return f"oversampled: {given}; the test needs the motion once per forcing period, not every sample of it"
     return ""
 
 

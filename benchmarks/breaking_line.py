@@ -15,11 +15,11 @@ import numpy as np
 from PIL import Image
 
 from campaigns import breaking_line
-from campaigns.breaking_line import measures
+from campaigns.breaking_line import motion_measures as measures
 from campaigns.breaking_line.theory import theory_of
 from engine import load_scene, simulate
 from reports.breaking_line.figures import folds_figure, plane_figure
-from reports.breaking_line.runs import COLUMNS, WORDS, read_lines
+from reports.breaking_line.runs import read_exact, read_lines
 from reports.parts.folder import read_folder
 
 DOCS = Path(__file__).parents[1] / "docs"
@@ -73,8 +73,9 @@ def eight():
     with tempfile.TemporaryDirectory() as place:
         words = ["--no-companions", "--no-report", "--jobs", "2", "--out", place]
         breaking_line.main(words)  # compiles
-        lines = read_lines(read_folder(place, COLUMNS, WORDS))
-        for name, figure in (("fronts", plane_figure(lines)), ("folds", folds_figure(lines))):
+        folder = read_folder(place)
+        lines = read_lines(folder)
+        for name, figure in (("fronts", plane_figure(lines, read_exact(folder))), ("folds", folds_figure(lines))):
             path = DOCS / f"breaking_line_{name}.{figure.picture.kind}"
             path.write_bytes(figure.picture.data)
             if path.suffix == ".png":

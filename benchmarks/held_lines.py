@@ -5,9 +5,7 @@
 1. The twisted rope: rest against the localised buckle over nodes, and its shape
    (`tests/engine/spatial/test_torsion_localised.py` checks the formulas).
 2. The swinging line: its path over nodes and tolerance.
-3. A moved end: how far it is from where it is told to be, over tolerances.
-4. The hanging and the shaken line against closed forms, over nodes.
-5. The falling chain: its fall against that of a chain folded without gap (Calkin & March 1989).
+3. The falling chain: its fall against that of a chain folded without gap (Calkin & March 1989).
 """
 
 import math
@@ -141,59 +139,6 @@ def draw_swing(run):
     save(figure, "swinging_line.png")
 
 
-def moved_end():
-    print("moved end: 50 s, 1 m, 5 s, off by | plane | space | iterations against default")
-    period, ramp, phase, first = 5.0, 5.0, 1.1, None
-    amplitude, place = np.array([1.0, 0.4, 0.5]), np.array([10.0, 0.0, 16.0])
-    for changes in ({}, {"solver.rtol": 3e-3}, {"solver.rtol": 3e-4}, {"solver.newton_tolerance": 1e-8}):
-        row = []  # (off by, Newton iterations) in a plane and in space
-        for dimensions in (2, 3):
-            along = amplitude * [1, dimensions - 2, 1]
-            motion = {"law": "harmonic", "amplitude_m": list(along), "period_s": period, "phase_rad": phase}
-            motion["ramp_s"] = ramp
-            end = {"kind": "held", "position_m": list(place), "motion": motion}
-            base = {"motion.dimensions": dimensions, "end": end, "buoy": None, "waves.steepness": 0.05}
-            run = simulate(load_scene("tethered_buoy", base | changes), duration_s=50.0)
-            table = run.table()
-            t = table.time_s.to_numpy()
-            gain = np.where(t < ramp, np.sin(0.5 * np.pi * t / ramp) ** 2, 1.0) * np.sin(2 * np.pi * t / period + phase)
-            off = table[["x_m", "y_m", "z_m"]].to_numpy() - place - gain[:, None] * along
-            row.append((np.linalg.norm(off, axis=1).max(), run.statistics["newton_iterations"]))
-        first = first or row[1][1]
-        print(f"  {changes}: {row[0][0]:.1e} | {row[1][0]:.1e} | {row[1][1] / first:.2f}")
-
-
-def pull_of_catenary(w, L, EA, span):
-    """Horizontal force (N) of an elastic catenary between hooks at one height, from its span (m)."""
-    return brentq(lambda H: 2 * H / w * np.arcsinh(w * L / (2 * H)) + H * L / EA - span, 0.1, 100.0)
-
-
-def hanging_and_shaken():
-    print("hanging line: nodes | tension at the hook | sag, mm, against the elastic catenary")
-    for nodes in (41, 81, 161):
-        run = simulate(load_scene("hanging_line", {"tether.nodes": nodes}), duration_s=1.0)
-        tether = run.scene.tether
-        L, EA = tether.length_m, tether.tension.stiffness_N
-        w = tether.density_kgpm3 * tether.area_m2 * run.scene.gravity_mps2
-        H = pull_of_catenary(w, L, EA, run.scene.end.position_m[0])
-        T = math.hypot(H, w * L / 2)
-        sag = (T - H) / w + w * L**2 / (8 * EA)
-        pull, low = run.table().tension_top_N.iloc[-1], run.profiles.z_m[-1].min()
-        print(f"  {nodes} | {pull / T - 1:.1e} | {1e3 * (sag + low):.2f}")
-    print("shaken line: nodes | largest difference from sin(ks)/sin(kL), of a largest value of")
-    for nodes in (41, 81, 161):
-        scene = load_scene("shaken_line", {"tether.nodes": nodes, "end.motion.amplitude_m": [0.0, 6e-4, 8e-4]})
-        p = simulate(scene, duration_s=60.0).profiles
-        late = p.time_s > 40
-        omega, lam = 2 * np.pi / scene.end.motion.period_s, scene.end.position_m[0] / scene.tether.length_m
-        mass, T = scene.tether.density_kgpm3 * scene.tether.area_m2, scene.tether.tension.stiffness_N * (lam - 1)
-        k = omega * math.sqrt(mass * lam / T)
-        basis = np.stack([np.sin(omega * p.time_s[late]), np.cos(omega * p.time_s[late])], 1)
-        found = np.linalg.lstsq(basis, p.z_m[late], rcond=None)[0][0] / 8e-4
-        exact = np.sin(k * p.s_m) / np.sin(k * scene.tether.length_m)
-        print(f"  {nodes} | {np.abs(found - exact).max():.1e} | {np.abs(exact).max():.2f}")
-
-
 def falling_chain():
     L, g = load_scene("falling_chain").tether.length_m, 9.81
     print("falling chain, hooks 2 cm apart: fall, m | time, s | folded chain | free fall")
@@ -209,8 +154,6 @@ def falling_chain():
 def main():
     draw_rope(*twisted_rope())
     draw_swing(swinging_line())
-    moved_end()
-    hanging_and_shaken()
     falling_chain()
 
 

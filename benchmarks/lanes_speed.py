@@ -1,6 +1,6 @@
 """How fast runs go side by side (`engine.simd`), against the same runs one by one, on one core and on two.
 
-    python -m benchmarks.lanes_speed [--rounds N] [--periods N] [--diagram]
+    python -m benchmarks.lanes_speed [--rounds N] [--periods N]
 
 Sweep    the buoy at H = 21.6 m, 41 nodes, default tolerance; steepnesses evenly from 0.05 to 0.16, 48 of them, 40 wave
          periods each: without perturbations, and with those that a campaign of more than 40 periods carries.
@@ -8,13 +8,8 @@ Figure   wave periods a second and core: of processor time (`process_time`), and
 Noise    The settings take turns; medians over the rounds. Compilation and statics are outside the first figure, and
          one call before the clock starts keeps compilation out of the second.
 Equal    every trajectory of the batch is compared with the run alone, bit for bit.
---diagram  the campaign itself: `campaigns.buoy_sweep`, 400 steepnesses, 300 periods, two workers, with its report,
-         once without exponents and once as it comes.
 """
 
-import subprocess
-import sys
-import tempfile
 import time
 from concurrent.futures import ProcessPoolExecutor
 from functools import partial
@@ -87,31 +82,15 @@ def sweep(rounds, periods):
             print(f"{name}, {how}: {rate:.0f} wave periods a second, {rate / rates['one by one']:.2f} times one by one")
 
 
-def diagram():
-    for name, extra in (("without exponents", ["--set", "output.tangent_vectors=0"]), ("with exponents", [])):
-        with tempfile.TemporaryDirectory() as out:
-            command = [
-                sys.executable, "-m", "campaigns.buoy_sweep", "--steepness-range", "0.016", "0.16", "400",
-                "--periods", "300", "--jobs", "2", "--out", out, *extra,
-            ]  # fmt: skip
-            began = time.perf_counter()
-            done = subprocess.run(command, capture_output=True, text=True, check=False)
-            print(f"orbit diagram {name}: {time.perf_counter() - began:.0f} s in all, exit code {done.returncode}")
-            print("   " + "\n   ".join(line for line in done.stdout.splitlines() if line.startswith(("runs", "time"))))
-
-
 def main() -> None:
     options = parser(__doc__, 5)
     options.add_argument("--periods", type=float, default=40, help="length of the runs in wave periods (default 40)")
-    options.add_argument("--diagram", action="store_true", help="also the campaign of 400 runs, twice (minutes)")
     given = options.parse_args()
     print_load()
     first = seconds(lambda: simulate_batch(scenes({})[:2], periods=0.1))
     print(f"first batch (compilation, or loading what is compiled): {first:.1f} s")
     sweep(given.rounds, given.periods)
     print(f"48 runs of 12 periods bit for bit those alone: {equal(12)}")
-    if given.diagram:
-        diagram()
     print_load()
 
 

@@ -12,8 +12,7 @@ from pathlib import Path
 import numpy as np
 
 from campaigns.buoy_sweep import main as sweep
-from reports.buoy_sweep.runs import COLUMNS, read_runs
-from reports.parts.folder import read_folder
+from reports.buoy_sweep.runs import read_sweep
 from reports.parts.style import BLUE, VERMILION, sheet
 
 FIGURE = Path(__file__).parents[1] / "docs" / "out_of_the_water.png"
@@ -30,7 +29,7 @@ def swept(folder, depth_m, kind):
     code = sweep(["--steepness-range", *STEEPNESS, *LENGTH, *change, "--no-accuracy", "--no-report", "--out", str(out)])
     if code:
         sys.exit(code)
-    return read_runs(read_folder(out, COLUMNS))
+    return read_sweep(out).runs
 
 
 def draw(runs_of):

@@ -1,12 +1,9 @@
-"""Exponents from one and the same series: ours beside nolds and NeuroKit2, error and wall time.
+"""Exponents from one and the same series: ours beside nolds, error and wall time.
 
     python -m benchmarks.wolf_speed [--samples N] [--noise SHARE] [--systems NAME ...] [--setting]
 
-nolds comes with the extra `bench` (0.6.3 cannot be imported by Python 3.11). NeuroKit2 asks for pandas < 3, so it is
-in no extra, and left out where it is not installed; it runs beside the pinned pandas after `pip install --no-deps
-neurokit2 PyWavelets scikit-learn narwhals threadpoolctl requests`. Neither has Wolf's method. They are given our delay,
-dimension and Theiler window and a fitted stretch of one mean period (five steps for maps): their own defaults are 20
-samples whatever the sampling, and dimension 10 or 2. (nolds.lyap_e has its own embedding and keeps its defaults.)
+nolds comes with the extra `bench` (0.6.3 cannot be imported by Python 3.11). It has no method of Wolf's. It is given
+our delay, dimension and Theiler window, and a fitted stretch of one mean period (five steps for maps).
 Ours is the whole estimate (embedding, noise level, grid of settings, error). `--setting` times one setting of Wolf's
 method on 100,000 samples. Every function runs once before it is timed; wall clock, one process.
 """
@@ -60,17 +57,6 @@ def others():
         found["nolds lyap_e"] = lambda x, step, e: nolds.lyap_e(x, min_tsep=e.theiler, tau=step)[0]
     except ImportError:
         print("nolds is not installed: pip install -c constraints.txt '.[bench]'")
-    try:
-        import neurokit2
-
-        def neurokit(x, step, e, **how):
-            how |= {"delay": e.lag, "dimension": e.dimension, "separation": e.theiler}
-            return neurokit2.complexity_lyapunov(x, **how)[0]
-
-        found["NeuroKit2 rosenstein"] = lambda x, step, e: neurokit(x, step, e, len_trajectory=stretch(e)) / step
-        found["NeuroKit2 makowski"] = lambda x, step, e: neurokit(x, step, e, method="makowski") / step
-    except ImportError:
-        print("NeuroKit2 is not installed: see the head of this file")
     return found
 
 

@@ -1,4 +1,4 @@
-"""`python -m campaigns`: lists the campaigns; `python -m campaigns NAME ...` runs one, as `python -m campaigns.NAME`."""
+"""`python -m campaigns` lists the campaigns; `python -m campaigns NAME ...` is `python -m campaigns.NAME ...`."""
 
 import ast
 import importlib

@@ -27,31 +27,23 @@ class Column:
 
 
 STATUS = Column("status", symbol="status", meaning="ok, or why the run ended early or has no result")
-RUN_KEY = Column(
-    "run_key", symbol="key", meaning="content key of the run: its file is trajectories/<run_key>.nc, if it has one"
-)
+RUN_KEY = Column("run_key", symbol="key", meaning="content key of the run, whose file is trajectories/<run_key>.nc")
 MESSAGE = Column("message", symbol="message", meaning="what went wrong, in words; empty for a run that ended as asked")
 PERIODS_RUN = Column("periods", "", "periods", "length of the run in wave periods", 0)
-WALL_S = Column("wall_s", "s", "wall", "wall-clock time of the simulation, without compilation and analysis", 2)
 TURN = Column("max_turn_rad", "rad", "turn", "largest turn of the line within one element, over the whole run", 2)
 MIN_STRAIN = Column("min_strain", "", "ε_min", "smallest strain of any element, over the whole run", 4)
-LOOPS = Column(
-    "loop_releases",
-    "",
-    "loops",
-    "loop releases: how often the solver opened a loop of slack line that a plane holds",
-    0,
-)
+LOOPS = Column("loop_releases", "", "loops", "loop releases: how often a loop of slack line was opened", 0)
 STEPS = Column("steps", "", "steps", "accepted time steps", 0)
-REJECTED = Column("rejected_steps", "", "rejected", "time steps that were tried and repeated with a shorter one", 0)
+REJECTED = Column("rejected_steps", "", "rejected", "time steps that were repeated with a shorter one", 0)
 NEWTON = Column("newton_iterations", "", "Newton", "Newton iterations of all time steps together", 0)
-NEWTON_FAILURES = Column(
-    "newton_failures", "", "failed", "time steps at which the Newton iteration did not converge and was repeated", 0
-)
+NEWTON_FAILURES = Column("newton_failures", "", "failed", "time steps at which Newton's iteration did not converge", 0)
 END_S = Column("end_time_s", "s", "end", "simulated time at which the run ended", 2)
+WALL_S = Column("wall_s", "s", "wall", "wall-clock time of the simulation, without compilation and analysis", 2)
 
 # What the engine counts in every run (`Trajectory.statistics`), in the order of the tables.
-STATISTICS = (TURN, MIN_STRAIN, LOOPS, STEPS, REJECTED, NEWTON, NEWTON_FAILURES, END_S, WALL_S)
+LINE_COUNTS = (TURN, MIN_STRAIN, LOOPS)
+SOLVER_COUNTS = (STEPS, REJECTED, NEWTON, NEWTON_FAILURES, END_S, WALL_S)
+STATISTICS = (*LINE_COUNTS, *SOLVER_COUNTS)
 
 
 def names(columns: Iterable[Column]) -> tuple[str, ...]:

@@ -19,7 +19,7 @@ from .time.statics import rest_of
 from .time.statics_advice import why_no_rest
 from .time.status import ADVICE, OK, STATICS_FAILED, TURN_UNRESOLVED, WORDS
 from .time.time_loop import SMALL_STEPS, march
-from .trajectory import EnergyBudget, Profiles, Trajectory
+from .trajectory import COLUMNS, EnergyBudget, Profiles, Trajectory
 
 
 class Run:
@@ -152,7 +152,10 @@ def _count(duration_s: float, step_s: float) -> int:
 
 
 def columns_of(samples: np.ndarray, heading: float) -> dict[str, np.ndarray]:
-    """Columns of the table; the angle from the vertical is taken in the plane of waves that travel along `heading`."""
+    """Columns of the table, by `engine.trajectory.COLUMNS`, from samples (n, 12) with the columns of `engine.record`.
+
+    The angle from the vertical is taken in the plane of waves that travel along `heading` (rad).
+    """
     t, x, y, z, u, v, w = samples[:, : col.AT_W + 1].T
     r = np.sqrt(x**2 + y**2 + z**2) if y.any() else np.hypot(x, z)
     along, rate = (
@@ -162,18 +165,7 @@ def columns_of(samples: np.ndarray, heading: float) -> dict[str, np.ndarray]:
         radius_rate = (x * u + y * v + z * w) / np.where(r > 0, r, np.nan)
         square = along**2 + z**2
         angle_rate = (z * rate - along * w) / np.where(square > 0, square, np.nan)
-    return {
-        "time_s": t.copy(),
-        "x_m": x.copy(),
-        "y_m": y.copy(),
-        "z_m": z.copy(),
-        "radius_m": r,
-        "radius_rate_mps": radius_rate,
-        "angle_rad": np.unwrap(np.arctan2(along, z)),
-        "angle_rate_radps": angle_rate,
-        "offplane_m": samples[:, col.OFFPLANE].copy(),
-        "tension_top_N": samples[:, col.TOP].copy(),
-        "tension_min_N": samples[:, col.LEAST].copy(),
-        "tension_top_low_N": samples[:, col.TOP_LOW].copy(),
-        "tension_top_high_N": samples[:, col.TOP_HIGH].copy(),
-    }
+    angle = np.unwrap(np.arctan2(along, z))
+    tensions = (samples[:, at] for at in (col.OFFPLANE, col.TOP, col.LEAST, col.TOP_LOW, col.TOP_HIGH))
+    found = t, x, y, z, r, radius_rate, angle, angle_rate, *tensions
+    return {name: np.array(values) for name, values in zip(COLUMNS, found, strict=True)}

@@ -93,7 +93,8 @@ def done(order: Order, simulate: Callable | None):
     out, ours = order.how.out, simulate is None
     if ours:
         from engine import simulate
-    maker = made_by({}, "analysis/line_waves", "engine", "campaigns/accuracy/rows.py", "campaigns/accuracy/works.py")
+    own = (f"campaigns/accuracy/{name}" for name in ("rows.py", "works.py", "works.toml"))
+    maker = made_by({}, "campaigns/breaking_line/theory", "engine", *own)
     plan = plan_of(order.how, simulate, jobs.point_row, COLUMNS, maker)
     phases = jobs.phases(out, order.effort, order.quick, order.peers and ours)
     write_scene(out, CAMPAIGN, next(filter(None, phases)))

@@ -12,7 +12,7 @@ from campaigns.accuracy import peers
 from campaigns.accuracy.plan import BEST, first_phase, second_phase, third_phase
 from campaigns.accuracy.points import LONG_PERIODS, Effort, Point
 from campaigns.accuracy.rows import point_row
-from campaigns.accuracy.works import BY_NAME, PERIOD_S
+from campaigns.accuracy.works import BY_NAME, PERIOD_S, Peer
 from campaigns.machinery.folder import trajectory_path
 from campaigns.machinery.kept_run import KeptRun
 from campaigns.machinery.plan import Job, make_job
@@ -63,7 +63,7 @@ def peer_jobs(out: Path, works: tuple[str, ...], quick: bool, references: Refere
     """Jobs of all other codes: their references and ours for them; what checks those; what is timed."""
     first, second, timed = [], [], []
     for peer, work, settings in peers.taking_part(works, quick):
-        version = peer.version()
+        version = peers.version(peer)
         if not version:
             timed.append(_job(peer, version, work, TIMED, *settings[0]))
             continue
@@ -80,7 +80,7 @@ def peer_jobs(out: Path, works: tuple[str, ...], quick: bool, references: Refere
     return first, second, timed
 
 
-def _ours(peer: peers.Peer, work: str) -> Job:
+def _ours(peer: Peer, work: str) -> Job:
     """Our own refined run with what the other code does differently."""
     nodes, rtol = OURS_REFINED
     labels = asdict(Point(work, OURS, BEST, nodes, "rtol", rtol))
@@ -89,7 +89,7 @@ def _ours(peer: peers.Peer, work: str) -> Job:
     return make_job(scene, duration_s=BY_NAME[work].duration_s, labels=labels, **how)
 
 
-def _job(peer, version: str, work: str, kind: str, nodes: int, value: float, own=None, ours=None) -> Job:
+def _job(peer: Peer, version: str, work: str, kind: str, nodes: int, value: float, own=None, ours=None) -> Job:
     """A run of another code, held against its own reference and against ours."""
     labels = asdict(Point(work, kind, peer.name, nodes, peer.control, value)) | {"peer_version": version}
     simulate = peers.simulation(peer, version, nodes, value)

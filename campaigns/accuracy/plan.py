@@ -5,11 +5,15 @@ from campaigns.accuracy.works import BUOY, BY_NAME, STRAIN, Work
 
 TIME_NODES = {BUOY: 21, "pendulum": 11}  # grids on which orders in time are measured
 SPACE_NODES = {BUOY: 11, "pendulum": 6}  # the coarsest grids of orders in space
+FIRST_STEPS = {4: 100, 2: 200, 1: 1600}  # per period, of a series in time, by order
+DOUBLINGS = 3  # of a series, in time and space
 SPACE_STEPS = 400  # per period, of smooth works in space; rough ones need a tolerance
 SPACE_RTOL = 1e-5
 LINE_WAVE_MPS = 1000.0  # about the fastest wave of the breaking line: steps are an element's length over it
 MOST_ADAPTIVE_LINE = 401  # nodes of breaking lines with steps under control: beyond, some take minutes to fail
 TOLERANCE_NODES, TOLERANCE_REFERENCE = 161, 1e-6
+COURANTS, LINE_RTOLS = (4.0, 2.0, 1.0, 0.5), (0.01, 1e-3, 1e-4)  # of breaking lines
+BOX_NODES, BOX_STEPS = 21, (50, 100, 200)  # of the paper's scheme
 BEST = "esdirk43"  # the method of references
 Setting = tuple[str, int, str, float]  # method, nodes, control, its value
 
@@ -45,11 +49,11 @@ def second_phase(effort: Effort) -> list[Point]:
         if work.measure == STRAIN:
             points += made(work, "both", in_both(work, effort))
         else:
-            points += made(work, "time", in_time(work, effort)) + made(work, "space", in_space(work, effort))
+            points += made(work, "time", in_time(work)) + made(work, "space", in_space(work))
         if work.reference is not None:
             over = [(method, TOLERANCE_NODES, "rtol", rtol) for method in ADAPTIVE for rtol in effort.rtols]
             points += made(work, "tolerance", over)
-        if effort.long and work.name == "violent":
+        if effort.whole and work.name == "violent":
             points += made(work, "long", [(BEST, nodes, "rtol", rtol) for nodes, rtol in LONG])
     return points
 
@@ -69,22 +73,22 @@ def _works(effort: Effort) -> list[Work]:
     return [BY_NAME[name] for name in effort.works]
 
 
-def in_time(work: Work, effort: Effort) -> list[Setting]:
+def in_time(work: Work) -> list[Setting]:
     """Fixed steps, halved; every method but the paper's scheme, which is too slow for them."""
-    nodes, halvings = own(TIME_NODES, work), range(effort.doublings + 1)
+    nodes, halvings = own(TIME_NODES, work), range(DOUBLINGS + 1)
     return [
-        (method, nodes, "step_s", work.period_s / (effort.orders[order] << halving))
+        (method, nodes, "step_s", work.period_s / (FIRST_STEPS[order] << halving))
         for method, order in ORDERS.items()
         if method != "paper-box"
         for halving in halvings
     ]
 
 
-def in_space(work: Work, effort: Effort) -> list[Setting]:
+def in_space(work: Work) -> list[Setting]:
     """Elements halved."""
     control, setting = ("rtol", SPACE_RTOL) if work.rough else ("step_s", work.period_s / SPACE_STEPS)
     coarsest = own(SPACE_NODES, work) - 1
-    return [(BEST, (coarsest << doubling) + 1, control, setting) for doubling in range(effort.doublings + 2)]
+    return [(BEST, (coarsest << doubling) + 1, control, setting) for doubling in range(DOUBLINGS + 2)]
 
 
 def in_both(work: Work, effort: Effort) -> list[Setting]:
@@ -102,7 +106,7 @@ def of_a_motion(work: Work, effort: Effort) -> list[Setting]:
     found += [(method, n, "step_s", work.period_s / m) for method in FIXED for n in nodes[:3] for m in steps]
     if work.scene == BUOY and work.name != "pendulum":
         found += [(BEST + STRETCHED, n, "rtol", rtol) for n in nodes[:4] for rtol in effort.rtols[:3]]
-        found += [("paper-box", n, "step_s", work.period_s / m) for n in effort.box_nodes for m in effort.box_steps]
+        found += [("paper-box", BOX_NODES, "step_s", work.period_s / m) for m in BOX_STEPS if effort.whole]
     return found
 
 
@@ -114,6 +118,6 @@ def of_a_line(work: Work, effort: Effort) -> list[Setting]:
     for viscous in (VISCOUS, ""):
         for method in FIXED:
             found += [(method + viscous, n, "courant", 1.0) for n in nodes]
-            found += [(method + viscous, middle, "courant", courant) for courant in effort.courants if courant != 1.0]
-        found += [(method + viscous, n, "rtol", rtol) for method in ADAPTIVE for n in few for rtol in effort.line_rtols]
+            found += [(method + viscous, middle, "courant", courant) for courant in COURANTS if courant != 1.0]
+        found += [(method + viscous, n, "rtol", rtol) for method in ADAPTIVE for n in few for rtol in LINE_RTOLS]
     return found

@@ -13,7 +13,7 @@ Near a snap the error of a loose setting is partly luck: every round takes anoth
 the one named, and tables give medians over the rounds.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 from campaigns.accuracy.works import BUOY, LINE, WORKS
 
@@ -79,51 +79,32 @@ class Point:
 class Effort:
     """How much is run.
 
-    nodes: by scene, or by work where it has its own. steps: per period of the work, likewise; box_: of the paper's
-    scheme. orders: steps per period of the first run of a series in time, by order; doublings: of a series, in time and
-    space.
+    nodes: by scene, or by work where it has its own. steps: per period of the work, likewise. whole: with the paper's
+    scheme and the long runs.
     """
 
     works: tuple[str, ...]
     nodes: dict[str, tuple[int, ...]]
     rtols: tuple[float, ...]
     steps: dict[str, tuple[int, ...]]
-    box_nodes: tuple[int, ...]
-    box_steps: tuple[int, ...]
-    courants: tuple[float, ...]
-    line_rtols: tuple[float, ...]
-    orders: dict[int, int]
-    doublings: int
     rounds: int
-    long: bool
+    whole: bool
 
 
+_NODES = {"regular": (6, 11, 21, 41), BUOY: (21, 41, 81, 101, 161), LINE: (51, 101, 201, 401, 801)}
 FULL = Effort(
     works=tuple(work.name for work in WORKS),
-    nodes={
-        "regular": (6, 11, 21, 41),
-        BUOY: (21, 41, 81, 101, 161),
-        LINE: (51, 101, 201, 401, 801),
-        "pendulum": (6, 11, 21, 41, 81),
-    },
+    nodes={**_NODES, "pendulum": (6, 11, 21, 41, 81)},
     rtols=(0.1, 0.03, 0.01, 3e-3, 1e-3, 1e-4, 1e-5),
     steps={BUOY: (100, 200, 400, 800, 1600, 3200), "pendulum": (10, 25, 50, 100, 200, 400)},
-    box_nodes=(21,),
-    box_steps=(50, 100, 200),
-    courants=(4.0, 2.0, 1.0, 0.5),
-    line_rtols=(0.01, 1e-3, 1e-4),
-    orders={4: 100, 2: 200, 1: 1600},
-    doublings=3,
     rounds=3,
-    long=True,
+    whole=True,
 )
-QUICK = replace(
-    FULL,
+QUICK = Effort(
     works=("regular", "regular-smooth", "pendulum"),
     nodes={BUOY: (11, 41), LINE: (), "pendulum": (6, 11)},
     rtols=(0.1, 0.03, 1e-3),
     steps={BUOY: (200, 800), "pendulum": (25, 100)},
-    box_nodes=(),
     rounds=1,
-    long=False,
+    whole=False,
 )

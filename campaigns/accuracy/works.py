@@ -1,4 +1,4 @@
-"""The works of the accuracy campaign: what is simulated, what its error is, and what it is held against.
+"""The works of the accuracy campaign and the other codes on them, read from works.toml.
 
 Errors, over the even samples of a run:
 
@@ -12,12 +12,18 @@ of section 4.1 without gravity on an even grid: it stays straight, so that the e
 (`campaigns.breaking_line.theory`) is the reference.
 """
 
-from dataclasses import dataclass
+import tomllib
+from dataclasses import dataclass, field
+from functools import cache
+from pathlib import Path
 
 BUOY, LINE = "tethered_buoy", "breaking_line"
 RADIUS, PLACE, STRAIN = "radius", "place", "strain"
 UNITS = {RADIUS: "mm", PLACE: "mm", STRAIN: "%"}
-PERIOD_S, SAMPLE_S = 5.0, 0.05
+PERIOD_S = 5.0
+
+
+Settings = tuple[tuple[int, float], ...]
 
 
 @dataclass(frozen=True)
@@ -37,7 +43,7 @@ class Work:
     measure: str
     rough: str = ""
     reference: tuple[int, float] | None = None
-    checks: tuple[tuple[int, float], ...] = ()
+    checks: Settings = ()
     period_s: float = PERIOD_S
     timed: bool = True
 
@@ -48,60 +54,48 @@ class Work:
         return load_scene(self.scene, {**self.changes, **changes})
 
 
-def _buoy(steepness: float, depth_m: float) -> dict:
-    return {"waves.steepness": steepness, "water.depth_m": depth_m, "output.step_s": SAMPLE_S}
+@dataclass(frozen=True, eq=False)
+class Peer:
+    """Another code. package, module: as installed and as imported.
+
+    settings, quick: (nodes or segments, value) that are timed, by work; control: what the value is. refined: its
+    reference, then a check, by work; none: ours is its own. ours: changes of the scene with which our refined run is
+    the one to compare with. notes: what is left different.
+    """
+
+    name: str
+    package: str
+    module: str
+    control: str
+    notes: str
+    settings: dict[str, Settings]
+    quick: dict[str, Settings] = field(default_factory=dict)
+    refined: dict[str, Settings] = field(default_factory=dict)
+    ours: dict[str, object] = field(default_factory=dict)
 
 
-def _line(force_N: float, decay_s: float) -> dict:
-    return {
-        "gravity_mps2": 0.0,
-        "tether.grid_stretching": 0.0,
-        "tether.grid_refined": "both",
-        "end.force_N": [force_N, 0.0, 0.0],
-        "end.force_decay_s": decay_s,
-        "output.step_s": 5e-4,
-        "output.profiles": True,
-        "output.profiles_step_s": 5e-3,
-        "output.energy": False,
-    }
+@cache
+def _file() -> dict:
+    return tomllib.loads(Path(__file__).with_suffix(".toml").read_text(encoding="utf-8"))
 
 
-PENDULUM = {
-    "water": None,
-    "waves": None,
-    "motion.dimensions": 3,
-    "tether.length_m": 5.0,
-    "tether.tension": {"law": "linear", "stiffness_N": 5e3},
-    "tether.bending_stiffness_Nm2": 0.03,  # of the modulus that the stiffness and the section give
-    "tether.torsion_stiffness_Nm2": 0.01,
-    "buoy.mass_kg": 2.0,
-    "buoy.added_mass_kg": 0.0,
-    "start.buoy_velocity_mps": [1.5, 0.8, 0.0],
-    "output.step_s": SAMPLE_S,
-}
-# Drag is |v| v, whose second derivative jumps where v changes its sign: no method of order 4 survives that. In a
-# current that keeps the sign, and with waves that begin smoothly, the same motion has none of it.
-NO_KINKS = {"waves.ramp_s": PERIOD_S, "current": {"law": "uniform", "velocity_mps": [1.0, 0.0, 0.8]}}
-SNAP = "the rope goes slack and snaps taut: its tension jumps within milliseconds"
-KINK = "the edges of the break are nearly kinks, and no grid here resolves them"
-FINE = (641, 1e-5)
+def _pairs(settings: list) -> Settings:
+    return tuple((nodes, value) for nodes, value in settings)
 
-WORKS = (
-    Work("regular", "Regular buoy, kA = 0.016, H = 22.5 m, ten periods", BUOY, _buoy(0.016, 22.5), 50.0, RADIUS,
-         "", FINE, ((161, 1e-5), (321, 1e-5), (641, 1e-4))),
-    Work("regular-smooth", "Regular buoy without kinks in its drag, four periods", BUOY,
-         {**_buoy(0.016, 22.5), **NO_KINKS}, 20.0, RADIUS, timed=False),
-    Work("snap", "Snapping buoy, kA = 0.13, H = 22.5 m, ten periods", BUOY, _buoy(0.13, 22.5), 50.0, RADIUS,
-         SNAP, FINE, ((161, 1e-5), (321, 1e-5), (641, 1e-4))),
-    Work("violent", "Violent snapping, kA = 0.13, H = 21.6 m, ten periods", BUOY, _buoy(0.13, 21.6), 50.0, RADIUS,
-         SNAP, FINE, ((161, 1e-5), (321, 1e-5), (641, 1e-4))),
-    Work("break-1", "Breaking line, 45 kN, broken in 5 ms (case 1)", LINE, _line(45e3, 0.005), 0.06, STRAIN,
-         KINK, period_s=1.0),
-    Work("break-1-slow", "Breaking line, 45 kN, broken in 50 ms (case 1')", LINE, _line(45e3, 0.05), 0.08, STRAIN,
-         period_s=1.0),
-    Work("break-4", "Breaking line, 450 kN, broken in 5 ms (case 4)", LINE, _line(450e3, 0.005), 0.05, STRAIN,
-         "a shock runs along the line: strain jumps", period_s=1.0),
-    Work("pendulum", "Pendulum in three dimensions, 10 s", BUOY, PENDULUM, 10.0, PLACE, "", (161, 1e-6),
-         ((81, 1e-6), (161, 1e-5), (321, 1e-6)), period_s=1.0),
-)  # fmt: skip
+
+def _work(name: str, row: dict) -> Work:
+    changes = {**_file()["sets"][row["set"]], **row["changes"]}
+    made = {"changes": {key: None if value == "none" else value for key, value in changes.items()}}
+    made |= {"reference": tuple(row["reference"]), "checks": _pairs(row["checks"])} if "reference" in row else {}
+    return Work(name, **{key: value for key, value in row.items() if key != "set"} | made)
+
+
+def _peer(name: str, row: dict) -> Peer:
+    tables = {key: row[key] for key in ("settings", "quick", "refined") if key in row}
+    pairs = {key: {work: _pairs(found) for work, found in table.items()} for key, table in tables.items()}
+    return Peer(name, **row | pairs)
+
+
+WORKS = tuple(_work(name, row) for name, row in _file()["works"].items())
 BY_NAME = {work.name: work for work in WORKS}
+PEERS = tuple(_peer(name, row) for name, row in _file()["peers"].items())

@@ -135,7 +135,7 @@ def measures(order: Order) -> Measures:
     """`rows.breaking_row` of every run."""
     from campaigns.breaking_line.rows import COLUMNS, breaking_row
 
-    own = (f"campaigns/breaking_line/{name}" for name in ("rows.py", "measures.py", "theory"))
+    own = (f"campaigns/breaking_line/{name}" for name in ("rows.py", "motion_measures.py", "theory"))
     return Measures(COLUMNS, breaking_row, ("analysis", "engine", *own))
 
 

@@ -8,7 +8,7 @@ import math
 
 import numpy as np
 
-from campaigns.breaking_line import measures
+from campaigns.breaking_line import motion_measures as measures
 from campaigns.breaking_line.theory import theory_of
 from campaigns.columns import (
     END_S,

@@ -5,28 +5,11 @@ its statistics and nothing more. Extremes and slack are taken after the transien
 """
 
 import math
-from dataclasses import replace
 
 import numpy as np
 
 from analysis.evidence import evidence_text
-from campaigns.columns import (
-    END_S,
-    LOOPS,
-    MESSAGE,
-    MIN_STRAIN,
-    NEWTON,
-    NEWTON_FAILURES,
-    REJECTED,
-    RUN_KEY,
-    STATISTICS,
-    STATUS,
-    STEPS,
-    TURN,
-    WALL_S,
-    Column,
-    names,
-)
+from campaigns.columns import LINE_COUNTS, MESSAGE, RUN_KEY, SOLVER_COUNTS, STATISTICS, STATUS, Column, names
 from campaigns.judge import (
     LEAST_JUDGED,
     LONGEST_PERIOD,
@@ -39,7 +22,6 @@ from campaigns.judge import (
 
 STEEPNESS = Column("steepness", "", "kA", "wave steepness: wave number times amplitude", 3)
 DIMENSIONS = Column("dimensions", "", "D", "dimensions of the motion: 2, in the plane of the waves, or 3", 0)
-_BITS = "bits/period"
 STROBED = Column("strobed_period", "", "N", "wave periods after which the motion repeats; empty where none is found", 0)
 # What is measured after the transient (`settled`) of any line, with or without a verdict.
 EXTREMES = (
@@ -52,6 +34,7 @@ EXTREMES = (
     Column("slack_fraction", "", "χ", "share of the time after the transient without tension at the top", 3),
 )
 REGIME = Column("regime", symbol="regime", meaning="period-N, quasi-periodic, chaotic, transient or undecided")
+_BITS = "bits/period"
 WOLF = (
     Column("lyapunov_wolf_bits_per_period", _BITS, "σ_W", "largest Lyapunov exponent of r, by Wolf's method", 3),
     Column("lyapunov_wolf_error", _BITS, "± σ_W", "standard error of the exponent by Wolf's method", 3),
@@ -61,54 +44,34 @@ TANGENT = (
     Column("lyapunov_tangent_error", _BITS, "± σ_t", "standard error of the exponent from tangent dynamics", 3),
 )
 OFFPLANE = (
-    Column(
-        "offplane_growth_bits_per_period",
-        _BITS,
-        "σ_y",
-        "growth rate of an infinitesimal perturbation across the plane; empty where loops were released",
-        3,
-    ),
+    Column("offplane_growth_bits_per_period", _BITS, "σ_y", "growth of an infinitesimal push across the plane", 3),
     Column("offplane_growth_error", _BITS, "± σ_y", "standard error of the growth rate across the plane", 3),
 )
+_HEIGHT = "highest point of the sphere above still water over the whole run; negative if it stays below"
 COLUMNS = (
     STEEPNESS,
     DIMENSIONS,
     STATUS,
     REGIME,
-    Column("regime_tighter", symbol="tighter", meaning="the regime at a tenth of the tolerance, of a chaotic run"),
+    Column("regime_tighter", symbol="tighter", meaning="regime of a chaotic run repeated at a tenth of the tolerance"),
     Column("regime_reason", symbol="reason", meaning="why the run has this regime, in words"),
-    Column(
-        "evidence",
-        symbol="evidence",
-        meaning="the tests behind the regime: name: value/threshold/met, one after the other",
-    ),
+    Column("evidence", symbol="evidence", meaning="tests behind the regime: name, value, threshold, met"),
     STROBED,
     *EXTREMES,
     *WOLF,
     *TANGENT,
     *OFFPLANE,
-    Column(
-        "max_buoy_height_above_water_m",
-        "m",
-        "height",
-        "highest point of the sphere above the still water over the whole run; negative if it stays below",
-        2,
-    ),
-    TURN,
-    MIN_STRAIN,
-    LOOPS,
+    Column("max_buoy_height_above_water_m", "m", "height", _HEIGHT, 2),
+    *LINE_COUNTS,
     Column("buoy_lateral_max_m", "m", "buoy |y|", "largest |y| of the buoy after the transient, in 3-D", 3),
-    Column("rope_lateral_max_m", "m", "rope |y|", "largest |y| of any node of the line after the transient, in 3-D", 3),
-    replace(LOOPS, name="planar_loop_releases", symbol="planar loops", meaning="loop releases of the run in the plane"),
-    Column("planar_regime", symbol="planar regime", meaning="regime of the run in the plane that this run replaces"),
+    Column("rope_lateral_max_m", "m", "rope |y|", "largest |y| of any node after the transient, in 3-D", 3),
+    Column(
+        "planar_loop_releases", "", "planar loops", "loop releases of the run in the plane that this one replaces", 0
+    ),
+    Column("planar_regime", symbol="planar regime", meaning="regime of the run in the plane that this one replaces"),
     Column("planar_radius_min_m", "m", "planar r_min", "smallest radius of the run in the plane", 2),
     Column("planar_radius_max_m", "m", "planar r_max", "largest radius of the run in the plane", 2),
-    STEPS,
-    REJECTED,
-    NEWTON,
-    NEWTON_FAILURES,
-    END_S,
-    WALL_S,
+    *SOLVER_COUNTS,
     RUN_KEY,
     MESSAGE,
 )
@@ -118,18 +81,11 @@ def buoy_row(trajectory, transient_periods: int, simulate=None) -> dict[str, obj
     """The columns of `COLUMNS` that a trajectory of the tethered buoy fills; those left out are unknown.
 
     trajectory: an engine Trajectory of a scene with waves and a buoy, run to its end or not.
-    transient_periods: wave periods left out of extremes, slack and strobed period; a record that does not outlast them
-    by one period fills none of these.
-    regime, the reason for it in a sentence, the tests behind it (`analysis.evidence_text`) and exponents: of scenes
-    with output.tangent_vectors, run to their end; all periods count, those with a loop release too. A run in three
-    dimensions has no tangent exponent, and the regime that its samples alone show.
-    offplane_growth: of scenes with output.lateral_growth; none where a loop was released after the transient, because
-    across the plane a loop has no rate of its own.
-    buoy_lateral_max_m, rope_lateral_max_m: largest |y| of the buoy, and of any node, after the transient, in three
-    dimensions. The columns planar_ are filled by `campaigns.buoy_sweep.dimensions`.
+    transient_periods: wave periods left out; a record that does not outlast them by one has statistics only.
+    A verdict (`campaigns.judge`): of runs to their end with output.tangent_vectors, or in three dimensions. A loop
+    release after the transient leaves offplane_growth unknown: across the plane a loop has no rate of its own.
     simulate: to repeat a run that looks chaotic at a ten times tighter tolerance (regime_tighter); None: not done.
-    max_buoy_height_above_water_m: highest point of the sphere less the still water depth, negative while it stays
-    below.
+    The columns planar_ are filled by `campaigns.buoy_sweep.dimensions`.
     """
     row = {"status": trajectory.status, "message": trajectory.message}
     row |= {name: number(trajectory.statistics.get(name)) for name in names(STATISTICS)}

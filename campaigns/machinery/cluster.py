@@ -110,14 +110,13 @@ def _differences(found) -> Iterator[str]:
     threading.Thread(target=ask, daemon=True).start()
     with contextlib.suppress(queue.Empty):
         for worker, there in came.get(timeout=ASK_S).items():
-            # OSError: it has just gone; whoever comes in its place is asked with its first run
-            if off := first_line(there) if isinstance(there, ImportError) else _difference(there, facts()):
+            if isinstance(there, OSError):
+                continue  # it has just gone; whoever comes in its place is asked with its first run
+            if off := first_line(there) if isinstance(there, Exception) else _difference(there, facts()):
                 yield f"{worker}: {off}"
 
 
-def _difference(there: object, here: dict[str, str]) -> str:
-    if not isinstance(there, dict):
-        return ""
+def _difference(there: dict[str, str], here: dict[str, str]) -> str:
     off = [f"{name} {there.get(name, 'none')} (here: {here[name]})" for name in here if there.get(name) != here[name]]
     return ", ".join(off)
 

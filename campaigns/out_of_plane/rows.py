@@ -95,11 +95,6 @@ def offplane_row(trajectory, transient_periods: int, judged: frozenset = frozens
 
     trajectory: an engine Trajectory of a buoy in waves along x, run to its end or not. transient_periods: left out of
     in-plane extremes and of the comparison. judged: keys of the scenes that get a regime and exponents.
-    {buoy,rope}_lateral_max_m over the whole record, _late_m over its second half; _share_of_inplane: the maximum by
-    inplane_m, half the larger of the ranges of the buoy's x and z after the transient; _early_gain_s: the largest
-    lateral distance in the first EARLY_PERIODS by the lateral speed of the push.
-    bow_inplane_m, bow_lateral_m: largest distance of a node from the straight line between the tether's ends, in the
-    plane of the waves and across it (runs with profiles).
     """
     row = {"status": trajectory.status, "message": trajectory.message}
     row |= {name: trajectory.statistics.get(name) for name in names(STATISTICS)}

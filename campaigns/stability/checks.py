@@ -5,10 +5,12 @@ what the engine does inside; where another run is needed (refinement) it is made
 """
 
 import math
+from collections.abc import Callable
 
 import numpy as np
 
-from engine import load_scene, simulate
+from campaigns.stability.cases import Case
+from engine import Trajectory, load_scene, simulate
 from engine.scales import tension_at
 
 FINER_NODES, FINER_RTOL = 2, 10.0
@@ -17,12 +19,12 @@ CLOSED_GROWTH = "closed form of the fastest buckle"
 LEAST_RANGE = 1e-3  # of the length: below this a difference is measured against the length, not against the motion
 
 
-def finite(run, case):
+def finite(run: Trajectory, case: Case) -> tuple[float, str]:
     """Every sample finite and none missing: what is asked of every run, and all that is asked of this one."""
     return 0.0, "finite and complete"
 
 
-def rest(run, case):
+def rest(run: Trajectory, case: Case) -> tuple[float, str]:
     """Distance (share of the length) from r = int (1 + eps(T(s))) ds, T(s) = |lift - w0 (L - s)|, at any time."""
     from scipy.integrate import quad
 
@@ -36,7 +38,7 @@ def rest(run, case):
     return float(np.abs(run.columns["radius_m"] - stretched).max()) / L, "closed form of the static line"
 
 
-def strain_under(load, law):
+def strain_under(load: float, law) -> float:
     """The smallest strain, 0 or above, at which a law carries the load (N)."""
     from scipy.optimize import brentq
 
@@ -48,7 +50,7 @@ def strain_under(load, law):
     return brentq(lambda strain: tension_at(strain, law) - load, 0.0, high, xtol=1e-15)
 
 
-def stays(run, case):
+def stays(run: Trajectory, case: Case) -> tuple[float, str]:
     """How far (share of the length) the upper end, or where it is held the rope, moves from static equilibrium."""
     moved = max(np.ptp(run.columns[name]) for name in ("x_m", "y_m", "z_m"))
     if run.profiles is not None:
@@ -57,7 +59,7 @@ def stays(run, case):
     return float(moved) / run.scene.tether.length_m, "static equilibrium stays"
 
 
-def refined(run, case):
+def refined(run: Trajectory, case: Case) -> tuple[float, str]:
     """Rms difference of r from a run of twice the elements and a tenth of the tolerance, over the range of r."""
     nodes = FINER_NODES * (run.scene.tether.nodes - 1) + 1
     return difference(
@@ -65,14 +67,14 @@ def refined(run, case):
     ), "refinement"
 
 
-def as_fine(run, case):
+def as_fine(run: Trajectory, case: Case) -> tuple[float, str]:
     """The same from a run with the number of nodes that the case names."""
     nodes = case.options["nodes"]
     finer = {"tether.nodes": nodes, "tether.grid_stretching": 0.0, "tether.grid_refined": "both"}
     return difference(run, case, {**finer, "solver.rtol": 0.01}), f"run on {nodes} even nodes"
 
 
-def difference(run, case, changes):
+def difference(run: Trajectory, case: Case, changes: dict) -> float:
     """Rms of r - r' over the range of r', r' of the run with changes; infinite where that one does not end well."""
     other = simulate(load_scene("tethered_buoy", {**case.changes, **changes}), duration_s=case.length_s)
     if other.status != "ok":
@@ -82,19 +84,19 @@ def difference(run, case, changes):
     return float(np.sqrt(np.mean((r - finer) ** 2))) / scale
 
 
-def bounded(run, case):
+def bounded(run: Trajectory, case: Case) -> tuple[float, str]:
     """Range of r over the length: what neither grows nor rings stays near its rest."""
     return float(np.ptp(run.columns["radius_m"])) / run.scene.tether.length_m, "r stays within one length"
 
 
-def energy(run, case):
+def energy(run: Trajectory, case: Case) -> tuple[float, str]:
     """Largest change of kinetic + gravity + stretching + bending energy over the largest kinetic one; dry scenes."""
     parts = energies(run)
     total = parts.sum(axis=0)
     return float(np.abs(total - total[0]).max() / parts[0].max()), "energy"
 
 
-def energies(run):
+def energies(run: Trajectory) -> np.ndarray:
     """Kinetic, gravity, stretching and bending energy (J), (4, profiles), from the profiles of a dry run."""
     scene, lines = run.scene, run.profiles
     tether, h = scene.tether, np.diff(lines.s_m)
@@ -109,7 +111,7 @@ def energies(run):
     return np.array([kinetic, gravity, inner(stored(lines.strain)), bending_energy(tether, lines, h)])
 
 
-def stretching_energy(law):
+def stretching_energy(law) -> Callable[[np.ndarray], np.ndarray]:
     """int T deps per unstretched length (N) as a function of strain arrays."""
     if law.law == "linear":
         return lambda strain: 0.5 * law.stiffness_N * strain**2
@@ -119,7 +121,7 @@ def stretching_energy(law):
     return lambda strain: np.interp(strain, grid, work) - np.interp(0.0, grid, work)
 
 
-def bending_energy(tether, lines, h):
+def bending_energy(tether, lines, h: np.ndarray) -> np.ndarray:
     """EI/2 int kappa^2 ds (J) per profile, from the turns between neighbouring elements."""
     sides = np.diff(np.stack([lines.x_m, lines.y_m, lines.z_m]), axis=2)
     sides = sides / np.maximum(np.linalg.norm(sides, axis=0), 1e-300)
@@ -128,7 +130,7 @@ def bending_energy(tether, lines, h):
     return 0.5 * tether.bending_stiffness_Nm2 * np.sum(np.arccos(cosine) ** 2 / spacing, axis=1)
 
 
-def buckling(run, case):
+def buckling(run: Trajectory, case: Case) -> tuple[float, str]:
     """Relative distance of the growth rate of a compressed straight line from rate^2 = (P k^2 - EI k^4)/m.
 
     The fastest of k = j pi/L is projected out of the shape, so that slower ones that began larger do not count; P is
@@ -152,7 +154,7 @@ def buckling(run, case):
     return abs(float(rate) / math.sqrt(square.max()) - 1.0), CLOSED_GROWTH
 
 
-def straight(run, case):
+def straight(run: Trajectory, case: Case) -> tuple[float, str]:
     """Largest distance (share of the length) of a node from the chord: what is symmetric stays so, stable or not."""
     lines = run.profiles
     points = np.stack([lines.x_m, lines.y_m, lines.z_m], axis=2)
@@ -162,7 +164,7 @@ def straight(run, case):
     return float(np.linalg.norm(off, axis=2).max()) / run.scene.tether.length_m, "symmetry"
 
 
-def drift(run, case):
+def drift(run: Trajectory, case: Case) -> tuple[float, str]:
     """Largest change of the strobed r, over the range of r in a period, between the first and the last tenth of a run.
 
     The first fiftieth is left out (the start dies out); strobed at the wave period, r of a steady motion is constant.

@@ -15,7 +15,7 @@ import numpy as np
 
 from campaigns.columns import Column
 from campaigns.stability.limited import DONE, limited
-from campaigns.stability.random_faults import VALID, faults_of
+from campaigns.stability.random_scenes import VALID, faults_of
 
 LIMIT_S = 60.0
 SOUND = ("ok", "ended", "refused")

@@ -1,186 +1,170 @@
-"""Random scenes as strategies of Hypothesis: drawn section by section, of sizes that somebody could mean.
+"""Random valid and invalid scenes for `campaigns.stability`, the same while seed, count and sources stay the same.
 
-Most of them keep every rule between their values; `campaigns.stability.random_faults` draws the others again, and puts
-extreme numbers and faults into them.
+A scene starts as a shipped one on a small grid. Then parts of it are replaced (random_scenes.toml) and numbers scaled,
+extreme numbers last; a change that the engine refuses is drawn again. An invalid scene has up to three faults besides:
+values of a wrong kind or size, entries taken away, unknown keys, rules between values broken. Scenes are strategies of
+Hypothesis, which shrinks what is found unsound.
 """
 
+import copy
+import json
 import math
+import tomllib
+from collections.abc import Callable
+from pathlib import Path
 
+from hypothesis import HealthCheck, Phase, given, reject, seed, settings
 from hypothesis import strategies as st
 
-
-def size(low: float, high: float) -> st.SearchStrategy[float]:
-    """Numbers whose logarithm is drawn evenly enough."""
-    return st.floats(math.log(low), math.log(high)).map(math.exp)
-
-
-def none_or(low: float, high: float) -> st.SearchStrategy[float]:
-    """Zero, or a size."""
-    return st.just(0.0) | size(low, high)
-
-
-def one_of(*values: object) -> st.SearchStrategy:
-    """One of these values."""
-    return st.sampled_from(values)
+VALID, INVALID = "valid", "invalid"
+MOST_NODES = 61
+EXTREMES = (5e-324, 1e-310, 1e-200, 1e-30, 1e-12, 1e-6, 1e-3, 1e3, 1e6, 1e12, 1e30, 1e150, 1e200, 1.7e308, 0.0, -0.0)
+JUNK = (None, True, False, "", "text", "1.0", "\x00", "ü" * 300, [], [1.0], [[]], {}, {"a": 1}, -1, -1e-300, 0, 1.5)
+JUNK += (math.nan, math.inf, -math.inf, 10**400, -(10**400), [math.nan] * 3, [1.0] * 7, {"law": "linear"}, {"law": 3})
+UNKNOWN = ("lenght_m", "x", "", "a.b", "law", "nodes", "\n")
+DATA = tomllib.loads(Path(__file__).with_suffix(".toml").read_text(encoding="utf-8"))
+CHOICES = [(name, value) for name, values in DATA["parts"].items() for value in values]
+TRIES = 10  # to make a change that is wanted
 
 
-def vector(scale: float, space: bool) -> st.SearchStrategy[list[float]]:
-    """Vectors [x, y, z] of up to that length an axis; y is 0 in a plane."""
-    axis = st.floats(-1.0, 1.0).map(lambda share: round(share, 6) * scale)
-    return st.tuples(axis, axis if space else st.just(0.0), axis).map(list)
+def faults_of(raw: dict) -> tuple[str, ...]:
+    """The lines in which the engine refuses a scene given as nested dicts; empty for one that it accepts."""
+    from engine.scene import SceneError, build_scene
+
+    try:
+        build_scene(raw)
+    except SceneError as error:
+        return error.faults
+    return ()
 
 
-def increasing(low: float, high: float, count: int) -> st.SearchStrategy[list[float]]:
-    """That many increasing numbers from low to high."""
-    shares = st.lists(st.floats(0.1, 1.0), min_size=count - 1, max_size=count - 1)
-    return shares.map(
-        lambda parts: [low + (high - low) * sum(parts[:i]) / sum(parts) for i in range(count - 1)] + [high]
-    )
+def shipped(name: str, changes: dict) -> dict:
+    """A shipped scene with changes as nested dicts."""
+    from engine import load_scene
+
+    return tomllib.loads(load_scene(name, changes).to_toml())
 
 
-def record(optional: dict | None = None, **needed: st.SearchStrategy) -> st.SearchStrategy[dict]:
-    """Dictionaries with every needed entry and some of the optional ones."""
-    return st.fixed_dictionaries(needed, optional=optional or {})
-
-
-def tanh_law(scale: float, turn: float, shift: float) -> dict:
-    """A law without tension at no strain."""
-    return {"law": "tanh", "p": [0.1 * scale, turn, shift, -0.1 * scale * math.tanh(shift), 0.5 * scale]}
-
-
-def table_law(scale: float, below: list[float], above: list[float]) -> dict:
-    """A table without tension at no strain, flat beyond a strain of 0.4."""
-    strain = [*below, *above[1:]]
-    return {"law": "tabulated", "strain": strain, "tension_N": [scale * min(value, 0.4) for value in strain]}
-
-
-SCALE = size(1e2, 1e7)
-KNOTS = st.tuples(st.floats(-0.9, -0.1), st.integers(2, 4)).flatmap(lambda ends: increasing(ends[0], 0.0, ends[1]))
-TENSION = (
-    record(law=st.just("linear"), stiffness_N=SCALE)
-    | st.builds(tanh_law, SCALE, st.floats(1.0, 20.0), st.floats(-3.0, 1.0))
-    | st.builds(table_law, SCALE, KNOTS, st.integers(2, 5).flatmap(lambda count: increasing(0.0, 0.8, count)))
-)
-TETHER = record(
-    length_m=size(0.2, 300.0), area_m2=size(1e-6, 1e-2), density_kgpm3=size(10.0, 2e4), nodes=st.integers(3, 61),
-    torsion_stiffness_Nm2=none_or(1e-4, 1e3), drag_normal=one_of(0.0, 1.0, 2.5), drag_tangential=one_of(0.0, 0.1, 1.0),
-    added_mass=one_of(0.0, 1.0, 5.0), tension=TENSION, bending_stiffness_Nm2=size(1e-4, 1e4) | none_or(1e-4, 1e4),
-    optional={
-        "grid_stretching": st.floats(0.1, 3.0),
-        "diameter_m": size(1e-3, 0.3), "compression_barrier_N": size(1.0, 1e5),
-    },
-)  # fmt: skip
-IMPLICIT = one_of("midpoint", "backward-euler", "generalized-alpha")
-EXTRAS = {
-    "spectral_radius": st.floats(0.0, 1.0), "loop_release": one_of(True, False), "newton_tolerance": size(1e-10, 1e-2),
-}  # fmt: skip
-SHOCK = record(quadratic=size(1e-3, 2.0), linear=none_or(1e-3, 1.0))
-SOLVERS = (
-    st.just({}),
-    record({**EXTRAS, "rtol": size(1e-4, 0.3)}, integrator=one_of("esdirk43", "trbdf2")),
-    record({**EXTRAS, "shock_viscosity": SHOCK, "step_s": size(1e-3, 0.1)}, integrator=IMPLICIT),
-    record(EXTRAS, integrator=IMPLICIT, courant=size(0.1, 20.0)),
-)
-OUTPUTS = (st.just({}), record({"step_s": size(1e-3, 1.0)}, profiles=st.just(True)))
-PAPER_BOX, PERTURBED = (
-    {"scheme": "paper-box"},
-    record(tangent_vectors=st.integers(1, 3), lateral_growth=one_of(True, False)),
-)
-
-
-def ends_of(length_m: float, space: bool) -> dict[str, st.SearchStrategy[dict]]:
-    """Sections of the upper end: a buoy, a held end that moves, is let go or clamped, or a free one under a force."""
-    buoy = {
-        "diameter_m": size(0.05, 3.0), "mass_kg": size(0.01, 1e5), "added_mass_kg": none_or(0.01, 1e5),
-        "drag": one_of(0.0, 0.2, 1.0),
-    }  # fmt: skip
-    cap = record(**buoy, submergence=st.just("spherical-cap"), impact_loss=one_of(0.0, 0.5, 1.0))
-    kick = {"start": record(buoy_velocity_mps=vector(1e-6, space) | vector(10.0, space))}
-    shaken = record(
-        law=st.just("harmonic"), amplitude_m=vector(0.1 * length_m, space), period_s=size(0.1, 20.0),
-        ramp_s=one_of(0.0, 1.0),
-    )  # fmt: skip
-    places = st.lists(vector(0.3 * length_m, space), min_size=3, max_size=3).map(lambda rest: [[0.0] * 3, *rest])
-    moved = record(law=st.just("table"), time_s=increasing(0.0, 5.0, 4), displacement_m=places)
-    clamped = {"rotation": st.just("clamped"), "twist_rad": st.floats(-9.0, 9.0), "twist_ramp_s": one_of(0.0, 1.0)}
-    held = {"kind": st.just("held"), "position_m": vector(length_m, space)}
-    force = vector(0.1, space) | vector(1e2, space) | vector(1e5, space)
-    return {
-        "buoy": record(kick, buoy=record(**buoy)),
-        "cap": record(kick, buoy=cap),
-        "held": record(end=record({"motion": shaken | moved}, **held)),
-        "let go": record(end=record({"force_N": vector(10.0, space)}, release_s=size(0.01, 1.0), **held)),
-        "free": record(end=record({"force_decay_s": size(1e-3, 1.0)}, kind=st.just("free"), force_N=force)),
-        "clamped": record(anchor=record(rotation=st.just("clamped")), end=record(clamped, **held)),
-    }
-
-
-def waves_of(depth_m: float, space: bool) -> dict[str, st.SearchStrategy[dict | None]]:
-    """Sections of the waves in water of that depth."""
-    heading = st.floats(-3.0, 3.0) if space else one_of(0.0, math.pi)
-    over = {"ramp_s": one_of(0.0, 5.0), "above_still_water": one_of("extrapolate", "zero", "wheeler")}
-    wave = {"period_s": size(0.5, 60.0)}
-    height = none_or(1e-3 * depth_m, 0.2 * depth_m)
-    spectrum = record(
-        significant_height_m=size(0.01 * depth_m, 0.3 * depth_m), peak_enhancement=st.floats(1.0, 7.0),
-        components=st.integers(1, 40), seed=st.integers(0, 99),
-    )  # fmt: skip
-    part = record(**wave, amplitude_m=height, phase_rad=st.floats(-4.0, 4.0), direction_rad=heading)
-    regular = {"direction_rad": heading, **over}
-    return {
-        "none": st.none(),
-        "steep": record(regular, **wave, steepness=none_or(1e-3, 0.4)),
-        "high": record(regular, **wave, amplitude_m=height),
-        "sea": record(regular, **wave, jonswap=spectrum),
-        "parts": record(over, **wave, components=st.lists(part, min_size=1, max_size=4)),
-    }
-
-
-def currents_of(depth_m: float, space: bool) -> dict[str, st.SearchStrategy[dict | None]]:
-    """Sections of the current in water of that depth."""
-    speed = vector(5.0, space)
-    block = st.floats(-5.0, 5.0)
-    for count in (2, 3, 2):  # x, height, time
-        block = st.lists(block, min_size=count, max_size=count)
-    heights = st.lists(speed, min_size=4, max_size=4)
-    return {
-        "none": st.none(),
-        "uniform": record(law=st.just("uniform"), velocity_mps=speed),
-        "profile": record(law=st.just("profile"), height_m=increasing(0.0, depth_m, 4), velocity_mps=heights),
-        "table": record(
-            law=st.just("table"), x_m=st.just([-10.0, 10.0]), height_m=increasing(0.0, depth_m, 3),
-            time_s=st.just([0.0, 5.0]), velocity_x_mps=block, velocity_z_mps=block,
-        ),
-    }  # fmt: skip
+def one_of(draw, choices: list | tuple) -> object:
+    """One of the choices, itself and not a copy."""
+    return choices[draw(st.integers(0, len(choices) - 1))]
 
 
 @st.composite
-def plain_scene(draw) -> dict:
-    """A scene of sizes that somebody could mean, as nested dicts; the kinds of its parts are drawn first."""
-    space, wet = draw(one_of(False, False, True)), draw(one_of(True, True, False))
-    waves, current = (
-        draw(one_of("none", "steep", "high", "sea", "parts")),
-        draw(one_of("none", "uniform", "profile", "table")),
-    )
-    end = draw(
-        one_of("buoy", "held", "let go", "free", "free", *(["cap"] if wet else []), *(["clamped"] * 2 if space else []))
-    )
-    solver, output = draw(st.integers(0, len(SOLVERS) - 1)), draw(st.integers(0, len(OUTPUTS) - 1))
-    special = draw(one_of(*["none"] * 4, *([] if space else ["perturbed", "paper-box"])))
-    raw = {"name": "random", "gravity_mps2": draw(one_of(9.81, 9.81, 1.6, 0.0)), "tether": draw(TETHER)}
-    raw |= {
-        "motion": {"dimensions": 3 if space else 2},
-        "solver": draw(SOLVERS[solver]),
-        "output": draw(OUTPUTS[output]),
-    }
-    raw |= draw(ends_of(raw["tether"]["length_m"], space)[end])
-    if wet:
-        depth_m = draw(size(0.5, 500.0))
-        parts = {"waves": draw(waves_of(depth_m, space)[waves]), "current": draw(currents_of(depth_m, space)[current])}
-        raw["water"] = {"depth_m": depth_m, "density_kgpm3": draw(one_of(1027.0, 1027.0, 1.2, 13500.0))}
-        raw |= {name: part for name, part in parts.items() if part is not None}
-    if special == "perturbed":
-        raw |= {"solver": {}, "output": draw(PERTURBED)}
-    elif special == "paper-box":
-        raw["solver"] = dict(PAPER_BOX)
+def valid_scene(draw) -> dict:
+    """A scene that the engine accepts, in about every other one with up to three extreme numbers."""
+    raw = shipped(*one_of(draw, DATA["bases"]))
+    raw["tether"]["nodes"] = draw(st.integers(3, MOST_NODES))
+    for change, most in ((_part, 12), (_scaled, 4)):
+        raw = _changed(draw, raw, change, draw(st.integers(0, most)), _accepted)
+    return _changed(draw, raw, _extreme, one_of(draw, (0, 0, 0, 1, 2, 3)), _accepted)
+
+
+@st.composite
+def invalid_scene(draw) -> dict:
+    """A scene with up to three faults, each of which the engine refuses by itself."""
+    raw = _changed(draw, draw(valid_scene()), _fault, draw(st.integers(1, 3)), faults_of)
+    return raw if faults_of(raw) else reject()
+
+
+def _changed(draw, raw: dict, change: Callable, count: int, wanted: Callable) -> dict:
+    """The scene after that many changes; a change after which the scene is not as wanted is drawn again."""
+    for _ in range(count):
+        for _ in range(TRIES):
+            trial = copy.deepcopy(raw)
+            change(draw, trial)
+            if wanted(trial):
+                raw = trial
+                break
     return raw
+
+
+def _accepted(raw: dict) -> bool:
+    return not faults_of(raw)
+
+
+def _places(table: dict | list) -> list[tuple]:
+    """Every (container, key) of nested dicts and lists."""
+    found = []
+    for key, entry in list(table.items() if isinstance(table, dict) else enumerate(table)):
+        found.append((table, key))
+        found += _places(entry) if isinstance(entry, (dict, list)) else []
+    return found
+
+
+def _number(draw, raw: dict) -> tuple:
+    """Where one of the scene's numbers stands."""
+    return one_of(draw, [(table, key) for table, key in _places(raw) if isinstance(table[key], float)])
+
+
+def _part(draw, raw: dict) -> None:
+    """Another part in the place of one, or none."""
+    name, value = one_of(draw, CHOICES)
+    section, _, key = name.rpartition(".")
+    table = raw.setdefault(section, {}) if section else raw
+    table.pop(key, None)
+    if value != "none":
+        table[key] = copy.deepcopy(value)
+
+
+def _scaled(draw, raw: dict) -> None:
+    """One number larger or smaller, by up to a hundred times."""
+    table, key = _number(draw, raw)
+    table[key] *= math.exp(draw(st.floats(-4.6, 4.6)))
+
+
+def _extreme(draw, raw: dict) -> None:
+    """Another size, or sign, for one number."""
+    table, key = _number(draw, raw)
+    size = st.sampled_from(EXTREMES) | st.floats(-27.0, 27.0).map(math.exp)
+    table[key] = draw(size) * one_of(draw, (1.0, 1.0, 1.0, -1.0))
+
+
+def _fault(draw, raw: dict) -> None:
+    """An entry of a wrong kind or size, one that is missing, one that nobody knows, or a rule between values broken."""
+    kind, places = one_of(draw, ("junk", "junk", "junk", "missing", "unknown", "rule")), _places(raw)
+    table, key = one_of(draw, places)
+    if kind == "junk":
+        table[key] = copy.deepcopy(one_of(draw, JUNK))
+    elif kind == "missing":
+        del table[key]
+    elif kind == "unknown":
+        tables = [raw, *(table[key] for table, key in places if isinstance(table[key], dict))]
+        one_of(draw, tables)[one_of(draw, UNKNOWN)] = copy.deepcopy(one_of(draw, JUNK))
+    else:
+        section, key, value = one_of(draw, DATA["broken_rules"])
+        if isinstance(raw.setdefault(section, {}), dict):
+            raw[section][key] = copy.deepcopy(value)
+
+
+SCENES = {VALID: valid_scene(), INVALID: invalid_scene()}
+
+
+def drawn(kind: str, number: int, count: int) -> list[dict]:
+    """So many scenes of a kind, from the seed `number`."""
+    found = []
+    _each(kind, number, count, found.append, Phase.generate)
+    return [json.loads(json.dumps(raw)) for raw in found[:count]]
+
+
+def smallest(kind: str, number: int, count: int, unsound: Callable[[dict], bool]) -> dict | None:
+    """The smallest scene that Hypothesis finds unsound when it shrinks the first such one among those `drawn`."""
+    last = []
+
+    def judged(raw: dict) -> None:
+        if unsound(raw):
+            last.append(raw)
+            raise AssertionError("unsound")
+
+    try:
+        _each(kind, number, count, judged, Phase.generate, Phase.shrink)
+    except AssertionError:
+        return last[-1]
+    return None
+
+
+def _each(kind: str, number: int, count: int, call: Callable[[dict], object], *phases: Phase) -> None:
+    how = settings(
+        max_examples=count, deadline=None, database=None, phases=phases, suppress_health_check=list(HealthCheck)
+    )
+    seed(number)(how(given(SCENES[kind])(lambda raw: call(raw))))()

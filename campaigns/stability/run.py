@@ -12,7 +12,7 @@ from pathlib import Path
 
 from campaigns.columns import MESSAGE, RUN_KEY, STATISTICS, STATUS, WALL_S, Column, names
 from campaigns.machinery.folder import CampaignStopped, write_failure
-from campaigns.stability.cases.case import ABOVE_BAR, REFUSED, Case
+from campaigns.stability.cases import ABOVE_BAR, REFUSED, Case
 from campaigns.stability.limited import DONE, limited
 
 LIMIT_S = 300.0
@@ -51,24 +51,9 @@ def case_row(case: Case, path: Path | None = None) -> dict[str, object]:
         answer = {"verdict": UNEXPLAINED, "run_status": way, "message": answer}
     if fault := answer.pop(_NOT_SAVED, ""):
         raise CampaignStopped(fault)
-    return named(case) | answer | {"case_wall_s": wall_s, "status": _status(answer["verdict"])}
-
-
-def named(case: Case) -> dict[str, object]:
-    """The columns that say which case it is."""
-    dimensions = case.changes.get("motion.dimensions", 2)
     row = {"part": "case", "group": case.group, "case": case.name, "length_s": case.length_s, "bar": case.bar}
-    return row | {"dimensions": dimensions}
-
-
-def died(case: Case, said: str) -> dict[str, object]:
-    """The row of a case whose worker process ended."""
-    ended = {"verdict": UNEXPLAINED, "run_status": "crash", "status": UNEXPLAINED, "message": said}
-    return named(case) | ended
-
-
-def _status(verdict: str) -> str:
-    return UNEXPLAINED if verdict == UNEXPLAINED else "ok"
+    row |= {"dimensions": case.changes.get("motion.dimensions", 2), "case_wall_s": wall_s, **answer}
+    return row | {"status": UNEXPLAINED if answer["verdict"] == UNEXPLAINED else "ok"}
 
 
 def _judged(case: Case, path: Path | None) -> dict[str, object]:

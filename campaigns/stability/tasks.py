@@ -16,17 +16,16 @@ from functools import partial
 from pathlib import Path
 
 from campaigns.columns import Column
-from campaigns.machinery.folder import Table, trajectory_path, write_json
+from campaigns.machinery.folder import CampaignStopped, Table, trajectory_path, write_json
 from campaigns.machinery.plan import Summary
 from campaigns.machinery.pools import opened
 from campaigns.machinery.processes import PoolBroken
 from campaigns.machinery.row_cache import keep_row, kept_row, made_by
-from campaigns.stability import fuzz, random_faults, run, scene_shares, step_maps
-from campaigns.stability.cases import all_cases
-from campaigns.stability.cases.case import REGULAR, Case
+from campaigns.stability import fuzz, random_scenes, run, scene_shares, step_maps
+from campaigns.stability.cases import Case, all_cases, regular
 
-SOURCES = ("engine", "campaigns/stability")
-CHUNK = {random_faults.VALID: 20, random_faults.INVALID: 200}
+SOURCES = ("engine", "campaigns/stability", "campaigns/stability/random_scenes.toml")
+CHUNK = {random_scenes.VALID: 20, random_scenes.INVALID: 200}
 DRIFT_BAR = 0.01
 DRIFT_LIMIT_S = 1800.0
 
@@ -59,7 +58,7 @@ def planned(order) -> list[Task]:
 
 def drift_case(periods: int) -> Case:
     """The long regular run, strobed at the wave period."""
-    scene, options = {**REGULAR, "output.step_s": 5.0}, {"limit_s": DRIFT_LIMIT_S}
+    scene, options = {**regular(), "output.step_s": 5.0}, {"limit_s": DRIFT_LIMIT_S}
     return Case("drift", f"{periods} regular waves", scene, 5.0 * periods, "drift", DRIFT_BAR, options=options)
 
 
@@ -75,7 +74,7 @@ def kept(out: Path, maker: str, task: Task, make: Callable[[], dict]) -> dict:
 def scenes(out: Path, maker: str, kind: str, seed: int, count: int) -> list[dict]:
     """The random scenes of a kind, drawn once."""
     task = Task("drawn", (kind, seed, count))
-    return kept(out, maker, task, lambda: {"scenes": random_faults.drawn(kind, seed, count)})["scenes"]
+    return kept(out, maker, task, lambda: {"scenes": random_scenes.drawn(kind, seed, count)})["scenes"]
 
 
 def do(out: Path, maker: str, task: Task) -> tuple[Task, dict]:
@@ -140,30 +139,14 @@ def _progress(results: Iterator, total: int, found: int) -> Iterator:
 
 
 def _all(call: Callable, tasks: list[Task], jobs: int) -> Iterator[tuple[Task, dict]]:
-    """Results of all tasks as they come; a task whose worker dies is judged so."""
-    pending = {task.key(): task for task in tasks}
+    """Results of all tasks as they come. Raises CampaignStopped where a worker dies: cases have their own processes."""
     if not tasks:
         return
-    with opened("loky", min(jobs, len(tasks))) as execute:
-        while pending:
-            try:
-                for task, result in execute(call, list(pending.values())):
-                    del pending[task.key()]
-                    yield task, result
-            except PoolBroken as broken:
-                for task in broken.suspects:
-                    del pending[task.key()]
-                    yield task, _died(task, f"its worker process ended: {broken}")
-
-
-def _died(task: Task, said: str) -> dict:
-    if task.kind == "case":
-        return run.died(task.what, said)
-    if task.kind == "map":
-        return {"fault": said}
-    kind, _, _, first, last = task.what
-    row = {"kind": kind, "outcome": "crash", "status": "", "message": said, "wall_s": 0.0}
-    return {"rows": [{**row, "number": number} for number in range(first, last)]}
+    try:
+        with opened("loky", min(jobs, len(tasks))) as execute:
+            yield from execute(call, tasks)
+    except PoolBroken as broken:
+        raise CampaignStopped(f"a worker process ended: {broken}; finished tasks are kept") from broken
 
 
 def _of_kind(order, kind: str, drawn: list[dict], rows: list[dict]) -> dict:
@@ -178,7 +161,7 @@ def _of_kind(order, kind: str, drawn: list[dict], rows: list[dict]) -> dict:
             outcome = known.get(json.dumps(raw)) or fuzz.judged(kind, raw)["outcome"]
             return outcome not in fuzz.SOUND
 
-        found = random_faults.smallest(kind, order.seed, order.fuzz, is_unsound)
+        found = random_scenes.smallest(kind, order.seed, order.fuzz, is_unsound)
         message += f"; the smallest scene of this kind that is unsound: {json.dumps(found)}"
     verdict = run.UNEXPLAINED if unsound else run.OK
     return {

@@ -13,7 +13,7 @@ anything is compiled, every sum or difference with a product in it as a call of 
 import ast
 import inspect
 import types as python_types
-from functools import cache
+from functools import cache, update_wrapper
 
 from llvmlite import ir
 from numba.core import types
@@ -106,9 +106,6 @@ def with_fused_sums(function):
     )
     function.__globals__[NAME] = fused
     changed = python_types.FunctionType(code, function.__globals__, function.__name__, function.__defaults__)
-    changed.__doc__, changed.__module__, changed.__qualname__ = (
-        function.__doc__,
-        function.__module__,
-        function.__qualname__,
-    )
+    update_wrapper(changed, function)
+    del changed.__wrapped__
     return changed

@@ -3,29 +3,16 @@
 A step returns a code, it never raises; the run ends with the first code that smaller steps do not cure.
 """
 
-OK = 0
-NEWTON_FAILED = 1
-STEP_UNDERFLOW = 2
-TURN_UNRESOLVED = 3
-STRAIN_BELOW_MINUS_ONE = 4
-NOT_FINITE = 5
-STATICS_FAILED = 6
-STEP_LIMIT = 7
-TENSION_FLAT = 8
-SHAPE_LOST = 9
-
-WORDS = {
-    OK: "ok",
-    NEWTON_FAILED: "newton-failed",
-    STEP_UNDERFLOW: "step-underflow",
-    TURN_UNRESOLVED: "turn-unresolved",
-    STRAIN_BELOW_MINUS_ONE: "strain-below-minus-one",
-    NOT_FINITE: "not-finite",
-    STATICS_FAILED: "statics-failed",
-    STEP_LIMIT: "step-limit",
-    TENSION_FLAT: "tension-flat",
-    SHAPE_LOST: "shape-lost",
-}
+(
+    OK, NEWTON_FAILED, STEP_UNDERFLOW, TURN_UNRESOLVED, STRAIN_BELOW_MINUS_ONE, NOT_FINITE, STATICS_FAILED, STEP_LIMIT,
+    TENSION_FLAT, SHAPE_LOST,
+) = range(10)  # fmt: skip
+WORDS = dict(
+    enumerate(
+        "ok newton-failed step-underflow turn-unresolved strain-below-minus-one not-finite statics-failed step-limit "
+        "tension-flat shape-lost".split()
+    )
+)
 
 ADVICE = {
     OK: "",

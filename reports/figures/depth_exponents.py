@@ -7,8 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..parts.content import Picture
-from ..parts.style import BLUE, GREEN, INK, ORANGE, PURPLE, SOFT, VERMILION, picture_of, sheet
+from ..parts.style import BLUE, GREEN, INK, ORANGE, PURPLE, VERMILION
 from ..parts.wording import number
+from . import curves
 
 COLOURS = (BLUE, VERMILION, GREEN, ORANGE, PURPLE)
 BESIDE = 0.14  # of the space between two values
@@ -38,44 +39,35 @@ def depth_exponents(panels: list[list[tuple[str, list[Curve]]]], label: str, log
     Its values are evenly spaced, and curves beside each other, so that marks do not hide marks; with `log` both stay
     where they are, on a logarithmic axis.
     """
-    rows, columns = len(panels), max(len(row) for row in panels)
-    values = sorted({at for row in panels for _, curves in row for curve in curves for at in curve.at})
-    with sheet(2.1 * rows + 0.7) as figure:
-        axes = figure.subplots(rows, columns, squeeze=False, sharex=True, sharey="row")
-        seen: set[str] = set()
-        handles = {}
-        for i, row in enumerate(panels):
-            for j, (title, curves) in enumerate(row):
-                place = axes[i][j]
-                place.set_title(title)
-                place.axhline(0.0, color=SOFT, linewidth=0.7)
-                for k, curve in enumerate(curves):
-                    aside = BESIDE * (k - 0.5 * (len(curves) - 1))
-                    at = curve.at if log else tuple(values.index(one) + aside for one in curve.at)
-                    handles |= _drawn(place, at, curve, COLOURS[k % len(COLOURS)], DASHES[k % len(DASHES)])
-                    seen |= {kind_of(word) for word in curve.regime}
-                if log:
-                    place.set_xscale("log")
-                else:
-                    place.set_xticks(range(len(values)), [number(one) for one in values])
-            axes[i][0].set_ylabel(r"$\sigma$ (bits per $T_i$)")
-        for place in axes[-1]:
-            place.set_xlabel(label)
-        from matplotlib.lines import Line2D
-
-        style = {"linestyle": "none", "color": INK, "markersize": 5}
-        known = [kind for kind in MARKS if kind in seen]
-        marks = [Line2D([], [], marker=MARKS[kind], label=kind or "no verdict", **style) for kind in known]
-        figure.legend(handles=[*handles.values(), *marks], loc="outside lower center", ncols=5)
-        return picture_of(figure)
+    everything = [curve for row in panels for _, found in row for curve in found]
+    values = sorted({at for curve in everything for at in curve.at})
+    seen = {kind_of(word) for curve in everything for word in curve.regime}
+    ticks = {} if log else {"xticks": range(len(values)), "xticklabels": list(map(number, values))}
+    nothing = np.empty(0)
+    key = [curves.Curve(nothing, nothing, kind or "no verdict", "", MARKS[kind], INK) for kind in MARKS if kind in seen]
+    rows = []
+    for row in panels:
+        drawn = []
+        for title, found in row:
+            lines = []
+            for k, curve in enumerate(found):
+                aside = BESIDE * (k - 0.5 * (len(found) - 1))
+                at = np.array(curve.at if log else [values.index(one) + aside for one in curve.at], dtype=float)
+                lines += _drawn(at, curve, COLOURS[k % len(COLOURS)], DASHES[k % len(DASHES)])
+            scale = "x" if log else ""
+            exponent = r"$\sigma$ (bits per $T_i$)" if not drawn else ""
+            below = label if row is panels[-1] else ""
+            drawn.append(curves.Panel([*lines, *key], below, exponent, title, scale, 0.0, ticks))
+        rows.append(drawn)
+    return curves.curves(rows, 2.1 * len(rows) + 0.7, "below", "xy")
 
 
-def _drawn(place, places, curve: Curve, colour: str, dash: str) -> dict[str, object]:
-    at, value, error = (np.array(entry, dtype=float) for entry in (places, curve.value, curve.error))
-    bars = place.errorbar(at, value, error, color=colour, linestyle=dash, linewidth=0.9, capsize=1.5, label=curve.name)
+def _drawn(at: np.ndarray, curve: Curve, colour: str, dash: str) -> list[curves.Curve]:
+    """The line with its error bars, and the marks of its regimes."""
+    value, kinds = np.array(curve.value, dtype=float), np.array([kind_of(word) for word in curve.regime], dtype=object)
+    lines = [curves.Curve(at, value, curve.name, dash, "", colour, np.array(curve.error, dtype=float))]
     for kind, mark in MARKS.items():
-        chosen = np.array([kind_of(word) == kind for word in curve.regime], dtype=bool)
-        if chosen.any():
-            size = 7 if mark == "*" else 4.5
-            place.plot(at[chosen], value[chosen], linestyle="none", marker=mark, color=colour, markersize=size)
-    return {curve.name: bars}
+        if (chosen := kinds == kind).any():
+            size = 7.0 if mark == "*" else 4.5
+            lines.append(curves.Curve(at[chosen], value[chosen], "", "", mark, colour, size=size))
+    return lines

@@ -8,6 +8,7 @@ import numpy as np
 
 from ..parts.content import Picture
 from ..parts.style import BLUE, VERMILION, picture_of, sheet
+from .curves import Curve, Panel, curves
 from .time_series import envelope
 
 _DECADES_BELOW = 1.5  # room for the swings through zero below the least of the envelope
@@ -69,22 +70,18 @@ def seed_histories(panels: list[tuple[str, str, list[tuple[float, np.ndarray, np
     """Two columns of panels (title, axis label, curves): each curve is (push, t/T_i, values), darker for less."""
     from matplotlib import colormaps
 
-    with sheet(0.9 + 2.1 * (len(panels) // 2)) as figure:
-        grid = figure.subplots(len(panels) // 2, 2, squeeze=False)
-        colours = colormaps["cividis"]
-        pushes = sorted({push for _, _, curves in panels for push, _, _ in curves})
-        handles = {}
-        for axes, (title, label, curves) in zip(grid.ravel(), panels, strict=True):
-            for push, periods, values in curves:
-                shade = colours(0.9 * pushes.index(push) / max(len(pushes) - 1, 1))
-                some = values > 0
-                (handles[push],) = axes.plot(periods[some], values[some], color=shade, linewidth=0.9)
-            axes.set_yscale("log")
-            axes.set_title(title)
-            axes.set_ylabel(label)
-            axes.margins(x=0.01)
-        for axes in grid[-1]:
-            axes.set_xlabel(r"$t/T_i$ (wave periods)")
-        names = [f"push {push:.0e} m/s".replace("e-0", "e-") for push in pushes]
-        figure.legend([handles[push] for push in pushes], names, loc="outside lower center", ncols=min(len(pushes), 4))
-        return picture_of(figure)
+    pushes = sorted({push for _, _, found in panels for push, _, _ in found})
+    shades = {push: colormaps["cividis"](0.9 * k / max(len(pushes) - 1, 1)) for k, push in enumerate(pushes)}
+    drawn = []
+    for title, label, found in panels:
+        lines = [
+            Curve(
+                periods[values > 0],
+                values[values > 0],
+                f"push {push:.0e} m/s".replace("e-0", "e-"),
+                colour=shades[push],
+            )
+            for push, periods, values in found
+        ]
+        drawn.append(Panel(lines, r"$t/T_i$ (wave periods)", label, title, log="y"))
+    return curves([drawn[k : k + 2] for k in range(0, len(drawn), 2)], 0.9 + 2.1 * (len(drawn) // 2), "below")

@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from ..parts.content import Picture
-from ..parts.style import BLUE, INK, VERMILION, kind_for, picture_of, sheet
+from ..parts.style import INK, kind_for
+from .curves import Curve, Panel, curves
 
 _LONGEST_NAME = 24  # letters of a column's name beside its axis
 SHOWN = 4000  # samples of the record that are drawn: the last
@@ -19,31 +20,22 @@ def record_and_spectrum(
     names: the unit of time; the column, as its file calls it.
     """
     unit, column = names
-    with sheet(3.8) as figure:
-        upper, lower = figure.subplots(2, 1)
-        upper.plot(time[-SHOWN:], values[-SHOWN:], color=INK, linewidth=0.6)
-        upper.set_xlabel(f"time ({unit})")
-        shown = column if len(column) <= _LONGEST_NAME else column[: _LONGEST_NAME - 1] + "…"
-        upper.set_ylabel(shown, parse_math=False)
-        moving = amplitude[1:]
-        lower.semilogy(frequency[1:], np.maximum(moving, 1e-6 * moving.max(initial=1e-300)), color=BLUE, linewidth=0.7)
-        lower.set_xlabel(f"angular frequency (rad/{unit})")
-        lower.set_ylabel("$|X|$, eq. (31), as above")
-        return picture_of(figure, kind_for(len(frequency) + SHOWN))
+    shown = column if len(column) <= _LONGEST_NAME else column[: _LONGEST_NAME - 1] + "…"
+    label = shown.replace("$", r"\$")  # a name is no mathematics
+    record = Curve(time[-SHOWN:], values[-SHOWN:], colour=INK, width=0.6)
+    moving = amplitude[1:]
+    spectrum = Curve(frequency[1:], np.maximum(moving, 1e-6 * moving.max(initial=1e-300)), width=0.7)
+    upper = Panel([record], f"time ({unit})", label)
+    lower = Panel([spectrum], f"angular frequency (rad/{unit})", "$|X|$, eq. (31), as above", log="y")
+    return curves([[upper], [lower]], 3.8, kind=kind_for(len(frequency) + SHOWN))
 
 
 def return_map(values: np.ndarray) -> Picture:
     """Each point of the section (m,) against the one before it, and against its number."""
-    with sheet(3.0) as figure:
-        left, right = figure.subplots(1, 2)
-        size = 6.0 if len(values) < 600 else 2.0
-        left.scatter(values[:-1], values[1:], s=size, color=BLUE, alpha=0.6, linewidths=0)
-        left.set_xlabel("point $k$")
-        left.set_ylabel("point $k + 1$")
-        right.scatter(np.arange(len(values)), values, s=size, color=BLUE, alpha=0.6, linewidths=0)
-        right.set_xlabel("$k$")
-        right.set_ylabel("point $k$")
-        return picture_of(figure, kind_for(2 * len(values)))
+    look = {"line": "", "mark": "o", "size": 2.5 if len(values) < 600 else 1.5, "alpha": 0.6}
+    left = Panel([Curve(values[:-1], values[1:], **look)], "point $k$", "point $k + 1$")
+    right = Panel([Curve(np.arange(len(values)), values, **look)], "$k$", "point $k$")
+    return curves([[left, right]], 3.0, kind=kind_for(2 * len(values)))
 
 
 def growth_and_dimension(divergence: list[tuple[str, np.ndarray, np.ndarray]], slopes: list, unit: str) -> Picture:
@@ -51,18 +43,12 @@ def growth_and_dimension(divergence: list[tuple[str, np.ndarray, np.ndarray]], s
 
     Args: `divergence` (name, time (n,), mean ln(distance) (n,)) each; `slopes` (delays, radius (b,), slope (b,)) each.
     """
-    with sheet(3.0) as figure:
-        left, right = figure.subplots(1, 2)
-        for (name, time, curve), look in zip(divergence, ((BLUE, "-"), (VERMILION, "--")), strict=False):
-            if np.any(np.isfinite(curve)):
-                left.plot(time, curve, color=look[0], linestyle=look[1], label=name)
-        left.set_xlabel(f"time ({unit})")
-        left.set_ylabel("mean ln(distance) (nats)")
-        for (delays, radius, slope), dashes in zip(slopes, ("-", "--", ":"), strict=False):
-            right.semilogx(radius, slope, dashes, color=INK, label=f"{delays} delays")
-        right.set_xlabel("radius (standard deviations)")
-        right.set_ylabel("slope of the correlation sum")
-        for axes in (left, right):
-            if axes.get_legend_handles_labels()[1]:
-                axes.legend()
-        return picture_of(figure)
+    known = [(one, dash) for one, dash in zip(divergence, ("-", "--"), strict=False) if np.isfinite(one[2]).any()]
+    left = [Curve(time, curve, name, dash) for (name, time, curve), dash in known]
+    right = [
+        Curve(radius, slope, f"{delays} delays", dash, colour=INK)
+        for (delays, radius, slope), dash in zip(slopes, ("-", "--", ":"), strict=False)
+    ]
+    labels = ("radius (standard deviations)", "slope of the correlation sum")
+    growth = Panel(left, f"time ({unit})", "mean ln(distance) (nats)")
+    return curves([[growth, Panel(right, *labels, log="x")]], 3.0, "best")

@@ -117,8 +117,9 @@ def _section(study: Study) -> list[Item]:
         counts = " and ".join(str(len(zoom)) for zoom in zooms)
         seen = f"zooms by 10 and by 100 round the place visited most, {counts} points out of {row['periods']} periods"
         caption = (
-            f"Layers within layers; {seen} of the same orbit. A line resolves into several lines, and each of these again, because "
-            "each period stretches the attractor along its lines and folds it at the snap. From the part `section`."
+            f"Layers within layers; {seen} of the same orbit. A line resolves into several lines, and each of these "
+            "again, because each period stretches the attractor along its lines and folds it at the snap. From the "
+            "part `section`."
         )
         items.append(Figure(oscillator_zooms(zooms, boxes), caption, f"Bundles of nearly parallel lines: {seen}."))
     motion = study.arrays.get("history")

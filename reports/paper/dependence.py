@@ -26,6 +26,27 @@ TREATMENTS = {
 }
 VALUE, ERROR = "lyapunov_tangent_bits_per_period", "lyapunov_tangent_error"
 ABOVE, DROWNED, EI, DEPTH = "above_still_water", "submergence", "bending_stiffness_Nm2", "depth_m"
+GAPS = (  # what is not in the paper, what is taken here, why
+    (
+        "water depth H",
+        "{depth} m",
+        "where the two waves come out as the paper says; varied below; the top of the buoy at rest is then {out} m "
+        "{side} still water",
+    ),
+    ("density of the water", "{density} kg/m³", "then the added mass is half the displaced mass"),
+    (
+        "EI, GI of the tether",
+        "{stiffness} and {torsion} N m²",
+        "a published example of the same buoy and rope; EI varied below",
+    ),
+    ("waves above still water", "{waves}", "the plainest reading; varied below"),
+    ("a buoy that leaves the water", "{buoyancy}", "eq. (30) as printed; varied below"),
+    ("start of the waves, their phase", "all of it from t = 0, crest at the anchor", "“impulsively from rest”"),
+    ("EI of the breaking line", "{line} N m²", "a solid rod; varied in the part `breaking_line`"),
+    ("drag on the breaking line", "none, in air", "not mentioned"),
+    ("grids, time steps, tolerances", "see each scene", "each part repeats runs tighter and finer"),
+    ("where the buoy's motion is called periodic", "to {tolerance} of its range", "not mentioned"),
+)
 SHORT = (
     "To run section 4 one has to choose what the paper does not say. The first table lists the choices of the shipped "
     "scenes; the rest of this section shows what becomes of the answer with others."
@@ -48,36 +69,23 @@ def _gaps(directory: Path, scene: Scene) -> Table:
     from engine import load_scene
     from engine.natural_frequencies import natural_frequencies
 
-    line, told = load_scene("breaking_line").tether, _provenance(directory / "buoy")
-    modes = natural_frequencies(scene)
-    why = "where the two waves come out as the paper says; varied below"
-    if modes is not None:
-        rest_m = scene.tether.length_m * (1.0 + modes.static_strain)
-        out_m = rest_m + 0.5 * scene.buoy.diameter_m - scene.water.depth_m
-        where = f"{number(out_m, 2)} m above" if out_m > 0.0 else f"{number(-out_m, 2)} m below"
-        why += f"; the top of the buoy at rest is then {where} still water"
-    stiff = f"{number(scene.tether.bending_stiffness_Nm2)} and {number(scene.tether.torsion_stiffness_Nm2)} N m²"
-    repeats = f"to {percent(told['strobe_tolerance'])} of its range" if "strobe_tolerance" in told else EMPTY
-    rows = (
-        ("water depth H", f"{number(scene.water.depth_m)} m", why),
-        (
-            "density of the water",
-            f"{number(scene.water.density_kgpm3)} kg/m³",
-            "then the added mass is half the displaced mass",
-        ),
-        ("EI, GI of the tether", stiff, "a published example of the same buoy and rope; EI varied below"),
-        ("waves above still water", TREATMENTS[scene.waves.above_still_water], "the plainest reading; varied below"),
-        ("a buoy that leaves the water", TREATMENTS[scene.buoy.submergence], "eq. (30) as printed; varied below"),
-        ("start of the waves, their phase", "all of it from t = 0, crest at the anchor", "“impulsively from rest”"),
-        (
-            "EI of the breaking line",
-            f"{number(line.bending_stiffness_Nm2)} N m²",
-            "a solid rod; varied in the part `breaking_line`",
-        ),
-        ("drag on the breaking line", "none, in air", "not mentioned"),
-        ("grids, time steps, tolerances", "see each scene", "each part repeats runs tighter and finer"),
-        ("where the buoy's motion is called periodic", repeats, "not mentioned"),
-    )
+    line, tether = load_scene("breaking_line").tether, scene.tether
+    modes, tolerance = natural_frequencies(scene), _provenance(directory / "buoy").get("strobe_tolerance", math.nan)
+    out_m = math.nan if modes is None else tether.length_m * (1.0 + modes.static_strain) + 0.5 * scene.buoy.diameter_m
+    out_m -= scene.water.depth_m
+    taken = {
+        "depth": number(scene.water.depth_m),
+        "density": number(scene.water.density_kgpm3),
+        "out": number(abs(out_m), 2),
+        "side": "above" if out_m > 0.0 else "below",
+        "stiffness": number(tether.bending_stiffness_Nm2),
+        "torsion": number(tether.torsion_stiffness_Nm2),
+        "waves": TREATMENTS[scene.waves.above_still_water],
+        "buoyancy": TREATMENTS[scene.buoy.submergence],
+        "line": number(line.bending_stiffness_Nm2),
+        "tolerance": percent(tolerance),
+    }
+    rows = tuple(tuple(cell.format(**taken) for cell in row) for row in GAPS)
     heads = tuple(Column(title, align="left") for title in ("not in the paper", "taken here", "why"))
     return Table(heads, rows, "What had to be chosen to run section 4, and why it was chosen so.")
 

@@ -51,8 +51,8 @@ NOT_JUDGED = (
 )
 QUESTION = (
     "The paper simulates a synthetic line that breaks and a buoy on a short tether in waves, and draws conclusions "
-    "from both. Here its figures are drawn again from runs of this workbench, each of its statements gets a verdict with a "
-    "number and the evidence for it, and what it leaves out is varied to see what the answer depends on."
+    "from both. Here its figures are drawn again from runs of this workbench, each of its statements gets a verdict "
+    "with a number and the evidence for it, and what it leaves out is varied to see what the answer depends on."
 )
 VERDICTS = (
     "Claims are in our words. A verdict follows from checks at each place where it was looked: it “holds” where all "

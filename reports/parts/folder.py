@@ -24,8 +24,6 @@ PARTS = {
     "provenance.json": "what ran, where and for how long",
     "trajectories": "the runs, one netCDF file each",
 }
-WORDS = ("status", "regime", "regime_tighter", "run_key", "message")  # columns of text in every table
-
 __all__ = ["Folder", "FolderError", "Row", "no_folder", "provenance_of", "read_folder", "read_rows"]
 
 
@@ -46,10 +44,10 @@ class Folder:
         return self.directory / "trajectories" / f"{run_key}.nc"
 
 
-def read_folder(directory: str | Path, columns: tuple[str, ...] = (), words: tuple[str, ...] = ()) -> Folder:
+def read_folder(directory: str | Path, needed: tuple[str, ...] = ()) -> Folder:
     """Read and check a campaign's folder: its table has the columns of its dictionary, and text where that says so.
 
-    columns: those without which there is no report. words: columns of text beyond those the dictionary tells.
+    needed: the columns without which there is no report.
     Raises FolderError naming every part that is missing or cannot be read.
     """
     directory = Path(directory)
@@ -61,21 +59,14 @@ def read_folder(directory: str | Path, columns: tuple[str, ...] = (), words: tup
     except FolderError as error:
         faults += error.faults
         told = {}
-    text = {*WORDS, *words, *(name for name, one in told.items() if one.digits is None and _told(told))}
-    numbers = [*columns, *(name for name, one in told.items() if one.digits is not None)]
     provenance = _read(directory / "provenance.json", _provenance, faults)
-    table = _read(directory / "table.csv", lambda path: _table(path, columns, text, numbers), faults)
+    table = _read(directory / "table.csv", lambda path: _table(path, needed, told), faults)
     scene = _read(directory / "scene.toml", _scene, faults)
     if table is not None and told and (unknown := [name for name in table.columns if name not in told]):
         faults.append(f"columns.csv does not tell of all columns of table.csv: {', '.join(unknown)}")
     if faults:
         raise FolderError(directory, faults)
     return Folder(directory, provenance, table, scene, told)
-
-
-def _told(columns: dict[str, Quantity]) -> bool:
-    """Whether a dictionary says more than names."""
-    return any(one.digits is not None for one in columns.values())
 
 
 def read_rows(table: Path) -> list[dict[str, str]]:
@@ -118,18 +109,20 @@ def _provenance(path: Path) -> dict:
     return content
 
 
-def _table(path: Path, needed: tuple[str, ...], text: set[str], numbers: list[str]) -> pandas.DataFrame:
+def _table(path: Path, needed: tuple[str, ...], told: dict[str, Quantity]) -> pandas.DataFrame:
     import pandas
 
+    text = [name for name, column in told.items() if column.digits is None]
     table = pandas.read_csv(path, dtype=dict.fromkeys(text, str), keep_default_na=True)
     absent = [column for column in needed if column not in table.columns]
     if absent:
         raise ValueError(f"column{'s' if len(absent) > 1 else ''} missing: {', '.join(absent)}")
     if table.empty:
         raise ValueError("it has no rows")
-    changed = {name: table[name].fillna("") for name in table.columns if name in text}
-    changed |= {name: pandas.to_numeric(table[name]) for name in numbers if name in table.columns and name not in text}
-    return table.assign(**changed)
+    known = [name for name in table.columns if name in told]
+    return table.assign(
+        **{name: table[name].fillna("") if name in text else pandas.to_numeric(table[name]) for name in known}
+    )
 
 
 def _scene(path: Path):

@@ -55,7 +55,7 @@ def _answers(study: Study) -> Iterator[str]:
                 f"Over {row['case']} ({number(value(row, 'wall_s'), 3)} s of computing) the strobed distance of the "
                 f"buoy moves by {number(value(row, 'measured'), 2)} of its range."
             )
-    maps = [entry for line in study.maps.values() for entry in line.get("methods", {}).values()]
+    maps = [entry for line in study.maps.values() for entry in line["methods"].values()]
     if apart := [entry["distance"] for entry in maps if "distance" in entry]:
         yield (
             "The engine's one-step map has every eigenvalue that the closed form gives for straight lines, within "

@@ -27,9 +27,6 @@ def map_items(study: Study) -> list[Item]:
     ]
     rows = []
     for line in study.maps.values():
-        if "fault" in line:
-            items.append(Text(f"A line could not be judged: {line['fault']}."))
-            continue
         values = {name: np.array(entry["re"]) + 1j * np.array(entry["im"]) for name, entry in line["methods"].items()}
         largest = max(entry["largest"] for entry in line["methods"].values())
         seen = f"{line['title']}, steps of {number(line['step_s'], 3)} s; largest modulus {number(largest, 7)}"

@@ -35,7 +35,7 @@ def test_the_campaign_of_the_page_is_complete(tmp_path):
     words = ["--periods", "6", "--transient", "2", "--no-report", "--backend", "threading", "--out", str(out)]
     assert names["STUDY"].main(words, simulate=FakeEngine()) == 0
     table = rows_of(out)
-    assert [float(row["mass_kg"]) for row in table] == list(names["MASSES_KG"])
+    assert [float(row["buoy.mass_kg"]) for row in table] == list(names["MASSES_KG"])
     assert all(row["status"] == "ok" and row["radius_max_m"] and row["snaps"] == "0" for row in table)
     assert list(dictionary_of(out)) == list(table[0])
 

@@ -11,10 +11,10 @@ from campaigns.columns import names
 from campaigns.machinery.folder import CampaignStopped
 from campaigns.machinery.row_cache import kept_row
 from campaigns.stability import checks, run, tasks
-from campaigns.stability.cases import all_cases
-from campaigns.stability.cases.case import ABOVE_BAR, NOT_STARTED, Case, Ending
+from campaigns.stability.cases import ABOVE_BAR, REFUSED, Case, Ending, all_cases
 from campaigns.stability.run import case_row
 
+NOT_STARTED = Ending((REFUSED,))
 CALM = {"waves.steepness": 0.016, "water.depth_m": 22.5, "tether.nodes": 5}
 STILL = {"waves": None, "tether.nodes": 5}
 YIELDS = {**STILL, "tether.tension": {"law": "tanh", "p": [1000.0, 10.0, 0.0, 0.0, 0.0]}}

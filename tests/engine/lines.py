@@ -1,5 +1,5 @@
 """Scenes and states for the tests against closed forms: lines without water or waves, states that no scene can express,
-their forces and their energy.
+and their forces.
 
 A state is Y (n, 6) = (eps, S, U, W, phi, kappa) in a plane, Y (n, 13) = (eps, Sn, Sb, V, beta, O) in space.
 """
@@ -114,23 +114,3 @@ def forces(Y, tension):
 def mean(values):
     """Mean of the two nodes of each element."""
     return 0.5 * (values[1:] + values[:-1])
-
-
-def energy(scene, Y, h):
-    """Kinetic, gravity, stretching and bending energy (J) of a dry line under a linear law, without an end body.
-
-    Kinetic, gravity and bending energy (EI kappa^2/2, right while strains are small against one) are those of element
-    means, between which the box equations exchange without error; stretching is the mean of two nodes.
-    """
-    tether = scene.tether
-    m = tether.density_kgpm3 * tether.area_m2
-    V, z = mean(Y[:, 2:4]), mean(positions(Y, h)[:, 1])
-    stretching = [0.5 * eps * tension_at(eps, tether.tension) for eps in Y[:, 0]]
-    return np.array(
-        [
-            0.5 * m * np.sum(h * (V**2).sum(axis=1)),
-            m * scene.gravity_mps2 * np.sum(h * z),
-            np.sum(h * mean(np.array(stretching))),
-            0.5 * tether.bending_stiffness_Nm2 * np.sum(np.diff(Y[:, 4]) ** 2 / h),
-        ]
-    )

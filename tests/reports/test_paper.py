@@ -3,23 +3,30 @@
 import csv
 import json
 
+import numpy as np
 import pytest
 
+from campaigns.columns import dictionary, names
+from campaigns.paper.dependence import COLUMNS as DEPENDENCE
+from campaigns.paper.measured import Results
+from campaigns.paper.parts import COLUMNS
+from campaigns.paper.statements import claims
+from campaigns.statements import FAILS, HOLDS_IF, write_statements
 from engine import load_scene
-from reports.paper.report import COLUMNS, report
-from reports.paper.results import DEPENDENCE_COLUMNS
-from reports.parts.content import Figure, Heading, Links, Notice, Table, Text
+from reports.figures.line_panels import LinePanel
+from reports.paper.figures.breaking import _limits
+from reports.paper.report import report, short_answer
+from reports.parts.content import Links, Notice, Table, Text
 from reports.parts.html import render_html
-from reports.parts.pdf import typst_source
-from tests.reports.paper_world import deep
-
-OTHER = {(0.13, 21.0): "chaotic"}
+from reports.parts.judged import read_statements
+from tests.campaigns.paper.world import deep, world
 
 
 def write(path, columns, rows):
     path.parent.mkdir(parents=True, exist_ok=True)
+    path.with_name("columns.csv").write_bytes(dictionary(columns))
     with open(path, "w", newline="") as file:
-        writer = csv.DictWriter(file, columns)
+        writer = csv.DictWriter(file, names(columns), extrasaction="ignore")
         writer.writeheader()
         writer.writerows(rows)
 
@@ -31,18 +38,23 @@ def found(tmp_path_factory):
     (folder / "trajectories").mkdir()
     (folder / "provenance.json").write_text(json.dumps({"campaign": "paper", "command": ["python"], "quick": False}))
     (folder / "scene.toml").write_text(load_scene("tethered_buoy").to_toml())
+    write_statements(folder, claims(), Results())
     row = {"part": "dependence", "status": "ok", "runs": 8, "failed": 0, "run_s": 1.5, "total_s": 90.0}
     write(folder / "table.csv", COLUMNS, [row])
     rows = [
-        deep(kA, H, submergence=under, bending_stiffness_Nm2=EI, regime=OTHER.get((kA, H), "period-1"))
+        deep(
+            kA,
+            H,
+            submergence=under,
+            bending_stiffness_Nm2=EI,
+            regime="chaotic" if (kA, H) == (0.13, 21.0) else "period-1",
+        )
         for kA in (0.13, 0.016)
         for under in ("full", "spherical-cap")
         for H in (21.0, 22.5)
         for EI in ((0.4, 4.0) if under == "full" else (0.4,))
     ]
-    rows.append(deep(0.13, 25.0, status="newton-failed"))
-    rows = [{name: row.get(name) for name in DEPENDENCE_COLUMNS} | {"run_key": "key"} for row in rows]
-    write(folder / "dependence" / "table.csv", DEPENDENCE_COLUMNS, rows)
+    write(folder / "dependence" / "table.csv", DEPENDENCE, [*rows, deep(0.13, 25.0, status="newton-failed")])
     (folder / "buoy").mkdir()
     (folder / "buoy" / "report.html").write_text("")
     return report(folder)
@@ -54,12 +66,9 @@ def items_of(found, kind):
 
 def test_parts_that_are_missing_are_told_and_the_rest_is_there(found):
     told = [line for notice in items_of(found, Notice) for line in notice.lines]
-    assert any("`sweep`" in line and "there is no such folder" in line for line in told)
-    assert any("`buoy`" in line and "table.csv is missing" in line for line in told)
+    assert any("`sweep`" in line for line in told) and not any("`dependence`" in line for line in told)
     assert any(row[0] == "eq. (6), C₃₁" for table in items_of(found, Table) for row in table.rows)
-    text = " ".join(item.text for item in items_of(found, Text | Heading))
-    assert "Where to find what" in text and "Misprints" in text and "took 1.5 minutes" in text
-    assert "What the paper leaves out" in typst_source(found)[0]
+    assert any("took 1.5 minutes" in item.text for item in items_of(found, Text))
 
 
 def test_links_lead_to_the_reports_that_exist(found):
@@ -67,12 +76,28 @@ def test_links_lead_to_the_reports_that_exist(found):
     assert b'href="buoy/report.html"' in render_html(found)
 
 
-def test_the_dependence_is_told_by_depth_treatment_and_stiffness(found):
-    depths, stiffness = items_of(found, Figure)
-    assert "At kA = 0.13 2 chaotic and 2 periodic of 4 runs. Exponents two errors above zero" in depths.caption
-    assert "H = 21 and 22.5 m" in depths.caption and "At kA = 0.016 4 periodic of 4 runs" in depths.caption
-    assert "bending stiffness" in stiffness.caption
+def test_the_dependence_is_told_by_depth_and_treatment(found):
     regimes = next(table for table in items_of(found, Table) if "at kA = 0.13" in table.caption)
     assert [row[0] for row in regimes.rows] == ["21", "22.5", "25"]
-    assert regimes.rows[0][1].startswith("chaotic, 0.200") and regimes.rows[1][2].startswith("period-1")
-    assert regimes.rows[2][1:] == ("newton-failed", "–")
+    assert regimes.rows[0][1].startswith("chaotic, 0.200") and regimes.rows[2][1:] == ("newton-failed", "–")
+
+
+def test_the_short_answer_tells_each_statement_that_does_not_simply_hold_once(tmp_path):
+    """Conclusions too, where they say what section 4 does not."""
+    write_statements(tmp_path, claims(), world(so=False))
+    judged = read_statements(tmp_path)
+    told = [line.partition("“")[2].partition("”")[0] for line in short_answer(judged)[1:]]
+    lacking = {row["statement"].rstrip(".") for row in judged if row["verdict"] in (FAILS, HOLDS_IF)}
+    assert sorted(told) == sorted(lacking) and len(told) > 60
+
+
+def test_tensions_of_fast_and_slow_breaks_have_identical_scales():
+    forces = [45e3, 180e3, 315e3, 450e3]
+
+    def limits(least):
+        panels = [LinePanel("", np.zeros(2), np.array([[least * N, N]]), np.zeros(1)) for N in forces]
+        return _limits(panels, ["1", "2", "3", "4"], forces, motion=False)
+
+    assert limits(-0.045) == limits(-0.01)
+    assert limits(0.0)[0] == limits(0.0)[1] != limits(0.0)[2] == limits(0.0)[3]
+    assert limits(-0.5)[0][0] < -0.5 * 180e3  # nothing is cut off

@@ -16,19 +16,10 @@ from pathlib import Path
 import numpy as np
 
 from campaigns.accuracy.peers.deck import system
+from engine import Scene, Trajectory
 from engine.physics.waves import wave_number
 
 SAMPLE = 0.05
-NOTES = (
-    "no bending and no compression in its rope (tension only); Wheeler stretching of the waves, and the distance "
-    "from our limit is taken with the same stretching; its program writes every step to a file, and its time is that "
-    "of the program less that of a run of two steps; where the buoy leaps out of the water (violent) the two are "
-    "metres apart: eq. (30) keeps its buoyancy and its wave load there (campaigns/accuracy/peers/cabledyn.py)"
-)
-OURS = {"waves.above_still_water": "wheeler"}
-_STEPS = ((5, 0.01), (10, 0.01), (10, 0.005), (20, 0.005), (20, 0.0025), (40, 0.0025))
-SETTINGS = dict.fromkeys(("regular", "snap", "violent"), _STEPS)
-REFINED = dict.fromkeys(SETTINGS, ((40, 0.00125), (40, 0.0025)))
 
 DECK = """---------------------- CableDyn Input File ----------------------
 tethered buoy
@@ -46,7 +37,7 @@ Point2pz
 """
 
 
-def simulate(scene, duration_s, segments, step_s):
+def simulate(scene: Scene, duration_s: float, segments: int, step_s: float) -> Trajectory:
     """A run as the engine's record: a Trajectory of the buoy's places, or the program's own words where it fails."""
     from campaigns.accuracy.peers.record import as_trajectory, nothing
 

@@ -12,18 +12,13 @@ import time
 
 import numpy as np
 
+from engine import Scene, Trajectory
+
 SAMPLE = 0.05
-NOTES = (
-    "the pendulum alone: it has no water, waves or Morison forces; shear deformation and inertia of the turning "
-    "sections, which our rope has not; explicit steps (position Verlet), no damping "
-    "(campaigns/accuracy/peers/elastica.py)"
-)
-SETTINGS = {"pendulum": ((5, 2.5e-5), (10, 2.5e-5), (20, 2.5e-5))}
-REFINED = {"pendulum": ((40, 1.25e-5), (20, 1.25e-5))}
 SHEAR = 1.0 / 3.0  # shear modulus over Young's: incompressible
 
 
-def simulate(scene, duration_s, elements, step_s):
+def simulate(scene: Scene, duration_s: float, elements: int, step_s: float) -> Trajectory:
     """A run as the engine's record: a Trajectory of the bob's places."""
     import elastica
 

@@ -29,22 +29,12 @@ from pathlib import Path
 import numpy as np
 
 from campaigns.accuracy.peers.deck import system, volume
+from engine import Scene, Trajectory
 from engine.physics.waves import wave_number
 
 BED = -100.0  # m: MoorDyn's still water level is z = 0, far above the buoy
 PORT_AREA = 1e-3  # m2, drag area times coefficient of the point that takes the load
 SAMPLE = 0.05  # s
-NOTES = (
-    "no bending and no compression in its rope (tension only); its points feel no wave acceleration, so the load of "
-    "eq. (30) and the extrapolated wave are handed to it and cost it nothing; drag of the buoy on the vector of the "
-    "relative velocity, handed over too; RK4, no damping; with 20 segments and more the violent work ends in NaN at "
-    "every step tried, so that it has no refined run there (campaigns/accuracy/peers/moordyn.py)"
-)
-# segments, steps a period; the steps are the longest, to the next hundred, that stay stable
-_STABLE = ((5, 900), (8, 1200), (10, 1500), (16, 2500), (23, 3700))
-_REFINED = ((80, 14000), (40, 8000))
-SETTINGS = dict.fromkeys(("regular", "snap", "violent"), _STABLE)
-REFINED = dict.fromkeys(("regular", "snap"), _REFINED) | {"violent": ((40, 16000),)}
 
 INPUT = """--- MoorDyn input ---
 tethered buoy
@@ -113,7 +103,7 @@ def airy(scene):
     return water
 
 
-def simulate(scene, duration_s, segments, steps_per_period):
+def simulate(scene: Scene, duration_s: float, segments: int, steps_per_period: float) -> Trajectory:
     """A run as the engine's record: a Trajectory of the buoy's places."""
     from campaigns.accuracy.peers.record import as_trajectory
 

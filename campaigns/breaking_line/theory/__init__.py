@@ -6,12 +6,12 @@
     strain, velocity, tension = motion.at([25.0, 40.0], 0.04)
 
 No gravity, no bending, no water: m u_t = T(eps)_s, eps_t = u_s. `law` holds the closed forms of the tanh law,
-`simple_wave` the theory, `characteristics`, `fitting` and `fitted` the exact motion, `energy` its budget, `of_scene`
+`simple_wave` the theory, `characteristics`, `fitting` and `fitted` the exact motion, `energy` its loss, `of_scene`
 all that a run is held against. The law is the five numbers p1 ... p5 of eq. (20) and the mass per unit unstretched
 length; p1 = 0 is a linear line.
 """
 
-from campaigns.breaking_line.theory.energy import EnergyBudget, fitted_energy
+from campaigns.breaking_line.theory.energy import lost_energy
 from campaigns.breaking_line.theory.fitted import FittedBreak, ShockPath
 from campaigns.breaking_line.theory.fitting import fitted_break
 from campaigns.breaking_line.theory.law import PAPER_LAW
@@ -27,14 +27,13 @@ from campaigns.breaking_line.theory.simple_wave import (
 __all__ = [
     "PAPER_LAW",
     "BreakTheory",
-    "EnergyBudget",
     "FittedBreak",
     "ShockPath",
     "ShockStart",
     "Theory",
     "break_theory",
     "fitted_break",
-    "fitted_energy",
+    "lost_energy",
     "shock_start",
     "simple_wave_work",
     "theory_of",

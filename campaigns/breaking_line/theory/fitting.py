@@ -59,8 +59,8 @@ def fitted_break(parameters, mass, length, tension0, decay_s, until_s, lines=400
     line, case 3 at 5 ms ends at 55 ms (the front is back from the fixed end before the shock has passed it) and case 4
     at 50 ms ends at 74 ms (the shock comes back as a shock); all others go on, through strains below -1 if need be.
     Error with 400 lines, case 4: place of the shock 2e-5 m, strain 2e-9 and speed 1e-6 m/s in the mean up to the fixed
-    end; after its echo 1e-6 in strains above -1/2. From 500 kN on, where the law is nearly flat, `fitted_energy` closes
-    to 1e-5 ... 1e-3 only.
+    end; after its echo 1e-6 in strains above -1/2. From 500 kN on, where the law is nearly flat, the energy closes to
+    1e-5 ... 1e-3 only.
     Source: `simple_wave`, `characteristics`.
     """
     law, force = checked_law(parameters, mass), checked_positive(tension0, "tension0")

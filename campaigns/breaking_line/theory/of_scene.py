@@ -8,7 +8,7 @@ from functools import lru_cache
 
 import numpy as np
 
-from campaigns.breaking_line.theory.energy import fitted_energy
+from campaigns.breaking_line.theory.energy import lost_energy
 from campaigns.breaking_line.theory.fitted import FittedBreak
 from campaigns.breaking_line.theory.fitting import fitted_break
 from campaigns.breaking_line.theory.law import strain_of_tension, wave_speed
@@ -115,6 +115,6 @@ def _theory(law, mass, length, force, decay, until) -> Theory:
     shock = motion.shock
     through = len(shock.time_s) > 0 and shock.place_m[-1] <= 1e-6 * length
     arrival = min(motion.valid_until_s, speeds.front_arrival_s, shock.time_s[-1] if through else math.inf)
-    lost = float(fitted_energy(motion, [arrival]).lost_J[0])
+    lost = float(lost_energy(motion, [arrival])[0])
     work = simple_wave_work(law, mass, force, decay)
     return Theory(length, decay, force, speeds, start, motion, work, float(arrival), lost)

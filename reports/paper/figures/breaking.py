@@ -15,7 +15,7 @@ import numpy as np
 from ...breaking_line.runs import named
 from ...figures.line_panels import LinePanel, fill_line_panels, line_panels_height_in, paired_limits
 from ...parts.content import sub
-from ...parts.wording import decimals, number
+from ...parts.wording import number
 from .drawing import Drawing, behind, value
 
 if TYPE_CHECKING:
@@ -28,6 +28,7 @@ QUANTITIES = {  # array of a case -> (what is shown, label of its axis, unit)
 }
 LETTERS = "abcd"
 F_HS = "F" + sub("h,s")
+SCALES = "over the unstretched length s from the fixed end; cases 1 and 2, and 3 and 4, share a scale"
 TENSIONS = (-0.1, 1.06)  # of the largest static tension of the two cases that share a scale
 
 
@@ -36,36 +37,21 @@ def drawing(data: xarray.Dataset) -> Drawing:
     cases = [name.split("_")[1] for name in data if str(name).endswith("_force_N")]
     column = next(name for name in QUANTITIES if f"case_{cases[0]}_{name}" in data)
     what, label, unit = QUANTITIES[column]
-    panels, words = [], []
-    for letter, case in zip(LETTERS, cases, strict=True):
-        panel = _panel(data, case, column, letter)
-        panels.append(panel)
-        if column == "z_m":
-            recoil = float(panel.x[0, -1] - panel.x[-1, -1])
-            least = float(panel.x.min())
-            words.append(f"({letter}) the end recoils {decimals(recoil, 1)} m, least x {decimals(least, 2)} m")
-        else:
-            low, high = (_thousands(float(end)) for end in (panel.y.min(), panel.y.max()))
-            words.append(f"({letter}) {low} to {high} {unit}")
-    forces = ", ".join(
-        f"({letter}) case {named(case)}, {_thousands(value(data, f'case_{case}_force_N'))} N"
-        for letter, case in zip(LETTERS, cases, strict=True)
-    )
+    motion = column == "z_m"
+    panels = [_panel(data, case, column, letter) for letter, case in zip(LETTERS, cases, strict=True)]
     fracture = number(1e3 * value(data, f"case_{cases[0]}_fracture_s"))
-    scales = (
-        "heights much enlarged, one scale for all; dashed: the fixed end"
-        if column == "z_m"
-        else "over the unstretched length s from the fixed end; cases 1 and 2, and 3 and 4, share a scale"
-        + (", the same in figs. 3 and 6" if column == "tension_N" else "")
-    )
+    scales = "heights much enlarged, one scale for all; dashed: the fixed end" if motion else SCALES
+    scales += ", the same in figs. 3 and 6" if column == "tension_N" else ""
+    ends = min(panel.y.min() for panel in panels), max(panel.y.max() for panel in panels)
+    low, high = (number(float(end), 2) if motion else _thousands(float(end)) for end in ends)
     caption = (
-        f"{what} (fracture in {fracture} ms), curves 10 ms apart, dark to bright; {scales}. {F_HS}: "
-        f"{forces}. Seen: {'; '.join(words)}. {behind(data)}"
+        f"{what} (fracture in {fracture} ms), curves 10 ms apart, dark to bright; {scales}. Titles: the static force "
+        f"{F_HS}. Seen: {low} to {high} {unit}. {behind(data)}"
     )
-    alt = f"Four panels, {what}, fracture in {fracture} ms, a curve every 10 ms: {'; '.join(words)}."
+    alt = f"Four panels, {what}, fracture in {fracture} ms, a curve every 10 ms, from {low} to {high} {unit}."
     forces_N = [value(data, f"case_{case}_force_N") for case in cases]
-    limits = _limits(panels, cases, forces_N if column == "tension_N" else None, motion=column == "z_m")
-    fill = partial(_fill, panels=panels, limits=limits, label=label, motion=column == "z_m")
+    limits = _limits(panels, cases, forces_N if column == "tension_N" else None, motion)
+    fill = partial(_fill, panels=panels, limits=limits, label=label, motion=motion)
     return Drawing(line_panels_height_in(len(panels)), fill, caption, alt)
 
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from ...parts.figure_data import Source, sources_of
 from ...parts.symbols import RHO_W
-from ...parts.wording import number
+from ...parts.wording import decimals, number
 
 if TYPE_CHECKING:
     import xarray
@@ -28,6 +28,13 @@ class Drawing:
 def value(data: xarray.Dataset, name: str) -> float:
     """A single number of a data file."""
     return float(data[name])
+
+
+def spans(data: xarray.Dataset, names: dict[str, str], places: int = 2) -> str:
+    """ "x from 0.10 to 0.90; y from ..." of arrays by their name in words."""
+    ends = ((words, data[name].values) for name, words in names.items())
+    said = (f"{words} from {decimals(x.min(), places)} to {decimals(x.max(), places)}" for words, x in ends)
+    return "; ".join(said)
 
 
 def scaled(factor: float) -> tuple[Callable, Callable]:

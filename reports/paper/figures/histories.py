@@ -16,14 +16,13 @@ from ...figures.time_series import envelope
 from ...parts.figure_data import sources_of
 from ...parts.style import GREEN, INK, SKY, SOFT, VERMILION
 from ...parts.symbols import L_0, T_I, T_S
-from ...parts.wording import decimals, number, percent
-from .drawing import Drawing, behind, scaled, value
+from ...parts.wording import decimals, number
+from .drawing import Drawing, behind, scaled, spans, value
 
 if TYPE_CHECKING:
     import xarray
 
 DETAIL_PERIODS = 10
-NEAR_ZERO = 0.05  # of the static tension: what the paper calls near zero, in numbers
 _HEIGHT_IN = 3.9
 
 
@@ -42,62 +41,32 @@ class Side:
 
 def drawing(data: xarray.Dataset) -> Drawing:
     """The figure of a data file. Raises KeyError for one of another figure."""
-    told = _tension if "tension_N" in data else _radial if "radius_m" in data else _angular
-    side, what, seen = told(data)
-    kA = sources_of(data)[0].label
+    side, what = (_tension if "tension_N" in data else _radial if "radius_m" in data else _angular)(data)
+    kA, seen = sources_of(data)[0].label, spans(data, {side.column: what}, 3)
     caption = (
-        f"{what}, {kA}, against t/{T_I}; above up to the end of the window of eq. (31) (shaded), below the last "
-        f"{DETAIL_PERIODS} wave periods of it. Seen: {seen}; {_swings(data, side)}. {behind(data)}"
+        f"{seen}, {kA}, against t/{T_I}; above up to the end of the window of eq. (31) (shaded), below the last "
+        f"{DETAIL_PERIODS} wave periods of it. {behind(data)}"
     )
-    alt = f"History over time: {what}, {kA}, {seen}."
-    return Drawing(_HEIGHT_IN, partial(_fill, data=data, side=side), caption, alt)
+    return Drawing(_HEIGHT_IN, partial(_fill, data=data, side=side), caption, f"History over time, {kA}: {seen}.")
 
 
-def _tension(data: xarray.Dataset) -> tuple[Side, str, str]:
+def _tension(data: xarray.Dataset) -> tuple[Side, str]:
     static = value(data, "static_tension_N")
-    low, high = data["tension_low_over_static"].values, data["tension_high_over_static"].values
-    slack = float(np.mean(data["tension_over_static"].values < NEAR_ZERO))
-    seen = f"from {decimals(low.min(), 2)} to {decimals(high.max(), 2)} {T_S}"
-    seen += f", {percent(slack)} of the time below {NEAR_ZERO} {T_S}" if slack else f", never below {NEAR_ZERO} {T_S}"
-    side = Side(
-        "tension_over_static",
-        r"$T/T_s$ (–)",
-        r"$T$ (kN)",
-        1e-3 * static,
-        ((1.0, "static"), (0.0, "no tension")),
-        ("tension_low_over_static", "tension_high_over_static"),
-    )
-    return side, f"tension at the top end over the static one ({T_S} = {number(static)} N)", seen
+    levels, band = ((1.0, "static"), (0.0, "no tension")), ("tension_low_over_static", "tension_high_over_static")
+    side = Side("tension_over_static", r"$T/T_s$ (–)", r"$T$ (kN)", 1e-3 * static, levels, band)
+    return side, f"tension at the top end over the static one ({T_S} = {number(static)} N)"
 
 
-def _radial(data: xarray.Dataset) -> tuple[Side, str, str]:
+def _radial(data: xarray.Dataset) -> tuple[Side, str]:
     static, length = value(data, "static_radius_m"), value(data, "unstretched_m")
-    ratio = data["radius_over_static"].values
-    swing = (static * ratio - static) / (static - length)
     levels = ((1.0, r"static, $r_0$"), (length / static, r"unstretched, $l_0$"))
-    seen = (
-        f"from {decimals(ratio.min(), 3)} to {decimals(ratio.max(), 3)}; Δr from {decimals(swing.min(), 2)} to "
-        f"{decimals(swing.max(), 2)} times the static stretch Δl, slack below −1"
-    )
-    what = f"radius over the static one (r₀ = {L_0} + Δl = {decimals(static, 3)} m)"
-    return Side("radius_over_static", r"$r/r_0$ (–)", r"$r$ (m)", static, levels), what, seen
+    side = Side("radius_over_static", r"$r/r_0$ (–)", r"$r$ (m)", static, levels)
+    return side, f"radius over the static one (r₀ = {L_0} + Δl = {decimals(static, 3)} m)"
 
 
-def _angular(data: xarray.Dataset) -> tuple[Side, str, str]:
-    angle = data["angle_rad"].values
-    seen = f"from {decimals(angle.min(), 3)} to {decimals(angle.max(), 3)} rad"
+def _angular(data: xarray.Dataset) -> tuple[Side, str]:
     side = Side("angle_rad", r"$\theta$ (rad)", r"$\theta$ (°)", 180.0 / np.pi, ((0.0, "static"),))
-    return side, "angle from the vertical (static value 0, hence in rad)", seen
-
-
-def _swings(data: xarray.Dataset, side: Side) -> str:
-    """From least to largest in the first and in the last periods: whether a transient dies out."""
-    periods, values = data["time_s"].values / value(data, "wave_period_s"), data[side.column].values
-    first, last = periods <= DETAIL_PERIODS, periods >= periods[-1] - DETAIL_PERIODS
-    return (
-        f"a span of {number(float(np.ptp(values[first])), 3)} in the first {DETAIL_PERIODS} wave periods, of "
-        f"{number(float(np.ptp(values[last])), 3)} in the last"
-    )
+    return side, "angle from the vertical in rad (static value 0)"
 
 
 def _fill(figure, data: xarray.Dataset, side: Side) -> None:

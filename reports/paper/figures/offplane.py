@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 from ...figures.offplane_history import History, fill_lateral_histories, lateral_height_in
 from ...parts.figure_data import sources_of
-from ...parts.wording import number, percent
+from ...parts.wording import number
 from .drawing import Drawing, behind, scaled, value
 
 if TYPE_CHECKING:
@@ -22,24 +22,15 @@ WAVES, BODIES = ("small", "large"), ("buoy", "rope")
 def drawing(data: xarray.Dataset) -> Drawing:
     """The figure of a data file. Raises KeyError for one of another figure."""
     labels = dict(zip(WAVES, (one.label.partition(" with")[0] for one in sources_of(data)), strict=True))
-    seen = []
-    for name, label in labels.items():
-        inplane = value(data, f"{name}_inplane_m")
-        sizes = {body: float(data[f"{name}_{body}_m"].max()) for body in BODIES}
-        last = float(data[f"{name}_buoy_envelope_m"].values[-1])
-        seen.append(
-            f"at {label} the buoy stays within {number(sizes['buoy'], 2)} m of the plane "
-            f"({percent(sizes['buoy'] / inplane)} of half its range in it) and the rope within "
-            f"{number(sizes['rope'], 2)} m; in the last wave period the buoy is within {number(last, 2)} m"
-        )
+    bodies = {f"{name}_{body}_m": f"{body} at {label}" for name, label in labels.items() for body in BODIES}
+    most = "; ".join(f"{words} within {number(float(data[name].max()), 2)} m" for name, words in bodies.items())
     push = number(value(data, "push_mps"))
     caption = (
         f"motion of the buoy across the plane of the waves after a push of {push} m/s, solid and dashed as in the "
         f"paper, and below, beyond the paper, of the rope (its farthest node). Thick: the largest value in each wave "
-        f"period; thin: every sample; dotted: half the range of the buoy in the plane. Seen: {'; '.join(seen)}. "
-        f"{behind(data)}"
+        f"period; thin: every sample; dotted: half the range of the buoy in the plane. Seen: {most}. {behind(data)}"
     )
-    alt = f"Distance from the plane of the waves on a logarithmic axis over time: {'; '.join(seen)}."
+    alt = f"Distance from the plane of the waves on a logarithmic axis over time: {most}."
     return Drawing(lateral_height_in(len(BODIES)), partial(_fill, data=data, labels=labels), caption, alt)
 
 

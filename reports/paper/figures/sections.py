@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING
 from ...parts.figure_data import sources_of
 from ...parts.style import INK, SOFT
 from ...parts.symbols import L_0
-from ...parts.wording import decimals, number
-from .drawing import Drawing, behind, value
+from ...parts.wording import number
+from .drawing import Drawing, behind, spans, value
 
 if TYPE_CHECKING:
     import xarray
@@ -26,11 +26,9 @@ def drawing(data: xarray.Dataset) -> Drawing:
     """The figure of a data file. Raises KeyError for one of another figure."""
     force, lift, damping, frequency = (number(value(data, key)) for key in ("force", "lift", "damping", "frequency"))
     waves = sources_of(data)[0].label
-    seen = " and ".join(
-        f"{data.sizes[f'{name}_point']} points with γ from {_span(data, f'{name}_displacement')} and γ′ from "
-        f"{_span(data, f'{name}_velocity')} in {title[:3]}"
-        for name, title in PANELS.items()
-    )
+    names = {"exact_displacement": "γ", "exact_velocity": "γ′"}
+    reduced = {name.replace("exact", "reduced"): words for name, words in names.items()}
+    seen = f"in (a) {spans(data, names)}; in (b) {spans(data, reduced)}"
     caption = (
         f"Poincaré sections, one point a forcing period: (a) the exact model at {waves}, (b) eq. (33) with F = "
         f"{force}, B − W = {lift}, μ = {damping} and ω = {frequency}. Both in the units of eq. (33): γ = (r − {L_0})/D "
@@ -38,10 +36,6 @@ def drawing(data: xarray.Dataset) -> Drawing:
         f"{number(value(data, 'natural_radial_radps'), 3)} rad/s; slack left of 0. Seen: {seen}. {behind(data)}"
     )
     return Drawing(_HEIGHT_IN, partial(_fill, data=data), caption, f"Two scatter plots of strobed motion: {seen}.")
-
-
-def _span(data: xarray.Dataset, name: str) -> str:
-    return f"{decimals(float(data[name].min()), 2)} to {decimals(float(data[name].max()), 2)}"
 
 
 def _fill(figure, data: xarray.Dataset) -> None:

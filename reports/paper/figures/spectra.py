@@ -15,7 +15,7 @@ from ...parts.content import sub
 from ...parts.figure_data import sources_of
 from ...parts.style import BLUE, SOFT, VERMILION
 from ...parts.symbols import OMEGA_I, T_I, TAU_0
-from ...parts.wording import listed, number, percent
+from ...parts.wording import listed, number
 from .drawing import Drawing, behind, value
 
 if TYPE_CHECKING:
@@ -43,10 +43,8 @@ def drawing(data: xarray.Dataset) -> Drawing:
     seen = []
     for side in sides:
         peaks = data[f"{side}_peaks_radps"].values[:4] if f"{side}_peaks_radps" in data else ()
-        amplitude = data[f"{side}_amplitude"].values
-        floor = float(np.median(amplitude[data["omega_radps"].values <= _SHOWN * wave]) / amplitude.max())
         words = f"peaks at {listed(number(peak, 3) for peak in peaks)} rad/s" if len(peaks) else "no peak"
-        seen.append(f"{SIDES[side][1]} has {words}, its median up to {_SHOWN} {OMEGA_I} is {percent(floor)} of the top")
+        seen.append(f"{SIDES[side][1]} has {words}")
     kA = sources_of(data)[0].label
     bins = wave / value(data, "periods")
     caption = (

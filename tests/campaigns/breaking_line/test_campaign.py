@@ -1,18 +1,13 @@
 """The campaign of the breaking line: what it runs, what a row says, what happens when something fails or is there."""
 
-import subprocess
-import sys
 from dataclasses import replace
 
 import pytest
 
 from campaigns import breaking_line
 from campaigns.breaking_line import CASES, LENGTHS_S, SERIES_NODES, STIFFNESSES_NM2
-from campaigns.breaking_line.rows import COLUMNS
-from campaigns.columns import names
 from engine import load_scene, simulate
-from reports.breaking_line.runs import COLUMNS as READ
-from tests.campaigns.conftest import ROOT, finished, rows_of
+from tests.campaigns.conftest import finished, rows_of
 
 USUAL = ["--no-companions", "--set", "tether.nodes=101", "--backend", "threading", "--jobs", "2", "--no-report"]
 
@@ -27,10 +22,14 @@ def failing(scene, periods=None, duration_s=None):
     return simulate(scene, duration_s=duration_s)
 
 
-def order_of(*words):
+def runs_of(*words):
     order = breaking_line.read_order(list(words), faults := [])
     assert faults == []
-    return order
+    return order.cases
+
+
+def of_kind(runs, *kinds):
+    return [run for run in runs if run.labels["kind"] in kinds]
 
 
 @pytest.fixture(scope="module")
@@ -41,51 +40,42 @@ def out(tmp_path_factory):
 
 
 def test_no_argument_is_the_papers_study():
-    runs = order_of().cases
-    cases = [run for run in runs if run.labels["kind"] == "case"]
+    runs = runs_of()
+    cases = of_kind(runs, "case")
     assert [run.labels["case"] for run in cases] == list(CASES)
     for run in cases:
-        assert run.duration_s == LENGTHS_S[run.labels["case"][0]]
-        assert run.scene.end.force_decay_s == (0.05 if run.labels["case"].endswith("p") else 0.005)
-        assert run.scene.end.force_N[0] == {"1": 45e3, "2": 180e3, "3": 315e3, "4": 450e3}[run.labels["case"][0]]
+        case = run.labels["case"]
+        assert run.duration_s == LENGTHS_S[case[0]]
+        assert run.scene.end.force_decay_s == (0.05 if case.endswith("p") else 0.005)
+        assert run.scene.end.force_N[0] == {"1": 45e3, "2": 180e3, "3": 315e3, "4": 450e3}[case[0]]
         assert run.scene.tether.bending_stiffness_Nm2 == 24.0 and run.scene.water is None
     assert len({run.scene.key() for run in runs}) == len(runs)
+    doubled = {run.labels["case"]: run.scene.tether.nodes for run in of_kind(runs, "doubled")}
+    assert doubled == dict.fromkeys(CASES, 2 * 1201 - 1)
+    stiff = {run.scene.tether.bending_stiffness_Nm2 for run in of_kind(runs, "stiffness")}
+    assert stiff | {24.0} == set(STIFFNESSES_NM2) == {10.0, 24.0, 100.0}
+    assert {run.labels["case"] for run in of_kind(runs, "straight")} == {"3", "4", "4p"}  # where a shock forms
+    assert all(run.scene.gravity_mps2 == 0.0 for run in of_kind(runs, "straight", "series"))
+    nodes = [run.scene.tether.nodes for run in of_kind(runs, "series") if run.labels["case"] == "4"]
+    assert tuple(nodes) == SERIES_NODES == (201, 401, 801, 1601)
 
 
 def test_both_ends_start_at_one_level():
-    scene = order_of("--cases", "1", "--no-companions").cases[0].scene
+    scene = runs_of("--cases", "1", "--no-companions")[0].scene
     weight_N = 1140.0 * 1.964e-3 * 9.81 * 60.0
     assert scene.end.force_N[2] == pytest.approx(0.5 * weight_N)
     profiles = simulate(scene, duration_s=0.002).profiles
     assert abs(profiles.z_m[0, -1]) < 1e-3 * abs(profiles.z_m[0]).max()
 
 
-def test_companions():
-    runs = order_of().cases
-    doubled = {run.labels["case"]: run.scene.tether.nodes for run in runs if run.labels["kind"] == "doubled"}
-    assert doubled == dict.fromkeys(CASES, 2 * 1201 - 1)
-    stiff = {run.scene.tether.bending_stiffness_Nm2 for run in runs if run.labels["kind"] == "stiffness"}
-    assert stiff | {24.0} == set(STIFFNESSES_NM2) == {10.0, 24.0, 100.0}
-    straight = [run for run in runs if run.labels["kind"] in ("straight", "series")]
-    assert {run.labels["case"] for run in straight if run.labels["kind"] == "straight"} == {
-        "3",
-        "4",
-        "4p",
-    }  # where a shock forms
-    assert all(run.scene.gravity_mps2 == 0.0 for run in straight)
-    nodes = [run.scene.tether.nodes for run in straight if run.labels["kind"] == "series" and run.labels["case"] == "4"]
-    assert tuple(nodes) == SERIES_NODES == (201, 401, 801, 1601)
-
-
 def test_a_law_without_theory_has_no_straight_lines():
-    runs = order_of("--cases", "4", "--set", "tether.tension={law='linear', stiffness_N=2e6}").cases
+    runs = runs_of("--cases", "4", "--set", "tether.tension={law='linear', stiffness_N=2e6}")
     assert {run.labels["kind"] for run in runs} == {"case", "doubled", "stiffness"}
 
 
 def test_rows(out):
     rows = {row["case"]: row for row in rows_of(out)}
     assert list(rows) == ["1", "4", "4p"] and all(row["status"] == "ok" for row in rows.values())
-    assert set(rows["1"]) == set(names(COLUMNS))
     assert float(rows["1"]["end_speed_mps"]) == pytest.approx(43.16, rel=0.003)
     assert float(rows["4p"]["shock_birth_theory_m"]) == pytest.approx(39.32, abs=0.01)
     assert rows["1"]["shock_birth_theory_m"] == rows["1"]["shock_birth_m"] == ""
@@ -93,19 +83,14 @@ def test_rows(out):
         parts = ("kinetic_J", "strain_J", "gravity_J", "bending_J", "viscous_J", "scheme_space_J", "scheme_time_J")
         total = sum(float(row[name]) for name in parts) + float(row["remainder_J"])
         assert total == pytest.approx(float(row["stored_J"]) + float(row["end_work_J"]), rel=1e-9)
-        assert float(row["end_work_J"]) == pytest.approx(
-            float(row["end_work_theory_J"]), rel=0.25
-        )  # 5 ms: coarse steps
-
-
-def test_everything_the_report_reads_is_written():
-    assert set(READ) <= set(names(COLUMNS))
+        work, exact = float(row["end_work_J"]), float(row["end_work_theory_J"])
+        assert work == pytest.approx(exact, rel=0.25)  # 5 ms: coarse steps
 
 
 def test_what_is_there_is_not_done_again(out, capsys):
     before = finished(out)
     words = ["--cases", "1", "4", "4p", *USUAL, "--out", str(out)]
-    assert breaking_line.main(words, simulate=None) == 0
+    assert breaking_line.main(words) == 0
     assert finished(out) == before and "0 computed, 3 found" in capsys.readouterr().out
     lost = next(out.glob("trajectories/*.nc"))
     lost.unlink()
@@ -125,27 +110,16 @@ def test_failures_are_rows_with_reasons(tmp_path, capsys):
     assert "failed   2" in capsys.readouterr().out
 
 
-def test_what_was_not_kept_stays_empty(tmp_path):
-    bare = ["tether.nodes=101", "output.profiles=false", "output.profiles_step_s=none", "output.energy=false"]
-    words = ["--cases", "1", *USUAL[:1], "--set", *bare, *USUAL[3:], "--out", str(tmp_path / "out")]
-    assert breaking_line.main(words) == 0
-    (row,) = rows_of(tmp_path / "out")
-    assert row["status"] == "ok" and float(row["end_speed_mps"]) == pytest.approx(43.16, rel=0.003)
-    assert row["front_speed_mps"] == row["recoil_m"] == row["stored_J"] == ""
-
-
 @pytest.mark.parametrize(
     ("words", "part"),
     [
         ("--cases", "given nothing"),
-        ("--cases 5", "'5'"),
         ("--cases 1 4'", "allowed: one of 1 2 3 4 1p 2p 3p 4p"),
         ("--set end.force_N=[1,0,0]", "use --cases"),
         ("--set end.force_decay_s=0.01", "use --cases"),
         ("--scene tethered_buoy", "end.force_N"),
         ("--set tether.nodes=2", "tether.nodes"),
         ("--no-companion", "did you mean --no-companions"),
-        ("--jobs 0", "--jobs"),
     ],
 )
 def test_bad_input_is_one_message(tmp_path, monkeypatch, capsys, words, part):
@@ -162,15 +136,9 @@ def test_a_fault_common_to_all_runs_is_told_once(tmp_path, monkeypatch, capsys):
     assert capsys.readouterr().err.count("tether.area_m2") == 1
 
 
-def test_help_loads_nothing_heavy():
-    code = "import sys, campaigns.breaking_line as b; b.parser().format_help(); print(*sys.modules)"
-    loaded = subprocess.run([sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True, check=True).stdout
-    assert not {"numpy", "numba", "pandas", "pydantic", "joblib", "matplotlib"} & set(loaded.split())
-
-
 def test_the_shipped_scene_is_case_4():
     shipped = load_scene("breaking_line")
-    (case,) = order_of("--cases", "4", "--no-companions").cases
+    (case,) = runs_of("--cases", "4", "--no-companions")
     assert shipped.end.force_N[2] == pytest.approx(case.scene.end.force_N[2], rel=1e-6)
     assert shipped.end.force_decay_s == case.scene.end.force_decay_s
     assert shipped.tether == case.scene.tether and shipped.solver == case.scene.solver

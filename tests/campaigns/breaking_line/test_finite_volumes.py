@@ -1,7 +1,8 @@
 """Law: a scheme that shares only the tension law and F(t) with the characteristics converges to the same motion.
 
-First-order finite volumes with Roe's flux, which is exact for this system: with sigma^2 = (T_r - T_l)/(m (eps_r - eps_l))
-and Z = m sigma, T* = (T_l + T_r)/2 + Z (u_r - u_l)/2 and u* = (u_l + u_r)/2 + (T_r - T_l)/(2 Z).
+First-order finite volumes with Roe's flux, which is exact for this system: with Z = m sigma and
+sigma^2 = (T_r - T_l)/(m (eps_r - eps_l)), T* = (T_l + T_r)/2 + Z (u_r - u_l)/2 and
+u* = (u_l + u_r)/2 + (T_r - T_l)/(2 Z).
 Source: Toro, Riemann Solvers (2009), chapters 6 and 11; Roe, J. Comput. Phys. 43, 357 (1981).
 """
 

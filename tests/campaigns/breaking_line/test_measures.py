@@ -10,7 +10,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from campaigns.breaking_line import measures
+from campaigns.breaking_line import motion_measures as measures
 from campaigns.breaking_line.theory import PAPER_LAW, theory_of
 from tests.campaigns.breaking_line.paper_line import CASES, LENGTH, MASS
 

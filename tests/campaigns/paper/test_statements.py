@@ -66,7 +66,9 @@ def test_between_both_the_places_are_named_and_grouped_around_their_numbers():
 
 
 def test_a_buoyancy_that_is_not_the_shipped_one_is_a_place_of_its_own():
-    dry = world(dependence=(deep(0.13, 21.0), deep(0.13, 21.0, regime="period-1", submergence="spherical-cap")), buoy={})
+    dry = world(
+        dependence=(deep(0.13, 21.0), deep(0.13, 21.0, regime="period-1", submergence="spherical-cap")), buoy={}
+    )
     assert judge(CHAOTIC, dry).condition == "H = 21 m; not H = 21 m with spherical-cap"
 
 

@@ -14,7 +14,8 @@ from engine.paper_box.newton import solve
 from engine.paper_box.nodal import level_of, positions
 from engine.paper_box.start import at_rest
 from engine.time.status import OK
-from tests.engine.lines import DRY, energy, free, line, linear
+from tests.engine.budgets import Books
+from tests.engine.lines import DRY, free, line, linear
 
 STEP_S, SWING_S = 0.005, 2.5
 
@@ -37,9 +38,9 @@ def balance(nodes, swings):
     assert code == OK
     up, along, _ = positions(rope, Y)
     Y[3:6] = to_local(Y[6:10], 2.0 * np.array([along, -up, 0 * up]))
-    level, energies = level_of(rope, 0.0, Y), []
+    level, books, energies = level_of(rope, 0.0, Y), Books(scene), []
     for _ in range(round(swings * SWING_S / STEP_S)):
-        energies.append(energy(scene, planar(level.Y), rope.h))
+        energies.append(books.energy(planar(level.Y)))
         code, _, level = solve(rope, level.t + STEP_S, level, 12)
         assert code == OK
     energies = np.array(energies)

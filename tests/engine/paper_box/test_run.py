@@ -55,7 +55,7 @@ def test_a_batch_may_mix_schemes():
 
 
 def test_a_tether_without_bending_is_refused():
-    with pytest.raises(SceneError, match="tether.bending_stiffness_Nm2"):
+    with pytest.raises(SceneError, match=r"tether\.bending_stiffness_Nm2"):
         scene_of(**{"tether.bending_stiffness_Nm2": 0.0})
 
 

@@ -4,7 +4,7 @@ from functools import cache
 
 import numpy as np
 
-from campaigns.breaking_line import measures
+from campaigns.breaking_line import motion_measures as measures
 from campaigns.breaking_line.theory import theory_of
 from engine import load_scene, simulate
 

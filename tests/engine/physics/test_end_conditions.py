@@ -81,26 +81,6 @@ def test_water_at_rest_with_the_buoy_does_not_divide_by_zero():
         assert np.all(np.isfinite(e)) and np.all(np.isfinite(D))
 
 
-@pytest.mark.parametrize("angle", [0.3, 2.5])
-def test_the_record_of_a_turned_scene_holds_the_vectors_turned(angle):
-    end = held(3.0, 1.0, 19.0, rotation="clamped", release_s=1.0, force_N=[30.0, 5.0, 9.0], direction=[0.0, 3.0, 4.0])
-
-    def record(angle):
-        anchor = {"rotation": "clamped", "direction": list(turned([2.0, 0.0, 0.0], angle))}
-        return parameters_of(line(SPACE, turned_end(end, angle), {"anchor": anchor}))[0]
-
-    plain, there = record(0.0), record(angle)
-    vectors = [[f"{name}{axis}" for axis in "xyz"] for name in ("below_", "above_", "end_f")]
-    vectors.append(["carry1", "carry2", "carry3"])  # the axis of a rotation, which turns with the scene
-    for names in vectors:
-        vector, turned_vector = (np.array([p[name] for name in names]) for p in (plain, there))
-        assert turned_vector == pytest.approx(turned(vector, angle), rel=1e-14, abs=1e-15)
-        assert vector.any()
-    assert there["carry0"] == pytest.approx(plain["carry0"], rel=1e-14)  # its angle, which does not
-    same = set(SPATIAL.names) - {name for names in vectors for name in names} - {"carry0"}
-    assert all(plain[name] == there[name] for name in same if not name.startswith("per_"))
-
-
 def test_a_clamp_points_along_the_line_between_the_ends_unless_told_otherwise():
     clamped = {"anchor.rotation": "clamped"}
     upwards = parameters_of(line(SPACE, clamped))[0]

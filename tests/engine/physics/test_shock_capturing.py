@@ -9,7 +9,7 @@ an element at 401 nodes, end speeds 0.3 %, fronts 1 %.
 import numpy as np
 import pytest
 
-from campaigns.breaking_line import measures
+from campaigns.breaking_line import motion_measures as measures
 from tests.engine.physics.breaking import CASES, broken, orders, shock_elements, theory
 
 GRIDS = (201, 401, 801, 1601)

@@ -10,6 +10,7 @@ from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 
 from engine import simulate
+from tests.engine.physics.airy import direct
 from tests.engine.physics.caps import Wave, afloat, condition, volume
 
 DEPTH, LENGTH, EA, DURATION_S = 21.0, 10.0, 3636.0, 8.0
@@ -28,16 +29,13 @@ def scene_of(rtol, **waves):
 
 def airy(scene, place, t):
     """Water velocity and acceleration (3,) of a wave along x, written from its formulas."""
-    wave, z = Wave(scene), place[2]
-    above, psi = scene.waves.above_still_water, wave.k * place[0] - wave.omega * t + wave.phase
+    wave, above, (x, _, z) = Wave(scene), scene.waves.above_still_water, place
     if above == "zero" and z > DEPTH:
         return np.zeros(3), np.zeros(3)
     if above == "wheeler":
-        z *= DEPTH / (DEPTH + wave.A * math.cos(psi))
-    speed = wave.A * wave.omega / math.sinh(wave.k * DEPTH)
-    u, w = speed * math.cosh(wave.k * z), speed * math.sinh(wave.k * z)
-    c, s = math.cos(psi), math.sin(psi)
-    return np.array([u * c, 0.0, w * s]), wave.omega * np.array([u * s, 0.0, -w * c])
+        z *= DEPTH / (DEPTH + wave.elevation(place, t))
+    F = direct(wave.k, wave.A, DEPTH, t, [[x, z]], phase=wave.phase)[0].astype(float)
+    return np.insert(F[:2], 1, 0.0), np.insert(F[2:], 1, 0.0)
 
 
 def ode(scene):

@@ -3,8 +3,10 @@
 On a taut line T belongs to the line's own length; on a slack one of no weight it is zero, whatever shape the line has.
 """
 
+import numpy as np
 import pytest
 
+from engine import simulate
 from engine.scales import tension_at
 from tests.engine.lines import STILL, equilibrium, line, positions
 from tests.engine.physics.caps import CAP, floating_depth, volume
@@ -74,3 +76,15 @@ def test_what_is_too_heavy_sinks_as_before():
     assert z < scene.water.depth_m - scene.buoy.diameter_m
     lift = scene.water.density_kgpm3 * volume(1.5, 1.5) - 2500.0
     assert abs(T) == pytest.approx(abs(lift) * scene.gravity_mps2, rel=1e-9)
+
+
+@pytest.mark.parametrize("dimensions", DIMENSIONS)
+def test_a_buoy_that_stays_under_water_moves_as_the_whole_sphere(dimensions):
+    """Bit for bit, in small waves over 25 m of water: its top stays below the troughs."""
+    deep = {"water.depth_m": 25.0, "waves.steepness": 0.08, "tether.nodes": 21, "motion.dimensions": dimensions}
+    run, other = simulate(line(deep, CAP), periods=6), simulate(line(deep), periods=6)
+    assert run.status == other.status == "ok" and np.ptp(run.columns["x_m"]) > 1.0
+    assert run.columns["z_m"].max() + 0.75 < 25.0 - 0.08 / 0.16
+    for key, values in other.columns.items():
+        assert np.array_equal(run.columns[key], values), key
+    assert run.statistics["newton_iterations"] == other.statistics["newton_iterations"]

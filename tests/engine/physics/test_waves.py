@@ -16,6 +16,7 @@ import pytest
 from engine.physics.waves import wave_number
 from tests.engine.kernels import parameters_of, waves_at
 from tests.engine.lines import SPACE, line
+from tests.engine.physics.airy import direct
 from tests.engine.rotations import turned
 
 PERIOD, DEPTH, GRAVITY = 5.0, 21.0, 9.81
@@ -30,17 +31,6 @@ ROPE = np.column_stack([np.linspace(0, 7, 41), np.linspace(0, -5, 41), np.linspa
 
 def scene(*parts, **waves):
     return line(SEA, *parts, {f"waves.{key}": value for key, value in waves.items()})
-
-
-def direct(k, A, depth, t, X, direction=1.0, phase=0.0, omega=OMEGA):
-    """The formulas of the head in long doubles; quotients as they stand, so kH below some 10000."""
-    x, z = np.asarray(X, np.longdouble).T
-    k = np.longdouble(k)
-    psi = direction * k * x - np.longdouble(omega) * t + phase
-    c, s = (f(k * z) / np.sinh(k * depth) * A * omega for f in (np.cosh, np.sinh))
-    return np.column_stack(
-        [direction * c * np.cos(psi), s * np.sin(psi), direction * omega * c * np.sin(psi), -omega * s * np.cos(psi)]
-    )
 
 
 def lines_of_nodes():
@@ -63,14 +53,6 @@ def lines_of_nodes():
 def test_the_wave_number_meets_the_dispersion_relation(period, depth):
     k = wave_number(period, depth, GRAVITY)
     assert GRAVITY * k * np.tanh(k * depth) == pytest.approx((2 * np.pi / period) ** 2, rel=1e-13)
-
-
-def test_limits_of_deep_and_shallow_water():
-    """Deep: k = omega^2/g, off by 2 exp(-2kH). Shallow: k = omega/sqrt(gH), off by (kH)^2/6."""
-    deep = wave_number(1.0, 200.0, GRAVITY)
-    assert deep == pytest.approx((2 * np.pi) ** 2 / GRAVITY, rel=1e-14)
-    shallow = wave_number(1000.0, 1.0, GRAVITY)
-    assert shallow == pytest.approx(2 * np.pi / 1000 / np.sqrt(GRAVITY), rel=shallow**2)
 
 
 def test_steepness_is_amplitude_times_wave_number():

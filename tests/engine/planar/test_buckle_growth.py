@@ -52,31 +52,3 @@ def test_growth_rates(water):
     assert growing == pytest.approx(expected, rel=1e-7)
     assert growing.size == int(np.floor(np.sqrt(2) * FASTEST))  # P k^2 > EI k^4
     assert growing[-1] == pytest.approx(P / (2 * np.sqrt(EI * mass)), rel=1e-4)  # flat top: second order in (kh)^2
-
-
-@pytest.mark.parametrize("water", WATERS)
-@pytest.mark.parametrize("mode", [2, FASTEST])
-def test_a_sinusoidal_disturbance_grows_at_that_rate(water, mode):
-    """From 1e-9 rad, six e-foldings with the growing eigenvector: no decaying part, no noise of note. Drag at speeds of
-    1e-7 m/s is 1e-7 of inertia. Step: 1/50 of a growth time, fourth order."""
-    water, mass = WATERS[water]
-    k = box(mode * np.pi / LENGTH, H)
-    sigma = growth(np.array([k]), mass)[0]
-    scene = compressed(
-        water, **{"solver.step_s": 0.02 / sigma, "solver.newton_tolerance": 1e-13, "output.step_s": 0.5 / sigma}
-    )
-    lam, duration = 1 + STRAIN, 6 / sigma
-    motion = Motion(scene)
-    s, size = motion.s, 1e-9
-    start = straight(motion)
-    phase = mode * np.pi / LENGTH * s
-    start[:, 4] = size * np.cos(phase)
-    start[:, 5] = -size * k * np.sin(phase)
-    start[:, 1] = size * EI * k**2 * np.cos(phase) / lam**3
-    start[:, 3] = sigma * size * lam / k * np.sin(phase)  # w_s = (1 + eps) phi
-    motion = Motion(scene, duration, start)
-    motion.inner.state["status"] = 0  # the bent static shape between the ends is not where this run starts
-    history = [(t, Y[0, 4]) for t, Y in motion.states()]
-    assert int(motion.inner.state["status"]) == 0
-    time, tilt = np.array(history[2:]).T
-    assert np.polyfit(time, np.log(tilt / size), 1)[0] == pytest.approx(sigma, rel=1e-4)

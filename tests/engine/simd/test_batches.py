@@ -13,6 +13,7 @@ from engine import goes_in_lanes, load_scene, simulate, simulate_batch, simulate
 from engine.run import Run
 from engine.time.status import WORDS
 from tests.engine.lines import DRY, STILL, free, held
+from tests.engine.physics.caps import CAP
 from tests.engine.simd.equal import assert_equal
 
 STEEP = {"waves.steepness": 0.13, "water.depth_m": 21.6}
@@ -51,6 +52,8 @@ KINDS = {  # what every lane has in common
     "no waves, a kick": {**STILL, "start.buoy_velocity_mps": [1.5, 0.0, 0.5]},
     "in air": {**DRY, "start.buoy_velocity_mps": [2.0, 0.0, -1.0]},
     "perturbations": {"tether.nodes": 11, **CARRIED},
+    "in and out of the water": {"tether.nodes": 11, **CARRIED, **CAP, "water.depth_m": 21.0},
+    "the same, wheeler": {"tether.nodes": 11, **CAP, "water.depth_m": 21.0, "waves.above_still_water": "wheeler"},
     "a tangent vector": {"tether.nodes": 11, "output.tangent_vectors": 1},
     "lateral growth": {"tether.nodes": 11, "output.lateral_growth": True},
 }  # fmt: skip

@@ -14,6 +14,7 @@ import pytest
 
 from engine import simulate
 from tests.engine.lines import DRY, QUIET, STILL, Motion, axes_of, held, in_space
+from tests.engine.physics.caps import CAP
 from tests.engine.rotations import product
 from tests.engine.rotations import turned as about_the_vertical
 
@@ -68,6 +69,7 @@ SCENES = {  # what is turned, run length (s)
     "buoy in small waves": (lambda turn: waves_and_buoy(0.016, turn), 100.0),
     "buoy in steep waves": (lambda turn: waves_and_buoy(0.08, turn), 15.0),
     "without bending": (lambda turn: {**waves_and_buoy(0.016, turn), "tether.bending_stiffness_Nm2": 0.0}, 20.0),
+    "in and out of the water": (lambda turn: {**waves_and_buoy(0.02, turn), **CAP, "water.depth_m": 21.0}, 10.0),
     "a held end in motion": (moved_end, 6.0),
     "a held end let go": (let_go, 1.0),
     "clamped and twisted": (twisted, 4.0),

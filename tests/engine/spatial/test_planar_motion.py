@@ -10,6 +10,7 @@ import pytest
 
 from engine import simulate
 from tests.engine.lines import DRY, SPACE, held, line
+from tests.engine.physics.caps import CAP
 
 CALM = {"waves.steepness": 0.016, "water.depth_m": 22.5}
 STEEP = {"waves.steepness": 0.13, "water.depth_m": 22.5}
@@ -20,6 +21,7 @@ SCENES = {
         {**CALM, "waves.direction_rad": np.pi, "current": {"law": "uniform", "velocity_mps": [0.3, 0.0, 0.05]}}, 50.0,
     ),
     "without bending": ({**CALM, "tether.bending_stiffness_Nm2": 0.0}, 50.0),
+    "in and out of the water": ({**CAP, "waves.steepness": 0.02, "water.depth_m": 21.0}, 30.0),
     "held and shaken": ({**CALM, **held(8.0, 17.0), "end.motion": SHAKEN}, 15.0),
     "the paper's scheme": (
         {**CALM, "current": {"law": "uniform", "velocity_mps": [0.5, 0.0, 0.1]}, "tether.nodes": 9,

@@ -8,30 +8,16 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from scipy.optimize import brentq
 
 from engine import load_scene
 from engine.time.status import OK
 from tests.engine.box_equations import elements, residual
 from tests.engine.kernels import Stage
 from tests.engine.lines import Motion, line, positions
-from tests.engine.physics.caps import CAP
+from tests.engine.physics.airy import direct
+from tests.engine.physics.caps import CAP, Wave
 
 T0 = 3.7  # s, any time
-
-
-def airy(scene, t, X):
-    """(n, 4): velocity and local acceleration of linear waves at positions X (n, 2)."""
-    H, wave = scene.water.depth_m, scene.waves
-    om = 2 * np.pi / wave.period_s
-    k = brentq(lambda k: scene.gravity_mps2 * k * np.tanh(k * H) - om**2, 1e-6, 10, xtol=1e-15)
-    A = wave.steepness / k
-    psi = k * X[:, 0] * np.cos(wave.direction_rad) - om * t + wave.phase_rad
-    horizontal = A * om * np.cosh(k * X[:, 1]) / np.sinh(k * H) * np.cos(wave.direction_rad)
-    vertical = A * om * np.sinh(k * X[:, 1]) / np.sinh(k * H)
-    velocity = horizontal * np.cos(psi), vertical * np.sin(psi)
-    acceleration = om * horizontal * np.sin(psi), -om * vertical * np.cos(psi)
-    return np.stack([*velocity, *acceleration], axis=1)
 
 
 @pytest.mark.parametrize("EI", [0.4, 0.0])
@@ -57,7 +43,9 @@ def test_a_converged_stage_satisfies_the_box_equations(nodes, stretching, direct
     C_tilde = stage.conserved(Y)
     code, _ = stage.newton(T0, rate, rate, 1e-9, 30, Y, C_tilde)
     assert code == OK
-    F = airy(scene, T0, positions(Y, elements(scene)))
+    sea = Wave(scene)
+    X = positions(Y, elements(scene))
+    F = direct(sea.k, sea.A, scene.water.depth_m, T0, X, np.cos(direction), 0.4).astype(float)
     F[:, :2] += current
     left = residual(scene, rate, rate, 1.0, Y, C_tilde, F)
     # forces in newtons, velocities in m/s: 1e-6 of the loads (2000 N) and speeds (1 m/s) of the scene at hand

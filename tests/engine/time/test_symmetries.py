@@ -14,7 +14,7 @@ import numpy as np
 import pytest
 
 from engine import simulate
-from tests.engine.lines import held, line
+from tests.engine.lines import line
 
 CALM = {"waves.steepness": 0.016, "water.depth_m": 22.5}
 VIOLENT = {"waves.steepness": 0.13, "water.depth_m": 21.6}
@@ -68,18 +68,6 @@ def test_the_mirror_holds_through_slack_to_the_growth_of_roundings():
     assert lengths < 1e-12 and tensions < 1e-8
     lengths, _ = differences(*pair, mirrored=True)
     assert lengths < 4e-3
-
-
-def test_a_held_line_on_the_other_side_moves_as_the_mirror_image():
-    stiff, runs = {"tether.bending_stiffness_Nm2": 4.0, "output.profiles": True, "water.depth_m": 22.5}, []
-    for sign in (1, -1):
-        direction = {"waves.direction_rad": 0.0 if sign > 0 else np.pi}
-        run = simulate(line(stiff, direction, held(sign * 8.0, 17.0)), periods=3)
-        assert run.status == "ok"
-        runs.append(run.profiles)
-    assert np.ptp(runs[0].x_m[:, 20]) > 0.1
-    assert np.max(np.abs(runs[0].x_m + runs[1].x_m)) < 1e-10
-    assert np.max(np.abs(runs[0].z_m - runs[1].z_m)) < 1e-10
 
 
 @pytest.fixture(scope="module")
