@@ -1,9 +1,6 @@
 """Text from outside is never read as HTML or Typst."""
 
-import json
-
 import pytest
-import typst
 
 from reports.parts.content import (
     Bullets,
@@ -24,7 +21,7 @@ from reports.parts.content import (
     sub,
 )
 from reports.parts.html import render_html
-from reports.parts.pdf import quote, render_pdf, typst_source
+from reports.parts.pdf import render_pdf
 from tests.reports.conftest import ODD_TITLE, Page
 
 ODD = [
@@ -59,12 +56,6 @@ def everywhere(text: str) -> Report:
 
 
 @pytest.mark.parametrize("text", ODD)
-def test_typst_reads_a_quoted_text_as_itself(text):
-    evaluated = typst.Compiler(b"").eval(quote(text))
-    assert json.loads(evaluated) == text
-
-
-@pytest.mark.parametrize("text", ODD)
 def test_odd_text_in_every_place_gives_both_forms(text):
     report = everywhere(text)
     assert render_pdf(report).startswith(b"%PDF")
@@ -83,5 +74,3 @@ def test_only_marks_made_here_are_marks():
     assert spans("a`b`c") == [("", "a"), ("code", "b"), ("", "c")]
     assert spans("T" + sub("i") + " `x") == [("", "T"), ("sub", "i"), ("", " `x")]
     assert plain("T" + sub("i") + " `x`") == "Ti x"
-    source, _ = typst_source(everywhere("T_i x^2"))
-    assert "sub(" not in source

@@ -1,6 +1,6 @@
 """Without water the energy of a swinging line comes and goes by an error of second order in h, and does not drift.
 
-The pendulum of `tests/engine/test_energy.py`, 2 m long with bending, started as a rigid body at 2 rad/s. Neither
+The pendulum of `tests/engine/time/test_energy.py`, 2 m long with bending, started as a rigid body at 2 rad/s. Neither
 M dY/dt in the local frame nor the nodal products conserve anything exactly; in time the box rule neither damps nor
 feeds.
 """
