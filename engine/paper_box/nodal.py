@@ -7,9 +7,9 @@ omega the angular velocity of the frame (`frame.turning`), the columns of M that
     rows 2-3  -m (omega x V)_2,3 + R (dC/dt U_c)_2,3
     rows 4-6  -(1 + eps) (omega x t)
 
-which is the print (tests/engine/paper_box/test_appendix.py has it entry by entry, docs/appendix_a.md its misprints);
-written so, a product with M costs one omega instead of 31 entries. Rows 2 and 3 of P carry the term
-R C dU_c/dt that the print leaves out: without it waves act on the tether by drag alone.
+Entry by entry that is the print (tests/engine/paper_box/test_appendix.py; misprints: docs/appendix_a.md); a product
+with M so costs one omega instead of 31 entries. Rows 2 and 3 of P carry the term R C dU_c/dt that the print leaves out:
+without it waves act on the tether by drag alone.
 
 water (6, ...): velocity and local acceleration of the water in the paper's axes (`frame`).
 Arguments may be complex (`box` differentiates by complex step): |x| is written so that it stays analytic.

@@ -92,8 +92,7 @@ def planar_guess(scene: Scene, line: Line) -> tuple[int, np.ndarray | None]:
     }
     planar, tables = scene.model_copy(update=changes), []
     record = parameters.record_of(planar, tables)[0]
-    Y = statics.first_guess(record, planar, line.h)
-    code = statics.settle(record, np.concatenate(tables), Y, np.array([flat[0], flat[2]]))
+    code, Y = statics.rest_of(record, planar, np.concatenate(tables), line.h, np.array([flat[0], flat[2]]))
     return code, lifted(Y, azimuth) if code == OK else None
 
 
@@ -104,10 +103,9 @@ def lifted(Y: np.ndarray, azimuth: float = 0.0) -> np.ndarray:
     """
     a = math.pi / 2 - Y[:, col.PHI]
     cos, sin = math.cos(azimuth), math.sin(azimuth)
-    up, side, out = np.array([1.0, 0.0, 0.0]), np.array([0.0, cos, sin]), np.array([0.0, -sin, cos])
-    t = np.outer(up, np.cos(a)) + np.outer(side, np.sin(a))
-    n = np.outer(side, np.cos(a)) - np.outer(up, np.sin(a))
-    b = np.outer(out, np.ones_like(a))
+    up, side, out = np.array([[1.0, 0.0, 0.0], [0.0, cos, sin], [0.0, -sin, cos]])[:, :, None]
+    t, n = up * np.cos(a) + side * np.sin(a), side * np.cos(a) - up * np.sin(a)
+    b = out * np.ones_like(a)
     found = np.zeros((13, len(Y)))
     found[EPS], found[S_N], found[O3] = Y[:, col.EPS], -Y[:, col.SHEAR], -Y[:, col.KAPPA]
     found[EULER] = parameters_of(np.array([t, n, b]))

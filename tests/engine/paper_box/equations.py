@@ -99,20 +99,21 @@ def space_derivatives(scene, Y, rate, water):
 
 def upper_end(scene, dt, Y, Y_old, water, water_old):
     """Equations (3,) of the upper end after a step of dt from Y_old (13, 1) to Y, in the paper's axes."""
-    (N, V, load), (_, V_old, load_old) = (_balance(scene, *now) for now in ((Y, water), (Y_old, water_old)))
+    N, V = _force_and_velocity(scene, Y)
     if scene.end.kind == "held":
         return V
     if scene.end.kind == "free":
         return N - np.array(scene.end.force_N)[FROM_XYZ]
-    return buoy_of(scene)[0] * (V - V_old) / dt + 0.5 * (load + load_old)
+    mass, lift, drag, load = buoy_of(scene)
+    N_old, V_old = _force_and_velocity(scene, Y_old)
+
+    def balance(N, V, U):
+        return N - (lift + drag((V - U[:3])[TO_XYZ]) + load(U[3:][TO_XYZ]))[FROM_XYZ]
+
+    return mass * (V - V_old) / dt + 0.5 * (balance(N, V, water[:, 0]) + balance(N_old, V_old, water_old[:, 0]))
 
 
-def _balance(scene, Y, water):
-    """N and V of the last node, and N less the other forces on a buoy there."""
+def _force_and_velocity(scene, Y):
+    """N and V, (3,) each, of the last node in the paper's axes."""
     T = tension(scene.tether.tension, Y[0] + 0j)
-    N, V = (in_fixed_axes(Y, local)[:, 0] for local in (np.array([T, Y[1], Y[2]]), Y[3:6]))
-    if scene.end.kind != "buoy":
-        return N, V, None
-    _, lift, drag, load = buoy_of(scene)
-    slip, A = (V - water[:3, 0])[TO_XYZ], water[3:, 0][TO_XYZ]
-    return N, V, N - (lift + drag(slip) + load(A))[FROM_XYZ]
+    return (in_fixed_axes(Y, local)[:, 0] for local in (np.array([T, Y[1], Y[2]]), Y[3:6]))

@@ -29,18 +29,19 @@ def run_of(scheme, nodes, step_s, overrides, duration_s=1.0):
     return found
 
 
-def shape(found):
-    return np.array([found.profiles.x_m, found.profiles.z_m])
+def places(found):
+    """Nodes (3, samples, n), m."""
+    return np.stack([getattr(found.profiles, f"{axis}_m") for axis in "xyz"])
 
 
 @pytest.mark.parametrize("motion", [SHAKEN, MOVED], ids=["shaken", "moved by a table"])
 def test_a_moved_end_shakes_the_line_as_in_the_conservation_form(motion):
     moved = SOFT | held(12.0, 18.0, motion=motion)
-    limit = shape(run_of("conservation", 81, None, moved))
+    limit = places(run_of("conservation", 81, None, moved))
     assert np.ptp(limit[0][:, 40]) > 0.05  # its middle moves
     errors = []
     for nodes, step_s in ((6, 0.02), (11, 0.01), (21, 0.005)):
-        found = shape(run_of("paper-box", nodes, step_s, moved))
+        found = places(run_of("paper-box", nodes, step_s, moved))
         errors.append(np.abs(found - limit[:, :, :: 80 // (nodes - 1)]).max())
     assert errors[-1] < 0.015
     assert errors[0] / errors[2] > 8, errors  # 16 at order 2, on grids fine enough for the bends at the ends
@@ -63,8 +64,7 @@ def test_a_held_end_is_in_its_place_in_space():
     water = {"depth_m": 30.0, "density_kgpm3": 1027.0}
     current = {"water": water, "current": {"law": "uniform", "velocity_mps": [-0.3, 0.5, 0.0]}, "motion.dimensions": 3}
     found = run_of("paper-box", 21, 0.005, current | held(*place), 0.2)
-    end = np.array([found.columns[name] for name in ("x_m", "y_m", "z_m")])
-    assert np.abs(end - np.array(place)[:, None]).max() < 1e-8
+    assert np.abs(places(found)[:, :, -1] - np.array(place)[:, None]).max() < 1e-8
     middle = found.columns["offplane_m"][0]
     assert middle > 9.0 + 1e-3  # blown out to the side
 
@@ -74,6 +74,5 @@ def test_a_free_end_hangs_under_its_force_in_any_direction():
     force = [30.0, -40.0, 20.0]
     pulled = {"motion.dimensions": 3, "gravity_mps2": 0.0, "buoy": None, "end.kind": "free", "end.force_N": force}
     found = run_of("paper-box", 5, 0.01, pulled, 0.05)
-    end = np.array([found.columns[name][-1] for name in ("x_m", "y_m", "z_m")])
     size = np.linalg.norm(force)
-    assert end == pytest.approx(20.0 * (1 + size / 5e4) * np.array(force) / size, rel=1e-9)
+    assert places(found)[:, -1, -1] == pytest.approx(20.0 * (1 + size / 5e4) * np.array(force) / size, rel=1e-9)

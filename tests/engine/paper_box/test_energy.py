@@ -1,6 +1,6 @@
 """Without water the energy of a swinging line comes and goes by an error of second order in h, and does not drift.
 
-The pendulum of `tests/engine/test_energy.py`, 2 m long with bending, started as a rigid body at 2 rad/s. Neither
+The pendulum of `tests/engine/time/test_energy.py`, 2 m long with bending, started as a rigid body at 2 rad/s. Neither
 M dY/dt in the local frame nor the nodal products conserve anything exactly; in time the box rule neither damps nor
 feeds.
 """
@@ -14,7 +14,8 @@ from engine.paper_box.newton import solve
 from engine.paper_box.nodal import level_of, positions
 from engine.paper_box.start import at_rest
 from engine.time.status import OK
-from tests.engine.lines import DRY, energy, free, line, linear
+from tests.engine.budgets import Books
+from tests.engine.lines import DRY, free, line, linear
 
 STEP_S, SWING_S = 0.005, 2.5
 
@@ -37,9 +38,9 @@ def balance(nodes, swings):
     assert code == OK
     up, along, _ = positions(rope, Y)
     Y[3:6] = to_local(Y[6:10], 2.0 * np.array([along, -up, 0 * up]))
-    level, energies = level_of(rope, 0.0, Y), []
+    level, books, energies = level_of(rope, 0.0, Y), Books(scene), []
     for _ in range(round(swings * SWING_S / STEP_S)):
-        energies.append(energy(scene, planar(level.Y), rope.h))
+        energies.append(books.energy(planar(level.Y)))
         code, _, level = solve(rope, level.t + STEP_S, level, 12)
         assert code == OK
     energies = np.array(energies)

@@ -14,6 +14,7 @@ from tests.engine.lines import free, held
 from tests.engine.paper_box.equations import LAWS, scene_of, space_derivatives, states, upper_end
 
 DT, STEP = 0.01, 1e-30
+ACROSS = [i for i in SPACE if i not in PLANE]
 ENDS = {  # in space, in a plane
     "buoy": ({}, {}),
     "held": (held(3.0, 1.0, 18.0), held(3.0, 18.0)),
@@ -49,13 +50,8 @@ def test_update_solves_the_printed_equations(law, end, dimensions):
     Y_old = Y + 0.05 * (Y_old - Y)
     active, keep = (SPACE, range(13 * n)) if dimensions == 3 else (PLANE, rows_of_plane(n))
     if dimensions == 2:
-        for X, across in (
-            (Y, [2, 5, 7, 8, 10, 11]),
-            (Y_old, [2, 5, 7, 8, 10, 11]),
-            (water, [2, 5]),
-            (water_old, [2, 5]),
-        ):
-            X[across] = 0.0
+        Y[ACROSS] = Y_old[ACROSS] = 0.0
+        water[[2, 5]] = water_old[[2, 5]] = 0.0
 
     def residual(Y):
         return printed_28(scene, line.h, Y, water, Y_old, water_old)[list(keep)]

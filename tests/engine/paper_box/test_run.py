@@ -8,7 +8,7 @@ import math
 import numpy as np
 import pytest
 
-from engine import SceneError, Trajectory, load_scene, simulate, simulate_batch
+from engine import SceneError, load_scene, simulate, simulate_batch
 from engine.paper_box import run
 from engine.paper_box.line import line_of
 from engine.paper_box.nodal import positions
@@ -22,16 +22,11 @@ def scene_of(**overrides):
     return load_scene("tethered_buoy", {**SMALL, **overrides})
 
 
-def test_a_file_keeps_it_whole(tmp_path):
+def test_progress_is_told_and_every_sample_is_there():
     told = []
-    scene = scene_of(**{"output.profiles": True, "solver.step_s": 0.0125})
-    found = run(scene, 2.0, told.append)
-    found.save(tmp_path / "run.nc")
-    back = Trajectory.load(tmp_path / "run.nc")
-    assert back.scene == scene and back.statistics == found.statistics
-    assert all(np.array_equal(back.columns[name], found.columns[name]) for name in found.columns)
-    assert np.array_equal(back.profiles.strain, found.profiles.strain)
-    assert len(back.columns["time_s"]) == 41 and told == sorted(told) and 0 < told[-1] <= 1
+    found = run(scene_of(**{"output.profiles": True, "solver.step_s": 0.0125}), 2.0, told.append)
+    assert len(found.columns["time_s"]) == 41 and found.profiles.strain.shape == (41, 7)
+    assert told == sorted(told) and 0 < told[-1] <= 1
 
 
 def test_rates_and_angles_belong_to_the_positions():
@@ -59,10 +54,9 @@ def test_a_batch_may_mix_schemes():
     assert np.abs(boxed.columns["radius_m"] - conserved.columns["radius_m"]).max() < 1e-3
 
 
-@pytest.mark.parametrize("key, value", [("tether.bending_stiffness_Nm2", 0.0), ("output.tangent_vectors", 1)])
-def test_scenes_that_it_cannot_do(key, value):
-    with pytest.raises(SceneError, match=key):
-        scene_of(**{key: value})
+def test_a_tether_without_bending_is_refused():
+    with pytest.raises(SceneError, match=r"tether\.bending_stiffness_Nm2"):
+        scene_of(**{"tether.bending_stiffness_Nm2": 0.0})
 
 
 def test_nothing_twists_a_line_with_torque_free_ends():
