@@ -157,7 +157,7 @@ def chosen(end_s, plane):
     clamps |= {"end.direction": q[1].tolist(), "end.twist_rad": TWIST, "motion.dimensions": 3}
     return line(
         held(*place[1]), {} if plane else clamps,
-        {"gravity_mps2": GRAVITY, "waves": None, "current": _current(end_s, 241, 401, plane), "water.depth_m": 30.0},
+        {"gravity_mps2": GRAVITY, "waves": None, "current": _current(end_s, 241, 601, plane), "water.depth_m": 30.0},
         {"water.density_kgpm3": RHO, "output.step_s": end_s, "output.profiles": True},
         {"solver.newton_tolerance": 1e-12, "solver.max_newton_iterations": 50},
         length_m=L, area_m2=AREA, density_kgpm3=M_LINE / AREA, diameter_m=D, bending_stiffness_Nm2=EI,
