@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from ..parts.content import Bullets, Item
-from ..parts.wording import count, decimals, number, percent
+from ..parts.wording import count, number, percent
 from ..sweep.quantities import extremes
 from .runs import Run, Sweep
 
@@ -65,9 +65,3 @@ def _kinds(sweep: Sweep) -> list[tuple[str, list[Run]]]:
         ("Loops were released", [run for run in good if run["loop_releases"] > 0]),
         ("Run in three dimensions", [run for run in good if run.in_space]),
     ]  # fmt: skip
-
-
-def releases(run: Run) -> str:
-    """How many loops a run had to release, and its largest turn, in words."""
-    turn = decimals(run["max_turn_rad"], 2)
-    return f"{count(int(run['loop_releases']), 'loop release')}, largest turn within one element {turn} rad"
