@@ -19,13 +19,12 @@ import numpy as np
 from benchmarks.shared import save
 from engine import load_scene, simulate
 from engine.paper_box import run
-from engine.paper_box.box import Band, level_of
 from engine.paper_box.ends import force_and_velocity
 from engine.paper_box.frame import turns
 from engine.paper_box.line import line_of
 from engine.paper_box.newton import solve
+from engine.paper_box.nodal import level_of, positions
 from engine.paper_box.start import at_rest
-from engine.paper_box.water import positions
 from engine.time.status import OK
 
 SMALL_S, LARGE_S = 10.0, 30.0
@@ -74,13 +73,12 @@ def unguarded(depth_m, nodes, step_s):
     overrides = {"tether.nodes": nodes, "solver.scheme": "paper-box", "solver.step_s": step_s}
     scene = scene_of(0.13, depth_m, **overrides)
     line = line_of(scene)
-    band = Band(line)
-    code, Y = at_rest(scene, line, band)
+    code, Y = at_rest(scene, line)
     level = level_of(line, 0.0, Y)
     end, V = positions(line, Y)[:, -1], force_and_velocity(line, Y[:, -1])[1]
     rows = []
     for step in range(1, round(LARGE_S / step_s) + 1):
-        code, _, after = solve(line, band, step * step_s, level, 60)
+        code, _, after = solve(line, step * step_s, level, 60)
         if code != OK:
             break
         level, V_before = after, V

@@ -5,15 +5,23 @@ the fast and the slow break of one tension, "case to case" is in rising tension.
 """
 
 import math
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from functools import cache, partial
 from itertools import pairwise
 from pathlib import Path
+from typing import Protocol
 
 from campaigns.breaking_line.lines import CASES, FAST, SLOW, Line, find, named, of_kind, pairs
 from campaigns.statements import Check, Claim, Measured, formula, read_claims, shown, told
 
-Measure = Callable[[object], Measured]
+
+class Lines(Protocol):
+    """Results that hold runs of the breaking line."""
+
+    lines: Sequence[Line]
+
+
+Measure = Callable[[Lines], Measured]
 GROUPS = {"all": CASES, "fast": FAST, "slow": SLOW}
 PRINTED_CROSSING_S = (0.55, 0.91)
 DELAYED = 0.5  # of the difference of the fracture times: by so much a slow break delays the way of the end
@@ -30,7 +38,7 @@ def values(lines: Iterable[Line], cases: Iterable[str], of: str) -> list[Check]:
 def by_case(of: str, form: str, cases: str = "all", only: tuple[str, ...] = (), judge: str = "") -> Measure:
     """A check for every case, or those in `only`; judge: what the rule judges, where it is not the number told."""
 
-    def measure(results) -> Measured:
+    def measure(results: Lines) -> Measured:
         deciding = values(results.lines, only or GROUPS[cases], judge or of)
         checks = [(f"case {name}", value) for name, value in deciding]
         return Measured(checks, told(values(results.lines, GROUPS[cases], of), form))
@@ -41,7 +49,7 @@ def by_case(of: str, form: str, cases: str = "all", only: tuple[str, ...] = (), 
 def case_to_case(of: str, form: str, cases: str = "all") -> Measure:
     """A check for every step from one case to the next: by how much the number rises."""
 
-    def measure(results) -> Measured:
+    def measure(results: Lines) -> Measured:
         groups = (FAST, SLOW) if cases == "all" else (GROUPS[cases],)
         found = [values(results.lines, group, of) for group in groups]
         checks = [(f"{a} to {b}", after - before) for one in found for (a, before), (b, after) in pairwise(one)]
@@ -53,7 +61,7 @@ def case_to_case(of: str, form: str, cases: str = "all") -> Measure:
 def by_pair(compare: Callable[[float, float], float], of: str, form: str) -> Measure:
     """A check for every tension: compare(number of the fast break, number of the slow one)."""
 
-    def measure(results) -> Measured:
+    def measure(results: Lines) -> Measured:
         checks, words = [], []
         for both in pairs(results.lines):
             numbers = [formula(of)(line) for line in both]
@@ -69,7 +77,7 @@ def by_pair(compare: Callable[[float, float], float], of: str, form: str) -> Mea
 def all_cases(judge: Callable[[list[float]], float], of: str, form: str) -> Measure:
     """One check of all fast cases together."""
 
-    def measure(results) -> Measured:
+    def measure(results: Lines) -> Measured:
         found = values(results.lines, FAST, of)
         checks = [("all cases", judge([value for _, value in found]))] if len(found) > 1 else []
         return Measured(checks, told(found, form) if checks else "")
@@ -88,7 +96,7 @@ def least_gap(speeds: list[float]) -> float:
     return min(b / a - 1.0 for a, b in pairwise(sorted(speeds)))
 
 
-def crossing(results) -> Measured:
+def crossing(results: Lines) -> Measured:
     """The exact times of arrival, as printed and a tenth of them."""
     times = values(results.lines, FAST, "arrival_theory_s")
     if not times:
@@ -102,7 +110,7 @@ def crossing(results) -> Measured:
     return Measured(checks, told(times, ".4f"))
 
 
-def vertical(results) -> Measured:
+def vertical(results: Lines) -> Measured:
     """By how much the largest rise or fall falls from case to case, without and with the folds."""
     checks, words = [], []
     for where, name in (
@@ -116,7 +124,7 @@ def vertical(results) -> Measured:
     return Measured(checks, f"beyond the quarter there {words[0]}; with the folds {words[1]}" if any(words) else "")
 
 
-def same_motion(results) -> Measured:
+def same_motion(results: Lines) -> Measured:
     """Way of the end of slow and fast breaks, as seen and with the delay of the slow break taken off."""
     seen, shifted, words = [], [], []
     for fast, slow in pairs(results.lines):
@@ -131,7 +139,7 @@ def same_motion(results) -> Measured:
     return Measured(checks, "; ".join(words))
 
 
-def dominant(results) -> Measured:
+def dominant(results: Lines) -> Measured:
     """Change of the end speed over the fracture times over that over the tensions."""
     speeds = [speed for _, speed in values(results.lines, FAST, "end_speed_mps")]
     both = [abs(slow["end_speed_mps"] - fast["end_speed_mps"]) for fast, slow in pairs(results.lines)]
@@ -142,7 +150,7 @@ def dominant(results) -> Measured:
     return Measured([("all pairs", by_time / by_tension)], words)
 
 
-def doubled(results) -> Measured:
+def doubled(results: Lines) -> Measured:
     """The largest relative change that twice the elements bring, by case."""
     found = []
     for line in of_kind(results.lines, "case"):
@@ -154,7 +162,7 @@ def doubled(results) -> Measured:
     return Measured([(f"case {name}", off) for name, off in found], told(found, ".3%"))
 
 
-def shock_incomplete(results) -> Measured:
+def shock_incomplete(results: Lines) -> Measured:
     """Whether no shock exists before the fixed end in cases 2 and 3."""
     known = [find(results.lines, case) for case in ("2", "3")]
     known = [line for line in known if line is not None and math.isfinite(line["front_speed_theory_mps"])]
@@ -162,7 +170,7 @@ def shock_incomplete(results) -> Measured:
     return Measured([(name, float(math.isnan(birth))) for name, birth in births], told(births, ".1f"))
 
 
-def dissipates(results) -> Measured:
+def dissipates(results: Lines) -> Measured:
     """Whether more of the line takes up the kinetic energy of a slow break: by its spread, and by the part at rest."""
     spread, resting = SPREAD(results), RESTING(results)
     both = {"judged by the spread of the energy": spread, "judged by the part at rest": resting}

@@ -1,8 +1,16 @@
 """Numbers of the two motions of section 4.2 that their tables do not have: what the paper says of figures 9 to 18."""
 
+from __future__ import annotations
+
 import math
+from collections.abc import Iterable
+from typing import TYPE_CHECKING
 
 import numpy as np
+
+if TYPE_CHECKING:
+    from engine.natural_frequencies import Modes
+    from engine.trajectory import Profiles, Trajectory
 
 SMALL, LARGE = 0.016, 0.13  # kA of sections 4.2.1 and 4.2.2
 WINDOW = (40, 20)  # tau_0/T_i and n of eq. (31) in the paper
@@ -13,14 +21,14 @@ LINES_POINTS = 32, 2000  # strobed points whose lines are looked for: the fewest
 TURN_RAD = 1e-3  # per element, below which a rope counts as straight
 
 
-def in_window(trajectory) -> bool:
+def in_window(trajectory: Trajectory) -> bool:
     """Whether a record is as long as the window of eq. (31) wants."""
     scene = trajectory.scene
     duration_s = (len(trajectory.columns["time_s"]) - 1) * scene.sample_step_s()
     return duration_s >= sum(WINDOW) * scene.waves.period_s - 1e-9
 
 
-def calm_measures(trajectory, modes) -> dict[str, float]:
+def calm_measures(trajectory: Trajectory, modes: Modes | None) -> dict[str, float]:
     """Of the run at the small wave; nothing of a record shorter than WINDOW or without natural frequencies.
 
     Shares are of the variance of eq. (31) in the paper's window, bin 0 left out.
@@ -61,7 +69,7 @@ def calm_measures(trajectory, modes) -> dict[str, float]:
     return {name: float(value) for name, value in found.items()}
 
 
-def violent_measures(trajectory, transient_periods: int) -> dict[str, float]:
+def violent_measures(trajectory: Trajectory, transient_periods: int) -> dict[str, float]:
     """Of the run at the large wave; nothing of a record shorter than WINDOW.
 
     unexplained       share of the variance of the strobed r, r' that no steady line explains (0 for a torus)
@@ -82,7 +90,7 @@ def violent_measures(trajectory, transient_periods: int) -> dict[str, float]:
     return found
 
 
-def strobed(trajectory, transient_periods: int) -> np.ndarray:
+def strobed(trajectory: Trajectory, transient_periods: int) -> np.ndarray:
     """r (m) and r' (m/s) at t = k T_i, k >= transient_periods, as (m, 2); empty for a record that ends before."""
     from analysis import poincare_section
 
@@ -97,7 +105,7 @@ def strobed(trajectory, transient_periods: int) -> np.ndarray:
     return poincare_section(series, step_s, period_s, transient_periods=transient_periods).points
 
 
-def share_near(series, step_s: float, period_s: float, frequencies) -> float:
+def share_near(series: np.ndarray, step_s: float, period_s: float, frequencies: Iterable[float]) -> float:
     """Share of the variance in eq. (31)'s window within NEAR_BINS of any of the frequencies [rad/s]."""
     from analysis import spectrum
 
@@ -110,7 +118,7 @@ def share_near(series, step_s: float, period_s: float, frequencies) -> float:
     return float(power[near].sum() / power.sum())
 
 
-def largest_line(series, step_s: float, period_s: float) -> tuple[float, float]:
+def largest_line(series: np.ndarray, step_s: float, period_s: float) -> tuple[float, float]:
     """Largest share of the variance in eq. (31)'s window that lies on one bin, and the bin over the wave's."""
     from analysis import spectrum
 
@@ -120,7 +128,14 @@ def largest_line(series, step_s: float, period_s: float) -> tuple[float, float]:
     return float(power[most] / power.sum()), (most + 1) / WINDOW[1]
 
 
-def free(series, step_s: float, period_s: float, frequency: float, periods, within: float = 0.1):
+def free(
+    series: np.ndarray,
+    step_s: float,
+    period_s: float,
+    frequency: float,
+    periods: tuple[int, int],
+    within: float = 0.1,
+) -> tuple[float, float]:
     """(frequency, amplitude) of the oscillation near a frequency over these wave periods, under a Hann window.
 
     It is that of the largest amplitude no more than the share `within` off the frequency given: at finite size, and
@@ -136,7 +151,7 @@ def free(series, step_s: float, period_s: float, frequency: float, periods, with
     return float(trial[most]), float(2.0 * sizes[most] / window.sum())
 
 
-def kept(series, step_s: float, period_s: float, frequency: float) -> float:
+def kept(series: np.ndarray, step_s: float, period_s: float, frequency: float) -> float:
     """Amplitude of the free oscillation near a frequency in LATE by that in EARLY.
 
     At the frequency that it has in EARLY, where it is large: later the wave's frequency less the pendulum's, which
@@ -146,19 +161,19 @@ def kept(series, step_s: float, period_s: float, frequency: float) -> float:
     return free(series, step_s, period_s, own, LATE, 0.0)[1] / before
 
 
-def _off_rest(series, step_s: float, period_s: float) -> float:
+def _off_rest(series: np.ndarray, step_s: float, period_s: float) -> float:
     late = series[-round(SETTLED * period_s / step_s) :]
     return float((np.mean(late) - series[0]) / (0.5 * np.ptp(late)))
 
 
-def _bins_away(series, step_s: float, period_s: float, frequency: float) -> float:
+def _bins_away(series: np.ndarray, step_s: float, period_s: float, frequency: float) -> float:
     from analysis import peaks_near, spectrum
 
     found = peaks_near(spectrum(series, step_s, period_s, *WINDOW), (frequency,))[0]
     return math.nan if found is None else float(found.bins_away)
 
 
-def buckling_waves(profiles) -> float | None:
+def buckling_waves(profiles: Profiles) -> float | None:
     """Half waves of the rope while it is slack over its whole length: median number of changes of the turn's side, +1.
 
     profiles: of a run of a buoy; None where the rope is never slack.

@@ -113,9 +113,13 @@ def run(order: Order) -> tuple[dict[str, float], Summary]:
 
 def read_rows(out: Path) -> list[dict[str, str]]:
     """The rows of table.csv as it is, those of known parts; none where it cannot be read."""
+    return [row for row in _rows(out) if set(row) == set(names(COLUMNS)) and row["part"] in PARTS]
+
+
+def _rows(out: Path) -> list[dict[str, str]]:
     try:
         with open(out / "table.csv", encoding="utf-8", newline="") as file:
-            return [row for row in csv.DictReader(file) if set(row) == set(names(COLUMNS)) and row["part"] in PARTS]
+            return list(csv.DictReader(file))
     except (OSError, ValueError, csv.Error):
         return []
 
@@ -137,12 +141,7 @@ def _ended(key: str, out: Path) -> str:
 
 def _whole(out: Path, order: Order) -> bool:
     """Whether the folder of a part still holds all that its table names, and the report where one is wanted."""
-    try:
-        with open(out / "table.csv", encoding="utf-8", newline="") as file:
-            rows = list(csv.DictReader(file))
-    except (OSError, ValueError, csv.Error):
-        return False
-    sound = [trajectory_path(out, row["run_key"]).exists() for row in rows if row["status"] == "ok"]
+    sound = [trajectory_path(out, row["run_key"]).exists() for row in _rows(out) if row["status"] == "ok"]
     reported = out.name == "dependence" or order.quick or not order.how.report or (out / "report.html").exists()
     return bool(sound) and all(sound) and reported
 

@@ -5,11 +5,19 @@ a peak        from the end of one interval near zero to the start of the next, i
 turned        r' > 0 where the peak begins and r' < 0 where it ends: the line has stopped the buoy and sent it back
 """
 
+from __future__ import annotations
+
 import math
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from campaigns.paper.measures import in_window, largest_line
+
+if TYPE_CHECKING:
+    from engine import Scene
+    from engine.natural_frequencies import Modes
+    from engine.trajectory import Trajectory
 
 NEAR_ZERO = 0.05  # of the static tension: what the paper calls near zero, in numbers
 COLUMNS = (
@@ -27,7 +35,7 @@ COLUMNS = (
 )
 
 
-def snaps(trajectory, transient_periods: int) -> dict[str, float]:
+def snaps(trajectory: Trajectory, transient_periods: int) -> dict[str, float]:
     """COLUMNS of a run; nan where it has none.
 
     near_zero, compressed   shares of the time after the transient with almost no tension, and with less than none
@@ -71,7 +79,7 @@ def _share(which: np.ndarray) -> float:
     return float(which.mean()) if len(which) else math.nan
 
 
-def scales(scene, modes, small: float, large: float) -> dict[str, float]:
+def scales(scene: Scene, modes: Modes, small: float, large: float) -> dict[str, float]:
     """Closed forms of a scene with a buoy and waves; modes: its natural frequencies; the two slopes kA of section 4.2.
 
     small_amplitude_m    amplitude A of the wave of the small slope kA, k from the dispersion relation at depth H

@@ -12,27 +12,13 @@ import math
 import time
 from collections.abc import Callable
 
-import numpy as np
-
 from ..scene.models import Scene
+from ..time import status as codes
 from ..time.statics_advice import why_no_rest
-from ..time.status import (
-    ADVICE,
-    NEWTON_FAILED,
-    NOT_FINITE,
-    OK,
-    SHAPE_LOST,
-    STATICS_FAILED,
-    STRAIN_BELOW_MINUS_ONE,
-    TENSION_FLAT,
-    TURN_UNRESOLVED,
-    WORDS,
-)
 from ..trajectory import Trajectory
-from .box import Band, level_of
-from .law import tension_law
-from .line import line_of
+from .line import EPS, line_of
 from .newton import TOLERANCE, solve
+from .nodal import level_of
 from .record import Record
 from .start import at_rest
 
@@ -42,13 +28,12 @@ FLAT = 1e-6  # of the largest slope f' at rest: below it row 1 is noise
 STEPS_PER_CALL = 100
 
 SAID = {
-    OK: "",
-    NEWTON_FAILED: "Newton's method did not converge",
-    NOT_FINITE: "a value that is not a finite number appeared",
-    STRAIN_BELOW_MINUS_ONE: "an element is compressed to nothing (strain <= -1)",
-    TENSION_FLAT: "the tension law has lost its slope, and the paper's form divides by it",
-    TURN_UNRESOLVED: "the tether turns by {turn:.3g} rad within one element, more than it resolves",
-    SHAPE_LOST: "the upper end by the shape of the line is {gap:.3g} m away from where its velocity took it",
+    codes.NEWTON_FAILED: "Newton's method did not converge",
+    codes.NOT_FINITE: "a value that is not a finite number appeared",
+    codes.STRAIN_BELOW_MINUS_ONE: "an element is compressed to nothing (strain <= -1)",
+    codes.TENSION_FLAT: "the tension law has lost its slope, and the paper's form divides by it",
+    codes.TURN_UNRESOLVED: "the tether turns by {turn:.3g} rad within one element, more than it resolves",
+    codes.SHAPE_LOST: "the upper end by the shape of the line is {gap:.3g} m away from where its velocity took it",
 }
 
 
@@ -56,7 +41,6 @@ def run(
     scene: Scene,
     duration_s: float,
     progress: Callable[[float], None] | None = None,
-    start: np.ndarray | None = None,
     accelerations: bool = False,
     most_turn: float = MOST_TURN,
     most_gap: float = MOST_GAP,
@@ -68,7 +52,6 @@ def run(
     scene : Scene, bending stiffness above zero; fixed steps of solver.step_s (T/400, or 0.0125 s without waves)
     duration_s : float, s
     progress : callable(fraction), optional
-    start : (n, 13) equilibrium of the engine in space, optional (`start.at_rest`)
     accelerations : true normal accelerations in Morison's force instead of the paper's component rates (`line.Line`)
     most_turn, most_gap : rad in one element, m per m of line at which the run stops (heads of the constants above)
 
@@ -80,35 +63,26 @@ def run(
         frame has lost; euler_norm_error, the largest | |beta|^2 - 1 |.
     """
     line = line_of(scene, accelerations)
-    band, record = Band(line), Record(scene, line, duration_s)
-    dt = float(line.record["fixed_step"])
-    most = int(line.record["max_newton"])
+    record = Record(scene, line, duration_s, most_turn, most_gap)
+    dt, most = float(line.record["fixed_step"]), int(line.record["max_newton"])
     tolerance = scene.solver.newton_tolerance or TOLERANCE
-    status, Y = at_rest(scene, line, band, start)
-    steps = iterations = failures = 0
     began = time.perf_counter()
-    t = 0.0
-    if status == OK:
+    status, Y = at_rest(scene, line)
+    steps = iterations = failures = 0
+    if status == codes.OK:
         level = level_of(line, 0.0, Y)
-        flat = FLAT * float(tension_law(line.record, line.tables, Y[0])[1].max())
-        record.keep(level)
-        status = TURN_UNRESOLVED if record.max_turn > most_turn else OK
-    while status == OK and not record.done():
-        t = (steps + 1) * dt
-        status, used, after = solve(line, band, t, level, most, tolerance, flat)
+        flat = FLAT * float(line.tension(Y[EPS])[1].max())
+        status = record.keep(level)
+    while status == codes.OK and not record.done():
+        status, used, level = solve(line, (steps + 1) * dt, level, most, tolerance, flat)
         iterations += used
-        if status != OK:
+        if status != codes.OK:
             failures = 1
             break
-        level = after
         steps += 1
-        record.keep(level)
-        if record.max_turn > most_turn:
-            status = TURN_UNRESOLVED
-        elif record.closure > most_gap * line.s[-1]:
-            status = SHAPE_LOST
+        status = record.keep(level)
         if progress is not None and steps % STEPS_PER_CALL == 0:
-            progress(min(1.0, t / duration_s))
+            progress(min(1.0, level.t / duration_s))
     statistics = {
         "steps": steps,
         "rejected_steps": 0,
@@ -122,15 +96,15 @@ def run(
         "closure_m": record.closure,
         "euler_norm_error": record.norm_error,
     }
-    message = _message(status, t, dt, record) + (why_no_rest(line.record, scene) if status == STATICS_FAILED else "")
-    return Trajectory(scene, WORDS[status], message, record.columns(), statistics, record.lines())
+    message = ""
+    if status == codes.STATICS_FAILED:
+        message = "paper-box: " + codes.ADVICE[codes.STATICS_FAILED] + why_no_rest(line.record, scene)
+    elif status != codes.OK:
+        message = _message(status, (steps + failures) * dt, dt, record)
+    return Trajectory(scene, codes.WORDS[status], message, record.columns(), statistics, record.lines())
 
 
 def _message(status, t, dt, record):
-    if status == OK:
-        return ""
-    if status == STATICS_FAILED:
-        return "paper-box: " + ADVICE[STATICS_FAILED]
     said = SAID[status].format(turn=record.max_turn, gap=record.closure)
     seen = f"turn per element up to {record.max_turn:.3g} rad, strain down to {record.min_strain:.3g} before"
     cure = 'add nodes, shorten solver.step_s, or take solver.scheme = "conservation"'

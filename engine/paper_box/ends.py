@@ -13,8 +13,8 @@ import numpy as np
 from ..physics.ends import end_velocity, released
 from ..record import BUOY, HELD
 from .frame import TO_PAPER, roll, to_fixed
-from .law import tension_law
-from .line import EULER, OMEGA, SPEEDS, Line
+from .line import EPS, EULER, O2, O3, OMEGA, S_B, S_N, SPEEDS, Line
+from .nodal import Level
 
 
 def lower(Y: np.ndarray, Y_old: np.ndarray) -> np.ndarray:
@@ -22,51 +22,50 @@ def lower(Y: np.ndarray, Y_old: np.ndarray) -> np.ndarray:
     beta = Y[EULER]
     b0, b1, b2, b3 = beta
     turned = np.sum(roll(Y_old[EULER]) * beta, axis=0)
-    return np.array([*Y[SPEEDS], b0 * b0 + b1 * b1 + b2 * b2 + b3 * b3 - 1, turned, Y[11], Y[12]])
+    return np.array([*Y[SPEEDS], b0 * b0 + b1 * b1 + b2 * b2 + b3 * b3 - 1, turned, Y[O2], Y[O3]])
 
 
 def force_and_velocity(line: Line, Y: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """N (N) and V (m/s) of nodes Y (13, ...) in the paper's fixed axes, (3, ...) each."""
-    T = tension_law(line.record, line.tables, Y[0])[0]
-    return to_fixed(Y[EULER], np.array([T, Y[1], Y[2]])), to_fixed(Y[EULER], Y[SPEEDS])
+    T = line.tension(Y[EPS])[0]
+    return to_fixed(Y[EULER], np.array([T, Y[S_N], Y[S_B]])), to_fixed(Y[EULER], Y[SPEEDS])
 
 
-def buoy_load(line: Line, N: np.ndarray, V: np.ndarray, water: np.ndarray) -> np.ndarray:
-    """What the inertia of the buoy balances in (30), on the left: N + drag - wave load - net buoyancy, (3, ...)."""
+def buoy_load(line: Line, Y: np.ndarray, water: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """What the inertia of the buoy balances in (30), N + drag - wave load - net buoyancy, and its velocity: (3, ...)"""
     record = line.record
+    N, V = force_and_velocity(line, Y)
     slip = V - water[:3]
     speed = np.sqrt(slip[0] * slip[0] + slip[1] * slip[1] + slip[2] * slip[2])
     load = N + record["C_buoy"] * speed * slip - record["M_wave"] * water[3:]
     load[0] = load[0] - record["lift"]
-    return load
+    return load, V
 
 
 def upper(
-    line: Line, t: float, dt: float, Y: np.ndarray, Y_old: np.ndarray, water: np.ndarray, water_old: np.ndarray
+    line: Line, t: float, Y: np.ndarray, water: np.ndarray, old: Level | None, force: np.ndarray | None
 ) -> np.ndarray:
-    """Residuals (6, ...) at the upper end after a step of dt to t. Y (13, ...); water (6, ...)."""
-    record, tables = line.record, line.tables
-    N, V = force_and_velocity(line, Y)
-    if record["end"] == BUOY:
-        N_old, V_old = force_and_velocity(line, Y_old)
-        now, before = buoy_load(line, N, V, water), buoy_load(line, N_old, V_old, water_old)
-        balance = record["M_total"] * (V - V_old) / dt + 0.5 * (now + before)
-    elif record["end"] == HELD and not released(record, t):
-        moved = np.array(end_velocity(record, tables, t))[TO_PAPER]
-        balance = V - moved.reshape(3, *(1 for _ in Y.shape[1:]))
-    else:
-        balance = N - end_force(line).reshape(3, *(1 for _ in Y.shape[1:]))
-    return np.array([*balance, *Y[OMEGA]])
+    """Residuals (6, m) at the upper end at time t.
 
-
-def upper_at_rest(line: Line, force: np.ndarray, Y: np.ndarray, water: np.ndarray) -> np.ndarray:
-    """Residuals (6, ...) of the upper end in equilibrium; force (3,): on an end without a buoy, paper's axes."""
-    N, V = force_and_velocity(line, Y)
+    Y (13, m) and water (6, m) there. old: the `Level` before, or None at rest with force (3,) on an end without a buoy.
+    """
     if line.record["end"] == BUOY:
-        balance = buoy_load(line, N, V, water)
+        balance, V = buoy_load(line, Y, water)
+        if old is not None:
+            before, V_old = buoy_load(line, old.Y[:, -1:], old.water[:, -1:])
+            balance = line.record["M_total"] * (V - V_old) / (t - old.t) + 0.5 * (balance + before)
+    elif old is not None and is_kept(line, t):
+        moved = np.array(end_velocity(line.record, line.tables, t))[TO_PAPER]
+        balance = force_and_velocity(line, Y)[1] - moved[:, None]
     else:
-        balance = N - force.reshape(3, *(1 for _ in Y.shape[1:]))
+        force = end_force(line) if old is not None else force
+        balance = force_and_velocity(line, Y)[0] - force[:, None]
     return np.array([*balance, *Y[OMEGA]])
+
+
+def is_kept(line: Line, t: float) -> bool:
+    """Is the upper end a held one that has not been let go at time t?"""
+    return line.record["end"] == HELD and not released(line.record, t)
 
 
 def end_force(line: Line) -> np.ndarray:
@@ -75,9 +74,3 @@ def end_force(line: Line) -> np.ndarray:
     name = "end_f" if record["end"] == HELD else "end_"
     y = record[name + "y"] if line.spatial else 0.0
     return np.array([record[name + "z"], record[name + "x"], y])
-
-
-def force_per(line: Line, t: float) -> float:
-    """Inverse scale of the three balances above: a speed's where the end is held, a force's elsewhere."""
-    held = line.record["end"] == HELD and not released(line.record, t)
-    return float(line.record["per_speed"] if held else line.record["per_force"])

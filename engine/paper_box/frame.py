@@ -12,8 +12,7 @@ local frame; eq. (4) derivative along the line in the local frame; eq. (5) Euler
 
 import numpy as np
 
-UP, ALONG, ACROSS = 0, 1, 2  # axes 1, 2, 3: z, x, y of the engine
-TO_ENGINE = [ALONG, ACROSS, UP]  # (x, y, z) from the paper's axes
+TO_ENGINE = [1, 2, 0]  # (x, y, z) from the paper's axes
 TO_PAPER = [2, 0, 1]  # the paper's axes from (x, y, z)
 
 
@@ -32,7 +31,7 @@ def rotation(beta: np.ndarray) -> np.ndarray:
     )
 
 
-def normal_rates(beta, rate):
+def normal_rates(beta: np.ndarray, rate: np.ndarray) -> tuple[list, list]:
     """d/dt of the rows n and b of C, (2, 3, ...), for d(beta)/dt = rate."""
     b0, b1, b2, b3 = beta
     d0, d1, d2, d3 = rate
@@ -49,7 +48,7 @@ def normal_rates(beta, rate):
     return n, b
 
 
-def turning(beta, rate):
+def turning(beta: np.ndarray, rate: np.ndarray) -> tuple:
     """omega of eq. (3) in the local frame, 2 beta* o d(beta)/dt without its scalar part, (3, ...)."""
     b0, b1, b2, b3 = beta
     d0, d1, d2, d3 = rate
@@ -79,10 +78,8 @@ def roll(beta: np.ndarray) -> np.ndarray:
 
 def parameters_of(C: np.ndarray) -> np.ndarray:
     """Euler parameters (4, n) of rotation matrices C (3, 3, n), continuous along the line."""
-    C = np.asarray(C)
     beta = np.empty((4, C.shape[2]))
-    for k in range(C.shape[2]):
-        c = C[:, :, k]
+    for k, c in enumerate(np.moveaxis(C, 2, 0)):
         # each candidate is beta scaled by four times one of its entries: the one with the largest entry is used
         candidates = np.array(
             [

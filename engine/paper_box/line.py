@@ -1,4 +1,4 @@
-"""What a run of the paper's form needs of its scene: constants of appendix A, grid, scales, and what moves.
+"""What a run of the paper's form needs of its scene: the unknowns by name, constants, grid and scales.
 
 In the paper: eq. (21) the thirteen equations; eq. (22) the thirteen unknowns.
 """
@@ -8,75 +8,55 @@ from dataclasses import dataclass
 import numpy as np
 
 from .. import parameters
+from ..physics.tension import LAWS
 from ..scene.models import Scene
 
 EPS, S_N, S_B, U, V, W, B0, B1, B2, B3, O1, O2, O3 = range(13)
 SPEEDS, EULER, OMEGA = slice(U, W + 1), slice(B0, B3 + 1), slice(O1, O3 + 1)
-PLANE = [EPS, S_N, U, V, B0, B3, O3]  # the others stay exactly zero in the plane of axes 1 and 2 (x and z)
 SPACE = list(range(13))
-BELOW_PLANE, ABOVE_PLANE = [0, 1, 3, 6], [0, 1, 5]  # rows of `ends.lower` and `ends.upper` that a plane has
+PLANE = [EPS, S_N, U, V, B0, B3, O3]  # the others stay exactly zero in the plane of axes 1 and 2 (x and z)
+# the unknown in whose scale each row of `ends` is: a plane has the rows of its own unknowns
+BELOW, ABOVE = [U, V, W, B0, B1, O2, O3], [EPS, S_N, S_B, O1, O2, O3]
+SCALES = ["per_strain", *2 * ["per_force"], *3 * ["per_speed"], *4 * [None], *3 * ["per_curvature"]]
 
 
 @dataclass(frozen=True)
 class Line:
-    """Constants of one scene in the letters of appendix A (SI units), the engine's record, and the grid.
+    """Constants of one scene: the engine's parameter record and tables, element lengths h (n - 1,), m, GIp (N m2).
 
-    R_turn, m_turn: factors of the terms of rows 2 and 3 in which beta turns. As the paper has it (component rates of v
-    and v_c) they are R = rho_w pi d^2/4 + m_a and m; with the normal components of the accelerations they would be 0
-    and m + m_a, which does not depend on the roll of the frame (THEORY.md, section 4).
+    accelerations: true normal accelerations in Morison's force in place of the paper's component rates.
     per: inverse scales of the thirteen unknowns. active: the unknowns of a plane or of space.
     """
 
     record: np.void
     tables: np.ndarray
     h: np.ndarray
-    m: float
-    m_a: float
-    R: float
-    m_turn: float
-    R_turn: float
-    w0: float
-    EI: float
     GIp: float
-    c_t: float
-    c_n: float
+    accelerations: bool
     per: np.ndarray
     active: list[int]
 
     @property
-    def spatial(self):
+    def spatial(self) -> bool:
         """Does the line move in space?"""
-        return len(self.active) == 13
+        return self.active is SPACE
 
     @property
-    def s(self):
+    def s(self) -> np.ndarray:
         """Unstretched arc length of the nodes (n,), m."""
         return np.concatenate([[0.0], np.cumsum(self.h)])
 
+    def tension(self, eps: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """T = f(eps) and f'(eps), N, eqs. (20) and (29), at real or complex strains of any shape."""
+        return LAWS[int(self.record["law"])].of_array(eps, self.record, self.tables)
+
 
 def line_of(scene: Scene, accelerations: bool = False) -> Line:
-    """The `Line` of a scene. accelerations: true normal accelerations in place of the paper's component rates."""
+    """The `Line` of a scene."""
     tables = []
     record = parameters.record_of(scene, tables)[0]
-    n = int(record["nodes"])
     tables = np.concatenate(tables)
-    m, m_a, R = (float(record[name]) for name in ("m", "ma", "Rw"))
-    force, speed = float(record["per_force"]), float(record["per_speed"])
-    curvature = float(record["per_curvature"])
-    return Line(
-        record=record,
-        tables=tables,
-        h=tables[record["grid_at"] : record["grid_at"] + n - 1],
-        m=m,
-        m_a=m_a,
-        R=R,
-        m_turn=m + m_a if accelerations else m,
-        R_turn=0.0 if accelerations else R,
-        w0=float(record["w0"]),
-        EI=float(record["EI"]),
-        GIp=scene.tether.torsion_stiffness_Nm2,
-        c_t=float(record["ct"]),
-        c_n=float(record["cn"]),
-        per=np.array([float(record["per_strain"])] + 2 * [force] + 3 * [speed] + 4 * [1.0] + 3 * [curvature]),
-        active=PLANE if scene.motion.dimensions == 2 else SPACE,
-    )
+    h = tables[record["grid_at"] :][: record["nodes"] - 1]
+    per = np.array([record[name] if name else 1.0 for name in SCALES])
+    active = PLANE if scene.motion.dimensions == 2 else SPACE
+    return Line(record, tables, h, scene.tether.torsion_stiffness_Nm2, accelerations, per, active)

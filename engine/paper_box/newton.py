@@ -2,22 +2,26 @@
 
 Full step; where the update exceeds one in the scales of the scene it is shortened to one. The water is renewed in each
 iteration. The paper has fixed steps and nothing to fall back upon: a step that fails ends the run.
+
+The unknowns of node k are columns k m ... k m + m - 1 (m = 13, or 7 in a plane), the rows 7 (4) of the lower end, the
+boxes, 6 (3) of the upper end: a band of 19 below and 18 above the diagonal, factored with partial pivoting. The columns
+of a node meet 2 m rows: m of the box below it (or the lower end), m of the box above it (or the upper end).
 """
 
 import numpy as np
+from scipy.linalg import LinAlgError, solve_banded
 
 from ..time.status import NEWTON_FAILED, NOT_FINITE, OK, STRAIN_BELOW_MINUS_ONE, TENSION_FLAT
-from . import ends
-from .box import Band, Level, level_of, residual
-from .law import tension_law
-from .line import Line
-from .water import water_at
+from .box import residual
+from .ends import is_kept
+from .line import ABOVE, BELOW, EPS, OMEGA, Line
+from .nodal import Level, level_of, water_at
 
 TOLERANCE = 1e-7  # of the scaled update: what is left does not decay in this rule, so it is left small
 
 
 def solve(
-    line: Line, band: Band, t: float, old: Level, most: int, tolerance: float = TOLERANCE, flat: float = 0.0
+    line: Line, t: float, old: Level, most: int, tolerance: float = TOLERANCE, flat: float = 0.0
 ) -> tuple[int, int, Level | None]:
     """The `Level` at time t that follows `old`.
 
@@ -25,29 +29,55 @@ def solve(
     Returns (code, iterations, Level or None).
     """
     Y = old.Y.copy()
-    end_per = ends.force_per(line, t)
     for iteration in range(1, most + 1):
-        water = water_at(line, t, Y)
-        code, found, size = newton_update(line, band, Y, water, t, old, end_per)
+        code, found, size = newton_update(line, Y, water_at(line, t, Y), t, old)
         if code != OK:
             return code, iteration, None
-        Y += found if size <= 1.0 else found / size
-        if Y[0].min() <= -1.0:
+        Y += found[0] if size <= 1.0 else found[0] / size
+        if Y[EPS].min() <= -1.0:
             return STRAIN_BELOW_MINUS_ONE, iteration, None
-        if tension_law(line.record, line.tables, Y[0])[1].min() <= flat:
+        if line.tension(Y[EPS])[1].min() <= flat:
             return TENSION_FLAT, iteration, None
         if size < tolerance:
             return OK, iteration, level_of(line, t, Y)
     return NEWTON_FAILED, most, None
 
 
-def newton_update(line, band, Y, water, t, old, end_per, force=None, forces=0):
-    """(code, update, its size) of one iteration; the arguments are those of `box.residual` and `Band.update`."""
+def newton_update(
+    line: Line, Y: np.ndarray, water: np.ndarray, t: float, old: Level | None, force: np.ndarray | None = None, axes=0
+) -> tuple[int, np.ndarray | None, float]:
+    """One iteration, arguments as of `box.residual`: (code, update, its largest entry in the scales of the scene).
+
+    The update (1 + axes, 13, n) is in the units of Y; the responses of the unknowns to a unit of force (N) on the upper
+    end along each of the first axes follow it.
+    """
     with np.errstate(all="ignore"):  # an overflow is caught here, as what is not finite
         rows, blocks = residual(line, Y, water, t, old, force)
-        if not all(np.isfinite(part).all() for part in (*rows, *blocks)):
-            return NOT_FINITE, None, np.inf
-        found, size = band.update(rows, blocks, end_per, forces)
-    if found is None:
+    if not all(np.isfinite(part).all() for part in (*rows, *blocks)):
+        return NOT_FINITE, None, np.inf
+    active = line.active
+    below, above = ([row for row, unknown in enumerate(end) if unknown in active] for end in (BELOW, ABOVE))
+    n, m, first, last = Y.shape[1], len(active), len(below), len(above)
+    # rows and columns in the scales of the unknowns: force rows against strains would mislead the pivoting
+    scale, lower_per = line.per[active], line.per[BELOW][below]
+    end_per = line.record["per_speed" if old is not None and is_kept(line, t) else "per_force"]
+    upper_per = np.array([end_per] * 3 + [*line.per[OMEGA]])[above]
+    met = np.zeros((2 * m, m, n))
+    met[m - first : m, :, 0] = blocks[0][below] * lower_per[:, None] / scale
+    met[m:, :, :-1], met[:m, :, 1:] = (part[active] * (scale[:, None] / scale)[:, :, None] for part in blocks[1:3])
+    met[m : m + last, :, -1] = blocks[3][above] * upper_per[:, None] / scale
+    band, (row, column) = np.zeros((3 * m - 1, n, m)), np.ogrid[: 2 * m, :m]
+    band[m - 1 + row - column, :, column] = met
+    right = np.zeros((n * m, 1 + axes))
+    boxes = (rows[1][active] * scale[:, None]).T.ravel()
+    right[:, 0] = -np.concatenate([rows[0][below] * lower_per, boxes, rows[2][above] * upper_per])
+    right[range(-last, axes - last), range(1, 1 + axes)] = end_per
+    try:
+        shape = first + m - 1, last + m - 1
+        scaled = solve_banded(shape, band.reshape(3 * m - 1, -1), right, overwrite_ab=True, check_finite=False)
+    except LinAlgError:
         return NEWTON_FAILED, None, np.inf
+    found = np.zeros((1 + axes, 13, n))
+    found[:, active] = (scaled.T.reshape(-1, n, m) / scale).transpose(0, 2, 1)
+    size = np.abs(scaled[:, 0]).max()
     return (OK if np.isfinite(size) else NOT_FINITE), found, size

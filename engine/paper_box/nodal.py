@@ -7,8 +7,8 @@ omega the angular velocity of the frame (`frame.turning`), the columns of M that
     rows 2-3  -m (omega x V)_2,3 + R (dC/dt U_c)_2,3
     rows 4-6  -(1 + eps) (omega x t)
 
-which entry by entry is the print (tests/engine/paper_box/appendix.py has it entry by entry, docs/appendix_a.md its
-misprints); written so, a product with M costs one omega instead of 31 entries. Rows 2 and 3 of P carry the term
+which is the print (tests/engine/paper_box/test_appendix.py has it entry by entry, docs/appendix_a.md its misprints);
+written so, a product with M costs one omega instead of 31 entries. Rows 2 and 3 of P carry the term
 R C dU_c/dt that the print leaves out: without it waves act on the tether by drag alone.
 
 water (6, ...): velocity and local acceleration of the water in the paper's axes (`frame`).
@@ -18,32 +18,76 @@ In the paper: eq. (34) M, columns of ε … w; eq. (35) M, columns of ε … w; 
 of β₁; eq. (38) M, column of β₂; eq. (39) M, column of β₃; eq. (40) P.
 """
 
+from typing import NamedTuple
+
 import numpy as np
 
-from .frame import normal_rates, rotation, turning
-from .law import tension_law
-from .line import EULER, Line
+from ..physics.water import water as water_of_engine
+from .frame import TO_ENGINE, TO_PAPER, normal_rates, rotation, to_local, turning
+from .line import EPS, EULER, SPEEDS, Line
+
+
+def positions(line: Line, Y: np.ndarray) -> np.ndarray:
+    """Positions (3, n) of the nodes in the paper's axes, m: R_s = (1 + eps) t summed from the anchor."""
+    q = (1 + Y[EPS]) * rotation(Y[EULER])[0]
+    steps = 0.5 * line.h * (q[:, 1:] + q[:, :-1])
+    return np.concatenate([np.zeros((3, 1)), np.cumsum(steps, axis=1)], axis=1)
+
+
+def water_at(line: Line, t: float, Y: np.ndarray, waves: bool = True) -> np.ndarray:
+    """Velocity and local acceleration of the water at the nodes, (6, n), paper's axes. waves: False in statics.
+
+    The paper does not say where it takes the water; its kinematics depend on the position, which depends on every node
+    below. As in the conservation form, positions are renewed in each Newton iteration and left out of the Jacobian.
+    """
+    axes = [0, 1, 2] if line.spatial else [0, 2]
+    X = np.ascontiguousarray(positions(line, Y)[TO_ENGINE][axes].T)
+    F = np.zeros((len(X), 2 * len(axes)))
+    water_of_engine(line.record, line.tables, t, 1.0 if waves else 0.0, X, F)
+    found = np.zeros((2, 3, len(X)))
+    found[:, axes] = F.T.reshape(2, len(axes), -1)
+    return found[:, TO_PAPER].reshape(6, -1)
+
+
+class Level(NamedTuple):
+    """One time level: t (s), Y (13, n), the water (6, n) and P (13, n) there."""
+
+    t: float
+    Y: np.ndarray
+    water: np.ndarray
+    P: np.ndarray
+
+
+def level_of(line: Line, t: float, Y: np.ndarray) -> Level:
+    """The time level of the unknowns Y (13, n)."""
+    water = water_at(line, t, Y)
+    return Level(t, Y, water, P(line, Y, water))
 
 
 def times_M(line: Line, Y: np.ndarray, D: np.ndarray, water: np.ndarray) -> np.ndarray:
-    """M(Y) D, (13, ...), for any D of the shape of Y."""
-    eps, u, v, w = Y[0], Y[3], Y[4], Y[5]
-    slope = tension_law(line.record, line.tables, eps)[1]
+    """M(Y) D, (13, ...), for any D of the shape of Y.
+
+    The terms of rows 2 and 3 in which beta turns have the factors R = rho_w pi d^2/4 + m_a and m in the paper
+    (component rates of v and v_c); with the normal components of the accelerations they have 0 and m + m_a, which does
+    not depend on the roll of the frame (THEORY.md, section 4).
+    """
+    eps, (u, v, w), (Uc, Vc, Wc) = Y[EPS], Y[SPEEDS], water[:3]
+    slope = line.tension(eps)[1]
     omega1, omega2, omega3 = turning(Y[EULER], D[EULER])
     n_rate, b_rate = normal_rates(Y[EULER], D[EULER])
-    Uc, Vc, Wc = water[:3]
-    inertia = line.m + line.m_a
+    m, inertia = line.record["m"], line.record["m"] + line.record["ma"]
+    m_turn, R_turn = (inertia, 0.0) if line.accelerations else (m, line.record["Rw"])
     zero = np.zeros_like(omega1)
     return np.array(
         [
-            -line.m * (D[3] + omega2 * w - omega3 * v) / slope,
+            -m * (D[3] + omega2 * w - omega3 * v) / slope,
             -inertia * D[4]
-            - line.m_turn * (omega3 * u - omega1 * w)
-            + line.R_turn * (n_rate[0] * Uc + n_rate[1] * Vc + n_rate[2] * Wc),
+            - m_turn * (omega3 * u - omega1 * w)
+            + R_turn * (n_rate[0] * Uc + n_rate[1] * Vc + n_rate[2] * Wc),
             -inertia * D[5]
-            - line.m_turn * (omega1 * v - omega2 * u)
-            + line.R_turn * (b_rate[0] * Uc + b_rate[1] * Vc + b_rate[2] * Wc),
-            zero - D[0],
+            - m_turn * (omega1 * v - omega2 * u)
+            + R_turn * (b_rate[0] * Uc + b_rate[1] * Vc + b_rate[2] * Wc),
+            zero - D[EPS],
             -(1 + eps) * omega3,
             (1 + eps) * omega2,
             *(zero for _ in range(7)),
@@ -54,19 +98,20 @@ def times_M(line: Line, Y: np.ndarray, D: np.ndarray, water: np.ndarray) -> np.n
 def P(line: Line, Y: np.ndarray, water: np.ndarray) -> np.ndarray:
     """P(Y), (13, ...): eq. (40)."""
     eps, Sn, Sb, u, v, w, b0, b1, b2, b3, O1, O2, O3 = Y
-    T, slope = tension_law(line.record, line.tables, eps)
-    root = np.sqrt(1 + eps)
+    p = line.record
+    w0, c_t, c_n, EI, ratio = p["w0"], p["ct"], p["cn"], p["EI"], line.GIp / p["EI"]
+    T, slope = line.tension(eps)
     C = rotation(Y[EULER])
     u_r, v_r, w_r = (Y[3 + i] - C[i, 0] * water[0] - C[i, 1] * water[1] - C[i, 2] * water[2] for i in range(3))
-    n_push, b_push = (line.R * (C[i, 0] * water[3] + C[i, 1] * water[4] + C[i, 2] * water[5]) for i in (1, 2))
+    _, n_push, b_push = p["Rw"] * to_local(Y[EULER], water[3:])
+    root, cube = np.sqrt(1 + eps), (1 + eps) ** 3 / EI
+    size = np.where(u_r.real < 0, -u_r, u_r)  # |u_r|, analytic on either side of zero
     across = np.sqrt(v_r * v_r + w_r * w_r)  # at zero its square root is not analytic, the products below are
-    cube = (1 + eps) ** 3 / line.EI
-    ratio = line.GIp / line.EI
     return np.array(
         [
-            (Sb * O2 - Sn * O3 - line.w0 * C[0, 0] - line.c_t * magnitude(u_r) * u_r * root) / slope,
-            T * O3 - Sb * O1 - line.w0 * C[1, 0] - line.c_n * across * v_r * root + n_push,
-            Sn * O1 - T * O2 - line.w0 * C[2, 0] - line.c_n * across * w_r * root + b_push,
+            (Sb * O2 - Sn * O3 - w0 * C[0, 0] - c_t * size * u_r * root) / slope,
+            T * O3 - Sb * O1 - w0 * C[1, 0] - c_n * across * v_r * root + n_push,
+            Sn * O1 - T * O2 - w0 * C[2, 0] - c_n * across * w_r * root + b_push,
             O2 * w - O3 * v,
             O3 * u - O1 * w,
             O1 * v - O2 * u,
@@ -79,8 +124,3 @@ def P(line: Line, Y: np.ndarray, water: np.ndarray) -> np.ndarray:
             (1 - ratio) * O1 * O2 + Sn * cube,
         ]
     )
-
-
-def magnitude(x: np.ndarray) -> np.ndarray:
-    """|x|, analytic on either side of zero."""
-    return np.where(x.real < 0, -x, x)

@@ -15,36 +15,31 @@ from ..record import HELD
 from ..scene.models import Scene
 from ..time import statics
 from ..time.status import NEWTON_FAILED, OK, STATICS_FAILED
-from .box import Band
 from .ends import end_force, force_and_velocity
-from .frame import TO_PAPER, parameters_of, rotation, to_local
+from .frame import TO_PAPER, parameters_of, to_local
 from .line import EPS, EULER, O3, S_N, SPEEDS, Line
 from .newton import TOLERANCE, newton_update
-from .water import positions, water_at
+from .nodal import positions, water_at
 
 MOST = 100  # iterations of one equilibrium
 SHARES = 16  # of the current, where the whole of it does not settle at once
 TINY = 1e-30
 
 
-def at_rest(scene: Scene, line: Line, band: Band, start: np.ndarray | None = None) -> tuple[int, np.ndarray | None]:
-    """The state at t = 0 with its velocities: (code, Y (13, n) or None).
-
-    start: (n, 13) equilibrium of the engine in space instead of the planar one: eps, S_n, S_b, velocity in x, y, z,
-    Euler parameters from x, y, z, Omega.
-    """
-    code, guess = (OK, from_space(start)) if start is not None else planar_guess(scene, line)
+def at_rest(scene: Scene, line: Line) -> tuple[int, np.ndarray | None]:
+    """The state at t = 0 with its velocities: (code, Y (13, n) or None)."""
+    code, guess = planar_guess(scene, line)
     if code != OK:
         return STATICS_FAILED, None
     target, force = None, end_force(line)
     if line.record["end"] == HELD:
         target = np.array(scene.end.position_m)[TO_PAPER]
         force = force_and_velocity(line, guess[:, -1])[0]
-    code, Y, _ = settled(line, band, guess, force, target)
+    code, Y, _ = settled(line, guess, force, target)
     if code != OK:
         Y = guess
         for share in np.linspace(0.0, 1.0, SHARES + 1):
-            code, Y, force = settled(line, band, Y, force, target, share)
+            code, Y, force = settled(line, Y, force, target, share)
             if code != OK:
                 return STATICS_FAILED, None
     velocity = np.outer(np.array(scene.start.buoy_velocity_mps)[TO_PAPER], line.s / line.s[-1])
@@ -52,7 +47,9 @@ def at_rest(scene: Scene, line: Line, band: Band, start: np.ndarray | None = Non
     return OK, Y
 
 
-def settled(line, band, guess, force, target=None, share=1.0):
+def settled(
+    line: Line, guess: np.ndarray, force: np.ndarray, target: np.ndarray | None, share: float = 1.0
+) -> tuple[int, np.ndarray, np.ndarray]:
     """Equilibrium near `guess` under a share of the current: (code, Y (13, n), force on the end (3,)).
 
     target: place (3,) of a held end, paper's axes. The force that keeps it there is then found along with the shape:
@@ -62,41 +59,38 @@ def settled(line, band, guess, force, target=None, share=1.0):
     axes = 0 if target is None else 3 if line.spatial else 2
     for _ in range(MOST):
         water = share * water_at(line, 0.0, Y, waves=False)
-        code, found, size = newton_update(line, band, Y, water, 0.0, None, float(line.record["per_force"]), force, axes)
+        code, found, size = newton_update(line, Y, water, 0.0, None, force, axes)
         if code != OK:
             break
-        update, pull = found, np.zeros(3)
+        update, pull = found[0], np.zeros(3)
         if axes:
             reach = [positions(line, Y + 1j * TINY * part)[:axes, -1].imag / TINY for part in found]
             missing = (target - positions(line, Y)[:, -1])[:axes] - reach[0]
             pull[:axes] = np.linalg.lstsq(np.array(reach[1:]).T, missing)[0]
             update = found[0] + np.tensordot(pull[:axes], found[1:], 1)
-            size = band.size(update)
+            size = np.abs(update * line.per[:, None]).max()
         factor = min(1.0, 1.0 / size)
         Y += factor * update
         force += factor * pull
-        if Y[0].min() <= -1.0:
+        if Y[EPS].min() <= -1.0:
             break
         if size < TOLERANCE:
             return OK, Y, force
     return NEWTON_FAILED, guess, force
 
 
-def planar_guess(scene, line):
+def planar_guess(scene: Scene, line: Line) -> tuple[int, np.ndarray | None]:
     """The engine's equilibrium in the vertical plane of the end's place or force, as (code, Y (13, n))."""
-    end = scene.end
-    toward = {"held": end.position_m, "free": end.force_N}.get(end.kind) or (0.0, 0.0, 0.0)
-    azimuth = math.atan2(toward[1], toward[0]) if toward[1] else 0.0
-    flat = (math.hypot(*toward[:2]) if azimuth else toward[0], 0.0, toward[2])
-    name = {"held": "position_m", "free": "force_N"}.get(end.kind)
-    planar = scene.model_copy(
-        update={
-            "motion": scene.motion.model_copy(update={"dimensions": 2}),
-            "end": end.model_copy(update={name: flat}) if name else end,
-            "current": None if azimuth else scene.current,
-        }
-    )
-    tables = []
+    end, name = scene.end, {"held": "position_m", "free": "force_N"}.get(scene.end.kind)
+    x, y, z = (getattr(end, name) if name else None) or (0.0, 0.0, 0.0)
+    azimuth = math.atan2(y, x) if y else 0.0
+    flat = (math.hypot(x, y) if azimuth else x, 0.0, z)
+    changes = {
+        "motion": scene.motion.model_copy(update={"dimensions": 2}),
+        "end": end.model_copy(update={name: flat}) if name else end,
+        "current": None if azimuth else scene.current,
+    }
+    planar, tables = scene.model_copy(update=changes), []
     record = parameters.record_of(planar, tables)[0]
     Y = statics.first_guess(record, planar, line.h)
     code = statics.settle(record, np.concatenate(tables), Y, np.array([flat[0], flat[2]]))
@@ -117,13 +111,4 @@ def lifted(Y: np.ndarray, azimuth: float = 0.0) -> np.ndarray:
     found = np.zeros((13, len(Y)))
     found[EPS], found[S_N], found[O3] = Y[:, col.EPS], -Y[:, col.SHEAR], -Y[:, col.KAPPA]
     found[EULER] = parameters_of(np.array([t, n, b]))
-    return found
-
-
-def from_space(Y: np.ndarray) -> np.ndarray:
-    """The unknowns (n, 13) of the engine in space, Euler parameters and velocities from x, y, z, as (13, n) here."""
-    found = np.array(Y, float).T
-    C = rotation(found[EULER])[:, TO_PAPER]
-    found[EULER] = parameters_of(C)
-    found[SPEEDS] = to_local(found[EULER], found[SPEEDS][TO_PAPER])
     return found

@@ -19,14 +19,6 @@ def test_threads_equal_processes(sweep):
     assert {name: (sweep.out / "trajectories" / name).read_bytes() for name in finished(sweep.out)} == content
 
 
-@pytest.mark.parametrize("jobs", [1, 4])
-def test_number_of_jobs_changes_nothing(sweep, jobs):
-    rows = sweep("--steepness", *VALUES, jobs=2)[1]
-    for path in (sweep.out / "trajectories").iterdir():
-        path.unlink()
-    assert sweep("--steepness", *VALUES, jobs=jobs)[1] == rows
-
-
 def test_workers_kept_from_a_campaign_elsewhere_write_into_the_folder_of_this_one(tmp_path, monkeypatch):
     for name in ("one", "other"):
         (tmp_path / name).mkdir()

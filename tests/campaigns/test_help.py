@@ -23,8 +23,9 @@ def test_help_tells_every_option():
     assert "[N ...]" not in done.stdout
 
 
-def test_help_loads_nothing_heavy():
-    code = "import sys, campaigns.buoy_sweep as b; b.STUDY.parser().format_help(); print(*sys.modules)"
+@pytest.mark.parametrize("name", ["buoy_sweep", "out_of_plane", "sweep"])
+def test_help_loads_nothing_heavy(name):
+    code = f"import sys, campaigns.{name} as b; b.parser().format_help(); print(*sys.modules)"
     loaded = subprocess.run([sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True, check=True).stdout
     assert not {"numpy", "numba", "pandas", "pydantic", "joblib", "matplotlib", "dask"} & set(loaded.split())
 

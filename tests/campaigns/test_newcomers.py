@@ -107,6 +107,7 @@ MISTAKES = [
     (SWEEP, "--set waves.amplitude_m=1", "this campaign sets it; use --steepness"),
     (SWEEP, "--set end.kind=held end.position_m=[0,0,20] buoy=none", "end.kind"),
     (SWEEP, "--dimensions 4", "--dimensions: given '4'; allowed: one of 2, 3, auto"),
+    (SWEEP, "--set motion.dimensions=3", "this campaign sets it; use --dimensions"),
     (SWEEP, "--backend dusk", "one of loky, threading, dask"),
     (SWEEP, "--backend threading --dask-address tcp://a:1", "with --backend dask only"),
     (SWEEP, "--backend dask --dask-address tcp://a", "given 'tcp://a'; allowed: the address of a scheduler"),

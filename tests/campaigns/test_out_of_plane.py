@@ -1,8 +1,6 @@
 """The out-of-plane campaign: what it runs, what a row says, what happens when something fails or is there already."""
 
 import math
-import subprocess
-import sys
 
 import numpy as np
 import pytest
@@ -13,7 +11,7 @@ from campaigns.columns import names
 from campaigns.out_of_plane.rows import COLUMNS, bows, offplane_row
 from engine import load_scene
 from engine.trajectory import Profiles
-from tests.campaigns.conftest import ROOT, rows_of
+from tests.campaigns.conftest import rows_of
 from tests.campaigns.fake_space import BURST_M, BURST_PERIODS, LARGE_RATE, SMALL_RATE, SpaceEngine
 
 USUAL = ["--periods", "60", "--backend", "threading", "--jobs", "2", "--no-report"]
@@ -163,9 +161,3 @@ def test_every_fault_is_named_at_once_and_nothing_is_written(tmp_path, capsys):
     for word in ("--periods", "waves.steepness", "motion.dimensions", "mass", "--bogus"):
         assert word in said
     assert not (tmp_path / "new").exists()
-
-
-def test_help_loads_nothing_heavy():
-    code = "import sys, campaigns.out_of_plane as o; o.STUDY.parser().format_help(); print(*sys.modules)"
-    loaded = subprocess.run([sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True, check=True).stdout
-    assert not {"numpy", "numba", "pandas", "scipy", "matplotlib", "pydantic"} & set(loaded.split())

@@ -38,11 +38,6 @@ def test_value_given_twice_is_one_run(sweep):
     assert len(rows) == 1
 
 
-def test_longer_runs_and_other_scenes_are_other_runs(sweep):
-    sweep("--steepness", "0.05")
-    assert sweep("--steepness", "0.05", "--set", "water.depth_m=22.5")[2] == [0.05]
-
-
 @pytest.mark.parametrize("damage", [0, 100, -1, None])
 def test_damaged_file_is_computed_again(sweep, damage):
     _, rows, _ = sweep("--steepness", *VALUES)

@@ -71,12 +71,6 @@ def test_a_failed_run_in_space_is_a_row_of_three_dimensions(sweep):
     assert (rows[0]["status"], rows[0]["dimensions"]) == ("error", "3")
 
 
-@pytest.mark.parametrize("words", [["--dimensions", "4"], ["--set", "motion.dimensions=3"]])
-def test_what_is_not_allowed_is_named(tmp_path, capsys, words):
-    assert buoy_sweep.main([*words, "--out", str(tmp_path / "new")]) == 2
-    assert "dimensions" in capsys.readouterr().err
-
-
 def test_a_row_in_space_is_judged_by_its_samples():
     scene = load_scene("tethered_buoy", {"motion.dimensions": 3, "start.buoy_velocity_mps": [0, 1e-5, 0]})
     row = buoy_row(sines(scene, 120), 20)

@@ -22,7 +22,6 @@ from campaigns.paper.statements.judging import (
 from campaigns.statements import Measured, listed, shown, told
 from campaigns.tables import Row
 
-MOSTLY = 0.5  # share
 NO_RUN = "none"  # as `listed` says it
 SLACK, PEAK = 0.01, 2.0  # share of the time; maximum over the static tension
 

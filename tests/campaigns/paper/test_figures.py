@@ -1,26 +1,23 @@
 """Figures of the paper: data from the parts' folders, drawn from their files alone, the same bytes each time."""
 
 import json
-import math
 import os
 import shutil
 import subprocess
 import sys
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
 from campaigns.paper.figures import NUMBERS, files_of, place_of, write_figure_data
 from campaigns.paper.figures.buoy import _history
-from campaigns.paper.figures.sections import _sections
 from campaigns.paper.measured import read_results
 from engine import load_scene, simulate
 from engine.natural_frequencies import natural_frequencies
 from reports.paper.figures import draw, figures_of, left_out, pictures
 from reports.parts.figure_data import parsed, sources_of
 from tests.campaigns.conftest import ROOT
-from tests.campaigns.fake_space import BURST_M, SWING, SpaceEngine
+from tests.campaigns.fake_space import SpaceEngine
 from tests.reports.synthetic import campaign
 
 OF_BUOY = {9, 10, 11, 12, 13, 15, 16, 17, 18}
@@ -135,14 +132,6 @@ def test_a_buoy_at_rest_is_1_in_the_units_of_the_figures():
     assert radial["static_radius_m"][1] == pytest.approx(20.0 * (1.0 + modes.static_strain), rel=1e-4)
 
 
-def test_a_linear_tether_has_its_tension_where_its_length_is(root):
-    """T/T_s = (r - l_0)/(r_0 - l_0): figures 9 and 10 are one motion."""
-    tension, radial = data_of(root, 9), data_of(root, 10)
-    static, slack = float(radial["static_radius_m"]), float(radial["unstretched_m"])
-    stretch = (static * radial["radius_over_static"] - slack) / (static - slack)
-    np.testing.assert_allclose(tension["tension_over_static"], stretch, atol=1e-12)
-
-
 def test_the_spectrum_of_a_sine_is_half_its_amplitude_over_the_static_radius(root):
     data = data_of(root, 12)
     at_wave = int(np.argmin(np.abs(data["omega_radps"].values - float(data["wave_radps"]))))
@@ -150,16 +139,6 @@ def test_the_spectrum_of_a_sine_is_half_its_amplitude_over_the_static_radius(roo
     assert data["radial_amplitude"][at_wave] == pytest.approx(
         0.5 * amplitude_m / float(data["static_radius_m"]), rel=1e-3
     )
-
-
-def test_a_free_radial_oscillation_is_a_circle_in_the_section():
-    """g = (r - l_0)/D and g' = r'/(D w_nr): D sin(w_nr t) about l_0 has g^2 + g'^2 = 1."""
-    scene = load_scene("tethered_buoy")
-    omega, diameter, phase = natural_frequencies(scene).radial_radps, scene.buoy.diameter_m, np.linspace(0.0, 6.0, 40)
-    points = np.column_stack([20.0 + diameter * np.sin(phase), omega * diameter * np.cos(phase)])
-    found = _sections(SimpleNamespace(scene=scene), points, np.zeros((3, 2)), {"force": 1.4})
-    size = np.hypot(found["exact_displacement"][1], found["exact_velocity"][1])
-    np.testing.assert_allclose(size, 1.0, atol=1e-12)
 
 
 @pytest.fixture(scope="module")
@@ -200,25 +179,3 @@ def test_all_figures_are_drawn_alike_by_another_process_from_their_files_alone(w
     for path, content in kept.items():
         assert (place_of(alone) / path.name).read_bytes() == content
         assert len(content) < 500_000
-
-
-@pytest.mark.slow
-def test_the_figures_show_what_the_runs_did(whole):
-    exponents = data_of(whole, 14)
-    for name in ("small", "large"):
-        last = float(exponents[f"{name}_tangent_bits"][-1])
-        assert last == pytest.approx(float(exponents[f"{name}_tangent_value"]), abs=1e-12)
-        assert exponents[f"{name}_wolf_periods"][-1] > 200
-    sideways = data_of(whole, 20)
-    assert float(sideways["push_mps"]) == 1e-5
-    for name in ("large_rope_m", "large_rope_envelope_m"):
-        assert float(sideways[name].max()) == pytest.approx(BURST_M, rel=0.01)
-    assert sideways["large_buoy_m"].max() == pytest.approx(2.0 * 1e-5 / SWING, rel=0.01)
-    for number, force_N in ((3, 45e3), (6, 450e3)):
-        tension = data_of(whole, number)
-        case = "1" if number == 3 else "4p"
-        assert float(tension[f"case_{case}_force_N"]) == force_N
-        np.testing.assert_allclose(tension[f"case_{case}_tension_N"][0], force_N, rtol=0.01)
-        steps = np.diff(tension[f"case_{case}_time_s"].values)
-        np.testing.assert_allclose(steps, 0.010, atol=1e-3)
-    assert math.isclose(float(data_of(whole, 19)["force"]), 1.4)

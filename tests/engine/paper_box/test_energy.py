@@ -8,15 +8,13 @@ feeds.
 import numpy as np
 import pytest
 
-from engine.paper_box.box import Band, level_of
 from engine.paper_box.frame import to_fixed, to_local
 from engine.paper_box.line import line_of
 from engine.paper_box.newton import solve
+from engine.paper_box.nodal import level_of, positions
 from engine.paper_box.start import at_rest
-from engine.paper_box.water import positions
 from engine.time.status import OK
-from tests.engine.budgets import Books
-from tests.engine.lines import DRY, free, line, linear
+from tests.engine.lines import DRY, energy, free, line, linear
 
 STEP_S, SWING_S = 0.005, 2.5
 
@@ -35,15 +33,14 @@ def balance(nodes, swings):
         bending_stiffness_Nm2=0.5, tension=linear(1e4),
     )  # fmt: skip
     rope = line_of(scene)
-    band = Band(rope)
-    code, Y = at_rest(scene, rope, band)
+    code, Y = at_rest(scene, rope)
     assert code == OK
     up, along, _ = positions(rope, Y)
     Y[3:6] = to_local(Y[6:10], 2.0 * np.array([along, -up, 0 * up]))
-    level, books, energies = level_of(rope, 0.0, Y), Books(scene), []
+    level, energies = level_of(rope, 0.0, Y), []
     for _ in range(round(swings * SWING_S / STEP_S)):
-        energies.append(books.energy(planar(level.Y)))
-        code, _, level = solve(rope, band, level.t + STEP_S, level, 12)
+        energies.append(energy(scene, planar(level.Y), rope.h))
+        code, _, level = solve(rope, level.t + STEP_S, level, 12)
         assert code == OK
     energies = np.array(energies)
     assert np.ptp(energies[:, 0]) > 0.99 * energies[0, 0]  # it comes to rest and swings back

@@ -1,16 +1,21 @@
-"""solver.scheme = "paper-box" from the outside: an ordinary trajectory, or a fault of the scene."""
+"""solver.scheme = "paper-box" from the outside: an ordinary trajectory, or a fault of the scene.
+
+Where the scheme fails it stops, says why, and keeps finite samples up to there.
+"""
+
+import math
 
 import numpy as np
 import pytest
 
 from engine import SceneError, Trajectory, load_scene, simulate, simulate_batch
 from engine.paper_box import run
-from engine.paper_box.frame import TO_PAPER, parameters_of, rotation, to_fixed
 from engine.paper_box.line import line_of
-from engine.paper_box.start import from_space, lifted, planar_guess
-from engine.paper_box.water import positions
+from engine.paper_box.nodal import positions
+from engine.paper_box.start import lifted, planar_guess
 
 SMALL = {"solver.scheme": "paper-box", "waves.steepness": 0.016, "tether.nodes": 7, "solver.step_s": 0.05}
+SNAP = {"solver.scheme": "paper-box", "waves.steepness": 0.13, "water.depth_m": 21.6}
 
 
 def scene_of(**overrides):
@@ -71,27 +76,47 @@ def test_nothing_twists_a_line_with_torque_free_ends():
         assert np.abs(soft.columns[name] - stiff.columns[name]).max() < 1e-8 * np.abs(soft.columns[name]).max()
 
 
-@pytest.mark.parametrize("azimuth", [0.0, 2.0])
-def test_frames_of_the_engine_and_of_the_paper(azimuth):
-    """A planar equilibrium lifted at an azimuth, and the same given in the engine's axes, is one shape."""
+def test_a_planar_equilibrium_is_turned_to_any_azimuth():
     scene = scene_of(**{"motion.dimensions": 3, "current": {"law": "uniform", "velocity_mps": [1.0, 0.0, 0.0]}})
     line = line_of(scene)
     code, flat = planar_guess(scene, line)
     assert code == 0
-    Y6 = np.zeros((7, 6))
-    a = 2 * np.arctan2(flat[9], flat[6])
-    Y6[:, 0], Y6[:, 1], Y6[:, 4], Y6[:, 5] = flat[0], -flat[1], np.pi / 2 - a, -flat[12]
-    found = lifted(Y6, azimuth)
-    up, along, across = positions(line, found)
-    flat_up, flat_along, _ = positions(line, flat)
-    assert np.allclose([up, along, across], [flat_up, flat_along * np.cos(azimuth), flat_along * np.sin(azimuth)])
-    rng = np.random.default_rng(1)
-    found[3:6] = rng.normal(0, 1, (3, 7))
-    velocity = to_fixed(found[6:10], found[3:6])
-    given = found.copy()
-    to_engine = np.argsort(TO_PAPER)
-    given[6:10] = parameters_of(rotation(found[6:10])[:, to_engine])
-    given[3:6] = velocity[to_engine]
-    back = from_space(given.T)
-    assert np.allclose(rotation(back[6:10]), rotation(found[6:10]))
-    assert np.allclose(np.delete(back, slice(6, 10), 0), np.delete(found, slice(6, 10), 0))
+    angle = 2 * np.arctan2(flat[9], flat[6])  # of the tangent from the vertical
+    planar = np.column_stack([flat[0], -flat[1], 0 * angle, 0 * angle, np.pi / 2 - angle, -flat[12]])
+    turned = lifted(planar, 2.0)
+    up, along, _ = positions(line, flat)
+    assert np.allclose(positions(line, turned), [up, along * np.cos(2.0), along * np.sin(2.0)])
+    assert np.ptp(along) > 0.1 and np.allclose(np.delete(turned, range(6, 10), 0), np.delete(flat, range(6, 10), 0))
+
+
+def test_usual_steps_end_at_the_first_slack():
+    """The other endings are among those of `tests/engine/time/test_ways_to_end.py`."""
+    scene = load_scene("tethered_buoy", {**SNAP, "tether.nodes": 21})
+    found = simulate(scene, duration_s=8.0)
+    assert found.status == "newton-failed" and "conservation" in found.message
+    end = found.statistics["end_time_s"]
+    assert 5.0 < end < 7.0
+    assert f"t = {end + 0.0125:.6g}" in found.message
+    table = found.table()
+    assert np.isfinite(table.to_numpy()).all()
+    assert len(table) == math.floor(end / 0.05 + 1e-9) + 1
+
+
+@pytest.mark.slow
+def test_turns_that_the_nodes_do_not_resolve():
+    """With the other guard away the turns reach the bound next; both numbers are in the statistics."""
+    scene = load_scene("tethered_buoy", {**SNAP, "tether.nodes": 21, "solver.step_s": 0.005})
+    found = run(scene, 8.0, most_gap=math.inf)
+    assert found.status == "turn-unresolved"
+    assert found.statistics["max_turn_rad"] > math.pi / 2 and found.statistics["closure_m"] > 0.2
+    assert f"{found.statistics['max_turn_rad']:.3g} rad" in found.message
+
+
+@pytest.mark.slow
+def test_taut_motion_leaves_the_guards_far_away():
+    scene = load_scene("tethered_buoy", {**SNAP, "waves.steepness": 0.016, "tether.nodes": 11})
+    found = simulate(scene, duration_s=5.0)
+    assert found.status == "ok" and found.message == ""
+    assert found.statistics["max_turn_rad"] < 1e-3
+    assert found.statistics["closure_m"] < 1e-6
+    assert found.statistics["euler_norm_error"] < 1e-8

@@ -55,14 +55,6 @@ def test_the_wave_number_meets_the_dispersion_relation(period, depth):
     assert GRAVITY * k * np.tanh(k * depth) == pytest.approx((2 * np.pi / period) ** 2, rel=1e-13)
 
 
-def test_limits_of_deep_and_shallow_water():
-    """Deep: k = omega^2/g, off by 2 exp(-2kH). Shallow: k = omega/sqrt(gH), off by (kH)^2/6."""
-    deep = wave_number(1.0, 200.0, GRAVITY)
-    assert deep == pytest.approx((2 * np.pi) ** 2 / GRAVITY, rel=1e-14)
-    shallow = wave_number(1000.0, 1.0, GRAVITY)
-    assert shallow == pytest.approx(2 * np.pi / 1000 / np.sqrt(GRAVITY), rel=shallow**2)
-
-
 def test_steepness_is_amplitude_times_wave_number():
     steep, high = scene(), scene(amplitude_m=A)
     p = parameters_of(steep)[0]

@@ -44,17 +44,6 @@ def link(Y, h, below, above):
     return Y[0, 10] * h.sum() / (2 * np.pi), writhe(line)
 
 
-def test_the_writhe_of_a_helix_between_two_lines():
-    """Away from its ends a helix of angle theta writhes by 1 - cos theta a turn (Fuller 1971)."""
-    theta, turns = 0.7, np.array([4.0, 8.0])
-    found = []
-    for count in turns:
-        s = np.linspace(0, 2 * np.pi * count, int(80 * count))
-        x = np.stack([s / np.tan(theta), np.cos(s), np.sin(s)], 1)
-        found.append(writhe(np.vstack([x[0] - [FAR, 0, 0], x, x[-1] + [FAR, 0, 0]])))
-    assert np.diff(found) / 4 == pytest.approx(1 - np.cos(theta), rel=2e-3)
-
-
 @pytest.mark.parametrize("m", [0.9, 0.6, 0.3])
 def test_twist_and_writhe_are_the_turn_of_the_clamps(m):
     """The localised buckle from a shallow helix (m = 0.9) to a closed loop (0.3), where the writhe is 0.8 turns."""
