@@ -11,7 +11,7 @@ import pytest
 
 from reports import build
 from reports.figures.run_sheet import Glance, run_sheet
-from reports.parts.content import Explorer, ExplorerColumn, Figure, Picture, first_sentence, link, plain, spans, sub
+from reports.parts.content import Explorer, ExplorerColumn, Figure, Picture, first_sentence
 from reports.parts.explorer_data import explorer_json
 from reports.parts.symbols import OMEGA_I, OMEGA_R
 
@@ -92,11 +92,6 @@ def test_explorer_data_reads_back_to_a_hundred_thousandth_of_the_range():
     assert values == pytest.approx(np.concatenate(points), abs=1e-5 * (read["high"] - read["low"]))
     assert [column["points"] for column in read["columns"]] == [5, 0, 40]
     assert read["lower"][0]["values"] == [0.1, None, 0.3] and read["lower"][0]["errors"] == [None] * 3
-
-
-def test_a_link_is_a_mark_of_its_own_and_plain_text_without_it():
-    text = "see " + link("kA = 0.13", "run-7") + " of T" + sub("i")
-    assert spans(text)[1] == ("#run-7", "kA = 0.13") and plain(text) == "see kA = 0.13 of Ti"
 
 
 @pytest.mark.parametrize(
