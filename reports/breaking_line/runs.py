@@ -83,14 +83,4 @@ def find(lines: tuple[Line, ...], case: str) -> Line | None:
 
 
 def _read_line(folder: Folder, row: dict) -> Line:
-    from engine.trajectory import Trajectory, TrajectoryError
-
-    if row["kind"] != "case":
-        return Line(row, None, "")
-    path = folder.trajectory_path(row["run_key"])
-    if not path.exists():
-        return Line(row, None, f"its file {path.name} is missing" if row["status"] == "ok" else "")
-    try:
-        return Line(row, Trajectory.load(path), "")
-    except TrajectoryError as error:
-        return Line(row, None, f"its file {path.name} cannot be read ({str(error).removeprefix(f'{path}: ')})")
+    return Line(row, *(folder.trajectory(row) if row["kind"] == "case" else (None, "")))

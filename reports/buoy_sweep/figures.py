@@ -16,7 +16,7 @@ from ..figures.time_series import time_series
 from ..parts.content import Figure, Item, Notice
 from ..parts.style import BLUE, SKY, VERMILION
 from ..parts.symbols import OMEGA_I, OMEGA_R, OMEGA_THETA, T_I, TAU_0
-from ..parts.wording import count, decimals, listed, number, percent
+from ..parts.wording import count, listed, number
 from ..sweep.quantities import series
 from .runs import PAPER_STEEPNESS, Run, Sweep
 
@@ -59,23 +59,13 @@ def orbit_figure(sweep: Sweep, drawn: Sequence[Run], missing: Sequence[Run]) -> 
     points = [run.section[:, 0] for run in drawn]
     gone = [run.steepness for run in missing]
     picture = orbit_diagram_over(values, points, (KA, "strobed $r$ (m)"), below, gone)
-    spread = max(drawn, key=lambda run: np.ptp(run.section[:, 0]))
-    seen = (
-        f"{count(len(drawn), 'column')} of up to {max(map(len, points))} points; the strobed radius spreads most at kA "
-        f"= {number(spread.steepness)}, over {decimals(float(np.ptp(spread.section[:, 0])), 2)} m"
-    )
-    if np.isfinite(slack).any():
-        seen += f", and the slack fraction reaches {percent(float(np.nanmax(slack)))}"
     caption = (
         f"Radius at t = k{T_I}, k ≥ {sweep.transient}, over wave steepness; the darker, the more points fall on one "
         "place. Below: share of the time without tension"
         + (", and the largest exponents with one standard error" if sweep.judged else "")
-        + f". Seen: {seen}."
-        + (f" Crosses: {count(len(missing), 'run')} without points." if missing else "")
-        + " From `radius_m` of every trajectory, `slack_fraction` of `table.csv`."
+        + (f". Crosses: {count(len(missing), 'run')} without points." if missing else ".")
     )
-    alt = f"Orbit diagram of strobed radius over wave steepness, slack fraction below: {seen}."
-    return Figure(picture, caption, alt)
+    return Figure(picture, caption, "Orbit diagram of the strobed radius over wave steepness, slack fraction below.")
 
 
 def run_figures(sweep: Sweep, run: Run) -> list[Item]:
@@ -93,19 +83,13 @@ def _histories(run: Run, trajectory) -> Figure:
         History(r"$\theta$ (rad)", columns["angle_rad"]),
     ]
     tension, radius, angle, _ = _PAPER[_nearer(run.steepness)]
-    seen = (
-        f"tension from {number(1e3 * np.nanmin(low))} to {number(1e3 * np.nanmax(high))} N, r from "
-        f"{_span(columns['radius_m'])} m, θ from {_span(columns['angle_rad'])} rad"
-    )
-    if not math.isnan(share := run["slack_fraction"]):
-        seen += f"; slack for {percent(share)} of the time after the transient"
+    at = f"kA = {number(run.steepness)}"
     caption = (
         f"Top tension (fig. {tension}), radius (fig. {radius}) and angle (fig. {angle} of the paper{_apart(run)}) "
-        f"against t/{T_I} at kA = {number(run.steepness)}: {seen}. From `trajectories/{run['run_key'][:12]}….nc`: "
-        "`time_s`, `tension_top_N`, `radius_m`, `angle_rad`; the shade behind the tension spans `tension_top_low_N` "
-        "to `tension_top_high_N`, its extremes between samples."
+        f"against t/{T_I} at {at}. From `trajectories/{run['run_key'][:12]}….nc`; the shade behind the tension spans "
+        "its extremes between samples."
     )
-    alt = f"Three stacked curves over {number(run.periods_done)} wave periods at kA {number(run.steepness)}: {seen}."
+    alt = f"Tension, radius and angle over {number(run.periods_done)} wave periods at {at}, one below the other."
     return Figure(time_series(columns["time_s"] / trajectory.scene.waves.period_s, panels), caption, alt)
 
 
@@ -152,17 +136,11 @@ def section_figure(sweep: Sweep) -> Figure | None:
     if not shown:
         return None
     picture = section([(f"kA = {number(run.steepness)}", run.section) for run in shown])
-    words = []
-    for run in shown:
-        r, rate = run.section.T
-        visits = f"{count(len(run.visited), 'point')} visited in turn, " if run.visited else ""
-        words.append(f"at kA = {number(run.steepness)} {visits}r from {_span(r)} m, r' from {_span(rate)} m/s")
-    seen = "; ".join(words)
     caption = (
-        f"Poincaré sections r, r' at t = k{T_I}, k ≥ {sweep.transient} (fig. 19a of the paper, at kA = 0.13): {seen}. "
-        "From `radius_m` and `radius_rate_mps`. No axis spans less than 0.1 m or 0.1 m/s."
+        f"Poincaré sections r, r' at t = k{T_I}, k ≥ {sweep.transient} (fig. 19a of the paper, at kA = 0.13). No axis "
+        "spans less than 0.1 m or 0.1 m/s."
     )
-    return Figure(picture, caption, f"Points of the strobed motion in the plane of radius and radial speed: {seen}.")
+    return Figure(picture, caption, "Points of the strobed motion in the plane of radius and radial speed.")
 
 
 def _nearer(steepness: float) -> float:
@@ -174,7 +152,3 @@ def _apart(run: Run) -> str:
     """Where the paper's figure is for another steepness, which one."""
     paper = _nearer(run.steepness)
     return "" if abs(run.steepness - paper) <= 0.02 * paper else f", there at kA = {number(paper)}"
-
-
-def _span(values: np.ndarray) -> str:
-    return f"{decimals(float(np.nanmin(values)), 3)} to {decimals(float(np.nanmax(values)), 3)}"

@@ -6,11 +6,11 @@ from pathlib import Path
 
 from analysis.verdicts import LEAST_POINTS
 
-from ..parts.content import Bullets, Heading, Item, Notice, Report, Text
+from ..parts.content import Heading, Item, Notice, Report, Text
 from ..parts.provenance import provenance_items
 from ..parts.symbols import T_I
 from ..parts.wording import count, decimals, listed, number
-from .answer import short_answer
+from .answer import answer_items
 from .close_up import close_up_items
 from .equations import equation_items
 from .figures import orbit_figure, run_figures, section_figure
@@ -58,7 +58,7 @@ def _question(sweep: Sweep) -> list[Item]:
             "= 0.016 and kA = 0.13."
         ),
         Heading("Short answer"),
-        Bullets(short_answer(sweep)),
+        *answer_items(sweep),
     ]
     if sweep.judged:
         return items

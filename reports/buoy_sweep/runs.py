@@ -148,17 +148,9 @@ def read_sweep(directory: str | Path) -> Sweep:
 
 
 def _read_run(folder: Folder, row: dict, anchor: str, transient: int, tolerance: float) -> Run:
-    from engine.trajectory import Trajectory, TrajectoryError
-
-    path = folder.trajectory_path(row["run_key"])
-    if not path.exists():
-        # A run that died may well have left nothing; its status says so already.
-        return Run(row, anchor, fault=f"its file {path.name} is missing" if row["status"] == "ok" else "")
-    try:
-        trajectory = Trajectory.load(path)
-    except TrajectoryError as error:
-        reason = str(error).removeprefix(f"{path}: ")  # the report must not depend on where its folder lies
-        return Run(row, anchor, fault=f"its file {path.name} cannot be read ({reason})")
+    trajectory, fault = folder.trajectory(row)
+    if trajectory is None:
+        return Run(row, anchor, fault=fault)
     time_s = trajectory.columns["time_s"]
     if len(time_s) < 2:
         return Run(row, anchor)

@@ -7,7 +7,6 @@ import math
 from ..parts.content import Notice
 from ..parts.symbols import T_I, TAU_0
 from ..parts.wording import count, decimals, listed, number, percent
-from .answer import releases
 from .figures import PAPER_WINDOW
 from .runs import Run, Sweep
 
@@ -46,32 +45,28 @@ def _failed(sweep: Sweep) -> list[str]:
 
 def _turns(sweep: Sweep) -> list[str]:
     looped = [run for run in sweep.runs if run["loop_releases"] > 0]
-    unresolved = [run for run in sweep.runs if run["status"] == "turn-unresolved"]
+    planar = [run for run in looped if not run.in_space]
     coarse = [run for run in sweep.runs if run.in_space and run["max_turn_rad"] > _RESOLVED_RAD]
-    lines = []
-    if looped:
-        most = max(looped, key=lambda run: run["loop_releases"])
-        total = count(int(sum(run["loop_releases"] for run in looped)), "loop release")
-        lines = [
-            f"{total} in {len(looped)} of {count(len(sweep.runs), 'run')}: {sweep.at(looped)}; most at {_at([most])}: "
-            f"{releases(most)}. All of them are in the table of runs.",
-            "A loop that a plane cannot open was undone by turning everything above it by 2π (columns `loop_releases`, "
-            "`max_turn_rad`). A rope free to leave the plane does not need it.",
-        ]
-    if unresolved:
-        lines.append(f"Ended because a turn could not be resolved: {_at(unresolved)}.")
-    if any(not run.in_space for run in looped):
-        lines.append(
-            "What the planar run is good enough for is said in the section “Out of the plane”; a sweep with "
-            "`--dimensions auto` runs these values of kA in three dimensions."
-        )
-    if coarse:
-        lines.append(
-            "In three dimensions an element turns by more than π/2, at most by "
-            f"{decimals(max(run['max_turn_rad'] for run in coarse), 2)} rad: {_at(coarse)}. The rope's loops are not "
-            "resolved there; `tether.nodes` makes the elements shorter."
-        )
-    return lines
+    total = count(int(sum(run["loop_releases"] for run in looped)), "loop release")
+    kinds = (
+        (
+            looped,
+            f"{total}: a loop that a plane cannot open was undone by turning everything above it by 2π (columns "
+            "`loop_releases`, `max_turn_rad`). A rope free to leave the plane does not need it.",
+        ),
+        ([run for run in sweep.runs if run["status"] == "turn-unresolved"], "ended because a turn was not resolved."),
+        (
+            planar,
+            "for what a planar run is good enough is said in the section “Out of the plane”; a sweep with "
+            "`--dimensions auto` runs these values of kA in three dimensions.",
+        ),
+        (
+            coarse,
+            "in three dimensions an element turns by more than π/2: the rope's loops are not resolved there; "
+            "`tether.nodes` makes the elements shorter.",
+        ),
+    )
+    return [f"{sweep.at(runs)}: {said}" for runs, said in kinds if runs]
 
 
 def _out_of_water(sweep: Sweep) -> list[str]:
@@ -84,17 +79,13 @@ def _out_of_water(sweep: Sweep) -> list[str]:
         if (above := top_m - scene.water.depth_m) > 0:
             lines.append(f"Already at rest the top of the buoy is {decimals(above, 2)} m above the still-water line.")
     if high:
-        top = max(high, key=lambda run: run.emergence.above_still_m)
-        lines.append(
-            f"The centre of the buoy rises above the still-water line in {count(len(high), 'run')}, by "
-            f"{decimals(top.emergence.above_still_m, 2)} m at most ({_at([top])})."
-        )
+        most_m = decimals(max(run.emergence.above_still_m for run in high), 2)
+        lines.append(f"{sweep.at(high)}: its centre rises above the still-water line, by {most_m} m at most.")
     if out:
-        top = max(out, key=lambda run: run.emergence.out_share)
+        share, above_m = (max(getattr(run.emergence, one) for run in out) for one in ("out_share", "above_wave_m"))
         lines.append(
-            f"The whole sphere is above the linear wave at {sweep.at(out)}, at most "
-            f"{percent(top.emergence.out_share)} of the time ({_at([top])}), its centre up to "
-            f"{decimals(max(run.emergence.above_wave_m for run in out), 2)} m above the wave."
+            f"{sweep.at(out)}: the whole sphere is above the linear wave, at most {percent(share)} of the time, its "
+            f"centre up to {decimals(above_m, 2)} m above the wave."
         )
     return [*lines, loads_used(scene)] if lines else []
 

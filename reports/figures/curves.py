@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
+from matplotlib.figure import Figure
 
 from ..parts.content import Picture
 from ..parts.style import BLUE, GREEN, ORANGE, PURPLE, SKY, SOFT, VERMILION, picture_of, sheet
@@ -18,7 +19,7 @@ class Curve:
     """One curve: x and y (n,), a name for the legend, and how it looks.
 
     line, mark: matplotlib's style of the line and of the marks, "" for none. error: standard errors (n,) drawn as bars.
-    colour: "" takes the next of COLOURS. filled: whether marks are.
+    colour: "" takes the next of COLOURS. filled: whether marks are. band: x, low and high (m,) of a shade behind it.
     """
 
     x: np.ndarray
@@ -32,6 +33,7 @@ class Curve:
     width: float = 0.9
     filled: bool = True
     alpha: float = 1.0
+    band: tuple[np.ndarray, np.ndarray, np.ndarray] | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -69,6 +71,8 @@ def draw(axes, panel: Panel) -> None:
         }
         # marks of many points: an edge would make each of them larger
         look |= {"markeredgewidth": 0.0} if curve.filled and curve.mark in ("o", "s", "^", "D", ".") else {}
+        if curve.band is not None:
+            axes.fill_between(*curve.band, color=SKY, alpha=0.5, linewidth=0)
         if curve.error is None:
             axes.plot(curve.x, curve.y, **look)
         else:
@@ -87,15 +91,17 @@ def curves(
     legend: str = "",
     share: str = "",
     kind: str = "svg",
+    widths: Sequence[float] | None = None,
 ) -> Picture:
     """Rows of panels as one picture.
 
     legend: place inside every panel that has named curves, in matplotlib's words; "below" one for all panels, under
-    them; "" none. share: "x" panels of a column have one x axis, "y" those of a row one y axis, "xy" both.
+    them, "right" beside them; "" none. share: "x" panels of a column have one x axis, "y" those of a row one y axis,
+    "xy" both. widths: of the columns, against each other.
     """
     with sheet(height_in) as figure:
         shared = {"sharex": "col" if "x" in share else "none", "sharey": "row" if "y" in share else "none"}
-        grid = figure.subplots(len(rows), max(map(len, rows)), squeeze=False, **shared)
+        grid = figure.subplots(len(rows), max(map(len, rows)), squeeze=False, width_ratios=widths, **shared)
         handles: dict[str, object] = {}
         for places, panels in zip(grid, rows, strict=True):
             for axes in places[len(panels) :]:
@@ -104,9 +110,23 @@ def curves(
                 draw(axes, panel)
                 found = axes.get_legend_handles_labels()
                 handles |= {name: handle for handle, name in zip(*found, strict=True) if name not in handles}
-                if found[1] and legend not in ("", "below"):
+                if found[1] and legend not in ("", "below", "right"):
                     axes.legend(loc=legend)
         if legend == "below" and handles:
             figure.legend(handles.values(), handles, loc="outside lower center", ncols=min(len(handles), 4))
+        if legend == "right":
+            figure.legend(handles.values(), handles, loc="outside right center")
         figure.align_ylabels()
         return picture_of(figure, kind)
+
+
+def cells(figure: Figure, panels: Sequence, wide: int, labels: tuple[str, str], **shared) -> Iterator[tuple]:
+    """(axes, panel) of a grid on an open sheet, `wide` a row: the labels of x and y at its edge, the rest hidden."""
+    grid = figure.subplots(-(-len(panels) // wide), min(len(panels), wide), squeeze=False, **shared)
+    for axes in grid.flat[len(panels) :]:
+        axes.set_visible(False)
+    for axes in grid[-1]:
+        axes.set_xlabel(labels[0])
+    for axes in grid[:, 0]:
+        axes.set_ylabel(labels[1])
+    return zip(grid.flat, panels, strict=False)

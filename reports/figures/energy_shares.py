@@ -8,6 +8,7 @@ import numpy as np
 
 from ..parts.content import Picture
 from ..parts.style import BLUE, GREEN, ORANGE, SKY, VERMILION, picture_of, sheet
+from .curves import cells
 
 KINDS = ("strain", "kinetic", "taken out by the end force", "dissipated", "bending")
 _COLOURS = (SKY, BLUE, ORANGE, VERMILION, GREEN)
@@ -25,19 +26,11 @@ class EnergyPanel:
 def energy_shares(panels: list[EnergyPanel]) -> Picture:
     """Four panels a row."""
     rows = (len(panels) + 3) // 4
+    labels = ("$t$ (ms)", "share of the stored energy (%)")
     with sheet(0.8 + 1.75 * rows) as figure:
-        grid = figure.subplots(rows, min(len(panels), 4), squeeze=False, sharey=True)
-        for axes, panel in zip(grid.flat, panels, strict=False):
+        for axes, panel in cells(figure, panels, 4, labels, sharey=True):
             shares = 100 * np.maximum(panel.shares, 0.0)
             shown = axes.stackplot(1e3 * panel.time_s, shares, colors=_COLOURS, linewidth=0.6, edgecolor="white")
-            axes.set_title(panel.title)
-            axes.set_xlim(0.0, 1e3 * panel.time_s[-1])
-            axes.set_ylim(0.0, 100.0)
-        for axes in grid.flat[len(panels) :]:
-            axes.set_visible(False)
-        for axes in grid[-1]:
-            axes.set_xlabel("$t$ (ms)")
-        for axes in grid[:, 0]:
-            axes.set_ylabel("share of the stored energy (%)")
+            axes.set(title=panel.title, xlim=(0.0, 1e3 * panel.time_s[-1]), ylim=(0.0, 100.0))
         figure.legend(shown, KINDS, loc="outside upper left", ncols=len(KINDS))
         return picture_of(figure)

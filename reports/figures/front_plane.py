@@ -8,6 +8,7 @@ import numpy as np
 
 from ..parts.content import Picture
 from ..parts.style import INK, VERMILION, picture_of, sheet
+from .curves import cells
 
 _COLUMNS = 300
 
@@ -31,8 +32,7 @@ def front_plane(panels: list[FrontPanel]) -> Picture:
     shades = LinearSegmentedColormap.from_list("tension", ("#d9b38c", "#ffffff", "#9ecae1", "#2171b5"))
     rows = (len(panels) + 3) // 4
     with sheet(0.7 + 2.35 * rows) as figure:
-        grid = figure.subplots(rows, min(len(panels), 4), squeeze=False, sharex=True)
-        for axes, panel in zip(grid.flat, panels, strict=False):
+        for axes, panel in cells(figure, panels, 4, ("$s$ (m)", "$t$ (ms)"), sharex=True):
             even = np.linspace(panel.s_m[0], panel.s_m[-1], _COLUMNS)
             image = np.array([np.interp(even, panel.s_m, row) for row in panel.share])
             extent = (panel.s_m[0], panel.s_m[-1], 1e3 * panel.time_s[0], 1e3 * panel.time_s[-1])
@@ -44,15 +44,8 @@ def front_plane(panels: list[FrontPanel]) -> Picture:
                 axes.plot(places, 1e3 * times, color=INK, linewidth=0.6)
             if panel.shock is not None:
                 axes.plot(panel.shock[1], 1e3 * panel.shock[0], color=VERMILION, linewidth=1.6, linestyle=(0, (3, 1)))
-            axes.set_title(panel.title)
             axes.grid(False)
-            axes.set_xlim(panel.s_m[0], panel.s_m[-1])
-            axes.set_ylim(0.0, 1e3 * panel.time_s[-1])
-        for axes in grid.flat[len(panels) :]:
-            axes.set_visible(False)
-        for axes in grid[-1]:
-            axes.set_xlabel("$s$ (m)")
-        for axes in grid[:, 0]:
-            axes.set_ylabel("$t$ (ms)")
-        figure.colorbar(shown, ax=grid, label="$T/F$ (–)", shrink=0.6, aspect=30, pad=0.015)
+            limits = (panel.s_m[0], panel.s_m[-1])
+            axes.set(title=panel.title, xlim=limits, ylim=(0.0, 1e3 * panel.time_s[-1]))
+        figure.colorbar(shown, ax=figure.axes, label="$T/F$ (–)", shrink=0.6, aspect=30, pad=0.015)
         return picture_of(figure, "png")

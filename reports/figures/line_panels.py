@@ -8,6 +8,7 @@ import numpy as np
 
 from ..parts.content import Picture
 from ..parts.style import BLUE, SOFT, VERMILION, picture_of, sheet
+from .curves import cells
 
 _WIDTH_IN = 5.6  # of all panels of a row
 
@@ -60,24 +61,15 @@ def fill_line_panels(
     # without its yellow end, which is lost on white paper
     colours = LinearSegmentedColormap.from_list("time", colormaps["viridis"](np.linspace(0.0, 0.85, 32)))
     scale = ScalarMappable(Normalize(0.0, 1e3 * late), colours)
-    rows = (len(panels) + 1) // 2
-    grid = figure.subplots(rows, 2, squeeze=False)
-    for axes, panel, limits in zip(grid.flat, panels, y_limits, strict=False):
+    for (axes, panel), limits in zip(cells(figure, panels, 2, (x_label, y_label)), y_limits, strict=False):
         x = np.broadcast_to(panel.x, panel.y.shape)
         for row, time_s in enumerate(panel.time_s):
             axes.plot(x[row], panel.y[row], color=scale.to_rgba(1e3 * time_s), linewidth=0.8)
         if centre:
             axes.axvline(0.0, color=SOFT, linewidth=0.7, linestyle=(0, (2, 2)))
-        axes.set_title(panel.title)
-        axes.set_ylim(*limits)
+        axes.set(title=panel.title, ylim=limits)
         axes.margins(x=0.02)
-    for axes in grid.flat[len(panels) :]:
-        axes.set_visible(False)
-    for axes in grid[-1]:
-        axes.set_xlabel(x_label)
-    for axes in grid[:, 0]:
-        axes.set_ylabel(y_label)
-    figure.colorbar(scale, ax=grid, label="$t$ (ms)", shrink=0.6, aspect=30, pad=0.015)
+    figure.colorbar(scale, ax=figure.axes, label="$t$ (ms)", shrink=0.6, aspect=30, pad=0.015)
 
 
 def folds(panels: list[LinePanel], x_limits: tuple[float, float], z_limits: tuple[float, float]) -> Picture:
@@ -86,18 +78,8 @@ def folds(panels: list[LinePanel], x_limits: tuple[float, float], z_limits: tupl
     rows = (len(panels) + 1) // 2
     height = _WIDTH_IN / wide * (z_limits[1] - z_limits[0]) / (x_limits[1] - x_limits[0])
     with sheet(0.4 + rows * (0.3 + height)) as figure:
-        grid = figure.subplots(rows, wide, squeeze=False, sharex=True, sharey=True)
-        for axes, panel in zip(grid.flat, panels, strict=False):
+        for axes, panel in cells(figure, panels, 2, ("$x$ (m)", "$z$ (m)"), sharex=True, sharey=True):
             axes.plot(panel.x, panel.y, color=BLUE, linewidth=0.7)
             axes.plot([0.0], [0.0], "o", color=VERMILION, markersize=3)
-            axes.set_title(panel.title)
-            axes.set_aspect("equal")
-            axes.set_xlim(*x_limits)
-            axes.set_ylim(*z_limits)
-        for axes in grid.flat[len(panels) :]:
-            axes.set_visible(False)
-        for axes in grid[-1]:
-            axes.set_xlabel("$x$ (m)")
-        for axes in grid[:, 0]:
-            axes.set_ylabel("$z$ (m)")
+            axes.set(title=panel.title, aspect="equal", xlim=x_limits, ylim=z_limits)
         return picture_of(figure)

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
 
 import numpy as np
 
 from ..parts.content import Picture
-from ..parts.style import INK, SKY, picture_of, sheet
+from ..parts.style import INK
+from .curves import Curve, curves
+from .curves import Panel as Axes
 
 _BINS = 900  # columns of the whole-record view: about two a printed millimetre
 
@@ -30,42 +32,27 @@ def time_series(periods: np.ndarray, panels: list[Panel], detail_periods: float 
     Args: `periods` t/T_i (n,), increasing; `panels` of n values each; `detail_periods` the length of the right column.
     A record no longer than 1.5 times the detail is drawn once, in full width.
     """
-    last = float(periods[-1]) if len(periods) else 0.0
-    has_detail = last > 1.5 * detail_periods
-    with sheet(0.85 + 1.0 * len(panels)) as figure:
-        grid = figure.subplots(
-            len(panels),
-            2 if has_detail else 1,
-            sharex="col",
-            sharey="row",
-            squeeze=False,
-            gridspec_kw={"width_ratios": [1.9, 1.0] if has_detail else [1.0]},
-        )
-        for row, panel in zip(grid, panels, strict=True):
-            _draw(row[0], periods, panel, slice(None))
-            row[0].set_ylabel(panel.label)
-            if has_detail:
-                _draw(row[1], periods, panel, periods >= last - detail_periods)
-        grid[0, 0].set_title("whole record")
-        grid[-1, 0].set_xlabel(r"$t/T_i$ (wave periods)")
-        if has_detail:
-            grid[0, 1].set_title(f"last {detail_periods:g} periods")
-            grid[-1, 1].set_xlabel(r"$t/T_i$ (wave periods)")
-        for axes in grid[-1]:
-            axes.margins(x=0.01)
-            axes.locator_params(axis="x", integer=True, nbins=6)
-        figure.align_ylabels(grid[:, 0])
-        return picture_of(figure)
+    last, shown = float(periods[-1]) if len(periods) else 0.0, [("whole record", slice(None))]
+    if last > 1.5 * detail_periods:
+        shown.append((f"last {detail_periods:g} periods", periods >= last - detail_periods))
+    rows = []
+    for panel in panels:
+        texts = "" if panel is not panels[-1] else r"$t/T_i$ (wave periods)", panel.label
+        row = [_drawn(periods, panel, part, texts if k == 0 else (texts[0], "")) for k, (_, part) in enumerate(shown)]
+        rows.append(row)
+    rows[0] = [replace(one, title=title) for one, (title, _) in zip(rows[0], shown, strict=True)]
+    return curves(rows, 0.85 + 1.0 * len(panels), share="xy", widths=(1.9, 1.0)[: len(shown)])
 
 
-def _draw(axes, periods: np.ndarray, panel: Panel, part) -> None:
-    t = periods[part]
+def _drawn(periods: np.ndarray, panel: Panel, part, labels: tuple[str, str]) -> Axes:
+    t, band = periods[part], None
     if panel.low is not None and panel.high is not None:
         low, high = panel.low[part], panel.high[part]
         index = _kept(low, high)
-        x, low, high = t[index], low[index], high[index]
-        axes.fill_between(x, np.minimum(low, high), np.maximum(low, high), color=SKY, alpha=0.5, linewidth=0)
-    axes.plot(*envelope(t, panel.values[part]), color=panel.colour, linewidth=0.7)
+        low, high = low[index], high[index]
+        band = (t[index], np.minimum(low, high), np.maximum(low, high))
+    curve = Curve(*envelope(t, panel.values[part]), colour=panel.colour, width=0.7, band=band)
+    return Axes([curve], *labels, settings={"xmargin": 0.01}, ticks=4)
 
 
 def envelope(x: np.ndarray, y: np.ndarray, bins: int = _BINS) -> tuple[np.ndarray, np.ndarray]:

@@ -7,7 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..parts.content import Picture
-from ..parts.style import BLUE, GREEN, INK, ORANGE, PURPLE, SKY, SOFT, VERMILION, picture_of, sheet
+from ..parts.style import BLUE, GREEN, INK, ORANGE, PURPLE, SKY, SOFT, VERMILION
+from . import curves
 
 _LOOKS = {  # method: colour, mark
     "esdirk43": (BLUE, "o"),
@@ -47,24 +48,17 @@ def cheapest(time: np.ndarray, error: np.ndarray) -> np.ndarray:
 
 
 def work_precision(
-    curves: list[Curve], time_label: str, error_label: str, marked: tuple[float, float] | None
+    found: list[Curve], time_label: str, error_label: str, marked: tuple[float, float] | None
 ) -> Picture:
     """The diagram. marked: (time, error) of the shipped setting, ringed; None where it is not among the marks."""
-    with sheet(3.7) as figure:
-        axes = figure.subplots()
-        for curve in curves:
-            colour, mark = _LOOKS.get(curve.name.partition(",")[0], _OTHER)
-            dashed = "--" if curve.name.endswith(DASHED) else "-"
-            axes.plot(curve.time, curve.error, mark, color=colour, markersize=2.6, alpha=0.45, linestyle="none")
-            front = cheapest(curve.time, curve.error)
-            width = 1.6 if curve.peer else 1.0
-            axes.plot(curve.time[front], curve.error[front], dashed, marker=mark, color=colour, markersize=4.0,
-                      linewidth=width, label=curve.name)  # fmt: skip
-        if marked is not None:
-            axes.plot(*marked, "o", color=INK, fillstyle="none", markersize=9, label="shipped setting")
-        axes.set_xscale("log")
-        axes.set_yscale("log")
-        axes.set_xlabel(time_label)
-        axes.set_ylabel(error_label)
-        figure.legend(loc="outside right center")
-        return picture_of(figure)
+    lines = []
+    for one in found:
+        colour, mark = _LOOKS.get(one.name.partition(",")[0], _OTHER)
+        dash = "--" if one.name.endswith(DASHED) else "-"
+        lines.append(curves.Curve(one.time, one.error, "", "", mark, colour, size=2.6, alpha=0.45))
+        time, error = one.time[front := cheapest(one.time, one.error)], one.error[front]
+        lines.append(curves.Curve(time, error, one.name, dash, mark, colour, width=1.6 if one.peer else 1.0))
+    if marked is not None:
+        ring = (np.array([place]) for place in marked)
+        lines.append(curves.Curve(*ring, "shipped setting", "", "o", INK, size=9.0, filled=False))
+    return curves.curves([[curves.Panel(lines, time_label, error_label, log="xy")]], 3.7, "right")

@@ -111,35 +111,8 @@ def _pair(planar: Run, spatial: Run, flat, space, transient: int) -> Pair:
     return Pair(planar, spatial, sections, distance.across, distance.within, parted, float(off[:end].max()))
 
 
-def comparison_words(pairs: list[Pair]) -> str:
-    """The answer in a sentence, "" without pairs."""
-    if not pairs:
-        return ""
-    good = [pair for pair in pairs if not pair.lacking]
-    releases = listed(number(pair.planar["loop_releases"]) for pair in pairs)
-    what = (
-        f"Planar runs with {releases} loop releases at H = {listed(pair.depth for pair in pairs)} m against runs in "
-        "three dimensions"
-    )
-    untold = list(dict.fromkeys(name for pair in pairs for name in pair.untold))
-    off = max(pair.range_off for pair in pairs)
-    if len(good) == len(pairs) and untold:
-        return (
-            f"{what}: the ends of the ranges of r agree to {percent(off)} of the range. The records are too short to "
-            f"compare {listed(untold)}, so whether the planar run is good enough for the buoy is not told."
-        )
-    if len(good) == len(pairs):
-        return (
-            f"{what}: for the buoy the planar run is good enough there. Range of r (to {percent(off)} of itself), "
-            "section, exponent and regime agree within what one record leaves open; the planar run is no substitute "
-            "for the rope's own shape in the loops, nor, once the runs have parted, for the buoy's path in time."
-        )
-    lines = [f"H = {pair.depth} m differs in {listed(pair.lacking)}" for pair in pairs if pair.lacking]
-    return f"{what}: {'; '.join(lines)}; the planar run is good enough for the buoy in {len(good)} of {len(pairs)}."
-
-
 def comparison_items(study: Study, pairs: list[Pair]) -> list[Item]:
-    """The section: runs, what they are compared in, sections over each other, what follows."""
+    """The section: runs, what they are compared in, sections over each other."""
     heading = Heading("Planar with loop release, or three dimensions?")
     if not pairs:
         return [heading, Text("No planar run released loops and ended as asked, as its counterpart did.")]
@@ -161,7 +134,6 @@ def comparison_items(study: Study, pairs: list[Pair]) -> list[Item]:
         study.table(names, runs, "Planar runs (D = 2) and their counterparts (D = 3)."),
         _compared(pairs),
         _figure(pairs, study.transient),
-        Text(comparison_words(pairs)),
     ]
 
 

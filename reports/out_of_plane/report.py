@@ -5,12 +5,12 @@ from __future__ import annotations
 from pathlib import Path
 
 from ..buoy_sweep.repeats import accuracy_items
-from ..parts.content import Bullets, Heading, Item, Notice, Report, Text
+from ..parts.content import Heading, Item, Notice, Report, Text
 from ..parts.folder import Folder, FolderError, read_folder
 from ..parts.provenance import provenance_items, timing_table
 from ..parts.scene_table import scene_table
 from ..parts.wording import count, decimals, listed, number
-from .answer import short_answer
+from .answer import answer_items
 from .comparison import comparison_items, read_pairs
 from .runs import NEEDED, VARIED, Run, Study, read_study
 from .sections import growth_items, history_items, push_items
@@ -42,7 +42,7 @@ def report(directory: str | Path) -> Report:
             "becomes comparable with the motion in the plane. Here buoy and rope are looked at apart."
         ),
         Heading("Short answer"),
-        Bullets(short_answer(study, pairs)),
+        *answer_items(study, pairs),
         *history_items(study),
         *growth_items(study),
         *push_items(study),

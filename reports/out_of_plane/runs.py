@@ -73,12 +73,7 @@ class Study:
 
     def trajectory(self, run: Run):
         """The trajectory of a run, None where it is missing or cannot be read."""
-        from engine.trajectory import Trajectory, TrajectoryError
-
-        try:
-            return Trajectory.load(self.folder.trajectory_path(run["run_key"]))
-        except TrajectoryError:
-            return None
+        return self.folder.trajectory(run.row)[0]
 
     def table(self, names: Sequence[Name], runs: Sequence[Run], caption: str) -> Table:
         """A table of runs in the words of the dictionary."""

@@ -25,17 +25,11 @@ def history_items(study: Study) -> list[Item]:
         return [heading, Text("Neither of the two runs of figure 20 ended as asked, so it cannot be drawn.")]
     labels = {"buoy": "buoy, $|y|$ (m)", "rope": "rope, largest $|y|$ (m)"}
     panels = [(labels[body], [_history(run, trajectory, body) for run, trajectory in loaded]) for body in BODIES]
-    seen = "; ".join(
-        f"at kA = {number(run['steepness'])} the buoy stays within {metres(run['buoy_lateral_max_m'])} and the rope "
-        f"within {metres(run['rope_lateral_max_m'])} of the plane, against {number(run['inplane_m'], 3)} m in it"
-        for run, _ in loaded
-    )
     first = loaded[0][0]
     caption = (
         f"Lateral motion of the buoy (fig. 20 of the paper) and of the rope after a push of "
         f"{speed(first['seed_mps'])} across the waves, H = {number(first['depth_m'])} m. Thick: the largest value in "
-        f"each wave period; thin: every sample; dotted: half the range of the buoy in the plane. Seen: {seen}. From "
-        "`y_m` and `offplane_m`."
+        f"each wave period; thin: every sample; dotted: half the range of the buoy in the plane."
     )
     return [
         heading,
@@ -43,7 +37,7 @@ def history_items(study: Study) -> list[Item]:
             "At t = 0 the buoy gets a small velocity across the waves; everything else is as in a planar run. The "
             "paper shows the buoy alone."
         ),
-        Figure(lateral_histories(panels), caption, f"Lateral motion on a logarithmic axis for both waves: {seen}."),
+        Figure(lateral_histories(panels), caption, "Lateral motion on a logarithmic axis for both waves."),
         *(Text(words) for run, trajectory in loaded if (words := _departure(run, trajectory))),
     ]
 

@@ -8,7 +8,7 @@ from ..figures.offplane_dependence import dependence
 from ..figures.rope_shape import rope_shapes
 from ..parts.content import Figure, Heading, Item, Text
 from ..parts.symbols import T_I
-from ..parts.wording import number
+from ..parts.wording import number, percent
 from .runs import BODIES, Run, Study
 from .words import metres
 
@@ -23,16 +23,9 @@ def dependence_items(study: Study) -> list[Item]:
         return []
     stiffnesses = sorted({run["bending_stiffness_Nm2"] for run in runs})
     panels = [(body, [_curve(runs, body, stiffness) for stiffness in stiffnesses]) for body in BODIES]
-    seen = "; ".join(
-        f"the {body} reaches {metres(min(found))} to {metres(max(found))} where it does not decay exponentially"
-        for body in BODIES
-        if (found := [run[f"{body}_lateral_late_m"] for run in runs if run[f"{body}_motion"] != "decay"])
-    )
     caption = (
         f"Largest lateral distance in the second half of each run at kA = {number(study.base['steepness'])} over the "
         "depth. Filled: bursts, or neither; open: exponential decay, and what is left of it."
-        + (f" Seen: {seen}." if seen else "")
-        + " From `buoy_lateral_late_m` and `rope_lateral_late_m`."
     )
     told = (
         "buoy_motion", ("buoy_rate_bits_per_period", "buoy_rate_error"), "buoy_lateral_max_m", "rope_motion",
@@ -45,7 +38,7 @@ def dependence_items(study: Study) -> list[Item]:
     picture = dependence(panels, "max $|y|$, second half (m)")
     return [
         Heading("Depth and bending stiffness"),
-        Figure(picture, caption, f"Lateral motion of buoy and rope over the depth: {seen or 'all decay'}."),
+        Figure(picture, caption, "Lateral motion of buoy and rope over the depth."),
         study.table(names, shown, "Every depth and stiffness of the large wave, every stiffness of the small one."),
     ]
 
@@ -105,7 +98,24 @@ def grid_items(study: Study) -> list[Item]:
     ]  # fmt: skip
     caption = "The grid. Loops are resolved where the largest turn within one element stays below π/2."
     shown = [*chosen, *(run for run in runs if run["depth_m"] in several)]
+    off = []
+    for depth in several:
+        sizes = [run["rope_first_burst_m"] for run in runs if run["depth_m"] == depth and run.known(names[6])]
+        off += [abs(size / sizes[-1] - 1.0) for size in sizes]
+    if off:
+        caption += f" The rope's first burst differs from that on the finest grid by at most {percent(max(off))}."
     return [Heading("Grid"), study.table(names, shown, caption)]
+
+
+def _bow(run: Run) -> str:
+    """How far the rope bows out of the straight line between its ends, in the plane and across it."""
+    if not run.known("bow_inplane_m"):
+        return ""
+    inplane, lateral = run["bow_inplane_m"], run["bow_lateral_m"]
+    return (
+        f" From the straight line between its ends it bows by up to {metres(inplane)} in the plane and "
+        f"{metres(lateral)} across it ({percent(lateral / inplane)})."
+    )
 
 
 def shape_items(study: Study) -> list[Item]:
@@ -128,8 +138,7 @@ def shape_items(study: Study) -> list[Item]:
     )
     caption = (
         f"The rope in a loop at kA = {number(run['steepness'])}, H = {number(run['depth_m'])} m: nodes as dots, the "
-        f"buoy as a large dot; y has an axis of its own. Seen: {seen}. From the profiles of "
-        f"`trajectories/{run['run_key'][:12]}….nc`."
+        f"buoy as a large dot; y has an axis of its own. Seen: {seen}.{_bow(run)}"
     )
     picture = rope_shapes([(f"{lines.time_s[i]:.1f} s", lines.x_m[i], lines.y_m[i], lines.z_m[i]) for i in inside])
     return [Heading("The rope in a loop"), Figure(picture, caption, f"Shape of the rope from three sides: {seen}.")]

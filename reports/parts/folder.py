@@ -16,7 +16,7 @@ from .faults import FolderError
 if TYPE_CHECKING:
     import pandas
 
-    from engine import Scene
+    from engine import Scene, Trajectory
 
 PARTS = {
     "table.csv": "one row a run",
@@ -42,6 +42,19 @@ class Folder:
 
     def trajectory_path(self, run_key: str) -> Path:
         return self.directory / "trajectories" / f"{run_key}.nc"
+
+    def trajectory(self, row: Mapping[str, object]) -> tuple[Trajectory | None, str]:
+        """(trajectory, "") of a row of the table, or None and why: "" for a run that failed and left nothing."""
+        from engine.trajectory import Trajectory, TrajectoryError
+
+        path = self.trajectory_path(row["run_key"])
+        if not path.exists():
+            return None, f"its file {path.name} is missing" if row["status"] == "ok" else ""
+        try:
+            return Trajectory.load(path), ""
+        except TrajectoryError as error:
+            reason = str(error).removeprefix(f"{path}: ")  # the report must not depend on where its folder lies
+            return None, f"its file {path.name} cannot be read ({reason})"
 
 
 def read_folder(directory: str | Path, needed: tuple[str, ...] = ()) -> Folder:

@@ -9,7 +9,8 @@ import numpy as np
 
 from ..figures.curves import COLOURS, Curve, Panel, curves
 from ..parts.columns import Quantity, number_of
-from ..parts.content import Picture
+from ..parts.content import Column, Picture, Table
+from ..parts.wording import EMPTY, number
 
 PER_ROW = 2
 
@@ -76,6 +77,27 @@ def over_key(rows: Sequence[Mapping[str, object]], key: Quantity, shown: Sequenc
         panels.append(Panel(lines, key.label, one.label, level=level))
     grid = [panels[first : first + PER_ROW] for first in range(0, len(panels), PER_ROW)]
     return curves(grid, 0.6 + 1.7 * len(grid), "best")
+
+
+def extremes(
+    keys: Sequence[Quantity], rows: Sequence[Mapping[str, object]], shown: Iterable[Quantity], caption: str
+) -> list[Table]:
+    """The least and the greatest value of every quantity, and where; nothing where no run has one."""
+    cells = []
+    for column in shown:
+        values = series(rows, column.name)
+        if np.isfinite(values).any():
+            ends = (rows[int(np.nanargmin(values))], rows[int(np.nanargmax(values))])
+            found = [text for row in ends for text in (column.cell(row[column.name]), at(keys, row))]
+            cells.append((column.meaning or column.head, column.unit or EMPTY, *found))
+    names = (("quantity", "left"), ("unit", "left"), ("least", "right"), ("at", "left"), ("greatest", "right"))
+    heads = tuple(Column(name, align=align) for name, align in (*names, ("at", "left")))
+    return [Table(heads, tuple(cells), caption, small=True)] if cells else []
+
+
+def at(keys: Sequence[Quantity], row: Mapping[str, object]) -> str:
+    """Where a row stands: "H = 21 m, kA = 0.1"."""
+    return ", ".join(f"{key.head} = {number(float(row[key.name]))} {key.unit}".strip() for key in keys)
 
 
 def errors_of(names: Iterable[str]) -> dict[str, str]:

@@ -9,16 +9,17 @@ import numpy as np
 
 from ..figures.maps import Map, maps
 from ..parts.columns import Quantity, table_of
-from ..parts.content import Bullets, Column, Figure, Heading, Item, Notice, Report, Table, Text, plain
+from ..parts.content import Bullets, Figure, Heading, Item, Notice, Report, Table, Text, plain
 from ..parts.folder import Folder, FolderError, read_folder
 from ..parts.provenance import provenance_items, timing_table
 from ..parts.scene_table import scene_table
 from ..parts.wording import EMPTY, count, listed, number, ranges
-from .quantities import Measured, measured, over_key, series
+from .quantities import Measured, at, extremes, measured, over_key, series
 
 _PANELS, _MAPS, _COLUMNS = 8, 6, 14  # of one figure, of one table
 _LONGEST = 24  # letters of a cell of the tables of runs
 _NOTHING = Text("Every number of the table is the same in all runs, so there is nothing to draw.")
+_EXTREMES = "Least and greatest value of every column that is not the same in all runs."
 _COUNTED = ("end_time_s", "periods")  # columns that tell of the run, not of the motion
 
 
@@ -37,7 +38,7 @@ def report(directory: str | Path) -> Report:
         Text(f"What does the scene `{folder.scene.name}` do as {said} {'varies' if len(keys) == 1 else 'vary'}?"),
         Heading("Short answer"),
         Bullets(_answer(keys, rows)),
-        *_extremes(folder.columns, keys, rows, shown),
+        *extremes(keys, rows, [column for one in shown for column, _ in one.columns], _EXTREMES),
         *(_panels(keys[0], rows, shown) if len(keys) == 1 else _maps(keys, rows, shown, folder.columns)),
         Heading("Warnings"),
         _failed(keys, rows),
@@ -47,11 +48,6 @@ def report(directory: str | Path) -> Report:
         *provenance_items(folder),
     ]
     return Report(f"Sweep of {said.replace('`', '')}", folder.scene.title or folder.scene.name, tuple(items))
-
-
-def at(keys: Sequence[Quantity], row: Mapping[str, object]) -> str:
-    """Where a row stands: "H = 21 m, kA = 0.1"."""
-    return ", ".join(f"{key.head} = {number(float(row[key.name]))} {key.unit}".strip() for key in keys)
 
 
 def _answer(keys: Sequence[Quantity], rows: Sequence[Mapping[str, object]]) -> tuple[str, ...]:
@@ -70,30 +66,6 @@ def _answer(keys: Sequence[Quantity], rows: Sequence[Mapping[str, object]]) -> t
             where = f", {keys[0].head} = {ranges([float(row[keys[0].name]) for row in rows], chosen)} {keys[0].unit}"
         lines.append(f"{regime}: {count(sum(chosen), 'run')}{where.rstrip()}.")
     return tuple(lines)
-
-
-def _extremes(columns, keys, rows, shown: Sequence[Measured]) -> list[Item]:
-    """The least and the greatest value of every quantity, and where."""
-    cells = []
-    for column in (column for one in shown for column, _ in one.columns):
-        values = series(rows, column.name)
-        ends = (rows[int(np.nanargmin(values))], rows[int(np.nanargmax(values))])
-        found = [text for row in ends for text in (column.cell(row[column.name]), at(keys, row))]
-        cells.append((column.meaning or column.head, column.unit or EMPTY, *found))
-    if not cells:
-        return []
-    left = {"align": "left"}
-    heads = (
-        Column("quantity", **left),
-        Column("unit", **left),
-        Column("least"),
-        Column("at", **left),
-        Column("greatest"),
-        Column("at", **left),
-    )
-    return [
-        Table(heads, tuple(cells), "Least and greatest value of every column that is not the same in all runs.", True)
-    ]
 
 
 def _panels(key: Quantity, rows, shown: Sequence[Measured]) -> list[Item]:

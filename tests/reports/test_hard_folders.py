@@ -50,30 +50,14 @@ def test_a_hundred_failures_are_summed_up(tmp_path):
     assert sum("did not converge" in line for line in sheets) == 100
 
 
-@pytest.mark.parametrize("missing", ["table.csv", "columns.csv", "scene.toml", "provenance.json", "trajectories"])
-def test_a_missing_part_is_named_and_nothing_is_written(tmp_path, capsys, missing):
-    folder = campaign(tmp_path / "out", [0.13], periods=5, transient=1)
-    (folder / missing).rename(tmp_path / "away")
-    before = sorted(folder.iterdir())
-    assert main([str(folder)]) == 2
-    assert missing in capsys.readouterr().err
-    assert sorted(folder.iterdir()) == before
-
-
-def test_an_empty_folder_lists_everything_that_is_missing(tmp_path, capsys):
-    assert main([str(tmp_path)]) == 2
-    message = capsys.readouterr().err
-    assert all(
-        part in message for part in ("table.csv", "columns.csv", "scene.toml", "provenance.json", "trajectories")
-    )
-    assert main([str(tmp_path / "nowhere")]) == 2
-    assert "no such folder" in capsys.readouterr().err
-    assert list(tmp_path.iterdir()) == []
+PARTS = ("table.csv", "columns.csv", "scene.toml", "provenance.json", "trajectories")
 
 
 @pytest.mark.parametrize(
     ("part", "content", "said"),
     [
+        *((part, None, f"{part} is missing") for part in PARTS[:1] + PARTS[2:]),
+        ("columns.csv", None, "columns.csv"),
         ("table.csv", "steepness,status\n0.1,ok\n", "columns missing: "),
         ("columns.csv", "name,unit,symbol,meaning,digits\nstatus,,,,\n", "does not tell of all columns"),
         ("table.csv", "", "table.csv cannot be read"),
@@ -82,9 +66,22 @@ def test_an_empty_folder_lists_everything_that_is_missing(tmp_path, capsys):
         ("provenance.json", json.dumps({"campaign": "other"}), "names the campaign 'other'"),
     ],
 )
-def test_a_part_that_cannot_be_used_is_named(tmp_path, capsys, part, content, said):
+def test_a_part_that_cannot_be_used_is_named_and_nothing_is_written(tmp_path, capsys, part, content, said):
+    """content: of the file in place of its own, None where it is taken away."""
     folder = campaign(tmp_path / "out", [0.13], periods=5, transient=1)
-    (folder / part).write_text(content, encoding="utf-8")
+    if content is None:
+        (folder / part).rename(tmp_path / "away")
+    else:
+        (folder / part).write_text(content, encoding="utf-8")
+    before = sorted(folder.iterdir())
     assert main([str(folder)]) == 2
-    assert said in capsys.readouterr().err
-    assert not (folder / "report.html").exists() and not (folder / "report.pdf").exists()
+    assert said in capsys.readouterr().err and sorted(folder.iterdir()) == before
+
+
+def test_an_empty_folder_lists_everything_that_is_missing(tmp_path, capsys):
+    assert main([str(tmp_path)]) == 2
+    message = capsys.readouterr().err
+    assert all(part in message for part in PARTS)
+    assert main([str(tmp_path / "nowhere")]) == 2
+    assert "no such folder" in capsys.readouterr().err
+    assert list(tmp_path.iterdir()) == []

@@ -10,7 +10,7 @@ import pytest
 
 from campaigns import out_of_plane
 from reports import build
-from reports.out_of_plane.answer import calm_runs, large_runs, short_answer
+from reports.out_of_plane.answer import calm_runs, large_runs, verdict
 from reports.out_of_plane.comparison import read_pairs
 from reports.out_of_plane.report import report
 from reports.out_of_plane.runs import read_study
@@ -32,8 +32,8 @@ def bursts(tmp_path_factory):
 
 
 def verdicts(study) -> list[bool]:
-    """What the first line says of the paper's two statements: whether they are borne out."""
-    return [not word for word in re.findall("is (not )?borne out", short_answer(study, [])[0])]
+    """Whether the paper's two statements are borne out."""
+    return [not word for word in re.findall("is (not )?borne out", verdict(study))]
 
 
 @pytest.mark.parametrize(

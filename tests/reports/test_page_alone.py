@@ -31,7 +31,3 @@ def test_every_figure_has_a_caption_and_a_text_alternative(page):
     equations = [attributes for tag, attributes in page.tags if tag == "svg"]
     assert len(equations) == 5 + 7, "five equations, a drawing of each run with a record"
     assert all(svg["role"] == "img" and len(svg["aria-label"].split()) >= 5 for svg in equations)
-
-
-def test_files_are_of_a_size_to_send(built):
-    assert all(path.stat().st_size < 10e6 for path in built)

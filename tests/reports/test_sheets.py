@@ -11,21 +11,28 @@ import pytest
 
 from reports import build
 from reports.figures.run_sheet import Glance, run_sheet
-from reports.parts.content import Explorer, ExplorerColumn, Figure, Picture, first_sentence, link, plain, spans, sub
+from reports.parts.content import Explorer, ExplorerColumn, Figure, Picture, first_sentence
 from reports.parts.explorer_data import explorer_json
 from reports.parts.symbols import OMEGA_I, OMEGA_R
 
 FIGURE = Figure(Picture(b"", "svg"), "A caption.", "A text.")
 
 
+NOTHING = (np.empty(0), np.empty(0))
+
+
+def drawing(t, values, section=(), spectrum=NOTHING, marks=(), exponent=NOTHING) -> str:
+    """A sheet of a record whose tension, radius and angle are the same values."""
+    histories = tuple((name, values, values) for name in ("T (kN)", "r (m)", "θ (rad)"))
+    points = np.reshape(section, (-1, 2))
+    return run_sheet(Glance(t, histories, float(t[-1]) - 6.0, points, spectrum, marks, exponent), "x", 80)
+
+
 def glance(peak: float) -> str:
     """A sheet of a record of 20000 samples that are 1, -1 in turn but for one of height `peak`."""
-    t = np.linspace(0.0, 300.0, 20001)
-    wave = np.cos(np.pi * np.arange(len(t)))
+    wave = np.cos(np.pi * np.arange(20001))
     wave[7777] = peak
-    nothing = np.empty(0)
-    histories = tuple((name, wave, wave) for name in ("T (kN)", "r (m)", "θ (rad)"))
-    return run_sheet(Glance(t, histories, 294.0, np.empty((0, 2)), (nothing, nothing), (), (nothing, nothing)), "x", 80)
+    return drawing(np.linspace(0.0, 300.0, 20001), wave)
 
 
 def bands(drawing: str) -> list[np.ndarray]:
@@ -48,39 +55,28 @@ def test_a_drawing_of_few_columns_is_small_whatever_the_record():
     assert len(glance(2.0).encode()) < 12_000
 
 
-def test_a_record_without_a_finite_value_or_without_any_range_is_drawn():
+@pytest.mark.parametrize("values", [np.full(11, np.nan), np.zeros(11), np.full(11, 1e9)], ids=["nan", "0", "1e9"])
+def test_a_record_without_a_finite_value_or_without_any_range_is_drawn(values):
     t = np.linspace(0.0, 5.0, 11)
-    for values in (np.full(11, np.nan), np.zeros(11), np.full(11, 1e9)):
-        nothing = np.empty(0)
-        exponent = t, values * 0.0
-        record = Glance(t, (("r (m)", values, values),), 0.0, np.zeros((3, 2)), (nothing, nothing), (), exponent)
-        drawn = run_sheet(record, "x", 9)
-        assert "nan" not in drawn
+    assert "nan" not in drawing(t, values, np.zeros((3, 2)), exponent=(t, values * 0.0))
 
 
 @pytest.mark.parametrize("periods", [0, 1, 2])
 def test_a_run_may_end_any_time_after_its_transient(periods):
     """Not every run ends as asked: the exponent of one wave period is a number, and no curve."""
-    t, nothing = np.linspace(0.0, 200.0 + 5.0 * periods, 400), np.empty(0)
-    exponent = 40.0 + np.arange(1, periods + 1), np.full(periods, 0.3)
-    histories = tuple((name, np.sin(t), np.sin(t)) for name in ("T (kN)", "r (m)", "θ (rad)"))
-    drawn = run_sheet(Glance(t, histories, 34.0, np.ones((1, 2)), (nothing, nothing), (), exponent), "x", 80)
+    t = np.linspace(0.0, 200.0 + 5.0 * periods, 400)
+    drawn = drawing(t, np.sin(t), [[1, 1]], exponent=(40.0 + np.arange(1, periods + 1), np.full(periods, 0.3)))
     assert ("no exponent" in drawn) is (periods < 2) and "nan" not in drawn
 
 
-def test_words_of_a_sheet_end_within_it_and_subscripts_are_set_below():
+@pytest.mark.parametrize("full", [True, False])
+def test_words_of_a_sheet_end_within_it_and_subscripts_are_set_below(full):
     """Of the letters of a sans-serif face the mean is not wider than 0.55 of its size, 12 pixels."""
-    t = np.linspace(0.0, 9.0, 50)
-    nothing = np.empty(0)
-    marks = ((1.0, OMEGA_R), (1.26, OMEGA_I))
-    for exponent in ((nothing, nothing), (t, t)):
-        spectrum = (t[1:], t[1:]) if len(exponent[0]) else (nothing, nothing)
-        section = np.ones((3, 2)) if len(exponent[0]) else np.empty((0, 2))
-        histories = (("T (kN)", t, t), ("r (m)", t, t), ("θ (rad)", t, t))
-        drawn = run_sheet(Glance(t, histories, 3.0, section, spectrum, marks, exponent), "x", 9)
-        for place, words in re.findall(r'<text x="(\d+)"[^>]*>(.*?)</text>', drawn):
-            assert int(place) + 0.55 * 12.0 * len(re.sub("<[^>]*>", "", words)) < 960.0, words
-        assert not re.search("[ᵢᵣ₀₁]", drawn) and drawn.count('class="s">i<') == (5 if len(exponent[0]) else 2)
+    t, marks = np.linspace(0.0, 9.0, 50), ((1.0, OMEGA_R), (1.26, OMEGA_I))
+    drawn = drawing(t, t, np.ones((3, 2)), (t[1:], t[1:]), marks, (t, t)) if full else drawing(t, t, marks=marks)
+    for place, words in re.findall(r'<text x="(\d+)"[^>]*>(.*?)</text>', drawn):
+        assert int(place) + 0.55 * 12.0 * len(re.sub("<[^>]*>", "", words)) < 960.0, words
+    assert not re.search("[ᵢᵣ₀₁]", drawn) and drawn.count('class="s">i<') == (5 if full else 2)
 
 
 def test_explorer_data_reads_back_to_a_hundred_thousandth_of_the_range():
@@ -96,11 +92,6 @@ def test_explorer_data_reads_back_to_a_hundred_thousandth_of_the_range():
     assert values == pytest.approx(np.concatenate(points), abs=1e-5 * (read["high"] - read["low"]))
     assert [column["points"] for column in read["columns"]] == [5, 0, 40]
     assert read["lower"][0]["values"] == [0.1, None, 0.3] and read["lower"][0]["errors"] == [None] * 3
-
-
-def test_a_link_is_a_mark_of_its_own_and_plain_text_without_it():
-    text = "see " + link("kA = 0.13", "run-7") + " of T" + sub("i")
-    assert spans(text)[1] == ("#run-7", "kA = 0.13") and plain(text) == "see kA = 0.13 of Ti"
 
 
 @pytest.mark.parametrize(

@@ -16,6 +16,7 @@ from reports.parts.content import (
     Sheet,
     Table,
     Text,
+    link,
     plain,
     spans,
     sub,
@@ -74,3 +75,4 @@ def test_only_marks_made_here_are_marks():
     assert spans("a`b`c") == [("", "a"), ("code", "b"), ("", "c")]
     assert spans("T" + sub("i") + " `x") == [("", "T"), ("sub", "i"), ("", " `x")]
     assert plain("T" + sub("i") + " `x`") == "Ti x"
+    assert spans(link("kA = 0.13", "run-7") + " of") == [("#run-7", "kA = 0.13"), ("", " of")]
