@@ -1,7 +1,7 @@
 """Eigenvalues of the engine's one-step map about straight and hanging lines, against the closed form.
 
 The map (C, K) -> (C', K') of one step is differenced numerically about a state of rest. For a straight line of uniform
-strain eps the closed form (tests/engine/planar/test_taut_line_modes.py) gives the rates of the semi-discrete line,
+strain eps the closed form (held as a law in tests/engine/planar) gives the rates of the semi-discrete line,
 
     axial       lambda^2 = -EA k^2/m
     transverse  lambda^2 = -(T k^2/(1+eps) + EI k^4/(1+eps)^4)/m,     k = (2/h) tan(j pi h/(2 L))
