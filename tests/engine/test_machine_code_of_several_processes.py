@@ -45,11 +45,11 @@ LAW = """
 import sys
 import numpy as np
 from engine import load_scene, parameters
-from engine.physics import tension
+from engine.physics.tension.kernels import tension
 for dimensions in map(int, sys.argv[1:]):
     tables = []
     record = parameters.record_of(load_scene("tethered_buoy", {"motion.dimensions": dimensions}), tables)[0]
-    print(*tension.tension(0.1, record, np.concatenate(tables)))
+    print(*tension(0.1, record, np.concatenate(tables)))
 """
 
 

@@ -10,7 +10,8 @@ from functools import cache
 import numpy as np
 import pytest
 
-from campaigns.breaking_line import LENGTHS_S, measures, planned
+from campaigns.breaking_line import LENGTHS_S, planned
+from campaigns.breaking_line import motion_measures as measures
 from campaigns.breaking_line.theory import theory_of
 from engine import simulate
 from tests.engine.physics.breaking import CASES, broken, theory
