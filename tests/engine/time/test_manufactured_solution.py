@@ -14,8 +14,8 @@ from tests.engine.lines import Motion, axes_of, positions
 from tests.engine.manufactured import motion, normals, scene_of
 
 END_S = 1.5
-NODES = (21, 41, 81)
-CAPS = {"q": 2e-3, "n": 2e-3, "S": 2.0, "V": 0.03, "O1": 1e-5, "K": 3e-3, "X": 0.01}  # 1, 1, N, m/s, 1/m, 1/m, m
+NODES = (23, 45, 89)
+CAPS = {"q": 2e-3, "n": 2e-3, "S": 2.0, "V": 0.03, "O1": 5e-6, "K": 3e-3, "X": 0.01}  # 1, 1, N, m/s, 1/m, 1/m, m
 
 
 def errors(run, t, plane, stage_s=None):
@@ -36,7 +36,7 @@ def errors(run, t, plane, stage_s=None):
 
 
 def assert_second_order(found):
-    """Within 0.1; within 0.3 for O1, whose error, 1e-7 ... 1e-6 /m, is a small difference of larger ones."""
+    """Within 0.1; within 0.3 for O1, whose error, below 5e-6 /m, is a small difference of larger ones."""
     for key in found[0]:
         sizes = np.array([errors[key] for errors in found])
         slopes = np.log2(sizes[:-1] / sizes[1:])
