@@ -4,7 +4,7 @@ The motion: d'Alembert, balances, Rankine-Hugoniot and Lax, second order. That a
 shown by the engine (tests/engine/physics/test_shock_capturing.py).
 """
 
-from itertools import pairwise
+from itertools import pairwise, product
 
 import numpy as np
 import pytest
@@ -14,8 +14,11 @@ from campaigns.breaking_line.theory import PAPER_LAW, fitted_break
 from campaigns.breaking_line.theory import law as closed
 from campaigns.breaking_line.theory import simple_wave as wave_theory
 from campaigns.breaking_line.theory.simple_wave import break_theory, case_of, shock_start, simple_wave_work
-from tests.campaigns.breaking_line.paper_line import CASES, FAST, LENGTH, MASS, SLOW, TENSIONS
 
+LENGTH, MASS = 60.0, 1140.0 * 1.964e-3
+FAST, SLOW = 5e-3, 50e-3
+TENSIONS = (45e3, 180e3, 315e3, 450e3)
+CASES = {f"{i + 1}{mark}": (TENSIONS[i], t) for i, (mark, t) in product(range(4), (("", FAST), ("p", SLOW)))}
 LAW = closed.checked_law(PAPER_LAW, MASS)
 EVERYWHERE = np.linspace(0.0, LENGTH, 24001)
 
