@@ -10,7 +10,7 @@ from campaigns.statements import FILE as STATEMENTS
 from campaigns.statements import write_statements
 
 PAGES = ("report.html", "report.pdf")
-TABLES = ("campaigns/breaking_line/statements.toml", "campaigns/paper/statements.toml")
+TABLES = ("campaigns/breaking_line/statements.toml", "campaigns/paper/statements.toml", "reports/paper/tables.toml")
 SOURCES = ("analysis", "engine", "campaigns", "reports", *TABLES)
 
 
