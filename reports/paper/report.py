@@ -11,7 +11,7 @@ from ..parts.judged import FAILS, HOLDS_IF, Judged, counted, read_statements, st
 from ..parts.provenance import provenance_items
 from ..parts.wording import count, decimals
 from .dependence import dependence_items
-from .figures import figures_of, left_out, preface
+from .figures import PREFACE, figures_of, left_out
 from .figures import pictures as beside
 from .index import index_items
 from .written import written
@@ -119,7 +119,7 @@ def _figures(directory: Path) -> list[Item]:
     drawn, missing = figures_of(directory), left_out(directory)
     items: list[Item] = [
         Heading("The figures of the paper"),
-        Text(preface()),
+        Text(PREFACE),
         Text("The numbers behind figure N are in `figures/fig_NN.nc`, which names its runs, settings and seconds."),
     ]
     for heading, numbers in SECTIONS.items():
