@@ -6,7 +6,7 @@ import pytest
 
 from engine import load_scene
 from engine.scene import known_scenes
-from engine.scene.faults import known_keys
+from engine.scene.faults import known_fields
 from engine.scene.models import Scene
 from engine.scene.reference import UNITS, keys, page, sources
 
@@ -20,7 +20,7 @@ def test_the_page_is_what_the_model_says():
 
 def test_every_key_is_declared():
     listed = list(keys())
-    assert all(key in listed or any(other.startswith(f"{key}.") for other in listed) for key in known_keys(Scene))
+    assert all(key in listed or any(other.startswith(f"{key}.") for other in listed) for key in known_fields(Scene))
     assert all(key.meaning for key in keys().values())
 
 

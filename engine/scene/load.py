@@ -12,7 +12,7 @@ import tomllib
 from collections.abc import Mapping
 from pathlib import Path
 
-from engine.scene.faults import SceneError, known_keys, shown, unknown_key
+from engine.scene.faults import SceneError, known_fields, shown, unknown_key
 from engine.scene.models import Scene, build_scene
 
 __all__ = ["Scene", "SceneError", "build_scene", "known_scenes", "load_scene", "parse_assignment", "scene_from_toml"]
@@ -119,7 +119,7 @@ def _plain(value: object) -> object:
 
 def _overridden(raw: dict[str, object], overrides: Mapping[str, object]) -> tuple[dict[str, object], tuple[str, ...]]:
     raw, faults = copy.deepcopy(raw), []
-    known = set(known_keys(Scene))
+    known = known_fields(Scene)
     for key, value in overrides.items():
         parts = key.split(".") if isinstance(key, str) else [""]
         if not all(parts):

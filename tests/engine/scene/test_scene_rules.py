@@ -31,7 +31,7 @@ CROSS = [
     ({"buoy.impact_loss": 0.5}, "buoy.impact_loss", "0, because buoy.submergence is not 'spherical-cap'"),
     ({**CAP, "solver.scheme": "paper-box"}, "buoy.submergence", "'full', because solver.scheme is 'paper-box'"),
     ({**CAP, "water": None, "waves": None}, "buoy.submergence", "'full', because there is no water"),
-    ({"end": {"kind": "free", "force_N": [0, 0, 9]}}, "buoy", "no buoy"),
+    ({"end": {"kind": "free", "force_N": [0, 0, 9]}}, "buoy", "none, because end.kind is 'free'"),
     (
         {"end": {"kind": "free", "force_N": [0, 0, 0]}, "buoy": None, "tether.bending_stiffness_Nm2": 0},
         "tether.bending_stiffness_Nm2",
@@ -62,7 +62,7 @@ CROSS = [
     (
         {"tether.tension": {"law": "tabulated", "strain": [0, 0.2], "tension_N": [0, 1, 2]}},
         "tether.tension.tension_N",
-        "as many as strain has, 2",
+        "one for each of tether.tension.strain, 2",
     ),
     (
         {"tether.tension": {"law": "tabulated", "strain": [0, 0.2], "tension_N": [1, 0]}},
@@ -86,7 +86,7 @@ CROSS = [
     (ends(table_of([0, 1, 1], [[0, 0, 0]] * 3)), "end.motion.time_s[2]", "increasing"),
     (ends(table_of([-1, 1], [[0, 0, 0]] * 2)), "end.motion.time_s[0]", "0 or above"),
     (ends(table_of([0, 1], [[1, 0, 0]] * 2)), "end.motion.displacement_m[0]", "[0, 0, 0]"),
-    (ends(table_of([0, 1, 2], [[0, 0, 0]] * 2)), "end.motion.displacement_m", "one for each time, 3"),
+    (ends(table_of([0, 1, 2], [[0, 0, 0]] * 2)), "end.motion.displacement_m", "one for each of end.motion.time_s, 3"),
     ({**ends({"release_s": 1.0}), "tether.bending_stiffness_Nm2": 0}, "tether.bending_stiffness_Nm2", "direction"),
     # clamps and twist
     ({"anchor.rotation": "clamped"}, "anchor.rotation", "'pinned' in a plane"),
