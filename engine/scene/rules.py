@@ -14,7 +14,7 @@ from engine.scene.faults import fault, shown
 from engine.scene.lookup import FAULTY, Sound
 
 Facts = Iterator[tuple[object, str, str]]  # whether a rule is broken, the key that breaks it, what it allows there
-_HEIGHTS = ("steepness", "amplitude_m", "components", "jonswap")
+HEIGHTS = ("steepness", "amplitude_m", "components", "jonswap")  # of the waves: a scene has one of these
 _VECTORS = (
     "start.buoy_velocity_mps",
     "end.position_m",
@@ -73,9 +73,9 @@ def _heights(sound: Sound) -> Iterator[str]:
     waves = sound.raw.get("waves")
     if not isinstance(waves, dict):
         return
-    given = {name: waves[name] for name in _HEIGHTS if waves.get(name) is not None}
+    given = {name: waves[name] for name in HEIGHTS if waves.get(name) is not None}
     if not given:
-        yield "waves.steepness: missing; allowed: exactly one of " + ", ".join(f"waves.{name}" for name in _HEIGHTS)
+        yield "waves.steepness: missing; allowed: exactly one of " + ", ".join(f"waves.{name}" for name in HEIGHTS)
     if len(given) > 1:
         several = " and ".join(f"waves.{name} = {shown(value)}" for name, value in given.items())
         yield f"waves: given {several}; allowed: exactly one of them"
