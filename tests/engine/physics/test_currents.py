@@ -54,6 +54,7 @@ def test_a_table_is_linear_between_its_values(t, dimensions):
     for found, part in zip(velocity.T, values, strict=True):
         exact = RegularGridInterpolator(tuple(axes.values()), part)(clipped(axes, t))
         assert np.max(np.abs(found - exact)) < 1e-13
+    assert np.array_equal(field(table(axes, values), t, dimensions, [np.full(17, 1e9)])[0], velocity)
     if t not in AXES["time_s"]:
         ahead, behind = (field(table(axes, values), t + d, dimensions)[0] for d in (1e-3, -1e-3))
         assert np.max(np.abs(acceleration - (ahead - behind) / 2e-3)) < 1e-9
@@ -90,11 +91,6 @@ def test_uniform_and_profile():
         exact = [np.interp(PLACES[:, 2], height, given[:, column]) for column in columns]
         assert velocity == pytest.approx(np.transpose(exact), abs=1e-14)
         assert not acceleration.any()
-
-
-def test_a_table_is_found_behind_other_tables():
-    plain, behind = (field(table(*TABLES[2]), 3.3, before=before) for before in ((), [np.full(17, 1e9)]))
-    assert np.array_equal(plain, behind)
 
 
 def test_a_current_across_the_plane_alone_is_a_current():

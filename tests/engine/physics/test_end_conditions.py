@@ -9,7 +9,7 @@ import pytest
 
 from engine.record import RECORD, SPATIAL
 from tests.engine.kernels import parameters_of, upper_end_of
-from tests.engine.lines import DRY, SPACE, STILL, free, held, line
+from tests.engine.lines import DRY, SPACE, free, held, line
 from tests.engine.rotations import turned
 
 RNG = np.random.default_rng(4)
@@ -73,12 +73,6 @@ def test_the_derivatives_are_those_of_the_condition(name, in_motion):
         assert (ahead - behind) / 2e-4 == pytest.approx(D[:, j], rel=1e-7, abs=1e-5)
         ahead, behind = (condition(ENDS[name], N + step, V, V_TILDE, WATER, in_motion)[0] for step in (d, -d))
         assert (ahead - behind) / 2e-4 == pytest.approx(e_N * d / 1e-4, abs=1e-7)
-
-
-def test_water_at_rest_with_the_buoy_does_not_divide_by_zero():
-    for moving in (V, 0 * V):
-        e, _, D = condition(STILL, N, moving, V_TILDE, [moving, 0 * moving])
-        assert np.all(np.isfinite(e)) and np.all(np.isfinite(D))
 
 
 def test_a_clamp_points_along_the_line_between_the_ends_unless_told_otherwise():

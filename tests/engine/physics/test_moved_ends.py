@@ -12,7 +12,7 @@ from scipy.interpolate import PchipInterpolator
 from engine import simulate
 from engine.physics.ends import end_velocity
 from tests.engine.kernels import parameters_of, upper_end_of
-from tests.engine.lines import STILL, equilibrium, free, held, line, positions
+from tests.engine.lines import STILL, equilibrium, held, line, positions
 
 PLACE = (3.0, 20.2)
 TIMES, DISPLACEMENTS = [1.0, 3.0, 4.0, 8.0, 13.0], [[0, 0, 0], [1, 0, 0.2], [1.5, 0, 0.2], [-1, 0, 0.1], [0, 0, 0.5]]
@@ -66,11 +66,6 @@ def test_a_table_is_passed_through_monotonically_and_at_rest_before_and_after():
     law = PchipInterpolator(TIMES, DISPLACEMENTS).derivative()
     inner = (t > TIMES[1]) & (t < TIMES[-2])
     assert v[inner] == pytest.approx(law(t[inner]), abs=1e-12)
-
-
-def test_what_is_not_moved_has_no_velocity():
-    for changes in ({}, held(3, 19), free(0, 9)):
-        assert not velocity(changes, 1.0).any()
 
 
 @pytest.mark.parametrize("integrator, order, dimensions", [("esdirk43", 4, 2), ("esdirk43", 4, 3), ("trbdf2", 2, 2)])

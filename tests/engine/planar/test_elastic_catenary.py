@@ -18,7 +18,7 @@ import numpy as np
 import pytest
 from scipy.optimize import root
 
-from tests.engine.lines import DRY, STILL, equilibrium, forces, held, in_space, line, linear, positions
+from tests.engine.lines import DRY, STILL, equilibrium, forces, held, line, linear, positions
 
 LENGTH, AREA, RHO_W, G = 20.0, 1e-4, 1027.0, 9.81
 # end (x, z), EA, density of the line, water
@@ -120,17 +120,3 @@ def test_ends_at_one_place_hang_as_two_vertical_halves(distance):
     X, w = positions(motion.Y, motion.h), 5000.0 * AREA * G
     assert 1e4 * motion.Y[[0, -1], 0] == pytest.approx(0.5 * w * LENGTH, rel=1e-3)
     assert -X[:, 1].min() == pytest.approx(LENGTH / 2 + w * LENGTH**2 / 8 / 1e4, abs=LENGTH / 80)
-
-
-@pytest.mark.parametrize("EI", [0.0, 4.0])
-@pytest.mark.parametrize("azimuth", [0.0, 0.8, np.pi / 2, np.pi, -2.0])
-def test_a_catenary_in_any_vertical_plane_is_that_of_the_plane(azimuth, EI):
-    tether = dict(length_m=LENGTH, area_m2=AREA, density_kgpm3=5000.0, bending_stiffness_Nm2=EI, tension=linear(1e4))
-    around = np.array([np.cos(azimuth), np.sin(azimuth)])
-    plane = equilibrium(line(DRY, held(14.0, 6.0), **tether))
-    space = equilibrium(in_space(DRY, held(*(14 * around), 6.0), **tether))
-    X, Z = positions(plane.Y, plane.h).T
-    assert np.abs(positions(space.Y, space.h) - np.stack([*np.outer(around, X), Z], 1)).max() < 1e-7
-    assert np.abs(space.Y[:, 0] - plane.Y[:, 0]).max() < 1e-9
-    assert np.abs(np.hypot(space.Y[:, 11], space.Y[:, 12]) - np.abs(plane.Y[:, 5])).max() < 1e-7
-    assert np.abs(np.linalg.norm(space.Y[:, 6:10], axis=1) - 1).max() < 1e-14

@@ -106,15 +106,3 @@ def test_a_line_in_a_current(name, end):
     if dimensions == 3:
         out_of_every_plane = np.linalg.svd(X.T - X.mean(1))[1][2]
         assert out_of_every_plane > {"buoy": 0.02, "held": 0.2}[end]  # m
-
-
-def test_a_slack_line_under_a_cross_current_hangs_aside():
-    """Level ends along x, a uniform current along y: the loop of the line leans over to y, and mirrors with it."""
-    lean = []
-    for speed in (0.4, -0.4):
-        current = {"current": {"law": "uniform", "velocity_mps": [0.0, speed, 0.0]}, "motion.dimensions": 3}
-        motion = equilibrium(line(STILL, current, held(12.0, 0.0, 0.0), density_kgpm3=5000.0))
-        lean.append(positions(motion.Y, motion.h))
-    middle = lean[0][20]
-    assert middle[1] > 1.0 and middle[2] < -1.0
-    assert np.abs(lean[0] - lean[1] * [1, -1, 1]).max() < 1e-9
