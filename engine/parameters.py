@@ -12,7 +12,7 @@ import numpy as np
 
 from . import record as codes
 from . import scales
-from .physics import currents, ends, sea, tension, waves
+from .physics import ends, sea, tension, waves
 from .scene.models import Scene
 from .spatial import lift
 from .time import integrators
@@ -123,7 +123,7 @@ def _current(record, current, place):
         u, v, w = np.reshape(np.transpose(current.velocity_mps), (3, 1, -1, 1))
     record["current"] = any(component.any() for component in (u, v, w))
     record["cur_nx"], record["cur_ny"], record["cur_nz"], record["cur_nt"] = len(x), len(y), len(z), len(t)
-    record["cur_at"] = place(currents.table_of((x, y, z, t), (u, v, w)))
+    record["cur_at"] = place(np.concatenate([np.ravel(part) for part in (x, y, z, t, u, v, w)]))  # `physics.currents`
 
 
 def _put(record, name, vector):
@@ -167,7 +167,8 @@ def _held(record, end, place):
         return
     if motion.law == "harmonic":
         record["end_motion"] = codes.HARMONIC
-        record["end_at"] = place(ends.harmonic_of(motion.amplitude_m, motion.period_s, motion.phase_rad, motion.ramp_s))
+        omega = 2 * math.pi / motion.period_s
+        record["end_at"] = place([*motion.amplitude_m, omega, motion.phase_rad, motion.ramp_s])  # `physics.ends`
     else:
         record["end_motion"], record["end_n"] = codes.TABLE, len(motion.time_s)
         record["end_at"] = place(ends.table_of(motion.time_s, motion.displacement_m))

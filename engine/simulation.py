@@ -44,11 +44,8 @@ def simulate_batch(
 
     Arguments as for `simulate`; the run length in periods is taken for each scene's own wave. Returns a list.
     """
-    scenes = list(scenes)
-    runs = [None] * len(scenes)
-    for i, run in simulate_each(scenes, periods, duration_s, progress):
-        runs[i] = run
-    return runs
+    runs = dict(simulate_each(scenes, periods, duration_s, progress))
+    return [runs[i] for i in range(len(runs))]
 
 
 def simulate_each(

@@ -185,7 +185,7 @@ def _variables(run: Trajectory) -> list[netcdf.Variable]:
         if grown.lateral_nats is not None:
             about = ("1", "growth of a perturbation across the plane of the waves, nats")
             found.append(("lateral_nats", ("period",), grown.lateral_nats, *about))
-    return [netcdf.Variable(*variable) for variable in found]
+    return found
 
 
 def _described(run: Trajectory) -> dict[str, str]:
@@ -198,8 +198,8 @@ def _described(run: Trajectory) -> dict[str, str]:
     }
 
 
-def _restored(texts: dict[str, str], arrays: dict[str, np.ndarray], units: dict[str, str]) -> Trajectory:
-    """The run of which a file holds these texts, arrays and units."""
+def _restored(texts: dict[str, str], arrays: dict[str, np.ndarray]) -> Trajectory:
+    """The run of which a file holds these texts and arrays."""
     try:
         scene = scene_from_toml(texts["scene"])
     except SceneError as error:
@@ -213,21 +213,18 @@ def _restored(texts: dict[str, str], arrays: dict[str, np.ndarray], units: dict[
         )
     if scene.output.energy:
         energy = EnergyBudget(*(arrays.get(name, none) for name, *_ in _abouts(EnergyBudget, "energy_").values()))
-    tangent = _growth(scene, arrays, units)
+    tangent = _growth(scene, arrays)
     columns = {name: arrays[name] for name in COLUMNS}
     statistics = json.loads(texts["statistics"])
     return Trajectory(scene, texts["status"], texts["message"], columns, statistics, profiles, tangent, energy)
 
 
-def _growth(scene: Scene, arrays: dict[str, np.ndarray], units: dict[str, str]) -> TangentGrowth | None:
+def _growth(scene: Scene, arrays: dict[str, np.ndarray]) -> TangentGrowth | None:
     """What a file holds of perturbations; empty arrays for a run that ended before its first period did."""
     count, sideways = scene.output.tangent_vectors, scene.output.lateral_growth
     if not (count or sideways):
         return None
-    if "released" in arrays:
-        period_s = float(units["period"].split("(")[1].split()[0])
-    else:
-        period_s = scene.waves.period_s if scene.waves is not None else 1.0
+    period_s = scene.waves.period_s if scene.waves is not None else 1.0
     released = arrays.get("released", np.empty(0))
     growth = arrays.get("growth_nats", np.empty((len(released), count)))
     return TangentGrowth(period_s, growth, released, arrays.get("lateral_nats", np.empty(0)) if sideways else None)

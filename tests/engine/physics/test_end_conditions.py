@@ -1,7 +1,5 @@
-"""Law: the end conditions know no horizontal direction of their own, and in a plane they are those of the plane.
-
-With all that is given turned about the vertical, e is turned, and D = de/dV with it; without anything across the plane
-they are the numbers of the planar condition. D against central differences of step 1e-4 m/s (error of the square).
+"""Law: without anything across the plane the end conditions in space are those of the plane, and D = de/dV is their
+derivative, by central differences of step 1e-4 m/s (error of the square).
 """
 
 import numpy as np
@@ -10,7 +8,6 @@ import pytest
 from engine.record import RECORD, SPATIAL
 from tests.engine.kernels import parameters_of, upper_end_of
 from tests.engine.lines import DRY, SPACE, free, held, line
-from tests.engine.rotations import turned
 
 RNG = np.random.default_rng(4)
 N, V, V_TILDE, WATER = 900 * RNG.normal(size=3), *RNG.normal(size=(2, 3)), RNG.normal(size=(2, 3))
@@ -31,26 +28,6 @@ def condition(changes, N, V, V_tilde, water, in_motion=1.0, dimensions=3):
     p, tables = parameters_of(line(changes, {"motion.dimensions": dimensions}))
     F = np.ascontiguousarray(water, float).ravel()
     return upper_end_of(p, tables, T, 8.0, in_motion, N, V, V_tilde, F)
-
-
-def turned_end(changes, angle):
-    """The end section with its vectors turned."""
-    end = {key: list(turned(np.array(value), angle)) if isinstance(value, list) else value
-           for key, value in changes.get("end", {}).items()}  # fmt: skip
-    if "motion" in end:
-        end["motion"] = {**end["motion"], "amplitude_m": list(turned(np.array(end["motion"]["amplitude_m"]), angle))}
-    return {**changes, "end": end} if end else changes
-
-
-@pytest.mark.parametrize("name", ENDS)
-@pytest.mark.parametrize("angle", [0.3, np.pi / 2, 2.5, -1.2])
-def test_a_turned_end_is_the_end_turned(name, angle):
-    e, e_N, D = condition(ENDS[name], N, V, V_TILDE, WATER)
-    args = (turned(part, angle) for part in (N, V, V_TILDE, WATER))
-    there, e_N_there, D_there = condition(turned_end(ENDS[name], angle), *args)
-    assert there == pytest.approx(turned(e, angle), rel=1e-12, abs=1e-12)
-    assert e_N_there == e_N
-    assert D_there == pytest.approx(turned(turned(D, angle).T, angle).T, rel=1e-11, abs=1e-9)
 
 
 @pytest.mark.parametrize("in_motion", [1.0, 0.0])

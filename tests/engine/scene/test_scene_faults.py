@@ -10,12 +10,12 @@ import pytest
 from engine import SceneError, load_scene
 from engine.scene import build_scene
 
-TABLES = tomllib.loads(Path(__file__).with_name("refusals.toml").read_text(encoding="utf-8"))
+TABLES = tomllib.loads(Path(__file__).with_name("scenes.toml").read_text(encoding="utf-8"))
 ROWS = [row for rows in TABLES["refused"].values() for row in rows]
 
 
 def changes_of(sets: str, changes: dict[str, object]) -> dict[str, object]:
-    """Overrides for `load_scene` from the first two entries of a row of `refusals.toml`."""
+    """Overrides for `load_scene` from the first two entries of a refused row of `scenes.toml`."""
     parts = [TABLES["sets"][name] for name in sets.split()] + [changes]
     return {key: None if value == "none" else value for part in parts for key, value in part.items()}
 

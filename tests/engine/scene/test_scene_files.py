@@ -8,43 +8,9 @@ import pytest
 
 from engine import Scene, SceneError, load_scene
 from engine.scene import known_scenes, parse_assignment, scene_from_toml
+from tests.engine.scene.test_scene_faults import TABLES, changes_of
 
-VARIANTS = [
-    {},
-    {"waves.amplitude_m": 0.1},
-    {"waves": None, "water": None, "end": {"kind": "free", "force_N": [0.0, 0.0, 50.0]}, "buoy": None},
-    {"end": {"kind": "held", "position_m": [3.0, 0.0, 19.5]}, "buoy": None, "solver.step_s": 1e-3},
-    {"tether.tension": {"law": "tanh", "p": [2.703e5, 10.2, -2.128, 2.627e5, 135.5]}, "tether.diameter_m": 0.05},
-    {"tether.tension": {"law": "tabulated", "strain": [-0.1, 0.0, 0.3], "tension_N": [-1.0, 0.0, 1e4]}},
-    {"current": {"law": "uniform", "velocity_mps": [0.1 + 0.2, 0.0, -1e-300]}},
-    {"current": {"law": "profile", "height_m": [0, 21], "velocity_mps": [[0, 0, 0], [1, 0, 0]]}},
-    {
-        "motion.dimensions": 3,
-        "waves.direction_rad": 1.0,
-        "anchor": {"rotation": "clamped", "direction": [1.0, 0.0, 0.0]},
-        "end": {
-            "kind": "held", "position_m": [3.0, 1.0, 19.5], "rotation": "clamped", "twist_rad": 6.3, "release_s": 4.0,
-            "motion": {"law": "harmonic", "amplitude_m": [0.0, 0.1, 0.0], "period_s": 2.5},
-        },
-        "buoy": None,
-    },
-    {
-        "end": {
-            "kind": "held", "position_m": [3.0, 0.0, 19.5],
-            "motion": {"law": "table", "time_s": [0, 1], "displacement_m": [[0, 0, 0], [1, 0, 0]]},
-        },
-        "buoy": None,
-    },
-    {
-        "motion.dimensions": 3,
-        "current": {
-            "law": "table", "time_s": [0], "height_m": [0], "x_m": [0, 1], "y_m": [0, 1, 2],
-            **{f"velocity_{axis}_mps": [[[[0.0, 0.1]] * 3]] for axis in "xyz"},
-        },
-    },
-    {"output.profiles": True, "output.profiles_step_s": 0.25},
-    {"title": 'a "quoted" \\ line\nand \t Æther \x7f \x01', "gravity_mps2": 9.80665},
-]  # fmt: skip
+VARIANTS = [changes_of("", changes) for changes in TABLES["accepted"]]
 
 
 @pytest.mark.parametrize("changes", VARIANTS)
@@ -114,8 +80,10 @@ def test_what_says_how_high_the_waves_are_takes_the_place_of_what_was_inherited(
 def test_none_removes_and_a_scalar_creates_its_section():
     still = load_scene("tethered_buoy", {"waves": None})
     assert still.waves is None
-    waves = scene_from_toml(still.to_toml(), {"waves.period_s": 4.0, "waves.steepness": 0.1}).waves
+    again = scene_from_toml(still.to_toml(), {"waves.period_s": 4.0, "waves.steepness": 0.1})
+    waves = again.waves
     assert waves.period_s == 4.0 and waves.steepness == 0.1 and waves.ramp_s == 0
+    assert (still.sample_step_s(), again.sample_step_s()) == (0.05, 0.04)
     assert load_scene("tethered_buoy", {"solver": None}).solver.rtol == Scene.model_fields["solver"].default.rtol
     assert load_scene("tethered_buoy", {"current": None, "waves.ramp_s": None}).waves.ramp_s == 0
 
