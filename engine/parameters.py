@@ -12,7 +12,7 @@ import numpy as np
 
 from . import record as codes
 from . import scales
-from .physics import currents, ends, sea, tension, waves
+from .physics import ends, sea, tension, waves
 from .scene.models import Scene
 from .spatial import lift
 from .time import integrators
@@ -89,21 +89,17 @@ def _water(record, scene, place):
     if scene.water is not None:
         record["depth"] = scene.water.depth_m
     if wave is not None:
-        k = waves.wave_number(wave.period_s, scene.water.depth_m, scene.gravity_mps2)
-        if wave.irregular:
-            rows = sea.table_of(scene, _direction)
-            amplitude = 0.0
-            record["waves"], record["sea_n"], record["sea_at"] = bool(rows[:, 2].any()), len(rows), place(rows)
-        else:
-            amplitude = wave.amplitude_m if wave.steepness is None else wave.steepness / k
-            record["waves"] = amplitude != 0
-        record["k"], record["omega"] = k, 2 * math.pi / wave.period_s
-        record["amplitude"], record["phase"], record["ramp"] = amplitude, wave.phase_rad, wave.ramp_s
+        record["k"] = waves.wave_number(wave.period_s, scene.water.depth_m, scene.gravity_mps2)
+        record["omega"], record["phase"], record["ramp"] = 2 * math.pi / wave.period_s, wave.phase_rad, wave.ramp_s
+        amplitudes = sea.components_of(scene)[1]
+        record["waves"], record["amplitude"] = amplitudes.any(), 0.0 if wave.irregular else amplitudes[0]
         if codes.is_spatial(record):
-            record["direction"] = 1.0
             record["dir_x"], record["dir_y"] = _direction(wave.direction_rad)
         else:
             record["direction"] = math.cos(wave.direction_rad)
+        if wave.irregular or codes.is_spatial(record):
+            rows = sea.table_of(scene, _direction)
+            record["sea_n"], record["sea_at"] = len(rows), place(rows)
         record["above"] = {"extrapolate": codes.EXTRAPOLATE, "zero": codes.ZERO, "wheeler": codes.WHEELER}[
             wave.above_still_water
         ]
@@ -127,7 +123,7 @@ def _current(record, current, place):
         u, v, w = np.reshape(np.transpose(current.velocity_mps), (3, 1, -1, 1))
     record["current"] = any(component.any() for component in (u, v, w))
     record["cur_nx"], record["cur_ny"], record["cur_nz"], record["cur_nt"] = len(x), len(y), len(z), len(t)
-    record["cur_at"] = place(currents.table_of((x, y, z, t), (u, v, w)))
+    record["cur_at"] = place(np.concatenate([np.ravel(part) for part in (x, y, z, t, u, v, w)]))  # `physics.currents`
 
 
 def _put(record, name, vector):
@@ -171,7 +167,8 @@ def _held(record, end, place):
         return
     if motion.law == "harmonic":
         record["end_motion"] = codes.HARMONIC
-        record["end_at"] = place(ends.harmonic_of(motion.amplitude_m, motion.period_s, motion.phase_rad, motion.ramp_s))
+        omega = 2 * math.pi / motion.period_s
+        record["end_at"] = place([*motion.amplitude_m, omega, motion.phase_rad, motion.ramp_s])  # `physics.ends`
     else:
         record["end_motion"], record["end_n"] = codes.TABLE, len(motion.time_s)
         record["end_at"] = place(ends.table_of(motion.time_s, motion.displacement_m))
@@ -217,7 +214,7 @@ def _solver(record, scene, place, h):
         record["method"] = codes.ONE_STAGE
         record["alpha_m"], record["alpha_f"], record["gamma"] = method.alphas(solver.spectral_radius)
     period = scene.waves.period_s if scene.waves is not None else None
-    record["output_step"] = scene.output.step_s or (period / 100 if period else 0.05)
+    record["output_step"] = scene.sample_step_s()
     record["profile_step"] = (scene.output.profiles_step_s or record["output_step"]) if scene.output.profiles else 0.0
     record["fixed_step"] = solver.step_s or (period / 400 if period else 0.0125)
     record["max_step"], record["min_step"] = solver.max_step_s, solver.min_step_s

@@ -18,18 +18,6 @@ LOWEST, HIGHEST = 0.5, 3.0  # of the peak frequency
 _POINTS = 200  # over which the energy of one part is summed
 
 
-def spectral_density(
-    frequency: np.ndarray, significant_height_m: float, peak_period_s: float, gamma: float
-) -> np.ndarray:
-    """S(f) in m2/Hz at frequencies (n,) in Hz; zero outside the band, so that its integral is H_s^2/16."""
-    edges = np.array([LOWEST, HIGHEST]) / peak_period_s
-    fine = np.linspace(*edges, 20_001)
-    scale = significant_height_m**2 / 16.0 / np.trapezoid(_shape(fine * peak_period_s, gamma), fine)
-    f = np.asarray(frequency, float)
-    inside = (f >= edges[0]) & (f <= edges[1])
-    return np.where(inside, scale * _shape(np.where(inside, f * peak_period_s, 1.0), gamma), 0.0)
-
-
 def components(
     significant_height_m: float, peak_period_s: float, gamma: float, count: int, seed: int
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:

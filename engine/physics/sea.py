@@ -1,5 +1,7 @@
 """Irregular waves: a sum of linear waves, each with its own period, amplitude, phase and direction.
 
+In space a regular wave is a sea of one; in a plane it has a kernel of its own, which several runs at once can share.
+
     U = sum_i U_i,   psi_i = k_i (x cos a_i + y sin a_i) - omega_i t + phase_i,   omega_i^2 = g k_i tanh k_i H
 
 Every term is that of `physics.waves`; linear waves add. Above the still water level `zero` and `extrapolate` act on
@@ -99,30 +101,26 @@ def _add_wave(row, depth, above, gain, gain_rate, t, X, Z, F):
     up, down, s, c = 0.0, 0.0, 0.0, 1.0
     x_below = z_below = 0.0
     for j in range(n):
-        x = k * (cosine * X[j, 0] + (sine * X[j, 1] if size == 3 else 0.0))
+        x = cosine * X[j, 0] + (sine * X[j, 1] if size == 3 else 0.0)
         z = Z[j]
-        dz, dx = k * (z - z_below), x - x_below
+        dz, dx = k * (z - z_below), k * (x - x_below)
         x_below, z_below = x, z
         if j > 0 and abs(dz) < SMALL and abs(dx) < SMALL and up > TINY:
             e1, e2 = small_exponentials(dz)
             ds, dc = small_sincos(dx)
             up, down, s, c = up * e1, down * e2, s * dc + c * ds, c * dc - s * ds
         else:
-            s, c = sincos(x - om * t + phase)
+            s, c = sincos(k * x - om * t + phase)
             up, down = math.exp(k * (z - depth)), math.exp(-k * (z + depth))
         more, less = up + down, up - down
         if above == ZERO and X[j, size - 1] > depth:
             more = less = 0.0
-        u, u_t = u0 * more * c, u0 * om * more * s + u1 * more * c
+        uc, us, wc, ws = more * c, more * s, less * c, less * s
+        u, u_t = u0 * uc, u0 * om * us + u1 * uc
         F[j, 0] += cosine * u
         F[j, size] += cosine * u_t
         if size == 3:
             F[j, 1] += sine * u
             F[j, 4] += sine * u_t
-        F[j, size - 1] += u0 * less * s
-        F[j, 2 * size - 1] += u1 * less * s - u0 * om * less * c
-
-
-@kernel
-def no_sea(p, tables, t, X, F):
-    """What runs of one batch have (`engine.simd`): regular waves only."""
+        F[j, size - 1] += u0 * ws
+        F[j, 2 * size - 1] += u1 * ws - u0 * om * wc

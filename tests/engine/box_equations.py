@@ -211,6 +211,14 @@ def moved(Y, D):
     return np.concatenate([Y[:, :6] + D[:, :6], product(Y[:, 6:10], half), Y[:, 10:] + D[:, 9:]], 1)
 
 
+def change_of(Y, D):
+    """Change (n, 4) in a plane or (n, 6) in space of (q, V) under a small update D of a state Y."""
+    Z = moved(Y.astype(complex), 1j * STEP * D)
+    Z = lifted(Z) if Y.shape[1] == 6 else Z
+    change = np.hstack([(1 + Z[:, :1]) * frames(Z[:, 6:10])[:, 0], Z[:, 3:6]]).imag / STEP
+    return change[:, [0, 2, 3, 5]] if Y.shape[1] == 6 else change
+
+
 def unknowns(scene):
     """Columns of D that are unknown."""
     bent = scene.tether.bending_stiffness_Nm2 > 0
@@ -242,5 +250,4 @@ def response(scene, rate, Y, C_tilde, F, dC_tilde):
     stage = rate, rate, 1.0
     change = equations(scene, stage, Y, np.zeros((len(Y), 12)), C_tilde + 1j * STEP * dC_tilde, F).imag / STEP
     D = np.linalg.solve(jacobian(scene, stage, Y, C_tilde, F), -change).reshape(len(Y), -1)
-    Z = moved(Y, 1j * STEP * D)
-    return np.hstack([((1 + Z[:, :1]) * frames(Z[:, 6:10])[:, 0]).imag, Z[:, 3:6].imag]) / STEP
+    return change_of(Y, D)

@@ -4,8 +4,6 @@ Arrays are per node: state Y (n, 6) in a plane and (n, 13) in space, conserved C
 (n, 2) or (n, 3), water F = (velocity, local acceleration) (n, 4) or (n, 6), a Newton update D (n, 6) or (n, 12).
 """
 
-from types import SimpleNamespace
-
 import numpy as np
 
 from engine import arrays
@@ -17,8 +15,7 @@ from engine.physics.currents import current_field
 from engine.physics.ends import upper_end, upper_end_3d
 from engine.physics.sea import sea_field
 from engine.physics.water import water
-from engine.physics.waves import wave_field, wave_field_3d
-from engine.planar import columns as col
+from engine.physics.waves import wave_field
 from engine.planar import elimination as planar_bent
 from engine.planar import elimination_unbent as planar_unbent
 from engine.planar import node as planar_node
@@ -73,14 +70,6 @@ class Stage:
         self.state.conserved(self.p, Y, C)
         return C
 
-    def quantities(self, cq, cv, in_motion, Y, C_tilde, F):
-        """What the node kernel makes of a state of the plane: q, N, G, the slope of T, EI kappa_s."""
-        self.places(Y)
-        self._quantities(arrays.Stage(0.0, in_motion, cq, cv), Y, C_tilde, F)
-        Q = self.Q
-        q, N, G = (Q[:, at : at + 2] for at in (col.QX, col.NX, col.GX))
-        return SimpleNamespace(q=q, slope=Q[:, col.SLOPE], N=N, G=G, moment_s=-Q[:, col.M])
-
     def _quantities(self, stage, Y, C_tilde, F):
         self.C_tilde[:], self.F[:] = C_tilde, F
         self.node.node_quantities(self.p, self.tables, stage, Y, self.work)
@@ -115,10 +104,10 @@ def waves_at(scene, t, X, there=0.0):
     p, tables = parameters_of(scene)
     X = np.ascontiguousarray(X, float)
     F = np.full((len(X), 2 * X.shape[1]), there)
-    if scene.waves.irregular:
+    if p["sea_n"]:
         sea_field(p, tables, t, X, F)
     else:
-        (wave_field_3d if X.shape[1] == 3 else wave_field)(p, t, X, F)
+        wave_field(p, t, X, F)
     return F
 
 

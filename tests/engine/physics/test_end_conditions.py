@@ -1,7 +1,5 @@
-"""Law: the end conditions know no horizontal direction of their own, and in a plane they are those of the plane.
-
-With all that is given turned about the vertical, e is turned, and D = de/dV with it; without anything across the plane
-they are the numbers of the planar condition. D against central differences of step 1e-4 m/s (error of the square).
+"""Law: without anything across the plane the end conditions in space are those of the plane, and D = de/dV is their
+derivative, by central differences of step 1e-4 m/s (error of the square).
 """
 
 import numpy as np
@@ -9,8 +7,7 @@ import pytest
 
 from engine.record import RECORD, SPATIAL
 from tests.engine.kernels import parameters_of, upper_end_of
-from tests.engine.lines import DRY, SPACE, STILL, free, held, line
-from tests.engine.rotations import turned
+from tests.engine.lines import DRY, SPACE, free, held, line
 
 RNG = np.random.default_rng(4)
 N, V, V_TILDE, WATER = 900 * RNG.normal(size=3), *RNG.normal(size=(2, 3)), RNG.normal(size=(2, 3))
@@ -33,26 +30,6 @@ def condition(changes, N, V, V_tilde, water, in_motion=1.0, dimensions=3):
     return upper_end_of(p, tables, T, 8.0, in_motion, N, V, V_tilde, F)
 
 
-def turned_end(changes, angle):
-    """The end section with its vectors turned."""
-    end = {key: list(turned(np.array(value), angle)) if isinstance(value, list) else value
-           for key, value in changes.get("end", {}).items()}  # fmt: skip
-    if "motion" in end:
-        end["motion"] = {**end["motion"], "amplitude_m": list(turned(np.array(end["motion"]["amplitude_m"]), angle))}
-    return {**changes, "end": end} if end else changes
-
-
-@pytest.mark.parametrize("name", ENDS)
-@pytest.mark.parametrize("angle", [0.3, np.pi / 2, 2.5, -1.2])
-def test_a_turned_end_is_the_end_turned(name, angle):
-    e, e_N, D = condition(ENDS[name], N, V, V_TILDE, WATER)
-    args = (turned(part, angle) for part in (N, V, V_TILDE, WATER))
-    there, e_N_there, D_there = condition(turned_end(ENDS[name], angle), *args)
-    assert there == pytest.approx(turned(e, angle), rel=1e-12, abs=1e-12)
-    assert e_N_there == e_N
-    assert D_there == pytest.approx(turned(turned(D, angle).T, angle).T, rel=1e-11, abs=1e-9)
-
-
 @pytest.mark.parametrize("in_motion", [1.0, 0.0])
 @pytest.mark.parametrize("name", ENDS)
 def test_in_a_plane_it_is_that_of_the_plane(name, in_motion):
@@ -73,12 +50,6 @@ def test_the_derivatives_are_those_of_the_condition(name, in_motion):
         assert (ahead - behind) / 2e-4 == pytest.approx(D[:, j], rel=1e-7, abs=1e-5)
         ahead, behind = (condition(ENDS[name], N + step, V, V_TILDE, WATER, in_motion)[0] for step in (d, -d))
         assert (ahead - behind) / 2e-4 == pytest.approx(e_N * d / 1e-4, abs=1e-7)
-
-
-def test_water_at_rest_with_the_buoy_does_not_divide_by_zero():
-    for moving in (V, 0 * V):
-        e, _, D = condition(STILL, N, moving, V_TILDE, [moving, 0 * moving])
-        assert np.all(np.isfinite(e)) and np.all(np.isfinite(D))
 
 
 def test_a_clamp_points_along_the_line_between_the_ends_unless_told_otherwise():

@@ -1,13 +1,15 @@
 """Law: the condition of a buoy partly in the water is Lagrange's equation of the wetted cap, in a plane and in space,
-and its derivatives are those of the condition; a sphere in the water is the whole sphere, to the last bit.
+and its derivatives are those of the condition; a sphere in the water is the whole sphere, to the last bit. It rests
+where it displaces what it carries.
 """
 
 import numpy as np
 import pytest
 
+from engine import simulate
 from engine.physics.submergence import cap_across, cap_end, cap_end_3d, wetted
 from tests.engine.kernels import parameters_of, upper_end_of
-from tests.engine.lines import line
+from tests.engine.lines import STILL, equilibrium, forces, line, positions
 from tests.engine.physics.caps import CAP, condition, section, volume
 
 RNG = np.random.default_rng(11)
@@ -71,19 +73,6 @@ def test_the_derivatives_are_those_of_the_condition(axes, height, in_motion):
         assert (ahead - behind) / 2e-4 == pytest.approx(D[:, j], rel=1e-6, abs=1e-3)
 
 
-@pytest.mark.parametrize("axes", [2, 3])
-def test_a_sphere_in_the_water_is_the_whole_sphere(axes):
-    scene = line(CAP, SPACE if axes == 3 else {})
-    p, tables = parameters_of(scene)
-    full, _ = parameters_of(line(SPACE if axes == 3 else {}))
-    for _ in range(20):
-        place = np.append(RNG.normal(size=axes - 1), DEPTH - D / 2 - scene.waves.steepness / p["k"] - RNG.exponential())
-        V, V_tilde, N, F = drawn(axes)
-        e, _, whole = upper_end_of(full, tables, T, CV, 1.0, N, V, V_tilde, F)
-        found = total(p, tables, 1.0, place, V, V_tilde, N, F)
-        assert np.array_equal(found[0], e) and np.array_equal(found[1], whole)
-
-
 def test_shares_and_their_derivatives_are_those_of_the_geometry():
     p, _ = parameters_of(line(CAP))
     for h in np.linspace(-0.2, D + 0.2, 41):
@@ -111,3 +100,42 @@ def test_across_the_plane_it_is_the_condition_in_space(height):
     e, rows = cap_end_3d(space, T, 1e30, CV, 1.0, place, v, (V_tilde[0], 0.3, V_tilde[1]), water)
     assert factor == pytest.approx(rows[1][1], rel=1e-12, abs=1e-9)
     assert known == pytest.approx(e[1], rel=1e-12, abs=1e-9)
+
+
+NEUTRAL = {"tether.density_kgpm3": 1027.0}  # as heavy as the water: held in a bow by its bending, with 0.01 N
+STIFF = {
+    "buoy.diameter_m": 0.2, "buoy.mass_kg": 1.6, "buoy.added_mass_kg": 2.0, "water.depth_m": 1.0, "tether.length_m": 1.1
+}  # fmt: skip
+# least and greatest pull of the line (N): taut; slack without weight; with weight, of which half and more hangs on the
+# buoy; so stiff that upright it could bear the sphere's weight, but would tip over about its pinned end; too heavy
+RESTS = [
+    *(({"water.depth_m": depth}, 10.0, 2000.0) for depth in (21.5, 20.5)),
+    *((NEUTRAL | {"water.depth_m": depth}, -0.1, 0.1) for depth in (20.4, 20.33, 20.1, 20.0, 12.0)),
+    *(({"water.depth_m": depth}, 0.8, 1.8) for depth in (20.33, 18.0)),
+    *((STIFF | {"tether.bending_stiffness_Nm2": EI}, 0.038, 0.105) for EI in (0.1, 1.0, 10.0)),
+    ({"buoy.mass_kg": 2500.0, "water.depth_m": 60.0}, -6800.0, -6600.0),
+]
+
+
+@pytest.mark.parametrize("dimensions", [2, 3])
+@pytest.mark.parametrize("changes, low, high", RESTS)
+def test_at_rest_the_line_pulls_with_the_weight_of_the_displaced_water_less_the_buoys(changes, low, high, dimensions):
+    """Archimedes: N = (rho pi h^2 (3R - h)/3 - M) g z."""
+    scene = line(CAP, STILL, changes, {"motion.dimensions": dimensions})
+    motion, buoy = equilibrium(scene), scene.buoy
+    h = scene.water.depth_m - positions(motion.Y, motion.h)[-1, -1] + buoy.diameter_m / 2
+    lift = (scene.water.density_kgpm3 * volume(h, buoy.diameter_m) - buoy.mass_kg) * scene.gravity_mps2
+    assert forces(motion.Y, scene.tether.tension)[-1] == pytest.approx([0.0, 0.0, lift], abs=2e-3)
+    assert low < lift < high
+
+
+@pytest.mark.parametrize("dimensions", [2, 3])
+def test_a_buoy_that_stays_under_water_moves_as_the_whole_sphere(dimensions):
+    """Bit for bit, in small waves over 25 m of water: its top stays below the troughs."""
+    deep = {"water.depth_m": 25.0, "waves.steepness": 0.08, "tether.nodes": 21, "motion.dimensions": dimensions}
+    run, other = simulate(line(deep, CAP), periods=6), simulate(line(deep), periods=6)
+    assert run.status == other.status == "ok" and np.ptp(run.columns["x_m"]) > 1.0
+    assert run.columns["z_m"].max() + 0.75 < 25.0 - 0.08 / 0.16
+    for key, values in other.columns.items():
+        assert np.array_equal(run.columns[key], values), key
+    assert run.statistics["newton_iterations"] == other.statistics["newton_iterations"]

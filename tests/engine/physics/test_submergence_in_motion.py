@@ -1,5 +1,8 @@
 """Law: on a straight line without mass the sphere in the waves is a pendulum on a spring, four ordinary differential
 equations, whose solution the run has: fields, cap, statics and time stepping together, through the air and under water.
+In still water without drag it keeps its energy,
+
+    (M + s M_a) |V|^2/2 + M g z + rho g int V_wet dh + the stretching of its line.
 """
 
 import math
@@ -10,8 +13,9 @@ from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 
 from engine import simulate
+from tests.engine.lines import Motion, mean, positions
 from tests.engine.physics.airy import direct
-from tests.engine.physics.caps import Wave, afloat, condition, volume
+from tests.engine.physics.caps import Wave, afloat, condition, potential, volume
 
 DEPTH, LENGTH, EA, DURATION_S = 21.0, 10.0, 3636.0, 8.0
 THROWN = [0.5, 0.0, 6.0]
@@ -70,3 +74,38 @@ def test_the_run_is_the_solution_of_the_ode(above, rtol, error_m):
     assert run.status == "ok" and exact[:, 2].max() > DEPTH + 2.0 and exact[:, 2].min() < DEPTH - 1.5
     places = run.table()[["x_m", "y_m", "z_m"]].to_numpy()
     assert np.abs(places - exact).max() < error_m
+
+
+def drift(rtol):
+    """Largest change of the energy over its kinetic part at the start, and h (m), of a sphere that floats half in the
+    water, is thrown up so that it leaves it by two diameters, falls back, goes under by three, and so on; the line,
+    twice its length, is so soft that it ties the sphere down with 100 N and is never slack."""
+    scene = afloat(
+        {"start.buoy_velocity_mps": [2.5, 0.0, 7.0], "output.step_s": 0.02, "tether.added_mass": 0.0,
+         "water.depth_m": 40.0, "buoy.mass_kg": 900.0, "solver.rtol": rtol, "solver.newton_tolerance": 3e-4 * rtol},
+        area_m2=1e-6, **{"tension.stiffness_N": 100.0},
+    )  # fmt: skip
+    motion, buoy, D = Motion(scene, 12.0), scene.buoy, scene.buoy.diameter_m
+    rows = []
+    for _, Y in motion.states():
+        z = positions(Y, motion.h)[-1, 1]
+        h = scene.water.depth_m - z + D / 2
+        mass = buoy.mass_kg + buoy.added_mass_kg * volume(h, D) / volume(D, D)
+        stretching = 0.5 * scene.tether.tension.stiffness_N * np.sum(motion.h * mean(Y[:, 0] ** 2))
+        kinetic = 0.5 * mass * np.sum(Y[-1, 2:4] ** 2)
+        rows.append([kinetic, potential(scene, z), stretching, h])
+    assert motion.time_s >= 12.0
+    *energies, h = np.array(rows).T
+    total = np.sum(energies, axis=0)
+    return np.abs(total - total[0]).max() / energies[0][0], h
+
+
+def test_energy_is_kept_to_the_tolerance():
+    """The forces have kinks at both ends of a passage: the error falls by less than the order of the method."""
+    drifts = []
+    for rtol in (3e-3, 3e-4, 3e-5):
+        change, h = drift(rtol)
+        assert np.sum((h[1:] - 0.75) * (h[:-1] - 0.75) < 0) >= 6 and h.min() < -3.0 and h.max() > 4.5
+        drifts.append(change)
+    assert drifts[0] < 2e-2 and drifts[1] < 2e-3 and drifts[2] < 2e-4
+    assert drifts[2] < drifts[0] / 50
