@@ -23,7 +23,7 @@ from analysis.oscillator import (
     strobed_states,
     strobed_states_within,
 )
-from analysis.oscillator.basin_grids import PAPER_BOX
+from analysis.oscillator.attractors import PAPER_BOX
 from analysis.oscillator.growth import random_starts
 from campaigns.columns import MESSAGE, RUN_KEY, STATUS, Column
 

@@ -20,10 +20,10 @@ from pathlib import Path
 import numpy as np
 import pandas
 
+from analysis.poincare import PHASES
 from campaigns.columns import Column, dictionary, names
 from campaigns.time_series.page import page
 from campaigns.time_series.record import Record
-from campaigns.time_series.section import PHASES
 from campaigns.time_series.study import Study
 from engine.atomic import write_atomic
 

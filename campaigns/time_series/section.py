@@ -13,13 +13,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from analysis.embedding_delay import LEAST_SAMPLES_PER_PERIOD, choose_delay
-from analysis.neighbours import noise_level
-from analysis.poincare import poincare_section
+from analysis.embedding import LEAST_SAMPLES_PER_PERIOD, choose_delay, noise_level
+from analysis.poincare import section_at_phases
 from analysis.sampling import locked
 
 STROBED, SAMPLES, MAXIMA = "strobed", "samples", "maxima"
-PHASES = 4
 NOISE_MULTIPLE = 6.0
 
 
@@ -51,10 +49,8 @@ def seen(series: np.ndarray, step: float, period: float | None = None) -> Seen:
     chosen = choose_delay(series)
     noise = noise_level(series, chosen.delay)
     if period is not None and abs(period - step) > 1e-6 * step:
-        columns = [poincare_section(series, step, period, phase / PHASES) for phase in range(PHASES)]
-        rows = min(len(column.points) for column in columns)
-        points = np.hstack([column.points[:rows] for column in columns])
-        return Seen(STROBED, locked(points), locked(columns[0].time_s[:rows]), period, noise, chosen.mean_period)
+        found = section_at_phases(series, step, period)
+        return Seen(STROBED, found.points, found.time_s, period, noise, chosen.mean_period)
     if period is not None or chosen.mean_period < LEAST_SAMPLES_PER_PERIOD:
         time = step * np.arange(len(series))
         return Seen(SAMPLES, locked(series[:, None]), locked(time), step, noise, chosen.mean_period)

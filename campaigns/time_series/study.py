@@ -17,8 +17,7 @@ import numpy as np
 
 from analysis.correlation_sums import CorrelationDimension, correlation_dimension
 from analysis.divergence import kantz_lyapunov, rosenstein_lyapunov
-from analysis.embedding_delay import delay_vectors
-from analysis.embedding_dimension import EmbeddingChoice, choose_embedding
+from analysis.embedding import EmbeddingChoice, choose_embedding, delay_vectors
 from analysis.evidence import SHARE, Evidence
 from analysis.exponents import Exponent, no_exponent
 from analysis.predictability import prediction_gain
