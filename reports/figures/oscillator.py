@@ -36,8 +36,8 @@ def oscillator_zooms(zooms: list[np.ndarray], boxes: np.ndarray) -> Picture:
 def _frames(boxes: np.ndarray, first: int) -> list[Curve]:
     """The outlines of boxes (b, 4), with their numbers."""
     corners = boxes[:, [0, 1, 1, 0, 0]], boxes[:, [2, 2, 3, 3, 2]]
-    names = (f"zoom {number}" for number in range(first, first + len(boxes)))
-    return [Curve(x, y, name, colour=VERMILION) for x, y, name in zip(*corners, names, strict=True)]
+    numbers = range(first, first + len(boxes))
+    return [Curve(x, y, f"zoom {k}", colour=(BLUE, GREEN)[k - 1]) for x, y, k in zip(*corners, numbers, strict=True)]
 
 
 def oscillator_history(periods: np.ndarray, displacement: np.ndarray, velocity: np.ndarray) -> Picture:
