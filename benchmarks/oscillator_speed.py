@@ -5,7 +5,7 @@
 Rates   forcing periods a second with both exponents, at the paper's parameters. Ours: `growth_over_values`, one start.
         pynamicalsys (PyPI; the extra `bench`): `ContinuousDynamicalSystem.lyapunov`, RK4 with T/64 steps, its own QR,
         compiled; equation and Jacobian as it wants them, compiled too. One thread each, compilation left out.
-Error   of the state after ten periods from (0.68, 0), against the digits of tests/analysis/oscillator/test_states.py.
+Error   of the state after ten periods from (0.68, 0), against 20 digits of an independent computation.
 Diagram 800 values of F in [0.1, 2], four starts, 500 + 1000 periods each, exponents at every value.
 """
 
