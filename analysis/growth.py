@@ -82,10 +82,10 @@ def growth_or_bursts(
     lacking = []
     for span in (window_periods * period, period):
         time, size = envelope_of(y, step, span)
-        line = _straight_part(time, size, least_span)
-        if isinstance(line, _Line):
-            return _exponential(line)
-        lacking.append(line)
+        found = _straight_part(time, size, least_span)
+        if isinstance(found, Growth):
+            return found
+        lacking.append(found)
     found = _bursts(size, least_span)
     if not len(found):
         return _without_rate("neither", f"{lacking[0]}; no burst of {least_span:g} nats")
@@ -106,29 +106,13 @@ def envelope_of(magnitude: ArrayLike, step: float, span: float) -> tuple[np.ndar
     return index * step, y[index]
 
 
-@dataclass(frozen=True)
-class _Line:
-    slope: float
-    error: float
-    begin: float
-    end: float
-    span: float
-
-
-def _exponential(line):
-    kind = "growth" if line.slope > 0 else "decay"
-    reason = f"straight from {line.begin:.4g} to {line.end:.4g}, {line.span:+.2g} nats"
-    rate, none = Exponent(line.slope, line.error, NATS_PER_TIME, METHOD, reason), locked(np.empty(0))
-    return Growth(kind, reason, rate, line.begin, line.end, line.span, none, none)
-
-
 def _without_rate(kind, reason, time=(), size=()):
     bursts = locked(np.array(time, dtype=float)), locked(np.array(size, dtype=float))
     return Growth(kind, reason, no_exponent(METHOD, reason), np.nan, np.nan, np.nan, *bursts)
 
 
 def _straight_part(time, size, least_span):
-    """The straight part of ln(size) with the largest span as a _Line, or the words for why there is none."""
+    """Growth or decay by the straight part of ln(size) with the largest span, or the words for why there is none."""
     t, y = time[size > 0.0], np.log(size[size > 0.0])
     n = len(t)
     if n < LEAST_POINTS:
@@ -140,7 +124,7 @@ def _straight_part(time, size, least_span):
         for end in range(n, begin + LEAST_POINTS - 1, -stride):
             slope, error = _slope(sums, begin, end)
             span = slope * (t[end - 1] - t[begin])
-            if abs(span) < least_span or (best is not None and abs(span) <= abs(best.span)):
+            if abs(span) < least_span or (best is not None and abs(span) <= abs(best[0])):
                 continue
             scatter, quarters = _straightness(sums, begin, end, slope)
             if scatter is None or scatter > MOST_SCATTER * abs(span):
@@ -148,9 +132,12 @@ def _straight_part(time, size, least_span):
             straight = True
             if _separates(y, begin, end, slope):
                 error = max(error, float(np.std(quarters, ddof=1)) / np.sqrt(QUARTERS))
-                best = _Line(float(slope), float(error), float(t[begin]), float(t[end - 1]), float(span))
+                best = span, slope, error, t[begin], t[end - 1]
     if best is not None:
-        return best
+        span, slope, error, begin, end = map(float, best)
+        reason, none = f"straight from {begin:.4g} to {end:.4g}, {span:+.2g} nats", locked(np.empty(0))
+        rate = Exponent(slope, error, NATS_PER_TIME, METHOD, reason)
+        return Growth("growth" if slope > 0 else "decay", reason, rate, begin, end, span, none, none)
     if straight:
         return "straight parts, but the record comes back to their level"
     return f"no straight part of {least_span:g} nats (the envelope spans {np.ptp(y):.2g} in all)"

@@ -23,9 +23,8 @@ from collections.abc import Iterable
 import numpy as np
 from numpy.typing import ArrayLike
 
-from analysis.embedding_dimension import choose_embedding
+from analysis.embedding import choose_embedding, noise_level
 from analysis.exponents import NATS_PER_TIME, Exponent, no_exponent
-from analysis.neighbours import noise_level
 from analysis.sampling import checked_count, checked_positive, checked_series, locked
 from analysis.wolf_pairs import wolf_run
 

@@ -16,9 +16,7 @@ from functools import partial
 import numpy as np
 
 from analysis.divergence import kantz_lyapunov, rosenstein_lyapunov
-from analysis.embedding_delay import choose_delay
-from analysis.embedding_dimension import choose_embedding
-from analysis.neighbours import noise_level
+from analysis.embedding import choose_delay, choose_embedding, noise_level
 from analysis.wolf_pairs import wolf_run
 from analysis.wolf_plateau import wolf_lyapunov
 from benchmarks.shared import seconds

@@ -6,7 +6,7 @@ A part is a function of the oscillator and the order; it gives arrays and the nu
 
 from __future__ import annotations
 
-from dataclasses import replace
+from functools import partial
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -23,7 +23,7 @@ from analysis.oscillator import (
     strobed_states,
     strobed_states_within,
 )
-from analysis.oscillator.basin_grids import PAPER_BOX
+from analysis.oscillator.attractors import PAPER_BOX
 from analysis.oscillator.growth import random_starts
 from campaigns.columns import MESSAGE, RUN_KEY, STATUS, Column
 
@@ -124,8 +124,10 @@ def exponents(o: SnapOscillator, order: Order) -> Result:
     return arrays | {"block_error": np.array([found.block_error])}, row
 
 
-def _diagram(o: SnapOscillator, over: str, span: tuple[float, float, int], effort: float) -> Result:
-    values = np.linspace(span[0], span[1], _scaled(span[2], min(effort, 1.0), 2))
+def diagram(over: str, o: SnapOscillator, order: Order) -> Result:
+    """Orbit diagram over "force" or "frequency" with exponents."""
+    low, high, count = order.forces if over == "force" else order.frequencies
+    values = np.linspace(low, high, _scaled(count, min(order.effort, 1.0), 2))
     found = snap_diagram(o, over, values, count=4, transient_periods=500, periods=1000, points=150, seed=SEED)
     arrays = {
         "values": values,
@@ -135,16 +137,6 @@ def _diagram(o: SnapOscillator, over: str, span: tuple[float, float, int], effor
         "slack_fraction": found.slack_fraction,
     }
     return arrays, {"starts": 4, "periods": 1000, "transient": 500, "points": len(values)}
-
-
-def diagram_force(o: SnapOscillator, order: Order) -> Result:
-    """Orbit diagram over F with exponents."""
-    return _diagram(o, "force", order.forces, order.effort)
-
-
-def diagram_frequency(o: SnapOscillator, order: Order) -> Result:
-    """Orbit diagram over omega with exponents."""
-    return _diagram(o, "frequency", order.frequencies, order.effort)
 
 
 def basins(o: SnapOscillator, order: Order) -> Result:
@@ -181,11 +173,9 @@ def grazing(o: SnapOscillator, order: Order) -> Result:
     arrays = {"grazing": np.array([found.force, found.time, found.clearance, found.velocity])}
     count = _scaled(200, order.effort, 20)
     if np.isfinite(found.force):
-        slack = []
-        for factor in (0.999, 1.001):
-            near = replace(o, force=found.force * factor)
-            slack.append(snap_diagram(near, "force", [near.force], count=count, transient_periods=2000, periods=100,
-                                      points=1, seed=SEED).slack_fraction[0])  # fmt: skip
+        near = [found.force * factor for factor in (0.999, 1.001)]
+        length = {"transient_periods": 2000, "periods": 100, "points": 1}
+        slack = snap_diagram(o, "force", near, count=count, **length, seed=SEED).slack_fraction
         arrays["slack_below"], arrays["slack_above"] = slack
     return arrays, {"grazing_force": found.force, "starts": count, "transient": 2000, "periods": 100}
 
@@ -197,6 +187,6 @@ PARTS = {
     "orbits": orbits,
     "basins": basins,
     "grazing": grazing,
-    "diagram-force": diagram_force,
-    "diagram-frequency": diagram_frequency,
+    "diagram-force": partial(diagram, "force"),
+    "diagram-frequency": partial(diagram, "frequency"),
 }

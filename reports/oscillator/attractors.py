@@ -6,22 +6,17 @@ import math
 
 import numpy as np
 
-from ..figures.oscillator_basins import oscillator_basins
-from ..parts.content import Column, Figure, Heading, Item, Table, Text
+from ..figures.oscillator import oscillator_basins
+from ..parts.content import Column, Figure, Item, Table, Text
 from ..parts.wording import decimals, number
 from .folder import Study
 
 
-def basin_items(study: Study) -> list[Item]:
+def basin_items(study: Study, arrays: dict) -> list[Item]:
     """Which starts end where, with the shares of the starts."""
-    heading = Heading("Coexisting attractors")
-    arrays = study.arrays.get("basins")
-    if arrays is None:
-        return [heading, Text(f"There are no basins: {study.faults['basins']}.")]
     shares = arrays["shares"]
     orbits = [arrays[f"orbit_{index + 1}"] for index in range(len(shares) - 1)]
     names = [f"period {len(orbit)}" for orbit in orbits] + ["aperiodic"]
-    section = study.arrays.get("section", {}).get("section", np.empty((0, 2)))[:20000]
     rows = tuple(
         (name, decimals(100.0 * share, 2), decimals(100.0 * error, 2))
         for name, share, error in zip(names, shares, arrays["errors"], strict=True)
@@ -39,15 +34,15 @@ def basin_items(study: Study) -> list[Item]:
         "that the start's own motion then approaches. The rest is aperiodic: on the chaotic attractor, or on its way."
     )
     alt = f"Basins of attraction of {len(orbits)} periodic orbits over displacement and velocity."
+    section = study.arrays.get("section", {}).get("section", np.empty((0, 2)))[:20000]
     figure = Figure(oscillator_basins(arrays["label"], tuple(arrays["box"]), names, orbits, section), caption, alt)
-    return [heading, Text(text), figure, Table(heads, rows, "Shares of the starts, with one standard error.")]
+    return [Text(text), figure, Table(heads, rows, "Shares of the starts, with one standard error.")]
 
 
-def orbit_items(study: Study) -> list[Item]:
+def orbit_items(study: Study, arrays: dict) -> list[Item]:
     """The periodic orbits with their multipliers."""
-    heading, arrays = Heading("Periodic orbits"), study.arrays.get("orbits", {})
     if "table" not in arrays:
-        return [heading, Text("Newton's method met no periodic orbit from any of its starts.")]
+        return [Text("Newton's method met no periodic orbit from any of its starts.")]
     text = (
         "Newton's method on the strobed map with the exact tangent map, from points of the section, a grid and the "
         "attractors found. A chaotic attractor holds infinitely many unstable orbits; the table has those that were "
@@ -69,39 +64,33 @@ def orbit_items(study: Study) -> list[Item]:
         Column("multiplier 1"), Column("multiplier 2"), Column("product off by", "relative"), Column("residual"),
     )  # fmt: skip
     caption = f"Periodic orbits met by Newton's method ({len(rows)}), by period. From the part `orbits`."
-    return [heading, Text(text), Table(columns, tuple(rows), caption, small=True)]
+    return [Text(text), Table(columns, tuple(rows), caption, small=True)]
 
 
 def _complex(value: complex) -> str:
     if value.imag == 0.0:
         return number(value.real, 6)
-    sign = "+" if value.imag > 0 else "−"
-    return f"{number(value.real, 6)} {sign} {number(abs(value.imag), 6)}i"
+    return f"{number(value.real, 6)} {'+' if value.imag > 0 else '−'} {number(abs(value.imag), 6)}i"
 
 
-def grazing_items(study: Study) -> list[Item]:
+def grazing_items(study: Study, arrays: dict) -> list[Item]:
     """The threshold of slack, and what random starts do at it."""
-    heading = Heading("Grazing")
-    arrays, force = study.arrays.get("grazing"), study.number("grazing", "grazing_force")
-    if arrays is None or not math.isfinite(force):
+    force, time, clearance, velocity = arrays["grazing"]
+    if not math.isfinite(force):
         usual = "without lift the tether is slack at any forcing, and without damping no taut motion attracts"
-        return [heading, Text(f"There is no threshold: {study.faults.get('grazing', usual)}.")]
+        return [Text(f"There is no threshold: {usual}.")]
     text = (
         "The threshold is the forcing at which the periodic motion that is always taut touches γ = 0. Below it that "
         "motion has no slack. Random starts that are slack below the threshold are on another attractor."
     )
-    _, time, clearance, velocity = arrays["grazing"]
-    slack = {share: arrays[name] > 0 for share, name in (("0.999", "slack_below"), ("1.001", "slack_above"))}
     rows = [
         ("forcing F", f"{force:.15g}"),
         ("least displacement γ at F", f"{clearance:.1e}"),
         ("velocity at that time", f"{velocity:.1e}"),
         ("time after the strobe", number(time, 6)),
-        *(
-            (f"starts that are slack at {share} F", f"{int(some.sum())} of {len(some)}")
-            for share, some in slack.items()
-        ),
     ]
+    for share, name in (("0.999", "slack_below"), ("1.001", "slack_above")):
+        slack = arrays[name] > 0
+        rows.append((f"starts that are slack at {share} F", f"{int(slack.sum())} of {len(slack)}"))
     caption = "Grazing. Slack: at some time in the last 100 of 2100 periods. From the part `grazing`."
-    table = Table((Column("what", align="left"), Column("value")), tuple(rows), caption)
-    return [heading, Text(text), table]
+    return [Text(text), Table((Column("what", align="left"), Column("value")), tuple(rows), caption)]

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from analysis.oscillator import SnapOscillator
+
 from ..parts.content import Column, Equation, Heading, Item, Table, Text
 from ..parts.wording import number
 from .folder import Study
@@ -31,12 +33,12 @@ EXPONENTS = Equation(
     "Kaplan-Yorke dimension of the section is one plus lambda one by the absolute value of lambda two.",
 )
 FIGURE_19 = "Tjavaras et al. 1998, figure 19"
-NUMBERS = {  # symbol, what it is, value of the paper, its source
-    "damping": ("μ", "damping by radiated waves", 0.025, FIGURE_19),
-    "frequency": ("ω", "forcing frequency, by the radial natural frequency", 1.14, FIGURE_19),
-    "force": ("F", "forcing amplitude", 1.4, FIGURE_19),
-    "lift": ("B − W", "buoyancy less weight", 0.68, FIGURE_19),
-    "phase": ("φ", "phase of the forcing at the strobe, rad", 0.0, "not stated in the paper; choice of this work"),
+NUMBERS = {  # symbol, what it is, source of the usual value
+    "damping": ("μ", "damping by radiated waves", FIGURE_19),
+    "frequency": ("ω", "forcing frequency, by the radial natural frequency", FIGURE_19),
+    "force": ("F", "forcing amplitude", FIGURE_19),
+    "lift": ("B − W", "buoyancy less weight", FIGURE_19),
+    "phase": ("φ", "phase of the forcing at the strobe, rad", "not stated in the paper; choice of this work"),
 }
 
 
@@ -50,18 +52,17 @@ def subtitle(study: Study) -> str:
 def equation_items(study: Study) -> list[Item]:
     """The equation, how it is integrated, and what the exponents are."""
     rows = []
-    for key, (symbol, meaning, usual, source) in NUMBERS.items():
-        given = study.oscillator[key]
-        rows.append(
-            (symbol, meaning, number(given, 10), source if given == usual else f"given; the default is {number(usual)}")
-        )
-    columns = (Column("symbol", align="left"), Column("what it is", align="left"), Column("value"))
-    columns += (Column("source", align="left"),)
+    for key, (symbol, meaning, source) in NUMBERS.items():
+        given, usual = study.oscillator[key], getattr(SnapOscillator, key)
+        source = source if given == usual else f"given; the default is {number(usual)}"
+        rows.append((symbol, meaning, number(given, 10), source))
+    columns = [Column(title, align="left") for title in ("symbol", "what it is", "source")]
+    columns.insert(2, Column("value"))
     return [
         Heading("Equation and method"),
         Text("All quantities are dimensionless (mass, buoy diameter, natural frequency of the radial motion):"),
         OSCILLATOR,
-        Table(columns, tuple(rows), "The oscillator as run, from `scene.toml`."),
+        Table(tuple(columns), tuple(rows), "The oscillator as run, from `scene.toml`."),
         Text("Each piece, taut or slack, has a closed form, so there is no time step:"),
         PIECE,
         Text(
