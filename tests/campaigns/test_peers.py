@@ -1,7 +1,5 @@
 """Other codes: scipy on the engine's own equations agrees with the engine, and what is not installed is said."""
 
-import math
-
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
@@ -47,9 +45,8 @@ def test_the_pendulum_with_a_rope_of_no_mass_is_the_elastic_spherical_pendulum()
     M, L, EA, g = 2.0, scene.tether.length_m, scene.tether.tension.stiffness_N, scene.gravity_mps2
 
     def rates(t, y):
-        r = math.sqrt(y[0] ** 2 + y[1] ** 2 + y[2] ** 2)
-        pull = EA / (L * M) * (r - L) / r
-        return [*y[3:], -pull * y[0], -pull * y[1], -pull * y[2] - g]
+        r = np.linalg.norm(y[:3])
+        return np.concatenate([y[3:], -EA / (L * M) * (r - L) / r * y[:3] - [0.0, 0.0, g]])
 
     start = [0.0, 0.0, -L * (1 + M * g / EA), *scene.start.buoy_velocity_mps]
     t = run.columns["time_s"]
