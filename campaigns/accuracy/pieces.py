@@ -75,12 +75,11 @@ def costs(rounds: int = ROUNDS) -> dict[str, object]:
 
 def _arguments(scene) -> tuple:
     """What the loops take: record, tables, state in mid motion, and the work arrays of Newton's method."""
-    from engine.planar import state
     from engine.run import Run
 
     run = Run(scene, PERIODS * scene.waves.period_s)
     run.advance(run.goal)
-    work = state.work_arrays(run.record, scene.tether.nodes)
+    work = run.kind.work_arrays(run.record, scene.tether.nodes)
     work.C_tilde[:] = run.motion.C
     return run.record, run.tables, run.motion.Y, work
 

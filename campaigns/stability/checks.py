@@ -4,14 +4,19 @@ check(run, case) -> (measured, how we know): `run` is a finished trajectory whos
 what the engine does inside; where another run is needed (refinement) it is made by the public `simulate`.
 """
 
+from __future__ import annotations
+
 import math
 from collections.abc import Callable
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from campaigns.stability.cases import Case
 from engine import Trajectory, load_scene, simulate
 from engine.scales import strain_at, tension_at
+
+if TYPE_CHECKING:
+    from campaigns.stability.cases import Case
 
 FINER_NODES, FINER_RTOL = 2, 10.0
 PUSHED_S, SEEN = 0.02, (1e-5, 3e-4)  # after the push of the case; share of the length, small enough to be linear

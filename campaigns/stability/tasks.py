@@ -20,7 +20,7 @@ from campaigns.machinery.plan import Summary
 from campaigns.machinery.pools import opened
 from campaigns.machinery.processes import PoolBroken
 from campaigns.machinery.row_cache import keep_row, kept_row, made_by
-from campaigns.stability import fuzz, random_scenes, run, scene_shares, step_maps
+from campaigns.stability import cases, fuzz, random_scenes, scene_shares, step_maps
 from campaigns.stability.cases import Case, all_cases, regular
 
 SOURCES = ("engine", "campaigns/stability", "campaigns/stability/random_scenes.toml")
@@ -75,7 +75,7 @@ def result(out: Path, maker: str, task: Task) -> dict:
 
 def _made(out: Path, maker: str, task: Task) -> dict:
     if task.kind == "case":
-        return run.case_row(task.what, trajectory_path(out, task.key()))
+        return cases.case_row(task.what, trajectory_path(out, task.key()))
     if task.kind == "map":
         return step_maps.of_line(task.what)
     if task.kind == "shares":
@@ -130,7 +130,7 @@ def done(order) -> tuple[dict[str, float], Summary]:
     random = [row for task in tasks if task.kind == "random" for row in results[task.key()]["rows"]]
     rows += [_of_kind(order, kind, drawn[kind], [row for row in random if row["kind"] == kind]) for kind in kinds]
     write_table(out / "fuzz.csv", fuzz.COLUMNS, random)
-    write_table(out / "table.csv", run.COLUMNS, rows)
+    write_table(out / "table.csv", cases.COLUMNS, rows)
     timing |= {"run_s": time.perf_counter() - start, "analysis_s": 0.0}
     return timing, Summary(rows, len(tasks) - len(missing), len(missing), 0.0)
 
@@ -149,7 +149,7 @@ def _of_kind(order, kind: str, drawn: list[dict], rows: list[dict]) -> dict:
 
         found = random_scenes.smallest(kind, order.seed, order.fuzz, is_unsound)
         message += f"; the smallest scene of this kind that is unsound: {json.dumps(found)}"
-    verdict = run.UNEXPLAINED if unsound else run.OK
+    verdict = cases.UNEXPLAINED if unsound else cases.OK
     return {
         "part": "fuzz", "group": "random", "case": f"{len(rows)} {kind} scenes", "how": "outcomes", "verdict": verdict,
         "status": verdict, "measured": float(unsound), "bar": 0.0, "message": message, "run_status": "",

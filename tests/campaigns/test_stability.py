@@ -10,9 +10,8 @@ from campaigns import stability
 from campaigns.columns import names
 from campaigns.machinery.folder import CampaignStopped
 from campaigns.machinery.row_cache import kept_row
-from campaigns.stability import checks, run, tasks
-from campaigns.stability.cases import ABOVE_BAR, REFUSED, Case, Ending, all_cases
-from campaigns.stability.run import case_row
+from campaigns.stability import cases, checks, tasks
+from campaigns.stability.cases import ABOVE_BAR, REFUSED, Case, Ending, all_cases, case_row
 
 NOT_STARTED = Ending((REFUSED,))
 CALM = {"waves.steepness": 0.016, "water.depth_m": 22.5, "tether.nodes": 5}
@@ -51,7 +50,7 @@ def test_verdicts(case, verdict, status):
     row = case_row(case)
     assert (row["verdict"], row["run_status"]) == (verdict, status), row
     assert row["status"] == ("unexplained" if verdict == "unexplained" else "ok")
-    assert set(row) <= set(names(run.COLUMNS))
+    assert set(row) <= set(names(cases.COLUMNS))
     assert row["message"] or status == "ok"
 
 
@@ -75,7 +74,7 @@ def test_a_process_that_died_is_tried_again_with_the_next_call(tmp_path, monkeyp
     task = tasks.Task("case", Case("x", "y", STILL))
     ok = {"verdict": "ok", "run_status": "ok"}
     for way, verdict, kept in ((partial(os._exit, 1), "unexplained", False), (ok.copy, "ok", True)):
-        monkeypatch.setattr(run, "_judged", lambda *_, way=way: way())
+        monkeypatch.setattr(cases, "_judged", lambda *_, way=way: way())
         assert tasks.do(tmp_path, "maker", task)[1]["verdict"] == verdict
         assert (kept_row(tmp_path, task.key(), "maker") is not None) == kept
 

@@ -25,7 +25,7 @@ from campaigns.accuracy.peers.record import as_trajectory, nothing
 from engine import Scene, Trajectory
 from engine.arrays import Stage
 from engine.compiled import kernel
-from engine.dimensions import conserved, size_of, work_arrays
+from engine.dimensions import size_of
 from engine.record import STRETCH
 from engine.run import Run
 from engine.simd.elementary import copy_into
@@ -64,22 +64,8 @@ def jacobian(p, tables, t, C, Y, work, base, moved, J):
             shifted[k, i] = C[k, i] + NUDGE
             code = max(code, rates(p, tables, t, shifted, trial, work, moved))
             shifted[k, i] = C[k, i]
-            for a in range(n):
-                for b in range(size):
-                    J[a * size + b, k * size + i] = (moved[a, b] - base[a, b]) / NUDGE
+            J[:, k * size + i] = (moved - base).ravel() / NUDGE
     return code
-
-
-@kernel
-def start_arrays(p):
-    """Work arrays for one line, and the number of conserved variables of a node."""
-    return work_arrays(p, p.nodes), size_of(p)[1]
-
-
-@kernel
-def at_start(p, Y, C):
-    """The conserved variables C (n, c) of a state Y."""
-    conserved(p, Y, C)
 
 
 class _Stopped(Exception):
@@ -92,18 +78,13 @@ class Equations:
     def __init__(self, scene):
         run = Run(scene, scene.sample_step_s())  # at rest, with the velocities of the start
         self.status, self.record, self.tables, self.Y = run.state["status"], run.record, run.tables, run.motion.Y
-        self.work, self.size = start_arrays(self.record)
-        n = len(self.Y)
-        self.base, self.moved = np.zeros((n, self.size)), np.zeros((n, self.size))
-        self.J = np.zeros((n * self.size, n * self.size))
+        self.C0, self.size = run.motion.C, run.motion.C.shape[1]
+        run.kind.conserved(self.record, self.Y, self.C0)
+        self.work = run.kind.work_arrays(self.record, len(self.Y))
+        self.base, self.moved = np.zeros_like(self.C0), np.zeros_like(self.C0)
+        self.J = np.zeros((self.C0.size, self.C0.size))
         self.calls = self.jacobians = self.faults = 0
         self.ends_s = np.inf
-
-    def start(self) -> np.ndarray:
-        """The conserved variables at t = 0, flat."""
-        C = np.zeros((len(self.Y), self.size))
-        at_start(self.record, self.Y, C)
-        return C.ravel()
 
     def f(self, t, C):
         if time.perf_counter() > self.ends_s:
@@ -132,7 +113,7 @@ def simulate(scene: Scene, duration_s: float, nodes: int, rtol: float, method: s
     equations = Equations(scene)
     if equations.status != OK:
         return nothing(scene, "statics-failed", "no static equilibrium")
-    C0 = equations.start()
+    C0 = equations.C0.ravel()
     equations.f(0.0, C0)
     equations.jac(0.0, C0)
     equations.calls = equations.jacobians = equations.faults = 0
