@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections import Counter
+from collections.abc import Iterator
+from statistics import median
 
 from ..parts.columns import table_of
-from ..parts.content import Bullets, Column, Heading, Item, Notice, Table, Text
+from ..parts.content import Column, Heading, Item, Notice, Table, Text
 from ..parts.files import value
-from ..parts.wording import number
+from ..parts.wording import EMPTY, number
 from .folder import SOUND, Study
 
 TITLES = {
@@ -64,49 +65,41 @@ def case_items(study: Study) -> list[Item]:
     return [Heading("Cases and verdicts"), Text(HOW), table_of(study.columns, SHOWN, rows, caption, own)]
 
 
-def limit_items(study: Study) -> list[Item]:
+def limit_items(study: Study) -> Iterator[Item]:
     """What ended otherwise than "ok", and what the user is told."""
-    limits, refused = study.judged("known limit"), study.judged("refused")
-    lines = []
-    for reason in dict.fromkeys(row["limit"] for row in limits):
-        names = "; ".join(f"{row['case']} ({row['run_status']})" for row in limits if row["limit"] == reason)
-        lines.append(f"{reason[:1].upper()}{reason[1:]}. Seen in: {names}.")
-    items: list[Item] = [Heading("Known limits"), Bullets(tuple(lines)) if lines else Text("None was met.")]
-    items.append(Heading("Refused, and what the user is told", 2))
-    if not refused:
-        return [*items, Text("Nothing was refused.")]
     own = {"message": lambda row: row["message"].removeprefix("faulty scene: ")}
-    caption = "Scenes that were not started, from `table.csv`."
-    return [*items, table_of(study.columns, ("case", "message"), refused, caption, own)]
+    sections = (
+        (Heading("Known limits"), "known limit", ("limit", "case", "run_status"), "Endings that were expected."),
+        (Heading("Refused, and what the user is told", 2), "refused", ("case", "message"), "Scenes not started."),
+    )
+    for heading, verdict, names, caption in sections:
+        rows = sorted(study.judged(verdict), key=lambda row: row["limit"])
+        yield heading
+        yield table_of(study.columns, names, rows, f"{caption} From `table.csv`.", own) if rows else Text("None.")
 
 
-def random_items(study: Study) -> list[Item]:
+def random_items(study: Study) -> Iterator[Item]:
     """Counts of outcomes and statuses, and the times."""
+    yield Heading("Random scenes")
     if not study.random:
-        return [Heading("Random scenes"), Text("None were asked for (`--fuzz 0`).")]
-    text = (
+        yield Text("None were asked for (`--fuzz 0`).")
+        return
+    yield Text(
         "Valid scenes are drawn section by section, and drawn again where a rule between their values is broken; in "
         "about half of them up to three numbers are replaced by extreme ones that the engine still accepts. Invalid "
         "scenes are valid ones with up to three faults put in. Each scene runs in a process of its own, for up to 40 "
         "samples, with a limit of 60 s of computing. The same seed gives the same scenes."
     )
-    groups: dict[tuple[str, str], list[dict[str, str]]] = {}
-    for row in study.random:
-        groups.setdefault((row["kind"], row["outcome"]), []).append(row)
-    rows = []
-    for (kind, outcome), found in sorted(groups.items(), key=lambda entry: (entry[0][0] != "valid", -len(entry[1]))):
-        statuses = Counter(row["status"] for row in found if row["status"] not in ("", "ok")).most_common()
-        meaning = ": ".join(
-            [OUTCOMES[outcome], *([", ".join(f"{word} {many}" for word, many in statuses)] * bool(statuses))]
-        )
-        walls = sorted(value(row, "wall_s") for row in found)
-        rows.append((kind, outcome, str(len(found)), meaning, number(walls[len(walls) // 2], 2), number(walls[-1], 3)))
-    columns = (
-        Column("scenes", align="left"), Column("outcome", align="left"), Column("count"),
-        Column("meaning", align="left"), Column("median", "s"), Column("slowest", "s"),
-    )  # fmt: skip
-    table = Table(columns, tuple(rows), "Outcomes of random scenes. From `fuzz.csv`.", small=True)
-    return [Heading("Random scenes"), Text(text), table]
+    walls: dict[tuple[str, ...], list[float]] = {}
+    for row in sorted(study.random, key=lambda row: (row["kind"] != "valid", row["outcome"] != "ok")):
+        named = row["kind"], row["outcome"], row["status"] or EMPTY, OUTCOMES[row["outcome"]]
+        walls.setdefault(named, []).append(value(row, "wall_s"))
+    rows = tuple(
+        (*named, str(len(found)), number(median(found), 2), number(max(found), 3)) for named, found in walls.items()
+    )
+    heads = [Column(title, align="left") for title in ("scenes", "outcome", "ended", "meaning")]
+    heads += [Column("count"), Column("median", "s"), Column("slowest", "s")]
+    yield Table(tuple(heads), rows, "Outcomes of random scenes. From `fuzz.csv`.", small=True)
 
 
 def unexplained_items(study: Study) -> list[Item]:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 import numpy as np
 
 from ..figures.scene_shares import scene_shares
@@ -11,33 +13,32 @@ from ..parts.wording import EMPTY, decimals, number
 from .folder import Study
 
 
-def map_items(study: Study) -> list[Item]:
+def map_items(study: Study) -> Iterator[Item]:
     """A figure for each line and one table of all."""
-    items: list[Item] = [
-        Heading("Eigenvalues of one step"),
-        Text(
-            "The map from one step to the next is differenced about a state of rest, with all its unknowns: the "
-            "conserved variables q and V of every node and their rates. A method multiplies a mode of rate λ by its "
-            "stability function R(λ Δt). In a taut line the rates are imaginary and no eigenvalue may leave the unit "
-            "circle, however long the step. Under compression the rates are real, and the modes that grow must have "
-            "eigenvalues outside: a step of many e-folds damps them instead, in every implicit method. Steps that "
-            "control their own length are held to two e-folds of the fastest buckle for this reason "
-            "(`solver.growth_per_step`)."
-        ),
-    ]
+    yield Heading("Eigenvalues of one step")
+    yield Text(
+        "The map from one step to the next is differenced about a state of rest, with all its unknowns: the conserved "
+        "variables q and V of every node and their rates. A method multiplies a mode of rate λ by its stability "
+        "function R(λ Δt). In a taut line the rates are imaginary and no eigenvalue may leave the unit circle, however "
+        "long the step. Under compression the rates are real, and the modes that grow must have eigenvalues outside: a "
+        "step of many e-folds damps them instead, in every implicit method. Steps that control their own length are "
+        "held to two e-folds of the fastest buckle for this reason (`solver.growth_per_step`)."
+    )
     rows = []
     for line in study.maps.values():
         values = {name: np.array(entry["re"]) + 1j * np.array(entry["im"]) for name, entry in line["methods"].items()}
-        largest = max(entry["largest"] for entry in line["methods"].values())
-        seen = f"{line['title']}, steps of {number(line['step_s'], 3)} s; largest modulus {number(largest, 7)}"
+        step, largest = number(line["step_s"], 3), max(entry["largest"] for entry in line["methods"].values())
+        seen = f"{line['title']}, steps of {step} s; largest modulus {number(largest, 7)}"
         caption = (
             f"A line {seen}. Eigenvalues μ, dots: inside or on the unit circle; crosses: outside, those beyond the "
             "panel on its edge. From `step_maps.json`."
         )
-        items.append(
-            Figure(step_maps(values), caption, f"Eigenvalues in the complex plane beside the unit circle: {seen}.")
-        )
-        rows += [_row(line, name, entry) for name, entry in line["methods"].items()]
+        yield Figure(step_maps(values), caption, f"Eigenvalues in the complex plane beside the unit circle: {seen}.")
+        for name, entry in line["methods"].items():
+            excess = f"{entry['largest'] - 1:.1e}".replace("-", "−")
+            distance = f"{entry['distance']:.1e}" if "distance" in entry else EMPTY
+            growing = (str(entry.get(key, EMPTY)) for key in ("growing", "growing_found"))
+            rows.append((line["title"], name, step, excess, distance, *growing))
     columns = (
         Column("line", align="left"), Column("method", align="left"), Column("Δt", "s"), Column("largest |μ| − 1"),
         Column("distance from closed form"), Column("should grow"), Column("grow"),
@@ -47,38 +48,29 @@ def map_items(study: Study) -> list[Item]:
         "from the nearest one found. Grow: how many modes should and do lie outside the unit circle. From "
         "`step_maps.json`."
     )
-    return [*items, Table(columns, tuple(rows), caption, small=True)]
+    yield Table(columns, tuple(rows), caption, small=True)
 
 
-def _row(line: dict, name: str, entry: dict) -> tuple[str, ...]:
-    excess = f"{entry['largest'] - 1:.1e}".replace("-", "−")
-    distance = f"{entry['distance']:.1e}" if "distance" in entry else EMPTY
-    growing = tuple(str(entry.get(key, EMPTY)) for key in ("growing", "growing_found"))
-    return line["title"], name, number(line["step_s"], 3), excess, distance, *growing
-
-
-def share_items(study: Study) -> list[Item]:
+def share_items(study: Study) -> Iterator[Item]:
     """Times of scenes with parts taken away and added."""
     scenes = study.shares["scenes"]
     times = np.array([scene["us_per_newton"] for scene in scenes.values()])
     shares = times / times[0]
-    rows = tuple(
-        (name, number(scene["us_per_newton"], 3), decimals(share, 2), number(scene["us_per_step"], 3))
-        for (name, scene), share in zip(scenes.items(), shares, strict=True)
-    )
-    columns = (
-        Column("scene", align="left"), Column("Newton iteration", "µs"), Column("share of the first"),
-        Column("step", "µs"),
-    )  # fmt: skip
-    rounds = study.shares["rounds"]
-    caption = (
-        f"Cost of the parts of a scene: medians of {rounds} rounds in turns on one core. From `scene_shares.json`."
-    )
     seen = f"{number(shares.min(), 2)} to {number(shares.max(), 2)} times the time of the first scene"
-    figure = Figure(
+    yield Heading("What a scene does not need")
+    yield Figure(
         scene_shares(list(scenes), times),
         f"What each part of a scene costs: a Newton iteration takes {seen}. A scene without a part does not compute "
         "it. From `scene_shares.json`.",
         f"Bars of the time of a Newton iteration for {len(scenes)} scenes: {seen}.",
     )
-    return [Heading("What a scene does not need"), figure, Table(columns, rows, caption, small=True)]
+    columns = (
+        Column("scene", align="left"), Column("Newton iteration", "µs"), Column("share of the first"),
+        Column("step", "µs"),
+    )  # fmt: skip
+    rows = tuple(
+        (name, number(scene["us_per_newton"], 3), decimals(share, 2), number(scene["us_per_step"], 3))
+        for (name, scene), share in zip(scenes.items(), shares, strict=True)
+    )
+    rounds = f"medians of {study.shares['rounds']} rounds in turns on one core"
+    yield Table(columns, rows, f"Cost of the parts of a scene: {rounds}. From `scene_shares.json`.", small=True)
