@@ -13,8 +13,7 @@ from campaigns.paper.parts import COLUMNS
 from campaigns.paper.statements import claims
 from campaigns.statements import FAILS, HOLDS_IF, write_statements
 from engine import load_scene
-from reports.figures.line_panels import LinePanel
-from reports.paper.figures.breaking import _limits
+from reports.figures.line_panels import LinePanel, limits
 from reports.paper.report import report, short_answer
 from reports.parts.content import Links, Notice, Table, Text
 from reports.parts.html import render_html
@@ -92,12 +91,11 @@ def test_the_short_answer_tells_each_statement_that_does_not_simply_hold_once(tm
 
 
 def test_tensions_of_fast_and_slow_breaks_have_identical_scales():
-    forces = [45e3, 180e3, 315e3, 450e3]
+    def scales(least):
+        forces = enumerate((45e3, 180e3, 315e3, 450e3), 1)
+        panels = [LinePanel(f"{k}", N, "", np.zeros(2), np.array([[least * N, N]]), np.zeros(1)) for k, N in forces]
+        return limits(panels, "tension_N")
 
-    def limits(least):
-        panels = [LinePanel("", np.zeros(2), np.array([[least * N, N]]), np.zeros(1)) for N in forces]
-        return _limits(panels, ["1", "2", "3", "4"], forces, motion=False)
-
-    assert limits(-0.045) == limits(-0.01)
-    assert limits(0.0)[0] == limits(0.0)[1] != limits(0.0)[2] == limits(0.0)[3]
-    assert limits(-0.5)[0][0] < -0.5 * 180e3  # nothing is cut off
+    assert scales(-0.045) == scales(-0.01)
+    assert scales(0.0)[0] == scales(0.0)[1] != scales(0.0)[2] == scales(0.0)[3]
+    assert scales(-0.5)[0][0] < -0.5 * 180e3  # nothing is cut off

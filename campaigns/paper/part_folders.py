@@ -1,4 +1,4 @@
-"""The parts of the paper's campaign as its figures take them: runs by name, or why there is none."""
+"""The parts of the paper's campaign as its figures and statements take them: runs by name, or why there is none."""
 
 import json
 from collections.abc import Callable
@@ -55,23 +55,24 @@ class Parts:
 
     def run(self, part: Part, label: str, **wanted) -> tuple[Row, object, Source]:
         """The one run of a part that is as wanted: its row, its trajectory, its Source. Raises LeftOut."""
-        row = next((row for row in part.rows if all(row[column] == entry for column, entry in wanted.items())), None)
+        from engine.trajectory import Trajectory, TrajectoryError
+
+        row = next((row for row in part.rows if wanted.items() <= row.items()), None)
         if row is None:
             raise LeftOut(f"the part `{part.folder.name}` holds no run of {label}")
         if row["status"] != "ok":
             raise LeftOut(f"the run of {label} ended early ({row['status']}: {row['message']})")
         path = trajectory_path(part.folder, row["run_key"])
         if path not in self._runs:
-            self._runs[path] = self._load(path, label)
+            try:
+                found = Trajectory.load(path)
+            except TrajectoryError as error:
+                reason = str(error).removeprefix(f"{path}: ")  # what is written must not depend on the folder's place
+                raise LeftOut(f"the file of {label}, {path.name}, is no use ({reason})") from None
+            settings, run_s = found.scene.to_toml(), found.statistics["wall_s"]
+            self._runs[path] = found, source(label, self.root, path, path.stem, settings, run_s)
         return row, *self._runs[path]
 
-    def _load(self, path: Path, label: str) -> tuple[object, Source]:
-        from engine.trajectory import Trajectory, TrajectoryError
-
-        try:
-            trajectory = Trajectory.load(path)
-        except TrajectoryError as error:
-            reason = str(error).removeprefix(f"{path}: ")  # what is written must not depend on where the folder lies
-            raise LeftOut(f"the file of {label}, {path.name}, is no use ({reason})") from None
-        run_s = trajectory.statistics["wall_s"]
-        return trajectory, source(label, self.root, path, path.stem, trajectory.scene.to_toml(), run_s)
+    def of_buoy(self, steepness: float) -> tuple[object, Source]:
+        """Trajectory and Source of the buoy's run at a steepness of the paper. Raises LeftOut."""
+        return self.run(self.part("buoy"), f"kA = {steepness:g}", steepness=steepness)[1:]
