@@ -171,13 +171,14 @@ def _say_once(message: str) -> None:
 def compiled(function, folder: Path | None, **options):
     """`function` as a Numba dispatcher without Python objects, GIL and checks of indices, kept in `folder` (None: not
     kept). Division by zero gives inf or NaN, as in NumPy. options: further ones of numba.njit."""
-    plain = numba.njit(nogil=True, error_model="numpy", boundscheck=False, **options)
+    options |= {"nogil": True, "error_model": "numpy", "boundscheck": False, "no_cfunc_wrapper": True}
+    plain = numba.njit(**options)
     if folder is None:
         return plain(function)
     saved = config.CACHE_DIR
     config.CACHE_DIR = str(folder)
     try:
-        dispatcher = numba.njit(cache=True, nogil=True, error_model="numpy", boundscheck=False, **options)(function)
+        dispatcher = numba.njit(cache=True, **options)(function)
     except RuntimeError:  # Numba can write nowhere
         return plain(function)
     finally:

@@ -76,26 +76,6 @@ def roll(beta: np.ndarray) -> np.ndarray:
     return np.array([-beta[1], beta[0], beta[3], -beta[2]])
 
 
-def parameters_of(C: np.ndarray) -> np.ndarray:
-    """Euler parameters (4, n) of rotation matrices C (3, 3, n), continuous along the line."""
-    beta = np.empty((4, C.shape[2]))
-    for k, c in enumerate(np.moveaxis(C, 2, 0)):
-        # each candidate is beta scaled by four times one of its entries: the one with the largest entry is used
-        candidates = np.array(
-            [
-                [1 + c[0, 0] + c[1, 1] + c[2, 2], c[1, 2] - c[2, 1], c[2, 0] - c[0, 2], c[0, 1] - c[1, 0]],
-                [c[1, 2] - c[2, 1], 1 + c[0, 0] - c[1, 1] - c[2, 2], c[0, 1] + c[1, 0], c[2, 0] + c[0, 2]],
-                [c[2, 0] - c[0, 2], c[0, 1] + c[1, 0], 1 - c[0, 0] + c[1, 1] - c[2, 2], c[1, 2] + c[2, 1]],
-                [c[0, 1] - c[1, 0], c[2, 0] + c[0, 2], c[1, 2] + c[2, 1], 1 - c[0, 0] - c[1, 1] + c[2, 2]],
-            ]
-        )
-        best = candidates[np.argmax(np.diag(candidates))]
-        beta[:, k] = best / np.linalg.norm(best)
-        if k and beta[:, k] @ beta[:, k - 1] < 0:
-            beta[:, k] *= -1
-    return beta
-
-
 def turns(beta: np.ndarray, Omega: np.ndarray, h: np.ndarray) -> np.ndarray:
     """Turn within each element (rad): the larger of the angle between the frames at its ends and h times mean |Omega|.
 

@@ -28,7 +28,7 @@ from ..physics.submergence import cap_change
 from ..physics.water import water as flow
 from ..planar import columns as col
 from ..planar import node
-from ..planar.elimination import eliminate_bent
+from ..planar.elimination import eliminate
 from ..record import BEGIN, BUOY, KIND, STEP
 from ..simd.elementary import copy_into
 from ..simd.select import larger, some, where
@@ -216,7 +216,7 @@ def linearise(p, tables, base, work, water):
             C_tilde[k, col.VX + m] = Y[k, col.VX + m] - K[k, col.VX + m] / rate
     stage = Stage(base.t, 1.0, rate, rate)
     node.node_quantities(p, tables, stage, Y, work)
-    eliminate_bent(p, tables, stage, Y, work)
+    eliminate(p, tables, stage, Y, work)
     if base.moving_water > 0.0:
         water_slopes(p, tables, base.t, work.X, water)
 

@@ -13,7 +13,9 @@ and moment then give y_a = P y_b + p through one 3 x 3 inverse, and R_b, r_b fol
 then back substitution. The inverse is an adjugate over a determinant, one division and no pivot search: row scaling
 does not change it, and Newton failures were as rare as with pivoting.
 
-Without bending S and kappa are zero, y = (eps, phi), v = (U, W), and the same steps need a 2 x 2 inverse.
+Without bending the moment equation is S_a + S_b = 0 (`engine.planar.node`) and the condition of moment at the upper end
+S = 0, so that S is zero everywhere, and kappa, which nothing else needs, is put to zero. Well posed while the tether is
+in tension only (compression: EI = 0 is ill-posed, Triantafyllou & Howell 1994).
 
 E (n, 24): P, p, R, r, where `engine.planar.columns` says; the row of the anchor, which has no box below, holds the
 inverse at the upper end. For other right-hand sides of the same matrix (`engine.perturbations.resolve`) an E (n, 33)
@@ -35,7 +37,7 @@ from . import columns as col
 
 
 @kernel
-def eliminate_bent(p, tables, stage, Y, work):
+def eliminate(p, tables, stage, Y, work):
     """Fill work.D (n, 6) with the Newton update; returns False where a pivot block is singular.
 
     p, tables: parameters (`engine.record`); stage: Stage; Y (n, 6); work: Work, whose Q, F and X belong to Y.
@@ -156,6 +158,8 @@ def eliminate_bent(p, tables, stage, Y, work):
     g0 = -ex - Dxx * r0 - Dxz * r1
     g1 = -ez - Dzx * r0 - Dzz * r1
     g2 = -Y[b, col.KAPPA] - r2
+    if p.bent == 0:
+        R20, R21, R22, g2 = 0.0, 1.0, 0.0, 0.0
     (i00, i01, i02), (i10, i11, i12), (i20, i21, i22), det = adjugate((A00, A01, A02), (A10, A11, A12), (R20, R21, R22))
     least = smaller(least, abs(det))
     f = 1.0 / det
@@ -165,6 +169,9 @@ def eliminate_bent(p, tables, stage, Y, work):
     if E.shape[1] > col.BOX_WIDTH:
         E[0, col.TOP_DXX], E[0, col.TOP_DXZ], E[0, col.TOP_DZX], E[0, col.TOP_DZZ] = Dxx, Dxz, Dzx, Dzz
     back_substitute(E, g0, g1, g2, D)
+    if p.bent == 0:
+        for k in range(n):
+            D[k, col.KAPPA] = 0.0
     return least != 0.0
 
 

@@ -16,8 +16,7 @@ from ..simd.elementary import within
 from ..simd.select import finite, larger, smaller, where
 from . import columns as col
 from . import node
-from .elimination import eliminate_bent
-from .elimination_unbent import eliminate_unbent
+from .elimination import eliminate
 
 
 @kernel
@@ -42,9 +41,7 @@ def assemble(p, tables, stage, Y, work):
     node.shape(p, tables, Y, work.Q, work.X)
     water(p, tables, stage.t, stage.in_motion, work.X, work.F)
     node.node_quantities(p, tables, stage, Y, work)
-    if p.bent:
-        return eliminate_bent(p, tables, stage, Y, work)
-    return eliminate_unbent(p, tables, stage, Y, work)
+    return eliminate(p, tables, stage, Y, work)
 
 
 @kernel
@@ -111,21 +108,11 @@ def error_square(p, k, ec, Q):
 @kernel
 def largest_turn(p, Y):
     """Largest |phi_k - phi_(k-1)| (rad) and the upper node of its element."""
-    turn, element = 0.0, 0
+    turn, element = 0.0, 0.0
     for k in range(1, Y.shape[0]):
         d = abs(Y[k, col.PHI] - Y[k - 1, col.PHI])
-        if d > turn:
-            turn, element = d, k
+        turn, element = larger(turn, d), where(d > turn, float(k), element)
     return turn, element
-
-
-@kernel
-def greatest_turn(Y):
-    """Largest |phi_k - phi_(k-1)| (rad) alone."""
-    turn = 0.0
-    for k in range(1, Y.shape[0]):
-        turn = larger(turn, abs(Y[k, col.PHI] - Y[k - 1, col.PHI]))
-    return turn
 
 
 @kernel

@@ -8,7 +8,7 @@ from ..arrays import Trail
 from ..parameters import record_of
 from ..planar import columns as col
 from ..planar.state import conserved
-from ..record import PROFILE_WIDTH, RECORD, SAMPLE_WIDTH, STATE
+from ..record import RECORD, SAMPLE_WIDTH, STATE
 from .followers import Followers, lane_work
 from .record import REAL, WHOLE
 from .ticks import LANE, MOVED, RATE, RESTARTED, ROWS, STEP, Arrays, advance
@@ -42,7 +42,7 @@ class Machine:
             values=lane_zeros(len(REAL)), tables=lane_zeros(run.tables.size), numbers=lane_zeros(ROWS),
             a=lane_zeros(s), w=lane_zeros(3), Y=lane_zeros(n, 6), now=lane_zeros(n, 6), before=lane_zeros(n, 6),
             C=lane_zeros(n, 4), Ks=lane_zeros(s, n, 4), history=lane_zeros(3, n, 6),
-            C_new=lane_zeros(n, 4), K_new=lane_zeros(n, 4), row=lane_zeros(n, PROFILE_WIDTH),
+            C_new=lane_zeros(n, 4), K_new=lane_zeros(n, 4),
         )  # fmt: skip
         self.work = lane_work(n, col.BOX_WIDTH)
         room = STEPS if run.trail.followed else 0

@@ -17,8 +17,7 @@ from ..simd.elementary import within
 from . import columns as col
 from . import node
 from .box import box_rotation
-from .elimination import eliminate_bent
-from .elimination_unbent import eliminate_unbent
+from .elimination import eliminate
 from .vectors import dot, frame, least_turn, mixed, put, quaternion, quaternion_product, turned, vector
 
 
@@ -44,9 +43,7 @@ def assemble(p, tables, stage, Y, work):
     node.shape(p, tables, Y, work.Q, work.X)
     water(p, tables, stage.t, stage.in_motion, work.X, work.F)
     node.node_quantities(p, tables, stage, Y, work)
-    if p.bent:
-        return eliminate_bent(p, tables, stage, Y, work)
-    return eliminate_unbent(p, tables, stage, Y, work)
+    return eliminate(p, tables, stage, Y, work)
 
 
 @kernel

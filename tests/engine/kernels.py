@@ -19,13 +19,11 @@ from engine.physics.sea import sea_field
 from engine.physics.water import water
 from engine.physics.waves import wave_field, wave_field_3d
 from engine.planar import columns as col
-from engine.planar import elimination as planar_bent
-from engine.planar import elimination_unbent as planar_unbent
+from engine.planar import elimination as planar_elimination
 from engine.planar import node as planar_node
 from engine.planar import state as planar
 from engine.record import STATE
-from engine.spatial import elimination as spatial_bent
-from engine.spatial import elimination_unbent as spatial_unbent
+from engine.spatial import elimination as spatial_elimination
 from engine.spatial import node as spatial_node
 from engine.spatial import state as spatial
 from engine.time.newton import newton
@@ -51,8 +49,7 @@ class Stage:
         space = scene.motion.dimensions == 3
         self.n = int(self.p["nodes"])
         self.state, self.node = (spatial, spatial_node) if space else (planar, planar_node)
-        bent, unbent = (spatial_bent, spatial_unbent) if space else (planar_bent, planar_unbent)
-        self.eliminate = bent.eliminate_bent if self.p["bent"] else unbent.eliminate_unbent
+        self.eliminate = (spatial_elimination if space else planar_elimination).eliminate
         self.work = self.state.work_arrays.py_func(self.p, self.n)
         self.X, self.F, self.Q, self.E, self.D, self.C_tilde = self.work
 
@@ -161,7 +158,7 @@ class Steps:
         while not run.done():
             self.state["trail"] = 0
             trail = arrays.Trail(self.T, self.Ys, self.Ks)
-            march(self.record, self.tables, self.state, run.motion, run.output, trail, run.goal)
+            march(self.record, self.tables, self.state, run.motion, run.output, trail, run.goal, *run.parts)
             assert self.state["status"] == OK
             yield int(self.state["trail"])
 

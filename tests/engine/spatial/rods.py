@@ -1,17 +1,26 @@
-"""Clamped rods for the tests of torsion: scenes, rest from a given state, what a state (n, 13) looks like in space.
+"""Clamped rods for the tests of torsion, and equilibria of them that are not the engine's.
 
-A rod here is a dry, weightless line of `length` m under a linear law, clamped at both ends and twisted.
+A rod here is a dry, weightless line of `length` m under a linear law, clamped at both ends and twisted. Its equilibria:
+the localised buckle, and Kirchhoff's equations in fixed axes,
+
+
+    x_s = (1+eps) t,   t_s = M x t/EI,   n_s = (t x t_s) x n,   M_s = -(1+eps)^3 t x N,   N constant,   eps = N.t/EA
+
+No frame, no Euler parameters, no O1 as an unknown: n is carried without roll, M.t = GIp O1 keeps its value by itself.
+The twist given is what n turns, seen from the shortest rotations to the chord and on to the other clamp, and O1 times
+the length.
 """
 
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.integrate import solve_bvp
 
 from engine.parameters import grid
 from engine.time.statics import settle
 from tests.engine.kernels import parameters_of
-from tests.engine.lines import DRY, SPACE, equilibrium, held, line, linear
-from tests.engine.rotations import parameters_of_frames
+from tests.engine.lines import DRY, SPACE, axes_of, equilibrium, forces, held, line, linear, mean, positions
+from tests.engine.rotations import carried, parameters_of_frames
 
 DENSITY, AREA = 1140.0, 7.85e-5
 
@@ -60,3 +69,111 @@ def state_of(rod, s, t, n, M, N):
     for column, (axis, stiffness) in enumerate(((t, rod.GI), (n, rod.EI), (b, rod.EI))):
         Y[:, 10 + column] = np.sum(M * axis, 1) / stiffness
     return Y
+
+
+def rates(rod, y, N):
+    """Derivatives in s of x, t, n, M, the rows 0-2, 3-5, 6-8, 9-11 of y (12, k), under the force N (3,)."""
+    t, n, M = y[3:6], y[6:9], y[9:12]
+    eps = N @ t / rod.EA
+    bend = np.cross(M, t, axis=0) / rod.EI
+    load = -((1 + eps) ** 3) * np.cross(t, N[:, None] * np.ones_like(t), axis=0)
+    return np.vstack([(1 + eps) * t, bend, np.cross(np.cross(t, bend, axis=0), n, axis=0), load])
+
+
+def any_normal(t):
+    """A unit vector across t."""
+    n = np.cross(t, np.eye(3)[np.argmin(np.abs(t))])
+    return n / np.linalg.norm(n)
+
+
+def kirchhoff(rod, Y, h, tol=1e-9):
+    """The two-point problem from an engine's state as first guess, for clamps not on one axis: (solution, N (3,), O1).
+
+    solution.sol(s) gives x, t, n, M as rows 0-2, 3-5, 6-8, 9-11.
+    """
+    L = rod.length
+    below, above = (np.array(d) / np.linalg.norm(d) for d in (rod.below, rod.above))
+    t, n, b = axes_of(Y)
+    s = np.concatenate([[0.0], np.cumsum(h)])
+    M = rod.GI * Y[:, 10:11] * t + rod.EI * (Y[:, 11:12] * n + Y[:, 12:13] * b)
+    e1 = any_normal(above)
+    e2 = np.cross(above, e1)
+    start = n[0] - (n[0] @ below) * below
+    start /= np.linalg.norm(start)
+    chord = np.array(rod.place) / np.linalg.norm(rod.place)
+    final = carried(chord, above, carried(below, chord, start))
+
+    def ends(a, b, N):
+        roll = rod.twist - (b[9:12] @ b[3:6]) / rod.GI * L
+        turned = np.cos(roll) * final + np.sin(roll) * np.cross(above, final)
+        return np.concatenate(
+            [
+                a[:3], a[3:6] - below, a[6:9] - start, b[:3] - rod.place,
+                [b[3:6] @ e1, b[3:6] @ e2, b[6:9] @ np.cross(above, turned)],
+            ]
+        )  # fmt: skip
+
+    y = np.vstack([positions(Y, h).T, t.T, n.T, M.T])
+    found = solve_bvp(lambda s, y, N: rates(rod, y, N), ends, s, y, forces(Y, rod.EA).mean(0), tol=tol, max_nodes=20000)
+    assert found.success, found.message
+    end = found.y[:, -1]
+    return found, found.p, end[9:12] @ end[3:6] / rod.GI
+
+
+@dataclass(frozen=True)
+class Localised:
+    """The buckle of an infinitely long rod under tension T and torque M (Coyne 1990; van der Heijden & Thompson 2000).
+
+    With m = M/(2 sqrt(EI T)), k = sqrt(T/EI), a = sqrt(1 - m^2), theta and psi the polar angles of t about the axis,
+    1 - cos theta = 2 a^2 sech^2(k a s),  psi = m k s + arctan((a/m) tanh(k a s)).
+    """
+
+    EI: float
+    GI: float
+    T: float
+    m: float
+
+    @property
+    def torque(self):
+        return 2 * self.m * np.sqrt(self.EI * self.T)
+
+    @property
+    def shortening(self):
+        """D: what the ends come closer, m, extension left out."""
+        return 4 * np.sqrt(self.EI / self.T) * np.sqrt(1 - self.m**2)
+
+    def rotation(self, length):
+        """R: what the ends are turned against each other, rad."""
+        return self.torque * length / self.GI + 4 * np.arccos(self.m)
+
+    @property
+    def deflection(self):
+        """Largest distance from the axis, m: half the shortening."""
+        return 0.5 * self.shortening
+
+    def angles(self, s):
+        """theta, psi and d psi/ds at s from the middle."""
+        k, a, m = np.sqrt(self.T / self.EI), np.sqrt(1 - self.m**2), self.m
+        v = 2 * (a / np.cosh(k * a * s)) ** 2
+        return 2 * np.arcsin(np.sqrt(v / 2)), m * k * s + np.arctan(a / m * np.tanh(k * a * s)), 2 * m * k / (2 - v)
+
+    def rod(self, length, EA):
+        """The clamped rod of this length along x whose ends are placed as this solution has them."""
+        reach = (length - self.shortening) * (1 + self.T / EA)
+        return Rod(self.EI, self.GI, EA, length, (reach, 0.0, 0.0), self.rotation(length))
+
+    def state(self, rod, s):
+        """State (n, 13) along a rod: M = M e + r x F, with r.M the moment about the axis, and n without roll."""
+        middle = s - 0.5 * rod.length
+        theta, psi, rate = self.angles(middle)
+        t = np.stack([np.cos(theta), np.sin(theta) * np.cos(psi), np.sin(theta) * np.sin(psi)], 1)
+        fine = np.linspace(s[0], s[-1], 20 * len(s) + 1)
+        theta_f, _, rate_f = self.angles(fine - 0.5 * rod.length)
+        roll = -np.concatenate([[0.0], np.cumsum(mean(rate_f * np.cos(theta_f)) * np.diff(fine))])
+        roll = np.interp(s, fine, roll)
+        up = np.stack([-np.sin(theta), np.cos(theta) * np.cos(psi), np.cos(theta) * np.sin(psi)], 1)
+        side = np.cross(t, up)
+        n = np.cos(roll)[:, None] * up + np.sin(roll)[:, None] * side
+        theta_s = np.gradient(theta, s)
+        M = self.torque * t + self.EI * (theta_s[:, None] * side - (rate * np.sin(theta))[:, None] * up)
+        return state_of(rod, s, t, n, M, np.array([self.T, 0.0, 0.0]))
