@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 import pytest
+import xarray
 
 from analysis import transverse_lyapunov
 from engine import SceneError, Trajectory, simulate, simulate_batch
@@ -77,17 +78,8 @@ def test_saved_and_loaded(periods, asked, tmp_path):
         np.testing.assert_array_equal(getattr(again.tangent, name), getattr(run.tangent, name))
     again.save(tmp_path / "again.nc")
     assert (tmp_path / "again.nc").read_bytes() == (tmp_path / "run.nc").read_bytes()
-
-
-def test_xarray_opens_the_growth(tmp_path):
-    import xarray
-
-    run = run_of(STEEP, ASKED["both"], periods=2)
-    run.save(tmp_path / "run.nc")
     with xarray.open_dataset(tmp_path / "run.nc", engine="scipy") as data:
-        assert data["growth_nats"].dims == ("period", "vector")
-        np.testing.assert_array_equal(data["growth_nats"].values, run.tangent.growth_nats)
-        assert data["growth_nats"].attrs["long_name"]
+        assert data["growth_nats"].dims == ("period", "vector") and data["growth_nats"].attrs["long_name"]
 
 
 @pytest.mark.parametrize(

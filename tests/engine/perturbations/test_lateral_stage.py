@@ -10,16 +10,12 @@ import pytest
 
 from engine import load_scene
 from engine.scene import build_scene
-from tests.engine.box_equations import across, lifted, response
+from tests.engine.box_equations import LAWS, across, lifted, response
 from tests.engine.kernels import Stage
 from tests.engine.lines import DRY, free, held
 
 NODES, RATE = 7, 120.0
 ENDS = {"buoy": {}, "held": held(3.0, 18.0), "free": free(300.0, 900.0)}
-LAWS = {
-    "linear": {"law": "linear", "stiffness_N": 5e4},
-    "tanh": {"law": "tanh", "p": [2.0e4, 5.0, 0.3, -5.0e3, 1.0e4]},
-}
 
 
 def scene_of(end, wet, **tether):

@@ -13,17 +13,12 @@ import numpy as np
 import pytest
 
 from engine import load_scene
-from tests.engine.box_equations import equations, jacobian, lifted, roll, unknowns
+from tests.engine.box_equations import LAWS, equations, jacobian, lifted, roll, unknowns
 from tests.engine.kernels import Stage
 from tests.engine.lines import Motion, line
 from tests.engine.physics.caps import CAP
 from tests.engine.rotations import frames, product, turned_by
 
-LAWS = {
-    "linear": {"law": "linear", "stiffness_N": 5e4},
-    "tanh": {"law": "tanh", "p": [2.0e4, 5.0, 0.3, -5.0e3, 1.0e4]},
-    "tabulated": {"law": "tabulated", "strain": [-0.2, 0.0, 0.1, 0.3], "tension_N": [-500.0, 0.0, 3e3, 2e4]},
-}
 HELD = {"end.kind": "held", "buoy": None}
 CLAMPED_BELOW, CLAMPED_ABOVE = {"anchor.rotation": "clamped"}, {"end.rotation": "clamped"}
 ENDS = {
