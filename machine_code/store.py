@@ -10,6 +10,7 @@ import fcntl
 import glob
 import hashlib
 import os
+import shutil
 import sys
 import tempfile
 import time
@@ -54,7 +55,8 @@ def folder_for(name: str, sources: str, kept: int) -> Path | None:
         except OSError:
             continue
         probe.close()
-        _drop_old(sorted((p for p in root.glob(f"{name}-*") if p != folder), key=_last_change)[: -kept or None])
+        for old in sorted((p for p in root.glob(f"{name}-*") if p != folder), key=_last_change)[: -kept or None]:
+            shutil.rmtree(old, ignore_errors=True)
         return folder
     return None
 
@@ -73,17 +75,6 @@ def _roots() -> Iterator[Path]:
         # Everybody can write beside it and knows its name: code that somebody else left there would be run.
         if shared.stat().st_uid == os.getuid():
             yield shared
-
-
-def _drop_old(folders: list[Path]) -> None:
-    for folder in folders:
-        for path in sorted(folder.rglob("*"), reverse=True):
-            try:
-                path.rmdir() if path.is_dir() else path.unlink()
-            except OSError:
-                continue
-        with contextlib.suppress(OSError):
-            folder.rmdir()
 
 
 def _last_change(folder: Path) -> float:

@@ -12,6 +12,8 @@ local frame; eq. (4) derivative along the line in the local frame; eq. (5) Euler
 
 import numpy as np
 
+from ..spatial.vectors import frame_of
+
 TO_ENGINE = [1, 2, 0]  # (x, y, z) from the paper's axes
 TO_PAPER = [2, 0, 1]  # the paper's axes from (x, y, z)
 
@@ -21,14 +23,7 @@ def rotation(beta: np.ndarray) -> np.ndarray:
 
     beta (4, ...). Scaled by |beta|^2 where |beta| is not 1: the box rule does not keep it.
     """
-    b0, b1, b2, b3 = beta
-    return np.array(
-        [
-            [b0 * b0 + b1 * b1 - b2 * b2 - b3 * b3, 2 * (b1 * b2 + b0 * b3), 2 * (b1 * b3 - b0 * b2)],
-            [2 * (b1 * b2 - b0 * b3), b0 * b0 - b1 * b1 + b2 * b2 - b3 * b3, 2 * (b2 * b3 + b0 * b1)],
-            [2 * (b1 * b3 + b0 * b2), 2 * (b2 * b3 - b0 * b1), b0 * b0 - b1 * b1 - b2 * b2 + b3 * b3],
-        ]
-    )
+    return np.array(frame_of(beta))
 
 
 def normal_rates(beta: np.ndarray, rate: np.ndarray) -> tuple[list, list]:

@@ -49,7 +49,7 @@ from ..planar import node
 from ..record import BEGIN, BUOY, HELD, KIND, STEP
 from ..simd.elementary import copy_into, put3, sincos, small_sincos
 from ..simd.select import every, larger, where
-from ..time.steps import plan_stage
+from ..time.steps import plan_stage, stage_rate
 from .tangent import Base, period_of
 
 # Columns of H, coefficients of a node: sine and cosine of half the turn of the box below it, then derivatives by tau
@@ -253,9 +253,7 @@ def carry_lateral(p, tables, period, count, trail, weights, vector, rates, growt
             flow(p, tables, base.t, 1.0, X, F)
             known_lateral(a, 0 if euler else i, vector, dK, dC_tilde)
             lateral_stage(p, tables, base, X, Q, F, dC_tilde, H, E, dC)
-            for k in range(n):
-                for m in range(2):
-                    dK[i, k, m] = rate * (dC[k, m] - dC_tilde[k, m])
+            stage_rate(rate, dC, dC_tilde, dK[i])
         copy_into(vector, dC)
         copy_into(rates, dK[s - 1])
         growth[period_of(t + dt, period, growth.shape[0])] += np.log(normalise(weights, True, vector, rates))

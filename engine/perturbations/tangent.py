@@ -32,7 +32,7 @@ from ..planar.elimination import eliminate
 from ..record import BEGIN, BUOY, KIND, STEP
 from ..simd.elementary import copy_into
 from ..simd.select import larger, some, where
-from ..time.steps import add_rates, plan_stage
+from ..time.steps import add_rates, plan_stage, stage_rate
 from .resolve import resolve_bent
 
 WATER_ITERATIONS, WATER_TOLERANCE, NUDGE = 8, 1e-7, 1e-6
@@ -273,9 +273,7 @@ def carry(p, tables, period, count, trail, vectors, rates, waters, growth):
             linearise(p, tables, base, work, water)
             for v in range(number):
                 carry_stage(p, tables, base, a, 0 if euler else i, True, v, carried, work, water)
-                for k in range(n):
-                    for m in range(4):
-                        dKs[v, i, k, m] = rate * (dCs[v, k, m] - dC_tilde[k, m])
+                stage_rate(rate, dCs[v], dC_tilde, dKs[v, i])
         for v in range(number):
             copy_into(vectors[v], dCs[v])
             copy_into(rates[v], dKs[v, s - 1])

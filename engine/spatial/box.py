@@ -3,9 +3,9 @@
 from collections import namedtuple
 
 from ..compiled import kernel
+from ..planar.elimination import adjugate
 from . import columns as col
-from .rows import added, combined, combined3, scaled
-from .vectors import dot, mixed, quaternion, relative, rotation_vector, vector
+from .vectors import added, combined, combined3, dot, mixed, quaternion, relative, rotation_vector, scaled, vector
 
 # Rows of five numbers, by y, for the six components of v = (V, O2, O3, theta1)
 Rows = namedtuple("Rows", "x y z O2 O3 theta1")
@@ -133,13 +133,10 @@ def factors(Mx, My, Mz, M2, M3):
     Inverse I of the block of (eps, Sn, Sb), a 3 x 3 adjugate; u3, u4 = I times the columns of the angles; inverse of
     the 2 x 2 block that is left for the angles.
     """
-    i00, i01, i02 = My[1] * Mz[2] - My[2] * Mz[1], Mx[2] * Mz[1] - Mx[1] * Mz[2], Mx[1] * My[2] - Mx[2] * My[1]
-    i10, i11, i12 = My[2] * Mz[0] - My[0] * Mz[2], Mx[0] * Mz[2] - Mx[2] * Mz[0], Mx[2] * My[0] - Mx[0] * My[2]
-    i20, i21, i22 = My[0] * Mz[1] - My[1] * Mz[0], Mx[1] * Mz[0] - Mx[0] * Mz[1], Mx[0] * My[1] - Mx[1] * My[0]
-    det = Mx[0] * i00 + Mx[1] * i10 + Mx[2] * i20
+    i0, i1, i2, det = adjugate(vector(Mx, 0), vector(My, 0), vector(Mz, 0))
     sound = det != 0.0
     f = 1.0 / det if sound else 0.0
-    I0, I1, I2 = (f * i00, f * i01, f * i02), (f * i10, f * i11, f * i12), (f * i20, f * i21, f * i22)
+    I0, I1, I2 = (f * i0[0], f * i0[1], f * i0[2]), (f * i1[0], f * i1[1], f * i1[2]), (f * i2[0], f * i2[1], f * i2[2])
     col3, col4 = (Mx[3], My[3], Mz[3]), (Mx[4], My[4], Mz[4])
     u3, u4 = (dot(I0, col3), dot(I1, col3), dot(I2, col3)), (dot(I0, col4), dot(I1, col4), dot(I2, col4))
     m2, m3 = (M2[0], M2[1], M2[2]), (M3[0], M3[1], M3[2])

@@ -48,9 +48,21 @@ from .box import (
     solve_box,
     solve_box_rows,
 )
-from .rows import added, combined, combined3, put_row, row_dot, row_of, row_times, scaled
 from .upper import solve_upper, spring
-from .vectors import dot, mixed, symmetric, vector
+from .vectors import (
+    added,
+    combined,
+    combined3,
+    dot,
+    mixed,
+    put_row,
+    row_dot,
+    row_of,
+    row_times,
+    scaled,
+    symmetric,
+    vector,
+)
 
 NO_TURN = (0.0, 0.0, 0.0), ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))  # psi and J of a line without bending
 

@@ -16,8 +16,7 @@ from ..record import HELD
 from ..simd.elementary import smooth_start
 from . import columns as col
 from .box import nodal_jacobian
-from .rows import row_of
-from .vectors import dot, mixed, quaternion, quaternion_product, relative, times, vector
+from .vectors import dot, mixed, quaternion, quaternion_product, relative, row_of, times, vector
 
 CLAMP = 1e6
 

@@ -1,26 +1,17 @@
-"""Clamped rods for the tests of torsion, and equilibria of them that are not the engine's.
+"""Clamped rods for the tests of torsion, and an equilibrium of them that is not the engine's: the localised buckle.
 
-A rod here is a dry, weightless line of `length` m under a linear law, clamped at both ends and twisted. Its equilibria:
-the localised buckle, and Kirchhoff's equations in fixed axes,
-
-
-    x_s = (1+eps) t,   t_s = M x t/EI,   n_s = (t x t_s) x n,   M_s = -(1+eps)^3 t x N,   N constant,   eps = N.t/EA
-
-No frame, no Euler parameters, no O1 as an unknown: n is carried without roll, M.t = GIp O1 keeps its value by itself.
-The twist given is what n turns, seen from the shortest rotations to the chord and on to the other clamp, and O1 times
-the length.
+A rod here is a dry, weightless line of `length` m under a linear law, clamped at both ends and twisted.
 """
 
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.integrate import solve_bvp
 
 from engine.parameters import grid
 from engine.time.statics import settle
 from tests.engine.kernels import parameters_of
-from tests.engine.lines import DRY, SPACE, axes_of, equilibrium, forces, held, line, linear, mean, positions
-from tests.engine.rotations import carried, parameters_of_frames
+from tests.engine.lines import DRY, SPACE, equilibrium, held, line, linear, mean
+from tests.engine.rotations import parameters_of_frames
 
 DENSITY, AREA = 1140.0, 7.85e-5
 
@@ -69,55 +60,6 @@ def state_of(rod, s, t, n, M, N):
     for column, (axis, stiffness) in enumerate(((t, rod.GI), (n, rod.EI), (b, rod.EI))):
         Y[:, 10 + column] = np.sum(M * axis, 1) / stiffness
     return Y
-
-
-def rates(rod, y, N):
-    """Derivatives in s of x, t, n, M, the rows 0-2, 3-5, 6-8, 9-11 of y (12, k), under the force N (3,)."""
-    t, n, M = y[3:6], y[6:9], y[9:12]
-    eps = N @ t / rod.EA
-    bend = np.cross(M, t, axis=0) / rod.EI
-    load = -((1 + eps) ** 3) * np.cross(t, N[:, None] * np.ones_like(t), axis=0)
-    return np.vstack([(1 + eps) * t, bend, np.cross(np.cross(t, bend, axis=0), n, axis=0), load])
-
-
-def any_normal(t):
-    """A unit vector across t."""
-    n = np.cross(t, np.eye(3)[np.argmin(np.abs(t))])
-    return n / np.linalg.norm(n)
-
-
-def kirchhoff(rod, Y, h, tol=1e-9):
-    """The two-point problem from an engine's state as first guess, for clamps not on one axis: (solution, N (3,), O1).
-
-    solution.sol(s) gives x, t, n, M as rows 0-2, 3-5, 6-8, 9-11.
-    """
-    L = rod.length
-    below, above = (np.array(d) / np.linalg.norm(d) for d in (rod.below, rod.above))
-    t, n, b = axes_of(Y)
-    s = np.concatenate([[0.0], np.cumsum(h)])
-    M = rod.GI * Y[:, 10:11] * t + rod.EI * (Y[:, 11:12] * n + Y[:, 12:13] * b)
-    e1 = any_normal(above)
-    e2 = np.cross(above, e1)
-    start = n[0] - (n[0] @ below) * below
-    start /= np.linalg.norm(start)
-    chord = np.array(rod.place) / np.linalg.norm(rod.place)
-    final = carried(chord, above, carried(below, chord, start))
-
-    def ends(a, b, N):
-        roll = rod.twist - (b[9:12] @ b[3:6]) / rod.GI * L
-        turned = np.cos(roll) * final + np.sin(roll) * np.cross(above, final)
-        return np.concatenate(
-            [
-                a[:3], a[3:6] - below, a[6:9] - start, b[:3] - rod.place,
-                [b[3:6] @ e1, b[3:6] @ e2, b[6:9] @ np.cross(above, turned)],
-            ]
-        )  # fmt: skip
-
-    y = np.vstack([positions(Y, h).T, t.T, n.T, M.T])
-    found = solve_bvp(lambda s, y, N: rates(rod, y, N), ends, s, y, forces(Y, rod.EA).mean(0), tol=tol, max_nodes=20000)
-    assert found.success, found.message
-    end = found.y[:, -1]
-    return found, found.p, end[9:12] @ end[3:6] / rod.GI
 
 
 @dataclass(frozen=True)
