@@ -15,8 +15,7 @@ from .planar.columns import EPS, PHI
 from .scene.models import Scene
 from .spatial import lift
 from .spatial import state as spatial
-from .time.statics import rest_of
-from .time.statics_advice import why_no_rest
+from .time.statics import rest_of, why_no_rest
 from .time.status import ADVICE, OK, STATICS_FAILED, TURN_UNRESOLVED, WORDS
 from .time.time_loop import SMALL_STEPS, march
 from .trajectory import COLUMNS, EnergyBudget, Profiles, Trajectory

@@ -20,7 +20,7 @@ from ..record import SAMPLE_WIDTH
 from ..run import columns_of
 from ..scene.models import Scene
 from ..time import status as codes
-from ..time.statics_advice import why_no_rest
+from ..time.statics import why_no_rest
 from ..trajectory import Profiles, Trajectory
 from .ends import force_and_velocity
 from .frame import TO_ENGINE, turns

@@ -145,9 +145,19 @@ def eliminate(p, tables, stage, Y, work):
         put3(E, k, col.R + 3, R10, R11, R12)
         put3(E, k, col.R + 6, R20, R21, R22)
         put3(E, k, col.R_KNOWN, r0, r1, r2)
-    # upper end: e_N dN + D dV = -e, dkappa = -kappa, with v = R y + r put in
+    # upper end (`engine.physics.ends`): e_N dN + D dV = -e, dkappa = -kappa, with v = R y + r put in
     b = n - 1
-    ex, ez, eN, Dxx, Dxz, Dzx, Dzz = upper_condition(p, tables, stage, Y, work)
+    t, in_motion, _, cv = stage
+    U, W, U_tilde, W_tilde = Y[b, col.VX], Y[b, col.VZ], work.C_tilde[b, col.VX], work.C_tilde[b, col.VZ]
+    ex, ez, eN, Dxx, Dxz, Dzz = planar_end(
+        p, tables, t, cv, in_motion, Q[b, col.NX], Q[b, col.NZ], U, W, U_tilde, W_tilde, work.F[b]
+    )
+    Dzx = Dxz
+    if p.spherical_cap:
+        x, z = work.X[b, 0], work.X[b, 1]
+        more = cap_end(p, t, cq, cv, in_motion, x, z, U, W, U_tilde, W_tilde, work.F[b])
+        ex, ez, Dxx = ex + more[0], ez + more[1], Dxx + more[2]
+        Dxz, Dzx, Dzz = Dxz + more[3], Dzx + more[4], Dzz + more[5]
     c, s, slope = take3(Q, b, col.COS)
     A00 = eN * slope * c + Dxx * R00 + Dxz * R10
     A01 = -eN * s + Dxx * R01 + Dxz * R11
@@ -183,25 +193,6 @@ def adjugate(A0, A1, A2):
     i10, i11, i12 = A12 * A20 - A10 * A22, A00 * A22 - A02 * A20, A02 * A10 - A00 * A12
     i20, i21, i22 = A10 * A21 - A11 * A20, A01 * A20 - A00 * A21, A00 * A11 - A01 * A10
     return (i00, i01, i02), (i10, i11, i12), (i20, i21, i22), A00 * i00 + A01 * i10 + A02 * i20
-
-
-@kernel
-def upper_condition(p, tables, stage, Y, work):
-    """Residual of the upper end: ex, ez, e_N, and D = de/dV: Dxx, Dxz, Dzx, Dzz (`engine.physics.ends`)."""
-    t, in_motion, cq, cv = stage
-    Q, C_tilde, X = work.Q, work.C_tilde, work.X
-    b = Y.shape[0] - 1
-    F = work.F[b]
-    U, W, U_tilde, W_tilde = Y[b, col.VX], Y[b, col.VZ], C_tilde[b, col.VX], C_tilde[b, col.VZ]
-    ex, ez, eN, Dxx, Dxz, Dzz = planar_end(
-        p, tables, t, cv, in_motion, Q[b, col.NX], Q[b, col.NZ], U, W, U_tilde, W_tilde, F
-    )
-    Dzx = Dxz
-    if p.spherical_cap:
-        more = cap_end(p, t, cq, cv, in_motion, X[b, 0], X[b, 1], U, W, U_tilde, W_tilde, F)
-        ex, ez, Dxx = ex + more[0], ez + more[1], Dxx + more[2]
-        Dxz, Dzx, Dzz = Dxz + more[3], Dzx + more[4], Dzz + more[5]
-    return ex, ez, eN, Dxx, Dxz, Dzx, Dzz
 
 
 @kernel

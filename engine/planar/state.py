@@ -10,13 +10,10 @@ import numpy as np
 from ..arrays import Work
 from ..compiled import kernel
 from ..physics.tension.kernels import tension
-from ..physics.water import water
 from ..record import PLACE, SPEED, STRAIN, TENSION
 from ..simd.elementary import within
 from ..simd.select import finite, larger, smaller, where
 from . import columns as col
-from . import node
-from .elimination import eliminate
 
 
 @kernel
@@ -30,18 +27,6 @@ def work_arrays(p, n):
     """Work arrays (`engine.record.Work`) of a Newton solve with n nodes."""
     X, F, Q = np.zeros((n, 2)), np.zeros((n, 4)), np.zeros((n, col.NODE_WIDTH))
     return Work(X, F, Q, np.zeros((n, col.BOX_WIDTH)), np.zeros((n, 6)), np.zeros((n, 4)))
-
-
-@kernel
-def assemble(p, tables, stage, Y, work):
-    """One Newton update into work.D (n, 6); returns False where a pivot block is singular.
-
-    p, tables: parameters (`engine.record`); stage: Stage; Y (n, 6); work: Work.
-    """
-    node.shape(p, tables, Y, work.Q, work.X)
-    water(p, tables, stage.t, stage.in_motion, work.X, work.F)
-    node.node_quantities(p, tables, stage, Y, work)
-    return eliminate(p, tables, stage, Y, work)
 
 
 @kernel

@@ -28,12 +28,6 @@ def spring(p, tables, element):
 
 
 @kernel
-def twist_at(p, t):
-    """Twist (rad) that the clamped upper end has been given at time t."""
-    return p.twist * smooth_start(t, p.twist_ramp)[0]
-
-
-@kernel
 def _roll_to_go(p, t, length, Y):
     """Turn (rad) about its own tangent by which the upper end exceeds the twist it is given.
 
@@ -42,7 +36,8 @@ def _roll_to_go(p, t, length, Y):
     last = Y.shape[0] - 1
     carried = quaternion_product((p.carry0, p.carry1, p.carry2, p.carry3), quaternion(Y[0], col.BETA))
     # twist of the frame: what O1 leaves over; as exp(twist/2) it is exact for any number of turns
-    twist = 0.5 * (twist_at(p, t) - Y[last, col.O1] * length)
+    given = p.twist * smooth_start(t, p.twist_ramp)[0]
+    twist = 0.5 * (given - Y[last, col.O1] * length)
     target = quaternion_product(carried, (math.cos(twist), math.sin(twist), 0.0, 0.0))
     r = relative(target, quaternion(Y[last], col.BETA))
     return 2.0 * math.atan2(r[1], r[0])

@@ -132,16 +132,6 @@ def next_step(p, state, code, released, error, longest):
 
 
 @kernel
-def record_step(trail, at, step, kind, trial):
-    """One accepted step into row `at` of the trail (`engine.perturbations.tangent`); kind: of `engine.record`."""
-    row = trail.T[at]
-    row[BEGIN], row[STEP], row[KIND] = step.t, step.dt, kind
-    for i in range(trial.Y.shape[0]):
-        copy_into(trail.Y[at, i], trial.Y[i])
-        copy_into(trail.K[at, i], trial.K[i])
-
-
-@kernel
 def march(p, tables, state, motion, output, trail, until, one_stage, e_t, budget):
     """Advance one simulation until `until` samples are stored, the trail is full, or it ends.
 
@@ -197,8 +187,11 @@ def march(p, tables, state, motion, output, trail, until, one_stage, e_t, budget
                 store_energies(p, tables, step.t + step.dt, trial.C, sums, energies[state.energies])
                 state.energies += 1
         if room > 0:
-            kind = RESTART if small else CONTROLLED if stiff else EULER
-            record_step(trail, state.trail, step, kind, trial)
+            at, kind = state.trail, RESTART if small else CONTROLLED if stiff else EULER
+            trail.T[at, BEGIN], trail.T[at, STEP], trail.T[at, KIND] = step.t, step.dt, kind
+            for i in range(s):
+                copy_into(trail.Y[at, i], trial.Y[i])
+                copy_into(trail.K[at, i], trial.K[i])
             state.trail += 1
         # the trial becomes the state
         copy_into(Y_before, Y)

@@ -4,21 +4,19 @@ Arrays are per node: state Y (n, 6) in a plane and (n, 13) in space, conserved C
 (n, 2) or (n, 3), water F = (velocity, local acceleration) (n, 4) or (n, 6), a Newton update D (n, 6) or (n, 12).
 """
 
-from types import SimpleNamespace
-
 import numpy as np
 
 from engine import arrays
 from engine import run as engine_run
 from engine.parameters import record_of
-from engine.perturbations.lateral import COEFFICIENTS, WIDTH, carry_lateral, lateral_stage
-from engine.perturbations.tangent import Base, carry
+from engine.perturbations.exponents import carry
+from engine.perturbations.lateral import COEFFICIENTS, WIDTH, lateral_stage
+from engine.perturbations.tangent import Base
 from engine.physics.currents import current_field
 from engine.physics.ends import upper_end, upper_end_3d
 from engine.physics.sea import sea_field
 from engine.physics.water import water
 from engine.physics.waves import wave_field, wave_field_3d
-from engine.planar import columns as col
 from engine.planar import elimination as planar_elimination
 from engine.planar import node as planar_node
 from engine.planar import state as planar
@@ -70,25 +68,14 @@ class Stage:
         self.state.conserved(self.p, Y, C)
         return C
 
-    def quantities(self, cq, cv, in_motion, Y, C_tilde, F):
-        """What the node kernel makes of a state of the plane: q, N, G, the slope of T, EI kappa_s."""
-        self.places(Y)
-        self._quantities(arrays.Stage(0.0, in_motion, cq, cv), Y, C_tilde, F)
-        Q = self.Q
-        q, N, G = (Q[:, at : at + 2] for at in (col.QX, col.NX, col.GX))
-        return SimpleNamespace(q=q, slope=Q[:, col.SLOPE], N=N, G=G, moment_s=-Q[:, col.M])
-
-    def _quantities(self, stage, Y, C_tilde, F):
-        self.C_tilde[:], self.F[:] = C_tilde, F
-        self.node.node_quantities(self.p, self.tables, stage, Y, self.work)
-
     def update(self, cq, cv, in_motion, Y, C_tilde, F, viscosity=None, t=0.0):
         """Newton update D at a state, with the water F and the viscosity (n, 2) frozen."""
         if viscosity is not None:
             self.Q[:, -2:] = viscosity
         self.places(Y)
         stage = arrays.Stage(t, in_motion, cq, cv)
-        self._quantities(stage, Y, C_tilde, F)
+        self.C_tilde[:], self.F[:] = C_tilde, F
+        self.node.node_quantities(self.p, self.tables, stage, Y, self.work)
         assert self.eliminate(self.p, self.tables, stage, Y, self.work)
         return self.D.copy()
 
@@ -168,13 +155,15 @@ class Steps:
     def carry(self, first, count, vectors, rates, waters):
         """Perturbations (k, n, 4) in place along kept steps; returns the growth (k,) of each, nats."""
         growth = np.zeros((1, len(vectors)))
-        carry(self.record, self.tables, 1e9, count, self.trail(first, count), vectors, rates, waters, growth)
+        along = vectors, rates, waters, growth
+        carry(self.record, self.tables, 1e9, count, self.trail(first, count), along, None)
         return growth[0]
 
     def carry_lateral(self, first, count, weights, across, rates):
         """A perturbation (n, 2) across the plane in place along kept steps; returns its growth, nats."""
         growth = np.zeros(1)
-        carry_lateral(self.record, self.tables, 1e9, count, self.trail(first, count), weights, across, rates, growth)
+        sideways = weights, across, rates, growth
+        carry(self.record, self.tables, 1e9, count, self.trail(first, count), None, sideways)
         return growth[0]
 
     def repeat(self, t, dt, dt_before, one_stage, state, new):

@@ -4,14 +4,15 @@ A rod here is a dry, weightless line of `length` m under a linear law, clamped a
 """
 
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 
 from engine.parameters import grid
 from engine.time.statics import settle
 from tests.engine.kernels import parameters_of
-from tests.engine.lines import DRY, SPACE, equilibrium, held, line, linear, mean
-from tests.engine.rotations import parameters_of_frames
+from tests.engine.lines import DRY, SPACE, equilibrium, held, line, linear
+from tests.engine.rotations import carried, parameters_of_frames
 
 DENSITY, AREA = 1140.0, 7.85e-5
 
@@ -94,10 +95,9 @@ class Localised:
         return 0.5 * self.shortening
 
     def angles(self, s):
-        """theta, psi and d psi/ds at s from the middle."""
+        """theta and psi at s from the middle."""
         k, a, m = np.sqrt(self.T / self.EI), np.sqrt(1 - self.m**2), self.m
-        v = 2 * (a / np.cosh(k * a * s)) ** 2
-        return 2 * np.arcsin(np.sqrt(v / 2)), m * k * s + np.arctan(a / m * np.tanh(k * a * s)), 2 * m * k / (2 - v)
+        return 2 * np.arcsin(a / np.cosh(k * a * s)), m * k * s + np.arctan(a / m * np.tanh(k * a * s))
 
     def rod(self, length, EA):
         """The clamped rod of this length along x whose ends are placed as this solution has them."""
@@ -105,17 +105,11 @@ class Localised:
         return Rod(self.EI, self.GI, EA, length, (reach, 0.0, 0.0), self.rotation(length))
 
     def state(self, rod, s):
-        """State (n, 13) along a rod: M = M e + r x F, with r.M the moment about the axis, and n without roll."""
-        middle = s - 0.5 * rod.length
-        theta, psi, rate = self.angles(middle)
+        """State (n, 13) along a rod: the moment M t + EI t x t_s, and n without roll, from node to node."""
+        theta, psi = self.angles(s - 0.5 * rod.length)
         t = np.stack([np.cos(theta), np.sin(theta) * np.cos(psi), np.sin(theta) * np.sin(psi)], 1)
-        fine = np.linspace(s[0], s[-1], 20 * len(s) + 1)
-        theta_f, _, rate_f = self.angles(fine - 0.5 * rod.length)
-        roll = -np.concatenate([[0.0], np.cumsum(mean(rate_f * np.cos(theta_f)) * np.diff(fine))])
-        roll = np.interp(s, fine, roll)
-        up = np.stack([-np.sin(theta), np.cos(theta) * np.cos(psi), np.cos(theta) * np.sin(psi)], 1)
-        side = np.cross(t, up)
-        n = np.cos(roll)[:, None] * up + np.sin(roll)[:, None] * side
-        theta_s = np.gradient(theta, s)
-        M = self.torque * t + self.EI * (theta_s[:, None] * side - (rate * np.sin(theta))[:, None] * up)
-        return state_of(rod, s, t, n, M, np.array([self.T, 0.0, 0.0]))
+        n = [np.cross([0.0, 0.0, 1.0], t[0]) / np.hypot(*t[0, :2])]
+        for below, above in pairwise(t):
+            n.append(carried(below, above, n[-1]))
+        M = self.torque * t + self.EI * np.cross(t, np.gradient(t, s, axis=0))
+        return state_of(rod, s, t, np.array(n), M, np.array([self.T, 0.0, 0.0]))
