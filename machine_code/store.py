@@ -10,6 +10,7 @@ import fcntl
 import glob
 import hashlib
 import os
+import shutil
 import sys
 import tempfile
 import time
@@ -54,7 +55,8 @@ def folder_for(name: str, sources: str, kept: int) -> Path | None:
         except OSError:
             continue
         probe.close()
-        _drop_old(sorted((p for p in root.glob(f"{name}-*") if p != folder), key=_last_change)[: -kept or None])
+        for old in sorted((p for p in root.glob(f"{name}-*") if p != folder), key=_last_change)[: -kept or None]:
+            shutil.rmtree(old, ignore_errors=True)
         return folder
     return None
 
@@ -73,17 +75,6 @@ def _roots() -> Iterator[Path]:
         # Everybody can write beside it and knows its name: code that somebody else left there would be run.
         if shared.stat().st_uid == os.getuid():
             yield shared
-
-
-def _drop_old(folders: list[Path]) -> None:
-    for folder in folders:
-        for path in sorted(folder.rglob("*"), reverse=True):
-            try:
-                path.rmdir() if path.is_dir() else path.unlink()
-            except OSError:
-                continue
-        with contextlib.suppress(OSError):
-            folder.rmdir()
 
 
 def _last_change(folder: Path) -> float:
@@ -171,13 +162,14 @@ def _say_once(message: str) -> None:
 def compiled(function, folder: Path | None, **options):
     """`function` as a Numba dispatcher without Python objects, GIL and checks of indices, kept in `folder` (None: not
     kept). Division by zero gives inf or NaN, as in NumPy. options: further ones of numba.njit."""
-    plain = numba.njit(nogil=True, error_model="numpy", boundscheck=False, **options)
+    options |= {"nogil": True, "error_model": "numpy", "boundscheck": False, "no_cfunc_wrapper": True}
+    plain = numba.njit(**options)
     if folder is None:
         return plain(function)
     saved = config.CACHE_DIR
     config.CACHE_DIR = str(folder)
     try:
-        dispatcher = numba.njit(cache=True, nogil=True, error_model="numpy", boundscheck=False, **options)(function)
+        dispatcher = numba.njit(cache=True, **options)(function)
     except RuntimeError:  # Numba can write nowhere
         return plain(function)
     finally:

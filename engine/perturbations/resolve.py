@@ -1,4 +1,4 @@
-"""Another right-hand side for the matrix that `planar.elimination.eliminate_bent` has eliminated: one pass up, one
+"""Another right-hand side for the matrix that `planar.elimination.eliminate` has eliminated: one pass up, one
 down.
 
 The tangent dynamics of a stage is linear in the perturbation, with Newton's matrix at the converged state:
@@ -18,7 +18,7 @@ from ..simd.elementary import put3, row_times, take3
 
 @kernel
 def resolve_bent(p, tables, cq, work, dC_tilde, gamma, top_x, top_z):
-    """Fill work.D (n, 6) with the perturbation dY; work.E (n, 33) comes from `eliminate_bent` at the same state.
+    """Fill work.D (n, 6) with the perturbation dY; work.E (n, 33) comes from `eliminate` at the same state.
 
     p, tables: parameters; cq (1/s); dC_tilde (n, 4), of which dq~ counts; gamma (n, 2) N/m; top_x, top_z in the units
     of the end's condition. Overwrites p and r in E.

@@ -20,19 +20,16 @@ a derivative; the periods in which one happens are marked. What it does to the e
 import math
 from collections import namedtuple
 
-import numpy as np
-
-from ..arrays import Stage, Work
+from ..arrays import Stage
 from ..compiled import kernel
 from ..physics.submergence import cap_change
 from ..physics.water import water as flow
 from ..planar import columns as col
 from ..planar import node
-from ..planar.elimination import eliminate_bent
-from ..record import BEGIN, BUOY, KIND, STEP
-from ..simd.elementary import copy_into
+from ..planar.elimination import eliminate
+from ..record import BUOY
 from ..simd.select import larger, some, where
-from ..time.steps import add_rates, plan_stage
+from ..time.steps import add_rates
 from .resolve import resolve_bent
 
 WATER_ITERATIONS, WATER_TOLERANCE, NUDGE = 8, 1e-7, 1e-6
@@ -216,7 +213,7 @@ def linearise(p, tables, base, work, water):
             C_tilde[k, col.VX + m] = Y[k, col.VX + m] - K[k, col.VX + m] / rate
     stage = Stage(base.t, 1.0, rate, rate)
     node.node_quantities(p, tables, stage, Y, work)
-    eliminate_bent(p, tables, stage, Y, work)
+    eliminate(p, tables, stage, Y, work)
     if base.moving_water > 0.0:
         water_slopes(p, tables, base.t, work.X, water)
 
@@ -246,39 +243,3 @@ def water_moves(p):
 def period_of(t, period, periods):
     """Number of the period in which a step that ends at t is counted."""
     return min(int(t / period - 1e-9), periods - 1)
-
-
-@kernel
-def carry(p, tables, period, count, trail, vectors, rates, waters, growth):
-    """Carry perturbations through the first `count` steps of a Trail.
-
-    vectors, rates (k, n, 4): dC and dK, orthonormal in C on entry and exit; waters (k, n, 4): first guesses of dF.
-    growth (periods, k), nats: what each step adds goes to the period (s) in which it ends (the last, beyond the end).
-    """
-    number, n, s = vectors.shape[0], vectors.shape[1], trail.Y.shape[1]
-    X, F, Q = np.zeros((n, 2)), np.zeros((n, 4)), np.zeros((n, col.NODE_WIDTH))
-    work = Work(X, F, Q, np.zeros((n, col.WITH_INVERSE)), np.zeros((n, 6)), np.zeros((n, 4)))
-    water = Water(np.zeros((n, 8)), np.zeros((n, 2)), np.zeros((n, 2)), np.zeros((n, 4)), np.zeros((n, 4)))
-    dKs, dC_tilde, dCs = np.zeros((number, s, n, 4)), np.zeros((n, 4)), np.zeros((number, n, 4))
-    carried = Carried(vectors, rates, waters, dKs, dC_tilde, dCs)
-    a, w, lengths = np.empty(s), np.empty(3), np.empty(number)
-    moving_water = water_moves(p)
-    for step in range(count):
-        t, dt, euler = trail.T[step, BEGIN], trail.T[step, STEP], trail.T[step, KIND] > 0.0
-        for v in range(number):
-            copy_into(dKs[v, 0], rates[v])
-        for i in range(s - 1 if euler else 1, s):
-            rate, after = plan_stage(p, tables, i, euler, dt, 0.0, a, w)
-            base = Base(t + after, rate, moving_water, trail.Y[step, i], trail.K[step, i])
-            linearise(p, tables, base, work, water)
-            for v in range(number):
-                carry_stage(p, tables, base, a, 0 if euler else i, True, v, carried, work, water)
-                for k in range(n):
-                    for m in range(4):
-                        dKs[v, i, k, m] = rate * (dCs[v, k, m] - dC_tilde[k, m])
-        for v in range(number):
-            copy_into(vectors[v], dCs[v])
-            copy_into(rates[v], dKs[v, s - 1])
-        orthonormalise(p.per_speed * p.per_speed, True, vectors, rates, lengths)
-        for v in range(number):
-            growth[period_of(t + dt, period, growth.shape[0]), v] += np.log(lengths[v])

@@ -15,9 +15,10 @@ import inspect
 import types as python_types
 from functools import cache, update_wrapper
 
-from llvmlite import ir
 from numba.core import types
 from numba.extending import intrinsic
+
+from .vector import call_intrinsic
 
 NAME = "_fused"
 
@@ -39,11 +40,7 @@ def fused(context, a, b, c):
         x, y, z = arguments
         if kind is types.intp:
             return builder.add(builder.mul(x, y), z)
-        name = "llvm.fma." + (f"v{x.type.count}f64" if isinstance(x.type, ir.VectorType) else "f64")
-        fma = builder.module.globals.get(name)
-        if fma is None:
-            fma = ir.Function(builder.module, ir.FunctionType(x.type, (x.type,) * 3), name)
-        return builder.call(fma, (x, y, z))
+        return call_intrinsic(builder, "fma", x, y, z)
 
     return kind(kind, kind, kind), generate
 

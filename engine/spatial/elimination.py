@@ -22,6 +22,9 @@ fixes it), O2 = O3 = 0, or a clamp. Compatibility and rotation give v_b from (v_
 momentum and moments give y_a = P y_b + p + p' dO1: a 3 x 3 inverse for (eps, Sn, Sb) and a 2 x 2 one for the angles.
 At the upper end one small solve, then back substitution.
 
+Without bending the moment equations are Sn_a + Sn_b = 0, Sb_a + Sb_b = 0 (`engine.spatial.node`), with Sn = Sb = 0 at
+the upper end; shear forces, curvatures and the roll of the frame are zero. Well posed while the tether is in tension.
+
 A clamp is a rotational spring, so stiff that the end turns by less than a millionth of the turn of its element.
 
 E (n, 77): P, p, p', R, r, r' where `engine.spatial.columns` says; the row of the anchor, which has no P and p, begins
@@ -45,13 +48,27 @@ from .box import (
     solve_box,
     solve_box_rows,
 )
-from .rows import added, combined, combined3, put_row, row_dot, row_of, row_times, scaled
 from .upper import solve_upper, spring
-from .vectors import dot, mixed, symmetric, vector
+from .vectors import (
+    added,
+    combined,
+    combined3,
+    dot,
+    mixed,
+    put_row,
+    row_dot,
+    row_of,
+    row_times,
+    scaled,
+    symmetric,
+    vector,
+)
+
+NO_TURN = (0.0, 0.0, 0.0), ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))  # psi and J of a line without bending
 
 
 @kernel
-def eliminate_bent(p, tables, stage, Y, work):
+def eliminate(p, tables, stage, Y, work):
     """Fill work.D (n, 12) with the Newton update; returns False where a pivot block is singular.
 
     p, tables: parameters (`engine.record`); stage: Stage; Y (n, 13); work: Work, whose Q, F and X belong to Y.
@@ -69,8 +86,10 @@ def eliminate_bent(p, tables, stage, Y, work):
         over = 1.0 / e
         Qa, Qb = Q[a], Q[k]
         # rotation and compatibility: v_b = A y_a + B y_b + z
-        psi, angle, g = box_rotation(Y, a, k)
-        J = jacobian_of_rotation(psi, angle, g)
+        psi, J = NO_TURN
+        if p.bent:
+            psi, angle, g = box_rotation(Y, a, k)
+            J = jacobian_of_rotation(psi, angle, g)
         A, B, z = across_box(Y, Q, k, e, cq, J, psi, R, r)
         # momentum, three rows M y_a + BM y_b = g
         at_a, at_b = nodal_jacobian(Qa, e), nodal_jacobian(Qb, e)
@@ -134,7 +153,14 @@ def eliminate_bent(p, tables, stage, Y, work):
             z1 + row_dot(A.theta1, known_a),
         )
     _store_relation(E[last], R, r)
-    return solve_upper(p, tables, stage, twisted, Y, work) and back_substitute(E, twisted, work.D)
+    if not solve_upper(p, tables, stage, twisted, Y, work):
+        return False
+    back_substitute(E, twisted, work.D)
+    if p.bent == 0:
+        for k in range(last + 1):
+            for i in (col.SHEAR_N, col.SHEAR_B, col.D_O2, col.D_O3):
+                work.D[k, i] = 0.0
+    return True
 
 
 @kernel
@@ -207,4 +233,3 @@ def back_substitute(E, twisted, D):
             )
             if twisted:
                 y = added(y, scaled(torque, row_of(row, col.P_TORQUE)))
-    return True

@@ -11,14 +11,10 @@ import numpy as np
 from ..arrays import Work
 from ..compiled import kernel
 from ..physics.tension.kernels import tension
-from ..physics.water import water
 from ..record import PLACE, SPEED, STRAIN, TENSION
 from ..simd.elementary import within
 from . import columns as col
-from . import node
 from .box import box_rotation
-from .elimination import eliminate_bent
-from .elimination_unbent import eliminate_unbent
 from .vectors import dot, frame, least_turn, mixed, put, quaternion, quaternion_product, turned, vector
 
 
@@ -33,20 +29,6 @@ def work_arrays(p, n):
     """Work arrays (`engine.arrays.Work`) of a Newton solve with n nodes."""
     X, F, Q = np.zeros((n, 3)), np.zeros((n, 6)), np.zeros((n, col.NODE_WIDTH))
     return Work(X, F, Q, np.zeros((n, col.BOX_WIDTH)), np.zeros((n, 12)), np.zeros((n, 6)))
-
-
-@kernel
-def assemble(p, tables, stage, Y, work):
-    """One Newton update into work.D (n, 12); returns False where a pivot block is singular.
-
-    p, tables: parameters (`engine.record`); stage: Stage; Y (n, 13); work: Work.
-    """
-    node.shape(p, tables, Y, work.Q, work.X)
-    water(p, tables, stage.t, stage.in_motion, work.X, work.F)
-    node.node_quantities(p, tables, stage, Y, work)
-    if p.bent:
-        return eliminate_bent(p, tables, stage, Y, work)
-    return eliminate_unbent(p, tables, stage, Y, work)
 
 
 @kernel

@@ -15,6 +15,11 @@ from engine.spatial.upper import CLAMP
 from tests.engine.rotations import conjugate, frames, product, shortest
 
 STEP = 1e-30
+LAWS = {  # of tension, as a scene has them
+    "linear": {"law": "linear", "stiffness_N": 5e4},
+    "tanh": {"law": "tanh", "p": [2.0e4, 5.0, 0.3, -5.0e3, 1.0e4]},
+    "tabulated": {"law": "tabulated", "strain": [-0.2, 0.0, 0.1, 0.3], "tension_N": [-500.0, 0.0, 3e3, 2e4]},
+}
 
 
 def elements(scene):

@@ -9,20 +9,19 @@ import numpy as np
 from engine import arrays
 from engine import run as engine_run
 from engine.parameters import record_of
-from engine.perturbations.lateral import COEFFICIENTS, WIDTH, carry_lateral, lateral_stage
-from engine.perturbations.tangent import Base, carry
+from engine.perturbations.exponents import carry
+from engine.perturbations.lateral import COEFFICIENTS, WIDTH, lateral_stage
+from engine.perturbations.tangent import Base
 from engine.physics.currents import current_field
 from engine.physics.ends import upper_end, upper_end_3d
 from engine.physics.sea import sea_field
 from engine.physics.water import water
 from engine.physics.waves import wave_field
-from engine.planar import elimination as planar_bent
-from engine.planar import elimination_unbent as planar_unbent
+from engine.planar import elimination as planar_elimination
 from engine.planar import node as planar_node
 from engine.planar import state as planar
 from engine.record import STATE
-from engine.spatial import elimination as spatial_bent
-from engine.spatial import elimination_unbent as spatial_unbent
+from engine.spatial import elimination as spatial_elimination
 from engine.spatial import node as spatial_node
 from engine.spatial import state as spatial
 from engine.time.newton import newton
@@ -48,8 +47,7 @@ class Stage:
         space = scene.motion.dimensions == 3
         self.n = int(self.p["nodes"])
         self.state, self.node = (spatial, spatial_node) if space else (planar, planar_node)
-        bent, unbent = (spatial_bent, spatial_unbent) if space else (planar_bent, planar_unbent)
-        self.eliminate = bent.eliminate_bent if self.p["bent"] else unbent.eliminate_unbent
+        self.eliminate = (spatial_elimination if space else planar_elimination).eliminate
         self.work = self.state.work_arrays.py_func(self.p, self.n)
         self.X, self.F, self.Q, self.E, self.D, self.C_tilde = self.work
 
@@ -70,17 +68,14 @@ class Stage:
         self.state.conserved(self.p, Y, C)
         return C
 
-    def _quantities(self, stage, Y, C_tilde, F):
-        self.C_tilde[:], self.F[:] = C_tilde, F
-        self.node.node_quantities(self.p, self.tables, stage, Y, self.work)
-
     def update(self, cq, cv, in_motion, Y, C_tilde, F, viscosity=None, t=0.0):
         """Newton update D at a state, with the water F and the viscosity (n, 2) frozen."""
         if viscosity is not None:
             self.Q[:, -2:] = viscosity
         self.places(Y)
         stage = arrays.Stage(t, in_motion, cq, cv)
-        self._quantities(stage, Y, C_tilde, F)
+        self.C_tilde[:], self.F[:] = C_tilde, F
+        self.node.node_quantities(self.p, self.tables, stage, Y, self.work)
         assert self.eliminate(self.p, self.tables, stage, Y, self.work)
         return self.D.copy()
 
@@ -150,7 +145,7 @@ class Steps:
         while not run.done():
             self.state["trail"] = 0
             trail = arrays.Trail(self.T, self.Ys, self.Ks)
-            march(self.record, self.tables, self.state, run.motion, run.output, trail, run.goal)
+            march(self.record, self.tables, self.state, run.motion, run.output, trail, run.goal, *run.parts)
             assert self.state["status"] == OK
             yield int(self.state["trail"])
 
@@ -160,13 +155,15 @@ class Steps:
     def carry(self, first, count, vectors, rates, waters):
         """Perturbations (k, n, 4) in place along kept steps; returns the growth (k,) of each, nats."""
         growth = np.zeros((1, len(vectors)))
-        carry(self.record, self.tables, 1e9, count, self.trail(first, count), vectors, rates, waters, growth)
+        along = vectors, rates, waters, growth
+        carry(self.record, self.tables, 1e9, count, self.trail(first, count), along, None)
         return growth[0]
 
     def carry_lateral(self, first, count, weights, across, rates):
         """A perturbation (n, 2) across the plane in place along kept steps; returns its growth, nats."""
         growth = np.zeros(1)
-        carry_lateral(self.record, self.tables, 1e9, count, self.trail(first, count), weights, across, rates, growth)
+        sideways = weights, across, rates, growth
+        carry(self.record, self.tables, 1e9, count, self.trail(first, count), None, sideways)
         return growth[0]
 
     def repeat(self, t, dt, dt_before, one_stage, state, new):

@@ -4,12 +4,16 @@ The tether stands or hangs straight, at rest, in a vertical current, or bouncing
 twice the static one; without waves nothing in the water tells x from y. The same perturbation (q_x, V_x) and (q_y, V_y)
 then grows alike in `tangent` and in `lateral`, step by step and with the same shape; both are solved to
 rounding, and growth of e^10 and decay of e^-30 on the way leave 1e-7 of that. In waves the two differ.
+
+Law: a lateral perturbation of a buoy at rest is a pendulum, and nothing damps it. (Its frequency follows from
+`test_lateral_stage`.)
 """
 
 import numpy as np
 import pytest
 
-from tests.engine.lines import DRY, STILL, free, held, line
+from engine import simulate
+from tests.engine.lines import DRY, STILL, free, held, line, linear
 from tests.engine.perturbations.tangents import Carried, Run
 
 
@@ -65,3 +69,19 @@ def test_across_is_along_on_an_upright_tether(name):
 def test_waves_tell_them_apart():
     found, _, _ = growths(line({"waves.steepness": 0.016}, nodes=21), 10.0)
     assert np.abs(found[:, 0] - found[:, 1]).max() > 1e-3
+
+
+def test_a_dry_pendulum_neither_grows_nor_decays():
+    """Its energy is the square of the length of the perturbation, so it keeps that to what the integrator takes.
+
+    The first 100 s rid the perturbation of its fast modes, which the integrator damps; of the pendulum ESDIRK4(3) with
+    steps of 0.1 s takes (omega dt)^4 times less than a tenth a second, 1e-6. The light tether has another energy than
+    the weights say, T being not quite the scale: 1e-4.
+    """
+    light = DRY | {"tether.density_kgpm3": 1e-2, "tether.tension": linear(1e5)}
+    run = simulate(line(light, {"output.lateral_growth": True}), duration_s=400.0)
+    assert run.status == "ok"
+    assert run.tangent.growth_nats.shape == (400, 0) and run.tangent.period_s == 1.0
+    later = run.tangent.lateral_nats[100:]
+    assert np.abs(later).max() < 1e-4
+    assert abs(later.mean()) < 1e-6

@@ -23,71 +23,58 @@ STEPS = {"solver.step_s": 0.02, "output.profiles": True, **QUIET}
 TENSIONS = ["tension_top_N", "tension_min_N", "tension_top_low_N", "tension_top_high_N"]
 
 
-def turned(vector, angle, mirror=1.0):
-    """A vector or a list of them after y -> mirror * y and a turn about the vertical."""
-    return about_the_vertical(np.array(vector, float) * [1.0, mirror, 1.0], angle).tolist()
-
-
-def waves_and_buoy(steepness, turn):
-    return {
-        "waves.steepness": steepness,
-        "waves.direction_rad": turn([1, 0, 0], heading=True),
-        "water.depth_m": 22.5,
-        "current": {
-            "law": "profile", "height_m": [0.0, 22.0], "velocity_mps": turn([[0.1, 0.2, 0.0], [-0.1, 0.5, 0.05]]),
-        },
-        "start.buoy_velocity_mps": turn([0.2, 0.3, 0.1]),
-    }  # fmt: skip
-
-
-def moved_end(turn):
-    motion = {"law": "harmonic", "amplitude_m": turn([0.5, 0.3, -0.4]), "period_s": 3.0, "ramp_s": 2.0}
-    waves = {"waves.direction_rad": turn([1, 0, 0], heading=True), "waves.steepness": 0.05}
-    return waves | held(*turn([6.0, -3.0, 17.0]), motion=motion)
-
-
-def let_go(turn):
-    end = held(*turn([5.0, 8.0, -3.0]), release_s=0.5, force_N=turn([2.0, -1.0, 3.0]))
-    return DRY | end | {"tether.bending_stiffness_Nm2": 4.0}
-
-
-def twisted(turn):
-    hand = np.sign(np.linalg.det([turn([1, 0, 0]), turn([0, 1, 0]), turn([0, 0, 1])]))
-    motion = {"law": "harmonic", "amplitude_m": turn([0.2, 0.3, 0.1]), "period_s": 2.0, "ramp_s": 2.0}
-    clamped = {"rotation": "clamped", "direction": turn([2.0, 1.0, 0.5]), "twist_rad": 2.0 * hand, "motion": motion}
-    below = {"rotation": "clamped", "direction": turn([1.0, 0.2, 1.0])}
-    stiff = {"tether.bending_stiffness_Nm2": 50.0, "tether.torsion_stiffness_Nm2": 30.0}
-    return STILL | held(*turn([12.0, 9.0, 8.0]), **clamped) | {"anchor": below} | stiff
-
-
-def paper_box(turn):
-    scheme = {"solver.scheme": "paper-box", "solver.step_s": 0.0125, "solver.newton_tolerance": 1e-10}
-    return waves_and_buoy(0.03, turn) | scheme | {"tether.nodes": 9}
-
-
-SCENES = {  # what is turned, run length (s)
-    "buoy in small waves": (lambda turn: waves_and_buoy(0.016, turn), 100.0),
-    "buoy in steep waves": (lambda turn: waves_and_buoy(0.08, turn), 15.0),
-    "without bending": (lambda turn: {**waves_and_buoy(0.016, turn), "tether.bending_stiffness_Nm2": 0.0}, 20.0),
-    "in and out of the water": (lambda turn: {**waves_and_buoy(0.02, turn), **CAP, "water.depth_m": 21.0}, 10.0),
-    "a held end in motion": (moved_end, 6.0),
-    "a held end let go": (let_go, 1.0),
-    "clamped and twisted": (twisted, 4.0),
-    "the paper's scheme": (paper_box, 2.5),
+WAVES = {
+    "waves.steepness": 0.016,
+    "waves.direction_rad": 0.0,
+    "water.depth_m": 22.5,
+    "current": {"law": "profile", "height_m": [0.0, 22.0], "velocity_mps": [[0.1, 0.2, 0.0], [-0.1, 0.5, 0.05]]},
+    "start.buoy_velocity_mps": [0.2, 0.3, 0.1],
 }
+HARMONIC = {"law": "harmonic", "ramp_s": 2.0}
+MOVED = HARMONIC | {"amplitude_m": [0.5, 0.3, -0.4], "period_s": 3.0}
+TWISTED = {
+    "rotation": "clamped", "direction": [2.0, 1.0, 0.5], "twist_rad": 2.0,
+    "motion": HARMONIC | {"amplitude_m": [0.2, 0.3, 0.1], "period_s": 2.0},
+}  # fmt: skip
+CLAMPED = {
+    "anchor": {"rotation": "clamped", "direction": [1.0, 0.2, 1.0]},
+    "tether.bending_stiffness_Nm2": 50.0,
+    "tether.torsion_stiffness_Nm2": 30.0,
+}
+LET_GO = held(5.0, 8.0, -3.0, release_s=0.5, force_N=[2.0, -1.0, 3.0]) | {"tether.bending_stiffness_Nm2": 4.0}
+PAPER = {"solver.scheme": "paper-box", "solver.step_s": 0.0125, "solver.newton_tolerance": 1e-10, "tether.nodes": 9}
+SCENES = {  # what is turned, run length (s)
+    "buoy in small waves": (WAVES, 100.0),
+    "buoy in steep waves": (WAVES | {"waves.steepness": 0.08}, 15.0),
+    "without bending": (WAVES | {"tether.bending_stiffness_Nm2": 0.0}, 20.0),
+    "in and out of the water": (WAVES | CAP | {"waves.steepness": 0.02, "water.depth_m": 21.0}, 10.0),
+    "a held end in motion": (
+        {"waves.direction_rad": 0.0, "waves.steepness": 0.05} | held(6.0, -3.0, 17.0, motion=MOVED), 6.0,
+    ),
+    "a held end let go": (DRY | LET_GO, 1.0),
+    "clamped and twisted": (STILL | held(12.0, 9.0, 8.0, **TWISTED) | CLAMPED, 4.0),
+    "the paper's scheme": (WAVES | PAPER | {"waves.steepness": 0.03}, 2.5),
+}  # fmt: skip
+VECTORS = ("position_m", "force_N", "direction", "amplitude_m", "velocity_mps", "buoy_velocity_mps")
 TAKES_LONG = ["buoy in small waves", "the paper's scheme"]
 NAMES = [pytest.param(name, marks=[pytest.mark.slow] * (name in TAKES_LONG)) for name in SCENES]
+
+
+def turned(part, angle, mirror=1.0, key=VECTORS[0]):
+    """A part of a scene - here a vector, or a list of them - after y -> mirror * y and a turn about the vertical."""
+    if isinstance(part, dict):
+        return {name: turned(value, angle, mirror, name.split(".")[-1]) for name, value in part.items()}
+    if key in VECTORS:
+        return about_the_vertical(np.array(part, float) * [1.0, mirror, 1.0], angle).tolist()
+    if key == "direction_rad":
+        return mirror * part + angle
+    return mirror * part if key == "twist_rad" else part
 
 
 def seen_from(angle, mirror, name):
     """The run of a turned and mirrored scene, its line turned and mirrored back: columns, and X (m, n, 3)."""
     parts, duration_s = SCENES[name]
-
-    def turn(vector, heading=False):
-        vector = turned(vector, angle, mirror)
-        return math.atan2(vector[1], vector[0]) if heading else vector
-
-    run = simulate(in_space(STEPS, parts(turn)), duration_s=duration_s)
+    run = simulate(in_space(STEPS, turned(parts, angle, mirror)), duration_s=duration_s)
     assert run.status == "ok", run.message
     lines = run.profiles
     X = np.array(turned(np.stack([lines.x_m, lines.y_m, lines.z_m], -1), -angle)) * [1.0, mirror, 1.0]
@@ -138,13 +125,9 @@ def rolled(Y, angle):
 @pytest.mark.parametrize("name", ["buoy in steep waves", "a held end let go", "clamped and twisted"])
 def test_the_roll_of_the_frames_changes_nothing(name):
     parts, duration_s = SCENES[name]
-
-    def asis(vector, heading=False):
-        return 0.0 if heading else vector
-
     runs = []
     for angle in (0.0, 0.3, 2.0, -3.0):
-        motion = Motion(in_space(STEPS, parts(asis)), duration_s)
+        motion = Motion(in_space(STEPS, parts), duration_s)
         motion.Y[:] = rolled(motion.Y, angle)
         motion.inner.motion.Y_before[:] = motion.Y
         first = axes_of(motion.Y)[1]

@@ -1,39 +1,45 @@
 """Law: a line whose ends are free to turn carries no torque, its Euler parameters keep length one, and left and right
 are alike: the mirrored seed gives the mirrored motion, also through slack and loops that leave the plane.
 
-kA = 0.13, H = 21.6 m with a lateral blow to the buoy: 15 periods, the first loop at 53 s among them.
+kA = 0.13, H = 21.6 m with a lateral blow to the buoy: 15 periods, the first loop at 53 s among them. After a push of
+1e-5 m/s the rope opens its loops out of the plane by itself, with a limit in the mesh; in the plane the same scenes
+need a loop release every four periods or so.
 """
+
+import math
 
 import numpy as np
 import pytest
 
+from engine import load_scene, simulate
 from tests.engine.lines import Motion, in_space
+from tests.engine.rotations import conjugate, product
 
+PUSHED = {"waves.steepness": 0.13, "motion.dimensions": 3, "start.buoy_velocity_mps": [0.0, 1e-5, 0.0]}
+REPORTED_NODES = 161
+FIRST_LOOP_PERIODS = 14  # the first loop is over by then at both depths
 VIOLENT = {"waves.steepness": 0.13, "water.depth_m": 21.6, "output.profiles": True}
 
 
-def struck(velocity, EI=0.4):
-    scene = in_space(VIOLENT, {"start.buoy_velocity_mps": [0.0, velocity, 0.0]}, bending_stiffness_Nm2=EI)
-    motion = Motion(scene, 75.0)
+def struck(velocity):
+    motion = Motion(in_space(VIOLENT, {"start.buoy_velocity_mps": [0.0, velocity, 0.0]}), 75.0)
     run = motion.run()
     assert run.status == "ok" and run.statistics["loop_releases"] == 0
     return motion, run
 
 
 @pytest.mark.parametrize("velocity", [1e-5, 0.1])
-def test_no_torque_and_unit_length(velocity):
+def test_no_torque_unit_length_no_roll_and_a_mirrored_seed_gives_the_mirrored_motion(velocity):
+    """From node to node the frame turns about an axis in its own normal plane: no first component, to rounding."""
     motion, run = struck(velocity)
     assert np.abs(run.profiles.y_m).max() > 0.05
     assert np.abs(motion.Y[:, 10]).max() == 0.0
-    assert np.abs(np.linalg.norm(motion.Y[:, 6:10], axis=1) - 1).max() < 1e-13
-
-
-def test_torque_free_frames_do_not_roll():
-    """From node to node the frame turns about an axis in its own normal plane: no first component, to rounding."""
-    motion, _ = struck(0.1)
-    a, b = motion.Y[:-1, 6:10], motion.Y[1:, 6:10]
-    about = a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0] - a[:, 2] * b[:, 3] + a[:, 3] * b[:, 2]
-    assert np.abs(about).max() < 1e-12
+    beta = motion.Y[:, 6:10]
+    assert np.abs(np.linalg.norm(beta, axis=1) - 1).max() < 1e-13
+    assert np.abs(product(conjugate(beta[:-1]), beta[1:])[:, 1]).max() < 1e-12
+    other = struck(-velocity)[1]
+    for axis, sign in (("x_m", 1), ("y_m", -1), ("z_m", 1), ("tension_N", 1)):
+        assert np.array_equal(getattr(run.profiles, axis), sign * getattr(other.profiles, axis)), axis
 
 
 def test_a_clamped_end_that_is_let_go_loses_its_torque():
@@ -51,8 +57,27 @@ def test_a_clamped_end_that_is_let_go_loses_its_torque():
         assert torsion[0] == pytest.approx(0.3, rel=0.1) if t < 0.5 else t < 0.51 or torsion[0] == 0.0
 
 
-@pytest.mark.parametrize("velocity", [1e-5, 0.1])
-def test_a_mirrored_seed_gives_the_mirrored_motion(velocity):
-    (_, left), (_, right) = struck(velocity), struck(-velocity)
-    for axis, sign in (("x_m", 1), ("y_m", -1), ("z_m", 1), ("tension_N", 1)):
-        assert np.array_equal(getattr(left.profiles, axis), sign * getattr(right.profiles, axis)), axis
+def pushed(depth_m, nodes, periods):
+    run = simulate(load_scene("tethered_buoy", {**PUSHED, "water.depth_m": depth_m, "tether.nodes": nodes}), periods)
+    assert run.status == "ok", run.message
+    assert run.statistics["loop_releases"] == 0
+    return run
+
+
+def first_loop_m(run):
+    """Largest lateral distance of the rope in the wave period after it first stands 5 cm off the plane."""
+    off, time = run.columns["offplane_m"], run.columns["time_s"]
+    start = int(np.argmax(off > 0.05))
+    assert off[start] > 0.05 and time[start] < FIRST_LOOP_PERIODS * 5.0
+    return off[(time >= time[start]) & (time < time[start] + 5.0)].max()
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("depth_m", [21.6, 22.0])
+def test_loops_open_by_themselves_and_their_size_has_a_limit_in_the_mesh(depth_m):
+    fine = pushed(depth_m, REPORTED_NODES, 200)
+    assert fine.statistics["max_turn_rad"] < 0.5 * math.pi
+    assert np.abs(fine.columns["y_m"]).max() < 0.05 < 0.1 < fine.columns["offplane_m"].max()
+    sizes = [first_loop_m(pushed(depth_m, nodes, FIRST_LOOP_PERIODS)) for nodes in (41, 81)]
+    sizes.append(first_loop_m(fine))
+    assert max(sizes) < 1.2 * min(sizes), sizes
