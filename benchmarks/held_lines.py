@@ -18,12 +18,12 @@ import matplotlib.pyplot as plt
 import numpy as np
 from scipy.integrate import quad
 from scipy.optimize import brentq
-
-from benchmarks.shared import save
-from engine import load_scene, simulate
 from tests.engine.spatial.rod_equations import Localised
 from tests.engine.spatial.test_held_lines_released import LENGTH as L
 from tests.engine.spatial.test_held_lines_released import G, fall
+
+from benchmarks.shared import save
+from engine import load_scene, simulate
 
 COLOURS = plt.get_cmap("viridis")
 
