@@ -28,13 +28,8 @@ def compile_kinds(folder, process):
 
 
 def test_every_kind_finds_its_own_code(tmp_path):
-    fork = multiprocessing.get_context("fork")
-    processes = [fork.Process(target=compile_kinds, args=(tmp_path, i)) for i in range(PROCESSES)]
-    for process in processes:
-        process.start()
-    for process in processes:
-        process.join()
-        assert process.exitcode == 0
+    with multiprocessing.get_context("fork").Pool(PROCESSES) as pool:
+        pool.starmap(compile_kinds, [(tmp_path, i) for i in range(PROCESSES)], chunksize=1)
     store = store_of(tmp_path)
     for process in range(PROCESSES):
         for kind in range(KINDS):

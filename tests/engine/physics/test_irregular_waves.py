@@ -7,8 +7,7 @@ import pytest
 from scipy.integrate import quad
 
 from engine import goes_in_lanes, simulate
-from engine.physics.jonswap import HIGHEST, LOWEST, components
-from engine.physics.sea import components_of, elevation_m
+from engine.physics.sea import HIGHEST, LOWEST, components, components_of, elevation_m
 from engine.physics.waves import wave_number
 from tests.engine.kernels import parameters_of
 from tests.engine.lines import line
@@ -33,7 +32,7 @@ def test_the_surface_of_a_sea_of_one_wave_is_that_of_the_wave():
 @pytest.mark.parametrize("count", [8, 64, 500])
 def test_a_jonswap_sea_carries_the_energy_of_its_height(gamma, count):
     def density(f, power=0):
-        """f^power S(f) of the head of `engine.physics.jonswap`, c = 1, T_p = 8 s."""
+        """f^power S(f) of the head of `engine.physics.sea`, c = 1, T_p = 8 s."""
         ratio, sigma = 8.0 * f, 0.07 if 8.0 * f < 1.0 else 0.09
         return f**power * ratio**-5 * np.exp(-1.25 / ratio**4) * gamma ** np.exp(-((ratio - 1) ** 2) / (2 * sigma**2))
 
