@@ -67,12 +67,6 @@ def test_an_unknown_key_in_a_file_is_told_what_was_probably_meant():
     ]  # fmt: skip
 
 
-def test_a_key_of_another_law_is_not_suggested_as_what_it_already_is():
-    lines = faults_of({"tether.tension.law": "tanh"})
-    stray = [line for line in lines if line.startswith("tether.tension.stiffness_N")]
-    assert len(stray) == 1 and "law = 'tanh' does not have" in stray[0]
-
-
 @pytest.mark.parametrize("key", ["", "a..b", ".waves", 3])
 def test_a_key_that_is_none_is_a_fault(key):
     assert len(faults_of({key: 1})) == 1
