@@ -70,17 +70,14 @@ class Stage:
         self.state.conserved(self.p, Y, C)
         return C
 
-    def _quantities(self, stage, Y, C_tilde, F):
-        self.C_tilde[:], self.F[:] = C_tilde, F
-        self.node.node_quantities(self.p, self.tables, stage, Y, self.work)
-
     def update(self, cq, cv, in_motion, Y, C_tilde, F, viscosity=None, t=0.0):
         """Newton update D at a state, with the water F and the viscosity (n, 2) frozen."""
         if viscosity is not None:
             self.Q[:, -2:] = viscosity
         self.places(Y)
         stage = arrays.Stage(t, in_motion, cq, cv)
-        self._quantities(stage, Y, C_tilde, F)
+        self.C_tilde[:], self.F[:] = C_tilde, F
+        self.node.node_quantities(self.p, self.tables, stage, Y, self.work)
         assert self.eliminate(self.p, self.tables, stage, Y, self.work)
         return self.D.copy()
 
