@@ -94,21 +94,16 @@ def _water(record, scene, place):
         amplitudes = sea.components_of(scene)[1]
         record["waves"], record["amplitude"] = amplitudes.any(), 0.0 if wave.irregular else amplitudes[0]
         if codes.is_spatial(record):
-            record["dir_x"], record["dir_y"] = _direction(wave.direction_rad)
+            record["dir_x"], record["dir_y"] = sea.direction_of(wave.direction_rad)
         else:
             record["direction"] = math.cos(wave.direction_rad)
         if wave.irregular or codes.is_spatial(record):
-            rows = sea.table_of(scene, _direction)
+            rows = sea.table_of(scene)
             record["sea_n"], record["sea_at"] = len(rows), place(rows)
         above = {"extrapolate": codes.EXTRAPOLATE, "zero": codes.ZERO, "wheeler": codes.WHEELER}
         record["above"] = above[wave.above_still_water]
     if current is not None:
         _current(record, current, place)
-
-
-def _direction(angle):
-    """Cosine and sine, exact along the axes: 1e-16 across the waves would be a seed of motion out of their plane."""
-    return round(math.cos(angle), 15), round(math.sin(angle), 15)
 
 
 def _current(record, current, place):

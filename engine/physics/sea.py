@@ -25,7 +25,6 @@ J. Geophys. Res. 69 (1964) 5181.
 """
 
 import math
-from collections.abc import Callable
 
 import numpy as np
 
@@ -79,13 +78,18 @@ def components_of(scene: Scene) -> tuple[np.ndarray, ...]:
     return tuple(np.array(listed).T)
 
 
-def table_of(scene: Scene, direction: Callable[[float], tuple[float, float]]) -> np.ndarray:
-    """The rows of the sea (head of this file); direction: angle -> its cosine and sine."""
+def direction_of(angle: float) -> tuple[float, float]:
+    """Cosine and sine, exact along the axes: 1e-16 across the waves would be a seed of motion out of their plane."""
+    return round(math.cos(angle), 15), round(math.sin(angle), 15)
+
+
+def table_of(scene: Scene) -> np.ndarray:
+    """The rows of the sea (head of this file)."""
     depth, rows = scene.water.depth_m, []
     for period, amplitude, phase, angle in zip(*components_of(scene), strict=True):
         k, omega = wave_number(period, depth, scene.gravity_mps2), 2.0 * math.pi / period
         speed = amplitude * omega / (1.0 - math.exp(-2.0 * k * depth))
-        rows.append((k, omega, amplitude, phase, *direction(angle), speed))
+        rows.append((k, omega, amplitude, phase, *direction_of(angle), speed))
     return np.array(rows)
 
 
@@ -98,7 +102,7 @@ def elevation_m(
     """
     t, x, y = (np.asarray(values, float) for values in (time_s, x_m, y_m))
     eta = np.zeros(np.broadcast_shapes(t.shape, x.shape, y.shape))
-    for k, omega, amplitude, phase, cosine, sine, _ in table_of(scene, lambda a: (math.cos(a), math.sin(a))):
+    for k, omega, amplitude, phase, cosine, sine, _ in table_of(scene):
         eta += amplitude * np.cos(k * (x * cosine + y * sine) - omega * t + phase)
     ramp = scene.waves.ramp_s
     return eta * (np.where(t < ramp, np.sin(0.5 * math.pi * t / ramp) ** 2, 1.0) if ramp > 0.0 else 1.0)
