@@ -94,22 +94,16 @@ def _water(record, scene, place):
         amplitudes = sea.components_of(scene)[1]
         record["waves"], record["amplitude"] = amplitudes.any(), 0.0 if wave.irregular else amplitudes[0]
         if codes.is_spatial(record):
-            record["dir_x"], record["dir_y"] = _direction(wave.direction_rad)
+            record["dir_x"], record["dir_y"] = sea.direction_of(wave.direction_rad)
         else:
             record["direction"] = math.cos(wave.direction_rad)
         if wave.irregular or codes.is_spatial(record):
-            rows = sea.table_of(scene, _direction)
+            rows = sea.table_of(scene)
             record["sea_n"], record["sea_at"] = len(rows), place(rows)
-        record["above"] = {"extrapolate": codes.EXTRAPOLATE, "zero": codes.ZERO, "wheeler": codes.WHEELER}[
-            wave.above_still_water
-        ]
+        above = {"extrapolate": codes.EXTRAPOLATE, "zero": codes.ZERO, "wheeler": codes.WHEELER}
+        record["above"] = above[wave.above_still_water]
     if current is not None:
         _current(record, current, place)
-
-
-def _direction(angle):
-    """Cosine and sine, exact along the axes: 1e-16 across the waves would be a seed of motion out of their plane."""
-    return round(math.cos(angle), 15), round(math.sin(angle), 15)
 
 
 def _current(record, current, place):
@@ -184,19 +178,15 @@ def _turning(record, scene):
         record[f"clamp_{name}"] = clamp.rotation == "clamped"
         direction = np.array(clamp.direction or chord)
         _put(record, f"{name}_", direction / np.linalg.norm(direction))
-    _put_carried(record, np.array(chord) / np.linalg.norm(chord))
-    record["twist"], record["twist_ramp"] = end.twist_rad or 0.0, end.twist_ramp_s or 0.0
-
-
-def _put_carried(record, chord):
-    """Where no twist is: the rotation of the lower clamp into the upper one, by the shortest ways to the chord and on.
-
-    Straight from clamp to clamp would say the same of a line in a plane, but nothing where the clamps oppose each other
-    (a line that hangs between two vertical ones).
-    """
+    # Where no twist is: the rotation of the lower clamp into the upper one, by the shortest ways to the chord and on.
+    # Straight from clamp to clamp would say the same of a line in a plane, but nothing where the clamps oppose each
+    # other (a line that hangs between two vertical ones).
+    along = np.array(chord) / np.linalg.norm(chord)
     below, above = ([float(record[f"{name}_{axis}"]) for axis in "xyz"] for name in ("below", "above"))
-    first, second = lift.shortest_rotation(below, chord), lift.shortest_rotation(chord, above)
-    record["carry0"], record["carry1"], record["carry2"], record["carry3"] = lift.product(second, first)
+    carried = lift.product(lift.shortest_rotation(along, above), lift.shortest_rotation(below, along))
+    for i, part in enumerate(carried):
+        record[f"carry{i}"] = part
+    record["twist"], record["twist_ramp"] = end.twist_rad or 0.0, end.twist_ramp_s or 0.0
 
 
 def _solver(record, scene, place, h):

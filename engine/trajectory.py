@@ -133,7 +133,14 @@ class Trajectory:
 
     def to_bytes(self, attributes: dict[str, str] | None = None) -> bytes:
         """The content of the file that `save` writes, for whoever has to send it first. Raises ValueError as `save`."""
-        return netcdf.to_bytes(_variables(self), _described(self), attributes or {})
+        texts = {
+            "title": self.scene.title or self.scene.name,
+            "scene": self.scene.to_toml(),
+            "status": self.status,
+            "message": self.message,
+            "statistics": json.dumps(self.statistics, default=lambda number: number.item()),  # of NumPy
+        }
+        return netcdf.to_bytes(_variables(self), texts, attributes or {})
 
     @staticmethod
     def load(path: str | Path) -> "Trajectory":
@@ -186,16 +193,6 @@ def _variables(run: Trajectory) -> list[netcdf.Variable]:
             about = ("1", "growth of a perturbation across the plane of the waves, nats")
             found.append(("lateral_nats", ("period",), grown.lateral_nats, *about))
     return found
-
-
-def _described(run: Trajectory) -> dict[str, str]:
-    return {
-        "title": run.scene.title or run.scene.name,
-        "scene": run.scene.to_toml(),
-        "status": run.status,
-        "message": run.message,
-        "statistics": json.dumps(run.statistics, default=lambda number: number.item()),  # of NumPy
-    }
 
 
 def _restored(texts: dict[str, str], arrays: dict[str, np.ndarray]) -> Trajectory:

@@ -151,11 +151,5 @@ def _default(field: FieldInfo) -> str:
     return f"`{shown(list(field.default) if isinstance(field.default, tuple) else field.default)}`"
 
 
-def main() -> int:
-    """Print the page."""
-    sys.stdout.write(page())
-    return 0
-
-
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.stdout.write(page())

@@ -37,7 +37,8 @@ def check_room(scene, duration_s):
         ("output.profiles_step_s", output.profiles_step_s or kept, values, MOST_PROFILE_VALUES, "values of profiles"),
     ):
         if (count := duration_s / step_s * of_each) > most:
+            least = f"a step of {duration_s * of_each / most:.3g} s or more," if noun != "steps" else "a longer step"
             raise ValueError(
                 f"{key}: {step_s:g} s makes {count:.3g} {noun} or more in a run of {duration_s:g} s; allowed: at most "
-                f"{most:.3g}, a step of {duration_s * of_each / most:.3g} s or more, or a shorter run"
+                f"{most:.3g}, {least} or a shorter run"
             )

@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 
 from engine import simulate
-from engine.physics.submergence import cap_across, cap_end, cap_end_3d, wetted
+from engine.physics.submergence import cap_across, cap_end, cap_end_3d
 from tests.engine.kernels import parameters_of, upper_end_of
 from tests.engine.lines import STILL, equilibrium, forces, line, positions
-from tests.engine.physics.caps import CAP, condition, section, volume
+from tests.engine.physics.caps import CAP, condition, volume
 
 RNG = np.random.default_rng(11)
 D, DEPTH, CV, CQ, T = 1.5, 21.0, 80.0, 120.0, 1.7
@@ -19,19 +19,14 @@ HEADINGS = [(2, 0.0), (2, np.pi), (3, 0.7)]
 HEIGHTS = [DEPTH + 0.7 * step for step in (-2.5, -1.5, -0.6, 0.1, 0.9, 1.8, 3.0)]  # from under water to the air
 
 
-def cap_of(p, in_motion, place, V, V_tilde, F):
-    """What the cap adds to e and D of the end."""
-    if len(V) == 3:
-        more, rows = cap_end_3d(p, T, CQ, CV, in_motion, tuple(place), tuple(V), tuple(V_tilde), F)
-        return np.array(more), np.array(rows)
-    more = cap_end(p, T, CQ, CV, in_motion, *place, *V, *V_tilde, F)
-    return np.array(more[:2]), np.array(more[2:]).reshape(2, 2)
-
-
 def total(p, tables, in_motion, place, V, V_tilde, N, F):
     """e and D of the end with its cap."""
     e, _, whole = upper_end_of(p, tables, T, CV, in_motion, N, V, V_tilde, F)
-    more, rows = cap_of(p, in_motion, place, V, V_tilde, F)
+    if len(V) == 3:
+        more, rows = cap_end_3d(p, T, CQ, CV, in_motion, tuple(place), tuple(V), tuple(V_tilde), F)
+    else:
+        found = cap_end(p, T, CQ, CV, in_motion, *place, *V, *V_tilde, F)
+        more, rows = found[:2], (found[2:4], found[4:])
     return e + more, whole + rows
 
 
@@ -71,22 +66,6 @@ def test_the_derivatives_are_those_of_the_condition(axes, height, in_motion):
     for j, d in enumerate(1e-4 * np.eye(axes)):
         ahead, behind = (total(p, tables, in_motion, place + d * s / CQ, V + d * s, V_tilde, N, F)[0] for s in (1, -1))
         assert (ahead - behind) / 2e-4 == pytest.approx(D[:, j], rel=1e-6, abs=1e-3)
-
-
-def test_shares_and_their_derivatives_are_those_of_the_geometry():
-    p, _ = parameters_of(line(CAP))
-    for h in np.linspace(-0.2, D + 0.2, 41):
-        dry, ds, bend, bare, da = wetted(p, h)
-        assert 1 - dry == pytest.approx(volume(h, D) / volume(D, D), abs=1e-15)
-        assert 1 - bare == pytest.approx(section(h, D) / section(D, D), abs=1e-15)
-        step = 1e-5
-        ahead, behind = wetted(p, h + step), wetted(p, h - step)
-        assert ds == pytest.approx((behind[0] - ahead[0]) / (2 * step), abs=1e-9)
-        assert da == pytest.approx((behind[3] - ahead[3]) / (2 * step), abs=3e-3)  # square roots at both ends
-        if 2 * step < h < D - 2 * step:
-            assert bend == pytest.approx((ahead[1] - behind[1]) / (2 * step), abs=1e-8)
-    assert wetted(p, D) == wetted(p, 9.0) == (0.0, 0.0, 0.0, 0.0, 0.0)
-    assert wetted(p, 0.0)[:2] == wetted(p, -9.0)[:2] == (1.0, 0.0)
 
 
 @pytest.mark.parametrize("height", HEIGHTS)

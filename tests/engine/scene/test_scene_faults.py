@@ -57,40 +57,19 @@ def test_every_fault_is_reported_at_once_those_between_values_among_them():
     assert len(together) == len(expected)
 
 
-@pytest.mark.parametrize(
-    ("key", "meant"),
-    [
-        ("tether.lenght_m", "tether.length_m"),
-        ("steepness", "waves.steepness"),
-        ("wavs", "waves"),
-        ("solver.integrater", "solver.integrator"),
-        ("tether.stiffness_N", "tether.tension.stiffness_N"),
-    ],
-)
-def test_an_unknown_key_is_told_what_was_probably_meant(key, meant):
-    expected = f"did you mean '{meant}'"
-    assert any(line.startswith(f"{key}: unknown key") and expected in line for line in faults_of({key: 1}))
-    # and the same in a file
+def test_an_unknown_key_in_a_file_is_told_what_was_probably_meant():
     raw = load_scene("tethered_buoy").as_dict()
-    section, _, last = key.rpartition(".")
-    (raw[section] if section else raw)[last] = 1
-    with pytest.raises(SceneError, match="did you mean"):
+    raw["solver"]["integrater"] = raw["wavs"] = 1
+    with pytest.raises(SceneError) as caught:
         build_scene(raw)
-
-
-def test_a_key_of_another_law_is_not_suggested_as_what_it_already_is():
-    lines = faults_of({"tether.tension.law": "tanh"})
-    stray = [line for line in lines if line.startswith("tether.tension.stiffness_N")]
-    assert len(stray) == 1 and "law = 'tanh' does not have" in stray[0]
+    assert [line.partition("did you mean ")[2].partition("?")[0] for line in caught.value.faults] == [
+        "'solver.integrator'", "'waves'"
+    ]  # fmt: skip
 
 
 @pytest.mark.parametrize("key", ["", "a..b", ".waves", 3])
 def test_a_key_that_is_none_is_a_fault(key):
     assert len(faults_of({key: 1})) == 1
-
-
-def test_removing_a_key_that_no_scene_has_is_a_fault():
-    assert "unknown key" in faults_of({"wavs": None})[0]
 
 
 def test_the_message_holds_every_line_and_survives_the_way_between_processes():
