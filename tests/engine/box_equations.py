@@ -249,3 +249,25 @@ def response(scene, rate, Y, C_tilde, F, dC_tilde):
     D = np.linalg.solve(jacobian(scene, stage, Y, C_tilde, F), -change).reshape(len(Y), -1)
     Z = moved(Y, 1j * STEP * D)
     return np.hstack([((1 + Z[:, :1]) * frames(Z[:, 6:10])[:, 0]).imag, Z[:, 3:6].imag]) / STEP
+
+
+def state_of(rng, scene, turns):
+    """A state with every term of the equations at work: strain of both signs, shear, motion, water; torsion where both
+    ends are clamped. turns: phi (n,) of a state in the plane, or Euler parameters (n, 4). Returns Y, C~ and F; they
+    solve nothing."""
+    n, bent = scene.tether.nodes, scene.tether.bending_stiffness_Nm2 > 0
+    strain, V = rng.uniform(-0.15, 0.35, n), rng.normal(0, 2, (n, 3))
+    shear, curvature = rng.normal(0, 300, (n, 2)) * bent, rng.normal(0, 1, (n, 2)) * bent
+    if turns.ndim == 1:
+        V = V[:, [0, 2]]
+        Y = np.column_stack([strain, shear[:, 0], V, turns, curvature[:, 0]])
+        t = np.column_stack([np.cos(turns), np.sin(turns)])
+    else:
+        Y = np.column_stack([strain, shear, V, turns, np.zeros(n), curvature])
+        t = frames(turns)[:, 0]
+        if scene.anchor.rotation == scene.end.rotation == "clamped":
+            # 0.3 rad more than the twist: Euler parameters know the rest of a whole number of double turns only
+            Y[:, 10] = (scene.end.twist_rad + 0.3 - roll(Y, scene)) / scene.tether.length_m
+    C_tilde = np.concatenate([(1 + strain[:, None]) * t, V], 1)
+    C_tilde += rng.normal(0, 0.02, C_tilde.shape)
+    return Y, C_tilde, rng.normal(0, 1.5, C_tilde.shape) * (scene.water is not None)

@@ -123,16 +123,6 @@ def test_pushed_out_of_their_plane_the_papers_two_motions_return(wave, seen):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("wave", [SMALL, LARGE], ids=["small", "large"])
-def test_grid_and_tolerance_do_not_make_the_rate(wave):
-    """Equal within two errors and, where the motion has period 1, to what the grid leaves of it: 1e-4 nats of 0.02."""
-    usual, error = rate(wave)
-    found, its_error = rate(wave, {"solver.rtol": 0.003, "tether.nodes": 81})
-    assert abs(found - usual) < 2 * math.hypot(error, its_error)
-    assert wave is LARGE or found == pytest.approx(usual, abs=1e-4)
-
-
-@pytest.mark.slow
 def test_a_buoy_that_moves_along_its_tether_is_damped_alike_to_both_sides():
     """Drag C |v| v on a motion along r damps what is across it by C |v|, along x or y, and along r by 2 C |v|.
 
