@@ -242,13 +242,19 @@ def jacobian(scene, stage, Y, C_tilde, F, **more):
     return np.array(columns).T
 
 
+def change_of(Y, D):
+    """Change (n, 4) or (n, 6) of (q, V) under a small update D, to first order."""
+    Z = moved(Y, 1j * STEP * D)
+    Z = lifted(Z) if Y.shape[1] == 6 else Z
+    C = np.hstack([(1 + Z[:, :1]) * frames(Z[:, 6:10])[:, 0], Z[:, 3:6]]).imag / STEP
+    return C[:, [0, 2, 3, 5]] if Y.shape[1] == 6 else C
+
+
 def response(scene, rate, Y, C_tilde, F, dC_tilde):
     """Change (n, 6) of (q, V) in space of a linearised stage for a change dC_tilde (n, 6) of C~."""
     stage = rate, rate, 1.0
     change = equations(scene, stage, Y, np.zeros((len(Y), 12)), C_tilde + 1j * STEP * dC_tilde, F).imag / STEP
-    D = np.linalg.solve(jacobian(scene, stage, Y, C_tilde, F), -change).reshape(len(Y), -1)
-    Z = moved(Y, 1j * STEP * D)
-    return np.hstack([((1 + Z[:, :1]) * frames(Z[:, 6:10])[:, 0]).imag, Z[:, 3:6].imag]) / STEP
+    return change_of(Y, np.linalg.solve(jacobian(scene, stage, Y, C_tilde, F), -change).reshape(len(Y), -1))
 
 
 def state_of(rng, scene, turns):

@@ -82,13 +82,12 @@ def test_a_loop_in_an_exactly_planar_motion_is_released_as_in_the_plane():
 
 
 PUSHED = {"waves.steepness": 0.13, "motion.dimensions": 3, "start.buoy_velocity_mps": [0.0, 1e-5, 0.0]}
-REPORTED_NODES = 161
 FIRST_LOOP_PERIODS = 14  # the first loop is over by then at both depths
-VIOLENT = {"waves.steepness": 0.13, "water.depth_m": 21.6, "output.profiles": True}
 
 
 def struck(velocity):
-    motion = Motion(in_space(VIOLENT, {"start.buoy_velocity_mps": [0.0, velocity, 0.0]}), 75.0)
+    blow = {"water.depth_m": 21.6, "output.profiles": True, "start.buoy_velocity_mps": [0.0, velocity, 0.0]}
+    motion = Motion(in_space(STEEP, blow), 75.0)
     run = motion.run()
     assert run.status == "ok" and run.statistics["loop_releases"] == 0
     return motion, run
@@ -141,7 +140,7 @@ def first_loop_m(run):
 @pytest.mark.slow
 @pytest.mark.parametrize("depth_m", [21.6, 22.0])
 def test_loops_open_by_themselves_and_their_size_has_a_limit_in_the_mesh(depth_m):
-    fine = pushed(depth_m, REPORTED_NODES, 200)
+    fine = pushed(depth_m, 161, 200)
     assert fine.statistics["max_turn_rad"] < 0.5 * math.pi
     assert np.abs(fine.columns["y_m"]).max() < 0.05 < 0.1 < fine.columns["offplane_m"].max()
     sizes = [first_loop_m(pushed(depth_m, nodes, FIRST_LOOP_PERIODS)) for nodes in (41, 81)]
