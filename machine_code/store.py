@@ -31,14 +31,11 @@ def hash_of(package: Path, *endings: str) -> str:
     """sha256, hexadecimal, over names and contents of all files of a package's folder with these endings (".py"), and
     of the .py files here."""
     digest = hashlib.sha256()
-    for root, path in [*_sources(package, endings), *_sources(_ROOT, (".py",))]:
-        digest.update(path.relative_to(root).as_posix().encode() + b"\0")
-        digest.update(path.read_bytes() + b"\0")
+    for root, kinds in ((package, endings), (_ROOT, (".py",))):
+        for path in sorted(path for kind in kinds for path in root.rglob(f"*{kind}")):
+            digest.update(path.relative_to(root).as_posix().encode() + b"\0")
+            digest.update(path.read_bytes() + b"\0")
     return digest.hexdigest()
-
-
-def _sources(root: Path, endings: tuple[str, ...]) -> list[tuple[Path, Path]]:
-    return [(root, path) for path in sorted(path for ending in endings for path in root.rglob(f"*{ending}"))]
 
 
 def folder_for(name: str, sources: str, kept: int) -> Path | None:
@@ -55,8 +52,10 @@ def folder_for(name: str, sources: str, kept: int) -> Path | None:
         except OSError:
             continue
         probe.close()
-        for old in sorted((p for p in root.glob(f"{name}-*") if p != folder), key=_last_change)[: -kept or None]:
-            shutil.rmtree(old, ignore_errors=True)
+        with contextlib.suppress(OSError):  # another process may be dropping the same folders
+            others = sorted((path.stat().st_mtime, path) for path in root.glob(f"{name}-*") if path != folder)
+            for _, old in others[: -kept or None]:
+                shutil.rmtree(old, ignore_errors=True)
         return folder
     return None
 
@@ -75,14 +74,6 @@ def _roots() -> Iterator[Path]:
         # Everybody can write beside it and knows its name: code that somebody else left there would be run.
         if shared.stat().st_uid == os.getuid():
             yield shared
-
-
-def _last_change(folder: Path) -> float:
-    # Another process may be dropping the same folder.
-    try:
-        return folder.stat().st_mtime
-    except OSError:
-        return 0.0
 
 
 def one_at_a_time(dispatcher, folder: Path):

@@ -108,15 +108,11 @@ def run(
     if status == codes.STATICS_FAILED:
         message = "paper-box: " + codes.ADVICE[codes.STATICS_FAILED] + why_no_rest(line.record, scene)
     elif status != codes.OK:
-        message = _message(status, (steps + failures) * dt, dt, record)
+        said = SAID[status].format(turn=record.max_turn, gap=record.closure)
+        seen = f"turn per element up to {record.max_turn:.3g} rad, strain down to {record.min_strain:.3g} before"
+        cure = 'add nodes, shorten solver.step_s, or take solver.scheme = "conservation"'
+        message = f"paper-box: {said} in the step of {dt:.3g} s to t = {(steps + failures) * dt:.6g} s ({seen}): {cure}"
     return Trajectory(scene, codes.WORDS[status], message, record.columns(), statistics, record.lines())
-
-
-def _message(status, t, dt, record):
-    said = SAID[status].format(turn=record.max_turn, gap=record.closure)
-    seen = f"turn per element up to {record.max_turn:.3g} rad, strain down to {record.min_strain:.3g} before"
-    cure = 'add nodes, shorten solver.step_s, or take solver.scheme = "conservation"'
-    return f"paper-box: {said} in the step of {dt:.3g} s to t = {t:.6g} s ({seen}): {cure}"
 
 
 class Record:

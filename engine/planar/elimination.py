@@ -18,7 +18,7 @@ S = 0, so that S is zero everywhere, and kappa, which nothing else needs, is put
 in tension only (compression: EI = 0 is ill-posed, Triantafyllou & Howell 1994).
 
 E (n, 24): P, p, R, r, where `engine.planar.columns` says; the row of the anchor, which has no box below, holds the
-inverse at the upper end. For other right-hand sides of the same matrix (`engine.perturbations.resolve`) an E (n, 33)
+inverse at the upper end. For other right-hand sides of the same matrix (`engine.perturbations.tangent`) an E (n, 33)
 also takes in the inverse of every box, and Dxx, Dxz, Dzx, Dzz.
 
 In the paper: eq. (15) bending moment about b; eq. (16) balance of moments; eq. (17) compatibility; eq. (18)

@@ -18,6 +18,7 @@ from functools import cache, update_wrapper
 from numba.core import types
 from numba.extending import intrinsic
 
+from .select import widest
 from .vector import call_intrinsic
 
 NAME = "_fused"
@@ -27,8 +28,7 @@ def _signature_type(arguments):
     """Type of a fused operation: integers stay integers, vectors of numbers win over numbers."""
     if all(isinstance(kind, (types.Integer, types.Boolean)) for kind in arguments):
         return types.intp
-    wide = [kind for kind in arguments if not isinstance(kind, (types.Number, types.Boolean))]
-    return wide[0] if wide else types.float64
+    return widest(*arguments)
 
 
 @intrinsic

@@ -14,14 +14,14 @@ from numba.extending import intrinsic
 from .vector import LaneMask, Lanes
 
 
-def _widest(*kinds):
+def widest(*kinds):
     """The type that takes in all of these: a vector, else a float."""
     return next((kind for kind in kinds if isinstance(kind, Lanes)), types.float64)
 
 
 @intrinsic
 def where(context, condition, a, b):
-    kind = _widest(a, b)
+    kind = widest(a, b)
     mask = condition
     if isinstance(condition, LaneMask):
         kind = Lanes(condition.count)
@@ -53,7 +53,7 @@ def _extreme(symbol):
     """Intrinsic of two numbers: the second where it stands in this relation to the first, else the first."""
 
     def typed(context, a, b):
-        kind = _widest(a, b)
+        kind = widest(a, b)
 
         def generate(context, builder, signature, values):
             x, y = values
@@ -70,7 +70,7 @@ larger, smaller = _extreme(">"), _extreme("<")
 
 @intrinsic
 def finite(context, a):
-    kind = _widest(a)
+    kind = widest(a)
 
     def generate(context, builder, signature, values):
         difference = builder.fsub(values[0], values[0])  # 0, or NaN for what is not finite

@@ -39,10 +39,8 @@ def update_size(p, D):
         d = D[k]
         V, theta, turn = vector(d, col.V), vector(d, col.THETA1), vector(d, col.D_O1)
         force, speed = max(abs(d[col.SHEAR_N]), abs(d[col.SHEAR_B])), max(abs(V[0]), abs(V[1]), abs(V[2]))
-        angle, curvature = (
-            max(abs(theta[0]), abs(theta[1]), abs(theta[2])),
-            max(abs(turn[0]), abs(turn[1]), abs(turn[2])),
-        )
+        angle = max(abs(theta[0]), abs(theta[1]), abs(theta[2]))
+        curvature = max(abs(turn[0]), abs(turn[1]), abs(turn[2]))
         strain = abs(d[col.EPS]) * p.per_strain
         size = max(size, strain, force * p.per_force, speed * p.per_speed, angle, curvature * p.per_curvature)
         if not np.isfinite(d[col.EPS] + V[0] + V[1] + V[2] + theta[0] + theta[1] + theta[2]):

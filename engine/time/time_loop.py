@@ -23,7 +23,7 @@ from ..physics.shocks import deforming_element, renew_viscosity
 from ..record import BEGIN, CONTROLLED, EULER, KIND, RESTART, RUNGE_KUTTA, STEP
 from ..simd.elementary import copy_into
 from .sampling import sample
-from .status import NEWTON_FAILED, NOT_FINITE, OK, STEP_LIMIT, STEP_UNDERFLOW, STRAIN_BELOW_MINUS_ONE, TURN_UNRESOLVED
+from .status import OK, STEP_LIMIT, STEP_UNDERFLOW, TURN_UNRESOLVED
 from .steps import least_strain, one_stage_step, runge_kutta_step
 
 SMALL_STEPS = 3
@@ -94,10 +94,7 @@ def _shorten(p, state, code, factor):
     state.dt = state.trial_dt * factor
     state.cautious = CAUTIOUS_STEPS if code != OK else 0
     if state.dt < p.min_step:
-        if code == NEWTON_FAILED or code == NOT_FINITE or code == STRAIN_BELOW_MINUS_ONE:
-            state.status = code
-        else:
-            state.status = STEP_UNDERFLOW
+        state.status = code if code != OK else STEP_UNDERFLOW
 
 
 @kernel

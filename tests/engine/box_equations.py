@@ -250,9 +250,38 @@ def jacobian(scene, stage, Y, C_tilde, F, **more):
     return np.array(columns).T
 
 
+def change_of(Y, D):
+    """Change (n, 4) or (n, 6) of (q, V) under a small update D, to first order."""
+    Z = moved(Y, 1j * STEP * D)
+    Z = lifted(Z) if Y.shape[1] == 6 else Z
+    C = np.hstack([(1 + Z[:, :1]) * frames(Z[:, 6:10])[:, 0], Z[:, 3:6]]).imag / STEP
+    return C[:, [0, 2, 3, 5]] if Y.shape[1] == 6 else C
+
+
 def response(scene, rate, Y, C_tilde, F, dC_tilde):
     """Change (n, 6) of (q, V) in space of a linearised stage for a change dC_tilde (n, 6) of C~."""
     stage = rate, rate, 1.0
     change = equations(scene, stage, Y, np.zeros((len(Y), 12)), C_tilde + 1j * STEP * dC_tilde, F).imag / STEP
-    D = np.linalg.solve(jacobian(scene, stage, Y, C_tilde, F), -change).reshape(len(Y), -1)
-    return change_of(Y, D)
+    return change_of(Y, np.linalg.solve(jacobian(scene, stage, Y, C_tilde, F), -change).reshape(len(Y), -1))
+
+
+def state_of(rng, scene, turns):
+    """A state with every term of the equations at work: strain of both signs, shear, motion, water; torsion where both
+    ends are clamped. turns: phi (n,) of a state in the plane, or Euler parameters (n, 4). Returns Y, C~ and F; they
+    solve nothing."""
+    n, bent = scene.tether.nodes, scene.tether.bending_stiffness_Nm2 > 0
+    strain, V = rng.uniform(-0.15, 0.35, n), rng.normal(0, 2, (n, 3))
+    shear, curvature = rng.normal(0, 300, (n, 2)) * bent, rng.normal(0, 1, (n, 2)) * bent
+    if turns.ndim == 1:
+        V = V[:, [0, 2]]
+        Y = np.column_stack([strain, shear[:, 0], V, turns, curvature[:, 0]])
+        t = np.column_stack([np.cos(turns), np.sin(turns)])
+    else:
+        Y = np.column_stack([strain, shear, V, turns, np.zeros(n), curvature])
+        t = frames(turns)[:, 0]
+        if scene.anchor.rotation == scene.end.rotation == "clamped":
+            # 0.3 rad more than the twist: Euler parameters know the rest of a whole number of double turns only
+            Y[:, 10] = (scene.end.twist_rad + 0.3 - roll(Y, scene)) / scene.tether.length_m
+    C_tilde = np.concatenate([(1 + strain[:, None]) * t, V], 1)
+    C_tilde += rng.normal(0, 0.02, C_tilde.shape)
+    return Y, C_tilde, rng.normal(0, 1.5, C_tilde.shape) * (scene.water is not None)

@@ -41,7 +41,6 @@ def eigenvalues():
     Y = equilibrium(scene).Y
     F = np.zeros((NODES, 4))
     F[:, :2] = SPEED
-
     C = np.stack([(1 + Y[:, 0]) * np.cos(Y[:, 4]), (1 + Y[:, 0]) * np.sin(Y[:, 4]), Y[:, 2], Y[:, 3]], 1)
     # a stage with C~ = C and the rate c has the matrix J + c B
     at_one, at_two = (jacobian(scene, (c, c, 1.0), Y, C, F) for c in (1.0, 2.0))

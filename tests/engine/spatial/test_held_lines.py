@@ -13,6 +13,12 @@ free motion.
 Let go: a folded chain against the energy of a chain folded without gap (Calkin & March, Am. J. Phys. 57, 1989: the
 tip's speed after a fall x is v^2 = 2 g x (1 - x/2L)/(1 - x/L), more than g can give). A line let go under a float in a
 cross current against the rest that follows from its free end downwards, N_s = w_0 z - drag, N(L) = F, without bending.
+
+Jerked: an end pulled away at V from a taut straight line sends out a wave of the force V sqrt(m EA) (d'Alembert).
+
+Until the wave comes back from the anchor, T = T_0 + V(t) sqrt(m EA) at the end, also where the motion begins with a
+jerk (no ramp): a force that is far above what the line carries at rest. Tolerance: 1 % of the jump, until the short
+waves that run ahead of the front on a grid have come back.
 """
 
 import numpy as np
@@ -21,7 +27,7 @@ from scipy.integrate import quad, solve_ivp
 
 from engine import load_scene, simulate
 from tests.engine.box_equations import water_on_line, wet_weight
-from tests.engine.lines import held, line
+from tests.engine.lines import DRY, STILL, held, line, linear
 
 LENGTH, G = 1.022, 9.81
 TABLE_S, TABLE_M = [0.0, 4.0, 12.0, 20.0], np.array([[0, 0, 0], [1.0, 0.5, -0.5], [1.5, -1.0, 0.5], [0.5, 0.0, 0.0]])
@@ -134,3 +140,38 @@ def test_a_line_let_go_comes_to_rest_in_the_current():
     rest = hanging_free(scene)
     assert table[["x_m", "y_m", "z_m"]].to_numpy()[-1] == pytest.approx(rest, abs=0.01)
     assert rest[1] > 1.0
+
+
+MASS, EA, JERKED = 0.5, 5e4, 20.0  # kg/m, N, m of the jerked line
+C = np.sqrt(EA / MASS)
+
+
+@pytest.mark.parametrize("dimensions", [2, 3])
+def test_the_force_of_a_jerk(dimensions):
+    stretch, amplitude, period = 1e-3, 0.1, 1.0
+    motion = {"law": "harmonic", "amplitude_m": [amplitude, 0.0, 0.0], "period_s": period}
+    scene = line(
+        DRY, held(JERKED * (1 + stretch), 0.0, motion=motion), {"motion.dimensions": dimensions, "gravity_mps2": 0.0},
+        {"solver.rtol": 1e-2, "output.step_s": JERKED / C / 20},
+        length_m=JERKED, area_m2=5e-4, density_kgpm3=1000.0, nodes=161, tension=linear(EA),
+    )  # fmt: skip
+    run = simulate(scene, duration_s=1.6 * JERKED / C)
+    assert run.status == "ok", run.message
+    t = run.columns["time_s"]
+    jump = amplitude * 2 * np.pi / period * np.sqrt(MASS * EA)
+    expected = EA * stretch + jump * np.cos(2 * np.pi * t / period)
+    assert jump > EA * stretch
+    assert np.abs(run.columns["tension_top_N"] - expected)[1:].max() < 0.01 * jump
+
+
+@pytest.mark.parametrize("dimensions", [2, 3])
+@pytest.mark.parametrize("EI, period_s", [(0.4, 2.0), (50.0, 0.5)])
+@pytest.mark.parametrize("position", [[15.0, 0.0, 8.0], [5.0, 0.0, 18.0]])
+def test_a_slack_line_stands_a_jerk(dimensions, EI, position, period_s):
+    """It weighs 2 N in water, and the jerk at its end is of 40 N and more."""
+    motion = {"law": "harmonic", "amplitude_m": [0.3, 0.0, 0.3], "period_s": period_s}
+    end = held(*position, motion=motion)
+    scene = line(STILL, end, {"motion.dimensions": dimensions}, bending_stiffness_Nm2=EI)
+    run = simulate(scene, duration_s=2.0)
+    assert run.status == "ok", run.message
+    assert run.statistics["steps"] < 300

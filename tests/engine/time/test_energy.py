@@ -10,6 +10,15 @@ in the exponent) and is the same for every method; an L-stable or damping method
 neither loses nor gains. It does not damp the highest modes, and on finer grids they take the run over: it is tried on
 21 nodes. The paper's scheme: neither M dY/dt in the local frame nor the nodal products conserve anything exactly; in
 time the box rule neither damps nor feeds.
+
+Law: what waves, drag and moved ends do on line and buoy is what their energy changes by; and so for momentum.
+
+`budgets` adds up the accepted steps. "Passed" is the sum of the sizes of all works, step by step (drag and wave load of
+the buoy, drag and fluid inertia of the line, ends): each budget closes to 0.1 % of it at every step, at 41 nodes.
+
+The part that only the integrator can miss - kinetic and gravity energy, and the work of N on q_t, against the works -
+closes to 1e-5 at rtol 1e-3, momentum to 1e-5 of the impulses (Newton's tolerance). The rest is what the box's work on
+q_t misses of the change of the stored energies: it falls with the element. Ends that pull a slack line taut: 81 nodes.
 """
 
 from functools import cache
@@ -25,7 +34,8 @@ from engine.paper_box.nodal import positions as paper_positions
 from engine.paper_box.start import at_rest
 from engine.time.status import OK
 from tests.engine.budgets import Books
-from tests.engine.lines import DRY, Motion, equilibrium, free, line, linear, positions
+from tests.engine.budgets import balance as budget
+from tests.engine.lines import DRY, SPACE, Motion, equilibrium, free, line, linear, positions
 
 DURATION = 10.0
 STEP_S, SWING_S = 0.005, 2.5  # of the paper's scheme
@@ -110,3 +120,55 @@ def test_the_error_of_the_papers_scheme_is_of_second_order_and_does_not_drift():
     assert abs(np.log2(worst / np.abs(fine).max()) - 2) < 0.2
     assert np.abs(found[-swing:]).max() < 1.2 * np.abs(found[: 2 * swing]).max()
     assert abs(np.mean(found[-swing:])) < 2 * abs(np.mean(found[:swing]))
+
+
+SLANTED = {"waves.direction_rad": 0.5, "current": {"law": "uniform", "velocity_mps": [0.2, -0.4, 0.0]}}
+BLOW = {"start.buoy_velocity_mps": [0.0, 0.3, 0.0]}
+SHAKEN = {
+    "buoy": None, "waves.steepness": 0.05,
+    "end": {
+        "kind": "held", "position_m": [8.0, 0.0, 18.5],
+        "motion": {"law": "harmonic", "amplitude_m": [0.5, 0.0, 0.5], "period_s": 4.0, "ramp_s": 2.0},
+    },
+}  # fmt: skip
+ACROSS = {**SHAKEN["end"]["motion"], "amplitude_m": [0.3, 0.6, 0.5]}
+CASES = {  # overrides, run length (s), nodes; the first loop comes at 53 s
+    "moderate, in a plane": ({"waves.steepness": 0.05, "water.depth_m": 22.5}, 20.0, 41),
+    "moderate, in space": ({"waves.steepness": 0.05, "water.depth_m": 22.5, **SPACE, **SLANTED, **BLOW}, 20.0, 41),
+    "snapping, in a plane": ({"waves.steepness": 0.13, "water.depth_m": 22.5}, 30.0, 41),
+    "loops that leave the plane": ({"waves.steepness": 0.13, "water.depth_m": 21.6, **SPACE, **BLOW}, 80.0, 41),
+    "moved end, in a plane": (SHAKEN, 8.0, 81),
+    "moved end, in space": ({**SHAKEN, **SPACE, "end": {**SHAKEN["end"], "motion": ACROSS}}, 8.0, 81),
+}
+
+
+def books(name, nodes):
+    overrides, duration_s, _ = CASES[name]
+    return budget(line({**overrides, "solver.rtol": 1e-3}, nodes=nodes), duration_s)
+
+
+def gaps(found):
+    """Of the whole budget, of its mechanical part, and of momentum, over what was passed."""
+    work, passed = found["work"].sum(1), found["passed"][-1]
+    outside = found["energy"][:, :2].sum(1) + found["inner"] - work
+    impulse = np.abs(found["momentum"] - found["impulse"]).max() / found["passed_impulse"][-1]
+    return np.abs(found["energy"].sum(1) - work).max() / passed, np.abs(outside).max() / passed, impulse
+
+
+@pytest.mark.parametrize(
+    "name", [pytest.param(name, marks=[pytest.mark.slow] * name.startswith("loops")) for name in CASES]
+)
+def test_budgets_close(name):
+    found = books(name, CASES[name][2])
+    assert np.ptp(found["energy"], axis=0).max() > 0.05 * found["passed"][-1]  # it does not only leave as it came
+    energy, outside, impulse = gaps(found)
+    assert energy < 1e-3
+    assert outside < 1e-5
+    assert impulse < 1e-5
+
+
+@pytest.mark.slow
+def test_the_gap_falls_with_the_element():
+    """The layers of bending at the ends, sqrt(EI/T) = 14 mm, are resolved by neither grid: less than order 2."""
+    coarse, fine = (gaps(books("moderate, in space", nodes))[0] for nodes in (41, 161))
+    assert fine < 0.4 * coarse

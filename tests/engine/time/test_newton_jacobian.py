@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 
 from engine import load_scene
-from tests.engine.box_equations import LAWS, equations, jacobian, lifted, roll, unknowns
+from tests.engine.box_equations import LAWS, equations, jacobian, state_of, unknowns
 from tests.engine.kernels import Stage
 from tests.engine.lines import Motion, line
 from tests.engine.physics.caps import CAP
@@ -66,34 +66,15 @@ def scene_of(dimensions, law, end, wet, EI, stretching=0.0, tangents=None, **cha
     return load_scene("tethered_buoy", overrides)
 
 
-def directions(rng, turn):
-    """Euler parameters (NODES, 4): from a random first frame, random turns from node to node."""
+def directions(rng, turn, dimensions):
+    """Angles (NODES,) or Euler parameters (NODES, 4): from a random first frame, random turns from node to node."""
+    if dimensions == 2:
+        return 1.4 + np.cumsum(rng.normal(0, turn, NODES).clip(-2.9, 2.9))
     beta = turned_by(rng.normal(0, 1, (1, 3)))
     for _ in range(NODES - 1):
         theta = rng.normal(0, turn, (1, 3))
         beta = np.concatenate([beta, product(beta[-1:], turned_by(theta * min(1.0, 2.9 / np.linalg.norm(theta))))])
     return beta
-
-
-def state_of(rng, scene, turn, beta=None):
-    """A state with every term of the equations at work: strain of both signs, shear, turns, motion, water; torsion
-    where both ends are clamped."""
-    n, bent = scene.tether.nodes, scene.tether.bending_stiffness_Nm2 > 0
-    strain, V = rng.uniform(-0.15, 0.35, n), rng.normal(0, 2, (n, 3))
-    shear, curvature = rng.normal(0, 300, (n, 2)) * bent, rng.normal(0, 1, (n, 2)) * bent
-    if beta is None:
-        phi = 1.4 + np.cumsum(rng.normal(0, turn, n).clip(-2.9, 2.9))
-        Y = np.column_stack([strain, shear[:, 0], V[:, [0, 2]], phi, curvature[:, 0]])
-        t, V = frames(lifted(Y)[:, 6:10])[:, 0, [0, 2]], V[:, [0, 2]]
-    else:
-        Y = np.column_stack([strain, shear, V, beta, np.zeros(n), curvature])
-        t = frames(beta)[:, 0]
-        if scene.anchor.rotation == scene.end.rotation == "clamped":
-            # 0.3 rad more than the twist: Euler parameters know the rest of a whole number of double turns only
-            Y[:, 10] = (scene.end.twist_rad + 0.3 - roll(Y, scene)) / scene.tether.length_m
-    C_tilde = np.concatenate([(1 + strain[:, None]) * t, V], 1)
-    C_tilde += rng.normal(0, 0.02, C_tilde.shape)
-    return Y, C_tilde, rng.normal(0, 1.5, C_tilde.shape) * (scene.water is not None)
 
 
 def assert_solved(scene, stage, Y, C_tilde, F, **more):
@@ -119,10 +100,10 @@ def assert_solved(scene, stage, Y, C_tilde, F, **more):
 def test_update_solves_the_linearised_box_equations(dimensions, end, EI, wet, stage):
     rng = np.random.default_rng(7)
     for law, stretching, turn in zip(LAWS, (0.0, 2.0, 0.0), TURNS, strict=True):
-        beta = directions(rng, turn) if dimensions == 3 else None
-        tangents = None if beta is None else frames(beta)[[0, -1], 0]
+        turns = directions(rng, turn, dimensions)
+        tangents = frames(turns)[[0, -1], 0] if dimensions == 3 else None
         scene = scene_of(dimensions, law, end, wet, EI, stretching, tangents)
-        assert_solved(scene, STAGES[stage], *state_of(rng, scene, turn, beta))
+        assert_solved(scene, STAGES[stage], *state_of(rng, scene, turns))
 
 
 @pytest.mark.parametrize("dimensions", [2, 3])
@@ -133,8 +114,7 @@ def test_with_shock_viscosity(law, EI, dimensions):
     viscous = {"solver.shock_viscosity": {"quadratic": 1.0, "linear": 0.2}, "solver.integrator": "generalized-alpha"}
     scene = scene_of(dimensions, law, "free", False, EI, **viscous)
     for stage in STAGES.values():
-        beta = directions(rng, 0.5) if dimensions == 3 else None
-        state = state_of(rng, scene, 0.5, beta)
+        state = state_of(rng, scene, directions(rng, 0.5, dimensions))
         viscosity = rng.uniform(0.0, [2.0, 40.0], (NODES, 2))
         viscosity[rng.random(NODES) < 0.3] = 0.0
         r, without = (assert_solved(scene, stage, *state, viscosity=v) for v in (viscosity, 0.0 * viscosity))

@@ -71,7 +71,7 @@ def test_radius_in_steep_waves_to_50_seconds(changes, bound_m):
 
 def test_steep_waves_run_to_the_end():
     run = ran(buoy(0.13, 21.6), 300)
-    assert len(run.columns["time_s"]) == 300 * 100 + 1
+    assert len(run.columns["time_s"]) == 300 * 100 + 1 and run.message == ""
     assert all(np.all(np.isfinite(column)) for column in run.columns.values())
     assert run.statistics["loop_releases"] > 0  # the loops of a plane are counted
 

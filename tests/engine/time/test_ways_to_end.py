@@ -136,17 +136,3 @@ def test_a_twist_that_is_too_much_ends_as_a_row_too(turns):
     assert run.status == "ok" or run.message
     assert turns > 1 or run.status == "ok"
     assert all(np.all(np.isfinite(column)) for column in run.columns.values())
-
-
-@pytest.mark.parametrize("steepness", [0.0, 0.016, 0.1, 0.6])
-@pytest.mark.parametrize("depth_m", [18.0, 21.0, 30.0])
-def test_ok_means_finite_and_complete(steepness, depth_m):
-    scene = load_scene("tethered_buoy", {"waves.steepness": steepness, "water.depth_m": depth_m})
-    run = simulate(scene, periods=10)
-    assert run.status == "ok" and run.message == ""
-    assert len(run.columns["time_s"]) == 1001
-    assert all(np.all(np.isfinite(column)) for column in run.columns.values())
-    assert run.statistics["min_strain"] > -1
-    assert run.statistics["max_turn_rad"] <= np.pi or run.statistics["loop_releases"] > 0
-    if steepness == 0:  # no waves, no motion
-        assert np.ptp(run.columns["radius_m"]) < 1e-9
