@@ -31,7 +31,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "orbit_diagrams": ["DensityImage", "OrbitDiagram", "density_image", "orbit_diagram"],
         "periods": ["PeriodEstimate", "detect_period"],
         "poincare": ["PoincareSection", "poincare_section", "section_at_phases"],
-        "predictability": ["PredictionGain", "prediction_gain"],
+        "predictability": ["prediction_gain"],
         "section_distances": ["SectionDistance", "section_distance"],
         "spectra": ["SpectralPeak", "Spectrum", "peaks_near", "spectral_peaks", "spectrum"],
         "stationarity": ["Drift", "record_drift"],

@@ -69,7 +69,7 @@ class EmbeddingChoice:
     reason                   one sentence
     lag                      delay used [samples]
     mean_period              mean period of the series [samples]
-    delay                    DelayChoice: what mutual information says, whether it was used or not
+    delay                    DelayChoice: what mutual information says
     false_share (8,)         share of false neighbours, m = 1 ... 8. Noise makes false neighbours in every dimension:
                              their share then levels off above zero, and rises again
     e1, e2 (7,)              Cao's ratios, m = 1 ... 7. E1 rises to 1 and stays where the embedding is large enough; E2
@@ -192,11 +192,10 @@ def _first_minimum(information, reach):
     return None
 
 
-def choose_embedding(series: ArrayLike, delay: int | None = None) -> EmbeddingChoice:
+def choose_embedding(series: ArrayLike) -> EmbeddingChoice:
     """Delay and embedding dimension of a series, with every curve that led to them.
 
     series (n,)       any unit
-    delay             [samples]; None: choose_delay
     Returns an EmbeddingChoice of at most 8 dimensions; 8 is the answer, and `reason` says so, where neither rule
     speaks. The dimension is the smallest that unfolds the motion; it is not the dimension of the attractor, and twice
     that of the attractor plus one may be needed (Sauer, Yorke & Casdagli 1991).
@@ -206,10 +205,9 @@ def choose_embedding(series: ArrayLike, delay: int | None = None) -> EmbeddingCh
     """
     x = checked_series(series)
     chosen = choose_delay(x)
-    lag = chosen.delay if delay is None else checked_count(delay, "delay")
     share, growth, change = np.full((3, MOST_DIMENSIONS), np.nan)
     for m in range(1, MOST_DIMENSIONS + 1):
-        apart, radius, more = _next_coordinate(x, lag, m, round(chosen.mean_period))
+        apart, radius, more = _next_coordinate(x, chosen.delay, m, round(chosen.mean_period))
         if len(apart):
             share[m - 1] = np.mean((more > FALSE_RATIO * apart) | (np.hypot(apart, more) > FALSE_SIZE * np.std(x)))
         if np.any(radius > 0.0):
@@ -223,7 +221,7 @@ def choose_embedding(series: ArrayLike, delay: int | None = None) -> EmbeddingCh
     reason = words if kennel or cao else f"{words}: noise, or a motion of higher dimension"
     curves = locked(share), locked(e1), locked(e2)
     dimension = kennel or cao or MOST_DIMENSIONS
-    return EmbeddingChoice(dimension, kennel, cao, reason, lag, chosen.mean_period, chosen, *curves)
+    return EmbeddingChoice(dimension, kennel, cao, reason, chosen.delay, chosen.mean_period, chosen, *curves)
 
 
 def _first(holds):

@@ -20,25 +20,7 @@ from analysis.embedding import choose_delay, choose_embedding, noise_level
 from analysis.wolf_pairs import wolf_run
 from analysis.wolf_plateau import wolf_lyapunov
 from benchmarks.shared import seconds
-from tests.analysis import systems
-
-TRUTH = {
-    "lorenz": 0.9056,
-    "rossler": 0.0714,
-    "duffing": 0.1565,
-    "ueda": 0.1034,
-    "pendulum": 0.1400,
-    "henon": 0.41922,
-    "logistic": np.log(2.0),
-    "two_tone": 0.0,
-}
-
-
-def record(name, samples, noise):
-    """(series, step) of a reference system."""
-    if name in systems.FLOWS:
-        return systems.record(name, samples, noise=noise)
-    return systems.noisy(getattr(systems, name)(samples), noise, 0), 0.1 if name == "two_tone" else 1.0
+from tests.analysis.systems import TRUTH, record
 
 
 def others():
@@ -48,11 +30,11 @@ def others():
         import nolds
 
         def rosenstein(x, step, e):
-            how = {"emb_dim": e.dimension, "lag": e.lag, "min_tsep": e.theiler, "trajectory_len": stretch(e)}
+            how = {"emb_dim": e.dimension, "lag": e.lag, "min_tsep": round(e.mean_period), "trajectory_len": stretch(e)}
             return nolds.lyap_r(x, tau=step, fit="poly", **how)
 
         found["nolds lyap_r"] = rosenstein
-        found["nolds lyap_e"] = lambda x, step, e: nolds.lyap_e(x, min_tsep=e.theiler, tau=step)[0]
+        found["nolds lyap_e"] = lambda x, step, e: nolds.lyap_e(x, min_tsep=round(e.mean_period), tau=step)[0]
     except ImportError:
         print("nolds is not installed: pip install -c constraints.txt '.[bench]'")
     return found

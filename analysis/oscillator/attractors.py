@@ -14,6 +14,7 @@ from analysis.sampling import checked_count
 # Of the residual, relative to the size of the orbit. Newton's method goes on until rounding stops it; what is left then
 # must be below the second number, or it was no convergence.
 EXACT, CONVERGED = 1e-16, 1e-10
+MOST_STEPS = 50
 PAPER_BOX = (-60.0, 20.0, -25.0, 25.0)  # g low, g high, g' low, g' high: the attractors and their surroundings
 LONGEST_PERIOD = 32
 _LOOK_EVERY = 64
@@ -43,9 +44,7 @@ class PeriodicOrbit:
         return bool(np.abs(self.multipliers).max() < 1.0)
 
 
-def periodic_orbit(
-    oscillator: SnapOscillator, period: int, guess: ArrayLike, iterations: int = 50
-) -> PeriodicOrbit | None:
+def periodic_orbit(oscillator: SnapOscillator, period: int, guess: ArrayLike) -> PeriodicOrbit | None:
     """A periodic orbit of eq. (33) near a guess: Newton's method on P^period(x) - x = 0 with the exact tangent map.
 
     A step that does not shorten the residual is halved, up to ten times. Where that does not help either, the residual
@@ -53,14 +52,13 @@ def periodic_orbit(
 
     period   forcing periods;  guess  (g, g') at the strobe
     Returns PeriodicOrbit (its `period` is the least one, a divisor of the one asked for) or None where Newton's method
-    did not converge within `iterations`.
+    did not converge within 50 steps.
     """
-    period, iterations = checked_count(period, "period"), checked_count(iterations, "iterations")
-    x = np.array(checked_start(guess))
+    x, period = np.array(checked_start(guess)), checked_count(period, "period")
     table = tables(oscillator)
     g, v, jacobian = tangent_map(x[0], x[1], period, table)
     residual = np.array([g, v]) - x
-    for taken in range(iterations):
+    for taken in range(MOST_STEPS):
         size = max(1.0, np.abs(x).max())
         if np.abs(residual).max() <= EXACT * size:
             return _described(x, period, taken, table)
@@ -131,15 +129,16 @@ class SnapBasins:
     periods: int
 
 
-def start_grid(columns: int, rows: int, box: tuple[float, float, float, float] = PAPER_BOX) -> np.ndarray:
-    """Starts at the cell centres of a grid over a box in the (g, g') plane, for basins drawn as an image.
+def start_grid(columns: int, rows: int) -> np.ndarray:
+    """Starts at the cell centres of a grid over PAPER_BOX in the (g, g') plane, for basins drawn as an image.
 
-    columns, rows   cells along g and g';  box  (g low, g high, g' low, g' high), by default PAPER_BOX
+    columns, rows   cells along g and g'
     Returns (rows*columns, 2), g varying fastest.
     """
     columns, rows = checked_count(columns, "columns"), checked_count(rows, "rows")
-    g = box[0] + (box[1] - box[0]) * (np.arange(columns) + 0.5) / columns
-    v = box[2] + (box[3] - box[2]) * (np.arange(rows) + 0.5) / rows
+    left, right, low, high = PAPER_BOX
+    g = left + (right - left) * (np.arange(columns) + 0.5) / columns
+    v = low + (high - low) * (np.arange(rows) + 0.5) / rows
     return np.stack(np.meshgrid(g, v), axis=-1).reshape(-1, 2)
 
 
