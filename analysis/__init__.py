@@ -28,7 +28,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "growth": ["Growth", "envelope_of", "growth_or_bursts"],
         "line_spectra": ["LineSpectrum", "spectral_lines"],
         "neighbours": ["NeighbourGrowth", "neighbour_growth"],
-        "orbit_diagrams": ["DensityImage", "OrbitDiagram", "density_image", "orbit_diagram"],
+        "orbit_diagrams": ["OrbitDiagram", "density_image", "orbit_diagram"],
         "periods": ["PeriodEstimate", "detect_period"],
         "poincare": ["PoincareSection", "poincare_section", "section_at_phases"],
         "predictability": ["prediction_gain"],
