@@ -21,7 +21,7 @@ from numpy.typing import ArrayLike
 from analysis.embedding import choose_embedding, delay_vectors, noise_level
 from analysis.exponents import Exponent, no_exponent
 from analysis.neighbours import nearest_outside
-from analysis.sampling import checked_count, checked_positive, checked_series, locked
+from analysis.sampling import checked_positive, checked_series, locked
 
 ROSENSTEIN = "Rosenstein, Collins & De Luca 1993"
 KANTZ = "Kantz 1994"
@@ -54,23 +54,15 @@ class ScalingRegion:
     reason: str
 
 
-def rosenstein_lyapunov(
-    series: ArrayLike,
-    step_s: float,
-    delay: int | None = None,
-    dimension: int | None = None,
-    theiler: int | None = None,
-    horizon: int | None = None,
-) -> Exponent:
+def rosenstein_lyapunov(series: ArrayLike, step_s: float) -> Exponent:
     """Largest Lyapunov exponent from the mean logarithmic growth between nearest neighbours.
 
         y(k) = < ln |X_{i+k} - X_{j(i)+k}| >,    lambda = slope of y against k step_s in its scaling region
 
     series (n,)    any unit, evenly sampled
     step_s         sampling step [s], or 1 for a map
-    delay, dimension    of the embedding; None: choose_embedding
-    theiler        neighbours nearer in time are none [samples]; None: mean period or span of a delay vector
-    horizon        largest k [samples]; None: eight mean periods, at most a quarter of the record
+    The embedding is that of `choose_embedding`; neighbours nearer in time than the mean period or the span of a delay
+    vector are none; k ends after eight mean periods, or a quarter of the record.
     Returns an Exponent [nats/time]. Its error joins the bend of the region with the scatter of eight blocks of centres.
     NaN with a reason where no straight part of the curve spans one nat: regular motion, noise, or too short a record.
     details: time_s and curve (k,), region (ScalingRegion), embedding, dimension, theiler, centres.
@@ -78,7 +70,7 @@ def rosenstein_lyapunov(
     Source: Rosenstein, Collins & De Luca, Physica D 65, 117 (1993).
     """
 
-    def logarithms(x, points, rows, embedding, theiler, horizon):
+    def logarithms(x, points, rows, lag, theiler, horizon):
         index, distance = nearest_outside(points[: len(points) - horizon], theiler, rows)
         # Zero: an exact repetition (periodic to the last digit), which has no logarithm.
         kept = (index[:, 0] >= 0) & (distance[:, 0] > 1e-12 * np.std(x))
@@ -86,49 +78,39 @@ def rosenstein_lyapunov(
         apart = (np.linalg.norm(points[rows + k] - points[index + k], axis=1) for k in range(horizon + 1))
         return _logarithms(apart), {}
 
-    return _estimated(ROSENSTEIN, series, step_s, delay, dimension, theiler, horizon, logarithms)
+    return _estimated(ROSENSTEIN, series, step_s, logarithms)
 
 
-def kantz_lyapunov(
-    series: ArrayLike,
-    step_s: float,
-    delay: int | None = None,
-    dimension: int | None = None,
-    theiler: int | None = None,
-    horizon: int | None = None,
-    radius: float | None = None,
-) -> Exponent:
+def kantz_lyapunov(series: ArrayLike, step_s: float) -> Exponent:
     """Largest Lyapunov exponent from the growth of whole neighbourhoods.
 
         y(k) = < ln( mean over j in U_i of |x_{i+k} - x_{j+k}| ) >,    U_i: |X_i - X_j| <= radius
 
     Averaging before the logarithm tames single bad neighbours, so that noise matters less than in Rosenstein's curve.
 
-    series, step_s, delay, dimension, theiler, horizon    as in rosenstein_lyapunov
-    radius         of the neighbourhoods [unit of the series]; None: the median distance of the eighth neighbour, at
-                   least three standard deviations of the noise between two delay vectors
+    series, step_s    as in rosenstein_lyapunov, and so are embedding, window and horizon. The radius is the median
+                      distance of the eighth neighbour, at least three standard deviations of the noise between two
+                      delay vectors
     Returns an Exponent [nats/time] with details as in rosenstein_lyapunov and radius. NaN with a reason where no
     straight part spans one nat, or fewer than 100 points have eight neighbours or more within the radius.
     Raises ValueError for values that are not finite.
     Source: Kantz, Physics Letters A 185, 77 (1994).
     """
 
-    def logarithms(x, points, rows, embedding, theiler, horizon):
+    def logarithms(x, points, rows, lag, theiler, horizon):
         index, distance = nearest_outside(points[: len(points) - horizon], theiler, rows, count=4 * KANTZ_NEIGHBOURS)
-        within = radius
-        if radius is None:
-            noise = noise_level(x, embedding.lag) * np.sqrt(2.0 * points.shape[1])
-            within = max(np.median(distance[:, KANTZ_NEIGHBOURS - 1]), 3.0 * noise)
-            if within == 0.0:
-                return None, "neighbours coincide: the series takes too few different values"
-        near = (distance <= checked_positive(within, "radius")) & (index >= 0)
+        noise = noise_level(x, lag) * np.sqrt(2.0 * points.shape[1])
+        radius = max(np.median(distance[:, KANTZ_NEIGHBOURS - 1]), 3.0 * noise)
+        if radius == 0.0:
+            return None, "neighbours coincide: the series takes too few different values"
+        near = (distance <= radius) & (index >= 0)
         kept = np.sum(near, axis=1) >= KANTZ_NEIGHBOURS
         rows, index, near, last = rows[kept], index[kept], near[kept], len(x) - len(points)
         apart = (np.abs(x[rows + last + k][:, None] - x[index + last + k]) for k in range(horizon + 1))
         means = (np.sum(np.where(near, one, 0.0), axis=1) / np.sum(near, axis=1) for one in apart)
-        return _logarithms(means), {"radius": float(within)}
+        return _logarithms(means), {"radius": float(radius)}
 
-    return _estimated(KANTZ, series, step_s, delay, dimension, theiler, horizon, logarithms)
+    return _estimated(KANTZ, series, step_s, logarithms)
 
 
 def _logarithms(apart):
@@ -137,18 +119,16 @@ def _logarithms(apart):
         return np.log(list(apart))
 
 
-def _estimated(method, series, step_s, delay, dimension, theiler, horizon, logarithms):
+def _estimated(method, series, step_s, logarithms):
     """The Exponent of a method. logarithms: of the series, its delay vectors, the centres asked about (all, or 2000
-    drawn with a fixed seed), embedding, window and horizon it makes ln(distance) (k + 1, centres) and details of its
+    drawn with a fixed seed), delay, window and horizon it makes ln(distance) (k + 1, centres) and details of its
     own, or None and the sentence that says why there is none."""
     x, step_s = checked_series(series), checked_positive(step_s, "step_s")
     if len(x) < 500 or np.ptp(x) == 0.0:
         return no_exponent(method, f"500 samples of a series that moves are needed, given {len(x)}")
-    embedding = choose_embedding(x, delay)
-    lag, period = embedding.lag, embedding.mean_period
-    m = embedding.dimension if dimension is None else checked_count(dimension, "dimension")
-    theiler = max(round(period), (m - 1) * lag) if theiler is None else int(theiler)
-    horizon = min(max(round(8 * period), 12), len(x) // 4) if horizon is None else checked_count(horizon, "horizon")
+    embedding = choose_embedding(x)
+    m, lag, period = embedding.dimension, embedding.lag, embedding.mean_period
+    theiler, horizon = max(round(period), (m - 1) * lag), min(max(round(8 * period), 12), len(x) // 4)
     usable = len(x) - (m - 1) * lag - horizon
     if usable < LEAST_CENTRES + 2 * theiler:
         span = f"delay vectors of {(m - 1) * lag} samples and a horizon of {horizon}"
@@ -156,7 +136,7 @@ def _estimated(method, series, step_s, delay, dimension, theiler, horizon, logar
     rows = np.arange(usable)
     if usable > CENTRES:
         rows = np.sort(np.random.default_rng(0).choice(usable, CENTRES, replace=False))
-    growth, own = logarithms(x, delay_vectors(x, lag, m), rows, embedding, theiler, horizon)
+    growth, own = logarithms(x, delay_vectors(x, lag, m), rows, lag, theiler, horizon)
     if growth is None:
         return no_exponent(method, own)
     return _slope_of(growth, step_s, embedding, method, {"dimension": m, "theiler": theiler} | own)

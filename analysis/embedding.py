@@ -40,21 +40,17 @@ NOISE_CENTRES = 400
 NOISE_REACH = 3
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True)
 class DelayChoice:
-    """A delay and the curve from which it was read.
+    """A delay and why it was taken.
 
     delay                    [samples]
     reason                   one sentence: first minimum, or what was taken for want of one
-    information (k + 1,)     I(L) at L = 0 ... k [nats]; I(0) is the entropy of the cells
-    bias                     what independent samples would show on average, (cells - 1)^2/(2 pairs) [nats]
     mean_period              mean period of the series [samples]
     """
 
     delay: int
     reason: str
-    information: np.ndarray
-    bias: float
     mean_period: float
 
 
@@ -66,10 +62,9 @@ class EmbeddingChoice:
     by_false_neighbours      first m whose share of false neighbours is within 0.01 of the least; None where even that
                              is more than 0.2: what is then folded is noise
     by_cao                   first m with E1 of at least 0.9; None if there is none
-    reason                   one sentence
+    reason                   one sentence: what each rule says
     lag                      delay used [samples]
     mean_period              mean period of the series [samples]
-    delay                    DelayChoice: what mutual information says, whether it was used or not
     false_share (8,)         share of false neighbours, m = 1 ... 8. Noise makes false neighbours in every dimension:
                              their share then levels off above zero, and rises again
     e1, e2 (7,)              Cao's ratios, m = 1 ... 7. E1 rises to 1 and stays where the embedding is large enough; E2
@@ -82,7 +77,6 @@ class EmbeddingChoice:
     reason: str
     lag: int
     mean_period: float
-    delay: DelayChoice
     false_share: np.ndarray
     e1: np.ndarray
     e2: np.ndarray
@@ -158,7 +152,7 @@ def choose_delay(series: ArrayLike) -> DelayChoice:
     its samples: delay 1.
 
     series (n,)    samples, any unit
-    Returns a DelayChoice; `reason` says which rule spoke, `information` is the curve to draw.
+    Returns a DelayChoice; `reason` says which rule spoke.
     Raises ValueError for values that are not finite or fewer than 50 samples.
     Source: Fraser & Swinney, Physical Review A 33, 1134 (1986).
     """
@@ -167,8 +161,7 @@ def choose_delay(series: ArrayLike) -> DelayChoice:
         raise ValueError(f"series: 50 samples at least are needed, given {len(x)}")
     period = mean_period(x)
     max_delay = int(min(max(np.ceil(PERIODS_SEARCHED * period), 10), len(x) // 2 - 1))
-    information, cells = mutual_information(x, max_delay)
-    bias = (cells - 1) ** 2 / (2.0 * len(x))
+    information, _ = mutual_information(x, max_delay)
     if period < LEAST_SAMPLES_PER_PERIOD:
         delay, reason = 1, f"delay 1: {period:.2g} samples per mean period leave nothing between the samples"
     else:
@@ -179,7 +172,7 @@ def choose_delay(series: ArrayLike) -> DelayChoice:
         if delay != minimum:
             found = f"at {minimum}" if minimum else f"none up to {max_delay}"
             reason = f"a quarter of the mean period; first minimum of the mutual information: {found} samples"
-    return DelayChoice(delay, reason, locked(information), bias, period)
+    return DelayChoice(delay, reason, period)
 
 
 def _first_minimum(information, reach):
@@ -192,11 +185,10 @@ def _first_minimum(information, reach):
     return None
 
 
-def choose_embedding(series: ArrayLike, delay: int | None = None) -> EmbeddingChoice:
+def choose_embedding(series: ArrayLike) -> EmbeddingChoice:
     """Delay and embedding dimension of a series, with every curve that led to them.
 
     series (n,)       any unit
-    delay             [samples]; None: choose_delay
     Returns an EmbeddingChoice of at most 8 dimensions; 8 is the answer, and `reason` says so, where neither rule
     speaks. The dimension is the smallest that unfolds the motion; it is not the dimension of the attractor, and twice
     that of the attractor plus one may be needed (Sauer, Yorke & Casdagli 1991).
@@ -206,10 +198,9 @@ def choose_embedding(series: ArrayLike, delay: int | None = None) -> EmbeddingCh
     """
     x = checked_series(series)
     chosen = choose_delay(x)
-    lag = chosen.delay if delay is None else checked_count(delay, "delay")
     share, growth, change = np.full((3, MOST_DIMENSIONS), np.nan)
     for m in range(1, MOST_DIMENSIONS + 1):
-        apart, radius, more = _next_coordinate(x, lag, m, round(chosen.mean_period))
+        apart, radius, more = _next_coordinate(x, chosen.delay, m, round(chosen.mean_period))
         if len(apart):
             share[m - 1] = np.mean((more > FALSE_RATIO * apart) | (np.hypot(apart, more) > FALSE_SIZE * np.std(x)))
         if np.any(radius > 0.0):
@@ -223,7 +214,7 @@ def choose_embedding(series: ArrayLike, delay: int | None = None) -> EmbeddingCh
     reason = words if kennel or cao else f"{words}: noise, or a motion of higher dimension"
     curves = locked(share), locked(e1), locked(e2)
     dimension = kennel or cao or MOST_DIMENSIONS
-    return EmbeddingChoice(dimension, kennel, cao, reason, lag, chosen.mean_period, chosen, *curves)
+    return EmbeddingChoice(dimension, kennel, cao, reason, chosen.delay, chosen.mean_period, *curves)
 
 
 def _first(holds):

@@ -11,7 +11,14 @@ from analysis.line_spectra import spectral_lines
 from analysis.neighbours import neighbour_growth
 from analysis.predictability import prediction_gain
 from analysis.stationarity import record_drift
-from analysis.surrogates import NullRank, iaaft_surrogates, noisy_periodic_surrogates, normal_scores, rank_among
+from analysis.surrogates import (
+    SHARE,
+    NullRank,
+    iaaft_surrogates,
+    noisy_periodic_surrogates,
+    normal_scores,
+    rank_among,
+)
 from analysis.zero_one import zero_one_test
 
 if TYPE_CHECKING:
@@ -20,7 +27,6 @@ if TYPE_CHECKING:
     from analysis.verdicts import Verdict
 
 IRREGULAR = 0.9
-SHARE = 0.95
 LEAST_ADVANTAGE = 0.3
 STAYS = 0.35
 NEAR = 0.35
@@ -235,12 +241,12 @@ def null_ranks(section: np.ndarray, surrogates: int, seed: int | list[int]) -> l
     section = section[-NULL_POINTS:]
     ranks = []
     for i, (points, make) in enumerate([(normal_scores(section), NULLS[0][1]), (section, NULLS[1][1])]):
-        gain = prediction_gain(points).gain
+        gain = prediction_gain(points)
         if not np.isfinite(gain):
             ranks.append(None)
             continue
-        drawn = [prediction_gain(one).gain for one in make(points, surrogates, [*np.atleast_1d(seed), 100 + i])]
-        ranks.append(rank_among(gain, drawn, SHARE) if np.all(np.isfinite(drawn)) else None)
+        drawn = [prediction_gain(one) for one in make(points, surrogates, [*np.atleast_1d(seed), 100 + i])]
+        ranks.append(rank_among(gain, drawn) if np.all(np.isfinite(drawn)) else None)
     return ranks
 
 

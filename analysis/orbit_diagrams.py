@@ -26,18 +26,6 @@ class OrbitDiagram:
     columns: tuple[np.ndarray, ...]
 
 
-@dataclass(frozen=True, eq=False)
-class DensityImage:
-    """An orbit diagram as counts.
-
-    counts (v, p) int         points per pixel; row 0 holds the lowest values
-    value_edges (v + 1,)      evenly spaced
-    """
-
-    counts: np.ndarray
-    value_edges: np.ndarray
-
-
 def orbit_diagram(parameters: ArrayLike, strobed: Iterable[ArrayLike]) -> OrbitDiagram:
     """Columns of strobed points over their parameter values, in rising order.
 
@@ -57,11 +45,12 @@ def orbit_diagram(parameters: ArrayLike, strobed: Iterable[ArrayLike]) -> OrbitD
     return OrbitDiagram(locked(values), columns)
 
 
-def density_image(diagram: OrbitDiagram, value_bins: int = 400) -> DensityImage:
+def density_image(diagram: OrbitDiagram, value_bins: int = 400) -> tuple[np.ndarray, np.ndarray]:
     """Counts of an orbit diagram per pixel: one pixel column per parameter value, `value_bins` rows.
 
-    Returns a DensityImage over the range of all points with 2 % of margin; its counts add up to the points of every
-    column. Raises ValueError for a diagram without a single point.
+    Returns (counts (v, p), edges (v + 1,)): points per pixel, row 0 holding the lowest values, and evenly spaced values
+    over the range of all points with 2 % of margin. The counts add up to the points of every column.
+    Raises ValueError for a diagram without a single point.
     """
     values = np.concatenate(diagram.columns)
     if values.size == 0:
@@ -72,4 +61,4 @@ def density_image(diagram: OrbitDiagram, value_bins: int = 400) -> DensityImage:
         margin = 0.02 * abs(high) or 1.0
     edges = np.linspace(low - margin, high + margin, checked_count(value_bins, "value_bins") + 1)
     counts = np.stack([np.histogram(column, bins=edges)[0] for column in diagram.columns], axis=1)
-    return DensityImage(locked(counts), locked(edges))
+    return counts, edges

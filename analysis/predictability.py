@@ -14,8 +14,6 @@ gain is also high for periodic and quasi-periodic motions with or without noise:
 rank among the surrogates that keep the lines.
 """
 
-from dataclasses import dataclass
-
 import numpy as np
 from numpy.typing import ArrayLike
 
@@ -28,25 +26,13 @@ NEIGHBOURS_PER_COEFFICIENT = 2
 _RIDGE = 1e-3
 
 
-@dataclass(frozen=True)
-class PredictionGain:
-    """How much better the next point is predicted from neighbours.
-
-    gain     ln(linear error/local error) [nats], each rms over points and coordinates; NaN where there is no answer
-    reason   one sentence
-    """
-
-    gain: float
-    reason: str
-
-
-def prediction_gain(section: ArrayLike) -> PredictionGain:
+def prediction_gain(section: ArrayLike) -> float:
     """Gain of local-linear over linear one-step prediction on a section (formula at the head of this file).
 
     section (m,) or (m, d)   one row a forcing period; as many rows are taken together as one state as make 3 or more
                              numbers
-    Returns a PredictionGain: NaN, with the reason, where nothing moves or the record is short: it
-    takes eight states per number in a state, and the window.
+    Returns ln(linear error/local error) [nats], each rms over points and coordinates; NaN where nothing moves or the
+    record is short: it takes eight states per number in a state, and the window.
     Raises ValueError for values that are not finite.
     Source: E. N. Lorenz (analogues), J. Atmos. Sci. 26 (1969) 636; J. D. Farmer & J. J. Sidorowich, Phys. Rev. Lett. 59
     (1987) 845; gain over linear prediction as a test: M. Casdagli, J. R. Stat. Soc. B 54 (1992) 303.
@@ -54,18 +40,14 @@ def prediction_gain(section: ArrayLike) -> PredictionGain:
     x = checked_columns(section, "section")
     z = in_deviations(x, centred=True)
     if z.shape[1] == 0:
-        return PredictionGain(np.nan, "no motion: the section is one point to the last digits")
+        return np.nan
     state = states_of(z, x.shape[1])[:-1]
     target = z[len(z) - len(state) :]
-    needed = LEAST_PER_COORDINATE * (state.shape[1] + 1) + 2
-    if len(state) < needed:
-        wanted = f"{needed + len(z) - len(state)} points are needed for a state of {state.shape[1]} numbers"
-        return PredictionGain(np.nan, f"too short: {wanted}, given {len(x)}")
+    if len(state) < LEAST_PER_COORDINATE * (state.shape[1] + 1) + 2:
+        return np.nan
     linear, local = _linear_error(state, target), _local_error(state, target)
     # Errors at rounding cannot be compared: a clean period-N motion is predicted to the last digit by both.
-    gain = float(np.log(max(linear, 1e-9) / max(local, 1e-9)))
-    reason = f"errors {linear:.3g} linear and {local:.3g} local, of a standard deviation: a gain of {gain:.2f} nats"
-    return PredictionGain(gain, reason)
+    return float(np.log(max(linear, 1e-9) / max(local, 1e-9)))
 
 
 def _linear_error(state, target):

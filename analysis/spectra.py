@@ -136,9 +136,7 @@ def spectral_peaks(spectrum: Spectrum, least_prominence: float = 0.01) -> tuple[
     )
 
 
-def peaks_near(
-    spectrum: Spectrum, frequencies_radps: Iterable[float], least_prominence: float = 0.01
-) -> tuple[SpectralPeak | None, ...]:
+def peaks_near(spectrum: Spectrum, frequencies_radps: Iterable[float]) -> tuple[SpectralPeak | None, ...]:
     """For each given frequency, the nearest peak and by how many bins it misses.
 
         bins_away = (w_peak - w_given)/(2 pi/(n T_i))
@@ -146,11 +144,10 @@ def peaks_near(
     A line lies at best half a bin away, since bins are all that eq. (31) offers; within 1 is agreement.
 
     frequencies_radps    numbers [rad/s], e.g. natural frequencies and that of the waves
-    least_prominence     as in spectral_peaks
     Returns one SpectralPeak with reference per frequency, in the order given; None where the spectrum has no peak.
     Raises ValueError for a frequency that is not finite or below zero.
     """
-    peaks = spectral_peaks(spectrum, least_prominence)
+    peaks = spectral_peaks(spectrum)
 
     def beside(given: float) -> SpectralPeak:
         nearest = min(peaks, key=lambda peak: abs(peak.angular_frequency_radps - given))

@@ -198,20 +198,17 @@ def follow(points, near, distance, evolution, theiler, floor, longest, growth, e
 def _replacement(points, i, j, length, direction, near, distance, last, theiler, floor, longest, worst, fit):
     """Index and length of the vector to go on with: the old (j, length) if it is fit and nothing scores better; else
     the best within the angle, giving way first in length, then in angle; else the old one, whatever its length."""
-    best, shortest = _best(points, i, direction, near, distance, last, theiler, floor, longest, longest, ANGLE, worst)
-    if best >= 0:
-        return best, shortest
-    if fit:
-        return j, length
     angle = ANGLE
     while angle < np.pi:
         for wider in range(1, WIDENINGS + 1):
             limit = wider * longest
             best, shortest = _best(
-                points, i, direction, near, distance, last, theiler, floor, longest, limit, angle, np.inf
+                points, i, direction, near, distance, last, theiler, floor, longest, limit, angle, worst
             )
             if best >= 0:
                 return best, shortest
+            if fit:
+                return j, length
         angle *= 2.0
     return j, length
 

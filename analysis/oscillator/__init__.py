@@ -14,10 +14,10 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
     __name__,
     submod_attrs={
         "attractors": [
-            "PeriodicOrbit", "SnapBasins", "periodic_orbit", "search_periodic_orbits", "snap_basins", "start_grid"
+            "Grazing", "PeriodicOrbit", "SnapBasins", "clearance", "grazing_force", "periodic_orbit",
+            "search_periodic_orbits", "snap_basins", "start_grid",
         ],
         "equation": ["SnapOscillator"],
-        "grazing": ["Grazing", "clearance", "grazing_force"],
         "growth": ["SnapDiagram", "SnapExponents", "section_dimension", "snap_diagram", "snap_exponents"],
         "motions": ["SnapMotion", "snap_motion", "strobed_states", "strobed_states_within"],
     },

@@ -1,19 +1,26 @@
-"""Periodic orbits of eq. (33) by Newton's method on the strobed map, and which starts end on them."""
+"""Periodic orbits of eq. (33) by Newton's method, which starts end on them, and the forcing at which slack begins.
 
-from dataclasses import dataclass
+The always taut motion is the linear response, so that its grazing of the switching line g = 0 is known in closed form:
+
+    g = B - W + F/Z sin(omega t + phase - lag),   Z = |1 - omega^2 + i mu omega|,   tan lag = mu omega/(1 - omega^2)
+"""
+
+import math
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from analysis.oscillator.equation import SnapOscillator
 from analysis.oscillator.motions import checked_start, checked_starts
-from analysis.oscillator.pieces import tables
+from analysis.oscillator.pieces import steady_motion, tables
 from analysis.oscillator.strobing import strobed_orbits, tangent_map
 from analysis.sampling import checked_count
 
 # Of the residual, relative to the size of the orbit. Newton's method goes on until rounding stops it; what is left then
 # must be below the second number, or it was no convergence.
 EXACT, CONVERGED = 1e-16, 1e-10
+MOST_STEPS = 50
 PAPER_BOX = (-60.0, 20.0, -25.0, 25.0)  # g low, g high, g' low, g' high: the attractors and their surroundings
 LONGEST_PERIOD = 32
 _LOOK_EVERY = 64
@@ -43,9 +50,7 @@ class PeriodicOrbit:
         return bool(np.abs(self.multipliers).max() < 1.0)
 
 
-def periodic_orbit(
-    oscillator: SnapOscillator, period: int, guess: ArrayLike, iterations: int = 50
-) -> PeriodicOrbit | None:
+def periodic_orbit(oscillator: SnapOscillator, period: int, guess: ArrayLike) -> PeriodicOrbit | None:
     """A periodic orbit of eq. (33) near a guess: Newton's method on P^period(x) - x = 0 with the exact tangent map.
 
     A step that does not shorten the residual is halved, up to ten times. Where that does not help either, the residual
@@ -53,14 +58,13 @@ def periodic_orbit(
 
     period   forcing periods;  guess  (g, g') at the strobe
     Returns PeriodicOrbit (its `period` is the least one, a divisor of the one asked for) or None where Newton's method
-    did not converge within `iterations`.
+    did not converge within 50 steps.
     """
-    period, iterations = checked_count(period, "period"), checked_count(iterations, "iterations")
-    x = np.array(checked_start(guess))
+    x, period = np.array(checked_start(guess)), checked_count(period, "period")
     table = tables(oscillator)
     g, v, jacobian = tangent_map(x[0], x[1], period, table)
     residual = np.array([g, v]) - x
-    for taken in range(iterations):
+    for taken in range(MOST_STEPS):
         size = max(1.0, np.abs(x).max())
         if np.abs(residual).max() <= EXACT * size:
             return _described(x, period, taken, table)
@@ -131,15 +135,16 @@ class SnapBasins:
     periods: int
 
 
-def start_grid(columns: int, rows: int, box: tuple[float, float, float, float] = PAPER_BOX) -> np.ndarray:
-    """Starts at the cell centres of a grid over a box in the (g, g') plane, for basins drawn as an image.
+def start_grid(columns: int, rows: int) -> np.ndarray:
+    """Starts at the cell centres of a grid over PAPER_BOX in the (g, g') plane, for basins drawn as an image.
 
-    columns, rows   cells along g and g';  box  (g low, g high, g' low, g' high), by default PAPER_BOX
+    columns, rows   cells along g and g'
     Returns (rows*columns, 2), g varying fastest.
     """
     columns, rows = checked_count(columns, "columns"), checked_count(rows, "rows")
-    g = box[0] + (box[1] - box[0]) * (np.arange(columns) + 0.5) / columns
-    v = box[2] + (box[3] - box[2]) * (np.arange(rows) + 0.5) / rows
+    left, right, low, high = PAPER_BOX
+    g = left + (right - left) * (np.arange(columns) + 0.5) / columns
+    v = low + (high - low) * (np.arange(rows) + 0.5) / rows
     return np.stack(np.meshgrid(g, v), axis=-1).reshape(-1, 2)
 
 
@@ -210,3 +215,50 @@ def _counted(label, settled, orbits, periods):
     shares = np.bincount(label, minlength=len(orbits) + 1) / len(label)
     errors = np.sqrt(shares * (1.0 - shares) / len(label))
     return SnapBasins(label, settled, tuple(orbits[i] for i in order), shares, errors, periods)
+
+
+@dataclass(frozen=True)
+class Grazing:
+    """The onset of slack.
+
+    force      F at which the least g over a period of the taut periodic motion is 0
+    time       of the touch, in units of time after the strobe, 0 <= time < T
+    clearance  least g there: what rounding leaves of 0
+    velocity   g' at the touch, the same
+    """
+
+    force: float
+    time: float
+    clearance: float
+    velocity: float
+
+
+def clearance(oscillator: SnapOscillator) -> tuple[float, float, float]:
+    """Least displacement of the motion of period T that is always taut, and when: (g, g', time).
+
+    The motion is a motion of eq. (33) itself only while the least g is at least 0; below 0 it says by how much slack is
+    entered. ValueError without damping, where there is no such motion that attracts.
+    """
+    mu, omega = oscillator.damping, oscillator.frequency
+    if mu == 0.0:
+        raise ValueError("damping: a number above 0 is needed for a taut motion that attracts")
+    lag = math.atan2(mu * omega, 1.0 - omega**2)
+    time = ((lag - 0.5 * math.pi - oscillator.phase) / omega) % oscillator.period
+    phase = omega * time + oscillator.phase
+    return (*steady_motion(1, tables(oscillator).constants, math.sin(phase), math.cos(phase)), time)
+
+
+def grazing_force(oscillator: SnapOscillator) -> Grazing:
+    """The forcing F = (B - W) Z below which eq. (33) has a motion without slack (head of this file).
+
+    Below this F the motion is a plain sine about B - W, and attracts what starts near it; other attractors, with slack,
+    may coexist. `oscillator.force` plays no part.
+
+    Returns Grazing, with all fields NaN where B - W <= 0 (such a tether is slack at any F) and without damping (no
+    taut motion attracts).
+    """
+    if oscillator.lift <= 0.0 or oscillator.damping == 0.0:
+        return Grazing(math.nan, math.nan, math.nan, math.nan)
+    force = oscillator.lift * oscillator.impedance
+    g, u, time = clearance(replace(oscillator, force=force))
+    return Grazing(force, time, g, u)

@@ -111,10 +111,10 @@ def _grown(oscillators, starts, transient_periods, periods, blocks, points):
     return sums / spans[:, None, None, None], section, end, slack
 
 
-def random_starts(count: int, seed: int, box: tuple[float, float, float, float] = PAPER_BOX) -> np.ndarray:
-    """(count, 2) states, uniform in the box (g low, g high, g' low, g' high)."""
+def random_starts(count: int, seed: int) -> np.ndarray:
+    """(count, 2) states, uniform in PAPER_BOX."""
     generator = np.random.default_rng(seed)
-    low, high = np.array(box[0::2]), np.array(box[1::2])
+    low, high = np.array(PAPER_BOX[0::2]), np.array(PAPER_BOX[1::2])
     return low + (high - low) * generator.random((checked_count(count, "count"), 2))
 
 

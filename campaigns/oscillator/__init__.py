@@ -34,7 +34,7 @@ class Order:
 
 def main(argv: list[str] | None = None) -> int:
     """The command. Returns the exit code (0, 1, 2 or 130)."""
-    return command(MODULE, argv, read_order, study)
+    return command(MODULE, argv, read_order, conduct)
 
 
 def parser():
@@ -100,10 +100,9 @@ def _range(words: list[str] | None, option: str, usual: tuple, faults: list[str]
     return (values[0], values[-1], len(values)) if values else usual
 
 
-def study(order: Order, argv: list[str]) -> int:
+def conduct(order: Order, argv: list[str]) -> int:
     """Run it: parts, table, provenance, report. Raises CampaignStopped, OSError, KeyboardInterrupt."""
     from campaigns.machinery import session
-    from campaigns.oscillator import keep
+    from campaigns.oscillator.study import done, parameters
 
-    work = partial(keep.done, order)
-    return session.conduct(CAMPAIGN, MODULE, argv, order.how, keep.parameters(order), work)
+    return session.conduct(CAMPAIGN, MODULE, argv, order.how, parameters(order), partial(done, order))

@@ -218,7 +218,7 @@ def _record_null(x, view, seed):
     name = "record's linear null"
 
     def gain_of(series):
-        return prediction_gain(successive_maxima(series, NOISE_MULTIPLE * view.noise)[1]).gain
+        return prediction_gain(successive_maxima(series, NOISE_MULTIPLE * view.noise)[1])
 
     part = x[-NULL_SAMPLES:]
     gain, values = gain_of(part), np.sort(part)
@@ -228,7 +228,7 @@ def _record_null(x, view, seed):
     known = [one for one in gains if np.isfinite(one)]
     if not np.isfinite(gain) or len(known) < 19:
         return Evidence(name, np.nan, SHARE, None, "too few maxima in the surrogates: no prediction gain")
-    rank = rank_among(gain, known, SHARE)
+    rank = rank_among(gain, known)
     sentence = f"surrogates of the record, seen at their maxima, are predicted worse in {rank.share_below:.0%} of cases"
     return Evidence(name, rank.share_below, SHARE, rank.above, sentence)
 

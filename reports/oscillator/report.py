@@ -18,9 +18,8 @@ from ..parts.columns import table_of
 from ..parts.content import Bullets, Column, Figure, Heading, Item, Notice, Report, Table, Text, sub
 from ..parts.provenance import provenance_items
 from ..parts.wording import count, decimals, number, percent
-from .attractors import basin_items, grazing_items, orbit_items
-from .equation import equation_items, subtitle
 from .folder import Study, read_study
+from .sections import basin_items, equation_items, grazing_items, orbit_items, subtitle
 
 LAMBDA_1, LAMBDA_2 = "λ" + sub("1"), "λ" + sub("2")
 QUESTION = (

@@ -250,14 +250,6 @@ def jacobian(scene, stage, Y, C_tilde, F, **more):
     return np.array(columns).T
 
 
-def change_of(Y, D):
-    """Change (n, 4) or (n, 6) of (q, V) under a small update D, to first order."""
-    Z = moved(Y, 1j * STEP * D)
-    Z = lifted(Z) if Y.shape[1] == 6 else Z
-    C = np.hstack([(1 + Z[:, :1]) * frames(Z[:, 6:10])[:, 0], Z[:, 3:6]]).imag / STEP
-    return C[:, [0, 2, 3, 5]] if Y.shape[1] == 6 else C
-
-
 def response(scene, rate, Y, C_tilde, F, dC_tilde):
     """Change (n, 6) of (q, V) in space of a linearised stage for a change dC_tilde (n, 6) of C~."""
     stage = rate, rate, 1.0
