@@ -33,25 +33,19 @@ def swept(folder, depth_m, kind):
     return read_sweep(out).runs
 
 
-def draw(runs_of):
-    """runs_of: (depth, kind) -> runs. Writes the picture."""
-    rows = []
-    for depth_m in DEPTHS_M:
-        panels = []
-        for kind, (name, colour) in KINDS.items():
-            dots = [(run.steepness, r) for run in runs_of[depth_m, kind] for r in run.section[:, 0]]
-            curve = Curve(*np.array(dots).T, line="", mark="o", colour=colour, size=0.8)
-            panels.append(Panel([curve], "wave steepness kA", "strobed radius r in m", f"H = {depth_m} m, {name}"))
-        rows.append(panels)
-    FIGURE.write_bytes(curves(rows, 5.0, share="xy", kind="png").data)
+def panel(folder, depth_m, kind):
+    """Strobed radius over steepness."""
+    name, colour = KINDS[kind]
+    dots = [(run.steepness, r) for run in swept(folder, depth_m, kind) for r in run.section[:, 0]]
+    curve = Curve(*np.array(dots).T, line="", mark="o", colour=colour, size=0.8)
+    return Panel([curve], "wave steepness kA", "strobed radius r in m", f"H = {depth_m} m, {name}")
 
 
 def main():
     if len(sys.argv) != 2:
         sys.exit("usage: python -m benchmarks.out_of_the_water FOLDER")
-    folder = Path(sys.argv[1])
-    draw({(depth_m, kind): swept(folder, depth_m, kind) for depth_m in DEPTHS_M for kind in KINDS})
-    print(f"{FIGURE}: {FIGURE.stat().st_size / 1000:.0f} kB")
+    rows = [[panel(Path(sys.argv[1]), depth_m, kind) for kind in KINDS] for depth_m in DEPTHS_M]
+    FIGURE.write_bytes(curves(rows, 5.0, share="xy", kind="png").data)
 
 
 if __name__ == "__main__":

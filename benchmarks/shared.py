@@ -56,9 +56,3 @@ def shrink(path: Path, colours: int) -> None:
 
     Image.open(path).convert("RGB").quantize(colours).save(path, optimize=True)
     print(f"docs/{path.name}: {path.stat().st_size / 1000:.0f} kB")
-
-
-def save(figure, name: str, colours: int = 128) -> None:
-    """A figure of Matplotlib as docs/NAME."""
-    figure.savefig(DOCS / name, dpi=100)
-    shrink(DOCS / name, colours)

@@ -9,9 +9,8 @@ from pathlib import Path
 from ..parts.content import Bullets, Column, Heading, Item, Report, Table, Text
 from ..parts.provenance import provenance_items, timing_table
 from ..parts.wording import EMPTY, count, decimals, number
-from .orders import order_items, predictability_items, smooth_series
+from . import sections
 from .study import Study, read_study
-from .work import LEVELS, level_answer, per_period, shipped, within, work_items
 
 QUESTION = (
     "What does an error cost? Every method of the engine, scipy's solvers on the engine's own equations in space, "
@@ -33,10 +32,10 @@ def report(directory: str | Path) -> Report:
         Bullets(tuple(_short_answer(study, works))),
         Heading("Error against run time"),
         Text(_protocol(study)),
-        *(item for name in works for item in work_items(study, name)),
+        *(item for name in works for item in sections.work_items(study, name)),
         *peer_items(study),
-        *order_items(study),
-        *predictability_items(study),
+        *sections.order_items(study),
+        *sections.predictability_items(study),
         *cost_items(study),
         *([Heading("Run times"), times] if times else []),
         *provenance_items(study.folder),
@@ -45,15 +44,15 @@ def report(directory: str | Path) -> Report:
 
 
 def _short_answer(study: Study, works: list[str]) -> Iterator[str]:
-    yield from filter(None, (level_answer(study, name) for name in works))
+    yield from filter(None, (sections.level_answer(study, name) for name in works))
     for name in works:
-        if (one := shipped(study, name)) is not None:
-            factor, unit = per_period(study, name)
+        if (one := sections.shipped(study, name)) is not None:
+            factor, unit = sections.per_period(study, name)
             yield (
                 f"The shipped setting (41 nodes, rtol 0.03) on {name}: {number(one.error, 2)} {study.unit(name)} in "
                 f"{number(factor * one.wall_s, 3)} {unit} (worst of {one.rounds} rounds {number(one.worst, 2)})."
             )
-    good, smooth = smooth_series(study)
+    good, smooth = sections.smooth_series(study)
     if smooth:
         yield f"Orders: {good} of {smooth} series on smooth works end within 0.15 of theory."
     bad = sum(bool(one.failed) and not one.peer for one in study.settings)
@@ -123,10 +122,10 @@ def peer_items(study: Study) -> Iterator[Item]:
 
 def _beside_ours(study: Study, work: str) -> Iterator[tuple[str, ...]]:
     """Rows of other codes on a work, at the two finest levels that each reaches."""
-    unit, (factor, _) = study.unit(work), per_period(study, work)
-    ours = {level: within(study.timed(work, peer=False), level) for level in LEVELS[unit]}
+    unit, (factor, _) = study.unit(work), sections.per_period(study, work)
+    ours = {level: sections.within(study.timed(work, peer=False), level) for level in sections.LEVELS[unit]}
     for name in dict.fromkeys(one.method for one in study.timed(work, peer=True)):
-        found = [(level, one, within(study.timed(work, name), level)) for level, one in ours.items() if one]
+        found = [(level, one, sections.within(study.timed(work, name), level)) for level, one in ours.items() if one]
         for level, one, other in [both for both in found if both[2]][-2:]:
             off = f"{number(other.against_ours, 2)} {unit}" if math.isfinite(other.against_ours) else EMPTY
             yield (
