@@ -5,7 +5,7 @@ from dataclasses import replace
 import pytest
 
 from campaigns import breaking_line
-from campaigns.breaking_line import CASES, LENGTHS_S, SERIES_NODES, STIFFNESSES_NM2
+from campaigns.breaking_line import CASES, LENGTHS_S
 from engine import load_scene, simulate
 from tests.campaigns.conftest import rows_of
 
@@ -34,23 +34,21 @@ def of_kind(runs, *kinds):
 
 def test_no_argument_is_the_papers_study():
     runs = runs_of()
-    cases = of_kind(runs, "case")
-    assert [run.labels["case"] for run in cases] == list(CASES)
-    for run in cases:
-        case = run.labels["case"]
-        assert run.duration_s == LENGTHS_S[case[0]]
-        assert run.scene.end.force_decay_s == (0.05 if case.endswith("p") else 0.005)
-        assert run.scene.end.force_N[0] == {"1": 45e3, "2": 180e3, "3": 315e3, "4": 450e3}[case[0]]
-        assert run.scene.tether.bending_stiffness_Nm2 == 24.0 and run.scene.water is None
+    cases = {run.labels["case"]: run for run in of_kind(runs, "case")}
+    assert list(cases) == list(CASES)
+    for case, run in cases.items():
+        force_N = {"1": 45e3, "2": 180e3, "3": 315e3, "4": 450e3}[case[0]]
+        assert (run.scene.end.force_decay_s, run.scene.end.force_N[0]) == (0.05 if "p" in case else 0.005, force_N)
+        assert run.duration_s == LENGTHS_S[case[0]] and run.scene.water is None
     assert len({run.scene.key() for run in runs}) == len(runs)
-    doubled = {run.labels["case"]: run.scene.tether.nodes for run in of_kind(runs, "doubled")}
-    assert doubled == dict.fromkeys(CASES, 2 * 1201 - 1)
-    stiff = {run.scene.tether.bending_stiffness_Nm2 for run in of_kind(runs, "stiffness")}
-    assert stiff | {24.0} == set(STIFFNESSES_NM2) == {10.0, 24.0, 100.0}
+    nodes = {run.labels["case"]: run.scene.tether.nodes for run in of_kind(runs, "doubled")}
+    assert nodes == dict.fromkeys(CASES, 2 * 1201 - 1)
+    stiff = {run.scene.tether.bending_stiffness_Nm2 for run in of_kind(runs, "stiffness", "case")}
+    assert stiff == {10.0, 24.0, 100.0}
     assert {run.labels["case"] for run in of_kind(runs, "straight")} == {"3", "4", "4p"}  # where a shock forms
     assert all(run.scene.gravity_mps2 == 0.0 for run in of_kind(runs, "straight", "series"))
     nodes = [run.scene.tether.nodes for run in of_kind(runs, "series") if run.labels["case"] == "4"]
-    assert tuple(nodes) == SERIES_NODES == (201, 401, 801, 1601)
+    assert nodes == [201, 401, 801, 1601]
 
 
 def test_both_ends_start_at_one_level():
