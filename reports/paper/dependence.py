@@ -7,8 +7,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ..figures.depth_exponents import Curve, depth_exponents, kind_of
-from ..out_of_plane.comparison import comparison_items, read_pairs
 from ..out_of_plane.runs import read_study
+from ..out_of_plane.sections import comparison_items
 from ..parts.columns import Quantity, plus_minus, read_columns
 from ..parts.content import Column, Figure, Heading, Item, Table, Text
 from ..parts.folder import Folder, FolderError, provenance_of, read_folder
@@ -168,6 +168,6 @@ def _plane(part: Path) -> list[Item]:
     heading = Heading("Two dimensions or three", 2)
     try:
         study = read_study(read_folder(part))
-        return [heading, *comparison_items(study, read_pairs(study))[1:]]
+        return [heading, *list(comparison_items(study))[1:]]
     except FolderError:
         return [heading, Text("The part `out_of_plane` is not there.")]
