@@ -7,11 +7,11 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ..figures.depth_exponents import Exponents, depth_exponents, kind_of
-from ..out_of_plane.comparison import comparison_items, read_pairs
 from ..out_of_plane.runs import read_study
+from ..out_of_plane.sections import comparison_items
 from ..parts.columns import Quantity, plus_minus, read_columns
 from ..parts.content import Column, Figure, Heading, Item, Table, Text
-from ..parts.folder import Folder, FolderError, provenance_of, read_folder
+from ..parts.folder import Folder, FolderError, provenance_of
 from ..parts.wording import EMPTY, listed, number, percent
 from .written import written
 
@@ -165,7 +165,7 @@ def _stiffness(rows: list[dict]) -> list[Item]:
 def _plane(part: Path) -> list[Item]:
     heading = Heading("Two dimensions or three", 2)
     try:
-        study = read_study(read_folder(part))
-        return [heading, *comparison_items(study, read_pairs(study))[1:]]
+        study = read_study(part)
+        return [heading, *list(comparison_items(study))[1:]]
     except FolderError:
         return [heading, Text("The part `out_of_plane` is not there.")]
