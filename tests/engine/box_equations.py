@@ -216,6 +216,14 @@ def moved(Y, D):
     return np.concatenate([Y[:, :6] + D[:, :6], product(Y[:, 6:10], half), Y[:, 10:] + D[:, 9:]], 1)
 
 
+def change_of(Y, D):
+    """Change (n, 4) in a plane or (n, 6) in space of (q, V) under a small update D of a state Y."""
+    Z = moved(Y.astype(complex), 1j * STEP * D)
+    Z = lifted(Z) if Y.shape[1] == 6 else Z
+    change = np.hstack([(1 + Z[:, :1]) * frames(Z[:, 6:10])[:, 0], Z[:, 3:6]]).imag / STEP
+    return change[:, [0, 2, 3, 5]] if Y.shape[1] == 6 else change
+
+
 def unknowns(scene):
     """Columns of D that are unknown."""
     bent = scene.tether.bending_stiffness_Nm2 > 0
@@ -240,14 +248,6 @@ def jacobian(scene, stage, Y, C_tilde, F, **more):
             D[k, i] = 1j * STEP
             columns.append(equations(scene, stage, Y, D, C_tilde, F, **more).imag / STEP)
     return np.array(columns).T
-
-
-def change_of(Y, D):
-    """Change (n, 4) or (n, 6) of (q, V) under a small update D, to first order."""
-    Z = moved(Y, 1j * STEP * D)
-    Z = lifted(Z) if Y.shape[1] == 6 else Z
-    C = np.hstack([(1 + Z[:, :1]) * frames(Z[:, 6:10])[:, 0], Z[:, 3:6]]).imag / STEP
-    return C[:, [0, 2, 3, 5]] if Y.shape[1] == 6 else C
 
 
 def response(scene, rate, Y, C_tilde, F, dC_tilde):

@@ -16,7 +16,7 @@ from engine.physics.currents import current_field
 from engine.physics.ends import upper_end, upper_end_3d
 from engine.physics.sea import sea_field
 from engine.physics.water import water
-from engine.physics.waves import wave_field, wave_field_3d
+from engine.physics.waves import wave_field
 from engine.planar import elimination as planar_elimination
 from engine.planar import node as planar_node
 from engine.planar import state as planar
@@ -99,10 +99,10 @@ def waves_at(scene, t, X, there=0.0):
     p, tables = parameters_of(scene)
     X = np.ascontiguousarray(X, float)
     F = np.full((len(X), 2 * X.shape[1]), there)
-    if scene.waves.irregular:
+    if p["sea_n"]:
         sea_field(p, tables, t, X, F)
     else:
-        (wave_field_3d if X.shape[1] == 3 else wave_field)(p, t, X, F)
+        wave_field(p, t, X, F)
     return F
 
 
