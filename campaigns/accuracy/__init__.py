@@ -18,7 +18,7 @@ from functools import partial
 from campaigns.accuracy.points import FACTORS, FULL, QUICK, Effort
 from campaigns.accuracy.works import BY_NAME, UNITS
 from campaigns.machinery import cli
-from campaigns.machinery.command import command
+from campaigns.machinery.session import command
 
 CAMPAIGN = "accuracy"
 MODULE = "campaigns.accuracy"
@@ -43,13 +43,15 @@ def parser():
     """The options of this campaign."""
     parser = cli.parser(MODULE, __doc__)
     what = parser.add_argument_group("what is run")
-    cli.add(what, "--works", "A B ...", f"works (default: {' '.join(FULL.works)})")
-    cli.add(what, "--rounds", "N", f"turns of every timed setting, 1 to {len(FACTORS)} (default: {FULL.rounds})")
+    works = f"works (default: {' '.join(FULL.works)})"
+    cli.add(what, "--works", "A B ...", works, cli.one_of(FULL.works), many=True)
+    turns = f"turns of every timed setting (default: {FULL.rounds})"
+    cli.add(what, "--rounds", "N", turns, cli.whole(1, len(FACTORS)))
     what.add_argument(
         "--quick", action="store_true", help=f"{' and '.join(QUICK.works)} alone, few settings, one round"
     )
     what.add_argument("--no-peers", action="store_true", help="leave out scipy and other codes")
-    cli.add_running(parser.add_argument_group("how and where"), f"results/{CAMPAIGN}")
+    cli.add_running(parser.add_argument_group("how and where"), CAMPAIGN)
     return parser
 
 
@@ -57,14 +59,9 @@ def read_order(argv: list[str], faults: list[str]) -> Order:
     """The order in the words of the command line; every fault is appended to `faults`."""
     options = cli.split(parser(), argv, faults)
     effort = QUICK if options.quick else FULL
-    if options.works == []:
-        faults.append(f"--works: given nothing; allowed: one or more of {', '.join(FULL.works)}")
-    allowed = "one of " + ", ".join(FULL.works)
-    words = options.works or list(effort.works)
-    works = cli.values(words, "--works", list(effort.works), cli.one_of(FULL.works), allowed, faults)
-    said = f"a whole number from 1 to {len(FACTORS)}"
-    count = cli.value(options.rounds, "--rounds", effort.rounds, cli.whole(1, len(FACTORS)), said, faults)
-    effort = replace(effort, works=tuple(name for name in FULL.works if name in works), rounds=count)
+    works = options.works or effort.works
+    rounds = options.rounds or effort.rounds
+    effort = replace(effort, works=tuple(name for name in FULL.works if name in works), rounds=rounds)
     how = cli.running(options, CAMPAIGN, faults)
     return Order(effort, options.quick, not options.no_peers, how)
 
@@ -85,9 +82,8 @@ def done(order: Order, simulate: Callable | None):
     """
     from campaigns.accuracy import jobs, orders, pieces
     from campaigns.accuracy.rows import COLUMNS
-    from campaigns.machinery.folder import trajectory_path
-    from campaigns.machinery.plan import plan_of
-    from campaigns.machinery.row_cache import made_by
+    from campaigns.machinery.folder import made_by, trajectory_path
+    from campaigns.machinery.plan import Plan
     from campaigns.machinery.runner import run, write_scene
 
     out, ours = order.how.out, simulate is None
@@ -95,12 +91,13 @@ def done(order: Order, simulate: Callable | None):
         from engine import simulate
     own = (f"campaigns/accuracy/{name}" for name in ("rows.py", "works.py", "works.toml"))
     maker = made_by({}, "campaigns/breaking_line/theory", "engine", *own)
-    plan = plan_of(order.how, simulate, jobs.point_row, COLUMNS, maker)
+    plan = Plan(order.how, simulate, jobs.point_row, COLUMNS, maker)
     phases = jobs.phases(out, order.effort, order.quick, order.peers and ours)
     write_scene(out, CAMPAIGN, next(filter(None, phases)))
     found = sum(trajectory_path(out, key).exists() for key in {job.key for phase in phases for job in phase})
     timing, known = {"compile_s": 0.0, "run_s": 0.0, "analysis_s": 0.0}, []
-    for how, phase in zip((plan, plan, replace(plan, backend="threading", jobs=1)), phases, strict=True):
+    alone = replace(plan, how=replace(order.how, backend="threading", jobs=1))
+    for how, phase in zip((plan, plan, alone), phases, strict=True):
         known += phase
         more, summary = run(how, known)
         timing = {name: timing[name] + more[name] for name in timing}
@@ -112,7 +109,7 @@ def done(order: Order, simulate: Callable | None):
 
 def _parameters(order: Order) -> dict[str, object]:
     from campaigns.accuracy.peers import notes
-    from campaigns.machinery.machine import machine
+    from campaigns.machinery.session import machine
 
     works = {
         work.name: {

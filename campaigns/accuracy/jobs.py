@@ -13,10 +13,8 @@ from campaigns.accuracy.plan import BEST, first_phase, second_phase, third_phase
 from campaigns.accuracy.points import LONG_PERIODS, Effort, Point
 from campaigns.accuracy.rows import point_row
 from campaigns.accuracy.works import BY_NAME, PERIOD_S, Peer
-from campaigns.machinery.folder import trajectory_path
-from campaigns.machinery.kept_run import KeptRun
-from campaigns.machinery.plan import Job, make_job
-from campaigns.machinery.row_cache import made_by
+from campaigns.machinery.folder import made_by, trajectory_path
+from campaigns.machinery.plan import Job, KeptRun
 
 REFERENCE, CHECK, TIMED, OURS = "peer-reference", "peer-check", "peer", "ours-for-peer"
 OURS_REFINED = (321, 1e-5)
@@ -45,7 +43,7 @@ def engine_job(point: Point, references: References) -> Job:
     reference = references.get((work.name, "grid" if point.kind == "tolerance" else "reference"))
     describe = partial(point_row, work_name=work.name, reference=None if point.kind == "long" else reference)
     scene, made = work.made(point.changes()), f"{point.kind}-{point.round}"
-    return make_job(scene, duration_s=length_s, labels=asdict(point), describe=describe, made=made)
+    return Job(asdict(point), scene, duration_s=length_s, describe=describe, made=made)
 
 
 def side_by_side(ours: list[Job], others: list[Job], rounds: int) -> list[Job]:
@@ -86,7 +84,7 @@ def _ours(peer: Peer, work: str) -> Job:
     labels = asdict(Point(work, OURS, BEST, nodes, "rtol", rtol))
     scene = BY_NAME[work].made({**peer.ours, "tether.nodes": nodes, "solver.rtol": rtol})
     how = {"describe": partial(point_row, work_name=work), "made": f"{OURS} {peer.name}"}
-    return make_job(scene, duration_s=BY_NAME[work].duration_s, labels=labels, **how)
+    return Job(labels, scene, duration_s=BY_NAME[work].duration_s, **how)
 
 
 def _job(peer: Peer, version: str, work: str, kind: str, nodes: int, value: float, own=None, ours=None) -> Job:
@@ -97,4 +95,4 @@ def _job(peer: Peer, version: str, work: str, kind: str, nodes: int, value: floa
     sources = made_by({}, *(f"campaigns/accuracy/peers/{name}.py" for name in (peer.module, "deck", "record")))
     made = f"{peer.name} {version} {kind} {nodes} {value!r} {sources}"
     scene, length_s = peers.scene_of(work, nodes if peer.package == "scipy" else None), BY_NAME[work].duration_s
-    return make_job(scene, duration_s=length_s, labels=labels, simulate=simulate, describe=describe, made=made)
+    return Job(labels, scene, duration_s=length_s, simulate=simulate, describe=describe, made=made)

@@ -18,7 +18,7 @@ from campaigns.accuracy.rows import kept_samples, rms_mm
 from campaigns.accuracy.works import BY_NAME, UNITS
 from campaigns.columns import Column
 from campaigns.machinery.folder import Table, trajectory_path
-from campaigns.machinery.kept_run import KeptRun
+from campaigns.machinery.plan import KeptRun
 
 WITHIN = 0.15  # of theory, the last slope
 STEADY = 0.6  # of theory, every slope: where they jump about, the last is right by chance

@@ -21,7 +21,7 @@ from campaigns.columns import (
     Column,
     names,
 )
-from campaigns.machinery.kept_run import KeptRun
+from campaigns.machinery.plan import KeptRun
 
 COUNTED = (END_S, STEPS, REJECTED, NEWTON, NEWTON_FAILURES, LOOPS, TURN)
 COLUMNS = (

@@ -85,7 +85,7 @@ def buoy_row(trajectory, transient_periods: int, simulate=None) -> dict[str, obj
     A verdict (`campaigns.judge`): of runs to their end with output.tangent_vectors, or in three dimensions. A loop
     release after the transient leaves offplane_growth unknown: across the plane a loop has no rate of its own.
     simulate: to repeat a run that looks chaotic at a ten times tighter tolerance (regime_tighter); None: not done.
-    The columns planar_ are filled by `campaigns.buoy_sweep.dimensions`.
+    The columns planar_ are filled by `campaigns.buoy_sweep.space`.
     """
     row = {"status": trajectory.status, "message": trajectory.message}
     row |= {name: number(trajectory.statistics.get(name)) for name in names(STATISTICS)}

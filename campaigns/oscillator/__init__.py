@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from functools import partial
 
 from campaigns.machinery import cli
-from campaigns.machinery.command import command
+from campaigns.machinery.session import command
 
 CAMPAIGN = "oscillator"
 MODULE = "campaigns.oscillator"
@@ -45,11 +45,9 @@ def parser():
     usual = "(default: {} {} {})".format
     cli.add(what, "--force-range", "LO HI COUNT", f"orbit diagram over F {usual(*FORCES)}")
     cli.add(what, "--frequency-range", "LO HI COUNT", f"orbit diagram over omega {usual(*FREQUENCIES)}")
-    cli.add(what, "--effort", "SHARE", "share of the usual starts, points and values, 0.001 to 100 (default: 1)")
-    where = parser.add_argument_group("where")
-    found = "folder of the results; parts found there are not done again"
-    cli.add(where, "--out", "DIR", f"{found} (default: results/{CAMPAIGN})")
-    where.add_argument("--no-report", action="store_true", help="leave out report.html and report.pdf")
+    share = cli.number("a number from 0.001 to 100", lambda found: 0.001 <= found <= 100.0)
+    cli.add(what, "--effort", "SHARE", "share of the usual starts, points and values (default: 1)", share, 1.0)
+    cli.add_running(parser.add_argument_group("where"), CAMPAIGN, jobs=False, backends=False)
     return parser
 
 
@@ -60,15 +58,8 @@ def read_order(argv: list[str], faults: list[str]) -> Order:
     forces = _range(options.force_range, "--force-range", FORCES, faults)
     frequencies = _range(options.frequency_range, "--frequency-range", FREQUENCIES, faults)
 
-    def share(text: str) -> float:
-        number = float(text)
-        if not 0.001 <= number <= 100.0:
-            raise ValueError(text)
-        return number
-
-    effort = cli.value(options.effort, "--effort", 1.0, share, "a number from 0.001 to 100", faults)
-    how = cli.Running(cli.folder(options, CAMPAIGN, faults), 1, "threading", None, not options.no_report)
-    return Order(changes, forces, frequencies, effort, how)
+    how = cli.running(options, CAMPAIGN, faults)
+    return Order(changes, forces, frequencies, options.effort, how)
 
 
 def _changes(words: list[str] | None, faults: list[str]) -> dict[str, float]:

@@ -15,9 +15,10 @@ from dataclasses import asdict, dataclass, replace
 from functools import partial
 
 from campaigns.buoy_sweep import ROW_SOURCES
-from campaigns.buoy_sweep.seeds import SEED_MPS, velocity
+from campaigns.buoy_sweep.space import SEED_MPS, velocity
 from campaigns.machinery import cli
-from campaigns.study import Case, Lengths, Measures, Order, Study, job_of
+from campaigns.machinery.plan import Job
+from campaigns.study import Lengths, Measures, Order, Study
 
 SMALL, LARGE = 0.016, 0.13  # the paper's two waves
 DEPTHS_M = (21.0, 21.6, 22.0, 22.5, 25.0)
@@ -97,7 +98,7 @@ def compared(one: Variant, base: Variant) -> bool:
     return one.depth_m in LOOPING_DEPTHS_M and one in (spatial, planar)
 
 
-def cases(order: Order) -> Iterator[Case]:
+def cases(order: Order) -> Iterator[Job]:
     """Every run of `variants` with its scene; planar ones carry perturbations."""
     from campaigns.judge import judged_scene
 
@@ -106,7 +107,7 @@ def cases(order: Order) -> Iterator[Case]:
         scene = judged_scene(order, one.changes(), least=0)
         if scene is not None:
             periods = min(order.periods, SHAPE_PERIODS) if one.profiles else order.periods
-            yield Case({**asdict(one), "periods": periods}, scene, periods)
+            yield Job({**asdict(one), "periods": periods}, scene, periods)
 
 
 def base_of(order: Order) -> Variant | None:
@@ -130,7 +131,7 @@ def measures(order: Order) -> Measures:
     return Measures(COLUMNS, row, sources, {"transient": order.transient, "judged": sorted(judged)})
 
 
-def variant(case: Case) -> Variant:
+def variant(case: Job) -> Variant:
     """The variant that a case is."""
     return Variant(**{name: case.labels[name] for name in Variant.__dataclass_fields__})
 
@@ -148,9 +149,9 @@ def beside(order: Order) -> Iterator[Callable]:
     if order.own:
         base = base_of(order)
         waves = (base, replace(base, steepness=SMALL))
-        among = {job_of(case, order).key for case in order.cases if variant(case) in waves}
+        among = {case.key for case in order.cases if variant(case) in waves}
         verdict = partial(rope_motion, transient_periods=order.transient)
-        yield partial(repeat, periods=order.periods, label="steepness", verdict=verdict, among=among)
+        yield partial(repeat, periods=order.periods, verdict=verdict, among=among)
 
 
 STUDY = Study(

@@ -13,7 +13,7 @@ seed. A verdict "unexplained" ends the campaign with exit code 1.
 from dataclasses import dataclass
 
 from campaigns.machinery import cli
-from campaigns.machinery.command import command
+from campaigns.machinery.session import command
 
 CAMPAIGN = "stability"
 MODULE = "campaigns.stability"
@@ -43,38 +43,24 @@ def parser():
     parser = cli.parser(MODULE, __doc__, exits)
     what = parser.add_argument_group("what is run")
     what.add_argument("--quick", action="store_true", help="fewer cases, fewer random scenes, no long run")
-    cli.add(what, "--fuzz", "N", f"random scenes, N valid and N invalid (default: {FUZZ}; {QUICK_FUZZ} with --quick)")
-    cli.add(what, "--seed", "N", "seed of the random scenes (default: 0)")
+    scenes = f"random scenes, N valid and N invalid (default: {FUZZ}; {QUICK_FUZZ} with --quick)"
+    cli.add(what, "--fuzz", "N", scenes, cli.whole(0))
+    cli.add(what, "--seed", "N", "seed of the random scenes (default: 0)", cli.whole(0), 0)
     periods = f"wave periods of the long regular run, 0 for none (default: {DRIFT_PERIODS}; 0 with --quick)"
-    cli.add(what, "--drift-periods", "N", periods)
-    where = parser.add_argument_group("how and where")
-    cli.add(where, "--jobs", "N", f"cases at the same time (default: {cli.default_jobs()})")
-    cli.add(
-        where,
-        "--out",
-        "DIR",
-        f"folder of the results; what is found there is not done again (default: results/{CAMPAIGN})",
-    )
-    where.add_argument("--no-report", action="store_true", help="leave out report.html and report.pdf")
+    cli.add(what, "--drift-periods", "N", periods, cli.whole(0))
+    cli.add_running(parser.add_argument_group("how and where"), CAMPAIGN, backends=False)
     return parser
 
 
 def read_order(argv: list[str], faults: list[str]) -> Order:
     """The order in the words of the command line; every fault is appended to `faults`."""
     options = cli.split(parser(), argv, faults)
-    quick = options.quick
-
-    def number(words, option, usual, least):
-        return cli.value(words, option, usual, cli.whole(least), cli.WHOLE.format(least), faults)
-
-    fuzz = number(options.fuzz, "--fuzz", QUICK_FUZZ if quick else FUZZ, 0)
-    seed = number(options.seed, "--seed", 0, 0)
-    periods = number(options.drift_periods, "--drift-periods", 0 if quick else DRIFT_PERIODS, 0)
+    fuzz, periods = (QUICK_FUZZ, 0) if options.quick else (FUZZ, DRIFT_PERIODS)
+    fuzz = fuzz if options.fuzz is None else options.fuzz
+    periods = periods if options.drift_periods is None else options.drift_periods
     if 0 < periods < 1000:
         faults.append(f"--drift-periods: given {periods}; allowed: 0, or 1000 and above")
-    jobs = number(options.jobs, "--jobs", cli.default_jobs(), 1)
-    how = cli.Running(cli.folder(options, CAMPAIGN, faults), jobs, "loky", None, not options.no_report)
-    return Order(quick, fuzz, seed, periods, how)
+    return Order(options.quick, fuzz, options.seed, periods, cli.running(options, CAMPAIGN, faults))
 
 
 def study(order: Order, argv: list[str]) -> int:

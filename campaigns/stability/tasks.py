@@ -16,11 +16,17 @@ from functools import partial
 from pathlib import Path
 
 from campaigns.columns import Column
-from campaigns.machinery.folder import CampaignStopped, Table, trajectory_path, write_json
+from campaigns.machinery.folder import (
+    CampaignStopped,
+    Table,
+    keep_row,
+    kept_row,
+    made_by,
+    trajectory_path,
+    write_json,
+)
 from campaigns.machinery.plan import Summary
-from campaigns.machinery.pools import opened
-from campaigns.machinery.processes import PoolBroken
-from campaigns.machinery.row_cache import keep_row, kept_row, made_by
+from campaigns.machinery.pools import PoolBroken, opened
 from campaigns.stability import fuzz, random_scenes, run, scene_shares, step_maps
 from campaigns.stability.cases import Case, all_cases, regular
 
@@ -77,8 +83,8 @@ def scenes(out: Path, maker: str, kind: str, seed: int, count: int) -> list[dict
     return kept(out, maker, task, lambda: {"scenes": random_scenes.drawn(kind, seed, count)})["scenes"]
 
 
-def do(out: Path, maker: str, task: Task) -> tuple[Task, dict]:
-    """(task, its result) in a worker."""
+def do(out: Path, maker: str, task: Task) -> dict:
+    """The result of a task, in a worker."""
     fuzz.load_kernels()
     if task.kind == "case":
         result = run.case_row(task.what, trajectory_path(out, task.key()))
@@ -90,7 +96,7 @@ def do(out: Path, maker: str, task: Task) -> tuple[Task, dict]:
         result = {"rows": [{"kind": kind, "number": number, **fuzz.judged(kind, raw)} for number, raw in drawn]}
     if not _crashed(result):  # by the system perhaps, for want of memory: tried again with the next call
         keep_row(out, task.key(), maker, result)
-    return task, result
+    return result
 
 
 def _crashed(result: dict) -> bool:

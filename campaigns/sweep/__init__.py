@@ -13,9 +13,11 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import partial
 from itertools import product
+from math import inf
 
 from campaigns.machinery import cli
-from campaigns.study import Case, Lengths, Measures, Order, Study
+from campaigns.machinery.plan import Job
+from campaigns.study import Lengths, Measures, Order, Study
 
 MOST_KEYS = 2
 
@@ -31,7 +33,8 @@ class Own:
 def options(group) -> None:
     """Add the options that other studies do not have."""
     cli.add(group, "--vary", "KEY LO HI COUNT", "a key of the scene and its values, both ends included; once or twice")
-    cli.add(group, "--duration", "S", "length of every run in seconds, for a scene without waves")
+    seconds = cli.number("seconds, a finite number above 0", lambda found: 0.0 < found < inf)
+    cli.add(group, "--duration", "S", "length of every run in seconds, for a scene without waves", seconds)
 
 
 def read(options, faults: list[str]) -> Own:
@@ -47,42 +50,34 @@ def read(options, faults: list[str]) -> Own:
     keys = tuple(one for one in found if one is not None)
     if len({one.key for one in keys}) < len(keys):
         faults.append(f"--vary {keys[0].key}: given twice; allowed: two different keys")
-    seconds = cli.value(options.duration, "--duration", None, cli.fraction, "seconds, a finite number above 0", faults)
-    return Own(keys, seconds)
+    return Own(keys, options.duration)
 
 
-def cases(order: Order) -> Iterator[Case]:
+def cases(order: Order) -> Iterator[Job]:
     """A run for every value, or pair of values."""
     from campaigns.judge import in_regular_waves, judged_scene
 
     order.tell(
         f"--set {one.key}: this campaign sets it; use --vary" for one in order.own.varied if one.key in order.changes
     )
-    base = order.base()
+    base = order.base(tell=True)
     if base is None or not order.own.varied:
-        order.scene({})
         return
-    duration_s = _duration_s(order, base)
+    duration_s, periods = order.own.duration_s, order.periods if base.waves is not None else None
+    if base.waves is not None and duration_s is not None:
+        order.tell(["--duration: given for a scene with waves; allowed: --periods"])
+    if base.waves is None and duration_s is None:
+        order.tell([f"--duration: given nothing for {order.name!r}, a scene without waves; allowed: seconds, above 0"])
     for values in product(*(one.values for one in order.own.varied)):
+        labels = {one.key: value for one, value in zip(order.own.varied, values, strict=True)}
         changes: dict[str, object] = {}
-        for one, value in zip(order.own.varied, values, strict=True):
-            order.tell(one.put(value, base, changes))
+        for one in order.own.varied:
+            order.tell(one.put(labels[one.key], base, changes))
         scene = order.scene(changes, duration_s)
         if scene is not None and in_regular_waves(scene):
             scene = judged_scene(order, changes)
         if scene is not None:
-            labels = {one.key: value for one, value in zip(order.own.varied, values, strict=True)}
-            yield Case({**labels, "dimensions": scene.motion.dimensions}, scene, duration_s=duration_s)
-
-
-def _duration_s(order: Order, base) -> float | None:
-    """Seconds of every run; None where it is counted in wave periods."""
-    given = order.own.duration_s
-    if base.waves is not None and given is not None:
-        order.tell(["--duration: given for a scene with waves; allowed: --periods"])
-    if base.waves is None and not given:
-        order.tell([f"--duration: given nothing for {order.name!r}, a scene without waves; allowed: seconds, above 0"])
-    return given if base.waves is None else None
+            yield Job({**labels, "dimensions": scene.motion.dimensions}, scene, periods, duration_s)
 
 
 def measures(order: Order) -> Measures:

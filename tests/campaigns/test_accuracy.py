@@ -135,9 +135,12 @@ def test_a_run_that_ended_early_has_no_error():
 
 def test_other_codes_run_beside_the_middle_round_of_ours():
     def jobs(kind, rounds):
-        return [Job(f"{kind}-{work}-{k}", "", None, labels={"work": work, "round": k}) for k in rounds for work in "ab"]
+        return [Job({"work": work, "round": k, "kind": kind}, None) for k in rounds for work in "ab"]
 
-    found = [job.key for job in side_by_side(jobs("ours", range(3)), jobs("theirs", [0]), 3)]
+    found = [
+        "{kind}-{work}-{round}".format(**job.labels)
+        for job in side_by_side(jobs("ours", range(3)), jobs("theirs", [0]), 3)
+    ]
     assert found == [
         "ours-a-0", "ours-b-0", "ours-a-1", "theirs-a-0", "ours-b-1", "theirs-b-0", "ours-a-2", "ours-b-2"
     ]  # fmt: skip

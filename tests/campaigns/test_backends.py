@@ -53,7 +53,7 @@ def test_dask_worker_that_dies_is_a_row(sweep):
 
 def test_dask_scheduler_that_is_not_there_is_one_line(sweep, capfd, monkeypatch):
     pytest.importorskip("distributed")
-    monkeypatch.setattr("campaigns.machinery.cluster.JOIN_S", 1)
+    monkeypatch.setattr("campaigns.machinery.pools.JOIN_S", 1)
     code, rows, _ = sweep("--steepness", "0.02", "--dask-address", "tcp://127.0.0.1:1", backend="dask")
     error = capfd.readouterr().err
     assert (code, rows) == (1, [])
@@ -63,7 +63,7 @@ def test_dask_scheduler_that_is_not_there_is_one_line(sweep, capfd, monkeypatch)
 
 def test_dask_scheduler_that_wants_certificates_is_one_line_without_them():
     pytest.importorskip("distributed")
-    from campaigns.machinery.cluster import client
+    from campaigns.machinery.pools import dask_client as client
 
     address = "tls://127.0.0.1:1"
     with pytest.raises(CampaignStopped, match=f"no dask cluster at {address}: TLS expects"), client(1, address):

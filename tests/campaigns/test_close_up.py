@@ -10,7 +10,7 @@ from matplotlib.colors import to_rgb
 from PIL import Image
 
 from campaigns import buoy_sweep
-from campaigns.buoy_sweep.close_up import FRAMES, PERIODS
+from campaigns.buoy_sweep.repeats import FRAMES, PERIODS
 from engine import Trajectory
 from engine.trajectory import Profiles
 from reports.parts.style import VERMILION

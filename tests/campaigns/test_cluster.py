@@ -18,8 +18,7 @@ import pytest
 from campaigns import buoy_sweep
 from campaigns.buoy_sweep.rows import COLUMNS, buoy_row
 from campaigns.machinery import cluster
-from campaigns.machinery.kept_run import KeptRun
-from campaigns.machinery.plan import Plan, make_job
+from campaigns.machinery.plan import KeptRun, Plan, make_job
 from campaigns.machinery.worker import received, run_one
 from engine import Trajectory, load_scene
 from tests.campaigns.conftest import ROOT, finished, rows_of, start_sweep, until

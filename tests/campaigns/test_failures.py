@@ -76,7 +76,7 @@ def test_all_runs_failing_is_still_a_table(sweep):
 def test_engine_that_changes_under_the_campaign_stops_it(sweep, monkeypatch, capfd):
     hashes = iter(["before"])
     monkeypatch.setattr("engine.source_hash", lambda: next(hashes, "after"))
-    monkeypatch.setattr("campaigns.machinery.provenance.gather", lambda *_: {"campaign": "buoy_sweep"})
+    monkeypatch.setattr("campaigns.machinery.session.begun", lambda *_: ({}, False))
     code, rows, begun = sweep("--steepness", "0.05")
     assert (code, rows, begun) == (1, [], [])
     assert "sources" in capfd.readouterr().err

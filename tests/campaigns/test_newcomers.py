@@ -36,7 +36,7 @@ MISTAKES = [
     (SWEEP, "--scene tethered_boy", "did you mean 'tethered_buoy'?"),
     (SWEEP, "--scene nowhere.toml", "there is no scene and no file 'nowhere.toml'"),
     (SWEEP, "--period 5", "did you mean --periods?"),
-    ("campaigns.breaking_line", "--cases 5", "one of 1 2 3 4 1p 2p 3p 4p"),
+    ("campaigns.breaking_line", "--cases 5", "one of 1, 2, 3, 4, 1p, 2p, 3p, 4p"),
     # a wrong unit
     (SWEEP, "--set tether.length_m=20000", "at most 20 times water.depth_m"),
     (SWEEP, "--set tether.diameter_m=10", "about 0.01 m, the circle of tether.area_m2 (metres, not millimetres?)"),
@@ -152,7 +152,7 @@ def test_an_empty_name_is_not_the_current_folder(place, capsys):
 
 
 def test_a_campaign_killed_before_its_provenance_goes_on_in_its_folder(tmp_path):
-    from campaigns.machinery.out_folder import fault_of
+    from campaigns.machinery.cli import fault_of
 
     (tmp_path / "scene.toml").write_text("as run")
     assert "scene.toml" in fault_of(tmp_path, "buoy_sweep")

@@ -11,7 +11,7 @@ import pytest
 from campaigns import buoy_sweep
 from campaigns.buoy_sweep.rows import COLUMNS
 from campaigns.columns import names
-from campaigns.machinery import provenance
+from campaigns.machinery import session as provenance
 from engine import load_scene, source_hash
 from tests.campaigns.conftest import ROOT, USUAL, rows_of
 from tests.campaigns.fake_engine import FakeEngine
@@ -38,12 +38,12 @@ def test_what_is_recorded(sweep):
     assert found["started_utc"] <= found["finished_utc"]
 
 
-def test_git_state_is_that_of_the_checkout():
+def test_git_state_is_that_of_the_checkout(tmp_path):
     head = subprocess.run(["git", "rev-parse", "HEAD"], cwd=ROOT, capture_output=True, text=True)
     if head.returncode != 0:
         pytest.skip("not a checkout")
     assert provenance.git_state(ROOT / "campaigns")["commit"] == head.stdout.strip()
-    assert provenance.gather("any", [])["git"]["commit"] == head.stdout.strip(), "so say the records of campaigns too"
+    assert provenance.begun(tmp_path, "any", [], {})[0]["git"]["commit"] == head.stdout.strip(), "so say the records of campaigns too"
 
 
 def test_outside_a_checkout_there_is_no_commit(tmp_path):

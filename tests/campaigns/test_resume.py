@@ -4,7 +4,7 @@ import itertools
 
 import pytest
 
-from campaigns.machinery.plan import make_job
+from campaigns.machinery.plan import Job
 from engine import load_scene
 from tests.campaigns.conftest import finished
 
@@ -71,9 +71,9 @@ def test_run_that_gave_no_record_is_tried_again(sweep):
 
 def test_content_key_follows_everything_that_changes_a_result(monkeypatch):
     scenes = [load_scene("tethered_buoy", {"waves.steepness": value}) for value in (0.02, 0.13)]
-    keys = [make_job(scene, periods=periods).key for scene, periods in itertools.product(scenes, (6, 7))]
-    keys.append(make_job(scenes[0], duration_s=6.0).key)
+    keys = [Job({}, scene, periods).key for scene, periods in itertools.product(scenes, (6, 7))]
+    keys.append(Job({}, scenes[0], duration_s=6.0).key)
     monkeypatch.setattr("engine.source_hash", lambda: "another engine")
-    keys.append(make_job(scenes[0], periods=6).key)
+    keys.append(Job({}, scenes[0], 6).key)
     assert len(set(keys)) == len(keys)
-    assert make_job(scenes[0], periods=6, labels={"steepness": 1}).key == keys[-1]  # a label changes nothing
+    assert Job({"steepness": 1}, scenes[0], 6).key == keys[-1]  # a label changes nothing

@@ -4,7 +4,7 @@ import json
 
 import pytest
 
-from campaigns.machinery.row_cache import keep_row, kept_row, made_by
+from campaigns.machinery.folder import keep_row, kept_row, made_by
 
 ROW = {"status": "ok", "radius_max_m": 21.5, "strobed_period": None, "regime": "period-1"}
 

@@ -8,8 +8,7 @@ import pytest
 
 from campaigns import stability
 from campaigns.columns import names
-from campaigns.machinery.folder import CampaignStopped
-from campaigns.machinery.row_cache import kept_row
+from campaigns.machinery.folder import CampaignStopped, kept_row
 from campaigns.stability import checks, run, tasks
 from campaigns.stability.cases import ABOVE_BAR, REFUSED, Case, Ending, all_cases
 from campaigns.stability.run import case_row

@@ -6,7 +6,7 @@ import pytest
 
 from campaigns import buoy_sweep
 from campaigns.buoy_sweep.rows import buoy_row
-from campaigns.buoy_sweep.seeds import SEED_MPS
+from campaigns.buoy_sweep.space import SEED_MPS
 from engine import load_scene
 from tests.campaigns.conftest import finished
 from tests.campaigns.fake_engine import sines

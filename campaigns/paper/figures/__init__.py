@@ -74,8 +74,7 @@ def write_figure_data(folder: str | Path) -> dict[int, str]:
     A figure that can no longer be drawn loses its files. Raises OSError, which leaves every file whole.
     """
     from campaigns import figure_data
-    from campaigns.machinery.folder import read_json, write_json
-    from campaigns.machinery.row_cache import made_by
+    from campaigns.machinery.folder import made_by, read_json, write_json
     from campaigns.paper.figures.plans import LeftOut, Parts
 
     root = Path(folder)
