@@ -6,8 +6,6 @@ each place where it looked: the claim "holds" where every check passes, it "does
 written. `statements.csv` has one row a claim.
 """
 
-import csv
-import io
 import math
 import re
 import tomllib
@@ -15,6 +13,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+from campaigns.columns import csv_of
 from engine.atomic import write_atomic
 
 FILE = "statements.csv"
@@ -109,14 +108,12 @@ def write_statements(folder: Path, claims: Iterable[Claim], results: object) -> 
 
 def as_csv(statements: Sequence[Statement]) -> bytes:
     """statements.csv: one row a statement, numbered from 1."""
-    text = io.StringIO()
-    writer = csv.writer(text, lineterminator="\n")
-    writer.writerow(COLUMNS)
+    rows = []
     for number, one in enumerate(statements, 1):
         claim = one.claim
         said = (claim.text, one.verdict, one.condition, one.found, claim.rule.words, claim.evidence)
-        writer.writerow([number, claim.place, *said])
-    return text.getvalue().encode()
+        rows.append([number, claim.place, *said])
+    return csv_of(COLUMNS, rows)
 
 
 def read_claims(path: Path, measures: Mapping[str, Callable]) -> dict[str, Claim]:

@@ -40,7 +40,7 @@ class Measures:
 class Order:
     """What a command line asks of a study: its values, what was found wrong with them, and the cases that follow.
 
-    own: what `Study.read` made of the study's own options. periods, transient: None and 0 for a study without lengths.
+    own: the study's own options, as `Study.read` leaves them. periods, transient: None and 0 without `Study.lengths`.
     simulate: in place of engine.simulate, None for the engine.
     """
 
@@ -49,7 +49,7 @@ class Order:
     changes: dict[str, object]
     periods: int | None = None
     transient: int = 0
-    own: object = None
+    own: Namespace = field(default_factory=Namespace)
     faults: list[str] = field(default_factory=list)
     cases: list[Job] = field(default_factory=list)
     simulate: Callable | None = None
@@ -96,7 +96,7 @@ class Study:
     cases(order) -> its runs (`Job`), None for one that cannot be; measures(order) -> Measures.
     lengths: None for a study whose cases have lengths of their own. in_waves: whether it refuses scenes without a buoy
     in regular waves. taken: keys that it sets itself -> what to use instead of --set.
-    options(group): adds options of its own; read(options, faults) -> what they say, as `Order.own`.
+    options(group): adds options of its own; read(options, faults) judges and amends their values (`Order.own`).
     parameters(order) -> what its provenance says beside scene, set, periods and transient.
     runs(order) -> in place of `runner.run`; beside(order) -> what is done after the runs: functions of (plan, summary)
     that return seconds of analysis. together: whether runs may share a worker, side by side in the lanes.
@@ -112,7 +112,7 @@ class Study:
     in_waves: bool = False
     taken: Mapping[str, str] = field(default_factory=dict)
     options: Callable[[object], None] | None = None
-    read: Callable[[Namespace, list[str]], object] | None = None
+    read: Callable[[Namespace, list[str]], None] | None = None
     parameters: Callable[[Order], Mapping[str, object]] | None = None
     runs: Callable[[Order], Callable] | None = None
     beside: Callable[[Order], Iterable[Callable[[Plan, Summary], float]]] | None = None
@@ -144,10 +144,11 @@ class Study:
         """The order in the words of the command line; every fault, of options and scenes, is appended to `faults`."""
         options = cli.split(self.parser(), argv, faults)
         periods, transient = (None, 0) if self.lengths is None else cli.lengths(options, self.lengths, faults)
-        own = self.read(options, faults) if self.read else None
+        if self.read is not None:
+            self.read(options, faults)
         how = cli.running(options, self.name, faults)
         changes = cli.assignments(options.set, self.taken, faults)
-        order = Order(how, options.scene, changes, periods, transient, own, faults)
+        order = Order(how, options.scene, changes, periods, transient, options, faults)
         if not (self.in_waves and self._refused(order)):
             order.cases = [case for case in self.cases(order) if case is not None]
         return order

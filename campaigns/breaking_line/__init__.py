@@ -11,6 +11,7 @@ up to the arrival of the front, to be held against the exact solution: one fine 
 shock, and a series of grids for case 4 and for case 3', which stays smooth. Nothing is random.
 """
 
+from collections.abc import Sequence
 from functools import partial
 
 from campaigns.machinery import cli
@@ -41,12 +42,7 @@ def options(group) -> None:
     group.add_argument("--no-companions", action="store_true", help=leave_out)
 
 
-def read(options, faults: list[str]) -> tuple[list[str], bool]:
-    """(cases, whether with companions)."""
-    return list(dict.fromkeys(options.cases)), not options.no_companions
-
-
-def planned(name: str, changes: dict, cases: list[str], companions: bool, faults: list[str]) -> tuple[Job, ...]:
+def planned(name: str, changes: dict, cases: Sequence[str], companions: bool, faults: list[str]) -> tuple[Job, ...]:
     """The runs in the order of the table.
 
     kind: "case"; "doubled" (twice the elements); "stiffness" (case 4, doubled, with another EI); without gravity on an
@@ -147,10 +143,9 @@ STUDY = Study(
     scene=SCENE,
     taken=dict.fromkeys(("end", "end.force_N", "end.force_decay_s", "end.kind"), "use --cases"),
     options=options,
-    read=read,
-    cases=lambda order: planned(order.name, order.changes, *order.own, order.faults),
+    cases=lambda order: planned(order.name, order.changes, order.own.cases, not order.own.no_companions, order.faults),
     measures=measures,
-    parameters=lambda order: {"cases": order.own[0], "companions": order.own[1]},
+    parameters=lambda order: {"cases": list(order.own.cases), "companions": not order.own.no_companions},
     runs=lambda order: partial(run, compile_run_s=COMPILE_RUN_S),
     beside=lambda order: (write_results,),
     together=False,

@@ -11,7 +11,6 @@ every value in three dimensions, `--dimensions auto` those whose planar run rele
 """
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
 from functools import partial
 
 from campaigns.machinery import cli
@@ -26,15 +25,6 @@ DIMENSIONS = ("2", "3", "auto")
 ROW_SOURCES = ("analysis", "engine", "campaigns/buoy_sweep/rows.py", "campaigns/judge.py")
 
 
-@dataclass(frozen=True)
-class Own:
-    """What this campaign's own options say. dimensions: one of DIMENSIONS, None for what the scene says."""
-
-    steepness: list[float]
-    dimensions: str | None
-    accuracy: bool
-
-
 def options(group) -> None:
     """Add the options that other studies do not have."""
     usual = "wave steepnesses kA (default: 49 values from 0.016 to 0.16)"
@@ -45,14 +35,14 @@ def options(group) -> None:
     cli.add_accuracy(group)
 
 
-def read(options, faults: list[str]) -> Own:
-    """What they say."""
+def read(options, faults: list[str]) -> None:
+    """Steepnesses, each once, from the list, the range, or as usual."""
     steepness, evenly = options.steepness, options.steepness_range
     if steepness is not None and evenly is not None:
         faults.append("--steepness and --steepness-range: given both; allowed: one of them")
     elif evenly is not None:
         steepness = cli.evenly(evenly, "--steepness-range", faults, least=0.0)
-    return Own(list(dict.fromkeys(steepness or STEEPNESS)), options.dimensions, not options.no_accuracy)
+    options.steepness = steepness or list(STEEPNESS)
 
 
 def cases(order: Order) -> Iterator[Job]:
@@ -105,7 +95,7 @@ def parameters(order: Order) -> dict[str, object]:
         "longest_period": LONGEST_PERIOD,
         "dimensions": dimensions,
         "push_mps": SEED_MPS if pushed else None,
-        "accuracy": order.own.accuracy,
+        "accuracy": not order.own.no_accuracy,
     }
 
 
@@ -122,7 +112,7 @@ def beside(order: Order) -> Iterator[Callable]:
     from campaigns.buoy_sweep.repeats import close_up, repeat
     from campaigns.buoy_sweep.rows import regime_of
 
-    if order.own.accuracy:
+    if not order.own.no_accuracy:
         verdict = partial(regime_of, transient_periods=order.transient)
         yield partial(repeat, periods=order.periods, verdict=verdict)
     yield partial(close_up, periods=order.periods)

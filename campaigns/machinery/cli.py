@@ -32,7 +32,6 @@ class Kind:
     allowed: str
 
     def __call__(self, text: str) -> object:
-        """The word's value. Raises ValueError."""
         return self.convert(text)
 
 
@@ -127,8 +126,9 @@ def add(group, option: str, metavar: str, help: str, kind: Kind | None = None, u
 def add_running(group, campaign: str, jobs: bool = True, backends: bool = True) -> None:
     """Add the options that say how and where a campaign runs. jobs, backends: whether there is a choice of these."""
     if jobs:
-        runs = f"runs at the same time, but on a cluster of your own (default: {default_jobs()})"
-        add(group, "--jobs", "N", runs, whole(1, MOST_JOBS), default_jobs())
+        usual = min(2, os.cpu_count() or 1)
+        runs = f"runs at the same time, but on a cluster of your own (default: {usual})"
+        add(group, "--jobs", "N", runs, whole(1, MOST_JOBS), usual)
     if backends:
         where = "processes, threads or a dask cluster (default: loky, processes)"
         add(group, "--backend", "|".join(BACKENDS), where, one_of(BACKENDS), BACKENDS[0])
@@ -163,11 +163,6 @@ def add_accuracy(group) -> None:
     group.add_argument("--no-accuracy", action="store_true", help=again)
 
 
-def default_jobs() -> int:
-    """Two, or one where there is only one core."""
-    return min(2, os.cpu_count() or 1)
-
-
 def split(parser: argparse.ArgumentParser, argv: list[str], faults: list[str]) -> argparse.Namespace:
     """The values of the options, or their words where an option has no kind; what is not allowed becomes faults."""
     try:
@@ -190,7 +185,7 @@ def split(parser: argparse.ArgumentParser, argv: list[str], faults: list[str]) -
 
 
 def value(words: list[str] | None, option: str, usual, kind: Kind, faults: list[str], many: bool = False):
-    """The value of an option, a list of `many`; `usual` where it was not given (None) or is at fault."""
+    """The value of an option, a list of `many`, each once; `usual` where it was not given (None) or is at fault."""
     if words is None:
         return usual
     if not words or (len(words) > 1 and not many):
@@ -205,7 +200,7 @@ def value(words: list[str] | None, option: str, usual, kind: Kind, faults: list[
             faults.append(f"{option}: given {word!r}; allowed: {kind.allowed}")
     if len(found) < len(words):
         return usual
-    return found if many else found[0]
+    return list(dict.fromkeys(found)) if many else found[0]
 
 
 def running(options: argparse.Namespace, campaign: str, faults: list[str]) -> Running:

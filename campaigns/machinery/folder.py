@@ -5,11 +5,9 @@ campaigns out of the same folder; the system drops it when its holder dies, howe
 """
 
 import contextlib
-import csv
 import errno
 import fcntl
 import hashlib
-import io
 import json
 import math
 import os
@@ -18,7 +16,7 @@ import time
 from collections.abc import Iterator
 from pathlib import Path
 
-from campaigns.columns import Column, dictionary, dictionary_path, names
+from campaigns.columns import Column, csv_of, dictionary, dictionary_path, names
 from engine.atomic import write_atomic
 
 _NO_SPACE = {errno.ENOSPC, errno.EDQUOT, errno.EFBIG}
@@ -114,11 +112,8 @@ class Table:
         """Rewrite the file. Raises OSError."""
         if self._written_s == -math.inf:
             write_atomic(dictionary_path(self.path), dictionary(self.columns))
-        text = io.StringIO()
-        writer = csv.writer(text, lineterminator="\n")
-        writer.writerow(self.names)
-        writer.writerows([_cell(row.get(name)) for name in self.names] for row in self.in_order())
-        write_atomic(self.path, text.getvalue().encode())
+        rows = ([_cell(row.get(name)) for name in self.names] for row in self.in_order())
+        write_atomic(self.path, csv_of(self.names, rows))
         self._written_s = time.monotonic()
 
 

@@ -146,7 +146,7 @@ def beside(order: Order) -> Iterator[Callable]:
     from campaigns.buoy_sweep.repeats import repeat
     from campaigns.out_of_plane.rows import rope_motion
 
-    if order.own:
+    if not order.own.no_accuracy:
         base = base_of(order)
         waves = (base, replace(base, steepness=SMALL))
         among = {case.key for case in order.cases if variant(case) in waves}
@@ -162,7 +162,6 @@ STUDY = Study(
     in_waves=True,
     taken=_TAKEN,
     options=cli.add_accuracy,
-    read=lambda options, faults: not options.no_accuracy,
     cases=cases,
     measures=measures,
     parameters=parameters,

@@ -43,7 +43,9 @@ def test_git_state_is_that_of_the_checkout(tmp_path):
     if head.returncode != 0:
         pytest.skip("not a checkout")
     assert provenance.git_state(ROOT / "campaigns")["commit"] == head.stdout.strip()
-    assert provenance.begun(tmp_path, "any", [], {})[0]["git"]["commit"] == head.stdout.strip(), "so say the records of campaigns too"
+    assert provenance.begun(tmp_path, "any", [], {})[0]["git"]["commit"] == head.stdout.strip(), (
+        "so say the records of campaigns too"
+    )
 
 
 def test_outside_a_checkout_there_is_no_commit(tmp_path):
