@@ -1,8 +1,11 @@
 """A stand-in for engine.simulate: sine waves at once, and on request every way a run can go wrong.
 
 Steepness chooses the run, so that a campaign can be told which of its runs shall fail and how.
+
+    python -m tests.campaigns.fake_engine ...      the buoy sweep with one; its fields as JSON in the variable FAKE
 """
 
+import json
 import os
 import signal
 import sys
@@ -93,3 +96,12 @@ def sines(
     statistics = STATISTICS | {"max_turn_rad": 0.1, "min_strain": 0.01, "end_time_s": float(t[-1]), "wall_s": 0.5}
     statistics["loop_releases"] = releases
     return Trajectory(scene, status, message, columns, statistics)
+
+
+if __name__ == "__main__":
+    from campaigns import buoy_sweep
+    from tests.campaigns.fake_engine import FakeEngine as Engine  # workers know it by this name
+
+    fields = json.loads(os.environ.get("FAKE", "{}"))
+    fields = {name: tuple(entry) if isinstance(entry, list) else entry for name, entry in fields.items()}
+    sys.exit(buoy_sweep.main(simulate=Engine(**fields)))

@@ -8,13 +8,13 @@ import subprocess
 import numpy
 import pytest
 
-from campaigns import buoy_sweep
 from campaigns.buoy_sweep.rows import COLUMNS
 from campaigns.columns import names
-from campaigns.machinery import session as provenance
+from campaigns.machinery.session import begun, git_state
 from engine import load_scene, source_hash
-from tests.campaigns.conftest import ROOT, USUAL, rows_of
-from tests.campaigns.fake_engine import FakeEngine
+from tests.campaigns.conftest import ROOT
+
+WITH_REPORT = ["--periods", "6", "--no-accuracy"]
 
 
 def record(out):
@@ -42,51 +42,42 @@ def test_git_state_is_that_of_the_checkout(tmp_path):
     head = subprocess.run(["git", "rev-parse", "HEAD"], cwd=ROOT, capture_output=True, text=True)
     if head.returncode != 0:
         pytest.skip("not a checkout")
-    assert provenance.git_state(ROOT / "campaigns")["commit"] == head.stdout.strip()
-    assert provenance.begun(tmp_path, "any", [], {})[0]["git"]["commit"] == head.stdout.strip(), (
-        "so say the records of campaigns too"
-    )
+    record, _ = begun(tmp_path, "any", [], {})
+    assert record["git"]["commit"] == git_state(ROOT / "campaigns")["commit"] == head.stdout.strip()
 
 
-def test_outside_a_checkout_there_is_no_commit(tmp_path):
-    assert provenance.git_state(tmp_path / "campaigns") == {"commit": None, "dirty": None}
-
-
-def test_dirty_means_changes_that_are_not_committed(tmp_path):
+def test_dirty_means_changes_that_are_not_committed_and_outside_a_checkout_there_is_no_commit(tmp_path):
     git = ["git", "-C", str(tmp_path), "-c", "user.name=a", "-c", "user.email=a@b.c", "-c", "core.hooksPath=/dev/null"]
     package = tmp_path / "campaigns"
+    assert git_state(package) == {"commit": None, "dirty": None}
     package.mkdir()
     (package / "file").write_text("1")
-    subprocess.run([*git, "init", "-q"], check=True)
-    subprocess.run([*git, "add", "-A"], check=True)
-    subprocess.run([*git, "commit", "-q", "-m", "one"], check=True)
-    assert provenance.git_state(package)["dirty"] is False
+    for words in (["init", "-q"], ["add", "-A"], ["commit", "-q", "-m", "one"]):
+        subprocess.run([*git, *words], check=True)
+    assert git_state(package)["dirty"] is False
     (package / "file").write_text("2")
-    assert provenance.git_state(package)["dirty"] is True
+    assert git_state(package)["dirty"] is True
 
 
-def test_run_that_computes_nothing_changes_nothing(sweep):
+def test_a_run_that_computes_nothing_changes_nothing_and_other_parameters_make_a_new_record(sweep):
+    def files():
+        return {path.name: path.read_bytes() for path in sweep.out.glob("[!.]*") if path.is_file()}
+
     sweep("--steepness", "0.02", "0.13")
-    before = {path.name: path.read_bytes() for path in sweep.out.iterdir() if path.is_file() and path.name != ".lock"}
+    before = files()
     sweep("--steepness", "0.02", "0.13", backend="loky", jobs=1)
-    after = {path.name: path.read_bytes() for path in sweep.out.iterdir() if path.is_file() and path.name != ".lock"}
-    assert after == before
-
-
-def test_other_parameters_make_a_new_record(sweep):
-    sweep("--steepness", "0.02", "0.13")
+    assert files() == before
     sweep("--steepness", "0.02")
     assert record(sweep.out)["steepness"] == [0.02]
     assert record(sweep.out)["runs"]["found"] == 1
 
 
-def test_scene_file_can_be_run_again(sweep, tmp_path):
-    sweep("--steepness", "0.05", "--set", "water.depth_m=22.5", "tether.nodes=21")
+def test_the_scene_file_can_be_run_again(sweep):
+    _, (row,), _ = sweep("--steepness", "0.05", "--set", "water.depth_m=22.5", "tether.nodes=21")
     scene = load_scene(sweep.out / "scene.toml")
     assert (scene.waves.steepness, scene.water.depth_m, scene.tether.nodes) == (0.05, 22.5, 21)
-    words = ["--scene", str(sweep.out / "scene.toml"), "--steepness", "0.05", *USUAL, "--out", str(tmp_path / "again")]
-    assert buoy_sweep.main(words, simulate=FakeEngine()) == 0
-    assert rows_of(tmp_path / "again")[0]["run_key"] == rows_of(sweep.out)[0]["run_key"]
+    code, (again,), computed = sweep("--scene", sweep.out / "scene.toml", "--steepness", "0.05")
+    assert (code, again["run_key"], computed) == (0, row["run_key"], [])
 
 
 def test_unknown_is_empty(sweep):
@@ -99,25 +90,21 @@ def test_unknown_is_empty(sweep):
     assert given == {"steepness", "dimensions", "status", "message", "run_key"}
 
 
-def test_report_that_fails_leaves_the_results_and_says_so(tmp_path, monkeypatch, capsys):
-    def broken(_):
-        raise RuntimeError("no ink")
-
-    monkeypatch.setattr("reports.build", broken, raising=False)
-    words = ["--steepness", "0.02", "--periods", "6", "--backend", "threading", "--out", str(tmp_path)]
-    assert buoy_sweep.main(words, simulate=FakeEngine()) == 1
-    captured = capsys.readouterr()
-    assert "no ink" in captured.err
-    assert f"python -m reports {tmp_path}" in captured.err
-    assert len(rows_of(tmp_path)) == 1
-
-
-def test_paths_of_the_report_are_told(tmp_path, monkeypatch, capsys):
+@pytest.mark.parametrize("fault", [None, RuntimeError("no ink")])
+def test_paths_of_the_report_are_told_and_one_that_fails_leaves_the_results(sweep, monkeypatch, capsys, fault):
     built = []
-    monkeypatch.setattr("reports.build", built.append, raising=False)
-    words = ["--steepness", "0.02", "--periods", "6", "--backend", "threading", "--out", str(tmp_path)]
-    assert buoy_sweep.main(words, simulate=FakeEngine()) == 0
-    output = capsys.readouterr().out
-    assert built == [tmp_path]
-    for word in ("report.html", "report.pdf", "table.csv", "compile", "analysis"):
-        assert word in output
+
+    def build(out):
+        built.append(out)
+        if fault:
+            raise fault
+
+    monkeypatch.setattr("reports.build", build, raising=False)
+    code, rows, _ = sweep("--steepness", "0.02", usual=WITH_REPORT)
+    said = capsys.readouterr()
+    assert (code, len(rows), built) == (1 if fault else 0, 1, [sweep.out])
+    assert all(word in said.out for word in ("table.csv", "compile", "analysis"))
+    if fault:
+        assert "no ink" in said.err and f"python -m reports {sweep.out}" in said.err
+    else:
+        assert "report.html" in said.out and "report.pdf" in said.out

@@ -1,6 +1,5 @@
-"""`campaigns.sweep`: any number of any scene, one key or two; what cannot be varied is named and nothing is written."""
+"""`campaigns.sweep`: any number of any scene, one key or two (what cannot be varied: mistakes.toml)."""
 
-import csv
 import json
 
 import pytest
@@ -33,8 +32,7 @@ def test_two_keys_are_every_pair_of_their_values(tmp_path):
     told = json.loads((tmp_path / "provenance.json").read_text())
     assert told["campaign"] == "sweep"
     assert told["vary"] == {"water.depth_m": [21.0, 22.0, 23.0], "waves.steepness": [0.02, 0.1]}
-    with open(tmp_path / "columns.csv", newline="") as file:
-        columns = {row["name"]: row for row in csv.DictReader(file)}
+    columns = {row["name"]: row for row in rows_of(tmp_path, "columns.csv")}
     assert list(columns) == list(rows[0])
     assert (columns["water.depth_m"]["unit"], columns["water.depth_m"]["symbol"]) == ("m", "H")
     assert (columns["waves.steepness"]["digits"], columns["status"]["digits"]) == ("2", "")
@@ -81,29 +79,3 @@ def test_a_line_without_waves_has_a_row_of_its_own(tmp_path):
     assert [row["tether.nodes"] for row in rows] == ["11", "21", "31"] and "regime" not in rows[0]
     tension = [float(row["tension_top_max_N"]) for row in rows]
     assert tension == pytest.approx([9.67] * 3, rel=0.01) and tension[2] != tension[1] != tension[0]
-
-
-@pytest.mark.parametrize(
-    ("words", "part"),
-    [
-        ("", "--vary: given nothing; allowed: once or twice KEY LO HI COUNT"),
-        ("--vary buoy.mass_kg 1 2", "once or twice KEY LO HI COUNT"),
-        ("--vary a 1 2 3 --vary b 1 2 3 --vary c 1 2 3", "once or twice KEY LO HI COUNT"),
-        ("--vary buoy.mass 1 2 3", "did you mean 'buoy.mass_kg'?"),
-        ("--vary buoy.mass_kg 2 1 3", "two finite numbers, LO < HI"),
-        ("--vary end.kind 1 2 3", "holds a text; allowed: a key that holds a number"),
-        ("--vary start.buoy_velocity_mps 0 1 2", "allowed: one element of it, as start.buoy_velocity_mps[0]"),
-        ("--vary start.buoy_velocity_mps[3] 0 1 2", "the scene has no such element"),
-        ("--vary buoy.mass_kg 800 900 2 --vary buoy.mass_kg 1 2 3", "given twice; allowed: two different keys"),
-        ("--vary buoy.mass_kg 800 900 2 --set buoy.mass_kg=3", "this campaign sets it; use --vary"),
-        ("--vary buoy.mass_kg 800 1e6 2", "or it sinks"),
-        ("--vary tether.nodes 1 5 2", "a whole number from 3 to 20000"),
-        ("--vary buoy.mass_kg 800 900 2 --duration 5", "given for a scene with waves; allowed: --periods"),
-        ("--scene hanging_line --vary tether.nodes 11 21 2", "a scene without waves; allowed: seconds, above 0"),
-    ],
-)
-def test_what_cannot_be_varied_is_named(tmp_path, monkeypatch, capsys, words, part):
-    monkeypatch.chdir(tmp_path)
-    assert sweep.main(words.split()) == 2
-    assert part in capsys.readouterr().err
-    assert list(tmp_path.iterdir()) == []

@@ -8,7 +8,7 @@ from campaigns import buoy_sweep
 from campaigns.buoy_sweep.rows import buoy_row
 from campaigns.buoy_sweep.space import SEED_MPS
 from engine import load_scene
-from tests.campaigns.conftest import finished
+from tests.campaigns.conftest import finished, rows_of
 from tests.campaigns.fake_engine import sines
 
 VALUES = ("0.02", "0.05", "0.13")
@@ -31,18 +31,14 @@ def test_auto_runs_in_space_what_released_loops_and_says_so(sweep):
     assert rows[1]["buoy_lateral_max_m"] == "0.0" and rows[0]["buoy_lateral_max_m"] == ""
 
 
-def test_auto_decides_again_from_the_files(sweep):
-    first = sweep("--steepness", *VALUES, "--dimensions", "auto", loops=(0.13,))
-    files = finished(sweep.out)
-    assert len(files) == 4
-    assert sweep("--steepness", *VALUES, "--dimensions", "auto", loops=(0.13,)) == (0, first[1], [])
-    assert finished(sweep.out) == files
-
-
-def test_auto_goes_on_from_a_planar_sweep(sweep):
+def test_auto_goes_on_from_a_planar_sweep_and_decides_again_from_the_files(sweep):
     sweep("--steepness", *VALUES, loops=(0.13,))
     _, rows, begun = sweep("--steepness", *VALUES, "--dimensions", "auto", loops=(0.13,))
     assert begun == [0.13] and [row["dimensions"] for row in rows] == ["2", "2", "3"]
+    files = finished(sweep.out)
+    assert len(files) == 4
+    assert sweep("--steepness", *VALUES, "--dimensions", "auto", loops=(0.13,)) == (0, rows, [])
+    assert finished(sweep.out) == files
 
 
 def test_without_loops_auto_is_the_planar_sweep(sweep):
@@ -50,20 +46,17 @@ def test_without_loops_auto_is_the_planar_sweep(sweep):
     assert sweep("--steepness", *VALUES, "--dimensions", "auto") == (0, planar, [])
 
 
-def test_three_pushes_a_scene_that_starts_in_its_plane_and_says_so(sweep):
-    _, rows, begun = sweep("--steepness", *VALUES, "--dimensions", "3", loops=(0.13,))
+@pytest.mark.parametrize(
+    ("words", "push", "added"),
+    [([], SEED_MPS, SEED_MPS), (["--set", "start.buoy_velocity_mps=[0,1e-7,0]"], 1e-7, None)],
+)
+def test_three_pushes_a_scene_that_starts_in_its_plane_and_says_so(sweep, words, push, added):
+    _, rows, begun = sweep("--steepness", *VALUES, "--dimensions", "3", *words, loops=(0.13,))
     assert begun == [0.02, 0.05, 0.13] and {row["dimensions"] for row in rows} == {"3"}
     said = json.loads((sweep.out / "provenance.json").read_text())
-    assert (said["dimensions"], said["push_mps"]) == ("3", SEED_MPS)
+    assert (said["dimensions"], said["push_mps"]) == ("3", added)
     as_run = load_scene(sweep.out / "scene.toml")
-    assert as_run.motion.dimensions == 3 and as_run.start.buoy_velocity_mps == (0.0, SEED_MPS, 0.0)
-
-
-def test_a_push_of_the_scene_is_kept(sweep):
-    push = "start.buoy_velocity_mps=[0,1e-7,0]"
-    sweep("--steepness", "0.05", "--dimensions", "3", "--set", push)
-    assert json.loads((sweep.out / "provenance.json").read_text())["push_mps"] is None
-    assert load_scene(sweep.out / "scene.toml").start.buoy_velocity_mps == (0.0, 1e-7, 0.0)
+    assert as_run.motion.dimensions == 3 and as_run.start.buoy_velocity_mps == (0.0, push, 0.0)
 
 
 def test_a_failed_run_in_space_is_a_row_of_three_dimensions(sweep):
@@ -82,18 +75,13 @@ def test_a_row_in_space_is_judged_by_its_samples():
 @pytest.mark.slow
 def test_a_loop_leaves_the_plane_and_the_range_of_the_buoy_stays(tmp_path):
     """kA = 0.13: the planar run releases loops, the run in three dimensions none; the ranges of r agree to 1 %."""
-    out = tmp_path / "out"
     words = ["--steepness", "0.016", "0.13", "--periods", "80", "--transient", "20", "--dimensions", "auto"]
-    assert buoy_sweep.main([*words, "--jobs", "1", "--backend", "threading", "--out", str(out)]) == 0
-    from tests.campaigns.conftest import rows_of
-
-    calm, steep = rows_of(out)
+    assert buoy_sweep.main([*words, "--jobs", "1", "--backend", "threading", "--out", str(tmp_path)]) == 0
+    calm, steep = rows_of(tmp_path)
     assert (calm["dimensions"], steep["dimensions"]) == ("2", "3")
     assert int(steep["planar_loop_releases"]) > 0 and int(steep["loop_releases"]) == 0
     assert 0.1 < float(steep["rope_lateral_max_m"]) < 1.0 and float(steep["buoy_lateral_max_m"]) < 0.02
-    width = float(steep["radius_max_m"]) - float(steep["radius_min_m"])
-    for end in ("min", "max"):
-        off = abs(float(steep[f"radius_{end}_m"]) - float(steep[f"planar_radius_{end}_m"]))
-        assert off < 0.01 * width
-    page = (out / "report.html").read_text()
+    spatial, planar = ([float(steep[f"{kind}radius_{end}_m"]) for end in ("min", "max")] for kind in ("", "planar_"))
+    assert planar == pytest.approx(spatial, abs=0.01 * (spatial[1] - spatial[0]))
+    page = (tmp_path / "report.html").read_text()
     assert "Out of the plane" in page and "push_mps" in page
