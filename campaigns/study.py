@@ -1,7 +1,8 @@
-"""What a campaign of simulations is, as one record, and the command that is made of it.
+"""What a campaign is, as one record, and the command that is made of it.
 
 A `Study` says which runs there are (`cases`), how a run becomes a row (`measures`), and what its command line offers
-beside the options that all studies share. docs/howto_campaign.md shows a complete one.
+beside the options that all studies share. docs/howto_campaign.md shows a complete one. A campaign that does not run
+variants of one scene has its work in `done`.
 """
 
 import time
@@ -45,8 +46,8 @@ class Order:
     """
 
     how: cli.Running
-    name: str
-    changes: dict[str, object]
+    name: str = ""
+    changes: dict[str, object] = field(default_factory=dict)
     periods: int | None = None
     transient: int = 0
     own: Namespace = field(default_factory=Namespace)
@@ -90,24 +91,27 @@ class Order:
 
 @dataclass(frozen=True)
 class Study:
-    """A campaign of simulations.
+    """A campaign.
 
-    name: of its provenance and of its folder in results/. protocol: its help. scene: it starts from this one.
-    cases(order) -> its runs (`Job`), None for one that cannot be; measures(order) -> Measures.
+    name: of its provenance and of its folder in results/. protocol: its help. scene: it starts from this one, "" where
+    `done` is given. cases(order) -> its runs (`Job`), None for one that cannot be; measures(order) -> Measures.
+    done(order) -> times and summary, in place of these two; `Order.own` then has the whole order, `how` among it.
     lengths: None for a study whose cases have lengths of their own. in_waves: whether it refuses scenes without a buoy
     in regular waves. taken: keys that it sets itself -> what to use instead of --set.
     options(group): adds options of its own; read(options, faults) judges and amends their values (`Order.own`).
     parameters(order) -> what its provenance says beside scene, set, periods and transient.
     runs(order) -> in place of `runner.run`; beside(order) -> what is done after the runs: functions of (plan, summary)
     that return seconds of analysis. together: whether runs may share a worker, side by side in the lanes.
+    jobs, backends: whether there is a choice of these. strict: whether a row that is not ok is exit code 1.
     module: its command is python -m MODULE; "" for campaigns.NAME.
     """
 
     name: str
     protocol: str
-    scene: str
-    cases: Callable[[Order], Iterable[Job | None]]
-    measures: Callable[[Order], Measures]
+    scene: str = ""
+    cases: Callable[[Order], Iterable[Job | None]] | None = None
+    measures: Callable[[Order], Measures] | None = None
+    done: Callable[[Order], tuple[dict[str, float], Summary]] | None = None
     lengths: Lengths | None = None
     in_waves: bool = False
     taken: Mapping[str, str] = field(default_factory=dict)
@@ -117,6 +121,9 @@ class Study:
     runs: Callable[[Order], Callable] | None = None
     beside: Callable[[Order], Iterable[Callable[[Plan, Summary], float]]] | None = None
     together: bool = True
+    jobs: bool = True
+    backends: bool = True
+    strict: bool = False
     module: str = ""
 
     def main(self, argv: list[str] | None = None, simulate: Callable | None = None) -> int:
@@ -136,8 +143,9 @@ class Study:
             self.options(what)
         if self.lengths is not None:
             cli.add_lengths(what, self.lengths)
-        cli.add_scene(what, self.scene)
-        cli.add_running(parser.add_argument_group("how and where"), self.name)
+        if self.scene:
+            cli.add_scene(what, self.scene)
+        cli.add_running(parser.add_argument_group("how and where"), self.name, self.jobs, self.backends)
         return parser
 
     def read_order(self, argv: list[str], faults: list[str]) -> Order:
@@ -146,7 +154,9 @@ class Study:
         periods, transient = (None, 0) if self.lengths is None else cli.lengths(options, self.lengths, faults)
         if self.read is not None:
             self.read(options, faults)
-        how = cli.running(options, self.name, faults)
+        how = options.how = cli.running(options, self.name, faults)
+        if self.cases is None:
+            return Order(how, own=options, faults=faults)
         changes = cli.assignments(options.set, self.taken, faults)
         order = Order(how, options.scene, changes, periods, transient, options, faults)
         if not (self.in_waves and self._refused(order)):
@@ -166,6 +176,8 @@ class Study:
 
         Returns times and summary. Raises CampaignStopped, OSError, KeyboardInterrupt.
         """
+        if self.done is not None:
+            return self.done(order)
         simulate_each = None
         if order.simulate is None:
             from engine import simulate, simulate_each
@@ -185,8 +197,10 @@ class Study:
 
     def _conduct(self, order: Order, argv: list[str], simulate: Callable | None = None) -> int:
         order.simulate = simulate
-        parameters = {"scene": order.name, "set": order.changes}
+        parameters = {"scene": order.name, "set": order.changes} if self.scene else {}
         parameters |= {} if self.lengths is None else {"periods": order.periods, "transient": order.transient}
         parameters |= self.parameters(order) if self.parameters else {}
-        parameters |= {name: getattr(order.how, name) for name in ("backend", "jobs", "dask_address")}
-        return session.conduct(self.name, self.called, argv, order.how, parameters, partial(self.work, order))
+        where = ("backend", "jobs", "dask_address")
+        parameters |= {name: getattr(order.own, name) for name in where if hasattr(order.own, name)}
+        work = partial(self.work, order)
+        return session.conduct(self.name, self.called, argv, order.how, parameters, work, self.strict)

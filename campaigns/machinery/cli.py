@@ -84,13 +84,12 @@ class Running:
 class Lengths:
     """The usual length of a run and of its transient, in wave periods.
 
-    share: the transient is at most periods/share where none is given; left_out_of: of what it is left out, in words.
+    share: the transient is at most periods/share where none is given.
     """
 
     periods: int
     transient: int
     share: int = 3
-    left_out_of: str = "analysis"
 
 
 class _Unparsable(Exception):
@@ -146,7 +145,7 @@ def add_lengths(group, usual: Lengths) -> None:
     length = f"length of every run in wave periods (default: {usual.periods})"
     add(group, "--periods", "N", length, whole(1, MOST_PERIODS), usual.periods)
     most = f"at most 1/{usual.share} of --periods"
-    words = f"wave periods left out of the {usual.left_out_of} (default: {usual.transient}, {most})"
+    words = f"wave periods left out of the analysis (default: {usual.transient}, {most})"
     add(group, "--transient", "N", words, whole(0))
 
 

@@ -79,11 +79,14 @@ def command_line(module: str, argv: list[str]) -> list[str]:
     return ["python", "-m", module, *argv]
 
 
-def conduct(name: str, module: str, argv: list[str], how: Running, parameters: dict, work: Callable) -> int:
+def conduct(
+    name: str, module: str, argv: list[str], how: Running, parameters: dict, work: Callable, strict: bool = False
+) -> int:
     """A campaign from its first run to its last word; returns the exit code.
 
     parameters: what provenance.json says of this campaign. work() -> (times, Summary): the runs and their table, with
-    compile_s, run_s and analysis_s among the times. Raises CampaignStopped, OSError, KeyboardInterrupt, for `command`.
+    compile_s, run_s and analysis_s among the times. strict: whether a row that is not ok is exit code 1.
+    Raises CampaignStopped, OSError, KeyboardInterrupt, for `command`.
     """
     start = time.perf_counter()
     with claimed(how.out):
@@ -91,7 +94,8 @@ def conduct(name: str, module: str, argv: list[str], how: Running, parameters: d
         timing, summary = work()
         finish(how.out, record, summary, timing)
         fault = report(how.out, how.report, timing, start)
-    return say(how.out, summary, timing, how.report, fault)
+    code = say(how.out, summary, timing, how.report, fault)
+    return EXIT_FAILED if strict and any(row["status"] != "ok" for row in summary.rows) else code
 
 
 def begun(out: Path, name: str, command: list[str], parameters: dict) -> tuple[dict[str, object], bool]:

@@ -11,9 +11,9 @@ import hashlib
 import json
 import sys
 import time
+from argparse import Namespace
 from dataclasses import asdict
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import xarray
 
@@ -24,11 +24,8 @@ from campaigns.machinery.plan import Summary
 from campaigns.oscillator.parts import COLUMNS, PARTS, SEED
 from engine.atomic import write_atomic
 
-if TYPE_CHECKING:
-    from campaigns.oscillator import Order
 
-
-def parameters(order: Order) -> dict:
+def parameters(order: Namespace) -> dict:
     """What the provenance says of this study besides who ran it, where and with what."""
     return {
         "oscillator": asdict(SnapOscillator(**order.changes)),
@@ -40,7 +37,7 @@ def parameters(order: Order) -> dict:
     }
 
 
-def done(order: Order) -> tuple[dict[str, float], Summary]:
+def done(order: Namespace) -> tuple[dict[str, float], Summary]:
     """Do every part that is not there yet; keep table.csv up to date. Returns times and the summary."""
     oscillator, out = SnapOscillator(**order.changes), order.how.out
     numbers = [f"{key} = {value!r}" for key, value in asdict(oscillator).items()]
@@ -66,7 +63,7 @@ def done(order: Order) -> tuple[dict[str, float], Summary]:
     return timing, Summary(table.in_order(), len(PARTS) - len(missing), len(missing), 0.0)
 
 
-def _key(part: str, order: Order) -> str:
+def _key(part: str, order: Namespace) -> str:
     own = {"diagram-force": "force_range", "diagram-frequency": "frequency_range"}.get(part)
     ranges = {"force_range", "frequency_range"} - {own}
     content = {name: entry for name, entry in parameters(order).items() if name not in ranges}
@@ -80,7 +77,7 @@ def _compile(oscillator: SnapOscillator) -> float:
     return time.perf_counter() - begun
 
 
-def _done(part: str, oscillator: SnapOscillator, order: Order, path: Path) -> dict:
+def _done(part: str, oscillator: SnapOscillator, order: Namespace, path: Path) -> dict:
     begun = time.perf_counter()
     try:
         arrays, row = PARTS[part](oscillator, order)

@@ -6,8 +6,8 @@ A part is a function of the oscillator and the order; it gives arrays and the nu
 
 from __future__ import annotations
 
+from argparse import Namespace
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -26,9 +26,6 @@ from analysis.oscillator import (
 from analysis.oscillator.basin_grids import PAPER_BOX
 from analysis.oscillator.growth import random_starts
 from campaigns.columns import MESSAGE, RUN_KEY, STATUS, Column
-
-if TYPE_CHECKING:
-    from campaigns.oscillator import Order
 
 SEED = 0
 Result = tuple[dict[str, np.ndarray], dict[str, object]]  # arrays by name, numbers of the row
@@ -66,7 +63,7 @@ def _scaled(usual: int, effort: float, least: int) -> int:
     return max(least, round(usual * effort))
 
 
-def section(o: SnapOscillator, order: Order) -> Result:
+def section(o: SnapOscillator, order: Namespace) -> Result:
     """Figure 19(b), and two nested zooms round the place that the orbit visits most."""
     points, transient = _scaled(120_000, order.effort, 500), 1000
     states = strobed_states(o, START, points, transient)
@@ -91,7 +88,7 @@ def zoom_boxes(states: np.ndarray) -> np.ndarray:
     return np.array([[centre[0] - h[0], centre[0] + h[0], centre[1] - h[1], centre[1] + h[1]] for h in half])
 
 
-def history(o: SnapOscillator, order: Order) -> Result:
+def history(o: SnapOscillator, order: Namespace) -> Result:
     """The first periods from START, with the switching times."""
     motion = snap_motion(o, START, HISTORY_PERIODS, 128)
     arrays = {"time": motion.time, "displacement": motion.displacement, "velocity": motion.velocity}
@@ -100,7 +97,7 @@ def history(o: SnapOscillator, order: Order) -> Result:
     return arrays, {"periods": HISTORY_PERIODS, "slack_fraction": motion.slack_fraction}
 
 
-def exponents(o: SnapOscillator, order: Order) -> Result:
+def exponents(o: SnapOscillator, order: Namespace) -> Result:
     """Both exponents over many random starts, with their errors, and how they settle with time."""
     starts, periods, transient = _scaled(512, order.effort, 16), 10_000, 1000
     found = snap_exponents(o, count=starts, transient_periods=transient, periods=periods, blocks=50, seed=SEED)
@@ -137,17 +134,17 @@ def _diagram(o: SnapOscillator, over: str, span: tuple[float, float, int], effor
     return arrays, {"starts": 4, "periods": 1000, "transient": 500, "points": len(values)}
 
 
-def diagram_force(o: SnapOscillator, order: Order) -> Result:
+def diagram_force(o: SnapOscillator, order: Namespace) -> Result:
     """Orbit diagram over F with exponents."""
     return _diagram(o, "force", order.forces, order.effort)
 
 
-def diagram_frequency(o: SnapOscillator, order: Order) -> Result:
+def diagram_frequency(o: SnapOscillator, order: Namespace) -> Result:
     """Orbit diagram over omega with exponents."""
     return _diagram(o, "frequency", order.frequencies, order.effort)
 
 
-def basins(o: SnapOscillator, order: Order) -> Result:
+def basins(o: SnapOscillator, order: Namespace) -> Result:
     """Where a grid of starts ends, and the shares."""
     columns, rows = (_scaled(n, order.effort**0.5, 8) for n in (120, 75))
     found = snap_basins(o, start_grid(columns, rows), 3000)
@@ -159,7 +156,7 @@ def basins(o: SnapOscillator, order: Order) -> Result:
     return arrays, row | {"aperiodic_share": float(found.shares[-1])}
 
 
-def orbits(o: SnapOscillator, order: Order) -> Result:
+def orbits(o: SnapOscillator, order: Namespace) -> Result:
     """Periodic orbits up to period 8, stable and unstable, by Newton's method from points of the section and a grid."""
     guesses = _scaled(400, order.effort, 20)
     basin = snap_basins(o, random_starts(_scaled(300, order.effort, 40), SEED), 1500)
@@ -175,7 +172,7 @@ def orbits(o: SnapOscillator, order: Order) -> Result:
     return arrays, {"points": len(table), "starts": len(starts)}
 
 
-def grazing(o: SnapOscillator, order: Order) -> Result:
+def grazing(o: SnapOscillator, order: Namespace) -> Result:
     """The forcing below which the taut motion never goes slack; random starts just below and just above it."""
     found = grazing_force(o)
     arrays = {"grazing": np.array([found.force, found.time, found.clearance, found.velocity])}

@@ -158,7 +158,7 @@ STUDY = Study(
     name="out_of_plane",
     protocol=__doc__,
     scene="tethered_buoy",
-    lengths=Lengths(periods=250, transient=50, share=5, left_out_of="comparison"),
+    lengths=Lengths(periods=250, transient=50, share=5),
     in_waves=True,
     taken=_TAKEN,
     options=cli.add_accuracy,
