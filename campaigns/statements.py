@@ -24,18 +24,10 @@ Check = tuple[str, float]  # where it was looked, and the number that the rule j
 
 
 @dataclass(frozen=True)
-class Rule:
-    """What decides a check: a test of the measured number, and the same in words."""
-
-    holds: Callable[[float], bool]
-    words: str
-
-
-@dataclass(frozen=True)
 class Measured:
     """What the results say to a claim.
 
-    checks   (where, number) for every place that decides; a number that is nan decides nothing
+    checks   (where, number) for every place that decides; nan decides nothing
     told     the numbers as the reader sees them
     """
 
@@ -51,7 +43,8 @@ class Claim:
     text       what the paper says, in our words, in a sentence
     quantity   what is measured, with its unit
     measure    results -> Measured
-    rule       what a measured number must obey
+    holds      what decides a check: a test of the measured number
+    threshold  the same in words
     evidence   what else supports the number: refinement, other method, code, closed form
     """
 
@@ -59,7 +52,8 @@ class Claim:
     text: str
     quantity: str
     measure: Callable[[object], Measured]
-    rule: Rule
+    holds: Callable[[float], bool]
+    threshold: str
     evidence: str
 
 
@@ -94,7 +88,7 @@ def judged(claims: Iterable[Claim], results: object) -> list[Statement]:
 def judge(claim: Claim, results: object) -> Statement:
     """Measure a claim in the results and apply its rule."""
     measured = claim.measure(results)
-    checks = [(where, bool(claim.rule.holds(value))) for where, value in measured.checks if math.isfinite(value)]
+    checks = [(where, bool(claim.holds(value))) for where, value in measured.checks if math.isfinite(value)]
     found = f"{claim.quantity}: {measured.told}." if measured.told else NOT_SHOWN
     return Statement(claim, tuple(checks), found)
 
@@ -111,7 +105,7 @@ def as_csv(statements: Sequence[Statement]) -> bytes:
     rows = []
     for number, one in enumerate(statements, 1):
         claim = one.claim
-        said = (claim.text, one.verdict, one.condition, one.found, claim.rule.words, claim.evidence)
+        said = (claim.text, one.verdict, one.condition, one.found, claim.threshold, claim.evidence)
         rows.append([number, claim.place, *said])
     return csv_of(COLUMNS, rows)
 
@@ -127,9 +121,9 @@ def read_claims(path: Path, measures: Mapping[str, Callable]) -> dict[str, Claim
     for entry in table["claim"]:
         name, by, evidence = entry.pop("name", entry["text"]), measures[entry.pop("by")], entry.pop("evidence")
         fields = {field: entry.pop(field) for field in ("place", "text", "quantity")}
-        rule = Rule(_test(entry.pop("rule")), entry.pop("threshold"))
+        rule = {"holds": _test(entry.pop("rule")), "threshold": entry.pop("threshold")}
         measure = by(**entry) if entry else by
-        claims[name] = Claim(**fields, measure=measure, rule=rule, evidence=evidence.format(**table["words"]))
+        claims[name] = Claim(**fields, measure=measure, **rule, evidence=evidence.format(**table["words"]))
     return claims
 
 

@@ -24,7 +24,7 @@ from campaigns.columns import LOOPS, MESSAGE, NEWTON, PERIODS_RUN, RUN_KEY, STAT
 from campaigns.judge import tighter_scene
 from campaigns.machinery.cli import Running
 from campaigns.machinery.folder import claimed, trajectory_path
-from campaigns.machinery.plan import Job, KeptRun, Plan, Summary
+from campaigns.machinery.plan import Job, Plan, Summary
 from campaigns.machinery.runner import run_campaign
 
 COLUMNS = (
@@ -79,19 +79,20 @@ def repeat(plan: Plan, summary: Summary, periods: int, verdict: Callable, among:
     verdict(trajectory) -> what it is called, or None; among: keys of the runs to choose from, None for all. Raises as
     `runner.run_campaign`.
     """
+    from engine import Trajectory
     from engine.scene import scene_from_toml
 
     rows = [row for row in summary.rows if among is None or row["run_key"] in among]
     length = lengths(len(summary.rows), periods)
     jobs: list[Job] = []
     for role, row in chosen(rows):
-        base = KeptRun(trajectory_path(plan.how.out.absolute(), row["run_key"]))
-        scene = base.load().scene
+        original = first_periods(Trajectory.load(trajectory_path(plan.how.out, row["run_key"])), length)
+        scene = original.scene
         finer = scene_from_toml(scene.to_toml(), {"tether.nodes": 2 * scene.tether.nodes - 1})
-        describe = partial(accuracy_row, base=base, length=length, verdict=verdict)
+        describe = partial(accuracy_row, original=original, verdict=verdict)
         for run, made in ((AS_RUN, scene), (TIGHTER, tighter_scene(scene)), (FINER, finer)):
             labels = {"role": role, "label": row["steepness"], "run": run, "periods": length}
-            simulate = partial(cut, base=base, length=length) if run == AS_RUN else None
+            simulate = partial(_as_made, original) if run == AS_RUN else None
             jobs.append(Job(labels, made, length, None, simulate, describe, f"accuracy {run}"))
     how = replace(plan.how, out=plan.how.out / "accuracy")
     with claimed(how.out):
@@ -99,9 +100,8 @@ def repeat(plan: Plan, summary: Summary, periods: int, verdict: Callable, among:
         return run_campaign(own, jobs).analysis_s
 
 
-def cut(scene, periods=None, duration_s=None, *, base: KeptRun, length: int):
-    """The first wave periods of the run as it was made; the share of its seconds and iterations that is theirs."""
-    return first_periods(base.load(), length)
+def _as_made(original, scene, periods=None, duration_s=None):
+    return original
 
 
 def first_periods(trajectory, length: int):
@@ -125,8 +125,8 @@ def first_periods(trajectory, length: int):
     return replace(trajectory, columns=kept, statistics=trajectory.statistics | scaled, profiles=None, tangent=tangent)
 
 
-def accuracy_row(trajectory, base: KeptRun, length: int, verdict: Callable) -> dict[str, object]:
-    """The columns of `COLUMNS` that a repeated run fills. base: the run as it was made."""
+def accuracy_row(trajectory, original, verdict: Callable) -> dict[str, object]:
+    """The columns of `COLUMNS` that a repeated run fills. original: as much of the run as it was made."""
     scene = trajectory.scene
     row = _counted((WALL_S, NEWTON, LOOPS), trajectory) | {
         "nodes": scene.tether.nodes,
@@ -135,7 +135,6 @@ def accuracy_row(trajectory, base: KeptRun, length: int, verdict: Callable) -> d
     }
     if trajectory.status != "ok":
         return row
-    original = first_periods(base.load(), length)
     r, r0 = trajectory.columns["radius_m"], original.columns["radius_m"]
     early = round(EARLY * scene.waves.period_s / scene.sample_step_s()) + 1
     row |= {"error_early_m": _rms(r[:early] - r0[:early]), "error_m": _rms(r - r0)} if len(r) == len(r0) else {}
@@ -161,20 +160,20 @@ FRAMES = 24  # of the line, a wave period
 
 def close_up(plan: Plan, summary: Summary, periods: int) -> float:
     """Compute the close-up, unless it is there or no run goes slack; 0 s of analysis. periods: those of the sweep."""
+    from engine import Trajectory
     from engine.scene import scene_from_toml
 
     out, jobs = plan.how.out / "close_up", []
     for _, row in chosen([row for row in summary.rows if (row.get("slack_fraction") or 0.0) > 0.0])[-1:]:
-        scene = KeptRun(trajectory_path(plan.how.out, row["run_key"])).load().scene
+        scene = Trajectory.load(trajectory_path(plan.how.out, row["run_key"])).scene
         # Perturbations are carried along as in the sweep: leaving them out would need machine code of its own (20 s).
         kept = {"output.profiles": True, "output.profiles_step_s": scene.waves.period_s / FRAMES}
         length = min(periods, PERIODS)
         labels = {"steepness": row["steepness"], "periods": length}
         jobs.append(Job(labels, scene_from_toml(scene.to_toml(), kept), length))
     if jobs or out.exists():
-        own = Plan(
-            Running(out, backend="threading"), plan.simulate, partial(_counted, (WALL_S,)), SHAPES, show_progress=False
-        )
+        how, row_of = Running(out, backend="threading"), partial(_counted, (WALL_S,))
+        own = Plan(how, plan.simulate, row_of, SHAPES, show_progress=False)
         # without a job the table of an earlier sweep in this folder is emptied
         with claimed(out):
             run_campaign(own, jobs)

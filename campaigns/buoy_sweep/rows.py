@@ -16,7 +16,7 @@ from campaigns.judge import (
     STROBE_TOLERANCE,
     carried,
     state_of,
-    tighter_scene,
+    tangent_of,
     verdict_of,
 )
 
@@ -108,7 +108,8 @@ def buoy_row(trajectory, transient_periods: int, simulate=None) -> dict[str, obj
             row |= across_plane(trajectory.tangent, transient_periods)
         enough = recorded_s >= (transient_periods + LEAST_JUDGED) * period_s - 1e-6 * step_s
         if trajectory.status == "ok" and (carried(trajectory) or (in_space and enough)):
-            tighter, verdict, tangent, wolf = _verdict(trajectory, transient_periods, simulate)
+            tangent = tangent_of(trajectory, transient_periods)
+            verdict, wolf, tighter = verdict_of(trajectory, transient_periods, tangent, simulate)
             row |= {
                 "regime": verdict.regime,
                 "regime_tighter": tighter,
@@ -135,17 +136,6 @@ def across_plane(growth, transient_periods: int) -> dict[str, object]:
         return {}
     found = transverse_lyapunov(growth.lateral_nats, transient_periods, growth.released)
     return {"offplane_growth_bits_per_period": number(found.value), "offplane_growth_error": number(found.error)}
-
-
-def _verdict(trajectory, transient_periods: int, simulate):
-    """(regime at a ten times tighter tolerance or None, Verdict, tangent and Wolf exponents) of a finished run."""
-    verdict, tangent, wolf = verdict_of(trajectory, transient_periods)
-    if verdict.regime != "chaotic" or simulate is None:
-        return None, verdict, tangent, wolf
-    scene = tighter_scene(trajectory.scene)
-    again = simulate(scene, duration_s=float(trajectory.columns["time_s"][-1]))
-    tighter = verdict_of(again, transient_periods)[0].regime if again.status == "ok" else again.status
-    return tighter, verdict_of(trajectory, transient_periods, tighter)[0], tangent, wolf
 
 
 def settled(columns, step_s: float, transient_s: float) -> dict[str, object]:
