@@ -5,15 +5,9 @@ When a worker process dies, `execute` raises `PoolBroken` with the tasks that ma
 starts afresh. loky and threads run through joblib. dask runs through its own futures, not joblib's backend for dask,
 which waits for ever when a worker is lost (joblib 1.6).
 
-The workers of a dask cluster may be on other machines that see no folder of ours. What goes wrong, and what becomes of
-it:
-
-    a worker dies          dask gives its runs to another one; a run whose workers die more often than the scheduler
-                           allows is a suspect of `PoolBroken`, and is tried alone once more
-    no worker is there     the campaign waits JOIN_S for the first one, GONE_S for one to come back, and stops
-    the scheduler dies     the campaign stops; so it does where a worker has other sources or libraries than we have
-
-"Stops" is CampaignStopped, one line: finished runs are on disk, and the same command goes on.
+The workers of a dask cluster may be on other machines that see no folder of ours. docs/howto_cluster.md says what may
+go wrong there, and what becomes of it. A cluster that is lost, or is of another version, is CampaignStopped, one line:
+finished runs are on disk, and the same command goes on.
 """
 
 import contextlib
@@ -135,12 +129,12 @@ def dask_client(jobs: int, address: str | None) -> Iterator:
     import dask
     from distributed import Client, LocalCluster
 
-    local = address is None
     with contextlib.ExitStack() as stack:
-        if local:
+        if address is None:
             # A run whose worker dies is not tried again by dask: the runner does that, one run at a time.
             stack.enter_context(dask.config.set({"distributed.scheduler.allowed-failures": 0}))
             own = {"n_workers": jobs, "threads_per_worker": 1, "dashboard_address": None, "silence_logs": "CRITICAL"}
+            own["preload"] = __name__  # see `dask_setup`
             address = stack.enter_context(LocalCluster(**own))
         # A lost connection ends the campaign in one line of its own; dask adds a page, from threads of its own.
         stack.callback(logging.disable, logging.root.manager.disable)
@@ -159,21 +153,12 @@ def dask_client(jobs: int, address: str | None) -> Iterator:
             raise CampaignStopped(_REFUSED.format(f"the scheduler: {first_line(error)}")) from error
         if faults := "; ".join(_differences(found)):
             raise CampaignStopped(_REFUSED.format(faults))
-        if local:
-            found.register_plugin(_deaf_to_interrupts())
         yield found
 
 
-def _deaf_to_interrupts():
-    from distributed import WorkerPlugin
-
-    class DeafToInterrupts(WorkerPlugin):
-        """As `ignore_interrupt`, also for workers that dask starts in place of lost ones."""
-
-        def setup(self, worker):
-            ignore_interrupt()
-
-    return DeafToInterrupts()
+def dask_setup(worker: object) -> None:
+    """Called by dask in the workers of a local cluster, also in those that take the place of lost ones."""
+    ignore_interrupt()
 
 
 @cache

@@ -155,21 +155,16 @@ def _version(package: str) -> str | None:
 
 def git_state(directory: Path) -> dict[str, object]:
     """{"commit", "dirty"} of the checkout that holds `directory`; both null outside one, or without git."""
-    commit = _git(directory, "rev-parse", "HEAD")
-    changes = _git(directory, "status", "--porcelain") if commit is not None else None
-    return {"commit": commit, "dirty": None if changes is None else changes != ""}
-
-
-def _git(directory: Path, *words: str) -> str | None:
+    found: dict[str, object] = {"commit": None, "dirty": None}
     # An installed copy is no checkout, even when it lies inside somebody's: only our own repository counts.
     if not (directory.parent / ".git").exists():
-        return None
-    try:
-        git = ["git", "-C", str(directory), *words]
-        done = subprocess.run(git, capture_output=True, text=True, timeout=10, check=True)
-    except (OSError, subprocess.SubprocessError):
-        return None
-    return done.stdout.strip()
+        return found
+    git = ["git", "-C", str(directory), "status", "--porcelain=v2", "--branch"]
+    with contextlib.suppress(OSError, subprocess.SubprocessError):
+        said = subprocess.run(git, capture_output=True, text=True, timeout=10, check=True).stdout.splitlines()
+        commits = [line.split()[-1] for line in said if line.startswith("# branch.oid ")]
+        found = {"commit": commits[0], "dirty": not all(line.startswith("#") for line in said)}
+    return found
 
 
 def machine() -> dict[str, object]:

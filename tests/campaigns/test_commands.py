@@ -151,11 +151,6 @@ def test_an_old_python_is_named_with_what_is_needed(package):
     assert "needs Python 3.11 or newer, and this is 3.9.2" in done.stderr.splitlines()[-1]
 
 
-def test_pip_refuses_an_old_python_and_the_readme_says_which_is_needed():
-    needed = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]["requires-python"]
-    assert needed == ">=3.11" and "Python 3.11 or newer" in (ROOT / "README.md").read_text()
-
-
 def test_waves_up_to_the_limit_are_run():
     limit = breaking_steepness(load_scene("tethered_buoy"))
     assert limit == pytest.approx(0.446, abs=2e-3)  # deep water: 0.142 pi

@@ -23,15 +23,14 @@ from campaigns.buoy_sweep.repeats import (
 )
 from campaigns.columns import names
 from engine import Trajectory, load_scene
-from engine.trajectory import Profiles, TangentGrowth
+from engine.trajectory import TangentGrowth
 from reports.parts.style import VERMILION
 from tests.campaigns.conftest import forget, rows_of
-from tests.campaigns.fake_engine import FakeEngine, sines
+from tests.campaigns.fake_engine import FakeEngine, shapes, sines
 
 TOLERANCE_M, GRID_M = 0.02, 4.0  # error of r at rtol 1 and with one element, as sines of their own
 REPEATED = ["--periods", "12", "--transient", "2", "--no-report"]
 SHOWN = ["--periods", "15", "--transient", "3", "--no-report", "--no-accuracy"]
-NODES = 5
 
 
 @dataclass(frozen=True)
@@ -62,20 +61,7 @@ class Slackening(FakeEngine):
             return run
         if self.fails_with_line:
             raise ZeroDivisionError("a fault of the code")
-        return replace(run, profiles=straight_lines(run))
-
-
-def straight_lines(run) -> Profiles:
-    """A straight line from the anchor to the buoy, its tension that at the top."""
-    step_s = run.scene.output.profiles_step_s
-    time_s = step_s * np.arange(int(run.columns["time_s"][-1] / step_s) + 1)
-    share = np.linspace(0.0, 1.0, NODES)
-    x, z, top = (
-        np.interp(time_s, run.columns["time_s"], run.columns[name])[:, None] for name in ("x_m", "z_m", "tension_top_N")
-    )
-    nothing = np.zeros((len(time_s), NODES))
-    shape = x * share, nothing, z * share, nothing, nothing + top, nothing
-    return Profiles(time_s, 20.0 * share, *shape)
+        return replace(run, profiles=shapes(run))
 
 
 @pytest.fixture
