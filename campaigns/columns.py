@@ -1,4 +1,4 @@
-"""The columns of the campaigns' tables, each declared once, the dictionary of them beside every table, and its rows.
+"""The columns of the campaigns' tables, each declared once, and the dictionary of them that lies beside every table.
 
 A campaign declares its columns in a tuple beside the code that fills a row. `table.csv` has their names as its head,
 and `columns.csv` beside it says what every column is; reports read titles, units and digits there.
@@ -9,8 +9,6 @@ import io
 from collections.abc import Iterable
 from dataclasses import astuple, dataclass, fields
 from pathlib import Path
-
-Row = dict[str, object]
 
 
 @dataclass(frozen=True)
@@ -70,22 +68,3 @@ def csv_of(head: Iterable[str], rows: Iterable[Iterable[object]]) -> bytes:
     writer.writerow(head)
     writer.writerows(rows)
     return text.getvalue().encode()
-
-
-def read_rows(path: Path) -> tuple[Row, ...]:
-    """The rows of a table as it lies in its folder: words as they are, numbers as floats, nan where it is empty.
-
-    Raises OSError where table or dictionary cannot be read, ValueError where they do not fit each other.
-    """
-    words = {row["name"] for row in _read(dictionary_path(path)) if not row["digits"]}
-    rows = [
-        {name: text if name in words else float(text or "nan") for name, text in row.items()} for row in _read(path)
-    ]
-    if not rows:
-        raise ValueError(f"{path.name} has no rows")
-    return tuple(rows)
-
-
-def _read(path: Path) -> list[dict[str, str]]:
-    with open(path, encoding="utf-8", newline="") as file:
-        return list(csv.DictReader(file))

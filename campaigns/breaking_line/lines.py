@@ -11,9 +11,9 @@ from pathlib import Path
 import numpy as np
 
 from campaigns.breaking_line.theory.law import checked_law, strain_of_tension, wave_speed
-from campaigns.columns import Row as Line
-from campaigns.columns import read_rows
 from campaigns.machinery.folder import trajectory_path
+from campaigns.tables import Row as Line
+from campaigns.tables import read_rows
 
 FAST, SLOW = ("1", "2", "3", "4"), ("1p", "2p", "3p", "4p")
 CASES = (*FAST, *SLOW)

@@ -11,10 +11,10 @@ from dataclasses import asdict, dataclass, field
 from pathlib import Path
 
 from campaigns.breaking_line.lines import read_lines
-from campaigns.columns import Row, read_rows
 from campaigns.machinery.folder import trajectory_path
 from campaigns.paper.measures import LARGE, SMALL, buckling_waves, calm_measures, violent_measures
 from campaigns.paper.snaps import scales, snaps
+from campaigns.tables import Row, read_rows
 
 TREATED = ("above_still_water", "submergence")
 

@@ -5,9 +5,9 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from campaigns.columns import Row, read_rows
 from campaigns.figure_data import Array, Source, source
 from campaigns.machinery.folder import trajectory_path
+from campaigns.tables import Row, read_rows
 
 
 class LeftOut(Exception):

@@ -6,10 +6,10 @@
 import math
 from collections.abc import Callable, Iterable, Sequence
 
-from campaigns.columns import Row
 from campaigns.paper.measured import Results
 from campaigns.paper.measures import LARGE
 from campaigns.statements import Check, Measured, formula, grouped, shown, told
+from campaigns.tables import Row
 
 Measure = Callable[[Results], Measured]
 UNDECIDED = ("", "undecided", "transient")  # regimes that decide nothing

@@ -2,7 +2,6 @@
 
 import math
 
-from campaigns.columns import Row
 from campaigns.paper.measured import Results
 from campaigns.paper.measures import LARGE
 from campaigns.paper.statements.judging import (
@@ -21,6 +20,7 @@ from campaigns.paper.statements.judging import (
     value_of,
 )  # fmt: skip
 from campaigns.statements import Measured, listed, shown, told
+from campaigns.tables import Row
 
 NO_RUN = "none"  # as `listed` says it
 SLACK, PEAK = 0.01, 2.0  # share of the time; maximum over the static tension
