@@ -65,6 +65,7 @@ def _scheduler(text: str) -> str:
 
 
 fraction = number("a finite number, 0 or above", lambda found: 0.0 <= found < math.inf)
+scheduler = Kind(_scheduler, "the address of a scheduler, as tcp://HOST:PORT")
 # an empty name, as of a shell variable that is not set, would be the current folder
 folder_name = Kind(lambda text: Path(_if(str.strip, text)), "a folder")
 
@@ -92,10 +93,6 @@ class Lengths:
     share: int = 3
 
 
-class _Unparsable(Exception):
-    """argparse could not even split the line into options; its message is the fault."""
-
-
 class _Formatter(argparse.RawDescriptionHelpFormatter):
     # Every option accepts any number of words (see `value`); the help shows the words it wants, as the metavar says.
     def _format_args(self, action, default_metavar):
@@ -104,7 +101,8 @@ class _Formatter(argparse.RawDescriptionHelpFormatter):
 
 class _Parser(argparse.ArgumentParser):
     def error(self, message):
-        raise _Unparsable(message)
+        # argparse could not even split the line into options: its message is the fault
+        raise ValueError(message)
 
 
 def parser(module: str, description: str, epilog: str = EXITS) -> argparse.ArgumentParser:
@@ -118,41 +116,37 @@ def add(group, option: str, metavar: str, help: str, kind: Kind | None = None, u
 
     kind: of its one value, or of each of its `many`; None: its words stay as they are. usual: where it is not given.
     """
-    action = group.add_argument(option, metavar=metavar, nargs="*", action="extend", help=help)
+    told = help if usual is None or many else f"{help} (default: {usual})"
+    action = group.add_argument(option, metavar=metavar, nargs="*", action="extend", help=told)
     action.read = None if kind is None else lambda words, faults: value(words, option, usual, kind, faults, many)
 
 
 def add_running(group, campaign: str, jobs: bool = True, backends: bool = True) -> None:
     """Add the options that say how and where a campaign runs. jobs, backends: whether there is a choice of these."""
     if jobs:
-        usual = min(2, os.cpu_count() or 1)
-        runs = f"runs at the same time, but on a cluster of your own (default: {usual})"
-        add(group, "--jobs", "N", runs, whole(1, MOST_JOBS), usual)
+        at_once = "runs at the same time, but on a cluster of your own"
+        add(group, "--jobs", "N", at_once, whole(1, MOST_JOBS), min(2, os.cpu_count() or 1))
     if backends:
-        where = "processes, threads or a dask cluster (default: loky, processes)"
+        where = "processes (loky), threads or a dask cluster"
         add(group, "--backend", "|".join(BACKENDS), where, one_of(BACKENDS), BACKENDS[0])
-        scheduler = Kind(_scheduler, "the address of a scheduler, as tcp://HOST:PORT")
         address = "scheduler of a dask cluster, tcp://HOST:PORT (default: a local one)"
         add(group, "--dask-address", "ADDRESS", address, scheduler)
-    out = Path("results", campaign)
-    found = f"folder of the results; what is found there is not done again (default: {out})"
-    add(group, "--out", "DIR", found, folder_name, out)
+    found = "folder of the results; what is found there is not done again"
+    add(group, "--out", "DIR", found, folder_name, Path("results", campaign))
     group.add_argument("--no-report", action="store_true", help="leave out report.html and report.pdf")
 
 
 def add_lengths(group, usual: Lengths) -> None:
     """Add --periods and --transient; usual: their defaults."""
-    length = f"length of every run in wave periods (default: {usual.periods})"
-    add(group, "--periods", "N", length, whole(1, MOST_PERIODS), usual.periods)
-    most = f"at most 1/{usual.share} of --periods"
-    words = f"wave periods left out of the analysis (default: {usual.transient}, {most})"
-    add(group, "--transient", "N", words, whole(0))
+    add(group, "--periods", "N", "length of every run in wave periods", whole(1, MOST_PERIODS), usual.periods)
+    most = f"(default: {usual.transient}, at most 1/{usual.share} of --periods)"
+    add(group, "--transient", "N", f"wave periods left out of the analysis {most}", whole(0))
 
 
 def add_scene(group, usual: str) -> None:
     """Add --scene, by default the usual one, and --set."""
     name = Kind(str, "a scene file or the name of a scene")
-    add(group, "--scene", "FILE_OR_NAME", f"scene to start from (default: {usual})", name, usual)
+    add(group, "--scene", "FILE_OR_NAME", "scene to start from", name, usual)
     add(group, "--set", "KEY=VALUE ...", "change values of the scene, as water.depth_m=22.5 tether.nodes=81")
 
 
@@ -166,7 +160,7 @@ def split(parser: argparse.ArgumentParser, argv: list[str], faults: list[str]) -
     """The values of the options, or their words where an option has no kind; what is not allowed becomes faults."""
     try:
         options, unknown = parser.parse_known_args(argv)
-    except _Unparsable as error:
+    except ValueError as error:
         found = re.fullmatch(r"argument (\S+): ignored explicit argument (.*)", str(error))
         faults.append(f"{found[1]}: given {found[2]}; allowed: the option alone" if found else str(error))
         options, unknown = parser.parse_args([]), []

@@ -26,7 +26,7 @@ def options(group) -> None:
     cli.add(group, "--force-range", "LO HI COUNT", f"orbit diagram over F {usual(*FORCES)}")
     cli.add(group, "--frequency-range", "LO HI COUNT", f"orbit diagram over omega {usual(*FREQUENCIES)}")
     share = cli.number("a number from 0.001 to 100", lambda found: 0.001 <= found <= 100.0)
-    cli.add(group, "--effort", "SHARE", "share of the usual starts, points and values (default: 1)", share, 1.0)
+    cli.add(group, "--effort", "SHARE", "share of the usual starts, points and values", share, 1.0)
 
 
 def read(options: Namespace, faults: list[str]) -> None:

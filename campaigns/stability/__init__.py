@@ -25,7 +25,7 @@ def options(group) -> None:
     group.add_argument("--quick", action="store_true", help="fewer cases, fewer random scenes, no long run")
     scenes = f"random scenes, N valid and N invalid (default: {FUZZ}; {QUICK_FUZZ} with --quick)"
     cli.add(group, "--fuzz", "N", scenes, cli.whole(0))
-    cli.add(group, "--seed", "N", "seed of the random scenes (default: 0)", cli.whole(0), 0)
+    cli.add(group, "--seed", "N", "seed of the random scenes", cli.whole(0), 0)
     periods = f"wave periods of the long regular run, 0 for none (default: {DRIFT_PERIODS}; 0 with --quick)"
     cli.add(group, "--drift-periods", "N", periods, cli.whole(0))
 
