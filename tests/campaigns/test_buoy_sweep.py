@@ -1,6 +1,9 @@
-"""Runs of a sweep once more: two tighter and finer, the most violent one with its line, and none of them twice."""
+"""What the buoy sweep runs beside its values: runs in space where the plane is not enough, two runs again tighter and
+finer, the most violent one again with its line; and nothing twice.
+"""
 
 import io
+import json
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -8,6 +11,7 @@ import pytest
 from matplotlib.colors import to_rgb
 from PIL import Image
 
+from campaigns import buoy_sweep
 from campaigns.buoy_sweep.repeats import (
     AS_RUN,
     COLUMNS,
@@ -21,13 +25,16 @@ from campaigns.buoy_sweep.repeats import (
     first_periods,
     lengths,
 )
+from campaigns.buoy_sweep.rows import buoy_row
+from campaigns.buoy_sweep.space import SEED_MPS
 from campaigns.columns import names
 from engine import Trajectory, load_scene
 from engine.trajectory import TangentGrowth
 from reports.parts.style import VERMILION
-from tests.campaigns.conftest import forget, rows_of
+from tests.campaigns.conftest import finished, forget, rows_of
 from tests.campaigns.fake_engine import FakeEngine, shapes, sines
 
+THREE = ("0.02", "0.05", "0.13")
 TOLERANCE_M, GRID_M = 0.02, 4.0  # error of r at rtol 1 and with one element, as sines of their own
 REPEATED = ["--periods", "12", "--transient", "2", "--no-report"]
 SHOWN = ["--periods", "15", "--transient", "3", "--no-report", "--no-accuracy"]
@@ -138,8 +145,7 @@ def close_up(sweep):
     """close_up(**fields of Slackening) -> exit code, table of the folder close_up, steepness of the runs begun."""
 
     def run(**fake):
-        values = ("0.02", "0.05", "0.13")
-        code, _, begun = sweep("--steepness", *values, jobs=1, usual=SHOWN, kind=Slackening, **fake)
+        code, _, begun = sweep("--steepness", *THREE, jobs=1, usual=SHOWN, kind=Slackening, **fake)
         return code, rows_of(sweep.out / "close_up") if (sweep.out / "close_up").exists() else None, begun
 
     run.out = sweep.out
@@ -185,3 +191,67 @@ def test_the_report_shows_it_moving_and_as_stills_the_same_each_time(close_up):
     for wanted in ("#ffffff", VERMILION):  # paper, and the small dot that marks the moment
         off = np.abs(colours - 255 * np.array(to_rgb(wanted))).sum(axis=1)
         assert off.min() < 60, "20 of 256 in each of red, green and blue; brown instead of vermilion is 177 off"
+
+
+def test_auto_runs_in_space_what_released_loops_in_the_plane_says_so_and_decides_again_from_the_files(sweep):
+    _, planar, begun = sweep("--steepness", *THREE, loops=(0.05, 0.13))
+    assert begun == [0.02, 0.05, 0.13] and [row["dimensions"] for row in planar] == ["2", "2", "2"]
+    assert [row["loop_releases"] for row in planar] == ["0", "3", "3"]
+    assert all(row["buoy_lateral_max_m"] == row["planar_loop_releases"] == "" for row in planar)
+    code, rows, begun = sweep("--steepness", *THREE, "--dimensions", "auto", loops=(0.05, 0.13))
+    assert code == 0 and begun == [0.05, 0.13], "the planar runs are there"
+    assert [row["dimensions"] for row in rows] == ["2", "3", "3"]
+    assert [row["planar_loop_releases"] for row in rows] == ["", "3", "3"]
+    assert [row["loop_releases"] for row in rows] == ["0", "0", "0"]
+    assert rows[1]["planar_radius_max_m"] == rows[1]["radius_max_m"] != ""
+    assert rows[1]["buoy_lateral_max_m"] == "0.0" and rows[0]["buoy_lateral_max_m"] == ""
+    files = finished(sweep.out)
+    assert len(files) == 5
+    assert sweep("--steepness", *THREE, "--dimensions", "auto", loops=(0.05, 0.13)) == (0, rows, [])
+    assert finished(sweep.out) == files
+
+
+def test_without_loops_auto_is_the_planar_sweep(sweep):
+    _, planar, _ = sweep("--steepness", *THREE)
+    assert sweep("--steepness", *THREE, "--dimensions", "auto") == (0, planar, [])
+
+
+@pytest.mark.parametrize(
+    ("words", "push", "added"),
+    [([], SEED_MPS, SEED_MPS), (["--set", "start.buoy_velocity_mps=[0,1e-7,0]"], 1e-7, None)],
+)
+def test_three_pushes_a_scene_that_starts_in_its_plane_and_says_so(sweep, words, push, added):
+    _, rows, begun = sweep("--steepness", *THREE, "--dimensions", "3", *words, loops=(0.13,))
+    assert begun == [0.02, 0.05, 0.13] and {row["dimensions"] for row in rows} == {"3"}
+    said = json.loads((sweep.out / "provenance.json").read_text())
+    assert (said["dimensions"], said["push_mps"]) == ("3", added)
+    as_run = load_scene(sweep.out / "scene.toml")
+    assert as_run.motion.dimensions == 3 and as_run.start.buoy_velocity_mps == (0.0, push, 0.0)
+
+
+def test_a_failed_run_in_space_is_a_row_of_three_dimensions(sweep):
+    _, rows, _ = sweep("--steepness", "0.05", "--dimensions", "3", raises=(0.05,))
+    assert (rows[0]["status"], rows[0]["dimensions"]) == ("error", "3")
+
+
+def test_a_row_in_space_is_judged_by_its_samples():
+    scene = load_scene("tethered_buoy", {"motion.dimensions": 3, "start.buoy_velocity_mps": [0, 1e-5, 0]})
+    row = buoy_row(sines(scene, 120), 20)
+    assert row["regime"] == "period-1"
+    assert row["lyapunov_tangent_bits_per_period"] is None and row["regime_tighter"] is None
+    assert "regime" not in buoy_row(sines(scene, 59), 20), "too short for a verdict"
+
+
+@pytest.mark.slow
+def test_a_loop_leaves_the_plane_and_the_range_of_the_buoy_stays(tmp_path):
+    """kA = 0.13: the planar run releases loops, the run in three dimensions none; the ranges of r agree to 1 %."""
+    words = ["--steepness", "0.016", "0.13", "--periods", "80", "--transient", "20", "--dimensions", "auto"]
+    assert buoy_sweep.main([*words, "--jobs", "1", "--backend", "threading", "--out", str(tmp_path)]) == 0
+    calm, steep = rows_of(tmp_path)
+    assert (calm["dimensions"], steep["dimensions"]) == ("2", "3")
+    assert int(steep["planar_loop_releases"]) > 0 and int(steep["loop_releases"]) == 0
+    assert 0.1 < float(steep["rope_lateral_max_m"]) < 1.0 and float(steep["buoy_lateral_max_m"]) < 0.02
+    spatial, planar = ([float(steep[f"{kind}radius_{end}_m"]) for end in ("min", "max")] for kind in ("", "planar_"))
+    assert planar == pytest.approx(spatial, abs=0.01 * (spatial[1] - spatial[0]))
+    page = (tmp_path / "report.html").read_text()
+    assert "Out of the plane" in page and "push_mps" in page
