@@ -97,7 +97,7 @@ def _described(plan: Plan, job: Job, trajectory) -> Outcome:
 
 def keep_outcome(plan: Plan, outcome: Outcome) -> None:
     """Keep the row beside its run, unless the analysis failed; where the folder is."""
-    if outcome.row["status"] != "analysis-failed":
+    if outcome.row.get("status") != "analysis-failed":
         keep_row(plan.how.out, outcome.key, plan.row_maker, outcome.row)
 
 
