@@ -3,13 +3,12 @@
 Folder `accuracy`, the sweep's own error against run time: the run whose tension peaks lowest (the regular one) and the
 one whose tension peaks highest (the violent one) are repeated at a tenth of the tolerance and at twice the elements.
 Error in r: rms over the first ten wave periods, and over all that were repeated; error in the verdict: whether the run
-still is called what it was, from records of one length. Repeating both costs about as much as nine runs of the sweep,
-so a sweep of few runs repeats only as many periods as its share allows, and ten at least; where those are too few for a
-verdict there is none.
+still is called what it was. Repeating both costs about as much as nine runs of the sweep, so a sweep of few runs
+repeats only as many periods as its share allows, and ten at least; where those are too few there is no verdict.
 
-Folder `close_up`, for the moving picture of the report: samples of the buoy do not show the tether; profiles of every
-run would be gigabytes. So the first wave periods of the violent run are computed once more, with the line kept
-twenty-four times a period: a hundredth of a sweep. Where no run goes slack nothing snaps, and nothing is computed.
+Folder `close_up`, for the moving picture of the report: profiles of every run would be gigabytes. So the first wave
+periods of the violent run are computed once more, with the line kept twenty-four times a period. Where no run goes
+slack nothing snaps, and nothing is computed.
 """
 
 import math

@@ -161,9 +161,7 @@ def settled(columns, step_s: float, transient_s: float) -> dict[str, object]:
 def strobed_period(columns, step_s: float, period_s: float, transient_periods: int) -> int | None:
     """After how many wave periods the buoy's motion repeats, or None where no number up to LONGEST_PERIOD does.
 
-    Position (x, z) and velocity (along and across the radius) of the buoy, once a period after the transient. Positions
-    have to repeat within STROBE_TOLERANCE of the larger extent of the path, velocities of their larger range: so a
-    millimetre counts the same in every direction, and a buoy that turns round and round needs no other treatment.
+    Its state (`campaigns.judge.state_of`) once a period after the transient has to repeat within STROBE_TOLERANCE.
     """
     from analysis import detect_period, poincare_section
 

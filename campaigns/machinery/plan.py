@@ -1,8 +1,7 @@
 """What a campaign is to do, as records: its runs (`Job`), how and where they run (`Plan`), what came of them.
 
-A run's content key is the hash of its scene, its length and the engine's sources. `trajectories/<key>.nc` is written
-whole or not at all, and its presence is what "finished" means: rows are always made again from the files, so a table
-can be lost at no cost.
+`trajectories/<key>.nc` is written whole or not at all, and its presence is what "finished" means: rows are always made
+again from the files, so a table can be lost at no cost.
 """
 
 import hashlib

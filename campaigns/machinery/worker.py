@@ -3,8 +3,7 @@
 A worker on this machine writes a run's file itself (`Plan.how.out`). One on another machine has no such folder (None):
 it hands the content of the file back, and the runner writes it where the campaign is.
 
-Jobs that come together are computed side by side, which the engine does faster than one after another. Every run is
-saved, and has its row, as soon as it ends: a killed campaign loses what was running and nothing else.
+Every run is saved, and has its row, as soon as it ends: a killed campaign loses what was running and nothing else.
 """
 
 import socket
