@@ -11,9 +11,10 @@ Near a snap the error of a loose setting is partly luck: every round takes anoth
 the one named, and tables give medians over the rounds.
 """
 
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-from campaigns.accuracy.works import BUOY, BY_NAME, LINE, STRAIN, WORKS, Work
+from campaigns.accuracy.works import BUOY, BY_NAME, FILE, STRAIN, WORKS, Work
 
 FACTORS = (1.0, 0.9, 1.1)
 ORDERS = {"esdirk43": 4, "trbdf2": 2, "generalized-alpha": 2, "midpoint": 2, "backward-euler": 1, "paper-box": 2}
@@ -91,31 +92,16 @@ class Effort:
     scheme and the long runs.
     """
 
-    works: tuple[str, ...]
-    nodes: dict[str, tuple[int, ...]]
-    rtols: tuple[float, ...]
-    steps: dict[str, tuple[int, ...]]
+    works: Sequence[str]
+    nodes: Mapping[str, Sequence[int]]
+    rtols: Sequence[float]
+    steps: Mapping[str, Sequence[int]]
     rounds: int
     whole: bool
 
 
-_NODES = {"regular": (6, 11, 21, 41), BUOY: (21, 41, 81, 101, 161), LINE: (51, 101, 201, 401, 801)}
-FULL = Effort(
-    works=tuple(BY_NAME),
-    nodes={**_NODES, "pendulum": (6, 11, 21, 41, 81)},
-    rtols=(0.1, 0.03, 0.01, 3e-3, 1e-3, 1e-4, 1e-5),
-    steps={BUOY: (100, 200, 400, 800, 1600, 3200), "pendulum": (10, 25, 50, 100, 200, 400)},
-    rounds=3,
-    whole=True,
-)
-QUICK = Effort(
-    works=("regular", "regular-smooth", "pendulum"),
-    nodes={BUOY: (11, 41), LINE: (), "pendulum": (6, 11)},
-    rtols=(0.1, 0.03, 1e-3),
-    steps={BUOY: (200, 800), "pendulum": (25, 100)},
-    rounds=1,
-    whole=False,
-)
+FULL = Effort(works=tuple(BY_NAME), **FILE["effort"]["full"])
+QUICK = Effort(**FILE["effort"]["quick"])
 
 
 def phases(effort: Effort) -> tuple[list[Point], list[Point], list[Point]]:

@@ -16,7 +16,7 @@ import tomllib
 from dataclasses import dataclass, field
 from pathlib import Path
 
-BUOY, LINE = "tethered_buoy", "breaking_line"
+BUOY = "tethered_buoy"
 RADIUS, PLACE, STRAIN = "radius", "place", "strain"
 UNITS = {RADIUS: "mm", PLACE: "mm", STRAIN: "%"}
 PERIOD_S = 5.0

@@ -28,6 +28,7 @@ COUNTED = tuple(column for column in STATISTICS if column != WALL_S)
 COLUMNS = (
     Column("part", symbol="part", meaning="case: one run that is judged; fuzz: all random scenes of one kind"),
     Column("group", symbol="group", meaning="what is extreme in the case"),
+    Column("about", symbol="about", meaning="the group in words"),
     Column("case", symbol="case", meaning="the case within its group"),
     Column("dimensions", "", "D", "dimensions of the motion", 0),
     Column("verdict", symbol="verdict", meaning="ok, refused, known limit or unexplained"),
@@ -121,6 +122,7 @@ def case_row(case: Case, path: Path | None = None) -> dict[str, object]:
     if fault := answer.pop(_NOT_SAVED, ""):
         raise CampaignStopped(fault)
     row = {"part": "case", "group": case.group, "case": case.name, "length_s": case.length_s, "bar": case.bar}
+    row |= {"about": _file()["about"].get(case.group, case.group)}
     row |= {"dimensions": case.changes.get("motion.dimensions", 2), "case_wall_s": wall_s, **answer}
     return row | {"status": UNEXPLAINED if answer["verdict"] == UNEXPLAINED else "ok"}
 

@@ -15,22 +15,6 @@ from ..parts.files import value
 from ..parts.wording import EMPTY, decimals, number
 from .folder import SOUND, Study
 
-TITLES = {
-    "EI": "Bending stiffness, 0 to 1e4 N m²",
-    "EA": "Axial stiffness, 1e-2 to 1e4 of Table 1",
-    "f'": "Tension laws that lose their slope",
-    "nodes": "Grids, 3 to 5000 nodes",
-    "mass": "Density and added mass",
-    "water": "Water and currents",
-    "waves": "Steepness to 0.4, periods of 0.5 to 60 s",
-    "surface": "Buoys partly out of the water, irregular seas",
-    "start": "Kicks, slack, horizontal and upside-down starts",
-    "snap": "Slack taken up at speed",
-    "push": "A straight line pushed together",
-    "steps": "Fixed steps and tolerances far from usual",
-    "input": "Values that no scene should have",
-    "drift": "A long regular run",
-}
 HOW = (
     "Checks. Closed form: the largest distance from it. Refinement, or a run on other nodes: rms difference of r "
     "from a run with twice the elements and a tenth of the tolerance (or the nodes named), over the range of r. "
@@ -39,27 +23,13 @@ HOW = (
     "number; this is asked of every run. A case is ok where the measured number is below its bar."
 )
 SHOWN = ("case", "dimensions", "verdict", "run_status", "how", "measured", "bar", "length_s", "case_wall_s")
-OUTCOMES = {
-    "ok": "ran to its end; every sample is there and finite",
-    "ended": "ended early with a status and a reason; finite up to there",
-    "refused": "not started; every fault is named with its key and with what is allowed",
-    "hang": "no answer within the time limit",
-    "crash": "its process died",
-    "traceback": "an exception that is no refusal",
-    "not-finite": "a number that is not finite was handed out",
-    "incomplete": "samples are missing",
-    "silent": "ended early without a reason",
-    "accepted": "an invalid scene was not refused",
-    "unclear": "a message without a key or without what is allowed",
-}
 
 
 def case_items(study: Study) -> list[Item]:
     """One table of all cases, a row with its title before each group."""
     rows = []
-    for group in dict.fromkeys(row["group"] for row in study.cases):
-        rows.append({"case": f"— {TITLES.get(group, group)} —"})
-        rows += [row for row in study.cases if row["group"] == group]
+    for about in dict.fromkeys(row["about"] for row in study.cases):
+        rows += [{"case": f"— {about} —"}, *(row for row in study.cases if row["about"] == about)]
 
     def cell(name: str):
         return lambda row: study.columns[name].cell(row[name]) if "group" in row else row.get(name, "")
@@ -96,7 +66,7 @@ def random_items(study: Study) -> Iterator[Item]:
     )
     walls: dict[tuple[str, ...], list[float]] = {}
     for row in sorted(study.random, key=lambda row: (row["kind"] != "valid", row["outcome"] != "ok")):
-        named = row["kind"], row["outcome"], row["status"] or EMPTY, OUTCOMES[row["outcome"]]
+        named = row["kind"], row["outcome"], row["status"] or EMPTY, row["meaning"]
         walls.setdefault(named, []).append(value(row, "wall_s"))
     rows = tuple(
         (*named, str(len(found)), number(median(found), 2), number(max(found), 3)) for named, found in walls.items()

@@ -31,8 +31,9 @@ RANDOM = [
 
 def folder(place, cases=CASES, random=RANDOM):
     place.mkdir()
-    tasks.write_table(place / "table.csv", judged.COLUMNS, [{"part": "case", "dimensions": 2, **row} for row in cases])
-    tasks.write_table(place / "fuzz.csv", fuzz.COLUMNS, random)
+    rows = [{"part": "case", "about": row["group"], "dimensions": 2, **row} for row in cases]
+    tasks.write_table(place / "table.csv", judged.COLUMNS, rows)
+    tasks.write_table(place / "fuzz.csv", fuzz.COLUMNS, [{"meaning": "as told", **row} for row in random])
     line = {"title": "taut", "step_s": 0.05, "methods": {"midpoint": METHOD}}
     shares = {"rounds": 3, "length_s": 1.0, "scenes": {"whole": SHARE, "dry": {**SHARE, "us_per_newton": 4.0}}}
     made_by = {"campaign": "stability", "quick": False, "command": ["python"]}
