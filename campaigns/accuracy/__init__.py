@@ -14,7 +14,7 @@ import os
 from argparse import Namespace
 from dataclasses import replace
 
-from campaigns.accuracy.points import FACTORS, FULL, QUICK
+from campaigns.accuracy.plan import FACTORS, FULL, QUICK
 from campaigns.accuracy.works import BY_NAME, UNITS
 from campaigns.machinery import cli
 from campaigns.study import Order, Study
@@ -76,20 +76,12 @@ def parameters(order: Order) -> dict[str, object]:
     from campaigns.accuracy.peers import notes
     from campaigns.machinery.session import machine
 
-    own = order.own
-    works = {
-        work.name: {
-            "title": work.title,
-            "measure": work.measure,
-            "unit": UNITS[work.measure],
-            "period_s": work.period_s,
-            "duration_s": work.duration_s,
-            "rough": work.rough,
-        }
-        for work in (BY_NAME[name] for name in own.effort.works)
-    }
+    own, told = order.own, ("title", "measure", "period_s", "duration_s", "rough")
+    works = [BY_NAME[name] for name in own.effort.works]
     return {
-        "works": works,
+        "works": {
+            work.name: {name: getattr(work, name) for name in told} | {"unit": UNITS[work.measure]} for work in works
+        },
         "quick": own.quick,
         "rounds": own.effort.rounds,
         "peers": not own.no_peers,
