@@ -61,31 +61,22 @@ def _changes(words: list[str] | None, faults: list[str]) -> dict[str, float]:
 
 
 def _range(words: list[str] | None, option: str, usual: tuple, faults: list[str]) -> tuple[float, float, int]:
-    if words is None:
-        return usual
-    try:
-        low, high, count = cli.fraction(words[0]), cli.fraction(words[1]), cli.whole(2)(words[2])
-        if len(words) != 3 or not 0.0 < low < high:
-            raise ValueError(words)
-    except (ValueError, IndexError):
-        allowed = "LO HI COUNT: two finite numbers, 0 < LO < HI, and a whole number, 2 or above"
-        faults.append(f"{option}: given {' '.join(words) or 'nothing'}; allowed: {allowed}")
-        return usual
-    return low, high, count
+    values = [] if words is None else cli.evenly(words, option, faults, least=1e-9)
+    return (values[0], values[-1], len(values)) if values else usual
 
 
 def done(order: Order) -> tuple[dict[str, float], Summary]:
     """The parts and their table."""
-    from campaigns.oscillator import keep
+    from campaigns.oscillator import study
 
-    return keep.done(order.own)
+    return study.done(order.own)
 
 
 def parameters(order: Order) -> dict[str, object]:
     """What the provenance says of this campaign."""
-    from campaigns.oscillator import keep
+    from campaigns.oscillator import study
 
-    return keep.parameters(order.own)
+    return study.parameters(order.own)
 
 
 STUDY = Study(
