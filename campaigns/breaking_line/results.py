@@ -23,7 +23,7 @@ from campaigns.breaking_line.lines import motion_of, of_kind, read_lines
 from campaigns.breaking_line.motion_measures import contour_speed
 from campaigns.breaking_line.theory import Theory, theory_of
 from campaigns.figure_data import made_by_of, store
-from campaigns.machinery.row_cache import made_by
+from campaigns.machinery.folder import made_by
 from campaigns.statements import write_statements
 
 if TYPE_CHECKING:
