@@ -8,8 +8,8 @@ from itertools import pairwise
 import numpy as np
 
 from ..figures.parting import parting
+from ..parts.columns import value
 from ..parts.content import Bullets, Column, Figure, Heading, Item, Table, Text
-from ..parts.files import value
 from ..parts.wording import EMPTY, decimals, number
 from .study import Study
 

@@ -8,8 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
-from ..parts.files import read_files
-from ..parts.folder import Folder, FolderError, read_folder
+from ..parts.folder import Folder, FolderError, read_files, read_folder
 
 OURS, PEER = "point", "peer"
 

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from ..parts.columns import number_of, read_columns, table_of
+from ..parts.columns import number_of, table_of
 from ..parts.content import Heading, Item, Text
-from ..parts.folder import read_rows
+from ..parts.folder import read_columns, read_rows
 from ..parts.wording import number
 
 FOLDER = "accuracy"

@@ -8,8 +8,7 @@ import numpy as np
 
 from ..parts.columns import Name, table_of
 from ..parts.content import Figure, Heading, Item, Text
-from ..parts.provenance import timing_table
-from ..parts.scene_table import scene_table
+from ..parts.provenance import scene_table, timing_table
 from ..parts.symbols import OMEGA_I, OMEGA_R, OMEGA_THETA, T_S
 from ..parts.wording import EMPTY, decimals, listed, number, percent
 from ..sweep.quantities import Measured, over_key, series

@@ -7,8 +7,7 @@ from pathlib import Path
 from ..buoy_sweep.repeats import accuracy_items
 from ..parts.content import Heading, Item, Notice, Report, Text
 from ..parts.folder import Folder, FolderError, read_folder
-from ..parts.provenance import provenance_items, timing_table
-from ..parts.scene_table import scene_table
+from ..parts.provenance import provenance_items, scene_table, timing_table
 from ..parts.wording import count, decimals, listed, number
 from .answer import answer_items
 from .comparison import comparison_items, read_pairs

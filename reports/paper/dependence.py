@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING
 from ..figures.depth_exponents import Curve, depth_exponents, kind_of
 from ..out_of_plane.comparison import comparison_items, read_pairs
 from ..out_of_plane.runs import read_study
-from ..parts.columns import Quantity, plus_minus, read_columns
+from ..parts.columns import Quantity, plus_minus
 from ..parts.content import Column, Figure, Heading, Item, Table, Text
-from ..parts.folder import Folder, FolderError, read_folder
+from ..parts.folder import Folder, FolderError, read_columns, read_folder
 from ..parts.wording import EMPTY, listed, number, percent
 
 if TYPE_CHECKING:

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from collections import Counter
 
-from ..parts.columns import table_of
+from ..parts.columns import table_of, value
 from ..parts.content import Bullets, Column, Heading, Item, Notice, Table, Text
-from ..parts.files import value
 from ..parts.wording import number
 from .folder import SOUND, Study
 

@@ -4,9 +4,9 @@ import math
 
 import pytest
 
-from reports.parts.columns import HEADER, read_columns, table_of
+from reports.parts.columns import HEADER, table_of
 from reports.parts.content import plain
-from reports.parts.folder import FolderError
+from reports.parts.folder import FolderError, read_columns
 
 DICTIONARY = """name,unit,symbol,meaning,digits
 steepness,,kA,wave steepness,3

@@ -11,7 +11,7 @@ from reports.buoy_sweep.answer import short_answer
 from reports.buoy_sweep.figures import spectrum_window
 from reports.buoy_sweep.runs import read_sweep
 from reports.figures.time_series import Panel, envelope, time_series
-from reports.parts.scene_table import scene_table
+from reports.parts.provenance import scene_table
 from reports.parts.wording import number, ranges
 
 

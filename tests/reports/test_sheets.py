@@ -12,7 +12,7 @@ import pytest
 from reports import build
 from reports.figures.run_sheet import Glance, run_sheet
 from reports.parts.content import Explorer, ExplorerColumn, Figure, Picture, first_sentence
-from reports.parts.explorer_data import explorer_json
+from reports.parts.html import explorer_json
 from reports.parts.symbols import OMEGA_I, OMEGA_R
 
 FIGURE = Figure(Picture(b"", "svg"), "A caption.", "A text.")
