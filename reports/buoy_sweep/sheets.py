@@ -12,7 +12,7 @@ from ..parts.content import Explorer, ExplorerColumn, Figure, Heading, Item, She
 from ..parts.symbols import OMEGA_I, OMEGA_R
 from ..parts.wording import EMPTY, count, decimals, number
 from ..sweep.quantities import errors_of, series
-from .figures import EXPONENTS, spectrum_window
+from .figures import EXPONENTS
 from .regimes import evidence_table
 from .runs import Run, Sweep
 
@@ -56,54 +56,44 @@ def _sheet(sweep: Sweep, run: Run, beside: tuple[Run | None, Run | None]) -> She
     if run.has_record:
         span = f"r from {decimals(run['radius_min_m'], 2)} to {decimals(run['radius_max_m'], 2)} m"
         seen = (
-            f"Tension, radius and angle over {number(run.periods_done)} wave periods at kA {number(run.steepness)}, "
-            f"with section, spectrum and exponent: {span}, tension up to {number(run['tension_top_max_N'])} N."
+            f"Tension, radius and angle over {number(run.periods_done)} wave periods at {run.named}, with section, "
+            f"spectrum and exponent: {span}, tension up to {number(run['tension_top_max_N'])} N."
         )
         drawing = run_sheet(_glance(sweep, run), seen, 160 if len(sweep.runs) <= _MANY else 80)
     message = run["message"] or run.fault
     lines = [f"Message: {message}."] if message else []
-    if ways := [link(f"kA = {number(one.steepness)}", one.anchor) for one in beside if one is not None]:
+    if ways := [link(one.named, one.anchor) for one in beside if one is not None]:
         lines.append(f"Next to it: {' and '.join(ways)}.")
     return Sheet(run.anchor, _name(run), _facts(sweep, run), tuple(lines), drawing, evidence_table(run))
 
 
 def _name(run: Run) -> str:
     word = run["regime"] or ("" if run.ok else run["status"])
-    return f"kA = {number(run.steepness)}" + (f", {word}" if word else "")
+    return f"{run.named}, {word}" if word else run.named
 
 
 def _facts(sweep: Sweep, run: Run) -> tuple[tuple[str, str], ...]:
     """What the row says of the run, in the words and units of the dictionary; the period as the report found it."""
     after = "" if run.ok else f" after {number(run.periods_done, 3)} wave periods"
-    period = (
-        EMPTY
-        if run.period is None
-        else count(run.period, "wave period")
-        if run.period
-        else f"none of 1 to {sweep.longest}"
-    )
-    facts = [("status", run["status"] + after), ("repeats after", period)]
-    errors = errors_of(sweep.columns)
-    for name, column in sweep.columns.items():
-        if name in _ELSEWHERE or name in errors.values() or column.cell(run.row[name]) == EMPTY:
-            continue
-        error = errors.get(name)
-        said = plus_minus(sweep.columns, run.row, name, error) if error else column.cell(run.row[name])
-        facts.append((column.head, f"{said} {column.unit}".strip()))
+    period = count(run.period, "wave period") if run.period else f"none of 1 to {sweep.longest}"
+    facts = [("status", run["status"] + after), ("repeats after", EMPTY if run.period is None else period)]
+    columns = sweep.folder.columns
+    errors = errors_of(columns)
+    for name, column in columns.items():
+        said = plus_minus(columns, run.row, name, errors.get(name, ""))
+        if name not in _ELSEWHERE and name not in errors.values() and said != EMPTY:
+            facts.append((column.head, f"{said} {column.unit}".strip()))
     return (*facts, ("file", f"`trajectories/{run['run_key'][:12]}….nc`"))
 
 
 def _glance(sweep: Sweep, run: Run) -> Glance:
-    from analysis import spectrum
-
     trajectory = sweep.trajectory(run)
-    columns, scene = trajectory.columns, trajectory.scene
-    periods, wave = columns["time_s"] / scene.waves.period_s, 2.0 * math.pi / scene.waves.period_s
+    columns, period_s = trajectory.columns, trajectory.scene.waves.period_s
+    periods, wave = columns["time_s"] / period_s, 2.0 * math.pi / period_s
     low, high = columns["tension_top_low_N"] / 1e3, columns["tension_top_high_N"] / 1e3
     radius, angle = columns["radius_m"], columns["angle_rad"]
     spectral = exponent = (np.empty(0), np.empty(0))
-    if (window := spectrum_window(run.periods_done)) and np.isfinite(radius).all():
-        found = spectrum(radius, scene.sample_step_s(), scene.waves.period_s, *window)
+    if found := run.spectrum(trajectory, "radius_m"):
         shown = (found.angular_frequency_radps > 0.0) & (found.angular_frequency_radps <= 2.5 * wave)
         spectral = found.angular_frequency_radps[shown], found.amplitude[shown]
     growth = trajectory.tangent.growth_nats if trajectory.tangent is not None else np.empty((0, 0))
@@ -112,7 +102,6 @@ def _glance(sweep: Sweep, run: Run) -> Glance:
         counted = np.arange(1, len(kept) + 1)
         exponent = sweep.transient + counted, np.cumsum(kept) / counted / math.log(2.0)
     histories = (("T (kN)", low, high), ("r (m)", radius, radius), ("θ (rad)", angle, angle))
-    end = max(float(periods[-1]) - _END_PERIODS, 0.0)
     natural = ((sweep.modes.radial_radps, OMEGA_R),) if sweep.modes else ()
-    marks = (*natural, (wave, OMEGA_I))
-    return Glance(periods, histories, end, run.section[:_MOST_POINTS], spectral, marks, exponent)
+    end = max(float(periods[-1]) - _END_PERIODS, 0.0)
+    return Glance(periods, histories, end, run.section[:_MOST_POINTS], spectral, (*natural, (wave, OMEGA_I)), exponent)

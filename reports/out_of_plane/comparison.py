@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..buoy_sweep.runs import strobed
-from ..figures.section import section_pairs
+from ..figures.motion import section_pairs
 from ..parts.content import Column, Figure, Heading, Item, Table, Text
 from ..parts.symbols import T_I
 from ..parts.wording import decimals, listed, number, percent

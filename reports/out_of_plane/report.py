@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from ..buoy_sweep.repeats import accuracy_items
+from ..buoy_sweep.tables import accuracy_items
 from ..parts.content import Heading, Item, Notice, Report, Text
 from ..parts.folder import Folder, FolderError, read_folder
 from ..parts.provenance import provenance_items, scene_table, timing_table

@@ -8,8 +8,7 @@ import pytest
 from engine import load_scene
 from engine.natural_frequencies import natural_frequencies
 from reports.buoy_sweep.answer import short_answer
-from reports.buoy_sweep.figures import spectrum_window
-from reports.buoy_sweep.runs import read_sweep
+from reports.buoy_sweep.runs import read_sweep, spectrum_window
 from reports.figures.time_series import Panel, envelope, time_series
 from reports.parts.provenance import scene_table
 from reports.parts.wording import number, ranges

@@ -10,10 +10,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ...figures.spectra import log_limits, mark_modes
+from ...figures.curves import mark
+from ...figures.motion import log_limits
 from ...parts.content import sub
 from ...parts.figure_data import sources_of
-from ...parts.style import BLUE, SOFT, VERMILION
+from ...parts.style import BLUE, VERMILION
 from ...parts.symbols import OMEGA_I, T_I, TAU_0
 from ...parts.wording import listed, number
 from .drawing import Drawing, behind, value
@@ -74,11 +75,10 @@ def _fill(figure, data: xarray.Dataset, sides: list[str]) -> None:
         for axes in (linear, logarithmic):
             axes.plot(omega[shown], amplitude, color=colour, linestyle=dashes if len(sides) > 1 else "-", label=label)
     linear.set_ylim(0.0, 1.3 * largest)
-    mark_modes(linear, tuple(marks))
+    mark(linear, marks)
     logarithmic.set_yscale("log")
-    log_limits(logarithmic, np.concatenate([data[f"{side}_amplitude"].values[shown] for side in sides]))
-    for frequency, _ in marks:
-        logarithmic.axvline(frequency, color=SOFT, linewidth=0.8, linestyle=(0, (2, 2)))
+    logarithmic.set(ylim=log_limits(np.concatenate([data[f"{side}_amplitude"].values[shown] for side in sides])))
+    mark(logarithmic, [(frequency, "") for frequency, _ in marks])
     for axes in (linear, logarithmic):
         axes.set_xlabel(r"$\omega$ (rad/s)")
         axes.set_xlim(0.0, highest)
