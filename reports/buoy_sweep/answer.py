@@ -42,7 +42,7 @@ def short_answer(sweep: Sweep) -> tuple[str, ...]:
         *repeating,
         (f"A longer period, of points that lie within {share} of the range of r: a swing that dies out",
          [run for run in good if run.period and not run.visited]),
-        (f"Repeats after none of 1 to {sweep.longest} periods; whether it is chaotic, only a regime says",
+        (f"Repeats after none of 1 to {sweep.longest} periods; what else it is, only a regime says",
          [run for run in good if run.period == 0]),
         ("Too few strobed points to look for a period", [run for run in good if run.period is None]),
         ("Loops were released", [run for run in good if run["loop_releases"] > 0]),
