@@ -16,7 +16,6 @@ import numpy as np
 from ..parts.content import spans, sub
 from ..parts.symbols import T_I
 from .curves import Curve, Panel, wide_limits
-from .motion import settled_limits
 
 _FINE = 5  # units of a path to a pixel
 _DROP = 3  # pixels from a letter to its subscript
@@ -92,7 +91,7 @@ def _spectrum(omega: np.ndarray, amplitude: np.ndarray, marks) -> Panel:
 def _exponent(periods: np.ndarray, bits: np.ndarray) -> Panel:
     if len(bits) < 2:  # a run may end with its transient, or one period after it
         return Panel([], title="no exponent after the transient")
-    limits = settled_limits([bits])
+    limits = wide_limits(np.append(bits[len(bits) // 10 :], 0.0), 0.02)
     title = f"exponent so far: σ (bits per {T_I}) over t/{T_I}"
     return Panel([Curve(periods, np.clip(bits, *limits))], "", title, title, level=0.0, settings={"ylim": limits})
 

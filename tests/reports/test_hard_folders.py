@@ -7,6 +7,7 @@ import pytest
 from reports.__main__ import main
 from reports.buoy_sweep.report import report
 from reports.parts.content import Explorer, Figure, Notice, Sheet
+from reports.parts.folder import read_rows
 from tests.reports.synthetic import campaign
 
 
@@ -33,7 +34,7 @@ def test_a_single_short_run_gives_a_report(tmp_path):
 
 def test_a_damaged_and_a_missing_trajectory_cost_only_themselves(tmp_path):
     folder = campaign(tmp_path / "out", [0.016, 0.05, 0.13], periods=30, transient=5)
-    files = sorted((folder / "trajectories").iterdir())
+    files = [folder / "trajectories" / f"{row['run_key']}.nc" for row in read_rows(folder / "table.csv")]
     files[0].write_bytes(files[0].read_bytes()[:1000])
     files[1].unlink()
     boxes, sheets, figures = content(folder)
