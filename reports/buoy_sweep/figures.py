@@ -4,58 +4,46 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 
-from ..figures.curves import Curve, Panel
-from ..figures.motion import SpectrumPanel, section, spectra
+from ..figures.motion import section, spectra
 from ..figures.orbit_diagram import orbit_diagram_over
 from ..figures.time_series import Panel as History
 from ..figures.time_series import time_series
 from ..parts.content import Column, Figure, Item, Table
-from ..parts.style import BLUE, SKY, VERMILION
 from ..parts.symbols import T_I, TAU_0
 from ..parts.wording import EMPTY, count, listed, number
-from ..sweep.quantities import series
+from ..sweep.quantities import Measured, panels_over, series
 from .runs import Run, Sweep, spectrum_window
 
-# name, its error, label of the curve: the largest exponents in the table
+# the largest exponents in the table, each with its standard error
 EXPONENTS = (
-    ("lyapunov_tangent_bits_per_period", "lyapunov_tangent_error", "tangent dynamics"),
-    ("lyapunov_wolf_bits_per_period", "lyapunov_wolf_error", "Wolf, of r"),
+    ("lyapunov_tangent_bits_per_period", "lyapunov_tangent_error"),
+    ("lyapunov_wolf_bits_per_period", "lyapunov_wolf_error"),
 )
 _SIDES = (  # column, label of the axis and of the mark of the natural frequency, its name in `Modes`
     ("radius_m", r"$|\Delta\tilde r|$ (m)", r"$\omega_r$", "radial_radps"),
     ("angle_rad", r"$|\Delta\tilde\theta|$ (rad)", r"$\omega_\theta$", "pendulum_radps"),
 )
-KA = r"wave steepness $kA$ (–)"
 _PEAKS = 4  # of a spectrum that a table tells
 
 
 def orbit_figure(sweep: Sweep, drawn: Sequence[Run], missing: Sequence[Run]) -> Figure:
     """Strobed radius over steepness, slack and exponents below; drawn: runs with points, missing: those without."""
-    rows = [run.row for run in drawn]
-    values, slack = series(rows, "steepness"), series(rows, "slack_fraction")
-    stems = [
-        Curve(np.full(2, x), np.array([0.0, y]), colour=SKY, width=1.2) for x, y in zip(values, slack, strict=True)
-    ]
-    top = max(0.1, 1.15 * float(np.nanmax(slack))) if np.isfinite(slack).any() else 1.0
-    share = [*stems, Curve(values, slack, "", "", "o", BLUE, size=3.5)]
-    below = [Panel(share, y_label="slack fraction (–)", level=0.0, settings={"ylim": (0.0, top)})]
+    rows, columns, key = [run.row for run in drawn], sweep.folder.columns, sweep.folder.columns["steepness"]
+    below = [Measured("–", ((columns["slack_fraction"], None),))]
     if sweep.judged:
-        looks = zip(EXPONENTS, (("o", BLUE), ("s", VERMILION)), strict=True)
-        lines = [
-            Curve(values, series(rows, column), label, "", *look, series(rows, error), 3.0)
-            for (column, error, label), look in looks
-            if np.isfinite(series(rows, column)).any()
-        ]
-        below.append(Panel(lines, y_label=r"$\sigma$ (bits/$T_i$)", level=0.0))
+        known = [pair for pair in EXPONENTS if np.isfinite(series(rows, pair[0])).any()]
+        below.append(Measured("bits/period", tuple((columns[value], columns[error]) for value, error in known)))
     points, gone = [run.section[:, 0] for run in drawn], [run.steepness for run in missing]
-    picture = orbit_diagram_over(values, points, (KA, "strobed $r$ (m)"), below, gone)
+    labels, panels = (key.label, "strobed $r$ (m)"), [replace(one, x_label="") for one in panels_over(rows, key, below)]
+    picture = orbit_diagram_over(series(rows, key.name), points, labels, panels, gone)
     caption = (
         f"Radius at t = k{T_I}, k ≥ {sweep.transient}, over wave steepness; the darker, the more points fall on one "
-        "place. Below: share of the time without tension, and the largest exponents with one standard error, where "
-        f"they are known. Crosses: {count(len(missing), 'run')} without points."
+        "place. Below: share χ of the time without tension, and the largest exponents, where they are known, from the "
+        f"tangent dynamics and by Wolf's method. Crosses: {count(len(missing), 'run')} without points."
     )
     return Figure(picture, caption, "Orbit diagram of the strobed radius over wave steepness, slack fraction below.")
 
@@ -82,7 +70,7 @@ def run_figures(sweep: Sweep, run: Run) -> list[Item]:
         if one := run.spectrum(trajectory, column):
             natural = ((getattr(sweep.modes, mode), mark),) if sweep.modes else ()
             marks = (*natural, (wave, r"$\omega_i$"))
-            found.append(SpectrumPanel(label, one.angular_frequency_radps[1:], one.amplitude[1:], marks))
+            found.append((label, one.angular_frequency_radps[1:], one.amplitude[1:], marks))
     if found:
         caption = (
             f"Spectra of r and θ at {run.named} by eq. (31) (fig. 12 of the paper at kA = 0.016; 17 and 18 at 0.13), "

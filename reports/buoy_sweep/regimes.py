@@ -28,7 +28,7 @@ def regime_items(sweep: Sweep) -> list[Item]:
     if not sweep.judged:
         return []
     caption = f"Regime and largest exponent with one standard error, after the first {sweep.transient} wave periods."
-    names = ("steepness", "regime", *((value, error) for value, error, _ in EXPONENTS))
+    names = ("steepness", "regime", *EXPONENTS)
     table = sweep_table(sweep, names, sweep.judged, caption)
     items: list[Item] = [Heading("Exponents and regimes"), Text(_DEFINED), table]
     nearest = [(min(sweep.judged, key=lambda run: abs(run.steepness - kA)), kA) for kA in PAPER_STEEPNESS]

@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from ..figures.run_sheet import Glance, run_sheet
+from ..figures.run_sheet import run_sheet
 from ..parts.columns import plus_minus
 from ..parts.content import Explorer, ExplorerColumn, Figure, Heading, Item, Sheet, Text, link
 from ..parts.symbols import OMEGA_I, OMEGA_R
@@ -31,7 +31,7 @@ def explorer(sweep: Sweep, figure: Figure) -> Explorer:
         for run in runs
     )
     lower = [("slack fraction (–)", tuple(series(rows, "slack_fraction")), (math.nan,) * len(runs))]
-    for column, error, _ in EXPONENTS if sweep.judged else ():
+    for column, error in EXPONENTS if sweep.judged else ():
         if np.isfinite(values := series(rows, column)).any():
             lower.append(("σ (bits per wave period)", tuple(values), tuple(series(rows, error))))
             break
@@ -52,14 +52,7 @@ def sheet_items(sweep: Sweep) -> list[Item]:
 
 
 def _sheet(sweep: Sweep, run: Run, beside: tuple[Run | None, Run | None]) -> Sheet:
-    drawing = ""
-    if run.has_record:
-        span = f"r from {decimals(run['radius_min_m'], 2)} to {decimals(run['radius_max_m'], 2)} m"
-        seen = (
-            f"Tension, radius and angle over {number(run.periods_done)} wave periods at {run.named}, with section, "
-            f"spectrum and exponent: {span}, tension up to {number(run['tension_top_max_N'])} N."
-        )
-        drawing = run_sheet(_glance(sweep, run), seen, 160 if len(sweep.runs) <= _MANY else 80)
+    drawing = _drawing(sweep, run) if run.has_record else ""
     message = run["message"] or run.fault
     lines = [f"Message: {message}."] if message else []
     if ways := [link(one.named, one.anchor) for one in beside if one is not None]:
@@ -86,22 +79,24 @@ def _facts(sweep: Sweep, run: Run) -> tuple[tuple[str, str], ...]:
     return (*facts, ("file", f"`trajectories/{run['run_key'][:12]}….nc`"))
 
 
-def _glance(sweep: Sweep, run: Run) -> Glance:
+def _drawing(sweep: Sweep, run: Run) -> str:
     trajectory = sweep.trajectory(run)
     columns, period_s = trajectory.columns, trajectory.scene.waves.period_s
-    periods, wave = columns["time_s"] / period_s, 2.0 * math.pi / period_s
+    wave, shown = 2.0 * math.pi / period_s, {}
+    if found := run.spectrum(trajectory, "radius_m"):
+        part = (found.angular_frequency_radps > 0.0) & (found.angular_frequency_radps <= 2.5 * wave)
+        shown["spectrum"] = found.angular_frequency_radps[part], found.amplitude[part]
+    if trajectory.tangent is not None and (growth := trajectory.tangent.growth_nats[sweep.transient :]).size:
+        counted = np.arange(1, len(growth) + 1)
+        shown["exponent"] = sweep.transient + counted, np.cumsum(growth[:, 0]) / counted / math.log(2.0)
     low, high = columns["tension_top_low_N"] / 1e3, columns["tension_top_high_N"] / 1e3
     radius, angle = columns["radius_m"], columns["angle_rad"]
-    spectral = exponent = (np.empty(0), np.empty(0))
-    if found := run.spectrum(trajectory, "radius_m"):
-        shown = (found.angular_frequency_radps > 0.0) & (found.angular_frequency_radps <= 2.5 * wave)
-        spectral = found.angular_frequency_radps[shown], found.amplitude[shown]
-    growth = trajectory.tangent.growth_nats if trajectory.tangent is not None else np.empty((0, 0))
-    if growth.shape[1] > 0 and len(growth) > sweep.transient:
-        kept = growth[sweep.transient :, 0]
-        counted = np.arange(1, len(kept) + 1)
-        exponent = sweep.transient + counted, np.cumsum(kept) / counted / math.log(2.0)
     histories = (("T (kN)", low, high), ("r (m)", radius, radius), ("θ (rad)", angle, angle))
-    natural = ((sweep.modes.radial_radps, OMEGA_R),) if sweep.modes else ()
-    end = max(float(periods[-1]) - _END_PERIODS, 0.0)
-    return Glance(periods, histories, end, run.section[:_MOST_POINTS], spectral, (*natural, (wave, OMEGA_I)), exponent)
+    marks = (*(((sweep.modes.radial_radps, OMEGA_R),) if sweep.modes else ()), (wave, OMEGA_I))
+    span = f"r from {decimals(run['radius_min_m'], 2)} to {decimals(run['radius_max_m'], 2)} m"
+    seen = (
+        f"Tension, radius and angle over {number(run.periods_done)} wave periods at {run.named}, with section, "
+        f"spectrum and exponent: {span}, tension up to {number(run['tension_top_max_N'])} N."
+    )
+    bins, section = 160 if len(sweep.runs) <= _MANY else 80, run.section[:_MOST_POINTS]
+    return run_sheet(seen, bins, columns["time_s"] / period_s, histories, _END_PERIODS, section, marks=marks, **shown)

@@ -36,7 +36,7 @@ _MODES = {
     "auto": "Every value was run in the plane of the waves first; where that run released loops, the row is of a run "
     "in three dimensions (`--dimensions auto`).",
 }
-# What `campaigns.out_of_plane` finds, and tests/reports/test_plane_or_space.py holds it to.
+# What `campaigns.out_of_plane` finds, and tests/reports/test_regimes.py holds it to.
 COMPARED = (
     "`campaigns.out_of_plane` compares planar runs with loop releases with runs in three dimensions, at kA = 0.13 and "
     "depths of 21.0, 21.6 and 22.0 m, over 200 wave periods. Range of r, section, exponent and regime of the buoy are "

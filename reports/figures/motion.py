@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
@@ -34,29 +34,20 @@ def section_pairs(panels: list[tuple[str, np.ndarray, np.ndarray]], names: tuple
     return curves([drawn], 2.9, "below")
 
 
-@dataclass(frozen=True)
-class SpectrumPanel:
-    """One spectrum: axis label with unit, frequencies (rad/s), amplitudes, and the modes to mark: (rad/s, name)."""
+def spectra(panels: list[tuple], highest_radps: float) -> Picture:
+    """Each spectrum twice: on the paper's linear scale, and on a logarithmic one where a continuous floor shows.
 
-    label: str
-    angular_frequency_radps: np.ndarray
-    amplitude: np.ndarray
-    marks: tuple[tuple[float, str], ...]
-
-
-def spectra(panels: list[SpectrumPanel], highest_radps: float) -> Picture:
-    """Each spectrum twice: on the paper's linear scale, and on a logarithmic one where a continuous floor shows."""
+    Args: for each the label of its axis, omega (m,) in rad/s, the amplitude (m,), and modes to mark: (rad/s, name).
+    """
     rows = []
-    for panel in panels:
-        shown = panel.angular_frequency_radps <= highest_radps
-        amplitude = panel.amplitude[shown]
-        line = [Curve(panel.angular_frequency_radps[shown], amplitude, colour=INK)]
-        across, below = {"xlim": (0.0, highest_radps)}, r"$\omega$ (rad/s)" if panel is panels[-1] else ""
-        up = {"ylim": (0.0, max(float(amplitude.max()), 1e-12) * 1.32)}
-        decades = {"ylim": log_limits(amplitude)}
-        lines = [(at, "") for at, _ in panel.marks]
-        linear = Panel(line, below, panel.label, settings=across | up, marks=panel.marks)
-        rows.append([linear, Panel(line, below, log="y", settings=across | decades, marks=lines)])
+    for label, omega, amplitude, marks in panels:
+        below = r"$\omega$ (rad/s)" if len(rows) == len(panels) - 1 else ""
+        shown = omega <= highest_radps
+        line, high = [Curve(omega[shown], amplitude[shown], colour=INK)], max(float(amplitude[shown].max()), 1e-12)
+        limits = {"xlim": (0.0, highest_radps), "ylim": (0.0, 1.32 * high)}
+        decades = limits | {"ylim": log_limits(amplitude[shown])}
+        linear = Panel(line, below, label, settings=limits, marks=marks)
+        rows.append([linear, Panel(line, below, log="y", settings=decades, marks=[(at, "") for at, _ in marks])])
     rows[0] = [replace(one, title=title) for one, title in zip(rows[0], ("linear", "logarithmic"), strict=True)]
     return curves(rows, 0.6 + 1.4 * len(panels), share="x")
 

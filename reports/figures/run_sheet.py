@@ -8,7 +8,7 @@ from the page's style sheet, so that the drawing follows its light and dark form
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from collections.abc import Sequence
 from html import escape
 
 import numpy as np
@@ -25,35 +25,35 @@ _WIDE, _TALL = 960, _TOP + _ROWS * _PITCH - 6
 _DECADES = 4  # of a spectrum, below its peak
 
 
-@dataclass(frozen=True, eq=False)
-class Glance:
-    """What the drawing shows; histories over `periods` (n,) t/T_i as (label with unit, low (n,), high (n,)).
+NOTHING = (np.empty(0), np.empty(0))
 
-    `end_from`: where the last periods begin that are drawn larger; `section`: (m, 2) in m and m/s; `spectrum`: omega
-    (k,) in rad/s and amplitude (k,) in m, `marks` the expected modes in rad/s with their names; `exponent`: t/T_i (j,)
-    and bits per period (j,) found so far.  Empty arrays where there is nothing.
+
+def run_sheet(
+    label: str,
+    bins: int,
+    periods: np.ndarray,
+    histories: Sequence[tuple[str, np.ndarray, np.ndarray]],
+    last: float,
+    section: np.ndarray,
+    spectrum: tuple[np.ndarray, np.ndarray] = NOTHING,
+    marks: Sequence[tuple[float, str]] = (),
+    exponent: tuple[np.ndarray, np.ndarray] = NOTHING,
+) -> str:
+    """The drawing, `label` its text alternative; bins: columns of the whole record, fewer make it smaller.
+
+    Three histories over `periods` (n,) t/T_i as (label with unit, low (n,), high (n,)); `last`: so many periods at the
+    end are drawn larger; `section`: (m, 2) in m and m/s; `spectrum`: omega (k,) in rad/s and amplitude (k,) in m,
+    `marks` the expected modes in rad/s with their names; `exponent`: t/T_i (j,) and bits per period (j,) found so far.
     """
-
-    periods: np.ndarray
-    histories: tuple[tuple[str, np.ndarray, np.ndarray], ...]
-    end_from: float
-    section: np.ndarray
-    spectrum: tuple[np.ndarray, np.ndarray]
-    marks: tuple[tuple[float, str], ...]
-    exponent: tuple[np.ndarray, np.ndarray]
-
-
-def run_sheet(glance: Glance, label: str, bins: int) -> str:
-    """The drawing, `label` its text alternative; bins: columns of the whole record, fewer make it smaller."""
-    end = glance.periods >= glance.end_from
+    end = periods >= periods[-1] - last
     parts = [f'<svg class="glance" viewBox="0 0 {_WIDE} {_TALL}" role="img" aria-label="{escape(label)}">']
-    beside = (_section(glance.section), _spectrum(*glance.spectrum, glance.marks), _exponent(*glance.exponent))
-    for row, ((name, low, high), right) in enumerate(zip(glance.histories, beside, strict=True)):
+    beside = (_section(section), _spectrum(*spectrum, marks), _exponent(*exponent))
+    for row, ((name, low, high), right) in enumerate(zip(histories, beside, strict=True)):
         limits = {"ylim": wide_limits(np.concatenate([low, high]))}
         below = f"t/{T_I}" if right is beside[-1] else ""
-        whole = _banded(glance.periods, low, high, bins)
-        last = _banded(glance.periods[end], low[end], high[end], bins // 2)
-        panels = Panel([whole], below, name, name, settings=limits), Panel([last], below, settings=limits), right
+        whole = _banded(periods, low, high, bins)
+        larger = _banded(periods[end], low[end], high[end], bins // 2)
+        panels = Panel([whole], below, name, name, settings=limits), Panel([larger], below, settings=limits), right
         for (left, wide), panel in zip(_COLUMNS, panels, strict=True):
             parts.append(_drawn(panel, left, wide, _TOP + row * _PITCH))
     return "".join([*parts, "</svg>"])

@@ -36,7 +36,7 @@ from tests.reports.synthetic import campaign
 ODD_TITLE = '<b>#odd$ *title* _x_ @ref `code` \\ "q" & [z] //c é\u2028 </title>'
 DOT = b'<svg xmlns="http://www.w3.org/2000/svg" width="490" height="200"><circle r="40"/></svg>'
 
-LONG = " --out /a/rather/long/path/that/has/no/blank/in/it/and/goes/on/and/on/and/on/and/on"
+LONG = " `a_rather_long_name_of_a_column_of_the_table_N` --out /a/path/that/has/no/blank/in/it/and/goes/on/and/on"
 
 
 class Page(HTMLParser):
@@ -71,7 +71,7 @@ def every_kind(text: str) -> Report:
     heads = tuple(Column(some, some, "right" if k else "left") for k in range(14))
     narrow, wide = Table(heads[:1], ((text,),) * 40, text, small=True), Table(heads, ((text,) * 14,) * 4, text)
     items = (
-        Heading(text), Text(text), Heading(text, 2), Bullets((text, text)), BUOY, drawing, narrow, wide,
+        Heading(text), Text(text + LONG), Heading(text, 2), Bullets((text, text)), BUOY, drawing, narrow, wide,
         *(Notice(kind, text, (text, text)) for kind in ("note", "warning")), Listing(text + LONG),
         Links(((some, "part/report.html"),)),
         Explorer(drawing, some, text, text, (ExplorerColumn(0.1, (1.0,), text, "run-1"),)),

@@ -19,7 +19,7 @@ DRAWN = "document.querySelector('canvas').toDataURL()"  # tells one view from an
 def kinds(tmp_path_factory) -> Path:
     """A page with every kind of item there is, of which the pages of all campaigns are made."""
     path = tmp_path_factory.mktemp("kinds") / "report.html"
-    path.write_bytes(render_html(every_kind("Words and `a_rather_long_name_of_a_column`")))
+    path.write_bytes(render_html(every_kind("Words of a `column_m`")))
     return path
 
 

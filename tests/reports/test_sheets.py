@@ -7,7 +7,7 @@ import re
 import numpy as np
 import pytest
 
-from reports.figures.run_sheet import Glance, run_sheet
+from reports.figures.run_sheet import NOTHING, run_sheet
 from reports.parts.content import Explorer, ExplorerColumn, Figure, Picture
 from reports.parts.html import explorer_json
 from reports.parts.symbols import OMEGA_I, OMEGA_R
@@ -15,14 +15,11 @@ from reports.parts.symbols import OMEGA_I, OMEGA_R
 FIGURE = Figure(Picture(b"", "svg"), "A caption.", "A text.")
 
 
-NOTHING = (np.empty(0), np.empty(0))
-
-
 def drawing(t, values, section=(), spectrum=NOTHING, marks=(), exponent=NOTHING) -> str:
     """A sheet of a record whose tension, radius and angle are the same values."""
     histories = tuple((name, values, values) for name in ("T (kN)", "r (m)", "θ (rad)"))
     points = np.reshape(section, (-1, 2))
-    return run_sheet(Glance(t, histories, float(t[-1]) - 6.0, points, spectrum, marks, exponent), "x", 80)
+    return run_sheet("x", 80, t, histories, 6.0, points, spectrum, marks, exponent)
 
 
 def glance(peak: float) -> str:
