@@ -51,16 +51,20 @@ def test_a_hundred_failures_are_summed_up(tmp_path):
     assert sum("did not converge" in line for line in sheets) == 100
 
 
+HEAD = "name,unit,symbol,meaning,digits\n"
 PARTS = ("table.csv", "columns.csv", "scene.toml", "provenance.json", "trajectories")
 
 
 @pytest.mark.parametrize(
     ("part", "content", "said"),
     [
-        *((part, None, f"{part} is missing") for part in PARTS[:1] + PARTS[2:]),
-        ("columns.csv", None, "columns.csv"),
+        *((part, None, f"{part} is missing") for part in PARTS),
+        ("columns.csv", None, "older version"),
+        ("columns.csv", "name,unit\n", "its first line is not name,unit,symbol,meaning,digits"),
+        ("columns.csv", HEAD + "a,,,,two\n", "columns.csv cannot be read"),
+        ("columns.csv", HEAD + "a,b\n", "columns.csv cannot be read"),
         ("table.csv", "steepness,status\n0.1,ok\n", "columns missing: "),
-        ("columns.csv", "name,unit,symbol,meaning,digits\nstatus,,,,\n", "does not tell of all columns"),
+        ("columns.csv", HEAD + "status,,,,\n", "does not tell of all columns"),
         ("table.csv", "", "table.csv cannot be read"),
         ("scene.toml", "name = 3", "scene.toml cannot be read"),
         ("provenance.json", "{", "provenance.json cannot be read"),
