@@ -15,11 +15,10 @@ from .runs import PAPER_STEEPNESS, Run, Sweep
 from .tables import sweep_table
 
 _DEFINED = (
-    "A motion is called chaotic only if its largest exponent is positive by two errors, the 0-1 test on the section "
-    "exceeds 0.9, and a nonlinear forecast beats 95 % of linear and of noisy-periodic surrogates, in the whole record "
-    "and in both halves, and if the same run at a tenth of the tolerance is chaotic too (`regime_tighter`). What "
-    "fulfils no definition is undecided. A chaotic transient longer than the record is not told from chaos, and weak "
-    "chaos needs long records: 0.06 bits a period took 7000 periods."
+    "A motion is called chaotic only if its largest exponent is positive by two errors, the 0-1 test exceeds 0.9, and "
+    "a nonlinear forecast beats 95 % of surrogates, in the whole record and in both halves, and if the run at a tenth "
+    "of the tolerance is chaotic too (`regime_tighter`). A chaotic transient longer than the record is not told from "
+    "chaos. What fulfils no definition is undecided."
 )
 
 

@@ -49,11 +49,10 @@ def _question(sweep: Sweep) -> list[Item]:
     items: list[Item] = [
         Heading("Question"),
         Text(
-            "A buoy near the surface is held to the sea bed by a short elastic tether. How does it move as regular "
-            "waves become steeper: when does the tether go slack and snap, and does the motion still repeat with the "
-            "waves? This is the problem of section 4.2 of Tjavaras, Zhu, Liu, Triantafyllou and Yue, “The mechanics "
-            "of highly-extensible cables”, Journal of Sound and Vibration 213(4), 1998 (“the paper”), which shows kA "
-            "= 0.016 and kA = 0.13."
+            "A buoy near the surface is held to the sea bed by a short elastic tether. When does the tether go slack "
+            "and snap as waves become steeper, and does the motion still repeat with the waves? This is section 4.2 of "
+            "Tjavaras, Zhu, Liu, Triantafyllou and Yue, “The mechanics of highly-extensible cables”, Journal of Sound "
+            "and Vibration 213(4), 1998 (“the paper”), which shows kA = 0.016 and kA = 0.13."
         ),
         Heading("Short answer"),
         *answer_items(sweep),
@@ -61,9 +60,8 @@ def _question(sweep: Sweep) -> list[Item]:
     if sweep.judged:
         return items
     said = (
-        "No Lyapunov exponent was computed, and none is needed for what is said above. A strobed motion for which no "
-        "period was found is just that. Exponents and regimes take `--set output.tangent_vectors=1` and runs of "
-        f"{sweep.transient + LEAST_POINTS} wave periods or more, {LEAST_POINTS} of them beyond the transient."
+        "No Lyapunov exponent was computed; a strobed motion without a period is just that. Exponents and regimes take "
+        f"`--set output.tangent_vectors=1` and {LEAST_POINTS} wave periods or more beyond the transient."
     )
     return [*items, Notice("note", "No verdict on regular or chaotic motion", (said,))]
 
@@ -81,18 +79,13 @@ def _chosen(sweep: Sweep) -> list[Item]:
     heading = Heading("Chosen runs")
     if not sweep.chosen:
         return [heading, Text("No run left a record of one wave period or more, so there is nothing to draw.")]
-    columns = (
-        Column("run", align="left"),
-        Column("status", align="left"),
-        Column(f"t/{T_I}"),
-        Column("strobed r", "m"),
-    )
+    heads = (Column("run", align="left"), Column("status"), Column(f"t/{T_I}"), Column("strobed r", "m"))
     rows = tuple((run.named, run["status"], number(run.periods_done), _strobed(run)) for run in sweep.chosen)
     caption = (
         "The runs nearest the paper's kA = 0.016 and 0.13, and the first whose strobed motion visits several points in "
         f"turn, where there is one: how far they came, and r at t = k{T_I} after the transient."
     )
-    items: list[Item] = [heading, Table(columns, rows, caption), peaks_table(sweep)]
+    items: list[Item] = [heading, Table(heads, rows, caption), peaks_table(sweep)]
     for run in sweep.chosen:
         items += [Heading(run.named, 2), *run_figures(sweep, run)]
     figure = section_figure(sweep)

@@ -130,9 +130,7 @@ class Sweep:
 
     def trajectory(self, run: Run) -> Trajectory:
         """The trajectory of a run that has a record."""
-        from engine import Trajectory
-
-        return Trajectory.load(self.folder.trajectory_path(run["run_key"]))
+        return self.folder.trajectory(run.row)[0]
 
 
 def read_sweep(directory: str | Path) -> Sweep:

@@ -42,10 +42,10 @@ def explorer(sweep: Sweep, figure: Figure) -> Explorer:
 def sheet_items(sweep: Sweep) -> list[Item]:
     """The section with the sheets."""
     said = (
-        "One sheet for each row of the table of runs; a link in a table leads here. Left: top tension (with its "
-        f"extremes between samples), r and θ over the whole record, and its last {number(_END_PERIODS)} wave periods; "
-        f"right: strobed section after {sweep.transient} wave periods, spectrum of r (eq. (31)), and the exponent of "
-        "the tangent dynamics found up to each time. The page has them all; the PDF leaves them out."
+        "One sheet for each row of the table of runs. Left: top tension (with its extremes between samples), r and θ "
+        f"over the whole record and its last {number(_END_PERIODS)} wave periods; right: strobed section after "
+        f"{sweep.transient} wave periods, spectrum of r (eq. (31)), and the exponent of the tangent dynamics found up "
+        "to each time. The PDF leaves the sheets out."
     )
     beside = zip((None, *sweep.runs), sweep.runs, (*sweep.runs[1:], None), strict=False)
     return [Heading("Every run"), Text(said), *(_sheet(sweep, run, (left, right)) for left, run, right in beside)]

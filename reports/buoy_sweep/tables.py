@@ -30,28 +30,20 @@ _REPEATED = (
     "role", "label", "run", "status", "nodes", "rtol", "periods", "error_early_m", "error_m", "verdict", "wall_s",
 )  # fmt: skip
 _COST = ("wall_s", "newton_iterations")
-_MODES = {
-    "2": "Every run was made in the plane of the waves.",
-    "3": "Every run was made in three dimensions (`--dimensions 3`).",
-    "auto": "Every value was run in the plane of the waves first; where that run released loops, the row is of a run "
-    "in three dimensions (`--dimensions auto`).",
-}
 # What `campaigns.out_of_plane` finds, and tests/reports/test_regimes.py holds it to.
 COMPARED = (
-    "`campaigns.out_of_plane` compares planar runs with loop releases with runs in three dimensions, at kA = 0.13 and "
-    "depths of 21.0, 21.6 and 22.0 m, over 200 wave periods. Range of r, section, exponent and regime of the buoy are "
-    "the same within what one record leaves open. The path of the buoy in time after the first loops, and the shape of "
-    "the rope in a loop, are not."
+    "`campaigns.out_of_plane` compares planar runs that release loops with runs in three dimensions, at kA = 0.13 and "
+    "H = 21.0, 21.6 and 22.0 m, over 200 wave periods. Range of r, section, exponent and regime of the buoy agree; its "
+    "path in time after the first loops, and the shape of the rope in a loop, do not."
 )
 _WHY_REPEATED = (
-    "Two runs of this sweep were repeated at a tenth of the tolerance and at twice the elements: the one whose tension "
-    "peaks lowest (regular) and the one whose tension peaks highest (violent). Past the limit of predictability r "
-    "differs by the size of the motion, whatever the tolerance; verdicts and extremes are then what may be compared. A "
-    "dash: the record is too short for a verdict."
+    "Two runs were repeated at a tenth of the tolerance and at twice the elements: those whose tension peaks lowest "
+    "(regular) and highest (violent). Past the limit of predictability r differs by the size of the motion; verdicts "
+    "and extremes are then what may be compared. A dash: the record is too short for a verdict."
 )
 _NOT_REPEATED = (
-    "This sweep did not repeat any of its runs (`--no-accuracy`, or no run ended as asked), so that it says nothing "
-    "about its own error. What tolerance and grid give in general: docs/how_far_to_trust_a_run.md."
+    "No run was repeated (`--no-accuracy`, or none ended as asked), so that nothing is known of the error of this "
+    "sweep. What tolerance and grid give in general: docs/how_far_to_trust_a_run.md."
 )
 
 
@@ -84,10 +76,13 @@ def plane_items(sweep: Sweep) -> list[Item]:
     if not shown and not across:
         return []
     told = sweep.folder.provenance
-    words = [_MODES.get(str(told.get("dimensions")), "")]
+    words = (
+        f"Made with `--dimensions {told.get('dimensions')}`: 2 is the plane of the waves, 3 all directions, auto 3 "
+        "where the run in the plane released loops."
+    )
     if push := told.get("push_mps"):
-        words.append(f"At t = 0 the buoy got {number(push)} m/s across the waves; else it would stay in the plane.")
-    items: list[Item] = [Heading("Out of the plane"), Text(" ".join(filter(None, words)))]
+        words += f" At t = 0 the buoy got {number(push)} m/s across the waves; else it would stay in the plane."
+    items: list[Item] = [Heading("Out of the plane"), Text(words)]
     if across:
         growth, error = (sweep.folder.columns[name] for name in _ACROSS)
         picture = over_key(across, sweep.folder.columns["steepness"], [Measured(growth.unit, ((growth, error),))])
@@ -128,9 +123,8 @@ def time_items(sweep: Sweep) -> list[Item]:
         total, done = float(np.nansum(wall)), sum(run.periods_done for run in runs)
         newton = float(np.nansum(series(rows, "newton_iterations")))
         seen = (
-            f"{decimals(total, 1)} s in all runs together, {number(1e3 * total / done, 3)} ms and "
-            f"{number(newton / done, 3)} Newton iterations a wave period, {number(1e6 * total / max(newton, 1.0), 3)} "
-            "µs a Newton iteration"
+            f"{decimals(total, 1)} s in all, {number(1e3 * total / done, 3)} ms and {number(newton / done, 3)} Newton "
+            f"iterations a wave period, {number(1e6 * total / max(newton, 1.0), 3)} µs an iteration"
         )
         caption = f"Cost of each run: {seen}. Crosses: runs that ended early. From `table.csv`."
         alt = f"Wall time and Newton iterations of each run over wave steepness: {seen}."
