@@ -7,7 +7,7 @@ import math
 from analysis import read_evidence
 
 from ..figures.curves import Curve, Panel, curves
-from ..figures.motion import settled_limits
+from ..figures.motion import settled
 from ..parts.content import Column, Figure, Heading, Item, Table, Text
 from ..parts.wording import decimals, printed
 from .figures import EXPONENTS
@@ -44,7 +44,8 @@ def evidence_table(run: Run) -> Table | None:
     if not tests:
         return None
     heads = (Column("test", align="left"), Column("value"), Column("threshold"), Column("met"))
-    caption = f"Evidence at {run.named}, in the order of the tests. {printed(run['regime_reason'].strip())}".strip()
+    reason = printed(run["regime_reason"].strip()) or "no reason told"
+    caption = f"Evidence at {run.named}, in the order of the tests: {reason}."
     rows = tuple((name, *(cell.replace("-", "−") for cell in cells)) for name, *cells in tests)
     return Table(heads, rows, caption, small=True)
 
@@ -66,7 +67,7 @@ def _convergence(sweep: Sweep, shown: list[Run]) -> list[Item]:
     if not lines:
         return []
     labels = (r"$t/T_i$ (wave periods)", r"$\sigma_m$ (bits per period)")
-    limits = {"ylim": settled_limits([line.y for line in lines])}
+    limits = {"ylim": settled([line.y for line in lines])}
     picture = curves([[Panel(lines, *labels, level=0.0, settings=limits)]], 2.8, "best")
     ends = "; ".join(f"{decimals(float(line.y[-1]), 3)} at {line.name}" for line in lines)
     caption = (

@@ -58,8 +58,8 @@ def log_limits(amplitude: np.ndarray) -> tuple[float | None, float | None]:
     return (max(peak * 1e-4, float(amplitude[amplitude > 0].min()) * 0.5), peak * 3) if peak > 0 else (None, None)
 
 
-def settled_limits(found: Sequence[np.ndarray]) -> tuple[float, float]:
+def settled(found: Sequence[np.ndarray]) -> tuple[float, float]:
     """Limits that show 0 and what the curves (m,) do after their first tenth, in which they jump about."""
-    settled = np.concatenate([*(bits[len(bits) // 10 :] for bits in found), np.zeros(1)])
-    margin = 0.15 * max(float(np.ptp(settled)), 0.02)
-    return float(settled.min()) - margin, float(settled.max()) + margin
+    late = np.concatenate([*(bits[len(bits) // 10 :] for bits in found), np.zeros(1)])
+    margin = 0.15 * max(float(np.ptp(late)), 0.02)
+    return float(late.min()) - margin, float(late.max()) + margin

@@ -8,7 +8,7 @@ from __future__ import annotations
 from functools import partial
 from typing import TYPE_CHECKING
 
-from ...figures.motion import settled_limits
+from ...figures.motion import settled
 from ...parts.figure_data import sources_of
 from ...parts.style import BLUE, SOFT, VERMILION
 from ...parts.symbols import T_I
@@ -66,7 +66,7 @@ def _fill(figure, data: xarray.Dataset, labels: dict[str, str]) -> None:
     for axes in panels:
         axes.axhline(0.0, color=SOFT, linewidth=0.7)
         axes.set_xlabel(r"$t/T_i$ (wave periods)")
-    panels[0].set(ylim=settled_limits(curves))
+    panels[0].set(ylim=settled(curves))
     panels[0].set_ylabel(r"$\sigma_m$ (bits per wave period)")
     panels[0].margins(x=0.01)
     if len(panels) > 1:
