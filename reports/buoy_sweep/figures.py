@@ -34,8 +34,7 @@ def orbit_figure(sweep: Sweep, drawn: Sequence[Run], missing: Sequence[Run]) -> 
     """Strobed radius over steepness, slack and exponents below; drawn: runs with points, missing: those without."""
     rows, columns, key = [run.row for run in drawn], sweep.folder.columns, sweep.folder.columns["steepness"]
     below = [Measured("–", ((columns["slack_fraction"], None),))]
-    if sweep.judged:
-        known = [pair for pair in EXPONENTS if np.isfinite(series(rows, pair[0])).any()]
+    if known := [pair for pair in EXPONENTS if np.isfinite(series(rows, pair[0])).any()]:
         below.append(Measured("bits/period", tuple((columns[value], columns[error]) for value, error in known)))
     points, gone = [run.section[:, 0] for run in drawn], [run.steepness for run in missing]
     labels, panels = (key.label, "strobed $r$ (m)"), [replace(one, x_label="") for one in panels_over(rows, key, below)]
