@@ -44,6 +44,6 @@ def campaign(directory: Path, steepness, periods=80, transient=20, failing=None,
     scene.write_text(load_scene("tethered_buoy", overrides or {}).to_toml(), encoding="utf-8")
     length = ["--periods", str(periods), "--transient", str(transient), "--scene", str(scene)]
     how = ["--jobs", "1", "--backend", "threading", "--no-report", "--no-accuracy", "--out", str(directory)]
-    swept = ["--steepness", *map(str, steepness)]
+    swept = ["--steepness", *map(str, steepness), "--set", "output.tangent_vectors=0"]
     assert buoy_sweep.main([*swept, *length, *how], simulate=Motions(failing=failing or {})) in (0, 1)
     return Path(directory)
