@@ -116,9 +116,13 @@ def read_files(directory: str | Path, wanted: Mapping[str, str]) -> dict[str, ob
     return found
 
 
-def read_columns(directory: str | Path) -> dict[str, Quantity]:
-    """The dictionary of a folder's table by name, in its order. Raises FolderError for none or an unsound one."""
-    return read_files(directory, {"columns.csv": PARTS["columns.csv"]})["columns.csv"]
+def read_columns(directory: str | Path, table: str = "table.csv") -> dict[str, Quantity]:
+    """The dictionary of a table of a folder by name, in the order of the table: columns.csv, or X_columns.csv of X.csv.
+
+    Raises FolderError where there is none, as in folders made before there were dictionaries, or an unsound one.
+    """
+    name = "columns.csv" if table == "table.csv" else f"{table.removesuffix('.csv')}_columns.csv"
+    return read_files(directory, {name: f"what the columns of {table} are"})[name]
 
 
 def read_rows(table: Path) -> list[dict[str, str]]:
