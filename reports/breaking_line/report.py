@@ -9,8 +9,7 @@ from ..buoy_sweep.equations import LAWS
 from ..parts.content import Bullets, Equation, Heading, Item, Notice, Report, Text
 from ..parts.folder import Folder, read_folder
 from ..parts.judged import counted, read_statements, statements_table
-from ..parts.provenance import provenance_items, timing_table
-from ..parts.scene_table import scene_table
+from ..parts.provenance import provenance_items, scene_table, timing_table
 from ..parts.wording import count, decimals, listed, number, percent
 from . import figures, tables
 from .runs import FAST, SLOW, Line, find, named, of_kind, read_exact, read_lines

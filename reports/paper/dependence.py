@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING
 from ..figures.depth_exponents import Exponents, depth_exponents, kind_of
 from ..out_of_plane.runs import read_study
 from ..out_of_plane.sections import comparison_items
-from ..parts.columns import Quantity, plus_minus, read_columns
+from ..parts.columns import Quantity, plus_minus
 from ..parts.content import Column, Figure, Heading, Item, Table, Text
-from ..parts.folder import Folder, FolderError, provenance_of
+from ..parts.folder import Folder, FolderError, provenance_of, read_columns
 from ..parts.wording import EMPTY, listed, number, percent
 from .written import written
 

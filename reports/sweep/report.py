@@ -11,8 +11,7 @@ from ..figures.maps import Map, maps
 from ..parts.columns import Quantity, table_of
 from ..parts.content import Bullets, Figure, Heading, Item, Notice, Report, Table, Text, plain
 from ..parts.folder import FolderError, read_folder
-from ..parts.provenance import provenance_items, timing_table
-from ..parts.scene_table import scene_table
+from ..parts.provenance import provenance_items, scene_table, timing_table
 from ..parts.wording import EMPTY, count, listed, number, ranges
 from .quantities import Measured, at, extremes, measured, over_key, series
 
