@@ -34,11 +34,7 @@ types.Record.mangling_args = property(_mangled_by_contents)
 def source_hash() -> str:
     """Hash of everything in the engine that can change a result; part of the key of every stored run.
 
-    Returns
-    -------
-    str
-        sha256, hexadecimal, over the names and contents of all ``engine/**/*.py`` and ``*.toml``, and of
-        ``machine_code``.
+    sha256, hexadecimal, over the names and contents of all `engine/**/*.py` and `*.toml`, and of `machine_code`.
     """
     return hash_of(_ROOT, ".py", ".toml")
 

@@ -35,8 +35,7 @@ class Run:
         self.record = parameters.record_of(scene, tables)[0]
         self.tables = np.concatenate(tables)
         n = int(self.record["nodes"])
-        self.goal = _count(duration_s, self.record["output_step"])
-        profiled = _count(duration_s, self.record["profile_step"]) if self.record["profile_step"] > 0 else 0
+        self.goal, profiled = (sample_count(duration_s, self.record[f"{kept}_step"]) for kept in ("output", "profile"))
         unknowns, conserved = self.kind.size_of.py_func(None)
         self.output = Output(
             np.zeros((self.goal, col.SAMPLE_WIDTH)),
@@ -133,10 +132,10 @@ class Run:
     def _budget(self) -> EnergyBudget | None:
         if not self.scene.output.energy:
             return None
-        rows = self.output.energies[: int(self.state["energies"])]
-        time_s, kinetic, strain, gravity, work, shear, viscous, space, powers = rows.T.copy()
-        total = kinetic + strain + gravity
-        return EnergyBudget(time_s, kinetic, strain, gravity, work, shear, viscous, space, powers - (total - total[:1]))
+        found = self.output.energies[: int(self.state["energies"])].T.copy()
+        total = found[energy.KINETIC] + found[energy.STRAIN] + found[energy.GRAVITY]
+        found[energy.POWERS] -= total - total[:1]  # less the change of the energies: dissipated by the scheme in time
+        return EnergyBudget(*found)
 
     def _profiles(self, record: np.void, state: np.void) -> Profiles | None:
         count = int(state["profiles"])
@@ -152,9 +151,9 @@ class Run:
         )
 
 
-def _count(duration_s: float, step_s: float) -> int:
-    """Samples from t = 0 to the end, both included where the rounding of a step is all that is missing."""
-    return int(np.floor(duration_s / step_s * (1 + 1e-12) + 1e-9)) + 1
+def sample_count(duration_s: float, step_s: float) -> int:
+    """Samples from t = 0 to the end, both included where the rounding of a step is all that is missing; 0 without."""
+    return int(duration_s / step_s * (1 + 1e-12) + 1e-9) + 1 if step_s > 0 else 0
 
 
 def columns_of(samples: np.ndarray, heading: float) -> dict[str, np.ndarray]:

@@ -17,7 +17,7 @@ from collections.abc import Callable, Iterator
 import numpy as np
 
 from ..record import SAMPLE_WIDTH
-from ..run import columns_of
+from ..run import columns_of, sample_count
 from ..scene.models import Scene
 from ..time import status as codes
 from ..time.statics import why_no_rest
@@ -50,7 +50,6 @@ def run(
     duration_s: float,
     progress: Callable[[float], None] | None = None,
     accelerations: bool = False,
-    most_turn: float = MOST_TURN,
     most_gap: float = MOST_GAP,
 ) -> Trajectory:
     """Simulate one scene in the paper's own discrete form.
@@ -61,7 +60,7 @@ def run(
     duration_s : float, s
     progress : callable(fraction), optional
     accelerations : true normal accelerations in Morison's force instead of the paper's component rates (`line.Line`)
-    most_turn, most_gap : rad in one element, m per m of line at which the run stops (heads of the constants above)
+    most_gap : m per m of line at which the run stops (head of the constant above)
 
     Returns
     -------
@@ -71,7 +70,7 @@ def run(
         frame has lost; euler_norm_error, the largest | |beta|^2 - 1 |.
     """
     line = line_of(scene, accelerations)
-    record = Record(scene, line, duration_s, most_turn, most_gap)
+    record = Record(scene, line, duration_s, most_gap)
     dt, most = float(line.record["fixed_step"]), int(line.record["max_newton"])
     tolerance = scene.solver.newton_tolerance or TOLERANCE
     began = time.perf_counter()
@@ -112,18 +111,17 @@ def run(
         seen = f"turn per element up to {record.max_turn:.3g} rad, strain down to {record.min_strain:.3g} before"
         cure = 'add nodes, shorten solver.step_s, or take solver.scheme = "conservation"'
         message = f"paper-box: {said} in the step of {dt:.3g} s to t = {(steps + failures) * dt:.6g} s ({seen}): {cure}"
-    return Trajectory(scene, codes.WORDS[status], message, record.columns(), statistics, record.lines())
+    columns = columns_of(np.array(record.rows).reshape(-1, SAMPLE_WIDTH), record.heading)
+    return Trajectory(scene, codes.WORDS[status], message, columns, statistics, record.lines())
 
 
 class Record:
     """Samples and guards of one run. `keep` takes every time level in turn, the first one at t = 0."""
 
-    def __init__(self, scene: Scene, line: Line, duration_s: float, most_turn: float, most_gap: float) -> None:
-        self.line, self.most_turn, self.most_gap = line, most_turn, most_gap * line.s[-1]
+    def __init__(self, scene: Scene, line: Line, duration_s: float, most_gap: float) -> None:
+        self.line, self.most_gap = line, most_gap * line.s[-1]
         self.step, self.profile_step = float(line.record["output_step"]), float(line.record["profile_step"])
-        self.goal, self.profile_goal = (
-            int(duration_s / step * (1 + 1e-12) + 1e-9) + 1 if step else 0 for step in (self.step, self.profile_step)
-        )
+        self.goal, self.profile_goal = (sample_count(duration_s, step) for step in (self.step, self.profile_step))
         self.heading = scene.waves.direction_rad if line.spatial and scene.waves is not None else 0.0
         self.across = np.array([-round(np.sin(self.heading), 15), round(np.cos(self.heading), 15), 0.0])
         self.rows, self.profiles = [], []
@@ -148,7 +146,7 @@ class Record:
         self._sample(now)
         self.low, self.high = min(self.low, T[-1]), max(self.high, T[-1])
         self.before = now
-        if self.max_turn > self.most_turn:
+        if self.max_turn > MOST_TURN:
             return codes.TURN_UNRESOLVED
         return codes.SHAPE_LOST if self.closure > self.most_gap else codes.OK
 
@@ -173,10 +171,6 @@ class Record:
     def done(self) -> bool:
         """Is every sample there?"""
         return len(self.rows) == self.goal and len(self.profiles) == self.profile_goal
-
-    def columns(self) -> dict[str, np.ndarray]:
-        """Columns of a trajectory (`engine.trajectory.COLUMNS`)."""
-        return columns_of(np.array(self.rows).reshape(-1, SAMPLE_WIDTH), self.heading)
 
     def lines(self) -> Profiles | None:
         """Profiles, or None where the scene does not ask for them."""

@@ -12,10 +12,10 @@ from ..physics.water import water as flow
 from ..planar import columns as col
 from ..record import BEGIN, KIND, RESTART, STEP
 from ..simd.elementary import copy_into
-from ..time.steps import plan_stage, stage_rate
+from ..time.steps import known_part, plan_stage, stage_rate
 from ..trajectory import TangentGrowth
-from .lateral import COEFFICIENTS, WIDTH, energy_weights, known_lateral, lateral_stage, normalise
-from .tangent import Base, Carried, Water, carry_stage, linearise, orthonormalise, period_of, water_moves
+from .lateral import COEFFICIENTS, WIDTH, energy_weights, lateral_stage, normalise
+from .tangent import Base, Water, linearise, orthonormalise, period_of, tangent_stage, water_moves
 
 STEPS = 200  # of the trail before it is followed: 8 MB at 41 nodes
 SEED = 20  # of the first perturbations: any will do, they turn to the fastest growth by themselves
@@ -40,7 +40,7 @@ def carry(p, tables, period, count, trail, along, across):
         work = Work(X, F, Q, np.zeros((n, col.WITH_INVERSE)), np.zeros((n, 6)), np.zeros((n, 4)))
         water = Water(np.zeros((n, 8)), np.zeros((n, 2)), np.zeros((n, 2)), np.zeros((n, 4)), np.zeros((n, 4)))
         dKs, dC_tilde, dCs = np.zeros((number, s, n, 4)), np.zeros((n, 4)), np.zeros((number, n, 4))
-        carried, lengths = Carried(vectors, rates, waters, dKs, dC_tilde, dCs), np.empty(number)
+        lengths = np.empty(number)
     if across is not None:
         weights, vector, vector_rates, vector_growth = across
         H, E = np.zeros((n, COEFFICIENTS)), np.zeros((n, WIDTH))
@@ -59,13 +59,14 @@ def carry(p, tables, period, count, trail, along, across):
             if along is not None:
                 linearise(p, tables, base, work, water)
                 for v in range(number):
-                    carry_stage(p, tables, base, a, so_far, True, v, carried, work, water)
+                    known_part(a, so_far, vectors[v], dKs[v], dC_tilde)
+                    tangent_stage(p, tables, base, True, dC_tilde, waters[v], dCs[v], work, water)
                     stage_rate(rate, dCs[v], dC_tilde, dKs[v, i])
             else:
                 shape(p, tables, base.Y, Q, X)
                 flow(p, tables, base.t, 1.0, X, F)
             if across is not None:
-                known_lateral(a, so_far, vector, dK, known)
+                known_part(a, so_far, vector, dK, known)
                 lateral_stage(p, tables, base, X, Q, F, known, H, E, dC)
                 stage_rate(rate, dC, known, dK[i])
         if along is not None:

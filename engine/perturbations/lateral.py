@@ -45,8 +45,10 @@ from ..physics.submergence import cap_across
 from ..physics.tension.kernels import tension
 from ..planar import columns as col
 from ..record import BUOY, HELD
-from ..simd.elementary import copy_into, put3, sincos, small_sincos
+from ..simd.elementary import sincos, small_sincos
 from ..simd.select import every, larger, where
+from ..spatial.vectors import put_rows
+from .tangent import to_length_one
 
 # Columns of H, coefficients of a node: sine and cosine of half the turn of the box below it, then derivatives by tau
 # and rho of q_y, N_y (without -dS_b) and G_y, dG_y/dV_y, and (1 + eps)^3
@@ -160,11 +162,9 @@ def lateral_stage(p, tables, base, X, Q, F, dC_tilde, H, E, dC):
         R00, R01, r0 = X00 * P00 + X01 * P10 + bt, X00 * P01 + X01 * P11, X00 * p0 + X01 * p1 + x0
         R10, R11, r1 = X10 * P00 + X11 * P10 + f, X10 * P01 + X11 * P11, X10 * p0 + X11 * p1 + x1
         R20, R21, r2 = X20 * P00 + X21 * P10, X20 * P01 + X21 * P11, X20 * p0 + X21 * p1 + x2
-        E[k, P], E[k, P + 1], E[k, P + 2], E[k, P + 3] = P00, P01, P10, P11
-        E[k, P_KNOWN], E[k, P_KNOWN + 1] = p0, p1
-        put3(E, k, R, R00, R01, R10)
-        put3(E, k, R + 3, R11, R20, R21)
-        put3(E, k, R_KNOWN, r0, r1, r2)
+        row = E[k]
+        row[P], row[P + 1], row[P + 2], row[P + 3], row[P_KNOWN], row[P_KNOWN + 1] = P00, P01, P10, P11, p0, p1
+        put_rows(row, R, ((R00, R01, R10), (R11, R20, R21), (r0, r1, r2)))
     b = n - 1
     of_N, of_V, known = _lateral_end(p, base.t, rate, Y[b], F[b], dC_tilde[b, VY])
     if p.spherical_cap:
@@ -208,20 +208,4 @@ def normalise(weights, here, vector, rates):
     for k in range(vector.shape[0]):
         for m in range(2):
             square += weights[k, m] * (vector[k, m] * vector[k, m])
-    length = math.sqrt(square)
-    scale = where(here & (length > 0.0), 1.0 / length, 1.0)
-    for k in range(vector.shape[0]):
-        for m in range(2):
-            vector[k, m] *= scale
-            rates[k, m] *= scale
-    return length
-
-
-@kernel
-def known_lateral(a, count, vector, dK, dC_tilde):
-    """dC~ = dC + sum over the first `count` of a_j dK_j, for arrays (n, 2)."""
-    copy_into(dC_tilde, vector)
-    for j in range(count):
-        for k in range(vector.shape[0]):
-            for m in range(2):
-                dC_tilde[k, m] += a[j] * dK[j, k, m]
+    return to_length_one(here, math.sqrt(square), vector, rates)

@@ -35,11 +35,10 @@ from ..dimensions import eliminate, node_quantities, shape
 from ..physics.submergence import cap_change
 from ..physics.water import water as flow
 from ..planar import columns as col
-from ..planar.elimination import back_substitute
+from ..planar.elimination import back_substitute, inertia_of_box
 from ..record import BUOY
-from ..simd.elementary import put3, row_times, take3
 from ..simd.select import larger, some, where
-from ..time.steps import add_rates
+from ..spatial.vectors import dot, put, rows_of, times
 
 WATER_ITERATIONS, WATER_TOLERANCE, NUDGE = 8, 1e-7, 1e-6
 # The stage that is perturbed: t (s), rate (1/s) = 1/(a_ii dt), moving_water: 1.0 where the water depends on the place
@@ -48,9 +47,6 @@ Base = namedtuple("Base", "t rate moving_water Y K")
 # How the water at the nodes changes: J (n, 8), dF/dx (4) and dF/dz (4); work: gamma (n, 2), the change of G; places
 # (n, 2) moved, water (n, 4) ahead of and behind a node
 Water = namedtuple("Water", "J gamma X_moved F_ahead F_behind")
-# Perturbations that are carried: C, K, F (k, n, 4), conserved variables, their rates, a first guess of the water's
-# change; Ks (k, s, n, 4): rates of the stages of a step; C_tilde (n, 4), Cs (k, n, 4): of one stage
-Carried = namedtuple("Carried", "C K F Ks C_tilde Cs")
 
 
 @kernel
@@ -154,34 +150,31 @@ def resolve_bent(p, tables, cq, work, dC_tilde, gamma, top_x, top_z):
     Q, E = work.Q, work.E
     n = Q.shape[0]
     r0 = r1 = r2 = 0.0
-    put3(E, 0, col.R_KNOWN, 0.0, 0.0, 0.0)
+    put(E[0], col.R_KNOWN, (0.0, 0.0, 0.0))
     for k in range(1, n):
         a = k - 1
+        Qa, row = Q[a], E[k]
         e = 0.5 * tables[p.grid_at + a]
         ec = e * cq
         cx = ec * (dC_tilde[a, col.CX] + dC_tilde[k, col.CX])
         cz = ec * (dC_tilde[a, col.CZ] + dC_tilde[k, col.CZ])
-        Jxx, Jxz, Jzz = e * Q[k, col.GXX], e * Q[k, col.GXZ], e * Q[k, col.GZZ]
-        Kxx, Kxz, Kzz = e * Q[a, col.GXX] + Jxx, e * Q[a, col.GXZ] + Jxz, e * Q[a, col.GZZ] + Jzz
-        g0 = e * (gamma[a, 0] + gamma[k, 0]) + Kxx * r0 + Kxz * r1 - Jxx * cx - Jxz * cz
-        g1 = e * (gamma[a, 1] + gamma[k, 1]) + Kxz * r0 + Kzz * r1 - Jxz * cx - Jzz * cz
-        g2 = 2.0 * p.EI * r2
+        (Kxx, Kxz, Kzz), (Jxx, Jxz, Jzz) = inertia_of_box(e, Qa, Q[k])
+        g = (
+            e * (gamma[a, 0] + gamma[k, 0]) + Kxx * r0 + Kxz * r1 - Jxx * cx - Jxz * cz,
+            e * (gamma[a, 1] + gamma[k, 1]) + Kxz * r0 + Kzz * r1 - Jxz * cx - Jzz * cz,
+            2.0 * p.EI * r2,
+        )
         # y_a = P y_b + p, then v_b = R_b y_b + r
-        p0 = row_times(E, k, col.INVERSE, g0, g1, g2)
-        p1 = row_times(E, k, col.INVERSE + 3, g0, g1, g2)
-        p2 = row_times(E, k, col.INVERSE + 6, g0, g1, g2)
-        Rx0, Rx1, Rx2 = take3(E, a, col.R)
-        Rz0, Rz1, Rz2 = take3(E, a, col.R + 3)
-        Rk0, Rk1, Rk2 = take3(E, a, col.R + 6)
-        ca, sa = Q[a, col.COS], Q[a, col.SIN]
-        r0 += (Rx0 + ec * ca) * p0 + Rx1 * p1 + (Rx2 - ec * Q[a, col.QZ]) * p2 - cx
-        r1 += (Rz0 + ec * sa) * p0 + Rz1 * p1 + (Rz2 + ec * Q[a, col.QX]) * p2 - cz
-        r2 = -Rk0 * p0 - Rk1 * p1 - (Rk2 + 1.0 / e) * p2 - r2
-        put3(E, k, col.P_KNOWN, p0, p1, p2)
-        put3(E, k, col.R_KNOWN, r0, r1, r2)
+        known = times(rows_of(row, col.INVERSE), g)
+        Rx, Rz, Rk = rows_of(E[a], col.R)
+        r0 += dot((Rx[0] + ec * Qa[col.COS], Rx[1], Rx[2] - ec * Qa[col.QZ]), known) - cx
+        r1 += dot((Rz[0] + ec * Qa[col.SIN], Rz[1], Rz[2] + ec * Qa[col.QX]), known) - cz
+        r2 = dot((-Rk[0], -Rk[1], -(Rk[2] + 1.0 / e)), known) - r2
+        put(row, col.P_KNOWN, known)
+        put(row, col.R_KNOWN, (r0, r1, r2))
     g0 = -top_x - E[0, col.TOP_DXX] * r0 - E[0, col.TOP_DXZ] * r1
     g1 = -top_z - E[0, col.TOP_DZX] * r0 - E[0, col.TOP_DZZ] * r1
-    back_substitute(E, g0, g1, -r2, work.D)
+    back_substitute(E, (g0, g1, -r2), work.D)
 
 
 @kernel
@@ -219,35 +212,40 @@ def tangent_stage(p, tables, base, going_on, dC_tilde, dF, dC, work, water):
 
 
 @kernel
+def _inner(weight, a, b):
+    """Inner product of two perturbations (n, 4), the velocities with this weight."""
+    product = 0.0
+    for k in range(a.shape[0]):
+        for m in range(2):
+            product += a[k, m] * b[k, m]
+        for m in range(2, 4):
+            product += weight * (a[k, m] * b[k, m])
+    return product
+
+
+@kernel
+def to_length_one(here, length, vector, rates):
+    """Divide vector (n, m) and its rates by its length where `here` holds and it has one; returns the length."""
+    scale = where(here & (length > 0.0), 1.0 / length, 1.0)
+    for k in range(vector.shape[0]):
+        for m in range(vector.shape[1]):
+            vector[k, m] *= scale
+            rates[k, m] *= scale
+    return length
+
+
+@kernel
 def orthonormalise(weight, here, vectors, rates, lengths):
     """Gram-Schmidt over vectors (k, n, 4) where `here` holds, rates taken along; the length of each before it."""
     count, n = vectors.shape[0], vectors.shape[1]
     for i in range(count):
         for j in range(i):
-            product = 0.0
-            for k in range(n):
-                for m in range(2):
-                    product += vectors[i, k, m] * vectors[j, k, m]
-                for m in range(2, 4):
-                    product += weight * (vectors[i, k, m] * vectors[j, k, m])
-            product = where(here, product, 0.0)
+            product = where(here, _inner(weight, vectors[i], vectors[j]), 0.0)
             for k in range(n):
                 for m in range(4):
                     vectors[i, k, m] -= product * vectors[j, k, m]
                     rates[i, k, m] -= product * rates[j, k, m]
-        square = 0.0
-        for k in range(n):
-            for m in range(2):
-                square += vectors[i, k, m] * vectors[i, k, m]
-            for m in range(2, 4):
-                square += weight * (vectors[i, k, m] * vectors[i, k, m])
-        length = math.sqrt(square)
-        lengths[i] = length
-        scale = where(here & (length > 0.0), 1.0 / length, 1.0)
-        for k in range(n):
-            for m in range(4):
-                vectors[i, k, m] *= scale
-                rates[i, k, m] *= scale
+        lengths[i] = to_length_one(here, math.sqrt(_inner(weight, vectors[i], vectors[i])), vectors[i], rates[i])
 
 
 @kernel
@@ -265,21 +263,6 @@ def linearise(p, tables, base, work, water):
     eliminate(p, tables, stage, Y, work)
     if base.moving_water > 0.0:
         water_slopes(p, tables, base.t, work.X, water)
-
-
-@kernel
-def carry_stage(p, tables, base, a, count, here, v, carried, work, water):
-    """Perturbation number v through one linearised stage, where `here` holds: into carried.Cs[v].
-
-    a (s,): the coefficients of the first `count` of carried.Ks[v]; base: Base; carried: Carried; work, water: as
-    `linearise` has left them.
-    """
-    dC_tilde = carried.C_tilde
-    for k in range(dC_tilde.shape[0]):
-        for m in range(4):
-            dC_tilde[k, m] = carried.C[v, k, m]
-        add_rates(p, a, count, carried.Ks[v], k, dC_tilde[k])
-    tangent_stage(p, tables, base, here, dC_tilde, carried.F[v], carried.Cs[v], work, water)
 
 
 @kernel

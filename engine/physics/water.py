@@ -7,19 +7,14 @@ from .waves import wave_field
 
 
 @kernel
-def _regular(p, tables, t, X, F):
-    wave_field(p, t, X, F)
-
-
-@kernel
 def _any(p, tables, t, X, F):
     if p.sea_n == 0:
-        wave_field(p, t, X, F)
+        wave_field(p, tables, t, X, F)
     else:
         sea_field(p, tables, t, X, F)
 
 
-waves = by_kind(_any, sea_field, _regular)
+waves = by_kind(_any, sea_field, wave_field)
 current = by_kind(current_field, current_field, uniform_current)
 
 

@@ -31,8 +31,8 @@ import numpy as np
 from ..compiled import kernel
 from ..physics.ends import planar_end
 from ..physics.submergence import cap_end
-from ..simd.elementary import put3, row_times, take3
 from ..simd.select import smaller
+from ..spatial.vectors import affine, inverted, less, minus_product, put, put_rows, rows_of, times, vector, vector_times
 from . import columns as col
 
 
@@ -45,106 +45,67 @@ def eliminate(p, tables, stage, Y, work):
     Q, E, D, cq = work.Q, work.E, work.D, stage.cq
     n = Y.shape[0]
     EI = p.EI
-    R00 = R01 = R02 = R10 = R11 = R12 = R20 = R21 = R22 = 0.0
-    r0, r1, r2 = -Y[0, col.VX], -Y[0, col.VZ], -Y[0, col.KAPPA]
-    for i in range(col.R, col.R_KNOWN):
-        E[0, i] = 0.0
-    put3(E, 0, col.R_KNOWN, r0, r1, r2)
+    R = (0.0, 0.0, 0.0), (0.0, 0.0, 0.0), (0.0, 0.0, 0.0)
+    r = -Y[0, col.VX], -Y[0, col.VZ], -Y[0, col.KAPPA]
+    put_rows(E[0], col.R, R)
+    put(E[0], col.R_KNOWN, r)
     least = np.inf  # of the determinants
     for k in range(1, n):
         a = k - 1
         e = 0.5 * tables[p.grid_at + a]
-        ec = e * cq
-        ca, sa, fa = take3(Q, a, col.COS)
-        cb, sb, fb = take3(Q, k, col.COS)
-        # compatibility: dV_b = (R_a + Ca) y_a + Cb y_b + ..., with Ca = ec dq/dy
-        Ca0, Ca1, Ca2, Ca3 = ec * ca, -ec * Q[a, col.QZ], ec * sa, ec * Q[a, col.QX]  # [x eps, x phi, z eps, z phi]
-        Cb0, Cb1, Cb2, Cb3 = ec * cb, -ec * Q[k, col.QZ], ec * sb, ec * Q[k, col.QX]
-        cx = Y[k, col.VX] - Y[a, col.VX] - e * (Q[a, col.QX_T] + Q[k, col.QX_T])
-        cz = Y[k, col.VZ] - Y[a, col.VZ] - e * (Q[a, col.QZ_T] + Q[k, col.QZ_T])
+        Qa, Qb, row = Q[a], Q[k], E[k]
+        ca, sa, fa = vector(Qa, col.COS)
+        cb, sb, fb = vector(Qb, col.COS)
+        # compatibility: dV_b = (R_a + Ca) y_a + Cb y_b + ..., with Ca = e cq dq/dy by eps and phi
+        Cax, Caz = _of_stretch(Qa, e * cq)
+        Cbx, Cbz = _of_stretch(Qb, e * cq)
+        cx = Y[k, col.VX] - Y[a, col.VX] - e * (Qa[col.QX_T] + Qb[col.QX_T])
+        cz = Y[k, col.VZ] - Y[a, col.VZ] - e * (Qa[col.QZ_T] + Qb[col.QZ_T])
         # curvature: kappa_b in the same way
         stiff = EI / e
         turn = (Y[k, col.PHI] - Y[a, col.PHI]) / e - (Y[a, col.KAPPA] + Y[k, col.KAPPA])
         # momentum; K = e (dG/dV_a + dG/dV_b), J = e dG/dV_b
-        Jxx, Jxz, Jzz = e * Q[k, col.GXX], e * Q[k, col.GXZ], e * Q[k, col.GZZ]
-        Kxx, Kxz, Kzz = e * Q[a, col.GXX] + Jxx, e * Q[a, col.GXZ] + Jxz, e * Q[a, col.GZZ] + Jzz
+        (Kxx, Kxz, Kzz), (Jxx, Jxz, Jzz) = inertia_of_box(e, Qa, Qb)
         # A y_a + B y_b = g: momentum along x and z, then moment, with v_a and v_b put in
-        A00 = -fa * ca - e * Q[a, col.GX_EPS] - Kxx * R00 - Kxz * R10 - Jxx * Ca0 - Jxz * Ca2
-        A01 = sa - Kxx * R01 - Kxz * R11
-        A02 = Q[a, col.NZ] - e * Q[a, col.GX_PHI] - Kxx * R02 - Kxz * R12 - Jxx * Ca1 - Jxz * Ca3
-        A10 = -fa * sa - e * Q[a, col.GZ_EPS] - Kxz * R00 - Kzz * R10 - Jxz * Ca0 - Jzz * Ca2
-        A11 = -ca - Kxz * R01 - Kzz * R11
-        A12 = -Q[a, col.NX] - e * Q[a, col.GZ_PHI] - Kxz * R02 - Kzz * R12 - Jxz * Ca1 - Jzz * Ca3
-        A20 = e * Q[a, col.M_EPS] - 2.0 * EI * R20
-        A21 = e * Q[a, col.M_SHEAR] - 2.0 * EI * R21
-        A22 = -stiff - 2.0 * EI * R22
-        B00 = fb * cb - e * Q[k, col.GX_EPS] - Jxx * Cb0 - Jxz * Cb2
-        B01 = -sb
-        B02 = -Q[k, col.NZ] - e * Q[k, col.GX_PHI] - Jxx * Cb1 - Jxz * Cb3
-        B10 = fb * sb - e * Q[k, col.GZ_EPS] - Jxz * Cb0 - Jzz * Cb2
-        B11 = cb
-        B12 = Q[k, col.NX] - e * Q[k, col.GZ_PHI] - Jxz * Cb1 - Jzz * Cb3
-        B20 = e * Q[k, col.M_EPS]
-        B21 = e * Q[k, col.M_SHEAR]
-        B22 = stiff
-        g0 = Q[a, col.NX] - Q[k, col.NX] + e * (Q[a, col.GX] + Q[k, col.GX]) + Kxx * r0 + Kxz * r1 - Jxx * cx - Jxz * cz
-        g1 = Q[a, col.NZ] - Q[k, col.NZ] + e * (Q[a, col.GZ] + Q[k, col.GZ]) + Kxz * r0 + Kzz * r1 - Jxz * cx - Jzz * cz
-        g2 = -EI * (Y[k, col.KAPPA] - Y[a, col.KAPPA]) - e * (Q[a, col.M] + Q[k, col.M]) - EI * turn + 2.0 * EI * r2
-        # inverse of A
-        (i00, i01, i02), (i10, i11, i12), (i20, i21, i22), det = adjugate(
-            (A00, A01, A02), (A10, A11, A12), (A20, A21, A22)
+        Ax = -fa * ca - e * Qa[col.GX_EPS], sa, Qa[col.NZ] - e * Qa[col.GX_PHI]
+        Az = -fa * sa - e * Qa[col.GZ_EPS], -ca, -Qa[col.NX] - e * Qa[col.GZ_PHI]
+        Ax = _less_stretch(less(Ax, Kxx, R[0], Kxz, R[1]), Jxx, Cax, Jxz, Caz)
+        Az = _less_stretch(less(Az, Kxz, R[0], Kzz, R[1]), Jxz, Cax, Jzz, Caz)
+        Ak = (
+            e * Qa[col.M_EPS] - 2.0 * EI * R[2][0],
+            e * Qa[col.M_SHEAR] - 2.0 * EI * R[2][1],
+            -stiff - 2.0 * EI * R[2][2],
         )
-        least = smaller(least, abs(det))
-        f = 1.0 / det
-        i00, i01, i02, i10, i11, i12 = f * i00, f * i01, f * i02, f * i10, f * i11, f * i12
-        i20, i21, i22 = f * i20, f * i21, f * i22
-        if E.shape[1] > col.BOX_WIDTH:
-            put3(E, k, col.INVERSE, i00, i01, i02)
-            put3(E, k, col.INVERSE + 3, i10, i11, i12)
-            put3(E, k, col.INVERSE + 6, i20, i21, i22)
+        Bx = fb * cb - e * Qb[col.GX_EPS], -sb, -Qb[col.NZ] - e * Qb[col.GX_PHI]
+        Bz = fb * sb - e * Qb[col.GZ_EPS], cb, Qb[col.NX] - e * Qb[col.GZ_PHI]
+        Bx, Bz = _less_stretch(Bx, Jxx, Cbx, Jxz, Cbz), _less_stretch(Bz, Jxz, Cbx, Jzz, Cbz)
+        Bk = e * Qb[col.M_EPS], e * Qb[col.M_SHEAR], stiff
+        g = (
+            Qa[col.NX] - Qb[col.NX] + e * (Qa[col.GX] + Qb[col.GX]) + Kxx * r[0] + Kxz * r[1] - Jxx * cx - Jxz * cz,
+            Qa[col.NZ] - Qb[col.NZ] + e * (Qa[col.GZ] + Qb[col.GZ]) + Kxz * r[0] + Kzz * r[1] - Jxz * cx - Jzz * cz,
+            -EI * (Y[k, col.KAPPA] - Y[a, col.KAPPA]) - e * (Qa[col.M] + Qb[col.M]) - EI * turn + 2.0 * EI * r[2],
+        )
         # y_a = P y_b + p
-        P00 = -(i00 * B00 + i01 * B10 + i02 * B20)
-        P01 = -(i00 * B01 + i01 * B11 + i02 * B21)
-        P02 = -(i00 * B02 + i01 * B12 + i02 * B22)
-        P10 = -(i10 * B00 + i11 * B10 + i12 * B20)
-        P11 = -(i10 * B01 + i11 * B11 + i12 * B21)
-        P12 = -(i10 * B02 + i11 * B12 + i12 * B22)
-        P20 = -(i20 * B00 + i21 * B10 + i22 * B20)
-        P21 = -(i20 * B01 + i21 * B11 + i22 * B21)
-        P22 = -(i20 * B02 + i21 * B12 + i22 * B22)
-        p0 = i00 * g0 + i01 * g1 + i02 * g2
-        p1 = i10 * g0 + i11 * g1 + i12 * g2
-        p2 = i20 * g0 + i21 * g1 + i22 * g2
-        put3(E, k, col.P, P00, P01, P02)
-        put3(E, k, col.P + 3, P10, P11, P12)
-        put3(E, k, col.P + 6, P20, P21, P22)
-        put3(E, k, col.P_KNOWN, p0, p1, p2)
-        # v_b = R_b y_b + r_b
-        X00, X01, X02 = R00 + Ca0, R01, R02 + Ca1
-        X10, X11, X12 = R10 + Ca2, R11, R12 + Ca3
-        X20, X21, X22 = -R20, -R21, -R22 - 1.0 / e
-        R00, R01, R02 = (
-            X00 * P00 + X01 * P10 + X02 * P20 + Cb0,
-            X00 * P01 + X01 * P11 + X02 * P21,
-            X00 * P02 + X01 * P12 + X02 * P22 + Cb1,
+        inverse, det = inverted(Ax, Az, Ak)
+        least = smaller(least, abs(det))
+        if E.shape[1] > col.BOX_WIDTH:
+            put_rows(row, col.INVERSE, inverse)
+        P, known = minus_product(inverse, (Bx, Bz, Bk)), times(inverse, g)
+        put_rows(row, col.P, P)
+        put(row, col.P_KNOWN, known)
+        # v_b = R_b y_b + r
+        Xx, Xz = _plus_stretch(R[0], Cax), _plus_stretch(R[1], Caz)
+        Xk = -R[2][0], -R[2][1], -R[2][2] - 1.0 / e
+        Rk = vector_times(Xk, P)
+        R = (
+            _plus_stretch(vector_times(Xx, P), Cbx),
+            _plus_stretch(vector_times(Xz, P), Cbz),
+            (Rk[0], Rk[1], Rk[2] + 1.0 / e),
         )
-        R10, R11, R12 = (
-            X10 * P00 + X11 * P10 + X12 * P20 + Cb2,
-            X10 * P01 + X11 * P11 + X12 * P21,
-            X10 * P02 + X11 * P12 + X12 * P22 + Cb3,
-        )
-        R20, R21, R22 = (
-            X20 * P00 + X21 * P10 + X22 * P20,
-            X20 * P01 + X21 * P11 + X22 * P21,
-            X20 * P02 + X21 * P12 + X22 * P22 + 1.0 / e,
-        )
-        r0 = X00 * p0 + X01 * p1 + X02 * p2 + r0 - cx
-        r1 = X10 * p0 + X11 * p1 + X12 * p2 + r1 - cz
-        r2 = X20 * p0 + X21 * p1 + X22 * p2 - r2 + turn
-        put3(E, k, col.R, R00, R01, R02)
-        put3(E, k, col.R + 3, R10, R11, R12)
-        put3(E, k, col.R + 6, R20, R21, R22)
-        put3(E, k, col.R_KNOWN, r0, r1, r2)
+        by_known = times((Xx, Xz, Xk), known)
+        r = by_known[0] + r[0] - cx, by_known[1] + r[1] - cz, by_known[2] - r[2] + turn
+        put_rows(row, col.R, R)
+        put(row, col.R_KNOWN, r)
     # upper end (`engine.physics.ends`): e_N dN + D dV = -e, dkappa = -kappa, with v = R y + r put in
     b = n - 1
     t, in_motion, _, cv = stage
@@ -158,27 +119,27 @@ def eliminate(p, tables, stage, Y, work):
         more = cap_end(p, t, cq, cv, in_motion, x, z, U, W, U_tilde, W_tilde, work.F[b])
         ex, ez, Dxx = ex + more[0], ez + more[1], Dxx + more[2]
         Dxz, Dzx, Dzz = Dxz + more[3], Dzx + more[4], Dzz + more[5]
-    c, s, slope = take3(Q, b, col.COS)
-    A00 = eN * slope * c + Dxx * R00 + Dxz * R10
-    A01 = -eN * s + Dxx * R01 + Dxz * R11
-    A02 = -eN * Q[b, col.NZ] + Dxx * R02 + Dxz * R12
-    A10 = eN * slope * s + Dzx * R00 + Dzz * R10
-    A11 = eN * c + Dzx * R01 + Dzz * R11
-    A12 = eN * Q[b, col.NX] + Dzx * R02 + Dzz * R12
-    g0 = -ex - Dxx * r0 - Dxz * r1
-    g1 = -ez - Dzx * r0 - Dzz * r1
-    g2 = -Y[b, col.KAPPA] - r2
+    c, s, slope = vector(Q[b], col.COS)
+    (R00, R01, R02), (R10, R11, R12), Ak = R
+    Ax = (
+        eN * slope * c + Dxx * R00 + Dxz * R10,
+        -eN * s + Dxx * R01 + Dxz * R11,
+        -eN * Q[b, col.NZ] + Dxx * R02 + Dxz * R12,
+    )
+    Az = (
+        eN * slope * s + Dzx * R00 + Dzz * R10,
+        eN * c + Dzx * R01 + Dzz * R11,
+        eN * Q[b, col.NX] + Dzx * R02 + Dzz * R12,
+    )
+    g2 = -Y[b, col.KAPPA] - r[2]
     if p.bent == 0:
-        R20, R21, R22, g2 = 0.0, 1.0, 0.0, 0.0
-    (i00, i01, i02), (i10, i11, i12), (i20, i21, i22), det = adjugate((A00, A01, A02), (A10, A11, A12), (R20, R21, R22))
+        Ak, g2 = (0.0, 1.0, 0.0), 0.0
+    inverse, det = inverted(Ax, Az, Ak)
     least = smaller(least, abs(det))
-    f = 1.0 / det
-    put3(E, 0, col.TOP, f * i00, f * i01, f * i02)
-    put3(E, 0, col.TOP + 3, f * i10, f * i11, f * i12)
-    put3(E, 0, col.TOP + 6, f * i20, f * i21, f * i22)
+    put_rows(E[0], col.TOP, inverse)
     if E.shape[1] > col.BOX_WIDTH:
         E[0, col.TOP_DXX], E[0, col.TOP_DXZ], E[0, col.TOP_DZX], E[0, col.TOP_DZZ] = Dxx, Dxz, Dzx, Dzz
-    back_substitute(E, g0, g1, g2, D)
+    back_substitute(E, (-ex - Dxx * r[0] - Dxz * r[1], -ez - Dzx * r[0] - Dzz * r[1], g2), D)
     if p.bent == 0:
         for k in range(n):
             D[k, col.KAPPA] = 0.0
@@ -186,28 +147,36 @@ def eliminate(p, tables, stage, Y, work):
 
 
 @kernel
-def adjugate(A0, A1, A2):
-    """Adjugate (three rows) and determinant of the 3 x 3 matrix with these rows: A times it is the determinant."""
-    (A00, A01, A02), (A10, A11, A12), (A20, A21, A22) = A0, A1, A2
-    i00, i01, i02 = A11 * A22 - A12 * A21, A02 * A21 - A01 * A22, A01 * A12 - A02 * A11
-    i10, i11, i12 = A12 * A20 - A10 * A22, A00 * A22 - A02 * A20, A02 * A10 - A00 * A12
-    i20, i21, i22 = A10 * A21 - A11 * A20, A01 * A20 - A00 * A21, A00 * A11 - A01 * A10
-    return (i00, i01, i02), (i10, i11, i12), (i20, i21, i22), A00 * i00 + A01 * i10 + A02 * i20
+def inertia_of_box(e, Qa, Qb):
+    """K = e (dG/dV_a + dG/dV_b) and J = e dG/dV_b of a box of half length e (m), each as xx, xz, zz."""
+    Jxx, Jxz, Jzz = e * Qb[col.GXX], e * Qb[col.GXZ], e * Qb[col.GZZ]
+    return (e * Qa[col.GXX] + Jxx, e * Qa[col.GXZ] + Jxz, e * Qa[col.GZZ] + Jzz), (Jxx, Jxz, Jzz)
 
 
 @kernel
-def back_substitute(E, g0, g1, g2, D):
-    """From the right-hand side at the upper end down the line: y and v of every node, into D."""
-    y0 = row_times(E, 0, col.TOP, g0, g1, g2)
-    y1 = row_times(E, 0, col.TOP + 3, g0, g1, g2)
-    y2 = row_times(E, 0, col.TOP + 6, g0, g1, g2)
+def _of_stretch(row, ec):
+    """ec dq/dy of a node, by eps and phi (q does not depend on S): along x and along z."""
+    return (ec * row[col.COS], -ec * row[col.QZ]), (ec * row[col.SIN], ec * row[col.QX])
+
+
+@kernel
+def _plus_stretch(row, C):
+    """row + C, where C has no entry for S."""
+    return row[0] + C[0], row[1], row[2] + C[1]
+
+
+@kernel
+def _less_stretch(row, Jx, Cx, Jz, Cz):
+    """row - Jx Cx - Jz Cz, where C has no entry for S."""
+    return row[0] - Jx * Cx[0] - Jz * Cz[0], row[1], row[2] - Jx * Cx[1] - Jz * Cz[1]
+
+
+@kernel
+def back_substitute(E, g, D):
+    """From the right-hand side g (3) at the upper end down the line: y and v of every node, into D."""
+    y = times(rows_of(E[0], col.TOP), g)
     for k in range(E.shape[0] - 1, -1, -1):
-        D[k, col.EPS], D[k, col.SHEAR], D[k, col.PHI] = y0, y1, y2
-        D[k, col.VX] = row_times(E, k, col.R, y0, y1, y2) + E[k, col.R_KNOWN]
-        D[k, col.VZ] = row_times(E, k, col.R + 3, y0, y1, y2) + E[k, col.R_KNOWN + 1]
-        D[k, col.KAPPA] = row_times(E, k, col.R + 6, y0, y1, y2) + E[k, col.R_KNOWN + 2]
-        y0, y1, y2 = (
-            row_times(E, k, col.P, y0, y1, y2) + E[k, col.P_KNOWN],
-            row_times(E, k, col.P + 3, y0, y1, y2) + E[k, col.P_KNOWN + 1],
-            row_times(E, k, col.P + 6, y0, y1, y2) + E[k, col.P_KNOWN + 2],
-        )
+        row, out = E[k], D[k]
+        out[col.EPS], out[col.SHEAR], out[col.PHI] = y
+        out[col.VX], out[col.VZ], out[col.KAPPA] = affine(rows_of(row, col.R), y, vector(row, col.R_KNOWN))
+        y = affine(rows_of(row, col.P), y, vector(row, col.P_KNOWN))

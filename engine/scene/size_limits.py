@@ -16,15 +16,10 @@ def longest_step(scene):
     solver = scene.solver
     if solver.step_s:
         return "solver.step_s", solver.step_s
-    if solver.courant is not None:
-        return "solver.courant", _fixed_step(scene)
-    if solver.scheme == "paper-box" or not METHODS[solver.integrator].ADAPTIVE:
-        return "solver.step_s", _fixed_step(scene)  # its default goes by the period of the waves
-    return "solver.max_step_s", solver.max_step_s
-
-
-def _fixed_step(scene):
-    return float(parameters.record_of(scene, [])[0]["fixed_step"])
+    if solver.scheme != "paper-box" and METHODS[solver.integrator].ADAPTIVE:
+        return "solver.max_step_s", solver.max_step_s
+    key = "solver.step_s" if solver.courant is None else "solver.courant"
+    return key, float(parameters.record_of(scene, [])[0]["fixed_step"])  # its default goes by the period of the waves
 
 
 def check_room(scene, duration_s):

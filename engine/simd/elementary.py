@@ -74,24 +74,6 @@ def keep(mask, source, target):
 
 
 @kernel
-def put3(A, k, at, x, y, z):
-    """A[k, at : at + 3] = x, y, z"""
-    A[k, at], A[k, at + 1], A[k, at + 2] = x, y, z
-
-
-@kernel
-def take3(A, k, at):
-    """The three numbers A[k, at : at + 3]."""
-    return A[k, at], A[k, at + 1], A[k, at + 2]
-
-
-@kernel
-def row_times(A, k, at, x, y, z):
-    """The three numbers A[k, at : at + 3] times x, y, z, summed."""
-    return A[k, at] * x + A[k, at + 1] * y + A[k, at + 2] * z
-
-
-@kernel
 def within(weights, C0, C1, K0, K1, k, i):
     """C[k, i] at one instant of a step, from both ends of it (`engine.time.sampling.weights_within`)."""
     w0, w1, g0, g1 = weights

@@ -13,12 +13,12 @@ from .. import record as col
 from ..arrays import Work
 from ..compiled import kernel
 from ..dimensions import shape
-from ..perturbations.lateral import COEFFICIENTS, known_lateral, lateral_stage, normalise
+from ..perturbations.lateral import COEFFICIENTS, lateral_stage, normalise
 from ..perturbations.lateral import WIDTH as LATERAL_WIDTH
-from ..perturbations.tangent import Base, Carried, Water, carry_stage, linearise, orthonormalise, period_of, water_moves
+from ..perturbations.tangent import Base, Water, linearise, orthonormalise, period_of, tangent_stage, water_moves
 from ..physics.water import water as flow
 from ..planar import columns as planar_col
-from ..time.steps import plan_stage, stage_rate
+from ..time.steps import known_part, plan_stage, stage_rate
 from .elementary import copy_into, keep
 from .record import lane_record
 from .vector import COUNT, as_lanes, lane_zeros
@@ -26,6 +26,9 @@ from .vector import COUNT, as_lanes, lane_zeros
 # What a turn of all lanes works on, COUNT the last axis: numbers (LENGTH + k + 1,); a (s,), w (3,): as in `plan_stage`;
 # Y (n, 6), K (n, 4): the stage and its rates; K_new (n, 4): rates of a perturbation
 Turn = namedtuple("Turn", "numbers a w Y K K_new")
+# Perturbations of every lane, COUNT the last axis: C, K (k, n, 4), conserved variables and rates; F (k, n, 4): a first
+# guess of the water's change; Ks (k, s, n, 4): rates of the stages; C_tilde (n, 4), Cs (k, n, 4): of one stage
+Carried = namedtuple("Carried", "C K F Ks C_tilde Cs")
 # The lateral perturbation of every lane, COUNT the last axis: weights, C, K (n, 2), rates Ks (s, n, 2) of the stages of
 # a step; work: C_new, C_tilde, K_new (n, 2), H and E (`engine.perturbations.lateral`)
 Across = namedtuple("Across", "weights C K Ks C_new C_tilde K_new H E")
@@ -104,7 +107,8 @@ def follow(records, tables, trail, trails, periods, nats, lateral_nats, sideways
             flow(p, grid, base.t, 1.0, work.X, work.F)
         for v in range(count):
             keep(begun, own.K[v], own.Ks[v, 0])
-            carry_stage(p, grid, base, turn.a, s - 1, busy, v, own, work, water)
+            known_part(turn.a, s - 1, own.C[v], own.Ks[v], own.C_tilde)
+            tangent_stage(p, grid, base, busy, own.C_tilde, own.F[v], own.Cs[v], work, water)
             stage_rate(base.rate, own.Cs[v], own.C_tilde, K_new)
             for j in range(1, s):
                 keep(busy & (rows[STAGE] == float(j)), K_new, own.Ks[v, j])
@@ -113,7 +117,7 @@ def follow(records, tables, trail, trails, periods, nats, lateral_nats, sideways
         orthonormalise(p.per_speed * p.per_speed, ended, own.C, own.K, rows[LENGTH : LENGTH + count])
         if sideways:
             keep(begun, across.K, across.Ks[0])
-            known_lateral(turn.a, s - 1, across.C, across.Ks, across.C_tilde)
+            known_part(turn.a, s - 1, across.C, across.Ks, across.C_tilde)
             lateral_stage(p, grid, base, work.X, work.Q, work.F, across.C_tilde, across.H, across.E, across.C_new)
             stage_rate(base.rate, across.C_new, across.C_tilde, across.K_new)
             for j in range(1, s):

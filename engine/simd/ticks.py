@@ -205,21 +205,6 @@ def move_states(rows, w, history, now, before, Y):
 
 
 @kernel
-def move_rates(p, rows, a, C_new, K_new, C, Ks, C_tilde):
-    """Conserved variables and rates of accepted steps, and the known part of the next solve into C_tilde."""
-    accepted, moved = rows[ACCEPTED] != 0.0, rows[MOVED] != 0.0
-    count = a.shape[0] - 1
-    for k in range(C.shape[0]):
-        for m in range(4):
-            state = where(accepted, C_new[k, m], C[k, m])
-            C[k, m] = C_new[k, m] = state
-            Ks[0, k, m] = where(accepted, K_new[k, m], Ks[0, k, m])
-        steps.add_rates(p, a, count, Ks, k, C_new[k])
-        for m in range(4):
-            C_tilde[k, m] = where(moved, C_new[k, m], C_tilde[k, m])
-
-
-@kernel
 def advance(ticks, records, own_tables, states, lanes, spent, samples, trail, counts, arrays, work):
     """Make ticks until a run ends, a trail is full, or `ticks` are made; returns how many were.
 
@@ -240,7 +225,10 @@ def advance(ticks, records, own_tables, states, lanes, spent, samples, trail, co
         # every lane that has moved begins its next solve
         stop = plan_lanes(records, own_tables, states, lanes, numbers, arrays.a, arrays.w) > 0 or stop
         move_states(rows, w, lane.history, lane.now, lane.before, Y)
-        move_rates(p, rows, a, C_new, K_new, C, Ks, own.C_tilde)
+        keep(rows[ACCEPTED] != 0.0, C_new, C)
+        keep(rows[ACCEPTED] != 0.0, K_new, Ks[0])
+        steps.known_part(a, Ks.shape[0] - 1, C, Ks, C_new)
+        keep(rows[MOVED] != 0.0, C_new, own.C_tilde)
         # Newton iterations in all lanes, until a solve has ended
         moving = False
         while not moving and not stop and made < ticks:

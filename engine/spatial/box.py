@@ -3,9 +3,9 @@
 from collections import namedtuple
 
 from ..compiled import kernel
-from ..planar.elimination import adjugate
 from . import columns as col
-from .vectors import added, combined, combined3, dot, mixed, quaternion, relative, rotation_vector, scaled, vector
+from .node import box_rotation
+from .vectors import added, combined, combined3, dot, inverted, mixed, scaled, times, vector
 
 NO_TURN = (0.0, 0.0, 0.0), ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))  # psi, J
 # Where dG/dV has its rows
@@ -14,12 +14,6 @@ SYMMETRIC = tuple(tuple(col.G_V + at for at in row) for row in ((0, 1, 2), (1, 3
 Rows = namedtuple("Rows", "x y z O2 O3 theta1")
 # Of one node: dN by y (five 3-vectors), e dG (of eps, theta2, theta3), dN/dtheta1, dM2 and dM3 by y at fixed O
 Nodal = namedtuple("Nodal", "N G roll M2 M3")
-
-
-@kernel
-def box_rotation(Y, a, b):
-    """psi of a box, its length (rad), and (a/2) cot(a/2)."""
-    return rotation_vector(relative(quaternion(Y[a], col.BETA), quaternion(Y[b], col.BETA)))
 
 
 @kernel
@@ -57,6 +51,18 @@ def turn_of_box(p, Y, a, b):
 
 
 @kernel
+def _of_stretch(row, ec):
+    """ec dq/dy of a row of Q: three rows, x, y, z."""
+    t, n, b = vector(row, col.T_VECTOR), vector(row, col.N_VECTOR), vector(row, col.B_VECTOR)
+    length = ec * row[col.STRETCHED]
+    return (
+        (ec * t[0], 0.0, 0.0, -length * b[0], length * n[0]),
+        (ec * t[1], 0.0, 0.0, -length * b[1], length * n[1]),
+        (ec * t[2], 0.0, 0.0, -length * b[2], length * n[2]),
+    )
+
+
+@kernel
 def across_box(Y, Q, k, e, cq, J, psi, R, r):
     """v of node k as v_b = A y_a + B y_b + z, from rotation and compatibility; v_a = R y_a + r.
 
@@ -81,16 +87,9 @@ def across_box(Y, Q, k, e, cq, J, psi, R, r):
     B3 = added(scaled(J31 * over, B1), (0.0, 0.0, 0.0, J32 * over, J33 * over))
     z3 = over * (J31 * z1 - J13 * r1 + left[2]) - r3
     # compatibility: V
-    ec = e * cq
-    ta, na, ba = vector(Qa, col.T_VECTOR), vector(Qa, col.N_VECTOR), vector(Qa, col.B_VECTOR)
-    tb, nb, bb = vector(Qb, col.T_VECTOR), vector(Qb, col.N_VECTOR), vector(Qb, col.B_VECTOR)
-    la, lb = ec * Qa[col.STRETCHED], ec * Qb[col.STRETCHED]
-    Ax = added(R.x, (ec * ta[0], 0.0, 0.0, -la * ba[0], la * na[0]))
-    Ay = added(R.y, (ec * ta[1], 0.0, 0.0, -la * ba[1], la * na[1]))
-    Az = added(R.z, (ec * ta[2], 0.0, 0.0, -la * ba[2], la * na[2]))
-    Bx = (ec * tb[0], 0.0, 0.0, -lb * bb[0], lb * nb[0])
-    By = (ec * tb[1], 0.0, 0.0, -lb * bb[1], lb * nb[1])
-    Bz = (ec * tb[2], 0.0, 0.0, -lb * bb[2], lb * nb[2])
+    Ax, Ay, Az = _of_stretch(Qa, e * cq)
+    Ax, Ay, Az = added(R.x, Ax), added(R.y, Ay), added(R.z, Az)
+    Bx, By, Bz = _of_stretch(Qb, e * cq)
     Va, Vb = vector(Y[a], col.V), vector(Y[k], col.V)
     qa, qb = vector(Qa, col.Q_T), vector(Qb, col.Q_T)
     zx = r[0] - (Vb[0] - Va[0] - e * (qa[0] + qb[0]))
@@ -129,27 +128,23 @@ def factors(Mx, My, Mz, M2, M3):
     Inverse I of the block of (eps, Sn, Sb), a 3 x 3 adjugate; u3, u4 = I times the columns of the angles; inverse of
     the 2 x 2 block that is left for the angles.
     """
-    i0, i1, i2, det = adjugate(vector(Mx, 0), vector(My, 0), vector(Mz, 0))
+    inverse, det = inverted(vector(Mx, 0), vector(My, 0), vector(Mz, 0))
     sound = det != 0.0
-    f = 1.0 / det if sound else 0.0
-    I0, I1, I2 = (f * i0[0], f * i0[1], f * i0[2]), (f * i1[0], f * i1[1], f * i1[2]), (f * i2[0], f * i2[1], f * i2[2])
-    col3, col4 = (Mx[3], My[3], Mz[3]), (Mx[4], My[4], Mz[4])
-    u3, u4 = (dot(I0, col3), dot(I1, col3), dot(I2, col3)), (dot(I0, col4), dot(I1, col4), dot(I2, col4))
+    u3, u4 = times(inverse, (Mx[3], My[3], Mz[3])), times(inverse, (Mx[4], My[4], Mz[4]))
     m2, m3 = (M2[0], M2[1], M2[2]), (M3[0], M3[1], M3[2])
     s33, s34 = M2[3] - dot(m2, u3), M2[4] - dot(m2, u4)
     s43, s44 = M3[3] - dot(m3, u3), M3[4] - dot(m3, u4)
     det = s33 * s44 - s34 * s43
     sound = sound and det != 0.0
     f = 1.0 / det if sound else 0.0
-    return (I0, I1, I2, m2, m3, u3, u4, (f * s44, -f * s34, -f * s43, f * s33)), sound
+    return (inverse, m2, m3, u3, u4, (f * s44, -f * s34, -f * s43, f * s33)), sound
 
 
 @kernel
 def solve_box(solver, gx, gy, gz, g2, g3):
     """y_a for one right-hand side of a box, by its `factors`."""
-    I0, I1, I2, m2, m3, u3, u4, S = solver
-    g = (gx, gy, gz)
-    y0, y1, y2 = dot(I0, g), dot(I1, g), dot(I2, g)
+    inverse, m2, m3, u3, u4, S = solver
+    y0, y1, y2 = times(inverse, (gx, gy, gz))
     h3 = g2 - m2[0] * y0 - m2[1] * y1 - m2[2] * y2
     h4 = g3 - m3[0] * y0 - m3[1] * y1 - m3[2] * y2
     y3, y4 = S[0] * h3 + S[1] * h4, S[2] * h3 + S[3] * h4
@@ -159,7 +154,7 @@ def solve_box(solver, gx, gy, gz, g2, g3):
 @kernel
 def solve_box_rows(solver, BMx, BMy, BMz, BM2, BM3):
     """P of y_a = P y_b: the box solved for the five columns of y_b at once, the sign of their side changed."""
-    I0, I1, I2, m2, m3, u3, u4, S = solver
+    (I0, I1, I2), m2, m3, u3, u4, S = solver
     H0, H1, H2 = (
         combined3(I0[0], BMx, I0[1], BMy, I0[2], BMz),
         combined3(I1[0], BMx, I1[1], BMy, I1[2], BMz),

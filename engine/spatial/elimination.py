@@ -39,7 +39,7 @@ from ..physics.ends import released
 from . import columns as col
 from .box import Rows, across_box, factors, momentum_row, nodal_jacobian, solve_box, solve_box_rows, turn_of_box
 from .upper import solve_upper, spring
-from .vectors import added, combined, combined3, dot, mixed, put_row, row_dot, row_of, row_times, symmetric, vector
+from .vectors import added, combined, combined3, dot, mixed, put, put_row, row_dot, row_of, row_times, symmetric, vector
 
 V_OF_D = col.V, col.V + 1, col.V + 2, col.D_O2, col.D_O3, col.THETA1  # columns of D where the six of v are
 
@@ -108,7 +108,8 @@ def eliminate(p, tables, stage, Y, work):
             put_row(E[k], col.P_TORQUE, px)
             wx, wy, wz = wx + row_dot(A.x, px), wy + row_dot(A.y, px), wz + row_dot(A.z, px)
             w2, w3, w1 = y2 + row_dot(A.O2, px), y3 + row_dot(A.O3, px), w1 + row_dot(A.theta1, px)
-            _store_known(E[k], col.R_TORQUE, (wx, wy, wz, w2, w3, w1))
+            put(E[k], col.R_TORQUE, (wx, wy, wz))
+            put(E[k], col.R_TORQUE + 3, (w2, w3, w1))
         # v_b = R y_b + r
         R = Rows(
             added(row_times(A.x, P), B.x),
@@ -167,13 +168,8 @@ def _store_relation(row, R, r):
     """R and r of one node into its row of E."""
     for i in range(6):
         put_row(row, col.R + 5 * i, R[i])
-    _store_known(row, col.R_KNOWN, r)
-
-
-@kernel
-def _store_known(row, at, r):
-    """row[at : at + 6] = r"""
-    row[at], row[at + 1], row[at + 2], row[at + 3], row[at + 4], row[at + 5] = r
+    put(row, col.R_KNOWN, r[:3])
+    put(row, col.R_KNOWN + 3, r[3:])
 
 
 @kernel

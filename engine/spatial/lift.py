@@ -32,8 +32,10 @@ def shortest_rotation(u: np.ndarray, v: np.ndarray) -> np.ndarray:
 
 
 def stretch_vectors(Y: np.ndarray) -> np.ndarray:
-    """q (n, 3) of states Y (n, 13)."""
-    return (1 + Y[:, :1]) * np.stack(frame_of(Y[:, BETA].T)[0], axis=1)
+    """q (n, 2) of a planar state Y (n, 6), (n, 3) of one in space (n, 13)."""
+    phi = Y[:, planar_col.PHI]
+    tangent = (np.cos(phi), np.sin(phi)) if Y.shape[1] == 6 else frame_of(Y[:, BETA].T)[0]
+    return (1 + Y[:, :1]) * np.stack(tangent, axis=1)
 
 
 def state_in_space(record: np.void, h: np.ndarray, planar: np.ndarray, azimuth: float) -> np.ndarray:

@@ -33,7 +33,7 @@ from ..compiled import kernel
 from ..physics.shocks import shock_tension
 from ..physics.tension.kernels import tension
 from . import columns as col
-from .vectors import dot, frame, mixed, put, quaternion, vector
+from .vectors import dot, frame, mixed, put, quaternion, relative, rotation_vector, vector
 
 
 @kernel
@@ -52,6 +52,12 @@ def shape(p, tables, Y, Q, X):
         half = 0.5 * tables[p.grid_at + k - 1]
         for i in range(3):
             X[k, i] = X[k - 1, i] + half * (Q[k - 1, col.Q + i] + Q[k, col.Q + i])
+
+
+@kernel
+def box_rotation(Y, a, b):
+    """psi of a box, its length (rad), and (a/2) cot(a/2)."""
+    return rotation_vector(relative(quaternion(Y[a], col.BETA), quaternion(Y[b], col.BETA)))
 
 
 @kernel

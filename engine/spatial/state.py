@@ -14,7 +14,7 @@ from ..physics.tension.kernels import tension
 from ..record import PLACE, SPEED, STRAIN, TENSION
 from ..simd.elementary import within
 from . import columns as col
-from .box import box_rotation
+from .node import box_rotation
 from .vectors import dot, frame, least_turn, mixed, put, quaternion, quaternion_product, turned, vector
 
 

@@ -57,6 +57,61 @@ def times(rows, a):
     return dot(rows[0], a), dot(rows[1], a), dot(rows[2], a)
 
 
+@kernel
+def affine(rows, a, b):
+    """The matrix of these three rows times a, plus b."""
+    return dot(rows[0], a) + b[0], dot(rows[1], a) + b[1], dot(rows[2], a) + b[2]
+
+
+@kernel
+def less(a, x, b, y, c):
+    """a - x b - y c"""
+    return a[0] - x * b[0] - y * c[0], a[1] - x * b[1] - y * c[1], a[2] - x * b[2] - y * c[2]
+
+
+@kernel
+def vector_times(x, M):
+    """x M, M three rows."""
+    return (
+        x[0] * M[0][0] + x[1] * M[1][0] + x[2] * M[2][0],
+        x[0] * M[0][1] + x[1] * M[1][1] + x[2] * M[2][1],
+        x[0] * M[0][2] + x[1] * M[1][2] + x[2] * M[2][2],
+    )
+
+
+@kernel
+def minus_product(A, B):
+    """-A B, both of three rows."""
+    x, y, z = vector_times(A[0], B), vector_times(A[1], B), vector_times(A[2], B)
+    return (-x[0], -x[1], -x[2]), (-y[0], -y[1], -y[2]), (-z[0], -z[1], -z[2])
+
+
+@kernel
+def inverted(A0, A1, A2):
+    """Inverse (three rows) and determinant of the 3 x 3 matrix with these rows: an adjugate over the determinant."""
+    (A00, A01, A02), (A10, A11, A12), (A20, A21, A22) = A0, A1, A2
+    i00, i01, i02 = A11 * A22 - A12 * A21, A02 * A21 - A01 * A22, A01 * A12 - A02 * A11
+    i10, i11, i12 = A12 * A20 - A10 * A22, A00 * A22 - A02 * A20, A02 * A10 - A00 * A12
+    i20, i21, i22 = A10 * A21 - A11 * A20, A01 * A20 - A00 * A21, A00 * A11 - A01 * A10
+    det = A00 * i00 + A01 * i10 + A02 * i20
+    f = 1.0 / det
+    return ((f * i00, f * i01, f * i02), (f * i10, f * i11, f * i12), (f * i20, f * i21, f * i22)), det
+
+
+@kernel
+def rows_of(row, at):
+    """The three rows of three numbers from row[at] on."""
+    return vector(row, at), vector(row, at + 3), vector(row, at + 6)
+
+
+@kernel
+def put_rows(row, at, rows):
+    """row[at : at + 9] = three rows of three."""
+    put(row, at, rows[0])
+    put(row, at + 3, rows[1])
+    put(row, at + 6, rows[2])
+
+
 def product_of(a, b):
     """a o b, of numbers or of arrays of them."""
     return (

@@ -11,7 +11,6 @@ import numpy as np
 from ..planar.columns import EPS  # in space the same column
 from ..run import Run
 from ..spatial import lift
-from .statics import planar_stretch_vectors
 from .status import OK
 
 
@@ -40,9 +39,8 @@ class OneStep:
         self._rest()
 
     def _rest(self):
-        half = self.run.motion.C.shape[1] // 2
-        vectors = lift.stretch_vectors if half == 3 else planar_stretch_vectors
-        self.C = np.hstack([vectors(self.Y), np.zeros((len(self.Y), half))])
+        q = lift.stretch_vectors(self.Y)
+        self.C = np.hstack([q, np.zeros_like(q)])
         self.K = np.zeros_like(self.C)
 
     def __call__(self, C, K):

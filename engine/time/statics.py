@@ -77,7 +77,7 @@ def settle(record: np.void, tables: np.ndarray, Y: np.ndarray, target_m: np.ndar
     half = 0.5 * tables[p["grid_at"] : p["grid_at"] + n - 1, None]
     mu, turns, settled = FIRST, 0, None
     for _ in range(400):
-        C_tilde[:, : len(axes)] = lift.stretch_vectors(Y) if space else planar_stretch_vectors(Y)
+        C_tilde[:, : len(axes)] = lift.stretch_vectors(Y)
         if p["end"] == HELD:
             q = C_tilde[:, : len(axes)]
             for axis, place in zip(axes, target_m - np.sum(half * (q[1:] + q[:-1]), axis=0), strict=True):
@@ -113,11 +113,6 @@ def settle(record: np.void, tables: np.ndarray, Y: np.ndarray, target_m: np.ndar
             settled = Y.copy()
         mu = 0.0 if mu <= SOFTEST else mu * (0.1 if moved < 1.0 else 0.5)
     return STATICS_FAILED
-
-
-def planar_stretch_vectors(Y: np.ndarray) -> np.ndarray:
-    """q (n, 2) of a planar state."""
-    return (1 + Y[:, :1]) * np.column_stack([np.cos(Y[:, col.PHI]), np.sin(Y[:, col.PHI])])
 
 
 def first_guess(record: np.void, scene: Scene, h: np.ndarray, span: float = SPANS[0]) -> np.ndarray:

@@ -59,11 +59,14 @@ def plan_stage(p, tables, i, small, dt, dt_before, a, w):
 
 
 @kernel
-def add_rates(p, a, count, Ks, k, row):
-    """row += sum over the first `count` of a_j K_j: conserved variables of node k."""
-    for j in range(count):
-        for m in range(size_of(p)[1]):
-            row[m] += a[j] * Ks[j, k, m]
+def known_part(a, count, C, Ks, C_tilde):
+    """C~ = C + sum over the first `count` of a_j K_j: C, C~ (n, m), Ks (s, n, m)."""
+    for k in range(C.shape[0]):
+        for m in range(C.shape[1]):
+            known = C[k, m]
+            for j in range(count):
+                known += a[j] * Ks[j, k, m]
+            C_tilde[k, m] = known
 
 
 @kernel
@@ -102,8 +105,7 @@ def runge_kutta_step(p, tables, step, before, trial, work):
     Y, Y_before, C, K = before
     Ys, Ks, C_new = trial
     C_tilde = work.C_tilde
-    unknowns, size = size_of(p)
-    s = Ys.shape[0]
+    s, unknowns = Ys.shape[0], Ys.shape[2]
     a, w = np.empty(s), np.empty(3)
     most = SMALL_STEP_NEWTON if small else p.max_newton
     iterations = 0
@@ -111,10 +113,7 @@ def runge_kutta_step(p, tables, step, before, trial, work):
     copy_into(Ks[0], K)
     for i in range(s - 1 if small else 1, s):
         rate, after = plan_stage(p, tables, i, small, dt, dt_before, a, w)
-        for k in range(C.shape[0]):
-            for m in range(size):
-                C_tilde[k, m] = C[k, m]
-            add_rates(p, a, 0 if small else i, Ks, k, C_tilde[k])
+        known_part(a, 0 if small else i, C, Ks, C_tilde)
         # first guess: the polynomial through the latest three of state before, state, stages
         first = small or i == 1
         oldest, middle, latest = Y if first else Y_before, Y_before if first else Ys[i - 2], Y if first else Ys[i - 1]
@@ -182,8 +181,10 @@ def embedded_error(p, tables, dt, Ks, Q, d, errors):
     total = 0.0
     for k in range(n):
         for m in range(size_of(p)[1]):
-            errors[m] = 0.0
-        add_rates(p, d, s, Ks, k, errors)
+            error = 0.0
+            for j in range(s):
+                error += d[j] * Ks[j, k, m]
+            errors[m] = error
         total += error_square(p, k, errors, Q)
     return math.sqrt(total / n) / p.rtol
 

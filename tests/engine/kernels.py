@@ -99,10 +99,7 @@ def waves_at(scene, t, X, there=0.0):
     p, tables = parameters_of(scene)
     X = np.ascontiguousarray(X, float)
     F = np.full((len(X), 2 * X.shape[1]), there)
-    if p["sea_n"]:
-        sea_field(p, tables, t, X, F)
-    else:
-        wave_field(p, t, X, F)
+    (sea_field if p["sea_n"] else wave_field)(p, tables, t, X, F)
     return F
 
 
