@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -179,20 +180,18 @@ def _diagram(study: Study, arrays: dict, symbol: str, key: str, label: str) -> l
     return [Figure(picture, caption, f"Orbit diagram over {symbol} with exponents below: {seen}.")]
 
 
-def _over_force(study: Study, arrays: dict) -> list[Item]:
-    return _diagram(study, arrays, "F", "force", r"forcing $F$ (–)")
-
-
-def _over_frequency(study: Study, arrays: dict) -> list[Item]:
-    return _diagram(study, arrays, "ω", "frequency", r"forcing frequency $\omega$ (–)")
-
-
 SECTIONS = {  # part of the study: heading, what is said of its arrays
     "section": ("The section: figure 19(b)", _section),
     "history": ("The motion from rest", _history),
     "exponents": ("Exponents and their errors", _exponents),
-    "diagram-force": ("Orbit diagram over the forcing", _over_force),
-    "diagram-frequency": ("Orbit diagram over the frequency", _over_frequency),
+    "diagram-force": (
+        "Orbit diagram over the forcing",
+        partial(_diagram, symbol="F", key="force", label=r"forcing $F$ (–)"),
+    ),
+    "diagram-frequency": (
+        "Orbit diagram over the frequency",
+        partial(_diagram, symbol="ω", key="frequency", label=r"forcing frequency $\omega$ (–)"),
+    ),
     "basins": ("Coexisting attractors", basin_items),
     "orbits": ("Periodic orbits", orbit_items),
     "grazing": ("Grazing", grazing_items),
