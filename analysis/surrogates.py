@@ -36,7 +36,7 @@ from numpy.typing import ArrayLike
 
 from analysis.line_spectra import spectral_lines
 from analysis.neighbours import nearest_outside
-from analysis.sampling import checked_columns, checked_count, checked_series, in_deviations, locked, states_of
+from analysis.sampling import checked_columns, checked_count, checked_series, in_deviations, states_of
 
 LEAST_POINTS = 32
 SHARE, LEAST_SURROGATES = 0.95, 19
@@ -49,7 +49,7 @@ NEIGHBOURS_PER_COEFFICIENT = 2
 _RIDGE = 1e-3
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True)
 class NullRank:
     """Where a record stands among its surrogates.
 
@@ -57,14 +57,12 @@ class NullRank:
     share_below      share of the surrogates with a smaller statistic (equal ones count half)
     advantage        statistic of the record less the median of the surrogates'; its unit
     statistic        of the record
-    surrogates (s,)  of the surrogates
     """
 
     above: bool
     share_below: float
     advantage: float
     statistic: float
-    surrogates: np.ndarray
 
 
 def iaaft_surrogates(series: ArrayLike, count: int = 1, seed: Seed = 0) -> np.ndarray:
@@ -138,7 +136,7 @@ def rank_among(statistic: float, surrogates: ArrayLike) -> NullRank:
     below = (np.sum(drawn < value) + 0.5 * np.sum(drawn == value)) / len(drawn)
     # Of s + 1 equally likely places the record must hold one of the best 5 %; a tie counts against it.
     above = bool(np.sum(drawn >= value) + 1 <= (1.0 - SHARE) * (len(drawn) + 1) + 1e-9)
-    return NullRank(above, float(below), value - float(np.median(drawn)), value, locked(drawn))
+    return NullRank(above, float(below), value - float(np.median(drawn)), value)
 
 
 def _drawn(series, count, seed, kept):

@@ -16,13 +16,13 @@ from ..figures.oscillator import (
     oscillator_zooms,
 )
 from ..parts.columns import table_of
-from ..parts.content import Bullets, Column, Figure, Heading, Item, Notice, Report, Table, Text, sub
+from ..parts.content import Bullets, Figure, Heading, Item, Notice, Report, Text, sub
 from ..parts.provenance import provenance_items
 from ..parts.wording import count, decimals, number, percent
 from .folder import Study, read_study
 from .sections import basin_items, equation_items, grazing_items, orbit_items, subtitle
 
-LAMBDA_1, LAMBDA_2 = "λ" + sub("1"), "λ" + sub("2")
+LAMBDA_1 = "λ" + sub("1")
 QUESTION = (
     "To see the fractal structure of the strange attractor, the paper (Tjavaras, Zhu, Liu, Triantafyllou and Yue "
     "1998, section 4.2) reduces the tethered buoy to its radial motion on a tether that pulls but does not push: "
@@ -132,28 +132,14 @@ def _exponents(study: Study, arrays: dict) -> list[Item]:
     )
     alt = f"Convergence of the largest exponent with time, where {seen}, and its scatter against the number of starts."
     figure = Figure(oscillator_errors(arrays["convergence"], arrays["of_start"][:, 0]), caption, alt)
-    return [Text(text), _exponent_table(study, arrays["convergence"]), figure]
-
-
-def _exponent_table(study: Study, convergence: np.ndarray) -> Table:
-    """Exponent and error against the time averaged."""
-    bits = study.period / math.log(2.0)
-    rows = []
-    for time, mean, error in convergence[np.unique(np.geomspace(1, len(convergence), 7).round().astype(int)) - 1]:
-        second = -study.oscillator["damping"] - mean
-        places = max(2, min(12, 1 - math.floor(math.log10(error)))) if error > 0 else 6
-        nats = (decimals(number, places) for number in (mean, error, second))
-        in_bits = (decimals(number * bits, max(1, places - 1)) for number in (mean, error))
-        dimension = decimals(1.0 + mean / abs(second) if mean > 0 else 0.0, 4)
-        rows.append((str(round(time / study.period)), decimals(time, 0), *nats, *in_bits, dimension))
-    columns = (
-        Column("average over", "periods"), Column("time"), Column(LAMBDA_1, "nats/time"), Column("error", "nats/time"),
-        Column(LAMBDA_2, "nats/time"), Column(LAMBDA_1, "bits/period"), Column("error", "bits/period"),
-        Column("D of the section"),
-    )  # fmt: skip
-    starts = study.rows["exponents"]["starts"]
-    caption = f"Exponents against the time averaged for each of {starts} starts; one standard error. From `exponents`."
-    return Table(columns, tuple(rows), caption)
+    shown = (
+        ("lambda_1_nats_per_time", "lambda_1_error"),
+        ("lambda_1_bits_per_period", "lambda_1_bits_error"),
+        "lambda_2_nats_per_time",
+        "sum_plus_damping",
+        ("section_dimension", "section_dimension_error"),
+    )
+    return [Text(text), table_of(study.columns, shown, [row], "The exponents, from `table.csv`."), figure]
 
 
 def _diagram(study: Study, arrays: dict, symbol: str, key: str, label: str) -> list[Item]:
