@@ -29,57 +29,50 @@ def scenes(extra, steepness=STEEPNESS):
     return [load_scene("tethered_buoy", WATER | extra | {"waves.steepness": float(value)}) for value in steepness]
 
 
-def batch(extra, periods, clock=time.process_time, steepness=STEEPNESS):
-    """Wave periods a second of a batch, by that clock."""
-    members, began = scenes(extra, steepness), clock()
-    simulate_batch(members, periods=periods)
+def rate(call, members, periods, clock):
+    """Wave periods a second of call(members) by that clock."""
+    began = clock()
+    call(members)
     return len(members) * periods / (clock() - began)
 
 
-def alone(extra, periods):
-    """The same of every sixth run alone."""
-    members, began = scenes(extra, STEEPNESS[::6]), time.process_time()
+def one_by_one(members, periods):
     for scene in members:
         simulate(scene, periods=periods)
-    return len(members) * periods / (time.process_time() - began)
 
 
-def on_two(pool, extra, periods):
-    """Wave periods a second of wall time by two processes, each with half of the steepnesses."""
-    began = time.perf_counter()
-    halves = [pool.submit(batch, extra, periods, steepness=STEEPNESS[half::2]) for half in range(2)]
-    for half in halves:
-        half.result()
-    return len(STEEPNESS) * periods / (time.perf_counter() - began)
+def half(extra, periods, number):
+    """Every second run of the sweep, in a process of its own."""
+    simulate_batch(scenes(extra, STEEPNESS[number::2]), periods=periods)
 
 
-def equal(periods):
-    """Are the batch's trajectories and growths those of the runs alone?"""
-    for scene, run in zip(scenes(CARRIED), simulate_batch(scenes(CARRIED), periods=periods), strict=True):
-        alone = simulate(scene, periods=periods)
-        same = all(np.array_equal(alone.columns[name], run.columns[name]) for name in alone.columns)
-        same &= np.array_equal(alone.tangent.growth_nats, run.tangent.growth_nats)
-        same &= np.array_equal(alone.tangent.lateral_nats, run.tangent.lateral_nats)
-        if not same:
-            return False
-    return True
+def same(alone, run):
+    """Is a trajectory of the batch, with its growths, that of the run alone?"""
+    pairs = [(alone.columns[name], run.columns[name]) for name in alone.columns]
+    pairs += [(getattr(alone.tangent, name), getattr(run.tangent, name)) for name in ("growth_nats", "lateral_nats")]
+    return all(np.array_equal(*pair) for pair in pairs)
 
 
 def sweep(rounds, periods):
     for name, extra in (("without perturbations", {}), ("with two perturbations", CARRIED)):
-        simulate_batch(scenes(extra)[:2], periods=0.1)
-        simulate(scenes(extra)[0], periods=0.1)
+        members = scenes(extra)
+        batch = partial(simulate_batch, periods=periods)
+        simulate_batch(members[:2], periods=0.1)
+        simulate(members[0], periods=0.1)
         with ProcessPoolExecutor(2) as pool:
-            on_two(pool, extra, 0.1)
+            list(pool.map(partial(half, extra, 0.1), range(2)))
+            on_two = lambda _: list(pool.map(partial(half, extra, periods), range(2)))  # noqa: B023, E731
             calls = {
-                "one by one": partial(alone, extra, periods),
-                "in a batch": partial(batch, extra, periods),
-                "in a batch, wall": partial(batch, extra, periods, time.perf_counter),
-                "by two processes, wall": partial(on_two, pool, extra, periods),
+                "one by one": (partial(one_by_one, periods=periods), members[::6], periods, time.process_time),
+                "in a batch": (batch, members, periods, time.process_time),
+                "in a batch, wall": (batch, members, periods, time.perf_counter),
+                "by two processes, wall": (on_two, members, periods, time.perf_counter),
             }
-            rates = {how: median(values) for how, values in in_turns(calls, rounds).items()}
-        for how, rate in rates.items():
-            print(f"{name}, {how}: {rate:.0f} wave periods a second, {rate / rates['one by one']:.2f} times one by one")
+            rates = in_turns({how: partial(rate, *call) for how, call in calls.items()}, rounds)
+        alone = median(rates["one by one"])
+        for how, values in rates.items():
+            found = median(values)
+            print(f"{name}, {how}: {found:.0f} wave periods a second, {found / alone:.2f} times one by one")
 
 
 def main() -> None:
@@ -90,7 +83,9 @@ def main() -> None:
     first = seconds(lambda: simulate_batch(scenes({})[:2], periods=0.1))
     print(f"first batch (compilation, or loading what is compiled): {first:.1f} s")
     sweep(given.rounds, given.periods)
-    print(f"48 runs of 12 periods bit for bit those alone: {equal(12)}")
+    members = scenes(CARRIED)
+    pairs = zip((simulate(scene, periods=12) for scene in members), simulate_batch(members, periods=12), strict=True)
+    print(f"48 runs of 12 periods bit for bit those alone: {all(same(*pair) for pair in pairs)}")
     print_load()
 
 

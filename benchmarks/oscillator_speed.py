@@ -11,7 +11,6 @@ Diagram 800 values of F in [0.1, 2], four starts, 500 + 1000 periods each, expon
 
 from dataclasses import astuple
 from functools import partial
-from statistics import median
 
 import numpy as np
 
@@ -29,6 +28,11 @@ def ours(oscillator: SnapOscillator, periods: int) -> np.ndarray:
     parameters, starts = np.array([astuple(oscillator)]), np.array([START])
     sums = growth_over_values(parameters, starts, 100, 10, periods // 10, 0)[0]
     return sums.sum(axis=(0, 1, 2)) / (periods * oscillator.period)
+
+
+def rate(call, periods: int) -> float:
+    """Forcing periods a second of call(periods)."""
+    return periods / seconds(partial(call, periods))
 
 
 def toolbox(oscillator: SnapOscillator):
@@ -62,28 +66,23 @@ def main() -> None:
     on_one_core(given.core)
     print_load()
     oscillator = SnapOscillator()
-    system = toolbox(oscillator)
-    calls = {"ours": lambda: OURS_PERIODS / seconds(partial(ours, oscillator, OURS_PERIODS))}
-    ours(oscillator, 100)
+    end, system = 10 * oscillator.period, toolbox(oscillator)
+    calls = {"ours": (partial(ours, oscillator), OURS_PERIODS, strobed_states(oscillator, START, 11)[10])}
     if system is not None:
-        system.lyapunov(START, 10 * oscillator.period)
-        theirs = partial(system.lyapunov, START, THEIRS_PERIODS * oscillator.period)
-        calls["pynamicalsys"] = lambda: THEIRS_PERIODS / seconds(theirs)
-        print(f"exponents: ours {ours(oscillator, OURS_PERIODS)}, pynamicalsys {theirs()}")
-    rates = in_turns(calls, given.rounds)
+        theirs = lambda periods: system.lyapunov(START, periods * oscillator.period)  # noqa: E731
+        calls["pynamicalsys"] = theirs, THEIRS_PERIODS, system.trajectory(START, end)[-1, 1:]
+    for name, (call, periods, last) in calls.items():
+        call(100)
+        print(f"{name}: exponents {call(periods)}, error after ten periods {np.abs(last - AFTER_TEN).max():.2g}")
+    timed = {name: partial(rate, call, periods) for name, (call, periods, _) in calls.items()}
+    rates = in_turns(timed, given.rounds)
     for name, values in rates.items():
         show(name, values, "forcing periods a second")
     if system is None:
         print("pynamicalsys is not installed (pip install -e .[bench]): no comparison")
-    else:
-        ratio = median(a / b for a, b in zip(rates["ours"], rates["pynamicalsys"], strict=True))
-        print(f"ratio {ratio:.4g}")
-        last = system.trajectory(START, 10 * oscillator.period)[-1, 1:]
-        print(f"error after ten periods: pynamicalsys {np.abs(last - AFTER_TEN).max():.2g}, ", end="")
-        print(f"ours {np.abs(strobed_states(oscillator, START, 11)[10] - AFTER_TEN).max():.2g}")
-    snap_diagram(oscillator, "force", [1.0], transient_periods=1, periods=10, points=1)
-    diagram = partial(snap_diagram, oscillator, "force", np.linspace(0.1, 2.0, 800))
-    walls = [seconds(diagram) for _ in range(min(3, given.rounds))]
+    diagram = partial(snap_diagram, oscillator, "force")
+    diagram([1.0], transient_periods=1, periods=10, points=1)
+    walls = [seconds(partial(diagram, np.linspace(0.1, 2.0, 800))) for _ in range(min(3, given.rounds))]
     show("orbit diagram of 800 values with exponents, 6000 periods each", walls, "s")
 
 

@@ -13,7 +13,8 @@ import numpy as np
 
 from campaigns.buoy_sweep import main as sweep
 from reports.buoy_sweep.runs import read_sweep
-from reports.parts.style import BLUE, VERMILION, sheet
+from reports.figures.curves import Curve, Panel, curves
+from reports.parts.style import BLUE, VERMILION
 
 FIGURE = Path(__file__).parents[1] / "docs" / "out_of_the_water.png"
 DEPTHS_M = (21.0, 22.5)
@@ -32,28 +33,19 @@ def swept(folder, depth_m, kind):
     return read_sweep(out).runs
 
 
-def draw(runs_of):
-    """runs_of: (depth, kind) -> runs. Writes the picture."""
-    with sheet(5.0) as figure:
-        panels = figure.subplots(len(DEPTHS_M), len(KINDS), sharex=True, sharey="row")
-        for row, depth_m in zip(panels, DEPTHS_M, strict=True):
-            row[0].set_ylabel("strobed radius r in m")
-            for axis, (kind, (name, colour)) in zip(row, KINDS.items(), strict=True):
-                axis.set_title(f"H = {depth_m} m, {name}")
-                for run in runs_of[depth_m, kind]:
-                    r = run.section[:, 0]
-                    axis.plot(np.full(len(r), run.steepness), r, ".", markersize=1.6, markeredgewidth=0, color=colour)
-        for axis in panels[-1]:
-            axis.set_xlabel("wave steepness kA")
-        figure.savefig(FIGURE, dpi=160, metadata={"Software": None})
+def panel(folder, depth_m, kind):
+    """Strobed radius over steepness."""
+    name, colour = KINDS[kind]
+    dots = [(run.steepness, r) for run in swept(folder, depth_m, kind) for r in run.section[:, 0]]
+    curve = Curve(*np.array(dots).T, line="", mark="o", colour=colour, size=0.8)
+    return Panel([curve], "wave steepness kA", "strobed radius r in m", f"H = {depth_m} m, {name}")
 
 
 def main():
     if len(sys.argv) != 2:
         sys.exit("usage: python -m benchmarks.out_of_the_water FOLDER")
-    folder = Path(sys.argv[1])
-    draw({(depth_m, kind): swept(folder, depth_m, kind) for depth_m in DEPTHS_M for kind in KINDS})
-    print(f"{FIGURE}: {FIGURE.stat().st_size / 1000:.0f} kB")
+    rows = [[panel(Path(sys.argv[1]), depth_m, kind) for kind in KINDS] for depth_m in DEPTHS_M]
+    FIGURE.write_bytes(curves(rows, 5.0, share="xy", kind="png").data)
 
 
 if __name__ == "__main__":

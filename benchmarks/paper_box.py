@@ -10,13 +10,10 @@
 import math
 import time
 
-import matplotlib
-
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt
 import numpy as np
+import pandas as pd
 
-from benchmarks.shared import save
+from benchmarks.shared import DOCS, shrink
 from engine import load_scene, simulate
 from engine.paper_box import run
 from engine.paper_box.ends import force_and_velocity
@@ -26,10 +23,14 @@ from engine.paper_box.newton import solve
 from engine.paper_box.nodal import level_of, positions
 from engine.paper_box.start import at_rest
 from engine.time.status import OK
+from reports.figures.curves import COLOURS, Curve, Panel, curves
+from reports.parts.style import SOFT
 
 SMALL_S, LARGE_S = 10.0, 30.0
 DEPTHS = (22.5, 21.6)
 SEEDED = {"motion.dimensions": 3, "start.buoy_velocity_mps": [0.0, 1e-5, 0.0]}
+TOLD = ("end_time_s", "closure_m", "max_turn_rad", "euler_norm_error")
+SEEN_S = (5.4, 5.6, 6.0, 8.0, 10.0, 12.0, 20.0, 30.0)
 UNGUARDED = ((41, 0.005), (81, 0.005), (161, 0.0025))  # nodes, step (s): steps that pass the first slack
 
 
@@ -56,9 +57,7 @@ def small_waves():
     ]
     print(f"kA 0.016, H 22.5: the reference is sure to {np.abs(fine[0] - fine[1]).max():.1e} m")
     grids, steps = (6, 11, 21, 41), (0.1, 0.05, 0.025, 0.0125, 0.00625)
-    by_nodes = [
-        np.abs((4 * boxed(22.5, n, 0.005) - boxed(22.5, n, 0.01)) / 3 - fine[0]).max() for n in grids
-    ]  # fmt: skip
+    by_nodes = [np.abs((4 * boxed(22.5, n, 0.005) - boxed(22.5, n, 0.01)) / 3 - fine[0]).max() for n in grids]
     by_steps = [np.abs(boxed(22.5, 81, step) - fine[0]).max() for step in steps]
     for name, values, errors in (("nodes", grids, by_nodes), ("step s", steps, by_steps)):
         print(f"  {name:7s}", *(f"{v:8g}: {e:.2e}" for v, e in zip(values, errors, strict=True)))
@@ -105,66 +104,55 @@ def reference(depth_m):
 
 
 def where_it_stops(depth_m, known):
-    print("  nodes  step s   status         t s     gap m   turn rad  |b|^2-1  error in r at the last sample, m")
+    rows = []
     grids = [(nodes, step_s, {}) for nodes in (21, 41, 81, 161) for step_s in (0.0125, 0.005, 0.0025)]
     for nodes, step_s, motion in [*grids, (41, 0.005, SEEDED)]:
         overrides = {"tether.nodes": nodes, "solver.step_s": step_s, "solver.scheme": "paper-box", **motion}
         found = run(scene_of(0.13, depth_m, **overrides), LARGE_S)
-        told, t, r = found.statistics, found.columns["time_s"][-1], radius(found)[-1]
-        print(
-            f"  {nodes:5d}  {step_s:.4f}  {found.status:13s} {told['end_time_s']:7.4f}  {told['closure_m']:.4f}  "
-            f"{told['max_turn_rad']:.3f}     {told['euler_norm_error']:.4f}   {abs(r - np.interp(t, *known)):.5f}"
-            f"{'  in three dimensions, seeded' if motion else ''}"
-        )
+        row = {"nodes": nodes, "step_s": step_s, "dimensions": 3 if motion else 2, "status": found.status}
+        told = {name: found.statistics[name] for name in TOLD}
+        off = abs(radius(found)[-1] - np.interp(found.columns["time_s"][-1], *known))
+        rows.append({**row, **told, "last_error_m": off})
+    print(pd.DataFrame(rows).to_string(index=False))
 
 
-def large_waves(axes):
-    for depth_m, (above, below) in zip(DEPTHS, axes, strict=True):
-        known = reference(depth_m)
-        where_it_stops(depth_m, known)
-        for (nodes, step_s), colour in zip(UNGUARDED, ("C3", "C1", "C0"), strict=True):
-            began = time.perf_counter()
-            t, shape, path, turn, norm, unit = unguarded(depth_m, nodes, step_s)
-            r = np.interp(t, *known)
-            label = f"{nodes} nodes, {1e3 * step_s:g} ms"
-            print(f"  no guards, {label}: reached {t[-1]:.3f} s in {time.perf_counter() - began:.0f} s")
-            shown = slice(None, None, round(0.05 / step_s))
-            above.semilogy(t[shown], np.abs(shape - r)[shown], colour, lw=1, label=label)
-            above.semilogy(t[shown], np.abs(path - r)[shown], colour, lw=0.6, ls=":")
-            below.semilogy(t[shown], turn[shown], colour, lw=1)
-            for at in (5.4, 5.6, 6.0, 8.0, 10.0, 12.0, 20.0, 30.0):
-                if at <= t[-1] + 1e-9:
-                    k = np.argmin(np.abs(t - at))
-                    print(
-                        f"    t {at:4.1f}: shape {shape[k] - r[k]:+.5f}  path {path[k] - r[k]:+.5f}  "
-                        f"|t| = 1 {unit[k] - r[k]:+.5f} m  "
-                        f"turn {turn[k]:.3f} rad  |b|^2-1 {norm[k]:.4f};  before: turn {turn[: k + 1].max():.3f}"
-                    )
-        above.set(title=f"kA = 0.13, H = {depth_m} m", ylabel="error in r (m)", ylim=(1e-6, 20))
-        below.set(ylabel="turn in one element (rad)", xlabel="t (s)", ylim=(1e-4, 20))
-        below.axhline(math.pi / 2, color="0.5", lw=0.8, ls="--")
-        for axis in (above, below):
-            axis.set_xlim(0, LARGE_S)
+def large_waves(depth_m):
+    """Panels of the error in r, by the shape solid and by the path dotted, and of the largest turn in one element."""
+    known, errors, turned = reference(depth_m), [], []
+    where_it_stops(depth_m, known)
+    for (nodes, step_s), colour in zip(UNGUARDED, COLOURS, strict=False):
+        began = time.perf_counter()
+        t, shape, path, turn, norm, unit = unguarded(depth_m, nodes, step_s)
+        r = np.interp(t, *known)
+        label = f"{nodes} nodes, {1e3 * step_s:g} ms"
+        print(f"  no guards, {label}: reached {t[-1]:.3f} s in {time.perf_counter() - began:.0f} s")
+        found = {"t": t, "shape": shape - r, "path": path - r, "|t| = 1": unit - r, "turn": turn, "|b|^2-1": norm}
+        found = pd.DataFrame({**found, "turn before": np.maximum.accumulate(turn)})
+        print(found.iloc[[np.argmin(np.abs(t - at)) for at in SEEN_S if at <= t[-1] + 1e-9]].round(5).to_string())
+        shown = found[:: round(0.05 / step_s)]
+        for column, name, line in (("shape", label, "-"), ("path", "", ":")):
+            errors.append(Curve(shown["t"], np.abs(shown[column]), name, line, colour=colour))
+        turned.append(Curve(shown["t"], shown["turn"], colour=colour))
+    title, limits = f"kA = 0.13, H = {depth_m} m", {"xlim": (0, LARGE_S)}
+    error = Panel(errors, "t (s)", "error in r (m)", title, "y", settings={**limits, "ylim": (1e-6, 20)})
+    return error, Panel(turned, "t (s)", "turn in one element (rad)", "", "y", math.pi / 2, limits)
 
 
 def main():
-    figure = plt.figure(figsize=(9, 8.2), layout="constrained")
-    order, *large = figure.subplot_mosaic(
-        [["order", "order"], ["e0", "e1"], ["t0", "t1"]], height_ratios=(1.1, 1, 1)
-    ).values()
     grids, by_nodes, steps, by_steps = small_waves()
-    h = 20.0 / (np.array(grids) - 1)
-    order.loglog(h, by_nodes, "o-", label="elements h (m), steps extrapolated")
-    order.loglog(steps, by_steps, "s-", label="steps (s), 81 nodes")
-    order.loglog(h, by_nodes[0] * (h / h[0]) ** 2, "k:", lw=0.8, label="order 2")
-    order.loglog(steps, by_steps[0] * (np.array(steps) / steps[0]) ** 2, "k:", lw=0.8)
-    order.set(title="kA = 0.016, H = 22.5 m: distance from the conservation form")
-    order.set(xlabel="h (m) or step (s)", ylabel="largest error in r, 10 s (m)")
-    order.legend(fontsize=8)
-    e0, e1, t0, t1 = large
-    large_waves(((e0, t0), (e1, t1)))
-    e0.legend(fontsize=7, loc="lower right", title="solid: by the shape, dotted: by the path", title_fontsize=7)
-    save(figure, "paper_box.png", 48)
+    lines = []
+    for name, mark, values, errors in (
+        ("elements h (m), steps extrapolated", "o", 20.0 / (np.array(grids) - 1), by_nodes),
+        ("steps (s), 81 nodes", "s", np.array(steps), by_steps),
+    ):
+        lines.append(Curve(values, errors, name, mark=mark))
+        lines.append(Curve(values, errors[0] * (values / values[0]) ** 2, "", ":", colour=SOFT))
+    title = "kA = 0.016, H = 22.5 m: distance from the conservation form; dotted: order 2"
+    order = Panel(lines, "h (m) or step (s)", "largest error in r, 10 s (m)", title, "xy")
+    large = [large_waves(depth_m) for depth_m in DEPTHS]
+    path = DOCS / "paper_box.png"
+    path.write_bytes(curves([[order], *zip(*large, strict=True)], 8.2, "lower right", kind="png").data)
+    shrink(path, 48)
 
 
 if __name__ == "__main__":

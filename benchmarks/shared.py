@@ -50,11 +50,9 @@ def show(name: str, values: list[float], unit: str) -> None:
     print(f"{median(values):10.4g} {unit}  {name} ({min(values):.3g} to {max(values):.3g})")
 
 
-def save(figure, name: str, colours: int = 128) -> None:
-    """A figure of Matplotlib as docs/NAME, in few colours, so that the repository stays small."""
+def shrink(path: Path, colours: int) -> None:
+    """A PNG in few colours, so that the repository stays small."""
     from PIL import Image
 
-    path = DOCS / name
-    figure.savefig(path, dpi=100)
     Image.open(path).convert("RGB").quantize(colours).save(path, optimize=True)
-    print(f"docs/{name}: {path.stat().st_size / 1000:.0f} kB")
+    print(f"docs/{path.name}: {path.stat().st_size / 1000:.0f} kB")

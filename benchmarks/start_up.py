@@ -27,18 +27,13 @@ CACHED = "cached start: from nothing to the end of one wave period"
 
 def run(kernels: Path, *words: str) -> float:
     """Wall time of `python words...` with the folder `kernels` for compiled code."""
-    environment = os.environ | {"TETHER_CACHE_DIR": str(kernels)}
-    command = [sys.executable, *words]
-    return seconds(lambda: subprocess.run(command, cwd=ROOT, env=environment, check=True, stdout=subprocess.DEVNULL))
-
-
-def command_lines() -> list[str]:
-    """Names of the packages of campaigns and reports that can be run."""
-    mains = [path for package in ("campaigns", "reports") for path in sorted((ROOT / package).rglob("__main__.py"))]
-    return [".".join(path.parent.relative_to(ROOT).parts) for path in mains]
+    how = {"cwd": ROOT, "env": os.environ | {"TETHER_CACHE_DIR": str(kernels)}, "stdout": subprocess.DEVNULL}
+    return seconds(partial(subprocess.run, [sys.executable, *words], check=True, **how))
 
 
 def main() -> None:
+    mains = [path for package in ("campaigns", "reports") for path in sorted((ROOT / package).rglob("__main__.py"))]
+    names = [".".join(path.parent.relative_to(ROOT).parts) for path in mains]
     options = parser(__doc__, 7)
     options.add_argument("--cold-rounds", type=int, default=3, help="cold compiles (default 3)")
     given = options.parse_args()
@@ -48,7 +43,7 @@ def main() -> None:
         "an empty Python process": ("-c", "pass"),
         "imports of the engine, kernels loaded": ("-c", "from engine import simulate"),
         CACHED: ("-c", ONE_PERIOD),
-    } | {f"python -m {name} --help": ("-m", name, "--help") for name in command_lines()}
+    } | {f"python -m {name} --help": ("-m", name, "--help") for name in names}
     with tempfile.TemporaryDirectory() as folder:
         cold = [run(Path(folder, str(i)), "-c", ONE_PERIOD) for i in range(given.cold_rounds)]
         found = in_turns({name: partial(run, Path(folder, "0"), *words) for name, words in warm.items()}, given.rounds)

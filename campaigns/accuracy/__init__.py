@@ -15,7 +15,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import partial
 
-from campaigns.accuracy.points import FACTORS, FULL, QUICK, Effort
+from campaigns.accuracy.plan import FACTORS, FULL, QUICK, Effort
 from campaigns.accuracy.works import BY_NAME, UNITS
 from campaigns.machinery import cli
 from campaigns.machinery.command import command
@@ -114,19 +114,12 @@ def _parameters(order: Order) -> dict[str, object]:
     from campaigns.accuracy.peers import notes
     from campaigns.machinery.machine import machine
 
-    works = {
-        work.name: {
-            "title": work.title,
-            "measure": work.measure,
-            "unit": UNITS[work.measure],
-            "period_s": work.period_s,
-            "duration_s": work.duration_s,
-            "rough": work.rough,
-        }
-        for work in (BY_NAME[name] for name in order.effort.works)
-    }
+    told = ("title", "measure", "period_s", "duration_s", "rough")
+    works = [BY_NAME[name] for name in order.effort.works]
     return {
-        "works": works,
+        "works": {
+            work.name: {name: getattr(work, name) for name in told} | {"unit": UNITS[work.measure]} for work in works
+        },
         "quick": order.quick,
         "rounds": order.effort.rounds,
         "peers": order.peers,

@@ -13,13 +13,14 @@ from pathlib import Path
 
 import numpy as np
 
-from campaigns.accuracy.points import ORDERS, plain
+from campaigns.accuracy.plan import ORDERS, plain
 from campaigns.accuracy.rows import kept_samples, rms_mm
-from campaigns.accuracy.works import BY_NAME, UNITS
+from campaigns.accuracy.works import BY_NAME, UNITS, Work
 from campaigns.columns import Column
 from campaigns.machinery.folder import Table, trajectory_path
 from campaigns.machinery.kept_run import KeptRun
 
+KINDS = ("time", "space", "both", "tolerance")  # of runs that are series
 WITHIN = 0.15  # of theory, the last slope
 STEADY = 0.6  # of theory, every slope: where they jump about, the last is right by chance
 COLUMNS = (
@@ -43,110 +44,85 @@ TOLERANCE_SLOPE = {"esdirk43": 1.0, "trbdf2": 2.0 / 3.0}
 
 def write(out: Path, rows: list[dict]) -> None:
     """Write orders.csv and its dictionary beside table.csv. Raises OSError."""
-    found = orders(out, rows)
-    table = Table(out / "orders.csv", COLUMNS, list(map(str, range(len(found)))))
-    table.rows = dict(zip(table.keys, found, strict=True))
+    found = dict(enumerate(orders(out, rows)))
+    table = Table(out / "orders.csv", COLUMNS, list(found))
+    table.rows = found
     table.write()
 
 
 def orders(out: Path, rows: list[dict]) -> list[dict]:
-    """The rows of orders.csv from those of table.csv, which name the runs in `out`."""
+    """The rows of orders.csv from those of table.csv, which name the runs in `out`; in the order of the table."""
+    series: dict[tuple[str, str, str], list[dict]] = {}
+    for row in rows:
+        if row["kind"] in KINDS and plain(row["method"]) in ORDERS:
+            series.setdefault((row["work"], row["kind"], row["method"]), []).append(row)
+    slack = {name: first_slack(out, work, rows) for name, work in BY_NAME.items() if work.rough}
     found = []
-    for work in BY_NAME.values():
-        own = [row for row in rows if row["work"] == work.name]
-        for kind in ("time", "space"):
-            for method in _methods(own, kind):
-                theory = ORDERS[method] if kind == "time" else 2
-                series = _series(own, kind, method)
-                found.append(_by_differences(out, work, kind, method, theory, series))
-                if early := first_slack(out, work, own):
-                    found.append(_by_differences(out, work, kind, method, theory, series, early))
-        found += [_by_errors(work, method, _series(own, "both", method)) for method in _methods(own, "both")]
-        found += [_by_tolerance(work, method, own) for method in _methods(own, "tolerance")]
-    return [row for row in found if row]
+    for (work, kind, method), own in series.items():
+        own.sort(key=lambda row: (row["nodes"], -row["setting"]))  # coarse to fine
+        if kind == "both":  # theory: the order in space; the viscosity's limiter leaves it alone
+            found.append(_judged(kind, min(2, ORDERS[plain(method)]), own, _errors(own)))
+        elif kind == "tolerance":
+            found += _by_tolerance(method, [row for row in own if row.get("error") is not None])
+        else:
+            samples = [kept_samples(BY_NAME[work], KeptRun(trajectory_path(out, row["run_key"]))) for row in own]
+            theory = ORDERS[method] if kind == "time" else 2
+            found.append(_judged(kind, theory, own, _differences(samples)))
+            if early := slack.get(work):
+                cut = [values if values is None else values[:early] for values in samples]
+                found.append(_judged(kind, theory, own, _differences(cut)) | {"kind": f"{kind}-early", "rough": ""})
+    return found
 
 
-def _methods(rows: list[dict], kind: str) -> list[str]:
-    return list(dict.fromkeys(row["method"] for row in rows if row["kind"] == kind and _is_ours(row)))
-
-
-def _is_ours(row: dict) -> bool:
-    return plain(row["method"]) in ORDERS
-
-
-def _series(rows: list[dict], kind: str, method: str) -> list[dict]:
-    """Rows of a series, coarse to fine."""
-    chosen = [row for row in rows if row["kind"] == kind and row["method"] == method]
-    return sorted(chosen, key=lambda row: (row["nodes"], -row["setting"]))
-
-
-def first_slack(out: Path, work, rows: list[dict]) -> int:
+def first_slack(out: Path, work: Work, rows: list[dict]) -> int:
     """Number of samples of a rough work's reference before its rope first goes slack; 0 where it does not."""
     from engine import Trajectory
 
-    reference = next((row for row in rows if row["kind"] == "reference" and row["status"] == "ok"), None)
-    if not work.rough or reference is None:
+    wanted = {"work": work.name, "kind": "reference", "status": "ok"}
+    reference = next((row for row in rows if wanted.items() <= row.items()), None)
+    if reference is None:
         return 0
     run = Trajectory.load(trajectory_path(out, reference["run_key"]))
     return int(np.argmax(run.columns["tension_min_N"] <= 0.0))
 
 
-def _by_differences(out: Path, work, kind: str, method: str, theory: float, series: list[dict], early: int = 0) -> dict:
-    """early: number of samples that are compared, 0 for all."""
-    samples = [kept_samples(work, KeptRun(trajectory_path(out, row["run_key"]))) for row in series]
-    if early:
-        samples = [None if values is None else values[:early] for values in samples]
-        kind = f"{kind}-early"
-    named = [row["nodes"] if kind.startswith("space") else row["setting"] for row in series]
-    found = [_difference(*pair) for pair in pairwise(samples)]
-    row = _judged(work, kind, method, theory, found, named, _failures(series))
-    return row | ({"rough": ""} if early else {})
+def _differences(samples: list) -> list[float]:
+    """Distances of neighbours; nan where one of them gave nothing."""
+    return [math.nan if coarse is None or fine is None else rms_mm(coarse, fine) for coarse, fine in pairwise(samples)]
 
 
-def _difference(coarse, fine) -> float:
-    return math.nan if coarse is None or fine is None else rms_mm(coarse, fine)
+def _errors(series: list[dict]) -> list[float]:
+    return [math.nan if row.get("error") is None else row["error"] for row in series]
 
 
-def _failures(series: list[dict]) -> str:
-    failed = [row for row in series if row["status"] != "ok"]
-    statuses = ", ".join(dict.fromkeys(row["status"] for row in failed))
-    return f"{len(failed)} of {len(series)} runs ended early: {statuses}" if failed else ""
-
-
-def _by_errors(work, method: str, series: list[dict]) -> dict:
-    theory = min(2, ORDERS[plain(method)])  # that of space; the viscosity's limiter leaves it alone
-    errors = [row["error"] if row.get("error") is not None else math.nan for row in series]
-    return _judged(work, "both", method, theory, errors, [row["nodes"] for row in series], _failures(series))
-
-
-def _by_tolerance(work, method: str, rows: list[dict]) -> dict:
-    series = [row for row in _series(rows, "tolerance", method) if row.get("error") is not None]
+def _by_tolerance(method: str, series: list[dict]) -> list[dict]:
     if len(series) < 3:
-        return {}
-    settings = [row["setting"] for row in series]
-    errors = [row["error"] for row in series]
-    fitted = float(np.polyfit(np.log(settings), np.log(np.maximum(errors, 1e-12)), 1)[0])
-    row = _judged(work, "tolerance", method, TOLERANCE_SLOPE[method], errors, settings, "")
-    return row | {"order": fitted, "slopes": "", "within": ""}
+        return []
+    errors = _errors(series)
+    logs = np.log([row["setting"] for row in series]), np.log(np.maximum(errors, 1e-12))
+    row = _judged("tolerance", TOLERANCE_SLOPE[method], series, errors)
+    return [row | {"order": float(np.polyfit(*logs, 1)[0]), "slopes": "", "within": ""}]
 
 
-def _judged(work, kind, method, theory, errors, settings, note) -> dict:
+def _judged(kind: str, theory: float, series: list[dict], errors: list[float]) -> dict:
+    work = BY_NAME[series[0]["work"]]
     with np.errstate(all="ignore"):
         slopes = np.log2(np.divide(errors[:-1], errors[1:])) if len(errors) > 1 else np.array([])
     known = slopes[np.isfinite(slopes)]
-    order = float(known[-1]) if len(known) else math.nan
-    steady = np.all(np.abs(known - theory) <= STEADY)
+    within = len(known) and abs(known[-1] - theory) <= WITHIN and np.all(np.abs(known - theory) <= STEADY)
+    failed = [row["status"] for row in series if row["status"] != "ok"]
+    statuses = ", ".join(dict.fromkeys(failed))
     return {
         "work": work.name,
         "kind": kind,
-        "method": method,
+        "method": series[0]["method"],
         "theory": theory,
-        "order": "" if math.isnan(order) else order,
+        "order": float(known[-1]) if len(known) else "",
         "slopes": " ".join(f"{slope:.3f}" for slope in slopes),
         "errors": " ".join(f"{error:.4g}" for error in errors),
         "unit": UNITS[work.measure],
-        "settings": " ".join(f"{setting:g}" for setting in settings),
-        "within": "" if math.isnan(order) else int(bool(abs(order - theory) <= WITHIN and steady)),
+        "settings": " ".join(f"{row['setting' if kind in ('time', 'tolerance') else 'nodes']:g}" for row in series),
+        "within": int(bool(within)) if len(known) else "",
         "rough": work.rough,
-        "note": note,
+        "note": f"{len(failed)} of {len(series)} runs ended early: {statuses}" if failed else "",
     }

@@ -6,14 +6,11 @@ difference between runs that keep a sample every hundredth of a period and hardl
 `simulate` takes beyond its stepping: the scene as numbers, statics, the record.
 """
 
-import json
 import time
 from pathlib import Path
 
-import numpy as np
-
 from campaigns.accuracy.works import BUOY
-from engine.atomic import write_atomic
+from campaigns.machinery.folder import read_json, write_json
 
 REPEATS, ROUNDS = 5_000, 15
 PERIODS = 40
@@ -25,14 +22,10 @@ def keep(out: Path, quick: bool = False) -> None:
     """Write costs.json unless it is there already, from this very engine. Raises OSError."""
     from engine import source_hash
 
-    path = out / "costs.json"
-    try:
-        if json.loads(path.read_text(encoding="utf-8"))["engine"] == source_hash():
-            return
-    except (OSError, ValueError, KeyError, TypeError):
-        pass
-    content = {"engine": source_hash(), **costs(rounds=3 if quick else ROUNDS)}
-    write_atomic(path, (json.dumps(content, indent=2) + "\n").encode())
+    path, engine = out / "costs.json", {"engine": source_hash()}
+    kept = read_json(path)
+    if not isinstance(kept, dict) or not engine.items() <= kept.items():
+        write_json(path, engine | costs(rounds=3 if quick else ROUNDS))
 
 
 def costs(rounds: int = ROUNDS) -> dict[str, object]:
@@ -44,25 +37,20 @@ def costs(rounds: int = ROUNDS) -> dict[str, object]:
 
     scene = load_scene(BUOY, CHANGES)
     sparse = load_scene(BUOY, CHANGES | {"output.step_s": PERIODS * scene.waves.period_s})
-    run = simulate(scene, periods=PERIODS)
-    loops, arguments = _loops(), _arguments(run)
-    least = dict.fromkeys(("call", "run", "sparse", *loops), np.inf)
-
-    def kept(name: str, seconds: float) -> None:
-        least[name] = min(least[name], seconds)
-
+    loops, arguments, found = _loops(), _arguments(scene), []
     for loop in loops.values():
         loop(*arguments, 10)
     for _ in range(rounds):
         began = time.perf_counter()
         run = simulate(scene, periods=PERIODS)
-        kept("call", time.perf_counter() - began - run.statistics["wall_s"])
-        kept("run", run.statistics["wall_s"])
-        kept("sparse", simulate(sparse, periods=PERIODS).statistics["wall_s"])
+        times = {"call": time.perf_counter() - began - run.statistics["wall_s"], "run": run.statistics["wall_s"]}
+        times["sparse"] = simulate(sparse, periods=PERIODS).statistics["wall_s"]
         for name, loop in loops.items():
             began = time.perf_counter()
             loop(*arguments, REPEATS)
-            kept(name, (time.perf_counter() - began) / REPEATS)
+            times[name] = (time.perf_counter() - began) / REPEATS
+        found.append(times)
+    least = {name: min(times[name] for times in found) for name in times}
     iterations = run.statistics["newton_iterations"]
     output = max(least["run"] - least["sparse"], 0.0)
     seconds = {
@@ -85,31 +73,15 @@ def costs(rounds: int = ROUNDS) -> dict[str, object]:
     }
 
 
-def _arguments(run) -> tuple:
-    """What the loops take: record, tables, state, and the work arrays of Newton's method."""
-    from engine.parameters import record_of
-    from engine.planar import state
+def _arguments(scene) -> tuple:
+    """What the loops take: record, tables, state in mid motion, and the work arrays of Newton's method."""
+    from engine.run import Run
 
-    tables: list = []
-    p = record_of(run.scene, tables)[0]
-    n = int(p["nodes"])
-    work = state.work_arrays(p, n)
-    Y, work.C_tilde[:] = _mid_motion(run, n)
-    return p, np.concatenate(tables), Y, work
-
-
-def _mid_motion(run, n: int) -> tuple[np.ndarray, np.ndarray]:
-    """A state (n, 6) like those of the run: the straight line between its ends, stretched and moving."""
-    top = {name: float(run.columns[name][-1]) for name in ("x_m", "z_m", "radius_m")}
-    length = run.scene.tether.length_m
-    share = np.linspace(0.0, 1.0, n)
-    Y = np.zeros((n, 6))
-    Y[:, 0] = top["radius_m"] / length - 1.0
-    Y[:, 2] = 0.5 * share
-    Y[:, 3] = 0.2 * share
-    Y[:, 4] = np.arctan2(top["z_m"], top["x_m"])
-    C = np.column_stack([(1 + Y[:, 0]) * np.cos(Y[:, 4]), (1 + Y[:, 0]) * np.sin(Y[:, 4]), Y[:, 2], Y[:, 3]])
-    return Y, C
+    run = Run(scene, PERIODS * scene.waves.period_s)
+    run.advance(run.goal)
+    work = run.kind.work_arrays(run.record, scene.tether.nodes)
+    work.C_tilde[:] = run.motion.C
+    return run.record, run.tables, run.motion.Y, work
 
 
 def _loops() -> dict:
@@ -117,7 +89,8 @@ def _loops() -> dict:
 
     from engine.arrays import Stage
     from engine.physics.water import water
-    from engine.planar import node, state
+    from engine.planar import node
+    from engine.time.newton import assemble
 
     rate = 1.0 / STAGE_S
 
@@ -135,6 +108,6 @@ def _loops() -> dict:
     @numba.njit
     def everything(p, tables, Y, work, count):
         for i in range(count):
-            state.assemble(p, tables, Stage(1e-3 * i, 1.0, rate, rate), Y, work)
+            assemble(p, tables, Stage(1e-3 * i, 1.0, rate, rate), Y, work)
 
     return {"assembly": assembly, "waves": waves, "all": everything}

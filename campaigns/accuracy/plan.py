@@ -1,8 +1,33 @@
-"""The list of the engine's runs of the accuracy campaign, in the order of its table (`points` says what kinds)."""
+"""The list of the engine's runs of the accuracy campaign, in the order of its table. kind of a run:
 
-from campaigns.accuracy.points import ADAPTIVE, FIXED, LONG, ORDERS, STRETCHED, VISCOUS, Effort, Point
-from campaigns.accuracy.works import BUOY, BY_NAME, STRAIN, Work
+    reference   what errors are taken against        check    how far that is converged
+    point       timed: error against run time, in rounds that take turns
+    time        steps halved on one grid             space    grids doubled, one step or tolerance
+    tolerance   tolerances of one grid               grid     what errors of tolerances are taken against
+    long        how long refined runs stay together
+    both        elements and steps halved, at a Courant number of one
 
+Near a snap the error of a loose setting is partly luck: every round takes another tolerance or step, `FACTORS` times
+the one named, and tables give medians over the rounds.
+"""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+from campaigns.accuracy.works import BUOY, BY_NAME, FILE, STRAIN, WORKS, Work
+
+FACTORS = (1.0, 0.9, 1.1)
+ORDERS = {"esdirk43": 4, "trbdf2": 2, "generalized-alpha": 2, "midpoint": 2, "backward-euler": 1, "paper-box": 2}
+ADAPTIVE = ("esdirk43", "trbdf2")
+FIXED = ("generalized-alpha", "midpoint", "backward-euler")
+BEST = "esdirk43"  # the method of references
+VISCOUS, STRETCHED = ", shock viscosity", ", stretched grid"  # of a line with either
+STRETCHING = 1.0
+EXACT_NEWTON = {"solver.newton_tolerance": 1e-20, "solver.max_newton_iterations": 50}
+TIGHT_NEWTON = {"solver.newton_tolerance": 1e-6}  # of timed points with fixed steps: their error is that of the step
+LONGEST_STEP_S = 2.0  # where errors over tolerances are shown: the shipped 0.1 s would decide, not the tolerance
+LONG_PERIODS = 24
+LONG = ((161, 1e-4), (161, 1e-6), (161, 1e-5), (321, 1e-5), (641, 1e-5))  # neighbours differ in one of the two
 TIME_NODES = {BUOY: 21, "pendulum": 11}  # grids on which orders in time are measured
 SPACE_NODES = {BUOY: 11, "pendulum": 6}  # the coarsest grids of orders in space
 FIRST_STEPS = {4: 100, 2: 200, 1: 1600}  # per period, of a series in time, by order
@@ -14,8 +39,108 @@ MOST_ADAPTIVE_LINE = 401  # nodes of breaking lines with steps under control: be
 TOLERANCE_NODES, TOLERANCE_REFERENCE = 161, 1e-6
 COURANTS, LINE_RTOLS = (4.0, 2.0, 1.0, 0.5), (0.01, 1e-3, 1e-4)  # of breaking lines
 BOX_NODES, BOX_STEPS = 21, (50, 100, 200)  # of the paper's scheme
-BEST = "esdirk43"  # the method of references
 Setting = tuple[str, int, str, float]  # method, nodes, control, its value
+
+
+def plain(method: str) -> str:
+    """The integrator or scheme of a line."""
+    return method.removesuffix(VISCOUS).removesuffix(STRETCHED)
+
+
+@dataclass(frozen=True)
+class Point:
+    """One run, in the words of the table.
+
+    control: the key of the solver that is varied, "rtol", "step_s" or "courant"; setting: its value, taken times the
+    factor of the round.
+    """
+
+    work: str
+    kind: str
+    method: str
+    nodes: int
+    control: str
+    setting: float
+    round: int = 0
+
+    def changes(self) -> dict[str, object]:
+        """The keys of the scene that make it this point."""
+        method = plain(self.method)
+        keys = {"tether.nodes": self.nodes}
+        if self.method.endswith(STRETCHED):
+            keys["tether.grid_stretching"] = STRETCHING
+        keys["solver.scheme" if method == "paper-box" else "solver.integrator"] = method
+        if self.work.startswith("break"):
+            keys["solver.courant"] = None
+            if method == self.method:
+                keys["solver.shock_viscosity"] = None
+        keys[f"solver.{self.control}"] = self.setting * FACTORS[self.round]
+        if self.kind in ("time", "space"):
+            keys |= EXACT_NEWTON
+        elif self.kind == "tolerance":
+            keys["solver.max_step_s"] = LONGEST_STEP_S
+        elif self.control != "rtol" and method != "paper-box":
+            keys |= TIGHT_NEWTON
+        return keys
+
+
+@dataclass(frozen=True)
+class Effort:
+    """How much is run.
+
+    nodes: by scene, or by work where it has its own. steps: per period of the work, likewise. whole: with the paper's
+    scheme and the long runs.
+    """
+
+    works: Sequence[str]
+    nodes: Mapping[str, Sequence[int]]
+    rtols: Sequence[float]
+    steps: Mapping[str, Sequence[int]]
+    rounds: int
+    whole: bool
+
+
+FULL = Effort(works=tuple(BY_NAME), **FILE["effort"]["full"])
+QUICK = Effort(**FILE["effort"]["quick"])
+
+
+def phases(effort: Effort) -> tuple[list[Point], list[Point], list[Point]]:
+    """References alone, from which everything else is described by its distance; what is not timed; what is timed, all
+    works' settings in turns, round by round, and the paper's scheme once."""
+    works = [work for work in WORKS if work.name in effort.works]
+    first = [point for work in works for point in references(work)]
+    second = [point for work in works for point in series(work, effort)]
+    third = [
+        Point(work.name, "point", *setting, round)
+        for round in range(effort.rounds)
+        for work in works
+        if work.timed
+        for setting in (of_a_line if work.measure == STRAIN else of_a_motion)(work, effort)
+        if round == 0 or setting[0] != "paper-box"
+    ]
+    return first, second, third
+
+
+def references(work: Work) -> list[Point]:
+    """The reference of a work, and that of its tolerances: on their grid, at a tolerance beyond them, so that errors
+    against it are those in time alone."""
+    grid = (TOLERANCE_NODES, TOLERANCE_REFERENCE)
+    kinds = {"reference": work.reference, "grid": grid} if work.reference is not None else {}
+    return [Point(work.name, kind, BEST, nodes, "rtol", rtol) for kind, (nodes, rtol) in kinds.items()]
+
+
+def series(work: Work, effort: Effort) -> list[Point]:
+    """All of a work that is not timed."""
+    long = LONG if effort.whole and work.name == "violent" else ()
+    tolerances = [(method, TOLERANCE_NODES, "rtol", rtol) for method in ADAPTIVE for rtol in effort.rtols]
+    orders = {"both": in_both} if work.measure == STRAIN else {"time": in_time, "space": in_space}
+    kinds = {
+        "check": [(BEST, nodes, "rtol", rtol) for nodes, rtol in work.checks],
+        **{kind: settings(work, effort) for kind, settings in orders.items()},
+        "tolerance": tolerances if work.reference is not None else [],
+        "long": [(BEST, nodes, "rtol", rtol) for nodes, rtol in long],
+    }
+    return [Point(work.name, kind, *setting) for kind, settings in kinds.items() for setting in settings]
 
 
 def own(table: dict, work: Work):
@@ -23,68 +148,17 @@ def own(table: dict, work: Work):
     return table[work.name if work.name in table else work.scene]
 
 
-def made(work: Work, kind: str, settings: list[Setting], round: int = 0) -> list[Point]:
-    """A point of that kind for each setting."""
-    return [Point(work.name, kind, *setting, round) for setting in settings]
-
-
-def first_phase(effort: Effort) -> list[Point]:
-    """References alone: everything else is described by its distance from them."""
-    points = []
-    for work in _works(effort):
-        if work.reference is not None:
-            nodes, rtol = work.reference
-            points += made(work, "reference", [(BEST, nodes, "rtol", rtol)])
-            # on the grid of the tolerances, at a tolerance beyond them: errors against it are those in time alone
-            points += made(work, "grid", [(BEST, TOLERANCE_NODES, "rtol", TOLERANCE_REFERENCE)])
-    return points
-
-
-def second_phase(effort: Effort) -> list[Point]:
-    """All that is not timed."""
-    points = []
-    for work in _works(effort):
-        if work.reference is not None:
-            points += made(work, "check", [(BEST, nodes, "rtol", rtol) for nodes, rtol in work.checks])
-        if work.measure == STRAIN:
-            points += made(work, "both", in_both(work, effort))
-        else:
-            points += made(work, "time", in_time(work)) + made(work, "space", in_space(work))
-        if work.reference is not None:
-            over = [(method, TOLERANCE_NODES, "rtol", rtol) for method in ADAPTIVE for rtol in effort.rtols]
-            points += made(work, "tolerance", over)
-        if effort.whole and work.name == "violent":
-            points += made(work, "long", [(BEST, nodes, "rtol", rtol) for nodes, rtol in LONG])
-    return points
-
-
-def third_phase(effort: Effort) -> list[Point]:
-    """What is timed, one at a time: all works' settings take turns, round by round; the paper's scheme runs once."""
-    points = []
-    for round in range(effort.rounds):
-        for work in _works(effort):
-            settings = of_a_line(work, effort) if work.measure == STRAIN else of_a_motion(work, effort)
-            chosen = [setting for setting in settings if round == 0 or setting[0] != "paper-box"]
-            points += made(work, "point", chosen, round) if work.timed else []
-    return points
-
-
-def _works(effort: Effort) -> list[Work]:
-    return [BY_NAME[name] for name in effort.works]
-
-
-def in_time(work: Work) -> list[Setting]:
+def in_time(work: Work, effort: Effort) -> list[Setting]:
     """Fixed steps, halved; every method but the paper's scheme, which is too slow for them."""
-    nodes, halvings = own(TIME_NODES, work), range(DOUBLINGS + 1)
     return [
-        (method, nodes, "step_s", work.period_s / (FIRST_STEPS[order] << halving))
+        (method, own(TIME_NODES, work), "step_s", work.period_s / (FIRST_STEPS[order] << halving))
         for method, order in ORDERS.items()
         if method != "paper-box"
-        for halving in halvings
+        for halving in range(DOUBLINGS + 1)
     ]
 
 
-def in_space(work: Work) -> list[Setting]:
+def in_space(work: Work, effort: Effort) -> list[Setting]:
     """Elements halved."""
     control, setting = ("rtol", SPACE_RTOL) if work.rough else ("step_s", work.period_s / SPACE_STEPS)
     coarsest = own(SPACE_NODES, work) - 1

@@ -5,25 +5,13 @@ import math
 
 import numpy as np
 
-from campaigns.accuracy.works import BY_NAME, PLACE, RADIUS, UNITS, Work
-from campaigns.columns import (
-    END_S,
-    LOOPS,
-    MESSAGE,
-    NEWTON,
-    NEWTON_FAILURES,
-    REJECTED,
-    RUN_KEY,
-    STATUS,
-    STEPS,
-    TURN,
-    WALL_S,
-    Column,
-    names,
-)
+from campaigns import columns
+from campaigns.accuracy.works import BY_NAME, RADIUS, STRAIN, UNITS, Work
+from campaigns.columns import MESSAGE, RUN_KEY, STATUS, WALL_S, Column, names
 from campaigns.machinery.kept_run import KeptRun
 
-COUNTED = (END_S, STEPS, REJECTED, NEWTON, NEWTON_FAILURES, LOOPS, TURN)
+STEPPING = (columns.STEPS, columns.REJECTED, columns.NEWTON, columns.NEWTON_FAILURES)
+COUNTED = (columns.END_S, *STEPPING, columns.LOOPS, columns.TURN)
 COLUMNS = (
     Column("work", symbol="work", meaning="what is simulated"),
     Column("kind", symbol="kind", meaning="what the run is for"),
@@ -60,13 +48,14 @@ def point_row(
     row |= {name: trajectory.statistics[name] for name in STATISTICS if name in trajectory.statistics}
     if trajectory.status != "ok":
         return row
-    if work.measure in (RADIUS, PLACE):
-        if reference and (samples := kept_samples(work, reference)) is not None:
-            row |= _errors(samples_of(work, trajectory), samples)
-        if ours and (samples := kept_samples(work, ours)) is not None:
-            row["error_against_ours"] = rms_mm(samples_of(work, trajectory), samples)
-    else:
-        row["error"] = strain_error(trajectory)
+    if work.measure == STRAIN:
+        return row | {"error": strain_error(trajectory)}
+    found = samples_of(work, trajectory)
+    if reference and (samples := kept_samples(work, reference)) is not None:
+        early = int(EARLY * len(samples))
+        row |= {"error": rms_mm(found, samples), "error_early": rms_mm(found[:early], samples[:early])}
+    if ours and (samples := kept_samples(work, ours)) is not None:
+        row["error_against_ours"] = rms_mm(found, samples)
     return row
 
 
@@ -89,11 +78,6 @@ def kept_samples(work: Work, kept: KeptRun) -> np.ndarray | None:
     return None if stamp is None else _kept(work.name, kept, stamp)
 
 
-def _errors(found: np.ndarray, reference: np.ndarray) -> dict[str, float]:
-    early = int(EARLY * len(reference))
-    return {"error": rms_mm(found, reference), "error_early": rms_mm(found[:early], reference[:early])}
-
-
 def rms_mm(found: np.ndarray, reference: np.ndarray) -> float:
     """rms distance in mm of two series of the same length in m; inf where the lengths differ."""
     if found.shape != reference.shape:
@@ -104,20 +88,10 @@ def rms_mm(found: np.ndarray, reference: np.ndarray) -> float:
 
 def strain_error(trajectory) -> float:
     """Mean over line and profiles of |strain - exact strain|, per cent of the static strain."""
-    lines = trajectory.profiles
-    scene = trajectory.scene
-    times, places = lines.time_s[1:], lines.s_m
-    exact = _exact(
-        tuple(scene.tether.tension.p),
-        scene.tether.density_kgpm3 * scene.tether.area_m2,
-        scene.tether.length_m,
-        scene.end.force_N[0],
-        scene.end.force_decay_s,
-        tuple(times),
-        tuple(places),
-    )
-    off = np.abs(lines.strain[1:] - exact)
-    share = np.trapezoid(off, places, axis=1) / scene.tether.length_m
+    lines, tether, end = trajectory.profiles, trajectory.scene.tether, trajectory.scene.end
+    line = tuple(tether.tension.p), tether.density_kgpm3 * tether.area_m2, tether.length_m
+    exact = _exact(*line, end.force_N[0], end.force_decay_s, tuple(lines.time_s[1:]), tuple(lines.s_m))
+    share = np.trapezoid(np.abs(lines.strain[1:] - exact), lines.s_m, axis=1) / tether.length_m
     return 100.0 * float(share.mean()) / float(lines.strain[0].mean())
 
 

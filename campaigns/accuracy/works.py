@@ -14,21 +14,17 @@ of section 4.1 without gravity on an even grid: it stays straight, so that the e
 
 import tomllib
 from dataclasses import dataclass, field
-from functools import cache
 from pathlib import Path
 
-BUOY, LINE = "tethered_buoy", "breaking_line"
+BUOY = "tethered_buoy"
 RADIUS, PLACE, STRAIN = "radius", "place", "strain"
 UNITS = {RADIUS: "mm", PLACE: "mm", STRAIN: "%"}
 PERIOD_S = 5.0
 
 
-Settings = tuple[tuple[int, float], ...]
-
-
 @dataclass(frozen=True)
 class Work:
-    """One work.
+    """One work: a shipped scene with the changes of a set and its own.
 
     rough: why methods do not show their orders on it, "" where it is smooth. reference, checks: (nodes, rtol) of the
     reference and of runs that show how far it is converged; no reference: the exact solution. The wave period, or
@@ -38,12 +34,13 @@ class Work:
     name: str
     title: str
     scene: str
+    set: str
     changes: dict
     duration_s: float
     measure: str
     rough: str = ""
     reference: tuple[int, float] | None = None
-    checks: Settings = ()
+    checks: tuple[tuple[int, float], ...] = ()
     period_s: float = PERIOD_S
     timed: bool = True
 
@@ -51,7 +48,8 @@ class Work:
         """The scene with further changes. Raises SceneError."""
         from engine import load_scene
 
-        return load_scene(self.scene, {**self.changes, **changes})
+        own = {**FILE["sets"][self.set], **self.changes}
+        return load_scene(self.scene, {key: None if own[key] == "none" else own[key] for key in own} | changes)
 
 
 @dataclass(frozen=True, eq=False)
@@ -68,34 +66,13 @@ class Peer:
     module: str
     control: str
     notes: str
-    settings: dict[str, Settings]
-    quick: dict[str, Settings] = field(default_factory=dict)
-    refined: dict[str, Settings] = field(default_factory=dict)
+    settings: dict[str, list]
+    quick: dict[str, list] = field(default_factory=dict)
+    refined: dict[str, list] = field(default_factory=dict)
     ours: dict[str, object] = field(default_factory=dict)
 
 
-@cache
-def _file() -> dict:
-    return tomllib.loads(Path(__file__).with_suffix(".toml").read_text(encoding="utf-8"))
-
-
-def _pairs(settings: list) -> Settings:
-    return tuple((nodes, value) for nodes, value in settings)
-
-
-def _work(name: str, row: dict) -> Work:
-    changes = {**_file()["sets"][row["set"]], **row["changes"]}
-    made = {"changes": {key: None if value == "none" else value for key, value in changes.items()}}
-    made |= {"reference": tuple(row["reference"]), "checks": _pairs(row["checks"])} if "reference" in row else {}
-    return Work(name, **{key: value for key, value in row.items() if key != "set"} | made)
-
-
-def _peer(name: str, row: dict) -> Peer:
-    tables = {key: row[key] for key in ("settings", "quick", "refined") if key in row}
-    pairs = {key: {work: _pairs(found) for work, found in table.items()} for key, table in tables.items()}
-    return Peer(name, **row | pairs)
-
-
-WORKS = tuple(_work(name, row) for name, row in _file()["works"].items())
-BY_NAME = {work.name: work for work in WORKS}
-PEERS = tuple(_peer(name, row) for name, row in _file()["peers"].items())
+FILE = tomllib.loads(Path(__file__).with_suffix(".toml").read_text(encoding="utf-8"))
+BY_NAME = {name: Work(name, **row) for name, row in FILE["works"].items()}
+WORKS = tuple(BY_NAME.values())
+PEERS = tuple(Peer(name, **row) for name, row in FILE["peers"].items())

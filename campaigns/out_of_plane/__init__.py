@@ -10,14 +10,16 @@ perturbation across their plane, whose exponent needs no push, and those with lo
 counterparts in three dimensions. Nothing is random.
 """
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import asdict, dataclass, replace
 from functools import partial
 
 from campaigns.buoy_sweep import ROW_SOURCES
 from campaigns.buoy_sweep.seeds import SEED_MPS, velocity
 from campaigns.machinery import cli
+from campaigns.machinery.plan import Plan, Summary
 from campaigns.study import Case, Lengths, Measures, Order, Study, job_of
+from campaigns.tables import read_rows
 
 SMALL, LARGE = 0.016, 0.13  # the paper's two waves
 DEPTHS_M = (21.0, 21.6, 22.0, 22.5, 25.0)
@@ -76,8 +78,7 @@ def variants(base: Variant) -> list[Variant]:
     found = [base, small]
     # the longest runs first, so that no worker is left with one at the end
     found += [replace(base, depth_m=depth, nodes=nodes) for nodes in reversed(NODES) for depth in LOOPING_DEPTHS_M]
-    planar = [replace(one, dimensions=2, seed_mps=0.0, seed_direction="") for one in (base, small)]
-    found += [replace(one, depth_m=depth) for one in planar for depth in (base.depth_m, *DEPTHS_M)]
+    found += [replace(in_plane(one), depth_m=depth) for one in (base, small) for depth in (base.depth_m, *DEPTHS_M)]
     found += [replace(one, seed_mps=seed) for one in (fine, small) for seed in SEEDS_MPS]
     found += [replace(one, depth_m=depth) for one in (base, small) for depth in DEPTHS_M]
     stiffnesses = [replace(base, bending_stiffness_Nm2=stiffness) for stiffness in STIFFNESSES_NM2]
@@ -90,11 +91,15 @@ def variants(base: Variant) -> list[Variant]:
     return list(dict.fromkeys(found))
 
 
+def in_plane(one: Variant) -> Variant:
+    """The planar run of the same scene."""
+    return replace(one, dimensions=2, seed_mps=0.0, seed_direction="")
+
+
 def compared(one: Variant, base: Variant) -> bool:
     """Whether a variant takes part in the comparison of planar runs with runs in three dimensions."""
     spatial = replace(base, depth_m=one.depth_m)
-    planar = replace(spatial, dimensions=2, seed_mps=0.0, seed_direction="")
-    return one.depth_m in LOOPING_DEPTHS_M and one in (spatial, planar)
+    return one.depth_m in LOOPING_DEPTHS_M and one in (spatial, in_plane(spatial))
 
 
 def cases(order: Order) -> Iterator[Case]:
@@ -124,15 +129,15 @@ def measures(order: Order) -> Measures:
     from campaigns.out_of_plane.rows import COLUMNS, offplane_row
 
     base = base_of(order)
-    judged = frozenset(case.scene.key() for case in order.cases if compared(variant(case), base))
+    judged = frozenset(case.scene.key() for case in order.cases if compared(variant(case.labels), base))
     row = partial(offplane_row, transient_periods=order.transient, judged=judged)
     sources = (*ROW_SOURCES, "campaigns/out_of_plane/rows.py")
     return Measures(COLUMNS, row, sources, {"transient": order.transient, "judged": sorted(judged)})
 
 
-def variant(case: Case) -> Variant:
-    """The variant that a case is."""
-    return Variant(**{name: case.labels[name] for name in Variant.__dataclass_fields__})
+def variant(row: Mapping[str, object]) -> Variant:
+    """The variant that the labels of a case, or a row of the table, name."""
+    return Variant(**{name: row[name] for name in Variant.__dataclass_fields__})
 
 
 def parameters(order: Order) -> dict[str, object]:
@@ -141,16 +146,33 @@ def parameters(order: Order) -> dict[str, object]:
 
 
 def beside(order: Order) -> Iterator[Callable]:
-    """Two of the runs at the paper's two waves again, tighter and finer."""
+    """Two of the runs at the paper's two waves again, tighter and finer; pairs.csv; statements.csv on figure 20."""
     from campaigns.buoy_sweep.repeats import repeat
     from campaigns.out_of_plane.rows import rope_motion
 
+    base = base_of(order)
     if order.own:
-        base = base_of(order)
         waves = (base, replace(base, steepness=SMALL))
-        among = {job_of(case, order).key for case in order.cases if variant(case) in waves}
+        among = {job_of(case, order).key for case in order.cases if variant(case.labels) in waves}
         verdict = partial(rope_motion, transient_periods=order.transient)
         yield partial(repeat, periods=order.periods, label="steepness", verdict=verdict, among=among)
+    yield partial(judge, base=base, transient=order.transient)
+
+
+def judge(plan: Plan, summary: Summary, base: Variant, transient: int) -> float:
+    """Planar runs that released loops against those in space, and the statements on figure 20; no worker's time."""
+    from campaigns.out_of_plane import pairs
+    from campaigns.paper.measured import Results
+    from campaigns.paper.statements import claims
+    from campaigns.statements import write_statements
+
+    good = {variant(row): row for row in summary.rows if row["status"] == "ok"}
+    spatial = [replace(base, depth_m=depth) for depth in sorted({one.depth_m for one in good})]
+    both = [(good[in_plane(one)], good[one]) for one in spatial if one in good and in_plane(one) in good]
+    pairs.write(plan.directory, [pair for pair in both if pair[0]["loop_releases"]], transient)
+    results = Results(plane=read_rows(plan.directory / "table.csv"), plane_large=base.steepness)
+    write_statements(plan.directory, [claim for claim in claims() if "fig. 20" in claim.place], results)
+    return 0.0
 
 
 STUDY = Study(

@@ -24,6 +24,7 @@ from campaigns.buoy_sweep.rows import (
 from campaigns.columns import MESSAGE, PERIODS_RUN, RUN_KEY, STATISTICS, STATUS, Column, names
 
 EARLY_PERIODS = 8  # before the first loop at every depth of the campaign: still linear in the push
+RISE_PERIODS = 4  # after its least value, within which lateral distance has risen to the first burst
 _BODIES = {"buoy": "y_m", "rope": "offplane_m"}
 
 
@@ -43,16 +44,12 @@ def _lateral_columns(body: str) -> tuple[Column, ...]:
         ("burst_max_m", "m", "largest", "size of the largest burst of the {body}", 3),
         ("first_burst_period", "periods", "first at", "time of the first burst of the {body}", 1),
         ("first_burst_m", "m", "first", "size of the first burst of the {body}", 3),
+        ("rise_nats", "nats", "rise", "growth of the {body}'s distance from its least to the rope's first burst", 1),
+        ("rise_periods", "periods", "rise in", "wave periods that this growth of the {body}'s distance takes", 1),
         ("lateral_max_m", "m", "max |y|", "largest lateral distance of the {body} over the whole run", 2),
         ("lateral_late_m", "m", "late |y|", "largest lateral distance of the {body} in the second half of the run", 3),
         ("share_of_inplane", "", "of in-plane", "lateral_max_m of the {body} divided by inplane_m", 3),
-        (
-            "early_gain_s",
-            "s",
-            "early |y|/push",
-            f"largest lateral distance of the {{body}} in the first {EARLY_PERIODS} periods by the speed of the push",
-            3,
-        ),
+        ("early_gain_s", "s", "|y|/push", f"largest |y| in {EARLY_PERIODS} periods of the {{body}} by the push", 3),
         ("reason", "", "reason", "why the lateral motion of the {body} is called so, in words", None),
     )
     return tuple(
@@ -111,6 +108,9 @@ def offplane_row(trajectory, transient_periods: int, judged: frozenset = frozens
     if scene.motion.dimensions == 3 and done > 0:
         for body, name in _BODIES.items():
             row |= {f"{body}_{key}": entry for key, entry in _lateral(columns[name], scene, row).items()}
+        for body, name in _BODIES.items() if row["rope_first_burst_period"] is not None else ():
+            rise = _rise(columns[name], scene, row["rope_first_burst_period"])
+            row |= {f"{body}_rise_nats": rise[0], f"{body}_rise_periods": rise[1]}
     if trajectory.profiles is not None and len(trajectory.profiles.time_s):
         row["bow_inplane_m"], row["bow_lateral_m"] = bows(trajectory.profiles)
     if scene.key() in judged and trajectory.status == "ok" and "inplane_m" in row:
@@ -145,6 +145,17 @@ def _lateral(values, scene, row) -> dict[str, object]:
         "share_of_inplane": float(size.max()) / row["inplane_m"] if row.get("inplane_m") else None,
         "early_gain_s": float(size[: round(EARLY_PERIODS * period_s / step_s) + 1].max()) / push if push else None,
     }
+
+
+def _rise(values, scene, first_burst: float) -> tuple[float, float]:
+    """How lateral distance comes to the rope's first burst (t/T_i), by its largest in each period: nats, periods."""
+    from analysis import envelope_of
+
+    time_s, size = envelope_of(np.abs(values), scene.sample_step_s(), scene.waves.period_s)
+    periods = time_s / scene.waves.period_s
+    least = int(np.argmin(np.where(periods < first_burst, size, np.inf)))
+    most = least + int(np.argmax(size[least : least + RISE_PERIODS + 1]))
+    return float(np.log(size[most] / size[least])), float(periods[most] - periods[least])
 
 
 def rope_motion(trajectory, transient_periods: int) -> str | None:

@@ -49,12 +49,8 @@ def parser():
     cli.add(what, "--drift-periods", "N", periods)
     where = parser.add_argument_group("how and where")
     cli.add(where, "--jobs", "N", f"cases at the same time (default: {cli.default_jobs()})")
-    cli.add(
-        where,
-        "--out",
-        "DIR",
-        f"folder of the results; what is found there is not done again (default: results/{CAMPAIGN})",
-    )
+    found = "folder of the results; what is found there is not done again"
+    cli.add(where, "--out", "DIR", f"{found} (default: results/{CAMPAIGN})")
     where.add_argument("--no-report", action="store_true", help="leave out report.html and report.pdf")
     return parser
 

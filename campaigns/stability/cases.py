@@ -1,13 +1,50 @@
-"""The cases of `campaigns.stability`, read from cases.toml: what is run, how it is judged, how it may end."""
+"""The cases of `campaigns.stability`, read from cases.toml, each run to a verdict in a process with a time limit.
+
+A verdict is one of
+    ok           ended as asked, and the check is below its bar
+    refused      not started, with a reason: a scene that is not accepted, or one without static equilibrium
+    known limit  what the case says to expect: an early end with a status it names, or a check above its bar
+    unexplained  anything else; the campaign then ends with exit code 1
+"""
 
 import copy
+import math
 import tomllib
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from functools import cache
 from pathlib import Path
 
+from campaigns.columns import MESSAGE, RUN_KEY, STATISTICS, STATUS, WALL_S, Column, names
+from campaigns.machinery.folder import CampaignStopped, write_failure
+from campaigns.stability.limited import DONE, limited
+
 REFUSED, ABOVE_BAR = "refused", "above bar"
+LIMIT_S = 300.0
+OK, LIMIT, UNEXPLAINED = "ok", "known limit", "unexplained"
+_NOT_SAVED = "not saved"
+NEEDS_PROFILES = ("energy", "buckling", "straight")
+COUNTED = tuple(column for column in STATISTICS if column != WALL_S)
+COLUMNS = (
+    Column("part", symbol="part", meaning="case: one run that is judged; fuzz: all random scenes of one kind"),
+    Column("group", symbol="group", meaning="what is extreme in the case"),
+    Column("about", symbol="about", meaning="the group in words"),
+    Column("case", symbol="case", meaning="the case within its group"),
+    Column("dimensions", "", "D", "dimensions of the motion", 0),
+    Column("verdict", symbol="verdict", meaning="ok, refused, known limit or unexplained"),
+    Column("run_status", symbol="ended", meaning="how the run ended"),
+    Column("measured", "", "measured", "the number that the check measured", 4),
+    Column("bar", "", "bar", "what the number has to stay below", 4),
+    Column("how", symbol="how we know", meaning="the check"),
+    Column("limit", symbol="why", meaning="why another ending is expected"),
+    Column("length_s", "s", "run", "length of the run that was asked for", 2),
+    *COUNTED,
+    WALL_S,
+    Column("case_wall_s", "s", "wall", "wall-clock time of all runs of the case", 2),
+    STATUS,
+    RUN_KEY,
+    MESSAGE,
+)
 
 
 @dataclass(frozen=True)
@@ -72,3 +109,56 @@ def _cases(group: str, row: dict) -> Iterator[Case]:
         length = {} if length_s is None else {"length_s": length_s[place] if isinstance(length_s, list) else length_s}
         chosen = quick is True or (quick is not None and place in quick)
         yield Case(group, name.format(*values), changes, **length, **row, quick=chosen)
+
+
+def case_row(case: Case, path: Path | None = None) -> dict[str, object]:
+    """The row of a case; its run is saved under `path` where one is given.
+
+    Raises CampaignStopped where that cannot be written: it says nothing of the case.
+    """
+    way, answer, wall_s = limited(lambda: _judged(case, path), case.options.get("limit_s", LIMIT_S))
+    if way != DONE:
+        answer = {"verdict": UNEXPLAINED, "run_status": way, "message": answer}
+    if fault := answer.pop(_NOT_SAVED, ""):
+        raise CampaignStopped(fault)
+    row = {"part": "case", "group": case.group, "case": case.name, "length_s": case.length_s, "bar": case.bar}
+    row |= {"about": _file()["about"].get(case.group, case.group)}
+    row |= {"dimensions": case.changes.get("motion.dimensions", 2), "case_wall_s": wall_s, **answer}
+    return row | {"status": UNEXPLAINED if answer["verdict"] == UNEXPLAINED else "ok"}
+
+
+def _judged(case: Case, path: Path | None) -> dict[str, object]:
+    import numpy as np
+
+    from campaigns.stability import checks
+    from campaigns.stability.fuzz import outcome_of
+    from engine import SceneError, load_scene, simulate
+
+    changes = dict(case.changes)
+    if case.check in NEEDS_PROFILES or (case.check == "stays" and changes.get("buoy", 1) is None):
+        changes["output.profiles"] = True
+    try:
+        scene = load_scene("tethered_buoy", changes)
+        with np.errstate(all="ignore"):
+            run = simulate(scene, duration_s=case.length_s)
+    except (SceneError, ValueError) as error:
+        verdict = REFUSED if REFUSED in case.ending.statuses else UNEXPLAINED
+        return {"verdict": verdict, "run_status": REFUSED, "message": str(error), "how": "refused in words"}
+    if path is not None:
+        try:
+            run.save(path, {"run_key": path.stem})
+        except OSError as error:
+            return {_NOT_SAVED: write_failure(path.parents[1], error)}
+    row = {name: run.statistics[name] for name in names(STATISTICS)}
+    row |= {"run_status": run.status, "message": run.message}
+    outcome, _, _ = outcome_of(run, case.length_s)
+    if outcome not in ("ok", "ended"):
+        return row | {"verdict": UNEXPLAINED, "run_status": outcome}
+    if run.status != "ok":
+        known = run.status in case.ending.statuses
+        verdict = UNEXPLAINED if not known else REFUSED if run.status == "statics-failed" else LIMIT
+        return row | {"verdict": verdict, "how": "ended with its reason", "limit": case.ending.why}
+    measured, how = getattr(checks, case.check)(run, case)
+    verdict = OK if measured <= case.bar else LIMIT if ABOVE_BAR in case.ending.statuses else UNEXPLAINED
+    row |= {"verdict": verdict, "measured": measured if math.isfinite(measured) else None, "how": how}
+    return row | ({"limit": case.ending.why} if verdict == LIMIT else {})

@@ -4,14 +4,19 @@ check(run, case) -> (measured, how we know): `run` is a finished trajectory whos
 what the engine does inside; where another run is needed (refinement) it is made by the public `simulate`.
 """
 
+from __future__ import annotations
+
 import math
 from collections.abc import Callable
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from campaigns.stability.cases import Case
 from engine import Trajectory, load_scene, simulate
-from engine.scales import tension_at
+from engine.scales import strain_at, tension_at
+
+if TYPE_CHECKING:
+    from campaigns.stability.cases import Case
 
 FINER_NODES, FINER_RTOL = 2, 10.0
 PUSHED_S, SEEN = 0.02, (1e-5, 3e-4)  # after the push of the case; share of the length, small enough to be linear
@@ -34,20 +39,8 @@ def rest(run: Trajectory, case: Case) -> tuple[float, str]:
     lift = (rho_w * math.pi * buoy.diameter_m**3 / 6 - buoy.mass_kg) * g
     w0 = (tether.density_kgpm3 - rho_w) * tether.area_m2 * g
     L = tether.length_m
-    stretched = quad(lambda s: 1 + strain_under(abs(lift - w0 * (L - s)), tether.tension), 0.0, L, epsrel=1e-10)[0]
+    stretched = quad(lambda s: 1 + strain_at(abs(lift - w0 * (L - s)), tether.tension), 0.0, L, epsrel=1e-10)[0]
     return float(np.abs(run.columns["radius_m"] - stretched).max()) / L, "closed form of the static line"
-
-
-def strain_under(load: float, law) -> float:
-    """The smallest strain, 0 or above, at which a law carries the load (N)."""
-    from scipy.optimize import brentq
-
-    if load <= tension_at(0.0, law):
-        return 0.0
-    high = 1e-6
-    while tension_at(high, law) < load:
-        high *= 2.0
-    return brentq(lambda strain: tension_at(strain, law) - load, 0.0, high, xtol=1e-15)
 
 
 def stays(run: Trajectory, case: Case) -> tuple[float, str]:
@@ -61,10 +54,8 @@ def stays(run: Trajectory, case: Case) -> tuple[float, str]:
 
 def refined(run: Trajectory, case: Case) -> tuple[float, str]:
     """Rms difference of r from a run of twice the elements and a tenth of the tolerance, over the range of r."""
-    nodes = FINER_NODES * (run.scene.tether.nodes - 1) + 1
-    return difference(
-        run, case, {"tether.nodes": nodes, "solver.rtol": run.scene.solver.rtol / FINER_RTOL}
-    ), "refinement"
+    nodes, rtol = FINER_NODES * (run.scene.tether.nodes - 1) + 1, run.scene.solver.rtol / FINER_RTOL
+    return difference(run, case, {"tether.nodes": nodes, "solver.rtol": rtol}), "refinement"
 
 
 def as_fine(run: Trajectory, case: Case) -> tuple[float, str]:

@@ -1,11 +1,6 @@
 """Random scenes against the engine: what each does, in one word and one line (`campaigns.stability --fuzz N`).
 
-valid scenes: "ok"; "ended" (a status with its reason; finite samples up to there); "refused" (ValueError that names a
-key and what is allowed).
-invalid scenes: "refused", every line naming a key and what is allowed.
-Anything else is a fault of the program: "hang" (over the time limit), "crash" (its process died), "traceback",
-"not-finite", "incomplete" (ok, but samples are missing), "silent" (ended without a reason), "accepted" (an invalid
-scene), "unclear" (a message without a key or without what is allowed).
+Valid scenes are ok, ended or refused, invalid ones refused; anything else is a fault of the program (`OUTCOMES`).
 """
 
 import re
@@ -19,6 +14,19 @@ from campaigns.stability.random_scenes import VALID, faults_of
 
 LIMIT_S = 60.0
 SOUND = ("ok", "ended", "refused")
+OUTCOMES = {
+    "ok": "ran to its end; every sample is there and finite",
+    "ended": "ended early with a status and a reason; finite up to there",
+    "refused": "not started; every fault is named with its key and with what is allowed",
+    "hang": "no answer within the time limit",
+    "crash": "its process died",
+    "traceback": "an exception that is no refusal",
+    "not-finite": "a number that is not finite was handed out",
+    "incomplete": "samples are missing",
+    "silent": "ended early without a reason",
+    "accepted": "an invalid scene was not refused",
+    "unclear": "a message without a key or without what is allowed",
+}
 SAMPLES = 40  # a run lasts for so many output samples ...
 STEPS = 1e4  # ... and for no more of the longest steps: what is asked for has to be possible in the time limit
 CLEAR = re.compile(r"^.+: .*(allowed|unknown key|which law = .* does not have)", re.DOTALL)
@@ -27,6 +35,7 @@ COLUMNS = (
     Column("kind", symbol="scenes", meaning="valid: to be run or refused in words; invalid: to be refused"),
     Column("number", "", "number", "number of the scene among those of its kind", 0),
     Column("outcome", symbol="outcome", meaning="ok, ended and refused are sound; anything else is a fault"),
+    Column("meaning", symbol="meaning", meaning="the outcome in words"),
     Column("status", symbol="ended", meaning="how the run of a valid scene ended"),
     Column("message", symbol="message", meaning="the reason that the user is given"),
     Column("wall_s", "s", "wall", "wall-clock time of the scene", 2),
@@ -48,7 +57,7 @@ def judged(kind: str, raw: dict) -> dict[str, object]:
     answer_of = run_valid if kind == VALID else refuse_invalid
     way, answer, wall_s = limited(lambda: answer_of(raw), LIMIT_S)
     outcome, status, message = answer if way == DONE else (way, "", answer)
-    return {"outcome": outcome, "status": status, "message": message, "wall_s": wall_s}
+    return {"outcome": outcome, "meaning": OUTCOMES[outcome], "status": status, "message": message, "wall_s": wall_s}
 
 
 def refuse_invalid(raw: dict) -> tuple[str, str, str]:

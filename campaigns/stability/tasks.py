@@ -10,7 +10,6 @@ import json
 import sys
 import time
 from collections import Counter
-from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
@@ -21,7 +20,7 @@ from campaigns.machinery.plan import Summary
 from campaigns.machinery.pools import opened
 from campaigns.machinery.processes import PoolBroken
 from campaigns.machinery.row_cache import keep_row, kept_row, made_by
-from campaigns.stability import fuzz, random_scenes, run, scene_shares, step_maps
+from campaigns.stability import cases, fuzz, random_scenes, scene_shares, step_maps
 from campaigns.stability.cases import Case, all_cases, regular
 
 SOURCES = ("engine", "campaigns/stability", "campaigns/stability/random_scenes.toml")
@@ -62,43 +61,44 @@ def drift_case(periods: int) -> Case:
     return Case("drift", f"{periods} regular waves", scene, 5.0 * periods, "drift", DRIFT_BAR, options=options)
 
 
-def kept(out: Path, maker: str, task: Task, make: Callable[[], dict]) -> dict:
+def result(out: Path, maker: str, task: Task) -> dict:
     """The result of a task as it is kept, or as it is made now and kept."""
-    result = kept_row(out, task.key(), maker)
-    if result is None:
-        result = make()
-        keep_row(out, task.key(), maker, result)
-    return result
+    found = kept_row(out, task.key(), maker)
+    if found is None:
+        fuzz.load_kernels()
+        found = _made(out, maker, task)
+        ways = [row.get(name) for row in found.get("rows", [found]) for name in ("run_status", "outcome")]
+        if "crash" not in ways:  # by the system perhaps, for want of memory: tried again with the next call
+            keep_row(out, task.key(), maker, found)
+    return found
 
 
-def scenes(out: Path, maker: str, kind: str, seed: int, count: int) -> list[dict]:
-    """The random scenes of a kind, drawn once."""
-    task = Task("drawn", (kind, seed, count))
-    return kept(out, maker, task, lambda: {"scenes": random_scenes.drawn(kind, seed, count)})["scenes"]
+def _made(out: Path, maker: str, task: Task) -> dict:
+    if task.kind == "case":
+        return cases.case_row(task.what, trajectory_path(out, task.key()))
+    if task.kind == "map":
+        return step_maps.of_line(task.what)
+    if task.kind == "shares":
+        return scene_shares.measured(task.what)
+    kind, seed, count, *part = task.what
+    if task.kind == "drawn":
+        return {"scenes": random_scenes.drawn(kind, seed, count)}
+    drawn = list(enumerate(result(out, maker, Task("drawn", (kind, seed, count)))["scenes"]))[slice(*part)]
+    return {"rows": [{"kind": kind, "number": number, **fuzz.judged(kind, raw)} for number, raw in drawn]}
 
 
 def do(out: Path, maker: str, task: Task) -> tuple[Task, dict]:
     """(task, its result) in a worker."""
-    fuzz.load_kernels()
-    if task.kind == "case":
-        result = run.case_row(task.what, trajectory_path(out, task.key()))
-    elif task.kind == "map":
-        result = step_maps.of_line(task.what)
-    else:
-        kind, seed, count, first, last = task.what
-        drawn = list(enumerate(scenes(out, maker, kind, seed, count)))[first:last]
-        result = {"rows": [{"kind": kind, "number": number, **fuzz.judged(kind, raw)} for number, raw in drawn]}
-    if not _crashed(result):  # by the system perhaps, for want of memory: tried again with the next call
-        keep_row(out, task.key(), maker, result)
-    return task, result
-
-
-def _crashed(result: dict) -> bool:
-    return any("crash" in (row.get("run_status"), row.get("outcome")) for row in result.get("rows", [result]))
+    return task, result(out, maker, task)
 
 
 def done(order) -> tuple[dict[str, float], Summary]:
-    """Do all that is not there yet; write the tables. Returns the times and the summary for the session."""
+    """Do all that is not there yet; write the tables. Returns the times and the summary for the session.
+
+    Raises CampaignStopped where a worker dies: cases have their own processes.
+    """
+    from tqdm import tqdm
+
     from engine import load_scene
     from engine.atomic import write_atomic
 
@@ -113,40 +113,26 @@ def done(order) -> tuple[dict[str, float], Summary]:
         fuzz.load_kernels()
     timing = {"compile_s": time.perf_counter() - start}
     start = time.perf_counter()
-    drawn = {kind: scenes(out, maker, kind, order.seed, order.fuzz) for kind in CHUNK if order.fuzz}
-    call = partial(do, out.absolute(), maker)
-    for task, result in _progress(_all(call, missing, order.how.jobs), len(tasks), len(tasks) - len(missing)):
-        results[task.key()] = result
+    kinds = [kind for kind in CHUNK if order.fuzz]
+    drawn = {kind: result(out, maker, Task("drawn", (kind, order.seed, order.fuzz)))["scenes"] for kind in kinds}
+    bar = {"total": len(tasks), "initial": len(tasks) - len(missing), "unit": "task", "desc": "tasks"}
+    try:
+        with opened("loky", max(1, min(order.how.jobs, len(missing)))) as execute:
+            found = execute(partial(do, out.absolute(), maker), missing) if missing else ()
+            for task, one in tqdm(found, mininterval=1.0, disable=not missing, **bar):
+                results[task.key()] = one
+    except PoolBroken as broken:
+        raise CampaignStopped(f"a worker process ended: {broken}; finished tasks are kept") from broken
     # alone on the machine, at the end: it takes times
-    write_json(out / "scene_shares.json", kept(out, maker, shares, lambda: scene_shares.measured(order.quick)))
+    write_json(out / "scene_shares.json", result(out, maker, shares))
     write_json(out / "step_maps.json", {task.what: results[task.key()] for task in tasks if task.kind == "map"})
     rows = [results[task.key()] | {"run_key": task.key()} for task in tasks if task.kind == "case"]
     random = [row for task in tasks if task.kind == "random" for row in results[task.key()]["rows"]]
-    rows += [_of_kind(order, kind, drawn[kind], [row for row in random if row["kind"] == kind]) for kind in drawn]
+    rows += [_of_kind(order, kind, drawn[kind], [row for row in random if row["kind"] == kind]) for kind in kinds]
     write_table(out / "fuzz.csv", fuzz.COLUMNS, random)
-    write_table(out / "table.csv", run.COLUMNS, rows)
+    write_table(out / "table.csv", cases.COLUMNS, rows)
     timing |= {"run_s": time.perf_counter() - start, "analysis_s": 0.0}
     return timing, Summary(rows, len(tasks) - len(missing), len(missing), 0.0)
-
-
-def _progress(results: Iterator, total: int, found: int) -> Iterator:
-    from tqdm import tqdm
-
-    with tqdm(total=total, initial=found, unit="task", desc="tasks", mininterval=1.0, disable=total == found) as bar:
-        for result in results:
-            bar.update()
-            yield result
-
-
-def _all(call: Callable, tasks: list[Task], jobs: int) -> Iterator[tuple[Task, dict]]:
-    """Results of all tasks as they come. Raises CampaignStopped where a worker dies: cases have their own processes."""
-    if not tasks:
-        return
-    try:
-        with opened("loky", min(jobs, len(tasks))) as execute:
-            yield from execute(call, tasks)
-    except PoolBroken as broken:
-        raise CampaignStopped(f"a worker process ended: {broken}; finished tasks are kept") from broken
 
 
 def _of_kind(order, kind: str, drawn: list[dict], rows: list[dict]) -> dict:
@@ -163,7 +149,7 @@ def _of_kind(order, kind: str, drawn: list[dict], rows: list[dict]) -> dict:
 
         found = random_scenes.smallest(kind, order.seed, order.fuzz, is_unsound)
         message += f"; the smallest scene of this kind that is unsound: {json.dumps(found)}"
-    verdict = run.UNEXPLAINED if unsound else run.OK
+    verdict = cases.UNEXPLAINED if unsound else cases.OK
     return {
         "part": "fuzz", "group": "random", "case": f"{len(rows)} {kind} scenes", "how": "outcomes", "verdict": verdict,
         "status": verdict, "measured": float(unsound), "bar": 0.0, "message": message, "run_status": "",
@@ -173,7 +159,6 @@ def _of_kind(order, kind: str, drawn: list[dict], rows: list[dict]) -> dict:
 
 def write_table(path: Path, columns: tuple[Column, ...], rows: list[dict]) -> None:
     """Write rows that are all there, and the dictionary of their columns. Raises OSError."""
-    keys = [str(number) for number in range(len(rows))]
-    table = Table(path, columns, keys)
-    table.rows = dict(zip(keys, rows, strict=True))
+    table = Table(path, columns, list(range(len(rows))))
+    table.rows = dict(enumerate(rows))
     table.write()

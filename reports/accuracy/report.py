@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from pathlib import Path
 
 from ..parts.content import Bullets, Column, Heading, Item, Report, Table, Text
 from ..parts.provenance import provenance_items, timing_table
 from ..parts.wording import EMPTY, count, decimals, number
-from .orders import order_items, predictability_items, smooth_series
+from . import sections
 from .study import Study, read_study
-from .work import LEVELS, level_answer, per_period, shipped, within, work_items
 
 QUESTION = (
     "What does an error cost? Every method of the engine, scipy's solvers on the engine's own equations in space, "
@@ -29,13 +29,13 @@ def report(directory: str | Path) -> Report:
         Heading("Question"),
         Text(QUESTION),
         Heading("Short answer"),
-        Bullets(_short_answer(study, works)),
+        Bullets(tuple(_short_answer(study, works))),
         Heading("Error against run time"),
         Text(_protocol(study)),
-        *(item for name in works for item in work_items(study, name)),
+        *(item for name in works for item in sections.work_items(study, name)),
         *peer_items(study),
-        *order_items(study),
-        *predictability_items(study),
+        *sections.order_items(study),
+        *sections.predictability_items(study),
         *cost_items(study),
         *([Heading("Run times"), times] if times else []),
         *provenance_items(study.folder),
@@ -43,20 +43,20 @@ def report(directory: str | Path) -> Report:
     return Report("Error against run time", "Work-precision of the engine and of other codes", tuple(items))
 
 
-def _short_answer(study: Study, works: list[str]) -> tuple[str, ...]:
-    lines = [answer for name in works if (answer := level_answer(study, name))]
+def _short_answer(study: Study, works: list[str]) -> Iterator[str]:
+    yield from filter(None, (sections.level_answer(study, name) for name in works))
     for name in works:
-        if (one := shipped(study, name)) is not None:
-            factor, unit = per_period(study, name)
-            lines.append(
+        if (one := sections.shipped(study, name)) is not None:
+            factor, unit = sections.per_period(study, name)
+            yield (
                 f"The shipped setting (41 nodes, rtol 0.03) on {name}: {number(one.error, 2)} {study.unit(name)} in "
                 f"{number(factor * one.wall_s, 3)} {unit} (worst of {one.rounds} rounds {number(one.worst, 2)})."
             )
-    good, smooth, _ = smooth_series(study)
+    good, smooth = sections.smooth_series(study)
     if smooth:
-        lines.append(f"Orders: {good} of {smooth} series on smooth works end within 0.15 of theory.")
+        yield f"Orders: {good} of {smooth} series on smooth works end within 0.15 of theory."
     bad = sum(bool(one.failed) and not one.peer for one in study.settings)
-    return (*lines, f"Settings of ours that ended early in a round and are left out: {bad}.")
+    yield f"Settings of ours that ended early in a round and are left out: {bad}."
 
 
 def _protocol(study: Study) -> str:
@@ -70,74 +70,65 @@ def _protocol(study: Study) -> str:
     )
 
 
-def cost_items(study: Study) -> list[Item]:
+def cost_items(study: Study) -> Iterator[Item]:
     """Where the time of the shipped setting goes."""
     costs = study.costs
     if costs is None:
-        return []
-    pieces, python = costs["per_iteration_us"], costs["python_ms"]
+        return
+    pieces, stepping_ms, python_ms = (costs[name] for name in ("per_iteration_us", "stepping_ms", "python_ms"))
     total = sum(pieces.values())
     rows = [(name, decimals(value, 2), decimals(100 * value / total, 0)) for name, value in pieces.items()]
-    rows.append(("stepping, all", decimals(total, 2), "100"))
     each = [number(costs[name] / costs["periods"], 3) for name in ("newton_iterations", "steps")]
     caption = (
         f"The shipped setting ({costs['nodes']} nodes, rtol {costs['rtol']:g}, {costs['integrator']}) on the snapping "
         f"buoy over {costs['periods']} wave periods: {each[0]} Newton iterations and {each[1]} steps a period. "
         "Assembly, waves and elimination are timed by themselves, the rest by difference. From `costs.json`."
     )
-    said = (
-        f"A call of `simulate` over {costs['periods']} periods takes {decimals(costs['stepping_ms'], 1)} ms of "
-        f"stepping and {decimals(python, 1)} ms of Python (the scene as numbers, statics, the record: "
-        f"{decimals(100 * python / (python + costs['stepping_ms']), 0)} %)."
-    )
     columns = (Column("piece", align="left"), Column("per Newton iteration", "µs"), Column("share", "%"))
-    return [Heading("Cost of each piece"), Table(columns, tuple(rows), caption), Text(said)]
+    yield Heading("Cost of each piece")
+    yield Table(columns, (*rows, ("stepping, all", decimals(total, 2), "100")), caption)
+    yield Text(
+        f"A call of `simulate` over {costs['periods']} periods takes {decimals(stepping_ms, 1)} ms of stepping and "
+        f"{decimals(python_ms, 1)} ms of Python (the scene as numbers, statics, the record: "
+        f"{decimals(100 * python_ms / (python_ms + stepping_ms), 0)} %)."
+    )
 
 
-def peer_items(study: Study) -> list[Item]:
+def peer_items(study: Study) -> Iterator[Item]:
     """Other codes: what is left different, what they cost beside ours, what is not installed."""
     own = [one for one in study.settings if one.peer]
     if not own:
-        return []
+        return
     notes = study.folder.provenance.get("peer_notes") or {}
-    items: list[Item] = [Heading("Other codes"), Bullets(tuple(f"{name}: {text}" for name, text in notes.items()))]
-    rows = [row for work in study.works for row in _beside_ours(study, work)]
-    columns = (
-        Column("work", align="left"), Column("code", align="left"), Column("within"), Column("its time", "ms"),
-        Column("ours", "ms"), Column("ratio"), Column("its setting", align="left"), Column("our setting", align="left"),
-        Column("off ours"),
-    )  # fmt: skip
-    if rows:
+    yield Heading("Other codes")
+    yield Bullets(tuple(f"{name}: {text}" for name, text in notes.items()))
+    if rows := tuple(row for work in study.works for row in _beside_ours(study, work)):
+        columns = (
+            Column("work", align="left"), Column("code", align="left"), Column("within"), Column("its time", "ms"),
+            Column("ours", "ms"), Column("ratio"), Column("its setting", align="left"),
+            Column("our setting", align="left"), Column("off ours"),
+        )  # fmt: skip
         caption = (
             "Cheapest settings within an error, each code against its own refined run (scipy against ours: it solves "
             "our equations); ratio: its time over ours, of buoys per wave period. Off ours: its distance from our "
             "refined run, in which the differences of the models show. The two finest levels that it reaches. From "
             "`table.csv`."
         )
-        items.append(Table(columns, tuple(rows), caption, small=True))
-    missing = tuple(dict.fromkeys((one.method, one.status, one.message) for one in own if one.failed))
-    if missing:
+        yield Table(columns, rows, caption, small=True)
+    if missing := tuple(dict.fromkeys((one.method, one.status, one.message) for one in own if one.failed)):
         heads = tuple(Column(title, align="left") for title in ("code", "outcome", "why"))
-        items.append(Table(heads, missing, "Settings of other codes without a result. From `table.csv`.", small=True))
-    return items
+        yield Table(heads, missing, "Settings of other codes without a result. From `table.csv`.", small=True)
 
 
-def _beside_ours(study: Study, work: str) -> list[tuple[str, ...]]:
+def _beside_ours(study: Study, work: str) -> Iterator[tuple[str, ...]]:
     """Rows of other codes on a work, at the two finest levels that each reaches."""
-    timed, unit = study.timed(work), study.unit(work)
-    factor, _ = per_period(study, work)
-    rows = []
-    for name in dict.fromkeys(one.method for one in timed if one.peer):
-        pairs = [
-            (level, ours, other)
-            for level in LEVELS[unit]
-            if (ours := within([one for one in timed if not one.peer], level))
-            and (other := within([one for one in timed if one.method == name], level))
-        ]
-        for level, ours, other in pairs[-2:]:
-            rows.append((
-                work, name, f"{level:g} {unit}", decimals(factor * other.wall_s, 2), decimals(factor * ours.wall_s, 2),
-                number(other.wall_s / ours.wall_s, 3), other.named, f"{ours.method}: {ours.named}",
-                f"{number(other.against_ours, 2)} {unit}" if math.isfinite(other.against_ours) else EMPTY,
-            ))  # fmt: skip
-    return rows
+    unit, (factor, _) = study.unit(work), sections.per_period(study, work)
+    ours = {level: sections.within(study.timed(work, peer=False), level) for level in sections.LEVELS[unit]}
+    for name in dict.fromkeys(one.method for one in study.timed(work, peer=True)):
+        found = [(level, one, sections.within(study.timed(work, name), level)) for level, one in ours.items() if one]
+        for level, one, other in [both for both in found if both[2]][-2:]:
+            off = f"{number(other.against_ours, 2)} {unit}" if math.isfinite(other.against_ours) else EMPTY
+            yield (
+                work, name, f"{level:g} {unit}", decimals(factor * other.wall_s, 2), decimals(factor * one.wall_s, 2),
+                number(other.wall_s / one.wall_s, 3), other.named, f"{one.method}: {one.named}", off,
+            )  # fmt: skip

@@ -3,21 +3,28 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
+from typing import TYPE_CHECKING
 
-import numpy as np
-
+from ..parts.columns import Quantity, read_columns
 from ..parts.files import read_files
 from ..parts.folder import Folder, FolderError, read_folder
 
+if TYPE_CHECKING:
+    import pandas
+
 OURS, PEER = "point", "peer"
+_WORDS = {
+    "rtol": "rtol {:g}", "step_s": "step {:.4g} s", "courant": "Courant {:g}", "steps per period": "{:g} a period",
+}  # fmt: skip
 
 
 @dataclass(frozen=True)
 class Setting:
     """One timed setting: medians over its rounds. error, worst: in the unit of the work; failed: rounds that ended
-    early.
+    early, the first of them with status and message.
     """
 
     work: str
@@ -38,10 +45,8 @@ class Setting:
     @property
     def named(self) -> str:
         """The setting in words: "41 nodes, rtol 0.03"."""
-        words = {"rtol": "rtol {:g}", "step_s": "step {:.4g} s", "courant": "Courant {:g}"}
-        words["steps per period"] = "{:g} a period"
         where = "segments" if self.peer and not self.method.startswith("scipy") else "nodes"
-        return f"{self.nodes} {where}, " + words.get(self.control, self.control + " {:g}").format(self.value)
+        return f"{self.nodes} {where}, {_WORDS[self.control].format(self.value)}"
 
 
 @dataclass(frozen=True, eq=False)
@@ -53,19 +58,17 @@ class Study:
     rows: tuple[dict, ...]
     settings: tuple[Setting, ...]
     orders: tuple[dict, ...]
+    order_columns: dict[str, Quantity]
     costs: dict | None
-
-    def of(self, work: str, **wanted) -> list[dict]:
-        """Rows of a work with the given entries."""
-        return [row for row in self.rows if row["work"] == work and all(row[k] == v for k, v in wanted.items())]
 
     def unit(self, work: str) -> str:
         """Unit of the errors of a work."""
         return self.works[work]["unit"]
 
-    def timed(self, work: str) -> list[Setting]:
-        """Settings of a work that ended as asked in every round."""
-        return [one for one in self.settings if one.work == work and one.failed == 0 and math.isfinite(one.error)]
+    def timed(self, work: str, method: str = "", peer: bool | None = None) -> list[Setting]:
+        """Settings of a work that ended as asked in every round, of one method, of ours or of other codes."""
+        found = [one for one in self.settings if one.work == work and one.failed == 0 and math.isfinite(one.error)]
+        return [one for one in found if method in ("", one.method) and peer in (None, one.peer)]
 
 
 def read_study(directory: str | Path) -> Study:
@@ -74,34 +77,21 @@ def read_study(directory: str | Path) -> Study:
     works = folder.provenance.get("works")
     if not isinstance(works, dict) or not all(isinstance(entry, dict) and "title" in entry for entry in works.values()):
         raise FolderError(folder.directory, ["provenance.json cannot be read: it does not describe the works"])
-    rows = tuple(folder.table.to_dict("records"))
     wanted = {"orders.csv": "orders of convergence"}
     costs = folder.directory / "costs.json"  # not there without the engine's own runs
     found = read_files(directory, wanted | ({"costs.json": "cost of each piece"} if costs.exists() else {}))
-    return Study(folder, works, rows, tuple(_settings(rows)), tuple(found["orders.csv"]), found.get("costs.json"))
+    rows, settings = tuple(folder.table.to_dict("records")), tuple(_settings(folder.table))
+    order_columns = read_columns(directory, "orders.csv")
+    return Study(folder, works, rows, settings, tuple(found["orders.csv"]), order_columns, found.get("costs.json"))
 
 
-def _settings(rows: tuple[dict, ...]) -> list[Setting]:
-    grouped: dict[tuple, list[dict]] = {}
-    for row in rows:
-        if row["kind"] in (OURS, PEER):
-            key = (row["work"], row["method"], row["nodes"], row["control"], row["setting"])
-            grouped.setdefault(key, []).append(row)
-    return [_setting(group) for group in grouped.values()]
-
-
-def _setting(group: list[dict]) -> Setting:
-    good = [row for row in group if row["status"] == "ok"]
-    bad = next((row for row in group if row["status"] != "ok"), group[0])
-
-    def median(column: str) -> float:
-        values = [float(row[column]) for row in good if math.isfinite(float(row[column]))]
-        return float(np.median(values)) if values else math.nan
-
-    errors = [float(row["error"]) for row in good]
-    first = group[0]
-    return Setting(
-        first["work"], first["method"], int(first["nodes"]), first["control"], float(first["setting"]),
-        median("error"), max(errors, default=math.nan), median("error_against_ours"), median("wall_s"), len(group),
-        len(group) - len(good), first["kind"] == PEER, bad["status"], bad["message"],
-    )  # fmt: skip
+def _settings(table: pandas.DataFrame) -> Iterator[Setting]:
+    timed = table[table["kind"].isin([OURS, PEER])].replace(math.inf, math.nan)
+    for named, group in timed.groupby(["work", "method", "nodes", "control", "setting"], sort=False):
+        good, bad = group[group["status"] == "ok"], group[group["status"] != "ok"]
+        told = (bad if len(bad) else group).iloc[0]
+        middle = good[["error", "error_against_ours", "wall_s"]].median()
+        yield Setting(
+            *named, middle["error"], good["error"].max(), middle["error_against_ours"], middle["wall_s"], len(group),
+            len(bad), told["kind"] == PEER, told["status"], told["message"],
+        )  # fmt: skip

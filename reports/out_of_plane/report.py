@@ -2,36 +2,29 @@
 
 from __future__ import annotations
 
+import math
+from collections.abc import Iterator
 from pathlib import Path
 
 from ..buoy_sweep.repeats import accuracy_items
 from ..parts.content import Heading, Item, Notice, Report, Text
-from ..parts.folder import Folder, FolderError, read_folder
 from ..parts.provenance import provenance_items, timing_table
 from ..parts.scene_table import scene_table
-from ..parts.wording import count, decimals, listed, number
-from .answer import answer_items
-from .comparison import comparison_items, read_pairs
-from .runs import NEEDED, VARIED, Run, Study, read_study
-from .sections import growth_items, history_items, push_items
-from .varied import dependence_items, direction_items, grid_items, shape_items
-from .words import speed
+from ..parts.wording import count, listed, number
+from . import sections
+from .runs import VARIED, Run, Study, read_study
 
 _RUNS = (
     *VARIED[:-1], "periods", "status", "buoy_motion", "rope_motion", "max_turn_rad", "loop_releases",
     "newton_iterations", "wall_s",
 )  # fmt: skip
-_RESOLVED_RAD = 1.5707963267948966  # a quarter of a turn in one element
+_RESOLVED_RAD = 0.5 * math.pi  # in one element
 
 
 def report(directory: str | Path) -> Report:
     """The content of the report on an out-of-plane folder. Raises FolderError for a folder that is not one."""
-    folder = read_folder(directory, NEEDED)
-    base = folder.provenance.get("base")
-    if not isinstance(base, dict) or set(base) != set(VARIED) or "transient" not in folder.provenance:
-        raise FolderError(folder.directory, ["provenance.json cannot be read: it does not name base and transient"])
-    study = read_study(folder)
-    pairs = read_pairs(study)
+    study = read_study(directory)
+    scene = study.folder.scene
     items = [
         Heading("Question"),
         Text(
@@ -42,59 +35,49 @@ def report(directory: str | Path) -> Report:
             "becomes comparable with the motion in the plane. Here buoy and rope are looked at apart."
         ),
         Heading("Short answer"),
-        *answer_items(study, pairs),
-        *history_items(study),
-        *growth_items(study),
-        *push_items(study),
-        *dependence_items(study),
-        *direction_items(study),
-        *grid_items(study),
-        *shape_items(study),
-        *comparison_items(study, pairs),
-        *accuracy_items(folder.directory),
+        *sections.answer_items(study),
+        *sections.history_items(study),
+        *sections.growth_items(study),
+        *sections.push_items(study),
+        *sections.dependence_items(study),
+        *sections.direction_items(study),
+        *sections.grid_items(study),
+        *sections.shape_items(study),
+        *sections.comparison_items(study),
+        *accuracy_items(study.folder.directory),
         Heading("Warnings"),
         *_warnings(study),
         Heading("Table of runs"),
         study.table(_RUNS, study.runs, "Every run."),
-        *_scene_and_times(folder, study),
-        *provenance_items(folder),
+        *_scene_and_times(study),
+        *provenance_items(study.folder),
     ]
-    title = folder.scene.title or folder.scene.name
-    return Report("Tethered buoy: out of the plane of the waves", title, tuple(items))
+    return Report("Tethered buoy: out of the plane of the waves", scene.title or scene.name, tuple(items))
 
 
-def _warnings(study: Study) -> list[Item]:
+def _warnings(study: Study) -> Iterator[Item]:
     pushed = [run for run in study.runs if run.pushed]
-    lost = [run for run in study.runs if run.ok and not study.folder.trajectory_path(run["run_key"]).exists()]
-    kinds = (
-        ("Runs that failed", [run for run in study.runs if not run.ok], _end),
-        ("Runs without a trajectory", lost, lambda run: "its trajectory is missing; figures leave it out"),
-        (
-            "Loops released in three dimensions",
-            [run for run in pushed if run["loop_releases"] > 0],
-            lambda run: count(int(run["loop_releases"]), "release"),
-        ),
-    )
-    boxes = [
-        Notice("warning", title, tuple(f"{_name(run)}: {said(run)}." for run in runs))
-        for title, runs, said in kinds
-        if runs
-    ]
-    coarse = [run for run in pushed if run["max_turn_rad"] > _RESOLVED_RAD]
-    if coarse:
-        grids = sorted({int(run["nodes"]) for run in coarse})
-        fine = sorted({int(run["nodes"]) for run in pushed} - set(grids))
-        lines = [
-            f"In {count(len(coarse), 'run')} ({listed(map(str, grids))} nodes) an element turns by more than π/2, at "
-            f"most by {decimals(max(run['max_turn_rad'] for run in coarse), 2)} rad: the loops there are not resolved, "
-            "and sizes of single bursts carry the error that the section on the grid shows."
-        ]
-        if fine:
-            lines.append(f"No element turns that far on {listed(map(str, fine))} nodes.")
-        boxes.append(Notice("warning", "Turns within one element", tuple(lines)))
-    return boxes or [
-        Notice("note", "Nothing to warn of", ("No run failed, no loop was released, and every turn is resolved.",))
-    ]
+    looped = [run for run in pushed if run["loop_releases"] > 0]
+    coarse = [run["nodes"] for run in pushed if run["max_turn_rad"] > _RESOLVED_RAD]
+    turned = "an element turns by more than π/2: loops are not resolved, and bursts carry the error shown under “Grid”"
+    boxes = {
+        "Runs that failed": [f"{_name(run)}: {_end(run)}." for run in study.runs if not run.ok],
+        "Runs without a trajectory": [
+            f"{_name(run)}: its trajectory is missing; figures leave it out."
+            for run in study.runs
+            if run.ok and not study.folder.trajectory_path(run["run_key"]).exists()
+        ],
+        "Loops released in three dimensions": [
+            f"{_name(run)}: {count(int(run['loop_releases']), 'release')}." for run in looped
+        ],
+        "Turns within one element": [
+            f"{count(coarse.count(nodes), 'run')} on {number(nodes)} nodes: {turned}." for nodes in sorted(set(coarse))
+        ],
+    }
+    yield from (Notice("warning", title, tuple(lines)) for title, lines in boxes.items() if lines)
+    if not any(boxes.values()):
+        said = "No run failed, no loop was released, and every turn is resolved."
+        yield Notice("note", "Nothing to warn of", (said,))
 
 
 def _end(run: Run) -> str:
@@ -102,31 +85,28 @@ def _end(run: Run) -> str:
 
 
 def _name(run: Run) -> str:
-    planar = "planar" if run["dimensions"] == 2 else f"push {speed(run['seed_mps'])} {run['seed_direction']}"
+    pushed = f"push {number(run['seed_mps'])} m/s {run['seed_direction']}" if run["dimensions"] == 3 else "planar"
     return (
         f"kA = {number(run['steepness'])}, H = {number(run['depth_m'])} m, EI = {number(run['bending_stiffness_Nm2'])} "
-        f"N m², {number(run['nodes'])} nodes, {planar}"
+        f"N m², {number(run['nodes'])} nodes, {pushed}"
     )
 
 
-def _scene_and_times(folder: Folder, study: Study) -> list[Item]:
-    swept = {
-        "waves.steepness": listed(number(value) for value in study.steepnesses),
-        "water.depth_m": _values(study, "depth_m"),
-        "tether.bending_stiffness_Nm2": _values(study, "bending_stiffness_Nm2"),
-        "tether.nodes": _values(study, "nodes"),
-        "motion.dimensions": _values(study, "dimensions"),
-        "start.buoy_velocity_mps": "see the table of runs",
+def _scene_and_times(study: Study) -> Iterator[Item]:
+    if times := timing_table(study.folder):
+        yield from (Heading("Run times"), times)
+    keys = {
+        "steepness": "waves.steepness",
+        "depth_m": "water.depth_m",
+        "bending_stiffness_Nm2": "tether.bending_stiffness_Nm2",
+        "nodes": "tether.nodes",
+        "dimensions": "motion.dimensions",
     }
+    varied = {key: listed(map(number, sorted({run[name] for run in study.runs}))) for name, key in keys.items()}
+    varied["start.buoy_velocity_mps"] = "see the table of runs"
     if any(run.known("offplane_growth_bits_per_period") for run in study.runs):
-        swept |= {"output.tangent_vectors": "1 in planar runs", "output.lateral_growth": "yes in planar runs"}
+        varied |= {"output.tangent_vectors": "1 in planar runs", "output.lateral_growth": "yes in planar runs"}
     if any(run["profiles"] for run in study.runs):
-        swept["output.profiles"] = "yes in one run"
+        varied["output.profiles"] = "yes in one run"
     caption = "The scene, from `scene.toml`; defaults are those of the scene `tethered_buoy`."
-    table = scene_table(folder.scene, "tethered_buoy", swept, caption)
-    times = timing_table(folder)
-    return [*([Heading("Run times"), times] if times else []), Heading("Scene"), table]
-
-
-def _values(study: Study, key: str) -> str:
-    return listed(number(value) for value in sorted({run[key] for run in study.runs}))
+    yield from (Heading("Scene"), scene_table(study.folder.scene, "tethered_buoy", varied, caption))

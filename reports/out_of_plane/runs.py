@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from pathlib import Path
 
 import numpy as np
 
 from ..parts.columns import Name, table_of
 from ..parts.content import Table
-from ..parts.folder import Folder, Row
+from ..parts.folder import Folder, FolderError, Row, read_folder
 from ..parts.wording import number
 
 VARIED = (
@@ -31,10 +32,6 @@ class Run(Row):
         """Whether it is a run in three dimensions that ended as asked, with a push out of the plane."""
         return self.ok and self["dimensions"] == 3 and self["seed_direction"] != "along"
 
-    def grows(self) -> bool:
-        """Whether buoy or rope leave the plane exponentially."""
-        return any(self[f"{body}_motion"] == "growth" for body in BODIES)
-
 
 @dataclass(frozen=True, eq=False)
 class Study:
@@ -46,34 +43,31 @@ class Study:
     transient: int
 
     def select(self, **wanted) -> list[Run]:
-        """Runs that are as the base but for `wanted`; None for a key that may have any value, in rising order of it."""
+        """Runs that ended as asked and are as the base but for `wanted`; None for a key that may have any value, in
+        rising order of it."""
         keys = {**self.base, **wanted}
-        free = [key for key, entry in keys.items() if entry is None]
-        found = [run for run in self.runs if all(entry is None or run[key] == entry for key, entry in keys.items())]
-        return sorted(found, key=lambda run: tuple(run[key] for key in free))
+        found = [run for run in self.runs if run.ok and all(entry in (None, run[key]) for key, entry in keys.items())]
+        return sorted(found, key=lambda run: tuple(run[key] for key, entry in keys.items() if entry is None))
 
-    def planar(self, **wanted) -> list[Run]:
-        """Planar runs that are as the base but for `wanted`, as `select`."""
-        return self.select(dimensions=2, seed_mps=0.0, seed_direction="", **wanted)
+    def over(self, **wanted) -> list[Run]:
+        """`select` at every steepness, the small wave first."""
+        return self.select(**{"steepness": None, **wanted})
 
     def pushes(self, steepness: float) -> list[Run]:
-        """Runs that differ in the size of the push alone, on the grid that has most of them, as far as they ended."""
+        """Runs that differ in the size of the push alone, on the grid that has most of them."""
         runs = self.select(steepness=steepness, seed_mps=None, nodes=None)
         grids = [run["nodes"] for run in runs]
-        return [run for run in runs if run.ok and run["nodes"] == max(grids, key=grids.count)]
-
-    def one(self, **wanted) -> Run | None:
-        """The one run that is as the base but for `wanted`, None where there is none that ended as asked."""
-        return next((run for run in self.select(**wanted) if run.ok), None)
+        return [run for run in runs if run["nodes"] == max(grids, key=grids.count)]
 
     @property
     def steepnesses(self) -> list[float]:
         """The small and the large wave, as far as there are rows of them."""
         return sorted({run["steepness"] for run in self.runs})
 
-    def trajectory(self, run: Run):
-        """The trajectory of a run, None where it is missing or cannot be read."""
-        return self.folder.trajectory(run.row)[0]
+    def loaded(self, runs: Sequence[Run]) -> list[tuple]:
+        """(run, its trajectory) of those whose trajectory is there and can be read."""
+        found = [(run, self.folder.trajectory(run.row)[0]) for run in runs]
+        return [(run, trajectory) for run, trajectory in found if trajectory is not None]
 
     def table(self, names: Sequence[Name], runs: Sequence[Run], caption: str) -> Table:
         """A table of runs in the words of the dictionary."""
@@ -81,10 +75,23 @@ class Study:
         return table_of(self.folder.columns, names, [run.row for run in runs], caption, own)
 
 
-def read_study(folder: Folder) -> Study:
-    """The rows of the folder's table, and the base that its provenance names."""
+def read_study(directory: str | Path) -> Study:
+    """The rows of the folder's table, and the base that its provenance names. Raises FolderError."""
+    folder = read_folder(directory, NEEDED)
+    base = folder.provenance.get("base")
+    if not isinstance(base, dict) or set(base) != set(VARIED) or "transient" not in folder.provenance:
+        raise FolderError(folder.directory, ["provenance.json cannot be read: it does not name base and transient"])
     rows = folder.table.to_dict("records")
-    return Study(folder, tuple(map(Run, rows)), dict(folder.provenance["base"]), int(folder.provenance["transient"]))
+    return Study(folder, tuple(map(Run, rows)), dict(base), int(folder.provenance["transient"]))
+
+
+def of_bodies(*names: Name, bodies: Sequence[str] = BODIES) -> list[Name]:
+    """Columns of the buoy, then of the rope."""
+    return [
+        f"{body}_{name}" if isinstance(name, str) else tuple(f"{body}_{one}" for one in name)
+        for body in bodies
+        for name in names
+    ]
 
 
 def envelope(trajectory, body: str, span: int = 1) -> tuple[np.ndarray, np.ndarray]:

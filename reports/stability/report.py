@@ -11,9 +11,8 @@ from ..parts.content import Bullets, Heading, Item, Report, Text
 from ..parts.files import value
 from ..parts.provenance import provenance_items, timing_table
 from ..parts.wording import count, listed, number
-from .cases import case_items, limit_items, random_items, sound, unexplained_items
+from . import sections
 from .folder import VERDICTS, Study, read_study
-from .steps import map_items, share_items
 
 
 def report(directory: str | Path) -> Report:
@@ -30,12 +29,12 @@ def report(directory: str | Path) -> Report:
         ),
         Heading("Short answer"),
         Bullets(tuple(_answers(study))),
-        *unexplained_items(study),
-        *case_items(study),
-        *limit_items(study),
-        *random_items(study),
-        *map_items(study),
-        *share_items(study),
+        *sections.unexplained_items(study),
+        *sections.case_items(study),
+        *sections.limit_items(study),
+        *sections.random_items(study),
+        *sections.map_items(study),
+        *sections.share_items(study),
         *([Heading("Times"), times] if times else []),
         *provenance_items(study),
     ]
@@ -48,7 +47,7 @@ def _answers(study: Study) -> Iterator[str]:
     said = listed(f"{counts[word]} {word}" for word in VERDICTS if counts[word])
     yield f"{count(len(study.cases), 'case')}: {said}."
     if study.random:
-        yield sound(study)
+        yield sections.sound(study)
     for row in study.cases:
         if row["group"] == "drift" and math.isfinite(value(row, "measured")):
             yield (

@@ -1,4 +1,4 @@
-"""The campaigns on the method itself: what every command promises, for the three that are no sweeps of a scene."""
+"""What every command promises, for the campaigns on the method itself and for that out of the plane."""
 
 import importlib
 import subprocess
@@ -11,6 +11,7 @@ from tests.campaigns.conftest import ROOT
 FAULTS = {
     "accuracy": "--works regular stormy --rounds 9 --jobs 0 --bogus",
     "stability": "--fuzz -1 --seed x --drift-periods 10 --bogus",
+    "out_of_plane": "--periods 0 --set waves.steepness=0.1 motion.dimensions=2 tether.mass=1 --bogus",
     "oscillator": "--set mass=3 damping=-1 --effort 0 --force-range 2 1 5 --bogus",
 }
 
@@ -20,7 +21,7 @@ def test_every_fault_is_named_at_once_and_nothing_is_written(name, tmp_path, cap
     words = FAULTS[name].split()
     assert importlib.import_module(f"campaigns.{name}").main([*words, "--out", str(tmp_path / "new")]) == 2
     said = capsys.readouterr().err
-    assert [option for option in words if option.startswith("--") and option not in said] == []
+    assert [word for word in words if ("--" in word or "=" in word) and word.partition("=")[0] not in said] == []
     assert not (tmp_path / "new").exists()
 
 

@@ -4,9 +4,12 @@ Laws: the same seed gives the same scenes; valid ones are accepted and then run,
 words, with finite numbers throughout; invalid ones are refused, every line naming a key and what is allowed.
 """
 
-from collections import Counter
+import os
+import time
+from functools import partial
 from types import SimpleNamespace
 
+import numba
 import numpy as np
 import pytest
 
@@ -43,8 +46,7 @@ def test_valid_scenes_are_accepted_and_have_every_part_that_a_scene_may_have(val
 
 
 def test_invalid_scenes_are_refused_with_what_is_allowed():
-    outcomes = Counter(fuzz.refuse_invalid(raw)[0] for raw in drawn(INVALID, SEED, 150))
-    assert set(outcomes) == {"refused"}
+    assert {fuzz.refuse_invalid(raw)[0] for raw in drawn(INVALID, SEED, 150)} == {"refused"}
 
 
 def test_what_is_unsound_is_shrunk(valid):
@@ -52,16 +54,6 @@ def test_what_is_unsound_is_shrunk(valid):
     found = smallest(VALID, SEED, 300, lambda raw: "current" in raw)
     assert "current" in found and not faults_of(found) and len(repr(found)) <= len(repr(first))
     assert smallest(VALID, SEED, 10, lambda raw: False) is None
-
-
-@pytest.mark.slow
-def test_random_scenes_are_answered(valid):
-    fuzz.load_kernels()
-    rows = [fuzz.judged(VALID, raw) for raw in valid[:200]]
-    assert [row for row in rows if row["outcome"] not in fuzz.SOUND] == []
-    assert all(row["outcome"] == "ok" or len(row["message"]) > 40 for row in rows)
-    counts = Counter(row["outcome"] for row in rows)
-    assert counts["ok"] > 80 and counts["ended"] > 10
 
 
 def made(status="ok", message="", samples=11, spoil=None):
@@ -88,36 +80,34 @@ def test_the_judge_tells_a_fault_from_an_answer(run, outcome):
     assert fuzz.outcome_of(run, 1.0)[0] == outcome
 
 
-def test_an_error_is_a_refusal_only_where_it_names_a_key_and_what_is_allowed(valid, monkeypatch):
-    for text, outcome in (
-        ("output.step_s: given 0; allowed: > 0", "refused"),
-        ("must have different signs", "traceback"),
-    ):
+@pytest.mark.parametrize(
+    ("text", "outcome"),
+    [("output.step_s: given 0; allowed: > 0", "refused"), ("must have different signs", "traceback")],
+)
+def test_an_error_is_a_refusal_only_where_it_names_a_key_and_what_is_allowed(valid, monkeypatch, text, outcome):
+    def raises(*_, **__):
+        raise ValueError(text)
 
-        def raises(*_, text=text, **__):
-            raise ValueError(text)
-
-        monkeypatch.setattr("engine.simulate", raises)
-        assert fuzz.judged(VALID, valid[0])["outcome"] == outcome
+    monkeypatch.setattr("engine.simulate", raises)
+    assert fuzz.judged(VALID, valid[0])["outcome"] == outcome
 
 
-def test_a_call_that_does_not_return_is_ended_and_one_that_dies_is_seen():
-    import os
-    import time
-
-    way, _, wall_s = limited.limited(lambda: time.sleep(60), 0.3)
-    assert way == limited.LATE and wall_s < 5
-    way, said, _ = limited.limited(lambda: os._exit(3), 10)
-    assert way == limited.DIED and "3" in said
-    way, trace, _ = limited.limited(lambda: 1 / 0, 10)
-    assert way == limited.RAISED and "ZeroDivisionError" in trace
-    assert limited.limited(lambda: np.arange(3).sum(), 10)[:2] == (limited.DONE, 3)
+@pytest.mark.parametrize(
+    ("call", "way", "said"),
+    [
+        (partial(time.sleep, 60), limited.LATE, "0.5 s"),
+        (partial(os._exit, 3), limited.DIED, "3"),
+        (lambda: 1 / 0, limited.RAISED, "ZeroDivisionError"),
+        (lambda: "it is " + "done", limited.DONE, "done"),
+    ],
+)
+def test_a_call_that_does_not_return_is_ended_and_one_that_dies_is_seen(call, way, said):
+    found, answer, wall_s = limited.limited(call, 0.5)
+    assert found == way and said in answer and wall_s < 5
 
 
 @pytest.mark.slow
 def test_machine_code_that_does_not_return_is_ended_too():
-    import numba
-
     @numba.njit
     def forever():
         x = 0.0

@@ -1,4 +1,4 @@
-"""The out-of-plane campaign: what it runs, what a row says, what happens when something fails or is there already."""
+"""The out-of-plane campaign: what it runs, what a row says, what happens when something fails."""
 
 import math
 
@@ -8,20 +8,26 @@ import pytest
 from campaigns import out_of_plane
 from campaigns.buoy_sweep.seeds import DIRECTIONS, SEED_MPS, in_space, velocity
 from campaigns.columns import names
+from campaigns.out_of_plane.pairs import agreement
 from campaigns.out_of_plane.rows import COLUMNS, bows, offplane_row
 from engine import load_scene
 from engine.trajectory import Profiles
 from tests.campaigns.conftest import rows_of
 from tests.campaigns.fake_space import BURST_M, BURST_PERIODS, LARGE_RATE, SMALL_RATE, SpaceEngine
 
-USUAL = ["--periods", "60", "--backend", "threading", "--jobs", "2", "--no-report"]
+USUAL = ["--backend", "threading", "--jobs", "2", "--no-report"]
+
+
+def made(place, periods, **engine):
+    """The rows of a campaign of the fake engine."""
+    words = ["--periods", str(periods), *USUAL, "--out", str(place)]
+    assert out_of_plane.main(words, simulate=SpaceEngine(**engine)) == 0
+    return rows_of(place)
 
 
 @pytest.fixture(scope="module")
-def out(tmp_path_factory):
-    folder = tmp_path_factory.mktemp("plane") / "out"
-    assert out_of_plane.main([*USUAL, "--out", str(folder)], simulate=SpaceEngine()) == 0
-    return folder
+def rows(tmp_path_factory):
+    return made(tmp_path_factory.mktemp("plane") / "out", 60)
 
 
 def chosen(rows, **wanted):
@@ -32,19 +38,20 @@ def chosen(rows, **wanted):
 
 def test_everything_the_question_needs_is_run_once():
     order = out_of_plane.read_order([], faults := [])
-    assert faults == []
-    scenes = {out_of_plane.variant(case): case.scene for case in order.cases}
-    assert len({scene.key() for scene in scenes.values()}) == len(order.cases)
-    runs = list(scenes)
-    assert {run.steepness for run in runs} == {0.016, 0.13}
-    assert {run.seed_mps for run in runs} >= {1e-3, 1e-5, 1e-10}
-    assert {run.depth_m for run in runs} == {21.0, 21.6, 22.0, 22.5, 25.0}
-    assert {run.bending_stiffness_Nm2 for run in runs} == {0.1, 0.4, 4.0}
-    assert {run.nodes for run in runs} == {41, 81, 161}
-    assert {run.seed_direction for run in runs} == {*DIRECTIONS, ""}
-    planar = [run for run in runs if run.dimensions == 2]
+    scenes = {out_of_plane.variant(case.labels): case.scene for case in order.cases}
+    assert faults == [] and len({scene.key() for scene in scenes.values()}) == len(order.cases)
+    varied = {
+        "steepness": {0.016, 0.13},
+        "depth_m": {21.0, 21.6, 22.0, 22.5, 25.0},
+        "bending_stiffness_Nm2": {0.1, 0.4, 4.0},
+        "nodes": {41, 81, 161},
+        "seed_direction": {*DIRECTIONS, ""},
+    }
+    assert {name: {getattr(run, name) for run in scenes} for name in varied} == varied
+    assert {run.seed_mps for run in scenes} >= {1e-3, 1e-5, 1e-10}
+    planar = [run for run in scenes if run.dimensions == 2]
     assert len(planar) == 10 and all(scenes[run].output.lateral_growth for run in planar)
-    compared = [run for run in runs if out_of_plane.compared(run, out_of_plane.base_of(order))]
+    compared = [run for run in scenes if out_of_plane.compared(run, out_of_plane.base_of(order))]
     pairs = [(depth, dimensions) for depth in (21.0, 21.6, 22.0) for dimensions in (2, 3)]
     assert sorted((run.depth_m, run.dimensions) for run in compared) == pairs
 
@@ -56,8 +63,7 @@ def test_another_scene_becomes_the_base_of_what_is_varied():
     assert {23.0, 21.0} <= {case.labels["depth_m"] for case in order.cases}
 
 
-def test_rows_say_decay_with_its_rate_and_bursts_with_their_size(out):
-    rows = rows_of(out)
+def test_rows_say_decay_with_its_rate_and_bursts_with_their_size(rows):
     assert all(row["status"] == "ok" for row in rows)
     bits = SMALL_RATE * 5.0 / math.log(2.0)
     for row in chosen(rows, steepness=0.016, nodes=41, seed_direction="lateral"):
@@ -71,41 +77,28 @@ def test_rows_say_decay_with_its_rate_and_bursts_with_their_size(out):
         assert int(row["rope_bursts"]) == 60 // BURST_PERIODS
         assert float(row["rope_burst_median_m"]) == pytest.approx(BURST_M, rel=0.01)
         assert float(row["rope_first_burst_period"]) == pytest.approx(BURST_PERIODS / 2, abs=0.05)
+        assert float(row["rope_rise_nats"]) > 3.0 and 0.0 < float(row["rope_rise_periods"]) < BURST_PERIODS
 
 
-def test_the_first_response_is_told_by_the_lateral_part_of_the_push(out):
-    rows = chosen(rows_of(out), steepness=0.13, dimensions=3)
-    gains = [float(row["buoy_early_gain_s"]) for row in rows if row["seed_direction"] != "along"]
+def test_the_first_response_is_told_by_the_lateral_part_of_the_push(rows):
+    large = chosen(rows, steepness=0.13, dimensions=3)
+    gains = [float(row["buoy_early_gain_s"]) for row in large if row["seed_direction"] != "along"]
     assert np.ptp(gains) < 1e-9 * np.mean(gains)
-    along = chosen(rows, seed_direction="along")[0]
+    along = chosen(large, seed_direction="along")[0]
     assert along["buoy_early_gain_s"] == "" and float(along["buoy_lateral_max_m"]) == 0.0
     assert along["buoy_motion"] == "neither" and "zero" in along["buoy_reason"]
 
 
-def test_a_planar_row_has_no_lateral_columns(out):
-    for row in chosen(rows_of(out), dimensions=2):
+def test_planar_rows_have_no_lateral_columns_and_only_what_is_compared_a_verdict(rows):
+    for row in chosen(rows, dimensions=2):
         assert all(row[name] == "" for name in names(COLUMNS) if name.startswith(("buoy_", "rope_")))
         assert row["loop_releases"] != "" and row["radius_max_m"] != ""
-
-
-def test_only_what_is_compared_gets_a_verdict(out):
-    judged = [row for row in rows_of(out) if row["regime"]]
-    assert sorted((row["dimensions"], row["depth_m"]) for row in judged) == [
-        (dimensions, depth) for dimensions in ("2", "3") for depth in ("21.0", "21.6", "22.0")
-    ]
-
-
-def test_the_same_command_computes_nothing_and_changes_nothing(out, capsys):
-    before = (out / "table.csv").read_bytes()
-    assert out_of_plane.main([*USUAL, "--out", str(out)], simulate=SpaceEngine(raises=(0.016, 0.13))) == 0
-    assert ": 0 computed" in capsys.readouterr().out
-    assert (out / "table.csv").read_bytes() == before
+    judged = sorted((row["dimensions"], row["depth_m"]) for row in rows if row["regime"])
+    assert judged == [(dimensions, depth) for dimensions in "23" for depth in ("21.0", "21.6", "22.0")]
 
 
 def test_a_run_that_fails_is_a_row_and_the_rest_goes_on(tmp_path):
-    engine = SpaceEngine(raises=(0.016,), failing=(25.0,))
-    assert out_of_plane.main([*USUAL[:1], "6", *USUAL[2:], "--out", str(tmp_path / "out")], simulate=engine) == 0
-    rows = rows_of(tmp_path / "out")
+    rows = made(tmp_path / "out", 6, raises=(0.016,), failing=(25.0,))
     assert {row["status"] for row in chosen(rows, steepness=0.016)} == {"error"}
     failed = chosen(rows, steepness=0.13, depth_m=25.0, dimensions=3)
     assert {row["status"] for row in failed} == {"statics-failed"}
@@ -118,10 +111,24 @@ def test_a_record_that_is_not_finite_is_measured_up_to_there():
     run = SpaceEngine(large="growth")(scene, 80)
     run.columns["y_m"][7000:] = math.nan
     row = offplane_row(run, 10)
-    assert row["buoy_motion"] == "growth"
+    assert row["buoy_motion"] == "growth" and set(row) <= set(names(COLUMNS))
     error = row["buoy_rate_error"] * math.log(2.0)
     assert abs(row["buoy_rate_nats_per_period"] - 5.0 * LARGE_RATE["growth"]) < 3 * error < 0.1
-    assert set(row) <= set(names(COLUMNS))
+
+
+def test_runs_agree_in_what_their_records_tell():
+    """Ends of the range within a hundredth; without a distance of the sections, or an exponent, nothing is said."""
+    wolf = "lyapunov_wolf_bits_per_period"
+    planar = {"radius_min_m": 20.0, "radius_max_m": 21.0, "regime": "chaotic", wolf: 0.5, "lyapunov_wolf_error": 0.03}
+    told = {"range": 1, "section": 1, "exponent": 1, "regime": 1}
+    for change, across, differs in (
+        ({"radius_max_m": 21.005, wolf: 0.55}, 0.1, {}),
+        ({"radius_max_m": 21.02, wolf: 0.65}, 0.2, {"range": 0, "section": 0, "exponent": 0}),
+        ({"regime": "torus", wolf: math.nan}, 0.1, {"exponent": None, "regime": 0}),
+        ({"regime": ""}, math.nan, {"section": None, "regime": None}),
+    ):
+        found = agreement(planar, planar | change, across, 0.1)
+        assert {name: found[f"same_{name}"] for name in told} == told | differs
 
 
 def test_bows_are_measured_from_the_straight_line():
@@ -130,10 +137,7 @@ def test_bows_are_measured_from_the_straight_line():
     z = np.array([[4.0], [5.0]]) * s
     x = along + np.array([[0.8], [0.0]]) * 0.5 * arch  # 0.4 off at right angles: 4/5 of a shift of 0.5 in x ...
     y = np.array([[0.2], [0.0]]) * s + np.array([[0.0], [0.3]]) * arch
-    lines = Profiles(np.array([0.0, 1.0]), s, x, y, z, *(0 * x for _ in range(3)))
-    in_plane, lateral = bows(lines)
-    assert in_plane == pytest.approx(0.4 * 0.8)
-    assert lateral == pytest.approx(0.3)
+    assert bows(Profiles(np.array([0.0, 1.0]), s, x, y, z, *(0 * x,) * 3)) == pytest.approx((0.4 * 0.8, 0.3))
 
 
 def test_a_scene_in_space_gets_a_push_only_where_it_has_none():
@@ -152,12 +156,3 @@ def test_directions_have_the_size_of_the_push():
     for word in DIRECTIONS:
         assert np.linalg.norm(velocity(3e-4, word)) == pytest.approx(3e-4)
     assert velocity(1.0, "mirrored") == [0.0, -1.0, 0.0]
-
-
-def test_every_fault_is_named_at_once_and_nothing_is_written(tmp_path, capsys):
-    words = ["--periods", "0", "--set", "waves.steepness=0.1", "motion.dimensions=2", "tether.mass=1", "--bogus"]
-    assert out_of_plane.main([*words, "--out", str(tmp_path / "new")]) == 2
-    said = capsys.readouterr().err
-    for word in ("--periods", "waves.steepness", "motion.dimensions", "mass", "--bogus"):
-        assert word in said
-    assert not (tmp_path / "new").exists()

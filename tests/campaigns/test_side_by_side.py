@@ -57,8 +57,7 @@ def test_a_run_that_kills_its_worker_leaves_the_finished_ones_finished(campaign)
     """One worker, in order: 0.02 to 0.05 are on disk when it dies; 0.08 dies twice more alone, the rest runs alone."""
     summary, begun = campaign(jobs=1, dies=(0.08,))
     assert statuses(summary.rows) == dict.fromkeys(VALUES, "ok") | {0.08: "worker-died"}
-    counts = {value: begun.count(value) for value in VALUES}
-    assert counts == dict.fromkeys(VALUES, 1) | {0.08: 3}
+    assert {value: begun.count(value) for value in VALUES} == dict.fromkeys(VALUES, 1) | {0.08: 3}
 
 
 @pytest.mark.parametrize(
@@ -80,21 +79,17 @@ def test_a_full_disk_stops_the_campaign_and_keeps_what_is_finished(campaign):
     assert summary.found == done and len(begun) == len(VALUES) - done
 
 
+def groups(tmp_path, jobs, backend="loky", **how):
+    return groups_of(Plan(tmp_path, None, None, (), backend, 2, **how), jobs)
+
+
 def test_groups_are_even_and_hold_every_job_once(tmp_path):
-    many = jobs_of([round(0.01 + 0.0005 * i, 4) for i in range(250)])
-    plan = Plan(tmp_path, None, None, (), "loky", 2, simulate_each=FakeEngine().each)
-    groups = groups_of(plan, many)
-    sizes = [len(group.jobs) for group in groups]
-    assert len(groups) % 2 == 0 and max(sizes) - min(sizes) <= 1 and max(sizes) <= MOST
-    assert sorted(job.key for group in groups for job in group.jobs) == sorted(job.key for job in many)
-    assert groups_of(plan, many[: FEWEST - 1]) == []
-
-
-def test_what_the_engine_runs_one_by_one_is_not_put_together(tmp_path):
-    plan = Plan(tmp_path, None, None, (), "loky", 2, simulate_each=FakeEngine().each)
-    assert groups_of(plan, jobs_of(VALUES, {"output.profiles": True})) == []
-    assert (
-        groups_of(Plan(tmp_path, None, None, (), "threading", 2, simulate_each=FakeEngine().each), jobs_of(VALUES))
-        == []
-    )
-    assert groups_of(Plan(tmp_path, None, None, (), "loky", 2), jobs_of(VALUES)) == []
+    many, together = jobs_of([round(0.01 + 0.0005 * i, 4) for i in range(250)]), {"simulate_each": FakeEngine().each}
+    found = groups(tmp_path, many, **together)
+    sizes = [len(group.jobs) for group in found]
+    assert len(found) % 2 == 0 and max(sizes) - min(sizes) <= 1 and max(sizes) <= MOST
+    assert sorted(job.key for group in found for job in group.jobs) == sorted(job.key for job in many)
+    assert groups(tmp_path, many[: FEWEST - 1], **together) == []
+    # the engine runs one by one what keeps profiles, and threads share no worker
+    assert groups(tmp_path, jobs_of(VALUES, {"output.profiles": True}), **together) == []
+    assert groups(tmp_path, jobs_of(VALUES), "threading", **together) == groups(tmp_path, jobs_of(VALUES)) == []

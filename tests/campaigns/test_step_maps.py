@@ -10,38 +10,32 @@ import pytest
 
 from campaigns.stability import step_maps
 
-METHODS = step_maps.METHODS
+LINES = {
+    **step_maps.LINES,
+    "taut, short steps": ("", step_maps.TAUT, 1e-3, 2),
+    "taut, long steps": ("", step_maps.TAUT, 3.0, 2),
+}
 ORDER = {"esdirk43": 4, "trbdf2": 2, "generalized-alpha": 2, "backward-euler": 1, "midpoint": 2}
 AT_INFINITY = {"esdirk43": 0.0, "trbdf2": 0.0, "generalized-alpha": 0.5, "backward-euler": 0.0, "midpoint": 1.0}
 
 
-@pytest.mark.parametrize("method", METHODS)
+@pytest.mark.parametrize("method", step_maps.METHODS)
 def test_the_stability_function_is_that_of_its_order_and_damping(method):
     z = np.array([1e-2j, 5e-3j])
     error = np.abs(step_maps.factors(method, z)[None, :] - np.exp(z)[:, None]).min(axis=1)
     assert np.log2(error[0] / error[1]) == pytest.approx(ORDER[method] + 1, abs=0.15)
-    assert np.abs(step_maps.factors(method, np.array([-1e9 + 0j]))).max() == pytest.approx(
-        AT_INFINITY[method], abs=1e-6
-    )
+    at_infinity = np.abs(step_maps.factors(method, np.array([-1e9 + 0j]))).max()
+    assert at_infinity == pytest.approx(AT_INFINITY[method], abs=1e-6)
 
 
-@pytest.mark.parametrize("method", METHODS)
-@pytest.mark.parametrize("step_s", [1e-3, 0.05, 3.0])
-def test_nothing_of_a_taut_line_grows_at_any_step(method, step_s):
-    found = step_maps.eigenvalues(method, step_maps.TAUT, step_s, 2)
-    expected = step_maps.factors(method, step_maps.rates(step_maps.TAUT) * step_s)
-    assert np.abs(found).max() < 1 + 1e-5
-    assert np.abs(found[None, :] - expected[:, None]).min(axis=1).max() < 1e-4
-
-
-@pytest.mark.parametrize("method", METHODS)
-def test_a_pushed_line_grows_as_the_method_says(method):
-    step_s = 1.5 / step_maps.fastest_growth(step_maps.PUSHED)
-    found = step_maps.eigenvalues(method, step_maps.PUSHED, step_s, 2)
-    z = step_maps.rates(step_maps.PUSHED) * step_s
-    expected = step_maps.factors(method, z)
-    assert np.abs(found[None, :] - expected[:, None]).min(axis=1).max() < 2e-5
-    assert np.sum(np.abs(found) > 1 + 1e-6) == np.sum(z.real > 1e-9) == 7
+@pytest.mark.parametrize("name", LINES)
+def test_modes_are_multiplied_as_the_method_says(name, monkeypatch):
+    monkeypatch.setattr(step_maps, "LINES", LINES)
+    pushed = name.startswith("pushed")
+    for method, found in step_maps.of_line(name)["methods"].items():
+        assert found.get("distance", 0.0) < (2e-5 if pushed else 1e-4), method
+        assert pushed or found["largest"] < 1 + 1e-5, method
+        assert name != "pushed" or found["growing"] == found["growing_found"] == 7, method
 
 
 def test_two_e_folds_a_step_follow_the_growth_and_fifteen_do_not():
@@ -52,12 +46,6 @@ def test_two_e_folds_a_step_follow_the_growth_and_fifteen_do_not():
 
 
 def test_space_has_the_same_modes_twice():
-    planar = step_maps.eigenvalues("trbdf2", step_maps.TAUT, 0.05, 2)
-    space = step_maps.eigenvalues("trbdf2", step_maps.TAUT, 0.05, 3)
+    planar, space = (step_maps.eigenvalues("trbdf2", step_maps.TAUT, 0.05, dimensions) for dimensions in (2, 3))
     assert len(space) == 1.5 * len(planar)
     assert np.abs(space[None, :] - planar[:, None]).min(axis=1).max() < 1e-5
-
-
-def test_a_hanging_line_does_not_grow():
-    for method in METHODS:
-        assert np.abs(step_maps.eigenvalues(method, None, 0.05, 2)).max() < 1 + 1e-5

@@ -3,10 +3,9 @@
 import pytest
 
 from campaigns import out_of_plane
+from campaigns.out_of_plane.pairs import APART_M
+from campaigns.tables import read_rows
 from reports.buoy_sweep.tables import COMPARED
-from reports.out_of_plane.comparison import APART_M, read_pairs
-from reports.out_of_plane.runs import read_study
-from reports.parts.folder import read_folder
 
 
 @pytest.mark.slow
@@ -16,13 +15,15 @@ def test_the_planar_run_is_good_enough_for_the_buoy_but_not_for_its_path(tmp_pat
     order = out_of_plane.read_order(words, faults := [])
     assert not faults and order.periods - order.transient == 200
     base = out_of_plane.base_of(order)
-    order.cases = [case for case in order.cases if out_of_plane.compared(out_of_plane.variant(case), base)]
+    order.cases = [case for case in order.cases if out_of_plane.compared(out_of_plane.variant(case.labels), base)]
     assert out_of_plane.STUDY.conduct(order, words) == 0
-    pairs = read_pairs(read_study(read_folder(tmp_path / "out")))
-    assert [pair.depth for pair in pairs] == ["21", "21.6", "22"]
+    rows = {row["run_key"]: row for row in read_rows(tmp_path / "out" / "table.csv")}
+    pairs = read_rows(tmp_path / "out" / "pairs.csv")
+    assert [pair["depth_m"] for pair in pairs] == [21.0, 21.6, 22.0]
     assert all(depth in COMPARED for depth in ("21.0", "21.6", "22.0")) and "200 wave periods" in COMPARED
     for pair in pairs:
-        assert pair.lacking == [] and pair.exponents_agree and pair.same_regime
-        assert pair.planar["loop_releases"] > 20 and pair.spatial["loop_releases"] == 0
-        assert pair.before_m < 0.1 * APART_M and pair.parted > pair.spatial["rope_first_burst_period"]
-        assert pair.spatial["rope_lateral_max_m"] > 0.2
+        planar, spatial = rows[pair["planar_key"]], rows[pair["spatial_key"]]
+        assert all(pair[f"same_{name}"] == 1 for name in ("range", "section", "exponent", "regime"))
+        assert planar["loop_releases"] > 20 and spatial["loop_releases"] == 0
+        assert pair["before_m"] < 0.1 * APART_M and pair["apart_period"] > spatial["rope_first_burst_period"]
+        assert spatial["rope_lateral_max_m"] > 0.2

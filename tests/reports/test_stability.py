@@ -4,11 +4,12 @@ import json
 
 import pytest
 
-from campaigns.stability import fuzz, run, tasks
+from campaigns.stability import cases as judged
+from campaigns.stability import fuzz, tasks
 from reports import build
 from reports.parts.folder import FolderError
-from reports.stability.cases import unexplained_items
 from reports.stability.folder import VERDICTS, read_study
+from reports.stability.sections import unexplained_items
 
 METHOD = {"re": [0.5, 1.5, 9.0], "im": [0.5, 0.0, 0.0], "largest": 9.0, "distance": 2e-7}
 METHOD |= {"growing": 2, "growing_found": 2}
@@ -30,8 +31,9 @@ RANDOM = [
 
 def folder(place, cases=CASES, random=RANDOM):
     place.mkdir()
-    tasks.write_table(place / "table.csv", run.COLUMNS, [{"part": "case", "dimensions": 2, **row} for row in cases])
-    tasks.write_table(place / "fuzz.csv", fuzz.COLUMNS, random)
+    rows = [{"part": "case", "about": row["group"], "dimensions": 2, **row} for row in cases]
+    tasks.write_table(place / "table.csv", judged.COLUMNS, rows)
+    tasks.write_table(place / "fuzz.csv", fuzz.COLUMNS, [{"meaning": "as told", **row} for row in random])
     line = {"title": "taut", "step_s": 0.05, "methods": {"midpoint": METHOD}}
     shares = {"rounds": 3, "length_s": 1.0, "scenes": {"whole": SHARE, "dry": {**SHARE, "us_per_newton": 4.0}}}
     made_by = {"campaign": "stability", "quick": False, "command": ["python"]}

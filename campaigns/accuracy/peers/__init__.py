@@ -1,7 +1,8 @@
 """Other codes on the works of the accuracy campaign: which does what, at which settings, and what is left different.
 
 A code that is not installed is a row that says so. Each is held against its own refined run (`error`) and against ours
-(`error_against_ours`); scipy solves our own equations, so that our reference is its own.
+(`error_against_ours`); scipy solves our own equations, so that our reference is its own. A code's module here has
+simulate(scene, duration_s, nodes or segments, setting, ...) -> Trajectory.
 """
 
 import importlib.util
@@ -9,26 +10,9 @@ from collections.abc import Callable
 from functools import partial
 from importlib import metadata
 
-from campaigns.accuracy.peers import cabledyn, elastica, moordyn
 from campaigns.accuracy.peers.record import nothing
 from campaigns.accuracy.works import BY_NAME, PEERS, Peer
 from engine.trajectory import Trajectory
-
-
-def by_scipy(scene, duration_s, nodes, setting, method):
-    """scipy's solve_ivp; nodes are those of the scene."""
-    from campaigns.accuracy.peers.scipy import run
-
-    return run(scene, duration_s, method, setting)
-
-
-RUN = {  # run(scene, duration_s, nodes, setting) -> Trajectory
-    "scipy Radau": partial(by_scipy, method="Radau"),
-    "scipy BDF": partial(by_scipy, method="BDF"),
-    "MoorDyn": moordyn.simulate,
-    "CableDyn": cabledyn.simulate,
-    "PyElastica": elastica.simulate,
-}
 
 
 def version(peer: Peer) -> str:
@@ -36,7 +20,7 @@ def version(peer: Peer) -> str:
     return metadata.version(peer.package) if importlib.util.find_spec(peer.module) is not None else ""
 
 
-def taking_part(works: tuple[str, ...], quick: bool) -> list[tuple[Peer, str, tuple]]:
+def taking_part(works: tuple[str, ...], quick: bool) -> list[tuple[Peer, str, list]]:
     """(code, work, its settings) of all that is asked of other codes."""
     chosen = ((peer, peer.quick if quick else peer.settings) for peer in PEERS)
     return [(peer, work, settings[work]) for peer, settings in chosen for work in works if settings.get(work)]
@@ -45,22 +29,21 @@ def taking_part(works: tuple[str, ...], quick: bool) -> list[tuple[Peer, str, tu
 def scene_of(work: str, nodes: int | None):
     """The scene of a work for another code: no shock viscosity, nodes where they matter to it."""
     changes = {"tether.nodes": nodes} if nodes else {}
-    if work.startswith("break"):
-        changes |= {"solver.shock_viscosity": None}
-    return BY_NAME[work].made(changes)
+    return BY_NAME[work].made(changes | ({"solver.shock_viscosity": None} if work.startswith("break") else {}))
 
 
 def simulation(peer: Peer, installed: str, nodes: int, setting: float) -> Callable:
     """What stands in the place of engine.simulate: the run of another code, or the record that it is not installed."""
     if not installed:
         return partial(absent, package=peer.package)
-    return partial(called, call=RUN[peer.name], nodes=nodes, setting=setting)
+    method = peer.name.split()[1:]  # of scipy
+    return partial(called, module=peer.module, settings=(nodes, setting, *method))
 
 
-def called(scene, periods=None, duration_s=None, call=None, nodes=0, setting=0.0) -> Trajectory:
+def called(scene, periods=None, duration_s=None, module="", settings=()) -> Trajectory:
     """The run of another code; what it raises becomes the record of a failed run, so that it is not tried again."""
     try:
-        return call(scene, duration_s, nodes, setting)
+        return importlib.import_module(f"{__name__}.{module}").simulate(scene, duration_s, *settings)
     except Exception as error:
         return nothing(scene, "solver-failed", f"{type(error).__name__}: {error}")
 

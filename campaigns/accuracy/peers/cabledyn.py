@@ -16,10 +16,9 @@ from pathlib import Path
 import numpy as np
 
 from campaigns.accuracy.peers.deck import system
+from campaigns.accuracy.peers.record import SAMPLE_S, nothing, sampled
 from engine import Scene, Trajectory
 from engine.physics.waves import wave_number
-
-SAMPLE = 0.05
 
 DECK = """---------------------- CableDyn Input File ----------------------
 tethered buoy
@@ -39,19 +38,13 @@ Point2pz
 
 def simulate(scene: Scene, duration_s: float, segments: int, step_s: float) -> Trajectory:
     """A run as the engine's record: a Trajectory of the buoy's places, or the program's own words where it fails."""
-    from campaigns.accuracy.peers.record import as_trajectory, nothing
-
     short = _program(_deck(scene, segments, step_s, 2 * step_s))
     wall_s, fault, table = _program(_deck(scene, segments, step_s, duration_s))
     if fault:
         return nothing(scene, "solver-failed", fault, wall_s=wall_s)
-    every = round(SAMPLE / step_s)
-    time_s, x, z = table[::every].T
+    _, x, z = table[:: round(SAMPLE_S / step_s)].T
     places = np.column_stack([x, 0 * x, z + scene.water.depth_m])
-    sound = len(x) == round(duration_s / SAMPLE) + 1 and np.isfinite(places).all()
-    status, message = ("ok", "") if sound else ("not-finite", "CableDyn's table is short or not finite")
-    statistics = {"wall_s": max(wall_s - short[0], 0.0), "steps": round(duration_s / step_s)}
-    return as_trajectory(scene, status, message, SAMPLE * np.arange(len(time_s)), places, statistics)
+    return sampled(scene, duration_s, places, max(wall_s - short[0], 0.0), round(duration_s / step_s))
 
 
 def _deck(scene, segments, step_s, until_s) -> str:

@@ -12,9 +12,9 @@ import time
 
 import numpy as np
 
+from campaigns.accuracy.peers.record import SAMPLE_S, sampled
 from engine import Scene, Trajectory
 
-SAMPLE = 0.05
 SHEAR = 1.0 / 3.0  # shear modulus over Young's: incompressible
 
 
@@ -22,24 +22,17 @@ def simulate(scene: Scene, duration_s: float, elements: int, step_s: float) -> T
     """A run as the engine's record: a Trajectory of the bob's places."""
     import elastica
 
-    from campaigns.accuracy.peers.record import as_trajectory
-
     stepper, dt, t = elastica.PositionVerlet(), np.float64(step_s), np.float64(0.0)
     stepper.step(hanging(scene, elements)[0], t, dt)  # compiles what is not compiled yet
     system, rod = hanging(scene, elements)
-    every = round(SAMPLE / step_s)
+    every, samples = round(SAMPLE_S / step_s), round(duration_s / SAMPLE_S)
     places = [rod.position_collection[:, -1].copy()]
     began = time.perf_counter()
-    for _ in range(round(duration_s / SAMPLE)):
+    for _ in range(samples):
         for _ in range(every):
             t = stepper.step(system, t, dt)
         places.append(rod.position_collection[:, -1].copy())
-    wall_s = time.perf_counter() - began
-    found = np.array(places)
-    sound = np.isfinite(found).all()
-    status, message = ("ok", "") if sound else ("not-finite", "PyElastica's positions are not finite")
-    statistics = {"wall_s": wall_s, "steps": every * round(duration_s / SAMPLE)}
-    return as_trajectory(scene, status, message, SAMPLE * np.arange(len(found)), found, statistics)
+    return sampled(scene, duration_s, np.array(places), time.perf_counter() - began, every * samples)
 
 
 def hanging(scene, elements):

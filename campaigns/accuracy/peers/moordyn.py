@@ -29,12 +29,12 @@ from pathlib import Path
 import numpy as np
 
 from campaigns.accuracy.peers.deck import system, volume
+from campaigns.accuracy.peers.record import SAMPLE_S, sampled
 from engine import Scene, Trajectory
 from engine.physics.waves import wave_number
 
 BED = -100.0  # m: MoorDyn's still water level is z = 0, far above the buoy
 PORT_AREA = 1e-3  # m2, drag area times coefficient of the point that takes the load
-SAMPLE = 0.05  # s
 
 INPUT = """--- MoorDyn input ---
 tethered buoy
@@ -105,26 +105,21 @@ def airy(scene):
 
 def simulate(scene: Scene, duration_s: float, segments: int, steps_per_period: float) -> Trajectory:
     """A run as the engine's record: a Trajectory of the buoy's places."""
-    from campaigns.accuracy.peers.record import as_trajectory
-
     periods = round(duration_s / scene.waves.period_s)
     with silent(), np.errstate(all="ignore"):  # a run that ends in NaN complains at length
         places, spent = stepped(scene, segments, round(steps_per_period), periods)
     found = np.column_stack([places[:, 0], 0 * places[:, 0], places[:, 1]])
-    sound = np.isfinite(found).all()
-    status, message = ("ok", "") if sound else ("not-finite", "MoorDyn returned values that are not finite")
-    statistics = {"wall_s": spent, "steps": round(steps_per_period) * periods}
-    return as_trajectory(scene, status, message, SAMPLE * np.arange(len(found)), found, statistics)
+    return sampled(scene, duration_s, found, spent, round(steps_per_period) * periods)
 
 
 def stepped(scene, segments, steps_per_period, periods):
-    """x, z of the buoy from the anchor (m, 2), m, every `SAMPLE` seconds, and the seconds spent in stepping calls."""
+    """x, z of the buoy from the anchor (m, 2), m, every SAMPLE_S seconds, and the seconds spent in stepping calls."""
     import cmoordyn
     import moordyn
 
     period, density = scene.waves.period_s, scene.water.density_kgpm3
-    step_s, every = period / steps_per_period, round(steps_per_period * SAMPLE / period)
-    assert steps_per_period == every * round(period / SAMPLE)
+    step_s, every = period / steps_per_period, round(steps_per_period * SAMPLE_S / period)
+    assert steps_per_period == every * round(period / SAMPLE_S)
     drag = 0.5 * density * scene.buoy.drag * math.pi / 4 * scene.buoy.diameter_m**2
     inertia = density * volume(scene) + scene.buoy.added_mass_kg
     port = 0.5 * density * PORT_AREA

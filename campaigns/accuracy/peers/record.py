@@ -7,6 +7,8 @@ import numpy as np
 
 from engine.trajectory import COLUMNS, Profiles, Trajectory
 
+SAMPLE_S = 0.05  # between the samples of codes that are not asked for those of the scene
+
 
 def as_trajectory(scene, status, message, time_s, places_m, statistics, strain=None, s_m=None) -> Trajectory:
     """A Trajectory of what another code computed.
@@ -26,6 +28,14 @@ def as_trajectory(scene, status, message, time_s, places_m, statistics, strain=N
         unknown = np.full_like(kept, np.nan)
         lines = Profiles(columns["time_s"][::every], s_m, unknown, unknown, unknown, kept, unknown, unknown)
     return Trajectory(scene, status, message, columns, {"end_time_s": end_s, **statistics}, lines)
+
+
+def sampled(scene, duration_s, places_m, wall_s, steps) -> Trajectory:
+    """A Trajectory of places (m, 3) every SAMPLE_S seconds; one with samples missing or not finite is no result."""
+    sound = len(places_m) == round(duration_s / SAMPLE_S) + 1 and np.isfinite(places_m).all()
+    status, message = ("ok", "") if sound else ("not-finite", "places are missing or not finite")
+    statistics = {"wall_s": wall_s, "steps": steps}
+    return as_trajectory(scene, status, message, SAMPLE_S * np.arange(len(places_m)), places_m, statistics)
 
 
 def nothing(scene, status: str, message: str, **statistics: float) -> Trajectory:

@@ -22,14 +22,14 @@ import time
 import numpy as np
 
 from campaigns.accuracy.peers.record import as_trajectory, nothing
+from engine import Scene, Trajectory
 from engine.arrays import Stage
 from engine.compiled import kernel
-from engine.dimensions import conserved, size_of, work_arrays
-from engine.parameters import record_of
+from engine.dimensions import size_of
 from engine.record import STRETCH
+from engine.run import Run
 from engine.simd.elementary import copy_into
 from engine.time.newton import newton
-from engine.time.statics import first_guess, settle
 from engine.time.status import NEWTON_FAILED, OK
 
 RESOLVENT_S = 1e-7
@@ -64,38 +64,8 @@ def jacobian(p, tables, t, C, Y, work, base, moved, J):
             shifted[k, i] = C[k, i] + NUDGE
             code = max(code, rates(p, tables, t, shifted, trial, work, moved))
             shifted[k, i] = C[k, i]
-            for a in range(n):
-                for b in range(size):
-                    J[a * size + b, k * size + i] = (moved[a, b] - base[a, b]) / NUDGE
+            J[:, k * size + i] = (moved - base).ravel() / NUDGE
     return code
-
-
-@kernel
-def start_arrays(p):
-    """Work arrays for one line, and the number of conserved variables of a node."""
-    return work_arrays(p, p.nodes), size_of(p)[1]
-
-
-@kernel
-def at_start(p, Y, C):
-    """The conserved variables C (n, c) of a state Y."""
-    conserved(p, Y, C)
-
-
-def at_rest(scene):
-    """(status, record, tables, Y) of the static equilibrium with the velocities of the start, a straight share each."""
-    tables: list = []
-    record = record_of(scene, tables)[0]
-    tables = np.concatenate(tables)
-    at, n = int(record["grid_at"]), int(record["nodes"])
-    h = tables[at : at + n - 1]
-    Y = first_guess(record, scene, h)
-    axes = "xyz" if scene.motion.dimensions == 3 else "xz"
-    status = settle(record, tables, Y, np.zeros(len(axes)))
-    share = np.concatenate([[0.0], np.cumsum(h)]) / h.sum()
-    for i, axis in enumerate(axes):
-        Y[:, len(axes) + i] = record[f"start_{axis}"] * share
-    return int(status), record, tables, Y
 
 
 class _Stopped(Exception):
@@ -106,19 +76,15 @@ class Equations:
     """f and its Jacobian for solve_ivp, with counts. faults: calls in which Newton's method did not converge."""
 
     def __init__(self, scene):
-        self.status, self.record, self.tables, self.Y = at_rest(scene)
-        self.work, self.size = start_arrays(self.record)
-        n = len(self.Y)
-        self.base, self.moved = np.zeros((n, self.size)), np.zeros((n, self.size))
-        self.J = np.zeros((n * self.size, n * self.size))
+        run = Run(scene, scene.sample_step_s())  # at rest, with the velocities of the start
+        self.status, self.record, self.tables, self.Y = run.state["status"], run.record, run.tables, run.motion.Y
+        self.C0, self.size = run.motion.C, run.motion.C.shape[1]
+        run.kind.conserved(self.record, self.Y, self.C0)
+        self.work = run.kind.work_arrays(self.record, len(self.Y))
+        self.base, self.moved = np.zeros_like(self.C0), np.zeros_like(self.C0)
+        self.J = np.zeros((self.C0.size, self.C0.size))
         self.calls = self.jacobians = self.faults = 0
         self.ends_s = np.inf
-
-    def start(self) -> np.ndarray:
-        """The conserved variables at t = 0, flat."""
-        C = np.zeros((len(self.Y), self.size))
-        at_start(self.record, self.Y, C)
-        return C.ravel()
 
     def f(self, t, C):
         if time.perf_counter() > self.ends_s:
@@ -136,50 +102,47 @@ class Equations:
         return self.J.copy()
 
 
-def run(scene, duration_s, method="Radau", rtol=1e-3, periods=None):
+def simulate(scene: Scene, duration_s: float, nodes: int, rtol: float, method: str) -> Trajectory:
     """One run of solve_ivp: a Trajectory with the upper end's places and, where the scene asks, strain profiles.
 
     method: "Radau" or "BDF"; rtol: its relative tolerance, the absolute one is rtol times 1e-2 (strain, m/s, of order
-    0.04 and 1). statistics: rhs_calls, jacobians; wall_s of solve_ivp alone.
+    0.04 and 1); nodes: those of the scene. statistics: rhs_calls, jacobians; wall_s of solve_ivp alone.
     """
     from scipy.integrate import solve_ivp
 
     equations = Equations(scene)
     if equations.status != OK:
         return nothing(scene, "statics-failed", "no static equilibrium")
-    C0 = equations.start()
+    C0 = equations.C0.ravel()
     equations.f(0.0, C0)
     equations.jac(0.0, C0)
     equations.calls = equations.jacobians = equations.faults = 0
     t = scene.sample_step_s() * np.arange(math.floor(duration_s / scene.sample_step_s() * (1 + 1e-12) + 1e-9) + 1)
+    how = {"method": method, "t_eval": t, "rtol": rtol, "atol": 1e-2 * rtol, "jac": equations.jac}
+    status, message, found = "ok", "", None
     began = time.perf_counter()
     equations.ends_s = began + LONGEST_S
-    status, message, found = "ok", "", None
     try:
-        found = solve_ivp(
-            equations.f, (0.0, t[-1]), C0, method=method, t_eval=t, rtol=rtol, atol=1e-2 * rtol, jac=equations.jac
-        )
+        found = solve_ivp(equations.f, (0.0, t[-1]), C0, **how)
     except _Stopped:
         status, message = "too-slow", f"stopped after {LONGEST_S:g} s of run time"
     except (ValueError, np.linalg.LinAlgError) as error:
         status, message = "solver-failed", str(error)
-    wall_s = time.perf_counter() - began
-    if found is not None and not found.success:
-        status, message = "solver-failed", found.message
-    statistics = {"wall_s": wall_s, "rhs_calls": equations.calls, "jacobians": equations.jacobians}
+    statistics = {"wall_s": time.perf_counter() - began, "rhs_calls": equations.calls, "jacobians": equations.jacobians}
     statistics |= {"newton_failures": equations.faults, "steps": 0 if found is None else found.nlu}
     if found is None:
         return nothing(scene, status, message, **statistics)
-    C = found.y.T.reshape(len(found.t), -1, equations.size)
-    places, strain, s = _lines(C, scene, equations)
+    if not found.success:
+        status, message = "solver-failed", found.message
+    places, strain, s = _lines(found.y.T.reshape(len(found.t), -1, equations.size), equations)
     return as_trajectory(scene, status, message, found.t, places, statistics, strain, s)
 
 
-def _lines(C, scene, equations):
+def _lines(C, equations):
     """Upper end (m, 3), strain (m, n) and arc length (n,) of conserved variables (m, n, c)."""
     record, half = equations.record, equations.size // 2
     h = equations.tables[record["grid_at"] : record["grid_at"] + int(record["nodes"]) - 1]
     q = C[:, :, :half]
-    top = np.einsum("k,mki->mi", 0.5 * h, q[:, 1:] + q[:, :-1])
-    places = top if half == 3 else np.stack([top[:, 0], 0 * top[:, 0], top[:, 1]], axis=1)
+    places = np.einsum("k,mki->mi", 0.5 * h, q[:, 1:] + q[:, :-1])
+    places = places if half == 3 else np.insert(places, 1, 0.0, axis=1)
     return places, np.linalg.norm(q, axis=2) - 1.0, np.concatenate([[0.0], np.cumsum(h)])

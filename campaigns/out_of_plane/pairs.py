@@ -1,0 +1,91 @@
+"""Planar runs with loop releases against runs in three dimensions: when is the planar run good enough? `pairs.csv`.
+
+Paths part after the first loop, so a pair is judged by what follows the transient: the range of r, the Poincare
+section, the exponent of r and the regime.
+"""
+
+import math
+from pathlib import Path
+
+import numpy as np
+
+from campaigns.columns import Column
+from campaigns.machinery.folder import Table, trajectory_path
+from engine import Trajectory
+
+APART_M = 0.01  # difference of the two radii from which the runs count as parted
+MOST_OFF = 0.01  # of the range of r: what the ends of the ranges may differ by
+MOST_ACROSS = 1.5  # times the distance of the halves of one record
+EXPONENT, ERROR = "lyapunov_wolf_bits_per_period", "lyapunov_wolf_error"
+_SAME = "1 where both runs have the same {}; empty where the records are too short to say"
+COLUMNS = (
+    Column("depth_m", "m", "H", "depth of the water", 1),
+    Column("apart_period", "periods", "apart at", f"when the radii first differ by {1e3 * APART_M:g} mm", 1),
+    Column("before_m", "m", "before", "their largest difference up to one period before the first burst", 6),
+    Column("range_off", "", "ends of r", "largest difference of the ends of the ranges of r, by the planar range", 5),
+    Column("across", "", "across", "energy distance of the strobed r, r' of the two runs: 0 equal, 1 apart", 3),
+    Column("within", "", "within", "energy distance of the halves of each run", 3),
+    Column("same_range", "", "range", _SAME.format(f"range of r, its ends within {MOST_OFF:g} of it"), 0),
+    Column("same_section", "", "section", _SAME.format(f"section, across within {MOST_ACROSS:g} times the halves"), 0),
+    Column("same_exponent", "", "exponent", _SAME.format("Wolf's exponent of r, within two errors"), 0),
+    Column("same_regime", "", "regime", _SAME.format("regime"), 0),
+    Column("planar_key", symbol="planar run", meaning="key of the planar run"),
+    Column("spatial_key", symbol="run in space", meaning="key of the run in three dimensions"),
+)
+
+
+def write(out: Path, pairs: list[tuple[dict, dict]], transient: int) -> None:
+    """pairs.csv and its dictionary from rows (planar, in three dimensions) of table.csv. Raises OSError."""
+    table = Table(out / "pairs.csv", COLUMNS, [planar["run_key"] for planar, _ in pairs])
+    for planar, spatial in pairs:
+        runs = [Trajectory.load(trajectory_path(out, row["run_key"])) for row in (planar, spatial)]
+        table.rows[planar["run_key"]] = pair_row(planar, spatial, *runs, transient)
+    table.write()
+
+
+def pair_row(planar: dict, spatial: dict, flat: Trajectory, space: Trajectory, transient: int) -> dict[str, object]:
+    """`COLUMNS` of two rows of table.csv and their runs, planar and in three dimensions."""
+    step_s, period_s = flat.scene.sample_step_s(), flat.scene.waves.period_s
+    samples = min(len(run.columns["radius_m"]) for run in (flat, space))
+    off = np.abs(flat.columns["radius_m"][:samples] - space.columns["radius_m"][:samples])
+    first = spatial.get("rope_first_burst_period")
+    end = samples if first is None else max(int((first - 1.0) * period_s / step_s), 1)
+    apart = np.flatnonzero(off > APART_M)
+    ends = {"radius_min_m", "radius_max_m"} <= planar.keys() & spatial.keys()
+    return {
+        "depth_m": planar["depth_m"],
+        "apart_period": float(apart[0]) * step_s / period_s if len(apart) else None,
+        "before_m": float(off[:end].max()),
+        "planar_key": planar["run_key"],
+        "spatial_key": spatial["run_key"],
+        **(agreement(planar, spatial, *distances(flat, space, transient)) if ends else {}),
+    }
+
+
+def distances(flat: Trajectory, space: Trajectory, transient: int) -> tuple[float, float]:
+    """`analysis.section_distance` of the sections in r, r' after the transient: (across, within)."""
+    from analysis import poincare_section, section_distance
+
+    step_s, period_s, sections = flat.scene.sample_step_s(), flat.scene.waves.period_s, []
+    for run in (flat, space):
+        series = {name: run.columns[name] for name in ("radius_m", "radius_rate_mps")}
+        sections.append(poincare_section(series, step_s, period_s, transient_periods=transient).points)
+    distance = section_distance(*sections)
+    return distance.across, distance.within
+
+
+def agreement(planar: dict, spatial: dict, across: float, within: float) -> dict[str, object]:
+    """In what two rows of table.csv agree: 1, 0, or None where the records are too short to say."""
+    ends_off = [abs(planar[end] - spatial[end]) for end in ("radius_min_m", "radius_max_m")]
+    range_off = max(ends_off) / (planar["radius_max_m"] - planar["radius_min_m"])
+    exponents, errors = ([row.get(name) for row in (planar, spatial)] for name in (EXPONENT, ERROR))
+    told = all(value is not None and math.isfinite(value) for value in exponents)
+    regimes = [row.get("regime") for row in (planar, spatial)]
+    same = {
+        "same_range": range_off <= MOST_OFF,
+        "same_section": across <= MOST_ACROSS * within if math.isfinite(across) else None,
+        "same_exponent": abs(np.subtract(*exponents)) <= 2.0 * math.hypot(*errors) if told else None,
+        "same_regime": regimes[0] == regimes[1] if all(regimes) else None,
+    }
+    numbers = {"range_off": range_off, "across": across, "within": within}
+    return numbers | {name: None if passed is None else int(passed) for name, passed in same.items()}

@@ -1,0 +1,192 @@
+"""Sections of the accuracy report: a work's diagram and tables, measured orders, how far a motion can be predicted."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from itertools import pairwise
+
+import numpy as np
+
+from ..figures.parting import parting
+from ..figures.work_precision import Curve, work_precision
+from ..parts.columns import table_of
+from ..parts.content import Bullets, Column, Figure, Heading, Item, Table, Text
+from ..parts.wording import EMPTY, count, decimals, number
+from .study import Setting, Study
+
+LEVELS = {"mm": (5.0, 2.0, 1.0, 0.1, 0.01), "%": (1.0, 0.3, 0.1, 0.03)}
+WORST = 1e4  # mm or %: what is further off is not drawn
+SHIPPED = ("esdirk43", 41, "rtol", 0.03)
+ERRORS = {
+    "radius": "Error: rms of r(t) minus r(t) of the reference, over all samples.",
+    "place": "Error: rms of the distance of the bob from its place in the reference.",
+    "strain": "Error: mean over line and time of |ε − ε exact|, in per cent of the static strain; exact: "
+    "characteristics with a fitted shock, in one dimension.",
+}
+PARTED_M = 0.01  # a difference in r that matters
+TOLERANCE = "tolerance"
+EXCEPTIONS = (
+    "Exceptions have a cause each. A method of order 4 falls short in waves, where its differences are below 1e-4 mm: "
+    "drag is |v| v; its second derivative jumps where v changes its sign. In a current that keeps the sign "
+    "(“regular-smooth”) it has its order. Shock viscosity acts where strain rates have an extreme: ripples of the "
+    "grid's own waves, which the midpoint rule does not damp, switch it on and cost part of the order. Works that are "
+    "not smooth show no order past the point that makes them so."
+)
+
+
+def per_period(study: Study, work: str) -> tuple[float, str]:
+    """Factor from wall seconds of a run to the unit of the time axis, and that unit."""
+    entry = study.works[work]
+    if entry["period_s"] != 1.0:
+        return 1e3 * entry["period_s"] / entry["duration_s"], "ms per wave period"
+    return 1e3, "ms"
+
+
+def shipped(study: Study, work: str) -> Setting | None:
+    """The shipped setting of the buoy on a work, or None."""
+    named = (one for one in study.timed(work) if (one.method, one.nodes, one.control, one.value) == SHIPPED)
+    return next(named, None)
+
+
+def within(settings: list[Setting], level: float) -> Setting | None:
+    """The cheapest setting whose median error is within the level."""
+    return min((one for one in settings if one.error <= level), key=lambda one: one.wall_s, default=None)
+
+
+def level_answer(study: Study, work: str) -> str:
+    """One sentence: what is cheapest at each error level on a work, over all our methods; "" for none."""
+    (factor, time_unit), unit = per_period(study, work), study.unit(work)
+    parts = [
+        f"{level:g} {unit} in {number(factor * one.wall_s, 3)} {time_unit} ({one.method}, {one.named})"
+        for level in LEVELS[unit][:3]
+        if (one := within(study.timed(work, peer=False), level))
+    ]
+    return f"{study.works[work]['title']}: {'; '.join(parts)}." if parts else ""
+
+
+def work_items(study: Study, work: str) -> Iterator[Item]:
+    """Everything on one work."""
+    entry = study.works[work]
+    smooth = f"Not smooth: {entry['rough']}." if entry["rough"] else "Smooth."
+    yield Heading(entry["title"], 2)
+    yield Text(f"{ERRORS[entry['measure']]} {smooth}")
+    own = [row for row in study.rows if row["work"] == work]
+    if references := [row for row in own if row["kind"] in ("reference", "check")]:
+        caption = (
+            "The reference, and runs that check how far it is converged. Timed settings on the grid of the reference "
+            "show their error in time alone. From `table.csv`."
+        )
+        names = ("kind", "nodes", "control", "setting", "error", "error_unit")
+        yield table_of(study.folder.columns, names, references, caption)
+    if not study.timed(work):
+        yield Text("No timed run ended as asked.")
+        return
+    yield _diagram(study, work)
+    yield _levels(study, work)
+    failed = [one for one in study.settings if one.work == work and one.failed]
+    if failed:
+        rows = dict.fromkeys((one.method, one.named, one.status) for one in failed)
+        heads = tuple(Column(title, align="left") for title in ("method", "setting", "outcome"))
+        caption = "Left out, because a round ended early; see `message` in `table.csv`."
+        yield Table(heads, tuple(rows), caption, small=True)
+
+
+def _diagram(study: Study, work: str) -> Figure:
+    (factor, unit), error_unit, timed = per_period(study, work), study.unit(work), study.timed(work)
+    names = list(dict.fromkeys(one.method for one in timed))
+    curves = []
+    for name in names:
+        own = [one for one in timed if one.method == name and one.error < WORST]
+        time, error = (np.array([getattr(one, column) for one in own]) for column in ("wall_s", "error"))
+        curves.append(Curve(name, factor * time, np.maximum(error, 1e-12), any(one.peer for one in own)))
+    ring = shipped(study, work)
+    marked = (factor * ring.wall_s, ring.error) if ring else None
+    picture = work_precision(curves, f"stepping time ({unit})", f"error ({error_unit})", marked)
+    best = min(timed, key=lambda one: one.error)
+    seen = (
+        f"{count(len(timed), 'setting')} of {count(len(names), 'method')}; the least error, {number(best.error, 2)} "
+        f"{error_unit}, has {best.method} ({best.named}) in {number(factor * best.wall_s, 3)} {unit}"
+    )
+    caption = (
+        f"Error against run time, {study.works[work]['title']}. A mark is a setting (median of its rounds). A line "
+        "joins the settings of a method that no cheaper one beats; dashed: with shock viscosity, or on a stretched "
+        "grid. Other codes (thick) are held against their own refined runs. "
+        f"Seen: {seen}. From `error` and `wall_s` of `table.csv`."
+    )
+    return Figure(picture, caption, f"Error over stepping time for every method, both on log scales: {seen}.")
+
+
+def _levels(study: Study, work: str) -> Table:
+    (factor, unit), error_unit = per_period(study, work), study.unit(work)
+    levels = LEVELS[error_unit]
+    rows = []
+    for name in dict.fromkeys(one.method for one in study.timed(work)):
+        found = [within(study.timed(work, name), level) for level in levels]
+        first = next((one for one in found if one is not None), None)
+        cells = [decimals(factor * one.wall_s, 2) if one else EMPTY for one in found]
+        rows.append((name, *cells, f"{first.named}: {number(first.error, 2)} {error_unit}" if first else EMPTY))
+    columns = [Column("method", align="left"), *(Column(f"≤ {level:g} {error_unit}", unit) for level in levels)]
+    columns.append(Column("at the first level reached", align="left"))
+    caption = (
+        "Stepping time of the cheapest setting tried whose median error is within the level; nothing is "
+        "interpolated; a dash: none of the settings tried. From `table.csv`."
+    )
+    return Table(tuple(columns), tuple(rows), caption, small=True)
+
+
+def order_items(study: Study) -> Iterator[Item]:
+    """Measured orders, work by work."""
+    judged = [row for row in study.orders if row["kind"] != TOLERANCE]
+    tolerances = [row for row in study.orders if row["kind"] == TOLERANCE]
+    yield Heading("Orders of convergence")
+    if not judged:
+        yield Text("No series of steps or grids was run.")
+        return
+    good, smooth = smooth_series(study)
+    yield Text(f"On smooth works {good} of {smooth} series end within 0.15 of theory. {EXCEPTIONS}")
+    names = ("work", "kind", "method", "theory", "order", "slopes", "errors", "unit", "within", "rough", "note")
+    caption = (
+        "Series of halved steps (time) or elements (space), of both at once on breaking lines, and up to the first "
+        "slack (early). Errors of breaking lines are against the exact solution. From `orders.csv`."
+    )
+    yield table_of(study.order_columns, names, judged, caption)
+    if tolerances:
+        yield Heading("Tolerances", 2)
+        names = ("work", "method", "theory", "order", "errors", "unit", "settings")
+        caption = (
+            "Error over tolerance on 161 nodes, against rtol 1e-6 on the same grid; the order is a slope by least "
+            "squares. Theory: an estimate of order p + 1 kept at rtol, with no longest step but 2 s. Loose tolerances "
+            "take a few steps a wave, and are off by the size of the motion."
+        )
+        yield table_of(study.order_columns, names, tolerances, caption)
+
+
+def smooth_series(study: Study) -> tuple[int, int]:
+    """Series on smooth works: how many are as theory says, and how many there are."""
+    smooth = [row["within"] for row in study.orders if row["kind"] != TOLERANCE and not row["rough"] and row["within"]]
+    return smooth.count("1"), len(smooth)
+
+
+def predictability_items(study: Study) -> Iterator[Item]:
+    """How long refined runs of the violent work stay together."""
+    long = [row for row in study.rows if row["kind"] == "long" and row["status"] == "ok"]
+    loaded = [(row, run) for row in long if (run := study.folder.trajectory(row)[0]) is not None]
+    if len(loaded) < 2:
+        return
+    time_s = loaded[0][1].columns["time_s"]
+    pairs, said = [], []
+    for (one, a), (other, b) in pairwise(loaded):
+        names = [f"{number(row['nodes'])} nodes and rtol {row['setting']:g}" for row in (one, other)]
+        pairs.append((" against ".join(names), np.abs(a.columns["radius_m"] - b.columns["radius_m"])))
+        beyond = time_s[pairs[-1][1] > PARTED_M]
+        when = f"apart at t = {beyond[0]:.0f} s" if len(beyond) else f"together to the end, {time_s[-1]:.0f} s"
+        said.append(f"{pairs[-1][0]}: {when}.")
+    yield Heading("Predictability of the violent work")
+    yield Text(
+        f"Refined runs count as apart where r differs by {number(1e3 * PARTED_M)} mm. Past the time at which the two "
+        "finest grids part only statistics of the motion may be compared, not its course."
+    )
+    yield Bullets(tuple(said))
+    caption = "Largest difference in r so far between runs that differ in one thing, violent work. From `radius_m`."
+    alt = f"Differences between refined runs over time on a log scale. {' '.join(said)}"
+    yield Figure(parting(time_s, pairs, PARTED_M), caption, alt)
