@@ -62,14 +62,6 @@ def _answer(study: Study) -> tuple[str, ...]:
             f"The largest exponent is {LAMBDA_1} = {_with_error(value, error)} nats per unit of time, "
             f"{_with_error(*bits)} bits per forcing period. It is {verdict}."
         )
-        rest = abs(study.number("exponents", "sum_plus_damping"))
-        lines.append(f"Both exponents and the damping add up to zero, as they must, within {rest:.0e}.")
-        dimension = study.number("exponents", "section_dimension")
-        if dimension > 0.0:
-            within = _with_error(dimension, study.number("exponents", "section_dimension_error"))
-            lines.append(
-                f"The section has the Kaplan-Yorke dimension {within}, between that of a curve and of an area."
-            )
     shares = study.arrays.get("basins", {}).get("shares")
     if shares is not None:
         settled = count(len(shares) - 1, "periodic attractor")
@@ -122,7 +114,8 @@ def _exponents(study: Study, arrays: dict) -> list[Item]:
         f"{row['starts']} random starts of {row['periods']} periods each, after {row['transient']}. The error is the "
         "standard deviation over the starts by the root of their number. Starts that settled on a periodic attractor "
         f"are not counted ({row['elsewhere']}). The same error from blocks of time alone is "
-        f"{float(arrays['block_error'][0]):.2g}, against {error:.2g}."
+        f"{float(arrays['block_error'][0]):.2g}, against {error:.2g}. Both exponents and the damping must add up to "
+        "zero. A Kaplan-Yorke dimension D between 1 and 2 is that of a fractal between a curve and an area."
     )
     seen = f"the mean ends at {_with_error(value, error)}"
     caption = (
