@@ -39,7 +39,7 @@ def localised(scene, slack_m):
 def shape(buckle, length, middle, count=4001):
     """x, y, z (count, 3) of the buckle, z along the axis, from integrals of t, with its middle at `middle`."""
     s = np.linspace(-length / 2, length / 2, count)
-    theta, psi, _ = buckle.angles(s)
+    theta, psi = buckle.angles(s)
     t = np.stack([np.sin(theta) * np.cos(psi), np.sin(theta) * np.sin(psi), np.cos(theta)], 1)
     x = np.vstack([np.zeros(3), np.cumsum(0.5 * np.diff(s)[:, None] * (t[1:] + t[:-1]), axis=0)])
     x[:, :2] -= 0.5 * (x[0, :2] + x[-1, :2])
@@ -97,7 +97,7 @@ def swinging_line():
 def falling_chain():
     print("falling chain, hooks 2 cm apart: fall, m | time, s | folded chain | free fall")
     tight = {"end.position_m": [0.02, 0.0, 0.0], "tether.nodes": 641, "tether.bending_stiffness_Nm2": 1e-7}
-    t, _, _, z = fall(0.475, **tight, **{"output.step_s": 1e-3})
+    t, _, z = fall(0.475, **tight, **{"output.step_s": 1e-3})
     for x in (0.2, 0.4, 0.6, 0.8, 0.88):
         exact = quad(lambda u: 2 * math.sqrt((1 - u * u / L) / (2 * G * (1 - u * u / (2 * L)))), 0, math.sqrt(x))[0]
         print(f"  {x} | {np.interp(x, -z[t > 0], t[t > 0]):.4f} | {exact:.4f} | {math.sqrt(2 * x / G):.4f}")

@@ -5,11 +5,10 @@ protocol, and the files beside it hold what only this campaign has, such as a ru
 `study` is what a campaign of simulations is, `columns` what a column of a table is, `judge` the verdict on the motion
 of a buoy. In `machinery`, each module imports only those before it:
 
-    cli, out_folder        options of a command line and their faults
-    folder, provenance     what is on disk, how it stays readable, and who made it with what
-    command, session       a command from its words to its exit code; what surrounds the runs of any campaign
-    plan, worker, batches  the runs to do; one run, or several side by side, where they are made; row_cache keeps rows
-    processes, cluster, pools, runner   where runs execute, and what becomes of each
+    cli, folder, plan     options and their faults; what is on disk and stays readable; the runs to do
+    session               a command from its words to its exit code, its provenance, its report
+    worker, pools         runs where they are made; where they execute, and what becomes of each
+    runner                all runs of a campaign, and its table
 """
 
 import sys

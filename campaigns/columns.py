@@ -58,8 +58,13 @@ def dictionary_path(table: Path) -> Path:
 
 def dictionary(columns: Iterable[Column]) -> bytes:
     """The content of columns.csv: name, unit, symbol, meaning, digits (empty for a column of words)."""
+    return csv_of([field.name for field in fields(Column)], map(astuple, columns))
+
+
+def csv_of(head: Iterable[str], rows: Iterable[Iterable[object]]) -> bytes:
+    """The content of a CSV file."""
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
-    writer.writerow(field.name for field in fields(Column))
-    writer.writerows(astuple(column) for column in columns)
+    writer.writerow(head)
+    writer.writerows(rows)
     return text.getvalue().encode()

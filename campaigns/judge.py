@@ -1,5 +1,7 @@
 """The verdict on the motion of a buoy in waves: its state as the analysis takes it, its regime, its exponents."""
 
+from functools import partial
+
 import numpy as np
 
 LONGEST_PERIOD = 16
@@ -42,30 +44,23 @@ def carried(trajectory) -> bool:
     return trajectory.tangent is not None and trajectory.tangent.growth_nats.shape[1] > 0
 
 
-def verdict_of(trajectory, transient_periods: int, tighter: str | None = None):
-    """The regime of a finished run: (Verdict, tangent Exponent, Wolf Exponent of r).
-
-    A run that carried no tangent vectors, as every run in three dimensions, has a tangent Exponent without a value.
-
-    tighter: the regime of the same run at a tighter tolerance, where someone looked.
-    Both exponents in bits per wave period. Every period after the transient counts, those with a loop release too.
-    """
+def tangent_of(trajectory, transient_periods: int):
+    """The exponent of a run's tangent dynamics in bits per wave period; without a value where it carried none."""
     from analysis import tangent_lyapunov
     from analysis.exponents import BITS_PER_PERIOD, no_exponent
 
     if not carried(trajectory):
-        tangent = no_exponent("tangent dynamics", "no perturbation was carried along", BITS_PER_PERIOD)
-    else:
-        tangent = tangent_lyapunov(trajectory.tangent.growth_nats, transient_periods)[0]
-    verdict, wolf = series_verdict(trajectory, transient_periods, tangent, tighter)
-    return verdict, tangent, wolf
+        return no_exponent("tangent dynamics", "no perturbation was carried along", BITS_PER_PERIOD)
+    return tangent_lyapunov(trajectory.tangent.growth_nats, transient_periods)[0]
 
 
-def series_verdict(trajectory, transient_periods: int, tangent=None, tighter: str | None = None):
-    """The regime of a finished run from its samples: (Verdict, Wolf Exponent of r in bits per wave period).
+def verdict_of(trajectory, transient_periods: int, tangent=None, simulate=None):
+    """The regime of a finished run: (Verdict, Wolf Exponent of r in bits per wave period, regime_tighter).
 
-    tangent: the Exponent of its tangent dynamics. A run in three dimensions has none, and the verdict is that of the
-    samples alone; a motion within millimetres of the plane of the waves has its state in that plane.
+    tangent: its `tangent_of`; without one the verdict is that of the samples alone. A motion in three dimensions within
+    millimetres of the plane of the waves has its state in that plane. Every period after the transient counts, those
+    with a loop release too. simulate: to repeat a run that looks chaotic at a ten times tighter tolerance; its regime
+    is regime_tighter, None where that was not done.
     """
     from analysis import regime, wolf_lyapunov
 
@@ -74,19 +69,26 @@ def series_verdict(trajectory, transient_periods: int, tangent=None, tighter: st
     after = round(transient_periods * period_s / step_s)
     wolf = wolf_lyapunov(columns["radius_m"][after:], step_s).in_bits_per_period(period_s)
     coordinates, scale = state_of(columns, step_s, period_s, transient_periods)
-    verdict = regime(
+    judged = partial(
+        regime,
         np.column_stack(list(coordinates.values())),
         step_s,
         period_s,
         transient_periods=transient_periods,
         tangent_exponent=tangent,
         wolf_exponent=wolf,
-        tighter=tighter,
         scale=scale,
         tolerance=STROBE_TOLERANCE,
         max_period=LONGEST_PERIOD,
     )
-    return verdict, wolf
+    verdict, tighter = judged(), None
+    if verdict.regime == "chaotic" and simulate is not None:
+        again = simulate(tighter_scene(scene), duration_s=float(columns["time_s"][-1]))
+        tighter = again.status
+        if again.status == "ok":
+            tighter = verdict_of(again, transient_periods, tangent_of(again, transient_periods))[0].regime
+        verdict = judged(tighter=tighter)
+    return verdict, wolf, tighter
 
 
 def in_regular_waves(scene) -> bool:

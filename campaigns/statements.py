@@ -6,8 +6,6 @@ each place where it looked: the claim "holds" where every check passes, it "does
 written. `statements.csv` has one row a claim.
 """
 
-import csv
-import io
 import math
 import re
 import tomllib
@@ -15,6 +13,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+from campaigns.columns import csv_of
 from engine.atomic import write_atomic
 
 FILE = "statements.csv"
@@ -25,18 +24,10 @@ Check = tuple[str, float]  # where it was looked, and the number that the rule j
 
 
 @dataclass(frozen=True)
-class Rule:
-    """What decides a check: a test of the measured number, and the same in words."""
-
-    holds: Callable[[float], bool]
-    words: str
-
-
-@dataclass(frozen=True)
 class Measured:
     """What the results say to a claim.
 
-    checks   (where, number) for every place that decides; a number that is nan decides nothing
+    checks   (where, number) for every place that decides; nan decides nothing
     told     the numbers as the reader sees them
     """
 
@@ -52,7 +43,8 @@ class Claim:
     text       what the paper says, in our words, in a sentence
     quantity   what is measured, with its unit
     measure    results -> Measured
-    rule       what a measured number must obey
+    holds      what decides a check: a test of the measured number
+    threshold  the same in words
     evidence   what else supports the number: refinement, other method, code, closed form
     """
 
@@ -60,7 +52,8 @@ class Claim:
     text: str
     quantity: str
     measure: Callable[[object], Measured]
-    rule: Rule
+    holds: Callable[[float], bool]
+    threshold: str
     evidence: str
 
 
@@ -95,7 +88,7 @@ def judged(claims: Iterable[Claim], results: object) -> list[Statement]:
 def judge(claim: Claim, results: object) -> Statement:
     """Measure a claim in the results and apply its rule."""
     measured = claim.measure(results)
-    checks = [(where, bool(claim.rule.holds(value))) for where, value in measured.checks if math.isfinite(value)]
+    checks = [(where, bool(claim.holds(value))) for where, value in measured.checks if math.isfinite(value)]
     found = f"{claim.quantity}: {measured.told}." if measured.told else NOT_SHOWN
     return Statement(claim, tuple(checks), found)
 
@@ -109,14 +102,12 @@ def write_statements(folder: Path, claims: Iterable[Claim], results: object) -> 
 
 def as_csv(statements: Sequence[Statement]) -> bytes:
     """statements.csv: one row a statement, numbered from 1."""
-    text = io.StringIO()
-    writer = csv.writer(text, lineterminator="\n")
-    writer.writerow(COLUMNS)
+    rows = []
     for number, one in enumerate(statements, 1):
         claim = one.claim
-        said = (claim.text, one.verdict, one.condition, one.found, claim.rule.words, claim.evidence)
-        writer.writerow([number, claim.place, *said])
-    return text.getvalue().encode()
+        said = (claim.text, one.verdict, one.condition, one.found, claim.threshold, claim.evidence)
+        rows.append([number, claim.place, *said])
+    return csv_of(COLUMNS, rows)
 
 
 def read_claims(path: Path, measures: Mapping[str, Callable]) -> dict[str, Claim]:
@@ -130,9 +121,9 @@ def read_claims(path: Path, measures: Mapping[str, Callable]) -> dict[str, Claim
     for entry in table["claim"]:
         name, by, evidence = entry.pop("name", entry["text"]), measures[entry.pop("by")], entry.pop("evidence")
         fields = {field: entry.pop(field) for field in ("place", "text", "quantity")}
-        rule = Rule(_test(entry.pop("rule")), entry.pop("threshold"))
+        rule = {"holds": _test(entry.pop("rule")), "threshold": entry.pop("threshold")}
         measure = by(**entry) if entry else by
-        claims[name] = Claim(**fields, measure=measure, rule=rule, evidence=evidence.format(**table["words"]))
+        claims[name] = Claim(**fields, measure=measure, **rule, evidence=evidence.format(**table["words"]))
     return claims
 
 

@@ -1,7 +1,8 @@
-"""What a campaign of simulations is, as one record, and the command that is made of it.
+"""What a campaign is, as one record, and the command that is made of it.
 
 A `Study` says which runs there are (`cases`), how a run becomes a row (`measures`), and what its command line offers
-beside the options that all studies share. docs/howto_campaign.md shows a complete one.
+beside the options that all studies share. docs/howto_campaign.md shows a complete one. A campaign that does not run
+variants of one scene has its work in `done`.
 """
 
 import time
@@ -14,25 +15,12 @@ from typing import TYPE_CHECKING
 from campaigns.columns import Column
 from campaigns.machinery import cli, session
 from campaigns.machinery.cli import Lengths
-from campaigns.machinery.command import command
-from campaigns.machinery.plan import Job, Plan, Summary, make_job, plan_of
+from campaigns.machinery.folder import made_by
+from campaigns.machinery.plan import Job, Plan, Summary
 from campaigns.machinery.runner import run, write_scene
 
 if TYPE_CHECKING:
     from engine import Scene
-
-
-@dataclass(frozen=True)
-class Case:
-    """One run: the columns that name it, its scene, and its length (None: that of the command line).
-
-    periods in wave periods; duration_s for scenes without waves.
-    """
-
-    labels: Mapping[str, object]
-    scene: object
-    periods: float | None = None
-    duration_s: float | None = None
 
 
 @dataclass(frozen=True)
@@ -53,31 +41,32 @@ class Measures:
 class Order:
     """What a command line asks of a study: its values, what was found wrong with them, and the cases that follow.
 
-    own: what `Study.read` made of the study's own options. periods, transient: None and 0 for a study without lengths.
+    own: the study's own options, as `Study.read` leaves them. periods, transient: None and 0 without `Study.lengths`.
     simulate: in place of engine.simulate, None for the engine.
     """
 
     how: cli.Running
-    name: str
-    changes: dict[str, object]
+    name: str = ""
+    changes: dict[str, object] = field(default_factory=dict)
     periods: int | None = None
     transient: int = 0
-    own: object = None
+    own: Namespace = field(default_factory=Namespace)
     faults: list[str] = field(default_factory=list)
-    cases: list[Case] = field(default_factory=list)
+    cases: list[Job] = field(default_factory=list)
     simulate: Callable | None = None
 
     def tell(self, faults: Iterable[str]) -> None:
         """Add faults, each once."""
         self.faults.extend(fault for fault in dict.fromkeys(faults) if fault not in self.faults)
 
-    def base(self, changes: Mapping[str, object] | None = None) -> "Scene | None":
-        """The scene with the changes of --set, and these, told nothing about; None where it cannot be."""
+    def base(self, changes: Mapping[str, object] | None = None, tell: bool = False) -> "Scene | None":
+        """The scene with the changes of --set, and these; None where it cannot be, and whether that is told."""
         from engine import SceneError, load_scene
 
         try:
             return load_scene(self.name, {**self.changes, **(changes or {})})
-        except SceneError:
+        except SceneError as error:
+            self.tell(error.faults if tell else ())
             return None
 
     def scene(self, changes: Mapping[str, object], duration_s: float | None = None) -> "Scene | None":
@@ -86,58 +75,60 @@ class Order:
         duration_s: length of the run where it is not `periods`.
         """
         from campaigns.machinery.plausible import doubts, endless
-        from engine import SceneError, load_scene
 
-        try:
-            scene = load_scene(self.name, {**self.changes, **changes})
-        except SceneError as error:
-            self.tell(error.faults)
-            return None
-        if duration_s is None and scene.waves is not None:
-            duration_s = self.periods * scene.waves.period_s
-        self.tell([*doubts(scene), *(endless(scene, duration_s) if duration_s else ())])
+        scene = self.base(changes, tell=True)
+        if scene is not None:
+            if duration_s is None and scene.waves is not None:
+                duration_s = self.periods * scene.waves.period_s
+            self.tell([*doubts(scene), *(endless(scene, duration_s) if duration_s else ())])
         return scene
 
-    def case(self, labels: Mapping[str, object], changes: Mapping[str, object]) -> Case | None:
+    def case(self, labels: Mapping[str, object], changes: Mapping[str, object]) -> Job | None:
         """A case of the usual length; None where its scene cannot be."""
         scene = self.scene(changes)
-        return None if scene is None else Case(labels, scene)
+        return None if scene is None else Job(labels, scene, self.periods)
 
 
 @dataclass(frozen=True)
 class Study:
-    """A campaign of simulations.
+    """A campaign.
 
-    name: of its provenance and of its folder in results/. protocol: its help. scene: it starts from this one.
-    cases(order) -> cases, None for one that cannot be; measures(order) -> Measures.
+    name: of its provenance and of its folder in results/. protocol: its help. scene: it starts from this one, "" where
+    `done` is given. cases(order) -> its runs (`Job`), None for one that cannot be; measures(order) -> Measures.
+    done(order) -> times and summary, in place of these two; `Order.own` then has the whole order, `how` among it.
     lengths: None for a study whose cases have lengths of their own. in_waves: whether it refuses scenes without a buoy
     in regular waves. taken: keys that it sets itself -> what to use instead of --set.
-    options(group): adds options of its own; read(options, faults) -> what they say, as `Order.own`.
+    options(group): adds options of its own; read(options, faults) judges and amends their values (`Order.own`).
     parameters(order) -> what its provenance says beside scene, set, periods and transient.
     runs(order) -> in place of `runner.run`; beside(order) -> what is done after the runs: functions of (plan, summary)
     that return seconds of analysis. together: whether runs may share a worker, side by side in the lanes.
+    jobs, backends: whether there is a choice of these. strict: whether a row that is not ok is exit code 1.
     module: its command is python -m MODULE; "" for campaigns.NAME.
     """
 
     name: str
     protocol: str
-    scene: str
-    cases: Callable[[Order], Iterable[Case | None]]
-    measures: Callable[[Order], Measures]
+    scene: str = ""
+    cases: Callable[[Order], Iterable[Job | None]] | None = None
+    measures: Callable[[Order], Measures] | None = None
+    done: Callable[[Order], tuple[dict[str, float], Summary]] | None = None
     lengths: Lengths | None = None
     in_waves: bool = False
     taken: Mapping[str, str] = field(default_factory=dict)
     options: Callable[[object], None] | None = None
-    read: Callable[[Namespace, list[str]], object] | None = None
+    read: Callable[[Namespace, list[str]], None] | None = None
     parameters: Callable[[Order], Mapping[str, object]] | None = None
     runs: Callable[[Order], Callable] | None = None
     beside: Callable[[Order], Iterable[Callable[[Plan, Summary], float]]] | None = None
     together: bool = True
+    jobs: bool = True
+    backends: bool = True
+    strict: bool = False
     module: str = ""
 
     def main(self, argv: list[str] | None = None, simulate: Callable | None = None) -> int:
         """The command. simulate: in place of engine.simulate, same signature. Returns the exit code (0, 1, 2, 130)."""
-        return command(self.called, argv, self.read_order, partial(self.conduct, simulate=simulate))
+        return session.command(self.called, argv, self.read_order, partial(self._conduct, simulate=simulate))
 
     @property
     def called(self) -> str:
@@ -152,30 +143,41 @@ class Study:
             self.options(what)
         if self.lengths is not None:
             cli.add_lengths(what, self.lengths)
-        cli.add_scene(what, self.scene)
-        cli.add_running(parser.add_argument_group("how and where"), f"results/{self.name}")
+        if self.scene:
+            cli.add_scene(what, self.scene)
+        cli.add_running(parser.add_argument_group("how and where"), self.name, self.jobs, self.backends)
         return parser
 
     def read_order(self, argv: list[str], faults: list[str]) -> Order:
         """The order in the words of the command line; every fault, of options and scenes, is appended to `faults`."""
         options = cli.split(self.parser(), argv, faults)
         periods, transient = (None, 0) if self.lengths is None else cli.lengths(options, self.lengths, faults)
-        own = self.read(options, faults) if self.read else None
-        how = cli.running(options, self.name, faults)
-        name = cli.scene_name(options, self.scene, faults)
+        if self.read is not None:
+            self.read(options, faults)
+        how = options.how = cli.running(options, self.name, faults)
+        if self.cases is None:
+            return Order(how, own=options, faults=faults)
         changes = cli.assignments(options.set, self.taken, faults)
-        order = Order(how, name, changes, periods, transient, own, faults)
-        if not (self.in_waves and _refused(order)):
+        order = Order(how, options.scene, changes, periods, transient, options, faults)
+        if not (self.in_waves and self._refused(order)):
             order.cases = [case for case in self.cases(order) if case is not None]
         return order
+
+    def _refused(self, order: Order) -> bool:
+        from campaigns.machinery.plausible import without_waves
+
+        base = order.base()
+        found = [] if base is None else list(without_waves(order.name, base))
+        order.tell(found)
+        return bool(found)
 
     def work(self, order: Order) -> tuple[dict[str, float], Summary]:
         """Do the runs that are not there yet, and what is done beside them; the folder has to be held (`claimed`).
 
         Returns times and summary. Raises CampaignStopped, OSError, KeyboardInterrupt.
         """
-        from campaigns.machinery.row_cache import made_by
-
+        if self.done is not None:
+            return self.done(order)
         simulate_each = None
         if order.simulate is None:
             from engine import simulate, simulate_each
@@ -184,40 +186,21 @@ class Study:
         measures = self.measures(order)
         maker = made_by(dict(measures.settings), *measures.sources) if measures.sources else ""
         together = simulate_each if self.together else None
-        plan = plan_of(order.how, order.simulate, measures.row, measures.columns, maker, simulate_each=together)
-        jobs = [job_of(case, order) for case in order.cases]
-        write_scene(plan.directory, self.name, jobs)
-        timing, summary = (self.runs(order) if self.runs else run)(plan, jobs)
+        plan = Plan(order.how, order.simulate, measures.row, measures.columns, maker, together)
+        write_scene(order.how.out, self.name, order.cases)
+        timing, summary = (self.runs(order) if self.runs else run)(plan, order.cases)
         for more in self.beside(order) if self.beside else ():
             began = time.perf_counter()
             timing["analysis_s"] += more(plan, summary)
             timing["run_s"] += time.perf_counter() - began
         return timing, summary
 
-    def conduct(self, order: Order, argv: list[str], simulate: Callable | None = None) -> int:
-        """Run an order that has no faults, from the words of its command line; returns the exit code.
-
-        Raises CampaignStopped, OSError and KeyboardInterrupt, for `command`.
-        """
+    def _conduct(self, order: Order, argv: list[str], simulate: Callable | None = None) -> int:
         order.simulate = simulate
-        parameters = {"scene": order.name, "set": order.changes}
+        parameters = {"scene": order.name, "set": order.changes} if self.scene else {}
         parameters |= {} if self.lengths is None else {"periods": order.periods, "transient": order.transient}
         parameters |= self.parameters(order) if self.parameters else {}
-        where = {"backend": order.how.backend, "jobs": order.how.jobs, "dask_address": order.how.dask_address}
-        return session.conduct(
-            self.name, self.called, argv, order.how, {**parameters, **where}, partial(self.work, order)
-        )
-
-
-def job_of(case: Case, order: Order) -> Job:
-    """The run of a case, with its content key."""
-    periods = case.periods if case.periods is not None or case.duration_s is not None else order.periods
-    return make_job(case.scene, periods, case.duration_s, labels=dict(case.labels))
-
-
-def _refused(order: Order) -> bool:
-    from campaigns.machinery.plausible import irregular, waveless
-
-    found = list(waveless(order.name, order.changes)) or list(irregular(order.name, order.changes))
-    order.tell(found)
-    return bool(found)
+        where = ("backend", "jobs", "dask_address")
+        parameters |= {name: getattr(order.own, name) for name in where if hasattr(order.own, name)}
+        work = partial(self.work, order)
+        return session.conduct(self.name, self.called, argv, order.how, parameters, work, self.strict)

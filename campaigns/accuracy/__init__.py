@@ -11,119 +11,81 @@ against their own refined runs and against ours; what is not installed is a row 
 """
 
 import os
-from collections.abc import Callable
-from dataclasses import dataclass, replace
-from functools import partial
+from argparse import Namespace
+from dataclasses import replace
 
-from campaigns.accuracy.plan import FACTORS, FULL, QUICK, Effort
+from campaigns.accuracy.plan import FACTORS, FULL, QUICK
 from campaigns.accuracy.works import BY_NAME, UNITS
 from campaigns.machinery import cli
-from campaigns.machinery.command import command
-
-CAMPAIGN = "accuracy"
-MODULE = "campaigns.accuracy"
+from campaigns.study import Order, Study
 
 
-@dataclass(frozen=True)
-class Order:
-    """What the command line asks for, checked."""
-
-    effort: Effort
-    quick: bool
-    peers: bool
-    how: cli.Running
-
-
-def main(argv: list[str] | None = None, simulate: Callable | None = None) -> int:
-    """The command. simulate: in place of engine.simulate, same signature. Returns the exit code (0, 1, 2 or 130)."""
-    return command(MODULE, argv, read_order, partial(study, simulate=simulate))
+def options(group) -> None:
+    """Add the options of this campaign."""
+    works = f"works (default: {' '.join(FULL.works)})"
+    cli.add(group, "--works", "A B ...", works, cli.one_of(FULL.works), many=True)
+    turns = f"turns of every timed setting (default: {FULL.rounds})"
+    cli.add(group, "--rounds", "N", turns, cli.whole(1, len(FACTORS)))
+    few = f"{' and '.join(QUICK.works)} alone, few settings, one round"
+    group.add_argument("--quick", action="store_true", help=few)
+    group.add_argument("--no-peers", action="store_true", help="leave out scipy and other codes")
 
 
-def parser():
-    """The options of this campaign."""
-    parser = cli.parser(MODULE, __doc__)
-    what = parser.add_argument_group("what is run")
-    cli.add(what, "--works", "A B ...", f"works (default: {' '.join(FULL.works)})")
-    cli.add(what, "--rounds", "N", f"turns of every timed setting, 1 to {len(FACTORS)} (default: {FULL.rounds})")
-    what.add_argument(
-        "--quick", action="store_true", help=f"{' and '.join(QUICK.works)} alone, few settings, one round"
-    )
-    what.add_argument("--no-peers", action="store_true", help="leave out scipy and other codes")
-    cli.add_running(parser.add_argument_group("how and where"), f"results/{CAMPAIGN}")
-    return parser
-
-
-def read_order(argv: list[str], faults: list[str]) -> Order:
-    """The order in the words of the command line; every fault is appended to `faults`."""
-    options = cli.split(parser(), argv, faults)
+def read(options: Namespace, faults: list[str]) -> None:
+    """The effort that they ask for."""
     effort = QUICK if options.quick else FULL
-    if options.works == []:
-        faults.append(f"--works: given nothing; allowed: one or more of {', '.join(FULL.works)}")
-    allowed = "one of " + ", ".join(FULL.works)
-    words = options.works or list(effort.works)
-    works = cli.values(words, "--works", list(effort.works), cli.one_of(FULL.works), allowed, faults)
-    said = f"a whole number from 1 to {len(FACTORS)}"
-    count = cli.value(options.rounds, "--rounds", effort.rounds, cli.whole(1, len(FACTORS)), said, faults)
-    effort = replace(effort, works=tuple(name for name in FULL.works if name in works), rounds=count)
-    how = cli.running(options, CAMPAIGN, faults)
-    return Order(effort, options.quick, not options.no_peers, how)
+    chosen = options.works or effort.works
+    works = tuple(name for name in FULL.works if name in chosen)
+    options.effort = replace(effort, works=works, rounds=options.rounds or effort.rounds)
 
 
-def study(order: Order, argv: list[str], simulate: Callable | None) -> int:
-    """Run it: untimed runs, timed ones, tables, report. Raises CampaignStopped, OSError, KeyboardInterrupt."""
-    from campaigns.machinery import session
-
-    where = {"backend": order.how.backend, "jobs": order.how.jobs, "dask_address": order.how.dask_address}
-    work = partial(done, order, simulate)
-    return session.conduct(CAMPAIGN, MODULE, argv, order.how, _parameters(order) | where, work)
-
-
-def done(order: Order, simulate: Callable | None):
+def done(order: Order):
     """References, what is not timed, and what is: the last one run at a time. Then the tables that follow from them.
 
     Returns times and summary.
     """
     from campaigns.accuracy import jobs, orders, pieces
     from campaigns.accuracy.rows import COLUMNS
-    from campaigns.machinery.folder import trajectory_path
-    from campaigns.machinery.plan import plan_of
-    from campaigns.machinery.row_cache import made_by
+    from campaigns.machinery.folder import made_by, trajectory_path
+    from campaigns.machinery.plan import Plan
     from campaigns.machinery.runner import run, write_scene
 
-    out, ours = order.how.out, simulate is None
+    own, out, simulate, ours = order.own, order.how.out, order.simulate, order.simulate is None
     if ours:
         from engine import simulate
-    own = (f"campaigns/accuracy/{name}" for name in ("rows.py", "works.py", "works.toml"))
-    maker = made_by({}, "campaigns/breaking_line/theory", "engine", *own)
-    plan = plan_of(order.how, simulate, jobs.point_row, COLUMNS, maker)
-    phases = jobs.phases(out, order.effort, order.quick, order.peers and ours)
-    write_scene(out, CAMPAIGN, next(filter(None, phases)))
+    sources = (f"campaigns/accuracy/{name}" for name in ("rows.py", "works.py", "works.toml"))
+    maker = made_by({}, "campaigns/breaking_line/theory", "engine", *sources)
+    plan = Plan(order.how, simulate, jobs.point_row, COLUMNS, maker)
+    phases = jobs.phases(out, own.effort, own.quick, ours and not own.no_peers)
+    write_scene(out, STUDY.name, next(filter(None, phases)))
     found = sum(trajectory_path(out, key).exists() for key in {job.key for phase in phases for job in phase})
     timing, known = {"compile_s": 0.0, "run_s": 0.0, "analysis_s": 0.0}, []
-    for how, phase in zip((plan, plan, replace(plan, backend="threading", jobs=1)), phases, strict=True):
+    alone = replace(plan, how=replace(order.how, backend="threading", jobs=1))
+    for how, phase in zip((plan, plan, alone), phases, strict=True):
         known += phase
         more, summary = run(how, known)
         timing = {name: timing[name] + more[name] for name in timing}
     orders.write(out, summary.rows)
     if ours:
-        pieces.keep(out, order.quick)
+        pieces.keep(out, own.quick)
     return timing, replace(summary, computed=len(summary.rows) - found, found=found)
 
 
-def _parameters(order: Order) -> dict[str, object]:
+def parameters(order: Order) -> dict[str, object]:
+    """What the provenance says of this campaign."""
     from campaigns.accuracy.peers import notes
-    from campaigns.machinery.machine import machine
+    from campaigns.machinery.session import machine
 
-    told = ("title", "measure", "period_s", "duration_s", "rough")
-    works = [BY_NAME[name] for name in order.effort.works]
+    own, told = order.own, ("title", "measure", "period_s", "duration_s", "rough")
+    works = [BY_NAME[name] for name in own.effort.works]
     return {
         "works": {
             work.name: {name: getattr(work, name) for name in told} | {"unit": UNITS[work.measure]} for work in works
         },
-        "quick": order.quick,
-        "rounds": order.effort.rounds,
-        "peers": order.peers,
-        "peer_notes": notes(order.effort.works, order.quick) if order.peers else {},
+        "quick": own.quick,
+        "rounds": own.effort.rounds,
+        "peers": not own.no_peers,
+        "peer_notes": {} if own.no_peers else notes(own.effort.works, own.quick),
         "machine": machine(),
     }
 
@@ -135,3 +97,7 @@ def one_thread() -> None:
     """
     for library in ("OPENBLAS", "OMP", "MKL"):
         os.environ.setdefault(f"{library}_NUM_THREADS", "1")
+
+
+STUDY = Study(name="accuracy", protocol=__doc__, options=options, read=read, parameters=parameters, done=done)
+main, parser, read_order = STUDY.main, STUDY.parser, STUDY.read_order

@@ -13,10 +13,8 @@ from campaigns.accuracy import peers, plan
 from campaigns.accuracy.plan import BEST, LONG_PERIODS, Effort, Point
 from campaigns.accuracy.rows import point_row
 from campaigns.accuracy.works import BY_NAME, PERIOD_S, Peer
-from campaigns.machinery.folder import trajectory_path
-from campaigns.machinery.kept_run import KeptRun
-from campaigns.machinery.plan import Job, make_job
-from campaigns.machinery.row_cache import made_by
+from campaigns.machinery.folder import made_by, trajectory_path
+from campaigns.machinery.plan import Job, KeptRun
 
 REFERENCE, CHECK, TIMED, OURS = "peer-reference", "peer-check", "peer", "ours-for-peer"
 OURS_REFINED = (321, 1e-5)
@@ -48,11 +46,11 @@ def job_of(
     simulate: Callable | None = None,
     **labels: str,
 ) -> Job:
-    """A run, held against its reference and against ours; made, simulate: as of `make_job`; labels: more of them."""
+    """A run, held against its reference and against ours; made, simulate: as of `Job`; labels: more of them."""
     length_s = LONG_PERIODS * PERIOD_S if point.kind == "long" else BY_NAME[point.work].duration_s
     describe = partial(point_row, work_name=point.work, reference=reference, ours=ours)
     how = {"duration_s": length_s, "simulate": simulate, "describe": describe, "made": made}
-    return make_job(scene, labels=asdict(point) | labels, **how)
+    return Job(asdict(point) | labels, scene, **how)
 
 
 def engine_job(point: Point, references: References) -> Job:

@@ -18,7 +18,7 @@ from campaigns.accuracy.rows import kept_samples, rms_mm
 from campaigns.accuracy.works import BY_NAME, UNITS, Work
 from campaigns.columns import Column
 from campaigns.machinery.folder import Table, trajectory_path
-from campaigns.machinery.kept_run import KeptRun
+from campaigns.machinery.plan import KeptRun
 
 KINDS = ("time", "space", "both", "tolerance")  # of runs that are series
 WITHIN = 0.15  # of theory, the last slope

@@ -8,7 +8,7 @@ import numpy as np
 from campaigns import columns
 from campaigns.accuracy.works import BY_NAME, RADIUS, STRAIN, UNITS, Work
 from campaigns.columns import MESSAGE, RUN_KEY, STATUS, WALL_S, Column, names
-from campaigns.machinery.kept_run import KeptRun
+from campaigns.machinery.plan import KeptRun
 
 STEPPING = (columns.STEPS, columns.REJECTED, columns.NEWTON, columns.NEWTON_FAILURES)
 COUNTED = (columns.END_S, *STEPPING, columns.LOOPS, columns.TURN)

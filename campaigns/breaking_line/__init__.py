@@ -11,11 +11,13 @@ up to the arrival of the front, to be held against the exact solution: one fine 
 shock, and a series of grids for case 4 and for case 3', which stays smooth. Nothing is random.
 """
 
+from collections.abc import Sequence
 from functools import partial
 
 from campaigns.machinery import cli
+from campaigns.machinery.plan import Job
 from campaigns.machinery.runner import run
-from campaigns.study import Case, Measures, Order, Study
+from campaigns.study import Measures, Order, Study
 
 CAMPAIGN = "breaking_line"
 SCENE = "breaking_line"
@@ -34,25 +36,13 @@ LONGEST_S = 0.2
 
 def options(group) -> None:
     """Add the options that other studies do not have."""
-    cli.add(group, "--cases", "A B ...", f"cases of the paper (default: {' '.join(CASES)}; p: fracture in 50 ms)")
+    cases = f"cases of the paper (default: {' '.join(CASES)}; p: fracture in 50 ms)"
+    cli.add(group, "--cases", "A B ...", cases, cli.one_of(CASES), CASES, many=True)
     leave_out = "leave out the doubled grids, the other bending stiffnesses and the breaks without gravity"
     group.add_argument("--no-companions", action="store_true", help=leave_out)
 
 
-def read(options, faults: list[str]) -> tuple[list[str], bool]:
-    """(cases, whether with companions)."""
-    return _cases(options.cases, faults), not options.no_companions
-
-
-def _cases(words: list[str] | None, faults: list[str]) -> list[str]:
-    allowed = "one of " + " ".join(CASES)
-    if words == []:
-        faults.append(f"--cases: given nothing; allowed: one or more, each {allowed}")
-    found = cli.values(words or list(CASES), "--cases", list(CASES), cli.one_of(CASES), allowed, faults)
-    return list(dict.fromkeys(found))
-
-
-def planned(name: str, changes: dict, cases: list[str], companions: bool, faults: list[str]) -> tuple[Case, ...]:
+def planned(name: str, changes: dict, cases: Sequence[str], companions: bool, faults: list[str]) -> tuple[Job, ...]:
     """The runs in the order of the table.
 
     kind: "case"; "doubled" (twice the elements); "stiffness" (case 4, doubled, with another EI); without gravity on an
@@ -61,7 +51,7 @@ def planned(name: str, changes: dict, cases: list[str], companions: bool, faults
     from campaigns.machinery.plausible import doubts, endless
     from engine import SceneError
 
-    runs: list[Case] = []
+    runs: list[Job] = []
     try:
         plain = {case: _scene(name, changes, case, {}) for case in cases}
         odd = [line for case, scene in plain.items() for line in (*doubts(scene), *endless(scene, LENGTHS_S[case[0]]))]
@@ -86,8 +76,8 @@ def planned(name: str, changes: dict, cases: list[str], companions: bool, faults
     return tuple(runs)
 
 
-def _run(case: str, kind: str, scene, duration_s: float) -> Case:
-    return Case({"case": case, "kind": kind}, scene, duration_s=duration_s)
+def _run(case: str, kind: str, scene, duration_s: float) -> Job:
+    return Job({"case": case, "kind": kind}, scene, duration_s=duration_s)
 
 
 def _finer(scene) -> dict[str, object]:
@@ -107,7 +97,7 @@ def _scene(name: str, changes: dict, case: str, further: dict):
     return load_scene(name, {**settings, "end.force_N": [force_N, 0.0, 0.5 * weight_N]})
 
 
-def _straight(name: str, changes: dict, case: str, plain) -> list[Case]:
+def _straight(name: str, changes: dict, case: str, plain) -> list[Job]:
     """The breaks without gravity."""
     from campaigns.breaking_line.theory import theory_of
 
@@ -143,7 +133,7 @@ def write_results(plan, summary) -> float:
     """statements.csv and exact.nc of the folder; returns 0, no seconds of the workers' analysis."""
     from campaigns.breaking_line import results
 
-    results.write_results(plan.directory)
+    results.write_results(plan.how.out)
     return 0.0
 
 
@@ -153,10 +143,9 @@ STUDY = Study(
     scene=SCENE,
     taken=dict.fromkeys(("end", "end.force_N", "end.force_decay_s", "end.kind"), "use --cases"),
     options=options,
-    read=read,
-    cases=lambda order: planned(order.name, order.changes, *order.own, order.faults),
+    cases=lambda order: planned(order.name, order.changes, order.own.cases, not order.own.no_companions, order.faults),
     measures=measures,
-    parameters=lambda order: {"cases": order.own[0], "companions": order.own[1]},
+    parameters=lambda order: {"cases": list(order.own.cases), "companions": not order.own.no_companions},
     runs=lambda order: partial(run, compile_run_s=COMPILE_RUN_S),
     beside=lambda order: (write_results,),
     together=False,

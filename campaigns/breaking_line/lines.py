@@ -29,22 +29,19 @@ PRINTED = {  # of the four tensions: strain, and share of the strength, which ca
 
 def read_lines(folder: Path) -> tuple[Line, ...]:
     """Every run of the folder's table. Raises OSError, ValueError (`tables.read_rows`)."""
-    rows = read_rows(folder / "table.csv")
-    return over_case_4([line | from_trajectory(line, motion_of(folder, line)) for line in rows])
+    found = []
+    for line in read_rows(folder / "table.csv"):
+        line |= dict.fromkeys((*MOTION, *LAW), math.nan)
+        if (run := motion_of(folder, line)) is not None:
+            line |= from_law(run.scene, line["force_N"])
+            line |= from_motion(line, run.profiles) if run.profiles is not None else {}
+        found.append(line)
+    return over_case_4(found)
 
 
 def motion_of(folder: Path, line: Line) -> object | None:
     """The trajectory of a case that ended as asked; None where there is none."""
     return run_of(folder, line) if line["kind"] == "case" else None
-
-
-def from_trajectory(line: Line, trajectory: object | None) -> Line:
-    """The numbers of MOTION and LAW of a run; nan where its file does not show them."""
-    found: Line = dict.fromkeys((*MOTION, *LAW), math.nan)
-    if trajectory is None:
-        return found
-    found |= from_law(trajectory.scene, line["force_N"])
-    return found | (from_motion(line, trajectory.profiles) if trajectory.profiles is not None else {})
 
 
 def from_law(scene: object, force_N: float) -> Line:

@@ -39,9 +39,16 @@ def contour(profiles: Profiles, values: np.ndarray, level: float) -> np.ndarray:
     return places
 
 
-def speed_of(times: np.ndarray, places: np.ndarray, low: float, high: float, until: float) -> float:
-    """Speed (m/s) towards the fixed end of a contour between two places and up to a time: least squares line."""
-    inside = np.isfinite(places) & (places > low) & (places < high) & (times < until)
+def contour_speed(
+    profiles: Profiles, values: np.ndarray, level: float, theory: Theory, between: tuple[float, float] | None = None
+) -> float:
+    """Speed (m/s) of a contour towards the fixed end until something arrives there: least squares line.
+
+    between: places; None: all but MARGIN_M at both ends.
+    """
+    low, high = between or (MARGIN_M, theory.length_m - MARGIN_M)
+    places, times = contour(profiles, values, level), profiles.time_s
+    inside = np.isfinite(places) & (places > low) & (places < high) & (times < theory.arrival_s)
     if inside.sum() < LEAST_POINTS:
         return math.nan
     return -float(np.polyfit(times[inside], places[inside], 1)[0])
@@ -56,19 +63,14 @@ def front_speed(profiles: Profiles, theory: Theory) -> float:
     far = min(theory.start.distance_m if theory.shocked else theory.length_m, theory.length_m - MARGIN_M)
     between = theory.length_m - far, theory.length_m - min(MARGIN_M, 0.1 * far)
     tensions = [share * theory.force_N for share in FRONT_SHARES]
-    speeds = [_contour_speed(profiles, profiles.tension_N, level, between, theory) for level in tensions]
+    speeds = [contour_speed(profiles, profiles.tension_N, level, theory, between) for level in tensions]
     return _extrapolated([theory.strain_at(share) for share in FRONT_SHARES], speeds, 2, theory.strain_at(1.0))
 
 
 def slack_front_speed(profiles: Profiles, theory: Theory) -> float:
     """Speed of the edge of the slack part: ln(speed) of contours of small strain, extrapolated to no tension."""
-    between = MARGIN_M, theory.length_m - MARGIN_M
-    speeds = [_contour_speed(profiles, profiles.strain, strain, between, theory) for strain in SLACK_STRAINS]
+    speeds = [contour_speed(profiles, profiles.strain, strain, theory) for strain in SLACK_STRAINS]
     return _extrapolated(SLACK_STRAINS, speeds, 1, theory.speeds.slack_strain)
-
-
-def _contour_speed(profiles: Profiles, values: np.ndarray, level: float, between: tuple, theory: Theory) -> float:
-    return speed_of(profiles.time_s, contour(profiles, values, level), *between, theory.arrival_s)
 
 
 def _extrapolated(strains: Sequence[float], speeds: list[float], degree: int, strain: float) -> float:

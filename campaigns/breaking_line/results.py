@@ -11,17 +11,19 @@ exact.nc (netCDF, opens in xarray) holds, padded with nan along `point`:
 
 from __future__ import annotations
 
+from itertools import zip_longest
 from pathlib import Path
+from types import SimpleNamespace
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from campaigns.breaking_line.judging import claims
 from campaigns.breaking_line.lines import motion_of, of_kind, read_lines
-from campaigns.breaking_line.motion_measures import MARGIN_M, contour, speed_of
+from campaigns.breaking_line.motion_measures import contour_speed
 from campaigns.breaking_line.theory import Theory, theory_of
 from campaigns.figure_data import made_by_of, store
-from campaigns.machinery.row_cache import made_by
+from campaigns.machinery.folder import made_by
 from campaigns.statements import write_statements
 
 if TYPE_CHECKING:
@@ -32,16 +34,9 @@ SHARES = (0.99, 0.9, 0.7, 0.5, 0.3, 0.1, 0.01)  # of the static tension: contour
 WAVES = 200  # strains of the curve of wave speed
 
 
-class _Lines:
-    """Results as the claims of the breaking line take them."""
-
-    def __init__(self, folder: Path):
-        self.lines = read_lines(folder)
-
-
 def write_results(folder: Path) -> None:
     """statements.csv, and exact.nc where the law has a theory. Raises OSError."""
-    results = _Lines(folder)
+    results = SimpleNamespace(lines=read_lines(folder))
     write_statements(folder, claims().values(), results)
     cases, path = of_kind(results.lines, "case"), folder / EXACT
     key = made_by({"runs": [line["run_key"] for line in cases]}, "analysis", "engine", "campaigns/breaking_line")
@@ -73,7 +68,7 @@ def exact(runs: dict[str, object]) -> xarray.Dataset | None:
     if theory is None or not contours:
         return None
     cases, shares, *lines = zip(*curves, strict=True)
-    time_s, place_m = ((("curve", "point"), padded(rows)) for rows in lines)
+    time_s, place_m = ((("curve", "point"), np.array([*zip_longest(*rows, fillvalue=np.nan)]).T) for rows in lines)
     variables = {"time_s": time_s, "place_m": place_m}
     variables |= {"curve_case": ("curve", list(cases)), "share": ("curve", list(shares))}
     names = ("contour_case", "contour_strain", "contour_speed_mps", "contour_wave_mps")
@@ -87,17 +82,8 @@ def measured_contours(profiles: object, theory: Theory) -> list[tuple[float, flo
     """(strain, speed, wave speed) of each contour of SHARES that can be followed; none that a shock eats."""
     found = []
     for share in (share for share in SHARES if not theory.swallowed(share)):
-        places = contour(profiles, profiles.tension_N, share * theory.force_N)
-        speed = speed_of(profiles.time_s, places, MARGIN_M, theory.length_m - MARGIN_M, theory.arrival_s)
+        speed = contour_speed(profiles, profiles.tension_N, share * theory.force_N, theory)
         if np.isfinite(speed):
             strain = theory.strain_at(share)
             found.append((strain, speed, float(theory.wave_speed(strain))))
     return found
-
-
-def padded(rows: tuple[np.ndarray, ...]) -> np.ndarray:
-    """Rows of different lengths as one array, nan behind the end of each."""
-    out = np.full((len(rows), max(map(len, rows))), np.nan)
-    for row, values in zip(out, rows, strict=True):
-        row[: len(values)] = values
-    return out

@@ -11,11 +11,11 @@ every value in three dimensions, `--dimensions auto` those whose planar run rele
 """
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
 from functools import partial
 
 from campaigns.machinery import cli
-from campaigns.study import Case, Lengths, Measures, Order, Study
+from campaigns.machinery.plan import Job
+from campaigns.study import Lengths, Measures, Order, Study
 
 # From the paper's small wave (0.016) to beyond its large one (0.13); a step of 0.003 meets 0.13 too.
 STEEPNESS = tuple(round(0.016 + 0.003 * step, 3) for step in range(49))
@@ -25,46 +25,29 @@ DIMENSIONS = ("2", "3", "auto")
 ROW_SOURCES = ("analysis", "engine", "campaigns/buoy_sweep/rows.py", "campaigns/judge.py")
 
 
-@dataclass(frozen=True)
-class Own:
-    """What this campaign's own options say. dimensions: one of DIMENSIONS, None for what the scene says."""
-
-    steepness: list[float]
-    dimensions: str | None
-    accuracy: bool
-
-
 def options(group) -> None:
     """Add the options that other studies do not have."""
-    cli.add(group, "--steepness", "A B ...", "wave steepnesses kA (default: 49 values from 0.016 to 0.16)")
+    usual = "wave steepnesses kA (default: 49 values from 0.016 to 0.16)"
+    cli.add(group, "--steepness", "A B ...", usual, cli.fraction, many=True)
     cli.add(group, "--steepness-range", "LO HI COUNT", "evenly spaced steepnesses, both ends included")
     three = "2, 3, or auto: 3 where the planar run released loops (default: as the scene says; the shipped one says 2)"
-    cli.add(group, "--dimensions", "2|3|auto", three)
+    cli.add(group, "--dimensions", "|".join(DIMENSIONS), three, cli.one_of(DIMENSIONS))
     cli.add_accuracy(group)
 
 
-def read(options, faults: list[str]) -> Own:
-    """What they say."""
-    allowed = "one of " + ", ".join(DIMENSIONS)
-    dimensions = cli.value(options.dimensions, "--dimensions", None, cli.one_of(DIMENSIONS), allowed, faults)
-    return Own(list(dict.fromkeys(_steepness(options, faults))), dimensions, not options.no_accuracy)
-
-
-def _steepness(options, faults: list[str]) -> list[float]:
-    if options.steepness is not None and options.steepness_range is not None:
+def read(options, faults: list[str]) -> None:
+    """Steepnesses, each once, from the list, the range, or as usual."""
+    steepness, evenly = options.steepness, options.steepness_range
+    if steepness is not None and evenly is not None:
         faults.append("--steepness and --steepness-range: given both; allowed: one of them")
-    if options.steepness is not None:
-        if not options.steepness:
-            faults.append(f"--steepness: given nothing; allowed: one value or more, each {cli.FRACTION}")
-        return cli.values(options.steepness, "--steepness", list(STEEPNESS), cli.fraction, cli.FRACTION, faults)
-    if options.steepness_range is not None:
-        return cli.evenly(options.steepness_range, "--steepness-range", faults, least=0.0) or list(STEEPNESS)
-    return list(STEEPNESS)
+    elif evenly is not None:
+        steepness = cli.evenly(evenly, "--steepness-range", faults, least=0.0)
+    options.steepness = steepness or list(STEEPNESS)
 
 
-def cases(order: Order) -> Iterator[Case]:
+def cases(order: Order) -> Iterator[Job]:
     """A run for every value; in three dimensions where all are to be."""
-    from campaigns.buoy_sweep.seeds import in_space
+    from campaigns.buoy_sweep.space import in_space
     from campaigns.judge import judged_scene
     from engine import SceneError
 
@@ -80,7 +63,7 @@ def cases(order: Order) -> Iterator[Case]:
                 continue
             scene = spatial if dimensions == "3" else scene
         if scene is not None:
-            yield Case({"steepness": value, "dimensions": scene.motion.dimensions}, scene)
+            yield Job({"steepness": value, "dimensions": scene.motion.dimensions}, scene, order.periods)
 
 
 def dimensions_of(order: Order) -> str:
@@ -101,7 +84,7 @@ def measures(order: Order) -> Measures:
 
 def parameters(order: Order) -> dict[str, object]:
     """What the provenance says of this campaign."""
-    from campaigns.buoy_sweep.seeds import SEED_MPS, in_space
+    from campaigns.buoy_sweep.space import SEED_MPS, in_space
     from campaigns.judge import LONGEST_PERIOD, STROBE_TOLERANCE
 
     dimensions = dimensions_of(order)
@@ -112,27 +95,27 @@ def parameters(order: Order) -> dict[str, object]:
         "longest_period": LONGEST_PERIOD,
         "dimensions": dimensions,
         "push_mps": SEED_MPS if pushed else None,
-        "accuracy": order.own.accuracy,
+        "accuracy": not order.own.no_accuracy,
     }
 
 
 def runs(order: Order) -> Callable:
     """All of one kind, or in three dimensions where the plane is not enough."""
-    from campaigns.buoy_sweep.dimensions import run_where_needed
+    from campaigns.buoy_sweep.space import run_where_needed
     from campaigns.machinery.runner import run
 
-    return partial(run_where_needed, periods=order.periods) if dimensions_of(order) == "auto" else run
+    return run_where_needed if dimensions_of(order) == "auto" else run
 
 
 def beside(order: Order) -> Iterator[Callable]:
     """Two runs again, tighter and finer; the most violent one again with its line."""
-    from campaigns.buoy_sweep import close_up, repeats
+    from campaigns.buoy_sweep.repeats import close_up, repeat
     from campaigns.buoy_sweep.rows import regime_of
 
-    if order.own.accuracy:
+    if not order.own.no_accuracy:
         verdict = partial(regime_of, transient_periods=order.transient)
-        yield partial(repeats.repeat, periods=order.periods, label="steepness", verdict=verdict)
-    yield partial(close_up.close_up, periods=order.periods)
+        yield partial(repeat, periods=order.periods, verdict=verdict)
+    yield partial(close_up, periods=order.periods)
 
 
 STUDY = Study(

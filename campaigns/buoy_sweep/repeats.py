@@ -1,10 +1,14 @@
-"""A sweep's own error against run time: two of its runs again, tighter and finer, in the folder `accuracy` of its own.
+"""Runs of a sweep once more: two of them tighter and finer, and the most violent one with its whole line.
 
-The run whose tension peaks lowest (the regular one) and the one whose tension peaks highest (the violent one) are
-repeated at a tenth of the tolerance and at twice the elements. Error in r: rms over the first ten wave periods, and
-over all that were repeated; error in the verdict: whether the run still is called what it was, from records of one
-length. Repeating both costs about as much as nine runs of the sweep, so a sweep of few runs repeats only as many
-periods as its share allows, and ten at least; where those are too few for a verdict there is none.
+Folder `accuracy`, the sweep's own error against run time: the run whose tension peaks lowest (the regular one) and the
+one whose tension peaks highest (the violent one) are repeated at a tenth of the tolerance and at twice the elements.
+Error in r: rms over the first ten wave periods, and over all that were repeated; error in the verdict: whether the run
+still is called what it was. Repeating both costs about as much as nine runs of the sweep, so a sweep of few runs
+repeats only as many periods as its share allows, and ten at least; where those are too few there is no verdict.
+
+Folder `close_up`, for the moving picture of the report: profiles of every run would be gigabytes. So the first wave
+periods of the violent run are computed once more, with the line kept twenty-four times a period. Where no run goes
+slack nothing snaps, and nothing is computed.
 """
 
 import math
@@ -14,14 +18,14 @@ from functools import partial
 
 import numpy as np
 
-from campaigns.columns import LOOPS, MESSAGE, NEWTON, PERIODS_RUN, RUN_KEY, STATUS, WALL_S, Column
+from campaigns.buoy_sweep.rows import STEEPNESS
+from campaigns.columns import LOOPS, MESSAGE, NEWTON, PERIODS_RUN, RUN_KEY, STATUS, WALL_S, Column, names
 from campaigns.judge import tighter_scene
+from campaigns.machinery.cli import Running
 from campaigns.machinery.folder import claimed, trajectory_path
-from campaigns.machinery.kept_run import KeptRun
-from campaigns.machinery.plan import Job, Plan, Summary, make_job
+from campaigns.machinery.plan import Job, Plan, Summary
 from campaigns.machinery.runner import run_campaign
 
-FOLDER = "accuracy"  # within that of the sweep: a table of its own, and trajectories
 COLUMNS = (
     Column("role", symbol="role", meaning="which run of the sweep was repeated: the regular or the violent one"),
     Column("label", symbol="run", meaning="the value of the sweep that names the repeated run", digits=3),
@@ -68,44 +72,35 @@ def chosen(rows: list[dict]) -> list[tuple[str, dict]]:
     return [("regular", regular)] if regular is violent else [("regular", regular), ("violent", violent)]
 
 
-def repeat(
-    plan: Plan, summary: Summary, periods: int, label: str, verdict: Callable, among: set[str] | None = None
-) -> float:
+def repeat(plan: Plan, summary: Summary, periods: int, verdict: Callable, among: set[str] | None = None) -> float:
     """Do the repeated runs of a sweep over its share of the wave periods; returns seconds of analysis.
 
-    label: the column that names a run; verdict(trajectory) -> what it is called, or None; among: keys of the runs to
-    choose from, None for all. Raises as `runner.run_campaign`.
+    verdict(trajectory) -> what it is called, or None; among: keys of the runs to choose from, None for all. Raises as
+    `runner.run_campaign`.
     """
+    from engine import Trajectory
+    from engine.scene import scene_from_toml
+
     rows = [row for row in summary.rows if among is None or row["run_key"] in among]
     length = lengths(len(summary.rows), periods)
     jobs: list[Job] = []
     for role, row in chosen(rows):
-        base = KeptRun(trajectory_path(plan.directory.absolute(), row["run_key"]))
-        jobs += _jobs(base, role, row[label], length, verdict)
-    own = replace(plan, directory=plan.directory / FOLDER, columns=COLUMNS, show_progress=False, simulate_each=None)
-    with claimed(own.directory):
+        original = first_periods(Trajectory.load(trajectory_path(plan.how.out, row["run_key"])), length)
+        scene = original.scene
+        finer = scene_from_toml(scene.to_toml(), {"tether.nodes": 2 * scene.tether.nodes - 1})
+        describe = partial(accuracy_row, original=original, verdict=verdict)
+        for run, made in ((AS_RUN, scene), (TIGHTER, tighter_scene(scene)), (FINER, finer)):
+            labels = {"role": role, "label": row["steepness"], "run": run, "periods": length}
+            simulate = partial(_as_made, original) if run == AS_RUN else None
+            jobs.append(Job(labels, made, length, None, simulate, describe, f"accuracy {run}"))
+    how = replace(plan.how, out=plan.how.out / "accuracy")
+    with claimed(how.out):
+        own = replace(plan, how=how, columns=COLUMNS, show_progress=False, simulate_each=None)
         return run_campaign(own, jobs).analysis_s
 
 
-def _jobs(base: KeptRun, role: str, label: object, length: int, verdict: Callable) -> list[Job]:
-    from engine.scene import scene_from_toml
-
-    scene = base.load().scene
-    finer = scene_from_toml(scene.to_toml(), {"tether.nodes": 2 * scene.tether.nodes - 1})
-    found = []
-    for run, made in ((AS_RUN, scene), (TIGHTER, tighter_scene(scene)), (FINER, finer)):
-        labels = {"role": role, "label": label, "run": run, "periods": length}
-        describe = partial(accuracy_row, base=base, length=length, verdict=verdict)
-        simulate = partial(cut, base=base, length=length) if run == AS_RUN else None
-        found.append(
-            make_job(made, length, labels=labels, simulate=simulate, describe=describe, made=f"accuracy {run}")
-        )
-    return found
-
-
-def cut(scene, periods=None, duration_s=None, *, base: KeptRun, length: int):
-    """The first wave periods of the run as it was made; the share of its seconds and iterations that is theirs."""
-    return first_periods(base.load(), length)
+def _as_made(original, scene, periods=None, duration_s=None):
+    return original
 
 
 def first_periods(trajectory, length: int):
@@ -129,20 +124,16 @@ def first_periods(trajectory, length: int):
     return replace(trajectory, columns=kept, statistics=trajectory.statistics | scaled, profiles=None, tangent=tangent)
 
 
-def accuracy_row(trajectory, base: KeptRun, length: int, verdict: Callable) -> dict[str, object]:
-    """The columns of `COLUMNS` that a repeated run fills. base: the run as it was made."""
+def accuracy_row(trajectory, original, verdict: Callable) -> dict[str, object]:
+    """The columns of `COLUMNS` that a repeated run fills. original: as much of the run as it was made."""
     scene = trajectory.scene
-    row = {
-        "status": trajectory.status,
-        "message": trajectory.message,
+    row = _counted((WALL_S, NEWTON, LOOPS), trajectory) | {
         "nodes": scene.tether.nodes,
         "rtol": None if scene.solver.step_s else scene.solver.rtol,
         "step_s": scene.solver.step_s,
     }
-    row |= {name: trajectory.statistics.get(name) for name in ("wall_s", "newton_iterations", "loop_releases")}
     if trajectory.status != "ok":
         return row
-    original = first_periods(base.load(), length)
     r, r0 = trajectory.columns["radius_m"], original.columns["radius_m"]
     early = round(EARLY * scene.waves.period_s / scene.sample_step_s()) + 1
     row |= {"error_early_m": _rms(r[:early] - r0[:early]), "error_m": _rms(r - r0)} if len(r) == len(r0) else {}
@@ -154,3 +145,35 @@ def accuracy_row(trajectory, base: KeptRun, length: int, verdict: Callable) -> d
 
 def _rms(values: np.ndarray) -> float:
     return float(np.sqrt(np.mean(values**2)))
+
+
+def _counted(columns: tuple[Column, ...], trajectory) -> dict[str, object]:
+    counts = {name: trajectory.statistics.get(name) for name in names(columns)}
+    return {"status": trajectory.status, "message": trajectory.message, **counts}
+
+
+SHAPES = (STEEPNESS, STATUS, PERIODS_RUN, WALL_S, RUN_KEY, MESSAGE)  # columns of the close-up's table
+PERIODS = 12  # the first snaps come after five
+FRAMES = 24  # of the line, a wave period
+
+
+def close_up(plan: Plan, summary: Summary, periods: int) -> float:
+    """Compute the close-up, unless it is there or no run goes slack; 0 s of analysis. periods: those of the sweep."""
+    from engine import Trajectory
+    from engine.scene import scene_from_toml
+
+    out, jobs = plan.how.out / "close_up", []
+    for _, row in chosen([row for row in summary.rows if (row.get("slack_fraction") or 0.0) > 0.0])[-1:]:
+        scene = Trajectory.load(trajectory_path(plan.how.out, row["run_key"])).scene
+        # Perturbations are carried along as in the sweep: leaving them out would need machine code of its own (20 s).
+        kept = {"output.profiles": True, "output.profiles_step_s": scene.waves.period_s / FRAMES}
+        length = min(periods, PERIODS)
+        labels = {"steepness": row["steepness"], "periods": length}
+        jobs.append(Job(labels, scene_from_toml(scene.to_toml(), kept), length))
+    if jobs or out.exists():
+        how, row_of = Running(out, backend="threading"), partial(_counted, (WALL_S,))
+        own = Plan(how, plan.simulate, row_of, SHAPES, show_progress=False)
+        # without a job the table of an earlier sweep in this folder is emptied
+        with claimed(out):
+            run_campaign(own, jobs)
+    return 0.0

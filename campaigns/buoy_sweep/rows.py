@@ -16,7 +16,7 @@ from campaigns.judge import (
     STROBE_TOLERANCE,
     carried,
     state_of,
-    tighter_scene,
+    tangent_of,
     verdict_of,
 )
 
@@ -85,7 +85,7 @@ def buoy_row(trajectory, transient_periods: int, simulate=None) -> dict[str, obj
     A verdict (`campaigns.judge`): of runs to their end with output.tangent_vectors, or in three dimensions. A loop
     release after the transient leaves offplane_growth unknown: across the plane a loop has no rate of its own.
     simulate: to repeat a run that looks chaotic at a ten times tighter tolerance (regime_tighter); None: not done.
-    The columns planar_ are filled by `campaigns.buoy_sweep.dimensions`.
+    The columns planar_ are filled by `campaigns.buoy_sweep.space`.
     """
     row = {"status": trajectory.status, "message": trajectory.message}
     row |= {name: number(trajectory.statistics.get(name)) for name in names(STATISTICS)}
@@ -108,7 +108,8 @@ def buoy_row(trajectory, transient_periods: int, simulate=None) -> dict[str, obj
             row |= across_plane(trajectory.tangent, transient_periods)
         enough = recorded_s >= (transient_periods + LEAST_JUDGED) * period_s - 1e-6 * step_s
         if trajectory.status == "ok" and (carried(trajectory) or (in_space and enough)):
-            tighter, verdict, tangent, wolf = _verdict(trajectory, transient_periods, simulate)
+            tangent = tangent_of(trajectory, transient_periods)
+            verdict, wolf, tighter = verdict_of(trajectory, transient_periods, tangent, simulate)
             row |= {
                 "regime": verdict.regime,
                 "regime_tighter": tighter,
@@ -137,17 +138,6 @@ def across_plane(growth, transient_periods: int) -> dict[str, object]:
     return {"offplane_growth_bits_per_period": number(found.value), "offplane_growth_error": number(found.error)}
 
 
-def _verdict(trajectory, transient_periods: int, simulate):
-    """(regime at a ten times tighter tolerance or None, Verdict, tangent and Wolf exponents) of a finished run."""
-    verdict, tangent, wolf = verdict_of(trajectory, transient_periods)
-    if verdict.regime != "chaotic" or simulate is None:
-        return None, verdict, tangent, wolf
-    scene = tighter_scene(trajectory.scene)
-    again = simulate(scene, duration_s=float(trajectory.columns["time_s"][-1]))
-    tighter = verdict_of(again, transient_periods)[0].regime if again.status == "ok" else again.status
-    return tighter, verdict_of(trajectory, transient_periods, tighter)[0], tangent, wolf
-
-
 def settled(columns, step_s: float, transient_s: float) -> dict[str, object]:
     """Extremes and slack of what follows the transient, by column of the table (`EXTREMES`)."""
     from analysis import extremes, slack_fraction
@@ -171,9 +161,7 @@ def settled(columns, step_s: float, transient_s: float) -> dict[str, object]:
 def strobed_period(columns, step_s: float, period_s: float, transient_periods: int) -> int | None:
     """After how many wave periods the buoy's motion repeats, or None where no number up to LONGEST_PERIOD does.
 
-    Position (x, z) and velocity (along and across the radius) of the buoy, once a period after the transient. Positions
-    have to repeat within STROBE_TOLERANCE of the larger extent of the path, velocities of their larger range: so a
-    millimetre counts the same in every direction, and a buoy that turns round and round needs no other treatment.
+    Its state (`campaigns.judge.state_of`) once a period after the transient has to repeat within STROBE_TOLERANCE.
     """
     from analysis import detect_period, poincare_section
 

@@ -1,29 +1,73 @@
 """Command-line pieces shared by the campaigns: options that collect their faults instead of stopping at the first.
 
-argparse stops at the first bad value. Here every option takes its words unjudged, the functions below turn them into
+argparse stops at the first bad value. Here an option says what its words may be (`Kind`), `split` turns them into
 values, and whatever is wrong is appended to one list of faults, to be shown together with the faults of the scene.
 Nothing heavy is imported: `--help` has to appear at once.
 """
 
 import argparse
 import difflib
+import json
 import math
 import os
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
-
-from campaigns.machinery.out_folder import fault_of, folder_name
 
 BACKENDS = ("loky", "threading", "dask")
 EXIT_OK, EXIT_FAILED, EXIT_BAD_INPUT, EXIT_INTERRUPTED = 0, 1, 2, 130
 
 EXITS = "exit codes: 0 done, 1 stopped (disk full, folder in use, no report), 2 bad input, 130 Ctrl-C"
 
-WHOLE = "a whole number, {} or above"
 MOST_JOBS, MOST_PERIODS, MOST_RUNS = 1024, 10**9, 10_000
-FRACTION = "a finite number, 0 or above"
+A_FOLDER = "allowed: a folder, new or of this campaign"
+
+
+@dataclass(frozen=True)
+class Kind:
+    """What a word may be: convert(text) raises ValueError for what is not allowed; allowed: the same in words."""
+
+    convert: Callable[[str], object]
+    allowed: str
+
+    def __call__(self, text: str) -> object:
+        return self.convert(text)
+
+
+def number(allowed: str, sound: Callable[[float], bool]) -> Kind:
+    """Numbers for which `sound` holds."""
+    return Kind(lambda text: _if(sound, float(text)), allowed)
+
+
+def whole(least: int, most: float = math.inf) -> Kind:
+    """Whole numbers from `least` to `most`."""
+    above = f"{least} or above" + (f" and at most {most}" if most < math.inf else "")
+    return Kind(lambda text: _if(lambda found: least <= found <= most, int(text)), f"a whole number, {above}")
+
+
+def one_of(words: tuple[str, ...]) -> Kind:
+    """Some words only."""
+    return Kind(lambda text: _if(lambda found: found in words, text), "one of " + ", ".join(words))
+
+
+def _if(sound: Callable, found):
+    if not sound(found):
+        raise ValueError(found)
+    return found
+
+
+def _scheduler(text: str) -> str:
+    found = re.fullmatch(r"((tcp|tls|ws|wss)://)?([^\s:/]+|\[[0-9A-Fa-f:]+\]):(\d{1,5})/?", text)
+    if not found or not 0 < int(found[4]) < 65536:
+        raise ValueError(text)
+    return text
+
+
+fraction = number("a finite number, 0 or above", lambda found: 0.0 <= found < math.inf)
+scheduler = Kind(_scheduler, "the address of a scheduler, as tcp://HOST:PORT")
+# an empty name, as of a shell variable that is not set, would be the current folder
+folder_name = Kind(lambda text: Path(_if(str.strip, text)), "a folder")
 
 
 @dataclass(frozen=True)
@@ -31,27 +75,22 @@ class Running:
     """How and where a campaign runs; dask_address None: no scheduler, or a local one."""
 
     out: Path
-    jobs: int
-    backend: str
-    dask_address: str | None
-    report: bool
+    jobs: int = 1
+    backend: str = "loky"
+    dask_address: str | None = None
+    report: bool = True
 
 
 @dataclass(frozen=True)
 class Lengths:
     """The usual length of a run and of its transient, in wave periods.
 
-    share: the transient is at most periods/share where none is given; left_out_of: of what it is left out, in words.
+    share: the transient is at most periods/share where none is given.
     """
 
     periods: int
     transient: int
     share: int = 3
-    left_out_of: str = "analysis"
-
-
-class _Unparsable(Exception):
-    """argparse could not even split the line into options; its message is the fault."""
 
 
 class _Formatter(argparse.RawDescriptionHelpFormatter):
@@ -62,45 +101,52 @@ class _Formatter(argparse.RawDescriptionHelpFormatter):
 
 class _Parser(argparse.ArgumentParser):
     def error(self, message):
-        raise _Unparsable(message)
+        # argparse could not even split the line into options: its message is the fault
+        raise ValueError(message)
 
 
 def parser(module: str, description: str, epilog: str = EXITS) -> argparse.ArgumentParser:
     """An empty parser for `python -m module`; add options with `add`, read the line with `split`."""
-    return _Parser(
-        prog=f"python -m {module}",
-        description=description,
-        epilog=epilog,
-        formatter_class=_Formatter,
-        allow_abbrev=False,
-    )
+    words = {"description": description, "epilog": epilog, "formatter_class": _Formatter}
+    return _Parser(prog=f"python -m {module}", allow_abbrev=False, **words)
 
 
-def add(group, option: str, metavar: str, help: str) -> None:
-    """Add an option that takes words; given twice, the words add up (so `--set A --set B` is `--set A B`)."""
-    group.add_argument(option, metavar=metavar, nargs="*", action="extend", help=help)
+def add(group, option: str, metavar: str, help: str, kind: Kind | None = None, usual=None, many: bool = False) -> None:
+    """Add an option that takes words; given twice, the words add up (so `--set A --set B` is `--set A B`).
+
+    kind: of its one value, or of each of its `many`; None: its words stay as they are. usual: where it is not given.
+    """
+    told = help if usual is None or many else f"{help} (default: {usual})"
+    action = group.add_argument(option, metavar=metavar, nargs="*", action="extend", help=told)
+    action.read = None if kind is None else lambda words, faults: value(words, option, usual, kind, faults, many)
 
 
-def add_running(group, default_out: str) -> None:
-    """Add the options that say how and where a campaign runs, the same for all campaigns."""
-    add(group, "--jobs", "N", f"runs at the same time, but on a cluster of your own (default: {default_jobs()})")
-    add(group, "--backend", "|".join(BACKENDS), "processes, threads or a dask cluster (default: loky, processes)")
-    add(group, "--dask-address", "ADDRESS", "scheduler of a dask cluster, tcp://HOST:PORT (default: a local one)")
-    add(group, "--out", "DIR", f"folder of the results; runs found there are not done again (default: {default_out})")
+def add_running(group, campaign: str, jobs: bool = True, backends: bool = True) -> None:
+    """Add the options that say how and where a campaign runs. jobs, backends: whether there is a choice of these."""
+    if jobs:
+        at_once = "runs at the same time, but on a cluster of your own"
+        add(group, "--jobs", "N", at_once, whole(1, MOST_JOBS), min(2, os.cpu_count() or 1))
+    if backends:
+        where = "processes (loky), threads or a dask cluster"
+        add(group, "--backend", "|".join(BACKENDS), where, one_of(BACKENDS), BACKENDS[0])
+        address = "scheduler of a dask cluster, tcp://HOST:PORT (default: a local one)"
+        add(group, "--dask-address", "ADDRESS", address, scheduler)
+    found = "folder of the results; what is found there is not done again"
+    add(group, "--out", "DIR", found, folder_name, Path("results", campaign))
     group.add_argument("--no-report", action="store_true", help="leave out report.html and report.pdf")
 
 
 def add_lengths(group, usual: Lengths) -> None:
     """Add --periods and --transient; usual: their defaults."""
-    add(group, "--periods", "N", f"length of every run in wave periods (default: {usual.periods})")
-    most = f"at most 1/{usual.share} of --periods"
-    words = f"wave periods left out of the {usual.left_out_of} (default: {usual.transient}, {most})"
-    add(group, "--transient", "N", words)
+    add(group, "--periods", "N", "length of every run in wave periods", whole(1, MOST_PERIODS), usual.periods)
+    most = f"(default: {usual.transient}, at most 1/{usual.share} of --periods)"
+    add(group, "--transient", "N", f"wave periods left out of the analysis {most}", whole(0))
 
 
 def add_scene(group, usual: str) -> None:
     """Add --scene, by default the usual one, and --set."""
-    add(group, "--scene", "FILE_OR_NAME", f"scene to start from (default: {usual})")
+    name = Kind(str, "a scene file or the name of a scene")
+    add(group, "--scene", "FILE_OR_NAME", "scene to start from", name, usual)
     add(group, "--set", "KEY=VALUE ...", "change values of the scene, as water.depth_m=22.5 tether.nodes=81")
 
 
@@ -110,19 +156,14 @@ def add_accuracy(group) -> None:
     group.add_argument("--no-accuracy", action="store_true", help=again)
 
 
-def default_jobs() -> int:
-    """Two, or one where there is only one core."""
-    return min(2, os.cpu_count() or 1)
-
-
 def split(parser: argparse.ArgumentParser, argv: list[str], faults: list[str]) -> argparse.Namespace:
-    """The words given to each option (None: option not given); unknown words become faults."""
+    """The values of the options, or their words where an option has no kind; what is not allowed becomes faults."""
     try:
         options, unknown = parser.parse_known_args(argv)
-    except _Unparsable as error:
+    except ValueError as error:
         found = re.fullmatch(r"argument (\S+): ignored explicit argument (.*)", str(error))
         faults.append(f"{found[1]}: given {found[2]}; allowed: the option alone" if found else str(error))
-        return parser.parse_args([])
+        options, unknown = parser.parse_args([]), []
     known = [name for action in parser._actions for name in action.option_strings]
     for word in unknown:
         if not word.startswith("-") and unknown[0].startswith("-"):
@@ -130,84 +171,52 @@ def split(parser: argparse.ArgumentParser, argv: list[str], faults: list[str]) -
         name = word.partition("=")[0]
         close = difflib.get_close_matches(name, known, n=1, cutoff=0.75)
         faults.append(f"{name}: no such option" + (f"; did you mean {close[0]}?" if close else ""))
+    for action in parser._actions:
+        if read := getattr(action, "read", None):
+            setattr(options, action.dest, read(getattr(options, action.dest), faults))
     return options
 
 
-def value(words: list[str] | None, option: str, default, convert: Callable, allowed: str, faults: list[str]):
-    """The one value of an option, or `default` where it was not given or is at fault.
-
-    convert: from text, raising ValueError for what is not allowed; allowed: the same in words.
-    """
+def value(words: list[str] | None, option: str, usual, kind: Kind, faults: list[str], many: bool = False):
+    """The value of an option, a list of `many`, each once; `usual` where it was not given (None) or is at fault."""
     if words is None:
-        return default
-    if len(words) != 1:
-        faults.append(f"{option}: given {' '.join(words) or 'nothing'}; allowed: one value, {allowed}")
-        return default
-    return values(words, option, [default], convert, allowed, faults)[0]
-
-
-def values(words: list[str], option: str, default: list, convert: Callable, allowed: str, faults: list[str]) -> list:
-    """The values of an option that takes several; `default` where one of them is at fault."""
-    found, sound = [], True
+        return usual
+    if not words or (len(words) > 1 and not many):
+        count = "one value or more, each" if many else "one value,"
+        faults.append(f"{option}: given {' '.join(words) or 'nothing'}; allowed: {count} {kind.allowed}")
+        return usual
+    found = []
     for word in words:
         try:
-            found.append(convert(word))
+            found.append(kind(word))
         except ValueError:
-            sound = False
-            faults.append(f"{option}: given {word!r}; allowed: {allowed}")
-    return found if sound else default
-
-
-def whole(least: int, most: float = math.inf) -> Callable[[str], int]:
-    """A converter for whole numbers from `least` to `most`."""
-
-    def convert(text: str) -> int:
-        number = int(text)
-        if not least <= number <= most:
-            raise ValueError(text)
-        return number
-
-    return convert
-
-
-def fraction(text: str) -> float:
-    """Convert text to a finite number that is not negative."""
-    number = float(text)
-    if not math.isfinite(number) or number < 0.0:
-        raise ValueError(text)
-    return number
-
-
-def one_of(words: tuple[str, ...]) -> Callable[[str], str]:
-    """A converter that lets only some words through."""
-
-    def convert(text: str) -> str:
-        if text not in words:
-            raise ValueError(text)
-        return text
-
-    return convert
+            faults.append(f"{option}: given {word!r}; allowed: {kind.allowed}")
+    if len(found) < len(words):
+        return usual
+    return list(dict.fromkeys(found)) if many else found[0]
 
 
 def running(options: argparse.Namespace, campaign: str, faults: list[str]) -> Running:
-    """The options that `add_running` adds."""
-    jobs = jobs_of(options, faults)
-    name, address = backend(options, faults)
-    return Running(folder(options, campaign, faults), jobs, name, address, not options.no_report)
+    """What the options of `add_running` say."""
+    given = {name: entry for name, entry in vars(options).items() if name in Running.__dataclass_fields__}
+    how = Running(**given, report=not options.no_report)
+    if how.dask_address is not None and how.backend != "dask":
+        faults.append(f"--dask-address: given with --backend {how.backend}; allowed: with --backend dask only")
+    if how.backend == "dask":
+        from importlib.util import find_spec
 
-
-def jobs_of(options: argparse.Namespace, faults: list[str]) -> int:
-    """--jobs: runs at the same time."""
-    allowed = f"a whole number, 1 or above and at most {MOST_JOBS}"
-    return value(options.jobs, "--jobs", default_jobs(), whole(1, MOST_JOBS), allowed, faults)
+        if find_spec("distributed") is None:
+            faults.append("--backend: given 'dask', which is not installed; allowed: loky, threading")
+    if fault := fault_of(how.out, campaign):
+        faults.append(fault)
+    return how
 
 
 def lengths(options: argparse.Namespace, usual: Lengths, faults: list[str]) -> tuple[int, int]:
     """--periods and --transient in wave periods; usual: their defaults."""
-    allowed = f"a whole number, 1 or above and at most {MOST_PERIODS}"
-    periods = value(options.periods, "--periods", usual.periods, whole(1, MOST_PERIODS), allowed, faults)
-    most = min(usual.transient, periods // usual.share)
-    transient = value(options.transient, "--transient", most, whole(0), WHOLE.format(0), faults)
+    periods, transient = options.periods, options.transient
+    if transient is None:
+        transient = min(usual.transient, periods // usual.share)
     if transient >= periods:
         faults.append(f"--transient: given {transient} of {periods} periods; allowed: less than --periods")
     return periods, transient
@@ -221,49 +230,14 @@ def evenly(words: list[str], option: str, faults: list[str], least: float = -mat
             raise ValueError(words)
     except (ValueError, IndexError):
         floor = "" if least == -math.inf else f"{least:g} <= "
-        allowed = f"two finite numbers, {floor}LO < HI, and a whole number, 2 or above and at most {MOST_RUNS}"
+        allowed = f"two finite numbers, {floor}LO < HI, and {whole(2, MOST_RUNS).allowed}"
         faults.append(f"{option}: given {' '.join(words) or 'nothing'}; allowed: LO HI COUNT: {allowed}")
         return []
     # Twelve digits: 0.13 of a range is the 0.13 that a list of values reads, and so the same run.
     return [float(f"{low + (high - low) * step / (count - 1):.12g}") for step in range(count)]
 
 
-def scene_name(options: argparse.Namespace, usual: str, faults: list[str]) -> str:
-    """--scene: a file or a name, not looked up yet."""
-    return value(options.scene, "--scene", usual, str, "a scene file or the name of a scene", faults)
-
-
-def backend(options: argparse.Namespace, faults: list[str]) -> tuple[str, str | None]:
-    """The backend and the address of its scheduler (None: none, or a local cluster)."""
-    name = value(options.backend, "--backend", "loky", one_of(BACKENDS), "one of " + ", ".join(BACKENDS), faults)
-    allowed = "the address of a scheduler, as tcp://HOST:PORT"
-    address = value(options.dask_address, "--dask-address", None, _scheduler, allowed, faults)
-    if address is not None and name != "dask":
-        faults.append(f"--dask-address: given with --backend {name}; allowed: with --backend dask only")
-    if name == "dask":
-        from importlib.util import find_spec
-
-        if find_spec("distributed") is None:
-            faults.append("--backend: given 'dask', which is not installed; allowed: loky, threading")
-    return name, address
-
-
-def _scheduler(text: str) -> str:
-    found = re.fullmatch(r"((tcp|tls|ws|wss)://)?([^\s:/]+|\[[0-9A-Fa-f:]+\]):(\d{1,5})/?", text)
-    if not found or not 0 < int(found[4]) < 65536:
-        raise ValueError(text)
-    return text
-
-
-def folder(options: argparse.Namespace, campaign: str, faults: list[str]) -> Path:
-    """The folder of the results; a fault where it cannot be one, or holds what is not of this campaign."""
-    out = value(options.out, "--out", Path("results", campaign), folder_name, "a folder", faults)
-    if fault := fault_of(out, campaign):
-        faults.append(fault)
-    return out
-
-
-def assignments(words: list[str] | None, taken: dict[str, str], faults: list[str]) -> dict[str, object]:
+def assignments(words: list[str] | None, taken: Mapping[str, str], faults: list[str]) -> dict[str, object]:
     """The scene overrides of `--set KEY=VALUE ...`.
 
     taken: keys that the campaign itself sets -> what to use instead.
@@ -286,9 +260,31 @@ def assignments(words: list[str] | None, taken: dict[str, str], faults: list[str
     return found
 
 
-def complaint(prog: str, faults: list[str]) -> str:
-    """One message with every fault, for exit code 2."""
-    lines = list(dict.fromkeys(faults))
-    if len(lines) == 1:
-        return f"{prog}: {lines[0]}\nnothing was run or written"
-    return "\n".join([f"{prog}: {len(lines)} faults", *(f"  {line}" for line in lines), "nothing was run or written"])
+def fault_of(out: Path, campaign: str) -> str | None:
+    """Why results of this campaign must not go to a folder, as a fault line; None where they may."""
+    given = f"--out: given {str(out)!r}"
+    try:
+        above = out.absolute().parents
+    except FileNotFoundError:
+        return "the folder that this is run in has been removed; allowed: one that is there (cd)"
+    # os.path: what may not be looked at is not there, where pathlib raises.
+    parent = next((path for path in (out, *above) if os.path.exists(path)), out)
+    if not os.path.isdir(parent):
+        return f"{given}, but {parent} is a file; {A_FOLDER}"
+    if not os.access(parent, os.W_OK):
+        return f"{given}, but {parent} cannot be written to; allowed: a folder that can"
+    held = _held(out)
+    return f"{given}, which holds {held}; {A_FOLDER}" if held not in ("", campaign) else None
+
+
+def _held(out: Path) -> str:
+    """The campaign whose folder it is, or what else is there that would be written over; "" where nothing is."""
+    try:
+        return str(json.loads((out / "provenance.json").read_text(encoding="utf-8"))["campaign"])
+    except FileNotFoundError:
+        # A campaign that ended before it could write its provenance has left its lock.
+        mine = ("scene.toml", "report.html", "report.pdf", "trajectories") if not (out / ".lock").exists() else ()
+        foreign = next((name for name in ("table.csv", *mine) if (out / name).exists()), None)
+        return "" if foreign is None else f"a {foreign} that no campaign wrote"
+    except (OSError, ValueError, KeyError, TypeError):
+        return "a provenance.json that no campaign wrote"

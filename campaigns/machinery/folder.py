@@ -5,10 +5,9 @@ campaigns out of the same folder; the system drops it when its holder dies, howe
 """
 
 import contextlib
-import csv
 import errno
 import fcntl
-import io
+import hashlib
 import json
 import math
 import os
@@ -17,7 +16,7 @@ import time
 from collections.abc import Iterator
 from pathlib import Path
 
-from campaigns.columns import Column, dictionary, dictionary_path, names
+from campaigns.columns import Column, csv_of, dictionary, dictionary_path, names
 from engine.atomic import write_atomic
 
 _NO_SPACE = {errno.ENOSPC, errno.EDQUOT, errno.EFBIG}
@@ -113,11 +112,8 @@ class Table:
         """Rewrite the file. Raises OSError."""
         if self._written_s == -math.inf:
             write_atomic(dictionary_path(self.path), dictionary(self.columns))
-        text = io.StringIO()
-        writer = csv.writer(text, lineterminator="\n")
-        writer.writerow(self.names)
-        writer.writerows([_cell(row.get(name)) for name in self.names] for row in self.in_order())
-        write_atomic(self.path, text.getvalue().encode())
+        rows = ([_cell(row.get(name)) for name in self.names] for row in self.in_order())
+        write_atomic(self.path, csv_of(self.names, rows))
         self._written_s = time.monotonic()
 
 
@@ -141,3 +137,49 @@ def read_json(path: Path) -> object:
 def write_json(path: Path, content: dict) -> None:
     """Write a JSON file whole. Raises OSError."""
     write_atomic(path, (json.dumps(content, indent=2, allow_nan=False) + "\n").encode())
+
+
+def made_by(settings: dict, *sources: str) -> str:
+    """Hash of settings (plain values) and of every .py file in the given folders of the project, or given files.
+
+    A row that is kept beside its run belongs to such a hash of what made it; to any other it is as good as nothing.
+    Raises FileNotFoundError for a source that is not there, or a folder with no .py file: rows would outlive what made
+    them.
+    """
+    root = Path(__file__).resolve().parents[2]
+    digest = hashlib.sha256(json.dumps(settings, sort_keys=True).encode())
+    for source in sources:
+        path = root / source
+        files = sorted(path.rglob("*.py")) if path.is_dir() else [path]
+        if not files:
+            raise FileNotFoundError(f"no source in {path}")
+        for file in files:
+            digest.update(file.relative_to(root).as_posix().encode() + b"\0" + file.read_bytes() + b"\0")
+    return digest.hexdigest()
+
+
+def of_the_page() -> tuple[str, ...]:
+    """What shapes a report.html and is no .py file, as sources of `made_by`."""
+    place = "reports/templates"
+    found = (Path(__file__).resolve().parents[2] / place).iterdir()
+    return tuple(sorted(f"{place}/{path.name}" for path in found if path.is_file()))
+
+
+def kept_row(directory: Path, key: str, maker: str) -> dict | None:
+    """The row of a run as `maker` made it; None where there is none, or a damaged one."""
+    try:
+        content = json.loads(_row_path(directory, key).read_text(encoding="utf-8"))
+        return dict(content["row"]) if content["made_by"] == maker else None
+    except (OSError, ValueError, KeyError, TypeError):
+        return None
+
+
+def keep_row(directory: Path, key: str, maker: str, row: dict) -> None:
+    """Store a row, unless it has no maker. A disk that is full loses no more than the time to make it again."""
+    if maker:
+        with contextlib.suppress(OSError):
+            write_atomic(_row_path(directory, key), json.dumps({"made_by": maker, "row": row}, default=float).encode())
+
+
+def _row_path(directory: Path, key: str) -> Path:
+    return directory / "trajectories" / f"{key}.row.json"

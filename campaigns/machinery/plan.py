@@ -1,51 +1,64 @@
 """What a campaign is to do, as records: its runs (`Job`), how and where they run (`Plan`), what came of them.
 
-A run's content key is the hash of its scene, its length and the engine's sources. `trajectories/<key>.nc` is written
-whole or not at all, and its presence is what "finished" means: rows are always made again from the files, so a table
-can be lost at no cost.
+`trajectories/<key>.nc` is written whole or not at all, and its presence is what "finished" means: rows are always made
+again from the files, so a table can be lost at no cost.
 """
 
 import hashlib
 import json
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 from pathlib import Path
 
 from campaigns.columns import Column
 from campaigns.machinery.cli import Running
 
 
+def _source_hash() -> str:
+    from engine import source_hash
+
+    return source_hash()
+
+
 @dataclass(frozen=True)
 class Job:
-    """One run to do: its content key, the engine's source hash, the scene, the length, and columns that name it.
+    """One run to do: the columns that name it, its scene, and its length in wave periods or in seconds.
 
     simulate, describe: in place of the plan's, for campaigns whose runs are not all made or described alike.
+    made: what else the result depends on, where the run is not the engine's own or not the only one of its scene.
+    engine: hash of the engine's sources with which the campaign began.
     """
 
-    key: str
-    engine: str
+    labels: Mapping[str, object]
     scene: object
     periods: float | None = None
     duration_s: float | None = None
-    labels: dict[str, object] = field(default_factory=dict)
     simulate: Callable | None = None
     describe: Callable | None = None
+    made: str = ""
+    engine: str = field(default_factory=_source_hash)
+
+    @cached_property
+    def key(self) -> str:
+        """The content key: sha256 over the scene's key, the run length, the engine's source hash, and `made`."""
+        length = {"periods": self.periods, "duration_s": self.duration_s}
+        content = {"scene": self.scene.key(), **length, "engine": self.engine}
+        content |= {"made": self.made} if self.made else {}
+        return hashlib.sha256(json.dumps(content, sort_keys=True).encode()).hexdigest()
 
 
 @dataclass(frozen=True)
 class Outcome:
-    """What a worker hands back. `stop`: why the whole campaign has to stop, "" to go on.
+    """What a worker hands back: the row of a run, but for its labels and key, and the seconds that it took to make.
 
-    content, described: the run's file and what `describe` made of it, from a worker that does not see the folder.
+    content: the run's file, from a worker that does not see the folder.
     """
 
     key: str
     row: dict[str, object]
-    computed: bool
     analysis_s: float = 0.0
-    stop: str = ""
     content: bytes = b""
-    described: dict[str, object] | None = None
 
 
 @dataclass(frozen=True)
@@ -64,59 +77,53 @@ class Plan:
 
     simulate(scene, periods=, duration_s=) -> Trajectory, and describe(trajectory) -> row, have to be
     importable or picklable by cloudpickle. columns: of the table, among them run_key, status and message.
-    row_maker: hash of whatever shapes a row (`campaigns.machinery.row_cache.made_by`); empty: rows are not kept.
+    row_maker: hash of whatever shapes a row (`campaigns.machinery.folder.made_by`); empty: rows are not kept.
     simulate_each(scenes, periods=, duration_s=): yields (number of the scene, Trajectory) as runs end; where it is
-    given, runs that can go side by side share a worker (`campaigns.machinery.batches`).
-    directory: None in the plan that a worker gets which does not see the folder.
+    given, runs that can go side by side share a worker (`campaigns.machinery.runner.groups_of`).
+    how.out: None in the plan that a worker gets which does not see the folder.
     """
 
-    directory: Path | None
+    how: Running
     simulate: Callable
     describe: Callable
     columns: tuple[Column, ...]
-    backend: str = "loky"
-    jobs: int = 1
-    dask_address: str | None = None
-    show_progress: bool = True
     row_maker: str = ""
     simulate_each: Callable | None = None
+    show_progress: bool = True
 
     @property
     def sends(self) -> bool:
         """Whether workers send what they computed, because they need not see the folder."""
-        return self.backend == "dask"
+        return self.how.backend == "dask"
 
     def for_workers(self) -> "Plan":
         """The plan as workers get it."""
         # A worker kept from an earlier campaign of this process may stand in another folder.
-        return replace(self, directory=None if self.sends else self.directory.absolute())
+        return replace(self, how=replace(self.how, out=None if self.sends else self.how.out.absolute()))
 
 
-def plan_of(
-    how: Running, simulate: Callable, describe: Callable, columns: tuple[Column, ...], row_maker: str, **more
-) -> Plan:
-    """The plan of a campaign as its command line wants it done; more: further fields of the plan."""
-    where = how.backend, how.jobs, how.dask_address
-    return Plan(how.out, simulate, describe, columns, *where, row_maker=row_maker, **more)
+@dataclass(frozen=True)
+class KeptRun:
+    """A finished run by its file, for rows made from two runs. Pickled, it has the content in place of the path.
 
-
-def make_job(
-    scene,
-    periods: float | None = None,
-    duration_s: float | None = None,
-    labels: dict | None = None,
-    simulate: Callable | None = None,
-    describe: Callable | None = None,
-    made: str = "",
-) -> Job:
-    """A job with its content key: sha256 over the scene's key, the run length and the engine's source hash.
-
-    made: what else the result depends on, where the run is not the engine's own or not the only one of its scene.
+    path: of the file, None where only the content is known; content: b"" where the file is.
     """
-    from engine import source_hash
 
-    engine = source_hash()
-    content = {"scene": scene.key(), "periods": periods, "duration_s": duration_s, "engine": engine}
-    content |= {"made": made} if made else {}
-    key = hashlib.sha256(json.dumps(content, sort_keys=True).encode()).hexdigest()
-    return Job(key, engine, scene, periods, duration_s, dict(labels or {}), simulate, describe)
+    path: Path | None
+    content: bytes = b""
+
+    def load(self):
+        """The Trajectory. Raises engine.trajectory.TrajectoryError where there is none."""
+        from engine import Trajectory
+
+        return Trajectory.load(self.path) if self.path is not None else Trajectory.from_bytes(self.content)
+
+    def stamp(self) -> object:
+        """Something that changes with the content; None where there is no such run."""
+        if self.path is None:
+            return self.content or None
+        return self.path.stat().st_mtime_ns if self.path.exists() else None
+
+    def __reduce__(self):
+        there = self.path is not None and self.path.exists()
+        return KeptRun, (None, self.path.read_bytes() if there else self.content)

@@ -43,37 +43,19 @@ def endless(scene, duration_s: float) -> Iterator[str]:
         yield str(error)
 
 
-def irregular(name: str, changes: dict) -> Iterator[str]:
-    """The fault of a scene with an irregular sea, for campaigns that count, strobe and judge in wave periods.
-
-    name, changes: as for `load_scene`, before the campaign puts its own waves in their place.
-    """
-    from engine import SceneError, load_scene
-
-    try:
-        waves = load_scene(name, changes).waves
-    except SceneError:
-        return  # told elsewhere
-    if waves is not None and waves.irregular:
+def without_waves(name: str, scene) -> Iterator[str]:
+    """Why the scene of that name is not one of a buoy in regular waves, in whose periods some campaigns count."""
+    waves = scene.waves
+    if waves is None or scene.water is None:
+        yield f"--scene: given {name!r}, without a buoy in waves; allowed: a scene with a buoy, water and waves"
+    elif scene.end.kind != "buoy":
+        yield fault("end.kind", scene.end.kind, "'buoy' in this campaign")
+    elif waves.irregular:
         key = "waves.components" if waves.jonswap is None else "waves.jonswap"
         yield (
             f"{key}: given; allowed: one regular wave in this campaign, which strobes and judges motions once per wave "
             "period; engine.simulate runs irregular waves (docs/howto_waves.md)"
         )
-
-
-def waveless(name: str, changes: dict) -> Iterator[str]:
-    """The fault of a scene without water, waves or buoy, for campaigns of a buoy in waves; name, changes: as above."""
-    from engine import SceneError, load_scene
-
-    try:
-        scene = load_scene(name, changes)
-    except SceneError:
-        return
-    if scene.waves is None or scene.water is None:
-        yield f"--scene: given {name!r}, without a buoy in waves; allowed: a scene with a buoy, water and waves"
-    elif scene.end.kind != "buoy":
-        yield fault("end.kind", scene.end.kind, "'buoy' in this campaign")
 
 
 def breaking_steepness(scene) -> float:

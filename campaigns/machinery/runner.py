@@ -1,21 +1,23 @@
 """Runs all simulations of a campaign that are not on disk yet and keeps table.csv up to date."""
 
 import contextlib
+import math
 import sys
 import time
 from collections.abc import Callable, Iterator
 from functools import partial
 from pathlib import Path
 
-from campaigns.machinery.batches import groups_of, run_group
-from campaigns.machinery.folder import CampaignStopped, Table, trajectory_path
+from campaigns.machinery.folder import Table, trajectory_path
 from campaigns.machinery.plan import Job, Outcome, Plan, Summary
-from campaigns.machinery.pools import opened
-from campaigns.machinery.processes import PoolBroken
-from campaigns.machinery.worker import failed, received, reuse, run_one
+from campaigns.machinery.pools import PoolBroken, opened
+from campaigns.machinery.worker import failed, keep_outcome, reuse, run_jobs
 from engine.atomic import write_atomic
 
 COMPILE_RUN_S = 0.1  # long enough to go through every kernel, too short to cost anything
+MOST = 96  # jobs of a group: results reach the table group by group
+MOST_SENT = 8  # where a group's runs are sent together: one for each lane, so a lost worker costs what was running
+FEWEST = 4  # jobs for each worker below which they are not put together
 
 
 def run(plan: Plan, jobs: list[Job], compile_run_s: float = COMPILE_RUN_S) -> tuple[dict[str, float], Summary]:
@@ -23,13 +25,13 @@ def run(plan: Plan, jobs: list[Job], compile_run_s: float = COMPILE_RUN_S) -> tu
 
     compile_run_s: length of the run that only compiles, long enough for the scenes at hand to go through every kernel.
     """
-    missing = [job for job in jobs if not trajectory_path(plan.directory, job.key).exists()]
+    missing = [job for job in jobs if not trajectory_path(plan.how.out, job.key).exists()]
     start = time.perf_counter()
-    if missing and plan.sends and plan.dask_address is not None:
+    if missing and plan.sends and plan.how.dask_address is not None:
         print("each worker compiles the engine in its first run, unless it has done so before", file=sys.stderr)
     elif missing:
         print("compiling the engine, or loading it compiled ...", file=sys.stderr)
-        _compile_all(plan, missing, compile_run_s)
+        _compile(plan, missing, compile_run_s)
     compiled = time.perf_counter()
     summary = run_campaign(plan, jobs)
     run_s = time.perf_counter() - compiled
@@ -42,28 +44,45 @@ def write_scene(directory: Path, campaign: str, jobs: list[Job]) -> None:
     write_atomic(directory / "scene.toml", (head + jobs[0].scene.to_toml()).encode())
 
 
-def _compile_all(plan: Plan, missing: list[Job], compile_run_s: float) -> None:
+def groups_of(plan: Plan, jobs: list[Job]) -> list[tuple[Job, ...]]:
+    """Jobs of one run length that a worker does side by side, in groups as even as can be.
+
+    None where the plan or the jobs do not allow it, nor for threads: a group cannot be interrupted from within the
+    process.
+    """
+    if plan.simulate_each is None or plan.how.backend == "threading":
+        return []
+    from engine import goes_in_lanes
+
+    alike: dict[tuple, list[Job]] = {}
+    for job in jobs:
+        if goes_in_lanes(job.scene):
+            alike.setdefault((job.periods, job.duration_s), []).append(job)
+    groups = []
+    for members in alike.values():
+        workers = min(plan.how.jobs, len(members) // FEWEST)
+        count = workers * math.ceil(len(members) / (max(1, workers) * (MOST_SENT if plan.sends else MOST)))
+        # dealt like cards: neighbours cost alike, and so the groups do
+        groups += [tuple(members[first::count]) for first in range(count)]
+    return groups
+
+
+def _compile(plan: Plan, missing: list[Job], duration_s: float) -> None:
+    # Two workers that start together would each compile for ten seconds; after this they find the code on disk.
     # A plane, space, and runs side by side have machine code of their own.
     groups = groups_of(plan, missing)
-    together = {job.key for group in groups for job in group.jobs}
-    first_of_a_kind = {job.scene.motion.dimensions: job for job in reversed(missing) if job.key not in together}
-    for job in first_of_a_kind.values():
-        _compile(plan.simulate, job.scene, compile_run_s)
-    for group in groups[:1]:
-        _compile(
-            lambda scene, duration_s: list(plan.simulate_each([scene, scene], duration_s=duration_s)),
-            group.jobs[0].scene,
-            compile_run_s,
-        )
-
-
-def _compile(simulate: Callable, scene: object, duration_s: float) -> None:
-    # Two workers that start together would each compile for ten seconds; after this they find the code on disk.
-    try:
-        simulate(scene, duration_s=duration_s)
-    except Exception as error:
-        # Not the place to judge a scene: the run itself fails in the same way, and that failure becomes its row.
-        print(f"the first simulation failed ({type(error).__name__}); its run will say why", file=sys.stderr)
+    together = {job.key for group in groups for job in group}
+    alone = {job.scene.motion.dimensions: job.scene for job in reversed(missing) if job.key not in together}
+    calls = [partial(plan.simulate, scene) for scene in alone.values()]
+    if groups:
+        pair = [job.scene for job in groups[0][:2]]
+        calls.append(lambda **length: list(plan.simulate_each(pair, **length)))
+    for call in calls:
+        try:
+            call(duration_s=duration_s)
+        except Exception as error:
+            # Not the place to judge a scene: the run itself fails in the same way, and that failure becomes its row.
+            print(f"the first simulation failed ({type(error).__name__}); its run will say why", file=sys.stderr)
 
 
 def run_campaign(plan: Plan, jobs: list[Job]) -> Summary:
@@ -71,26 +90,30 @@ def run_campaign(plan: Plan, jobs: list[Job]) -> Summary:
 
     Raises CampaignStopped (disk full, folder lost) or KeyboardInterrupt; finished runs and their rows are then on disk.
     """
-    jobs = list({job.key: job for job in jobs}.values())
-    table = Table(plan.directory / "table.csv", plan.columns, [job.key for job in jobs])
-    outcomes = {job.key: outcome for job in jobs if (outcome := reuse(plan, job)) is not None}
-    table.rows = {key: outcome.row for key, outcome in outcomes.items()}
-    found = len(outcomes)
+    by_key = {job.key: job for job in jobs}
+    table = Table(plan.how.out / "table.csv", plan.columns, list(by_key))
+    found = {key: outcome for key, job in by_key.items() if (outcome := reuse(plan, job)) is not None}
+    table.rows = {key: _row(by_key[key], outcome) for key, outcome in found.items()}
     table.write()
-    missing = [job for job in jobs if job.key not in outcomes]
+    analysis_s = sum(outcome.analysis_s for outcome in found.values())
+    missing = {key: job for key, job in by_key.items() if key not in found}
     try:
-        for outcome in _with_progress(plan, _computed(plan, missing), len(jobs), found):
-            if outcome.stop:
-                raise CampaignStopped(outcome.stop)
-            outcomes[outcome.key] = outcome
-            table.add(outcome.key, outcome.row)
+        for outcome in _with_progress(plan, _computed(plan, missing), len(by_key), len(found)):
+            if outcome.content:
+                write_atomic(trajectory_path(plan.how.out, outcome.key), outcome.content)
+                keep_outcome(plan, outcome)
+            analysis_s += outcome.analysis_s
+            table.add(outcome.key, _row(by_key[outcome.key], outcome))
     except BaseException:
         with contextlib.suppress(OSError):
             table.write()
         raise
     table.write()
-    computed = sum(outcome.computed for outcome in outcomes.values())
-    return Summary(table.in_order(), found, computed, sum(outcome.analysis_s for outcome in outcomes.values()))
+    return Summary(table.in_order(), len(found), len(by_key) - len(found), analysis_s)
+
+
+def _row(job: Job, outcome: Outcome) -> dict[str, object]:
+    return {**job.labels, **outcome.row, "run_key": job.key}
 
 
 def _with_progress(plan: Plan, outcomes: Iterator[Outcome], total: int, found: int) -> Iterator[Outcome]:
@@ -105,43 +128,34 @@ def _with_progress(plan: Plan, outcomes: Iterator[Outcome], total: int, found: i
             yield outcome
 
 
-def _computed(plan: Plan, jobs: list[Job]) -> Iterator[Outcome]:
-    """Outcomes of all jobs as they come: those that can share a worker first, then what these leave undone, one by one.
+def _computed(plan: Plan, jobs: dict[str, Job]) -> Iterator[Outcome]:
+    """Outcomes of all jobs, by key, as they come: those that can share a worker first, then what these leave undone.
 
     A run that kills its worker twice, the second time alone, is given up.
     """
     if not jobs:
         return
-    pending = {job.key: job for job in jobs}
-    sent = plan.for_workers()
-    with opened(plan.backend, min(plan.jobs, len(jobs)), plan.dask_address) as execute:
-        groups = {group.number: group for group in groups_of(plan, jobs)}
-        for number, outcomes in _survivors(execute, partial(run_group, sent), groups):
-            del groups[number]
-            for outcome in outcomes:
-                yield received(plan, pending.pop(outcome.key), outcome)
-        while pending:
+    left = dict(jobs)
+    call = partial(run_jobs, plan.for_workers())
+    with opened(plan.how.backend, min(plan.how.jobs, len(jobs)), plan.how.dask_address) as execute:
+        groups = groups_of(plan, list(jobs.values()))
+        while left:
             try:
-                for outcome in execute(partial(run_one, sent), list(pending.values())):
-                    yield received(plan, pending.pop(outcome.key), outcome)
+                for task, outcomes in execute(call, groups or [(job,) for job in left.values()]):
+                    groups = [group for group in groups if group is not task]
+                    for outcome in outcomes:
+                        del left[outcome.key]
+                        yield outcome
             except PoolBroken as broken:
-                for job in broken.suspects:
-                    del pending[job.key]
-                    yield received(plan, job, _alone(execute, partial(run_one, sent), job))
-
-
-def _survivors(execute: Callable, call: Callable, groups: dict) -> Iterator:
-    """Results of all groups but those that may have killed a worker; groups: those left, which the caller takes out."""
-    while groups:
-        try:
-            yield from execute(call, list(groups.values()))
-        except PoolBroken as broken:
-            for group in broken.suspects:
-                del groups[group.number]
+                for task in broken.suspects:
+                    if len(task) == 1:
+                        yield _alone(execute, call, left.pop(task[0].key))
+                groups = [group for group in groups if not any(group is task for task in broken.suspects)]
 
 
 def _alone(execute: Callable, call: Callable, job: Job) -> Outcome:
     try:
-        return next(iter(execute(call, [job], alone=True)))
+        ((_, outcomes),) = execute(call, [(job,)], alone=True)
+        return outcomes[0]
     except PoolBroken as broken:
         return failed(job, "worker-died", f"its process ended twice, the second time running alone: {broken}")

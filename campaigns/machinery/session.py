@@ -1,52 +1,180 @@
-"""What every campaign does around its work: hold the folder, keep provenance, build the report, say what happened.
+"""What every campaign does around its work: faults, stops and interruptions in a line each, provenance, the report.
+
+`provenance.json` says who ran what, where, with which versions. It describes what made the results, so a later run of
+the same campaign that computes nothing leaves it alone, and a report made from the folder does not change.
 
 Times are wall seconds of this session: compile_s (the first simulation of all, after which the machine code is on disk
 for every worker), run_s (all runs), analysis_s (inside run_s, summed over workers), report_s.
 """
 
 import collections
+import contextlib
+import json
+import os
+import platform
+import shlex
+import socket
+import subprocess
 import sys
 import time
 from collections.abc import Callable
+from datetime import UTC, datetime
+from importlib import metadata
 from pathlib import Path
 
-from campaigns.machinery import cli, provenance
-from campaigns.machinery.command import command_line
-from campaigns.machinery.folder import claimed
+from campaigns.machinery.cli import EXIT_BAD_INPUT, EXIT_FAILED, EXIT_INTERRUPTED, EXIT_OK, Running
+from campaigns.machinery.folder import CampaignStopped, claimed, read_json, write_failure, write_json
 from campaigns.machinery.plan import Summary
 
+PROVENANCE = "provenance.json"
+_PACKAGES = (
+    "numpy", "scipy", "numba", "llvmlite", "pandas", "xarray", "pydantic", "joblib", "dask", "distributed", "tqdm",
+    "matplotlib", "jinja2", "typst",
+)  # fmt: skip
+_OF_THE_OCCASION = {
+    "command", "jobs", "backend", "dask_address", "host", "cpu_count", "platform", "started_utc", "finished_utc",
+    "timing", "runs",
+}  # fmt: skip
 
-def conduct(name: str, module: str, argv: list[str], how: cli.Running, parameters: dict, work: Callable) -> int:
+
+def command(module: str, argv: list[str] | None, read_order: Callable, work: Callable) -> int:
+    """A campaign's command, from the words of its line (None: those of this process) to its exit code.
+
+    read_order(argv, faults) -> the order, checked, with a `cli.Running` named how; work(order, argv) -> exit code.
+    """
+    argv = list(sys.argv[1:] if argv is None else argv)
+    faults: list[str] = []
+    # A closed stream (>&-) is None, which progress bars and workers write to.
+    sys.stdout, sys.stderr = (stream or open(os.devnull, "w") for stream in (sys.stdout, sys.stderr))
+    try:
+        order = read_order(argv, faults)
+    except KeyboardInterrupt:
+        return _told("\ninterrupted; nothing was run or written", EXIT_INTERRUPTED)
+    except ModuleNotFoundError as missing:
+        install = ".venv/bin/pip install -c constraints.txt -e ."
+        return _told(f"python -m {module}: no package {missing.name!r} in {sys.executable}: {install}", EXIT_FAILED)
+    if faults := list(dict.fromkeys(faults)):
+        said = [f" {faults[0]}"] if len(faults) == 1 else [f" {len(faults)} faults", *(f"\n  {one}" for one in faults)]
+        return _told(f"python -m {module}:{''.join(said)}\nnothing was run or written", EXIT_BAD_INPUT)
+    out = order.how.out
+    try:
+        return work(order, argv)
+    except KeyboardInterrupt:
+        kept = sum(1 for _ in (out / "trajectories").glob("*.nc"))
+        again = f"to go on with the rest: {shlex.join(command_line(module, argv))}"
+        return _told(f"\ninterrupted; {kept} finished runs are in {out}\n{again}", EXIT_INTERRUPTED)
+    except CampaignStopped as reason:
+        return _told(f"python -m {module}: {reason}", EXIT_FAILED)
+    except OSError as error:
+        return _told(f"python -m {module}: {write_failure(out, error)}", EXIT_FAILED)
+
+
+def _told(text: str, code: int) -> int:
+    print(text, file=sys.stderr)
+    return code
+
+
+def command_line(module: str, argv: list[str]) -> list[str]:
+    """The command as the user would type it again."""
+    return ["python", "-m", module, *argv]
+
+
+def conduct(
+    name: str, module: str, argv: list[str], how: Running, parameters: dict, work: Callable, strict: bool = False
+) -> int:
     """A campaign from its first run to its last word; returns the exit code.
 
     parameters: what provenance.json says of this campaign. work() -> (times, Summary): the runs and their table, with
-    compile_s, run_s and analysis_s among the times. Raises CampaignStopped, OSError, KeyboardInterrupt, for `command`.
+    compile_s, run_s and analysis_s among the times. strict: whether a row that is not ok is exit code 1.
+    Raises CampaignStopped, OSError, KeyboardInterrupt, for `command`.
     """
     start = time.perf_counter()
     with claimed(how.out):
-        record = provenance.gather(name, command_line(module, argv)) | parameters
-        if provenance.read_if_same(how.out / "provenance.json", record) is None:
-            provenance.write(how.out / "provenance.json", record)
+        record = begun(how.out, name, command_line(module, argv), parameters)[0]
         timing, summary = work()
         finish(how.out, record, summary, timing)
         fault = report(how.out, how.report, timing, start)
-    return say(how.out, summary, timing, how.report, fault)
+    code = say(how.out, summary, timing, how.report, fault)
+    return EXIT_FAILED if strict and any(row["status"] != "ok" for row in summary.rows) else code
+
+
+def begun(out: Path, name: str, command: list[str], parameters: dict) -> tuple[dict[str, object], bool]:
+    """(provenance of a campaign that begins, whether the folder holds the same of a finished one already).
+
+    Written, unless it does. What is known before the first run: versions, sources, machine, time. seed is null where
+    `parameters` names none: no random numbers are drawn. Raises OSError.
+    """
+    from engine import source_hash
+
+    record = {
+        "campaign": name,
+        "command": command,
+        "started_utc": _now_utc(),
+        "finished_utc": None,
+        "seed": None,
+        "host": socket.gethostname(),
+        "cpu_count": os.cpu_count(),
+        "platform": platform.platform(),
+        "versions": {"python": platform.python_version()} | {package: _version(package) for package in _PACKAGES},
+        "git": git_state(Path(__file__).parents[1]),
+        "engine_source_hash": source_hash(),
+    } | parameters
+    same = _same(out, record)
+    if not same:
+        write_json(out / PROVENANCE, record)
+    return record, same
 
 
 def finish(out: Path, record: dict, summary: Summary, timing: dict[str, float]) -> None:
     """Write the provenance of a finished campaign, unless the one on disk says how these very results were made."""
-    path = out / "provenance.json"
-    if summary.computed == 0 and provenance.read_if_same(path, record) is not None:
+    if summary.computed == 0 and _same(out, record):
         return
     failed = sum(row["status"] != "ok" for row in summary.rows)
-    record["runs"] = {
-        "total": len(summary.rows),
-        "found": summary.found,
-        "computed": summary.computed,
-        "failed": failed,
-    }
+    runs = {"total": len(summary.rows), "found": summary.found, "computed": summary.computed, "failed": failed}
     rounded = {name: round(seconds, 3) for name, seconds in timing.items()}
-    provenance.write(path, record | {"finished_utc": provenance.now_utc(), "timing": rounded})
+    write_json(out / PROVENANCE, record | {"runs": runs, "finished_utc": _now_utc(), "timing": rounded})
+
+
+def _same(out: Path, record: dict[str, object]) -> bool:
+    """Whether the folder is of a finished campaign that differs from this one only in when and where it ran."""
+    old = read_json(out / PROVENANCE)
+    if not isinstance(old, dict) or old.get("finished_utc") is None:
+        return False
+    now, before = ({key: entry for key, entry in one.items() if key not in _OF_THE_OCCASION} for one in (record, old))
+    return json.loads(json.dumps(now)) == before
+
+
+def _now_utc() -> str:
+    return datetime.now(UTC).strftime("%Y-%m-%dT%H:%M:%SZ")
+
+
+def _version(package: str) -> str | None:
+    with contextlib.suppress(metadata.PackageNotFoundError):
+        return metadata.version(package)
+
+
+def git_state(directory: Path) -> dict[str, object]:
+    """{"commit", "dirty"} of the checkout that holds `directory`; both null outside one, or without git."""
+    found: dict[str, object] = {"commit": None, "dirty": None}
+    # An installed copy is no checkout, even when it lies inside somebody's: only our own repository counts.
+    if not (directory.parent / ".git").exists():
+        return found
+    git = ["git", "-C", str(directory), "status", "--porcelain=v2", "--branch"]
+    with contextlib.suppress(OSError, subprocess.SubprocessError):
+        said = subprocess.run(git, capture_output=True, text=True, timeout=10, check=True).stdout.splitlines()
+        commits = [line.split()[-1] for line in said if line.startswith("# branch.oid ")]
+        found = {"commit": commits[0], "dirty": not all(line.startswith("#") for line in said)}
+    return found
+
+
+def machine() -> dict[str, object]:
+    """The machine as a table of times has to name it: {"processor", "cores"}, cores that this process may use."""
+    cores = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count()
+    lines: list[str] = []
+    with contextlib.suppress(OSError):
+        lines = Path("/proc/cpuinfo").read_text(encoding="utf-8").splitlines()
+    model = next((line.partition(":")[2].strip() for line in lines if line.startswith("model name")), "")
+    return {"processor": model or platform.processor() or platform.machine(), "cores": cores}
 
 
 def report(out: Path, wanted: bool, timing: dict[str, float], start: float) -> str:
@@ -54,8 +182,7 @@ def report(out: Path, wanted: bool, timing: dict[str, float], start: float) -> s
 
     Returns "", or why there is no report: the results stand without one.
     """
-    fault = ""
-    began = time.perf_counter()
+    fault, began = "", time.perf_counter()
     if wanted:
         try:
             from reports import build
@@ -85,6 +212,5 @@ def say(out: Path, summary: Summary, timing: dict[str, float], wanted: bool, fau
     )
     if fault:
         again = f"the runs are complete; try again: python -m reports {out}"
-        print(f"no report could be made: {fault}\n{again}", file=sys.stderr)
-        return cli.EXIT_FAILED
-    return cli.EXIT_OK
+        return _told(f"no report could be made: {fault}\n{again}", EXIT_FAILED)
+    return EXIT_OK

@@ -1,104 +1,104 @@
-"""One run, where it is made: reuse or compute, save or send, make a row; whatever fails becomes a row too.
+"""Runs, where they are made: reuse or compute, save or send, make a row; whatever fails becomes a row too.
 
-A worker on this machine writes the run's file itself (`Plan.directory`). One on another machine has no such folder
-(None): it hands the content of the file back, and `received` writes it where the campaign is.
+A worker on this machine writes a run's file itself (`Plan.how.out`). One on another machine has no such folder (None):
+it hands the content of the file back, and the runner writes it where the campaign is.
+
+Every run is saved, and has its row, as soon as it ends: a killed campaign loses what was running and nothing else.
 """
 
 import socket
 import time
 import traceback
+from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 
-from campaigns.machinery.folder import is_full, trajectory_path, write_failure
+from campaigns.machinery.folder import CampaignStopped, is_full, keep_row, kept_row, trajectory_path, write_failure
 from campaigns.machinery.plan import Job, Outcome, Plan
-from campaigns.machinery.row_cache import keep_row, kept_row
 from engine.atomic import write_atomic
 
 
-def run_one(plan: Plan, job: Job) -> Outcome:
-    """Runs in the worker: reuse or compute, save, describe. Never raises for what goes wrong in the run itself."""
+def run_jobs(plan: Plan, jobs: Sequence[Job]) -> list[Outcome]:
+    """The outcome of one job, whatever goes wrong in its run; of several jobs, those that came to an end.
+
+    Raises CampaignStopped where no other run would fare better: a full disk, other sources of the engine.
+    """
     from engine import source_hash
 
+    first = jobs[0]
+    if source_hash() != first.engine:
+        raise CampaignStopped("the engine's sources here are not those the campaign began with; start it again")
+    if len(jobs) == 1:
+        return [_run_one(plan, first)]
+    outcomes = []
+    try:
+        scenes = [job.scene for job in jobs]
+        for i, trajectory in plan.simulate_each(scenes, periods=first.periods, duration_s=first.duration_s):
+            outcomes.append(_kept(plan, jobs[i], trajectory))
+    except CampaignStopped:
+        raise
+    except (Exception, SystemExit):
+        pass  # run again one by one, each of the jobs left says for itself what is wrong
+    return outcomes
+
+
+def _run_one(plan: Plan, job: Job) -> Outcome:
     if (outcome := reuse(plan, job)) is not None:
         return outcome
-    if source_hash() != job.engine:
-        return other_sources(job)
     try:
         trajectory = (job.simulate or plan.simulate)(job.scene, periods=job.periods, duration_s=job.duration_s)
     except (Exception, SystemExit) as error:
         if is_full(error):
-            return _stopped(job, plan, error)
+            raise _stopped(plan, error) from error
         return failed(job, "error", _reason(error))
-    return kept(plan, job, trajectory)
+    return _kept(plan, job, trajectory)
 
 
-def other_sources(job: Job) -> Outcome:
-    """Stops a campaign whose worker has other sources of the engine."""
-    reason = "the engine's sources here are not those the campaign began with; start it again"
-    return Outcome(job.key, {}, computed=False, stop=reason)
-
-
-def kept(plan: Plan, job: Job, trajectory) -> Outcome:
+def _kept(plan: Plan, job: Job, trajectory) -> Outcome:
     """Save a run that has been computed, or get it ready to be sent, and make its row."""
     try:
         content = trajectory.to_bytes({"run_key": job.key})
-        if plan.directory is not None:
-            write_atomic(trajectory_path(plan.directory, job.key), content)
-    except OSError as error:  # of the folder, not of the run: the next one would fare no better
-        return _stopped(job, plan, error)
+        if plan.how.out is not None:
+            write_atomic(trajectory_path(plan.how.out, job.key), content)
+    except OSError as error:
+        raise _stopped(plan, error) from error
     except Exception as error:
         return failed(job, "error", f"not saved: {_reason(error)}")
-    outcome = _described(plan, job, trajectory, computed=True)
-    return outcome if plan.directory is not None else replace(outcome, content=content)
-
-
-def received(plan: Plan, job: Job, outcome: Outcome) -> Outcome:
-    """Where the folder is: write what a worker sent, if it sent anything."""
-    if not outcome.content:
-        return outcome
-    try:
-        write_atomic(trajectory_path(plan.directory, job.key), outcome.content)
-    except OSError as error:
-        return _stopped(job, plan, error)
-    if outcome.described is not None and plan.row_maker:
-        keep_row(plan.directory, job.key, plan.row_maker, outcome.described)
-    return replace(outcome, content=b"", described=None)
-
-
-def _load(directory: Path, job: Job):
-    """The finished run, or None where there is none or its file is damaged: then it is computed again."""
-    from engine import Trajectory
-
-    path = trajectory_path(directory, job.key)
-    if not path.exists():
-        return None
-    try:
-        return Trajectory.load(path)
-    except Exception:  # truncated, emptied, not netCDF, from a foreign hand: whatever it is, the cure is the same
-        return None
+    outcome = _described(plan, job, trajectory)
+    return outcome if plan.how.out is not None else replace(outcome, content=content)
 
 
 def reuse(plan: Plan, job: Job) -> Outcome | None:
-    """The outcome of a run that is there already; None where it has to be computed."""
-    trajectory = None if plan.directory is None else _load(plan.directory, job)
-    return None if trajectory is None else _described(plan, job, trajectory, computed=False)
+    """The outcome of a run that is there already; None where it has to be computed, as where its file is damaged."""
+    from engine import Trajectory
+
+    out = plan.how.out
+    if out is None or not (path := trajectory_path(out, job.key)).exists():
+        return None
+    try:
+        trajectory = Trajectory.load(path)
+    except Exception:  # truncated, emptied, not netCDF, from a foreign hand: whatever it is, the cure is the same
+        return None
+    row = kept_row(out, job.key, plan.row_maker)
+    return _described(plan, job, trajectory) if row is None else Outcome(job.key, row)
 
 
-def _described(plan: Plan, job: Job, trajectory, computed: bool) -> Outcome:
-    start, made = time.perf_counter(), None
-    row = kept_row(plan.directory, job.key, plan.row_maker) if plan.row_maker and not computed else None
-    if row is None:
-        try:
-            row = made = (job.describe or plan.describe)(trajectory)
-        except Exception as error:
-            row = {"status": "analysis-failed", "message": _reason(error)}
-        else:
-            if plan.row_maker and plan.directory is not None:
-                keep_row(plan.directory, job.key, plan.row_maker, row)
-    row = {**job.labels, **row, "run_key": job.key}
-    described = made if plan.directory is None else None
-    return Outcome(job.key, row, computed, time.perf_counter() - start, described=described)
+def _described(plan: Plan, job: Job, trajectory) -> Outcome:
+    start = time.perf_counter()
+    try:
+        row = (job.describe or plan.describe)(trajectory)
+    except Exception as error:
+        row = {"status": "analysis-failed", "message": _reason(error)}
+    outcome = Outcome(job.key, row, time.perf_counter() - start)
+    if plan.how.out is not None:
+        keep_outcome(plan, outcome)
+    return outcome
+
+
+def keep_outcome(plan: Plan, outcome: Outcome) -> None:
+    """Keep the row beside its run, unless the analysis failed; where the folder is."""
+    if outcome.row.get("status") != "analysis-failed":
+        keep_row(plan.how.out, outcome.key, plan.row_maker, outcome.row)
 
 
 def _reason(error: BaseException) -> str:
@@ -108,9 +108,8 @@ def _reason(error: BaseException) -> str:
 
 def failed(job: Job, status: str, message: str) -> Outcome:
     """A run that left no record: its row says why."""
-    return Outcome(job.key, {**job.labels, "status": status, "message": message, "run_key": job.key}, computed=True)
+    return Outcome(job.key, {"status": status, "message": message})
 
 
-def _stopped(job: Job, plan: Plan, error: BaseException) -> Outcome:
-    place = plan.directory or f"the worker on {socket.gethostname()}"
-    return Outcome(job.key, {}, computed=False, stop=write_failure(place, error))
+def _stopped(plan: Plan, error: BaseException) -> CampaignStopped:
+    return CampaignStopped(write_failure(plan.how.out or f"the worker on {socket.gethostname()}", error))

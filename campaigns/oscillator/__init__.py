@@ -9,66 +9,31 @@ choose. Every part is one row of table.csv, and its arrays are one file; parts f
 starts come from a fixed seed.
 """
 
-from dataclasses import dataclass
-from functools import partial
+from argparse import Namespace
 
 from campaigns.machinery import cli
-from campaigns.machinery.command import command
+from campaigns.machinery.plan import Summary
+from campaigns.study import Order, Study
 
-CAMPAIGN = "oscillator"
-MODULE = "campaigns.oscillator"
 PARAMETERS = ("damping", "frequency", "force", "lift", "phase")
 FORCES, FREQUENCIES = (0.1, 2.0, 800), (0.5, 2.0, 800)
 
 
-@dataclass(frozen=True)
-class Order:
-    """What the command line asks for, checked."""
-
-    changes: dict
-    forces: tuple[float, float, int]
-    frequencies: tuple[float, float, int]
-    effort: float
-    how: cli.Running
-
-
-def main(argv: list[str] | None = None) -> int:
-    """The command. Returns the exit code (0, 1, 2 or 130)."""
-    return command(MODULE, argv, read_order, conduct)
-
-
-def parser():
-    """The options of this campaign."""
-    parser = cli.parser(MODULE, __doc__)
-    what = parser.add_argument_group("what is studied")
-    cli.add(what, "--set", "KEY=VALUE ...", "change damping, frequency, force, lift or phase (default: the paper's)")
+def options(group) -> None:
+    """Add the options of this campaign."""
+    cli.add(group, "--set", "KEY=VALUE ...", "change damping, frequency, force, lift or phase (default: the paper's)")
     usual = "(default: {} {} {})".format
-    cli.add(what, "--force-range", "LO HI COUNT", f"orbit diagram over F {usual(*FORCES)}")
-    cli.add(what, "--frequency-range", "LO HI COUNT", f"orbit diagram over omega {usual(*FREQUENCIES)}")
-    cli.add(what, "--effort", "SHARE", "share of the usual starts, points and values, 0.001 to 100 (default: 1)")
-    where = parser.add_argument_group("where")
-    found = "folder of the results; parts found there are not done again"
-    cli.add(where, "--out", "DIR", f"{found} (default: results/{CAMPAIGN})")
-    where.add_argument("--no-report", action="store_true", help="leave out report.html and report.pdf")
-    return parser
+    cli.add(group, "--force-range", "LO HI COUNT", f"orbit diagram over F {usual(*FORCES)}")
+    cli.add(group, "--frequency-range", "LO HI COUNT", f"orbit diagram over omega {usual(*FREQUENCIES)}")
+    share = cli.number("a number from 0.001 to 100", lambda found: 0.001 <= found <= 100.0)
+    cli.add(group, "--effort", "SHARE", "share of the usual starts, points and values", share, 1.0)
 
 
-def read_order(argv: list[str], faults: list[str]) -> Order:
-    """The order in the words of the command line; every fault is appended to `faults`."""
-    options = cli.split(parser(), argv, faults)
-    changes = _changes(options.set, faults)
-    forces = _range(options.force_range, "--force-range", FORCES, faults)
-    frequencies = _range(options.frequency_range, "--frequency-range", FREQUENCIES, faults)
-
-    def share(text: str) -> float:
-        number = float(text)
-        if not 0.001 <= number <= 100.0:
-            raise ValueError(text)
-        return number
-
-    effort = cli.value(options.effort, "--effort", 1.0, share, "a number from 0.001 to 100", faults)
-    how = cli.Running(cli.folder(options, CAMPAIGN, faults), 1, "threading", None, not options.no_report)
-    return Order(changes, forces, frequencies, effort, how)
+def read(options: Namespace, faults: list[str]) -> None:
+    """The parameters that are changed, and the ranges of the diagrams."""
+    options.changes = _changes(options.set, faults)
+    options.forces = _range(options.force_range, "--force-range", FORCES, faults)
+    options.frequencies = _range(options.frequency_range, "--frequency-range", FREQUENCIES, faults)
 
 
 def _changes(words: list[str] | None, faults: list[str]) -> dict[str, float]:
@@ -100,9 +65,28 @@ def _range(words: list[str] | None, option: str, usual: tuple, faults: list[str]
     return (values[0], values[-1], len(values)) if values else usual
 
 
-def conduct(order: Order, argv: list[str]) -> int:
-    """Run it: parts, table, provenance, report. Raises CampaignStopped, OSError, KeyboardInterrupt."""
-    from campaigns.machinery import session
-    from campaigns.oscillator.study import done, parameters
+def done(order: Order) -> tuple[dict[str, float], Summary]:
+    """The parts and their table."""
+    from campaigns.oscillator import study
 
-    return session.conduct(CAMPAIGN, MODULE, argv, order.how, parameters(order), partial(done, order))
+    return study.done(order.own)
+
+
+def parameters(order: Order) -> dict[str, object]:
+    """What the provenance says of this campaign."""
+    from campaigns.oscillator import study
+
+    return study.parameters(order.own)
+
+
+STUDY = Study(
+    name="oscillator",
+    protocol=__doc__,
+    options=options,
+    read=read,
+    parameters=parameters,
+    done=done,
+    jobs=False,
+    backends=False,
+)
+main, parser, read_order = STUDY.main, STUDY.parser, STUDY.read_order

@@ -12,10 +12,10 @@ import hashlib
 import json
 import sys
 import time
+from argparse import Namespace
 from dataclasses import asdict
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import numpy as np
 import xarray
@@ -39,9 +39,6 @@ from campaigns.columns import MESSAGE, RUN_KEY, STATUS, Column
 from campaigns.machinery.folder import Table, trajectory_path
 from campaigns.machinery.plan import Summary
 from engine.atomic import write_atomic
-
-if TYPE_CHECKING:
-    from campaigns.oscillator import Order
 
 SEED = 0
 Result = tuple[dict[str, np.ndarray], dict[str, object]]  # arrays by name, numbers of the row
@@ -79,7 +76,7 @@ def _scaled(usual: int, effort: float, least: int) -> int:
     return max(least, round(usual * effort))
 
 
-def section(o: SnapOscillator, order: Order) -> Result:
+def section(o: SnapOscillator, order: Namespace) -> Result:
     """Figure 19(b), and two nested zooms round the place that the orbit visits most."""
     points, transient = _scaled(120_000, order.effort, 500), 1000
     states = strobed_states(o, START, points, transient)
@@ -104,7 +101,7 @@ def zoom_boxes(states: np.ndarray) -> np.ndarray:
     return np.array([[centre[0] - h[0], centre[0] + h[0], centre[1] - h[1], centre[1] + h[1]] for h in half])
 
 
-def history(o: SnapOscillator, order: Order) -> Result:
+def history(o: SnapOscillator, order: Namespace) -> Result:
     """The first periods from START, with the switching times."""
     motion = snap_motion(o, START, HISTORY_PERIODS, 128)
     arrays = {"time": motion.time, "displacement": motion.displacement, "velocity": motion.velocity}
@@ -113,7 +110,7 @@ def history(o: SnapOscillator, order: Order) -> Result:
     return arrays, {"periods": HISTORY_PERIODS, "slack_fraction": motion.slack_fraction}
 
 
-def exponents(o: SnapOscillator, order: Order) -> Result:
+def exponents(o: SnapOscillator, order: Namespace) -> Result:
     """Both exponents over many random starts, with their errors, and how they settle with time."""
     starts, periods, transient = _scaled(512, order.effort, 16), 10_000, 1000
     found = snap_exponents(o, count=starts, transient_periods=transient, periods=periods, blocks=50, seed=SEED)
@@ -137,7 +134,7 @@ def exponents(o: SnapOscillator, order: Order) -> Result:
     return arrays | {"block_error": np.array([found.block_error])}, row
 
 
-def diagram(over: str, o: SnapOscillator, order: Order) -> Result:
+def diagram(over: str, o: SnapOscillator, order: Namespace) -> Result:
     """Orbit diagram over "force" or "frequency" with exponents."""
     low, high, count = order.forces if over == "force" else order.frequencies
     values = np.linspace(low, high, _scaled(count, min(order.effort, 1.0), 2))
@@ -152,7 +149,7 @@ def diagram(over: str, o: SnapOscillator, order: Order) -> Result:
     return arrays, {"starts": 4, "periods": 1000, "transient": 500, "points": len(values)}
 
 
-def basins(o: SnapOscillator, order: Order) -> Result:
+def basins(o: SnapOscillator, order: Namespace) -> Result:
     """Where a grid of starts ends, and the shares."""
     columns, rows = (_scaled(n, order.effort**0.5, 8) for n in (120, 75))
     found = snap_basins(o, start_grid(columns, rows), 3000)
@@ -164,7 +161,7 @@ def basins(o: SnapOscillator, order: Order) -> Result:
     return arrays, row | {"aperiodic_share": float(found.shares[-1])}
 
 
-def orbits(o: SnapOscillator, order: Order) -> Result:
+def orbits(o: SnapOscillator, order: Namespace) -> Result:
     """Periodic orbits up to period 8, stable and unstable, by Newton's method from points of the section and a grid."""
     guesses = _scaled(400, order.effort, 20)
     basin = snap_basins(o, random_starts(_scaled(300, order.effort, 40), SEED), 1500)
@@ -180,7 +177,7 @@ def orbits(o: SnapOscillator, order: Order) -> Result:
     return arrays, {"points": len(table), "starts": len(starts)}
 
 
-def grazing(o: SnapOscillator, order: Order) -> Result:
+def grazing(o: SnapOscillator, order: Namespace) -> Result:
     """The forcing below which the taut motion never goes slack; random starts just below and just above it."""
     found = grazing_force(o)
     arrays = {"grazing": np.array([found.force, found.time, found.clearance, found.velocity])}
@@ -205,7 +202,7 @@ PARTS = {
 }
 
 
-def parameters(order: Order) -> dict:
+def parameters(order: Namespace) -> dict:
     """What the provenance says of this study besides who ran it, where and with what."""
     return {
         "oscillator": asdict(SnapOscillator(**order.changes)),
@@ -217,7 +214,7 @@ def parameters(order: Order) -> dict:
     }
 
 
-def done(order: Order) -> tuple[dict[str, float], Summary]:
+def done(order: Namespace) -> tuple[dict[str, float], Summary]:
     """Do every part that is not there yet; keep table.csv up to date. Returns times and the summary."""
     oscillator, out = SnapOscillator(**order.changes), order.how.out
     numbers = [f"{key} = {value!r}" for key, value in asdict(oscillator).items()]
@@ -243,7 +240,7 @@ def done(order: Order) -> tuple[dict[str, float], Summary]:
     return timing, Summary(table.in_order(), len(PARTS) - len(missing), len(missing), 0.0)
 
 
-def _key(part: str, order: Order) -> str:
+def _key(part: str, order: Namespace) -> str:
     own = {"diagram-force": "force_range", "diagram-frequency": "frequency_range"}.get(part)
     ranges = {"force_range", "frequency_range"} - {own}
     content = {name: entry for name, entry in parameters(order).items() if name not in ranges}
@@ -257,7 +254,7 @@ def _compile(oscillator: SnapOscillator) -> float:
     return time.perf_counter() - begun
 
 
-def _done(part: str, oscillator: SnapOscillator, order: Order, path: Path) -> dict:
+def _done(part: str, oscillator: SnapOscillator, order: Namespace, path: Path) -> dict:
     begun = time.perf_counter()
     try:
         arrays, row = PARTS[part](oscillator, order)

@@ -15,10 +15,10 @@ from dataclasses import asdict, dataclass, replace
 from functools import partial
 
 from campaigns.buoy_sweep import ROW_SOURCES
-from campaigns.buoy_sweep.seeds import SEED_MPS, velocity
+from campaigns.buoy_sweep.space import SEED_MPS, velocity
 from campaigns.machinery import cli
-from campaigns.machinery.plan import Plan, Summary
-from campaigns.study import Case, Lengths, Measures, Order, Study, job_of
+from campaigns.machinery.plan import Job, Plan, Summary
+from campaigns.study import Lengths, Measures, Order, Study
 from campaigns.tables import read_rows
 
 SMALL, LARGE = 0.016, 0.13  # the paper's two waves
@@ -102,7 +102,7 @@ def compared(one: Variant, base: Variant) -> bool:
     return one.depth_m in LOOPING_DEPTHS_M and one in (spatial, in_plane(spatial))
 
 
-def cases(order: Order) -> Iterator[Case]:
+def cases(order: Order) -> Iterator[Job]:
     """Every run of `variants` with its scene; planar ones carry perturbations."""
     from campaigns.judge import judged_scene
 
@@ -111,7 +111,7 @@ def cases(order: Order) -> Iterator[Case]:
         scene = judged_scene(order, one.changes(), least=0)
         if scene is not None:
             periods = min(order.periods, SHAPE_PERIODS) if one.profiles else order.periods
-            yield Case({**asdict(one), "periods": periods}, scene, periods)
+            yield Job({**asdict(one), "periods": periods}, scene, periods)
 
 
 def base_of(order: Order) -> Variant | None:
@@ -151,11 +151,11 @@ def beside(order: Order) -> Iterator[Callable]:
     from campaigns.out_of_plane.rows import rope_motion
 
     base = base_of(order)
-    if order.own:
+    if not order.own.no_accuracy:
         waves = (base, replace(base, steepness=SMALL))
-        among = {job_of(case, order).key for case in order.cases if variant(case.labels) in waves}
+        among = {case.key for case in order.cases if variant(case.labels) in waves}
         verdict = partial(rope_motion, transient_periods=order.transient)
-        yield partial(repeat, periods=order.periods, label="steepness", verdict=verdict, among=among)
+        yield partial(repeat, periods=order.periods, verdict=verdict, among=among)
     yield partial(judge, base=base, transient=order.transient)
 
 
@@ -169,9 +169,9 @@ def judge(plan: Plan, summary: Summary, base: Variant, transient: int) -> float:
     good = {variant(row): row for row in summary.rows if row["status"] == "ok"}
     spatial = [replace(base, depth_m=depth) for depth in sorted({one.depth_m for one in good})]
     both = [(good[in_plane(one)], good[one]) for one in spatial if one in good and in_plane(one) in good]
-    pairs.write(plan.directory, [pair for pair in both if pair[0]["loop_releases"]], transient)
-    results = Results(plane=read_rows(plan.directory / "table.csv"), plane_large=base.steepness)
-    write_statements(plan.directory, [claim for claim in claims() if "fig. 20" in claim.place], results)
+    pairs.write(plan.how.out, [pair for pair in both if pair[0]["loop_releases"]], transient)
+    results = Results(plane=read_rows(plan.how.out / "table.csv"), plane_large=base.steepness)
+    write_statements(plan.how.out, [claim for claim in claims() if "fig. 20" in claim.place], results)
     return 0.0
 
 
@@ -179,11 +179,10 @@ STUDY = Study(
     name="out_of_plane",
     protocol=__doc__,
     scene="tethered_buoy",
-    lengths=Lengths(periods=250, transient=50, share=5, left_out_of="comparison"),
+    lengths=Lengths(periods=250, transient=50, share=5),
     in_waves=True,
     taken=_TAKEN,
     options=cli.add_accuracy,
-    read=lambda options, faults: not options.no_accuracy,
     cases=cases,
     measures=measures,
     parameters=parameters,

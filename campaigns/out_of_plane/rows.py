@@ -178,9 +178,9 @@ def bows(profiles) -> tuple[float, float]:
 
 def _regime(trajectory, transient_periods: int) -> dict[str, object]:
     from analysis import tangent_lyapunov
-    from campaigns.judge import series_verdict
+    from campaigns.judge import verdict_of
 
-    verdict, wolf = series_verdict(trajectory, transient_periods)
+    verdict, wolf, _ = verdict_of(trajectory, transient_periods)
     row = {
         "regime": verdict.regime,
         "lyapunov_wolf_bits_per_period": wolf.value,

@@ -13,7 +13,7 @@ nothing else is random. To change a scene, run the campaign of that part.
 import time
 
 from campaigns.machinery import cli
-from campaigns.machinery.command import command, command_line
+from campaigns.machinery.session import command, command_line
 from campaigns.paper.order import PARTS, Order
 
 CAMPAIGN = "paper"
@@ -29,47 +29,35 @@ def parser():
     """The options of this campaign."""
     parser = cli.parser(MODULE, __doc__)
     what = parser.add_argument_group("what is run")
-    cli.add(what, "--parts", "A B ...", f"parts to run (default: {' '.join(PARTS)})")
+    parts = f"parts to run (default: {' '.join(PARTS)})"
+    cli.add(what, "--parts", "A B ...", parts, cli.one_of(PARTS), PARTS, many=True)
     shorter = "shorter and fewer runs: shows the report, concludes nothing"
     what.add_argument("--quick", action="store_true", help=shorter)
-    where = parser.add_argument_group("how and where")
-    cli.add(where, "--jobs", "N", f"runs at the same time (default: {cli.default_jobs()})")
-    found = "folder of the results; runs found there are not done again"
-    cli.add(where, "--out", "DIR", f"{found} (default: results/{CAMPAIGN})")
-    where.add_argument("--no-report", action="store_true", help="leave out every report.html and report.pdf")
+    cli.add_running(parser.add_argument_group("how and where"), CAMPAIGN, backends=False)
     return parser
 
 
 def read_order(argv: list[str], faults: list[str]) -> Order:
     """The order in the words of the command line; every fault is appended to `faults`."""
     options = cli.split(parser(), argv, faults)
-    allowed = "one of " + " ".join(PARTS)
-    if options.parts == []:
-        faults.append(f"--parts: given nothing; allowed: one or more, each {allowed}")
-    chosen = cli.values(options.parts or list(PARTS), "--parts", list(PARTS), cli.one_of(PARTS), allowed, faults)
-    jobs = cli.jobs_of(options, faults)
-    out = cli.folder(options, CAMPAIGN, faults)
+    how = cli.running(options, CAMPAIGN, faults)
     for part in PARTS:
-        if (out / part).exists() and not (out / part).is_dir():
-            faults.append(f"--out: given {str(out)!r}, where {part} is a file; allowed: a folder of this campaign")
-    how = cli.Running(out, jobs, "loky", None, not options.no_report)
-    return Order(tuple(part for part in PARTS if part in chosen), options.quick, how)
+        if (how.out / part).exists() and not (how.out / part).is_dir():
+            faults.append(f"--out: given {str(how.out)!r}, where {part} is a file; allowed: a folder of this campaign")
+    return Order(tuple(part for part in PARTS if part in options.parts), options.quick, how)
 
 
 def study(order: Order, argv: list[str]) -> int:
     """Run it: parts, figure data, statements, report. Raises CampaignStopped, OSError, KeyboardInterrupt."""
-    from campaigns.machinery import provenance, session
+    from campaigns.machinery import session
     from campaigns.machinery.folder import claimed
     from campaigns.paper import dependence, parts, results
 
     begun = time.perf_counter()
     with claimed(order.how.out):
-        record = provenance.gather(CAMPAIGN, command_line(MODULE, argv))
-        record |= {"jobs": order.how.jobs, "quick": order.quick, "made_by": results.maker()}
-        record |= {"dependence": dependence.parameters(order.quick)}
-        same = provenance.read_if_same(order.how.out / "provenance.json", record) is not None
-        if not same:
-            provenance.write(order.how.out / "provenance.json", record)
+        parameters = {"jobs": order.how.jobs, "quick": order.quick, "made_by": results.maker()}
+        parameters |= {"dependence": dependence.parameters(order.quick)}
+        record, same = session.begun(order.how.out, CAMPAIGN, command_line(MODULE, argv), parameters)
         timing, summary = parts.run(order)
         whole = same and not summary.computed and results.there(order.how.out, order.how.report)
         if not whole:

@@ -70,12 +70,13 @@ def calm_measures(trajectory: Trajectory, modes: Modes | None) -> dict[str, floa
         "tension_alike": np.corrcoef(r[:seen], columns["tension_top_N"][:seen])[0, 1],
     }
     for side, (series, frequency) in own.items():
+        late = series[-round(SETTLED * period_s / step_s) :]
         found |= {
             f"early_{side}_radps": free(series, step_s, period_s, frequency, EARLY)[0],
             f"{side}_bins": _bins_away(series, step_s, period_s, frequency),
             f"{side}_share": share_near(series, step_s, period_s, (frequency, wave)),
             f"{side}_kept": kept(series, step_s, period_s, frequency),
-            f"{side}_mean": _off_rest(series, step_s, period_s),
+            f"{side}_mean": (np.mean(late) - series[0]) / (0.5 * np.ptp(late)),
         }
     return {name: float(value) for name, value in found.items()}
 
@@ -170,11 +171,6 @@ def kept(series: np.ndarray, step_s: float, period_s: float, frequency: float) -
     """
     own, before = free(series, step_s, period_s, frequency, EARLY)
     return free(series, step_s, period_s, own, LATE, 0.0)[1] / before
-
-
-def _off_rest(series: np.ndarray, step_s: float, period_s: float) -> float:
-    late = series[-round(SETTLED * period_s / step_s) :]
-    return float((np.mean(late) - series[0]) / (0.5 * np.ptp(late)))
 
 
 def _bins_away(series: np.ndarray, step_s: float, period_s: float, frequency: float) -> float:

@@ -21,10 +21,9 @@ from pathlib import Path
 
 from campaigns.columns import MESSAGE, RUN_KEY, STATUS, Column, names
 from campaigns.machinery import cli
-from campaigns.machinery.command import command_line
-from campaigns.machinery.folder import CampaignStopped, Table, trajectory_path
+from campaigns.machinery.folder import CampaignStopped, Table, made_by, of_the_page, trajectory_path
 from campaigns.machinery.plan import Summary
-from campaigns.machinery.row_cache import made_by, of_the_page
+from campaigns.machinery.session import command_line
 from campaigns.paper import dependence
 from campaigns.paper.order import PARTS, Order
 

@@ -14,7 +14,7 @@ import time
 import traceback
 from collections.abc import Callable
 
-from campaigns.machinery.processes import end_with
+from campaigns.machinery.pools import end_with
 
 DONE, RAISED, LATE, DIED = "done", "traceback", "hang", "crash"
 PATIENCE = 5.0  # times the limit, in seconds of the wall clock

@@ -15,11 +15,17 @@ from functools import partial
 from pathlib import Path
 
 from campaigns.columns import Column
-from campaigns.machinery.folder import CampaignStopped, Table, trajectory_path, write_json
+from campaigns.machinery.folder import (
+    CampaignStopped,
+    Table,
+    keep_row,
+    kept_row,
+    made_by,
+    trajectory_path,
+    write_json,
+)
 from campaigns.machinery.plan import Summary
-from campaigns.machinery.pools import opened
-from campaigns.machinery.processes import PoolBroken
-from campaigns.machinery.row_cache import keep_row, kept_row, made_by
+from campaigns.machinery.pools import PoolBroken, opened
 from campaigns.stability import cases, fuzz, random_scenes, scene_shares, step_maps
 from campaigns.stability.cases import Case, all_cases, regular
 
@@ -87,11 +93,6 @@ def _made(out: Path, maker: str, task: Task) -> dict:
     return {"rows": [{"kind": kind, "number": number, **fuzz.judged(kind, raw)} for number, raw in drawn]}
 
 
-def do(out: Path, maker: str, task: Task) -> tuple[Task, dict]:
-    """(task, its result) in a worker."""
-    return task, result(out, maker, task)
-
-
 def done(order) -> tuple[dict[str, float], Summary]:
     """Do all that is not there yet; write the tables. Returns the times and the summary for the session.
 
@@ -118,7 +119,7 @@ def done(order) -> tuple[dict[str, float], Summary]:
     bar = {"total": len(tasks), "initial": len(tasks) - len(missing), "unit": "task", "desc": "tasks"}
     try:
         with opened("loky", max(1, min(order.how.jobs, len(missing)))) as execute:
-            found = execute(partial(do, out.absolute(), maker), missing) if missing else ()
+            found = execute(partial(result, out.absolute(), maker), missing) if missing else ()
             for task, one in tqdm(found, mininterval=1.0, disable=not missing, **bar):
                 results[task.key()] = one
     except PoolBroken as broken:

@@ -10,32 +10,26 @@ long enough; any other line gets extremes, tension and the solver's counts. Noth
 """
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from functools import partial
 from itertools import product
+from math import inf
 
 from campaigns.machinery import cli
-from campaigns.study import Case, Lengths, Measures, Order, Study
+from campaigns.machinery.plan import Job
+from campaigns.study import Lengths, Measures, Order, Study
 
 MOST_KEYS = 2
-
-
-@dataclass(frozen=True)
-class Own:
-    """What this campaign's own options say: the keys with their values, and seconds for a scene without waves."""
-
-    varied: tuple
-    duration_s: float | None
 
 
 def options(group) -> None:
     """Add the options that other studies do not have."""
     cli.add(group, "--vary", "KEY LO HI COUNT", "a key of the scene and its values, both ends included; once or twice")
-    cli.add(group, "--duration", "S", "length of every run in seconds, for a scene without waves")
+    seconds = cli.number("seconds, a finite number above 0", lambda found: 0.0 < found < inf)
+    cli.add(group, "--duration", "S", "length of every run in seconds, for a scene without waves", seconds)
 
 
-def read(options, faults: list[str]) -> Own:
-    """What they say."""
+def read(options, faults: list[str]) -> None:
+    """The keys with their values (`keys.Varied`), in place of the words of --vary."""
     from campaigns.sweep.keys import varied
 
     words = options.vary or []
@@ -43,46 +37,36 @@ def read(options, faults: list[str]) -> Own:
     if not words or len(words) % 4 or len(words) > 4 * MOST_KEYS:
         faults.append(f"--vary: given {' '.join(words) or 'nothing'}; allowed: {allowed}")
         words = []
-    found = [varied(words[start : start + 4], faults) for start in range(0, len(words), 4)]
-    keys = tuple(one for one in found if one is not None)
+    found = (varied(words[start : start + 4], faults) for start in range(0, len(words), 4))
+    keys = options.vary = [one for one in found if one is not None]
     if len({one.key for one in keys}) < len(keys):
         faults.append(f"--vary {keys[0].key}: given twice; allowed: two different keys")
-    seconds = cli.value(options.duration, "--duration", None, cli.fraction, "seconds, a finite number above 0", faults)
-    return Own(keys, seconds)
 
 
-def cases(order: Order) -> Iterator[Case]:
+def cases(order: Order) -> Iterator[Job]:
     """A run for every value, or pair of values."""
     from campaigns.judge import in_regular_waves, judged_scene
 
-    order.tell(
-        f"--set {one.key}: this campaign sets it; use --vary" for one in order.own.varied if one.key in order.changes
-    )
-    base = order.base()
-    if base is None or not order.own.varied:
-        order.scene({})
+    keys = order.own.vary
+    order.tell(f"--set {one.key}: this campaign sets it; use --vary" for one in keys if one.key in order.changes)
+    base = order.base(tell=True)
+    if base is None or not keys:
         return
-    duration_s = _duration_s(order, base)
-    for values in product(*(one.values for one in order.own.varied)):
+    duration_s, periods = order.own.duration, order.periods if base.waves is not None else None
+    if base.waves is not None and duration_s is not None:
+        order.tell(["--duration: given for a scene with waves; allowed: --periods"])
+    if base.waves is None and duration_s is None:
+        order.tell([f"--duration: given nothing for {order.name!r}, a scene without waves; allowed: seconds, above 0"])
+    for values in product(*(one.values for one in keys)):
+        labels = {one.key: value for one, value in zip(keys, values, strict=True)}
         changes: dict[str, object] = {}
-        for one, value in zip(order.own.varied, values, strict=True):
-            order.tell(one.put(value, base, changes))
+        for one in keys:
+            order.tell(one.put(labels[one.key], base, changes))
         scene = order.scene(changes, duration_s)
         if scene is not None and in_regular_waves(scene):
             scene = judged_scene(order, changes)
         if scene is not None:
-            labels = {one.key: value for one, value in zip(order.own.varied, values, strict=True)}
-            yield Case({**labels, "dimensions": scene.motion.dimensions}, scene, duration_s=duration_s)
-
-
-def _duration_s(order: Order, base) -> float | None:
-    """Seconds of every run; None where it is counted in wave periods."""
-    given = order.own.duration_s
-    if base.waves is not None and given is not None:
-        order.tell(["--duration: given for a scene with waves; allowed: --periods"])
-    if base.waves is None and not given:
-        order.tell([f"--duration: given nothing for {order.name!r}, a scene without waves; allowed: seconds, above 0"])
-    return given if base.waves is None else None
+            yield Job({**labels, "dimensions": scene.motion.dimensions}, scene, periods, duration_s)
 
 
 def measures(order: Order) -> Measures:
@@ -91,7 +75,7 @@ def measures(order: Order) -> Measures:
     from campaigns.judge import in_regular_waves
     from campaigns.sweep.rows import BUOY, LINE, sweep_row
 
-    labels = tuple(one.column for one in order.own.varied)
+    labels = tuple(one.column for one in order.own.vary)
     measured = BUOY if any(in_regular_waves(case.scene) for case in order.cases) else LINE
     columns = (*labels, *(column for column in measured if column.name not in {one.name for one in labels}))
     row = partial(sweep_row, transient_periods=order.transient, simulate=order.simulate)
@@ -104,12 +88,12 @@ def parameters(order: Order) -> dict[str, object]:
     from campaigns.judge import LONGEST_PERIOD, STROBE_TOLERANCE
 
     told: dict[str, object] = {
-        "vary": {one.key: list(one.values) for one in order.own.varied},
+        "vary": {one.key: list(one.values) for one in order.own.vary},
         "strobe_tolerance": STROBE_TOLERANCE,
         "longest_period": LONGEST_PERIOD,
     }
-    if order.own.duration_s is not None:
-        told |= {"duration_s": order.own.duration_s, "periods": None, "transient": 0}
+    if order.own.duration is not None:
+        told |= {"duration_s": order.own.duration, "periods": None, "transient": 0}
     return told
 
 

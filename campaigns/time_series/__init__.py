@@ -12,14 +12,13 @@ import argparse
 import math
 import os
 import sys
-from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from campaigns.machinery import cli
-from campaigns.machinery.command import command
-from campaigns.machinery.out_folder import fault_of, folder_name
+from campaigns.machinery.cli import Kind, fault_of, folder_name, number
+from campaigns.machinery.session import command
 
 if TYPE_CHECKING:
     from campaigns.time_series.record import Record
@@ -68,14 +67,14 @@ def read_order(argv: list[str], faults: list[str]) -> Order:
     """The order in the words of the command line, its record read; every fault is appended to `faults`."""
     options = cli.split(parser(), argv, faults)
 
-    def value(option: str, convert: Callable, allowed: str) -> object:
+    def value(option: str, kind: Kind) -> object:
         text = getattr(options, option[2:])
-        return cli.value(None if text is None else [text], option, None, convert, allowed, faults)
+        return cli.value(None if text is None else [text], option, None, kind, faults)
 
-    step = value("--step", above_zero(), "a finite number above 0 [s]")
-    period = value("--period", above_zero(), SECONDS)
-    tolerance = value("--tolerance", above_zero(1.0), "a number above 0 and below 1")
-    out = value("--out", folder_name, "the name of a folder")
+    step = value("--step", number("a finite number above 0 [s]", lambda step: 0.0 < step < math.inf))
+    period = value("--period", number(SECONDS, lambda period: 0.0 < period < math.inf))
+    tolerance = value("--tolerance", number("a number above 0 and below 1", lambda share: 0.0 < share < 1.0))
+    out = value("--out", folder_name)
     if options.step is not None and options.time is not None:
         faults.append("--time and --step: given both; allowed: one of them")
     given, *others = options.file or [None]
@@ -92,18 +91,6 @@ def read_order(argv: list[str], faults: list[str]) -> Order:
     if record is not None and period is not None and (fault := _no_fit(period, record)):
         faults.append(fault)
     return Order(record, period, tolerance, cli.Running(out, 1, "threading", None, False))
-
-
-def above_zero(limit: float = math.inf) -> Callable[[str], float]:
-    """A converter for finite numbers above 0 and below a limit."""
-
-    def convert(text: str) -> float:
-        number = float(text)
-        if not 0.0 < number < limit:
-            raise ValueError(text)
-        return number
-
-    return convert
 
 
 def _written_over(out: Path, given: str | None) -> str:

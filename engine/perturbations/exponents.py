@@ -7,9 +7,9 @@ import numpy as np
 
 from ..arrays import Trail, Work
 from ..compiled import kernel
+from ..dimensions import shape
 from ..physics.water import water as flow
 from ..planar import columns as col
-from ..planar import node
 from ..record import BEGIN, KIND, RESTART, STEP
 from ..simd.elementary import copy_into
 from ..time.steps import plan_stage, stage_rate
@@ -62,7 +62,7 @@ def carry(p, tables, period, count, trail, along, across):
                     carry_stage(p, tables, base, a, so_far, True, v, carried, work, water)
                     stage_rate(rate, dCs[v], dC_tilde, dKs[v, i])
             else:
-                node.shape(p, tables, base.Y, Q, X)
+                shape(p, tables, base.Y, Q, X)
                 flow(p, tables, base.t, 1.0, X, F)
             if across is not None:
                 known_lateral(a, so_far, vector, dK, known)

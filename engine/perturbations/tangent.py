@@ -31,11 +31,11 @@ from collections import namedtuple
 
 from ..arrays import Stage
 from ..compiled import kernel
+from ..dimensions import eliminate, node_quantities, shape
 from ..physics.submergence import cap_change
 from ..physics.water import water as flow
 from ..planar import columns as col
-from ..planar import node
-from ..planar.elimination import back_substitute, eliminate
+from ..planar.elimination import back_substitute
 from ..record import BUOY
 from ..simd.elementary import put3, row_times, take3
 from ..simd.select import larger, some, where
@@ -254,14 +254,14 @@ def orthonormalise(weight, here, vectors, rates, lengths):
 def linearise(p, tables, base, work, water):
     """Newton's matrix, eliminated, at a stage (Base): into work.E (n, 33); work.Q, F, X and water.J belong to it."""
     Y, K, Q, C_tilde, rate = base.Y, base.K, work.Q, work.C_tilde, base.rate
-    node.shape(p, tables, Y, Q, work.X)
+    shape(p, tables, Y, Q, work.X)
     flow(p, tables, base.t, 1.0, work.X, work.F)
     for k in range(Y.shape[0]):
         for m in range(2):
             C_tilde[k, m] = Q[k, col.QX + m] - K[k, m] / rate
             C_tilde[k, col.VX + m] = Y[k, col.VX + m] - K[k, col.VX + m] / rate
     stage = Stage(base.t, 1.0, rate, rate)
-    node.node_quantities(p, tables, stage, Y, work)
+    node_quantities(p, tables, stage, Y, work)
     eliminate(p, tables, stage, Y, work)
     if base.moving_water > 0.0:
         water_slopes(p, tables, base.t, work.X, water)

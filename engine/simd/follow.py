@@ -12,12 +12,12 @@ import numpy as np
 from .. import record as col
 from ..arrays import Work
 from ..compiled import kernel
+from ..dimensions import shape
 from ..perturbations.lateral import COEFFICIENTS, known_lateral, lateral_stage, normalise
 from ..perturbations.lateral import WIDTH as LATERAL_WIDTH
 from ..perturbations.tangent import Base, Carried, Water, carry_stage, linearise, orthonormalise, period_of, water_moves
 from ..physics.water import water as flow
 from ..planar import columns as planar_col
-from ..planar import node
 from ..time.steps import plan_stage, stage_rate
 from .elementary import copy_into, keep
 from .record import lane_record
@@ -100,7 +100,7 @@ def follow(records, tables, trail, trails, periods, nats, lateral_nats, sideways
         if count > 0:
             linearise(p, grid, base, work, water)
         else:
-            node.shape(p, grid, Y, work.Q, work.X)
+            shape(p, grid, Y, work.Q, work.X)
             flow(p, grid, base.t, 1.0, work.X, work.F)
         for v in range(count):
             keep(begun, own.K[v], own.Ks[v, 0])
@@ -139,7 +139,7 @@ class Followers:
         self.periods = np.ones(COUNT)
         self.nats, self.lateral_nats = np.zeros((COUNT, periods + 1, k)), np.zeros((COUNT, periods + 1))
         turn = LENGTH + k + 1, s, 3, (n, 6), (n, 4), (n, 4)
-        self.turn = Turn(*(lane_zeros(*np.atleast_1d(shape)) for shape in turn))
+        self.turn = Turn(*(lane_zeros(*np.atleast_1d(size)) for size in turn))
         self.turn.numbers[RATE] = 1.0
         C, K, F, Cs = (lane_zeros(k, n, 4) for _ in range(4))
         self.carried = Carried(C, K, F, lane_zeros(k, s, n, 4), lane_zeros(n, 4), Cs)

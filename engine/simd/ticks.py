@@ -16,7 +16,7 @@ import numpy as np
 from .. import record as col
 from ..arrays import Stage
 from ..compiled import kernel
-from ..planar import node
+from ..dimensions import shape
 from ..planar.state import largest_turn
 from ..time import steps
 from ..time.newton import GOING_ON, iterate, judge
@@ -251,7 +251,7 @@ def advance(ticks, records, own_tables, states, lanes, spent, samples, trail, co
         if not moving:
             break
         # rates of the solved stages, and of finished steps their errors
-        node.shape(p, tables, Y, own.Q, own.X)
+        shape(p, tables, Y, own.Q, own.X)
         steps.stage_rates(p, rows[RATE], Y, own.Q, own.C_tilde, C_new, K_new)
         for j in range(1, Ks.shape[0]):
             here = (rows[SOLVED] != 0.0) & (rows[STAGE] == float(j))

@@ -8,9 +8,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from ..parts.columns import Quantity, read_columns
-from ..parts.files import read_files
-from ..parts.folder import Folder, FolderError, read_folder
+from ..parts.columns import Quantity
+from ..parts.folder import Folder, FolderError, read_columns, read_files, read_folder
 
 if TYPE_CHECKING:
     import pandas

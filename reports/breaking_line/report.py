@@ -9,8 +9,7 @@ from ..buoy_sweep.equations import LAWS
 from ..parts.content import Bullets, Equation, Heading, Item, Notice, Report, Text
 from ..parts.folder import Folder, read_folder
 from ..parts.judged import counted, read_statements, statements_table
-from ..parts.provenance import provenance_items, timing_table
-from ..parts.scene_table import scene_table
+from ..parts.provenance import provenance_items, scene_table, timing_table
 from ..parts.wording import count, decimals, listed, number, percent
 from . import figures, tables
 from .runs import FAST, SLOW, Line, find, named, of_kind, read_exact, read_lines
@@ -76,7 +75,7 @@ def report(directory: str | Path) -> Report:
         *_section("Doubled grids", tables.doubled_table(lines, columns)),
         *_section("Run times", tables.table_of_runs(lines, columns, "cost"), timing_table(folder)),
         *_scene(folder),
-        *_equations(folder),
+        *_equations(folder.scene.tether.tension.law),
         *provenance_items(folder),
     ]
     return Report("The breaking synthetic line", folder.scene.title or folder.scene.name, tuple(items))
@@ -161,16 +160,11 @@ def _scene(folder: Folder) -> list[Item]:
     return [Heading("Scene"), scene_table(folder.scene, "breaking_line", varied, caption)]
 
 
-def _equations(folder: Folder) -> list[Item]:
-    shocks = "Shocks are captured by a viscosity; a limiter a is zero where the strain rate varies smoothly:"
-    return [
-        Heading("Equations"),
-        Text("In fixed axes and conservation form, with the shear force from the bending moments:"),
-        MOTION,
-        Text("with the tension law"),
-        LAWS[folder.scene.tether.tension.law],
-        Text("and, at the end that breaks,"),
-        FORCE,
-        Text(shocks),
-        VISCOSITY,
-    ]
+def _equations(law: str) -> list[Item]:
+    said = {
+        "In fixed axes and conservation form, with the shear force from the bending moments:": MOTION,
+        "with the tension law": LAWS[law],
+        "and, at the end that breaks,": FORCE,
+        "Shocks are captured by a viscosity; a limiter a is zero where the strain rate varies smoothly:": VISCOSITY,
+    }
+    return [Heading("Equations"), *(item for words, equation in said.items() for item in (Text(words), equation))]

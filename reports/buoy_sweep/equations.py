@@ -45,25 +45,23 @@ MODES = Equation(
 )
 
 
+_SOLVED = (
+    "The tether is solved by finite differences along its unstretched length, with bending, drag and fluid inertia, in "
+    "conservation form. At its upper end the buoy obeys",
+    BUOY,
+    "with the tension of the tether at its top, which follows the strain ε by",
+    LAWS,
+    f"The waves are linear, of finite depth, taken at the place where each node is (z from the bed, {T_I} = 2π/ω, A = "
+    "(kA)/k):",
+    AIRY,
+    "Spectra are the paper's, a plain integral without a window, so that a sine of amplitude a shows as a/2:",
+    SPECTRUM,
+    "The marks in the spectra are the paper's estimates for small motions, with the mass of the rope left out:",
+    MODES,
+)
+
+
 def equation_items(law: str) -> list[Item]:
     """The equations with the words between them; `law` is the scene's tension law."""
-    return [
-        Text(
-            "The tether is solved by finite differences along its unstretched length, with bending, drag and fluid "
-            "inertia, in conservation form. At its upper end the buoy obeys"
-        ),
-        BUOY,
-        Text("with the tension of the tether at its top, which follows the strain ε by"),
-        LAWS[law],
-        Text(
-            f"The waves are linear, of finite depth, taken at the place where each node is (z from the bed, {T_I} = "
-            "2π/ω, A = (kA)/k):"
-        ),
-        AIRY,
-        Text("Spectra are the paper's, a plain integral without a window, so that a sine of amplitude a shows as a/2:"),
-        SPECTRUM,
-        Text(
-            "The marks in the spectra are the paper's estimates for small motions, with the mass of the rope left out:"
-        ),
-        MODES,
-    ]
+    items = (LAWS[law] if item is LAWS else item for item in _SOLVED)
+    return [Text(item) if isinstance(item, str) else item for item in items]

@@ -4,130 +4,98 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 
-from ..figures.curves import Curve, Panel
+from ..figures.motion import section, spectra
 from ..figures.orbit_diagram import orbit_diagram_over
-from ..figures.section import section
-from ..figures.spectra import SpectrumPanel, spectra
 from ..figures.time_series import Panel as History
 from ..figures.time_series import time_series
-from ..parts.content import Figure, Item, Notice
-from ..parts.style import BLUE, SKY, VERMILION
-from ..parts.symbols import OMEGA_I, OMEGA_R, OMEGA_THETA, T_I, TAU_0
-from ..parts.wording import count, listed, number
-from ..sweep.quantities import series
-from .runs import PAPER_STEEPNESS, Run, Sweep
+from ..parts.content import Column, Figure, Item, Table
+from ..parts.symbols import T_I, TAU_0
+from ..parts.wording import EMPTY, count, listed, number
+from ..sweep.quantities import Measured, panels_over, series
+from .runs import Run, Sweep, spectrum_window
 
-_PAPER = {  # figures of the paper at its two steepnesses: tension, r, theta, spectra
-    PAPER_STEEPNESS[0]: ("9", "10", "11", "fig. 12"),
-    PAPER_STEEPNESS[1]: ("13", "15", "16", "figs. 17 and 18"),
-}
-PAPER_WINDOW = (40, 20)  # tau_0/T_i and n of eq. (31) in the paper
-_LEAST_WINDOW = 5  # wave periods: fewer bins than this below the wave frequency say nothing
-# name, its error, label of the curve: the largest exponents in the table
+# the largest exponents in the table, each with its standard error
 EXPONENTS = (
-    ("lyapunov_tangent_bits_per_period", "lyapunov_tangent_error", "tangent dynamics"),
-    ("lyapunov_wolf_bits_per_period", "lyapunov_wolf_error", "Wolf, of r"),
+    ("lyapunov_tangent_bits_per_period", "lyapunov_tangent_error"),
+    ("lyapunov_wolf_bits_per_period", "lyapunov_wolf_error"),
 )
-_SIDES = (  # column, name, label of the axis, of the mark, and symbol of the natural frequency
-    ("radius_m", "r", r"$|\Delta\tilde r|$ (m)", r"$\omega_r$", OMEGA_R),
-    ("angle_rad", "θ", r"$|\Delta\tilde\theta|$ (rad)", r"$\omega_\theta$", OMEGA_THETA),
+_SIDES = (  # column, label of the axis and of the mark of the natural frequency, its name in `Modes`
+    ("radius_m", r"$|\Delta\tilde r|$ (m)", r"$\omega_r$", "radial_radps"),
+    ("angle_rad", r"$|\Delta\tilde\theta|$ (rad)", r"$\omega_\theta$", "pendulum_radps"),
 )
-KA = r"wave steepness $kA$ (–)"
+_PEAKS = 4  # of a spectrum that a table tells
 
 
 def orbit_figure(sweep: Sweep, drawn: Sequence[Run], missing: Sequence[Run]) -> Figure:
     """Strobed radius over steepness, slack and exponents below; drawn: runs with points, missing: those without."""
-    rows = [run.row for run in drawn]
-    values, slack = series(rows, "steepness"), series(rows, "slack_fraction")
-    stems = [
-        Curve(np.full(2, x), np.array([0.0, y]), colour=SKY, width=1.2) for x, y in zip(values, slack, strict=True)
-    ]
-    top = max(0.1, 1.15 * float(np.nanmax(slack))) if np.isfinite(slack).any() else 1.0
-    share = [*stems, Curve(values, slack, "", "", "o", BLUE, size=3.5)]
-    below = [Panel(share, y_label="slack fraction (–)", level=0.0, settings={"ylim": (0.0, top)})]
-    if sweep.judged:
-        looks = zip(EXPONENTS, (("o", BLUE), ("s", VERMILION)), strict=True)
-        lines = [
-            Curve(values, series(rows, column), label, "", *look, series(rows, error), 3.0)
-            for (column, error, label), look in looks
-            if np.isfinite(series(rows, column)).any()
-        ]
-        below.append(Panel(lines, y_label=r"$\sigma$ (bits/$T_i$)", level=0.0))
-    points = [run.section[:, 0] for run in drawn]
-    gone = [run.steepness for run in missing]
-    picture = orbit_diagram_over(values, points, (KA, "strobed $r$ (m)"), below, gone)
+    rows, columns, key = [run.row for run in drawn], sweep.folder.columns, sweep.folder.columns["steepness"]
+    below = [Measured("–", ((columns["slack_fraction"], None),))]
+    if known := [pair for pair in EXPONENTS if np.isfinite(series(rows, pair[0])).any()]:
+        below.append(Measured("bits/period", tuple((columns[value], columns[error]) for value, error in known)))
+    points, gone = [run.section[:, 0] for run in drawn], [run.steepness for run in missing]
+    labels, panels = (key.label, "strobed $r$ (m)"), [replace(one, x_label="") for one in panels_over(rows, key, below)]
+    picture = orbit_diagram_over(series(rows, key.name), points, labels, panels, gone)
     caption = (
         f"Radius at t = k{T_I}, k ≥ {sweep.transient}, over wave steepness; the darker, the more points fall on one "
-        "place. Below: share of the time without tension"
-        + (", and the largest exponents with one standard error" if sweep.judged else "")
-        + (f". Crosses: {count(len(missing), 'run')} without points." if missing else ".")
+        "place. Below: share χ of the time without tension, and the largest exponents, where they are known, from the "
+        f"tangent dynamics and by Wolf's method. Crosses: {count(len(missing), 'run')} without points."
     )
     return Figure(picture, caption, "Orbit diagram of the strobed radius over wave steepness, slack fraction below.")
 
 
 def run_figures(sweep: Sweep, run: Run) -> list[Item]:
-    """Histories and spectra of one run."""
+    """Histories and spectra of one run; without spectra where its record is too short."""
     trajectory = sweep.trajectory(run)
-    return [_histories(run, trajectory), _spectra(sweep, run, trajectory)]
-
-
-def _histories(run: Run, trajectory) -> Figure:
-    columns = trajectory.columns
+    columns, scene = trajectory.columns, trajectory.scene
     low, high = columns["tension_top_low_N"] / 1e3, columns["tension_top_high_N"] / 1e3
     panels = [
         History("top tension (kN)", columns["tension_top_N"] / 1e3, low, high),
         History(r"$r$ (m)", columns["radius_m"]),
         History(r"$\theta$ (rad)", columns["angle_rad"]),
     ]
-    tension, radius, angle, _ = _PAPER[_nearer(run.steepness)]
-    at = f"kA = {number(run.steepness)}"
     caption = (
-        f"Top tension (fig. {tension}), radius (fig. {radius}) and angle (fig. {angle} of the paper{_apart(run)}) "
-        f"against t/{T_I} at {at}. From `trajectories/{run['run_key'][:12]}….nc`; the shade behind the tension spans "
-        "its extremes between samples."
+        f"Top tension, radius and angle against t/{T_I} at {run.named} (figs. 9 to 11 of the paper at kA = 0.016; 13, "
+        "15 and 16 at 0.13). The shade behind the tension spans its extremes between samples. From "
+        f"`trajectories/{run['run_key'][:12]}….nc`."
     )
-    alt = f"Tension, radius and angle over {number(run.periods_done)} wave periods at {at}, one below the other."
-    return Figure(time_series(columns["time_s"] / trajectory.scene.waves.period_s, panels), caption, alt)
+    alt = f"Tension, radius and angle over {number(run.periods_done)} wave periods at {run.named}."
+    items: list[Item] = [Figure(time_series(columns["time_s"] / scene.waves.period_s, panels), caption, alt)]
+    wave, found = 2 * math.pi / scene.waves.period_s, []
+    for column, label, mark, mode in _SIDES:
+        if one := run.spectrum(trajectory, column):
+            natural = ((getattr(sweep.modes, mode), mark),) if sweep.modes else ()
+            marks = (*natural, (wave, r"$\omega_i$"))
+            found.append((label, one.angular_frequency_radps[1:], one.amplitude[1:], marks))
+    if found:
+        caption = (
+            f"Spectra of r and θ at {run.named} by eq. (31) (fig. 12 of the paper at kA = 0.016; 17 and 18 at 0.13), "
+            "linear and logarithmic, without the mean. Arrows: the natural frequencies and that of the wave."
+        )
+        alt = f"Spectra of radius and angle at {run.named}, linear and logarithmic."
+        items.append(Figure(spectra(found, 2.5 * wave), caption, alt))
+    return items
 
 
-def _spectra(sweep: Sweep, run: Run, trajectory) -> Item:
-    from analysis import spectral_peaks, spectrum
+def peaks_table(sweep: Sweep) -> Table:
+    """The window of eq. (31) and the largest peaks of both spectra of the chosen runs."""
+    from analysis import spectral_peaks
 
-    window = spectrum_window(run.periods_done)
-    if window is None:
-        few = f"{number(run.periods_done, 3)} wave periods are too few: the shortened window needs {2 * _LEAST_WINDOW}."
-        return Notice("note", "No spectrum", (few,))
-    scene, modes, panels, words = trajectory.scene, sweep.modes, [], []
-    wave = 2 * math.pi / scene.waves.period_s
-    natural = (modes.radial_radps, modes.pendulum_radps) if modes else (None, None)
-    expected = ""
-    for (column, name, label, mark, symbol), frequency in zip(_SIDES, natural, strict=True):
-        found = spectrum(trajectory.columns[column], scene.sample_step_s(), scene.waves.period_s, *window)
-        marks = (*(((frequency, mark),) if frequency else ()), (wave, r"$\omega_i$"))
-        panels.append(SpectrumPanel(label, found.angular_frequency_radps[1:], found.amplitude[1:], marks))
-        peaks = [number(peak.angular_frequency_radps) for peak in spectral_peaks(found)[:4]]
-        words.append(f"{name} peaks at {listed(peaks)} rad/s" if peaks else f"{name} shows no peak")
-        expected += f"{symbol} = {number(frequency, 3)}, " if frequency else ""
-    start, periods = window
-    seen = f"{words[0]}, {words[1]} (largest first; bins are {number(wave / periods, 3)} rad/s wide)"
-    caption = (
-        f"Spectra of r and θ at kA = {number(run.steepness)} ({_PAPER[_nearer(run.steepness)][-1]} of the "
-        f"paper{_apart(run)}), eq. (31) with {TAU_0} = {number(start)} {T_I} and n = {periods}: {seen}. Marks: "
-        f"{expected}{OMEGA_I} = {number(wave, 4)} rad/s. From `radius_m` and `angle_rad`; the mean (ω = 0) is left out."
-    )
-    alt = f"Spectra of radius and angle, linear and logarithmic: {seen}."
-    return Figure(spectra(panels, 2.5 * wave), caption, alt)
-
-
-def spectrum_window(periods_done: float) -> tuple[int, int] | None:
-    """(tau_0/T_i, n) of eq. (31): the paper's (40, 20), else the last half of a record; None below 10 periods."""
-    whole = math.floor(periods_done + 1e-6)
-    if whole >= sum(PAPER_WINDOW):
-        return PAPER_WINDOW
-    return (whole - whole // 2, whole // 2) if whole // 2 >= _LEAST_WINDOW else None
+    rows = []
+    for run in sweep.chosen:
+        trajectory, cells = sweep.trajectory(run), []
+        for column, *_ in _SIDES:
+            found = run.spectrum(trajectory, column)
+            peaks = spectral_peaks(found)[:_PEAKS] if found else []
+            cells.append(listed(number(peak.angular_frequency_radps) for peak in peaks) if peaks else EMPTY)
+        window = spectrum_window(run.periods_done) or (None, None)
+        rows.append((run.named, *map(number, window), *cells))
+    heads = (Column("run", align="left"), Column(f"{TAU_0}/{T_I}"), Column("n"))
+    caption = f"Largest peaks of the spectra, the largest first; bins are 2π/(n {T_I}) wide."
+    return Table((*heads, Column("peaks of r", "rad/s"), Column("peaks of θ", "rad/s")), tuple(rows), caption)
 
 
 def section_figure(sweep: Sweep) -> Figure | None:
@@ -135,20 +103,9 @@ def section_figure(sweep: Sweep) -> Figure | None:
     shown = [run for run in sweep.chosen if len(run.section)]
     if not shown:
         return None
-    picture = section([(f"kA = {number(run.steepness)}", run.section) for run in shown])
     caption = (
         f"Poincaré sections r, r' at t = k{T_I}, k ≥ {sweep.transient} (fig. 19a of the paper, at kA = 0.13). No axis "
         "spans less than 0.1 m or 0.1 m/s."
     )
-    return Figure(picture, caption, "Points of the strobed motion in the plane of radius and radial speed.")
-
-
-def _nearer(steepness: float) -> float:
-    """Which of the paper's two cases a run is compared with."""
-    return min(PAPER_STEEPNESS, key=lambda paper: abs(steepness - paper))
-
-
-def _apart(run: Run) -> str:
-    """Where the paper's figure is for another steepness, which one."""
-    paper = _nearer(run.steepness)
-    return "" if abs(run.steepness - paper) <= 0.02 * paper else f", there at kA = {number(paper)}"
+    alt = "Points of the strobed motion in the plane of radius and radial speed."
+    return Figure(section([(run.named, run.section) for run in shown]), caption, alt)

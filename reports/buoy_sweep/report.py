@@ -6,20 +6,18 @@ from pathlib import Path
 
 from analysis.verdicts import LEAST_POINTS
 
-from ..parts.content import Heading, Item, Notice, Report, Text
+from ..parts.content import Column, Heading, Item, Notice, Report, Table, Text
 from ..parts.provenance import provenance_items
 from ..parts.symbols import T_I
-from ..parts.wording import count, decimals, listed, number
-from .answer import answer_items
+from ..parts.wording import EMPTY, decimals, listed, number
+from .answer import answer_items, warnings
 from .close_up import close_up_items
 from .equations import equation_items
-from .figures import orbit_figure, run_figures, section_figure
+from .figures import orbit_figure, peaks_table, run_figures, section_figure
 from .regimes import regime_items
-from .repeats import accuracy_items
 from .runs import Run, Sweep, read_sweep
 from .sheets import explorer, sheet_items
-from .tables import plane_items, runs_items, scene_items, time_items
-from .warnings import warnings
+from .tables import accuracy_items, plane_items, runs_items, scene_items, time_items
 
 
 def report(directory: str | Path) -> Report:
@@ -35,7 +33,7 @@ def report(directory: str | Path) -> Report:
         *plane_items(sweep),
         *accuracy_items(sweep.folder.directory),
         Heading("Warnings"),
-        *warnings(sweep),
+        warnings(sweep),
         *runs_items(sweep),
         *time_items(sweep),
         *scene_items(sweep),
@@ -51,27 +49,19 @@ def _question(sweep: Sweep) -> list[Item]:
     items: list[Item] = [
         Heading("Question"),
         Text(
-            "A buoy near the surface is held to the sea bed by a short elastic tether. How does it move as regular "
-            "waves become steeper: when does the tether go slack and snap, and does the motion still repeat with the "
-            "waves? This is the problem of section 4.2 of Tjavaras, Zhu, Liu, Triantafyllou and Yue, “The mechanics "
-            "of highly-extensible cables”, Journal of Sound and Vibration 213(4), 1998 (“the paper”), which shows kA "
-            "= 0.016 and kA = 0.13."
+            "A buoy near the surface is held to the sea bed by a short elastic tether. When does the tether go slack "
+            "and snap as waves become steeper, and does the motion still repeat with the waves? This is section 4.2 of "
+            "Tjavaras, Zhu, Liu, Triantafyllou and Yue, “The mechanics of highly-extensible cables”, Journal of Sound "
+            "and Vibration 213(4), 1998 (“the paper”), which shows kA = 0.016 and kA = 0.13."
         ),
         Heading("Short answer"),
         *answer_items(sweep),
     ]
     if sweep.judged:
         return items
-    longest, needed = max(run.periods_done for run in sweep.runs), sweep.transient + LEAST_POINTS
-    remedy = (
-        "A sweep with `--set output.tangent_vectors=1` computes exponents and regimes."
-        if longest >= needed
-        else f"A verdict takes a run of {needed} wave periods or more, {LEAST_POINTS} of them beyond the transient; "
-        f"the longest here is of {number(longest, 3)}."
-    )
     said = (
-        "The column `regime` and the columns of exponents are empty: no Lyapunov exponent was computed, and none is "
-        f"needed for what is said above. A strobed motion for which no period was found is just that. {remedy}"
+        "No Lyapunov exponent was computed; a strobed motion without a period is just that. Exponents and regimes take "
+        f"`--set output.tangent_vectors=1` and {LEAST_POINTS} wave periods or more beyond the transient."
     )
     return [*items, Notice("note", "No verdict on regular or chaotic motion", (said,))]
 
@@ -86,28 +76,25 @@ def _orbit(sweep: Sweep) -> list[Item]:
 
 
 def _chosen(sweep: Sweep) -> list[Item]:
-    items: list[Item] = [Heading("Chosen runs")]
+    heading = Heading("Chosen runs")
     if not sweep.chosen:
-        return [*items, Text("No run left a record of one wave period or more, so there is nothing to draw.")]
-    items.append(
-        Text(
-            "The runs nearest the paper's kA = 0.016 and 0.13, and the first whose strobed motion visits several "
-            "points in turn, where there is one."
-        )
+        return [heading, Text("No run left a record of one wave period or more, so there is nothing to draw.")]
+    heads = (Column("run", align="left"), Column("status"), Column(f"t/{T_I}"), Column("strobed r", "m"))
+    rows = tuple((run.named, run["status"], number(run.periods_done), _strobed(run)) for run in sweep.chosen)
+    caption = (
+        "The runs nearest the paper's kA = 0.016 and 0.13, and the first whose strobed motion visits several points in "
+        f"turn, where there is one: how far they came, and r at t = k{T_I} after the transient."
     )
+    items: list[Item] = [heading, Table(heads, rows, caption), peaks_table(sweep)]
     for run in sweep.chosen:
-        end = "ended as asked" if run.ok else f"ended early ({run['status']})"
-        words = f"This run {end} after {number(run.periods_done)} wave periods. {_strobed(run)}"
-        items += [Heading(f"kA = {number(run.steepness)}", 2), Text(words), *run_figures(sweep, run)]
+        items += [Heading(run.named, 2), *run_figures(sweep, run)]
     figure = section_figure(sweep)
     return [*items, Heading("Poincaré sections", 2), figure] if figure else items
 
 
 def _strobed(run: Run) -> str:
-    if run.visited:
-        radii = listed(decimals(point, 3) for point in run.visited)
-        return f"Strobed at t = k{T_I} it visits {count(len(run.visited), 'point')}, r = {radii} m."
-    if len(run.section):
-        low, high = run.section[:, 0].min(), run.section[:, 0].max()
-        return f"Strobed at t = k{T_I} its radius lies between {decimals(low, 3)} and {decimals(high, 3)} m."
-    return "It is too short for strobed values after the transient."
+    """The points that it visits in turn, else the range of all."""
+    if run.visited or not len(run.section):
+        return listed(decimals(point, 3) for point in run.visited) if run.visited else EMPTY
+    low, high = run.section[:, 0].min(), run.section[:, 0].max()
+    return f"{decimals(low, 3)} to {decimals(high, 3)}"

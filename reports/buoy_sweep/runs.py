@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
@@ -13,35 +13,23 @@ import numpy as np
 
 from engine.natural_frequencies import Modes, natural_frequencies
 
-from ..parts.columns import Quantity
-from ..parts.content import link
 from ..parts.folder import Folder, Row, read_folder
 from ..parts.wording import number, ranges
 
 if TYPE_CHECKING:
+    from analysis import Spectrum
     from engine import Trajectory
 
 PAPER_STEEPNESS = (0.016, 0.13)
+PAPER_WINDOW = (40, 20)  # tau_0/T_i and n of eq. (31) in the paper
 LEAST_POINTS = 16  # strobed points below which no period is looked for
+_LEAST_WINDOW = 5  # wave periods: fewer bins than this below the wave frequency say nothing
 # columns without which there is no report; all others may be of a later version
 NEEDED = (
     "steepness", "dimensions", "status", "regime", "regime_tighter", "regime_reason", "evidence", "strobed_period",
     "radius_min_m", "radius_max_m", "tension_top_max_N", "slack_fraction", "max_turn_rad", "loop_releases",
     "newton_iterations", "wall_s", "run_key", "message",
 )  # fmt: skip
-
-
-@dataclass(frozen=True)
-class Emergence:
-    """How far the buoy leaves the water, over the whole record.
-
-    `above_still_m` highest centre above the still-water line, `above_wave_m` above the wave at its place; `out_share`
-    share of the samples with the whole sphere above that wave.
-    """
-
-    above_still_m: float
-    above_wave_m: float
-    out_share: float
 
 
 @dataclass(frozen=True, eq=False)
@@ -54,19 +42,28 @@ class Run(Row):
     r (m) of the points it visits in turn, () where it has no period or where these points lie within the tolerance: a
     pendulum swing that dies out slowly comes back to nearly the same place every six wave periods (omega_theta T_i is
     close to 1 rad), and the table then says period 6 of a motion that is about to settle on one point.
+    above_still_m, above_wave_m: highest centre of the buoy above the still-water line and above the wave at its place;
+    out_share: share of the samples with the whole sphere above that wave; nan where there is no record.
     """
 
     anchor: str = ""
+    fault: str = ""
     periods_done: float = 0.0
     section: np.ndarray = field(default_factory=lambda: np.empty((0, 2)))
-    emergence: Emergence | None = None
-    fault: str = ""
     period: int | None = None
     visited: tuple[float, ...] = ()
+    above_still_m: float = math.nan
+    above_wave_m: float = math.nan
+    out_share: float = math.nan
 
     @property
     def steepness(self) -> float:
         return self["steepness"]
+
+    @property
+    def named(self) -> str:
+        """ "kA = 0.13"."""
+        return f"kA = {number(self.steepness)}"
 
     @property
     def in_space(self) -> bool:
@@ -81,6 +78,15 @@ class Run(Row):
     def planar_releases(self) -> float:
         """Loop releases of the planar run: its own, or those of the run that a run in three dimensions replaces."""
         return self["planar_loop_releases" if self.in_space else "loop_releases"]
+
+    def spectrum(self, trajectory: Trajectory, column: str) -> Spectrum | None:
+        """Eq. (31) of a column over `spectrum_window`; None for a record that is too short or not finite."""
+        from analysis import spectrum
+
+        window, values, scene = spectrum_window(self.periods_done), trajectory.columns[column], trajectory.scene
+        if window is None or not np.isfinite(values).all():
+            return None
+        return spectrum(values, scene.sample_step_s(), scene.waves.period_s, *window)
 
 
 @dataclass(frozen=True, eq=False)
@@ -97,10 +103,6 @@ class Sweep:
     tolerance: float
     longest: int
     modes: Modes | None
-
-    @property
-    def columns(self) -> Mapping[str, Quantity]:
-        return self.folder.columns
 
     @cached_property
     def good(self) -> tuple[Run, ...]:
@@ -128,9 +130,7 @@ class Sweep:
 
     def trajectory(self, run: Run) -> Trajectory:
         """The trajectory of a run that has a record."""
-        from engine import Trajectory
-
-        return Trajectory.load(self.folder.trajectory_path(run["run_key"]))
+        return self.folder.trajectory(run.row)[0]
 
 
 def read_sweep(directory: str | Path) -> Sweep:
@@ -148,29 +148,31 @@ def read_sweep(directory: str | Path) -> Sweep:
 
 
 def _read_run(folder: Folder, row: dict, anchor: str, transient: int, tolerance: float) -> Run:
+    from engine.physics.sea import elevation_m
+
     trajectory, fault = folder.trajectory(row)
-    if trajectory is None:
-        return Run(row, anchor, fault=fault)
-    time_s = trajectory.columns["time_s"]
-    if len(time_s) < 2:
-        return Run(row, anchor)
-    done, section = float(time_s[-1]) / trajectory.scene.waves.period_s, strobed(trajectory, transient)
+    if trajectory is None or len(trajectory.columns["time_s"]) < 2:
+        return Run(row, anchor, fault)
+    columns, scene = trajectory.columns, trajectory.scene
+    section = strobed(trajectory, transient)
     found = _period(row, section, tolerance)
-    return Run(row, anchor, done, section, _emergence(trajectory), "", *found)
+    above = columns["z_m"] - scene.water.depth_m
+    height = above - elevation_m(scene, columns["time_s"], columns["x_m"])
+    out = float(np.mean(height > 0.5 * scene.buoy.diameter_m))
+    high = float(np.nanmax(above)), float(np.nanmax(height))
+    return Run(row, anchor, fault, float(columns["time_s"][-1]) / scene.waves.period_s, section, *found, *high, out)
 
 
 def _period(row: dict, section: np.ndarray, tolerance: float) -> tuple[int | None, tuple[float, ...]]:
     """`period` and `visited` of a Run: the points are means over the last half of the section."""
     if row["status"] != "ok" or len(section) < LEAST_POINTS:
         return None, ()
-    length = float(row["strobed_period"])
-    if math.isnan(length):
+    if math.isnan(row["strobed_period"]):
         return 0, ()
-    length = int(length)
+    length = int(row["strobed_period"])
     rounds = max(len(section) // (2 * length), 1)
     radii = section[-rounds * length :, 0].reshape(-1, length).mean(axis=0)
-    width = float(row["radius_max_m"]) - float(row["radius_min_m"])
-    apart = length == 1 or np.ptp(radii) > tolerance * width
+    apart = length == 1 or np.ptp(radii) > tolerance * (row["radius_max_m"] - row["radius_min_m"])
     return length, tuple(map(float, radii)) if apart else ()
 
 
@@ -178,27 +180,18 @@ def strobed(trajectory: Trajectory, transient: int) -> np.ndarray:
     """r (m) and r' (m/s) at t = k T_i, k >= transient, as (m, 2); empty for a record that ends before."""
     from analysis import poincare_section
 
-    columns, scene = trajectory.columns, trajectory.scene
-    finite = np.isfinite(columns["radius_m"]) & np.isfinite(columns["radius_rate_mps"])
-    end = len(finite) if finite.all() else int(np.argmin(finite))
-    series = {name: columns[name][:end] for name in ("radius_m", "radius_rate_mps")}
-    if (end - 1) * scene.sample_step_s() < transient * scene.waves.period_s:
+    series = {name: trajectory.columns[name] for name in ("radius_m", "radius_rate_mps")}
+    step_s, period_s = trajectory.scene.sample_step_s(), trajectory.scene.waves.period_s
+    end = int(np.logical_and.accumulate(np.isfinite([*series.values()]).all(axis=0)).sum())  # of the sound samples
+    if (end - 1) * step_s < transient * period_s:
         return np.empty((0, 2))
-    return poincare_section(series, scene.sample_step_s(), scene.waves.period_s, transient_periods=transient).points
+    sound = {name: values[:end] for name, values in series.items()}
+    return poincare_section(sound, step_s, period_s, transient_periods=transient).points
 
 
-def _emergence(trajectory: Trajectory) -> Emergence | None:
-    from engine.physics.sea import elevation_m
-
-    scene, columns = trajectory.scene, trajectory.columns
-    if scene.water is None or scene.waves is None or scene.buoy is None:
-        return None
-    above = columns["z_m"] - scene.water.depth_m
-    height = above - elevation_m(scene, columns["time_s"], columns["x_m"])
-    out = float(np.mean(height > 0.5 * scene.buoy.diameter_m))
-    return Emergence(float(np.nanmax(above)), float(np.nanmax(height)), out)
-
-
-def linked(run: Run) -> str:
-    """The run's steepness, as a link to its sheet."""
-    return link(number(run.steepness), run.anchor)
+def spectrum_window(periods_done: float) -> tuple[int, int] | None:
+    """(tau_0/T_i, n) of eq. (31): the paper's (40, 20), else the last half of a record; None below 10 periods."""
+    whole = math.floor(periods_done + 1e-6)
+    if whole >= sum(PAPER_WINDOW):
+        return PAPER_WINDOW
+    return (whole - whole // 2, whole // 2) if whole // 2 >= _LEAST_WINDOW else None

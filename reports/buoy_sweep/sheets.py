@@ -6,13 +6,13 @@ import math
 
 import numpy as np
 
-from ..figures.run_sheet import Glance, run_sheet
+from ..figures.run_sheet import run_sheet
 from ..parts.columns import plus_minus
 from ..parts.content import Explorer, ExplorerColumn, Figure, Heading, Item, Sheet, Text, link
 from ..parts.symbols import OMEGA_I, OMEGA_R
 from ..parts.wording import EMPTY, count, decimals, number
 from ..sweep.quantities import errors_of, series
-from .figures import EXPONENTS, spectrum_window
+from .figures import EXPONENTS
 from .regimes import evidence_table
 from .runs import Run, Sweep
 
@@ -31,7 +31,7 @@ def explorer(sweep: Sweep, figure: Figure) -> Explorer:
         for run in runs
     )
     lower = [("slack fraction (–)", tuple(series(rows, "slack_fraction")), (math.nan,) * len(runs))]
-    for column, error, _ in EXPONENTS if sweep.judged else ():
+    for column, error in EXPONENTS if sweep.judged else ():
         if np.isfinite(values := series(rows, column)).any():
             lower.append(("σ (bits per wave period)", tuple(values), tuple(series(rows, error))))
             break
@@ -42,77 +42,61 @@ def explorer(sweep: Sweep, figure: Figure) -> Explorer:
 def sheet_items(sweep: Sweep) -> list[Item]:
     """The section with the sheets."""
     said = (
-        "One sheet for each row of the table of runs; a link in a table leads here. Left: top tension (with its "
-        f"extremes between samples), r and θ over the whole record, and its last {number(_END_PERIODS)} wave periods; "
-        f"right: strobed section after {sweep.transient} wave periods, spectrum of r (eq. (31)), and the exponent of "
-        "the tangent dynamics found up to each time. The page has them all; the PDF leaves them out."
+        "One sheet for each row of the table of runs. Left: top tension (with its extremes between samples), r and θ "
+        f"over the whole record and its last {number(_END_PERIODS)} wave periods; right: strobed section after "
+        f"{sweep.transient} wave periods, spectrum of r (eq. (31)), and the exponent of the tangent dynamics found up "
+        "to each time. The PDF leaves the sheets out."
     )
     beside = zip((None, *sweep.runs), sweep.runs, (*sweep.runs[1:], None), strict=False)
     return [Heading("Every run"), Text(said), *(_sheet(sweep, run, (left, right)) for left, run, right in beside)]
 
 
 def _sheet(sweep: Sweep, run: Run, beside: tuple[Run | None, Run | None]) -> Sheet:
-    drawing = ""
-    if run.has_record:
-        span = f"r from {decimals(run['radius_min_m'], 2)} to {decimals(run['radius_max_m'], 2)} m"
-        seen = (
-            f"Tension, radius and angle over {number(run.periods_done)} wave periods at kA {number(run.steepness)}, "
-            f"with section, spectrum and exponent: {span}, tension up to {number(run['tension_top_max_N'])} N."
-        )
-        drawing = run_sheet(_glance(sweep, run), seen, 160 if len(sweep.runs) <= _MANY else 80)
+    drawing = _drawing(sweep, run) if run.has_record else ""
     message = run["message"] or run.fault
     lines = [f"Message: {message}."] if message else []
-    if ways := [link(f"kA = {number(one.steepness)}", one.anchor) for one in beside if one is not None]:
+    if ways := [link(one.named, one.anchor) for one in beside if one is not None]:
         lines.append(f"Next to it: {' and '.join(ways)}.")
     return Sheet(run.anchor, _name(run), _facts(sweep, run), tuple(lines), drawing, evidence_table(run))
 
 
 def _name(run: Run) -> str:
     word = run["regime"] or ("" if run.ok else run["status"])
-    return f"kA = {number(run.steepness)}" + (f", {word}" if word else "")
+    return f"{run.named}, {word}" if word else run.named
 
 
 def _facts(sweep: Sweep, run: Run) -> tuple[tuple[str, str], ...]:
     """What the row says of the run, in the words and units of the dictionary; the period as the report found it."""
     after = "" if run.ok else f" after {number(run.periods_done, 3)} wave periods"
-    period = (
-        EMPTY
-        if run.period is None
-        else count(run.period, "wave period")
-        if run.period
-        else f"none of 1 to {sweep.longest}"
-    )
-    facts = [("status", run["status"] + after), ("repeats after", period)]
-    errors = errors_of(sweep.columns)
-    for name, column in sweep.columns.items():
-        if name in _ELSEWHERE or name in errors.values() or column.cell(run.row[name]) == EMPTY:
-            continue
-        error = errors.get(name)
-        said = plus_minus(sweep.columns, run.row, name, error) if error else column.cell(run.row[name])
-        facts.append((column.head, f"{said} {column.unit}".strip()))
+    period = count(run.period, "wave period") if run.period else f"none of 1 to {sweep.longest}"
+    facts = [("status", run["status"] + after), ("repeats after", EMPTY if run.period is None else period)]
+    columns = sweep.folder.columns
+    errors = errors_of(columns)
+    for name, column in columns.items():
+        said = plus_minus(columns, run.row, name, errors.get(name, ""))
+        if name not in _ELSEWHERE and name not in errors.values() and said != EMPTY:
+            facts.append((column.head, f"{said} {column.unit}".strip()))
     return (*facts, ("file", f"`trajectories/{run['run_key'][:12]}….nc`"))
 
 
-def _glance(sweep: Sweep, run: Run) -> Glance:
-    from analysis import spectrum
-
+def _drawing(sweep: Sweep, run: Run) -> str:
     trajectory = sweep.trajectory(run)
-    columns, scene = trajectory.columns, trajectory.scene
-    periods, wave = columns["time_s"] / scene.waves.period_s, 2.0 * math.pi / scene.waves.period_s
+    columns, period_s = trajectory.columns, trajectory.scene.waves.period_s
+    wave, shown = 2.0 * math.pi / period_s, {}
+    if found := run.spectrum(trajectory, "radius_m"):
+        part = (found.angular_frequency_radps > 0.0) & (found.angular_frequency_radps <= 2.5 * wave)
+        shown["spectrum"] = found.angular_frequency_radps[part], found.amplitude[part]
+    if trajectory.tangent is not None and (growth := trajectory.tangent.growth_nats[sweep.transient :]).size:
+        counted = np.arange(1, len(growth) + 1)
+        shown["exponent"] = sweep.transient + counted, np.cumsum(growth[:, 0]) / counted / math.log(2.0)
     low, high = columns["tension_top_low_N"] / 1e3, columns["tension_top_high_N"] / 1e3
     radius, angle = columns["radius_m"], columns["angle_rad"]
-    spectral = exponent = (np.empty(0), np.empty(0))
-    if (window := spectrum_window(run.periods_done)) and np.isfinite(radius).all():
-        found = spectrum(radius, scene.sample_step_s(), scene.waves.period_s, *window)
-        shown = (found.angular_frequency_radps > 0.0) & (found.angular_frequency_radps <= 2.5 * wave)
-        spectral = found.angular_frequency_radps[shown], found.amplitude[shown]
-    growth = trajectory.tangent.growth_nats if trajectory.tangent is not None else np.empty((0, 0))
-    if growth.shape[1] > 0 and len(growth) > sweep.transient:
-        kept = growth[sweep.transient :, 0]
-        counted = np.arange(1, len(kept) + 1)
-        exponent = sweep.transient + counted, np.cumsum(kept) / counted / math.log(2.0)
     histories = (("T (kN)", low, high), ("r (m)", radius, radius), ("θ (rad)", angle, angle))
-    end = max(float(periods[-1]) - _END_PERIODS, 0.0)
-    natural = ((sweep.modes.radial_radps, OMEGA_R),) if sweep.modes else ()
-    marks = (*natural, (wave, OMEGA_I))
-    return Glance(periods, histories, end, run.section[:_MOST_POINTS], spectral, marks, exponent)
+    marks = (*(((sweep.modes.radial_radps, OMEGA_R),) if sweep.modes else ()), (wave, OMEGA_I))
+    span = f"r from {decimals(run['radius_min_m'], 2)} to {decimals(run['radius_max_m'], 2)} m"
+    seen = (
+        f"Tension, radius and angle over {number(run.periods_done)} wave periods at {run.named}, with section, "
+        f"spectrum and exponent: {span}, tension up to {number(run['tension_top_max_N'])} N."
+    )
+    bins, section = 160 if len(sweep.runs) <= _MANY else 80, run.section[:_MOST_POINTS]
+    return run_sheet(seen, bins, columns["time_s"] / period_s, histories, _END_PERIODS, section, marks=marks, **shown)

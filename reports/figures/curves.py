@@ -41,7 +41,8 @@ class Panel:
     """Curves on one pair of axes.
 
     log: the axes that are logarithmic, "", "x", "y" or "xy". level: a thin horizontal line there. settings: of
-    matplotlib's `Axes.set`, such as limits. ticks: most numbers on the x axis, None as they come.
+    matplotlib's `Axes.set`, such as limits. ticks: most numbers on the x axis, None as they come. marks: (x, name) of
+    places on the x axis.
     """
 
     curves: Sequence[Curve]
@@ -52,6 +53,7 @@ class Panel:
     level: float | None = None
     settings: Mapping[str, object] = field(default_factory=dict)
     ticks: int | None = None
+    marks: Sequence[tuple[float, str]] = ()
 
 
 def draw(axes, panel: Panel) -> None:
@@ -83,6 +85,18 @@ def draw(axes, panel: Panel) -> None:
     axes.set(**panel.settings)
     if panel.ticks:
         axes.locator_params(axis="x", nbins=panel.ticks)
+    mark(axes, panel.marks)
+
+
+def mark(axes, marks: Sequence[tuple[float, str]]) -> None:
+    """Arrows at the top edge with a name above them, as in the paper's spectra; dashed lines for those without one."""
+    arrow = {"arrowstyle": "->", "color": VERMILION, "linewidth": 0.9}
+    look = {"ha": "center", "va": "top", "fontsize": 8, "color": VERMILION, "arrowprops": arrow}
+    for at, name in marks:
+        if name:
+            axes.annotate(name, (at, 0.8), (at, 0.985), axes.get_xaxis_transform(), axes.get_xaxis_transform(), **look)
+        else:
+            axes.axvline(at, color=SOFT, linewidth=0.8, linestyle=(0, (2, 2)))
 
 
 def curves(
@@ -118,6 +132,14 @@ def curves(
             figure.legend(handles.values(), handles, loc="outside right center")
         figure.align_ylabels()
         return picture_of(figure, kind)
+
+
+def wide_limits(values: np.ndarray, least: float = 1e-9) -> tuple[float, float]:
+    """Limits about the finite values, no narrower than `least`: a settled orbit looks like the points it is."""
+    finite = values[np.isfinite(values)]
+    low, high = (float(finite.min()), float(finite.max())) if len(finite) else (0.0, 0.0)
+    middle, half = 0.5 * (low + high), max(0.56 * (high - low), 0.5 * least, 1e-9 * abs(high))
+    return middle - half, middle + half
 
 
 def cells(figure: Figure, panels: Sequence, wide: int, labels: tuple[str, str], **shared) -> Iterator[tuple]:

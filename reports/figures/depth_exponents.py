@@ -2,30 +2,19 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 
 from ..parts.content import Picture
 from ..parts.style import BLUE, GREEN, INK, ORANGE, PURPLE, VERMILION
 from ..parts.wording import number
-from . import curves
+from .curves import Curve, Panel, curves
 
 COLOURS = (BLUE, VERMILION, GREEN, ORANGE, PURPLE)
 BESIDE = 0.14  # of the space between two values
 DASHES = ("-", "--", ":", "-.", "-")
 MARKS = {"periodic": "o", "quasi-periodic": "s", "chaotic": "*", "transient": "v", "undecided": "x", "": "+"}
-
-
-@dataclass(frozen=True)
-class Curve:
-    """One curve: its name, places, exponents with standard errors [bits per wave period] and words for the regimes."""
-
-    name: str
-    at: tuple[float, ...]
-    value: tuple[float, ...]
-    error: tuple[float, ...]
-    regime: tuple[str, ...]
+# its name; of every run the place, the exponent, its standard error [bits per wave period] and a word for the regime
+Exponents = tuple[str, list[tuple[float, float, float, str]]]
 
 
 def kind_of(regime: str) -> str:
@@ -33,41 +22,40 @@ def kind_of(regime: str) -> str:
     return "periodic" if regime.startswith("period-") else regime
 
 
-def depth_exponents(panels: list[list[tuple[str, list[Curve]]]], label: str, log: bool = False) -> Picture:
+def depth_exponents(panels: list[list[tuple[str, list[Exponents]]]], label: str, log: bool = False) -> Picture:
     """Rows and columns of panels, each (title, curves), over the parameter named by `label`.
 
     Its values are evenly spaced, and curves beside each other, so that marks do not hide marks; with `log` both stay
     where they are, on a logarithmic axis.
     """
-    everything = [curve for row in panels for _, found in row for curve in found]
-    values = sorted({at for curve in everything for at in curve.at})
-    seen = {kind_of(word) for curve in everything for word in curve.regime}
+    runs = [run for row in panels for _, found in row for _, some in found for run in some]
+    values, seen = sorted({run[0] for run in runs}), {kind_of(run[3]) for run in runs}
     ticks = {} if log else {"xticks": range(len(values)), "xticklabels": list(map(number, values))}
     nothing = np.empty(0)
-    key = [curves.Curve(nothing, nothing, kind or "no verdict", "", MARKS[kind], INK) for kind in MARKS if kind in seen]
+    key = [Curve(nothing, nothing, kind or "no verdict", "", MARKS[kind], INK) for kind in MARKS if kind in seen]
     rows = []
     for row in panels:
         drawn = []
         for title, found in row:
             lines = []
-            for k, curve in enumerate(found):
+            for k, (name, some) in enumerate(found):
                 aside = BESIDE * (k - 0.5 * (len(found) - 1))
-                at = np.array(curve.at if log else [values.index(one) + aside for one in curve.at], dtype=float)
-                lines += _drawn(at, curve, COLOURS[k % len(COLOURS)], DASHES[k % len(DASHES)])
-            scale = "x" if log else ""
+                at = [run[0] if log else values.index(run[0]) + aside for run in some]
+                look = COLOURS[k % len(COLOURS)], DASHES[k % len(DASHES)]
+                lines += _drawn(name, np.array(at, dtype=float), some, *look)
             exponent = r"$\sigma$ (bits per $T_i$)" if not drawn else ""
             below = label if row is panels[-1] else ""
-            drawn.append(curves.Panel([*lines, *key], below, exponent, title, scale, 0.0, ticks))
+            drawn.append(Panel([*lines, *key], below, exponent, title, "x" if log else "", 0.0, ticks))
         rows.append(drawn)
-    return curves.curves(rows, 2.1 * len(rows) + 0.7, "below", "xy")
+    return curves(rows, 2.1 * len(rows) + 0.7, "below", "xy")
 
 
-def _drawn(at: np.ndarray, curve: Curve, colour: str, dash: str) -> list[curves.Curve]:
+def _drawn(name: str, at: np.ndarray, runs: list, colour: str, dash: str) -> list[Curve]:
     """The line with its error bars, and the marks of its regimes."""
-    value, kinds = np.array(curve.value, dtype=float), np.array([kind_of(word) for word in curve.regime], dtype=object)
-    lines = [curves.Curve(at, value, curve.name, dash, "", colour, np.array(curve.error, dtype=float))]
+    value, error = (np.array([run[k] for run in runs], dtype=float) for k in (1, 2))
+    kinds = np.array([kind_of(run[3]) for run in runs], dtype=object)
+    lines = [Curve(at, value, name, dash, "", colour, error)]
     for kind, mark in MARKS.items():
         if (chosen := kinds == kind).any():
-            size = 7.0 if mark == "*" else 4.5
-            lines.append(curves.Curve(at[chosen], value[chosen], "", "", mark, colour, size=size))
+            lines.append(Curve(at[chosen], value[chosen], "", "", mark, colour, size=7.0 if mark == "*" else 4.5))
     return lines

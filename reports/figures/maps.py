@@ -9,6 +9,7 @@ import numpy as np
 
 from ..parts.content import Picture
 from ..parts.style import BLUE, GREEN, GRID, ORANGE, PURPLE, SKY, SOFT, VERMILION, picture_of, sheet
+from .curves import cells
 
 # the regimes of the analysis keep their colours in every map; other words take what is left
 _WORDS = {"chaotic": VERMILION, "quasi-periodic": ORANGE, "transient": PURPLE, "undecided": SOFT}
@@ -34,10 +35,7 @@ def maps(places: tuple[np.ndarray, np.ndarray], labels: tuple[str, str], shown: 
 
     rows = (len(shown) + 1) // 2
     with sheet(0.4 + 2.4 * rows) as figure:
-        grid = figure.subplots(rows, min(len(shown), 2), squeeze=False)
-        for axes in grid.flat[len(shown) :]:
-            axes.set_visible(False)
-        for axes, one in zip(grid.flat, shown, strict=False):
+        for axes, one in cells(figure, shown, 2, ("", "")):
             words = one.cells.dtype.kind in "UO"
             known = one.cells != "" if words else np.isfinite(one.cells)
             if words:
@@ -46,13 +44,8 @@ def maps(places: tuple[np.ndarray, np.ndarray], labels: tuple[str, str], shown: 
                 colours = [_WORDS.get(word) or next(left) for word in named]
                 numbers = np.array([[named.index(word) if word else -1 for word in row] for row in one.cells])
                 norm = BoundaryNorm(np.arange(len(named) + 1) - 0.5, max(len(named), 1))
-                axes.imshow(
-                    np.ma.masked_less(numbers, 0),
-                    origin="lower",
-                    aspect="auto",
-                    cmap=ListedColormap(colours),
-                    norm=norm,
-                )
+                look = {"cmap": ListedColormap(colours), "norm": norm}
+                axes.imshow(np.ma.masked_less(numbers, 0), origin="lower", aspect="auto", **look)
                 handles = [Patch(facecolor=colour, label=word) for colour, word in zip(colours, named, strict=True)]
                 axes.legend(handles=handles, loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=3, borderaxespad=0.0)
             else:

@@ -32,6 +32,7 @@ def orbit_diagram_over(
     drawn as vertical lines; `rows` pixels of the value axis.
     """
     from matplotlib.colors import LinearSegmentedColormap, LogNorm
+    from matplotlib.ticker import LogLocator
 
     diagram = orbit_diagram(parameter, strobed)
     counts, value_edges = density_image(diagram, rows)
@@ -47,8 +48,8 @@ def orbit_diagram_over(
             if column.any():
                 shown = np.ma.masked_equal(column[:, None], 0)
                 mesh = top.pcolormesh([x - half, x + half], value_edges, shown, norm=shades, cmap=colours)
-        bar = figure.colorbar(mesh, ax=[top, *lower], label="points in a pixel", aspect=45, pad=0.01)
-        bar.set_ticks(_round_counts(shades.vmax), labels=[f"{count}" for count in _round_counts(shades.vmax)])
+        ticks = {"ticks": LogLocator(subs=(1, 2, 5)), "format": "%d"}
+        bar = figure.colorbar(mesh, ax=[top, *lower], label="points in a pixel", aspect=45, pad=0.01, **ticks)
         bar.minorticks_off()
         top.set_ylabel(labels[1])
         for axes, panel in zip(lower, below, strict=True):
@@ -71,11 +72,6 @@ def orbit_diagram_over(
         (top, *lower)[-1].set_xlabel(labels[0])
         figure.align_ylabels()
         return picture_of(figure, "png")
-
-
-def _round_counts(highest: float) -> list[int]:
-    """1, 2, 5, 10, ... up to the highest count."""
-    return [m * 10**e for e in range(7) for m in (1, 2, 5) if m * 10**e <= highest]
 
 
 def _half_width(parameter: np.ndarray) -> float:

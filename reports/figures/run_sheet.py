@@ -8,188 +8,152 @@ from the page's style sheet, so that the drawing follows its light and dark form
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from collections.abc import Sequence
 from html import escape
 
 import numpy as np
 
 from ..parts.content import spans, sub
 from ..parts.symbols import T_I
+from .curves import Curve, Panel, wide_limits
 
 _FINE = 5  # units of a path to a pixel
 _DROP = 3  # pixels from a letter to its subscript
 _ROWS, _HEIGHT, _PITCH, _TOP = 3, 84, 128, 20
 _COLUMNS = ((46, 320), (392, 200), (672, 276))  # left edge and width of the whole record, its end, the rest
 _WIDE, _TALL = 960, _TOP + _ROWS * _PITCH - 6
+_DECADES = 4  # of a spectrum, below its peak
 
 
-@dataclass(frozen=True, eq=False)
-class Glance:
-    """What the drawing shows; histories over `periods` (n,) t/T_i as (label with unit, low (n,), high (n,)).
+NOTHING = (np.empty(0), np.empty(0))
 
-    `end_from`: where the last periods begin that are drawn larger; `section`: (m, 2) in m and m/s; `spectrum`: omega
-    (k,) in rad/s and amplitude (k,) in m, `marks` the expected modes in rad/s with their names; `exponent`: t/T_i (j,)
-    and bits per period (j,) found so far.  Empty arrays where there is nothing.
+
+def run_sheet(
+    label: str,
+    bins: int,
+    periods: np.ndarray,
+    histories: Sequence[tuple[str, np.ndarray, np.ndarray]],
+    last: float,
+    section: np.ndarray,
+    spectrum: tuple[np.ndarray, np.ndarray] = NOTHING,
+    marks: Sequence[tuple[float, str]] = (),
+    exponent: tuple[np.ndarray, np.ndarray] = NOTHING,
+) -> str:
+    """The drawing, `label` its text alternative; bins: columns of the whole record, fewer make it smaller.
+
+    Three histories over `periods` (n,) t/T_i as (label with unit, low (n,), high (n,)); `last`: so many periods at the
+    end are drawn larger; `section`: (m, 2) in m and m/s; `spectrum`: omega (k,) in rad/s and amplitude (k,) in m,
+    `marks` the expected modes in rad/s with their names; `exponent`: t/T_i (j,) and bits per period (j,) found so far.
     """
-
-    periods: np.ndarray
-    histories: tuple[tuple[str, np.ndarray, np.ndarray], ...]
-    end_from: float
-    section: np.ndarray
-    spectrum: tuple[np.ndarray, np.ndarray]
-    marks: tuple[tuple[float, str], ...]
-    exponent: tuple[np.ndarray, np.ndarray]
-
-
-def run_sheet(glance: Glance, label: str, bins: int) -> str:
-    """The drawing, `label` its text alternative; bins: columns of the whole record, fewer make it smaller."""
-    parts = []
-    for row, (name, low, high) in enumerate(glance.histories):
-        limits = _limits(low, high)
-        last = row == len(glance.histories) - 1
-        for column, first in enumerate((glance.periods[0], glance.end_from)):
-            part = glance.periods >= first
-            t = glance.periods[part]
-            frame = _Frame(column, row, (float(t[0]), float(t[-1])), limits)
-            parts.append(frame.axes(name if column == 0 else "", f"t/{T_I}" if last else "", y_numbers=column == 0))
-            parts.append(frame.band(t, low[part], high[part], bins if column == 0 else bins // 2))
-    parts += [_section(glance.section), _spectrum(*glance.spectrum, glance.marks), _exponent(*glance.exponent)]
-    head = f'<svg class="glance" viewBox="0 0 {_WIDE} {_TALL}" role="img" aria-label="{escape(label)}">'
-    return "".join([head, *parts, "</svg>"])
+    end = periods >= periods[-1] - last
+    parts = [f'<svg class="glance" viewBox="0 0 {_WIDE} {_TALL}" role="img" aria-label="{escape(label)}">']
+    beside = (_section(section), _spectrum(*spectrum, marks), _exponent(*exponent))
+    for row, ((name, low, high), right) in enumerate(zip(histories, beside, strict=True)):
+        limits = {"ylim": wide_limits(np.concatenate([low, high]))}
+        below = f"t/{T_I}" if right is beside[-1] else ""
+        whole = _banded(periods, low, high, bins)
+        larger = _banded(periods[end], low[end], high[end], bins // 2)
+        panels = Panel([whole], below, name, name, settings=limits), Panel([larger], below, settings=limits), right
+        for (left, wide), panel in zip(_COLUMNS, panels, strict=True):
+            parts.append(_drawn(panel, left, wide, _TOP + row * _PITCH))
+    return "".join([*parts, "</svg>"])
 
 
-def _section(points: np.ndarray) -> str:
+def _banded(x: np.ndarray, low: np.ndarray, high: np.ndarray, bins: int) -> Curve:
+    """The area between the least and the greatest value of each of `bins` equal spans."""
+    edges = np.unique(np.linspace(0, len(x), min(bins, len(x)) + 1).astype(int))[:-1]
+    with np.errstate(invalid="ignore"):
+        least, most = np.fmin.reduceat(low, edges), np.fmax.reduceat(high, edges)
+    sound = np.isfinite(least) & np.isfinite(most)
+    return Curve(x[[0, -1]], np.empty(0), band=(x[edges][sound], least[sound], most[sound]))
+
+
+def _section(points: np.ndarray) -> Panel:
     if not len(points):
-        return _nothing(0, "no section: no time after the transient")
-    r, rate = points.T
-    # no narrower than 0.1 m and 0.1 m/s: a settled orbit looks like the points it is
-    frame = _Frame(2, 0, _limits(r, r, 0.1), _limits(rate, rate, 0.1))
-    return frame.axes("section: dr/dt (m/s) over r (m)", "") + frame.dots(r, rate)
+        return Panel([], title="no section: no time after the transient")
+    limits = {"xlim": wide_limits(points[:, 0], 0.1), "ylim": wide_limits(points[:, 1], 0.1)}
+    title = "section: dr/dt (m/s) over r (m)"
+    return Panel([Curve(*points.T, mark="o")], "", title, title, settings=limits)
 
 
-def _spectrum(omega: np.ndarray, amplitude: np.ndarray, marks) -> str:
+def _spectrum(omega: np.ndarray, amplitude: np.ndarray, marks) -> Panel:
     shown = amplitude > 0.0
     if not shown.any():
-        return _nothing(1, "no spectrum: the record is too short")
+        return Panel([], title="no spectrum: the record is too short")
     omega, decades = omega[shown], np.log10(amplitude[shown])
     top = math.ceil(float(decades.max()))
-    frame = _Frame(2, 1, (0.0, float(omega[-1])), (top - 4, top))
-    lines = "".join(frame.mark(at, name) for at, name in marks if at < omega[-1])
-    return (
-        frame.axes(f"spectrum: log{sub('10')} of |Δr̃| (m) over ω (rad/s)", "")
-        + lines
-        + frame.line(omega, np.maximum(decades, top - 4))
-    )
+    limits = {"xlim": (0.0, float(omega[-1])), "ylim": (top - _DECADES, top)}
+    title = f"spectrum: log{sub('10')} of |Δr̃| (m) over ω (rad/s)"
+    inside = [(at, name) for at, name in marks if at < omega[-1]]
+    return Panel([Curve(omega, np.maximum(decades, top - _DECADES))], "", title, title, settings=limits, marks=inside)
 
 
-def _exponent(periods: np.ndarray, bits: np.ndarray) -> str:
+def _exponent(periods: np.ndarray, bits: np.ndarray) -> Panel:
     if len(bits) < 2:  # a run may end with its transient, or one period after it
-        return _nothing(2, "no exponent after the transient")
-    settled = bits[len(bits) // 10 :]
-    low, high = _limits(np.minimum(settled, 0.0), np.maximum(settled, 0.0), 0.02)
-    frame = _Frame(2, 2, (float(periods[0]), float(periods[-1])), (low, high))
-    zero = frame.line(periods[[0, -1]], np.zeros(2), "zero")
-    text = frame.axes(f"exponent so far: σ (bits per {T_I}) over t/{T_I}", "")
-    return text + zero + frame.line(periods, np.clip(bits, low, high))
+        return Panel([], title="no exponent after the transient")
+    limits = wide_limits(np.append(bits[len(bits) // 10 :], 0.0), 0.02)
+    title = f"exponent so far: σ (bits per {T_I}) over t/{T_I}"
+    return Panel([Curve(periods, np.clip(bits, *limits))], "", title, title, level=0.0, settings={"ylim": limits})
 
 
-def _nothing(row: int, words: str) -> str:
-    left, _ = _COLUMNS[2]
-    return _text(left, _TOP + row * _PITCH + 40, words)
+def _drawn(panel: Panel, left: int, wide: int, top: int) -> str:
+    """A panel in its place: its title alone where it has no curve; without y label no numbers stand beside it."""
+    if not panel.curves:
+        return _text(left, top + 40, panel.title)
+    curve, low = panel.curves[0], top + _HEIGHT
+    (x0, x1), (y0, y1) = panel.settings.get("xlim", curve.x[[0, -1]]), panel.settings["ylim"]
+    scale = np.array([wide / (x1 - x0), -_HEIGHT / (y1 - y0)])
+
+    def fine(x, y) -> np.ndarray:
+        return np.rint(_FINE * scale * (np.column_stack([x, y]) - (x0, y1))).astype(int)
+
+    def path(kind: str, steps: str) -> str:
+        return f'<path class="{kind}" transform="translate({left} {top})scale({1 / _FINE:g})" d="{steps}"/>'
+
+    def across(value: float) -> int:
+        return left + round((value - x0) * scale[0])
+
+    parts = [f'<path class="axes" d="M{left} {top}v{_HEIGHT}h{wide}"/>', _text(left, top - 6, panel.title)]
+    parts.append(_text(left + wide // 2, low + 28, panel.x_label, "m"))
+    parts += [_text(across(value), low + 14, said, "m") for value, said in _ticks(x0, x1, 5)]
+    if panel.y_label:
+        parts += [
+            _text(left - 4, low + 4 + round((value - y0) * scale[1]), said, "e") for value, said in _ticks(y0, y1, 3)
+        ]
+    for at, name in panel.marks:
+        parts.append(f'<path class="mark" d="M{across(at)} {top}v{_HEIGHT}"/>' + _text(across(at) + 3, top + 10, name))
+    if panel.level is not None:
+        parts.append(path("zero", _steps(fine([x0, x1], [panel.level] * 2))))
+    if curve.mark:  # round dots: strokes of no length
+        parts.append(path("dots", "".join(f"M{i} {j}h0" for i, j in dict.fromkeys(map(tuple, fine(curve.x, curve.y))))))
+    elif curve.band is None:
+        sound = np.isfinite(curve.y)
+        parts.append(path("line", _steps(fine(curve.x[sound], curve.y[sound]))))
+    elif len(curve.band[0]):
+        at, least, most = curve.band
+        outline = fine(np.concatenate([at, at[::-1]]), np.concatenate([most, least[::-1]]))
+        parts.append(path("band", _steps(outline) + "z"))
+    return "".join(parts)
 
 
 def _text(x: int, y: int, words: str, anchor: str = "") -> str:
-    """Words with the subscripts of `sub`: letters of Unicode's own are too small to read here."""
-    kind = f' class="{anchor}"' if anchor else ""
-    down = f'<tspan dy="{_DROP}" class="s">%s</tspan>'
-    parts, lowered = [], False
+    """Words with the subscripts of `sub`: letters of Unicode's own are too small to read here; nothing for none."""
+    parts, lowered = [], 0
     for style, piece in spans(words):
-        said = escape(piece)
-        if style == "sub":
-            parts.append(down % said)
-        elif lowered:
-            parts.append(f'<tspan dy="-{_DROP}">{said}</tspan>')
-        else:
-            parts.append(said)
-        lowered = style == "sub"
-    return f'<text{kind} x="{x}" y="{y}">{"".join(parts)}</text>'
+        drop = _DROP if style == "sub" else 0
+        kind = ' class="s"' if drop else ""
+        parts.append(
+            f'<tspan dy="{drop - lowered}"{kind}>{escape(piece)}</tspan>' if drop or lowered else escape(piece)
+        )
+        lowered = drop
+    kind = f' class="{anchor}"' if anchor else ""
+    return f'<text{kind} x="{x}" y="{y}">{"".join(parts)}</text>' if parts else ""
 
 
-def _limits(low: np.ndarray, high: np.ndarray, least: float = 1e-9) -> tuple[float, float]:
-    """Range of the finite values, widened by a tenth on both sides and to `least` at the least."""
-    bottom, top = (
-        (float(np.nanmin(low)), float(np.nanmax(high)))
-        if np.isfinite(low).any() and np.isfinite(high).any()
-        else (0, 0)
-    )
-    middle, half = 0.5 * (top + bottom), max(0.6 * (top - bottom), 0.5 * least, 1e-9 * abs(top))
-    return middle - half, middle + half
-
-
-class _Frame:
-    """One panel: where it stands on the sheet, and which numbers its edges are."""
-
-    def __init__(self, column: int, row: int, x: tuple[float, float], y: tuple[float, float]):
-        self.left, self.wide = _COLUMNS[column]
-        self.top = _TOP + row * _PITCH
-        self.x, self.y = x, y
-
-    def axes(self, title: str, x_title: str, y_numbers: bool = True) -> str:
-        """Edges, numbers at round places, and the title above."""
-        low = self.top + _HEIGHT
-        parts = [f'<path class="axes" d="M{self.left} {self.top}v{_HEIGHT}h{self.wide}"/>']
-        if title:
-            parts.append(_text(self.left, self.top - 6, title))
-        if x_title:
-            parts.append(_text(self.left + self.wide // 2, low + 28, x_title, "m"))
-        for value, said in _ticks(*self.x, 5):
-            at = self.left + round((value - self.x[0]) / (self.x[1] - self.x[0]) * self.wide)
-            parts.append(_text(at, low + 14, said, "m"))
-        for value, said in _ticks(*self.y, 3) if y_numbers else ():
-            at = low - round((value - self.y[0]) / (self.y[1] - self.y[0]) * _HEIGHT)
-            parts.append(_text(self.left - 4, at + 4, said, "e"))
-        return "".join(parts)
-
-    def line(self, x: np.ndarray, y: np.ndarray, kind: str = "line") -> str:
-        """A polyline through the points that are finite."""
-        sound = np.isfinite(y)
-        return self._path(kind, _relative(self._fine(x[sound], y[sound]))) if sound.any() else ""
-
-    def dots(self, x: np.ndarray, y: np.ndarray) -> str:
-        """Round dots: strokes of no length."""
-        places = dict.fromkeys(map(tuple, self._fine(x, y).tolist()))
-        return self._path("dots", "".join(f"M{i} {j}h0" for i, j in places))
-
-    def band(self, x: np.ndarray, low: np.ndarray, high: np.ndarray, bins: int) -> str:
-        """The area between the least and the greatest value of each of `bins` equal spans."""
-        edges = np.unique(np.linspace(0, len(x), min(bins, len(x)) + 1).astype(int))[:-1]
-        with np.errstate(invalid="ignore"):
-            least, most = np.fmin.reduceat(low, edges), np.fmax.reduceat(high, edges)
-        sound = np.isfinite(least) & np.isfinite(most)
-        at, least, most = x[edges][sound], least[sound], most[sound]
-        if not len(at):
-            return ""
-        outline = self._fine(np.concatenate([at, at[::-1]]), np.concatenate([most, least[::-1]]))
-        return self._path("band", _relative(outline) + "z")
-
-    def mark(self, at: float, name: str) -> str:
-        """A dashed upright with a name at its top."""
-        place = self.left + round((at - self.x[0]) / (self.x[1] - self.x[0]) * self.wide)
-        upright = f'<path class="mark" d="M{place} {self.top}v{_HEIGHT}"/>'
-        return upright + _text(place + 3, self.top + 10, name)
-
-    def _fine(self, x: np.ndarray, y: np.ndarray) -> np.ndarray:
-        across = (np.asarray(x) - self.x[0]) / (self.x[1] - self.x[0]) * self.wide
-        down = (self.y[1] - np.asarray(y)) / (self.y[1] - self.y[0]) * _HEIGHT
-        return np.rint(_FINE * np.column_stack([across, down])).astype(int)
-
-    def _path(self, kind: str, path: str) -> str:
-        place = f"translate({self.left} {self.top})scale({1 / _FINE:g})"
-        return f'<path class="{kind}" transform="{place}" d="{path}"/>'
-
-
-def _relative(points: np.ndarray) -> str:
-    """A path through whole-numbered points, written as steps, the shortest form there is."""
+def _steps(points: np.ndarray) -> str:
+    """A path through whole-numbered points, written as steps, the shortest form there is; "" through none."""
+    if not len(points):
+        return ""
     steps = np.diff(points, axis=0)
     moved = steps[np.any(steps != 0, axis=1)]
     return f"M{points[0, 0]} {points[0, 1]}" + "".join(f"l{i}{'' if j < 0 else ' '}{j}" for i, j in moved.tolist())
@@ -197,11 +161,11 @@ def _relative(points: np.ndarray) -> str:
 
 def _ticks(low: float, high: float, most: int) -> list[tuple[float, str]]:
     """Round numbers within the limits, each with its text."""
-    from matplotlib.ticker import MaxNLocator
+    from matplotlib.ticker import MaxNLocator, ScalarFormatter
 
     values = [v for v in MaxNLocator(most, steps=[1, 2, 2.5, 5, 10]).tick_values(low, high) if low <= v <= high]
-    step = min(np.diff(values), default=1.0)
-    places = max(
-        0, -math.floor(math.log10(step) + 1e-9) + (round(step * 10 ** -math.floor(math.log10(step)), 6) == 2.5)
-    )
-    return [(v, f"{v + 0.0:.{places}f}".replace("-", "−")) for v in np.round(values, 12)]
+    words = ScalarFormatter(useOffset=False)
+    words.create_dummy_axis()
+    words.axis.set_view_interval(low, high)
+    words.set_scientific(False)
+    return list(zip(values, words.format_ticks(values), strict=True))

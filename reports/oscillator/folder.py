@@ -8,9 +8,8 @@ from pathlib import Path
 
 import numpy as np
 
-from ..parts.columns import Quantity, read_columns
-from ..parts.files import read_files, value
-from ..parts.folder import FolderError
+from ..parts.columns import Quantity, value
+from ..parts.folder import FolderError, read_columns, read_files
 
 PARTS = ("section", "history", "exponents", "orbits", "basins", "grazing", "diagram-force", "diagram-frequency")
 FILES = {

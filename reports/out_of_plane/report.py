@@ -6,10 +6,9 @@ import math
 from collections.abc import Iterator
 from pathlib import Path
 
-from ..buoy_sweep.repeats import accuracy_items
+from ..buoy_sweep.tables import accuracy_items
 from ..parts.content import Heading, Item, Notice, Report, Text
-from ..parts.provenance import provenance_items, timing_table
-from ..parts.scene_table import scene_table
+from ..parts.provenance import provenance_items, scene_table, timing_table
 from ..parts.wording import count, listed, number
 from . import sections
 from .runs import VARIED, Run, Study, read_study

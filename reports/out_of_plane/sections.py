@@ -7,14 +7,13 @@ from collections.abc import Iterator
 import numpy as np
 
 from ..buoy_sweep.runs import strobed
+from ..figures.motion import section_pairs
 from ..figures.offplane_dependence import dependence
 from ..figures.offplane_history import History, lateral_histories, seed_histories
 from ..figures.rope_shape import rope_shapes
-from ..figures.section import section_pairs
-from ..parts.columns import read_columns, table_of
+from ..parts.columns import table_of, value
 from ..parts.content import Bullets, Figure, Heading, Item, Text
-from ..parts.files import value
-from ..parts.folder import read_rows
+from ..parts.folder import read_columns, read_rows
 from ..parts.judged import counted, read_statements, statements_table
 from ..parts.wording import number
 from .runs import BODIES, DISPLACEMENT, Study, envelope, of_bodies

@@ -6,12 +6,12 @@ import math
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from ..figures.depth_exponents import Curve, depth_exponents, kind_of
+from ..figures.depth_exponents import Exponents, depth_exponents, kind_of
 from ..out_of_plane.runs import read_study
 from ..out_of_plane.sections import comparison_items
-from ..parts.columns import Quantity, plus_minus, read_columns
+from ..parts.columns import Quantity, plus_minus
 from ..parts.content import Column, Figure, Heading, Item, Table, Text
-from ..parts.folder import Folder, FolderError, provenance_of
+from ..parts.folder import Folder, FolderError, provenance_of, read_columns
 from ..parts.wording import EMPTY, listed, number, percent
 from .written import written
 
@@ -88,11 +88,9 @@ def _like(rows: list[dict], **wanted) -> list[dict]:
     return sorted(found, key=lambda row: (row[DEPTH], row[EI]))
 
 
-def curve(name: str, rows: list[dict], over: str) -> Curve:
+def curve(name: str, rows: list[dict], over: str) -> Exponents:
     """Exponent over a column of the table, of the runs that ended as asked."""
-    good = [row for row in rows if row["status"] == "ok"]
-    columns = zip(*((row[over], row[VALUE], row[ERROR], row["regime"]) for row in good), strict=True)
-    return Curve(name, *columns) if good else Curve(name, (), (), (), ())
+    return name, [(row[over], row[VALUE], row[ERROR], row["regime"]) for row in rows if row["status"] == "ok"]
 
 
 def _depth_figure(rows: list[dict]) -> Figure:

@@ -17,6 +17,11 @@ ROOT = Path(__file__).resolve().parents[2]
 PACKAGES = ("engine", "analysis", "reports")
 _PARAGRAPH = re.compile(r"^In the paper: (.+?)\.?\s*(?:\n\s*\n|\Z)", re.DOTALL | re.MULTILINE)
 _ENTRY = re.compile(r"(eq\.|fig\.) \(?(\d+)\)? (.+)")
+CAPTIONS = {
+    "fig.": "The paper's figures and what draws them; fig. 1 (segment of the line) and fig. 8 (buoy in waves) are "
+    "sketches. Data: `figures/`.",
+    "eq.": "The paper's equations and where they are in the code.",
+}
 HEADS = {"eq.": ("equation", "what", "code"), "fig.": ("figure", "what", "drawn by")}
 
 
@@ -49,8 +54,8 @@ def named_in(source: str) -> list[tuple[str, int, str]]:
 def rows_of(kind: str) -> list[tuple[str, str, str]]:
     """(as written in the sources, what, files) of all equations or figures."""
     form = {"eq.": "eq. ({})", "fig.": "fig. {}"}[kind]
-    listed = ((number, what, files) for (own, number), (what, files) in entries().items() if own == kind)
-    return [(form.format(number), what, ", ".join(f"`{path}`" for path in files)) for number, what, files in listed]
+    found = ((number, *held) for (own, number), held in entries().items() if own == kind)
+    return [(form.format(number), what, ", ".join(f"`{path}`" for path in files)) for number, what, files in found]
 
 
 def markdown(kind: str) -> str:
@@ -61,17 +66,12 @@ def markdown(kind: str) -> str:
 
 def index_items() -> list[Item]:
     """The section."""
-    captions = {
-        "fig.": "The paper's figures and what draws them; fig. 1 (segment of the line) and fig. 8 (buoy in waves) are "
-        "sketches. Data: `figures/`.",
-        "eq.": "The paper's equations and where they are in the code.",
-    }
-    tables = (
-        Table(tuple(Column(head, align="left") for head in HEADS[kind]), tuple(rows_of(kind)), caption, small=True)
-        for kind, caption in captions.items()
-    )
     text = "To find an equation or a figure in the sources search for it as written here; NOTATION.md has the list too."
-    return [Heading("Where to find what"), Text(text), *tables]
+    items: list[Item] = [Heading("Where to find what"), Text(text)]
+    for kind, caption in CAPTIONS.items():
+        heads = tuple(Column(head, align="left") for head in HEADS[kind])
+        items.append(Table(heads, tuple(rows_of(kind)), caption, small=True))
+    return items
 
 
 if __name__ == "__main__":

@@ -6,15 +6,13 @@ takes heads, units, digits and the words of a caption from there, so that it dec
 
 from __future__ import annotations
 
-import csv
 import math
 import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from pathlib import Path
+from functools import partial
 
 from .content import Column, Table, sub
-from .faults import FolderError
 from .wording import EMPTY, decimals, number
 
 HEADER = ("name", "unit", "symbol", "meaning", "digits")
@@ -64,27 +62,9 @@ def number_of(entry: object) -> float:
     return math.nan if entry is None or entry == "" else float(entry)
 
 
-def read_columns(directory: str | Path, table: str = "table.csv") -> dict[str, Quantity]:
-    """The dictionary of a table of a folder by name, in the order of the table: columns.csv, or X_columns.csv of X.csv.
-
-    Raises FolderError where there is none, as in folders made before there were dictionaries, or an unsound one.
-    """
-    name = "columns.csv" if table == "table.csv" else f"{table.removesuffix('.csv')}_columns.csv"
-    try:
-        with open(Path(directory, name), encoding="utf-8", newline="") as file:
-            reader = csv.DictReader(file)
-            if tuple(reader.fieldnames or ()) != HEADER:
-                raise ValueError(f"its first line is not {','.join(HEADER)}")
-            rows = list(reader)
-        if any(None in row or None in row.values() for row in rows):
-            raise ValueError(f"a row has not {len(HEADER)} entries")
-        found = [Quantity(**{**row, "digits": int(row["digits"]) if row["digits"] else None}) for row in rows]
-    except FileNotFoundError:
-        fault = f"{name} is missing (made by an older version: run the command again, finished runs are found)"
-        raise FolderError(Path(directory), [fault]) from None
-    except (OSError, ValueError) as error:
-        raise FolderError(Path(directory), [f"{name} cannot be read: {error}"]) from None
-    return {column.name: column for column in found}
+def value(row: Mapping[str, object], column: str) -> float:
+    """An entry of a row of text as a number, nan where it is empty or the row has no such column."""
+    return number_of(row.get(column))
 
 
 def table_of(
@@ -100,31 +80,24 @@ def table_of(
     table shows, in front of the meanings. own: name -> cell of a row, in place of the entry in print.
     Raises KeyError for a name that the dictionary does not have.
     """
-    own = own or {}
-    chosen = [columns[_value(name)] for name in names]
+    cells = {}
+    for name in names:
+        value, error = (name, "") if isinstance(name, str) else name
+        cells[value] = (own or {}).get(value) or partial(plus_minus, columns, value=value, error=error)
+    chosen = [columns[name] for name in cells]
     heads = tuple(Column(one.head, one.unit, "left" if one.digits is None else "right") for one in chosen)
-    body = tuple(
-        tuple(own[_value(name)](row) if _value(name) in own else _cell(columns, name, row) for name in names)
-        for row in rows
-    )
+    body = tuple(tuple(cell(row) for cell in cells.values()) for row in rows)
     return Table(heads, body, f"{caption} {explained(columns, names)}".strip(), small=True)
 
 
 def explained(columns: Mapping[str, Quantity], names: Sequence[Name]) -> str:
     """The heads and what they mean, in one sentence: "kA: wave steepness; r_min: least radius." """
-    parts = [f"{one.head}: {one.meaning}" for name in names if (one := columns[_value(name)]).meaning]
+    chosen = (columns[name if isinstance(name, str) else name[0]] for name in names)
+    parts = [f"{one.head}: {one.meaning}" for one in chosen if one.meaning]
     return f"{'; '.join(dict.fromkeys(parts))}." if parts else ""
 
 
 def plus_minus(columns: Mapping[str, Quantity], row: Mapping[str, object], value: str, error: str) -> str:
-    """ "−0.039 ± 0.003", or a dash where there is no value."""
+    """ "−0.039 ± 0.003", "−0.039" where `error` is "", or a dash where there is no value."""
     found = columns[value].cell(row.get(value))
-    return found if found == EMPTY else f"{found}\u00a0±\u00a0{columns[value].cell(row.get(error))}"
-
-
-def _value(name: Name) -> str:
-    return name if isinstance(name, str) else name[0]
-
-
-def _cell(columns: Mapping[str, Quantity], name: Name, row: Mapping[str, object]) -> str:
-    return columns[name].cell(row.get(name)) if isinstance(name, str) else plus_minus(columns, row, *name)
+    return found if found == EMPTY or not error else f"{found}\u00a0±\u00a0{columns[value].cell(row.get(error))}"

@@ -9,6 +9,7 @@ pair of backquotes for a file, column or key name, because captions name their c
 from __future__ import annotations
 
 import re
+from collections import Counter
 from dataclasses import dataclass
 from typing import Literal
 
@@ -238,16 +239,16 @@ def first_sentence(text: str) -> str:
     return text[: end.start()] if end else text
 
 
-def section_ids(items: tuple[Item, ...]) -> dict[int, str]:
-    """Index of every heading in the list -> its number, "1", "1.1", ...: one numbering for both renderers."""
-    numbers, section, division = {}, 0, 0
-    for index, item in enumerate(items):
-        if not isinstance(item, Heading):
-            continue
-        if item.level == 1:
-            section, division = section + 1, 0
-            numbers[index] = str(section)
-        else:
-            division += 1
-            numbers[index] = f"{section}.{division}"
-    return numbers
+def numbered(items: tuple[Item, ...]) -> list[dict]:
+    """Every item with its kind and its number, for both renderers: headings "1", "1.1", ..., all others from 1 on."""
+    counts, section, division, blocks = Counter(), 0, 0, []
+    for item in items:
+        kind = type(item).__name__.lower()
+        counted = "figure" if kind == "explorer" else kind
+        counts[counted] += 1
+        number = str(counts[counted])
+        if isinstance(item, Heading):
+            section, division = (section + 1, 0) if item.level == 1 else (section, division + 1)
+            number = f"{section}.{division}" if division else str(section)
+        blocks.append({"kind": kind, "item": item, "number": number})
+    return blocks

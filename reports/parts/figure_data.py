@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import io
 import json
-from dataclasses import dataclass
+from types import SimpleNamespace
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
@@ -16,19 +16,6 @@ if TYPE_CHECKING:
 
 class FigureDataError(ValueError):
     """A data file that cannot be read: truncated, or not one of these."""
-
-
-@dataclass(frozen=True)
-class Source:
-    """One result behind a figure: what it is called there, its file and content hash, the key of its run, its settings
-    as TOML or JSON, and the seconds of computing that it took."""
-
-    label: str
-    file: str
-    sha256: str
-    key: str
-    settings: str
-    run_s: float
 
 
 def parsed(content: bytes) -> xarray.Dataset:
@@ -43,6 +30,9 @@ def parsed(content: bytes) -> xarray.Dataset:
     return found
 
 
-def sources_of(content: xarray.Dataset) -> tuple[Source, ...]:
-    """The results behind the figure, in the order of its key of lines."""
-    return tuple(Source(**one) for one in json.loads(content.attrs["sources"]))
+def sources_of(content: xarray.Dataset) -> list[SimpleNamespace]:
+    """The results behind the figure, in the order of its key of lines.
+
+    Each has its label there, its file and sha256, the key of its run, its settings (TOML or JSON), and its run_s.
+    """
+    return [SimpleNamespace(**one) for one in json.loads(content.attrs["sources"])]

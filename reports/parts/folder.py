@@ -1,4 +1,4 @@
-"""A campaign's folder as the report needs it, checked before anything is drawn or written."""
+"""A campaign's folder as a report needs it, checked before anything is drawn or written: one reader for every file."""
 
 from __future__ import annotations
 
@@ -10,8 +10,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from .columns import Quantity, read_columns
-from .faults import FolderError
+from .columns import HEADER, Quantity
 
 if TYPE_CHECKING:
     import pandas
@@ -20,11 +19,20 @@ if TYPE_CHECKING:
 
 PARTS = {
     "table.csv": "one row a run",
+    "columns.csv": "what its columns are",
     "scene.toml": "the scene as run",
     "provenance.json": "what ran, where and for how long",
     "trajectories": "the runs, one netCDF file each",
 }
-__all__ = ["Folder", "FolderError", "Row", "no_folder", "provenance_of", "read_folder", "read_rows"]
+_OLD = "made by an older version: run the command again, finished runs are found"
+
+
+class FolderError(ValueError):
+    """The folder cannot be reported on; `faults` lists every reason, str() shows them all."""
+
+    def __init__(self, directory: Path, faults: list[str]):
+        self.faults = tuple(faults)
+        super().__init__("\n".join([f"no report can be made of {directory}:", *(f"  - {fault}" for fault in faults)]))
 
 
 @dataclass(frozen=True)
@@ -57,93 +65,6 @@ class Folder:
             return None, f"its file {path.name} cannot be read ({reason})"
 
 
-def read_folder(directory: str | Path, needed: tuple[str, ...] = ()) -> Folder:
-    """Read and check a campaign's folder: its table has the columns of its dictionary, and text where that says so.
-
-    needed: the columns without which there is no report.
-    Raises FolderError naming every part that is missing or cannot be read.
-    """
-    directory = Path(directory)
-    if not directory.is_dir():
-        raise FolderError(directory, [no_folder(directory)])
-    faults = [f"{name} is missing ({meaning})" for name, meaning in PARTS.items() if not (directory / name).exists()]
-    try:
-        told = read_columns(directory)
-    except FolderError as error:
-        faults += error.faults
-        told = {}
-    provenance = _read(directory / "provenance.json", _provenance, faults)
-    table = _read(directory / "table.csv", lambda path: _table(path, needed, told), faults)
-    scene = _read(directory / "scene.toml", _scene, faults)
-    if table is not None and told and (unknown := [name for name in table.columns if name not in told]):
-        faults.append(f"columns.csv does not tell of all columns of table.csv: {', '.join(unknown)}")
-    if faults:
-        raise FolderError(directory, faults)
-    return Folder(directory, provenance, table, scene, told)
-
-
-def read_rows(table: Path) -> list[dict[str, str]]:
-    """The rows of a table that a campaign may have left out, as they stand; none where it cannot be read."""
-    try:
-        with open(table, encoding="utf-8", newline="") as file:
-            return list(csv.DictReader(file))
-    except (OSError, ValueError):
-        return []
-
-
-def no_folder(directory: Path) -> str:
-    """Why a path that is no folder is none, and what is wanted instead."""
-    there = "it is a file" if directory.exists() else "there is no such folder"
-    return f"{there}; give the folder that a campaign wrote (its --out), for instance results/buoy_sweep"
-
-
-def provenance_of(directory: str | Path) -> dict:
-    """What is told of the making of a folder, {} where nothing can be read."""
-    try:
-        return _provenance(Path(directory) / "provenance.json")
-    except (OSError, ValueError):
-        return {}
-
-
-def _read(path: Path, reader, faults: list[str]):
-    if not path.exists():
-        return None
-    try:
-        return reader(path)
-    except (OSError, ValueError, KeyError) as error:
-        faults.append(f"{path.name} cannot be read: {error}")
-        return None
-
-
-def _provenance(path: Path) -> dict:
-    content = json.loads(path.read_text(encoding="utf-8"))
-    if not isinstance(content, dict):
-        raise ValueError("not a JSON object")
-    return content
-
-
-def _table(path: Path, needed: tuple[str, ...], told: dict[str, Quantity]) -> pandas.DataFrame:
-    import pandas
-
-    text = [name for name, column in told.items() if column.digits is None]
-    table = pandas.read_csv(path, dtype=dict.fromkeys(text, str), keep_default_na=True)
-    absent = [column for column in needed if column not in table.columns]
-    if absent:
-        raise ValueError(f"column{'s' if len(absent) > 1 else ''} missing: {', '.join(absent)}")
-    if table.empty:
-        raise ValueError("it has no rows")
-    known = [name for name in table.columns if name in told]
-    return table.assign(
-        **{name: table[name].fillna("") if name in text else pandas.to_numeric(table[name]) for name in known}
-    )
-
-
-def _scene(path: Path):
-    from engine import load_scene
-
-    return load_scene(path)
-
-
 @dataclass(frozen=True, eq=False)
 class Row:
     """One row of a campaign's table."""
@@ -162,3 +83,128 @@ class Row:
     def known(self, column: str) -> bool:
         """Whether the row has a number in that column."""
         return math.isfinite(self[column])
+
+
+def read_folder(directory: str | Path, needed: tuple[str, ...] = ()) -> Folder:
+    """Read and check a campaign's folder: its table has the columns of its dictionary, and text where that says so.
+
+    needed: the columns without which there is no report.
+    Raises FolderError naming every part that is missing or cannot be read.
+    """
+    directory = Path(directory)
+    found, faults = _found(directory, PARTS)
+    columns, table = found.get("columns.csv"), None
+    if columns is not None and "table.csv" in found:
+        try:
+            table = _table(found["table.csv"], needed, columns)
+        except ValueError as error:
+            faults.append(f"table.csv cannot be read: {error}")
+    if faults:
+        raise FolderError(directory, faults)
+    return Folder(directory, found["provenance.json"], table, found["scene.toml"], columns)
+
+
+def read_files(directory: str | Path, wanted: Mapping[str, str]) -> dict[str, object]:
+    """{name: content}: rows {column: text} of a .csv file, the object of a .json file, the scene of a .toml file, the
+    `Quantity` of every column of a dictionary of columns by name, the paths in a folder.
+
+    wanted: name of a file or folder -> what it holds. Raises FolderError naming all that is missing or cannot be read.
+    """
+    found, faults = _found(Path(directory), wanted)
+    if faults:
+        raise FolderError(Path(directory), faults)
+    return found
+
+
+def read_columns(directory: str | Path, table: str = "table.csv") -> dict[str, Quantity]:
+    """The dictionary of a table of a folder by name, in the order of the table: columns.csv, or X_columns.csv of X.csv.
+
+    Raises FolderError where there is none, as in folders made before there were dictionaries, or an unsound one.
+    """
+    name = "columns.csv" if table == "table.csv" else f"{table.removesuffix('.csv')}_columns.csv"
+    return read_files(directory, {name: f"what the columns of {table} are"})[name]
+
+
+def read_rows(table: Path) -> list[dict[str, str]]:
+    """The rows of a table that a campaign may have left out, as they stand; none where it cannot be read."""
+    try:
+        return _rows(table)
+    except (OSError, ValueError):
+        return []
+
+
+def provenance_of(directory: str | Path) -> dict:
+    """What is told of the making of a folder, {} where nothing can be read."""
+    try:
+        return _json(Path(directory) / "provenance.json")
+    except (OSError, ValueError):
+        return {}
+
+
+def no_folder(directory: Path) -> str:
+    """Why a path that is no folder is none, and what is wanted instead."""
+    there = "it is a file" if directory.exists() else "there is no such folder"
+    return f"{there}; give the folder that a campaign wrote (its --out), for instance results/buoy_sweep"
+
+
+def _found(directory: Path, wanted: Mapping[str, str]) -> tuple[dict[str, object], list[str]]:
+    """What can be read of the wanted, by name, and what is wrong with the rest."""
+    if not directory.is_dir():
+        return {}, [no_folder(directory)]
+    found, faults = {}, []
+    for name, meaning in wanted.items():
+        path = directory / name
+        reader = next(read for ending, read in _READERS.items() if name.endswith(ending))
+        if not path.exists():
+            faults.append(f"{name} is missing ({meaning}{f'; {_OLD}' if reader is _columns else ''})")
+            continue
+        try:
+            found[name] = reader(path)
+        except (OSError, ValueError, KeyError) as error:
+            faults.append(f"{name} cannot be read: {error}")
+    return found, faults
+
+
+def _rows(path: Path, head: tuple[str, ...] = ()) -> list[dict[str, str]]:
+    with open(path, encoding="utf-8", newline="") as file:
+        reader = csv.DictReader(file)
+        rows = list(reader)
+    if head and tuple(reader.fieldnames or ()) != head:
+        raise ValueError(f"its first line is not {','.join(head)}")
+    if any(None in row or None in row.values() for row in rows):
+        raise ValueError("a row has not as many entries as the first line")
+    return rows
+
+
+def _columns(path: Path) -> dict[str, Quantity]:
+    rows = _rows(path, HEADER)
+    return {row["name"]: Quantity(**{**row, "digits": int(row["digits"]) if row["digits"] else None}) for row in rows}
+
+
+def _json(path: Path) -> dict:
+    content = json.loads(path.read_text(encoding="utf-8"))
+    if not isinstance(content, dict):
+        raise ValueError("not a JSON object")
+    return content
+
+
+def _scene(path: Path) -> Scene:
+    from engine import load_scene
+
+    return load_scene(path)
+
+
+_READERS = {"columns.csv": _columns, ".csv": _rows, ".json": _json, ".toml": _scene, "": lambda path: [*path.iterdir()]}
+
+
+def _table(rows: list[dict[str, str]], needed: tuple[str, ...], told: dict[str, Quantity]) -> pandas.DataFrame:
+    import pandas
+
+    if not rows:
+        raise ValueError("it has no rows")
+    if absent := [column for column in needed if column not in rows[0]]:
+        raise ValueError(f"column{'s' if len(absent) > 1 else ''} missing: {', '.join(absent)}")
+    if unknown := [name for name in rows[0] if name not in told]:
+        raise ValueError(f"columns.csv does not tell of all columns: {', '.join(unknown)}")
+    table = pandas.DataFrame(rows)
+    return table.assign(**{name: pandas.to_numeric(table[name]) for name in table if told[name].digits is not None})

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-import csv
 from collections.abc import Iterable
 from pathlib import Path
 
 from .content import Column, Table
-from .folder import FolderError
+from .folder import FolderError, read_files
 
 FILE = "statements.csv"
 COLUMNS = ("number", "place", "statement", "verdict", "condition", "found", "threshold", "evidence")
@@ -18,15 +17,10 @@ Judged = dict[str, str]
 
 def read_statements(directory: Path) -> tuple[Judged, ...]:
     """The rows of statements.csv. Raises FolderError where they cannot be read."""
-    try:
-        with open(directory / FILE, encoding="utf-8", newline="") as file:
-            reader = csv.DictReader(file)
-            rows = tuple(reader)
-    except (OSError, ValueError) as error:
-        raise FolderError(directory, [f"{FILE} cannot be read: {error}"]) from None
-    if tuple(reader.fieldnames or ()) != COLUMNS:
+    rows = read_files(directory, {FILE: "the statements of the paper as judged"})[FILE]
+    if not all(tuple(row) == COLUMNS for row in rows):
         raise FolderError(directory, [f"{FILE} cannot be read: its first line is not {','.join(COLUMNS)}"])
-    return rows
+    return tuple(rows)
 
 
 def counted(rows: Iterable[Judged]) -> str:
@@ -40,14 +34,7 @@ def statements_table(rows: Iterable[Judged], caption: str) -> Table:
     titles = (("place", 1), ("the paper", 3), ("verdict", 3), ("the runs", 5), ("decided by, evidence", 3))
     heads = (Column("no."), *(Column(title, align="left", share=share) for title, share in titles))
     body = tuple(
-        (
-            row["number"],
-            row["place"],
-            row["statement"],
-            said(row),
-            row["found"],
-            f"{row['threshold']}. {row['evidence']}",
-        )
+        (*(row[name] for name in COLUMNS[:3]), said(row), row["found"], f"{row['threshold']}. {row['evidence']}")
         for row in rows
     )
     return Table(heads, body, caption, small=True)

@@ -10,24 +10,10 @@ import json
 import tempfile
 from dataclasses import fields, is_dataclass
 from importlib.resources import files
-from itertools import zip_longest
+from itertools import pairwise
 from pathlib import Path
 
-from .content import (
-    Equation,
-    Explorer,
-    Figure,
-    Heading,
-    Listing,
-    Notice,
-    Picture,
-    Report,
-    Sheet,
-    Text,
-    first_sentence,
-    section_ids,
-    spans,
-)
+from .content import Equation, Explorer, Figure, Listing, Picture, Report, Sheet, first_sentence, numbered, spans
 
 _LONGEST_TITLE = 90  # letters above a page
 
@@ -54,21 +40,15 @@ def typst_data(report: Report) -> tuple[dict, dict[str, bytes]]:
 
     Sheets are on the page only: on paper they would be hundreds. Of an explorer the figure is shown.
     """
-    numbers, pictures, items = section_ids(report.items), {}, []
-    for index, (item, following) in enumerate(zip_longest(report.items, report.items[1:])):
+    pictures, items = {}, []
+    for block in numbered(report.items):
+        item = block["item"].figure if isinstance(block["item"], Explorer) else block["item"]
         if isinstance(item, Sheet):
             continue
-        item = item.figure if isinstance(item, Explorer) else item
-        entry = {**_pieces(item), "kind": type(item).__name__.lower()}
+        entry = {**_pieces(item), "type": type(item).__name__.lower(), "number": block["number"]}
         match item:
-            case Heading():
-                entry["number"] = numbers[index]
-            case Text():
-                entry["announces"] = isinstance(following, (Figure, Equation))  # stays with what comes next
             case Equation():
-                entry["math"] = item.math
-            case Notice():
-                entry["tone"] = spans(item.kind)
+                entry |= {"math": item.math, "number": item.number}
             case Listing():
                 entry["text"] = item.text
             case Figure():
@@ -76,6 +56,8 @@ def typst_data(report: Report) -> tuple[dict, dict[str, bytes]]:
                 pictures[name] = item.picture.data
                 entry |= {"file": name, "first": spans(first_sentence(item.caption))}
         items.append(entry)
+    for entry, following in pairwise(items):
+        entry["announces"] = following["type"] in ("figure", "equation")  # a text stays with what comes next
     title = report.title
     short = title if len(title) <= _LONGEST_TITLE else title[: _LONGEST_TITLE - 1] + "…"
     return {"title": title, "short_title": short, "subtitle": report.subtitle, "items": items}, pictures

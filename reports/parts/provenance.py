@@ -1,12 +1,17 @@
-"""How a campaign was made, from its provenance.json: where its time went, and the table of all entries."""
+"""How a campaign was made: its scene, each value with its source; where its time went; all of provenance.json."""
 
 from __future__ import annotations
 
 import shlex
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
 
-from .content import Column, Heading, Item, Listing, Table, Text
+from .content import Column, Heading, Item, Listing, Table, Text, with_subscripts
 from .folder import Folder
 from .wording import EMPTY, decimals, number
+
+if TYPE_CHECKING:
+    from engine import Scene
 
 _TIMES = {
     "compile_s": "compiling the kernels",
@@ -16,48 +21,78 @@ _TIMES = {
 }
 
 
+def scene_table(scene: Scene, shipped: str, varied: dict[str, str], caption: str) -> Table:
+    """Value, unit and source of every parameter of a scene.
+
+    scene: as run. shipped: name of the shipped scene of the same kind; the source of its values is the comment beside
+    them in its file, and a value that differs is marked "set by the user". varied: the keys that the campaign varied,
+    with their values in words.
+    """
+    from engine import load_scene
+    from engine.scene.reference import keys, sources
+
+    told, known = sources(shipped), keys()
+    values, defaults = dict(_flat(scene.as_dict())), dict(_flat(load_scene(shipped).as_dict()))
+    rows = []
+    for name in dict.fromkeys([*values, *varied]):
+        if name in ("name", "title"):
+            continue
+        source = "varied by this campaign" if name in varied else told.get(name, "default of this work")
+        if name not in varied and values[name] != defaults.get(name):
+            source = "set by the user" + (f" (default {_shown(defaults[name])})" if name in defaults else "")
+        key, shown = known[name], varied[name] if name in varied else _shown(values[name])
+        meaning = key.meaning + (f", {key.symbol}" if key.symbol else "")
+        unit = key.unit if key.unit not in ("", "1") else EMPTY
+        rows.append((f"`{name}`", with_subscripts(meaning), shown, unit, with_subscripts(source)))
+    heads = ("key", "parameter", "value", "unit", "source")
+    columns = tuple(Column(head, align="right" if head == "value" else "left") for head in heads)
+    where = "Table, section, figure and eq. are those of Tjavaras et al. (1998)."
+    return Table(columns, tuple(rows), f"{caption} {where}", small=True)
+
+
 def timing_table(folder: Folder) -> Table | None:
     """The time split of a campaign, None where its provenance has none."""
-    timing = folder.provenance.get("timing")
-    if not isinstance(timing, dict) or not timing:
+    times = [(name, time) for name, time in _flat(folder.provenance.get("timing")) if isinstance(time, (int, float))]
+    if not times:
         return None
-    rows = tuple(
-        (_TIMES.get(name, name.removesuffix("_s").replace("_", " ")), decimals(float(time), 2))
-        for name, time in timing.items()
-        if isinstance(time, (int, float))
-    )
+    rows = ((_TIMES.get(name, name.removesuffix("_s").replace("_", " ")), decimals(time, 2)) for name, time in times)
     caption = "Where the time of the campaign went, from `provenance.json`."
-    return Table((Column("part", align="left"), Column("wall time", "s")), rows, caption)
+    return Table((Column("part", align="left"), Column("wall time", "s")), tuple(rows), caption)
 
 
 def provenance_items(folder: Folder) -> list[Item]:
     """The command and everything else that provenance.json holds."""
-    command = folder.provenance.get("command")
     items: list[Item] = [Heading("Provenance")]
-    if command:
-        items += [
-            Text("The command:"),
-            Listing(shlex.join(map(str, command)) if isinstance(command, list) else str(command)),
-        ]
-    rows = tuple(
-        (f"`{key}`", text) for key, text in _flat(folder.provenance) if key.split(".")[0] not in ("command", "timing")
-    )
-    if rows:
+    if command := folder.provenance.get("command"):
+        words = shlex.join(map(str, command)) if isinstance(command, list) else str(command)
+        items += [Text("The command:"), Listing(words)]
+    told = {key: entry for key, entry in folder.provenance.items() if key not in ("command", "timing")}
+    if rows := tuple((f"`{key}`", _shown(entry)) for key, entry in _flat(told)):
         columns = (Column("entry", align="left"), Column("value", align="left"))
         items.append(Table(columns, rows, "All of `provenance.json` but the command and the times.", small=True))
     return items
 
 
-def _flat(section: dict, prefix: str = "") -> list[tuple[str, str]]:
-    rows = []
-    for key, entry in section.items():
+def _flat(section: object, prefix: str = "") -> Iterator[tuple[str, object]]:
+    """(dotted key, entry) of nested sections, in their order; nothing where there is no section."""
+    for key, entry in section.items() if isinstance(section, dict) else ():
         if isinstance(entry, dict):
-            rows += _flat(entry, f"{prefix}{key}.")
-        elif isinstance(entry, list):
-            words = [number(e) if isinstance(e, float) else str(e) for e in entry]
-            short = words if len(words) <= 12 else [words[0], words[1], "…", words[-1]]
-            said = ", ".join(short) + (f" ({len(words)} entries)" if short != words else "")
-            rows.append((prefix + key, said or EMPTY))
+            yield from _flat(entry, f"{prefix}{key}.")
         else:
-            rows.append((prefix + key, EMPTY if entry in (None, "") else str(entry)))
-    return rows
+            yield prefix + key, entry
+
+
+def _shown(entry: object) -> str:
+    """An entry in print; a long list by its ends and its length."""
+    if isinstance(entry, bool):
+        return "yes" if entry else "no"
+    if isinstance(entry, float):
+        return number(entry, 6)
+    if isinstance(entry, (list, tuple)):
+        if any(isinstance(item, (list, tuple)) for item in entry):
+            return f"{len(entry)} entries"
+        words = [_shown(item) for item in entry]
+        if len(words) > 6:
+            return f"{words[0]}, {words[1]}, …, {words[-1]} ({len(words)} entries)"
+        return f"[{', '.join(words)}]"
+    return EMPTY if entry in (None, "") else str(entry)

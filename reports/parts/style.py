@@ -1,7 +1,7 @@
 """How every figure looks, and why its bytes repeat: Okabe & Ito's palette safe for all colour vision, white paper.
 
-`sheet` opens a figure under these settings alone (a reader's own matplotlibrc does not count); `picture_of` closes it.
-Text is drawn as outlines, so no font of the machine takes part.
+`sheet` opens a figure under the settings of `templates/report.mplstyle` alone (a reader's own matplotlibrc does not
+count); `picture_of` closes it.
 """
 
 from __future__ import annotations
@@ -9,6 +9,7 @@ from __future__ import annotations
 import io
 from collections.abc import Iterator
 from contextlib import contextmanager
+from importlib.resources import files
 
 import matplotlib
 from matplotlib.figure import Figure
@@ -20,40 +21,12 @@ DOTS_PER_INCH = 200
 MANY_POINTS = 6000  # above this a scatter is smaller and opens faster as pixels
 
 BLUE, VERMILION, GREEN, ORANGE, PURPLE, SKY = "#0072b2", "#d55e00", "#009e73", "#e69f00", "#cc79a7", "#56b4e9"
-INK, SOFT, GRID = "#1b1f24", "#6b7480", "#e3e7eb"
 # One hue whose lightness falls with the count: it reads in grey, for all colour vision, and a single point shows.
 DENSITY_COLOURS = ("#8fc1e3", "#2f7fbc", "#0b3c7d", "#061a3a")
 
-_SETTINGS = {
-    "font.family": "DejaVu Sans",
-    "font.size": 8.0,
-    "axes.titlesize": 8.5,
-    "axes.labelsize": 8.0,
-    "xtick.labelsize": 7.5,
-    "ytick.labelsize": 7.5,
-    "legend.fontsize": 7.5,
-    "legend.frameon": False,
-    "axes.edgecolor": SOFT,
-    "axes.linewidth": 0.7,
-    "axes.spines.top": False,
-    "axes.spines.right": False,
-    "axes.grid": True,
-    "grid.color": GRID,
-    "grid.linewidth": 0.6,
-    "axes.axisbelow": True,
-    "axes.titlelocation": "left",
-    "text.color": INK,
-    "axes.labelcolor": INK,
-    "xtick.color": INK,
-    "ytick.color": INK,
-    "lines.linewidth": 0.9,
-    "figure.facecolor": "white",
-    "savefig.facecolor": "white",
-    "figure.dpi": 100,
-    "svg.hashsalt": "tether-workbench",
-    "svg.fonttype": "path",
-    "path.simplify": True,
-}
+_FILE = files("reports").joinpath("templates/report.mplstyle")
+_SETTINGS = matplotlib.rc_params_from_file(_FILE, use_default_template=False)
+INK, SOFT, GRID = (_SETTINGS[name] for name in ("text.color", "axes.edgecolor", "grid.color"))
 
 
 @contextmanager

@@ -5,6 +5,8 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Iterable, Sequence
+from itertools import groupby
+from operator import itemgetter
 
 EMPTY = "–"
 
@@ -69,18 +71,9 @@ def ranges(values: Sequence[float], chosen: Sequence[bool]) -> str:
     >>> ranges([0.01, 0.02, 0.03, 0.05], [True, True, True, False])
     '0.01 to 0.03'
     """
-    groups: list[list[float]] = []
-    before = False
-    for value, wanted in zip(values, chosen, strict=True):
-        if wanted and before:
-            groups[-1].append(value)
-        elif wanted:
-            groups.append([value])
-        before = wanted
     parts = []
-    for group in groups:
-        if len(group) > 2:
-            parts.append(f"{number(group[0])} to {number(group[-1])}")
-        else:
-            parts += [number(value) for value in group]
+    for wanted, group in groupby(zip(values, chosen, strict=True), key=itemgetter(1)):
+        found = [number(value) for value, _ in group]
+        if wanted:
+            parts += [f"{found[0]} to {found[-1]}"] if len(found) > 2 else found
     return listed(parts)

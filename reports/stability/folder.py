@@ -5,9 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from pathlib import Path
 
-from ..parts.columns import Quantity, read_columns
-from ..parts.files import read_files
-from ..parts.folder import FolderError
+from ..parts.columns import Quantity
+from ..parts.folder import FolderError, read_columns, read_files
 
 FILES = {
     "table.csv": "one row a case",

@@ -7,8 +7,8 @@ from collections import Counter
 from collections.abc import Iterator
 from pathlib import Path
 
+from ..parts.columns import value
 from ..parts.content import Bullets, Heading, Item, Report, Text
-from ..parts.files import value
 from ..parts.provenance import provenance_items, timing_table
 from ..parts.wording import count, listed, number
 from . import sections

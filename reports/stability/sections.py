@@ -9,9 +9,8 @@ import numpy as np
 
 from ..figures.scene_shares import scene_shares
 from ..figures.step_maps import step_maps
-from ..parts.columns import table_of
+from ..parts.columns import table_of, value
 from ..parts.content import Column, Figure, Heading, Item, Notice, Table, Text
-from ..parts.files import value
 from ..parts.wording import EMPTY, decimals, number
 from .folder import SOUND, Study
 

@@ -60,6 +60,13 @@ def series(rows: Iterable[Mapping[str, object]], column: str) -> np.ndarray:
 
 
 def over_key(rows: Sequence[Mapping[str, object]], key: Quantity, shown: Sequence[Measured]) -> Picture:
+    """`panels_over` as one picture."""
+    panels = panels_over(rows, key, shown)
+    grid = [panels[first : first + PER_ROW] for first in range(0, len(panels), PER_ROW)]
+    return curves(grid, 0.6 + 1.7 * len(grid), "best")
+
+
+def panels_over(rows: Sequence[Mapping[str, object]], key: Quantity, shown: Sequence[Measured]) -> list[Panel]:
     """Every quantity over a varied key, a panel each, with error bars where there are errors.
 
     Runs that did not reach their full length are crosses.
@@ -75,8 +82,7 @@ def over_key(rows: Sequence[Mapping[str, object]], key: Quantity, shown: Sequenc
             lines.append(Curve(x[~good], y[~good], "", "", "x", colour, size=5.0))
         level = 0.0 if any(error for _, error in one.columns) else None
         panels.append(Panel(lines, key.label, one.label, level=level))
-    grid = [panels[first : first + PER_ROW] for first in range(0, len(panels), PER_ROW)]
-    return curves(grid, 0.6 + 1.7 * len(grid), "best")
+    return panels
 
 
 def extremes(

@@ -10,9 +10,8 @@ import numpy as np
 from ..figures.maps import Map, maps
 from ..parts.columns import Quantity, table_of
 from ..parts.content import Bullets, Figure, Heading, Item, Notice, Report, Table, Text, plain
-from ..parts.folder import Folder, FolderError, read_folder
-from ..parts.provenance import provenance_items, timing_table
-from ..parts.scene_table import scene_table
+from ..parts.folder import FolderError, read_folder
+from ..parts.provenance import provenance_items, scene_table, timing_table
 from ..parts.wording import EMPTY, count, listed, number, ranges
 from .quantities import Measured, at, extremes, measured, over_key, series
 
@@ -20,6 +19,7 @@ _PANELS, _MAPS, _COLUMNS = 8, 6, 14  # of one figure, of one table
 _LONGEST = 24  # letters of a cell of the tables of runs
 _NOTHING = Text("Every number of the table is the same in all runs, so there is nothing to draw.")
 _EXTREMES = "Least and greatest value of every column that is not the same in all runs."
+_SCENE = "The scene as run, from `scene.toml`, with the first value of what is varied."
 _COUNTED = ("end_time_s", "periods")  # columns that tell of the run, not of the motion
 
 
@@ -33,18 +33,22 @@ def report(directory: str | Path) -> Report:
     rows = folder.table.sort_values(list(vary), kind="stable").to_dict("records")
     shown = measured(folder.columns, rows, (*vary, *_COUNTED))
     said = listed(f"`{key.name}`" for key in keys)
+    varied = {key.name: listed(number(value) for value in np.unique(series(rows, key.name))) for key in keys}
+    shipped, times = str(folder.provenance.get("scene") or folder.scene.name), timing_table(folder)
     items = [
         Heading("Question"),
         Text(f"What does the scene `{folder.scene.name}` do as {said} {'varies' if len(keys) == 1 else 'vary'}?"),
         Heading("Short answer"),
         Bullets(_answer(keys, rows)),
         *extremes(keys, rows, [column for one in shown for column, _ in one.columns], _EXTREMES),
-        *(_panels(keys[0], rows, shown) if len(keys) == 1 else _maps(keys, rows, shown, folder.columns)),
+        *(_panels(keys[0], rows, shown) if len(keys) == 1 else _maps(keys, rows, shown)),
         Heading("Warnings"),
         _failed(keys, rows),
         Heading("Table of runs"),
         *_tables(folder.columns, keys, rows),
-        *_scene_and_times(folder, keys, rows),
+        *([Heading("Run times"), times] if times else []),
+        Heading("Scene"),
+        scene_table(folder.scene, shipped, varied, _SCENE),
         *provenance_items(folder),
     ]
     return Report(f"Sweep of {said.replace('`', '')}", folder.scene.title or folder.scene.name, tuple(items))
@@ -69,38 +73,35 @@ def _answer(keys: Sequence[Quantity], rows: Sequence[Mapping[str, object]]) -> t
 
 
 def _panels(key: Quantity, rows, shown: Sequence[Measured]) -> list[Item]:
-    items: list[Item] = [Heading(f"Over {key.head}")]
+    items: list[Item] = []
     for part in batched(shown, _PANELS):
         names = listed(plain(column.head) for one in part for column, _ in one.columns)
         caption = f"Columns of `table.csv` over {key.head}: {names}. Bars: one standard error; crosses: ended early."
         items.append(Figure(over_key(rows, key, part), caption, f"Panels over {plain(key.head)} of {names}."))
-    return items if shown else [*items, _NOTHING]
+    return [Heading(f"Over {key.head}"), *(items or [_NOTHING])]
 
 
-def _maps(keys: Sequence[Quantity], rows, shown: Sequence[Measured], columns: Mapping[str, Quantity]) -> list[Item]:
-    places = tuple(np.unique(series(rows, key.name)) for key in keys)
-    cells = [
-        tuple(int(np.searchsorted(values, float(row[key.name]))) for key, values in zip(keys, places, strict=True))
-        for row in rows
-    ]
-    drawn = []
-    if any(row.get("regime") for row in rows):
-        words = np.full((len(places[1]), len(places[0])), "", dtype=object)
-        for (across, up), row in zip(cells, rows, strict=True):
-            words[up, across] = str(row.get("regime") or "")
-        drawn.append(Map("", "regime", words))
+def _maps(keys: Sequence[Quantity], rows, shown: Sequence[Measured]) -> list[Item]:
+    over = [series(rows, key.name) for key in keys]
+    places = tuple(np.unique(values) for values in over)
+    across, up = (np.searchsorted(*pair) for pair in zip(places, over, strict=True))
+
+    def laid(values: np.ndarray, nothing: object) -> np.ndarray:
+        cells = np.full((len(places[1]), len(places[0])), nothing, dtype=values.dtype)
+        cells[up, across] = values
+        return cells
+
+    regimes = np.array([str(row.get("regime") or "") for row in rows], dtype=object)
+    drawn = [Map("", "regime", laid(regimes, ""))] if any(regimes) else []
     for column in (column for one in shown for column, _ in one.columns):
-        values = np.full((len(places[1]), len(places[0])), np.nan)
-        for (across, up), value in zip(cells, series(rows, column.name), strict=True):
-            values[up, across] = value
-        drawn.append(Map(column.label, plain(column.head), values))
-    items: list[Item] = [Heading(f"Over {keys[0].head} and {keys[1].head}")]
+        drawn.append(Map(column.label, plain(column.head), laid(series(rows, column.name), np.nan)))
+    items: list[Item] = []
     for part in batched(drawn, _MAPS):
         names = listed(one.name for one in part)
         caption = f"Columns of `table.csv` over {keys[0].head} and {keys[1].head}: {names}. Crosses: no value."
         picture = maps(places, (keys[0].label, keys[1].label), part)
         items.append(Figure(picture, caption, f"Maps over two parameters of {names}."))
-    return items if drawn else [*items, _NOTHING]
+    return [Heading(f"Over {keys[0].head} and {keys[1].head}"), *(items or [_NOTHING])]
 
 
 def batched(items: Sequence, most: int) -> list[Sequence]:
@@ -109,14 +110,11 @@ def batched(items: Sequence, most: int) -> list[Sequence]:
 
 
 def _failed(keys: Sequence[Quantity], rows) -> Notice:
-    lines = tuple(
-        f"{at(keys, row)}: {row['status']}" + (f": {row['message']}" if row["message"] else "")
-        for row in rows
-        if row["status"] != "ok"
-    )
-    if not lines:
+    failed = [row for row in rows if row["status"] != "ok"]
+    if not failed:
         return Notice("note", "Nothing to warn of", ("Every run reached its full length.",))
-    return Notice("warning", "Runs that failed", lines)
+    lines = (": ".join(filter(None, (at(keys, row), row["status"], row["message"]))) for row in failed)
+    return Notice("warning", "Runs that failed", tuple(lines))
 
 
 def _tables(columns: Mapping[str, Quantity], keys: Sequence[Quantity], rows) -> list[Table]:
@@ -128,16 +126,8 @@ def _tables(columns: Mapping[str, Quantity], keys: Sequence[Quantity], rows) -> 
         if name not in own and cells != {EMPTY} and max(map(len, cells)) <= _LONGEST:
             names.append(name)
     parts = batched(names, _COLUMNS)
-    captions = [
-        f"Every run, columns {k} of {len(parts)}." if len(parts) > 1 else "Every run." for k in range(1, len(parts) + 1)
+    which = [f", columns {k} of {len(parts)}" if len(parts) > 1 else "" for k in range(1, len(parts) + 1)]
+    return [
+        table_of(columns, [*own, *part], rows, f"Every run{said}.", own)
+        for part, said in zip(parts, which, strict=True)
     ]
-    return [table_of(columns, [*own, *part], rows, said, own) for part, said in zip(parts, captions, strict=True)]
-
-
-def _scene_and_times(folder: Folder, keys: Sequence[Quantity], rows) -> list[Item]:
-    varied = {key.name: listed(number(value) for value in np.unique(series(rows, key.name))) for key in keys}
-    shipped = str(folder.provenance.get("scene") or folder.scene.name)
-    caption = "The scene as run, from `scene.toml`, with the first value of what is varied."
-    times = timing_table(folder)
-    table = scene_table(folder.scene, shipped, varied, caption)
-    return [*([Heading("Run times"), times] if times else []), Heading("Scene"), table]

@@ -12,16 +12,23 @@ from pathlib import Path
 import pytest
 
 from campaigns import buoy_sweep
+from engine import Trajectory
 from tests.campaigns.fake_engine import FakeEngine
 
 ROOT = Path(__file__).parents[2]
 USUAL = ["--periods", "6", "--transient", "2", "--no-report", "--no-accuracy"]
+VALUES = [f"{0.01 * number:.2f}" for number in range(1, 13)]  # of a sweep long enough for an accident in its midst
 
 
-def rows_of(out):
-    """table.csv as a list of dicts of strings."""
-    with open(Path(out) / "table.csv", newline="") as file:
+def rows_of(out, table="table.csv"):
+    """A table as a list of dicts of strings."""
+    with open(Path(out, table), newline="") as file:
         return list(csv.DictReader(file))
+
+
+def statuses(rows):
+    """Steepness -> status."""
+    return {float(row["steepness"]): row["status"] for row in rows}
 
 
 def finished(out):
@@ -29,16 +36,25 @@ def finished(out):
     return {path.name: (path.stat().st_ino, path.stat().st_mtime_ns) for path in Path(out, "trajectories").glob("*.nc")}
 
 
+def forget(out):
+    """Remove all runs and rows of a folder."""
+    for path in (out / "trajectories").iterdir():
+        path.unlink()
+
+
 @pytest.fixture
 def sweep(tmp_path):
-    """sweep(*options, backend=, jobs=, **fields of the FakeEngine) -> exit code, rows, steepness of the runs begun."""
+    """sweep(*options, backend=, jobs=, usual=, kind=, **fields of that kind of FakeEngine).
+
+    Returns exit code, rows, steepness of the runs begun.
+    """
     out = tmp_path / "out"
 
-    def run(*options, backend="threading", jobs=2, **fake):
+    def run(*options, backend="threading", jobs=2, usual=USUAL, kind=FakeEngine, **fake):
         log = tmp_path / "log"
         log.unlink(missing_ok=True)
-        engine = FakeEngine(log=str(log), **fake)
-        words = [*map(str, options), *USUAL, "--backend", backend, "--jobs", str(jobs), "--out", str(out)]
+        engine = kind(log=str(log), **fake)
+        words = [*map(str, options), *usual, "--backend", backend, "--jobs", str(jobs), "--out", str(out)]
         code = buoy_sweep.main(words, simulate=engine)
         return code, rows_of(out), sorted(engine.begun())
 
@@ -48,7 +64,7 @@ def sweep(tmp_path):
 
 def start_sweep(out, *options, session=False, **fake):
     """The sweep as a process of its own; with `session` in a process group of its own."""
-    words = [sys.executable, "-m", "tests.campaigns.fake_sweep", *map(str, options), *USUAL, "--out", str(out)]
+    words = [sys.executable, "-m", "tests.campaigns.fake_engine", *map(str, options), *USUAL, "--out", str(out)]
     return subprocess.Popen(
         words,
         cwd=ROOT,
@@ -66,6 +82,14 @@ def _hear_interrupts():
     signal.signal(signal.SIGINT, signal.SIG_DFL)
 
 
+def done(process, code=0):
+    """Wait for the end of a sweep; returns what it said of its faults, which is no traceback."""
+    output, error = process.communicate(timeout=120)
+    assert process.returncode == code, output + error
+    assert "Traceback" not in error
+    return error
+
+
 def until(condition, process, seconds=40.0):
     """Wait for the condition while the process lives."""
     end = time.monotonic() + seconds
@@ -73,3 +97,24 @@ def until(condition, process, seconds=40.0):
         assert process.poll() is None, process.communicate()
         assert time.monotonic() < end, "nothing happened"
         time.sleep(0.01)
+
+
+def sound_part(out):
+    """The finished runs of a campaign that was stopped in its midst; each of them can be read, and so can the table."""
+    before = finished(out)
+    assert 0 < len(before) < len(VALUES)
+    for name in before:
+        Trajectory.load(out / "trajectories" / name)
+    assert {f"{row['run_key']}.nc" for row in rows_of(out)} <= before.keys()
+    return before
+
+
+def check_and_complete(out, log, *options):
+    """The same command does the rest, and only that."""
+    before = sound_part(out)
+    log.unlink(missing_ok=True)
+    done(start_sweep(out, "--steepness", *VALUES, *options, log=str(log)))
+    assert before.items() <= finished(out).items()
+    assert len(log.read_text().split()) == len(VALUES) - len(before)
+    assert [row["status"] for row in rows_of(out)] == ["ok"] * len(VALUES)
+    assert not list(out.rglob(".*.tmp"))

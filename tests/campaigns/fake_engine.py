@@ -1,8 +1,11 @@
 """A stand-in for engine.simulate: sine waves at once, and on request every way a run can go wrong.
 
 Steepness chooses the run, so that a campaign can be told which of its runs shall fail and how.
+
+    python -m tests.campaigns.fake_engine ...      the buoy sweep with one; its fields as JSON in the variable FAKE
 """
 
+import json
 import os
 import signal
 import sys
@@ -13,6 +16,7 @@ from pathlib import Path
 import numpy as np
 
 from engine import Trajectory
+from engine.trajectory import Profiles
 
 STATISTICS = {"steps": 7, "rejected_steps": 1, "newton_iterations": 21, "newton_failures": 0, "loop_releases": 0}
 
@@ -93,3 +97,25 @@ def sines(
     statistics = STATISTICS | {"max_turn_rad": 0.1, "min_strain": 0.01, "end_time_s": float(t[-1]), "wall_s": 0.5}
     statistics["loop_releases"] = releases
     return Trajectory(scene, status, message, columns, statistics)
+
+
+def shapes(run):
+    """Profiles of a run: nodes on a half sine about the line to the buoy, in the plane and across it; its tension."""
+    scene, columns = run.scene, run.columns
+    t = np.arange(0.0, columns["time_s"][-1] + 1e-9, scene.output.profiles_step_s)
+    s = np.linspace(0.0, scene.tether.length_m, scene.tether.nodes)
+    along, arch = s / s[-1], np.sin(np.pi * s / s[-1])
+    names = ("x_m", "z_m", "tension_top_N")
+    x, z, tension = (np.interp(t, columns["time_s"], columns[name])[:, None] for name in names)
+    y = 0.1 * np.abs(np.sin(0.1 * t))[:, None]
+    nothing = np.zeros((len(t), len(s)))
+    return Profiles(t, s, x * along + 0.5 * arch, y * arch, z * along, nothing, nothing + tension, nothing)
+
+
+if __name__ == "__main__":
+    from campaigns import buoy_sweep
+    from tests.campaigns.fake_engine import FakeEngine as Engine  # workers know it by this name
+
+    fields = json.loads(os.environ.get("FAKE", "{}"))
+    fields = {name: tuple(entry) if isinstance(entry, list) else entry for name, entry in fields.items()}
+    sys.exit(buoy_sweep.main(simulate=Engine(**fields)))

@@ -9,8 +9,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from campaigns.out_of_plane import LOOPING_DEPTHS_M, SMALL
-from engine.trajectory import Profiles
-from tests.campaigns.fake_engine import FakeEngine
+from tests.campaigns.fake_engine import FakeEngine, shapes
 
 SWING = 0.2  # rad/s
 SMALL_RATE, LARGE_RATE = -0.04, {"growth": 0.08, "decay": -0.05}  # nats/s
@@ -34,7 +33,7 @@ class SpaceEngine(FakeEngine):
             return replace(run, status="statics-failed", message="not found", columns=empty)
         buoy, rope = lateral(run.columns["time_s"], scene, self.large)
         columns = run.columns | {"y_m": buoy, "offplane_m": np.abs(rope)}
-        return replace(run, columns=columns, profiles=profiles(scene, run.columns) if scene.output.profiles else None)
+        return replace(run, columns=columns, profiles=shapes(run) if scene.output.profiles else None)
 
 
 def lateral(t, scene, large):
@@ -50,13 +49,3 @@ def lateral(t, scene, large):
     grown = swing * np.exp(rate * t)
     grown = grown / np.sqrt(1.0 + (grown / SATURATED_M) ** 2)
     return grown, grown
-
-
-def profiles(scene, columns):
-    """Nodes on a half sine across the plane and in it."""
-    t = columns["time_s"][::2]
-    s = np.linspace(0.0, scene.tether.length_m, scene.tether.nodes)
-    along, arch = s / s[-1], np.sin(np.pi * s / s[-1])
-    x, z = np.outer(0 * t, along) + 0.5 * arch, np.outer(columns["z_m"][::2], along)
-    y = 0.1 * np.outer(np.abs(np.sin(0.1 * t)), arch)
-    return Profiles(t, s, x, y, z, 0 * x, 0 * x, 0 * x)

@@ -109,10 +109,11 @@ def test_rms_of_series_and_of_places():
 
 def test_other_codes_run_beside_the_middle_round_of_ours():
     def jobs(kind, rounds):
-        return [Job(f"{kind}-{work}-{k}", "", None, labels={"work": work, "round": k}) for k in rounds for work in "ab"]
+        return [Job({"work": work, "round": k, "kind": kind}, None) for k in rounds for work in "ab"]
 
-    found = " ".join(job.key for job in side_by_side(jobs("ours", range(3)), jobs("theirs", [0]), 3))
-    assert found == "ours-a-0 ours-b-0 ours-a-1 theirs-a-0 ours-b-1 theirs-b-0 ours-a-2 ours-b-2"
+    found = side_by_side(jobs("ours", range(3)), jobs("theirs", [0]), 3)
+    said = " ".join("{kind}-{work}-{round}".format(**job.labels) for job in found)
+    assert said == "ours-a-0 ours-b-0 ours-a-1 theirs-a-0 ours-b-1 theirs-b-0 ours-a-2 ours-b-2"
 
 
 @pytest.mark.slow

@@ -1,7 +1,6 @@
 """A dask cluster whose workers do not see the campaign's folder: the same table, and whatever dies costs what ran."""
 
 import contextlib
-import csv
 import json
 import os
 import pickle
@@ -17,16 +16,26 @@ import pytest
 
 from campaigns import buoy_sweep
 from campaigns.buoy_sweep.rows import COLUMNS, buoy_row
-from campaigns.machinery import cluster
-from campaigns.machinery.kept_run import KeptRun
-from campaigns.machinery.plan import Plan, make_job
-from campaigns.machinery.worker import received, run_one
-from engine import Trajectory, load_scene
-from tests.campaigns.conftest import ROOT, finished, rows_of, start_sweep, until
+from campaigns.machinery import pools
+from campaigns.machinery.cli import Running
+from campaigns.machinery.plan import Job, KeptRun, Plan
+from campaigns.machinery.runner import run_campaign
+from engine import load_scene
+from tests.campaigns.conftest import (
+    ROOT,
+    USUAL,
+    VALUES,
+    check_and_complete,
+    done,
+    finished,
+    rows_of,
+    sound_part,
+    start_sweep,
+    until,
+)
 from tests.campaigns.fake_engine import FakeEngine, sines
 
 distributed = pytest.importorskip("distributed")
-VALUES = [f"{0.01 * number:.2f}" for number in range(1, 13)]
 
 
 class Dask:
@@ -80,28 +89,29 @@ def at(found):
     return ["--backend", "dask", "--dask-address", found.address]
 
 
-def done(process, code=0):
-    """Wait for its end; returns stderr."""
-    output, error = process.communicate(timeout=120)
-    assert process.returncode == code, output + error
-    assert "Traceback" not in error
-    return error
-
-
-def test_a_worker_is_not_told_of_the_folder_and_what_it_sends_is_kept_as_if_it_were(tmp_path):
+def test_a_worker_is_not_told_of_the_folder_and_what_it_sends_is_kept_as_if_it_were(tmp_path, monkeypatch):
     import cloudpickle
 
-    place = tmp_path / "of-the-campaign"
-    (place / "trajectories").mkdir(parents=True)
-    describe = partial(buoy_row, transient_periods=2)
-    job = make_job(load_scene("tethered_buoy", {"waves.steepness": 0.05}), 6, labels={"steepness": 0.05})
-    far = Plan(place, FakeEngine(), describe, COLUMNS, "dask", row_maker="this one")
-    assert b"of-the-campaign" not in cloudpickle.dumps(partial(run_one, far.for_workers()))
-    sent = pickle.loads(pickle.dumps(run_one(far.for_workers(), job)))
-    assert list((place / "trajectories").iterdir()) == [] and sent.content
-    assert received(far, job, sent).row == run_one(Plan(place, FakeEngine(), describe, COLUMNS), job).row
-    (path,) = (place / "trajectories").glob("*.nc")
-    assert path.read_bytes() == sent.content and path.with_suffix(".row.json").exists()
+    def elsewhere(call, tasks, alone=False):
+        sent = cloudpickle.dumps(call)
+        assert b"of-the-campaign" not in sent
+        for task in tasks:
+            outcomes = pickle.loads(sent)(pickle.loads(cloudpickle.dumps(task)))
+            assert list((place / "trajectories").iterdir()) == [] and outcomes[0].content
+            yield task, pickle.loads(pickle.dumps(outcomes))
+
+    job = Job({"steepness": 0.05}, load_scene("tethered_buoy", {"waves.steepness": 0.05}), 6)
+    row, places = partial(buoy_row, transient_periods=2), [tmp_path / "here", tmp_path / "of-the-campaign"]
+    rows = []
+    for place, backend in zip(places, ("threading", "dask"), strict=True):
+        (place / "trajectories").mkdir(parents=True)
+        plan = Plan(Running(place, 1, backend), FakeEngine(), row, COLUMNS, "this one", show_progress=False)
+        rows += run_campaign(plan, [job]).rows
+        monkeypatch.setattr("campaigns.machinery.runner.opened", lambda *_: contextlib.nullcontext(elsewhere))
+    assert rows[0] == rows[1]
+    for name in (f"{job.key}.nc", f"{job.key}.row.json"):
+        here, there = (place / "trajectories" / name for place in places)
+        assert here.read_bytes() == there.read_bytes()
 
 
 def test_a_kept_run_takes_its_content_along_and_leaves_its_path(tmp_path):
@@ -119,59 +129,46 @@ def test_the_results_are_those_of_processes_from_the_repeated_runs_too(dask, tmp
         words = ["--steepness", *VALUES, "--periods", "12", "--transient", "2", "--no-report", *more]
         engine = FakeEngine(breaks=(0.03,), raises=(0.05,))
         assert buoy_sweep.main([*words, "--out", str(tmp_path / name)], simulate=engine) == 0
-        with open(tmp_path / name / "accuracy" / "table.csv", newline="") as file:
-            tables.append((rows_of(tmp_path / name), list(csv.DictReader(file)), sorted(finished(tmp_path / name))))
+        repeated = rows_of(tmp_path / name / "accuracy")
+        tables.append((rows_of(tmp_path / name), repeated, sorted(finished(tmp_path / name))))
     assert tables[0] == tables[1] and len(tables[0][1]) == 3
 
 
 @pytest.mark.slow
-def test_a_worker_killed_in_mid_sweep_costs_its_running_job(dask, tmp_path):
-    log, out, found = tmp_path / "log", tmp_path / "out", dask()
-    process = start_sweep(out, "--steepness", *VALUES, *at(found), log=str(log), sleep_s=0.3)
-    until(lambda: len(finished(out)) >= 2, process)
-    found.workers[0].send_signal(signal.SIGKILL)
-    done(process)
-    assert [row["status"] for row in rows_of(out)] == ["ok"] * len(VALUES)
-    # what it was running, and at most one that it had ended and not handed over yet
-    assert len(log.read_text().split()) - len(VALUES) <= 2
-
-
-@pytest.mark.slow
 def test_a_run_that_kills_every_worker_stops_the_campaign_and_new_workers_finish_it(dask, tmp_path, monkeypatch, capfd):
-    monkeypatch.setattr(cluster, "GONE_S", 1.0)
-    monkeypatch.setattr(cluster, "LOOK_S", 0.2)
+    monkeypatch.setattr(pools, "GONE_S", 1.0)
+    monkeypatch.setattr(pools, "LOOK_S", 0.2)
     found, out = dask(), tmp_path / "out"
-    words = ["--steepness", *VALUES, "--periods", "6", "--transient", "2", "--no-report", "--no-accuracy", *at(found)]
+    words = ["--steepness", *VALUES, *USUAL, *at(found), "--out", str(out)]
     deadly = FakeEngine(dies=(0.04,), sleep_s=0.3)  # time for the runs before it to be handed over
-    assert buoy_sweep.main([*words, "--out", str(out)], simulate=deadly) == 1
+    assert buoy_sweep.main(words, simulate=deadly) == 1
     error = capfd.readouterr().err
     assert "has had no worker for 1 s" in error and "run the same command again" in error
-    kept = finished(out)
-    assert 0 < len(kept) < len(VALUES)
+    sound_part(out)
     found.add_worker()
     found.wait_for_workers(1)
-    assert buoy_sweep.main([*words, "--out", str(out)], simulate=FakeEngine()) == 0
-    assert kept.items() <= finished(out).items() and len(finished(out)) == len(VALUES)
+    check_and_complete(out, tmp_path / "log", *at(found))
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("whose", ["scheduler", "campaign"])
-def test_a_scheduler_or_a_campaign_that_dies_leaves_sound_runs(dask, tmp_path, whose):
-    found, out = dask(), tmp_path / "out"
-    process = start_sweep(out, "--steepness", *VALUES, *at(found), sleep_s=0.3)
+@pytest.mark.parametrize("lost", ["worker", "scheduler", "campaign"])
+def test_whoever_is_killed_costs_what_was_running(dask, tmp_path, lost):
+    found, out, log = dask(), tmp_path / "out", tmp_path / "log"
+    process = start_sweep(out, "--steepness", *VALUES, *at(found), log=str(log), sleep_s=0.3)
     until(lambda: len(finished(out)) >= 2, process)
-    (found.scheduler if whose == "scheduler" else process).kill()
-    if whose == "scheduler":
+    {"worker": found.workers[0], "scheduler": found.scheduler, "campaign": process}[lost].kill()
+    if lost == "campaign":
+        process.communicate()
+        check_and_complete(out, log, *at(found))
+    elif lost == "scheduler":
         error = done(process, code=1)
         assert "the dask scheduler has ended" in error and "finished runs are kept" in error
+        check_and_complete(out, log)
     else:
-        process.communicate()
-    kept = finished(out)
-    for name in kept:
-        Trajectory.load(out / "trajectories" / name)
-    more = at(found) if whose == "campaign" else []
-    done(start_sweep(out, "--steepness", *VALUES, *more))
-    assert kept.items() <= finished(out).items() and len(rows_of(out)) == len(VALUES)
+        done(process)
+        assert [row["status"] for row in rows_of(out)] == ["ok"] * len(VALUES)
+        # what it was running, and at most one that it had ended and not handed over yet
+        assert len(log.read_text().split()) - len(VALUES) <= 2
 
 
 def changed(folder):

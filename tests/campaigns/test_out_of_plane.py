@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from campaigns import out_of_plane
-from campaigns.buoy_sweep.seeds import DIRECTIONS, SEED_MPS, in_space, velocity
+from campaigns.buoy_sweep.space import DIRECTIONS, SEED_MPS, in_space, velocity
 from campaigns.columns import names
 from campaigns.out_of_plane.pairs import agreement
 from campaigns.out_of_plane.rows import COLUMNS, bows, offplane_row

@@ -1,79 +1,237 @@
-"""What is finished is never computed again; what is not, or is damaged, is."""
+"""What is finished is never computed again; what is not, or is damaged, is. Where runs execute changes nothing.
+
+Provenance says what made the results, and stays as it is while they do.
+"""
 
 import itertools
+import json
+import platform
+import socket
+import subprocess
 
+import numpy
 import pytest
 
-from campaigns.machinery.plan import make_job
-from engine import load_scene
-from tests.campaigns.conftest import finished
+from campaigns import buoy_sweep
+from campaigns.buoy_sweep.rows import COLUMNS
+from campaigns.columns import names
+from campaigns.machinery import session
+from campaigns.machinery.folder import CampaignStopped, keep_row, kept_row, made_by
+from campaigns.machinery.plan import Job
+from campaigns.machinery.pools import dask_client
+from engine import load_scene, source_hash
+from tests.campaigns.conftest import ROOT, USUAL, finished, forget
+from tests.campaigns.fake_engine import FakeEngine
 
-VALUES = ("0.02", "0.05", "0.13")
+THREE = "--steepness 0.02 0.05 0.13"
+FOUR = ("0.02", "0.05", "0.08", "0.13")
+ROW = {"status": "ok", "radius_max_m": 21.5, "strobed_period": None, "regime": "period-1"}
+KEY = "a" * 64
+WITH_REPORT = ["--periods", "6", "--no-accuracy"]
 
 
-def test_second_run_computes_nothing_and_says_the_same(sweep):
-    code, rows, begun = sweep("--steepness", *VALUES)
+def test_a_second_run_computes_nothing_and_says_the_same(sweep):
+    code, rows, begun = sweep(*THREE.split())
     assert (code, begun) == (0, [0.02, 0.05, 0.13])
     files = finished(sweep.out)
-    again = sweep("--steepness", *VALUES)
-    assert again == (0, rows, [])
+    assert sweep(*THREE.split()) == (0, rows, [])
     assert finished(sweep.out) == files
 
 
-def test_only_new_values_are_computed(sweep):
-    sweep("--steepness", *VALUES)
-    _, rows, begun = sweep("--steepness", "0.02", "0.03", "0.13")
-    assert begun == [0.03]
-    assert [row["steepness"] for row in rows] == ["0.02", "0.03", "0.13"]
+@pytest.mark.parametrize(
+    ("first", "second", "values", "begun"),
+    [
+        (THREE, "--steepness 0.02 0.03 0.13", ["0.02", "0.03", "0.13"], [0.03]),
+        (THREE, "--steepness 0.13 0.05 0.02", ["0.13", "0.05", "0.02"], []),
+        ("--steepness 0.11 0.12 0.13", "--steepness-range 0.11 0.13 3", ["0.11", "0.12", "0.13"], []),
+        ("--steepness 0.02", "--steepness 0.05 0.05", ["0.05"], [0.05]),
+    ],
+)
+def test_only_new_values_are_computed_and_rows_come_in_the_order_asked_for(sweep, first, second, values, begun):
+    sweep(*first.split())
+    code, rows, computed = sweep(*second.split())
+    assert (code, computed) == (0, begun)
+    assert [row["steepness"] for row in rows] == values
 
 
-def test_range_meets_listed_values(sweep):
-    sweep("--steepness", "0.11", "0.12", "0.13")
-    assert sweep("--steepness-range", "0.11", "0.13", "3")[2] == []
-
-
-def test_value_given_twice_is_one_run(sweep):
-    _, rows, begun = sweep("--steepness", "0.05", "0.05")
-    assert begun == [0.05]
-    assert len(rows) == 1
+def test_another_transient_measures_anew_without_computing(sweep):
+    sweep("--steepness", "0.05", usual=["--periods", "7", *USUAL[2:]])
+    code, rows, begun = sweep("--steepness", "0.05", "--transient", "5", usual=["--periods", "7", *USUAL[4:]])
+    assert (code, begun) == (0, [])
+    assert rows[0]["radius_max_m"] != ""
 
 
 @pytest.mark.parametrize("damage", [0, 100, -1, None])
-def test_damaged_file_is_computed_again(sweep, damage):
-    _, rows, _ = sweep("--steepness", *VALUES)
+def test_a_damaged_file_is_computed_again_and_a_lost_table_made_again(sweep, damage):
+    _, rows, _ = sweep(*THREE.split())
     path = sweep.out / "trajectories" / f"{rows[1]['run_key']}.nc"
     content = path.read_bytes()
     middle = len(content) // 2
     path.write_bytes(content[:damage] if damage is not None else content[:middle] + b"\x01\x02" + content[middle + 2 :])
-    assert sweep("--steepness", *VALUES) == (0, rows, [0.05])
+    (sweep.out / "table.csv").unlink()
+    assert sweep(*THREE.split()) == (0, rows, [0.05])
     assert path.read_bytes() == content
 
 
-def test_lost_table_is_made_again_from_the_runs(sweep):
-    _, rows, _ = sweep("--steepness", *VALUES)
-    (sweep.out / "table.csv").unlink()
-    assert sweep("--steepness", *VALUES) == (0, rows, [])
-
-
-def test_other_transient_measures_anew_without_computing(sweep):
-    sweep("--steepness", "0.05")
-    _, rows, begun = sweep("--steepness", "0.05", "--transient", "5")
-    assert begun == []
-    assert rows[0]["radius_max_m"] != ""
-
-
-def test_run_that_gave_no_record_is_tried_again(sweep):
-    assert sweep("--steepness", *VALUES, raises=(0.05,))[1][1]["status"] == "error"
-    _, rows, begun = sweep("--steepness", *VALUES)
+def test_a_run_that_gave_no_record_is_tried_again(sweep):
+    assert sweep(*THREE.split(), raises=(0.05,))[1][1]["status"] == "error"
+    _, rows, begun = sweep(*THREE.split())
     assert begun == [0.05]
     assert [row["status"] for row in rows] == ["ok"] * 3
 
 
-def test_content_key_follows_everything_that_changes_a_result(monkeypatch):
+def test_the_content_key_follows_everything_that_changes_a_result(monkeypatch):
     scenes = [load_scene("tethered_buoy", {"waves.steepness": value}) for value in (0.02, 0.13)]
-    keys = [make_job(scene, periods=periods).key for scene, periods in itertools.product(scenes, (6, 7))]
-    keys.append(make_job(scenes[0], duration_s=6.0).key)
+    keys = [Job({}, scene, periods).key for scene, periods in itertools.product(scenes, (6, 7))]
+    keys += [Job({}, scenes[0], duration_s=6.0).key, Job({}, scenes[0], 6, made="otherwise").key]
     monkeypatch.setattr("engine.source_hash", lambda: "another engine")
-    keys.append(make_job(scenes[0], periods=6).key)
+    keys.append(Job({}, scenes[0], 6).key)
     assert len(set(keys)) == len(keys)
-    assert make_job(scenes[0], periods=6, labels={"steepness": 1}).key == keys[-1]  # a label changes nothing
+    assert Job({"steepness": 1}, scenes[0], 6).key == keys[-1]  # a label changes nothing
+
+
+@pytest.mark.parametrize("backend", ["loky", pytest.param("dask", marks=pytest.mark.slow)])
+def test_every_backend_gives_the_rows_and_files_of_threads(sweep, backend):
+    if backend == "dask":
+        pytest.importorskip("distributed")
+    threads = sweep("--steepness", *FOUR, raises=(0.08,))
+    content = {name: (sweep.out / "trajectories" / name).read_bytes() for name in finished(sweep.out)}
+    forget(sweep.out)
+    assert sweep("--steepness", *FOUR, backend=backend, raises=(0.08,)) == threads
+    assert {name: (sweep.out / "trajectories" / name).read_bytes() for name in finished(sweep.out)} == content
+
+
+def test_workers_kept_from_a_campaign_elsewhere_write_into_the_folder_of_this_one(tmp_path, monkeypatch):
+    for name in ("one", "other"):
+        (tmp_path / name).mkdir()
+        monkeypatch.chdir(tmp_path / name)
+        assert buoy_sweep.main(["--steepness", *FOUR, *USUAL, "--out", "out"], simulate=FakeEngine()) == 0
+    assert finished(tmp_path / "one" / "out").keys() == finished(tmp_path / "other" / "out").keys()
+
+
+def test_a_dask_scheduler_that_is_not_there_is_one_line(sweep, capfd, monkeypatch):
+    pytest.importorskip("distributed")
+    monkeypatch.setattr("campaigns.machinery.pools.JOIN_S", 1)
+    code, rows, _ = sweep("--steepness", "0.02", "--dask-address", "tcp://127.0.0.1:1", backend="dask")
+    error = capfd.readouterr().err
+    assert (code, rows) == (1, [])
+    assert "no dask cluster at tcp://127.0.0.1:1" in error and "Traceback" not in error
+    address = "tls://127.0.0.1:1"
+    with pytest.raises(CampaignStopped, match=f"no dask cluster at {address}: TLS expects"), dask_client(1, address):
+        pass
+
+
+def test_a_row_comes_back_as_it_was_to_its_maker_alone_and_a_damaged_one_not_at_all(tmp_path):
+    keep_row(tmp_path, KEY, "maker", ROW)
+    assert kept_row(tmp_path, KEY, "maker") is None, "a folder that cannot be written to costs only the row"
+    (tmp_path / "trajectories").mkdir()
+    keep_row(tmp_path, KEY, "maker", ROW)
+    assert kept_row(tmp_path, KEY, "maker") == ROW
+    assert kept_row(tmp_path, KEY, "another maker") is None
+    assert kept_row(tmp_path, "b" * 64, "maker") is None
+    (path,) = (tmp_path / "trajectories").iterdir()
+    for text in ("", path.read_text()[:-5], json.dumps({"made_by": "maker"}), json.dumps([1])):
+        path.write_text(text)
+        assert kept_row(tmp_path, KEY, "maker") is None
+
+
+def test_the_maker_changes_with_settings_and_sources():
+    makers = [made_by({"transient": 100}, "analysis"), made_by({"transient": 50}, "analysis")]
+    makers.append(made_by({"transient": 100}, "analysis", "campaigns/buoy_sweep/rows.py"))
+    assert len(set(makers)) == 3 and made_by({"transient": 100}, "analysis") == makers[0]
+    for absent in ("campaigns/rows_that_moved.py", "reports/templates"):
+        with pytest.raises(FileNotFoundError):
+            made_by({}, "engine", absent)
+
+
+def record(out):
+    return json.loads((out / "provenance.json").read_text())
+
+
+def test_what_is_recorded(sweep):
+    sweep("--steepness", "0.02", "0.13", "--set", "water.depth_m=22.5", raises=(0.13,))
+    found = record(sweep.out)
+    assert found["campaign"] == "buoy_sweep"
+    assert found["command"][:4] == ["python", "-m", "campaigns.buoy_sweep", "--steepness"]
+    assert found["versions"]["python"] == platform.python_version()
+    assert found["versions"]["numpy"] == numpy.__version__
+    assert found["host"] == socket.gethostname()
+    assert found["engine_source_hash"] == source_hash()
+    assert (found["steepness"], found["periods"], found["transient"]) == ([0.02, 0.13], 6, 2)
+    assert found["set"] == {"water.depth_m": 22.5}
+    assert found["runs"] == {"total": 2, "found": 0, "computed": 2, "failed": 1}
+    assert set(found["timing"]) >= {"compile_s", "run_s", "analysis_s"}
+    assert all(seconds >= 0.0 for seconds in found["timing"].values())
+    assert found["started_utc"] <= found["finished_utc"]
+
+
+def test_git_state_is_that_of_the_checkout(tmp_path):
+    head = subprocess.run(["git", "rev-parse", "HEAD"], cwd=ROOT, capture_output=True, text=True)
+    if head.returncode != 0:
+        pytest.skip("not a checkout")
+    record, _ = session.begun(tmp_path, "any", [], {})
+    assert record["git"]["commit"] == session.git_state(ROOT / "campaigns")["commit"] == head.stdout.strip()
+
+
+def test_dirty_means_changes_that_are_not_committed_and_outside_a_checkout_there_is_no_commit(tmp_path):
+    git = ["git", "-C", str(tmp_path), "-c", "user.name=a", "-c", "user.email=a@b.c", "-c", "core.hooksPath=/dev/null"]
+    package = tmp_path / "campaigns"
+    assert session.git_state(package) == {"commit": None, "dirty": None}
+    package.mkdir()
+    (package / "file").write_text("1")
+    for words in (["init", "-q"], ["add", "-A"], ["commit", "-q", "-m", "one"]):
+        subprocess.run([*git, *words], check=True)
+    assert session.git_state(package)["dirty"] is False
+    (package / "file").write_text("2")
+    assert session.git_state(package)["dirty"] is True
+
+
+def test_a_run_that_computes_nothing_changes_nothing_and_other_parameters_make_a_new_record(sweep):
+    def files():
+        return {path.name: path.read_bytes() for path in sweep.out.glob("[!.]*") if path.is_file()}
+
+    sweep("--steepness", "0.02", "0.13")
+    before = files()
+    sweep("--steepness", "0.02", "0.13", backend="loky", jobs=1)
+    assert files() == before
+    sweep("--steepness", "0.02")
+    assert record(sweep.out)["steepness"] == [0.02]
+    assert record(sweep.out)["runs"]["found"] == 1
+
+
+def test_the_scene_file_can_be_run_again(sweep):
+    _, (row,), _ = sweep("--steepness", "0.05", "--set", "water.depth_m=22.5", "tether.nodes=21")
+    scene = load_scene(sweep.out / "scene.toml")
+    assert (scene.waves.steepness, scene.water.depth_m, scene.tether.nodes) == (0.05, 22.5, 21)
+    code, (again,), computed = sweep("--scene", sweep.out / "scene.toml", "--steepness", "0.05")
+    assert (code, again["run_key"], computed) == (0, row["run_key"], [])
+
+
+def test_unknown_is_empty(sweep):
+    _, rows, _ = sweep("--steepness", "0.02", "0.05", raises=(0.05,))
+    assert list(rows[0]) == list(names(COLUMNS))
+    for row in rows:
+        assert row["regime"] == ""
+        assert all(entry == "" for name, entry in row.items() if "lyapunov" in name or "offplane" in name)
+    given = {name for name, entry in rows[1].items() if entry != ""}
+    assert given == {"steepness", "dimensions", "status", "message", "run_key"}
+
+
+@pytest.mark.parametrize("fault", [None, RuntimeError("no ink")])
+def test_paths_of_the_report_are_told_and_one_that_fails_leaves_the_results(sweep, monkeypatch, capsys, fault):
+    built = []
+
+    def build(out):
+        built.append(out)
+        if fault:
+            raise fault
+
+    monkeypatch.setattr("reports.build", build, raising=False)
+    code, rows, _ = sweep("--steepness", "0.02", usual=WITH_REPORT)
+    said = capsys.readouterr()
+    assert (code, len(rows), built) == (1 if fault else 0, 1, [sweep.out])
+    assert all(word in said.out for word in ("table.csv", "compile", "analysis"))
+    if fault:
+        assert "no ink" in said.err and f"python -m reports {sweep.out}" in said.err
+    else:
+        assert "report.html" in said.out and "report.pdf" in said.out

@@ -5,10 +5,10 @@ from functools import partial
 import pytest
 
 from campaigns.buoy_sweep.rows import COLUMNS, buoy_row
-from campaigns.machinery.batches import FEWEST, MOST, groups_of
+from campaigns.machinery.cli import Running
 from campaigns.machinery.folder import CampaignStopped
-from campaigns.machinery.plan import Plan, make_job
-from campaigns.machinery.runner import run_campaign
+from campaigns.machinery.plan import Job, Plan
+from campaigns.machinery.runner import FEWEST, MOST, groups_of, run_campaign
 from engine import load_scene
 from tests.campaigns.conftest import finished, rows_of
 from tests.campaigns.fake_engine import FakeEngine
@@ -26,7 +26,8 @@ def campaign(tmp_path):
         log.unlink(missing_ok=True)
         engine = FakeEngine(log=str(log), **fake)
         describe = partial(buoy_row, transient_periods=2)
-        plan = Plan(tmp_path, engine, describe, COLUMNS, backend, jobs, show_progress=False, simulate_each=engine.each)
+        how = Running(tmp_path, jobs, backend)
+        plan = Plan(how, engine, describe, COLUMNS, simulate_each=engine.each, show_progress=False)
         run.engine = engine
         return run_campaign(plan, jobs_of(values, changes)), engine.begun()
 
@@ -36,7 +37,7 @@ def campaign(tmp_path):
 
 def jobs_of(values, changes=None):
     scenes = {value: load_scene("tethered_buoy", {"waves.steepness": value, **(changes or {})}) for value in values}
-    return [make_job(scene, 6, labels={"steepness": value}) for value, scene in scenes.items()]
+    return [Job({"steepness": value}, scene, 6) for value, scene in scenes.items()]
 
 
 def statuses(rows):
@@ -80,15 +81,15 @@ def test_a_full_disk_stops_the_campaign_and_keeps_what_is_finished(campaign):
 
 
 def groups(tmp_path, jobs, backend="loky", **how):
-    return groups_of(Plan(tmp_path, None, None, (), backend, 2, **how), jobs)
+    return groups_of(Plan(Running(tmp_path, 2, backend), None, None, (), **how), jobs)
 
 
 def test_groups_are_even_and_hold_every_job_once(tmp_path):
     many, together = jobs_of([round(0.01 + 0.0005 * i, 4) for i in range(250)]), {"simulate_each": FakeEngine().each}
     found = groups(tmp_path, many, **together)
-    sizes = [len(group.jobs) for group in found]
+    sizes = [len(group) for group in found]
     assert len(found) % 2 == 0 and max(sizes) - min(sizes) <= 1 and max(sizes) <= MOST
-    assert sorted(job.key for group in found for job in group.jobs) == sorted(job.key for job in many)
+    assert sorted(job.key for group in found for job in group) == sorted(job.key for job in many)
     assert groups(tmp_path, many[: FEWEST - 1], **together) == []
     # the engine runs one by one what keeps profiles, and threads share no worker
     assert groups(tmp_path, jobs_of(VALUES, {"output.profiles": True}), **together) == []

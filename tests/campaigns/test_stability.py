@@ -8,8 +8,7 @@ import pytest
 
 from campaigns import stability
 from campaigns.columns import names
-from campaigns.machinery.folder import CampaignStopped
-from campaigns.machinery.row_cache import kept_row
+from campaigns.machinery.folder import CampaignStopped, kept_row
 from campaigns.stability import cases, checks, tasks
 from campaigns.stability.cases import ABOVE_BAR, REFUSED, Case, Ending, all_cases, case_row
 
@@ -75,7 +74,7 @@ def test_a_process_that_died_is_tried_again_with_the_next_call(tmp_path, monkeyp
     ok = {"verdict": "ok", "run_status": "ok"}
     for way, verdict, kept in ((partial(os._exit, 1), "unexplained", False), (ok.copy, "ok", True)):
         monkeypatch.setattr(cases, "_judged", lambda *_, way=way: way())
-        assert tasks.do(tmp_path, "maker", task)[1]["verdict"] == verdict
+        assert tasks.result(tmp_path, "maker", task)["verdict"] == verdict
         assert (kept_row(tmp_path, task.key(), "maker") is not None) == kept
 
 

@@ -1,26 +1,33 @@
-"""`campaigns.sweep`: any number of any scene, one key or two; what cannot be varied is named and nothing is written."""
+"""`campaigns.sweep`: any number of any scene, one key or two (what cannot be varied: mistakes.toml); and a column and a
+campaign of one's own, as docs/howto_campaign.md has them (tests/test_pages.py runs that page with the engine).
+"""
 
-import csv
 import json
+import re
+import sys
+import types
 
 import pytest
 
-from campaigns import buoy_sweep, sweep
+from campaigns.buoy_sweep import rows as of_a_buoy
+from campaigns.sweep import main, read_order
 from engine import load_scene
-from tests.campaigns.conftest import USUAL, rows_of
+from tests.campaigns.conftest import ROOT, rows_of
 from tests.campaigns.fake_engine import FakeEngine
+from tests.pages import blocks
 
+PAGE = "howto_campaign"
 HELD = ["--scene", "hanging_line", "--duration", "2"]
 
 
 def run(out, *words, **fake):
     usual = ["--no-report", "--backend", "threading", "--out", str(out)]
-    assert sweep.main([*map(str, words), *usual], simulate=FakeEngine(**fake)) == 0
+    assert main([*map(str, words), *usual], simulate=FakeEngine(**fake)) == 0
     return rows_of(out)
 
 
 def cases_of(*words):
-    order = sweep.read_order([*map(str, words), "--out", "new"], faults := [])
+    order = read_order([*map(str, words), "--out", "new"], faults := [])
     assert faults == []
     return order.cases
 
@@ -33,18 +40,15 @@ def test_two_keys_are_every_pair_of_their_values(tmp_path):
     told = json.loads((tmp_path / "provenance.json").read_text())
     assert told["campaign"] == "sweep"
     assert told["vary"] == {"water.depth_m": [21.0, 22.0, 23.0], "waves.steepness": [0.02, 0.1]}
-    with open(tmp_path / "columns.csv", newline="") as file:
-        columns = {row["name"]: row for row in csv.DictReader(file)}
+    columns = dictionary_of(tmp_path)
     assert list(columns) == list(rows[0])
     assert (columns["water.depth_m"]["unit"], columns["water.depth_m"]["symbol"]) == ("m", "H")
     assert (columns["waves.steepness"]["digits"], columns["status"]["digits"]) == ("2", "")
 
 
-def test_a_sweep_of_steepness_has_the_rows_of_the_buoy_sweep(tmp_path):
-    rows = run(tmp_path / "any", "--vary", "waves.steepness", 0.02, 0.1, 3, "--periods", 6, "--transient", 2)
-    words = ["--steepness-range", "0.02", "0.1", "3", *USUAL, "--backend", "threading"]
-    assert buoy_sweep.main([*words, "--out", str(tmp_path / "own")], simulate=FakeEngine()) == 0
-    own = rows_of(tmp_path / "own")
+def test_a_sweep_of_steepness_has_the_rows_of_the_buoy_sweep(tmp_path, sweep):
+    rows = run(tmp_path, "--vary", "waves.steepness", 0.02, 0.1, 3, "--periods", 6, "--transient", 2)
+    _, own, _ = sweep("--steepness-range", 0.02, 0.1, 3)
     assert [row["run_key"] for row in rows] == [row["run_key"] for row in own]
     for row, one in zip(rows, own, strict=True):
         assert row.pop("waves.steepness") == one["steepness"]
@@ -76,34 +80,39 @@ def test_any_shipped_scene_can_be_swept(name):
 @pytest.mark.slow
 def test_a_line_without_waves_has_a_row_of_its_own(tmp_path):
     words = [*HELD, "--vary", "tether.nodes", "11", "31", "3", "--jobs", "1", "--no-report", "--backend", "threading"]
-    assert sweep.main([*words, "--out", str(tmp_path)]) == 0
+    assert main([*words, "--out", str(tmp_path)]) == 0
     rows = rows_of(tmp_path)
     assert [row["tether.nodes"] for row in rows] == ["11", "21", "31"] and "regime" not in rows[0]
     tension = [float(row["tension_top_max_N"]) for row in rows]
     assert tension == pytest.approx([9.67] * 3, rel=0.01) and tension[2] != tension[1] != tension[0]
 
 
-@pytest.mark.parametrize(
-    ("words", "part"),
-    [
-        ("", "--vary: given nothing; allowed: once or twice KEY LO HI COUNT"),
-        ("--vary buoy.mass_kg 1 2", "once or twice KEY LO HI COUNT"),
-        ("--vary a 1 2 3 --vary b 1 2 3 --vary c 1 2 3", "once or twice KEY LO HI COUNT"),
-        ("--vary buoy.mass 1 2 3", "did you mean 'buoy.mass_kg'?"),
-        ("--vary buoy.mass_kg 2 1 3", "two finite numbers, LO < HI"),
-        ("--vary end.kind 1 2 3", "holds a text; allowed: a key that holds a number"),
-        ("--vary start.buoy_velocity_mps 0 1 2", "allowed: one element of it, as start.buoy_velocity_mps[0]"),
-        ("--vary start.buoy_velocity_mps[3] 0 1 2", "the scene has no such element"),
-        ("--vary buoy.mass_kg 800 900 2 --vary buoy.mass_kg 1 2 3", "given twice; allowed: two different keys"),
-        ("--vary buoy.mass_kg 800 900 2 --set buoy.mass_kg=3", "this campaign sets it; use --vary"),
-        ("--vary buoy.mass_kg 800 1e6 2", "or it sinks"),
-        ("--vary tether.nodes 1 5 2", "a whole number from 3 to 20000"),
-        ("--vary buoy.mass_kg 800 900 2 --duration 5", "given for a scene with waves; allowed: --periods"),
-        ("--scene hanging_line --vary tether.nodes 11 21 2", "a scene without waves; allowed: seconds, above 0"),
-    ],
-)
-def test_what_cannot_be_varied_is_named(tmp_path, monkeypatch, capsys, words, part):
-    monkeypatch.chdir(tmp_path)
-    assert sweep.main(words.split()) == 2
-    assert part in capsys.readouterr().err
-    assert list(tmp_path.iterdir()) == []
+def dictionary_of(out) -> dict[str, dict[str, str]]:
+    return {row["name"]: row for row in rows_of(out, "columns.csv")}
+
+
+def test_the_campaign_of_the_page_is_complete(tmp_path):
+    page = {"__name__": PAGE}
+    exec(compile(next(text for kind, text in blocks(PAGE) if kind == "python"), PAGE, "exec"), page)
+    words = ["--periods", "6", "--transient", "2", "--no-report", "--backend", "threading", "--out", str(tmp_path)]
+    assert page["STUDY"].main(words, simulate=FakeEngine()) == 0
+    table = rows_of(tmp_path)
+    assert [float(row["buoy.mass_kg"]) for row in table] == list(page["MASSES_KG"])
+    assert all(row["status"] == "ok" and row["radius_max_m"] and row["snaps"] == "0" for row in table)
+    assert list(dictionary_of(tmp_path)) == list(table[0])
+
+
+def test_the_column_of_the_page_reaches_the_table_and_its_dictionary(sweep, monkeypatch):
+    page = (ROOT / "docs" / f"{PAGE}.md").read_text()
+    column, line = re.findall(r"^    ((?:Column|row\[).*)$", page, re.MULTILINE)[:2]
+    source = (ROOT / "campaigns" / "buoy_sweep" / "rows.py").read_text()
+    settled = re.search(r"\n( +)row \|= settled\(.*\n", source)
+    patched = source.replace("    STROBED,\n", f"    {column}\n    STROBED,\n")
+    patched = patched.replace(settled[0], f"{settled[0]}{settled[1]}{line}\n")
+    module = types.ModuleType(of_a_buoy.__name__)
+    exec(compile(patched, "rows.py", "exec"), vars(module))
+    monkeypatch.setitem(sys.modules, of_a_buoy.__name__, module)
+    _, (row,), _ = sweep("--steepness", "0.05")
+    assert float(row["speed_max_mps"]) == pytest.approx(2 * 3.14159 / 5.0, rel=1e-3)  # of r = 20 + sin(2 pi t/5)
+    told = dictionary_of(sweep.out)["speed_max_mps"]
+    assert (told["unit"], told["digits"]) == ("m/s", "2")

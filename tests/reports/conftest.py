@@ -8,13 +8,35 @@ import shutil
 from contextlib import contextmanager
 from html.parser import HTMLParser
 from pathlib import Path
+from typing import get_args
 
 import pytest
 
 from reports import build
+from reports.buoy_sweep.equations import BUOY
+from reports.parts.content import (
+    Bullets,
+    Column,
+    Explorer,
+    ExplorerColumn,
+    Figure,
+    Heading,
+    Item,
+    Links,
+    Listing,
+    Notice,
+    Picture,
+    Report,
+    Sheet,
+    Table,
+    Text,
+)
 from tests.reports.synthetic import campaign
 
 ODD_TITLE = '<b>#odd$ *title* _x_ @ref `code` \\ "q" & [z] //c é\u2028 </title>'
+DOT = b'<svg xmlns="http://www.w3.org/2000/svg" width="490" height="200"><circle r="40"/></svg>'
+
+LONG = " `a_rather_long_name_of_a_column_of_the_table_N` --out /a/path/that/has/no/blank/in/it/and/goes/on/and/on"
 
 
 class Page(HTMLParser):
@@ -36,6 +58,27 @@ class Page(HTMLParser):
     def handle_data(self, data):
         if "style" not in self._open:
             self.text += data
+
+    def all(self, wanted: str) -> list[dict]:
+        """The attributes of every such tag."""
+        return [attributes for tag, attributes in self.tags if tag == wanted]
+
+
+def every_kind(text: str) -> Report:
+    """A report of every kind of item, with the text in every place where text can be, in wide tables too."""
+    some = text or "x"
+    drawing = Figure(Picture(DOT, "svg"), f"{some} caption", f"{some} of five words", Picture(b"GIF89a", "gif"))
+    heads = tuple(Column(some, some, "right" if k else "left") for k in range(14))
+    narrow, wide = Table(heads[:1], ((text,),) * 40, text, small=True), Table(heads, ((text,) * 14,) * 4, text)
+    items = (
+        Heading(text), Text(text + LONG), Heading(text, 2), Bullets((text, text)), BUOY, drawing, narrow, wide,
+        *(Notice(kind, text, (text, text)) for kind in ("note", "warning")), Listing(text + LONG),
+        Links(((some, "part/report.html"),)),
+        Explorer(drawing, some, text, text, (ExplorerColumn(0.1, (1.0,), text, "run-1"),)),
+        Sheet("run-1", some, ((some, text),), (text,), "", narrow),
+    )  # fmt: skip
+    assert {type(item) for item in items} == set(get_args(Item)), "a new kind of item belongs here"
+    return Report(some, text, items)
 
 
 @pytest.fixture(scope="session")

@@ -7,6 +7,7 @@ import pytest
 from reports.__main__ import main
 from reports.buoy_sweep.report import report
 from reports.parts.content import Explorer, Figure, Notice, Sheet
+from reports.parts.folder import read_rows
 from tests.reports.synthetic import campaign
 
 
@@ -33,7 +34,7 @@ def test_a_single_short_run_gives_a_report(tmp_path):
 
 def test_a_damaged_and_a_missing_trajectory_cost_only_themselves(tmp_path):
     folder = campaign(tmp_path / "out", [0.016, 0.05, 0.13], periods=30, transient=5)
-    files = sorted((folder / "trajectories").iterdir())
+    files = [folder / "trajectories" / f"{row['run_key']}.nc" for row in read_rows(folder / "table.csv")]
     files[0].write_bytes(files[0].read_bytes()[:1000])
     files[1].unlink()
     boxes, sheets, figures = content(folder)
@@ -50,16 +51,20 @@ def test_a_hundred_failures_are_summed_up(tmp_path):
     assert sum("did not converge" in line for line in sheets) == 100
 
 
+HEAD = "name,unit,symbol,meaning,digits\n"
 PARTS = ("table.csv", "columns.csv", "scene.toml", "provenance.json", "trajectories")
 
 
 @pytest.mark.parametrize(
     ("part", "content", "said"),
     [
-        *((part, None, f"{part} is missing") for part in PARTS[:1] + PARTS[2:]),
-        ("columns.csv", None, "columns.csv"),
+        *((part, None, f"{part} is missing") for part in PARTS),
+        ("columns.csv", None, "older version"),
+        ("columns.csv", "name,unit\n", "its first line is not name,unit,symbol,meaning,digits"),
+        ("columns.csv", HEAD + "a,,,,two\n", "columns.csv cannot be read"),
+        ("columns.csv", HEAD + "a,b\n", "columns.csv cannot be read"),
         ("table.csv", "steepness,status\n0.1,ok\n", "columns missing: "),
-        ("columns.csv", "name,unit,symbol,meaning,digits\nstatus,,,,\n", "does not tell of all columns"),
+        ("columns.csv", HEAD + "status,,,,\n", "does not tell of all columns"),
         ("table.csv", "", "table.csv cannot be read"),
         ("scene.toml", "name = 3", "scene.toml cannot be read"),
         ("provenance.json", "{", "provenance.json cannot be read"),

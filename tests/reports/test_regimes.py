@@ -1,12 +1,15 @@
-"""A sweep of records long enough has exponents and regimes in its table, and the report says why."""
+"""A sweep of records long enough has exponents and regimes; planar runs are as good as the report says."""
 
 import csv
 
 import pytest
 
 from analysis import read_evidence
-from campaigns import buoy_sweep
+from campaigns import buoy_sweep, out_of_plane
+from campaigns.out_of_plane.pairs import APART_M
+from campaigns.tables import read_rows
 from reports.buoy_sweep.report import report
+from reports.buoy_sweep.tables import COMPARED
 from reports.parts.content import Figure, Sheet, Table
 
 pytestmark = pytest.mark.slow
@@ -62,3 +65,23 @@ def test_a_sweep_without_exponents_leaves_the_columns_empty(tmp_path, without):
     for row in rows_of(tmp_path / "sweep").values():
         assert row["regime"] == row["lyapunov_tangent_bits_per_period"] == row["lyapunov_wolf_error"] == ""
         assert row["offplane_growth_bits_per_period"] == row["offplane_growth_error"] == ""
+
+
+def test_the_planar_run_is_good_enough_for_the_buoy_but_not_for_its_path(tmp_path):
+    """kA = 0.13 at three depths, 200 periods after a transient of 50, planar and in three dimensions."""
+    words = ["--jobs", "2", "--no-report", "--out", str(tmp_path / "out")]
+    order = out_of_plane.read_order(words, faults := [])
+    assert not faults and order.periods - order.transient == 200
+    base = out_of_plane.base_of(order)
+    order.cases = [case for case in order.cases if out_of_plane.compared(out_of_plane.variant(case.labels), base)]
+    assert out_of_plane.STUDY.conduct(order, words) == 0
+    rows = {row["run_key"]: row for row in read_rows(tmp_path / "out" / "table.csv")}
+    pairs = read_rows(tmp_path / "out" / "pairs.csv")
+    assert [pair["depth_m"] for pair in pairs] == [21.0, 21.6, 22.0]
+    assert all(depth in COMPARED for depth in ("21.0", "21.6", "22.0")) and "200 wave periods" in COMPARED
+    for pair in pairs:
+        planar, spatial = rows[pair["planar_key"]], rows[pair["spatial_key"]]
+        assert all(pair[f"same_{name}"] == 1 for name in ("range", "section", "exponent", "regime"))
+        assert planar["loop_releases"] > 20 and spatial["loop_releases"] == 0
+        assert pair["before_m"] < 0.1 * APART_M and pair["apart_period"] > spatial["rope_first_burst_period"]
+        assert spatial["rope_lateral_max_m"] > 0.2

@@ -1,31 +1,25 @@
-"""Sheets and explorer: drawings keep what they draw, a script reads back what it is given, the page can be sent."""
+"""Sheets and explorer: drawings keep what they draw, and a script reads back what it is given."""
 
 import base64
-import csv
 import json
 import re
-from itertools import islice, pairwise
 
 import numpy as np
 import pytest
 
-from reports import build
-from reports.figures.run_sheet import Glance, run_sheet
-from reports.parts.content import Explorer, ExplorerColumn, Figure, Picture, first_sentence
-from reports.parts.explorer_data import explorer_json
+from reports.figures.run_sheet import NOTHING, run_sheet
+from reports.parts.content import Explorer, ExplorerColumn, Figure, Picture
+from reports.parts.html import explorer_json
 from reports.parts.symbols import OMEGA_I, OMEGA_R
 
 FIGURE = Figure(Picture(b"", "svg"), "A caption.", "A text.")
-
-
-NOTHING = (np.empty(0), np.empty(0))
 
 
 def drawing(t, values, section=(), spectrum=NOTHING, marks=(), exponent=NOTHING) -> str:
     """A sheet of a record whose tension, radius and angle are the same values."""
     histories = tuple((name, values, values) for name in ("T (kN)", "r (m)", "θ (rad)"))
     points = np.reshape(section, (-1, 2))
-    return run_sheet(Glance(t, histories, float(t[-1]) - 6.0, points, spectrum, marks, exponent), "x", 80)
+    return run_sheet("x", 80, t, histories, 6.0, points, spectrum, marks, exponent)
 
 
 def glance(peak: float) -> str:
@@ -92,48 +86,3 @@ def test_explorer_data_reads_back_to_a_hundred_thousandth_of_the_range():
     assert values == pytest.approx(np.concatenate(points), abs=1e-5 * (read["high"] - read["low"]))
     assert [column["points"] for column in read["columns"]] == [5, 0, 40]
     assert read["lower"][0]["values"] == [0.1, None, 0.3] and read["lower"][0]["errors"] == [None] * 3
-
-
-@pytest.mark.parametrize(
-    ("caption", "said"),
-    [
-        ("Radius at t = 0.5 s. From `a.csv`.", "Radius at t = 0.5 s"),
-        ("Tension (fig. 9) over t: up to 3 N.", "Tension (fig. 9) over t"),
-        ("From `a: b` on; then", "From `a: b` on"),
-        ("Runs in space (D = 3; see fig. 2). loops: of each", "Runs in space (D = 3; see fig. 2)"),
-        ("By Wolf et al. against t. From", "By Wolf et al. against t"),
-        ("Fig. 9 of the paper, tension (line). From", "Fig. 9 of the paper, tension (line)"),
-        ("One", "One"),
-    ],
-)
-def test_a_list_of_figures_takes_the_first_sentence(caption, said):
-    assert first_sentence(caption) == said
-
-
-def test_every_row_of_the_table_leads_to_its_sheet_and_neighbours_to_each_other(page):
-    links = [attributes["href"] for tag, attributes in page.tags if tag == "a"]
-    for number in range(1, 9):
-        assert links.count(f"#run-{number}") >= 2
-    order = [attributes["id"] for _, attributes in page.tags if attributes.get("class") == "sheet"]
-    assert all(int(after[4:]) == int(before[4:]) + 1 for before, after in pairwise(order))
-
-
-@pytest.mark.slow
-def test_four_hundred_runs_make_a_page_of_less_than_ten_megabytes(folder, tmp_path):
-    """Rows are repeated: what a sheet holds does not depend on which run it is of."""
-    rows = list(csv.DictReader(open(folder / "table.csv", newline="", encoding="utf-8")))
-    sound = [row for row in rows if float(row["steepness"]) > 0.09 and row["status"] == "ok"]
-    evidence = "; ".join(f"name of a test, halves {k}: 0.123/0.456/yes" for k in range(13))
-    place = tmp_path / "many"
-    place.mkdir()
-    (place / "trajectories").symlink_to(folder / "trajectories")
-    for name in ("provenance.json", "scene.toml", "columns.csv"):
-        (place / name).write_bytes((folder / name).read_bytes())
-    with open(place / "table.csv", "w", newline="", encoding="utf-8") as file:
-        writer = csv.DictWriter(file, rows[0])
-        writer.writeheader()
-        for number, row in enumerate(islice(sound * 400, 400)):
-            writer.writerow({**row, "steepness": f"{0.0004 * (number + 1):.5g}", "evidence": evidence})
-    html, pdf = build(place)
-    assert html.read_text(encoding="utf-8").count('<section class="sheet"') == 400
-    assert html.stat().st_size < 9e6 and pdf.stat().st_size < 10e6, "room for a moving picture is left"

@@ -8,7 +8,7 @@ from matplotlib.figure import Figure
 from matplotlib.text import Text
 
 from reports.buoy_sweep.report import report
-from reports.figures.tether_animation import Snap, still_rows, tether_stills
+from reports.figures.tether_animation import Snap, tether_stills
 
 APART = 2.0  # pixels of 100 to an inch, between two numbers of one axis; half a space
 
@@ -65,8 +65,7 @@ def snap(way_m: float) -> Snap:
 @pytest.mark.slow
 @pytest.mark.parametrize("way_m", [0.1, 3.0, 9.0])
 def test_the_tether_at_six_moments_however_far_it_swings(drawn, way_m):
-    one = snap(way_m)
-    tether_stills(one, still_rows(one))
+    tether_stills(snap(way_m))
     assert drawn == [[]]
 
 

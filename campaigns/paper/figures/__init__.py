@@ -12,8 +12,7 @@ from pathlib import Path
 
 from campaigns import figure_data
 from campaigns.breaking_line.lines import FAST, SLOW
-from campaigns.machinery.folder import read_json, write_json
-from campaigns.machinery.row_cache import made_by
+from campaigns.machinery.folder import made_by, read_json, write_json
 from campaigns.paper.figures.breaking import breaking
 from campaigns.paper.figures.buoy import history, spectra
 from campaigns.paper.figures.chaos import running_exponents, sections

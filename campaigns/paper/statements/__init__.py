@@ -15,16 +15,11 @@ from campaigns.paper.statements.judging import depths, numbers
 from campaigns.statements import Claim, read_claims
 
 TABLE = Path(__file__).parents[1] / "statements.toml"
-OWN = {
-    small_waves: ("always taut", "regular", "uncoupled", "on estimates", "exponent to zero", "doubled buoy"),
-    large_waves: (
-        "threshold", "chaos beyond", "snapping", "buckles", "impulsive", "positive exponent", "chaotic",
-        "never repeats", "no dominant mode",
-    ),
-    plane: ("strange", "planar", "small decays", "large grows", "comparable", "spatial"),
-}  # fmt: skip
 MEASURES = {"numbers": numbers, "depths": depths} | {
-    name: getattr(module, name.replace(" ", "_")) for module, names in OWN.items() for name in names
+    name.replace("_", " "): measure
+    for module in (small_waves, large_waves, plane)
+    for name, measure in vars(module).items()
+    if getattr(measure, "__module__", "") == module.__name__
 }
 
 

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from ...parts.figure_data import Source, sources_of
+from ...parts.figure_data import sources_of
 from ...parts.symbols import RHO_W
 from ...parts.wording import decimals, number
 
@@ -51,7 +51,7 @@ def behind(data: xarray.Dataset) -> str:
     return f"{settings}. Run time {seconds} s{runs}."
 
 
-def _settings(one: Source) -> str:
+def _settings(one) -> str:
     from engine.scene import SceneError, scene_from_toml
 
     try:

@@ -10,7 +10,7 @@ from functools import partial
 from typing import TYPE_CHECKING
 
 from ...figures.curves import Curve, Panel, draw
-from ...figures.exponents import settled
+from ...figures.motion import settled
 from ...parts.figure_data import sources_of
 from ...parts.style import BLUE, VERMILION
 from ...parts.symbols import T_I

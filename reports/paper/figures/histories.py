@@ -29,21 +29,22 @@ _HEIGHT_IN = 3.9
 
 @dataclass(frozen=True)
 class Side:
-    """One of the three histories: its array, labels left and right, factor from left to right, levels to mark with
-    their names in the key."""
+    """One of the three histories: what it is, its array, labels left and right, factor from left to right, levels to
+    mark with their names in the key; band: arrays of least and largest values between samples."""
 
+    what: str
     column: str
     label: str
     other: str
     factor: float
     levels: tuple[tuple[float, str], ...]
-    band: tuple[str, str] = ()  # arrays of least and largest values between samples
+    band: tuple[str, str] = ()
 
 
 def drawing(data: xarray.Dataset) -> Drawing:
     """The figure of a data file. Raises KeyError for one of another figure."""
-    side, what = (_tension if "tension_N" in data else _radial if "radius_m" in data else _angular)(data)
-    kA, seen = sources_of(data)[0].label, spans(data, {side.column: what}, 3)
+    side = _side(data)
+    kA, seen = sources_of(data)[0].label, spans(data, {side.column: side.what}, 3)
     caption = (
         f"{seen}, {kA}, against t/{T_I}; above up to the end of the window of eq. (31) (shaded), below the last "
         f"{DETAIL_PERIODS} wave periods of it. {behind(data)}"
@@ -51,23 +52,19 @@ def drawing(data: xarray.Dataset) -> Drawing:
     return Drawing(_HEIGHT_IN, partial(_fill, data=data, side=side), caption, f"History over time, {kA}: {seen}.")
 
 
-def _tension(data: xarray.Dataset) -> tuple[Side, str]:
-    static = value(data, "static_tension_N")
-    levels, band = ((1.0, "static"), (0.0, "no tension")), ("tension_low_over_static", "tension_high_over_static")
-    side = Side("tension_over_static", r"$T/T_s$ (–)", r"$T$ (kN)", 1e-3 * static, levels, band)
-    return side, f"tension at the top end over the static one ({T_S} = {number(static)} N)"
-
-
-def _radial(data: xarray.Dataset) -> tuple[Side, str]:
-    static, length = value(data, "static_radius_m"), value(data, "unstretched_m")
-    levels = ((1.0, r"static, $r_0$"), (length / static, r"unstretched, $l_0$"))
-    side = Side("radius_over_static", r"$r/r_0$ (–)", r"$r$ (m)", static, levels)
-    return side, f"radius over the static one (r₀ = {L_0} + Δl = {decimals(static, 3)} m)"
-
-
-def _angular(data: xarray.Dataset) -> tuple[Side, str]:
-    side = Side("angle_rad", r"$\theta$ (rad)", r"$\theta$ (°)", 180.0 / np.pi, ((0.0, "static"),))
-    return side, "angle from the vertical in rad (static value 0)"
+def _side(data: xarray.Dataset) -> Side:
+    if "tension_N" in data:
+        static = value(data, "static_tension_N")
+        what = f"tension at the top end over the static one ({T_S} = {number(static)} N)"
+        levels, band = ((1.0, "static"), (0.0, "no tension")), ("tension_low_over_static", "tension_high_over_static")
+        return Side(what, "tension_over_static", r"$T/T_s$ (–)", r"$T$ (kN)", 1e-3 * static, levels, band)
+    if "radius_m" in data:
+        static, length = value(data, "static_radius_m"), value(data, "unstretched_m")
+        what = f"radius over the static one (r₀ = {L_0} + Δl = {decimals(static, 3)} m)"
+        levels = ((1.0, r"static, $r_0$"), (length / static, r"unstretched, $l_0$"))
+        return Side(what, "radius_over_static", r"$r/r_0$ (–)", r"$r$ (m)", static, levels)
+    what = "angle from the vertical in rad (static value 0)"
+    return Side(what, "angle_rad", r"$\theta$ (rad)", r"$\theta$ (°)", 180.0 / np.pi, ((0.0, "static"),))
 
 
 def _fill(figure, data: xarray.Dataset, side: Side) -> None:

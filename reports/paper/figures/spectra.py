@@ -10,10 +10,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ...figures.spectra import log_limits, mark_modes
+from ...figures.curves import mark
+from ...figures.motion import log_limits
 from ...parts.content import sub
 from ...parts.figure_data import sources_of
-from ...parts.style import BLUE, SOFT, VERMILION
+from ...parts.style import BLUE, VERMILION
 from ...parts.symbols import OMEGA_I, T_I, TAU_0
 from ...parts.wording import listed, number
 from .drawing import Drawing, behind, value
@@ -75,10 +76,9 @@ def _fill(figure, data: xarray.Dataset, sides: list[str]) -> None:
         axes.set(title=title, xlabel=r"$\omega$ (rad/s)", xlim=(0.0, highest), ylabel=y_label)
     everything = np.concatenate([*found.values()])
     linear.set_ylim(0.0, 1.3 * float(everything.max()))
-    mark_modes(linear, tuple(marks))
+    mark(linear, marks)
     logarithmic.set_yscale("log")
-    log_limits(logarithmic, everything)
-    for frequency, _ in marks:
-        logarithmic.axvline(frequency, color=SOFT, linewidth=0.8, linestyle=(0, (2, 2)))
+    logarithmic.set(ylim=log_limits(everything))
+    mark(logarithmic, [(frequency, "") for frequency, _ in marks])
     if len(sides) > 1:
         logarithmic.legend(loc="upper right")

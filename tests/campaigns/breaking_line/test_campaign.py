@@ -94,7 +94,7 @@ def test_failures_are_rows_with_reasons(tmp_path, capsys):
     ("words", "part"),
     [
         ("--cases", "given nothing"),
-        ("--cases 1 4'", "allowed: one of 1 2 3 4 1p 2p 3p 4p"),
+        ("--cases 1 4'", "allowed: one of 1, 2, 3, 4, 1p, 2p, 3p, 4p"),
         ("--set end.force_N=[1,0,0]", "use --cases"),
         ("--set end.force_decay_s=0.01", "use --cases"),
         ("--scene tethered_buoy", "end.force_N"),

@@ -16,7 +16,6 @@ from campaigns.statements import (
     OPEN,
     Claim,
     Measured,
-    Rule,
     Statement,
     as_csv,
     judge,
@@ -40,7 +39,7 @@ def test_without_results_nothing_is_decided():
 
 
 def claim_of(*checks):
-    return Claim("", "", "", lambda results: Measured(checks, "told"), Rule(lambda value: value > 0.0, ""), "")
+    return Claim("", "", "", lambda results: Measured(checks, "told"), lambda value: value > 0.0, "", "")
 
 
 @pytest.mark.parametrize(

@@ -1,13 +1,86 @@
-"""The explorer in a browser: a click, a key or the list chooses a run, and its sheet is shown; wheel and keys zoom."""
+"""A report in a browser: axe-core finds nothing; on a telephone, in the dark, on paper; the explorer chooses runs."""
+
+from importlib.resources import files
+from pathlib import Path
 
 import pytest
 
-from reports.parts.content import Report, Text
 from reports.parts.html import render_html
-from tests.reports.conftest import Page
+from tests.reports.conftest import every_kind
 
+pytestmark = pytest.mark.slow
+AXE = files("axe_playwright_python").joinpath("axe.min.js")
+PHONE = {"width": 400, "height": 800}
 SHOWN = "document.getElementById('explorer-sheet').dataset.run"
 DRAWN = "document.querySelector('canvas').toDataURL()"  # tells one view from another
+
+
+@pytest.fixture(scope="module")
+def kinds(tmp_path_factory) -> Path:
+    """A page with every kind of item there is, of which the pages of all campaigns are made."""
+    path = tmp_path_factory.mktemp("kinds") / "report.html"
+    path.write_bytes(render_html(every_kind("Words of a `column_m`")))
+    return path
+
+
+def violations(page) -> list[str]:
+    """What axe-core finds serious or critical on a page, with a run chosen where it has an explorer."""
+    page.evaluate("document.querySelector('#explorer button[value=after]')?.click()")
+    page.evaluate(AXE.read_text(encoding="utf-8"))
+    found = page.evaluate("axe.run(document).then((result) => result.violations)")
+    return [
+        f"{one['id']}: {one['help']}: {one['nodes'][0]['html'][:200]} ({len(one['nodes'])})"
+        for one in found
+        if one["impact"] in ("serious", "critical")
+    ]
+
+
+@pytest.mark.parametrize("window", [{}, {"color_scheme": "dark"}, PHONE], ids=["light", "dark", "phone"])
+def test_axe_finds_nothing_serious(built, kinds, browse, window):
+    for path in (built[0], kinds):
+        with browse(path, **window) as page:
+            assert violations(page) == []
+
+
+def test_axe_would_have_found_something(built, browse, tmp_path):
+    """A picture without its text and grey letters on grey are found: the check can fail."""
+    source = built[0].read_text(encoding="utf-8")
+    spoilt = tmp_path / "spoilt.html"
+    spoilt.write_text(source.replace(' alt="', ' data-alt="').replace("--soft: #57606a", "--soft: #c0c4c8"), "utf-8")
+    with browse(spoilt) as page:
+        assert {line.partition(":")[0] for line in violations(page)} >= {"image-alt", "color-contrast"}
+
+
+def test_on_a_telephone_nothing_lies_beside_the_page_and_drawings_keep_their_size(built, kinds, browse):
+    """Letters of 7.5 pt in a drawing 6.8 in wide are 10 pixels high from 650 pixels on; half size is the least for
+    mathematics of 12 pt."""
+    widths = "(all) => all.map((one) => one.getBoundingClientRect().width)"
+    shares = "(all) => all.map((one) => one.getBoundingClientRect().width / one.width.baseVal.value)"
+    for path in (built[0], kinds):
+        with browse(path, **PHONE) as page:
+            assert page.evaluate("document.documentElement.scrollWidth") == PHONE["width"]
+            for drawing in ("figure img", "svg.glance"):
+                assert all(width >= 650.0 for width in page.eval_on_selector_all(drawing, widths)), drawing
+            found = page.eval_on_selector_all(".equation svg", shares)
+            assert found and all(share > 0.5 for share in found)
+
+
+def test_on_paper_captions_are_smaller_than_text_and_nothing_moves(kinds, browse):
+    with browse(kinds) as page:
+        page.emulate_media(media="print")
+        size = "(one) => parseFloat(getComputedStyle(one).fontSize)"
+        text, *captions = (
+            page.eval_on_selector(one, size) for one in ("main > p:not(.subtitle)", "figcaption", "caption")
+        )
+        assert max(captions) < text == pytest.approx(10.0 / 0.75, abs=0.01)
+        assert not page.locator(".moving").first.is_visible()
+
+
+@pytest.mark.parametrize("motion", ["no-preference", "reduce"])
+def test_moving_pictures_are_hidden_from_those_who_asked_for_less_motion(kinds, browse, motion):
+    with browse(kinds, reduced_motion=motion) as page:
+        assert page.locator(".moving").first.is_visible() is (motion == "no-preference")
+        assert page.locator("figure > .wide > img").first.is_visible()
 
 
 @pytest.fixture(scope="module")
@@ -29,7 +102,6 @@ def at(window, share):
     return box["x"] + 48 + (box["width"] - 58) * share, box["y"] + 0.3 * box["height"]
 
 
-@pytest.mark.slow
 def test_a_click_on_a_steepness_shows_the_sheet_of_that_run(window):
     for steepness, number in ((0.016, 1), (0.05, 3), (0.13, 7)):
         window.mouse.click(*at(window, share_of(steepness)))
@@ -39,7 +111,6 @@ def test_a_click_on_a_steepness_shows_the_sheet_of_that_run(window):
         assert f"kA = {steepness:g}" in window.locator("[role=status]").text_content()
 
 
-@pytest.mark.slow
 def test_keys_and_list_choose_runs_too(window):
     window.mouse.click(*at(window, 0.03))
     for key, run in (("ArrowRight", 2), ("ArrowLeft", 1), ("ArrowLeft", 1)):  # before the first there is none
@@ -49,7 +120,6 @@ def test_keys_and_list_choose_runs_too(window):
     assert window.evaluate(SHOWN) == "run-8"
 
 
-@pytest.mark.slow
 def test_wheel_keys_and_drags_change_the_view_and_all_brings_it_back(window):
     window.mouse.click(*at(window, 0.5))
     seen = [window.evaluate(DRAWN)]
@@ -69,7 +139,6 @@ def test_wheel_keys_and_drags_change_the_view_and_all_brings_it_back(window):
     assert window.evaluate(DRAWN) == seen[0]
 
 
-@pytest.mark.slow
 def test_a_run_without_points_is_seen_too(window):
     """Of the eight runs, those at kA = 0.12 and 0.16 failed: there, and only there, the lower edge has a cross.
 
@@ -90,18 +159,12 @@ def test_a_run_without_points_is_seen_too(window):
     assert marked == [0.12, 0.16]
 
 
-@pytest.mark.slow
 def test_nothing_is_asked_of_a_network(window):
     assert [url for url in window.asked if not url.startswith(("file:", "data:"))] == []
 
 
-@pytest.mark.slow
 def test_without_scripts_the_page_has_every_sheet_and_no_empty_explorer(built, browse):
     with browse(built[0], java_script_enabled=False) as page:
         assert page.locator(".sheet").count() == 8
         assert not page.locator("#explorer").is_visible()
         assert page.locator("#run-7 svg").bounding_box()["height"] > 100
-
-
-def test_a_report_without_an_explorer_has_no_script():
-    assert "script" not in [tag for tag, _ in Page(render_html(Report("a", "b", (Text("c"),))).decode()).tags]

@@ -1,0 +1,72 @@
+"""Three dimensions: the small push that lets a motion leave its plane, and the runs of a sweep that need it.
+
+Without a push nothing in the equations leaves the plane of uni-directional waves: y = 0 stays exactly 0 in three
+dimensions too. The paper pushes the buoy by 1e-5 m/s across the waves (section 4.2.2, figure 20).
+
+With `--dimensions auto` every value is run in the plane first. Where that run released loops, the same scene is run in
+three dimensions, and its row takes the place of the planar one; what the planar run showed stays in the columns
+planar_. Both runs are kept, so that a sweep run again decides the same from the files.
+"""
+
+import math
+from dataclasses import replace
+
+from campaigns.machinery.plan import Job, Plan, Summary
+from campaigns.machinery.runner import run
+
+SEED_MPS = 1e-5
+# name: components along and across the waves; a mirrored push has to give the mirrored motion, one along the waves none
+DIRECTIONS = {
+    "lateral": (0.0, 1.0),
+    "mirrored": (0.0, -1.0),
+    "oblique": (math.sqrt(0.5), math.sqrt(0.5)),
+    "along": (1.0, 0.0),
+}
+_KEPT = ("loop_releases", "regime", "radius_min_m", "radius_max_m")
+
+
+def velocity(seed_mps: float, direction: str) -> list[float]:
+    """The velocity (3,) in m/s of a push of that size and direction, for waves along x."""
+    along, across = DIRECTIONS[direction]
+    return [seed_mps * along, seed_mps * across, 0.0]
+
+
+def in_space(scene):
+    """The scene in three dimensions, and whether a push had to be added: (scene, added).
+
+    A scene whose buoy starts without a velocity across its waves gets SEED_MPS there. Perturbations that only a planar
+    run can carry are left out. Raises SceneError for what three dimensions do not allow.
+    """
+    from engine.scene import scene_from_toml
+
+    heading = scene.waves.direction_rad
+    sine, cosine = (math.sin(heading), math.cos(heading)) if heading else (0.0, 1.0)
+    vx, vy, vz = scene.start.buoy_velocity_mps
+    changes = {"motion.dimensions": 3, "output.tangent_vectors": 0, "output.lateral_growth": False}
+    added = math.isclose(-vx * sine + vy * cosine, 0.0, abs_tol=1e-300)
+    if added:
+        changes["start.buoy_velocity_mps"] = [vx - SEED_MPS * sine, vy + SEED_MPS * cosine, vz]
+    return scene_from_toml(scene.to_toml(), changes), added
+
+
+def run_where_needed(plan: Plan, jobs: list[Job]) -> tuple[dict, Summary]:
+    """Do the planar jobs, then the runs in three dimensions that their rows ask for; table.csv holds one row a value.
+
+    Returns times and summary of both halves together. Raises as `runner.run`.
+    """
+    timing, summary = run(plan, jobs)
+    rows = {row["run_key"]: row for row in summary.rows}
+    chosen = [_spatial(job, rows[job.key]) if rows[job.key].get("loop_releases") else job for job in jobs]
+    if chosen == jobs:
+        return timing, summary
+    more, final = run(plan, chosen)
+    times = {name: timing[name] + more[name] for name in timing}
+    # The second half finds what the first has computed: what is new is what both computed.
+    computed = summary.computed + final.computed
+    found = max(len(final.rows) - computed, 0)
+    return times, replace(final, computed=computed, found=found, analysis_s=times["analysis_s"])
+
+
+def _spatial(job: Job, row: dict) -> Job:
+    kept = {f"planar_{name}": row.get(name) for name in _KEPT}
+    return replace(job, scene=in_space(job.scene)[0], labels={**job.labels, **kept, "dimensions": 3})

@@ -1,0 +1,65 @@
+"""A motion as the paper looks at it: Poincaré sections (figure 19a) and spectra (figures 12, 17, 18)."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from ..parts.content import Picture
+from ..parts.style import INK, kind_for
+from .curves import Curve, Panel, curves, wide_limits
+
+_LABELS = (r"$r$ (m)", r"$\dot{r}$ (m/s)")
+
+
+def section(panels: list[tuple[str, np.ndarray]]) -> Picture:
+    """Args: for each run its title and the points r (m), r' (m/s) at one wave phase, (m, 2)."""
+    drawn = []
+    for title, points in panels:
+        size, alpha = (3.6, 0.75) if len(points) < 600 else (2.0, 0.5)
+        dots = Curve(*points.T, line="", mark="o", size=size, alpha=alpha)
+        limits = {"xlim": wide_limits(points[:, 0], 0.1), "ylim": wide_limits(points[:, 1], 0.1)}
+        drawn.append(Panel([dots], *_LABELS, title, settings=limits, ticks=5))
+    return curves([drawn], 2.9 if len(panels) > 1 else 3.6, kind=kind_for(sum(len(points) for _, points in panels)))
+
+
+def section_pairs(panels: list[tuple[str, np.ndarray, np.ndarray]], names: tuple[str, str]) -> Picture:
+    """Args: per scene a title and the points r (m), r' (m/s) of two motions, (m, 2) and (k, 2); names of the two."""
+    drawn = []
+    for title, first, second in panels:
+        rings = Curve(*first.T, names[0], line="", mark="o", size=5.0, width=0.7, filled=False)
+        drawn.append(Panel([rings, Curve(*second.T, names[1], line="", mark=".", size=3.0)], *_LABELS, title, ticks=4))
+    return curves([drawn], 2.9, "below")
+
+
+def spectra(panels: list[tuple], highest_radps: float) -> Picture:
+    """Each spectrum twice: on the paper's linear scale, and on a logarithmic one where a continuous floor shows.
+
+    Args: for each the label of its axis, omega (m,) in rad/s, the amplitude (m,), and modes to mark: (rad/s, name).
+    """
+    rows = []
+    for label, omega, amplitude, marks in panels:
+        below = r"$\omega$ (rad/s)" if len(rows) == len(panels) - 1 else ""
+        shown = omega <= highest_radps
+        line, high = [Curve(omega[shown], amplitude[shown], colour=INK)], max(float(amplitude[shown].max()), 1e-12)
+        limits = {"xlim": (0.0, highest_radps), "ylim": (0.0, 1.32 * high)}
+        decades = limits | {"ylim": log_limits(amplitude[shown])}
+        linear = Panel(line, below, label, settings=limits, marks=marks)
+        rows.append([linear, Panel(line, below, log="y", settings=decades, marks=[(at, "") for at, _ in marks])])
+    rows[0] = [replace(one, title=title) for one, title in zip(rows[0], ("linear", "logarithmic"), strict=True)]
+    return curves(rows, 0.6 + 1.4 * len(panels), share="x")
+
+
+def log_limits(amplitude: np.ndarray) -> tuple[float | None, float | None]:
+    """Four decades at most below the peak; a spectrum of zeros keeps matplotlib's own limits."""
+    peak = float(amplitude.max())
+    return (max(peak * 1e-4, float(amplitude[amplitude > 0].min()) * 0.5), peak * 3) if peak > 0 else (None, None)
+
+
+def settled(found: Sequence[np.ndarray]) -> tuple[float, float]:
+    """Limits that show 0 and what the curves (m,) do after their first tenth, in which they jump about."""
+    late = np.concatenate([*(bits[len(bits) // 10 :] for bits in found), np.zeros(1)])
+    margin = 0.15 * max(float(np.ptp(late)), 0.02)
+    return float(late.min()) - margin, float(late.max()) + margin

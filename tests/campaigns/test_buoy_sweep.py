@@ -1,0 +1,257 @@
+"""What the buoy sweep runs beside its values: runs in space where the plane is not enough, two runs again tighter and
+finer, the most violent one again with its line; and nothing twice.
+"""
+
+import io
+import json
+from dataclasses import dataclass, replace
+
+import numpy as np
+import pytest
+from matplotlib.colors import to_rgb
+from PIL import Image
+
+from campaigns import buoy_sweep
+from campaigns.buoy_sweep.repeats import (
+    AS_RUN,
+    COLUMNS,
+    EARLY,
+    FINER,
+    FRAMES,
+    PERIODS,
+    SHARE,
+    TIGHTER,
+    chosen,
+    first_periods,
+    lengths,
+)
+from campaigns.buoy_sweep.rows import buoy_row
+from campaigns.buoy_sweep.space import SEED_MPS
+from campaigns.columns import names
+from engine import Trajectory, load_scene
+from engine.trajectory import TangentGrowth
+from reports.parts.style import VERMILION
+from tests.campaigns.conftest import finished, forget, rows_of
+from tests.campaigns.fake_engine import FakeEngine, shapes, sines
+
+THREE = ("0.02", "0.05", "0.13")
+TOLERANCE_M, GRID_M = 0.02, 4.0  # error of r at rtol 1 and with one element, as sines of their own
+REPEATED = ["--periods", "12", "--transient", "2", "--no-report"]
+SHOWN = ["--periods", "15", "--transient", "3", "--no-report", "--no-accuracy"]
+
+
+@dataclass(frozen=True)
+class Drifting(FakeEngine):
+    """A FakeEngine whose r depends on tolerance and grid, and whose tension on the steepness of the wave."""
+
+    def __call__(self, scene, periods=None, duration_s=None):
+        run = super().__call__(scene, periods, duration_s)
+        t, nodes = run.columns["time_s"], scene.tether.nodes
+        off = (TOLERANCE_M * scene.solver.rtol + GRID_M / (nodes - 1) ** 2) * np.sin(0.7 * t)
+        columns = run.columns | {"radius_m": run.columns["radius_m"] + off}
+        columns["tension_top_high_N"] = columns["tension_top_high_N"] * (1.0 + scene.waves.steepness)
+        return replace(run, columns=columns)
+
+
+@dataclass(frozen=True)
+class Slackening(FakeEngine):
+    """Tension with an amplitude of 20 kN times the steepness about a mean: slack where that is beyond the mean."""
+
+    mean_N: float = 500.0
+    fails_with_line: bool = False
+
+    def __call__(self, scene, periods=None, duration_s=None):
+        super().__call__(scene, periods, duration_s)
+        length = periods if periods is not None else duration_s / scene.waves.period_s
+        run = sines(scene, length, tension=(self.mean_N, 2e4 * scene.waves.steepness))
+        if not scene.output.profiles or periods is None:
+            return run
+        if self.fails_with_line:
+            raise ZeroDivisionError("a fault of the code")
+        return replace(run, profiles=shapes(run))
+
+
+@pytest.fixture
+def repeated(sweep):
+    """repeated() -> exit code, table of the folder accuracy, steepness of the runs begun."""
+
+    def run():
+        code, _, begun = sweep("--steepness", "0.016", "0.05", "0.13", usual=REPEATED, kind=Drifting)
+        return code, rows_of(sweep.out / "accuracy"), begun
+
+    run.out = sweep.out
+    return run
+
+
+def test_the_least_and_the_most_violent_run_are_repeated_with_the_errors_that_were_put_in(repeated):
+    _, rows, _ = repeated()
+    assert [row["steepness"] for row in rows_of(repeated.out)] == ["0.016", "0.05", "0.13"], "a table of its own"
+    assert [(row["role"], row["label"]) for row in rows] == 3 * [("regular", "0.016")] + 3 * [("violent", "0.13")]
+    assert [row["run"] for row in rows] == 2 * [AS_RUN, TIGHTER, FINER]
+    assert {row["periods"] for row in rows} == {str(EARLY)}
+    assert set(rows[0]) == set(names(COLUMNS))
+    scene = load_scene("tethered_buoy")
+    nodes, rtol = scene.tether.nodes, scene.solver.rtol
+    rms = np.sqrt(np.mean(np.sin(0.7 * np.arange(1001) * 0.05) ** 2))
+    expected = {
+        AS_RUN: (nodes, rtol, 0.0),
+        TIGHTER: (nodes, rtol / 10, 0.9 * TOLERANCE_M * rtol * rms),
+        FINER: (2 * nodes - 1, rtol, 0.75 * GRID_M / (nodes - 1) ** 2 * rms),
+    }
+    for row in rows:
+        found = [float(row[name]) for name in ("nodes", "rtol", "error_early_m")]
+        assert found == pytest.approx(expected[row["run"]], rel=1e-6, abs=1e-15)
+
+
+def test_repeated_again_nothing_is_computed(repeated):
+    _, rows, _ = repeated()
+    killed_within = [repeated.out / folder / "trajectories" / ".run.nc.1.tmp" for folder in ("accuracy", "")]
+    for path in killed_within:
+        path.touch()
+    assert repeated() == (0, rows, [])
+    assert not any(path.exists() for path in killed_within)
+
+
+def test_a_sweep_that_leaves_it_out_repeats_nothing(sweep):
+    assert sweep("--steepness", "0.016", "0.05", kind=Drifting)[0] == 0
+    assert not (sweep.out / "accuracy").exists()
+
+
+def test_a_short_sweep_pays_no_more_than_its_share():
+    assert lengths(49, 300) == 300
+    assert lengths(8, 300) == pytest.approx(300 * SHARE * 8 / 8.6, abs=1)
+    assert lengths(2, 300) == EARLY or lengths(2, 300) <= 300 * SHARE * 2 / 8.6
+    assert lengths(2, 4) == 4
+
+
+def test_runs_that_failed_are_not_chosen():
+    good = {"status": "ok", "run_key": "a", "tension_top_max_N": 10.0}
+    wild = {"status": "newton-failed", "run_key": "b", "tension_top_max_N": 99.0}
+    assert chosen([wild]) == [] and chosen([good, wild]) == [("regular", good)]
+
+
+def test_a_record_cut_short_keeps_its_first_periods():
+    run = sines(load_scene("tethered_buoy", {"output.tangent_vectors": 1}), 40)
+    run = replace(run, tangent=TangentGrowth(5.0, np.arange(40.0)[:, None], np.eye(40)[3]))
+    short = first_periods(run, 10)
+    assert len(short.columns["time_s"]) == 1001 and len(short.tangent.growth_nats) == 10
+    assert short.statistics["loop_releases"] == 1
+    assert short.statistics["wall_s"] == pytest.approx(run.statistics["wall_s"] / 4, rel=1e-3)
+    assert first_periods(run, 40) is run
+
+
+@pytest.fixture
+def close_up(sweep):
+    """close_up(**fields of Slackening) -> exit code, table of the folder close_up, steepness of the runs begun."""
+
+    def run(**fake):
+        code, _, begun = sweep("--steepness", *THREE, jobs=1, usual=SHOWN, kind=Slackening, **fake)
+        return code, rows_of(sweep.out / "close_up") if (sweep.out / "close_up").exists() else None, begun
+
+    run.out = sweep.out
+    return run
+
+
+def test_the_run_that_peaks_highest_is_kept_with_its_line_and_never_twice(close_up):
+    code, (row,), begun = close_up()
+    assert (code, begun) == (0, [0.02, 0.05, 0.13, 0.13])
+    assert (row["steepness"], row["status"], row["periods"]) == ("0.13", "ok", str(PERIODS))
+    path = close_up.out / "close_up" / "trajectories" / f"{row['run_key']}.nc"
+    kept = Trajectory.load(path)
+    assert kept.profiles.time_s == pytest.approx(np.arange(PERIODS * FRAMES + 1) * kept.scene.waves.period_s / FRAMES)
+    assert close_up() == (0, [row], [])
+    path.unlink()
+    assert close_up()[2] == [0.13], "a sweep killed before its last run does that run alone"
+
+
+def test_a_sweep_without_slack_has_none_and_empties_that_of_an_earlier_one(close_up):
+    assert close_up(mean_N=5000.0)[1:] == (None, [0.02, 0.05, 0.13])
+    forget(close_up.out)
+    close_up()
+    forget(close_up.out)
+    assert close_up(mean_N=5000.0)[1] == []
+
+
+def test_a_close_up_that_fails_is_a_row_and_costs_nothing_else(close_up):
+    code, (row,), _ = close_up(fails_with_line=True)
+    assert (code, row["status"]) == (0, "error")
+
+
+@pytest.mark.slow
+def test_the_report_shows_it_moving_and_as_stills_the_same_each_time(close_up):
+    from reports.buoy_sweep.close_up import close_up_items
+
+    close_up()
+    heading, figure = close_up_items(close_up.out)
+    assert figure.picture.kind == "svg" and figure.moving.data.startswith(b"GIF89a")
+    assert "kA = 0.13" in figure.caption and len(figure.moving.data) < 1e6
+    assert close_up_items(close_up.out) == [heading, figure]
+    with Image.open(io.BytesIO(figure.moving.data)) as moving:
+        colours = np.array([colour for _, colour in moving.convert("RGB").getcolors(1 << 20)])
+    for wanted in ("#ffffff", VERMILION):  # paper, and the small dot that marks the moment
+        off = np.abs(colours - 255 * np.array(to_rgb(wanted))).sum(axis=1)
+        assert off.min() < 60, "20 of 256 in each of red, green and blue; brown instead of vermilion is 177 off"
+
+
+def test_auto_runs_in_space_what_released_loops_in_the_plane_says_so_and_decides_again_from_the_files(sweep):
+    _, planar, begun = sweep("--steepness", *THREE, loops=(0.05, 0.13))
+    assert begun == [0.02, 0.05, 0.13] and [row["dimensions"] for row in planar] == ["2", "2", "2"]
+    assert [row["loop_releases"] for row in planar] == ["0", "3", "3"]
+    assert all(row["buoy_lateral_max_m"] == row["planar_loop_releases"] == "" for row in planar)
+    code, rows, begun = sweep("--steepness", *THREE, "--dimensions", "auto", loops=(0.05, 0.13))
+    assert code == 0 and begun == [0.05, 0.13], "the planar runs are there"
+    assert [row["dimensions"] for row in rows] == ["2", "3", "3"]
+    assert [row["planar_loop_releases"] for row in rows] == ["", "3", "3"]
+    assert [row["loop_releases"] for row in rows] == ["0", "0", "0"]
+    assert rows[1]["planar_radius_max_m"] == rows[1]["radius_max_m"] != ""
+    assert rows[1]["buoy_lateral_max_m"] == "0.0" and rows[0]["buoy_lateral_max_m"] == ""
+    files = finished(sweep.out)
+    assert len(files) == 5
+    assert sweep("--steepness", *THREE, "--dimensions", "auto", loops=(0.05, 0.13)) == (0, rows, [])
+    assert finished(sweep.out) == files
+
+
+def test_without_loops_auto_is_the_planar_sweep(sweep):
+    _, planar, _ = sweep("--steepness", *THREE)
+    assert sweep("--steepness", *THREE, "--dimensions", "auto") == (0, planar, [])
+
+
+@pytest.mark.parametrize(
+    ("words", "push", "added"),
+    [([], SEED_MPS, SEED_MPS), (["--set", "start.buoy_velocity_mps=[0,1e-7,0]"], 1e-7, None)],
+)
+def test_three_pushes_a_scene_that_starts_in_its_plane_and_says_so(sweep, words, push, added):
+    _, rows, begun = sweep("--steepness", *THREE, "--dimensions", "3", *words, loops=(0.13,))
+    assert begun == [0.02, 0.05, 0.13] and {row["dimensions"] for row in rows} == {"3"}
+    said = json.loads((sweep.out / "provenance.json").read_text())
+    assert (said["dimensions"], said["push_mps"]) == ("3", added)
+    as_run = load_scene(sweep.out / "scene.toml")
+    assert as_run.motion.dimensions == 3 and as_run.start.buoy_velocity_mps == (0.0, push, 0.0)
+
+
+def test_a_failed_run_in_space_is_a_row_of_three_dimensions(sweep):
+    _, rows, _ = sweep("--steepness", "0.05", "--dimensions", "3", raises=(0.05,))
+    assert (rows[0]["status"], rows[0]["dimensions"]) == ("error", "3")
+
+
+def test_a_row_in_space_is_judged_by_its_samples():
+    scene = load_scene("tethered_buoy", {"motion.dimensions": 3, "start.buoy_velocity_mps": [0, 1e-5, 0]})
+    row = buoy_row(sines(scene, 120), 20)
+    assert row["regime"] == "period-1"
+    assert row["lyapunov_tangent_bits_per_period"] is None and row["regime_tighter"] is None
+    assert "regime" not in buoy_row(sines(scene, 59), 20), "too short for a verdict"
+
+
+@pytest.mark.slow
+def test_a_loop_leaves_the_plane_and_the_range_of_the_buoy_stays(tmp_path):
+    """kA = 0.13: the planar run releases loops, the run in three dimensions none; the ranges of r agree to 1 %."""
+    words = ["--steepness", "0.016", "0.13", "--periods", "80", "--transient", "20", "--dimensions", "auto"]
+    assert buoy_sweep.main([*words, "--jobs", "1", "--backend", "threading", "--out", str(tmp_path)]) == 0
+    calm, steep = rows_of(tmp_path)
+    assert (calm["dimensions"], steep["dimensions"]) == ("2", "3")
+    assert int(steep["planar_loop_releases"]) > 0 and int(steep["loop_releases"]) == 0
+    assert 0.1 < float(steep["rope_lateral_max_m"]) < 1.0 and float(steep["buoy_lateral_max_m"]) < 0.02
+    spatial, planar = ([float(steep[f"{kind}radius_{end}_m"]) for end in ("min", "max")] for kind in ("", "planar_"))
+    assert planar == pytest.approx(spatial, abs=0.01 * (spatial[1] - spatial[0]))
+    page = (tmp_path / "report.html").read_text()
+    assert "Out of the plane" in page and "push_mps" in page

@@ -1,0 +1,158 @@
+"""What every command promises: help at once, sound defaults, and an answer to each mistake that says what to do.
+
+A mistake (mistakes.toml) gets exit code 2, no traceback, and nothing is written.
+"""
+
+import importlib
+import json
+import subprocess
+import sys
+import tomllib
+from pathlib import Path
+
+import pytest
+
+from campaigns import buoy_sweep
+from campaigns.__main__ import main as every_campaign
+from campaigns.buoy_sweep import STEEPNESS, STUDY
+from campaigns.machinery.cli import fault_of
+from campaigns.machinery.plausible import breaking_steepness, doubts
+from engine import load_scene
+from tests.campaigns.conftest import ROOT
+
+HEAVY = {"numpy", "numba", "pandas", "scipy", "pydantic", "joblib", "matplotlib", "dask", "hypothesis"}
+OPTIONS = "--steepness --steepness-range --periods --transient --scene --set --jobs --backend --out --no-report"
+MISTAKES = tomllib.loads(Path(__file__).with_name("mistakes.toml").read_text(encoding="utf-8"))
+FILES = {
+    "comma.toml": 'name = "mine"\n[tether]\nlength_m = 20,5\n',
+    "bracket.toml": "[tether\nlength_m = 20\n",
+    "text.toml": 'name = "mine"\n[water]\ndepth_m = "21,6"\ndensity_kgpm3 = "1027 kg"\n',
+    "utf16.toml": 'name = "mine"\n'.encode("utf-16"),
+    "latin1.toml": '# Schäkel\nname = "mine"\n'.encode("latin-1"),
+    "own/scene.toml": 'name = "mine"\n',
+    "a_file": "mine",
+    "old/provenance.json": json.dumps({"campaign": "breaking_line"}),
+    "broken/provenance.json": "not json",
+    "mine/table.csv": "my,own,table\n",
+    "part/table.csv": "steepness\n0.1\n",
+}
+
+
+def python(*words):
+    return subprocess.run([sys.executable, *words], cwd=ROOT, capture_output=True, text=True)
+
+
+def test_help_tells_every_option():
+    done = python("-m", "campaigns.buoy_sweep", "--help")
+    assert done.returncode == 0
+    for part in (*OPTIONS.split(), "loky|threading|dask", "[--"):
+        assert part in done.stdout
+    assert "[N ...]" not in done.stdout
+
+
+@pytest.mark.parametrize("name", ["accuracy", "buoy_sweep", "oscillator", "out_of_plane", "stability", "sweep"])
+def test_help_loads_nothing_heavy(name):
+    done = python("-c", f"import sys, campaigns.{name} as one; one.parser().format_help(); print(*sys.modules)")
+    assert done.stdout and not HEAVY & set(done.stdout.split())
+
+
+def test_no_argument_is_a_complete_order_that_meets_the_papers_two_values():
+    assert {0.016, 0.13} <= set(STEEPNESS) and sorted(set(STEEPNESS)) == list(STEEPNESS)
+    order = STUDY.read_order([], faults := [])
+    assert faults == []
+    assert [case.labels["steepness"] for case in order.cases] == list(STEEPNESS)
+    assert all(case.scene.waves.steepness == case.labels["steepness"] for case in order.cases)
+    assert order.transient < order.periods
+    assert order.how.out.as_posix() == "results/buoy_sweep"
+
+
+@pytest.mark.parametrize("words", [[], ["--help"]])
+def test_the_list_of_campaigns_is_no_mistake(capsys, words):
+    assert every_campaign(words) == 0
+    said = capsys.readouterr().out
+    assert "buoy_sweep     Sweep of wave steepness" in said and "sweep          Sweep of any number" in said
+
+
+def test_a_campaign_is_run_by_its_name_too(capsys):
+    with pytest.raises(SystemExit) as ended:
+        every_campaign(["sweep", "--help"])
+    assert ended.value.code == 0 and "--vary" in capsys.readouterr().out
+
+
+@pytest.fixture
+def place(tmp_path, monkeypatch):
+    for name, text in FILES.items():
+        (tmp_path / name).parent.mkdir(exist_ok=True)
+        (tmp_path / name).write_bytes(text if isinstance(text, bytes) else text.encode())
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+def listing(place):
+    return sorted((str(path), path.stat().st_mtime_ns) for path in place.rglob("*"))
+
+
+@pytest.mark.parametrize(("module", "words"), [(module, words) for module in MISTAKES for words in MISTAKES[module]])
+def test_the_answer_says_what_to_do(place, capsys, module, words):
+    before, parts = listing(place), MISTAKES[module][words]
+    assert importlib.import_module(module).main(words.split()) == 2
+    said = capsys.readouterr()
+    assert said.out == ""
+    assert [part for part in ([parts] if isinstance(parts, str) else parts) if part not in said.err] == []
+    assert listing(place) == before
+
+
+def test_an_empty_name_is_not_the_current_folder(place, capsys):
+    """As from --out "$RESULTS" with a variable that is not set."""
+    assert buoy_sweep.main(["--out", "", "--steepness", "0.1"]) == 2
+    assert "--out: given ''; allowed: a folder" in capsys.readouterr().err
+
+
+def test_a_campaign_killed_before_its_provenance_goes_on_in_its_folder(tmp_path):
+    (tmp_path / "scene.toml").write_text("as run")
+    assert "scene.toml" in fault_of(tmp_path, "buoy_sweep")
+    (tmp_path / ".lock").touch()
+    assert fault_of(tmp_path, "buoy_sweep") is None
+
+
+def test_a_folder_that_is_gone(tmp_path, monkeypatch, capsys):
+    (tmp_path / "gone").mkdir()
+    monkeypatch.chdir(tmp_path / "gone")
+    (tmp_path / "gone").rmdir()
+    assert buoy_sweep.main(["--steepness", "0.1"]) == 2
+    assert "the folder that this is run in has been removed" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("asked", "answer", "code", "part"),
+    [
+        # root may write anywhere, so the answer of the system is put in its mouth
+        ("os.access", False, 2, "cannot be written to; allowed: a folder that can"),
+        ("engine.load_scene", ModuleNotFoundError("", name="pydantic"), 1, "no package 'pydantic'"),
+        ("engine.load_scene", ModuleNotFoundError("", name="any"), 1, "pip install -c constraints.txt -e ."),
+        ("engine.load_scene", KeyboardInterrupt(), 130, "interrupted; nothing was run or written"),
+    ],
+)
+def test_what_the_system_does_not_give_is_one_line(place, capsys, monkeypatch, asked, answer, code, part):
+    def answered(*_):
+        if isinstance(answer, BaseException):
+            raise answer
+        return answer
+
+    monkeypatch.setattr(asked, answered, raising=False)
+    assert buoy_sweep.main(["--out", "new"]) == code
+    assert part in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("package", ["engine", "analysis", "campaigns"])
+def test_an_old_python_is_named_with_what_is_needed(package):
+    done = python("-c", f"import sys; sys.version_info = (3, 9, 2, 'final', 0); import {package}")
+    assert done.returncode == 1
+    assert "needs Python 3.11 or newer, and this is 3.9.2" in done.stderr.splitlines()[-1]
+
+
+def test_waves_up_to_the_limit_are_run():
+    limit = breaking_steepness(load_scene("tethered_buoy"))
+    assert limit == pytest.approx(0.446, abs=2e-3)  # deep water: 0.142 pi
+    for share, count in ((0.999, 0), (1.001, 1)):
+        assert len(list(doubts(load_scene("tethered_buoy", {"waves.steepness": share * limit})))) == count
