@@ -7,8 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from ..buoy_sweep.runs import strobed
-from ..figures.offplane_dependence import dependence
-from ..figures.offplane_history import History, lateral_histories, seed_histories
+from ..figures.offplane_history import History, dependence, lateral_histories, seed_histories
 from ..figures.rope_shape import rope_shapes
 from ..figures.section import section_pairs
 from ..parts.columns import read_columns, table_of
