@@ -9,7 +9,6 @@ from pathlib import Path
 
 from machine_code.store import compiled, folder_for, hash_of
 
-_ROOT = Path(__file__).parent
 _KEPT_CACHES = 16
 
 
@@ -22,13 +21,7 @@ def source_hash():
     str
         sha256, hexadecimal, over the names and contents of all ``analysis/**/*.py``, and of ``machine_code``.
     """
-    return hash_of(_ROOT, ".py")
-
-
-@cache
-def cache_directory():
-    """Folder for the machine code of these sources; None where nothing can be written."""
-    return folder_for("analysis", source_hash(), _KEPT_CACHES)
+    return hash_of(Path(__file__).parent, ".py")
 
 
 def kernel(function):
@@ -37,4 +30,9 @@ def kernel(function):
     Full ``fastmath`` is not used: it would let the compiler assume that no NaN exists, and NaN is how a measure says
     that nothing qualified. Division by zero gives inf or NaN, as in NumPy, and indices are not checked.
     """
-    return compiled(function, cache_directory(), fastmath={"contract"})
+    return compiled(function, _folder(), fastmath={"contract"})
+
+
+@cache
+def _folder():
+    return folder_for("analysis", source_hash(), _KEPT_CACHES)

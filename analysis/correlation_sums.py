@@ -7,7 +7,7 @@ between which the slope is constant. Without such a region there is no dimension
 the motion is smooth, not because it returns: Theiler's window w leaves them out, else every smooth curve has D = 1.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -73,23 +73,24 @@ def correlation_dimension(points: ArrayLike, theiler: int = 0) -> CorrelationDim
     x = checked_columns(points, "points")
     theiler = checked_count(theiler, "theiler", least=0)
     z = np.ascontiguousarray(in_deviations(x))
-    needed = max(LEAST_POINTS, 4 * theiler)
-    if len(x) < needed:
-        return _nothing(f"too short: {needed} points are needed, given {len(x)}", len(x))
-    if z.shape[1] == 0:
-        return _nothing("no motion: all points are one to the last digits", len(x))
+    needed, empty, none = max(LEAST_POINTS, 4 * theiler), locked(np.zeros(0)), (np.nan, np.nan)
+    if len(x) < needed or z.shape[1] == 0:
+        reason = f"too short: {needed} points are needed, given {len(x)}"
+        reason = reason if len(x) < needed else "no motion: all points are one to the last digits"
+        return CorrelationDimension(np.nan, np.nan, reason, none, empty, empty, empty, len(x))
     largest = np.log(np.linalg.norm(np.ptp(z, axis=0)))
-    counts = _pairs_by_distance(z, theiler, largest - _NATS, BINS_PER_NAT, _NATS * BINS_PER_NAT + 1)
-    pairs = np.cumsum(counts)[:-1]
+    bins = (largest - _NATS, BINS_PER_NAT, _NATS * BINS_PER_NAT + 1)
+    pairs = np.cumsum(_pairs_by_distance(z, theiler, *bins))[:-1]
     total = (len(z) - theiler) * (len(z) - theiler - 1) // 2
     logarithm = largest - _NATS + np.arange(len(pairs)) / BINS_PER_NAT
-    found = _read(pairs, total, logarithm, len(z))
-    if not np.isfinite(found.value) or found.value == 0.0:
-        return found
-    bins = (largest - _NATS, BINS_PER_NAT, len(counts))
-    quarters = [np.cumsum(_pairs_by_distance(part, theiler, *bins))[:-1] for part in np.array_split(z, QUARTERS)]
-    inside = (found.radius >= found.region[0]) & (found.radius <= found.region[1])
-    return replace(found, error=float(np.hypot(found.error, _sampling_error(quarters, logarithm, inside))))
+    slope, (value, error, reason, region) = _read(pairs, total, logarithm, len(z))
+    radius = np.exp(logarithm)
+    if value > 0.0:
+        quarters = [np.cumsum(_pairs_by_distance(part, theiler, *bins))[:-1] for part in np.array_split(z, QUARTERS)]
+        inside = (radius >= region[0]) & (radius <= region[1])
+        error = float(np.hypot(error, _sampling_error(quarters, logarithm, inside)))
+    curve = (locked(radius), locked(pairs / total), locked(slope))
+    return CorrelationDimension(value, error, reason, region, *curve, len(x))
 
 
 @kernel
@@ -110,39 +111,36 @@ def _pairs_by_distance(z, theiler, lowest, per_nat, bins):
 
 
 def _read(pairs, total, logarithm, points):
-    """Slopes, region and dimension from the numbers of pairs within each radius."""
-    enough = pairs >= LEAST_PAIRS
+    """Local slopes; and value, error, reason, region from the numbers of pairs within each radius."""
+    enough, none = pairs >= LEAST_PAIRS, (np.nan, np.nan)
     ln_share = np.log(np.where(enough, pairs, 1) / total)
     half = _SLOPE_BINS // 2
     slope = np.full(len(pairs), np.nan)
     rise = (ln_share[2 * half :] - ln_share[: -2 * half]) / (logarithm[2 * half :] - logarithm[: -2 * half])
     slope[half:-half] = np.where(enough[: -2 * half], rise, np.nan)
-    curve = (locked(np.exp(logarithm)), locked(pairs / total), locked(slope))
     usable = np.flatnonzero(np.isfinite(slope))
     top = np.append(pairs[half:], np.full(half, total)) <= LARGEST_SHARE * total
     usable = usable[top[usable]]
-    none = (np.nan, np.nan)
     if pairs[0] > LARGEST_SHARE * total:
-        return CorrelationDimension(0.0, 0.0, "the points repeat: a finite set, as of a period", none, *curve, points)
+        return slope, (0.0, 0.0, "the points repeat: a finite set, as of a period", none)
     # A gap between the distances of a lattice (a torus of nearly rational frequencies) is no scaling of the set.
     region = _longest(slope, usable[slope[usable] > LEAST_SLOPE])
     if region is None:
         alike = f"nowhere are the slopes within {SLOPE_TOLERANCE:.0%} over {LEAST_SPAN_NATS} nats of radius"
         reason = f"no scaling region: {alike} between {LEAST_PAIRS} pairs and {LARGEST_SHARE:.0%} of all"
-        return CorrelationDimension(np.nan, np.nan, reason, none, *curve, points)
+        return slope, (np.nan, np.nan, reason, none)
     first, last = region[0] - half, region[1] + half
     middle = (first + last) // 2
     ends = (first, last), (first, middle), (middle, last)
     value, lower, upper = (float(np.polyfit(logarithm[a : b + 1], ln_share[a : b + 1], 1)[0]) for a, b in ends)
-    error = 0.5 * abs(upper - lower)
-    edges = (float(np.exp(logarithm[first])), float(np.exp(logarithm[last])))
     limit = 2.0 * np.log(points) / (logarithm[-1] - logarithm[last])
     if value > limit:
         reason = f"too few points: {points} cannot show a dimension above {limit:.2f}, the slope is {value:.2f}"
-        return CorrelationDimension(np.nan, np.nan, reason, none, *curve, points)
+        return slope, (np.nan, np.nan, reason, none)
+    edges = (float(np.exp(logarithm[first])), float(np.exp(logarithm[last])))
     span = logarithm[last] - logarithm[first]
     reason = f"slope {value:.3f} over {span:.1f} nats of radius, {edges[0]:.2g} to {edges[1]:.2g}"
-    return CorrelationDimension(value, error, reason, edges, *curve, points)
+    return slope, (value, 0.5 * abs(upper - lower), reason, edges)
 
 
 def _sampling_error(quarters, logarithm, inside):
@@ -171,8 +169,3 @@ def _longest(slope, usable):
             if last - first >= span and key > best_key:
                 best, best_key = (int(first), last), key
     return best
-
-
-def _nothing(reason, points):
-    empty = locked(np.zeros(0))
-    return CorrelationDimension(np.nan, np.nan, reason, (np.nan, np.nan), empty, empty, empty, points)

@@ -3,20 +3,25 @@
     Rosenstein   y(k) = < ln |X_{i+k} - X_{j(i)+k}| >_i                     one nearest neighbour j(i) of every point
     Kantz        y(k) = < ln ( mean over j in U_i of |x_{i+k} - x_{j+k}| ) >_i  all neighbours U_i within a radius
 
-Both are the slope of y(k) against time in its scaling region (`scaling_regions`), which is part of the answer. They
-need no replacement, and show by a curve that bends everywhere that there is no exponent to be had; in return they use
-only neighbours as near as the record has, and average the logarithm over the whole attractor.
+Both are the slope of y(k) against time in its scaling region, which is part of the answer. They need no replacement,
+and show by a curve that bends everywhere that there is no exponent to be had; in return they use only neighbours as
+near as the record has, and average the logarithm over the whole attractor.
+
+Growth between neighbours starts with a transient (the vector turns towards the fastest direction), is exponential while
+distances are small, and ends at the size of the attractor. Only the middle is a Lyapunov exponent, and a curve without
+a straight middle has none to give, however well a line may be put through it.
 """
+
+from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from analysis.embedding_delay import delay_vectors
-from analysis.embedding_dimension import choose_embedding
+from analysis.embedding import choose_embedding, delay_vectors, noise_level
 from analysis.exponents import Exponent, no_exponent
-from analysis.neighbours import nearest_outside, noise_level
-from analysis.sampling import checked_count, checked_positive, checked_series, locked
-from analysis.scaling_regions import scaling_region
+from analysis.neighbours import nearest_outside
+from analysis.sampling import checked_positive, checked_series, locked
 
 ROSENSTEIN = "Rosenstein, Collins & De Luca 1993"
 KANTZ = "Kantz 1994"
@@ -24,113 +29,117 @@ CENTRES = 2000
 LEAST_CENTRES = 100
 BLOCKS = 8
 KANTZ_NEIGHBOURS = 8
+LEAST_SPAN_NATS = 1.0
+LEAST_POINTS = 5
+PIECES = 4
+MOST_CURVATURE = 0.25
 
 
-def rosenstein_lyapunov(
-    series: ArrayLike,
-    step_s: float,
-    delay: int | None = None,
-    dimension: int | None = None,
-    theiler: int | None = None,
-    horizon: int | None = None,
-) -> Exponent:
+@dataclass(frozen=True)
+class ScalingRegion:
+    """A straight part of y(t).
+
+    slope        of the least-squares line; NaN where there is no region
+    error        standard deviation of the slopes of its four quarters: what the line's curvature leaves open
+    begin, end   first and last index of the region, inclusive; -1 where there is none
+    span         rise of the line over the region [nats]
+    reason       one sentence
+    """
+
+    slope: float
+    error: float
+    begin: int
+    end: int
+    span: float
+    reason: str
+
+
+def rosenstein_lyapunov(series: ArrayLike, step_s: float) -> Exponent:
     """Largest Lyapunov exponent from the mean logarithmic growth between nearest neighbours.
 
         y(k) = < ln |X_{i+k} - X_{j(i)+k}| >,    lambda = slope of y against k step_s in its scaling region
 
     series (n,)    any unit, evenly sampled
     step_s         sampling step [s], or 1 for a map
-    delay, dimension    of the embedding; None: choose_embedding
-    theiler        neighbours nearer in time are none [samples]; None: mean period or span of a delay vector
-    horizon        largest k [samples]; None: eight mean periods, at most a quarter of the record
+    The embedding is that of `choose_embedding`; neighbours nearer in time than the mean period or the span of a delay
+    vector are none; k ends after eight mean periods, or a quarter of the record.
     Returns an Exponent [nats/time]. Its error joins the bend of the region with the scatter of eight blocks of centres.
     NaN with a reason where no straight part of the curve spans one nat: regular motion, noise, or too short a record.
     details: time_s and curve (k,), region (ScalingRegion), embedding, dimension, theiler, centres.
     Raises ValueError for values that are not finite.
     Source: Rosenstein, Collins & De Luca, Physica D 65, 117 (1993).
     """
-    x, step_s = checked_series(series), checked_positive(step_s, "step_s")
-    setting = _setting(x, delay, dimension, theiler, horizon)
-    if isinstance(setting, str):
-        return no_exponent(ROSENSTEIN, setting)
-    embedding, m, theiler, horizon, points, rows = setting
-    index, distance = nearest_outside(points[: len(points) - horizon], theiler, rows)
-    # Zero: an exact repetition (periodic to the last digit), which has no logarithm.
-    kept = (index[:, 0] >= 0) & (distance[:, 0] > 1e-12 * np.std(x))
-    rows, index = rows[kept], index[kept, 0]
-    growth = np.empty((horizon + 1, len(rows)))
-    with np.errstate(divide="ignore"):
-        for k in range(horizon + 1):
-            growth[k] = np.log(np.linalg.norm(points[rows + k] - points[index + k], axis=1))
-    return _slope_of(growth, step_s, embedding, ROSENSTEIN, {"dimension": m, "theiler": theiler})
+
+    def logarithms(x, points, rows, lag, theiler, horizon):
+        index, distance = nearest_outside(points[: len(points) - horizon], theiler, rows)
+        # Zero: an exact repetition (periodic to the last digit), which has no logarithm.
+        kept = (index[:, 0] >= 0) & (distance[:, 0] > 1e-12 * np.std(x))
+        rows, index = rows[kept], index[kept, 0]
+        apart = (np.linalg.norm(points[rows + k] - points[index + k], axis=1) for k in range(horizon + 1))
+        return _logarithms(apart), {}
+
+    return _estimated(ROSENSTEIN, series, step_s, logarithms)
 
 
-def kantz_lyapunov(
-    series: ArrayLike,
-    step_s: float,
-    delay: int | None = None,
-    dimension: int | None = None,
-    theiler: int | None = None,
-    horizon: int | None = None,
-    radius: float | None = None,
-) -> Exponent:
+def kantz_lyapunov(series: ArrayLike, step_s: float) -> Exponent:
     """Largest Lyapunov exponent from the growth of whole neighbourhoods.
 
         y(k) = < ln( mean over j in U_i of |x_{i+k} - x_{j+k}| ) >,    U_i: |X_i - X_j| <= radius
 
     Averaging before the logarithm tames single bad neighbours, so that noise matters less than in Rosenstein's curve.
 
-    series, step_s, delay, dimension, theiler, horizon    as in rosenstein_lyapunov
-    radius         of the neighbourhoods [unit of the series]; None: the median distance of the eighth neighbour, at
-                   least three standard deviations of the noise between two delay vectors
+    series, step_s    as in rosenstein_lyapunov, and so are embedding, window and horizon. The radius is the median
+                      distance of the eighth neighbour, at least three standard deviations of the noise between two
+                      delay vectors
     Returns an Exponent [nats/time] with details as in rosenstein_lyapunov and radius. NaN with a reason where no
     straight part spans one nat, or fewer than 100 points have eight neighbours or more within the radius.
     Raises ValueError for values that are not finite.
     Source: Kantz, Physics Letters A 185, 77 (1994).
     """
-    x, step_s = checked_series(series), checked_positive(step_s, "step_s")
-    setting = _setting(x, delay, dimension, theiler, horizon)
-    if isinstance(setting, str):
-        return no_exponent(KANTZ, setting)
-    embedding, m, theiler, horizon, points, rows = setting
-    index, distance = nearest_outside(points[: len(points) - horizon], theiler, rows, count=4 * KANTZ_NEIGHBOURS)
-    if radius is None:
-        noise = noise_level(x, embedding.lag) * np.sqrt(2.0 * m)
+
+    def logarithms(x, points, rows, lag, theiler, horizon):
+        index, distance = nearest_outside(points[: len(points) - horizon], theiler, rows, count=4 * KANTZ_NEIGHBOURS)
+        noise = noise_level(x, lag) * np.sqrt(2.0 * points.shape[1])
         radius = max(np.median(distance[:, KANTZ_NEIGHBOURS - 1]), 3.0 * noise)
         if radius == 0.0:
-            return no_exponent(KANTZ, "neighbours coincide: the series takes too few different values")
-    near = (distance <= checked_positive(radius, "radius")) & (index >= 0)
-    kept = np.sum(near, axis=1) >= KANTZ_NEIGHBOURS
-    rows, index, near, last = rows[kept], index[kept], near[kept], len(x) - len(points)
-    growth, sizes = np.empty((horizon + 1, len(rows))), np.sum(near, axis=1)
+            return None, "neighbours coincide: the series takes too few different values"
+        near = (distance <= radius) & (index >= 0)
+        kept = np.sum(near, axis=1) >= KANTZ_NEIGHBOURS
+        rows, index, near, last = rows[kept], index[kept], near[kept], len(x) - len(points)
+        apart = (np.abs(x[rows + last + k][:, None] - x[index + last + k]) for k in range(horizon + 1))
+        means = (np.sum(np.where(near, one, 0.0), axis=1) / np.sum(near, axis=1) for one in apart)
+        return _logarithms(means), {"radius": float(radius)}
+
+    return _estimated(KANTZ, series, step_s, logarithms)
+
+
+def _logarithms(apart):
+    """ln of distances (centres,), one array a time: (k + 1, centres)."""
     with np.errstate(divide="ignore"):
-        for k in range(horizon + 1):
-            apart = np.abs(x[rows + last + k][:, None] - x[index + last + k])
-            growth[k] = np.log(np.sum(np.where(near, apart, 0.0), axis=1) / sizes)
-    details = {"dimension": m, "theiler": theiler, "radius": float(radius)}
-    return _slope_of(growth, step_s, embedding, KANTZ, details)
+        return np.log(list(apart))
 
 
-def _setting(x, delay, dimension, theiler, horizon):
-    """(embedding, dimension, theiler, horizon, delay vectors, centres), or the sentence that says why there is none.
-
-    Centres are the points asked about, in the order of time: all, or 2000 drawn with a fixed seed.
-    """
+def _estimated(method, series, step_s, logarithms):
+    """The Exponent of a method. logarithms: of the series, its delay vectors, the centres asked about (all, or 2000
+    drawn with a fixed seed), delay, window and horizon it makes ln(distance) (k + 1, centres) and details of its
+    own, or None and the sentence that says why there is none."""
+    x, step_s = checked_series(series), checked_positive(step_s, "step_s")
     if len(x) < 500 or np.ptp(x) == 0.0:
-        return f"500 samples of a series that moves are needed, given {len(x)}"
-    embedding = choose_embedding(x, delay)
-    lag, period = embedding.lag, embedding.mean_period
-    m = embedding.dimension if dimension is None else checked_count(dimension, "dimension")
-    theiler = max(round(period), (m - 1) * lag) if theiler is None else int(theiler)
-    horizon = min(max(round(8 * period), 12), len(x) // 4) if horizon is None else checked_count(horizon, "horizon")
-    if len(x) - (m - 1) * lag - horizon < LEAST_CENTRES + 2 * theiler:
-        return f"too short: {len(x)} samples for delay vectors of {(m - 1) * lag} samples and a horizon of {horizon}"
-    points = delay_vectors(x, lag, m)
-    usable = len(points) - horizon
-    centres = np.arange(usable)
+        return no_exponent(method, f"500 samples of a series that moves are needed, given {len(x)}")
+    embedding = choose_embedding(x)
+    m, lag, period = embedding.dimension, embedding.lag, embedding.mean_period
+    theiler, horizon = max(round(period), (m - 1) * lag), min(max(round(8 * period), 12), len(x) // 4)
+    usable = len(x) - (m - 1) * lag - horizon
+    if usable < LEAST_CENTRES + 2 * theiler:
+        span = f"delay vectors of {(m - 1) * lag} samples and a horizon of {horizon}"
+        return no_exponent(method, f"too short: {len(x)} samples for {span}")
+    rows = np.arange(usable)
     if usable > CENTRES:
-        centres = np.sort(np.random.default_rng(0).choice(usable, CENTRES, replace=False))
-    return embedding, m, theiler, horizon, points, centres
+        rows = np.sort(np.random.default_rng(0).choice(usable, CENTRES, replace=False))
+    growth, own = logarithms(x, delay_vectors(x, lag, m), rows, lag, theiler, horizon)
+    if growth is None:
+        return no_exponent(method, own)
+    return _slope_of(growth, step_s, embedding, method, {"dimension": m, "theiler": theiler} | own)
 
 
 def _slope_of(growth, step_s, embedding, method, details):
@@ -152,3 +161,47 @@ def _slope_of(growth, step_s, embedding, method, details):
     slopes = [np.polyfit(time_s[part], block[part].mean(axis=1), 1)[0] for block in blocks]
     scatter = np.std(slopes, ddof=1) / np.sqrt(BLOCKS)
     return Exponent(region.slope, float(np.hypot(region.error, scatter)), "nats/time", method, region.reason, details)
+
+
+def scaling_region(t: np.ndarray, y: np.ndarray, cycle: int = 1) -> ScalingRegion:
+    """The longest part of a curve that rises by at least one nat and is straight.
+
+    Straight: the slope of each quarter differs by at most 25 % from that of the whole (halves would not do: those of an
+    S are alike). Among straight parts the one with the largest rise is taken. A swing of the curve with the motion is
+    first averaged away over one `cycle`.
+
+    t, y (k,)    the curve, evenly spaced in time
+    cycle        points per swing that the curve carries (samples per mean period), 1 for a map; begin and end are then
+                 those of the averaged curve, half a cycle inside what it used
+    Returns a ScalingRegion, with NaN and the reason where no part qualifies.
+    """
+    cut = 0
+    if len(y) > 2 * cycle:
+        cut = cycle // 2
+        width = 2 * cut + 1
+        t, y = t[cut : len(t) - cut], np.convolve(y, np.full(width, 1.0 / width), mode="valid")
+    # About forty ends are enough to find the region to a few per cent of its length.
+    stride = max(1, len(t) // 120)
+    best, straight = None, False
+    for begin in range(0, len(t) - LEAST_POINTS + 1, stride):
+        for end in range(begin + LEAST_POINTS, len(t) + 1, stride):
+            slope, pieces = _line(t[begin:end], y[begin:end])
+            span = slope * (t[end - 1] - t[begin])
+            if slope > 0.0 and np.max(np.abs(pieces - slope)) <= MOST_CURVATURE * slope:
+                straight = True
+                if span >= LEAST_SPAN_NATS and (best is None or span > best[0]):
+                    best = span, slope, float(np.std(pieces)), begin, end - 1
+    if best is None:
+        why = f"no straight part spans {LEAST_SPAN_NATS:g} nat" if straight else "no straight rising part"
+        return ScalingRegion(np.nan, np.nan, -1, -1, np.nan, f"{why}; the curve rises by {np.ptp(y):.2g} nats in all")
+    span, slope, error, begin, end = best
+    reason = f"straight from {t[begin]:.4g} to {t[end]:.4g}, rising by {span:.2g} nats"
+    return ScalingRegion(float(slope), error, begin + cut, end + cut, float(span), reason)
+
+
+def _line(t, y):
+    """Slopes of the least-squares line and of those through its quarters, which share their ends."""
+    ends = np.linspace(0, len(t) - 1, PIECES + 1).astype(int)
+    pieces = [(y[b] - y[a]) / (t[b] - t[a]) for a, b in pairwise(ends)]
+    centred = t - t.mean()
+    return np.dot(centred, y) / np.dot(centred, centred), np.array(pieces)

@@ -8,10 +8,17 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from analysis.line_spectra import spectral_lines
-from analysis.neighbour_distances import neighbour_growth
+from analysis.neighbours import neighbour_growth
 from analysis.predictability import prediction_gain
 from analysis.stationarity import record_drift
-from analysis.surrogates import NullRank, iaaft_surrogates, noisy_periodic_surrogates, normal_scores, rank_among
+from analysis.surrogates import (
+    SHARE,
+    NullRank,
+    iaaft_surrogates,
+    noisy_periodic_surrogates,
+    normal_scores,
+    rank_among,
+)
 from analysis.zero_one import zero_one_test
 
 if TYPE_CHECKING:
@@ -20,7 +27,6 @@ if TYPE_CHECKING:
     from analysis.verdicts import Verdict
 
 IRREGULAR = 0.9
-SHARE = 0.95
 LEAST_ADVANTAGE = 0.3
 STAYS = 0.35
 NEAR = 0.35
@@ -59,10 +65,12 @@ class Evidence:
 def evidence_text(verdict: Verdict) -> str:
     """The tests behind a Verdict as one line: "name: value/threshold/met; ...", a dash for what is not known."""
     words = {True: "yes", False: "no", None: "–"}
-    tests = (
-        f"{item.name}: {_short(item.value)}/{_short(item.threshold)}/{words[item.passed]}" for item in verdict.evidence
-    )
-    return "; ".join(tests)
+
+    def short(found: float) -> str:
+        return f"{found:.3g}" if np.isfinite(found) else "–"
+
+    found = verdict.evidence
+    return "; ".join(f"{one.name}: {short(one.value)}/{short(one.threshold)}/{words[one.passed]}" for one in found)
 
 
 def read_evidence(text: str) -> list[tuple[str, str, str, str]]:
@@ -74,10 +82,6 @@ def read_evidence(text: str) -> list[tuple[str, str, str, str]]:
         if name and len(cells) == 3:
             found.append((name, *cells))
     return found
-
-
-def _short(found: float) -> str:
-    return f"{found:.3g}" if np.isfinite(found) else "–"
 
 
 def period_evidence(estimate: PeriodEstimate) -> list[Evidence]:
@@ -133,21 +137,26 @@ def incommensurate_evidence(section: np.ndarray, max_period: int) -> Evidence:
     moving = variance > 0.0
     power = 0.5 * spectrum.amplitude[:, moving] ** 2 / variance[moving]
     share = power.max(axis=1, initial=0.0)
-    turns = np.array([_turns_off(f, max_period) for f in spectrum.frequency]) * len(section)
+    subharmonics = np.arange(1, max_period + 1)
+    places = spectrum.frequency[:, None]
+    # Distance of each line from the nearest j/N, N <= max_period, in turns over the record.
+    turns = np.abs(places - np.round(places * subharmonics) / subharmonics).min(axis=1, initial=1.0) * len(section)
     standing = np.flatnonzero(share > LEAST_POWER)
-    if len(standing) == 0:
-        return Evidence("incommensurate line", np.nan, LEAST_TURN, False, "no line stands out of the spectrum")
     free = standing[turns[standing] > LEAST_TURN]
-    if len(free) == 0:
+    if len(standing) == 0:
+        value, sentence = np.nan, "no line stands out of the spectrum"
+    elif len(free) == 0:
+        value = float(turns[standing].max())
         sentence = f"all {len(standing)} lines are those of a period up to {max_period}, as far as this record goes"
-        return Evidence("incommensurate line", float(turns[standing].max()), LEAST_TURN, False, sentence)
-    best = free[np.argmax(share[free])]
-    sentence = (
-        f"a line at {spectrum.frequency[best]:.5f} cycles a period, {turns[best]:.2g} turns over the record from "
-        f"any subharmonic, carries {min(share[best], 1.0):.0%} of a coordinate; "
-        f"all lines leave {spectrum.unexplained.max():.2g}"
-    )
-    return Evidence("incommensurate line", float(turns[best]), LEAST_TURN, True, sentence)
+    else:
+        best = free[np.argmax(share[free])]
+        value = float(turns[best])
+        sentence = (
+            f"a line at {spectrum.frequency[best]:.5f} cycles a period, {turns[best]:.2g} turns over the record from "
+            f"any subharmonic, carries {min(share[best], 1.0):.0%} of a coordinate; "
+            f"all lines leave {spectrum.unexplained.max():.2g}"
+        )
+    return Evidence("incommensurate line", value, LEAST_TURN, len(free) > 0, sentence)
 
 
 def irregular_evidence(section: np.ndarray, seed: int) -> Evidence:
@@ -192,12 +201,8 @@ def null_evidence(section: np.ndarray, surrogates: int, seed: int) -> list[Evide
         share, above, advantage, passed = np.nan, None, np.nan, None
         how = far = "too short, or nothing moves: no prediction gain"
         if rank is not None:
-            share, above, advantage, passed = (
-                rank.share_below,
-                rank.above,
-                rank.advantage,
-                rank.advantage > LEAST_ADVANTAGE,
-            )
+            share, above, advantage = rank.share_below, rank.above, rank.advantage
+            passed = advantage > LEAST_ADVANTAGE
             how = f"prediction gain {rank.statistic:.2f} nats, above {share:.0%} of {surrogates} surrogates"
             far = f"{advantage:.2f} nats above the surrogates' median"
         items.append(Evidence(name, share, SHARE, above, how))
@@ -236,12 +241,12 @@ def null_ranks(section: np.ndarray, surrogates: int, seed: int | list[int]) -> l
     section = section[-NULL_POINTS:]
     ranks = []
     for i, (points, make) in enumerate([(normal_scores(section), NULLS[0][1]), (section, NULLS[1][1])]):
-        gain = prediction_gain(points).gain
+        gain = prediction_gain(points)
         if not np.isfinite(gain):
             ranks.append(None)
             continue
-        drawn = [prediction_gain(one).gain for one in make(points, surrogates, [*np.atleast_1d(seed), 100 + i])]
-        ranks.append(rank_among(gain, drawn, SHARE) if np.all(np.isfinite(drawn)) else None)
+        drawn = [prediction_gain(one) for one in make(points, surrogates, [*np.atleast_1d(seed), 100 + i])]
+        ranks.append(rank_among(gain, drawn) if np.all(np.isfinite(drawn)) else None)
     return ranks
 
 
@@ -252,8 +257,3 @@ def tighter_evidence(tighter: Verdict | str | None, word: str) -> Evidence:
     other = tighter if isinstance(tighter, str) else tighter.regime
     sentence = f"the verdict at a tighter tolerance is {other}"
     return Evidence("tighter tolerance", np.nan, np.nan, bool(other == word), sentence)
-
-
-def _turns_off(frequency, max_period):
-    """Distance of a frequency from the nearest j/N, N <= max_period, in cycles per sample."""
-    return min(abs(frequency - round(frequency * n) / n) for n in range(1, max_period + 1))

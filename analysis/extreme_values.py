@@ -53,7 +53,11 @@ def slack_fraction(
     x = checked_series(tension_N, "tension_N") - float(threshold_N)
     if np.isnan(threshold_N):
         raise ValueError("threshold_N: a number is needed, given NaN")
-    time_s, x = _after(x, step_s, transient_s, interpolate=True)
+    first, time_s = _after(x, step_s, transient_s)
+    if time_s[first] - transient_s > ON_SAMPLE * step_s:  # the record begins at the transient itself
+        first -= 1
+        x[first], time_s[first] = np.interp(transient_s / step_s, np.arange(len(x)), x), transient_s
+    time_s, x = time_s[first:], x[first:]
     if len(x) < 2:
         raise ValueError("slack fraction: two samples at least are needed after the transient, given 1")
     left, right = x[:-1], x[1:]
@@ -77,22 +81,18 @@ def extremes(series: ArrayLike, step_s: float, transient_s: float = 0.0) -> Extr
     Returns an Extremes.
     Raises ValueError for values that are not finite, or a record that ends within the transient.
     """
-    time_s, x = _after(checked_series(series), step_s, transient_s, interpolate=False)
-    low, high = int(np.argmin(x)), int(np.argmax(x))
+    x = checked_series(series)
+    first, time_s = _after(x, step_s, transient_s)
+    low, high = first + int(np.argmin(x[first:])), first + int(np.argmax(x[first:]))
     return Extremes(float(x[low]), float(time_s[low]), float(x[high]), float(time_s[high]))
 
 
-def _after(x, step_s, transient_s, interpolate):
-    """Times and values from the transient on; with `interpolate` the record begins at the transient itself."""
+def _after(x, step_s, transient_s):
+    """The first sample at or after the transient, and the times of all."""
     step_s = checked_positive(step_s, "step_s")
     transient_s = checked_not_negative(transient_s, "transient_s")
     given_s = record_length_s(len(x), step_s)
     if len(x) == 0 or given_s < transient_s - ON_SAMPLE * step_s:
         wanted = f"a record longer than the transient of {transient_s:g} s is needed"
         raise ValueError(f"{wanted}, given {given_s:g} s ({len(x)} samples)")
-    first = int(np.ceil(transient_s / step_s - ON_SAMPLE))
-    time_s, kept = step_s * np.arange(first, len(x)), x[first:]
-    if interpolate and time_s[0] - transient_s > ON_SAMPLE * step_s:
-        start = np.interp(transient_s / step_s, np.arange(len(x)), x)
-        time_s, kept = np.concatenate([[transient_s], time_s]), np.concatenate([[start], kept])
-    return time_s, kept
+    return int(np.ceil(transient_s / step_s - ON_SAMPLE)), step_s * np.arange(len(x))

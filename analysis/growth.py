@@ -26,10 +26,11 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from analysis.exponents import NATS_PER_TIME, Exponent, no_exponent
-from analysis.sampling import checked_count, checked_positive, checked_series, locked
+from analysis.sampling import checked_positive, checked_series, locked
 
 METHOD = "straight part of the logarithm of the envelope"
 LEAST_SPAN_NATS = 3.0
+WINDOW_PERIODS = 4  # in a span of the envelope that is fitted; half a swing of y has to fit in
 LEAST_POINTS = 9  # three to a quarter, which share their ends
 QUARTERS = 4
 MOST_CURVATURE = 0.25
@@ -60,32 +61,28 @@ class Growth:
     burst_size: np.ndarray
 
 
-def growth_or_bursts(
-    magnitude: ArrayLike, step: float, period: float, window_periods: int = 4, least_span: float = LEAST_SPAN_NATS
-) -> Growth:
+def growth_or_bursts(magnitude: ArrayLike, step: float, period: float, least_span: float = LEAST_SPAN_NATS) -> Growth:
     """Growth, decay, bursts or neither of a record of magnitudes (rules at the head of this file).
 
     magnitude (n,)     |y| or y from t = 0, evenly sampled, any unit
     step, period       sampling step and forcing period, in one unit of time
-    window_periods     periods in a span of the envelope that is fitted; half a swing of y has to fit in
     least_span         nats below which neither a rate nor a burst is spoken of
     Returns a Growth. Raises ValueError for values that are not finite, or a period below two steps.
     """
     y = np.abs(checked_series(magnitude, "magnitude"))
     step, period = checked_positive(step, "step"), checked_positive(period, "period")
-    window_periods = checked_count(window_periods, "window_periods")
     least_span = checked_positive(least_span, "least_span")
     if period < 2.0 * step:
         raise ValueError(f"period: at least two steps are needed, given {period!r} with steps of {step!r}")
-    if not envelope_of(y, step, window_periods * period)[1].any():
+    if not envelope_of(y, step, WINDOW_PERIODS * period)[1].any():
         return _without_rate("neither", "every value is zero" if len(y) else "there are no values")
     lacking = []
-    for span in (window_periods * period, period):
+    for span in (WINDOW_PERIODS * period, period):
         time, size = envelope_of(y, step, span)
-        line = _straight_part(time, size, least_span)
-        if isinstance(line, _Line):
-            return _exponential(line)
-        lacking.append(line)
+        found = _straight_part(time, size, least_span)
+        if isinstance(found, Growth):
+            return found
+        lacking.append(found)
     found = _bursts(size, least_span)
     if not len(found):
         return _without_rate("neither", f"{lacking[0]}; no burst of {least_span:g} nats")
@@ -106,29 +103,13 @@ def envelope_of(magnitude: ArrayLike, step: float, span: float) -> tuple[np.ndar
     return index * step, y[index]
 
 
-@dataclass(frozen=True)
-class _Line:
-    slope: float
-    error: float
-    begin: float
-    end: float
-    span: float
-
-
-def _exponential(line):
-    kind = "growth" if line.slope > 0 else "decay"
-    reason = f"straight from {line.begin:.4g} to {line.end:.4g}, {line.span:+.2g} nats"
-    rate, none = Exponent(line.slope, line.error, NATS_PER_TIME, METHOD, reason), locked(np.empty(0))
-    return Growth(kind, reason, rate, line.begin, line.end, line.span, none, none)
-
-
 def _without_rate(kind, reason, time=(), size=()):
     bursts = locked(np.array(time, dtype=float)), locked(np.array(size, dtype=float))
     return Growth(kind, reason, no_exponent(METHOD, reason), np.nan, np.nan, np.nan, *bursts)
 
 
 def _straight_part(time, size, least_span):
-    """The straight part of ln(size) with the largest span as a _Line, or the words for why there is none."""
+    """Growth or decay by the straight part of ln(size) with the largest span, or the words for why there is none."""
     t, y = time[size > 0.0], np.log(size[size > 0.0])
     n = len(t)
     if n < LEAST_POINTS:
@@ -140,7 +121,7 @@ def _straight_part(time, size, least_span):
         for end in range(n, begin + LEAST_POINTS - 1, -stride):
             slope, error = _slope(sums, begin, end)
             span = slope * (t[end - 1] - t[begin])
-            if abs(span) < least_span or (best is not None and abs(span) <= abs(best.span)):
+            if abs(span) < least_span or (best is not None and abs(span) <= abs(best[0])):
                 continue
             scatter, quarters = _straightness(sums, begin, end, slope)
             if scatter is None or scatter > MOST_SCATTER * abs(span):
@@ -148,9 +129,12 @@ def _straight_part(time, size, least_span):
             straight = True
             if _separates(y, begin, end, slope):
                 error = max(error, float(np.std(quarters, ddof=1)) / np.sqrt(QUARTERS))
-                best = _Line(float(slope), float(error), float(t[begin]), float(t[end - 1]), float(span))
+                best = span, slope, error, t[begin], t[end - 1]
     if best is not None:
-        return best
+        span, slope, error, begin, end = map(float, best)
+        reason, none = f"straight from {begin:.4g} to {end:.4g}, {span:+.2g} nats", locked(np.empty(0))
+        rate = Exponent(slope, error, NATS_PER_TIME, METHOD, reason)
+        return Growth("growth" if slope > 0 else "decay", reason, rate, begin, end, span, none, none)
     if straight:
         return "straight parts, but the record comes back to their level"
     return f"no straight part of {least_span:g} nats (the envelope spans {np.ptp(y):.2g} in all)"

@@ -1,16 +1,27 @@
-"""Neighbours in delay space that are near in space only, not in time (Theiler's window), and the noise they see."""
+"""Neighbours in space that are none in time (Theiler's window), and whether neighbours on a section stay neighbours.
 
-from math import comb
+Neighbours stay neighbours on a torus, and nowhere else that is not periodic. A motion whose section map keeps nearby
+points nearby for all time (equicontinuity) is conjugate to a rotation: it is periodic or quasi-periodic (Halmos & von
+Neumann 1942). So instead of a curve fitted through the points, which needs to know how many curves there are, how
+wrinkled they are and of which dimension the torus is, pairs of neighbours are followed:
+
+    d(n) = geometric mean over k of |s_{k+n} - s_{j(k)+n}|,    s_{j(k)} nearest to s_k outside Theiler's window.
+
+On a torus d is constant: the pair keeps its distance in the angle, and the mean over k of ln|ds/dangle| does not depend
+on n. In chaos it grows by lambda a step up to the size of the attractor (or of its bands); in noise it jumps to that
+size at once. Noise of a record on a torus lifts d at n = 1, since the nearest pair was chosen for its noise, and not
+further: growth is counted from the mean over n = 1, 2, 3.
+"""
+
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from analysis.embedding_delay import delay_vectors
-from analysis.sampling import checked_series
+from analysis.sampling import checked_columns, in_deviations, locked, states_of
 
-# Neighbourhoods looked at where a statistic over the attractor is enough; drawn with a fixed seed, so that the same
-# record gives the same answer.
-_SEED = 1
+LEAST_POINTS = 40
+EARLY = slice(1, 4)
 
 
 def nearest_outside(
@@ -30,7 +41,11 @@ def nearest_outside(
     n = len(points)
     rows = np.arange(n) if rows is None else np.asarray(rows)
     index, distance = np.full((len(rows), count), -1), np.full((len(rows), count), np.inf)
-    tree, missing, width = cKDTree(points, balanced_tree=False), np.arange(len(rows)), min(count + 7, n)
+    tree, missing, width = (
+        cKDTree(points, balanced_tree=False),
+        np.arange(len(rows)),
+        min(count + min(2 * theiler + 1, 7), n),
+    )
     while len(missing):
         d, j = tree.query(points[rows[missing]], width)
         d, j = d.reshape(len(missing), -1), j.reshape(len(missing), -1)
@@ -44,45 +59,57 @@ def nearest_outside(
     return index, distance
 
 
-def noise_level(series: ArrayLike, delay: int, dimension: int = 3, centres: int = 400) -> float:
-    """Standard deviation of the white noise on a series, from above: the smaller of two estimates.
+@dataclass(frozen=True, eq=False)
+class NeighbourGrowth:
+    """How far pairs of neighbours part.
 
-        differences   median |D^k x| / (0.6745 sqrt(C(2k, k))), least over k = 1 ... 8: noise is what is left when a
-                      signal sampled finely is differenced away
-        local fit     median residual of x_i fitted linearly on `dimension` samples before and after it (delay apart)
-                      over its nearest neighbours: noise is what neighbours do not agree on
-
-    The first serves flows, the second maps. What the fit cannot follow (curvature, too few neighbours) counts as noise,
-    so a clean map shows a small number, not 0. Slow or coloured noise looks like signal to both.
-
-    series (n,)    any unit; delay [samples]
-    Returns the level in the unit of the series.
-    Raises ValueError for values that are not finite or a series too short for one neighbourhood.
-    Source: the local fit is the residual of local linear noise reduction, Kantz & Schreiber, Nonlinear Time Series
-    Analysis, section 10.3.
+    growth           ln of mean distance over the later half of the horizon less that over n = 1, 2, 3 [nats]; NaN where
+                     there is no answer
+    late             mean distance over the later half of the horizon, in rms distances of unrelated points
+    distance (h+1,)  d(n), in rms distances of unrelated points
+    reason           one sentence
     """
-    x = checked_series(series)
-    level, difference = np.std(x), x
-    for order in range(1, 9):
-        difference = np.diff(difference)
-        level = min(level, np.median(np.abs(difference)) / (0.6745 * np.sqrt(comb(2 * order, order))))
-    return float(min(level, _local_residual(x, delay, dimension, centres)))
+
+    growth: float
+    late: float
+    distance: np.ndarray
+    reason: str
 
 
-def _local_residual(x, delay, dimension, centres):
-    """Median residual of local linear fits of the middle coordinate on the others."""
-    from scipy.spatial import cKDTree
+def neighbour_growth(section: ArrayLike) -> NeighbourGrowth:
+    """Growth of the distance between neighbours on a section over a quarter of the record (head of this file).
 
-    vectors = delay_vectors(x, delay, 2 * dimension + 1)
-    middle, others = vectors[:, dimension], np.delete(vectors, dimension, axis=1)
-    neighbours = 6 * vectors.shape[1]
-    if len(vectors) < 2 * neighbours:
-        raise ValueError(f"noise level: {2 * neighbours} delay vectors at least are needed, given {len(vectors)}")
-    rows = np.random.default_rng(_SEED).choice(len(vectors), min(centres, len(vectors)), replace=False)
-    _, near = cKDTree(others).query(others[rows], neighbours)
-    residual = np.empty(len(rows))
-    for k, (row, j) in enumerate(zip(rows, near, strict=True)):
-        terms = np.column_stack([np.ones(neighbours), others[j] - others[row]])
-        fit = terms @ np.linalg.lstsq(terms, middle[j], rcond=None)[0]
-        residual[k] = np.sqrt(np.sum((middle[j] - fit) ** 2) / (neighbours - terms.shape[1]))
-    return np.median(residual)
+    section (m,) or (m, d)   one row a forcing period, 40 at least; as many rows are taken together as one state as make
+                             3 or more numbers
+    Returns a NeighbourGrowth; NaN with the reason for a short record or one without motion. An exponent below 4/m nats
+    per period does not show in a record of m periods: a weakly chaotic motion passes for a torus as long as that.
+    Raises ValueError for values that are not finite.
+    Source: the pairs are those of M. T. Rosenstein, J. J. Collins & C. J. De Luca, Physica D 65 (1993) 117.
+    """
+    x = checked_columns(section, "section")
+    z = in_deviations(x)
+    why_not = "no motion: the section is one point to the last digits" if z.shape[1] == 0 else ""
+    if len(x) < LEAST_POINTS:
+        why_not = f"too short: {LEAST_POINTS} strobed points are needed, given {len(x)}"
+    if why_not:
+        return NeighbourGrowth(np.nan, np.nan, locked(np.zeros(0)), why_not)
+    state = states_of(z, x.shape[1])
+    horizon = len(state) // 4
+    distance = _distance(state, horizon) / np.sqrt(2.0 * np.sum(state.var(axis=0)))
+    early, late = np.log(distance[EARLY]).mean(), np.log(distance[horizon // 2 :]).mean()
+    later = f"are {np.exp(late):.2g} apart {horizon // 2} and more periods on"
+    reason = f"neighbours {np.exp(early):.2g} of the section apart {later}"
+    return NeighbourGrowth(float(late - early), float(np.exp(late)), locked(distance), reason)
+
+
+def _distance(state, horizon):
+    """d(n) for n = 0 ... horizon."""
+    pool = state[: len(state) - horizon]
+    partner = nearest_outside(pool, 1)[0][:, 0]
+    # A record that repeats itself to the last digit has distance 0, whose logarithm would be its only value.
+    least = 1e-14 * np.sqrt(state.shape[1])
+    logarithm = [
+        np.mean(np.log(np.maximum(np.linalg.norm(state[n : n + len(pool)] - state[partner + n], axis=1), least)))
+        for n in range(horizon + 1)
+    ]
+    return np.exp(logarithm)

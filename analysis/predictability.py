@@ -14,12 +14,11 @@ gain is also high for periodic and quasi-periodic motions with or without noise:
 rank among the surrogates that keep the lines.
 """
 
-from dataclasses import dataclass
-
 import numpy as np
 from numpy.typing import ArrayLike
 
-from analysis.sampling import checked_columns, checked_count, in_deviations
+from analysis.neighbours import nearest_outside
+from analysis.sampling import checked_columns, in_deviations, states_of
 
 LEAST_PER_COORDINATE = 8
 NEIGHBOURS_PER_COEFFICIENT = 2
@@ -27,59 +26,28 @@ NEIGHBOURS_PER_COEFFICIENT = 2
 _RIDGE = 1e-3
 
 
-@dataclass(frozen=True)
-class PredictionGain:
-    """Errors of two predictors of the next point, and their ratio.
-
-    gain           ln(linear_error/local_error) [nats]; NaN where the test does not apply
-    linear_error   rms over points and coordinates, each coordinate in units of its standard deviation
-    local_error    the same for the local maps
-    reason         one sentence
-    """
-
-    gain: float
-    linear_error: float
-    local_error: float
-    reason: str
-
-
-def prediction_gain(section: ArrayLike, delays: int | None = None, theiler: int = 1) -> PredictionGain:
+def prediction_gain(section: ArrayLike) -> float:
     """Gain of local-linear over linear one-step prediction on a section (formula at the head of this file).
 
-    section (m,) or (m, d)   one row a forcing period
-    delays                   rows taken together as one state, (x_k, x_{k-1}, ...); default: as few as make a state of 3
-                             or more numbers
-    theiler                  points within this many periods of the one predicted are no neighbours of it
-    Returns a PredictionGain: NaN, with the reason, where nothing moves or the record is short: it
-    takes eight states per number in a state, and the window.
+    section (m,) or (m, d)   one row a forcing period; as many rows are taken together as one state as make 3 or more
+                             numbers
+    Returns ln(linear error/local error) [nats], each rms over points and coordinates; NaN where nothing moves or the
+    record is short: it takes eight states per number in a state, and the window.
     Raises ValueError for values that are not finite.
     Source: E. N. Lorenz (analogues), J. Atmos. Sci. 26 (1969) 636; J. D. Farmer & J. J. Sidorowich, Phys. Rev. Lett. 59
     (1987) 845; gain over linear prediction as a test: M. Casdagli, J. R. Stat. Soc. B 54 (1992) 303.
     """
     x = checked_columns(section, "section")
-    delays = -(-3 // x.shape[1]) if delays is None else checked_count(delays, "delays")
-    theiler = checked_count(theiler, "theiler", least=0)
     z = in_deviations(x, centred=True)
     if z.shape[1] == 0:
-        return PredictionGain(np.nan, np.nan, np.nan, "no motion: the section is one point to the last digits")
-    state, target = _states(z, delays)
-    needed = LEAST_PER_COORDINATE * (state.shape[1] + 1) + 2 * theiler
-    if len(state) < needed:
-        wanted = f"{needed + delays} points are needed for a state of {state.shape[1]} numbers"
-        return PredictionGain(np.nan, np.nan, np.nan, f"too short: {wanted}, given {len(x)}")
-    linear, local = _linear_error(state, target), _local_error(state, target, theiler)
+        return np.nan
+    state = states_of(z, x.shape[1])[:-1]
+    target = z[len(z) - len(state) :]
+    if len(state) < LEAST_PER_COORDINATE * (state.shape[1] + 1) + 2:
+        return np.nan
+    linear, local = _linear_error(state, target), _local_error(state, target)
     # Errors at rounding cannot be compared: a clean period-N motion is predicted to the last digit by both.
-    floor = 1e-9
-    gain = float(np.log(max(linear, floor) / max(local, floor)))
-    reason = f"errors {linear:.3g} linear and {local:.3g} local, of a standard deviation: a gain of {gain:.2f} nats"
-    return PredictionGain(gain, linear, local, reason)
-
-
-def _states(z, delays):
-    """States (p, d delays) and the rows (p, d) that follow them."""
-    rows = len(z) - delays
-    state = np.hstack([z[delays - 1 - lag : delays - 1 - lag + rows] for lag in range(delays)])
-    return state, z[delays:]
+    return float(np.log(max(linear, 1e-9) / max(local, 1e-9)))
 
 
 def _linear_error(state, target):
@@ -92,16 +60,10 @@ def _linear_error(state, target):
     return float(np.sqrt(np.mean((residual / (1.0 - leverage)) ** 2)))
 
 
-def _local_error(state, target, theiler):
+def _local_error(state, target):
     """rms error of the affine maps fitted to the nearest neighbours of each state, itself not among them."""
-    from scipy.spatial import cKDTree
-
     points, size = state.shape
-    wanted = min(NEIGHBOURS_PER_COEFFICIENT * (size + 1), points - 2 * theiler - 1)
-    _, near = cKDTree(state).query(state, k=min(wanted + 2 * theiler + 1, points))
-    allowed = np.abs(near - np.arange(points)[:, None]) > theiler
-    first = np.argsort(~allowed, axis=1, kind="stable")[:, :wanted]  # the nearest that are allowed, in order
-    near = np.take_along_axis(near, first, axis=1)
+    near, _ = nearest_outside(state, 1, count=min(NEIGHBOURS_PER_COEFFICIENT * (size + 1), points - 3))
     away = state[near] - state[:, None, :]
     centre, mean = away.mean(axis=1, keepdims=True), target[near].mean(axis=1, keepdims=True)
     spread = away - centre

@@ -40,6 +40,13 @@ def in_deviations(x: np.ndarray, centred: bool = False) -> np.ndarray:
     return (kept - kept.mean(axis=0) if centred else kept) / size[moves]
 
 
+def states_of(z: np.ndarray, coordinates: int) -> np.ndarray:
+    """As many consecutive rows of z (n, c) side by side, the last one first, as make 3 or more of a state's numbers,
+    where a row has this many coordinates, unmoved ones counted: (n - rows + 1, c rows)."""
+    rows = -(-3 // coordinates)
+    return np.hstack([z[rows - 1 - lag : len(z) - lag] for lag in range(rows)])
+
+
 def checked_positive(value: float, name: str) -> float:
     """`value` as a float; ValueError unless it is finite and above zero."""
     if not 0.0 < float(value) < np.inf:

@@ -35,7 +35,6 @@ class Spectrum:
     transform (m,) complex        X(w_j), unit of the series; t in e^{i w t} counts from the first sample
     amplitude (m,)                |X(w_j)|: HALF the amplitude of a sine at bin j >= 1; at j = 0 the size of the mean
     bin_radps                     2 pi/(n T_i)
-    forcing_period_s, start_periods, periods   T_i, tau_0/T_i and n
     interpolated                  True where the window was resampled because its ends are not on samples
     """
 
@@ -43,9 +42,6 @@ class Spectrum:
     transform: np.ndarray
     amplitude: np.ndarray
     bin_radps: float
-    forcing_period_s: float
-    start_periods: float
-    periods: int
     interpolated: bool
 
 
@@ -98,7 +94,9 @@ def spectrum(
         parts = f"{start_periods:g} before the window and {periods} in it; {begin_s + window_s:g} s"
         wanted = f"eq. (31) needs {start_periods + periods:g} forcing periods ({parts}) of record"
         raise ValueError(f"{wanted}, given {given_s / forcing_period_s:.4g} ({given_s:g} s)")
-    intervals = _intervals(window_s, step_s)
+    # As sampled where the window fits, else the next whole number above (never coarser).
+    fit = window_s / step_s
+    intervals = max(round(fit) if abs(fit - round(fit)) <= ON_SAMPLE else int(np.ceil(fit)), 2)
     window, interpolated = values_at(x, step_s, begin_s + window_s / intervals * np.arange(intervals + 1))
     folded = window[:-1].copy()
     folded[0] = 0.5 * (window[0] + window[-1])  # both ends carry weight 1/2 and the same e^{i w_j t}
@@ -107,7 +105,7 @@ def spectrum(
     transform = np.fft.ifft(folded)[bins] * np.exp(2j * np.pi * np.mod(bins * (start_periods / periods), 1.0))
     bin_radps = 2.0 * np.pi / window_s
     lines = (locked(array) for array in (bin_radps * bins, transform, np.abs(transform)))
-    return Spectrum(*lines, bin_radps, forcing_period_s, start_periods, periods, interpolated)
+    return Spectrum(*lines, bin_radps, interpolated)
 
 
 def spectral_peaks(spectrum: Spectrum, least_prominence: float = 0.01) -> tuple[SpectralPeak, ...]:
@@ -138,9 +136,7 @@ def spectral_peaks(spectrum: Spectrum, least_prominence: float = 0.01) -> tuple[
     )
 
 
-def peaks_near(
-    spectrum: Spectrum, frequencies_radps: Iterable[float], least_prominence: float = 0.01
-) -> tuple[SpectralPeak | None, ...]:
+def peaks_near(spectrum: Spectrum, frequencies_radps: Iterable[float]) -> tuple[SpectralPeak | None, ...]:
     """For each given frequency, the nearest peak and by how many bins it misses.
 
         bins_away = (w_peak - w_given)/(2 pi/(n T_i))
@@ -148,25 +144,15 @@ def peaks_near(
     A line lies at best half a bin away, since bins are all that eq. (31) offers; within 1 is agreement.
 
     frequencies_radps    numbers [rad/s], e.g. natural frequencies and that of the waves
-    least_prominence     as in spectral_peaks
     Returns one SpectralPeak with reference per frequency, in the order given; None where the spectrum has no peak.
     Raises ValueError for a frequency that is not finite or below zero.
     """
-    peaks = spectral_peaks(spectrum, least_prominence)
-    answers = []
-    for given in frequencies_radps:
-        given = checked_not_negative(given, "frequencies_radps")
-        if not peaks:
-            answers.append(None)
-            continue
+    peaks = spectral_peaks(spectrum)
+
+    def beside(given: float) -> SpectralPeak:
         nearest = min(peaks, key=lambda peak: abs(peak.angular_frequency_radps - given))
         away = (nearest.angular_frequency_radps - given) / spectrum.bin_radps
-        answers.append(replace(nearest, reference_radps=given, bins_away=away))
-    return tuple(answers)
+        return replace(nearest, reference_radps=given, bins_away=away)
 
-
-def _intervals(window_s, step_s):
-    """Intervals of the window: as sampled where it fits, else the next whole number above (never coarser)."""
-    fit = window_s / step_s
-    nearest = round(fit)
-    return max(nearest if abs(fit - nearest) <= ON_SAMPLE else int(np.ceil(fit)), 2)
+    wanted = [checked_not_negative(given, "frequencies_radps") for given in frequencies_radps]
+    return tuple(beside(given) if peaks else None for given in wanted)

@@ -28,19 +28,11 @@ class Drift:
 
     drifting         True where the record marches or collapses; None where it is too short to say
     spread_change    ln(spread of the last block/of the first) along the fitted line [nats]
-    spread_march     correlation of ln(spread) with time
-    mean_change      largest change of a coordinate's mean along its fitted line, in its standard deviations
-    mean_march       its correlation with time
-    collapse         width of the first block over the widest of the later half
-    reason           one sentence
+    reason           one sentence: the changes of the spread and of the mean, the collapse
     """
 
     drifting: bool | None
     spread_change: float
-    spread_march: float
-    mean_change: float
-    mean_march: float
-    collapse: float
     reason: str
 
 
@@ -55,11 +47,10 @@ def record_drift(section: ArrayLike) -> Drift:
     """
     x = checked_columns(section, "section")
     if len(x) < LEAST_POINTS:
-        reason = f"too short: {LEAST_POINTS} strobed points are needed, given {len(x)}"
-        return Drift(None, *[float("nan")] * 5, reason)
+        return Drift(None, np.nan, f"too short: {LEAST_POINTS} strobed points are needed, given {len(x)}")
     z = in_deviations(x, centred=True)
     if z.shape[1] == 0:
-        return Drift(False, 0.0, 0.0, 0.0, 0.0, 1.0, "no motion: the section is one point to the last digits")
+        return Drift(False, 0.0, "no motion: the section is one point to the last digits")
     blocks = np.array_split(z, BLOCKS)
     mean = np.array([block.mean(axis=0) for block in blocks])
     spread = np.sqrt([np.mean(block.var(axis=0)) for block in blocks])
@@ -72,7 +63,15 @@ def record_drift(section: ArrayLike) -> Drift:
     settled = mean[BLOCKS // 2 :].mean(axis=0)
     width = np.sqrt(np.mean((mean - settled) ** 2, axis=1) + spread**2)
     collapse = float(width[0] / max(width[BLOCKS // 2 :].max(), 1e-14))
-    return _judged(spread_change, spread_march, mean_change, mean_march, collapse)
+    signs = []
+    if abs(spread_march) > MARCH and abs(spread_change) > LEAST_CHANGE:
+        signs.append(f"the spread of the section changes steadily, by a factor {np.exp(spread_change):.2g} in all")
+    if abs(mean_march) > MARCH and abs(mean_change) > LEAST_CHANGE:
+        signs.append(f"its mean moves steadily, by {abs(mean_change):.2g} standard deviations")
+    if collapse > COLLAPSE:
+        signs.append(f"its first eighth is {collapse:.2g} times wider than any of the later half")
+    reason = "; ".join(signs) if signs else "spread and mean of eight blocks show no steady change"
+    return Drift(bool(signs), spread_change, reason)
 
 
 def _line(values):
@@ -84,16 +83,3 @@ def _line(values):
         return 0.0, 0.0
     slope = np.sum(time * away) / np.sum(time**2)
     return float(slope * (len(values) - 1)), float(np.sum(time * away) / (np.sqrt(np.sum(time**2)) * total))
-
-
-def _judged(spread_change, spread_march, mean_change, mean_march, collapse):
-    """The record with its sentence."""
-    signs = []
-    if abs(spread_march) > MARCH and abs(spread_change) > LEAST_CHANGE:
-        signs.append(f"the spread of the section changes steadily, by a factor {np.exp(spread_change):.2g} in all")
-    if abs(mean_march) > MARCH and abs(mean_change) > LEAST_CHANGE:
-        signs.append(f"its mean moves steadily, by {abs(mean_change):.2g} standard deviations")
-    if collapse > COLLAPSE:
-        signs.append(f"its first eighth is {collapse:.2g} times wider than any of the later half")
-    reason = "; ".join(signs) if signs else "spread and mean of eight blocks show no steady change"
-    return Drift(bool(signs), spread_change, spread_march, mean_change, mean_march, collapse, reason)

@@ -24,6 +24,7 @@ from analysis.line_spectra import spectral_lines
 from analysis.sampling import checked_columns, checked_count, checked_series, locked
 
 LEAST_POINTS = 32
+SHARE, LEAST_SURROGATES = 0.95, 19
 Seed = int | list[int]
 # The order mostly stops changing by 50; with several columns it may go on over pairs of nearly equal values.
 MOST_ROUNDS = 100
@@ -33,7 +34,7 @@ MOST_ROUNDS = 100
 class NullRank:
     """Where a record stands among its surrogates.
 
-    above            True where more than the asked share of the surrogates lies below the record
+    above            True where more than 95 % of the surrogates lie below the record
     share_below      share of the surrogates with a smaller statistic (equal ones count half)
     advantage        statistic of the record less the median of the surrogates'; its unit
     statistic        of the record
@@ -102,26 +103,22 @@ def normal_scores(series: ArrayLike) -> np.ndarray:
     return ndtri((rankdata(x, axis=0) - 0.5) / max(len(x), 1))
 
 
-def rank_among(statistic: float, surrogates: ArrayLike, share: float = 0.95) -> NullRank:
-    """Is the statistic of a record above the given share of its surrogates'? One-sided rank test.
+def rank_among(statistic: float, surrogates: ArrayLike) -> NullRank:
+    """Is the statistic of a record above 95 % of its surrogates'? One-sided rank test.
 
     statistic         of the record; larger speaks against the null
-    surrogates (s,)   the same statistic of surrogates; enough of them that 1/(s + 1) <= 1 - share: 19 for 95 %
-    share             of the surrogates that have to lie below, in (0, 1)
-    Returns a NullRank. Under the null the record is one more draw, so that `above` has probability 1 - share at most.
-    Raises ValueError for values that are not finite, too few surrogates or a share outside (0, 1).
+    surrogates (s,)   the same statistic of surrogates, 19 or more, so that 1/(s + 1) <= 0.05
+    Returns a NullRank. Under the null the record is one more draw, so that `above` has probability 0.05 at most.
+    Raises ValueError for values that are not finite, or too few surrogates.
     Source: J. Theiler et al., Physica D 58 (1992) 77; ranks: Schreiber & Schmitz (2000), sec. 2.
     """
     drawn = checked_series(surrogates, "surrogates")
     value = float(checked_series([statistic], "statistic")[0])
-    if not 0.0 < share < 1.0:
-        raise ValueError(f"share: a number in (0, 1) is needed, given {share!r}")
-    if (len(drawn) + 1) * (1.0 - share) < 1.0 - 1e-9:
-        needed = int(np.ceil(1.0 / (1.0 - share) - 1e-9)) - 1
-        raise ValueError(f"surrogates: {needed} at least are needed for a share of {share:g}, given {len(drawn)}")
+    if len(drawn) < LEAST_SURROGATES:
+        raise ValueError(f"surrogates: {LEAST_SURROGATES} at least are needed, given {len(drawn)}")
     below = (np.sum(drawn < value) + 0.5 * np.sum(drawn == value)) / len(drawn)
-    # Of s + 1 equally likely places the record must hold one of the best (1 - share)(s + 1); a tie counts against it.
-    above = bool(np.sum(drawn >= value) + 1 <= (1.0 - share) * (len(drawn) + 1) + 1e-9)
+    # Of s + 1 equally likely places the record must hold one of the best 5 %; a tie counts against it.
+    above = bool(np.sum(drawn >= value) + 1 <= (1.0 - SHARE) * (len(drawn) + 1) + 1e-9)
     return NullRank(above, float(below), value - float(np.median(drawn)), value, locked(drawn))
 
 

@@ -37,13 +37,11 @@ from analysis.evidence import (
 )
 from analysis.exponents import BITS_PER_PERIOD, Exponent
 from analysis.periods import detect_period
-from analysis.poincare import poincare_section
-from analysis.sampling import checked_columns, checked_count, checked_positive, checked_series
+from analysis.poincare import poincare_section, section_at_phases
+from analysis.sampling import checked_columns, checked_count, checked_series
 from analysis.wolf_plateau import wolf_lyapunov
 
 LEAST_POINTS = 40
-# A scalar record is given its state by its values at as many phases of the period: enough for a state of dimension 4.
-PHASES = 4
 # A record of 300 periods does not show less [bits per period].
 ABOUT_ZERO = 0.02
 
@@ -152,22 +150,14 @@ def _without_period(section, exponent, max_period, surrogates, seed):
     if all(item.passed for item in needed) and growth.value > growth.threshold:
         reason = "exponent, 0-1 test, both nulls and both halves of the record agree"
         return "chaotic", reason, evidence
-    if growth.passed and line.passed and not irregular.passed and _about_zero(exponent):
+    about_zero = exponent.passed is None or abs(exponent.value) < 2.0 * exponent.error + ABOUT_ZERO
+    if growth.passed and line.passed and not irregular.passed and about_zero:
         reason = "neighbours on the section stay neighbours, and a line is incommensurate with the forcing"
         return "quasi-periodic", reason, evidence
     failed = [item.name for item in needed if item.passed is False]
     missing = [item.name for item in needed if item.passed is None]
     lacking = failed or missing or ["neighbours that part"]
-    reason = "no period, no torus; chaos lacks: " + ", ".join(lacking)
-    return "undecided", reason, evidence
-
-
-def _about_zero(exponent):
-    """No exponent, or one that is 0 within two errors and 0.02 bits per period."""
-    if exponent.passed is None:
-        return True
-    margin = 2.0 * exponent.error + ABOUT_ZERO
-    return abs(exponent.value) < margin
+    return "undecided", "no period, no torus; chaos lacks: " + ", ".join(lacking), evidence
 
 
 def _contradicted(word, reason, tighter, tangent):
@@ -190,10 +180,8 @@ def _section(series, step_s, period_s, strobed, transient_periods, scale):
     if step_s is None or period_s is None:
         raise ValueError("step_s and period_s are needed with a series")
     x = checked_series(series, dimensions=(1, 2))
-    phases = [phase / PHASES for phase in range(PHASES)] if x.ndim == 1 else [0.0]
-    seen = [poincare_section(x, step_s, period_s, phase, first).points for phase in phases]
-    rows = min(len(points) for points in seen)
-    section = np.hstack([points[:rows] for points in seen])
+    looked = section_at_phases if x.ndim == 1 else poincare_section
+    section = looked(x, step_s, period_s, transient_periods=first).points
     if scale is None:
         span = np.ptp(x[len(x) // 2 :], axis=0)
         least = 1e-9 * np.abs(x).max(axis=0)
@@ -215,11 +203,8 @@ def _in_bits(given, period_s, name):
     """An Exponent in bits per period, or None."""
     if given is None:
         return None
-    if isinstance(given, Exponent):
-        if given.unit == BITS_PER_PERIOD:
-            return given
-        if period_s is None:
-            raise ValueError(f"{name}: in {given.unit}, so period_s is needed")
-        return given.in_bits_per_period(checked_positive(period_s, "period_s"))
-    value, error = given
-    return Exponent(value, error, BITS_PER_PERIOD, "given", "no value" if np.isnan(value) else "")
+    if not isinstance(given, Exponent):
+        return Exponent(*given, BITS_PER_PERIOD, "given", "no value" if np.isnan(given[0]) else "")
+    if given.unit != BITS_PER_PERIOD and period_s is None:
+        raise ValueError(f"{name}: in {given.unit}, so period_s is needed")
+    return given.in_bits_per_period(period_s)

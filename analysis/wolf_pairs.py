@@ -27,7 +27,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from analysis.compiled import kernel
-from analysis.embedding_delay import delay_vectors
+from analysis.embedding import delay_vectors
 from analysis.sampling import checked_count, checked_not_negative, checked_positive, checked_series, locked
 
 ANGLE = 0.3
@@ -47,27 +47,20 @@ class WolfRun:
 
     value, error          exponent and its standard error from blocks [nats/time]; NaN where too little was followed
     reason                one sentence
-    delay, dimension, evolution, theiler    L, m, e and Theiler window [samples]
-    floor, longest        bounds of a replacement vector [unit of the series]
+    floor                 least length of a replacement vector [unit of the series]
     size                  rms distance of the delay vectors from their mean [unit of the series]
     growth (k,)           ln(L'/L) of each evolution [nats]; NaN where no neighbour was found
     end_length (k,)       L' [unit of the series]
     time_s (k,)           end of each evolution, from the start of the record [s]
     convergence (k,)      exponent from everything up to that time [nats/time]: fig. 14 of the paper
+    noise_bias            what noise adds to or takes from the exponent, by the lengths before and after [nats/time]
     replacements          times a new vector was taken
-    unfit                 times an old vector beyond the bounds was kept for want of a new one
-    gaps                  evolutions without any neighbour
     """
 
     value: float
     error: float
     reason: str
-    delay: int
-    dimension: int
-    evolution: int
-    theiler: int
     floor: float
-    longest: float
     size: float
     growth: np.ndarray
     end_length: np.ndarray
@@ -75,8 +68,6 @@ class WolfRun:
     convergence: np.ndarray
     noise_bias: float
     replacements: int
-    unfit: int
-    gaps: int
 
 
 def wolf_run(
@@ -113,12 +104,11 @@ def wolf_run(
     floor = lengths * max(noise_length, ROUNDING_SHARE * size)
     longest = max(lengths * 2.0 * LONGEST_SHARE * size, 2.0 * floor)
     count = max((len(points) - 1) // evolution, 0)
-    growth, end_length = np.full(count, np.nan), np.full(count, np.nan)
-    tally = np.zeros(3, dtype=np.int64)
+    growth, end_length, replacements = np.full(count, np.nan), np.full(count, np.nan), 0
     room = longest <= 2.0 * lengths * MOST_SHARE * size
     if size > 0.0 and room and count >= LEAST_STEPS:
         near, distance = _candidates(points, evolution, count, floor, longest)
-        follow(points, near, distance, evolution, int(theiler), floor, longest, growth, end_length, tally)
+        replacements = follow(points, near, distance, evolution, int(theiler), floor, longest, growth, end_length)
     value, error, reason = _mean_growth(growth, evolution * step_s, room, floor, size)
     followed = np.isfinite(growth)
     with np.errstate(invalid="ignore"):
@@ -126,10 +116,9 @@ def wolf_run(
     start_length = end_length / np.exp(growth)
     excess = noise**2 * dimension * (start_length**-2.0 - end_length**-2.0) / (evolution * step_s)
     bias = float(np.mean(excess[followed])) if np.any(followed) else np.nan
-    settings = (int(delay), int(dimension), evolution, int(theiler), floor, longest, size)
     time_s = (np.arange(count) + 1.0) * evolution * step_s
     curves = (locked(curve) for curve in (growth, end_length, time_s, convergence))
-    return WolfRun(value, error, reason, *settings, *curves, bias, *(int(times) for times in tally))
+    return WolfRun(value, error, reason, floor, size, *curves, bias, replacements)
 
 
 def _candidates(points, evolution, count, floor, longest):
@@ -167,12 +156,12 @@ def _mean_growth(growth, time, room, floor, size):
 
 
 @kernel
-def follow(points, near, distance, evolution, theiler, floor, longest, growth, end_length, tally):
-    """Carry the vector along the fiducial; fills growth and end_length, adds to tally (replaced, unfit, gaps)."""
+def follow(points, near, distance, evolution, theiler, floor, longest, growth, end_length):
+    """Carry the vector along the fiducial; fills growth and end_length, returns the number of replacements."""
     n, m = points.shape
     last = n - 1 - evolution
     direction = np.zeros(m)
-    j, length = -1, 0.0
+    j, length, replaced = -1, 0.0, 0
     for k in range(growth.size):
         i = k * evolution
         if j > last:
@@ -184,13 +173,9 @@ def follow(points, near, distance, evolution, theiler, floor, longest, growth, e
             points, i, j, length, direction, near[k], distance[k], last, theiler, floor, longest, worst, fit
         )
         if j < 0:
-            tally[2] += 1
             direction[:] = 0.0
             continue
-        if j != old:
-            tally[0] += 1
-        elif not fit:
-            tally[1] += 1
+        replaced += j != old
         i += evolution
         j += evolution
         square = 0.0
@@ -199,7 +184,6 @@ def follow(points, near, distance, evolution, theiler, floor, longest, growth, e
             square += direction[q] * direction[q]
         grown = np.sqrt(square)
         if grown == 0.0:
-            tally[2] += 1
             j = -1
             continue
         growth[k] = np.log(grown / length)
@@ -207,26 +191,24 @@ def follow(points, near, distance, evolution, theiler, floor, longest, growth, e
         length = grown
         for q in range(m):
             direction[q] /= grown
+    return replaced
 
 
 @kernel
 def _replacement(points, i, j, length, direction, near, distance, last, theiler, floor, longest, worst, fit):
     """Index and length of the vector to go on with: the old (j, length) if it is fit and nothing scores better; else
     the best within the angle, giving way first in length, then in angle; else the old one, whatever its length."""
-    best, shortest = _best(points, i, direction, near, distance, last, theiler, floor, longest, longest, ANGLE, worst)
-    if best >= 0:
-        return best, shortest
-    if fit:
-        return j, length
     angle = ANGLE
     while angle < np.pi:
         for wider in range(1, WIDENINGS + 1):
             limit = wider * longest
             best, shortest = _best(
-                points, i, direction, near, distance, last, theiler, floor, longest, limit, angle, np.inf
+                points, i, direction, near, distance, last, theiler, floor, longest, limit, angle, worst
             )
             if best >= 0:
                 return best, shortest
+            if fit:
+                return j, length
         angle *= 2.0
     return j, length
 

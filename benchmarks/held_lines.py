@@ -19,9 +19,9 @@ from scipy.spatial.transform import Rotation
 from benchmarks.shared import DOCS, shrink
 from engine import load_scene, simulate
 from reports.figures.rope_shape import rope_shapes
-from tests.engine.spatial.rod_equations import Localised
-from tests.engine.spatial.test_held_lines_released import LENGTH as L
-from tests.engine.spatial.test_held_lines_released import G, fall
+from tests.engine.spatial.rods import Localised
+from tests.engine.spatial.test_held_lines import LENGTH as L
+from tests.engine.spatial.test_held_lines import G, fall
 
 
 def localised(scene, slack_m):

@@ -2,20 +2,20 @@
 
     python -m benchmarks.oscillator_speed [--rounds N] [--core N]
 
-Rates   forcing periods a second with both exponents, at the paper's parameters. Ours: `growth_of_starts`, one start.
+Rates   forcing periods a second with both exponents, at the paper's parameters. Ours: `growth_over_values`, one start.
         pynamicalsys (PyPI; the extra `bench`): `ContinuousDynamicalSystem.lyapunov`, RK4 with T/64 steps, its own QR,
         compiled; equation and Jacobian as it wants them, compiled too. One thread each, compilation left out.
-Error   of the state after ten periods from (0.68, 0), against the digits of tests/analysis/oscillator/test_states.py.
+Error   of the state after ten periods from (0.68, 0), against 20 digits of an independent computation.
 Diagram 800 values of F in [0.1, 2], four starts, 500 + 1000 periods each, exponents at every value.
 """
 
+from dataclasses import astuple
 from functools import partial
 
 import numpy as np
 
 from analysis.oscillator import SnapOscillator, snap_diagram, strobed_states
-from analysis.oscillator.pieces import tables
-from analysis.oscillator.strobing import growth_of_starts
+from analysis.oscillator.strobing import growth_over_values
 from benchmarks.shared import in_turns, on_one_core, parser, print_load, seconds, show
 
 START = (0.68, 0.0)
@@ -25,8 +25,9 @@ OURS_PERIODS, THEIRS_PERIODS, STEPS = 1_000_000, 20_000, 64
 
 def ours(oscillator: SnapOscillator, periods: int) -> np.ndarray:
     """Both exponents over `periods` periods."""
-    sums = growth_of_starts(np.array([START]), 100, 10, periods // 10, 0, tables(oscillator))[0]
-    return sums.sum(axis=(0, 1)) / (periods * oscillator.period)
+    parameters, starts = np.array([astuple(oscillator)]), np.array([START])
+    sums = growth_over_values(parameters, starts, 100, 10, periods // 10, 0)[0]
+    return sums.sum(axis=(0, 1, 2)) / (periods * oscillator.period)
 
 
 def rate(call, periods: int) -> float:

@@ -16,32 +16,13 @@ from functools import partial
 import numpy as np
 
 from analysis.divergence import kantz_lyapunov, rosenstein_lyapunov
-from analysis.embedding_delay import choose_delay
-from analysis.embedding_dimension import choose_embedding
-from analysis.neighbours import noise_level
+from analysis.embedding import choose_delay, choose_embedding, noise_level
 from analysis.wolf_pairs import wolf_run
 from analysis.wolf_plateau import wolf_lyapunov
 from benchmarks.shared import seconds
-from tests.analysis import systems
+from tests.analysis.systems import TRUTH, record
 
-TRUTH = {
-    "lorenz": 0.9056,
-    "rossler": 0.0714,
-    "duffing": 0.1565,
-    "ueda": 0.1034,
-    "pendulum": 0.1400,
-    "henon": 0.41922,
-    "logistic": np.log(2.0),
-    "two_tone": 0.0,
-}
 OURS = {"Wolf plateau": wolf_lyapunov, "Rosenstein": rosenstein_lyapunov, "Kantz": kantz_lyapunov}
-
-
-def record(name, samples, noise=0.0):
-    """(series, step) of a reference system."""
-    if name in systems.FLOWS:
-        return systems.record(name, samples, noise=noise)
-    return systems.noisy(getattr(systems, name)(samples), noise, 0), 0.1 if name == "two_tone" else 1.0
 
 
 def theirs(series, step):

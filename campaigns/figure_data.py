@@ -6,11 +6,9 @@ results they are from. The same content gives the same bytes: there is no date a
 
 from __future__ import annotations
 
-import dataclasses
 import hashlib
 import io
 import json
-from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -22,28 +20,17 @@ if TYPE_CHECKING:
     import xarray
 
 Array = tuple[tuple[str, ...], object, str, str]  # dimensions, values, unit, long name
+Source = dict[str, object]  # one result behind a figure, as `source` makes it
 
 
-@dataclass(frozen=True)
-class Source:
-    """One result behind a figure.
+def source(label: str, folder: Path, path: Path, key: str, settings: str, run_s: float) -> Source:
+    """The record of a result file inside a campaign's folder. Raises OSError for a file that cannot be read.
 
     `label` what it is called there; `file` within the campaign's folder, with its `sha256`; `key` of the run;
     `settings` as TOML or JSON; `run_s` the seconds of computing that it took.
     """
-
-    label: str
-    file: str
-    sha256: str
-    key: str
-    settings: str
-    run_s: float
-
-
-def source(label: str, folder: Path, path: Path, key: str, settings: str, run_s: float) -> Source:
-    """The record of a result file inside a campaign's folder. Raises OSError for a file that cannot be read."""
-    digest = hashlib.sha256(path.read_bytes()).hexdigest()
-    return Source(label, path.relative_to(folder).as_posix(), digest, key, settings, float(run_s))
+    file, digest = path.relative_to(folder).as_posix(), hashlib.sha256(path.read_bytes()).hexdigest()
+    return {"label": label, "file": file, "sha256": digest, "key": key, "settings": settings, "run_s": float(run_s)}
 
 
 def dataset(title: str, arrays: dict[str, Array], sources: tuple[Source, ...], made_by: str) -> xarray.Dataset:
@@ -61,8 +48,8 @@ def dataset(title: str, arrays: dict[str, Array], sources: tuple[Source, ...], m
     attributes = {
         "Conventions": "CF-1.10",
         "title": title,
-        "sources": json.dumps([dataclasses.asdict(one) for one in sources], ensure_ascii=False),
-        "run_seconds": float(sum(one.run_s for one in sources)),
+        "sources": json.dumps(sources, ensure_ascii=False),
+        "run_seconds": float(sum(one["run_s"] for one in sources)),
         "made_by": made_by,
     }
     return xarray.Dataset(variables, attrs=attributes)

@@ -2,8 +2,13 @@
 
 import csv
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from campaigns.columns import dictionary_path
+from campaigns.machinery.folder import trajectory_path
+
+if TYPE_CHECKING:
+    from engine import Trajectory
 
 Row = dict[str, object]
 
@@ -20,6 +25,16 @@ def read_rows(path: Path) -> tuple[Row, ...]:
     if not rows:
         raise ValueError(f"{path.name} has no rows")
     return tuple(rows)
+
+
+def run_of(folder: Path, row: Row) -> "Trajectory | None":
+    """The trajectory of a row; None for a run that ended early, or whose file cannot be read."""
+    from engine.trajectory import Trajectory, TrajectoryError
+
+    try:
+        return Trajectory.load(trajectory_path(folder, row["run_key"])) if row["status"] == "ok" else None
+    except TrajectoryError:
+        return None
 
 
 def _read(path: Path) -> list[dict[str, str]]:

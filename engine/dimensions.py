@@ -5,15 +5,18 @@ planar scene neither compiles nor runs anything of the third dimension.
 """
 
 from .compiled import by_kind
+from .planar import elimination as planar_elimination
 from .planar import node as planar_node
 from .planar import state as planar
+from .spatial import elimination as spatial_elimination
 from .spatial import node as spatial_node
 from .spatial import state as spatial
 
 shape = by_kind(planar_node.shape, spatial_node.shape)
 work_arrays = by_kind(planar.work_arrays, spatial.work_arrays)
 size_of = by_kind(planar.size_of, spatial.size_of)
-assemble = by_kind(planar.assemble, spatial.assemble)
+node_quantities = by_kind(planar_node.node_quantities, spatial_node.node_quantities)
+eliminate = by_kind(planar_elimination.eliminate, spatial_elimination.eliminate)
 update_size = by_kind(planar.update_size, spatial.update_size)
 add_update = by_kind(planar.add_update, spatial.add_update)
 tidy = by_kind(planar.tidy, spatial.tidy)

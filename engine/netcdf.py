@@ -7,25 +7,18 @@ gives the same bytes.
 import hashlib
 import io
 import warnings
-from typing import NamedTuple
 
 import numpy as np
 
 DIGEST = "content_sha256"
 
 
+# One variable of a file: name, names of its dimensions, array of floats, unit, long name
+Variable = tuple[str, tuple[str, ...], np.ndarray, str, str]
+
+
 class DamagedError(ValueError):
     """The content of a file is not what its digest says, or not a run."""
-
-
-class Variable(NamedTuple):
-    """One variable of a file: an array of floats with names of its dimensions, its unit and its meaning."""
-
-    name: str
-    dimensions: tuple[str, ...]
-    values: np.ndarray
-    unit: str
-    long_name: str
 
 
 def _digest(texts: dict[str, str], arrays: dict[str, np.ndarray]) -> str:
@@ -45,7 +38,7 @@ def to_bytes(variables: list[Variable], texts: dict[str, str], attributes: dict[
     """
     from scipy.io import netcdf_file
 
-    arrays = {each.name: np.asarray(each.values, dtype=">f8") for each in variables}
+    arrays = {name: np.asarray(values, dtype=">f8") for name, _, values, _, _ in variables}
     own = {"Conventions": "CF-1.10", **texts, DIGEST: _digest(texts, arrays)}
     buffer = io.BytesIO()
     file = netcdf_file(buffer, "w", version=2)
@@ -54,22 +47,20 @@ def to_bytes(variables: list[Variable], texts: dict[str, str], attributes: dict[
         raise ValueError(f"attributes: {', '.join(taken)} belong to the record or its format")
     for name, text in {**own, **attributes}.items():
         setattr(file, name, text.encode("utf-8"))
-    for each in variables:
-        values = arrays[each.name]
-        for dimension, length in zip(each.dimensions, values.shape, strict=True):
+    for name, dimensions, _, unit, long_name in variables:
+        for dimension, length in zip(dimensions, arrays[name].shape, strict=True):
             if dimension not in file.dimensions:
                 file.createDimension(dimension, length or None)  # None: the record dimension, which may be empty
-        variable = file.createVariable(each.name, "d", each.dimensions)
-        variable.units, variable.long_name = each.unit.encode(), each.long_name.encode()
-        if values.size:
-            variable[:] = values
+        variable = file.createVariable(name, "d", dimensions)
+        variable.units, variable.long_name = unit.encode(), long_name.encode()
+        if arrays[name].size:
+            variable[:] = arrays[name]
     file.flush()
     return buffer.getvalue()
 
 
-def from_bytes(content: bytes, names: tuple[str, ...]) -> tuple[dict[str, str], dict[str, np.ndarray], dict[str, str]]:
-    """(texts of these names, arrays, units) of a file. Raises DamagedError, or whatever a damaged header makes of
-    it."""
+def from_bytes(content: bytes, names: tuple[str, ...]) -> tuple[dict[str, str], dict[str, np.ndarray]]:
+    """(texts of these names, arrays) of a file. Raises DamagedError, or whatever a damaged header makes of it."""
     from scipy.io import netcdf_file
 
     with warnings.catch_warnings():
@@ -79,7 +70,7 @@ def from_bytes(content: bytes, names: tuple[str, ...]) -> tuple[dict[str, str], 
     arrays = {name: np.array(variable.data, dtype=np.float64) for name, variable in file.variables.items()}
     if _digest(texts, arrays) != _text(file, DIGEST):
         raise DamagedError("damaged: the content does not match its own digest")
-    return texts, arrays, {name: variable.units.decode() for name, variable in file.variables.items()}
+    return texts, arrays
 
 
 def _text(file: object, name: str) -> str:

@@ -12,7 +12,7 @@ import numpy as np
 
 from . import record as codes
 from . import scales
-from .physics import currents, ends, sea, tension, waves
+from .physics import ends, sea, tension, waves
 from .scene.models import Scene
 from .spatial import lift
 from .time import integrators
@@ -89,31 +89,21 @@ def _water(record, scene, place):
     if scene.water is not None:
         record["depth"] = scene.water.depth_m
     if wave is not None:
-        k = waves.wave_number(wave.period_s, scene.water.depth_m, scene.gravity_mps2)
-        if wave.irregular:
-            rows = sea.table_of(scene, _direction)
-            amplitude = 0.0
-            record["waves"], record["sea_n"], record["sea_at"] = bool(rows[:, 2].any()), len(rows), place(rows)
-        else:
-            amplitude = wave.amplitude_m if wave.steepness is None else wave.steepness / k
-            record["waves"] = amplitude != 0
-        record["k"], record["omega"] = k, 2 * math.pi / wave.period_s
-        record["amplitude"], record["phase"], record["ramp"] = amplitude, wave.phase_rad, wave.ramp_s
+        record["k"] = waves.wave_number(wave.period_s, scene.water.depth_m, scene.gravity_mps2)
+        record["omega"], record["phase"], record["ramp"] = 2 * math.pi / wave.period_s, wave.phase_rad, wave.ramp_s
+        amplitudes = sea.components_of(scene)[1]
+        record["waves"], record["amplitude"] = amplitudes.any(), 0.0 if wave.irregular else amplitudes[0]
         if codes.is_spatial(record):
-            record["direction"] = 1.0
-            record["dir_x"], record["dir_y"] = _direction(wave.direction_rad)
+            record["dir_x"], record["dir_y"] = sea.direction_of(wave.direction_rad)
         else:
             record["direction"] = math.cos(wave.direction_rad)
-        record["above"] = {"extrapolate": codes.EXTRAPOLATE, "zero": codes.ZERO, "wheeler": codes.WHEELER}[
-            wave.above_still_water
-        ]
+        if wave.irregular or codes.is_spatial(record):
+            rows = sea.table_of(scene)
+            record["sea_n"], record["sea_at"] = len(rows), place(rows)
+        above = {"extrapolate": codes.EXTRAPOLATE, "zero": codes.ZERO, "wheeler": codes.WHEELER}
+        record["above"] = above[wave.above_still_water]
     if current is not None:
         _current(record, current, place)
-
-
-def _direction(angle):
-    """Cosine and sine, exact along the axes: 1e-16 across the waves would be a seed of motion out of their plane."""
-    return round(math.cos(angle), 15), round(math.sin(angle), 15)
 
 
 def _current(record, current, place):
@@ -127,7 +117,7 @@ def _current(record, current, place):
         u, v, w = np.reshape(np.transpose(current.velocity_mps), (3, 1, -1, 1))
     record["current"] = any(component.any() for component in (u, v, w))
     record["cur_nx"], record["cur_ny"], record["cur_nz"], record["cur_nt"] = len(x), len(y), len(z), len(t)
-    record["cur_at"] = place(currents.table_of((x, y, z, t), (u, v, w)))
+    record["cur_at"] = place(np.concatenate([np.ravel(part) for part in (x, y, z, t, u, v, w)]))  # `physics.currents`
 
 
 def _put(record, name, vector):
@@ -171,7 +161,8 @@ def _held(record, end, place):
         return
     if motion.law == "harmonic":
         record["end_motion"] = codes.HARMONIC
-        record["end_at"] = place(ends.harmonic_of(motion.amplitude_m, motion.period_s, motion.phase_rad, motion.ramp_s))
+        omega = 2 * math.pi / motion.period_s
+        record["end_at"] = place([*motion.amplitude_m, omega, motion.phase_rad, motion.ramp_s])  # `physics.ends`
     else:
         record["end_motion"], record["end_n"] = codes.TABLE, len(motion.time_s)
         record["end_at"] = place(ends.table_of(motion.time_s, motion.displacement_m))
@@ -187,19 +178,15 @@ def _turning(record, scene):
         record[f"clamp_{name}"] = clamp.rotation == "clamped"
         direction = np.array(clamp.direction or chord)
         _put(record, f"{name}_", direction / np.linalg.norm(direction))
-    _put_carried(record, np.array(chord) / np.linalg.norm(chord))
-    record["twist"], record["twist_ramp"] = end.twist_rad or 0.0, end.twist_ramp_s or 0.0
-
-
-def _put_carried(record, chord):
-    """Where no twist is: the rotation of the lower clamp into the upper one, by the shortest ways to the chord and on.
-
-    Straight from clamp to clamp would say the same of a line in a plane, but nothing where the clamps oppose each other
-    (a line that hangs between two vertical ones).
-    """
+    # Where no twist is: the rotation of the lower clamp into the upper one, by the shortest ways to the chord and on.
+    # Straight from clamp to clamp would say the same of a line in a plane, but nothing where the clamps oppose each
+    # other (a line that hangs between two vertical ones).
+    along = np.array(chord) / np.linalg.norm(chord)
     below, above = ([float(record[f"{name}_{axis}"]) for axis in "xyz"] for name in ("below", "above"))
-    first, second = lift.shortest_rotation(below, chord), lift.shortest_rotation(chord, above)
-    record["carry0"], record["carry1"], record["carry2"], record["carry3"] = lift.product(second, first)
+    carried = lift.product(lift.shortest_rotation(along, above), lift.shortest_rotation(below, along))
+    for i, part in enumerate(carried):
+        record[f"carry{i}"] = part
+    record["twist"], record["twist_ramp"] = end.twist_rad or 0.0, end.twist_ramp_s or 0.0
 
 
 def _solver(record, scene, place, h):
@@ -217,7 +204,7 @@ def _solver(record, scene, place, h):
         record["method"] = codes.ONE_STAGE
         record["alpha_m"], record["alpha_f"], record["gamma"] = method.alphas(solver.spectral_radius)
     period = scene.waves.period_s if scene.waves is not None else None
-    record["output_step"] = scene.output.step_s or (period / 100 if period else 0.05)
+    record["output_step"] = scene.sample_step_s()
     record["profile_step"] = (scene.output.profiles_step_s or record["output_step"]) if scene.output.profiles else 0.0
     record["fixed_step"] = solver.step_s or (period / 400 if period else 0.0125)
     record["max_step"], record["min_step"] = solver.max_step_s, solver.min_step_s

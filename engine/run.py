@@ -15,8 +15,7 @@ from .planar.columns import EPS, PHI
 from .scene.models import Scene
 from .spatial import lift
 from .spatial import state as spatial
-from .time.statics import rest_of
-from .time.statics_advice import why_no_rest
+from .time.statics import rest_of, why_no_rest
 from .time.status import ADVICE, OK, STATICS_FAILED, TURN_UNRESOLVED, WORDS
 from .time.time_loop import SMALL_STEPS, march
 from .trajectory import COLUMNS, EnergyBudget, Profiles, Trajectory
@@ -49,6 +48,12 @@ class Run:
         self.trail = Followed(scene, self.record, self.tables, duration_s)
         Y = self._start(np.zeros((n, unknowns)))
         self.motion = Motion(Y, Y.copy(), np.zeros((n, conserved)), np.zeros((n, conserved)))
+        alphas = tuple(float(self.record[name]) for name in ("alpha_m", "alpha_f", "gamma"))
+        self.parts = (  # what only some scenes need: of `march`
+            alphas if self.record["method"] == col.ONE_STAGE else None,
+            np.empty(n) if self.record["viscous"] else None,
+            (self.output.energies, self.output.sums) if scene.output.energy else None,
+        )
         self.wall_s = 0.0
 
     def _start(self, Y: np.ndarray) -> np.ndarray:
@@ -93,7 +98,8 @@ class Run:
         began = time.perf_counter()
         until = min(self.goal, self.state["samples"] + chunk)
         while True:
-            march(self.record, self.tables, self.state, self.motion, self.output, self.trail.steps, until)
+            arrays = self.motion, self.output, self.trail.steps
+            march(self.record, self.tables, self.state, *arrays, until, *self.parts)
             self.trail.follow(self.record, self.tables, self.state)
             if self.state["status"] != OK or self.state["samples"] >= until:
                 break

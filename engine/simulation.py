@@ -44,11 +44,8 @@ def simulate_batch(
 
     Arguments as for `simulate`; the run length in periods is taken for each scene's own wave. Returns a list.
     """
-    scenes = list(scenes)
-    runs = [None] * len(scenes)
-    for i, run in simulate_each(scenes, periods, duration_s, progress):
-        runs[i] = run
-    return runs
+    runs = dict(simulate_each(scenes, periods, duration_s, progress))
+    return [runs[i] for i in range(len(runs))]
 
 
 def simulate_each(
@@ -80,28 +77,23 @@ def simulate_each(
     alone = {i for i, _, _ in jobs} - {i for group in groups for i, _, _ in group}
     for i, scene, length in jobs:
         if i in alone:
-            yield i, (_by_paper if scene.solver.scheme == "paper-box" else _by_march)(scene, length, share)
+            yield i, _alone(scene, length, share)
             ended += 1
 
 
-def _by_march(scene: Scene, duration_s: float, progress: Progress) -> Trajectory:
+def _alone(scene: Scene, duration_s: float, progress: Progress) -> Trajectory:
+    if scene.solver.scheme == "paper-box":
+        from .paper_box import run as by_paper
+
+        return by_paper(scene, duration_s, progress)
     run = Run(scene, duration_s)
     run.compile()
-    chunk = max(1, min(MOST_SAMPLES, round(PERIODS_PER_CALL * _period(scene) / scene.sample_step_s())))
+    period_s = scene.waves.period_s if scene.waves is not None else 5.0
+    chunk = max(1, min(MOST_SAMPLES, round(PERIODS_PER_CALL * period_s / scene.sample_step_s())))
     while not run.done():
         run.advance(chunk)
         progress(run.fraction())
     return run.trajectory()
-
-
-def _by_paper(scene: Scene, duration_s: float, progress: Progress) -> Trajectory:
-    from .paper_box import run
-
-    return run(scene, duration_s, progress)
-
-
-def _period(scene: Scene) -> float:
-    return scene.waves.period_s if scene.waves is not None else 5.0
 
 
 def _duration(scene: Scene, periods: float | None, duration_s: float | None) -> float:

@@ -40,11 +40,6 @@ class TrajectoryError(ValueError):
     """A trajectory file that cannot be read: not there, truncated, damaged, or not one of ours."""
 
 
-def _abouts(record: type) -> dict[str, tuple[str, str]]:
-    """(unit, long name) of each field of a record, as in a file."""
-    return {name: kind.__metadata__[0] for name, kind in record.__annotations__.items()}
-
-
 @dataclass(frozen=True)
 class Profiles:
     """Quantities along the line. time_s (nt,); s_m (nn,); the others (nt, nn), SI units."""
@@ -57,15 +52,6 @@ class Profiles:
     strain: Annotated[np.ndarray, ("1", "strain")]
     tension_N: Annotated[np.ndarray, ("N", "tension")]
     speed_mps: Annotated[np.ndarray, ("m s-1", "speed")]
-
-    def __post_init__(self) -> None:
-        shape = (len(self.time_s), len(self.s_m))
-        for name in PROFILE_COLUMNS:
-            if getattr(self, name).shape != shape:
-                raise ValueError(f"profiles: {name} has shape {getattr(self, name).shape}, expected {shape}")
-
-
-PROFILE_COLUMNS = {name: about for name, about in _abouts(Profiles).items() if name not in ("time_s", "s_m")}
 
 
 @dataclass(frozen=True)
@@ -130,13 +116,6 @@ class Trajectory:
     tangent: TangentGrowth | None = None
     energy: EnergyBudget | None = None
 
-    def __post_init__(self) -> None:
-        if set(self.columns) != set(COLUMNS):
-            raise ValueError(f"columns: expected {sorted(COLUMNS)}, given {sorted(self.columns)}")
-        shapes = {np.shape(column) for column in self.columns.values()}
-        if len(shapes) != 1 or len(next(iter(shapes))) != 1:
-            raise ValueError(f"columns: expected arrays of one length, given shapes {sorted(shapes)}")
-
     def table(self) -> "pandas.DataFrame":
         """The samples as a pandas table, one row a sample, columns in the order of COLUMNS."""
         import pandas
@@ -154,7 +133,14 @@ class Trajectory:
 
     def to_bytes(self, attributes: dict[str, str] | None = None) -> bytes:
         """The content of the file that `save` writes, for whoever has to send it first. Raises ValueError as `save`."""
-        return netcdf.to_bytes(_variables(self), _described(self), attributes or {})
+        texts = {
+            "title": self.scene.title or self.scene.name,
+            "scene": self.scene.to_toml(),
+            "status": self.status,
+            "message": self.message,
+            "statistics": json.dumps(self.statistics, default=lambda number: number.item()),  # of NumPy
+        }
+        return netcdf.to_bytes(_variables(self), texts, attributes or {})
 
     @staticmethod
     def load(path: str | Path) -> "Trajectory":
@@ -180,20 +166,21 @@ class Trajectory:
             raise TrajectoryError(f"{name}: truncated, damaged, or not a netCDF-3 file ({error})") from None
 
 
+def _abouts(record: type, prefix: str) -> dict[str, tuple[str, str, str]]:
+    """Of each field of a record the name, unit and long name in a file, where s_m has no prefix."""
+    about = {name: kind.__metadata__[0] for name, kind in record.__annotations__.items()}
+    return {name: (name if name == "s_m" else prefix + name, *words) for name, words in about.items()}
+
+
 def _variables(run: Trajectory) -> list[netcdf.Variable]:
     """Everything that is stored of a run; a dimension is named after its coordinate."""
     found = [(name, ("time_s",), run.columns[name], *about) for name, about in COLUMNS.items()]
-    lines, budget = run.profiles, run.energy
-    if lines is not None:
-        about = _abouts(Profiles)
-        found.append(("s_m", ("s_m",), lines.s_m, *about["s_m"]))
-        if len(lines.time_s):  # the format has no second dimension of length zero
-            found.append(("profile_time_s", ("profile_time_s",), lines.time_s, *about["time_s"]))
-            for name in PROFILE_COLUMNS:
-                found.append((f"profile_{name}", ("profile_time_s", "s_m"), getattr(lines, name), *about[name]))
-    if budget is not None and len(budget.time_s):
-        for name, about in _abouts(EnergyBudget).items():
-            found.append((f"energy_{name}", ("energy_time_s",), getattr(budget, name), *about))
+    for record, prefix in ((run.profiles, "profile_"), (run.energy, "energy_")):
+        for field, (name, *about) in (_abouts(type(record), prefix) if record is not None else {}).items():
+            values = getattr(record, field)
+            dimensions = ("s_m",) if name == "s_m" else (f"{prefix}time_s", "s_m")[: values.ndim]
+            if values.size:  # the format has no second dimension of length zero
+                found.append((name, dimensions, values, *about))
     if run.tangent is not None and len(run.tangent.released):
         grown = run.tangent
         about = (f"period ({grown.period_s!r} s)", "number of the period, the first is 0")
@@ -205,54 +192,36 @@ def _variables(run: Trajectory) -> list[netcdf.Variable]:
         if grown.lateral_nats is not None:
             about = ("1", "growth of a perturbation across the plane of the waves, nats")
             found.append(("lateral_nats", ("period",), grown.lateral_nats, *about))
-    return [netcdf.Variable(*variable) for variable in found]
+    return found
 
 
-def _described(run: Trajectory) -> dict[str, str]:
-    return {
-        "title": run.scene.title or run.scene.name,
-        "scene": run.scene.to_toml(),
-        "status": run.status,
-        "message": run.message,
-        "statistics": json.dumps(run.statistics, default=_number),
-    }
-
-
-def _number(value: object) -> int | float:
-    if isinstance(value, np.generic):
-        return value.item()
-    raise TypeError(f"statistics hold numbers, not {type(value).__name__}")
-
-
-def _restored(texts: dict[str, str], arrays: dict[str, np.ndarray], units: dict[str, str]) -> Trajectory:
-    """The run of which a file holds these texts, arrays and units."""
-    profiles = None
-    if "s_m" in arrays:
-        empty = np.empty((0, len(arrays["s_m"])))
-        lines = {name: arrays.get(f"profile_{name}", empty) for name in PROFILE_COLUMNS}
-        profiles = Profiles(time_s=arrays.get("profile_time_s", np.empty(0)), s_m=arrays["s_m"], **lines)
+def _restored(texts: dict[str, str], arrays: dict[str, np.ndarray]) -> Trajectory:
+    """The run of which a file holds these texts and arrays."""
     try:
         scene = scene_from_toml(texts["scene"])
     except SceneError as error:
         raise TrajectoryError(f"holds a scene that this version does not accept: {error}") from None
-    energy = None
+    none = np.empty(0)
+    profiles = energy = None
+    if "s_m" in arrays:
+        blank, stored = np.empty((0, len(arrays["s_m"]))), _abouts(Profiles, "profile_")
+        profiles = Profiles(
+            **{field: arrays.get(name, none if field == "time_s" else blank) for field, (name, *_) in stored.items()}
+        )
     if scene.output.energy:
-        energy = EnergyBudget(**{name: arrays.get(f"energy_{name}", np.empty(0)) for name in _abouts(EnergyBudget)})
-    tangent = _growth(scene, arrays, units)
+        energy = EnergyBudget(*(arrays.get(name, none) for name, *_ in _abouts(EnergyBudget, "energy_").values()))
+    tangent = _growth(scene, arrays)
     columns = {name: arrays[name] for name in COLUMNS}
     statistics = json.loads(texts["statistics"])
     return Trajectory(scene, texts["status"], texts["message"], columns, statistics, profiles, tangent, energy)
 
 
-def _growth(scene: Scene, arrays: dict[str, np.ndarray], units: dict[str, str]) -> TangentGrowth | None:
+def _growth(scene: Scene, arrays: dict[str, np.ndarray]) -> TangentGrowth | None:
     """What a file holds of perturbations; empty arrays for a run that ended before its first period did."""
     count, sideways = scene.output.tangent_vectors, scene.output.lateral_growth
     if not (count or sideways):
         return None
-    if "released" in arrays:
-        period_s = float(units["period"].split("(")[1].split()[0])
-    else:
-        period_s = scene.waves.period_s if scene.waves is not None else 1.0
+    period_s = scene.waves.period_s if scene.waves is not None else 1.0
     released = arrays.get("released", np.empty(0))
     growth = arrays.get("growth_nats", np.empty((len(released), count)))
     return TangentGrowth(period_s, growth, released, arrays.get("lateral_nats", np.empty(0)) if sideways else None)

@@ -10,6 +10,7 @@ import fcntl
 import glob
 import hashlib
 import os
+import shutil
 import sys
 import tempfile
 import time
@@ -30,14 +31,11 @@ def hash_of(package: Path, *endings: str) -> str:
     """sha256, hexadecimal, over names and contents of all files of a package's folder with these endings (".py"), and
     of the .py files here."""
     digest = hashlib.sha256()
-    for root, path in [*_sources(package, endings), *_sources(_ROOT, (".py",))]:
-        digest.update(path.relative_to(root).as_posix().encode() + b"\0")
-        digest.update(path.read_bytes() + b"\0")
+    for root, kinds in ((package, endings), (_ROOT, (".py",))):
+        for path in sorted(path for kind in kinds for path in root.rglob(f"*{kind}")):
+            digest.update(path.relative_to(root).as_posix().encode() + b"\0")
+            digest.update(path.read_bytes() + b"\0")
     return digest.hexdigest()
-
-
-def _sources(root: Path, endings: tuple[str, ...]) -> list[tuple[Path, Path]]:
-    return [(root, path) for path in sorted(path for ending in endings for path in root.rglob(f"*{ending}"))]
 
 
 def folder_for(name: str, sources: str, kept: int) -> Path | None:
@@ -54,7 +52,10 @@ def folder_for(name: str, sources: str, kept: int) -> Path | None:
         except OSError:
             continue
         probe.close()
-        _drop_old(sorted((p for p in root.glob(f"{name}-*") if p != folder), key=_last_change)[: -kept or None])
+        with contextlib.suppress(OSError):  # another process may be dropping the same folders
+            others = sorted((path.stat().st_mtime, path) for path in root.glob(f"{name}-*") if path != folder)
+            for _, old in others[: -kept or None]:
+                shutil.rmtree(old, ignore_errors=True)
         return folder
     return None
 
@@ -73,25 +74,6 @@ def _roots() -> Iterator[Path]:
         # Everybody can write beside it and knows its name: code that somebody else left there would be run.
         if shared.stat().st_uid == os.getuid():
             yield shared
-
-
-def _drop_old(folders: list[Path]) -> None:
-    for folder in folders:
-        for path in sorted(folder.rglob("*"), reverse=True):
-            try:
-                path.rmdir() if path.is_dir() else path.unlink()
-            except OSError:
-                continue
-        with contextlib.suppress(OSError):
-            folder.rmdir()
-
-
-def _last_change(folder: Path) -> float:
-    # Another process may be dropping the same folder.
-    try:
-        return folder.stat().st_mtime
-    except OSError:
-        return 0.0
 
 
 def one_at_a_time(dispatcher, folder: Path):
@@ -171,13 +153,14 @@ def _say_once(message: str) -> None:
 def compiled(function, folder: Path | None, **options):
     """`function` as a Numba dispatcher without Python objects, GIL and checks of indices, kept in `folder` (None: not
     kept). Division by zero gives inf or NaN, as in NumPy. options: further ones of numba.njit."""
-    plain = numba.njit(nogil=True, error_model="numpy", boundscheck=False, **options)
+    options |= {"nogil": True, "error_model": "numpy", "boundscheck": False, "no_cfunc_wrapper": True}
+    plain = numba.njit(**options)
     if folder is None:
         return plain(function)
     saved = config.CACHE_DIR
     config.CACHE_DIR = str(folder)
     try:
-        dispatcher = numba.njit(cache=True, nogil=True, error_model="numpy", boundscheck=False, **options)(function)
+        dispatcher = numba.njit(cache=True, **options)(function)
     except RuntimeError:  # Numba can write nowhere
         return plain(function)
     finally:

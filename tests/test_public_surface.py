@@ -35,10 +35,3 @@ def test_every_offered_function_is_typed(name):
     found = offered(module, getattr(module, "__all__", None))
     untyped = [f"{key}: {', '.join(lacking(function))}" for key, function in found.items() if lacking(function)]
     assert found and not untyped, "\n".join(untyped)
-
-
-def test_what_is_lacking_is_named():
-    def half(x, *, of: float = 1.0):
-        return x / 2
-
-    assert lacking(half) == ["x", "return"]

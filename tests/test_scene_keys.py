@@ -6,9 +6,9 @@ import pytest
 
 from engine import load_scene
 from engine.scene import known_scenes
-from engine.scene.faults import known_keys
+from engine.scene.faults import known_fields
 from engine.scene.models import Scene
-from engine.scene.reference import UNITS, keys, page, sources
+from engine.scene.reference import keys, page, sources
 
 PAGE = Path(__file__).resolve().parents[1] / "docs" / "scene_keys.md"
 
@@ -20,14 +20,8 @@ def test_the_page_is_what_the_model_says():
 
 def test_every_key_is_declared():
     listed = list(keys())
-    assert all(key in listed or any(other.startswith(f"{key}.") for other in listed) for key in known_keys(Scene))
+    assert all(key in listed or any(other.startswith(f"{key}.") for other in listed) for key in known_fields(Scene))
     assert all(key.meaning for key in keys().values())
-
-
-def test_the_unit_of_a_key_is_its_suffix():
-    for name, key in keys().items():
-        suffix = name.rpartition("_")[2]
-        assert key.unit == UNITS[suffix] if suffix in UNITS else key.unit in ("", "1"), name
 
 
 @pytest.mark.parametrize("scene", known_scenes())

@@ -13,12 +13,12 @@ import lazy_loader
 __getattr__, __dir__, __all__ = lazy_loader.attach(
     __name__,
     submod_attrs={
-        "basin_grids": ["SnapBasins", "snap_basins", "start_grid"],
-        "diagrams": ["SnapDiagram", "snap_diagram"],
+        "attractors": [
+            "Grazing", "PeriodicOrbit", "SnapBasins", "clearance", "grazing_force", "periodic_orbit",
+            "search_periodic_orbits", "snap_basins", "start_grid",
+        ],
         "equation": ["SnapOscillator"],
-        "grazing": ["Grazing", "clearance", "grazing_force"],
-        "growth": ["SnapExponents", "section_dimension", "snap_exponents"],
+        "growth": ["SnapDiagram", "SnapExponents", "section_dimension", "snap_diagram", "snap_exponents"],
         "motions": ["SnapMotion", "snap_motion", "strobed_states", "strobed_states_within"],
-        "newton_orbits": ["PeriodicOrbit", "periodic_orbit", "search_periodic_orbits"],
     },
-)
+)  # fmt: skip

@@ -31,14 +31,8 @@ from analysis.compiled import kernel
 from analysis.oscillator.pieces import curvature_bound, motion
 
 NONE = -1.0
-_ROUNDING = 2e-15
+_ROUNDING = 2e-15  # of the terms of g: below, g is rounding error
 _TIME_ERROR = 2e-13
-
-
-@kernel
-def rounding_floor(x, v, size, span):
-    """Below this, g of a piece is rounding error."""
-    return _ROUNDING * (abs(x) + abs(v) * span + size)
 
 
 @kernel
@@ -138,7 +132,7 @@ def first_crossing(a, start, x, v, window, table):
     if a == 0 and x + max(v, 0.0) * phi[1, last] + table.reach[window] < 0.0:
         return NONE  # slack and too deep to come up within the window
     most = curvature_bound(a, x, v, k, p0, w0)
-    floor = rounding_floor(x, v, table.size[window], tau[last])
+    floor = _ROUNDING * (abs(x) + abs(v) * tau[last] + table.size[window])
     side = 1.0 if a == 1 else -1.0
     j, g = 0, x
     if start > 0.0:

@@ -1,19 +1,19 @@
-"""Both Lyapunov exponents of eq. (33) with errors one may believe, and the Kaplan-Yorke dimension of its section."""
+"""Both Lyapunov exponents of eq. (33) with errors one may believe, at its parameters and over one of them."""
 
-from dataclasses import dataclass
+from dataclasses import astuple, dataclass, replace
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from analysis.exponents import NATS_PER_TIME, Exponent, no_exponent
-from analysis.oscillator.basin_grids import PAPER_BOX, snap_basins
+from analysis.exponents import NATS_PER_TIME, Exponent
+from analysis.oscillator.attractors import PAPER_BOX, snap_basins
 from analysis.oscillator.equation import SnapOscillator
 from analysis.oscillator.motions import checked_starts
-from analysis.oscillator.pieces import tables
-from analysis.oscillator.strobing import growth_of_starts
-from analysis.sampling import checked_count
+from analysis.oscillator.strobing import growth_over_values
+from analysis.sampling import checked_count, checked_series
 
 METHOD = "tangent map of eq. (33), QR every period (Benettin et al. 1980)"
+PARAMETERS = ("damping", "frequency", "force", "lift")
 _WATCHED = 1024  # periods after the averages in which a start may show that it was on a periodic orbit
 
 
@@ -28,7 +28,6 @@ class SnapExponents:
     dimension_error
     of_start (n, 2)      exponents of each start on the attractor
     of_block (n, b, 2)   and of each block of each start
-    periods_of_start     forcing periods of each start's average
     starts, elsewhere    starts that count, and starts left out because they settled on a periodic orbit
     slack_fraction       share of the time without tension
     convergence (b, 3)   running mean of first over the blocks: time, mean over starts, standard error of that mean
@@ -41,7 +40,6 @@ class SnapExponents:
     dimension_error: float
     of_start: np.ndarray
     of_block: np.ndarray
-    periods_of_start: int
     starts: int
     elsewhere: int
     slack_fraction: float
@@ -88,26 +86,35 @@ def snap_exponents(
     ValueError for counts that are no whole numbers, or periods that blocks do not divide.
     Source: Benettin, Galgani, Giorgilli & Strelcyn 1980; the equation, Tjavaras et al. 1998, eq. (33).
     """
-    periods, blocks = checked_count(periods, "periods"), checked_count(blocks, "blocks", 2)
-    if periods % blocks:
-        raise ValueError(f"periods: a multiple of blocks = {blocks} is needed, given {periods}")
-    transient = checked_count(transient_periods, "transient_periods", 0)
     starts = random_starts(count, seed) if starts is None else checked_starts(starts)
-    table = tables(oscillator)
-    sums, _, end, slack = growth_of_starts(starts, transient, blocks, periods // blocks, 0, table)
-    rates = sums / (periods // blocks * oscillator.period)
+    ((rates,), _, (end,), (slack,)) = _grown([oscillator], starts, transient_periods, periods, blocks, 0)
+    reason = ""
     if not np.isfinite(rates).all():
-        return _nothing(rates, periods)
-    on = snap_basins(oscillator, end, _WATCHED).settled < 0
-    if keep_periodic or not on.any():
-        on[:] = True
-    return _averaged(oscillator, rates[on], slack[on], periods, int((~on).sum()))
+        reason = "an orbit could not be computed: more than 4096 pieces in one period"
+    on = np.ones(len(rates), dtype=bool)
+    if not keep_periodic and not reason:
+        wandering = snap_basins(oscillator, end, _WATCHED).settled < 0
+        on = wandering if wandering.any() else on
+    return _averaged(oscillator, rates[on], slack[on], periods, int((~on).sum()), reason)
 
 
-def random_starts(count: int, seed: int, box: tuple[float, float, float, float] = PAPER_BOX) -> np.ndarray:
-    """(count, 2) states, uniform in the box (g low, g high, g' low, g' high)."""
+def _grown(oscillators, starts, transient_periods, periods, blocks, points):
+    """Rates of growth of every block (p, n, blocks, 2), sections (p, n, points, 2), ends (p, n, 2) and slack shares
+    (p, n) of starts (n, 2) of every oscillator."""
+    periods, blocks = checked_count(periods, "periods"), checked_count(blocks, "blocks", 2)
+    if periods % blocks or points > periods:
+        raise ValueError(f"periods: a multiple of blocks = {blocks}, at least points = {points}, given {periods}")
+    transient, length = checked_count(transient_periods, "transient_periods", 0), periods // blocks
+    parameters = np.array([astuple(one) for one in oscillators], dtype=float)
+    sums, section, end, slack = growth_over_values(parameters, starts, transient, blocks, length, points)
+    spans = length * np.array([one.period for one in oscillators])
+    return sums / spans[:, None, None, None], section, end, slack
+
+
+def random_starts(count: int, seed: int) -> np.ndarray:
+    """(count, 2) states, uniform in PAPER_BOX."""
     generator = np.random.default_rng(seed)
-    low, high = np.array(box[0::2]), np.array(box[1::2])
+    low, high = np.array(PAPER_BOX[0::2]), np.array(PAPER_BOX[1::2])
     return low + (high - low) * generator.random((checked_count(count, "count"), 2))
 
 
@@ -119,7 +126,7 @@ def standard_error(values: ArrayLike) -> np.ndarray:
     return values.std(axis=0, ddof=1) / np.sqrt(len(values))
 
 
-def _averaged(oscillator, rates, slack, periods, elsewhere):
+def _averaged(oscillator, rates, slack, periods, elsewhere, reason):
     starts, blocks = rates.shape[:2]
     of_start = rates.mean(axis=1)
     first, second = of_start.mean(axis=0)
@@ -128,17 +135,61 @@ def _averaged(oscillator, rates, slack, periods, elsewhere):
     dimension = section_dimension(first, second)
     mu = oscillator.damping
     share = mu / second**2 if first > 0.0 else 0.0  # dD/d first, with second = -mu - first
-    reason = f"mean over {starts} starts of {periods} periods"
+    reason = reason or f"mean over {starts} starts of {periods} periods"
     running = np.cumsum(rates[:, :, 0], axis=1) / np.arange(1, blocks + 1)
     time = np.arange(1, blocks + 1) * (periods // blocks * oscillator.period)
     convergence = np.column_stack([time, running.mean(axis=0), standard_error(running)])
     both = (Exponent(*found, NATS_PER_TIME, METHOD, reason) for found in ((first, error[0]), (second, error[1])))
     uncertain = float(share * error[0]) if np.isfinite(dimension) else np.nan
     measures = (float(by_blocks[0]), dimension, uncertain, of_start, rates)
-    return SnapExponents(*both, *measures, periods, starts, elsewhere, float(slack.mean()), convergence)
+    return SnapExponents(*both, *measures, starts, elsewhere, float(slack.mean()), convergence)
 
 
-def _nothing(rates, periods):
-    nothing = no_exponent(METHOD, "an orbit could not be computed: more than 4096 pieces in one period")
-    nan, convergence = np.nan, np.full((rates.shape[1], 3), np.nan)
-    return SnapExponents(nothing, nothing, nan, nan, nan, rates.mean(axis=1), rates, periods, 0, 0, nan, convergence)
+@dataclass(frozen=True, eq=False)
+class SnapDiagram:
+    """An orbit diagram with exponents; p values, n starts each.
+
+    section (p, n, m, 2)   strobed g and g' after the transient, by start: coexisting attractors stay apart
+    exponents (p, n, 2)    lambda_1, lambda_2 of every start, nats per unit of time
+    errors (p, n)          standard error of lambda_1, from blocks of time
+    slack_fraction (p, n)  share of the time without tension
+    """
+
+    section: np.ndarray
+    exponents: np.ndarray
+    errors: np.ndarray
+    slack_fraction: np.ndarray
+
+
+def snap_diagram(
+    oscillator: SnapOscillator,
+    over: str,
+    values: ArrayLike,
+    starts: ArrayLike | None = None,
+    count: int = 4,
+    transient_periods: int = 500,
+    periods: int = 1000,
+    points: int = 200,
+    blocks: int = 10,
+    seed: int = 0,
+) -> SnapDiagram:
+    """Orbit diagram of eq. (33): strobed states and both exponents at each value of one parameter.
+
+    over, values        "force", "frequency", "damping" or "lift", and its values (p,)
+    starts              (n, 2) states from which every value is begun; None: `count` random ones from `seed`, in
+                        PAPER_BOX. Several, because attractors coexist; the same at every value, so that no
+                        value depends on the one before it.
+    transient_periods   forcing periods left out;  periods  of the averages, a multiple of `blocks`
+    points              strobed states kept, at most `periods`
+    Returns SnapDiagram. NaN where an orbit could not be computed.
+    ValueError for a name that is no parameter, for values that the oscillator does not allow, and for odd counts.
+    Source: Tjavaras et al. 1998, eq. (33); exponents as in `snap_exponents`.
+    """
+    if over not in PARAMETERS:
+        raise ValueError(f"over: one of {', '.join(PARAMETERS)} is needed, given {over!r}")
+    oscillators = [replace(oscillator, **{over: float(value)}) for value in checked_series(values, "values")]
+    starts = random_starts(count, seed) if starts is None else checked_starts(starts)
+    points = checked_count(points, "points")
+    rates, section, _, slack = _grown(oscillators, starts, transient_periods, periods, blocks, points)
+    errors = standard_error(np.moveaxis(rates[..., 0], 2, 0))
+    return SnapDiagram(section, rates.mean(axis=2), errors, slack)

@@ -9,7 +9,7 @@ from analysis.compiled import kernel
 from analysis.oscillator.crossings import state_at
 from analysis.oscillator.equation import SnapOscillator
 from analysis.oscillator.pieces import tables
-from analysis.oscillator.strobing import MOST_PIECES, next_state, strobed_orbit
+from analysis.oscillator.strobing import MOST_PIECES, next_state, strobed_orbits
 from analysis.sampling import checked_count, checked_series
 
 
@@ -38,9 +38,9 @@ def strobed_states(oscillator: SnapOscillator, start: ArrayLike, points: int, tr
     NaN from the first state on that could not be computed (more than 4096 pieces in a period).
     Source: Tjavaras et al. 1998, eq. (33).
     """
-    x, v = checked_start(start)
+    state = np.array([checked_start(start)])
     points, transient = checked_count(points, "points"), checked_count(transient_periods, "transient_periods", 0)
-    return strobed_orbit(x, v, transient, points, tables(oscillator))
+    return strobed_orbits(state, transient, points, tables(oscillator))[0]
 
 
 def strobed_states_within(
@@ -59,14 +59,12 @@ def strobed_states_within(
     Returns a tuple of b arrays (m, 2) with m <= points, and the number of periods looked at: a box that the attractor
     seldom visits comes back with few points, or with none. ValueError for boxes of another shape.
     """
-    x, v = checked_start(start)
     boxes = checked_series(boxes, "boxes", (2,))
     if boxes.shape[1] != 4:
         raise ValueError(f"boxes: an array (b, 4) is needed, given shape {boxes.shape}")
     points, most = checked_count(points, "points"), checked_count(most_periods, "most_periods")
-    if transient_periods:
-        x, v = strobed_states(oscillator, start, 1, transient_periods)[0]
-    found, counts, seen = _within(float(x), float(v), boxes, points, most, tables(oscillator))
+    x, v = strobed_states(oscillator, start, 1, transient_periods)[0]
+    found, counts, seen = _within(x, v, boxes, points, most, tables(oscillator))
     return tuple(found[i, : counts[i]].copy() for i in range(len(boxes))), int(seen)
 
 
@@ -101,13 +99,9 @@ def snap_motion(
     Returns SnapMotion with periods*samples_per_period + 1 samples. ValueError for a start that is not finite; NaN from
     the first period on that could not be computed.
     """
-    x, v = checked_start(start)
-    periods = checked_count(periods, "periods")
-    samples = checked_count(samples_per_period, "samples_per_period")
-    table = tables(oscillator)
-    if transient_periods:
-        x, v = strobed_orbit(x, v, checked_count(transient_periods, "transient_periods"), 1, table)[0]
-    motion, switches, slack = _sampled(float(x), float(v), periods, samples, oscillator.period, table)
+    periods, samples = checked_count(periods, "periods"), checked_count(samples_per_period, "samples_per_period")
+    x, v = strobed_states(oscillator, start, 1, transient_periods)[0]
+    motion, switches, slack = _sampled(x, v, periods, samples, oscillator.period, tables(oscillator))
     time = np.arange(periods * samples + 1) * (oscillator.period / samples)
     return SnapMotion(time, motion[:, 0], motion[:, 1], switches, slack / (periods * oscillator.period))
 

@@ -103,16 +103,18 @@ def next_state(x, v, table, log):
 
 
 @kernel
-def strobed_orbit(x, v, transient, points, table):
-    """The section: (points, 2) states at times transient T, (transient + 1) T, ..."""
+def strobed_orbits(starts, transient, points, table):
+    """The sections of starts (n, 2): (n, points, 2) states at times transient T, (transient + 1) T, ..."""
     log = np.empty((MOST_PIECES, 5))
-    orbit = np.empty((points, 2))
-    for n in range(-transient, points):
-        if n >= 0:
-            orbit[n, 0], orbit[n, 1] = x, v
-        if n < points - 1:
-            x, v, _, _ = next_state(x, v, table, log)
-    return orbit
+    orbits = np.empty((len(starts), points, 2))
+    for i in range(len(starts)):
+        x, v = starts[i]
+        for n in range(-transient, points):
+            if n >= 0:
+                orbits[i, n, 0], orbits[i, n, 1] = x, v
+            if n < points - 1:
+                x, v, _, _ = next_state(x, v, table, log)
+    return orbits
 
 
 @kernel
@@ -126,28 +128,22 @@ def tangent_map(x, v, periods, table):
 
 
 @kernel
-def contraction(table):
-    """e^{-mu T}, by which a period contracts areas."""
-    return math.exp(-table.constants[MU] * 2.0 * math.pi / table.constants[OMEGA])
-
-
-@kernel
 def growth_along(x, v, transient, blocks, length, table, orbit):
-    """Sums of ln R over `blocks` blocks of `length` periods: (blocks, 2); then the end state, slack time and pieces.
+    """Sums of ln R over `blocks` blocks of `length` periods: (blocks, 2); then the end state and the slack time.
 
     orbit (m, 2): filled with the first m strobed states after the transient.
     """
     log = np.empty((MOST_PIECES, 5))
     sums = np.zeros((blocks, 2))
-    slack_time, pieces_seen = 0.0, 0
+    slack_time = 0.0
     y, w, z, u = 1.0, 0.0, 0.0, 1.0
     product1, product2 = 1.0, 1.0
     # One logarithm for several periods, but not for so many that the products leave the range of the numbers.
-    every = _LOGARITHM_EVERY if -math.log(contraction(table)) < 10.0 else 1
+    every = _LOGARITHM_EVERY if table.constants[MU] * 2.0 * math.pi / table.constants[OMEGA] < 10.0 else 1
     for at in range(-transient, blocks * length):
         if 0 <= at < len(orbit):
             orbit[at, 0], orbit[at, 1] = x, v
-        x, v, y, w, z, u, pieces, slack = one_period(x, v, y, w, z, u, table, log)
+        x, v, y, w, z, u, _, slack = one_period(x, v, y, w, z, u, table, log)
         r11 = math.sqrt(y * y + w * w)
         r22 = (y * u - w * z) / r11
         y, w = y / r11, w / r11
@@ -155,38 +151,29 @@ def growth_along(x, v, transient, blocks, length, table, orbit):
         if at < 0:
             continue
         slack_time += slack
-        pieces_seen += pieces
         product1 *= r11
         product2 *= r22
         if (at + 1) % every == 0 or (at + 1) % length == 0:
             sums[at // length, 0] += math.log(product1)
             sums[at // length, 1] += math.log(product2)
             product1, product2 = 1.0, 1.0
-    return sums, x, v, slack_time, pieces_seen
-
-
-@kernel
-def growth_of_starts(starts, transient, blocks, length, kept, table):
-    """`growth_along` from starts (n, 2): sums (n, blocks, 2), section (n, kept, 2), end (n, 2), slack share (n,)."""
-    n = len(starts)
-    sums, end = np.empty((n, blocks, 2)), np.empty((n, 2))
-    section, slack = np.empty((n, kept, 2)), np.empty(n)
-    period = 2.0 * math.pi / table.constants[OMEGA]
-    for i in range(n):
-        result = growth_along(starts[i, 0], starts[i, 1], transient, blocks, length, table, section[i])
-        sums[i], end[i, 0], end[i, 1] = result[0], result[1], result[2]
-        slack[i] = result[3] / (blocks * length * period)
-    return sums, section, end, slack
+    return sums, x, v, slack_time
 
 
 @kernel
 def growth_over_values(parameters, starts, transient, blocks, length, kept):
-    """`growth_of_starts` for every row (mu, omega, F, lift, phase) of parameters (p, 5), each from the same starts."""
+    """`growth_along` for every row (mu, omega, F, lift, phase) of parameters (p, 5), each from the same starts (n, 2).
+
+    Returns sums (p, n, blocks, 2), section (p, n, kept, 2), end (p, n, 2) and slack share (p, n).
+    """
     p, n = len(parameters), len(starts)
     sums, section = np.empty((p, n, blocks, 2)), np.empty((p, n, kept, 2))
     end, slack = np.empty((p, n, 2)), np.empty((p, n))
-    for i in range(p):
-        mu, omega, force, lift, phase = parameters[i]
+    for j in range(p):
+        mu, omega, force, lift, phase = parameters[j]
         table = piecewise(mu, omega, force, lift, phase)
-        sums[i], section[i], end[i], slack[i] = growth_of_starts(starts, transient, blocks, length, kept, table)
+        for i in range(n):
+            result = growth_along(starts[i, 0], starts[i, 1], transient, blocks, length, table, section[j, i])
+            sums[j, i], end[j, i, 0], end[j, i, 1] = result[0], result[1], result[2]
+            slack[j, i] = result[3] / (blocks * length * (2.0 * math.pi / omega))
     return sums, section, end, slack

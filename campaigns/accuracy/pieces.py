@@ -89,7 +89,8 @@ def _loops() -> dict:
 
     from engine.arrays import Stage
     from engine.physics.water import water
-    from engine.planar import node, state
+    from engine.planar import node
+    from engine.time.newton import assemble
 
     rate = 1.0 / STAGE_S
 
@@ -107,6 +108,6 @@ def _loops() -> dict:
     @numba.njit
     def everything(p, tables, Y, work, count):
         for i in range(count):
-            state.assemble(p, tables, Stage(1e-3 * i, 1.0, rate, rate), Y, work)
+            assemble(p, tables, Stage(1e-3 * i, 1.0, rate, rate), Y, work)
 
     return {"assembly": assembly, "waves": waves, "all": everything}

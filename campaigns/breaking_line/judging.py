@@ -113,10 +113,8 @@ def crossing(results: Lines) -> Measured:
 def vertical(results: Lines) -> Measured:
     """By how much the largest rise or fall falls from case to case, without and with the folds."""
     checks, words = [], []
-    for where, name in (
-        ("the folds at the fixed end are left out", "vertical_beyond_m"),
-        ("they count", "vertical_m"),
-    ):
+    places = {"the folds at the fixed end are left out": "vertical_beyond_m", "they count": "vertical_m"}
+    for where, name in places.items():
         found = [values(results.lines, cases, name) for cases in (FAST, SLOW)]
         falls = [before - after for one in found for (_, before), (_, after) in pairwise(one)]
         checks += [(where, min(falls))] if falls else []
@@ -133,8 +131,8 @@ def same_motion(results: Lines) -> Measured:
         if all(map(math.isfinite, way)):
             seen.append(abs(way[1] / way[0] - 1.0))
             shifted.append(min(seen[-1], abs((way[1] + late) / way[0] - 1.0)))
-            both = (shown(one, ".2f") for one in (*way, late))
-            words.append("{}: {}, {}: {} + {}".format(named(fast["case"]), next(both), named(slow["case"]), *both))
+            both = told(zip((named(line["case"]) for line in (fast, slow)), way, strict=True), ".2f")
+            words.append(f"{both} + {shown(late, '.2f')}")
     checks = [("the delay of the break is taken off", max(shifted)), ("as seen", max(seen))] if seen else []
     return Measured(checks, "; ".join(words))
 
@@ -178,14 +176,9 @@ def dissipates(results: Lines) -> Measured:
     return Measured(checks, f"{spread.told}; at rest {resting.told}" if checks else "")
 
 
-SMALLER, LARGER, CHANGED = (
-    partial(by_pair, compare)
-    for compare in (
-        lambda fast, slow: fast - slow,
-        lambda fast, slow: slow - fast,
-        lambda fast, slow: slow / fast - 1.0,
-    )
-)
+SMALLER = partial(by_pair, lambda fast, slow: fast - slow)
+LARGER = partial(by_pair, lambda fast, slow: slow - fast)
+CHANGED = partial(by_pair, lambda fast, slow: slow / fast - 1.0)
 SPREAD, RESTING = LARGER("kinetic_spread", ".2f"), SMALLER("resting_share", ".2f")
 MEASURES = {
     "cases": by_case,

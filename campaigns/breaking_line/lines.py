@@ -11,9 +11,8 @@ from pathlib import Path
 import numpy as np
 
 from campaigns.breaking_line.theory.law import checked_law, strain_of_tension, wave_speed
-from campaigns.machinery.folder import trajectory_path
 from campaigns.tables import Row as Line
-from campaigns.tables import read_rows
+from campaigns.tables import read_rows, run_of
 
 FAST, SLOW = ("1", "2", "3", "4"), ("1p", "2p", "3p", "4p")
 CASES = (*FAST, *SLOW)
@@ -36,14 +35,7 @@ def read_lines(folder: Path) -> tuple[Line, ...]:
 
 def motion_of(folder: Path, line: Line) -> object | None:
     """The trajectory of a case that ended as asked; None where there is none."""
-    from engine.trajectory import Trajectory, TrajectoryError
-
-    if line["kind"] != "case" or line["status"] != "ok":
-        return None
-    try:
-        return Trajectory.load(trajectory_path(folder, line["run_key"]))
-    except TrajectoryError:
-        return None
+    return run_of(folder, line) if line["kind"] == "case" else None
 
 
 def from_trajectory(line: Line, trajectory: object | None) -> Line:
@@ -58,17 +50,15 @@ def from_trajectory(line: Line, trajectory: object | None) -> Line:
 def from_law(scene: object, force_N: float) -> Line:
     """static_strain; steepening: by how much a wave at 0.99 of that strain is faster than at it, as a share."""
     law = scene.tether.tension
-    if law.law != "tanh":
-        return {}
     try:
-        numbers = checked_law(law.p, scene.tether.density_kgpm3 * scene.tether.area_m2)
+        numbers = checked_law(law.p, scene.tether.density_kgpm3 * scene.tether.area_m2) if law.law == "tanh" else None
     except ValueError:  # a law that does not rise everywhere
+        numbers = None
+    if numbers is None:
         return {}
     strain = float(strain_of_tension(numbers, force_N, 0.2))
-    return {
-        "static_strain": strain,
-        "steepening": float(wave_speed(numbers, 0.99 * strain) / wave_speed(numbers, strain) - 1.0),
-    }
+    steepening = float(wave_speed(numbers, 0.99 * strain) / wave_speed(numbers, strain) - 1.0)
+    return {"static_strain": strain, "steepening": steepening}
 
 
 def from_motion(line: Line, profiles: object) -> Line:

@@ -7,6 +7,7 @@ returns numbers in SI units, nan where the run does not show what is asked for.
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -52,34 +53,29 @@ def front_speed(profiles: Profiles, theory: Theory) -> float:
     The edge itself, a kink of second order, is smeared: ln(speed) of contours of FRONT_SHARES, a parabola in the
     strain, is extrapolated to the static strain.
     """
-    length = float(profiles.s_m[-1])
-    far = min(theory.start.distance_m if theory.shocked else length, length - MARGIN_M)
-    low, high = length - far, length - min(MARGIN_M, 0.1 * far)
-    strains, logs = [], []
-    for share in FRONT_SHARES:
-        places = contour(profiles, profiles.tension_N, share * theory.force_N)
-        speed = speed_of(profiles.time_s, places, low, high, theory.arrival_s)
-        if not speed > 0.0:
-            return math.nan
-        strains.append(theory.strain_at(share))
-        logs.append(math.log(speed))
-    return float(np.exp(np.polyval(np.polyfit(strains, logs, 2), theory.strain_at(1.0))))
+    far = min(theory.start.distance_m if theory.shocked else theory.length_m, theory.length_m - MARGIN_M)
+    between = theory.length_m - far, theory.length_m - min(MARGIN_M, 0.1 * far)
+    tensions = [share * theory.force_N for share in FRONT_SHARES]
+    speeds = [_contour_speed(profiles, profiles.tension_N, level, between, theory) for level in tensions]
+    return _extrapolated([theory.strain_at(share) for share in FRONT_SHARES], speeds, 2, theory.strain_at(1.0))
 
 
 def slack_front_speed(profiles: Profiles, theory: Theory) -> float:
     """Speed of the edge of the slack part: ln(speed) of contours of small strain, extrapolated to no tension."""
-    length = float(profiles.s_m[-1])
-    speeds = [
-        speed_of(
-            profiles.time_s, contour(profiles, profiles.strain, strain), MARGIN_M, length - MARGIN_M,
-            theory.arrival_s,
-        )
-        for strain in SLACK_STRAINS
-    ]  # fmt: skip
-    if np.isnan(speeds).any():
+    between = MARGIN_M, theory.length_m - MARGIN_M
+    speeds = [_contour_speed(profiles, profiles.strain, strain, between, theory) for strain in SLACK_STRAINS]
+    return _extrapolated(SLACK_STRAINS, speeds, 1, theory.speeds.slack_strain)
+
+
+def _contour_speed(profiles: Profiles, values: np.ndarray, level: float, between: tuple, theory: Theory) -> float:
+    return speed_of(profiles.time_s, contour(profiles, values, level), *between, theory.arrival_s)
+
+
+def _extrapolated(strains: Sequence[float], speeds: list[float], degree: int, strain: float) -> float:
+    """The speed at another strain: ln(speed) as a polynomial; nan where a speed is not known."""
+    if not all(speed > 0.0 for speed in speeds):
         return math.nan
-    slope, at_zero = np.polyfit(SLACK_STRAINS, np.log(speeds), 1)
-    return float(np.exp(at_zero + slope * theory.speeds.slack_strain))
+    return float(np.exp(np.polyval(np.polyfit(strains, np.log(speeds), degree), strain)))
 
 
 def end_speeds(trajectory: Trajectory) -> np.ndarray:
@@ -128,15 +124,9 @@ def shock_track(profiles: Profiles, theory: Theory) -> tuple[np.ndarray, np.ndar
     exact, ahead, behind, _ = theory.motion.shock.at(profiles.time_s)
     places = np.full(len(exact), math.nan)
     for row in np.flatnonzero(np.isfinite(exact)):
-        level = 0.5 * (ahead[row] + behind[row])
-        places[row] = contour_of_row(profiles, profiles.strain[row], level)
+        places[row] = contour(profiles, profiles.strain[row : row + 1], 0.5 * (ahead[row] + behind[row]))[0]
     seen = np.isfinite(places)
     return profiles.time_s[seen], places[seen], exact[seen]
-
-
-def contour_of_row(profiles: Profiles, values: np.ndarray, level: float) -> float:
-    """`contour` of a single profile (nn,)."""
-    return float(contour(profiles, values[None, :], level)[0])
 
 
 def shock_birth(profiles: Profiles, theory: Theory) -> float:

@@ -10,23 +10,9 @@ import numpy as np
 
 from campaigns.breaking_line import motion_measures as measures
 from campaigns.breaking_line.theory import theory_of
-from campaigns.columns import (
-    END_S,
-    MESSAGE,
-    MIN_STRAIN,
-    NEWTON,
-    NEWTON_FAILURES,
-    RUN_KEY,
-    STATUS,
-    STEPS,
-    TURN,
-    WALL_S,
-    Column,
-    names,
-)
+from campaigns.columns import LOOPS, MESSAGE, REJECTED, RUN_KEY, STATISTICS, STATUS, Column, names
 
-_COUNTED = (TURN, MIN_STRAIN, STEPS, NEWTON, NEWTON_FAILURES, END_S, WALL_S)
-_STATISTICS = names(_COUNTED)
+_COUNTED = tuple(column for column in STATISTICS if column not in (LOOPS, REJECTED))
 COLUMNS = (
     Column("case", "", "case", "case of the paper; p: fracture in 50 ms"),
     Column("kind", "", "run", "case, doubled (grid), stiffness, straight (no gravity), series (of grids)"),
@@ -101,6 +87,7 @@ COLUMNS = (
 )  # fmt: skip
 
 BEFORE_ARRIVAL = 0.98  # of the time at which something is at the fixed end: ripples are looked for up to then
+END_SPEEDS = ("end_speed_mps", "end_speed_least_mps", "end_speed_most_mps")
 COMMON_S = 0.12  # the shortest of the paper's run lengths, to compare recoil at one time
 
 
@@ -115,17 +102,21 @@ def breaking_row(trajectory) -> dict[str, object]:
         "bending_stiffness_Nm2": scene.tether.bending_stiffness_Nm2,
         "nodes": scene.tether.nodes,
     }
-    row |= {name: trajectory.statistics.get(name) for name in _STATISTICS}
-    end_s = float(trajectory.columns["time_s"][-1]) if len(trajectory.columns["time_s"]) else 0.0
-    theory = theory_of(scene, end_s) if end_s > 0.0 else None
-    if theory is not None:
-        row |= _theory_columns(theory)
+    row |= {name: trajectory.statistics.get(name) for name in names(_COUNTED)}
+    times, profiles, energy = trajectory.columns["time_s"], trajectory.profiles, trajectory.energy
+    theory = theory_of(scene, float(times[-1])) if len(times) and times[-1] > 0.0 else None
+    row |= _theory_columns(theory) if theory is not None else {}
     if trajectory.status == "ok":
-        row |= _end_columns(trajectory, theory)
-        if trajectory.profiles is not None and len(trajectory.profiles.time_s) > 1:
-            row |= _profile_columns(trajectory, theory)
-        if trajectory.energy is not None:
-            row |= _energy_columns(trajectory.energy, theory)
+        row |= dict(zip(END_SPEEDS, measures.settled_end_speed(trajectory), strict=True))
+        if theory is not None:
+            row["end_speed_error"] = measures.end_speed_error(trajectory, theory)
+        if profiles is not None and len(profiles.time_s) > 1:
+            row["speed_largest_mps"] = profiles.speed_mps.max()
+            row |= _front_columns(profiles, theory, scene.gravity_mps2) if theory is not None else {}
+            if scene.gravity_mps2 > 0.0:
+                row |= measures.recoil(profiles, COMMON_S)
+                row |= measures.spread(trajectory) if energy is not None else {}
+        row |= _energy_columns(energy, theory) if energy is not None else {}
     return {name: _known(entry) for name, entry in row.items()}
 
 
@@ -143,27 +134,7 @@ def _theory_columns(theory) -> dict[str, object]:
     }
 
 
-def _end_columns(trajectory, theory) -> dict[str, object]:
-    names = ("end_speed_mps", "end_speed_least_mps", "end_speed_most_mps")
-    row = dict(zip(names, measures.settled_end_speed(trajectory), strict=True))
-    return row | ({"end_speed_error": measures.end_speed_error(trajectory, theory)} if theory is not None else {})
-
-
-def _profile_columns(trajectory, theory) -> dict[str, object]:
-    profiles, scene = trajectory.profiles, trajectory.scene
-    row = {"speed_largest_mps": profiles.speed_mps.max()}
-    if theory is not None:
-        row |= _front_columns(profiles, theory)
-        if scene.gravity_mps2 == 0.0 and theory.shocked:
-            row["shock_birth_m"] = measures.shock_birth(profiles, theory)
-    if scene.gravity_mps2 > 0.0:
-        row |= measures.recoil(profiles, COMMON_S)
-    if trajectory.energy is not None and scene.gravity_mps2 > 0.0:
-        row |= measures.spread(trajectory)
-    return row
-
-
-def _front_columns(profiles, theory) -> dict[str, object]:
+def _front_columns(profiles, theory, gravity_mps2: float) -> dict[str, object]:
     overshoot, rise = measures.strain_overshoot(profiles, BEFORE_ARRIVAL * theory.arrival_s)
     row = {
         "front_speed_mps": measures.front_speed(profiles, theory),
@@ -172,8 +143,12 @@ def _front_columns(profiles, theory) -> dict[str, object]:
         "strain_rise": rise,
         "strain_error": measures.strain_error(profiles, theory),
     }
+    if not theory.shocked:
+        return row
+    if gravity_mps2 == 0.0:
+        row["shock_birth_m"] = measures.shock_birth(profiles, theory)
     times, places, exact = measures.shock_track(profiles, theory)
-    if theory.shocked and len(times) >= measures.LEAST_POINTS:
+    if len(times) >= measures.LEAST_POINTS:
         off = np.abs(places - exact)
         elements = np.diff(profiles.s_m)[np.searchsorted(profiles.s_m, exact).clip(1, len(profiles.s_m) - 1) - 1]
         row |= {

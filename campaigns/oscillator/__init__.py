@@ -34,7 +34,7 @@ class Order:
 
 def main(argv: list[str] | None = None) -> int:
     """The command. Returns the exit code (0, 1, 2 or 130)."""
-    return command(MODULE, argv, read_order, study)
+    return command(MODULE, argv, read_order, conduct)
 
 
 def parser():
@@ -96,23 +96,13 @@ def _changes(words: list[str] | None, faults: list[str]) -> dict[str, float]:
 
 
 def _range(words: list[str] | None, option: str, usual: tuple, faults: list[str]) -> tuple[float, float, int]:
-    if words is None:
-        return usual
-    try:
-        low, high, count = cli.fraction(words[0]), cli.fraction(words[1]), cli.whole(2)(words[2])
-        if len(words) != 3 or not 0.0 < low < high:
-            raise ValueError(words)
-    except (ValueError, IndexError):
-        allowed = "LO HI COUNT: two finite numbers, 0 < LO < HI, and a whole number, 2 or above"
-        faults.append(f"{option}: given {' '.join(words) or 'nothing'}; allowed: {allowed}")
-        return usual
-    return low, high, count
+    values = [] if words is None else cli.evenly(words, option, faults, least=1e-9)
+    return (values[0], values[-1], len(values)) if values else usual
 
 
-def study(order: Order, argv: list[str]) -> int:
+def conduct(order: Order, argv: list[str]) -> int:
     """Run it: parts, table, provenance, report. Raises CampaignStopped, OSError, KeyboardInterrupt."""
     from campaigns.machinery import session
-    from campaigns.oscillator import keep
+    from campaigns.oscillator.study import done, parameters
 
-    work = partial(keep.done, order)
-    return session.conduct(CAMPAIGN, MODULE, argv, order.how, keep.parameters(order), work)
+    return session.conduct(CAMPAIGN, MODULE, argv, order.how, parameters(order), partial(done, order))

@@ -5,7 +5,6 @@ depths where the large wave leads to different motions. Runs carry a perturbatio
 (`campaigns.buoy_sweep.rows`); they go side by side in the lanes.
 """
 
-from dataclasses import asdict, dataclass
 from functools import partial
 from itertools import product
 from pathlib import Path
@@ -29,29 +28,14 @@ PERIODS, TRANSIENT = 400, 100
 QUICK_DEPTHS_M, QUICK_PERIODS, QUICK_TRANSIENT = (21.0, 22.5), 45, 5
 
 
-@dataclass(frozen=True)
-class Variant:
-    """One run, in the words of the table."""
-
-    steepness: float
-    depth_m: float
-    above_still_water: str
-    submergence: str
-    bending_stiffness_Nm2: float
-
-    def changes(self) -> dict[str, object]:
-        """The keys of the scene that make it this variant."""
-        return {
-            "waves.steepness": self.steepness,
-            "water.depth_m": self.depth_m,
-            "waves.above_still_water": self.above_still_water,
-            "buoy.submergence": self.submergence,
-            "tether.bending_stiffness_Nm2": self.bending_stiffness_Nm2,
-            "output.tangent_vectors": 1,
-            "output.lateral_growth": True,
-        }
-
-
+KEYS = {  # column that names a run -> key of the scene
+    "steepness": "waves.steepness",
+    "depth_m": "water.depth_m",
+    "above_still_water": "waves.above_still_water",
+    "submergence": "buoy.submergence",
+    "bending_stiffness_Nm2": "tether.bending_stiffness_Nm2",
+}
+CARRIED = {"output.tangent_vectors": 1, "output.lateral_growth": True}
 LABELS = (
     STEEPNESS,
     Column("depth_m", "m", "H", "depth of the water", 1),
@@ -71,21 +55,26 @@ def treatments() -> tuple[tuple[str, ...], tuple[str, ...]]:
     return get_args(waves.annotation), get_args(buoy.annotation)
 
 
-def variants(quick: bool) -> list[Variant]:
-    """Every run, each once; the scene as shipped leads."""
+def variants(quick: bool) -> list[tuple]:
+    """Every run, each once, as the values of KEYS; the scene as shipped leads."""
     from engine import load_scene
 
     scene = load_scene(SCENE)
     EI, depth_m = scene.tether.bending_stiffness_Nm2, scene.water.depth_m
     usual = scene.waves.above_still_water, scene.buoy.submergence
     depths = QUICK_DEPTHS_M if quick else DEPTHS_M
-    found = [Variant(kA, depth_m, *usual, EI) for kA in reversed(STEEPNESSES)]
-    found += [Variant(kA, H, *how, EI) for kA, H, how in product(STEEPNESSES, depths, product(*treatments()))]
+    found = [(kA, depth_m, *usual, EI) for kA in reversed(STEEPNESSES)]
+    found += product(STEEPNESSES, depths, *treatments(), [EI])
     if not quick:
         # In small waves the line never goes slack, and EI changes nothing: one depth shows it.
         at = [(STEEPNESSES[0], depth_m), *((STEEPNESSES[1], H) for H in STIFFNESS_DEPTHS_M)]
-        found += [Variant(*where, *usual, EI) for where, EI in product(at, STIFFNESSES_NM2)]
+        found += [(*where, *usual, EI) for where, EI in product(at, STIFFNESSES_NM2)]
     return list(dict.fromkeys(found))
+
+
+def changes(values: tuple) -> dict[str, object]:
+    """The changes of the scene that make it a variant."""
+    return dict(zip(KEYS.values(), values, strict=True)) | CARRIED
 
 
 def parameters(quick: bool) -> dict[str, object]:
@@ -115,6 +104,7 @@ def run(out: Path, jobs: int, quick: bool) -> tuple[dict[str, float], Summary]:
     told = parameters(quick)
     how = Running(out, jobs, "loky", None, report=False)
     order = Order(how, SCENE, {}, told["periods"], told["transient"])
-    order.cases = [order.case(asdict(variant), variant.changes()) for variant in variants(quick)]
+    for values in variants(quick):
+        order.cases.append(order.case(dict(zip(KEYS, values, strict=True)), changes(values)))
     with claimed(out):
         return Study("dependence", __doc__, SCENE, lambda order: order.cases, measures).work(order)

@@ -17,7 +17,6 @@ import importlib
 import json
 import sys
 import time
-from dataclasses import dataclass
 from pathlib import Path
 
 from campaigns.columns import MESSAGE, RUN_KEY, STATUS, Column, names
@@ -52,35 +51,15 @@ SOURCES = (
 _TIMES = ("compile_s", "run_s")
 
 
-@dataclass(frozen=True)
-class Part:
-    """A campaign with the words of its command line; quick: those of `--quick`. in_jobs: whether it takes --jobs."""
-
-    module: str
-    words: tuple[str, ...] = ()
-    quick: tuple[str, ...] = ()
-    in_jobs: bool = True
-
-    def chosen(self, order: Order) -> tuple[str, ...]:
-        """What is run, without where and how."""
-        return self.quick if order.quick else self.words
-
-    def command(self, order: Order, out: Path) -> list[str]:
-        """The words after `python -m module`."""
-        words = [*self.chosen(order), "--out", str(out)]
-        words += ["--jobs", str(order.how.jobs)] if self.in_jobs else []
-        return words if order.how.report and not order.quick else [*words, "--no-report"]
-
-
 _TWO = ("--steepness", "0.016", "0.13")
 _ONCE = ("--no-accuracy",)  # the part buoy repeats its runs tighter and finer, and out_of_plane has grids of its own
 _SHORT = ("--periods", "60", "--transient", "10", "--no-accuracy")
-CAMPAIGNS = {
-    "breaking_line": Part("campaigns.breaking_line", quick=("--no-companions", "--set", "tether.nodes=401")),
-    "buoy": Part("campaigns.buoy_sweep", (*_TWO, "--periods", "8000", "--transient", "200"), (*_TWO, *_SHORT)),
-    "sweep": Part("campaigns.buoy_sweep", _ONCE, quick=("--steepness-range", "0.016", "0.13", "6", *_SHORT)),
-    "out_of_plane": Part("campaigns.out_of_plane", _ONCE, quick=("--periods", "12", "--no-accuracy")),
-    "oscillator": Part("campaigns.oscillator", quick=("--effort", "0.02"), in_jobs=False),
+CAMPAIGNS = {  # part -> its command; the words of its command line, those of --quick
+    "breaking_line": ("campaigns.breaking_line", (), ("--no-companions", "--set", "tether.nodes=401")),
+    "buoy": ("campaigns.buoy_sweep", (*_TWO, "--periods", "8000", "--transient", "200"), (*_TWO, *_SHORT)),
+    "sweep": ("campaigns.buoy_sweep", _ONCE, ("--steepness-range", "0.016", "0.13", "6", *_SHORT)),
+    "out_of_plane": ("campaigns.out_of_plane", _ONCE, ("--periods", "12", "--no-accuracy")),
+    "oscillator": ("campaigns.oscillator", (), ("--effort", "0.02")),
 }
 assert {*CAMPAIGNS, "dependence"} == set(PARTS)
 
@@ -125,7 +104,7 @@ def _rows(out: Path) -> list[dict[str, str]]:
 
 
 def _key(part: str, order: Order) -> str:
-    told = dependence.parameters(order.quick) if part == "dependence" else CAMPAIGNS[part].chosen(order)
+    told = dependence.parameters(order.quick) if part == "dependence" else CAMPAIGNS[part][1 + order.quick]
     content = json.dumps([part, told, made_by({}, *SOURCES, *of_the_page())])
     return hashlib.sha256(content.encode()).hexdigest()
 
@@ -147,18 +126,20 @@ def _whole(out: Path, order: Order) -> bool:
 
 
 def _done(part: str, order: Order) -> dict[str, object]:
-    out = order.how.out / part
+    out, how = order.how.out / part, order.how
     begun = time.perf_counter()
     if part == "dependence":
-        timing, summary = dependence.run(out, order.how.jobs, order.quick)
+        timing, summary = dependence.run(out, how.jobs, order.quick)
         command = ""
         counts = len(summary.rows), sum(row["status"] != "ok" for row in summary.rows)
     else:
-        campaign = CAMPAIGNS[part]
-        words = campaign.command(order, out)
-        _called(part, campaign.module, words)
+        module, *chosen = CAMPAIGNS[part]
+        words = [*chosen[order.quick], "--out", str(out)]
+        words += ["--jobs", str(how.jobs)] if part != "oscillator" else []
+        words += [] if how.report and not order.quick else ["--no-report"]
+        _called(part, module, words)
         told = json.loads((out / "provenance.json").read_text(encoding="utf-8"))
-        timing, command = told["timing"], " ".join(command_line(campaign.module, words))
+        timing, command = told["timing"], " ".join(command_line(module, words))
         counts = told["runs"]["total"], told["runs"]["failed"]
     row = {"part": part, "status": "ok", "command": command, "runs": counts[0], "failed": counts[1], "message": ""}
     row |= {name: round(float(timing[name]), 3) for name in _TIMES}

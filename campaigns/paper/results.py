@@ -4,13 +4,12 @@ from pathlib import Path
 
 from campaigns.machinery.folder import read_json
 from campaigns.machinery.row_cache import made_by, of_the_page
-from campaigns.paper.figures import LEFT_OUT, files_of, place_of, write_figure_data
-from campaigns.paper.figures import NUMBERS as FIGURES
+from campaigns.paper.figures import FIGURES, LEFT_OUT, files_of, place_of, write_figure_data
 from campaigns.statements import FILE as STATEMENTS
 from campaigns.statements import write_statements
 
 PAGES = ("report.html", "report.pdf")
-TABLES = ("campaigns/breaking_line/statements.toml", "campaigns/paper/statements.toml")
+TABLES = ("campaigns/breaking_line/statements.toml", "campaigns/paper/statements.toml", "reports/paper/tables.toml")
 SOURCES = ("analysis", "engine", "campaigns", "reports", *TABLES)
 
 

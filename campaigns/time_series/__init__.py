@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from campaigns.time_series.record import Record
 
 CAMPAIGN, MODULE = "time_series", "analysis"
-# What `folder` and the report write, the first one first, told here because importing either takes a second.
+# What `answer` and the report write, the first one first, told here because importing either takes a second.
 WRITTEN = (
     *("answer.txt", "answer.json", "series.csv", "spectrum.csv", "section.csv", "divergence.csv", "dimension.csv"),
     *("columns.csv", "report.html", "report.pdf"),
@@ -137,8 +137,7 @@ def _no_fit(period: float, record: "Record") -> str:
 
 def judge(order: Order, argv: list[str]) -> int:
     """Study the record, print the page, write the folder. Returns the exit code."""
-    from campaigns.time_series.folder import write_files
-    from campaigns.time_series.page import page
+    from campaigns.time_series.answer import page, write_files
     from campaigns.time_series.study import study
 
     record, out = order.record, order.how.out

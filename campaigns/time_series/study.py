@@ -1,6 +1,16 @@
-"""What one column says: spectrum, section, exponents, 0-1 test, dimension, surrogates, and a verdict with its evidence.
+"""What one column says: section, spectrum, exponents, 0-1 test, dimension, surrogates, and a verdict with its evidence.
 
-The verdict is that of `verdicts.regime` on the section (`section`). Three things are asked beyond it:
+The motion is seen once a cycle, on a section:
+
+    strobed   at equal phases of a given forcing period T: x(kT), x((k + 1/4) T), x((k + 1/2) T), x((k + 3/4) T)
+    samples   every sample, where the file itself is a section (a period of one step, or fewer than six samples in a
+              mean period, which leaves nothing between them: a map)
+    maxima    successive maxima of the column, no period being given: the section dx/dt = 0 of Lorenz (1963), whose map
+              from one maximum to the next is a function where the motion is deterministic
+
+A maximum counts where it stands out by six standard deviations of the noise, and is placed by a cubic spline.
+
+The verdict is that of `verdicts.regime` on this section. Three things are asked beyond it:
 
 - A section at maxima is not a linear function of the record, so that linear noise may leave structure in it. Before
   "chaotic" stands, the section's prediction gain must also beat those of 39 IAAFT surrogates of the record itself, each
@@ -17,19 +27,28 @@ import numpy as np
 
 from analysis.correlation_sums import CorrelationDimension, correlation_dimension
 from analysis.divergence import kantz_lyapunov, rosenstein_lyapunov
-from analysis.embedding_delay import delay_vectors
-from analysis.embedding_dimension import EmbeddingChoice, choose_embedding
+from analysis.embedding import (
+    LEAST_SAMPLES_PER_PERIOD,
+    EmbeddingChoice,
+    choose_delay,
+    choose_embedding,
+    delay_vectors,
+    noise_level,
+)
 from analysis.evidence import SHARE, Evidence
 from analysis.exponents import Exponent, no_exponent
+from analysis.poincare import section_at_phases
 from analysis.predictability import prediction_gain
+from analysis.sampling import locked
 from analysis.spectra import SpectralPeak, Spectrum, spectral_peaks, spectrum
 from analysis.surrogates import iaaft_surrogates, normal_scores, rank_among
 from analysis.verdicts import Verdict, regime
 from analysis.wolf_plateau import LEAST_PERIODS, wolf_lyapunov
 from analysis.zero_one import ZeroOneTest, zero_one_test
 from campaigns.time_series.record import Record
-from campaigns.time_series.section import MAXIMA, NOISE_MULTIPLE, SAMPLES, Seen, seen, successive_maxima
 
+STROBED, SAMPLES, MAXIMA = "strobed", "samples", "maxima"
+NOISE_MULTIPLE = 6.0
 # More samples make exponents no better than their other errors, and take long.
 MOST_SAMPLES = 30_000
 MOST_POINTS = 6_000
@@ -38,8 +57,29 @@ SURROGATES = 39
 TOLERANCE = 1e-3
 # Share of the time between maxima by which they may stray from even times in a motion that repeats itself.
 EVEN_TIMES = 0.05
+ESTIMATES = {"wolf": wolf_lyapunov, "rosenstein": rosenstein_lyapunov, "kantz": kantz_lyapunov}
 # What the dimension may rise by from one embedding dimension to the next and still be that of the motion.
 SATURATED = 0.1
+
+
+@dataclass(frozen=True, eq=False)
+class Seen:
+    """A section of a record.
+
+    kind            "strobed", "samples" or "maxima"
+    points (m, d)   a row a cycle, unit of the series
+    time (m,)       of each row's first coordinate, from the first sample [unit of time of the record]
+    period          forcing period, step, or mean time from maximum to maximum [same]
+    noise           standard deviation of the white noise on the record [unit of the series], `noise_level`
+    mean_period     of the power spectrum [samples]
+    """
+
+    kind: str
+    points: np.ndarray
+    time: np.ndarray
+    period: float
+    noise: float
+    mean_period: float
 
 
 @dataclass(frozen=True, eq=False)
@@ -48,7 +88,7 @@ class Study:
 
     record, seen       the series and its section
     spectrum, lines    eq. (31) over the later half of the record, and its highest peaks
-    wolf, rosenstein, kantz    Exponent each [nats per unit of time of the record]
+    exponents          of "wolf", "rosenstein", "kantz": Exponent each [nats per unit of time of the record]
     zero_one           of the section's first coordinate
     embedding          delay and dimension of the delay vectors; None for a record of fewer than 20 mean periods
     dimensions         CorrelationDimension in m, m + 1 and m + 2 embedding dimensions, m that of `embedding`
@@ -62,9 +102,7 @@ class Study:
     seen: Seen
     spectrum: Spectrum
     lines: tuple[SpectralPeak, ...]
-    wolf: Exponent
-    rosenstein: Exponent
-    kantz: Exponent
+    exponents: dict[str, Exponent]
     zero_one: ZeroOneTest
     embedding: EmbeddingChoice | None
     dimensions: tuple[CorrelationDimension, ...]
@@ -87,11 +125,13 @@ def study(record: Record, period: float | None = None, tolerance: float | None =
     if cycles < LEAST_PERIODS:
         # Neighbours apart in time by a mean period would have to be sought through the whole record, for nothing.
         reason = f"{LEAST_PERIODS} mean periods are needed, given {cycles:.3g}"
-        exponents, embedding, dimensions = [no_exponent("none", reason)] * 3, None, ()
+        exponents, embedding, dimensions = dict.fromkeys(ESTIMATES, no_exponent("none", reason)), None, ()
     else:
-        exponents = [estimate(last, step) for estimate in (wolf_lyapunov, rosenstein_lyapunov, kantz_lyapunov)]
+        exponents = {name: estimate(last, step) for name, estimate in ESTIMATES.items()}
         embedding = choose_embedding(last)
-        dimensions = _dimensions(last, embedding)
+        vectors = (delay_vectors(last, embedding.lag, embedding.dimension + more)[-MOST_POINTS:] for more in range(3))
+        window = max(1, round(embedding.mean_period))
+        dimensions = tuple(correlation_dimension(points, window) for points in vectors)
     found = _spectrum(x, step, view, period)
     # A maximum or a value between samples carries the error of the spline, h^4/384 for a sine.
     smooth = 0.0 if view.kind == SAMPLES else (2.0 * np.pi / view.mean_period) ** 4 / 384.0
@@ -99,7 +139,7 @@ def study(record: Record, period: float | None = None, tolerance: float | None =
     verdict = _verdict(x, view, exponents, tolerance, seed)
     irregular = zero_one_test(view.points[-MOST_POINTS:, 0], seed=seed)
     lines, dimension = spectral_peaks(found)[:5], _saturated(dimensions)
-    measures = (*exponents, irregular, embedding, dimensions, dimension)
+    measures = (exponents, irregular, embedding, dimensions, dimension)
     return Study(record, view, found, lines, *measures, verdict, tolerance, len(last))
 
 
@@ -110,12 +150,6 @@ def _spectrum(x, step, view, period):
         return spectrum(x, step, view.period, start_periods=whole - whole // 2, periods=whole // 2)
     half = len(x) // 2
     return spectrum(x[-half - 1 :], step, half * step, start_periods=0, periods=1)
-
-
-def _dimensions(x, embedding):
-    theiler, m = max(1, round(embedding.mean_period)), embedding.dimension
-    vectors = (delay_vectors(x, embedding.lag, m + more)[-MOST_POINTS:] for more in range(3))
-    return tuple(correlation_dimension(points, theiler) for points in vectors)
 
 
 def _saturated(dimensions):
@@ -131,15 +165,9 @@ def _saturated(dimensions):
 
 
 def _verdict(x, view, exponents, tolerance, seed):
-    wolf, rosenstein, _ = (one.in_bits_per_period(view.period) for one in exponents)
-    verdict = regime(
-        strobed=view.points[-MOST_POINTS:],
-        wolf_exponent=wolf,
-        scale=np.ptp(x),
-        tolerance=tolerance,
-        surrogates=SURROGATES,
-        seed=seed,
-    )
+    wolf, rosenstein = (exponents[name].in_bits_per_period(view.period) for name in ("wolf", "rosenstein"))
+    how = {"scale": np.ptp(x), "tolerance": tolerance, "surrogates": SURROGATES, "seed": seed}
+    verdict = regime(strobed=view.points[-MOST_POINTS:], wolf_exponent=wolf, **how)
     if view.kind == MAXIMA and verdict.period is not None:
         return _even_times(verdict, view, tolerance)
     if verdict.regime != "chaotic":
@@ -190,7 +218,7 @@ def _record_null(x, view, seed):
     name = "record's linear null"
 
     def gain_of(series):
-        return prediction_gain(successive_maxima(series, NOISE_MULTIPLE * view.noise)[1]).gain
+        return prediction_gain(successive_maxima(series, NOISE_MULTIPLE * view.noise)[1])
 
     part = x[-NULL_SAMPLES:]
     gain, values = gain_of(part), np.sort(part)
@@ -200,6 +228,48 @@ def _record_null(x, view, seed):
     known = [one for one in gains if np.isfinite(one)]
     if not np.isfinite(gain) or len(known) < 19:
         return Evidence(name, np.nan, SHARE, None, "too few maxima in the surrogates: no prediction gain")
-    rank = rank_among(gain, known, SHARE)
+    rank = rank_among(gain, known)
     sentence = f"surrogates of the record, seen at their maxima, are predicted worse in {rank.share_below:.0%} of cases"
     return Evidence(name, rank.share_below, SHARE, rank.above, sentence)
+
+
+def seen(series: np.ndarray, step: float, period: float | None = None) -> Seen:
+    """The Seen of a series (n,); period: of the forcing, in the unit of step, or None.
+
+    ValueError for a record too short for a single neighbourhood (about 90 samples).
+    """
+    chosen = choose_delay(series)
+    noise = noise_level(series, chosen.delay)
+    if period is not None and abs(period - step) > 1e-6 * step:
+        found = section_at_phases(series, step, period)
+        return Seen(STROBED, found.points, found.time_s, period, noise, chosen.mean_period)
+    if period is not None or chosen.mean_period < LEAST_SAMPLES_PER_PERIOD:
+        time = step * np.arange(len(series))
+        return Seen(SAMPLES, locked(series[:, None]), locked(time), step, noise, chosen.mean_period)
+    place, height = successive_maxima(series, NOISE_MULTIPLE * noise)
+    between = float(np.mean(np.diff(place))) if len(place) > 1 else chosen.mean_period
+    return Seen(MAXIMA, locked(height[:, None]), locked(step * place), step * between, noise, chosen.mean_period)
+
+
+def successive_maxima(series: np.ndarray, prominence: float) -> tuple[np.ndarray, np.ndarray]:
+    """Places [samples] and heights of the maxima that stand out by `prominence`, on a cubic spline.
+
+    Newton's method on the derivative from the parabola through the three samples; error O(step^4). The first and the
+    last two samples are left out: the spline has no neighbours there.
+    Source of the section: E. N. Lorenz, J. Atmos. Sci. 20 (1963) 130, fig. 4.
+    """
+    from scipy.interpolate import CubicSpline
+    from scipy.signal import find_peaks
+
+    least = max(prominence, 1e-6 * np.ptp(series))
+    top = find_peaks(series, prominence=least)[0]
+    top = top[(top >= 2) & (top < len(series) - 2)]
+    spline = CubicSpline(np.arange(len(series)), series)
+    below, here, above = series[top - 1], series[top], series[top + 1]
+    bend = below - 2.0 * here + above
+    place = top + np.where(bend < 0.0, 0.5 * (below - above) / np.where(bend < 0.0, bend, -1.0), 0.0)
+    for _ in range(4):
+        slope, bend = spline(place, 1), spline(place, 2)
+        shift = np.where(bend < 0.0, -slope / np.where(bend < 0.0, bend, -1.0), 0.0)
+        place = np.clip(place + np.clip(shift, -0.25, 0.25), top - 1.0, top + 1.0)
+    return place, spline(place)

@@ -12,6 +12,8 @@ local frame; eq. (4) derivative along the line in the local frame; eq. (5) Euler
 
 import numpy as np
 
+from ..spatial.vectors import frame_of
+
 TO_ENGINE = [1, 2, 0]  # (x, y, z) from the paper's axes
 TO_PAPER = [2, 0, 1]  # the paper's axes from (x, y, z)
 
@@ -21,14 +23,7 @@ def rotation(beta: np.ndarray) -> np.ndarray:
 
     beta (4, ...). Scaled by |beta|^2 where |beta| is not 1: the box rule does not keep it.
     """
-    b0, b1, b2, b3 = beta
-    return np.array(
-        [
-            [b0 * b0 + b1 * b1 - b2 * b2 - b3 * b3, 2 * (b1 * b2 + b0 * b3), 2 * (b1 * b3 - b0 * b2)],
-            [2 * (b1 * b2 - b0 * b3), b0 * b0 - b1 * b1 + b2 * b2 - b3 * b3, 2 * (b2 * b3 + b0 * b1)],
-            [2 * (b1 * b3 + b0 * b2), 2 * (b2 * b3 - b0 * b1), b0 * b0 - b1 * b1 - b2 * b2 + b3 * b3],
-        ]
-    )
+    return np.array(frame_of(beta))
 
 
 def normal_rates(beta: np.ndarray, rate: np.ndarray) -> tuple[list, list]:
@@ -74,26 +69,6 @@ def to_local(beta: np.ndarray, fixed: np.ndarray) -> np.ndarray:
 def roll(beta: np.ndarray) -> np.ndarray:
     """Direction of d(beta) for a roll of the frame about t: beta o (0, 1, 0, 0)."""
     return np.array([-beta[1], beta[0], beta[3], -beta[2]])
-
-
-def parameters_of(C: np.ndarray) -> np.ndarray:
-    """Euler parameters (4, n) of rotation matrices C (3, 3, n), continuous along the line."""
-    beta = np.empty((4, C.shape[2]))
-    for k, c in enumerate(np.moveaxis(C, 2, 0)):
-        # each candidate is beta scaled by four times one of its entries: the one with the largest entry is used
-        candidates = np.array(
-            [
-                [1 + c[0, 0] + c[1, 1] + c[2, 2], c[1, 2] - c[2, 1], c[2, 0] - c[0, 2], c[0, 1] - c[1, 0]],
-                [c[1, 2] - c[2, 1], 1 + c[0, 0] - c[1, 1] - c[2, 2], c[0, 1] + c[1, 0], c[2, 0] + c[0, 2]],
-                [c[2, 0] - c[0, 2], c[0, 1] + c[1, 0], 1 - c[0, 0] + c[1, 1] - c[2, 2], c[1, 2] + c[2, 1]],
-                [c[0, 1] - c[1, 0], c[2, 0] + c[0, 2], c[1, 2] + c[2, 1], 1 - c[0, 0] - c[1, 1] + c[2, 2]],
-            ]
-        )
-        best = candidates[np.argmax(np.diag(candidates))]
-        beta[:, k] = best / np.linalg.norm(best)
-        if k and beta[:, k] @ beta[:, k - 1] < 0:
-            beta[:, k] *= -1
-    return beta
 
 
 def turns(beta: np.ndarray, Omega: np.ndarray, h: np.ndarray) -> np.ndarray:

@@ -12,7 +12,7 @@ with M so costs one omega instead of 31 entries. Rows 2 and 3 of P carry the ter
 without it waves act on the tether by drag alone.
 
 water (6, ...): velocity and local acceleration of the water in the paper's axes (`frame`).
-Arguments may be complex (`box` differentiates by complex step): |x| is written so that it stays analytic.
+Arguments may be complex (`newton.residual` differentiates by complex step): |x| is written so that it stays analytic.
 
 In the paper: eq. (34) M, columns of ε … w; eq. (35) M, columns of ε … w; eq. (36) M, column of β₀; eq. (37) M, column
 of β₁; eq. (38) M, column of β₂; eq. (39) M, column of β₃; eq. (40) P.

@@ -16,7 +16,7 @@ from ..scene.models import Scene
 from ..time import statics
 from ..time.status import NEWTON_FAILED, OK, STATICS_FAILED
 from .ends import end_force, force_and_velocity
-from .frame import TO_PAPER, parameters_of, to_local
+from .frame import TO_PAPER, to_local
 from .line import EPS, EULER, O3, S_N, SPEEDS, Line
 from .newton import TOLERANCE, newton_update
 from .nodal import positions, water_at
@@ -101,12 +101,10 @@ def lifted(Y: np.ndarray, azimuth: float = 0.0) -> np.ndarray:
 
     The angle from the vertical is a = pi/2 - phi, so n and Omega_3 change their signs against the planar engine.
     """
-    a = math.pi / 2 - Y[:, col.PHI]
-    cos, sin = math.cos(azimuth), math.sin(azimuth)
-    up, side, out = np.array([[1.0, 0.0, 0.0], [0.0, cos, sin], [0.0, -sin, cos]])[:, :, None]
-    t, n = up * np.cos(a) + side * np.sin(a), side * np.cos(a) - up * np.sin(a)
-    b = out * np.ones_like(a)
     found = np.zeros((13, len(Y)))
     found[EPS], found[S_N], found[O3] = Y[:, col.EPS], -Y[:, col.SHEAR], -Y[:, col.KAPPA]
-    found[EULER] = parameters_of(np.array([t, n, b]))
+    half = 0.5 * (math.pi / 2 - Y[:, col.PHI])
+    up, side = np.cos(half), np.sin(half)
+    cos, sin = math.cos(0.5 * azimuth), math.sin(0.5 * azimuth)
+    found[EULER] = cos * up, sin * up, -sin * side, cos * side  # the turn by a, then the azimuth about axis 1
     return found

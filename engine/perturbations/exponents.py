@@ -5,14 +5,81 @@ In the paper: eq. (32) Lyapunov exponent.
 
 import numpy as np
 
-from ..arrays import Trail
-from ..record import RESTART
+from ..arrays import Trail, Work
+from ..compiled import kernel
+from ..physics.water import water as flow
+from ..planar import columns as col
+from ..planar import node
+from ..record import BEGIN, KIND, RESTART, STEP
+from ..simd.elementary import copy_into
+from ..time.steps import plan_stage, stage_rate
 from ..trajectory import TangentGrowth
-from .lateral import carry_lateral, energy_weights
-from .tangent import carry
+from .lateral import COEFFICIENTS, WIDTH, energy_weights, known_lateral, lateral_stage, normalise
+from .tangent import Base, Carried, Water, carry_stage, linearise, orthonormalise, period_of, water_moves
 
 STEPS = 200  # of the trail before it is followed: 8 MB at 41 nodes
 SEED = 20  # of the first perturbations: any will do, they turn to the fastest growth by themselves
+
+
+@kernel
+def carry(p, tables, period, count, trail, along, across):
+    """Carry perturbations through the first `count` steps of a Trail.
+
+    along: vectors, rates (k, n, 4), dC and dK, orthonormal in C on entry and exit, waters (k, n, 4), first guesses of
+    dF, and growth (periods, k), nats; across: weights, vector, rates (n, 2), C = (q_y, V_y) of length one by these
+    weights on entry and exit, and growth (periods,), nats; None where there are none. What each step adds to a growth
+    goes to the period (s) in which it ends (the last, beyond the end).
+    """
+    s, n = trail.Y.shape[1], trail.Y.shape[2]
+    X, F, Q = np.zeros((n, 2)), np.zeros((n, 4)), np.zeros((n, col.NODE_WIDTH))
+    a, w = np.empty(s), np.empty(3)
+    moving_water = water_moves(p)
+    if along is not None:
+        vectors, rates, waters, growth = along
+        number = vectors.shape[0]
+        work = Work(X, F, Q, np.zeros((n, col.WITH_INVERSE)), np.zeros((n, 6)), np.zeros((n, 4)))
+        water = Water(np.zeros((n, 8)), np.zeros((n, 2)), np.zeros((n, 2)), np.zeros((n, 4)), np.zeros((n, 4)))
+        dKs, dC_tilde, dCs = np.zeros((number, s, n, 4)), np.zeros((n, 4)), np.zeros((number, n, 4))
+        carried, lengths = Carried(vectors, rates, waters, dKs, dC_tilde, dCs), np.empty(number)
+    if across is not None:
+        weights, vector, vector_rates, vector_growth = across
+        H, E = np.zeros((n, COEFFICIENTS)), np.zeros((n, WIDTH))
+        dC, known, dK = np.zeros((n, 2)), np.zeros((n, 2)), np.zeros((s, n, 2))
+    for step in range(count):
+        t, dt, euler = trail.T[step, BEGIN], trail.T[step, STEP], trail.T[step, KIND] > 0.0
+        if along is not None:
+            for v in range(number):
+                copy_into(dKs[v, 0], rates[v])
+        if across is not None:
+            copy_into(dK[0], vector_rates)
+        for i in range(s - 1 if euler else 1, s):
+            rate, after = plan_stage(p, tables, i, euler, dt, 0.0, a, w)
+            so_far = 0 if euler else i
+            base = Base(t + after, rate, moving_water, trail.Y[step, i], trail.K[step, i])
+            if along is not None:
+                linearise(p, tables, base, work, water)
+                for v in range(number):
+                    carry_stage(p, tables, base, a, so_far, True, v, carried, work, water)
+                    stage_rate(rate, dCs[v], dC_tilde, dKs[v, i])
+            else:
+                node.shape(p, tables, base.Y, Q, X)
+                flow(p, tables, base.t, 1.0, X, F)
+            if across is not None:
+                known_lateral(a, so_far, vector, dK, known)
+                lateral_stage(p, tables, base, X, Q, F, known, H, E, dC)
+                stage_rate(rate, dC, known, dK[i])
+        if along is not None:
+            for v in range(number):
+                copy_into(vectors[v], dCs[v])
+                copy_into(rates[v], dKs[v, s - 1])
+            orthonormalise(p.per_speed * p.per_speed, True, vectors, rates, lengths)
+            for v in range(number):
+                growth[period_of(t + dt, period, growth.shape[0]), v] += np.log(lengths[v])
+        if across is not None:
+            copy_into(vector, dC)
+            copy_into(vector_rates, dK[s - 1])
+            length = normalise(weights, True, vector, vector_rates)
+            vector_growth[period_of(t + dt, period, vector_growth.shape[0])] += np.log(length)
 
 
 class Followed:
@@ -54,11 +121,9 @@ class Followed:
         count = int(state["trail"])
         state["trail"] = 0
         self.mark(self.steps.T[:count])
-        if self.count:
-            carry(record, tables, self.period_s, count, self.steps, self.vectors, self.rates, self.waters, self.nats)
-        if self.sideways:
-            vector = self.weights, self.lateral, self.lateral_rates
-            carry_lateral(record, tables, self.period_s, count, self.steps, *vector, self.lateral_nats)
+        along = (self.vectors, self.rates, self.waters, self.nats) if self.count else None
+        across = (self.weights, self.lateral, self.lateral_rates, self.lateral_nats) if self.sideways else None
+        carry(record, tables, self.period_s, count, self.steps, along, across)
 
     def mark(self, T):
         """Mark the periods in which a loop was released, from the steps (m, 3) of a trail."""

@@ -43,14 +43,10 @@ from ..compiled import by_kind, kernel
 from ..physics.ends import released
 from ..physics.submergence import cap_across
 from ..physics.tension.kernels import tension
-from ..physics.water import water as flow
 from ..planar import columns as col
-from ..planar import node
-from ..record import BEGIN, BUOY, HELD, KIND, STEP
+from ..record import BUOY, HELD
 from ..simd.elementary import copy_into, put3, sincos, small_sincos
 from ..simd.select import every, larger, where
-from ..time.steps import plan_stage
-from .tangent import Base, period_of
 
 # Columns of H, coefficients of a node: sine and cosine of half the turn of the box below it, then derivatives by tau
 # and rho of q_y, N_y (without -dS_b) and G_y, dG_y/dV_y, and (1 + eps)^3
@@ -229,33 +225,3 @@ def known_lateral(a, count, vector, dK, dC_tilde):
         for k in range(vector.shape[0]):
             for m in range(2):
                 dC_tilde[k, m] += a[j] * dK[j, k, m]
-
-
-@kernel
-def carry_lateral(p, tables, period, count, trail, weights, vector, rates, growth):
-    """Carry a lateral perturbation through the first `count` steps of a Trail (`engine.arrays`).
-
-    vector, rates (n, 2): C = (q_y, V_y) and its rates; C of length one on entry and exit, by weights (n, 2).
-    growth (periods,), nats: what each step adds goes to the period (s) in which it ends (the last, beyond the end).
-    """
-    n, s = vector.shape[0], trail.Y.shape[1]
-    X, F, Q = np.zeros((n, 2)), np.zeros((n, 4)), np.zeros((n, col.NODE_WIDTH))
-    H, E = np.zeros((n, COEFFICIENTS)), np.zeros((n, WIDTH))
-    dC, dC_tilde, dK = np.zeros((n, 2)), np.zeros((n, 2)), np.zeros((s, n, 2))
-    a, w = np.empty(s), np.empty(3)
-    for step in range(count):
-        t, dt, euler = trail.T[step, BEGIN], trail.T[step, STEP], trail.T[step, KIND] > 0.0
-        copy_into(dK[0], rates)
-        for i in range(s - 1 if euler else 1, s):
-            rate, after = plan_stage(p, tables, i, euler, dt, 0.0, a, w)
-            base = Base(t + after, rate, 1.0, trail.Y[step, i], trail.K[step, i])
-            node.shape(p, tables, base.Y, Q, X)
-            flow(p, tables, base.t, 1.0, X, F)
-            known_lateral(a, 0 if euler else i, vector, dK, dC_tilde)
-            lateral_stage(p, tables, base, X, Q, F, dC_tilde, H, E, dC)
-            for k in range(n):
-                for m in range(2):
-                    dK[i, k, m] = rate * (dC[k, m] - dC_tilde[k, m])
-        copy_into(vector, dC)
-        copy_into(rates, dK[s - 1])
-        growth[period_of(t + dt, period, growth.shape[0])] += np.log(normalise(weights, True, vector, rates))

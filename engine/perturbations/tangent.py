@@ -1,9 +1,18 @@
 """Tangent dynamics: infinitesimal perturbations carried through the accepted steps of a run (Benettin et al. 1980).
 
 The engine's step is a map of (C, K), the conserved variables and their rates; its derivative needs at each stage one
-linear solve with Newton's matrix at the converged state (`engine.perturbations.resolve`), no new Newton iteration:
+linear solve with Newton's matrix at the converged state (`resolve_bent`), no new Newton iteration:
 
     dC~_i = dC + dt sum_(j<i) a_ij dK_j,    J_i dY_i = known(dC~_i, dF_i),    dK_i = (dC_i - dC~_i)/(a_ii dt)
+
+That solve is another right-hand side for the matrix that `planar.elimination.eliminate` has eliminated, one pass up,
+one down:
+
+    dV_b - dV_a - e (dq_t,a + dq_t,b) = 0, dq_t = cq (dq/dy dy - dq~)      -> c = e cq (dq~_a + dq~_b)
+    dN_b - dN_a - e (dG_a + dG_b) = 0, dG = (dG/dy) dy + (dG/dV) dV + gamma -> g = e (gamma_a + gamma_b)
+
+with gamma the change of G that comes from V~ and from the water at the displaced node; curvature and moment have no
+known terms. At the upper end `top` is the known part of its residual.
 
 dF = J dX is the change of the water at the displaced nodes. It depends on dY through the positions dX, which Newton's
 matrix leaves out; a fixed-point iteration puts it back, contracting by about the square of wave number times length.
@@ -20,20 +29,17 @@ a derivative; the periods in which one happens are marked. What it does to the e
 import math
 from collections import namedtuple
 
-import numpy as np
-
-from ..arrays import Stage, Work
+from ..arrays import Stage
 from ..compiled import kernel
 from ..physics.submergence import cap_change
 from ..physics.water import water as flow
 from ..planar import columns as col
 from ..planar import node
-from ..planar.elimination import eliminate_bent
-from ..record import BEGIN, BUOY, KIND, STEP
-from ..simd.elementary import copy_into
+from ..planar.elimination import back_substitute, eliminate
+from ..record import BUOY
+from ..simd.elementary import put3, row_times, take3
 from ..simd.select import larger, some, where
-from ..time.steps import add_rates, plan_stage
-from .resolve import resolve_bent
+from ..time.steps import add_rates
 
 WATER_ITERATIONS, WATER_TOLERANCE, NUDGE = 8, 1e-7, 1e-6
 # The stage that is perturbed: t (s), rate (1/s) = 1/(a_ii dt), moving_water: 1.0 where the water depends on the place
@@ -139,6 +145,46 @@ def _displaced_end(p, tables, dC_tilde):
 
 
 @kernel
+def resolve_bent(p, tables, cq, work, dC_tilde, gamma, top_x, top_z):
+    """Fill work.D (n, 6) with the perturbation dY; work.E (n, 33) comes from `eliminate` at the same state.
+
+    p, tables: parameters; cq (1/s); dC_tilde (n, 4), of which dq~ counts; gamma (n, 2) N/m; top_x, top_z in the units
+    of the end's condition. Overwrites p and r in E.
+    """
+    Q, E = work.Q, work.E
+    n = Q.shape[0]
+    r0 = r1 = r2 = 0.0
+    put3(E, 0, col.R_KNOWN, 0.0, 0.0, 0.0)
+    for k in range(1, n):
+        a = k - 1
+        e = 0.5 * tables[p.grid_at + a]
+        ec = e * cq
+        cx = ec * (dC_tilde[a, col.CX] + dC_tilde[k, col.CX])
+        cz = ec * (dC_tilde[a, col.CZ] + dC_tilde[k, col.CZ])
+        Jxx, Jxz, Jzz = e * Q[k, col.GXX], e * Q[k, col.GXZ], e * Q[k, col.GZZ]
+        Kxx, Kxz, Kzz = e * Q[a, col.GXX] + Jxx, e * Q[a, col.GXZ] + Jxz, e * Q[a, col.GZZ] + Jzz
+        g0 = e * (gamma[a, 0] + gamma[k, 0]) + Kxx * r0 + Kxz * r1 - Jxx * cx - Jxz * cz
+        g1 = e * (gamma[a, 1] + gamma[k, 1]) + Kxz * r0 + Kzz * r1 - Jxz * cx - Jzz * cz
+        g2 = 2.0 * p.EI * r2
+        # y_a = P y_b + p, then v_b = R_b y_b + r
+        p0 = row_times(E, k, col.INVERSE, g0, g1, g2)
+        p1 = row_times(E, k, col.INVERSE + 3, g0, g1, g2)
+        p2 = row_times(E, k, col.INVERSE + 6, g0, g1, g2)
+        Rx0, Rx1, Rx2 = take3(E, a, col.R)
+        Rz0, Rz1, Rz2 = take3(E, a, col.R + 3)
+        Rk0, Rk1, Rk2 = take3(E, a, col.R + 6)
+        ca, sa = Q[a, col.COS], Q[a, col.SIN]
+        r0 += (Rx0 + ec * ca) * p0 + Rx1 * p1 + (Rx2 - ec * Q[a, col.QZ]) * p2 - cx
+        r1 += (Rz0 + ec * sa) * p0 + Rz1 * p1 + (Rz2 + ec * Q[a, col.QX]) * p2 - cz
+        r2 = -Rk0 * p0 - Rk1 * p1 - (Rk2 + 1.0 / e) * p2 - r2
+        put3(E, k, col.P_KNOWN, p0, p1, p2)
+        put3(E, k, col.R_KNOWN, r0, r1, r2)
+    g0 = -top_x - E[0, col.TOP_DXX] * r0 - E[0, col.TOP_DXZ] * r1
+    g1 = -top_z - E[0, col.TOP_DZX] * r0 - E[0, col.TOP_DZZ] * r1
+    back_substitute(E, g0, g1, -r2, work.D)
+
+
+@kernel
 def tangent_stage(p, tables, base, going_on, dC_tilde, dF, dC, work, water):
     """dC (n, 4) of one perturbation at one stage whose matrix is in work.E; dF (n, 4) comes in as a first guess.
 
@@ -216,7 +262,7 @@ def linearise(p, tables, base, work, water):
             C_tilde[k, col.VX + m] = Y[k, col.VX + m] - K[k, col.VX + m] / rate
     stage = Stage(base.t, 1.0, rate, rate)
     node.node_quantities(p, tables, stage, Y, work)
-    eliminate_bent(p, tables, stage, Y, work)
+    eliminate(p, tables, stage, Y, work)
     if base.moving_water > 0.0:
         water_slopes(p, tables, base.t, work.X, water)
 
@@ -246,39 +292,3 @@ def water_moves(p):
 def period_of(t, period, periods):
     """Number of the period in which a step that ends at t is counted."""
     return min(int(t / period - 1e-9), periods - 1)
-
-
-@kernel
-def carry(p, tables, period, count, trail, vectors, rates, waters, growth):
-    """Carry perturbations through the first `count` steps of a Trail.
-
-    vectors, rates (k, n, 4): dC and dK, orthonormal in C on entry and exit; waters (k, n, 4): first guesses of dF.
-    growth (periods, k), nats: what each step adds goes to the period (s) in which it ends (the last, beyond the end).
-    """
-    number, n, s = vectors.shape[0], vectors.shape[1], trail.Y.shape[1]
-    X, F, Q = np.zeros((n, 2)), np.zeros((n, 4)), np.zeros((n, col.NODE_WIDTH))
-    work = Work(X, F, Q, np.zeros((n, col.WITH_INVERSE)), np.zeros((n, 6)), np.zeros((n, 4)))
-    water = Water(np.zeros((n, 8)), np.zeros((n, 2)), np.zeros((n, 2)), np.zeros((n, 4)), np.zeros((n, 4)))
-    dKs, dC_tilde, dCs = np.zeros((number, s, n, 4)), np.zeros((n, 4)), np.zeros((number, n, 4))
-    carried = Carried(vectors, rates, waters, dKs, dC_tilde, dCs)
-    a, w, lengths = np.empty(s), np.empty(3), np.empty(number)
-    moving_water = water_moves(p)
-    for step in range(count):
-        t, dt, euler = trail.T[step, BEGIN], trail.T[step, STEP], trail.T[step, KIND] > 0.0
-        for v in range(number):
-            copy_into(dKs[v, 0], rates[v])
-        for i in range(s - 1 if euler else 1, s):
-            rate, after = plan_stage(p, tables, i, euler, dt, 0.0, a, w)
-            base = Base(t + after, rate, moving_water, trail.Y[step, i], trail.K[step, i])
-            linearise(p, tables, base, work, water)
-            for v in range(number):
-                carry_stage(p, tables, base, a, 0 if euler else i, True, v, carried, work, water)
-                for k in range(n):
-                    for m in range(4):
-                        dKs[v, i, k, m] = rate * (dCs[v, k, m] - dC_tilde[k, m])
-        for v in range(number):
-            copy_into(vectors[v], dCs[v])
-            copy_into(rates[v], dKs[v, s - 1])
-        orthonormalise(p.per_speed * p.per_speed, True, vectors, rates, lengths)
-        for v in range(number):
-            growth[period_of(t + dt, period, growth.shape[0]), v] += np.log(lengths[v])

@@ -4,17 +4,10 @@ Table in `tables`: [x (nx) | y (ny) | z (nz) | t (nt) | U (nt, nz, ny, nx) | V (
 direction and constant beyond its ends. The local acceleration is the slope in time.
 """
 
-import numpy as np
-
 from ..compiled import kernel
 from ..simd.elementary import bracket
 
 AXES = 4  # numbers before the velocity where every axis has length one
-
-
-def table_of(axes: tuple, velocities: tuple) -> np.ndarray:
-    """Current table in the layout above: the axes, then the components, m/s."""
-    return np.concatenate([np.asarray(part, float).ravel() for part in (*axes, *velocities)])
 
 
 @kernel

@@ -28,13 +28,6 @@ from ..simd.elementary import bracket, smooth_start
 from ..simd.select import where
 
 
-def harmonic_of(
-    amplitude_m: tuple[float, float, float], period_s: float, phase_rad: float, ramp_s: float
-) -> np.ndarray:
-    """The numbers of a harmonic motion in the layout above."""
-    return np.array([*amplitude_m, 2 * math.pi / period_s, phase_rad, ramp_s])
-
-
 def table_of(time_s: np.ndarray, displacement_m: np.ndarray) -> np.ndarray:
     """Knots and velocities of a tabulated motion in the layout above.
 

@@ -2,11 +2,24 @@
 
 from ..compiled import by_kind, kernel
 from .currents import current_field, uniform_current
-from .sea import no_sea, sea_field
-from .waves import wave_field, wave_field_3d
+from .sea import sea_field
+from .waves import wave_field
 
-regular_waves = by_kind(wave_field, wave_field_3d)
-irregular_waves = by_kind(sea_field, sea_field, no_sea)
+
+@kernel
+def _regular(p, tables, t, X, F):
+    wave_field(p, t, X, F)
+
+
+@kernel
+def _any(p, tables, t, X, F):
+    if p.sea_n == 0:
+        wave_field(p, t, X, F)
+    else:
+        sea_field(p, tables, t, X, F)
+
+
+waves = by_kind(_any, sea_field, _regular)
 current = by_kind(current_field, current_field, uniform_current)
 
 
@@ -22,9 +35,6 @@ def water(p, tables, t, in_motion, X, F):
         for i in range(F.shape[1]):
             F[k, i] = 0.0
     if p.waves and in_motion > 0.0:
-        if p.sea_n == 0:
-            regular_waves(p, t, X, F)
-        else:
-            irregular_waves(p, tables, t, X, F)
+        waves(p, tables, t, X, F)
     if p.current:
         current(p, tables, t, X, F)

@@ -13,8 +13,6 @@ grow without bound.
 
 import math
 
-import numpy as np
-
 from ..compiled import kernel
 from ..record import WHEELER, ZERO
 from ..simd.elementary import sincos, small_exponentials, small_sincos, smooth_start
@@ -36,7 +34,7 @@ def wave_number(period_s: float, depth_m: float, gravity_mps2: float = 9.81) -> 
 
 @kernel
 def wave_field(p, t, X, F):
-    """Water velocity and local acceleration at the nodes, added into F.
+    """Water velocity and local acceleration at the nodes of a line in a plane, added into F (in space: `physics.sea`).
 
     X : (n, 2) positions x, z (m);  F : (n, 4) U, W (m/s), dU/dt, dW/dt (m/s2)
     """
@@ -79,25 +77,3 @@ def wave_field(p, t, X, F):
         F[j, 1] += u0 * ws
         F[j, 2] += u0 * om * us + u1 * uc
         F[j, 3] += u1 * ws - u0 * om * wc
-
-
-@kernel
-def wave_field_3d(p, t, X, F):
-    """Water velocity and local acceleration at the nodes, added into F: the planar field in the plane of the wave.
-
-    X : (n, 3) positions x, y, z (m);  F : (n, 6) U, V, W (m/s), dU/dt, dV/dt, dW/dt (m/s2)
-    The records of three dimensions hold dir_x, dir_y, the direction of travel, and direction = 1 along it.
-    """
-    n = X.shape[0]
-    along, field = np.empty((n, 2)), np.zeros((n, 4))
-    for j in range(n):
-        along[j, 0] = p.dir_x * X[j, 0] + p.dir_y * X[j, 1]
-        along[j, 1] = X[j, 2]
-    wave_field(p, t, along, field)
-    for j in range(n):
-        F[j, 0] += p.dir_x * field[j, 0]
-        F[j, 1] += p.dir_y * field[j, 0]
-        F[j, 2] += field[j, 1]
-        F[j, 3] += p.dir_x * field[j, 2]
-        F[j, 4] += p.dir_y * field[j, 2]
-        F[j, 5] += field[j, 3]

@@ -13,10 +13,12 @@ and moment then give y_a = P y_b + p through one 3 x 3 inverse, and R_b, r_b fol
 then back substitution. The inverse is an adjugate over a determinant, one division and no pivot search: row scaling
 does not change it, and Newton failures were as rare as with pivoting.
 
-Without bending S and kappa are zero, y = (eps, phi), v = (U, W), and the same steps need a 2 x 2 inverse.
+Without bending the moment equation is S_a + S_b = 0 (`engine.planar.node`) and the condition of moment at the upper end
+S = 0, so that S is zero everywhere, and kappa, which nothing else needs, is put to zero. Well posed while the tether is
+in tension only (compression: EI = 0 is ill-posed, Triantafyllou & Howell 1994).
 
 E (n, 24): P, p, R, r, where `engine.planar.columns` says; the row of the anchor, which has no box below, holds the
-inverse at the upper end. For other right-hand sides of the same matrix (`engine.perturbations.resolve`) an E (n, 33)
+inverse at the upper end. For other right-hand sides of the same matrix (`engine.perturbations.tangent`) an E (n, 33)
 also takes in the inverse of every box, and Dxx, Dxz, Dzx, Dzz.
 
 In the paper: eq. (15) bending moment about b; eq. (16) balance of moments; eq. (17) compatibility; eq. (18)
@@ -35,7 +37,7 @@ from . import columns as col
 
 
 @kernel
-def eliminate_bent(p, tables, stage, Y, work):
+def eliminate(p, tables, stage, Y, work):
     """Fill work.D (n, 6) with the Newton update; returns False where a pivot block is singular.
 
     p, tables: parameters (`engine.record`); stage: Stage; Y (n, 6); work: Work, whose Q, F and X belong to Y.
@@ -143,9 +145,19 @@ def eliminate_bent(p, tables, stage, Y, work):
         put3(E, k, col.R + 3, R10, R11, R12)
         put3(E, k, col.R + 6, R20, R21, R22)
         put3(E, k, col.R_KNOWN, r0, r1, r2)
-    # upper end: e_N dN + D dV = -e, dkappa = -kappa, with v = R y + r put in
+    # upper end (`engine.physics.ends`): e_N dN + D dV = -e, dkappa = -kappa, with v = R y + r put in
     b = n - 1
-    ex, ez, eN, Dxx, Dxz, Dzx, Dzz = upper_condition(p, tables, stage, Y, work)
+    t, in_motion, _, cv = stage
+    U, W, U_tilde, W_tilde = Y[b, col.VX], Y[b, col.VZ], work.C_tilde[b, col.VX], work.C_tilde[b, col.VZ]
+    ex, ez, eN, Dxx, Dxz, Dzz = planar_end(
+        p, tables, t, cv, in_motion, Q[b, col.NX], Q[b, col.NZ], U, W, U_tilde, W_tilde, work.F[b]
+    )
+    Dzx = Dxz
+    if p.spherical_cap:
+        x, z = work.X[b, 0], work.X[b, 1]
+        more = cap_end(p, t, cq, cv, in_motion, x, z, U, W, U_tilde, W_tilde, work.F[b])
+        ex, ez, Dxx = ex + more[0], ez + more[1], Dxx + more[2]
+        Dxz, Dzx, Dzz = Dxz + more[3], Dzx + more[4], Dzz + more[5]
     c, s, slope = take3(Q, b, col.COS)
     A00 = eN * slope * c + Dxx * R00 + Dxz * R10
     A01 = -eN * s + Dxx * R01 + Dxz * R11
@@ -156,6 +168,8 @@ def eliminate_bent(p, tables, stage, Y, work):
     g0 = -ex - Dxx * r0 - Dxz * r1
     g1 = -ez - Dzx * r0 - Dzz * r1
     g2 = -Y[b, col.KAPPA] - r2
+    if p.bent == 0:
+        R20, R21, R22, g2 = 0.0, 1.0, 0.0, 0.0
     (i00, i01, i02), (i10, i11, i12), (i20, i21, i22), det = adjugate((A00, A01, A02), (A10, A11, A12), (R20, R21, R22))
     least = smaller(least, abs(det))
     f = 1.0 / det
@@ -165,6 +179,9 @@ def eliminate_bent(p, tables, stage, Y, work):
     if E.shape[1] > col.BOX_WIDTH:
         E[0, col.TOP_DXX], E[0, col.TOP_DXZ], E[0, col.TOP_DZX], E[0, col.TOP_DZZ] = Dxx, Dxz, Dzx, Dzz
     back_substitute(E, g0, g1, g2, D)
+    if p.bent == 0:
+        for k in range(n):
+            D[k, col.KAPPA] = 0.0
     return least != 0.0
 
 
@@ -176,25 +193,6 @@ def adjugate(A0, A1, A2):
     i10, i11, i12 = A12 * A20 - A10 * A22, A00 * A22 - A02 * A20, A02 * A10 - A00 * A12
     i20, i21, i22 = A10 * A21 - A11 * A20, A01 * A20 - A00 * A21, A00 * A11 - A01 * A10
     return (i00, i01, i02), (i10, i11, i12), (i20, i21, i22), A00 * i00 + A01 * i10 + A02 * i20
-
-
-@kernel
-def upper_condition(p, tables, stage, Y, work):
-    """Residual of the upper end: ex, ez, e_N, and D = de/dV: Dxx, Dxz, Dzx, Dzz (`engine.physics.ends`)."""
-    t, in_motion, cq, cv = stage
-    Q, C_tilde, X = work.Q, work.C_tilde, work.X
-    b = Y.shape[0] - 1
-    F = work.F[b]
-    U, W, U_tilde, W_tilde = Y[b, col.VX], Y[b, col.VZ], C_tilde[b, col.VX], C_tilde[b, col.VZ]
-    ex, ez, eN, Dxx, Dxz, Dzz = planar_end(
-        p, tables, t, cv, in_motion, Q[b, col.NX], Q[b, col.NZ], U, W, U_tilde, W_tilde, F
-    )
-    Dzx = Dxz
-    if p.spherical_cap:
-        more = cap_end(p, t, cq, cv, in_motion, X[b, 0], X[b, 1], U, W, U_tilde, W_tilde, F)
-        ex, ez, Dxx = ex + more[0], ez + more[1], Dxx + more[2]
-        Dxz, Dzx, Dzz = Dxz + more[3], Dzx + more[4], Dzz + more[5]
-    return ex, ez, eN, Dxx, Dxz, Dzx, Dzz
 
 
 @kernel

@@ -116,3 +116,5 @@ def node_quantities(p, tables, stage, Y, work):
         if p.bent:
             square = lam * lam
             Q[k, col.M], Q[k, col.M_EPS], Q[k, col.M_SHEAR] = square * lam * S, 3.0 * square * S, square * lam
+        else:  # S_a + S_b = 0
+            Q[k, col.M], Q[k, col.M_EPS], Q[k, col.M_SHEAR] = 0.0, 0.0, 1.0

@@ -10,14 +10,10 @@ import numpy as np
 from ..arrays import Work
 from ..compiled import kernel
 from ..physics.tension.kernels import tension
-from ..physics.water import water
 from ..record import PLACE, SPEED, STRAIN, TENSION
 from ..simd.elementary import within
 from ..simd.select import finite, larger, smaller, where
 from . import columns as col
-from . import node
-from .elimination import eliminate_bent
-from .elimination_unbent import eliminate_unbent
 
 
 @kernel
@@ -31,20 +27,6 @@ def work_arrays(p, n):
     """Work arrays (`engine.record.Work`) of a Newton solve with n nodes."""
     X, F, Q = np.zeros((n, 2)), np.zeros((n, 4)), np.zeros((n, col.NODE_WIDTH))
     return Work(X, F, Q, np.zeros((n, col.BOX_WIDTH)), np.zeros((n, 6)), np.zeros((n, 4)))
-
-
-@kernel
-def assemble(p, tables, stage, Y, work):
-    """One Newton update into work.D (n, 6); returns False where a pivot block is singular.
-
-    p, tables: parameters (`engine.record`); stage: Stage; Y (n, 6); work: Work.
-    """
-    node.shape(p, tables, Y, work.Q, work.X)
-    water(p, tables, stage.t, stage.in_motion, work.X, work.F)
-    node.node_quantities(p, tables, stage, Y, work)
-    if p.bent:
-        return eliminate_bent(p, tables, stage, Y, work)
-    return eliminate_unbent(p, tables, stage, Y, work)
 
 
 @kernel
@@ -111,21 +93,11 @@ def error_square(p, k, ec, Q):
 @kernel
 def largest_turn(p, Y):
     """Largest |phi_k - phi_(k-1)| (rad) and the upper node of its element."""
-    turn, element = 0.0, 0
+    turn, element = 0.0, 0.0
     for k in range(1, Y.shape[0]):
         d = abs(Y[k, col.PHI] - Y[k - 1, col.PHI])
-        if d > turn:
-            turn, element = d, k
+        turn, element = larger(turn, d), where(d > turn, float(k), element)
     return turn, element
-
-
-@kernel
-def greatest_turn(Y):
-    """Largest |phi_k - phi_(k-1)| (rad) alone."""
-    turn = 0.0
-    for k in range(1, Y.shape[0]):
-        turn = larger(turn, abs(Y[k, col.PHI] - Y[k - 1, col.PHI]))
-    return turn
 
 
 @kernel

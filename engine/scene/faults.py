@@ -7,12 +7,12 @@ Faults of a single value are found by pydantic and put into words here; faults b
 import difflib
 import re
 from dataclasses import dataclass
+from functools import cache
 from typing import Annotated, Literal, get_args, get_origin
 
 from pydantic import BaseModel, ValidationError
+from pydantic.fields import FieldInfo
 
-# tables whose keys depend on one of them
-_TAGS = {("tether", "tension"): "law", ("current",): "law", ("end", "motion"): "law"}
 _BARE_KEY = re.compile(r"^[A-Za-z0-9_-]+$")
 _NUMBER_TEXT = re.compile(r"^\s*([-+]?\d+)(?:[.,](\d+))?(?:e([-+]?\d+))?\s*(\w*)\s*$")
 FLAT, SOLID = "nested to depth 3", "nested to depth 4"  # kinds of a block of numbers, as pydantic names them
@@ -77,14 +77,16 @@ def section_models(annotation: object) -> list[type[BaseModel]]:
     return [model for part in get_args(annotation) for model in section_models(part)]
 
 
-def known_keys(model: type[BaseModel], prefix: str = "") -> list[str]:
-    """Every dotted key a scene may have, sections included."""
-    keys: list[str] = []
+@cache
+def known_fields(model: type[BaseModel]) -> dict[str, FieldInfo]:
+    """Every dotted key a scene may have, sections included, with its declaration: of several the one with a meaning."""
+    found: dict[str, FieldInfo] = {}
     for name, field in model.model_fields.items():
-        keys.append(prefix + name)
-        for inner in section_models(field.annotation):
-            keys += [key for key in known_keys(inner, f"{prefix}{name}.") if key not in keys]
-    return keys
+        below = [known_fields(inner).items() for inner in section_models(field.annotation)]
+        for key, declared in [(name, field), *((f"{name}.{key}", inner) for part in below for key, inner in part)]:
+            if key not in found or not found[key].description:
+                found[key] = declared
+    return found
 
 
 def suggestion(key: str, keys: list[str]) -> str:
@@ -98,7 +100,7 @@ def suggestion(key: str, keys: list[str]) -> str:
 
 def unknown_key(key: str, given: object, scene_model: type[BaseModel]) -> str:
     """The fault line of a key that no scene has."""
-    keys = known_keys(scene_model)
+    keys = list(known_fields(scene_model))
     section = key.rpartition(".")[0]
     beside = [known.rpartition(".")[2] for known in keys if known.rpartition(".")[0] == section]
     where = f"allowed in {section}" if section else "allowed"
@@ -125,39 +127,26 @@ def allowed_text(annotation: object, metadata: list[object] | tuple[object, ...]
     return None
 
 
-def _tag_choices(model: type[BaseModel], path: tuple[str, ...]) -> list[str]:
-    models = [model]
-    for part in path:
-        models = [found for owner in models for found in section_models(owner.model_fields[part].annotation)]
-    return [get_args(found.model_fields[_TAGS[path]].annotation)[0] for found in models]
+def law_names(models: list[type[BaseModel]]) -> list[str]:
+    """The names of laws, each of which is one model of a table."""
+    return [get_args(model.model_fields["law"].annotation)[0] for model in models]
 
 
-def _has_tag(model: type[BaseModel], tag: str) -> bool:
-    return any(get_args(model.model_fields[name].annotation) == (tag,) for name in _TAGS.values())
+def _placed(location: tuple[str | int, ...], model: type[BaseModel]) -> tuple:
+    """Where a fault is: the user's location, the models of that table, the law that they are of, what is allowed there.
 
-
-def _field_text(model: type[BaseModel], location: tuple[str | int, ...], tag: str | None) -> str | None:
-    models, text = [model], None
-    for depth, part in enumerate(location):
-        if isinstance(part, int):  # a table inside a list has its own words, a number those of the whole list
-            continue
-        if tag is not None and location[:depth] in _TAGS:
-            models = [owner for owner in models if _has_tag(owner, tag)]
-        fields = [owner.model_fields[part] for owner in models if part in owner.model_fields]
-        if not fields:  # an index inside a list: the whole list is described
-            break
-        text = allowed_text(fields[0].annotation, fields[0].metadata)
-        models = section_models(fields[0].annotation)
-    return text
-
-
-def _untagged(location: tuple[str | int, ...]) -> tuple[tuple[str | int, ...], str | None]:
-    # pydantic puts the tag of a discriminated union into the location; the user's key has none
-    location = tuple(part for part in location if part not in (FLAT, SOLID))
-    for path in _TAGS:
-        if location[: len(path)] == path and len(location) > len(path):
-            return (*path, *location[len(path) + 1 :]), str(location[len(path)])
-    return location, None
+    location: pydantic's, into which it puts the law of a table, and how deep a block is nested.
+    """
+    models, place, law, text = [model], [], None, None
+    for part in location:
+        if len(models) > 1:
+            law, models = part, [found for found in models if law_names([found]) == [part]]
+        elif part not in (FLAT, SOLID):
+            place.append(part)
+            if models and part in models[0].model_fields:  # a number in a list is described with the whole list
+                field = models[0].model_fields[part]
+                text, models = allowed_text(field.annotation, field.metadata), section_models(field.annotation)
+    return tuple(place), models, law, text
 
 
 def _inside(other: dict, item: dict) -> bool:
@@ -173,25 +162,22 @@ def field_faults(error: ValidationError, scene_model: type[BaseModel]) -> tuple[
     bad: set[tuple[str | int, ...]] = set()
     items = error.errors(include_url=False)
     for item in items:
-        location, tag = _untagged(tuple(item["loc"]))
-        kind = item["type"]
+        kind, given = item["type"], item["input"]
         if kind in ("scene_consistency", "default_factory_not_called"):
             continue  # the first is found again by cross_faults; the second only follows from another fault
         if kind == "too_short" and any(_inside(other, item) for other in items):
             continue  # pydantic counts sound elements only: the faulty ones are reported themselves
+        place, models, law, text = _placed(item["loc"], scene_model)
+        bad.add(place)
+        allowed = text or item["msg"]
         if kind in ("union_tag_invalid", "union_tag_not_found"):
-            path = tuple(part for part in location if isinstance(part, str))
-            location = (*location, _TAGS[path])
-            allowed = "one of " + ", ".join(repr(choice) for choice in _tag_choices(scene_model, path))
-            given = item["input"].get(_TAGS[path]) if isinstance(item["input"], dict) else item["input"]
-        else:
-            allowed, given = _field_text(scene_model, location, tag) or item["msg"], item["input"]
-        short = kind == "missing" and isinstance(location[-1], int)  # a list of too few: shown as a whole, once
-        location = location[:-1] if short else location
-        bad.add(location)
-        key = dotted(location)
-        if kind == "extra_forbidden" and tag is not None:
-            lines.append(f"{key}: given {shown(given)}, which law = {tag!r} does not have")
+            place = (*place, "law")
+            allowed = "one of " + ", ".join(repr(name) for name in law_names(models))
+            given = given.get("law") if isinstance(given, dict) else given
+        short = kind == "missing" and isinstance(place[-1], int)  # a list of too few: shown as a whole, once
+        key = dotted(place[:-1] if short else place)
+        if kind == "extra_forbidden" and law is not None:
+            lines.append(f"{key}: given {shown(given)}, which law = {law!r} does not have")
         elif kind == "extra_forbidden":
             lines.append(unknown_key(key, given, scene_model))
         elif kind in ("missing", "union_tag_not_found") and not short:

@@ -12,14 +12,13 @@ import tomllib
 from collections.abc import Mapping
 from pathlib import Path
 
-from engine.scene.faults import SceneError, known_keys, shown, unknown_key
+from engine.scene.faults import SceneError, known_fields, shown, unknown_key
 from engine.scene.models import Scene, build_scene
+from engine.scene.rules import HEIGHTS
 
 __all__ = ["Scene", "SceneError", "build_scene", "known_scenes", "load_scene", "parse_assignment", "scene_from_toml"]
 
 _SHIPPED = Path(__file__).parents[1] / "scenes"
-# What says how high the waves are: one of these, so that giving one drops another that was inherited.
-_HEIGHTS = ("waves.steepness", "waves.amplitude_m", "waves.components", "waves.jonswap")
 
 
 def known_scenes() -> list[str]:
@@ -87,25 +86,21 @@ def parse_assignment(text: str) -> tuple[str, object]:
 
 
 def _text_of(name_or_path: str | Path) -> str:
-    names = known_scenes()
-    path = _SHIPPED / f"{name_or_path}.toml" if name_or_path in names else Path(name_or_path)
+    names, given = known_scenes(), str(name_or_path)
+    path = _SHIPPED / f"{given}.toml" if given in names else Path(given)
+    allowed = f"allowed: a scene file, or one of {', '.join(names)}"
     try:
-        return path.read_bytes().decode("utf-8-sig").replace("\r\n", "\n").replace("\r", "\n")
+        return path.read_text(encoding="utf-8-sig")
     except IsADirectoryError:
-        raise SceneError(f"{str(name_or_path)!r} is a folder; allowed: a scene file, or {_shipped(names)}") from None
+        fault = f"{given!r} is a folder; {allowed}"
     except UnicodeDecodeError:
-        raise SceneError(f"{str(name_or_path)!r} is not text in UTF-8; allowed: a TOML file, saved as UTF-8") from None
+        fault = f"{given!r} is not text in UTF-8; allowed: a TOML file, saved as UTF-8"
     except FileNotFoundError:
-        close = difflib.get_close_matches(str(name_or_path), names, n=1)
-        hint = f"; did you mean {close[0]!r}?" if close else ""
-        allowed = f"allowed: a scene file, or {_shipped(names)}"
-        raise SceneError(f"there is no scene and no file {str(name_or_path)!r}{hint}; {allowed}") from None
+        close = difflib.get_close_matches(given, names, n=1)
+        fault = f"there is no scene and no file {given!r}{f'; did you mean {close[0]!r}?' if close else ''}; {allowed}"
     except (OSError, ValueError) as error:
-        raise SceneError(f"{str(name_or_path)!r} cannot be read: {error}") from None
-
-
-def _shipped(names: list[str]) -> str:
-    return f"one of {', '.join(names)}"
+        fault = f"{given!r} cannot be read: {error}"
+    raise SceneError(fault)
 
 
 def _plain(value: object) -> object:
@@ -119,35 +114,29 @@ def _plain(value: object) -> object:
 
 def _overridden(raw: dict[str, object], overrides: Mapping[str, object]) -> tuple[dict[str, object], tuple[str, ...]]:
     raw, faults = copy.deepcopy(raw), []
-    known = set(known_keys(Scene))
+    named = {height: [key for key in overrides if f"{key}.".startswith(f"waves.{height}.")] for height in HEIGHTS}
+    if isinstance(raw.get("waves"), dict) and any(
+        overrides[key] is not None for keys in named.values() for key in keys
+    ):
+        raw["waves"] = {name: value for name, value in raw["waves"].items() if named.get(name, True)}
     for key, value in overrides.items():
-        parts = key.split(".") if isinstance(key, str) else [""]
-        if not all(parts):
+        *above, last = key.split(".") if isinstance(key, str) else [""]
+        if not all((*above, last)):
             faults.append(f"{key!r}: not a key; allowed: names joined by dots, for instance water.depth_m")
             continue
-        if key not in known:
+        if key not in known_fields(Scene):
             faults.append(unknown_key(key, value, Scene))
             continue
         table = raw
-        for part in parts[:-1]:
-            if table.get(part) is None and value is not None:
-                table[part] = {}
-            table = table.get(part)
-            if not isinstance(table, dict):
-                break
-        if not isinstance(table, dict):
-            if value is not None:
-                # Without the value: a sweep gives many, and the fault is one.
-                faults.append(f"{key}: cannot be set, because {'.'.join(parts[:-1])} is not a table")
-        elif value is None:
-            table.pop(parts[-1], None)
-        else:
-            table[parts[-1]] = _plain(value)
-        waves = raw.get("waves")
-        if not isinstance(waves, dict) or value is None:
-            continue
-        if height := next((h for h in _HEIGHTS if f"{key}.".startswith(f"{h}.")), None):
-            for other in _HEIGHTS:
-                if other != height and not any(f"{given}.".startswith(f"{other}.") for given in overrides):
-                    waves.pop(other.rpartition(".")[2], None)
+        for part in above:
+            if isinstance(table, dict):
+                if table.get(part) is None and value is not None:
+                    table[part] = {}
+                table = table.get(part)
+        if isinstance(table, dict) and value is None:
+            table.pop(last, None)
+        elif isinstance(table, dict):
+            table[last] = _plain(value)
+        elif value is not None:  # the fault is without the value: a sweep gives many, and the fault is one
+            faults.append(f"{key}: cannot be set, because {'.'.join(above)} is not a table")
     return raw, tuple(faults)

@@ -13,10 +13,9 @@ from dataclasses import dataclass
 from functools import cache
 from typing import Annotated, Literal, get_args, get_origin
 
-from pydantic import BaseModel
-from pydantic_core import PydanticUndefined
+from pydantic.fields import FieldInfo
 
-from engine.scene.faults import allowed_text, section_models, shown
+from engine.scene.faults import allowed_text, known_fields, law_names, section_models, shown
 from engine.scene.load import shipped_text
 from engine.scene.models import Scene
 
@@ -77,7 +76,8 @@ class Key:
 @cache
 def keys() -> dict[str, Key]:
     """Every key of a scene by its dotted name, in the order of the models."""
-    return {name: _key(name, field) for name, field in _declared(Scene)}
+    fields = known_fields(Scene)
+    return {name: _key(name, field, fields) for name, field in fields.items() if field.description}
 
 
 @cache
@@ -114,81 +114,42 @@ def page() -> str:
     return "\n".join(parts)
 
 
-def _declared(model: type[BaseModel], prefix: str = "") -> list[tuple[str, object]]:
-    """(key, field) of every declared key, each once; a section without a declaration of its own is entered only."""
-    found: dict[str, object] = {}
-    for name, field in model.model_fields.items():
-        if field.description:
-            found.setdefault(prefix + name, field)
-        for part in section_models(field.annotation):
-            for key, below in _declared(part, f"{prefix}{name}."):
-                found.setdefault(key, below)
-    return list(found.items())
-
-
-def _key(name: str, field) -> Key:
-    kind, told = _kind(field), field.json_schema_extra
-    number = "1" if "number" in kind or kind == "list" else ""
+def _key(name: str, field: FieldInfo, fields: dict[str, FieldInfo]) -> Key:
+    bare, models = _bare(field.annotation), section_models(field.annotation)
+    choices = get_args(bare) if get_origin(bare) is Literal else []
+    if name.endswith(".law"):  # one model for each law; the key is the same in all of them
+        choices = law_names(section_models(fields[name.rpartition(".")[0]].annotation))
+    kind = "table" if models else KINDS[type(choices[0]) if choices else tuple if "tuple" in str(bare) else bare]
     suffix = re.search(f"_({'|'.join(UNITS)})$", name)
-    unit = UNITS[suffix[1]] if suffix else number
+    unit = UNITS[suffix[1]] if suffix else "1" if "number" in kind or kind == "list" else ""
+    allowed = ", ".join(f"`{choice}`" for choice in choices) or allowed_text(field.annotation, field.metadata) or ""
+    told = field.json_schema_extra
     return Key(
-        name, kind, unit, _default(field), _allowed(name, field), field.description, told["symbol"], told["paper"]
+        name=name,
+        kind=kind,
+        unit=unit,
+        default=_default(field),
+        allowed="one of the laws below" if len(models) > 1 else allowed,
+        meaning=field.description,
+        symbol=told["symbol"],
+        paper=told["paper"],
     )
 
 
 def _bare(annotation):
     """The annotation without Annotated and without None."""
-    while get_origin(annotation) is Annotated:
-        annotation = get_args(annotation)[0]
     parts = [part for part in get_args(annotation) if part is not type(None)]
-    if type(None) in get_args(annotation) and len(parts) == 1:
-        return _bare(parts[0])
-    return annotation
+    alone = get_origin(annotation) is Annotated or (type(None) in get_args(annotation) and len(parts) == 1)
+    return _bare(parts[0]) if alone else annotation
 
 
-def _kind(field) -> str:
-    bare = _bare(field.annotation)
-    if section_models(bare):
-        return "table"
-    if get_origin(bare) is Literal:
-        return KINDS[type(get_args(bare)[0])]
-    if get_origin(bare) is tuple or "tuple" in str(bare):
-        return "list"
-    return KINDS[bare]
-
-
-def _default(field) -> str:
-    if field.is_required():
-        return "needed"
-    if field.default is None or field.default is PydanticUndefined:
-        return "none" if field.default is None else "derived"
-    if isinstance(field.default, tuple):
-        return f"`{list(field.default)}`"
-    return f"`{shown(field.default)}`"
-
-
-def _allowed(key: str, field) -> str:
-    if key.endswith(".law"):  # one model for each law; the key is the same in all of them
-        owner = Scene
-        for part in key.split(".")[:-1]:
-            models = section_models(owner.model_fields[part].annotation)
-            owner = models[0]
-        return ", ".join(f"`{get_args(model.model_fields['law'].annotation)[0]}`" for model in models)
-    bare = _bare(field.annotation)
-    if get_origin(bare) is Literal:
-        return ", ".join(f"`{value}`" for value in get_args(bare))
-    models = section_models(field.annotation)
-    if len(models) > 1:
-        return "one of the laws below"
-    text = allowed_text(field.annotation, field.metadata) or ""
-    return re.sub(r"^one of ", "", text)
-
-
-def main() -> int:
-    """Print the page."""
-    sys.stdout.write(page())
-    return 0
+def _default(field: FieldInfo) -> str:
+    if field.is_required() or field.default_factory is not None:
+        return "needed" if field.is_required() else "derived"
+    if field.default is None:
+        return "none"
+    return f"`{shown(list(field.default) if isinstance(field.default, tuple) else field.default)}`"
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.stdout.write(page())

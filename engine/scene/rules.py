@@ -1,239 +1,250 @@
-"""Rules between the values of a scene: what one value allows another to be. (Of the two ends: `end_rules`.)"""
+"""Rules between the values of a scene: what one value allows another to be.
+
+Rules read plain data and leave out the values that are faulty in themselves: a model validator would be skipped as soon
+as one field fails, and the user would see the faults one after the other.
+"""
 
 import math
 from collections.abc import Iterator
 
+from pydantic import BaseModel
+
 from engine.physics.tension import LAWS, NAMES
-from engine.scene.end_rules import clamp_faults, end_faults, motion_faults
 from engine.scene.faults import fault, shown
-from engine.scene.lookup import FAULTY, Sound, not_increasing
+from engine.scene.lookup import FAULTY, Sound
 
-_HEIGHTS = ("steepness", "amplitude_m", "components", "jonswap")
+Facts = Iterator[tuple[object, str, str]]  # whether a rule is broken, the key that breaks it, what it allows there
+HEIGHTS = ("steepness", "amplitude_m", "components", "jonswap")  # of the waves: a scene has one of these
+_VECTORS = (
+    "start.buoy_velocity_mps",
+    "end.position_m",
+    "end.force_N",
+    "current.velocity_mps",
+    "end.motion.amplitude_m",
+    "end.motion.displacement_m",
+)
+_OWNERS = {"position_m": "held", "motion": "held", "release_s": "held", "force_N": "free", "force_decay_s": "free"}
+_PLANE = "in a plane (motion.dimensions = 2)"
+_ALONG = f"0 or pi {_PLANE}"
+_BENDING = "tether.bending_stiffness_Nm2"
 
 
-def cross_faults(raw: dict[str, object], bad: set[tuple[str | int, ...]]) -> list[str]:
+def cross_faults(raw: dict[str, object], bad: set[tuple[str | int, ...]], model: type[BaseModel]) -> list[str]:
     """Every fault between values, one line each.
 
     raw: the scene as nested dicts (TOML or model_dump). bad: locations of values that are faulty in themselves; a rule
-    that needs one of them is not applied.
+    that needs one of them is not applied. model: of a scene, for the defaults.
     """
     if not isinstance(raw, dict):
         return []
-    sound = Sound(raw, bad)
-    rules = (_tension, end_faults, motion_faults, clamp_faults, _waves, _current, _plane, _solver, _output)
-    return [line for rule in rules for line in rule(sound)]
+    sound = Sound(raw, bad, model)
+    rules = (_water, _sea, _ends, _clamps, _solver, _cap, _output)
+    lines = [sound.fault(key, allowed) for rule in rules for broken, key, allowed in rule(sound) if broken]
+    return lines + [line for rule in (_tension, _heights, _current, _moved_end, _plane) for line in rule(sound)]
 
 
-def _tension(sound: Sound) -> Iterator[str]:
-    law = sound.value("tether.tension.law")
-    if law in NAMES:
-        yield from LAWS[NAMES.index(law)].faults(sound)
+def _water(sound: Sound) -> Facts:
+    dry, waves = sound["water"] is None, sound["waves"] is not None
+    yield dry and waves, "water", "a table, because waves are given"
+    yield dry and sound["current"] is not None, "water", "a table, because a current is given"
+    yield waves and sound["gravity_mps2"] == 0, "gravity_mps2", "above 0, because waves are given"
+    depth = sound["water.depth_m"] or math.inf
+    for key in ("waves.amplitude_m", "waves.jonswap.significant_height_m"):
+        yield (sound[key] or 0) >= depth, key, f"less than water.depth_m, {shown(depth)}"
+    yield sound["motion.dimensions"] == 2 and _aslant(sound["waves.direction_rad"]), "waves.direction_rad", _ALONG
 
 
-def _waves(sound: Sound) -> Iterator[str]:
-    if not sound.has("waves"):
+def _aslant(angle: float) -> bool:
+    """Does a wave in this direction leave the plane?"""
+    return bool(angle) and min(abs(angle), abs(abs(angle) - math.pi)) > 1e-9
+
+
+def _sea(sound: Sound) -> Facts:
+    """What an irregular sea takes the place of."""
+    listed, drawn = (sound[f"waves.{key}"] is not None for key in ("components", "jonswap"))
+    own = "each component has its own" if listed else "waves.jonswap draws those of its components"
+    yield (listed or drawn) and sound["waves.phase_rad"], "waves.phase_rad", f"0: {own}"
+    yield listed and sound["waves.direction_rad"], "waves.direction_rad", f"0: {own}"
+    cap = sound["buoy.submergence"] == "spherical-cap"
+    yield (listed or drawn) and cap, "buoy.submergence", "'full' in irregular waves"
+
+
+def _heights(sound: Sound) -> Iterator[str]:
+    waves = sound.raw.get("waves")
+    if not isinstance(waves, dict):
         return
-    if not sound.has("water"):
-        yield "water: missing; allowed: a table, because waves are given"
-    gravity = sound.values("gravity_mps2")
-    if gravity and gravity[0] == 0:
-        yield fault("gravity_mps2", gravity[0], "above 0, because waves are given")
-    if not isinstance(sound.raw["waves"], dict):
-        return
-    given = {name: value for name in _HEIGHTS if (value := sound.raw["waves"].get(name)) is not None}
+    given = {name: waves[name] for name in HEIGHTS if waves.get(name) is not None}
     if not given:
-        yield "waves.steepness: missing; allowed: exactly one of " + ", ".join(f"waves.{name}" for name in _HEIGHTS)
+        yield "waves.steepness: missing; allowed: exactly one of " + ", ".join(f"waves.{name}" for name in HEIGHTS)
     if len(given) > 1:
         several = " and ".join(f"waves.{name} = {shown(value)}" for name, value in given.items())
         yield f"waves: given {several}; allowed: exactly one of them"
-    for key in ("waves.amplitude_m", "waves.jonswap.significant_height_m"):
-        found = sound.values(key, "water.depth_m")
-        if found and found[0] >= found[1]:
-            yield fault(key, found[0], f"less than water.depth_m, {shown(found[1])}")
-    if "components" in given or "jonswap" in given:
-        yield from _sea(sound, "components" in given)
-
-
-def _sea(sound: Sound, listed: bool) -> Iterator[str]:
-    """What an irregular sea takes the place of."""
-    phase, angle = sound.value("waves.phase_rad"), sound.value("waves.direction_rad")
-    if phase not in (None, FAULTY, 0):
-        where = "each component has its own" if listed else "waves.jonswap draws those of its components"
-        yield fault("waves.phase_rad", phase, f"0: {where}")
-    if listed and angle not in (None, FAULTY, 0):
-        yield fault("waves.direction_rad", angle, "0: each component has its own")
-    if sound.value("buoy.submergence") not in (None, FAULTY, "full"):
-        allowed = "'full' in irregular waves"
-        yield fault("buoy.submergence", sound.value("buoy.submergence"), allowed)
-    if not listed or not (found := sound.values("waves.components", "water.depth_m")):
-        return
-    if (total := sum(one["amplitude_m"] for one in found[0])) >= found[1]:
-        allowed = f"less than water.depth_m, {shown(found[1])}"
-        yield f"waves.components: given amplitudes of {total:.6g} m in all; allowed: {allowed}"
-    if sound.value("motion.dimensions") in (None, 2):
-        for index, one in enumerate(found[0]):
-            heading = one.get("direction_rad", 0.0)
-            if min(abs(heading), abs(abs(heading) - math.pi)) > 1e-9:
-                key = f"waves.components[{index}].direction_rad"
-                yield fault(key, heading, "0 or pi in a plane (motion.dimensions = 2)")
+    listed, depth = sound["waves.components"] or (), sound["water.depth_m"] or math.inf
+    if (total := sum(one["amplitude_m"] for one in listed)) >= depth:
+        yield f"waves.components: given amplitudes of {total:.6g} m in all; allowed: less than water.depth_m, {depth}"
+    for index, one in enumerate(listed if sound["motion.dimensions"] == 2 else ()):
+        if _aslant(one.get("direction_rad")):
+            yield fault(f"waves.components[{index}].direction_rad", one["direction_rad"], _ALONG)
 
 
 def _current(sound: Sound) -> Iterator[str]:
-    if not sound.has("current"):
+    for axis in ("time_s", "height_m", "y_m", "x_m"):
+        yield from sound.increasing(f"current.{axis}")
+    if sound["current.law"] == "profile":
+        yield from sound.paired("current.velocity_mps", "current.height_m")
+    if sound["current.law"] != "table":
         return
-    if not sound.has("water"):
-        yield "water: missing; allowed: a table, because a current is given"
-    law = sound.value("current.law")
-    for axis in ("time_s", "height_m", "y_m", "x_m") if law in ("profile", "table") else ():
-        if found := sound.values(f"current.{axis}"):
-            yield from not_increasing(f"current.{axis}", found[0])
-    if law == "profile" and (found := sound.values("current.height_m", "current.velocity_mps")):
-        heights, velocities = found
-        if len(heights) != len(velocities):
-            yield f"current.velocity_mps: given {len(velocities)} vectors; allowed: one for each height, {len(heights)}"
-    if law == "table":
-        yield from _current_table(sound)
-
-
-def _current_table(sound: Sound) -> Iterator[str]:
     axes = {"times": "time_s", "heights": "height_m", "places along y": "y_m", "places along x": "x_m"}
-    if sound.value("current.y_m") is None:
+    if sound["current.y_m"] is None:
         del axes["places along y"]
-    found = sound.values(*(f"current.{axis}" for axis in axes.values()))
-    if found is None:
-        return
-    sizes = {word: len(axis) for word, axis in zip(axes, found, strict=True)}
+    sizes = {word: len(sound[f"current.{axis}"] or ()) for word, axis in axes.items()}
     allowed = "allowed: " + " x ".join(f"{size} {word}" for word, size in sizes.items())
-    for component in "xyz":
-        key = f"current.velocity_{component}_mps"
-        if block := sound.values(key):
-            wrong = _wrong_size(block[0], list(sizes.items()))
-            if wrong is not None:
-                yield f"{key}{wrong}; {allowed}"
+    for key in (f"current.velocity_{component}_mps" for component in "xyz"):
+        if all(sizes.values()) and sound[key] and (wrong := _wrong_size(sound[key], list(sizes.items()))):
+            yield f"{key}{wrong}; {allowed}"
 
 
-def _wrong_size(block: object, sizes: list[tuple[str, int]]) -> str | None:
-    """Where nested lists are not of the given sizes, and what is there; None where they are."""
+def _wrong_size(block: object, sizes: list[tuple[str, int]]) -> str:
+    """Where nested lists are not of the given sizes, and what is there; empty where they are."""
     if not isinstance(block, (list, tuple)):
-        return f": given {shown(block)} in place of {sizes[0][0]}" if sizes else None
+        return f": given {shown(block)} in place of {sizes[0][0]}" if sizes else ""
     if not sizes:
         return f": given a list of {len(block)} in place of a number"
     word, size = sizes[0]
     if len(block) != size:
         return f": given {len(block)} {word}"
-    for index, part in enumerate(block):
-        wrong = _wrong_size(part, sizes[1:])
-        if wrong is not None:
-            return f"[{index}]{wrong}"
-    return None
+    wrong = ((index, _wrong_size(part, sizes[1:])) for index, part in enumerate(block))
+    return next((f"[{index}]{text}" for index, text in wrong if text), "")
+
+
+def _tension(sound: Sound) -> Iterator[str]:
+    law = sound["tether.tension.law"]
+    return LAWS[NAMES.index(law)].faults(sound) if law in NAMES else iter(())
+
+
+def _ends(sound: Sound) -> Facts:
+    """What each kind of upper end needs, and what only one of them may have."""
+    kind = sound["end.kind"]
+    if kind is FAULTY:
+        return
+    because = f"because end.kind is {kind!r}"
+    yield kind == "buoy" and sound["buoy"] is None, "buoy", f"a table, {because}"
+    yield kind != "buoy" and sound["buoy"] is not None, "buoy", f"none, {because} and not 'buoy'"
+    for key, owner in _OWNERS.items():
+        value, needed = sound[f"end.{key}"], key in ("position_m", "force_N")
+        yield needed and kind == owner and value is None, f"end.{key}", f"a vector [x, y, z], {because}"
+        only = f"only with end.kind = {owner!r}, and it is {kind!r}"
+        yield value and kind != owner and (key, kind) != ("force_N", "held"), f"end.{key}", only
+    force, let_go = sound["end.force_N"], kind == "held" and sound["end.release_s"] is not None
+    allowed = "on a free end, or on a held one that is released, and end.release_s is missing"
+    yield force and kind == "held" and not let_go, "end.force_N", allowed
+    loose = let_go or (kind == "free" and force is not None)
+    pulled = force is FAULTY or any(force or ())
+    allowed = "above 0, because nothing else gives a direction to a free end without a force"
+    yield loose and not pulled and sound[_BENDING] == 0, _BENDING, allowed
+    pushed = any(sound["start.buoy_velocity_mps"] or ())
+    yield kind != "buoy" and pushed, "start.buoy_velocity_mps", f"zero, {because}"
+
+
+def _moved_end(sound: Sound) -> Iterator[str]:
+    """A tabulated motion of a held end: increasing times, a displacement for each, from its place."""
+    if sound["end.motion.law"] != "table":
+        return
+    times, displacements = "end.motion.time_s", "end.motion.displacement_m"
+    yield from sound.increasing(times)
+    yield from sound.paired(displacements, times)
+    first, start = sound[times] or (0,), sound[displacements] or ((0, 0, 0),)
+    if first[0] < 0:
+        yield fault(f"{times}[0]", first[0], "0 or above: the run starts at 0")
+    if any(start[0]):
+        yield fault(f"{displacements}[0]", start[0], "[0, 0, 0], because the motion starts from end.position_m")
+
+
+def _clamps(sound: Sound) -> Facts:
+    """Clamps and twist: three dimensions only, and only where something resists them."""
+    plane, kind, box = sound["motion.dimensions"] == 2, sound["end.kind"], sound["solver.scheme"] == "paper-box"
+    twist, ramp = sound["end.twist_rad"], sound["end.twist_ramp_s"]
+    rotations = {section: sound[f"{section}.rotation"] for section in ("anchor", "end")}
+    for section, rotation in rotations.items():
+        key, clamped, direction = f"{section}.rotation", rotation == "clamped", sound[f"{section}.direction"]
+        yield clamped and plane, key, f"'pinned' {_PLANE}"
+        yield clamped and box, key, "'pinned', because solver.scheme is 'paper-box'"
+        yield clamped and sound[_BENDING] == 0, _BENDING, f"above 0, because {key} is 'clamped'"
+        allowed = f"only with {key} = 'clamped', and it is 'pinned'"
+        yield direction and rotation == "pinned", f"{section}.direction", allowed
+        yield direction and clamped and not any(direction), f"{section}.direction", "a vector that is not zero"
+    clamped = rotations["end"] == "clamped"
+    yield clamped and kind in ("buoy", "free"), "end.rotation", f"'pinned', because end.kind is {kind!r}"
+    both, torsion = clamped and rotations["anchor"] == "clamped", "tether.torsion_stiffness_Nm2"
+    yield both and sound[torsion] == 0, torsion, "above 0, because both ends are clamped"
+    yield plane and twist, "end.twist_rad", f"0 {_PLANE}"
+    yield plane and ramp, "end.twist_ramp_s", f"0 {_PLANE}"
+    allowed = "0, or anchor.rotation and end.rotation = 'clamped'"
+    yield twist and "pinned" in rotations.values(), "end.twist_rad", allowed
+    yield ramp and twist in (None, 0), "end.twist_ramp_s", "0, because end.twist_rad is 0"
 
 
 def _plane(sound: Sound) -> Iterator[str]:
-    dimensions = sound.value("motion.dimensions")
-    if dimensions not in (None, 2):
+    """Vectors [x, y, z], alone or in a list, and currents have no y in a plane."""
+    if sound["motion.dimensions"] != 2:
         return
-    for key, vector in _vectors(sound):
-        if vector[1] != 0:
-            yield fault(key, list(vector), "y = 0 in a plane (motion.dimensions = 2)")
-    for key in ("current.y_m", "current.velocity_y_mps") if sound.value("current.law") == "table" else ():
-        value = sound.value(key)
-        if value not in (None, FAULTY):
-            given = f"given {shown(value)}, but motion.dimensions is 2"
-            yield f"{key}: {given}; allowed: only with motion.dimensions = 3"
-    if found := sound.values("waves.direction_rad"):
-        if min(abs(found[0]), abs(abs(found[0]) - math.pi)) > 1e-9:
-            yield fault("waves.direction_rad", found[0], "0 or pi in a plane (motion.dimensions = 2)")
+    for key in _VECTORS:
+        value = sound[key] or ()
+        listed = bool(value) and isinstance(value[0], (list, tuple))
+        places = [(f"{key}[{index}]", vector) for index, vector in enumerate(value)] if listed else [(key, value)]
+        for place, vector in places:
+            if any(vector[1:2]):
+                yield fault(place, list(vector), f"y = 0 {_PLANE}")
+    for key in ("current.y_m", "current.velocity_y_mps"):
+        if sound[key]:
+            yield sound.fault(key, "only with motion.dimensions = 3, and it is 2")
 
 
-def _vectors(sound: Sound) -> Iterator[tuple[str, tuple[float, float, float]]]:
-    """Every vector [x, y, z] that has no y in a plane, with its key."""
-    single, listed = ["start.buoy_velocity_mps", "end.position_m", "end.force_N"], []
-    # keys that depend on a law are checked by themselves under that law only
-    for table, law, key, keys in (
-        ("current", "uniform", "velocity_mps", single),
-        ("current", "profile", "velocity_mps", listed),
-        ("end.motion", "harmonic", "amplitude_m", single),
-        ("end.motion", "table", "displacement_m", listed),
-    ):
-        if sound.value(f"{table}.law") == law:
-            keys.append(f"{table}.{key}")
-    for key in single:
-        if found := sound.values(key):
-            yield key, found[0]
-    for key in listed:
-        if found := sound.values(key):
-            yield from ((f"{key}[{index}]", vector) for index, vector in enumerate(found[0]))
+def _solver(sound: Sound) -> Facts:
+    courant, step, integrator = (sound[f"solver.{key}"] for key in ("courant", "step_s", "integrator"))
+    yield courant and step, "solver.courant", "only without solver.step_s, which fixes the step as well"
+    rule = f"only with a method of fixed steps, and solver.integrator is {integrator!r}"
+    yield courant and integrator in ("esdirk43", "trbdf2"), "solver.courant", rule
+    refined = sound["tether.grid_refined"] in ("lower", "upper")
+    even = "'both', because tether.grid_stretching is 0: nothing is refined"
+    yield refined and not sound["tether.grid_stretching"], "tether.grid_refined", even
+    longest = sound["solver.max_step_s"] or math.inf
+    yield (sound["solver.min_step_s"] or 0) > longest, "solver.min_step_s", f"at most solver.max_step_s, {longest}"
+    rule = "above 0, because solver.scheme is 'paper-box' and eq. (40) divides by EI"
+    yield sound["solver.scheme"] == "paper-box" and sound[_BENDING] == 0, _BENDING, rule
 
 
-def _solver(sound: Sound) -> Iterator[str]:
-    courant, step = sound.values("solver.courant"), sound.values("solver.step_s")
-    if courant and step:
-        yield fault("solver.courant", courant[0], "only without solver.step_s, which fixes the step as well")
-    integrator = sound.value("solver.integrator") or "esdirk43"
-    if courant and integrator in ("esdirk43", "trbdf2"):
-        rule = f"only with a method of fixed steps, and solver.integrator is {integrator!r}"
-        yield fault("solver.courant", courant[0], rule)
-    refined = sound.value("tether.grid_refined")
-    if refined in ("lower", "upper") and not sound.value("tether.grid_stretching"):
-        yield fault("tether.grid_refined", refined, "'both', because tether.grid_stretching is 0: nothing is refined")
-    if (found := sound.values("solver.min_step_s", "solver.max_step_s")) and found[0] > found[1]:
-        yield fault("solver.min_step_s", found[0], f"at most solver.max_step_s, {shown(found[1])}")
-    stiffness = sound.values("tether.bending_stiffness_Nm2")
-    if sound.value("solver.scheme") == "paper-box" and stiffness and stiffness[0] == 0:
-        rule = "above 0, because solver.scheme is 'paper-box' and eq. (40) divides by EI"
-        yield fault("tether.bending_stiffness_Nm2", stiffness[0], rule)
-    if sound.value("buoy.submergence") == "spherical-cap":
-        if sound.value("solver.scheme") == "paper-box":
-            rule = "'full', because solver.scheme is 'paper-box': eq. (30) as printed has the whole sphere in the water"
-            yield fault("buoy.submergence", "spherical-cap", rule)
-        if not sound.has("water"):
-            yield fault("buoy.submergence", "spherical-cap", "'full', because there is no water")
-    elif sound.value("buoy.impact_loss") not in (None, FAULTY, 0):
-        rule = "0, because buoy.submergence is not 'spherical-cap': the whole sphere is always in the water"
-        yield fault("buoy.impact_loss", sound.value("buoy.impact_loss"), rule)
+def _cap(sound: Sound) -> Facts:
+    """What a buoy that is partly in the water needs."""
+    key, cap = "buoy.submergence", sound["buoy.submergence"] == "spherical-cap"
+    rule = "'full', because solver.scheme is 'paper-box': eq. (30) as printed has the whole sphere in the water"
+    yield cap and sound["solver.scheme"] == "paper-box", key, rule
+    yield cap and sound["water"] is None, key, "'full', because there is no water"
+    rule = "0, because buoy.submergence is not 'spherical-cap': the whole sphere is always in the water"
+    yield not cap and sound["buoy.impact_loss"], "buoy.impact_loss", rule
 
 
-def _output(sound: Sound) -> Iterator[str]:
-    profiles, step = sound.value("output.profiles"), sound.value("output.profiles_step_s")
-    if profiles in (None, False) and step not in (None, FAULTY):
-        given = f"given {shown(step)}, but output.profiles is false"
-        yield f"output.profiles_step_s: {given}; allowed: only with output.profiles = true"
-    if sound.value("output.energy") is True:
-        yield from _budgeted(sound)
-    vectors, sideways = sound.value("output.tangent_vectors"), sound.value("output.lateral_growth")
-    if vectors not in (None, FAULTY, 0):
-        yield from _perturbed(sound, "output.tangent_vectors", vectors, "0")
-        nodes = sound.values("tether.nodes")
-        if nodes and isinstance(vectors, int) and vectors > 4 * nodes[0]:
-            yield fault("output.tangent_vectors", vectors, f"at most four a node, {4 * nodes[0]}")
-    if sideways is True:
-        yield from _perturbed(sound, "output.lateral_growth", sideways, "false")
-
-
-def _budgeted(sound: Sound) -> Iterator[str]:
-    """What a scene needs for its energy budget."""
-    if sound.value("water") is not None:
-        yield fault("output.energy", True, "false, because the budget knows of no water")
-    integrator = sound.value("solver.integrator") or "esdirk43"
-    if integrator in ("esdirk43", "trbdf2"):
-        yield fault("output.energy", True, f"false, because solver.integrator is {integrator!r}: use one of one stage")
-    if sound.value("solver.scheme") == "paper-box":
-        yield fault("output.energy", True, "false, because solver.scheme is 'paper-box': use 'conservation'")
-
-
-def _perturbed(sound: Sound, key: str, given: object, none: str) -> Iterator[str]:
-    """What a scene needs to carry perturbations along; `none`: the value of `key` that asks for none."""
-    if sound.value("solver.shock_viscosity") is not None:
-        yield fault(key, given, f"{none}, because solver.shock_viscosity is given")
-    found = sound.values("tether.bending_stiffness_Nm2")
-    if found and found[0] == 0:
-        yield fault(key, given, f"{none}, because a slack tether without bending has no tangent map")
-    if sound.value("motion.dimensions") == 3:
-        allowed = f"{none}, because motion.dimensions is 3: perturbations are carried along planar motions only"
-        yield fault(key, given, allowed)
-    if sound.value("solver.scheme") == "paper-box":
-        yield fault(key, given, f"{none}, because solver.scheme is 'paper-box': use 'conservation'")
-    integrator = sound.value("solver.integrator")
-    if integrator in ("midpoint", "generalized-alpha"):
-        because = f"because solver.integrator is {integrator!r}: use esdirk43, trbdf2 or backward-euler"
-        yield fault(key, given, f"{none}, {because}")
+def _output(sound: Sound) -> Facts:
+    box, integrator = sound["solver.scheme"] == "paper-box", sound["solver.integrator"]
+    profiled = "only with output.profiles = true, and it is false"
+    yield sound["output.profiles_step_s"] and sound["output.profiles"] is False, "output.profiles_step_s", profiled
+    because, scheme = f"because solver.integrator is {integrator!r}", "because solver.scheme is 'paper-box'"
+    energy = sound["output.energy"]
+    yield energy and sound["water"] is not None, "output.energy", "false, because the budget knows of no water"
+    staged = energy and integrator in ("esdirk43", "trbdf2")
+    yield staged, "output.energy", f"false, {because}: use one of one stage"
+    yield energy and box, "output.energy", f"false, {scheme}: use 'conservation'"
+    for key, none in (("output.tangent_vectors", "0"), ("output.lateral_growth", "false")):
+        carried = sound[key]
+        viscous = sound["solver.shock_viscosity"] is not None
+        yield carried and viscous, key, f"{none}, because solver.shock_viscosity is given"
+        slack = f"{none}, because a slack tether without bending has no tangent map"
+        yield carried and sound[_BENDING] == 0, key, slack
+        plane = f"{none}, because motion.dimensions is 3: perturbations are carried along planar motions only"
+        yield carried and sound["motion.dimensions"] == 3, key, plane
+        yield carried and box, key, f"{none}, {scheme}: use 'conservation'"
+        other = f"{none}, {because}: use esdirk43, trbdf2 or backward-euler"
+        yield carried and integrator in ("midpoint", "generalized-alpha"), key, other
+    most = 4 * (sound["tether.nodes"] or math.inf)
+    too_many = (sound["output.tangent_vectors"] or 0) > most
+    yield too_many, "output.tangent_vectors", f"at most four a node, {most}"

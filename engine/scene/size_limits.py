@@ -29,26 +29,16 @@ def _fixed_step(scene):
 
 def check_room(scene, duration_s):
     """Raises ValueError with the key to change where a run would never end, or keep more than memory usually holds."""
-    key, step_s = longest_step(scene)
-    if duration_s / step_s > MOST_STEPS:
-        raise ValueError(
-            f"{key}: {step_s:g} s makes {duration_s / step_s:.3g} steps or more of a run of {duration_s:g} s; allowed: "
-            f"at most {MOST_STEPS:.3g}, a longer step or a shorter run"
-        )
-    step_s = scene.sample_step_s()
-    samples = duration_s / step_s
-    if samples > MOST_SAMPLES:
-        raise ValueError(
-            f"output.step_s: {step_s:g} s gives {samples:.3g} samples in {duration_s:g} s; allowed: at most "
-            f"{MOST_SAMPLES:.3g}, a step of {duration_s / MOST_SAMPLES:.3g} s or more, or a shorter run"
-        )
-    if not scene.output.profiles:
-        return
-    step_s = scene.output.profiles_step_s or step_s
-    values = duration_s / step_s * scene.tether.nodes * PROFILE_QUANTITIES
-    if values > MOST_PROFILE_VALUES:
-        longest = duration_s * scene.tether.nodes * PROFILE_QUANTITIES / MOST_PROFILE_VALUES
-        raise ValueError(
-            f"output.profiles_step_s: {step_s:g} s gives {values:.3g} values along the line in {duration_s:g} s; "
-            f"allowed: at most {MOST_PROFILE_VALUES:.3g}, a step of {longest:.3g} s or more, or a shorter run"
-        )
+    kept, output = scene.sample_step_s(), scene.output
+    values = scene.tether.nodes * PROFILE_QUANTITIES if output.profiles else 0
+    for key, step_s, of_each, most, noun in (
+        (*longest_step(scene), 1, MOST_STEPS, "steps"),
+        ("output.step_s", kept, 1, MOST_SAMPLES, "samples"),
+        ("output.profiles_step_s", output.profiles_step_s or kept, values, MOST_PROFILE_VALUES, "values of profiles"),
+    ):
+        if (count := duration_s / step_s * of_each) > most:
+            least = f"a step of {duration_s * of_each / most:.3g} s or more," if noun != "steps" else "a longer step"
+            raise ValueError(
+                f"{key}: {step_s:g} s makes {count:.3g} {noun} or more in a run of {duration_s:g} s; allowed: at most "
+                f"{most:.3g}, {least} or a shorter run"
+            )

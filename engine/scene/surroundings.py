@@ -47,7 +47,7 @@ WaveComponents = Annotated[
 
 
 class Jonswap(Section):
-    """A sea drawn from the JONSWAP spectrum, its peak at waves.period_s (`engine.physics.jonswap`)."""
+    """A sea drawn from the JONSWAP spectrum, its peak at waves.period_s (`engine.physics.sea`)."""
 
     significant_height_m: Positive = described("significant height; the sea has the variance H_s^2/16", symbol="H_s")
     peak_enhancement: PeakEnhancement = described(

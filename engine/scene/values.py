@@ -45,17 +45,16 @@ Text = Annotated[str, Field(strict=True), Allowed("text")]
 Name = Annotated[str, Field(strict=True, pattern=r"^[A-Za-z0-9_.-]+$"), Allowed("letters, digits, and any of _ . -")]
 Vector = Annotated[tuple[_Float, _Float, _Float], Allowed("a list of 3 finite numbers [x, y, z], at most " + _MOST)]
 Five = Annotated[tuple[_Float, _Float, _Float, _Float, _Float], Allowed("a list of 5 finite numbers, at most " + _MOST)]
-Series = Annotated[
-    tuple[_Float, ...], Field(min_length=2), Allowed("a list of at least 2 finite numbers, at most " + _MOST)
-]
-Axis = Annotated[
-    tuple[_Float, ...], Field(min_length=1), Allowed("a list of at least 1 finite number, at most " + _MOST)
-]
-Vectors = Annotated[
-    tuple[tuple[_Float, _Float, _Float], ...],
-    Field(min_length=2),
-    Allowed("a list of at least 2 vectors [x, y, z], at most " + _MOST),
-]
+
+
+def _several(kind: type, least: int, words: str) -> Any:
+    allowed = Allowed(f"a list of at least {least} {words}, at most {_MOST}")
+    return Annotated[tuple[kind, ...], Field(min_length=least), allowed]
+
+
+Series = _several(_Float, 2, "finite numbers")
+Axis = _several(_Float, 1, "finite number")
+Vectors = _several(tuple[_Float, _Float, _Float], 2, "vectors [x, y, z]")
 _Flat = tuple[tuple[tuple[_Float, ...], ...], ...]
 _Solid = tuple[_Flat, ...]
 

@@ -1,13 +1,136 @@
-"""Which runs share a batch, and how: a lane whose run has ended gets the next run that waits."""
+"""Runs that advance together: which share a batch, the arrays of up to COUNT lanes, how a run is put into one and taken
+out; a lane whose run has ended gets the next run that waits."""
 
+import time
 from collections import deque
 
+import numpy as np
+
+from ..arrays import Trail
+from ..parameters import record_of
+from ..planar import columns as col
+from ..planar.state import conserved
+from ..record import RECORD, SAMPLE_WIDTH, STATE
 from ..run import Run
 from .cover import goes_in_lanes
-from .machine import Machine, kind_of
-from .vector import COUNT
+from .follow import Followers, lane_work
+from .record import REAL, WHOLE
+from .ticks import LANE, MOVED, RATE, RESTARTED, ROWS, STEP, Arrays, advance
+from .vector import COUNT, lane_zeros
 
 LEAST = 2  # runs of a kind for which a batch pays: eight lanes cost about as much as one and a half runs alone
+STEPS = 50  # of a trail before it is followed: lanes with fewer by then wait for the others
+TICKS = 20_000  # between two looks at the clock and at Ctrl-C: a tenth of a second
+# of the whole numbers these decide nothing within the vectors
+OWN = ("at_rest", "max_newton", "max_releases", "loop_release", "end_at")
+
+
+def kind_of(scene):
+    """What scenes must have in common to share a batch: all whole numbers that kernels branch on or count to."""
+    tables = []
+    record = record_of(scene, tables)[0]
+    carried = scene.output.tangent_vectors, scene.output.lateral_growth
+    return (*(int(record[name]) for name in WHOLE if name not in OWN), *(table.size for table in tables), *carried)
+
+
+class Machine:
+    """COUNT lanes for runs of one kind."""
+
+    def __init__(self, run, goal, periods):
+        n, s = int(run.record["nodes"]), max(int(run.record["stages"]), 2)
+        self.runs = [None] * COUNT
+        self.records, self.states = np.zeros(COUNT, RECORD), np.zeros(COUNT, STATE)
+        self.lanes, self.spent = np.zeros(COUNT, LANE), np.zeros(COUNT, np.int64)
+        self.tables, self.samples = np.zeros((COUNT, run.tables.size)), np.zeros((COUNT, goal, SAMPLE_WIDTH))
+        self.counts = np.array([run.record[name] for name in WHOLE])
+        self.arrays = Arrays(
+            values=lane_zeros(len(REAL)), tables=lane_zeros(run.tables.size), numbers=lane_zeros(ROWS),
+            a=lane_zeros(s), w=lane_zeros(3), Y=lane_zeros(n, 6), now=lane_zeros(n, 6), before=lane_zeros(n, 6),
+            C=lane_zeros(n, 4), Ks=lane_zeros(s, n, 4), history=lane_zeros(3, n, 6),
+            C_new=lane_zeros(n, 4), K_new=lane_zeros(n, 4),
+        )  # fmt: skip
+        self.work = lane_work(n, col.BOX_WIDTH)
+        room = STEPS if run.trail.followed else 0
+        self.followers = Followers(run, periods) if run.trail.followed else None
+        steps = COUNT, room
+        self.trail = Trail(np.zeros((*steps, 3)), np.zeros((*steps, s, n, 6)), np.zeros((*steps, s, n, 4)))
+        for b in range(COUNT):
+            self._fill(b, run)
+
+    def _fill(self, b, run):
+        """Parameters and state of a run into a lane."""
+        lane, motion = self.arrays, run.motion
+        self.records[b], self.states[b] = run.record, run.state
+        self.tables[b] = lane.tables[:, b] = run.tables
+        lane.values[:, b] = [run.record[name] for name in REAL]
+        lane.Y[..., b], lane.now[..., b], lane.before[..., b] = motion.Y, motion.Y, motion.Y_before
+        lane.C[..., b] = motion.C
+        lane.Ks[..., b] = 0.0
+        lane.Ks[0, ..., b] = motion.K
+        lane.numbers[RATE, b] = lane.numbers[STEP, b] = 1.0
+
+    def load(self, b, run):
+        """Put a run that has not begun into a lane that is free."""
+        conserved(run.record, run.motion.Y, run.motion.C)
+        self._fill(b, run)
+        self.runs[b] = run
+        if self.followers is not None:
+            self.followers.load(b, run)
+        self.spent[b] = 0
+        self.lanes[b] = 0
+        self.lanes[b]["active"], self.lanes[b]["goal"] = 1, run.goal
+        self.arrays.numbers[MOVED, b] = self.arrays.numbers[RESTARTED, b] = 1.0
+
+    def unload(self, b):
+        """Take the run of a lane out, wherever it is."""
+        run, self.runs[b] = self.runs[b], None
+        for name in STATE.names:
+            run.state[name] = self.states[b][name]
+        lane = self.arrays
+        for part, found in zip(run.motion, (lane.now, lane.before, lane.C, lane.Ks[0]), strict=True):
+            part[:] = found[..., b]
+        run.output.samples[:] = self.samples[b, : run.goal]
+        if self.followers is not None:
+            self.followers.unload(b, run)
+        return run
+
+    def compile(self):
+        """Compile what `advance` needs, or load it compiled, outside the time of any run."""
+        self.advance(0)
+        if self.followers is not None:
+            self._follow([])
+
+    def advance(self, ticks=TICKS):
+        """Make ticks until a run ends; returns the lanes whose runs have ended."""
+        began = time.perf_counter()
+        advance(
+            ticks, self.records, self.tables, self.states, self.lanes, self.spent, self.samples, self.trail,
+            self.counts, self.arrays, self.work,
+        )  # fmt: skip
+        taken = [b for b, run in enumerate(self.runs) if run is not None]
+        ended = [b for b in taken if self.lanes[b]["active"] == 0]
+        if self.followers is not None and (ended or self.states["trail"].max() == STEPS):
+            self._follow(taken)
+        for b in taken:
+            self.runs[b].wall_s += (time.perf_counter() - began) / len(taken)
+        return ended
+
+    def _follow(self, taken):
+        """Carry the perturbations of all lanes through their trails, and empty these."""
+        trails = np.zeros(COUNT, np.int64)
+        for b in taken:
+            trails[b] = self.states[b]["trail"]
+            self.runs[b].trail.mark(self.trail.T[b, : trails[b]])
+        self.followers.follow(self.records, self.tables, self.trail, trails, self.counts, self.arrays)
+        for b in taken:  # the step that a lane is in the middle of begins the next trail
+            if trails[b] < STEPS:
+                for part in self.trail:
+                    part[b, 0] = part[b, trails[b]]
+        self.states["trail"] = 0
+
+    def fraction(self, b):
+        """Share of its run that a lane has done."""
+        return float(self.states[b]["samples"]) / self.runs[b].goal
 
 
 def shares(jobs):

@@ -15,9 +15,11 @@ import inspect
 import types as python_types
 from functools import cache, update_wrapper
 
-from llvmlite import ir
 from numba.core import types
 from numba.extending import intrinsic
+
+from .select import widest
+from .vector import call_intrinsic
 
 NAME = "_fused"
 
@@ -26,8 +28,7 @@ def _signature_type(arguments):
     """Type of a fused operation: integers stay integers, vectors of numbers win over numbers."""
     if all(isinstance(kind, (types.Integer, types.Boolean)) for kind in arguments):
         return types.intp
-    wide = [kind for kind in arguments if not isinstance(kind, (types.Number, types.Boolean))]
-    return wide[0] if wide else types.float64
+    return widest(*arguments)
 
 
 @intrinsic
@@ -39,11 +40,7 @@ def fused(context, a, b, c):
         x, y, z = arguments
         if kind is types.intp:
             return builder.add(builder.mul(x, y), z)
-        name = "llvm.fma." + (f"v{x.type.count}f64" if isinstance(x.type, ir.VectorType) else "f64")
-        fma = builder.module.globals.get(name)
-        if fma is None:
-            fma = ir.Function(builder.module, ir.FunctionType(x.type, (x.type,) * 3), name)
-        return builder.call(fma, (x, y, z))
+        return call_intrinsic(builder, "fma", x, y, z)
 
     return kind(kind, kind, kind), generate
 

@@ -1,4 +1,5 @@
-"""Perturbations carried through the trails of all lanes at once: one stage of every lane a turn.
+"""Perturbations carried through the trails of all lanes at once: one stage of every lane a turn; and their arrays, into
+lanes and out of them.
 
 The steps of a lane's trail are its own; a lane whose trail is at its end waits for the others. The arithmetic is that
 of `engine.perturbations.tangent` and `engine.perturbations.lateral`, in vectors; the logarithms are taken lane by lane.
@@ -9,15 +10,18 @@ from collections import namedtuple
 import numpy as np
 
 from .. import record as col
+from ..arrays import Work
 from ..compiled import kernel
-from ..perturbations.lateral import known_lateral, lateral_stage, normalise
-from ..perturbations.tangent import Base, carry_stage, linearise, orthonormalise, period_of, water_moves
+from ..perturbations.lateral import COEFFICIENTS, known_lateral, lateral_stage, normalise
+from ..perturbations.lateral import WIDTH as LATERAL_WIDTH
+from ..perturbations.tangent import Base, Carried, Water, carry_stage, linearise, orthonormalise, period_of, water_moves
 from ..physics.water import water as flow
+from ..planar import columns as planar_col
 from ..planar import node
-from ..time.steps import plan_stage
+from ..time.steps import plan_stage, stage_rate
 from .elementary import copy_into, keep
 from .record import lane_record
-from .vector import COUNT, as_lanes
+from .vector import COUNT, as_lanes, lane_zeros
 
 # What a turn of all lanes works on, COUNT the last axis: numbers (LENGTH + k + 1,); a (s,), w (3,): as in `plan_stage`;
 # Y (n, 6), K (n, 4): the stage and its rates; K_new (n, 4): rates of a perturbation
@@ -101,9 +105,7 @@ def follow(records, tables, trail, trails, periods, nats, lateral_nats, sideways
         for v in range(count):
             keep(begun, own.K[v], own.Ks[v, 0])
             carry_stage(p, grid, base, turn.a, s - 1, busy, v, own, work, water)
-            for k in range(Y.shape[0]):
-                for m in range(4):
-                    K_new[k, m] = base.rate * (own.Cs[v, k, m] - own.C_tilde[k, m])
+            stage_rate(base.rate, own.Cs[v], own.C_tilde, K_new)
             for j in range(1, s):
                 keep(busy & (rows[STAGE] == float(j)), K_new, own.Ks[v, j])
             keep(ended, own.Cs[v], own.C[v])
@@ -113,12 +115,61 @@ def follow(records, tables, trail, trails, periods, nats, lateral_nats, sideways
             keep(begun, across.K, across.Ks[0])
             known_lateral(turn.a, s - 1, across.C, across.Ks, across.C_tilde)
             lateral_stage(p, grid, base, work.X, work.Q, work.F, across.C_tilde, across.H, across.E, across.C_new)
-            for k in range(Y.shape[0]):
-                for m in range(2):
-                    across.K_new[k, m] = base.rate * (across.C_new[k, m] - across.C_tilde[k, m])
+            stage_rate(base.rate, across.C_new, across.C_tilde, across.K_new)
             for j in range(1, s):
                 keep(busy & (rows[STAGE] == float(j)), across.K_new, across.Ks[j])
             keep(ended, across.C_new, across.C)
             keep(ended, across.K_new, across.K)
             rows[LENGTH + count] = normalise(across.weights, ended, across.C, across.K)
         end_turn(trail.T, step, stage, numbers, periods, count, sideways, nats, lateral_nats)
+
+
+def lane_work(n, width):
+    """Work arrays of a Newton solve in all lanes; width: of E."""
+    return Work(*(lane_zeros(n, each) for each in (2, 4, planar_col.NODE_WIDTH, width, 6, 4)))
+
+
+class Followers:
+    """Perturbations of up to COUNT runs that carry the same number of them."""
+
+    def __init__(self, run, periods):
+        n, s = int(run.record["nodes"]), max(int(run.record["stages"]), 2)
+        k = self.count = run.trail.count
+        self.sideways = run.trail.sideways
+        self.periods = np.ones(COUNT)
+        self.nats, self.lateral_nats = np.zeros((COUNT, periods + 1, k)), np.zeros((COUNT, periods + 1))
+        turn = LENGTH + k + 1, s, 3, (n, 6), (n, 4), (n, 4)
+        self.turn = Turn(*(lane_zeros(*np.atleast_1d(shape)) for shape in turn))
+        self.turn.numbers[RATE] = 1.0
+        C, K, F, Cs = (lane_zeros(k, n, 4) for _ in range(4))
+        self.carried = Carried(C, K, F, lane_zeros(k, s, n, 4), lane_zeros(n, 4), Cs)
+        weights, C, K, C_new, C_tilde, K_new = (lane_zeros(n, 2) for _ in range(6))
+        work = lane_zeros(n, COEFFICIENTS), lane_zeros(n, LATERAL_WIDTH)
+        self.across = Across(weights, C, K, lane_zeros(s, n, 2), C_new, C_tilde, K_new, *work)
+        water = Water(*(lane_zeros(n, width) for width in (8, 2, 2, 4, 4)))
+        self.room = lane_work(n, planar_col.WITH_INVERSE), water
+
+    def load(self, b, run):
+        """Put the perturbations of a run, and the state it starts from, into a lane."""
+        trail = run.trail
+        self.periods[b] = trail.period_s
+        self.nats[b] = self.lateral_nats[b] = 0.0
+        self.turn.Y[..., b], self.turn.K[..., b] = run.motion.Y, run.motion.K
+        if self.count:
+            for part, given in zip(self.carried[:3], (trail.vectors, trail.rates, trail.waters), strict=True):
+                part[..., b] = given
+        if self.sideways:
+            for part, given in zip(self.across[:3], (trail.weights, trail.lateral, trail.lateral_rates), strict=True):
+                part[..., b] = given
+
+    def unload(self, b, run):
+        """What has grown, back to the run."""
+        periods = len(run.trail.nats)
+        run.trail.nats[:], run.trail.lateral_nats[:] = self.nats[b, :periods], self.lateral_nats[b, :periods]
+
+    def follow(self, records, tables, trail, trails, counts, arrays):
+        """Through the trails (COUNT, l, ...), of which `trails` steps each are to be followed; arrays: Arrays."""
+        follow(
+            records, tables, trail, trails, self.periods, self.nats, self.lateral_nats, int(self.sideways),
+            (counts, arrays.values, arrays.tables), self.turn, (self.carried, self.across), self.room,
+        )  # fmt: skip

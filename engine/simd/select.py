@@ -14,18 +14,14 @@ from numba.extending import intrinsic
 from .vector import LaneMask, Lanes
 
 
-def _widest(*kinds):
+def widest(*kinds):
     """The type that takes in all of these: a vector, else a float."""
     return next((kind for kind in kinds if isinstance(kind, Lanes)), types.float64)
 
 
-def _mask_of(kind):
-    return LaneMask(kind.count) if isinstance(kind, Lanes) else types.boolean
-
-
 @intrinsic
 def where(context, condition, a, b):
-    kind = _widest(a, b)
+    kind = widest(a, b)
     mask = condition
     if isinstance(condition, LaneMask):
         kind = Lanes(condition.count)
@@ -38,31 +34,26 @@ def where(context, condition, a, b):
     return kind(mask, kind, kind), generate
 
 
-@intrinsic
-def every(context, condition):
-    def generate(context, builder, signature, values):
-        if not isinstance(condition, LaneMask):
-            return values[0]
-        bits = builder.bitcast(values[0], ir.IntType(condition.count))
-        return builder.icmp_unsigned("==", bits, ir.Constant(bits.type, -1))
+def _over_lanes(symbol, bits_of_all):
+    """Intrinsic of a mask: do its bits, as one whole number, stand in this relation to that one?"""
 
-    return types.boolean(condition), generate
+    def typed(context, condition):
+        def generate(context, builder, signature, values):
+            if not isinstance(condition, LaneMask):
+                return values[0]
+            bits = builder.bitcast(values[0], ir.IntType(condition.count))
+            return builder.icmp_unsigned(symbol, bits, ir.Constant(bits.type, bits_of_all))
 
+        return types.boolean(condition), generate
 
-@intrinsic
-def some(context, condition):
-    def generate(context, builder, signature, values):
-        if not isinstance(condition, LaneMask):
-            return values[0]
-        bits = builder.bitcast(values[0], ir.IntType(condition.count))
-        return builder.icmp_unsigned("!=", bits, ir.Constant(bits.type, 0))
-
-    return types.boolean(condition), generate
+    return intrinsic(typed)
 
 
 def _extreme(symbol):
+    """Intrinsic of two numbers: the second where it stands in this relation to the first, else the first."""
+
     def typed(context, a, b):
-        kind = _widest(a, b)
+        kind = widest(a, b)
 
         def generate(context, builder, signature, values):
             x, y = values
@@ -70,25 +61,19 @@ def _extreme(symbol):
 
         return kind(kind, kind), generate
 
-    return typed
+    return intrinsic(typed)
 
 
-@intrinsic
-def larger(context, a, b):
-    return _extreme(">")(context, a, b)
-
-
-@intrinsic
-def smaller(context, a, b):
-    return _extreme("<")(context, a, b)
+every, some = _over_lanes("==", -1), _over_lanes("!=", 0)
+larger, smaller = _extreme(">"), _extreme("<")
 
 
 @intrinsic
 def finite(context, a):
-    kind = _widest(a)
+    kind = widest(a)
 
     def generate(context, builder, signature, values):
         difference = builder.fsub(values[0], values[0])  # 0, or NaN for what is not finite
         return builder.fcmp_ordered("==", difference, difference)
 
-    return _mask_of(kind)(kind), generate
+    return (LaneMask(kind.count) if isinstance(kind, Lanes) else types.boolean)(kind), generate

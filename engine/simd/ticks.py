@@ -16,30 +16,28 @@ import numpy as np
 from .. import record as col
 from ..arrays import Stage
 from ..compiled import kernel
-from ..physics.tension.kernels import tension
 from ..planar import node
-from ..planar.state import configuration, greatest_turn, last_strain
+from ..planar.state import largest_turn
 from ..time import steps
 from ..time.newton import GOING_ON, iterate, judge
-from ..time.sampling import complete_sample, note_top, weights_within
+from ..time.sampling import sample
 from ..time.status import OK
 from ..time.time_loop import begin_trial, guard_turns, next_step, refused, step_done
 from .elementary import copy_into, keep
 from .record import lane_record
-from .select import smaller, some, where
+from .select import some, where
 from .vector import COUNT, as_lanes
 
 LANE = np.dtype([(name, np.int64) for name in "active stage iteration code goal".split()] + [("best", np.float64)])
 (
-    TIME, RATE, STEP, SOUND, SIZE, LEAST, STAGE, SOLVED, FINISHED, ERROR, TURN, ACCEPTED, MOVED, RESTARTED, DUE,
-    W0, W1, G0, G1, OUT_X, OUT_Z, OUT_U, OUT_W, OUT_TOP, OUT_LEAST,
-) = range(25)  # fmt: skip
-ROWS = 25
+    TIME, RATE, STEP, SOUND, SIZE, LEAST, STAGE, SOLVED, FINISHED, ERROR, TURN, ACCEPTED, MOVED, RESTARTED,
+) = range(14)  # fmt: skip
+ROWS = 14
 # Arrays of all lanes, whose last axis is COUNT; s stages, n nodes. values: fields of the records; tables; numbers
 # (ROWS,); a (s,), w (3,): as in `plan_stage`; Y, now, before (n, 6): iterate, accepted state, the one before; C (n, 4),
 # Ks (s, n, 4): conserved variables, rates of the state and the stages; history (3, n, 6): states for the first guess;
-# C_new, K_new (n, 4), row (n, 6): of the stage that was solved
-Arrays = namedtuple("Arrays", "values tables numbers a w Y now before C Ks history C_new K_new row")
+# C_new, K_new (n, 4): of the stage that was solved
+Arrays = namedtuple("Arrays", "values tables numbers a w Y now before C Ks history C_new K_new")
 
 
 @kernel
@@ -91,42 +89,18 @@ def judge_steps(records, tables, states, lanes, numbers, spent):
 
 
 @kernel
-def sample_lanes(p, tables, records, states, lanes, numbers, C, K, C_new, K_new, row, samples):
-    """Store the samples that lie within the accepted steps (`engine.time.sampling.sample`)."""
-    last = C.shape[0] - 1
-    rows = as_lanes(numbers)
-    while True:
-        due = 0
-        for b in range(COUNT):
-            numbers[DUE, b] = 0.0
-            state = states[b]
-            t = state.samples * records[b].output_step
-            if numbers[ACCEPTED, b] != 0.0 and state.samples < lanes[b].goal and t <= state.t + state.trial_dt:
-                share = (t - state.t) / state.trial_dt
-                w = weights_within(state.small == 0, share, state.trial_dt)
-                numbers[W0, b], numbers[W1, b], numbers[G0, b], numbers[G1, b] = w
-                numbers[DUE, b] = 1.0
-                due += 1
-        if due == 0:
-            break
-        U, _, W, _ = configuration(p, tables, (rows[W0], rows[W1], rows[G0], rows[G1]), C, K, C_new, K_new, row)
-        least = row[0, col.TENSION]
-        for k in range(1, last + 1):
-            least = smaller(least, row[k, col.TENSION])
-        rows[OUT_X], rows[OUT_Z], rows[OUT_U], rows[OUT_W] = row[last, col.PLACE], row[last, col.PLACE + 2], U, W
-        rows[OUT_TOP], rows[OUT_LEAST] = row[last, col.TENSION], least
-        for b in range(COUNT):
-            if numbers[DUE, b] != 0.0:
-                state = states[b]
-                out = samples[b, state.samples]
-                out[col.AT_X], out[col.AT_Z] = numbers[OUT_X, b], numbers[OUT_Z, b]
-                out[col.AT_U], out[col.AT_W] = numbers[OUT_U, b], numbers[OUT_W, b]
-                t = state.samples * records[b].output_step
-                complete_sample(state, out, t, numbers[OUT_TOP, b], numbers[OUT_LEAST, b])
-    rows[OUT_TOP] = tension(last_strain(p, C_new), p, tables)[0]
+def sample_lanes(records, tables, states, lanes, arrays, ends, samples, profiles):
+    """Store the samples that lie within the accepted steps. ends (4, n, 4): work; profiles (0, n, 6): none are kept."""
     for b in range(COUNT):
-        if numbers[ACCEPTED, b] != 0.0:
-            note_top(states[b], numbers[OUT_TOP, b])
+        if arrays.numbers[ACCEPTED, b] != 0.0:
+            copy_into(ends[0], arrays.C[:, :, b])
+            copy_into(ends[1], arrays.Ks[0, :, :, b])
+            copy_into(ends[2], arrays.C_new[:, :, b])
+            copy_into(ends[3], arrays.K_new[:, :, b])
+            state, goal = states[b], lanes[b].goal
+            begin, end = (ends[0], ends[1]), (ends[2], ends[3])
+            hermite = state.small == 0
+            sample(records[b], tables[b], state, state.trial_dt, hermite, begin, end, samples[b, :goal], profiles)
 
 
 @kernel
@@ -255,11 +229,12 @@ def advance(ticks, records, own_tables, states, lanes, spent, samples, trail, co
     """
     numbers = arrays.numbers
     lane = as_lanes(arrays)
-    w, a, C_new, K_new, row = lane.w, lane.a, lane.C_new, lane.K_new, lane.row
+    w, a, C_new, K_new = lane.w, lane.a, lane.C_new, lane.K_new
     Y, C, Ks, rows, tables = lane.Y, lane.C, lane.Ks, lane.numbers, lane.tables
     own = as_lanes(work)
     p = lane_record(counts, lane.values)
-    one = np.empty(arrays.Y.shape[:2])
+    one, ends = np.empty(arrays.Y.shape[:2]), np.empty((4, *arrays.C.shape[:2]))
+    profiles = np.empty((0, *one.shape))
     made, stop = 0, False
     while True:
         # every lane that has moved begins its next solve
@@ -283,14 +258,14 @@ def advance(ticks, records, own_tables, states, lanes, spent, samples, trail, co
             if some(here):
                 keep(here, K_new, Ks[j])
         if some(rows[FINISHED] != 0.0):
-            rows[ERROR] = steps.embedded_error(p, tables, rows[STEP], Ks, own.Q, a, row[0])
-            rows[LEAST], rows[TURN] = steps.least_strain(Y), greatest_turn(Y)
+            rows[ERROR] = steps.embedded_error(p, tables, rows[STEP], Ks, own.Q, a, own.D[0])
+            rows[LEAST], rows[TURN] = steps.least_strain(Y), largest_turn(p, Y)[0]
         if trail.T.shape[1] > 0:
             record_stages(states, lanes, numbers, arrays.Y, arrays.K_new, trail)
         # accepted, or to be tried again
         judge_steps(records, own_tables, states, lanes, numbers, spent)
         if some(rows[ACCEPTED] != 0.0):
-            sample_lanes(p, tables, records, states, lanes, numbers, C, Ks[0], C_new, K_new, row, samples)
+            sample_lanes(records, own_tables, states, lanes, arrays, ends, samples, profiles)
             if trail.T.shape[1] > 0:
                 stop = record_steps(states, numbers, trail.T) or stop
             end_steps(records, own_tables, states, numbers, arrays.Y, one)

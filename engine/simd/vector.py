@@ -24,45 +24,39 @@ COUNT = 8  # lanes of a batch: one AVX-512 register; two or four registers elsew
 DOUBLE, BIT = ir.DoubleType(), ir.IntType(1)
 
 
-class Lanes(types.Type):
+class _PerLane(types.Type):
+    """A number in each of `count` lanes; `plain`: types of numbers that may take its place; `each`: the type of one
+    lane in Numba and in LLVM."""
+
+    def __init__(self, count):
+        self.count = count
+        super().__init__(f"{self.word}({count})")
+
+    def unify(self, context, other):
+        """A variable that is a number in one place and a vector in another is a vector."""
+        return self if isinstance(other, self.plain) else None
+
+    def can_convert_from(self, context, other):
+        return Conversion.safe if isinstance(other, self.plain) else None
+
+
+class Lanes(_PerLane):
     """A float in each of `count` lanes."""
 
-    def __init__(self, count):
-        self.count = count
-        super().__init__(f"lanes({count})")
-
-    def unify(self, context, other):
-        """A variable that is a float in one place and a vector in another is a vector."""
-        return self if isinstance(other, (types.Float, types.Integer)) else None
-
-    def can_convert_from(self, context, other):
-        return Conversion.safe if isinstance(other, (types.Float, types.Integer)) else None
+    word, plain, each = "lanes", (types.Float, types.Integer), (types.float64, DOUBLE)
 
 
-class LaneMask(types.Type):
+class LaneMask(_PerLane):
     """Yes or no in each of `count` lanes."""
 
-    def __init__(self, count):
-        self.count = count
-        super().__init__(f"lane_mask({count})")
-
-    def unify(self, context, other):
-        return self if isinstance(other, types.Boolean) else None
-
-    def can_convert_from(self, context, other):
-        return Conversion.safe if isinstance(other, types.Boolean) else None
+    word, plain, each = "lane_mask", (types.Boolean,), (types.boolean, BIT)
 
 
 @register_model(Lanes)
-class _LanesModel(models.PrimitiveModel):
-    def __init__(self, manager, kind):
-        super().__init__(manager, kind, ir.VectorType(DOUBLE, kind.count))
-
-
 @register_model(LaneMask)
-class _LaneMaskModel(models.PrimitiveModel):
+class _PerLaneModel(models.PrimitiveModel):
     def __init__(self, manager, kind):
-        super().__init__(manager, kind, ir.VectorType(BIT, kind.count))
+        super().__init__(manager, kind, ir.VectorType(kind.each[1], kind.count))
 
 
 def spread(builder, value, count):
@@ -75,13 +69,9 @@ def spread(builder, value, count):
 
 @lower_cast(types.Float, Lanes)
 @lower_cast(types.Integer, Lanes)
-def _cast(context, builder, from_kind, to_kind, value):
-    return spread(builder, context.cast(builder, value, from_kind, types.float64), to_kind.count)
-
-
 @lower_cast(types.Boolean, LaneMask)
-def _cast_mask(context, builder, from_kind, to_kind, value):
-    return spread(builder, context.cast(builder, value, from_kind, types.boolean), to_kind.count)
+def _cast(context, builder, from_kind, to_kind, value):
+    return spread(builder, context.cast(builder, value, from_kind, to_kind.each[0]), to_kind.count)
 
 
 def _define(function, kinds, result, build):
@@ -93,13 +83,12 @@ def _define(function, kinds, result, build):
         def generic(self, given, keywords):
             if keywords or len(given) != arguments:
                 return None
-            wide = [a for a in given if isinstance(a, (Lanes, LaneMask))]
+            wide = [a for a in given if isinstance(a, _PerLane)]
             if not wide:
                 return None
             counts = {a.count for a in wide}
             wanted = [kind(wide[0].count) for kind in kinds]
-            plain = {Lanes: (types.Float, types.Integer), LaneMask: (types.Boolean,)}
-            fits = all(a == b or isinstance(a, plain[type(b)]) for a, b in zip(given, wanted, strict=True))
+            fits = all(a == b or isinstance(a, b.plain) for a, b in zip(given, wanted, strict=True))
             return signature(result(wide[0].count), *wanted) if len(counts) == 1 and fits else None
 
     @lower_builtin(function, *kinds)
@@ -107,22 +96,21 @@ def _define(function, kinds, result, build):
         return build(builder, *values)
 
 
-def _instruction(name):
-    return lambda builder, *values: getattr(builder, name)(*values)
+def _instruction(name, *before):
+    """An instruction of LLVM's builder; before: what its operands follow."""
+    return lambda builder, *values: getattr(builder, name)(*before, *values)
 
 
-def _comparison(symbol):
-    return lambda builder, a, b: builder.fcmp_ordered(symbol, a, b)
+def external(builder, name, kind, count):
+    """The function `name` of `count` arguments of this LLVM type, whose result has it too."""
+    return cgutils.get_or_insert_function(builder.module, ir.FunctionType(kind, (kind,) * count), name)
 
 
 def call_intrinsic(builder, name, *values):
-    """Call of an LLVM intrinsic that exists for vectors."""
+    """Call of an LLVM intrinsic that exists for numbers and vectors."""
     kind = values[0].type
-    full = f"llvm.{name}.v{kind.count}f64"
-    function = builder.module.globals.get(full)
-    if function is None:
-        function = ir.Function(builder.module, ir.FunctionType(kind, (kind,) * len(values)), full)
-    return builder.call(function, values)
+    suffix = f"v{kind.count}f64" if isinstance(kind, ir.VectorType) else "f64"
+    return builder.call(external(builder, f"llvm.{name}.{suffix}", kind, len(values)), values)
 
 
 def _intrinsic(name):
@@ -133,10 +121,7 @@ def _lane_by_lane(name):
     """A function of the C library, called for one lane after another, as for a float."""
 
     def build(builder, value):
-        function = builder.module.globals.get(name)
-        if function is None:
-            function = ir.Function(builder.module, ir.FunctionType(DOUBLE, (DOUBLE,)), name)
-        result = ir.Constant(value.type, ir.Undefined)
+        function, result = external(builder, name, DOUBLE, 1), ir.Constant(value.type, ir.Undefined)
         for lane in range(value.type.count):
             at = ir.Constant(ir.IntType(32), lane)
             result = builder.insert_element(result, builder.call(function, (builder.extract_element(value, at),)), at)
@@ -145,20 +130,12 @@ def _lane_by_lane(name):
     return build
 
 
-for _function, _name in (
-    (operator.add, "fadd"), (operator.sub, "fsub"), (operator.mul, "fmul"), (operator.truediv, "fdiv"),
-    (operator.iadd, "fadd"), (operator.isub, "fsub"), (operator.imul, "fmul"), (operator.itruediv, "fdiv"),
-):  # fmt: skip
-    _define(_function, (Lanes, Lanes), Lanes, _instruction(_name))
-for _function, _symbol in (
-    (operator.lt, "<"),
-    (operator.le, "<="),
-    (operator.gt, ">"),
-    (operator.ge, ">="),
-    (operator.eq, "=="),
-):
-    _define(_function, (Lanes, Lanes), LaneMask, _comparison(_symbol))
-_define(operator.ne, (Lanes, Lanes), LaneMask, lambda builder, a, b: builder.fcmp_unordered("!=", a, b))
+for _name, _code in (("add", "fadd"), ("sub", "fsub"), ("mul", "fmul"), ("truediv", "fdiv")):
+    for _prefix in ("", "i"):  # x + y and x += y
+        _define(getattr(operator, _prefix + _name), (Lanes, Lanes), Lanes, _instruction(_code))
+for _name, _symbol in zip("lt le gt ge eq".split(), "< <= > >= ==".split(), strict=True):
+    _define(getattr(operator, _name), (Lanes, Lanes), LaneMask, _instruction("fcmp_ordered", _symbol))
+_define(operator.ne, (Lanes, Lanes), LaneMask, _instruction("fcmp_unordered", "!="))
 _define(operator.neg, (Lanes,), Lanes, _instruction("fneg"))
 _define(operator.and_, (LaneMask, LaneMask), LaneMask, _instruction("and_"))
 _define(operator.or_, (LaneMask, LaneMask), LaneMask, _instruction("or_"))

@@ -3,10 +3,13 @@
 from collections import namedtuple
 
 from ..compiled import kernel
+from ..planar.elimination import adjugate
 from . import columns as col
-from .rows import added, combined, combined3, scaled
-from .vectors import dot, mixed, quaternion, relative, rotation_vector, vector
+from .vectors import added, combined, combined3, dot, mixed, quaternion, relative, rotation_vector, scaled, vector
 
+NO_TURN = (0.0, 0.0, 0.0), ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))  # psi, J
+# Where dG/dV has its rows
+SYMMETRIC = tuple(tuple(col.G_V + at for at in row) for row in ((0, 1, 2), (1, 3, 4), (2, 4, 5)))
 # Rows of five numbers, by y, for the six components of v = (V, O2, O3, theta1)
 Rows = namedtuple("Rows", "x y z O2 O3 theta1")
 # Of one node: dN by y (five 3-vectors), e dG (of eps, theta2, theta3), dN/dtheta1, dM2 and dM3 by y at fixed O
@@ -36,11 +39,17 @@ def nodal_jacobian(row, e):
 
 
 @kernel
-def jacobian_of_rotation(psi, angle, g):
-    """J = g + psi x/2 + c psi psi' row by row; c by its series where 1 - g has lost its digits."""
+def turn_of_box(p, Y, a, b):
+    """psi and J = g + psi x/2 + c psi psi' row by row, c by its series where 1 - g has lost its digits.
+
+    Without bending, where the frames may roll: no turn.
+    """
+    if p.bent == 0:
+        return NO_TURN
+    psi, angle, g = box_rotation(Y, a, b)
     c = (1.0 - g) / (angle * angle) if angle > 1e-3 else 1.0 / 12 + angle * angle / 720
     x, y, z = psi
-    return (
+    return psi, (
         (g + c * x * x, c * x * y - 0.5 * z, c * x * z + 0.5 * y),
         (c * x * y + 0.5 * z, g + c * y * y, c * y * z - 0.5 * x),
         (c * x * z - 0.5 * y, c * y * z + 0.5 * x, g + c * z * z),
@@ -82,20 +91,12 @@ def across_box(Y, Q, k, e, cq, J, psi, R, r):
     Bx = (ec * tb[0], 0.0, 0.0, -lb * bb[0], lb * nb[0])
     By = (ec * tb[1], 0.0, 0.0, -lb * bb[1], lb * nb[1])
     Bz = (ec * tb[2], 0.0, 0.0, -lb * bb[2], lb * nb[2])
-    zx, zy, zz = compatibility_left(Y, Q, k, e, r)
+    Va, Vb = vector(Y[a], col.V), vector(Y[k], col.V)
+    qa, qb = vector(Qa, col.Q_T), vector(Qb, col.Q_T)
+    zx = r[0] - (Vb[0] - Va[0] - e * (qa[0] + qb[0]))
+    zy = r[1] - (Vb[1] - Va[1] - e * (qa[1] + qb[1]))
+    zz = r[2] - (Vb[2] - Va[2] - e * (qa[2] + qb[2]))
     return Rows(Ax, Ay, Az, A2, A3, A1), Rows(Bx, By, Bz, B2, B3, B1), (zx, zy, zz, z2, z3, z1)
-
-
-@kernel
-def compatibility_left(Y, Q, k, e, r):
-    """r less what is left of the compatibility of box k: the known part of V_b."""
-    Va, Vb = vector(Y[k - 1], col.V), vector(Y[k], col.V)
-    qa, qb = vector(Q[k - 1], col.Q_T), vector(Q[k], col.Q_T)
-    return (
-        r[0] - (Vb[0] - Va[0] - e * (qa[0] + qb[0])),
-        r[1] - (Vb[1] - Va[1] - e * (qa[1] + qb[1])),
-        r[2] - (Vb[2] - Va[2] - e * (qa[2] + qb[2])),
-    )
 
 
 @kernel
@@ -104,12 +105,7 @@ def momentum_row(i, e, Qa, Qb, at_a, at_b, R, r, A, B, z):
 
     e: half the element; Qa, Qb: rows of Q; at_a, at_b: Nodal; v_a = R y_a + r and v_b = A y_a + B y_b + z.
     """
-    if i == 0:
-        u, v, w = col.G_V, col.G_V + 1, col.G_V + 2
-    elif i == 1:
-        u, v, w = col.G_V + 1, col.G_V + 3, col.G_V + 4
-    else:
-        u, v, w = col.G_V + 2, col.G_V + 4, col.G_V + 5
+    u, v, w = SYMMETRIC[i]
     ax, ay, az, bx, by, bz = e * Qa[u], e * Qa[v], e * Qa[w], e * Qb[u], e * Qb[v], e * Qb[w]
     roll_a, roll_b = at_a.roll[i], at_b.roll[i]
     # by y_a through V_a, V_b and the rolls, then directly
@@ -133,13 +129,10 @@ def factors(Mx, My, Mz, M2, M3):
     Inverse I of the block of (eps, Sn, Sb), a 3 x 3 adjugate; u3, u4 = I times the columns of the angles; inverse of
     the 2 x 2 block that is left for the angles.
     """
-    i00, i01, i02 = My[1] * Mz[2] - My[2] * Mz[1], Mx[2] * Mz[1] - Mx[1] * Mz[2], Mx[1] * My[2] - Mx[2] * My[1]
-    i10, i11, i12 = My[2] * Mz[0] - My[0] * Mz[2], Mx[0] * Mz[2] - Mx[2] * Mz[0], Mx[2] * My[0] - Mx[0] * My[2]
-    i20, i21, i22 = My[0] * Mz[1] - My[1] * Mz[0], Mx[1] * Mz[0] - Mx[0] * Mz[1], Mx[0] * My[1] - Mx[1] * My[0]
-    det = Mx[0] * i00 + Mx[1] * i10 + Mx[2] * i20
+    i0, i1, i2, det = adjugate(vector(Mx, 0), vector(My, 0), vector(Mz, 0))
     sound = det != 0.0
     f = 1.0 / det if sound else 0.0
-    I0, I1, I2 = (f * i00, f * i01, f * i02), (f * i10, f * i11, f * i12), (f * i20, f * i21, f * i22)
+    I0, I1, I2 = (f * i0[0], f * i0[1], f * i0[2]), (f * i1[0], f * i1[1], f * i1[2]), (f * i2[0], f * i2[1], f * i2[2])
     col3, col4 = (Mx[3], My[3], Mz[3]), (Mx[4], My[4], Mz[4])
     u3, u4 = (dot(I0, col3), dot(I1, col3), dot(I2, col3)), (dot(I0, col4), dot(I1, col4), dot(I2, col4))
     m2, m3 = (M2[0], M2[1], M2[2]), (M3[0], M3[1], M3[2])

@@ -22,6 +22,9 @@ fixes it), O2 = O3 = 0, or a clamp. Compatibility and rotation give v_b from (v_
 momentum and moments give y_a = P y_b + p + p' dO1: a 3 x 3 inverse for (eps, Sn, Sb) and a 2 x 2 one for the angles.
 At the upper end one small solve, then back substitution.
 
+Without bending the moment equations are Sn_a + Sn_b = 0, Sb_a + Sb_b = 0 (`engine.spatial.node`), with Sn = Sb = 0 at
+the upper end; shear forces, curvatures and the roll of the frame are zero. Well posed while the tether is in tension.
+
 A clamp is a rotational spring, so stiff that the end turns by less than a millionth of the turn of its element.
 
 E (n, 77): P, p, p', R, r, r' where `engine.spatial.columns` says; the row of the anchor, which has no P and p, begins
@@ -34,24 +37,15 @@ moments; eq. (17) compatibility; eq. (18) compatibility, with the tangent; eq. (
 from ..compiled import kernel
 from ..physics.ends import released
 from . import columns as col
-from .box import (
-    Rows,
-    across_box,
-    box_rotation,
-    factors,
-    jacobian_of_rotation,
-    momentum_row,
-    nodal_jacobian,
-    solve_box,
-    solve_box_rows,
-)
-from .rows import added, combined, combined3, put_row, row_dot, row_of, row_times, scaled
+from .box import Rows, across_box, factors, momentum_row, nodal_jacobian, solve_box, solve_box_rows, turn_of_box
 from .upper import solve_upper, spring
-from .vectors import dot, mixed, symmetric, vector
+from .vectors import added, combined, combined3, dot, mixed, put_row, row_dot, row_of, row_times, symmetric, vector
+
+V_OF_D = col.V, col.V + 1, col.V + 2, col.D_O2, col.D_O3, col.THETA1  # columns of D where the six of v are
 
 
 @kernel
-def eliminate_bent(p, tables, stage, Y, work):
+def eliminate(p, tables, stage, Y, work):
     """Fill work.D (n, 12) with the Newton update; returns False where a pivot block is singular.
 
     p, tables: parameters (`engine.record`); stage: Stage; Y (n, 13); work: Work, whose Q, F and X belong to Y.
@@ -69,8 +63,7 @@ def eliminate_bent(p, tables, stage, Y, work):
         over = 1.0 / e
         Qa, Qb = Q[a], Q[k]
         # rotation and compatibility: v_b = A y_a + B y_b + z
-        psi, angle, g = box_rotation(Y, a, k)
-        J = jacobian_of_rotation(psi, angle, g)
+        psi, J = turn_of_box(p, Y, a, k)
         A, B, z = across_box(Y, Q, k, e, cq, J, psi, R, r)
         # momentum, three rows M y_a + BM y_b = g
         at_a, at_b = nodal_jacobian(Qa, e), nodal_jacobian(Qb, e)
@@ -134,7 +127,14 @@ def eliminate_bent(p, tables, stage, Y, work):
             z1 + row_dot(A.theta1, known_a),
         )
     _store_relation(E[last], R, r)
-    return solve_upper(p, tables, stage, twisted, Y, work) and back_substitute(E, twisted, work.D)
+    if not solve_upper(p, tables, stage, twisted, Y, work):
+        return False
+    back_substitute(E, twisted, work.D)
+    if p.bent == 0:
+        for k in range(last + 1):
+            for i in (col.SHEAR_N, col.SHEAR_B, col.D_O2, col.D_O3):
+                work.D[k, i] = 0.0
+    return True
 
 
 @kernel
@@ -184,19 +184,11 @@ def back_substitute(E, twisted, D):
     for k in range(E.shape[0] - 1, -1, -1):
         row, out = E[k], D[k]
         out[col.EPS], out[col.SHEAR_N], out[col.SHEAR_B], out[col.THETA2], out[col.THETA3] = y
-        out[col.V] = row_dot(row_of(row, col.R), y) + row[col.R_KNOWN]
-        out[col.V + 1] = row_dot(row_of(row, col.R + 5), y) + row[col.R_KNOWN + 1]
-        out[col.V + 2] = row_dot(row_of(row, col.R + 10), y) + row[col.R_KNOWN + 2]
-        out[col.D_O2] = row_dot(row_of(row, col.R + 15), y) + row[col.R_KNOWN + 3]
-        out[col.D_O3] = row_dot(row_of(row, col.R + 20), y) + row[col.R_KNOWN + 4]
-        out[col.THETA1] = row_dot(row_of(row, col.R + col.ROLL), y) + row[col.R_KNOWN + 5]
         out[col.D_O1] = torque
-        if twisted and k > 0:
-            for i in range(3):
-                out[col.V + i] += torque * row[col.R_TORQUE + i]
-            out[col.D_O2] += torque * row[col.R_TORQUE + 3]
-            out[col.D_O3] += torque * row[col.R_TORQUE + 4]
-            out[col.THETA1] += torque * row[col.R_TORQUE + 5]
+        for i in range(6):
+            out[V_OF_D[i]] = row_dot(row_of(row, col.R + 5 * i), y) + row[col.R_KNOWN + i]
+            if twisted and k > 0:
+                out[V_OF_D[i]] += torque * row[col.R_TORQUE + i]
         if k > 0:
             y = (
                 row_dot(row_of(row, col.P), y) + row[col.P_KNOWN],
@@ -206,5 +198,4 @@ def back_substitute(E, twisted, D):
                 row_dot(row_of(row, col.P + 20), y) + row[col.P_KNOWN + 4],
             )
             if twisted:
-                y = added(y, scaled(torque, row_of(row, col.P_TORQUE)))
-    return True
+                y = combined(1.0, y, torque, row_of(row, col.P_TORQUE))

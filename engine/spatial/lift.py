@@ -11,23 +11,15 @@ import numpy as np
 
 from ..planar import columns as planar_col
 from . import columns as col
+from .vectors import frame_of, product_of
 
 BETA = slice(col.BETA, col.BETA + 4)
 
 
 def product(a: np.ndarray, b: np.ndarray) -> np.ndarray:
     """Quaternion product of arrays (..., 4)."""
-    a0, a1, a2, a3 = np.moveaxis(np.asarray(a, float), -1, 0)
-    b0, b1, b2, b3 = np.moveaxis(np.asarray(b, float), -1, 0)
-    return np.stack(
-        [
-            a0 * b0 - a1 * b1 - a2 * b2 - a3 * b3,
-            a0 * b1 + a1 * b0 + a2 * b3 - a3 * b2,
-            a0 * b2 - a1 * b3 + a2 * b0 + a3 * b1,
-            a0 * b3 + a1 * b2 - a2 * b1 + a3 * b0,
-        ],
-        axis=-1,
-    )
+    parts = (np.moveaxis(np.asarray(q, float), -1, 0) for q in (a, b))
+    return np.stack(product_of(*parts), axis=-1)
 
 
 def shortest_rotation(u: np.ndarray, v: np.ndarray) -> np.ndarray:
@@ -41,9 +33,7 @@ def shortest_rotation(u: np.ndarray, v: np.ndarray) -> np.ndarray:
 
 def stretch_vectors(Y: np.ndarray) -> np.ndarray:
     """q (n, 3) of states Y (n, 13)."""
-    b0, b1, b2, b3 = Y[:, BETA].T
-    t = np.stack([b0**2 + b1**2 - b2**2 - b3**2, 2 * (b1 * b2 + b0 * b3), 2 * (b1 * b3 - b0 * b2)], axis=1)
-    return (1 + Y[:, :1]) * t
+    return (1 + Y[:, :1]) * np.stack(frame_of(Y[:, BETA].T)[0], axis=1)
 
 
 def state_in_space(record: np.void, h: np.ndarray, planar: np.ndarray, azimuth: float) -> np.ndarray:

@@ -11,14 +11,10 @@ import numpy as np
 from ..arrays import Work
 from ..compiled import kernel
 from ..physics.tension.kernels import tension
-from ..physics.water import water
 from ..record import PLACE, SPEED, STRAIN, TENSION
 from ..simd.elementary import within
 from . import columns as col
-from . import node
 from .box import box_rotation
-from .elimination import eliminate_bent
-from .elimination_unbent import eliminate_unbent
 from .vectors import dot, frame, least_turn, mixed, put, quaternion, quaternion_product, turned, vector
 
 
@@ -36,20 +32,6 @@ def work_arrays(p, n):
 
 
 @kernel
-def assemble(p, tables, stage, Y, work):
-    """One Newton update into work.D (n, 12); returns False where a pivot block is singular.
-
-    p, tables: parameters (`engine.record`); stage: Stage; Y (n, 13); work: Work.
-    """
-    node.shape(p, tables, Y, work.Q, work.X)
-    water(p, tables, stage.t, stage.in_motion, work.X, work.F)
-    node.node_quantities(p, tables, stage, Y, work)
-    if p.bent:
-        return eliminate_bent(p, tables, stage, Y, work)
-    return eliminate_unbent(p, tables, stage, Y, work)
-
-
-@kernel
 def update_size(p, D):
     """Largest entry of a Newton update in the scales of the scene (dimensionless)."""
     size = 0.0
@@ -57,10 +39,8 @@ def update_size(p, D):
         d = D[k]
         V, theta, turn = vector(d, col.V), vector(d, col.THETA1), vector(d, col.D_O1)
         force, speed = max(abs(d[col.SHEAR_N]), abs(d[col.SHEAR_B])), max(abs(V[0]), abs(V[1]), abs(V[2]))
-        angle, curvature = (
-            max(abs(theta[0]), abs(theta[1]), abs(theta[2])),
-            max(abs(turn[0]), abs(turn[1]), abs(turn[2])),
-        )
+        angle = max(abs(theta[0]), abs(theta[1]), abs(theta[2]))
+        curvature = max(abs(turn[0]), abs(turn[1]), abs(turn[2]))
         strain = abs(d[col.EPS]) * p.per_strain
         size = max(size, strain, force * p.per_force, speed * p.per_speed, angle, curvature * p.per_curvature)
         if not np.isfinite(d[col.EPS] + V[0] + V[1] + V[2] + theta[0] + theta[1] + theta[2]):

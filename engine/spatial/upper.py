@@ -16,8 +16,7 @@ from ..record import HELD
 from ..simd.elementary import smooth_start
 from . import columns as col
 from .box import nodal_jacobian
-from .rows import row_of
-from .vectors import dot, mixed, quaternion, quaternion_product, relative, times, vector
+from .vectors import dot, mixed, quaternion, quaternion_product, relative, row_of, times, vector
 
 CLAMP = 1e6
 
@@ -29,12 +28,6 @@ def spring(p, tables, element):
 
 
 @kernel
-def twist_at(p, t):
-    """Twist (rad) that the clamped upper end has been given at time t."""
-    return p.twist * smooth_start(t, p.twist_ramp)[0]
-
-
-@kernel
 def _roll_to_go(p, t, length, Y):
     """Turn (rad) about its own tangent by which the upper end exceeds the twist it is given.
 
@@ -43,7 +36,8 @@ def _roll_to_go(p, t, length, Y):
     last = Y.shape[0] - 1
     carried = quaternion_product((p.carry0, p.carry1, p.carry2, p.carry3), quaternion(Y[0], col.BETA))
     # twist of the frame: what O1 leaves over; as exp(twist/2) it is exact for any number of turns
-    twist = 0.5 * (twist_at(p, t) - Y[last, col.O1] * length)
+    given = p.twist * smooth_start(t, p.twist_ramp)[0]
+    twist = 0.5 * (given - Y[last, col.O1] * length)
     target = quaternion_product(carried, (math.cos(twist), math.sin(twist), 0.0, 0.0))
     r = relative(target, quaternion(Y[last], col.BETA))
     return 2.0 * math.atan2(r[1], r[0])
@@ -53,7 +47,7 @@ def _roll_to_go(p, t, length, Y):
 def end_condition(p, tables, stage, Y, work):
     """Residual of the upper end (`engine.physics.ends`, `engine.physics.submergence`), e_N, and the rows of D.
 
-    Arguments as for `engine.spatial.elimination.eliminate_bent`.
+    Arguments as for `engine.spatial.elimination.eliminate`.
     """
     t, in_motion, cq, cv = stage
     last = Y.shape[0] - 1
@@ -100,6 +94,10 @@ def solve_upper(p, tables, stage, twisted, Y, work):
         M[i, 6] = -residual[i] - known[i] - eN * at.roll[i] * row[col.R_KNOWN + 5]
     M[3, 5], M[4, 5], M[5, 5] = row[col.R_TORQUE + 3], row[col.R_TORQUE + 4], row[col.R_TORQUE + 5]
     M[3, 6], M[4, 6] = -Y[last, col.O2] - row[col.R_KNOWN + 3], -Y[last, col.O3] - row[col.R_KNOWN + 4]
+    if p.bent == 0:
+        for j in range(7):
+            M[3, j] = M[4, j] = 0.0
+        M[3, 1] = M[4, 2] = 1.0
     if p.end == HELD and p.clamp_above and not released(p, stage.t):
         k_rotation = spring(p, tables, last - 1)
         direction = (p.above_x, p.above_y, p.above_z)

@@ -57,9 +57,8 @@ def times(rows, a):
     return dot(rows[0], a), dot(rows[1], a), dot(rows[2], a)
 
 
-@kernel
-def quaternion_product(a, b):
-    """a o b"""
+def product_of(a, b):
+    """a o b, of numbers or of arrays of them."""
     return (
         a[0] * b[0] - a[1] * b[1] - a[2] * b[2] - a[3] * b[3],
         a[0] * b[1] + a[1] * b[0] + a[2] * b[3] - a[3] * b[2],
@@ -74,15 +73,17 @@ def relative(a, b):
     return quaternion_product((a[0], -a[1], -a[2], -a[3]), b)
 
 
-@kernel
-def frame(q):
-    """t, n, b of a unit quaternion: rows of C, eq. (6) with C31 = 2 (b1 b3 + b0 b2)."""
+def frame_of(q):
+    """t, n, b of a unit quaternion of numbers or arrays: rows of C, eq. (6) with C31 = 2 (b1 b3 + b0 b2)."""
     b0, b1, b2, b3 = q
     return (
         (b0 * b0 + b1 * b1 - b2 * b2 - b3 * b3, 2.0 * (b1 * b2 + b0 * b3), 2.0 * (b1 * b3 - b0 * b2)),
         (2.0 * (b1 * b2 - b0 * b3), b0 * b0 - b1 * b1 + b2 * b2 - b3 * b3, 2.0 * (b2 * b3 + b0 * b1)),
         (2.0 * (b1 * b3 + b0 * b2), 2.0 * (b2 * b3 - b0 * b1), b0 * b0 - b1 * b1 - b2 * b2 + b3 * b3),
     )
+
+
+quaternion_product, frame = kernel(product_of), kernel(frame_of)
 
 
 @kernel
@@ -125,3 +126,57 @@ def least_turn(a, b):
         x, y, z = (-a[1], a[0], 0.0) if abs(a[2]) < 0.9 else (0.0, -a[2], a[1])
     norm = 1.0 / math.sqrt(w * w + x * x + y * y + z * z)
     return w * norm, x * norm, y * norm, z * norm
+
+
+@kernel
+def scaled(a, x):
+    """a x, rows of five numbers: one for each of y = (eps, Sn, Sb, theta2, theta3)."""
+    return a * x[0], a * x[1], a * x[2], a * x[3], a * x[4]
+
+
+@kernel
+def added(x, y):
+    """x + y"""
+    return x[0] + y[0], x[1] + y[1], x[2] + y[2], x[3] + y[3], x[4] + y[4]
+
+
+@kernel
+def combined(a, x, b, y):
+    """a x + b y"""
+    return (a * x[0] + b * y[0], a * x[1] + b * y[1], a * x[2] + b * y[2], a * x[3] + b * y[3], a * x[4] + b * y[4])
+
+
+@kernel
+def combined3(a, x, b, y, c, z):
+    """a x + b y + c z"""
+    return (
+        a * x[0] + b * y[0] + c * z[0],
+        a * x[1] + b * y[1] + c * z[1],
+        a * x[2] + b * y[2] + c * z[2],
+        a * x[3] + b * y[3] + c * z[3],
+        a * x[4] + b * y[4] + c * z[4],
+    )
+
+
+@kernel
+def row_times(x, P):
+    """x P, P five rows."""
+    return added(combined3(x[0], P[0], x[1], P[1], x[2], P[2]), combined(x[3], P[3], x[4], P[4]))
+
+
+@kernel
+def row_dot(x, y):
+    """x . y"""
+    return x[0] * y[0] + x[1] * y[1] + x[2] * y[2] + x[3] * y[3] + x[4] * y[4]
+
+
+@kernel
+def row_of(E, at):
+    """(E[at], ..., E[at + 4])"""
+    return E[at], E[at + 1], E[at + 2], E[at + 3], E[at + 4]
+
+
+@kernel
+def put_row(E, at, x):
+    """E[at : at + 5] = x"""
+    E[at], E[at + 1], E[at + 2], E[at + 3], E[at + 4] = x

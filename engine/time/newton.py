@@ -7,7 +7,8 @@ one. Positions, and with them the water, are renewed in each iteration but left 
 import numpy as np
 
 from ..compiled import kernel
-from ..dimensions import add_update, assemble, shape, tidy, update_size
+from ..dimensions import add_update, eliminate, node_quantities, shape, tidy, update_size
+from ..physics.water import water
 from ..simd.select import where
 from .status import NEWTON_FAILED, NOT_FINITE, OK, STRAIN_BELOW_MINUS_ONE
 
@@ -35,6 +36,15 @@ def newton(p, tables, stage, tolerance, most, Y, work):
             return code, iteration + 1
         best = min(best, size)
     return NEWTON_FAILED, most
+
+
+@kernel
+def assemble(p, tables, stage, Y, work):
+    """One Newton update into work.D; returns False where a pivot block is singular. Arguments as for `newton`."""
+    shape(p, tables, Y, work.Q, work.X)
+    water(p, tables, stage.t, stage.in_motion, work.X, work.F)
+    node_quantities(p, tables, stage, Y, work)
+    return eliminate(p, tables, stage, Y, work)
 
 
 @kernel

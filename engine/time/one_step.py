@@ -48,8 +48,7 @@ class OneStep:
     def __call__(self, C, K):
         """(C', K') one step later; ValueError where the step fails."""
         run = self.run
-        for name in self.begin.dtype.names:
-            run.state[name] = self.begin[name]
+        run.state = self.begin.copy()
         for part, given in zip(run.motion, (self.Y, self.Y, C, K), strict=True):
             part[:] = given
         run.advance(1)

@@ -25,17 +25,15 @@ def weights_within(hermite, theta, dt):
 
 
 @kernel
-def sample(p, tables, state, dt, hermite, before, C1, K1, output):
+def sample(p, tables, state, dt, hermite, begin, end, samples, profiles):
     """Store the samples and profiles that lie within the step from state.t to state.t + dt.
 
-    before: Motion at its begin; C1, K1 (n, conserved): conserved variables and rates at its end; output: Output.
+    begin, end: conserved variables and rates (n, conserved) at its begin and its end; samples, profiles: of Output.
     """
-    C0, K0 = before.C, before.K
-    samples, profiles = output.samples, output.profiles
-    n = C0.shape[0]
-    end = state.t + dt
+    (C0, K0), (C1, K1) = begin, end
+    n, until = C0.shape[0], state.t + dt
     row = np.empty((n, col.PROFILE_WIDTH))
-    while state.samples < samples.shape[0] and state.samples * p.output_step <= end:
+    while state.samples < samples.shape[0] and state.samples * p.output_step <= until:
         t = state.samples * p.output_step
         weights = weights_within(hermite, (t - state.t) / dt, dt)
         out = samples[state.samples]
@@ -47,26 +45,15 @@ def sample(p, tables, state, dt, hermite, before, C1, K1, output):
             least = min(least, row[k, col.TENSION])
         for i in range(3):
             out[col.AT_X + i] = row[n - 1, col.PLACE + i]
-        complete_sample(state, out, t, row[n - 1, col.TENSION], least)
-    while state.profiles < profiles.shape[0] and state.profiles * p.profile_step <= end:
+        top = row[n - 1, col.TENSION]
+        out[col.TIME], out[col.TOP], out[col.LEAST] = t, top, least
+        out[col.TOP_LOW], out[col.TOP_HIGH] = min(state.low, top), max(state.high, top)
+        state.low, state.high = top, top
+        state.samples += 1
+    while state.profiles < profiles.shape[0] and state.profiles * p.profile_step <= until:
         t = state.profiles * p.profile_step
         weights = weights_within(hermite, (t - state.t) / dt, dt)
         configuration(p, tables, weights, C0, K0, C1, K1, profiles[state.profiles])
         state.profiles += 1
-    note_top(state, tension(last_strain(p, C1), p, tables)[0])
-
-
-@kernel
-def complete_sample(state, out, t, top, least):
-    """Time and tensions of a sample `out` that has its place and velocity; the sample is then booked."""
-    out[col.TIME], out[col.TOP], out[col.LEAST] = t, top, least
-    out[col.TOP_LOW], out[col.TOP_HIGH] = min(state.low, top), max(state.high, top)
-    state.low, state.high = top, top
-    state.samples += 1
-
-
-@kernel
-def note_top(state, top):
-    """Take in the tension at the top at the end of a step."""
-    state.low = min(state.low, top)
-    state.high = max(state.high, top)
+    top = tension(last_strain(p, C1), p, tables)[0]
+    state.low, state.high = min(state.low, top), max(state.high, top)

@@ -26,7 +26,7 @@ ADVICE = {
     "too little stiffness in compression, or bending is left out in slack",
     NOT_FINITE: "a value that is not a finite number appeared at t = {t:.6g} s; waves extrapolated far above still "
     'water grow without bound: compare waves.above_still_water = "zero"',
-    STATICS_FAILED: "no static equilibrium was found from which to start: ",  # goes on: engine.time.statics_advice
+    STATICS_FAILED: "no static equilibrium was found from which to start: ",  # goes on: engine.time.statics.why_no_rest
     STEP_LIMIT: "the run stands still at t = {t:.6g} s: 20 000 steps of {dt:.2g} s were tried within the "
     "time of one usual step; raise solver.rtol, or look for what the grid cannot resolve (compression without "
     "bending, for one)",

@@ -67,6 +67,14 @@ def add_rates(p, a, count, Ks, k, row):
 
 
 @kernel
+def stage_rate(rate, C, C_tilde, K):
+    """K = rate (C - C~), for arrays (n, m)."""
+    for k in range(C.shape[0]):
+        for m in range(C.shape[1]):
+            K[k, m] = rate * (C[k, m] - C_tilde[k, m])
+
+
+@kernel
 def guess(w, oldest, middle, latest):
     """First guess of one unknown from its last three values."""
     return w[0] * oldest + w[1] * middle + w[2] * latest
@@ -75,14 +83,12 @@ def guess(w, oldest, middle, latest):
 @kernel
 def stage_rates(p, rate, Y, Q, C_tilde, C_new, K):
     """C_new, the conserved variables of a stage solved for Y, and K = rate (C_new - C~)."""
-    size = size_of(p)[1]
-    half = size // 2
+    half = size_of(p)[1] // 2
     for k in range(Y.shape[0]):
         for m in range(half):
             C_new[k, m] = Q[k, STRETCH + m]
             C_new[k, half + m] = Y[k, half + m]
-        for m in range(size):
-            K[k, m] = rate * (C_new[k, m] - C_tilde[k, m])
+    stage_rate(rate, C_new, C_tilde, K)
 
 
 @kernel

@@ -23,7 +23,7 @@ from ..physics.shocks import deforming_element, renew_viscosity
 from ..record import BEGIN, CONTROLLED, EULER, KIND, RESTART, RUNGE_KUTTA, STEP
 from ..simd.elementary import copy_into
 from .sampling import sample
-from .status import NEWTON_FAILED, NOT_FINITE, OK, STEP_LIMIT, STEP_UNDERFLOW, STRAIN_BELOW_MINUS_ONE, TURN_UNRESOLVED
+from .status import OK, STEP_LIMIT, STEP_UNDERFLOW, TURN_UNRESOLVED
 from .steps import least_strain, one_stage_step, runge_kutta_step
 
 SMALL_STEPS = 3
@@ -44,7 +44,7 @@ def guard_turns(p, tables, state, Y):
             return OK, released
         if p.loop_release == 0 or state.releases >= p.max_releases:
             return TURN_UNRESOLVED, released
-        release_loop(p, tables, Y, where)
+        release_loop(p, tables, Y, int(where))
         state.releases += 1
         released = True
     return TURN_UNRESOLVED, released
@@ -94,10 +94,7 @@ def _shorten(p, state, code, factor):
     state.dt = state.trial_dt * factor
     state.cautious = CAUTIOUS_STEPS if code != OK else 0
     if state.dt < p.min_step:
-        if code == NEWTON_FAILED or code == NOT_FINITE or code == STRAIN_BELOW_MINUS_ONE:
-            state.status = code
-        else:
-            state.status = STEP_UNDERFLOW
+        state.status = code if code != OK else STEP_UNDERFLOW
 
 
 @kernel
@@ -132,38 +129,32 @@ def next_step(p, state, code, released, error, longest):
 
 
 @kernel
-def record_step(trail, at, step, kind, trial):
-    """One accepted step into row `at` of the trail (`engine.perturbations.tangent`); kind: of `engine.record`."""
-    row = trail.T[at]
-    row[BEGIN], row[STEP], row[KIND] = step.t, step.dt, kind
-    for i in range(trial.Y.shape[0]):
-        copy_into(trail.Y[at, i], trial.Y[i])
-        copy_into(trail.K[at, i], trial.K[i])
-
-
-@kernel
-def march(p, tables, state, motion, output, trail, until):
+def march(p, tables, state, motion, output, trail, until, one_stage, e_t, budget):
     """Advance one simulation until `until` samples are stored, the trail is full, or it ends.
 
     p, tables: parameters; state: STATE record (`engine.record`); motion: Motion, the state itself; both are changed in
     place. motion.C is kept from call to call: computed anew it would differ by rounding, and the calls would show.
-    output: Output, columns of samples and profiles in `engine.record`, of energies in `engine.physics.energy`, a row of
-    which is stored at the first step past each output time. trail: Trail of accepted steps. Where an array of output or
-    trail has no rows, nothing is kept in it.
+    output: Output, columns of samples and profiles in `engine.record`; trail: Trail of accepted steps. An array without
+    rows keeps nothing.
+
+    None where the scene does not need them, so that their kernels are not compiled for it: one_stage, the alphas of a
+    one-stage method; e_t (n,), work of the shock viscosity; budget, the energies and sums of Output (columns in
+    `engine.physics.energy`), a row of which is stored at the first step past each output time.
     """
     Y, Y_before, C, K = motion
-    energies = output.energies
     s = max(p.stages, 2)
     unknowns, size = size_of(p)
     work = work_arrays(p, p.nodes)
     trial = Trial(np.empty((s, p.nodes, unknowns)), np.empty((s, p.nodes, size)), np.empty((p.nodes, size)))
-    e_t = np.empty(p.nodes)
-    if p.viscous and state.steps > 0:
-        renew_viscosity(p, tables, size // 2, C, K, e_t, work.Q)
-    if state.steps == 0:
+    first = state.steps == 0
+    if first:
         conserved(p, Y, C)
-        if energies.shape[0] > 0:
-            store_energies(p, tables, 0.0, C, output.sums, energies[0])
+    if e_t is not None:
+        if not first:
+            renew_viscosity(p, tables, size // 2, C, K, e_t, work.Q)
+    if budget is not None:
+        if first:
+            store_energies(p, tables, 0.0, C, budget[1], budget[0][0])
             state.energies = 1
     room = trail.T.shape[0]
     while state.status == OK and state.samples < until and (room == 0 or state.trail < room):
@@ -171,39 +162,45 @@ def march(p, tables, state, motion, output, trail, until):
         begin_trial(p, tables, state)
         if state.status != OK:
             break
-        small, error = state.small != 0, 0.0
+        small, code, used, error = state.small != 0, OK, 0, 0.0
         step = Step(state.t, state.trial_dt, state.dt_before, small)
-        alphas = (1.0, 1.0, 1.0) if small else (p.alpha_m, p.alpha_f, p.gamma)
         stiff = small or p.method == RUNGE_KUTTA
         if stiff:
             code, used, error = runge_kutta_step(p, tables, step, motion, trial, work)
-        else:
-            code, used = one_stage_step(p, tables, step, alphas, p.max_newton, motion, trial, work)
+        if one_stage is not None:
+            if not stiff:
+                code, used = one_stage_step(p, tables, step, one_stage, p.max_newton, motion, trial, work)
         if refused(p, state, code, used, error):
             continue
         # what lies within the accepted step goes into the output
         Y_new, K_new = trial.Y[s - 1], trial.K[s - 1]
-        sample(p, tables, state, step.dt, stiff and not small, motion, trial.C, K_new, output)
-        if energies.shape[0] > 0:
-            add_powers(p, tables, step.dt, alphas, motion, trial.C, K_new, Y_new, work.Q, output.sums)
+        hermite = stiff and not small
+        sample(p, tables, state, step.dt, hermite, (C, K), (trial.C, K_new), output.samples, output.profiles)
+        if budget is not None:
+            energies, sums = budget
+            alphas = (1.0, 1.0, 1.0) if small else (p.alpha_m, p.alpha_f, p.gamma)
+            add_powers(p, tables, step.dt, alphas, motion, trial.C, K_new, Y_new, work.Q, sums)
             if state.energies < energies.shape[0] and state.energies * p.output_step <= step.t + step.dt:
-                store_energies(p, tables, step.t + step.dt, trial.C, output.sums, energies[state.energies])
+                store_energies(p, tables, step.t + step.dt, trial.C, sums, energies[state.energies])
                 state.energies += 1
         if room > 0:
-            kind = RESTART if small else CONTROLLED if stiff else EULER
-            record_step(trail, state.trail, step, kind, trial)
+            at, kind = state.trail, RESTART if small else CONTROLLED if stiff else EULER
+            trail.T[at, BEGIN], trail.T[at, STEP], trail.T[at, KIND] = step.t, step.dt, kind
+            for i in range(s):
+                copy_into(trail.Y[at, i], trial.Y[i])
+                copy_into(trail.K[at, i], trial.K[i])
             state.trail += 1
         # the trial becomes the state
         copy_into(Y_before, Y)
         copy_into(Y, Y_new)
         copy_into(K, K_new)
         copy_into(C, trial.C)
-        if p.viscous:
-            renew_viscosity(p, tables, size // 2, C, K, e_t, work.Q)
         step_done(p, state)
         state.min_strain = min(state.min_strain, least_strain(Y))
         code, released = guard_turns(p, tables, state, Y)
         longest = p.fixed_step
-        if p.viscous and p.pace > 0.0:
-            longest = p.pace * deforming_element(p, tables, e_t)
+        if e_t is not None:
+            renew_viscosity(p, tables, size // 2, C, K, e_t, work.Q)
+            if p.pace > 0.0:
+                longest = p.pace * deforming_element(p, tables, e_t)
         next_step(p, state, code, released, error, longest)

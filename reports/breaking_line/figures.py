@@ -7,14 +7,12 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..figures.energy_shares import EnergyPanel, energy_shares
-from ..figures.front_plane import FrontPanel, front_plane
-from ..figures.front_speeds import front_speeds
 from ..figures.line_animation import line_animation, line_strip
-from ..figures.line_panels import LinePanel, folds, line_panels, paired_limits
+from ..figures.line_panels import QUANTITIES, SCALED, LinePanel, folds, line_panels, seen
+from ..figures.line_waves import FrontPanel, energy_shares, front_plane, front_speeds
 from ..parts.content import Figure
 from ..parts.wording import decimals, listed, number, percent
-from .runs import FAST, SLOW, Line, find, named
+from .runs import FAST, SLOW, Line, find, named, title_of
 
 if TYPE_CHECKING:
     import xarray
@@ -23,11 +21,6 @@ INSTANT_S = 0.010
 FRAME_S = 0.002  # of the animation
 NEAR_M = (-1.0, 4.0)
 CURVE_POINTS = 120
-LETTERS = "abcd"
-ALONG = {  # column of the profiles -> unit of the axis, its label, what is shown, unit in words
-    "tension_N": (1e-3, "$T$ (kN)", "Tension along the line", "kN"),
-    "speed_mps": (1.0, "speed (m/s)", "Speed along the line", "m/s"),
-}
 
 
 def shown(lines: tuple[Line, ...], cases: Sequence[str]) -> list[Line]:
@@ -37,12 +30,24 @@ def shown(lines: tuple[Line, ...], cases: Sequence[str]) -> list[Line]:
 
 
 def paper_figures(lines: tuple[Line, ...], cases: Sequence[str]) -> list[Figure]:
-    """Configurations, tension and velocity along the line of the fast or the slow breaks."""
+    """Configurations, tension and velocity along the line of the fast or the slow breaks, every 10 ms."""
     drawn = shown(lines, cases)
-    if not drawn:
-        return []
-    first = 2 if cases == FAST else 5
-    return [_configurations(drawn, first), *(_along(drawn, column, first + k) for k, column in enumerate(ALONG, 1))]
+    return [_figure(drawn, column, k) for k, column in enumerate(QUANTITIES, 2 if cases == FAST else 5) if drawn]
+
+
+def _figure(drawn: list[Line], column: str, figure: int) -> Figure:
+    panels = []
+    for place, line in enumerate(drawn):
+        profiles, force_N = line.trajectory.profiles, line["force_N"]
+        rows = instants(profiles)
+        x = profiles.x_m[rows] if column == "z_m" else profiles.s_m
+        title = title_of(place, line["case"], force_N)
+        curves = (x, getattr(profiles, column)[rows], profiles.time_s[rows])
+        panels.append(LinePanel(line["case"], force_N, title, *curves))
+    what = QUANTITIES[column][0]
+    caption = f"The {what} every 10 ms (fig. {figure} of the paper); {SCALED[column]}. Seen: {seen(panels, column)}."
+    alt = f"The {what}, a curve every 10 ms, one panel a case: {seen(panels, column)}."
+    return Figure(line_panels(panels, column), caption, alt)
 
 
 def instants(profiles) -> np.ndarray:
@@ -51,55 +56,16 @@ def instants(profiles) -> np.ndarray:
     return np.unique(np.searchsorted(profiles.time_s, wanted - 1e-9).clip(max=len(profiles.time_s) - 1))
 
 
-def _title(letter: str, line: Line) -> str:
-    return f"({letter}) case {line.name}: {1e-3 * line.value('force_N'):.0f} kN"
-
-
-def _configurations(drawn: list[Line], figure: int) -> Figure:
-    panels, words = [], []
-    for letter, line in zip(LETTERS, drawn, strict=False):
-        profiles = line.trajectory.profiles
-        rows = instants(profiles)
-        panels.append(LinePanel(_title(letter, line), profiles.x_m[rows], profiles.z_m[rows], profiles.time_s[rows]))
-        words.append(f"case {line.name}: recoil {decimals(line.value('recoil_m'), 1)} m")
-    low, high = min(0.0, *(float(one.y.min()) for one in panels)), max(0.0, *(float(one.y.max()) for one in panels))
-    room = 0.06 * (high - low)
-    picture = line_panels(panels, "$x$ (m)", "$z$ (m)", [(low - room, high + room)] * len(panels), centre=True)
-    caption = (
-        f"Configurations every 10 ms (fig. {figure} of the paper), heights much enlarged, the same in all panels. "
-        f"Seen: {'; '.join(words)}."
-    )
-    return Figure(picture, caption, f"Shapes of the line every 10 ms, one panel a case: {'; '.join(words)}.")
-
-
-def _along(drawn: list[Line], column: str, figure: int) -> Figure:
-    unit, label, what, printed = ALONG[column]
-    panels, words = [], []
-    for letter, line in zip(LETTERS, drawn, strict=False):
-        profiles = line.trajectory.profiles
-        rows = instants(profiles)
-        values = unit * getattr(profiles, column)[rows]
-        panels.append(LinePanel(_title(letter, line), profiles.s_m, values, profiles.time_s[rows]))
-        words.append(f"case {line.name} {number(values.min(), 3)} to {number(values.max(), 4)} {printed}")
-    limits = paired_limits([line.case for line in drawn], panels)
-    caption = (
-        f"{what} (fig. {figure} of the paper), over the unstretched length s from the fixed end, every 10 ms; cases 1 "
-        f"and 2, and 3 and 4, have one scale each. Seen: {'; '.join(words)}."
-    )
-    picture = line_panels(panels, "$s$ (m)", label, limits, centre=False)
-    return Figure(picture, caption, f"{what}, curves every 10 ms, one panel a case: {'; '.join(words)}.")
-
-
 def folds_figure(lines: tuple[Line, ...]) -> Figure | None:
     """The neighbourhood of the fixed end at the end of every run, in true proportion."""
     panels, words = [], []
     order = [case for pair in zip(FAST, SLOW, strict=True) for case in pair]
     for line in shown(lines, order):
         profiles = line.trajectory.profiles
-        time_s = profiles.time_s[-1:]
-        title = f"case {line.name}, {1e3 * float(time_s[0]):.0f} ms"
-        panels.append(LinePanel(title, profiles.x_m[-1], profiles.z_m[-1], time_s))
-        words.append(f"{decimals(line.value('buckled_m'), 2)} m (case {line.name})")
+        title = f"case {line.name}, {1e3 * float(profiles.time_s[-1]):.0f} ms"
+        shape = profiles.x_m[-1], profiles.z_m[-1], profiles.time_s[-1:]
+        panels.append(LinePanel(line["case"], line["force_N"], title, *shape))
+        words.append(f"{decimals(line['buckled_m'], 2)} m (case {line.name})")
     if not panels:
         return None
     near = [panel.y[panel.x < NEAR_M[1]] for panel in panels]
@@ -118,11 +84,11 @@ def plane_figure(lines: tuple[Line, ...], exact: xarray.Dataset) -> Figure:
     cases, shares = exact["curve_case"].values, exact["share"].values
     for line in shown(lines, (*FAST, *SLOW)):
         profiles = line.trajectory.profiles
-        curves = {float(shares[row]): _curve(exact, row) for row in np.flatnonzero(cases == line.case)}
+        curves = {float(shares[row]): _curve(exact, row) for row in np.flatnonzero(cases == line["case"])}
         shock = next((curve for share, curve in curves.items() if np.isnan(share)), None)
         drawn = [curve for share, curve in curves.items() if not np.isnan(share)]
         shocked += [line.name] if shock else []
-        tension = profiles.tension_N / line.value("force_N")
+        tension = profiles.tension_N / line["force_N"]
         panels.append(FrontPanel(f"case {line.name}", profiles.time_s, profiles.s_m, tension, drawn, shock))
     percents = ", ".join(number(100 * share) for share in dict.fromkeys(shares[~np.isnan(shares)]))
     shocks = f"Exact shocks, dashed, in cases {listed(shocked)}." if shocked else "No shock forms on these lines."
@@ -167,7 +133,7 @@ def energy_figure(lines: tuple[Line, ...]) -> Figure | None:
         gone = energy.viscous_J + energy.scheme_space_J + energy.scheme_time_J
         shares = np.array([energy.strain_J, energy.kinetic_J, -energy.end_work_J, gone, energy.bending_J])
         thin = slice(None, None, max(1, len(energy.time_s) // CURVE_POINTS))
-        panels.append(EnergyPanel(f"case {line.name}", energy.time_s[thin], shares[:, thin] / energy.stored_J))
+        panels.append((f"case {line.name}", energy.time_s[thin], shares[:, thin] / energy.stored_J))
         words.append(f"{line.name} {percent(line.share('kinetic_largest_J'))}")
     if not panels:
         return None

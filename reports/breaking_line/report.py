@@ -64,7 +64,7 @@ def report(directory: str | Path) -> Report:
         Text(QUESTION),
         Heading("Short answer"),
         Bullets(tuple(_answer(lines))),
-        *_section("The cases", tables.cases_table(lines, columns), *_warnings(lines)),
+        *_section("The cases", tables.table_of_runs(lines, columns, "cases"), *_warnings(lines)),
         *_section("Fast breaks", *figures.paper_figures(lines, FAST)),
         *_section("Slow breaks", *figures.paper_figures(lines, SLOW)),
         *_section("At the fixed end", figures.folds_figure(lines)),
@@ -74,7 +74,7 @@ def report(directory: str | Path) -> Report:
         *_section("The paper's statements", statements_table(judged, verdicts)),
         *_section("Bending stiffness", tables.stiffness_table(lines, columns)),
         *_section("Doubled grids", tables.doubled_table(lines, columns)),
-        *_section("Run times", tables.cost_table(lines, columns), timing_table(folder)),
+        *_section("Run times", tables.table_of_runs(lines, columns, "cost"), timing_table(folder)),
         *_scene(folder),
         *_equations(folder),
         *provenance_items(folder),
@@ -88,54 +88,49 @@ def _section(heading: str, *items: Item | None, text: str = "") -> list[Item]:
 
 
 def _answer(lines: tuple[Line, ...]) -> list[str]:
-    cases = [line for line in lines if line.kind == "case"]
+    cases = [line for line in lines if line["kind"] == "case"]
     good = of_kind(lines, "case")
     said = [f"{len(good)} of {count(len(cases), 'case')} ended as asked."]
-    speeds = [line for line in good if math.isfinite(line.value("end_speed_error"))]
-    if speeds:
-        off = max(line.value("end_speed_error") for line in speeds)
-        words = listed(f"{decimals(line.value('end_speed_mps'), 1)} ({line.name})" for line in speeds)
+    if speeds := [line for line in good if line.known("end_speed_error")]:
+        off = max(line["end_speed_error"] for line in speeds)
+        words = listed(f"{decimals(line['end_speed_mps'], 1)} ({line.name})" for line in speeds)
         said.append(f"The broken end recoils at {words} m/s, within {percent(off)} of the exact motion.")
-    fronts = [line.value("front_speed_mps") / line.value("front_speed_theory_mps") - 1.0 for line in good]
-    fronts = [abs(off) for off in fronts if math.isfinite(off)]
-    if fronts:
+    fronts = [line["front_speed_mps"] / line["front_speed_theory_mps"] - 1.0 for line in good]
+    if fronts := [abs(off) for off in fronts if math.isfinite(off)]:
         seen = count(len(fronts), "front")
         said.append(f"The {seen} that can be followed run within {percent(max(fronts))} of √(T′/m).")
-    said += [_shock_said(line) for line in good if math.isfinite(line.value("shock_birth_theory_m"))]
-    left = [line for line in good if line.value("x_min_m") < -0.1]
-    if left:
-        words = listed(f"{decimals(-line.value('x_min_m'), 2)} m (case {line.name})" for line in left)
+    said += [_shock_said(line) for line in good if line.known("shock_birth_theory_m")]
+    if left := [line for line in good if line["x_min_m"] < -0.1]:
+        words = listed(f"{decimals(-line['x_min_m'], 2)} m (case {line.name})" for line in left)
         said.append(f"The line passes the fixed end by {words}.")
     pairs = [(find(lines, fast), find(lines, slow)) for fast, slow in zip(FAST, SLOW, strict=True)]
-    taken = [line for pair in pairs if None not in pair for line in pair if math.isfinite(line.share("end_work_J"))]
-    if taken:
+    if taken := [line for pair in pairs if None not in pair for line in pair if line.known("end_work_J")]:
         words = listed(f"{percent(-line.share('end_work_J'))} in {line.name}" for line in taken)
         said.append(f"The kinetic energy depends on the fracture time: the decaying end force takes out {words}.")
-    closed = [line for line in good if math.isfinite(line.value("remainder_largest_J"))]
-    if closed:
+    if closed := [line for line in good if line.known("remainder_largest_J")]:
         worst = max(line.share("remainder_largest_J") for line in closed)
         said.append(f"At no time is more than {percent(worst)} of the stored energy unaccounted for.")
     return said
 
 
 def _shock_said(line: Line) -> str:
-    place = decimals(line.value("shock_birth_theory_m"), 1)
+    place = decimals(line["shock_birth_theory_m"], 1)
     born = f"Case {line.name} forms a shock, by theory {place} m from the broken end"
-    off = line.value("shock_offset_elements")
+    off = line["shock_offset_elements"]
     if not math.isfinite(off):
         return f"{born}; the run shows too little of it to be followed."
-    far = number(1e3 * line.value("shock_offset_largest_m"), 2)
+    far = number(1e3 * line["shock_offset_largest_m"], 2)
     return f"{born}; the run's follows the exact one within {far} mm, {number(off, 2)} elements in the median."
 
 
 def _warnings(lines: tuple[Line, ...]) -> list[Item]:
-    told = [f"{_run(line)}: {line.row['status']}: {line.row['message']}" for line in lines if not line.ok]
+    told = [f"{_run(line)}: {line['status']}: {line['message']}" for line in lines if not line.ok]
     told += [f"Case {line.name}: {line.fault}; its figures are left out." for line in lines if line.fault]
     told += [
-        f"{_run(line)} turns by {decimals(line.value('max_turn_rad'), 2)} rad within one element: its folds are not "
+        f"{_run(line)} turns by {decimals(line['max_turn_rad'], 2)} rad within one element: its folds are not "
         "resolved, add nodes."
         for line in lines
-        if line.ok and line.value("max_turn_rad") > MOST_TURN_RAD
+        if line.ok and line["max_turn_rad"] > MOST_TURN_RAD
     ]
     told += [
         f"The energy budget of case {line.name} does not close to {percent(CLOSED)}."
@@ -146,17 +141,17 @@ def _warnings(lines: tuple[Line, ...]) -> list[Item]:
 
 
 def _run(line: Line) -> str:
-    stiffness = f", EI = {number(line.value('bending_stiffness_Nm2'))} N m²" if line.kind == "stiffness" else ""
-    return f"Case {line.name}{tables.KINDS.get(line.kind, '')}{stiffness}, {number(line.value('nodes'))} nodes"
+    stiffness = f", EI = {number(line['bending_stiffness_Nm2'])} N m²" if line["kind"] == "stiffness" else ""
+    return f"Case {line.name}{tables.KINDS.get(line['kind'], '')}{stiffness}, {number(line['nodes'])} nodes"
 
 
 def _fronts(folder: Folder, lines: tuple[Line, ...], columns: tables.Columns) -> list[Item]:
-    if not any(math.isfinite(line.value("front_speed_theory_mps")) for line in of_kind(lines, "case")):
+    if not any(line.known("front_speed_theory_mps") for line in of_kind(lines, "case")):
         return []
     exact = read_exact(folder)
     drawn = [] if exact is None else [figures.plane_figure(lines, exact), figures.speeds_figure(exact)]
-    found = (table(lines, columns) for table in (tables.speeds_table, tables.shocks_table, tables.series_table))
-    return _section("Fronts and shocks", *drawn, *found, text=THEORY)
+    found = (tables.table_of_runs(lines, columns, which) for which in ("speeds", "shocks"))
+    return _section("Fronts and shocks", *drawn, *found, tables.series_table(lines, columns), text=THEORY)
 
 
 def _scene(folder: Folder) -> list[Item]:

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import io
+from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from ..parts.folder import Folder
+from ..figures.line_panels import thousands
+from ..parts.folder import Folder, Row
 
 if TYPE_CHECKING:
     import xarray
@@ -14,40 +17,23 @@ FAST, SLOW = ("1", "2", "3", "4"), ("1p", "2p", "3p", "4p")
 
 
 @dataclass(frozen=True, eq=False)
-class Line:
+class Line(Row):
     """One row of the table.
 
     `trajectory`: of kind "case", where its file can be read; `fault`: why it cannot, else "".
     """
 
-    row: dict
-    trajectory: object | None
-    fault: str
-
-    @property
-    def case(self) -> str:
-        return self.row["case"]
-
-    @property
-    def kind(self) -> str:
-        return self.row["kind"]
+    trajectory: object | None = None
+    fault: str = ""
 
     @property
     def name(self) -> str:
         """As the paper writes it: 4, 4′."""
-        return named(self.case)
-
-    @property
-    def ok(self) -> bool:
-        return self.row["status"] == "ok"
-
-    def value(self, column: str) -> float:
-        """A number of the row, nan where the table leaves it empty."""
-        return float(self.row[column])
+        return named(self["case"])
 
     def share(self, column: str) -> float:
         """An energy as a share of the stored one."""
-        return self.value(column) / self.value("stored_J")
+        return self[column] / self["stored_J"]
 
 
 def named(case: str) -> str:
@@ -55,15 +41,19 @@ def named(case: str) -> str:
     return case.replace("p", "′")
 
 
+def title_of(place: int, case: str, force_N: float) -> str:
+    """Of the panel of a case, at a place in its figure."""
+    return f"({'abcd'[place]}) case {named(case)}: {thousands(force_N)} N"
+
+
 def read_lines(folder: Folder) -> tuple[Line, ...]:
     """Every run of the table, in its order."""
-    return tuple(_read_line(folder, row) for row in folder.table.to_dict("records"))
+    rows = folder.table.to_dict("records")
+    return tuple(Line(row, *(folder.trajectory(row) if row["kind"] == "case" else (None, ""))) for row in rows)
 
 
 def read_exact(folder: Folder) -> xarray.Dataset | None:
     """exact.nc of the folder: characteristics, shocks and speeds of exact theory; None where it has none."""
-    import io
-
     import xarray
 
     try:
@@ -72,15 +62,11 @@ def read_exact(folder: Folder) -> xarray.Dataset | None:
         return None
 
 
-def of_kind(lines: tuple[Line, ...], kind: str) -> tuple[Line, ...]:
-    """The runs of one kind that ended as asked."""
-    return tuple(line for line in lines if line.kind == kind and line.ok)
+def of_kind(lines: Iterable[Line], *kinds: str) -> list[Line]:
+    """The runs that ended as asked, kind by kind."""
+    return [line for kind in kinds for line in lines if line["kind"] == kind and line.ok]
 
 
-def find(lines: tuple[Line, ...], case: str) -> Line | None:
+def find(lines: Iterable[Line], case: str) -> Line | None:
     """The run of a case that ended as asked, None where there is none."""
-    return next((line for line in of_kind(lines, "case") if line.case == case), None)
-
-
-def _read_line(folder: Folder, row: dict) -> Line:
-    return Line(row, *(folder.trajectory(row) if row["kind"] == "case" else (None, "")))
+    return next((line for line in of_kind(lines, "case") if line["case"] == case), None)

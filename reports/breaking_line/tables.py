@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable
 from dataclasses import replace
+from itertools import pairwise
 
 from ..parts.columns import Quantity, table_of
 from ..parts.content import Table
@@ -41,102 +42,68 @@ DOUBLED = (
 COST = (
     "case", "nodes", "bending_stiffness_Nm2", "steps", "newton_iterations", "newton_failures", "max_turn_rad", "wall_s",
 )  # fmt: skip
+OF_RUNS = {  # table -> its columns; kinds of run; a column that is known of each run, "" for failed runs too; caption
+    "cases": (CASES, ("case",), "", "The cases of `table.csv`; primes: fracture in 50 ms."),
+    "speeds": (
+        SPEEDS,
+        ("case", "straight"),
+        "nodes",
+        "Speeds against exact theory; straight: without gravity, on an even grid. An exact wave has no rise.",
+    ),
+    "shocks": (SHOCKS, ("straight", "case", "doubled"), "shock_birth_theory_m", "Shocks against exact theory."),
+    "cost": (COST, ("case", *KINDS), "", "Every run of `table.csv`: work and wall time, compilation left out."),
+}
 
 
-def cases_table(lines: tuple[Line, ...], columns: Columns) -> Table:
-    """Every case that was asked for, failed ones included."""
-    cases = [line for line in lines if line.kind == "case"]
-    return _table(columns, CASES, cases, "The cases of `table.csv`; primes: fracture in 50 ms.")
-
-
-def speeds_table(lines: tuple[Line, ...], columns: Columns) -> Table:
-    """Speeds of the end and of fronts, and errors of strain: all cases, and the straight lines."""
-    shown = [line for kind in ("case", "straight") for line in of_kind(lines, kind)]
-    caption = "Speeds against exact theory; straight: without gravity, on an even grid. An exact wave has no rise."
-    return _table(columns, SPEEDS, shown, caption)
-
-
-def shocks_table(lines: tuple[Line, ...], columns: Columns) -> Table | None:
-    """Shocks where theory has one."""
-    shown = [line for kind in ("straight", "case", "doubled") for line in of_kind(lines, kind)]
-    shocked = [line for line in shown if math.isfinite(line.value("shock_birth_theory_m"))]
-    return _table(columns, SHOCKS, shocked, "Shocks against exact theory.") if shocked else None
+def table_of_runs(lines: tuple[Line, ...], columns: Columns, which: str) -> Table | None:
+    """A table of OF_RUNS; None where no run is to be shown."""
+    names, kinds, needed, caption = OF_RUNS[which]
+    shown = [line for line in of_kind(lines, *kinds) if line.known(needed)] if needed else lines
+    return _table(columns, names, [line for line in shown if line["kind"] in kinds], caption)
 
 
 def series_table(lines: tuple[Line, ...], columns: Columns) -> Table | None:
     """Convergence to the exact motion, grid by grid."""
-    found = sorted(of_kind(lines, "series"), key=lambda line: (line.case, line.value("nodes")))
-    rows, before = [], None
-    for line in found:
-        order = math.nan
-        if before is not None and before.case == line.case:
-            ratio = (line.value("nodes") - 1) / (before.value("nodes") - 1)
-            order = math.log(before.value("strain_error") / line.value("strain_error")) / math.log(ratio)
-        rows.append(line.row | {"case": line.name, "order": order})
-        before = line
-    if not rows:
-        return None
+    found = sorted(of_kind(lines, "series"), key=lambda line: (line["case"], line["nodes"]))
+    rows = [line.row | {"case": line.name, "order": math.nan} for line in found]
+    for (before, line), row in zip(pairwise(found), rows[1:], strict=False):
+        if before["case"] == line["case"]:
+            ratio = (line["nodes"] - 1) / (before["nodes"] - 1)
+            row["order"] = math.log(before["strain_error"] / line["strain_error"]) / math.log(ratio)
     more = columns | {"order": Quantity("order", "", "order", "order of the mean of |ε − exact|", 2)}
-    return table_of(more, SERIES, rows, "Convergence on even grids, without gravity.")
+    return table_of(more, SERIES, rows, "Convergence on even grids, without gravity.") if rows else None
 
 
 def stiffness_table(lines: tuple[Line, ...], columns: Columns) -> Table | None:
     """What the bending stiffness changes, on doubled grids."""
-    found = list(of_kind(lines, "stiffness"))
-    found += [line for line in of_kind(lines, "doubled") if line.case in {other.case for other in found}]
-    if not found:
-        return None
-    found.sort(key=lambda line: (line.case, line.value("bending_stiffness_Nm2")))
-    names = ("case", "bending_stiffness_Nm2", *CASES[3:], "bending_J")
-    rows = [_named(line) | shares(line, ("bending_J",)) for line in found]
+    varied = {line["case"] for line in of_kind(lines, "stiffness")}
+    found = [line for line in of_kind(lines, "stiffness", "doubled") if line["case"] in varied]
+    found.sort(key=lambda line: (line["case"], line["bending_stiffness_Nm2"]))
     caption = "Bending stiffness, which the paper does not give, on grids of twice the elements."
-    return table_of(in_percent(columns, ("bending_J",)), names, rows, caption)
+    return _table(columns, ("case", "bending_stiffness_Nm2", *CASES[3:], "bending_J"), found, caption, ("bending_J",))
 
 
 def energy_table(lines: tuple[Line, ...], columns: Columns) -> Table | None:
     """The energy budget at the end of every case, in shares of what was stored."""
-    found = [line for line in of_kind(lines, "case") if math.isfinite(line.value("stored_J"))]
-    if not found:
-        return None
-    rows = [_named(line) | shares(line, ENERGIES) for line in found]
+    found = [line for line in of_kind(lines, "case") if line.known("stored_J")]
     caption = "Energy at the end of each run, in shares of the strain energy stored at the start."
-    return table_of(in_percent(columns, ENERGIES), ("case", "stored_J", *ENERGIES), rows, caption)
+    return _table(columns, ("case", "stored_J", *ENERGIES), found, caption, ENERGIES)
 
 
 def doubled_table(lines: tuple[Line, ...], columns: Columns) -> Table | None:
     """Quoted quantities and what a doubled grid changes."""
-    percent = [name for name in DOUBLED if name.endswith("_J")]
-    rows = [
-        {"case": line.name} | _changes(line, fine, in_percent(columns, percent))
-        for fine in of_kind(lines, "doubled")
-        if (line := find(lines, fine.case)) is not None
-    ]
-    if not rows:
-        return None
+    columns = _in_percent(columns, [name for name in DOUBLED if name.endswith("_J")])
+    pairs = [(find(lines, fine["case"]), fine) for fine in of_kind(lines, "doubled")]
+    rows = [{"case": line.name} | _changes(line, fine, columns) for line, fine in pairs if line is not None]
     caption = "What twice the elements change: the value at the reported grid, and the change in brackets."
     own = {name: lambda row, name=name: row[name] for name in DOUBLED}
-    return table_of(in_percent(columns, percent), ("case", *DOUBLED), rows, caption, own)
-
-
-def cost_table(lines: tuple[Line, ...], columns: Columns) -> Table:
-    """Steps, Newton iterations and wall time of every run."""
-    return _table(columns, COST, lines, "Every run of `table.csv`: work and wall time, compilation left out.")
-
-
-def shares(line: Line, names: Iterable[str]) -> dict[str, float]:
-    """Energies in per cent of the stored one."""
-    return {name: 100.0 * line.share(name) for name in names}
-
-
-def in_percent(columns: Columns, names: Iterable[str]) -> Columns:
-    """The dictionary with these energies in per cent of the stored one."""
-    return columns | {name: replace(columns[name], unit="%", digits=2) for name in names}
+    return table_of(columns, ("case", *DOUBLED), rows, caption, own) if rows else None
 
 
 def _changes(line: Line, fine: Line, columns: Columns) -> dict[str, str]:
     cells = {}
     for name in DOUBLED:
-        both = [100.0 * run.share(name) if name.endswith("_J") else run.value(name) for run in (line, fine)]
+        both = [100.0 * run.share(name) if name.endswith("_J") else run[name] for run in (line, fine)]
         change = decimals(both[1] - both[0], columns[name].digits)
         known = all(map(math.isfinite, both))
         signed = change if change.startswith("−") else f"+{change}"
@@ -144,9 +111,19 @@ def _changes(line: Line, fine: Line, columns: Columns) -> dict[str, str]:
     return cells
 
 
-def _named(line: Line) -> dict[str, object]:
-    return line.row | {"case": f"{line.name}{KINDS.get(line.kind, '')}"}
+def _in_percent(columns: Columns, names: Iterable[str]) -> Columns:
+    """The dictionary with these energies in per cent of the stored one."""
+    return columns | {name: replace(columns[name], unit="%", digits=2) for name in names}
 
 
-def _table(columns: Columns, names: tuple[str, ...], lines: Iterable[Line], caption: str) -> Table:
-    return table_of(columns, names, [_named(line) for line in lines], caption)
+def _table(
+    columns: Columns, names: tuple[str, ...], lines: list[Line], caption: str, shares: tuple[str, ...] = ()
+) -> Table | None:
+    """Lines by name and kind; shares: energies to be given in per cent of the stored one."""
+    rows = [
+        line.row
+        | {"case": f"{line.name}{KINDS.get(line['kind'], '')}"}
+        | {name: 100.0 * line.share(name) for name in shares}
+        for line in lines
+    ]
+    return table_of(_in_percent(columns, shares), names, rows, caption) if rows else None

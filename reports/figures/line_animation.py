@@ -21,10 +21,9 @@ def line_animation(time_s, s_m, x_m, z_m, tension_N) -> Picture:
         (end,) = shape.plot([], [], "o", color=VERMILION, markersize=4)
         _frame_axes(shape, limits)
         (pull,) = along.plot([], [], color=INK, linewidth=1.0)
-        along.set_xlim(s_m[0], s_m[-1])
-        along.set_ylim(min(1.05e-3 * float(tension_N.min()), -20.0), 1.08e-3 * float(tension_N.max()))
-        along.set_xlabel("$s$ (m), unstretched, from the fixed end")
-        along.set_ylabel("$T$ (kN)")
+        ends = min(1.05e-3 * float(tension_N.min()), -20.0), 1.08e-3 * float(tension_N.max())
+        words = {"xlabel": "$s$ (m), unstretched, from the fixed end", "ylabel": "$T$ (kN)"}
+        along.set(xlim=(s_m[0], s_m[-1]), ylim=ends, **words)
         clock = shape.set_title("t = 0 ms")
 
         def show(row: int) -> None:
@@ -52,17 +51,11 @@ def line_strip(time_s: np.ndarray, x_m: np.ndarray, z_m: np.ndarray) -> Picture:
         return picture_of(figure)
 
 
-def _limits(x_m: np.ndarray, z_m: np.ndarray) -> tuple[float, float, float, float]:
-    wide, high = float(np.ptp(x_m)), float(np.ptp(z_m))
-    return (
-        float(x_m.min()) - 0.03 * wide, float(x_m.max()) + 0.03 * wide, float(z_m.min()) - 0.1 * high,
-        float(z_m.max()) + 0.1 * high,
-    )  # fmt: skip
+def _limits(x_m: np.ndarray, z_m: np.ndarray) -> dict[str, tuple[float, float]]:
+    ends = {"xlim": (x_m, 0.03), "ylim": (z_m, 0.1)}
+    return {name: (at.min() - room * np.ptp(at), at.max() + room * np.ptp(at)) for name, (at, room) in ends.items()}
 
 
-def _frame_axes(axes, limits: tuple[float, float, float, float]) -> None:
+def _frame_axes(axes, limits: dict[str, tuple[float, float]]) -> None:
     axes.axvline(0.0, color=SOFT, linewidth=0.7, linestyle=(0, (2, 2)))
-    axes.set_xlim(*limits[:2])
-    axes.set_ylim(*limits[2:])
-    axes.set_xlabel("$x$ (m)")
-    axes.set_ylabel("$z$ (m)")
+    axes.set(xlabel="$x$ (m)", ylabel="$z$ (m)", **limits)

@@ -2,34 +2,48 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from ..parts.content import Picture
 from ..parts.style import BLUE, SOFT, VERMILION, picture_of, sheet
+from ..parts.wording import number
 from .curves import cells
 
+QUANTITIES = {  # what is drawn -> the same in words, label of its axis, unit
+    "z_m": ("motion of a breaking line in the x-z plane", "$z$ (m)", "m"),
+    "tension_N": ("tension along a breaking line", "$T$ (N)", "N"),
+    "speed_mps": ("velocity along a breaking line", "velocity (m/s)", "m/s"),
+}
+SCALES = "over the unstretched length s from the fixed end; cases 1 and 2, and 3 and 4, share a scale"
+SCALED = {
+    "z_m": "heights much enlarged, one scale for all; dashed: the fixed end",
+    "tension_N": f"{SCALES}, the same in figs. 3 and 6",
+    "speed_mps": SCALES,
+}
+MARGINS = {"z_m": (0.06, 0.06), "tension_N": (0.03, 0.05), "speed_mps": (0.03, 0.05)}
+TENSIONS = (-0.1, 1.06)  # of the largest static tension of the two cases that share a scale
 _WIDTH_IN = 5.6  # of all panels of a row
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class LinePanel:
-    """Curves of one case: its title, x (m, n) or (n,) and y (m, n) of m instants, and these instants (m,), s."""
+    """Curves of one case: its name, static force and title; x (m, n) or (n,) and y (m, n) of m instants (m,), s."""
 
+    case: str
+    force_N: float
     title: str
     x: np.ndarray
     y: np.ndarray
     time_s: np.ndarray
 
 
-def line_panels(panels: list[LinePanel], x_label: str, y_label: str, y_limits: list[tuple], centre: bool) -> Picture:
-    """Two panels a row, curves coloured by time on one scale.
-
-    y_limits: (low, high) of each panel; centre: mark the fixed end at x = 0.
-    """
+def line_panels(panels: Sequence[LinePanel], column: str) -> Picture:
+    """Two panels a row, curves coloured by time on one scale; column: of QUANTITIES."""
     with sheet(line_panels_height_in(len(panels))) as figure:
-        fill_line_panels(figure, panels, x_label, y_label, y_limits, centre)
+        fill_line_panels(figure, panels, column)
         return picture_of(figure)
 
 
@@ -38,38 +52,59 @@ def line_panels_height_in(count: int) -> float:
     return 0.4 + 1.8 * ((count + 1) // 2)
 
 
-def paired_limits(cases: list[str], panels: list[LinePanel]) -> list[tuple[float, float]]:
-    """The paper's scales: (low, high) of each panel, one scale for cases 1 and 2 and one for 3 and 4."""
-    limits = []
-    for case in cases:
-        pair = "12" if case[0] in "12" else "34"
-        together = [panel.y for other, panel in zip(cases, panels, strict=True) if other[0] in pair]
-        low, high = min(float(y.min()) for y in together), max(float(y.max()) for y in together)
-        limits.append((low - 0.03 * (high - low), high + 0.05 * (high - low)))
-    return limits
-
-
-def fill_line_panels(
-    figure, panels: list[LinePanel], x_label: str, y_label: str, y_limits: list[tuple], centre: bool
-) -> None:
+def fill_line_panels(figure, panels: Sequence[LinePanel], column: str) -> None:
     """`line_panels` on an open sheet."""
     from matplotlib import colormaps
     from matplotlib.cm import ScalarMappable
     from matplotlib.colors import LinearSegmentedColormap, Normalize
+    from matplotlib.ticker import FuncFormatter
 
-    late = max(float(panel.time_s[-1]) for panel in panels)
+    motion, late = column == "z_m", max(float(panel.time_s[-1]) for panel in panels)
     # without its yellow end, which is lost on white paper
     colours = LinearSegmentedColormap.from_list("time", colormaps["viridis"](np.linspace(0.0, 0.85, 32)))
     scale = ScalarMappable(Normalize(0.0, 1e3 * late), colours)
-    for (axes, panel), limits in zip(cells(figure, panels, 2, (x_label, y_label)), y_limits, strict=False):
+    labels = "$x$ (m)" if motion else "$s$ (m)", QUANTITIES[column][1]
+    for (axes, panel), ends in zip(cells(figure, panels, 2, labels), limits(panels, column), strict=False):
         x = np.broadcast_to(panel.x, panel.y.shape)
         for row, time_s in enumerate(panel.time_s):
             axes.plot(x[row], panel.y[row], color=scale.to_rgba(1e3 * time_s), linewidth=0.8)
-        if centre:
+        if motion:
             axes.axvline(0.0, color=SOFT, linewidth=0.7, linestyle=(0, (2, 2)))
-        axes.set(title=panel.title, ylim=limits)
+        axes.set(title=panel.title, ylim=ends)
         axes.margins(x=0.02)
+        if column == "tension_N":
+            axes.yaxis.set_major_formatter(FuncFormatter(lambda tick, _: thousands(tick)))
     figure.colorbar(scale, ax=figure.axes, label="$t$ (ms)", shrink=0.6, aspect=30, pad=0.015)
+
+
+def limits(panels: Sequence[LinePanel], column: str) -> list[tuple[float, float]]:
+    """(low, high) of each panel: one scale for all heights, else one for cases 1 and 2 and one for 3 and 4.
+
+    Tensions are shown over the same share of the static one, because figs. 3 and 6 of the paper have identical scales.
+    """
+    found = []
+    for panel in panels:
+        pair = [one for one in panels if column == "z_m" or (one.case[0] in "12") == (panel.case[0] in "12")]
+        least, most = min(float(one.y.min()) for one in pair), max(float(one.y.max()) for one in pair)
+        below, above = (margin * (most - least) for margin in MARGINS[column])
+        low, high = least - below, most + above
+        if column == "tension_N":
+            force_N = max(one.force_N for one in pair)
+            low, high = min(low, TENSIONS[0] * force_N), max(high, TENSIONS[1] * force_N)
+        found.append((low, high))
+    return found
+
+
+def seen(panels: Sequence[LinePanel], column: str) -> str:
+    """The least and the largest value of all panels, in words."""
+    ends = min(panel.y.min() for panel in panels), max(panel.y.max() for panel in panels)
+    low, high = (number(float(end), 2) if column == "z_m" else thousands(float(end)) for end in ends)
+    return f"{low} to {high} {QUANTITIES[column][2]}"
+
+
+def thousands(newtons: float) -> str:
+    """As the paper prints forces: 45 000."""
+    return f"{np.round(newtons):,.0f}".replace(",", "\u202f").replace("-", "−")
 
 
 def folds(panels: list[LinePanel], x_limits: tuple[float, float], z_limits: tuple[float, float]) -> Picture:

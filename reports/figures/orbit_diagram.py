@@ -34,19 +34,19 @@ def orbit_diagram_over(
     from matplotlib.colors import LinearSegmentedColormap, LogNorm
 
     diagram = orbit_diagram(parameter, strobed)
-    image = density_image(diagram, rows)
+    counts, value_edges = density_image(diagram, rows)
     everything = np.concatenate([diagram.parameter, np.asarray(missing, float)])
     half = _half_width(everything)
-    shades = LogNorm(1, max(int(image.counts.max()), 2))
+    shades = LogNorm(1, max(int(counts.max()), 2))
     colours = LinearSegmentedColormap.from_list("density", DENSITY_COLOURS)
     with sheet(3.0 + 1.2 * len(below)) as figure:
         heights = [3.0, *([1.2] * len(below))]
         top, *lower = figure.subplots(len(heights), 1, sharex=True, squeeze=False, height_ratios=heights)[:, 0]
         top.grid(False)
-        for x, counts in zip(diagram.parameter, image.counts.T, strict=True):
-            if counts.any():
-                shown = np.ma.masked_equal(counts[:, None], 0)
-                mesh = top.pcolormesh([x - half, x + half], image.value_edges, shown, norm=shades, cmap=colours)
+        for x, column in zip(diagram.parameter, counts.T, strict=True):
+            if column.any():
+                shown = np.ma.masked_equal(column[:, None], 0)
+                mesh = top.pcolormesh([x - half, x + half], value_edges, shown, norm=shades, cmap=colours)
         bar = figure.colorbar(mesh, ax=[top, *lower], label="points in a pixel", aspect=45, pad=0.01)
         bar.set_ticks(_round_counts(shades.vmax), labels=[f"{count}" for count in _round_counts(shades.vmax)])
         bar.minorticks_off()

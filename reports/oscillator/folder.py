@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -33,6 +34,11 @@ class Study:
     arrays: dict[str, dict[str, np.ndarray]]
     oscillator: dict[str, float]
     faults: dict[str, str]
+
+    @property
+    def period(self) -> float:
+        """Forcing period, in units of time."""
+        return 2.0 * math.pi / self.oscillator["frequency"]
 
     def number(self, part: str, column: str) -> float:
         """A cell of table.csv as a number; NaN where it is empty."""

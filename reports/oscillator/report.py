@@ -7,60 +7,55 @@ from pathlib import Path
 
 import numpy as np
 
-from ..figures.oscillator_diagram import oscillator_diagram
-from ..figures.oscillator_errors import oscillator_errors
-from ..figures.oscillator_history import oscillator_history
-from ..figures.oscillator_section import oscillator_section, oscillator_zooms
+from ..figures.oscillator import (
+    oscillator_diagram,
+    oscillator_errors,
+    oscillator_history,
+    oscillator_section,
+    oscillator_zooms,
+)
 from ..parts.columns import table_of
 from ..parts.content import Bullets, Column, Figure, Heading, Item, Notice, Report, Table, Text, sub
 from ..parts.provenance import provenance_items
 from ..parts.wording import count, decimals, number, percent
-from .attractors import basin_items, grazing_items, orbit_items
-from .equation import equation_items, subtitle
 from .folder import Study, read_study
+from .sections import basin_items, equation_items, grazing_items, orbit_items, subtitle
 
 LAMBDA_1, LAMBDA_2 = "λ" + sub("1"), "λ" + sub("2")
-DIAGRAMS = {  # part: symbol, label of the axis, number of eq. (33)
-    "diagram-force": ("F", r"forcing $F$ (–)", "force"),
-    "diagram-frequency": ("ω", r"forcing frequency $\omega$ (–)", "frequency"),
-}
+QUESTION = (
+    "To see the fractal structure of the strange attractor, the paper (Tjavaras, Zhu, Liu, Triantafyllou and Yue "
+    "1998, section 4.2) reduces the tethered buoy to its radial motion on a tether that pulls but does not push: "
+    "equation (33), with its section in figure 19(b). Is that motion chaotic, by how much, with what certainty, "
+    "and what else can the oscillator do?"
+)
 
 
 def report(directory: str | Path) -> Report:
     """The content of the report on an oscillator study's folder. Raises FolderError for a folder that is not one."""
     study = read_study(directory)
-    items = [
-        *_question(study),
-        *_section(study),
-        *_exponents(study),
-        *_diagrams(study),
-        *basin_items(study),
-        *orbit_items(study),
-        *grazing_items(study),
-        *equation_items(study),
-        Heading("Parts and times"),
-        table_of(
-            study.columns,
-            ("part", "status", "starts", "periods", "transient", "wall_s"),
-            study.rows.values(),
-            "The parts of the study, from `table.csv`.",
-        ),
-        *provenance_items(study),
-    ]
-    return Report("The snap oscillator, equation (33)", subtitle(study), tuple(items))
+    items: list[Item] = [Heading("Question"), Text(QUESTION), Heading("Short answer"), Bullets(_answer(study))]
+    if study.faults:
+        missing = tuple(f"`{part}`: {reason}." for part, reason in study.faults.items())
+        items.append(Notice("warning", "Parts without results", missing))
+    for part, (title, section) in SECTIONS.items():
+        arrays = study.arrays.get(part)
+        missing = [Text(f"The part `{part}` has no results: {study.faults.get(part)}.")]
+        items += [Heading(title), *(missing if arrays is None else section(study, arrays))]
+    items += [*equation_items(study), Heading("Parts and times")]
+    shown = ("part", "status", "starts", "periods", "transient", "wall_s")
+    items.append(table_of(study.columns, shown, study.rows.values(), "The parts of the study, from `table.csv`."))
+    return Report("The snap oscillator, equation (33)", subtitle(study), (*items, *provenance_items(study)))
 
 
-def _question(study: Study) -> list[Item]:
+def _answer(study: Study) -> tuple[str, ...]:
     lines = []
     value, error = _exponent(study)
     if math.isfinite(value):
-        verdict = (
-            "positive by more than two standard errors: nearby motions part exponentially, the motion is chaotic"
-            if _chaotic(study)
-            else "negative: the motion is regular"
-            if value < -2 * error
-            else "zero within two standard errors"
-        )
+        verdict = "zero within two standard errors"
+        if _chaotic(study):
+            verdict = "positive by more than two standard errors: nearby motions part exponentially, it is chaotic"
+        elif value < -2 * error:
+            verdict = "negative: the motion is regular"
         bits = (study.number("exponents", f"lambda_1_bits_{name}") for name in ("per_period", "error"))
         lines.append(
             f"The largest exponent is {LAMBDA_1} = {_with_error(value, error)} nats per unit of time, "
@@ -82,25 +77,10 @@ def _question(study: Study) -> list[Item]:
     force = study.number("grazing", "grazing_force")
     if math.isfinite(force):
         lines.append(f"The taut motion first goes slack at F = {force:.14g}.")
-    question = (
-        "To see the fractal structure of the strange attractor, the paper (Tjavaras, Zhu, Liu, Triantafyllou and Yue "
-        "1998, section 4.2) reduces the tethered buoy to its radial motion on a tether that pulls but does not push: "
-        "equation (33), with its section in figure 19(b). Is that motion chaotic, by how much, with what certainty, "
-        "and what else can the oscillator do?"
-    )
-    answer = Bullets(tuple(lines) or ("No part of this study gave a number; see the faults below.",))
-    items: list[Item] = [Heading("Question"), Text(question), Heading("Short answer"), answer]
-    if study.faults:
-        missing = tuple(f"`{part}`: {reason}." for part, reason in study.faults.items())
-        items.append(Notice("warning", "Parts without results", missing))
-    return items
+    return tuple(lines) or ("No part of this study gave a number; see the faults below.",)
 
 
-def _section(study: Study) -> list[Item]:
-    items: list[Item] = [Heading("The section: figure 19(b)")]
-    arrays = study.arrays.get("section")
-    if arrays is None:
-        return [*items, Text(f"There is no section: {study.faults['section']}.")]
+def _section(study: Study, arrays: dict) -> list[Item]:
     states, boxes, row = arrays["section"], arrays["boxes"], study.rows["section"]
     (left, low), (right, high) = ((decimals(one, 2) for one in edge(axis=0)) for edge in (states.min, states.max))
     extent = f"γ from {left} to {right} and velocity from {low} to {high}"
@@ -111,7 +91,7 @@ def _section(study: Study) -> list[Item]:
     )
     orbit = study.arrays.get("basins", {}).get("orbit_1")
     alt = f"Scatter of {len(states)} strobed points of displacement and velocity, within {extent}."
-    items.append(Figure(oscillator_section(states, boxes, orbit), caption, alt))
+    items: list[Item] = [Figure(oscillator_section(states, boxes, orbit), caption, alt)]
     zooms = [arrays[name] for name in ("zoom_1", "zoom_2") if name in arrays]
     if zooms and _chaotic(study):  # a zoom into a periodic orbit shows a point
         counts = " and ".join(str(len(zoom)) for zoom in zooms)
@@ -122,22 +102,19 @@ def _section(study: Study) -> list[Item]:
             "part `section`."
         )
         items.append(Figure(oscillator_zooms(zooms, boxes), caption, f"Bundles of nearly parallel lines: {seen}."))
-    motion = study.arrays.get("history")
-    if motion is not None:
-        period = 2.0 * math.pi / study.oscillator["frequency"]
-        switches = count(len(motion.get("switches", ())), "switch", "switches")
-        share = percent(study.number("history", "slack_fraction"))
-        seen = f"{switches} in {study.rows['history']['periods']} periods, {share} of the time slack"
-        picture = oscillator_history(motion["time"] / period, motion["displacement"], motion["velocity"])
-        caption = f"The first periods from γ = 0.68 at rest; shaded: slack. Seen: {seen}. From the part `history`."
-        items.append(Figure(picture, caption, f"Histories of displacement and velocity: {seen}."))
     return items
 
 
-def _exponents(study: Study) -> list[Item]:
-    arrays = study.arrays.get("exponents")
-    if arrays is None:
-        return [Heading("Exponents"), Text(f"There are no exponents: {study.faults['exponents']}.")]
+def _history(study: Study, arrays: dict) -> list[Item]:
+    switches = count(len(arrays.get("switches", ())), "switch", "switches")
+    share = percent(study.number("history", "slack_fraction"))
+    seen = f"{switches} in {study.rows['history']['periods']} periods, {share} of the time slack"
+    picture = oscillator_history(arrays["time"] / study.period, arrays["displacement"], arrays["velocity"])
+    caption = f"The first periods from γ = 0.68 at rest; shaded: slack. Seen: {seen}. From the part `history`."
+    return [Figure(picture, caption, f"Histories of displacement and velocity: {seen}.")]
+
+
+def _exponents(study: Study, arrays: dict) -> list[Item]:
     row, (value, error) = study.rows["exponents"], _exponent(study)
     text = (
         "Both exponents come from the exact tangent map, re-orthonormalised every period. They are averages over "
@@ -154,22 +131,20 @@ def _exponents(study: Study) -> list[Item]:
     )
     alt = f"Convergence of the largest exponent with time, where {seen}, and its scatter against the number of starts."
     figure = Figure(oscillator_errors(arrays["convergence"], arrays["of_start"][:, 0]), caption, alt)
-    return [Heading("Exponents and their errors"), Text(text), _exponent_table(study), figure]
+    return [Text(text), _exponent_table(study, arrays["convergence"]), figure]
 
 
-def _exponent_table(study: Study) -> Table:
+def _exponent_table(study: Study, convergence: np.ndarray) -> Table:
     """Exponent and error against the time averaged."""
-    convergence = study.arrays["exponents"]["convergence"]
-    damping, period = study.oscillator["damping"], 2.0 * math.pi / study.oscillator["frequency"]
-    bits = period / math.log(2.0)
+    bits = study.period / math.log(2.0)
     rows = []
     for time, mean, error in convergence[np.unique(np.geomspace(1, len(convergence), 7).round().astype(int)) - 1]:
-        second = -damping - mean
+        second = -study.oscillator["damping"] - mean
         places = max(2, min(12, 1 - math.floor(math.log10(error)))) if error > 0 else 6
         nats = (decimals(number, places) for number in (mean, error, second))
         in_bits = (decimals(number * bits, max(1, places - 1)) for number in (mean, error))
         dimension = decimals(1.0 + mean / abs(second) if mean > 0 else 0.0, 4)
-        rows.append((str(round(time / period)), decimals(time, 0), *nats, *in_bits, dimension))
+        rows.append((str(round(time / study.period)), decimals(time, 0), *nats, *in_bits, dimension))
     columns = (
         Column("average over", "periods"), Column("time"), Column(LAMBDA_1, "nats/time"), Column("error", "nats/time"),
         Column(LAMBDA_2, "nats/time"), Column(LAMBDA_1, "bits/period"), Column("error", "bits/period"),
@@ -180,35 +155,48 @@ def _exponent_table(study: Study) -> Table:
     return Table(columns, tuple(rows), caption)
 
 
-def _diagrams(study: Study) -> list[Item]:
-    items: list[Item] = [Heading("Orbit diagrams")]
+def _diagram(study: Study, arrays: dict, symbol: str, key: str, label: str) -> list[Item]:
+    if not np.isfinite(arrays["section"]).any():
+        return [Text(f"There is no orbit diagram over {symbol}: no finite points.")]
+    values, largest, errors = arrays["values"], arrays["exponents"][..., 0], arrays["errors"]
     grazing = study.number("grazing", "grazing_force")
-    for part, (symbol, label, key) in DIAGRAMS.items():
-        arrays = study.arrays.get(part)
-        if arrays is None or not np.isfinite(arrays["section"]).any():
-            why = study.faults.get(part, "no finite points")
-            items.append(Text(f"There is no orbit diagram over {symbol}: {why}."))
-            continue
-        values, largest, errors = arrays["values"], arrays["exponents"][..., 0], arrays["errors"]
-        marks = [(study.oscillator[key], "as run")]
-        marks += [(grazing, "grazing")] if key == "force" and math.isfinite(grazing) else []
-        picture = oscillator_diagram(
-            values, arrays["section"], arrays["exponents"], errors, arrays["slack_fraction"], label, marks
-        )
-        chaotic = int((largest - 2 * errors > 0).any(axis=1).sum())
-        top = number(float(np.nanmax(largest)), 3), number(float(values[int(np.nanargmax(largest.max(axis=1)))]))
-        seen = (
-            f"{LAMBDA_1} is above zero by two errors, for one start at least, at {chaotic} of {len(values)} values; "
-            f"its largest value is {top[0]} at {symbol} = {top[1]}"
-        )
-        row = study.rows[part]
-        caption = (
-            f"Strobed displacement over {symbol}, both exponents and the share of slack time, the same four random "
-            f"starts at every value, {row['periods']} periods after {row['transient']}. Where the four differ, "
-            f"attractors coexist or a transient is long. Seen: {seen}. From the part `{part}`."
-        )
-        items.append(Figure(picture, caption, f"Orbit diagram over {symbol} with exponents below: {seen}."))
-    return items
+    marks = [(study.oscillator[key], "as run")]
+    marks += [(grazing, "grazing")] if key == "force" and math.isfinite(grazing) else []
+    curves = (arrays[name] for name in ("section", "exponents", "errors", "slack_fraction"))
+    chaotic = int((largest - 2 * errors > 0).any(axis=1).sum())
+    top = number(float(np.nanmax(largest)), 3), number(float(values[int(np.nanargmax(largest.max(axis=1)))]))
+    seen = (
+        f"{LAMBDA_1} is above zero by two errors, for one start at least, at {chaotic} of {len(values)} values; "
+        f"its largest value is {top[0]} at {symbol} = {top[1]}"
+    )
+    row = study.rows[f"diagram-{key}"]
+    caption = (
+        f"Strobed displacement over {symbol}, both exponents and the share of slack time, the same four random "
+        f"starts at every value, {row['periods']} periods after {row['transient']}. Where the four differ, "
+        f"attractors coexist or a transient is long. Seen: {seen}. From the part `{row['part']}`."
+    )
+    picture = oscillator_diagram(values, *curves, label, marks)
+    return [Figure(picture, caption, f"Orbit diagram over {symbol} with exponents below: {seen}.")]
+
+
+def _over_force(study: Study, arrays: dict) -> list[Item]:
+    return _diagram(study, arrays, "F", "force", r"forcing $F$ (–)")
+
+
+def _over_frequency(study: Study, arrays: dict) -> list[Item]:
+    return _diagram(study, arrays, "ω", "frequency", r"forcing frequency $\omega$ (–)")
+
+
+SECTIONS = {  # part of the study: heading, what is said of its arrays
+    "section": ("The section: figure 19(b)", _section),
+    "history": ("The motion from rest", _history),
+    "exponents": ("Exponents and their errors", _exponents),
+    "diagram-force": ("Orbit diagram over the forcing", _over_force),
+    "diagram-frequency": ("Orbit diagram over the frequency", _over_frequency),
+    "basins": ("Coexisting attractors", basin_items),
+    "orbits": ("Periodic orbits", orbit_items),
+    "grazing": ("Grazing", grazing_items),
+}
 
 
 def _exponent(study: Study) -> tuple[float, float]:

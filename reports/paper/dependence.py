@@ -7,12 +7,13 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ..figures.depth_exponents import Curve, depth_exponents, kind_of
-from ..out_of_plane.comparison import comparison_items, read_pairs
 from ..out_of_plane.runs import read_study
+from ..out_of_plane.sections import comparison_items
 from ..parts.columns import Quantity, plus_minus, read_columns
 from ..parts.content import Column, Figure, Heading, Item, Table, Text
-from ..parts.folder import Folder, FolderError, read_folder
+from ..parts.folder import Folder, FolderError, provenance_of
 from ..parts.wording import EMPTY, listed, number, percent
+from .written import written
 
 if TYPE_CHECKING:
     from engine import Scene
@@ -26,27 +27,6 @@ TREATMENTS = {
 }
 VALUE, ERROR = "lyapunov_tangent_bits_per_period", "lyapunov_tangent_error"
 ABOVE, DROWNED, EI, DEPTH = "above_still_water", "submergence", "bending_stiffness_Nm2", "depth_m"
-GAPS = (  # what is not in the paper, what is taken here, why
-    (
-        "water depth H",
-        "{depth} m",
-        "where the two waves come out as the paper says; varied below; the top of the buoy at rest is then {out} m "
-        "{side} still water",
-    ),
-    ("density of the water", "{density} kg/m³", "then the added mass is half the displaced mass"),
-    (
-        "EI, GI of the tether",
-        "{stiffness} and {torsion} N m²",
-        "a published example of the same buoy and rope; EI varied below",
-    ),
-    ("waves above still water", "{waves}", "the plainest reading; varied below"),
-    ("a buoy that leaves the water", "{buoyancy}", "eq. (30) as printed; varied below"),
-    ("start of the waves, their phase", "all of it from t = 0, crest at the anchor", "“impulsively from rest”"),
-    ("EI of the breaking line", "{line} N m²", "a solid rod; varied in the part `breaking_line`"),
-    ("drag on the breaking line", "none, in air", "not mentioned"),
-    ("grids, time steps, tolerances", "see each scene", "each part repeats runs tighter and finer"),
-    ("where the buoy's motion is called periodic", "to {tolerance} of its range", "not mentioned"),
-)
 SHORT = (
     "To run section 4 one has to choose what the paper does not say. The first table lists the choices of the shipped "
     "scenes; the rest of this section shows what becomes of the answer with others."
@@ -70,7 +50,7 @@ def _gaps(directory: Path, scene: Scene) -> Table:
     from engine.natural_frequencies import natural_frequencies
 
     line, tether = load_scene("breaking_line").tether, scene.tether
-    modes, tolerance = natural_frequencies(scene), _provenance(directory / "buoy").get("strobe_tolerance", math.nan)
+    modes, tolerance = natural_frequencies(scene), provenance_of(directory / "buoy").get("strobe_tolerance", math.nan)
     out_m = math.nan if modes is None else tether.length_m * (1.0 + modes.static_strain) + 0.5 * scene.buoy.diameter_m
     out_m -= scene.water.depth_m
     taken = {
@@ -85,18 +65,7 @@ def _gaps(directory: Path, scene: Scene) -> Table:
         "line": number(line.bending_stiffness_Nm2),
         "tolerance": percent(tolerance),
     }
-    rows = tuple(tuple(cell.format(**taken) for cell in row) for row in GAPS)
-    heads = tuple(Column(title, align="left") for title in ("not in the paper", "taken here", "why"))
-    return Table(heads, rows, "What had to be chosen to run section 4, and why it was chosen so.")
-
-
-def _provenance(part: Path) -> dict:
-    import json
-
-    try:
-        return json.loads((part / "provenance.json").read_text(encoding="utf-8"))
-    except (OSError, ValueError):
-        return {}
+    return written("gaps", **taken)
 
 
 def _table(part: Path) -> tuple[list[dict], dict[str, Quantity]]:
@@ -127,42 +96,34 @@ def curve(name: str, rows: list[dict], over: str) -> Curve:
 
 
 def _depth_figure(rows: list[dict]) -> Figure:
-    panels = [
-        [
-            (
-                f"kA = {number(kA)}, buoyancy {under}",
-                [
-                    curve(f"waves: {word}", _like(rows, steepness=kA, **{ABOVE: word, DROWNED: under}), DEPTH)
-                    for word in dict.fromkeys(row[ABOVE] for row in rows)
-                ],
-            )
-            for under in dict.fromkeys(row[DROWNED] for row in rows)
-        ]
-        for kA in _values(rows, "steepness")
-    ]
+    waves, drowned = (dict.fromkeys(row[key] for row in rows) for key in (ABOVE, DROWNED))
+    panels = []
+    for kA in _values(rows, "steepness"):
+        panels.append([])
+        for under in drowned:
+            found = {word: _like(rows, steepness=kA, **{ABOVE: word, DROWNED: under}) for word in waves}
+            curves = [curve(f"waves: {word}", some, DEPTH) for word, some in found.items()]
+            panels[-1].append((f"kA = {number(kA)}, buoyancy {under}", curves))
     caption = (
         "Largest Lyapunov exponent (tangent dynamics, one standard error) over the water depth, which the paper does "
         "not give (depths evenly spaced), for the treatments of waves above still water (colours) and of buoyancy "
-        f"(columns); marks tell the regime. {_treatments(rows)} From `dependence/table.csv`."
+        f"(columns); marks tell the regime. {_treatments([*waves, *drowned])} From `dependence/table.csv`."
     )
     alt = f"Exponent over water depth in {len(panels)} rows of panels, marked by regime."
     return Figure(depth_exponents(panels, r"$H$ (m)"), caption, alt)
 
 
-def _treatments(rows: list[dict]) -> str:
-    said = dict.fromkeys(word for key in (ABOVE, DROWNED) for word in (row[key] for row in rows))
-    return "; ".join(f"`{word}`: {TREATMENTS.get(word, word)}" for word in said) + "."
+def _treatments(words: list[str]) -> str:
+    return "; ".join(f"`{word}`: {TREATMENTS.get(word, word)}" for word in words) + "."
 
 
 def _regimes(rows: list[dict], columns: dict[str, Quantity], steepness: float) -> Table:
     pairs = list(dict.fromkeys((row[ABOVE], row[DROWNED]) for row in rows))
-    heads = (Column("H", "m"), *(Column(f"{word}, {under}", align="left") for word, under in pairs))
-    by_place = [
-        {row[DEPTH]: row for row in _like(rows, steepness=steepness, **{ABOVE: word, DROWNED: under})}
-        for word, under in pairs
-    ]
-    depths = sorted({depth for found in by_place for depth in found})
-    cells = tuple((number(H), *(_cell(found.get(H), columns) for found in by_place)) for H in depths)
+    heads = (Column("H", "m"), *(Column(", ".join(pair), align="left") for pair in pairs))
+    found = [_like(rows, steepness=steepness, **{ABOVE: word, DROWNED: under}) for word, under in pairs]
+    by_depth = [{row[DEPTH]: row for row in some} for some in found]
+    depths = sorted({depth for some in by_depth for depth in some})
+    cells = tuple((number(H), *(_cell(some.get(H), columns) for some in by_depth)) for H in depths)
     caption = (
         f"Regime and largest exponent, bits per wave period, at kA = {number(steepness)}, by depth, treatment of the "
         "waves above still water and of buoyancy."
@@ -206,7 +167,7 @@ def _stiffness(rows: list[dict]) -> list[Item]:
 def _plane(part: Path) -> list[Item]:
     heading = Heading("Two dimensions or three", 2)
     try:
-        study = read_study(read_folder(part))
-        return [heading, *comparison_items(study, read_pairs(study))[1:]]
+        study = read_study(part)
+        return [heading, *list(comparison_items(study))[1:]]
     except FolderError:
         return [heading, Text("The part `out_of_plane` is not there.")]

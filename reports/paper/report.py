@@ -5,16 +5,16 @@ from __future__ import annotations
 from pathlib import Path
 
 from ..parts.columns import table_of
-from ..parts.content import Bullets, Column, Heading, Item, Links, Notice, Report, Table, Text
+from ..parts.content import Bullets, Heading, Item, Links, Notice, Report, Text
 from ..parts.folder import Folder, read_folder
 from ..parts.judged import FAILS, HOLDS_IF, Judged, counted, read_statements, statements_table
 from ..parts.provenance import provenance_items
 from ..parts.wording import count, decimals
 from .dependence import dependence_items
-from .figures import figures_of, left_out, preface
+from .figures import PREFACE, figures_of, left_out
 from .figures import pictures as beside
 from .index import index_items
-from .misprints import misprint_items
+from .written import written
 
 __all__ = ["beside", "report"]
 
@@ -38,17 +38,6 @@ TOPICS = {
     "The buoy in waves (section 4.2)": ("4.2",),
     "Conclusions (section 5)": ("5",),
 }
-NOT_JUDGED = (
-    ("4.1", "synthetic lines stretch up to thirty times more than steel; broken lines damage and injure", "literature"),
-    ("4.1.2", "the acoustic wave drag of a supersonic front is small", "no air in the model"),
-    ("4.1.3", "lines whose strands fail in turn are less destructive", "an observation; rows on 4.1.3 test its reason"),
-    ("4.2", "large motions come of the extensible rope", "only the paper's rope was run"),
-    ("4.2.2", "it resembles piecewise linear oscillators and a bouncing ball", "an analogy: eq. (33), fig. 19b"),
-    ("4.2.2", "the section is four-dimensional, so that its projection hides its structure", "not a result of runs"),
-    ("5", "Euler parameters avoid singularities, bending stiffness an ill-posed problem", "tests of the engine"),
-    ("5", "the fracture time is a principal parameter", "rows on 4.1.3 say what hangs on it and what does not"),
-    ("5", "chaotic buoys leave strong signatures on the surface", "the companion paper; waves are given here"),
-)
 QUESTION = (
     "The paper simulates a synthetic line that breaks and a buoy on a short tether in waves, and draws conclusions "
     "from both. Here its figures are drawn again from runs of this workbench, each of its statements gets a verdict "
@@ -71,7 +60,9 @@ def report(directory: str | Path) -> Report:
         *_figures(folder.directory),
         *_statements(judged),
         *dependence_items(folder),
-        *misprint_items(),
+        Heading("Misprints"),
+        Text("Whoever programs the paper needs these corrections; with the equations as printed some runs go wrong."),
+        written("misprints"),
         *index_items(),
         *provenance_items(folder),
     ]
@@ -128,7 +119,7 @@ def _figures(directory: Path) -> list[Item]:
     drawn, missing = figures_of(directory), left_out(directory)
     items: list[Item] = [
         Heading("The figures of the paper"),
-        Text(preface()),
+        Text(PREFACE),
         Text("The numbers behind figure N are in `figures/fig_NN.nc`, which names its runs, settings and seconds."),
     ]
     for heading, numbers in SECTIONS.items():
@@ -145,6 +136,4 @@ def _statements(judged: tuple[Judged, ...]) -> list[Item]:
     for heading, places in TOPICS.items():
         some = [row for row in judged if row["place"].startswith(places)]
         items += [Heading(heading, 2), statements_table(some, f"{heading}: {counted(some)}.")] if some else []
-    heads = tuple(Column(title, align="left") for title in ("place", "the paper", "why"))
-    caption = "What the paper says and no run here can judge: background, analogies, other papers."
-    return [*items, Heading("Not judged", 2), Table(heads, NOT_JUDGED, caption, small=True)]
+    return [*items, Heading("Not judged", 2), written("not_judged")]

@@ -1,1 +1,1 @@
-"""Any column of a file, judged by `python -m analysis --out DIR`: `report` says it, `folder` reads the folder."""
+"""Any column of a file, judged by `python -m analysis --out DIR`."""

@@ -30,4 +30,9 @@ def circle_map(coupling, rotation, points, skip=500, start=0.1):
         theta = theta + rotation - coupling / (2.0 * np.pi) * np.sin(2.0 * np.pi * theta)
         if k >= 0:
             angle[k] = theta
-    return np.column_stack([np.cos(2.0 * np.pi * angle), np.sin(2.0 * np.pi * angle)])
+    return circle(angle)
+
+
+def circle(turns):
+    """(cos, sin) of angles in turns."""
+    return np.column_stack([np.cos(2.0 * np.pi * turns), np.sin(2.0 * np.pi * turns)])

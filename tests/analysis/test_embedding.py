@@ -3,10 +3,16 @@
 import numpy as np
 import pytest
 
-from analysis.embedding_delay import choose_delay, delay_vectors, mean_period, mutual_information
-from analysis.embedding_dimension import choose_embedding
-from analysis.neighbours import nearest_outside, noise_level
-from tests.analysis import systems
+from analysis.embedding import (
+    choose_delay,
+    choose_embedding,
+    delay_vectors,
+    mean_period,
+    mutual_information,
+    noise_level,
+)
+from analysis.neighbours import nearest_outside
+from tests.analysis.systems import henon, noisy, record
 
 
 def test_the_rows_of_delay_vectors_are_pieces_of_the_series():
@@ -22,36 +28,25 @@ def test_the_rows_of_delay_vectors_are_pieces_of_the_series():
 def test_a_sine_has_its_period_and_a_delay_that_opens_its_ellipse(samples_per_period):
     """With a little noise: I of an exact sine is the same at every lag but for where its ellipse touches the cells.
     The axes of the ellipse (x, x delayed by the angle a) are as 1 to tan(a/2): 45 to 90 degrees is open."""
-    x = systems.noisy(np.sin(2 * np.pi * np.arange(10_000) / samples_per_period), 0.1, 0)
+    x = noisy(np.sin(2 * np.pi * np.arange(10_000) / samples_per_period), 0.1, 0)
     assert mean_period(x) == pytest.approx(samples_per_period, rel=0.01 + 0.0025 * samples_per_period)
     assert samples_per_period / 8 <= choose_delay(x).delay <= samples_per_period / 4 + 1
 
 
-def test_mutual_information_is_entropy_at_lag_0_and_its_bias_for_independent_samples():
+def test_mutual_information_is_entropy_at_lag_0_and_its_bias_for_independent_samples_and_sees_order_only():
     x = np.random.default_rng(0).normal(size=20_000)
     information, cells = mutual_information(x, 50)
     assert information[0] == pytest.approx(np.log(cells), rel=1e-3)
     assert information[1:].mean() == pytest.approx((cells - 1) ** 2 / (2 * len(x)), rel=0.05)
-
-
-def test_mutual_information_sees_order_only():
-    x, _ = systems.record("rossler", 5000)
-    assert np.allclose(mutual_information(x, 20)[0], mutual_information(np.exp(x / 5), 20)[0])
+    assert np.allclose(information, mutual_information(np.exp(x / 5), 50)[0])
 
 
 @pytest.mark.parametrize(
-    ("series", "dimension"),
-    [
-        (lambda: systems.henon(10_000), 2),
-        (lambda: systems.logistic(10_000), 1),
-        (lambda: np.sin(0.1 * np.arange(10_000)), 2),
-        (lambda: systems.record("lorenz")[0], 3),
-        (lambda: systems.record("rossler", 10_000)[0], 3),
-    ],
-    ids=["henon", "logistic", "sine", "lorenz", "rossler"],
+    ("name", "dimension"), [("henon", 2), ("logistic", 1), ("sine", 2), ("lorenz", 3), ("rossler", 3)]
 )
-def test_the_dimension_that_unfolds(series, dimension):
-    series = series()
+def test_the_dimension_that_unfolds(name, dimension):
+    samples = 20_000 if name == "lorenz" else 10_000
+    series = np.sin(0.1 * np.arange(samples)) if name == "sine" else record(name, samples)[0]
     choice = choose_embedding(series)
     assert choice.by_false_neighbours == choice.dimension == dimension
     scaled = choose_embedding(7.0 - 1e-3 * series)
@@ -60,9 +55,8 @@ def test_the_dimension_that_unfolds(series, dimension):
 
 def test_noise_is_told_from_motion_by_caos_second_average():
     noise = choose_embedding(np.random.default_rng(0).normal(size=5000))
-    motion = choose_embedding(systems.henon(5000))
     assert np.all(np.abs(noise.e2[1:] - 1.0) < 0.1)
-    assert np.max(np.abs(motion.e2 - 1.0)) > 0.3
+    assert np.max(np.abs(choose_embedding(henon(5000)).e2 - 1.0)) > 0.3
 
 
 def test_nearest_neighbours_outside_the_window_are_those_of_brute_force():
@@ -76,6 +70,6 @@ def test_nearest_neighbours_outside_the_window_are_those_of_brute_force():
 
 @pytest.mark.parametrize(("name", "share"), [("lorenz", 0.03), ("rossler", 0.01), ("henon", 0.005), ("henon", 0.03)])
 def test_white_noise_is_measured(name, share):
-    x = systems.henon() if name == "henon" else systems.record(name)[0]
-    noisy = systems.noisy(x, share, 1)
-    assert noise_level(noisy, choose_delay(noisy).delay) == pytest.approx(share * np.std(x), rel=0.25)
+    x = record(name)[0]
+    noise = noisy(x, share, 1)
+    assert noise_level(noise, choose_delay(noise).delay) == pytest.approx(share * np.std(x), rel=0.25)

@@ -1,4 +1,4 @@
-"""An exponent carries its unit, converts both ways by eq. (32), and is never a number for want of one."""
+"""An exponent carries its unit, converts by eq. (32), and is never a number for want of one."""
 
 import pickle
 
@@ -9,26 +9,23 @@ from analysis.exponents import Exponent, no_exponent
 
 
 def test_one_bit_a_period_is_ln_2_nats_over_the_period():
-    rate = Exponent(np.log(2.0) / 5.0, 0.1 * np.log(2.0) / 5.0, "nats/time", "method")
-    sigma = rate.in_bits_per_period(5.0)
+    sigma = Exponent(np.log(2.0) / 5.0, 0.1 * np.log(2.0) / 5.0, "nats/time", "method").in_bits_per_period(5.0)
     assert (sigma.value, sigma.error, sigma.unit) == (pytest.approx(1.0), pytest.approx(0.1), "bits/period")
-    back = sigma.in_nats_per_time(5.0)
-    assert (back.value, back.error, back.unit) == (pytest.approx(rate.value), pytest.approx(rate.error), "nats/time")
-    assert rate.in_nats_per_time(5.0) is rate
+    assert sigma.in_bits_per_period(7.0) is sigma
 
 
 def test_without_a_value_there_is_a_reason_and_no_error():
     none = no_exponent("method", "nothing qualified")
     assert np.isnan(none.value) and np.isnan(none.error) and not none.found
     assert none.in_bits_per_period(5.0).reason == "nothing qualified"
-    with pytest.raises(ValueError, match="reason"):
-        Exponent(np.nan, 0.1, "nats/time", "method")
 
 
-@pytest.mark.parametrize(("error", "unit"), [(-0.1, "nats/time"), (0.1, "nats"), (0.1, "bits/s")])
-def test_nonsense_is_refused(error, unit):
+@pytest.mark.parametrize(
+    ("value", "error", "unit"), [(1.0, -0.1, "nats/time"), (1.0, 0.1, "nats"), (np.nan, 0.1, "nats/time")]
+)
+def test_nonsense_is_refused(value, error, unit):
     with pytest.raises(ValueError):
-        Exponent(1.0, error, unit, "method")
+        Exponent(value, error, unit, "method")
 
 
 def test_details_are_read_only_and_travel_between_processes():

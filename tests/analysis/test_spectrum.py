@@ -1,34 +1,25 @@
-"""Eq. (31): closed forms of tones, Parseval, where its window lies, and records that do not fit it."""
+"""Eq. (31): closed forms of tones, Parseval, its window, records that do not fit it, and its highest lines."""
 
 import numpy as np
 import pytest
 
-from analysis import spectrum
+from analysis import peaks_near, spectral_peaks, spectrum
 
 T = 5.0
 STEP = 0.05
-
-
-def _time(periods, step=STEP):
-    return step * np.arange(round(periods * T / step) + 1)
+TIME = STEP * np.arange(6001)
+WAVE = 2 * np.pi / T
 
 
 @pytest.mark.parametrize("harmonic", [1, 2, 7, 0.5, 0.25, 0.2, 0.05])
 @pytest.mark.parametrize("phase", [0.0, 0.7, 2.5])
 def test_a_sine_on_a_bin_has_half_its_amplitude_there_and_nothing_elsewhere(harmonic, phase):
     """(1/nT) int a cos(w t + p) e^{iwt} dt = (a/2) e^{-ip} over whole periods; subharmonics up to n do not leak."""
-    a, t = 0.37, _time(60)
-    s = spectrum(a * np.cos(2 * np.pi * harmonic / T * t + phase), STEP, T)
+    s = spectrum(0.37 * np.cos(WAVE * harmonic * TIME + phase), STEP, T)
     line = round(20 * harmonic)
-    assert s.angular_frequency_radps[line] == pytest.approx(2 * np.pi * harmonic / T, rel=1e-14)
-    assert s.transform[line] == pytest.approx(0.5 * a * np.exp(-1j * phase), abs=1e-13)
+    assert s.angular_frequency_radps[line] == pytest.approx(WAVE * harmonic, rel=1e-14)
+    assert s.transform[line] == pytest.approx(0.5 * 0.37 * np.exp(-1j * phase), abs=1e-13)
     assert np.delete(s.amplitude, line).max() < 1e-13
-
-
-def test_the_rest_value_changes_only_bin_zero():
-    rng = np.random.default_rng(1)
-    x = rng.normal(size=len(_time(60)))
-    assert np.allclose(spectrum(x, STEP, T).transform[1:], spectrum(x + 3.0, STEP, T).transform[1:], atol=1e-13)
 
 
 def test_a_tone_between_bins_agrees_with_the_integral_to_second_order_of_the_step():
@@ -36,16 +27,14 @@ def test_a_tone_between_bins_agrees_with_the_integral_to_second_order_of_the_ste
     nu, length = 0.996, 20 * T
     errors = []
     for step in (0.1, 0.05, 0.025):
-        t = _time(60, step)
-        s = spectrum(np.cos(nu * t), step, T)
+        s = spectrum(np.cos(nu * step * np.arange(round(60 * T / step) + 1)), step, T)
         w = s.angular_frequency_radps[:60]
         begin, end = 40 * T, 40 * T + length
         exact = 0.0
         for rate in (w + nu, w - nu):
             exact = exact + (np.exp(1j * rate * end) - np.exp(1j * rate * begin)) / (2j * rate * length)
         errors.append(np.abs(s.transform[:60] - exact).max())
-    assert np.log2(errors[0] / errors[1]) == pytest.approx(2.0, abs=0.1)
-    assert np.log2(errors[1] / errors[2]) == pytest.approx(2.0, abs=0.1)
+    assert np.diff(np.log2(errors)) == pytest.approx([-2.0, -2.0], abs=0.1)
     assert errors[2] < 1e-4
 
 
@@ -63,34 +52,31 @@ def test_squares_of_both_sides_add_up_to_the_mean_square(samples):
     assert np.sum(weight * s.amplitude**2) == pytest.approx(np.mean(window**2), rel=1e-13)
 
 
-def test_the_sum_is_linear():
-    rng = np.random.default_rng(3)
-    x, y = rng.normal(size=(2, 401))
-    together = spectrum(2 * x - 3 * y, 0.5, 10.0, start_periods=5, periods=12).transform
-    apart = [spectrum(z, 0.5, 10.0, start_periods=5, periods=12).transform for z in (x, y)]
-    assert np.allclose(together, 2 * apart[0] - 3 * apart[1], atol=1e-14)
+def test_the_sum_is_linear_and_the_rest_value_changes_only_bin_zero():
+    def transform(series):
+        return spectrum(series, 0.5, 10.0, start_periods=5, periods=12).transform
+
+    x, y = np.random.default_rng(3).normal(size=(2, 401))
+    assert np.allclose(transform(2 * x - 3 * y), 2 * transform(x) - 3 * transform(y), atol=1e-14)
+    assert np.allclose(transform(x)[1:], transform(x + 3.0)[1:], atol=1e-13)
 
 
 @pytest.mark.parametrize("shift", [1, 3])
 def test_moving_a_window_over_a_periodic_motion_changes_nothing(shift):
     """The phase counts from the first sample, not from tau_0: a T-periodic motion looks the same from every period."""
-    t = 0.05 * np.arange(7001)
-    x = np.exp(np.sin(2 * np.pi / T * t))
-    here = spectrum(x, 0.05, T, start_periods=40)
-    there = spectrum(x, 0.05, T, start_periods=40 + shift)
-    assert np.allclose(here.transform, there.transform, atol=1e-13)
+    x = np.exp(np.sin(WAVE * STEP * np.arange(7001)))
+    here, there = (spectrum(x, STEP, T, start_periods=40 + moved).transform for moved in (0, shift))
+    assert np.allclose(here, there, atol=1e-13)
 
 
 @pytest.mark.parametrize("shift", [0.37, 1.0, 12.6])
 def test_delaying_the_record_turns_the_phase_of_a_line(shift):
     """x(t - d) has e^{i w d} X(w) for a motion on the bins."""
-    t = 0.05 * np.arange(1501)
 
-    def x(time):
-        return np.cos(2 * np.pi / T * time) + 0.2 * np.sin(2 * np.pi / (2 * T) * time)
+    def of(time):
+        return spectrum(np.cos(WAVE * time) + 0.2 * np.sin(WAVE / 2 * time), STEP, T, start_periods=3, periods=10)
 
-    plain = spectrum(x(t), 0.05, T, start_periods=3, periods=10)
-    delayed = spectrum(x(t - shift), 0.05, T, start_periods=3, periods=10)
+    plain, delayed = of(TIME[:1501]), of(TIME[:1501] - shift)
     turned = plain.transform * np.exp(1j * plain.angular_frequency_radps * shift)
     assert np.allclose(delayed.transform, turned, atol=1e-13)
 
@@ -120,16 +106,48 @@ def test_a_start_between_samples_or_a_period_between_samples_is_interpolated_to_
     assert errors[0] < 1e-4
 
 
-def test_a_period_of_whole_steps_uses_the_samples_themselves_despite_rounding():
-    t = 0.05 * np.arange(6001)
-    assert not spectrum(np.sin(t), 0.05, 5.0).interpolated
-    assert not spectrum(np.sin(t), 0.1 + 0.2 - 0.25, 5.0).interpolated
+@pytest.mark.parametrize("period", [5.0, 5.0 * (0.1 + 0.2) / 0.3])
+def test_a_period_of_whole_steps_uses_the_samples_themselves_despite_rounding(period):
+    assert not spectrum(np.sin(TIME), STEP, period).interpolated
 
 
 def test_a_short_record_is_refused_with_what_is_needed_and_given():
-    complete = np.zeros(6001)
-    spectrum(complete, 0.05, 5.0)
     with pytest.raises(ValueError, match=r"needs 60 forcing periods.*300 s.*given 59\.99.*299\.95 s"):
-        spectrum(complete[:-1], 0.05, 5.0)
+        spectrum(np.zeros(6000), STEP, T)
     with pytest.raises(ValueError, match=r"needs 60 forcing periods.*given 0 "):
-        spectrum([], 0.05, 5.0)
+        spectrum([], STEP, T)
+
+
+@pytest.mark.parametrize("rest", [0.0, 5.0, 1e3])
+def test_lines_come_largest_first_at_their_bins_whatever_constant_is_added(rest):
+    x = 0.1 * np.cos(WAVE * TIME) + 0.3 * np.cos(WAVE / 4 * TIME) + 0.02 * np.cos(3 * WAVE * TIME)
+    peaks = spectral_peaks(spectrum(rest + x, STEP, T))
+    assert [peak.bin for peak in peaks] == [5, 20, 60]
+    assert [peak.amplitude for peak in peaks] == pytest.approx([0.15, 0.05, 0.01], abs=1e-12)
+    first = spectral_peaks(spectrum(rest + np.cos(WAVE / 20 * TIME), STEP, T))
+    assert [peak.bin for peak in first] == [1]
+
+
+@pytest.mark.parametrize("natural", [0.199, 0.55, 0.996])
+@pytest.mark.parametrize("phase", [0.0, 1.0, 2.0])
+def test_a_natural_frequency_beside_the_forcing_is_found_within_half_a_bin(natural, phase):
+    x = 20.8 + 0.1 * np.cos(natural * TIME + phase) + 0.2 * np.cos(WAVE * TIME)
+    found = peaks_near(spectrum(x, STEP, T), [natural, WAVE])
+    assert [peak.reference_radps for peak in found] == [natural, WAVE]
+    assert abs(found[0].bins_away) <= 0.5 + 1e-9
+    assert found[1].bins_away == pytest.approx(0.0, abs=1e-9)
+    assert found[0].angular_frequency_radps - natural == pytest.approx(found[0].bins_away * 2 * np.pi / (20 * T))
+
+
+@pytest.mark.parametrize("rest", [0.0, 20.8])
+def test_a_motion_at_rest_has_no_peak(rest):
+    s = spectrum(np.full(6001, rest), STEP, T)
+    assert spectral_peaks(s) == () and peaks_near(s, [1.0]) == (None,)
+
+
+def test_small_lines_count_only_when_asked_for():
+    s = spectrum(np.cos(WAVE * TIME) + 0.005 * np.cos(2 * WAVE * TIME), STEP, T)
+    assert [len(spectral_peaks(s, least)) for least in (0.01, 0.004)] == [1, 2]
+    for share in (0.0, 1.5):
+        with pytest.raises(ValueError, match="least_prominence"):
+            spectral_peaks(s, least_prominence=share)

@@ -1,15 +1,17 @@
-"""The regime of sections whose regime is known, what makes a verdict void, and no false alarm in regular records."""
+"""The regime of motions whose regime is known, what makes a verdict void, and no false alarm in regular records."""
 
 import numpy as np
 import pytest
 
 from analysis import evidence_text, read_evidence, regime
 from analysis.exponents import Exponent
+from analysis.oscillator import SnapOscillator, search_periodic_orbits, snap_motion, start_grid, strobed_states
 from tests.analysis.forced_records import KINDS, SAMPLES, record
-from tests.analysis.maps import circle_map, henon, logistic
+from tests.analysis.maps import circle, circle_map, henon, logistic
 
 K = np.arange(300)
 POSITIVE = (0.6, 0.02)
+TORUS = circle_map(0.5, 0.6180339, 200)
 
 
 @pytest.mark.parametrize(("rate", "period"), [(2.8, 1), (3.2, 2), (3.5, 4), (3.55, 8), (3.832, 3)])
@@ -24,27 +26,24 @@ def test_chaotic_maps(section):
 
 
 @pytest.mark.parametrize(
-    ("coupling", "rotation", "exponent"),
-    [(0.5, 0.6180339, None), (0.8, 0.41421356, (0.0, 0.01)), (0.5, 0.1314, (0.005, 0.001))],
+    ("section", "exponent"),
+    [
+        (circle_map(0.5, 0.6180339, 300), None),
+        (circle_map(0.8, 0.41421356, 300), (0.0, 0.01)),
+        (circle_map(0.5, 0.1314, 300), (0.005, 0.001)),
+        (circle(0.1234567 * K) + np.outer((-1.0) ** K, [3.0, 0.1]), None),
+    ],
+    ids=["golden", "root", "slow", "torus on a period-2 motion"],
 )
-def test_one_to_one_circle_maps_are_quasi_periodic(coupling, rotation, exponent):
-    section = circle_map(coupling, rotation, 300)
+def test_tori_are_quasi_periodic(section, exponent):
     assert regime(strobed=section, wolf_exponent=exponent).regime == "quasi-periodic"
-
-
-def test_a_torus_on_a_period_2_motion_is_quasi_periodic():
-    turn = 2 * np.pi * 0.1234567 * K
-    section = np.column_stack([np.cos(turn) + 3 * (-1.0) ** K, np.sin(turn + 0.3 * np.sin(turn))])
-    assert regime(strobed=section).regime == "quasi-periodic"
 
 
 @pytest.mark.parametrize("multiplier", [0.98, 0.995, -0.99])
 def test_a_decay_is_a_transient_and_then_a_period(multiplier):
-    spiral = np.exp(1j * K)
-    path = [21.0, 0.0] + np.column_stack([spiral.real, spiral.imag]) * multiplier ** K[:, None]
-    assert regime(strobed=path, scale=2.0).regime == "transient"
-    settled = [21.0, 0.0] + 1e-3 * (path - [21.0, 0.0])
-    assert regime(strobed=settled, scale=2.0).regime == "period-1"
+    spiral, away = circle(K / (2 * np.pi)) * multiplier ** K[:, None], np.array([21.0, 0.0])
+    assert regime(strobed=away + spiral, scale=2.0).regime == "transient"
+    assert regime(strobed=away + 1e-3 * spiral, scale=2.0).regime == "period-1"
 
 
 def test_a_period_tells_how_fast_it_attracts():
@@ -53,27 +52,27 @@ def test_a_period_tells_how_fast_it_attracts():
     assert verdict.named("contraction").value == pytest.approx(-0.9, abs=0.01)
 
 
-def test_halves_that_disagree_are_not_chaos():
-    mixed = np.concatenate([circle_map(0.5, 0.6180339, 200)[:, 0], 2.0 * logistic(3.9, 200) - 1.0])
-    assert regime(strobed=mixed, tangent_exponent=POSITIVE).regime != "chaotic"
-
-
-def test_noise_is_undecided_even_with_a_positive_exponent():
-    noise = np.random.default_rng(0).normal(size=(300, 2))
-    verdict = regime(strobed=noise, tangent_exponent=POSITIVE)
-    assert verdict.regime == "undecided" and "null" in verdict.reason
-
-
-def test_a_regular_word_against_a_positive_tangent_exponent_is_undecided():
-    assert regime(strobed=circle_map(0.5, 0.6180339, 150), tangent_exponent=POSITIVE).regime == "undecided"
-    assert regime(strobed=logistic(3.2, 300), scale=0.5, tangent_exponent=POSITIVE).regime == "undecided"
+@pytest.mark.parametrize(
+    ("section", "words", "why"),
+    [
+        (np.concatenate([TORUS[:, 0], 2.0 * logistic(3.9, 200) - 1.0]), ("undecided", "transient"), ""),
+        (np.random.default_rng(0).normal(size=(300, 2)), ("undecided",), "null"),
+        (circle_map(0.5, 0.6180339, 150), ("undecided",), ""),
+        (logistic(3.2, 300), ("undecided",), "tangent dynamics is positive"),
+        (henon(39), ("undecided",), "40 strobed points are needed"),
+        (henon(150), ("undecided",), ""),
+    ],
+    ids=["halves that disagree", "noise", "torus", "period", "too short", "too short for chaos"],
+)
+def test_a_positive_exponent_alone_is_not_chaos(section, words, why):
+    verdict = regime(strobed=section, scale=0.5, tangent_exponent=POSITIVE)
+    assert verdict.regime in words and why in verdict.reason
 
 
 def test_a_tighter_tolerance_that_says_otherwise_makes_any_word_undecided():
-    section = circle_map(0.5, 0.6180339, 200)
-    found = regime(strobed=section)
-    assert regime(strobed=section, tighter=found).regime == found.regime == "quasi-periodic"
-    assert regime(strobed=section, tighter="period-2").regime == "undecided"
+    found = regime(strobed=TORUS)
+    assert regime(strobed=TORUS, tighter=found).regime == found.regime == "quasi-periodic"
+    assert regime(strobed=TORUS, tighter="period-2").regime == "undecided"
 
 
 def test_the_same_seed_gives_the_same_verdict_and_the_evidence_can_be_read():
@@ -93,8 +92,9 @@ def test_the_same_seed_gives_the_same_verdict_and_the_evidence_can_be_read():
 @pytest.mark.slow
 def test_units_and_origin_do_not_matter():
     section = henon(250)
-    plain = regime(strobed=section, tangent_exponent=POSITIVE)
-    moved = regime(strobed=section * [1e3, -1e-3] + [21.0, 5.0], tangent_exponent=POSITIVE)
+    plain, moved = (
+        regime(strobed=one, tangent_exponent=POSITIVE) for one in (section, section * [1e3, -1e-3] + [21.0, 5.0])
+    )
     assert plain.regime == moved.regime == "chaotic"
     assert moved.named("0-1 test").value == pytest.approx(plain.named("0-1 test").value, abs=1e-6)
 
@@ -106,23 +106,13 @@ def test_a_record_is_seen_once_a_period_after_its_transient():
     assert regime(motion, 0.1, 1.0).regime == "transient"
     verdict = regime(motion, 0.1, 1.0, transient_periods=40)
     assert verdict.regime == "quasi-periodic" and verdict.points == 260
-
-
-def test_too_short_a_record_is_undecided():
-    verdict = regime(strobed=henon(39))
-    assert verdict.regime == "undecided" and "40 strobed points are needed" in verdict.reason
-    assert regime(strobed=henon(150), tangent_exponent=POSITIVE).regime == "undecided"
-
-
-def test_a_motion_at_rest_is_period_1():
     assert regime(np.full(2001, 20.8), 0.05, 1.0).regime == "period-1"
 
 
 def test_exponents_come_in_either_unit():
     section, nats = henon(60), Exponent(0.42, 0.01, "nats/time", "known")
-    assert regime(strobed=section, period_s=2.0, tangent_exponent=nats).named("exponent").value == pytest.approx(
-        0.84 / np.log(2)
-    )
+    found = regime(strobed=section, period_s=2.0, tangent_exponent=nats).named("exponent")
+    assert found.value == pytest.approx(0.84 / np.log(2))
     with pytest.raises(ValueError, match="period_s is needed"):
         regime(strobed=section, tangent_exponent=nats)
 
@@ -144,8 +134,7 @@ def test_what_makes_no_sense_is_refused(given, message):
 @pytest.mark.slow
 def test_chaos_in_two_bands_is_seen_in_each_band():
     """Two logistic maps visited in turn, a hundred times further apart than they are wide."""
-    slow = np.repeat(logistic(3.9, 250), 2)[:, None] + [0.0, 0.3]
-    section = slow + 100.0 * (K[:250].repeat(2) * 0 + np.arange(500) % 2)[:, None]
+    section = np.repeat(logistic(3.9, 250), 2)[:, None] + [0.0, 0.3] + 100.0 * (np.arange(500) % 2)[:, None]
     found = regime(strobed=section, tangent_exponent=POSITIVE).named("0-1 test")
     assert found.passed and "2 bands" in found.sentence
 
@@ -177,3 +166,45 @@ def test_no_false_alarm_in_more_than_100_records(kind):
 def test_most_clean_records_get_their_own_word(kind, words, share):
     verdicts = [regime(record(kind, number), 1 / SAMPLES, 1.0).regime for number in range(200, 240)]
     assert sum(word.startswith(words) for word in verdicts) >= share * len(verdicts)
+
+
+SNAP = SnapOscillator()
+
+
+def snapping(number, **given):
+    """Eq. (33) at the paper's parameters, chaotic with 0.509 bits per period: one of consecutive pieces of one orbit,
+    400 periods each; displacement only."""
+    start = strobed_states(SNAP, (0.68, 0.0), 1, 500 + 400 * number)[0]
+    return regime(snap_motion(SNAP, start, 400, 48).displacement, SNAP.period / 48, SNAP.period, seed=number, **given)
+
+
+@pytest.mark.slow
+def test_at_least_nine_of_ten_records_of_the_snapping_buoy_are_chaotic_and_none_is_periodic():
+    words = [snapping(number).regime for number in range(20)]
+    assert words.count("chaotic") >= 18
+    assert not any(word.startswith("period-") for word in words)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("given", "word"),
+    [
+        (dict(wolf_exponent=(0.509, 0.01)), "chaotic"),
+        (dict(wolf_exponent=(0.509, 0.3)), "undecided"),
+        (dict(wolf_exponent=(-0.2, 0.05)), "undecided"),
+        (dict(wolf_exponent=(np.nan, np.nan)), "undecided"),
+        (dict(wolf_exponent=(0.5, 0.01), tangent_exponent=(-0.1, 0.01)), "undecided"),
+        (dict(wolf_exponent=(-0.1, 0.01), tangent_exponent=(0.5, 0.01)), "chaotic"),
+        (dict(tangent_exponent=(0.509, 0.01), tighter="chaotic"), "chaotic"),
+        (dict(tangent_exponent=(0.509, 0.01), tighter="period-2"), "undecided"),
+    ],
+)
+def test_chaos_needs_an_exponent_positive_by_two_errors_of_the_best_source_and_at_the_tighter_tolerance(given, word):
+    assert snapping(3, **given).regime == word
+
+
+def test_the_coexisting_orbit_of_the_snapping_buoy_is_period_8():
+    orbits = [orbit for orbit in search_periodic_orbits(SNAP, 8, start_grid(12, 8)) if orbit.stable]
+    motion = snap_motion(SNAP, orbits[0].points[0], 120, 48)
+    verdict = regime(motion.displacement, SNAP.period / 48, SNAP.period)
+    assert (verdict.regime, verdict.period) == ("period-8", 8), verdict.reason

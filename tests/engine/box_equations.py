@@ -15,6 +15,11 @@ from engine.spatial.upper import CLAMP
 from tests.engine.rotations import conjugate, frames, product, shortest
 
 STEP = 1e-30
+LAWS = {  # of tension, as a scene has them
+    "linear": {"law": "linear", "stiffness_N": 5e4},
+    "tanh": {"law": "tanh", "p": [2.0e4, 5.0, 0.3, -5.0e3, 1.0e4]},
+    "tabulated": {"law": "tabulated", "strain": [-0.2, 0.0, 0.1, 0.3], "tension_N": [-500.0, 0.0, 3e3, 2e4]},
+}
 
 
 def elements(scene):
@@ -211,6 +216,14 @@ def moved(Y, D):
     return np.concatenate([Y[:, :6] + D[:, :6], product(Y[:, 6:10], half), Y[:, 10:] + D[:, 9:]], 1)
 
 
+def change_of(Y, D):
+    """Change (n, 4) in a plane or (n, 6) in space of (q, V) under a small update D of a state Y."""
+    Z = moved(Y.astype(complex), 1j * STEP * D)
+    Z = lifted(Z) if Y.shape[1] == 6 else Z
+    change = np.hstack([(1 + Z[:, :1]) * frames(Z[:, 6:10])[:, 0], Z[:, 3:6]]).imag / STEP
+    return change[:, [0, 2, 3, 5]] if Y.shape[1] == 6 else change
+
+
 def unknowns(scene):
     """Columns of D that are unknown."""
     bent = scene.tether.bending_stiffness_Nm2 > 0
@@ -241,6 +254,26 @@ def response(scene, rate, Y, C_tilde, F, dC_tilde):
     """Change (n, 6) of (q, V) in space of a linearised stage for a change dC_tilde (n, 6) of C~."""
     stage = rate, rate, 1.0
     change = equations(scene, stage, Y, np.zeros((len(Y), 12)), C_tilde + 1j * STEP * dC_tilde, F).imag / STEP
-    D = np.linalg.solve(jacobian(scene, stage, Y, C_tilde, F), -change).reshape(len(Y), -1)
-    Z = moved(Y, 1j * STEP * D)
-    return np.hstack([((1 + Z[:, :1]) * frames(Z[:, 6:10])[:, 0]).imag, Z[:, 3:6].imag]) / STEP
+    return change_of(Y, np.linalg.solve(jacobian(scene, stage, Y, C_tilde, F), -change).reshape(len(Y), -1))
+
+
+def state_of(rng, scene, turns):
+    """A state with every term of the equations at work: strain of both signs, shear, motion, water; torsion where both
+    ends are clamped. turns: phi (n,) of a state in the plane, or Euler parameters (n, 4). Returns Y, C~ and F; they
+    solve nothing."""
+    n, bent = scene.tether.nodes, scene.tether.bending_stiffness_Nm2 > 0
+    strain, V = rng.uniform(-0.15, 0.35, n), rng.normal(0, 2, (n, 3))
+    shear, curvature = rng.normal(0, 300, (n, 2)) * bent, rng.normal(0, 1, (n, 2)) * bent
+    if turns.ndim == 1:
+        V = V[:, [0, 2]]
+        Y = np.column_stack([strain, shear[:, 0], V, turns, curvature[:, 0]])
+        t = np.column_stack([np.cos(turns), np.sin(turns)])
+    else:
+        Y = np.column_stack([strain, shear, V, turns, np.zeros(n), curvature])
+        t = frames(turns)[:, 0]
+        if scene.anchor.rotation == scene.end.rotation == "clamped":
+            # 0.3 rad more than the twist: Euler parameters know the rest of a whole number of double turns only
+            Y[:, 10] = (scene.end.twist_rad + 0.3 - roll(Y, scene)) / scene.tether.length_m
+    C_tilde = np.concatenate([(1 + strain[:, None]) * t, V], 1)
+    C_tilde += rng.normal(0, 0.02, C_tilde.shape)
+    return Y, C_tilde, rng.normal(0, 1.5, C_tilde.shape) * (scene.water is not None)

@@ -4,28 +4,24 @@ Arrays are per node: state Y (n, 6) in a plane and (n, 13) in space, conserved C
 (n, 2) or (n, 3), water F = (velocity, local acceleration) (n, 4) or (n, 6), a Newton update D (n, 6) or (n, 12).
 """
 
-from types import SimpleNamespace
-
 import numpy as np
 
 from engine import arrays
 from engine import run as engine_run
 from engine.parameters import record_of
-from engine.perturbations.lateral import COEFFICIENTS, WIDTH, carry_lateral, lateral_stage
-from engine.perturbations.tangent import Base, carry
+from engine.perturbations.exponents import carry
+from engine.perturbations.lateral import COEFFICIENTS, WIDTH, lateral_stage
+from engine.perturbations.tangent import Base
 from engine.physics.currents import current_field
 from engine.physics.ends import upper_end, upper_end_3d
 from engine.physics.sea import sea_field
 from engine.physics.water import water
-from engine.physics.waves import wave_field, wave_field_3d
-from engine.planar import columns as col
-from engine.planar import elimination as planar_bent
-from engine.planar import elimination_unbent as planar_unbent
+from engine.physics.waves import wave_field
+from engine.planar import elimination as planar_elimination
 from engine.planar import node as planar_node
 from engine.planar import state as planar
 from engine.record import STATE
-from engine.spatial import elimination as spatial_bent
-from engine.spatial import elimination_unbent as spatial_unbent
+from engine.spatial import elimination as spatial_elimination
 from engine.spatial import node as spatial_node
 from engine.spatial import state as spatial
 from engine.time.newton import newton
@@ -51,8 +47,7 @@ class Stage:
         space = scene.motion.dimensions == 3
         self.n = int(self.p["nodes"])
         self.state, self.node = (spatial, spatial_node) if space else (planar, planar_node)
-        bent, unbent = (spatial_bent, spatial_unbent) if space else (planar_bent, planar_unbent)
-        self.eliminate = bent.eliminate_bent if self.p["bent"] else unbent.eliminate_unbent
+        self.eliminate = (spatial_elimination if space else planar_elimination).eliminate
         self.work = self.state.work_arrays.py_func(self.p, self.n)
         self.X, self.F, self.Q, self.E, self.D, self.C_tilde = self.work
 
@@ -73,25 +68,14 @@ class Stage:
         self.state.conserved(self.p, Y, C)
         return C
 
-    def quantities(self, cq, cv, in_motion, Y, C_tilde, F):
-        """What the node kernel makes of a state of the plane: q, N, G, the slope of T, EI kappa_s."""
-        self.places(Y)
-        self._quantities(arrays.Stage(0.0, in_motion, cq, cv), Y, C_tilde, F)
-        Q = self.Q
-        q, N, G = (Q[:, at : at + 2] for at in (col.QX, col.NX, col.GX))
-        return SimpleNamespace(q=q, slope=Q[:, col.SLOPE], N=N, G=G, moment_s=-Q[:, col.M])
-
-    def _quantities(self, stage, Y, C_tilde, F):
-        self.C_tilde[:], self.F[:] = C_tilde, F
-        self.node.node_quantities(self.p, self.tables, stage, Y, self.work)
-
     def update(self, cq, cv, in_motion, Y, C_tilde, F, viscosity=None, t=0.0):
         """Newton update D at a state, with the water F and the viscosity (n, 2) frozen."""
         if viscosity is not None:
             self.Q[:, -2:] = viscosity
         self.places(Y)
         stage = arrays.Stage(t, in_motion, cq, cv)
-        self._quantities(stage, Y, C_tilde, F)
+        self.C_tilde[:], self.F[:] = C_tilde, F
+        self.node.node_quantities(self.p, self.tables, stage, Y, self.work)
         assert self.eliminate(self.p, self.tables, stage, Y, self.work)
         return self.D.copy()
 
@@ -115,10 +99,10 @@ def waves_at(scene, t, X, there=0.0):
     p, tables = parameters_of(scene)
     X = np.ascontiguousarray(X, float)
     F = np.full((len(X), 2 * X.shape[1]), there)
-    if scene.waves.irregular:
+    if p["sea_n"]:
         sea_field(p, tables, t, X, F)
     else:
-        (wave_field_3d if X.shape[1] == 3 else wave_field)(p, t, X, F)
+        wave_field(p, t, X, F)
     return F
 
 
@@ -161,7 +145,7 @@ class Steps:
         while not run.done():
             self.state["trail"] = 0
             trail = arrays.Trail(self.T, self.Ys, self.Ks)
-            march(self.record, self.tables, self.state, run.motion, run.output, trail, run.goal)
+            march(self.record, self.tables, self.state, run.motion, run.output, trail, run.goal, *run.parts)
             assert self.state["status"] == OK
             yield int(self.state["trail"])
 
@@ -171,13 +155,15 @@ class Steps:
     def carry(self, first, count, vectors, rates, waters):
         """Perturbations (k, n, 4) in place along kept steps; returns the growth (k,) of each, nats."""
         growth = np.zeros((1, len(vectors)))
-        carry(self.record, self.tables, 1e9, count, self.trail(first, count), vectors, rates, waters, growth)
+        along = vectors, rates, waters, growth
+        carry(self.record, self.tables, 1e9, count, self.trail(first, count), along, None)
         return growth[0]
 
     def carry_lateral(self, first, count, weights, across, rates):
         """A perturbation (n, 2) across the plane in place along kept steps; returns its growth, nats."""
         growth = np.zeros(1)
-        carry_lateral(self.record, self.tables, 1e9, count, self.trail(first, count), weights, across, rates, growth)
+        sideways = weights, across, rates, growth
+        carry(self.record, self.tables, 1e9, count, self.trail(first, count), None, sideways)
         return growth[0]
 
     def repeat(self, t, dt, dt_before, one_stage, state, new):

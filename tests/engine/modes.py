@@ -8,8 +8,8 @@ box equations do not see. R is taken by central differences, with an error of th
 
 import numpy as np
 
+from tests.engine.box_equations import change_of
 from tests.engine.kernels import Stage
-from tests.engine.rotations import frames
 
 CHANGE = 1e-5
 
@@ -19,17 +19,6 @@ def eigenvalues_of(R, rate):
     mu = np.linalg.eigvals(R)
     found = rate * (1 - 1 / mu[np.abs(mu) > 1e-3])
     return found[np.argsort(np.abs(found))]
-
-
-def change_of(Y, D):
-    """Change (n, 4) or (n, 6) of (q, V) under a small update D: dq = deps t + (1+eps) (theta3 n - theta2 b)."""
-    lam = 1 + Y[:, :1]
-    if Y.shape[1] == 6:
-        c, s = np.cos(Y[:, 4:5]), np.sin(Y[:, 4:5])
-        dq = D[:, :1] * np.hstack([c, s]) + lam * D[:, 4:5] * np.hstack([-s, c])
-        return np.hstack([dq, D[:, 2:4]])
-    t, n, b = frames(Y[:, 6:10]).transpose(1, 0, 2)
-    return np.hstack([D[:, :1] * t + lam * (D[:, 8:9] * n - D[:, 7:8] * b), D[:, 3:6]])
 
 
 def rates(motion, rate):

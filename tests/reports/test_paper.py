@@ -2,6 +2,8 @@
 
 import csv
 import json
+import re
+from itertools import product
 
 import numpy as np
 import pytest
@@ -13,12 +15,13 @@ from campaigns.paper.parts import COLUMNS
 from campaigns.paper.statements import claims
 from campaigns.statements import FAILS, HOLDS_IF, write_statements
 from engine import load_scene
-from reports.figures.line_panels import LinePanel
-from reports.paper.figures.breaking import _limits
+from reports.figures.line_panels import LinePanel, limits
+from reports.paper.index import entries, markdown, named_in
 from reports.paper.report import report, short_answer
 from reports.parts.content import Links, Notice, Table, Text
 from reports.parts.html import render_html
 from reports.parts.judged import read_statements
+from tests.campaigns.conftest import ROOT
 from tests.campaigns.paper.world import deep, world
 
 
@@ -41,19 +44,12 @@ def found(tmp_path_factory):
     write_statements(folder, claims(), Results())
     row = {"part": "dependence", "status": "ok", "runs": 8, "failed": 0, "run_s": 1.5, "total_s": 90.0}
     write(folder / "table.csv", COLUMNS, [row])
-    rows = [
-        deep(
-            kA,
-            H,
-            submergence=under,
-            bending_stiffness_Nm2=EI,
-            regime="chaotic" if (kA, H) == (0.13, 21.0) else "period-1",
-        )
-        for kA in (0.13, 0.016)
-        for under in ("full", "spherical-cap")
-        for H in (21.0, 22.5)
-        for EI in ((0.4, 4.0) if under == "full" else (0.4,))
-    ]
+    rows = []
+    for kA, H, (under, EI) in product(
+        (0.13, 0.016), (21.0, 22.5), (("full", 0.4), ("full", 4.0), ("spherical-cap", 0.4))
+    ):
+        regime = "chaotic" if (kA, H) == (0.13, 21.0) else "period-1"
+        rows.append(deep(kA, H, submergence=under, bending_stiffness_Nm2=EI, regime=regime))
     write(folder / "dependence" / "table.csv", DEPENDENCE, [*rows, deep(0.13, 25.0, status="newton-failed")])
     (folder / "buoy").mkdir()
     (folder / "buoy" / "report.html").write_text("")
@@ -92,12 +88,28 @@ def test_the_short_answer_tells_each_statement_that_does_not_simply_hold_once(tm
 
 
 def test_tensions_of_fast_and_slow_breaks_have_identical_scales():
-    forces = [45e3, 180e3, 315e3, 450e3]
+    def scales(least):
+        forces = enumerate((45e3, 180e3, 315e3, 450e3), 1)
+        panels = [LinePanel(f"{k}", N, "", np.zeros(2), np.array([[least * N, N]]), np.zeros(1)) for k, N in forces]
+        return limits(panels, "tension_N")
 
-    def limits(least):
-        panels = [LinePanel("", np.zeros(2), np.array([[least * N, N]]), np.zeros(1)) for N in forces]
-        return _limits(panels, ["1", "2", "3", "4"], forces, motion=False)
+    assert scales(-0.045) == scales(-0.01)
+    assert scales(0.0)[0] == scales(0.0)[1] != scales(0.0)[2] == scales(0.0)[3]
+    assert scales(-0.5)[0][0] < -0.5 * 180e3  # nothing is cut off
 
-    assert limits(-0.045) == limits(-0.01)
-    assert limits(0.0)[0] == limits(0.0)[1] != limits(0.0)[2] == limits(0.0)[3]
-    assert limits(-0.5)[0][0] < -0.5 * 180e3  # nothing is cut off
+
+def test_every_equation_and_every_figure_is_named_in_a_docstring():
+    assert [number for kind, number in entries() if kind == "eq."] == list(range(1, 41))
+    assert {number for kind, number in entries() if kind == "fig."} == set(range(1, 21)) - {1, 8}
+
+
+def test_the_notation_page_has_the_equations_of_the_docstrings():
+    """Who knows only the paper finds eq. (N): once in the docstrings, and from there in NOTATION.md."""
+    page = (ROOT / "NOTATION.md").read_text(encoding="utf-8")
+    shown = re.search(r"<!-- equations: begin -->\n(.*)\n<!-- equations: end -->", page, re.DOTALL)
+    assert shown and shown[1] == markdown("eq."), "stale: python -m reports.paper.index"
+
+
+def test_a_paragraph_that_names_neither_is_refused():
+    with pytest.raises(ValueError, match="rows 3 to 5"):
+        named_in('"""A module.\n\nIn the paper: eq. 7 strain, and more; rows 3 to 5."""\n')

@@ -29,8 +29,6 @@ MOST_ROUNDS = 200
 TIME, PLACE, AHEAD, BEHIND, SIGMA, EMITTED, P_BEHIND, Q_BEHIND, LINE = range(9)
 COLUMNS = 9
 
-# law, length L [m], force F_s [N], decay t_br [s], strain0, stop: lines are followed up to this time [s]
-Case = namedtuple("Case", "law length force decay strain0 stop")
 # T, S: (lines, starts) time and place of the crossing of C-_i with C+_k, nan where none; p, tau (lines,) of the C-,
 # born_q: q where it leaves the end; q (starts,) of the C+; last: (lines, 3) latest known t, s, c of each C-
 Net = namedtuple("Net", "T S p born_q tau q last")
@@ -69,7 +67,7 @@ def shock_step(case, before, tn, sn, cn, p, out):
         last = t
         t = (sn - s0 + cc * tn - ss * t0) / (cc - ss)
         s = s0 - ss * (t - t0)
-        ahead, tau = simple_wave_at(law, case.length, case.force, case.decay, case.strain0, s, t, before[EMITTED])
+        ahead, tau = simple_wave_at(case, s, t, before[EMITTED])
         behind = strain_behind(law, ahead, riemann(law, ahead) - phi0, p, behind)
         sigma, c = shock_speed(law, ahead, behind), wave_speed(law, behind)
         out[TIME], out[PLACE], out[AHEAD], out[BEHIND], out[SIGMA] = t, s, ahead, behind, sigma
@@ -109,7 +107,7 @@ def cross(case, net, k, start, t, s, c, lines):
     arrival = t + (case.length - s) / c
     for _ in range(MOST_ROUNDS):
         before = arrival
-        eps = strain_of_tension(case.law, end_force(case.force, case.decay, arrival), eps)
+        eps = strain_of_tension(case.law, end_force(case, arrival), eps)
         arrival = t + (case.length - s) / (0.5 * (c + wave_speed(case.law, eps)))
         if abs(arrival - before) <= 1e-15 * arrival:
             break

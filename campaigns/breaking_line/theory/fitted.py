@@ -9,11 +9,7 @@ from analysis.sampling import checked_not_negative, checked_series
 from campaigns.breaking_line.theory import characteristics as row
 from campaigns.breaking_line.theory.characteristics import Net
 from campaigns.breaking_line.theory.law import riemann, strain_of_riemann, strain_of_tension, tension, wave_speed
-from campaigns.breaking_line.theory.simple_wave import (
-    ShockStart,
-    end_force,
-    simple_wave_at,
-)
+from campaigns.breaking_line.theory.simple_wave import Case, ShockStart, dissipation, end_force, simple_wave_at
 
 
 @dataclass(frozen=True, eq=False)
@@ -56,8 +52,7 @@ class ShockPath:
 class FittedBreak:
     """The motion after `fitted_break`; `at` evaluates it.
 
-    law                    (p1 ... p5, mass);  length [m], tension0 [N], decay_s [s] as given
-    strain0                before the break
+    case                   what was asked for
     start                  ShockStart of the simple wave: where theory lets the shock begin
     shock                  ShockPath; no rows when none forms on the line in time
     valid_until_s          the time asked for, or when a second shock begins that is not fitted: see `reason`
@@ -66,11 +61,7 @@ class FittedBreak:
     net, starts            the crossings of characteristics and where the C+ start, see `characteristics`
     """
 
-    law: np.ndarray
-    length: float
-    tension0: float
-    decay_s: float
-    strain0: float
+    case: Case
     start: ShockStart
     shock: ShockPath
     valid_until_s: float
@@ -84,27 +75,26 @@ class FittedBreak:
 
         On the shock itself: the state behind it. ValueError outside the line or after valid_until_s.
         """
-        s = checked_series(s_m, "s_m")
-        t = checked_not_negative(time_s, "time_s")
-        if np.any((s < 0.0) | (s > self.length)) or t > self.valid_until_s:
-            raise ValueError(f"s_m, time_s: 0 ... {self.length} m and 0 ... {self.valid_until_s} s are needed")
+        s, t, law = checked_series(s_m, "s_m"), checked_not_negative(time_s, "time_s"), self.case.law
+        if np.any((s < 0.0) | (s > self.case.length)) or t > self.valid_until_s:
+            raise ValueError(f"s_m, time_s: 0 ... {self.case.length} m and 0 ... {self.valid_until_s} s are needed")
         behind, latest = self._behind_from(t)
         ahead = s < behind
         strain, velocity = np.empty(len(s)), np.empty(len(s))
-        strain[ahead] = simple_waves(
-            self.law, self.length, self.tension0, self.decay_s, self.strain0, s[ahead], t, latest
-        )
-        velocity[ahead] = riemann(self.law, strain[ahead]) - riemann(self.law, self.strain0)
+        strain[ahead] = simple_waves(self.case, s[ahead], t, latest)
+        velocity[ahead] = riemann(law, strain[ahead]) - riemann(law, self.case.strain0)
         if not np.all(ahead):
             strain[~ahead], velocity[~ahead] = self._crossed(s[~ahead], t, behind)
-        return strain, velocity, tension(self.law, strain)
+        return strain, velocity, tension(law, strain)
 
-    def outgoing(self, time_s):
-        """p = u + phi [m/s] leaving the broken end at times (m,) [s]: 2 phi(F) - phi(eps_0) until an echo is back."""
-        t = np.asarray(time_s, float)
-        pull = riemann(self.law, strains_at_end(self.law, self.tension0, self.decay_s, t))
-        alone = 2.0 * pull - riemann(self.law, self.strain0)
-        return np.where(t <= self.first_echo_s, alone, np.interp(t, self.net.tau, self.net.p))
+    def lost_J(self, time_s):
+        """Energy [J] lost in the shock up to a time [s]; stored + kinetic + lost = stored at rest + work of the end."""
+        shock = self.shock
+        if len(shock.time_s) < 2:
+            return 0.0
+        power = np.array([dissipation(self.case.law, a, b) for a, b in zip(shock.ahead, shock.behind, strict=True)])
+        lost = np.append(0.0, np.cumsum(0.5 * (power[1:] + power[:-1]) * np.diff(shock.time_s)))
+        return float(np.interp(time_s, shock.time_s, lost))
 
     def _behind_from(self, t):
         """Where the net of crossing characteristics begins at t, and the last emission time ahead of it."""
@@ -119,34 +109,37 @@ class FittedBreak:
         """Strain and velocity at s, all in the net, which begins at `edge` at time t."""
         from scipy.interpolate import PchipInterpolator
 
+        law, length, shock = self.case.law, self.case.length, len(self.shock.time_s)
         found = np.empty((len(self.net.p) + len(self.net.q), 3)).T
-        count = on_outgoing(self.law, self.net, self.starts[-1, row.LINE], self.length, t, found)
-        shock = len(self.shock.time_s)
+        count = on_outgoing(law, self.net, self.starts[-1, row.LINE], length, t, found)
         count = on_echoes(self.net, self.starts, shock, t, found, count)
         found = found[:, :count].T
         if edge > 0.0:
             left = np.interp(t, self.starts[:shock, row.TIME], self.starts[:shock, row.P_BEHIND])
-            first = (edge, left, left - 2.0 * riemann(self.law, float(self.shock.at(t)[2])))
+            first = (edge, left, left - 2.0 * riemann(law, float(self.shock.at(t)[2])))
         else:
             wall = self.starts[max(shock - 1, 0) :]
             left = np.interp(t, wall[:, row.TIME], wall[:, row.P_BEHIND])
             first = (0.0, left, -left)
-        pull = riemann(self.law, strain_of_tension(self.law, end_force(self.tension0, self.decay_s, t), 0.0))
-        right = float(self.outgoing(t))
-        apart = 1e-9 * self.length
-        found = found[(found[:, 0] > edge + apart) & (found[:, 0] < self.length - apart)]
-        rows = np.vstack([first, found[np.argsort(found[:, 0])], (self.length, right, right - 2.0 * pull)])
+        force = end_force(self.case, t)
+        # what leaves the broken end: of the force alone until an echo is back
+        alone = 2.0 * riemann(law, strain_of_tension(law, force, 0.2)) - riemann(law, self.case.strain0)
+        right = alone if t <= self.first_echo_s else float(np.interp(t, self.net.tau, self.net.p))
+        last = (length, right, right - 2.0 * riemann(law, strain_of_tension(law, force, 0.0)))
+        apart = 1e-9 * length
+        found = found[(found[:, 0] > edge + apart) & (found[:, 0] < length - apart)]
+        rows = np.vstack([first, found[np.argsort(found[:, 0])], last])
         rows = rows[np.append(True, np.diff(rows[:, 0]) > apart)]
         p, q = PchipInterpolator(rows[:, 0], rows[:, 1:])(s).T
-        return strains_of(self.law, 0.5 * (p - q)), 0.5 * (p + q)
+        return strains_of(law, 0.5 * (p - q)), 0.5 * (p + q)
 
 
 @kernel
-def simple_waves(law, length, force, decay, strain0, s, t, latest):
+def simple_waves(case, s, t, latest):
     """eps (m,) of the simple wave at places s (m,) [m]; `simple_wave_at`."""
     out = np.empty(len(s))
     for i in range(len(s)):
-        out[i] = simple_wave_at(law, length, force, decay, strain0, s[i], t, latest)[0]
+        out[i] = simple_wave_at(case, s[i], t, latest)[0]
     return out
 
 
@@ -158,16 +151,6 @@ def strains_of(law, phi):
         eps = strain_of_riemann(law, phi[i], eps)
         out[i] = eps
     return out
-
-
-@kernel
-def strains_at_end(law, force, decay, t):
-    """eps at the broken end at times t (an array of any shape) [s]."""
-    out, eps = np.empty(t.size), 0.2
-    for i in range(t.size):
-        eps = strain_of_tension(law, end_force(force, decay, t.flat[i]), eps)
-        out[i] = eps
-    return out.reshape(t.shape)
 
 
 @kernel

@@ -2,19 +2,13 @@
 
 import numpy as np
 
+from analysis.compiled import kernel
 from analysis.sampling import checked_count, checked_positive, locked
 from campaigns.breaking_line.theory import characteristics as row
-from campaigns.breaking_line.theory.characteristics import CROSSED, DONE, FULL, Case, Net, march
-from campaigns.breaking_line.theory.fitted import FittedBreak, ShockPath, strains_at_end
-from campaigns.breaking_line.theory.law import (
-    checked_law,
-    riemann,
-    strain_of_riemann,
-    strain_of_tension,
-    tension,
-    wave_speed,
-)
-from campaigns.breaking_line.theory.simple_wave import shock_speed, shock_start, sonic_strain
+from campaigns.breaking_line.theory.characteristics import CROSSED, DONE, FULL, Net, march
+from campaigns.breaking_line.theory.fitted import FittedBreak, ShockPath
+from campaigns.breaking_line.theory.law import riemann, strain_of_riemann, strain_of_tension, tension, wave_speed
+from campaigns.breaking_line.theory.simple_wave import case_of, end_force, shock_speed, shock_start, sonic_strain
 
 # Emission times of the C- that meet the shock are spaced evenly in the log of what is left to the one that is just as
 # fast as the shock. That one never meets it, and the time of meeting, in breaking times, is about the inverse of what
@@ -25,27 +19,39 @@ SCAN = 4001
 ROOM = (1, 4, 16)  # tried one after the other, times `lines`: every echo of the broken end needs some more
 
 
-def _spread(law, force, decay, low, high, count):
+@kernel
+def _strains_at_end(case, t):
+    """eps at the broken end at times t (m,) [s]."""
+    out, eps = np.empty(len(t)), 0.2
+    for i in range(len(t)):
+        eps = strain_of_tension(case.law, end_force(case, t[i]), eps)
+        out[i] = eps
+    return out
+
+
+def _spread(case, low, high, count):
     """`count` + 1 emission times from low to high, evenly in time and in wave speed, half and half."""
     times = np.linspace(low, high, SCAN)
-    c = wave_speed(law, strains_at_end(law, force, decay, times))
+    c = wave_speed(case.law, _strains_at_end(case, times))
     way = np.abs(np.diff(c)) / max(np.sum(np.abs(np.diff(c))), 1e-300) + np.diff(times) / (high - low)
     way = np.append(0.0, np.cumsum(way))
     return np.interp(np.linspace(0.0, way[-1], count + 1), way, times)
 
 
-def _planned(law, force, decay, strain0, start, until, count):
+def _planned(case, start, count):
     """Emission times of the C- that are followed: with a shock from the one on which it begins, else from 0."""
-    slack = np.linspace(decay, max(until, 2.0 * decay), count // 2 + 1)[1:]
+    law, decay, strain0 = case.law, case.decay, case.strain0
+    slack = np.linspace(decay, max(case.stop, 2.0 * decay), count // 2 + 1)[1:]
     if start is None:
-        return np.append(_spread(law, force, decay, 0.0, decay, count), slack)
+        return np.append(_spread(case, 0.0, decay, count), slack)
     phi0, sonic = riemann(law, strain0), sonic_strain(law, strain0)
     p = riemann(law, sonic) - shock_speed(law, strain0, sonic) * (strain0 - sonic)
     pull = tension(law, strain_of_riemann(law, 0.5 * (p + phi0), 0.2))
-    slowest = 2.0 * decay / np.pi * np.arccos(np.sqrt(pull / force))  # keeps up with the late shock, never meets it
-    left = CLOSEST * min(decay / until, 1.0)
+    # of the line that keeps up with the late shock and never meets it
+    slowest = 2.0 * decay / np.pi * np.arccos(np.sqrt(pull / case.force))
+    left = CLOSEST * min(decay / case.stop, 1.0)
     met = slowest - (slowest - start.emission_s) * left ** np.linspace(0.0, 1.0, count + 1)
-    return np.concatenate([met, _spread(law, force, decay, met[-1], decay, count)[1:], slack])
+    return np.concatenate([met, _spread(case, met[-1], decay, count)[1:], slack])
 
 
 def fitted_break(parameters, mass, length, tension0, decay_s, until_s, lines=400):
@@ -63,20 +69,18 @@ def fitted_break(parameters, mass, length, tension0, decay_s, until_s, lines=400
     1e-5 ... 1e-3 only.
     Source: `simple_wave`, `characteristics`.
     """
-    law, force = checked_law(parameters, mass), checked_positive(tension0, "tension0")
-    length, decay = checked_positive(length, "length"), checked_positive(decay_s, "decay_s")
     until, lines = checked_positive(until_s, "until_s"), checked_count(lines, "lines", 16)
-    start = shock_start(parameters, mass, force, decay)
-    strain0 = float(strain_of_tension(law, force, 0.2))
-    front_arrival = length / wave_speed(law, strain0)
-    shocked = start.distance_m < length and start.time_s < until
-    planned = _planned(law, force, decay, strain0, start if shocked else None, until, lines)
-    case = Case(law, length, force, decay, strain0, until)
-    first = (start.time_s, length - start.distance_m, start.strain, start.strain, start.speed_mps, start.emission_s)
+    case = case_of(parameters, mass, length, tension0, decay_s, until)
+    start, at_rest = shock_start(case), riemann(case.law, case.strain0)
+    front_arrival = case.length / wave_speed(case.law, case.strain0)
+    shocked = start.distance_m < case.length and start.time_s < until
+    planned = _planned(case, start if shocked else None, lines)
+    born_m = case.length - start.distance_m
+    first = (start.time_s, born_m, start.strain, start.strain, start.speed_mps, start.emission_s)
     for room in ROOM:
         net, starts = _room(case, planned, room * lines)
         if shocked:
-            starts[0, : row.LINE] = (*first, net.p[0], -riemann(law, strain0))
+            starts[0, : row.LINE] = (*first, net.p[0], -at_rest)
         used, count, shock, code = march(case, net, starts, shocked, lines // 2, len(planned))
         if code != FULL:
             break
@@ -90,19 +94,10 @@ def fitted_break(parameters, mass, length, tension0, decay_s, until_s, lines=400
         reason = "the front is back from the fixed end before the shock has passed it"
     echoes = net.tau[int(starts[shock - 1, row.LINE]) + 1 if shock else 0 : used]
     echoes = echoes[~np.isin(echoes, planned)]
-    kept = (
-        net.T[:used, :count],
-        net.S[:used, :count],
-        *(net[i][:used] for i in (2, 3, 4)),
-        net.q[:count],
-        net.last[:used],
-    )
+    crossings, along = (array[:used, :count] for array in (net.T, net.S)), (array[:used] for array in net[2:5])
+    kept = (*crossings, *along, net.q[:count], net.last[:used])
     return FittedBreak(
-        law=law,
-        length=length,
-        tension0=force,
-        decay_s=decay,
-        strain0=strain0,
+        case=case,
         start=start,
         shock=ShockPath(*(locked(column.copy()) for column in starts[:shock, : row.P_BEHIND].T)),
         valid_until_s=float(valid),
@@ -119,7 +114,7 @@ def _room(case, planned, more):
     most_lines, most_starts = count + 2 * more, count + more
     T = np.full((most_lines, most_starts), np.nan)
     net = Net(T, T.copy(), *np.zeros((3, most_lines)), np.zeros(most_starts), np.zeros((most_lines, 3)))
-    eps = strains_at_end(case.law, case.force, case.decay, planned)
+    eps = _strains_at_end(case, planned)
     at_rest = riemann(case.law, case.strain0)
     net.tau[:count], net.born_q[:count] = planned, -at_rest
     net.p[:count] = 2.0 * riemann(case.law, eps) - at_rest

@@ -8,30 +8,22 @@ from functools import lru_cache
 
 import numpy as np
 
-from campaigns.breaking_line.theory.energy import lost_energy
 from campaigns.breaking_line.theory.fitted import FittedBreak
 from campaigns.breaking_line.theory.fitting import fitted_break
 from campaigns.breaking_line.theory.law import strain_of_tension, wave_speed
-from campaigns.breaking_line.theory.simple_wave import (
-    BreakTheory,
-    ShockStart,
-    break_theory,
-    shock_start,
-    simple_wave_work,
-)
+from campaigns.breaking_line.theory.simple_wave import BreakTheory, ShockStart, break_theory, simple_wave_work
 
 
 @dataclass(frozen=True, eq=False)
 class Theory:
     """Theory of one scene: `speeds` (BreakTheory), `start` (ShockStart), `motion` (FittedBreak).
 
-    `length_m`, `decay_s`, `force_N` of the scene. `end_work_J`: work of the end force, while no echo reaches the end
+    `length_m`, `force_N` of the scene. `end_work_J`: work of the end force, while no echo reaches the end
     before it is zero. `arrival_s`: when the front, or the shock that has overtaken it, is at the fixed end (or when the
     exact motion ends, if that is earlier); `lost_J`: lost in the shock by then.
     """
 
     length_m: float
-    decay_s: float
     force_N: float
     speeds: BreakTheory
     start: ShockStart
@@ -51,11 +43,11 @@ class Theory:
 
     def strain_at(self, share: float) -> float:
         """The strain where the tension is `share` of the static one."""
-        return float(strain_of_tension(self.motion.law, share * self.force_N, 0.2))
+        return float(strain_of_tension(self.motion.case.law, share * self.force_N, 0.2))
 
     def wave_speed(self, strain):
         """sqrt(T'/m), m/s, at one strain or several."""
-        return wave_speed(self.motion.law, strain)
+        return wave_speed(self.motion.case.law, strain)
 
     def swallowed(self, share: float) -> bool:
         """Whether the shock eats the contour of this share of the static tension before the front is at the wall."""
@@ -71,7 +63,7 @@ class Theory:
         line that the shock meets is ended there.
         """
         net, shock = self.motion.net, self.motion.shock
-        emitted = 2.0 * self.decay_s / math.pi * math.acos(math.sqrt(share))
+        emitted = 2.0 * self.motion.case.decay / math.pi * math.acos(math.sqrt(share))
         speed = float(self.wave_speed(self.strain_at(share)))
         started = emitted >= net.tau[0] and len(net.T)
         if started:
@@ -101,20 +93,18 @@ def theory_of(scene, until_s: float) -> Theory | None:
     if law.law != "tanh" or not scene.end.force_decay_s:
         return None
     mass = scene.tether.density_kgpm3 * scene.tether.area_m2
-    case = (tuple(law.p), mass, scene.tether.length_m, math.hypot(*scene.end.force_N), scene.end.force_decay_s, until_s)
+    force_N = math.hypot(*scene.end.force_N)
     try:
-        return _theory(*case)
+        return _theory(tuple(law.p), mass, scene.tether.length_m, force_N, scene.end.force_decay_s, until_s)
     except ValueError:  # a law that does not rise everywhere
         return None
 
 
 @lru_cache(maxsize=16)
 def _theory(law, mass, length, force, decay, until) -> Theory:
-    speeds, start = break_theory(law, mass, length, force), shock_start(law, mass, force, decay)
     motion = fitted_break(law, mass, length, force, decay, until)
-    shock = motion.shock
+    speeds, shock = break_theory(motion.case), motion.shock
     through = len(shock.time_s) > 0 and shock.place_m[-1] <= 1e-6 * length
-    arrival = min(motion.valid_until_s, speeds.front_arrival_s, shock.time_s[-1] if through else math.inf)
-    lost = float(lost_energy(motion, [arrival])[0])
-    work = simple_wave_work(law, mass, force, decay)
-    return Theory(length, decay, force, speeds, start, motion, work, float(arrival), lost)
+    arrival = float(min(motion.valid_until_s, speeds.front_arrival_s, shock.time_s[-1] if through else math.inf))
+    work = simple_wave_work(motion.case)
+    return Theory(length, force, speeds, motion.start, motion, work, arrival, motion.lost_J(arrival))

@@ -18,6 +18,7 @@ behind a centred wave the shock ends there and a fan goes on; behind a break of 
 Source: Courant & Friedrichs, Supersonic Flow and Shock Waves (1948), sections 29-55; Oleinik (1959) for the chord.
 """
 
+from collections import namedtuple
 from dataclasses import dataclass
 
 import numpy as np
@@ -38,11 +39,26 @@ from campaigns.breaking_line.theory.law import (
 SCAN = 4000  # emission times looked at for the first crossing of characteristics
 POINTS = 200  # of the quadrature of the end work
 
+# law (p1 ... p5, m), length L [m], force F_s [N], decay t_br [s], strain0: eps_0, stop: followed up to then [s]
+Case = namedtuple("Case", "law length force decay strain0 stop")
+
+
+def case_of(parameters, mass, length, tension0, decay_s, until_s=np.inf):
+    """A break, checked.
+
+    parameters    p1 ... p5 of eq. (20);  mass  [kg/m];  length  [m];  tension0  F_s [N];  decay_s  t_br [s]
+    until_s       [s] how long it is followed
+    ValueError for a law that does not rise everywhere, and for numbers that are not above zero.
+    """
+    law, force = checked_law(parameters, mass), checked_positive(tension0, "tension0")
+    length, decay = checked_positive(length, "length"), checked_positive(decay_s, "decay_s")
+    return Case(law, length, force, decay, float(strain_of_tension(law, force, 0.2)), float(until_s))
+
 
 @kernel
-def end_force(force, decay, t):
+def end_force(case, t):
     """F(t) [N]; t [s]."""
-    return force * np.cos(0.5 * np.pi * t / decay) ** 2 if t < decay else 0.0
+    return case.force * np.cos(0.5 * np.pi * t / case.decay) ** 2 if t < case.decay else 0.0
 
 
 @kernel
@@ -83,12 +99,13 @@ def sonic_strain(law, ahead):
 
 
 @kernel
-def crossing_of(law, force, decay, tau):
+def crossing_of(case, tau):
     """(time, distance from the broken end) [s, m] at which the characteristic of emission time tau meets its
     neighbour: tau + c/(dc/d tau) and c^2/(dc/d tau); inf where it does not."""
-    t = np.pi * tau / decay
-    rate = -0.5 * np.pi * force / decay * np.sin(t)
-    eps = strain_of_tension(law, end_force(force, decay, tau), 0.2)
+    law = case.law
+    t = np.pi * tau / case.decay
+    rate = -0.5 * np.pi * case.force / case.decay * np.sin(t)
+    eps = strain_of_tension(law, end_force(case, tau), 0.2)
     steepening = wave_speed_slope(law, eps) * rate / slope(law, eps)
     if steepening <= 0.0:
         return np.inf, np.inf
@@ -112,19 +129,16 @@ class ShockStart:
     speed_mps: float
 
 
-def shock_start(parameters, mass, tension0, decay_s):
+def shock_start(case):
     """Time and place at which unloading first steepens into a shock: the least time on the envelope of characteristics.
 
         t = tau + c/(dc/dtau),   L - s = c^2/(dc/dtau),   dc/dtau = c'(eps) F'(tau)/T'(eps)
 
-    parameters    p1 ... p5 of eq. (20);  mass  [kg/m];  tension0  F_s [N];  decay_s  t_br [s]
     Returns a ShockStart. The fixed end is not looked at: compare distance_m with the length, and time_s with the time
     L/c(eps_0) at which the front gets there. Both scale with t_br. Source: head of this file.
     """
-    law, force = checked_law(parameters, mass), checked_positive(tension0, "tension0")
-    decay = checked_positive(decay_s, "decay_s")
-    taus = np.linspace(0.0, decay, SCAN + 1)[1:-1]
-    times = np.array([crossing_of(law, force, decay, tau)[0] for tau in taus])
+    taus = np.linspace(0.0, case.decay, SCAN + 1)[1:-1]
+    times = np.array([crossing_of(case, tau)[0] for tau in taus])
     first = int(np.argmin(times))
     if not np.isfinite(times[first]):
         return ShockStart(np.inf, np.inf, np.nan, np.nan, np.nan)
@@ -132,14 +146,13 @@ def shock_start(parameters, mass, tension0, decay_s):
     golden = 0.5 * (np.sqrt(5.0) - 1.0)
     for _ in range(80):
         left, right = high - golden * (high - low), low + golden * (high - low)
-        if crossing_of(law, force, decay, left)[0] < crossing_of(law, force, decay, right)[0]:
+        if crossing_of(case, left)[0] < crossing_of(case, right)[0]:
             high = right
         else:
             low = left
     tau = 0.5 * (low + high)
-    time, distance = crossing_of(law, force, decay, tau)
-    strain = strain_of_tension(law, end_force(force, decay, tau), 0.2)
-    return ShockStart(float(time), float(distance), float(tau), float(strain), float(wave_speed(law, strain)))
+    strain = strain_of_tension(case.law, end_force(case, tau), 0.2)
+    return ShockStart(*map(float, (*crossing_of(case, tau), tau, strain, wave_speed(case.law, strain))))
 
 
 @dataclass(frozen=True)
@@ -166,74 +179,59 @@ class BreakTheory:
     shock_end_speed_mps: float
 
 
-def break_theory(parameters, mass, length, tension0):
+def break_theory(case):
     """End speed, front speeds and the late shock of the breaking line, independent of the breaking time.
 
         end speed = integral of sqrt(T'/m) d eps from T = 0 to T = tension0;   fronts sqrt(T'/m) at both ends of it
 
-    parameters    p1 ... p5 of eq. (20);  mass  [kg/m];  length  [m];  tension0  static tension [N]
     Returns a BreakTheory. shock_* are nan at or below the inflection, where unloading spreads.
     Source: Tjavaras et al. 1998, section 4.1.2; head of this file.
     """
-    law, force = checked_law(parameters, mass), checked_positive(tension0, "tension0")
-    length = checked_positive(length, "length")
-    strain0, slack = strain_of_tension(law, force, 0.2), strain_of_tension(law, 0.0, 0.0)
-    front = wave_speed(law, strain0)
+    law, strain0 = case.law, case.strain0
+    slack, front, sonic = strain_of_tension(law, 0.0, 0.0), wave_speed(law, strain0), sonic_strain(law, strain0)
     end_speed = riemann(law, strain0) - riemann(law, slack)
-    sonic = sonic_strain(law, strain0)
     sigma = behind_shock = np.nan
     if sonic < strain0:
         sigma = shock_speed(law, strain0, sonic)
         behind_shock = sigma * (strain0 - sonic) + riemann(law, sonic) - riemann(law, slack)
-    return BreakTheory(
-        float(strain0),
-        float(slack),
-        float(front),
-        float(wave_speed(law, slack)),
-        float(end_speed),
-        float(length / front),
-        float(sigma),
-        float(sonic) if sonic < strain0 else np.nan,
-        float(behind_shock),
-    )
+    else:
+        sonic = np.nan
+    speeds = (front, wave_speed(law, slack), end_speed, case.length / front)
+    return BreakTheory(*map(float, (strain0, slack, *speeds, sigma, sonic, behind_shock)))
 
 
-def simple_wave_work(parameters, mass, tension0, decay_s):
+def simple_wave_work(case):
     """Work [J] that the decaying end force does on the line, negative: the part of the stored energy that a slow break
     takes out before anything moves freely.
 
         A = integral_0^t_br F(t) u(t) dt = -t_br integral_0^1 F (phi(eps_0) - phi(eps(F))) d(t/t_br)
 
-    parameters, mass, tension0, decay_s    as in `shock_start`
     Proportional to t_br. Exact while no echo of the fixed end or of a shock has reached the end before t_br: the
     midpoint rule on an even, smooth, periodic integrand converges faster than any power (50 points give 10 digits).
     """
-    law, force = checked_law(parameters, mass), checked_positive(tension0, "tension0")
-    decay = checked_positive(decay_s, "decay_s")
-    at_rest = riemann(law, strain_of_tension(law, force, 0.2))
-    total = 0.0
+    at_rest, total = riemann(case.law, case.strain0), 0.0
     for k in range(POINTS):
-        pull = end_force(force, decay, decay * (k + 0.5) / POINTS)
-        total += pull * (riemann(law, strain_of_tension(law, pull, 0.2)) - at_rest)
-    return float(decay * total / POINTS)
+        pull = end_force(case, case.decay * (k + 0.5) / POINTS)
+        total += pull * (riemann(case.law, strain_of_tension(case.law, pull, 0.2)) - at_rest)
+    return float(case.decay * total / POINTS)
 
 
 @kernel
-def simple_wave_at(law, length, force, decay, strain0, s, t, latest):
+def simple_wave_at(case, s, t, latest):
     """eps at s [m], t [s] in the simple wave, and when its characteristic left the end, at most `latest` [s].
 
     L - s = c(tau) (t - tau) is solved by bisection. Not folded, or ahead of a shock with `latest` the emission time of
     the characteristic that the shock met there before, it has one root, or none: still at rest, tau = 0.
     """
-    way = length - s
-    if way >= wave_speed(law, strain0) * t:
-        return strain0, 0.0
-    low, high, eps = 0.0, min(t, latest), strain0
+    law, way = case.law, case.length - s
+    if way >= wave_speed(law, case.strain0) * t:
+        return case.strain0, 0.0
+    low, high, eps = 0.0, min(t, latest), case.strain0
     while high - low > 1e-17 + 4e-16 * high:
         tau = 0.5 * (low + high)
         if tau in (low, high):
             break
-        eps = strain_of_tension(law, end_force(force, decay, tau), eps)
+        eps = strain_of_tension(law, end_force(case, tau), eps)
         if wave_speed(law, eps) * (t - tau) > way:
             low = tau
         else:

@@ -8,30 +8,26 @@ window of eq. (31) ends, tau_0 + n T_i = 60 T_i.
 import numpy as np
 
 from campaigns.figure_data import Array
-from campaigns.paper.figures.plans import LeftOut, Parts, Plan
 from campaigns.paper.measures import WINDOW, in_window
+from campaigns.paper.part_folders import LeftOut, Parts, Plan
 from engine.natural_frequencies import natural_frequencies
 
-
-def buoy_run(parts: Parts, steepness: float):
-    """Part, trajectory and Source of the run at a steepness of the paper. Raises LeftOut."""
-    part = parts.part("buoy")
-    _, trajectory, found = parts.run(part, f"kA = {steepness:g}", steepness=steepness)
-    return part, trajectory, found
+TITLES = {"tension": "Tension", "radial": "Radial motion of the buoy", "angular": "Angular motion of the buoy"}
+TENSIONS = {"": "tension", "_low": "least tension since the last sample", "_high": "largest tension since then"}
+MOTIONS = {"radial": ("radius_m", "r/r_0", "1"), "angular": ("angle_rad", "theta", "rad")}  # column, name, unit
 
 
 def history(parts: Parts, steepness: float, side: str) -> Plan:
     """Figures 9-11, 13, 15 and 16; side: "tension", "radial" or "angular"."""
-    _, trajectory, found = buoy_run(parts, steepness)
-    what = {"tension": "Tension", "radial": "Radial motion of the buoy", "angular": "Angular motion of the buoy"}[side]
-    return Plan(f"{what} at kA = {steepness:g}", (found,), lambda: _history(trajectory, side))
+    trajectory, found = parts.of_buoy(steepness)
+    return Plan(f"{TITLES[side]} at kA = {steepness:g}", (found,), lambda: history_arrays(trajectory, side))
 
 
-def _history(trajectory, side: str) -> dict[str, Array]:
-    scene, columns = trajectory.scene, trajectory.columns
+def history_arrays(trajectory, side: str) -> dict[str, Array]:
+    """The record up to the end of the window of eq. (31)."""
+    scene, along = trajectory.scene, ("time_s",)
     last = round(sum(WINDOW) * scene.waves.period_s / scene.sample_step_s()) + 1
-    shown = {name: values[:last] for name, values in columns.items()}
-    along = ("time_s",)
+    shown = {name: values[:last] for name, values in trajectory.columns.items()}
     arrays: dict[str, Array] = {
         "time_s": (along, shown["time_s"], "s", "time"),
         "wave_period_s": ((), scene.waves.period_s, "s", "wave period T_i"),
@@ -39,15 +35,14 @@ def _history(trajectory, side: str) -> dict[str, Array]:
         "window_periods": ((), WINDOW[1], "1", "length of the window of eq. (31), in wave periods"),
     }
     if side == "tension":
-        static = columns["tension_top_N"][0]
-        words = {"": "tension", "_low": "least tension since the last sample", "_high": "largest tension since then"}
-        for suffix, meaning in words.items():
+        static = shown["tension_top_N"][0]
+        for suffix, meaning in TENSIONS.items():
             tension = shown[f"tension_top{suffix}_N"]
             arrays[f"tension{suffix}_N"] = (along, tension, "N", f"{meaning}, at the top end")
             arrays[f"tension{suffix}_over_static"] = (along, tension / static, "1", f"{meaning} over T_s")
         return arrays | {"static_tension_N": ((), static, "N", "static tension T_s at the top end")}
     if side == "radial":
-        static = columns["radius_m"][0]
+        static = shown["radius_m"][0]
         return arrays | {
             "radius_m": (along, shown["radius_m"], "m", "distance of the buoy from the anchor"),
             "radius_over_static": (along, shown["radius_m"] / static, "1", "r over r_0"),
@@ -59,7 +54,7 @@ def _history(trajectory, side: str) -> dict[str, Array]:
 
 def spectra(parts: Parts, steepness: float, sides: tuple[str, ...]) -> Plan:
     """Figures 12, 17 and 18: eq. (31) of the radial and the angular motion."""
-    _, trajectory, found = buoy_run(parts, steepness)
+    trajectory, found = parts.of_buoy(steepness)
     if not in_window(trajectory):
         done = trajectory.columns["time_s"][-1] / trajectory.scene.waves.period_s
         raise LeftOut(f"eq. (31) needs {sum(WINDOW)} wave periods, the run at kA = {steepness:g} has {done:.4g}")
@@ -84,10 +79,9 @@ def _spectra(trajectory, sides: tuple[str, ...]) -> dict[str, Array]:
         "periods": ((), WINDOW[1], "1", "n of eq. (31)"),
     }
     for side in sides:
-        column, unit = {"radial": ("radius_m", "1"), "angular": ("angle_rad", "rad")}[side]
+        column, name, unit = MOTIONS[side]
         motion = trajectory.columns[column] / (static_m if side == "radial" else 1.0)
         found = spectrum(motion, scene.sample_step_s(), scene.waves.period_s, *WINDOW)
-        name = "r/r_0" if side == "radial" else "theta"
         # the mean is bin 0, and no oscillation
         arrays["omega_radps"] = (("omega_radps",), found.angular_frequency_radps[1:], "rad s-1", "angular frequency")
         arrays[f"{side}_amplitude"] = (("omega_radps",), found.amplitude[1:], unit, f"eq. (31) of {name}")

@@ -11,7 +11,7 @@ from pathlib import Path
 
 from campaigns.breaking_line import judging as line
 from campaigns.paper.statements import large_waves, plane, small_waves
-from campaigns.paper.statements.judging import depths, near, numbers
+from campaigns.paper.statements.judging import depths, numbers
 from campaigns.statements import Claim, read_claims
 
 TABLE = Path(__file__).parents[1] / "statements.toml"
@@ -23,7 +23,7 @@ OWN = {
     ),
     plane: ("strange", "planar", "small decays", "large grows", "comparable", "spatial"),
 }  # fmt: skip
-MEASURES = {"numbers": numbers, "near": near, "depths": depths} | {
+MEASURES = {"numbers": numbers, "depths": depths} | {
     name: getattr(module, name.replace(" ", "_")) for module, names in OWN.items() for name in names
 }
 

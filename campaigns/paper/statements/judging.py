@@ -1,45 +1,41 @@
 """Measures of the statements on the buoy: from `Results` to numbers that a rule can judge.
 
-`numbers` and `near` are of single numbers (`Results.numbers`), `depths` of the rows of the dependence study.
+`numbers` is of single numbers (`Results.numbers`), `depths` of the rows of the dependence study.
 """
 
 import math
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 
 from campaigns.paper.measured import Results
 from campaigns.paper.measures import LARGE
-from campaigns.statements import Check, Measured, formula, grouped, shown, told
+from campaigns.statements import Check, Measured, formula, grouped, shown
 from campaigns.tables import Row
 
 Measure = Callable[[Results], Measured]
+Place = tuple[str, Row]  # where a run was, in words, and its row
 UNDECIDED = ("", "undecided", "transient")  # regimes that decide nothing
 NOT_IN_DOUBT = 2.0  # standard errors
 EXPONENT, ERROR = "lyapunov_tangent_bits_per_period", "lyapunov_tangent_error"
 LONG = "the long run"
 
 
-def numbers(of: dict[str, str], form: str, judge: str = "") -> Measure:
-    """A check for every place, of a formula over the results' numbers; judge: the formula that the rule judges."""
+def numbers(
+    of: dict[str, str], form: str, judge: str = "", printed: Mapping[str, float | str] | None = None
+) -> Measure:
+    """A check for every place, of a formula over the results' numbers.
 
-    def measure(results: Results) -> Measured:
-        known = {where: formula(text)(results.numbers) for where, text in of.items()}
-        known = {where: value for where, value in known.items() if math.isfinite(value)}
-        checks = [(where, formula(judge)(results.numbers) if judge else value) for where, value in known.items()]
-        return Measured(checks, told(known.items(), form))
-
-    return measure
-
-
-def near(of: dict[str, str], printed: dict[str, float | str], form: str) -> Measure:
-    """A check for every place, of the relative distance of a formula from what is printed (told in brackets)."""
+    judge: the formula that the rule judges; printed: what the paper prints (told in brackets), the rule then judges the
+    relative distance from it.
+    """
 
     def measure(results: Results) -> Measured:
         checks, words = [], []
         for where, text in of.items():
-            value, asked = formula(text)(results.numbers), formula(str(printed[where]))(results.numbers)
+            value, asked = (formula(one)(results.numbers) for one in (text, str(printed[where]) if printed else "1"))
             if math.isfinite(value) and math.isfinite(asked):
-                checks.append((where, value / asked - 1.0))
-                words.append(f"{where}: {shown(value, form)} ({asked:g})")
+                judged = formula(judge)(results.numbers) if judge else value / asked - 1.0 if printed else value
+                checks.append((where, judged))
+                words.append(f"{where}: {shown(value, form)}" + (f" ({asked:g})" if printed else ""))
         return Measured(checks, ", ".join(words))
 
     return measure
@@ -50,11 +46,18 @@ def depths(of: str, form: str, also: Sequence[str] = ()) -> Measure:
 
     def measure(results: Results) -> Measured:
         rows = [row for row in results.over_depth(LARGE) if math.isfinite(value_of(row, of))]
-        words = (" and ".join(shown(value_of(row, name), form) for name in (of, *also)) for row in rows)
-        checks = [(at(row), row[of]) for row in rows]
-        return Measured(checks, ", ".join(f"{word} at {at(row)}" for word, row in zip(words, rows, strict=True)))
+        told = (
+            f"{' and '.join(shown(value_of(row, name), form) for name in (of, *also))} at {at(row)}" for row in rows
+        )
+        return Measured([(at(row), row[of]) for row in rows], ", ".join(told))
 
     return measure
+
+
+def each(found: Iterable[Check], form: str) -> Measured:
+    """A check of every number that there is, with its place."""
+    known = [(where, value) for where, value in found if math.isfinite(value)]
+    return Measured(known, ", ".join(f"{shown(value, form)} at {where}" for where, value in known))
 
 
 def passed(*checks: tuple[str, bool]) -> list[Check]:
@@ -89,8 +92,8 @@ def at(row: Row) -> str:
     return f"H = {row['depth_m']:g} m"
 
 
-def elsewhere(results: Results, steepness: float) -> list[tuple[str, Row]]:
-    """(where, row) of the runs whose buoy loses buoyancy out of the water, by depth: not as shipped, yet likelier."""
+def elsewhere(results: Results, steepness: float) -> list[Place]:
+    """The runs whose buoy loses buoyancy out of the water, by depth: not as shipped, yet likelier."""
     if not results.dependence:
         return []
     usual = results.usual()["submergence"]
@@ -99,19 +102,19 @@ def elsewhere(results: Results, steepness: float) -> list[tuple[str, Row]]:
     return [(f"{at(row)} with {under}", row) for under, row in found]
 
 
-def everywhere(results: Results, steepness: float) -> list[tuple[str, Row]]:
-    """(where, row) of the short runs of a wave at every depth, with both buoyancies."""
+def everywhere(results: Results, steepness: float) -> list[Place]:
+    """The short runs of a wave at every depth, with both buoyancies."""
     return [(at(row), row) for row in results.over_depth(steepness)] + elsewhere(results, steepness)
 
 
-def regimes(rows: Iterable[tuple[str, Row]], is_so: Callable[[str], bool]) -> list[Check]:
+def regimes(rows: Iterable[Place], is_so: Callable[[str], bool]) -> list[Check]:
     """A check of every row that has a verdict: whether its regime is so."""
     decided = ((where, row["regime"]) for where, row in rows if row["regime"] not in UNDECIDED)
     return passed(*((where, is_so(regime)) for where, regime in decided))
 
 
-def by_regime(rows: Iterable[tuple[str, Row]]) -> str:
-    """Regimes of (where, row), each with the places that have it."""
+def by_regime(rows: Iterable[Place]) -> str:
+    """Regimes of the runs, each with the places that have it."""
     places: dict[str, list[str]] = {}
     for where, row in rows:
         places.setdefault(row["regime"] or "no verdict", []).append(where)

@@ -4,21 +4,8 @@ import math
 
 from campaigns.paper.measured import Results
 from campaigns.paper.measures import LARGE
-from campaigns.paper.statements.judging import (
-    EXPONENT,
-    LONG,
-    UNDECIDED,
-    at,
-    by_regime,
-    elsewhere,
-    everywhere,
-    exponent,
-    passed,
-    positive,
-    regimes,
-    settled,
-    value_of,
-)  # fmt: skip
+from campaigns.paper.statements import judging
+from campaigns.paper.statements.judging import LONG, UNDECIDED, at, elsewhere, everywhere, exponent, passed, value_of
 from campaigns.statements import Measured, listed, shown, told
 from campaigns.tables import Row
 
@@ -79,22 +66,19 @@ def snapping(results: Results) -> Measured:
     """Share of the time near zero tension, and the largest tension over the static one, at every depth."""
     static = results.number("estimate_static_tension_N")
     rows = [row for row in results.over_depth(LARGE) if math.isfinite(value_of(row, "near_zero") * static)]
-    checks, words = [], []
-    for row in rows:
-        share, peak = row["near_zero"], row["tension_top_max_N"] / static
-        checks.append((at(row), share > SLACK and peak > PEAK))
-        words.append(f"{shown(share, '.1%')} and {shown(peak, '.1f')} at {at(row)}")
-    return Measured(passed(*checks), ", ".join(words))
+    found = [(at(row), row["near_zero"], row["tension_top_max_N"] / static) for row in rows]
+    words = (f"{shown(share, '.1%')} and {shown(peak, '.1f')} at {where}" for where, share, peak in found)
+    return Measured(passed(*((where, share > SLACK and peak > PEAK) for where, share, peak in found)), ", ".join(words))
 
 
 def impulsive(results: Results) -> Measured:
     """Length of the peaks over that of a free rebound: a mass on the taut line takes half a natural period, and at half
     height a third of one, however it comes in."""
     elastic = results.number("estimate_wave_radps") / results.number("estimate_radial_radps") / 3.0  # wave periods
-    rows = [(at(row), value_of(row, "peak_periods") / elastic) for row in results.over_depth(LARGE)]
-    known = [(where, share) for where, share in rows if math.isfinite(share)]
-    words = ", ".join(f"{shown(share, '.2f')} at {where}" for where, share in known)
-    return Measured(known, f"of {shown(elastic, '.2f')} wave periods {words}" if known else "")
+    lengths = ((at(row), value_of(row, "peak_periods") / elastic) for row in results.over_depth(LARGE))
+    found = judging.each(lengths, ".2f")
+    words = f"of {shown(elastic, '.2f')} wave periods {found.told}"
+    return Measured(found.checks, words) if found.checks else Measured()
 
 
 def buckles(results: Results) -> Measured:
@@ -105,32 +89,45 @@ def buckles(results: Results) -> Measured:
 
 def positive_exponent(results: Results) -> Measured:
     """The exponent of the long run, and of the short ones; at the shipped depth the long run decides."""
-    rows = [(at(row), row) for row in results.over_depth(LARGE) if math.isfinite(value_of(row, EXPONENT))]
-    others = [(where, row) for where, row in elsewhere(results, LARGE) if math.isfinite(value_of(row, EXPONENT))]
+    rows, others = _short(results, known=judging.EXPONENT)
     long, depth = results.buoy.get(LARGE), f"H = {results.depth():g} m"
-    deciding = {where: row for where, row in rows if settled(row)}
+    deciding = {where: row for where, row in rows if judging.settled(row)}
     found = f"shorter runs {', '.join(f'{exponent(row)} at {where}' for where, row in rows + others) or 'none'}"
     if long is not None:
         deciding.pop(depth, None)
         if exponent(long) != "none":
             deciding[depth] = long
             found = f"{LONG} at {depth} {exponent(long)}; {found}"
-    checks = sorted((where, positive(row)) for where, row in deciding.items())
-    checks += [(where, positive(row)) for where, row in others if settled(row)]
-    return Measured(passed(*checks), found if rows or others or long else "")
+    places = [
+        *sorted(deciding.items(), key=_by_place),
+        *((where, row) for where, row in others if judging.settled(row)),
+    ]
+    checks = passed(*((where, judging.positive(row)) for where, row in places))
+    return Measured(checks, found if rows or others or long else "")
 
 
 def chaotic(results: Results) -> Measured:
     """The regime of the long run, and of the short ones; at the shipped depth the long run decides."""
-    rows, long = [(at(row), row) for row in results.over_depth(LARGE)], results.buoy.get(LARGE)
-    others, depth = elsewhere(results, LARGE), f"H = {results.depth():g} m"
-    found, deciding = f"shorter runs {by_regime(rows + others)}", dict(rows)
+    rows, others = _short(results)
+    long, depth = results.buoy.get(LARGE), f"H = {results.depth():g} m"
+    found, deciding = f"shorter runs {judging.by_regime(rows + others)}", dict(rows)
     if long is not None and long["regime"] not in UNDECIDED:
         deciding[depth] = long
         tighter = f" (at a tenth of the tolerance: {again})" if (again := long.get("regime_tighter")) else ""
         found = f"{LONG} at {depth} {long['regime']}{tighter}; {found}"
-    checks = regimes(sorted(deciding.items(), key=lambda one: one[0]), _is_chaotic) + regimes(others, _is_chaotic)
+    checks = judging.regimes([*sorted(deciding.items(), key=_by_place), *others], _is_chaotic)
     return Measured(checks, found if rows or others or long else "")
+
+
+def _short(results: Results, known: str = "depth_m") -> tuple[list[judging.Place], list[judging.Place]]:
+    """The short runs that know a number: those of the shipped buoyancy, and the others."""
+    both = [(at(row), row) for row in results.over_depth(LARGE)], elsewhere(results, LARGE)
+    rows, others = ([place for place in some if math.isfinite(value_of(place[1], known))] for some in both)
+    return rows, others
+
+
+def _by_place(place: judging.Place) -> str:
+    return place[0]
 
 
 def _is_chaotic(regime: str) -> bool:
@@ -153,10 +150,9 @@ def no_dominant_mode(results: Results) -> Measured:
     if not lines:
         return Measured()
     where, r, theta, row = lines[-1]
-    places = [value_of(row, f"{side}_at") for side in ("radial", "angular")]
     words = ", ".join(
-        f"{name} {shown(share, '.1%')} at {shown(place, '.3g')} of the waves' frequency"
-        for name, share, place in zip(("r", "θ"), (r, theta), places, strict=True)
+        f"{name} {shown(share, '.1%')} at {shown(value_of(row, f'{side}_at'), '.3g')} of the waves' frequency"
+        for name, side, share in (("r", "radial", r), ("θ", "angular", theta))
     )
     least, other = min((min(one[1:3]), one[0]) for one in lines)
     words += f" ({where}); least of {len(lines)} runs {shown(least, '.1%')} ({other})"

@@ -4,7 +4,7 @@ import math
 
 from campaigns.paper.measured import STRANGE, Results
 from campaigns.paper.measures import LARGE
-from campaigns.paper.statements.judging import NOT_IN_DOUBT, at, passed
+from campaigns.paper.statements.judging import NOT_IN_DOUBT, at, each, passed
 from campaigns.statements import Measured, shown
 from campaigns.tables import Row
 
@@ -27,24 +27,19 @@ def strange(results: Results) -> Measured:
 
 def pushed(results: Results) -> list[Row]:
     """Runs of the large wave in three dimensions that were pushed out of the plane and ended as asked."""
-    return [
-        row
-        for row in results.plane
-        if row["status"] == "ok"
-        and row["steepness"] == results.plane_large
-        and row["dimensions"] == 3
-        and row["seed_direction"] != "along"
-        and not row["profiles"]
-    ]
+    rows = _spatial(results, results.plane_large)
+    return [row for row in rows if row["seed_direction"] != "along" and not row["profiles"]]
 
 
 def calm(results: Results) -> list[Row]:
     """Runs of the small wave in three dimensions that ended as asked."""
     small = min((row["steepness"] for row in results.plane), default=LARGE)
-    if small == results.plane_large:
-        return []
-    good = (row for row in results.plane if row["status"] == "ok")
-    return [row for row in good if row["steepness"] == small and row["dimensions"] == 3]
+    return [] if small == results.plane_large else _spatial(results, small)
+
+
+def _spatial(results: Results, steepness: float) -> list[Row]:
+    wanted = {"status": "ok", "steepness": steepness, "dimensions": 3}
+    return [row for row in results.plane if wanted.items() <= row.items()]
 
 
 def grows(row: Row) -> bool:
@@ -98,4 +93,4 @@ def spatial(results: Results) -> Measured:
     for row in sorted(pushed(results), key=lambda row: row["depth_m"]):
         if math.isfinite(row["rope_lateral_max_m"]):
             most[at(row)] = max(most.get(at(row), 0.0), row["rope_lateral_max_m"])
-    return Measured([*most.items()], ", ".join(f"{shown(far, '.2g')} at {where}" for where, far in most.items()))
+    return each(most.items(), ".2g")

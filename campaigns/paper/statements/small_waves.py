@@ -4,17 +4,8 @@ import math
 
 from campaigns.paper.measured import Results
 from campaigns.paper.measures import EARLY, SMALL, WINDOW
-from campaigns.paper.statements.judging import (
-    LONG,
-    NOT_IN_DOUBT,
-    by_regime,
-    everywhere,
-    exponent,
-    passed,
-    positive,
-    regimes,
-    value_of,
-)  # fmt: skip
+from campaigns.paper.statements import judging
+from campaigns.paper.statements.judging import LONG, NOT_IN_DOUBT, each, everywhere, exponent, passed, value_of
 from campaigns.statements import Measured, shown
 
 EARLIEST = f"the first {EARLY[1]} periods"
@@ -26,22 +17,17 @@ NEGLIGIBLE = 0.01  # share of the variance below which a coupling is negligible
 
 def always_taut(results: Results) -> Measured:
     """Least top tension [N], of the whole long run and of the short ones after their transients."""
-    checks = [(f"kA = {SMALL:g}, {LONG}", results.number("long_tension_min_N"))]
-    checks += [(where, value_of(row, "tension_top_min_N")) for where, row in everywhere(results, SMALL)]
-    known = [(where, least) for where, least in checks if math.isfinite(least)]
-    return Measured(known, ", ".join(f"{shown(least, '.4g')} at {where}" for where, least in known))
+    short = [(where, value_of(row, "tension_top_min_N")) for where, row in everywhere(results, SMALL)]
+    return each([(f"kA = {SMALL:g}, {LONG}", results.number("long_tension_min_N")), *short], ".4g")
 
 
 def regular(results: Results) -> Measured:
     """The regime of the long run, and of the short ones."""
     rows, long = everywhere(results, SMALL), results.buoy.get(SMALL)
-    checks = regimes([(LONG, long)] if long else [], _is_periodic) + regimes(rows, _is_periodic)
+    first = [(LONG, long)] if long else []
+    checks = judging.regimes([*first, *rows], lambda regime: regime.startswith("period-"))
     found = f"{LONG} {long['regime'] or 'no verdict'}, σ = {exponent(long)} bits per period; " if long else ""
-    return Measured(checks, f"{found}shorter runs {by_regime(rows)}" if long or rows else "")
-
-
-def _is_periodic(regime: str) -> bool:
-    return regime.startswith("period-")
+    return Measured(checks, f"{found}shorter runs {judging.by_regime(rows)}" if long or rows else "")
 
 
 def uncoupled(results: Results) -> Measured:
@@ -64,21 +50,22 @@ def uncoupled(results: Results) -> Measured:
 def on_estimates(results: Results) -> Measured:
     """Frequencies seen early and in the window of fig. 12, against the estimates; its spectrum tells none closer than
     a bin apart."""
-    bin_radps = results.number("estimate_wave_radps") / WINDOW[1]
+    wave = results.number("estimate_wave_radps")
+    bin_radps, early = wave / WINDOW[1], results.number("early_angular_radps")
     checks, words = [], []
-    for name, side, estimate in (("r", "radial", "radial"), ("θ", "angular", "pendulum")):
-        own = results.number(f"estimate_{estimate}_radps")
-        early, late = results.number(f"early_{side}_radps"), own + results.number(f"{side}_bins") * bin_radps
-        if not all(map(math.isfinite, (own, early, late))):
-            return Measured()
-        for when, seen, coarse in ((EARLIEST, early, 0.0), ("the window of fig. 12", late, 0.5 * bin_radps)):
+    for when, coarse in ((EARLIEST, 0.0), ("the window of fig. 12", 0.5 * bin_radps)):
+        for name, side, estimate in (("r", "radial", "radial"), ("θ", "angular", "pendulum")):
+            own = results.number(f"estimate_{estimate}_radps")
+            late = own + results.number(f"{side}_bins") * bin_radps
+            seen = late if coarse else results.number(f"early_{side}_radps")
+            if not math.isfinite(seen):
+                return Measured()
             checks.append((f"{name} in {when}", abs(seen / own - 1.0) < max(PRINTED_DIGIT, coarse / own)))
             words.append(f"{name} in {when} {shown(seen, '.3f')} ({shown(seen / own - 1.0, '.2%')} off)")
-    order = [0, 2, 1, 3]  # by time, then by motion
-    beside = results.number("estimate_wave_radps") - results.number("early_angular_radps")
-    said = ", ".join(words[k] for k in order)
-    said += f"; bins of that window are {shown(bin_radps, '.3f')}; the wave's frequency less the pendulum's, "
-    return Measured(passed(*(checks[k] for k in order)), f"{said}{shown(beside, '.2f')}, lies beside the radial one")
+    said = f"bins of that window are {shown(bin_radps, '.3f')}; the wave's frequency less the pendulum's"
+    return Measured(
+        passed(*checks), f"{', '.join(words)}; {said}, {shown(wave - early, '.2f')}, lies beside the radial one"
+    )
 
 
 def exponent_to_zero(results: Results) -> Measured:
@@ -88,8 +75,8 @@ def exponent_to_zero(results: Results) -> Measured:
     if math.isnan(wolf):
         return Measured()
     words = f"Wolf's method on r(t) {shown(wolf, '.3f')} ± {shown(error, '.3f')}; tangent dynamics {exponent(row)}"
-    checks = passed(("Wolf's method", abs(wolf) <= NOT_IN_DOUBT * error), ("tangent dynamics", not positive(row)))
-    return Measured(checks, words)
+    tangent = not judging.positive(row)
+    return Measured(passed(("Wolf's method", abs(wolf) <= NOT_IN_DOUBT * error), ("tangent dynamics", tangent)), words)
 
 
 def doubled_buoy(results: Results) -> Measured:
@@ -97,11 +84,9 @@ def doubled_buoy(results: Results) -> Measured:
     checks = []
     for again in results.accuracy:
         row = results.buoy.get(float(again["label"])) if again["run"] == FINER and again["status"] == "ok" else None
-        if row is None:
-            continue
-        span = row["radius_max_m"] - row["radius_min_m"]
-        whole = f"{again['periods']:g} periods"
-        for column, when in (("error_early_m", "the first ten periods"), ("error_m", whole)):
-            checks.append((f"kA = {row['steepness']:g} over {when}", again[column] / span))
-    checks = [check for check in checks if math.isfinite(check[1])]
-    return Measured(checks, ", ".join(f"{shown(off, '.2%')} at {where}" for where, off in checks))
+        if row is not None:
+            columns = {"error_early_m": "the first ten periods", "error_m": f"{again['periods']:g} periods"}
+            span = row["radius_max_m"] - row["radius_min_m"]
+            kA = f"kA = {row['steepness']:g}"
+            checks += [(f"{kA} over {when}", again[column] / span) for column, when in columns.items()]
+    return each(checks, ".2%")

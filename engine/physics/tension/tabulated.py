@@ -8,8 +8,7 @@ from typing import Literal
 
 import numpy as np
 
-from engine.scene.faults import fault, shown
-from engine.scene.lookup import not_increasing
+from engine.scene.faults import fault
 from engine.scene.values import Section, Series, described
 
 IN_LANES = False
@@ -25,18 +24,11 @@ class Model(Section):
 
 def faults(sound):
     strain, tension = "tether.tension.strain", "tether.tension.tension_N"
-    if found := sound.values(strain):
-        yield from not_increasing(strain, found[0])
-        if found[0][0] <= -1:
-            yield fault(f"{strain}[0]", found[0][0], "strains above -1")
-    if found := sound.values(tension):
-        for index, (before, after) in enumerate(zip(found[0], found[0][1:], strict=False), 1):
-            if after < before:
-                given = f"given {shown(after)} after {shown(before)}"
-                yield f"{tension}[{index}]: {given}; allowed: a tension that never falls with strain"
-                break
-    if (found := sound.values(strain, tension)) and len(found[0]) != len(found[1]):
-        yield f"{tension}: given {len(found[1])} values; allowed: as many as strain has, {len(found[0])}"
+    yield from sound.increasing(strain)
+    yield from sound.increasing(tension, "a tension that never falls with strain", may_stay=True)
+    yield from sound.paired(tension, strain)
+    if (first := (sound[strain] or (0,))[0]) <= -1:
+        yield fault(f"{strain}[0]", first, "strains above -1")
 
 
 def numbers(law):

@@ -5,7 +5,6 @@ from typing import Literal
 
 import numpy as np
 
-from engine.scene.faults import fault
 from engine.scene.values import Five, Section, described
 
 IN_LANES = True
@@ -21,11 +20,9 @@ class Model(Section):
 
 
 def faults(sound):
-    if found := sound.values("tether.tension.p"):
-        p1, p2, _, _, p5 = found[0]
-        if min(p5, p1 * p2 + p5) < 0:
-            rule = "a tension that never falls with strain: p5 >= 0 and p1 p2 + p5 >= 0"
-            yield fault("tether.tension.p", list(found[0]), rule)
+    p1, p2, _, _, p5 = sound["tether.tension.p"] or (0.0,) * 5
+    if min(p5, p1 * p2 + p5) < 0:
+        yield sound.fault("tether.tension.p", "a tension that never falls with strain: p5 >= 0 and p1 p2 + p5 >= 0")
 
 
 def numbers(law):

@@ -15,9 +15,24 @@ from pathlib import Path
 
 from ...parts.content import Figure, Picture
 from ...parts.figure_data import FigureDataError, parsed
+from ...parts.style import prints_of, sheet
+from . import breaking, exponents, histories, offplane, sections, spectra
 
-NUMBERS = (2, 3, 4, 5, 6, 7, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20)  # 1 and 8 are sketches
-LEFT_OUT = "left_out.json"
+DRAWN_BY = {
+    **dict.fromkeys((2, 3, 4, 5, 6, 7), breaking),
+    **dict.fromkeys((9, 10, 11, 13, 15, 16), histories),
+    **dict.fromkeys((12, 17, 18), spectra),
+    14: exponents,
+    19: sections,
+    20: offplane,
+}
+NUMBERS = tuple(sorted(DRAWN_BY))  # 1 and 8 are sketches
+PREFACE = (
+    "The figures show our runs in the layout of the paper's figures 2-7 and 9-20 (1 and 8 are sketches), as far as "
+    "its text and captions tell it: the copy that this work had holds no pictures. Where they do not name a unit, "
+    "the static state of section 4.2 serves: tension over the static tension, radius over the static radius, the "
+    "angle in rad, both sections in the units of eq. (33); the second axis of each history is in ordinary units."
+)
 
 
 def place_of(root: str | Path) -> Path:
@@ -31,16 +46,6 @@ def files_of(root: str | Path, number: int) -> tuple[Path, Path, Path]:
     return stem.with_suffix(".nc"), stem.with_suffix(".svg"), stem.with_suffix(".png")
 
 
-def preface() -> str:
-    """What is known of the paper's own layout of its figures, for the reader of these."""
-    return (
-        "The figures show our runs in the layout of the paper's figures 2-7 and 9-20 (1 and 8 are sketches), as far as "
-        "its text and captions tell it: the copy that this work had holds no pictures. Where they do not name a unit, "
-        "the static state of section 4.2 serves: tension over the static tension, radius over the static radius, the "
-        "angle in rad, both sections in the units of eq. (33); the second axis of each history is in ordinary units."
-    )
-
-
 def figures_of(root: str | Path) -> dict[int, Figure]:
     """The figures that can be drawn, by their number in the paper."""
     return {
@@ -52,7 +57,7 @@ def figures_of(root: str | Path) -> dict[int, Figure]:
 def left_out(root: str | Path) -> dict[int, str]:
     """Why there is no figure, by its number in the paper, for each that cannot be drawn."""
     try:
-        reasons = json.loads((place_of(root) / LEFT_OUT).read_text(encoding="utf-8"))
+        reasons = json.loads((place_of(root) / "left_out.json").read_text(encoding="utf-8"))
     except (OSError, ValueError):
         reasons = {}
     drawn = _drawn(root)
@@ -85,20 +90,9 @@ def draw(number: int, content: bytes) -> tuple[Picture, Picture, str, str]:
 
     Raises FigureDataError for bytes that are no data of that figure.
     """
-    from ...parts.style import prints_of, sheet
-    from . import breaking, exponents, histories, offplane, sections, spectra
-
-    modules = {
-        **dict.fromkeys((2, 3, 4, 5, 6, 7), breaking),
-        **dict.fromkeys((9, 10, 11, 13, 15, 16), histories),
-        **dict.fromkeys((12, 17, 18), spectra),
-        14: exponents,
-        19: sections,
-        20: offplane,
-    }
     data = parsed(content)
     try:
-        drawing = modules[number].drawing(data)
+        drawing = DRAWN_BY[number].drawing(data)
     except (AttributeError, KeyError) as error:
         raise FigureDataError(f"not the data of fig. {number} of the paper ({error})") from None
     with sheet(drawing.height_in) as figure:

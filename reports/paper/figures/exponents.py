@@ -5,12 +5,14 @@ In the paper: fig. 14 Lyapunov exponents over time.
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import partial
 from typing import TYPE_CHECKING
 
-from ...figures.exponents import settled_limits
+from ...figures.curves import Curve, Panel, draw
+from ...figures.exponents import settled
 from ...parts.figure_data import sources_of
-from ...parts.style import BLUE, SOFT, VERMILION
+from ...parts.style import BLUE, VERMILION
 from ...parts.symbols import T_I
 from ...parts.wording import decimals, number
 from .drawing import Drawing, behind, value
@@ -48,30 +50,22 @@ def drawing(data: xarray.Dataset) -> Drawing:
 
 
 def _fill(figure, data: xarray.Dataset, labels: dict[str, str]) -> None:
-    longest = float(data["large_tangent_periods"].values[-1])
-    first = value(data, "linear_periods")
-    panels = figure.subplots(1, 2 if longest > 1.5 * first else 1, sharey=True, squeeze=False)[0]
-    curves = []
+    longest, first = float(data["large_tangent_periods"].values[-1]), value(data, "linear_periods")
+    whole = []
     for name, label in labels.items():
         colour, dashes = _STYLES[name]
         for method, (words, width, strength) in _METHODS.items():
-            x, bits = data[f"{name}_{method}_periods"].values, data[f"{name}_{method}_bits"].values
-            curves.append(bits[x <= first])
-            for axes in panels:
-                shown = x <= first if axes is panels[0] else slice(None)
-                axes.plot(
-                    x[shown], bits[shown], color=colour, linestyle=dashes, linewidth=width, alpha=strength,
-                    label=f"{label}, {words}",
-                )  # fmt: skip
-    for axes in panels:
-        axes.axhline(0.0, color=SOFT, linewidth=0.7)
-        axes.set_xlabel(r"$t/T_i$ (wave periods)")
-    settled_limits(panels[0], curves)
-    panels[0].set_ylabel(r"$\sigma_m$ (bits per wave period)")
-    panels[0].margins(x=0.01)
-    if len(panels) > 1:
-        panels[0].set_title(f"first {first:.0f} wave periods")
-        panels[1].set_title("whole record, logarithmic")
-        panels[1].set_xscale("log")
-        panels[1].set_xlim(10.0, longest)
-    figure.legend(*panels[0].get_legend_handles_labels(), loc="outside upper center", ncols=4)
+            x, bits = (data[f"{name}_{method}_{what}"].values for what in ("periods", "bits"))
+            look = {"line": dashes, "colour": colour, "width": width, "alpha": strength}
+            whole.append(Curve(x, bits, f"{label}, {words}", **look))
+    early = [replace(one, x=one.x[one.x <= first], y=one.y[one.x <= first]) for one in whole]
+    limits = {"ylim": settled([one.y for one in early]), "xmargin": 0.01}
+    along, sigma = r"$t/T_i$ (wave periods)", r"$\sigma_m$ (bits per wave period)"
+    panels = [Panel(early, along, sigma, level=0.0, settings=limits)]
+    if longest > 1.5 * first:
+        later = Panel(whole, along, "", "whole record, logarithmic", "x", 0.0, {"xlim": (10.0, longest)})
+        panels = [replace(panels[0], title=f"first {first:.0f} wave periods"), later]
+    grid = figure.subplots(1, len(panels), sharey=True, squeeze=False)[0]
+    for axes, panel in zip(grid, panels, strict=True):
+        draw(axes, panel)
+    figure.legend(*grid[0].get_legend_handles_labels(), loc="outside upper center", ncols=4)

@@ -12,9 +12,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ...figures.curves import Curve, Panel, draw
 from ...figures.time_series import envelope
 from ...parts.figure_data import sources_of
-from ...parts.style import GREEN, INK, SKY, SOFT, VERMILION
+from ...parts.style import GREEN, INK, SOFT, VERMILION
 from ...parts.symbols import L_0, T_I, T_S
 from ...parts.wording import decimals, number
 from .drawing import Drawing, behind, scaled, spans, value
@@ -75,21 +76,16 @@ def _fill(figure, data: xarray.Dataset, side: Side) -> None:
     whole, detail = figure.subplots(2, 1, gridspec_kw={"height_ratios": [1.25, 1.0]})
     shade = whole.axvspan(start, min(start + length, periods[-1]), color=SOFT, alpha=0.15, linewidth=0)
     handles = {"window of eq. (31)": shade}
-    for axes in (whole, detail):
-        shown = slice(None) if axes is whole else periods >= periods[-1] - DETAIL_PERIODS
+    for axes, shown in ((whole, slice(None)), (detail, periods >= periods[-1] - DETAIL_PERIODS)):
+        x, band = periods[shown], None
         if side.band:
-            low, high = (data[name].values[shown] for name in side.band)
-            x, low = envelope(periods[shown], low)
-            _, high = envelope(periods[shown], high)
-            axes.fill_between(x, np.minimum(low, high), np.maximum(low, high), color=SKY, alpha=0.5, linewidth=0)
-        axes.plot(*envelope(periods[shown], data[side.column].values[shown]), color=INK, linewidth=0.8)
-        axes.set_ylabel(side.label)
-        axes.set_xlim(periods[shown][0], periods[shown][-1])
-        right = axes.secondary_yaxis("right", functions=scaled(side.factor))
-        right.set_ylabel(side.other)
+            (at, low), (_, high) = (envelope(x, data[name].values[shown]) for name in side.band)
+            band = at, np.minimum(low, high), np.maximum(low, high)
+        curve = Curve(*envelope(x, data[side.column].values[shown]), colour=INK, width=0.8, band=band)
+        draw(axes, Panel([curve], y_label=side.label, settings={"xlim": (x[0], x[-1])}))
+        axes.secondary_yaxis("right", functions=scaled(side.factor)).set_ylabel(side.other)
         handles |= _levels(axes, side)
-    seconds = whole.secondary_xaxis("top", functions=scaled(value(data, "wave_period_s")))
-    seconds.set_xlabel(r"$t$ (s)")
+    whole.secondary_xaxis("top", functions=scaled(value(data, "wave_period_s"))).set_xlabel(r"$t$ (s)")
     detail.set_xlabel(r"$t/T_i$ (wave periods)")
     figure.align_ylabels((whole, detail))
     figure.legend(handles.values(), handles.keys(), loc="outside lower center", ncols=len(handles))

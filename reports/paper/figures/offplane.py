@@ -37,19 +37,13 @@ def drawing(data: xarray.Dataset) -> Drawing:
 def _fill(figure, data: xarray.Dataset, labels: dict[str, str]) -> None:
     period_s, static_m = value(data, "wave_period_s"), value(data, "static_radius_m")
     panels = []
-    for body, label in zip(BODIES, ("buoy, $|y|$ (m)", "rope, largest $|y|$ (m)"), strict=True):
-        runs = [
-            History(
-                labels[name],
-                data[f"{name}_time_s"].values / period_s,
-                data[f"{name}_{body}_m"].values,
-                data[f"{name}_periods"].values,
-                data[f"{name}_{body}_envelope_m"].values,
-                value(data, f"{name}_inplane_m"),
-            )
-            for name in WAVES
-        ]
-        panels.append((label, runs))
+    for body, axis in zip(BODIES, ("buoy, $|y|$ (m)", "rope, largest $|y|$ (m)"), strict=True):
+        runs = []
+        for name, label in labels.items():
+            arrays = (f"{body}_m", "periods", f"{body}_envelope_m")
+            size, envelope_periods, envelope = (data[f"{name}_{what}"].values for what in arrays)
+            periods, inplane_m = data[f"{name}_time_s"].values / period_s, value(data, f"{name}_inplane_m")
+            runs.append(History(label, periods, size, envelope_periods, envelope, inplane_m))
+        panels.append((axis, runs))
     for axes in fill_lateral_histories(figure, panels):
-        over = axes.secondary_yaxis("right", functions=scaled(1.0 / static_m))
-        over.set_ylabel(r"$|y|/r_0$ (–)")
+        axes.secondary_yaxis("right", functions=scaled(1.0 / static_m)).set_ylabel(r"$|y|/r_0$ (–)")

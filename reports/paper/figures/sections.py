@@ -17,7 +17,10 @@ from .drawing import Drawing, behind, spans, value
 if TYPE_CHECKING:
     import xarray
 
-PANELS = {"exact": "(a) exact model", "reduced": "(b) eq. (33)"}
+PANELS = {  # motion -> title, labels of the axes
+    "exact": ("(a) exact model", r"$(r - l_0)/D$ (–)", r"$\dot r/(D\,\omega_{nr})$ (–)"),
+    "reduced": ("(b) eq. (33)", r"$\gamma$ (–)", r"$\dot\gamma$ (–)"),
+}
 _HEIGHT_IN = 3.6
 _FEW = 1000  # points up to which each is drawn as a dot
 
@@ -39,16 +42,11 @@ def drawing(data: xarray.Dataset) -> Drawing:
 
 
 def _fill(figure, data: xarray.Dataset) -> None:
-    for axes, (name, title) in zip(figure.subplots(1, 2), PANELS.items(), strict=True):
+    for axes, (name, (title, x_label, y_label)) in zip(figure.subplots(1, 2), PANELS.items(), strict=True):
         x, y = data[f"{name}_displacement"].values, data[f"{name}_velocity"].values
         size = 3.5 if len(x) <= _FEW else 1.4 if len(x) <= 20 * _FEW else 0.35
         # as pixels also in the SVG: a hundred thousand marks would make it unusable
         axes.plot(x, y, ".", color=INK, markersize=size, markeredgewidth=0, rasterized=True)
         axes.axvline(0.0, color=SOFT, linewidth=0.8, linestyle=(0, (2, 2)))
         axes.grid(False)
-        axes.set_title(title)
-    exact, reduced = figure.axes
-    exact.set_xlabel(r"$(r - l_0)/D$ (–)")
-    exact.set_ylabel(r"$\dot r/(D\,\omega_{nr})$ (–)")
-    reduced.set_xlabel(r"$\gamma$ (–)")
-    reduced.set_ylabel(r"$\dot\gamma$ (–)")
+        axes.set(title=title, xlabel=x_label, ylabel=y_label)

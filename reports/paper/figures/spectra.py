@@ -63,27 +63,22 @@ def drawing(data: xarray.Dataset) -> Drawing:
 def _fill(figure, data: xarray.Dataset, sides: list[str]) -> None:
     omega, highest = data["omega_radps"].values, _SHOWN * value(data, "wave_radps")
     shown = omega <= highest
-    linear, logarithmic = figure.subplots(1, 2)
-    largest = 0.0
+    found = {side: data[f"{side}_amplitude"].values[shown] for side in sides}
     marks = [(value(data, "wave_radps"), r"$\omega_i$")]
     marks += [(value(data, frequency), name) for *_, (frequency, name) in SIDES.values()]
-    for side in sides:
-        label, _, colour, dashes, _ = SIDES[side]
-        amplitude = data[f"{side}_amplitude"].values[shown]
-        largest = max(largest, float(amplitude.max()))
-        for axes in (linear, logarithmic):
+    linear, logarithmic = figure.subplots(1, 2)
+    for axes, title in ((linear, "linear"), (logarithmic, "logarithmic")):
+        for side, amplitude in found.items():
+            label, _, colour, dashes, _ = SIDES[side]
             axes.plot(omega[shown], amplitude, color=colour, linestyle=dashes if len(sides) > 1 else "-", label=label)
-    linear.set_ylim(0.0, 1.3 * largest)
+        y_label = " and ".join(SIDES[side][0] for side in sides)
+        axes.set(title=title, xlabel=r"$\omega$ (rad/s)", xlim=(0.0, highest), ylabel=y_label)
+    everything = np.concatenate([*found.values()])
+    linear.set_ylim(0.0, 1.3 * float(everything.max()))
     mark_modes(linear, tuple(marks))
     logarithmic.set_yscale("log")
-    log_limits(logarithmic, np.concatenate([data[f"{side}_amplitude"].values[shown] for side in sides]))
+    log_limits(logarithmic, everything)
     for frequency, _ in marks:
         logarithmic.axvline(frequency, color=SOFT, linewidth=0.8, linestyle=(0, (2, 2)))
-    for axes in (linear, logarithmic):
-        axes.set_xlabel(r"$\omega$ (rad/s)")
-        axes.set_xlim(0.0, highest)
-        axes.set_ylabel(" and ".join(SIDES[side][0] for side in sides))
-    linear.set_title("linear")
-    logarithmic.set_title("logarithmic")
     if len(sides) > 1:
         logarithmic.legend(loc="upper right")

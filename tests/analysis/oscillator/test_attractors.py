@@ -1,4 +1,4 @@
-"""Coexisting attractors, periodic orbits and grazing of eq. (33)."""
+"""Exponents, coexisting attractors, periodic orbits and grazing of eq. (33)."""
 
 from dataclasses import replace
 
@@ -11,31 +11,102 @@ from analysis.oscillator import (
     grazing_force,
     periodic_orbit,
     search_periodic_orbits,
+    section_dimension,
     snap_basins,
+    snap_diagram,
+    snap_exponents,
     snap_motion,
     start_grid,
     strobed_states,
-    strobed_states_within,
 )
 from analysis.oscillator.growth import random_starts
+from analysis.oscillator.pieces import tables
+from analysis.oscillator.strobing import tangent_map
 
 PAPER = SnapOscillator()
+LAMBDA_1 = 0.0640482  # +- 0.0000122, from an independent code
 
 
-@pytest.fixture(scope="module")
-def basins():
-    return snap_basins(PAPER, random_starts(600, 8), 3000)
+def test_largest_exponent_within_three_standard_errors():
+    found = snap_exponents(PAPER, count=64, transient_periods=500, periods=2000, seed=11)
+    assert abs(found.first.value - LAMBDA_1) < 3 * np.hypot(found.first.error, 0.0000122)
+    assert found.first.error < 5e-4
+    assert abs(found.dimension - 1.7193) < 3 * np.hypot(found.dimension_error, 5e-5)
+
+
+@pytest.mark.parametrize(("damping", "frequency"), [(0.0, 1.14), (0.025, 1.14), (0.4, 1.14), (1.9, 1.14)])
+def test_exponents_and_damping_add_up_to_zero(damping, frequency):
+    oscillator = SnapOscillator(damping=damping, frequency=frequency)
+    found = snap_exponents(oscillator, count=8, transient_periods=20, periods=1000, keep_periodic=True)
+    assert abs(found.first.value + found.second.value + damping) < 1e-12
+    assert np.abs(found.of_start.sum(axis=1) + damping).max() < 1e-12
+
+
+@pytest.mark.parametrize("start", [(0.68, 0.0), (-3.0, 2.0), (2.0, -4.0)])
+def test_tangent_map_against_differences(start):
+    table = tables(PAPER)
+    _, _, jacobian = tangent_map(*start, 3, table)
+    for column, shift in enumerate(np.eye(2) * 1e-6):
+        plus, minus = (np.array(tangent_map(*(start + s * shift), 3, table)[:2]) for s in (1, -1))
+        assert np.allclose((plus - minus) / 2e-6, jacobian[:, column], rtol=1e-5, atol=1e-6)
+    assert np.isclose(np.linalg.det(jacobian), np.exp(-0.025 * 3 * PAPER.period), rtol=1e-12)
 
 
 @pytest.mark.slow
-def test_about_six_in_a_hundred_starts_end_on_the_orbit_of_period_8(basins):
+def test_scatter_over_starts_falls_as_the_root_of_their_number():
+    rates = snap_exponents(PAPER, count=1024, transient_periods=500, periods=500, seed=3).of_start[:, 0]
+    sizes = np.array([1, 2, 4, 8, 16])
+    scatter = [rates[: len(rates) // n * n].reshape(-1, n).mean(axis=1).std(ddof=1) for n in sizes]
+    assert np.polyfit(np.log(sizes), np.log(scatter), 1)[0] == pytest.approx(-0.5, abs=0.1)
+
+
+@pytest.mark.slow
+def test_true_value_is_within_two_errors_as_often_as_it_should():
+    hits = 0
+    for seed in range(40):
+        found = snap_exponents(PAPER, count=16, transient_periods=500, periods=400, seed=100 + seed)
+        hits += abs(found.first.value - LAMBDA_1) < 2 * found.first.error
+        assert 0.5 < found.block_error / found.first.error < 2.0
+    assert hits >= 34  # 0.936 for Student's t with 15 degrees: 34 or more of 40 with probability 0.97
+
+
+def test_taut_motion_has_the_exponents_of_the_linear_oscillator():
+    found = snap_exponents(SnapOscillator(force=0.1), starts=[(0.68, 0.0), (0.7, 0.1)], periods=2000)
+    # Complex pair: both are -mu/2 in the limit; over a finite time the orthonormal frame leaves O(1/time).
+    assert np.abs(found.of_start + 0.0125).max() < 1e-3
+    assert found.dimension == 0.0
+    assert found.starts == 2 and found.elsewhere == 0, "a start on a periodic orbit is an answer too"
+
+
+def test_dimension_of_the_section():
+    assert section_dimension(0.06, -0.09) == pytest.approx(1 + 2 / 3)
+    assert section_dimension(-0.01, -0.02) == 0.0
+    assert np.isnan(section_dimension(0.1, -0.05)) and np.isnan(section_dimension(np.nan, -1.0))
+
+
+@pytest.mark.slow
+def test_diagram_agrees_with_single_runs():
+    starts = random_starts(3, 4)
+    diagram = snap_diagram(PAPER, "force", [0.15, 1.4], starts, transient_periods=100, periods=200, points=50)
+    alone = snap_exponents(PAPER, starts, transient_periods=100, periods=200, blocks=10, keep_periodic=True)
+    assert np.allclose(diagram.exponents[1], alone.of_start, rtol=0, atol=1e-14)
+    assert diagram.section.shape == (2, 3, 50, 2)
+    assert (diagram.exponents.sum(axis=2) + 0.025 < 1e-12).all()
+
+
+def test_faults_are_named():
+    with pytest.raises(ValueError, match="over"):
+        snap_diagram(PAPER, "mass", [1.0])
+    with pytest.raises(ValueError, match="periods"):
+        snap_exponents(PAPER, periods=101, blocks=20)
+
+
+@pytest.mark.slow
+def test_about_six_in_a_hundred_starts_end_on_the_orbit_of_period_8_with_its_multipliers():
+    basins = snap_basins(PAPER, random_starts(600, 8), 3000)
     assert [len(orbit) for orbit in basins.orbits] == [8]
     assert abs(basins.shares[0] - 0.06) < 3 * basins.errors[0]
     assert basins.shares.sum() == pytest.approx(1.0)
-
-
-@pytest.mark.slow
-def test_newton_finds_the_orbit_of_period_8_with_its_multipliers(basins):
     orbit = periodic_orbit(PAPER, 8, basins.orbits[0][3] + [1e-3, -1e-3])
     assert orbit.period == 8 and orbit.stable and orbit.residual < 1e-12
     assert np.prod(orbit.multipliers).real == pytest.approx(np.exp(-0.025 * 8 * PAPER.period), rel=1e-12)
@@ -53,40 +124,18 @@ def test_points_of_an_orbit_are_its_own_images():
         assert not orbit.stable
 
 
-def test_a_divisor_is_reported_as_the_period():
+def test_a_divisor_is_reported_as_the_period_and_newton_gives_up_where_there_is_no_orbit():
     fixed = search_periodic_orbits(PAPER, 1, start_grid(10, 10))[0]
     assert periodic_orbit(PAPER, 6, fixed.points[0]).period == 1
-
-
-def test_newton_gives_up_where_there_is_no_orbit():
     assert periodic_orbit(SnapOscillator(lift=-0.5, damping=0.2), 1, (-5.0, 0.0)) is None
 
 
-def test_a_single_attractor_takes_every_start():
-    found = snap_basins(SnapOscillator(force=0.05), start_grid(12, 8), 2000)
+def test_a_single_attractor_takes_every_start_of_a_grid_that_covers_the_box_evenly():
+    grid = start_grid(8, 5)
+    assert np.allclose(grid.mean(axis=0), [-20.0, 0.0]) and grid[:, 0].min() == -55.0 and grid[:, 1].max() == 20.0
+    found = snap_basins(SnapOscillator(force=0.05), grid, 2000)
     assert list(found.shares) == [1.0, 0.0]
     assert (found.label == 0).all() and (found.settled > 0).all()
-
-
-def test_grid_covers_the_box_evenly():
-    grid = start_grid(8, 5)
-    assert grid.shape == (40, 2)
-    assert np.allclose(grid.mean(axis=0), [-20.0, 0.0]) and grid[:, 0].min() == -55.0 and grid[:, 1].max() == 20.0
-
-
-def test_zoom_points_lie_in_their_boxes_and_on_the_orbit():
-    boxes = [[-5.0, 0.0, -4.0, 0.0], [50.0, 60.0, 0.0, 1.0]]
-    (inside, empty), seen = strobed_states_within(PAPER, (0.68, 0.0), boxes, 30, 2000)
-    section = strobed_states(PAPER, (0.68, 0.0), 2000)
-    wanted = section[(np.abs(section[:, 0] + 2.5) <= 2.5) & (np.abs(section[:, 1] + 2.0) <= 2.0)][:30]
-    assert np.array_equal(inside, wanted)
-    assert len(empty) == 0 and seen == 2000
-
-
-def test_grazing_threshold():
-    found = grazing_force(PAPER)
-    assert abs(found.force - 0.20464770309974) < 1e-10
-    assert abs(found.clearance) < 1e-14 and abs(found.velocity) < 1e-14
 
 
 @pytest.mark.parametrize(
@@ -94,20 +143,23 @@ def test_grazing_threshold():
 )
 def test_slack_begins_at_the_threshold_and_nowhere_below(numbers):
     oscillator = SnapOscillator(**numbers)
-    force = grazing_force(oscillator).force
-    assert force == pytest.approx(oscillator.lift * oscillator.impedance, rel=1e-13)
+    found = grazing_force(oscillator)
+    assert abs(found.clearance) < 1e-14 and abs(found.velocity) < 1e-14
     for factor, slack in ((1 - 1e-9, False), (1 + 1e-6, True)):
-        near = replace(oscillator, force=force * factor)
-        least, _, _ = clearance(near)
+        near = replace(oscillator, force=found.force * factor)
+        least, _, time = clearance(near)
         assert (least < 0.0) == slack
-        taut = 0.68 if not numbers else oscillator.lift
-        settled = strobed_states(replace(near, force=0.5 * force), (taut, 0.0), 1, 3000)[0]
+        taut = [oscillator.lift, 0.0]
+        settled = strobed_states(replace(near, force=0.5 * found.force), taut, 1, 3000)[0]
         # from the taut motion at half the forcing, twice the swing: still taut, by linearity
-        start = [taut, 0.0] + factor * 2 * (settled - [taut, 0.0])
-        assert (len(snap_motion(near, start, 3).switches) > 0) == slack
+        motion = snap_motion(near, taut + factor * 2 * (settled - taut), 3, 4096)
+        assert (len(motion.switches) > 0) == slack
+        assert motion.displacement.min() == pytest.approx(least, abs=1e-5)
+        assert motion.time[motion.displacement[:4096].argmin()] == pytest.approx(time, abs=oscillator.period / 2048)
 
 
-def test_no_threshold_without_lift_or_damping():
+def test_the_threshold_of_the_paper_and_none_without_lift_or_damping():
+    assert abs(grazing_force(PAPER).force - 0.20464770309974) < 1e-10
     assert np.isnan(grazing_force(SnapOscillator(lift=-0.1)).force)
     assert np.isnan(grazing_force(SnapOscillator(damping=0.0)).force)
     with pytest.raises(ValueError, match="damping"):

@@ -11,19 +11,10 @@ import numpy as np
 import pytest
 
 from campaigns.breaking_line import motion_measures as measures
-from campaigns.breaking_line.theory import PAPER_LAW, theory_of
-from tests.campaigns.breaking_line.paper_line import CASES, LENGTH, MASS
+from tests.engine.physics.breaking import CASES, theory
 
+LENGTH = 60.0
 SHOCKED = ("3", "4", "4p")
-
-
-@cache
-def theory(case):
-    force_N, decay_s = CASES[case]
-    tension = SimpleNamespace(law="tanh", p=tuple(PAPER_LAW))
-    tether = SimpleNamespace(tension=tension, density_kgpm3=MASS, area_m2=1.0, length_m=LENGTH)
-    end = SimpleNamespace(force_N=(force_N, 0.0, 0.0), force_decay_s=decay_s)
-    return theory_of(SimpleNamespace(tether=tether, end=end), 0.12)
 
 
 def exact_profiles(case, times, nodes=801):
@@ -38,33 +29,23 @@ def whole(case):
     return exact_profiles(case, np.arange(0.0, theory(case).arrival_s, 5e-4))
 
 
-@pytest.mark.parametrize("case", ["1", "2", "3", "1p", "2p", "3p", "4p"])
-def test_the_front(case):
-    found = measures.front_speed(whole(case), theory(case))
-    assert found == pytest.approx(theory(case).speeds.front_speed_mps, rel=3e-3)
-
-
-@pytest.mark.parametrize("case", ["1", "2", "3", "4"])
-def test_the_slack_front(case):
-    found = measures.slack_front_speed(whole(case), theory(case))
-    assert found == pytest.approx(theory(case).speeds.slack_front_speed_mps, rel=5e-3)
-
-
 @pytest.mark.parametrize("case", CASES)
-def test_the_exact_motion_has_no_error_and_no_ripple(case):
+def test_the_exact_motion_has_its_fronts_no_error_and_no_ripple(case):
+    speeds = theory(case).speeds
+    if case != "4":  # its shock eats the front
+        assert measures.front_speed(whole(case), theory(case)) == pytest.approx(speeds.front_speed_mps, rel=3e-3)
+    if not case.endswith("p"):
+        slack = measures.slack_front_speed(whole(case), theory(case))
+        assert slack == pytest.approx(speeds.slack_front_speed_mps, rel=5e-3)
     above, rise = measures.strain_overshoot(whole(case), 0.98 * theory(case).arrival_s)
     assert above < 1e-9 and rise < 1e-6
     assert measures.strain_error(whole(case), theory(case)) == 0.0
 
 
 @pytest.mark.parametrize("case", SHOCKED)
-def test_the_shock(case):
+def test_the_shock_and_where_it_is_born(case):
     _, places, exact = measures.shock_track(whole(case), theory(case))
     assert len(places) >= 10 and np.abs(places - exact).max() < LENGTH / 800
-
-
-@pytest.mark.parametrize("case", SHOCKED)
-def test_where_it_is_born(case):
     birth = theory(case).start
     profiles = exact_profiles(case, np.linspace(0.0, 0.6, 120) * birth.time_s, nodes=3201)
     assert measures.shock_birth(profiles, theory(case)) == pytest.approx(birth.distance_m, rel=0.02)

@@ -2,6 +2,7 @@
 
 import csv
 import json
+from itertools import product
 from pathlib import Path
 
 import pytest
@@ -10,6 +11,7 @@ from campaigns import paper
 from campaigns.machinery.folder import CampaignStopped
 from campaigns.machinery.plan import Summary
 from campaigns.paper import dependence, parts, results
+from engine import load_scene
 
 
 @pytest.fixture
@@ -108,27 +110,13 @@ def test_every_fault_is_told_and_nothing_is_written(tmp_path, capsys):
 
 
 def test_the_study_varies_one_thing_at_a_time_from_the_shipped_scene():
-    from engine import load_scene
-
-    scene, found = load_scene("tethered_buoy"), dependence.variants(False)
-    assert (
-        found[0].changes().items()
-        <= {
-            "waves.steepness": 0.13,
-            "water.depth_m": scene.water.depth_m,
-            "waves.above_still_water": scene.waves.above_still_water,
-            "buoy.submergence": scene.buoy.submergence,
-            "tether.bending_stiffness_Nm2": scene.tether.bending_stiffness_Nm2,
-            "output.tangent_vectors": 1,
-            "output.lateral_growth": True,
-        }.items()
-    )
-    above, drowned = dependence.treatments()
-    usual = [case for case in found if case.bending_stiffness_Nm2 == scene.tether.bending_stiffness_Nm2]
+    found, (above, drowned) = dependence.variants(False), dependence.treatments()
+    scenes = (load_scene("tethered_buoy", keys) for keys in (dependence.changes(found[0]), dependence.CARRIED))
+    assert len({scene.key() for scene in scenes}) == 1  # it leads
+    EI = found[0][-1]
     for kA in (0.016, 0.13):
-        assert {(case.depth_m, case.above_still_water, case.submergence) for case in usual if case.steepness == kA} == {
-            (H, word, under) for H in dependence.DEPTHS_M for word in above for under in drowned
-        }
+        usual = {values[1:4] for values in found if (values[0], values[4]) == (kA, EI)}
+        assert usual == {*product(dependence.DEPTHS_M, above, drowned)}
     assert len(set(found)) == len(found)
 
 

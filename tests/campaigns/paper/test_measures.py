@@ -6,8 +6,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from campaigns.paper.measures import buckling_waves
-from campaigns.paper.snaps import scales, snaps
+from campaigns.paper.measures import buckling_waves, scales, snaps
 from engine import load_scene
 from engine.natural_frequencies import natural_frequencies
 

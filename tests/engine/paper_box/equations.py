@@ -8,14 +8,9 @@ the paper's fixed axes is up.
 import numpy as np
 
 from engine import load_scene
-from tests.engine.box_equations import buoy_of, tension, water_on_line, wet_weight
+from tests.engine.box_equations import LAWS, buoy_of, tension, water_on_line, wet_weight
 from tests.engine.rotations import conjugate, product
 
-LAWS = {
-    "linear": {"law": "linear", "stiffness_N": 5e4},
-    "tanh": {"law": "tanh", "p": [2.0e4, 5.0, 0.3, -5.0e3, 1.0e4]},
-    "tabulated": {"law": "tabulated", "strain": [-0.2, 0.0, 0.1, 0.3], "tension_N": [-500.0, 0.0, 3e3, 2e4]},
-}
 TO_XYZ, FROM_XYZ = [1, 2, 0], [2, 0, 1]  # x, y, z from the paper's axes, and back
 TANGENT = np.array([1.0, 0.0, 0.0])
 SLOPE_STEP = 1e-40

@@ -9,7 +9,7 @@ from types import SimpleNamespace
 
 import numpy as np
 
-from engine.paper_box.frame import roll, rotation, to_local, turning
+from engine.paper_box.frame import roll, rotation, to_local
 from engine.paper_box.line import line_of
 from engine.paper_box.nodal import times_M
 from tests.engine.paper_box.equations import scene_of, space_derivatives, states, turned
@@ -139,15 +139,6 @@ def test_the_rotation_matrix_needs_its_factor():
     assert np.allclose(to_local(Y[6:10], water[:3]), turned(Y[6:10].T, water[:3].T, Y[6:10].T).T, rtol=1e-11)
     length = np.sum(Y[6:10] ** 2, 0) ** 2
     assert np.allclose(np.einsum("ijk,ljk->ilk", C, C), np.eye(3)[:, :, None] * length, rtol=1e-11, atol=1e-11)
-
-
-def test_angular_velocity_is_that_of_the_frame():
-    """2 beta* o beta_t is the omega of (3): C_t = -[omega x C] + (|beta|^2)_t C/|beta|^2, all times |beta|^2."""
-    beta, rate = states(11, 20, unit=False)[0][6:10], states(12, 20)[0][6:10]
-    C = rotation(beta + 1j * STEP * rate)
-    turn = np.cross(np.array(turning(beta, rate)), C.real, axis=0)
-    length, growth = np.sum(beta**2, 0), 2 * np.sum(beta * rate, 0)
-    assert np.allclose(length * C.imag / STEP, growth * C.real - turn, rtol=1e-11, atol=1e-11)
 
 
 def test_true_accelerations_do_not_depend_on_the_roll_of_the_frame():

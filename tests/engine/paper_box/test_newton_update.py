@@ -10,8 +10,9 @@ import pytest
 from engine.paper_box.line import PLANE, SPACE, line_of
 from engine.paper_box.newton import newton_update
 from engine.paper_box.nodal import Level, P
+from tests.engine.box_equations import LAWS
 from tests.engine.lines import free, held
-from tests.engine.paper_box.equations import LAWS, scene_of, space_derivatives, states, upper_end
+from tests.engine.paper_box.equations import scene_of, space_derivatives, states, upper_end
 
 DT, STEP = 0.01, 1e-30
 ACROSS = [i for i in SPACE if i not in PLANE]

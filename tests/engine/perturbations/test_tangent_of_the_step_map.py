@@ -95,23 +95,3 @@ def test_through_a_loop_release():
     assert len(found) > released[0] + 20, "the run was meant to go on after the release"
     assert found[:, 1].max() < TOLERANCE
     assert found[:, 2].max() < TOLERANCE
-
-
-@pytest.mark.slow
-def test_areas_grow_by_the_sum_of_two():
-    """Gram-Schmidt keeps the area that two perturbations span; the sum of their growths is its logarithm."""
-    run = Run(line(STEEP, nodes=21), 15.0)
-    scale = np.array([1.0, 1.0, *[float(run.record["per_speed"])] * 2])
-    pair = np.linalg.qr(np.array([(run.direction(seed) * scale).ravel() for seed in (5, 6)]).T)[0].T
-    pair = pair.reshape(2, -1, 4) / scale
-    copies, carried = [run.copies(APART, dC) for dC in pair], Carried(run, pair)
-    for count in run.chunks():
-        for i in range(count):
-            for copy in copies[0] + copies[1]:
-                copy.step(run.T[i, 0], run.T[i, 1], run.T[i, 2] > 0)
-            carried.follow(i)
-            moved = np.array([((up.C - down.C) * scale).ravel() / (2 * APART) for up, down in copies])
-            area = 0.5 * np.linalg.slogdet(moved @ moved.T)[1]
-            turned = moved[0] @ moved[1] / np.linalg.norm(moved[0]) / np.linalg.norm(moved[1])
-            # an angle of 1e-2 between the two magnifies the error of each a hundred times
-            assert area == pytest.approx(carried.growth.sum(), abs=TOLERANCE / np.sqrt(1 - turned**2))

@@ -2,9 +2,6 @@
 
 from functools import cache
 
-import numpy as np
-
-from campaigns.breaking_line import motion_measures as measures
 from campaigns.breaking_line.theory import theory_of
 from engine import load_scene, simulate
 
@@ -36,16 +33,3 @@ def broken(case, nodes):
     run = simulate(straight(case, nodes), duration_s=theory(case).arrival_s)
     assert run.status == "ok", run.message
     return run
-
-
-def orders(case, grids):
-    """Orders in the L1 error of the strain, from grid to grid, and the errors."""
-    errors = [measures.strain_error(broken(case, nodes).profiles, theory(case)) for nodes in grids]
-    return np.log2(np.divide(errors[:-1], errors[1:])), errors
-
-
-def shock_elements(case, nodes):
-    """|place of the shock - exact place| in elements, of every profile that shows it."""
-    _, places, exact = measures.shock_track(broken(case, nodes).profiles, theory(case))
-    assert len(places) > 10
-    return np.abs(places - exact) * (nodes - 1) / theory(case).length_m

@@ -96,11 +96,3 @@ def potential(scene, z):
     inside = min(max(h, 0.0), D)
     below = math.pi * inside**3 * (D / 6 - inside / 12) + volume(D, D) * max(h - D, 0.0)
     return buoy.mass_kg * g * z + rho * g * below
-
-
-def floating_depth(scene, load_N=0.0):
-    """h (m) at which the sphere floats under a load: the root of Archimedes' cubic between 0 and D."""
-    D = scene.buoy.diameter_m
-    wet = (scene.buoy.mass_kg + load_N / scene.gravity_mps2) / scene.water.density_kgpm3
-    roots = np.roots([math.pi / 3, -math.pi * D / 2, 0.0, wet])
-    return float(next(root.real for root in roots if abs(root.imag) < 1e-9 and 0 < root.real < D))

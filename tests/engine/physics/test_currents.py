@@ -31,70 +31,60 @@ def table(axes, values):
 
 
 FLAT = {name: axis for name, axis in AXES.items() if name != "y_m"}
-TABLES = {2: (FLAT, VALUES[[0, 2], :, :, 0]), 3: (AXES, VALUES)}
+PLANE, PROFILE = table(FLAT, VALUES[[0, 2], :, :, 0]), [0.0, 4.0, 5.0, 21.0]
+VELOCITIES = RNG.normal(size=(4, 3))
+CURRENTS = {  # dimensions, and the current
+    "in a plane": (2, PLANE),
+    "in space": (3, table(AXES, VALUES)),
+    "the same everywhere across": (3, PLANE),
+    "with a velocity across": (3, {**PLANE, "velocity_y_mps": PLANE["velocity_x_mps"]}),
+    "uniform": (3, {"law": "uniform", "velocity_mps": [0.4, -0.2, 0.1]}),
+    "profile in a plane": (2, {"law": "profile", "height_m": PROFILE, "velocity_mps": VELOCITIES * [1.0, 0.0, 1.0]}),
+    "profile": (3, {"law": "profile", "height_m": PROFILE, "velocity_mps": VELOCITIES}),
+} | {
+    f"one value of {name}": (3, table(AXES | {name: [2.0]}, np.take(VALUES, [1], axis=1 + at)))
+    for at, name in enumerate(AXES)
+}
 
 
-def field(current, t, dimensions=2, before=()):
-    """Velocity and acceleration, (200, dimensions) each."""
+def field(current, t, dimensions):
+    """Velocity and acceleration, (200, dimensions) each; the table lies behind others."""
     scene = line(STILL, {"current": current, "motion.dimensions": dimensions})
     X = PLACES if dimensions == 3 else PLACES[:, [0, 2]]
-    return np.split(current_at(scene, t, X, before), 2, axis=1)
+    return np.split(current_at(scene, t, X, [np.full(17, 1e9)]), 2, axis=1)
 
 
-def clipped(axes, t):
+def exact(current, t):
+    """Velocity (200, 3) by scipy; an axis of one value has it everywhere."""
+    if current["law"] == "uniform":
+        return np.tile(current["velocity_mps"], (200, 1))
+    if current["law"] == "profile":
+        return np.transpose([np.interp(PLACES[:, 2], current["height_m"], part) for part in current["velocity_mps"].T])
     points = {"time_s": np.full(200, t), "x_m": PLACES[:, 0], "y_m": PLACES[:, 1], "height_m": PLACES[:, 2]}
-    return np.stack([np.clip(points[name], axis[0], axis[-1]) for name, axis in axes.items()], axis=-1)
+    axes = {name: current[name] for name in AXES if name in current}
+    clipped = np.stack([np.clip(points[name], axis[0], axis[-1]) for name, axis in axes.items()], axis=-1)
+    found = np.zeros((200, 3))
+    for component, name in enumerate("xyz"):
+        if f"velocity_{name}_mps" in current:
+            values, grid = np.array(current[f"velocity_{name}_mps"]), []
+            for at, axis in enumerate(axes.values()):
+                values = np.repeat(values, 2, axis=at) if len(axis) == 1 else values
+                grid.append([axis[0], axis[0] + 1.0] if len(axis) == 1 else axis)
+            found[:, component] = RegularGridInterpolator(grid, values)(clipped)
+    return found
 
 
-@pytest.mark.parametrize("dimensions", [2, 3])
+@pytest.mark.parametrize("name", CURRENTS)
 @pytest.mark.parametrize("t", TIMES)
-def test_a_table_is_linear_between_its_values(t, dimensions):
-    axes, values = TABLES[dimensions]
-    velocity, acceleration = field(table(axes, values), t, dimensions)
-    for found, part in zip(velocity.T, values, strict=True):
-        exact = RegularGridInterpolator(tuple(axes.values()), part)(clipped(axes, t))
-        assert np.max(np.abs(found - exact)) < 1e-13
+def test_a_current_is_linear_between_its_values(t, name):
+    dimensions, current = CURRENTS[name]
+    velocity, acceleration = field(current, t, dimensions)
+    columns = [0, 1, 2] if dimensions == 3 else [0, 2]
+    assert np.max(np.abs(velocity - exact(current, t)[:, columns])) < 1e-13
     if t not in AXES["time_s"]:
-        ahead, behind = (field(table(axes, values), t + d, dimensions)[0] for d in (1e-3, -1e-3))
+        ahead, behind = (field(current, t + d, dimensions)[0] for d in (1e-3, -1e-3))
         assert np.max(np.abs(acceleration - (ahead - behind) / 2e-3)) < 1e-9
-        assert acceleration.any() == (0 < t < 60)
-
-
-@pytest.mark.parametrize("axis", AXES)
-def test_an_axis_of_one_value_is_constant(axis):
-    at = list(AXES).index(axis)
-    one = np.take(VALUES, [1], axis=1 + at)
-    single, double = (table(AXES | {axis: [2.0, 3.0][:n]}, np.repeat(one, n, axis=1 + at)) for n in (1, 2))
-    for found, expected in zip(field(single, 5.0, 3), field(double, 5.0, 3), strict=True):
-        assert found == pytest.approx(expected, abs=1e-14)
-
-
-@pytest.mark.parametrize("t", [0.0, 4.3, 37.0])
-def test_a_table_without_y_is_the_same_everywhere_across(t):
-    current = table(*TABLES[2])
-    for found, expected in zip(field(current, t, 3), field(current, t), strict=True):
-        assert np.max(np.abs(found[:, [0, 2]] - expected)) < 1e-14
-        assert not found[:, 1].any()
-    for part in field({**current, "velocity_y_mps": current["velocity_x_mps"]}, t, 3):
-        assert np.array_equal(part[:, 1], part[:, 0])
-
-
-def test_uniform_and_profile():
-    velocity, acceleration = field({"law": "uniform", "velocity_mps": [0.4, -0.2, 0.1]}, 3.0, 3)
-    assert np.array_equal(velocity, np.tile([0.4, -0.2, 0.1], (200, 1))) and not acceleration.any()
-    height, velocities = [0.0, 4.0, 5.0, 21.0], RNG.normal(size=(4, 3))
-    for dimensions, columns in ((3, [0, 1, 2]), (2, [0, 2])):
-        given = velocities * [1.0, dimensions == 3, 1.0]
-        profile = {"law": "profile", "height_m": height, "velocity_mps": given.tolist()}
-        velocity, acceleration = field(profile, 12.0, dimensions)
-        exact = [np.interp(PLACES[:, 2], height, given[:, column]) for column in columns]
-        assert velocity == pytest.approx(np.transpose(exact), abs=1e-14)
-        assert not acceleration.any()
-
-
-def test_a_table_is_found_behind_other_tables():
-    plain, behind = (field(table(*TABLES[2]), 3.3, before=before) for before in ((), [np.full(17, 1e9)]))
-    assert np.array_equal(plain, behind)
+        assert acceleration.any() == (0 < t < 60 and len(current.get("time_s", [0.0])) > 1)
 
 
 def test_a_current_across_the_plane_alone_is_a_current():

@@ -10,33 +10,26 @@ import numpy as np
 import pytest
 
 from campaigns.breaking_line import motion_measures as measures
-from tests.engine.physics.breaking import CASES, broken, orders, shock_elements, theory
+from tests.engine.physics.breaking import CASES, broken, theory
 
 GRIDS = (201, 401, 801, 1601)
+SLOW = pytest.mark.slow
+# grids, least order from grid to grid, greatest error on the first: a shock of 0.115, one that forms late, smooth
+# waves, steep edges (which cost half an order)
+ORDERS = [
+    pytest.param("4", GRIDS, 1.0 - 0.02, 1e-3),
+    pytest.param("4p", GRIDS[:3], 1.0, 3e-4),
+    *(pytest.param(case, GRIDS[1:], 1.9, 4e-6) for case in ("1p", "2p", "3p")),
+    *(pytest.param(case, GRIDS[1:], 1.45, 1e-4, marks=SLOW) for case in ("1", "2")),
+]
 
 
-def test_a_shock_is_captured_with_order_one():
-    found, errors = orders("4", GRIDS)
-    assert np.all(found >= 1.0 - 0.02) and np.log2(errors[0] / errors[-1]) / 3 >= 1.0
-    assert errors[0] < 1e-3  # mean strain; the shock is a jump of 0.115
-
-
-def test_a_shock_that_forms_late_is_captured_with_order_one():
-    found, errors = orders("4p", GRIDS[:3])
-    assert np.all(found >= 1.0) and errors[0] < 3e-4
-
-
-@pytest.mark.parametrize("case", ["1p", "2p", "3p"])
-def test_smooth_waves_are_of_order_two(case):
-    found, errors = orders(case, GRIDS[1:])
-    assert np.all(found > 1.9) and errors[0] < 4e-6
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("case", ["1", "2"])
-def test_steep_edges_cost_half_an_order(case):
-    found, errors = orders(case, GRIDS[1:])
-    assert np.all(found > 1.45) and errors[0] < 1e-4
+@pytest.mark.parametrize("case, grids, least, most", ORDERS)
+def test_order_of_the_strain(case, grids, least, most):
+    errors = [measures.strain_error(broken(case, nodes).profiles, theory(case)) for nodes in grids]
+    found = np.log2(np.divide(errors[:-1], errors[1:]))
+    assert np.all(found >= least) and errors[0] < most
+    assert np.mean(found) >= 1.0
 
 
 @pytest.mark.parametrize("case", CASES)
@@ -50,8 +43,9 @@ def test_no_ripple_before_or_behind_the_front(case):
 @pytest.mark.parametrize("case", ["4", "4p"])
 @pytest.mark.parametrize("nodes", [401, 801])
 def test_the_shock_is_where_theory_has_it(case, nodes):
-    off = shock_elements(case, nodes)
-    assert off.max() < 0.5 and np.median(off) < 0.2
+    _, places, exact = measures.shock_track(broken(case, nodes).profiles, theory(case))
+    off = np.abs(places - exact) * (nodes - 1) / theory(case).length_m
+    assert len(places) > 10 and off.max() < 0.5 and np.median(off) < 0.2
 
 
 @pytest.mark.parametrize("case", CASES)
@@ -65,17 +59,16 @@ def test_speed_of_the_end(case):
         assert measures.end_speed_error(run, theory(case)) < 0.001
 
 
-@pytest.mark.parametrize("case", ["1", "2", "3", "1p", "2p", "3p", "4p"])
-def test_speed_of_the_front(case):
-    front = measures.front_speed(broken(case, 801).profiles, theory(case))
-    assert front == pytest.approx(theory(case).speeds.front_speed_mps, rel=0.01)
-
-
-@pytest.mark.parametrize("case", ["1", "2", "3", "4"])
-def test_speed_of_the_slack_front(case):
-    slack = measures.slack_front_speed(broken(case, 801).profiles, theory(case))
-    assert slack == pytest.approx(theory(case).speeds.slack_front_speed_mps, rel=0.01)
-    assert slack == pytest.approx(261.4, rel=0.01)
+@pytest.mark.parametrize("case", CASES)
+def test_speeds_of_the_fronts(case):
+    profiles, speeds = broken(case, 801).profiles, theory(case).speeds
+    if case != "4":  # its shock eats the front
+        front = measures.front_speed(profiles, theory(case))
+        assert front == pytest.approx(speeds.front_speed_mps, rel=0.01)
+    if not case.endswith("p"):
+        slack = measures.slack_front_speed(profiles, theory(case))
+        assert slack == pytest.approx(speeds.slack_front_speed_mps, rel=0.01)
+        assert slack == pytest.approx(261.4, rel=0.01)
 
 
 def test_what_a_shock_dissipates_is_the_area_between_law_and_chord():

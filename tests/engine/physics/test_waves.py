@@ -1,9 +1,12 @@
 """Law: linear waves over finite depth H (Airy; Dean & Dalrymple, Water Wave Mechanics, ch. 3), z above the bed:
 
-    omega^2 = g k tanh kH;  psi = +-k x - omega t + phase, amplitude A:
-    U = +-A omega cosh kz/sinh kH cos psi,  W = A omega sinh kz/sinh kH sin psi;  accelerations are dU/dt, dW/dt at a
-    place. Free of divergence and rotation; phase moves by 2 pi without effect; a ramp sin^2(pi t/2 t_r) multiplies it.
-    In space a wave in direction a at a place is the wave in direction 0 at the place turned back, its vectors turned.
+    omega^2 = g k tanh kH;  psi = k (x cos a + y sin a) - omega t + phase, amplitude A, direction a:
+    U = A omega cosh kz/sinh kH cos psi along a,  W = A omega sinh kz/sinh kH sin psi;  accelerations are their rates
+    at a place. Free of divergence and rotation; a ramp sin^2(pi t/2 t_r) multiplies it; waves of a sea add.
+    A JONSWAP sea of significant height H_s has the variance H_s^2/16, whatever its seed, spread as its spectrum says.
+
+Above the still water line "extrapolate" goes on with the formulas; "zero" has no water; "wheeler" (1970) takes the
+height z at z H/(H + eta), eta the surface of the whole sea, so that the crest moves as the still surface did.
 
 The nodes are visited along a line (the engine carries exponentials and phase from node to node, and starts anew over
 long elements), so lines of many kinds are tried. Tolerance: rounding of psi (1e-16 times its size) and of some hundred
@@ -12,64 +15,86 @@ multiplications: 1e-12 of the speed at the surface; finite differences by their 
 
 import numpy as np
 import pytest
+from scipy.integrate import quad
 
+from engine import goes_in_lanes, simulate
+from engine.physics.sea import HIGHEST, LOWEST, components, components_of, elevation_m
 from engine.physics.waves import wave_number
+from engine.scene.values import LARGEST, SMALLEST
 from tests.engine.kernels import parameters_of, waves_at
 from tests.engine.lines import SPACE, line
 from tests.engine.physics.airy import direct
-from tests.engine.rotations import turned
 
 PERIOD, DEPTH, GRAVITY = 5.0, 21.0, 9.81
 OMEGA = 2 * np.pi / PERIOD
-SEA = {"waves.period_s": PERIOD, "water.depth_m": DEPTH}  # kA = 0.13, as shipped
+STEEP = {"waves.period_s": PERIOD, "water.depth_m": DEPTH}  # kA = 0.13, as shipped
 K = wave_number(PERIOD, DEPTH)
 A = 0.13 / K
-RNG = np.random.default_rng(12)
-PLACES = np.column_stack([RNG.uniform(-15, 40, 60), RNG.uniform(-20, 20, 60), RNG.uniform(-3, 25, 60)])
-ROPE = np.column_stack([np.linspace(0, 7, 41), np.linspace(0, -5, 41), np.linspace(0, 22, 41)])
+S = np.linspace(0, 1, 41)[:, None]
+LINES = {
+    "leaning": S * [12, 16],
+    "lying": S * [40, 0] + [0, 0.5],
+    "loop": np.hstack([5 + 2 * np.cos(9 * S), 15 + 2 * np.sin(9 * S)]),
+    "three nodes far apart": np.array([[0.0, 0.0], [30.0, 10.0], [90.0, 20.0]]),
+    "scattered": np.random.default_rng(6).uniform([-50, -3], [50, 25], (41, 2)),
+    "leaping": S * [3, 24.5],
+    "diving back below the surface": np.hstack([4 * S, 23 * np.sin(2.8 * S)]),
+    "back and forth": np.tile([[0.0, 0.1], [30.0, 21.0]], (20, 1)),
+}
+SHORT = (3.1, 0.2, -1.0, 0.0)
+SEAS = {  # dimensions; period (s), amplitude (m), phase and direction (rad) of every wave
+    "one": (2, [(PERIOD, A, 0.7, 0.0)]),
+    "against x": (2, [(PERIOD, A, 0.7, np.pi)]),
+    "two": (2, [(PERIOD, 0.8, 0.3, np.pi), SHORT]),
+    "aslant": (3, [(PERIOD, A, 0.7, -1.1)]),
+    "two, aslant": (3, [(PERIOD, 0.8, 0.3, 0.7), SHORT]),
+}
 
 
 def scene(*parts, **waves):
-    return line(SEA, *parts, {f"waves.{key}": value for key, value in waves.items()})
+    return line(STEEP, *parts, {f"waves.{key}": value for key, value in waves.items()})
 
 
-def lines_of_nodes():
-    s = np.linspace(0, 1, 41)
-    rng = np.random.default_rng(6)
-    return {
-        "upright": np.column_stack([0 * s, 20 * s]),
-        "leaning": np.column_stack([12 * s, 16 * s]),
-        "lying": np.column_stack([40 * s, 0.5 + 0 * s]),
-        "loop": np.column_stack([5 + 2 * np.cos(9 * s), 15 + 2 * np.sin(9 * s)]),
-        "three nodes far apart": np.array([[0.0, 0.0], [30.0, 10.0], [90.0, 20.0]]),
-        "scattered": np.column_stack([rng.uniform(-50, 50, 41), rng.uniform(0, 21, 41)]),
-        "leaping": np.column_stack([3 * s, 24.5 * s]),
-        "back and forth": np.tile([[0.0, 0.1], [30.0, 21.0]], (20, 1)),
-    }
+def sea_of(name, **more):
+    dimensions, waves = SEAS[name]
+    keys = "period_s", "amplitude_m", "phase_rad", "direction_rad"
+    listed = [dict(zip(keys, wave, strict=True)) for wave in waves]
+    given = {"components": listed} if len(listed) > 1 else listed[0]
+    return scene({"motion.dimensions": dimensions}, **given, **more)
 
 
-@pytest.mark.parametrize("period", [0.5, 1.5, 5.0, 12.0, 300.0, 1e5])
-@pytest.mark.parametrize("depth", [0.3, 21.0, 4000.0])
+def exact(name, above, t, X):
+    """Water at X (n, 3), (n, 6) = velocity, acceleration, from the formulas."""
+    _, waves = SEAS[name]
+    numbers = [(wave_number(T, DEPTH), 2 * np.pi / T, A, phase, [np.cos(a), np.sin(a)]) for T, A, phase, a in waves]
+    eta = sum(A * np.cos(k * X[:, :2] @ e - omega * t + phase) for k, omega, A, phase, e in numbers)
+    z, total = np.maximum(X[:, 2], 0.0), np.zeros((len(X), 6))
+    if above == "wheeler":
+        z = z * DEPTH / (DEPTH + eta)
+    for k, omega, A, phase, e in numbers:
+        F = direct(k, A, DEPTH, t, np.column_stack([X[:, :2] @ e, z]), phase=phase, omega=omega)
+        total += np.column_stack([F[:, :1] * e, F[:, 1], F[:, 2:3] * e, F[:, 3]])
+    return np.where((above == "zero") & (X[:, 2:] > DEPTH), 0.0, total)
+
+
+@pytest.mark.parametrize("period", [SMALLEST, 1e-6, 0.5, 1.5, 5.0, 12.0, 300.0, 1e5, LARGEST])
+@pytest.mark.parametrize("depth", [SMALLEST, 1e-6, 0.3, 21.0, 4000.0, LARGEST])
 def test_the_wave_number_meets_the_dispersion_relation(period, depth):
     k = wave_number(period, depth, GRAVITY)
     assert GRAVITY * k * np.tanh(k * depth) == pytest.approx((2 * np.pi / period) ** 2, rel=1e-13)
 
 
-def test_steepness_is_amplitude_times_wave_number():
-    steep, high = scene(), scene(amplitude_m=A)
-    p = parameters_of(steep)[0]
-    assert p["amplitude"] * p["k"] == pytest.approx(0.13, rel=1e-15)
-    assert np.array_equal(waves_at(steep, 3.0, [[1.0, 9.0]]), waves_at(high, 3.0, [[1.0, 9.0]]))
-
-
-@pytest.mark.parametrize("direction", [0.0, np.pi])
-@pytest.mark.parametrize("nodes", lines_of_nodes())
-def test_kinematics(nodes, direction):
-    X = lines_of_nodes()[nodes]
+@pytest.mark.parametrize("above", ["extrapolate", "zero", "wheeler"])
+@pytest.mark.parametrize("name", SEAS)
+@pytest.mark.parametrize("nodes", LINES)
+def test_kinematics(nodes, name, above):
+    space = SEAS[name][0] == 3
+    X = np.insert(LINES[nodes], 1, (7.0 - LINES[nodes][:, 0]) * space, axis=1)
     for t in (0.0, 1.3, 297.1):
-        exact = direct(K, A, DEPTH, t, X, np.cos(direction), 0.7)
-        found = waves_at(scene(direction_rad=direction, phase_rad=0.7), t, X)
-        assert np.max(np.abs(found - exact)) < 1e-12 * A * OMEGA
+        there = waves_at(sea_of(name, above_still_water=above), t, X if space else X[:, [0, 2]], there=3.0) - 3.0
+        expected = exact(name, above, t, X)
+        assert np.max(np.abs(there - (expected if space else expected[:, [0, 2, 3, 5]]))) < 1e-12 * A * OMEGA
+    assert np.abs(expected[X[:, 2] > DEPTH]).any() == (above != "zero" and bool(np.any(X[:, 2] > DEPTH)))
 
 
 @pytest.mark.parametrize("depth, period", [(900.0, 2 * np.pi / np.sqrt(9.81)), (21.0, 60.0), (5000.0, 5.0)])
@@ -81,21 +106,14 @@ def test_deep_and_shallow_water(depth, period):
     moved = min(10 / k, depth)
     for z in (depth * s, depth - moved * s, depth - moved * (1 - s), 0.9 * depth * s):
         X = np.column_stack([9 * s, z])
-        exact = direct(k, 0.2, depth, 7.0, X, omega=omega)
-        assert np.max(np.abs(waves_at(sea, 7.0, X) - exact)) < 1e-12 * 0.2 * omega * max(1, 1 / (k * depth))
+        found = direct(k, 0.2, depth, 7.0, X, omega=omega)
+        assert np.max(np.abs(waves_at(sea, 7.0, X) - found)) < 1e-12 * 0.2 * omega * max(1, 1 / (k * depth))
 
 
-def test_a_phase_of_2_pi_or_a_period_changes_nothing():
-    X = lines_of_nodes()["leaning"]
-    one = waves_at(scene(phase_rad=0.7), 2.0, X)
-    assert np.max(np.abs(waves_at(scene(phase_rad=0.7 + 2 * np.pi), 2.0, X) - one)) < 1e-13
-    assert np.max(np.abs(waves_at(scene(phase_rad=0.7), 2.0 + PERIOD, X) - one)) < 1e-13
-
-
-@pytest.mark.parametrize("direction", [0.0, np.pi])
-def test_free_of_divergence_and_rotation(direction):
+@pytest.mark.parametrize("name", ["against x", "two"])
+def test_free_of_divergence_and_rotation(name):
     """Central differences of step 1e-3 m: error k^3 d^2/6 of the speed, about 1e-9."""
-    sea, centres, d = scene(direction_rad=direction), lines_of_nodes()["scattered"], 1e-3
+    sea, centres, d = sea_of(name), LINES["leaning"] + [0.0, 1.0], 1e-3
     dx, dz = (
         (waves_at(sea, 1.7, centres + shift) - waves_at(sea, 1.7, centres - shift)) / (2 * d)
         for shift in ([d, 0.0], [0.0, d])
@@ -107,68 +125,89 @@ def test_free_of_divergence_and_rotation(direction):
 
 @pytest.mark.parametrize("ramp", [0.0, 8.0])
 @pytest.mark.parametrize("t", [0.5, 3.9, 7.5, 20.0])
-def test_acceleration_is_the_rate_of_velocity_at_a_place(t, ramp):
-    """Central differences of step 1e-4 s: omega^3 d^2/6, about 1e-8 of the speed."""
-    sea, X, d = scene(ramp_s=ramp), lines_of_nodes()["leaning"], 1e-4
+@pytest.mark.parametrize("name", ["one", "two"])
+def test_acceleration_is_the_rate_of_velocity_at_a_place(name, t, ramp):
+    """Central differences of step 1e-4 s: omega^3 d^2/6, about 1e-8 of the speed. At still water W is that of eta."""
+    sea, X, d = sea_of(name, ramp_s=ramp), LINES["leaning"], 1e-4
     rate = (waves_at(sea, t + d, X)[:, :2] - waves_at(sea, t - d, X)[:, :2]) / (2 * d)
     assert np.max(np.abs(rate - waves_at(sea, t, X)[:, 2:])) < 5e-8
+    if t > ramp:
+        rising = np.diff(elevation_m(sea, np.array([t - d, t + d]), 2.0)) / (2 * d)
+        assert rising == pytest.approx(waves_at(sea, t, [[2.0, DEPTH]])[0, 1], abs=1e-6)
 
 
-def test_the_ramp_starts_from_still_water_and_ends_in_the_full_wave():
-    ramped, full, X = scene(ramp_s=8.0), scene(), lines_of_nodes()["leaning"]
+@pytest.mark.parametrize("name", SEAS)
+def test_the_ramp_starts_from_still_water_and_ends_in_the_full_wave(name):
+    ramped, full, X = sea_of(name, ramp_s=8.0), sea_of(name), LINES["leaning"]
+    X = X if SEAS[name][0] == 2 else np.insert(X, 1, 3.0, axis=1)
     assert not waves_at(ramped, 0.0, X).any()
-    assert waves_at(ramped, 4.0, X)[:, :2] == pytest.approx(0.5 * waves_at(full, 4.0, X)[:, :2], abs=1e-13)
+    half, whole = (waves_at(each, 4.0, X)[:, : X.shape[1]] for each in (ramped, full))
+    assert half == pytest.approx(0.5 * whole, abs=1e-13)
     for t in (8.0, 9.7):
         assert waves_at(ramped, t, X) == pytest.approx(waves_at(full, t, X), abs=1e-13)
 
 
-def test_above_the_still_water_line():
-    """extrapolate: the formulas go on; zero: no water above H; Wheeler (1970): the height z is taken at
-    z H/(H + eta), eta = A cos psi, so that the crest moves as the still surface did, and the bed is the bed."""
-    X, t = lines_of_nodes()["leaping"], 1.9
-    above = X[:, 1] > DEPTH
-    plain = direct(K, A, DEPTH, t, X)
-    options = ("extrapolate", "zero", "wheeler")
-    extrapolated, none, wheeler = (waves_at(scene(above_still_water=option), t, X) for option in options)
-    assert above.sum() >= 5 and np.abs(plain[above, 0]).min() > 0.1
-    assert np.max(np.abs(extrapolated - plain)) < 1e-12
-    assert not none[above].any()
-    assert np.max(np.abs(none[~above] - plain[~above])) < 1e-12
-    eta = A * np.cos(K * X[:, 0] - OMEGA * t)
-    stretched = direct(K, A, DEPTH, t, np.column_stack([X[:, 0], X[:, 1] * DEPTH / (DEPTH + eta)]))
-    assert np.max(np.abs(wheeler - stretched)) < 1e-12
+def test_steepness_is_amplitude_times_wave_number_and_an_axis_is_an_axis():
+    """Anything across an axis would be a seed of motion out of the plane."""
+    assert np.array_equal(waves_at(scene(), 3.0, [[1.0, 9.0]]), waves_at(scene(amplitude_m=A), 3.0, [[1.0, 9.0]]))
+    X = np.insert(LINES["leaning"], 1, 3.0, axis=1)
+    for angle, other in ((0.0, [1, 4]), (np.pi, [1, 4]), (np.pi / 2, [0, 3])):
+        assert not waves_at(scene(SPACE, direction_rad=angle), 3.1, X)[:, other].any()
 
 
-def test_a_line_that_dives_back_below_the_surface_feels_the_same_water():
-    """With "zero" the recurrence goes on through nodes that are above the surface."""
-    s = np.linspace(0, 1, 41)
-    X = np.column_stack([4 * s, 23 * np.sin(2.8 * s)])
-    F = waves_at(scene(above_still_water="zero"), 0.4, X)
-    below = X[:, 1] <= DEPTH
-    assert 5 < np.count_nonzero(~below) < 35
-    assert np.max(np.abs(F - direct(K, A, DEPTH, 0.4, X))[below]) < 1e-12
+def jonswap(**keys):
+    return line({"waves.jonswap": keys})
 
 
-def test_the_field_is_added_to_what_is_there():
-    X = lines_of_nodes()["leaning"]
-    assert waves_at(scene(), 2.0, X, there=3.0) == pytest.approx(3.0 + waves_at(scene(), 2.0, X), abs=1e-15)
+@pytest.mark.parametrize("name", ["one", "two"])
+def test_the_surface_of_a_sea_is_the_sum_of_its_waves(name):
+    t, x = np.linspace(0.0, 9.0, 50), 3.0
+    ramp = np.where(t < 4.0, np.sin(np.pi * t / 8.0) ** 2, 1.0)
+    waves = [(wave_number(T, DEPTH), 2 * np.pi / T, A, phase, np.cos(a)) for T, A, phase, a in SEAS[name][1]]
+    eta = ramp * sum(A * np.cos(k * x * heading - omega * t + phase) for k, omega, A, phase, heading in waves)
+    assert elevation_m(sea_of(name, ramp_s=4.0), t, x) == pytest.approx(eta, abs=1e-12)
 
 
-@pytest.mark.parametrize("option", ["extrapolate", "zero", "wheeler"])
-@pytest.mark.parametrize("X", [PLACES, ROPE], ids=["scattered", "rope"])
-def test_along_x_the_wave_in_space_is_that_of_the_plane(X, option):
-    changes = {"above_still_water": option, "phase_rad": 0.7, "ramp_s": 8.0}
-    space = waves_at(scene(SPACE, **changes), 3.1, X)
-    assert np.max(np.abs(space[:, [0, 2, 3, 5]] - waves_at(scene(**changes), 3.1, X[:, [0, 2]]))) < 1e-14
-    assert not space[:, [1, 4]].any()
+@pytest.mark.parametrize("gamma", [1.0, 3.3, 7.0])
+@pytest.mark.parametrize("count", [8, 64, 500])
+def test_a_jonswap_sea_carries_the_energy_of_its_height(gamma, count):
+    def density(f, power=0):
+        """f^power S(f) of the head of `engine.physics.sea`, c = 1, T_p = 8 s."""
+        ratio, sigma = 8.0 * f, 0.07 if 8.0 * f < 1.0 else 0.09
+        return f**power * ratio**-5 * np.exp(-1.25 / ratio**4) * gamma ** np.exp(-((ratio - 1) ** 2) / (2 * sigma**2))
+
+    periods, amplitudes, phases = components(2.0, 8.0, gamma, count, seed=5)
+    assert np.sum(amplitudes**2) / 2.0 == pytest.approx(2.0**2 / 16.0, rel=1e-12)
+    assert len(set(periods)) == count and np.all((phases >= 0.0) & (phases < 2.0 * np.pi))
+    # Each component lies in its part of the band and carries the energy of it: no mean is off by more than a part.
+    energy, part = amplitudes**2 / 2.0, (HIGHEST - LOWEST) / 8.0 / count
+    of_f, total = (quad(density, LOWEST / 8, HIGHEST / 8, args=(n,), points=[1 / 8], limit=200)[0] for n in (1, 0))
+    assert np.sum(energy / periods) / np.sum(energy) == pytest.approx(of_f / total, abs=part)
 
 
-@pytest.mark.parametrize("angle", [0.3, np.pi / 2, 2.0, np.pi, -1.1, 40.0])
-def test_a_turned_wave_is_the_wave_turned(angle):
-    """Along an axis it leaves the other alone exactly: anything across would be a seed of motion out of its plane."""
-    for X in (PLACES, ROPE):
-        plain = waves_at(scene(SPACE), 3.1, X).reshape(-1, 2, 3)
-        there = waves_at(scene(SPACE, direction_rad=angle), 3.1, turned(X, angle))
-        assert np.max(np.abs(there.reshape(-1, 2, 3) - turned(plain, angle))) < 1e-12
-        for axis, other in ((np.pi, [1, 4]), (np.pi / 2, [0, 3])):
-            assert angle != axis or not there[:, other].any()
+def test_the_surface_of_a_long_record_has_that_height():
+    """4 standard deviations of the elevation over 2000 peak periods, to 3 %."""
+    scene = jonswap(significant_height_m=1.2, seed=1)
+    eta = elevation_m(scene, np.arange(0.0, 10_000.0, 0.7))
+    assert 4.0 * eta.std() == pytest.approx(1.2, rel=0.03)
+
+
+def test_the_seed_is_the_sea():
+    first, again, other = (components_of(jonswap(significant_height_m=1.0, seed=seed)) for seed in (3, 3, 4))
+    assert all(np.array_equal(a, b) for a, b in zip(first, again, strict=True))
+    assert not np.array_equal(first[0], other[0]) and not np.array_equal(first[2], other[2])
+    assert np.array_equal(first[1], other[1])  # every seed has the same energy at the same frequencies
+
+
+def test_a_regular_wave_is_no_sea():
+    """It takes the way that it took before, and only it shares a batch."""
+    plain, many = sea_of("one"), sea_of("two")
+    assert (parameters_of(plain)[0]["sea_n"], parameters_of(many)[0]["sea_n"]) == (0, 2)
+    assert goes_in_lanes(plain) and not goes_in_lanes(many)
+
+
+@pytest.mark.slow
+def test_a_jonswap_sea_moves_the_buoy_and_repeats_itself_bit_for_bit():
+    first, again = (simulate(jonswap(significant_height_m=0.5, seed=1), periods=10) for _ in range(2))
+    assert first.status == "ok" and np.ptp(first.columns["radius_m"]) > 0.05
+    assert np.array_equal(first.columns["radius_m"], again.columns["radius_m"])

@@ -1,4 +1,5 @@
-"""Law: in still water the buoy stands upright at r = L + int T/EA ds, T = (B - W) - w (L - s): in closed form
+"""Law: a straight line at rest under a force F at its end carries N(s) = F - w (L - s) z, T = N.e along its direction
+e, and ends at e int (1 + T/EA) ds. Upright under the buoy in still water F = B - W, so that
 
     r = L + [(B - W) L - w L^2/2]/EA,   B - W = (rho_w pi D^3/6 - M) g,   w = (rho - rho_w) A g
 
@@ -11,9 +12,10 @@ import numpy as np
 import pytest
 
 from engine import simulate
-from tests.engine.lines import DRY, STILL, equilibrium, free, held, line, linear, positions
+from tests.engine.lines import DRY, STILL, equilibrium, forces, free, held, line, linear, positions
 
 LENGTH, EA, AREA, G = 20.0, 5e4, 7.85e-5, 9.81
+UP, DOWN, ASLANT = np.array([[0.0, 1.0], [0.0, -1.0], [0.6, -0.8]])
 
 
 def lift(rho_w):
@@ -25,16 +27,37 @@ def upright(rho_w):
     return LENGTH + (lift(rho_w) * LENGTH - weight * LENGTH**2 / 2) / EA
 
 
-@pytest.mark.parametrize("rho_w", [1025.0, 1027.0, 1200.0])
-@pytest.mark.parametrize("nodes, stretching, EI", [(3, 0.0, 0.4), (41, 0.0, 0.4), (41, 2.0, 0.0), (161, 0.0, 40.0)])
-def test_distance_and_tension(rho_w, nodes, stretching, EI):
-    scene = line(
-        STILL, {"water.density_kgpm3": rho_w}, nodes=nodes, grid_stretching=stretching, bending_stiffness_Nm2=EI
-    )
-    motion = equilibrium(scene)
-    assert positions(motion.Y, motion.h)[-1] == pytest.approx([0, upright(rho_w)], abs=1e-8)
-    T = lift(rho_w) - (1140.0 - rho_w) * AREA * G * (LENGTH - motion.s)
-    assert EA * motion.Y[:, 0] == pytest.approx(T, abs=1e-6)
+def under_the_buoy(rho_w, **tether):
+    return STILL | {"water.density_kgpm3": rho_w}, tether, EA, (1140.0 - rho_w) * AREA * G, lift(rho_w), UP
+
+
+def bar(parts, end, density, stiffness, force, direction, rho_w=0.0, g=G):
+    """The case of a line of 1e-4 m2 of any material with another end; force: along its direction, None: as is held."""
+    w = (density - rho_w) * 1e-4 * g
+    tether = {"area_m2": 1e-4, "density_kgpm3": density, "tension": linear(stiffness)}
+    return parts | end, tether, stiffness, w, 0.025 * stiffness + w * LENGTH / 2 if force is None else force, direction
+
+
+GRIDS = [(3, 0.0, 0.4), (41, 0.0, 0.4), (41, 2.0, 0.0), (161, 0.0, 40.0)]
+CASES = [
+    under_the_buoy(rho_w, nodes=nodes, grid_stretching=stretching, bending_stiffness_Nm2=EI)
+    for rho_w in (1025.0, 1027.0, 1200.0)
+    for nodes, stretching, EI in GRIDS
+] + [
+    *(bar(DRY, free(0, -load), rho, 5e3, load, DOWN) for load in (0.0, 30.0) for rho in (1140.0, 7800.0)),
+    bar(DRY | {"gravity_mps2": 0.0}, free(30.0, -40.0), 1140.0, 5e3, 50.0, ASLANT, g=0.0),
+    bar(DRY, held(0, 20.5), 5000.0, 1e4, None, UP),
+    *(bar(STILL, held(0, 20.5), rho, 1e4, None, UP, 1027.0) for rho in (500.0, 5000.0)),
+]
+
+
+@pytest.mark.parametrize("parts, tether, stiffness, weight, force, direction", CASES)
+def test_distance_and_tension(parts, tether, stiffness, weight, force, direction):
+    motion = equilibrium(line(parts, **tether))
+    T = force - weight * direction[1] * (LENGTH - motion.s)
+    assert forces(motion.Y, stiffness)[:, [0, 2]] == pytest.approx(T[:, None] * direction, abs=1e-6)
+    reached = np.trapezoid(1 + T / stiffness, motion.s)
+    assert positions(motion.Y, motion.h)[-1] == pytest.approx(reached * direction, abs=1e-8)
 
 
 def test_the_published_numbers():
@@ -50,29 +73,3 @@ def test_the_buoy_stays_at_rest():
     assert np.max(np.abs(run.columns["radius_m"] - upright(1027.0))) < 1e-9
     assert np.max(np.abs(run.columns["angle_rad"])) < 1e-12
     assert run.columns["tension_top_N"] == pytest.approx(lift(1027.0), abs=1e-6)
-
-
-@pytest.mark.parametrize("load", [0.0, 30.0])
-@pytest.mark.parametrize("density", [1140.0, 7800.0])
-def test_a_line_hanging_from_its_anchor_stretches_under_its_own_weight(density, load):
-    """Free end below the anchor, dry: L + (w L^2/2 + load L)/EA down; exact for the box as above."""
-    motion = equilibrium(line(DRY, free(0, -load), tension=linear(5e3), density_kgpm3=density, area_m2=1e-4))
-    w = density * 1e-4 * G
-    expected = LENGTH + (w * LENGTH**2 / 2 + load * LENGTH) / 5e3
-    assert positions(motion.Y, motion.h)[-1] == pytest.approx([0, -expected], abs=1e-8)
-    assert 5e3 * motion.Y[:, 0] == pytest.approx(load + w * (LENGTH - motion.s), abs=1e-6)
-
-
-@pytest.mark.parametrize("water, density", [(DRY, 5000.0), (STILL, 5000.0), (STILL, 500.0)])
-def test_an_upright_held_line_is_a_bar_under_its_own_weight(water, density):
-    """eps = eps_mean + w (s - L/2)/EA: the box is exact for it. Rounding."""
-    w = (density - (1027.0 if water is STILL else 0.0)) * 1e-4 * G
-    motion = equilibrium(line(water, held(0, 20.5), area_m2=1e-4, density_kgpm3=density, tension=linear(1e4)))
-    assert motion.Y[:, 0] == pytest.approx(20.5 / LENGTH - 1 + w * (motion.s - LENGTH / 2) / 1e4, abs=1e-9)
-    assert np.cos(motion.Y[:, 4] - np.pi / 2) == pytest.approx(1.0, abs=1e-14)
-
-
-def test_a_weightless_line_points_along_the_force_on_its_free_end():
-    """N(s) = F + w (s - L) with w = 0: straight, strained by |F|/EA."""
-    motion = equilibrium(line(DRY, {"gravity_mps2": 0.0}, free(30.0, -40.0), tension=linear(5e3)))
-    assert positions(motion.Y, motion.h)[-1] == pytest.approx(LENGTH * 1.01 * np.array([0.6, -0.8]), abs=1e-8)

@@ -13,8 +13,7 @@ import pytest
 from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 
-from engine import simulate
-from tests.engine.lines import STILL, equilibrium, in_space, line
+from tests.engine.lines import STILL, equilibrium, line
 from tests.engine.modes import box, distance, frequencies
 
 LENGTH, EA, MASS = 20.0, 5e4, 1140.0 * 7.85e-5
@@ -69,18 +68,3 @@ def test_bending_of_the_shipped_scene_does_not_move_the_slow_modes(dimensions):
     found = frequencies(equilibrium(line(STILL, {"motion.dimensions": dimensions})), 1.0)
     expected = [pendulum()] * (dimensions - 1) + [axial(1, lambda k: box(k, 0.5))[0]]
     assert found[:dimensions] == pytest.approx(expected, rel=2e-6)
-
-
-def test_a_buoy_that_is_struck_across_swings_across():
-    """Without drag, from 0.02 m/s: sin at the frequency of the pendulum, amplitude v/omega, for two periods. What
-    changes: the share of the line's own modes in the blow (m L/M = 7e-4), and the amplitude squared (0.1 m of 20 m)."""
-    omega = pendulum()
-    scene = in_space(
-        STILL,
-        {"start.buoy_velocity_mps": [0.0, 0.02, 0.0], "buoy.drag": 0.0, "solver.rtol": 1e-4, "output.step_s": 0.5},
-        drag_normal=0.0, drag_tangential=0.0,
-    )  # fmt: skip
-    run = simulate(scene, duration_s=4 * np.pi / omega)
-    t, y = run.columns["time_s"], run.columns["y_m"]
-    assert run.status == "ok" and np.abs(run.columns["x_m"]).max() < 1e-12
-    assert np.abs(y - 0.02 / omega * np.sin(omega * t)).max() < 2e-3 * 0.02 / omega

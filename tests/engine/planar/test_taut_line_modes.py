@@ -10,13 +10,16 @@ Engineering), with EI = 0 the string, with T = 0 the pinned beam. In space every
 Tolerance: sines satisfy the box equations too, with (2/h) tan(kh/2) for k, so the spatial operator must give that
 number to rounding: 2e-7 relative (central differences of 1e-5, eigenvalues of a matrix of some hundred rows); and the
 closed form itself to the error of the box in k, (kh)^2/12, to the power in which k enters.
+
+Under compression P = -T the line buckles: waves for which omega^2 < 0 grow, fastest that of k^2 = P/(2 EI), where the
+rate is P (1+eps)/(2 sqrt(EI (m + m_a))) (Triantafyllou & Howell 1994). Quadratic drag does nothing to them.
 """
 
 import numpy as np
 import pytest
 
 from tests.engine.lines import DRY, STILL, Motion, equilibrium, held, line, linear, mean
-from tests.engine.modes import box, distance, frequencies
+from tests.engine.modes import box, distance, frequencies, rates
 
 LENGTH, NODES, MASS, EA = 10.0, 31, 0.5, 1e4
 H = LENGTH / (NODES - 1)
@@ -25,18 +28,23 @@ ALONG_X, UP, LEANING, ASKEW = [1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [-0.8, 0.0, 0.6]
 WATERS = {"dry": 0.0, "wet, no added mass": 0.0, "wet": 1.0, "wet, much added mass": 2.5}
 
 
-def taut(strain, EI, water="dry", direction=ALONG_X, dimensions=2, **solver):
+def taut(strain, EI, water="dry", direction=ALONG_X, dimensions=2, nodes=NODES, **solver):
     place = LENGTH * (1 + strain) * np.array(direction) / np.linalg.norm(direction)
     return line(
         DRY if water == "dry" else STILL, held(*place), {"gravity_mps2": 0.0, "motion.dimensions": dimensions}, solver,
-        length_m=LENGTH, nodes=NODES, area_m2=5e-4, density_kgpm3=1000.0, bending_stiffness_Nm2=EI,
+        length_m=LENGTH, nodes=nodes, area_m2=5e-4, density_kgpm3=1000.0, bending_stiffness_Nm2=EI,
         added_mass=WATERS[water], tension=linear(EA),
     )  # fmt: skip
 
 
-def transverse(k, strain, EI, mass=MASS):
+def square(k, strain, EI, mass=MASS):
+    """omega^2 of transverse motion."""
     lam = 1 + strain
-    return np.sqrt((EA * strain * k**2 / lam + EI * k**4 / lam**4) / mass)
+    return (EA * strain * k**2 / lam + EI * k**4 / lam**4) / mass
+
+
+def transverse(k, strain, EI, mass=MASS):
+    return np.sqrt(square(k, strain, EI, mass))
 
 
 @pytest.mark.parametrize("strain, EI", [(0.02, 0.0), (0.3, 0.0), (0.0, 2.0), (0.02, 2.0), (0.3, 2.0)])
@@ -69,6 +77,22 @@ def test_the_frequencies_come_in_no_other_place():
     slow = found[found < 200]
     assert slow.size == np.count_nonzero(both < 200)
     assert distance(both, slow) < 1e-7
+
+
+@pytest.mark.parametrize("water", ["dry", "wet"])
+def test_a_compressed_line_buckles(water):
+    EI, nodes, fastest = 2.0, 101, 5
+    strain = -2 * EI * (fastest * np.pi / LENGTH) ** 2 / EA
+    motion = Motion(taut(0.0, EI, water, nodes=nodes))
+    motion.Y[:] = 0.0
+    motion.Y[:, 0] = strain
+    found, mass = rates(motion, 10.0), MASS + WATERS[water] * 1027.0 * 5e-4
+    growing = np.sort(found.real[(found.real > 1e-4) & (np.abs(found.imag) < 1e-6)])
+    squares = -square(box(np.arange(1, nodes - 1) * np.pi / LENGTH, LENGTH / (nodes - 1)), strain, EI, mass)
+    assert growing == pytest.approx(np.sort(np.sqrt(squares[squares > 0])), rel=1e-7)
+    assert growing.size == int(np.floor(np.sqrt(2) * fastest))  # P k^2 > EI k^4
+    fastest_rate = -strain * EA * (1 + strain) / (2 * np.sqrt(EI * mass))
+    assert growing[-1] == pytest.approx(fastest_rate, rel=1e-4)  # flat top: second order in (kh)^2
 
 
 @pytest.mark.parametrize("integrator", ["esdirk43", "trbdf2", "midpoint", "generalized-alpha"])

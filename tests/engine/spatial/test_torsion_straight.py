@@ -86,3 +86,15 @@ def test_it_buckles_at_the_exact_critical_twist(tension):
     assert np.log2((coarse - middle) / (middle - fine)) == pytest.approx(2, abs=0.1)
     assert fine + (fine - middle) / 3 == pytest.approx(1, abs=3e-4)
     assert fine == pytest.approx(1, abs=1e-3)
+
+
+def test_a_line_that_hangs_between_opposed_clamps_is_not_twisted():
+    """A U in any vertical plane, without twist, is planar; with twist its torque is the same in every such plane."""
+    for twist in (0.0, 1.0):
+        torsions = []
+        for azimuth in (0.0, 0.6435011, np.pi / 2, -2.0):
+            place = (np.cos(azimuth), np.sin(azimuth), 0.0)
+            Y, _ = at_rest(Rod(EI, GI, 1e5, 4.0, place, twist, (0.0, 0.0, -1.0), (0.0, 0.0, 1.0)), 81)
+            torsions.append(Y[0, 10])
+        assert np.ptp(torsions) < 1e-8
+        assert np.abs(torsions).max() < 1e-9 if twist == 0 else torsions[0] > 0.1

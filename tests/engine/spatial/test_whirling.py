@@ -19,52 +19,35 @@ from tests.engine.rotations import parameters_of_frames
 
 G, L, M, EA = 9.81, 5.0, 100.0, 2e4
 STEPS = {"solver.rtol": 1e-5, "output.step_s": 0.05}
+ACROSS = [0.0, 1.0, 0.0]
 
 
-ACROSS = np.array([0.0, 1.0, 0.0])
-
-
-def frames_along(t):
-    """Euler parameters (n, 4) of frames with tangents t (n, 3) in the plane x-z."""
-    return parameters_of_frames(t, np.broadcast_to(ACROSS, t.shape))
-
-
-def bob(duration_s, angle, speed):
-    """A heavy bob on 11 nodes of a light line in the plane x-z, `angle` from below the anchor, thrown along y."""
+@pytest.mark.parametrize("angle, speed", [(0.8, 2.0), (1.0, None)], ids=["spherical", "conical"])
+def test_a_pendulum_keeps_energy_and_angular_momentum(angle, speed):
+    """A heavy bob on 11 nodes of a light line in the plane x-z, `angle` from below the anchor, thrown along y; at the
+    speed omega l sin a it is a conical pendulum."""
     scene = in_space(
         DRY, STEPS, {"buoy.mass_kg": M}, length_m=L, nodes=11, area_m2=1e-6, density_kgpm3=200.0,
         bending_stiffness_Nm2=0.0, tension=linear(EA),
     )  # fmt: skip
     strain = M * G / np.cos(angle) / EA
-    t = np.tile([np.sin(angle), 0.0, -np.cos(angle)], (11, 1))
+    length = L * (1 + strain)
+    radius, height = length * np.sin(angle), -length * np.cos(angle)
+    thrown = speed or radius * np.sqrt(-G / height)
     Y = np.zeros((11, 13))
-    Y[:, 0] = strain
-    Y[:, 6:10] = frames_along(t)
-    Y[:, 4] = speed * np.linspace(0, 1, 11)
-    return Motion(scene, duration_s, Y)
-
-
-@pytest.mark.parametrize("angle, speed", [(0.8, 2.0), (1.0, None)], ids=["spherical", "conical"])
-def test_a_pendulum_keeps_energy_and_angular_momentum(angle, speed):
-    """Thrown at the speed omega l sin a it is a conical one, and goes round in its time."""
-    duration_s = 15.0
-    length = L * (1 + M * G / np.cos(angle) / EA)
-    radius, omega = length * np.sin(angle), np.sqrt(G / (length * np.cos(angle)))
+    Y[:, 0], Y[:, 4] = strain, thrown * np.linspace(0, 1, 11)
+    Y[:, 6:10] = parameters_of_frames(*np.tile([[[np.sin(angle), 0.0, -np.cos(angle)]], [ACROSS]], (1, 11, 1)))
+    motion = Motion(scene, 15.0, Y)
+    t, X, V = zip(*((t, positions(Y, motion.h)[-1], Y[-1, 3:6].copy()) for t, Y in motion.states()), strict=True)
+    t, X, V = np.array(t), np.array(X).T, np.array(V).T
 
     def pull(s, y):
         r = np.linalg.norm(y[:3])
         return [*y[3:], *(-EA * (r / L - 1) * y[:3] / r / M - [0, 0, G])]
 
-    thrown = speed or omega * radius
-    motion = bob(duration_s, angle, thrown)
-    t, X, V = zip(*((t, positions(Y, motion.h)[-1], Y[-1, 3:6].copy()) for t, Y in motion.states()), strict=True)
-    t, X, V = np.array(t), np.array(X).T, np.array(V).T
-    if speed is None:
-        exact = np.array([radius * np.cos(omega * t), radius * np.sin(omega * t), -length * np.cos(angle) + 0 * t])
-    else:
-        start = [radius, 0.0, -length * np.cos(angle), 0.0, thrown, 0.0]
-        exact = solve_ivp(pull, (0, t[-1]), start, t_eval=t, rtol=1e-11, atol=1e-11, method="DOP853").y[:3]
-        assert np.ptp(np.hypot(X[0], X[1])) > 1.0
+    start = [radius, 0.0, height, 0.0, thrown, 0.0]
+    exact = solve_ivp(pull, (0, t[-1]), start, t_eval=t, rtol=1e-11, atol=1e-11, method="DOP853").y[:3]
+    assert (np.ptp(np.hypot(X[0], X[1])) > 1.0) == (speed is not None)
     assert np.abs(X - exact).max() < 1e-3 * max(1.0, radius)
     r = np.linalg.norm(X, axis=0)
     energy = 0.5 * M * np.sum(V**2, 0) + M * G * X[2] + 0.5 * EA * (r - L) ** 2 / L
@@ -96,7 +79,7 @@ def test_a_whirling_string_turns_as_a_rigid_body():
         T = np.hypot(Nx, Nr)
         Y = np.zeros((nodes, 13))
         Y[:, 0] = T / EA
-        Y[:, 6:10] = frames_along(np.stack([Nx / T, 0 * T, Nr / T], 1))
+        Y[:, 6:10] = parameters_of_frames(np.stack([Nx / T, 0 * T, Nr / T], 1), np.tile(ACROSS, (nodes, 1)))
         Y[:, 4] = -omega * r  # turning from z to -y
         motion = Motion(scene, 0.75 * period, Y)
         motion.inner.state["status"] = 0  # slack and weightless it has no rest, but it does not start from there

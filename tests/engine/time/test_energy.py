@@ -7,8 +7,18 @@ energy, though the paper's moment equation has (1+eps)^3: off by the strain, 1e-
 
 Measures, over the kinetic energy at the start and 10 s, 4 swings: the rise above the start falls with h^2 (within 0.15
 in the exponent) and is the same for every method; an L-stable or damping method loses what its order allows. Midpoint
-neither loses nor gains. It does not damp the highest modes, and on finer grids they
-take the run over: it is tried on 21 nodes.
+neither loses nor gains. It does not damp the highest modes, and on finer grids they take the run over: it is tried on
+21 nodes. The paper's scheme: neither M dY/dt in the local frame nor the nodal products conserve anything exactly; in
+time the box rule neither damps nor feeds.
+
+Law: what waves, drag and moved ends do on line and buoy is what their energy changes by; and so for momentum.
+
+`budgets` adds up the accepted steps. "Passed" is the sum of the sizes of all works, step by step (drag and wave load of
+the buoy, drag and fluid inertia of the line, ends): each budget closes to 0.1 % of it at every step, at 41 nodes.
+
+The part that only the integrator can miss - kinetic and gravity energy, and the work of N on q_t, against the works -
+closes to 1e-5 at rtol 1e-3, momentum to 1e-5 of the impulses (Newton's tolerance). The rest is what the box's work on
+q_t misses of the change of the stored energies: it falls with the element. Ends that pull a slack line taut: 81 nodes.
 """
 
 from functools import cache
@@ -16,33 +26,47 @@ from functools import cache
 import numpy as np
 import pytest
 
+from engine.paper_box.frame import to_fixed, to_local
+from engine.paper_box.line import line_of
+from engine.paper_box.newton import solve
+from engine.paper_box.nodal import level_of
+from engine.paper_box.nodal import positions as paper_positions
+from engine.paper_box.start import at_rest
+from engine.time.status import OK
 from tests.engine.budgets import Books
-from tests.engine.lines import DRY, Motion, equilibrium, free, line, linear, positions
+from tests.engine.budgets import balance as budget
+from tests.engine.lines import DRY, SPACE, Motion, equilibrium, free, line, linear, positions
 
 DURATION = 10.0
+STEP_S, SWING_S = 0.005, 2.5  # of the paper's scheme
 
 
-def pendulum(nodes, integrator, step_s):
+def pendulum(nodes, **solver):
     return line(
-        DRY, free(), {"solver.integrator": integrator, "solver.step_s": step_s, "solver.newton_tolerance": 1e-8},
-        {"output.step_s": 0.01}, length_m=2.0, area_m2=5e-4, density_kgpm3=1000.0, nodes=nodes,
-        bending_stiffness_Nm2=0.5, tension=linear(1e4),
+        DRY, free(), {f"solver.{key}": value for key, value in solver.items()}, {"output.step_s": 0.01},
+        length_m=2.0, area_m2=5e-4, density_kgpm3=1000.0, nodes=nodes, bending_stiffness_Nm2=0.5, tension=linear(1e4),
     )  # fmt: skip
+
+
+def change(energies):
+    """Change of the energy since the start over the kinetic energy then, from rows of `Books.energy`."""
+    energies = np.array(energies)
+    assert np.ptp(energies[:, 0]) > 0.99 * energies[0, 0]  # it comes to rest and swings back
+    total = energies.sum(axis=1)
+    return (total - total[0]) / energies[0, 0]
 
 
 @cache
 def balance(nodes, integrator, step_s):
-    """Change of the energy since the start over the kinetic energy then, at 1000 instants."""
-    scene = pendulum(nodes, integrator, step_s)
+    """`change` at 1000 instants."""
+    scene = pendulum(nodes, integrator=integrator, step_s=step_s, newton_tolerance=1e-8)
     rest = equilibrium(scene)
     start, X = rest.Y.copy(), positions(rest.Y, rest.h)
     start[:, 2:4] = 2.0 * np.column_stack([-X[:, 1], X[:, 0]])
     motion, books = Motion(scene, DURATION, start), Books(scene)
-    energies = np.array([books.energy(Y) for _, Y in motion.states()])
+    energies = [books.energy(Y) for _, Y in motion.states()]
     assert int(motion.inner.state["status"]) == 0
-    assert np.ptp(energies[:, 0]) > 0.99 * energies[0, 0]  # it comes to rest and swings back
-    total = energies.sum(axis=1)
-    return (total - total[0]) / energies[0, 0]
+    return change(energies)
 
 
 def test_nothing_rises_but_by_the_error_in_space():
@@ -56,10 +80,10 @@ def test_nothing_rises_but_by_the_error_in_space():
 @pytest.mark.parametrize("step_s", [0.004, 0.001])
 def test_damping_methods_gain_nothing(integrator, nodes, step_s):
     in_space = balance(nodes, "esdirk43", 0.002).max()
-    change = balance(nodes, integrator, step_s)
-    assert change.max() <= 1.02 * in_space
+    found = balance(nodes, integrator, step_s)
+    assert found.max() <= 1.02 * in_space
     if integrator == "backward-euler":
-        assert change.max() <= 1e-12 and np.all(np.diff(change) < 1e-4)
+        assert found.max() <= 1e-12 and np.all(np.diff(found) < 1e-4)
 
 
 @pytest.mark.parametrize("step_s", [0.004, 0.002, 0.001])
@@ -68,12 +92,83 @@ def test_midpoint_keeps_the_energy(step_s):
     assert np.max(np.abs(balance(21, "midpoint", step_s))) <= 1.02 * np.max(np.abs(in_space))
 
 
+def paper_balance(nodes, swings):
+    """`change` after every step of the paper's scheme."""
+    scene = pendulum(nodes, scheme="paper-box")
+    rope = line_of(scene)
+    code, Y = at_rest(scene, rope)
+    assert code == OK
+    up, along, _ = paper_positions(rope, Y)
+    Y[3:6] = to_local(Y[6:10], 2.0 * np.array([along, -up, 0 * up]))
+    level, books, energies = level_of(rope, 0.0, Y), Books(scene), []
+    for _ in range(round(swings * SWING_S / STEP_S)):
+        a = np.unwrap(2 * np.arctan2(level.Y[9], level.Y[6]))
+        W, U, _ = to_fixed(level.Y[6:10], level.Y[3:6])
+        in_plane = [level.Y[0], -level.Y[1], U, W, np.pi / 2 - a, -level.Y[12]]
+        energies.append(books.energy(np.column_stack(in_plane)))
+        code, _, level = solve(rope, level.t + STEP_S, level, 12)
+        assert code == OK
+    return change(energies)
+
+
+@pytest.mark.slow
+def test_the_error_of_the_papers_scheme_is_of_second_order_and_does_not_drift():
+    """The last of six swings is no further off than the first two."""
+    found, fine, swing = paper_balance(11, 6), paper_balance(21, 1), round(SWING_S / STEP_S)
+    worst = np.abs(found[:swing]).max()
+    assert worst < 0.025
+    assert abs(np.log2(worst / np.abs(fine).max()) - 2) < 0.2
+    assert np.abs(found[-swing:]).max() < 1.2 * np.abs(found[: 2 * swing]).max()
+    assert abs(np.mean(found[-swing:])) < 2 * abs(np.mean(found[:swing]))
+
+
+SLANTED = {"waves.direction_rad": 0.5, "current": {"law": "uniform", "velocity_mps": [0.2, -0.4, 0.0]}}
+BLOW = {"start.buoy_velocity_mps": [0.0, 0.3, 0.0]}
+SHAKEN = {
+    "buoy": None, "waves.steepness": 0.05,
+    "end": {
+        "kind": "held", "position_m": [8.0, 0.0, 18.5],
+        "motion": {"law": "harmonic", "amplitude_m": [0.5, 0.0, 0.5], "period_s": 4.0, "ramp_s": 2.0},
+    },
+}  # fmt: skip
+ACROSS = {**SHAKEN["end"]["motion"], "amplitude_m": [0.3, 0.6, 0.5]}
+CASES = {  # overrides, run length (s), nodes; the first loop comes at 53 s
+    "moderate, in a plane": ({"waves.steepness": 0.05, "water.depth_m": 22.5}, 20.0, 41),
+    "moderate, in space": ({"waves.steepness": 0.05, "water.depth_m": 22.5, **SPACE, **SLANTED, **BLOW}, 20.0, 41),
+    "snapping, in a plane": ({"waves.steepness": 0.13, "water.depth_m": 22.5}, 30.0, 41),
+    "loops that leave the plane": ({"waves.steepness": 0.13, "water.depth_m": 21.6, **SPACE, **BLOW}, 80.0, 41),
+    "moved end, in a plane": (SHAKEN, 8.0, 81),
+    "moved end, in space": ({**SHAKEN, **SPACE, "end": {**SHAKEN["end"], "motion": ACROSS}}, 8.0, 81),
+}
+
+
+def books(name, nodes):
+    overrides, duration_s, _ = CASES[name]
+    return budget(line({**overrides, "solver.rtol": 1e-3}, nodes=nodes), duration_s)
+
+
+def gaps(found):
+    """Of the whole budget, of its mechanical part, and of momentum, over what was passed."""
+    work, passed = found["work"].sum(1), found["passed"][-1]
+    outside = found["energy"][:, :2].sum(1) + found["inner"] - work
+    impulse = np.abs(found["momentum"] - found["impulse"]).max() / found["passed_impulse"][-1]
+    return np.abs(found["energy"].sum(1) - work).max() / passed, np.abs(outside).max() / passed, impulse
+
+
 @pytest.mark.parametrize(
-    "integrator, order", [("midpoint", 2), ("trbdf2", 2), ("generalized-alpha", 2), ("esdirk43", 4)]
+    "name", [pytest.param(name, marks=[pytest.mark.slow] * name.startswith("loops")) for name in CASES]
 )
-def test_what_a_method_changes_falls_with_its_order(integrator, order):
-    """Mean over the last quarter of the run, so that the energy in transit between the kinds does not count."""
-    exact = balance(21, "esdirk43", 0.0005)
-    off = [abs(np.mean((balance(21, integrator, step) - exact)[-250:])) for step in (0.002, 0.001)]
-    assert off[0] < 2e-4
-    assert np.log2(off[0] / off[1]) > order - 0.1
+def test_budgets_close(name):
+    found = books(name, CASES[name][2])
+    assert np.ptp(found["energy"], axis=0).max() > 0.05 * found["passed"][-1]  # it does not only leave as it came
+    energy, outside, impulse = gaps(found)
+    assert energy < 1e-3
+    assert outside < 1e-5
+    assert impulse < 1e-5
+
+
+@pytest.mark.slow
+def test_the_gap_falls_with_the_element():
+    """The layers of bending at the ends, sqrt(EI/T) = 14 mm, are resolved by neither grid: less than order 2."""
+    coarse, fine = (gaps(books("moderate, in space", nodes))[0] for nodes in (41, 161))
+    assert fine < 0.4 * coarse

@@ -3,22 +3,22 @@
 The residual is assembled in `box_equations` without the engine's kernels, J by complex step. The water is frozen: its
 dependence on position is left out of the engine's Jacobian by design. Clamps: at states whose end tangents point where
 they should, up to the roll, as in every state the engine meets once it has started; away from there the engine takes
-the derivative for an aligned clamp.
+the derivative for an aligned clamp. So Newton's method ends where the box equations hold, and gets there quadratically
+where the water is still, also with the buoy partly in it.
 """
+
+from itertools import pairwise
 
 import numpy as np
 import pytest
 
 from engine import load_scene
-from tests.engine.box_equations import equations, jacobian, lifted, roll, unknowns
+from tests.engine.box_equations import LAWS, equations, jacobian, state_of, unknowns
 from tests.engine.kernels import Stage
+from tests.engine.lines import Motion, line
+from tests.engine.physics.caps import CAP
 from tests.engine.rotations import frames, product, turned_by
 
-LAWS = {
-    "linear": {"law": "linear", "stiffness_N": 5e4},
-    "tanh": {"law": "tanh", "p": [2.0e4, 5.0, 0.3, -5.0e3, 1.0e4]},
-    "tabulated": {"law": "tabulated", "strain": [-0.2, 0.0, 0.1, 0.3], "tension_N": [-500.0, 0.0, 3e3, 2e4]},
-}
 HELD = {"end.kind": "held", "buoy": None}
 CLAMPED_BELOW, CLAMPED_ABOVE = {"anchor.rotation": "clamped"}, {"end.rotation": "clamped"}
 ENDS = {
@@ -66,34 +66,15 @@ def scene_of(dimensions, law, end, wet, EI, stretching=0.0, tangents=None, **cha
     return load_scene("tethered_buoy", overrides)
 
 
-def directions(rng, turn):
-    """Euler parameters (NODES, 4): from a random first frame, random turns from node to node."""
+def directions(rng, turn, dimensions):
+    """Angles (NODES,) or Euler parameters (NODES, 4): from a random first frame, random turns from node to node."""
+    if dimensions == 2:
+        return 1.4 + np.cumsum(rng.normal(0, turn, NODES).clip(-2.9, 2.9))
     beta = turned_by(rng.normal(0, 1, (1, 3)))
     for _ in range(NODES - 1):
         theta = rng.normal(0, turn, (1, 3))
         beta = np.concatenate([beta, product(beta[-1:], turned_by(theta * min(1.0, 2.9 / np.linalg.norm(theta))))])
     return beta
-
-
-def state_of(rng, scene, turn, beta=None):
-    """A state with every term of the equations at work: strain of both signs, shear, turns, motion, water; torsion
-    where both ends are clamped."""
-    n, bent = scene.tether.nodes, scene.tether.bending_stiffness_Nm2 > 0
-    strain, V = rng.uniform(-0.15, 0.35, n), rng.normal(0, 2, (n, 3))
-    shear, curvature = rng.normal(0, 300, (n, 2)) * bent, rng.normal(0, 1, (n, 2)) * bent
-    if beta is None:
-        phi = 1.4 + np.cumsum(rng.normal(0, turn, n).clip(-2.9, 2.9))
-        Y = np.column_stack([strain, shear[:, 0], V[:, [0, 2]], phi, curvature[:, 0]])
-        t, V = frames(lifted(Y)[:, 6:10])[:, 0, [0, 2]], V[:, [0, 2]]
-    else:
-        Y = np.column_stack([strain, shear, V, beta, np.zeros(n), curvature])
-        t = frames(beta)[:, 0]
-        if scene.anchor.rotation == scene.end.rotation == "clamped":
-            # 0.3 rad more than the twist: Euler parameters know the rest of a whole number of double turns only
-            Y[:, 10] = (scene.end.twist_rad + 0.3 - roll(Y, scene)) / scene.tether.length_m
-    C_tilde = np.concatenate([(1 + strain[:, None]) * t, V], 1)
-    C_tilde += rng.normal(0, 0.02, C_tilde.shape)
-    return Y, C_tilde, rng.normal(0, 1.5, C_tilde.shape) * (scene.water is not None)
 
 
 def assert_solved(scene, stage, Y, C_tilde, F, **more):
@@ -119,10 +100,10 @@ def assert_solved(scene, stage, Y, C_tilde, F, **more):
 def test_update_solves_the_linearised_box_equations(dimensions, end, EI, wet, stage):
     rng = np.random.default_rng(7)
     for law, stretching, turn in zip(LAWS, (0.0, 2.0, 0.0), TURNS, strict=True):
-        beta = directions(rng, turn) if dimensions == 3 else None
-        tangents = None if beta is None else frames(beta)[[0, -1], 0]
+        turns = directions(rng, turn, dimensions)
+        tangents = frames(turns)[[0, -1], 0] if dimensions == 3 else None
         scene = scene_of(dimensions, law, end, wet, EI, stretching, tangents)
-        assert_solved(scene, STAGES[stage], *state_of(rng, scene, turn, beta))
+        assert_solved(scene, STAGES[stage], *state_of(rng, scene, turns))
 
 
 @pytest.mark.parametrize("dimensions", [2, 3])
@@ -133,10 +114,35 @@ def test_with_shock_viscosity(law, EI, dimensions):
     viscous = {"solver.shock_viscosity": {"quadratic": 1.0, "linear": 0.2}, "solver.integrator": "generalized-alpha"}
     scene = scene_of(dimensions, law, "free", False, EI, **viscous)
     for stage in STAGES.values():
-        beta = directions(rng, 0.5) if dimensions == 3 else None
-        state = state_of(rng, scene, 0.5, beta)
+        state = state_of(rng, scene, directions(rng, 0.5, dimensions))
         viscosity = rng.uniform(0.0, [2.0, 40.0], (NODES, 2))
         viscosity[rng.random(NODES) < 0.3] = 0.0
         r, without = (assert_solved(scene, stage, *state, viscosity=v) for v in (viscosity, 0.0 * viscosity))
         if stage[2]:
             assert np.abs(r - without).max() > 1e-3 * np.abs(r).max()
+
+
+@pytest.mark.parametrize("depth_m", [20.6, 20.2])
+@pytest.mark.parametrize("EI", [0.4, 0.0], ids=["bent", "unbent"])
+@pytest.mark.parametrize("dimensions", [2, 3])
+def test_newton_is_quadratic_with_the_buoy_partly_in_the_water(dimensions, EI, depth_m):
+    """A stage in which the sphere goes through the surface of still water at 3 m/s: nothing is left out of the
+    matrix, which has what velocity and place change."""
+    velocity = [2.0, 1.0 if dimensions == 3 else 0.0, -3.0]
+    changes = {"waves": None, "water.depth_m": 21.0, "motion.dimensions": dimensions, "buoy.impact_loss": 0.3}
+    scene = line(CAP, changes, {"start.buoy_velocity_mps": velocity}, nodes=7, bending_stiffness_Nm2=EI)
+    Y, stage, axes, rate = Motion(scene).Y.copy(), Stage(scene, depth=depth_m), dimensions, 40.0
+    C_tilde = stage.conserved(Y)
+    C_tilde[:, :axes] += np.random.default_rng(2).normal(0.0, 1e-3, (7, axes))
+
+    def after(iterations):
+        trial = Y.copy()
+        _, used = stage.newton(0.0, rate, rate, 1e-40, iterations, trial, C_tilde)
+        assert used == iterations or used > 5  # of the later ones rounding is all that is left
+        return trial[:, axes : 2 * axes]
+
+    end = after(8)
+    errors = [np.abs(after(count) - end).max() for count in range(1, 6)]
+    assert errors[0] > 1e-6
+    for before, error in pairwise(errors):
+        assert error < 40.0 * before**2 + 1e-12

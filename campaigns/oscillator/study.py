@@ -1,0 +1,279 @@
+"""The study of eq. (33): what each part computes, and how it is kept.
+
+A part is a function of the oscillator and the order; it gives arrays and the numbers of its row. Both are kept in a
+netCDF-3 file, whose key is a hash of the part, its parameters and the sources of `analysis`. The row is an attribute of
+the file, so table.csv can be made again from the files.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import hashlib
+import json
+import sys
+import time
+from dataclasses import asdict
+from functools import partial
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+import xarray
+
+from analysis.compiled import source_hash
+from analysis.oscillator import (
+    SnapOscillator,
+    grazing_force,
+    search_periodic_orbits,
+    snap_basins,
+    snap_diagram,
+    snap_exponents,
+    snap_motion,
+    start_grid,
+    strobed_states,
+    strobed_states_within,
+)
+from analysis.oscillator.attractors import PAPER_BOX
+from analysis.oscillator.growth import random_starts
+from campaigns.columns import MESSAGE, RUN_KEY, STATUS, Column
+from campaigns.machinery.folder import Table, trajectory_path
+from campaigns.machinery.plan import Summary
+from engine.atomic import write_atomic
+
+if TYPE_CHECKING:
+    from campaigns.oscillator import Order
+
+SEED = 0
+Result = tuple[dict[str, np.ndarray], dict[str, object]]  # arrays by name, numbers of the row
+COLUMNS = (
+    Column("part", symbol="part", meaning="what is computed"),
+    STATUS,
+    Column("lambda_1_nats_per_time", "nats/time", "λ_1", "largest exponent, mean over the starts", 6),
+    Column("lambda_1_error", "nats/time", "error", "its standard error", 6),
+    Column("lambda_1_bits_per_period", "bits/period", "λ_1", "the same in bits per forcing period", 6),
+    Column("lambda_1_bits_error", "bits/period", "error", "its standard error", 6),
+    Column("lambda_2_nats_per_time", "nats/time", "λ_2", "smaller exponent", 6),
+    Column("sum_plus_damping", "nats/time", "λ_1 + λ_2 + μ", "zero in theory", 4),
+    Column("section_dimension", "", "D", "Kaplan-Yorke dimension of the section", 4),
+    Column("section_dimension_error", "", "error", "its standard error", 4),
+    Column("slack_fraction", "", "χ", "share of the time in which the tether is slack", 3),
+    Column("attractors", "", "attractors", "periodic attractors found", 0),
+    Column("aperiodic_share", "", "aperiodic", "share of the starts that do not settle on a periodic attractor", 3),
+    Column("grazing_force", "", "F", "forcing at which the taut motion first goes slack", 10),
+    Column("starts", "", "starts", "motions followed", 0),
+    Column("elsewhere", "", "elsewhere", "starts left out because they settled on a periodic attractor", 0),
+    Column("periods", "", "periods", "forcing periods of each motion", 0),
+    Column("transient", "", "left out", "forcing periods left out before", 0),
+    Column("points", "", "points", "points, orbits or values in the arrays of the part", 0),
+    Column("wall_s", "s", "wall", "wall-clock time of the part", 2),
+    RUN_KEY,
+    MESSAGE,
+)
+START = (0.68, 0.0)  # the rest position of the taut tether
+ZOOMS = (10.0, 100.0)
+LONGEST_ORBIT = 8
+HISTORY_PERIODS = 24
+
+
+def _scaled(usual: int, effort: float, least: int) -> int:
+    return max(least, round(usual * effort))
+
+
+def section(o: SnapOscillator, order: Order) -> Result:
+    """Figure 19(b), and two nested zooms round the place that the orbit visits most."""
+    points, transient = _scaled(120_000, order.effort, 500), 1000
+    states = strobed_states(o, START, points, transient)
+    boxes = zoom_boxes(states)
+    most = _scaled(20_000_000, order.effort, 2000)
+    zooms, seen = strobed_states_within(o, START, boxes, _scaled(40_000, order.effort, 200), most, transient)
+    arrays = {"section": states, "boxes": boxes}
+    arrays |= {f"zoom_{i + 1}": zoom for i, zoom in enumerate(zooms) if len(zoom)}
+    return arrays, {"points": points, "transient": transient, "periods": seen}
+
+
+def zoom_boxes(states: np.ndarray) -> np.ndarray:
+    """Boxes (2, 4), a tenth and a hundredth of the section's extent, round its densest point."""
+    from scipy.spatial import cKDTree
+
+    low, extent = states.min(axis=0), np.maximum(np.ptp(states, axis=0), 1e-9)
+    tree = cKDTree((states - low) / extent)
+    candidates = tree.data[:: max(1, len(states) // 4000)]
+    neighbours = tree.query_ball_point(candidates, 0.5 / ZOOMS[-1], return_length=True)
+    centre = candidates[int(np.argmax(neighbours))] * extent + low
+    half = [0.5 * extent / zoom for zoom in ZOOMS]
+    return np.array([[centre[0] - h[0], centre[0] + h[0], centre[1] - h[1], centre[1] + h[1]] for h in half])
+
+
+def history(o: SnapOscillator, order: Order) -> Result:
+    """The first periods from START, with the switching times."""
+    motion = snap_motion(o, START, HISTORY_PERIODS, 128)
+    arrays = {"time": motion.time, "displacement": motion.displacement, "velocity": motion.velocity}
+    if len(motion.switches):
+        arrays["switches"] = motion.switches
+    return arrays, {"periods": HISTORY_PERIODS, "slack_fraction": motion.slack_fraction}
+
+
+def exponents(o: SnapOscillator, order: Order) -> Result:
+    """Both exponents over many random starts, with their errors, and how they settle with time."""
+    starts, periods, transient = _scaled(512, order.effort, 16), 10_000, 1000
+    found = snap_exponents(o, count=starts, transient_periods=transient, periods=periods, blocks=50, seed=SEED)
+    arrays = {"of_start": found.of_start, "convergence": found.convergence, "of_block": found.of_block[:, :, 0]}
+    bits = found.first.in_bits_per_period(o.period)
+    row = {
+        "lambda_1_nats_per_time": found.first.value,
+        "lambda_1_error": found.first.error,
+        "lambda_1_bits_per_period": bits.value,
+        "lambda_1_bits_error": bits.error,
+        "lambda_2_nats_per_time": found.second.value,
+        "sum_plus_damping": found.first.value + found.second.value + o.damping,
+        "section_dimension": found.dimension,
+        "section_dimension_error": found.dimension_error,
+        "slack_fraction": found.slack_fraction,
+        "starts": found.starts,
+        "elsewhere": found.elsewhere,
+        "periods": periods,
+        "transient": transient,
+    }
+    return arrays | {"block_error": np.array([found.block_error])}, row
+
+
+def diagram(over: str, o: SnapOscillator, order: Order) -> Result:
+    """Orbit diagram over "force" or "frequency" with exponents."""
+    low, high, count = order.forces if over == "force" else order.frequencies
+    values = np.linspace(low, high, _scaled(count, min(order.effort, 1.0), 2))
+    found = snap_diagram(o, over, values, count=4, transient_periods=500, periods=1000, points=150, seed=SEED)
+    arrays = {
+        "values": values,
+        "section": found.section[..., 0].reshape(len(values), -1),
+        "exponents": found.exponents,
+        "errors": found.errors,
+        "slack_fraction": found.slack_fraction,
+    }
+    return arrays, {"starts": 4, "periods": 1000, "transient": 500, "points": len(values)}
+
+
+def basins(o: SnapOscillator, order: Order) -> Result:
+    """Where a grid of starts ends, and the shares."""
+    columns, rows = (_scaled(n, order.effort**0.5, 8) for n in (120, 75))
+    found = snap_basins(o, start_grid(columns, rows), 3000)
+    arrays = {"label": found.label.reshape(rows, columns), "settled": found.settled, "shares": found.shares}
+    arrays |= {"errors": found.errors, "box": np.array(PAPER_BOX)}
+    for number, orbit in enumerate(found.orbits):
+        arrays[f"orbit_{number + 1}"] = orbit
+    row = {"starts": columns * rows, "periods": 3000, "attractors": len(found.orbits)}
+    return arrays, row | {"aperiodic_share": float(found.shares[-1])}
+
+
+def orbits(o: SnapOscillator, order: Order) -> Result:
+    """Periodic orbits up to period 8, stable and unstable, by Newton's method from points of the section and a grid."""
+    guesses = _scaled(400, order.effort, 20)
+    basin = snap_basins(o, random_starts(_scaled(300, order.effort, 40), SEED), 1500)
+    starts = np.concatenate([strobed_states(o, START, guesses, 1000), start_grid(12, 8)])
+    table, points = [], []
+    for period in range(1, LONGEST_ORBIT + 1):
+        known = [orbit[:1] for orbit in basin.orbits if len(orbit) == period]
+        for orbit in search_periodic_orbits(o, period, np.concatenate([*known, starts])):
+            m = orbit.multipliers[np.argsort(-np.abs(orbit.multipliers), kind="stable")]
+            table.append([period, *m.view(float), orbit.residual, len(points)])
+            points.extend(orbit.points)
+    arrays = {"table": np.array(table), "points": np.array(points)} if table else {}
+    return arrays, {"points": len(table), "starts": len(starts)}
+
+
+def grazing(o: SnapOscillator, order: Order) -> Result:
+    """The forcing below which the taut motion never goes slack; random starts just below and just above it."""
+    found = grazing_force(o)
+    arrays = {"grazing": np.array([found.force, found.time, found.clearance, found.velocity])}
+    count = _scaled(200, order.effort, 20)
+    if np.isfinite(found.force):
+        near = [found.force * factor for factor in (0.999, 1.001)]
+        length = {"transient_periods": 2000, "periods": 100, "points": 1}
+        slack = snap_diagram(o, "force", near, count=count, **length, seed=SEED).slack_fraction
+        arrays["slack_below"], arrays["slack_above"] = slack
+    return arrays, {"grazing_force": found.force, "starts": count, "transient": 2000, "periods": 100}
+
+
+PARTS = {
+    "section": section,
+    "history": history,
+    "exponents": exponents,
+    "orbits": orbits,
+    "basins": basins,
+    "grazing": grazing,
+    "diagram-force": partial(diagram, "force"),
+    "diagram-frequency": partial(diagram, "frequency"),
+}
+
+
+def parameters(order: Order) -> dict:
+    """What the provenance says of this study besides who ran it, where and with what."""
+    return {
+        "oscillator": asdict(SnapOscillator(**order.changes)),
+        "force_range": list(order.forces),
+        "frequency_range": list(order.frequencies),
+        "effort": order.effort,
+        "seed": SEED,
+        "analysis_source_hash": source_hash(),
+    }
+
+
+def done(order: Order) -> tuple[dict[str, float], Summary]:
+    """Do every part that is not there yet; keep table.csv up to date. Returns times and the summary."""
+    oscillator, out = SnapOscillator(**order.changes), order.how.out
+    numbers = [f"{key} = {value!r}" for key, value in asdict(oscillator).items()]
+    head = "# eq. (33), dimensionless, as run\n[oscillator]\n"
+    write_atomic(out / "scene.toml", (head + "\n".join(numbers) + "\n").encode())
+    keys = {part: _key(part, order) for part in PARTS}
+    table = Table(out / "table.csv", COLUMNS, list(keys.values()))
+    found = {key: _kept(trajectory_path(out, key)) for key in keys.values()}
+    table.rows = {key: row | {"run_key": key} for key, row in found.items() if row is not None}
+    missing = [part for part, key in keys.items() if found[key] is None]
+    table.write()
+    timing = {"compile_s": _compile(oscillator) if missing else 0.0}
+    begun = time.perf_counter()
+    try:
+        for part in missing:
+            print(f"{part} ...", file=sys.stderr)
+            row = _done(part, oscillator, order, trajectory_path(out, keys[part]))
+            table.add(keys[part], row | {"run_key": keys[part]})
+    finally:
+        with contextlib.suppress(OSError):
+            table.write()
+    timing |= {"run_s": time.perf_counter() - begun, "analysis_s": 0.0}
+    return timing, Summary(table.in_order(), len(PARTS) - len(missing), len(missing), 0.0)
+
+
+def _key(part: str, order: Order) -> str:
+    own = {"diagram-force": "force_range", "diagram-frequency": "frequency_range"}.get(part)
+    ranges = {"force_range", "frequency_range"} - {own}
+    content = {name: entry for name, entry in parameters(order).items() if name not in ranges}
+    return hashlib.sha256(json.dumps({"part": part, **content}, sort_keys=True).encode()).hexdigest()
+
+
+def _compile(oscillator: SnapOscillator) -> float:
+    print("compiling eq. (33), or loading it compiled ...", file=sys.stderr)
+    begun = time.perf_counter()
+    snap_exponents(oscillator, count=2, transient_periods=1, periods=2, blocks=2)
+    return time.perf_counter() - begun
+
+
+def _done(part: str, oscillator: SnapOscillator, order: Order, path: Path) -> dict:
+    begun = time.perf_counter()
+    try:
+        arrays, row = PARTS[part](oscillator, order)
+    except Exception as error:  # one part that fails must not take the others along
+        return {"part": part, "status": "error", "message": f"{type(error).__name__}: {error}"}
+    row = {"part": part, "status": "ok", **row, "wall_s": round(time.perf_counter() - begun, 3)}
+    variables = {name: ([f"{name}_{axis}" for axis in range(values.ndim)], values) for name, values in arrays.items()}
+    kept = xarray.Dataset(variables, attrs={"row": json.dumps(row, default=lambda number: number.item())})
+    write_atomic(path, bytes(kept.to_netcdf(engine="scipy", format="NETCDF3_64BIT")))
+    return row
+
+
+def _kept(path: Path) -> dict | None:
+    """The row of a part's file; None where there is no such file, or a damaged one."""
+    try:
+        with xarray.open_dataset(path, engine="scipy") as file:
+            return json.loads(file.load().attrs["row"])
+    except Exception:  # absent, truncated, from a foreign hand: the cure is the same, it is computed again
+        return None

@@ -1,0 +1,254 @@
+"""The answer about a column: as a page of plain text, and as the folder of `--out`.
+
+answer.txt, answer.json    the page; every number of it with its error, the evidence, and how it was asked
+series.csv                 time, value: the record as read
+spectrum.csv               angular frequency, amplitude of eq. (31)
+section.csv                time and the coordinates of every point of the section
+divergence.csv             k step, and the mean logarithm of the distance of neighbours by Rosenstein and by Kantz
+dimension.csv              radius, share of pairs, local slope, for each number of delays
+columns.csv                what the columns of these files are
+provenance.json            the name under which `python -m reports` knows this folder, file, hash, settings, versions
+"""
+
+import hashlib
+import json
+import platform
+import re
+import textwrap
+from dataclasses import asdict, replace
+from importlib.metadata import version
+from pathlib import Path
+
+import numpy as np
+import pandas
+
+from analysis.exponents import Exponent
+from analysis.poincare import PHASES
+from campaigns.columns import Column, dictionary, names
+from campaigns.time_series.study import MAXIMA, SAMPLES, STROBED, Study
+from engine.atomic import write_atomic
+
+WIDTH = 100
+MARK = {True: "yes", False: "no", None: "--"}
+CYCLE = {STROBED: ("period", "periods"), SAMPLES: ("sample", "samples"), MAXIMA: ("maximum", "maxima")}
+SEEN = {
+    STROBED: "once per forcing period, at four phases of it",
+    SAMPLES: "sample by sample, as a map",
+    MAXIMA: "at its maxima, as no --period was given",
+}
+MEANING = {
+    "quasi-periodic": "two or more rhythms that never meet; no sensitivity to the start",
+    "chaotic": "deterministic, and neighbouring states part exponentially",
+    "transient": "the motion has not settled: cut its beginning, or record longer",
+    "undecided": "neither regular nor shown to be chaotic: noise, too short a record, or both at once",
+}
+
+
+# UNIT: that of the record's time, "s" or "samples".
+COLUMNS = (
+    Column("time_UNIT", "UNIT", "t", "time from the first sample", 3),
+    Column("value", "", "x", "the column as read", 6),
+    Column("angular_frequency_rad_per_UNIT", "rad/UNIT", "ω", "angular frequency of the bin", 4),
+    Column("amplitude", "", "|X|", "amplitude of eq. (31)", 6),
+    *(Column(f"value_{j}", "", f"x_{j}", f"coordinate {j} of a point of the section", 6) for j in range(PHASES)),
+    Column("rosenstein_nats", "nats", "", "mean ln of the distance of nearest neighbours", 3),
+    Column("kantz_nats", "nats", "", "mean ln of the mean distance within neighbourhoods", 3),
+    Column("delays", "", "m", "embedding dimension", 0),
+    Column("radius", "", "r", "radius in standard deviations of the coordinates", 4),
+    Column("share_of_pairs", "", "C", "share of the pairs of points that are nearer", 6),
+    Column("slope", "", "", "local slope d ln C/d ln r", 3),
+)
+DIMENSION = names(COLUMNS)[-4:]
+
+
+def page(study: Study) -> str:
+    """The text, without a last newline."""
+    head = f"{study.record.path}, column {study.record.column}"
+    parts = [[head, *_rows(_given(study))], _rows(_found(study)), _rows(_verdict(study)), _evidence(study)]
+    parts.append([line for note in _notes(study) for line in _wrapped(f"note: {note}", 6)])
+    return "\n\n".join("\n".join(part) for part in parts if part)
+
+
+def number(value: float | None, error: float | None = None) -> str:
+    """A value with the digits that its error leaves, or four; "none" where there is no value."""
+    if value is None or not np.isfinite(value):
+        return "none"
+    if error is None or not np.isfinite(error) or error <= 0.0:
+        return f"{value:.4g}"
+    digits = int(np.clip(1 - np.floor(np.log10(error)), 0, 12))
+    return f"{value:.{digits}f} +- {error:.{digits}f}"
+
+
+def _wrapped(text: str, indent: int) -> list[str]:
+    return textwrap.wrap(text, WIDTH, subsequent_indent=" " * indent, break_long_words=False)
+
+
+def _rows(pairs: list[tuple[str, str]]) -> list[str]:
+    """Lines of names in front and texts beside them."""
+    return [line for name, text in pairs for line in _wrapped(f"{name:<12}{text}", 12)]
+
+
+def _given(study: Study) -> list[tuple[str, str]]:
+    record, view, x = study.record, study.seen, study.record.values
+    how = f"{len(x)} samples; time is counted in samples"
+    if record.unit == "s":
+        how = f"{len(x)} samples, one every {record.step:.6g} s, {(len(x) - 1) * record.step:.6g} s in all"
+    points = f"{len(view.points)} points"
+    if view.kind != SAMPLES:
+        points += f", {view.period:.6g} {record.unit} apart" + " on average" * (view.kind == MAXIMA)
+    noise = f"white noise at most {view.noise / np.ptp(x):.1g} of it"
+    span = f"{x.min():.6g} to {x.max():.6g}, {noise}"
+    return [("record", how), ("range", span), ("seen", f"{SEEN[view.kind]}: {points}")]
+
+
+def _found(study: Study) -> list[tuple[str, str]]:
+    unit, per = ("s", "s") if study.record.unit == "s" else ("samples", "sample")
+    lines = []
+    for peak in study.lines[:3]:
+        turn = 2.0 * np.pi / peak.angular_frequency_radps
+        lines.append(
+            f"{peak.angular_frequency_radps:.4g} rad/{per} (every {turn:.4g} {unit}) with {peak.amplitude:.3g}"
+        )
+    highest = "; ".join(lines) or "no line stands out"
+    rows = [("spectrum", f"eq. (31), later half, highest lines: {highest}")]
+    rows += [(name.capitalize(), f"exponent {_exponent(one, study, per)}") for name, one in study.exponents.items()]
+    rows.append(("0-1 test", f"K = {number(study.zero_one.value)}: {study.zero_one.reason}"))
+    value, error = study.dimension
+    if study.embedding is None:
+        return [*rows, ("dimension", f"none: {study.exponents['wolf'].reason}")]
+    m = study.embedding.dimension
+    text = f"{number(value, error)} (correlation dimension, the same in {m}, {m + 1} and {m + 2} delays)"
+    if not np.isfinite(value):
+        each = ", ".join(number(one.value, one.error) for one in study.dimensions)
+        text = f"none: it does not settle in {m}, {m + 1} and {m + 2} delays ({each})"
+    return [*rows, ("dimension", text)]
+
+
+def _exponent(exponent: Exponent, study: Study, per: str) -> str:
+    if not exponent.found:
+        return f"none: {exponent.reason}"
+    bits = exponent.in_bits_per_period(study.seen.period)
+    text = f"{number(exponent.value, exponent.error)} nats/{per}"
+    return f"{text} = {number(bits.value, bits.error)} bits per {CYCLE[study.seen.kind][0]}"
+
+
+def _in_cycles(study: Study, text: str) -> str:
+    """Verdicts count forcing periods; a section at maxima or of samples has other cycles."""
+    if study.seen.kind == STROBED:
+        return text
+    one, many = CYCLE[study.seen.kind]
+    text = text.replace("bits per period", f"bits per {one}")
+    text = re.sub(r"(forcing )?period(s|\(s\))", many, text)
+    return re.sub(rf"\b1 {many}", f"1 {one}", text)
+
+
+def _verdict(study: Study) -> list[tuple[str, str]]:
+    word, count = study.verdict.regime, study.verdict.period
+    meaning = MEANING.get(word)
+    if count is not None:
+        cycle = CYCLE[study.seen.kind][count > 1]
+        meaning = f"the motion repeats itself after {count} {'forcing ' * (study.seen.kind == STROBED)}{cycle}"
+    return [("VERDICT", f"{word}: {meaning}"), ("because", _in_cycles(study, study.verdict.reason))]
+
+
+def _evidence(study: Study) -> list[str]:
+    rows = ["evidence (passed or not, what was found, the value and what it was compared with)"]
+    for item in study.verdict.evidence:
+        compared = "" if not np.isfinite(item.threshold) else f" against {item.threshold:.4g}"
+        value = "" if not np.isfinite(item.value) else f" [{item.value:.4g}{compared}]"
+        rows += _wrapped(f"  {MARK[item.passed]:<4}{item.name}: {_in_cycles(study, item.sentence)}{value}", 6)
+    return rows
+
+
+def _notes(study: Study) -> list[str]:
+    """What the reader could do for a better answer."""
+    notes, view, record = [], study.seen, study.record
+    noise, undecided = view.noise / np.ptp(record.values), study.verdict.regime == "undecided"
+    if record.unit != "s":
+        notes.append("time is counted in samples: --time COLUMN or --step SECONDS puts it in seconds")
+    if undecided and len(view.points) < 200:
+        needed = "chaos can be shown with 200 points or more on the section, any regime with 40"
+        notes.append(f"{needed}; here are {len(view.points)}")
+    if undecided and view.kind != SAMPLES and 1e-4 < noise < 0.05:
+        asked = f"the noise is {noise:.1g} of the range, and repetition was asked within {study.tolerance:.1g} of it"
+        notes.append(f"{asked}: --tolerance {8 * noise:.1g} asks whether the motion repeats within its noise")
+    if view.kind == MAXIMA:
+        notes.append("of a motion that is forced with a known period, --period sees more: the section once per period")
+    if study.used < len(record.values):
+        notes.append(f"exponents and dimension are those of the last {study.used} samples")
+    return notes
+
+
+def write_files(study: Study, directory: Path, asked: dict[str, object]) -> None:
+    """Write the folder; asked: the campaign and the settings of the command, for provenance.json. Raises OSError.
+
+    provenance.json is written last: a folder with it is whole.
+    """
+    directory.mkdir(parents=True, exist_ok=True)
+    record, source = study.record, study.record.path
+    files = {"answer.txt": page(study) + "\n", "answer.json": _json(answer(study))}
+    files |= {f"{name}.csv": curve.to_csv(index=False) for name, curve in curves(study).items()}
+    for name, text in files.items():
+        write_atomic(directory / name, text.encode())
+    unit = record.unit
+    told = [replace(one, name=one.name.replace("UNIT", unit), unit=one.unit.replace("UNIT", unit)) for one in COLUMNS]
+    write_atomic(directory / "columns.csv", dictionary(told))
+    told = {**asked, "file": source.name, "sha256": hashlib.sha256(source.read_bytes()).hexdigest()}
+    told |= {"column": record.column, "python": platform.python_version()}
+    told["versions"] = {name: version(name) for name in ("numpy", "scipy", "numba")}
+    write_atomic(directory / "provenance.json", _json(told).encode())
+
+
+def answer(study: Study) -> dict[str, object]:
+    """The numbers of the page as plain data; what was not found is NaN."""
+    record, view, verdict, chosen = study.record, study.seen, study.verdict, study.embedding
+    exponents = {}
+    for name, one in study.exponents.items():
+        bits = one.in_bits_per_period(view.period)
+        found = {"nats_per_time": one.value, "error": one.error}
+        found |= {"bits_per_cycle": bits.value, "bits_per_cycle_error": bits.error, "reason": one.reason}
+        exponents[name] = found
+    return {
+        "unit_of_time": record.unit,
+        "samples": len(record.values),
+        "step": record.step,
+        "section": {"kind": view.kind, "points": len(view.points), "cycle": view.period},
+        "noise": view.noise,
+        "tolerance": study.tolerance,
+        "lines": [{"angular_frequency": p.angular_frequency_radps, "amplitude": p.amplitude} for p in study.lines],
+        "exponents": exponents,
+        "zero_one": {"K": study.zero_one.value, "reason": study.zero_one.reason},
+        "dimension": {"value": study.dimension[0], "error": study.dimension[1]},
+        "embedding": chosen and {"delay_samples": chosen.lag, "dimension": chosen.dimension},
+        "regime": verdict.regime,
+        "period": verdict.period,
+        "reason": verdict.reason,
+        "evidence": [asdict(item) for item in verdict.evidence],
+    }
+
+
+def _json(data: object) -> str:
+    """Data as JSON: null in place of what is not finite."""
+    plain = json.loads(json.dumps(data), parse_constant=lambda _: None)
+    return json.dumps(plain, indent=2) + "\n"
+
+
+def curves(study: Study) -> dict[str, pandas.DataFrame]:
+    """The curves behind an answer, by the name of their file."""
+    record, view, spectrum = study.record, study.seen, study.spectrum
+    time, frequency = f"time_{record.unit}", f"angular_frequency_rad_per_{record.unit}"
+    section = {f"value_{j}": values for j, values in enumerate(view.points.T)}
+    grown = {f"{name}_nats": study.exponents[name].details.get("curve", []) for name in ("rosenstein", "kantz")}
+    divergence = pandas.DataFrame({name: pandas.Series(curve) for name, curve in grown.items()})
+    divergence.insert(0, time, record.step * np.arange(len(divergence)))
+    dimension = [pandas.DataFrame(columns=DIMENSION)]
+    for j, one in enumerate(study.dimensions):
+        values = (float(study.embedding.dimension + j), one.radius, one.correlation_sum, one.slope)
+        dimension.append(pandas.DataFrame(dict(zip(DIMENSION, values, strict=True)))[one.correlation_sum > 0.0])
+    return {
+        "series": pandas.DataFrame({time: record.step * np.arange(len(record.values)), "value": record.values}),
+        "spectrum": pandas.DataFrame({frequency: spectrum.angular_frequency_radps, "amplitude": spectrum.amplitude}),
+        "section": pandas.DataFrame({time: view.time, **section}),
+        "divergence": divergence,
+        "dimension": pandas.concat(dimension[1:] or dimension),
+    }

@@ -1,0 +1,128 @@
+"""Pictures of eq. (33): its section with zooms, a history, the errors of its exponent, basins and orbit diagrams."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ..parts.content import Picture
+from ..parts.style import BLUE, GREEN, INK, ORANGE, PURPLE, SKY, SOFT, VERMILION, picture_of, sheet
+from .curves import Curve, Panel, curves
+from .orbit_diagram import orbit_diagram_over
+
+STATE = (r"displacement $\gamma$ (–)", r"velocity $\dot\gamma$ (–)")
+_COLOURS = (VERMILION, ORANGE, GREEN, PURPLE, BLUE)
+_APERIODIC = "#dbe9f4"
+
+
+def oscillator_section(states: np.ndarray, boxes: np.ndarray, orbit: np.ndarray | None) -> Picture:
+    """The whole section: states (m, 2), the boxes (b, 4) of the zooms, points (p, 2) of a coexisting orbit or None."""
+    dots = Curve(*states.T, "", "", ",", INK, alpha=0.6 if len(states) > 20000 else 1.0)
+    found = [] if orbit is None else [Curve(*orbit.T, f"attracting period-{len(orbit)} orbit", "", "o", VERMILION)]
+    return curves([[Panel([dots, *_frames(boxes, 1), *found], *STATE)]], 4.9, "upper left", kind="png")
+
+
+def oscillator_zooms(zooms: list[np.ndarray], boxes: np.ndarray) -> Picture:
+    """One panel for each zoom: states (m, 2) inside its box (4,); the next box is drawn in."""
+    panels = []
+    for number, (states, box) in enumerate(zip(zooms, boxes, strict=True), 1):
+        dots, limits = Curve(*states.T, "", "", ",", INK, alpha=0.7), {"xlim": box[:2], "ylim": box[2:]}
+        labels = STATE if number == 1 else (STATE[0], "")
+        panels.append(
+            Panel([dots, *_frames(boxes[number:], number + 1)], *labels, f"zoom {number}", settings=limits, ticks=5)
+        )
+    return curves([panels], 3.5, "upper left", kind="png")
+
+
+def _frames(boxes: np.ndarray, first: int) -> list[Curve]:
+    """The outlines of boxes (b, 4), with their numbers."""
+    corners = boxes[:, [0, 1, 1, 0, 0]], boxes[:, [2, 2, 3, 3, 2]]
+    numbers = range(first, first + len(boxes))
+    return [Curve(x, y, f"zoom {k}", colour=(BLUE, GREEN)[k - 1]) for x, y, k in zip(*corners, numbers, strict=True)]
+
+
+def oscillator_history(periods: np.ndarray, displacement: np.ndarray, velocity: np.ndarray) -> Picture:
+    """Histories over t/T (m,): displacement and velocity (m,); shaded where the tether is slack."""
+    rows = []
+    for values, label in ((displacement, r"$\gamma$ (–)"), (velocity, r"$\dot\gamma$ (–)")):
+        ends = (np.where(displacement < 0.0, end, np.nan) for end in (values.min(), values.max()))
+        history = Curve(periods, values, colour=INK, band=(periods, *ends))
+        x_label = r"$t/T$ (forcing periods)" if rows else ""
+        rows.append([Panel([history], x_label, label, level=0.0, settings={"xlim": (periods[0], periods[-1])})])
+    return curves(rows, 2.9, share="x")
+
+
+def oscillator_errors(convergence: np.ndarray, of_start: np.ndarray) -> Picture:
+    """How the exponent settles.
+
+    Left: running mean (time, mean, standard error) (b, 3) with its band. Right: standard deviation of the mean of k
+    starts, from of_start (n,) cut into groups of k, against k, with the law k^-1/2 through k = 1.
+    """
+    time, mean, error = convergence.T
+    band = (time, mean - 2 * error, mean + 2 * error)
+    running = Curve(time, mean, "mean over starts, ± 2 standard errors", colour=BLUE, band=band)
+    labels = ("time of each start's average (–)", r"$\lambda_1$ (nats per time)")
+    left = Panel([running], *labels, level=float(mean[-1]))
+    sizes = np.array([2**i for i in range(20) if len(of_start) // 2**i >= 8] or [1])
+    groups = len(of_start) // sizes
+    means = [
+        of_start[: size * count].reshape(count, size).mean(axis=1) for size, count in zip(sizes, groups, strict=True)
+    ]
+    scatter = np.array([one.std(ddof=1) for one in means])
+    found = Curve(sizes, scatter, "", "", "o", INK, 2 * scatter / np.sqrt(2.0 * (groups - 1)), 3.5)
+    ends = sizes[[0, -1]]
+    law = Curve(ends, scatter[0] * ends**-0.5, r"$k^{-1/2}$ from $k = 1$", colour=VERMILION)
+    log = "xy" if (scatter > 0).all() else "x"  # starts on one periodic orbit may agree to the last bit
+    right = Panel([found, law], r"starts averaged, $k$", "scatter of the mean (nats per time)", log=log)
+    return curves([[left, right]], 2.8, "upper right")
+
+
+def oscillator_basins(
+    label: np.ndarray, box, names: list[str], orbits: list[np.ndarray], section: np.ndarray
+) -> Picture:
+    """Label of each start (rows, columns) of a grid over the box, names of all labels (the last is aperiodic), strobed
+    points of each periodic attractor, and points (m, 2) of the section to show where the other one lies."""
+    from matplotlib.colors import ListedColormap
+    from matplotlib.patches import Patch
+
+    colours = [*_COLOURS, SKY, _APERIODIC]  # attractors beyond the fifth share the last colour but one
+    image = np.where(label == len(names) - 1, len(colours) - 1, np.minimum(label, len(_COLOURS)))
+    with sheet(4.3) as figure:
+        axes = figure.subplots()
+        axes.grid(False)
+        axes.imshow(
+            image, origin="lower", extent=box, aspect="auto", interpolation="nearest",
+            cmap=ListedColormap(colours), vmin=-0.5, vmax=len(colours) - 0.5,
+        )  # fmt: skip
+        axes.plot(*section.T, ",", color=INK)
+        for orbit in orbits[:6]:
+            axes.plot(*orbit.T, "o", markersize=3.5, color="white", markeredgecolor=INK, markeredgewidth=0.8)
+        keys = [Patch(facecolor=colour, label=name) for colour, name in zip(colours, names[:-1], strict=False)]
+        keys.append(Patch(facecolor=_APERIODIC, label=names[-1]))
+        figure.legend(handles=keys, loc="outside upper left", ncols=3)
+        axes.set(xlabel=STATE[0], ylabel=STATE[1], xlim=box[:2], ylim=box[2:])
+        return picture_of(figure, "png")
+
+
+def oscillator_diagram(values, strobed, exponents, errors, slack, label: str, marks) -> Picture:
+    """Density of strobed displacement, both exponents and the slack share under it on the same axis.
+
+    Args: `values` (p,); `strobed` (p, m); `exponents` (p, n, 2) and `errors` (p, n) of lambda_1, nats per time;
+    `slack` (p, n); `label` of the parameter's axis; `marks` (value, text) drawn as vertical lines.
+    """
+    first, second = exponents[..., 0], exponents[..., 1]
+    across = np.broadcast_to(values[:, None], first.shape)
+    positive = first - 2.0 * errors > 0.0
+
+    def dots(x: np.ndarray, y: np.ndarray, name: str, colour: str, size: float) -> Curve:
+        return Curve(x.ravel(), y.ravel(), name, "", "o", colour, size=size)
+
+    lines = [
+        dots(across, second, r"$\lambda_2$", SOFT, 1.0),
+        dots(across[~positive], first[~positive], r"$\lambda_1$", BLUE, 1.3),
+        dots(across[positive], first[positive], r"$\lambda_1$, above 0 by two errors", VERMILION, 1.3),
+    ]
+    share = Panel([dots(across, slack, "", BLUE, 1.0)], y_label="slack share\n(–)", settings={"ylim": (-0.03, 1.03)})
+    below = [Panel(lines, y_label="exponents\n(nats per time)", level=0.0), share]
+    inside = [(at, text) for at, text in marks if values[0] <= at <= values[-1]]
+    points = [column[np.isfinite(column)] for column in strobed]
+    return orbit_diagram_over(values, points, (label, r"strobed $\gamma$ (–)"), below, marks=inside, rows=320)

@@ -1,0 +1,168 @@
+"""What the report on eq. (33) says of coexisting attractors, periodic orbits, grazing, and of the equation itself."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from analysis.oscillator import SnapOscillator
+
+from ..figures.oscillator import oscillator_basins
+from ..parts.content import Column, Equation, Figure, Heading, Item, Table, Text
+from ..parts.wording import decimals, number
+from .folder import Study
+
+OSCILLATOR = Equation(
+    "dot.double(gamma) + mu dot(gamma) + a gamma = F sin omega t + B - W, quad a = cases(1 quad &gamma >= 0, 0 quad "
+    "&gamma < 0)",
+    "Acceleration plus mu times velocity plus a times displacement equals F sine omega t plus B minus W, with a one "
+    "where the displacement is not negative and zero where it is.",
+    "33",
+)
+PIECE = Equation(
+    "vec(gamma, dot(gamma)) (tau) = Phi_a (tau) vec(x, v) + q_a (tau), quad det Phi_a = upright(e)^(-mu tau)",
+    "Within a piece the state is a fundamental matrix times a constant vector plus a forced response, and the "
+    "determinant of the matrix is e to the minus mu tau.",
+)
+CROSSING = Equation(
+    "min(abs(gamma(t_1)), abs(gamma(t_2))) > (t_2 - t_1)^2 / 8 max abs(dot.double(gamma)) quad arrow.r.double quad "
+    'upright("no crossing between two ends on one side")',
+    "If both ends lie on one side and the nearer one is farther from zero than an eighth of the interval squared "
+    "times the largest curvature, there is no crossing in between.",
+)
+EXPONENTS = Equation(
+    "lambda_i = lim_(n -> infinity) 1 / (n T) sum_(k = 1)^n ln R_(i i)^((k)), quad lambda_1 + lambda_2 = -mu, quad D "
+    "= 1 + lambda_1 / abs(lambda_2)",
+    "The exponents are the mean logarithms of the diagonal of R over a period; their sum is minus mu; the "
+    "Kaplan-Yorke dimension of the section is one plus lambda one by the absolute value of lambda two.",
+)
+FIGURE_19 = "Tjavaras et al. 1998, figure 19"
+NUMBERS = {  # symbol, what it is, source of the usual value
+    "damping": ("μ", "damping by radiated waves", FIGURE_19),
+    "frequency": ("ω", "forcing frequency, by the radial natural frequency", FIGURE_19),
+    "force": ("F", "forcing amplitude", FIGURE_19),
+    "lift": ("B − W", "buoyancy less weight", FIGURE_19),
+    "phase": ("φ", "phase of the forcing at the strobe, rad", "not stated in the paper; choice of this work"),
+}
+
+
+def basin_items(study: Study, arrays: dict) -> list[Item]:
+    """Which starts end where, with the shares of the starts."""
+    shares = arrays["shares"]
+    orbits = [arrays[f"orbit_{index + 1}"] for index in range(len(shares) - 1)]
+    names = [f"period {len(orbit)}" for orbit in orbits] + ["aperiodic"]
+    rows = tuple(
+        (name, decimals(100.0 * share, 2), decimals(100.0 * error, 2))
+        for name, share, error in zip(names, shares, arrays["errors"], strict=True)
+        if share > 0
+    )
+    heads = (Column("the motion ends on", align="left"), Column("share of the starts", "%"), Column("error", "%"))
+    settled = arrays["settled"][arrays["settled"] >= 0]
+    late = f" The last start that settled did so after {int(settled.max())} periods." if len(settled) else ""
+    caption = (
+        f"Where a grid of {arrays['label'].size} starts ends within {study.rows['basins']['periods']} periods. Dots: "
+        f"strobed points of the periodic attractors; black: the section.{late} From the part `basins`."
+    )
+    text = (
+        "A start counts as settled when Newton's method, begun from its strobed state, finds a stable periodic orbit "
+        "that the start's own motion then approaches. The rest is aperiodic: on the chaotic attractor, or on its way."
+    )
+    alt = f"Basins of attraction of {len(orbits)} periodic orbits over displacement and velocity."
+    section = study.arrays.get("section", {}).get("section", np.empty((0, 2)))[:20000]
+    figure = Figure(oscillator_basins(arrays["label"], tuple(arrays["box"]), names, orbits, section), caption, alt)
+    return [Text(text), figure, Table(heads, rows, "Shares of the starts, with one standard error.")]
+
+
+def orbit_items(study: Study, arrays: dict) -> list[Item]:
+    """The periodic orbits with their multipliers."""
+    if "table" not in arrays:
+        return [Text("Newton's method met no periodic orbit from any of its starts.")]
+    text = (
+        "Newton's method on the strobed map with the exact tangent map, from points of the section, a grid and the "
+        "attractors found. A chaotic attractor holds infinitely many unstable orbits; the table has those that were "
+        "met. The product of the two multipliers must be e to the −μpT."
+    )
+    damping, frequency = study.oscillator["damping"], study.oscillator["frequency"]
+    rows = []
+    for period, real1, imag1, real2, imag2, residual, first in arrays["table"]:
+        m1, m2 = complex(real1, imag1), complex(real2, imag2)
+        wanted = math.exp(-damping * period * 2.0 * math.pi / frequency)
+        point = arrays["points"][int(first)]
+        rows.append((
+            str(int(period)), "stable" if max(abs(m1), abs(m2)) < 1 else "unstable",
+            f"{decimals(point[0], 6)}, {decimals(point[1], 6)}", _complex(m1), _complex(m2),
+            f"{abs((m1 * m2).real / wanted - 1.0):.0e}", f"{residual:.0e}",
+        ))  # fmt: skip
+    columns = (
+        Column("period"), Column("stability", align="left"), Column("leftmost strobed point (γ, velocity)"),
+        Column("multiplier 1"), Column("multiplier 2"), Column("product off by", "relative"), Column("residual"),
+    )  # fmt: skip
+    caption = f"Periodic orbits met by Newton's method ({len(rows)}), by period. From the part `orbits`."
+    return [Text(text), Table(columns, tuple(rows), caption, small=True)]
+
+
+def _complex(value: complex) -> str:
+    if value.imag == 0.0:
+        return number(value.real, 6)
+    return f"{number(value.real, 6)} {'+' if value.imag > 0 else '−'} {number(abs(value.imag), 6)}i"
+
+
+def grazing_items(study: Study, arrays: dict) -> list[Item]:
+    """The threshold of slack, and what random starts do at it."""
+    force, time, clearance, velocity = arrays["grazing"]
+    if not math.isfinite(force):
+        usual = "without lift the tether is slack at any forcing, and without damping no taut motion attracts"
+        return [Text(f"There is no threshold: {usual}.")]
+    text = (
+        "The threshold is the forcing at which the periodic motion that is always taut touches γ = 0. Below it that "
+        "motion has no slack. Random starts that are slack below the threshold are on another attractor."
+    )
+    rows = [
+        ("forcing F", f"{force:.15g}"),
+        ("least displacement γ at F", f"{clearance:.1e}"),
+        ("velocity at that time", f"{velocity:.1e}"),
+        ("time after the strobe", number(time, 6)),
+    ]
+    for share, name in (("0.999", "slack_below"), ("1.001", "slack_above")):
+        slack = arrays[name] > 0
+        rows.append((f"starts that are slack at {share} F", f"{int(slack.sum())} of {len(slack)}"))
+    caption = "Grazing. Slack: at some time in the last 100 of 2100 periods. From the part `grazing`."
+    return [Text(text), Table((Column("what", align="left"), Column("value")), tuple(rows), caption)]
+
+
+def subtitle(study: Study) -> str:
+    """The numbers as run, in a line."""
+    return ", ".join(
+        f"{NUMBERS[key][0]} = {number(study.oscillator[key])}" for key in ("force", "lift", "damping", "frequency")
+    )
+
+
+def equation_items(study: Study) -> list[Item]:
+    """The equation, how it is integrated, and what the exponents are."""
+    rows = []
+    for key, (symbol, meaning, source) in NUMBERS.items():
+        given, usual = study.oscillator[key], getattr(SnapOscillator, key)
+        source = source if given == usual else f"given; the default is {number(usual)}"
+        rows.append((symbol, meaning, number(given, 10), source))
+    columns = [Column(title, align="left") for title in ("symbol", "what it is", "source")]
+    columns.insert(2, Column("value"))
+    return [
+        Heading("Equation and method"),
+        Text("All quantities are dimensionless (mass, buoy diameter, natural frequency of the radial motion):"),
+        OSCILLATOR,
+        Table(tuple(columns), tuple(rows), "The oscillator as run, from `scene.toml`."),
+        Text("Each piece, taut or slack, has a closed form, so there is no time step:"),
+        PIECE,
+        Text(
+            "The times of switching are bracketed and found to rounding. None is missed, because an interval counts "
+            "as free of crossings only where a bound of the curvature proves it; else it is halved:"
+        ),
+        CROSSING,
+        Text(
+            "The force aγ is continuous at γ = 0. So the velocity field is too, and the tangent map carries over a "
+            "switch without a jump: the saltation matrix is the identity. With two tangent vectors "
+            "re-orthonormalised every period,"
+        ),
+        EXPONENTS,
+    ]

@@ -1,0 +1,169 @@
+"""Law: a held end moves as its scene states, and is free once it is let go; without anything across the plane the end
+conditions in space are those of the plane, and D = de/dV is their derivative.
+
+Displacements are written out here from their statements in the scene; the engine knows only velocities, which central
+differences of step 1e-4 s check to 1e-6 (error of the square of the step). The position of a run follows from the
+velocity by the integrator: its error falls with the step as the order of the method says.
+"""
+
+import numpy as np
+import pytest
+from scipy.interpolate import PchipInterpolator
+
+from engine import simulate
+from engine.physics.ends import end_velocity
+from engine.record import RECORD, SPATIAL
+from tests.engine.kernels import parameters_of, upper_end_of
+from tests.engine.lines import DRY, SPACE, STILL, equilibrium, free, held, line, positions
+
+PLACE = (3.0, 20.2)
+TIMES, DISPLACEMENTS = [1.0, 3.0, 4.0, 8.0, 13.0], [[0, 0, 0], [1, 0, 0.2], [1.5, 0, 0.2], [-1, 0, 0.1], [0, 0, 0.5]]
+
+
+def moved(**motion):
+    return held(*PLACE, motion=motion)
+
+
+def harmonic(t, amplitude, period, phase=0.0, ramp=0.0):
+    """amplitude (r(t) sin(2 pi t/period + phase) - its value at 0), r = sin^2(pi t/(2 ramp)), then 1."""
+
+    def shape(t):
+        r = np.sin(0.5 * np.pi * t / ramp) ** 2 if t < ramp else 1.0
+        return r * np.sin(2 * np.pi * t / period + phase)
+
+    return np.array(amplitude) * (shape(t) - shape(0.0))
+
+
+def velocity(changes, t, dimensions=2):
+    p, tables = parameters_of(line(STILL, changes, {"motion.dimensions": dimensions}), [np.full(5, 1e9)])
+    return np.array(end_velocity(p, tables, t))
+
+
+HARMONIC = {"amplitude_m": [1.0, 0.3, 0.5], "period_s": 5.0}
+
+
+@pytest.mark.parametrize("phase, ramp", [(0.0, 0.0), (0.7, 0.0), (0.0, 6.0), (0.7, 6.0)])
+@pytest.mark.parametrize("t", [0.3, 2.2, 5.9, 6.1, 123.4])
+def test_the_velocity_is_the_rate_of_the_stated_oscillation(phase, ramp, t):
+    changes = moved(law="harmonic", **HARMONIC, phase_rad=phase, ramp_s=ramp)
+    ahead, behind = (harmonic(at, [1.0, 0.3, 0.5], 5.0, phase, ramp) for at in (t + 1e-4, t - 1e-4))
+    assert velocity(changes, t, 3) == pytest.approx((ahead - behind) / 2e-4, abs=1e-6)
+    assert not harmonic(0.0, [1.0, 0.3, 0.5], 5.0, phase, ramp).any()
+
+
+def test_a_table_is_passed_through_monotonically_and_at_rest_before_and_after():
+    p, tables = parameters_of(line(STILL, moved(law="table", time_s=TIMES, displacement_m=DISPLACEMENTS)))
+    t = np.linspace(0, 15, 30001)
+    v = np.array([end_velocity(p, tables, at) for at in t])
+    place = np.vstack([np.zeros(3), np.cumsum(0.5 * (v[1:] + v[:-1]) * np.diff(t)[:, None], axis=0)])
+    at = [round(knot / 15 * 30000) for knot in (*TIMES, 15.0)]
+    assert place[at] == pytest.approx(np.array([*DISPLACEMENTS, DISPLACEMENTS[-1]]), abs=1e-7)  # trapezoidal sums
+    assert not v[t <= TIMES[0]].any() and not v[t >= TIMES[-1]].any()
+    assert np.abs(np.diff(v, axis=0)).max() < 5e-3  # no jump: accelerations are below 5 m/s2
+    for i in range(4):
+        assert np.all(np.sign(v[at[i] : at[i + 1]]) * np.sign(np.diff(DISPLACEMENTS, axis=0)[i]) >= 0)
+    # between the second and the last but one knot it is scipy's own monotone cubic
+    inner = (t > TIMES[1]) & (t < TIMES[-2])
+    assert v[inner] == pytest.approx(PchipInterpolator(TIMES, DISPLACEMENTS).derivative()(t[inner]), abs=1e-12)
+
+
+@pytest.mark.parametrize("integrator, order, dimensions", [("esdirk43", 4, 2), ("esdirk43", 4, 3), ("trbdf2", 2, 2)])
+def test_a_moved_end_is_where_the_scene_says(integrator, order, dimensions):
+    """Steps of T/25 and T/50 and a Newton tolerance far below. Measured: 8e-6 and 6e-7 m; 6 and 1 mm."""
+    amplitude = [1.0, 0.4 * (dimensions - 2), 0.5]
+    changes = moved(law="harmonic", amplitude_m=amplitude, period_s=5.0, phase_rad=0.7)
+    errors = []
+    for step_s in (0.2, 0.1):
+        solver = {"solver.integrator": integrator, "solver.step_s": step_s, "solver.newton_tolerance": 1e-10}
+        run = simulate(
+            line(STILL, changes, solver, {"output.step_s": 0.2, "motion.dimensions": dimensions}), duration_s=20.0
+        )
+        assert run.status == "ok"
+        found = run.table()[["x_m", "y_m", "z_m"]].to_numpy() - [PLACE[0], 0.0, PLACE[1]]
+        exact = np.array([harmonic(t, amplitude, 5.0, 0.7) for t in run.columns["time_s"]])
+        errors.append(np.abs(found - exact).max())
+    assert errors[0] / errors[1] > 0.8 * 2**order  # the starter, three short steps of order 1, leaves 1e-8 m
+    assert errors[1] < (1e-6 if order == 4 else 2e-3)
+
+
+@pytest.mark.parametrize("force", [None, [30.0, 0.0, 9.0]])
+def test_an_end_is_held_up_to_its_release_and_free_after_it(force):
+    p, tables = parameters_of(line(STILL, held(3.0, 19.0, release_s=2.5, force_N=force)))
+    N, V, V_tilde = np.array([700.0, 800.0]), np.array([0.2, 0.3]), np.array([0.1, 0.1])
+    f = np.array(force or [0.0, 0.0, 0.0])[[0, 2]]
+    for t in (0.0, 2.0, 2.5, np.nextafter(2.5, 3.0)):  # a step that ends at the release may miss it by rounding
+        e, e_N, D = upper_end_of(p, tables, t, 8.0, 1.0, N, V, V_tilde, np.zeros(4))
+        assert np.array_equal(e, V) and e_N == 0.0 and np.array_equal(D, np.eye(2))
+    for t in (2.5 + 1e-9, 2.6, 1e6):
+        e, e_N, D = upper_end_of(p, tables, t, 8.0, 1.0, N, V, V_tilde, np.zeros(4))
+        assert np.array_equal(e, N - f) and e_N == 1.0 and not D.any()
+
+
+def test_release_and_motion_begin_from_the_equilibrium_of_the_held_end():
+    still = equilibrium(line(STILL, held(3, 19)))
+    motion = {"law": "harmonic", "amplitude_m": [1.0, 0.0, 0.0], "period_s": 5.0, "phase_rad": 0.7}
+    for keys in ({"release_s": 2.5}, {"motion": motion}):
+        start = equilibrium(line(STILL, held(3, 19, **keys)))
+        assert np.abs(start.Y - still.Y).max() < 1e-9
+        assert positions(start.Y, start.h)[-1] == pytest.approx([3.0, 19.0], abs=1e-9)
+
+
+RNG = np.random.default_rng(4)
+N, V, V_TILDE, WATER = 900 * RNG.normal(size=3), *RNG.normal(size=(2, 3)), RNG.normal(size=(2, 3))
+SHAKEN = {"law": "harmonic", "amplitude_m": [0.4, 0.0, 0.3], "period_s": 3.0}
+ENDS = {
+    "buoy": {},
+    "dry buoy": DRY,
+    "held": held(3, 19),
+    "moved": held(3, 19, motion=SHAKEN),
+    "released": held(3, 19, release_s=1.0, force_N=[30.0, 0.0, 9.0]),
+    "free": free(30, 9),
+}
+T = 1.7
+
+
+def condition(changes, N, V, V_tilde, water, in_motion=1.0, dimensions=3):
+    """e, e_N and D of the upper end at t = T."""
+    p, tables = parameters_of(line(changes, {"motion.dimensions": dimensions}))
+    F = np.ascontiguousarray(water, float).ravel()
+    return upper_end_of(p, tables, T, 8.0, in_motion, N, V, V_tilde, F)
+
+
+@pytest.mark.parametrize("in_motion", [1.0, 0.0])
+@pytest.mark.parametrize("name", ENDS)
+def test_in_a_plane_it_is_that_of_the_plane(name, in_motion):
+    flat = [part * [1, 0, 1] for part in (N, V, V_TILDE, WATER)]
+    e, e_N, D = condition(ENDS[name], *flat, in_motion)
+    planar = condition(ENDS[name], *(part[..., [0, 2]] for part in flat), in_motion, dimensions=2)
+    for found, expected in zip((e[[0, 2]], e_N, D[::2, ::2]), planar, strict=True):
+        assert found == pytest.approx(expected, rel=1e-14, abs=1e-14)
+    assert e[1] == 0 and D[0, 1] == D[1, 2] == 0
+
+
+@pytest.mark.parametrize("in_motion", [1.0, 0.0])
+@pytest.mark.parametrize("name", ENDS)
+def test_the_derivatives_are_those_of_the_condition(name, in_motion):
+    _, e_N, D = condition(ENDS[name], N, V, V_TILDE, WATER, in_motion)
+    for j, d in enumerate(1e-4 * np.eye(3)):
+        ahead, behind = (condition(ENDS[name], N, V + step, V_TILDE, WATER, in_motion)[0] for step in (d, -d))
+        assert (ahead - behind) / 2e-4 == pytest.approx(D[:, j], rel=1e-7, abs=1e-5)
+        ahead, behind = (condition(ENDS[name], N + step, V, V_TILDE, WATER, in_motion)[0] for step in (d, -d))
+        assert (ahead - behind) / 2e-4 == pytest.approx(e_N * d / 1e-4, abs=1e-7)
+
+
+def test_a_clamp_points_along_the_line_between_the_ends_unless_told_otherwise():
+    clamped = {"anchor.rotation": "clamped"}
+    upwards = parameters_of(line(SPACE, clamped))[0]
+    assert [upwards[f"below_{axis}"] for axis in "xyz"] == [0.0, 0.0, 1.0]
+    p = parameters_of(line(SPACE, clamped, held(3.0, 4.0, 12.0, rotation="clamped")))[0]
+    for name in ("below", "above"):
+        found = [p[f"{name}_{axis}"] for axis in "xyz"]
+        assert found == pytest.approx([3 / 13, 4 / 13, 12 / 13], rel=1e-15)
+
+
+def test_kernels_are_compiled_apart_for_a_plane_and_for_space():
+    """Numba takes a record that begins with all fields of another for that other: it would run the wrong kernels."""
+    from numba import from_dtype
+
+    planar, spatial = from_dtype(RECORD), from_dtype(SPATIAL)
+    assert spatial.can_convert_to(None, planar) is None and planar.can_convert_to(None, spatial) is None
