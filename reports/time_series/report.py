@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import math
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -17,11 +16,6 @@ if TYPE_CHECKING:
     import pandas
 
 CURVES = ("series", "spectrum", "section", "divergence", "dimension")
-SEEN = {
-    "strobed": "once per forcing period, at four phases of it; drawn is the first",
-    "samples": "sample by sample, as a map",
-    "maxima": "at its successive maxima",
-}
 PASSED = {True: "yes", False: "no", None: "not asked"}
 
 
@@ -54,6 +48,8 @@ def read_judged(directory: str | Path) -> Judged:
             faults.append(f"{name} is missing (python -m analysis writes it)")
         except (OSError, ValueError) as error:
             faults.append(f"{name} cannot be read: {error}")
+    if "measures" not in found.get("answer.json", ["measures"]):
+        faults.append("answer.json is of an older version: run the command again")
     if faults:
         raise FolderError(directory, faults)
     curves = {name: found[f"{name}.csv"] for name in CURVES}
@@ -70,29 +66,13 @@ def report(directory: str | Path) -> Report:
 
 
 def _verdict(answer: dict) -> list[Item]:
-    unit, section, delays = answer["unit_of_time"], answer["section"], answer["embedding"]
-    rows = []
-    for name, one in answer["exponents"].items():
-        value = _digits(one["nats_per_time"], one["error"])
-        rows.append((f"exponent, {name.capitalize()}", value, f"nats/{unit}", one["reason"]))
-    # A record that is too short for delays is too short for neighbours.
-    short = answer["exponents"]["wolf"]["reason"]
-    how = short if delays is None else f"a delay of {delays['delay_samples']} samples"
-    rows += [
-        ("K of the 0-1 test", _digits(answer["zero_one"]["K"]), "1", answer["zero_one"]["reason"]),
-        ("correlation dimension", _digits(**answer["dimension"]), "1", how),
-        ("white noise, at most", _digits(answer["noise"]), "as the column", "`analysis/embedding.py`"),
-    ]
-    step = f"{answer['samples']} samples, one every {answer['step']:.6g} {unit}"
+    rows = tuple(tuple(printed(cell) for cell in row) for row in answer["measures"])
+    caption = "Measures with one standard error; none: no value, for the reason beside it."
     return [
         Heading("Answer"),
         Text(f"The motion is {answer['regime']}: {answer['reason']}."),
-        Text(f"{step}, seen {SEEN[section['kind']]}: {section['points']} points."),
-        Table(
-            _heads("measure", "value", "unit", "from"),
-            tuple(rows),
-            "Measures with one standard error; none: no value, for the reason beside it.",
-        ),
+        Text(f"{answer['record']}. The section has {answer['section']['how']}."),
+        Table(_heads("measure", "value", "unit", "from"), rows, caption),
     ]
 
 
@@ -114,8 +94,9 @@ def _figures(judged: Judged) -> list[Item]:
         ),
         Figure(
             return_map(curves["section"][1]),
-            "The section (`section.csv`). Left: each point against the one before it; N spots for period N, a closed "
-            "curve for a torus, a folded curve for chaos, a cloud for noise. Right: in the order of time.",
+            "The section at the first of its phases (`section.csv`). Left: each point against the one before it; N "
+            "spots for period N, a closed curve for a torus, a folded curve for chaos, a cloud for noise. Right: in "
+            "the order of time.",
             "Two panels: the return map of the section, and its points in order.",
         ),
         Figure(
@@ -131,7 +112,7 @@ def _figures(judged: Judged) -> list[Item]:
 def _evidence(answer: dict) -> list[Item]:
     rows = []
     for one in answer["evidence"]:
-        numbers = _digits(one["value"]), _digits(one["threshold"])
+        numbers = ("none" if one[name] is None else f"{one[name]:.4g}" for name in ("value", "threshold"))
         rows.append((one["name"], PASSED[one["passed"]], *numbers, printed(one["sentence"])))
     heads = _heads("test", "passed", "value", "compared with", "meaning")
     caption = "Every test behind the word, in the order in which it was made (`analysis/verdicts.py`)."
@@ -149,13 +130,3 @@ def _origin(judged: Judged) -> list[Item]:
 def _heads(*titles: str) -> tuple[Column, ...]:
     numbers = ("value", "compared with")
     return tuple(Column(title, align="right" if title in numbers else "left") for title in titles)
-
-
-def _digits(value: float | None, error: float | None = None) -> str:
-    """A value with the digits that its error leaves, or four; "none" where there is no value."""
-    if value is None:
-        return "none"
-    if not error:
-        return f"{value:.4g}"
-    places = min(max(1 - math.floor(math.log10(error)), 0), 12)
-    return f"{value:.{places}f} ± {error:.{places}f}"
