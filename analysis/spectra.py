@@ -48,15 +48,11 @@ class SpectralPeak:
     """A local maximum of a spectrum; beside a reference frequency where one was asked for.
 
     angular_frequency_radps, amplitude   of the bin
-    bin                                  its index j
-    reference_radps                      the frequency it was compared with, or None
     bins_away                            (w_j - reference)/bin width, signed; None without a reference
     """
 
     angular_frequency_radps: float
     amplitude: float
-    bin: int
-    reference_radps: float | None = None
     bins_away: float | None = None
 
 
@@ -129,7 +125,7 @@ def spectral_peaks(spectrum: Spectrum, least_prominence: float = 0.01) -> tuple[
         return ()
     found, _ = find_peaks(amplitude, prominence=least_prominence * largest)
     return tuple(
-        SpectralPeak(float(spectrum.angular_frequency_radps[j]), float(amplitude[j]), int(j))
+        SpectralPeak(float(spectrum.angular_frequency_radps[j]), float(amplitude[j]))
         for j in found[np.argsort(-amplitude[found], kind="stable")]
     )
 
@@ -150,7 +146,7 @@ def peaks_near(spectrum: Spectrum, frequencies_radps: Iterable[float]) -> tuple[
     def beside(given: float) -> SpectralPeak:
         nearest = min(peaks, key=lambda peak: abs(peak.angular_frequency_radps - given))
         away = (nearest.angular_frequency_radps - given) / spectrum.bin_radps
-        return replace(nearest, reference_radps=given, bins_away=away)
+        return replace(nearest, bins_away=away)
 
     wanted = [checked_not_negative(given, "frequencies_radps") for given in frequencies_radps]
     return tuple(beside(given) if peaks else None for given in wanted)

@@ -3,35 +3,22 @@
 from __future__ import annotations
 
 import json
-from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from ..figures.series_panels import SHOWN, growth_and_dimension, record_and_spectrum, return_map
 from ..parts.content import Column, Figure, Heading, Item, Listing, Report, Table, Text
 from ..parts.folder import FolderError, no_folder
 from ..parts.wording import printed
 
-if TYPE_CHECKING:
-    import pandas
-
 CURVES = ("series", "spectrum", "section", "divergence", "dimension")
 PASSED = {True: "yes", False: "no", None: "not asked"}
 
 
-@dataclass(frozen=True, eq=False)
-class Judged:
-    """What the command left: `answer` and `provenance` as written, `page` its text, `curves` by file, NaN where a cell
-    is empty."""
+def read_judged(directory: str | Path) -> dict[str, object]:
+    """{file: content} of the folder: text, JSON, and curves in which a cell without a value is NaN.
 
-    answer: dict
-    provenance: dict
-    page: str
-    curves: dict[str, pandas.DataFrame]
-
-
-def read_judged(directory: str | Path) -> Judged:
-    """Read the folder. Raises FolderError naming every file that is missing or cannot be read."""
+    Raises FolderError naming every file that is missing or cannot be read.
+    """
     import pandas
 
     directory = Path(directory)
@@ -52,15 +39,15 @@ def read_judged(directory: str | Path) -> Judged:
         faults.append("answer.json is of an older version: run the command again")
     if faults:
         raise FolderError(directory, faults)
-    curves = {name: found[f"{name}.csv"] for name in CURVES}
-    return Judged(found["answer.json"], found["provenance.json"], found["answer.txt"], curves)
+    return found
 
 
 def report(directory: str | Path) -> Report:
     """The content of the report on a folder of `python -m analysis`. Raises FolderError for any other."""
-    judged = read_judged(directory)
-    source = judged.provenance
-    items = [*_verdict(judged.answer), *_figures(judged), *_evidence(judged.answer), *_origin(judged)]
+    found = read_judged(directory)
+    answer, source = found["answer.json"], found["provenance.json"]
+    figures = _figures(found, answer["unit_of_time"], source["column"])
+    items = [*_verdict(answer), *figures, *_evidence(answer), *_origin(source, found["answer.txt"])]
     title, under = f"Regular or chaotic: {source['column']}", f"column {source['column']} of {source['file']}"
     return Report(title, under, tuple(items))
 
@@ -76,17 +63,16 @@ def _verdict(answer: dict) -> list[Item]:
     ]
 
 
-def _figures(judged: Judged) -> list[Item]:
-    unit = judged.answer["unit_of_time"]
-    curves = {name: table.to_numpy().T for name, table in judged.curves.items()}
+def _figures(found: dict, unit: str, column: str) -> list[Item]:
+    curves = {name: found[f"{name}.csv"].to_numpy().T for name in CURVES}
     time, values = curves["series"]
     steps, rosenstein, kantz = curves["divergence"]
-    table = judged.curves["dimension"]
-    slopes = [(int(m), own["radius"].to_numpy(), own["slope"].to_numpy()) for m, own in table.groupby("delays")]
+    by_delays = found["dimension.csv"].groupby("delays")
+    slopes = [(int(m), own["radius"].to_numpy(), own["slope"].to_numpy()) for m, own in by_delays]
     return [
         Heading("What was seen"),
         Figure(
-            record_and_spectrum(time, values, *curves["spectrum"], (unit, judged.provenance["column"])),
+            record_and_spectrum(time, values, *curves["spectrum"], (unit, column)),
             f"The record and its amplitude spectrum. Above: the last {min(SHOWN, len(time))} samples (`series.csv`). "
             "Below: amplitude of eq. (31) over the later half (`spectrum.csv`): lines alone for a regular motion, a "
             "continuous floor for chaos and for noise.",
@@ -119,11 +105,10 @@ def _evidence(answer: dict) -> list[Item]:
     return [Heading("Evidence"), Table(heads, tuple(rows), caption, small=True)]
 
 
-def _origin(judged: Judged) -> list[Item]:
-    source = judged.provenance
+def _origin(source: dict, page: str) -> list[Item]:
     lines = [f"{key}: {value}" for key, value in source.items() if key not in ("campaign", "versions")]
     lines += [f"{name} {version}" for name, version in source["versions"].items()]
-    said = [Heading("The answer as printed"), Listing(judged.page)]
+    said = [Heading("The answer as printed"), Listing(page)]
     return [Heading("Where it comes from"), Listing("\n".join(lines)), *said]
 
 
