@@ -43,7 +43,9 @@ def read_study(directory: str | Path) -> Study:
     import xarray
 
     directory = Path(directory)
-    found = folder.read_files(directory, folder.PARTS)
+    # scene.toml is no scene of the engine here; its numbers are in the provenance as well.
+    wanted = {name: meaning for name, meaning in folder.PARTS.items() if name != "scene.toml"}
+    found = folder.read_files(directory, wanted)
     try:
         oscillator = {key: float(entry) for key, entry in found["provenance.json"]["oscillator"].items()}
         rows = {row["part"]: row for row in found["table.csv"]}
