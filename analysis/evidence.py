@@ -39,7 +39,6 @@ MOST_BANDS = 8
 BAND_POINTS = 100
 # More points make a map no clearer, and surrogates of them take long.
 NULL_POINTS = 1000
-# Too short, or nothing moves: no prediction gain.
 NO_RANK = NullRank(None, np.nan, np.nan, np.nan)
 NULLS = (("linear null", iaaft_surrogates), ("noisy-periodic null", noisy_periodic_surrogates))
 
@@ -188,10 +187,13 @@ def null_evidence(section: np.ndarray, surrogates: int, seed: int | list[int]) -
     """Rank and margin of the prediction gain among the surrogates of one null, then of the other."""
     items = []
     for (name, _), rank in zip(NULLS, null_ranks(section, surrogates, seed), strict=True):
-        how = f"share of {surrogates} surrogates below the record's prediction gain of {rank.statistic:.2f} nats"
+        passed, how = None, "too short, or nothing moves: no prediction gain"
+        far = how
+        if rank.above is not None:
+            how = f"share of {surrogates} surrogates below the record's prediction gain of {rank.statistic:.2f} nats"
+            far = "nats between the prediction gain and the surrogates' median"
+            passed = rank.advantage > LEAST_ADVANTAGE
         items.append(Evidence(name, rank.share_below, SHARE, rank.above, how))
-        passed = None if rank.above is None else rank.advantage > LEAST_ADVANTAGE
-        far = "nats between the prediction gain and the surrogates' median"
         items.append(Evidence(f"{name}, margin", rank.advantage, LEAST_ADVANTAGE, passed, far))
     return items
 

@@ -96,16 +96,16 @@ def _rows(pairs: list[tuple[str, str]]) -> list[str]:
 def _measures(study: Study) -> list[tuple[str, str, str, str]]:
     """(measure, value with its standard error, unit, where it comes from or why there is none) of each."""
     unit, short = study.record.unit, study.exponents["wolf"].reason
+    # nats a second, but nats a sample
+    per, period = unit.removesuffix("s") or unit, f"a period is {study.seen.period:.6g} {unit}"
     rows = []
     for peak in study.lines[:3]:
         origin = f"eq. (31) over the later half, amplitude {number(peak.amplitude)}"
-        rows.append(("line of the spectrum", number(peak.angular_frequency_radps), f"rad/{unit}", origin))
+        rows.append(("line of the spectrum", number(peak.angular_frequency_radps), f"rad/{per}", origin))
     for name, one in study.exponents.items():
         bits = one.in_bits_per_period(study.seen.period)
-        rows.append((f"exponent, {name.capitalize()}", number(one.value, one.error), f"nats/{unit}", one.reason))
-        rows.append(
-            ("the same", number(bits.value, bits.error), "bits/period", f"a period is {study.seen.period:.6g} {unit}")
-        )
+        rows.append((f"exponent, {name.capitalize()}", number(one.value, one.error), f"nats/{per}", one.reason))
+        rows.append(("the same", number(bits.value, bits.error), "bits/period", period))
     rows.append(("K of the 0-1 test", number(study.zero_one.value), "", study.zero_one.reason))
     each = ", ".join(number(one.value, one.error) for one in study.dimensions)
     delays = study.embedding and f"in {study.embedding.dimension} delays and one and two more: {each}"
