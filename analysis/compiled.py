@@ -14,13 +14,8 @@ _KEPT_CACHES = 16
 
 @cache
 def source_hash():
-    """Hash of everything in this package that can change a result of a kernel.
-
-    Returns
-    -------
-    str
-        sha256, hexadecimal, over the names and contents of all ``analysis/**/*.py``, and of ``machine_code``.
-    """
+    """sha256, hexadecimal, of the names and contents of all ``analysis/**/*.py`` and of ``machine_code``: of everything
+    that can change a result of a kernel."""
     return hash_of(Path(__file__).parent, ".py")
 
 

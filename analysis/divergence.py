@@ -65,7 +65,7 @@ def rosenstein_lyapunov(series: ArrayLike, step_s: float) -> Exponent:
     vector are none; k ends after eight mean periods, or a quarter of the record.
     Returns an Exponent [nats/time]. Its error joins the bend of the region with the scatter of eight blocks of centres.
     NaN with a reason where no straight part of the curve spans one nat: regular motion, noise, or too short a record.
-    details: time_s and curve (k,), region (ScalingRegion), embedding, dimension, theiler, centres.
+    details: time_s and curve (k,), region (ScalingRegion).
     Raises ValueError for values that are not finite.
     Source: Rosenstein, Collins & De Luca, Physica D 65, 117 (1993).
     """
@@ -76,7 +76,7 @@ def rosenstein_lyapunov(series: ArrayLike, step_s: float) -> Exponent:
         kept = (index[:, 0] >= 0) & (distance[:, 0] > 1e-12 * np.std(x))
         rows, index = rows[kept], index[kept, 0]
         apart = (np.linalg.norm(points[rows + k] - points[index + k], axis=1) for k in range(horizon + 1))
-        return _logarithms(apart), {}
+        return _logarithms(apart)
 
     return _estimated(ROSENSTEIN, series, step_s, logarithms)
 
@@ -91,7 +91,7 @@ def kantz_lyapunov(series: ArrayLike, step_s: float) -> Exponent:
     series, step_s    as in rosenstein_lyapunov, and so are embedding, window and horizon. The radius is the median
                       distance of the eighth neighbour, at least three standard deviations of the noise between two
                       delay vectors
-    Returns an Exponent [nats/time] with details as in rosenstein_lyapunov and radius. NaN with a reason where no
+    Returns an Exponent [nats/time] with details as in rosenstein_lyapunov. NaN with a reason where no
     straight part spans one nat, or fewer than 100 points have eight neighbours or more within the radius.
     Raises ValueError for values that are not finite.
     Source: Kantz, Physics Letters A 185, 77 (1994).
@@ -102,13 +102,13 @@ def kantz_lyapunov(series: ArrayLike, step_s: float) -> Exponent:
         noise = noise_level(x, lag) * np.sqrt(2.0 * points.shape[1])
         radius = max(np.median(distance[:, KANTZ_NEIGHBOURS - 1]), 3.0 * noise)
         if radius == 0.0:
-            return None, "neighbours coincide: the series takes too few different values"
+            return "neighbours coincide: the series takes too few different values"
         near = (distance <= radius) & (index >= 0)
         kept = np.sum(near, axis=1) >= KANTZ_NEIGHBOURS
         rows, index, near, last = rows[kept], index[kept], near[kept], len(x) - len(points)
         apart = (np.abs(x[rows + last + k][:, None] - x[index + last + k]) for k in range(horizon + 1))
         means = (np.sum(np.where(near, one, 0.0), axis=1) / np.sum(near, axis=1) for one in apart)
-        return _logarithms(means), {"radius": float(radius)}
+        return _logarithms(means)
 
     return _estimated(KANTZ, series, step_s, logarithms)
 
@@ -121,8 +121,8 @@ def _logarithms(apart):
 
 def _estimated(method, series, step_s, logarithms):
     """The Exponent of a method. logarithms: of the series, its delay vectors, the centres asked about (all, or 2000
-    drawn with a fixed seed), delay, window and horizon it makes ln(distance) (k + 1, centres) and details of its
-    own, or None and the sentence that says why there is none."""
+    drawn with a fixed seed), delay, window and horizon it makes ln(distance) (k + 1, centres), or the
+    sentence that says why there is none."""
     x, step_s = checked_series(series), checked_positive(step_s, "step_s")
     if len(x) < 500 or np.ptp(x) == 0.0:
         return no_exponent(method, f"500 samples of a series that moves are needed, given {len(x)}")
@@ -136,24 +136,20 @@ def _estimated(method, series, step_s, logarithms):
     rows = np.arange(usable)
     if usable > CENTRES:
         rows = np.sort(np.random.default_rng(0).choice(usable, CENTRES, replace=False))
-    growth, own = logarithms(x, delay_vectors(x, lag, m), rows, lag, theiler, horizon)
-    if growth is None:
-        return no_exponent(method, own)
-    return _slope_of(growth, step_s, embedding, method, {"dimension": m, "theiler": theiler} | own)
+    growth = logarithms(x, delay_vectors(x, lag, m), rows, lag, theiler, horizon)
+    return no_exponent(method, growth) if isinstance(growth, str) else _slope_of(growth, step_s, period, method)
 
 
-def _slope_of(growth, step_s, embedding, method, details):
+def _slope_of(growth, step_s, period, method):
     """The Exponent of ln(distance) (k, centres): mean curve, its scaling region, errors from bend and blocks."""
     # One pair that meets exactly would make the mean minus infinity.
     growth = growth[:, np.all(np.isfinite(growth), axis=0)]
     if growth.shape[1] < LEAST_CENTRES:
         return no_exponent(method, f"only {growth.shape[1]} points have neighbours; {LEAST_CENTRES} are needed")
     time_s, curve = step_s * np.arange(len(growth)), growth.mean(axis=1)
-    period = embedding.mean_period
     # Distances along one coordinate swing twice in a mean period.
     region = scaling_region(time_s, curve, cycle=round(period / 2) if period >= 6.0 else 1)
-    details = details | {"time_s": locked(time_s), "curve": locked(curve), "region": region}
-    details |= {"embedding": embedding, "centres": growth.shape[1]}
+    details = {"time_s": locked(time_s), "curve": locked(curve), "region": region}
     if not np.isfinite(region.slope):
         return no_exponent(method, region.reason, details=details)
     part = slice(region.begin, region.end + 1)

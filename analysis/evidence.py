@@ -39,6 +39,7 @@ MOST_BANDS = 8
 BAND_POINTS = 100
 # More points make a map no clearer, and surrogates of them take long.
 NULL_POINTS = 1000
+NO_RANK = NullRank(None, np.nan, np.nan, np.nan)
 NULLS = (("linear null", iaaft_surrogates), ("noisy-periodic null", noisy_periodic_surrogates))
 
 
@@ -89,14 +90,12 @@ def period_evidence(estimate: PeriodEstimate) -> list[Evidence]:
     if estimate.period is None:
         return [Evidence("period", np.nan, estimate.tolerance, False, estimate.reason)]
     n = estimate.period
-    multiplier = float(estimate.multiplier[n - 1])
     found = Evidence("period", float(n), estimate.tolerance, True, estimate.reason)
     if estimate.residual[n - 1] == 0.0:
         sentence = "the orbit repeats to the last digit: nothing is left whose decay could be seen"
         return [found, Evidence("contraction", np.nan, 1.0, None, sentence)]
-    sentence = f"steps over {n} period(s) shrink by the factor {multiplier:.3g} from one to the next"
-    if abs(multiplier + 0.5) < 0.15:
-        sentence += ", as independent errors about a settled orbit do"
+    multiplier = float(estimate.multiplier[n - 1])
+    sentence = f"factor from one step over {n} period(s) to the next; independent errors have -1/2"
     return [found, Evidence("contraction", multiplier, 1.0, bool(abs(multiplier) < 1.0), sentence)]
 
 
@@ -108,8 +107,7 @@ def exponent_evidence(tangent: Exponent | None, wolf: Exponent | None) -> Eviden
     if not exponent.found:
         return Evidence("exponent", np.nan, 0.0, None, f"no exponent: {exponent.reason}")
     passed = bool(exponent.value - 2.0 * exponent.error > 0.0)
-    judged = "positive by more than two errors" if passed else "not positive by two errors"
-    sentence = f"{exponent.value:.4g} +- {exponent.error:.2g} bits per period ({source}): {judged}"
+    sentence = f"bits per period, of the {source}, with an error of {exponent.error:.2g}; two errors are asked for"
     return Evidence("exponent", exponent.value, 0.0, passed, sentence, exponent.error)
 
 
@@ -142,21 +140,13 @@ def incommensurate_evidence(section: np.ndarray, max_period: int) -> Evidence:
     # Distance of each line from the nearest j/N, N <= max_period, in turns over the record.
     turns = np.abs(places - np.round(places * subharmonics) / subharmonics).min(axis=1, initial=1.0) * len(section)
     standing = np.flatnonzero(share > LEAST_POWER)
-    free = standing[turns[standing] > LEAST_TURN]
     if len(standing) == 0:
-        value, sentence = np.nan, "no line stands out of the spectrum"
-    elif len(free) == 0:
-        value = float(turns[standing].max())
-        sentence = f"all {len(standing)} lines are those of a period up to {max_period}, as far as this record goes"
-    else:
-        best = free[np.argmax(share[free])]
-        value = float(turns[best])
-        sentence = (
-            f"a line at {spectrum.frequency[best]:.5f} cycles a period, {turns[best]:.2g} turns over the record from "
-            f"any subharmonic, carries {min(share[best], 1.0):.0%} of a coordinate; "
-            f"all lines leave {spectrum.unexplained.max():.2g}"
-        )
-    return Evidence("incommensurate line", value, LEAST_TURN, len(free) > 0, sentence)
+        return Evidence("incommensurate line", np.nan, LEAST_TURN, False, "no line stands out of the spectrum")
+    free = standing[turns[standing] > LEAST_TURN]
+    best = free[np.argmax(share[free])] if len(free) else standing[np.argmax(turns[standing])]
+    line = f"a line at {spectrum.frequency[best]:.5f} cycles a period with {min(share[best], 1.0):.0%} of a coordinate"
+    sentence = f"turns over the record between {line} and the nearest subharmonic"
+    return Evidence("incommensurate line", float(turns[best]), LEAST_TURN, len(free) > 0, sentence)
 
 
 def irregular_evidence(section: np.ndarray, seed: int) -> Evidence:
@@ -173,8 +163,7 @@ def irregular_evidence(section: np.ndarray, seed: int) -> Evidence:
     if 2 * answered.sum() < len(values) or not answered.any():
         return Evidence("0-1 test", np.nan, IRREGULAR, None, tests[int(np.argmin(answered))].reason)
     value = float(np.median(values[answered]))
-    where = f" in each of {bands} bands visited in turn" if bands > 1 else ""
-    sentence = f"K = {value:.3f}{where}: " + ("irregular" if value > IRREGULAR else "not irregular throughout")
+    sentence = f"median over the coordinates and the bands visited in turn ({bands} bands)"
     return Evidence("0-1 test", value, IRREGULAR, bool(value > IRREGULAR), sentence)
 
 
@@ -194,19 +183,18 @@ def _bands_in_turn(section):
     return 1
 
 
-def null_evidence(section: np.ndarray, surrogates: int, seed: int) -> list[Evidence]:
-    """Rank and margin of the prediction gain among the surrogates of both nulls."""
+def null_evidence(section: np.ndarray, surrogates: int, seed: int | list[int]) -> list[Evidence]:
+    """Rank and margin of the prediction gain among the surrogates of one null, then of the other."""
     items = []
     for (name, _), rank in zip(NULLS, null_ranks(section, surrogates, seed), strict=True):
-        share, above, advantage, passed = np.nan, None, np.nan, None
-        how = far = "too short, or nothing moves: no prediction gain"
-        if rank is not None:
-            share, above, advantage = rank.share_below, rank.above, rank.advantage
-            passed = advantage > LEAST_ADVANTAGE
-            how = f"prediction gain {rank.statistic:.2f} nats, above {share:.0%} of {surrogates} surrogates"
-            far = f"{advantage:.2f} nats above the surrogates' median"
-        items.append(Evidence(name, share, SHARE, above, how))
-        items.append(Evidence(f"{name}, margin", advantage, LEAST_ADVANTAGE, passed, far))
+        passed, how = None, "too short, or nothing moves: no prediction gain"
+        far = how
+        if rank.above is not None:
+            how = f"share of {surrogates} surrogates below the record's prediction gain of {rank.statistic:.2f} nats"
+            far = "nats between the prediction gain and the surrogates' median"
+            passed = rank.advantage > LEAST_ADVANTAGE
+        items.append(Evidence(name, rank.share_below, SHARE, rank.above, how))
+        items.append(Evidence(f"{name}, margin", rank.advantage, LEAST_ADVANTAGE, passed, far))
     return items
 
 
@@ -216,22 +204,21 @@ def half_evidence(section: np.ndarray, surrogates: int, seed: int, asked: bool) 
     if not asked:
         reason = "not asked: the whole record fails already"
         return [Evidence(f"{name}, halves", np.nan, np.nan, None, reason) for name in names]
-    found = []
-    for i, half in enumerate((section[: len(section) // 2], section[len(section) // 2 :])):
-        test, ranks = irregular_evidence(half, seed), null_ranks(half, surrogates, [seed, 1 + i])
-        of_nulls = [(np.nan, None) if rank is None else (rank.share_below, rank.above) for rank in ranks]
-        found.append([(test.value, test.passed), *of_nulls])
+    halves = [
+        [irregular_evidence(half, seed), *null_evidence(half, surrogates, [seed, 1 + i])[::2]]
+        for i, half in enumerate((section[: len(section) // 2], section[len(section) // 2 :]))
+    ]
     items = []
-    for name, threshold, halves in zip(names, (IRREGULAR, SHARE, SHARE), zip(*found, strict=True), strict=True):
-        values, agreed = zip(*halves, strict=True)
-        passed = None if None in agreed else all(agreed)
-        sentence = f"first half {values[0]:.3f}, second half {values[1]:.3f}"
-        items.append(Evidence(f"{name}, halves", float(np.min(values)), threshold, passed, sentence))
+    for first, second in zip(*halves, strict=True):
+        passed = None if None in (first.passed, second.passed) else first.passed and second.passed
+        sentence = f"first half {first.value:.3f}, second half {second.value:.3f}"
+        least = float(np.min([first.value, second.value]))
+        items.append(Evidence(f"{first.name}, halves", least, first.threshold, passed, sentence))
     return items
 
 
-def null_ranks(section: np.ndarray, surrogates: int, seed: int | list[int]) -> list[NullRank | None]:
-    """NullRank of the prediction gain for each null, None where a gain cannot be had; on the last 1000 points at most.
+def null_ranks(section: np.ndarray, surrogates: int, seed: int | list[int]) -> list[NullRank]:
+    """NullRank of the prediction gain for each null, NO_RANK where a gain cannot be had; of the last 1000 points.
 
     The linear null is asked of the coordinates' normal scores: it allows any monotone instrument, and iterating towards
     a spectrum and a skew distribution at once reaches neither well enough (exp of a linear process, sampled often, beat
@@ -241,12 +228,10 @@ def null_ranks(section: np.ndarray, surrogates: int, seed: int | list[int]) -> l
     section = section[-NULL_POINTS:]
     ranks = []
     for i, (points, make) in enumerate([(normal_scores(section), NULLS[0][1]), (section, NULLS[1][1])]):
-        gain = prediction_gain(points)
-        if not np.isfinite(gain):
-            ranks.append(None)
-            continue
-        drawn = [prediction_gain(one) for one in make(points, surrogates, [*np.atleast_1d(seed), 100 + i])]
-        ranks.append(rank_among(gain, drawn) if np.all(np.isfinite(drawn)) else None)
+        gain, drawn = prediction_gain(points), [np.nan]
+        if np.isfinite(gain):
+            drawn = [prediction_gain(one) for one in make(points, surrogates, [*np.atleast_1d(seed), 100 + i])]
+        ranks.append(rank_among(gain, drawn) if np.all(np.isfinite(drawn)) else NO_RANK)
     return ranks
 
 

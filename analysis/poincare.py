@@ -30,12 +30,10 @@ class PoincareSection:
 
     points (m, d)       one row per period, one column per coordinate, in the units given
     time_s (m,)         t_k, from the first sample
-    interpolated        True where t_k are not all samples (cubic spline)
     """
 
     points: np.ndarray
     time_s: np.ndarray
-    interpolated: bool
 
 
 def poincare_section(
@@ -74,8 +72,7 @@ def poincare_section(
         )
         raise ValueError(f"{wanted} at least, given {given_s / period_s:.4g} ({given_s:g} s, {len(x)} samples)")
     time_s = (np.arange(first, last + 1) + phase) * period_s
-    points, interpolated = values_at(x, step_s, time_s)
-    return PoincareSection(locked(points), locked(time_s), interpolated)
+    return PoincareSection(locked(values_at(x, step_s, time_s)), locked(time_s))
 
 
 def section_at_phases(series: ArrayLike, step_s: float, period_s: float, transient_periods: int = 0) -> PoincareSection:
@@ -87,7 +84,7 @@ def section_at_phases(series: ArrayLike, step_s: float, period_s: float, transie
     seen = [poincare_section(series, step_s, period_s, phase / PHASES, transient_periods) for phase in range(PHASES)]
     rows = min(len(one.points) for one in seen)
     points = np.hstack([one.points[:rows] for one in seen])
-    return PoincareSection(locked(points), seen[0].time_s[:rows], any(one.interpolated for one in seen))
+    return PoincareSection(locked(points), seen[0].time_s[:rows])
 
 
 def _coordinates(series):

@@ -73,8 +73,8 @@ def record_length_s(samples: int, step_s: float) -> float:
     return max(samples - 1, 0) * step_s
 
 
-def values_at(series: np.ndarray, step_s: float, time_s: ArrayLike) -> tuple[np.ndarray, bool]:
-    """Values of `series` (n,) or (n, d) at `time_s` (m,), and whether they were interpolated.
+def values_at(series: np.ndarray, step_s: float, time_s: ArrayLike) -> np.ndarray:
+    """Values of `series` (n,) or (n, d) at `time_s` (m,).
 
     The samples themselves where every time is a sample; otherwise all of them by one not-a-knot cubic spline, whose
     error is O(step^4) up to both ends of the record for a motion with four bounded derivatives. A kink (a snap) costs
@@ -83,12 +83,12 @@ def values_at(series: np.ndarray, step_s: float, time_s: ArrayLike) -> tuple[np.
     position = np.asarray(time_s, dtype=float) / step_s
     index = np.rint(position).astype(int)
     if np.all(np.abs(position - index) <= ON_SAMPLE):
-        return series[index], False
+        return series[index]
     if len(series) < 4:
         raise ValueError(f"interpolation between samples needs at least 4 of them, given {len(series)}")
     from scipy.interpolate import CubicSpline
 
-    return CubicSpline(np.arange(len(series)), series)(position), True
+    return CubicSpline(np.arange(len(series)), series)(position)
 
 
 def locked(array: ArrayLike) -> np.ndarray:

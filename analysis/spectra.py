@@ -35,14 +35,12 @@ class Spectrum:
     transform (m,) complex        X(w_j), unit of the series; t in e^{i w t} counts from the first sample
     amplitude (m,)                |X(w_j)|: HALF the amplitude of a sine at bin j >= 1; at j = 0 the size of the mean
     bin_radps                     2 pi/(n T_i)
-    interpolated                  True where the window was resampled because its ends are not on samples
     """
 
     angular_frequency_radps: np.ndarray
     transform: np.ndarray
     amplitude: np.ndarray
     bin_radps: float
-    interpolated: bool
 
 
 @dataclass(frozen=True)
@@ -50,15 +48,11 @@ class SpectralPeak:
     """A local maximum of a spectrum; beside a reference frequency where one was asked for.
 
     angular_frequency_radps, amplitude   of the bin
-    bin                                  its index j
-    reference_radps                      the frequency it was compared with, or None
     bins_away                            (w_j - reference)/bin width, signed; None without a reference
     """
 
     angular_frequency_radps: float
     amplitude: float
-    bin: int
-    reference_radps: float | None = None
     bins_away: float | None = None
 
 
@@ -78,7 +72,7 @@ def spectrum(
     start_periods        tau_0/T_i; 40 in the paper's fig. 12
     periods              n, whole; 20 in the paper's fig. 12
     Returns a Spectrum. Where tau_0 or n T_i is no multiple of the step, the window is resampled by cubic splines onto
-    the next finer grid that fits, and the record says so.
+    the next finer grid that fits.
     Raises ValueError for a record that ends before tau_0 + n T_i (says how many periods are needed and given), and for
     values that are not finite.
     Source: Tjavaras et al. 1998, eq. (31) and the lines below it.
@@ -97,7 +91,7 @@ def spectrum(
     # As sampled where the window fits, else the next whole number above (never coarser).
     fit = window_s / step_s
     intervals = max(round(fit) if abs(fit - round(fit)) <= ON_SAMPLE else int(np.ceil(fit)), 2)
-    window, interpolated = values_at(x, step_s, begin_s + window_s / intervals * np.arange(intervals + 1))
+    window = values_at(x, step_s, begin_s + window_s / intervals * np.arange(intervals + 1))
     folded = window[:-1].copy()
     folded[0] = 0.5 * (window[0] + window[-1])  # both ends carry weight 1/2 and the same e^{i w_j t}
     bins = np.arange(intervals // 2 + 1)
@@ -105,7 +99,7 @@ def spectrum(
     transform = np.fft.ifft(folded)[bins] * np.exp(2j * np.pi * np.mod(bins * (start_periods / periods), 1.0))
     bin_radps = 2.0 * np.pi / window_s
     lines = (locked(array) for array in (bin_radps * bins, transform, np.abs(transform)))
-    return Spectrum(*lines, bin_radps, interpolated)
+    return Spectrum(*lines, bin_radps)
 
 
 def spectral_peaks(spectrum: Spectrum, least_prominence: float = 0.01) -> tuple[SpectralPeak, ...]:
@@ -131,7 +125,7 @@ def spectral_peaks(spectrum: Spectrum, least_prominence: float = 0.01) -> tuple[
         return ()
     found, _ = find_peaks(amplitude, prominence=least_prominence * largest)
     return tuple(
-        SpectralPeak(float(spectrum.angular_frequency_radps[j]), float(amplitude[j]), int(j))
+        SpectralPeak(float(spectrum.angular_frequency_radps[j]), float(amplitude[j]))
         for j in found[np.argsort(-amplitude[found], kind="stable")]
     )
 
@@ -152,7 +146,7 @@ def peaks_near(spectrum: Spectrum, frequencies_radps: Iterable[float]) -> tuple[
     def beside(given: float) -> SpectralPeak:
         nearest = min(peaks, key=lambda peak: abs(peak.angular_frequency_radps - given))
         away = (nearest.angular_frequency_radps - given) / spectrum.bin_radps
-        return replace(nearest, reference_radps=given, bins_away=away)
+        return replace(nearest, bins_away=away)
 
     wanted = [checked_not_negative(given, "frequencies_radps") for given in frequencies_radps]
     return tuple(beside(given) if peaks else None for given in wanted)

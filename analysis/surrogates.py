@@ -53,13 +53,13 @@ _RIDGE = 1e-3
 class NullRank:
     """Where a record stands among its surrogates.
 
-    above            True where more than 95 % of the surrogates lie below the record
+    above            True where more than 95 % of the surrogates lie below the record; None where nobody could say
     share_below      share of the surrogates with a smaller statistic (equal ones count half)
     advantage        statistic of the record less the median of the surrogates'; its unit
     statistic        of the record
     """
 
-    above: bool
+    above: bool | None
     share_below: float
     advantage: float
     statistic: float

@@ -23,7 +23,7 @@ from numpy.typing import ArrayLike
 
 from analysis.embedding import choose_embedding, noise_level
 from analysis.exponents import NATS_PER_TIME, Exponent, no_exponent
-from analysis.sampling import checked_positive, checked_series, locked
+from analysis.sampling import checked_positive, checked_series
 from analysis.wolf_pairs import wolf_run
 
 METHOD = "Wolf et al. 1985, plateau"
@@ -46,9 +46,7 @@ def wolf_lyapunov(series: ArrayLike, step_s: float) -> Exponent:
     Returns an Exponent in nats per unit of time; positive: neighbours part exponentially; about 0: they do not. A
     stable periodic motion shows 0 at best, not its negative exponent: once settled, nothing in the record decays.
     NaN with a reason, never 0, when fewer than three settings qualify or the record has fewer than 20 mean periods.
-    details: dimensions (d,), evolutions (e,) [samples], values and qualified (d e,) of all pairs, block_error, spread,
-    length_change, noise_bias, noise, embedding (EmbeddingChoice), and of the setting nearest to the median run
-    (WolfRun), whose convergence over time_s is fig. 14 of the paper.
+    details: run (WolfRun), of the setting nearest to the median, whose convergence over time_s is fig. 14 of the paper.
     Raises ValueError for values that are not finite.
     Source: Wolf, Swift, Swinney & Vastano, Physica D 16, 285 (1985); what is ours: heads of this file, of wolf_pairs.
     """
@@ -66,34 +64,32 @@ def wolf_lyapunov(series: ArrayLike, step_s: float) -> Exponent:
     def run(m, e, lengths=1.0):
         return wolf_run(x, step_s, lag, m, e, max(round(period), (m - 1) * lag), noise, lengths)
 
-    return _plateau(run, {"dimensions": dimensions, "evolutions": evolutions, "noise": noise, "embedding": embedding})
+    return _plateau(run, [(m, e) for m in dimensions for e in evolutions])
 
 
-def _plateau(run, details):
-    """The Exponent of runs over all dimensions and evolution times."""
-    settings = [(m, e) for m in details["dimensions"] for e in details["evolutions"]]
+def _plateau(run, settings):
+    """The Exponent of runs over all settings: pairs of a dimension and an evolution time."""
     runs = [run(m, e) for m, e in settings]
     values, errors = np.array([(one.value, one.error) for one in runs]).T
     qualified = np.isfinite(values) & (np.array([_typical_end(one) for one in runs]) <= LONGEST_END)
-    details |= {"values": locked(values), "qualified": locked(qualified)}
     if np.sum(qualified) < min(LEAST_SETTINGS, len(runs)):
         none = next((one.reason for one in runs if not np.isfinite(one.value)), "")
         why = none or f"vectors end longer than {LONGEST_END} rms radii: the growth is bounded, not exponential"
-        return no_exponent(METHOD, f"{np.sum(qualified)} of {len(runs)} settings qualify; {why}", details=details)
+        return no_exponent(METHOD, f"{np.sum(qualified)} of {len(runs)} settings qualify; {why}")
     value, used = float(np.median(values[qualified])), np.flatnonzero(qualified)
     low, high = np.quantile(values[used], [0.16, 0.84])
     change = np.array([run(*settings[k], lengths=2.0).value - values[k] for k in used])
     change = change[np.isfinite(change)]
-    parts = {
-        "block_error": float(np.median(errors[used])),
-        "spread": float(0.5 * (high - low)),
-        "length_change": float(np.sqrt(np.mean(change**2))) if len(change) else np.nan,
-        "noise_bias": float(np.median([runs[k].noise_bias for k in used])),
-    }
-    details |= parts | {"run": runs[used[np.argmin(np.abs(values[used] - value))]]}
-    error = float(np.sqrt(sum(part**2 for part in parts.values())))
+    parts = (
+        float(np.median(errors[used])),
+        float(0.5 * (high - low)),
+        float(np.sqrt(np.mean(change**2))) if len(change) else np.nan,
+        float(np.median([runs[k].noise_bias for k in used])),
+    )
+    error = float(np.sqrt(sum(part**2 for part in parts)))
     reason = f"median of {len(used)} of {len(runs)} settings, {low:.4g} to {high:.4g} nats/time"
-    return Exponent(value, error, NATS_PER_TIME, METHOD, reason, details)
+    nearest = runs[used[np.argmin(np.abs(values[used] - value))]]
+    return Exponent(value, error, NATS_PER_TIME, METHOD, reason, {"run": nearest})
 
 
 def _typical_end(run):

@@ -7,7 +7,6 @@ Sweep    the buoy at H = 21.6 m, 41 nodes, default tolerance; steepnesses evenly
 Figure   wave periods a second and core: of processor time (`process_time`), and of wall time with two processes.
 Noise    The settings take turns; medians over the rounds. Compilation and statics are outside the first figure, and
          one call before the clock starts keeps compilation out of the second.
-Equal    every trajectory of the batch is compared with the run alone, bit for bit.
 """
 
 import time
@@ -46,13 +45,6 @@ def half(extra, periods, number):
     simulate_batch(scenes(extra, STEEPNESS[number::2]), periods=periods)
 
 
-def same(alone, run):
-    """Is a trajectory of the batch, with its growths, that of the run alone?"""
-    pairs = [(alone.columns[name], run.columns[name]) for name in alone.columns]
-    pairs += [(getattr(alone.tangent, name), getattr(run.tangent, name)) for name in ("growth_nats", "lateral_nats")]
-    return all(np.array_equal(*pair) for pair in pairs)
-
-
 def sweep(rounds, periods):
     for name, extra in (("without perturbations", {}), ("with two perturbations", CARRIED)):
         members = scenes(extra)
@@ -83,9 +75,6 @@ def main() -> None:
     first = seconds(lambda: simulate_batch(scenes({})[:2], periods=0.1))
     print(f"first batch (compilation, or loading what is compiled): {first:.1f} s")
     sweep(given.rounds, given.periods)
-    members = scenes(CARRIED)
-    pairs = zip((simulate(scene, periods=12) for scene in members), simulate_batch(members, periods=12), strict=True)
-    print(f"48 runs of 12 periods bit for bit those alone: {all(same(*pair) for pair in pairs)}")
     print_load()
 
 

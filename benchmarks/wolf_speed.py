@@ -32,10 +32,11 @@ def theirs(series, step):
     except ImportError:
         return {}
     e = choose_embedding(series)
-    how = {"emb_dim": e.dimension, "lag": e.lag, "trajectory_len": max(5, round(e.mean_period)), "fit": "poly"}
+    window = round(e.mean_period)
+    how = {"emb_dim": e.dimension, "lag": e.lag, "trajectory_len": max(5, window), "fit": "poly"}
     return {
-        "nolds lyap_r": partial(nolds.lyap_r, series, tau=step, min_tsep=e.theiler, **how),
-        "nolds lyap_e": lambda: nolds.lyap_e(series, min_tsep=e.theiler, tau=step)[0],
+        "nolds lyap_r": partial(nolds.lyap_r, series, tau=step, min_tsep=window, **how),
+        "nolds lyap_e": lambda: nolds.lyap_e(series, min_tsep=window, tau=step)[0],
     }
 
 

@@ -12,8 +12,7 @@ starts come from a fixed seed.
 from argparse import Namespace
 
 from campaigns.machinery import cli
-from campaigns.machinery.plan import Summary
-from campaigns.study import Order, Study
+from campaigns.study import Study
 
 PARAMETERS = ("damping", "frequency", "force", "lift", "phase")
 FORCES, FREQUENCIES = (0.1, 2.0, 800), (0.5, 2.0, 800)
@@ -21,7 +20,9 @@ FORCES, FREQUENCIES = (0.1, 2.0, 800), (0.5, 2.0, 800)
 
 def options(group) -> None:
     """Add the options of this campaign."""
-    cli.add(group, "--set", "KEY=VALUE ...", "change damping, frequency, force, lift or phase (default: the paper's)")
+    setting = cli.Kind(_change, f"KEY=VALUE with a key of {', '.join(PARAMETERS)} and a number")
+    changed = "change damping, frequency, force, lift or phase (default: the paper's)"
+    cli.add(group, "--set", "KEY=VALUE ...", changed, setting, [], many=True)
     usual = "(default: {} {} {})".format
     cli.add(group, "--force-range", "LO HI COUNT", f"orbit diagram over F {usual(*FORCES)}")
     cli.add(group, "--frequency-range", "LO HI COUNT", f"orbit diagram over omega {usual(*FREQUENCIES)}")
@@ -31,33 +32,23 @@ def options(group) -> None:
 
 def read(options: Namespace, faults: list[str]) -> None:
     """The parameters that are changed, and the ranges of the diagrams."""
-    options.changes = _changes(options.set, faults)
+    options.changes = dict(options.set)
+    if options.changes:
+        from analysis.oscillator import SnapOscillator
+    for key, number in options.changes.items():
+        try:
+            SnapOscillator(**{key: number})
+        except ValueError as error:
+            faults.append(f"--set: {error}")
     options.forces = _range(options.force_range, "--force-range", FORCES, faults)
     options.frequencies = _range(options.frequency_range, "--frequency-range", FREQUENCIES, faults)
 
 
-def _changes(words: list[str] | None, faults: list[str]) -> dict[str, float]:
-    changes = {}
-    allowed = f"KEY=VALUE with a key of {', '.join(PARAMETERS)} and a number"
-    if words is not None and not words:
-        faults.append(f"--set: given nothing; allowed: {allowed}")
-    for word in words or []:
-        key, _, text = word.partition("=")
-        try:
-            if key not in PARAMETERS:
-                raise ValueError(key)
-            changes[key] = float(text)
-        except ValueError:
-            faults.append(f"--set: given {word!r}; allowed: {allowed}")
-    if changes:
-        from analysis.oscillator import SnapOscillator
-
-        for key, number in changes.items():
-            try:
-                SnapOscillator(**{key: number})
-            except ValueError as error:
-                faults.append(f"--set: {error}")
-    return changes
+def _change(word: str) -> tuple[str, float]:
+    key, _, text = word.partition("=")
+    if key not in PARAMETERS:
+        raise ValueError(key)
+    return key, float(text)
 
 
 def _range(words: list[str] | None, option: str, usual: tuple, faults: list[str]) -> tuple[float, float, int]:
@@ -65,18 +56,11 @@ def _range(words: list[str] | None, option: str, usual: tuple, faults: list[str]
     return (values[0], values[-1], len(values)) if values else usual
 
 
-def done(order: Order) -> tuple[dict[str, float], Summary]:
-    """The parts and their table."""
+def _work():
+    """What takes a second to import, which --help does not need."""
     from campaigns.oscillator import study
 
-    return study.done(order.own)
-
-
-def parameters(order: Order) -> dict[str, object]:
-    """What the provenance says of this campaign."""
-    from campaigns.oscillator import study
-
-    return study.parameters(order.own)
+    return study
 
 
 STUDY = Study(
@@ -84,8 +68,8 @@ STUDY = Study(
     protocol=__doc__,
     options=options,
     read=read,
-    parameters=parameters,
-    done=done,
+    parameters=lambda order: _work().parameters(order.own),
+    done=lambda order: _work().done(order.own),
     jobs=False,
     backends=False,
 )

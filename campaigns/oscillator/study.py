@@ -103,11 +103,9 @@ def zoom_boxes(states: np.ndarray) -> np.ndarray:
 
 def history(o: SnapOscillator, order: Namespace) -> Result:
     """The first periods from START, with the switching times."""
-    motion = snap_motion(o, START, HISTORY_PERIODS, 128)
-    arrays = {"time": motion.time, "displacement": motion.displacement, "velocity": motion.velocity}
-    if len(motion.switches):
-        arrays["switches"] = motion.switches
-    return arrays, {"periods": HISTORY_PERIODS, "slack_fraction": motion.slack_fraction}
+    motion = dict(vars(snap_motion(o, START, HISTORY_PERIODS, 128)))
+    row = {"periods": HISTORY_PERIODS, "slack_fraction": motion.pop("slack_fraction")}
+    return {name: values for name, values in motion.items() if len(values)}, row
 
 
 def exponents(o: SnapOscillator, order: Namespace) -> Result:
@@ -139,24 +137,22 @@ def diagram(over: str, o: SnapOscillator, order: Namespace) -> Result:
     low, high, count = order.forces if over == "force" else order.frequencies
     values = np.linspace(low, high, _scaled(count, min(order.effort, 1.0), 2))
     found = snap_diagram(o, over, values, count=4, transient_periods=500, periods=1000, points=150, seed=SEED)
-    arrays = {
-        "values": values,
-        "section": found.section[..., 0].reshape(len(values), -1),
-        "exponents": found.exponents,
-        "errors": found.errors,
-        "slack_fraction": found.slack_fraction,
+    displacement = found.section[..., 0].reshape(len(values), -1)
+    arrays = vars(found) | {"values": values, "section": displacement}
+    return arrays, {
+        "starts": 4,
+        "periods": 1000,
+        "transient": 500,
+        "points": len(values),
     }
-    return arrays, {"starts": 4, "periods": 1000, "transient": 500, "points": len(values)}
 
 
 def basins(o: SnapOscillator, order: Namespace) -> Result:
     """Where a grid of starts ends, and the shares."""
     columns, rows = (_scaled(n, order.effort**0.5, 8) for n in (120, 75))
     found = snap_basins(o, start_grid(columns, rows), 3000)
-    arrays = {"label": found.label.reshape(rows, columns), "settled": found.settled, "shares": found.shares}
-    arrays |= {"errors": found.errors, "box": np.array(PAPER_BOX)}
-    for number, orbit in enumerate(found.orbits):
-        arrays[f"orbit_{number + 1}"] = orbit
+    arrays = dict(vars(found)) | {"label": found.label.reshape(rows, columns), "box": np.array(PAPER_BOX)}
+    arrays |= {f"orbit_{number + 1}": orbit for number, orbit in enumerate(arrays.pop("orbits"))}
     row = {"starts": columns * rows, "periods": 3000, "attractors": len(found.orbits)}
     return arrays, row | {"aperiodic_share": float(found.shares[-1])}
 

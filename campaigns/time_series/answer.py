@@ -13,7 +13,6 @@ provenance.json            the name under which `python -m reports` knows this f
 import hashlib
 import json
 import platform
-import re
 import textwrap
 from dataclasses import asdict, replace
 from importlib.metadata import version
@@ -22,19 +21,17 @@ from pathlib import Path
 import numpy as np
 import pandas
 
-from analysis.exponents import Exponent
 from analysis.poincare import PHASES
 from campaigns.columns import Column, dictionary, names
 from campaigns.time_series.study import MAXIMA, SAMPLES, STROBED, Study
 from engine.atomic import write_atomic
 
-WIDTH = 100
+WIDTH, NAMES = 100, 24
 MARK = {True: "yes", False: "no", None: "--"}
-CYCLE = {STROBED: ("period", "periods"), SAMPLES: ("sample", "samples"), MAXIMA: ("maximum", "maxima")}
 SEEN = {
     STROBED: "once per forcing period, at four phases of it",
-    SAMPLES: "sample by sample, as a map",
-    MAXIMA: "at its maxima, as no --period was given",
+    SAMPLES: "sample by sample, as a map; a sample is what is called a period below",
+    MAXIMA: "at its maxima, as no --period was given; from one to the next is what is called a period below",
 }
 MEANING = {
     "quasi-periodic": "two or more rhythms that never meet; no sensitivity to the start",
@@ -63,9 +60,17 @@ DIMENSION = names(COLUMNS)[-4:]
 
 def page(study: Study) -> str:
     """The text, without a last newline."""
-    head = f"{study.record.path}, column {study.record.column}"
-    parts = [[head, *_rows(_given(study))], _rows(_found(study)), _rows(_verdict(study)), _evidence(study)]
-    parts.append([line for note in _notes(study) for line in _wrapped(f"note: {note}", 6)])
+    told = answer(study)
+    head = _rows([("record", told["record"]), ("seen", told["section"]["how"])])
+    measures = [(name, f"{found} {unit}".strip() + f"; {origin}") for name, found, unit, origin in told["measures"]]
+    verdict = [("VERDICT", f"{told['regime']}: {told['meaning']}"), ("because", told["reason"])]
+    evidence = ["evidence (passed or not, what was found, the value and what it was compared with)"]
+    for one in study.verdict.evidence:
+        numbers = f"{number(one.value)} against {number(one.threshold)}"
+        evidence += _wrapped(f"  {MARK[one.passed]:<4}{one.name}: {one.sentence} [{numbers}]", 6)
+    notes = [line for note in told["notes"] for line in _wrapped(f"note: {note}", 6)]
+    title = f"{study.record.path}, column {study.record.column}"
+    parts = [[title, *head], _rows(measures), _rows(verdict), evidence, notes]
     return "\n\n".join("\n".join(part) for part in parts if part)
 
 
@@ -85,78 +90,27 @@ def _wrapped(text: str, indent: int) -> list[str]:
 
 def _rows(pairs: list[tuple[str, str]]) -> list[str]:
     """Lines of names in front and texts beside them."""
-    return [line for name, text in pairs for line in _wrapped(f"{name:<12}{text}", 12)]
+    return [line for name, text in pairs for line in _wrapped(f"{name:<{NAMES}}{text}", NAMES)]
 
 
-def _given(study: Study) -> list[tuple[str, str]]:
-    record, view, x = study.record, study.seen, study.record.values
-    how = f"{len(x)} samples; time is counted in samples"
-    if record.unit == "s":
-        how = f"{len(x)} samples, one every {record.step:.6g} s, {(len(x) - 1) * record.step:.6g} s in all"
-    points = f"{len(view.points)} points"
-    if view.kind != SAMPLES:
-        points += f", {view.period:.6g} {record.unit} apart" + " on average" * (view.kind == MAXIMA)
-    noise = f"white noise at most {view.noise / np.ptp(x):.1g} of it"
-    span = f"{x.min():.6g} to {x.max():.6g}, {noise}"
-    return [("record", how), ("range", span), ("seen", f"{SEEN[view.kind]}: {points}")]
-
-
-def _found(study: Study) -> list[tuple[str, str]]:
-    unit, per = ("s", "s") if study.record.unit == "s" else ("samples", "sample")
-    lines = []
+def _measures(study: Study) -> list[tuple[str, str, str, str]]:
+    """(measure, value with its standard error, unit, where it comes from or why there is none) of each."""
+    unit, short = study.record.unit, study.exponents["wolf"].reason
+    # nats a second, but nats a sample
+    per, period = unit.removesuffix("s") or unit, f"a period is {study.seen.period:.6g} {unit}"
+    rows = []
     for peak in study.lines[:3]:
-        turn = 2.0 * np.pi / peak.angular_frequency_radps
-        lines.append(
-            f"{peak.angular_frequency_radps:.4g} rad/{per} (every {turn:.4g} {unit}) with {peak.amplitude:.3g}"
-        )
-    highest = "; ".join(lines) or "no line stands out"
-    rows = [("spectrum", f"eq. (31), later half, highest lines: {highest}")]
-    rows += [(name.capitalize(), f"exponent {_exponent(one, study, per)}") for name, one in study.exponents.items()]
-    rows.append(("0-1 test", f"K = {number(study.zero_one.value)}: {study.zero_one.reason}"))
-    value, error = study.dimension
-    if study.embedding is None:
-        return [*rows, ("dimension", f"none: {study.exponents['wolf'].reason}")]
-    m = study.embedding.dimension
-    text = f"{number(value, error)} (correlation dimension, the same in {m}, {m + 1} and {m + 2} delays)"
-    if not np.isfinite(value):
-        each = ", ".join(number(one.value, one.error) for one in study.dimensions)
-        text = f"none: it does not settle in {m}, {m + 1} and {m + 2} delays ({each})"
-    return [*rows, ("dimension", text)]
-
-
-def _exponent(exponent: Exponent, study: Study, per: str) -> str:
-    if not exponent.found:
-        return f"none: {exponent.reason}"
-    bits = exponent.in_bits_per_period(study.seen.period)
-    text = f"{number(exponent.value, exponent.error)} nats/{per}"
-    return f"{text} = {number(bits.value, bits.error)} bits per {CYCLE[study.seen.kind][0]}"
-
-
-def _in_cycles(study: Study, text: str) -> str:
-    """Verdicts count forcing periods; a section at maxima or of samples has other cycles."""
-    if study.seen.kind == STROBED:
-        return text
-    one, many = CYCLE[study.seen.kind]
-    text = text.replace("bits per period", f"bits per {one}")
-    text = re.sub(r"(forcing )?period(s|\(s\))", many, text)
-    return re.sub(rf"\b1 {many}", f"1 {one}", text)
-
-
-def _verdict(study: Study) -> list[tuple[str, str]]:
-    word, count = study.verdict.regime, study.verdict.period
-    meaning = MEANING.get(word)
-    if count is not None:
-        cycle = CYCLE[study.seen.kind][count > 1]
-        meaning = f"the motion repeats itself after {count} {'forcing ' * (study.seen.kind == STROBED)}{cycle}"
-    return [("VERDICT", f"{word}: {meaning}"), ("because", _in_cycles(study, study.verdict.reason))]
-
-
-def _evidence(study: Study) -> list[str]:
-    rows = ["evidence (passed or not, what was found, the value and what it was compared with)"]
-    for item in study.verdict.evidence:
-        compared = "" if not np.isfinite(item.threshold) else f" against {item.threshold:.4g}"
-        value = "" if not np.isfinite(item.value) else f" [{item.value:.4g}{compared}]"
-        rows += _wrapped(f"  {MARK[item.passed]:<4}{item.name}: {_in_cycles(study, item.sentence)}{value}", 6)
+        origin = f"eq. (31) over the later half, amplitude {number(peak.amplitude)}"
+        rows.append(("line of the spectrum", number(peak.angular_frequency_radps), f"rad/{per}", origin))
+    for name, one in study.exponents.items():
+        bits = one.in_bits_per_period(study.seen.period)
+        rows.append((f"exponent, {name.capitalize()}", number(one.value, one.error), f"nats/{per}", one.reason))
+        rows.append(("the same", number(bits.value, bits.error), "bits/period", period))
+    rows.append(("K of the 0-1 test", number(study.zero_one.value), "", study.zero_one.reason))
+    each = ", ".join(number(one.value, one.error) for one in study.dimensions)
+    delays = study.embedding and f"in {study.embedding.dimension} delays and one and two more: {each}"
+    rows.append(("correlation dimension", number(*study.dimension), "", delays or short))
+    rows.append(("white noise, at most", number(study.seen.noise), "as the column", "`analysis/embedding.py`"))
     return rows
 
 
@@ -200,19 +154,22 @@ def write_files(study: Study, directory: Path, asked: dict[str, object]) -> None
 
 
 def answer(study: Study) -> dict[str, object]:
-    """The numbers of the page as plain data; what was not found is NaN."""
+    """What is said of a record as plain data, in numbers and in words; a number that was not found is NaN."""
     record, view, verdict, chosen = study.record, study.seen, study.verdict, study.embedding
+    x, unit, count = record.values, record.unit, verdict.period
     exponents = {}
     for name, one in study.exponents.items():
         bits = one.in_bits_per_period(view.period)
         found = {"nats_per_time": one.value, "error": one.error}
         found |= {"bits_per_cycle": bits.value, "bits_per_cycle_error": bits.error, "reason": one.reason}
         exponents[name] = found
+    how = f"{len(view.points)} points, one every {view.period:.6g} {unit}, {SEEN[view.kind]}"
     return {
-        "unit_of_time": record.unit,
-        "samples": len(record.values),
+        "record": f"{len(x)} samples, one every {record.step:.6g} {unit}, from {x.min():.6g} to {x.max():.6g}",
+        "unit_of_time": unit,
+        "samples": len(x),
         "step": record.step,
-        "section": {"kind": view.kind, "points": len(view.points), "cycle": view.period},
+        "section": {"kind": view.kind, "points": len(view.points), "cycle": view.period, "how": how},
         "noise": view.noise,
         "tolerance": study.tolerance,
         "lines": [{"angular_frequency": p.angular_frequency_radps, "amplitude": p.amplitude} for p in study.lines],
@@ -220,10 +177,13 @@ def answer(study: Study) -> dict[str, object]:
         "zero_one": {"K": study.zero_one.value, "reason": study.zero_one.reason},
         "dimension": {"value": study.dimension[0], "error": study.dimension[1]},
         "embedding": chosen and {"delay_samples": chosen.lag, "dimension": chosen.dimension},
+        "measures": _measures(study),
         "regime": verdict.regime,
-        "period": verdict.period,
+        "meaning": MEANING.get(verdict.regime, f"the motion repeats itself after this many periods: {count}"),
+        "period": count,
         "reason": verdict.reason,
         "evidence": [asdict(item) for item in verdict.evidence],
+        "notes": _notes(study),
     }
 
 

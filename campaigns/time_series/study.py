@@ -204,12 +204,10 @@ def _even_times(verdict, view, tolerance):
 
 def _agreement(rosenstein):
     """Does a second method speak against a positive exponent?"""
-    name = "second exponent"
-    if not rosenstein.found:
-        return Evidence(name, np.nan, 0.0, None, f"Rosenstein finds none: {rosenstein.reason}")
     value, error = rosenstein.value, rosenstein.error
-    sentence = f"Rosenstein's exponent is {value:.4g} +- {error:.2g} bits per period"
-    return Evidence(name, value, 0.0, bool(value > 0.0), sentence, error)
+    passed = bool(value > 0.0) if rosenstein.found else None
+    sentence = f"Rosenstein's exponent is {value:.3g} bits per period: {rosenstein.reason}"
+    return Evidence("second exponent", value, 0.0, passed, sentence, error)
 
 
 def _record_null(x, view, seed):

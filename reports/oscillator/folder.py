@@ -8,17 +8,11 @@ from pathlib import Path
 
 import numpy as np
 
+from ..parts import folder
 from ..parts.columns import Quantity, value
-from ..parts.folder import FolderError, read_columns, read_files
+from ..parts.folder import FolderError
 
 PARTS = ("section", "history", "exponents", "orbits", "basins", "grazing", "diagram-force", "diagram-frequency")
-FILES = {
-    "table.csv": "one row a part",
-    "columns.csv": "what its columns are",
-    "scene.toml": "the numbers of eq. (33) as run",
-    "provenance.json": "what ran, where and for how long",
-    "trajectories": "the arrays, one netCDF file each",
-}
 
 
 @dataclass(frozen=True, eq=False)
@@ -49,7 +43,9 @@ def read_study(directory: str | Path) -> Study:
     import xarray
 
     directory = Path(directory)
-    found = read_files(directory, FILES)
+    # scene.toml is no scene of the engine here; its numbers are in the provenance as well.
+    wanted = {name: meaning for name, meaning in folder.PARTS.items() if name != "scene.toml"}
+    found = folder.read_files(directory, wanted)
     try:
         oscillator = {key: float(entry) for key, entry in found["provenance.json"]["oscillator"].items()}
         rows = {row["part"]: row for row in found["table.csv"]}
@@ -68,4 +64,4 @@ def read_study(directory: str | Path) -> Study:
             faults[part] = "it has no row in table.csv"
         except (OSError, ValueError, TypeError) as error:
             faults[part] = rows[part]["message"] or f"its arrays cannot be read ({type(error).__name__})"
-    return Study(directory, found["provenance.json"], read_columns(directory), rows, arrays, oscillator, faults)
+    return Study(directory, found["provenance.json"], found["columns.csv"], rows, arrays, oscillator, faults)

@@ -16,11 +16,11 @@ from ..figures.oscillator import (
     oscillator_zooms,
 )
 from ..parts.columns import table_of
-from ..parts.content import Bullets, Figure, Heading, Item, Notice, Report, Text, sub
+from ..parts.content import Figure, Heading, Item, Notice, Report, Text, sub
 from ..parts.provenance import provenance_items
-from ..parts.wording import count, decimals, number, percent
+from ..parts.wording import count, number, percent
 from .folder import Study, read_study
-from .sections import basin_items, equation_items, grazing_items, orbit_items, subtitle
+from .sections import NUMBERS, basin_items, equation_items, grazing_items, orbit_items
 
 LAMBDA_1 = "λ" + sub("1")
 QUESTION = (
@@ -34,7 +34,7 @@ QUESTION = (
 def report(directory: str | Path) -> Report:
     """The content of the report on an oscillator study's folder. Raises FolderError for a folder that is not one."""
     study = read_study(directory)
-    items: list[Item] = [Heading("Question"), Text(QUESTION), Heading("Short answer"), Bullets(_answer(study))]
+    items: list[Item] = [Heading("Question"), Text(QUESTION), Heading("Short answer"), *_answer(study)]
     if study.faults:
         missing = tuple(f"`{part}`: {reason}." for part, reason in study.faults.items())
         items.append(Notice("warning", "Parts without results", missing))
@@ -45,56 +45,50 @@ def report(directory: str | Path) -> Report:
     items += [*equation_items(study), Heading("Parts and times")]
     shown = ("part", "status", "starts", "periods", "transient", "wall_s")
     items.append(table_of(study.columns, shown, study.rows.values(), "The parts of the study, from `table.csv`."))
-    return Report("The snap oscillator, equation (33)", subtitle(study), (*items, *provenance_items(study)))
+    numbers = (f"{symbol} = {number(study.oscillator[key])}" for key, (symbol, *_) in NUMBERS.items())
+    return Report("The snap oscillator, equation (33)", ", ".join(numbers), (*items, *provenance_items(study)))
 
 
-def _answer(study: Study) -> tuple[str, ...]:
-    lines = []
+def _answer(study: Study) -> list[Item]:
+    """The numbers of the parts that gave some, in one row."""
+    rows = (study.rows.get(part, {}) for part in ("grazing", "basins", "exponents"))
+    found = {name: entry for row in rows for name, entry in row.items() if entry}
     value, error = _exponent(study)
-    if math.isfinite(value):
-        verdict = "zero within two standard errors"
-        if _chaotic(study):
-            verdict = "positive by more than two standard errors: nearby motions part exponentially, it is chaotic"
-        elif value < -2 * error:
-            verdict = "negative: the motion is regular"
-        bits = (study.number("exponents", f"lambda_1_bits_{name}") for name in ("per_period", "error"))
-        lines.append(
-            f"The largest exponent is {LAMBDA_1} = {_with_error(value, error)} nats per unit of time, "
-            f"{_with_error(*bits)} bits per forcing period. It is {verdict}."
-        )
-    shares = study.arrays.get("basins", {}).get("shares")
-    if shares is not None:
-        settled = count(len(shares) - 1, "periodic attractor")
-        ends, rest = percent(float(shares[:-1].sum())), percent(float(shares[-1]))
-        lines.append(f"{settled} found: {ends} of the starts end there, {rest} do not settle.")
-    force = study.number("grazing", "grazing_force")
-    if math.isfinite(force):
-        lines.append(f"The taut motion first goes slack at F = {force:.14g}.")
-    return tuple(lines) or ("No part of this study gave a number; see the faults below.",)
+    word = "chaotic" if _chaotic(study) else "regular" if value < -2 * error else "neither shown to be"
+    text = (
+        f"Chaotic means that {LAMBDA_1} is positive by more than two standard errors: nearby motions part "
+        f"exponentially. Regular means that it is negative by as much. The motion is {word}."
+    )
+    shown = (
+        ("lambda_1_nats_per_time", "lambda_1_error"),
+        ("lambda_1_bits_per_period", "lambda_1_bits_error"),
+        "attractors",
+        "aperiodic_share",
+        "grazing_force",
+    )
+    return [Text(text), table_of(study.columns, shown, [found], "The answer in numbers, from `table.csv`.")]
 
 
 def _section(study: Study, arrays: dict) -> list[Item]:
     states, boxes, row = arrays["section"], arrays["boxes"], study.rows["section"]
-    (left, low), (right, high) = ((decimals(one, 2) for one in edge(axis=0)) for edge in (states.min, states.max))
-    extent = f"γ from {left} to {right} and velocity from {low} to {high}"
     caption = (
         f"Poincaré section at the forcing phase {number(study.oscillator['phase'])} rad, in the layout of the paper's "
-        f"figure 19(b): {len(states)} points, one a forcing period, after {row['transient']} periods. Seen: points "
-        f"within {extent}. From the part `section`."
+        f"figure 19(b): {len(states)} points, one a forcing period, after {row['transient']} periods. From the part "
+        "`section`."
     )
     orbit = study.arrays.get("basins", {}).get("orbit_1")
-    alt = f"Scatter of {len(states)} strobed points of displacement and velocity, within {extent}."
+    alt = f"Scatter of {len(states)} strobed points of displacement and velocity."
     items: list[Item] = [Figure(oscillator_section(states, boxes, orbit), caption, alt)]
     zooms = [arrays[name] for name in ("zoom_1", "zoom_2") if name in arrays]
     if zooms and _chaotic(study):  # a zoom into a periodic orbit shows a point
         counts = " and ".join(str(len(zoom)) for zoom in zooms)
-        seen = f"zooms by 10 and by 100 round the place visited most, {counts} points out of {row['periods']} periods"
         caption = (
-            f"Layers within layers; {seen} of the same orbit. A line resolves into several lines, and each of these "
-            "again, because each period stretches the attractor along its lines and folds it at the snap. From the "
-            "part `section`."
+            "Layers within layers: zooms by 10 and by 100 round the place visited most. They have "
+            f"{counts} points out of {row['periods']} periods of the same orbit. A line resolves into several lines, "
+            "and each of these again, because each period stretches the attractor along its lines and folds it at the "
+            "snap. From the part `section`."
         )
-        items.append(Figure(oscillator_zooms(zooms, boxes), caption, f"Bundles of nearly parallel lines: {seen}."))
+        items.append(Figure(oscillator_zooms(zooms, boxes), caption, "Two zooms: bundles of nearly parallel lines."))
     return items
 
 
@@ -108,22 +102,21 @@ def _history(study: Study, arrays: dict) -> list[Item]:
 
 
 def _exponents(study: Study, arrays: dict) -> list[Item]:
-    row, (value, error) = study.rows["exponents"], _exponent(study)
+    row = study.rows["exponents"]
     text = (
         "Both exponents come from the exact tangent map, re-orthonormalised every period. They are averages over "
         f"{row['starts']} random starts of {row['periods']} periods each, after {row['transient']}. The error is the "
         "standard deviation over the starts by the root of their number. Starts that settled on a periodic attractor "
-        f"are not counted ({row['elsewhere']}). The same error from blocks of time alone is "
-        f"{float(arrays['block_error'][0]):.2g}, against {error:.2g}. Both exponents and the damping must add up to "
-        "zero. A Kaplan-Yorke dimension D between 1 and 2 is that of a fractal between a curve and an area."
+        f"are not counted ({row['elsewhere']}). Blocks of time alone give an error of "
+        f"{float(arrays['block_error'][0]):.2g}. Both exponents and the damping must add up to zero. A Kaplan-Yorke "
+        "dimension D between 1 and 2 is that of a fractal between a curve and an area."
     )
-    seen = f"the mean ends at {_with_error(value, error)}"
     caption = (
-        f"Errors of the largest exponent. Left: {LAMBDA_1} against the length of the averages; {seen}. Right: scatter "
+        f"Errors of the largest exponent. Left: {LAMBDA_1} against the length of the averages. Right: scatter "
         "of the mean of k starts against k (bars: two standard errors of the scatter) beside the line of independent "
         "starts. From the part `exponents`."
     )
-    alt = f"Convergence of the largest exponent with time, where {seen}, and its scatter against the number of starts."
+    alt = "Convergence of the largest exponent with time, and its scatter against the number of starts."
     figure = Figure(oscillator_errors(arrays["convergence"], arrays["of_start"][:, 0]), caption, alt)
     shown = (
         ("lambda_1_nats_per_time", "lambda_1_error"),
@@ -184,11 +177,3 @@ def _exponent(study: Study) -> tuple[float, float]:
 def _chaotic(study: Study) -> bool:
     value, error = _exponent(study)
     return value - 2 * error > 0.0
-
-
-def _with_error(value: float, error: float) -> str:
-    """The value with as many decimals as its error has to two digits."""
-    if not math.isfinite(error) or error <= 0.0:
-        return number(value, 6)
-    places = min(max(0, 1 - math.floor(math.log10(error))), 15)
-    return f"{decimals(value, places)} ± {decimals(error, places)}"

@@ -131,13 +131,6 @@ def grazing_items(study: Study, arrays: dict) -> list[Item]:
     return [Text(text), Table((Column("what", align="left"), Column("value")), tuple(rows), caption)]
 
 
-def subtitle(study: Study) -> str:
-    """The numbers as run, in a line."""
-    return ", ".join(
-        f"{NUMBERS[key][0]} = {number(study.oscillator[key])}" for key in ("force", "lift", "damping", "frequency")
-    )
-
-
 def equation_items(study: Study) -> list[Item]:
     """The equation, how it is integrated, and what the exponents are."""
     rows = []

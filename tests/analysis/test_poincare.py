@@ -17,7 +17,7 @@ def motion(t):
 @pytest.mark.parametrize("steps", range(60, 200))
 def test_a_record_of_whole_periods_has_one_point_more_than_periods_whatever_the_rounding_of_the_step(steps):
     section = poincare_section(np.zeros(40 * steps + 1), PERIOD / steps, PERIOD)
-    assert section.points.shape == (41, 1) and not section.interpolated
+    assert section.points.shape == (41, 1)
     assert np.allclose(section.time_s, PERIOD * np.arange(41))
 
 
@@ -59,7 +59,6 @@ def test_what_cannot_be_answered_is_refused_with_a_reason(arguments, message):
 def test_phases_on_samples_give_the_samples(phase):
     x = motion(0.05 * np.arange(2001))
     section = poincare_section(x, 0.05, PERIOD, phase=phase)
-    assert not section.interpolated
     assert np.array_equal(section.points, x[np.arange(len(section.points)) * 100 + round(100 * phase)])
 
 
@@ -70,7 +69,6 @@ def test_the_error_of_a_step_that_does_not_divide_the_period_is_of_fourth_order(
     for step in steps:
         t = step * np.arange(int(50 * PERIOD / step) + 1)
         sections = [poincare_section(motion(t), step, PERIOD, phase=p) for p in np.linspace(0, 1, 100, endpoint=False)]
-        assert all(section.interpolated for section in sections)
         errors.append(max(np.abs(section.points - motion(section.time_s)).max() for section in sections))
     assert np.polyfit(np.log(steps), np.log(errors), 1)[0] == pytest.approx(4.0, abs=0.1)
     assert errors[0] < 1e-3

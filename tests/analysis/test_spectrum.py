@@ -100,15 +100,15 @@ def test_a_start_between_samples_or_a_period_between_samples_is_interpolated_to_
     for step in steps:
         t = step * np.arange(int(np.ceil(13 * period / step)) + 1)
         lines = [spectrum(np.cos(2 * np.pi / period * t + 0.4), step, period, start, 10) for start in starts]
-        assert all(s.interpolated for s in lines)
         errors.append(max(abs(s.transform[10] - 0.5 * np.exp(-0.4j)) for s in lines))
     assert np.polyfit(np.log(steps), np.log(errors), 1)[0] == pytest.approx(4.0, abs=0.1)
     assert errors[0] < 1e-4
 
 
-@pytest.mark.parametrize("period", [5.0, 5.0 * (0.1 + 0.2) / 0.3])
-def test_a_period_of_whole_steps_uses_the_samples_themselves_despite_rounding(period):
-    assert not spectrum(np.sin(TIME), STEP, period).interpolated
+def test_a_period_of_whole_steps_uses_the_samples_themselves_despite_rounding():
+    x = np.random.default_rng(0).normal(size=len(TIME))
+    exact, rounded = (spectrum(x, STEP, period).amplitude for period in (5.0, 5.0 * (0.1 + 0.2) / 0.3))
+    assert np.array_equal(exact, rounded)
 
 
 def test_a_short_record_is_refused_with_what_is_needed_and_given():
@@ -122,10 +122,10 @@ def test_a_short_record_is_refused_with_what_is_needed_and_given():
 def test_lines_come_largest_first_at_their_bins_whatever_constant_is_added(rest):
     x = 0.1 * np.cos(WAVE * TIME) + 0.3 * np.cos(WAVE / 4 * TIME) + 0.02 * np.cos(3 * WAVE * TIME)
     peaks = spectral_peaks(spectrum(rest + x, STEP, T))
-    assert [peak.bin for peak in peaks] == [5, 20, 60]
+    assert [peak.angular_frequency_radps for peak in peaks] == pytest.approx([WAVE / 4, WAVE, 3 * WAVE])
     assert [peak.amplitude for peak in peaks] == pytest.approx([0.15, 0.05, 0.01], abs=1e-12)
-    first = spectral_peaks(spectrum(rest + np.cos(WAVE / 20 * TIME), STEP, T))
-    assert [peak.bin for peak in first] == [1]
+    (first,) = spectral_peaks(spectrum(rest + np.cos(WAVE / 20 * TIME), STEP, T))
+    assert first.angular_frequency_radps == pytest.approx(WAVE / 20)
 
 
 @pytest.mark.parametrize("natural", [0.199, 0.55, 0.996])
@@ -133,7 +133,6 @@ def test_lines_come_largest_first_at_their_bins_whatever_constant_is_added(rest)
 def test_a_natural_frequency_beside_the_forcing_is_found_within_half_a_bin(natural, phase):
     x = 20.8 + 0.1 * np.cos(natural * TIME + phase) + 0.2 * np.cos(WAVE * TIME)
     found = peaks_near(spectrum(x, STEP, T), [natural, WAVE])
-    assert [peak.reference_radps for peak in found] == [natural, WAVE]
     assert abs(found[0].bins_away) <= 0.5 + 1e-9
     assert found[1].bins_away == pytest.approx(0.0, abs=1e-9)
     assert found[0].angular_frequency_radps - natural == pytest.approx(found[0].bins_away * 2 * np.pi / (20 * T))
