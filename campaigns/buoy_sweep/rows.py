@@ -9,7 +9,7 @@ import math
 import numpy as np
 
 from analysis.evidence import evidence_text
-from campaigns.columns import LINE_COUNTS, MESSAGE, RUN_KEY, SOLVER_COUNTS, STATISTICS, STATUS, Column, names
+from campaigns.columns import LINE_COUNTS, MESSAGE, RUN_KEY, SOLVER_COUNTS, STATUS, Column, counted, names
 from campaigns.judge import (
     LEAST_JUDGED,
     LONGEST_PERIOD,
@@ -87,26 +87,19 @@ def buoy_row(trajectory, transient_periods: int, simulate=None) -> dict[str, obj
     simulate: to repeat a run that looks chaotic at a ten times tighter tolerance (regime_tighter); None: not done.
     The columns planar_ are filled by `campaigns.buoy_sweep.space`.
     """
-    row = {"status": trajectory.status, "message": trajectory.message}
-    row |= {name: number(trajectory.statistics.get(name)) for name in names(STATISTICS)}
-    columns = sound_part(trajectory.columns)
-    scene = trajectory.scene
+    row, columns, scene = counted(trajectory), sound_part(trajectory.columns), trajectory.scene
     if len(columns["time_s"]) and scene.water is not None:
         top_m = float(np.max(columns["z_m"])) + 0.5 * scene.buoy.diameter_m
         row["max_buoy_height_above_water_m"] = top_m - scene.water.depth_m
     step_s, period_s = scene.sample_step_s(), scene.waves.period_s
-    recorded_s = (len(columns["time_s"]) - 1) * step_s
-    if recorded_s >= (transient_periods + 1) * period_s - 1e-6 * step_s:
-        row |= settled(columns, step_s, transient_periods * period_s)
-        row["strobed_period"] = strobed_period(columns, step_s, period_s, transient_periods)
+    if measured := after_transient(trajectory, columns, transient_periods):
+        row |= measured
         in_space = scene.motion.dimensions == 3
         if in_space:
             after = round(transient_periods * period_s / step_s)
             row["buoy_lateral_max_m"] = float(np.abs(columns["y_m"][after:]).max())
             row["rope_lateral_max_m"] = float(columns["offplane_m"][after:].max())
-        if trajectory.status == "ok" and trajectory.tangent is not None:
-            row |= across_plane(trajectory.tangent, transient_periods)
-        enough = recorded_s >= (transient_periods + LEAST_JUDGED) * period_s - 1e-6 * step_s
+        enough = lasts(columns, step_s, (transient_periods + LEAST_JUDGED) * period_s)
         if trajectory.status == "ok" and (carried(trajectory) or (in_space and enough)):
             tangent = tangent_of(trajectory, transient_periods)
             verdict, wolf, tighter = verdict_of(trajectory, transient_periods, tangent, simulate)
@@ -115,17 +108,35 @@ def buoy_row(trajectory, transient_periods: int, simulate=None) -> dict[str, obj
                 "regime_tighter": tighter,
                 "regime_reason": verdict.reason,
                 "evidence": evidence_text(verdict),
-                "lyapunov_tangent_bits_per_period": number(tangent.value),
-                "lyapunov_tangent_error": number(tangent.error),
-                "lyapunov_wolf_bits_per_period": number(wolf.value),
-                "lyapunov_wolf_error": number(wolf.error),
+                **exponents(TANGENT, tangent),
+                **exponents(WOLF, wolf),
             }
     return row
 
 
-def regime_of(trajectory, transient_periods: int) -> str | None:
-    """The regime that `buoy_row` names, without a repetition of runs that look chaotic; None where it names none."""
-    return buoy_row(trajectory, transient_periods).get("regime")
+def after_transient(trajectory, columns, transient_periods: int) -> dict[str, object]:
+    """What follows the transient, by column: extremes, slack, strobed period, growth across the plane.
+
+    columns: the `sound_part` of its record; {} where that does not outlast the transient by a wave period.
+    """
+    step_s, period_s = trajectory.scene.sample_step_s(), trajectory.scene.waves.period_s
+    if not lasts(columns, step_s, (transient_periods + 1) * period_s):
+        return {}
+    row = settled(columns, step_s, transient_periods * period_s)
+    row["strobed_period"] = strobed_period(columns, step_s, period_s, transient_periods)
+    if trajectory.status == "ok" and trajectory.tangent is not None:
+        row |= across_plane(trajectory.tangent, transient_periods)
+    return row
+
+
+def lasts(columns, step_s: float, length_s: float) -> bool:
+    """Whether a record is of that length at least."""
+    return (len(columns["time_s"]) - 1) * step_s >= length_s - 1e-6 * step_s
+
+
+def exponents(columns: tuple[Column, Column], found) -> dict[str, object]:
+    """An Exponent in the two columns of its value and its standard error."""
+    return dict(zip(names(columns), (number(found.value), number(found.error)), strict=True))
 
 
 def across_plane(growth, transient_periods: int) -> dict[str, object]:
@@ -134,8 +145,7 @@ def across_plane(growth, transient_periods: int) -> dict[str, object]:
 
     if growth.lateral_nats is None:
         return {}
-    found = transverse_lyapunov(growth.lateral_nats, transient_periods, growth.released)
-    return {"offplane_growth_bits_per_period": number(found.value), "offplane_growth_error": number(found.error)}
+    return exponents(OFFPLANE, transverse_lyapunov(growth.lateral_nats, transient_periods, growth.released))
 
 
 def settled(columns, step_s: float, transient_s: float) -> dict[str, object]:
