@@ -54,9 +54,13 @@ def names(columns: Iterable[Column]) -> tuple[str, ...]:
 
 def counted(trajectory, columns: Iterable[Column] = STATISTICS) -> dict[str, object]:
     """How a run ended, and what the engine counted in it; a number that is unknown or not finite is None."""
-    found = ((name, trajectory.statistics.get(name)) for name in names(columns))
-    counts = {name: None if entry is None or not math.isfinite(entry) else entry for name, entry in found}
+    counts = {name: number(trajectory.statistics.get(name)) for name in names(columns)}
     return {"status": trajectory.status, "message": trajectory.message, **counts}
+
+
+def number(entry: object) -> object:
+    """The number itself; None for one that is unknown or not finite."""
+    return None if entry is None or not math.isfinite(entry) else entry
 
 
 def dictionary_path(table: Path) -> Path:

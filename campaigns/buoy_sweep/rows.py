@@ -4,12 +4,10 @@ A column whose analysis does not apply to a run stays empty (None), never 0: a r
 its statistics and nothing more. Extremes and slack are taken after the transient, the emergence over the whole run.
 """
 
-import math
-
 import numpy as np
 
 from analysis.evidence import evidence_text
-from campaigns.columns import LINE_COUNTS, MESSAGE, RUN_KEY, SOLVER_COUNTS, STATUS, Column, counted, names
+from campaigns.columns import LINE_COUNTS, MESSAGE, RUN_KEY, SOLVER_COUNTS, STATUS, Column, counted, names, number
 from campaigns.judge import (
     LEAST_JUDGED,
     LONGEST_PERIOD,
@@ -119,13 +117,17 @@ def after_transient(trajectory, columns, transient_periods: int) -> dict[str, ob
 
     columns: the `sound_part` of its record; {} where that does not outlast the transient by a wave period.
     """
+    from analysis import transverse_lyapunov
+
     step_s, period_s = trajectory.scene.sample_step_s(), trajectory.scene.waves.period_s
     if not lasts(columns, step_s, (transient_periods + 1) * period_s):
         return {}
     row = settled(columns, step_s, transient_periods * period_s)
     row["strobed_period"] = strobed_period(columns, step_s, period_s, transient_periods)
-    if trajectory.status == "ok" and trajectory.tangent is not None:
-        row |= across_plane(trajectory.tangent, transient_periods)
+    growth = trajectory.tangent
+    if trajectory.status == "ok" and growth is not None and growth.lateral_nats is not None:
+        found = transverse_lyapunov(growth.lateral_nats, transient_periods, growth.released)
+        row |= exponents(OFFPLANE, found)
     return row
 
 
@@ -137,15 +139,6 @@ def lasts(columns, step_s: float, length_s: float) -> bool:
 def exponents(columns: tuple[Column, Column], found) -> dict[str, object]:
     """An Exponent in the two columns of its value and its standard error."""
     return dict(zip(names(columns), (number(found.value), number(found.error)), strict=True))
-
-
-def across_plane(growth, transient_periods: int) -> dict[str, object]:
-    """Exponent of infinitesimal perturbations across the plane, by column of the table; {} where none was carried."""
-    from analysis import transverse_lyapunov
-
-    if growth.lateral_nats is None:
-        return {}
-    return exponents(OFFPLANE, transverse_lyapunov(growth.lateral_nats, transient_periods, growth.released))
 
 
 def settled(columns, step_s: float, transient_s: float) -> dict[str, object]:
@@ -186,8 +179,3 @@ def sound_part(columns) -> dict[str, np.ndarray]:
     sound = np.all([np.isfinite(values) for values in arrays.values()], axis=0)
     end = len(sound) if sound.all() else int(np.argmin(sound))
     return {name: values[:end] for name, values in arrays.items()}
-
-
-def number(entry: object) -> object:
-    """The number itself; None for one that is unknown or not finite."""
-    return None if entry is None or not math.isfinite(entry) else entry

@@ -116,9 +116,8 @@ def cases(order: Order) -> Iterator[Job]:
 
 def base_of(order: Order) -> Variant | None:
     """The large wave in the scene as it is, from which the campaign varies; None, and told why, where it cannot be."""
-    scene = order.base()
+    scene = order.base(tell=True)
     if scene is None:
-        order.scene({})
         return None
     tether = scene.tether
     return Variant(LARGE, scene.water.depth_m, tether.bending_stiffness_Nm2, tether.nodes)
