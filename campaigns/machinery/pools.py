@@ -27,6 +27,7 @@ from importlib import metadata
 from campaigns.machinery.folder import CampaignStopped, made_by
 
 JOIN_S = 30.0  # for the scheduler to answer, and then for its first worker
+ASK_S = 10.0  # for all workers to say what they are
 GONE_S = 120.0  # without any worker in the midst of a campaign
 LOOK_S = 2.0  # between two looks at the workers that are there
 _NUMBERS = ("numpy", "scipy", "numba", "llvmlite")  # a worker with another version would give other last digits
@@ -123,8 +124,7 @@ def first_line(error: BaseException | None) -> str:
 def dask_client(jobs: int, address: str | None) -> Iterator:
     """A client of the scheduler at `address`, or of a local cluster of `jobs` processes (None).
 
-    Raises CampaignStopped where no scheduler answers, no worker joins, or the scheduler has no workbench. Workers say
-    what they are with their first run (`_asked`).
+    Raises CampaignStopped where no scheduler answers, no worker joins, or scheduler or workers have another version.
     """
     import dask
     from distributed import Client, LocalCluster
@@ -151,6 +151,8 @@ def dask_client(jobs: int, address: str | None) -> Iterator:
             raise CampaignStopped(f"the scheduler at {address} has no worker after {JOIN_S:g} s; {start}") from None
         except ImportError as error:
             raise CampaignStopped(_REFUSED.format(f"the scheduler: {first_line(error)}")) from error
+        if faults := "; ".join(_differences(found)):
+            raise CampaignStopped(_REFUSED.format(faults))
         yield found
 
 
@@ -165,6 +167,30 @@ def facts() -> dict[str, str]:
     versions = {name: metadata.version(name) for name in _NUMBERS}
     sources = {f"sources of {part}": made_by({}, part)[:12] for part in _PARTS}
     return {"Python": ".".join(platform.python_version_tuple()[:2])} | versions | sources
+
+
+def _differences(found) -> Iterator[str]:
+    """What sets workers apart from this process, as far as they say so within ASK_S."""
+    said: dict[str, object] = {}
+
+    def ask() -> None:
+        with contextlib.suppress(Exception):
+            said.update(found.run(facts, on_error="return"))
+
+    # dask waits for a worker that is stopped as long as it stays so; who does not answer is asked with its first run.
+    asking = threading.Thread(target=ask, daemon=True)
+    asking.start()
+    asking.join(ASK_S)
+    for worker, there in list(said.items()):
+        if isinstance(there, OSError):
+            continue  # it has just gone; whoever comes in its place is asked with its first run
+        if off := first_line(there) if isinstance(there, Exception) else _difference(there, facts()):
+            yield f"{worker}: {off}"
+
+
+def _difference(there: dict[str, str], here: dict[str, str]) -> str:
+    off = [f"{name} {there.get(name, 'none')} (here: {here[name]})" for name in here if there.get(name) != here[name]]
+    return ", ".join(off)
 
 
 def _dask_results(found, call: Callable, tasks: list) -> Iterator:
@@ -196,13 +222,11 @@ def _dask_results(found, call: Callable, tasks: list) -> Iterator:
 
 
 def _asked(call: Callable, here: dict[str, str], task: object) -> object:
-    """Runs in the worker. Raises CampaignStopped in one that is of another version."""
-    there = facts()
-    off = [f"{name} {there.get(name, 'none')} (here: {here[name]})" for name in here if there.get(name) != here[name]]
-    if off:
+    """Runs in the worker; one that joined late has not been asked before."""
+    if off := _difference(facts(), here):
         from distributed import get_worker
 
-        raise CampaignStopped(_REFUSED.format(f"{get_worker().address}: {', '.join(off)}"))
+        raise CampaignStopped(_REFUSED.format(f"{get_worker().address}: {off}"))
     return call(task)
 
 
