@@ -6,6 +6,7 @@ and `columns.csv` beside it says what every column is; reports read titles, unit
 
 import csv
 import io
+import math
 from collections.abc import Iterable
 from dataclasses import astuple, dataclass, fields
 from pathlib import Path
@@ -49,6 +50,17 @@ STATISTICS = (*LINE_COUNTS, *SOLVER_COUNTS)
 def names(columns: Iterable[Column]) -> tuple[str, ...]:
     """The names of columns, in their order."""
     return tuple(column.name for column in columns)
+
+
+def counted(trajectory, columns: Iterable[Column] = STATISTICS) -> dict[str, object]:
+    """How a run ended, and what the engine counted in it; a number that is unknown or not finite is None."""
+    counts = {name: number(trajectory.statistics.get(name)) for name in names(columns)}
+    return {"status": trajectory.status, "message": trajectory.message, **counts}
+
+
+def number(entry: object) -> object:
+    """The number itself; None for one that is unknown or not finite."""
+    return None if entry is None or not math.isfinite(entry) else entry
 
 
 def dictionary_path(table: Path) -> Path:

@@ -142,14 +142,22 @@ class Study:
         if self.options is not None:
             self.options(what)
         if self.lengths is not None:
-            cli.add_lengths(what, self.lengths)
+            usual, whole = self.lengths, cli.whole
+            most = f"(default: {usual.transient}, at most 1/{usual.share} of --periods)"
+            lasting = whole(1, cli.MOST_PERIODS)
+            cli.add(what, "--periods", "N", "length of every run in wave periods", lasting, usual.periods)
+            cli.add(what, "--transient", "N", f"wave periods left out of the analysis {most}", whole(0))
         if self.scene:
-            cli.add_scene(what, self.scene)
+            name = cli.Kind(str, "a scene file or the name of a scene")
+            cli.add(what, "--scene", "FILE_OR_NAME", "scene to start from", name, self.scene)
+            cli.add(what, "--set", "KEY=VALUE ...", "change values of the scene, as water.depth_m=22.5 tether.nodes=81")
         cli.add_running(parser.add_argument_group("how and where"), self.name, self.jobs, self.backends)
         return parser
 
     def read_order(self, argv: list[str], faults: list[str]) -> Order:
         """The order in the words of the command line; every fault, of options and scenes, is appended to `faults`."""
+        from campaigns.machinery.plausible import without_waves
+
         options = cli.split(self.parser(), argv, faults)
         periods, transient = (None, 0) if self.lengths is None else cli.lengths(options, self.lengths, faults)
         if self.read is not None:
@@ -159,17 +167,11 @@ class Study:
             return Order(how, own=options, faults=faults)
         changes = cli.assignments(options.set, self.taken, faults)
         order = Order(how, options.scene, changes, periods, transient, options, faults)
-        if not (self.in_waves and self._refused(order)):
-            order.cases = [case for case in self.cases(order) if case is not None]
+        base = order.base() if self.in_waves else None
+        refused = [] if base is None else list(without_waves(order.name, base))
+        order.tell(refused)
+        order.cases = [case for case in self.cases(order) if case is not None] if not refused else []
         return order
-
-    def _refused(self, order: Order) -> bool:
-        from campaigns.machinery.plausible import without_waves
-
-        base = order.base()
-        found = [] if base is None else list(without_waves(order.name, base))
-        order.tell(found)
-        return bool(found)
 
     def work(self, order: Order) -> tuple[dict[str, float], Summary]:
         """Do the runs that are not there yet, and what is done beside them; the folder has to be held (`claimed`).

@@ -44,8 +44,8 @@ def done(order: Order):
 
     Returns times and summary.
     """
-    from campaigns.accuracy import jobs, orders, pieces
-    from campaigns.accuracy.rows import COLUMNS
+    from campaigns.accuracy import jobs, pieces
+    from campaigns.accuracy.rows import COLUMNS, point_row, write_orders
     from campaigns.machinery.folder import made_by, trajectory_path
     from campaigns.machinery.plan import Plan
     from campaigns.machinery.runner import run, write_scene
@@ -55,17 +55,18 @@ def done(order: Order):
         from engine import simulate
     sources = (f"campaigns/accuracy/{name}" for name in ("rows.py", "works.py", "works.toml"))
     maker = made_by({}, "campaigns/breaking_line/theory", "engine", *sources)
-    plan = Plan(order.how, simulate, jobs.point_row, COLUMNS, maker)
-    phases = jobs.phases(out, own.effort, own.quick, ours and not own.no_peers)
-    write_scene(out, STUDY.name, next(filter(None, phases)))
-    found = sum(trajectory_path(out, key).exists() for key in {job.key for phase in phases for job in phase})
-    timing, known = {"compile_s": 0.0, "run_s": 0.0, "analysis_s": 0.0}, []
+    plan = Plan(order.how, simulate, point_row, COLUMNS, maker)
+    timing, known, found = {"compile_s": 0.0, "run_s": 0.0, "analysis_s": 0.0}, [], 0
     alone = replace(plan, how=replace(order.how, backend="threading", jobs=1))
-    for how, phase in zip((plan, plan, alone), phases, strict=True):
+    phases = jobs.phases(out, own.effort, own.quick, ours and not own.no_peers)
+    for how, phase in zip((plan, plan, plan, alone), phases, strict=True):
+        if phase and not known:
+            write_scene(out, STUDY.name, phase)
         known += phase
+        found += sum(trajectory_path(out, job.key).exists() for job in phase)
         more, summary = run(how, known)
         timing = {name: timing[name] + more[name] for name in timing}
-    orders.write(out, summary.rows)
+    write_orders(out, summary.rows)
     if ours:
         pieces.keep(out, own.quick)
     return timing, replace(summary, computed=len(summary.rows) - found, found=found)
@@ -73,7 +74,7 @@ def done(order: Order):
 
 def parameters(order: Order) -> dict[str, object]:
     """What the provenance says of this campaign."""
-    from campaigns.accuracy.peers import notes
+    from campaigns.accuracy.jobs import notes
     from campaigns.machinery.session import machine
 
     own, told = order.own, ("title", "measure", "period_s", "duration_s", "rough")

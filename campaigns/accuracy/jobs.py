@@ -1,61 +1,81 @@
-"""The runs of the accuracy campaign as jobs, in three phases: references, what is not timed, what is timed.
+"""The runs of the accuracy campaign as jobs, phase by phase, other codes among them.
 
 Errors are taken against runs of an earlier phase: a point's against the reference of its work (a tolerance's against
-the run on its grid), another code's against its own refined run and against ours.
+the run on its grid). Another code is held against its own refined run (`error`) and against ours
+(`error_against_ours`); scipy solves our own equations, so that our reference is its own. A code that is not installed
+is a row that says so. Its module in `campaigns.accuracy.peers` has
+simulate(scene, duration_s, nodes or segments, setting, ...) -> Trajectory.
 """
 
-from collections.abc import Callable
+import importlib.util
+from collections.abc import Callable, Iterator
 from dataclasses import asdict
 from functools import partial
+from importlib import metadata
 from pathlib import Path
 
-from campaigns.accuracy import peers, plan
+import numpy as np
+
+from campaigns.accuracy import plan
+from campaigns.accuracy.peers.record import nothing
 from campaigns.accuracy.plan import BEST, LONG_PERIODS, Effort, Point
-from campaigns.accuracy.rows import point_row
-from campaigns.accuracy.works import BY_NAME, PERIOD_S, Peer
-from campaigns.machinery.folder import made_by, trajectory_path
-from campaigns.machinery.plan import Job, KeptRun
+from campaigns.accuracy.rows import kept_samples, point_row
+from campaigns.accuracy.works import BY_NAME, PEERS, PERIOD_S, Peer
+from campaigns.machinery.folder import made_by
+from campaigns.machinery.plan import Job
+from engine.trajectory import Trajectory
 
 REFERENCE, CHECK, TIMED, OURS = "peer-reference", "peer-check", "peer", "ours-for-peer"
 OURS_REFINED = (321, 1e-5)
-References = dict[tuple[str, str], KeptRun]  # by work and kind
-Phases = tuple[list[Job], list[Job], list[Job]]
+Samples = dict[tuple[str, str], np.ndarray | None]  # by work and what they are; None of a run that failed
 
 
-def phases(out: Path, effort: Effort, quick: bool, with_peers: bool) -> Phases:
-    """All jobs, those of other codes among them where they are asked for."""
+def phases(out: Path, effort: Effort, quick: bool, with_peers: bool) -> Iterator[list[Job]]:
+    """The jobs of four phases: our references, those of other codes, what is not timed, what is timed.
+
+    The runs of each phase have to be in `out` before the next is asked for. with_peers: whether there are other codes.
+    """
     first, second, third = plan.phases(effort)
-    jobs = [engine_job(point, {}) for point in first]
-    known = {(job.labels["work"], job.labels["kind"]): kept(out, job) for job in jobs}
-    others = peer_jobs(out, effort.works, quick, known) if with_peers else ([], [], [])
-    timed = side_by_side([engine_job(point, known) for point in third], others[2], effort.rounds)
-    return jobs + others[0], [engine_job(point, known) for point in second] + others[1], timed
-
-
-def kept(out: Path, job: Job) -> KeptRun:
-    """Where the run of a job is, or will be."""
-    return KeptRun(trajectory_path(out, job.key))
+    asked = taking_part(effort.works, quick) if with_peers else []
+    there = [(peer, work) for peer, work, _ in asked if version(peer)]
+    known: Samples = {}
+    ours = {(point.work, point.kind): engine_job(point, known) for point in first}
+    ours |= {(work, OURS + peer.name): ours_for(peer, work) for peer, work in there if peer.ours}
+    yield list(ours.values())
+    known |= {(work, what): kept_samples(BY_NAME[work], out, job.key) for (work, what), job in ours.items()}
+    refined = [(peer, work, peer.refined[work]) for peer, work in there if work in peer.refined]
+    theirs = {(work, peer.name): peer_job(peer, work, REFERENCE, runs[0], known) for peer, work, runs in refined}
+    yield list(theirs.values())
+    known |= {(work, name): kept_samples(BY_NAME[work], out, job.key) for (work, name), job in theirs.items()}
+    checks = [peer_job(peer, work, CHECK, setting, known) for peer, work, runs in refined for setting in runs[1:]]
+    yield [engine_job(point, known) for point in second] + checks
+    timed = [
+        peer_job(peer, work, TIMED, setting, known)
+        for peer, work, settings in asked
+        for setting in (settings if version(peer) else settings[:1])
+    ]
+    yield side_by_side([engine_job(point, known) for point in third], timed, effort.rounds)
 
 
 def job_of(
     point: Point,
     scene,
     made: str,
-    reference: KeptRun | None = None,
-    ours: KeptRun | None = None,
+    reference: np.ndarray | None = None,
+    ours: np.ndarray | None = None,
     simulate: Callable | None = None,
     **labels: str,
 ) -> Job:
-    """A run, held against its reference and against ours; made, simulate: as of `Job`; labels: more of them."""
+    """A run, held against samples of its reference and of ours; made, simulate: as of `Job`; labels: more of them."""
     length_s = LONG_PERIODS * PERIOD_S if point.kind == "long" else BY_NAME[point.work].duration_s
     describe = partial(point_row, work_name=point.work, reference=reference, ours=ours)
     how = {"duration_s": length_s, "simulate": simulate, "describe": describe, "made": made}
     return Job(asdict(point) | labels, scene, **how)
 
 
-def engine_job(point: Point, references: References) -> Job:
+def engine_job(point: Point, known: Samples) -> Job:
     """The job of one of the engine's points."""
-    reference = references.get((point.work, "grid" if point.kind == "tolerance" else "reference"))
+    reference = known.get((point.work, "grid" if point.kind == "tolerance" else "reference"))
     scene, made = BY_NAME[point.work].made(point.changes()), f"{point.kind}-{point.round}"
     return job_of(point, scene, made, None if point.kind == "long" else reference)
 
@@ -71,34 +91,58 @@ def side_by_side(ours: list[Job], others: list[Job], rounds: int) -> list[Job]:
     return found + [job for job in ours if job.labels["round"] > middle]
 
 
-def peer_jobs(out: Path, works: tuple[str, ...], quick: bool, references: References) -> Phases:
-    """Jobs of all other codes: their references and ours for them; what checks those; what is timed."""
-    first, second, timed = [], [], []
-    for peer, work, settings in peers.taking_part(works, quick):
-        job = partial(_peer_job, peer, peers.version(peer), work)
-        if not peers.version(peer):
-            timed.append(job(TIMED, settings[0]))
-            continue
-        ours = own = references.get((work, "reference"))
-        if peer.ours:
-            nodes, rtol = OURS_REFINED
-            scene = BY_NAME[work].made({**peer.ours, "tether.nodes": nodes, "solver.rtol": rtol})
-            first.append(job_of(Point(work, OURS, BEST, nodes, "rtol", rtol), scene, f"{OURS} {peer.name}"))
-            ours = kept(out, first[-1])
-        refined = peer.refined.get(work, ())
-        for setting in refined[:1]:
-            first.append(job(REFERENCE, setting, None, ours))
-            own = kept(out, first[-1])
-        second += [job(CHECK, setting, own, ours) for setting in refined[1:]]
-        timed += [job(TIMED, setting, own, ours) for setting in settings]
-    return first, second, timed
+def version(peer: Peer) -> str:
+    """The installed version, "" for none."""
+    return metadata.version(peer.package) if importlib.util.find_spec(peer.module) is not None else ""
 
 
-def _peer_job(peer: Peer, version: str, work: str, kind: str, setting: tuple[int, float], own=None, ours=None) -> Job:
+def taking_part(works: tuple[str, ...], quick: bool) -> list[tuple[Peer, str, list]]:
+    """(code, work, its settings) of all that is asked of other codes."""
+    chosen = ((peer, peer.quick if quick else peer.settings) for peer in PEERS)
+    return [(peer, work, settings[work]) for peer, settings in chosen for work in works if settings.get(work)]
+
+
+def notes(works: tuple[str, ...], quick: bool) -> dict[str, str]:
+    """What is left different, by name of the code, for those that take part."""
+    peers = dict.fromkeys(peer for peer, _, _ in taking_part(works, quick))
+    return {f"{peer.name} {version(peer) or '(not installed)'}": peer.notes for peer in peers}
+
+
+def ours_for(peer: Peer, work: str) -> Job:
+    """Our refined run with the changes that another code is to be compared with."""
+    nodes, rtol = OURS_REFINED
+    scene = BY_NAME[work].made({**peer.ours, "tether.nodes": nodes, "solver.rtol": rtol})
+    return job_of(Point(work, OURS, BEST, nodes, "rtol", rtol), scene, f"{OURS} {peer.name}")
+
+
+def peer_job(peer: Peer, work: str, kind: str, setting: tuple[int, float], known: Samples) -> Job:
     """A run of another code, held against its own reference and against ours."""
-    nodes, value = setting
-    point = Point(work, kind, peer.name, nodes, peer.control, value)
-    sources = made_by({}, *(f"campaigns/accuracy/peers/{name}.py" for name in (peer.module, "deck", "record")))
-    made = f"{peer.name} {version} {kind} {nodes} {value!r} {sources}"
-    scene = peers.scene_of(work, nodes if peer.package == "scipy" else None)
-    return job_of(point, scene, made, own, ours, peers.simulation(peer, version, nodes, value), peer_version=version)
+    (nodes, value), installed = setting, version(peer)
+    reference = known.get((work, "reference"))
+    own = None if kind == REFERENCE else known.get((work, peer.name), reference)
+    sources = made_by({}, *(f"campaigns/accuracy/peers/{name}.py" for name in (peer.module, "record")))
+    made = f"{peer.name} {installed} {kind} {nodes} {value!r} {sources}"
+    scene, point = scene_of(peer, work, nodes), Point(work, kind, peer.name, nodes, peer.control, value)
+    simulate, ours = partial(other_code, peer=peer, settings=setting), known.get((work, OURS + peer.name), reference)
+    return job_of(point, scene, made, own, ours, simulate, peer_version=installed)
+
+
+def scene_of(peer: Peer, work: str, nodes: int):
+    """The scene of a work for another code: no shock viscosity, nodes where they matter to it."""
+    changes = {"tether.nodes": nodes} if peer.package == "scipy" else {}
+    return BY_NAME[work].made(changes | ({"solver.shock_viscosity": None} if work.startswith("break") else {}))
+
+
+def other_code(scene, periods=None, duration_s=None, *, peer: Peer, settings: tuple) -> Trajectory:
+    """The run of another code in the place of engine.simulate; settings: nodes or segments, value of its control.
+
+    Where it is not installed, or raises, the record of a failed run, so that it is not tried again.
+    """
+    if not version(peer):
+        how = f"not installed; pip install {peer.package}, or the extra bench of this project"
+        return nothing(scene, "not-installed", how)
+    try:
+        module = importlib.import_module(f"campaigns.accuracy.peers.{peer.module}")
+        return module.simulate(scene, duration_s, *settings, *peer.name.split()[1:])  # the method of scipy
+    except Exception as error:
+        return nothing(scene, "solver-failed", f"{type(error).__name__}: {error}")

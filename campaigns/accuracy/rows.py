@@ -1,14 +1,27 @@
-"""A run of the accuracy campaign as one row: what it was, its error, what it cost."""
+"""A run of the accuracy campaign as one row: what it was, its error, what it cost. And the measured orders.
+
+`orders.csv` has one row a series of runs whose step, grid or tolerance is refined.
+
+Series in time and in space are judged by the differences of neighbours in the series, which need no reference; their
+slopes are log2 of the ratios of successive differences, the order the last of them. Works in which the rope goes slack
+are also judged by their samples before it first does ("-early"). Breaking lines are refined in time and space at once,
+and judged by their errors against the exact solution. Tolerances of one grid, against a run on it: slope
+of the error against the tolerance, least squares.
+"""
 
 import functools
 import math
+from itertools import pairwise
+from pathlib import Path
 
 import numpy as np
 
 from campaigns import columns
+from campaigns.accuracy.plan import ORDERS, plain
 from campaigns.accuracy.works import BY_NAME, RADIUS, STRAIN, UNITS, Work
-from campaigns.columns import MESSAGE, RUN_KEY, STATUS, WALL_S, Column, names
-from campaigns.machinery.plan import KeptRun
+from campaigns.columns import MESSAGE, RUN_KEY, STATUS, WALL_S, Column, counted
+from campaigns.machinery.folder import write_table
+from campaigns.tables import run_of
 
 STEPPING = (columns.STEPS, columns.REJECTED, columns.NEWTON, columns.NEWTON_FAILURES)
 COUNTED = (columns.END_S, *STEPPING, columns.LOOPS, columns.TURN)
@@ -31,31 +44,29 @@ COLUMNS = (
     RUN_KEY,
     MESSAGE,
 )
-STATISTICS = names((WALL_S, *COUNTED))
 EARLY = 0.5  # share of the run over which error_early is taken
 
 
 def point_row(
-    trajectory, work_name: str, reference: KeptRun | None = None, ours: KeptRun | None = None
+    trajectory, work_name: str, reference: np.ndarray | None = None, ours: np.ndarray | None = None
 ) -> dict[str, object]:
     """The columns of `COLUMNS` that a run fills; those left out are unknown.
 
-    reference, ours: the runs that error and error_against_ours are taken against, None for none; the error of a
+    reference, ours: the samples that error and error_against_ours are taken against, None for none; the error of a
     breaking line is taken against the exact solution. A run that ended early has no error.
     """
     work = BY_NAME[work_name]
-    row = {"status": trajectory.status, "message": trajectory.message, "error_unit": UNITS[work.measure]}
-    row |= {name: trajectory.statistics[name] for name in STATISTICS if name in trajectory.statistics}
+    row = counted(trajectory, (WALL_S, *COUNTED)) | {"error_unit": UNITS[work.measure]}
     if trajectory.status != "ok":
         return row
     if work.measure == STRAIN:
         return row | {"error": strain_error(trajectory)}
     found = samples_of(work, trajectory)
-    if reference and (samples := kept_samples(work, reference)) is not None:
-        early = int(EARLY * len(samples))
-        row |= {"error": rms_mm(found, samples), "error_early": rms_mm(found[:early], samples[:early])}
-    if ours and (samples := kept_samples(work, ours)) is not None:
-        row["error_against_ours"] = rms_mm(found, samples)
+    if reference is not None:
+        early = int(EARLY * len(reference))
+        row |= {"error": rms_mm(found, reference), "error_early": rms_mm(found[:early], reference[:early])}
+    if ours is not None:
+        row["error_against_ours"] = rms_mm(found, ours)
     return row
 
 
@@ -66,16 +77,10 @@ def samples_of(work: Work, trajectory) -> np.ndarray:
     return np.stack([trajectory.columns[name] for name in ("x_m", "y_m", "z_m")], axis=1)
 
 
-@functools.lru_cache(maxsize=32)
-def _kept(work_name: str, kept: KeptRun, stamp: object) -> np.ndarray | None:
-    run = kept.load()
-    return samples_of(BY_NAME[work_name], run) if run.status == "ok" else None
-
-
-def kept_samples(work: Work, kept: KeptRun) -> np.ndarray | None:
+def kept_samples(work: Work, out: Path, key: str) -> np.ndarray | None:
     """The samples of a finished run; None where there is none, or where it ended early."""
-    stamp = kept.stamp()
-    return None if stamp is None else _kept(work.name, kept, stamp)
+    run = run_of(out, {"run_key": key, "status": "ok"})
+    return samples_of(work, run) if run is not None and run.status == "ok" else None
 
 
 def rms_mm(found: np.ndarray, reference: np.ndarray) -> float:
@@ -101,3 +106,103 @@ def _exact(law, mass, length, force_N, decay_s, times, places) -> np.ndarray:
 
     motion = fitted_break(law, mass, length, force_N, decay_s, times[-1])
     return np.array([motion.at(np.array(places), time_s)[0] for time_s in times])
+
+
+KINDS = ("time", "space", "both", "tolerance")  # of runs that are series
+WITHIN = 0.15  # of theory, the last slope
+STEADY = 0.6  # of theory, every slope: where they jump about, the last is right by chance
+ORDER_COLUMNS = (
+    Column("work", symbol="work", meaning="what is simulated"),
+    Column("kind", symbol="refined", meaning="what is halved: time, space or both; or the tolerance"),
+    Column("method", symbol="method", meaning="integrator or scheme"),
+    Column("theory", "", "theory", "order that theory gives", 2),
+    Column("order", "", "measured", "last of the slopes", 2),
+    Column("slopes", symbol="slopes", meaning="log2 of the ratios of neighbours, coarse to fine"),
+    Column("errors", symbol="errors", meaning="differences of neighbours, or errors, coarse to fine"),
+    Column("unit", symbol="unit", meaning="of the errors"),
+    Column("settings", symbol="settings", meaning="steps, nodes or tolerances of the series"),
+    Column("within", "", "within", f"1 where the last slope is within {WITHIN:g} of theory and none is far off", 0),
+    Column("rough", symbol="not smooth", meaning="why no order is expected"),
+    Column("note", symbol="note", meaning="runs that ended early"),
+)
+# an adaptive method keeps its estimate of the error of a step, of order p_e + 1, at rtol: the error goes with
+# rtol^(p/(p_e + 1)), p_e = 3 for esdirk43 (p = 4) and 2 for trbdf2 (p = 2), whose estimate is that of its own order
+TOLERANCE_SLOPE = {"esdirk43": 1.0, "trbdf2": 2.0 / 3.0}
+
+
+def write_orders(out: Path, rows: list[dict]) -> None:
+    """Write orders.csv and its dictionary beside table.csv. Raises OSError."""
+    write_table(out / "orders.csv", ORDER_COLUMNS, orders(out, rows))
+
+
+def orders(out: Path, rows: list[dict]) -> list[dict]:
+    """The rows of orders.csv from those of table.csv, which name the runs in `out`; in the order of the table."""
+    series: dict[tuple[str, str, str], list[dict]] = {}
+    for row in rows:
+        if row["kind"] in KINDS and plain(row["method"]) in ORDERS:
+            series.setdefault((row["work"], row["kind"], row["method"]), []).append(row)
+    slack = {name: first_slack(out, work, rows) for name, work in BY_NAME.items() if work.rough}
+    found = []
+    for (work, kind, method), own in series.items():
+        own.sort(key=lambda row: (row["nodes"], -row["setting"]))  # coarse to fine
+        if kind == "both":  # theory: the order in space; the viscosity's limiter leaves it alone
+            found.append(_judged(kind, min(2, ORDERS[plain(method)]), own, _errors(own)))
+        elif kind == "tolerance":
+            found += _by_tolerance(method, [row for row in own if row.get("error") is not None])
+        else:
+            samples = [kept_samples(BY_NAME[work], out, row["run_key"]) for row in own]
+            theory = ORDERS[method] if kind == "time" else 2
+            found.append(_judged(kind, theory, own, _differences(samples)))
+            if early := slack.get(work):
+                cut = [values if values is None else values[:early] for values in samples]
+                found.append(_judged(kind, theory, own, _differences(cut)) | {"kind": f"{kind}-early", "rough": ""})
+    return found
+
+
+def first_slack(out: Path, work: Work, rows: list[dict]) -> int:
+    """Number of samples of a rough work's reference before its rope first goes slack; 0 where it does not."""
+    wanted = {"work": work.name, "kind": "reference", "status": "ok"}
+    reference = next((row for row in rows if wanted.items() <= row.items()), None)
+    return 0 if reference is None else int(np.argmax(run_of(out, reference).columns["tension_min_N"] <= 0.0))
+
+
+def _differences(samples: list) -> list[float]:
+    """Distances of neighbours; nan where one of them gave nothing."""
+    return [math.nan if coarse is None or fine is None else rms_mm(coarse, fine) for coarse, fine in pairwise(samples)]
+
+
+def _errors(series: list[dict]) -> list[float]:
+    return [math.nan if row.get("error") is None else row["error"] for row in series]
+
+
+def _by_tolerance(method: str, series: list[dict]) -> list[dict]:
+    if len(series) < 3:
+        return []
+    errors = _errors(series)
+    logs = np.log([row["setting"] for row in series]), np.log(np.maximum(errors, 1e-12))
+    row = _judged("tolerance", TOLERANCE_SLOPE[method], series, errors)
+    return [row | {"order": float(np.polyfit(*logs, 1)[0]), "slopes": "", "within": ""}]
+
+
+def _judged(kind: str, theory: float, series: list[dict], errors: list[float]) -> dict:
+    work = BY_NAME[series[0]["work"]]
+    with np.errstate(all="ignore"):
+        slopes = np.log2(np.divide(errors[:-1], errors[1:])) if len(errors) > 1 else np.array([])
+    known = slopes[np.isfinite(slopes)]
+    within = len(known) and abs(known[-1] - theory) <= WITHIN and np.all(np.abs(known - theory) <= STEADY)
+    failed = [row["status"] for row in series if row["status"] != "ok"]
+    statuses = ", ".join(dict.fromkeys(failed))
+    return {
+        "work": work.name,
+        "kind": kind,
+        "method": series[0]["method"],
+        "theory": theory,
+        "order": float(known[-1]) if len(known) else "",
+        "slopes": " ".join(f"{slope:.3f}" for slope in slopes),
+        "errors": " ".join(f"{error:.4g}" for error in errors),
+        "unit": UNITS[work.measure],
+        "settings": " ".join(f"{row['setting' if kind in ('time', 'tolerance') else 'nodes']:g}" for row in series),
+        "within": int(bool(within)) if len(known) else "",
+        "rough": work.rough,
+        "note": f"{len(failed)} of {len(series)} runs ended early: {statuses}" if failed else "",
+    }

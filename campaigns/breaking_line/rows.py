@@ -10,7 +10,7 @@ import numpy as np
 
 from campaigns.breaking_line import motion_measures as measures
 from campaigns.breaking_line.theory import theory_of
-from campaigns.columns import LOOPS, MESSAGE, REJECTED, RUN_KEY, STATISTICS, STATUS, Column, names
+from campaigns.columns import LOOPS, MESSAGE, REJECTED, RUN_KEY, STATISTICS, STATUS, Column, counted
 
 _COUNTED = tuple(column for column in STATISTICS if column not in (LOOPS, REJECTED))
 COLUMNS = (
@@ -94,15 +94,12 @@ COMMON_S = 0.12  # the shortest of the paper's run lengths, to compare recoil at
 def breaking_row(trajectory) -> dict[str, object]:
     """The columns of `COLUMNS` that a trajectory of the breaking line fills; those left out are unknown."""
     scene = trajectory.scene
-    row = {
-        "status": trajectory.status,
-        "message": trajectory.message,
+    row = counted(trajectory, _COUNTED) | {
         "force_N": math.hypot(*scene.end.force_N),
         "breaking_time_s": scene.end.force_decay_s,
         "bending_stiffness_Nm2": scene.tether.bending_stiffness_Nm2,
         "nodes": scene.tether.nodes,
     }
-    row |= {name: trajectory.statistics.get(name) for name in names(_COUNTED)}
     times, profiles, energy = trajectory.columns["time_s"], trajectory.profiles, trajectory.energy
     theory = theory_of(scene, float(times[-1])) if len(times) and times[-1] > 0.0 else None
     row |= _theory_columns(theory) if theory is not None else {}

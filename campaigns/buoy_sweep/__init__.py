@@ -13,8 +13,10 @@ every value in three dimensions, `--dimensions auto` those whose planar run rele
 from collections.abc import Callable, Iterator
 from functools import partial
 
+from campaigns.buoy_sweep.space import SEED_MPS, in_space, run_where_needed
 from campaigns.machinery import cli
 from campaigns.machinery.plan import Job
+from campaigns.machinery.runner import run
 from campaigns.study import Lengths, Measures, Order, Study
 
 # From the paper's small wave (0.016) to beyond its large one (0.13); a step of 0.003 meets 0.13 too.
@@ -47,7 +49,6 @@ def read(options, faults: list[str]) -> None:
 
 def cases(order: Order) -> Iterator[Job]:
     """A run for every value; in three dimensions where all are to be."""
-    from campaigns.buoy_sweep.space import in_space
     from campaigns.judge import judged_scene
     from engine import SceneError
 
@@ -84,7 +85,6 @@ def measures(order: Order) -> Measures:
 
 def parameters(order: Order) -> dict[str, object]:
     """What the provenance says of this campaign."""
-    from campaigns.buoy_sweep.space import SEED_MPS, in_space
     from campaigns.judge import LONGEST_PERIOD, STROBE_TOLERANCE
 
     dimensions = dimensions_of(order)
@@ -99,22 +99,14 @@ def parameters(order: Order) -> dict[str, object]:
     }
 
 
-def runs(order: Order) -> Callable:
-    """All of one kind, or in three dimensions where the plane is not enough."""
-    from campaigns.buoy_sweep.space import run_where_needed
-    from campaigns.machinery.runner import run
-
-    return run_where_needed if dimensions_of(order) == "auto" else run
-
-
 def beside(order: Order) -> Iterator[Callable]:
     """Two runs again, tighter and finer; the most violent one again with its line."""
     from campaigns.buoy_sweep.repeats import close_up, repeat
-    from campaigns.buoy_sweep.rows import regime_of
+    from campaigns.buoy_sweep.rows import buoy_row
 
     if not order.own.no_accuracy:
-        verdict = partial(regime_of, transient_periods=order.transient)
-        yield partial(repeat, periods=order.periods, verdict=verdict)
+        row = partial(buoy_row, transient_periods=order.transient)
+        yield partial(repeat, periods=order.periods, row_of=row, said="regime")
     yield partial(close_up, periods=order.periods)
 
 
@@ -134,7 +126,7 @@ STUDY = Study(
     cases=cases,
     measures=measures,
     parameters=parameters,
-    runs=runs,
+    runs=lambda order: run_where_needed if dimensions_of(order) == "auto" else run,
     beside=beside,
 )
 main, parser, read_order = STUDY.main, STUDY.parser, STUDY.read_order

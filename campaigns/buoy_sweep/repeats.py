@@ -19,7 +19,7 @@ from functools import partial
 import numpy as np
 
 from campaigns.buoy_sweep.rows import STEEPNESS
-from campaigns.columns import LOOPS, MESSAGE, NEWTON, PERIODS_RUN, RUN_KEY, STATUS, WALL_S, Column, names
+from campaigns.columns import LOOPS, MESSAGE, NEWTON, PERIODS_RUN, RUN_KEY, STATUS, WALL_S, Column, counted
 from campaigns.judge import tighter_scene
 from campaigns.machinery.cli import Running
 from campaigns.machinery.folder import claimed, trajectory_path
@@ -72,11 +72,13 @@ def chosen(rows: list[dict]) -> list[tuple[str, dict]]:
     return [("regular", regular)] if regular is violent else [("regular", regular), ("violent", violent)]
 
 
-def repeat(plan: Plan, summary: Summary, periods: int, verdict: Callable, among: set[str] | None = None) -> float:
+def repeat(
+    plan: Plan, summary: Summary, periods: int, row_of: Callable, said: str, among: set[str] | None = None
+) -> float:
     """Do the repeated runs of a sweep over its share of the wave periods; returns seconds of analysis.
 
-    verdict(trajectory) -> what it is called, or None; among: keys of the runs to choose from, None for all. Raises as
-    `runner.run_campaign`.
+    row_of(trajectory) -> its row; said: the column of what its motion is called. among: keys of the runs to choose
+    from, None for all. Raises as `runner.run_campaign`.
     """
     from engine import Trajectory
     from engine.scene import scene_from_toml
@@ -88,7 +90,7 @@ def repeat(plan: Plan, summary: Summary, periods: int, verdict: Callable, among:
         original = first_periods(Trajectory.load(trajectory_path(plan.how.out, row["run_key"])), length)
         scene = original.scene
         finer = scene_from_toml(scene.to_toml(), {"tether.nodes": 2 * scene.tether.nodes - 1})
-        describe = partial(accuracy_row, original=original, verdict=verdict)
+        describe = partial(accuracy_row, original=original, row_of=row_of, said=said)
         for run, made in ((AS_RUN, scene), (TIGHTER, tighter_scene(scene)), (FINER, finer)):
             labels = {"role": role, "label": row["steepness"], "run": run, "periods": length}
             simulate = partial(_as_made, original) if run == AS_RUN else None
@@ -124,10 +126,10 @@ def first_periods(trajectory, length: int):
     return replace(trajectory, columns=kept, statistics=trajectory.statistics | scaled, profiles=None, tangent=tangent)
 
 
-def accuracy_row(trajectory, original, verdict: Callable) -> dict[str, object]:
+def accuracy_row(trajectory, original, row_of: Callable, said: str) -> dict[str, object]:
     """The columns of `COLUMNS` that a repeated run fills. original: as much of the run as it was made."""
     scene = trajectory.scene
-    row = _counted((WALL_S, NEWTON, LOOPS), trajectory) | {
+    row = counted(trajectory, (WALL_S, NEWTON, LOOPS)) | {
         "nodes": scene.tether.nodes,
         "rtol": None if scene.solver.step_s else scene.solver.rtol,
         "step_s": scene.solver.step_s,
@@ -137,19 +139,14 @@ def accuracy_row(trajectory, original, verdict: Callable) -> dict[str, object]:
     r, r0 = trajectory.columns["radius_m"], original.columns["radius_m"]
     early = round(EARLY * scene.waves.period_s / scene.sample_step_s()) + 1
     row |= {"error_early_m": _rms(r[:early] - r0[:early]), "error_m": _rms(r - r0)} if len(r) == len(r0) else {}
-    said, before = verdict(trajectory), verdict(original)
-    if said is not None and before is not None:
-        row |= {"verdict": said, "same_verdict": int(said == before)}
+    now, before = (row_of(run).get(said) for run in (trajectory, original))
+    if now is not None and before is not None:
+        row |= {"verdict": now, "same_verdict": int(now == before)}
     return row
 
 
 def _rms(values: np.ndarray) -> float:
     return float(np.sqrt(np.mean(values**2)))
-
-
-def _counted(columns: tuple[Column, ...], trajectory) -> dict[str, object]:
-    counts = {name: trajectory.statistics.get(name) for name in names(columns)}
-    return {"status": trajectory.status, "message": trajectory.message, **counts}
 
 
 SHAPES = (STEEPNESS, STATUS, PERIODS_RUN, WALL_S, RUN_KEY, MESSAGE)  # columns of the close-up's table
@@ -171,7 +168,7 @@ def close_up(plan: Plan, summary: Summary, periods: int) -> float:
         labels = {"steepness": row["steepness"], "periods": length}
         jobs.append(Job(labels, scene_from_toml(scene.to_toml(), kept), length))
     if jobs or out.exists():
-        how, row_of = Running(out, backend="threading"), partial(_counted, (WALL_S,))
+        how, row_of = Running(out, backend="threading"), partial(counted, columns=(WALL_S,))
         own = Plan(how, plan.simulate, row_of, SHAPES, show_progress=False)
         # without a job the table of an earlier sweep in this folder is emptied
         with claimed(out):

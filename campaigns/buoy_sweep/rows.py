@@ -4,12 +4,10 @@ A column whose analysis does not apply to a run stays empty (None), never 0: a r
 its statistics and nothing more. Extremes and slack are taken after the transient, the emergence over the whole run.
 """
 
-import math
-
 import numpy as np
 
 from analysis.evidence import evidence_text
-from campaigns.columns import LINE_COUNTS, MESSAGE, RUN_KEY, SOLVER_COUNTS, STATISTICS, STATUS, Column, names
+from campaigns.columns import LINE_COUNTS, MESSAGE, RUN_KEY, SOLVER_COUNTS, STATUS, Column, counted, names, number
 from campaigns.judge import (
     LEAST_JUDGED,
     LONGEST_PERIOD,
@@ -87,26 +85,19 @@ def buoy_row(trajectory, transient_periods: int, simulate=None) -> dict[str, obj
     simulate: to repeat a run that looks chaotic at a ten times tighter tolerance (regime_tighter); None: not done.
     The columns planar_ are filled by `campaigns.buoy_sweep.space`.
     """
-    row = {"status": trajectory.status, "message": trajectory.message}
-    row |= {name: number(trajectory.statistics.get(name)) for name in names(STATISTICS)}
-    columns = sound_part(trajectory.columns)
-    scene = trajectory.scene
+    row, columns, scene = counted(trajectory), sound_part(trajectory.columns), trajectory.scene
     if len(columns["time_s"]) and scene.water is not None:
         top_m = float(np.max(columns["z_m"])) + 0.5 * scene.buoy.diameter_m
         row["max_buoy_height_above_water_m"] = top_m - scene.water.depth_m
     step_s, period_s = scene.sample_step_s(), scene.waves.period_s
-    recorded_s = (len(columns["time_s"]) - 1) * step_s
-    if recorded_s >= (transient_periods + 1) * period_s - 1e-6 * step_s:
-        row |= settled(columns, step_s, transient_periods * period_s)
-        row["strobed_period"] = strobed_period(columns, step_s, period_s, transient_periods)
+    if measured := after_transient(trajectory, columns, transient_periods):
+        row |= measured
         in_space = scene.motion.dimensions == 3
         if in_space:
             after = round(transient_periods * period_s / step_s)
             row["buoy_lateral_max_m"] = float(np.abs(columns["y_m"][after:]).max())
             row["rope_lateral_max_m"] = float(columns["offplane_m"][after:].max())
-        if trajectory.status == "ok" and trajectory.tangent is not None:
-            row |= across_plane(trajectory.tangent, transient_periods)
-        enough = recorded_s >= (transient_periods + LEAST_JUDGED) * period_s - 1e-6 * step_s
+        enough = lasts(columns, step_s, (transient_periods + LEAST_JUDGED) * period_s)
         if trajectory.status == "ok" and (carried(trajectory) or (in_space and enough)):
             tangent = tangent_of(trajectory, transient_periods)
             verdict, wolf, tighter = verdict_of(trajectory, transient_periods, tangent, simulate)
@@ -115,27 +106,39 @@ def buoy_row(trajectory, transient_periods: int, simulate=None) -> dict[str, obj
                 "regime_tighter": tighter,
                 "regime_reason": verdict.reason,
                 "evidence": evidence_text(verdict),
-                "lyapunov_tangent_bits_per_period": number(tangent.value),
-                "lyapunov_tangent_error": number(tangent.error),
-                "lyapunov_wolf_bits_per_period": number(wolf.value),
-                "lyapunov_wolf_error": number(wolf.error),
+                **exponents(TANGENT, tangent),
+                **exponents(WOLF, wolf),
             }
     return row
 
 
-def regime_of(trajectory, transient_periods: int) -> str | None:
-    """The regime that `buoy_row` names, without a repetition of runs that look chaotic; None where it names none."""
-    return buoy_row(trajectory, transient_periods).get("regime")
+def after_transient(trajectory, columns, transient_periods: int) -> dict[str, object]:
+    """What follows the transient, by column: extremes, slack, strobed period, growth across the plane.
 
-
-def across_plane(growth, transient_periods: int) -> dict[str, object]:
-    """Exponent of infinitesimal perturbations across the plane, by column of the table; {} where none was carried."""
+    columns: the `sound_part` of its record; {} where that does not outlast the transient by a wave period.
+    """
     from analysis import transverse_lyapunov
 
-    if growth.lateral_nats is None:
+    step_s, period_s = trajectory.scene.sample_step_s(), trajectory.scene.waves.period_s
+    if not lasts(columns, step_s, (transient_periods + 1) * period_s):
         return {}
-    found = transverse_lyapunov(growth.lateral_nats, transient_periods, growth.released)
-    return {"offplane_growth_bits_per_period": number(found.value), "offplane_growth_error": number(found.error)}
+    row = settled(columns, step_s, transient_periods * period_s)
+    row["strobed_period"] = strobed_period(columns, step_s, period_s, transient_periods)
+    growth = trajectory.tangent
+    if trajectory.status == "ok" and growth is not None and growth.lateral_nats is not None:
+        found = transverse_lyapunov(growth.lateral_nats, transient_periods, growth.released)
+        row |= exponents(OFFPLANE, found)
+    return row
+
+
+def lasts(columns, step_s: float, length_s: float) -> bool:
+    """Whether a record is of that length at least."""
+    return (len(columns["time_s"]) - 1) * step_s >= length_s - 1e-6 * step_s
+
+
+def exponents(columns: tuple[Column, Column], found) -> dict[str, object]:
+    """An Exponent in the two columns of its value and its standard error."""
+    return dict(zip(names(columns), (number(found.value), number(found.error)), strict=True))
 
 
 def settled(columns, step_s: float, transient_s: float) -> dict[str, object]:
@@ -176,8 +179,3 @@ def sound_part(columns) -> dict[str, np.ndarray]:
     sound = np.all([np.isfinite(values) for values in arrays.values()], axis=0)
     end = len(sound) if sound.all() else int(np.argmin(sound))
     return {name: values[:end] for name, values in arrays.items()}
-
-
-def number(entry: object) -> object:
-    """The number itself; None for one that is unknown or not finite."""
-    return None if entry is None or not math.isfinite(entry) else entry

@@ -31,9 +31,6 @@ class Kind:
     convert: Callable[[str], object]
     allowed: str
 
-    def __call__(self, text: str) -> object:
-        return self.convert(text)
-
 
 def number(allowed: str, sound: Callable[[float], bool]) -> Kind:
     """Numbers for which `sound` holds."""
@@ -136,20 +133,6 @@ def add_running(group, campaign: str, jobs: bool = True, backends: bool = True) 
     group.add_argument("--no-report", action="store_true", help="leave out report.html and report.pdf")
 
 
-def add_lengths(group, usual: Lengths) -> None:
-    """Add --periods and --transient; usual: their defaults."""
-    add(group, "--periods", "N", "length of every run in wave periods", whole(1, MOST_PERIODS), usual.periods)
-    most = f"(default: {usual.transient}, at most 1/{usual.share} of --periods)"
-    add(group, "--transient", "N", f"wave periods left out of the analysis {most}", whole(0))
-
-
-def add_scene(group, usual: str) -> None:
-    """Add --scene, by default the usual one, and --set."""
-    name = Kind(str, "a scene file or the name of a scene")
-    add(group, "--scene", "FILE_OR_NAME", "scene to start from", name, usual)
-    add(group, "--set", "KEY=VALUE ...", "change values of the scene, as water.depth_m=22.5 tether.nodes=81")
-
-
 def add_accuracy(group) -> None:
     """Add --no-accuracy (`campaigns.buoy_sweep.repeats`)."""
     again = "do not repeat two runs at a tenth of the tolerance and at twice the elements"
@@ -188,7 +171,7 @@ def value(words: list[str] | None, option: str, usual, kind: Kind, faults: list[
     found = []
     for word in words:
         try:
-            found.append(kind(word))
+            found.append(kind.convert(word))
         except ValueError:
             faults.append(f"{option}: given {word!r}; allowed: {kind.allowed}")
     if len(found) < len(words):
@@ -225,7 +208,7 @@ def lengths(options: argparse.Namespace, usual: Lengths, faults: list[str]) -> t
 def evenly(words: list[str], option: str, faults: list[str], least: float = -math.inf) -> list[float]:
     """The values of LO HI COUNT, both ends included; none where the words are at fault. least: LO is not below."""
     try:
-        low, high, count = float(words[0]), float(words[1]), whole(2, MOST_RUNS)(words[2])
+        low, high, count = float(words[0]), float(words[1]), whole(2, MOST_RUNS).convert(words[2])
         if len(words) != 3 or not least <= low < high < math.inf or low == -math.inf:
             raise ValueError(words)
     except (ValueError, IndexError):

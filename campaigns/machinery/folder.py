@@ -117,6 +117,13 @@ class Table:
         self._written_s = time.monotonic()
 
 
+def write_table(path: Path, columns: tuple[Column, ...], rows: list[dict]) -> None:
+    """Write rows that are all there, and the dictionary of their columns. Raises OSError."""
+    table = Table(path, columns, list(range(len(rows))))
+    table.rows = dict(enumerate(rows))
+    table.write()
+
+
 def _cell(entry: object) -> str:
     # Unknown is empty, never 0 and never the word nan.
     if entry is None or (isinstance(entry, float) and math.isnan(entry)):
@@ -167,16 +174,14 @@ def of_the_page() -> tuple[str, ...]:
 
 def kept_row(directory: Path, key: str, maker: str) -> dict | None:
     """The row of a run as `maker` made it; None where there is none, or a damaged one."""
-    try:
-        content = json.loads(_row_path(directory, key).read_text(encoding="utf-8"))
-        return dict(content["row"]) if content["made_by"] == maker else None
-    except (OSError, ValueError, KeyError, TypeError):
-        return None
+    found = read_json(_row_path(directory, key))
+    sound = isinstance(found, dict) and found.get("made_by") == maker and isinstance(found.get("row"), dict)
+    return found["row"] if sound else None
 
 
 def keep_row(directory: Path, key: str, maker: str, row: dict) -> None:
-    """Store a row, unless it has no maker. A disk that is full loses no more than the time to make it again."""
-    if maker:
+    """Store a row, unless it has no maker or its analysis failed. A full disk loses only the time to make it again."""
+    if maker and row.get("status") != "analysis-failed":
         with contextlib.suppress(OSError):
             write_atomic(_row_path(directory, key), json.dumps({"made_by": maker, "row": row}, default=float).encode())
 

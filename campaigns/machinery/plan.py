@@ -9,7 +9,6 @@ import json
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from pathlib import Path
 
 from campaigns.columns import Column
 from campaigns.machinery.cli import Running
@@ -63,12 +62,16 @@ class Outcome:
 
 @dataclass(frozen=True)
 class Summary:
-    """A campaign's rows in order, how many were found or computed, and the analysis time summed over workers."""
+    """A campaign's rows in order, how many were found or computed, and the analysis time summed over workers.
+
+    whole: whether nothing was done, and the report that is there stays as it is.
+    """
 
     rows: list[dict[str, object]]
     found: int
     computed: int
     analysis_s: float
+    whole: bool = False
 
 
 @dataclass(frozen=True)
@@ -100,30 +103,3 @@ class Plan:
         """The plan as workers get it."""
         # A worker kept from an earlier campaign of this process may stand in another folder.
         return replace(self, how=replace(self.how, out=None if self.sends else self.how.out.absolute()))
-
-
-@dataclass(frozen=True)
-class KeptRun:
-    """A finished run by its file, for rows made from two runs. Pickled, it has the content in place of the path.
-
-    path: of the file, None where only the content is known; content: b"" where the file is.
-    """
-
-    path: Path | None
-    content: bytes = b""
-
-    def load(self):
-        """The Trajectory. Raises engine.trajectory.TrajectoryError where there is none."""
-        from engine import Trajectory
-
-        return Trajectory.load(self.path) if self.path is not None else Trajectory.from_bytes(self.content)
-
-    def stamp(self) -> object:
-        """Something that changes with the content; None where there is no such run."""
-        if self.path is None:
-            return self.content or None
-        return self.path.stat().st_mtime_ns if self.path.exists() else None
-
-    def __reduce__(self):
-        there = self.path is not None and self.path.exists()
-        return KeptRun, (None, self.path.read_bytes() if there else self.content)

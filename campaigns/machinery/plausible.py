@@ -17,11 +17,17 @@ SLENDER = 10.0
 LINE_KGPM3, WATER_KGPM3 = (10.0, 30e3), (100.0, 20e3)
 PERIODS_S = (0.05, 1000.0)
 MOST_STRETCH = 10.0
+Odd = tuple[str, object, str]  # key, what is given, what is allowed
 PYTHON = "if it is meant, run it from Python: engine.simulate"
 
 
 def doubts(scene) -> Iterator[str]:
     """Fault lines of a scene; none where it is plausible."""
+    for key, given, allowed in _odd(scene):
+        yield fault(key, given, f"{allowed}; {PYTHON}")
+
+
+def _odd(scene) -> Iterator[Odd]:
     yield from _line(scene)
     if scene.water is not None and not WATER_KGPM3[0] <= scene.water.density_kgpm3 <= WATER_KGPM3[1]:
         yield _density("water.density_kgpm3", scene.water.density_kgpm3, WATER_KGPM3)
@@ -29,8 +35,12 @@ def doubts(scene) -> Iterator[str]:
         yield from _buoy(scene)
     if scene.waves is not None:
         yield from _waves(scene)
-    if scene.end.kind == "free":
-        yield from _end_force(scene)
+    law = scene.tether.tension
+    if scene.end.kind == "free" and law.law == "tanh":
+        (p1, p2, p3, p4, p5), force = law.p, math.hypot(*scene.end.force_N)
+        if p1 * math.tanh(p2 * MOST_STRETCH + p3) + p4 + p5 * MOST_STRETCH < force:
+            reached = f"a law that reaches the {force:.4g} N of end.force_N below a strain of {MOST_STRETCH:g}"
+            yield "tether.tension.p", law.p, f"{reached} (newtons, not kN?)"
 
 
 def endless(scene, duration_s: float) -> Iterator[str]:
@@ -66,62 +76,53 @@ def breaking_steepness(scene) -> float:
     return MICHE * math.tanh(wave_number(scene.waves.period_s, depth, scene.gravity_mps2) * depth)
 
 
-def _line(scene) -> Iterator[str]:
+def _line(scene) -> Iterator[Odd]:
     tether = scene.tether
     if not LINE_KGPM3[0] <= tether.density_kgpm3 <= LINE_KGPM3[1]:
         yield _density("tether.density_kgpm3", tether.density_kgpm3, LINE_KGPM3)
     if (most := 0.25 * math.pi * (tether.length_m / SLENDER) ** 2) < tether.area_m2:
-        allowed = f"at most {most:.3g}, of a line {SLENDER:g} times as long as thick (m2, not mm2?); {PYTHON}"
-        yield fault("tether.area_m2", tether.area_m2, allowed)
+        allowed = f"at most {most:.3g}, of a line {SLENDER:g} times as long as thick (m2, not mm2?)"
+        yield "tether.area_m2", tether.area_m2, allowed
     circle = 0.25 * math.pi * tether.diameter_m**2
     if not 1.0 / AREA_RATIO < circle / tether.area_m2 < AREA_RATIO:
         allowed = f"about {math.sqrt(4.0 * tether.area_m2 / math.pi):.3g} m, the circle of tether.area_m2"
-        yield fault("tether.diameter_m", tether.diameter_m, f"{allowed} (metres, not millimetres?); {PYTHON}")
+        yield "tether.diameter_m", tether.diameter_m, f"{allowed} (metres, not millimetres?)"
     if scene.water is not None and tether.length_m > LONGEST_IN_DEPTHS * scene.water.depth_m:
-        allowed = f"at most {LONGEST_IN_DEPTHS:g} times water.depth_m, {scene.water.depth_m:g} (metres?); {PYTHON}"
-        yield fault("tether.length_m", tether.length_m, allowed)
+        allowed = f"at most {LONGEST_IN_DEPTHS:g} times water.depth_m, {scene.water.depth_m:g} (metres?)"
+        yield "tether.length_m", tether.length_m, allowed
 
 
-def _density(key: str, given: float, bounds: tuple[float, float]) -> str:
-    return fault(key, given, f"{bounds[0]:g} to {bounds[1]:g} (kg/m3, not t/m3 or g/cm3?); {PYTHON}")
+def _density(key: str, given: float, bounds: tuple[float, float]) -> Odd:
+    return key, given, f"{bounds[0]:g} to {bounds[1]:g} (kg/m3, not t/m3 or g/cm3?)"
 
 
-def _buoy(scene) -> Iterator[str]:
+def _buoy(scene) -> Iterator[Odd]:
     buoy, water = scene.buoy, scene.water
     if buoy.diameter_m >= water.depth_m:
-        allowed = f"less than water.depth_m, {water.depth_m:g} (metres, not millimetres?); {PYTHON}"
-        yield fault("buoy.diameter_m", buoy.diameter_m, allowed)
+        allowed = f"less than water.depth_m, {water.depth_m:g} (metres, not millimetres?)"
+        yield "buoy.diameter_m", buoy.diameter_m, allowed
         return
     displaced = water.density_kgpm3 * math.pi * buoy.diameter_m**3 / 6.0
     if buoy.mass_kg >= displaced:
-        allowed = f"less than the {displaced:.4g} kg of water that it displaces, or it sinks; {PYTHON}"
-        yield fault("buoy.mass_kg", buoy.mass_kg, allowed)
+        allowed = f"less than the {displaced:.4g} kg of water that it displaces, or it sinks"
+        yield "buoy.mass_kg", buoy.mass_kg, allowed
     law = scene.tether.tension
     lift = (displaced - buoy.mass_kg) * scene.gravity_mps2
     if law.law == "linear" and lift > MOST_STRETCH * law.stiffness_N:
         allowed = f"{lift / MOST_STRETCH:.3g} N at least, as the buoy pulls with {lift:.4g} N (newtons, not kN?)"
-        yield fault("tether.tension.stiffness_N", law.stiffness_N, f"{allowed}; {PYTHON}")
+        yield "tether.tension.stiffness_N", law.stiffness_N, allowed
 
 
-def _end_force(scene) -> Iterator[str]:
-    law, force = scene.tether.tension, math.hypot(*scene.end.force_N)
-    if law.law == "tanh":
-        p1, p2, p3, p4, p5 = law.p
-        if p1 * math.tanh(p2 * MOST_STRETCH + p3) + p4 + p5 * MOST_STRETCH < force:
-            reached = f"a law that reaches the {force:.4g} N of end.force_N below a strain of {MOST_STRETCH:g}"
-            yield fault("tether.tension.p", law.p, f"{reached} (newtons, not kN?); {PYTHON}")
-
-
-def _waves(scene) -> Iterator[str]:
+def _waves(scene) -> Iterator[Odd]:
     waves = scene.waves
     if not PERIODS_S[0] <= waves.period_s <= PERIODS_S[1]:
-        allowed = f"{PERIODS_S[0]:g} to {PERIODS_S[1]:g} s (seconds, not milliseconds?); {PYTHON}"
-        yield fault("waves.period_s", waves.period_s, allowed)
+        allowed = f"{PERIODS_S[0]:g} to {PERIODS_S[1]:g} s (seconds, not milliseconds?)"
+        yield "waves.period_s", waves.period_s, allowed
         return
     if abs(waves.direction_rad) > 2.0 * math.pi:
-        allowed = f"-2 pi to 2 pi rad (radians, not degrees: {math.radians(waves.direction_rad):.4g}?); {PYTHON}"
-        yield fault("waves.direction_rad", waves.direction_rad, allowed)
+        allowed = f"-2 pi to 2 pi rad (radians, not degrees: {math.radians(waves.direction_rad):.4g}?)"
+        yield "waves.direction_rad", waves.direction_rad, allowed
     if waves.steepness is not None and waves.steepness > (limit := breaking_steepness(scene)):
         percent = " (a share, not per cent?)" if waves.steepness > 1.0 else ""
         breaks = f"at most {limit:.3f}, where a wave of {waves.period_s:g} s breaks in this depth{percent}"
-        yield fault("waves.steepness", waves.steepness, f"{breaks}; {PYTHON}")
+        yield "waves.steepness", waves.steepness, breaks

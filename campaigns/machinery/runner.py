@@ -8,10 +8,10 @@ from collections.abc import Callable, Iterator
 from functools import partial
 from pathlib import Path
 
-from campaigns.machinery.folder import Table, trajectory_path
+from campaigns.machinery.folder import Table, keep_row, trajectory_path
 from campaigns.machinery.plan import Job, Outcome, Plan, Summary
 from campaigns.machinery.pools import PoolBroken, opened
-from campaigns.machinery.worker import failed, keep_outcome, reuse, run_jobs
+from campaigns.machinery.worker import failed, reuse, run_jobs
 from engine.atomic import write_atomic
 
 COMPILE_RUN_S = 0.1  # long enough to go through every kernel, too short to cost anything
@@ -90,6 +90,8 @@ def run_campaign(plan: Plan, jobs: list[Job]) -> Summary:
 
     Raises CampaignStopped (disk full, folder lost) or KeyboardInterrupt; finished runs and their rows are then on disk.
     """
+    from tqdm import tqdm
+
     by_key = {job.key: job for job in jobs}
     table = Table(plan.how.out / "table.csv", plan.columns, list(by_key))
     found = {key: outcome for key, job in by_key.items() if (outcome := reuse(plan, job)) is not None}
@@ -97,11 +99,14 @@ def run_campaign(plan: Plan, jobs: list[Job]) -> Summary:
     table.write()
     analysis_s = sum(outcome.analysis_s for outcome in found.values())
     missing = {key: job for key, job in by_key.items() if key not in found}
+    terminal = sys.stderr.isatty()
+    bar = {"total": len(by_key), "initial": len(found), "unit": "run", "desc": "runs", "dynamic_ncols": terminal}
+    bar |= {"mininterval": 0.2 if terminal else 10.0, "disable": not (plan.show_progress and missing)}
     try:
-        for outcome in _with_progress(plan, _computed(plan, missing), len(by_key), len(found)):
+        for outcome in tqdm(_computed(plan, missing), **bar):
             if outcome.content:
                 write_atomic(trajectory_path(plan.how.out, outcome.key), outcome.content)
-                keep_outcome(plan, outcome)
+                keep_row(plan.how.out, outcome.key, plan.row_maker, outcome.row)
             analysis_s += outcome.analysis_s
             table.add(outcome.key, _row(by_key[outcome.key], outcome))
     except BaseException:
@@ -114,18 +119,6 @@ def run_campaign(plan: Plan, jobs: list[Job]) -> Summary:
 
 def _row(job: Job, outcome: Outcome) -> dict[str, object]:
     return {**job.labels, **outcome.row, "run_key": job.key}
-
-
-def _with_progress(plan: Plan, outcomes: Iterator[Outcome], total: int, found: int) -> Iterator[Outcome]:
-    from tqdm import tqdm
-
-    terminal = sys.stderr.isatty()
-    hidden = not plan.show_progress or total == found
-    options = {"mininterval": 0.2 if terminal else 10.0, "dynamic_ncols": terminal, "disable": hidden}
-    with tqdm(total=total, initial=found, unit="run", desc="runs", **options) as bar:
-        for outcome in outcomes:
-            bar.update()
-            yield outcome
 
 
 def _computed(plan: Plan, jobs: dict[str, Job]) -> Iterator[Outcome]:

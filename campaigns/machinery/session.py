@@ -90,19 +90,24 @@ def conduct(
     """
     start = time.perf_counter()
     with claimed(how.out):
-        record = begun(how.out, name, command_line(module, argv), parameters)[0]
+        record = begun(how.out, name, command_line(module, argv), parameters)
         timing, summary = work()
-        finish(how.out, record, summary, timing)
-        fault = report(how.out, how.report, timing, start)
+        if summary.computed or not ended(how.out):
+            failed = sum(row["status"] != "ok" for row in summary.rows)
+            counts = {"total": len(summary.rows), "found": summary.found}
+            counts |= {"computed": summary.computed, "failed": failed}
+            rounded = {name: round(seconds, 3) for name, seconds in timing.items()}
+            write_json(how.out / PROVENANCE, record | {"runs": counts, "finished_utc": _now_utc(), "timing": rounded})
+        fault = report(how.out, how.report and not summary.whole, timing, start)
     code = say(how.out, summary, timing, how.report, fault)
     return EXIT_FAILED if strict and any(row["status"] != "ok" for row in summary.rows) else code
 
 
-def begun(out: Path, name: str, command: list[str], parameters: dict) -> tuple[dict[str, object], bool]:
-    """(provenance of a campaign that begins, whether the folder holds the same of a finished one already).
+def begun(out: Path, name: str, command: list[str], parameters: dict) -> dict[str, object]:
+    """The provenance of a campaign that begins: what is known before the first run.
 
-    Written, unless it does. What is known before the first run: versions, sources, machine, time. seed is null where
-    `parameters` names none: no random numbers are drawn. Raises OSError.
+    Written, unless the folder holds that of a finished campaign which differs only in when and where it ran. seed is
+    null where `parameters` names none: no random numbers are drawn. Raises OSError.
     """
     from engine import source_hash
 
@@ -119,29 +124,17 @@ def begun(out: Path, name: str, command: list[str], parameters: dict) -> tuple[d
         "git": git_state(Path(__file__).parents[1]),
         "engine_source_hash": source_hash(),
     } | parameters
-    same = _same(out, record)
-    if not same:
-        write_json(out / PROVENANCE, record)
-    return record, same
-
-
-def finish(out: Path, record: dict, summary: Summary, timing: dict[str, float]) -> None:
-    """Write the provenance of a finished campaign, unless the one on disk says how these very results were made."""
-    if summary.computed == 0 and _same(out, record):
-        return
-    failed = sum(row["status"] != "ok" for row in summary.rows)
-    runs = {"total": len(summary.rows), "found": summary.found, "computed": summary.computed, "failed": failed}
-    rounded = {name: round(seconds, 3) for name, seconds in timing.items()}
-    write_json(out / PROVENANCE, record | {"runs": runs, "finished_utc": _now_utc(), "timing": rounded})
-
-
-def _same(out: Path, record: dict[str, object]) -> bool:
-    """Whether the folder is of a finished campaign that differs from this one only in when and where it ran."""
-    old = read_json(out / PROVENANCE)
-    if not isinstance(old, dict) or old.get("finished_utc") is None:
-        return False
+    old = read_json(out / PROVENANCE) if ended(out) else {}
     now, before = ({key: entry for key, entry in one.items() if key not in _OF_THE_OCCASION} for one in (record, old))
-    return json.loads(json.dumps(now)) == before
+    if json.loads(json.dumps(now)) != before:
+        write_json(out / PROVENANCE, record)
+    return record
+
+
+def ended(out: Path) -> bool:
+    """Whether the provenance in a folder is that of a finished campaign; while one runs: whether it did all this."""
+    told = read_json(out / PROVENANCE)
+    return isinstance(told, dict) and told.get("finished_utc") is not None
 
 
 def _now_utc() -> str:

@@ -91,14 +91,8 @@ def _described(plan: Plan, job: Job, trajectory) -> Outcome:
         row = {"status": "analysis-failed", "message": _reason(error)}
     outcome = Outcome(job.key, row, time.perf_counter() - start)
     if plan.how.out is not None:
-        keep_outcome(plan, outcome)
+        keep_row(plan.how.out, job.key, plan.row_maker, row)
     return outcome
-
-
-def keep_outcome(plan: Plan, outcome: Outcome) -> None:
-    """Keep the row beside its run, unless the analysis failed; where the folder is."""
-    if outcome.row.get("status") != "analysis-failed":
-        keep_row(plan.how.out, outcome.key, plan.row_maker, outcome.row)
 
 
 def _reason(error: BaseException) -> str:

@@ -116,9 +116,8 @@ def cases(order: Order) -> Iterator[Job]:
 
 def base_of(order: Order) -> Variant | None:
     """The large wave in the scene as it is, from which the campaign varies; None, and told why, where it cannot be."""
-    scene = order.base()
+    scene = order.base(tell=True)
     if scene is None:
-        order.scene({})
         return None
     tether = scene.tether
     return Variant(LARGE, scene.water.depth_m, tether.bending_stiffness_Nm2, tether.nodes)
@@ -148,14 +147,14 @@ def parameters(order: Order) -> dict[str, object]:
 def beside(order: Order) -> Iterator[Callable]:
     """Two of the runs at the paper's two waves again, tighter and finer; pairs.csv; statements.csv on figure 20."""
     from campaigns.buoy_sweep.repeats import repeat
-    from campaigns.out_of_plane.rows import rope_motion
+    from campaigns.out_of_plane.rows import offplane_row
 
     base = base_of(order)
     if not order.own.no_accuracy:
         waves = (base, replace(base, steepness=SMALL))
         among = {case.key for case in order.cases if variant(case.labels) in waves}
-        verdict = partial(rope_motion, transient_periods=order.transient)
-        yield partial(repeat, periods=order.periods, verdict=verdict, among=among)
+        row = partial(offplane_row, transient_periods=order.transient)
+        yield partial(repeat, periods=order.periods, row_of=row, said="rope_motion", among=among)
     yield partial(judge, base=base, transient=order.transient)
 
 

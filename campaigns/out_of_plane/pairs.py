@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 
 from campaigns.columns import Column
-from campaigns.machinery.folder import Table, trajectory_path
+from campaigns.machinery.folder import trajectory_path, write_table
 from engine import Trajectory
 
 APART_M = 0.01  # difference of the two radii from which the runs count as parted
@@ -36,15 +36,11 @@ COLUMNS = (
 
 def write(out: Path, pairs: list[tuple[dict, dict]], transient: int) -> None:
     """pairs.csv and its dictionary from rows (planar, in three dimensions) of table.csv. Raises OSError."""
-    table = Table(out / "pairs.csv", COLUMNS, [planar["run_key"] for planar, _ in pairs])
-    for planar, spatial in pairs:
-        runs = [Trajectory.load(trajectory_path(out, row["run_key"])) for row in (planar, spatial)]
-        table.rows[planar["run_key"]] = pair_row(planar, spatial, *runs, transient)
-    table.write()
+    write_table(out / "pairs.csv", COLUMNS, [_pair_row(out, *pair, transient) for pair in pairs])
 
 
-def pair_row(planar: dict, spatial: dict, flat: Trajectory, space: Trajectory, transient: int) -> dict[str, object]:
-    """`COLUMNS` of two rows of table.csv and their runs, planar and in three dimensions."""
+def _pair_row(out: Path, planar: dict, spatial: dict, transient: int) -> dict[str, object]:
+    flat, space = (Trajectory.load(trajectory_path(out, row["run_key"])) for row in (planar, spatial))
     step_s, period_s = flat.scene.sample_step_s(), flat.scene.waves.period_s
     samples = min(len(run.columns["radius_m"]) for run in (flat, space))
     off = np.abs(flat.columns["radius_m"][:samples] - space.columns["radius_m"][:samples])

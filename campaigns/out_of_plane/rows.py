@@ -16,12 +16,12 @@ from campaigns.buoy_sweep.rows import (
     STROBED,
     TANGENT,
     WOLF,
-    across_plane,
-    settled,
+    after_transient,
+    exponents,
     sound_part,
-    strobed_period,
 )
-from campaigns.columns import MESSAGE, PERIODS_RUN, RUN_KEY, STATISTICS, STATUS, Column, names
+from campaigns.columns import MESSAGE, PERIODS_RUN, RUN_KEY, STATISTICS, STATUS, Column, counted
+from campaigns.judge import tangent_of, verdict_of
 
 EARLY_PERIODS = 8  # before the first loop at every depth of the campaign: still linear in the push
 RISE_PERIODS = 4  # after its least value, within which lateral distance has risen to the first burst
@@ -93,19 +93,12 @@ def offplane_row(trajectory, transient_periods: int, judged: frozenset = frozens
     trajectory: an engine Trajectory of a buoy in waves along x, run to its end or not. transient_periods: left out of
     in-plane extremes and of the comparison. judged: keys of the scenes that get a regime and exponents.
     """
-    row = {"status": trajectory.status, "message": trajectory.message}
-    row |= {name: trajectory.statistics.get(name) for name in names(STATISTICS)}
-    columns, scene = sound_part(trajectory.columns), trajectory.scene
-    step_s, period_s = scene.sample_step_s(), scene.waves.period_s
-    done = (len(columns["time_s"]) - 1) * step_s / period_s
-    if done >= transient_periods + 1 - 1e-6:
-        after = round(transient_periods * period_s / step_s)
-        row |= settled(columns, step_s, transient_periods * period_s)
-        row["strobed_period"] = strobed_period(columns, step_s, period_s, transient_periods)
+    row, columns, scene = counted(trajectory), sound_part(trajectory.columns), trajectory.scene
+    if measured := after_transient(trajectory, columns, transient_periods):
+        after = round(transient_periods * scene.waves.period_s / scene.sample_step_s())
+        row |= measured
         row["inplane_m"] = 0.5 * max(float(np.ptp(columns[name][after:])) for name in ("x_m", "z_m"))
-        if trajectory.status == "ok" and trajectory.tangent is not None:
-            row |= across_plane(trajectory.tangent, transient_periods)
-    if scene.motion.dimensions == 3 and done > 0:
+    if scene.motion.dimensions == 3 and len(columns["time_s"]) > 1:
         for body, name in _BODIES.items():
             row |= {f"{body}_{key}": entry for key, entry in _lateral(columns[name], scene, row).items()}
         for body, name in _BODIES.items() if row["rope_first_burst_period"] is not None else ():
@@ -158,11 +151,6 @@ def _rise(values, scene, first_burst: float) -> tuple[float, float]:
     return float(np.log(size[most] / size[least])), float(periods[most] - periods[least])
 
 
-def rope_motion(trajectory, transient_periods: int) -> str | None:
-    """What the rope does across the plane, as `offplane_row` names it."""
-    return offplane_row(trajectory, transient_periods).get("rope_motion")
-
-
 def bows(profiles) -> tuple[float, float]:
     """Largest distance of a node from the straight line between the ends of the tether: (in the plane x-z, across it).
 
@@ -177,16 +165,6 @@ def bows(profiles) -> tuple[float, float]:
 
 
 def _regime(trajectory, transient_periods: int) -> dict[str, object]:
-    from analysis import tangent_lyapunov
-    from campaigns.judge import verdict_of
-
     verdict, wolf, _ = verdict_of(trajectory, transient_periods)
-    row = {
-        "regime": verdict.regime,
-        "lyapunov_wolf_bits_per_period": wolf.value,
-        "lyapunov_wolf_error": wolf.error,
-    }
-    if trajectory.tangent is not None:
-        tangent = tangent_lyapunov(trajectory.tangent.growth_nats, transient_periods)[0]
-        row |= {"lyapunov_tangent_bits_per_period": tangent.value, "lyapunov_tangent_error": tangent.error}
-    return row
+    tangent = tangent_of(trajectory, transient_periods)
+    return {"regime": verdict.regime, **exponents(WOLF, wolf), **exponents(TANGENT, tangent)}

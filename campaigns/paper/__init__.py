@@ -10,58 +10,54 @@ the figures and statements.csv are made from these folders alone. Random starts 
 nothing else is random. To change a scene, run the campaign of that part.
 """
 
-import time
+from argparse import Namespace
+from dataclasses import replace
 
 from campaigns.machinery import cli
-from campaigns.machinery.session import command, command_line
-from campaigns.paper.order import PARTS, Order
-
-CAMPAIGN = "paper"
-MODULE = "campaigns.paper"
+from campaigns.machinery.plan import Summary
+from campaigns.paper.order import PARTS
+from campaigns.study import Order, Study
 
 
-def main(argv: list[str] | None = None) -> int:
-    """The command. Returns the exit code (0, 1, 2 or 130)."""
-    return command(MODULE, argv, read_order, study)
-
-
-def parser():
-    """The options of this campaign."""
-    parser = cli.parser(MODULE, __doc__)
-    what = parser.add_argument_group("what is run")
-    parts = f"parts to run (default: {' '.join(PARTS)})"
-    cli.add(what, "--parts", "A B ...", parts, cli.one_of(PARTS), PARTS, many=True)
+def options(group) -> None:
+    """Add the options of this campaign."""
+    cli.add(group, "--parts", "A B ...", f"parts to run (default: {' '.join(PARTS)})", cli.one_of(PARTS), PARTS, True)
     shorter = "shorter and fewer runs: shows the report, concludes nothing"
-    what.add_argument("--quick", action="store_true", help=shorter)
-    cli.add_running(parser.add_argument_group("how and where"), CAMPAIGN, backends=False)
-    return parser
+    group.add_argument("--quick", action="store_true", help=shorter)
 
 
-def read_order(argv: list[str], faults: list[str]) -> Order:
-    """The order in the words of the command line; every fault is appended to `faults`."""
-    options = cli.split(parser(), argv, faults)
-    how = cli.running(options, CAMPAIGN, faults)
+def read(options: Namespace, faults: list[str]) -> None:
+    """The parts in the order in which they run."""
+    options.parts = [part for part in PARTS if part in options.parts]
     for part in PARTS:
-        if (how.out / part).exists() and not (how.out / part).is_dir():
-            faults.append(f"--out: given {str(how.out)!r}, where {part} is a file; allowed: a folder of this campaign")
-    return Order(tuple(part for part in PARTS if part in options.parts), options.quick, how)
+        if (options.out / part).exists() and not (options.out / part).is_dir():
+            faults.append(
+                f"--out: given {str(options.out)!r}, where {part} is a file; allowed: a folder of this campaign"
+            )
 
 
-def study(order: Order, argv: list[str]) -> int:
-    """Run it: parts, figure data, statements, report. Raises CampaignStopped, OSError, KeyboardInterrupt."""
-    from campaigns.machinery import session
-    from campaigns.machinery.folder import claimed
-    from campaigns.paper import dependence, parts, results
+def done(order: Order) -> tuple[dict[str, float], Summary]:
+    """Parts, figure data, statements; the latter two stay as they are where nothing is new."""
+    from campaigns.machinery.session import ended
+    from campaigns.paper import parts, results
 
-    begun = time.perf_counter()
-    with claimed(order.how.out):
-        parameters = {"jobs": order.how.jobs, "quick": order.quick, "made_by": results.maker()}
-        parameters |= {"dependence": dependence.parameters(order.quick)}
-        record, same = session.begun(order.how.out, CAMPAIGN, command_line(MODULE, argv), parameters)
-        timing, summary = parts.run(order)
-        whole = same and not summary.computed and results.there(order.how.out, order.how.report)
-        if not whole:
-            results.write(order.how.out)
-            session.finish(order.how.out, record, summary, timing)
-        fault = session.report(order.how.out, order.how.report and not whole, timing, begun)
-    return session.say(order.how.out, summary, timing, order.how.report, fault)
+    out = order.how.out
+    timing, summary = parts.run(order.own)
+    whole = ended(out) and not summary.computed and results.there(out, order.how.report)
+    if not whole:
+        results.write(out)
+    return timing, replace(summary, whole=whole)
+
+
+def parameters(order: Order) -> dict[str, object]:
+    """What the provenance says of this campaign."""
+    from campaigns.paper import dependence, results
+
+    quick = order.own.quick
+    return {"quick": quick, "made_by": results.maker(), "dependence": dependence.parameters(quick)}
+
+
+STUDY = Study(
+    name="paper", protocol=__doc__, options=options, read=read, parameters=parameters, done=done, backends=False
+)
+main, parser, read_order = STUDY.main, STUDY.parser, STUDY.read_order

@@ -17,6 +17,7 @@ import importlib
 import json
 import sys
 import time
+from argparse import Namespace
 from pathlib import Path
 
 from campaigns.columns import MESSAGE, RUN_KEY, STATUS, Column, names
@@ -25,7 +26,7 @@ from campaigns.machinery.folder import CampaignStopped, Table, made_by, of_the_p
 from campaigns.machinery.plan import Summary
 from campaigns.machinery.session import command_line
 from campaigns.paper import dependence
-from campaigns.paper.order import PARTS, Order
+from campaigns.paper.order import PARTS
 
 COLUMNS = (
     Column("part", "", "part", "folder of the part"),
@@ -63,7 +64,7 @@ CAMPAIGNS = {  # part -> its command; the words of its command line, those of --
 assert {*CAMPAIGNS, "dependence"} == set(PARTS)
 
 
-def run(order: Order) -> tuple[dict[str, float], Summary]:
+def run(order: Namespace) -> tuple[dict[str, float], Summary]:
     """Do every part of the order; keep table.csv up to date. Returns times and the summary, its rows those of parts.
 
     Raises CampaignStopped where a part stopped, KeyboardInterrupt where it was interrupted.
@@ -102,7 +103,7 @@ def _rows(out: Path) -> list[dict[str, str]]:
         return []
 
 
-def _key(part: str, order: Order) -> str:
+def _key(part: str, order: Namespace) -> str:
     told = dependence.parameters(order.quick) if part == "dependence" else CAMPAIGNS[part][1 + order.quick]
     content = json.dumps([part, told, made_by({}, *SOURCES, *of_the_page())])
     return hashlib.sha256(content.encode()).hexdigest()
@@ -117,14 +118,14 @@ def _ended(key: str, out: Path) -> str:
     return digest.hexdigest()
 
 
-def _whole(out: Path, order: Order) -> bool:
+def _whole(out: Path, order: Namespace) -> bool:
     """Whether the folder of a part still holds all that its table names, and the report where one is wanted."""
     sound = [trajectory_path(out, row["run_key"]).exists() for row in _rows(out) if row["status"] == "ok"]
     reported = out.name == "dependence" or order.quick or not order.how.report or (out / "report.html").exists()
     return bool(sound) and all(sound) and reported
 
 
-def _done(part: str, order: Order) -> dict[str, object]:
+def _done(part: str, order: Namespace) -> dict[str, object]:
     out, how = order.how.out / part, order.how
     begun = time.perf_counter()
     if part == "dependence":

@@ -20,7 +20,8 @@ from campaigns.machinery.folder import CampaignStopped, write_failure
 from campaigns.stability.limited import DONE, limited
 
 REFUSED, ABOVE_BAR = "refused", "above bar"
-LIMIT_S = 300.0
+LIMIT_S, DRIFT_LIMIT_S = 300.0, 1800.0
+DRIFT_BAR = 0.01
 OK, LIMIT, UNEXPLAINED = "ok", "known limit", "unexplained"
 _NOT_SAVED = "not saved"
 NEEDS_PROFILES = ("energy", "buckling", "straight")
@@ -48,23 +49,13 @@ COLUMNS = (
 
 
 @dataclass(frozen=True)
-class Ending:
-    """An expected ending besides "ok" with the check below its bar, and why it is expected.
-
-    statuses: of runs that end early; REFUSED for a scene that the engine does not accept; ABOVE_BAR for a check that
-    may fail.
-    """
-
-    statuses: tuple[str, ...] = ()
-    why: str = ""
-
-
-@dataclass(frozen=True)
 class Case:
     """One row of the table.
 
     changes: keys of the scene; check: a function of `campaigns.stability.checks`; bar: what the number that it measures
-    must stay below; ending: what else is expected; quick: whether the case is also part of `--quick`.
+    must stay below; quick: whether the case is also part of `--quick`. statuses: what is expected besides "ok" with the
+    check below its bar: early ends, REFUSED for a scene that the engine does not accept, ABOVE_BAR for a check that may
+    fail; why: the reason.
     """
 
     group: str
@@ -73,7 +64,8 @@ class Case:
     length_s: float = 10.0
     check: str = "refined"
     bar: float = 0.02
-    ending: Ending = Ending()
+    statuses: tuple[str, ...] = ()
+    why: str = ""
     quick: bool = False
     options: dict = field(default_factory=dict)
 
@@ -83,9 +75,10 @@ def _file() -> dict:
     return tomllib.loads(Path(__file__).with_suffix(".toml").read_text(encoding="utf-8"))
 
 
-def regular() -> dict:
-    """Changes that give the regular motion of the buoy."""
-    return dict(_file()["sets"]["regular"])
+def drift_case(periods: int) -> Case:
+    """The long regular run, strobed at the wave period."""
+    scene, options = {**_file()["sets"]["regular"], "output.step_s": 5.0}, {"limit_s": DRIFT_LIMIT_S}
+    return Case("drift", f"{periods} regular waves", scene, 5.0 * periods, "drift", DRIFT_BAR, options=options)
 
 
 def all_cases() -> list[Case]:
@@ -98,9 +91,7 @@ def _cases(group: str, row: dict) -> Iterator[Case]:
     row = copy.deepcopy(row)
     fixed = {key: value for name in row.pop("sets", ()) for key, value in _file()["sets"][name].items()}
     fixed |= row.pop("changes", {})
-    if "ending" in row:
-        ending = _file()["endings"][row["ending"]]
-        row["ending"] = Ending(tuple(ending["statuses"]), ending["why"])
+    row |= _file()["endings"][row.pop("ending")] if "ending" in row else {}
     varied, quick, length_s = (row.pop(name, None) for name in ("vary", "quick", "length_s"))
     name = row.pop("name")
     for place, values in enumerate(zip(*varied.values(), strict=True) if varied else [()]):
@@ -142,7 +133,7 @@ def _judged(case: Case, path: Path | None) -> dict[str, object]:
         with np.errstate(all="ignore"):
             run = simulate(scene, duration_s=case.length_s)
     except (SceneError, ValueError) as error:
-        verdict = REFUSED if REFUSED in case.ending.statuses else UNEXPLAINED
+        verdict = REFUSED if REFUSED in case.statuses else UNEXPLAINED
         return {"verdict": verdict, "run_status": REFUSED, "message": str(error), "how": "refused in words"}
     if path is not None:
         try:
@@ -155,10 +146,10 @@ def _judged(case: Case, path: Path | None) -> dict[str, object]:
     if outcome not in ("ok", "ended"):
         return row | {"verdict": UNEXPLAINED, "run_status": outcome}
     if run.status != "ok":
-        known = run.status in case.ending.statuses
+        known = run.status in case.statuses
         verdict = UNEXPLAINED if not known else REFUSED if run.status == "statics-failed" else LIMIT
-        return row | {"verdict": verdict, "how": "ended with its reason", "limit": case.ending.why}
+        return row | {"verdict": verdict, "how": "ended with its reason", "limit": case.why}
     measured, how = getattr(checks, case.check)(run, case)
-    verdict = OK if measured <= case.bar else LIMIT if ABOVE_BAR in case.ending.statuses else UNEXPLAINED
+    verdict = OK if measured <= case.bar else LIMIT if ABOVE_BAR in case.statuses else UNEXPLAINED
     row |= {"verdict": verdict, "measured": measured if math.isfinite(measured) else None, "how": how}
-    return row | ({"limit": case.ending.why} if verdict == LIMIT else {})
+    return row | ({"limit": case.why} if verdict == LIMIT else {})

@@ -14,25 +14,22 @@ from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 
-from campaigns.columns import Column
 from campaigns.machinery.folder import (
     CampaignStopped,
-    Table,
     keep_row,
     kept_row,
     made_by,
     trajectory_path,
     write_json,
+    write_table,
 )
 from campaigns.machinery.plan import Summary
 from campaigns.machinery.pools import PoolBroken, opened
 from campaigns.stability import cases, fuzz, random_scenes, scene_shares, step_maps
-from campaigns.stability.cases import Case, all_cases, regular
+from campaigns.stability.cases import all_cases, drift_case
 
 SOURCES = ("engine", "campaigns/stability", "campaigns/stability/random_scenes.toml")
 CHUNK = {random_scenes.VALID: 20, random_scenes.INVALID: 200}
-DRIFT_BAR = 0.01
-DRIFT_LIMIT_S = 1800.0
 
 
 @dataclass(frozen=True)
@@ -59,12 +56,6 @@ def planned(order) -> list[Task]:
         for first in range(0, order.fuzz, size):
             tasks.append(Task("random", (kind, order.seed, order.fuzz, first, min(first + size, order.fuzz))))
     return [*tasks, *(Task("map", name) for name in step_maps.LINES)]
-
-
-def drift_case(periods: int) -> Case:
-    """The long regular run, strobed at the wave period."""
-    scene, options = {**regular(), "output.step_s": 5.0}, {"limit_s": DRIFT_LIMIT_S}
-    return Case("drift", f"{periods} regular waves", scene, 5.0 * periods, "drift", DRIFT_BAR, options=options)
 
 
 def result(out: Path, maker: str, task: Task) -> dict:
@@ -156,10 +147,3 @@ def _of_kind(order, kind: str, drawn: list[dict], rows: list[dict]) -> dict:
         "status": verdict, "measured": float(unsound), "bar": 0.0, "message": message, "run_status": "",
         "wall_s": sum(row["wall_s"] for row in rows), "run_key": f"fuzz-{kind}",
     }  # fmt: skip
-
-
-def write_table(path: Path, columns: tuple[Column, ...], rows: list[dict]) -> None:
-    """Write rows that are all there, and the dictionary of their columns. Raises OSError."""
-    table = Table(path, columns, list(range(len(rows))))
-    table.rows = dict(enumerate(rows))
-    table.write()

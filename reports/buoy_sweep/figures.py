@@ -15,7 +15,7 @@ from ..figures.time_series import time_series
 from ..parts.content import Column, Figure, Item, Table
 from ..parts.symbols import T_I, TAU_0
 from ..parts.wording import EMPTY, count, listed, number
-from ..sweep.quantities import Measured, panels_over, series
+from ..sweep.quantities import panels_over, series
 from .runs import Run, Sweep, spectrum_window
 
 # the largest exponents in the table, each with its standard error
@@ -33,9 +33,9 @@ _PEAKS = 4  # of a spectrum that a table tells
 def orbit_figure(sweep: Sweep, drawn: Sequence[Run], missing: Sequence[Run]) -> Figure:
     """Strobed radius over steepness, slack and exponents below; drawn: runs with points, missing: those without."""
     rows, columns, key = [run.row for run in drawn], sweep.folder.columns, sweep.folder.columns["steepness"]
-    below = [Measured("–", ((columns["slack_fraction"], None),))]
+    below = [((columns["slack_fraction"], None),)]
     if known := [pair for pair in EXPONENTS if np.isfinite(series(rows, pair[0])).any()]:
-        below.append(Measured("bits/period", tuple((columns[value], columns[error]) for value, error in known)))
+        below.append(tuple((columns[value], columns[error]) for value, error in known))
     points, gone = [run.section[:, 0] for run in drawn], [run.steepness for run in missing]
     labels, panels = (key.label, "strobed $r$ (m)"), [replace(one, x_label="") for one in panels_over(rows, key, below)]
     picture = orbit_diagram_over(series(rows, key.name), points, labels, panels, gone)

@@ -13,7 +13,7 @@ from ..parts.folder import read_columns, read_rows
 from ..parts.provenance import scene_table, timing_table
 from ..parts.symbols import OMEGA_I, OMEGA_R, OMEGA_THETA, T_S
 from ..parts.wording import EMPTY, decimals, listed, number, percent, ranges
-from ..sweep.quantities import Measured, over_key, series
+from ..sweep.quantities import over_key, series
 from .runs import Run, Sweep
 
 _RUNS = (
@@ -85,7 +85,7 @@ def plane_items(sweep: Sweep) -> list[Item]:
     items: list[Item] = [Heading("Out of the plane"), Text(words)]
     if across:
         growth, error = (sweep.folder.columns[name] for name in _ACROSS)
-        picture = over_key(across, sweep.folder.columns["steepness"], [Measured(growth.unit, ((growth, error),))])
+        picture = over_key(across, sweep.folder.columns["steepness"], [((growth, error),)])
         caption = (
             "Exponent of an infinitesimal perturbation across the plane, with one standard error, in planar runs that "
             f"released no loop: below zero the planar motion is stable. From `{growth.name}` and `{error.name}`."
@@ -119,7 +119,7 @@ def time_items(sweep: Sweep) -> list[Item]:
     runs, columns = [run for run in sweep.runs if run.has_record], sweep.folder.columns
     rows, items = [run.row for run in runs], [Heading("Run times")]
     if np.isfinite(wall := series(rows, "wall_s")).any():
-        shown = [Measured(columns[name].unit, ((columns[name], None),)) for name in _COST]
+        shown = [((columns[name], None),) for name in _COST]
         total, done = float(np.nansum(wall)), sum(run.periods_done for run in runs)
         newton = float(np.nansum(series(rows, "newton_iterations")))
         seen = (

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
 
 import numpy as np
 
@@ -13,20 +12,7 @@ from ..parts.content import Column, Picture, Table
 from ..parts.wording import EMPTY, number
 
 PER_ROW = 2
-
-
-@dataclass(frozen=True)
-class Measured:
-    """What one panel shows: columns of one unit, each with the column of its standard errors or None."""
-
-    unit: str
-    columns: tuple[tuple[Quantity, Quantity | None], ...]
-
-    @property
-    def label(self) -> str:
-        """The heads with the unit, as the label of an axis."""
-        *others, last = (column.label for column, _ in self.columns)
-        return ", ".join([*(other.rpartition(" (")[0] for other in others), last])
+Measured = tuple[tuple[Quantity, Quantity | None], ...]  # one panel: columns of one unit, each with its errors or None
 
 
 def measured(
@@ -47,10 +33,10 @@ def measured(
             continue
         least = name.replace("_max_", "_min_")
         pair = (columns[name], columns[errors[name]] if name in errors else None)
-        if found and least != name and found[-1].columns[-1][0].name == least:
-            found[-1] = Measured(found[-1].unit, (*found[-1].columns, pair))
+        if found and least != name and found[-1][-1][0].name == least:
+            found[-1] = (*found[-1], pair)
         else:
-            found.append(Measured(columns[name].unit, (pair,)))
+            found.append((pair,))
     return found
 
 
@@ -75,13 +61,15 @@ def panels_over(rows: Sequence[Mapping[str, object]], key: Quantity, shown: Sequ
     x, panels = series(rows, key.name), []
     for one in shown:
         lines = []
-        for (column, error), mark, colour in zip(one.columns, "os^D", COLOURS, strict=False):
-            y, name = series(rows, column.name), column.label.rpartition(" (")[0] if len(one.columns) > 1 else ""
+        *others, last = (column.label for column, _ in one)
+        label = ", ".join([*(other.rpartition(" (")[0] for other in others), last])
+        for (column, error), mark, colour in zip(one, "os^D", COLOURS, strict=False):
+            y, name = series(rows, column.name), column.label.rpartition(" (")[0] if len(one) > 1 else ""
             bars = series(rows, error.name)[good] if error else None
             lines.append(Curve(x[good], y[good], name, "", mark, colour, bars, 3.0))
             lines.append(Curve(x[~good], y[~good], "", "", "x", colour, size=5.0))
-        level = 0.0 if any(error for _, error in one.columns) else None
-        panels.append(Panel(lines, key.label, one.label, level=level))
+        level = 0.0 if any(error for _, error in one) else None
+        panels.append(Panel(lines, key.label, label, level=level))
     return panels
 
 

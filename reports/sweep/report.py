@@ -40,7 +40,7 @@ def report(directory: str | Path) -> Report:
         Text(f"What does the scene `{folder.scene.name}` do as {said} {'varies' if len(keys) == 1 else 'vary'}?"),
         Heading("Short answer"),
         Bullets(_answer(keys, rows)),
-        *extremes(keys, rows, [column for one in shown for column, _ in one.columns], _EXTREMES),
+        *extremes(keys, rows, [column for one in shown for column, _ in one], _EXTREMES),
         *(_panels(keys[0], rows, shown) if len(keys) == 1 else _maps(keys, rows, shown)),
         Heading("Warnings"),
         _failed(keys, rows),
@@ -75,7 +75,7 @@ def _answer(keys: Sequence[Quantity], rows: Sequence[Mapping[str, object]]) -> t
 def _panels(key: Quantity, rows, shown: Sequence[Measured]) -> list[Item]:
     items: list[Item] = []
     for part in batched(shown, _PANELS):
-        names = listed(plain(column.head) for one in part for column, _ in one.columns)
+        names = listed(plain(column.head) for one in part for column, _ in one)
         caption = f"Columns of `table.csv` over {key.head}: {names}. Bars: one standard error; crosses: ended early."
         items.append(Figure(over_key(rows, key, part), caption, f"Panels over {plain(key.head)} of {names}."))
     return [Heading(f"Over {key.head}"), *(items or [_NOTHING])]
@@ -93,7 +93,7 @@ def _maps(keys: Sequence[Quantity], rows, shown: Sequence[Measured]) -> list[Ite
 
     regimes = np.array([str(row.get("regime") or "") for row in rows], dtype=object)
     drawn = [Map("", "regime", laid(regimes, ""))] if any(regimes) else []
-    for column in (column for one in shown for column, _ in one.columns):
+    for column in (column for one in shown for column, _ in one):
         drawn.append(Map(column.label, plain(column.head), laid(series(rows, column.name), np.nan)))
     items: list[Item] = []
     for part in batched(drawn, _MAPS):

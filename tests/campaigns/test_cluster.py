@@ -18,7 +18,7 @@ from campaigns import buoy_sweep
 from campaigns.buoy_sweep.rows import COLUMNS, buoy_row
 from campaigns.machinery import pools
 from campaigns.machinery.cli import Running
-from campaigns.machinery.plan import Job, KeptRun, Plan
+from campaigns.machinery.plan import Job, Plan
 from campaigns.machinery.runner import run_campaign
 from engine import load_scene
 from tests.campaigns.conftest import (
@@ -33,7 +33,7 @@ from tests.campaigns.conftest import (
     start_sweep,
     until,
 )
-from tests.campaigns.fake_engine import FakeEngine, sines
+from tests.campaigns.fake_engine import FakeEngine
 
 distributed = pytest.importorskip("distributed")
 
@@ -112,14 +112,6 @@ def test_a_worker_is_not_told_of_the_folder_and_what_it_sends_is_kept_as_if_it_w
     for name in (f"{job.key}.nc", f"{job.key}.row.json"):
         here, there = (place / "trajectories" / name for place in places)
         assert here.read_bytes() == there.read_bytes()
-
-
-def test_a_kept_run_takes_its_content_along_and_leaves_its_path(tmp_path):
-    path = tmp_path / "run.nc"
-    sines(load_scene("tethered_buoy"), 6).save(path)
-    there = pickle.loads(pickle.dumps(KeptRun(path)))
-    path.unlink()
-    assert there.path is None and there.load().status == "ok"
 
 
 @pytest.mark.slow

@@ -1,15 +1,17 @@
 """Other codes: scipy on the engine's own equations agrees with the engine, and what is not installed is said."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from campaigns.accuracy import peers
-from campaigns.accuracy.jobs import peer_jobs
+from campaigns.accuracy import jobs
 from campaigns.accuracy.peers import scipy as peer_scipy
 from campaigns.accuracy.peers.record import as_trajectory
+from campaigns.accuracy.plan import FULL
 from campaigns.accuracy.rows import rms_mm, samples_of
-from campaigns.accuracy.works import BY_NAME
+from campaigns.accuracy.works import BY_NAME, PEERS
 from engine import load_scene, simulate
 
 
@@ -28,7 +30,7 @@ def test_the_resolvent_gives_the_equations_of_the_engine(name, nodes, duration_s
 
 
 def test_a_breaking_line_comes_back_with_its_strain():
-    scene = peers.scene_of("break-1-slow", 21)
+    scene = jobs.scene_of(PEERS[0], "break-1-slow", 21)
     run = peer_scipy.simulate(scene, 0.02, 21, 1e-3, "Radau")
     assert run.status == "ok" and run.profiles.strain.shape == (5, 21)
     assert run.profiles.strain[0] == pytest.approx(run.profiles.strain[0, 0], rel=1e-9)
@@ -55,18 +57,20 @@ def test_the_pendulum_with_a_rope_of_no_mass_is_the_elastic_spherical_pendulum()
 
 
 def test_a_code_that_is_not_installed_is_a_row(tmp_path, monkeypatch):
-    monkeypatch.setattr(peers.importlib.util, "find_spec", lambda name: None if name != "scipy" else object())
-    first, second, timed = peer_jobs(tmp_path, ("snap", "pendulum"), False, {})
-    assert first == [] and second == []
-    missing = [job for job in timed if not job.labels["peer_version"]]
+    monkeypatch.setattr(jobs.importlib.util, "find_spec", lambda name: None if name != "scipy" else object())
+    effort = replace(FULL, works=("snap", "pendulum"))
+    *before, timed = jobs.phases(tmp_path, effort, False, True)
+    assert not any(job.labels["kind"].startswith("peer") for phase in before for job in phase)
+    missing = [job for job in timed if job.labels.get("peer_version") == ""]
     assert {job.labels["method"] for job in missing} == {"MoorDyn", "CableDyn", "PyElastica"}
     for job in missing:
         row = job.describe(job.simulate(job.scene, duration_s=1.0))
         assert row["status"] == "not-installed" and "pip install" in row["message"] and "error" not in row
 
 
-def test_what_another_code_raises_is_its_record():
-    run = peers.called(load_scene("tethered_buoy"), duration_s=1.0, module="elastica", settings=(0, 0.0))
+def test_what_another_code_raises_is_its_record(monkeypatch):
+    monkeypatch.setattr(jobs, "version", lambda peer: "1.0")
+    run = jobs.other_code(load_scene("tethered_buoy"), duration_s=1.0, peer=PEERS[-1], settings=(0, 0.0))
     assert run.status == "solver-failed" and "Error" in run.message
 
 

@@ -169,7 +169,7 @@ def test_git_state_is_that_of_the_checkout(tmp_path):
     head = subprocess.run(["git", "rev-parse", "HEAD"], cwd=ROOT, capture_output=True, text=True)
     if head.returncode != 0:
         pytest.skip("not a checkout")
-    record, _ = session.begun(tmp_path, "any", [], {})
+    record = session.begun(tmp_path, "any", [], {})
     assert record["git"]["commit"] == session.git_state(ROOT / "campaigns")["commit"] == head.stdout.strip()
 
 

@@ -10,9 +10,9 @@ from campaigns import stability
 from campaigns.columns import names
 from campaigns.machinery.folder import CampaignStopped, kept_row
 from campaigns.stability import cases, checks, tasks
-from campaigns.stability.cases import ABOVE_BAR, REFUSED, Case, Ending, all_cases, case_row
+from campaigns.stability.cases import ABOVE_BAR, REFUSED, Case, all_cases, case_row
 
-NOT_STARTED = Ending((REFUSED,))
+NOT_STARTED = {"statuses": (REFUSED,)}
 CALM = {"waves.steepness": 0.016, "water.depth_m": 22.5, "tether.nodes": 5}
 STILL = {"waves": None, "tether.nodes": 5}
 YIELDS = {**STILL, "tether.tension": {"law": "tanh", "p": [1000.0, 10.0, 0.0, 0.0, 0.0]}}
@@ -24,7 +24,7 @@ WORDS = ["--drift-periods", "0", "--jobs", "1"]
 
 
 def may(status: str) -> dict:
-    return {**FINITE, "ending": Ending((status,), "because")}
+    return {**FINITE, "statuses": (status,), "why": "because"}
 
 
 def table(path) -> list[dict]:
@@ -37,10 +37,10 @@ def table(path) -> list[dict]:
     [
         (Case("x", "rest", STILL, **REST), "ok", "ok"),
         (Case("x", "rest", STILL, 2.0, "rest", -1.0), "unexplained", "ok"),
-        (Case("x", "above its bar", CALM, 2.0, bar=0.0, ending=Ending((ABOVE_BAR,), "because")), "known limit", "ok"),
-        (Case("x", "invalid", INVALID, **FINITE, ending=NOT_STARTED), "refused", "refused"),
+        (Case("x", "above its bar", CALM, 2.0, bar=0.0, statuses=(ABOVE_BAR,), why="because"), "known limit", "ok"),
+        (Case("x", "invalid", INVALID, **FINITE, **NOT_STARTED), "refused", "refused"),
         (Case("x", "invalid", INVALID, **FINITE), "unexplained", "refused"),
-        (Case("x", "too many samples", {"output.step_s": 1e-9}, **FINITE, ending=NOT_STARTED), "refused", "refused"),
+        (Case("x", "too many samples", {"output.step_s": 1e-9}, **FINITE, **NOT_STARTED), "refused", "refused"),
         (Case("x", "no rest", YIELDS, **may("statics-failed")), "refused", "statics-failed"),
         (Case("x", "no rest", YIELDS, **FINITE), "unexplained", "statics-failed"),
     ],
@@ -83,7 +83,7 @@ def test_every_case_says_why_it_may_end_otherwise_and_has_a_name_of_its_own():
     assert len({(case.group, case.name) for case in cases}) == len(cases)
     for case in cases:
         assert hasattr(checks, case.check), case
-        assert case.ending.why or case.ending in (Ending(), NOT_STARTED), case
+        assert case.why or [*case.statuses] in ([], [REFUSED]), case
         assert case.bar > 0 or case.check == "finite", case
     assert {case.group for case in cases if case.quick} == {case.group for case in cases}
 
@@ -94,7 +94,7 @@ def few(monkeypatch):
     cases = [
         Case("EI", "rest", STILL, **REST),
         Case("EI", "calm", CALM, 2.0, bar=0.05),
-        Case("input", "invalid", INVALID, **FINITE, ending=NOT_STARTED),
+        Case("input", "invalid", INVALID, **FINITE, **NOT_STARTED),
     ]
     monkeypatch.setattr(tasks, "all_cases", lambda: cases)
     monkeypatch.setattr("campaigns.stability.step_maps.LINES", {"taut": ("taut", 0.02, 0.05, 2)})

@@ -106,9 +106,9 @@ def test_the_column_of_the_page_reaches_the_table_and_its_dictionary(sweep, monk
     page = (ROOT / "docs" / f"{PAGE}.md").read_text()
     column, line = re.findall(r"^    ((?:Column|row\[).*)$", page, re.MULTILINE)[:2]
     source = (ROOT / "campaigns" / "buoy_sweep" / "rows.py").read_text()
-    settled = re.search(r"\n( +)row \|= settled\(.*\n", source)
+    measured = re.search(r"\n( +)row \|= measured\n", source)
     patched = source.replace("    STROBED,\n", f"    {column}\n    STROBED,\n")
-    patched = patched.replace(settled[0], f"{settled[0]}{settled[1]}{line}\n")
+    patched = patched.replace(measured[0], f"{measured[0]}{measured[1]}{line}\n")
     module = types.ModuleType(of_a_buoy.__name__)
     exec(compile(patched, "rows.py", "exec"), vars(module))
     monkeypatch.setitem(sys.modules, of_a_buoy.__name__, module)

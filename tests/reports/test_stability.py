@@ -4,8 +4,9 @@ import json
 
 import pytest
 
+from campaigns.machinery.folder import write_table
 from campaigns.stability import cases as judged
-from campaigns.stability import fuzz, tasks
+from campaigns.stability import fuzz
 from reports import build
 from reports.parts.folder import FolderError
 from reports.stability.folder import VERDICTS, read_study
@@ -32,8 +33,8 @@ RANDOM = [
 def folder(place, cases=CASES, random=RANDOM):
     place.mkdir()
     rows = [{"part": "case", "about": row["group"], "dimensions": 2, **row} for row in cases]
-    tasks.write_table(place / "table.csv", judged.COLUMNS, rows)
-    tasks.write_table(place / "fuzz.csv", fuzz.COLUMNS, [{"meaning": "as told", **row} for row in random])
+    write_table(place / "table.csv", judged.COLUMNS, rows)
+    write_table(place / "fuzz.csv", fuzz.COLUMNS, [{"meaning": "as told", **row} for row in random])
     line = {"title": "taut", "step_s": 0.05, "methods": {"midpoint": METHOD}}
     shares = {"rounds": 3, "length_s": 1.0, "scenes": {"whole": SHARE, "dry": {**SHARE, "us_per_newton": 4.0}}}
     made_by = {"campaign": "stability", "quick": False, "command": ["python"]}

@@ -73,7 +73,7 @@ def test_the_report_of_a_sweep_of_any_key(tmp_path, keys):
 def test_errors_belong_to_their_quantity_and_ends_of_a_range_share_a_panel(tmp_path):
     read = read_folder(folder(tmp_path, [DEPTH]))
     shown = measured(read.columns, read.table.to_dict("records"), [DEPTH])
-    names = [[(one.name, error and error.name) for one, error in panel.columns] for panel in shown]
+    names = [[(one.name, error and error.name) for one, error in panel] for panel in shown]
     assert names == [[("pull_min_N", None), ("pull_max_N", None)], [("growth_bits", "growth_error")]]
 
 

@@ -15,8 +15,7 @@ from pathlib import Path
 
 import numpy as np
 
-from campaigns.accuracy.peers.deck import system
-from campaigns.accuracy.peers.record import SAMPLE_S, nothing, sampled
+from campaigns.accuracy.peers.record import SAMPLE_S, nothing, sampled, system
 from engine import Scene, Trajectory
 from engine.physics.waves import wave_number
 

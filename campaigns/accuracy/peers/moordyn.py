@@ -28,8 +28,7 @@ from pathlib import Path
 
 import numpy as np
 
-from campaigns.accuracy.peers.deck import system, volume
-from campaigns.accuracy.peers.record import SAMPLE_S, sampled
+from campaigns.accuracy.peers.record import SAMPLE_S, sampled, system, volume
 from engine import Scene, Trajectory
 from engine.physics.waves import wave_number
 
