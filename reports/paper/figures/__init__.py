@@ -16,15 +16,17 @@ from pathlib import Path
 from ...parts.content import Figure, Picture
 from ...parts.figure_data import FigureDataError, parsed
 from ...parts.style import prints_of, sheet
-from . import breaking, exponents, histories, offplane, sections, spectra
+from .breaking import breaking
+from .buoy import history, spectra
+from .chaos import offplane_histories, running_exponents, sections
 
 DRAWN_BY = {
     **dict.fromkeys((2, 3, 4, 5, 6, 7), breaking),
-    **dict.fromkeys((9, 10, 11, 13, 15, 16), histories),
+    **dict.fromkeys((9, 10, 11, 13, 15, 16), history),
     **dict.fromkeys((12, 17, 18), spectra),
-    14: exponents,
+    14: running_exponents,
     19: sections,
-    20: offplane,
+    20: offplane_histories,
 }
 NUMBERS = tuple(sorted(DRAWN_BY))  # 1 and 8 are sketches
 PREFACE = (
@@ -92,7 +94,7 @@ def draw(number: int, content: bytes) -> tuple[Picture, Picture, str, str]:
     """
     data = parsed(content)
     try:
-        drawing = DRAWN_BY[number].drawing(data)
+        drawing = DRAWN_BY[number](data)
     except (AttributeError, KeyError) as error:
         raise FigureDataError(f"not the data of fig. {number} of the paper ({error})") from None
     with sheet(drawing.height_in) as figure:

@@ -14,6 +14,8 @@ if TYPE_CHECKING:
     import xarray
     from matplotlib.figure import Figure
 
+DASHED = (0, (4, 1.5))  # the second of two lines of the paper's keys
+
 
 @dataclass(frozen=True)
 class Drawing:

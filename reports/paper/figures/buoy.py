@@ -1,7 +1,10 @@
-"""Figures 9-11, 13, 15 and 16: tension, radius and angle against time at the paper's two steepnesses.
+"""Figures 9-13 and 15-18: the buoy at the paper's two steepnesses, histories and spectra.
+
+Histories are of tension, radius and angle against time; spectra are by eq. (31), natural frequencies marked by arrows.
 
 In the paper: fig. 9 top tension, kA = 0.016; fig. 10 motion along r, kA = 0.016; fig. 11 motion along θ, kA = 0.016;
-fig. 13 top tension, kA = 0.13; fig. 15 motion along r, kA = 0.13; fig. 16 motion along θ, kA = 0.13.
+fig. 12 spectra, kA = 0.016; fig. 13 top tension, kA = 0.13; fig. 15 motion along r, kA = 0.13; fig. 16 motion along θ,
+kA = 0.13; fig. 17 spectrum of r, kA = 0.13; fig. 18 spectrum of θ, kA = 0.13.
 """
 
 from __future__ import annotations
@@ -12,19 +15,31 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ...figures.curves import Curve, Panel, draw
+from ...figures.curves import Curve, Panel, draw, fill
+from ...figures.motion import spectrum_panels
 from ...figures.time_series import envelope
+from ...parts.content import sub
 from ...parts.figure_data import sources_of
-from ...parts.style import GREEN, INK, SOFT, VERMILION
-from ...parts.symbols import L_0, T_I, T_S
-from ...parts.wording import decimals, number
-from .drawing import Drawing, behind, scaled, spans, value
+from ...parts.style import BLUE, GREEN, INK, SOFT, VERMILION
+from ...parts.symbols import L_0, OMEGA_I, T_I, T_S, TAU_0
+from ...parts.wording import decimals, listed, number
+from .drawing import DASHED, Drawing, behind, scaled, spans, value
 
 if TYPE_CHECKING:
     import xarray
 
 DETAIL_PERIODS = 10
-_HEIGHT_IN = 3.9
+MOTIONS = {  # motion -> its label on the axis, name in the text, colour and line as in the paper's key
+    "radial": (r"$|\Delta\tilde r|/r_0$ (–)", "r/r₀", BLUE, "-"),
+    "angular": (r"$|\Delta\tilde\theta|$ (rad)", "θ", VERMILION, DASHED),
+}
+MARKED = {
+    "wave_radps": r"$\omega_i$",
+    "natural_radial_radps": r"$\omega_{nr}$",
+    "natural_angular_radps": r"$\omega_{n\theta}$",
+}
+OMEGA_NR, OMEGA_NTHETA = "ω" + sub("nr"), "ω" + sub("nθ")  # as section 4.2.1 writes them
+SPECTRUM_TO = 2.5  # wave frequencies
 
 
 @dataclass(frozen=True)
@@ -41,7 +56,7 @@ class Side:
     band: tuple[str, str] = ()
 
 
-def drawing(data: xarray.Dataset) -> Drawing:
+def history(data: xarray.Dataset) -> Drawing:
     """The figure of a data file. Raises KeyError for one of another figure."""
     side = _side(data)
     kA, seen = sources_of(data)[0].label, spans(data, {side.column: side.what}, 3)
@@ -49,7 +64,7 @@ def drawing(data: xarray.Dataset) -> Drawing:
         f"{seen}, {kA}, against t/{T_I}; above up to the end of the window of eq. (31) (shaded), below the last "
         f"{DETAIL_PERIODS} wave periods of it. {behind(data)}"
     )
-    return Drawing(_HEIGHT_IN, partial(_fill, data=data, side=side), caption, f"History over time, {kA}: {seen}.")
+    return Drawing(3.9, partial(_histories, data=data, side=side), caption, f"History over time, {kA}: {seen}.")
 
 
 def _side(data: xarray.Dataset) -> Side:
@@ -67,7 +82,7 @@ def _side(data: xarray.Dataset) -> Side:
     return Side(what, "angle_rad", r"$\theta$ (rad)", r"$\theta$ (°)", 180.0 / np.pi, ((0.0, "static"),))
 
 
-def _fill(figure, data: xarray.Dataset, side: Side) -> None:
+def _histories(figure, data: xarray.Dataset, side: Side) -> None:
     periods = data["time_s"].values / value(data, "wave_period_s")
     start, length = value(data, "window_start_periods"), value(data, "window_periods")
     whole, detail = figure.subplots(2, 1, gridspec_kw={"height_ratios": [1.25, 1.0]})
@@ -96,3 +111,35 @@ def _levels(axes, side: Side) -> dict[str, object]:
         for (level, name), colour, dashes in zip(side.levels, (VERMILION, GREEN), ("--", "-."), strict=False)
         if low <= level <= high
     }
+
+
+def spectra(data: xarray.Dataset) -> Drawing:
+    """The figure of a data file. Raises KeyError for one of another figure."""
+    sides = [side for side in MOTIONS if f"{side}_amplitude" in data]
+    wave = value(data, "wave_radps")
+    seen = []
+    for side in sides:
+        peaks = data[f"{side}_peaks_radps"].values[:4] if f"{side}_peaks_radps" in data else ()
+        words = f"peaks at {listed(number(peak, 3) for peak in peaks)} rad/s" if len(peaks) else "no peak"
+        seen.append(f"{MOTIONS[side][1]} has {words}")
+    kA = sources_of(data)[0].label
+    bins = wave / value(data, "periods")
+    caption = (
+        f"spectrum of the buoy's {' (solid) and '.join(sides)}{' (dashed)' if len(sides) > 1 else ''} motion, {kA}, by "
+        f"eq. (31) with {TAU_0} = {number(value(data, 'start_periods'))} {T_I} and n = "
+        f"{number(value(data, 'periods'))}; left linear as in the paper, right logarithmic. Arrows: the natural "
+        f"frequencies {OMEGA_NR} = {number(value(data, 'natural_radial_radps'), 3)} and {OMEGA_NTHETA} = "
+        f"{number(value(data, 'natural_angular_radps'), 3)} rad/s from the buoy's equation of motion and the waves' "
+        f"{OMEGA_I} = {number(wave, 3)} rad/s. Seen (largest first; bins of {number(bins, 2)} rad/s): "
+        f"{'; '.join(seen)}. {behind(data)}"
+    )
+    alt = f"Spectrum, linear and logarithmic, {kA}: {'; '.join(seen)}."
+    lines = []
+    for side in sides:
+        label, _, colour, dashes = MOTIONS[side]
+        look = {"line": dashes, "name": label} if len(sides) > 1 else {}
+        lines.append(Curve(data["omega_radps"].values, data[f"{side}_amplitude"].values, colour=colour, **look))
+    labels = r"$\omega$ (rad/s)", " and ".join(MOTIONS[side][0] for side in sides)
+    marks = [(value(data, frequency), name) for frequency, name in MARKED.items()]
+    panels = spectrum_panels(lines, SPECTRUM_TO * wave, labels, marks)
+    return Drawing(2.9, partial(fill, rows=[panels], legend="below"), caption, alt)
