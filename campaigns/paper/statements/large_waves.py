@@ -10,7 +10,6 @@ from campaigns.statements import Measured, listed, shown, told
 from campaigns.tables import Row
 
 NO_RUN = "none"  # as `listed` says it
-SLACK, PEAK = 0.01, 2.0  # share of the time; maximum over the static tension
 
 
 def good(rows) -> list[Row]:
@@ -60,31 +59,6 @@ def spans(chosen: list[bool], rows: list[Row]) -> str:
             groups = groups if before else [*groups, []]
             groups[-1].append(row["steepness"])
     return listed(f"{one[0]:.4g} to {one[-1]:.4g}" if len(one) > 1 else f"{one[0]:.4g}" for one in groups)
-
-
-def snapping(results: Results) -> Measured:
-    """Share of the time near zero tension, and the largest tension over the static one, at every depth."""
-    static = results.number("estimate_static_tension_N")
-    rows = [row for row in results.over_depth(LARGE) if math.isfinite(value_of(row, "near_zero") * static)]
-    found = [(at(row), row["near_zero"], row["tension_top_max_N"] / static) for row in rows]
-    words = (f"{shown(share, '.1%')} and {shown(peak, '.1f')} at {where}" for where, share, peak in found)
-    return Measured(passed(*((where, share > SLACK and peak > PEAK) for where, share, peak in found)), ", ".join(words))
-
-
-def impulsive(results: Results) -> Measured:
-    """Length of the peaks over that of a free rebound: a mass on the taut line takes half a natural period, and at half
-    height a third of one, however it comes in."""
-    elastic = results.number("estimate_wave_radps") / results.number("estimate_radial_radps") / 3.0  # wave periods
-    lengths = ((at(row), value_of(row, "peak_periods") / elastic) for row in results.over_depth(LARGE))
-    found = judging.each(lengths, ".2f")
-    words = f"of {shown(elastic, '.2f')} wave periods {found.told}"
-    return Measured(found.checks, words) if found.checks else Measured()
-
-
-def buckles(results: Results) -> Measured:
-    """Half waves of the slack rope in the run whose shape was kept."""
-    depth_m, waves = results.number("buckle_depth_m"), results.number("buckle_waves")
-    return Measured([(f"H = {depth_m:g} m", waves)], shown(waves, "g")) if math.isfinite(waves) else Measured()
 
 
 def positive_exponent(results: Results) -> Measured:
