@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import partial
 
 import numpy as np
 from matplotlib.figure import Figure
@@ -44,7 +45,7 @@ class Panel:
 
     log: the axes that are logarithmic, "", "x", "y" or "xy". level: a thin horizontal line there. settings: of
     matplotlib's `Axes.set`, such as limits. ticks: most numbers on the x axis, None as they come. marks: (x, name) of
-    places on the x axis.
+    places on the x axis. beside: "right" or "top" -> factor from the axis opposite, label.
     """
 
     curves: Sequence[Curve]
@@ -56,6 +57,7 @@ class Panel:
     settings: Mapping[str, object] = field(default_factory=dict)
     ticks: int | None = None
     marks: Sequence[tuple[float, str]] = ()
+    beside: Mapping[str, tuple[float, str]] = field(default_factory=dict)
 
 
 def draw(axes, panel: Panel) -> None:
@@ -89,6 +91,12 @@ def draw(axes, panel: Panel) -> None:
     if panel.ticks:
         axes.locator_params(axis="x", nbins=panel.ticks)
     mark(axes, panel.marks)
+    for side, (factor, label) in panel.beside.items():
+        units = partial(np.multiply, factor), partial(np.multiply, 1.0 / factor)
+        if side == "top":
+            axes.secondary_xaxis(side, functions=units).set_xlabel(label)
+        else:
+            axes.secondary_yaxis(side, functions=units).set_ylabel(label)
 
 
 def mark(axes, marks: Sequence[tuple[float, str]]) -> None:

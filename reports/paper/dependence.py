@@ -3,17 +3,17 @@
 from __future__ import annotations
 
 import math
+import tomllib
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ..figures.depth_exponents import Exponents, depth_exponents, kind_of
 from ..out_of_plane.runs import read_study
 from ..out_of_plane.sections import comparison_items
-from ..parts.columns import Quantity, plus_minus
+from ..parts.columns import Quantity, plus_minus, value
 from ..parts.content import Column, Figure, Heading, Item, Table, Text
-from ..parts.folder import Folder, FolderError, provenance_of, read_columns
+from ..parts.folder import Folder, FolderError, provenance_of, read_files
 from ..parts.wording import EMPTY, listed, number, percent
-from .written import written
 
 if TYPE_CHECKING:
     from engine import Scene
@@ -38,7 +38,7 @@ def dependence_items(folder: Folder) -> list[Item]:
     items: list[Item] = [Heading("What the paper leaves out"), Text(SHORT), _gaps(folder.directory, folder.scene)]
     try:
         rows, columns = _table(folder.directory / "dependence")
-    except (FolderError, OSError, ValueError):
+    except FolderError:
         return [*items, Text("The part `dependence` is not there, so nothing is shown of what follows from them.")]
     items += [Heading("Depth, waves above still water, buoyancy out of the water", 2), _depth_figure(rows)]
     items += [_regimes(rows, columns, steepness) for steepness in _values(rows, "steepness")]
@@ -53,28 +53,28 @@ def _gaps(directory: Path, scene: Scene) -> Table:
     modes, tolerance = natural_frequencies(scene), provenance_of(directory / "buoy").get("strobe_tolerance", math.nan)
     out_m = math.nan if modes is None else tether.length_m * (1.0 + modes.static_strain) + 0.5 * scene.buoy.diameter_m
     out_m -= scene.water.depth_m
-    taken = {
-        "depth": number(scene.water.depth_m),
-        "density": number(scene.water.density_kgpm3),
+    words = {
         "out": number(abs(out_m), 2),
         "side": "above" if out_m > 0.0 else "below",
-        "stiffness": number(tether.bending_stiffness_Nm2),
-        "torsion": number(tether.torsion_stiffness_Nm2),
         "waves": TREATMENTS[scene.waves.above_still_water],
         "buoyancy": TREATMENTS[scene.buoy.submergence],
-        "line": number(line.bending_stiffness_Nm2),
         "tolerance": percent(tolerance),
     }
-    return written("gaps", **taken)
+    return written("gaps", scene=scene, line=line, **words)
+
+
+def written(name: str, **taken: object) -> Table:
+    """A table of tables.toml by its name, which no run decides; taken: what stands in braces there."""
+    told = tomllib.loads(Path(__file__).with_name("tables.toml").read_text(encoding="utf-8"))[name]
+    rows = tuple(tuple(cell.format(**taken) for cell in row) for row in told["rows"])
+    return Table(tuple(Column(title, align="left") for title in told["heads"]), rows, told["caption"], small=True)
 
 
 def _table(part: Path) -> tuple[list[dict], dict[str, Quantity]]:
-    import pandas
-
-    columns = read_columns(part)
-    words = [name for name, column in columns.items() if column.digits is None]
-    table = pandas.read_csv(part / "table.csv", dtype=dict.fromkeys(words, str)).fillna(dict.fromkeys(words, ""))
-    return table.to_dict("records"), columns
+    found = read_files(part, {"table.csv": "the runs", "columns.csv": "what its columns are"})
+    columns = found["columns.csv"]
+    numbers = [name for name, column in columns.items() if column.digits is not None]
+    return [row | {name: value(row, name) for name in numbers} for row in found["table.csv"]], columns
 
 
 def _values(rows: list[dict], key: str) -> list:

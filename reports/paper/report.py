@@ -10,11 +10,10 @@ from ..parts.folder import Folder, read_folder
 from ..parts.judged import FAILS, HOLDS_IF, Judged, counted, read_statements, statements_table
 from ..parts.provenance import provenance_items
 from ..parts.wording import count, decimals
-from .dependence import dependence_items
+from .dependence import dependence_items, written
 from .figures import PREFACE, figures_of, left_out
 from .figures import pictures as beside
 from .index import index_items
-from .written import written
 
 __all__ = ["beside", "report"]
 

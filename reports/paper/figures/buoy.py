@@ -15,20 +15,21 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ...figures.curves import Curve, Panel, draw, fill
+from ...figures.curves import Curve, Panel, fill
 from ...figures.motion import spectrum_panels
 from ...figures.time_series import envelope
 from ...parts.content import sub
 from ...parts.figure_data import sources_of
-from ...parts.style import BLUE, GREEN, INK, SOFT, VERMILION
+from ...parts.style import BLUE, GREEN, INK, VERMILION
 from ...parts.symbols import L_0, OMEGA_I, T_I, T_S, TAU_0
 from ...parts.wording import decimals, listed, number
-from .drawing import DASHED, Drawing, behind, scaled, spans, value
+from .drawing import DASHED, Drawing, behind, spans, value
 
 if TYPE_CHECKING:
     import xarray
 
 DETAIL_PERIODS = 10
+ALONG = r"$t/T_i$ (wave periods)"
 MOTIONS = {  # motion -> its label on the axis, name in the text, colour and line as in the paper's key
     "radial": (r"$|\Delta\tilde r|/r_0$ (–)", "r/r₀", BLUE, "-"),
     "angular": (r"$|\Delta\tilde\theta|$ (rad)", "θ", VERMILION, DASHED),
@@ -61,10 +62,11 @@ def history(data: xarray.Dataset) -> Drawing:
     side = _side(data)
     kA, seen = sources_of(data)[0].label, spans(data, {side.column: side.what}, 3)
     caption = (
-        f"{seen}, {kA}, against t/{T_I}; above up to the end of the window of eq. (31) (shaded), below the last "
-        f"{DETAIL_PERIODS} wave periods of it. {behind(data)}"
+        f"{seen}, {kA}, against t/{T_I}; above up to the end of the window of eq. (31), its start marked, below the "
+        f"last {DETAIL_PERIODS} wave periods of it. {behind(data)}"
     )
-    return Drawing(3.9, partial(_histories, data=data, side=side), caption, f"History over time, {kA}: {seen}.")
+    drawn = partial(fill, rows=_histories(data, side), legend="below")
+    return Drawing(3.9, drawn, caption, f"History over time, {kA}: {seen}.")
 
 
 def _side(data: xarray.Dataset) -> Side:
@@ -82,35 +84,25 @@ def _side(data: xarray.Dataset) -> Side:
     return Side(what, "angle_rad", r"$\theta$ (rad)", r"$\theta$ (°)", 180.0 / np.pi, ((0.0, "static"),))
 
 
-def _histories(figure, data: xarray.Dataset, side: Side) -> None:
-    periods = data["time_s"].values / value(data, "wave_period_s")
-    start, length = value(data, "window_start_periods"), value(data, "window_periods")
-    whole, detail = figure.subplots(2, 1, gridspec_kw={"height_ratios": [1.25, 1.0]})
-    shade = whole.axvspan(start, min(start + length, periods[-1]), color=SOFT, alpha=0.15, linewidth=0)
-    handles = {"window of eq. (31)": shade}
-    for axes, shown in ((whole, slice(None)), (detail, periods >= periods[-1] - DETAIL_PERIODS)):
-        x, band = periods[shown], None
+def _histories(data: xarray.Dataset, side: Side) -> list[list[Panel]]:
+    periods, period_s = data["time_s"].values / value(data, "wave_period_s"), value(data, "wave_period_s")
+    starts = [(value(data, "window_start_periods"), "")]
+    drawn = (slice(None), "", {"top": (period_s, r"$t$ (s)")}), (periods >= periods[-1] - DETAIL_PERIODS, ALONG, {})
+    rows = []
+    for shown, x_label, top in drawn:
+        x, y, band = periods[shown], data[side.column].values[shown], None
         if side.band:
             (at, low), (_, high) = (envelope(x, data[name].values[shown]) for name in side.band)
             band = at, np.minimum(low, high), np.maximum(low, high)
-        curve = Curve(*envelope(x, data[side.column].values[shown]), colour=INK, width=0.8, band=band)
-        draw(axes, Panel([curve], y_label=side.label, settings={"xlim": (x[0], x[-1])}))
-        axes.secondary_yaxis("right", functions=scaled(side.factor)).set_ylabel(side.other)
-        handles |= _levels(axes, side)
-    whole.secondary_xaxis("top", functions=scaled(value(data, "wave_period_s"))).set_xlabel(r"$t$ (s)")
-    detail.set_xlabel(r"$t/T_i$ (wave periods)")
-    figure.align_ylabels((whole, detail))
-    figure.legend(handles.values(), handles.keys(), loc="outside lower center", ncols=len(handles))
-
-
-def _levels(axes, side: Side) -> dict[str, object]:
-    """The static value and other levels that are within sight, by name for the key."""
-    low, high = axes.get_ylim()
-    return {
-        name: axes.axhline(level, color=colour, linewidth=0.9, linestyle=dashes, zorder=1.5)
-        for (level, name), colour, dashes in zip(side.levels, (VERMILION, GREEN), ("--", "-."), strict=False)
-        if low <= level <= high
-    }
+        lines = [Curve(*envelope(x, y), colour=INK, width=0.8, band=band)]
+        room = 0.05 * np.ptp(y)
+        for (level, name), look in zip(side.levels, ((VERMILION, "--"), (GREEN, "-.")), strict=False):
+            if y.min() - room <= level <= y.max() + room:
+                lines.append(Curve(x[[0, -1]], np.full(2, level), name, look[1], colour=look[0]))
+        beside = {"right": (side.factor, side.other), **top}
+        settings = {"xlim": (x[0], x[-1])}
+        rows.append([Panel(lines, x_label, side.label, settings=settings, marks=[] if rows else starts, beside=beside)])
+    return rows
 
 
 def spectra(data: xarray.Dataset) -> Drawing:

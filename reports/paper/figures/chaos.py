@@ -16,12 +16,12 @@ from typing import TYPE_CHECKING
 
 from ...figures.curves import Curve, Panel, fill
 from ...figures.motion import settled
-from ...figures.offplane_history import History, fill_lateral_histories, lateral_height_in
+from ...figures.offplane_history import History, lateral_height_in, lateral_panels
 from ...parts.figure_data import sources_of
 from ...parts.style import BLUE, INK, VERMILION
 from ...parts.symbols import L_0, T_I
 from ...parts.wording import decimals, number
-from .drawing import DASHED, Drawing, behind, scaled, spans, value
+from .drawing import DASHED, Drawing, behind, spans, value
 
 if TYPE_CHECKING:
     import xarray
@@ -114,10 +114,6 @@ def offplane_histories(data: xarray.Dataset) -> Drawing:
         f"period; thin: every sample; dotted: half the range of the buoy in the plane. Seen: {most}. {behind(data)}"
     )
     alt = f"Distance from the plane of the waves on a logarithmic axis over time: {most}."
-    return Drawing(lateral_height_in(len(BODIES)), partial(_lateral, data=data, labels=labels), caption, alt)
-
-
-def _lateral(figure, data: xarray.Dataset, labels: dict[str, str]) -> None:
     period_s, static_m = value(data, "wave_period_s"), value(data, "static_radius_m")
     panels = []
     for body, axis in zip(BODIES, ("buoy, $|y|$ (m)", "rope, largest $|y|$ (m)"), strict=True):
@@ -128,5 +124,5 @@ def _lateral(figure, data: xarray.Dataset, labels: dict[str, str]) -> None:
             periods, inplane_m = data[f"{name}_time_s"].values / period_s, value(data, f"{name}_inplane_m")
             runs.append(History(label, periods, size, envelope_periods, envelope, inplane_m))
         panels.append((axis, runs))
-    for axes in fill_lateral_histories(figure, panels):
-        axes.secondary_yaxis("right", functions=scaled(1.0 / static_m)).set_ylabel(r"$|y|/r_0$ (–)")
+    rows = lateral_panels(panels, beside={"right": (1.0 / static_m, r"$|y|/r_0$ (–)")})
+    return Drawing(lateral_height_in(len(BODIES)), partial(fill, rows=rows, legend="below", share="x"), caption, alt)

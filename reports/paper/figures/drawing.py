@@ -39,11 +39,6 @@ def spans(data: xarray.Dataset, names: dict[str, str], places: int = 2) -> str:
     return "; ".join(said)
 
 
-def scaled(factor: float) -> tuple[Callable, Callable]:
-    """A second axis of other units: to them and back."""
-    return (lambda there: factor * there), (lambda here: here / factor)
-
-
 def behind(data: xarray.Dataset) -> str:
     """The scene and the settings behind a figure, and its run time, as the end of its caption."""
     sources = sources_of(data)
