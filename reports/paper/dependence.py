@@ -7,13 +7,13 @@ import tomllib
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from ..figures.depth_exponents import Exponents, depth_exponents, kind_of
+from ..figures.depth_exponents import Exponents, depth_exponents
 from ..out_of_plane.runs import read_study
 from ..out_of_plane.sections import comparison_items
-from ..parts.columns import Quantity, plus_minus, value
+from ..parts.columns import Quantity, plus_minus, table_of, value
 from ..parts.content import Column, Figure, Heading, Item, Table, Text
 from ..parts.folder import Folder, FolderError, provenance_of, read_files
-from ..parts.wording import EMPTY, listed, number, percent
+from ..parts.wording import EMPTY, number, percent
 
 if TYPE_CHECKING:
     from engine import Scene
@@ -42,7 +42,7 @@ def dependence_items(folder: Folder) -> list[Item]:
         return [*items, Text("The part `dependence` is not there, so nothing is shown of what follows from them.")]
     items += [Heading("Depth, waves above still water, buoyancy out of the water", 2), _depth_figure(rows)]
     items += [_regimes(rows, columns, steepness) for steepness in _values(rows, "steepness")]
-    return [*items, *_stiffness(rows), *_plane(folder.directory / "out_of_plane")]
+    return [*items, *_stiffness(rows, columns), *_plane(folder.directory / "out_of_plane")]
 
 
 def _gaps(directory: Path, scene: Scene) -> Table:
@@ -136,30 +136,25 @@ def _cell(row: dict | None, columns: dict[str, Quantity]) -> str:
     return f"{regime}, {plus_minus(columns, row, VALUE, ERROR)}" if math.isfinite(row[VALUE]) else regime
 
 
-def _stiffness(rows: list[dict]) -> list[Item]:
+def _stiffness(rows: list[dict], columns: dict[str, Quantity]) -> list[Item]:
     usual = [row for row in rows if all(row[key] == rows[0][key] for key in (ABOVE, DROWNED))]
     varied = sorted({(row["steepness"], row[DEPTH]) for row in usual if row[EI] != rows[0][EI]})
     heading = Heading("Bending stiffness", 2)
     if not varied:
         return [heading, Text("The stiffness was not varied.")]
-    panel, spread = {}, []
+    panel, shown = {}, []
     for kA, H in varied:
         some = sorted((row for row in usual if (row["steepness"], row[DEPTH]) == (kA, H)), key=lambda row: row[EI])
         panel.setdefault(f"kA = {number(kA)}", []).append(curve(f"H = {number(H)} m", some, EI))
-        good = [row for row in some if row["status"] == "ok"]
-        ends = [[row[end] for row in good] for end in ("radius_min_m", "radius_max_m")]
-        off = max(max(values) - min(values) for values in ends)
-        kinds = listed(dict.fromkeys(kind_of(row["regime"]) or "no verdict" for row in good))
-        spread.append(
-            f"kA = {number(kA)}, H = {number(H)} m: ends of the range of r within {number(off, 2)} m; {kinds}"
-        )
+        shown += some
     caption = (
-        "Largest exponent over the bending stiffness of the tether, which the paper does not give. "
-        f"{'. '.join(spread)}. A positive exponent of a run whose buoy repeats its motion belongs to the folds of the "
-        "slack rope. From `dependence/table.csv`."
+        "Largest exponent over the bending stiffness of the tether, which the paper does not give. A positive exponent "
+        "of a run whose buoy repeats its motion belongs to the folds of the slack rope. From `dependence/table.csv`."
     )
     picture = depth_exponents([list(panel.items())], r"$EI$ (N m$^2$)", log=True)
-    return [heading, Figure(picture, caption, f"Exponent over bending stiffness: {'. '.join(spread)}.")]
+    names = ("steepness", DEPTH, EI, "status", "radius_min_m", "radius_max_m", "regime", (VALUE, ERROR))
+    table = table_of(columns, names, shown, "What the bending stiffness changes.")
+    return [heading, Figure(picture, caption, "Exponent over bending stiffness, at each depth a curve."), table]
 
 
 def _plane(part: Path) -> list[Item]:

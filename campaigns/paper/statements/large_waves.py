@@ -5,7 +5,7 @@ import math
 from campaigns.paper.measured import Results
 from campaigns.paper.measures import LARGE
 from campaigns.paper.statements import judging
-from campaigns.paper.statements.judging import LONG, UNDECIDED, at, elsewhere, everywhere, exponent, passed, value_of
+from campaigns.paper.statements.judging import LONG, UNDECIDED, at, everywhere, exponent, passed, value_of
 from campaigns.statements import Measured, listed, shown, told
 from campaigns.tables import Row
 
@@ -63,45 +63,27 @@ def spans(chosen: list[bool], rows: list[Row]) -> str:
 
 def positive_exponent(results: Results) -> Measured:
     """The exponent of the long run, and of the short ones; at the shipped depth the long run decides."""
-    rows, others = _short(results, known=judging.EXPONENT)
     long, depth = results.buoy.get(LARGE), f"H = {results.depth():g} m"
-    deciding = {where: row for where, row in rows if judging.settled(row)}
-    found = f"shorter runs {', '.join(f'{exponent(row)} at {where}' for where, row in rows + others) or 'none'}"
-    if long is not None:
-        deciding.pop(depth, None)
-        if exponent(long) != "none":
-            deciding[depth] = long
-            found = f"{LONG} at {depth} {exponent(long)}; {found}"
-    places = [
-        *sorted(deciding.items(), key=_by_place),
-        *((where, row) for where, row in others if judging.settled(row)),
-    ]
-    checks = passed(*((where, judging.positive(row)) for where, row in places))
-    return Measured(checks, found if rows or others or long else "")
+    short = [(where, row) for where, row in everywhere(results, LARGE) if exponent(row) != "none"]
+    deciding = {where: row for where, row in short if judging.settled(row)}
+    found = f"shorter runs {', '.join(f'{exponent(row)} at {where}' for where, row in short) or 'none'}"
+    if exponent(long) != "none":
+        deciding[depth] = long
+        found = f"{LONG} at {depth} {exponent(long)}; {found}"
+    checks = passed(*((where, judging.positive(row)) for where, row in sorted(deciding.items())))
+    return Measured(checks, found if short or long else "")
 
 
 def chaotic(results: Results) -> Measured:
     """The regime of the long run, and of the short ones; at the shipped depth the long run decides."""
-    rows, others = _short(results)
     long, depth = results.buoy.get(LARGE), f"H = {results.depth():g} m"
-    found, deciding = f"shorter runs {judging.by_regime(rows + others)}", dict(rows)
+    short = everywhere(results, LARGE)
+    found, deciding = f"shorter runs {judging.by_regime(short)}", dict(short)
     if long is not None and long["regime"] not in UNDECIDED:
         deciding[depth] = long
         tighter = f" (at a tenth of the tolerance: {again})" if (again := long.get("regime_tighter")) else ""
         found = f"{LONG} at {depth} {long['regime']}{tighter}; {found}"
-    checks = judging.regimes([*sorted(deciding.items(), key=_by_place), *others], _is_chaotic)
-    return Measured(checks, found if rows or others or long else "")
-
-
-def _short(results: Results, known: str = "depth_m") -> tuple[list[judging.Place], list[judging.Place]]:
-    """The short runs that know a number: those of the shipped buoyancy, and the others."""
-    both = [(at(row), row) for row in results.over_depth(LARGE)], elsewhere(results, LARGE)
-    rows, others = ([place for place in some if math.isfinite(value_of(place[1], known))] for some in both)
-    return rows, others
-
-
-def _by_place(place: judging.Place) -> str:
-    return place[0]
+    return Measured(judging.regimes(sorted(deciding.items()), _is_chaotic), found if short or long else "")
 
 
 def _is_chaotic(regime: str) -> bool:
