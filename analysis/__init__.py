@@ -31,12 +31,12 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "orbit_diagrams": ["OrbitDiagram", "density_image", "orbit_diagram"],
         "periods": ["PeriodEstimate", "detect_period"],
         "poincare": ["PoincareSection", "poincare_section", "section_at_phases"],
-        "predictability": ["prediction_gain"],
         "section_distances": ["SectionDistance", "section_distance"],
         "spectra": ["SpectralPeak", "Spectrum", "peaks_near", "spectral_peaks", "spectrum"],
         "stationarity": ["Drift", "record_drift"],
         "surrogates": [
-            "NullRank", "iaaft_surrogates", "noisy_periodic_surrogates", "normal_scores", "rank_among"
+            "NullRank", "iaaft_surrogates", "noisy_periodic_surrogates", "normal_scores", "prediction_gain",
+            "rank_among",
         ],
         "tangent_growth": ["tangent_lyapunov", "transverse_lyapunov"],
         "verdicts": ["Verdict", "regime"],

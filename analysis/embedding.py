@@ -56,29 +56,23 @@ class DelayChoice:
 
 @dataclass(frozen=True, eq=False)
 class EmbeddingChoice:
-    """Delay and dimension of an embedding with the curves from which they were read; index m - 1 belongs to m.
+    """Delay and dimension of an embedding; index m - 1 of an array belongs to m.
 
-    dimension                the choice: by false neighbours, else by Cao
+    dimension                the choice: by false neighbours, else by Cao, the first m with E1 of at least 0.9
     by_false_neighbours      first m whose share of false neighbours is within 0.01 of the least; None where even that
                              is more than 0.2: what is then folded is noise
-    by_cao                   first m with E1 of at least 0.9; None if there is none
     reason                   one sentence: what each rule says
     lag                      delay used [samples]
     mean_period              mean period of the series [samples]
-    false_share (8,)         share of false neighbours, m = 1 ... 8. Noise makes false neighbours in every dimension:
-                             their share then levels off above zero, and rises again
-    e1, e2 (7,)              Cao's ratios, m = 1 ... 7. E1 rises to 1 and stays where the embedding is large enough; E2
-                             differs from 1 at some m for a deterministic series and is about 1 at all m for noise
+    e2 (7,)                  Cao's second ratio, m = 1 ... 7: differs from 1 at some m for a deterministic series and is
+                             about 1 at all m for noise
     """
 
     dimension: int
     by_false_neighbours: int | None
-    by_cao: int | None
     reason: str
     lag: int
     mean_period: float
-    false_share: np.ndarray
-    e1: np.ndarray
     e2: np.ndarray
 
 
@@ -186,7 +180,10 @@ def _first_minimum(information, reach):
 
 
 def choose_embedding(series: ArrayLike) -> EmbeddingChoice:
-    """Delay and embedding dimension of a series, with every curve that led to them.
+    """Delay and embedding dimension of a series.
+
+    Noise makes false neighbours in every dimension: their share levels off above zero, and rises again. E1 rises to 1
+    and stays where the embedding is large enough.
 
     series (n,)       any unit
     Returns an EmbeddingChoice of at most 8 dimensions; 8 is the answer, and `reason` says so, where neither rule
@@ -212,9 +209,8 @@ def choose_embedding(series: ArrayLike) -> EmbeddingChoice:
     cao = _first(e1 >= CAO_LEVEL)
     words = f"false neighbours: {kennel or 'none'}, Cao: {cao or 'none'} of dimensions up to {MOST_DIMENSIONS}"
     reason = words if kennel or cao else f"{words}: noise, or a motion of higher dimension"
-    curves = locked(share), locked(e1), locked(e2)
     dimension = kennel or cao or MOST_DIMENSIONS
-    return EmbeddingChoice(dimension, kennel, cao, reason, chosen.delay, chosen.mean_period, *curves)
+    return EmbeddingChoice(dimension, kennel, reason, chosen.delay, chosen.mean_period, locked(e2))
 
 
 def _first(holds):

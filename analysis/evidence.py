@@ -9,7 +9,6 @@ import numpy as np
 
 from analysis.line_spectra import spectral_lines
 from analysis.neighbours import neighbour_growth
-from analysis.predictability import prediction_gain
 from analysis.stationarity import record_drift
 from analysis.surrogates import (
     SHARE,
@@ -17,6 +16,7 @@ from analysis.surrogates import (
     iaaft_surrogates,
     noisy_periodic_surrogates,
     normal_scores,
+    prediction_gain,
     rank_among,
 )
 from analysis.zero_one import zero_one_test

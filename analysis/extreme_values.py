@@ -15,13 +15,11 @@ class SlackFraction:
     fraction       slack_s/record_s, 0 ... 1
     slack_s        time at or below the threshold [s]
     record_s       time looked at, transient left out [s]
-    threshold_N    the threshold [N]
     """
 
     fraction: float
     slack_s: float
     record_s: float
-    threshold_N: float
 
 
 @dataclass(frozen=True)
@@ -66,7 +64,7 @@ def slack_fraction(
     depth = np.abs(np.minimum(left, right)[crossing])
     below[crossing] = depth / (depth + np.maximum(left, right)[crossing])
     slack_s, record_s = float(np.sum(below * np.diff(time_s))), float(time_s[-1] - time_s[0])
-    return SlackFraction(min(slack_s / record_s, 1.0), slack_s, record_s, float(threshold_N))
+    return SlackFraction(min(slack_s / record_s, 1.0), slack_s, record_s)
 
 
 def extremes(series: ArrayLike, step_s: float, transient_s: float = 0.0) -> Extremes:

@@ -18,7 +18,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from analysis.sampling import checked_columns, in_deviations, locked, states_of
+from analysis.sampling import checked_columns, in_deviations, states_of
 
 LEAST_POINTS = 40
 EARLY = slice(1, 4)
@@ -59,20 +59,18 @@ def nearest_outside(
     return index, distance
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True)
 class NeighbourGrowth:
     """How far pairs of neighbours part.
 
     growth           ln of mean distance over the later half of the horizon less that over n = 1, 2, 3 [nats]; NaN where
                      there is no answer
     late             mean distance over the later half of the horizon, in rms distances of unrelated points
-    distance (h+1,)  d(n), in rms distances of unrelated points
     reason           one sentence
     """
 
     growth: float
     late: float
-    distance: np.ndarray
     reason: str
 
 
@@ -92,14 +90,14 @@ def neighbour_growth(section: ArrayLike) -> NeighbourGrowth:
     if len(x) < LEAST_POINTS:
         why_not = f"too short: {LEAST_POINTS} strobed points are needed, given {len(x)}"
     if why_not:
-        return NeighbourGrowth(np.nan, np.nan, locked(np.zeros(0)), why_not)
+        return NeighbourGrowth(np.nan, np.nan, why_not)
     state = states_of(z, x.shape[1])
     horizon = len(state) // 4
     distance = _distance(state, horizon) / np.sqrt(2.0 * np.sum(state.var(axis=0)))
     early, late = np.log(distance[EARLY]).mean(), np.log(distance[horizon // 2 :]).mean()
     later = f"are {np.exp(late):.2g} apart {horizon // 2} and more periods on"
     reason = f"neighbours {np.exp(early):.2g} of the section apart {later}"
-    return NeighbourGrowth(float(late - early), float(np.exp(late)), locked(distance), reason)
+    return NeighbourGrowth(float(late - early), float(np.exp(late)), reason)
 
 
 def _distance(state, horizon):

@@ -40,7 +40,6 @@ class PeriodEstimate:
     period                          smallest N that qualifies, or None
     reason                          one sentence: why this answer
     tolerance                       share of the scale
-    scale (d,)                      what counts as 1 in each coordinate, in its unit
     residual (max_period,)          largest scaled change over N periods in the last part; NaN where not tested
     projected (max_period,)         the last steps with all later steps of a geometric decay added, scaled; inf where
                                     the steps do not shrink
@@ -55,7 +54,6 @@ class PeriodEstimate:
     period: int | None
     reason: str
     tolerance: float
-    scale: np.ndarray
     residual: np.ndarray
     projected: np.ndarray
     multiplier: np.ndarray
@@ -102,7 +100,7 @@ def detect_period(
     repeats = [n for n in range(1, testable + 1) if max(residual[n - 1], projected[n - 1]) <= tolerance]
     period = next((n for n in repeats if not _rivals(n, residual, tolerance)), None)
     reason = _reason(period, repeats, points, testable, max_period, tolerance, residual, trend)
-    curves = (locked(curve) for curve in (scale, *measures))
+    curves = (locked(curve) for curve in measures)
     return PeriodEstimate(
         period, reason, tolerance, *curves, points, None if period is None else locked(_orbit(x, period))
     )

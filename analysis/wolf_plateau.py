@@ -46,9 +46,9 @@ def wolf_lyapunov(series: ArrayLike, step_s: float) -> Exponent:
     Returns an Exponent in nats per unit of time; positive: neighbours part exponentially; about 0: they do not. A
     stable periodic motion shows 0 at best, not its negative exponent: once settled, nothing in the record decays.
     NaN with a reason, never 0, when fewer than three settings qualify or the record has fewer than 20 mean periods.
-    details: values, errors, end_lengths (d, e; ends in rms radii), qualified (d, e; bool), dimensions (d,), evolutions
-    (e,) [samples], block_error, spread, length_change, noise_bias, noise, embedding (EmbeddingChoice), and of the
-    setting nearest to the median run (WolfRun), whose convergence over time_s is fig. 14 of the paper.
+    details: dimensions (d,), evolutions (e,) [samples], values and qualified (d e,) of all pairs, block_error, spread,
+    length_change, noise_bias, noise, embedding (EmbeddingChoice), and of the setting nearest to the median run
+    (WolfRun), whose convergence over time_s is fig. 14 of the paper.
     Raises ValueError for values that are not finite.
     Source: Wolf, Swift, Swinney & Vastano, Physica D 16, 285 (1985); what is ours: heads of this file, of wolf_pairs.
     """
@@ -70,30 +70,29 @@ def wolf_lyapunov(series: ArrayLike, step_s: float) -> Exponent:
 
 
 def _plateau(run, details):
-    """The Exponent of a grid of runs (a row a dimension, a column an evolution time)."""
-    grid = [[(m, e) for e in details["evolutions"]] for m in details["dimensions"]]
-    runs = [[run(m, e) for m, e in row] for row in grid]
-    values = np.array([[one.value for one in row] for row in runs])
-    errors = np.array([[one.error for one in row] for row in runs])
-    ends = np.array([[_typical_end(one) for one in row] for row in runs])
-    qualified = np.isfinite(values) & (ends <= LONGEST_END)
-    arrays = {"values": values, "errors": errors, "end_lengths": ends, "qualified": qualified}
-    details |= {name: locked(array) for name, array in arrays.items()}
-    if np.sum(qualified) < min(LEAST_SETTINGS, values.size):
-        none = next((one.reason for row in runs for one in row if not np.isfinite(one.value)), "")
+    """The Exponent of runs over all dimensions and evolution times."""
+    settings = [(m, e) for m in details["dimensions"] for e in details["evolutions"]]
+    runs = [run(m, e) for m, e in settings]
+    values, errors = np.array([(one.value, one.error) for one in runs]).T
+    qualified = np.isfinite(values) & (np.array([_typical_end(one) for one in runs]) <= LONGEST_END)
+    details |= {"values": locked(values), "qualified": locked(qualified)}
+    if np.sum(qualified) < min(LEAST_SETTINGS, len(runs)):
+        none = next((one.reason for one in runs if not np.isfinite(one.value)), "")
         why = none or f"vectors end longer than {LONGEST_END} rms radii: the growth is bounded, not exponential"
-        return no_exponent(METHOD, f"{np.sum(qualified)} of {values.size} settings qualify; {why}", details=details)
-    value = float(np.median(values[qualified]))
-    low, high = np.quantile(values[qualified], [0.16, 0.84])
-    block_error, spread = float(np.median(errors[qualified])), float(0.5 * (high - low))
-    change = np.array([run(*grid[i][j], lengths=2.0).value - values[i, j] for i, j in np.argwhere(qualified)])
-    length_change = float(np.sqrt(np.mean(change[np.isfinite(change)] ** 2))) if np.any(np.isfinite(change)) else np.nan
-    i, j = np.unravel_index(np.argmin(np.where(qualified, np.abs(values - value), np.inf)), values.shape)
-    noise_bias = float(np.median([runs[i][j].noise_bias for i, j in np.argwhere(qualified)]))
-    parts = {"block_error": block_error, "spread": spread, "length_change": length_change, "noise_bias": noise_bias}
-    details |= parts | {"run": runs[i][j]}
+        return no_exponent(METHOD, f"{np.sum(qualified)} of {len(runs)} settings qualify; {why}", details=details)
+    value, used = float(np.median(values[qualified])), np.flatnonzero(qualified)
+    low, high = np.quantile(values[used], [0.16, 0.84])
+    change = np.array([run(*settings[k], lengths=2.0).value - values[k] for k in used])
+    change = change[np.isfinite(change)]
+    parts = {
+        "block_error": float(np.median(errors[used])),
+        "spread": float(0.5 * (high - low)),
+        "length_change": float(np.sqrt(np.mean(change**2))) if len(change) else np.nan,
+        "noise_bias": float(np.median([runs[k].noise_bias for k in used])),
+    }
+    details |= parts | {"run": runs[used[np.argmin(np.abs(values[used] - value))]]}
     error = float(np.sqrt(sum(part**2 for part in parts.values())))
-    reason = f"median of {np.sum(qualified)} of {values.size} settings, {low:.4g} to {high:.4g} nats/time"
+    reason = f"median of {len(used)} of {len(runs)} settings, {low:.4g} to {high:.4g} nats/time"
     return Exponent(value, error, NATS_PER_TIME, METHOD, reason, details)
 
 

@@ -124,7 +124,6 @@ class SnapBasins:
                         the one with the most starts first
     shares              (len(orbits) + 1,) share of the starts on each, the aperiodic last
     errors              binomial standard errors of the shares, as if the starts had been drawn at random
-    periods             forcing periods given to every start
     """
 
     label: np.ndarray
@@ -132,7 +131,6 @@ class SnapBasins:
     orbits: tuple[np.ndarray, ...]
     shares: np.ndarray
     errors: np.ndarray
-    periods: int
 
 
 def start_grid(columns: int, rows: int) -> np.ndarray:
@@ -174,7 +172,7 @@ def snap_basins(oscillator: SnapOscillator, starts: ArrayLike, periods: int = 30
             if period and (orbit := _attracted(oscillator, state[i], int(period), table)) is not None:
                 label[i], settled[i] = _index(orbits, orbit), done
         waiting = waiting[label[waiting] < 0]
-    return _counted(label, settled, orbits, periods)
+    return _counted(label, settled, orbits)
 
 
 def _repeats(recent):
@@ -207,14 +205,14 @@ def _distance(state, orbit):
     return np.abs(state - orbit).max(axis=1).min()
 
 
-def _counted(label, settled, orbits, periods):
+def _counted(label, settled, orbits):
     counts = np.bincount(label[label >= 0], minlength=len(orbits))
     order = np.argsort(-counts, kind="stable")
     rank = np.append(np.argsort(order, kind="stable"), len(orbits))  # the last one serves the label -1
     label = rank[label]
     shares = np.bincount(label, minlength=len(orbits) + 1) / len(label)
     errors = np.sqrt(shares * (1.0 - shares) / len(label))
-    return SnapBasins(label, settled, tuple(orbits[i] for i in order), shares, errors, periods)
+    return SnapBasins(label, settled, tuple(orbits[i] for i in order), shares, errors)
 
 
 @dataclass(frozen=True)

@@ -4,6 +4,7 @@ The file: columns separated by commas, semicolons, tabs or spaces, one line of n
 has the columns 1, 2, ...), lines that begin with # left out; UTF-8, or UTF-16 with its mark, as spreadsheets export it.
 """
 
+import contextlib
 import csv
 import difflib
 import os
@@ -165,26 +166,22 @@ def read_table(path: Path) -> dict[str, tuple[str, ...]]:
         raise ValueError(f"{path}: empty; allowed: {FORMAT}")
     mark = next((mark for mark in ("\t", ";", ",") if mark in lines[0]), None)
     try:
-        rows = _rows(lines, mark)
+        if mark is None:
+            rows = [[cell.strip('"') for cell in line.split()] for line in lines]
+        else:
+            cells = csv.reader(lines, delimiter=mark, skipinitialspace=True)
+            rows = [[cell.strip() for cell in row] for row in cells]
     except csv.Error as error:
         raise ValueError(f"{path}: no table ({error}); allowed: {FORMAT}") from None
-    names = rows[0]
-    if all(_is_number(cell) for cell in names):
-        names = [str(place + 1) for place in range(len(names))]
-    else:
-        rows = rows[1:]
+    names, *below = rows
+    with contextlib.suppress(ValueError):  # a file of numbers only has no line of names
+        list(map(float, names))
+        names, below = [str(place + 1) for place in range(len(names))], rows
     if twice := next((name for name in names if names.count(name) > 1), None):
         raise ValueError(f"{path}: two columns are called {twice!r}; allowed: a name of its own for each")
-    if fault := _ragged(names, rows, mark):
+    if fault := _ragged(names, below, mark):
         raise ValueError(f"{path}: {fault}")
-    return dict(zip(names, zip(*rows, strict=True), strict=True)) if rows else {name: () for name in names}
-
-
-def _rows(lines: list[str], mark: str | None) -> list[list[str]]:
-    """Cells of every line, separated by a mark, outside double quotes, or by blanks (None)."""
-    if mark is None:
-        return [[cell.strip('"') for cell in line.split()] for line in lines]
-    return [[cell.strip() for cell in row] for row in csv.reader(lines, delimiter=mark, skipinitialspace=True)]
+    return dict(zip(names, zip(*below, strict=True), strict=True)) if below else dict.fromkeys(names, ())
 
 
 def _ragged(names: list[str], rows: list[list[str]], mark: str | None) -> str:
@@ -213,22 +210,10 @@ def _text(path: Path) -> str:
         raise ValueError(f"{path}: {fault}; allowed: {FORMAT}") from None
     except OSError as error:
         raise ValueError(f"{path}: cannot be read: {error.strerror}; allowed: {FORMAT}") from None
-    what, cure = "not text in UTF-8", "of a text in another encoding: save it as UTF-8"
-    if found := next((told for mark, told in BINARY.items() if content.startswith(mark)), None):
-        what, cure = found
-    else:
-        try:
-            text = content.decode("utf-16" if content[:2] in UTF16 else "utf-8-sig")
-            if "\0" not in text:
-                return text
-        except UnicodeDecodeError:
-            pass
+    foreign = ("not text in UTF-8", "of a text in another encoding: save it as UTF-8")
+    what, cure = next((told for mark, told in BINARY.items() if content.startswith(mark)), foreign)
+    with contextlib.suppress(UnicodeDecodeError):
+        text = content.decode("utf-16" if content[:2] in UTF16 else "utf-8-sig")
+        if "\0" not in text and what == foreign[0]:
+            return text
     raise ValueError(f"{path}: {what}; allowed: {FORMAT} ({cure})")
-
-
-def _is_number(cell: str) -> bool:
-    try:
-        float(cell)
-    except ValueError:
-        return False
-    return True

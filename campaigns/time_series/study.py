@@ -38,10 +38,9 @@ from analysis.embedding import (
 from analysis.evidence import SHARE, Evidence
 from analysis.exponents import Exponent, no_exponent
 from analysis.poincare import section_at_phases
-from analysis.predictability import prediction_gain
 from analysis.sampling import locked
 from analysis.spectra import SpectralPeak, Spectrum, spectral_peaks, spectrum
-from analysis.surrogates import iaaft_surrogates, normal_scores, rank_among
+from analysis.surrogates import iaaft_surrogates, normal_scores, prediction_gain, rank_among
 from analysis.verdicts import Verdict, regime
 from analysis.wolf_plateau import LEAST_PERIODS, wolf_lyapunov
 from analysis.zero_one import ZeroOneTest, zero_one_test

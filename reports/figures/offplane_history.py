@@ -1,4 +1,4 @@
-"""Lateral motion against time on a logarithmic axis (the paper's figure 20), and how it depends on the push."""
+"""Lateral motion against time on a logarithmic axis (the paper's figure 20), over the push and over the depth."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ import numpy as np
 
 from ..parts.content import Picture
 from ..parts.style import BLUE, VERMILION
-from .curves import Curve, Panel, curves
+from .curves import COLOURS, Curve, Panel, curves
 from .time_series import envelope
 
 INPLANE = "in-plane half range of the buoy"
@@ -78,3 +78,19 @@ def seed_histories(panels: list[tuple[str, str, list[tuple[float, np.ndarray, np
         ]
         drawn.append(Panel(lines, r"$t/T_i$ (wave periods)", label, title, log="y"))
     return curves([drawn[k : k + 2] for k in range(0, len(drawn), 2)], 0.9 + 2.1 * (len(drawn) // 2), "below")
+
+
+def dependence(panels: list[tuple[str, list[tuple[str, np.ndarray, np.ndarray, np.ndarray]]]], label: str) -> Picture:
+    """Panels (title, curves): each curve is (name, depth (p,) in m, lateral distance (p,) in m, decays (p,) bool).
+
+    Filled marks: the motion goes on; open ones: it decays, and the mark is what is left of it.
+    """
+    drawn = []
+    for title, found in panels:
+        lines = []
+        for (name, depth, size, decays), colour, mark in zip(found, COLOURS, "os^D", strict=False):
+            lines.append(Curve(depth, size, colour=colour, width=0.6, alpha=0.6))
+            lines.append(Curve(depth[~decays], size[~decays], name, "", mark, colour, size=4.5))
+            lines.append(Curve(depth[decays], size[decays], "", "", mark, colour, size=4.5, filled=False))
+        drawn.append(Panel(lines, "depth $H$ (m)", label, title, log="y"))
+    return curves([drawn], 2.9, "below")

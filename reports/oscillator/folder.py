@@ -46,6 +46,8 @@ class Study:
 
 def read_study(directory: str | Path) -> Study:
     """Read the folder. Raises FolderError naming every file that is missing or cannot be read."""
+    import xarray
+
     directory = Path(directory)
     found = read_files(directory, FILES)
     try:
@@ -59,16 +61,11 @@ def read_study(directory: str | Path) -> Study:
     arrays, faults = {}, {}
     for part in PARTS:
         try:
-            arrays[part] = _arrays(directory / "trajectories" / f"{rows[part]['run_key']}.nc")
+            path = directory / "trajectories" / f"{rows[part]['run_key']}.nc"
+            with xarray.open_dataset(path, engine="scipy") as file:
+                arrays[part] = {str(name): variable.values for name, variable in file.load().data_vars.items()}
         except KeyError:
             faults[part] = "it has no row in table.csv"
         except (OSError, ValueError, TypeError) as error:
             faults[part] = rows[part]["message"] or f"its arrays cannot be read ({type(error).__name__})"
     return Study(directory, found["provenance.json"], read_columns(directory), rows, arrays, oscillator, faults)
-
-
-def _arrays(path: Path) -> dict[str, np.ndarray]:
-    import xarray
-
-    with xarray.open_dataset(path, engine="scipy") as file:
-        return {str(name): variable.values for name, variable in file.load().data_vars.items()}

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -15,13 +16,13 @@ from ..figures.oscillator import (
     oscillator_zooms,
 )
 from ..parts.columns import table_of
-from ..parts.content import Bullets, Column, Figure, Heading, Item, Notice, Report, Table, Text, sub
+from ..parts.content import Bullets, Figure, Heading, Item, Notice, Report, Text, sub
 from ..parts.provenance import provenance_items
 from ..parts.wording import count, decimals, number, percent
 from .folder import Study, read_study
 from .sections import basin_items, equation_items, grazing_items, orbit_items, subtitle
 
-LAMBDA_1, LAMBDA_2 = "λ" + sub("1"), "λ" + sub("2")
+LAMBDA_1 = "λ" + sub("1")
 QUESTION = (
     "To see the fractal structure of the strange attractor, the paper (Tjavaras, Zhu, Liu, Triantafyllou and Yue "
     "1998, section 4.2) reduces the tethered buoy to its radial motion on a tether that pulls but does not push: "
@@ -61,14 +62,6 @@ def _answer(study: Study) -> tuple[str, ...]:
             f"The largest exponent is {LAMBDA_1} = {_with_error(value, error)} nats per unit of time, "
             f"{_with_error(*bits)} bits per forcing period. It is {verdict}."
         )
-        rest = abs(study.number("exponents", "sum_plus_damping"))
-        lines.append(f"Both exponents and the damping add up to zero, as they must, within {rest:.0e}.")
-        dimension = study.number("exponents", "section_dimension")
-        if dimension > 0.0:
-            within = _with_error(dimension, study.number("exponents", "section_dimension_error"))
-            lines.append(
-                f"The section has the Kaplan-Yorke dimension {within}, between that of a curve and of an area."
-            )
     shares = study.arrays.get("basins", {}).get("shares")
     if shares is not None:
         settled = count(len(shares) - 1, "periodic attractor")
@@ -121,7 +114,8 @@ def _exponents(study: Study, arrays: dict) -> list[Item]:
         f"{row['starts']} random starts of {row['periods']} periods each, after {row['transient']}. The error is the "
         "standard deviation over the starts by the root of their number. Starts that settled on a periodic attractor "
         f"are not counted ({row['elsewhere']}). The same error from blocks of time alone is "
-        f"{float(arrays['block_error'][0]):.2g}, against {error:.2g}."
+        f"{float(arrays['block_error'][0]):.2g}, against {error:.2g}. Both exponents and the damping must add up to "
+        "zero. A Kaplan-Yorke dimension D between 1 and 2 is that of a fractal between a curve and an area."
     )
     seen = f"the mean ends at {_with_error(value, error)}"
     caption = (
@@ -131,28 +125,14 @@ def _exponents(study: Study, arrays: dict) -> list[Item]:
     )
     alt = f"Convergence of the largest exponent with time, where {seen}, and its scatter against the number of starts."
     figure = Figure(oscillator_errors(arrays["convergence"], arrays["of_start"][:, 0]), caption, alt)
-    return [Text(text), _exponent_table(study, arrays["convergence"]), figure]
-
-
-def _exponent_table(study: Study, convergence: np.ndarray) -> Table:
-    """Exponent and error against the time averaged."""
-    bits = study.period / math.log(2.0)
-    rows = []
-    for time, mean, error in convergence[np.unique(np.geomspace(1, len(convergence), 7).round().astype(int)) - 1]:
-        second = -study.oscillator["damping"] - mean
-        places = max(2, min(12, 1 - math.floor(math.log10(error)))) if error > 0 else 6
-        nats = (decimals(number, places) for number in (mean, error, second))
-        in_bits = (decimals(number * bits, max(1, places - 1)) for number in (mean, error))
-        dimension = decimals(1.0 + mean / abs(second) if mean > 0 else 0.0, 4)
-        rows.append((str(round(time / study.period)), decimals(time, 0), *nats, *in_bits, dimension))
-    columns = (
-        Column("average over", "periods"), Column("time"), Column(LAMBDA_1, "nats/time"), Column("error", "nats/time"),
-        Column(LAMBDA_2, "nats/time"), Column(LAMBDA_1, "bits/period"), Column("error", "bits/period"),
-        Column("D of the section"),
-    )  # fmt: skip
-    starts = study.rows["exponents"]["starts"]
-    caption = f"Exponents against the time averaged for each of {starts} starts; one standard error. From `exponents`."
-    return Table(columns, tuple(rows), caption)
+    shown = (
+        ("lambda_1_nats_per_time", "lambda_1_error"),
+        ("lambda_1_bits_per_period", "lambda_1_bits_error"),
+        "lambda_2_nats_per_time",
+        "sum_plus_damping",
+        ("section_dimension", "section_dimension_error"),
+    )
+    return [Text(text), table_of(study.columns, shown, [row], "The exponents, from `table.csv`."), figure]
 
 
 def _diagram(study: Study, arrays: dict, symbol: str, key: str, label: str) -> list[Item]:
@@ -179,20 +159,18 @@ def _diagram(study: Study, arrays: dict, symbol: str, key: str, label: str) -> l
     return [Figure(picture, caption, f"Orbit diagram over {symbol} with exponents below: {seen}.")]
 
 
-def _over_force(study: Study, arrays: dict) -> list[Item]:
-    return _diagram(study, arrays, "F", "force", r"forcing $F$ (–)")
-
-
-def _over_frequency(study: Study, arrays: dict) -> list[Item]:
-    return _diagram(study, arrays, "ω", "frequency", r"forcing frequency $\omega$ (–)")
-
-
 SECTIONS = {  # part of the study: heading, what is said of its arrays
     "section": ("The section: figure 19(b)", _section),
     "history": ("The motion from rest", _history),
     "exponents": ("Exponents and their errors", _exponents),
-    "diagram-force": ("Orbit diagram over the forcing", _over_force),
-    "diagram-frequency": ("Orbit diagram over the frequency", _over_frequency),
+    "diagram-force": (
+        "Orbit diagram over the forcing",
+        partial(_diagram, symbol="F", key="force", label=r"forcing $F$ (–)"),
+    ),
+    "diagram-frequency": (
+        "Orbit diagram over the frequency",
+        partial(_diagram, symbol="ω", key="frequency", label=r"forcing frequency $\omega$ (–)"),
+    ),
     "basins": ("Coexisting attractors", basin_items),
     "orbits": ("Periodic orbits", orbit_items),
     "grazing": ("Grazing", grazing_items),

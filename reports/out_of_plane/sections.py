@@ -8,8 +8,7 @@ import numpy as np
 
 from ..buoy_sweep.runs import strobed
 from ..figures.motion import section_pairs
-from ..figures.offplane_dependence import dependence
-from ..figures.offplane_history import History, lateral_histories, seed_histories
+from ..figures.offplane_history import History, dependence, lateral_histories, seed_histories
 from ..figures.rope_shape import rope_shapes
 from ..parts.columns import table_of, value
 from ..parts.content import Bullets, Figure, Heading, Item, Text

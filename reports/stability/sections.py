@@ -7,8 +7,7 @@ from statistics import median
 
 import numpy as np
 
-from ..figures.scene_shares import scene_shares
-from ..figures.step_maps import step_maps
+from ..figures.stability import scene_shares, step_maps
 from ..parts.columns import table_of, value
 from ..parts.content import Column, Figure, Heading, Item, Notice, Table, Text
 from ..parts.wording import EMPTY, decimals, number

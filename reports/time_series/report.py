@@ -81,7 +81,7 @@ def _verdict(answer: dict) -> list[Item]:
     rows += [
         ("K of the 0-1 test", _digits(answer["zero_one"]["K"]), "1", answer["zero_one"]["reason"]),
         ("correlation dimension", _digits(**answer["dimension"]), "1", how),
-        ("white noise, at most", _digits(answer["noise"]), "as the column", "`analysis/neighbours.py`"),
+        ("white noise, at most", _digits(answer["noise"]), "as the column", "`analysis/embedding.py`"),
     ]
     step = f"{answer['samples']} samples, one every {answer['step']:.6g} {unit}"
     return [

@@ -9,16 +9,14 @@ import sys
 import numpy as np
 import pytest
 
-from campaigns.machinery.folder import trajectory_path
 from campaigns.paper.figures import FIGURES, files_of, place_of, write_figure_data
 from campaigns.paper.figures.buoy import history_arrays
 from campaigns.paper.measured import read_results
-from campaigns.tables import read_rows
 from engine import load_scene, simulate
 from engine.natural_frequencies import natural_frequencies
 from reports.paper.figures import figures_of, left_out, pictures
 from reports.parts.figure_data import parsed, sources_of
-from tests.campaigns.conftest import ROOT
+from tests.campaigns.conftest import ROOT, rows_of
 from tests.campaigns.fake_space import SpaceEngine
 from tests.reports.synthetic import campaign
 
@@ -75,8 +73,8 @@ def test_statements_are_judged_by_the_runs_that_the_figures_show(root):
 def test_a_run_that_is_lost_takes_its_figures_along(copy):
     _, svg, _ = files_of(copy, 13)
     svg.write_bytes(b"drawn before")
-    lost = next(row for row in read_rows(copy / "buoy" / "table.csv") if row["steepness"] == 0.13)
-    path = trajectory_path(copy / "buoy", lost["run_key"])
+    (lost,) = (row["run_key"] for row in rows_of(copy / "buoy") if row["steepness"] == "0.13")
+    path = copy / "buoy" / "trajectories" / f"{lost}.nc"
     path.write_bytes(path.read_bytes()[:5000])
     reasons = write_figure_data(copy)
     for number in (13, 15, 16, 17, 18):

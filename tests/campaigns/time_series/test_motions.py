@@ -1,25 +1,36 @@
 """A column from a file gets the word that its motion has, and noise is never called chaos."""
 
 import csv
+import json
 
 import numpy as np
 import pytest
-from scipy.integrate import solve_ivp
 from scipy.signal import lfilter
 
+from campaigns.time_series import main
 from campaigns.time_series.record import Record
-from campaigns.time_series.section import successive_maxima
-from campaigns.time_series.study import study
+from campaigns.time_series.study import study, successive_maxima
 from tests.analysis.forced_records import KINDS, SAMPLES, record
 from tests.analysis.maps import henon, logistic
-from tests.campaigns.time_series.columns import answered
+from tests.analysis.systems import states
 
 TIME = np.arange(1500) * 0.4
 GOLDEN = 0.5 * (np.sqrt(5.0) - 1.0)
 
 
-def noise(samples, seed=0):
-    return np.random.default_rng(seed).normal(size=samples)
+def noise(samples):
+    return np.random.default_rng(0).normal(size=samples)
+
+
+def answered(tmp_path, values, step=None, *options):
+    """answer.json of the command for a file of values, and of times where there is a step; it must end well."""
+    rows = ["x"] if step is None else ["t,x"]
+    rows += [f"{v:.15g}" if step is None else f"{k * step:.9g},{v:.15g}" for k, v in enumerate(values)]
+    path, out = tmp_path / "series.csv", tmp_path / "out"
+    path.write_text("\n".join(rows) + "\n")
+    time = [] if step is None else ["--time", "t"]
+    assert main([str(path), "--column", "x", *time, *options, "--out", str(out)]) == 0
+    return json.loads((out / "answer.json").read_text())
 
 
 MOTIONS = {
@@ -90,10 +101,7 @@ def test_maxima_are_those_of_the_curve_between_the_samples():
 @pytest.mark.slow
 def test_a_flow_at_its_maxima_is_chaotic_with_the_known_exponent(tmp_path, capsys):
     """Rossler's: 0.0714 nats a unit of time (Sprott 2003)."""
-    at = np.arange(20_000) * 0.15
-    rhs = lambda t, y: (-y[1] - y[2], y[0] + 0.2 * y[1], 0.2 + y[2] * (y[0] - 5.7))  # noqa: E731
-    x = solve_ivp(rhs, (0.0, at[-1]), (1.0, 1.0, 0.0), t_eval=at, rtol=1e-9, atol=1e-9).y[0]
-    found = answered(tmp_path, x[1000:], 0.15)
+    found = answered(tmp_path, states("rossler", 19_000, 0.15)[:, 0], 0.15)
     wolf = found["exponents"]["wolf"]
     assert found["regime"] == "chaotic" and found["section"]["kind"] == "maxima"
     assert wolf["nats_per_time"] == pytest.approx(0.0714, abs=3.0 * wolf["error"])

@@ -7,9 +7,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from campaigns.time_series import WRITTEN, folder, main
-from campaigns.time_series.text_table import read_table
-from tests.campaigns.time_series.columns import written
+from campaigns.time_series import WRITTEN, answer, main
+from campaigns.time_series.record import read_table
 
 ROOT = Path(__file__).resolve().parents[3]
 ROWS = [f"{0.1 * k:.3f},{np.sin(k):.6f}" for k in range(300)]
@@ -120,41 +119,45 @@ def test_faults(tmp_path, monkeypatch, capsys, words, parts):
     assert sorted(path.name for path in tmp_path.rglob("*")) == before
 
 
-def test_no_name_is_no_folder(tmp_path, monkeypatch, capsys):
-    """As from --out "$RESULTS" with a variable that is not set: not the current folder."""
+@pytest.fixture
+def good(tmp_path, monkeypatch):
+    """The words for a sound file, in the folder that it lies in."""
     monkeypatch.chdir(tmp_path)
     (tmp_path / "good.csv").write_text(FILES["good.csv"])
-    assert main(["good.csv", "--column", "x", "--out", ""]) == 2
+    return ["good.csv", "--column", "x", "--out"]
+
+
+def test_no_name_is_no_folder(good, tmp_path, capsys):
+    """As from --out "$RESULTS" with a variable that is not set: not the current folder."""
+    assert main([*good, ""]) == 2
     assert "--out: given ''" in capsys.readouterr().err and len(list(tmp_path.iterdir())) == 1
 
 
-def test_a_full_disk_leaves_the_answer_and_one_line(tmp_path, monkeypatch, capsys):
-    write = folder.write_atomic
+def test_a_full_disk_leaves_the_answer_and_one_line(good, tmp_path, monkeypatch, capsys):
+    write = answer.write_atomic
 
     def full(path, content):
         if path.name == "series.csv":
             raise OSError(28, "No space left on device")
         write(path, content)
 
-    path = written(tmp_path / "s.csv", np.sin(0.3 * np.arange(400)))
-    monkeypatch.setattr(folder, "write_atomic", full)
-    assert main([str(path), "--out", str(tmp_path / "out")]) == 1
+    monkeypatch.setattr(answer, "write_atomic", full)
+    assert main([*good, "out"]) == 1
     said = capsys.readouterr()
     assert "VERDICT" in said.out and "is full" in said.err and said.err.count("\n") == 1
-    monkeypatch.setattr(folder, "write_atomic", write)
-    assert main([str(path), "--out", str(tmp_path / "out")]) == 0  # with room again, into the same folder
+    monkeypatch.setattr(answer, "write_atomic", write)
+    assert main([*good, "out"]) == 0  # with room again, into the same folder
     # What the command will not write over is what it writes.
     kept = {file.name for file in (tmp_path / "out").iterdir()}
     assert kept == {*WRITTEN, "provenance.json"} - {"report.html", "report.pdf"}
 
 
-def test_ctrl_c_is_one_line(tmp_path, monkeypatch, capsys):
+def test_ctrl_c_is_one_line(good, tmp_path, monkeypatch, capsys):
     def stopped(*_):
         raise KeyboardInterrupt
 
     monkeypatch.setattr("campaigns.time_series.study.study", stopped)
-    path = written(tmp_path / "s.csv", np.sin(0.3 * np.arange(400)))
-    assert main([str(path), "--out", str(tmp_path / "out")]) == 130
+    assert main([*good, "out"]) == 130
     assert "interrupted" in capsys.readouterr().err and not (tmp_path / "out").exists()
 
 

@@ -1,4 +1,4 @@
-"""Eigenvalues of one-step maps in the unit circle, a panel for each method."""
+"""The stability report's figures: eigenvalues of one-step maps in the unit circle; what parts of a scene cost."""
 
 from __future__ import annotations
 
@@ -27,4 +27,16 @@ def step_maps(methods: dict[str, np.ndarray]) -> Picture:
             axes.set_title(name, fontsize=7.0)
             axes.set_xlabel(r"Re $\mu$ (–)")
         panels[0].set_ylabel(r"Im $\mu$ (–)")
+        return picture_of(figure)
+
+
+def scene_shares(names: list[str], times: np.ndarray) -> Picture:
+    """Bars of the times (n,) of a Newton iteration, as shares of the first scene."""
+    with sheet(0.9 + 0.2 * len(names)) as figure:
+        axes = figure.subplots()
+        axes.barh(np.arange(len(names))[::-1], times / times[0], 0.6, color=BLUE)
+        axes.set_yticks(np.arange(len(names))[::-1], names)
+        axes.axvline(1.0, color="black", linewidth=0.6)
+        axes.set_xlabel("time of a Newton iteration, as a share of the first scene's (–)")
+        axes.grid(False, axis="y")
         return picture_of(figure)
