@@ -37,7 +37,7 @@ def lateral_height_in(count: int) -> float:
     return 0.7 + 2.3 * count
 
 
-def lateral_panels(panels: list[tuple[str, list[History]]], **further) -> list[list[Panel]]:
+def lateral_panels(panels: list[tuple[str, list[History]]], **further: object) -> list[list[Panel]]:
     """Stacked panels (axis label, runs): every sample thin, the largest value of each period thick; solid for the first
     run, dashed for the second; dotted the level of its in-plane motion. further: of every Panel."""
     rows = []

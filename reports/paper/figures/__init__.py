@@ -37,14 +37,9 @@ PREFACE = (
 )
 
 
-def place_of(root: str | Path) -> Path:
-    """The folder of data and drawings within the campaign's folder."""
-    return Path(root) / "figures"
-
-
 def files_of(root: str | Path, number: int) -> tuple[Path, Path, Path]:
-    """Data, SVG and PNG of a figure of the paper."""
-    stem = place_of(root) / f"fig_{number:02d}"
+    """Data, SVG and PNG of a figure of the paper, in the folder of data and drawings within the campaign's folder."""
+    stem = Path(root) / "figures" / f"fig_{number:02d}"
     return stem.with_suffix(".nc"), stem.with_suffix(".svg"), stem.with_suffix(".png")
 
 
@@ -59,7 +54,7 @@ def figures_of(root: str | Path) -> dict[int, Figure]:
 def left_out(root: str | Path) -> dict[int, str]:
     """Why there is no figure, by its number in the paper, for each that cannot be drawn."""
     try:
-        reasons = json.loads((place_of(root) / "left_out.json").read_text(encoding="utf-8"))
+        reasons = json.loads((Path(root) / "figures" / "left_out.json").read_text(encoding="utf-8"))
     except (OSError, ValueError):
         reasons = {}
     drawn = _drawn(root)
