@@ -60,6 +60,9 @@ class Panel:
     beside: Mapping[str, tuple[float, str]] = field(default_factory=dict)
 
 
+Rows = Sequence[Sequence[Panel]]
+
+
 def draw(axes, panel: Panel) -> None:
     """Draw a panel on matplotlib's axes, without its legend."""
     if panel.level is not None:
@@ -111,7 +114,7 @@ def mark(axes, marks: Sequence[tuple[float, str]]) -> None:
 
 
 def curves(
-    rows: Sequence[Sequence[Panel]],
+    rows: Rows,
     height_in: float,
     legend: str = "",
     share: str = "",
@@ -124,13 +127,7 @@ def curves(
         return picture_of(figure, kind)
 
 
-def fill(
-    figure: Figure,
-    rows: Sequence[Sequence[Panel]],
-    legend: str = "",
-    share: str = "",
-    widths: Sequence[float] | None = None,
-) -> None:
+def fill(figure: Figure, rows: Rows, legend: str = "", share: str = "", widths: Sequence[float] | None = None) -> None:
     """Draw rows of panels on an open sheet.
 
     legend: place inside every panel that has named curves, in matplotlib's words; "below" one for all panels, under

@@ -102,17 +102,14 @@ def _depth_figure(rows: list[dict]) -> Figure:
             found = {word: _like(rows, steepness=kA, **{ABOVE: word, DROWNED: under}) for word in waves}
             curves = [curve(f"waves: {word}", some, DEPTH) for word, some in found.items()]
             panels[-1].append((f"kA = {number(kA)}, buoyancy {under}", curves))
+    treatments = "; ".join(f"`{word}`: {TREATMENTS.get(word, word)}" for word in (*waves, *drowned))
     caption = (
         "Largest Lyapunov exponent (tangent dynamics, one standard error) over the water depth, which the paper does "
         "not give (depths evenly spaced), for the treatments of waves above still water (colours) and of buoyancy "
-        f"(columns); marks tell the regime. {_treatments([*waves, *drowned])} From `dependence/table.csv`."
+        f"(columns); marks tell the regime. {treatments}. From `dependence/table.csv`."
     )
     alt = f"Exponent over water depth in {len(panels)} rows of panels, marked by regime."
     return Figure(depth_exponents(panels, r"$H$ (m)"), caption, alt)
-
-
-def _treatments(words: list[str]) -> str:
-    return "; ".join(f"`{word}`: {TREATMENTS.get(word, word)}" for word in words) + "."
 
 
 def _regimes(rows: list[dict], columns: dict[str, Quantity], steepness: float) -> Table:

@@ -35,7 +35,7 @@ def chaos_beyond(results: Results) -> Measured:
     """The regimes of all runs whose line goes slack; the long ones where there are both."""
     rows = good({row["steepness"]: row for row in (*good(results.sweep), *good(results.buoy.values()))}.values())
     kinds = {
-        "chaotic": _is_chaotic,
+        "chaotic": "chaotic".__eq__,
         "periodic or quasi-periodic": lambda regime: regime not in ("chaotic", *UNDECIDED),
         "undecided or a transient": lambda regime: regime in UNDECIDED,
     }
@@ -83,11 +83,7 @@ def chaotic(results: Results) -> Measured:
         deciding[depth] = long
         tighter = f" (at a tenth of the tolerance: {again})" if (again := long.get("regime_tighter")) else ""
         found = f"{LONG} at {depth} {long['regime']}{tighter}; {found}"
-    return Measured(judging.regimes(sorted(deciding.items()), _is_chaotic), found if short or long else "")
-
-
-def _is_chaotic(regime: str) -> bool:
-    return regime == "chaotic"
+    return Measured(judging.regimes(sorted(deciding.items()), "chaotic".__eq__), found if short or long else "")
 
 
 def never_repeats(results: Results) -> Measured:
