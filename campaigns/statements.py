@@ -1,6 +1,6 @@
 """Statements put to the test: what is claimed, what is measured, and the rule that decides.
 
-A `Claim` is a record, read from a table (`read_claims`). `judged` measures it in the results and applies its rule at
+A `Claim` is a record, read from a table (`read_claims`). `judge` measures it in the results and applies its rule at
 each place where it looked: the claim "holds" where every check passes, it "does not hold" where none does, and it
 "holds if" between, with the places; a dash where nothing was looked at. A verdict is always computed and cannot be
 written. `statements.csv` has one row a claim.
@@ -80,11 +80,6 @@ class Statement:
         return "{}; not {}".format(*sides)
 
 
-def judged(claims: Iterable[Claim], results: object) -> list[Statement]:
-    """Every claim with its verdict, in the order given."""
-    return [judge(claim, results) for claim in claims]
-
-
 def judge(claim: Claim, results: object) -> Statement:
     """Measure a claim in the results and apply its rule."""
     measured = claim.measure(results)
@@ -95,7 +90,7 @@ def judge(claim: Claim, results: object) -> Statement:
 
 def write_statements(folder: Path, claims: Iterable[Claim], results: object) -> None:
     """Judge the claims and write statements.csv; a file that says the same already stays as it is. Raises OSError."""
-    path, content = folder / FILE, as_csv(judged(claims, results))
+    path, content = folder / FILE, as_csv([judge(claim, results) for claim in claims])
     if not path.exists() or path.read_bytes() != content:
         write_atomic(path, content)
 

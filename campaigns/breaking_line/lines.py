@@ -10,7 +10,7 @@ from pathlib import Path
 
 import numpy as np
 
-from campaigns.breaking_line.theory.law import checked_law, strain_of_tension, wave_speed
+from campaigns.breaking_line.theory import Theory, theory_of
 from campaigns.tables import Row as Line
 from campaigns.tables import read_rows, run_of
 
@@ -33,7 +33,8 @@ def read_lines(folder: Path) -> tuple[Line, ...]:
     for line in read_rows(folder / "table.csv"):
         line |= dict.fromkeys((*MOTION, *LAW), math.nan)
         if (run := motion_of(folder, line)) is not None:
-            line |= from_law(run.scene, line["force_N"])
+            theory = theory_of(run.scene, float(run.columns["time_s"][-1]))
+            line |= from_law(theory) if theory is not None else {}
             line |= from_motion(line, run.profiles) if run.profiles is not None else {}
         found.append(line)
     return over_case_4(found)
@@ -44,18 +45,13 @@ def motion_of(folder: Path, line: Line) -> object | None:
     return run_of(folder, line) if line["kind"] == "case" else None
 
 
-def from_law(scene: object, force_N: float) -> Line:
+def from_law(theory: Theory) -> Line:
     """static_strain; steepening: by how much a wave at 0.99 of that strain is faster than at it, as a share."""
-    law = scene.tether.tension
-    try:
-        numbers = checked_law(law.p, scene.tether.density_kgpm3 * scene.tether.area_m2) if law.law == "tanh" else None
-    except ValueError:  # a law that does not rise everywhere
-        numbers = None
-    if numbers is None:
-        return {}
-    strain = float(strain_of_tension(numbers, force_N, 0.2))
-    steepening = float(wave_speed(numbers, 0.99 * strain) / wave_speed(numbers, strain) - 1.0)
-    return {"static_strain": strain, "steepening": steepening}
+    strain = theory.speeds.strain0
+    return {
+        "static_strain": strain,
+        "steepening": float(theory.wave_speed(0.99 * strain) / theory.wave_speed(strain) - 1.0),
+    }
 
 
 def from_motion(line: Line, profiles: object) -> Line:

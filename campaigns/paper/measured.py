@@ -28,7 +28,7 @@ class Results:
                  wave, with linear waves continued above still water, with `snaps`)
     plane        runs of figure 20;  plane_large: the steepness of its large wave
     numbers      of the scene of section 4.2 (`scales`, estimate_... of the natural frequencies, length_m), of its two
-                 motions (`calm_measures`, `violent_measures`), of the slack rope (buckle_depth_m, buckle_waves) and of
+                 motions (`calm_measures`, `violent_measures`), of the slack rope (buckle_waves) and of
                  eq. (33) (oscillator_..., its exponents)
     """
 
@@ -121,7 +121,7 @@ def _plane(parts: Parts, numbers: dict) -> dict:
     trajectory = None if row is None else run_of(part.folder, row)
     waves = buckling_waves(trajectory.profiles) if trajectory is not None and trajectory.profiles else None
     if waves is not None:
-        numbers |= {"buckle_depth_m": row["depth_m"], "buckle_waves": waves}
+        numbers["buckle_waves"] = waves
     return {"plane": part.rows, "plane_large": float(part.provenance["base"]["steepness"])}
 
 

@@ -11,7 +11,7 @@ from ..figures.line_animation import line_animation, line_strip
 from ..figures.line_panels import QUANTITIES, SCALED, LinePanel, folds, line_panels, seen
 from ..figures.line_waves import FrontPanel, energy_shares, front_plane, front_speeds
 from ..parts.content import Figure
-from ..parts.wording import decimals, listed, number, percent
+from ..parts.wording import listed, number, percent
 from .runs import FAST, SLOW, Line, find, named, title_of
 
 if TYPE_CHECKING:
@@ -58,24 +58,22 @@ def instants(profiles) -> np.ndarray:
 
 def folds_figure(lines: tuple[Line, ...]) -> Figure | None:
     """The neighbourhood of the fixed end at the end of every run, in true proportion."""
-    panels, words = [], []
+    panels = []
     order = [case for pair in zip(FAST, SLOW, strict=True) for case in pair]
     for line in shown(lines, order):
         profiles = line.trajectory.profiles
         title = f"case {line.name}, {1e3 * float(profiles.time_s[-1]):.0f} ms"
         shape = profiles.x_m[-1], profiles.z_m[-1], profiles.time_s[-1:]
         panels.append(LinePanel(line["case"], line["force_N"], title, *shape))
-        words.append(f"{decimals(line['buckled_m'], 2)} m (case {line.name})")
     if not panels:
         return None
     near = [panel.y[panel.x < NEAR_M[1]] for panel in panels]
     low, high = min(float(z.min()) for z in near) - 0.05, max(float(z.max()) for z in near) + 0.05
     caption = (
-        "The fixed end (dot) at the end of every run, in true proportion. Unstretched length up to where the line is "
-        f"steeper than 0.2 rad: {listed(words)}."
+        "The fixed end (dot) at the end of every run, in true proportion; the table of the cases tells up to which "
+        "unstretched length the line is folded."
     )
-    alt = f"Folds at the fixed end, one panel a case: {listed(words)}."
-    return Figure(folds(panels, NEAR_M, (low, high)), caption, alt)
+    return Figure(folds(panels, NEAR_M, (low, high)), caption, "Folds at the fixed end, one panel a case.")
 
 
 def plane_figure(lines: tuple[Line, ...], exact: xarray.Dataset) -> Figure:
@@ -125,7 +123,7 @@ def speeds_figure(exact: xarray.Dataset) -> Figure:
 
 def energy_figure(lines: tuple[Line, ...]) -> Figure | None:
     """Shares of the stored energy over time."""
-    panels, words = [], []
+    panels = []
     for line in shown(lines, (*FAST, *SLOW)):
         energy = line.trajectory.energy
         if energy is None:
@@ -134,15 +132,13 @@ def energy_figure(lines: tuple[Line, ...]) -> Figure | None:
         shares = np.array([energy.strain_J, energy.kinetic_J, -energy.end_work_J, gone, energy.bending_J])
         thin = slice(None, None, max(1, len(energy.time_s) // CURVE_POINTS))
         panels.append((f"case {line.name}", energy.time_s[thin], shares[:, thin] / energy.stored_J))
-        words.append(f"{line.name} {percent(line.share('kinetic_largest_J'))}")
     if not panels:
         return None
     caption = (
         "Where the stored energy is and went, over time, from below in the order of the names; the weight, below a "
-        f"percent, is left out. Largest kinetic energy, case by case: {listed(words)}."
+        "percent, is left out."
     )
-    alt = f"Stacked shares of energy over time; largest kinetic: {listed(words)}."
-    return Figure(energy_shares(panels), caption, alt)
+    return Figure(energy_shares(panels), caption, "Stacked shares of energy over time, one panel a case.")
 
 
 def animation_figure(lines: tuple[Line, ...], case: str) -> Figure | None:

@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
-import math
+from functools import partial
 from pathlib import Path
 
 from ..buoy_sweep.equations import LAWS
-from ..parts.content import Bullets, Equation, Heading, Item, Notice, Report, Text
+from ..parts.content import Equation, Heading, Item, Notice, Report, Text
 from ..parts.folder import Folder, read_folder
 from ..parts.judged import counted, read_statements, statements_table
 from ..parts.provenance import provenance_items, scene_table, timing_table
 from ..parts.wording import count, decimals, listed, number, percent
 from . import figures, tables
-from .runs import FAST, SLOW, Line, find, named, of_kind, read_exact, read_lines
+from .runs import FAST, SLOW, Line, named, of_kind, read_exact, read_lines
 
 ANIMATED = "4"
 MOST_TURN_RAD = 0.6
@@ -55,25 +55,26 @@ VISCOSITY = Equation(
 def report(directory: str | Path) -> Report:
     """The content of the report on a breaking-line folder. Raises FolderError for a folder that is not one."""
     folder = read_folder(directory)
-    columns = folder.columns
     lines, judged = read_lines(folder), read_statements(folder.directory)
+    table = partial(tables.table_of_runs, lines, folder.columns)
     verdicts = f"The paper's statements on the breaking line: {counted(judged)}. From `statements.csv`."
+    asked = sum(line["kind"] == "case" for line in lines)
+    ended = f"{len(of_kind(lines, 'case'))} of {count(asked, 'case')} ended as asked."
     items = [
         Heading("Question"),
         Text(QUESTION),
-        Heading("Short answer"),
-        Bullets(tuple(_answer(lines))),
-        *_section("The cases", tables.table_of_runs(lines, columns, "cases"), *_warnings(lines)),
+        *_section("Short answer", table("answer"), text=f"{ended} {verdicts}"),
+        *_section("The cases", table("cases"), *_warnings(lines)),
         *_section("Fast breaks", *figures.paper_figures(lines, FAST)),
         *_section("Slow breaks", *figures.paper_figures(lines, SLOW)),
         *_section("At the fixed end", figures.folds_figure(lines)),
         *_section("In motion", figures.animation_figure(lines, ANIMATED)),
-        *_fronts(folder, lines, columns),
-        *_section("Energy", figures.energy_figure(lines), tables.energy_table(lines, columns), text=BUDGET),
+        *_section("Fronts and shocks", *_fronts(folder, lines), text=THEORY),
+        *_section("Energy", figures.energy_figure(lines), table("energies"), text=BUDGET),
         *_section("The paper's statements", statements_table(judged, verdicts)),
-        *_section("Bending stiffness", tables.stiffness_table(lines, columns)),
-        *_section("Doubled grids", tables.doubled_table(lines, columns)),
-        *_section("Run times", tables.table_of_runs(lines, columns, "cost"), timing_table(folder)),
+        *_section("Bending stiffness", table("stiffness")),
+        *_section("Doubled grids", table("doubled")),
+        *_section("Run times", table("cost"), timing_table(folder)),
         *_scene(folder),
         *_equations(folder.scene.tether.tension.law),
         *provenance_items(folder),
@@ -84,42 +85,6 @@ def report(directory: str | Path) -> Report:
 def _section(heading: str, *items: Item | None, text: str = "") -> list[Item]:
     found = [item for item in items if item is not None]
     return [Heading(heading), *([Text(text)] if text else []), *found] if found else []
-
-
-def _answer(lines: tuple[Line, ...]) -> list[str]:
-    cases = [line for line in lines if line["kind"] == "case"]
-    good = of_kind(lines, "case")
-    said = [f"{len(good)} of {count(len(cases), 'case')} ended as asked."]
-    if speeds := [line for line in good if line.known("end_speed_error")]:
-        off = max(line["end_speed_error"] for line in speeds)
-        words = listed(f"{decimals(line['end_speed_mps'], 1)} ({line.name})" for line in speeds)
-        said.append(f"The broken end recoils at {words} m/s, within {percent(off)} of the exact motion.")
-    fronts = [line["front_speed_mps"] / line["front_speed_theory_mps"] - 1.0 for line in good]
-    if fronts := [abs(off) for off in fronts if math.isfinite(off)]:
-        seen = count(len(fronts), "front")
-        said.append(f"The {seen} that can be followed run within {percent(max(fronts))} of √(T′/m).")
-    said += [_shock_said(line) for line in good if line.known("shock_birth_theory_m")]
-    if left := [line for line in good if line["x_min_m"] < -0.1]:
-        words = listed(f"{decimals(-line['x_min_m'], 2)} m (case {line.name})" for line in left)
-        said.append(f"The line passes the fixed end by {words}.")
-    pairs = [(find(lines, fast), find(lines, slow)) for fast, slow in zip(FAST, SLOW, strict=True)]
-    if taken := [line for pair in pairs if None not in pair for line in pair if line.known("end_work_J")]:
-        words = listed(f"{percent(-line.share('end_work_J'))} in {line.name}" for line in taken)
-        said.append(f"The kinetic energy depends on the fracture time: the decaying end force takes out {words}.")
-    if closed := [line for line in good if line.known("remainder_largest_J")]:
-        worst = max(line.share("remainder_largest_J") for line in closed)
-        said.append(f"At no time is more than {percent(worst)} of the stored energy unaccounted for.")
-    return said
-
-
-def _shock_said(line: Line) -> str:
-    place = decimals(line["shock_birth_theory_m"], 1)
-    born = f"Case {line.name} forms a shock, by theory {place} m from the broken end"
-    off = line["shock_offset_elements"]
-    if not math.isfinite(off):
-        return f"{born}; the run shows too little of it to be followed."
-    far = number(1e3 * line["shock_offset_largest_m"], 2)
-    return f"{born}; the run's follows the exact one within {far} mm, {number(off, 2)} elements in the median."
 
 
 def _warnings(lines: tuple[Line, ...]) -> list[Item]:
@@ -144,13 +109,14 @@ def _run(line: Line) -> str:
     return f"Case {line.name}{tables.KINDS.get(line['kind'], '')}{stiffness}, {number(line['nodes'])} nodes"
 
 
-def _fronts(folder: Folder, lines: tuple[Line, ...], columns: tables.Columns) -> list[Item]:
+def _fronts(folder: Folder, lines: tuple[Line, ...]) -> list[Item | None]:
+    """Nothing where no case has a theory."""
     if not any(line.known("front_speed_theory_mps") for line in of_kind(lines, "case")):
         return []
     exact = read_exact(folder)
     drawn = [] if exact is None else [figures.plane_figure(lines, exact), figures.speeds_figure(exact)]
-    found = (tables.table_of_runs(lines, columns, which) for which in ("speeds", "shocks"))
-    return _section("Fronts and shocks", *drawn, *found, tables.series_table(lines, columns), text=THEORY)
+    found = (tables.table_of_runs(lines, folder.columns, which) for which in ("speeds", "shocks"))
+    return [*drawn, *found, tables.series_table(lines, folder.columns)]
 
 
 def _scene(folder: Folder) -> list[Item]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import partial
 
 import numpy as np
 from matplotlib.figure import Figure
@@ -19,7 +20,8 @@ class Curve:
     """One curve: x and y (n,), a name for the legend, and how it looks.
 
     line, mark: matplotlib's style of the line and of the marks, "" for none. error: standard errors (n,) drawn as bars.
-    colour: "" takes the next of COLOURS. filled: whether marks are. band: x, low and high (m,) of a shade behind it.
+    colour: "" takes the next of COLOURS. filled: whether marks are. pixels: drawn as such also in an SVG, which a
+    hundred thousand marks would make unusable. band: x, low and high (m,) of a shade behind it.
     """
 
     x: np.ndarray
@@ -33,6 +35,7 @@ class Curve:
     width: float = 0.9
     filled: bool = True
     alpha: float = 1.0
+    pixels: bool = False
     band: tuple[np.ndarray, np.ndarray, np.ndarray] | None = None
 
 
@@ -42,7 +45,7 @@ class Panel:
 
     log: the axes that are logarithmic, "", "x", "y" or "xy". level: a thin horizontal line there. settings: of
     matplotlib's `Axes.set`, such as limits. ticks: most numbers on the x axis, None as they come. marks: (x, name) of
-    places on the x axis.
+    places on the x axis. beside: "right" or "top" -> factor from the axis opposite, label.
     """
 
     curves: Sequence[Curve]
@@ -54,6 +57,10 @@ class Panel:
     settings: Mapping[str, object] = field(default_factory=dict)
     ticks: int | None = None
     marks: Sequence[tuple[float, str]] = ()
+    beside: Mapping[str, tuple[float, str]] = field(default_factory=dict)
+
+
+Rows = Sequence[Sequence[Panel]]
 
 
 def draw(axes, panel: Panel) -> None:
@@ -69,6 +76,7 @@ def draw(axes, panel: Panel) -> None:
             "markersize": curve.size,
             "fillstyle": "full" if curve.filled else "none",
             "alpha": curve.alpha,
+            "rasterized": curve.pixels,
             "label": curve.name or "_",
         }
         # marks of many points: an edge would make each of them larger
@@ -86,6 +94,12 @@ def draw(axes, panel: Panel) -> None:
     if panel.ticks:
         axes.locator_params(axis="x", nbins=panel.ticks)
     mark(axes, panel.marks)
+    for side, (factor, label) in panel.beside.items():
+        units = partial(np.multiply, factor), partial(np.multiply, 1.0 / factor)
+        if side == "top":
+            axes.secondary_xaxis(side, functions=units).set_xlabel(label)
+        else:
+            axes.secondary_yaxis(side, functions=units).set_ylabel(label)
 
 
 def mark(axes, marks: Sequence[tuple[float, str]]) -> None:
@@ -100,38 +114,43 @@ def mark(axes, marks: Sequence[tuple[float, str]]) -> None:
 
 
 def curves(
-    rows: Sequence[Sequence[Panel]],
+    rows: Rows,
     height_in: float,
     legend: str = "",
     share: str = "",
     kind: str = "svg",
     widths: Sequence[float] | None = None,
 ) -> Picture:
-    """Rows of panels as one picture.
+    """Rows of panels as one picture; legend, share, widths as in `fill`."""
+    with sheet(height_in) as figure:
+        fill(figure, rows, legend, share, widths)
+        return picture_of(figure, kind)
+
+
+def fill(figure: Figure, rows: Rows, legend: str = "", share: str = "", widths: Sequence[float] | None = None) -> None:
+    """Draw rows of panels on an open sheet.
 
     legend: place inside every panel that has named curves, in matplotlib's words; "below" one for all panels, under
     them, "right" beside them; "" none. share: "x" panels of a column have one x axis, "y" those of a row one y axis,
     "xy" both. widths: of the columns, against each other.
     """
-    with sheet(height_in) as figure:
-        shared = {"sharex": "col" if "x" in share else "none", "sharey": "row" if "y" in share else "none"}
-        grid = figure.subplots(len(rows), max(map(len, rows)), squeeze=False, width_ratios=widths, **shared)
-        handles: dict[str, object] = {}
-        for places, panels in zip(grid, rows, strict=True):
-            for axes in places[len(panels) :]:
-                axes.set_visible(False)
-            for axes, panel in zip(places, panels, strict=False):
-                draw(axes, panel)
-                found = axes.get_legend_handles_labels()
-                handles |= {name: handle for handle, name in zip(*found, strict=True) if name not in handles}
-                if found[1] and legend not in ("", "below", "right"):
-                    axes.legend(loc=legend)
-        if legend == "below" and handles:
-            figure.legend(handles.values(), handles, loc="outside lower center", ncols=min(len(handles), 4))
-        if legend == "right":
-            figure.legend(handles.values(), handles, loc="outside right center")
-        figure.align_ylabels()
-        return picture_of(figure, kind)
+    shared = {"sharex": "col" if "x" in share else "none", "sharey": "row" if "y" in share else "none"}
+    grid = figure.subplots(len(rows), max(map(len, rows)), squeeze=False, width_ratios=widths, **shared)
+    handles: dict[str, object] = {}
+    for places, panels in zip(grid, rows, strict=True):
+        for axes in places[len(panels) :]:
+            axes.set_visible(False)
+        for axes, panel in zip(places, panels, strict=False):
+            draw(axes, panel)
+            found = axes.get_legend_handles_labels()
+            handles |= {name: handle for handle, name in zip(*found, strict=True) if name not in handles}
+            if found[1] and legend not in ("", "below", "right"):
+                axes.legend(loc=legend)
+    if legend == "below" and handles:
+        figure.legend(handles.values(), handles, loc="outside lower center", ncols=min(len(handles), 4))
+    if legend == "right":
+        figure.legend(handles.values(), handles, loc="outside right center")
+    figure.align_ylabels()
 
 
 def wide_limits(values: np.ndarray, least: float = 1e-9) -> tuple[float, float]:

@@ -5,11 +5,10 @@ from __future__ import annotations
 import numpy as np
 
 from ..parts.content import Picture
-from ..parts.style import BLUE, GREEN, INK, ORANGE, PURPLE, VERMILION
+from ..parts.style import INK
 from ..parts.wording import number
-from .curves import Curve, Panel, curves
+from .curves import COLOURS, Curve, Panel, curves
 
-COLOURS = (BLUE, VERMILION, GREEN, ORANGE, PURPLE)
 BESIDE = 0.14  # of the space between two values
 DASHES = ("-", "--", ":", "-.", "-")
 MARKS = {"periodic": "o", "quasi-periodic": "s", "chaotic": "*", "transient": "v", "undecided": "x", "": "+"}

@@ -8,9 +8,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..parts.content import Picture
-from ..parts.style import BLUE, SOFT, VERMILION, picture_of, sheet
+from ..parts.style import SOFT, VERMILION, picture_of, sheet
 from ..parts.wording import number
-from .curves import cells
+from .curves import Curve, Panel, cells, curves
 
 QUANTITIES = {  # what is drawn -> the same in words, label of its axis, unit
     "z_m": ("motion of a breaking line in the x-z plane", "$z$ (m)", "m"),
@@ -109,12 +109,12 @@ def thousands(newtons: float) -> str:
 
 def folds(panels: list[LinePanel], x_limits: tuple[float, float], z_limits: tuple[float, float]) -> Picture:
     """Shapes in true proportion, two panels a row; x and y of each panel (n,), time_s its one instant."""
-    wide = min(len(panels), 2)
-    rows = (len(panels) + 1) // 2
-    height = _WIDTH_IN / wide * (z_limits[1] - z_limits[0]) / (x_limits[1] - x_limits[0])
-    with sheet(0.4 + rows * (0.3 + height)) as figure:
-        for axes, panel in cells(figure, panels, 2, ("$x$ (m)", "$z$ (m)"), sharex=True, sharey=True):
-            axes.plot(panel.x, panel.y, color=BLUE, linewidth=0.7)
-            axes.plot([0.0], [0.0], "o", color=VERMILION, markersize=3)
-            axes.set(title=panel.title, aspect="equal", xlim=x_limits, ylim=z_limits)
-        return picture_of(figure)
+    limits = {"aspect": "equal", "xlim": x_limits, "ylim": z_limits}
+    fixed = Curve(np.zeros(1), np.zeros(1), line="", mark="o", colour=VERMILION, size=3.0)
+    drawn = [
+        Panel([Curve(panel.x, panel.y, width=0.7), fixed], "$x$ (m)", "$z$ (m)", panel.title, settings=limits)
+        for panel in panels
+    ]
+    rows = [drawn[k : k + 2] for k in range(0, len(drawn), 2)]
+    height = _WIDTH_IN / len(rows[0]) * (z_limits[1] - z_limits[0]) / (x_limits[1] - x_limits[0])
+    return curves(rows, 0.4 + len(rows) * (0.45 + height))

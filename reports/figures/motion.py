@@ -42,14 +42,22 @@ def spectra(panels: list[tuple], highest_radps: float) -> Picture:
     rows = []
     for label, omega, amplitude, marks in panels:
         below = r"$\omega$ (rad/s)" if len(rows) == len(panels) - 1 else ""
-        shown = omega <= highest_radps
-        line, high = [Curve(omega[shown], amplitude[shown], colour=INK)], max(float(amplitude[shown].max()), 1e-12)
-        limits = {"xlim": (0.0, highest_radps), "ylim": (0.0, 1.32 * high)}
-        decades = limits | {"ylim": log_limits(amplitude[shown])}
-        linear = Panel(line, below, label, settings=limits, marks=marks)
-        rows.append([linear, Panel(line, below, log="y", settings=decades, marks=[(at, "") for at, _ in marks])])
+        rows.append(spectrum_panels([Curve(omega, amplitude, colour=INK)], highest_radps, (below, label), marks))
     rows[0] = [replace(one, title=title) for one, title in zip(rows[0], ("linear", "logarithmic"), strict=True)]
     return curves(rows, 0.6 + 1.4 * len(panels), share="x")
+
+
+def spectrum_panels(
+    lines: Sequence[Curve], highest_radps: float, labels: tuple[str, str], marks: Sequence[tuple[float, str]]
+) -> list[Panel]:
+    """Amplitudes over omega up to highest_radps, linear with named marks, and logarithmic; labels: of x and y."""
+    near = lines[0].x <= highest_radps
+    lines = [replace(line, x=line.x[near], y=line.y[near]) for line in lines]
+    everything = np.concatenate([line.y for line in lines])
+    limits = {"xlim": (0.0, highest_radps), "ylim": (0.0, 1.32 * max(float(everything.max()), 1e-12))}
+    decades = limits | {"ylim": log_limits(everything)}
+    linear = Panel(lines, *labels, settings=limits, marks=marks)
+    return [linear, Panel(lines, labels[0], log="y", settings=decades, marks=[(at, "") for at, _ in marks])]
 
 
 def log_limits(amplitude: np.ndarray) -> tuple[float | None, float | None]:

@@ -7,10 +7,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..parts.content import Picture
-from ..parts.style import BLUE, VERMILION, picture_of, sheet
+from ..parts.style import BLUE, VERMILION
 from .curves import COLOURS, Curve, Panel, curves
 from .time_series import envelope
 
+INPLANE = "in-plane half range of the buoy"
 _DECADES_BELOW = 1.5  # room for the swings through zero below the least of the envelope
 
 
@@ -27,11 +28,8 @@ class History:
 
 
 def lateral_histories(panels: list[tuple[str, list[History]]]) -> Picture:
-    """Stacked panels (axis label, runs): every sample thin, the largest value of each period thick; solid for the first
-    run, dashed for the second, and the same for the level of its in-plane motion."""
-    with sheet(lateral_height_in(len(panels))) as figure:
-        fill_lateral_histories(figure, panels)
-        return picture_of(figure)
+    """`lateral_panels` as a picture."""
+    return curves(lateral_panels(panels), lateral_height_in(len(panels)), "below", "x")
 
 
 def lateral_height_in(count: int) -> float:
@@ -39,31 +37,26 @@ def lateral_height_in(count: int) -> float:
     return 0.7 + 2.3 * count
 
 
-def fill_lateral_histories(figure, panels: list[tuple[str, list[History]]]) -> list:
-    """`lateral_histories` on an open sheet; returns the axes of the panels."""
-    rows = figure.subplots(len(panels), 1, sharex=True, squeeze=False)[:, 0]
-    for axes, (label, runs) in zip(rows, panels, strict=True):
+def lateral_panels(panels: list[tuple[str, list[History]]], **further: object) -> list[list[Panel]]:
+    """Stacked panels (axis label, runs): every sample thin, the largest value of each period thick; solid for the first
+    run, dashed for the second; dotted the level of its in-plane motion. further: of every Panel."""
+    rows = []
+    for label, runs in panels:
+        lines, levels = [], []
         for run, colour, dashes in zip(runs, (BLUE, VERMILION), ("-", (0, (4, 1.5))), strict=False):
-            some = run.size > 0
-            axes.plot(*envelope(run.periods[some], run.size[some]), color=colour, linewidth=0.4, alpha=0.35)
-            drawn = run.envelope > 0
-            axes.plot(
-                run.envelope_periods[drawn], run.envelope[drawn], color=colour, linestyle=dashes, linewidth=1.1,
-                label=run.label,
-            )  # fmt: skip
-            axes.axhline(run.inplane_m, color=colour, linestyle=":", linewidth=1.0)
-        axes.set_yscale("log")
-        levels = np.concatenate([run.envelope[run.envelope > 0] for run in runs])
-        top = np.nanmax([run.inplane_m for run in runs] + [levels.max()])
-        axes.set_ylim(levels.min() / 10**_DECADES_BELOW, 4.0 * top)
-        axes.set_ylabel(label)
-        axes.margins(x=0.01)
-    rows[0].plot([], [], ":", color="black", linewidth=1.0, label="in-plane half range of the buoy")
-    figure.legend(*rows[0].get_legend_handles_labels(), loc="outside upper center", ncols=3)
-    rows[-1].set_xlabel(r"$t/T_i$ (wave periods)")
-    rows[-1].locator_params(axis="x", integer=True)
-    figure.align_ylabels(rows)
-    return list(rows)
+            some, drawn = run.size > 0, run.envelope > 0
+            levels.append(run.envelope[drawn])
+            lines += [
+                Curve(*envelope(run.periods[some], run.size[some]), colour=colour, width=0.4, alpha=0.35),
+                Curve(run.envelope_periods[drawn], levels[-1], run.label, dashes, colour=colour, width=1.1),
+                Curve(run.periods[[0, -1]], np.full(2, run.inplane_m), INPLANE, ":", colour=colour, width=1.0),
+            ]
+        low, high = (end(np.concatenate(levels)) for end in (np.min, np.max))
+        top = np.nanmax([high, *(run.inplane_m for run in runs)])
+        limits = {"ylim": (low / 10**_DECADES_BELOW, 4.0 * top), "xmargin": 0.01}
+        x_label = r"$t/T_i$ (wave periods)" if len(rows) == len(panels) - 1 else ""
+        rows.append([Panel(lines, x_label, label, log="y", settings=limits, **further)])
+    return rows
 
 
 def seed_histories(panels: list[tuple[str, str, list[tuple[float, np.ndarray, np.ndarray]]]]) -> Picture:

@@ -3,17 +3,17 @@
 from __future__ import annotations
 
 import math
+import tomllib
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from ..figures.depth_exponents import Exponents, depth_exponents, kind_of
+from ..figures.depth_exponents import Exponents, depth_exponents
 from ..out_of_plane.runs import read_study
 from ..out_of_plane.sections import comparison_items
-from ..parts.columns import Quantity, plus_minus
+from ..parts.columns import Quantity, plus_minus, table_of, value
 from ..parts.content import Column, Figure, Heading, Item, Table, Text
-from ..parts.folder import Folder, FolderError, provenance_of, read_columns
-from ..parts.wording import EMPTY, listed, number, percent
-from .written import written
+from ..parts.folder import Folder, FolderError, provenance_of, read_files
+from ..parts.wording import EMPTY, number, percent
 
 if TYPE_CHECKING:
     from engine import Scene
@@ -38,11 +38,11 @@ def dependence_items(folder: Folder) -> list[Item]:
     items: list[Item] = [Heading("What the paper leaves out"), Text(SHORT), _gaps(folder.directory, folder.scene)]
     try:
         rows, columns = _table(folder.directory / "dependence")
-    except (FolderError, OSError, ValueError):
+    except FolderError:
         return [*items, Text("The part `dependence` is not there, so nothing is shown of what follows from them.")]
     items += [Heading("Depth, waves above still water, buoyancy out of the water", 2), _depth_figure(rows)]
     items += [_regimes(rows, columns, steepness) for steepness in _values(rows, "steepness")]
-    return [*items, *_stiffness(rows), *_plane(folder.directory / "out_of_plane")]
+    return [*items, *_stiffness(rows, columns), *_plane(folder.directory / "out_of_plane")]
 
 
 def _gaps(directory: Path, scene: Scene) -> Table:
@@ -53,28 +53,28 @@ def _gaps(directory: Path, scene: Scene) -> Table:
     modes, tolerance = natural_frequencies(scene), provenance_of(directory / "buoy").get("strobe_tolerance", math.nan)
     out_m = math.nan if modes is None else tether.length_m * (1.0 + modes.static_strain) + 0.5 * scene.buoy.diameter_m
     out_m -= scene.water.depth_m
-    taken = {
-        "depth": number(scene.water.depth_m),
-        "density": number(scene.water.density_kgpm3),
+    words = {
         "out": number(abs(out_m), 2),
         "side": "above" if out_m > 0.0 else "below",
-        "stiffness": number(tether.bending_stiffness_Nm2),
-        "torsion": number(tether.torsion_stiffness_Nm2),
         "waves": TREATMENTS[scene.waves.above_still_water],
         "buoyancy": TREATMENTS[scene.buoy.submergence],
-        "line": number(line.bending_stiffness_Nm2),
         "tolerance": percent(tolerance),
     }
-    return written("gaps", **taken)
+    return written("gaps", scene=scene, line=line, **words)
+
+
+def written(name: str, **taken: object) -> Table:
+    """A table of tables.toml by its name, which no run decides; taken: what stands in braces there."""
+    told = tomllib.loads(Path(__file__).with_name("tables.toml").read_text(encoding="utf-8"))[name]
+    rows = tuple(tuple(cell.format(**taken) for cell in row) for row in told["rows"])
+    return Table(tuple(Column(title, align="left") for title in told["heads"]), rows, told["caption"], small=True)
 
 
 def _table(part: Path) -> tuple[list[dict], dict[str, Quantity]]:
-    import pandas
-
-    columns = read_columns(part)
-    words = [name for name, column in columns.items() if column.digits is None]
-    table = pandas.read_csv(part / "table.csv", dtype=dict.fromkeys(words, str)).fillna(dict.fromkeys(words, ""))
-    return table.to_dict("records"), columns
+    found = read_files(part, {"table.csv": "the runs", "columns.csv": "what its columns are"})
+    columns = found["columns.csv"]
+    numbers = [name for name, column in columns.items() if column.digits is not None]
+    return [row | {name: value(row, name) for name in numbers} for row in found["table.csv"]], columns
 
 
 def _values(rows: list[dict], key: str) -> list:
@@ -102,17 +102,14 @@ def _depth_figure(rows: list[dict]) -> Figure:
             found = {word: _like(rows, steepness=kA, **{ABOVE: word, DROWNED: under}) for word in waves}
             curves = [curve(f"waves: {word}", some, DEPTH) for word, some in found.items()]
             panels[-1].append((f"kA = {number(kA)}, buoyancy {under}", curves))
+    treatments = "; ".join(f"`{word}`: {TREATMENTS.get(word, word)}" for word in (*waves, *drowned))
     caption = (
         "Largest Lyapunov exponent (tangent dynamics, one standard error) over the water depth, which the paper does "
         "not give (depths evenly spaced), for the treatments of waves above still water (colours) and of buoyancy "
-        f"(columns); marks tell the regime. {_treatments([*waves, *drowned])} From `dependence/table.csv`."
+        f"(columns); marks tell the regime. {treatments}. From `dependence/table.csv`."
     )
     alt = f"Exponent over water depth in {len(panels)} rows of panels, marked by regime."
     return Figure(depth_exponents(panels, r"$H$ (m)"), caption, alt)
-
-
-def _treatments(words: list[str]) -> str:
-    return "; ".join(f"`{word}`: {TREATMENTS.get(word, word)}" for word in words) + "."
 
 
 def _regimes(rows: list[dict], columns: dict[str, Quantity], steepness: float) -> Table:
@@ -136,30 +133,25 @@ def _cell(row: dict | None, columns: dict[str, Quantity]) -> str:
     return f"{regime}, {plus_minus(columns, row, VALUE, ERROR)}" if math.isfinite(row[VALUE]) else regime
 
 
-def _stiffness(rows: list[dict]) -> list[Item]:
+def _stiffness(rows: list[dict], columns: dict[str, Quantity]) -> list[Item]:
     usual = [row for row in rows if all(row[key] == rows[0][key] for key in (ABOVE, DROWNED))]
     varied = sorted({(row["steepness"], row[DEPTH]) for row in usual if row[EI] != rows[0][EI]})
     heading = Heading("Bending stiffness", 2)
     if not varied:
         return [heading, Text("The stiffness was not varied.")]
-    panel, spread = {}, []
+    panel, shown = {}, []
     for kA, H in varied:
         some = sorted((row for row in usual if (row["steepness"], row[DEPTH]) == (kA, H)), key=lambda row: row[EI])
         panel.setdefault(f"kA = {number(kA)}", []).append(curve(f"H = {number(H)} m", some, EI))
-        good = [row for row in some if row["status"] == "ok"]
-        ends = [[row[end] for row in good] for end in ("radius_min_m", "radius_max_m")]
-        off = max(max(values) - min(values) for values in ends)
-        kinds = listed(dict.fromkeys(kind_of(row["regime"]) or "no verdict" for row in good))
-        spread.append(
-            f"kA = {number(kA)}, H = {number(H)} m: ends of the range of r within {number(off, 2)} m; {kinds}"
-        )
+        shown += some
     caption = (
-        "Largest exponent over the bending stiffness of the tether, which the paper does not give. "
-        f"{'. '.join(spread)}. A positive exponent of a run whose buoy repeats its motion belongs to the folds of the "
-        "slack rope. From `dependence/table.csv`."
+        "Largest exponent over the bending stiffness of the tether, which the paper does not give. A positive exponent "
+        "of a run whose buoy repeats its motion belongs to the folds of the slack rope. From `dependence/table.csv`."
     )
     picture = depth_exponents([list(panel.items())], r"$EI$ (N m$^2$)", log=True)
-    return [heading, Figure(picture, caption, f"Exponent over bending stiffness: {'. '.join(spread)}.")]
+    names = ("steepness", DEPTH, EI, "status", "radius_min_m", "radius_max_m", "regime", (VALUE, ERROR))
+    table = table_of(columns, names, shown, "What the bending stiffness changes.")
+    return [heading, Figure(picture, caption, "Exponent over bending stiffness, at each depth a curve."), table]
 
 
 def _plane(part: Path) -> list[Item]:

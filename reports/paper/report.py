@@ -10,11 +10,10 @@ from ..parts.folder import Folder, read_folder
 from ..parts.judged import FAILS, HOLDS_IF, Judged, counted, read_statements, statements_table
 from ..parts.provenance import provenance_items
 from ..parts.wording import count, decimals
-from .dependence import dependence_items
+from .dependence import dependence_items, written
 from .figures import PREFACE, figures_of, left_out
 from .figures import pictures as beside
 from .index import index_items
-from .written import written
 
 __all__ = ["beside", "report"]
 
@@ -99,20 +98,16 @@ def _parts(folder: Folder) -> list[Item]:
     shown = ("part", "runs", "failed", "run_s", "total_s")
     what = "; ".join(f"`{part}`: {words}" for part, words in PARTS.items())
     table = table_of(folder.columns, shown, rows, f"The parts, each in a folder of its own ({what}).")
-    found = [
-        (f"Report on {what}", f"{part}/report.html")
-        for part, what in PARTS.items()
-        if (folder.directory / part / "report.html").exists()
-    ]
+    found = {f"Report on {what}": f"{part}/report.html" for part, what in PARTS.items()}
+    links = tuple((words, path) for words, path in found.items() if (folder.directory / path).exists())
     jobs = folder.provenance.get("jobs")
     at_once = f", {count(jobs, 'run')} at a time" if isinstance(jobs, int) else ""
     minutes = decimals(float(folder.table["total_s"].sum()) / 60.0, 1)
-    whole = Text(f"All parts together took {minutes} minutes{at_once}.")
-    links = [
-        Text("Each part has a report of its own, with all runs, grids, warnings and sources:"),
-        Links(tuple(found)),
-    ]
-    return [Heading("Parts"), table, whole, *(links if found else [Text("The parts' own reports were left out.")])]
+    whole = f"All parts together took {minutes} minutes{at_once}."
+    if not links:
+        return [Heading("Parts"), table, Text(f"{whole} The parts' own reports were left out.")]
+    each = "Each part has a report of its own, with all runs, grids, warnings and sources:"
+    return [Heading("Parts"), table, Text(f"{whole} {each}"), Links(links)]
 
 
 def _figures(directory: Path) -> list[Item]:

@@ -55,8 +55,7 @@ class FittedBreak:
     case                   what was asked for
     start                  ShockStart of the simple wave: where theory lets the shock begin
     shock                  ShockPath; no rows when none forms on the line in time
-    valid_until_s          the time asked for, or when a second shock begins that is not fitted: see `reason`
-    reason                 "" or why it ends before the time asked for
+    valid_until_s          the time asked for, or when a second shock begins that is not fitted
     first_echo_s           when the first wave from the fixed end or the shock is at the broken end; inf: not yet
     net, starts            the crossings of characteristics and where the C+ start, see `characteristics`
     """
@@ -65,7 +64,6 @@ class FittedBreak:
     start: ShockStart
     shock: ShockPath
     valid_until_s: float
-    reason: str
     first_echo_s: float
     net: Net
     starts: np.ndarray

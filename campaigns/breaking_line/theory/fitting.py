@@ -5,7 +5,7 @@ import numpy as np
 from analysis.compiled import kernel
 from analysis.sampling import checked_count, checked_positive, locked
 from campaigns.breaking_line.theory import characteristics as row
-from campaigns.breaking_line.theory.characteristics import CROSSED, DONE, FULL, Net, march
+from campaigns.breaking_line.theory.characteristics import DONE, FULL, Net, march
 from campaigns.breaking_line.theory.fitted import FittedBreak, ShockPath
 from campaigns.breaking_line.theory.law import riemann, strain_of_riemann, strain_of_tension, tension, wave_speed
 from campaigns.breaking_line.theory.simple_wave import case_of, end_force, shock_speed, shock_start, sonic_strain
@@ -14,7 +14,6 @@ from campaigns.breaking_line.theory.simple_wave import case_of, end_force, shock
 # fast as the shock. That one never meets it, and the time of meeting, in breaking times, is about the inverse of what
 # is left: the last C- has this much times decay/until.
 CLOSEST = 0.1
-BEYOND = "a second shock begins, or the first outlasts the characteristics that meet it"
 SCAN = 4001
 ROOM = (1, 4, 16)  # tried one after the other, times `lines`: every echo of the broken end needs some more
 
@@ -85,13 +84,10 @@ def fitted_break(parameters, mass, length, tension0, decay_s, until_s, lines=400
         if code != FULL:
             break
     starts = starts[:count]
-    valid, reason = until, ""
-    if code != DONE:
-        valid = min(until, starts[-1, row.TIME])
-        reason = BEYOND if code == CROSSED else "more characteristics than there is room for"
+    valid = until if code == DONE else min(until, starts[-1, row.TIME])
+    # the front is back from the fixed end before the shock has passed it
     if np.any((starts[:shock, row.TIME] > front_arrival) & (starts[:shock, row.EMITTED] > 0.0)):
         valid = min(valid, front_arrival)
-        reason = "the front is back from the fixed end before the shock has passed it"
     echoes = net.tau[int(starts[shock - 1, row.LINE]) + 1 if shock else 0 : used]
     echoes = echoes[~np.isin(echoes, planned)]
     crossings, along = (array[:used, :count] for array in (net.T, net.S)), (array[:used] for array in net[2:5])
@@ -101,7 +97,6 @@ def fitted_break(parameters, mass, length, tension0, decay_s, until_s, lines=400
         start=start,
         shock=ShockPath(*(locked(column.copy()) for column in starts[:shock, : row.P_BEHIND].T)),
         valid_until_s=float(valid),
-        reason=reason if valid < until else "",
         first_echo_s=float(echoes[0]) if len(echoes) else np.inf,
         net=Net(*(locked(array.copy()) for array in kept)),
         starts=locked(starts.copy()),

@@ -164,8 +164,8 @@ class BreakTheory:
     slack_front_speed_mps        c(slack_strain): the edge of the part without tension
     end_speed_mps                of the broken end once T = 0 there, without the shock's small addition
     front_arrival_s              when the front would reach the fixed end
-    shock_speed_mps, shock_strain   the strongest (sonic) shock into strain0: its speed, strain behind; nan without one
-    shock_end_speed_mps          of the broken end behind that shock and its fan, once its echo has come back
+    shock_end_speed_mps          of the broken end behind the strongest (sonic) shock into strain0 and its fan, once its
+                                 echo has come back; nan without a shock
     """
 
     strain0: float
@@ -174,8 +174,6 @@ class BreakTheory:
     slack_front_speed_mps: float
     end_speed_mps: float
     front_arrival_s: float
-    shock_speed_mps: float
-    shock_strain: float
     shock_end_speed_mps: float
 
 
@@ -184,20 +182,15 @@ def break_theory(case):
 
         end speed = integral of sqrt(T'/m) d eps from T = 0 to T = tension0;   fronts sqrt(T'/m) at both ends of it
 
-    Returns a BreakTheory. shock_* are nan at or below the inflection, where unloading spreads.
+    Returns a BreakTheory. shock_end_speed_mps is nan at or below the inflection, where unloading spreads.
     Source: Tjavaras et al. 1998, section 4.1.2; head of this file.
     """
     law, strain0 = case.law, case.strain0
     slack, front, sonic = strain_of_tension(law, 0.0, 0.0), wave_speed(law, strain0), sonic_strain(law, strain0)
     end_speed = riemann(law, strain0) - riemann(law, slack)
-    sigma = behind_shock = np.nan
-    if sonic < strain0:
-        sigma = shock_speed(law, strain0, sonic)
-        behind_shock = sigma * (strain0 - sonic) + riemann(law, sonic) - riemann(law, slack)
-    else:
-        sonic = np.nan
+    behind_shock = shock_speed(law, strain0, sonic) * (strain0 - sonic) + riemann(law, sonic) - riemann(law, slack)
     speeds = (front, wave_speed(law, slack), end_speed, case.length / front)
-    return BreakTheory(*map(float, (strain0, slack, *speeds, sigma, sonic, behind_shock)))
+    return BreakTheory(*map(float, (strain0, slack, *speeds, behind_shock if sonic < strain0 else np.nan)))
 
 
 def simple_wave_work(case):

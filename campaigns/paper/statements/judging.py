@@ -41,15 +41,20 @@ def numbers(
     return measure
 
 
-def depths(of: str, form: str, also: Sequence[str] = ()) -> Measure:
-    """A check of a column for every depth, at the large wave; `also`: columns that are told besides."""
+def depths(of: str, form: str, also: Sequence[str] = (), judge: str = "") -> Measure:
+    """A check for every depth, at the large wave, of a formula over the row and the results' numbers.
+
+    also: formulas that are told besides; judge: the formula that the rule judges.
+    """
 
     def measure(results: Results) -> Measured:
-        rows = [row for row in results.over_depth(LARGE) if math.isfinite(value_of(row, of))]
-        told = (
-            f"{' and '.join(shown(value_of(row, name), form) for name in (of, *also))} at {at(row)}" for row in rows
-        )
-        return Measured([(at(row), row[of]) for row in rows], ", ".join(told))
+        checks, words = [], []
+        for row in (results.numbers | row for row in results.over_depth(LARGE)):
+            found = [formula(one)(row) for one in (of, *also)]
+            if math.isfinite(found[0]):
+                checks.append((at(row), formula(judge)(row) if judge else found[0]))
+                words.append(f"{' and '.join(shown(value, form) for value in found)} at {at(row)}")
+        return Measured(checks, ", ".join(words))
 
     return measure
 

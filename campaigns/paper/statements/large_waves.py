@@ -5,12 +5,11 @@ import math
 from campaigns.paper.measured import Results
 from campaigns.paper.measures import LARGE
 from campaigns.paper.statements import judging
-from campaigns.paper.statements.judging import LONG, UNDECIDED, at, elsewhere, everywhere, exponent, passed, value_of
+from campaigns.paper.statements.judging import LONG, UNDECIDED, at, everywhere, exponent, passed, value_of
 from campaigns.statements import Measured, listed, shown, told
 from campaigns.tables import Row
 
 NO_RUN = "none"  # as `listed` says it
-SLACK, PEAK = 0.01, 2.0  # share of the time; maximum over the static tension
 
 
 def good(rows) -> list[Row]:
@@ -36,7 +35,7 @@ def chaos_beyond(results: Results) -> Measured:
     """The regimes of all runs whose line goes slack; the long ones where there are both."""
     rows = good({row["steepness"]: row for row in (*good(results.sweep), *good(results.buoy.values()))}.values())
     kinds = {
-        "chaotic": _is_chaotic,
+        "chaotic": "chaotic".__eq__,
         "periodic or quasi-periodic": lambda regime: regime not in ("chaotic", *UNDECIDED),
         "undecided or a transient": lambda regime: regime in UNDECIDED,
     }
@@ -62,76 +61,29 @@ def spans(chosen: list[bool], rows: list[Row]) -> str:
     return listed(f"{one[0]:.4g} to {one[-1]:.4g}" if len(one) > 1 else f"{one[0]:.4g}" for one in groups)
 
 
-def snapping(results: Results) -> Measured:
-    """Share of the time near zero tension, and the largest tension over the static one, at every depth."""
-    static = results.number("estimate_static_tension_N")
-    rows = [row for row in results.over_depth(LARGE) if math.isfinite(value_of(row, "near_zero") * static)]
-    found = [(at(row), row["near_zero"], row["tension_top_max_N"] / static) for row in rows]
-    words = (f"{shown(share, '.1%')} and {shown(peak, '.1f')} at {where}" for where, share, peak in found)
-    return Measured(passed(*((where, share > SLACK and peak > PEAK) for where, share, peak in found)), ", ".join(words))
-
-
-def impulsive(results: Results) -> Measured:
-    """Length of the peaks over that of a free rebound: a mass on the taut line takes half a natural period, and at half
-    height a third of one, however it comes in."""
-    elastic = results.number("estimate_wave_radps") / results.number("estimate_radial_radps") / 3.0  # wave periods
-    lengths = ((at(row), value_of(row, "peak_periods") / elastic) for row in results.over_depth(LARGE))
-    found = judging.each(lengths, ".2f")
-    words = f"of {shown(elastic, '.2f')} wave periods {found.told}"
-    return Measured(found.checks, words) if found.checks else Measured()
-
-
-def buckles(results: Results) -> Measured:
-    """Half waves of the slack rope in the run whose shape was kept."""
-    depth_m, waves = results.number("buckle_depth_m"), results.number("buckle_waves")
-    return Measured([(f"H = {depth_m:g} m", waves)], shown(waves, "g")) if math.isfinite(waves) else Measured()
-
-
 def positive_exponent(results: Results) -> Measured:
     """The exponent of the long run, and of the short ones; at the shipped depth the long run decides."""
-    rows, others = _short(results, known=judging.EXPONENT)
     long, depth = results.buoy.get(LARGE), f"H = {results.depth():g} m"
-    deciding = {where: row for where, row in rows if judging.settled(row)}
-    found = f"shorter runs {', '.join(f'{exponent(row)} at {where}' for where, row in rows + others) or 'none'}"
-    if long is not None:
-        deciding.pop(depth, None)
-        if exponent(long) != "none":
-            deciding[depth] = long
-            found = f"{LONG} at {depth} {exponent(long)}; {found}"
-    places = [
-        *sorted(deciding.items(), key=_by_place),
-        *((where, row) for where, row in others if judging.settled(row)),
-    ]
-    checks = passed(*((where, judging.positive(row)) for where, row in places))
-    return Measured(checks, found if rows or others or long else "")
+    short = [(where, row) for where, row in everywhere(results, LARGE) if exponent(row) != "none"]
+    deciding = {where: row for where, row in short if judging.settled(row)}
+    found = f"shorter runs {', '.join(f'{exponent(row)} at {where}' for where, row in short) or 'none'}"
+    if exponent(long) != "none":
+        deciding[depth] = long
+        found = f"{LONG} at {depth} {exponent(long)}; {found}"
+    checks = passed(*((where, judging.positive(row)) for where, row in sorted(deciding.items())))
+    return Measured(checks, found if short or long else "")
 
 
 def chaotic(results: Results) -> Measured:
     """The regime of the long run, and of the short ones; at the shipped depth the long run decides."""
-    rows, others = _short(results)
     long, depth = results.buoy.get(LARGE), f"H = {results.depth():g} m"
-    found, deciding = f"shorter runs {judging.by_regime(rows + others)}", dict(rows)
+    short = everywhere(results, LARGE)
+    found, deciding = f"shorter runs {judging.by_regime(short)}", dict(short)
     if long is not None and long["regime"] not in UNDECIDED:
         deciding[depth] = long
         tighter = f" (at a tenth of the tolerance: {again})" if (again := long.get("regime_tighter")) else ""
         found = f"{LONG} at {depth} {long['regime']}{tighter}; {found}"
-    checks = judging.regimes([*sorted(deciding.items(), key=_by_place), *others], _is_chaotic)
-    return Measured(checks, found if rows or others or long else "")
-
-
-def _short(results: Results, known: str = "depth_m") -> tuple[list[judging.Place], list[judging.Place]]:
-    """The short runs that know a number: those of the shipped buoyancy, and the others."""
-    both = [(at(row), row) for row in results.over_depth(LARGE)], elsewhere(results, LARGE)
-    rows, others = ([place for place in some if math.isfinite(value_of(place[1], known))] for some in both)
-    return rows, others
-
-
-def _by_place(place: judging.Place) -> str:
-    return place[0]
-
-
-def _is_chaotic(regime: str) -> bool:
-    return regime == "chaotic"
+    return Measured(judging.regimes(sorted(deciding.items()), "chaotic".__eq__), found if short or long else "")
 
 
 def never_repeats(results: Results) -> Measured:

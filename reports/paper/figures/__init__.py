@@ -16,15 +16,17 @@ from pathlib import Path
 from ...parts.content import Figure, Picture
 from ...parts.figure_data import FigureDataError, parsed
 from ...parts.style import prints_of, sheet
-from . import breaking, exponents, histories, offplane, sections, spectra
+from .breaking import breaking
+from .buoy import history, spectra
+from .chaos import offplane_histories, running_exponents, sections
 
 DRAWN_BY = {
     **dict.fromkeys((2, 3, 4, 5, 6, 7), breaking),
-    **dict.fromkeys((9, 10, 11, 13, 15, 16), histories),
+    **dict.fromkeys((9, 10, 11, 13, 15, 16), history),
     **dict.fromkeys((12, 17, 18), spectra),
-    14: exponents,
+    14: running_exponents,
     19: sections,
-    20: offplane,
+    20: offplane_histories,
 }
 NUMBERS = tuple(sorted(DRAWN_BY))  # 1 and 8 are sketches
 PREFACE = (
@@ -35,14 +37,9 @@ PREFACE = (
 )
 
 
-def place_of(root: str | Path) -> Path:
-    """The folder of data and drawings within the campaign's folder."""
-    return Path(root) / "figures"
-
-
 def files_of(root: str | Path, number: int) -> tuple[Path, Path, Path]:
-    """Data, SVG and PNG of a figure of the paper."""
-    stem = place_of(root) / f"fig_{number:02d}"
+    """Data, SVG and PNG of a figure of the paper, in the folder of data and drawings within the campaign's folder."""
+    stem = Path(root) / "figures" / f"fig_{number:02d}"
     return stem.with_suffix(".nc"), stem.with_suffix(".svg"), stem.with_suffix(".png")
 
 
@@ -57,7 +54,7 @@ def figures_of(root: str | Path) -> dict[int, Figure]:
 def left_out(root: str | Path) -> dict[int, str]:
     """Why there is no figure, by its number in the paper, for each that cannot be drawn."""
     try:
-        reasons = json.loads((place_of(root) / "left_out.json").read_text(encoding="utf-8"))
+        reasons = json.loads((Path(root) / "figures" / "left_out.json").read_text(encoding="utf-8"))
     except (OSError, ValueError):
         reasons = {}
     drawn = _drawn(root)
@@ -92,7 +89,7 @@ def draw(number: int, content: bytes) -> tuple[Picture, Picture, str, str]:
     """
     data = parsed(content)
     try:
-        drawing = DRAWN_BY[number].drawing(data)
+        drawing = DRAWN_BY[number](data)
     except (AttributeError, KeyError) as error:
         raise FigureDataError(f"not the data of fig. {number} of the paper ({error})") from None
     with sheet(drawing.height_in) as figure:

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 F_HS = "F" + sub("h,s")
 
 
-def drawing(data: xarray.Dataset) -> Drawing:
+def breaking(data: xarray.Dataset) -> Drawing:
     """The figure of a data file. Raises KeyError for one of another figure."""
     cases = [name.split("_")[1] for name in data if str(name).endswith("_force_N")]
     column = next(name for name in QUANTITIES if f"case_{cases[0]}_{name}" in data)

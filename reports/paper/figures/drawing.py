@@ -14,6 +14,8 @@ if TYPE_CHECKING:
     import xarray
     from matplotlib.figure import Figure
 
+DASHED = (0, (4, 1.5))  # the second of two lines of the paper's keys
+
 
 @dataclass(frozen=True)
 class Drawing:
@@ -35,11 +37,6 @@ def spans(data: xarray.Dataset, names: dict[str, str], places: int = 2) -> str:
     ends = ((words, data[name].values) for name, words in names.items())
     said = (f"{words} from {decimals(x.min(), places)} to {decimals(x.max(), places)}" for words, x in ends)
     return "; ".join(said)
-
-
-def scaled(factor: float) -> tuple[Callable, Callable]:
-    """A second axis of other units: to them and back."""
-    return (lambda there: factor * there), (lambda here: here / factor)
 
 
 def behind(data: xarray.Dataset) -> str:

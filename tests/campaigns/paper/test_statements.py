@@ -19,7 +19,6 @@ from campaigns.statements import (
     Statement,
     as_csv,
     judge,
-    judged,
 )
 from tests.campaigns.paper.world import LARGE, buoy, deep, world
 
@@ -34,8 +33,12 @@ def test_what_the_paper_says_holds_in_its_own_world_and_not_in_the_contrary_one(
     assert judge(claim, world(so=False)).verdict == FAILS
 
 
+def judged(results):
+    return [judge(claim, results) for claim in claims()]
+
+
 def test_without_results_nothing_is_decided():
-    assert {one.verdict for one in judged(claims(), Results())} == {OPEN}
+    assert {one.verdict for one in judged(Results())} == {OPEN}
 
 
 def claim_of(*checks):
@@ -91,7 +94,7 @@ def test_a_regime_that_is_open_decides_nothing():
 
 
 def test_the_file_has_every_statement_with_number_and_evidence():
-    rows = list(csv.DictReader(io.StringIO(as_csv(judged(claims(), world())).decode())))
+    rows = list(csv.DictReader(io.StringIO(as_csv(judged(world())).decode())))
     assert len(rows) == len(claims()) == 81 and tuple(rows[0]) == COLUMNS
     assert [int(row["number"]) for row in rows] == list(range(1, len(rows) + 1))
     assert all(row["place"] and row["evidence"] and row["threshold"] and row["found"] for row in rows)

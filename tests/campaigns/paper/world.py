@@ -117,7 +117,7 @@ NUMBERS = {
     "early_radial_radps": 1.0, "early_angular_radps": 0.19, "radial_bins": 0.2, "angular_bins": 0.1,
     "radial_share": 0.99, "angular_share": 0.99, "radial_coupled": 1e-3, "angular_coupled": 1e-3, "radial_kept": 0.2,
     "angular_kept": 0.4, "radial_mean": 0.01, "angular_mean": 0.01, "tension_alike": 0.99, "unexplained": 0.5,
-    "correlation_dimension": 1.99, "correlation_dimension_error": 0.01, "buckle_depth_m": 21.0, "buckle_waves": 9.0,
+    "correlation_dimension": 1.99, "correlation_dimension_error": 0.01, "buckle_waves": 9.0,
     "lambda_1_bits_per_period": 0.5, "lambda_1_bits_error": 0.01, "section_dimension": 1.7,
     "section_dimension_error": 0.01,
 }  # fmt: skip

@@ -1,0 +1,137 @@
+"""Figures 9-13 and 15-18: the buoy at the paper's two steepnesses, histories and spectra.
+
+Histories are of tension, radius and angle against time; spectra are by eq. (31), natural frequencies marked by arrows.
+
+In the paper: fig. 9 top tension, kA = 0.016; fig. 10 motion along r, kA = 0.016; fig. 11 motion along θ, kA = 0.016;
+fig. 12 spectra, kA = 0.016; fig. 13 top tension, kA = 0.13; fig. 15 motion along r, kA = 0.13; fig. 16 motion along θ,
+kA = 0.13; fig. 17 spectrum of r, kA = 0.13; fig. 18 spectrum of θ, kA = 0.13.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import partial
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ...figures.curves import Curve, Panel, fill
+from ...figures.motion import spectrum_panels
+from ...figures.time_series import envelope
+from ...parts.content import sub
+from ...parts.figure_data import sources_of
+from ...parts.style import BLUE, GREEN, INK, VERMILION
+from ...parts.symbols import L_0, OMEGA_I, T_I, T_S, TAU_0
+from ...parts.wording import decimals, listed, number
+from .drawing import DASHED, Drawing, behind, spans, value
+
+if TYPE_CHECKING:
+    import xarray
+
+DETAIL_PERIODS = 10
+ALONG = r"$t/T_i$ (wave periods)"
+MOTIONS = {  # motion -> its label on the axis, name in the text, colour and line as in the paper's key
+    "radial": (r"$|\Delta\tilde r|/r_0$ (–)", "r/r₀", BLUE, "-"),
+    "angular": (r"$|\Delta\tilde\theta|$ (rad)", "θ", VERMILION, DASHED),
+}
+MARKED = {
+    "wave_radps": r"$\omega_i$",
+    "natural_radial_radps": r"$\omega_{nr}$",
+    "natural_angular_radps": r"$\omega_{n\theta}$",
+}
+OMEGA_NR, OMEGA_NTHETA = "ω" + sub("nr"), "ω" + sub("nθ")  # as section 4.2.1 writes them
+SPECTRUM_TO = 2.5  # wave frequencies
+
+
+@dataclass(frozen=True)
+class Side:
+    """One of the three histories: what it is, its array, labels left and right, factor from left to right, levels to
+    mark with their names in the key; band: arrays of least and largest values between samples."""
+
+    what: str
+    column: str
+    label: str
+    other: str
+    factor: float
+    levels: tuple[tuple[float, str], ...]
+    band: tuple[str, str] = ()
+
+
+def history(data: xarray.Dataset) -> Drawing:
+    """The figure of a data file. Raises KeyError for one of another figure."""
+    side = _side(data)
+    kA, seen = sources_of(data)[0].label, spans(data, {side.column: side.what}, 3)
+    caption = (
+        f"{seen}, {kA}, against t/{T_I}; above up to the end of the window of eq. (31), its start marked, below the "
+        f"last {DETAIL_PERIODS} wave periods of it. {behind(data)}"
+    )
+    drawn = partial(fill, rows=_histories(data, side), legend="below")
+    return Drawing(3.9, drawn, caption, f"History over time, {kA}: {seen}.")
+
+
+def _side(data: xarray.Dataset) -> Side:
+    if "tension_N" in data:
+        static = value(data, "static_tension_N")
+        what = f"tension at the top end over the static one ({T_S} = {number(static)} N)"
+        levels, band = ((1.0, "static"), (0.0, "no tension")), ("tension_low_over_static", "tension_high_over_static")
+        return Side(what, "tension_over_static", r"$T/T_s$ (–)", r"$T$ (kN)", 1e-3 * static, levels, band)
+    if "radius_m" in data:
+        static, length = value(data, "static_radius_m"), value(data, "unstretched_m")
+        what = f"radius over the static one (r₀ = {L_0} + Δl = {decimals(static, 3)} m)"
+        levels = ((1.0, r"static, $r_0$"), (length / static, r"unstretched, $l_0$"))
+        return Side(what, "radius_over_static", r"$r/r_0$ (–)", r"$r$ (m)", static, levels)
+    what = "angle from the vertical in rad (static value 0)"
+    return Side(what, "angle_rad", r"$\theta$ (rad)", r"$\theta$ (°)", 180.0 / np.pi, ((0.0, "static"),))
+
+
+def _histories(data: xarray.Dataset, side: Side) -> list[list[Panel]]:
+    periods, period_s = data["time_s"].values / value(data, "wave_period_s"), value(data, "wave_period_s")
+    starts = [(value(data, "window_start_periods"), "")]
+    drawn = (slice(None), "", {"top": (period_s, r"$t$ (s)")}), (periods >= periods[-1] - DETAIL_PERIODS, ALONG, {})
+    rows = []
+    for shown, x_label, top in drawn:
+        x, y, band = periods[shown], data[side.column].values[shown], None
+        if side.band:
+            (at, low), (_, high) = (envelope(x, data[name].values[shown]) for name in side.band)
+            band = at, np.minimum(low, high), np.maximum(low, high)
+        lines = [Curve(*envelope(x, y), colour=INK, width=0.8, band=band)]
+        room = 0.05 * np.ptp(y)
+        for (level, name), look in zip(side.levels, ((VERMILION, "--"), (GREEN, "-.")), strict=False):
+            if y.min() - room <= level <= y.max() + room:
+                lines.append(Curve(x[[0, -1]], np.full(2, level), name, look[1], colour=look[0]))
+        beside = {"right": (side.factor, side.other), **top}
+        settings = {"xlim": (x[0], x[-1])}
+        rows.append([Panel(lines, x_label, side.label, settings=settings, marks=[] if rows else starts, beside=beside)])
+    return rows
+
+
+def spectra(data: xarray.Dataset) -> Drawing:
+    """The figure of a data file. Raises KeyError for one of another figure."""
+    sides = [side for side in MOTIONS if f"{side}_amplitude" in data]
+    wave = value(data, "wave_radps")
+    seen = []
+    for side in sides:
+        peaks = data[f"{side}_peaks_radps"].values[:4] if f"{side}_peaks_radps" in data else ()
+        words = f"peaks at {listed(number(peak, 3) for peak in peaks)} rad/s" if len(peaks) else "no peak"
+        seen.append(f"{MOTIONS[side][1]} has {words}")
+    kA = sources_of(data)[0].label
+    bins = wave / value(data, "periods")
+    caption = (
+        f"spectrum of the buoy's {' (solid) and '.join(sides)}{' (dashed)' if len(sides) > 1 else ''} motion, {kA}, by "
+        f"eq. (31) with {TAU_0} = {number(value(data, 'start_periods'))} {T_I} and n = "
+        f"{number(value(data, 'periods'))}; left linear as in the paper, right logarithmic. Arrows: the natural "
+        f"frequencies {OMEGA_NR} = {number(value(data, 'natural_radial_radps'), 3)} and {OMEGA_NTHETA} = "
+        f"{number(value(data, 'natural_angular_radps'), 3)} rad/s from the buoy's equation of motion and the waves' "
+        f"{OMEGA_I} = {number(wave, 3)} rad/s. Seen (largest first; bins of {number(bins, 2)} rad/s): "
+        f"{'; '.join(seen)}. {behind(data)}"
+    )
+    alt = f"Spectrum, linear and logarithmic, {kA}: {'; '.join(seen)}."
+    lines = []
+    for side in sides:
+        label, _, colour, dashes = MOTIONS[side]
+        look = {"line": dashes, "name": label} if len(sides) > 1 else {}
+        lines.append(Curve(data["omega_radps"].values, data[f"{side}_amplitude"].values, colour=colour, **look))
+    labels = r"$\omega$ (rad/s)", " and ".join(MOTIONS[side][0] for side in sides)
+    marks = [(value(data, frequency), name) for frequency, name in MARKED.items()]
+    panels = spectrum_panels(lines, SPECTRUM_TO * wave, labels, marks)
+    return Drawing(2.9, partial(fill, rows=[panels], legend="below"), caption, alt)

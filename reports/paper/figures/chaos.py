@@ -1,0 +1,128 @@
+"""Figures 14, 19 and 20: running Lyapunov exponents, Poincare sections, motion across the plane of the waves.
+
+Figure 14: the largest exponent of both waves, by Wolf's method and from the tangent dynamics. Figure 19: sections of
+(a) the exact model and (b) eq. (33), in the units of eq. (33). Figure 20: after a push across the plane, on a
+logarithmic axis, of the buoy and of the rope.
+
+In the paper: fig. 14 Lyapunov exponents over time; fig. 19 sections: buoy (a), eq. (33) (b); fig. 20 motion across the
+plane of the waves.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from functools import partial
+from typing import TYPE_CHECKING
+
+from ...figures.curves import Curve, Panel, fill
+from ...figures.motion import settled
+from ...figures.offplane_history import History, lateral_height_in, lateral_panels
+from ...parts.figure_data import sources_of
+from ...parts.style import BLUE, INK, VERMILION
+from ...parts.symbols import L_0, T_I
+from ...parts.wording import decimals, number
+from .drawing import DASHED, Drawing, behind, spans, value
+
+if TYPE_CHECKING:
+    import xarray
+
+_STYLES = {"large": (VERMILION, "-"), "small": (BLUE, DASHED)}  # solid and dashed as in the paper's key
+_METHODS = {"wolf": ("Wolf", 1.2, 1.0), "tangent": ("tangent", 2.4, 0.4)}
+PANELS = {  # motion -> title, labels of the axes
+    "exact": ("(a) exact model", r"$(r - l_0)/D$ (–)", r"$\dot r/(D\,\omega_{nr})$ (–)"),
+    "reduced": ("(b) eq. (33)", r"$\gamma$ (–)", r"$\dot\gamma$ (–)"),
+}
+_FEW = 1000  # points up to which each is drawn as a dot
+WAVES, BODIES = ("small", "large"), ("buoy", "rope")
+
+
+def running_exponents(data: xarray.Dataset) -> Drawing:
+    """The figure of a data file. Raises KeyError for one of another figure."""
+    labels = dict(zip(_STYLES, (one.label for one in sources_of(data)), strict=True))
+    ends = []
+    for name, label in labels.items():
+        found = [
+            f"{decimals(value(data, f'{name}_{method}_value'), 3)} ± "
+            f"{number(value(data, f'{name}_{method}_error'), 2)} ({words})"
+            for method, (words, *_) in _METHODS.items()
+        ]
+        ends.append(f"{label}: {' and '.join(found)}")
+    length = float(data["large_tangent_periods"].values[-1])
+    caption = (
+        f"maximum Lyapunov exponent of eq. (32), in bits per wave period, against the length of the record of r(t), "
+        f"after {number(value(data, 'transient_periods'))} wave periods; {labels['large']} solid, {labels['small']} "
+        f"dashed. Thin: the method of Wolf et al. on the record; thick and pale: mean growth of an infinitesimal "
+        f"perturbation of the same run. Values and standard errors from the whole record ({number(length)} {T_I}): "
+        f"{'; '.join(ends)} bits per wave period. Nothing decays any more in a record that has settled: Wolf's value "
+        f"then tends to 0, the tangent's does not. {behind(data)}"
+    )
+    alt = f"Running exponents over the length of the record: {'; '.join(ends)} bits per wave period."
+    drawn = partial(fill, rows=[_running(data, labels)], legend="below", share="y")
+    return Drawing(3.3, drawn, caption, alt)
+
+
+def _running(data: xarray.Dataset, labels: dict[str, str]) -> list[Panel]:
+    longest, first = float(data["large_tangent_periods"].values[-1]), value(data, "linear_periods")
+    whole = []
+    for name, label in labels.items():
+        colour, dashes = _STYLES[name]
+        for method, (words, width, strength) in _METHODS.items():
+            x, bits = (data[f"{name}_{method}_{what}"].values for what in ("periods", "bits"))
+            look = {"line": dashes, "colour": colour, "width": width, "alpha": strength}
+            whole.append(Curve(x, bits, f"{label}, {words}", **look))
+    early = [replace(one, x=one.x[one.x <= first], y=one.y[one.x <= first]) for one in whole]
+    limits = {"ylim": settled([one.y for one in early]), "xmargin": 0.01}
+    along, sigma = r"$t/T_i$ (wave periods)", r"$\sigma_m$ (bits per wave period)"
+    panels = [Panel(early, along, sigma, level=0.0, settings=limits)]
+    if longest > 1.5 * first:
+        later = Panel(whole, along, "", "whole record, logarithmic", "x", 0.0, {"xlim": (10.0, longest)})
+        panels = [replace(panels[0], title=f"first {first:.0f} wave periods"), later]
+    return panels
+
+
+def sections(data: xarray.Dataset) -> Drawing:
+    """The figure of a data file. Raises KeyError for one of another figure."""
+    force, lift, damping, frequency = (number(value(data, key)) for key in ("force", "lift", "damping", "frequency"))
+    waves = sources_of(data)[0].label
+    names = {"exact_displacement": "γ", "exact_velocity": "γ′"}
+    reduced = {name.replace("exact", "reduced"): words for name, words in names.items()}
+    seen = f"in (a) {spans(data, names)}; in (b) {spans(data, reduced)}"
+    caption = (
+        f"Poincaré sections, one point a forcing period: (a) the exact model at {waves}, (b) eq. (33) with F = "
+        f"{force}, B − W = {lift}, μ = {damping} and ω = {frequency}. Both in the units of eq. (33): γ = (r − {L_0})/D "
+        f"with the buoy's diameter D = {number(value(data, 'diameter_m'))} m, γ′ = r′/(D ω) with the natural frequency "
+        f"{number(value(data, 'natural_radial_radps'), 3)} rad/s; slack left of 0. Seen: {seen}. {behind(data)}"
+    )
+    panels = []
+    for name, (title, *axes) in PANELS.items():
+        x, y = data[f"{name}_displacement"].values, data[f"{name}_velocity"].values
+        size = 3.5 if len(x) <= _FEW else 1.4 if len(x) <= 20 * _FEW else 0.35
+        dots = Curve(x, y, line="", mark=".", colour=INK, size=size, pixels=True)
+        panels.append(Panel([dots], *axes, title, marks=[(0.0, "")]))
+    return Drawing(3.6, partial(fill, rows=[panels]), caption, f"Two scatter plots of strobed motion: {seen}.")
+
+
+def offplane_histories(data: xarray.Dataset) -> Drawing:
+    """The figure of a data file. Raises KeyError for one of another figure."""
+    labels = dict(zip(WAVES, (one.label.partition(" with")[0] for one in sources_of(data)), strict=True))
+    bodies = {f"{name}_{body}_m": f"{body} at {label}" for name, label in labels.items() for body in BODIES}
+    most = "; ".join(f"{words} within {number(float(data[name].max()), 2)} m" for name, words in bodies.items())
+    push = number(value(data, "push_mps"))
+    caption = (
+        f"motion of the buoy across the plane of the waves after a push of {push} m/s, solid and dashed as in the "
+        f"paper, and below, beyond the paper, of the rope (its farthest node). Thick: the largest value in each wave "
+        f"period; thin: every sample; dotted: half the range of the buoy in the plane. Seen: {most}. {behind(data)}"
+    )
+    alt = f"Distance from the plane of the waves on a logarithmic axis over time: {most}."
+    period_s, static_m = value(data, "wave_period_s"), value(data, "static_radius_m")
+    panels = []
+    for body, axis in zip(BODIES, ("buoy, $|y|$ (m)", "rope, largest $|y|$ (m)"), strict=True):
+        runs = []
+        for name, label in labels.items():
+            arrays = (f"{body}_m", "periods", f"{body}_envelope_m")
+            size, envelope_periods, envelope = (data[f"{name}_{what}"].values for what in arrays)
+            periods, inplane_m = data[f"{name}_time_s"].values / period_s, value(data, f"{name}_inplane_m")
+            runs.append(History(label, periods, size, envelope_periods, envelope, inplane_m))
+        panels.append((axis, runs))
+    rows = lateral_panels(panels, beside={"right": (1.0 / static_m, r"$|y|/r_0$ (–)")})
+    return Drawing(lateral_height_in(len(BODIES)), partial(fill, rows=rows, legend="below", share="x"), caption, alt)
