@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator
 from pathlib import Path
 
-from ..parts.content import Bullets, Column, Heading, Item, Report, Table, Text
+from ..parts.content import Bullets, Heading, Item, Report, Table, Text, heads
 from ..parts.provenance import provenance_items, timing_table
 from ..parts.wording import EMPTY, count, decimals, number
 from . import sections
@@ -84,8 +84,8 @@ def cost_items(study: Study) -> Iterator[Item]:
         f"buoy over {costs['periods']} wave periods: {each[0]} Newton iterations and {each[1]} steps a period. "
         "Assembly, waves and elimination are timed by themselves, the rest by difference. From `costs.json`."
     )
-    columns = (Column("piece", align="left"), Column("per Newton iteration", "µs"), Column("share", "%"))
     yield Heading("Cost of each piece")
+    columns = heads("piece", ("per Newton iteration", "µs"), ("share", "%"))
     yield Table(columns, (*rows, ("stepping, all", decimals(total, 2), "100")), caption)
     yield Text(
         f"A call of `simulate` over {costs['periods']} periods takes {decimals(stepping_ms, 1)} ms of stepping and "
@@ -103,11 +103,8 @@ def peer_items(study: Study) -> Iterator[Item]:
     yield Heading("Other codes")
     yield Bullets(tuple(f"{name}: {text}" for name, text in notes.items()))
     if rows := tuple(row for work in study.works for row in _beside_ours(study, work)):
-        columns = (
-            Column("work", align="left"), Column("code", align="left"), Column("within"), Column("its time", "ms"),
-            Column("ours", "ms"), Column("ratio"), Column("its setting", align="left"),
-            Column("our setting", align="left"), Column("off ours"),
-        )  # fmt: skip
+        times = (("within", ""), ("its time", "ms"), ("ours", "ms"), ("ratio", ""))
+        columns = heads("work", "code", *times, "its setting", "our setting", ("off ours", ""))
         caption = (
             "Cheapest settings within an error, each code against its own refined run (scipy against ours: it solves "
             "our equations); ratio: its time over ours, of buoys per wave period. Off ours: its distance from our "
@@ -116,8 +113,8 @@ def peer_items(study: Study) -> Iterator[Item]:
         )
         yield Table(columns, rows, caption, small=True)
     if missing := tuple(dict.fromkeys((one.method, one.status, one.message) for one in own if one.failed)):
-        heads = tuple(Column(title, align="left") for title in ("code", "outcome", "why"))
-        yield Table(heads, missing, "Settings of other codes without a result. From `table.csv`.", small=True)
+        caption = "Settings of other codes without a result. From `table.csv`."
+        yield Table(heads("code", "outcome", "why"), missing, caption, small=True)
 
 
 def _beside_ours(study: Study, work: str) -> Iterator[tuple[str, ...]]:

@@ -10,7 +10,7 @@ import numpy as np
 from ..figures.parting import parting
 from ..figures.work_precision import Curve, work_precision
 from ..parts.columns import table_of
-from ..parts.content import Bullets, Column, Figure, Heading, Item, Table, Text
+from ..parts.content import Bullets, Figure, Heading, Item, Table, Text, heads
 from ..parts.wording import EMPTY, count, decimals, number
 from .study import Setting, Study
 
@@ -86,9 +86,8 @@ def work_items(study: Study, work: str) -> Iterator[Item]:
     failed = [one for one in study.settings if one.work == work and one.failed]
     if failed:
         rows = dict.fromkeys((one.method, one.named, one.status) for one in failed)
-        heads = tuple(Column(title, align="left") for title in ("method", "setting", "outcome"))
         caption = "Left out, because a round ended early; see `message` in `table.csv`."
-        yield Table(heads, tuple(rows), caption, small=True)
+        yield Table(heads("method", "setting", "outcome"), tuple(rows), caption, small=True)
 
 
 def _diagram(study: Study, work: str) -> Figure:
@@ -125,13 +124,12 @@ def _levels(study: Study, work: str) -> Table:
         first = next((one for one in found if one is not None), None)
         cells = [decimals(factor * one.wall_s, 2) if one else EMPTY for one in found]
         rows.append((name, *cells, f"{first.named}: {number(first.error, 2)} {error_unit}" if first else EMPTY))
-    columns = [Column("method", align="left"), *(Column(f"≤ {level:g} {error_unit}", unit) for level in levels)]
-    columns.append(Column("at the first level reached", align="left"))
+    columns = heads("method", *((f"≤ {level:g} {error_unit}", unit) for level in levels), "at the first level reached")
     caption = (
         "Stepping time of the cheapest setting tried whose median error is within the level; nothing is "
         "interpolated; a dash: none of the settings tried. From `table.csv`."
     )
-    return Table(tuple(columns), tuple(rows), caption, small=True)
+    return Table(columns, tuple(rows), caption, small=True)
 
 
 def order_items(study: Study) -> Iterator[Item]:

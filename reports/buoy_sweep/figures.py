@@ -12,7 +12,7 @@ from ..figures.motion import section, spectra
 from ..figures.orbit_diagram import orbit_diagram_over
 from ..figures.time_series import Panel as History
 from ..figures.time_series import time_series
-from ..parts.content import Column, Figure, Item, Table
+from ..parts.content import Figure, Item, Table, heads
 from ..parts.symbols import T_I, TAU_0
 from ..parts.wording import EMPTY, count, listed, number
 from ..sweep.quantities import Measured, panels_over, series
@@ -93,9 +93,9 @@ def peaks_table(sweep: Sweep) -> Table:
             cells.append(listed(number(peak.angular_frequency_radps) for peak in peaks) if peaks else EMPTY)
         window = spectrum_window(run.periods_done) or (None, None)
         rows.append((run.named, *map(number, window), *cells))
-    heads = (Column("run", align="left"), Column(f"{TAU_0}/{T_I}"), Column("n"))
+    columns = heads("run", (f"{TAU_0}/{T_I}", ""), ("n", ""), ("peaks of r", "rad/s"), ("peaks of θ", "rad/s"))
     caption = f"Largest peaks of the spectra, the largest first; bins are 2π/(n {T_I}) wide."
-    return Table((*heads, Column("peaks of r", "rad/s"), Column("peaks of θ", "rad/s")), tuple(rows), caption)
+    return Table(columns, tuple(rows), caption)
 
 
 def section_figure(sweep: Sweep) -> Figure | None:

@@ -8,7 +8,7 @@ from analysis import read_evidence
 
 from ..figures.curves import Curve, Panel, curves
 from ..figures.motion import settled
-from ..parts.content import Column, Figure, Heading, Item, Table, Text
+from ..parts.content import Figure, Heading, Item, Table, Text, heads
 from ..parts.wording import decimals, printed
 from .figures import EXPONENTS
 from .runs import PAPER_STEEPNESS, Run, Sweep
@@ -43,11 +43,11 @@ def evidence_table(run: Run) -> Table | None:
     tests = read_evidence(run["evidence"])
     if not tests:
         return None
-    heads = (Column("test", align="left"), Column("value"), Column("threshold"), Column("met"))
+    columns = heads("test", ("value", ""), ("threshold", ""), ("met", ""))
     reason = printed(run["regime_reason"].strip()) or "no reason told"
     caption = f"Evidence at {run.named}, in the order of the tests: {reason}."
     rows = tuple((name, *(cell.replace("-", "−") for cell in cells)) for name, *cells in tests)
-    return Table(heads, rows, caption, small=True)
+    return Table(columns, rows, caption, small=True)
 
 
 def _convergence(sweep: Sweep, shown: list[Run]) -> list[Item]:

@@ -6,7 +6,7 @@ from pathlib import Path
 
 from analysis.verdicts import LEAST_POINTS
 
-from ..parts.content import Column, Heading, Item, Notice, Report, Table, Text
+from ..parts.content import Heading, Item, Notice, Report, Table, Text, heads
 from ..parts.provenance import provenance_items
 from ..parts.symbols import T_I
 from ..parts.wording import EMPTY, decimals, listed, number
@@ -79,13 +79,13 @@ def _chosen(sweep: Sweep) -> list[Item]:
     heading = Heading("Chosen runs")
     if not sweep.chosen:
         return [heading, Text("No run left a record of one wave period or more, so there is nothing to draw.")]
-    heads = (Column("run", align="left"), Column("status"), Column(f"t/{T_I}"), Column("strobed r", "m"))
+    columns = heads("run", ("status", ""), (f"t/{T_I}", ""), ("strobed r", "m"))
     rows = tuple((run.named, run["status"], number(run.periods_done), _strobed(run)) for run in sweep.chosen)
     caption = (
         "The runs nearest the paper's kA = 0.016 and 0.13, and the first whose strobed motion visits several points in "
         f"turn, where there is one: how far they came, and r at t = k{T_I} after the transient."
     )
-    items: list[Item] = [heading, Table(heads, rows, caption), peaks_table(sweep)]
+    items: list[Item] = [heading, Table(columns, rows, caption), peaks_table(sweep)]
     for run in sweep.chosen:
         items += [Heading(run.named, 2), *run_figures(sweep, run)]
     figure = section_figure(sweep)

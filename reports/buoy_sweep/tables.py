@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from ..parts.columns import Name, number_of, table_of
-from ..parts.content import Column, Figure, Heading, Item, Table, Text, link
+from ..parts.content import Figure, Heading, Item, Table, Text, heads, link
 from ..parts.folder import read_columns, read_rows
 from ..parts.provenance import scene_table, timing_table
 from ..parts.symbols import OMEGA_I, OMEGA_R, OMEGA_THETA, T_S
@@ -152,6 +152,6 @@ def scene_items(sweep: Sweep) -> list[Item]:
             ("pendulum frequency", OMEGA_THETA, number(modes.pendulum_radps), "rad/s"),
             ("wave frequency", OMEGA_I, number(modes.wave_radps), "rad/s"),
         )
-        heads = (Column("quantity", align="left"), Column("symbol", align="left"), Column("value"), Column("unit"))
-        items.append(Table(heads, rows, "What follows from the scene in closed form."))
+        columns = heads("quantity", "symbol", ("value", ""), ("unit", ""))
+        items.append(Table(columns, rows, "What follows from the scene in closed form."))
     return items

@@ -5,8 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from ..parts.content import Picture
-from ..parts.moving import moving_picture
-from ..parts.style import BLUE, INK, SOFT, VERMILION, picture_of, sheet
+from ..parts.style import BLUE, INK, SOFT, VERMILION, moving_picture, picture_of, sheet
 
 _FRAMES_PER_SECOND = 10
 _STRIP = 6

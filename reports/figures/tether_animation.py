@@ -7,8 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..parts.content import Picture
-from ..parts.moving import moving_picture
-from ..parts.style import BLUE, INK, ORANGE, SKY, VERMILION, picture_of, sheet
+from ..parts.style import BLUE, INK, ORANGE, SKY, VERMILION, moving_picture, picture_of, sheet
 from .curves import Curve, Panel, draw
 
 _FRAMES_PER_SECOND = 12

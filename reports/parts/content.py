@@ -89,6 +89,11 @@ class Column:
     share: int = 1
 
 
+def heads(*titles: str | tuple[str, str]) -> tuple[Column, ...]:
+    """Columns of a table: a title alone is one of words, set left; a title with its unit or "" is one of numbers."""
+    return tuple(Column(one, align="left") if isinstance(one, str) else Column(*one) for one in titles)
+
+
 @dataclass(frozen=True)
 class Table:
     """A table of strings. `small` asks for the smaller type that many columns need.

@@ -6,7 +6,7 @@ import shlex
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
-from .content import Column, Heading, Item, Listing, Table, Text, with_subscripts
+from .content import Heading, Item, Listing, Table, Text, heads, with_subscripts
 from .folder import Folder
 from .wording import EMPTY, decimals, number
 
@@ -44,8 +44,7 @@ def scene_table(scene: Scene, shipped: str, varied: dict[str, str], caption: str
         meaning = key.meaning + (f", {key.symbol}" if key.symbol else "")
         unit = key.unit if key.unit not in ("", "1") else EMPTY
         rows.append((f"`{name}`", with_subscripts(meaning), shown, unit, with_subscripts(source)))
-    heads = ("key", "parameter", "value", "unit", "source")
-    columns = tuple(Column(head, align="right" if head == "value" else "left") for head in heads)
+    columns = heads("key", "parameter", ("value", ""), "unit", "source")
     where = "Table, section, figure and eq. are those of Tjavaras et al. (1998)."
     return Table(columns, tuple(rows), f"{caption} {where}", small=True)
 
@@ -57,7 +56,7 @@ def timing_table(folder: Folder) -> Table | None:
         return None
     rows = ((_TIMES.get(name, name.removesuffix("_s").replace("_", " ")), decimals(time, 2)) for name, time in times)
     caption = "Where the time of the campaign went, from `provenance.json`."
-    return Table((Column("part", align="left"), Column("wall time", "s")), tuple(rows), caption)
+    return Table(heads("part", ("wall time", "s")), tuple(rows), caption)
 
 
 def provenance_items(folder: Folder) -> list[Item]:
@@ -68,8 +67,8 @@ def provenance_items(folder: Folder) -> list[Item]:
         items += [Text("The command:"), Listing(words)]
     told = {key: entry for key, entry in folder.provenance.items() if key not in ("command", "timing")}
     if rows := tuple((f"`{key}`", _shown(entry)) for key, entry in _flat(told)):
-        columns = (Column("entry", align="left"), Column("value", align="left"))
-        items.append(Table(columns, rows, "All of `provenance.json` but the command and the times.", small=True))
+        caption = "All of `provenance.json` but the command and the times."
+        items.append(Table(heads("entry", "value"), rows, caption, small=True))
     return items
 
 

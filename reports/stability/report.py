@@ -12,12 +12,13 @@ from ..parts.content import Bullets, Heading, Item, Report, Text
 from ..parts.provenance import provenance_items, timing_table
 from ..parts.wording import count, listed, number
 from . import sections
-from .folder import VERDICTS, Study, read_study
+
+VERDICTS = ("ok", "refused", "known limit", "unexplained")
 
 
 def report(directory: str | Path) -> Report:
     """The content of the report on a stability folder. Raises FolderError for a folder that is not one."""
-    study = read_study(directory)
+    study = sections.read_study(directory)
     times = timing_table(study)
     items: list[Item] = [
         Heading("Question"),
@@ -42,7 +43,7 @@ def report(directory: str | Path) -> Report:
     return Report("Stiff and extreme scenes", f"{count(len(study.cases), 'case')} ({kind})", tuple(items))
 
 
-def _answers(study: Study) -> Iterator[str]:
+def _answers(study: sections.Study) -> Iterator[str]:
     counts = Counter(row["verdict"] for row in study.cases)
     said = listed(f"{counts[word]} {word}" for word in VERDICTS if counts[word])
     yield f"{count(len(study.cases), 'case')}: {said}."

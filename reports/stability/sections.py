@@ -3,16 +3,27 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
 from statistics import median
 
 import numpy as np
 
 from ..figures.stability import scene_shares, step_maps
-from ..parts.columns import table_of, value
-from ..parts.content import Column, Figure, Heading, Item, Notice, Table, Text
+from ..parts.columns import Quantity, table_of, value
+from ..parts.content import Figure, Heading, Item, Notice, Table, Text, heads
+from ..parts.folder import FolderError, read_files
 from ..parts.wording import EMPTY, decimals, number
-from .folder import SOUND, Study
 
+FILES = {
+    "table.csv": "one row a case",
+    "columns.csv": "what its columns are",
+    "fuzz.csv": "one row a random scene",
+    "step_maps.json": "eigenvalues of one-step maps",
+    "scene_shares.json": "what each part of a scene costs",
+    "provenance.json": "what ran, where and for how long",
+}
+SOUND = ("ok", "ended", "refused")  # outcomes of random scenes; any other is a fault of the program
 HOW = (
     "Checks. Closed form: the largest distance from it. Refinement, or a run on other nodes: rms difference of r "
     "from a run with twice the elements and a tenth of the tolerance (or the nodes named), over the range of r. "
@@ -21,6 +32,40 @@ HOW = (
     "number; this is asked of every run. A case is ok where the measured number is below its bar."
 )
 SHOWN = ("case", "dimensions", "verdict", "run_status", "how", "measured", "bar", "length_s", "case_wall_s")
+
+
+@dataclass(frozen=True, eq=False)
+class Study:
+    """What the campaign left: `cases` and `random`, rows of text by column; `maps`, `shares` as their files have it."""
+
+    provenance: dict
+    columns: dict[str, Quantity]
+    cases: list[dict[str, str]]
+    random: list[dict[str, str]]
+    maps: dict
+    shares: dict
+
+    def judged(self, verdict: str) -> list[dict[str, str]]:
+        """The cases with that verdict."""
+        return [row for row in self.cases if row["verdict"] == verdict]
+
+    def unsound(self) -> list[dict[str, str]]:
+        """The random scenes in which the program is at fault."""
+        return [row for row in self.random if row["outcome"] not in SOUND]
+
+
+def read_study(directory: str | Path) -> Study:
+    """Read the folder. Raises FolderError naming every file that is missing or cannot be read."""
+    found = read_files(directory, FILES)
+    table, columns, random, maps, shares, provenance = (found[name] for name in FILES)
+    faults = []
+    if not table or not {"part", "group", "verdict"} <= set(table[0]):
+        faults.append("table.csv cannot be read: it has no rows, or not those of this campaign")
+    if not isinstance(shares.get("scenes"), dict):
+        faults.append("scene_shares.json cannot be read: it has no scenes")
+    if faults:
+        raise FolderError(Path(directory), faults)
+    return Study(provenance, columns, [row for row in table if row["part"] == "case"], random, maps, shares)
 
 
 def case_items(study: Study) -> list[Item]:
@@ -69,9 +114,8 @@ def random_items(study: Study) -> Iterator[Item]:
     rows = tuple(
         (*named, str(len(found)), number(median(found), 2), number(max(found), 3)) for named, found in walls.items()
     )
-    heads = [Column(title, align="left") for title in ("scenes", "outcome", "ended", "meaning")]
-    heads += [Column("count"), Column("median", "s"), Column("slowest", "s")]
-    yield Table(tuple(heads), rows, "Outcomes of random scenes. From `fuzz.csv`.", small=True)
+    columns = heads("scenes", "outcome", "ended", "meaning", ("count", ""), ("median", "s"), ("slowest", "s"))
+    yield Table(columns, rows, "Outcomes of random scenes. From `fuzz.csv`.", small=True)
 
 
 def unexplained_items(study: Study) -> list[Item]:
@@ -125,10 +169,8 @@ def map_items(study: Study) -> Iterator[Item]:
             distance = f"{entry['distance']:.1e}" if "distance" in entry else EMPTY
             growing = (str(entry.get(key, EMPTY)) for key in ("growing", "growing_found"))
             rows.append((line["title"], name, step, excess, distance, *growing))
-    columns = (
-        Column("line", align="left"), Column("method", align="left"), Column("Δt", "s"), Column("largest |μ| − 1"),
-        Column("distance from closed form"), Column("should grow"), Column("grow"),
-    )  # fmt: skip
+    numbers = ("largest |μ| − 1", "distance from closed form", "should grow", "grow")
+    columns = heads("line", "method", ("Δt", "s"), *((name, "") for name in numbers))
     caption = (
         "Eigenvalues by line and method. Distance: the largest of those of the closed form's eigenvalues R(λ Δt) "
         "from the nearest one found. Grow: how many modes should and do lie outside the unit circle. From "
@@ -150,10 +192,7 @@ def share_items(study: Study) -> Iterator[Item]:
         "it. From `scene_shares.json`.",
         f"Bars of the time of a Newton iteration for {len(scenes)} scenes: {seen}.",
     )
-    columns = (
-        Column("scene", align="left"), Column("Newton iteration", "µs"), Column("share of the first"),
-        Column("step", "µs"),
-    )  # fmt: skip
+    columns = heads("scene", ("Newton iteration", "µs"), ("share of the first", ""), ("step", "µs"))
     rows = tuple(
         (name, number(scene["us_per_newton"], 3), decimals(share, 2), number(scene["us_per_step"], 3))
         for (name, scene), share in zip(scenes.items(), shares, strict=True)
