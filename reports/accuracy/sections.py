@@ -7,8 +7,8 @@ from itertools import pairwise
 
 import numpy as np
 
-from ..figures.parting import parting
-from ..figures.work_precision import Curve, work_precision
+from ..figures.curves import Curve, Panel, curves
+from ..figures.work_precision import work_precision
 from ..parts.columns import table_of
 from ..parts.content import Bullets, Figure, Heading, Item, Table, Text, heads
 from ..parts.wording import EMPTY, count, decimals, number
@@ -93,14 +93,14 @@ def work_items(study: Study, work: str) -> Iterator[Item]:
 def _diagram(study: Study, work: str) -> Figure:
     (factor, unit), error_unit, timed = per_period(study, work), study.unit(work), study.timed(work)
     names = list(dict.fromkeys(one.method for one in timed))
-    curves = []
+    found = []
     for name in names:
         own = [one for one in timed if one.method == name and one.error < WORST]
         time, error = (np.array([getattr(one, column) for one in own]) for column in ("wall_s", "error"))
-        curves.append(Curve(name, factor * time, np.maximum(error, 1e-12), any(one.peer for one in own)))
+        found.append((name, factor * time, np.maximum(error, 1e-12), any(one.peer for one in own)))
     ring = shipped(study, work)
     marked = (factor * ring.wall_s, ring.error) if ring else None
-    picture = work_precision(curves, f"stepping time ({unit})", f"error ({error_unit})", marked)
+    picture = work_precision(found, f"stepping time ({unit})", f"error ({error_unit})", marked)
     best = min(timed, key=lambda one: one.error)
     seen = (
         f"{count(len(timed), 'setting')} of {count(len(names), 'method')}; the least error, {number(best.error, 2)} "
@@ -172,13 +172,14 @@ def predictability_items(study: Study) -> Iterator[Item]:
     if len(loaded) < 2:
         return
     time_s = loaded[0][1].columns["time_s"]
-    pairs, said = [], []
+    lines, said = [], []
     for (one, a), (other, b) in pairwise(loaded):
         names = [f"{number(row['nodes'])} nodes and rtol {row['setting']:g}" for row in (one, other)]
-        pairs.append((" against ".join(names), np.abs(a.columns["radius_m"] - b.columns["radius_m"])))
-        beyond = time_s[pairs[-1][1] > PARTED_M]
+        apart, named = np.abs(a.columns["radius_m"] - b.columns["radius_m"]), " against ".join(names)
+        lines.append(Curve(time_s, np.maximum(np.maximum.accumulate(apart), 1e-12), named))
+        beyond = time_s[apart > PARTED_M]
         when = f"apart at t = {beyond[0]:.0f} s" if len(beyond) else f"together to the end, {time_s[-1]:.0f} s"
-        said.append(f"{pairs[-1][0]}: {when}.")
+        said.append(f"{named}: {when}.")
     yield Heading("Predictability of the violent work")
     yield Text(
         f"Refined runs count as apart where r differs by {number(1e3 * PARTED_M)} mm. Past the time at which the two "
@@ -187,4 +188,6 @@ def predictability_items(study: Study) -> Iterator[Item]:
     yield Bullets(tuple(said))
     caption = "Largest difference in r so far between runs that differ in one thing, violent work. From `radius_m`."
     alt = f"Differences between refined runs over time on a log scale. {' '.join(said)}"
-    yield Figure(parting(time_s, pairs, PARTED_M), caption, alt)
+    labels = ("time (s)", "largest difference in $r$ so far (m)")
+    panel = Panel(lines, *labels, log="y", level=PARTED_M, settings={"ylim": (1e-9, None)})
+    yield Figure(curves([[panel]], 2.8, "lower right"), caption, alt)

@@ -10,7 +10,6 @@ import numpy as np
 
 from ..figures.motion import section, spectra
 from ..figures.orbit_diagram import orbit_diagram_over
-from ..figures.time_series import Panel as History
 from ..figures.time_series import time_series
 from ..parts.content import Figure, Item, Table, heads
 from ..parts.symbols import T_I, TAU_0
@@ -52,18 +51,18 @@ def run_figures(sweep: Sweep, run: Run) -> list[Item]:
     trajectory = sweep.trajectory(run)
     columns, scene = trajectory.columns, trajectory.scene
     low, high = columns["tension_top_low_N"] / 1e3, columns["tension_top_high_N"] / 1e3
-    panels = [
-        History("top tension (kN)", columns["tension_top_N"] / 1e3, low, high),
-        History(r"$r$ (m)", columns["radius_m"]),
-        History(r"$\theta$ (rad)", columns["angle_rad"]),
-    ]
+    histories = {
+        "top tension (kN)": (columns["tension_top_N"] / 1e3, low, high),
+        r"$r$ (m)": (columns["radius_m"],),
+        r"$\theta$ (rad)": (columns["angle_rad"],),
+    }
     caption = (
         f"Top tension, radius and angle against t/{T_I} at {run.named} (figs. 9 to 11 of the paper at kA = 0.016; 13, "
         "15 and 16 at 0.13). The shade behind the tension spans its extremes between samples. From "
         f"`trajectories/{run['run_key'][:12]}….nc`."
     )
     alt = f"Tension, radius and angle over {number(run.periods_done)} wave periods at {run.named}."
-    items: list[Item] = [Figure(time_series(columns["time_s"] / scene.waves.period_s, panels), caption, alt)]
+    items: list[Item] = [Figure(time_series(columns["time_s"] / scene.waves.period_s, histories), caption, alt)]
     wave, found = 2 * math.pi / scene.waves.period_s, []
     for column, label, mark, mode in _SIDES:
         if one := run.spectrum(trajectory, column):

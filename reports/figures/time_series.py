@@ -2,57 +2,41 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from collections.abc import Mapping, Sequence
 from itertools import pairwise
 
 import numpy as np
 
 from ..parts.content import Picture
 from ..parts.style import INK
-from .curves import Curve, curves
-from .curves import Panel as Axes
+from .curves import Curve, Panel, curves
 
+_LAST_PERIODS = 12  # of the right column
 _BINS = 900  # columns of the whole-record view: about two a printed millimetre
 
 
-@dataclass(frozen=True)
-class Panel:
-    """One history: its axis label with unit, the samples, and where known the extremes between samples."""
+def time_series(periods: np.ndarray, histories: Mapping[str, Sequence[np.ndarray]]) -> Picture:
+    """Stacked histories on a common axis: the whole record, and its last periods beside it where it is long.
 
-    label: str
-    values: np.ndarray
-    low: np.ndarray | None = None
-    high: np.ndarray | None = None
-    colour: str = INK
-
-
-def time_series(periods: np.ndarray, panels: list[Panel], detail_periods: float = 12.0) -> Picture:
-    """Stacked histories on a common axis.
-
-    Args: `periods` t/T_i (n,), increasing; `panels` of n values each; `detail_periods` the length of the right column.
-    A record no longer than 1.5 times the detail is drawn once, in full width.
+    Args: `periods` t/T_i (n,), increasing; `histories`, by the label of the axis with its unit, the samples (n,), and
+    where known the least and the greatest values between samples (n,).
     """
-    last, shown = float(periods[-1]) if len(periods) else 0.0, [("whole record", slice(None))]
-    if last > 1.5 * detail_periods:
-        shown.append((f"last {detail_periods:g} periods", periods >= last - detail_periods))
+    last, shown = float(periods[-1]) if len(periods) else 0.0, {"whole record": slice(None)}
+    if last > 1.5 * _LAST_PERIODS:
+        shown[f"last {_LAST_PERIODS} periods"] = periods >= last - _LAST_PERIODS
     rows = []
-    for panel in panels:
-        texts = "" if panel is not panels[-1] else r"$t/T_i$ (wave periods)", panel.label
-        row = [_drawn(periods, panel, part, texts if k == 0 else (texts[0], "")) for k, (_, part) in enumerate(shown)]
+    for label, (values, *extremes) in histories.items():
+        below, row = r"$t/T_i$ (wave periods)" if len(rows) == len(histories) - 1 else "", []
+        for title, part in shown.items():
+            t, ends, band = periods[part], [one[part] for one in extremes], None
+            if ends:
+                index = _kept(*ends)
+                band = (t[index], *np.sort([one[index] for one in ends], axis=0))
+            curve = Curve(*envelope(t, values[part]), colour=INK, width=0.7, band=band)
+            texts = below, "" if row else label, "" if rows else title
+            row.append(Panel([curve], *texts, settings={"xmargin": 0.01}, ticks=4))
         rows.append(row)
-    rows[0] = [replace(one, title=title) for one, (title, _) in zip(rows[0], shown, strict=True)]
-    return curves(rows, 0.85 + 1.0 * len(panels), share="xy", widths=(1.9, 1.0)[: len(shown)])
-
-
-def _drawn(periods: np.ndarray, panel: Panel, part, labels: tuple[str, str]) -> Axes:
-    t, band = periods[part], None
-    if panel.low is not None and panel.high is not None:
-        low, high = panel.low[part], panel.high[part]
-        index = _kept(low, high)
-        low, high = low[index], high[index]
-        band = (t[index], np.minimum(low, high), np.maximum(low, high))
-    curve = Curve(*envelope(t, panel.values[part]), colour=panel.colour, width=0.7, band=band)
-    return Axes([curve], *labels, settings={"xmargin": 0.01}, ticks=4)
+    return curves(rows, 0.85 + 1.0 * len(rows), share="xy", widths=(1.9, 1.0)[: len(shown)])
 
 
 def envelope(x: np.ndarray, y: np.ndarray, bins: int = _BINS) -> tuple[np.ndarray, np.ndarray]:
