@@ -10,7 +10,7 @@ from ..parts.content import Bullets, Heading, Item, Report, Table, Text, heads
 from ..parts.provenance import provenance_items, timing_table
 from ..parts.wording import EMPTY, count, decimals, number
 from . import sections
-from .study import Study, read_study
+from .sections import Study, read_study
 
 QUESTION = (
     "What does an error cost? Every method of the engine, scipy's solvers on the engine's own equations in space, "

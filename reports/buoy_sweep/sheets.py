@@ -9,8 +9,7 @@ import numpy as np
 from ..figures.run_sheet import run_sheet
 from ..parts.columns import plus_minus
 from ..parts.content import Explorer, ExplorerColumn, Figure, Heading, Item, Sheet, Text, link
-from ..parts.symbols import OMEGA_I, OMEGA_R
-from ..parts.wording import EMPTY, count, decimals, number
+from ..parts.wording import EMPTY, OMEGA_I, OMEGA_R, count, decimals, number
 from ..sweep.quantities import errors_of, series
 from .figures import EXPONENTS
 from .regimes import evidence_table

@@ -11,8 +11,7 @@ from ..parts.columns import Name, number_of, table_of
 from ..parts.content import Figure, Heading, Item, Table, Text, heads, link
 from ..parts.folder import read_columns, read_rows
 from ..parts.provenance import scene_table, timing_table
-from ..parts.symbols import OMEGA_I, OMEGA_R, OMEGA_THETA, T_S
-from ..parts.wording import EMPTY, decimals, listed, number, percent, ranges
+from ..parts.wording import EMPTY, OMEGA_I, OMEGA_R, OMEGA_THETA, T_S, decimals, listed, number, percent, ranges
 from ..sweep.quantities import Measured, over_key, series
 from .runs import Run, Sweep
 

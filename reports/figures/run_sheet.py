@@ -14,8 +14,7 @@ from html import escape
 import numpy as np
 
 from ..parts.content import spans, sub
-from ..parts.symbols import T_I
-from ..parts.wording import number
+from ..parts.wording import T_I, number
 from .curves import Curve, Panel, wide_limits
 
 _FINE = 5  # units of a path to a pixel

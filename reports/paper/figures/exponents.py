@@ -13,8 +13,7 @@ from ...figures.curves import Curve, Panel, draw
 from ...figures.motion import settled
 from ...parts.figure_data import sources_of
 from ...parts.style import BLUE, VERMILION
-from ...parts.symbols import T_I
-from ...parts.wording import decimals, number
+from ...parts.wording import T_I, decimals, number
 from .drawing import Drawing, behind, value
 
 if TYPE_CHECKING:

@@ -16,8 +16,7 @@ from ...figures.curves import Curve, Panel, draw
 from ...figures.time_series import envelope
 from ...parts.figure_data import sources_of
 from ...parts.style import GREEN, INK, SOFT, VERMILION
-from ...parts.symbols import L_0, T_I, T_S
-from ...parts.wording import decimals, number
+from ...parts.wording import L_0, T_I, T_S, decimals, number
 from .drawing import Drawing, behind, scaled, spans, value
 
 if TYPE_CHECKING:

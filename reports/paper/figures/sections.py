@@ -10,8 +10,7 @@ from typing import TYPE_CHECKING
 
 from ...parts.figure_data import sources_of
 from ...parts.style import INK, SOFT
-from ...parts.symbols import L_0
-from ...parts.wording import number
+from ...parts.wording import L_0, number
 from .drawing import Drawing, behind, spans, value
 
 if TYPE_CHECKING:

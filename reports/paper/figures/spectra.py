@@ -15,8 +15,7 @@ from ...figures.motion import log_limits
 from ...parts.content import sub
 from ...parts.figure_data import sources_of
 from ...parts.style import BLUE, VERMILION
-from ...parts.symbols import OMEGA_I, T_I, TAU_0
-from ...parts.wording import listed, number
+from ...parts.wording import OMEGA_I, T_I, TAU_0, listed, number
 from .drawing import Drawing, behind, value
 
 if TYPE_CHECKING:
