@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from ..parts.content import Bullets, Heading, Item, Report, Table, Text, heads
-from ..parts.provenance import provenance_items, timing_table
+from ..parts.provenance import provenance_items, timing_items
 from ..parts.wording import EMPTY, count, decimals, number
 from . import sections
 from .sections import Study, read_study
@@ -24,7 +24,6 @@ def report(directory: str | Path) -> Report:
     """The content of the report on an accuracy folder. Raises FolderError for a folder that is not one."""
     study = read_study(directory)
     works = [name for name in study.works if any(one.work == name for one in study.settings)]
-    times = timing_table(study.folder)
     items: list[Item] = [
         Heading("Question"),
         Text(QUESTION),
@@ -37,7 +36,7 @@ def report(directory: str | Path) -> Report:
         *sections.order_items(study),
         *sections.predictability_items(study),
         *cost_items(study),
-        *([Heading("Run times"), times] if times else []),
+        *timing_items(study.folder),
         *provenance_items(study.folder),
     ]
     return Report("Error against run time", "Work-precision of the engine and of other codes", tuple(items))

@@ -13,8 +13,7 @@ from ..parts.provenance import provenance_items
 from ..parts.wording import EMPTY, T_I, TAU_0, count, decimals, listed, number, percent
 from ..sweep.quantities import extremes
 from .equations import equation_items
-from .figures import close_up_items, orbit_figure, peaks_table, run_figures, section_figure
-from .regimes import regime_items
+from .figures import close_up_items, orbit_figure, peaks_table, regime_items, run_figures, section_figure
 from .runs import PAPER_WINDOW, Run, Sweep, read_sweep
 from .sheets import explorer, sheet_items
 from .tables import accuracy_items, plane_items, runs_items, scene_items, time_items

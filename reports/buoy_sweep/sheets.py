@@ -11,8 +11,7 @@ from ..parts.columns import plus_minus
 from ..parts.content import Explorer, ExplorerColumn, Figure, Heading, Item, Sheet, Text, link
 from ..parts.wording import EMPTY, OMEGA_I, OMEGA_R, count, decimals, number
 from ..sweep.quantities import errors_of, series
-from .figures import EXPONENTS
-from .regimes import evidence_table
+from .figures import EXPONENTS, evidence_table
 from .runs import Run, Sweep
 
 _MANY = 120  # runs above which a sheet is drawn more coarsely, so that 400 of them stay below 10 MB

@@ -9,7 +9,7 @@ import numpy as np
 from ..parts.content import Picture
 from ..parts.style import BLUE, VERMILION, picture_of, sheet
 from .curves import COLOURS, Curve, Panel, curves
-from .time_series import envelope
+from .motion import envelope
 
 _DECADES_BELOW = 1.5  # room for the swings through zero below the least of the envelope
 

@@ -49,14 +49,17 @@ def scene_table(scene: Scene, shipped: str, varied: dict[str, str], caption: str
     return Table(columns, tuple(rows), f"{caption} {where}", small=True)
 
 
-def timing_table(folder: Folder) -> Table | None:
-    """The time split of a campaign, None where its provenance has none."""
-    times = [(name, time) for name, time in _flat(folder.provenance.get("timing")) if isinstance(time, (int, float))]
-    if not times:
-        return None
-    rows = ((_TIMES.get(name, name.removesuffix("_s").replace("_", " ")), decimals(time, 2)) for name, time in times)
+def timing_items(folder: Folder, *more: Item | None) -> list[Item]:
+    """What the runs cost: `more`, where there is any, and the time split of a campaign; nothing for none of them."""
+    items = [item for item in more if item is not None]
+    rows = tuple(
+        (_TIMES.get(name, name.removesuffix("_s").replace("_", " ")), decimals(time, 2))
+        for name, time in _flat(folder.provenance.get("timing"))
+        if isinstance(time, (int, float))
+    )
     caption = "Where the time of the campaign went, from `provenance.json`."
-    return Table(heads("part", ("wall time", "s")), tuple(rows), caption)
+    items += [Table(heads("part", ("wall time", "s")), rows, caption)] if rows else []
+    return [Heading("Run times"), *items] if items else []
 
 
 def provenance_items(folder: Folder) -> list[Item]:

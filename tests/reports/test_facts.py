@@ -8,7 +8,7 @@ import pytest
 from engine import load_scene
 from engine.natural_frequencies import natural_frequencies
 from reports.buoy_sweep.runs import read_sweep, spectrum_window
-from reports.figures.time_series import envelope, time_series
+from reports.figures.motion import envelope, time_series
 from reports.parts.columns import table_of
 from reports.parts.content import plain
 from reports.parts.folder import read_columns

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ...figures.curves import Curve, Panel, draw
-from ...figures.time_series import envelope
+from ...figures.motion import envelope
 from ...parts.figure_data import sources_of
 from ...parts.style import GREEN, INK, SOFT, VERMILION
 from ...parts.wording import L_0, T_I, T_S, decimals, number
