@@ -15,7 +15,7 @@ from ..figures.curves import Curve, Panel, curves
 from ..figures.work_precision import work_precision
 from ..parts.columns import Quantity, table_of
 from ..parts.content import Bullets, Figure, Heading, Item, Table, Text, heads
-from ..parts.folder import Folder, FolderError, read_columns, read_files, read_folder
+from ..parts.folder import Folder, FolderError, read_files, read_folder
 from ..parts.wording import EMPTY, count, decimals, number
 
 if TYPE_CHECKING:
@@ -84,12 +84,12 @@ def read_study(directory: str | Path) -> Study:
     works = folder.provenance.get("works")
     if not isinstance(works, dict) or not all(isinstance(entry, dict) and "title" in entry for entry in works.values()):
         raise FolderError(folder.directory, ["provenance.json cannot be read: it does not describe the works"])
-    wanted = {"orders.csv": "orders of convergence"}
+    wanted = {"orders.csv": "orders of convergence", "orders_columns.csv": "what the columns of orders.csv are"}
     costs = folder.directory / "costs.json"  # not there without the engine's own runs
     found = read_files(directory, wanted | ({"costs.json": "cost of each piece"} if costs.exists() else {}))
     rows, settings = tuple(folder.table.to_dict("records")), tuple(_settings(folder.table))
-    order_columns = read_columns(directory, "orders.csv")
-    return Study(folder, works, rows, settings, tuple(found["orders.csv"]), order_columns, found.get("costs.json"))
+    orders, columns = (found[name] for name in wanted)
+    return Study(folder, works, rows, settings, tuple(orders), columns, found.get("costs.json"))
 
 
 def _settings(table: pandas.DataFrame) -> Iterator[Setting]:

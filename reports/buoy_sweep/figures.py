@@ -84,8 +84,8 @@ def run_figures(sweep: Sweep, run: Run) -> list[Item]:
     return items
 
 
-def peaks_table(sweep: Sweep) -> Table:
-    """The window of eq. (31) and the largest peaks of both spectra of the chosen runs."""
+def chosen_table(sweep: Sweep) -> Table:
+    """The chosen runs: how far they came, their strobed r, the window of eq. (31) and the largest peaks of spectra."""
     from analysis import spectral_peaks
 
     rows = []
@@ -96,10 +96,22 @@ def peaks_table(sweep: Sweep) -> Table:
             peaks = spectral_peaks(found)[:_PEAKS] if found else []
             cells.append(listed(number(peak.angular_frequency_radps) for peak in peaks) if peaks else EMPTY)
         window = spectrum_window(run.periods_done) or (None, None)
-        rows.append((run.named, *map(number, window), *cells))
-    columns = heads("run", (f"{TAU_0}/{T_I}", ""), ("n", ""), ("peaks of r", "rad/s"), ("peaks of θ", "rad/s"))
-    caption = f"Largest peaks of the spectra, the largest first; bins are 2π/(n {T_I}) wide."
-    return Table(columns, tuple(rows), caption)
+        rows.append((run.named, run["status"], number(run.periods_done), _strobed(run), *map(number, window), *cells))
+    numbers = ("status", f"t/{T_I}", "strobed r (m)", f"{TAU_0}/{T_I}", "n", "peaks of r", "peaks of θ")
+    caption = (
+        "The runs nearest the paper's kA = 0.016 and 0.13, and the first whose strobed motion visits several points in "
+        f"turn, where there is one: how far they came, r at t = k{T_I} after the transient, and the largest peaks of "
+        f"the spectra in rad/s, the largest first; bins are 2π/(n {T_I}) wide."
+    )
+    return Table(heads("run", *((name, "") for name in numbers)), tuple(rows), caption, small=True)
+
+
+def _strobed(run: Run) -> str:
+    """The points that it visits in turn, else the range of all."""
+    if run.visited or not len(run.section):
+        return listed(decimals(point, 3) for point in run.visited) if run.visited else EMPTY
+    low, high = run.section[:, 0].min(), run.section[:, 0].max()
+    return f"{decimals(low, 3)} to {decimals(high, 3)}"
 
 
 def section_figure(sweep: Sweep) -> Figure | None:

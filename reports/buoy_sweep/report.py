@@ -8,12 +8,12 @@ from pathlib import Path
 
 from analysis.verdicts import LEAST_POINTS
 
-from ..parts.content import Bullets, Heading, Item, Notice, Report, Table, Text, heads
+from ..parts.content import Bullets, Heading, Item, Notice, Report, Text
 from ..parts.provenance import provenance_items
-from ..parts.wording import EMPTY, T_I, TAU_0, count, decimals, listed, number, percent
+from ..parts.wording import T_I, TAU_0, count, decimals, number, percent
 from ..sweep.quantities import extremes
 from .equations import equation_items
-from .figures import close_up_items, orbit_figure, peaks_table, regime_items, run_figures, section_figure
+from .figures import chosen_table, close_up_items, orbit_figure, regime_items, run_figures, section_figure
 from .runs import PAPER_WINDOW, Run, Sweep, read_sweep
 from .sheets import explorer, sheet_items
 from .tables import accuracy_items, plane_items, runs_items, scene_items, time_items
@@ -78,25 +78,11 @@ def _chosen(sweep: Sweep) -> list[Item]:
     heading = Heading("Chosen runs")
     if not sweep.chosen:
         return [heading, Text("No run left a record of one wave period or more, so there is nothing to draw.")]
-    columns = heads("run", ("status", ""), (f"t/{T_I}", ""), ("strobed r", "m"))
-    rows = tuple((run.named, run["status"], number(run.periods_done), _strobed(run)) for run in sweep.chosen)
-    caption = (
-        "The runs nearest the paper's kA = 0.016 and 0.13, and the first whose strobed motion visits several points in "
-        f"turn, where there is one: how far they came, and r at t = k{T_I} after the transient."
-    )
-    items: list[Item] = [heading, Table(columns, rows, caption), peaks_table(sweep)]
+    items: list[Item] = [heading, chosen_table(sweep)]
     for run in sweep.chosen:
         items += [Heading(run.named, 2), *run_figures(sweep, run)]
     figure = section_figure(sweep)
     return [*items, Heading("Poincaré sections", 2), figure] if figure else items
-
-
-def _strobed(run: Run) -> str:
-    """The points that it visits in turn, else the range of all."""
-    if run.visited or not len(run.section):
-        return listed(decimals(point, 3) for point in run.visited) if run.visited else EMPTY
-    low, high = run.section[:, 0].min(), run.section[:, 0].max()
-    return f"{decimals(low, 3)} to {decimals(high, 3)}"
 
 
 _EXTREMES = (

@@ -33,8 +33,7 @@ def explorer(sweep: Sweep, figure: Figure) -> Explorer:
         if np.isfinite(values := series(rows, column)).any():
             lower.append(("σ (bits per wave period)", tuple(values), tuple(series(rows, error))))
             break
-    title, labels = "Look around, choose a run", ("wave steepness kA (–)", "strobed r (m)")
-    return Explorer(figure, title, *labels, columns, tuple(lower))
+    return Explorer(figure, "wave steepness kA (–)", "strobed r (m)", columns, tuple(lower))
 
 
 def sheet_items(sweep: Sweep) -> list[Item]:

@@ -77,7 +77,7 @@ def test_explorer_data_reads_back_to_a_hundred_thousandth_of_the_range():
     points = [tuple(rng.normal(20.0, 3.0, size)) for size in (5, 0, 40)]
     columns = tuple(ExplorerColumn(0.1 * k, values, f"</script> {k}", f"run-{k}") for k, values in enumerate(points))
     lower = (("slack", (0.1, float("nan"), 0.3), (float("nan"),) * 3),)
-    text = explorer_json(Explorer(FIGURE, "title", "x", "y", columns, lower))
+    text = explorer_json(Explorer(FIGURE, "x", "y", columns, lower))
     assert "<" not in text
     read = json.loads(text)
     for column, values in zip(read["columns"], points, strict=True):
