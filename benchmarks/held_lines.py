@@ -18,7 +18,7 @@ from scipy.spatial.transform import Rotation
 
 from benchmarks.shared import DOCS, shrink
 from engine import load_scene, simulate
-from reports.figures.rope_shape import rope_shapes
+from reports.figures.offplane_history import rope_shapes
 from tests.engine.spatial.rods import Localised
 from tests.engine.spatial.test_held_lines import LENGTH as L
 from tests.engine.spatial.test_held_lines import G, fall

@@ -6,11 +6,11 @@ import math
 from collections.abc import Iterator
 from pathlib import Path
 
-from ..parts.content import Bullets, Column, Heading, Item, Report, Table, Text
-from ..parts.provenance import provenance_items, timing_table
+from ..parts.content import Bullets, Heading, Item, Report, Table, Text, heads
+from ..parts.provenance import provenance_items, timing_items
 from ..parts.wording import EMPTY, count, decimals, number
 from . import sections
-from .study import Study, read_study
+from .sections import Study, read_study
 
 QUESTION = (
     "What does an error cost? Every method of the engine, scipy's solvers on the engine's own equations in space, "
@@ -24,7 +24,6 @@ def report(directory: str | Path) -> Report:
     """The content of the report on an accuracy folder. Raises FolderError for a folder that is not one."""
     study = read_study(directory)
     works = [name for name in study.works if any(one.work == name for one in study.settings)]
-    times = timing_table(study.folder)
     items: list[Item] = [
         Heading("Question"),
         Text(QUESTION),
@@ -37,7 +36,7 @@ def report(directory: str | Path) -> Report:
         *sections.order_items(study),
         *sections.predictability_items(study),
         *cost_items(study),
-        *([Heading("Run times"), times] if times else []),
+        *timing_items(study.folder),
         *provenance_items(study.folder),
     ]
     return Report("Error against run time", "Work-precision of the engine and of other codes", tuple(items))
@@ -84,8 +83,8 @@ def cost_items(study: Study) -> Iterator[Item]:
         f"buoy over {costs['periods']} wave periods: {each[0]} Newton iterations and {each[1]} steps a period. "
         "Assembly, waves and elimination are timed by themselves, the rest by difference. From `costs.json`."
     )
-    columns = (Column("piece", align="left"), Column("per Newton iteration", "µs"), Column("share", "%"))
     yield Heading("Cost of each piece")
+    columns = heads("piece", ("per Newton iteration", "µs"), ("share", "%"))
     yield Table(columns, (*rows, ("stepping, all", decimals(total, 2), "100")), caption)
     yield Text(
         f"A call of `simulate` over {costs['periods']} periods takes {decimals(stepping_ms, 1)} ms of stepping and "
@@ -103,11 +102,8 @@ def peer_items(study: Study) -> Iterator[Item]:
     yield Heading("Other codes")
     yield Bullets(tuple(f"{name}: {text}" for name, text in notes.items()))
     if rows := tuple(row for work in study.works for row in _beside_ours(study, work)):
-        columns = (
-            Column("work", align="left"), Column("code", align="left"), Column("within"), Column("its time", "ms"),
-            Column("ours", "ms"), Column("ratio"), Column("its setting", align="left"),
-            Column("our setting", align="left"), Column("off ours"),
-        )  # fmt: skip
+        times = (("within", ""), ("its time", "ms"), ("ours", "ms"), ("ratio", ""))
+        columns = heads("work", "code", *times, "its setting", "our setting", ("off ours", ""))
         caption = (
             "Cheapest settings within an error, each code against its own refined run (scipy against ours: it solves "
             "our equations); ratio: its time over ours, of buoys per wave period. Off ours: its distance from our "
@@ -116,8 +112,8 @@ def peer_items(study: Study) -> Iterator[Item]:
         )
         yield Table(columns, rows, caption, small=True)
     if missing := tuple(dict.fromkeys((one.method, one.status, one.message) for one in own if one.failed)):
-        heads = tuple(Column(title, align="left") for title in ("code", "outcome", "why"))
-        yield Table(heads, missing, "Settings of other codes without a result. From `table.csv`.", small=True)
+        caption = "Settings of other codes without a result. From `table.csv`."
+        yield Table(heads("code", "outcome", "why"), missing, caption, small=True)
 
 
 def _beside_ours(study: Study, work: str) -> Iterator[tuple[str, ...]]:

@@ -2,17 +2,107 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
+from dataclasses import dataclass
 from itertools import pairwise
+from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..figures.parting import parting
-from ..figures.work_precision import Curve, work_precision
-from ..parts.columns import table_of
-from ..parts.content import Bullets, Column, Figure, Heading, Item, Table, Text
+from ..figures.curves import Curve, Panel, curves
+from ..figures.work_precision import work_precision
+from ..parts.columns import Quantity, table_of
+from ..parts.content import Bullets, Figure, Heading, Item, Table, Text, heads
+from ..parts.folder import Folder, FolderError, read_files, read_folder
 from ..parts.wording import EMPTY, count, decimals, number
-from .study import Setting, Study
+
+if TYPE_CHECKING:
+    import pandas
+
+
+OURS, PEER = "point", "peer"
+_WORDS = {
+    "rtol": "rtol {:g}", "step_s": "step {:.4g} s", "courant": "Courant {:g}", "steps per period": "{:g} a period",
+}  # fmt: skip
+
+
+@dataclass(frozen=True)
+class Setting:
+    """One timed setting: medians over its rounds. error, worst: in the unit of the work; failed: rounds that ended
+    early, the first of them with status and message.
+    """
+
+    work: str
+    method: str
+    nodes: int
+    control: str
+    value: float
+    error: float
+    worst: float
+    against_ours: float
+    wall_s: float
+    rounds: int
+    failed: int
+    peer: bool
+    status: str
+    message: str
+
+    @property
+    def named(self) -> str:
+        """The setting in words: "41 nodes, rtol 0.03"."""
+        where = "segments" if self.peer and not self.method.startswith("scipy") else "nodes"
+        return f"{self.nodes} {where}, {_WORDS[self.control].format(self.value)}"
+
+
+@dataclass(frozen=True, eq=False)
+class Study:
+    """What the campaign left. works: {name: title, unit, period_s, duration_s, rough} in the order of the report."""
+
+    folder: Folder
+    works: dict[str, dict]
+    rows: tuple[dict, ...]
+    settings: tuple[Setting, ...]
+    orders: tuple[dict, ...]
+    order_columns: dict[str, Quantity]
+    costs: dict | None
+
+    def unit(self, work: str) -> str:
+        """Unit of the errors of a work."""
+        return self.works[work]["unit"]
+
+    def timed(self, work: str, method: str = "", peer: bool | None = None) -> list[Setting]:
+        """Settings of a work that ended as asked in every round, of one method, of ours or of other codes."""
+        found = [one for one in self.settings if one.work == work and one.failed == 0 and math.isfinite(one.error)]
+        return [one for one in found if method in ("", one.method) and peer in (None, one.peer)]
+
+
+def read_study(directory: str | Path) -> Study:
+    """Read the folder. Raises FolderError naming every file that is missing or cannot be read."""
+    folder = read_folder(directory)
+    works = folder.provenance.get("works")
+    if not isinstance(works, dict) or not all(isinstance(entry, dict) and "title" in entry for entry in works.values()):
+        raise FolderError(folder.directory, ["provenance.json cannot be read: it does not describe the works"])
+    wanted = {"orders.csv": "orders of convergence", "orders_columns.csv": "what the columns of orders.csv are"}
+    costs = folder.directory / "costs.json"  # not there without the engine's own runs
+    found = read_files(directory, wanted | ({"costs.json": "cost of each piece"} if costs.exists() else {}))
+    rows, settings = tuple(folder.table.to_dict("records")), tuple(_settings(folder.table))
+    orders, columns = (found[name] for name in wanted)
+    return Study(folder, works, rows, settings, tuple(orders), columns, found.get("costs.json"))
+
+
+def _settings(table: pandas.DataFrame) -> Iterator[Setting]:
+    timed = table[table["kind"].isin([OURS, PEER])].replace(math.inf, math.nan)
+    for named, group in timed.groupby(["work", "method", "nodes", "control", "setting"], sort=False):
+        good, bad = group[group["status"] == "ok"], group[group["status"] != "ok"]
+        told = (bad if len(bad) else group).iloc[0]
+        middle = good[["error", "error_against_ours", "wall_s"]].median()
+        yield Setting(
+            *named, middle["error"], good["error"].max(), middle["error_against_ours"], middle["wall_s"], len(group),
+            len(bad), told["kind"] == PEER, told["status"], told["message"],
+        )  # fmt: skip
+
 
 LEVELS = {"mm": (5.0, 2.0, 1.0, 0.1, 0.01), "%": (1.0, 0.3, 0.1, 0.03)}
 WORST = 1e4  # mm or %: what is further off is not drawn
@@ -86,22 +176,21 @@ def work_items(study: Study, work: str) -> Iterator[Item]:
     failed = [one for one in study.settings if one.work == work and one.failed]
     if failed:
         rows = dict.fromkeys((one.method, one.named, one.status) for one in failed)
-        heads = tuple(Column(title, align="left") for title in ("method", "setting", "outcome"))
         caption = "Left out, because a round ended early; see `message` in `table.csv`."
-        yield Table(heads, tuple(rows), caption, small=True)
+        yield Table(heads("method", "setting", "outcome"), tuple(rows), caption, small=True)
 
 
 def _diagram(study: Study, work: str) -> Figure:
     (factor, unit), error_unit, timed = per_period(study, work), study.unit(work), study.timed(work)
     names = list(dict.fromkeys(one.method for one in timed))
-    curves = []
+    found = []
     for name in names:
         own = [one for one in timed if one.method == name and one.error < WORST]
         time, error = (np.array([getattr(one, column) for one in own]) for column in ("wall_s", "error"))
-        curves.append(Curve(name, factor * time, np.maximum(error, 1e-12), any(one.peer for one in own)))
+        found.append((name, factor * time, np.maximum(error, 1e-12), any(one.peer for one in own)))
     ring = shipped(study, work)
     marked = (factor * ring.wall_s, ring.error) if ring else None
-    picture = work_precision(curves, f"stepping time ({unit})", f"error ({error_unit})", marked)
+    picture = work_precision(found, f"stepping time ({unit})", f"error ({error_unit})", marked)
     best = min(timed, key=lambda one: one.error)
     seen = (
         f"{count(len(timed), 'setting')} of {count(len(names), 'method')}; the least error, {number(best.error, 2)} "
@@ -125,13 +214,12 @@ def _levels(study: Study, work: str) -> Table:
         first = next((one for one in found if one is not None), None)
         cells = [decimals(factor * one.wall_s, 2) if one else EMPTY for one in found]
         rows.append((name, *cells, f"{first.named}: {number(first.error, 2)} {error_unit}" if first else EMPTY))
-    columns = [Column("method", align="left"), *(Column(f"≤ {level:g} {error_unit}", unit) for level in levels)]
-    columns.append(Column("at the first level reached", align="left"))
+    columns = heads("method", *((f"≤ {level:g} {error_unit}", unit) for level in levels), "at the first level reached")
     caption = (
         "Stepping time of the cheapest setting tried whose median error is within the level; nothing is "
         "interpolated; a dash: none of the settings tried. From `table.csv`."
     )
-    return Table(tuple(columns), tuple(rows), caption, small=True)
+    return Table(columns, tuple(rows), caption, small=True)
 
 
 def order_items(study: Study) -> Iterator[Item]:
@@ -174,13 +262,14 @@ def predictability_items(study: Study) -> Iterator[Item]:
     if len(loaded) < 2:
         return
     time_s = loaded[0][1].columns["time_s"]
-    pairs, said = [], []
+    lines, said = [], []
     for (one, a), (other, b) in pairwise(loaded):
         names = [f"{number(row['nodes'])} nodes and rtol {row['setting']:g}" for row in (one, other)]
-        pairs.append((" against ".join(names), np.abs(a.columns["radius_m"] - b.columns["radius_m"])))
-        beyond = time_s[pairs[-1][1] > PARTED_M]
+        apart, named = np.abs(a.columns["radius_m"] - b.columns["radius_m"]), " against ".join(names)
+        lines.append(Curve(time_s, np.maximum(np.maximum.accumulate(apart), 1e-12), named))
+        beyond = time_s[apart > PARTED_M]
         when = f"apart at t = {beyond[0]:.0f} s" if len(beyond) else f"together to the end, {time_s[-1]:.0f} s"
-        said.append(f"{pairs[-1][0]}: {when}.")
+        said.append(f"{named}: {when}.")
     yield Heading("Predictability of the violent work")
     yield Text(
         f"Refined runs count as apart where r differs by {number(1e3 * PARTED_M)} mm. Past the time at which the two "
@@ -189,4 +278,6 @@ def predictability_items(study: Study) -> Iterator[Item]:
     yield Bullets(tuple(said))
     caption = "Largest difference in r so far between runs that differ in one thing, violent work. From `radius_m`."
     alt = f"Differences between refined runs over time on a log scale. {' '.join(said)}"
-    yield Figure(parting(time_s, pairs, PARTED_M), caption, alt)
+    labels = ("time (s)", "largest difference in $r$ so far (m)")
+    panel = Panel(lines, *labels, log="y", level=PARTED_M, settings={"ylim": (1e-9, None)})
+    yield Figure(curves([[panel]], 2.8, "lower right"), caption, alt)

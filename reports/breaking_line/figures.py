@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..figures.line_animation import line_animation, line_strip
+from ..figures.animations import line_animation, line_strip
 from ..figures.line_panels import QUANTITIES, SCALED, LinePanel, folds, line_panels, seen
 from ..figures.line_waves import FrontPanel, energy_shares, front_plane, front_speeds
 from ..parts.content import Figure

@@ -9,7 +9,7 @@ from ..buoy_sweep.equations import LAWS
 from ..parts.content import Equation, Heading, Item, Notice, Report, Text
 from ..parts.folder import Folder, read_folder
 from ..parts.judged import counted, read_statements, statements_table
-from ..parts.provenance import provenance_items, scene_table, timing_table
+from ..parts.provenance import provenance_items, scene_table, timing_items
 from ..parts.wording import count, decimals, listed, number, percent
 from . import figures, tables
 from .runs import FAST, SLOW, Line, named, of_kind, read_exact, read_lines
@@ -74,7 +74,7 @@ def report(directory: str | Path) -> Report:
         *_section("The paper's statements", statements_table(judged, verdicts)),
         *_section("Bending stiffness", table("stiffness")),
         *_section("Doubled grids", table("doubled")),
-        *_section("Run times", table("cost"), timing_table(folder)),
+        *timing_items(folder, table("cost")),
         *_scene(folder),
         *_equations(folder.scene.tether.tension.law),
         *provenance_items(folder),

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from ..parts.content import Equation, Item, Text
-from ..parts.symbols import T_I
+from ..parts.wording import T_I
 
 BUOY = Equation(
     "(M + M_a) (dif bold(U)) / (dif t) = (rho_w V + M_a) (dif bold(U)_w) / (dif t) + bold(B) - bold(W) - bold(T) - "

@@ -2,20 +2,19 @@
 
 from __future__ import annotations
 
+import math
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 
 from analysis.verdicts import LEAST_POINTS
 
-from ..parts.content import Column, Heading, Item, Notice, Report, Table, Text
+from ..parts.content import Bullets, Heading, Item, Notice, Report, Text
 from ..parts.provenance import provenance_items
-from ..parts.symbols import T_I
-from ..parts.wording import EMPTY, decimals, listed, number
-from .answer import answer_items, warnings
-from .close_up import close_up_items
+from ..parts.wording import T_I, TAU_0, count, decimals, number, percent
+from ..sweep.quantities import extremes
 from .equations import equation_items
-from .figures import orbit_figure, peaks_table, run_figures, section_figure
-from .regimes import regime_items
-from .runs import Run, Sweep, read_sweep
+from .figures import chosen_table, close_up_items, orbit_figure, regime_items, run_figures, section_figure
+from .runs import PAPER_WINDOW, Run, Sweep, read_sweep
 from .sheets import explorer, sheet_items
 from .tables import accuracy_items, plane_items, runs_items, scene_items, time_items
 
@@ -79,22 +78,104 @@ def _chosen(sweep: Sweep) -> list[Item]:
     heading = Heading("Chosen runs")
     if not sweep.chosen:
         return [heading, Text("No run left a record of one wave period or more, so there is nothing to draw.")]
-    heads = (Column("run", align="left"), Column("status"), Column(f"t/{T_I}"), Column("strobed r", "m"))
-    rows = tuple((run.named, run["status"], number(run.periods_done), _strobed(run)) for run in sweep.chosen)
-    caption = (
-        "The runs nearest the paper's kA = 0.016 and 0.13, and the first whose strobed motion visits several points in "
-        f"turn, where there is one: how far they came, and r at t = k{T_I} after the transient."
-    )
-    items: list[Item] = [heading, Table(heads, rows, caption), peaks_table(sweep)]
+    items: list[Item] = [heading, chosen_table(sweep)]
     for run in sweep.chosen:
         items += [Heading(run.named, 2), *run_figures(sweep, run)]
     figure = section_figure(sweep)
     return [*items, Heading("Poincaré sections", 2), figure] if figure else items
 
 
-def _strobed(run: Run) -> str:
-    """The points that it visits in turn, else the range of all."""
-    if run.visited or not len(run.section):
-        return listed(decimals(point, 3) for point in run.visited) if run.visited else EMPTY
-    low, high = run.section[:, 0].min(), run.section[:, 0].max()
-    return f"{decimals(low, 3)} to {decimals(high, 3)}"
+_EXTREMES = (
+    "slack_fraction", "tension_top_max_N", "radius_min_m", "radius_max_m", "loop_releases", "rope_lateral_max_m",
+    "buoy_lateral_max_m",
+)  # fmt: skip
+_RESOLVED_RAD = 0.5 * math.pi  # turn of one element beyond which a loop is no longer resolved
+_NOTHING = "No run failed, no loop was released, the buoy stayed in the water, and every record lasts for eq. (31)."
+
+
+def answer_items(sweep: Sweep) -> list[Item]:
+    """The statements, and the table of extremes of the runs that ended as asked."""
+    rows, columns = [run.row for run in sweep.good], sweep.folder.columns
+    shown = [columns[name] for name in _EXTREMES if name in columns]
+    caption = "Least and greatest value in the runs that ended as asked."
+    return [Bullets(short_answer(sweep)), *extremes([columns["steepness"]], rows, shown, caption)]
+
+
+def short_answer(sweep: Sweep) -> tuple[str, ...]:
+    """One statement a line: the sweep, what failed, then each kind of motion with the steepness of its runs."""
+    good, runs, share = sweep.good, sweep.runs, percent(sweep.tolerance)
+    repeating = [
+        (f"Repeats after {count(length, 'wave period')} (period {length})",
+         [run for run in good if len(run.visited) == length])
+        for length in range(1, sweep.longest + 1)
+    ]  # fmt: skip
+    kinds = (
+        ("Did not end as asked", [run for run in runs if not run.ok]),
+        ("Slack for a part of the time", [run for run in good if run["slack_fraction"] > 0]),
+        ("Never slack", [run for run in good if run["slack_fraction"] == 0]),
+        *repeating,
+        (f"A longer period, of points that lie within {share} of the range of r: a swing that dies out",
+         [run for run in good if run.period and not run.visited]),
+        (f"Repeats after none of 1 to {sweep.longest} periods; what else it is, only a regime says",
+         [run for run in good if run.period == 0]),
+        ("Too few strobed points to look for a period", [run for run in good if run.period is None]),
+        ("Loops were released", [run for run in good if run["loop_releases"] > 0]),
+        ("Run in three dimensions", [run for run in good if run.in_space]),
+    )  # fmt: skip
+    longest = number(_most(runs, "periods_done"))
+    first = (
+        f"{count(len(runs), 'run')}, {sweep.at(runs)}, the longest over {longest} wave periods. What follows leaves "
+        f"out the first {count(sweep.transient, 'period')} and runs that failed."
+    )
+    lines = [first, *_said(sweep, kinds)]
+    pulls = [run["tension_top_max_N"] for run in good if run.known("tension_top_max_N")]
+    if pulls and sweep.modes:
+        times = number(max(pulls) / sweep.modes.static_tension_N, 3)
+        lines.append(f"The largest top tension is {times} times the static one.")
+    return tuple(lines)
+
+
+def warnings(sweep: Sweep) -> Notice:
+    """Everything that limits what the sweep may be used for; a plain note when there is nothing."""
+    runs, scene = sweep.runs, sweep.folder.scene
+    high, out = [run for run in runs if run.above_still_m > 0.0], [run for run in runs if run.out_share > 0.0]
+    unread = [run for run in runs if run.fault]
+    first = {run["status"]: run for run in reversed(runs) if not run.ok}
+    strain = sweep.modes.static_strain if sweep.modes else -1.0
+    dry_m = scene.tether.length_m * (1.0 + strain) + 0.5 * scene.buoy.diameter_m - scene.water.depth_m
+    failed = [
+        (f"{status}; the first after {number(run.periods_done, 3)} periods: {run['message'] or 'no message'}",
+         [run for run in runs if run["status"] == status])
+        for status, run in first.items()
+    ]  # fmt: skip
+    kinds = (
+        *failed,
+        (f"{unread[0].fault if unread else ''} (of the first); figures and strobed values leave such runs out", unread),
+        ("loops were released; a rope free to leave the plane does not need it (`--dimensions auto`), see “Out of the "
+         "plane”", [run for run in runs if run["loop_releases"] > 0]),
+        ("in three dimensions an element turns by more than π/2: its loops are not resolved, add `tether.nodes`",
+         [run for run in runs if run.in_space and run["max_turn_rad"] > _RESOLVED_RAD]),
+        (f"already at rest the top of the buoy is {decimals(dry_m, 2)} m above still water",
+         runs if dry_m > 0.0 else ()),
+        (f"the centre of the buoy rises by up to {decimals(_most(high, 'above_still_m'), 2)} m above still water",
+         high),
+        (f"the whole sphere is above the linear wave, its centre by up to {decimals(_most(out, 'above_wave_m'), 2)} m, "
+         f"in up to {percent(_most(out, 'out_share'))} of the samples. There `buoy.submergence` = "
+         f"{scene.buoy.submergence} and `waves.above_still_water` = {scene.waves.above_still_water} matter", out),
+        (f"shorter than the {sum(PAPER_WINDOW)} wave periods of eq. (31) with {TAU_0} = {PAPER_WINDOW[0]} {T_I} and "
+         f"n = {PAPER_WINDOW[1]}: spectra are of the last half of the record, and hold more of the transient",
+         [run for run in sweep.good if run.periods_done < sum(PAPER_WINDOW) - 1e-6]),
+    )  # fmt: skip
+    lines = _said(sweep, kinds)
+    if not lines:
+        return Notice("note", "Nothing to warn of", (_NOTHING,))
+    return Notice("warning", "What limits these runs", lines)
+
+
+def _most(runs: Sequence[Run], name: str) -> float:
+    return max((getattr(run, name) for run in runs), default=math.nan)
+
+
+def _said(sweep: Sweep, kinds: Iterable[tuple[str, Sequence[Run]]]) -> tuple[str, ...]:
+    """One line for every kind, said of some runs, that there is."""
+    return tuple(f"{said}: {sweep.at(runs)}." for said, runs in kinds if runs)

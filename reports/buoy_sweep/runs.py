@@ -123,10 +123,10 @@ class Sweep:
         several = [run for run in good if len(run.visited) > 1 and run not in nearest]
         return tuple(sorted(dict.fromkeys([*nearest, *several[:1]]), key=lambda run: run.steepness))
 
-    def at(self, chosen: Iterable[Run], among: Iterable[Run] | None = None) -> str:
+    def at(self, chosen: Iterable[Run]) -> str:
         """ "kA = 0.01 to 0.03 and 0.05": the chosen of the runs, neighbours joined."""
-        chosen, among = set(chosen), tuple(among or self.runs)
-        return f"kA = {ranges([run.steepness for run in among], [run in chosen for run in among])}"
+        chosen = set(chosen)
+        return f"kA = {ranges([run.steepness for run in self.runs], [run in chosen for run in self.runs])}"
 
     def trajectory(self, run: Run) -> Trajectory:
         """The trajectory of a run that has a record."""

@@ -9,11 +9,9 @@ import numpy as np
 from ..figures.run_sheet import run_sheet
 from ..parts.columns import plus_minus
 from ..parts.content import Explorer, ExplorerColumn, Figure, Heading, Item, Sheet, Text, link
-from ..parts.symbols import OMEGA_I, OMEGA_R
-from ..parts.wording import EMPTY, count, decimals, number
+from ..parts.wording import EMPTY, OMEGA_I, OMEGA_R, count, decimals, number
 from ..sweep.quantities import errors_of, series
-from .figures import EXPONENTS
-from .regimes import evidence_table
+from .figures import EXPONENTS, evidence_table
 from .runs import Run, Sweep
 
 _MANY = 120  # runs above which a sheet is drawn more coarsely, so that 400 of them stay below 10 MB
@@ -35,8 +33,7 @@ def explorer(sweep: Sweep, figure: Figure) -> Explorer:
         if np.isfinite(values := series(rows, column)).any():
             lower.append(("σ (bits per wave period)", tuple(values), tuple(series(rows, error))))
             break
-    title, labels = "Look around, choose a run", ("wave steepness kA (–)", "strobed r (m)")
-    return Explorer(figure, title, *labels, columns, tuple(lower))
+    return Explorer(figure, "wave steepness kA (–)", "strobed r (m)", columns, tuple(lower))
 
 
 def sheet_items(sweep: Sweep) -> list[Item]:

@@ -8,11 +8,10 @@ from pathlib import Path
 import numpy as np
 
 from ..parts.columns import Name, number_of, table_of
-from ..parts.content import Column, Figure, Heading, Item, Table, Text, link
+from ..parts.content import Figure, Heading, Item, Table, Text, heads, link
 from ..parts.folder import read_columns, read_rows
-from ..parts.provenance import scene_table, timing_table
-from ..parts.symbols import OMEGA_I, OMEGA_R, OMEGA_THETA, T_S
-from ..parts.wording import EMPTY, decimals, listed, number, percent, ranges
+from ..parts.provenance import scene_table, timing_items
+from ..parts.wording import EMPTY, OMEGA_I, OMEGA_R, OMEGA_THETA, T_S, decimals, listed, number, percent, ranges
 from ..sweep.quantities import over_key, series
 from .runs import Run, Sweep
 
@@ -117,7 +116,7 @@ def accuracy_items(directory: Path) -> list[Item]:
 def time_items(sweep: Sweep) -> list[Item]:
     """What each run cost, and the time split of the campaign."""
     runs, columns = [run for run in sweep.runs if run.has_record], sweep.folder.columns
-    rows, items = [run.row for run in runs], [Heading("Run times")]
+    rows, figure = [run.row for run in runs], None
     if np.isfinite(wall := series(rows, "wall_s")).any():
         shown = [((columns[name], None),) for name in _COST]
         total, done = float(np.nansum(wall)), sum(run.periods_done for run in runs)
@@ -128,10 +127,8 @@ def time_items(sweep: Sweep) -> list[Item]:
         )
         caption = f"Cost of each run: {seen}. Crosses: runs that ended early. From `table.csv`."
         alt = f"Wall time and Newton iterations of each run over wave steepness: {seen}."
-        items.append(Figure(over_key(rows, columns["steepness"], shown), caption, alt))
-    if table := timing_table(sweep.folder):
-        items.append(table)
-    return items if len(items) > 1 else []
+        figure = Figure(over_key(rows, columns["steepness"], shown), caption, alt)
+    return timing_items(sweep.folder, figure)
 
 
 def scene_items(sweep: Sweep) -> list[Item]:
@@ -152,6 +149,6 @@ def scene_items(sweep: Sweep) -> list[Item]:
             ("pendulum frequency", OMEGA_THETA, number(modes.pendulum_radps), "rad/s"),
             ("wave frequency", OMEGA_I, number(modes.wave_radps), "rad/s"),
         )
-        heads = (Column("quantity", align="left"), Column("symbol", align="left"), Column("value"), Column("unit"))
-        items.append(Table(heads, rows, "What follows from the scene in closed form."))
+        columns = heads("quantity", "symbol", ("value", ""), ("unit", ""))
+        items.append(Table(columns, rows, "What follows from the scene in closed form."))
     return items

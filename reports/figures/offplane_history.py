@@ -1,4 +1,4 @@
-"""Lateral motion against time on a logarithmic axis (the paper's figure 20), over the push and over the depth."""
+"""Lateral motion over time on a logarithmic axis (the paper's figure 20), over push and depth; shapes of the rope."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ import numpy as np
 from ..parts.content import Picture
 from ..parts.style import BLUE, VERMILION
 from .curves import COLOURS, Curve, Panel, curves
-from .time_series import envelope
+from .motion import envelope
 
 INPLANE = "in-plane half range of the buoy"
 _DECADES_BELOW = 1.5  # room for the swings through zero below the least of the envelope
@@ -94,3 +94,23 @@ def dependence(panels: list[tuple[str, list[tuple[str, np.ndarray, np.ndarray, n
             lines.append(Curve(depth[decays], size[decays], "", "", mark, colour, size=4.5, filled=False))
         drawn.append(Panel(lines, "depth $H$ (m)", label, title, log="y"))
     return curves([drawn], 2.9, "below")
+
+
+def rope_shapes(moments: list[tuple[str, np.ndarray, np.ndarray, np.ndarray]], kind: str = "svg") -> Picture:
+    """Three views: x-z in true proportion, y-z and x-y with y enlarged by its own axis.
+
+    Args: per moment a label and x, y, z (nn,) in m of the nodes, from the anchor to the upper end.
+    """
+    from matplotlib import colormaps
+
+    shades = [colormaps["viridis"](0.85 * k / max(len(moments) - 1, 1)) for k in range(len(moments))]
+    panels = []
+    for title, across, up in (("from the side", "x", "z"), ("along x", "y", "z"), ("from above", "x", "y")):
+        lines = []
+        for (label, *places), shade in zip(moments, shades, strict=True):
+            one, other = (places["xyz".index(letter)] for letter in (across, up))
+            lines.append(Curve(one, other, label, mark=".", colour=shade, size=2.0, width=0.8))
+            lines.append(Curve(one[-1:], other[-1:], line="", mark="o", colour=shade, size=5.0))
+        true = {"aspect": "equal", "adjustable": "datalim"} if title == "from the side" else {}
+        panels.append(Panel(lines, f"${across}$ (m)", f"${up}$ (m)", title, settings=true, ticks=4))
+    return curves([panels], 3.6, "below", kind=kind)

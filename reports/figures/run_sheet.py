@@ -14,7 +14,7 @@ from html import escape
 import numpy as np
 
 from ..parts.content import spans, sub
-from ..parts.symbols import T_I
+from ..parts.wording import T_I, number
 from .curves import Curve, Panel, wide_limits
 
 _FINE = 5  # units of a path to a pixel
@@ -161,11 +161,7 @@ def _steps(points: np.ndarray) -> str:
 
 def _ticks(low: float, high: float, most: int) -> list[tuple[float, str]]:
     """Round numbers within the limits, each with its text."""
-    from matplotlib.ticker import MaxNLocator, ScalarFormatter
+    from matplotlib.ticker import MaxNLocator
 
-    values = [v for v in MaxNLocator(most, steps=[1, 2, 2.5, 5, 10]).tick_values(low, high) if low <= v <= high]
-    words = ScalarFormatter(useOffset=False)
-    words.create_dummy_axis()
-    words.axis.set_view_interval(low, high)
-    words.set_scientific(False)
-    return list(zip(values, words.format_ticks(values), strict=True))
+    values = MaxNLocator(most, steps=[1, 2, 2.5, 5, 10]).tick_values(low, high)
+    return [(value, number(float(value), 9)) for value in values if low <= value <= high]

@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 
 from ..parts.content import Picture
 from ..parts.style import BLUE, GREEN, INK, ORANGE, PURPLE, SKY, SOFT, VERMILION
-from . import curves
+from .curves import Curve, Panel, curves
 
 _LOOKS = {  # method: colour, mark
     "esdirk43": (BLUE, "o"),
@@ -27,16 +25,6 @@ _OTHER = (SOFT, ".")
 DASHED = (", shock viscosity", ", stretched grid")
 
 
-@dataclass(frozen=True, eq=False)
-class Curve:
-    """One method: time (n,) in the unit of the axis, error (n,), and whether it is another code's."""
-
-    name: str
-    time: np.ndarray
-    error: np.ndarray
-    peer: bool = False
-
-
 def cheapest(time: np.ndarray, error: np.ndarray) -> np.ndarray:
     """Indices of the settings that no setting as cheap or cheaper beats, by time."""
     best, kept = np.inf, []
@@ -48,17 +36,21 @@ def cheapest(time: np.ndarray, error: np.ndarray) -> np.ndarray:
 
 
 def work_precision(
-    found: list[Curve], time_label: str, error_label: str, marked: tuple[float, float] | None
+    found: list[tuple], time_label: str, error_label: str, marked: tuple[float, float] | None
 ) -> Picture:
-    """The diagram. marked: (time, error) of the shipped setting, ringed; None where it is not among the marks."""
+    """The diagram.
+
+    found: of each method its name, time (n,) in the unit of the axis, error (n,), and whether it is another code's.
+    marked: (time, error) of the shipped setting, ringed; None where it is not among the marks.
+    """
     lines = []
-    for one in found:
-        colour, mark = _LOOKS.get(one.name.partition(",")[0], _OTHER)
-        dash = "--" if one.name.endswith(DASHED) else "-"
-        lines.append(curves.Curve(one.time, one.error, "", "", mark, colour, size=2.6, alpha=0.45))
-        time, error = one.time[front := cheapest(one.time, one.error)], one.error[front]
-        lines.append(curves.Curve(time, error, one.name, dash, mark, colour, width=1.6 if one.peer else 1.0))
+    for name, time, error, peer in found:
+        colour, mark = _LOOKS.get(name.partition(",")[0], _OTHER)
+        dash = "--" if name.endswith(DASHED) else "-"
+        lines.append(Curve(time, error, "", "", mark, colour, size=2.6, alpha=0.45))
+        front = cheapest(time, error)
+        lines.append(Curve(time[front], error[front], name, dash, mark, colour, width=1.6 if peer else 1.0))
     if marked is not None:
         ring = (np.array([place]) for place in marked)
-        lines.append(curves.Curve(*ring, "shipped setting", "", "o", INK, size=9.0, filled=False))
-    return curves.curves([[curves.Panel(lines, time_label, error_label, log="xy")]], 3.7, "right")
+        lines.append(Curve(*ring, "shipped setting", "", "o", INK, size=9.0, filled=False))
+    return curves([[Panel(lines, time_label, error_label, log="xy")]], 3.7, "right")

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from ..buoy_sweep.tables import accuracy_items
 from ..parts.content import Heading, Item, Notice, Report, Text
-from ..parts.provenance import provenance_items, scene_table, timing_table
+from ..parts.provenance import provenance_items, scene_table, timing_items
 from ..parts.wording import count, listed, number
 from . import sections
 from .runs import VARIED, Run, Study, read_study
@@ -92,8 +92,7 @@ def _name(run: Run) -> str:
 
 
 def _scene_and_times(study: Study) -> Iterator[Item]:
-    if times := timing_table(study.folder):
-        yield from (Heading("Run times"), times)
+    yield from timing_items(study.folder)
     keys = {
         "steepness": "waves.steepness",
         "depth_m": "water.depth_m",

@@ -8,8 +8,7 @@ import numpy as np
 
 from ..buoy_sweep.runs import strobed
 from ..figures.motion import section_pairs
-from ..figures.offplane_history import History, dependence, lateral_histories, seed_histories
-from ..figures.rope_shape import rope_shapes
+from ..figures.offplane_history import History, dependence, lateral_histories, rope_shapes, seed_histories
 from ..parts.columns import table_of, value
 from ..parts.content import Bullets, Figure, Heading, Item, Text
 from ..parts.folder import read_columns, read_rows

@@ -89,6 +89,11 @@ class Column:
     share: int = 1
 
 
+def heads(*titles: str | tuple[str, str]) -> tuple[Column, ...]:
+    """Columns of a table: a title alone is one of words, set left; a title with its unit or "" is one of numbers."""
+    return tuple(Column(one, align="left") if isinstance(one, str) else Column(*one) for one in titles)
+
+
 @dataclass(frozen=True)
 class Table:
     """A table of strings. `small` asks for the smaller type that many columns need.
@@ -127,13 +132,11 @@ class Explorer:
     """A diagram to look around in, for a page whose reader allows scripts; `figure` stands for it everywhere else.
 
     A diagram has columns of points over a parameter, one column a run, and curves of one value a run below.
-    `title`: its heading; `x_label`, `y_label`: with units; `columns`: the runs from left to right, at least one. Each
-    shows the `Sheet` of its anchor when it is chosen. `lower`: (label, values, errors) of the curves below, NaN where a
-    run has none.
+    `x_label`, `y_label`: with units; `columns`: the runs from left to right, at least one. Each shows the `Sheet` of
+    its anchor when it is chosen. `lower`: (label, values, errors) of the curves below, NaN where a run has none.
     """
 
     figure: Figure
-    title: str
     x_label: str
     y_label: str
     columns: tuple[ExplorerColumn, ...]

@@ -10,15 +10,13 @@ import base64
 import json
 import math
 import re
+from collections.abc import Iterable
 from functools import lru_cache
 from html import escape
-
-import numpy as np
 
 from .content import Equation, Explorer, Picture, Report, first_sentence, numbered, plain, spans
 
 _MEDIA = {"svg": "image/svg+xml", "png": "image/png", "gif": "image/gif"}
-_STEPS = 65535  # of the value axis of an explorer: a point is 2 bytes, 400 columns of 200 points 160 kB
 _SNIPPET = """#set document(date: none)
 #set page(width: auto, height: auto, margin: 2pt, fill: none)
 #set text(font: "Libertinus Serif", size: 12pt)
@@ -66,33 +64,28 @@ def equation_svg(equation: Equation, prefix: str) -> str:
 def explorer_json(explorer: Explorer) -> str:
     """What the explorer's script draws, as one line of JSON that may stand inside a page.
 
-    Columns have their parameter, name, anchor and number of points; the points follow as little-endian 16-bit numbers.
-    A point v is round(65535 (v - low)/(high - low)), low and high the ends of all points; not a number becomes null.
+    `low` and `high` are the ends of all points; in curves of one value a run not a number becomes null.
     """
-    points = [np.asarray(column.points, dtype=float) for column in explorer.columns]
-    points = [values[np.isfinite(values)] for values in points]
-    everything = np.concatenate([*points, np.empty(0)])
-    low, high = (float(everything.min()), float(everything.max())) if everything.size else (0.0, 1.0)
-    high = high if high > low else low + 1.0
-    steps = np.rint((everything - low) / (high - low) * _STEPS).astype("<u2")
+    points = [[value for value in _numbers(column.points, 8) if value is not None] for column in explorer.columns]
+    everything = [value for values in points for value in values] or [0.0]
+    low, high = min(everything), max(everything)
     content = {
         "x_label": explorer.x_label,
         "y_label": explorer.y_label,
         "low": low,
-        "high": high,
+        "high": high if high > low else low + 1.0,
         "columns": [
-            {"at": column.at, "name": column.name, "anchor": column.anchor, "points": len(values)}
+            {"at": column.at, "name": column.name, "anchor": column.anchor, "points": values}
             for column, values in zip(explorer.columns, points, strict=True)
         ],
         "lower": [
             {"label": label, "values": _numbers(values), "errors": _numbers(errors)}
             for label, values, errors in explorer.lower
         ],
-        "points": base64.b64encode(steps.tobytes()).decode(),
     }
     # "<" would let a name end the script element that the line stands in
     return json.dumps(content, separators=(",", ":"), allow_nan=False).replace("<", "\\u003c")
 
 
-def _numbers(values) -> list[float | None]:
-    return [float(f"{value:.6g}") if math.isfinite(value) else None for value in values]
+def _numbers(values: Iterable[float], digits: int = 6) -> list[float | None]:
+    return [float(f"{value:.{digits}g}") if math.isfinite(value) else None for value in values]

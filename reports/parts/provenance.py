@@ -6,7 +6,7 @@ import shlex
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
-from .content import Column, Heading, Item, Listing, Table, Text, with_subscripts
+from .content import Heading, Item, Listing, Table, Text, heads, with_subscripts
 from .folder import Folder
 from .wording import EMPTY, decimals, number
 
@@ -44,20 +44,22 @@ def scene_table(scene: Scene, shipped: str, varied: dict[str, str], caption: str
         meaning = key.meaning + (f", {key.symbol}" if key.symbol else "")
         unit = key.unit if key.unit not in ("", "1") else EMPTY
         rows.append((f"`{name}`", with_subscripts(meaning), shown, unit, with_subscripts(source)))
-    heads = ("key", "parameter", "value", "unit", "source")
-    columns = tuple(Column(head, align="right" if head == "value" else "left") for head in heads)
+    columns = heads("key", "parameter", ("value", ""), "unit", "source")
     where = "Table, section, figure and eq. are those of Tjavaras et al. (1998)."
     return Table(columns, tuple(rows), f"{caption} {where}", small=True)
 
 
-def timing_table(folder: Folder) -> Table | None:
-    """The time split of a campaign, None where its provenance has none."""
-    times = [(name, time) for name, time in _flat(folder.provenance.get("timing")) if isinstance(time, (int, float))]
-    if not times:
-        return None
-    rows = ((_TIMES.get(name, name.removesuffix("_s").replace("_", " ")), decimals(time, 2)) for name, time in times)
+def timing_items(folder: Folder, *more: Item | None) -> list[Item]:
+    """What the runs cost: `more`, where there is any, and the time split of a campaign; nothing for none of them."""
+    items = [item for item in more if item is not None]
+    rows = tuple(
+        (_TIMES.get(name, name.removesuffix("_s").replace("_", " ")), decimals(time, 2))
+        for name, time in _flat(folder.provenance.get("timing"))
+        if isinstance(time, (int, float))
+    )
     caption = "Where the time of the campaign went, from `provenance.json`."
-    return Table((Column("part", align="left"), Column("wall time", "s")), tuple(rows), caption)
+    items += [Table(heads("part", ("wall time", "s")), rows, caption)] if rows else []
+    return [Heading("Run times"), *items] if items else []
 
 
 def provenance_items(folder: Folder) -> list[Item]:
@@ -68,8 +70,8 @@ def provenance_items(folder: Folder) -> list[Item]:
         items += [Text("The command:"), Listing(words)]
     told = {key: entry for key, entry in folder.provenance.items() if key not in ("command", "timing")}
     if rows := tuple((f"`{key}`", _shown(entry)) for key, entry in _flat(told)):
-        columns = (Column("entry", align="left"), Column("value", align="left"))
-        items.append(Table(columns, rows, "All of `provenance.json` but the command and the times.", small=True))
+        caption = "All of `provenance.json` but the command and the times."
+        items.append(Table(heads("entry", "value"), rows, caption, small=True))
     return items
 
 

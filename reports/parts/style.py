@@ -7,17 +7,19 @@ count); `picture_of` closes it.
 from __future__ import annotations
 
 import io
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from importlib.resources import files
 
 import matplotlib
+import numpy as np
 from matplotlib.figure import Figure
 
 from .content import Picture
 
 WIDTH_IN = 6.8  # the text width of the PDF page
 DOTS_PER_INCH = 200
+MOVING_DOTS_PER_INCH, MOVING_COLOURS = 100, 64  # of a drawing that moves
 MANY_POINTS = 6000  # above this a scatter is smaller and opens faster as pixels
 
 BLUE, VERMILION, GREEN, ORANGE, PURPLE, SKY = "#0072b2", "#d55e00", "#009e73", "#e69f00", "#cc79a7", "#56b4e9"
@@ -57,3 +59,33 @@ def prints_of(figure: Figure) -> tuple[Picture, Picture]:
 def kind_for(points: int) -> str:
     """ "svg" for a drawing of few marks, "png" for one of many."""
     return "png" if points > MANY_POINTS else "svg"
+
+
+def moving_picture(figure: Figure, artists: list, frames: int, show: Callable[[int], None], per_second: int) -> Picture:
+    """A GIF of so many frames: `show(k)` changes the `artists`, which alone are drawn again for frame k.
+
+    What stays is drawn once; one layout and one palette for all frames. Call it inside the `sheet` block.
+    """
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+    from PIL import Image
+
+    figure.set_dpi(MOVING_DOTS_PER_INCH)
+    canvas = FigureCanvasAgg(figure)
+    show(0)
+    for artist in artists:
+        artist.set_animated(True)
+    canvas.draw()
+    still, images = canvas.copy_from_bbox(figure.bbox), []
+    for frame in range(frames):
+        canvas.restore_region(still)
+        show(frame)
+        for artist in artists:
+            artist.draw(canvas.get_renderer())
+        images.append(Image.fromarray(np.array(canvas.buffer_rgba())).convert("RGB"))
+    sample = np.hstack([np.asarray(images[frame]) for frame in range(0, frames, max(1, frames // 6))])
+    # not by how often a colour comes: a small red dot would turn brown
+    palette = Image.fromarray(sample).quantize(MOVING_COLOURS, Image.Quantize.MAXCOVERAGE)
+    first, *rest = (image.quantize(palette=palette, dither=Image.Dither.NONE) for image in images)
+    target = io.BytesIO()
+    first.save(target, "gif", save_all=True, append_images=rest, duration=round(1000 / per_second), loop=0)
+    return Picture(target.getvalue(), "gif")

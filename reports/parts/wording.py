@@ -8,6 +8,8 @@ from collections.abc import Iterable, Sequence
 from itertools import groupby
 from operator import itemgetter
 
+from .content import sub
+
 EMPTY = "–"
 
 
@@ -77,3 +79,11 @@ def ranges(values: Sequence[float], chosen: Sequence[bool]) -> str:
         if wanted:
             parts += [f"{found[0]} to {found[-1]}"] if len(found) > 2 else found
     return listed(parts)
+
+
+L_0 = "l" + sub("0")  # unstretched length
+OMEGA_I, OMEGA_R, OMEGA_THETA = ("ω" + sub(letter) for letter in ("i", "r", "θ"))  # wave, radial and pendulum frequency
+RHO_W = "ρ" + sub("w")  # density of the water
+TAU_0 = "τ" + sub("0")  # start of the spectral window
+T_I = "T" + sub("i")  # wave period
+T_S = "T" + sub("s")  # static tension

@@ -8,7 +8,7 @@ import numpy as np
 
 from ..figures.curves import COLOURS, Curve, Panel, curves
 from ..parts.columns import Quantity, number_of
-from ..parts.content import Column, Picture, Table
+from ..parts.content import Picture, Table, heads
 from ..parts.wording import EMPTY, number
 
 PER_ROW = 2
@@ -84,9 +84,8 @@ def extremes(
             ends = (rows[int(np.nanargmin(values))], rows[int(np.nanargmax(values))])
             found = [text for row in ends for text in (column.cell(row[column.name]), at(keys, row))]
             cells.append((column.meaning or column.head, column.unit or EMPTY, *found))
-    names = (("quantity", "left"), ("unit", "left"), ("least", "right"), ("at", "left"), ("greatest", "right"))
-    heads = tuple(Column(name, align=align) for name, align in (*names, ("at", "left")))
-    return [Table(heads, tuple(cells), caption, small=True)] if cells else []
+    columns = heads("quantity", "unit", ("least", ""), "at", ("greatest", ""), "at")
+    return [Table(columns, tuple(cells), caption, small=True)] if cells else []
 
 
 def at(keys: Sequence[Quantity], row: Mapping[str, object]) -> str:

@@ -11,7 +11,7 @@ from ..figures.maps import Map, maps
 from ..parts.columns import Quantity, table_of
 from ..parts.content import Bullets, Figure, Heading, Item, Notice, Report, Table, Text, plain
 from ..parts.folder import FolderError, read_folder
-from ..parts.provenance import provenance_items, scene_table, timing_table
+from ..parts.provenance import provenance_items, scene_table, timing_items
 from ..parts.wording import EMPTY, count, listed, number, ranges
 from .quantities import Measured, at, extremes, measured, over_key, series
 
@@ -34,7 +34,7 @@ def report(directory: str | Path) -> Report:
     shown = measured(folder.columns, rows, (*vary, *_COUNTED))
     said = listed(f"`{key.name}`" for key in keys)
     varied = {key.name: listed(number(value) for value in np.unique(series(rows, key.name))) for key in keys}
-    shipped, times = str(folder.provenance.get("scene") or folder.scene.name), timing_table(folder)
+    shipped = str(folder.provenance.get("scene") or folder.scene.name)
     items = [
         Heading("Question"),
         Text(f"What does the scene `{folder.scene.name}` do as {said} {'varies' if len(keys) == 1 else 'vary'}?"),
@@ -46,7 +46,7 @@ def report(directory: str | Path) -> Report:
         _failed(keys, rows),
         Heading("Table of runs"),
         *_tables(folder.columns, keys, rows),
-        *([Heading("Run times"), times] if times else []),
+        *timing_items(folder),
         Heading("Scene"),
         scene_table(folder.scene, shipped, varied, _SCENE),
         *provenance_items(folder),

@@ -6,13 +6,7 @@
   const data = JSON.parse(document.getElementById("explorer-data").textContent);
   const canvas = root.querySelector("canvas"), list = root.querySelector("select");
   const status = root.querySelector("[role=status]"), place = document.getElementById("explorer-sheet");
-  const bytes = Uint8Array.from(atob(data.points), (letter) => letter.charCodeAt(0));
-  const steps = new Uint16Array(bytes.buffer);
   const columns = data.columns;
-  let first = 0;
-  for (const column of columns) {
-    column.steps = steps.subarray(first, first += column.points);
-  }
 
   // what is seen: ends of both axes; x in the parameter, y in the unit of the points
   const at = columns.map((column) => column.at);
@@ -87,7 +81,6 @@
   }
 
   function drawPoints(pen, colours) {
-    const share = (data.high - data.low) / 65535;
     const scale = (width() - LEFT - RIGHT) / (view.x1 - view.x0);
     pen.fillStyle = colours.points;
     pen.globalAlpha = 0.55;
@@ -95,9 +88,9 @@
       const x = across(column.at), half = Math.max(0.75, Math.min(0.4 * room[index] * scale, 6));
       if (x < LEFT - 8 || x > width() + 8) return;
       if (index === chosen) pen.fillStyle = colours.mark;
-      if (!column.points) drawCross(pen, x, index === chosen ? colours.mark : colours.soft);
-      for (const step of column.steps) {
-        pen.fillRect(x - half, down(data.low + step * share) - 0.75, 2 * half, 1.5);
+      if (!column.points.length) drawCross(pen, x, index === chosen ? colours.mark : colours.soft);
+      for (const point of column.points) {
+        pen.fillRect(x - half, down(point) - 0.75, 2 * half, 1.5);
       }
       pen.fillStyle = colours.points;
     });

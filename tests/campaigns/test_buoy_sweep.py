@@ -179,7 +179,7 @@ def test_a_close_up_that_fails_is_a_row_and_costs_nothing_else(close_up):
 
 @pytest.mark.slow
 def test_the_report_shows_it_moving_and_as_stills_the_same_each_time(close_up):
-    from reports.buoy_sweep.close_up import close_up_items
+    from reports.buoy_sweep.figures import close_up_items
 
     close_up()
     heading, figure = close_up_items(close_up.out)

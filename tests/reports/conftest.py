@@ -74,7 +74,7 @@ def every_kind(text: str) -> Report:
         Heading(text), Text(text + LONG), Heading(text, 2), Bullets((text, text)), BUOY, drawing, narrow, wide,
         *(Notice(kind, text, (text, text)) for kind in ("note", "warning")), Listing(text + LONG),
         Links(((some, "part/report.html"),)),
-        Explorer(drawing, some, text, text, (ExplorerColumn(0.1, (1.0,), text, "run-1"),)),
+        Explorer(drawing, text, text, (ExplorerColumn(0.1, (1.0,), text, "run-1"),)),
         Sheet("run-1", some, ((some, text),), (text,), "", narrow),
     )  # fmt: skip
     assert {type(item) for item in items} == set(get_args(Item)), "a new kind of item belongs here"

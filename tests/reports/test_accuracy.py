@@ -7,8 +7,7 @@ import pytest
 
 from campaigns import accuracy
 from reports import build
-from reports.accuracy.sections import smooth_series, within, work_items
-from reports.accuracy.study import read_study
+from reports.accuracy.sections import read_study, smooth_series, within, work_items
 from reports.figures.work_precision import cheapest
 from reports.parts.content import Table
 from reports.parts.folder import FolderError

@@ -8,7 +8,7 @@ import pytest
 from engine import load_scene
 from engine.natural_frequencies import natural_frequencies
 from reports.buoy_sweep.runs import read_sweep, spectrum_window
-from reports.figures.time_series import Panel, envelope, time_series
+from reports.figures.motion import envelope, time_series
 from reports.parts.columns import table_of
 from reports.parts.content import plain
 from reports.parts.folder import read_columns
@@ -111,7 +111,7 @@ def test_a_band_whose_edges_rest_at_different_times_is_drawn():
     low, high = np.sin(np.arange(n)), 2.0 + np.sin(1.3 * np.arange(n))
     low[1000:2000] = -1.0
     high[1500:2600] = np.nan
-    picture = time_series(np.arange(n) / 100.0, [Panel("T (kN)", high - 0.5, low, high)])
+    picture = time_series(np.arange(n) / 100.0, {"T (kN)": (high - 0.5, low, high)})
     assert picture.kind == "svg" and len(picture.data) > 1000
 
 

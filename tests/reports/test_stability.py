@@ -9,8 +9,7 @@ from campaigns.stability import cases as judged
 from campaigns.stability import fuzz
 from reports import build
 from reports.parts.folder import FolderError
-from reports.stability.folder import VERDICTS, read_study
-from reports.stability.sections import unexplained_items
+from reports.stability.report import VERDICTS, read_study, unexplained_items
 
 METHOD = {"re": [0.5, 1.5, 9.0], "im": [0.5, 0.0, 0.0], "largest": 9.0, "distance": 2e-7}
 METHOD |= {"growing": 2, "growing_found": 2}

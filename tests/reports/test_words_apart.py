@@ -8,7 +8,7 @@ from matplotlib.figure import Figure
 from matplotlib.text import Text
 
 from reports.buoy_sweep.report import report
-from reports.figures.tether_animation import Snap, tether_stills
+from reports.figures.animations import Snap, tether_stills
 
 APART = 2.0  # pixels of 100 to an inch, between two numbers of one axis; half a space
 

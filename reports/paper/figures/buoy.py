@@ -16,13 +16,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ...figures.curves import Curve, Panel, fill
-from ...figures.motion import spectrum_panels
-from ...figures.time_series import envelope
+from ...figures.motion import envelope, spectrum_panels
 from ...parts.content import sub
 from ...parts.figure_data import sources_of
 from ...parts.style import BLUE, GREEN, INK, VERMILION
-from ...parts.symbols import L_0, OMEGA_I, T_I, T_S, TAU_0
-from ...parts.wording import decimals, listed, number
+from ...parts.wording import L_0, OMEGA_I, T_I, T_S, TAU_0, decimals, listed, number
 from .drawing import DASHED, Drawing, behind, spans, value
 
 if TYPE_CHECKING:

@@ -19,8 +19,7 @@ from ...figures.motion import settled
 from ...figures.offplane_history import History, lateral_height_in, lateral_panels
 from ...parts.figure_data import sources_of
 from ...parts.style import BLUE, INK, VERMILION
-from ...parts.symbols import L_0, T_I
-from ...parts.wording import decimals, number
+from ...parts.wording import L_0, T_I, decimals, number
 from .drawing import DASHED, Drawing, behind, spans, value
 
 if TYPE_CHECKING:

@@ -7,8 +7,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from ...parts.figure_data import sources_of
-from ...parts.symbols import RHO_W
-from ...parts.wording import decimals, number
+from ...parts.wording import RHO_W, decimals, number
 
 if TYPE_CHECKING:
     import xarray

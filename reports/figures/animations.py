@@ -1,4 +1,4 @@
-"""Buoy and tether in motion while the tether snaps: a GIF for the page, and stills for paper."""
+"""What moves: a tether that snaps, a breaking line. A GIF of each for the page, and stills for paper."""
 
 from __future__ import annotations
 
@@ -7,12 +7,13 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..parts.content import Picture
-from ..parts.moving import moving_picture
-from ..parts.style import BLUE, INK, ORANGE, SKY, VERMILION, picture_of, sheet
-from .curves import Curve, Panel, draw
+from ..parts.style import BLUE, INK, ORANGE, SKY, SOFT, VERMILION, moving_picture, picture_of, sheet
+from .curves import Curve, Panel, curves, draw
 
 _FRAMES_PER_SECOND = 12
+_LINE_FRAMES_PER_SECOND = 10
 _STILLS = "abcdef"
+_STRIP = 6
 _MARGIN_M = 1.0
 _LEAST_WIDE = 0.4  # of the height of a panel
 
@@ -109,3 +110,42 @@ def _scene(axes, snap: Snap) -> tuple[list, object]:
 def _tension(snap: Snap) -> Panel:
     record = Curve(snap.record[0], 1e-3 * snap.record[1], colour=INK)
     return Panel([record], "$t/T_i$ (wave periods)", "top tension (kN)", level=0.0, settings={"xmargin": 0.02})
+
+
+def line_animation(time_s, s_m, x_m, z_m, tension_N) -> Picture:
+    """The GIF: shape above, tension along the line below; times (m,), places (n,), the other arrays (m, n)."""
+    with sheet(3.6) as figure:
+        shape, along = figure.subplots(2, 1)
+        (curve,) = shape.plot([], [], color=BLUE, linewidth=1.2)
+        (end,) = shape.plot([], [], "o", color=VERMILION, markersize=4)
+        shape.axvline(0.0, color=SOFT, linewidth=0.7, linestyle=(0, (2, 2)))
+        shape.set(xlabel="$x$ (m)", ylabel="$z$ (m)", **_limits(x_m, z_m))
+        (pull,) = along.plot([], [], color=INK, linewidth=1.0)
+        ends = min(1.05e-3 * float(tension_N.min()), -20.0), 1.08e-3 * float(tension_N.max())
+        words = {"xlabel": "$s$ (m), unstretched, from the fixed end", "ylabel": "$T$ (kN)"}
+        along.set(xlim=(s_m[0], s_m[-1]), ylim=ends, **words)
+        clock = shape.set_title("t = 0 ms")
+
+        def show(row: int) -> None:
+            curve.set_data(x_m[row], z_m[row])
+            end.set_data(x_m[row, -1:], z_m[row, -1:])
+            pull.set_data(s_m, 1e-3 * tension_N[row])
+            clock.set_text(f"t = {1e3 * time_s[row]:.0f} ms")
+
+        return moving_picture(figure, [curve, end, pull, clock], len(time_s), show, _LINE_FRAMES_PER_SECOND)
+
+
+def line_strip(time_s: np.ndarray, x_m: np.ndarray, z_m: np.ndarray) -> Picture:
+    """A few of the shapes, evenly spaced in time, below one another."""
+    rows, limits = [], _limits(x_m, z_m)
+    for row in np.linspace(0, len(time_s) - 1, _STRIP).round().astype(int):
+        end = Curve(x_m[row, -1:], z_m[row, -1:], line="", mark="o", colour=VERMILION, size=3.0)
+        shape, title = [Curve(x_m[row], z_m[row], width=1.0), end], f"{1e3 * time_s[row]:.0f} ms"
+        x_label = "" if len(rows) < _STRIP - 1 else "$x$ (m)"
+        rows.append([Panel(shape, x_label, "$z$ (m)", title, settings=limits, marks=[(0.0, "")])])
+    return curves(rows, 0.4 + 0.85 * _STRIP, share="x")
+
+
+def _limits(x_m: np.ndarray, z_m: np.ndarray) -> dict[str, tuple[float, float]]:
+    ends = {"xlim": (x_m, 0.03), "ylim": (z_m, 0.1)}
+    return {name: (at.min() - room * np.ptp(at), at.max() + room * np.ptp(at)) for name, (at, room) in ends.items()}
