@@ -1,7 +1,5 @@
 """Closed forms of the tethered buoy at rest: static pull and natural frequencies, from the scene alone."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 

@@ -4,8 +4,6 @@ from reports import build
 html, pdf = build("results/buoy_sweep")      # reads that folder, writes report.html and report.pdf into it
 """
 
-from __future__ import annotations
-
 from importlib import import_module
 from pathlib import Path
 

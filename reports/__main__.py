@@ -1,7 +1,5 @@
 """`python -m reports DIR`: build the report of a folder of a campaign, or of `python -m analysis --out`, again."""
 
-from __future__ import annotations
-
 import argparse
 import sys
 

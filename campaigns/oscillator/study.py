@@ -5,8 +5,6 @@ netCDF-3 file, whose key is a hash of the part, its parameters and the sources o
 the file, so table.csv can be made again from the files.
 """
 
-from __future__ import annotations
-
 import contextlib
 import hashlib
 import json

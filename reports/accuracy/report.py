@@ -1,7 +1,5 @@
 """The report of `campaigns.accuracy`: what is said, in which order. Everything comes from the campaign's folder."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator
 from pathlib import Path

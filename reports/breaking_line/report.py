@@ -1,7 +1,5 @@
 """The report of `campaigns.breaking_line`: what is said, in which order. Everything comes from its folder."""
 
-from __future__ import annotations
-
 from functools import partial
 from pathlib import Path
 

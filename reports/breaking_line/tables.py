@@ -1,7 +1,5 @@
 """Tables of the breaking line: cases, speeds and shocks against theory, energy, grids, stiffness, cost."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import replace
 from itertools import pairwise

@@ -1,7 +1,5 @@
 """What the buoy sweep solves, in the paper's letters; set once in Typst mathematics for the page and the PDF."""
 
-from __future__ import annotations
-
 from ..parts.content import Equation, Item, Text
 from ..parts.wording import T_I
 

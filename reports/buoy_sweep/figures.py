@@ -1,7 +1,5 @@
 """Figures of a buoy sweep and of its chosen runs, each with the caption that says what is seen in it."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from dataclasses import replace

@@ -1,7 +1,5 @@
 """The report of `campaigns.buoy_sweep`: what is said, in which order. Everything comes from the campaign's folder."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterable, Sequence
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Every run of a sweep on a sheet of its own: what the row says, how it moved, why it is called what it is called."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -1,7 +1,5 @@
 """The tables of a buoy sweep: the runs, what is out of the plane, runs repeated, their cost, the scene."""
 
-from __future__ import annotations
-
 import math
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """What moves: a tether that snaps, a breaking line. A GIF of each for the page, and stills for paper."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Curves and marks in panels: the drawing that most figures of a report are, given as records of arrays."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import partial

@@ -1,7 +1,5 @@
 """Exponent over a parameter of the scene, a panel for each pair of conditions: curves with errors, marked by regime."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from ..parts.content import Picture

@@ -1,7 +1,5 @@
 """The paper's figures 2-7: configurations, tension and velocity of a breaking line, one panel a case, 10 ms apart."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 

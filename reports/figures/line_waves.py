@@ -1,7 +1,5 @@
 """A breaking line against exact theory: fronts over place and time, speeds of contours, shares of the energy."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

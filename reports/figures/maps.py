@@ -1,7 +1,5 @@
 """Maps over two parameters: a number by its shade, a word by its colour; crosses where there is nothing."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 

@@ -1,7 +1,5 @@
 """A motion as the paper looks at it: histories (figures 9-11, 13, 15, 16), spectra (12, 17, 18), sections (19a)."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from itertools import pairwise

@@ -1,7 +1,5 @@
 """Lateral motion over time on a logarithmic axis (the paper's figure 20), over push and depth; shapes of the rope."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Orbit diagram as an image of counts, with curves of other quantities under it on the same axis."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Pictures of eq. (33): its section with zooms, a history, the errors of its exponent, basins and orbit diagrams."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from ..parts.content import Picture

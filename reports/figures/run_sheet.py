@@ -5,8 +5,6 @@ that, and written here a sheet takes 10 to 14 kB. Coordinates are whole numbers,
 from the page's style sheet, so that the drawing follows its light and dark form.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from html import escape

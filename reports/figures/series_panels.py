@@ -1,7 +1,5 @@
 """A measured record and the curves behind its verdict: record and spectrum, section, neighbours, dimension."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from ..parts.content import Picture

@@ -1,7 +1,5 @@
 """The stability report's figures: eigenvalues of one-step maps in the unit circle; what parts of a scene cost."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from ..parts.content import Picture

@@ -1,7 +1,5 @@
 """Error against run time, log-log: a mark for every setting, a line a method through what nothing cheaper beats."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from ..parts.content import Picture

@@ -1,7 +1,5 @@
 """The folder of `campaigns.oscillator` as its report needs it: rows by part, arrays by part."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 from pathlib import Path

@@ -1,7 +1,5 @@
 """The report of `campaigns.oscillator`: what is said, in which order. Everything comes from the campaign's folder."""
 
-from __future__ import annotations
-
 import math
 from functools import partial
 from pathlib import Path

@@ -1,7 +1,5 @@
 """What the report on eq. (33) says of coexisting attractors, periodic orbits, grazing, and of the equation itself."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -1,7 +1,5 @@
 """The runs of the out-of-plane campaign as its report sees them: rows by what was varied, trajectories on demand."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Sections of the out-of-plane report: tables of the folder, figures of its runs, and the same sentences each time."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 
 import numpy as np

@@ -4,8 +4,6 @@ A docstring names what it holds in one paragraph, "In the paper: eq. (7) strain;
 place that does so. `python -m reports.paper.index` prints the tables of NOTATION.md.
 """
 
-from __future__ import annotations
-
 import ast
 import re
 from functools import cache

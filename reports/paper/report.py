@@ -1,7 +1,5 @@
 """The report of `campaigns.paper`: what is said, in which order. Everything comes from the campaign's folder."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 from ..parts.columns import table_of

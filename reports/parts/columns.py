@@ -4,8 +4,6 @@ A campaign writes `columns.csv` beside `table.csv`: one row a column with its un
 takes heads, units, digits and the words of a caption from there, so that it declares none of them.
 """
 
-from __future__ import annotations
-
 import math
 import re
 from collections.abc import Callable, Iterable, Mapping, Sequence

@@ -4,8 +4,6 @@ The one script there is, of the explorer (`templates/explorer.js`), adds to a pa
 report without an explorer has none.
 """
 
-from __future__ import annotations
-
 import base64
 import json
 import math

@@ -1,7 +1,5 @@
 """Statements of the paper as a campaign judged them: rows of statements.csv, counts of verdicts, tables."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 from pathlib import Path
 

@@ -4,8 +4,6 @@
 a scene called `#$*_<@` stays what it is. Only equations are evaluated.
 """
 
-from __future__ import annotations
-
 import json
 import tempfile
 from dataclasses import fields, is_dataclass

@@ -4,8 +4,6 @@
 count); `picture_of` closes it.
 """
 
-from __future__ import annotations
-
 import io
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager

@@ -1,7 +1,5 @@
 """Numbers as a reader wants them, and lists as a sentence needs them."""
 
-from __future__ import annotations
-
 import math
 import re
 from collections.abc import Iterable, Sequence

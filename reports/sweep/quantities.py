@@ -1,7 +1,5 @@
 """What a table measures, as a report draws it: its numbers with their errors, least and greatest values together."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Mapping, Sequence
 
 import numpy as np

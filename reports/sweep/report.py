@@ -1,7 +1,5 @@
 """The report of `campaigns.sweep`: built from the table and its dictionary of columns alone, whatever was varied."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """The report on any column of a file: the verdict first, the curves behind it, every test. From the folder alone."""
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 

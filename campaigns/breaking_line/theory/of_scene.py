@@ -1,7 +1,5 @@
 """What exact one-dimensional theory says of a breaking line, for a scene: the numbers that a run is held against."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 from functools import lru_cache

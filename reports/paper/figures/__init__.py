@@ -7,8 +7,6 @@
 The files are written by `campaigns.paper.figures`. The same file gives the same bytes, drawn whenever and wherever.
 """
 
-from __future__ import annotations
-
 import json
 from functools import lru_cache
 from pathlib import Path
