@@ -127,6 +127,7 @@ def test_what_is_not_needed_is_not_imported(statement, absent):
     assert printed(f"import sys; {statement}; print([name for name in {absent!r} if name in sys.modules])") == "[]"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "statement",
     [

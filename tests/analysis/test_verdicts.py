@@ -205,6 +205,7 @@ def test_chaos_needs_an_exponent_positive_by_two_errors_of_the_best_source_and_a
     assert snapping(3, **given).regime == word
 
 
+@pytest.mark.slow
 def test_the_coexisting_orbit_of_the_snapping_buoy_is_period_8():
     orbits = [orbit for orbit in search_periodic_orbits(SNAP, 8, start_grid(12, 8)) if orbit.stable]
     motion = snap_motion(SNAP, orbits[0].points[0], 120, 48)

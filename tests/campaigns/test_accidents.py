@@ -90,6 +90,7 @@ def test_an_engine_that_changes_under_the_campaign_stops_it(sweep, monkeypatch, 
     assert "sources" in capfd.readouterr().err
 
 
+@pytest.mark.slow
 def test_kill_9_of_the_campaign(tmp_path):
     out, log = tmp_path / "out", tmp_path / "log"
     process = start_sweep(out, "--steepness", *VALUES, log=str(log), sleep_s=0.3)
@@ -120,6 +121,7 @@ def test_interrupt(tmp_path, backend):
     check_and_complete(out, log)
 
 
+@pytest.mark.slow
 def test_a_second_campaign_in_the_folder_is_turned_away(tmp_path):
     out = tmp_path / "out"
     first = start_sweep(out, "--steepness", "0.01", "0.02", "0.03", "0.04", sleep_s=1.0)

@@ -29,6 +29,7 @@ def test_the_resolvent_gives_the_equations_of_the_engine(name, nodes, duration_s
     assert rms_mm(found, expected) < cap_mm
 
 
+@pytest.mark.slow
 def test_a_breaking_line_comes_back_with_its_strain():
     scene = jobs.scene_of(PEERS[0], "break-1-slow", 21)
     run = peer_scipy.simulate(scene, 0.02, 21, 1e-3, "Radau")

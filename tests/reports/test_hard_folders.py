@@ -32,6 +32,7 @@ def test_a_single_short_run_gives_a_report(tmp_path):
     assert figures >= 2 and boxes
 
 
+@pytest.mark.slow
 def test_a_damaged_and_a_missing_trajectory_cost_only_themselves(tmp_path):
     folder = campaign(tmp_path / "out", [0.016, 0.05, 0.13], periods=30, transient=5)
     files = [folder / "trajectories" / f"{row['run_key']}.nc" for row in read_rows(folder / "table.csv")]

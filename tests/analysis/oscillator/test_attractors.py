@@ -27,6 +27,7 @@ PAPER = SnapOscillator()
 LAMBDA_1 = 0.0640482  # +- 0.0000122, from an independent code
 
 
+@pytest.mark.slow
 def test_largest_exponent_within_three_standard_errors():
     found = snap_exponents(PAPER, count=64, transient_periods=500, periods=2000, seed=11)
     assert abs(found.first.value - LAMBDA_1) < 3 * np.hypot(found.first.error, 0.0000122)

@@ -32,6 +32,7 @@ def of_kind(runs, *kinds):
     return [run for run in runs if run.labels["kind"] in kinds]
 
 
+@pytest.mark.slow
 def test_no_argument_is_the_papers_study():
     runs = runs_of()
     cases = {run.labels["case"]: run for run in of_kind(runs, "case")}

@@ -102,6 +102,7 @@ def test_what_has_no_growth_is_refused(key, overrides, words):
     assert fault.startswith(key) and words in fault
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("wave, seen", [(SMALL, -0.023), (LARGE, -0.13)], ids=["small", "large"])
 def test_pushed_out_of_their_plane_the_papers_two_motions_return(wave, seen):
     """In 22.5 m of water, where no motion releases a loop; exponents in nats per wave period. Seeded motions in space

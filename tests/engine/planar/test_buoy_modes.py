@@ -47,7 +47,7 @@ def pendulum():
     return brentq(top, 0.1, 0.3, xtol=1e-14)
 
 
-@pytest.mark.parametrize("nodes", [21, 41, 81])
+@pytest.mark.parametrize("nodes", [21, 41, pytest.param(81, marks=pytest.mark.slow)])
 def test_axial_modes_with_end_mass_and_the_pendulum(nodes):
     found = frequencies(equilibrium(line(STILL, nodes=nodes, bending_stiffness_Nm2=0.0)), 10.0)
     h = LENGTH / (nodes - 1)

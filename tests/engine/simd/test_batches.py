@@ -99,7 +99,7 @@ def assert_alone(scenes, runs, **length):
         assert_equal(run, simulate(scene, **length))
 
 
-@pytest.mark.parametrize("first", [0, 6])
+@pytest.mark.parametrize("first", [0, pytest.param(6, marks=pytest.mark.slow)])
 def test_a_mixed_batch(first):
     """Long enough for several calls of the kernel, whose lengths follow the first member."""
     scenes = [steep(member) for member in MIXED[first:] + MIXED[:first]]
@@ -190,6 +190,7 @@ def test_chunks_do_not_change_the_result(chunk):
     assert_equal(batch.trajectory(), simulate(scene, duration_s=60.0))
 
 
+@pytest.mark.slow
 def test_progress_rises_to_one_and_does_not_change_the_result():
     for scenes in ([steep()], [steep(member) for member in MIXED[:3]], [steep(), steep(ENDINGS["turn-unresolved"])]):
         seen = []

@@ -156,7 +156,7 @@ def gaps(found):
 
 
 @pytest.mark.parametrize(
-    "name", [pytest.param(name, marks=[pytest.mark.slow] * name.startswith("loops")) for name in CASES]
+    "name", [pytest.param(name, marks=[pytest.mark.slow] * name.startswith(("loops", "snapping"))) for name in CASES]
 )
 def test_budgets_close(name):
     found = books(name, CASES[name][2])

@@ -43,7 +43,7 @@ def assert_second_order(found):
         assert np.all(np.abs(slopes - 2) < (0.3 if key == "O1" else 0.1)), (key, slopes)
 
 
-@pytest.mark.parametrize("plane", [True, False], ids=["plane", "space"])
+@pytest.mark.parametrize("plane", [True, pytest.param(False, marks=pytest.mark.slow)], ids=["plane", "space"])
 @pytest.mark.parametrize("stretching", [0.0, 1.0])
 def test_second_order_in_space(stretching, plane):
     at_rest, moved = [], []

@@ -87,6 +87,7 @@ def branches(scene, periods=300, last=60):
     return pairs[:, np.argsort(pairs.mean(axis=0))], estimate
 
 
+@pytest.mark.slow
 def test_period_two_at_depth_22_5():
     means = {}
     for rtol in (0.03, 0.003):
