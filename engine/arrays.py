@@ -17,8 +17,8 @@ Motion = namedtuple("Motion", "Y Y_before C K")
 # A step to try: from t (s) by dt (s), dt_before (s) after the state before (0: there is none); small: whether it is one
 # of backward Euler in the place of a Runge-Kutta method
 Step = namedtuple("Step", "t dt dt_before small")
-# What a trial step finds: Y (s, n, unknowns) and K (s, n, conserved) of its s stages, of which the last is the new
-# state; C (n, conserved): conserved variables of that state
+# What a trial step finds: Y (s, n, unknowns) and K (s, n, conserved) of its s stages (two in a one-stage method, which
+# fills the last), of which the last is the new state; C (n, conserved): conserved variables of that state
 Trial = namedtuple("Trial", "Y K C")
 # What a run keeps: samples (m, 12), profiles (m', n, 6), energies (m'', 9) and their running sums (5,)
 Output = namedtuple("Output", "samples profiles energies sums")

@@ -11,7 +11,6 @@ STILL, HARMONIC, TABLE = 0, 1, 2  # end_motion: how a held end is moved
 EXTRAPOLATE, ZERO, WHEELER = 0, 1, 2  # above: the water above the still water level
 RUNGE_KUTTA, ONE_STAGE = 0, 1  # method: the two families of time integrators
 
-
 PLACE, STRAIN, TENSION, SPEED = 0, 3, 4, 5  # columns of a profile, one row a node: x, y, z (m); 1; N; m/s
 PROFILE_WIDTH = 6
 # columns of the samples of the upper end: time; place x, y, z; velocity x, y, z; tension there, least tension along the
@@ -27,6 +26,9 @@ def _dtype(counts, values):
     return [(name, np.int64) for name in counts.split()] + [(name, np.float64) for name in values.split()]
 
 
+# `engine.parameters` says what a field is. NAME_at: where an array begins in `tables`, NAME_n: its rows. At grid_at are
+# the lengths h (m) of the elements: tables[grid_at + k - 1] lies between the nodes k - 1 and k; node 0 is the anchor.
+# order: 1 + the lower order of a method and its embedded one; shortest_wave: its k^2; Rw: R, and ma: m_a of NOTATION.md
 RECORD = np.dtype(
     _dtype(
         "nodes grid_at law law_at law_n wet waves current cur_at cur_nx cur_ny cur_nz cur_nt above end end_motion "
@@ -49,6 +51,9 @@ SPATIAL = np.dtype(
     )
     + RECORD.descr
 )
+# small_steps, cautious: steps of backward Euler, of slow growth still to come; attempts: steps tried up to window_end;
+# small, cut: the trial is one of backward Euler, ends at the corner (s), which no step may cross; dt_before: the last
+# accepted step (0: of no use); low, high: extremes of the top tension since the last sample
 STATE = np.dtype(
     _dtype(
         "status samples profiles small_steps steps rejected newton failures releases attempts cautious trail energies "

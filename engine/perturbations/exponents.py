@@ -53,7 +53,7 @@ def carry(p, tables, period, count, trail, along, across):
         if across is not None:
             copy_into(dK[0], vector_rates)
         for i in range(s - 1 if euler else 1, s):
-            rate, after = plan_stage(p, tables, i, euler, dt, 0.0, a, w)
+            rate, after = plan_stage(p, tables, i, euler, dt, 0.0, a, w)  # 0.0 and w: of a first guess, not used
             so_far = 0 if euler else i
             base = Base(t + after, rate, moving_water, trail.Y[step, i], trail.K[step, i])
             if along is not None:

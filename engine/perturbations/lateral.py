@@ -29,10 +29,9 @@ theta_n = cos(delta) tau - sin(delta) rho and theta_t = cos(delta) rho + sin(del
 Elimination as in `planar.elimination`: v = (V_y, dO2, rho) and y = (tau, dS_b). Below a node v = R y + r; rotation
 and compatibility give v_b = X y_a + Z y_b + x, momentum and moment y_a = P y_b + p through one 2 x 2 inverse.
 
-Stages, renormalisation and loop releases are those of `tangent`; C = (q_y, V_y). Its length is the root of the
-energy it would have about rest (`energy_weights`): any length gives the same exponent, but the energy of a pendulum
-does not swing with its phase, and the error of a mean over periods comes from such swings (|q_y|^2 + |V_y|^2/speed^2,
-as in the plane, was tried: thirty times the error at kA = 0.016). Torsional stiffness has no part in it.
+Stages, renormalisation and loop releases are those of `tangent`; C = (q_y, V_y). Its length is the root of its energy
+about rest (`energy_weights`), which does not swing with the phase as |q_y|^2 + |V_y|^2/speed^2 does: such swings make
+the error of a mean over periods (thirty times the error at kA = 0.016). Torsional stiffness has no part in it.
 """
 
 import math
@@ -164,7 +163,7 @@ def lateral_stage(p, tables, base, X, Q, F, dC_tilde, H, E, dC):
         R20, R21, r2 = X20 * P00 + X21 * P10, X20 * P01 + X21 * P11, X20 * p0 + X21 * p1 + x2
         row = E[k]
         row[P], row[P + 1], row[P + 2], row[P + 3], row[P_KNOWN], row[P_KNOWN + 1] = P00, P01, P10, P11, p0, p1
-        put_rows(row, R, ((R00, R01, R10), (R11, R20, R21), (r0, r1, r2)))
+        put_rows(row, R, ((R00, R01, R10), (R11, R20, R21), (r0, r1, r2)))  # nine in a row: R (3 x 2), then r
     b = n - 1
     of_N, of_V, known = _lateral_end(p, base.t, rate, Y[b], F[b], dC_tilde[b, VY])
     if p.spherical_cap:

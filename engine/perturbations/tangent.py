@@ -16,12 +16,9 @@ known terms. At the upper end `top` is the known part of its residual.
 
 dF = J dX is the change of the water at the displaced nodes. It depends on dY through the positions dX, which Newton's
 matrix leaves out; a fixed-point iteration puts it back, contracting by about the square of wave number times length.
-The perturbations are re-orthonormalised (Gram-Schmidt) after every step, in the norm |dq|^2 + |dV|^2/speed^2 summed
-over the nodes; the logarithms of their lengths add up to the growth of each period.
-
-A loop release changes neither t, n, q nor V, so C, and with it dC, goes through it unchanged; the backward Euler steps
-that follow start from C alone. What the release itself does - another tether shape from one moment to the next - is not
-a derivative; the periods in which one happens are marked. What it does to the exponents: docs/findings.md.
+After every step the perturbations are made orthonormal (Gram-Schmidt) in the norm of THEORY.md, section 11, summed over
+the nodes; the logarithms of their lengths add up to the growth of each period. A loop release leaves dC unchanged; the
+periods in which one happens are marked, because another shape of the tether is not a derivative (docs/findings.md).
 
 `march` stores the accepted steps in a Trail (`engine.arrays`); of the stages backward Euler uses the last.
 """
@@ -131,7 +128,7 @@ def _displaced_water(p, tables, going_on, work, J, dF):
 
 @kernel
 def _displaced_end(p, tables, dC_tilde):
-    """dX~ of the last node: by dX = dX~ + dV/rate it moves, the second part of which is in Newton's matrix."""
+    """dX~ of the last node: it moves by dX = dX~ + dV/rate, and dV/rate is already in Newton's matrix."""
     x = z = 0.0
     for k in range(1, dC_tilde.shape[0]):
         half = 0.5 * tables[p.grid_at + k - 1]
@@ -145,7 +142,7 @@ def resolve_bent(p, tables, cq, work, dC_tilde, gamma, top_x, top_z):
     """Fill work.D (n, 6) with the perturbation dY; work.E (n, 33) comes from `eliminate` at the same state.
 
     p, tables: parameters; cq (1/s); dC_tilde (n, 4), of which dq~ counts; gamma (n, 2) N/m; top_x, top_z in the units
-    of the end's condition. Overwrites p and r in E.
+    of the end's condition. Overwrites p and r in E. "Bent": a line without bending carries no perturbations.
     """
     Q, E = work.Q, work.E
     n = Q.shape[0]
@@ -250,7 +247,7 @@ def orthonormalise(weight, here, vectors, rates, lengths):
 
 @kernel
 def linearise(p, tables, base, work, water):
-    """Newton's matrix, eliminated, at a stage (Base): into work.E (n, 33); work.Q, F, X and water.J belong to it."""
+    """Newton's matrix, eliminated, at a stage (Base), whose C~ = C - K/rate: into work.E (n, 33), with Q, F, X, J."""
     Y, K, Q, C_tilde, rate = base.Y, base.K, work.Q, work.C_tilde, base.rate
     shape(p, tables, Y, Q, work.X)
     flow(p, tables, base.t, 1.0, work.X, work.F)

@@ -1,7 +1,7 @@
-"""The upper end: buoy (30), held, or free under a force. (Lower end: V = 0, moment-free or clamped; in the sweeps.)
+"""The upper end: buoy (30), held, or free under a force. (The lower one, V = 0, begins the elimination.)
 
 Each condition is as many equations e = 0 as there are dimensions, in the force N and velocity V of the last node, with
-e_N the factor of dN (1 or 0) and D = de/dV:
+e_N (eN) the factor of dN (1 or 0) and D = de/dV; this e is no length of an element:
 
     buoy   e = N + (M + M_a) V_t + C |v| v - (rho V + M_a) dU_w/dt - (B - W) z,   C = rho C_d A_p / 2, v = V - U_w
     held   e = V - V_e(t), V_e the velocity at which the end is moved; after its release e = N - F

@@ -10,11 +10,9 @@ is zero where e_t varies smoothly, so that order two remains away from shocks. I
 laws that are concave steepen when they unload. Within Newton's method it would chatter; a and c are taken from the
 step before. Linear and quadratic coefficients (c_l, c_q) = (0.2, 1) are usual.
 
-The box rule leaves e_t with a mode that changes sign from node to node, small, but enough to switch a on in smooth
-waves and the order to one: the limiter looks at means (1, 2, 1)/4, which do not have it. Of a node and two neighbours
-on either side the largest a is taken: where a shock lets a node go, an a that falls from one step to the next leaves
-noise behind, a thousandth of the jump, which no grid removes (one neighbour: half of the noise stays; four: the shock
-is twice as wide).
+The limiter looks at means (1, 2, 1)/4, which do not have the node-to-node ripple of the box rule. Of a node and two
+neighbours on either side the largest a is taken: where a shock lets a node go, an a that falls from one step to the
+next leaves noise of a thousandth of the jump (one neighbour: half of it stays; four: the shock is twice as wide).
 
 The box rule with a step of one element per wave hardly disperses; with much shorter steps the same viscosity lets the
 strain ahead of a shock overshoot by a tenth of the jump. On a graded grid the step therefore follows the deformation:

@@ -12,14 +12,12 @@ water, v = V - U_w, and of the pressure gradient,
 
     e = ... + s M_a (V_t - dU_w/dt) + M_a s' (h_t v + |v|^2 n/2),    h_t = eta_t + eta_x U - W,    n = (-eta_x, 1)
 
-so that in still water no energy is lost or made. With s M_a V_t alone energy would appear on the way in and vanish on
-the way out, with d(s M_a v)/dt alone the other way round (docs/out_of_the_water.md). On the way straight down the last
-term is M_a s' W^2/2, half the impact force of von Karman (1929); the other half takes energy away into spray, and
-buoy.impact_loss says how much of it there is: - loss M_a s' h_t^2 n/2 in e while the cap grows, h_t > 0.
+so that in still water no energy is lost or made (docs/out_of_the_water.md). On the way straight down the last term is
+M_a s' W^2/2, half the impact force of von Karman (1929); the other half takes energy away into spray, of which
+buoy.impact_loss asks for a share: - loss M_a s' h_t^2 n/2 in e while the cap grows, h_t > 0.
 
 Everything here is the difference to the whole sphere, with signs as in e = N + (M + M_a) V_t + ... = 0.
-Derivatives hold the water still at the buoy, but not its surface: the place moves with dX = dV/cq, as Newton's method
-and a stage of the tangent dynamics have it.
+Derivatives hold the water still at the buoy, but not its surface: the buoy's place moves with dX = dV/cq.
 """
 
 import math

@@ -5,7 +5,7 @@ C, C~   conserved variables: q = (1 + eps) t and the velocity; K holds their rat
 X       place (m)
 F       velocity (m/s) and acceleration (m/s2) of the water
 Q       what the box equations need of a node (`engine.planar.node`)
-E       what the elimination keeps of a box (`engine.planar.elimination`)
+E       the elimination (`engine.planar.elimination`): in row k P, p of the box below node k, and R, r of the node
 """
 
 from ..record import STRETCH
@@ -14,7 +14,7 @@ EPS, SHEAR, VX, VZ, PHI, KAPPA = range(6)  # Y, D
 CX, CZ = 0, 1  # C, C~, K: q; the velocity follows in VX, VZ
 UX, UZ, AX, AZ = range(4)  # F
 
-COS, SIN, SLOPE = 0, 1, 2  # Q: of phi; dT/deps
+COS, SIN, SLOPE = 0, 1, 2  # Q: of phi; dT/deps; `vector(Q[k], COS)` reads all three
 NX, NZ = 3, 4  # force N = T t + S n
 QX, QZ = STRETCH, STRETCH + 1  # q
 QX_T, QZ_T = 7, 8  # dq/dt
@@ -26,8 +26,8 @@ M, M_EPS, M_SHEAR = 18, 19, 20  # M = (1 + eps)^3 S and its derivatives
 SHOCK_B, SHOCK_L = 21, 22  # shock viscosity: the last two columns, as in space
 NODE_WIDTH = 23
 
-P, P_KNOWN = 0, 9  # E: y_a = P y_b + p, 3 x 3 row by row, and 3
-R, R_KNOWN = 12, 21  # v_a = R y_a + r
+P, P_KNOWN = 0, 9  # E, row k: y of node k - 1 = P y of node k + p; 3 x 3 row by row, and 3
+R, R_KNOWN = 12, 21  # v = R y + r, both of node k
 BOX_WIDTH = 24
 INVERSE = 24  # of the box, 9 numbers, for other right-hand sides of the same matrix
 WITH_INVERSE = 33

@@ -1,25 +1,24 @@
 """One Newton update of the planar box equations by condensed elimination, at a cost linear in the nodes.
 
-Box between nodes a (lower) and b (upper), half element length e, c0 = cq; residuals that Newton drives to zero:
+Box between nodes a = k - 1 (lower) and b = k (upper), half element length e; residuals that Newton drives to zero:
 
     V_b - V_a - e (q_t,a + q_t,b) = 0            compatibility          o b   y_b, v_b
     phi_b - phi_a - e (kappa_a + kappa_b) = 0    curvature              |
     N_b - N_a - e (G_a + G_b) = 0                momentum               |  h = 2 e
     EI (kappa_b - kappa_a) + e (M_a + M_b) = 0   moment                 o a   y_a, v_a
 
-Split the unknowns into y = (eps, S, phi) and v = (U, W, kappa). Below node a everything is one affine relation
+Split the updates into y, of (eps, S, phi), and v, of (U, W, kappa). Below node a everything is one affine relation
 v_a = R_a y_a + r_a (at the anchor v = 0: R = 0). Compatibility and curvature give v_b from (v_a, y_a, y_b); momentum
 and moment then give y_a = P y_b + p through one 3 x 3 inverse, and R_b, r_b follow. At the upper end one 3 x 3 solve,
-then back substitution. The inverse is an adjugate over a determinant, one division and no pivot search: row scaling
-does not change it, and Newton failures were as rare as with pivoting.
+then back substitution. In the code c, s, f are cos phi, sin phi, dT/deps of a node; cx, cz and e turn the residuals of
+compatibility and curvature; R and r belong to node a until the end of the box, where they become those of b.
 
 Without bending the moment equation is S_a + S_b = 0 (`engine.planar.node`) and the condition of moment at the upper end
 S = 0, so that S is zero everywhere, and kappa, which nothing else needs, is put to zero. Well posed while the tether is
 in tension only (compression: EI = 0 is ill-posed, Triantafyllou & Howell 1994).
 
-E (n, 24): P, p, R, r, where `engine.planar.columns` says; the row of the anchor, which has no box below, holds the
-inverse at the upper end. For other right-hand sides of the same matrix (`engine.perturbations.tangent`) an E (n, 33)
-also takes in the inverse of every box, and Dxx, Dxz, Dzx, Dzz.
+E (n, 24): columns in `engine.planar.columns`. For other right-hand sides of the same matrix
+(`engine.perturbations.tangent`) an E (n, 33) also takes in the inverse of every box, and Dxx, Dxz, Dzx, Dzz.
 
 In the paper: eq. (15) bending moment about b; eq. (16) balance of moments; eq. (17) compatibility; eq. (18)
 compatibility, with the tangent; eq. (19) compatibility in the local frame; eq. (27) box rule: derivative along the
@@ -56,12 +55,12 @@ def eliminate(p, tables, stage, Y, work):
         Qa, Qb, row = Q[a], Q[k], E[k]
         ca, sa, fa = vector(Qa, col.COS)
         cb, sb, fb = vector(Qb, col.COS)
-        # compatibility: dV_b = (R_a + Ca) y_a + Cb y_b + ..., with Ca = e cq dq/dy by eps and phi
+        # compatibility: dV_b = (R_a + Ca) y_a + Cb y_b + r - (cx, cz), with Ca = e cq dq/dy by eps and phi
         Cax, Caz = _of_stretch(Qa, e * cq)
         Cbx, Cbz = _of_stretch(Qb, e * cq)
         cx = Y[k, col.VX] - Y[a, col.VX] - e * (Qa[col.QX_T] + Qb[col.QX_T])
         cz = Y[k, col.VZ] - Y[a, col.VZ] - e * (Qa[col.QZ_T] + Qb[col.QZ_T])
-        # curvature: kappa_b in the same way
+        # curvature: dkappa_b = (dphi_b - dphi_a)/e - dkappa_a + turn
         stiff = EI / e
         turn = (Y[k, col.PHI] - Y[a, col.PHI]) / e - (Y[a, col.KAPPA] + Y[k, col.KAPPA])
         # momentum; K = e (dG/dV_a + dG/dV_b), J = e dG/dV_b
@@ -106,7 +105,7 @@ def eliminate(p, tables, stage, Y, work):
         r = by_known[0] + r[0] - cx, by_known[1] + r[1] - cz, by_known[2] - r[2] + turn
         put_rows(row, col.R, R)
         put(row, col.R_KNOWN, r)
-    # upper end (`engine.physics.ends`): e_N dN + D dV = -e, dkappa = -kappa, with v = R y + r put in
+    # upper end (`engine.physics.ends`): eN dN + D dV = -(ex, ez), dkappa = -kappa, with v = R y + r put in
     b = n - 1
     t, in_motion, _, cv = stage
     U, W, U_tilde, W_tilde = Y[b, col.VX], Y[b, col.VZ], work.C_tilde[b, col.VX], work.C_tilde[b, col.VZ]
@@ -173,10 +172,10 @@ def _less_stretch(row, Jx, Cx, Jz, Cz):
 
 @kernel
 def back_substitute(E, g, D):
-    """From the right-hand side g (3) at the upper end down the line: y and v of every node, into D."""
+    """From the right-hand side g (3) at the upper end down the line: updates of y and v of every node, into D."""
     y = times(rows_of(E[0], col.TOP), g)
     for k in range(E.shape[0] - 1, -1, -1):
         row, out = E[k], D[k]
         out[col.EPS], out[col.SHEAR], out[col.PHI] = y
         out[col.VX], out[col.VZ], out[col.KAPPA] = affine(rows_of(row, col.R), y, vector(row, col.R_KNOWN))
-        y = affine(rows_of(row, col.P), y, vector(row, col.P_KNOWN))
+        y = affine(rows_of(row, col.P), y, vector(row, col.P_KNOWN))  # of the node below; at k = 0 of no meaning

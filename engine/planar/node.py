@@ -1,7 +1,8 @@
 """Nodal quantities of the planar cable: everything the box equations need, once per node.
 
 Unknowns Y[k] = (eps, S, U, W, phi, kappa): strain, shear force, velocity, angle from the x axis, curvature.
-t = (cos phi, sin phi), n = (-sin phi, cos phi), q = (1 + eps) t, N = T t + S n. Equations (3) in conservation form:
+t = (cos phi, sin phi), n = (-sin phi, cos phi), q = (1 + eps) t, N = T t + S n. With z the unit vector upwards, the
+equations of THEORY.md, section 3, are:
 
     N_s = G        G = m V_t + w0 z + a t + b n          (F_e of (23)-(24) moved to the left side)
     V_s = q_t      phi_s = kappa      EI kappa_s + (1 + eps)^3 S = 0
@@ -75,12 +76,12 @@ def node_quantities(p, tables, stage, Y, work):
         ax = cv * (Y[k, col.VX] - C_tilde[k, col.VX])
         az = cv * (Y[k, col.VZ] - C_tilde[k, col.VZ])
         Gx, Gz = p.m * ax, p.m * az + p.w0
-        Gxx = p.m * cv
+        Gxx = p.m * cv  # dGx/dU
         Gxz = 0.0
         Gzz = Gxx
-        Gex = Gez = Gpx = Gpz = 0.0
+        Gex = Gez = Gpx = Gpz = 0.0  # dG/deps, dG/dphi
         if p.wet:
-            # drag along and across the line; kt, kn are its slopes
+            # drag a along and b across the line; kt = da/dvt, kn = db/dvn
             root = math.sqrt(larger(lam, 0.0))
             ur = in_motion * Y[k, col.VX] - F[k, col.UX]
             wr = in_motion * Y[k, col.VZ] - F[k, col.UZ]
@@ -93,7 +94,7 @@ def node_quantities(p, tables, stage, Y, work):
             half_inverse = 0.5 / lam
             Gex = (a * c - b * s) * half_inverse
             Gez = (a * s + b * c) * half_inverse
-            # added mass and the pressure gradient act across the line, and turn with it
+            # added mass and the pressure gradient act across the line, and turn with it; b_phi = db/dphi
             Uw_t, Ww_t = F[k, col.AX], F[k, col.AZ]
             b_phi = p.Rw * (Uw_t * c + Ww_t * s) - p.ma * (ax * c + az * s) - kn * vt
             b += p.ma * (az * c - ax * s) - p.Rw * (Ww_t * c - Uw_t * s)
@@ -103,7 +104,7 @@ def node_quantities(p, tables, stage, Y, work):
             across = a + b_phi
             Gpx = along * c - across * s
             Gpz = along * s + across * c
-            # by the velocity: a tensor with the axes t and n
+            # dG/dV: a tensor with the axes t and n, where it is dt_ (no time) and dn
             dt_ = in_motion * kt
             dn = in_motion * kn + p.ma * cv
             Gxx += dt_ * c * c + dn * s * s

@@ -5,7 +5,9 @@ solve has ended are then moved on, to their next stage, step or trial, by the fu
 what is arithmetic on nodes in vectors under a mask, what is a decision one lane after another. Where both forms exist,
 they are the same source (`engine.simd.select`), so a lane is bit for bit the run alone.
 
-Rows of `numbers` (.., COUNT) carry what passes between vectors and decisions.
+Rows of `numbers` (ROWS, COUNT) carry what passes between vectors and decisions: time (s), rate (1/s), step (s) of the
+stage; is the last update sound, its size, the least strain; number of the stage; error and largest turn of the step;
+and 1.0 or 0.0: stage SOLVED, step FINISHED by it, ACCEPTED, lane MOVED on to a solve that begins a trial (RESTARTED).
 """
 
 import math
@@ -105,7 +107,7 @@ def sample_lanes(records, tables, states, lanes, arrays, ends, samples, profiles
 
 @kernel
 def record_stages(states, lanes, numbers, Y, K_new, trail):
-    """Solved stages into the trails of their lanes (layout: `perturbations.tangent`); kept or not, as the step will be.
+    """Solved stages into the trails of their lanes (`engine.arrays.Trail`); kept or not, as the step will be.
 
     Y (n, 6, COUNT), K_new (n, 4, COUNT): stages and their rates, as numbers.
     """
@@ -180,7 +182,7 @@ def plan_lanes(records, tables, states, lanes, numbers, a, w):
 
 @kernel
 def move_states(rows, w, history, now, before, Y):
-    """States, after the decisions: what is kept of the past, and the first steps.guess of the next solve into Y.
+    """States, after the decisions: what is kept of the past, and the first guess of the next solve into Y.
 
     history (3, n, 6): the last three of: the state before, the state, the stages so far.
     """
@@ -222,7 +224,7 @@ def advance(ticks, records, own_tables, states, lanes, spent, samples, trail, co
     profiles = np.empty((0, *one.shape))
     made, stop = 0, False
     while True:
-        # every lane that has moved begins its next solve
+        # every lane that has moved begins its next solve; C_new, which is free by then, takes in its C~
         stop = plan_lanes(records, own_tables, states, lanes, numbers, arrays.a, arrays.w) > 0 or stop
         move_states(rows, w, lane.history, lane.now, lane.before, Y)
         keep(rows[ACCEPTED] != 0.0, C_new, C)

@@ -72,7 +72,7 @@ def across_box(Y, Q, k, e, cq, J, psi, R, r):
     Qa, Qb = Q[a], Q[k]
     (J11, J12, J13), (J21, J22, J23), (J31, J32, J33) = J
     _, _, _, r2, r3, r1 = r
-    # rotation: theta1, then O2 and O3
+    # rotation: its first component has no curvature in it and gives theta1; the others then give O2 and O3
     over, inverse = 1.0 / e, 1.0 / J11
     left = psi[0], psi[1] - e * (Y[a, col.O2] + Y[k, col.O2]), psi[2] - e * (Y[a, col.O3] + Y[k, col.O3])
     A1 = added(R.theta1, (0.0, 0.0, 0.0, J21 * inverse, J31 * inverse))

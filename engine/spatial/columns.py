@@ -6,7 +6,8 @@ C, C~   conserved variables: q = (1 + eps) t and the velocity V; K holds their r
 X       place (m)
 F       velocity (m/s) and acceleration (m/s2) of the water
 Q       what the box equations need of a node (`engine.spatial.node`)
-E       what the elimination keeps of a box, rows of five: one for each of y = (eps, Sn, Sb, theta2, theta3)
+E       the elimination: in row k P, p, p' of the box below node k (y of node k - 1 from y of node k), and R, r, r' of
+        node k; rows of five, one for each of y = (eps, Sn, Sb, theta2, theta3)
 """
 
 from ..record import STRETCH

@@ -13,9 +13,10 @@ A torque that nothing distributes is the same everywhere: O1 is one number for t
 are clamped, and one more right-hand side there instead of one more unknown: what the frame, which does not roll,
 turns between the clamps, and O1 times the length, are the twist given.
 
-Split the unknowns into y = (eps, Sn, Sb, theta2, theta3) and v = (V, O2, O3, theta1). Below node a everything is one
+Split the updates into y = (eps, Sn, Sb, theta2, theta3) and v = (V, O2, O3, theta1). Below node a everything is one
 affine relation v_a = R y_a + r + r' dO1; at the anchor V = 0, theta1 = 0 (the roll of the frame is free there: this
-fixes it), O2 = O3 = 0, or a clamp. Compatibility and rotation give v_b from (v_a, y_a, y_b):
+fixes it), O2 = O3 = 0, or a clamp (`engine.spatial.upper`). Compatibility and rotation give v_b from (v_a, y_a, y_b),
+where J' and psi' are transposed (p' and r' are not: they are what one more unit of dO1 adds):
 
     d psi = J theta_b - J' theta_a,   J = g + psi x/2 + c psi psi',   g = (a/2) cot(a/2),  c = (1 - g)/a^2,  a = |psi|
 
@@ -25,10 +26,7 @@ At the upper end one small solve, then back substitution.
 Without bending the moment equations are Sn_a + Sn_b = 0, Sb_a + Sb_b = 0 (`engine.spatial.node`), with Sn = Sb = 0 at
 the upper end; shear forces, curvatures and the roll of the frame are zero. Well posed while the tether is in tension.
 
-A clamp is a rotational spring, so stiff that the end turns by less than a millionth of the turn of its element.
-
-E (n, 77): P, p, p', R, r, r' where `engine.spatial.columns` says; the row of the anchor, which has no P and p, begins
-with y of the upper end and dO1.
+E (n, 77): columns in `engine.spatial.columns`.
 
 In the paper: eq. (13) torque; eq. (14) bending moment about n; eq. (15) bending moment about b; eq. (16) balance of
 moments; eq. (17) compatibility; eq. (18) compatibility, with the tangent; eq. (19) compatibility in the local frame.

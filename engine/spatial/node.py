@@ -3,12 +3,11 @@
 Unknowns Y[k] = (eps, Sn, Sb, U, V, W, b0, b1, b2, b3, O1, O2, O3): strain, shear forces, velocity in fixed axes, Euler
 parameters of the local frame t, n, b (eq. 5, 6), and the rotation of the material along the line (eq. 4). A round line
 leaves it free how n and b lie in it: this frame turns with t but does not roll about it, and O1 is the twist of the
-material against it (a frame that rolls with the material passes one turn an element where GIp is small: with
-GIp = EI/10 no grid up to 449 nodes gave the localised buckle of `test_torsion_localised`, and 113 do). q = (1 + eps) t
-and N = T t + Sn n + Sb b. Equations (3) in conservation form, (4), and (16) with its factor the right way up:
+material against it (why: THEORY.md, section 3). q = (1 + eps) t and N = T t + Sn n + Sb b. With z the unit vector
+upwards and o the quaternion product, the equations of THEORY.md, section 3, are:
 
     N_s = G     G = m V_t + w0 z + a t + P (d + w)      (F_e of (23)-(24) moved to the left side)
-    V_s = q_t   b_s = 1/2 b o (0, 0, O2, O3)
+    V_s = q_t   beta_s = 1/2 beta o (0, 0, O2, O3),  beta = (b0, b1, b2, b3)
     GIp O1_s = 0,   EI O2_s - M2 = 0,   EI O3_s + M3 = 0
     M2 = (1+eps)^3 Sb - GIp O1 O3,   M3 = (1+eps)^3 Sn - GIp O1 O2
 

@@ -1,8 +1,7 @@
 """Conditions of the upper end in space: its force balance, its two angles and, between clamps, the roll of the frame.
 
-Its unknowns are y = (eps, Sn, Sb, theta2, theta3) there and dO1; v of the end follows from the relation that the
-elimination has built, v = R y + r + r' dO1. A clamp is a rotational spring, so stiff that the end turns by less than a
-millionth of the turn of its element.
+Its unknowns are y = (eps, Sn, Sb, theta2, theta3) there and dO1; v of the end follows from v = R y + r + r' dO1, which
+the elimination has built. A clamp is a spring: the end turns by less than a millionth of the turn of its element.
 """
 
 import math

@@ -1,7 +1,8 @@
 """Newton's method for one stage: every time integrator, and statics, in two and three dimensions, call this routine.
 
-Full step; where the update exceeds one in physical scales (strain, force, speed, angle, curvature) it is shortened to
-one. Positions, and with them the water, are renewed in each iteration but left out of the Jacobian.
+The size of an update is its largest entry in physical scales (strain, force, speed, angle, curvature); a larger one is
+shortened to size one. Positions, and with them the water, are renewed in each iteration but left out of the Jacobian,
+except the place of a buoy with a wetted cap (`engine.physics.submergence`).
 """
 
 import numpy as np
@@ -13,7 +14,7 @@ from ..simd.select import where
 from .status import NEWTON_FAILED, NOT_FINITE, OK, STRAIN_BELOW_MINUS_ONE
 
 QUADRATIC = 2.0  # the update after one of size e is about 0.7 e^2 ... 1.5 e^2 (measured)
-PATIENCE = 4  # iterations after which an update must halve, in a step that could as well be shortened
+PATIENCE = 4  # iterations after which updates must halve; not in small steps and statics, where most > max_newton
 GOING_ON = -1
 
 
@@ -57,7 +58,7 @@ def iterate(p, tables, stage, Y, work):
 
 @kernel
 def judge(p, iteration, most, tolerance, sound, size, least, best):
-    """What becomes of a solve after iteration number `iteration` (0, 1 ...): GOING_ON, OK or why it failed."""
+    """GOING_ON, OK or why a solve failed, after iteration 0, 1 ... with an update of this size; best: least before."""
     if not sound:
         return NEWTON_FAILED
     if not np.isfinite(size):

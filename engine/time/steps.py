@@ -2,7 +2,8 @@
 
 Conserved variables of a node: C = (q, V), four numbers in a plane and six in space; K = dC/dt. A trial never changes
 the accepted state. In Y (n, unknowns) and in C the velocity has the same columns; Q holds q from column
-`engine.record.STRETCH` on.
+`engine.record.STRETCH` on. Stages count from 0: stage 0 is the accepted state with its rates and is not solved, the
+last stage, s - 1, is the new state.
 The parts of a Runge-Kutta step serve one run and, with vectors in the place of numbers, several (`engine.simd`).
 """
 
@@ -30,7 +31,8 @@ def plan_stage(p, tables, i, small, dt, dt_before, a, w):
 
     The guess is the polynomial through the latest three (or two, or one) of: the state dt_before (s) earlier (0: there
     is none), the state, the stages so far; w belongs to the last three of these. small: a step of backward Euler, whose
-    one stage is the last. Returns rate = 1/(a_ii dt) (1/s) and the time of the stage within the step (s).
+    one stage is the last. Returns rate = 1/(a_ii dt) (1/s), c0 of THEORY.md, and the time of the stage within the
+    step (s). Layout of the method in `tables`: `engine.time.integrators`.
     """
     s = max(p.stages, 2)
     for j in range(s):
@@ -114,7 +116,7 @@ def runge_kutta_step(p, tables, step, before, trial, work):
     for i in range(s - 1 if small else 1, s):
         rate, after = plan_stage(p, tables, i, small, dt, dt_before, a, w)
         known_part(a, 0 if small else i, C, Ks, C_tilde)
-        # first guess: the polynomial through the latest three of state before, state, stages
+        # first guess: through the latest three of state before, state, stages; oldest has weight 0 at i = 1
         first = small or i == 1
         oldest, middle, latest = Y if first else Y_before, Y_before if first else Ys[i - 2], Y if first else Ys[i - 1]
         if i > 2 and not small:
@@ -130,7 +132,7 @@ def runge_kutta_step(p, tables, step, before, trial, work):
         stage_rates(p, rate, Ys[i], work.Q, C_tilde, C_new, Ks[i])
     if small or p.adaptive == 0:
         return OK, iterations, 0.0
-    error = embedded_error(p, tables, dt, Ks, work.Q, a, C_tilde[0])
+    error = embedded_error(p, tables, dt, Ks, work.Q, a, C_tilde[0])  # the last two: work, needed no more
     return OK, iterations, trial_error(p, tables, dt, error, least_strain(Ys[s - 1]))
 
 
@@ -157,9 +159,8 @@ def buckling_rate(p, tables, least):
     """Growth rate (1/s) of the fastest buckle that the grid carries under the compression P at the least strain.
 
     rate^2 = (P k^2 - EI k^4)/(m + m_a) at k^2 = P/(2 EI), or at the shortest wave of the grid, k = pi/h, where that is
-    longer (Triantafyllou & Howell 1994). Small errors made while a tether goes slack choose the side to which it
-    buckles, and an L-stable method with a step much longer than 1/rate damps what should grow, unseen by the error
-    estimate: two runs then part by metres of slack. A step is therefore held to p.growth_per_step e-folds.
+    longer (Triantafyllou & Howell 1994); p.shortest_wave is the k^2 of the latter. `trial_error` holds a step to
+    p.growth_per_step e-folds (why: THEORY.md, section 8).
     """
     P = -tension(least, p, tables)[0]
     if P <= 0.0:
@@ -172,7 +173,7 @@ def buckling_rate(p, tables, least):
 def embedded_error(p, tables, dt, Ks, Q, d, errors):
     """Embedded error estimate over tolerance: rms over nodes of strain, angle and speed errors in scene scales.
 
-    d (s,), errors (conserved,): work.
+    d (s,), errors (conserved,): work, for dt (b - b embedded) and for the error of one node.
     """
     s, n = Ks.shape[0], Ks.shape[1]
     at_d = p.method_at + s * s + s

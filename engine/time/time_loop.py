@@ -1,13 +1,13 @@
 """From one output sample to the next: step control, guards, loop release, even output.
 
-`march` advances one run; each has its own step and its own end.
+`march` advances one run. In each step `begin_trial` chooses the length, `engine.time.steps` solves the stages by
+Newton's method, `refused` judges the trial, and `next_step` chooses the next length. Lanes (`engine.simd.ticks`) call
+the same functions.
 
-Loop release: in a plane a loop of slack tether that is pulled tight cannot leave the plane, and shrinks to sqrt(EI/T),
-about 1 cm, which no grid resolves: the turn in one element passes pi. phi is then shifted by 2 pi above that element
-(t, n and q stay as they are, only the curvature drops) and a few steps of backward Euler follow, without error control
-and without rates from before. They last a twelfth of the time in which a wave runs along the tether: the jump of the
-bending moment excites the shortest axial waves of the grid, and shorter steps let them ring (to 2.4 kN of compression
-at 41 nodes where 0.3 kN are real; 20 times shorter steps were tried). The number of releases is part of the result.
+Loop release (THEORY.md, section 9): where the turn in one element passes pi, `guard_turns` takes 2 pi out of it, in
+space as well. Then SMALL_STEPS steps of backward Euler follow, each p.release_step long, without error control and
+without rates from before (20 times shorter ones were tried: axial waves of the grid rang to 2.4 kN of compression at
+41 nodes where 0.3 kN are real). The number of releases is part of the result.
 """
 
 import math
@@ -52,7 +52,7 @@ def guard_turns(p, tables, state, Y):
 
 @kernel
 def begin_trial(p, tables, state):
-    """Choose the step to try next: trial_dt, whether it is a small one, and whether it is cut at a corner.
+    """Choose the step to try next: trial_dt; small, is it one of backward Euler?; cut, does it end at a corner?
 
     Ends the run where too many were tried within one window of time.
     """
@@ -142,14 +142,14 @@ def march(p, tables, state, motion, output, trail, until, one_stage, e_t, budget
     `engine.physics.energy`), a row of which is stored at the first step past each output time.
     """
     Y, Y_before, C, K = motion
-    s = max(p.stages, 2)
+    s = max(p.stages, 2)  # a one-stage method (p.stages = 0) fills the last of two
     unknowns, size = size_of(p)
     work = work_arrays(p, p.nodes)
     trial = Trial(np.empty((s, p.nodes, unknowns)), np.empty((s, p.nodes, size)), np.empty((p.nodes, size)))
     first = state.steps == 0
     if first:
         conserved(p, Y, C)
-    if e_t is not None:
+    if e_t is not None:  # a condition of its own: so Numba leaves the branch out where e_t is None
         if not first:
             renew_viscosity(p, tables, size // 2, C, K, e_t, work.Q)
     if budget is not None:
@@ -164,7 +164,7 @@ def march(p, tables, state, motion, output, trail, until, one_stage, e_t, budget
             break
         small, code, used, error = state.small != 0, OK, 0, 0.0
         step = Step(state.t, state.trial_dt, state.dt_before, small)
-        stiff = small or p.method == RUNGE_KUTTA
+        stiff = small or p.method == RUNGE_KUTTA  # "stiffly accurate": the last stage is the new state
         if stiff:
             code, used, error = runge_kutta_step(p, tables, step, motion, trial, work)
         if one_stage is not None:
