@@ -1,7 +1,7 @@
 """Nodal quantities of the planar cable: everything the box equations need, once per node.
 
 Unknowns Y[k] = (eps, S, U, W, phi, kappa): strain, shear force, velocity, angle from the x axis, curvature.
-t = (cos phi, sin phi), n = (-sin phi, cos phi), q = (1 + eps) t, N = T t + S n. Equations (3) in conservation form:
+t = (cos phi, sin phi), n = (-sin phi, cos phi), q = (1 + eps) t, N = T t + S n. Conservation form (THEORY, section 3):
 
     N_s = G        G = m V_t + w0 z + a t + b n          (F_e of (23)-(24) moved to the left side)
     V_s = q_t      phi_s = kappa      EI kappa_s + (1 + eps)^3 S = 0

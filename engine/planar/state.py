@@ -24,7 +24,7 @@ def size_of(p):
 
 @kernel
 def work_arrays(p, n):
-    """Work arrays (`engine.record.Work`) of a Newton solve with n nodes."""
+    """Work arrays (`engine.arrays.Work`) of a Newton solve with n nodes."""
     X, F, Q = np.zeros((n, 2)), np.zeros((n, 4)), np.zeros((n, col.NODE_WIDTH))
     return Work(X, F, Q, np.zeros((n, col.BOX_WIDTH)), np.zeros((n, 6)), np.zeros((n, 4)))
 

@@ -5,7 +5,7 @@ parameters of the local frame t, n, b (eq. 5, 6), and the rotation of the materi
 leaves it free how n and b lie in it: this frame turns with t but does not roll about it, and O1 is the twist of the
 material against it (a frame that rolls with the material passes one turn an element where GIp is small: with
 GIp = EI/10 no grid up to 449 nodes gave the localised buckle of `test_torsion_localised`, and 113 do). q = (1 + eps) t
-and N = T t + Sn n + Sb b. Equations (3) in conservation form, (4), and (16) with its factor the right way up:
+and N = T t + Sn n + Sb b. Momentum and compatibility in conservation form, (4), and (16) (THEORY, section 3):
 
     N_s = G     G = m V_t + w0 z + a t + P (d + w)      (F_e of (23)-(24) moved to the left side)
     V_s = q_t   b_s = 1/2 b o (0, 0, O2, O3)
