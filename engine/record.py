@@ -11,7 +11,6 @@ STILL, HARMONIC, TABLE = 0, 1, 2  # end_motion: how a held end is moved
 EXTRAPOLATE, ZERO, WHEELER = 0, 1, 2  # above: the water above the still water level
 RUNGE_KUTTA, ONE_STAGE = 0, 1  # method: the two families of time integrators
 
-
 PLACE, STRAIN, TENSION, SPEED = 0, 3, 4, 5  # columns of a profile, one row a node: x, y, z (m); 1; N; m/s
 PROFILE_WIDTH = 6
 # columns of the samples of the upper end: time; place x, y, z; velocity x, y, z; tension there, least tension along the
@@ -19,7 +18,7 @@ PROFILE_WIDTH = 6
 (TIME, AT_X, AT_Y, AT_Z, AT_U, AT_V, AT_W, TOP, LEAST, TOP_LOW, TOP_HIGH, OFFPLANE) = range(12)
 SAMPLE_WIDTH = 12
 BEGIN, STEP, KIND = range(3)  # columns of the times of a trail: t (s), dt (s), one of the next
-CONTROLLED, EULER, RESTART = 0.0, 1.0, 2.0  # a usual step, one of backward Euler, one after a sudden start or release
+CONTROLLED, EULER, RESTART = 0.0, 1.0, 2.0  # of Runge-Kutta, one-stage, backward Euler after a sudden start or release
 STRETCH = 5  # column of the nodal array Q at which q = (1 + eps) t begins, in a plane and in space
 
 
@@ -27,6 +26,7 @@ def _dtype(counts, values):
     return [(name, np.int64) for name in counts.split()] + [(name, np.float64) for name in values.split()]
 
 
+# X_at: where the numbers of X begin in `tables`; X_n, X_nx ...: how many. What each field is: `engine.parameters`
 RECORD = np.dtype(
     _dtype(
         "nodes grid_at law law_at law_n wet waves current cur_at cur_nx cur_ny cur_nz cur_nt above end end_motion "
