@@ -102,6 +102,7 @@ def repeat(
 
 
 def _as_made(original, scene, periods=None, duration_s=None):
+    """In the place of `engine.simulate`: the run of the sweep itself, with which the repeated ones are compared."""
     return original
 
 
