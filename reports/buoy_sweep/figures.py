@@ -1,4 +1,4 @@
-"""Figures of a buoy sweep and of its chosen runs, each with the caption that says what is seen in it."""
+"""Figures of a buoy sweep and of its chosen runs, and the tables beside them, each with its caption."""
 
 from __future__ import annotations
 
@@ -36,13 +36,14 @@ _PEAKS = 4  # of a spectrum that a table tells
 
 def orbit_figure(sweep: Sweep, drawn: Sequence[Run], missing: Sequence[Run]) -> Figure:
     """Strobed radius over steepness, slack and exponents below; drawn: runs with points, missing: those without."""
-    rows, columns, key = [run.row for run in drawn], sweep.folder.columns, sweep.folder.columns["steepness"]
+    rows, columns, steepness = [run.row for run in drawn], sweep.folder.columns, sweep.folder.columns["steepness"]
     below = [((columns["slack_fraction"], None),)]
     if known := [pair for pair in EXPONENTS if np.isfinite(series(rows, pair[0])).any()]:
         below.append(tuple((columns[value], columns[error]) for value, error in known))
-    points, gone = [run.section[:, 0] for run in drawn], [run.steepness for run in missing]
-    labels, panels = (key.label, "strobed $r$ (m)"), [replace(one, x_label="") for one in panels_over(rows, key, below)]
-    picture = orbit_diagram_over(series(rows, key.name), points, labels, panels, gone)
+    radii, crosses = [run.section[:, 0] for run in drawn], [run.steepness for run in missing]
+    labels = steepness.label, "strobed $r$ (m)"
+    panels = [replace(panel, x_label="") for panel in panels_over(rows, steepness, below)]  # one label, below all
+    picture = orbit_diagram_over(series(rows, "steepness"), radii, labels, panels, crosses)
     caption = (
         f"Radius at t = k{T_I}, k ≥ {sweep.transient}, over wave steepness; the darker, the more points fall on one "
         "place. Below: share χ of the time without tension, and the largest exponents, where they are known, from the "

@@ -22,7 +22,7 @@ _ELSEWHERE = ("steepness", "status", "strobed_period", "regime_reason", "evidenc
 
 
 def explorer(sweep: Sweep, figure: Figure) -> Explorer:
-    """The orbit diagram to look around in; a choice shows the run's sheet."""
+    """The orbit diagram again, as numbers that the page's script draws; who chooses a run there sees its sheet."""
     runs, rows = sweep.runs, [run.row for run in sweep.runs]
     columns = tuple(
         ExplorerColumn(run.steepness, tuple(run.section[:, 0]) if run.ok else (), _name(run), run.anchor)
