@@ -1,6 +1,6 @@
 """From one output sample to the next: step control, guards, loop release, even output.
 
-`march` advances one run; each has its own step and its own end.
+`march` advances one run. In a sweep `engine.simd.ticks.advance` advances up to eight, by the same functions.
 
 Loop release: in a plane a loop of slack tether that is pulled tight cannot leave the plane, and shrinks to sqrt(EI/T),
 about 1 cm, which no grid resolves: the turn in one element passes pi. phi is then shifted by 2 pi above that element
