@@ -84,7 +84,7 @@ def measures(order: Order) -> Measures:
 
 
 def parameters(order: Order) -> dict[str, object]:
-    """What the provenance says of this campaign."""
+    """What the provenance says of this campaign; push_mps: of the push that starts a motion out of the plane."""
     from campaigns.judge import LONGEST_PERIOD, STROBE_TOLERANCE
 
     dimensions = dimensions_of(order)
