@@ -32,6 +32,13 @@ _SIDES = (  # column, label of the axis and of the mark of the natural frequency
     ("angle_rad", r"$|\Delta\tilde\theta|$ (rad)", r"$\omega_\theta$", "pendulum_radps"),
 )
 _PEAKS = 4  # of a spectrum that a table tells
+_SHOWN_PERIODS = 3.0  # of the tether as it snaps
+_DEFINED = (
+    "A motion is called chaotic only if its largest exponent is positive by two errors, the 0-1 test exceeds 0.9, and "
+    "a nonlinear forecast beats 95 % of surrogates, in the whole record and in both halves, and if the run at a tenth "
+    "of the tolerance is chaotic too (`regime_tighter`). A chaotic transient longer than the record is not told from "
+    "chaos. What fulfils no definition is undecided."
+)
 
 
 def orbit_figure(sweep: Sweep, drawn: Sequence[Run], missing: Sequence[Run]) -> Figure:
@@ -128,9 +135,6 @@ def section_figure(sweep: Sweep) -> Figure | None:
     return Figure(section([(run.named, run.section) for run in shown]), caption, alt)
 
 
-_SHOWN_PERIODS = 3.0
-
-
 def close_up_items(directory: Path) -> list[Item]:
     """Heading and figure; nothing where no run was kept with its tether."""
     from engine.trajectory import Trajectory, TrajectoryError
@@ -176,14 +180,6 @@ def _snap(trajectory) -> Snap | None:
     record = time_s[part] / period_s, top[part]
     times = lines.time_s[inside] / period_s
     return Snap(times, x, z, lines.tension_N[inside], scene.buoy.diameter_m, (across, surface), record)
-
-
-_DEFINED = (
-    "A motion is called chaotic only if its largest exponent is positive by two errors, the 0-1 test exceeds 0.9, and "
-    "a nonlinear forecast beats 95 % of surrogates, in the whole record and in both halves, and if the run at a tenth "
-    "of the tolerance is chaotic too (`regime_tighter`). A chaotic transient longer than the record is not told from "
-    "chaos. What fulfils no definition is undecided."
-)
 
 
 def regime_items(sweep: Sweep) -> list[Item]:

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from analysis import Spectrum
     from engine import Trajectory
 
-PAPER_STEEPNESS = (0.016, 0.13)
+PAPER_STEEPNESS = (0.016, 0.13)  # as in `campaigns.buoy_sweep`, which reports must not import
 PAPER_WINDOW = (40, 20)  # tau_0/T_i and n of eq. (31) in the paper
 LEAST_POINTS = 16  # strobed points below which no period is looked for
 _LEAST_WINDOW = 5  # wave periods: fewer bins than this below the wave frequency say nothing
@@ -139,7 +139,7 @@ def read_sweep(directory: str | Path) -> Sweep:
     Raises FolderError for a folder that is no finished sweep.
     """
     folder = read_folder(directory, NEEDED)
-    told = folder.provenance
+    told = folder.provenance  # an older one may be silent: then these are the values of `campaigns.judge`
     transient, tolerance = int(told.get("transient") or 0), float(told.get("strobe_tolerance") or 0.01)
     rows = folder.table.sort_values("steepness", kind="stable").to_dict("records")
     runs = tuple(_read_run(folder, row, f"run-{place}", transient, tolerance) for place, row in enumerate(rows, 1))
