@@ -23,8 +23,8 @@ def state_of(columns, step_s: float, period_s: float, transient_periods: int) ->
         "radial_mps": columns["radius_rate_mps"],
         "lateral_mps": columns["radius_m"] * columns["angle_rate_radps"],
     }
-    after = round(transient_periods * period_s / step_s)
-    x, z, radial, lateral = (float(np.ptp(values[after:])) for values in coordinates.values())
+    first = round(transient_periods * period_s / step_s)  # sample after the transient
+    x, z, radial, lateral = (float(np.ptp(values[first:])) for values in coordinates.values())
     # A buoy at rest has no range of its own; a micrometre, and a micrometre a second, are rest for this one.
     path_m, speed_mps = max(x, z, 1e-6), max(radial, lateral, 1e-6)
     return coordinates, [path_m, path_m, speed_mps, speed_mps]
@@ -66,8 +66,8 @@ def verdict_of(trajectory, transient_periods: int, tangent=None, simulate=None):
 
     scene, columns = trajectory.scene, trajectory.columns
     step_s, period_s = scene.sample_step_s(), scene.waves.period_s
-    after = round(transient_periods * period_s / step_s)
-    wolf = wolf_lyapunov(columns["radius_m"][after:], step_s).in_bits_per_period(period_s)
+    first = round(transient_periods * period_s / step_s)  # sample after the transient
+    wolf = wolf_lyapunov(columns["radius_m"][first:], step_s).in_bits_per_period(period_s)
     coordinates, scale = state_of(columns, step_s, period_s, transient_periods)
     judged = partial(
         regime,
@@ -103,10 +103,11 @@ def carries_tangents(scene) -> bool:
 
 
 def judged_scene(order, changes: dict, least: int = LEAST_JUDGED):
-    """The scene of a study's order with these changes, carrying the perturbations that a verdict needs where it can.
+    """The scene of a study's order with these changes, and with the perturbations added that a verdict needs.
 
-    Where the order does not say (--set): one perturbation in the plane and, unless the order wants none there, one
-    across it. least: periods after the transient from which runs carry any. None where the scene cannot be.
+    Unless --set says otherwise, it carries one perturbation in the plane and, with one there, one across the plane.
+    Nothing is added where the engine cannot carry them, or below `least` periods after the transient. Returns None
+    where the scene is faulty.
     """
     scene = order.scene(changes)
     if scene is None or order.periods - order.transient < least or not carries_tangents(scene):

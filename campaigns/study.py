@@ -60,7 +60,7 @@ class Order:
         self.faults.extend(fault for fault in dict.fromkeys(faults) if fault not in self.faults)
 
     def base(self, changes: Mapping[str, object] | None = None, tell: bool = False) -> "Scene | None":
-        """The scene with the changes of --set, and these; None where it cannot be, and whether that is told."""
+        """The scene with the changes of --set and these; None for a faulty one. tell: whether its faults are added."""
         from engine import SceneError, load_scene
 
         try:
@@ -70,7 +70,7 @@ class Order:
             return None
 
     def scene(self, changes: Mapping[str, object], duration_s: float | None = None) -> "Scene | None":
-        """The scene with the changes of --set and these; None where it cannot be, and every fault is told.
+        """As `base`, and every fault is added, with doubts about the size or the length of such a run.
 
         duration_s: length of the run where it is not `periods`.
         """

@@ -91,13 +91,13 @@ def _water(record, scene, place):
     if wave is not None:
         record["k"] = waves.wave_number(wave.period_s, scene.water.depth_m, scene.gravity_mps2)
         record["omega"], record["phase"], record["ramp"] = 2 * math.pi / wave.period_s, wave.phase_rad, wave.ramp_s
-        amplitudes = sea.components_of(scene)[1]
+        amplitudes = sea.components_of(scene)[1]  # a regular wave has one: its amplitude_m, or kA over k
         record["waves"], record["amplitude"] = amplitudes.any(), 0.0 if wave.irregular else amplitudes[0]
         if codes.is_spatial(record):
             record["dir_x"], record["dir_y"] = sea.direction_of(wave.direction_rad)
         else:
-            record["direction"] = math.cos(wave.direction_rad)
-        if wave.irregular or codes.is_spatial(record):
+            record["direction"] = math.cos(wave.direction_rad)  # 1 or -1: `scene.rules` allow no other in a plane
+        if wave.irregular or codes.is_spatial(record):  # `physics.sea` reads rows, in space also for one regular wave
             rows = sea.table_of(scene)
             record["sea_n"], record["sea_at"] = len(rows), place(rows)
         above = {"extrapolate": codes.EXTRAPOLATE, "zero": codes.ZERO, "wheeler": codes.WHEELER}
@@ -143,7 +143,7 @@ def _end(record, scene, place):
     volume = math.pi * buoy.diameter_m**3 / 6
     added = buoy.added_mass_kg if wet else 0.0
     record["M_total"] = buoy.mass_kg + added
-    record["M_wave"] = rho_w * volume + added
+    record["M_wave"] = rho_w * volume + added  # what the acceleration of the water acts on
     record["lift"] = (rho_w * volume - buoy.mass_kg) * scene.gravity_mps2
     record["C_buoy"] = 0.5 * rho_w * buoy.drag * math.pi * buoy.diameter_m**2 / 4
     record["spherical_cap"] = wet and buoy.submergence == "spherical-cap"

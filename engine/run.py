@@ -48,7 +48,7 @@ class Run:
         Y = self._start(np.zeros((n, unknowns)))
         self.motion = Motion(Y, Y.copy(), np.zeros((n, conserved)), np.zeros((n, conserved)))
         alphas = tuple(float(self.record[name]) for name in ("alpha_m", "alpha_f", "gamma"))
-        self.parts = (  # what only some scenes need: of `march`
+        self.parts = (  # the arguments of `march` that only some scenes need, else None
             alphas if self.record["method"] == col.ONE_STAGE else None,
             np.empty(n) if self.record["viscous"] else None,
             (self.output.energies, self.output.sums) if scene.output.energy else None,
@@ -159,7 +159,8 @@ def sample_count(duration_s: float, step_s: float) -> int:
 def columns_of(samples: np.ndarray, heading: float) -> dict[str, np.ndarray]:
     """Columns of the table, by `engine.trajectory.COLUMNS`, from samples (n, 12) with the columns of `engine.record`.
 
-    The angle from the vertical is taken in the plane of waves that travel along `heading` (rad).
+    The angle from the vertical is taken in the plane of waves that travel along `heading` (rad); `along` is the place,
+    `rate` the velocity in the direction of these waves.
     """
     t, x, y, z, u, v, w = samples[:, : col.AT_W + 1].T
     r = np.sqrt(x**2 + y**2 + z**2) if y.any() else np.hypot(x, z)

@@ -1,6 +1,6 @@
-"""Sweep of wave steepness for the tethered buoy: one run a value, a table of what each did, a report.
+"""Sweep of wave steepness for the tethered buoy: one run for each value, a table of what each did, a report.
 
-    python -m campaigns.buoy_sweep                          a picture of the whole range, in about a minute
+    python -m campaigns.buoy_sweep                          the whole range, in two to three minutes on two cores
     python -m campaigns.buoy_sweep --steepness 0.016 0.13   the paper's two cases (section 4.2)
 
 Protocol: the same scene, start and length for every value of waves.steepness; the first wave periods of every run are
@@ -38,7 +38,7 @@ def options(group) -> None:
 
 
 def read(options, faults: list[str]) -> None:
-    """Steepnesses, each once, from the list, the range, or as usual."""
+    """Put the steepnesses into the options: those of --steepness or --steepness-range, or STEEPNESS without either."""
     steepness, evenly = options.steepness, options.steepness_range
     if steepness is not None and evenly is not None:
         faults.append("--steepness and --steepness-range: given both; allowed: one of them")
@@ -48,14 +48,14 @@ def read(options, faults: list[str]) -> None:
 
 
 def cases(order: Order) -> Iterator[Job]:
-    """A run for every value; in three dimensions where all are to be."""
+    """A run for every steepness, in a plane or (`--dimensions 3`) in space; `auto` checks both, and runs the plane."""
     from campaigns.judge import judged_scene
     from engine import SceneError
 
     dimensions = dimensions_of(order)
-    told = {"motion.dimensions": 3 if dimensions == "3" else 2}
+    chosen = {"motion.dimensions": 3 if dimensions == "3" else 2}
     for value in order.own.steepness:
-        scene = judged_scene(order, {**told, SWEPT: value})
+        scene = judged_scene(order, {**chosen, SWEPT: value})
         if scene is not None and dimensions != "2":
             try:
                 spatial = in_space(scene)[0]
@@ -76,7 +76,7 @@ def dimensions_of(order: Order) -> str:
 
 
 def measures(order: Order) -> Measures:
-    """`rows.buoy_row` of every run."""
+    """How a run becomes a row of table.csv: by `rows.buoy_row`."""
     from campaigns.buoy_sweep.rows import COLUMNS, buoy_row
 
     row = partial(buoy_row, transient_periods=order.transient, simulate=order.simulate)
@@ -84,7 +84,7 @@ def measures(order: Order) -> Measures:
 
 
 def parameters(order: Order) -> dict[str, object]:
-    """What the provenance says of this campaign."""
+    """What the provenance says of this campaign; push_mps: of the push that starts a motion out of the plane."""
     from campaigns.judge import LONGEST_PERIOD, STROBE_TOLERANCE
 
     dimensions = dimensions_of(order)
@@ -100,7 +100,7 @@ def parameters(order: Order) -> dict[str, object]:
 
 
 def beside(order: Order) -> Iterator[Callable]:
-    """Two runs again, tighter and finer; the most violent one again with its line."""
+    """What follows the runs: two of them again, tighter and finer, then the most violent one with its profiles."""
     from campaigns.buoy_sweep.repeats import close_up, repeat
     from campaigns.buoy_sweep.rows import buoy_row
 

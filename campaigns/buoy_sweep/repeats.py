@@ -51,6 +51,10 @@ AS_RUN, TIGHTER, FINER = "as run", "a tenth of the tolerance", "twice the elemen
 EARLY = 10  # wave periods
 SHARE = 0.25  # of the cost of the sweep that the repeated runs may cost
 COST = 8.6  # runs of the sweep that repeating both over their whole length costs: (2.3 + 2.0) each (measured)
+# the close-up: columns of its table; wave periods, because the first snaps come after five; profiles a wave period
+SHAPES = (STEEPNESS, STATUS, PERIODS_RUN, WALL_S, RUN_KEY, MESSAGE)
+PERIODS = 12
+FRAMES = 24
 
 
 def lengths(runs: int, periods: int) -> int:
@@ -102,6 +106,7 @@ def repeat(
 
 
 def _as_made(original, scene, periods=None, duration_s=None):
+    """In the place of `engine.simulate`: the run of the sweep itself, with which the repeated ones are compared."""
     return original
 
 
@@ -147,11 +152,6 @@ def accuracy_row(trajectory, original, row_of: Callable, said: str) -> dict[str,
 
 def _rms(values: np.ndarray) -> float:
     return float(np.sqrt(np.mean(values**2)))
-
-
-SHAPES = (STEEPNESS, STATUS, PERIODS_RUN, WALL_S, RUN_KEY, MESSAGE)  # columns of the close-up's table
-PERIODS = 12  # the first snaps come after five
-FRAMES = 24  # of the line, a wave period
 
 
 def close_up(plan: Plan, summary: Summary, periods: int) -> float:

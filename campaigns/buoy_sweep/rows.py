@@ -8,15 +8,7 @@ import numpy as np
 
 from analysis.evidence import evidence_text
 from campaigns.columns import LINE_COUNTS, MESSAGE, RUN_KEY, SOLVER_COUNTS, STATUS, Column, counted, names, number
-from campaigns.judge import (
-    LEAST_JUDGED,
-    LONGEST_PERIOD,
-    STROBE_TOLERANCE,
-    carried,
-    state_of,
-    tangent_of,
-    verdict_of,
-)
+from campaigns.judge import LEAST_JUDGED, LONGEST_PERIOD, STROBE_TOLERANCE, carried, state_of, tangent_of, verdict_of
 
 STEEPNESS = Column("steepness", "", "kA", "wave steepness: wave number times amplitude", 3)
 DIMENSIONS = Column("dimensions", "", "D", "dimensions of the motion: 2, in the plane of the waves, or 3", 0)
@@ -80,10 +72,10 @@ def buoy_row(trajectory, transient_periods: int, simulate=None) -> dict[str, obj
 
     trajectory: an engine Trajectory of a scene with waves and a buoy, run to its end or not.
     transient_periods: wave periods left out; a record that does not outlast them by one has statistics only.
-    A verdict (`campaigns.judge`): of runs to their end with output.tangent_vectors, or in three dimensions. A loop
-    release after the transient leaves offplane_growth unknown: across the plane a loop has no rate of its own.
     simulate: to repeat a run that looks chaotic at a ten times tighter tolerance (regime_tighter); None: not done.
-    The columns planar_ are filled by `campaigns.buoy_sweep.space`.
+    A run gets a verdict (`campaigns.judge`) if it reached its end and carried tangent vectors, or is long enough in
+    three dimensions. A loop release after the transient leaves offplane_growth unknown, because across the plane a loop
+    has no rate of its own. `campaigns.buoy_sweep.space` fills the columns planar_.
     """
     row, columns, scene = counted(trajectory), sound_part(trajectory.columns), trajectory.scene
     if len(columns["time_s"]) and scene.water is not None:
@@ -94,9 +86,9 @@ def buoy_row(trajectory, transient_periods: int, simulate=None) -> dict[str, obj
         row |= measured
         in_space = scene.motion.dimensions == 3
         if in_space:
-            after = round(transient_periods * period_s / step_s)
-            row["buoy_lateral_max_m"] = float(np.abs(columns["y_m"][after:]).max())
-            row["rope_lateral_max_m"] = float(columns["offplane_m"][after:].max())
+            first = round(transient_periods * period_s / step_s)  # sample after the transient
+            row["buoy_lateral_max_m"] = float(np.abs(columns["y_m"][first:]).max())
+            row["rope_lateral_max_m"] = float(columns["offplane_m"][first:].max())
         enough = lasts(columns, step_s, (transient_periods + LEAST_JUDGED) * period_s)
         if trajectory.status == "ok" and (carried(trajectory) or (in_space and enough)):
             tangent = tangent_of(trajectory, transient_periods)
@@ -164,7 +156,8 @@ def settled(columns, step_s: float, transient_s: float) -> dict[str, object]:
 def strobed_period(columns, step_s: float, period_s: float, transient_periods: int) -> int | None:
     """After how many wave periods the buoy's motion repeats, or None where no number up to LONGEST_PERIOD does.
 
-    Its state (`campaigns.judge.state_of`) once a period after the transient has to repeat within STROBE_TOLERANCE.
+    Its state (`campaigns.judge.state_of`), taken once a period after the transient, has to repeat within
+    STROBE_TOLERANCE. Only the period goes into the table: the report strobes the radius again (`reports.buoy_sweep`).
     """
     from analysis import detect_period, poincare_section
 
@@ -174,7 +167,7 @@ def strobed_period(columns, step_s: float, period_s: float, transient_periods: i
 
 
 def sound_part(columns) -> dict[str, np.ndarray]:
-    """The samples before the first that is not finite: a run that blew up keeps what it had before."""
+    """The columns up to the first sample that is not finite in all: a run that blew up keeps what it had before."""
     arrays = {name: np.asarray(values, dtype=float) for name, values in columns.items()}
     sound = np.all([np.isfinite(values) for values in arrays.values()], axis=0)
     end = len(sound) if sound.all() else int(np.argmin(sound))

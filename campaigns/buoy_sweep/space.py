@@ -22,7 +22,7 @@ DIRECTIONS = {
     "oblique": (math.sqrt(0.5), math.sqrt(0.5)),
     "along": (1.0, 0.0),
 }
-_KEPT = ("loop_releases", "regime", "radius_min_m", "radius_max_m")
+_KEPT = ("loop_releases", "regime", "radius_min_m", "radius_max_m")  # of the planar row, in the columns planar_
 
 
 def velocity(seed_mps: float, direction: str) -> list[float]:

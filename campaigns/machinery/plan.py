@@ -1,7 +1,7 @@
 """What a campaign is to do, as records: its runs (`Job`), how and where they run (`Plan`), what came of them.
 
-`trajectories/<key>.nc` is written whole or not at all, and its presence is what "finished" means: rows are always made
-again from the files, so a table can be lost at no cost.
+`trajectories/<key>.nc` is written whole or not at all, and a run is finished when its file is there. table.csv can be
+lost at no cost: its rows come from these files, or from the copies of rows beside them (`folder.keep_row`).
 """
 
 import hashlib

@@ -47,8 +47,8 @@ def write_scene(directory: Path, campaign: str, jobs: list[Job]) -> None:
 def groups_of(plan: Plan, jobs: list[Job]) -> list[tuple[Job, ...]]:
     """Jobs of one run length that a worker does side by side, in groups as even as can be.
 
-    None where the plan or the jobs do not allow it, nor for threads: a group cannot be interrupted from within the
-    process.
+    An empty list where the plan or the jobs do not allow it, and for threads, because nothing can interrupt a group
+    from within the process.
     """
     if plan.simulate_each is None or plan.how.backend == "threading":
         return []

@@ -1,15 +1,16 @@
 """The upper end: buoy (30), held, or free under a force. (The lower one, V = 0, begins the elimination.)
 
 Each condition is as many equations e = 0 as there are dimensions, in the force N and velocity V of the last node, with
-e_N (eN) the factor of dN (1 or 0) and D = de/dV; this e is no length of an element:
+e_N (eN) the factor of dN (1 or 0) and D = de/dV; V_t = cv (V - V~); this e is no length of an element:
 
     buoy   e = N + (M + M_a) V_t + C |v| v - (rho V + M_a) dU_w/dt - (B - W) z,   C = rho C_d A_p / 2, v = V - U_w
     held   e = V - V_e(t), V_e the velocity at which the end is moved; after its release e = N - F
     free   e = N - F, where it breaks F cos^2(pi t/(2 t_br)) until t_br and nothing after
 
+In the record M_total = M + M_a, M_wave = rho V + M_a, lift = B - W, C_buoy = C (`engine.parameters`).
 The place of a held end follows from V by integration: it is off by what Newton's method leaves over, 1 mm after ten
-oscillations of 1 m at the default tolerances, 1e-6 m where solver.newton_tolerance = 1e-8 (`docs/held_lines.md`). In
-statics V is a displacement, and V_e the one that is left to go (`engine.time.statics` puts it into end_x ... end_z).
+oscillations of 1 m at the default tolerances (`docs/held_lines.md`). In statics V is a displacement, and V_e the one
+that is left to go (`engine.time.statics` puts it into end_x ... end_z).
 
 Motion of a held end in `tables`, n numbers or knots: velocities, since the displacement follows from them:
     harmonic  [amplitude x y z | omega | phase | ramp];  displacement amplitude r(t) sin(omega t + phase), r the ramp

@@ -8,6 +8,7 @@ from .waves import wave_field
 
 @kernel
 def _any(p, tables, t, X, F):
+    """In a plane: a regular wave, which has no rows of a sea, or a sea. In space and in lanes only one kind occurs."""
     if p.sea_n == 0:
         wave_field(p, tables, t, X, F)
     else:

@@ -1,14 +1,14 @@
-"""Linear (Airy) waves over finite depth: dispersion and kinematics.
+"""One linear (Airy) wave over finite depth: its wave number, and the velocity and acceleration of the water.
 
-With psi = k x cos(direction) - omega t + phase, height z above the bed and amplitude A,
+With psi = k d x - omega t + phase, height z above the bed, amplitude A, and d = 1 or -1 for a wave along +x or -x,
 
-    U = A omega cosh(kz)/sinh(kH) cos psi,   W = A omega sinh(kz)/sinh(kH) sin psi,   omega^2 = g k tanh kH;
+    U = d A omega cosh(kz)/sinh(kH) cos psi,   W = A omega sinh(kz)/sinh(kH) sin psi,   omega^2 = g k tanh kH;
 
-accelerations are the local time derivatives. The quotients are written with exp(k(z - H)) and exp(-k(z + H)), which do
-not overflow in deep water. Along the tether psi and kz change little from node to node, so the exponentials and the
-sine and cosine are carried by recurrence, and started anew where an element is too long for the short polynomials.
-No sea floor is modelled: what sinks below the bed is given the motion of the water at the bed, where the formulas would
-grow without bound.
+accelerations are the local time derivatives. With up = exp(k(z - H)) and down = exp(-k(z + H)), which do not overflow
+in deep water, the two quotients are (up + down) and (up - down) over 1 - exp(-2kH). Along the tether psi and kz change
+little from node to node. The kernel therefore gets up, down, sin psi and cos psi of a node from those of the node
+below, by short polynomials, and computes them anew where an element is too long for these. No sea floor is modelled:
+what sinks below the bed is given the motion of the water at the bed, because the formulas grow without bound there.
 """
 
 import math
@@ -26,7 +26,7 @@ def wave_number(period_s: float, depth_m: float, gravity_mps2: float = 9.81) -> 
     from scipy.optimize import brentq
 
     k_deep = (2 * math.pi / period_s) ** 2 / gravity_mps2
-    x0 = k_deep * depth_m  # with x = kH: x tanh x = x0, and x lies between max(x0, sqrt(x0)) / 1 and sqrt(x0) + x0
+    x0 = k_deep * depth_m  # with x = kH: x tanh x = x0, and x lies between max(x0, sqrt(x0)) and x0 + sqrt(x0)
     low, high = 0.5 * x0, x0 + math.sqrt(x0) + 1e-12  # for tiny x0 many decades apart: hence so many iterations
     x = brentq(lambda x: x * math.tanh(x) - x0, low, high, xtol=1e-300, rtol=1e-15, maxiter=5000)
     return x / depth_m
@@ -39,10 +39,10 @@ def wave_field(p, tables, t, X, F):
     X : (n, 2) positions x, z (m);  F : (n, 4) U, W (m/s), dU/dt, dW/dt (m/s2)
     """
     n = X.shape[0]
-    k, kx = p.k, p.k * p.direction
+    k, kx = p.k, p.k * p.direction  # direction: its cosine, d above
     gain, gain_rate = smooth_start(t, p.ramp)
     speed = p.amplitude * p.omega / (1.0 - math.exp(-2.0 * k * p.depth))
-    u0, u1 = speed * gain, speed * gain_rate
+    u0, u1 = speed * gain, speed * gain_rate  # under the ramp of the waves; their rate
     om = p.omega
     up, down, s, c = 0.0, 0.0, 0.0, 1.0
     x_below = z_below = 0.0
@@ -65,7 +65,7 @@ def wave_field(p, tables, t, X, F):
             if j > 0 and p.above != WHEELER:
                 up, down = where(near, near_up, up), where(near, near_down, down)
                 s, c = where(near, near_s, s), where(near, near_c, c)
-        more, less = up + down, up - down
+        more, less = up + down, up - down  # of cosh and of sinh
         if p.above == ZERO:
             dry = X[j, 1] > p.depth
             more, less = where(dry, 0.0, more), where(dry, 0.0, less)

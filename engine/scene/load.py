@@ -113,7 +113,9 @@ def _plain(value: object) -> object:
 
 
 def _overridden(raw: dict[str, object], overrides: Mapping[str, object]) -> tuple[dict[str, object], tuple[str, ...]]:
+    """A copy of the raw scene with the overrides, and the faults of their keys; values are checked later."""
     raw, faults = copy.deepcopy(raw), []
+    # a new height of the waves, of whatever kind (HEIGHTS), takes the place of the one that the file gives
     named = {height: [key for key in overrides if f"{key}.".startswith(f"waves.{height}.")] for height in HEIGHTS}
     if isinstance(raw.get("waves"), dict) and any(
         overrides[key] is not None for keys in named.values() for key in keys

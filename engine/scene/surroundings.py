@@ -67,7 +67,10 @@ class Waves(Section):
         "period; of an irregular sea the peak period, in which runs are counted", symbol="T_i", paper="section 4.2"
     )
     steepness: NonNegative | None = described(
-        "steepness kA of a regular wave; this, or one of the next three", None, symbol="kA", paper="section 4.2"
+        "steepness kA of a regular wave; this, or amplitude_m, components or jonswap",
+        None,
+        symbol="kA",
+        paper="section 4.2",
     )
     amplitude_m: NonNegative | None = described("amplitude of a regular wave", None, symbol="A", paper="section 4.2.1")
     ramp_s: NonNegative = described("time in which the waves grow, as sin^2; 0: full from t = 0", 0.0)

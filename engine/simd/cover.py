@@ -7,9 +7,8 @@ from ..scene.models import Scene
 def goes_in_lanes(scene: Scene) -> bool:
     """May this scene share a batch: planar, by a Runge-Kutta method, a buoy at the end, nothing looked up in a table?
 
-    bool. Held and free ends, tabulated laws, irregular waves, currents with a profile and profiles of the line are left
-    out because no sweep needs them, not because they could not: each would want its branches written as choices
-    (`engine.simd.select`).
+    Held and free ends, tabulated laws, irregular waves, currents with a profile and profiles of the line are left out
+    because no sweep needs them. Each would want its branches written as choices (`engine.simd.select`).
     """
     return (
         scene.solver.scheme != "paper-box"

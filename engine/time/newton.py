@@ -41,7 +41,10 @@ def newton(p, tables, stage, tolerance, most, Y, work):
 
 @kernel
 def assemble(p, tables, stage, Y, work):
-    """One Newton update into work.D; returns False where a pivot block is singular. Arguments as for `newton`."""
+    """One Newton update into work.D; returns False where a pivot block is singular. Arguments as for `newton`.
+
+    The order is fixed: places, the water there, forces at the nodes, then elements and both ends in one elimination.
+    """
     shape(p, tables, Y, work.Q, work.X)
     water(p, tables, stage.t, stage.in_motion, work.X, work.F)
     node_quantities(p, tables, stage, Y, work)

@@ -48,7 +48,7 @@ _SOLVED = (
     "conservation form. At its upper end the buoy obeys",
     BUOY,
     "with the tension of the tether at its top, which follows the strain ε by",
-    LAWS,
+    LAWS,  # stands for the one law of the scene
     f"The waves are linear, of finite depth, taken at the place where each node is (z from the bed, {T_I} = 2π/ω, A = "
     "(kA)/k):",
     AIRY,

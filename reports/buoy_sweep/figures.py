@@ -1,4 +1,4 @@
-"""Figures of a buoy sweep and of its chosen runs, each with the caption that says what is seen in it."""
+"""Figures of a buoy sweep and of its chosen runs, and the tables beside them, each with its caption."""
 
 import math
 from collections.abc import Sequence
@@ -30,17 +30,25 @@ _SIDES = (  # column, label of the axis and of the mark of the natural frequency
     ("angle_rad", r"$|\Delta\tilde\theta|$ (rad)", r"$\omega_\theta$", "pendulum_radps"),
 )
 _PEAKS = 4  # of a spectrum that a table tells
+_SHOWN_PERIODS = 3.0  # of the tether as it snaps
+_DEFINED = (
+    "A motion is called chaotic only if its largest exponent is positive by two errors, the 0-1 test exceeds 0.9, and "
+    "a nonlinear forecast beats 95 % of surrogates, in the whole record and in both halves, and if the run at a tenth "
+    "of the tolerance is chaotic too (`regime_tighter`). A chaotic transient longer than the record is not told from "
+    "chaos. What fulfils no definition is undecided."
+)
 
 
 def orbit_figure(sweep: Sweep, drawn: Sequence[Run], missing: Sequence[Run]) -> Figure:
     """Strobed radius over steepness, slack and exponents below; drawn: runs with points, missing: those without."""
-    rows, columns, key = [run.row for run in drawn], sweep.folder.columns, sweep.folder.columns["steepness"]
+    rows, columns, steepness = [run.row for run in drawn], sweep.folder.columns, sweep.folder.columns["steepness"]
     below = [((columns["slack_fraction"], None),)]
     if known := [pair for pair in EXPONENTS if np.isfinite(series(rows, pair[0])).any()]:
         below.append(tuple((columns[value], columns[error]) for value, error in known))
-    points, gone = [run.section[:, 0] for run in drawn], [run.steepness for run in missing]
-    labels, panels = (key.label, "strobed $r$ (m)"), [replace(one, x_label="") for one in panels_over(rows, key, below)]
-    picture = orbit_diagram_over(series(rows, key.name), points, labels, panels, gone)
+    radii, crosses = [run.section[:, 0] for run in drawn], [run.steepness for run in missing]
+    labels = steepness.label, "strobed $r$ (m)"
+    panels = [replace(panel, x_label="") for panel in panels_over(rows, steepness, below)]  # one label, below all
+    picture = orbit_diagram_over(series(rows, "steepness"), radii, labels, panels, crosses)
     caption = (
         f"Radius at t = k{T_I}, k ≥ {sweep.transient}, over wave steepness; the darker, the more points fall on one "
         "place. Below: share χ of the time without tension, and the largest exponents, where they are known, from the "
@@ -125,9 +133,6 @@ def section_figure(sweep: Sweep) -> Figure | None:
     return Figure(section([(run.named, run.section) for run in shown]), caption, alt)
 
 
-_SHOWN_PERIODS = 3.0
-
-
 def close_up_items(directory: Path) -> list[Item]:
     """Heading and figure; nothing where no run was kept with its tether."""
     from engine.trajectory import Trajectory, TrajectoryError
@@ -173,14 +178,6 @@ def _snap(trajectory) -> Snap | None:
     record = time_s[part] / period_s, top[part]
     times = lines.time_s[inside] / period_s
     return Snap(times, x, z, lines.tension_N[inside], scene.buoy.diameter_m, (across, surface), record)
-
-
-_DEFINED = (
-    "A motion is called chaotic only if its largest exponent is positive by two errors, the 0-1 test exceeds 0.9, and "
-    "a nonlinear forecast beats 95 % of surrogates, in the whole record and in both halves, and if the run at a tenth "
-    "of the tolerance is chaotic too (`regime_tighter`). A chaotic transient longer than the record is not told from "
-    "chaos. What fulfils no definition is undecided."
-)
 
 
 def regime_items(sweep: Sweep) -> list[Item]:

@@ -16,6 +16,13 @@ from .runs import PAPER_WINDOW, Run, Sweep, read_sweep
 from .sheets import explorer, sheet_items
 from .tables import accuracy_items, plane_items, runs_items, scene_items, time_items
 
+_EXTREMES = (
+    "slack_fraction", "tension_top_max_N", "radius_min_m", "radius_max_m", "loop_releases", "rope_lateral_max_m",
+    "buoy_lateral_max_m",
+)  # fmt: skip
+_RESOLVED_RAD = 0.5 * math.pi  # turn of one element beyond which a loop is no longer resolved
+_NOTHING = "No run failed, no loop was released, the buoy stayed in the water, and every record lasts for eq. (31)."
+
 
 def report(directory: str | Path) -> Report:
     """The content of the report on a buoy sweep's folder. Raises FolderError for a folder that is not one."""
@@ -81,14 +88,6 @@ def _chosen(sweep: Sweep) -> list[Item]:
         items += [Heading(run.named, 2), *run_figures(sweep, run)]
     figure = section_figure(sweep)
     return [*items, Heading("Poincaré sections", 2), figure] if figure else items
-
-
-_EXTREMES = (
-    "slack_fraction", "tension_top_max_N", "radius_min_m", "radius_max_m", "loop_releases", "rope_lateral_max_m",
-    "buoy_lateral_max_m",
-)  # fmt: skip
-_RESOLVED_RAD = 0.5 * math.pi  # turn of one element beyond which a loop is no longer resolved
-_NOTHING = "No run failed, no loop was released, the buoy stayed in the water, and every record lasts for eq. (31)."
 
 
 def answer_items(sweep: Sweep) -> list[Item]:
@@ -171,9 +170,10 @@ def warnings(sweep: Sweep) -> Notice:
 
 
 def _most(runs: Sequence[Run], name: str) -> float:
+    """The largest value of an attribute of the runs; nan without runs."""
     return max((getattr(run, name) for run in runs), default=math.nan)
 
 
 def _said(sweep: Sweep, kinds: Iterable[tuple[str, Sequence[Run]]]) -> tuple[str, ...]:
-    """One line for every kind, said of some runs, that there is."""
+    """One line for every kind of run of which there is one: what is said of it, and where."""
     return tuple(f"{said}: {sweep.at(runs)}." for said, runs in kinds if runs)

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from analysis import Spectrum
     from engine import Trajectory
 
-PAPER_STEEPNESS = (0.016, 0.13)
+PAPER_STEEPNESS = (0.016, 0.13)  # as in `campaigns.buoy_sweep`, which reports must not import
 PAPER_WINDOW = (40, 20)  # tau_0/T_i and n of eq. (31) in the paper
 LEAST_POINTS = 16  # strobed points below which no period is looked for
 _LEAST_WINDOW = 5  # wave periods: fewer bins than this below the wave frequency say nothing
@@ -36,14 +36,14 @@ NEEDED = (
 class Run(Row):
     """One row of the table with what its trajectory adds.
 
-    section: (m, 2) strobed r (m) and r' (m/s) after the transient, empty where the run is shorter. fault: why the
-    trajectory of a run that should have one could not be read, else "". anchor: the place of its sheet in the report.
-    period: wave periods after which it repeats, 0 where no number fits, None where nobody could say. visited: strobed
-    r (m) of the points it visits in turn, () where it has no period or where these points lie within the tolerance: a
-    pendulum swing that dies out slowly comes back to nearly the same place every six wave periods (omega_theta T_i is
-    close to 1 rad), and the table then says period 6 of a motion that is about to settle on one point.
-    above_still_m, above_wave_m: highest centre of the buoy above the still-water line and above the wave at its place;
-    out_share: share of the samples with the whole sphere above that wave; nan where there is no record.
+    anchor: the place of its sheet in the report. fault: why the trajectory of a run that should have one could not be
+    read, else "". periods_done: its length. section: `strobed`. period: wave periods after which it repeats, 0 where no
+    number fits, None where this is not known. visited: strobed r (m) of the points that it visits in turn. It is () for
+    a run without a period, and where these points lie within the tolerance of each other: a pendulum swing that dies
+    out slowly comes back to nearly the same place every six wave periods (omega_theta T_i is close to 1 rad), and the
+    table then says period 6 of a motion that is about to settle on one point. above_still_m, above_wave_m: highest
+    centre of the buoy above still water and above the wave at its place; out_share: share of the samples with the whole
+    sphere above that wave; nan without a record.
     """
 
     anchor: str = ""
@@ -139,7 +139,7 @@ def read_sweep(directory: str | Path) -> Sweep:
     Raises FolderError for a folder that is no finished sweep.
     """
     folder = read_folder(directory, NEEDED)
-    told = folder.provenance
+    told = folder.provenance  # an older one may be silent: then these are the values of `campaigns.judge`
     transient, tolerance = int(told.get("transient") or 0), float(told.get("strobe_tolerance") or 0.01)
     rows = folder.table.sort_values("steepness", kind="stable").to_dict("records")
     runs = tuple(_read_run(folder, row, f"run-{place}", transient, tolerance) for place, row in enumerate(rows, 1))
@@ -155,12 +155,13 @@ def _read_run(folder: Folder, row: dict, anchor: str, transient: int, tolerance:
         return Run(row, anchor, fault)
     columns, scene = trajectory.columns, trajectory.scene
     section = strobed(trajectory, transient)
-    found = _period(row, section, tolerance)
-    above = columns["z_m"] - scene.water.depth_m
-    height = above - elevation_m(scene, columns["time_s"], columns["x_m"])
-    out = float(np.mean(height > 0.5 * scene.buoy.diameter_m))
-    high = float(np.nanmax(above)), float(np.nanmax(height))
-    return Run(row, anchor, fault, float(columns["time_s"][-1]) / scene.waves.period_s, section, *found, *high, out)
+    period, visited = _period(row, section, tolerance)
+    above_still = columns["z_m"] - scene.water.depth_m
+    above_wave = above_still - elevation_m(scene, columns["time_s"], columns["x_m"])
+    out_share = float(np.mean(above_wave > 0.5 * scene.buoy.diameter_m))
+    highest = float(np.nanmax(above_still)), float(np.nanmax(above_wave))
+    periods_done = float(columns["time_s"][-1]) / scene.waves.period_s
+    return Run(row, anchor, fault, periods_done, section, period, visited, *highest, out_share)
 
 
 def _period(row: dict, section: np.ndarray, tolerance: float) -> tuple[int | None, tuple[float, ...]]:
@@ -177,12 +178,15 @@ def _period(row: dict, section: np.ndarray, tolerance: float) -> tuple[int | Non
 
 
 def strobed(trajectory: Trajectory, transient: int) -> np.ndarray:
-    """r (m) and r' (m/s) at t = k T_i, k >= transient, as (m, 2); empty for a record that ends before."""
+    """Columns r (m) and r' (m/s) at t = k T_i, k >= transient, (m, 2); empty for a record that ends before.
+
+    They are taken from the trajectory, because table.csv has no strobed values.
+    """
     from analysis import poincare_section
 
     series = {name: trajectory.columns[name] for name in ("radius_m", "radius_rate_mps")}
     step_s, period_s = trajectory.scene.sample_step_s(), trajectory.scene.waves.period_s
-    end = int(np.logical_and.accumulate(np.isfinite([*series.values()]).all(axis=0)).sum())  # of the sound samples
+    end = int(np.logical_and.accumulate(np.isfinite([*series.values()]).all(axis=0)).sum())  # finite samples
     if (end - 1) * step_s < transient * period_s:
         return np.empty((0, 2))
     sound = {name: values[:end] for name, values in series.items()}

@@ -20,7 +20,7 @@ _ELSEWHERE = ("steepness", "status", "strobed_period", "regime_reason", "evidenc
 
 
 def explorer(sweep: Sweep, figure: Figure) -> Explorer:
-    """The orbit diagram to look around in; a choice shows the run's sheet."""
+    """The orbit diagram again, as numbers that the page's script draws; who chooses a run there sees its sheet."""
     runs, rows = sweep.runs, [run.row for run in sweep.runs]
     columns = tuple(
         ExplorerColumn(run.steepness, tuple(run.section[:, 0]) if run.ok else (), _name(run), run.anchor)
@@ -77,7 +77,7 @@ def _facts(sweep: Sweep, run: Run) -> tuple[tuple[str, str], ...]:
 def _drawing(sweep: Sweep, run: Run) -> str:
     trajectory = sweep.trajectory(run)
     columns, period_s = trajectory.columns, trajectory.scene.waves.period_s
-    wave, shown = 2.0 * math.pi / period_s, {}
+    wave, shown = 2.0 * math.pi / period_s, {}  # shown: what only some runs have
     if found := run.spectrum(trajectory, "radius_m"):
         part = (found.angular_frequency_radps > 0.0) & (found.angular_frequency_radps <= 2.5 * wave)
         shown["spectrum"] = found.angular_frequency_radps[part], found.amplitude[part]
@@ -87,7 +87,8 @@ def _drawing(sweep: Sweep, run: Run) -> str:
     low, high = columns["tension_top_low_N"] / 1e3, columns["tension_top_high_N"] / 1e3
     radius, angle = columns["radius_m"], columns["angle_rad"]
     histories = (("T (kN)", low, high), ("r (m)", radius, radius), ("θ (rad)", angle, angle))
-    marks = (*(((sweep.modes.radial_radps, OMEGA_R),) if sweep.modes else ()), (wave, OMEGA_I))
+    natural = ((sweep.modes.radial_radps, OMEGA_R),) if sweep.modes else ()
+    marks = (*natural, (wave, OMEGA_I))
     span = f"r from {decimals(run['radius_min_m'], 2)} to {decimals(run['radius_max_m'], 2)} m"
     seen = (
         f"Tension, radius and angle over {number(run.periods_done)} wave periods at {run.named}, with section, "

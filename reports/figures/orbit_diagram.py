@@ -27,15 +27,15 @@ def orbit_diagram_over(
 
     Args: `parameter` (p,); `strobed` p arrays of points, one of which at least is not empty; `labels` of the parameter
     and of the points, with units; `missing` parameter values of runs without points (crosses); `marks` (value, text)
-    drawn as vertical lines; `rows` pixels of the value axis.
+    drawn as vertical lines; `rows` pixels of the value axis. A run is a column of pixels, `half` its half width.
     """
     from matplotlib.colors import LinearSegmentedColormap, LogNorm
     from matplotlib.ticker import LogLocator
 
     diagram = orbit_diagram(parameter, strobed)
     counts, value_edges = density_image(diagram, rows)
-    everything = np.concatenate([diagram.parameter, np.asarray(missing, float)])
-    half = _half_width(everything)
+    places = np.concatenate([diagram.parameter, np.asarray(missing, float)])  # of all runs on the axis
+    half = _half_width(places)
     shades = LogNorm(1, max(int(counts.max()), 2))
     colours = LinearSegmentedColormap.from_list("density", DENSITY_COLOURS)
     with sheet(3.0 + 1.2 * len(below)) as figure:
@@ -44,7 +44,7 @@ def orbit_diagram_over(
         top.grid(False)
         for x, column in zip(diagram.parameter, counts.T, strict=True):
             if column.any():
-                shown = np.ma.masked_equal(column[:, None], 0)
+                shown = np.ma.masked_equal(column[:, None], 0)  # pixels without points stay blank
                 mesh = top.pcolormesh([x - half, x + half], value_edges, shown, norm=shades, cmap=colours)
         ticks = {"ticks": LogLocator(subs=(1, 2, 5)), "format": "%d"}
         bar = figure.colorbar(mesh, ax=[top, *lower], label="points in a pixel", aspect=45, pad=0.01, **ticks)
@@ -57,19 +57,19 @@ def orbit_diagram_over(
         if len(missing):
             look = {"color": VERMILION, "markersize": 6, "linestyle": "none", "clip_on": False}
             low = np.full(len(missing), 0.02)
-            place = top.get_xaxis_transform()
-            top.plot(missing, low, marker="x", transform=place, label="run without strobed points", **look)
+            on_axis = top.get_xaxis_transform()  # x as data, y as a share of the height
+            top.plot(missing, low, marker="x", transform=on_axis, label="run without strobed points", **look)
             top.legend(**_ABOVE)
         for at, text in marks:
             for axes in (top, *lower):
                 axes.axvline(at, color=SOFT, linewidth=0.8, linestyle=(0, (3, 2)))
             place = ("data", "axes fraction")
             top.annotate(text, (at, 1.0), xycoords=place, fontsize=7.5, ha="center", va="bottom")
-        margin = half * (2 if np.ptp(everything) > 0 else 12)
-        top.set_xlim(everything.min() - margin, everything.max() + margin)
+        margin = half * (2 if np.ptp(places) > 0 else 12)
+        top.set_xlim(places.min() - margin, places.max() + margin)
         (top, *lower)[-1].set_xlabel(labels[0])
         figure.align_ylabels()
-        return picture_of(figure, "png")
+        return picture_of(figure, "png")  # in an SVG every pixel would be an element
 
 
 def _half_width(parameter: np.ndarray) -> float:

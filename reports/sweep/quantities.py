@@ -60,7 +60,7 @@ def panels_over(rows: Sequence[Mapping[str, object]], key: Quantity, shown: Sequ
     for one in shown:
         lines = []
         *others, last = (column.label for column, _ in one)
-        label = ", ".join([*(other.rpartition(" (")[0] for other in others), last])
+        label = ", ".join([*(other.rpartition(" (")[0] for other in others), last])  # the unit once, at the end
         for (column, error), mark, colour in zip(one, "os^D", COLOURS, strict=False):
             y, name = series(rows, column.name), column.label.rpartition(" (")[0] if len(one) > 1 else ""
             bars = series(rows, error.name)[good] if error else None

@@ -8,18 +8,7 @@ import pytest
 
 from campaigns.paper.measured import Results
 from campaigns.paper.statements import buoy_claims, claims
-from campaigns.statements import (
-    COLUMNS,
-    FAILS,
-    HOLDS,
-    HOLDS_IF,
-    OPEN,
-    Claim,
-    Measured,
-    Statement,
-    as_csv,
-    judge,
-)
+from campaigns.statements import COLUMNS, FAILS, HOLDS, HOLDS_IF, OPEN, Claim, Measured, Statement, as_csv, judge
 from tests.campaigns.paper.world import LARGE, buoy, deep, world
 
 ONCE = {claim.text: claim for claim in claims()}.values()
