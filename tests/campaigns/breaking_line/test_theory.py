@@ -1,7 +1,7 @@
 """The breaking line in one dimension: closed forms, the published speeds, and the motion by characteristics.
 
-The motion: d'Alembert, balances, Rankine-Hugoniot and Lax, second order. That an independent scheme converges to it is
-shown by the engine (tests/engine/physics/test_shock_capturing.py).
+The motion: d'Alembert, balances, Rankine-Hugoniot and Lax, second order. Independent schemes that converge to it are in
+`test_finite_volumes.py` and `tests/engine/physics/test_shock_capturing.py`.
 """
 
 from itertools import pairwise, product
