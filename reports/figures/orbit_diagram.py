@@ -35,7 +35,8 @@ def orbit_diagram_over(
     from matplotlib.ticker import LogLocator
 
     diagram = orbit_diagram(parameter, strobed)
-    counts, value_edges = density_image(diagram, rows)
+    image = density_image(diagram, rows)
+    counts, value_edges = image.counts, image.value_edges
     everything = np.concatenate([diagram.parameter, np.asarray(missing, float)])
     half = _half_width(everything)
     shades = LogNorm(1, max(int(counts.max()), 2))

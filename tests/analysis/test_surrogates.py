@@ -93,6 +93,7 @@ def test_a_rank_needs_enough_surrogates_and_counts_ties_against():
     assert rank_among(100.0, drawn).advantage == 81.0
     with pytest.raises(ValueError, match="19 at least"):
         rank_among(1.0, np.arange(18.0))
+    assert rank_among(36.5, drawn, share=0.9).above and np.array_equal(rank_among(1.0, drawn).surrogates, drawn)
 
 
 @pytest.mark.slow
@@ -102,14 +103,14 @@ def test_a_linear_process_beats_its_nulls_about_once_in_twenty():
     for _ in range(400):
         x = np.exp(lfilter([1.0], [1.0, -1.2, 0.8], rng.normal(size=250))[50:])
         scores = normal_scores(x)
-        drawn = [prediction_gain(one) for one in iaaft_surrogates(scores, 19, rng.integers(1 << 30))]
-        above += rank_among(prediction_gain(scores), drawn).above
+        drawn = [prediction_gain(one).gain for one in iaaft_surrogates(scores, 19, rng.integers(1 << 30))]
+        above += rank_among(prediction_gain(scores).gain, drawn).above
     assert above <= 33
 
 
 def test_a_chaotic_map_is_predicted_better_than_both_nulls_allow():
     for record in (logistic(3.9, 200), henon(200)):
-        gain = prediction_gain(record)
+        gain = prediction_gain(record).gain
         for make in (iaaft_surrogates, noisy_periodic_surrogates):
-            rank = rank_among(gain, [prediction_gain(one) for one in make(record, 19)])
+            rank = rank_among(gain, [prediction_gain(one).gain for one in make(record, 19)])
             assert rank.above and rank.advantage > 1.0
