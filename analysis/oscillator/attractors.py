@@ -183,8 +183,8 @@ def snap_basins(
 
 
 def _repeats(recent, longest):
-    """Least period p after which orbits (n, m, 2) repeat themselves at their end; 0 for the others and for m below twice the
-    longest period looked for."""
+    """Least period p after which orbits (n, m, 2) repeat themselves at their end; 0 for the others, and for all
+    while m is below twice the longest period looked for."""
     found = np.zeros(len(recent), dtype=int)
     for p in range(longest if recent.shape[1] >= 2 * longest else 0, 0, -1):
         apart = np.abs(recent[:, -p:] - recent[:, -2 * p : -p]).max(axis=(1, 2))
