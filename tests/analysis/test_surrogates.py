@@ -6,6 +6,7 @@ from scipy.signal import lfilter
 
 from analysis import (
     iaaft_surrogates,
+    neighbour_growth,
     noisy_periodic_surrogates,
     normal_scores,
     prediction_gain,
@@ -114,3 +115,13 @@ def test_a_chaotic_map_is_predicted_better_than_both_nulls_allow():
         for make in (iaaft_surrogates, noisy_periodic_surrogates):
             rank = rank_among(gain, [prediction_gain(one).gain for one in make(record, 19)])
             assert rank.above and rank.advantage > 1.0
+
+
+def test_states_of_ones_own_length_and_window_are_used():
+    record = logistic(3.9, 200)
+    found = prediction_gain(record, delays=1, theiler=5)
+    assert found.gain == pytest.approx(np.log(found.linear_error / found.local_error)) and found.gain > 1.0
+    assert "a state of 1 numbers" in prediction_gain(record[:18], delays=1).reason
+    growth = neighbour_growth(record, delays=1, theiler=5)
+    assert len(growth.distance) == 51 and growth.rate == pytest.approx(growth.growth / 35.5)
+    assert len(spectral_lines(np.sin(np.arange(300.0)) + np.sin(2.3 * np.arange(300.0)), most=1).frequency) == 1
