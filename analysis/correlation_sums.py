@@ -41,6 +41,7 @@ class CorrelationDimension:
     radius (b,)      radii, in the same unit
     correlation_sum (b,)   C(r)
     slope (b,)       d ln C/d ln r about each radius over half a nat; NaN where fewer than 500 pairs are nearer
+    points           points used
     """
 
     value: float
@@ -50,6 +51,7 @@ class CorrelationDimension:
     radius: np.ndarray
     correlation_sum: np.ndarray
     slope: np.ndarray
+    points: int
 
 
 def correlation_dimension(points: ArrayLike, theiler: int = 0) -> CorrelationDimension:
@@ -75,7 +77,7 @@ def correlation_dimension(points: ArrayLike, theiler: int = 0) -> CorrelationDim
     if len(x) < needed or z.shape[1] == 0:
         reason = f"too short: {needed} points are needed, given {len(x)}"
         reason = reason if len(x) < needed else "no motion: all points are one to the last digits"
-        return CorrelationDimension(np.nan, np.nan, reason, none, empty, empty, empty)
+        return CorrelationDimension(np.nan, np.nan, reason, none, empty, empty, empty, len(x))
     largest = np.log(np.linalg.norm(np.ptp(z, axis=0)))
     bins = (largest - _NATS, BINS_PER_NAT, _NATS * BINS_PER_NAT + 1)
     pairs = np.cumsum(_pairs_by_distance(z, theiler, *bins))[:-1]
@@ -88,7 +90,7 @@ def correlation_dimension(points: ArrayLike, theiler: int = 0) -> CorrelationDim
         inside = (radius >= region[0]) & (radius <= region[1])
         error = float(np.hypot(error, _sampling_error(quarters, logarithm, inside)))
     curve = (locked(radius), locked(pairs / total), locked(slope))
-    return CorrelationDimension(value, error, reason, region, *curve)
+    return CorrelationDimension(value, error, reason, region, *curve, len(x))
 
 
 @kernel

@@ -21,7 +21,7 @@ from numpy.typing import ArrayLike
 from analysis.embedding import choose_embedding, delay_vectors, noise_level
 from analysis.exponents import Exponent, no_exponent
 from analysis.neighbours import nearest_outside
-from analysis.sampling import checked_positive, checked_series, locked
+from analysis.sampling import checked_count, checked_positive, checked_series, locked
 
 ROSENSTEIN = "Rosenstein, Collins & De Luca 1993"
 KANTZ = "Kantz 1994"
@@ -54,18 +54,26 @@ class ScalingRegion:
     reason: str
 
 
-def rosenstein_lyapunov(series: ArrayLike, step_s: float) -> Exponent:
+def rosenstein_lyapunov(
+    series: ArrayLike,
+    step_s: float,
+    delay: int | None = None,
+    dimension: int | None = None,
+    theiler: int | None = None,
+    horizon: int | None = None,
+) -> Exponent:
     """Largest Lyapunov exponent from the mean logarithmic growth between nearest neighbours.
 
         y(k) = < ln |X_{i+k} - X_{j(i)+k}| >,    lambda = slope of y against k step_s in its scaling region
 
     series (n,)    any unit, evenly sampled
     step_s         sampling step [s], or 1 for a map
-    The embedding is that of `choose_embedding`; neighbours nearer in time than the mean period or the span of a delay
-    vector are none; k ends after eight mean periods, or a quarter of the record.
+    delay, dimension    of the embedding; None: choose_embedding
+    theiler        neighbours nearer in time are none [samples]; None: mean period or span of a delay vector
+    horizon        largest k [samples]; None: eight mean periods, at most a quarter of the record
     Returns an Exponent [nats/time]. Its error joins the bend of the region with the scatter of eight blocks of centres.
     NaN with a reason where no straight part of the curve spans one nat: regular motion, noise, or too short a record.
-    details: time_s and curve (k,), region (ScalingRegion).
+    details: time_s and curve (k,), region (ScalingRegion), embedding, dimension, theiler, centres.
     Raises ValueError for values that are not finite.
     Source: Rosenstein, Collins & De Luca, Physica D 65, 117 (1993).
     """
@@ -78,39 +86,52 @@ def rosenstein_lyapunov(series: ArrayLike, step_s: float) -> Exponent:
         apart = (np.linalg.norm(points[rows + k] - points[index + k], axis=1) for k in range(horizon + 1))
         return _logarithms(apart)
 
-    return _estimated(ROSENSTEIN, series, step_s, logarithms)
+    return _estimated(ROSENSTEIN, series, step_s, logarithms, delay, dimension, theiler, horizon)
 
 
-def kantz_lyapunov(series: ArrayLike, step_s: float) -> Exponent:
+def kantz_lyapunov(
+    series: ArrayLike,
+    step_s: float,
+    delay: int | None = None,
+    dimension: int | None = None,
+    theiler: int | None = None,
+    horizon: int | None = None,
+    radius: float | None = None,
+) -> Exponent:
     """Largest Lyapunov exponent from the growth of whole neighbourhoods.
 
         y(k) = < ln( mean over j in U_i of |x_{i+k} - x_{j+k}| ) >,    U_i: |X_i - X_j| <= radius
 
     Averaging before the logarithm tames single bad neighbours, so that noise matters less than in Rosenstein's curve.
 
-    series, step_s    as in rosenstein_lyapunov, and so are embedding, window and horizon. The radius is the median
-                      distance of the eighth neighbour, at least three standard deviations of the noise between two
-                      delay vectors
-    Returns an Exponent [nats/time] with details as in rosenstein_lyapunov. NaN with a reason where no
+    series, step_s, delay, dimension, theiler, horizon    as in rosenstein_lyapunov
+    radius         of the neighbourhoods [unit of the series]; None: the median distance of the eighth neighbour, at
+                   least three standard deviations of the noise between two delay vectors
+    Returns an Exponent [nats/time] with details as in rosenstein_lyapunov and radius. NaN with a reason where no
     straight part spans one nat, or fewer than 100 points have eight neighbours or more within the radius.
     Raises ValueError for values that are not finite.
     Source: Kantz, Physics Letters A 185, 77 (1994).
     """
 
+    used = {}
+
     def logarithms(x, points, rows, lag, theiler, horizon):
         index, distance = nearest_outside(points[: len(points) - horizon], theiler, rows, count=4 * KANTZ_NEIGHBOURS)
-        noise = noise_level(x, lag) * np.sqrt(2.0 * points.shape[1])
-        radius = max(np.median(distance[:, KANTZ_NEIGHBOURS - 1]), 3.0 * noise)
-        if radius == 0.0:
-            return "neighbours coincide: the series takes too few different values"
-        near = (distance <= radius) & (index >= 0)
+        within = radius
+        if within is None:
+            noise = noise_level(x, lag) * np.sqrt(2.0 * points.shape[1])
+            within = max(np.median(distance[:, KANTZ_NEIGHBOURS - 1]), 3.0 * noise)
+            if within == 0.0:
+                return "neighbours coincide: the series takes too few different values"
+        used["radius"] = checked_positive(within, "radius")
+        near = (distance <= within) & (index >= 0)
         kept = np.sum(near, axis=1) >= KANTZ_NEIGHBOURS
         rows, index, near, last = rows[kept], index[kept], near[kept], len(x) - len(points)
         apart = (np.abs(x[rows + last + k][:, None] - x[index + last + k]) for k in range(horizon + 1))
         means = (np.sum(np.where(near, one, 0.0), axis=1) / np.sum(near, axis=1) for one in apart)
         return _logarithms(means)
 
-    return _estimated(KANTZ, series, step_s, logarithms)
+    return _estimated(KANTZ, series, step_s, logarithms, delay, dimension, theiler, horizon, used)
 
 
 def _logarithms(apart):
@@ -119,16 +140,18 @@ def _logarithms(apart):
         return np.log(list(apart))
 
 
-def _estimated(method, series, step_s, logarithms):
+def _estimated(method, series, step_s, logarithms, delay, dimension, theiler, horizon, used=()):
     """The Exponent of a method. logarithms: of the series, its delay vectors, the centres asked about (all, or 2000
     drawn with a fixed seed), delay, window and horizon it makes ln(distance) (k + 1, centres), or the
-    sentence that says why there is none."""
+    sentence that says why there is none; what it chose on its way it leaves in `used`, for the details."""
     x, step_s = checked_series(series), checked_positive(step_s, "step_s")
     if len(x) < 500 or np.ptp(x) == 0.0:
         return no_exponent(method, f"500 samples of a series that moves are needed, given {len(x)}")
-    embedding = choose_embedding(x)
-    m, lag, period = embedding.dimension, embedding.lag, embedding.mean_period
-    theiler, horizon = max(round(period), (m - 1) * lag), min(max(round(8 * period), 12), len(x) // 4)
+    embedding = choose_embedding(x, delay)
+    lag, period = embedding.lag, embedding.mean_period
+    m = embedding.dimension if dimension is None else checked_count(dimension, "dimension")
+    theiler = max(round(period), (m - 1) * lag) if theiler is None else int(theiler)
+    horizon = min(max(round(8 * period), 12), len(x) // 4) if horizon is None else checked_count(horizon, "horizon")
     usable = len(x) - (m - 1) * lag - horizon
     if usable < LEAST_CENTRES + 2 * theiler:
         span = f"delay vectors of {(m - 1) * lag} samples and a horizon of {horizon}"
@@ -137,10 +160,13 @@ def _estimated(method, series, step_s, logarithms):
     if usable > CENTRES:
         rows = np.sort(np.random.default_rng(0).choice(usable, CENTRES, replace=False))
     growth = logarithms(x, delay_vectors(x, lag, m), rows, lag, theiler, horizon)
-    return no_exponent(method, growth) if isinstance(growth, str) else _slope_of(growth, step_s, period, method)
+    if isinstance(growth, str):
+        return no_exponent(method, growth)
+    details = {"embedding": embedding, "dimension": m, "theiler": theiler, **dict(used)}
+    return _slope_of(growth, step_s, period, method, details)
 
 
-def _slope_of(growth, step_s, period, method):
+def _slope_of(growth, step_s, period, method, details):
     """The Exponent of ln(distance) (k, centres): mean curve, its scaling region, errors from bend and blocks."""
     # One pair that meets exactly would make the mean minus infinity.
     growth = growth[:, np.all(np.isfinite(growth), axis=0)]
@@ -149,7 +175,7 @@ def _slope_of(growth, step_s, period, method):
     time_s, curve = step_s * np.arange(len(growth)), growth.mean(axis=1)
     # Distances along one coordinate swing twice in a mean period.
     region = scaling_region(time_s, curve, cycle=round(period / 2) if period >= 6.0 else 1)
-    details = {"time_s": locked(time_s), "curve": locked(curve), "region": region}
+    details |= {"time_s": locked(time_s), "curve": locked(curve), "region": region, "centres": growth.shape[1]}
     if not np.isfinite(region.slope):
         return no_exponent(method, region.reason, details=details)
     part = slice(region.begin, region.end + 1)

@@ -32,7 +32,6 @@ FALSE_SIZE = 2.0
 FALSE_SHARE = 0.01
 FALSE_AT_MOST = 0.2
 CAO_LEVEL = 0.9
-MOST_DIMENSIONS = 8
 # Points asked about where a statistic over the attractor is enough; drawn with a fixed seed, so that the same record
 # gives the same answer.
 CENTRES = 2000
@@ -40,39 +39,54 @@ NOISE_CENTRES = 400
 NOISE_REACH = 3
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class DelayChoice:
-    """A delay and why it was taken.
+    """A delay and the curve from which it was read.
 
     delay                    [samples]
     reason                   one sentence: first minimum, or what was taken for want of one
+    information (k + 1,)     I(L) at L = 0 ... k [nats]; I(0) is the entropy of the cells
+    bias                     what independent samples would show on average, (cells - 1)^2/(2 pairs) [nats]
+    cells                    cells per axis, equally filled
     mean_period              mean period of the series [samples]
     """
 
     delay: int
     reason: str
+    information: np.ndarray
+    bias: float
+    cells: int
     mean_period: float
 
 
 @dataclass(frozen=True, eq=False)
 class EmbeddingChoice:
-    """Delay and dimension of an embedding; index m - 1 of an array belongs to m.
+    """Delay and dimension of an embedding with the curves from which they were read; index m - 1 belongs to m.
 
-    dimension                the choice: by false neighbours, else by Cao, the first m with E1 of at least 0.9
+    dimension                the choice: by false neighbours, else by Cao
     by_false_neighbours      first m whose share of false neighbours is within 0.01 of the least; None where even that
                              is more than 0.2: what is then folded is noise
+    by_cao                   first m with E1 of at least 0.9; None if there is none
     reason                   one sentence: what each rule says
     lag                      delay used [samples]
     mean_period              mean period of the series [samples]
-    e2 (7,)                  Cao's second ratio, m = 1 ... 7: differs from 1 at some m for a deterministic series and is
-                             about 1 at all m for noise
+    delay                    DelayChoice: what mutual information says, whether it was used or not
+    theiler                  Theiler window used [samples]
+    false_share (k,)         share of false neighbours, m = 1 ... k
+    e1, e2 (k - 1,)          Cao's ratios, m = 1 ... k - 1; e2 differs from 1 at some m for a deterministic series and
+                             is about 1 at all m for noise
     """
 
     dimension: int
     by_false_neighbours: int | None
+    by_cao: int | None
     reason: str
     lag: int
     mean_period: float
+    delay: DelayChoice
+    theiler: int
+    false_share: np.ndarray
+    e1: np.ndarray
     e2: np.ndarray
 
 
@@ -110,17 +124,20 @@ def mean_period(series: ArrayLike) -> float:
     return float(min(np.sum(power) / weighted, 0.5 * len(x))) if weighted > 0.0 else 0.5 * len(x)
 
 
-def mutual_information(series: ArrayLike, max_delay: int) -> tuple[np.ndarray, int]:
+def mutual_information(series: ArrayLike, max_delay: int, cells: int | None = None) -> tuple[np.ndarray, int]:
     """Average mutual information I(L) of a series with itself L samples later [nats], L = 0 ... max_delay.
 
-    The cells hold equal shares of the samples, so I does not change under any monotone rescaling of the series. There
-    are (pairs/20)^(1/2) of them an axis, 4 ... 32, so that even full scatter leaves about 20 pairs a cell.
+    The cells hold equal shares of the samples, so I does not change under any monotone rescaling of the series.
+    cells    per axis; None: (pairs/20)^(1/2), 4 ... 32, so that even full scatter leaves about 20 pairs a cell
     Returns (information (max_delay + 1,), cells).
-    Raises ValueError for values that are not finite.
+    Raises ValueError for values that are not finite, or max_delay not below half the length.
     Source: Fraser & Swinney, Physical Review A 33, 1134 (1986), on a fixed partition.
     """
     x = checked_series(series)
-    cells = int(np.clip(np.sqrt(len(x) / 20.0), 4, 32))
+    max_delay = checked_count(max_delay, "max_delay")
+    if max_delay >= len(x) // 2:
+        raise ValueError(f"max_delay: less than half of the {len(x)} samples is needed, given {max_delay}")
+    cells = int(np.clip(np.sqrt(len(x) / 20.0), 4, 32)) if cells is None else checked_count(cells, "cells", least=2)
     # Equal values share a cell: ranks by value, not by order, or a constant stretch would be cut by chance.
     edges = np.quantile(x, np.arange(1, cells) / cells)
     label = np.searchsorted(edges, x, side="right")
@@ -134,8 +151,8 @@ def mutual_information(series: ArrayLike, max_delay: int) -> tuple[np.ndarray, i
     return information, cells
 
 
-def choose_delay(series: ArrayLike) -> DelayChoice:
-    """Delay at the first minimum of the average mutual information, looked for over three mean periods.
+def choose_delay(series: ArrayLike, max_delay: int | None = None) -> DelayChoice:
+    """Delay at the first minimum of the average mutual information.
 
     A minimum is a lag that no other within a tenth of a mean period undercuts, I being smoothed over (1/4, 1/2, 1/4):
     the scatter of I makes shorter dips by chance. (To ask for a depth as well loses the well-known shallow minimum of
@@ -146,7 +163,8 @@ def choose_delay(series: ArrayLike) -> DelayChoice:
     its samples: delay 1.
 
     series (n,)    samples, any unit
-    Returns a DelayChoice; `reason` says which rule spoke.
+    max_delay      largest lag looked at [samples]; None: three mean periods
+    Returns a DelayChoice; `reason` says which rule spoke, `information` is the curve to draw.
     Raises ValueError for values that are not finite or fewer than 50 samples.
     Source: Fraser & Swinney, Physical Review A 33, 1134 (1986).
     """
@@ -154,8 +172,9 @@ def choose_delay(series: ArrayLike) -> DelayChoice:
     if len(x) < 50:
         raise ValueError(f"series: 50 samples at least are needed, given {len(x)}")
     period = mean_period(x)
-    max_delay = int(min(max(np.ceil(PERIODS_SEARCHED * period), 10), len(x) // 2 - 1))
-    information, _ = mutual_information(x, max_delay)
+    if max_delay is None:
+        max_delay = int(min(max(np.ceil(PERIODS_SEARCHED * period), 10), len(x) // 2 - 1))
+    information, cells = mutual_information(x, max_delay)
     if period < LEAST_SAMPLES_PER_PERIOD:
         delay, reason = 1, f"delay 1: {period:.2g} samples per mean period leave nothing between the samples"
     else:
@@ -166,7 +185,7 @@ def choose_delay(series: ArrayLike) -> DelayChoice:
         if delay != minimum:
             found = f"at {minimum}" if minimum else f"none up to {max_delay}"
             reason = f"a quarter of the mean period; first minimum of the mutual information: {found} samples"
-    return DelayChoice(delay, reason, period)
+    return DelayChoice(delay, reason, locked(information), (cells - 1) ** 2 / (2.0 * len(x)), cells, period)
 
 
 def _first_minimum(information, reach):
@@ -179,25 +198,31 @@ def _first_minimum(information, reach):
     return None
 
 
-def choose_embedding(series: ArrayLike) -> EmbeddingChoice:
-    """Delay and embedding dimension of a series.
+def choose_embedding(
+    series: ArrayLike, delay: int | None = None, max_dimension: int = 8, theiler: int | None = None
+) -> EmbeddingChoice:
+    """Delay and embedding dimension of a series, with every curve that led to them.
 
     Noise makes false neighbours in every dimension: their share levels off above zero, and rises again. E1 rises to 1
     and stays where the embedding is large enough.
 
     series (n,)       any unit
-    Returns an EmbeddingChoice of at most 8 dimensions; 8 is the answer, and `reason` says so, where neither rule
-    speaks. The dimension is the smallest that unfolds the motion; it is not the dimension of the attractor, and twice
-    that of the attractor plus one may be needed (Sauer, Yorke & Casdagli 1991).
+    delay             [samples]; None: choose_delay
+    max_dimension     largest m looked at, 2 or more; it is the answer, and `reason` says so, where neither rule speaks
+    theiler           [samples]; None: one mean period
+    Returns an EmbeddingChoice. The dimension is the smallest that unfolds the motion; it is not the dimension of the
+    attractor, and twice that of the attractor plus one may be needed (Sauer, Yorke & Casdagli 1991).
     Raises ValueError for values that are not finite or a series too short.
     Source: Kennel, Brown & Abarbanel, Physical Review A 45, 3403 (1992), both criteria, with their 15 and 2; Cao,
     Physica D 110, 43 (1997).
     """
     x = checked_series(series)
     chosen = choose_delay(x)
-    share, growth, change = np.full((3, MOST_DIMENSIONS), np.nan)
-    for m in range(1, MOST_DIMENSIONS + 1):
-        apart, radius, more = _next_coordinate(x, chosen.delay, m, round(chosen.mean_period))
+    lag = chosen.delay if delay is None else checked_count(delay, "delay")
+    theiler = round(chosen.mean_period) if theiler is None else int(theiler)
+    share, growth, change = np.full((3, checked_count(max_dimension, "max_dimension", least=2)), np.nan)
+    for m in range(1, max_dimension + 1):
+        apart, radius, more = _next_coordinate(x, lag, m, theiler)
         if len(apart):
             share[m - 1] = np.mean((more > FALSE_RATIO * apart) | (np.hypot(apart, more) > FALSE_SIZE * np.std(x)))
         if np.any(radius > 0.0):
@@ -207,10 +232,11 @@ def choose_embedding(series: ArrayLike) -> EmbeddingChoice:
         e1, e2 = growth[1:] / growth[:-1], change[1:] / change[:-1]
     kennel = _first(share <= np.nanmin(share) + FALSE_SHARE) if np.nanmin(share) <= FALSE_AT_MOST else None
     cao = _first(e1 >= CAO_LEVEL)
-    words = f"false neighbours: {kennel or 'none'}, Cao: {cao or 'none'} of dimensions up to {MOST_DIMENSIONS}"
+    words = f"false neighbours: {kennel or 'none'}, Cao: {cao or 'none'} of dimensions up to {max_dimension}"
     reason = words if kennel or cao else f"{words}: noise, or a motion of higher dimension"
-    dimension = kennel or cao or MOST_DIMENSIONS
-    return EmbeddingChoice(dimension, kennel, reason, chosen.delay, chosen.mean_period, locked(e2))
+    curves = locked(share), locked(e1), locked(e2)
+    dimension = kennel or cao or max_dimension
+    return EmbeddingChoice(dimension, kennel, cao, reason, lag, chosen.mean_period, chosen, theiler, *curves)
 
 
 def _first(holds):

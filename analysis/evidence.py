@@ -39,7 +39,7 @@ MOST_BANDS = 8
 BAND_POINTS = 100
 # More points make a map no clearer, and surrogates of them take long.
 NULL_POINTS = 1000
-NO_RANK = NullRank(None, np.nan, np.nan, np.nan)
+NO_RANK = NullRank(None, np.nan, np.nan, np.nan, np.empty(0))
 NULLS = (("linear null", iaaft_surrogates), ("noisy-periodic null", noisy_periodic_surrogates))
 
 
@@ -228,10 +228,10 @@ def null_ranks(section: np.ndarray, surrogates: int, seed: int | list[int]) -> l
     section = section[-NULL_POINTS:]
     ranks = []
     for i, (points, make) in enumerate([(normal_scores(section), NULLS[0][1]), (section, NULLS[1][1])]):
-        gain, drawn = prediction_gain(points), [np.nan]
+        gain, drawn = prediction_gain(points).gain, [np.nan]
         if np.isfinite(gain):
-            drawn = [prediction_gain(one) for one in make(points, surrogates, [*np.atleast_1d(seed), 100 + i])]
-        ranks.append(rank_among(gain, drawn) if np.all(np.isfinite(drawn)) else NO_RANK)
+            drawn = [prediction_gain(one).gain for one in make(points, surrogates, [*np.atleast_1d(seed), 100 + i])]
+        ranks.append(rank_among(gain, drawn, SHARE) if np.all(np.isfinite(drawn)) else NO_RANK)
     return ranks
 
 

@@ -1,12 +1,42 @@
 """The least and greatest value of a series, and the share of time that it spends at or below one (a slack tether)."""
 
+from dataclasses import dataclass
+
 import numpy as np
 from numpy.typing import ArrayLike
 
 from analysis.sampling import ON_SAMPLE, checked_not_negative, checked_positive, checked_series, record_length_s
 
 
-def slack_fraction(tension_N: ArrayLike, step_s: float, threshold_N: float = 0.0, transient_s: float = 0.0) -> float:
+@dataclass(frozen=True)
+class SlackFraction:
+    """Share of the time with tension at or below a threshold.
+
+    fraction       slack_s/record_s, 0 ... 1
+    slack_s        time at or below the threshold [s]
+    record_s       time looked at, transient left out [s]
+    threshold_N    the threshold [N]
+    """
+
+    fraction: float
+    slack_s: float
+    record_s: float
+    threshold_N: float
+
+
+@dataclass(frozen=True)
+class Extremes:
+    """Least and greatest sample and when each is first reached; times from the first sample of the record [s]."""
+
+    minimum: float
+    minimum_time_s: float
+    maximum: float
+    maximum_time_s: float
+
+
+def slack_fraction(
+    tension_N: ArrayLike, step_s: float, threshold_N: float = 0.0, transient_s: float = 0.0
+) -> SlackFraction:
     """Share of the time after a transient in which the tension is at or below a threshold.
 
         fraction = 1/t_r * measure{ t : T(t) <= threshold },   T linear between samples
@@ -17,7 +47,7 @@ def slack_fraction(tension_N: ArrayLike, step_s: float, threshold_N: float = 0.0
     step_s           sampling step [s]
     threshold_N      0 is slack; a small positive value asks for "nearly slack" [N]
     transient_s      time left out at the start; need not be a multiple of the step [s]
-    Returns the share, 0 ... 1.
+    Returns a SlackFraction.
     Raises ValueError for values that are not finite, or a record that does not outlast the transient by some time.
     """
     x = checked_series(tension_N, "tension_N") - float(threshold_N)
@@ -35,11 +65,12 @@ def slack_fraction(tension_N: ArrayLike, step_s: float, threshold_N: float = 0.0
     crossing = (left <= 0.0) != (right <= 0.0)
     depth = np.abs(np.minimum(left, right)[crossing])
     below[crossing] = depth / (depth + np.maximum(left, right)[crossing])
-    return min(float(np.sum(below * np.diff(time_s))) / float(time_s[-1] - time_s[0]), 1.0)
+    slack_s, record_s = float(np.sum(below * np.diff(time_s))), float(time_s[-1] - time_s[0])
+    return SlackFraction(min(slack_s / record_s, 1.0), slack_s, record_s, float(threshold_N))
 
 
-def extremes(series: ArrayLike, step_s: float, transient_s: float = 0.0) -> tuple[float, float]:
-    """The least and the greatest sample at or after the transient.
+def extremes(series: ArrayLike, step_s: float, transient_s: float = 0.0) -> Extremes:
+    """The least and the greatest sample at or after the transient, each with its first time.
 
     Samples only: a peak shorter than the step is missed. Where a record keeps the extremes between its samples as
     series of their own (low, high), ask for the minimum of the one and the maximum of the other.
@@ -47,12 +78,13 @@ def extremes(series: ArrayLike, step_s: float, transient_s: float = 0.0) -> tupl
     series (n,)    samples from t = 0, any unit
     step_s         sampling step [s]
     transient_s    time left out at the start [s]
-    Returns (least, greatest), in the unit of the series.
+    Returns an Extremes.
     Raises ValueError for values that are not finite, or a record that ends within the transient.
     """
     x = checked_series(series)
-    settled = x[_after(x, step_s, transient_s)[0] :]
-    return float(settled.min()), float(settled.max())
+    first, time_s = _after(x, step_s, transient_s)
+    low, high = first + int(np.argmin(x[first:])), first + int(np.argmax(x[first:]))
+    return Extremes(float(x[low]), float(time_s[low]), float(x[high]), float(time_s[high]))
 
 
 def _after(x, step_s, transient_s):

@@ -18,7 +18,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from analysis.sampling import checked_columns, in_deviations, states_of
+from analysis.sampling import checked_columns, checked_count, in_deviations, locked, states_of
 
 LEAST_POINTS = 40
 EARLY = slice(1, 4)
@@ -59,51 +59,57 @@ def nearest_outside(
     return index, distance
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class NeighbourGrowth:
     """How far pairs of neighbours part.
 
     growth           ln of mean distance over the later half of the horizon less that over n = 1, 2, 3 [nats]; NaN where
                      there is no answer
     late             mean distance over the later half of the horizon, in rms distances of unrelated points
+    rate             growth per forcing period, over the mean time between the two [nats/period]: a bound on an exponent
+    distance (h+1,)  d(n), in rms distances of unrelated points
     reason           one sentence
     """
 
     growth: float
     late: float
+    rate: float
+    distance: np.ndarray
     reason: str
 
 
-def neighbour_growth(section: ArrayLike) -> NeighbourGrowth:
+def neighbour_growth(section: ArrayLike, delays: int | None = None, theiler: int = 1) -> NeighbourGrowth:
     """Growth of the distance between neighbours on a section over a quarter of the record (head of this file).
 
-    section (m,) or (m, d)   one row a forcing period, 40 at least; as many rows are taken together as one state as make
-                             3 or more numbers
+    section (m,) or (m, d)   one row a forcing period, 40 at least
+    delays                   rows taken together as one state; default: as few as make a state of 3 or more numbers
+    theiler                  points within this many periods are no neighbours
     Returns a NeighbourGrowth; NaN with the reason for a short record or one without motion. An exponent below 4/m nats
     per period does not show in a record of m periods: a weakly chaotic motion passes for a torus as long as that.
     Raises ValueError for values that are not finite.
     Source: the pairs are those of M. T. Rosenstein, J. J. Collins & C. J. De Luca, Physica D 65 (1993) 117.
     """
-    x = checked_columns(section, "section")
+    x, theiler = checked_columns(section, "section"), checked_count(theiler, "theiler", least=0)
     z = in_deviations(x)
     why_not = "no motion: the section is one point to the last digits" if z.shape[1] == 0 else ""
     if len(x) < LEAST_POINTS:
         why_not = f"too short: {LEAST_POINTS} strobed points are needed, given {len(x)}"
     if why_not:
-        return NeighbourGrowth(np.nan, np.nan, why_not)
-    state = states_of(z, x.shape[1])
+        return NeighbourGrowth(np.nan, np.nan, np.nan, locked(np.zeros(0)), why_not)
+    state = states_of(z, x.shape[1], delays)
     horizon = len(state) // 4
-    distance = _distance(state, horizon) / np.sqrt(2.0 * np.sum(state.var(axis=0)))
+    distance = _distance(state, horizon, theiler) / np.sqrt(2.0 * np.sum(state.var(axis=0)))
     early, late = np.log(distance[EARLY]).mean(), np.log(distance[horizon // 2 :]).mean()
     later = f"are {np.exp(late):.2g} apart {horizon // 2} and more periods on"
     reason = f"neighbours {np.exp(early):.2g} of the section apart {later}"
-    return NeighbourGrowth(float(late - early), float(np.exp(late)), reason)
+    rate = float((late - early) / (0.75 * horizon - 2.0))
+    return NeighbourGrowth(float(late - early), float(np.exp(late)), rate, locked(distance), reason)
 
 
-def _distance(state, horizon):
+def _distance(state, horizon, theiler):
     """d(n) for n = 0 ... horizon."""
     pool = state[: len(state) - horizon]
-    partner = nearest_outside(pool, 1)[0][:, 0]
+    partner = nearest_outside(pool, theiler)[0][:, 0]
     # A record that repeats itself to the last digit has distance 0, whose logarithm would be its only value.
     least = 1e-14 * np.sqrt(state.shape[1])
     logarithm = [

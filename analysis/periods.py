@@ -40,21 +40,28 @@ class PeriodEstimate:
     period                          smallest N that qualifies, or None
     reason                          one sentence: why this answer
     tolerance                       share of the scale
+    scale (d,)                      what counts as 1 in each coordinate, in its unit
     residual (max_period,)          largest scaled change over N periods in the last part; NaN where not tested
     projected (max_period,)         the last steps with all later steps of a geometric decay added, scaled; inf where
                                     the steps do not shrink
     multiplier (max_period,)        estimated multiplier over N periods, see the head of this file
     trend_nats_per_period (max_period,)   ln(late residual/early residual) per forcing period over the last part:
                                     negative while a transient dies out, about 0 on an attractor
+    points                          strobed points given
+    orbit (period, d)               mean of each of the N points over the last part, in the order visited, the last one
+                                    being where the record ends; None without a period
     """
 
     period: int | None
     reason: str
     tolerance: float
+    scale: np.ndarray
     residual: np.ndarray
     projected: np.ndarray
     multiplier: np.ndarray
     trend_nats_per_period: np.ndarray
+    points: int
+    orbit: np.ndarray | None
 
 
 def detect_period(
@@ -95,7 +102,9 @@ def detect_period(
     repeats = [n for n in range(1, testable + 1) if max(residual[n - 1], projected[n - 1]) <= tolerance]
     period = next((n for n in repeats if not _rivals(n, residual, tolerance)), None)
     reason = _reason(period, repeats, points, testable, max_period, tolerance, residual, trend)
-    return PeriodEstimate(period, reason, tolerance, *(locked(curve) for curve in measures))
+    curves = (locked(curve) for curve in (scale, *measures))
+    orbit = None if period is None else locked(_orbit(x, period))
+    return PeriodEstimate(period, reason, tolerance, *curves, points, orbit)
 
 
 def _scale(x, given):
@@ -140,6 +149,13 @@ def _rivals(n, residual, tolerance):
     """Proper divisors of n that are not clearly worse periods than n: points that near are not told apart."""
     least = CLEARLY_MORE * max(residual[n - 1], tolerance)
     return [d for d in range(1, n) if n % d == 0 and residual[d - 1] < least]
+
+
+def _orbit(x, n):
+    """Mean of every n-th point over the last part, in the order visited."""
+    tail = x[-_tail(len(x), n) :]
+    tail = tail[len(tail) % n :]
+    return tail.reshape(-1, n, x.shape[1]).mean(axis=0)
 
 
 def _reason(period, repeats, points, testable, max_period, tolerance, residual, trend):

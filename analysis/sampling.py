@@ -40,10 +40,10 @@ def in_deviations(x: np.ndarray, centred: bool = False) -> np.ndarray:
     return (kept - kept.mean(axis=0) if centred else kept) / size[moves]
 
 
-def states_of(z: np.ndarray, coordinates: int) -> np.ndarray:
-    """As many consecutive rows of z (n, c) side by side, the last one first, as make 3 or more of a state's numbers,
-    where a row has this many coordinates, unmoved ones counted: (n - rows + 1, c rows)."""
-    rows = -(-3 // coordinates)
+def states_of(z: np.ndarray, coordinates: int, rows: int | None = None) -> np.ndarray:
+    """Consecutive rows of z (n, c) side by side, the last one first: (n - rows + 1, c rows). None: as many rows as make
+    3 or more of a state's numbers, where a row has this many coordinates, unmoved ones counted."""
+    rows = -(-3 // coordinates) if rows is None else checked_count(rows, "delays")
     return np.hstack([z[rows - 1 - lag : len(z) - lag] for lag in range(rows)])
 
 
@@ -73,8 +73,8 @@ def record_length_s(samples: int, step_s: float) -> float:
     return max(samples - 1, 0) * step_s
 
 
-def values_at(series: np.ndarray, step_s: float, time_s: ArrayLike) -> np.ndarray:
-    """Values of `series` (n,) or (n, d) at `time_s` (m,).
+def values_at(series: np.ndarray, step_s: float, time_s: ArrayLike) -> tuple[np.ndarray, bool]:
+    """Values of `series` (n,) or (n, d) at `time_s` (m,), and whether they were interpolated.
 
     The samples themselves where every time is a sample; otherwise all of them by one not-a-knot cubic spline, whose
     error is O(step^4) up to both ends of the record for a motion with four bounded derivatives. A kink (a snap) costs
@@ -83,12 +83,12 @@ def values_at(series: np.ndarray, step_s: float, time_s: ArrayLike) -> np.ndarra
     position = np.asarray(time_s, dtype=float) / step_s
     index = np.rint(position).astype(int)
     if np.all(np.abs(position - index) <= ON_SAMPLE):
-        return series[index]
+        return series[index], False
     if len(series) < 4:
         raise ValueError(f"interpolation between samples needs at least 4 of them, given {len(series)}")
     from scipy.interpolate import CubicSpline
 
-    return CubicSpline(np.arange(len(series)), series)(position)
+    return CubicSpline(np.arange(len(series)), series)(position), True
 
 
 def locked(array: ArrayLike) -> np.ndarray:

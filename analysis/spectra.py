@@ -35,12 +35,18 @@ class Spectrum:
     transform (m,) complex        X(w_j), unit of the series; t in e^{i w t} counts from the first sample
     amplitude (m,)                |X(w_j)|: HALF the amplitude of a sine at bin j >= 1; at j = 0 the size of the mean
     bin_radps                     2 pi/(n T_i)
+    forcing_period_s, start_periods, periods   T_i, tau_0/T_i and n
+    interpolated                  True where the window was resampled because its ends are not on samples
     """
 
     angular_frequency_radps: np.ndarray
     transform: np.ndarray
     amplitude: np.ndarray
     bin_radps: float
+    forcing_period_s: float
+    start_periods: float
+    periods: int
+    interpolated: bool
 
 
 @dataclass(frozen=True)
@@ -48,11 +54,15 @@ class SpectralPeak:
     """A local maximum of a spectrum; beside a reference frequency where one was asked for.
 
     angular_frequency_radps, amplitude   of the bin
+    bin                                  its index j
+    reference_radps                      the frequency it was compared with, or None
     bins_away                            (w_j - reference)/bin width, signed; None without a reference
     """
 
     angular_frequency_radps: float
     amplitude: float
+    bin: int
+    reference_radps: float | None = None
     bins_away: float | None = None
 
 
@@ -72,7 +82,7 @@ def spectrum(
     start_periods        tau_0/T_i; 40 in the paper's fig. 12
     periods              n, whole; 20 in the paper's fig. 12
     Returns a Spectrum. Where tau_0 or n T_i is no multiple of the step, the window is resampled by cubic splines onto
-    the next finer grid that fits.
+    the next finer grid that fits, and the record says so.
     Raises ValueError for a record that ends before tau_0 + n T_i (says how many periods are needed and given), and for
     values that are not finite.
     Source: Tjavaras et al. 1998, eq. (31) and the lines below it.
@@ -91,7 +101,7 @@ def spectrum(
     # As sampled where the window fits, else the next whole number above (never coarser).
     fit = window_s / step_s
     intervals = max(round(fit) if abs(fit - round(fit)) <= ON_SAMPLE else int(np.ceil(fit)), 2)
-    window = values_at(x, step_s, begin_s + window_s / intervals * np.arange(intervals + 1))
+    window, interpolated = values_at(x, step_s, begin_s + window_s / intervals * np.arange(intervals + 1))
     folded = window[:-1].copy()
     folded[0] = 0.5 * (window[0] + window[-1])  # both ends carry weight 1/2 and the same e^{i w_j t}
     bins = np.arange(intervals // 2 + 1)
@@ -99,7 +109,7 @@ def spectrum(
     transform = np.fft.ifft(folded)[bins] * np.exp(2j * np.pi * np.mod(bins * (start_periods / periods), 1.0))
     bin_radps = 2.0 * np.pi / window_s
     lines = (locked(array) for array in (bin_radps * bins, transform, np.abs(transform)))
-    return Spectrum(*lines, bin_radps)
+    return Spectrum(*lines, bin_radps, forcing_period_s, start_periods, periods, interpolated)
 
 
 def spectral_peaks(spectrum: Spectrum, least_prominence: float = 0.01) -> tuple[SpectralPeak, ...]:
@@ -125,12 +135,14 @@ def spectral_peaks(spectrum: Spectrum, least_prominence: float = 0.01) -> tuple[
         return ()
     found, _ = find_peaks(amplitude, prominence=least_prominence * largest)
     return tuple(
-        SpectralPeak(float(spectrum.angular_frequency_radps[j]), float(amplitude[j]))
+        SpectralPeak(float(spectrum.angular_frequency_radps[j]), float(amplitude[j]), int(j))
         for j in found[np.argsort(-amplitude[found], kind="stable")]
     )
 
 
-def peaks_near(spectrum: Spectrum, frequencies_radps: Iterable[float]) -> tuple[SpectralPeak | None, ...]:
+def peaks_near(
+    spectrum: Spectrum, frequencies_radps: Iterable[float], least_prominence: float = 0.01
+) -> tuple[SpectralPeak | None, ...]:
     """For each given frequency, the nearest peak and by how many bins it misses.
 
         bins_away = (w_peak - w_given)/(2 pi/(n T_i))
@@ -138,15 +150,16 @@ def peaks_near(spectrum: Spectrum, frequencies_radps: Iterable[float]) -> tuple[
     A line lies at best half a bin away, since bins are all that eq. (31) offers; within 1 is agreement.
 
     frequencies_radps    numbers [rad/s], e.g. natural frequencies and that of the waves
+    least_prominence     as in spectral_peaks
     Returns one SpectralPeak with reference per frequency, in the order given; None where the spectrum has no peak.
     Raises ValueError for a frequency that is not finite or below zero.
     """
-    peaks = spectral_peaks(spectrum)
+    peaks = spectral_peaks(spectrum, least_prominence)
 
     def beside(given: float) -> SpectralPeak:
         nearest = min(peaks, key=lambda peak: abs(peak.angular_frequency_radps - given))
         away = (nearest.angular_frequency_radps - given) / spectrum.bin_radps
-        return replace(nearest, bins_away=away)
+        return replace(nearest, reference_radps=given, bins_away=away)
 
     wanted = [checked_not_negative(given, "frequencies_radps") for given in frequencies_radps]
     return tuple(beside(given) if peaks else None for given in wanted)

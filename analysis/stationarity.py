@@ -28,11 +28,19 @@ class Drift:
 
     drifting         True where the record marches or collapses; None where it is too short to say
     spread_change    ln(spread of the last block/of the first) along the fitted line [nats]
-    reason           one sentence: the changes of the spread and of the mean, the collapse
+    spread_march     correlation of ln(spread) with time
+    mean_change      largest change of a coordinate's mean along its fitted line, in its standard deviations
+    mean_march       its correlation with time
+    collapse         width of the first block over the widest of the later half
+    reason           one sentence
     """
 
     drifting: bool | None
     spread_change: float
+    spread_march: float
+    mean_change: float
+    mean_march: float
+    collapse: float
     reason: str
 
 
@@ -47,10 +55,11 @@ def record_drift(section: ArrayLike) -> Drift:
     """
     x = checked_columns(section, "section")
     if len(x) < LEAST_POINTS:
-        return Drift(None, np.nan, f"too short: {LEAST_POINTS} strobed points are needed, given {len(x)}")
+        reason = f"too short: {LEAST_POINTS} strobed points are needed, given {len(x)}"
+        return Drift(None, *[np.nan] * 5, reason)
     z = in_deviations(x, centred=True)
     if z.shape[1] == 0:
-        return Drift(False, 0.0, "no motion: the section is one point to the last digits")
+        return Drift(False, 0.0, 0.0, 0.0, 0.0, 1.0, "no motion: the section is one point to the last digits")
     blocks = np.array_split(z, BLOCKS)
     mean = np.array([block.mean(axis=0) for block in blocks])
     spread = np.sqrt([np.mean(block.var(axis=0)) for block in blocks])
@@ -71,7 +80,7 @@ def record_drift(section: ArrayLike) -> Drift:
     if collapse > COLLAPSE:
         signs.append(f"its first eighth is {collapse:.2g} times wider than any of the later half")
     reason = "; ".join(signs) if signs else "spread and mean of eight blocks show no steady change"
-    return Drift(bool(signs), spread_change, reason)
+    return Drift(bool(signs), spread_change, spread_march, mean_change, mean_march, collapse, reason)
 
 
 def _line(values):

@@ -36,10 +36,10 @@ from numpy.typing import ArrayLike
 
 from analysis.line_spectra import spectral_lines
 from analysis.neighbours import nearest_outside
-from analysis.sampling import checked_columns, checked_count, checked_series, in_deviations, states_of
+from analysis.sampling import checked_columns, checked_count, checked_series, in_deviations, locked, states_of
 
 LEAST_POINTS = 32
-SHARE, LEAST_SURROGATES = 0.95, 19
+SHARE = 0.95
 Seed = int | list[int]
 # The order mostly stops changing by 50; with several columns it may go on over pairs of nearly equal values.
 MOST_ROUNDS = 100
@@ -49,20 +49,38 @@ NEIGHBOURS_PER_COEFFICIENT = 2
 _RIDGE = 1e-3
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class NullRank:
     """Where a record stands among its surrogates.
 
-    above            True where more than 95 % of the surrogates lie below the record; None where nobody could say
+    above            True where more than the asked share of the surrogates lies below the record; None: not known
     share_below      share of the surrogates with a smaller statistic (equal ones count half)
     advantage        statistic of the record less the median of the surrogates'; its unit
     statistic        of the record
+    surrogates (s,)  of the surrogates
     """
 
     above: bool | None
     share_below: float
     advantage: float
     statistic: float
+    surrogates: np.ndarray
+
+
+@dataclass(frozen=True)
+class PredictionGain:
+    """Errors of two predictors of the next point, and their ratio.
+
+    gain           ln(linear_error/local_error) [nats]; NaN where the test does not apply
+    linear_error   rms over points and coordinates, each coordinate in units of its standard deviation
+    local_error    the same for the local maps
+    reason         one sentence
+    """
+
+    gain: float
+    linear_error: float
+    local_error: float
+    reason: str
 
 
 def iaaft_surrogates(series: ArrayLike, count: int = 1, seed: Seed = 0) -> np.ndarray:
@@ -120,23 +138,27 @@ def normal_scores(series: ArrayLike) -> np.ndarray:
     return ndtri((rankdata(x, axis=0) - 0.5) / max(len(x), 1))
 
 
-def rank_among(statistic: float, surrogates: ArrayLike) -> NullRank:
-    """Is the statistic of a record above 95 % of its surrogates'? One-sided rank test.
+def rank_among(statistic: float, surrogates: ArrayLike, share: float = SHARE) -> NullRank:
+    """Is the statistic of a record above the given share of its surrogates'? One-sided rank test.
 
     statistic         of the record; larger speaks against the null
-    surrogates (s,)   the same statistic of surrogates, 19 or more, so that 1/(s + 1) <= 0.05
-    Returns a NullRank. Under the null the record is one more draw, so that `above` has probability 0.05 at most.
-    Raises ValueError for values that are not finite, or too few surrogates.
+    surrogates (s,)   the same statistic of surrogates; enough of them that 1/(s + 1) <= 1 - share: 19 for 95 %
+    share             of the surrogates that have to lie below, in (0, 1)
+    Returns a NullRank. Under the null the record is one more draw, so that `above` has probability 1 - share at most.
+    Raises ValueError for values that are not finite, too few surrogates or a share outside (0, 1).
     Source: J. Theiler et al., Physica D 58 (1992) 77; ranks: Schreiber & Schmitz (2000), sec. 2.
     """
     drawn = checked_series(surrogates, "surrogates")
     value = float(checked_series([statistic], "statistic")[0])
-    if len(drawn) < LEAST_SURROGATES:
-        raise ValueError(f"surrogates: {LEAST_SURROGATES} at least are needed, given {len(drawn)}")
+    if not 0.0 < share < 1.0:
+        raise ValueError(f"share: a number in (0, 1) is needed, given {share!r}")
+    if (len(drawn) + 1) * (1.0 - share) < 1.0 - 1e-9:
+        needed = int(np.ceil(1.0 / (1.0 - share) - 1e-9)) - 1
+        raise ValueError(f"surrogates: {needed} at least are needed for a share of {share:g}, given {len(drawn)}")
     below = (np.sum(drawn < value) + 0.5 * np.sum(drawn == value)) / len(drawn)
-    # Of s + 1 equally likely places the record must hold one of the best 5 %; a tie counts against it.
-    above = bool(np.sum(drawn >= value) + 1 <= (1.0 - SHARE) * (len(drawn) + 1) + 1e-9)
-    return NullRank(above, float(below), value - float(np.median(drawn)), value)
+    # Of s + 1 equally likely places the record must hold one of the best (1 - share)(s + 1); a tie counts against it.
+    above = bool(np.sum(drawn >= value) + 1 <= (1.0 - share) * (len(drawn) + 1) + 1e-9)
+    return NullRank(above, float(below), value - float(np.median(drawn)), value, locked(drawn))
 
 
 def _drawn(series, count, seed, kept):
@@ -178,28 +200,34 @@ def _iaaft(columns, count, rng):
     return surrogates
 
 
-def prediction_gain(section: ArrayLike) -> float:
+def prediction_gain(section: ArrayLike, delays: int | None = None, theiler: int = 1) -> PredictionGain:
     """Gain of local-linear over linear one-step prediction on a section (formula at the head of this file).
 
-    section (m,) or (m, d)   one row a forcing period; as many rows are taken together as one state as make 3 or more
-                             numbers
-    Returns ln(linear error/local error) [nats], each rms over points and coordinates; NaN where nothing moves or the
-    record is short: it takes eight states per number in a state, and the window.
+    section (m,) or (m, d)   one row a forcing period
+    delays                   rows taken together as one state, (x_k, x_{k-1}, ...); default: as few as make a state of 3
+                             or more numbers
+    theiler                  points within this many periods of the one predicted are no neighbours of it
+    Returns a PredictionGain: NaN, with the reason, where nothing moves or the record is short: it
+    takes eight states per number in a state, and the window.
     Raises ValueError for values that are not finite.
     Source: E. N. Lorenz (analogues), J. Atmos. Sci. 26 (1969) 636; J. D. Farmer & J. J. Sidorowich, Phys. Rev. Lett. 59
     (1987) 845; gain over linear prediction as a test: M. Casdagli, J. R. Stat. Soc. B 54 (1992) 303.
     """
-    x = checked_columns(section, "section")
+    x, theiler = checked_columns(section, "section"), checked_count(theiler, "theiler", least=0)
     z = in_deviations(x, centred=True)
     if z.shape[1] == 0:
-        return np.nan
-    state = states_of(z, x.shape[1])[:-1]
+        return PredictionGain(np.nan, np.nan, np.nan, "no motion: the section is one point to the last digits")
+    state = states_of(z, x.shape[1], delays)[:-1]
     target = z[len(z) - len(state) :]
-    if len(state) < LEAST_PER_COORDINATE * (state.shape[1] + 1) + 2:
-        return np.nan
-    linear, local = _linear_error(state, target), _local_error(state, target)
+    needed = LEAST_PER_COORDINATE * (state.shape[1] + 1) + 2 * theiler
+    if len(state) < needed:
+        wanted = f"{needed + state.shape[1] // z.shape[1]} points are needed for a state of {state.shape[1]} numbers"
+        return PredictionGain(np.nan, np.nan, np.nan, f"too short: {wanted}, given {len(x)}")
+    linear, local = _linear_error(state, target), _local_error(state, target, theiler)
     # Errors at rounding cannot be compared: a clean period-N motion is predicted to the last digit by both.
-    return float(np.log(max(linear, 1e-9) / max(local, 1e-9)))
+    gain = float(np.log(max(linear, 1e-9) / max(local, 1e-9)))
+    reason = f"errors {linear:.3g} linear and {local:.3g} local, of a standard deviation: a gain of {gain:.2f} nats"
+    return PredictionGain(gain, linear, local, reason)
 
 
 def _linear_error(state, target):
@@ -212,10 +240,11 @@ def _linear_error(state, target):
     return float(np.sqrt(np.mean((residual / (1.0 - leverage)) ** 2)))
 
 
-def _local_error(state, target):
+def _local_error(state, target, theiler):
     """rms error of the affine maps fitted to the nearest neighbours of each state, itself not among them."""
     points, size = state.shape
-    near, _ = nearest_outside(state, 1, count=min(NEIGHBOURS_PER_COEFFICIENT * (size + 1), points - 3))
+    wanted = min(NEIGHBOURS_PER_COEFFICIENT * (size + 1), points - 2 * theiler - 1)
+    near, _ = nearest_outside(state, theiler, count=wanted)
     away = state[near] - state[:, None, :]
     centre, mean = away.mean(axis=1, keepdims=True), target[near].mean(axis=1, keepdims=True)
     spread = away - centre

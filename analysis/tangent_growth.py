@@ -21,17 +21,24 @@ BLOCKS = (8, 10, 12, 16)
 LEAST_PERIODS = 32
 
 
-def tangent_lyapunov(growth_nats: ArrayLike, transient_periods: int = 0) -> tuple[Exponent, ...]:
+def tangent_lyapunov(
+    growth_nats: ArrayLike, transient_periods: int = 0, left_out: ArrayLike | None = None
+) -> tuple[Exponent, ...]:
     """The exponents of a tangent map, one `Exponent` a perturbation, in bits per forcing period.
 
     growth_nats (m,) or (m, k)   logarithm of the growth in each forcing period, nats; fastest first
     transient_periods            periods at the start that do not count (the perturbations also need some to turn)
+    left_out (m,)                true for periods to leave out, as those with a loop release, whose jump is not a
+                                 derivative; None: all count
     Returns a tuple of Exponent; NaN with the reason where fewer than 32 periods count. Raises ValueError for values
-    that are not finite.
+    that are not finite or lengths that do not fit.
     """
     growth = checked_columns(growth_nats, "growth_nats")
     start = checked_count(transient_periods, "transient_periods", least=0)
-    kept = growth[start:] / np.log(2.0)
+    counted = np.ones(len(growth), dtype=bool) if left_out is None else ~np.asarray(left_out, dtype=bool)
+    if counted.shape != (len(growth),):
+        raise ValueError(f"left_out: {len(growth)} values are needed, given {counted.shape}")
+    kept = growth[start:][counted[start:]] / np.log(2.0)
     periods = len(kept)
     if periods < LEAST_PERIODS:
         reason = f"too short: {LEAST_PERIODS} periods of growth are needed, given {periods}"

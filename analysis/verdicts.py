@@ -55,6 +55,7 @@ class Verdict:
     evidence    tuple of Evidence, in the order in which the tests were made
     period      N, or None
     points      strobed points judged
+    seed        of the random angles and surrogates: the same input and seed give the same verdict
     """
 
     regime: str
@@ -62,6 +63,14 @@ class Verdict:
     evidence: tuple[Evidence, ...]
     period: int | None
     points: int
+    seed: int
+
+    def named(self, name: str) -> Evidence:
+        """The Evidence of that name; ValueError where there is none."""
+        for item in self.evidence:
+            if item.name == name:
+                return item
+        raise ValueError(f"no evidence {name!r}; there is {', '.join(item.name for item in self.evidence)}")
 
 
 def regime(
@@ -94,7 +103,7 @@ def regime(
                              it is not given, nobody looked, and that alone does not speak against chaos
     scale, tolerance, max_period   as in detect_period; scale defaults to the range of the later half of `series`
     surrogates               of each null, 19 or more
-    seed                     of random angles and surrogates: the same input and seed give the same verdict
+    seed                     of random angles and surrogates
     Returns a Verdict. Chaos needs 200 forcing periods (each half 100, for the 0-1 test), any verdict 40; weak chaos
     needs many more (7000 at 0.07 bits per period on two folded curves), and is undecided until then. What it cannot
     tell apart: chaos of an exponent below 4/m nats per period and a torus; a motion bent by noise that drives it
@@ -109,7 +118,7 @@ def regime(
     points = len(section)
     if points < LEAST_POINTS:
         reason = f"too short: {LEAST_POINTS} strobed points are needed, given {points}"
-        return Verdict("undecided", reason, (), None, points)
+        return Verdict("undecided", reason, (), None, points, seed)
     estimate = detect_period(section, max_period, tolerance, scale)
     if estimate.period is None and wolf is None and (tangent is None or not tangent.found):
         wolf = _estimated(section, series, step_s, period_s, transient_periods)
@@ -122,7 +131,7 @@ def regime(
     evidence.append(tighter_evidence(tighter, word))
     word, reason = _contradicted(word, reason, evidence[-1], tangent)
     period = estimate.period if word.startswith("period-") else None
-    return Verdict(word, reason, tuple(evidence), period, points)
+    return Verdict(word, reason, tuple(evidence), period, points, seed)
 
 
 def _without_period(section, exponent, max_period, surrogates, seed):

@@ -47,7 +47,8 @@ class WolfRun:
 
     value, error          exponent and its standard error from blocks [nats/time]; NaN where too little was followed
     reason                one sentence
-    floor                 least length of a replacement vector [unit of the series]
+    delay, dimension, evolution, theiler    L, m, e and Theiler window [samples]
+    floor, longest        bounds of a replacement vector [unit of the series]
     size                  rms distance of the delay vectors from their mean [unit of the series]
     growth (k,)           ln(L'/L) of each evolution [nats]; NaN where no neighbour was found
     end_length (k,)       L' [unit of the series]
@@ -55,12 +56,19 @@ class WolfRun:
     convergence (k,)      exponent from everything up to that time [nats/time]: fig. 14 of the paper
     noise_bias            what noise adds to or takes from the exponent, by the lengths before and after [nats/time]
     replacements          times a new vector was taken
+    unfit                 times an old vector beyond the bounds was kept for want of a new one
+    gaps                  evolutions without any neighbour
     """
 
     value: float
     error: float
     reason: str
+    delay: int
+    dimension: int
+    evolution: int
+    theiler: int
     floor: float
+    longest: float
     size: float
     growth: np.ndarray
     end_length: np.ndarray
@@ -68,6 +76,8 @@ class WolfRun:
     convergence: np.ndarray
     noise_bias: float
     replacements: int
+    unfit: int
+    gaps: int
 
 
 def wolf_run(
@@ -104,11 +114,11 @@ def wolf_run(
     floor = lengths * max(noise_length, ROUNDING_SHARE * size)
     longest = max(lengths * 2.0 * LONGEST_SHARE * size, 2.0 * floor)
     count = max((len(points) - 1) // evolution, 0)
-    growth, end_length, replacements = np.full(count, np.nan), np.full(count, np.nan), 0
+    growth, end_length, tally = np.full(count, np.nan), np.full(count, np.nan), (0, 0, 0)
     room = longest <= 2.0 * lengths * MOST_SHARE * size
     if size > 0.0 and room and count >= LEAST_STEPS:
         near, distance = _candidates(points, evolution, count, floor, longest)
-        replacements = follow(points, near, distance, evolution, int(theiler), floor, longest, growth, end_length)
+        tally = follow(points, near, distance, evolution, int(theiler), floor, longest, growth, end_length)
     value, error, reason = _mean_growth(growth, evolution * step_s, room, floor, size)
     followed = np.isfinite(growth)
     with np.errstate(invalid="ignore"):
@@ -118,7 +128,8 @@ def wolf_run(
     bias = float(np.mean(excess[followed])) if np.any(followed) else np.nan
     time_s = (np.arange(count) + 1.0) * evolution * step_s
     curves = (locked(curve) for curve in (growth, end_length, time_s, convergence))
-    return WolfRun(value, error, reason, floor, size, *curves, bias, replacements)
+    settings = (int(delay), int(dimension), evolution, int(theiler), floor, longest, size)
+    return WolfRun(value, error, reason, *settings, *curves, bias, *tally)
 
 
 def _candidates(points, evolution, count, floor, longest):
@@ -157,11 +168,12 @@ def _mean_growth(growth, time, room, floor, size):
 
 @kernel
 def follow(points, near, distance, evolution, theiler, floor, longest, growth, end_length):
-    """Carry the vector along the fiducial; fills growth and end_length, returns the number of replacements."""
+    """Carry the vector along the fiducial; fills growth and end_length; returns how often it was replaced, was kept
+    unfit, and was missing."""
     n, m = points.shape
     last = n - 1 - evolution
     direction = np.zeros(m)
-    j, length, replaced = -1, 0.0, 0
+    j, length, replaced, unfit, gaps = -1, 0.0, 0, 0, 0
     for k in range(growth.size):
         i = k * evolution
         if j > last:
@@ -174,8 +186,10 @@ def follow(points, near, distance, evolution, theiler, floor, longest, growth, e
         )
         if j < 0:
             direction[:] = 0.0
+            gaps += 1
             continue
         replaced += j != old
+        unfit += j == old and not fit
         i += evolution
         j += evolution
         square = 0.0
@@ -185,13 +199,14 @@ def follow(points, near, distance, evolution, theiler, floor, longest, growth, e
         grown = np.sqrt(square)
         if grown == 0.0:
             j = -1
+            gaps += 1
             continue
         growth[k] = np.log(grown / length)
         end_length[k] = grown
         length = grown
         for q in range(m):
             direction[q] /= grown
-    return replaced
+    return replaced, unfit, gaps
 
 
 @kernel

@@ -18,12 +18,14 @@ The paper does not say how the settings behind its figure 14 were chosen.
 In the paper: eq. (32) Lyapunov exponent.
 """
 
+from collections.abc import Iterable
+
 import numpy as np
 from numpy.typing import ArrayLike
 
 from analysis.embedding import choose_embedding, noise_level
 from analysis.exponents import NATS_PER_TIME, Exponent, no_exponent
-from analysis.sampling import checked_positive, checked_series
+from analysis.sampling import checked_count, checked_positive, checked_series, locked
 from analysis.wolf_pairs import wolf_run
 
 METHOD = "Wolf et al. 1985, plateau"
@@ -34,62 +36,85 @@ LEAST_SETTINGS = 3
 LEAST_PERIODS = 20
 
 
-def wolf_lyapunov(series: ArrayLike, step_s: float) -> Exponent:
+def wolf_lyapunov(
+    series: ArrayLike,
+    step_s: float,
+    delay: int | None = None,
+    dimensions: Iterable[int] | None = None,
+    evolutions: Iterable[int] | None = None,
+    theiler: int | None = None,
+    noise: float | None = None,
+) -> Exponent:
     """Largest Lyapunov exponent of a series: the median of Wolf's method over a plateau of settings.
 
         lambda = 1/(K e) sum_k ln(L'_k/L_k)   for each (m, e);   value = median, error: head of this file
 
     series (n,)     any unit, evenly sampled; what was left of a transient counts as motion
     step_s          sampling step [s], or 1 for a map
-    Neighbours nearer in time than the mean period or the span of a delay vector are none; the noise is `noise_level`.
-    For settings of your own: `wolf_run`.
+    delay           [samples]; None: choose_embedding
+    dimensions      embedding dimensions; None: m_0, m_0 + 1, m_0 + 2 with m_0 by choose_embedding
+    evolutions      evolution times [samples]; None: 1/4, 1/2, 3/4 and 1 mean period
+    theiler         [samples]; None: the mean period or the span of a delay vector, whichever is longer
+    noise           standard deviation of the noise [unit of the series]; None: noise_level
     Returns an Exponent in nats per unit of time; positive: neighbours part exponentially; about 0: they do not. A
     stable periodic motion shows 0 at best, not its negative exponent: once settled, nothing in the record decays.
     NaN with a reason, never 0, when fewer than three settings qualify or the record has fewer than 20 mean periods.
-    details: run (WolfRun), of the setting nearest to the median, whose convergence over time_s is fig. 14 of the paper.
+    details: values, errors, end_lengths (d, e; ends in rms radii), qualified (d, e; bool), dimensions (d,), evolutions
+    (e,) [samples], block_error, spread, length_change, noise_bias, noise, embedding (EmbeddingChoice), and of the
+    setting nearest to the median run (WolfRun), whose convergence over time_s is fig. 14 of the paper.
     Raises ValueError for values that are not finite.
     Source: Wolf, Swift, Swinney & Vastano, Physica D 16, 285 (1985); what is ours: heads of this file, of wolf_pairs.
     """
     x, step_s = checked_series(series), checked_positive(step_s, "step_s")
     if len(x) < 500 or np.ptp(x) == 0.0:
         return no_exponent(METHOD, f"500 samples of a series that moves are needed, given {len(x)}")
-    embedding = choose_embedding(x)
+    embedding = choose_embedding(x, delay)
     lag, period = embedding.lag, embedding.mean_period
     if len(x) < LEAST_PERIODS * period:
         return no_exponent(METHOD, f"{LEAST_PERIODS} mean periods are needed, given {len(x) / period:.3g}")
-    dimensions = tuple(range(embedding.dimension, embedding.dimension + DIMENSIONS))
-    evolutions = tuple(sorted({max(1, round(share * period)) for share in EVOLUTION_PERIODS}))
-    noise = noise_level(x, lag)
+    if dimensions is None:
+        dimensions = range(embedding.dimension, embedding.dimension + DIMENSIONS)
+    if evolutions is None:
+        evolutions = sorted({max(1, round(share * period)) for share in EVOLUTION_PERIODS})
+    dimensions = tuple(checked_count(m, "dimensions") for m in dimensions)
+    evolutions = tuple(checked_count(e, "evolutions") for e in evolutions)
+    noise = noise_level(x, lag) if noise is None else float(noise)
 
     def run(m, e, lengths=1.0):
-        return wolf_run(x, step_s, lag, m, e, max(round(period), (m - 1) * lag), noise, lengths)
+        window = max(round(period), (m - 1) * lag) if theiler is None else int(theiler)
+        return wolf_run(x, step_s, lag, m, e, window, noise, lengths)
 
-    return _plateau(run, [(m, e) for m in dimensions for e in evolutions])
+    used = {"dimensions": dimensions, "evolutions": evolutions, "noise": noise, "embedding": embedding}
+    return _plateau(run, used)
 
 
-def _plateau(run, settings):
+def _plateau(run, details):
     """The Exponent of runs over all settings: pairs of a dimension and an evolution time."""
+    grid = len(details["dimensions"]), len(details["evolutions"])
+    settings = [(m, e) for m in details["dimensions"] for e in details["evolutions"]]
     runs = [run(m, e) for m, e in settings]
-    values, errors = np.array([(one.value, one.error) for one in runs]).T
-    qualified = np.isfinite(values) & (np.array([_typical_end(one) for one in runs]) <= LONGEST_END)
+    values, errors, ends = np.array([(one.value, one.error, _typical_end(one)) for one in runs]).T
+    qualified = np.isfinite(values) & (ends <= LONGEST_END)
+    arrays = {"values": values, "errors": errors, "end_lengths": ends, "qualified": qualified}
+    details |= {name: locked(array.reshape(grid)) for name, array in arrays.items()}
     if np.sum(qualified) < min(LEAST_SETTINGS, len(runs)):
         none = next((one.reason for one in runs if not np.isfinite(one.value)), "")
         why = none or f"vectors end longer than {LONGEST_END} rms radii: the growth is bounded, not exponential"
-        return no_exponent(METHOD, f"{np.sum(qualified)} of {len(runs)} settings qualify; {why}")
+        return no_exponent(METHOD, f"{np.sum(qualified)} of {len(runs)} settings qualify; {why}", details=details)
     value, used = float(np.median(values[qualified])), np.flatnonzero(qualified)
     low, high = np.quantile(values[used], [0.16, 0.84])
     change = np.array([run(*settings[k], lengths=2.0).value - values[k] for k in used])
     change = change[np.isfinite(change)]
-    parts = (
-        float(np.median(errors[used])),
-        float(0.5 * (high - low)),
-        float(np.sqrt(np.mean(change**2))) if len(change) else np.nan,
-        float(np.median([runs[k].noise_bias for k in used])),
-    )
-    error = float(np.sqrt(sum(part**2 for part in parts)))
+    parts = {
+        "block_error": float(np.median(errors[used])),
+        "spread": float(0.5 * (high - low)),
+        "length_change": float(np.sqrt(np.mean(change**2))) if len(change) else np.nan,
+        "noise_bias": float(np.median([runs[k].noise_bias for k in used])),
+    }
+    error = float(np.sqrt(sum(part**2 for part in parts.values())))
     reason = f"median of {len(used)} of {len(runs)} settings, {low:.4g} to {high:.4g} nats/time"
     nearest = runs[used[np.argmin(np.abs(values[used] - value))]]
-    return Exponent(value, error, NATS_PER_TIME, METHOD, reason, {"run": nearest})
+    return Exponent(value, error, NATS_PER_TIME, METHOD, reason, details | parts | {"run": nearest})
 
 
 def _typical_end(run):

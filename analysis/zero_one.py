@@ -33,12 +33,14 @@ class ZeroOneTest:
     reason           one sentence: what was found, or why the value is NaN
     angles_rad (a,)  the angles c, all within (pi/5, 4 pi/5)
     growth (a,)      K_c, the correlation of each walk's mean square distance with time
+    points           length of the section
     """
 
     value: float
     reason: str
     angles_rad: np.ndarray
     growth: np.ndarray
+    points: int
 
 
 def zero_one_test(section: ArrayLike, angles: int = 200, seed: int | list[int] = 0) -> ZeroOneTest:
@@ -62,11 +64,11 @@ def zero_one_test(section: ArrayLike, angles: int = 200, seed: int | list[int] =
     c = 0.2 * np.pi + width * (np.arange(angles) + np.random.default_rng(seed).random(angles))
     why_not = _why_not(phi)
     if why_not:
-        return ZeroOneTest(np.nan, why_not, locked(c), locked(np.full(angles, np.nan)))
+        return ZeroOneTest(np.nan, why_not, locked(c), locked(np.full(angles, np.nan)), len(phi))
     growth = _growth((phi - phi.mean()) / np.ptp(phi), c)
     value = float(np.median(growth))
     reason = f"median of {angles} walks over {len(phi)} points: K = {value:.3f}"
-    return ZeroOneTest(value, reason, locked(c), locked(growth))
+    return ZeroOneTest(value, reason, locked(c), locked(growth), len(phi))
 
 
 def _why_not(phi):

@@ -20,9 +20,7 @@ from analysis.sampling import checked_count
 # Of the residual, relative to the size of the orbit. Newton's method goes on until rounding stops it; what is left then
 # must be below the second number, or it was no convergence.
 EXACT, CONVERGED = 1e-16, 1e-10
-MOST_STEPS = 50
 PAPER_BOX = (-60.0, 20.0, -25.0, 25.0)  # g low, g high, g' low, g' high: the attractors and their surroundings
-LONGEST_PERIOD = 32
 _LOOK_EVERY = 64
 _NEARLY = 1e-3
 
@@ -50,7 +48,9 @@ class PeriodicOrbit:
         return bool(np.abs(self.multipliers).max() < 1.0)
 
 
-def periodic_orbit(oscillator: SnapOscillator, period: int, guess: ArrayLike) -> PeriodicOrbit | None:
+def periodic_orbit(
+    oscillator: SnapOscillator, period: int, guess: ArrayLike, iterations: int = 50
+) -> PeriodicOrbit | None:
     """A periodic orbit of eq. (33) near a guess: Newton's method on P^period(x) - x = 0 with the exact tangent map.
 
     A step that does not shorten the residual is halved, up to ten times. Where that does not help either, the residual
@@ -58,13 +58,14 @@ def periodic_orbit(oscillator: SnapOscillator, period: int, guess: ArrayLike) ->
 
     period   forcing periods;  guess  (g, g') at the strobe
     Returns PeriodicOrbit (its `period` is the least one, a divisor of the one asked for) or None where Newton's method
-    did not converge within 50 steps.
+    did not converge within `iterations`.
     """
-    x, period = np.array(checked_start(guess)), checked_count(period, "period")
+    period, iterations = checked_count(period, "period"), checked_count(iterations, "iterations")
+    x = np.array(checked_start(guess))
     table = tables(oscillator)
     g, v, jacobian = tangent_map(x[0], x[1], period, table)
     residual = np.array([g, v]) - x
-    for taken in range(MOST_STEPS):
+    for taken in range(iterations):
         size = max(1.0, np.abs(x).max())
         if np.abs(residual).max() <= EXACT * size:
             return _described(x, period, taken, table)
@@ -124,6 +125,7 @@ class SnapBasins:
                         the one with the most starts first
     shares              (len(orbits) + 1,) share of the starts on each, the aperiodic last
     errors              binomial standard errors of the shares, as if the starts had been drawn at random
+    periods             forcing periods given to every start
     """
 
     label: np.ndarray
@@ -131,25 +133,28 @@ class SnapBasins:
     orbits: tuple[np.ndarray, ...]
     shares: np.ndarray
     errors: np.ndarray
+    periods: int
 
 
-def start_grid(columns: int, rows: int) -> np.ndarray:
-    """Starts at the cell centres of a grid over PAPER_BOX in the (g, g') plane, for basins drawn as an image.
+def start_grid(columns: int, rows: int, box: tuple[float, float, float, float] = PAPER_BOX) -> np.ndarray:
+    """Starts at the cell centres of a grid over a box in the (g, g') plane, for basins drawn as an image.
 
-    columns, rows   cells along g and g'
+    columns, rows   cells along g and g';  box  (g low, g high, g' low, g' high), by default PAPER_BOX
     Returns (rows*columns, 2), g varying fastest.
     """
     columns, rows = checked_count(columns, "columns"), checked_count(rows, "rows")
-    left, right, low, high = PAPER_BOX
+    left, right, low, high = box
     g = left + (right - left) * (np.arange(columns) + 0.5) / columns
     v = low + (high - low) * (np.arange(rows) + 0.5) / rows
     return np.stack(np.meshgrid(g, v), axis=-1).reshape(-1, 2)
 
 
-def snap_basins(oscillator: SnapOscillator, starts: ArrayLike, periods: int = 3000) -> SnapBasins:
+def snap_basins(
+    oscillator: SnapOscillator, starts: ArrayLike, periods: int = 3000, longest_period: int = 32
+) -> SnapBasins:
     """Basins of eq. (33): the periodic attractors that starts end on, each verified by Newton's method.
 
-    An orbit that repeats itself to 1e-3 after p <= 32 periods is a candidate only: attraction may be slow (the period-8
+    An orbit that repeats itself to 1e-3 after p periods is a candidate only: attraction may be slow (the period-8
     orbit of the paper's parameters has a multiplier of -0.965), and a chaotic orbit returns that close by chance. It
     has settled when Newton's method, begun there, finds a stable orbit of that period, and the start's own orbit is
     nearer to it 64 p periods later than it was; otherwise it goes on with the periods it has left.
@@ -157,28 +162,31 @@ def snap_basins(oscillator: SnapOscillator, starts: ArrayLike, periods: int = 30
     starts           (n, 2) states at time 0 (`start_grid`, or random)
     periods          forcing periods given to each; a start that has not settled by then is called aperiodic, which for
                      a slowly attracting orbit only means "not yet": look at `settled`
+    longest_period   looked for
     Returns SnapBasins. ValueError for starts that are not finite. A start whose orbit cannot be computed is aperiodic.
     Source: basins by recurrence, after Datseris & Wagemakers 2022, with Newton's method in place of cells.
     """
     state = checked_starts(starts).copy()
-    periods, table = checked_count(periods, "periods"), tables(oscillator)
+    periods, longest = checked_count(periods, "periods"), checked_count(longest_period, "longest_period")
+    table, recent = tables(oscillator), np.empty((len(state), 0, 2))
     label, settled = np.full((2, len(state)), -1)
     orbits: list[np.ndarray] = []
     waiting = np.arange(len(state))
     for done in range(_LOOK_EVERY, periods + 1, _LOOK_EVERY):
-        recent = strobed_orbits(state[waiting], 0, _LOOK_EVERY + 1, table)[:, 1:]
-        state[waiting] = recent[:, -1]
-        for i, period in zip(waiting, _repeats(recent), strict=True):
+        further = strobed_orbits(state[waiting], 0, _LOOK_EVERY + 1, table)[:, 1:]
+        state[waiting], recent = further[:, -1], np.concatenate([recent, further], axis=1)[:, -2 * longest :]
+        for i, period in zip(waiting, _repeats(recent, longest), strict=True):
             if period and (orbit := _attracted(oscillator, state[i], int(period), table)) is not None:
                 label[i], settled[i] = _index(orbits, orbit), done
-        waiting = waiting[label[waiting] < 0]
-    return _counted(label, settled, orbits)
+        recent, waiting = recent[label[waiting] < 0], waiting[label[waiting] < 0]
+    return _counted(label, settled, orbits, periods)
 
 
-def _repeats(recent):
-    """Least period p <= 32 after which orbits (n, 64, 2) repeat themselves at their end, 0 for the others."""
+def _repeats(recent, longest):
+    """Least period p after which orbits (n, m, 2) repeat themselves at their end; 0 for the others, and for all
+    while m is below twice the longest period looked for."""
     found = np.zeros(len(recent), dtype=int)
-    for p in range(LONGEST_PERIOD, 0, -1):
+    for p in range(longest if recent.shape[1] >= 2 * longest else 0, 0, -1):
         apart = np.abs(recent[:, -p:] - recent[:, -2 * p : -p]).max(axis=(1, 2))
         found[apart <= _NEARLY] = p  # a state that is NaN repeats nothing
     return found
@@ -205,14 +213,14 @@ def _distance(state, orbit):
     return np.abs(state - orbit).max(axis=1).min()
 
 
-def _counted(label, settled, orbits):
+def _counted(label, settled, orbits, periods):
     counts = np.bincount(label[label >= 0], minlength=len(orbits))
     order = np.argsort(-counts, kind="stable")
     rank = np.append(np.argsort(order, kind="stable"), len(orbits))  # the last one serves the label -1
     label = rank[label]
     shares = np.bincount(label, minlength=len(orbits) + 1) / len(label)
     errors = np.sqrt(shares * (1.0 - shares) / len(label))
-    return SnapBasins(label, settled, tuple(orbits[i] for i in order), shares, errors)
+    return SnapBasins(label, settled, tuple(orbits[i] for i in order), shares, errors, periods)
 
 
 @dataclass(frozen=True)

@@ -28,6 +28,7 @@ class SnapExponents:
     dimension_error
     of_start (n, 2)      exponents of each start on the attractor
     of_block (n, b, 2)   and of each block of each start
+    periods_of_start     forcing periods of each start's average
     starts, elsewhere    starts that count, and starts left out because they settled on a periodic orbit
     slack_fraction       share of the time without tension
     convergence (b, 3)   running mean of first over the blocks: time, mean over starts, standard error of that mean
@@ -40,6 +41,7 @@ class SnapExponents:
     dimension_error: float
     of_start: np.ndarray
     of_block: np.ndarray
+    periods_of_start: int
     starts: int
     elsewhere: int
     slack_fraction: float
@@ -142,19 +144,23 @@ def _averaged(oscillator, rates, slack, periods, elsewhere, reason):
     both = (Exponent(*found, NATS_PER_TIME, METHOD, reason) for found in ((first, error[0]), (second, error[1])))
     uncertain = float(share * error[0]) if np.isfinite(dimension) else np.nan
     measures = (float(by_blocks[0]), dimension, uncertain, of_start, rates)
-    return SnapExponents(*both, *measures, starts, elsewhere, float(slack.mean()), convergence)
+    return SnapExponents(*both, *measures, periods, starts, elsewhere, float(slack.mean()), convergence)
 
 
 @dataclass(frozen=True, eq=False)
 class SnapDiagram:
     """An orbit diagram with exponents; p values, n starts each.
 
+    over              the parameter: "force", "frequency", "damping", "lift"
+    values (p,)
     section (p, n, m, 2)   strobed g and g' after the transient, by start: coexisting attractors stay apart
     exponents (p, n, 2)    lambda_1, lambda_2 of every start, nats per unit of time
     errors (p, n)          standard error of lambda_1, from blocks of time
     slack_fraction (p, n)  share of the time without tension
     """
 
+    over: str
+    values: np.ndarray
     section: np.ndarray
     exponents: np.ndarray
     errors: np.ndarray
@@ -187,9 +193,10 @@ def snap_diagram(
     """
     if over not in PARAMETERS:
         raise ValueError(f"over: one of {', '.join(PARAMETERS)} is needed, given {over!r}")
-    oscillators = [replace(oscillator, **{over: float(value)}) for value in checked_series(values, "values")]
+    values = checked_series(values, "values")
+    oscillators = [replace(oscillator, **{over: float(value)}) for value in values]
     starts = random_starts(count, seed) if starts is None else checked_starts(starts)
     points = checked_count(points, "points")
     rates, section, _, slack = _grown(oscillators, starts, transient_periods, periods, blocks, points)
     errors = standard_error(np.moveaxis(rates[..., 0], 2, 0))
-    return SnapDiagram(section, rates.mean(axis=2), errors, slack)
+    return SnapDiagram(over, values, section, rates.mean(axis=2), errors, slack)

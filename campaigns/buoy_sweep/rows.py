@@ -143,13 +143,13 @@ def settled(columns, step_s: float, transient_s: float) -> dict[str, object]:
         for name in ("radius_m", "angle_rad", "tension_top_low_N", "tension_top_high_N")
     )
     return {
-        "radius_min_m": radius[0],
-        "radius_max_m": radius[1],
-        "angle_min_rad": angle[0],
-        "angle_max_rad": angle[1],
-        "tension_top_min_N": low[0],
-        "tension_top_max_N": high[1],
-        "slack_fraction": slack_fraction(columns["tension_top_N"], step_s, transient_s=transient_s),
+        "radius_min_m": radius.minimum,
+        "radius_max_m": radius.maximum,
+        "angle_min_rad": angle.minimum,
+        "angle_max_rad": angle.maximum,
+        "tension_top_min_N": low.minimum,
+        "tension_top_max_N": high.maximum,
+        "slack_fraction": slack_fraction(columns["tension_top_N"], step_s, transient_s=transient_s).fraction,
     }
 
 

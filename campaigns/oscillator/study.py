@@ -136,7 +136,8 @@ def diagram(over: str, o: SnapOscillator, order: Namespace) -> Result:
     values = np.linspace(low, high, _scaled(count, min(order.effort, 1.0), 2))
     found = snap_diagram(o, over, values, count=4, transient_periods=500, periods=1000, points=150, seed=SEED)
     displacement = found.section[..., 0].reshape(len(values), -1)
-    arrays = vars(found) | {"values": values, "section": displacement}
+    arrays = dict(vars(found)) | {"values": values, "section": displacement}
+    del arrays["over"]
     return arrays, {
         "starts": 4,
         "periods": 1000,
@@ -151,7 +152,7 @@ def basins(o: SnapOscillator, order: Namespace) -> Result:
     found = snap_basins(o, start_grid(columns, rows), 3000)
     arrays = dict(vars(found)) | {"label": found.label.reshape(rows, columns), "box": np.array(PAPER_BOX)}
     arrays |= {f"orbit_{number + 1}": orbit for number, orbit in enumerate(arrays.pop("orbits"))}
-    row = {"starts": columns * rows, "periods": 3000, "attractors": len(found.orbits)}
+    row = {"starts": columns * rows, "periods": arrays.pop("periods"), "attractors": len(found.orbits)}
     return arrays, row | {"aperiodic_share": float(found.shares[-1])}
 
 

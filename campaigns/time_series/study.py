@@ -215,7 +215,7 @@ def _record_null(x, view, seed):
     name = "record's linear null"
 
     def gain_of(series):
-        return prediction_gain(successive_maxima(series, NOISE_MULTIPLE * view.noise)[1])
+        return prediction_gain(successive_maxima(series, NOISE_MULTIPLE * view.noise)[1]).gain
 
     part = x[-NULL_SAMPLES:]
     gain, values = gain_of(part), np.sort(part)

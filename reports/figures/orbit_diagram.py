@@ -33,7 +33,8 @@ def orbit_diagram_over(
     from matplotlib.ticker import LogLocator
 
     diagram = orbit_diagram(parameter, strobed)
-    counts, value_edges = density_image(diagram, rows)
+    image = density_image(diagram, rows)
+    counts, value_edges = image.counts, image.value_edges
     places = np.concatenate([diagram.parameter, np.asarray(missing, float)])  # of all runs on the axis
     half = _half_width(places)
     shades = LogNorm(1, max(int(counts.max()), 2))

@@ -56,6 +56,14 @@ def test_regular_motion_and_noise_have_none(method, series):
 
 
 @METHODS
+def test_settings_of_ones_own_are_used(method):
+    own = {"delay": 1, "dimension": 3, "theiler": 4, "horizon": 15}
+    details = method(*record("henon"), **own).details
+    assert (details["dimension"], details["theiler"], details["embedding"].lag, len(details["curve"])) == (3, 4, 1, 16)
+    assert kantz_lyapunov(*record("henon"), radius=0.05).details["radius"] == 0.05
+
+
+@METHODS
 def test_units_scale(method):
     x, step = record("rossler", 6000)
     assert method(-4.0 * x, 2.0 * step).value == pytest.approx(0.5 * method(x, step).value, rel=1e-9)

@@ -45,10 +45,15 @@ def test_the_error_falls_as_the_root_of_the_length():
     assert typical(6400) / typical(400) == pytest.approx(0.25, rel=0.2)
 
 
-def test_columns_are_exponents_in_their_order():
+def test_columns_are_exponents_in_their_order_and_periods_can_be_left_out():
     found = tangent_lyapunov(np.log([[2.0, 0.25]] * 100), transient_periods=10)
     assert [item.value for item in found] == pytest.approx([1.0, -2.0])
     assert [item.details["periods"] for item in found] == [90, 90]
+    growth = np.where(np.arange(100) % 10 == 0, 50.0, np.log(2.0))
+    (found,) = tangent_lyapunov(growth, left_out=np.arange(100) % 10 == 0)
+    assert found.value == pytest.approx(1.0) and found.details["periods"] == 90
+    with pytest.raises(ValueError, match="left_out"):
+        tangent_lyapunov(np.zeros(40), left_out=[True])
 
 
 def test_a_short_record_gives_no_number_but_the_reason():
@@ -80,6 +85,9 @@ def test_one_bit_a_period_is_ln_2_nats_over_the_period():
     sigma = Exponent(np.log(2.0) / 5.0, 0.1 * np.log(2.0) / 5.0, "nats/time", "method").in_bits_per_period(5.0)
     assert (sigma.value, sigma.error, sigma.unit) == (pytest.approx(1.0), pytest.approx(0.1), "bits/period")
     assert sigma.in_bits_per_period(7.0) is sigma
+    rate = sigma.in_nats_per_time(5.0)
+    assert (rate.value, rate.unit) == (pytest.approx(np.log(2.0) / 5.0), "nats/time")
+    assert rate.in_nats_per_time(5.0) is rate
 
 
 def test_without_a_value_there_is_a_reason_and_no_error():

@@ -1,17 +1,20 @@
 """Extremes are samples; the share of time below a level, against closed forms."""
 
+from dataclasses import astuple
+
 import numpy as np
 import pytest
 
-from analysis import extremes, slack_fraction
+from analysis import Extremes, extremes, slack_fraction
 
 
 def test_extremes_are_those_of_the_samples_after_the_transient():
     t = 0.05 * np.arange(401)
-    assert extremes(3.0 * np.sin(2 * np.pi / 5 * t) + 1.0, 0.05) == pytest.approx((-2.0, 4.0))
+    found = extremes(3.0 * np.sin(2 * np.pi / 5 * t) + 1.0, 0.05)
+    assert astuple(found) == pytest.approx((-2.0, 3.75, 4.0, 1.25))
     x = [9.0, -9.0, 0.0, 1.0, -1.0, 1.0, -1.0]
-    assert extremes(x, 2.0, transient_s=4.0) == (-1.0, 1.0)
-    assert extremes(x, 2.0, transient_s=12.0) == (-1.0, -1.0)
+    assert extremes(x, 2.0, transient_s=4.0) == Extremes(-1.0, 8.0, 1.0, 6.0)
+    assert extremes(x, 2.0, transient_s=12.0) == Extremes(-1.0, 12.0, -1.0, 12.0)
 
 
 @pytest.mark.parametrize("threshold", [-0.9, -0.2, 0.0, 0.5, 0.9])
@@ -21,10 +24,11 @@ def test_a_cosine_is_below_a_level_for_one_minus_arccos_over_pi(threshold, sampl
     below the level of a motion is above that of its mirror image."""
     d = 2 * np.pi / samples
     x = np.cos(d * np.arange(samples * 5 + 1) + phase)
-    found = slack_fraction(x, 5.0 / samples, threshold_N=threshold)
+    found = slack_fraction(x, 5.0 / samples, threshold_N=threshold).fraction
     bound = 2 * d**2 / 8 * abs(threshold) / np.sqrt(1 - threshold**2) / (2 * np.pi)
     assert abs(found - (1.0 - np.arccos(threshold) / np.pi)) <= bound + d**3 / 10
-    assert found + slack_fraction(-x, 5.0 / samples, threshold_N=-threshold) == pytest.approx(1.0, abs=1e-12)
+    above = slack_fraction(-x, 5.0 / samples, threshold_N=-threshold).fraction
+    assert found + above == pytest.approx(1.0, abs=1e-12)
 
 
 @pytest.mark.parametrize(
@@ -32,21 +36,22 @@ def test_a_cosine_is_below_a_level_for_one_minus_arccos_over_pi(threshold, sampl
 )
 def test_a_straight_line_is_exact_with_two_samples(low, high, share):
     for ends in ((low, high), (high, low)):
-        assert slack_fraction(ends, 0.7) == pytest.approx(share, abs=1e-15)
+        assert slack_fraction(ends, 0.7).fraction == pytest.approx(share, abs=1e-15)
 
 
 def test_time_at_the_level_counts():
     """A tension-only tether is slack at exactly zero."""
-    assert slack_fraction([0.0, 0.0, 0.0], 1.0) == 1.0
-    assert slack_fraction([1.0, 0.0, 0.0, 1.0], 1.0) == pytest.approx(1 / 3)
-    assert slack_fraction([1.0, 2.0, 1.0], 1.0) == 0.0
+    assert slack_fraction([0.0, 0.0, 0.0], 1.0).fraction == 1.0
+    assert slack_fraction([1.0, 0.0, 0.0, 1.0], 1.0).fraction == pytest.approx(1 / 3)
+    assert slack_fraction([1.0, 2.0, 1.0], 1.0).fraction == 0.0
 
 
 @pytest.mark.parametrize("transient", [0.0, 0.8, 1.0, 2.35])
 def test_a_transient_is_left_out_to_the_moment_even_between_samples(transient):
     """A straight line from -1 to 4 over 5 s is slack until 1 s."""
-    share = slack_fraction(np.arange(-1.0, 5.0), 1.0, transient_s=transient)
-    assert share == pytest.approx(max(1.0 - transient, 0.0) / (5.0 - transient), abs=1e-15)
+    found = slack_fraction(np.arange(-1.0, 5.0), 1.0, transient_s=transient)
+    assert found.record_s == 5.0 - transient and found.slack_s == pytest.approx(max(1.0 - transient, 0.0))
+    assert found.fraction == pytest.approx(max(1.0 - transient, 0.0) / (5.0 - transient), abs=1e-15)
 
 
 @pytest.mark.parametrize(("series", "transient"), [([1.0, 2.0], 0.3), ([], 0.0), ([1.0], 0.0), (np.ones(11), 1.0)])

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from analysis import density_image, orbit_diagram
+from analysis import density_image, orbit_diagram, scale_density
 from tests.analysis.maps import logistic
 
 
@@ -31,7 +31,8 @@ def test_the_logistic_diagram_doubles_where_it_must():
 def test_counts_are_conserved_column_by_column_and_every_point_lies_in_its_pixel(bins):
     rng = np.random.default_rng(0)
     diagram = orbit_diagram(np.sort(rng.uniform(size=12)), [rng.normal(size=n) for n in rng.integers(0, 400, 12)])
-    counts, edges = density_image(diagram, bins)
+    image = density_image(diagram, bins)
+    counts, edges = image.counts, image.value_edges
     assert counts.shape == (bins, 12)
     assert np.array_equal(counts.sum(axis=0), [len(column) for column in diagram.columns])
     for found, column in zip(counts.T, diagram.columns, strict=True):
@@ -40,7 +41,25 @@ def test_counts_are_conserved_column_by_column_and_every_point_lies_in_its_pixel
 
 @pytest.mark.parametrize("value", [0.0, -3.0, 21.6])
 def test_a_single_fixed_point_still_makes_an_image(value):
-    assert density_image(orbit_diagram([0.13], [[value] * 5]))[0].sum() == 5
+    assert density_image(orbit_diagram([0.13], [[value] * 5])).counts.sum() == 5
+
+
+def test_points_beyond_the_range_are_counted_as_outside_and_only_the_last_points_are_kept():
+    diagram = orbit_diagram([1.0, 2.0, 4.0], [np.arange(10.0)] * 3, last=4)
+    assert np.array_equal(diagram.points(), [np.repeat([1.0, 2.0, 4.0], 4), np.tile(np.arange(6.0, 10.0), 3)])
+    image = density_image(diagram, 2, value_range=(6.0, 8.0))
+    assert np.array_equal(image.counts, np.repeat([[1], [2]], 3, axis=1)) and np.array_equal(image.outside, [1] * 3)
+    assert np.array_equal(image.parameter_edges, [0.5, 1.5, 3.0, 5.0])
+    with pytest.raises(ValueError, match="low < high"):
+        density_image(diagram, value_range=(1.0, 1.0))
+
+
+@pytest.mark.parametrize(("how", "bright"), [("linear", 0.25), ("log", np.log(2) / np.log(5)), ("rank", 0.5)])
+def test_brightness_rises_with_the_counts_and_is_zero_only_without_points(how, bright):
+    assert np.allclose(scale_density([[0, 1], [4, 0]], how), [[0.0, bright], [1.0, 0.0]])
+    assert not scale_density(np.zeros((2, 2), int), how).any()
+    with pytest.raises(ValueError, match="linear, log or rank"):
+        scale_density([1], "square")
 
 
 def test_bad_requests_are_refused():

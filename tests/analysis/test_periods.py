@@ -57,8 +57,11 @@ def test_a_torus_on_a_period_2_motion_is_no_period():
 
 
 @pytest.mark.parametrize("length", [60, 61, 62])
-def test_a_record_need_not_be_whole_rounds(length):
-    assert detect_period(np.resize([0.3, 5.0, -2.0], length)).period == 3
+def test_a_record_need_not_be_whole_rounds_and_its_orbit_ends_where_it_ends(length):
+    record = np.resize([0.3, 5.0, -2.0], length)
+    estimate = detect_period(record)
+    assert estimate.period == 3 and estimate.points == length and estimate.scale == 7.0
+    assert np.allclose(estimate.orbit[:, 0], record[-3:])
 
 
 def test_a_coordinate_that_never_moves_does_not_matter():

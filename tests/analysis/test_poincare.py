@@ -27,11 +27,15 @@ def test_leaving_out_a_transient_only_drops_points_from_the_start(phase, transie
     whole, part = (poincare_section(x, 0.1, PERIOD, phase, first) for first in (0, transient))
     assert np.array_equal(part.points, whole.points[transient:])
     assert np.array_equal(part.time_s, whole.time_s[transient:])
+    assert np.array_equal(part.period_index, whole.period_index[transient:]) and part.phase == phase
 
 
 def test_coordinates_keep_their_order_and_phases_stand_side_by_side():
     section = poincare_section({"radius_m": np.arange(11.0), "angle_rad": -np.arange(11.0)}, 1.0, PERIOD)
     assert np.array_equal(section.points, [[0.0, 0.0], [5.0, -5.0], [10.0, -10.0]])
+    assert np.array_equal(section.column("angle_rad"), [0.0, -5.0, -10.0])
+    with pytest.raises(ValueError, match="there are radius_m, angle_rad"):
+        section.column("r")
     assert np.array_equal(section_at_phases(np.arange(22.0), 1.0, 8.0, 1).points, [[8.0, 10.0, 12.0, 14.0]])
 
 
@@ -60,6 +64,7 @@ def test_phases_on_samples_give_the_samples(phase):
     x = motion(0.05 * np.arange(2001))
     section = poincare_section(x, 0.05, PERIOD, phase=phase)
     assert np.array_equal(section.points, x[np.arange(len(section.points)) * 100 + round(100 * phase)])
+    assert not section.interpolated and poincare_section(x, 0.05, PERIOD, phase=0.001).interpolated
 
 
 def test_the_error_of_a_step_that_does_not_divide_the_period_is_of_fourth_order():

@@ -109,6 +109,7 @@ def test_a_period_of_whole_steps_uses_the_samples_themselves_despite_rounding():
     x = np.random.default_rng(0).normal(size=len(TIME))
     exact, rounded = (spectrum(x, STEP, period).amplitude for period in (5.0, 5.0 * (0.1 + 0.2) / 0.3))
     assert np.array_equal(exact, rounded)
+    assert [spectrum(x, STEP, period).interpolated for period in (5.0, 4.999)] == [False, True]
 
 
 def test_a_short_record_is_refused_with_what_is_needed_and_given():
@@ -124,6 +125,7 @@ def test_lines_come_largest_first_at_their_bins_whatever_constant_is_added(rest)
     peaks = spectral_peaks(spectrum(rest + x, STEP, T))
     assert [peak.angular_frequency_radps for peak in peaks] == pytest.approx([WAVE / 4, WAVE, 3 * WAVE])
     assert [peak.amplitude for peak in peaks] == pytest.approx([0.15, 0.05, 0.01], abs=1e-12)
+    assert [peak.bin for peak in peaks] == [5, 20, 60]
     (first,) = spectral_peaks(spectrum(rest + np.cos(WAVE / 20 * TIME), STEP, T))
     assert first.angular_frequency_radps == pytest.approx(WAVE / 20)
 
@@ -133,7 +135,7 @@ def test_lines_come_largest_first_at_their_bins_whatever_constant_is_added(rest)
 def test_a_natural_frequency_beside_the_forcing_is_found_within_half_a_bin(natural, phase):
     x = 20.8 + 0.1 * np.cos(natural * TIME + phase) + 0.2 * np.cos(WAVE * TIME)
     found = peaks_near(spectrum(x, STEP, T), [natural, WAVE])
-    assert abs(found[0].bins_away) <= 0.5 + 1e-9
+    assert abs(found[0].bins_away) <= 0.5 + 1e-9 and [peak.reference_radps for peak in found] == [natural, WAVE]
     assert found[1].bins_away == pytest.approx(0.0, abs=1e-9)
     assert found[0].angular_frequency_radps - natural == pytest.approx(found[0].bins_away * 2 * np.pi / (20 * T))
 

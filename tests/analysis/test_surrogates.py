@@ -6,6 +6,7 @@ from scipy.signal import lfilter
 
 from analysis import (
     iaaft_surrogates,
+    neighbour_growth,
     noisy_periodic_surrogates,
     normal_scores,
     prediction_gain,
@@ -93,6 +94,7 @@ def test_a_rank_needs_enough_surrogates_and_counts_ties_against():
     assert rank_among(100.0, drawn).advantage == 81.0
     with pytest.raises(ValueError, match="19 at least"):
         rank_among(1.0, np.arange(18.0))
+    assert rank_among(36.5, drawn, share=0.9).above and np.array_equal(rank_among(1.0, drawn).surrogates, drawn)
 
 
 @pytest.mark.slow
@@ -102,14 +104,24 @@ def test_a_linear_process_beats_its_nulls_about_once_in_twenty():
     for _ in range(400):
         x = np.exp(lfilter([1.0], [1.0, -1.2, 0.8], rng.normal(size=250))[50:])
         scores = normal_scores(x)
-        drawn = [prediction_gain(one) for one in iaaft_surrogates(scores, 19, rng.integers(1 << 30))]
-        above += rank_among(prediction_gain(scores), drawn).above
+        drawn = [prediction_gain(one).gain for one in iaaft_surrogates(scores, 19, rng.integers(1 << 30))]
+        above += rank_among(prediction_gain(scores).gain, drawn).above
     assert above <= 33
 
 
 def test_a_chaotic_map_is_predicted_better_than_both_nulls_allow():
     for record in (logistic(3.9, 200), henon(200)):
-        gain = prediction_gain(record)
+        gain = prediction_gain(record).gain
         for make in (iaaft_surrogates, noisy_periodic_surrogates):
-            rank = rank_among(gain, [prediction_gain(one) for one in make(record, 19)])
+            rank = rank_among(gain, [prediction_gain(one).gain for one in make(record, 19)])
             assert rank.above and rank.advantage > 1.0
+
+
+def test_states_of_ones_own_length_and_window_are_used():
+    record = logistic(3.9, 200)
+    found = prediction_gain(record, delays=1, theiler=5)
+    assert found.gain == pytest.approx(np.log(found.linear_error / found.local_error)) and found.gain > 1.0
+    assert "a state of 1 numbers" in prediction_gain(record[:18], delays=1).reason
+    growth = neighbour_growth(record, delays=1, theiler=5)
+    assert len(growth.distance) == 51 and growth.rate == pytest.approx(growth.growth / 35.5)
+    assert len(spectral_lines(np.sin(np.arange(300.0)) + np.sin(2.3 * np.arange(300.0)), most=1).frequency) == 1

@@ -14,10 +14,6 @@ POSITIVE = (0.6, 0.02)
 TORUS = circle_map(0.5, 0.6180339, 200)
 
 
-def named(verdict, name):
-    return next(item for item in verdict.evidence if item.name == name)
-
-
 @pytest.mark.parametrize(("rate", "period"), [(2.8, 1), (3.2, 2), (3.5, 4), (3.55, 8), (3.832, 3)])
 def test_windows_of_the_logistic_map(rate, period):
     verdict = regime(strobed=logistic(rate, 300), scale=0.5)
@@ -53,7 +49,7 @@ def test_a_decay_is_a_transient_and_then_a_period(multiplier):
 def test_a_period_tells_how_fast_it_attracts():
     """Multipliers of the logistic map at its fixed point: 2 - rate."""
     verdict = regime(strobed=logistic(2.9, 60, skip=20), scale=1.0, tolerance=0.05)
-    assert named(verdict, "contraction").value == pytest.approx(-0.9, abs=0.01)
+    assert verdict.named("contraction").value == pytest.approx(-0.9, abs=0.01)
 
 
 @pytest.mark.parametrize(
@@ -83,11 +79,14 @@ def test_the_same_seed_gives_the_same_verdict_and_the_evidence_can_be_read():
     first, again, other = (regime(strobed=henon(150), tangent_exponent=POSITIVE, seed=seed) for seed in (8, 8, 9))
     assert [repr(item) for item in first.evidence] == [repr(item) for item in again.evidence]
     assert other.regime == first.regime
-    assert named(other, "0-1 test").value != named(first, "0-1 test").value
+    assert (first.seed, other.seed) == (8, 9)
+    assert other.named("0-1 test").value != first.named("0-1 test").value
+    with pytest.raises(ValueError, match="there is period"):
+        first.named("nothing")
     assert all(item.sentence for item in first.evidence)
     read = read_evidence(evidence_text(first))
     assert [item[0] for item in read] == [item.name for item in first.evidence]
-    assert ("0-1 test", f"{named(first, '0-1 test').value:.3g}", "0.9", "yes") in read
+    assert ("0-1 test", f"{first.named('0-1 test').value:.3g}", "0.9", "yes") in read
     assert read_evidence("") == read_evidence("no evidence at all") == []
 
 
@@ -98,7 +97,7 @@ def test_units_and_origin_do_not_matter():
         regime(strobed=one, tangent_exponent=POSITIVE) for one in (section, section * [1e3, -1e-3] + [21.0, 5.0])
     )
     assert plain.regime == moved.regime == "chaotic"
-    assert named(moved, "0-1 test").value == pytest.approx(named(plain, "0-1 test").value, abs=1e-6)
+    assert moved.named("0-1 test").value == pytest.approx(plain.named("0-1 test").value, abs=1e-6)
 
 
 def test_a_record_is_seen_once_a_period_after_its_transient():
@@ -113,7 +112,7 @@ def test_a_record_is_seen_once_a_period_after_its_transient():
 
 def test_exponents_come_in_either_unit():
     section, nats = henon(60), Exponent(0.42, 0.01, "nats/time", "known")
-    found = named(regime(strobed=section, period_s=2.0, tangent_exponent=nats), "exponent")
+    found = regime(strobed=section, period_s=2.0, tangent_exponent=nats).named("exponent")
     assert found.value == pytest.approx(0.84 / np.log(2))
     with pytest.raises(ValueError, match="period_s is needed"):
         regime(strobed=section, tangent_exponent=nats)
@@ -137,7 +136,7 @@ def test_what_makes_no_sense_is_refused(given, message):
 def test_chaos_in_two_bands_is_seen_in_each_band():
     """Two logistic maps visited in turn, a hundred times further apart than they are wide."""
     section = np.repeat(logistic(3.9, 250), 2)[:, None] + [0.0, 0.3] + 100.0 * (np.arange(500) % 2)[:, None]
-    found = named(regime(strobed=section, tangent_exponent=POSITIVE), "0-1 test")
+    found = regime(strobed=section, tangent_exponent=POSITIVE).named("0-1 test")
     assert found.passed and "2 bands" in found.sentence
 
 

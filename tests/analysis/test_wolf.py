@@ -56,6 +56,15 @@ def test_a_map_that_triples_every_distance_gives_ln_3_at_every_step():
     assert np.mean(np.abs(run.growth - np.log(3.0)) < 1e-6) > 0.95
 
 
+def test_settings_of_ones_own_are_used_and_told():
+    own = {"delay": 10, "dimensions": [3, 4], "evolutions": [20, 30, 40], "theiler": 70, "noise": 0.0}
+    details = wolf_lyapunov(ROSSLER, STEP, **own).details
+    run = details["run"]
+    assert details["values"].shape == details["qualified"].shape == (2, 3) and details["noise"] == 0.0
+    assert (run.delay, run.theiler) == (10, 70) and run.dimension in (3, 4) and run.evolution in (20, 30, 40)
+    assert run.gaps == np.sum(np.isnan(run.growth))
+
+
 def test_the_convergence_curve_ends_at_the_value_and_is_the_running_mean():
     run = wolf_run(ROSSLER, STEP, 14, 3, 28, 60)
     assert run.convergence[-1] == pytest.approx(run.value, rel=1e-12)

@@ -134,8 +134,11 @@ def test_a_divisor_is_reported_as_the_period_and_newton_gives_up_where_there_is_
 def test_a_single_attractor_takes_every_start_of_a_grid_that_covers_the_box_evenly():
     grid = start_grid(8, 5)
     assert np.allclose(grid.mean(axis=0), [-20.0, 0.0]) and grid[:, 0].min() == -55.0 and grid[:, 1].max() == 20.0
+    assert np.array_equal(start_grid(2, 1, (0.0, 4.0, -1.0, 1.0)), [[1.0, 0.0], [3.0, 0.0]])
     found = snap_basins(SnapOscillator(force=0.05), grid, 2000)
-    assert list(found.shares) == [1.0, 0.0]
+    assert list(found.shares) == [1.0, 0.0] and found.periods == 2000
+    looked_longer = snap_basins(SnapOscillator(force=0.05), grid, 2000, longest_period=80)
+    assert np.array_equal(looked_longer.label, found.label) and looked_longer.settled.min() >= 160
     assert (found.label == 0).all() and (found.settled > 0).all()
 
 
