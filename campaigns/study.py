@@ -128,7 +128,7 @@ class Study:
 
     def main(self, argv: list[str] | None = None, simulate: Callable | None = None) -> int:
         """The command. simulate: in place of engine.simulate, same signature. Returns the exit code (0, 1, 2, 130)."""
-        return session.command(self.called, argv, self.read_order, partial(self._conduct, simulate=simulate))
+        return session.command(self.called, argv, self.read_order, partial(self.conduct, simulate=simulate))
 
     @property
     def called(self) -> str:
@@ -197,7 +197,8 @@ class Study:
             timing["run_s"] += time.perf_counter() - began
         return timing, summary
 
-    def _conduct(self, order: Order, argv: list[str], simulate: Callable | None = None) -> int:
+    def conduct(self, order: Order, argv: list[str], simulate: Callable | None = None) -> int:
+        """Do what an order without faults asks for, to the report; argv: its words. Returns the exit code."""
         order.simulate = simulate
         parameters = {"scene": order.name, "set": order.changes} if self.scene else {}
         parameters |= {} if self.lengths is None else {"periods": order.periods, "transient": order.transient}
