@@ -7,7 +7,6 @@ from . import columns as col
 from .node import box_rotation
 from .vectors import added, combined, combined3, dot, inverted, mixed, scaled, times, vector
 
-NO_TURN = (0.0, 0.0, 0.0), ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))  # psi, J
 # Where dG/dV has its rows
 SYMMETRIC = tuple(tuple(col.G_V + at for at in row) for row in ((0, 1, 2), (1, 3, 4), (2, 4, 5)))
 # Rows of five numbers, by y, for the six components of v = (V, O2, O3, theta1)
@@ -33,13 +32,8 @@ def nodal_jacobian(row, e):
 
 
 @kernel
-def turn_of_box(p, Y, a, b):
-    """psi and J = g + psi x/2 + c psi psi' row by row, c by its series where 1 - g has lost its digits.
-
-    Without bending, where the frames may roll: no turn.
-    """
-    if p.bent == 0:
-        return NO_TURN
+def turn_of_box(Y, a, b):
+    """psi and J = g + psi x/2 + c psi psi' row by row, c by its series where 1 - g has lost its digits."""
     psi, angle, g = box_rotation(Y, a, b)
     c = (1.0 - g) / (angle * angle) if angle > 1e-3 else 1.0 / 12 + angle * angle / 720
     x, y, z = psi

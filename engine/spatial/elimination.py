@@ -23,8 +23,7 @@ where J' and psi' are transposed (p' and r' are not: they are what one more unit
 momentum and moments give y_a = P y_b + p + p' dO1: a 3 x 3 inverse for (eps, Sn, Sb) and a 2 x 2 one for the angles.
 At the upper end one small solve, then back substitution.
 
-Without bending the moment equations are Sn_a + Sn_b = 0, Sb_a + Sb_b = 0 (`engine.spatial.node`), with Sn = Sb = 0 at
-the upper end; shear forces, curvatures and the roll of the frame are zero. Well posed while the tether is in tension.
+A line without bending has an elimination of its own (`engine.spatial.elimination_unbent`), at half the cost.
 
 E (n, 77): columns in `engine.spatial.columns`.
 
@@ -36,6 +35,7 @@ from ..compiled import kernel
 from ..physics.ends import released
 from . import columns as col
 from .box import Rows, across_box, factors, momentum_row, nodal_jacobian, solve_box, solve_box_rows, turn_of_box
+from .elimination_unbent import eliminate_unbent
 from .upper import solve_upper, spring
 from .vectors import added, combined, combined3, dot, mixed, put, put_row, row_dot, row_of, row_times, symmetric, vector
 
@@ -48,6 +48,8 @@ def eliminate(p, tables, stage, Y, work):
 
     p, tables: parameters (`engine.record`); stage: Stage; Y (n, 13); work: Work, whose Q, F and X belong to Y.
     """
+    if p.bent == 0:
+        return eliminate_unbent(p, tables, stage, Y, work)
     Q, E, cq = work.Q, work.E, stage.cq
     last = Y.shape[0] - 1
     EI, GI, O1 = p.EI, p.GI, Y[0, col.O1]
@@ -61,7 +63,7 @@ def eliminate(p, tables, stage, Y, work):
         over = 1.0 / e
         Qa, Qb = Q[a], Q[k]
         # rotation and compatibility: v_b = A y_a + B y_b + z
-        psi, J = turn_of_box(p, Y, a, k)
+        psi, J = turn_of_box(Y, a, k)
         A, B, z = across_box(Y, Q, k, e, cq, J, psi, R, r)
         # momentum, three rows M y_a + BM y_b = g
         at_a, at_b = nodal_jacobian(Qa, e), nodal_jacobian(Qb, e)
@@ -129,10 +131,6 @@ def eliminate(p, tables, stage, Y, work):
     if not solve_upper(p, tables, stage, twisted, Y, work):
         return False
     back_substitute(E, twisted, work.D)
-    if p.bent == 0:
-        for k in range(last + 1):
-            for i in (col.SHEAR_N, col.SHEAR_B, col.D_O2, col.D_O3):
-                work.D[k, i] = 0.0
     return True
 
 

@@ -139,5 +139,3 @@ def node_quantities(p, tables, stage, Y, work):
             if Y[k, col.O1] != 0.0:
                 row[col.M2] -= p.GI * Y[k, col.O1] * Y[k, col.O3]
                 row[col.M3] -= p.GI * Y[k, col.O1] * Y[k, col.O2]
-        else:  # of both shear forces: S_a + S_b = 0
-            row[col.M2], row[col.M3], row[col.CUBE] = 0.0, 0.0, 1.0

@@ -93,10 +93,6 @@ def solve_upper(p, tables, stage, twisted, Y, work):
         M[i, 6] = -residual[i] - known[i] - eN * at.roll[i] * row[col.R_KNOWN + 5]
     M[3, 5], M[4, 5], M[5, 5] = row[col.R_TORQUE + 3], row[col.R_TORQUE + 4], row[col.R_TORQUE + 5]
     M[3, 6], M[4, 6] = -Y[last, col.O2] - row[col.R_KNOWN + 3], -Y[last, col.O3] - row[col.R_KNOWN + 4]
-    if p.bent == 0:
-        for j in range(7):
-            M[3, j] = M[4, j] = 0.0
-        M[3, 1] = M[4, 2] = 1.0
     if p.end == HELD and p.clamp_above and not released(p, stage.t):
         k_rotation = spring(p, tables, last - 1)
         direction = (p.above_x, p.above_y, p.above_z)
