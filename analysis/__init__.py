@@ -27,6 +27,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "extreme_values": ["Extremes", "SlackFraction", "extremes", "slack_fraction"],
         "growth": ["Growth", "envelope_of", "growth_or_bursts"],
         "line_spectra": ["LineSpectrum", "spectral_lines"],
+        "looks": ["motion_regime", "next_look"],
         "neighbours": ["NeighbourGrowth", "neighbour_growth"],
         "orbit_diagrams": ["DensityImage", "OrbitDiagram", "density_image", "orbit_diagram", "scale_density"],
         "periods": ["PeriodEstimate", "detect_period"],

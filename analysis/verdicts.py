@@ -56,6 +56,7 @@ class Verdict:
     period      N, or None
     points      strobed points judged
     seed        of the random angles and surrogates: the same input and seed give the same verdict
+    transient   forcing periods before those that were judged
     """
 
     regime: str
@@ -64,6 +65,7 @@ class Verdict:
     period: int | None
     points: int
     seed: int
+    transient: int = 0
 
     def named(self, name: str) -> Evidence:
         """The Evidence of that name; ValueError where there is none."""
