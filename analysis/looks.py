@@ -5,9 +5,9 @@ A simulation can be carried on until its motion is told. So it is looked at afte
 
     period-N          the strobed orbit repeats (`detect_period`), and its perturbations do not grow in the later half;
                       where none are carried, the steps towards the orbit shrink
-    chaotic           lambda > 3.5 errors; in the later half > 2 of its errors; and in all a growth of 10 bits, because
+    chaotic           lambda > 3 errors; in the later half > 2 of its errors; and in all a growth of 10 bits, because
                       on a torus, too, perturbations grow, as the logarithm of time
-    quasi-periodic    |lambda| + 2 errors < 0.05 bits per period, neighbours on the section stay neighbours, and a
+    quasi-periodic    |lambda| + 2 errors < 0.06 bits per period, neighbours on the section stay neighbours, and a
                       spectral line is incommensurate with the forcing
     transient         at the end of the record: spread or mean still march, or perturbations shrink and no period is met
     undecided         otherwise
@@ -33,9 +33,9 @@ from analysis.tangent_growth import LEAST_PERIODS, tangent_lyapunov
 from analysis.verdicts import Verdict
 
 FIRST_LOOK = 90
-POSITIVE, LATER = 3.5, 2.0  # errors by which an exponent is positive: of the look, and of its later half
+POSITIVE, LATER = 3.0, 2.0  # errors by which an exponent is positive: of the look, and of its later half
 LEAST_BITS = 10.0  # growth over a look
-ABOUT_ZERO = 0.05  # bits per period
+ABOUT_ZERO = 0.06  # bits per period
 STAYS, NEAR = 0.35, 0.35  # nats by which neighbours may part; what they are apart at most, in sizes of the section
 ALIGNED = 10  # periods that perturbations need to turn to the fastest growth
 CLEARLY = 3.0  # tolerances from its orbit within which a periodic motion has settled
@@ -144,20 +144,21 @@ def _look(x, growth, start, end, scale, tolerance, max_period):
     said = f"{whole.value:.3f} ± {whole.error:.3f} bits per period"
     if all(item.passed for item in evidence[-3:]):
         return "chaotic", f"perturbations grow by {said}, and so they do in the later half", evidence, estimate
-    neighbours = _neighbours(section, tolerance)
-    drift = drift_evidence(section, neighbours)
-    line = incommensurate_evidence(section, max_period)
     bound = abs(whole.value) + 2.0 * whole.error
     sentence = "|exponent| and two errors, bits per period"
-    zero = Evidence("about zero", bound, ABOUT_ZERO, bool(bound < ABOUT_ZERO), sentence)
-    evidence += [drift, zero, neighbours, line]
+    evidence.append(Evidence("about zero", bound, ABOUT_ZERO, bool(bound < ABOUT_ZERO), sentence))
+    neighbours = _neighbours(section, tolerance)
+    drift = drift_evidence(section, neighbours)
+    evidence += [neighbours, drift]
     if drift.passed:
         return "transient", drift.sentence, evidence, estimate
-    if zero.passed and neighbours.passed and line.passed:
-        reason = f"neighbours stay neighbours, a line is incommensurate, and perturbations grow by {said}"
-        return "quasi-periodic", reason, evidence, estimate
     if whole.value + LATER * whole.error < 0.0:
         return "transient", f"perturbations shrink ({said}), but no period is met yet", evidence, estimate
+    if bound < ABOUT_ZERO and neighbours.passed:
+        evidence.append(incommensurate_evidence(section, max_period))
+        if evidence[-1].passed:
+            reason = f"neighbours stay neighbours, a line is incommensurate, and perturbations grow by {said}"
+            return "quasi-periodic", reason, evidence, estimate
     lacking = [item.name for item in evidence if item.passed is False]
     return "undecided", f"no period; {said}; not met: {', '.join(lacking)}", evidence, estimate
 
