@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from analysis import detect_period
-from tests.analysis.maps import circle, logistic
+from tests.analysis.systems import circle, logistic
 
 TOLERANCE = 1e-3
 BRANCHES = np.array([0.0, 3.0, 1.0, 7.0, 5.0, 4.0, 2.0, 6.0])
@@ -110,16 +110,6 @@ def test_the_multiplier_and_the_trend_are_those_of_the_decay(multiplier, period)
 def test_a_creep_by_the_last_digit_is_rounding_and_no_drift():
     creep = 20.8 + np.spacing(20.8) * np.arange(40)
     assert detect_period(creep, scale=1.0, tolerance=1e-12).period == 1
-
-
-@pytest.mark.parametrize("turn", [0.1, 1.0, 1.25, 2.0])
-def test_a_decaying_spiral_is_reported_as_a_transient_and_later_as_period_1(turn):
-    k = np.arange(1200)
-    orbit = 0.98 ** k[:, None] * circle(turn * k / (2 * np.pi))
-    early = detect_period(orbit[:200], scale=1.0, tolerance=TOLERANCE)
-    assert early.period is None and "transient" in early.reason
-    assert np.min(np.abs(early.trend_nats_per_period - np.log(0.98))) < 1e-3
-    assert detect_period(orbit, scale=1.0, tolerance=TOLERANCE).period == 1
 
 
 def test_what_happened_before_the_last_half_does_not_matter():

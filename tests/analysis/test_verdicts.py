@@ -7,7 +7,7 @@ from analysis import evidence_text, read_evidence, regime
 from analysis.exponents import Exponent
 from analysis.oscillator import SnapOscillator, search_periodic_orbits, snap_motion, start_grid, strobed_states
 from tests.analysis.forced_records import KINDS, SAMPLES, record
-from tests.analysis.maps import circle, circle_map, henon, logistic
+from tests.analysis.systems import circle, circle_map, henon, logistic
 
 K = np.arange(300)
 POSITIVE = (0.6, 0.02)

@@ -11,8 +11,7 @@ from campaigns.time_series import main
 from campaigns.time_series.record import Record
 from campaigns.time_series.study import study, successive_maxima
 from tests.analysis.forced_records import KINDS, SAMPLES, record
-from tests.analysis.maps import henon, logistic
-from tests.analysis.systems import states
+from tests.analysis.systems import henon, logistic, states
 
 TIME = np.arange(1500) * 0.4
 GOLDEN = 0.5 * (np.sqrt(5.0) - 1.0)

@@ -23,7 +23,7 @@ from engine.physics.waves import wave_number
 from engine.scene.values import LARGEST, SMALLEST
 from tests.engine.kernels import parameters_of, waves_at
 from tests.engine.lines import SPACE, line
-from tests.engine.physics.airy import direct
+from tests.engine.physics.caps import direct
 
 PERIOD, DEPTH, GRAVITY = 5.0, 21.0, 9.81
 OMEGA = 2 * np.pi / PERIOD

@@ -26,8 +26,8 @@ import pytest
 from scipy.integrate import quad, solve_ivp
 
 from engine import load_scene, simulate
-from tests.engine.box_equations import water_on_line, wet_weight
 from tests.engine.lines import DRY, STILL, held, line, linear
+from tests.engine.planar.test_tether_in_current import slope
 
 LENGTH, G = 1.022, 9.81
 TABLE_S, TABLE_M = [0.0, 4.0, 12.0, 20.0], np.array([[0, 0, 0], [1.0, 0.5, -0.5], [1.5, -1.0, 0.5], [0.5, 0.0, 0.0]])
@@ -110,23 +110,13 @@ def test_a_tight_fold_falls_as_its_energy_says():
 
 def hanging_free(scene):
     """Rest of a line without bending under the force on its free end and a current of the given profile: x(L)."""
-    length, stiffness = scene.tether.length_m, scene.tether.tension.stiffness_N
-    heights, velocities = scene.current.height_m, np.array(scene.current.velocity_mps)
-
-    def rates(s, y, top):
-        x, N = y[:3], y[3:]
-        T = np.linalg.norm(N)
-        t, lam = N / T, 1 + T / stiffness
-        U = np.array([np.interp(top + x[2], heights, velocities[:, i]) for i in range(3)])
-        drag, _ = water_on_line(scene, np.array([[lam]]), t[None], -U[None], np.zeros((1, 3)), np.zeros((1, 3)))
-        return np.concatenate([lam * t, wet_weight(scene) - drag[0]])
-
-    top = length
-    for _ in range(50):  # the height of the free end, so that the anchor is at 0
-        start = [0, 0, 0, *scene.end.force_N]
-        down = solve_ivp(rates, (length, 0), start, args=(top,), rtol=1e-10, atol=1e-10)
-        top = -down.y[2, -1]
-    return -down.y[:3, -1]
+    length = scene.tether.length_m
+    top = np.array([0.0, 0.0, length])
+    for _ in range(20):  # from the place of the free end downwards, until the anchor is at 0
+        start = [*scene.end.force_N, *top]
+        down = solve_ivp(slope, (length, 0), start, args=(scene,), rtol=1e-10, atol=1e-10)
+        top = top - down.y[3:, -1]
+    return top
 
 
 def test_a_line_let_go_comes_to_rest_in_the_current():
