@@ -16,7 +16,7 @@ from engine.paper_box import run as run_boxed
 from engine.paper_box.line import line_of
 from engine.paper_box.nodal import positions
 from engine.paper_box.start import lifted
-from tests.engine.lines import held, line, linear
+from tests.engine.lines import held, line, linear, orders, ran
 from tests.engine.manufactured import motion as motion_of
 from tests.engine.manufactured import scene_of
 
@@ -30,11 +30,6 @@ MOVED = {  # from rest: the slope of the first piece is zero
     "time_s": [0.0, 0.1, 1.3, 3.0],
     "displacement_m": [[0.0, 0.0, 0.0], [0.0, 0.0, 0.0], [0.6, 0.0, -0.5], [0.6, 0.0, -0.5]],
 }
-
-
-def slopes(errors):
-    """Orders of convergence between errors on grids or steps that are halved."""
-    return np.log2(np.divide(errors[:-1], errors[1:]))
 
 
 def run_of(nodes, step_s, *parts, duration_s=1.0, accelerations=False):
@@ -57,9 +52,7 @@ def test_in_space_towards_a_motion_that_was_chosen_first(stretching):
     errors = []  # per grid: position (m) and strain, at rest and in motion
     for nodes in (11, 21, 41):
         scene = scene_of(END_S, True, nodes, 1 / 64, stretching, scheme="paper-box", newton_tolerance=1e-7)
-        run = simulate(scene, duration_s=END_S)
-        assert run.status == "ok", run.message
-        found = []
+        run, found = ran(scene, duration_s=END_S), []
         for t, sample in ((0.0, 0), (END_S, -1)):
             exact = motion_of(t, run.profiles.s_m / 20.0, True)[0]
             x, _, z = exact["X"].T
@@ -68,9 +61,9 @@ def test_in_space_towards_a_motion_that_was_chosen_first(stretching):
         errors.append([*found, run.statistics["closure_m"], run.statistics["euler_norm_error"]])
     errors = np.array(errors)
     assert errors[0, [0, 2]].max() < 0.03
-    assert np.all(np.abs(slopes(errors[:, :4]) - 2) < 0.1), errors
+    assert np.all(np.abs(orders(errors[:, :4]) - 2) < 0.1), errors
     # so do, from the coarsest to the finest, what the form does not keep: the length of a bent line, and |beta|
-    assert np.all(np.abs(slopes(errors[::2, 4:]) / 2 - 2) < 0.1), errors
+    assert np.all(np.abs(orders(errors[::2, 4:]) / 2 - 2) < 0.1), errors
 
 
 def calm(nodes, step_s, accelerations=False):
@@ -82,7 +75,7 @@ def calm(nodes, step_s, accelerations=False):
 def test_the_difference_from_the_conservation_form_falls_at_order_two():
     limit, grids = calm(161, None), ((6, 0.1), (11, 0.05), (21, 0.025), (41, 0.0125))
     errors = np.array([np.abs(calm(*grid, True) - limit).max(1)[[0, 2]] for grid in grids])
-    assert np.all(np.abs(slopes(errors) - 2) < 0.1), errors
+    assert np.all(np.abs(orders(errors) - 2) < 0.1), errors
     assert errors[0].max() < 1.2e-3 and errors[-1].max() < 2e-5
 
 

@@ -1,4 +1,4 @@
-"""Linear waves, and the sphere partly in the water, from geometry and mechanics, for tests that must not trust a kernel.
+"""Linear waves, and the sphere partly in the water, from geometry and mechanics, for tests that trust no kernel.
 
 Complex arguments pass, so that a complex step differentiates everything to rounding. Lengths m, SI units.
 """

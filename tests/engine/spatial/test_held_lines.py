@@ -26,7 +26,7 @@ import pytest
 from scipy.integrate import quad, solve_ivp
 
 from engine import load_scene, simulate
-from tests.engine.lines import DRY, STILL, held, line, linear
+from tests.engine.lines import DRY, STILL, held, line, linear, ran
 from tests.engine.planar.test_tether_in_current import slope
 
 LENGTH, G = 1.022, 9.81
@@ -121,9 +121,7 @@ def hanging_free(scene):
 
 def test_a_line_let_go_comes_to_rest_in_the_current():
     scene = load_scene("swinging_line")
-    run = simulate(scene, duration_s=200.0)
-    table = run.table()
-    assert run.status == "ok"
+    table = ran(scene, duration_s=200.0).table()
     held = table[table.time_s <= 2.0]
     assert held[["x_m", "y_m", "z_m"]].to_numpy() == pytest.approx(np.tile([14.0, 0.0, 12.0], (21, 1)), abs=1e-6)
     assert table.tension_top_N.iloc[30:].to_numpy() == pytest.approx(50.0, rel=2e-3)
@@ -145,8 +143,7 @@ def test_the_force_of_a_jerk(dimensions):
         {"solver.rtol": 1e-2, "output.step_s": JERKED / C / 20},
         length_m=JERKED, area_m2=5e-4, density_kgpm3=1000.0, nodes=161, tension=linear(EA),
     )  # fmt: skip
-    run = simulate(scene, duration_s=1.6 * JERKED / C)
-    assert run.status == "ok", run.message
+    run = ran(scene, duration_s=1.6 * JERKED / C)
     t = run.columns["time_s"]
     jump = amplitude * 2 * np.pi / period * np.sqrt(MASS * EA)
     expected = EA * stretch + jump * np.cos(2 * np.pi * t / period)
@@ -162,6 +159,5 @@ def test_a_slack_line_stands_a_jerk(dimensions, EI, position, period_s):
     motion = {"law": "harmonic", "amplitude_m": [0.3, 0.0, 0.3], "period_s": period_s}
     end = held(*position, motion=motion)
     scene = line(STILL, end, {"motion.dimensions": dimensions}, bending_stiffness_Nm2=EI)
-    run = simulate(scene, duration_s=2.0)
-    assert run.status == "ok", run.message
+    run = ran(scene, duration_s=2.0)
     assert run.statistics["steps"] < 300

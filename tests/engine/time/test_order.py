@@ -24,9 +24,8 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
-from engine import simulate
 from engine.time.integrators import backward_euler, esdirk43, generalized_alpha, midpoint, trbdf2
-from tests.engine.lines import DRY, STILL, held, line, linear
+from tests.engine.lines import DRY, STILL, held, line, linear, orders, ran
 
 WAVES = {"waves.steepness": 0.02, "water.depth_m": 30.0, "tether.tension": linear(5e3)}
 STRUCK = {**DRY, "buoy.mass_kg": 10.0, "tether.tension": linear(500.0)}
@@ -58,14 +57,9 @@ def run_of(*parts, duration_s, **solver):
     update."""
     solver = {"newton_tolerance": 1e-20, "max_newton_iterations": 50} | solver
     solver = {f"solver.{key}": value for key, value in solver.items()}
-    run = simulate(line(*parts, solver, {"output.profiles": True}), duration_s=duration_s)
-    assert run.status == "ok" and run.statistics["newton_failures"] == 0, run.message
+    run = ran(line(*parts, solver, {"output.profiles": True}), duration_s=duration_s)
+    assert run.statistics["newton_failures"] == 0
     return run
-
-
-def orders(sizes):
-    """Slopes of differences between neighbours of a sequence of halved steps."""
-    return np.log2(np.divide(sizes[:-1], sizes[1:]))
 
 
 @pytest.mark.parametrize("dimensions", [2, 3])
@@ -76,7 +70,6 @@ def orders(sizes):
         ("ramped waves", "trbdf2", 0.5, 2, 80),
         ("ramped waves", "midpoint", 0.5, 2, 80),
         ("ramped waves", "generalized-alpha", 1.0, 2, 80),
-        ("ramped waves", "generalized-alpha", 0.5, 2, 80),
         ("ramped waves", "generalized-alpha", 0.0, 2, 80),
         ("ramped waves", "backward-euler", 0.5, 1, 80),
         pytest.param("ramped waves", "paper-box", 0.5, 2, 80, marks=pytest.mark.slow),

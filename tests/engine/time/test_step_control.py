@@ -7,8 +7,8 @@ global error as rtol^(m/(p+1)): 1 for the 4(3) pair, 2/3 for TR-BDF2 (order 2, h
 import numpy as np
 import pytest
 
-from engine import load_scene, simulate
 from engine.run import Run
+from tests.engine.lines import line, ran
 
 REGULAR = {  # small waves, with a current that keeps |v| v away from its kink
     "waves.steepness": 0.016,
@@ -19,16 +19,10 @@ REGULAR = {  # small waves, with a current that keeps |v| v away from its kink
 }
 
 
-def ran(overrides, periods=6):
-    run = simulate(load_scene("tethered_buoy", {**REGULAR, **overrides}), periods=periods)
-    assert run.status == "ok", run.message
-    return run
-
-
 @pytest.fixture(scope="module")
 def reference():
     fine = {"solver.step_s": 2e-3, "solver.newton_tolerance": 1e-18, "solver.max_newton_iterations": 40}
-    return ran(fine).columns
+    return ran(line(REGULAR, fine), 6).columns
 
 
 def error_of(run, reference):
@@ -40,7 +34,7 @@ def error_of(run, reference):
     "integrator, loose, tight, rate", [("esdirk43", 1e-5, 1e-7, 1.0), ("trbdf2", 1e-3, 1e-5, 2 / 3)]
 )
 def test_error_falls_with_the_tolerance(reference, integrator, loose, tight, rate):
-    runs = [ran({"solver.integrator": integrator, "solver.rtol": rtol}) for rtol in (loose, tight)]
+    runs = [ran(line(REGULAR, {"solver.integrator": integrator, "solver.rtol": r}), 6) for r in (loose, tight)]
     errors = [error_of(run, reference) for run in runs]
     measured = np.log(errors[0] / errors[1]) / np.log(loose / tight)
     assert abs(measured - rate) < 0.15, (errors, measured)
@@ -50,14 +44,13 @@ def test_error_falls_with_the_tolerance(reference, integrator, loose, tight, rat
 
 def test_default_tolerance_is_good_to_centimetres_in_small_waves(reference):
     """The default, without the cap on the step that the shipped scene has: fewer than 10 steps a period."""
-    run = ran({})
+    run = ran(line(REGULAR), 6)
     assert run.statistics["steps"] < 60 and error_of(run, reference) < 0.01
 
 
 def run_to(seconds):
     """A run in steep waves stopped at its first step beyond a time."""
-    scene = load_scene("tethered_buoy", {"waves.steepness": 0.13, "solver.max_step_s": 5.0, "solver.rtol": 1e-3})
-    run = Run(scene, 60.0)
+    run = Run(line({"waves.steepness": 0.13, "solver.max_step_s": 5.0, "solver.rtol": 1e-3}), 60.0)
     run.advance(round(seconds / 0.05) + 1)
     return run
 
@@ -91,9 +84,7 @@ def test_a_rejected_trial_leaves_no_trace(seconds, first_try):
 
 
 def test_rejections_and_failures_are_counted():
-    run = simulate(load_scene("tethered_buoy", {"waves.steepness": 0.13, "water.depth_m": 22.5}), periods=10)
-    assert run.status == "ok"
-    statistics = run.statistics
+    statistics = ran(line({"waves.steepness": 0.13, "water.depth_m": 22.5}), 10).statistics
     assert statistics["rejected_steps"] > 0 and statistics["newton_failures"] > 0
     # five stages a step, at least one iteration each
     assert statistics["newton_iterations"] >= 5 * (statistics["steps"] + statistics["rejected_steps"] - 3)
@@ -101,7 +92,5 @@ def test_rejections_and_failures_are_counted():
 
 def test_no_step_is_longer_than_allowed():
     for longest in (0.1, 0.02):
-        run = simulate(
-            load_scene("tethered_buoy", {"waves.steepness": 0.016, "solver.max_step_s": longest}), duration_s=10.0
-        )
+        run = ran(line({"waves.steepness": 0.016, "solver.max_step_s": longest}), duration_s=10.0)
         assert run.statistics["steps"] >= 10.0 / longest
