@@ -19,7 +19,7 @@ from campaigns.breaking_line import LENGTHS_S, planned
 from campaigns.breaking_line import motion_measures as measures
 from campaigns.breaking_line.theory import theory_of
 from engine import simulate
-from tests.engine.physics.breaking import CASES, broken, straight, theory
+from tests.engine.physics.test_shock_capturing import CASES, broken, straight, theory
 
 LENGTH = 60.0
 SHOCKED = ("3", "4", "4p")

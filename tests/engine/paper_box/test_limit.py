@@ -17,8 +17,8 @@ from engine.paper_box.line import line_of
 from engine.paper_box.nodal import positions
 from engine.paper_box.start import lifted
 from tests.engine.lines import held, line, linear, orders, ran
-from tests.engine.manufactured import motion as motion_of
-from tests.engine.manufactured import scene_of
+from tests.engine.time.test_manufactured_solution import motion as motion_of
+from tests.engine.time.test_manufactured_solution import scene_of
 
 END_S = 1.5
 CALM = {"waves.steepness": 0.016, "water.depth_m": 22.5}

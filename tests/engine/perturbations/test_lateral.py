@@ -22,7 +22,7 @@ from engine.scene import build_scene
 from tests.engine.box_equations import LAWS, across, lifted, response, state_of
 from tests.engine.kernels import Stage
 from tests.engine.lines import DRY, STILL, free, held, line, linear, ran
-from tests.engine.perturbations.tangents import Carried, Run
+from tests.engine.perturbations.test_tangent_vectors import Carried, Run
 
 NODES, RATE = 7, 120.0
 ENDS = {"buoy": {}, "held": held(3.0, 18.0), "free": free(300.0, 900.0)}
