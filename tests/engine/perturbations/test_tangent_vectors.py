@@ -1,11 +1,11 @@
 """Law: what `carry` moves along a run is the derivative of the map that its accepted steps make.
 
 Two copies take the steps of the run, displaced by +d and -d along one direction, Newton's method driven to rounding.
-Half their difference over d is the derivative, with an error of d^2 times the bend of the map plus rounding over d. With d = 3e-7 of the scene's
-scales both are some 1e-6 where a perturbation has grown and below 1e-4 where it has shrunk; on the way through a snap,
-where the map bends most (a factor 1e3 in growth), the first is the larger. Hence 1e-4 of the length of a perturbation,
-in direction and length together. Rates are differences over a step, and their rounding is that of the differences over
-the step; they enter the next step as dt K, and are held to 1e-4 of what they add up to there, dC + dt dK.
+Half their difference over d is the derivative, with an error of d^2 times the bend of the map plus rounding over d.
+With d = 3e-7 of the scene's scales both are 1e-6 where a perturbation has grown and below 1e-4 where it has shrunk; in
+a snap, where the map bends most (a factor 1e3 in growth), the first is the larger. Hence 1e-4 of the length of the
+perturbation, in direction and length together. Rates, differences over a step, enter the next step as dt K and are
+held to 1e-4 of what they add up to there, dC + dt dK.
 
 Law: about a state of rest the growths are those of the linearised box equations under the integrator.
 

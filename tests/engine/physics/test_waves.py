@@ -146,15 +146,6 @@ def jonswap(**keys):
     return line({"waves.jonswap": keys})
 
 
-@pytest.mark.parametrize("name", ["one", "two"])
-def test_the_surface_of_a_sea_is_the_sum_of_its_waves(name):
-    t, x = np.linspace(0.0, 9.0, 50), 3.0
-    ramp = np.where(t < 4.0, np.sin(np.pi * t / 8.0) ** 2, 1.0)
-    waves = [(wave_number(T, DEPTH), 2 * np.pi / T, A, phase, np.cos(a)) for T, A, phase, a in SEAS[name][1]]
-    eta = ramp * sum(A * np.cos(k * x * heading - omega * t + phase) for k, omega, A, phase, heading in waves)
-    assert elevation_m(sea_of(name, ramp_s=4.0), t, x) == pytest.approx(eta, abs=1e-12)
-
-
 @pytest.mark.parametrize("gamma", [1.0, 3.3, 7.0])
 @pytest.mark.parametrize("count", [8, 64, 500])
 def test_a_jonswap_sea_carries_the_energy_of_its_height(gamma, count):

@@ -14,11 +14,8 @@ Let go: a folded chain against the energy of a chain folded without gap (Calkin 
 tip's speed after a fall x is v^2 = 2 g x (1 - x/2L)/(1 - x/L), more than g can give). A line let go under a float in a
 cross current against the rest that follows from its free end downwards, N_s = w_0 z - drag, N(L) = F, without bending.
 
-Jerked: an end pulled away at V from a taut straight line sends out a wave of the force V sqrt(m EA) (d'Alembert).
-
-Until the wave comes back from the anchor, T = T_0 + V(t) sqrt(m EA) at the end, also where the motion begins with a
-jerk (no ramp): a force that is far above what the line carries at rest. Tolerance: 1 % of the jump, until the short
-waves that run ahead of the front on a grid have come back.
+Jerked: an end pulled away at V(t) from a taut straight line carries T = T_0 + V sqrt(m EA) until the wave comes back
+from the anchor (d'Alembert), to 1 % of the jump, also where the motion begins with a jerk (no ramp).
 """
 
 import numpy as np

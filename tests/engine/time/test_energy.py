@@ -14,11 +14,9 @@ time the box rule neither damps nor feeds.
 Law: what waves, drag and moved ends do on line and buoy is what their energy changes by; and so for momentum.
 
 `budget` adds up the accepted steps: a Runge-Kutta step of rates K_i changes C = (q, V) by dt sum(b_i K_i), and the box
-equations hold at every stage, so the same weights are put on the powers (W) and the forces (N) of the stages. Energy
-(J): kinetic, of line and buoy (with the buoy's added mass); gravity, of the wet weight and the lift; stretching, int T
-deps; bending, EI/2 |O|^2. The water comes from the engine (it has tests of its own); the forces are those written out
-in `box_equations`. "Passed" is the sum of the sizes of all works, step by step (drag and wave load of
-the buoy, drag and fluid inertia of the line, ends): each budget closes to 0.1 % of it at every step, at 41 nodes.
+equations hold at every stage, so the same weights are put on the powers and the forces of the stages, those written
+out in `box_equations`. "Passed" is the sum of the sizes of all works, step by step (drag and wave load of the buoy,
+drag and fluid inertia of the line, ends): each budget closes to 0.1 % of it at every step, at 41 nodes.
 
 The part that only the integrator can miss - kinetic and gravity energy, and the work of N on q_t, against the works -
 closes to 1e-5 at rtol 1e-3, momentum to 1e-5 of the impulses (Newton's tolerance). The rest is what the box's work on
