@@ -163,7 +163,7 @@ def standard(seed, points, shift=0.0):
     return np.random.default_rng(seed).normal(shift, 1.0, (points, 1))
 
 
-@pytest.mark.parametrize("shift", [0.5, 1.0, 3.0])
+@pytest.mark.parametrize("shift", [0.5, 3.0])
 def test_two_normal_clouds_have_the_distance_of_the_closed_form(shift):
     """<|x - y|> of N(0, 1) and N(d, 1): d erf(d/2) + 2/sqrt(pi) exp(-d^2/4)."""
     across = shift * math.erf(shift / 2) + 2 / math.sqrt(math.pi) * math.exp(-(shift**2) / 4)
