@@ -10,10 +10,11 @@ import numpy as np
 import pytest
 from scipy.interpolate import PchipInterpolator
 
+from engine import simulate
 from engine.physics.ends import end_velocity
 from engine.record import RECORD, SPATIAL
 from tests.engine.kernels import parameters_of, upper_end_of
-from tests.engine.lines import SPACE, STILL, equilibrium, held, line, positions, ran
+from tests.engine.lines import DRY, SPACE, STILL, equilibrium, free, held, line, positions
 
 PLACE = (3.0, 20.2)
 TIMES, DISPLACEMENTS = [1.0, 3.0, 4.0, 8.0, 13.0], [[0, 0, 0], [1, 0, 0.2], [1.5, 0, 0.2], [-1, 0, 0.1], [0, 0, 0.5]]
@@ -74,7 +75,10 @@ def test_a_moved_end_is_where_the_scene_says(integrator, order, dimensions):
     errors = []
     for step_s in (0.2, 0.1):
         solver = {"solver.integrator": integrator, "solver.step_s": step_s, "solver.newton_tolerance": 1e-10}
-        run = ran(line(STILL, changes, solver, {"output.step_s": 0.2, "motion.dimensions": dimensions}), None, 20.0)
+        run = simulate(
+            line(STILL, changes, solver, {"output.step_s": 0.2, "motion.dimensions": dimensions}), duration_s=20.0
+        )
+        assert run.status == "ok"
         found = run.table()[["x_m", "y_m", "z_m"]].to_numpy() - [PLACE[0], 0.0, PLACE[1]]
         exact = np.array([harmonic(t, amplitude, 5.0, 0.7) for t in run.columns["time_s"]])
         errors.append(np.abs(found - exact).max())
@@ -102,6 +106,49 @@ def test_release_and_motion_begin_from_the_equilibrium_of_the_held_end():
         start = equilibrium(line(STILL, held(3, 19, **keys)))
         assert np.abs(start.Y - still.Y).max() < 1e-9
         assert positions(start.Y, start.h)[-1] == pytest.approx([3.0, 19.0], abs=1e-9)
+
+
+RNG = np.random.default_rng(4)
+N, V, V_TILDE, WATER = 900 * RNG.normal(size=3), *RNG.normal(size=(2, 3)), RNG.normal(size=(2, 3))
+SHAKEN = {"law": "harmonic", "amplitude_m": [0.4, 0.0, 0.3], "period_s": 3.0}
+ENDS = {
+    "buoy": {},
+    "dry buoy": DRY,
+    "held": held(3, 19),
+    "moved": held(3, 19, motion=SHAKEN),
+    "released": held(3, 19, release_s=1.0, force_N=[30.0, 0.0, 9.0]),
+    "free": free(30, 9),
+}
+T = 1.7
+
+
+def condition(changes, N, V, V_tilde, water, in_motion=1.0, dimensions=3):
+    """e, e_N and D of the upper end at t = T."""
+    p, tables = parameters_of(line(changes, {"motion.dimensions": dimensions}))
+    F = np.ascontiguousarray(water, float).ravel()
+    return upper_end_of(p, tables, T, 8.0, in_motion, N, V, V_tilde, F)
+
+
+@pytest.mark.parametrize("in_motion", [1.0, 0.0])
+@pytest.mark.parametrize("name", ENDS)
+def test_in_a_plane_it_is_that_of_the_plane(name, in_motion):
+    flat = [part * [1, 0, 1] for part in (N, V, V_TILDE, WATER)]
+    e, e_N, D = condition(ENDS[name], *flat, in_motion)
+    planar = condition(ENDS[name], *(part[..., [0, 2]] for part in flat), in_motion, dimensions=2)
+    for found, expected in zip((e[[0, 2]], e_N, D[::2, ::2]), planar, strict=True):
+        assert found == pytest.approx(expected, rel=1e-14, abs=1e-14)
+    assert e[1] == 0 and D[0, 1] == D[1, 2] == 0
+
+
+@pytest.mark.parametrize("in_motion", [1.0, 0.0])
+@pytest.mark.parametrize("name", ENDS)
+def test_the_derivatives_are_those_of_the_condition(name, in_motion):
+    _, e_N, D = condition(ENDS[name], N, V, V_TILDE, WATER, in_motion)
+    for j, d in enumerate(1e-4 * np.eye(3)):
+        ahead, behind = (condition(ENDS[name], N, V + step, V_TILDE, WATER, in_motion)[0] for step in (d, -d))
+        assert (ahead - behind) / 2e-4 == pytest.approx(D[:, j], rel=1e-7, abs=1e-5)
+        ahead, behind = (condition(ENDS[name], N + step, V, V_TILDE, WATER, in_motion)[0] for step in (d, -d))
+        assert (ahead - behind) / 2e-4 == pytest.approx(e_N * d / 1e-4, abs=1e-7)
 
 
 def test_a_clamp_points_along_the_line_between_the_ends_unless_told_otherwise():
