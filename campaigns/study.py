@@ -159,7 +159,13 @@ class Study:
         from campaigns.machinery.plausible import without_waves
 
         options = cli.split(self.parser(), argv, faults)
-        periods, transient = (None, 0) if self.lengths is None else cli.lengths(options, self.lengths, faults)
+        periods, transient = None, 0
+        if (usual := self.lengths) is not None:
+            periods, transient = options.periods, options.transient
+            if transient is None:
+                transient = min(usual.transient, periods // usual.share)
+            if transient >= periods:
+                faults.append(f"--transient: given {transient} of {periods} periods; allowed: less than --periods")
         if self.read is not None:
             self.read(options, faults)
         how = options.how = cli.running(options, self.name, faults)

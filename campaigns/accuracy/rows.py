@@ -20,8 +20,7 @@ from campaigns import columns
 from campaigns.accuracy.plan import ORDERS, plain
 from campaigns.accuracy.works import BY_NAME, RADIUS, STRAIN, UNITS, Work
 from campaigns.columns import MESSAGE, RUN_KEY, STATUS, WALL_S, Column, counted
-from campaigns.machinery.folder import write_table
-from campaigns.tables import run_of
+from campaigns.machinery.folder import run_of, write_table
 
 STEPPING = (columns.STEPS, columns.REJECTED, columns.NEWTON, columns.NEWTON_FAILURES)
 COUNTED = (columns.END_S, *STEPPING, columns.LOOPS, columns.TURN)

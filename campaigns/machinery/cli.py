@@ -195,16 +195,6 @@ def running(options: argparse.Namespace, campaign: str, faults: list[str]) -> Ru
     return how
 
 
-def lengths(options: argparse.Namespace, usual: Lengths, faults: list[str]) -> tuple[int, int]:
-    """--periods and --transient in wave periods; usual: their defaults."""
-    periods, transient = options.periods, options.transient
-    if transient is None:
-        transient = min(usual.transient, periods // usual.share)
-    if transient >= periods:
-        faults.append(f"--transient: given {transient} of {periods} periods; allowed: less than --periods")
-    return periods, transient
-
-
 def evenly(words: list[str], option: str, faults: list[str], least: float = -math.inf) -> list[float]:
     """The values of LO HI COUNT, both ends included; none where the words are at fault. least: LO is not below."""
     try:

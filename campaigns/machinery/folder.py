@@ -5,6 +5,7 @@ campaigns out of the same folder; the system drops it when its holder dies, howe
 """
 
 import contextlib
+import csv
 import errno
 import fcntl
 import hashlib
@@ -15,10 +16,15 @@ import socket
 import time
 from collections.abc import Iterator
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from campaigns.columns import Column, csv_of, dictionary, dictionary_path, names
 from engine.atomic import write_atomic
 
+if TYPE_CHECKING:
+    from engine import Trajectory
+
+Row = dict[str, object]  # of a table, by column
 _NO_SPACE = {errno.ENOSPC, errno.EDQUOT, errno.EFBIG}
 
 
@@ -122,6 +128,30 @@ def write_table(path: Path, columns: tuple[Column, ...], rows: list[dict]) -> No
     table = Table(path, columns, list(range(len(rows))))
     table.rows = dict(enumerate(rows))
     table.write()
+
+
+def read_rows(path: Path) -> tuple[Row, ...]:
+    """The rows of a table: words as they are, numbers as floats, nan where the table is empty.
+
+    Raises OSError where table or dictionary cannot be read, ValueError where they do not fit each other.
+    """
+    declared, rows = (
+        list(csv.DictReader(place.read_text(encoding="utf-8").splitlines())) for place in (dictionary_path(path), path)
+    )
+    if not rows:
+        raise ValueError(f"{path.name} has no rows")
+    words = {row["name"] for row in declared if not row["digits"]}
+    return tuple({name: text if name in words else float(text or "nan") for name, text in row.items()} for row in rows)
+
+
+def run_of(folder: Path, row: Row) -> "Trajectory | None":
+    """The trajectory of a row; None for a run that ended early, or whose file cannot be read."""
+    from engine.trajectory import Trajectory, TrajectoryError
+
+    try:
+        return Trajectory.load(trajectory_path(folder, row["run_key"])) if row["status"] == "ok" else None
+    except TrajectoryError:
+        return None
 
 
 def _cell(entry: object) -> str:

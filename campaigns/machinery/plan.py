@@ -10,14 +10,9 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 
+import engine
 from campaigns.columns import Column
 from campaigns.machinery.cli import Running
-
-
-def _source_hash() -> str:
-    from engine import source_hash
-
-    return source_hash()
 
 
 @dataclass(frozen=True)
@@ -36,7 +31,7 @@ class Job:
     simulate: Callable | None = None
     describe: Callable | None = None
     made: str = ""
-    engine: str = field(default_factory=_source_hash)
+    engine: str = field(default_factory=lambda: engine.source_hash())
 
     @cached_property
     def key(self) -> str:

@@ -98,8 +98,18 @@ def conduct(
             counts |= {"computed": summary.computed, "failed": failed}
             rounded = {name: round(seconds, 3) for name, seconds in timing.items()}
             write_json(how.out / PROVENANCE, record | {"runs": counts, "finished_utc": _now_utc(), "timing": rounded})
-        fault = report(how.out, how.report and not summary.whole, timing, start)
-    code = say(how.out, summary, timing, how.report, fault)
+        fault, began = "", time.perf_counter()
+        if how.report and not summary.whole:
+            try:
+                from reports import build
+
+                build(how.out)
+            except OSError:
+                raise
+            except Exception as error:  # the results stand without a report
+                fault = f"{type(error).__name__}: {error}"
+        timing |= {"report_s": time.perf_counter() - began, "total_s": time.perf_counter() - start}
+    code = say(how, summary, timing, fault)
     return EXIT_FAILED if strict and any(row["status"] != "ok" for row in summary.rows) else code
 
 
@@ -148,16 +158,14 @@ def _version(package: str) -> str | None:
 
 def git_state(directory: Path) -> dict[str, object]:
     """{"commit", "dirty"} of the checkout that holds `directory`; both null outside one, or without git."""
-    found: dict[str, object] = {"commit": None, "dirty": None}
-    # An installed copy is no checkout, even when it lies inside somebody's: only our own repository counts.
-    if not (directory.parent / ".git").exists():
-        return found
     git = ["git", "-C", str(directory), "status", "--porcelain=v2", "--branch"]
-    with contextlib.suppress(OSError, subprocess.SubprocessError):
-        said = subprocess.run(git, capture_output=True, text=True, timeout=10, check=True).stdout.splitlines()
-        commits = [line.split()[-1] for line in said if line.startswith("# branch.oid ")]
-        found = {"commit": commits[0], "dirty": not all(line.startswith("#") for line in said)}
-    return found
+    # An installed copy is no checkout, even when it lies inside somebody's: only our own repository counts.
+    if (directory.parent / ".git").exists():
+        with contextlib.suppress(OSError, subprocess.SubprocessError):
+            said = subprocess.run(git, capture_output=True, text=True, timeout=10, check=True).stdout.splitlines()
+            commits = [line.split()[-1] for line in said if line.startswith("# branch.oid ")]
+            return {"commit": commits[0], "dirty": not all(line.startswith("#") for line in said)}
+    return {"commit": None, "dirty": None}
 
 
 def machine() -> dict[str, object]:
@@ -170,34 +178,16 @@ def machine() -> dict[str, object]:
     return {"processor": model or platform.processor() or platform.machine(), "cores": cores}
 
 
-def report(out: Path, wanted: bool, timing: dict[str, float], start: float) -> str:
-    """Build report.html and report.pdf where they are wanted; adds report_s and total_s to `timing`.
-
-    Returns "", or why there is no report: the results stand without one.
-    """
-    fault, began = "", time.perf_counter()
-    if wanted:
-        try:
-            from reports import build
-
-            build(out)
-        except OSError:
-            raise
-        except Exception as error:
-            fault = f"{type(error).__name__}: {error}"
-    timing |= {"report_s": time.perf_counter() - began, "total_s": time.perf_counter() - start}
-    return fault
-
-
-def say(out: Path, summary: Summary, timing: dict[str, float], wanted: bool, fault: str) -> int:
-    """Print what was done, where it is and where the time went; returns the exit code."""
+def say(how: Running, summary: Summary, timing: dict[str, float], fault: str) -> int:
+    """Print what was done, where it is and where the time went; returns the exit code. fault: why there is no report."""
+    out = how.out
     failed = collections.Counter(str(row["status"]) for row in summary.rows if row["status"] != "ok")
     reasons = ", ".join(f"{status} {count}" for status, count in sorted(failed.items()))
     print(f"runs     {len(summary.rows)}: {summary.computed} computed, {summary.found} found")
     if failed:
         print(f"failed   {sum(failed.values())}: {reasons}; see the columns status and message")
     print(f"table    {out / 'table.csv'}")
-    if wanted and not fault:
+    if how.report and not fault:
         print(f"report   {out / 'report.html'}\n         {out / 'report.pdf'}")
     print(
         f"time     {timing['total_s']:.1f} s: compile {timing['compile_s']:.1f}, run {timing['run_s']:.1f} "

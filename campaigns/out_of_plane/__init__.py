@@ -17,9 +17,9 @@ from functools import partial
 from campaigns.buoy_sweep import ROW_SOURCES
 from campaigns.buoy_sweep.space import SEED_MPS, velocity
 from campaigns.machinery import cli
+from campaigns.machinery.folder import read_rows
 from campaigns.machinery.plan import Job, Plan, Summary
 from campaigns.study import Lengths, Measures, Order, Study
-from campaigns.tables import read_rows
 
 SMALL, LARGE = 0.016, 0.13  # the paper's two waves
 DEPTHS_M = (21.0, 21.6, 22.0, 22.5, 25.0)

@@ -9,16 +9,79 @@ measured. A buoy in regular waves gets the rows of `campaigns.buoy_sweep`, with 
 long enough; any other line gets extremes, tension and the solver's counts. Nothing is random.
 """
 
+import re
 from collections.abc import Iterator
-from functools import partial
+from dataclasses import dataclass
+from functools import partial, reduce
 from itertools import product
 from math import inf
 
+from campaigns.columns import Column
 from campaigns.machinery import cli
 from campaigns.machinery.plan import Job
 from campaigns.study import Lengths, Measures, Order, Study
 
 MOST_KEYS = 2
+
+
+@dataclass(frozen=True)
+class Varied:
+    """A key with its values, and the column of the table that holds them. index: of the list's element, None: a number.
+
+    key: as on the command line, "water.depth_m" or "start.buoy_velocity_mps[1]".
+    """
+
+    key: str
+    name: str
+    index: int | None
+    values: tuple
+    column: Column
+
+    def put(self, value: float, base, changes: dict[str, object]) -> Iterator[str]:
+        """Put a value into the changes of a scene; yields the fault of a list that has no such element.
+
+        base: the scene whose list it is; two keys may change two elements of one list.
+        """
+        if self.index is None:
+            changes[self.name] = value
+            return
+        whole = changes.get(self.name)
+        if whole is None:
+            whole = reduce(lambda part, name: getattr(part, name, None), self.name.split("."), base)
+        if not isinstance(whole, list | tuple) or self.index >= len(whole):
+            yield f"--vary {self.key}: the scene has no such element; {self.name} is {whole}"
+            return
+        changes[self.name] = [*whole[: self.index], value, *whole[self.index + 1 :]]
+
+
+def varied(words: list[str], faults: list[str]) -> Varied | None:
+    """The key and values of KEY LO HI COUNT; None where one is at fault."""
+    from engine.scene.faults import suggestion
+    from engine.scene.reference import keys
+
+    key = words[0]
+    element = re.fullmatch(r"(.+)\[(\d+)\]", key)
+    name, index = (element[1], int(element[2])) if element else (key, None)
+    known = keys()
+    values = cli.evenly(words[1:], f"--vary {key}", faults)
+    if name not in known:
+        faults.append(f"--vary {key}: no such key{suggestion(name, list(known))}")
+        return None
+    kind = known[name].kind
+    if kind not in ("number", "whole number") and not (kind == "list" and element):
+        a_list = f"one element of it, as {name}[0]" if kind == "list" else "a key that holds a number"
+        faults.append(f"--vary {key}: holds a {kind}; allowed: {a_list}")
+        return None
+    if kind == "whole number":
+        values = list(dict.fromkeys(round(value) for value in values))
+    if not values:
+        return None
+    declared = known[name]
+    unit = "" if declared.unit == "1" else declared.unit
+    symbol = declared.symbol if declared.symbol not in ("", "-", "–") else key.rpartition(".")[2]
+    digits = max(len(f"{value:.6f}".rstrip("0").partition(".")[2]) for value in values)
+    meaning = declared.meaning[:1].lower() + declared.meaning[1:].rstrip(".")
+    return Varied(key, name, index, tuple(values), Column(key, unit, symbol, meaning, digits))
 
 
 def options(group) -> None:
@@ -29,9 +92,7 @@ def options(group) -> None:
 
 
 def read(options, faults: list[str]) -> None:
-    """The keys with their values (`keys.Varied`), in place of the words of --vary."""
-    from campaigns.sweep.keys import varied
-
+    """The keys with their values (`Varied`), in place of the words of --vary."""
     words = options.vary or []
     allowed = "once or twice KEY LO HI COUNT, for instance buoy.mass_kg 200 1600 8"
     if not words or len(words) % 4 or len(words) > 4 * MOST_KEYS:
