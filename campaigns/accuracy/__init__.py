@@ -10,7 +10,6 @@ reported. Run time is that of stepping alone, without compilation, statics, inpu
 against their own refined runs and against ours; what is not installed is a row that says so. Nothing is random.
 """
 
-import os
 from argparse import Namespace
 from dataclasses import replace
 
@@ -45,8 +44,8 @@ def done(order: Order):
     Returns times and summary.
     """
     from campaigns.accuracy import jobs, pieces
-    from campaigns.accuracy.rows import COLUMNS, point_row, write_orders
-    from campaigns.machinery.folder import made_by, trajectory_path
+    from campaigns.accuracy.rows import COLUMNS, ORDER_COLUMNS, orders, point_row
+    from campaigns.machinery.folder import made_by, trajectory_path, write_table
     from campaigns.machinery.plan import Plan
     from campaigns.machinery.runner import run, write_scene
 
@@ -66,7 +65,7 @@ def done(order: Order):
         found += sum(trajectory_path(out, job.key).exists() for job in phase)
         more, summary = run(how, known)
         timing = {name: timing[name] + more[name] for name in timing}
-    write_orders(out, summary.rows)
+    write_table(out / "orders.csv", ORDER_COLUMNS, orders(out, summary.rows))
     if ours:
         pieces.keep(out, own.quick)
     return timing, replace(summary, computed=len(summary.rows) - found, found=found)
@@ -89,15 +88,6 @@ def parameters(order: Order) -> dict[str, object]:
         "peer_notes": {} if own.no_peers else notes(own.effort.works, own.quick),
         "machine": machine(),
     }
-
-
-def one_thread() -> None:
-    """Linear algebra on one thread, as every other solver that is timed; to be called before NumPy is imported.
-
-    The matrices of scipy's solvers are small: on a busy machine two threads were seen to take a hundred times longer.
-    """
-    for library in ("OPENBLAS", "OMP", "MKL"):
-        os.environ.setdefault(f"{library}_NUM_THREADS", "1")
 
 
 STUDY = Study(name="accuracy", protocol=__doc__, options=options, read=read, parameters=parameters, done=done)

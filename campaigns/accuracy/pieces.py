@@ -7,7 +7,9 @@ difference between runs that keep a sample every hundredth of a period and hardl
 """
 
 import time
+from functools import partial
 from pathlib import Path
+from timeit import timeit
 
 from campaigns.accuracy.works import BUOY
 from campaigns.machinery.folder import read_json, write_json
@@ -34,23 +36,25 @@ def costs(rounds: int = ROUNDS) -> dict[str, object]:
     All take turns, and the least of the rounds counts: what else the machine does only adds.
     """
     from engine import load_scene, simulate
+    from engine.run import Run
 
     scene = load_scene(BUOY, CHANGES)
     sparse = load_scene(BUOY, CHANGES | {"output.step_s": PERIODS * scene.waves.period_s})
-    loops, arguments, found = _loops(), _arguments(scene), []
+    state = Run(scene, PERIODS * scene.waves.period_s)
+    state.advance(state.goal)
+    work = state.kind.work_arrays(state.record, scene.tether.nodes)
+    work.C_tilde[:] = state.motion.C
+    loops = {name: partial(loop, state.record, state.tables, state.motion.Y, work) for name, loop in _loops().items()}
+    found = []
     for loop in loops.values():
-        loop(*arguments, 10)
+        loop(10)
     for _ in range(rounds):
         began = time.perf_counter()
         run = simulate(scene, periods=PERIODS)
         times = {"call": time.perf_counter() - began - run.statistics["wall_s"], "run": run.statistics["wall_s"]}
         times["sparse"] = simulate(sparse, periods=PERIODS).statistics["wall_s"]
-        for name, loop in loops.items():
-            began = time.perf_counter()
-            loop(*arguments, REPEATS)
-            times[name] = (time.perf_counter() - began) / REPEATS
-        found.append(times)
-    least = {name: min(times[name] for times in found) for name in times}
+        found.append(times | {name: timeit(partial(loop, REPEATS), number=1) / REPEATS for name, loop in loops.items()})
+    least = {name: min(times[name] for times in found) for name in found[0]}
     iterations = run.statistics["newton_iterations"]
     output = max(least["run"] - least["sparse"], 0.0)
     seconds = {
@@ -73,18 +77,8 @@ def costs(rounds: int = ROUNDS) -> dict[str, object]:
     }
 
 
-def _arguments(scene) -> tuple:
-    """What the loops take: record, tables, state in mid motion, and the work arrays of Newton's method."""
-    from engine.run import Run
-
-    run = Run(scene, PERIODS * scene.waves.period_s)
-    run.advance(run.goal)
-    work = run.kind.work_arrays(run.record, scene.tether.nodes)
-    work.C_tilde[:] = run.motion.C
-    return run.record, run.tables, run.motion.Y, work
-
-
 def _loops() -> dict:
+    """Loops over each piece: of a record, its tables, a state in mid motion, Newton's work arrays, and how often."""
     import numba
 
     from engine.arrays import Stage

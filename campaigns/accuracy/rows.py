@@ -20,7 +20,7 @@ from campaigns import columns
 from campaigns.accuracy.plan import ORDERS, plain
 from campaigns.accuracy.works import BY_NAME, RADIUS, STRAIN, UNITS, Work
 from campaigns.columns import MESSAGE, RUN_KEY, STATUS, WALL_S, Column, counted
-from campaigns.machinery.folder import run_of, write_table
+from campaigns.machinery.folder import run_of
 
 STEPPING = (columns.STEPS, columns.REJECTED, columns.NEWTON, columns.NEWTON_FAILURES)
 COUNTED = (columns.END_S, *STEPPING, columns.LOOPS, columns.TURN)
@@ -127,11 +127,6 @@ ORDER_COLUMNS = (
 # an adaptive method keeps its estimate of the error of a step, of order p_e + 1, at rtol: the error goes with
 # rtol^(p/(p_e + 1)), p_e = 3 for esdirk43 (p = 4) and 2 for trbdf2 (p = 2), whose estimate is that of its own order
 TOLERANCE_SLOPE = {"esdirk43": 1.0, "trbdf2": 2.0 / 3.0}
-
-
-def write_orders(out: Path, rows: list[dict]) -> None:
-    """Write orders.csv and its dictionary beside table.csv. Raises OSError."""
-    write_table(out / "orders.csv", ORDER_COLUMNS, orders(out, rows))
 
 
 def orders(out: Path, rows: list[dict]) -> list[dict]:

@@ -56,7 +56,12 @@ def run_where_needed(plan: Plan, jobs: list[Job]) -> tuple[dict, Summary]:
     """
     timing, summary = run(plan, jobs)
     rows = {row["run_key"]: row for row in summary.rows}
-    chosen = [_spatial(job, rows[job.key]) if rows[job.key].get("loop_releases") else job for job in jobs]
+    chosen = []
+    for job in jobs:
+        if (row := rows[job.key]).get("loop_releases"):
+            labels = {**job.labels, **{f"planar_{name}": row.get(name) for name in _KEPT}, "dimensions": 3}
+            job = replace(job, scene=in_space(job.scene)[0], labels=labels)
+        chosen.append(job)
     if chosen == jobs:
         return timing, summary
     more, final = run(plan, chosen)
@@ -65,8 +70,3 @@ def run_where_needed(plan: Plan, jobs: list[Job]) -> tuple[dict, Summary]:
     computed = summary.computed + final.computed
     found = max(len(final.rows) - computed, 0)
     return times, replace(final, computed=computed, found=found, analysis_s=times["analysis_s"])
-
-
-def _spatial(job: Job, row: dict) -> Job:
-    kept = {f"planar_{name}": row.get(name) for name in _KEPT}
-    return replace(job, scene=in_space(job.scene)[0], labels={**job.labels, **kept, "dimensions": 3})

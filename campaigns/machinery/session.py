@@ -179,7 +179,7 @@ def machine() -> dict[str, object]:
 
 
 def say(how: Running, summary: Summary, timing: dict[str, float], fault: str) -> int:
-    """Print what was done, where it is and where the time went; returns the exit code. fault: why there is no report."""
+    """Print what was done, where it is and where the time went; returns the exit code. fault: why no report."""
     out = how.out
     failed = collections.Counter(str(row["status"]) for row in summary.rows if row["status"] != "ok")
     reasons = ", ".join(f"{status} {count}" for status, count in sorted(failed.items()))

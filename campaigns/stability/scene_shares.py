@@ -46,14 +46,10 @@ def measured(quick: bool = False) -> dict[str, object]:
     for _ in range(rounds):
         for name, scene in scenes.items():
             runs[name].append(simulate(scene, duration_s=length_s).statistics)
-    return {"rounds": rounds, "length_s": length_s, "scenes": {name: _cost(found) for name, found in runs.items()}}
-
-
-def _cost(runs: list[dict]) -> dict[str, float]:
-    """The costs of a scene from the statistics of its runs, which do the same work."""
-    spent, one = statistics.median(run["wall_s"] for run in runs), runs[0]
-    return {
-        "us_per_newton": 1e6 * spent / one["newton_iterations"],
-        "us_per_step": 1e6 * spent / one["steps"],
-        "newton_per_step": one["newton_iterations"] / one["steps"],
-    }
+    costs = {}
+    for name, found in runs.items():
+        spent_us = 1e6 * statistics.median(run["wall_s"] for run in found)
+        newton, steps = found[0]["newton_iterations"], found[0]["steps"]  # the same in every round
+        costs[name] = {"us_per_newton": spent_us / newton, "us_per_step": spent_us / steps}
+        costs[name]["newton_per_step"] = newton / steps
+    return {"rounds": rounds, "length_s": length_s, "scenes": costs}
