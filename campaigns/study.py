@@ -10,17 +10,14 @@ from argparse import ArgumentParser, Namespace
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 from functools import partial
-from typing import TYPE_CHECKING
 
+import engine
 from campaigns.columns import Column
 from campaigns.machinery import cli, session
 from campaigns.machinery.cli import Lengths
 from campaigns.machinery.folder import made_by
 from campaigns.machinery.plan import Job, Plan, Summary
 from campaigns.machinery.runner import run, write_scene
-
-if TYPE_CHECKING:
-    from engine import Scene
 
 
 @dataclass(frozen=True)
@@ -59,17 +56,15 @@ class Order:
         """Add faults, each once."""
         self.faults.extend(fault for fault in dict.fromkeys(faults) if fault not in self.faults)
 
-    def base(self, changes: Mapping[str, object] | None = None, tell: bool = False) -> "Scene | None":
+    def base(self, changes: Mapping[str, object] | None = None, tell: bool = False) -> "engine.Scene | None":
         """The scene with the changes of --set and these; None for a faulty one. tell: whether its faults are added."""
-        from engine import SceneError, load_scene
-
         try:
-            return load_scene(self.name, {**self.changes, **(changes or {})})
-        except SceneError as error:
+            return engine.load_scene(self.name, {**self.changes, **(changes or {})})
+        except engine.SceneError as error:
             self.tell(error.faults if tell else ())
             return None
 
-    def scene(self, changes: Mapping[str, object], duration_s: float | None = None) -> "Scene | None":
+    def scene(self, changes: Mapping[str, object], duration_s: float | None = None) -> "engine.Scene | None":
         """As `base`, and every fault is added, with doubts about the size or the length of such a run.
 
         duration_s: length of the run where it is not `periods`.
@@ -186,11 +181,8 @@ class Study:
         """
         if self.done is not None:
             return self.done(order)
-        simulate_each = None
-        if order.simulate is None:
-            from engine import simulate, simulate_each
-
-            order.simulate = simulate
+        simulate_each = engine.simulate_each if order.simulate is None else None
+        order.simulate = order.simulate or engine.simulate
         measures = self.measures(order)
         maker = made_by(dict(measures.settings), *measures.sources) if measures.sources else ""
         together = simulate_each if self.together else None

@@ -13,6 +13,7 @@ against their own refined runs and against ours; what is not installed is a row 
 from argparse import Namespace
 from dataclasses import replace
 
+import engine
 from campaigns.accuracy.plan import FACTORS, FULL, QUICK
 from campaigns.accuracy.works import BY_NAME, UNITS
 from campaigns.machinery import cli
@@ -49,12 +50,10 @@ def done(order: Order):
     from campaigns.machinery.plan import Plan
     from campaigns.machinery.runner import run, write_scene
 
-    own, out, simulate, ours = order.own, order.how.out, order.simulate, order.simulate is None
-    if ours:
-        from engine import simulate
+    own, out, ours = order.own, order.how.out, order.simulate is None
     sources = (f"campaigns/accuracy/{name}" for name in ("rows.py", "works.py", "works.toml"))
     maker = made_by({}, "campaigns/breaking_line/theory", "engine", *sources)
-    plan = Plan(order.how, simulate, point_row, COLUMNS, maker)
+    plan = Plan(order.how, order.simulate or engine.simulate, point_row, COLUMNS, maker)
     timing, known, found = {"compile_s": 0.0, "run_s": 0.0, "analysis_s": 0.0}, [], 0
     alone = replace(plan, how=replace(order.how, backend="threading", jobs=1))
     phases = jobs.phases(out, own.effort, own.quick, ours and not own.no_peers)

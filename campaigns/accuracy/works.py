@@ -16,6 +16,8 @@ import tomllib
 from dataclasses import dataclass, field
 from pathlib import Path
 
+import engine
+
 BUOY = "tethered_buoy"
 RADIUS, PLACE, STRAIN = "radius", "place", "strain"
 UNITS = {RADIUS: "mm", PLACE: "mm", STRAIN: "%"}
@@ -46,10 +48,8 @@ class Work:
 
     def made(self, changes: dict):
         """The scene with further changes. Raises SceneError."""
-        from engine import load_scene
-
         own = {**FILE["sets"][self.set], **self.changes}
-        return load_scene(self.scene, {key: None if own[key] == "none" else own[key] for key in own} | changes)
+        return engine.load_scene(self.scene, {key: None if own[key] == "none" else own[key] for key in own} | changes)
 
 
 @dataclass(frozen=True, eq=False)

@@ -25,6 +25,8 @@ from campaigns.machinery.cli import Running
 from campaigns.machinery.folder import claimed, trajectory_path
 from campaigns.machinery.plan import Job, Plan, Summary
 from campaigns.machinery.runner import run_campaign
+from engine import Trajectory
+from engine.scene import scene_from_toml
 
 COLUMNS = (
     Column("role", symbol="role", meaning="which run of the sweep was repeated: the regular or the violent one"),
@@ -84,9 +86,6 @@ def repeat(
     row_of(trajectory) -> its row; said: the column of what its motion is called. among: keys of the runs to choose
     from, None for all. Raises as `runner.run_campaign`.
     """
-    from engine import Trajectory
-    from engine.scene import scene_from_toml
-
     rows = [row for row in summary.rows if among is None or row["run_key"] in among]
     length = lengths(len(summary.rows), periods)
     jobs: list[Job] = []
@@ -156,9 +155,6 @@ def _rms(values: np.ndarray) -> float:
 
 def close_up(plan: Plan, summary: Summary, periods: int) -> float:
     """Compute the close-up, unless it is there or no run goes slack; 0 s of analysis. periods: those of the sweep."""
-    from engine import Trajectory
-    from engine.scene import scene_from_toml
-
     out, jobs = plan.how.out / "close_up", []
     for _, row in chosen([row for row in summary.rows if (row.get("slack_fraction") or 0.0) > 0.0])[-1:]:
         scene = Trajectory.load(trajectory_path(plan.how.out, row["run_key"])).scene

@@ -15,6 +15,8 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
+import engine.scene
+
 BACKENDS = ("loky", "threading", "dask")
 EXIT_OK, EXIT_FAILED, EXIT_BAD_INPUT, EXIT_INTERRUPTED = 0, 1, 2, 130
 
@@ -215,13 +217,11 @@ def assignments(words: list[str] | None, taken: Mapping[str, str], faults: list[
 
     taken: keys that the campaign itself sets -> what to use instead.
     """
-    from engine.scene import SceneError, parse_assignment
-
     found = {}
     for word in words or []:
         try:
-            key, given = parse_assignment(word)
-        except SceneError as error:
+            key, given = engine.scene.parse_assignment(word)
+        except engine.SceneError as error:
             faults.extend(error.faults)
             continue
         if key in taken:

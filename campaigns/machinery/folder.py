@@ -16,13 +16,10 @@ import socket
 import time
 from collections.abc import Iterator
 from pathlib import Path
-from typing import TYPE_CHECKING
 
+import engine
 from campaigns.columns import Column, csv_of, dictionary, dictionary_path, names
 from engine.atomic import write_atomic
-
-if TYPE_CHECKING:
-    from engine import Trajectory
 
 Row = dict[str, object]  # of a table, by column
 _NO_SPACE = {errno.ENOSPC, errno.EDQUOT, errno.EFBIG}
@@ -144,13 +141,11 @@ def read_rows(path: Path) -> tuple[Row, ...]:
     return tuple({name: text if name in words else float(text or "nan") for name, text in row.items()} for row in rows)
 
 
-def run_of(folder: Path, row: Row) -> "Trajectory | None":
+def run_of(folder: Path, row: Row) -> "engine.Trajectory | None":
     """The trajectory of a row; None for a run that ended early, or whose file cannot be read."""
-    from engine.trajectory import Trajectory, TrajectoryError
-
     try:
-        return Trajectory.load(trajectory_path(folder, row["run_key"])) if row["status"] == "ok" else None
-    except TrajectoryError:
+        return engine.Trajectory.load(trajectory_path(folder, row["run_key"])) if row["status"] == "ok" else None
+    except ValueError:  # TrajectoryError
         return None
 
 

@@ -8,6 +8,7 @@ from collections.abc import Callable, Iterator
 from functools import partial
 from pathlib import Path
 
+import engine
 from campaigns.machinery.folder import Table, keep_row, trajectory_path
 from campaigns.machinery.plan import Job, Outcome, Plan, Summary
 from campaigns.machinery.pools import PoolBroken, opened
@@ -52,11 +53,9 @@ def groups_of(plan: Plan, jobs: list[Job]) -> list[tuple[Job, ...]]:
     """
     if plan.simulate_each is None or plan.how.backend == "threading":
         return []
-    from engine import goes_in_lanes
-
     alike: dict[tuple, list[Job]] = {}
     for job in jobs:
-        if goes_in_lanes(job.scene):
+        if engine.goes_in_lanes(job.scene):
             alike.setdefault((job.periods, job.duration_s), []).append(job)
     groups = []
     for members in alike.values():

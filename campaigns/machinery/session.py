@@ -22,6 +22,7 @@ from datetime import UTC, datetime
 from importlib import metadata
 from pathlib import Path
 
+import engine
 from campaigns.machinery.cli import EXIT_BAD_INPUT, EXIT_FAILED, EXIT_INTERRUPTED, EXIT_OK, Running
 from campaigns.machinery.folder import CampaignStopped, claimed, read_json, write_failure, write_json
 from campaigns.machinery.plan import Summary
@@ -119,8 +120,6 @@ def begun(out: Path, name: str, command: list[str], parameters: dict) -> dict[st
     Written, unless the folder holds that of a finished campaign which differs only in when and where it ran. seed is
     null where `parameters` names none: no random numbers are drawn. Raises OSError.
     """
-    from engine import source_hash
-
     record = {
         "campaign": name,
         "command": command,
@@ -132,7 +131,7 @@ def begun(out: Path, name: str, command: list[str], parameters: dict) -> dict[st
         "platform": platform.platform(),
         "versions": {"python": platform.python_version()} | {package: _version(package) for package in _PACKAGES},
         "git": git_state(Path(__file__).parents[1]),
-        "engine_source_hash": source_hash(),
+        "engine_source_hash": engine.source_hash(),
     } | parameters
     old = read_json(out / PROVENANCE) if ended(out) else {}
     now, before = ({key: entry for key, entry in one.items() if key not in _OF_THE_OCCASION} for one in (record, old))

@@ -13,6 +13,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 
+import engine
 from campaigns.machinery.folder import CampaignStopped, is_full, keep_row, kept_row, trajectory_path, write_failure
 from campaigns.machinery.plan import Job, Outcome, Plan
 from engine.atomic import write_atomic
@@ -23,10 +24,8 @@ def run_jobs(plan: Plan, jobs: Sequence[Job]) -> list[Outcome]:
 
     Raises CampaignStopped where no other run would fare better: a full disk, other sources of the engine.
     """
-    from engine import source_hash
-
     first = jobs[0]
-    if source_hash() != first.engine:
+    if engine.source_hash() != first.engine:
         raise CampaignStopped("the engine's sources here are not those the campaign began with; start it again")
     if len(jobs) == 1:
         return [_run_one(plan, first)]
@@ -70,13 +69,11 @@ def _kept(plan: Plan, job: Job, trajectory) -> Outcome:
 
 def reuse(plan: Plan, job: Job) -> Outcome | None:
     """The outcome of a run that is there already; None where it has to be computed, as where its file is damaged."""
-    from engine import Trajectory
-
     out = plan.how.out
     if out is None or not (path := trajectory_path(out, job.key)).exists():
         return None
     try:
-        trajectory = Trajectory.load(path)
+        trajectory = engine.Trajectory.load(path)
     except Exception:  # truncated, emptied, not netCDF, from a foreign hand: whatever it is, the cure is the same
         return None
     row = kept_row(out, job.key, plan.row_maker)

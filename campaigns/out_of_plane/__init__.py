@@ -16,6 +16,7 @@ from functools import partial
 
 from campaigns.buoy_sweep import ROW_SOURCES
 from campaigns.buoy_sweep.space import SEED_MPS, velocity
+from campaigns.judge import judged_scene
 from campaigns.machinery import cli
 from campaigns.machinery.folder import read_rows
 from campaigns.machinery.plan import Job, Plan, Summary
@@ -104,8 +105,6 @@ def compared(one: Variant, base: Variant) -> bool:
 
 def cases(order: Order) -> Iterator[Job]:
     """Every run of `variants` with its scene; planar ones carry perturbations."""
-    from campaigns.judge import judged_scene
-
     base = base_of(order)
     for one in variants(base) if base is not None else ():
         scene = judged_scene(order, one.changes(), least=0)

@@ -15,9 +15,14 @@ from dataclasses import dataclass, field
 from functools import cache
 from pathlib import Path
 
+import numpy as np
+
 from campaigns.columns import MESSAGE, RUN_KEY, STATISTICS, STATUS, WALL_S, Column, names
 from campaigns.machinery.folder import CampaignStopped, write_failure
+from campaigns.stability import checks
+from campaigns.stability.fuzz import outcome_of
 from campaigns.stability.limited import DONE, limited
+from engine import SceneError, load_scene, simulate
 
 REFUSED, ABOVE_BAR = "refused", "above bar"
 LIMIT_S, DRIFT_LIMIT_S = 300.0, 1800.0
@@ -119,12 +124,6 @@ def case_row(case: Case, path: Path | None = None) -> dict[str, object]:
 
 
 def _judged(case: Case, path: Path | None) -> dict[str, object]:
-    import numpy as np
-
-    from campaigns.stability import checks
-    from campaigns.stability.fuzz import outcome_of
-    from engine import SceneError, load_scene, simulate
-
     changes = dict(case.changes)
     if case.check in NEEDS_PROFILES or (case.check == "stays" and changes.get("buoy", 1) is None):
         changes["output.profiles"] = True

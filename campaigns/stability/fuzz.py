@@ -8,9 +8,12 @@ from functools import cache
 
 import numpy as np
 
+import engine
 from campaigns.columns import Column
 from campaigns.stability.limited import DONE, limited
 from campaigns.stability.random_scenes import VALID, faults_of
+from engine.scene import build_scene
+from engine.scene.size_limits import longest_step
 
 LIMIT_S = 60.0
 SOUND = ("ok", "ended", "refused")
@@ -45,11 +48,9 @@ COLUMNS = (
 @cache
 def load_kernels() -> None:
     """Load all machine code, of a plane and of space, once in a process: a fork of it then has nothing to load."""
-    from engine import load_scene, simulate
-
     carried = {"output.tangent_vectors": 1, "output.lateral_growth": True, "tether.nodes": 5}
     for changes in ({"motion.dimensions": 3}, carried):
-        simulate(load_scene("tethered_buoy", changes), duration_s=5.05)
+        engine.simulate(engine.load_scene("tethered_buoy", changes), duration_s=5.05)
 
 
 def judged(kind: str, raw: dict) -> dict[str, object]:
@@ -69,14 +70,10 @@ def refuse_invalid(raw: dict) -> tuple[str, str, str]:
 
 def run_valid(raw: dict) -> tuple[str, str, str]:
     """(outcome, status, message) of the run of a valid scene. Raises what is no refusal in words."""
-    from engine import simulate
-    from engine.scene import build_scene
-    from engine.scene.size_limits import longest_step
-
     scene = build_scene(raw)
     length_s = min(SAMPLES * scene.sample_step_s(), STEPS * longest_step(scene)[1])
     try:
-        run = simulate(scene, duration_s=length_s)
+        run = engine.simulate(scene, duration_s=length_s)
     except ValueError as error:
         if not CLEAR.match(str(error)):
             raise

@@ -16,6 +16,8 @@ from pathlib import Path
 from hypothesis import HealthCheck, Phase, given, reject, seed, settings
 from hypothesis import strategies as st
 
+from engine.scene import SceneError, build_scene, load_scene
+
 VALID, INVALID = "valid", "invalid"
 MOST_NODES = 61
 EXTREMES = (5e-324, 1e-310, 1e-200, 1e-30, 1e-12, 1e-6, 1e-3, 1e3, 1e6, 1e12, 1e30, 1e150, 1e200, 1.7e308, 0.0, -0.0)
@@ -29,8 +31,6 @@ TRIES = 10  # to make a change that is wanted
 
 def faults_of(raw: dict) -> tuple[str, ...]:
     """The lines in which the engine refuses a scene given as nested dicts; empty for one that it accepts."""
-    from engine.scene import SceneError, build_scene
-
     try:
         build_scene(raw)
     except SceneError as error:
@@ -40,8 +40,6 @@ def faults_of(raw: dict) -> tuple[str, ...]:
 
 def shipped(name: str, changes: dict) -> dict:
     """A shipped scene with changes as nested dicts."""
-    from engine import load_scene
-
     return tomllib.loads(load_scene(name, changes).to_toml())
 
 

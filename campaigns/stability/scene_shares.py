@@ -6,6 +6,8 @@ medians over rounds in which the scenes take turns on one core.
 
 import statistics
 
+from engine import load_scene, simulate
+
 ROUNDS, LENGTH_S = 7, 40.0
 QUICK_ROUNDS, QUICK_LENGTH_S = 3, 10.0
 TABLE_1 = "waves, water, bending (Table 1)"
@@ -28,16 +30,12 @@ SCENES = {
 
 def scene_of(changes: dict):
     """Table 1 with changes; a part that is set to None takes the values set within it along."""
-    from engine import load_scene
-
     gone = {key for key, value in changes.items() if value is None}
     return load_scene("tethered_buoy", {k: v for k, v in changes.items() if k in gone or k.split(".")[0] not in gone})
 
 
 def measured(quick: bool = False) -> dict[str, object]:
     """{"rounds", "length_s", "scenes": {name: {"us_per_newton", "us_per_step", "newton_per_step"}}}."""
-    from engine import simulate
-
     rounds, length_s = (QUICK_ROUNDS, QUICK_LENGTH_S) if quick else (ROUNDS, LENGTH_S)
     scenes = {name: scene_of(changes) for name, changes in SCENES.items()}
     runs = {name: [] for name in scenes}

@@ -14,6 +14,10 @@ import math
 
 import numpy as np
 
+from engine import load_scene
+from engine.time import integrators
+from engine.time.one_step import OneStep
+
 METHODS = ("esdirk43", "trbdf2", "generalized-alpha", "backward-euler", "midpoint")
 LENGTH_M, NODES, MASS_KGPM, EA_N, EI_NM2 = 10.0, 17, 0.5, 1e4, 2.0
 TAUT, PUSHED = 0.02, -0.002
@@ -54,8 +58,6 @@ def factors(method: str, z: np.ndarray, rho: float = 0.5) -> np.ndarray:
         return (1 + z / 2) / (1 - z / 2)
     if method == "generalized-alpha":
         return np.concatenate([np.linalg.eigvals(_generalized_alpha(one, rho)) for one in z])
-    from engine.time import integrators
-
     A = integrators.METHODS[method].A
     ones = np.ones(len(A))
     return np.array([1 + one * (A[-1] @ np.linalg.solve(np.eye(len(A)) - one * A, ones)) for one in z])
@@ -93,9 +95,6 @@ def of_line(name: str) -> dict[str, object]:
 
 def eigenvalues(method: str, strain: float | None, step_s: float, dimensions: int) -> np.ndarray:
     """Eigenvalues of the numerical derivative of the engine's step about one state of rest."""
-    from engine import load_scene
-    from engine.time.one_step import OneStep
-
     place = [0.8 * LENGTH_M, 0.0, 0.0] if strain is None else [LENGTH_M * (1 + max(strain, 0.0)), 0.0, 0.0]
     changes = {
         **_SCENE, "end": {"kind": "held", "position_m": place}, "motion.dimensions": dimensions,

@@ -16,7 +16,9 @@ from functools import partial, reduce
 from itertools import product
 from math import inf
 
+from campaigns.buoy_sweep import ROW_SOURCES
 from campaigns.columns import Column
+from campaigns.judge import LONGEST_PERIOD, STROBE_TOLERANCE, in_regular_waves, judged_scene
 from campaigns.machinery import cli
 from campaigns.machinery.plan import Job
 from campaigns.study import Lengths, Measures, Order, Study
@@ -106,8 +108,6 @@ def read(options, faults: list[str]) -> None:
 
 def cases(order: Order) -> Iterator[Job]:
     """A run for every value, or pair of values."""
-    from campaigns.judge import in_regular_waves, judged_scene
-
     keys = order.own.vary
     order.tell(f"--set {one.key}: this campaign sets it; use --vary" for one in keys if one.key in order.changes)
     base = order.base(tell=True)
@@ -132,8 +132,6 @@ def cases(order: Order) -> Iterator[Job]:
 
 def measures(order: Order) -> Measures:
     """The row of a buoy in waves, or that of any line, after the values of the keys."""
-    from campaigns.buoy_sweep import ROW_SOURCES
-    from campaigns.judge import in_regular_waves
     from campaigns.sweep.rows import BUOY, LINE, sweep_row
 
     labels = tuple(one.column for one in order.own.vary)
@@ -146,8 +144,6 @@ def measures(order: Order) -> Measures:
 
 def parameters(order: Order) -> dict[str, object]:
     """What the provenance says of this campaign."""
-    from campaigns.judge import LONGEST_PERIOD, STROBE_TOLERANCE
-
     told: dict[str, object] = {
         "vary": {one.key: list(one.values) for one in order.own.vary},
         "strobe_tolerance": STROBE_TOLERANCE,
