@@ -11,19 +11,48 @@ from functools import partial
 from pathlib import Path
 from timeit import timeit
 
+import numba
+
 from campaigns.accuracy.works import BUOY
 from campaigns.machinery.folder import read_json, write_json
+from engine import load_scene, simulate, source_hash
+from engine.arrays import Stage
+from engine.physics.water import water
+from engine.planar import node
+from engine.run import Run
+from engine.time.newton import assemble
 
 REPEATS, ROUNDS = 5_000, 15
 PERIODS = 40
 CHANGES = {"waves.steepness": 0.13, "water.depth_m": 22.5}  # Table 1 in the waves of the snapping work
-STAGE_S = 0.02  # of the implicit stage that is assembled: about that of a usual step
+RATE = 1.0 / 0.02  # of the implicit stage that is assembled: about that of a usual step, 0.02 s
+
+
+# Each piece over and over: of a record, its tables, a state in mid motion, and Newton's work arrays.
+@numba.njit
+def assembly(p, tables, Y, work, count):
+    for _ in range(count):
+        node.shape(p, tables, Y, work.Q, work.X)
+        node.node_quantities(p, tables, Stage(0.0, 1.0, RATE, RATE), Y, work)
+
+
+@numba.njit
+def waves(p, tables, Y, work, count):
+    for i in range(count):
+        water(p, tables, 1e-3 * i, 1.0, work.X, work.F)
+
+
+@numba.njit
+def everything(p, tables, Y, work, count):
+    for i in range(count):
+        assemble(p, tables, Stage(1e-3 * i, 1.0, RATE, RATE), Y, work)
+
+
+LOOPS = {"assembly": assembly, "waves": waves, "all": everything}
 
 
 def keep(out: Path, quick: bool = False) -> None:
     """Write costs.json unless it is there already, from this very engine. Raises OSError."""
-    from engine import source_hash
-
     path, engine = out / "costs.json", {"engine": source_hash()}
     kept = read_json(path)
     if not isinstance(kept, dict) or not engine.items() <= kept.items():
@@ -35,16 +64,13 @@ def costs(rounds: int = ROUNDS) -> dict[str, object]:
 
     All take turns, and the least of the rounds counts: what else the machine does only adds.
     """
-    from engine import load_scene, simulate
-    from engine.run import Run
-
     scene = load_scene(BUOY, CHANGES)
     sparse = load_scene(BUOY, CHANGES | {"output.step_s": PERIODS * scene.waves.period_s})
     state = Run(scene, PERIODS * scene.waves.period_s)
     state.advance(state.goal)
     work = state.kind.work_arrays(state.record, scene.tether.nodes)
     work.C_tilde[:] = state.motion.C
-    loops = {name: partial(loop, state.record, state.tables, state.motion.Y, work) for name, loop in _loops().items()}
+    loops = {name: partial(loop, state.record, state.tables, state.motion.Y, work) for name, loop in LOOPS.items()}
     found = []
     for loop in loops.values():
         loop(10)
@@ -75,33 +101,3 @@ def costs(rounds: int = ROUNDS) -> dict[str, object]:
         "stepping_ms": 1e3 * least["run"],
         "python_ms": 1e3 * least["call"],
     }
-
-
-def _loops() -> dict:
-    """Loops over each piece: of a record, its tables, a state in mid motion, Newton's work arrays, and how often."""
-    import numba
-
-    from engine.arrays import Stage
-    from engine.physics.water import water
-    from engine.planar import node
-    from engine.time.newton import assemble
-
-    rate = 1.0 / STAGE_S
-
-    @numba.njit
-    def assembly(p, tables, Y, work, count):
-        for _ in range(count):
-            node.shape(p, tables, Y, work.Q, work.X)
-            node.node_quantities(p, tables, Stage(0.0, 1.0, rate, rate), Y, work)
-
-    @numba.njit
-    def waves(p, tables, Y, work, count):
-        for i in range(count):
-            water(p, tables, 1e-3 * i, 1.0, work.X, work.F)
-
-    @numba.njit
-    def everything(p, tables, Y, work, count):
-        for i in range(count):
-            assemble(p, tables, Stage(1e-3 * i, 1.0, rate, rate), Y, work)
-
-    return {"assembly": assembly, "waves": waves, "all": everything}

@@ -36,7 +36,8 @@ SPACE_STEPS = 400  # per period, of smooth works in space; rough ones need a tol
 SPACE_RTOL = 1e-5
 LINE_WAVE_MPS = 1000.0  # about the fastest wave of the breaking line: steps are an element's length over it
 MOST_ADAPTIVE_LINE = 401  # nodes of breaking lines with steps under control: beyond, some take minutes to fail
-TOLERANCE_NODES, TOLERANCE_REFERENCE = 161, 1e-6
+TOLERANCE_NODES = 161
+TOLERANCE_REFERENCE = TOLERANCE_NODES, 1e-6  # nodes, rtol
 COURANTS, LINE_RTOLS = (4.0, 2.0, 1.0, 0.5), (0.01, 1e-3, 1e-4)  # of breaking lines
 BOX_NODES, BOX_STEPS = 21, (50, 100, 200)  # of the paper's scheme
 Setting = tuple[str, int, str, float]  # method, nodes, control, its value
@@ -108,7 +109,14 @@ def phases(effort: Effort) -> tuple[list[Point], list[Point], list[Point]]:
     """References alone, from which everything else is described by its distance; what is not timed; what is timed, all
     works' settings in turns, round by round, and the paper's scheme once."""
     works = [work for work in WORKS if work.name in effort.works]
-    first = [point for work in works for point in references(work)]
+    # The reference of a work, and that of its tolerances: on their grid, at a tolerance beyond them, so that errors
+    # against it are those in time alone.
+    first = [
+        Point(work.name, kind, BEST, nodes, "rtol", rtol)
+        for work in works
+        if work.reference is not None
+        for kind, (nodes, rtol) in (("reference", work.reference), ("grid", TOLERANCE_REFERENCE))
+    ]
     second = [point for work in works for point in series(work, effort)]
     third = [
         Point(work.name, "point", *setting, round)
@@ -119,14 +127,6 @@ def phases(effort: Effort) -> tuple[list[Point], list[Point], list[Point]]:
         if round == 0 or setting[0] != "paper-box"
     ]
     return first, second, third
-
-
-def references(work: Work) -> list[Point]:
-    """The reference of a work, and that of its tolerances: on their grid, at a tolerance beyond them, so that errors
-    against it are those in time alone."""
-    grid = (TOLERANCE_NODES, TOLERANCE_REFERENCE)
-    kinds = {"reference": work.reference, "grid": grid} if work.reference is not None else {}
-    return [Point(work.name, kind, BEST, nodes, "rtol", rtol) for kind, (nodes, rtol) in kinds.items()]
 
 
 def series(work: Work, effort: Effort) -> list[Point]:

@@ -119,12 +119,9 @@ def first_periods(trajectory, length: int):
     share = samples / whole
     scaled = {"wall_s": share * trajectory.statistics["wall_s"]}
     scaled["newton_iterations"] = round(share * trajectory.statistics["newton_iterations"])
-    tangent = trajectory.tangent
-    if tangent is not None:
-        lateral = None if tangent.lateral_nats is None else tangent.lateral_nats[:length]
-        tangent = replace(
-            tangent, growth_nats=tangent.growth_nats[:length], released=tangent.released[:length], lateral_nats=lateral
-        )
+    if (tangent := trajectory.tangent) is not None:
+        each_period = {name: values for name, values in vars(tangent).items() if isinstance(values, np.ndarray)}
+        tangent = replace(tangent, **{name: values[:length] for name, values in each_period.items()})
         scaled["loop_releases"] = int(tangent.released.sum())
     kept = {name: values[:samples] for name, values in columns.items()}
     return replace(trajectory, columns=kept, statistics=trajectory.statistics | scaled, profiles=None, tangent=tangent)

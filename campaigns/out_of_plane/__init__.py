@@ -18,7 +18,7 @@ from campaigns.buoy_sweep import ROW_SOURCES
 from campaigns.buoy_sweep.space import SEED_MPS, velocity
 from campaigns.judge import judged_scene
 from campaigns.machinery import cli
-from campaigns.machinery.folder import read_rows
+from campaigns.machinery.folder import read_rows, write_table
 from campaigns.machinery.plan import Job, Plan, Summary
 from campaigns.study import Lengths, Measures, Order, Study
 
@@ -167,7 +167,8 @@ def judge(plan: Plan, summary: Summary, base: Variant, transient: int) -> float:
     good = {variant(row): row for row in summary.rows if row["status"] == "ok"}
     spatial = [replace(base, depth_m=depth) for depth in sorted({one.depth_m for one in good})]
     both = [(good[in_plane(one)], good[one]) for one in spatial if one in good and in_plane(one) in good]
-    pairs.write(plan.how.out, [pair for pair in both if pair[0]["loop_releases"]], transient)
+    looped = [pairs.pair_row(plan.how.out, *pair, transient) for pair in both if pair[0]["loop_releases"]]
+    write_table(plan.how.out / "pairs.csv", pairs.COLUMNS, looped)
     results = Results(plane=read_rows(plan.how.out / "table.csv"), plane_large=base.steepness)
     write_statements(plan.how.out, [claim for claim in claims() if "fig. 20" in claim.place], results)
     return 0.0

@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 
 from campaigns.columns import Column
-from campaigns.machinery.folder import trajectory_path, write_table
+from campaigns.machinery.folder import trajectory_path
 from engine import Trajectory
 
 APART_M = 0.01  # difference of the two radii from which the runs count as parted
@@ -34,12 +34,8 @@ COLUMNS = (
 )
 
 
-def write(out: Path, pairs: list[tuple[dict, dict]], transient: int) -> None:
-    """pairs.csv and its dictionary from rows (planar, in three dimensions) of table.csv. Raises OSError."""
-    write_table(out / "pairs.csv", COLUMNS, [_pair_row(out, *pair, transient) for pair in pairs])
-
-
-def _pair_row(out: Path, planar: dict, spatial: dict, transient: int) -> dict[str, object]:
+def pair_row(out: Path, planar: dict, spatial: dict, transient: int) -> dict[str, object]:
+    """A row of pairs.csv from two rows of table.csv, of the same scene in the plane and in three dimensions."""
     from analysis import poincare_section, section_distance
 
     flat, space = (Trajectory.load(trajectory_path(out, row["run_key"])) for row in (planar, spatial))

@@ -82,13 +82,6 @@ def bounded(run: Trajectory, case: Case) -> tuple[float, str]:
 
 def energy(run: Trajectory, case: Case) -> tuple[float, str]:
     """Largest change of kinetic + gravity + stretching + bending energy over the largest kinetic one; dry scenes."""
-    parts = energies(run)
-    total = parts.sum(axis=0)
-    return float(np.abs(total - total[0]).max() / parts[0].max()), "energy"
-
-
-def energies(run: Trajectory) -> np.ndarray:
-    """Kinetic, gravity, stretching and bending energy (J), (4, profiles), from the profiles of a dry run."""
     scene, lines = run.scene, run.profiles
     tether, h = scene.tether, np.diff(lines.s_m)
     m = tether.density_kgpm3 * tether.area_m2
@@ -99,7 +92,9 @@ def energies(run: Trajectory) -> np.ndarray:
         kinetic = kinetic + 0.5 * scene.buoy.mass_kg * lines.speed_mps[:, -1] ** 2
         gravity = gravity + scene.buoy.mass_kg * scene.gravity_mps2 * lines.z_m[:, -1]
     stored = stretching_energy(tether.tension)
-    return np.array([kinetic, gravity, inner(stored(lines.strain)), bending_energy(tether, lines, h)])
+    parts = np.array([kinetic, gravity, inner(stored(lines.strain)), bending_energy(tether, lines, h)])
+    total = parts.sum(axis=0)
+    return float(np.abs(total - total[0]).max() / parts[0].max()), "energy"
 
 
 def stretching_energy(law) -> Callable[[np.ndarray], np.ndarray]:

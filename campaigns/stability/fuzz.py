@@ -85,8 +85,7 @@ def outcome_of(run, length_s: float) -> tuple[str, str, str]:
     """(outcome, status, message) of a finished run of that length."""
     arrays = [*run.columns.values()]
     if run.profiles is not None:
-        lines = run.profiles
-        arrays += [lines.x_m, lines.y_m, lines.z_m, lines.strain, lines.tension_N, lines.speed_mps]
+        arrays += vars(run.profiles).values()
     if not all(np.isfinite(array).all() for array in arrays):
         return "not-finite", run.status, run.message
     if run.status == "ok":

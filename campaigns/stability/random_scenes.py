@@ -38,11 +38,6 @@ def faults_of(raw: dict) -> tuple[str, ...]:
     return ()
 
 
-def shipped(name: str, changes: dict) -> dict:
-    """A shipped scene with changes as nested dicts."""
-    return tomllib.loads(load_scene(name, changes).to_toml())
-
-
 def one_of(draw, choices: list | tuple) -> object:
     """One of the choices, itself and not a copy."""
     return choices[draw(st.integers(0, len(choices) - 1))]
@@ -51,34 +46,30 @@ def one_of(draw, choices: list | tuple) -> object:
 @st.composite
 def valid_scene(draw) -> dict:
     """A scene that the engine accepts, in about every other one with up to three extreme numbers."""
-    raw = shipped(*one_of(draw, DATA["bases"]))
+    raw = tomllib.loads(load_scene(*one_of(draw, DATA["bases"])).to_toml())
     raw["tether"]["nodes"] = draw(st.integers(3, MOST_NODES))
     for change, most in ((_part, 12), (_scaled, 4)):
-        raw = _changed(draw, raw, change, draw(st.integers(0, most)), _accepted)
-    return _changed(draw, raw, _extreme, one_of(draw, (0, 0, 0, 1, 2, 3)), _accepted)
+        raw = _changed(draw, raw, change, draw(st.integers(0, most)))
+    return _changed(draw, raw, _extreme, one_of(draw, (0, 0, 0, 1, 2, 3)))
 
 
 @st.composite
 def invalid_scene(draw) -> dict:
     """A scene with up to three faults, each of which the engine refuses by itself."""
-    raw = _changed(draw, draw(valid_scene()), _fault, draw(st.integers(1, 3)), faults_of)
+    raw = _changed(draw, draw(valid_scene()), _fault, draw(st.integers(1, 3)), faulty=True)
     return raw if faults_of(raw) else reject()
 
 
-def _changed(draw, raw: dict, change: Callable, count: int, wanted: Callable) -> dict:
-    """The scene after that many changes; a change after which the scene is not as wanted is drawn again."""
+def _changed(draw, raw: dict, change: Callable, count: int, faulty: bool = False) -> dict:
+    """The scene after that many changes; a change that leaves it otherwise than sound, or `faulty`, is drawn again."""
     for _ in range(count):
         for _ in range(TRIES):
             trial = copy.deepcopy(raw)
             change(draw, trial)
-            if wanted(trial):
+            if bool(faults_of(trial)) == faulty:
                 raw = trial
                 break
     return raw
-
-
-def _accepted(raw: dict) -> bool:
-    return not faults_of(raw)
 
 
 def _places(table: dict | list) -> list[tuple]:

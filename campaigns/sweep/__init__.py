@@ -17,7 +17,7 @@ from itertools import product
 from math import inf
 
 from campaigns.buoy_sweep import ROW_SOURCES
-from campaigns.columns import Column
+from campaigns.columns import MESSAGE, RUN_KEY, STATISTICS, STATUS, Column, counted
 from campaigns.judge import LONGEST_PERIOD, STROBE_TOLERANCE, in_regular_waves, judged_scene
 from campaigns.machinery import cli
 from campaigns.machinery.plan import Job
@@ -132,14 +132,34 @@ def cases(order: Order) -> Iterator[Job]:
 
 def measures(order: Order) -> Measures:
     """The row of a buoy in waves, or that of any line, after the values of the keys."""
-    from campaigns.sweep.rows import BUOY, LINE, sweep_row
+    from campaigns.buoy_sweep import rows
 
     labels = tuple(one.column for one in order.own.vary)
-    measured = BUOY if any(in_regular_waves(case.scene) for case in order.cases) else LINE
+    measured = (rows.DIMENSIONS, STATUS, *rows.EXTREMES, *STATISTICS, RUN_KEY, MESSAGE)
+    if any(in_regular_waves(case.scene) for case in order.cases):
+        others = (column for column in rows.COLUMNS if not column.name.startswith("planar_"))
+        measured = tuple(column for column in others if column is not rows.STEEPNESS)
     columns = (*labels, *(column for column in measured if column.name not in {one.name for one in labels}))
     row = partial(sweep_row, transient_periods=order.transient, simulate=order.simulate)
-    sources = (*ROW_SOURCES, "campaigns/sweep/rows.py")
+    sources = (*ROW_SOURCES, "campaigns/sweep/__init__.py")
     return Measures(columns, row, sources, {"transient": order.transient})
+
+
+def sweep_row(trajectory, transient_periods: int, simulate=None) -> dict[str, object]:
+    """The columns of `measures` that a trajectory fills; those left out are unknown. Arguments: `buoy_row`.
+
+    The upper end of a line without a buoy has a radius and an angle as the buoy has; without waves nothing is left out.
+    """
+    from campaigns.buoy_sweep.rows import buoy_row, settled, sound_part
+
+    scene = trajectory.scene
+    if in_regular_waves(scene):
+        return buoy_row(trajectory, transient_periods, simulate)
+    row, columns, step_s = counted(trajectory), sound_part(trajectory.columns), scene.sample_step_s()
+    transient_s = transient_periods * scene.waves.period_s if scene.waves is not None else 0.0
+    if len(columns["time_s"]) > 1 and columns["time_s"][-1] > transient_s:
+        row |= settled(columns, step_s, transient_s)
+    return row
 
 
 def parameters(order: Order) -> dict[str, object]:
