@@ -69,13 +69,13 @@ class Order:
 
         duration_s: length of the run where it is not `periods`.
         """
-        from campaigns.machinery.plausible import doubts, endless
+        from campaigns.machinery.plausible import doubts
 
         scene = self.base(changes, tell=True)
         if scene is not None:
             if duration_s is None and scene.waves is not None:
                 duration_s = self.periods * scene.waves.period_s
-            self.tell([*doubts(scene), *(endless(scene, duration_s) if duration_s else ())])
+            self.tell(doubts(scene, duration_s))
         return scene
 
     def case(self, labels: Mapping[str, object], changes: Mapping[str, object]) -> Job | None:

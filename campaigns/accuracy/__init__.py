@@ -21,7 +21,6 @@ from campaigns.study import Order, Study
 
 
 def options(group) -> None:
-    """Add the options of this campaign."""
     works = f"works (default: {' '.join(FULL.works)})"
     cli.add(group, "--works", "A B ...", works, cli.one_of(FULL.works), many=True)
     turns = f"turns of every timed setting (default: {FULL.rounds})"
@@ -71,12 +70,12 @@ def done(order: Order):
 
 
 def parameters(order: Order) -> dict[str, object]:
-    """What the provenance says of this campaign."""
-    from campaigns.accuracy.jobs import notes
+    from campaigns.accuracy.jobs import taking_part, version
     from campaigns.machinery.session import machine
 
     own, told = order.own, ("title", "measure", "period_s", "duration_s", "rough")
     works = [BY_NAME[name] for name in own.effort.works]
+    peers = dict.fromkeys(peer for peer, _, _ in taking_part(own.effort.works, own.quick) if not own.no_peers)
     return {
         "works": {
             work.name: {name: getattr(work, name) for name in told} | {"unit": UNITS[work.measure]} for work in works
@@ -84,7 +83,7 @@ def parameters(order: Order) -> dict[str, object]:
         "quick": own.quick,
         "rounds": own.effort.rounds,
         "peers": not own.no_peers,
-        "peer_notes": {} if own.no_peers else notes(own.effort.works, own.quick),
+        "peer_notes": {f"{peer.name} {version(peer) or '(not installed)'}": peer.notes for peer in peers},
         "machine": machine(),
     }
 

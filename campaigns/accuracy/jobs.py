@@ -102,12 +102,6 @@ def taking_part(works: tuple[str, ...], quick: bool) -> list[tuple[Peer, str, li
     return [(peer, work, settings[work]) for peer, settings in chosen for work in works if settings.get(work)]
 
 
-def notes(works: tuple[str, ...], quick: bool) -> dict[str, str]:
-    """What is left different, by name of the code, for those that take part."""
-    peers = dict.fromkeys(peer for peer, _, _ in taking_part(works, quick))
-    return {f"{peer.name} {version(peer) or '(not installed)'}": peer.notes for peer in peers}
-
-
 def ours_for(peer: Peer, work: str) -> Job:
     """Our refined run with the changes that another code is to be compared with."""
     nodes, rtol = OURS_REFINED

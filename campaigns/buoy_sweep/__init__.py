@@ -30,7 +30,6 @@ ROW_SOURCES = ("analysis", "engine", "campaigns/buoy_sweep/rows.py", "campaigns/
 
 
 def options(group) -> None:
-    """Add the options that other studies do not have."""
     usual = "wave steepnesses kA (default: 49 values from 0.016 to 0.16)"
     cli.add(group, "--steepness", "A B ...", usual, cli.fraction, many=True)
     cli.add(group, "--steepness-range", "LO HI COUNT", "evenly spaced steepnesses, both ends included")

@@ -61,8 +61,7 @@ FRAMES = 24
 
 def lengths(runs: int, periods: int) -> int:
     """Wave periods to repeat, for a sweep of so many runs of that length."""
-    allowed = SHARE * runs / COST
-    return min(periods, max(EARLY, math.floor(periods * allowed)))
+    return min(periods, max(EARLY, math.floor(periods * (SHARE * runs / COST))))
 
 
 def chosen(rows: list[dict]) -> list[tuple[str, dict]]:
@@ -96,17 +95,13 @@ def repeat(
         describe = partial(accuracy_row, original=original, row_of=row_of, said=said)
         for run, made in ((AS_RUN, scene), (TIGHTER, tighter_scene(scene)), (FINER, finer)):
             labels = {"role": role, "label": row["steepness"], "run": run, "periods": length}
-            simulate = partial(_as_made, original) if run == AS_RUN else None
+            # as run: what the sweep itself has made, with which the others are compared
+            simulate = (lambda *_, made=original, **__: made) if run == AS_RUN else None
             jobs.append(Job(labels, made, length, None, simulate, describe, f"accuracy {run}"))
     how = replace(plan.how, out=plan.how.out / "accuracy")
     with claimed(how.out):
         own = replace(plan, how=how, columns=COLUMNS, show_progress=False, simulate_each=None)
         return run_campaign(own, jobs).analysis_s
-
-
-def _as_made(original, scene, periods=None, duration_s=None):
-    """In the place of `engine.simulate`: the run of the sweep itself, with which the repeated ones are compared."""
-    return original
 
 
 def first_periods(trajectory, length: int):

@@ -94,13 +94,12 @@ class Table:
 
     def __init__(self, path: Path, columns: tuple[Column, ...], keys: list[str]):
         self.path, self.columns, self.keys = path, columns, keys
-        self.names = names(columns)
         self.rows: dict[str, dict[str, object]] = {}
         self._written_s = -math.inf
 
     def add(self, key: str, row: dict[str, object]) -> None:
         """Take in a row and bring the file up to date unless that was done a moment ago. Raises OSError."""
-        unknown = set(row) - set(self.names)
+        unknown = set(row) - set(names(self.columns))
         if unknown:
             raise KeyError(f"the table has no column {', '.join(sorted(unknown))}")
         self.rows[key] = row
@@ -113,18 +112,15 @@ class Table:
 
     def write(self) -> None:
         """Rewrite the file. Raises OSError."""
-        if self._written_s == -math.inf:
-            write_atomic(dictionary_path(self.path), dictionary(self.columns))
-        rows = ([_cell(row.get(name)) for name in self.names] for row in self.in_order())
-        write_atomic(self.path, csv_of(self.names, rows))
+        write_table(self.path, self.columns, self.in_order())
         self._written_s = time.monotonic()
 
 
 def write_table(path: Path, columns: tuple[Column, ...], rows: list[dict]) -> None:
-    """Write rows that are all there, and the dictionary of their columns. Raises OSError."""
-    table = Table(path, columns, list(range(len(rows))))
-    table.rows = dict(enumerate(rows))
-    table.write()
+    """Write the dictionary of the columns, then the rows. Raises OSError."""
+    write_atomic(dictionary_path(path), dictionary(columns))
+    head = names(columns)
+    write_atomic(path, csv_of(head, ([_cell(row.get(name)) for name in head] for row in rows)))
 
 
 def read_rows(path: Path) -> tuple[Row, ...]:

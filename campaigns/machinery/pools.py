@@ -95,12 +95,12 @@ def _numbered(call: Callable, number: int, task: object) -> tuple[int, object]:
 
 
 def _prepare_worker(campaign: int) -> None:
-    ignore_interrupt()
+    dask_setup()
     threading.Thread(target=end_with, args=(campaign,), daemon=True).start()
 
 
-def ignore_interrupt() -> None:
-    """Let this process be deaf to Ctrl-C."""
+def dask_setup(worker: object = None) -> None:
+    """Let this process be deaf to Ctrl-C. dask calls it by this name in workers of a local cluster, new ones too."""
     # Ctrl-C reaches every process of the terminal; only the campaign itself decides what it means.
     signal.signal(signal.SIGINT, signal.SIG_IGN)
 
@@ -153,11 +153,6 @@ def dask_client(jobs: int, address: str | None) -> Iterator:
         if faults := "; ".join(_differences(found)):
             raise CampaignStopped(_REFUSED.format(faults))
         yield found
-
-
-def dask_setup(worker: object) -> None:
-    """Called by dask in the workers of a local cluster, also in those that take the place of lost ones."""
-    ignore_interrupt()
 
 
 @cache

@@ -139,7 +139,6 @@ def variant(row: Mapping[str, object]) -> Variant:
 
 
 def parameters(order: Order) -> dict[str, object]:
-    """What the provenance says of this campaign."""
     return {"base": asdict(base_of(order)), "looping_depths_m": list(LOOPING_DEPTHS_M)}
 
 

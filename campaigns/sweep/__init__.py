@@ -87,7 +87,6 @@ def varied(words: list[str], faults: list[str]) -> Varied | None:
 
 
 def options(group) -> None:
-    """Add the options that other studies do not have."""
     cli.add(group, "--vary", "KEY LO HI COUNT", "a key of the scene and its values, both ends included; once or twice")
     seconds = cli.number("seconds, a finite number above 0", lambda found: 0.0 < found < inf)
     cli.add(group, "--duration", "S", "length of every run in seconds, for a scene without waves", seconds)
@@ -163,7 +162,6 @@ def sweep_row(trajectory, transient_periods: int, simulate=None) -> dict[str, ob
 
 
 def parameters(order: Order) -> dict[str, object]:
-    """What the provenance says of this campaign."""
     told: dict[str, object] = {
         "vary": {one.key: list(one.values) for one in order.own.vary},
         "strobe_tolerance": STROBE_TOLERANCE,
