@@ -177,15 +177,15 @@ class Study:
     def work(self, order: Order) -> tuple[dict[str, float], Summary]:
         """Do the runs that are not there yet, and what is done beside them; the folder has to be held (`claimed`).
 
-        Returns times and summary. Raises CampaignStopped, OSError, KeyboardInterrupt.
+        Returns times, with compile_s, run_s and analysis_s among them, and summary. Raises CampaignStopped, OSError,
+        KeyboardInterrupt.
         """
         if self.done is not None:
             return self.done(order)
-        simulate_each = engine.simulate_each if order.simulate is None else None
+        together = engine.simulate_each if self.together and order.simulate is None else None
         order.simulate = order.simulate or engine.simulate
         measures = self.measures(order)
         maker = made_by(dict(measures.settings), *measures.sources) if measures.sources else ""
-        together = simulate_each if self.together else None
         plan = Plan(order.how, order.simulate, measures.row, measures.columns, maker, together)
         write_scene(order.how.out, self.name, order.cases)
         timing, summary = (self.runs(order) if self.runs else run)(plan, order.cases)
@@ -203,5 +203,4 @@ class Study:
         parameters |= self.parameters(order) if self.parameters else {}
         where = ("backend", "jobs", "dask_address")
         parameters |= {name: getattr(order.own, name) for name in where if hasattr(order.own, name)}
-        work = partial(self.work, order)
-        return session.conduct(self.name, self.called, argv, order.how, parameters, work, self.strict)
+        return session.conduct(self, order, argv, parameters)

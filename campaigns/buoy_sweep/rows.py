@@ -145,15 +145,9 @@ def settled(columns, step_s: float, transient_s: float) -> dict[str, object]:
         extremes(columns[name], step_s, transient_s)
         for name in ("radius_m", "angle_rad", "tension_top_low_N", "tension_top_high_N")
     )
-    return {
-        "radius_min_m": radius.minimum,
-        "radius_max_m": radius.maximum,
-        "angle_min_rad": angle.minimum,
-        "angle_max_rad": angle.maximum,
-        "tension_top_min_N": low.minimum,
-        "tension_top_max_N": high.maximum,
-        "slack_fraction": slack_fraction(columns["tension_top_N"], step_s, transient_s=transient_s).fraction,
-    }
+    slack = slack_fraction(columns["tension_top_N"], step_s, transient_s=transient_s).fraction
+    ends = (radius.minimum, radius.maximum, angle.minimum, angle.maximum, low.minimum, high.maximum)
+    return dict(zip(names(EXTREMES), (*ends, slack), strict=True))
 
 
 def sound_part(columns) -> dict[str, np.ndarray]:

@@ -22,8 +22,10 @@ PYTHON = "if it is meant, run it from Python: engine.simulate"
 
 
 def doubts(scene, duration_s: float | None = None) -> Iterator[str]:
-    """Fault lines of a scene, none where it is plausible, and of a run of that length that would never end, or keep more
-    than memory holds (`engine.scene.size_limits`)."""
+    """Fault lines of a scene, and of a run of that length; none where both are plausible.
+
+    A run must end, and memory must hold what it keeps (`engine.scene.size_limits`).
+    """
     for key, given, allowed in _odd(scene):
         yield fault(key, given, f"{allowed}; {PYTHON}")
     if duration_s:

@@ -80,19 +80,16 @@ def command_line(module: str, argv: list[str]) -> list[str]:
     return ["python", "-m", module, *argv]
 
 
-def conduct(
-    name: str, module: str, argv: list[str], how: Running, parameters: dict, work: Callable, strict: bool = False
-) -> int:
-    """A campaign from its first run to its last word; returns the exit code.
+def conduct(study, order, argv: list[str], parameters: dict) -> int:
+    """An order of a `campaigns.study.Study` from its first run to its last word; returns the exit code.
 
-    parameters: what provenance.json says of this campaign. work() -> (times, Summary): the runs and their table, with
-    compile_s, run_s and analysis_s among the times. strict: whether a row that is not ok is exit code 1.
-    Raises CampaignStopped, OSError, KeyboardInterrupt, for `command`.
+    parameters: what provenance.json says of this campaign. Raises CampaignStopped, OSError, KeyboardInterrupt, for
+    `command`.
     """
-    start = time.perf_counter()
+    start, how = time.perf_counter(), order.how
     with claimed(how.out):
-        record = begun(how.out, name, command_line(module, argv), parameters)
-        timing, summary = work()
+        record = begun(how.out, study.name, command_line(study.called, argv), parameters)
+        timing, summary = study.work(order)
         if summary.computed or not ended(how.out):
             failed = sum(row["status"] != "ok" for row in summary.rows)
             counts = {"total": len(summary.rows), "found": summary.found}
@@ -111,7 +108,7 @@ def conduct(
                 fault = f"{type(error).__name__}: {error}"
         timing |= {"report_s": time.perf_counter() - began, "total_s": time.perf_counter() - start}
     code = say(how, summary, timing, fault)
-    return EXIT_FAILED if strict and any(row["status"] != "ok" for row in summary.rows) else code
+    return EXIT_FAILED if study.strict and any(row["status"] != "ok" for row in summary.rows) else code
 
 
 def begun(out: Path, name: str, command: list[str], parameters: dict) -> dict[str, object]:

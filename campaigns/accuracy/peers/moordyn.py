@@ -111,7 +111,7 @@ def simulate(scene: Scene, duration_s: float, segments: int, steps_per_period: f
 
 
 def stepped(scene, segments, steps_per_period, periods):
-    """x, y, z of the buoy from the anchor (m, 3), m, every SAMPLE_S seconds, and the seconds spent in stepping calls."""
+    """x, y, z of the buoy from the anchor (m, 3), m, every SAMPLE_S seconds, and the seconds spent in steps."""
     import cmoordyn
     import moordyn
 
