@@ -14,8 +14,7 @@ from argparse import Namespace
 from dataclasses import replace
 
 import engine
-from campaigns.accuracy.plan import FACTORS, FULL, QUICK
-from campaigns.accuracy.works import BY_NAME, UNITS
+from campaigns.accuracy.plan import BY_NAME, FACTORS, FULL, QUICK, UNITS
 from campaigns.machinery import cli
 from campaigns.study import Order, Study
 
@@ -50,7 +49,7 @@ def done(order: Order):
     from campaigns.machinery.runner import run, write_scene
 
     own, out, ours = order.own, order.how.out, order.simulate is None
-    sources = (f"campaigns/accuracy/{name}" for name in ("rows.py", "works.py", "works.toml"))
+    sources = (f"campaigns/accuracy/{name}" for name in ("rows.py", "plan.py", "works.toml"))
     maker = made_by({}, "campaigns/breaking_line/theory", "engine", *sources)
     plan = Plan(order.how, order.simulate or engine.simulate, point_row, COLUMNS, maker)
     timing, known, found = {"compile_s": 0.0, "run_s": 0.0, "analysis_s": 0.0}, [], 0

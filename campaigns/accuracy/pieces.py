@@ -13,7 +13,7 @@ from timeit import timeit
 
 import numba
 
-from campaigns.accuracy.works import BUOY
+from campaigns.accuracy.plan import BUOY
 from campaigns.machinery.folder import read_json, write_json
 from engine import load_scene, simulate, source_hash
 from engine.arrays import Stage

@@ -17,8 +17,7 @@ from pathlib import Path
 import numpy as np
 
 from campaigns import columns
-from campaigns.accuracy.plan import ORDERS, plain
-from campaigns.accuracy.works import BY_NAME, RADIUS, STRAIN, UNITS, Work
+from campaigns.accuracy.plan import BY_NAME, ORDERS, RADIUS, STRAIN, UNITS, Work, plain
 from campaigns.columns import MESSAGE, RUN_KEY, STATUS, WALL_S, Column, counted
 from campaigns.machinery.folder import run_of
 

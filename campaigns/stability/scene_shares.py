@@ -28,19 +28,16 @@ SCENES = {
 }
 
 
-def scene_of(changes: dict):
-    """Table 1 with changes; a part that is set to None takes the values set within it along."""
-    gone = {key for key, value in changes.items() if value is None}
-    return load_scene("tethered_buoy", {k: v for k, v in changes.items() if k in gone or k.split(".")[0] not in gone})
-
-
 def measured(quick: bool = False) -> dict[str, object]:
     """{"rounds", "length_s", "scenes": {name: {"us_per_newton", "us_per_step", "newton_per_step"}}}."""
     rounds, length_s = (QUICK_ROUNDS, QUICK_LENGTH_S) if quick else (ROUNDS, LENGTH_S)
-    scenes = {name: scene_of(changes) for name, changes in SCENES.items()}
-    runs = {name: [] for name in scenes}
-    for scene in scenes.values():
-        simulate(scene, duration_s=0.5)
+    scenes, runs = {}, {name: [] for name in SCENES}
+    for name, changes in SCENES.items():
+        # a part that is set to None takes the values set within it along
+        gone = {key for key, value in changes.items() if value is None}
+        left = {key: value for key, value in changes.items() if key in gone or key.split(".")[0] not in gone}
+        scenes[name] = load_scene("tethered_buoy", left)
+        simulate(scenes[name], duration_s=0.5)
     for _ in range(rounds):
         for name, scene in scenes.items():
             runs[name].append(simulate(scene, duration_s=length_s).statistics)

@@ -123,13 +123,12 @@ def stepped(scene, segments, steps_per_period, periods):
     port = 0.5 * density * PORT_AREA
     water, instance = airy(scene), create(scene, segments, step_s)
     point, buoy = moordyn.GetPoint(instance, 2), segments + 2  # coordinates: line nodes, anchor, buoy, ground
-    places_before = velocity_before = None
+    places_before = np.array(cmoordyn.ext_wave_coords(instance)).reshape(-1, 3)
+    velocity_before = np.array(moordyn.GetPointVel(point))
     kept, spent = [], 0.0
     for i in range(steps_per_period * periods + 1):
         places = np.array(cmoordyn.ext_wave_coords(instance)).reshape(-1, 3)
         velocity = np.array(moordyn.GetPointVel(point))
-        if i == 0:
-            places_before, velocity_before = places, velocity
         if i % every == 0:
             kept.append((places[buoy, 0], 0.0, places[buoy, 2] - BED))
         ahead = 1.5 * places - 0.5 * places_before
