@@ -22,10 +22,9 @@ from campaigns.buoy_sweep.rows import STEEPNESS
 from campaigns.columns import LOOPS, MESSAGE, NEWTON, PERIODS_RUN, RUN_KEY, STATUS, WALL_S, Column, counted
 from campaigns.judge import tighter_scene
 from campaigns.machinery.cli import Running
-from campaigns.machinery.folder import claimed, trajectory_path
+from campaigns.machinery.folder import claimed, run_of
 from campaigns.machinery.plan import Job, Plan, Summary
 from campaigns.machinery.runner import run_campaign
-from engine import Trajectory
 from engine.scene import scene_from_toml
 
 COLUMNS = (
@@ -89,7 +88,7 @@ def repeat(
     length = lengths(len(summary.rows), periods)
     jobs: list[Job] = []
     for role, row in chosen(rows):
-        original = first_periods(Trajectory.load(trajectory_path(plan.how.out, row["run_key"])), length)
+        original = first_periods(run_of(plan.how.out, row), length)
         scene = original.scene
         finer = scene_from_toml(scene.to_toml(), {"tether.nodes": 2 * scene.tether.nodes - 1})
         describe = partial(accuracy_row, original=original, row_of=row_of, said=said)
@@ -149,7 +148,7 @@ def close_up(plan: Plan, summary: Summary, periods: int) -> float:
     """Compute the close-up, unless it is there or no run goes slack; 0 s of analysis. periods: those of the sweep."""
     out, jobs = plan.how.out / "close_up", []
     for _, row in chosen([row for row in summary.rows if (row.get("slack_fraction") or 0.0) > 0.0])[-1:]:
-        scene = Trajectory.load(trajectory_path(plan.how.out, row["run_key"])).scene
+        scene = run_of(plan.how.out, row).scene
         # Perturbations are carried along as in the sweep: leaving them out would need machine code of its own (20 s).
         kept = {"output.profiles": True, "output.profiles_step_s": scene.waves.period_s / FRAMES}
         length = min(periods, PERIODS)

@@ -10,8 +10,7 @@ from pathlib import Path
 import numpy as np
 
 from campaigns.columns import Column
-from campaigns.machinery.folder import trajectory_path
-from engine import Trajectory
+from campaigns.machinery.folder import run_of
 
 APART_M = 0.01  # difference of the two radii from which the runs count as parted
 MOST_OFF = 0.01  # of the range of r: what the ends of the ranges may differ by
@@ -38,7 +37,7 @@ def pair_row(out: Path, planar: dict, spatial: dict, transient: int) -> dict[str
     """A row of pairs.csv from two rows of table.csv, of the same scene in the plane and in three dimensions."""
     from analysis import poincare_section, section_distance
 
-    flat, space = (Trajectory.load(trajectory_path(out, row["run_key"])) for row in (planar, spatial))
+    flat, space = (run_of(out, row) for row in (planar, spatial))
     step_s, period_s = flat.scene.sample_step_s(), flat.scene.waves.period_s
     samples = min(len(run.columns["radius_m"]) for run in (flat, space))
     off = np.abs(flat.columns["radius_m"][:samples] - space.columns["radius_m"][:samples])
