@@ -9,6 +9,7 @@ import csv
 import errno
 import fcntl
 import hashlib
+import io
 import json
 import math
 import os
@@ -129,7 +130,7 @@ def read_rows(path: Path) -> tuple[Row, ...]:
     Raises OSError where table or dictionary cannot be read, ValueError where they do not fit each other.
     """
     declared, rows = (
-        list(csv.DictReader(place.read_text(encoding="utf-8").splitlines())) for place in (dictionary_path(path), path)
+        list(csv.DictReader(io.StringIO(place.read_text(encoding="utf-8")))) for place in (dictionary_path(path), path)
     )
     if not rows:
         raise ValueError(f"{path.name} has no rows")
