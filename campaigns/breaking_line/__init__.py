@@ -48,13 +48,13 @@ def planned(name: str, changes: dict, cases: Sequence[str], companions: bool, fa
     kind: "case"; "doubled" (twice the elements); "stiffness" (case 4, doubled, with another EI); without gravity on an
     even grid up to the arrival of the front, "straight" (fine) and "series" (grid by grid).
     """
-    from campaigns.machinery.plausible import doubts, endless
+    from campaigns.machinery.plausible import doubts
     from engine import SceneError
 
     runs: list[Job] = []
     try:
         plain = {case: _scene(name, changes, case, {}) for case in cases}
-        odd = [line for case, scene in plain.items() for line in (*doubts(scene), *endless(scene, LENGTHS_S[case[0]]))]
+        odd = [line for case, scene in plain.items() for line in doubts(scene, LENGTHS_S[case[0]])]
         faults.extend(dict.fromkeys(odd))
         if faults:  # theory takes seconds, and of an odd line long, for an order that is refused
             return ()

@@ -11,8 +11,8 @@ from pathlib import Path
 import numpy as np
 
 from campaigns.breaking_line.theory import Theory, theory_of
-from campaigns.tables import Row as Line
-from campaigns.tables import read_rows, run_of
+from campaigns.machinery.folder import Row as Line
+from campaigns.machinery.folder import read_rows, run_of
 
 FAST, SLOW = ("1", "2", "3", "4"), ("1p", "2p", "3p", "4p")
 CASES = (*FAST, *SLOW)

@@ -9,10 +9,9 @@ from dataclasses import asdict, dataclass, field
 from pathlib import Path
 
 from campaigns.breaking_line.lines import read_lines
-from campaigns.machinery.folder import read_json
+from campaigns.machinery.folder import Row, read_json, read_rows, run_of
 from campaigns.paper.measures import LARGE, SMALL, buckling_waves, calm_measures, scales, snaps, violent_measures
 from campaigns.paper.part_folders import LeftOut, Parts
-from campaigns.tables import Row, read_rows, run_of
 
 STRANGE = ("lambda_1_bits_per_period", "lambda_1_bits_error", "section_dimension", "section_dimension_error")
 TREATED = ("above_still_water", "submergence")

@@ -6,8 +6,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from campaigns.figure_data import Array, Source, source
-from campaigns.machinery.folder import trajectory_path
-from campaigns.tables import Row, read_rows
+from campaigns.machinery.folder import Row, read_rows, trajectory_path
 
 
 class LeftOut(Exception):

@@ -8,9 +8,8 @@ import pytest
 
 from campaigns import accuracy
 from campaigns.accuracy.jobs import side_by_side
-from campaigns.accuracy.plan import ADAPTIVE, FULL, ORDERS, Point, phases
+from campaigns.accuracy.plan import ADAPTIVE, BY_NAME, FULL, ORDERS, WORKS, Point, phases
 from campaigns.accuracy.rows import COLUMNS, point_row, rms_mm
-from campaigns.accuracy.works import BY_NAME, WORKS
 from campaigns.columns import names
 from campaigns.machinery.plan import Job
 from engine import load_scene

@@ -13,7 +13,7 @@ import numba
 import numpy as np
 import pytest
 
-from campaigns.stability import fuzz, limited
+from campaigns.stability import fuzz
 from campaigns.stability.random_scenes import INVALID, VALID, drawn, faults_of, smallest
 from engine.scene import build_scene
 
@@ -95,14 +95,14 @@ def test_an_error_is_a_refusal_only_where_it_names_a_key_and_what_is_allowed(val
 @pytest.mark.parametrize(
     ("call", "way", "said"),
     [
-        (partial(time.sleep, 60), limited.LATE, "0.5 s"),
-        (partial(os._exit, 3), limited.DIED, "3"),
-        (lambda: 1 / 0, limited.RAISED, "ZeroDivisionError"),
-        (lambda: "it is " + "done", limited.DONE, "done"),
+        (partial(time.sleep, 60), fuzz.LATE, "0.5 s"),
+        (partial(os._exit, 3), fuzz.DIED, "3"),
+        (lambda: 1 / 0, fuzz.RAISED, "ZeroDivisionError"),
+        (lambda: "it is " + "done", fuzz.DONE, "done"),
     ],
 )
 def test_a_call_that_does_not_return_is_ended_and_one_that_dies_is_seen(call, way, said):
-    found, answer, wall_s = limited.limited(call, 0.5)
+    found, answer, wall_s = fuzz.limited(call, 0.5)
     assert found == way and said in answer and wall_s < 5
 
 
@@ -115,4 +115,4 @@ def test_machine_code_that_does_not_return_is_ended_too():
             x *= 0.5
         return x
 
-    assert limited.limited(forever, 3.0)[0] == limited.LATE
+    assert fuzz.limited(forever, 3.0)[0] == fuzz.LATE

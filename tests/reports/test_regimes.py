@@ -6,8 +6,8 @@ import pytest
 
 from analysis import read_evidence
 from campaigns import buoy_sweep, out_of_plane
+from campaigns.machinery.folder import read_rows
 from campaigns.out_of_plane.pairs import APART_M
-from campaigns.tables import read_rows
 from reports.buoy_sweep.report import report
 from reports.buoy_sweep.tables import COMPARED
 from reports.parts.content import Figure, Sheet, Table

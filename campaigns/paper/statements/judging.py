@@ -6,10 +6,10 @@
 import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
 
+from campaigns.machinery.folder import Row
 from campaigns.paper.measured import Results
 from campaigns.paper.measures import LARGE
 from campaigns.statements import Check, Measured, formula, grouped, shown
-from campaigns.tables import Row
 
 Measure = Callable[[Results], Measured]
 Place = tuple[str, Row]  # where a run was, in words, and its row

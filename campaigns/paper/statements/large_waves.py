@@ -2,12 +2,12 @@
 
 import math
 
+from campaigns.machinery.folder import Row
 from campaigns.paper.measured import Results
 from campaigns.paper.measures import LARGE
 from campaigns.paper.statements import judging
 from campaigns.paper.statements.judging import LONG, UNDECIDED, at, everywhere, exponent, passed, value_of
 from campaigns.statements import Measured, listed, shown, told
-from campaigns.tables import Row
 
 NO_RUN = "none"  # as `listed` says it
 

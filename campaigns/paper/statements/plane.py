@@ -2,11 +2,11 @@
 
 import math
 
+from campaigns.machinery.folder import Row
 from campaigns.paper.measured import STRANGE, Results
 from campaigns.paper.measures import LARGE
 from campaigns.paper.statements.judging import NOT_IN_DOUBT, at, each, passed
 from campaigns.statements import Measured, shown
-from campaigns.tables import Row
 
 BODIES = ("buoy", "rope")
 
