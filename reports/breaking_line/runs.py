@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import io
 from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from ..figures.line_panels import thousands
-from ..parts.folder import Folder, Row
+from ..parts.folder import Folder, FolderError, Row, read_files
 
 if TYPE_CHECKING:
     import xarray
@@ -54,11 +53,9 @@ def read_lines(folder: Folder) -> tuple[Line, ...]:
 
 def read_exact(folder: Folder) -> xarray.Dataset | None:
     """exact.nc of the folder: characteristics, shocks and speeds of exact theory; None where it has none."""
-    import xarray
-
     try:
-        return xarray.load_dataset(io.BytesIO((folder.directory / "exact.nc").read_bytes()), engine="scipy")
-    except (OSError, ValueError, TypeError):
+        return read_files(folder.directory, {"exact.nc": "exact theory"})["exact.nc"]
+    except FolderError:
         return None
 
 

@@ -38,20 +38,8 @@ class LinePanel:
     time_s: np.ndarray
 
 
-def line_panels(panels: Sequence[LinePanel], column: str) -> Picture:
+def line_panels(panels: Sequence[LinePanel], column: str, kind: str = "svg") -> Picture:
     """Two panels a row, curves coloured by time on one scale; column: of QUANTITIES."""
-    with sheet(line_panels_height_in(len(panels))) as figure:
-        fill_line_panels(figure, panels, column)
-        return picture_of(figure)
-
-
-def line_panels_height_in(count: int) -> float:
-    """The height of so many panels."""
-    return 0.4 + 1.8 * ((count + 1) // 2)
-
-
-def fill_line_panels(figure, panels: Sequence[LinePanel], column: str) -> None:
-    """`line_panels` on an open sheet."""
     from matplotlib import colormaps
     from matplotlib.cm import ScalarMappable
     from matplotlib.colors import LinearSegmentedColormap, Normalize
@@ -62,17 +50,19 @@ def fill_line_panels(figure, panels: Sequence[LinePanel], column: str) -> None:
     colours = LinearSegmentedColormap.from_list("time", colormaps["viridis"](np.linspace(0.0, 0.85, 32)))
     scale = ScalarMappable(Normalize(0.0, 1e3 * late), colours)
     labels = "$x$ (m)" if motion else "$s$ (m)", QUANTITIES[column][1]
-    for (axes, panel), ends in zip(cells(figure, panels, 2, labels), limits(panels, column), strict=False):
-        x = np.broadcast_to(panel.x, panel.y.shape)
-        for row, time_s in enumerate(panel.time_s):
-            axes.plot(x[row], panel.y[row], color=scale.to_rgba(1e3 * time_s), linewidth=0.8)
-        if motion:
-            axes.axvline(0.0, color=SOFT, linewidth=0.7, linestyle=(0, (2, 2)))
-        axes.set(title=panel.title, ylim=ends)
-        axes.margins(x=0.02)
-        if column == "tension_N":
-            axes.yaxis.set_major_formatter(FuncFormatter(lambda tick, _: thousands(tick)))
-    figure.colorbar(scale, ax=figure.axes, label="$t$ (ms)", shrink=0.6, aspect=30, pad=0.015)
+    with sheet(0.4 + 1.8 * ((len(panels) + 1) // 2)) as figure:
+        for (axes, panel), ends in zip(cells(figure, panels, 2, labels), limits(panels, column), strict=False):
+            x = np.broadcast_to(panel.x, panel.y.shape)
+            for row, time_s in enumerate(panel.time_s):
+                axes.plot(x[row], panel.y[row], color=scale.to_rgba(1e3 * time_s), linewidth=0.8)
+            if motion:
+                axes.axvline(0.0, color=SOFT, linewidth=0.7, linestyle=(0, (2, 2)))
+            axes.set(title=panel.title, ylim=ends)
+            axes.margins(x=0.02)
+            if column == "tension_N":
+                axes.yaxis.set_major_formatter(FuncFormatter(lambda tick, _: thousands(tick)))
+        figure.colorbar(scale, ax=figure.axes, label="$t$ (ms)", shrink=0.6, aspect=30, pad=0.015)
+        return picture_of(figure, kind)
 
 
 def limits(panels: Sequence[LinePanel], column: str) -> list[tuple[float, float]]:

@@ -7,7 +7,7 @@ import numpy as np
 from analysis.oscillator import SnapOscillator
 
 from ..figures.oscillator import oscillator_basins
-from ..parts.content import Column, Equation, Figure, Heading, Item, Table, Text
+from ..parts.content import Equation, Figure, Heading, Item, Table, Text, heads
 from ..parts.wording import decimals, number
 from .folder import Study
 
@@ -55,7 +55,7 @@ def basin_items(study: Study, arrays: dict) -> list[Item]:
         for name, share, error in zip(names, shares, arrays["errors"], strict=True)
         if share > 0
     )
-    heads = (Column("the motion ends on", align="left"), Column("share of the starts", "%"), Column("error", "%"))
+    columns = heads("the motion ends on", ("share of the starts", "%"), ("error", "%"))
     settled = arrays["settled"][arrays["settled"] >= 0]
     late = f" The last start that settled did so after {int(settled.max())} periods." if len(settled) else ""
     caption = (
@@ -69,7 +69,7 @@ def basin_items(study: Study, arrays: dict) -> list[Item]:
     alt = f"Basins of attraction of {len(orbits)} periodic orbits over displacement and velocity."
     section = study.arrays.get("section", {}).get("section", np.empty((0, 2)))[:20000]
     figure = Figure(oscillator_basins(arrays["label"], tuple(arrays["box"]), names, orbits, section), caption, alt)
-    return [Text(text), figure, Table(heads, rows, "Shares of the starts, with one standard error.")]
+    return [Text(text), figure, Table(columns, rows, "Shares of the starts, with one standard error.")]
 
 
 def orbit_items(study: Study, arrays: dict) -> list[Item]:
@@ -92,10 +92,9 @@ def orbit_items(study: Study, arrays: dict) -> list[Item]:
             f"{decimals(point[0], 6)}, {decimals(point[1], 6)}", _complex(m1), _complex(m2),
             f"{abs((m1 * m2).real / wanted - 1.0):.0e}", f"{residual:.0e}",
         ))  # fmt: skip
-    columns = (
-        Column("period"), Column("stability", align="left"), Column("leftmost strobed point (γ, velocity)"),
-        Column("multiplier 1"), Column("multiplier 2"), Column("product off by", "relative"), Column("residual"),
-    )  # fmt: skip
+    numbers = ("leftmost strobed point (γ, velocity)", "multiplier 1", "multiplier 2")
+    off = ("product off by", "relative"), ("residual", "")
+    columns = heads(("period", ""), "stability", *((name, "") for name in numbers), *off)
     caption = f"Periodic orbits met by Newton's method ({len(rows)}), by period. From the part `orbits`."
     return [Text(text), Table(columns, tuple(rows), caption, small=True)]
 
@@ -126,7 +125,7 @@ def grazing_items(study: Study, arrays: dict) -> list[Item]:
         slack = arrays[name] > 0
         rows.append((f"starts that are slack at {share} F", f"{int(slack.sum())} of {len(slack)}"))
     caption = "Grazing. Slack: at some time in the last 100 of 2100 periods. From the part `grazing`."
-    return [Text(text), Table((Column("what", align="left"), Column("value")), tuple(rows), caption)]
+    return [Text(text), Table(heads("what", ("value", "")), tuple(rows), caption)]
 
 
 def equation_items(study: Study) -> list[Item]:
@@ -136,13 +135,12 @@ def equation_items(study: Study) -> list[Item]:
         given, usual = study.oscillator[key], getattr(SnapOscillator, key)
         source = source if given == usual else f"given; the default is {number(usual)}"
         rows.append((symbol, meaning, number(given, 10), source))
-    columns = [Column(title, align="left") for title in ("symbol", "what it is", "source")]
-    columns.insert(2, Column("value"))
+    columns = heads("symbol", "what it is", ("value", ""), "source")
     return [
         Heading("Equation and method"),
         Text("All quantities are dimensionless (mass, buoy diameter, natural frequency of the radial motion):"),
         OSCILLATOR,
-        Table(tuple(columns), tuple(rows), "The oscillator as run, from `scene.toml`."),
+        Table(columns, tuple(rows), "The oscillator as run, from `scene.toml`."),
         Text("Each piece, taut or slack, has a closed form, so there is no time step:"),
         PIECE,
         Text(
