@@ -3,8 +3,8 @@
 from functools import partial
 from pathlib import Path
 
-from ..buoy_sweep.equations import LAWS
-from ..parts.content import Equation, Heading, Item, Notice, Report, Text
+from ..parts.content import Heading, Item, Notice, Report, Text
+from ..parts.equations import equation_items
 from ..parts.folder import Folder, read_folder
 from ..parts.judged import counted, read_statements, statements_table
 from ..parts.provenance import provenance_items, scene_table, timing_items
@@ -34,20 +34,6 @@ BUDGET = (
     "varies), and what the scheme itself dissipates in space and in time. The remainder tells how well the equations "
     "were solved."
 )
-MOTION = Equation(
-    "m (partial bold(V)) / (partial t) = (partial bold(N)) / (partial s) - m g bold(k), quad "
-    "(partial bold(q)) / (partial t) = (partial bold(V)) / (partial s), quad bold(q) = (1 + epsilon) bold(t)",
-    "Mass times acceleration is the slope of the internal force less the weight; the stretch vector changes with the "
-    "slope of the velocity.",
-)
-FORCE = Equation(
-    'bold(N)(L, t) = bold(F)_s cos^2 (pi t) / (2 t_(b r)), quad t < t_(b r); quad upright("zero after")',
-    "The force at the broken end falls as the static force times the squared cosine of pi t over two t b r.",
-)
-VISCOSITY = Equation(
-    "T = f(epsilon) + a m [c_q h^2 abs(epsilon_t) epsilon_t + c_l c h epsilon_t], quad c = sqrt(max(f', 0) \\/ m)",
-    "Tension is the law plus a limited viscous part, quadratic and linear in the strain rate.",
-)
 
 
 def report(directory: str | Path) -> Report:
@@ -74,7 +60,7 @@ def report(directory: str | Path) -> Report:
         *_section("Doubled grids", table("doubled")),
         *timing_items(folder, table("cost")),
         *_scene(folder),
-        *_equations(folder.scene.tether.tension.law),
+        *equation_items("breaking_line", law=folder.scene.tether.tension.law),
         *provenance_items(folder),
     ]
     return Report("The breaking synthetic line", folder.scene.title or folder.scene.name, tuple(items))
@@ -122,13 +108,3 @@ def _scene(folder: Folder) -> list[Item]:
     varied = {"end.force_N": f"cases {cases}", "end.force_decay_s": "0.005 (1 to 4), 0.05 (1′ to 4′)"}
     caption = "The scene as run, from `scene.toml`; defaults are those of the scene `breaking_line`."
     return [Heading("Scene"), scene_table(folder.scene, "breaking_line", varied, caption)]
-
-
-def _equations(law: str) -> list[Item]:
-    said = {
-        "In fixed axes and conservation form, with the shear force from the bending moments:": MOTION,
-        "with the tension law": LAWS[law],
-        "and, at the end that breaks,": FORCE,
-        "Shocks are captured by a viscosity; a limiter a is zero where the strain rate varies smoothly:": VISCOSITY,
-    }
-    return [Heading("Equations"), *(item for words, equation in said.items() for item in (Text(words), equation))]

@@ -7,10 +7,10 @@ from pathlib import Path
 from analysis.verdicts import LEAST_POINTS
 
 from ..parts.content import Bullets, Heading, Item, Notice, Report, Text
+from ..parts.equations import equation_items
 from ..parts.provenance import provenance_items
 from ..parts.wording import T_I, TAU_0, count, decimals, number, percent
 from ..sweep.quantities import extremes
-from .equations import equation_items
 from .figures import chosen_table, close_up_items, orbit_figure, regime_items, run_figures, section_figure
 from .runs import PAPER_WINDOW, Run, Sweep, read_sweep
 from .sheets import explorer, sheet_items
@@ -41,8 +41,7 @@ def report(directory: str | Path) -> Report:
         *runs_items(sweep),
         *time_items(sweep),
         *scene_items(sweep),
-        Heading("Equations"),
-        *equation_items(scene.tether.tension.law),
+        *equation_items("buoy_sweep", law=scene.tether.tension.law),
         *provenance_items(sweep.folder),
         *sheet_items(sweep),
     ]

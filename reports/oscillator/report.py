@@ -18,7 +18,7 @@ from ..parts.content import Figure, Heading, Item, Notice, Report, Text, sub
 from ..parts.provenance import provenance_items
 from ..parts.wording import count, number, percent
 from .folder import Study, read_study
-from .sections import NUMBERS, basin_items, equation_items, grazing_items, orbit_items
+from .sections import NUMBERS, basin_items, grazing_items, method_items, orbit_items
 
 LAMBDA_1 = "λ" + sub("1")
 QUESTION = (
@@ -40,7 +40,7 @@ def report(directory: str | Path) -> Report:
         arrays = study.arrays.get(part)
         missing = [Text(f"The part `{part}` has no results: {study.faults.get(part)}.")]
         items += [Heading(title), *(missing if arrays is None else section(study, arrays))]
-    items += [*equation_items(study), Heading("Parts and times")]
+    items += [*method_items(study), Heading("Parts and times")]
     shown = ("part", "status", "starts", "periods", "transient", "wall_s")
     items.append(table_of(study.columns, shown, study.rows.values(), "The parts of the study, from `table.csv`."))
     numbers = (f"{symbol} = {number(study.oscillator[key])}" for key, (symbol, *_) in NUMBERS.items())
