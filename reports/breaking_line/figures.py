@@ -12,7 +12,7 @@ from ..figures.line_panels import QUANTITIES, SCALED, LinePanel, folds, line_pan
 from ..figures.line_waves import FrontPanel, energy_shares, front_plane, front_speeds
 from ..parts.content import Figure
 from ..parts.wording import listed, number, percent
-from .runs import FAST, SLOW, Line, find, named, title_of
+from .runs import FAST, SLOW, Line, named, of_kind, title_of
 
 if TYPE_CHECKING:
     import xarray
@@ -24,9 +24,9 @@ CURVE_POINTS = 120
 
 
 def shown(lines: tuple[Line, ...], cases: Sequence[str]) -> list[Line]:
-    """The cases among these that can be drawn."""
-    found = (find(lines, case) for case in cases)
-    return [line for line in found if line is not None and line.trajectory is not None and line.trajectory.profiles]
+    """The cases among these that can be drawn, in their order."""
+    drawn = [line for line in of_kind(lines, "case") if line.trajectory is not None and line.trajectory.profiles]
+    return sorted((line for line in drawn if line["case"] in cases), key=lambda line: cases.index(line["case"]))
 
 
 def paper_figures(lines: tuple[Line, ...], cases: Sequence[str]) -> list[Figure]:

@@ -62,8 +62,3 @@ def read_exact(folder: Folder) -> xarray.Dataset | None:
 def of_kind(lines: Iterable[Line], *kinds: str) -> list[Line]:
     """The runs that ended as asked, kind by kind."""
     return [line for kind in kinds for line in lines if line["kind"] == kind and line.ok]
-
-
-def find(lines: Iterable[Line], case: str) -> Line | None:
-    """The run of a case that ended as asked, None where there is none."""
-    return next((line for line in of_kind(lines, "case") if line["case"] == case), None)

@@ -17,8 +17,7 @@ from ..parts.columns import table_of
 from ..parts.content import Figure, Heading, Item, Notice, Report, Text, sub
 from ..parts.provenance import provenance_items
 from ..parts.wording import count, number, percent
-from .folder import Study, read_study
-from .sections import NUMBERS, basin_items, grazing_items, method_items, orbit_items
+from .sections import NUMBERS, Study, basin_items, grazing_items, method_items, orbit_items, read_study
 
 LAMBDA_1 = "λ" + sub("1")
 QUESTION = (
@@ -51,8 +50,8 @@ def _answer(study: Study) -> list[Item]:
     """The numbers of the parts that gave some, in one row."""
     rows = (study.rows.get(part, {}) for part in ("grazing", "basins", "exponents"))
     found = {name: entry for row in rows for name, entry in row.items() if entry}
-    value, error = _exponent(study)
-    word = "chaotic" if _chaotic(study) else "regular" if value < -2 * error else "neither shown to be"
+    value, error = study.exponent
+    word = "chaotic" if study.chaotic else "regular" if value < -2 * error else "neither shown to be"
     text = (
         f"Chaotic means that {LAMBDA_1} is positive by more than two standard errors: nearby motions part "
         f"exponentially. Regular means that it is negative by as much. The motion is {word}."
@@ -78,7 +77,7 @@ def _section(study: Study, arrays: dict) -> list[Item]:
     alt = f"Scatter of {len(states)} strobed points of displacement and velocity."
     items: list[Item] = [Figure(oscillator_section(states, boxes, orbit), caption, alt)]
     zooms = [arrays[name] for name in ("zoom_1", "zoom_2") if name in arrays]
-    if zooms and _chaotic(study):  # a zoom into a periodic orbit shows a point
+    if zooms and study.chaotic:  # a zoom into a periodic orbit shows a point
         counts = " and ".join(str(len(zoom)) for zoom in zooms)
         caption = (
             "Layers within layers: zooms by 10 and by 100 round the place visited most. They have "
@@ -166,12 +165,3 @@ SECTIONS = {  # part of the study: heading, what is said of its arrays
     "orbits": ("Periodic orbits", orbit_items),
     "grazing": ("Grazing", grazing_items),
 }
-
-
-def _exponent(study: Study) -> tuple[float, float]:
-    return study.number("exponents", "lambda_1_nats_per_time"), study.number("exponents", "lambda_1_error")
-
-
-def _chaotic(study: Study) -> bool:
-    value, error = _exponent(study)
-    return value - 2 * error > 0.0

@@ -1,16 +1,20 @@
-"""What the report on eq. (33) says of coexisting attractors, periodic orbits, grazing, and of the equation itself."""
+"""What the report on eq. (33) reads and says: coexisting attractors, periodic orbits, grazing, the equation itself."""
 
 import math
+from dataclasses import dataclass
+from pathlib import Path
 
 import numpy as np
 
 from analysis.oscillator import SnapOscillator
 
 from ..figures.oscillator import oscillator_basins
+from ..parts.columns import Quantity, value
 from ..parts.content import Figure, Item, Table, Text, heads
 from ..parts.equations import equation_items
+from ..parts.folder import PARTS as FILES
+from ..parts.folder import FolderError, read_files
 from ..parts.wording import decimals, number
-from .folder import Study
 
 FIGURE_19 = "Tjavaras et al. 1998, figure 19"
 NUMBERS = {  # symbol, what it is, source of the usual value
@@ -20,6 +24,70 @@ NUMBERS = {  # symbol, what it is, source of the usual value
     "lift": ("B − W", "buoyancy less weight", FIGURE_19),
     "phase": ("φ", "phase of the forcing at the strobe, rad", "not stated in the paper; choice of this work"),
 }
+
+
+PARTS = ("section", "history", "exponents", "orbits", "basins", "grazing", "diagram-force", "diagram-frequency")
+
+
+@dataclass(frozen=True, eq=False)
+class Study:
+    """What the campaign left: `rows` of table.csv by part (text), `arrays` by part and name, `oscillator` the five
+    numbers of eq. (33), `faults` by part where its arrays are not to be had."""
+
+    directory: Path
+    provenance: dict
+    columns: dict[str, Quantity]
+    rows: dict[str, dict[str, str]]
+    arrays: dict[str, dict[str, np.ndarray]]
+    oscillator: dict[str, float]
+    faults: dict[str, str]
+
+    @property
+    def period(self) -> float:
+        """Forcing period, in units of time."""
+        return 2.0 * math.pi / self.oscillator["frequency"]
+
+    @property
+    def exponent(self) -> tuple[float, float]:
+        """The largest exponent and its standard error, nats per unit of time."""
+        return self.number("exponents", "lambda_1_nats_per_time"), self.number("exponents", "lambda_1_error")
+
+    @property
+    def chaotic(self) -> bool:
+        """Whether the largest exponent is positive by more than two standard errors."""
+        value, error = self.exponent
+        return value - 2 * error > 0.0
+
+    def number(self, part: str, column: str) -> float:
+        """A cell of table.csv as a number; NaN where it is empty."""
+        return value(self.rows.get(part, {}), column)
+
+
+def read_study(directory: str | Path) -> Study:
+    """Read the folder. Raises FolderError naming every file that is missing or cannot be read."""
+    directory = Path(directory)
+    # scene.toml is no scene of the engine here; its numbers are in the provenance as well.
+    wanted = {name: meaning for name, meaning in FILES.items() if name != "scene.toml"}
+    found = read_files(directory, wanted)
+    try:
+        oscillator = {key: float(entry) for key, entry in found["provenance.json"]["oscillator"].items()}
+        rows = {row["part"]: row for row in found["table.csv"]}
+    except (KeyError, TypeError, ValueError, AttributeError) as error:
+        fault = f"provenance.json or table.csv is not of this campaign: {error!r}"
+        raise FolderError(directory, [fault]) from error
+    if not rows:
+        raise FolderError(directory, ["table.csv cannot be read: it has no rows"])
+    arrays, faults = {}, {}
+    for part in PARTS:
+        try:
+            name = f"{rows[part]['run_key']}.nc"
+            read = read_files(directory / "trajectories", {name: "its arrays"})[name]
+            arrays[part] = {str(entry): variable.values for entry, variable in read.data_vars.items()}
+        except KeyError:
+            faults[part] = "it has no row in table.csv"
+        except FolderError as error:
+            faults[part] = rows[part]["message"] or error.faults[0]
+    return Study(directory, found["provenance.json"], found["columns.csv"], rows, arrays, oscillator, faults)
 
 
 def basin_items(study: Study, arrays: dict) -> list[Item]:

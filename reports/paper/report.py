@@ -101,11 +101,10 @@ def _parts(folder: Folder) -> list[Item]:
     jobs = folder.provenance.get("jobs")
     at_once = f", {count(jobs, 'run')} at a time" if isinstance(jobs, int) else ""
     minutes = decimals(float(folder.table["total_s"].sum()) / 60.0, 1)
-    whole = f"All parts together took {minutes} minutes{at_once}."
-    if not links:
-        return [Heading("Parts"), table, Text(f"{whole} The parts' own reports were left out.")]
     each = "Each part has a report of its own, with all runs, grids, warnings and sources:"
-    return [Heading("Parts"), table, Text(f"{whole} {each}"), Links(links)]
+    said = each if links else "The parts' own reports were left out."
+    text = Text(f"All parts together took {minutes} minutes{at_once}. {said}")
+    return [Heading("Parts"), table, text, *([Links(links)] if links else [])]
 
 
 def _figures(directory: Path) -> list[Item]:
