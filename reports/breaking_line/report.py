@@ -3,14 +3,15 @@
 from functools import partial
 from pathlib import Path
 
+from ..figures.line_panels import named
 from ..parts.content import Heading, Item, Notice, Report, Text
 from ..parts.equations import equation_items
 from ..parts.folder import Folder, read_folder
 from ..parts.judged import counted, read_statements, statements_table
-from ..parts.provenance import provenance_items, scene_table, timing_items
+from ..parts.provenance import provenance_items, scene_items, timing_items
 from ..parts.wording import count, decimals, listed, number, percent
-from . import figures, tables
-from .runs import FAST, SLOW, Line, named, of_kind, read_exact, read_lines
+from . import figures
+from .runs import FAST, KINDS, SLOW, Line, of_kind, read_exact, read_lines, series_table, table_of_runs
 
 ANIMATED = "4"
 MOST_TURN_RAD = 0.6
@@ -40,7 +41,7 @@ def report(directory: str | Path) -> Report:
     """The content of the report on a breaking-line folder. Raises FolderError for a folder that is not one."""
     folder = read_folder(directory)
     lines, judged = read_lines(folder), read_statements(folder.directory)
-    table = partial(tables.table_of_runs, lines, folder.columns)
+    table = partial(table_of_runs, lines, folder.columns)
     verdicts = f"The paper's statements on the breaking line: {counted(judged)}. From `statements.csv`."
     asked = sum(line["kind"] == "case" for line in lines)
     ended = f"{len(of_kind(lines, 'case'))} of {count(asked, 'case')} ended as asked."
@@ -90,7 +91,7 @@ def _warnings(lines: tuple[Line, ...]) -> list[Item]:
 
 def _run(line: Line) -> str:
     stiffness = f", EI = {number(line['bending_stiffness_Nm2'])} N m²" if line["kind"] == "stiffness" else ""
-    return f"Case {line.name}{tables.KINDS.get(line['kind'], '')}{stiffness}, {number(line['nodes'])} nodes"
+    return f"Case {line.name}{KINDS.get(line['kind'], '')}{stiffness}, {number(line['nodes'])} nodes"
 
 
 def _fronts(folder: Folder, lines: tuple[Line, ...]) -> list[Item | None]:
@@ -99,12 +100,11 @@ def _fronts(folder: Folder, lines: tuple[Line, ...]) -> list[Item | None]:
         return []
     exact = read_exact(folder)
     drawn = [] if exact is None else [figures.plane_figure(lines, exact), figures.speeds_figure(exact)]
-    found = (tables.table_of_runs(lines, folder.columns, which) for which in ("speeds", "shocks"))
-    return [*drawn, *found, tables.series_table(lines, folder.columns)]
+    found = (table_of_runs(lines, folder.columns, which) for which in ("speeds", "shocks"))
+    return [*drawn, *found, series_table(lines, folder.columns)]
 
 
 def _scene(folder: Folder) -> list[Item]:
     cases = listed(named(case) for case in folder.provenance.get("cases") or ["as asked"])
     varied = {"end.force_N": f"cases {cases}", "end.force_decay_s": "0.005 (1 to 4), 0.05 (1′ to 4′)"}
-    caption = "The scene as run, from `scene.toml`; defaults are those of the scene `breaking_line`."
-    return [Heading("Scene"), scene_table(folder.scene, "breaking_line", varied, caption)]
+    return scene_items(folder.scene, "breaking_line", varied)

@@ -28,11 +28,10 @@ _WIDTH_IN = 5.6  # of all panels of a row
 
 @dataclass(frozen=True, eq=False)
 class LinePanel:
-    """Curves of one case: its name, static force and title; x (m, n) or (n,) and y (m, n) of m instants (m,), s."""
+    """Curves of one case: its name, static force; x (m, n) or (n,) and y (m, n) of m instants (m,), s."""
 
     case: str
     force_N: float
-    title: str
     x: np.ndarray
     y: np.ndarray
     time_s: np.ndarray
@@ -51,13 +50,14 @@ def line_panels(panels: Sequence[LinePanel], column: str, kind: str = "svg") -> 
     scale = ScalarMappable(Normalize(0.0, 1e3 * late), colours)
     labels = "$x$ (m)" if motion else "$s$ (m)", QUANTITIES[column][1]
     with sheet(0.4 + 1.8 * ((len(panels) + 1) // 2)) as figure:
-        for (axes, panel), ends in zip(cells(figure, panels, 2, labels), limits(panels, column), strict=False):
+        drawn = cells(figure, panels, 2, labels)
+        for (axes, panel), ends, letter in zip(drawn, limits(panels, column), "abcd", strict=False):
             x = np.broadcast_to(panel.x, panel.y.shape)
             for row, time_s in enumerate(panel.time_s):
                 axes.plot(x[row], panel.y[row], color=scale.to_rgba(1e3 * time_s), linewidth=0.8)
             if motion:
                 axes.axvline(0.0, color=SOFT, linewidth=0.7, linestyle=(0, (2, 2)))
-            axes.set(title=panel.title, ylim=ends)
+            axes.set(title=f"({letter}) case {named(panel.case)}: {thousands(panel.force_N)} N", ylim=ends)
             axes.margins(x=0.02)
             if column == "tension_N":
                 axes.yaxis.set_major_formatter(FuncFormatter(lambda tick, _: thousands(tick)))
@@ -90,6 +90,11 @@ def seen(panels: Sequence[LinePanel], column: str) -> str:
     return f"{low} to {high} {QUANTITIES[column][2]}"
 
 
+def named(case: str) -> str:
+    """A case of the command line as the paper writes it: 4, 4′."""
+    return case.replace("p", "′")
+
+
 def thousands(newtons: float) -> str:
     """As the paper prints forces: 45 000."""
     return f"{np.round(newtons):,.0f}".replace(",", "\u202f").replace("-", "−")
@@ -99,10 +104,10 @@ def folds(panels: list[LinePanel], x_limits: tuple[float, float], z_limits: tupl
     """Shapes in true proportion, two panels a row; x and y of each panel (n,), time_s its one instant."""
     limits = {"aspect": "equal", "xlim": x_limits, "ylim": z_limits}
     fixed = Curve(np.zeros(1), np.zeros(1), line="", mark="o", colour=VERMILION, size=3.0)
-    drawn = [
-        Panel([Curve(panel.x, panel.y, width=0.7), fixed], "$x$ (m)", "$z$ (m)", panel.title, settings=limits)
-        for panel in panels
-    ]
+    drawn = []
+    for panel in panels:
+        title = f"case {named(panel.case)}, {1e3 * float(panel.time_s[0]):.0f} ms"
+        drawn.append(Panel([Curve(panel.x, panel.y, width=0.7), fixed], "$x$ (m)", "$z$ (m)", title, settings=limits))
     rows = [drawn[k : k + 2] for k in range(0, len(drawn), 2)]
     height = _WIDTH_IN / len(rows[0]) * (z_limits[1] - z_limits[0]) / (x_limits[1] - x_limits[0])
     return curves(rows, 0.4 + len(rows) * (0.45 + height))

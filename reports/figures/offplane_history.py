@@ -55,15 +55,10 @@ def seed_histories(panels: list[tuple[str, str, list[tuple[float, np.ndarray, np
     shades = {push: colormaps["cividis"](0.9 * k / max(len(pushes) - 1, 1)) for k, push in enumerate(pushes)}
     drawn = []
     for title, label, found in panels:
-        lines = [
-            Curve(
-                periods[values > 0],
-                values[values > 0],
-                f"push {push:.0e} m/s".replace("e-0", "e-"),
-                colour=shades[push],
-            )
-            for push, periods, values in found
-        ]
+        lines = []
+        for push, periods, values in found:
+            seen, name = values > 0, f"push {push:.0e} m/s".replace("e-0", "e-")
+            lines.append(Curve(periods[seen], values[seen], name, colour=shades[push]))
         drawn.append(Panel(lines, r"$t/T_i$ (wave periods)", label, title, log="y"))
     return curves([drawn[k : k + 2] for k in range(0, len(drawn), 2)], 0.9 + 2.1 * (len(drawn) // 2), "below")
 

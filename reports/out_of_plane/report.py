@@ -6,7 +6,7 @@ from pathlib import Path
 
 from ..buoy_sweep.tables import accuracy_items
 from ..parts.content import Heading, Item, Notice, Report, Text
-from ..parts.provenance import provenance_items, scene_table, timing_items
+from ..parts.provenance import provenance_items, scene_items, timing_items
 from ..parts.wording import count, listed, number
 from . import sections
 from .runs import VARIED, Run, Study, read_study
@@ -104,5 +104,4 @@ def _scene_and_times(study: Study) -> Iterator[Item]:
         varied |= {"output.tangent_vectors": "1 in planar runs", "output.lateral_growth": "yes in planar runs"}
     if any(run["profiles"] for run in study.runs):
         varied["output.profiles"] = "yes in one run"
-    caption = "The scene, from `scene.toml`; defaults are those of the scene `tethered_buoy`."
-    yield from (Heading("Scene"), scene_table(study.folder.scene, "tethered_buoy", varied, caption))
+    yield from scene_items(study.folder.scene, "tethered_buoy", varied)

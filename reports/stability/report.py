@@ -52,7 +52,12 @@ def _answers(study: Study) -> Iterator[str]:
     said = listed(f"{counts[word]} {word}" for word in VERDICTS if counts[word])
     yield f"{count(len(study.cases), 'case')}: {said}."
     if study.random:
-        yield sound(study)
+        valid, unsound = sum(row["kind"] == "valid" for row in study.random), len(study.unsound())
+        slowest = max(value(row, "wall_s") for row in study.random)
+        yield (
+            f"Random scenes: {valid} valid and {len(study.random) - valid} invalid; {unsound} of them did anything "
+            f"else than {', '.join(SOUND)}. The slowest took {number(slowest, 3)} s."
+        )
     for row in study.cases:
         if row["group"] == "drift" and math.isfinite(value(row, "measured")):
             yield (
@@ -188,16 +193,6 @@ def unexplained_items(study: Study) -> list[Item]:
     if lines:
         return [Notice("warning", "Unexplained", tuple(lines))]
     return [Notice("note", "Nothing unexplained", ("Every case ended as expected, or with a reason given below.",))]
-
-
-def sound(study: Study) -> str:
-    """The random scenes in one sentence."""
-    valid, unsound = sum(row["kind"] == "valid" for row in study.random), len(study.unsound())
-    slowest = max(value(row, "wall_s") for row in study.random)
-    return (
-        f"Random scenes: {valid} valid and {len(study.random) - valid} invalid; {unsound} of them did anything else "
-        f"than {', '.join(SOUND)}. The slowest took {number(slowest, 3)} s."
-    )
 
 
 def map_items(study: Study) -> Iterator[Item]:

@@ -9,7 +9,6 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from ...breaking_line.runs import title_of
 from ...figures.line_panels import QUANTITIES, SCALED, LinePanel, line_panels, seen
 from ...parts.content import Figure, sub
 from ...parts.wording import number
@@ -25,7 +24,11 @@ def breaking(data: xarray.Dataset, kind: str) -> Figure:
     """The figure of a data file. Raises KeyError for one of another figure."""
     cases = [name.split("_")[1] for name in data if str(name).endswith("_force_N")]
     column = next(name for name in QUANTITIES if f"case_{cases[0]}_{name}" in data)
-    panels = [_panel(data, case, column, place) for place, case in enumerate(cases)]
+    drawn = ("x_m" if column == "z_m" else "s_m", column, "time_s")
+    panels = []
+    for case in cases:
+        curves = (data[f"case_{case}_{name}"].values for name in drawn)
+        panels.append(LinePanel(case, value(data, f"case_{case}_force_N"), *curves))
     what, fracture = QUANTITIES[column][0], number(1e3 * value(data, f"case_{cases[0]}_fracture_s"))
     caption = (
         f"{what} (fracture in {fracture} ms), curves 10 ms apart, dark to bright; {SCALED[column]}. Titles: the static "
@@ -33,10 +36,3 @@ def breaking(data: xarray.Dataset, kind: str) -> Figure:
     )
     alt = f"Four panels, {what}, fracture in {fracture} ms, a curve every 10 ms, from {seen(panels, column)}."
     return Figure(line_panels(panels, column, kind), caption, alt)
-
-
-def _panel(data: xarray.Dataset, case: str, column: str, place: int) -> LinePanel:
-    force_N = value(data, f"case_{case}_force_N")
-    arrays = ("x_m" if column == "z_m" else "s_m", column, "time_s")
-    curves = (data[f"case_{case}_{name}"].values for name in arrays)
-    return LinePanel(case, force_N, title_of(place, case, force_N), *curves)
