@@ -5,10 +5,10 @@ from pathlib import Path
 
 from ..figures.line_panels import named
 from ..parts.content import Heading, Item, Notice, Report, Text
-from ..parts.equations import equation_items
 from ..parts.folder import Folder, read_folder
 from ..parts.judged import counted, read_statements, statements_table
 from ..parts.provenance import provenance_items, scene_items, timing_items
+from ..parts.sections import section_items
 from ..parts.wording import count, decimals, listed, number, percent
 from . import figures
 from .runs import FAST, KINDS, SLOW, Line, of_kind, read_exact, read_lines, series_table, table_of_runs
@@ -16,12 +16,6 @@ from .runs import FAST, KINDS, SLOW, Line, of_kind, read_exact, read_lines, seri
 ANIMATED = "4"
 MOST_TURN_RAD = 0.6
 CLOSED = 1e-3  # of the stored energy
-QUESTION = (
-    "A taut synthetic line breaks at one end. How does it recoil: how fast are the end and the fronts, where do shocks "
-    "form, what happens at the fixed end, and where does the stored energy go? This is section 4.1 of Tjavaras, Zhu, "
-    "Liu, Triantafyllou and Yue, “The mechanics of highly-extensible cables”, Journal of Sound and Vibration 213(4), "
-    "1998 (“the paper”): four static tensions, fracture in 5 ms (cases 1 to 4) and in 50 ms (1′ to 4′)."
-)
 THEORY = (
     "Without gravity and bending the line is a one-dimensional elastic wave. The unloading that leaves the broken end "
     "is a simple wave: every tension runs at its own speed √(T′/m). Where the law is concave, above its inflection, "
@@ -46,8 +40,7 @@ def report(directory: str | Path) -> Report:
     asked = sum(line["kind"] == "case" for line in lines)
     ended = f"{len(of_kind(lines, 'case'))} of {count(asked, 'case')} ended as asked."
     items = [
-        Heading("Question"),
-        Text(QUESTION),
+        *section_items("breaking_line", "Question"),
         *_section("Short answer", table("answer"), text=f"{ended} {verdicts}"),
         *_section("The cases", table("cases"), *_warnings(lines)),
         *_section("Fast breaks", *figures.paper_figures(lines, FAST)),
@@ -61,7 +54,7 @@ def report(directory: str | Path) -> Report:
         *_section("Doubled grids", table("doubled")),
         *timing_items(folder, table("cost")),
         *_scene(folder),
-        *equation_items("breaking_line", law=folder.scene.tether.tension.law),
+        *section_items("breaking_line_solved", law=folder.scene.tether.tension.law),
         *provenance_items(folder),
     ]
     return Report("The breaking synthetic line", folder.scene.title or folder.scene.name, tuple(items))

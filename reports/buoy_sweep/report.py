@@ -7,8 +7,8 @@ from pathlib import Path
 from analysis.verdicts import LEAST_POINTS
 
 from ..parts.content import Bullets, Heading, Item, Notice, Report, Text
-from ..parts.equations import equation_items
 from ..parts.provenance import provenance_items
+from ..parts.sections import section_items
 from ..parts.wording import T_I, TAU_0, count, decimals, number, percent
 from ..sweep.quantities import extremes
 from .figures import chosen_table, close_up_items, orbit_figure, regime_items, run_figures, section_figure
@@ -42,7 +42,7 @@ def report(directory: str | Path) -> Report:
         *runs_items(sweep),
         *time_items(sweep),
         *scene_and_modes(sweep),
-        *equation_items("buoy_sweep", law=scene.tether.tension.law),
+        *section_items("buoy_sweep_solved", law=scene.tether.tension.law),
         *provenance_items(sweep.folder),
         *sheet_items(sweep),
     ]
@@ -53,13 +53,7 @@ def _question(sweep: Sweep) -> list[Item]:
     columns = sweep.folder.columns
     shown = [columns[name] for name in _EXTREMES if name in columns]
     items: list[Item] = [
-        Heading("Question"),
-        Text(
-            "A buoy near the surface is held to the sea bed by a short elastic tether. When does the tether go slack "
-            "and snap as waves become steeper, and does the motion still repeat with the waves? This is section 4.2 of "
-            "Tjavaras, Zhu, Liu, Triantafyllou and Yue, “The mechanics of highly-extensible cables”, Journal of Sound "
-            "and Vibration 213(4), 1998 (“the paper”), which shows kA = 0.016 and kA = 0.13."
-        ),
+        *section_items("buoy_sweep", "Question"),
         Heading("Short answer"),
         Bullets(short_answer(sweep)),
         *extremes([columns["steepness"]], [run.row for run in sweep.good], shown, _OF_THESE),

@@ -16,22 +16,17 @@ from ..figures.oscillator import (
 from ..parts.columns import table_of
 from ..parts.content import Figure, Heading, Item, Notice, Report, Text, sub
 from ..parts.provenance import provenance_items
+from ..parts.sections import section_items
 from ..parts.wording import count, number, percent
 from .sections import NUMBERS, Study, basin_items, grazing_items, method_items, orbit_items, read_study
 
 LAMBDA_1 = "λ" + sub("1")
-QUESTION = (
-    "To see the fractal structure of the strange attractor, the paper (Tjavaras, Zhu, Liu, Triantafyllou and Yue "
-    "1998, section 4.2) reduces the tethered buoy to its radial motion on a tether that pulls but does not push: "
-    "equation (33), with its section in figure 19(b). Is that motion chaotic, by how much, with what certainty, "
-    "and what else can the oscillator do?"
-)
 
 
 def report(directory: str | Path) -> Report:
     """The content of the report on an oscillator study's folder. Raises FolderError for a folder that is not one."""
     study = read_study(directory)
-    items: list[Item] = [Heading("Question"), Text(QUESTION), Heading("Short answer"), *_answer(study)]
+    items: list[Item] = [*section_items("oscillator", "Question"), Heading("Short answer"), *_answer(study)]
     if study.faults:
         missing = tuple(f"`{part}`: {reason}." for part, reason in study.faults.items())
         items.append(Notice("warning", "Parts without results", missing))

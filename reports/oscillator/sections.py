@@ -11,9 +11,9 @@ from analysis.oscillator import SnapOscillator
 from ..figures.oscillator import oscillator_basins
 from ..parts.columns import Quantity, value
 from ..parts.content import Figure, Item, Table, Text, heads
-from ..parts.equations import equation_items
 from ..parts.folder import PARTS as FILES
 from ..parts.folder import FolderError, read_files
+from ..parts.sections import section_items
 from ..parts.wording import decimals, number
 
 FIGURE_19 = "Tjavaras et al. 1998, figure 19"
@@ -182,5 +182,5 @@ def method_items(study: Study) -> list[Item]:
         rows.append((symbol, meaning, number(given, 10), source))
     columns = heads("symbol", "what it is", ("value", ""), "source")
     table = Table(columns, tuple(rows), "The oscillator as run, from `scene.toml`.")
-    first = equation_items("oscillator", "Equation and method")
-    return [*first, table, *equation_items("oscillator_method", "")]
+    first = section_items("oscillator_solved", "Equation and method")
+    return [*first, table, *section_items("oscillator_method", "")]

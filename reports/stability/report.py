@@ -16,6 +16,7 @@ from ..parts.columns import Quantity, table_of, value
 from ..parts.content import Bullets, Figure, Heading, Item, Notice, Report, Table, Text, heads
 from ..parts.folder import FolderError, read_files
 from ..parts.provenance import provenance_items, timing_items
+from ..parts.sections import section_items
 from ..parts.wording import EMPTY, count, decimals, listed, number
 
 VERDICTS = ("ok", "refused", "known limit", "unexplained")
@@ -25,13 +26,7 @@ def report(directory: str | Path) -> Report:
     """The content of the report on a stability folder. Raises FolderError for a folder that is not one."""
     study = read_study(directory)
     items: list[Item] = [
-        Heading("Question"),
-        Text(
-            "Does the engine answer for every scene that it accepts, and does it say why where it cannot? Stiff and "
-            "extreme scenes are run to a verdict each. Random scenes, valid and invalid, are given to it. The "
-            "eigenvalues of its time step are compared with the closed form. Scenes are timed with and without each "
-            "of their parts."
-        ),
+        *section_items("stability", "Question"),
         Heading("Short answer"),
         Bullets(tuple(_answers(study))),
         *unexplained_items(study),

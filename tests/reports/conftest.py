@@ -30,7 +30,7 @@ from reports.parts.content import (
     Table,
     Text,
 )
-from reports.parts.equations import equation
+from reports.parts.sections import equation
 from tests.reports.synthetic import campaign
 
 ODD_TITLE = '<b>#odd$ *title* _x_ @ref `code` \\ "q" & [z] //c é\u2028 </title>'

@@ -1,4 +1,4 @@
-"""Equations of the reports, and the sections that say how they belong together, from `templates/equations.toml`."""
+"""Sections of the reports that no run decides, and the equations in them, from `templates/sections.toml`."""
 
 import tomllib
 from functools import cache
@@ -7,9 +7,9 @@ from importlib.resources import files
 from .content import Equation, Heading, Item, Text, with_subscripts
 
 
-def equation_items(section: str, heading: str = "Equations", **taken: str) -> list[Item]:
-    """A section of equations and the words between them; taken: what stands in braces there."""
-    said = (one.format(**taken) for one in _told()["sections"][section])
+def section_items(name: str, heading: str = "Equations", **taken: str) -> list[Item]:
+    """The texts and equations of a section below its heading, "" for none; taken: what stands in braces there."""
+    said = (one.format(**taken) for one in _told()["sections"][name])
     found = (equation(one) or Text(with_subscripts(one)) for one in said)
     return [Heading(heading), *found] if heading else [*found]
 
@@ -22,4 +22,4 @@ def equation(name: str) -> Equation | None:
 
 @cache
 def _told() -> dict:
-    return tomllib.loads(files("reports").joinpath("templates/equations.toml").read_text(encoding="utf-8"))
+    return tomllib.loads(files("reports").joinpath("templates/sections.toml").read_text(encoding="utf-8"))
