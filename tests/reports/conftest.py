@@ -13,7 +13,6 @@ from typing import get_args
 import pytest
 
 from reports import build
-from reports.buoy_sweep.equations import BUOY
 from reports.parts.content import (
     Bullets,
     Column,
@@ -31,6 +30,7 @@ from reports.parts.content import (
     Table,
     Text,
 )
+from reports.parts.sections import equation
 from tests.reports.synthetic import campaign
 
 ODD_TITLE = '<b>#odd$ *title* _x_ @ref `code` \\ "q" & [z] //c é\u2028 </title>'
@@ -71,8 +71,8 @@ def every_kind(text: str) -> Report:
     heads = tuple(Column(some, some, "right" if k else "left") for k in range(14))
     narrow, wide = Table(heads[:1], ((text,),) * 40, text, small=True), Table(heads, ((text,) * 14,) * 4, text)
     items = (
-        Heading(text), Text(text + LONG), Heading(text, 2), Bullets((text, text)), BUOY, drawing, narrow, wide,
-        *(Notice(kind, text, (text, text)) for kind in ("note", "warning")), Listing(text + LONG),
+        Heading(text), Text(text + LONG), Heading(text, 2), Bullets((text, text)), equation("buoy"), drawing,
+        narrow, wide, *(Notice(kind, text, (text, text)) for kind in ("note", "warning")), Listing(text + LONG),
         Links(((some, "part/report.html"),)),
         Explorer(drawing, text, text, (ExplorerColumn(0.1, (1.0,), text, "run-1"),)),
         Sheet("run-1", some, ((some, text),), (text,), "", narrow),

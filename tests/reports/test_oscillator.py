@@ -6,7 +6,7 @@ import pytest
 
 from campaigns import oscillator
 from reports import build
-from reports.oscillator.folder import PARTS, read_study
+from reports.oscillator.sections import PARTS, read_study
 from reports.parts.folder import FolderError
 
 

@@ -15,7 +15,8 @@ from campaigns.paper.measured import read_results
 from engine import load_scene, simulate
 from engine.natural_frequencies import natural_frequencies
 from reports.paper.figures import figures_of, left_out, pictures
-from reports.parts.figure_data import parsed, sources_of
+from reports.paper.figures.drawing import sources_of
+from reports.parts.folder import read_arrays
 from tests.campaigns.conftest import ROOT, rows_of
 from tests.campaigns.fake_space import SpaceEngine
 from tests.reports.synthetic import campaign
@@ -38,7 +39,7 @@ def copy(root, tmp_path):
 
 
 def data_of(folder, number):
-    return parsed(files_of(folder, number)[0].read_bytes())
+    return read_arrays(files_of(folder, number)[0].read_bytes())
 
 
 def test_each_figure_is_there_or_has_a_reason(copy):
