@@ -11,12 +11,4 @@ of a buoy. In `machinery`, each module imports only those before it:
     runner                all runs of a campaign, and its table
 """
 
-import sys
-
-# Said here as well: what a command imports first does not even compile on an older one.
-if sys.version_info < (3, 11):  # noqa: UP036
-    running = ".".join(map(str, sys.version_info[:3]))
-    raise ImportError(
-        f"the tether workbench needs Python 3.11 or newer, and this is {running} ({sys.executable}); "
-        "make its environment with a newer one, for instance python3.12 -m venv .venv"
-    )
+import analysis  # noqa: F401  said there as well: an older Python does not compile what a command imports first
