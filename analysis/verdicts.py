@@ -133,10 +133,8 @@ def _without_period(exponent, drift, growth, line, irregular, *nulls):
         return "chaotic", "exponent, 0-1 test, both nulls and both halves of the record agree"
     about_zero = exponent.passed is None or abs(exponent.value) < 2.0 * exponent.error + ABOUT_ZERO
     if growth.passed and line.passed and not irregular.passed and about_zero:
-        return (
-            "quasi-periodic",
-            "neighbours on the section stay neighbours, and a line is incommensurate with the forcing",
-        )
+        reason = "neighbours on the section stay neighbours, and a line is incommensurate with the forcing"
+        return "quasi-periodic", reason
     failed = [item.name for item in needed if item.passed is False]
     missing = [item.name for item in needed if item.passed is None]
     lacking = failed or missing or ["neighbours that part"]

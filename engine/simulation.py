@@ -18,18 +18,11 @@ def simulate(
 ) -> Trajectory:
     """Simulate one scene from its static equilibrium.
 
-    Parameters
-    ----------
-    scene : Scene
-    periods : float, run length in wave periods (scenes with waves), or
-    duration_s : float, run length in s
-    progress : callable(fraction) called now and then, optional
-
-    Returns
-    -------
-    Trajectory
-        status "ok", or the reason why it ended early, with the samples up to there. Bad arguments raise ValueError;
-        a run never raises.
+    periods      run length in wave periods (scenes with waves), or
+    duration_s   run length in s
+    progress     callable(fraction) called now and then, optional
+    Returns a Trajectory: status "ok", or the reason why it ended early, with the samples up to there. Bad arguments
+    raise ValueError; a run never raises.
     """
     return simulate_batch([scene], periods, duration_s, progress)[0]
 

@@ -9,6 +9,7 @@ import numpy as np
 
 from .. import parameters
 from ..physics.tension import LAWS
+from ..record import lengths_of
 from ..scene.models import Scene
 
 EPS, S_N, S_B, U, V, W, B0, B1, B2, B3, O1, O2, O3 = range(13)
@@ -56,7 +57,7 @@ def line_of(scene: Scene, accelerations: bool = False) -> Line:
     tables = []
     record = parameters.record_of(scene, tables)[0]
     tables = np.concatenate(tables)
-    h = tables[record["grid_at"] :][: record["nodes"] - 1]
+    h = lengths_of(record, tables)
     per = np.array([record[name] if name else 1.0 for name in SCALES])
     active = PLANE if scene.motion.dimensions == 2 else SPACE
     return Line(record, tables, h, scene.tether.torsion_stiffness_Nm2, accelerations, per, active)

@@ -40,7 +40,7 @@ def fused(context, a, b, c):
         x, y, z = arguments
         if kind is types.intp:
             return builder.add(builder.mul(x, y), z)
-        return call_intrinsic(builder, "fma", x, y, z)
+        return call_intrinsic("fma", builder, x, y, z)
 
     return kind(kind, kind, kind), generate
 

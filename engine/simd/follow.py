@@ -155,15 +155,11 @@ class Followers:
 
     def load(self, b, run):
         """Put the perturbations of a run, and the state it starts from, into a lane."""
-        trail = run.trail
-        self.periods[b] = trail.period_s
+        self.periods[b] = run.trail.period_s
         self.nats[b] = self.lateral_nats[b] = 0.0
         self.turn.Y[..., b], self.turn.K[..., b] = run.motion.Y, run.motion.K
-        if self.count:
-            for part, given in zip(self.carried[:3], (trail.vectors, trail.rates, trail.waters), strict=True):
-                part[..., b] = given
-        if self.sideways:
-            for part, given in zip(self.across[:3], (trail.weights, trail.lateral, trail.lateral_rates), strict=True):
+        for lanes, own in ((self.carried, run.trail.along), (self.across, run.trail.across)):
+            for part, given in zip(lanes[:3], own[:3] if own else (), strict=False):
                 part[..., b] = given
 
     def unload(self, b, run):

@@ -11,6 +11,7 @@ without that axis (`as_lanes`).
 
 import math
 import operator
+from functools import partial
 
 import numpy as np
 from llvmlite import ir
@@ -106,28 +107,20 @@ def external(builder, name, kind, count):
     return cgutils.get_or_insert_function(builder.module, ir.FunctionType(kind, (kind,) * count), name)
 
 
-def call_intrinsic(builder, name, *values):
+def call_intrinsic(name, builder, *values):
     """Call of an LLVM intrinsic that exists for numbers and vectors."""
     kind = values[0].type
     suffix = f"v{kind.count}f64" if isinstance(kind, ir.VectorType) else "f64"
     return builder.call(external(builder, f"llvm.{name}.{suffix}", kind, len(values)), values)
 
 
-def _intrinsic(name):
-    return lambda builder, value: call_intrinsic(builder, name, value)
-
-
-def _lane_by_lane(name):
+def _lane_by_lane(name, builder, value):
     """A function of the C library, called for one lane after another, as for a float."""
-
-    def build(builder, value):
-        function, result = external(builder, name, DOUBLE, 1), ir.Constant(value.type, ir.Undefined)
-        for lane in range(value.type.count):
-            at = ir.Constant(ir.IntType(32), lane)
-            result = builder.insert_element(result, builder.call(function, (builder.extract_element(value, at),)), at)
-        return result
-
-    return build
+    function, result = external(builder, name, DOUBLE, 1), ir.Constant(value.type, ir.Undefined)
+    for lane in range(value.type.count):
+        at = ir.Constant(ir.IntType(32), lane)
+        result = builder.insert_element(result, builder.call(function, (builder.extract_element(value, at),)), at)
+    return result
 
 
 for _name, _code in (("add", "fadd"), ("sub", "fsub"), ("mul", "fmul"), ("truediv", "fdiv")):
@@ -140,9 +133,9 @@ _define(operator.neg, (Lanes,), Lanes, _instruction("fneg"))
 _define(operator.and_, (LaneMask, LaneMask), LaneMask, _instruction("and_"))
 _define(operator.or_, (LaneMask, LaneMask), LaneMask, _instruction("or_"))
 for _function, _name in ((abs, "fabs"), (math.sqrt, "sqrt"), (np.rint, "rint"), (np.floor, "floor")):
-    _define(_function, (Lanes,), Lanes, _intrinsic(_name))
+    _define(_function, (Lanes,), Lanes, partial(call_intrinsic, _name))
 for _function in (math.exp, math.tanh, math.sin, math.cos, math.acos):
-    _define(_function, (Lanes,), Lanes, _lane_by_lane(_function.__name__))
+    _define(_function, (Lanes,), Lanes, partial(_lane_by_lane, _function.__name__))
 
 
 def lane_zeros(*shape):

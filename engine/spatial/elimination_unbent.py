@@ -59,7 +59,7 @@ def eliminate_unbent(p, tables, stage, Y, work):
         Qa, Qb = Q[a], Q[k]
         dNa, dqa = _columns(Qa)
         dNb, dqb = _columns(Qb)
-        Ja, Jb = _inertia(Qa, e), _inertia(Qb, e)
+        Ja, Jb = inertia(Qa, e), inertia(Qb, e)
         # momentum A y_a + B y_b = g, with V_a = R y_a + r and V_b from compatibility put in
         opened = mixed(1.0, vector(Y[k], col.V), -1.0, vector(Y[a], col.V))
         stretching = mixed(1.0, vector(Qa, col.Q_T), 1.0, vector(Qb, col.Q_T))
@@ -122,7 +122,7 @@ def eliminate_unbent(p, tables, stage, Y, work):
 
 
 @kernel
-def _inertia(row, e):
+def inertia(row, e):
     """e dG/dV of a row of Q: xx, xy, xz, yy, yz, zz."""
     xx, xy, xz = vector(row, col.G_V)
     yy, yz, zz = vector(row, col.G_V + 3)
