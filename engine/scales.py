@@ -7,8 +7,8 @@ from types import SimpleNamespace
 import numpy as np
 
 from .physics.tension import LAWS, TensionLaw, number_of
-from .scene.line import End, Tether
 from .scene.models import Scene
+from .scene.sections import End, Tether
 
 
 def put_scales(record: np.void, scene: Scene, h: np.ndarray) -> None:
