@@ -15,7 +15,7 @@ import pandas as pd
 
 from benchmarks.shared import DOCS, shrink
 from engine import load_scene, simulate
-from engine.paper_box import run
+from engine.paper_box.driver import run
 from engine.paper_box.ends import force_and_velocity
 from engine.paper_box.frame import turns
 from engine.paper_box.line import line_of

@@ -76,7 +76,7 @@ def simulate_each(
 
 def _alone(scene: Scene, duration_s: float, progress: Progress) -> Trajectory:
     if scene.solver.scheme == "paper-box":
-        from .paper_box import run as by_paper
+        from .paper_box.driver import run as by_paper
 
         return by_paper(scene, duration_s, progress)
     run = Run(scene, duration_s)

@@ -45,14 +45,8 @@ def hand_over(a, tau, x, v, y, w, z, u, theta, k, steady):
     # Of the product inverse(Phi_b) Phi_a, for the tangent vectors:
     m11, m12 = det * (r22 * p11 - r12 * p21), det * (r22 * p12 - r12 * p22)
     m21, m22 = det * (r11 * p21 - r21 * p11), det * (r11 * p22 - r21 * p12)
-    return (
-        det * (r22 * g - r12 * h),
-        det * (r11 * h - r21 * g),
-        m11 * y + m12 * w,
-        m21 * y + m22 * w,
-        m11 * z + m12 * u,
-        m21 * z + m22 * u,
-    )
+    x, v = det * (r22 * g - r12 * h), det * (r11 * h - r21 * g)
+    return x, v, m11 * y + m12 * w, m21 * y + m22 * w, m11 * z + m12 * u, m21 * z + m22 * u
 
 
 @kernel

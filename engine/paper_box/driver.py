@@ -127,7 +127,14 @@ class Record:
             self.before, self.travelled = now, X[:, -1].copy()
         self.travelled += 0.5 * (now[0] - self.before[0]) * (self.before[1][3:6, -1] + V[:, -1])
         self.closure = max(self.closure, float(np.linalg.norm(self.travelled - X[:, -1])))
-        self._sample(now)
+        for t, at in self._due(self.rows, self.step, self.goal, now):
+            top, tension = at[:, -1], at[7]
+            low, high = min(state["low"], top[7]), max(state["high"], top[7])
+            offplane = np.abs(self.across @ at[:3]).max()
+            self.rows.append([t, *top[:6], top[7], tension.min(), low, high, offplane])  # as `engine.record` has them
+            state["low"] = state["high"] = top[7]
+        for _, at in self._due(self.profiles, self.profile_step, self.profile_goal, now):
+            self.profiles.append(at)
         state["low"], state["high"] = min(state["low"], T[-1]), max(state["high"], T[-1])
         self.before = now
         if state["max_turn"] > MOST_TURN:
@@ -141,16 +148,6 @@ class Record:
             t = len(kept) * step
             part = min((t - t0) / (t1 - t0), 1.0) if t1 > t0 else 1.0
             yield t, (1 - part) * start + part * end
-
-    def _sample(self, now):
-        for t, at in self._due(self.rows, self.step, self.goal, now):
-            top, tension = at[:, -1], at[7]
-            low, high = min(self.state["low"], top[7]), max(self.state["high"], top[7])
-            offplane = np.abs(self.across @ at[:3]).max()
-            self.rows.append([t, *top[:6], top[7], tension.min(), low, high, offplane])  # as `engine.record` has them
-            self.state["low"] = self.state["high"] = top[7]
-        for _, at in self._due(self.profiles, self.profile_step, self.profile_goal, now):
-            self.profiles.append(at)
 
     def done(self) -> bool:
         """Is every sample there?"""

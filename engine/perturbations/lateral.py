@@ -128,10 +128,8 @@ def lateral_stage(p, tables, base, X, Q, F, dC_tilde, H, E, dC):
         e = 0.5 * tables[p.grid_at + a]
         er = e * rate
         # from the directions of node a to those of node b: half the turn below a and half the turn of this box
-        s_b, c_b = (
-            H[a, SIN_HALF] * H[k, COS_HALF] + H[a, COS_HALF] * H[k, SIN_HALF],
-            H[a, COS_HALF] * H[k, COS_HALF] - H[a, SIN_HALF] * H[k, SIN_HALF],
-        )
+        s_b = H[a, SIN_HALF] * H[k, COS_HALF] + H[a, COS_HALF] * H[k, SIN_HALF]
+        c_b = H[a, COS_HALF] * H[k, COS_HALF] - H[a, SIN_HALF] * H[k, SIN_HALF]
         half = 0.5 * (Y[k, col.PHI] - Y[a, col.PHI])
         f = where(abs(half) > 1e-4, half / (e * H[k, SIN_HALF]), (1.0 + half * half / 6.0) / e)
         # v_b = X y_a + Z y_b + x

@@ -196,11 +196,8 @@ def move_states(rows, w, history, now, before, Y):
             oldest = where(solved, history[1, k, i], oldest)
             past = where(accepted, state, before[k, i])
             state = where(accepted, y, state)
-            oldest, middle, latest = (
-                where(restarted, state, oldest),
-                where(restarted, past, middle),
-                where(restarted, state, latest),
-            )
+            oldest, latest = where(restarted, state, oldest), where(restarted, state, latest)
+            middle = where(restarted, past, middle)
             now[k, i], before[k, i] = state, past
             history[0, k, i], history[1, k, i], history[2, k, i] = oldest, middle, latest
             Y[k, i] = where(moved, steps.guess(weights, oldest, middle, latest), y)

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from engine import simulate
-from engine.paper_box import run as run_boxed
+from engine.paper_box.driver import run as run_boxed
 from tests.engine.lines import held, line, linear
 from tests.engine.manufactured import motion as motion_of
 from tests.engine.manufactured import scene_of
