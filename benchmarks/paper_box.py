@@ -17,8 +17,7 @@ from benchmarks.shared import DOCS, shrink
 from engine import load_scene, simulate
 from engine.paper_box.driver import run
 from engine.paper_box.ends import force_and_velocity
-from engine.paper_box.frame import turns
-from engine.paper_box.line import line_of
+from engine.paper_box.line import line_of, turns
 from engine.paper_box.newton import solve
 from engine.paper_box.nodal import level_of, positions
 from engine.paper_box.start import at_rest

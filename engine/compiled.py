@@ -13,7 +13,7 @@ from numba.extending import overload
 from machine_code.store import compiled, folder_of, hash_of
 
 from .simd.fma import with_fused_sums
-from .simd.record import LaneRecord
+from .simd.vector import LaneRecord
 
 _ROOT = Path(__file__).parent
 _KEPT_CACHES = 6
@@ -48,7 +48,7 @@ def by_kind(planar, spatial, lanes=None):
     """One name for kernels that do the same for different kinds of runs.
 
     A kernel that calls the returned name gets `planar`, `spatial` or `lanes`, by the type of the first argument: a
-    RECORD, a SPATIAL (`engine.record`) or a LaneRecord (`engine.simd.record`: several planar runs at once). Numba
+    RECORD, a SPATIAL (`engine.record`) or a LaneRecord (`engine.simd.vector`: several planar runs at once). Numba
     chooses while it compiles the caller. So a scene compiles only the kernels that it uses, and no run pays for the
     choice. lanes = None: the planar kernel serves several runs at once too.
     """

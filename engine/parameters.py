@@ -76,7 +76,7 @@ def _tether(record, scene, place):
     record["ma"] = tether.added_mass * displaced
     record["Rw"] = displaced + record["ma"]
     record["barrier"] = tether.compression_barrier_N
-    record["law"] = tension.number_of(law.law)
+    record["law"] = tension.NAMES.index(law.law)
     numbers, table = tension.LAWS[record["law"]].numbers(law)
     for name, value in numbers.items():
         record[name] = value

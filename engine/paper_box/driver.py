@@ -24,8 +24,7 @@ from ..time import status as codes
 from ..time.statics import why_no_rest
 from ..trajectory import Profiles, Trajectory
 from .ends import force_and_velocity
-from .frame import TO_ENGINE, turns
-from .line import EPS, EULER, OMEGA, Line, line_of
+from .line import EPS, EULER, OMEGA, TO_ENGINE, Line, line_of, turns
 from .newton import TOLERANCE, solve
 from .nodal import Level, level_of, positions
 from .start import at_rest

@@ -16,8 +16,7 @@ from ..scene.models import Scene
 from ..time import statics
 from ..time.status import NEWTON_FAILED, OK, STATICS_FAILED
 from .ends import end_force, force_and_velocity
-from .frame import TO_PAPER, to_local
-from .line import EPS, EULER, O3, S_N, SPEEDS, Line
+from .line import EPS, EULER, O3, S_N, SPEEDS, TO_PAPER, Line, to_local
 from .newton import TOLERANCE, newton_update
 from .nodal import positions, water_at
 

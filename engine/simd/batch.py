@@ -14,9 +14,8 @@ from ..record import RECORD, SAMPLE_WIDTH, STATE
 from ..run import Run
 from .cover import goes_in_lanes
 from .follow import Followers, lane_work
-from .record import REAL, WHOLE
 from .ticks import LANE, MOVED, RATE, RESTARTED, ROWS, STEP, Arrays, advance
-from .vector import COUNT, lane_zeros
+from .vector import COUNT, REAL, WHOLE, lane_zeros
 
 LEAST = 2  # runs of a kind for which a batch pays: eight lanes cost about as much as one and a half runs alone
 STEPS = 50  # of a trail before it is followed: lanes with fewer by then wait for the others

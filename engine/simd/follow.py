@@ -20,8 +20,7 @@ from ..physics.water import water as flow
 from ..planar import columns as planar_col
 from ..time.steps import known_part, plan_stage, stage_rate
 from .elementary import copy_into, keep
-from .record import lane_record
-from .vector import COUNT, as_lanes, lane_zeros
+from .vector import COUNT, as_lanes, lane_record, lane_zeros
 
 # What a turn of all lanes works on, COUNT the last axis: numbers (LENGTH + k + 1,); a (s,), w (3,): as in `plan_stage`;
 # Y (n, 6), K (n, 4): the stage and its rates; K_new (n, 4): rates of a perturbation

@@ -22,13 +22,11 @@ from ..dimensions import shape
 from ..planar.state import largest_turn
 from ..time import steps
 from ..time.newton import GOING_ON, iterate, judge
-from ..time.sampling import sample
 from ..time.status import OK
-from ..time.time_loop import begin_trial, guard_turns, next_step, refused, step_done
+from ..time.time_loop import begin_trial, guard_turns, next_step, refused, sample, step_done
 from .elementary import copy_into, keep
-from .record import lane_record
 from .select import some, where
-from .vector import COUNT, as_lanes
+from .vector import COUNT, as_lanes, lane_record
 
 LANE = np.dtype([(name, np.int64) for name in "active stage iteration code goal".split()] + [("best", np.float64)])
 (
