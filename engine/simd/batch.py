@@ -127,10 +127,6 @@ class Machine:
                     part[b, 0] = part[b, trails[b]]
         self.states["trail"] = 0
 
-    def fraction(self, b):
-        """Share of its run that a lane has done."""
-        return float(self.states[b]["samples"]) / self.runs[b].goal
-
 
 def shares(jobs):
     """Groups of at least LEAST jobs (number, scene, duration_s) that may share a batch; the others are left out."""
@@ -169,4 +165,5 @@ def run_through(jobs, progress):
             run = machine.unload(b)
             done += 1
             yield numbers[b], run
-        progress((done + sum(machine.fraction(b) for b, run in enumerate(machine.runs) if run is not None)) / len(jobs))
+        going = [state["samples"] / run.goal for state, run in zip(machine.states, machine.runs, strict=True) if run]
+        progress(float(done + sum(going)) / len(jobs))

@@ -27,7 +27,6 @@ from ..physics.ends import next_corner
 from ..physics.energy import add_powers, store_energies
 from ..physics.shocks import deforming_element, renew_viscosity
 from ..physics.tension.kernels import tension
-from ..record import BEGIN, CONTROLLED, EULER, KIND, RESTART, RUNGE_KUTTA, STEP
 from ..simd.elementary import copy_into
 from .status import OK, STEP_LIMIT, STEP_UNDERFLOW, TURN_UNRESOLVED
 from .steps import least_strain, one_stage_step, runge_kutta_step
@@ -214,7 +213,7 @@ def march(p, tables, state, motion, output, trail, until, one_stage, e_t, budget
             break
         small, code, used, error = state.small != 0, OK, 0, 0.0
         step = Step(state.t, state.trial_dt, state.dt_before, small)
-        stiff = small or p.method == RUNGE_KUTTA  # "stiffly accurate": the last stage is the new state
+        stiff = small or p.method == col.RUNGE_KUTTA  # "stiffly accurate": the last stage is the new state
         if stiff:
             code, used, error = runge_kutta_step(p, tables, step, motion, trial, work)
         if one_stage is not None:
@@ -234,8 +233,8 @@ def march(p, tables, state, motion, output, trail, until, one_stage, e_t, budget
                 store_energies(p, tables, step.t + step.dt, trial.C, sums, energies[state.energies])
                 state.energies += 1
         if room > 0:
-            at, kind = state.trail, RESTART if small else CONTROLLED if stiff else EULER
-            trail.T[at, BEGIN], trail.T[at, STEP], trail.T[at, KIND] = step.t, step.dt, kind
+            at, kind = state.trail, col.RESTART if small else col.CONTROLLED if stiff else col.EULER
+            trail.T[at, col.BEGIN], trail.T[at, col.STEP], trail.T[at, col.KIND] = step.t, step.dt, kind
             for i in range(s):
                 copy_into(trail.Y[at, i], trial.Y[i])
                 copy_into(trail.K[at, i], trial.K[i])
