@@ -59,11 +59,11 @@ def one_period(x, v, y, w, z, u, table, log):
     Returns the six, the number of pieces (0: too many, the state is NaN), and the time spent slack.
     """
     last = len(table.tau) - 1
-    end = table.tau[last]
+    end, k = table.tau[last], table.constants
     pieces, slack = 0, 0.0
     for window in range(len(table.steady)):
         theta = table.theta[window]
-        a = side_of(x, v, theta, table.constants)
+        a = side_of(x, v, theta, k)
         start = 0.0
         while True:
             if pieces == len(log):
@@ -75,9 +75,7 @@ def one_period(x, v, y, w, z, u, table, log):
                 break
             if a == 0:
                 slack += crossing - start
-            x, v, y, w, z, u = hand_over(
-                a, crossing, x, v, y, w, z, u, theta, table.constants, table.steady[window]
-            )  # fmt: skip
+            x, v, y, w, z, u = hand_over(a, crossing, x, v, y, w, z, u, theta, k, table.steady[window])
             a, start = 1 - a, crossing
         if a == 0:
             slack += end - start

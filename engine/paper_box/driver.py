@@ -73,7 +73,7 @@ def run(
         level = level_of(line, 0.0, Y)
         flat = FLAT * float(line.tension(Y[EPS])[1].max())
         status = record.keep(level)
-    while status == codes.OK and not record.done():
+    while status == codes.OK and (len(record.rows), len(record.profiles)) != (record.goal, record.profile_goal):
         status, used, level = solve(line, (state["steps"] + 1) * dt, level, most, tolerance, flat)
         state["newton"] += used
         if status != codes.OK:
@@ -147,10 +147,6 @@ class Record:
             t = len(kept) * step
             part = min((t - t0) / (t1 - t0), 1.0) if t1 > t0 else 1.0
             yield t, (1 - part) * start + part * end
-
-    def done(self) -> bool:
-        """Is every sample there?"""
-        return len(self.rows) == self.goal and len(self.profiles) == self.profile_goal
 
     def lines(self) -> Profiles | None:
         """Profiles, or None where the scene does not ask for them."""

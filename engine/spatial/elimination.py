@@ -36,7 +36,7 @@ from ..physics.ends import released
 from . import columns as col
 from .box import Rows, across_box, factors, momentum_row, nodal_jacobian, solve_box, solve_box_rows, turn_of_box
 from .elimination_unbent import eliminate_unbent, inertia
-from .upper import solve_upper, spring
+from .upper import CLAMP, solve_upper
 from .vectors import added, combined, combined3, dot, mixed, put, put_row, row_dot, row_of, row_times, symmetric, vector
 
 V_OF_D = col.V, col.V + 1, col.V + 2, col.D_O2, col.D_O3, col.THETA1  # columns of D where the six of v are
@@ -144,7 +144,7 @@ def _at_anchor(p, tables, Y, Q):
     R2 = R3 = zero
     r2, r3 = -Y[0, col.O2], -Y[0, col.O3]
     if p.clamp_below:
-        k_rotation = spring(p, tables, 0)
+        k_rotation = CLAMP / tables[p.grid_at]
         direction = (p.below_x, p.below_y, p.below_z)
         R2, R3 = (0.0, 0.0, 0.0, k_rotation, 0.0), (0.0, 0.0, 0.0, 0.0, k_rotation)
         r2 += k_rotation * dot(direction, vector(Q[0], col.B_VECTOR))
