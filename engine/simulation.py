@@ -67,9 +67,9 @@ def simulate_each(
         for i, run in batch.run_through(group, partial(share, count=len(group))):
             yield i, run.trajectory()
         ended += len(group)
-    alone = {i for i, _, _ in jobs} - {i for group in groups for i, _, _ in group}
+    shared = {i for group in groups for i, _, _ in group}
     for i, scene, length in jobs:
-        if i in alone:
+        if i not in shared:
             yield i, _alone(scene, length, share)
             ended += 1
 

@@ -143,8 +143,7 @@ class Record:
     def _due(self, kept: list, step: float, goal: int, now: tuple) -> Iterator[tuple[float, np.ndarray]]:
         """Times of samples within the step that ends now, and the values (8, n) then: x, y, z, velocity, strain, T."""
         (t0, start), (t1, end) = self.before, now
-        while len(kept) < goal and len(kept) * step <= t1 + ROUNDING * (t1 - t0):
-            t = len(kept) * step
+        while len(kept) < goal and (t := len(kept) * step) <= t1 + ROUNDING * (t1 - t0):
             part = min((t - t0) / (t1 - t0), 1.0) if t1 > t0 else 1.0
             yield t, (1 - part) * start + part * end
 
