@@ -48,8 +48,7 @@ COLUMNS = (*LABELS, *(column for column in OF_A_RUN if column not in LABELS))
 
 def treatments() -> tuple[tuple[str, ...], tuple[str, ...]]:
     """All that a scene allows: of waves above still water, and of a buoy that leaves the water."""
-    from engine.scene.line import Buoy
-    from engine.scene.surroundings import Waves
+    from engine.scene.sections import Buoy, Waves
 
     waves, buoy = Waves.model_fields["above_still_water"], Buoy.model_fields["submergence"]
     return get_args(waves.annotation), get_args(buoy.annotation)

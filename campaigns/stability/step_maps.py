@@ -102,9 +102,7 @@ def eigenvalues(method: str, strain: float | None, step_s: float, dimensions: in
     }  # fmt: skip
     if strain is None:
         changes["gravity_mps2"] = 9.81
-    step = OneStep(load_scene("tethered_buoy", changes))
-    if strain is not None:
-        step.rest_at(strain)
+    step = OneStep(load_scene("tethered_buoy", changes), strain)
     rest = np.array([step.C, step.K])
 
     def after(values):

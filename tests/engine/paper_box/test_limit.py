@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 from engine import SceneError, load_scene, simulate, simulate_batch
-from engine.paper_box import run as run_boxed
+from engine.paper_box.driver import run as run_boxed
 from engine.paper_box.line import line_of
 from engine.paper_box.nodal import positions
 from engine.paper_box.start import lifted

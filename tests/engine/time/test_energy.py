@@ -28,8 +28,7 @@ from functools import cache
 import numpy as np
 import pytest
 
-from engine.paper_box.frame import to_fixed, to_local
-from engine.paper_box.line import line_of
+from engine.paper_box.line import line_of, to_fixed, to_local
 from engine.paper_box.newton import solve
 from engine.paper_box.nodal import level_of
 from engine.paper_box.nodal import positions as paper_positions
