@@ -114,7 +114,7 @@ def breaking_row(trajectory) -> dict[str, object]:
                 row |= measures.recoil(profiles, COMMON_S)
                 row |= measures.spread(trajectory) if energy is not None else {}
         row |= _energy_columns(energy, theory) if energy is not None else {}
-    return {name: _known(entry) for name, entry in row.items()}
+    return row
 
 
 def _theory_columns(theory) -> dict[str, object]:
@@ -177,9 +177,3 @@ def _energy_columns(energy, theory) -> dict[str, object]:
             "lost_at_arrival_theory_J": theory.lost_J,
         }
     return row
-
-
-def _known(entry: object) -> object:
-    if isinstance(entry, (float, np.floating)):
-        return float(entry) if math.isfinite(entry) else None
-    return entry

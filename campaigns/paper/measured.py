@@ -67,14 +67,14 @@ def read_results(directory: str | Path) -> Results:
     from engine.trajectory import TrajectoryError
 
     parts, numbers, found = Parts(Path(directory)), {}, {}
-    for reader in (_breaking, _buoy, _sweep, _dependence, _plane, _oscillator):
+    whole_tables = (
+        lambda *_: {"lines": read_lines(parts.root / "breaking_line")},
+        lambda *_: {"sweep": parts.part("sweep").rows},
+    )
+    for reader in (*whole_tables, _buoy, _dependence, _plane, _oscillator):
         with contextlib.suppress(LeftOut, OSError, ValueError, KeyError, TrajectoryError):
             found |= reader(parts, numbers)
     return Results(**found, numbers=numbers)
-
-
-def _breaking(parts: Parts, numbers: dict) -> dict:
-    return {"lines": read_lines(parts.root / "breaking_line")}
 
 
 def _buoy(parts: Parts, numbers: dict) -> dict:
@@ -96,10 +96,6 @@ def _buoy(parts: Parts, numbers: dict) -> dict:
             numbers |= calm_measures(trajectory, modes) if small else violent_measures(trajectory, transient)
     again = part.folder / "accuracy" / "table.csv"
     return {"buoy": rows, "accuracy": read_rows(again) if again.exists() else ()}
-
-
-def _sweep(parts: Parts, numbers: dict) -> dict:
-    return {"sweep": parts.part("sweep").rows}
 
 
 def _dependence(parts: Parts, numbers: dict) -> dict:

@@ -13,16 +13,15 @@ from pathlib import Path
 from campaigns import figure_data
 from campaigns.breaking_line.lines import FAST, SLOW
 from campaigns.machinery.folder import made_by, read_json, write_json
-from campaigns.paper.figures.breaking import breaking
-from campaigns.paper.figures.buoy import history, spectra
 from campaigns.paper.figures.chaos import running_exponents, sections
-from campaigns.paper.figures.offplane import offplane_histories
+from campaigns.paper.figures.motions import breaking, history, offplane_histories, spectra
 from campaigns.paper.measures import LARGE, SMALL
 from campaigns.paper.part_folders import LeftOut, Parts
 
 LEFT_OUT = "left_out.json"
 MAKERS = ("figures", "measures.py", "part_folders.py")
-SOURCES = ("analysis", "engine", "campaigns/figure_data.py", *(f"campaigns/paper/{name}" for name in MAKERS))
+SHARED = ("analysis", "engine", "campaigns/figure_data.py", "campaigns/buoy_sweep/rows.py")
+SOURCES = (*SHARED, *(f"campaigns/paper/{name}" for name in MAKERS))
 FIGURES = {  # of the paper -> what plans its data from the `Parts`; 1 and 8 are sketches
     2: partial(breaking, cases=FAST, what="motion"),
     3: partial(breaking, cases=FAST, what="tension"),
