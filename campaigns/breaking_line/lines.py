@@ -19,8 +19,6 @@ FAST, SLOW = ("1", "2", "3", "4"), ("1p", "2p", "3p", "4p")
 CASES = (*FAST, *SLOW)
 FRONT = 0.02  # of the static tension lost, of the end speed gained: where a front is taken to be
 MOST_OF = 0.99  # of the settled speed at which it counts as reached
-MOTION = ("tension_behind", "fronts_apart", "reached_s")
-LAW = ("static_strain", "steepening")
 OVER_CASE_4 = {"force_over_4": "force_N", "front_over_4": "front_speed_theory_mps"}
 PRINTED = {  # of the four tensions: strain, and share of the strength, which case 4 has
     "printed_strain": (0.099, 0.178, 0.228, 0.292),
@@ -32,7 +30,6 @@ def read_lines(folder: Path) -> tuple[Line, ...]:
     """Every run of the folder's table. Raises OSError, ValueError (`tables.read_rows`)."""
     found = []
     for line in read_rows(folder / "table.csv"):
-        line |= dict.fromkeys((*MOTION, *LAW), math.nan)
         if (run := motion_of(folder, line)) is not None:
             theory = theory_of(run.scene, float(run.columns["time_s"][-1]))
             if theory is not None:

@@ -21,7 +21,7 @@ from campaigns.breaking_line.judging import claims
 from campaigns.breaking_line.lines import motion_of, of_kind, read_lines
 from campaigns.breaking_line.motion_measures import contour_speed
 from campaigns.breaking_line.theory import Theory, theory_of
-from campaigns.figure_data import made_by_of, store
+from campaigns.figure_data import attribute_of, store
 from campaigns.machinery.folder import made_by
 from campaigns.statements import write_statements
 
@@ -42,7 +42,7 @@ def write_results(plan: Plan, summary: Summary) -> float:
     write_statements(folder, claims().values(), results)
     cases, path = of_kind(results.lines, "case"), folder / EXACT
     key = made_by({"runs": [line["run_key"] for line in cases]}, "analysis", "engine", "campaigns/breaking_line")
-    if made_by_of(path) == key:
+    if attribute_of(path) == key:
         return 0.0
     runs = {line["case"]: motion_of(folder, line) for line in cases}
     content = exact({case: run for case, run in runs.items() if run is not None and run.profiles is not None})

@@ -5,15 +5,15 @@ depths where the large wave leads to different motions. Runs carry a perturbatio
 (`campaigns.buoy_sweep.rows`); they go side by side in the lanes.
 """
 
-from functools import partial
+from dataclasses import replace
 from itertools import product
 from pathlib import Path
 from typing import get_args
 
 from campaigns.buoy_sweep import PAPER_STEEPNESS as STEEPNESSES
-from campaigns.buoy_sweep import ROW_SOURCES
+from campaigns.buoy_sweep import measures as of_the_sweep
 from campaigns.buoy_sweep.rows import COLUMNS as OF_A_RUN
-from campaigns.buoy_sweep.rows import STEEPNESS, buoy_row
+from campaigns.buoy_sweep.rows import STEEPNESS
 from campaigns.columns import DEPTH, STIFFNESS, Column, names
 from campaigns.machinery.cli import Running
 from campaigns.machinery.folder import claimed
@@ -88,9 +88,8 @@ def parameters(quick: bool) -> dict[str, object]:
 
 
 def measures(order: Order) -> Measures:
-    """`campaigns.buoy_sweep.rows.buoy_row` of every run."""
-    row = partial(buoy_row, transient_periods=order.transient, simulate=order.simulate)
-    return Measures(COLUMNS, row, ROW_SOURCES, {"transient": order.transient})
+    """The row of the buoy sweep, after the columns that name a run."""
+    return replace(of_the_sweep(order), columns=COLUMNS)
 
 
 def run(out: Path, jobs: int, quick: bool) -> tuple[dict[str, float], Summary]:

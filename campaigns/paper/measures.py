@@ -29,10 +29,6 @@ NEAR_BINS = 2  # of eq. (31): a line that is on no bin leaks into its neighbours
 LINES_POINTS = 32, 2000  # strobed points whose lines are looked for: the fewest that allow it, the most
 TURN_RAD = 1e-3  # per element, below which a rope counts as straight
 NEAR_ZERO = 0.05  # of the static tension: what the paper calls near zero, in numbers
-SNAPS = (
-    "near_zero", "compressed", "compressed_inwards", "begun_inwards", "turned", "peak_periods", "apart_periods",
-    "radial_line", "radial_at", "angular_line", "angular_at",
-)  # fmt: skip
 
 
 def in_window(trajectory: Trajectory) -> bool:
@@ -170,7 +166,7 @@ def buckling_waves(profiles: Profiles) -> float | None:
 
 
 def snaps(trajectory: Trajectory, transient_periods: int) -> dict[str, float]:
-    """SNAPS of a run; nan where it has none.
+    """How the line of a run snaps; a number that it does not have is left out, or nan.
 
     near_zero, compressed   shares of the time after the transient with almost no tension, and with less than none
     compressed_inwards      share of the latter during which r falls
@@ -178,7 +174,7 @@ def snaps(trajectory: Trajectory, transient_periods: int) -> dict[str, float]:
     turned                  share of the peaks of tension that turn the buoy
     peak_periods, apart_periods   median length of a peak at half its height, and time for each peak, wave periods
     radial_line ... angular_at    largest share of the variance of r and theta that lies on one bin of eq. (31), and
-                                  that bin over the wave's; nan for a record without its window
+                                  that bin over the wave's; not of a record without its window
     """
     from analysis import spectrum
 
@@ -186,7 +182,7 @@ def snaps(trajectory: Trajectory, transient_periods: int) -> dict[str, float]:
     step_s, period_s = scene.sample_step_s(), scene.waves.period_s
     after = round(transient_periods * period_s / step_s)
     tension, rate = columns["tension_top_N"][after:], columns["radius_rate_mps"][after:]
-    found = dict.fromkeys(SNAPS, math.nan)
+    found: dict[str, float] = {}
     if in_window(trajectory):
         for side, name in (("radial", "radius_m"), ("angular", "angle_rad")):
             power = spectrum(columns[name], step_s, period_s, *WINDOW).amplitude[1:] ** 2

@@ -62,27 +62,21 @@ class Theory:
         """
         net, shock = self.motion.net, self.motion.shock
         emitted = 2.0 * self.motion.case.decay / math.pi * math.acos(math.sqrt(share))
-        speed = float(self.wave_speed(self.strain_at(share)))
-        started = emitted >= net.tau[0] and len(net.T)
-        if started:
-            line = int(np.argmin(np.abs(net.tau[: _begun(net)] - emitted)))
+        if emitted >= net.tau[0] and len(net.T):
+            # up to where echoes come back to the broken end: the times of the C- then repeat no order
+            back = np.append(np.diff(net.tau) <= 0.0, True)
+            line = int(np.argmin(np.abs(net.tau[: int(np.argmax(back)) + 1] - emitted)))
             crossed = np.isfinite(net.T[line])
             if crossed.any():
                 order = np.argsort(net.T[line, crossed])
                 times, places = net.T[line, crossed][order], net.S[line, crossed][order]
                 return np.append(net.tau[line], times), np.append(self.length_m, places)
-        end = emitted + self.length_m / speed
         met = shock.emission_s >= emitted
-        if met.any() and (met & (shock.emission_s > 0.0)).any():
+        if (met & (shock.emission_s > 0.0)).any():
             row = int(np.flatnonzero(met)[-1])
             return np.array([emitted, shock.time_s[row]]), np.array([self.length_m, shock.place_m[row]])
-        return np.array([emitted, end]), np.array([self.length_m, 0.0])
-
-
-def _begun(net) -> int:
-    """How many of the C- begin at the broken end before echoes come back there (their times then repeat no order)."""
-    falls = np.flatnonzero(np.diff(net.tau) <= 0.0)
-    return int(falls[0]) + 1 if len(falls) else len(net.tau)
+        arrival = emitted + self.length_m / float(self.wave_speed(self.strain_at(share)))
+        return np.array([emitted, arrival]), np.array([self.length_m, 0.0])
 
 
 def theory_of(scene, until_s: float) -> Theory | None:

@@ -69,7 +69,7 @@ def write_figure_data(folder: str | Path) -> dict[int, str]:
             plan = planned(parts)
             digests = [(one["label"], one["file"], one["sha256"]) for one in plan.sources]
             key = made_by({"figure": number, "title": plan.title, "sources": digests, "code": code})
-            if figure_data.made_by_of(data) != key:
+            if figure_data.attribute_of(data) != key:
                 figure_data.store(data, figure_data.dataset(plan.title, plan.arrays(), plan.sources, key))
         except LeftOut as reason:
             left_out[number] = str(reason)
