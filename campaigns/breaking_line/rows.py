@@ -132,12 +132,10 @@ def _theory_columns(theory) -> dict[str, object]:
 
 
 def _front_columns(profiles, theory, gravity_mps2: float) -> dict[str, object]:
-    overshoot, rise = measures.strain_overshoot(profiles, BEFORE_ARRIVAL * theory.arrival_s)
-    row = {
+    ripple = measures.strain_overshoot(profiles, BEFORE_ARRIVAL * theory.arrival_s)
+    row = dict(zip(("strain_overshoot", "strain_rise"), ripple, strict=True)) | {
         "front_speed_mps": measures.front_speed(profiles, theory),
         "slack_front_speed_mps": measures.slack_front_speed(profiles, theory),
-        "strain_overshoot": overshoot,
-        "strain_rise": rise,
         "strain_error": measures.strain_error(profiles, theory),
     }
     if not theory.shocked:

@@ -14,21 +14,17 @@ from campaigns import figure_data
 from campaigns.breaking_line.lines import FAST, SLOW
 from campaigns.machinery.folder import made_by, read_json, write_json
 from campaigns.paper.figures.chaos import running_exponents, sections
-from campaigns.paper.figures.motions import breaking, history, offplane_histories, spectra
+from campaigns.paper.figures.motions import SHOWN, breaking, history, offplane_histories, spectra
+from campaigns.paper.measured import LeftOut, Parts
 from campaigns.paper.measures import LARGE, SMALL
-from campaigns.paper.part_folders import LeftOut, Parts
 
 LEFT_OUT = "left_out.json"
-MAKERS = ("figures", "measures.py", "part_folders.py")
+MAKERS = ("figures", "measures.py", "measured.py")
 SHARED = ("analysis", "engine", "campaigns/figure_data.py", "campaigns/buoy_sweep/rows.py")
 SOURCES = (*SHARED, *(f"campaigns/paper/{name}" for name in MAKERS))
 FIGURES = {  # of the paper -> what plans its data from the `Parts`; 1 and 8 are sketches
-    2: partial(breaking, cases=FAST, what="motion"),
-    3: partial(breaking, cases=FAST, what="tension"),
-    4: partial(breaking, cases=FAST, what="velocity"),
-    5: partial(breaking, cases=SLOW, what="motion"),
-    6: partial(breaking, cases=SLOW, what="tension"),
-    7: partial(breaking, cases=SLOW, what="velocity"),
+    **{2 + at: partial(breaking, cases=FAST, what=what) for at, what in enumerate(SHOWN)},
+    **{5 + at: partial(breaking, cases=SLOW, what=what) for at, what in enumerate(SHOWN)},
     9: partial(history, steepness=SMALL, side="tension"),
     10: partial(history, steepness=SMALL, side="radial"),
     11: partial(history, steepness=SMALL, side="angular"),

@@ -13,8 +13,8 @@ import numpy as np
 
 from campaigns.breaking_line.lines import named
 from campaigns.figure_data import Array
+from campaigns.paper.measured import LeftOut, Parts, Plan
 from campaigns.paper.measures import LARGE, SMALL, WINDOW, in_window
-from campaigns.paper.part_folders import LeftOut, Parts, Plan
 from engine.natural_frequencies import natural_frequencies
 
 INSTANT_S = 0.010
@@ -41,17 +41,12 @@ def breaking(parts: Parts, cases: tuple[str, ...], what: str) -> Plan:
     return Plan(title, tuple(source for *_, source in runs.values()), lambda: _breaking(runs, what))
 
 
-def instants(profiles) -> np.ndarray:
-    """Indices of the profiles every INSTANT_S."""
-    wanted = np.arange(0.0, profiles.time_s[-1] + 1e-9, INSTANT_S)
-    return np.unique(np.searchsorted(profiles.time_s, wanted - 1e-9).clip(max=len(profiles.time_s) - 1))
-
-
 def _breaking(runs: dict, what: str) -> dict[str, Array]:
     arrays: dict[str, Array] = {}
     for case, (row, trajectory, _) in runs.items():
         profiles = trajectory.profiles
-        rows = instants(profiles)
+        wanted = np.arange(0.0, profiles.time_s[-1] + 1e-9, INSTANT_S)
+        rows = np.unique(np.searchsorted(profiles.time_s, wanted - 1e-9).clip(max=len(profiles.time_s) - 1))
         time, place = f"case_{case}_time_s", f"case_{case}_s_m"
         arrays[time] = ((time,), profiles.time_s[rows], "s", f"time since the break began, case {named(case)}")
         arrays[place] = ((place,), profiles.s_m, "m", "unstretched length from the fixed end")
