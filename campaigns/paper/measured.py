@@ -188,7 +188,5 @@ def _plane(parts: Parts, numbers: dict) -> dict:
 def _oscillator(parts: Parts, numbers: dict) -> dict:
     part = parts.part("oscillator")
     numbers |= {f"oscillator_{key}": float(entry) for key, entry in part.provenance["oscillator"].items()}
-    for row in part.rows:
-        if row["part"] == "exponents":
-            numbers |= {name: row[name] for name in STRANGE}
+    numbers |= {name: row[name] for row in part.rows if row["part"] == "exponents" for name in STRANGE}
     return {}

@@ -118,7 +118,7 @@ def _there(row: dict[str, str] | None, key: str, out: Path, order: Namespace) ->
     """Whether a part ended as it is asked for, and its folder still holds all that its table names, and its report."""
     if row is None or row["run_key"] != _ended(key, out):
         return False
-    sound = [trajectory_path(out, row["run_key"]).exists() for row in _rows(out) if row["status"] == "ok"]
+    sound = [trajectory_path(out, run["run_key"]).exists() for run in _rows(out) if run["status"] == "ok"]
     reported = out.name == "dependence" or order.quick or not order.how.report or (out / "report.html").exists()
     return bool(sound) and all(sound) and reported
 
