@@ -9,7 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
-from campaigns.columns import Column
+from campaigns.columns import DEPTH, Column
 from campaigns.machinery.folder import run_of
 
 APART_M = 0.01  # difference of the two radii from which the runs count as parted
@@ -18,7 +18,7 @@ MOST_ACROSS = 1.5  # times the distance of the halves of one record
 EXPONENT, ERROR = "lyapunov_wolf_bits_per_period", "lyapunov_wolf_error"
 _SAME = "1 where both runs have the same {}; empty where the records are too short to say"
 COLUMNS = (
-    Column("depth_m", "m", "H", "depth of the water", 1),
+    DEPTH,
     Column("apart_period", "periods", "apart at", f"when the radii first differ by {1e3 * APART_M:g} mm", 1),
     Column("before_m", "m", "before", "their largest difference up to one period before the first burst", 6),
     Column("range_off", "", "ends of r", "largest difference of the ends of the ranges of r, by the planar range", 5),

@@ -20,7 +20,7 @@ from campaigns.buoy_sweep.rows import (
     exponents,
     sound_part,
 )
-from campaigns.columns import MESSAGE, PERIODS_RUN, RUN_KEY, STATISTICS, STATUS, Column, counted
+from campaigns.columns import DEPTH, MESSAGE, PERIODS_RUN, RUN_KEY, STATISTICS, STATUS, STIFFNESS, Column, counted
 from campaigns.judge import tangent_of, verdict_of
 
 EARLY_PERIODS = 8  # before the first loop at every depth of the campaign: still linear in the push
@@ -60,8 +60,8 @@ def _lateral_columns(body: str) -> tuple[Column, ...]:
 
 COLUMNS = (
     STEEPNESS,
-    Column("depth_m", "m", "H", "depth of the water", 1),
-    Column("bending_stiffness_Nm2", "N m²", "EI", "bending stiffness of the line", 2),
+    DEPTH,
+    STIFFNESS,
     Column("nodes", "", "nodes", "nodes of the line", 0),
     DIMENSIONS,
     Column("seed_mps", "m/s", "push", "speed of the buoy at t = 0 that lets the motion leave the plane", 3),

@@ -15,7 +15,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from campaigns.breaking_line import LENGTHS_S, planned
+from campaigns.breaking_line import LENGTHS_S, read_order
 from campaigns.breaking_line import motion_measures as measures
 from campaigns.breaking_line.theory import theory_of
 from engine import simulate
@@ -104,7 +104,8 @@ def test_recoil_of_a_line_that_moves_as_told():
 
 
 def scene_of(case, **changes):
-    (run,) = planned("breaking_line", changes, [case], companions=False, faults=(faults := []))
+    settings = ["--set", *(f"{key}={value}" for key, value in changes.items())] if changes else []
+    (run,) = read_order(["--cases", case, "--no-companions", *settings], faults := []).cases
     assert not faults
     return run.scene
 

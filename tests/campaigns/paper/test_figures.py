@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from campaigns.paper.figures import FIGURES, files_of, place_of, write_figure_data
-from campaigns.paper.figures.buoy import history_arrays
+from campaigns.paper.figures.motions import history_arrays
 from campaigns.paper.measured import read_results
 from engine import load_scene, simulate
 from engine.natural_frequencies import natural_frequencies
