@@ -1,6 +1,5 @@
 """The accuracy campaign: known errors come back with their orders, what fails is a row, nothing is done twice."""
 
-import csv
 import math
 
 import numpy as np
@@ -15,7 +14,7 @@ from campaigns.columns import names
 from campaigns.machinery.plan import Job
 from engine import load_scene
 from tests.campaigns.conftest import rows_of
-from tests.campaigns.fake_methods import GRID_M, KnownErrors
+from tests.campaigns.fake_engine import GRID_M, KnownErrors
 
 USUAL = ["--quick", "--backend", "threading", "--jobs", "2", "--no-report"]
 OWN = [method for method in ORDERS if method != "paper-box"]
@@ -35,8 +34,7 @@ def out(tmp_path_factory):
 
 
 def orders_of(folder):
-    with open(folder / "orders.csv", newline="") as file:
-        return list(csv.DictReader(file))
+    return rows_of(folder, "orders.csv")
 
 
 def chosen(rows, **wanted):

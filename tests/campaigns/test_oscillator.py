@@ -1,10 +1,9 @@
 """The oscillator campaign: its parts are rows with files, found again, and computed again only where they are lost."""
 
-import csv
-
 import pytest
 
 from campaigns import oscillator
+from tests.campaigns.conftest import rows_of
 
 QUICK = ["--effort", "0.005", "--no-report"]
 
@@ -17,8 +16,7 @@ def out(tmp_path_factory):
 
 
 def rows(folder):
-    with open(folder / "table.csv", newline="") as file:
-        return {row["part"]: row for row in csv.DictReader(file)}
+    return {row["part"]: row for row in rows_of(folder)}
 
 
 def test_every_part_is_a_row_with_its_file(out):

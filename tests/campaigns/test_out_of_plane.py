@@ -13,7 +13,7 @@ from campaigns.out_of_plane.rows import COLUMNS, bows, offplane_row
 from engine import load_scene
 from engine.trajectory import Profiles
 from tests.campaigns.conftest import rows_of
-from tests.campaigns.fake_space import BURST_M, BURST_PERIODS, LARGE_RATE, SMALL_RATE, SpaceEngine
+from tests.campaigns.fake_engine import BURST_M, BURST_PERIODS, LARGE_RATE, SMALL_RATE, SpaceEngine
 
 USUAL = ["--backend", "threading", "--jobs", "2", "--no-report"]
 

@@ -1,6 +1,5 @@
 """The stability campaign: verdicts mean what they say, a whole small campaign works, and is not done twice."""
 
-import csv
 import json
 from functools import partial
 
@@ -11,6 +10,7 @@ from campaigns.columns import names
 from campaigns.machinery.folder import CampaignStopped, kept_row
 from campaigns.stability import cases, checks, tasks
 from campaigns.stability.cases import ABOVE_BAR, REFUSED, Case, all_cases, case_row
+from tests.campaigns.conftest import rows_of
 
 NOT_STARTED = {"statuses": (REFUSED,)}
 CALM = {"waves.steepness": 0.016, "water.depth_m": 22.5, "tether.nodes": 5}
@@ -25,11 +25,6 @@ WORDS = ["--drift-periods", "0", "--jobs", "1"]
 
 def may(status: str) -> dict:
     return {**FINITE, "statuses": (status,), "why": "because"}
-
-
-def table(path) -> list[dict]:
-    with open(path, encoding="utf-8", newline="") as file:
-        return list(csv.DictReader(file))
 
 
 @pytest.mark.parametrize(
@@ -108,9 +103,9 @@ def test_a_campaign_leaves_its_files_and_is_not_done_twice(few, tmp_path, capsys
     out = tmp_path / "out"
     words = ["--fuzz", "6", *WORDS, "--out", str(out)]
     assert stability.main(words) == 0
-    rows = table(out / "table.csv")
+    rows = rows_of(out)
     assert [row["verdict"] for row in rows] == ["ok", "ok", "refused", "ok", "ok"]
-    assert len(table(out / "fuzz.csv")) == 12
+    assert len(rows_of(out, "fuzz.csv")) == 12
     assert json.loads((out / "step_maps.json").read_text())["taut"]["methods"]["backward-euler"]["largest"] < 1.001
     assert (out / "report.html").exists() and (out / "report.pdf").exists()
     assert (out / "trajectories" / f"{rows[0]['run_key']}.nc").exists()

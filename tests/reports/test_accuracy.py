@@ -11,7 +11,7 @@ from reports.accuracy.sections import read_study, smooth_series, within, work_it
 from reports.figures.work_precision import cheapest
 from reports.parts.content import Table
 from reports.parts.folder import FolderError
-from tests.campaigns.fake_methods import KnownErrors
+from tests.campaigns.fake_engine import KnownErrors
 
 WORDS = ["--quick", "--backend", "threading", "--jobs", "2", "--no-report"]
 

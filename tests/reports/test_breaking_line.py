@@ -9,6 +9,7 @@ import pytest
 from campaigns import breaking_line
 from reports import build
 from tests.campaigns.breaking_line.test_campaign import failing
+from tests.campaigns.conftest import rows_of
 
 SMALL = ["--no-companions", "--backend", "threading", "--jobs", "2", "--no-report", "--set", "tether.nodes=101"]
 
@@ -33,8 +34,7 @@ def text_of(folder):
 def test_the_papers_figures_its_statements_and_the_animation_are_there(study):
     text = text_of(study)
     assert all(f"fig. {figure} of the paper" in text for figure in range(2, 8)) and "Fronts and shocks" in text
-    with open(study / "statements.csv", newline="", encoding="utf-8") as file:
-        judged = {row["statement"]: row["verdict"] for row in csv.DictReader(file)}
+    judged = {row["statement"]: row["verdict"] for row in rows_of(study, "statements.csv")}
     assert all(statement in text for statement in judged)
     assert judged["The maximum speed does not depend on the fracture time."] == "holds"
     assert judged["In slow breaks the kinetic energy is more uniformly distributed."] == "does not hold"
@@ -44,8 +44,7 @@ def test_the_papers_figures_its_statements_and_the_animation_are_there(study):
 @pytest.mark.slow
 def test_what_limits_the_runs_is_said(study, tmp_path):
     copy = shutil.copytree(study, tmp_path / "copy")
-    with open(copy / "table.csv", newline="") as file:
-        rows = {row["case"]: row for row in csv.DictReader(file)}
+    rows = {row["case"]: row for row in rows_of(copy)}
     (copy / "trajectories" / f"{rows['4']['run_key']}.nc").unlink()
     rows["1"]["max_turn_rad"], rows["4"]["remainder_largest_J"] = "1.5", "1e5"
     with open(copy / "table.csv", "w", newline="") as file:

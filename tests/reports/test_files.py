@@ -28,14 +28,6 @@ def words_of(pdf, *options):
     return subprocess.run(["pdftotext", *options, pdf, "-"], capture_output=True, check=True).stdout.decode()
 
 
-def test_help_loads_nothing_heavy():
-    code = "import sys, runpy; sys.argv = ['reports', '--help']\n"
-    code += "try: runpy.run_module('reports', run_name='__main__')\n"
-    code += "except SystemExit: print(sorted({'numpy', 'matplotlib', 'pandas', 'numba', 'typst'} & set(sys.modules)))"
-    done = subprocess.run([sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True, check=True)
-    assert "folder of a finished campaign" in done.stdout and done.stdout.strip().endswith("[]")
-
-
 @pytest.mark.slow
 def test_a_copy_elsewhere_in_another_process_gives_the_same_bytes(folder, built, tmp_path):
     copy = shutil.copytree(folder, tmp_path / "elsewhere", ignore=shutil.ignore_patterns("report.*"))

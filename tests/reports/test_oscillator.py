@@ -1,13 +1,12 @@
 """The report of the snap oscillator: made from its folder alone, the same twice, and open about what is missing."""
 
-import csv
-
 import pytest
 
 from campaigns import oscillator
 from reports import build
 from reports.oscillator.folder import PARTS, read_study
 from reports.parts.folder import FolderError
+from tests.campaigns.conftest import rows_of
 
 
 @pytest.fixture(scope="module")
@@ -22,8 +21,7 @@ def test_same_folder_same_bytes_and_a_lost_part_leaves_the_rest(study):
     first = [path.read_bytes() for path in build(study)]
     assert [path.read_bytes() for path in build(study)] == first
     assert first[0].count(b"<figure") == first[0].count(b"<figcaption") == 7
-    with open(study / "table.csv", newline="") as file:
-        key = next(row["run_key"] for row in csv.DictReader(file) if row["part"] == "basins")
+    key = next(row["run_key"] for row in rows_of(study) if row["part"] == "basins")
     (study / "trajectories" / f"{key}.nc").unlink()
     found = read_study(study)
     assert set(found.faults) == {"basins"} and set(found.arrays) == set(PARTS) - {"basins"}

@@ -15,7 +15,7 @@ from reports.out_of_plane.runs import read_study
 from reports.parts.content import Figure, Notice
 from reports.parts.folder import FolderError, read_rows
 from reports.parts.judged import read_statements
-from tests.campaigns.fake_space import SpaceEngine
+from tests.campaigns.fake_engine import SpaceEngine
 
 WORDS = ["--periods", "80", "--transient", "20", "--backend", "threading", "--jobs", "2"]
 

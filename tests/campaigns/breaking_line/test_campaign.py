@@ -91,28 +91,6 @@ def test_failures_are_rows_with_reasons(tmp_path, capsys):
     assert "failed   2" in capsys.readouterr().out
 
 
-@pytest.mark.parametrize(
-    ("words", "part"),
-    [
-        ("--cases", "given nothing"),
-        ("--cases 1 4'", "allowed: one of 1, 2, 3, 4, 1p, 2p, 3p, 4p"),
-        ("--set end.force_N=[1,0,0]", "use --cases"),
-        ("--set end.force_decay_s=0.01", "use --cases"),
-        ("--scene tethered_buoy", "end.force_N"),
-        ("--set tether.nodes=2", "tether.nodes"),
-        ("--set tether.area_m2=-1", "tether.area_m2"),
-        ("--no-companion", "did you mean --no-companions"),
-    ],
-)
-def test_bad_input_is_one_message(tmp_path, monkeypatch, capsys, words, part):
-    monkeypatch.chdir(tmp_path)
-    assert breaking_line.main(words.split()) == 2
-    captured = capsys.readouterr()
-    assert captured.err.count(part) == 1  # also a fault that all runs have
-    assert captured.out == "" and "Traceback" not in captured.err
-    assert list(tmp_path.iterdir()) == []
-
-
 def test_the_shipped_scene_is_case_4():
     shipped = load_scene("breaking_line")
     (case,) = runs_of("--cases", "4", "--no-companions")

@@ -17,7 +17,7 @@ from engine.natural_frequencies import natural_frequencies
 from reports.paper.figures import figures_of, left_out, pictures
 from reports.parts.figure_data import parsed, sources_of
 from tests.campaigns.conftest import ROOT, rows_of
-from tests.campaigns.fake_space import SpaceEngine
+from tests.campaigns.fake_engine import SpaceEngine
 from tests.reports.synthetic import campaign
 
 OF_BUOY = {9, 10, 11, 12, 13, 15, 16, 17, 18}

@@ -1,6 +1,5 @@
 """A column from a file gets the word that its motion has, and noise is never called chaos."""
 
-import csv
 import json
 
 import numpy as np
@@ -13,6 +12,7 @@ from campaigns.time_series.study import study, successive_maxima
 from tests.analysis.forced_records import KINDS, SAMPLES, record
 from tests.analysis.maps import henon, logistic
 from tests.analysis.systems import states
+from tests.campaigns.conftest import rows_of
 
 TIME = np.arange(1500) * 0.4
 GOLDEN = 0.5 * (np.sqrt(5.0) - 1.0)
@@ -70,10 +70,9 @@ def test_the_answer_comes_with_errors_and_curves(tmp_path, capsys):
     dimension = found["dimension"]
     assert dimension["value"] == pytest.approx(1.0, abs=max(3.0 * dimension["error"], 0.1))
     assert all(item["passed"] for item in found["evidence"] if item["name"] in ("exponent", "0-1 test", "linear null"))
-    with open(tmp_path / "out" / "series.csv", newline="") as file:
-        kept = [float(row["value"]) for row in csv.DictReader(file)]
+    kept = [float(row["value"]) for row in rows_of(tmp_path / "out", "series.csv")]
     assert kept == pytest.approx(logistic(4.0, 1500), rel=1e-14)
-    told = {row["name"] for row in csv.DictReader((tmp_path / "out" / "columns.csv").read_text().splitlines())}
+    told = {row["name"] for row in rows_of(tmp_path / "out", "columns.csv")}
     for name in ("spectrum", "section", "divergence", "dimension"):
         head, *rows = (tmp_path / "out" / f"{name}.csv").read_text().splitlines()
         assert len(rows) > 9 and told >= set(head.split(","))

@@ -1,16 +1,11 @@
 """What no answer can be given about is refused with every fault and what is allowed; nothing is written."""
 
-import subprocess
-import sys
-from pathlib import Path
-
 import numpy as np
 import pytest
 
 from campaigns.time_series import WRITTEN, answer, main
 from campaigns.time_series.record import read_table
 
-ROOT = Path(__file__).resolve().parents[3]
 ROWS = [f"{0.1 * k:.3f},{np.sin(k):.6f}" for k in range(300)]
 
 
@@ -159,15 +154,6 @@ def test_ctrl_c_is_one_line(good, tmp_path, monkeypatch, capsys):
     monkeypatch.setattr("campaigns.time_series.study.study", stopped)
     assert main([*good, "out"]) == 130
     assert "interrupted" in capsys.readouterr().err and not (tmp_path / "out").exists()
-
-
-@pytest.mark.parametrize("module", ["analysis", "campaigns.time_series"])
-def test_help_tells_every_option_and_loads_nothing_heavy(module):
-    command = [sys.executable, "-X", "importtime", "-m", module, "--help"]
-    done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=True)
-    assert all(option in done.stdout for option in "--column --time --step --period --tolerance --out".split())
-    loaded = {line.rpartition("|")[2].strip() for line in done.stderr.splitlines()}
-    assert "argparse" in loaded and not {"numpy", "numba", "scipy", "pandas"} & loaded
 
 
 @pytest.mark.parametrize(
