@@ -10,6 +10,7 @@ import sys
 import tomllib
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from campaigns import buoy_sweep
@@ -43,6 +44,13 @@ for name in sys.argv[1:]:
     print("loaded:", *sys.modules, end="\f")
 """
 MISTAKES = tomllib.loads(Path(__file__).with_name("mistakes.toml").read_text(encoding="utf-8"))
+ROWS = [f"{0.1 * k:.3f},{np.sin(k):.6f}" for k in range(300)]
+
+
+def changed(row, text):
+    return "\n".join(["t,x", *ROWS[:row], text, *ROWS[row + 1 :]])
+
+
 FILES = {
     "comma.toml": 'name = "mine"\n[tether]\nlength_m = 20,5\n',
     "bracket.toml": "[tether\nlength_m = 20\n",
@@ -55,6 +63,33 @@ FILES = {
     "broken/provenance.json": "not json",
     "mine/table.csv": "my,own,table\n",
     "part/table.csv": "steepness\n0.1\n",
+    "nan.csv": changed(7, "0.700,nan"),
+    "gap.csv": changed(7, "0.700,"),
+    "word.csv": changed(7, "0.700,broken"),
+    "comma.csv": changed(7, "0.700,1,5"),
+    "jump.csv": "\n".join(["t,x", *ROWS[:100], *ROWS[150:]]),
+    "back.csv": changed(7, "0.650,0.3").replace("0.600,", "0.800,"),
+    "creep.csv": "\n".join(["t,x", *(f"{k * (1 + 1e-3 * k)},{np.sin(k)}" for k in range(300))]),
+    "short.csv": "\n".join(["t,x", *ROWS[:99]]),
+    "flat.csv": "\n".join(["t,x", *(f"{k},3.5" for k in range(300))]),
+    "twice.csv": "\n".join(["x,x", *ROWS]),
+    "empty.csv": "\n",
+    "good.csv": "\n".join(["t,x", *ROWS]),
+    "both.csv": "\n".join(["t,x", *(row.replace(".", ",") for row in ROWS)]),
+    "units.csv": "\n".join(["t,x", "s,m", *ROWS]),
+    "dates.csv": "\n".join(["t,x", *(f"2026-11-21 13:{k // 60:02d}:{k % 60:02d},{k % 7}" for k in range(300))]),
+    "rounded.csv": "\n".join(["t,x", *(f"{k / 30:.2f},{np.sin(k)}" for k in range(300))]),
+    "huge.csv": "\n".join(["t,x", *(f"{k},{np.sin(k)}e300" for k in range(300))]),
+    "title.csv": "\n".join(["Tank 3", "", "t,x", *ROWS]),
+    "blank.csv": "t x\n" + "\0" * 500,
+    "kept/series.csv": "\n".join(["t,x", *ROWS]),
+    "whole/series.csv": "\n".join(["t,x", *ROWS]),
+    "whole/provenance.json": json.dumps({"campaign": "time_series"}),
+    "image.csv": bytes(range(128, 256)),
+    "latin1.csv": "t,höhe\n".encode("latin-1"),
+    "table.xlsx": b"PK\x03\x04 and more",
+    "packed.csv.gz": b"\x1f\x8b\x08 and more",
+    "run.nc": b"CDF\x01 and more",
 }
 
 
@@ -119,10 +154,11 @@ def test_the_answer_says_what_to_do(place, capsys, module, words):
     assert listing(place) == before
 
 
-def test_an_empty_name_is_not_the_current_folder(place, capsys):
+@pytest.mark.parametrize("words", [["buoy_sweep", "--steepness", "0.1"], ["time_series", "good.csv", "--column", "x"]])
+def test_an_empty_name_is_not_the_current_folder(place, capsys, words):
     """As from --out "$RESULTS" with a variable that is not set."""
-    assert buoy_sweep.main(["--out", "", "--steepness", "0.1"]) == 2
-    assert "--out: given ''; allowed: a folder" in capsys.readouterr().err
+    assert every_campaign([*words, "--out", ""]) == 2
+    assert "--out: given ''" in capsys.readouterr().err
 
 
 def test_a_campaign_killed_before_its_provenance_goes_on_in_its_folder(tmp_path):

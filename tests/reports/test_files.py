@@ -16,7 +16,7 @@ from reports import build
 from reports.buoy_sweep.report import report
 from reports.parts.content import Explorer, Figure, Heading, Notice, Report, Text, first_sentence, plain
 from reports.parts.pdf import render_pdf
-from tests.reports.synthetic import campaign
+from tests.reports.conftest import campaign
 
 ROOT = Path(__file__).parents[2]
 LINK = re.compile(rb"/Subtype ?/Link\b")

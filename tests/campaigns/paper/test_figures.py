@@ -18,7 +18,7 @@ from reports.paper.figures import figures_of, left_out, pictures
 from reports.parts.figure_data import parsed, sources_of
 from tests.campaigns.conftest import ROOT, rows_of
 from tests.campaigns.fake_engine import SpaceEngine
-from tests.reports.synthetic import campaign
+from tests.reports.conftest import campaign
 
 OF_BUOY = {9, 10, 11, 12, 13, 15, 16, 17, 18}
 
