@@ -228,6 +228,7 @@ def test_a_run_that_fails_costs_those_beside_it_nothing(together, how, status, t
     assert {value: begun.count(value) for value in EIGHT} == dict.fromkeys(EIGHT, 1) | {0.08: times}
 
 
+@pytest.mark.slow
 def test_a_full_disk_stops_the_campaign_and_keeps_what_is_finished(together):
     with pytest.raises(CampaignStopped, match="full"):
         together(jobs=1, no_space=(0.1,))

@@ -178,7 +178,7 @@ def test_what_is_unexplained_leads(tmp_path):
     assert "stiff" in notice.lines[0] and "exit code 11" in notice.lines[1]
 
 
-@pytest.mark.parametrize("random", [RANDOM, []])
+@pytest.mark.parametrize("random", [RANDOM, pytest.param([], marks=pytest.mark.slow)])
 def test_same_folder_same_bytes(tmp_path, random):
     place = folder(tmp_path / "out", random=random)
     first = [path.read_bytes() for path in build(place)]

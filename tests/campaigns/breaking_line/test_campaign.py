@@ -149,6 +149,7 @@ def test_what_limits_the_runs_is_said(study, tmp_path):
     assert "Case 1, 101 nodes turns by 1.50 rad" in text and "budget of case 4 does not close" in text
 
 
+@pytest.mark.slow
 def test_without_profiles_energies_or_theory_a_report_is_made(tmp_path):
     bare = ["output.profiles=false", "output.profiles_step_s=none", "output.energy=false"]
     linear = "tether.tension={law='linear', stiffness_N=2e6}"

@@ -187,6 +187,7 @@ def test_the_echo_of_the_shock_adds_half_a_metre_a_second_to_the_end():
     assert theory.shock_end_speed_mps - 0.03 < late < theory.shock_end_speed_mps
 
 
+@pytest.mark.slow
 def test_the_error_falls_with_the_square_of_the_lines():
     finest = motion("4", 0.058, 800)
     place = [motion("4", 0.058, lines).shock.at(0.04)[0] - finest.shock.at(0.04)[0] for lines in (50, 100, 200)]
