@@ -151,9 +151,7 @@ class Study:
 
     def read_order(self, argv: list[str], faults: list[str]) -> Order:
         """The order in the words of the command line; every fault, of options and scenes, is appended to `faults`."""
-        from campaigns.machinery.plausible import without_waves
-
-        options = cli.split(self.parser(), argv, faults)
+        options = cli.split(self.parser(), argv, faults)  # `--help` ends here, and has loaded nothing heavy
         periods, transient = None, 0
         if (usual := self.lengths) is not None:
             periods, transient = options.periods, options.transient
@@ -166,6 +164,8 @@ class Study:
         how = options.how = cli.running(options, self.name, faults)
         if self.cases is None:
             return Order(how, own=options, faults=faults)
+        from campaigns.machinery.plausible import without_waves
+
         changes = cli.assignments(options.set, self.taken, faults)
         order = Order(how, options.scene, changes, periods, transient, options, faults)
         base = order.base() if self.in_waves else None

@@ -22,7 +22,7 @@ from reports.parts.content import Links, Notice, Table, Text
 from reports.parts.html import render_html
 from reports.parts.judged import read_statements
 from tests.campaigns.conftest import ROOT
-from tests.campaigns.paper.world import deep, world
+from tests.campaigns.paper.test_statements import deep, world
 
 
 def write(path, columns, rows):
