@@ -45,7 +45,7 @@ SOURCES = (
     "analysis",
     "engine",
     *(f"campaigns/{name}" for name in ("machinery", "buoy_sweep", "breaking_line", "oscillator", "out_of_plane")),
-    *(f"campaigns/{name}.py" for name in ("columns", "judge", "study", "statements", "figure_data", "tables")),
+    *(f"campaigns/{name}.py" for name in ("columns", "judge", "study", "statements", "figure_data")),
     *(f"reports/{name}" for name in ("parts", "figures", "buoy_sweep", "breaking_line", "oscillator", "out_of_plane")),
     "campaigns/paper/dependence.py",
 )
