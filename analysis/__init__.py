@@ -4,15 +4,7 @@ Nothing here knows the cable, so the same functions serve the tethered buoy, eq.
 first sample of a record. Names are imported on first use: `import analysis` costs nothing.
 """
 
-import sys
-
-if sys.version_info < (3, 11):  # noqa: UP036
-    running = ".".join(map(str, sys.version_info[:3]))
-    raise ImportError(
-        f"the tether workbench needs Python 3.11 or newer, and this is {running} ({sys.executable}); "
-        "make its environment with a newer one, for instance python3.12 -m venv .venv"
-    )
-
+import machine_code  # noqa: F401, I001  first: an older Python does not get through lazy_loader
 import lazy_loader
 
 # No module may bear the name of a function: importing it would hide the function.

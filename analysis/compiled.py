@@ -7,7 +7,7 @@ the machine code of the other. Where and how it is kept is the business of `mach
 from functools import cache
 from pathlib import Path
 
-from machine_code.store import compiled, folder_for, hash_of
+from machine_code.store import compiled, folder_of, hash_of
 
 _KEPT_CACHES = 16
 
@@ -25,9 +25,4 @@ def kernel(function):
     Full ``fastmath`` is not used: it would let the compiler assume that no NaN exists, and NaN is how a measure says
     that nothing qualified. Division by zero gives inf or NaN, as in NumPy, and indices are not checked.
     """
-    return compiled(function, _folder(), fastmath={"contract"})
-
-
-@cache
-def _folder():
-    return folder_for("analysis", source_hash(), _KEPT_CACHES)
+    return compiled(function, folder_of("analysis", source_hash(), _KEPT_CACHES), fastmath={"contract"})

@@ -78,15 +78,14 @@ def rosenstein_lyapunov(
     Source: Rosenstein, Collins & De Luca, Physica D 65, 117 (1993).
     """
 
-    def logarithms(x, points, rows, lag, theiler, horizon):
+    def distances(x, points, rows, lag, theiler, horizon):
         index, distance = nearest_outside(points[: len(points) - horizon], theiler, rows)
         # Zero: an exact repetition (periodic to the last digit), which has no logarithm.
         kept = (index[:, 0] >= 0) & (distance[:, 0] > 1e-12 * np.std(x))
         rows, index = rows[kept], index[kept, 0]
-        apart = (np.linalg.norm(points[rows + k] - points[index + k], axis=1) for k in range(horizon + 1))
-        return _logarithms(apart)
+        return [np.linalg.norm(points[rows + k] - points[index + k], axis=1) for k in range(horizon + 1)]
 
-    return _estimated(ROSENSTEIN, series, step_s, logarithms, delay, dimension, theiler, horizon)
+    return _estimated(ROSENSTEIN, series, step_s, distances, delay, dimension, theiler, horizon)
 
 
 def kantz_lyapunov(
@@ -115,7 +114,7 @@ def kantz_lyapunov(
 
     used = {}
 
-    def logarithms(x, points, rows, lag, theiler, horizon):
+    def distances(x, points, rows, lag, theiler, horizon):
         index, distance = nearest_outside(points[: len(points) - horizon], theiler, rows, count=4 * KANTZ_NEIGHBOURS)
         within = radius
         if within is None:
@@ -128,22 +127,15 @@ def kantz_lyapunov(
         kept = np.sum(near, axis=1) >= KANTZ_NEIGHBOURS
         rows, index, near, last = rows[kept], index[kept], near[kept], len(x) - len(points)
         apart = (np.abs(x[rows + last + k][:, None] - x[index + last + k]) for k in range(horizon + 1))
-        means = (np.sum(np.where(near, one, 0.0), axis=1) / np.sum(near, axis=1) for one in apart)
-        return _logarithms(means)
+        return [np.sum(np.where(near, one, 0.0), axis=1) / np.sum(near, axis=1) for one in apart]
 
-    return _estimated(KANTZ, series, step_s, logarithms, delay, dimension, theiler, horizon, used)
-
-
-def _logarithms(apart):
-    """ln of distances (centres,), one array a time: (k + 1, centres)."""
-    with np.errstate(divide="ignore"):
-        return np.log(list(apart))
+    return _estimated(KANTZ, series, step_s, distances, delay, dimension, theiler, horizon, used)
 
 
-def _estimated(method, series, step_s, logarithms, delay, dimension, theiler, horizon, used=()):
-    """The Exponent of a method. logarithms: of the series, its delay vectors, the centres asked about (all, or 2000
-    drawn with a fixed seed), delay, window and horizon it makes ln(distance) (k + 1, centres), or the
-    sentence that says why there is none; what it chose on its way it leaves in `used`, for the details."""
+def _estimated(method, series, step_s, distances, delay, dimension, theiler, horizon, used=()):
+    """The Exponent of a method. distances: of the series, its delay vectors, the centres asked about (all, or 2000
+    drawn with a fixed seed), delay, window and horizon it makes distances (k + 1, centres), or the sentence that says
+    why there are none; what it chose on its way it leaves in `used`, for the details."""
     x, step_s = checked_series(series), checked_positive(step_s, "step_s")
     if len(x) < 500 or np.ptp(x) == 0.0:
         return no_exponent(method, f"500 samples of a series that moves are needed, given {len(x)}")
@@ -159,11 +151,12 @@ def _estimated(method, series, step_s, logarithms, delay, dimension, theiler, ho
     rows = np.arange(usable)
     if usable > CENTRES:
         rows = np.sort(np.random.default_rng(0).choice(usable, CENTRES, replace=False))
-    growth = logarithms(x, delay_vectors(x, lag, m), rows, lag, theiler, horizon)
-    if isinstance(growth, str):
-        return no_exponent(method, growth)
+    apart = distances(x, delay_vectors(x, lag, m), rows, lag, theiler, horizon)
+    if isinstance(apart, str):
+        return no_exponent(method, apart)
     details = {"embedding": embedding, "dimension": m, "theiler": theiler, **dict(used)}
-    return _slope_of(growth, step_s, period, method, details)
+    with np.errstate(divide="ignore"):
+        return _slope_of(np.log(apart), step_s, period, method, details)
 
 
 def _slope_of(growth, step_s, period, method, details):

@@ -10,15 +10,7 @@ import numpy as np
 from analysis.line_spectra import spectral_lines
 from analysis.neighbours import neighbour_growth
 from analysis.stationarity import record_drift
-from analysis.surrogates import (
-    SHARE,
-    NullRank,
-    iaaft_surrogates,
-    noisy_periodic_surrogates,
-    normal_scores,
-    prediction_gain,
-    rank_among,
-)
+from analysis.surrogates import NULLS, SHARE, null_ranks
 from analysis.zero_one import zero_one_test
 
 if TYPE_CHECKING:
@@ -37,10 +29,6 @@ LEAST_POWER = 0.01
 # Bands of a section: how many at most, and the points each must have for the 0-1 test.
 MOST_BANDS = 8
 BAND_POINTS = 100
-# More points make a map no clearer, and surrogates of them take long.
-NULL_POINTS = 1000
-NO_RANK = NullRank(None, np.nan, np.nan, np.nan, np.empty(0))
-NULLS = (("linear null", iaaft_surrogates), ("noisy-periodic null", noisy_periodic_surrogates))
 
 
 @dataclass(frozen=True)
@@ -82,6 +70,18 @@ def read_evidence(text: str) -> list[tuple[str, str, str, str]]:
         cells = rest.split("/")
         if name and len(cells) == 3:
             found.append((name, *cells))
+    return found
+
+
+def wandering_evidence(section: np.ndarray, max_period: int, surrogates: int, seed: int) -> list[Evidence]:
+    """Of a motion that does not repeat: drift, neighbours, incommensurate line, 0-1 test; unless it drifts the nulls,
+    of the whole record and, where everything so far speaks for chaos, of its halves."""
+    growth = growth_evidence(section)
+    line, irregular = incommensurate_evidence(section, max_period), irregular_evidence(section, seed)
+    found = [drift_evidence(section, growth), growth, line, irregular]
+    if not found[0].passed:
+        found += null_evidence(section, surrogates, seed)
+        found += half_evidence(section, surrogates, seed, all(item.passed for item in found[3:]))
     return found
 
 
@@ -186,7 +186,7 @@ def _bands_in_turn(section):
 def null_evidence(section: np.ndarray, surrogates: int, seed: int | list[int]) -> list[Evidence]:
     """Rank and margin of the prediction gain among the surrogates of one null, then of the other."""
     items = []
-    for (name, _), rank in zip(NULLS, null_ranks(section, surrogates, seed), strict=True):
+    for name, rank in zip(NULLS, null_ranks(section, surrogates, seed), strict=True):
         passed, how = None, "too short, or nothing moves: no prediction gain"
         far = how
         if rank.above is not None:
@@ -200,7 +200,7 @@ def null_evidence(section: np.ndarray, surrogates: int, seed: int | list[int]) -
 
 def half_evidence(section: np.ndarray, surrogates: int, seed: int, asked: bool) -> list[Evidence]:
     """0-1 test and both ranks in each half; the lesser value of the two halves is kept."""
-    names = ("0-1 test", *(name for name, _ in NULLS))
+    names = ("0-1 test", *NULLS)
     if not asked:
         reason = "not asked: the whole record fails already"
         return [Evidence(f"{name}, halves", np.nan, np.nan, None, reason) for name in names]
@@ -215,24 +215,6 @@ def half_evidence(section: np.ndarray, surrogates: int, seed: int, asked: bool) 
         least = float(np.min([first.value, second.value]))
         items.append(Evidence(f"{first.name}, halves", least, first.threshold, passed, sentence))
     return items
-
-
-def null_ranks(section: np.ndarray, surrogates: int, seed: int | list[int]) -> list[NullRank]:
-    """NullRank of the prediction gain for each null, NO_RANK where a gain cannot be had; of the last 1000 points.
-
-    The linear null is asked of the coordinates' normal scores: it allows any monotone instrument, and iterating towards
-    a spectrum and a skew distribution at once reaches neither well enough (exp of a linear process, sampled often, beat
-    its own surrogates in one case of ten). Normal scores undo the instrument first. For the other null that would not
-    do: its noise is added to the motion as it is.
-    """
-    section = section[-NULL_POINTS:]
-    ranks = []
-    for i, (points, make) in enumerate([(normal_scores(section), NULLS[0][1]), (section, NULLS[1][1])]):
-        gain, drawn = prediction_gain(points).gain, [np.nan]
-        if np.isfinite(gain):
-            drawn = [prediction_gain(one).gain for one in make(points, surrogates, [*np.atleast_1d(seed), 100 + i])]
-        ranks.append(rank_among(gain, drawn, SHARE) if np.all(np.isfinite(drawn)) else NO_RANK)
-    return ranks
 
 
 def tighter_evidence(tighter: Verdict | str | None, word: str) -> Evidence:

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from analysis.sampling import ON_SAMPLE, checked_not_negative, checked_positive, checked_series, record_length_s
+from analysis.sampling import ON_SAMPLE, checked_not_negative, checked_positive, checked_series
 
 
 @dataclass(frozen=True)
@@ -91,7 +91,7 @@ def _after(x, step_s, transient_s):
     """The first sample at or after the transient, and the times of all."""
     step_s = checked_positive(step_s, "step_s")
     transient_s = checked_not_negative(transient_s, "transient_s")
-    given_s = record_length_s(len(x), step_s)
+    given_s = max(len(x) - 1, 0) * step_s
     if len(x) == 0 or given_s < transient_s - ON_SAMPLE * step_s:
         wanted = f"a record longer than the transient of {transient_s:g} s is needed"
         raise ValueError(f"{wanted}, given {given_s:g} s ({len(x)} samples)")

@@ -41,11 +41,8 @@ def nearest_outside(
     n = len(points)
     rows = np.arange(n) if rows is None else np.asarray(rows)
     index, distance = np.full((len(rows), count), -1), np.full((len(rows), count), np.inf)
-    tree, missing, width = (
-        cKDTree(points, balanced_tree=False),
-        np.arange(len(rows)),
-        min(count + min(2 * theiler + 1, 7), n),
-    )
+    tree, missing = cKDTree(points, balanced_tree=False), np.arange(len(rows))
+    width = min(count + min(2 * theiler + 1, 7), n)
     while len(missing):
         d, j = tree.query(points[rows[missing]], width)
         d, j = d.reshape(len(missing), -1), j.reshape(len(missing), -1)

@@ -17,7 +17,6 @@ from analysis.sampling import (
     checked_positive,
     checked_series,
     locked,
-    record_length_s,
     values_at,
 )
 
@@ -78,7 +77,7 @@ def poincare_section(
     first = checked_count(transient_periods, "transient_periods", least=0)
     if not 0.0 <= phase < 1.0:
         raise ValueError(f"phase: a share of the period, 0 <= phase < 1, is needed, given {phase!r}")
-    given_s = record_length_s(len(x), step_s)
+    given_s = max(len(x) - 1, 0) * step_s
     last = int(np.floor((given_s + ON_SAMPLE * step_s) / period_s - phase))
     if len(x) == 0 or last < first:
         wanted = (

@@ -68,11 +68,6 @@ def checked_count(value: int, name: str, least: int = 1) -> int:
     return int(value)
 
 
-def record_length_s(samples: int, step_s: float) -> float:
-    """Time from the first to the last of `samples` samples [s]; 0 for an empty record."""
-    return max(samples - 1, 0) * step_s
-
-
 def values_at(series: np.ndarray, step_s: float, time_s: ArrayLike) -> tuple[np.ndarray, bool]:
     """Values of `series` (n,) or (n, d) at `time_s` (m,), and whether they were interpolated.
 

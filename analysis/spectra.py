@@ -22,7 +22,6 @@ from analysis.sampling import (
     checked_positive,
     checked_series,
     locked,
-    record_length_s,
     values_at,
 )
 
@@ -93,7 +92,7 @@ def spectrum(
     start_periods = checked_not_negative(start_periods, "start_periods")
     periods = checked_count(periods, "periods")
     begin_s, window_s = start_periods * forcing_period_s, periods * forcing_period_s
-    given_s = record_length_s(len(x), step_s)
+    given_s = max(len(x) - 1, 0) * step_s
     if given_s < begin_s + window_s - ON_SAMPLE * step_s:
         parts = f"{start_periods:g} before the window and {periods} in it; {begin_s + window_s:g} s"
         wanted = f"eq. (31) needs {start_periods + periods:g} forcing periods ({parts}) of record"

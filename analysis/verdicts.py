@@ -23,18 +23,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from analysis.evidence import (
-    Evidence,
-    drift_evidence,
-    exponent_evidence,
-    growth_evidence,
-    half_evidence,
-    incommensurate_evidence,
-    irregular_evidence,
-    null_evidence,
-    period_evidence,
-    tighter_evidence,
-)
+from analysis.evidence import Evidence, exponent_evidence, period_evidence, tighter_evidence, wandering_evidence
 from analysis.exponents import BITS_PER_PERIOD, Exponent
 from analysis.periods import detect_period
 from analysis.poincare import poincare_section, section_at_phases
@@ -128,7 +117,8 @@ def regime(
     if estimate.period is not None:
         word, reason = f"period-{estimate.period}", estimate.reason
     else:
-        word, reason, more = _without_period(section, evidence[-1], max_period, surrogates, seed)
+        more = wandering_evidence(section, max_period, surrogates, seed)
+        word, reason = _without_period(evidence[-1], *more)
         evidence += more
     evidence.append(tighter_evidence(tighter, word))
     word, reason = _contradicted(word, reason, evidence[-1], tangent)
@@ -136,30 +126,21 @@ def regime(
     return Verdict(word, reason, tuple(evidence), period, points, seed)
 
 
-def _without_period(section, exponent, max_period, surrogates, seed):
-    """Word, reason and evidence for a motion that does not repeat."""
-    growth = growth_evidence(section)
-    drift = drift_evidence(section, growth)
-    line = incommensurate_evidence(section, max_period)
-    irregular = irregular_evidence(section, seed)
-    evidence = [drift, growth, line, irregular]
+def _without_period(exponent, drift, growth, line, irregular, *nulls):
+    """Word and reason for a motion that does not repeat, from its `wandering_evidence`."""
     if drift.passed:
-        return "transient", drift.sentence, evidence
-    evidence += null_evidence(section, surrogates, seed)
-    asked = all(item.passed for item in evidence[3:])
-    evidence += half_evidence(section, surrogates, seed, asked)
-    needed = [exponent, *evidence[3:]]
+        return "transient", drift.sentence
+    needed = [exponent, irregular, *nulls]
     if all(item.passed for item in needed) and growth.value > growth.threshold:
-        reason = "exponent, 0-1 test, both nulls and both halves of the record agree"
-        return "chaotic", reason, evidence
+        return "chaotic", "exponent, 0-1 test, both nulls and both halves of the record agree"
     about_zero = exponent.passed is None or abs(exponent.value) < 2.0 * exponent.error + ABOUT_ZERO
     if growth.passed and line.passed and not irregular.passed and about_zero:
         reason = "neighbours on the section stay neighbours, and a line is incommensurate with the forcing"
-        return "quasi-periodic", reason, evidence
+        return "quasi-periodic", reason
     failed = [item.name for item in needed if item.passed is False]
     missing = [item.name for item in needed if item.passed is None]
     lacking = failed or missing or ["neighbours that part"]
-    return "undecided", "no period, no torus; chaos lacks: " + ", ".join(lacking), evidence
+    return "undecided", "no period, no torus; chaos lacks: " + ", ".join(lacking)
 
 
 def _contradicted(word, reason, tighter, tangent):

@@ -172,7 +172,7 @@ def follow(points, near, distance, evolution, theiler, floor, longest, growth, e
     unfit, and was missing."""
     n, m = points.shape
     last = n - 1 - evolution
-    direction = np.zeros(m)
+    direction, bounds = np.zeros(m), (last, theiler, floor, longest)
     j, length, replaced, unfit, gaps = -1, 0.0, 0, 0, 0
     for k in range(growth.size):
         i = k * evolution
@@ -181,9 +181,7 @@ def follow(points, near, distance, evolution, theiler, floor, longest, growth, e
         old = j
         fit = j >= 0 and floor <= length <= longest
         worst = length / longest if fit else np.inf
-        j, length = _replacement(
-            points, i, j, length, direction, near[k], distance[k], last, theiler, floor, longest, worst, fit
-        )
+        j, length = _replacement(points, i, j, length, direction, near[k], distance[k], bounds, worst, fit)
         if j < 0:
             direction[:] = 0.0
             gaps += 1
@@ -210,16 +208,13 @@ def follow(points, near, distance, evolution, theiler, floor, longest, growth, e
 
 
 @kernel
-def _replacement(points, i, j, length, direction, near, distance, last, theiler, floor, longest, worst, fit):
+def _replacement(points, i, j, length, direction, near, distance, bounds, worst, fit):
     """Index and length of the vector to go on with: the old (j, length) if it is fit and nothing scores better; else
     the best within the angle, giving way first in length, then in angle; else the old one, whatever its length."""
     angle = ANGLE
     while angle < np.pi:
         for wider in range(1, WIDENINGS + 1):
-            limit = wider * longest
-            best, shortest = _best(
-                points, i, direction, near, distance, last, theiler, floor, longest, limit, angle, worst
-            )
+            best, shortest = _best(points, i, direction, near, distance, bounds, wider, angle, worst)
             if best >= 0:
                 return best, shortest
             if fit:
@@ -229,12 +224,14 @@ def _replacement(points, i, j, length, direction, near, distance, last, theiler,
 
 
 @kernel
-def _best(points, i, direction, near, distance, last, theiler, floor, longest, limit, angle, worst):
-    """Neighbour of least score angle/ANGLE + length/longest below `worst`, within `limit` and `angle`; -1 if none."""
+def _best(points, i, direction, near, distance, bounds, wider, angle, worst):
+    """Neighbour of least score angle/ANGLE + length/longest below `worst`, within `angle` and `wider` times `longest`;
+    -1 if none. bounds: last, theiler, floor, longest."""
     best, best_length = -1, 0.0
+    last, theiler, floor, longest = bounds
     for c in range(near.size):
         d, candidate = distance[c], near[c]
-        if d > limit:
+        if d > wider * longest:
             break
         if d < floor or candidate > last or abs(candidate - i) <= theiler or d / longest >= worst:
             continue

@@ -103,11 +103,7 @@ def falling_chain():
         print(f"  {x} | {np.interp(x, -z[t > 0], t[t > 0]):.4f} | {exact:.4f} | {math.sqrt(2 * x / G):.4f}")
 
 
-def main():
+if __name__ == "__main__":
     twisted_rope()
     swinging_line()
     falling_chain()
-
-
-if __name__ == "__main__":
-    main()

@@ -30,9 +30,7 @@ def scenes(extra, steepness=STEEPNESS):
 
 def rate(call, members, periods, clock):
     """Wave periods a second of call(members) by that clock."""
-    began = clock()
-    call(members)
-    return len(members) * periods / (clock() - began)
+    return len(members) * periods / seconds(partial(call, members), clock)
 
 
 def one_by_one(members, periods):

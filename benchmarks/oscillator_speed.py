@@ -52,12 +52,11 @@ def toolbox(oscillator: SnapOscillator):
     def jacobian(time, u, p):
         return np.array([[0.0, 1.0], [-1.0 if u[0] >= 0.0 else 0.0, -p[0]]])
 
-    o = oscillator
     system = ContinuousDynamicalSystem(
         equations_of_motion=rates, jacobian=jacobian, system_dimension=2, number_of_parameters=4
     )
-    system.integrator("rk4", time_step=o.period / STEPS)
-    system.set_parameters([o.damping, o.frequency, o.force, o.lift])
+    system.integrator("rk4", time_step=oscillator.period / STEPS)
+    system.set_parameters(list(astuple(oscillator)[:4]))
     return system
 
 

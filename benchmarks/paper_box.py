@@ -15,10 +15,9 @@ import pandas as pd
 
 from benchmarks.shared import DOCS, shrink
 from engine import load_scene, simulate
-from engine.paper_box import run
+from engine.paper_box.driver import run
 from engine.paper_box.ends import force_and_velocity
-from engine.paper_box.frame import turns
-from engine.paper_box.line import line_of
+from engine.paper_box.line import line_of, turns
 from engine.paper_box.newton import solve
 from engine.paper_box.nodal import level_of, positions
 from engine.paper_box.start import at_rest
@@ -44,9 +43,9 @@ def radius(trajectory):
     return trajectory.columns["radius_m"]
 
 
-def boxed(depth_m, nodes, step_s, accelerations=True):
+def boxed(nodes, step_s, accelerations=True):
     overrides = {"tether.nodes": nodes, "solver.step_s": step_s, "solver.scheme": "paper-box"}
-    return radius(run(scene_of(0.016, depth_m, **overrides), SMALL_S, accelerations=accelerations))
+    return radius(run(scene_of(0.016, 22.5, **overrides), SMALL_S, accelerations=accelerations))
 
 
 def small_waves():
@@ -57,12 +56,12 @@ def small_waves():
     ]
     print(f"kA 0.016, H 22.5: the reference is sure to {np.abs(fine[0] - fine[1]).max():.1e} m")
     grids, steps = (6, 11, 21, 41), (0.1, 0.05, 0.025, 0.0125, 0.00625)
-    by_nodes = [np.abs((4 * boxed(22.5, n, 0.005) - boxed(22.5, n, 0.01)) / 3 - fine[0]).max() for n in grids]
-    by_steps = [np.abs(boxed(22.5, 81, step) - fine[0]).max() for step in steps]
+    by_nodes = [np.abs((4 * boxed(n, 0.005) - boxed(n, 0.01)) / 3 - fine[0]).max() for n in grids]
+    by_steps = [np.abs(boxed(81, step) - fine[0]).max() for step in steps]
     for name, values, errors in (("nodes", grids, by_nodes), ("step s", steps, by_steps)):
         print(f"  {name:7s}", *(f"{v:8g}: {e:.2e}" for v, e in zip(values, errors, strict=True)))
         print("    slopes", *(f"{s:.2f}" for s in np.log2(np.divide(errors[:-1], errors[1:]))))
-    rates = np.abs(boxed(22.5, 41, 0.0125, False) - boxed(22.5, 41, 0.0125, True)).max()
+    rates = np.abs(boxed(41, 0.0125, False) - boxed(41, 0.0125, True)).max()
     print(f"  component rates in place of accelerations move r by {rates:.1e} m")
     return grids, by_nodes, steps, by_steps
 

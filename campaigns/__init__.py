@@ -7,16 +7,7 @@ of a buoy. In `machinery`, each module imports only those before it:
 
     cli, folder, plan     options and their faults; what is on disk and stays readable; the runs to do
     session               a command from its words to its exit code, its provenance, its report
-    worker, pools         runs where they are made; where they execute, and what becomes of each
-    runner                all runs of a campaign, and its table
+    pools, runner         where runs execute, and what becomes of each; all runs of a campaign, and its table
 """
 
-import sys
-
-# Said here as well: what a command imports first does not even compile on an older one.
-if sys.version_info < (3, 11):  # noqa: UP036
-    running = ".".join(map(str, sys.version_info[:3]))
-    raise ImportError(
-        f"the tether workbench needs Python 3.11 or newer, and this is {running} ({sys.executable}); "
-        "make its environment with a newer one, for instance python3.12 -m venv .venv"
-    )
+import engine  # noqa: F401  first of all, because it refuses an older Python in words

@@ -31,6 +31,8 @@ STATUS = Column("status", symbol="status", meaning="ok, or why the run ended ear
 RUN_KEY = Column("run_key", symbol="key", meaning="content key of the run, whose file is trajectories/<run_key>.nc")
 MESSAGE = Column("message", symbol="message", meaning="what went wrong, in words; empty for a run that ended as asked")
 PERIODS_RUN = Column("periods", "", "periods", "length of the run in wave periods", 0)
+DEPTH = Column("depth_m", "m", "H", "depth of the water", 1)
+STIFFNESS = Column("bending_stiffness_Nm2", "N m²", "EI", "bending stiffness of the line", 2)
 TURN = Column("max_turn_rad", "rad", "turn", "largest turn of the line within one element, over the whole run", 2)
 MIN_STRAIN = Column("min_strain", "", "ε_min", "smallest strain of any element, over the whole run", 4)
 LOOPS = Column("loop_releases", "", "loops", "loop releases: how often a loop of slack line was opened", 0)

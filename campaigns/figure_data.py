@@ -37,7 +37,7 @@ def dataset(title: str, arrays: dict[str, Array], sources: tuple[Source, ...], m
     """The labelled content of a data file.
 
     arrays: name -> (dimensions, values, unit, long name); no dimensions for a single number. made_by: the key of what
-    the file was made from and with, by which `made_by_of` recognises it.
+    the file was made from and with, by which `attribute_of` recognises it.
     """
     import xarray
 
@@ -60,11 +60,11 @@ def store(path: Path, content: xarray.Dataset) -> None:
     write_atomic(path, bytes(content.to_netcdf(format="NETCDF3_64BIT", engine="scipy")))
 
 
-def made_by_of(path: Path) -> str | None:
-    """The key of what a data file was made from; None where there is no sound one."""
+def attribute_of(path: Path, name: str = "made_by") -> str | None:
+    """An attribute of a data file, at first the key of what it was made from; None where there is no sound file."""
     import xarray
 
     try:
-        return str(xarray.load_dataset(io.BytesIO(path.read_bytes()), engine="scipy").attrs["made_by"])
+        return str(xarray.load_dataset(io.BytesIO(path.read_bytes()), engine="scipy").attrs[name])
     except Exception:  # a damaged header can make the reader fail in any way at all
         return None

@@ -2,7 +2,7 @@
 
 from functools import partial
 
-import numpy as np
+import engine.scene
 
 LONGEST_PERIOD = 16
 # Share of the motion's range. At the default solver tolerance the default sweep repeats within 0.007 or misses by 0.1.
@@ -17,6 +17,8 @@ def state_of(columns, step_s: float, period_s: float, transient_periods: int) ->
     Positions are measured by the larger extent of the path after the transient, velocities by their larger range: so a
     millimetre counts the same in every direction, and a buoy that turns round and round needs no other treatment.
     """
+    import numpy as np
+
     coordinates = {
         "x_m": columns["x_m"],
         "z_m": columns["z_m"],
@@ -32,11 +34,9 @@ def state_of(columns, step_s: float, period_s: float, transient_periods: int) ->
 
 def tighter_scene(scene):
     """The scene at a tenth of its tolerance, or of its step where that is fixed."""
-    from engine.scene import scene_from_toml
-
     step_s = scene.solver.step_s
     key, value = ("solver.step_s", step_s / 10) if step_s else ("solver.rtol", scene.solver.rtol / 10)
-    return scene_from_toml(scene.to_toml(), {key: value})
+    return engine.scene.scene_from_toml(scene.to_toml(), {key: value})
 
 
 def carried(trajectory) -> bool:
@@ -62,6 +62,8 @@ def verdict_of(trajectory, transient_periods: int, tangent=None, simulate=None):
     with a loop release too. simulate: to repeat a run that looks chaotic at a ten times tighter tolerance; its regime
     is regime_tighter, None where that was not done.
     """
+    import numpy as np
+
     from analysis import regime, wolf_lyapunov
 
     scene, columns = trajectory.scene, trajectory.columns

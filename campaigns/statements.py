@@ -25,36 +25,23 @@ Check = tuple[str, float]  # where it was looked, and the number that the rule j
 
 @dataclass(frozen=True)
 class Measured:
-    """What the results say to a claim.
+    """What the results say to a claim."""
 
-    checks   (where, number) for every place that decides; nan decides nothing
-    told     the numbers as the reader sees them
-    """
-
-    checks: Sequence[Check] = ()
-    told: str = ""
+    checks: Sequence[Check] = ()  # (where, number) for every place that decides; nan decides nothing
+    told: str = ""  # the numbers as the reader sees them
 
 
 @dataclass(frozen=True)
 class Claim:
-    """A statement of the paper, as data.
+    """A statement of the paper, as data."""
 
-    place      section and figure of the paper
-    text       what the paper says, in our words, in a sentence
-    quantity   what is measured, with its unit
-    measure    results -> Measured
-    holds      what decides a check: a test of the measured number
-    threshold  the same in words
-    evidence   what else supports the number: refinement, other method, code, closed form
-    """
-
-    place: str
-    text: str
-    quantity: str
-    measure: Callable[[object], Measured]
-    holds: Callable[[float], bool]
-    threshold: str
-    evidence: str
+    place: str  # section and figure of the paper
+    text: str  # what the paper says, in our words, in a sentence
+    quantity: str  # what is measured, with its unit
+    measure: Callable[[object], Measured]  # of the results
+    holds: Callable[[float], bool]  # what decides a check: a test of the measured number
+    threshold: str  # the same in words
+    evidence: str  # what else supports the number: refinement, other method, code, closed form
 
 
 @dataclass(frozen=True)

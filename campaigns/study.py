@@ -10,17 +10,14 @@ from argparse import ArgumentParser, Namespace
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 from functools import partial
-from typing import TYPE_CHECKING
 
+import engine
 from campaigns.columns import Column
 from campaigns.machinery import cli, session
 from campaigns.machinery.cli import Lengths
 from campaigns.machinery.folder import made_by
 from campaigns.machinery.plan import Job, Plan, Summary
 from campaigns.machinery.runner import run, write_scene
-
-if TYPE_CHECKING:
-    from engine import Scene
 
 
 @dataclass(frozen=True)
@@ -59,28 +56,26 @@ class Order:
         """Add faults, each once."""
         self.faults.extend(fault for fault in dict.fromkeys(faults) if fault not in self.faults)
 
-    def base(self, changes: Mapping[str, object] | None = None, tell: bool = False) -> "Scene | None":
+    def base(self, changes: Mapping[str, object] | None = None, tell: bool = False) -> "engine.Scene | None":
         """The scene with the changes of --set and these; None for a faulty one. tell: whether its faults are added."""
-        from engine import SceneError, load_scene
-
         try:
-            return load_scene(self.name, {**self.changes, **(changes or {})})
-        except SceneError as error:
+            return engine.load_scene(self.name, {**self.changes, **(changes or {})})
+        except engine.SceneError as error:
             self.tell(error.faults if tell else ())
             return None
 
-    def scene(self, changes: Mapping[str, object], duration_s: float | None = None) -> "Scene | None":
+    def scene(self, changes: Mapping[str, object], duration_s: float | None = None) -> "engine.Scene | None":
         """As `base`, and every fault is added, with doubts about the size or the length of such a run.
 
         duration_s: length of the run where it is not `periods`.
         """
-        from campaigns.machinery.plausible import doubts, endless
+        from campaigns.machinery.plausible import doubts
 
         scene = self.base(changes, tell=True)
         if scene is not None:
             if duration_s is None and scene.waves is not None:
                 duration_s = self.periods * scene.waves.period_s
-            self.tell([*doubts(scene), *(endless(scene, duration_s) if duration_s else ())])
+            self.tell(doubts(scene, duration_s))
         return scene
 
     def case(self, labels: Mapping[str, object], changes: Mapping[str, object]) -> Job | None:
@@ -156,15 +151,21 @@ class Study:
 
     def read_order(self, argv: list[str], faults: list[str]) -> Order:
         """The order in the words of the command line; every fault, of options and scenes, is appended to `faults`."""
-        from campaigns.machinery.plausible import without_waves
-
-        options = cli.split(self.parser(), argv, faults)
-        periods, transient = (None, 0) if self.lengths is None else cli.lengths(options, self.lengths, faults)
+        options = cli.split(self.parser(), argv, faults)  # `--help` ends here, and has loaded nothing heavy
+        periods, transient = None, 0
+        if (usual := self.lengths) is not None:
+            periods, transient = options.periods, options.transient
+            if transient is None:
+                transient = min(usual.transient, periods // usual.share)
+            if transient >= periods:
+                faults.append(f"--transient: given {transient} of {periods} periods; allowed: less than --periods")
         if self.read is not None:
             self.read(options, faults)
         how = options.how = cli.running(options, self.name, faults)
         if self.cases is None:
             return Order(how, own=options, faults=faults)
+        from campaigns.machinery.plausible import without_waves
+
         changes = cli.assignments(options.set, self.taken, faults)
         order = Order(how, options.scene, changes, periods, transient, options, faults)
         base = order.base() if self.in_waves else None
@@ -176,18 +177,15 @@ class Study:
     def work(self, order: Order) -> tuple[dict[str, float], Summary]:
         """Do the runs that are not there yet, and what is done beside them; the folder has to be held (`claimed`).
 
-        Returns times and summary. Raises CampaignStopped, OSError, KeyboardInterrupt.
+        Returns times, with compile_s, run_s and analysis_s among them, and summary. Raises CampaignStopped, OSError,
+        KeyboardInterrupt.
         """
         if self.done is not None:
             return self.done(order)
-        simulate_each = None
-        if order.simulate is None:
-            from engine import simulate, simulate_each
-
-            order.simulate = simulate
+        together = engine.simulate_each if self.together and order.simulate is None else None
+        order.simulate = order.simulate or engine.simulate
         measures = self.measures(order)
         maker = made_by(dict(measures.settings), *measures.sources) if measures.sources else ""
-        together = simulate_each if self.together else None
         plan = Plan(order.how, order.simulate, measures.row, measures.columns, maker, together)
         write_scene(order.how.out, self.name, order.cases)
         timing, summary = (self.runs(order) if self.runs else run)(plan, order.cases)
@@ -205,5 +203,4 @@ class Study:
         parameters |= self.parameters(order) if self.parameters else {}
         where = ("backend", "jobs", "dask_address")
         parameters |= {name: getattr(order.own, name) for name in where if hasattr(order.own, name)}
-        work = partial(self.work, order)
-        return session.conduct(self.name, self.called, argv, order.how, parameters, work, self.strict)
+        return session.conduct(self, order, argv, parameters)

@@ -4,16 +4,8 @@ Every name is imported on first use, so that `import engine` costs nothing and b
 pandas.
 """
 
-import sys
-
-if sys.version_info < (3, 11):  # noqa: UP036
-    running = ".".join(map(str, sys.version_info[:3]))
-    raise ImportError(
-        f"the tether workbench needs Python 3.11 or newer, and this is {running} ({sys.executable}); "
-        "make its environment with a newer one, for instance python3.12 -m venv .venv"
-    )
-
-import lazy_loader  # not above: an older Python does not get through it
+import machine_code  # noqa: F401, I001  first: an older Python does not get through lazy_loader
+import lazy_loader
 
 __getattr__, __dir__, __all__ = lazy_loader.attach(
     __name__,

@@ -10,24 +10,20 @@ from pathlib import Path
 from numba import types
 from numba.extending import overload
 
-from machine_code.store import compiled, folder_for, hash_of
+from machine_code.store import compiled, folder_of, hash_of
 
 from .simd.fma import with_fused_sums
-from .simd.record import LaneRecord
+from .simd.vector import LaneRecord
 
 _ROOT = Path(__file__).parent
 _KEPT_CACHES = 6
-
-
-def _mangled_by_contents(record):
-    return "Record", (hashlib.sha256(record.name.encode()).hexdigest()[:16],)
 
 
 # Numba writes a record into the names of compiled functions as a number that counts the types its process has met.
 # Two processes give one number to two records: code that one stored for the planar record and the other for the
 # spatial one then has one name, and a process that loads both gets one of them for both. Names are only names: other
 # users of Numba in the process lose nothing by names that tell records apart.
-types.Record.mangling_args = property(_mangled_by_contents)
+types.Record.mangling_args = property(lambda kind: ("Record", (hashlib.sha256(kind.name.encode()).hexdigest()[:16],)))
 
 
 @cache
@@ -39,26 +35,20 @@ def source_hash() -> str:
     return hash_of(_ROOT, ".py", ".toml")
 
 
-@cache
-def cache_directory() -> Path | None:
-    """Folder for the machine code of these sources; None where nothing can be written."""
-    return folder_for("kernels", source_hash(), _KEPT_CACHES)
-
-
 def kernel(function):
     """Compile a kernel: no Python objects, no GIL, sums of products fused (`engine.simd.fma`), cached on disk.
 
     No ``fastmath``: what it allows differs from processor to processor and between one run and a batch; it breaks the
     range reduction of `engine.simd.elementary.sincos` and hides NaN.
     """
-    return compiled(with_fused_sums(function), cache_directory())
+    return compiled(with_fused_sums(function), folder_of("kernels", source_hash(), _KEPT_CACHES))
 
 
 def by_kind(planar, spatial, lanes=None):
     """One name for kernels that do the same for different kinds of runs.
 
     A kernel that calls the returned name gets `planar`, `spatial` or `lanes`, by the type of the first argument: a
-    RECORD, a SPATIAL (`engine.record`) or a LaneRecord (`engine.simd.record`: several planar runs at once). Numba
+    RECORD, a SPATIAL (`engine.record`) or a LaneRecord (`engine.simd.vector`: several planar runs at once). Numba
     chooses while it compiles the caller. So a scene compiles only the kernels that it uses, and no run pays for the
     choice. lanes = None: the planar kernel serves several runs at once too.
     """

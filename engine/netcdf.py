@@ -11,8 +11,6 @@ import warnings
 import numpy as np
 
 DIGEST = "content_sha256"
-
-
 # One variable of a file: name, names of its dimensions, array of floats, unit, long name
 Variable = tuple[str, tuple[str, ...], np.ndarray, str, str]
 

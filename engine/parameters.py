@@ -76,7 +76,7 @@ def _tether(record, scene, place):
     record["ma"] = tether.added_mass * displaced
     record["Rw"] = displaced + record["ma"]
     record["barrier"] = tether.compression_barrier_N
-    record["law"] = tension.number_of(law.law)
+    record["law"] = tension.NAMES.index(law.law)
     numbers, table = tension.LAWS[record["law"]].numbers(law)
     for name, value in numbers.items():
         record[name] = value
@@ -117,7 +117,7 @@ def _current(record, current, place):
         u, v, w = np.reshape(np.transpose(current.velocity_mps), (3, 1, -1, 1))
     record["current"] = any(component.any() for component in (u, v, w))
     record["cur_nx"], record["cur_ny"], record["cur_nz"], record["cur_nt"] = len(x), len(y), len(z), len(t)
-    record["cur_at"] = place(np.concatenate([np.ravel(part) for part in (x, y, z, t, u, v, w)]))  # `physics.currents`
+    record["cur_at"] = place(np.concatenate([np.ravel(part) for part in (x, y, z, t, u, v, w)]))  # `physics.water`
 
 
 def _put(record, name, vector):

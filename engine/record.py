@@ -63,6 +63,11 @@ STATE = np.dtype(
 )
 
 
+def lengths_of(record: np.void, tables: np.ndarray) -> np.ndarray:
+    """The element lengths (nodes - 1,), m, of a record."""
+    return tables[record["grid_at"] :][: record["nodes"] - 1]
+
+
 def is_spatial(record: np.void | np.dtype) -> bool:
     """Is this record, or its dtype, that of a scene in three dimensions?"""
     return "GI" in getattr(record, "dtype", record).names

@@ -25,7 +25,8 @@ class Run:
     """Arrays of one run of a scene over `duration_s`.
 
     record, tables: its parameters; state: STATE; motion, output: Motion and Output (`engine.arrays`); trail: what
-    follows its perturbations; goal: samples to store; wall_s: time (s) that advancing it has taken.
+    follows its perturbations; s: unstretched arc length (m) of the nodes; goal: samples to store; wall_s: time (s) that
+    advancing it has taken.
     """
 
     def __init__(self, scene: Scene, duration_s: float) -> None:
@@ -58,15 +59,13 @@ class Run:
     def _start(self, Y: np.ndarray) -> np.ndarray:
         """Put the state at t = 0 into Y, and what a run begins with into its `state`; returns Y."""
         record, state, scene = self.record, self.state, self.scene
-        n = int(record["nodes"])
-        h = self.tables[record["grid_at"] : record["grid_at"] + n - 1]
         target = scene.end.position_m if record["end"] == col.HELD else (0.0, 0.0, 0.0)
         axes = "xyz" if self.kind is spatial else "xz"
         place = np.array([target["xyz".index(axis)] for axis in axes])
-        state["status"], Y[:] = rest_of(record, scene, self.tables, h, place)
-        s = np.concatenate([[0.0], np.cumsum(h)])
+        state["status"], Y[:] = rest_of(record, scene, self.tables, place)
+        self.s = np.concatenate([[0.0], np.cumsum(col.lengths_of(record, self.tables))])
         for i, axis in enumerate(axes):
-            Y[:, len(axes) + i] = record[f"start_{axis}"] * s / s[-1]
+            Y[:, len(axes) + i] = record[f"start_{axis}"] * self.s / self.s[-1]
         state["low"], state["high"] = np.inf, -np.inf
         state["min_strain"] = Y[:, EPS].min()
         state["max_turn"] = lift.turns(Y).max() if self.kind is spatial else np.abs(np.diff(Y[:, PHI])).max()
@@ -106,27 +105,15 @@ class Run:
 
     def trajectory(self) -> Trajectory:
         """The record of the run, up to where it is."""
-        record, state, scene = self.record, self.state, self.scene
+        state, scene = self.state, self.scene
         status = int(state["status"])
         message = ADVICE[status].format(
-            t=float(state["t"]), dt=float(state["dt"]), turn=float(state["max_turn"]), releases=int(state["releases"])
+            t=state["t"], dt=state["dt"], turn=state["max_turn"], releases=state["releases"]
         )
         if status == STATICS_FAILED:
-            message += why_no_rest(record, scene)
-        statistics = {
-            "steps": int(state["steps"]),
-            "rejected_steps": int(state["rejected"]),
-            "newton_iterations": int(state["newton"]),
-            "newton_failures": int(state["failures"]),
-            "loop_releases": int(state["releases"]),
-            "max_turn_rad": float(state["max_turn"]),
-            "min_strain": float(state["min_strain"]),
-            "end_time_s": float(state["t"]),
-            "wall_s": self.wall_s,
-        }
-        heading = float(scene.waves.direction_rad) if self.kind is spatial and scene.waves is not None else 0.0
-        columns = columns_of(self.output.samples[: min(int(state["samples"]), self.goal)], heading)
-        profiles, tangent = self._profiles(record, state), self.trail.growth(state)
+            message += why_no_rest(self.record, scene)
+        columns = columns_of(self.output.samples[: min(int(state["samples"]), self.goal)], heading_of(scene))
+        statistics, profiles, tangent = statistics_of(state, self.wall_s), self._profiles(), self.trail.growth(state)
         return Trajectory(scene, WORDS[status], message, columns, statistics, profiles, tangent, self._budget())
 
     def _budget(self) -> EnergyBudget | None:
@@ -137,18 +124,28 @@ class Run:
         found[energy.POWERS] -= total - total[:1]  # less the change of the energies: dissipated by the scheme in time
         return EnergyBudget(*found)
 
-    def _profiles(self, record: np.void, state: np.void) -> Profiles | None:
-        count = int(state["profiles"])
+    def _profiles(self) -> Profiles | None:
         if self.scene.output.profiles is False:
             return None
-        n = int(record["nodes"])
-        h = self.tables[record["grid_at"] : record["grid_at"] + n - 1]
-        values = self.output.profiles[:count]
-        return Profiles(
-            np.arange(count) * float(record["profile_step"]),
-            np.concatenate([[0.0], np.cumsum(h)]),
-            *(np.ascontiguousarray(values[:, :, i]) for i in range(col.PROFILE_WIDTH)),
-        )
+        values = self.output.profiles[: int(self.state["profiles"])]
+        times = np.arange(len(values)) * float(self.record["profile_step"])
+        return Profiles(times, self.s, *(np.ascontiguousarray(values[:, :, i]) for i in range(col.PROFILE_WIDTH)))
+
+
+STATISTICS = {  # of a trajectory: the fields of STATE that they come from
+    "steps": "steps", "rejected_steps": "rejected", "newton_iterations": "newton", "newton_failures": "failures",
+    "loop_releases": "releases", "max_turn_rad": "max_turn", "min_strain": "min_strain", "end_time_s": "t",
+}  # fmt: skip
+
+
+def statistics_of(state: np.void, wall_s: float) -> dict[str, int | float]:
+    """What a run has done, and how long (s) that has taken."""
+    return {name: state[field].item() for name, field in STATISTICS.items()} | {"wall_s": wall_s}
+
+
+def heading_of(scene: Scene) -> float:
+    """Direction (rad) of the waves of a motion in space; 0 in a plane and without waves."""
+    return float(scene.waves.direction_rad) if scene.motion.dimensions == 3 and scene.waves is not None else 0.0
 
 
 def sample_count(duration_s: float, step_s: float) -> int:

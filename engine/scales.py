@@ -6,9 +6,9 @@ from types import SimpleNamespace
 
 import numpy as np
 
-from .physics.tension import LAWS, TensionLaw, number_of
-from .scene.line import End, Tether
+from .physics.tension import LAWS, NAMES, TensionLaw
 from .scene.models import Scene
+from .scene.sections import End, Tether
 
 
 def put_scales(record: np.void, scene: Scene, h: np.ndarray) -> None:
@@ -68,7 +68,7 @@ def buckling_load(tether: Tether, end: End) -> float:
 @cache
 def _numbers_of(law):
     """(module, parameters, table) of a law, as its kernels have them."""
-    module = LAWS[number_of(law.law)]
+    module = LAWS[NAMES.index(law.law)]
     numbers, table = module.numbers(law)
     return module, SimpleNamespace(law_at=0, **numbers), table
 

@@ -18,18 +18,11 @@ def simulate(
 ) -> Trajectory:
     """Simulate one scene from its static equilibrium.
 
-    Parameters
-    ----------
-    scene : Scene
-    periods : float, run length in wave periods (scenes with waves), or
-    duration_s : float, run length in s
-    progress : callable(fraction) called now and then, optional
-
-    Returns
-    -------
-    Trajectory
-        status "ok", or the reason why it ended early, with the samples up to there. Bad arguments raise ValueError;
-        a run never raises.
+    periods      run length in wave periods (scenes with waves), or
+    duration_s   run length in s
+    progress     callable(fraction) called now and then, optional
+    Returns a Trajectory: status "ok", or the reason why it ended early, with the samples up to there. Bad arguments
+    raise ValueError; a run never raises.
     """
     return simulate_batch([scene], periods, duration_s, progress)[0]
 
@@ -74,16 +67,16 @@ def simulate_each(
         for i, run in batch.run_through(group, partial(share, count=len(group))):
             yield i, run.trajectory()
         ended += len(group)
-    alone = {i for i, _, _ in jobs} - {i for group in groups for i, _, _ in group}
+    shared = {i for group in groups for i, _, _ in group}
     for i, scene, length in jobs:
-        if i in alone:
+        if i not in shared:
             yield i, _alone(scene, length, share)
             ended += 1
 
 
 def _alone(scene: Scene, duration_s: float, progress: Progress) -> Trajectory:
     if scene.solver.scheme == "paper-box":
-        from .paper_box import run as by_paper
+        from .paper_box.driver import run as by_paper
 
         return by_paper(scene, duration_s, progress)
     run = Run(scene, duration_s)

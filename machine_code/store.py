@@ -60,6 +60,9 @@ def folder_for(name: str, sources: str, kept: int) -> Path | None:
     return None
 
 
+folder_of = cache(folder_for)  # asked once a process, for every kernel
+
+
 def _roots() -> Iterator[Path]:
     # In full: a process may go to another folder between this and its first kernel.
     told = os.environ.get("TETHER_CACHE_DIR")

@@ -9,6 +9,7 @@ import ast
 import subprocess
 import sys
 import tomllib
+from functools import cache
 from graphlib import TopologicalSorter
 from pathlib import Path
 
@@ -59,6 +60,7 @@ def imported(source: str, package: str) -> set[str]:
     return names
 
 
+@cache
 def imports_of(name: str) -> set[str]:
     package = name if FILES[name].name == "__init__.py" else name.rpartition(".")[0]
     return imported(FILES[name].read_text(encoding="utf-8"), package)

@@ -85,14 +85,10 @@ def relaxation(mu, tau):
 def steady_motion(a, k, sine, cosine):
     """The particular solution that q is made of, at a phase: displacement, velocity (slack: less the lift's part)."""
     if a == 1:
-        return (
-            k[LIFT] + k[TAUT_SIN] * sine + k[TAUT_COS] * cosine,
-            k[OMEGA] * (k[TAUT_SIN] * cosine - k[TAUT_COS] * sine),
-        )
-    return (
-        (k[SLACK_COS] * sine - k[SLACK_SIN] * cosine) / k[OMEGA],
-        k[SLACK_SIN] * sine + k[SLACK_COS] * cosine,
-    )
+        place = k[LIFT] + k[TAUT_SIN] * sine + k[TAUT_COS] * cosine
+        return place, k[OMEGA] * (k[TAUT_SIN] * cosine - k[TAUT_COS] * sine)
+    place = (k[SLACK_COS] * sine - k[SLACK_SIN] * cosine) / k[OMEGA]
+    return place, k[SLACK_SIN] * sine + k[SLACK_COS] * cosine
 
 
 @kernel

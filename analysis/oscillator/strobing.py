@@ -45,14 +45,8 @@ def hand_over(a, tau, x, v, y, w, z, u, theta, k, steady):
     # Of the product inverse(Phi_b) Phi_a, for the tangent vectors:
     m11, m12 = det * (r22 * p11 - r12 * p21), det * (r22 * p12 - r12 * p22)
     m21, m22 = det * (r11 * p21 - r21 * p11), det * (r11 * p22 - r21 * p12)
-    return (
-        det * (r22 * g - r12 * h),
-        det * (r11 * h - r21 * g),
-        m11 * y + m12 * w,
-        m21 * y + m22 * w,
-        m11 * z + m12 * u,
-        m21 * z + m22 * u,
-    )
+    x, v = det * (r22 * g - r12 * h), det * (r11 * h - r21 * g)
+    return x, v, m11 * y + m12 * w, m21 * y + m22 * w, m11 * z + m12 * u, m21 * z + m22 * u
 
 
 @kernel
@@ -65,11 +59,11 @@ def one_period(x, v, y, w, z, u, table, log):
     Returns the six, the number of pieces (0: too many, the state is NaN), and the time spent slack.
     """
     last = len(table.tau) - 1
-    end = table.tau[last]
+    end, k = table.tau[last], table.constants
     pieces, slack = 0, 0.0
     for window in range(len(table.steady)):
         theta = table.theta[window]
-        a = side_of(x, v, theta, table.constants)
+        a = side_of(x, v, theta, k)
         start = 0.0
         while True:
             if pieces == len(log):
@@ -81,9 +75,7 @@ def one_period(x, v, y, w, z, u, table, log):
                 break
             if a == 0:
                 slack += crossing - start
-            x, v, y, w, z, u = hand_over(
-                a, crossing, x, v, y, w, z, u, theta, table.constants, table.steady[window]
-            )  # fmt: skip
+            x, v, y, w, z, u = hand_over(a, crossing, x, v, y, w, z, u, theta, k, table.steady[window])
             a, start = 1 - a, crossing
         if a == 0:
             slack += end - start

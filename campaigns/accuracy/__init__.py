@@ -10,18 +10,16 @@ reported. Run time is that of stepping alone, without compilation, statics, inpu
 against their own refined runs and against ours; what is not installed is a row that says so. Nothing is random.
 """
 
-import os
 from argparse import Namespace
 from dataclasses import replace
 
-from campaigns.accuracy.plan import FACTORS, FULL, QUICK
-from campaigns.accuracy.works import BY_NAME, UNITS
+import engine
+from campaigns.accuracy.plan import BY_NAME, FACTORS, FULL, QUICK, UNITS
 from campaigns.machinery import cli
 from campaigns.study import Order, Study
 
 
 def options(group) -> None:
-    """Add the options of this campaign."""
     works = f"works (default: {' '.join(FULL.works)})"
     cli.add(group, "--works", "A B ...", works, cli.one_of(FULL.works), many=True)
     turns = f"turns of every timed setting (default: {FULL.rounds})"
@@ -45,17 +43,15 @@ def done(order: Order):
     Returns times and summary.
     """
     from campaigns.accuracy import jobs, pieces
-    from campaigns.accuracy.rows import COLUMNS, point_row, write_orders
-    from campaigns.machinery.folder import made_by, trajectory_path
+    from campaigns.accuracy.rows import COLUMNS, ORDER_COLUMNS, orders, point_row
+    from campaigns.machinery.folder import made_by, trajectory_path, write_table
     from campaigns.machinery.plan import Plan
     from campaigns.machinery.runner import run, write_scene
 
-    own, out, simulate, ours = order.own, order.how.out, order.simulate, order.simulate is None
-    if ours:
-        from engine import simulate
-    sources = (f"campaigns/accuracy/{name}" for name in ("rows.py", "works.py", "works.toml"))
+    own, out, ours = order.own, order.how.out, order.simulate is None
+    sources = (f"campaigns/accuracy/{name}" for name in ("rows.py", "plan.py", "works.toml"))
     maker = made_by({}, "campaigns/breaking_line/theory", "engine", *sources)
-    plan = Plan(order.how, simulate, point_row, COLUMNS, maker)
+    plan = Plan(order.how, order.simulate or engine.simulate, point_row, COLUMNS, maker)
     timing, known, found = {"compile_s": 0.0, "run_s": 0.0, "analysis_s": 0.0}, [], 0
     alone = replace(plan, how=replace(order.how, backend="threading", jobs=1))
     phases = jobs.phases(out, own.effort, own.quick, ours and not own.no_peers)
@@ -66,19 +62,19 @@ def done(order: Order):
         found += sum(trajectory_path(out, job.key).exists() for job in phase)
         more, summary = run(how, known)
         timing = {name: timing[name] + more[name] for name in timing}
-    write_orders(out, summary.rows)
+    write_table(out / "orders.csv", ORDER_COLUMNS, orders(out, summary.rows))
     if ours:
         pieces.keep(out, own.quick)
     return timing, replace(summary, computed=len(summary.rows) - found, found=found)
 
 
 def parameters(order: Order) -> dict[str, object]:
-    """What the provenance says of this campaign."""
-    from campaigns.accuracy.jobs import notes
+    from campaigns.accuracy.jobs import taking_part, version
     from campaigns.machinery.session import machine
 
     own, told = order.own, ("title", "measure", "period_s", "duration_s", "rough")
     works = [BY_NAME[name] for name in own.effort.works]
+    peers = dict.fromkeys(peer for peer, _, _ in taking_part(own.effort.works, own.quick) if not own.no_peers)
     return {
         "works": {
             work.name: {name: getattr(work, name) for name in told} | {"unit": UNITS[work.measure]} for work in works
@@ -86,18 +82,9 @@ def parameters(order: Order) -> dict[str, object]:
         "quick": own.quick,
         "rounds": own.effort.rounds,
         "peers": not own.no_peers,
-        "peer_notes": {} if own.no_peers else notes(own.effort.works, own.quick),
+        "peer_notes": {f"{peer.name} {version(peer) or '(not installed)'}": peer.notes for peer in peers},
         "machine": machine(),
     }
-
-
-def one_thread() -> None:
-    """Linear algebra on one thread, as every other solver that is timed; to be called before NumPy is imported.
-
-    The matrices of scipy's solvers are small: on a busy machine two threads were seen to take a hundred times longer.
-    """
-    for library in ("OPENBLAS", "OMP", "MKL"):
-        os.environ.setdefault(f"{library}_NUM_THREADS", "1")
 
 
 STUDY = Study(name="accuracy", protocol=__doc__, options=options, read=read, parameters=parameters, done=done)

@@ -18,9 +18,8 @@ import numpy as np
 
 from campaigns.accuracy import plan
 from campaigns.accuracy.peers.record import nothing
-from campaigns.accuracy.plan import BEST, LONG_PERIODS, Effort, Point
+from campaigns.accuracy.plan import BEST, BY_NAME, LONG_PERIODS, PEERS, PERIOD_S, Effort, Peer, Point
 from campaigns.accuracy.rows import kept_samples, point_row
-from campaigns.accuracy.works import BY_NAME, PEERS, PERIOD_S, Peer
 from campaigns.machinery.folder import made_by
 from campaigns.machinery.plan import Job
 from engine.trajectory import Trajectory
@@ -40,7 +39,12 @@ def phases(out: Path, effort: Effort, quick: bool, with_peers: bool) -> Iterator
     there = [(peer, work) for peer, work, _ in asked if version(peer)]
     known: Samples = {}
     ours = {(point.work, point.kind): engine_job(point, known) for point in first}
-    ours |= {(work, OURS + peer.name): ours_for(peer, work) for peer, work in there if peer.ours}
+    for peer, work in there:
+        if peer.ours:  # our refined run with the changes that another code is to be compared with
+            nodes, rtol = OURS_REFINED
+            scene = BY_NAME[work].made({**peer.ours, "tether.nodes": nodes, "solver.rtol": rtol})
+            point = Point(work, OURS, BEST, nodes, "rtol", rtol)
+            ours[work, OURS + peer.name] = job_of(point, scene, f"{OURS} {peer.name}")
     yield list(ours.values())
     known |= {(work, what): kept_samples(BY_NAME[work], out, job.key) for (work, what), job in ours.items()}
     refined = [(peer, work, peer.refined[work]) for peer, work in there if work in peer.refined]
@@ -100,19 +104,6 @@ def taking_part(works: tuple[str, ...], quick: bool) -> list[tuple[Peer, str, li
     """(code, work, its settings) of all that is asked of other codes."""
     chosen = ((peer, peer.quick if quick else peer.settings) for peer in PEERS)
     return [(peer, work, settings[work]) for peer, settings in chosen for work in works if settings.get(work)]
-
-
-def notes(works: tuple[str, ...], quick: bool) -> dict[str, str]:
-    """What is left different, by name of the code, for those that take part."""
-    peers = dict.fromkeys(peer for peer, _, _ in taking_part(works, quick))
-    return {f"{peer.name} {version(peer) or '(not installed)'}": peer.notes for peer in peers}
-
-
-def ours_for(peer: Peer, work: str) -> Job:
-    """Our refined run with the changes that another code is to be compared with."""
-    nodes, rtol = OURS_REFINED
-    scene = BY_NAME[work].made({**peer.ours, "tether.nodes": nodes, "solver.rtol": rtol})
-    return job_of(Point(work, OURS, BEST, nodes, "rtol", rtol), scene, f"{OURS} {peer.name}")
 
 
 def peer_job(peer: Peer, work: str, kind: str, setting: tuple[int, float], known: Samples) -> Job:

@@ -7,21 +7,52 @@ difference between runs that keep a sample every hundredth of a period and hardl
 """
 
 import time
+from functools import partial
 from pathlib import Path
+from timeit import timeit
 
-from campaigns.accuracy.works import BUOY
+import numba
+
+from campaigns.accuracy.plan import BUOY
 from campaigns.machinery.folder import read_json, write_json
+from engine import load_scene, simulate, source_hash
+from engine.arrays import Stage
+from engine.physics.water import water
+from engine.planar import node
+from engine.run import Run
+from engine.time.newton import assemble
 
 REPEATS, ROUNDS = 5_000, 15
 PERIODS = 40
 CHANGES = {"waves.steepness": 0.13, "water.depth_m": 22.5}  # Table 1 in the waves of the snapping work
-STAGE_S = 0.02  # of the implicit stage that is assembled: about that of a usual step
+RATE = 1.0 / 0.02  # of the implicit stage that is assembled: about that of a usual step, 0.02 s
+
+
+# Each piece over and over: of a record, its tables, a state in mid motion, and Newton's work arrays.
+@numba.njit
+def assembly(p, tables, Y, work, count):
+    for _ in range(count):
+        node.shape(p, tables, Y, work.Q, work.X)
+        node.node_quantities(p, tables, Stage(0.0, 1.0, RATE, RATE), Y, work)
+
+
+@numba.njit
+def waves(p, tables, Y, work, count):
+    for i in range(count):
+        water(p, tables, 1e-3 * i, 1.0, work.X, work.F)
+
+
+@numba.njit
+def everything(p, tables, Y, work, count):
+    for i in range(count):
+        assemble(p, tables, Stage(1e-3 * i, 1.0, RATE, RATE), Y, work)
+
+
+LOOPS = {"assembly": assembly, "waves": waves, "all": everything}
 
 
 def keep(out: Path, quick: bool = False) -> None:
     """Write costs.json unless it is there already, from this very engine. Raises OSError."""
-    from engine import source_hash
-
     path, engine = out / "costs.json", {"engine": source_hash()}
     kept = read_json(path)
     if not isinstance(kept, dict) or not engine.items() <= kept.items():
@@ -33,24 +64,23 @@ def costs(rounds: int = ROUNDS) -> dict[str, object]:
 
     All take turns, and the least of the rounds counts: what else the machine does only adds.
     """
-    from engine import load_scene, simulate
-
     scene = load_scene(BUOY, CHANGES)
     sparse = load_scene(BUOY, CHANGES | {"output.step_s": PERIODS * scene.waves.period_s})
-    loops, arguments, found = _loops(), _arguments(scene), []
+    state = Run(scene, PERIODS * scene.waves.period_s)
+    state.advance(state.goal)
+    work = state.kind.work_arrays(state.record, scene.tether.nodes)
+    work.C_tilde[:] = state.motion.C
+    loops = {name: partial(loop, state.record, state.tables, state.motion.Y, work) for name, loop in LOOPS.items()}
+    found = []
     for loop in loops.values():
-        loop(*arguments, 10)
+        loop(10)
     for _ in range(rounds):
         began = time.perf_counter()
         run = simulate(scene, periods=PERIODS)
         times = {"call": time.perf_counter() - began - run.statistics["wall_s"], "run": run.statistics["wall_s"]}
         times["sparse"] = simulate(sparse, periods=PERIODS).statistics["wall_s"]
-        for name, loop in loops.items():
-            began = time.perf_counter()
-            loop(*arguments, REPEATS)
-            times[name] = (time.perf_counter() - began) / REPEATS
-        found.append(times)
-    least = {name: min(times[name] for times in found) for name in times}
+        found.append(times | {name: timeit(partial(loop, REPEATS), number=1) / REPEATS for name, loop in loops.items()})
+    least = {name: min(times[name] for times in found) for name in found[0]}
     iterations = run.statistics["newton_iterations"]
     output = max(least["run"] - least["sparse"], 0.0)
     seconds = {
@@ -71,43 +101,3 @@ def costs(rounds: int = ROUNDS) -> dict[str, object]:
         "stepping_ms": 1e3 * least["run"],
         "python_ms": 1e3 * least["call"],
     }
-
-
-def _arguments(scene) -> tuple:
-    """What the loops take: record, tables, state in mid motion, and the work arrays of Newton's method."""
-    from engine.run import Run
-
-    run = Run(scene, PERIODS * scene.waves.period_s)
-    run.advance(run.goal)
-    work = run.kind.work_arrays(run.record, scene.tether.nodes)
-    work.C_tilde[:] = run.motion.C
-    return run.record, run.tables, run.motion.Y, work
-
-
-def _loops() -> dict:
-    import numba
-
-    from engine.arrays import Stage
-    from engine.physics.water import water
-    from engine.planar import node
-    from engine.time.newton import assemble
-
-    rate = 1.0 / STAGE_S
-
-    @numba.njit
-    def assembly(p, tables, Y, work, count):
-        for _ in range(count):
-            node.shape(p, tables, Y, work.Q, work.X)
-            node.node_quantities(p, tables, Stage(0.0, 1.0, rate, rate), Y, work)
-
-    @numba.njit
-    def waves(p, tables, Y, work, count):
-        for i in range(count):
-            water(p, tables, 1e-3 * i, 1.0, work.X, work.F)
-
-    @numba.njit
-    def everything(p, tables, Y, work, count):
-        for i in range(count):
-            assemble(p, tables, Stage(1e-3 * i, 1.0, rate, rate), Y, work)
-
-    return {"assembly": assembly, "waves": waves, "all": everything}

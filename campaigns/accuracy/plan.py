@@ -1,4 +1,17 @@
-"""The list of the engine's runs of the accuracy campaign, in the order of its table. kind of a run:
+"""The works of the accuracy campaign and the other codes on them, read from works.toml; the list of the engine's runs.
+
+Errors, over the even samples of a run:
+
+    radius   rms of r(t) - r(t) of the reference, mm
+    place    rms of the distance between the upper end's places, mm
+    strain   mean over line and time of |strain - exact strain|, per cent of the static strain
+
+The buoy is that of Table 1. The pendulum is a rope of its diameter, softer and shorter, with 2 kg at its lower end, in
+air, pushed along and across: smooth, in three dimensions, and what every peer of rods can do. The breaking line is that
+of section 4.1 without gravity on an even grid: it stays straight, so that the exact solution in one dimension
+(`campaigns.breaking_line.theory`) is the reference.
+
+kind of a run, in the order of the table:
 
     reference   what errors are taken against        check    how far that is converged
     point       timed: error against run time, in rounds that take turns
@@ -11,10 +24,71 @@ Near a snap the error of a loose setting is partly luck: every round takes anoth
 the one named, and tables give medians over the rounds.
 """
 
+import tomllib
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from pathlib import Path
 
-from campaigns.accuracy.works import BUOY, BY_NAME, FILE, STRAIN, WORKS, Work
+import engine
+
+BUOY = "tethered_buoy"
+RADIUS, PLACE, STRAIN = "radius", "place", "strain"
+UNITS = {RADIUS: "mm", PLACE: "mm", STRAIN: "%"}
+PERIOD_S = 5.0
+
+
+@dataclass(frozen=True)
+class Work:
+    """One work: a shipped scene with the changes of a set and its own.
+
+    rough: why methods do not show their orders on it, "" where it is smooth. reference, checks: (nodes, rtol) of the
+    reference and of runs that show how far it is converged; no reference: the exact solution. The wave period, or
+    1 s where there is none, is what steps per period are counted in. timed: False for a work that shows orders only.
+    """
+
+    name: str
+    title: str
+    scene: str
+    set: str
+    changes: dict
+    duration_s: float
+    measure: str
+    rough: str = ""
+    reference: tuple[int, float] | None = None
+    checks: tuple[tuple[int, float], ...] = ()
+    period_s: float = PERIOD_S
+    timed: bool = True
+
+    def made(self, changes: dict):
+        """The scene with further changes. Raises SceneError."""
+        own = {**FILE["sets"][self.set], **self.changes}
+        return engine.load_scene(self.scene, {key: None if own[key] == "none" else own[key] for key in own} | changes)
+
+
+@dataclass(frozen=True, eq=False)
+class Peer:
+    """Another code. package, module: as installed and as imported.
+
+    settings, quick: (nodes or segments, value) that are timed, by work; control: what the value is. refined: its
+    reference, then a check, by work; none: ours is its own. ours: changes of the scene with which our refined run is
+    the one to compare with. notes: what is left different.
+    """
+
+    name: str
+    package: str
+    module: str
+    control: str
+    notes: str
+    settings: dict[str, list]
+    quick: dict[str, list] = field(default_factory=dict)
+    refined: dict[str, list] = field(default_factory=dict)
+    ours: dict[str, object] = field(default_factory=dict)
+
+
+FILE = tomllib.loads(Path(__file__).with_name("works.toml").read_text(encoding="utf-8"))
+BY_NAME = {name: Work(name, **row) for name, row in FILE["works"].items()}
+WORKS = tuple(BY_NAME.values())
+PEERS = tuple(Peer(name, **row) for name, row in FILE["peers"].items())
 
 FACTORS = (1.0, 0.9, 1.1)
 ORDERS = {"esdirk43": 4, "trbdf2": 2, "generalized-alpha": 2, "midpoint": 2, "backward-euler": 1, "paper-box": 2}
@@ -36,7 +110,8 @@ SPACE_STEPS = 400  # per period, of smooth works in space; rough ones need a tol
 SPACE_RTOL = 1e-5
 LINE_WAVE_MPS = 1000.0  # about the fastest wave of the breaking line: steps are an element's length over it
 MOST_ADAPTIVE_LINE = 401  # nodes of breaking lines with steps under control: beyond, some take minutes to fail
-TOLERANCE_NODES, TOLERANCE_REFERENCE = 161, 1e-6
+TOLERANCE_NODES = 161
+TOLERANCE_REFERENCE = TOLERANCE_NODES, 1e-6  # nodes, rtol
 COURANTS, LINE_RTOLS = (4.0, 2.0, 1.0, 0.5), (0.01, 1e-3, 1e-4)  # of breaking lines
 BOX_NODES, BOX_STEPS = 21, (50, 100, 200)  # of the paper's scheme
 Setting = tuple[str, int, str, float]  # method, nodes, control, its value
@@ -108,7 +183,14 @@ def phases(effort: Effort) -> tuple[list[Point], list[Point], list[Point]]:
     """References alone, from which everything else is described by its distance; what is not timed; what is timed, all
     works' settings in turns, round by round, and the paper's scheme once."""
     works = [work for work in WORKS if work.name in effort.works]
-    first = [point for work in works for point in references(work)]
+    # The reference of a work, and that of its tolerances: on their grid, at a tolerance beyond them, so that errors
+    # against it are those in time alone.
+    first = [
+        Point(work.name, kind, BEST, nodes, "rtol", rtol)
+        for work in works
+        if work.reference is not None
+        for kind, (nodes, rtol) in (("reference", work.reference), ("grid", TOLERANCE_REFERENCE))
+    ]
     second = [point for work in works for point in series(work, effort)]
     third = [
         Point(work.name, "point", *setting, round)
@@ -119,14 +201,6 @@ def phases(effort: Effort) -> tuple[list[Point], list[Point], list[Point]]:
         if round == 0 or setting[0] != "paper-box"
     ]
     return first, second, third
-
-
-def references(work: Work) -> list[Point]:
-    """The reference of a work, and that of its tolerances: on their grid, at a tolerance beyond them, so that errors
-    against it are those in time alone."""
-    grid = (TOLERANCE_NODES, TOLERANCE_REFERENCE)
-    kinds = {"reference": work.reference, "grid": grid} if work.reference is not None else {}
-    return [Point(work.name, kind, BEST, nodes, "rtol", rtol) for kind, (nodes, rtol) in kinds.items()]
 
 
 def series(work: Work, effort: Effort) -> list[Point]:

@@ -17,11 +17,9 @@ from pathlib import Path
 import numpy as np
 
 from campaigns import columns
-from campaigns.accuracy.plan import ORDERS, plain
-from campaigns.accuracy.works import BY_NAME, RADIUS, STRAIN, UNITS, Work
+from campaigns.accuracy.plan import BY_NAME, ORDERS, RADIUS, STRAIN, UNITS, Work, plain
 from campaigns.columns import MESSAGE, RUN_KEY, STATUS, WALL_S, Column, counted
-from campaigns.machinery.folder import write_table
-from campaigns.tables import run_of
+from campaigns.machinery.folder import run_of
 
 STEPPING = (columns.STEPS, columns.REJECTED, columns.NEWTON, columns.NEWTON_FAILURES)
 COUNTED = (columns.END_S, *STEPPING, columns.LOOPS, columns.TURN)
@@ -130,11 +128,6 @@ ORDER_COLUMNS = (
 TOLERANCE_SLOPE = {"esdirk43": 1.0, "trbdf2": 2.0 / 3.0}
 
 
-def write_orders(out: Path, rows: list[dict]) -> None:
-    """Write orders.csv and its dictionary beside table.csv. Raises OSError."""
-    write_table(out / "orders.csv", ORDER_COLUMNS, orders(out, rows))
-
-
 def orders(out: Path, rows: list[dict]) -> list[dict]:
     """The rows of orders.csv from those of table.csv, which name the runs in `out`; in the order of the table."""
     series: dict[tuple[str, str, str], list[dict]] = {}
@@ -145,11 +138,16 @@ def orders(out: Path, rows: list[dict]) -> list[dict]:
     found = []
     for (work, kind, method), own in series.items():
         own.sort(key=lambda row: (row["nodes"], -row["setting"]))  # coarse to fine
+        known = [row for row in own if row.get("error") is not None]
         if kind == "both":  # theory: the order in space; the viscosity's limiter leaves it alone
-            found.append(_judged(kind, min(2, ORDERS[plain(method)]), own, _errors(own)))
-        elif kind == "tolerance":
-            found += _by_tolerance(method, [row for row in own if row.get("error") is not None])
-        else:
+            errors = [math.nan if row.get("error") is None else row["error"] for row in own]
+            found.append(_judged(kind, min(2, ORDERS[plain(method)]), own, errors))
+        elif kind == "tolerance" and len(known) > 2:
+            errors = [row["error"] for row in known]
+            logs = np.log([row["setting"] for row in known]), np.log(np.maximum(errors, 1e-12))
+            row = _judged(kind, TOLERANCE_SLOPE[method], known, errors)
+            found.append(row | {"order": float(np.polyfit(*logs, 1)[0]), "slopes": "", "within": ""})
+        elif kind != "tolerance":
             samples = [kept_samples(BY_NAME[work], out, row["run_key"]) for row in own]
             theory = ORDERS[method] if kind == "time" else 2
             found.append(_judged(kind, theory, own, _differences(samples)))
@@ -169,19 +167,6 @@ def first_slack(out: Path, work: Work, rows: list[dict]) -> int:
 def _differences(samples: list) -> list[float]:
     """Distances of neighbours; nan where one of them gave nothing."""
     return [math.nan if coarse is None or fine is None else rms_mm(coarse, fine) for coarse, fine in pairwise(samples)]
-
-
-def _errors(series: list[dict]) -> list[float]:
-    return [math.nan if row.get("error") is None else row["error"] for row in series]
-
-
-def _by_tolerance(method: str, series: list[dict]) -> list[dict]:
-    if len(series) < 3:
-        return []
-    errors = _errors(series)
-    logs = np.log([row["setting"] for row in series]), np.log(np.maximum(errors, 1e-12))
-    row = _judged("tolerance", TOLERANCE_SLOPE[method], series, errors)
-    return [row | {"order": float(np.polyfit(*logs, 1)[0]), "slopes": "", "within": ""}]
 
 
 def _judged(kind: str, theory: float, series: list[dict], errors: list[float]) -> dict:

@@ -11,13 +11,17 @@ up to the arrival of the front, to be held against the exact solution: one fine 
 shock, and a series of grids for case 4 and for case 3', which stays smooth. Nothing is random.
 """
 
-from collections.abc import Sequence
+from collections.abc import Callable, Iterator
 from functools import partial
+from typing import TYPE_CHECKING
 
 from campaigns.machinery import cli
 from campaigns.machinery.plan import Job
 from campaigns.machinery.runner import run
 from campaigns.study import Measures, Order, Study
+
+if TYPE_CHECKING:
+    from engine import Scene
 
 CAMPAIGN = "breaking_line"
 SCENE = "breaking_line"
@@ -42,68 +46,58 @@ def options(group) -> None:
     group.add_argument("--no-companions", action="store_true", help=leave_out)
 
 
-def planned(name: str, changes: dict, cases: Sequence[str], companions: bool, faults: list[str]) -> tuple[Job, ...]:
+def cases(order: Order) -> Iterator[Job]:
     """The runs in the order of the table.
 
     kind: "case"; "doubled" (twice the elements); "stiffness" (case 4, doubled, with another EI); without gravity on an
     even grid up to the arrival of the front, "straight" (fine) and "series" (grid by grid).
     """
-    from campaigns.machinery.plausible import doubts, endless
-    from engine import SceneError
-
-    runs: list[Job] = []
-    try:
-        plain = {case: _scene(name, changes, case, {}) for case in cases}
-        odd = [line for case, scene in plain.items() for line in (*doubts(scene), *endless(scene, LENGTHS_S[case[0]]))]
-        faults.extend(dict.fromkeys(odd))
-        if faults:  # theory takes seconds, and of an odd line long, for an order that is refused
-            return ()
-        runs += [_run(case, "case", scene, LENGTHS_S[case[0]]) for case, scene in plain.items()]
-        if not companions:
-            return tuple(runs)
-        doubled = {case: _finer(scene) for case, scene in plain.items()}
-        for EI in STIFFNESSES_NM2 if STIFFNESS_CASE in cases else ():
-            if EI != plain[STIFFNESS_CASE].tether.bending_stiffness_Nm2:
-                further = {**doubled[STIFFNESS_CASE], "tether.bending_stiffness_Nm2": EI}
-                scene = _scene(name, changes, STIFFNESS_CASE, further)
-                runs.append(_run(STIFFNESS_CASE, "stiffness", scene, LENGTHS_S[STIFFNESS_CASE]))
-        for case in cases:
-            runs += _straight(name, changes, case, plain[case])
-        for case in cases:
-            runs.append(_run(case, "doubled", _scene(name, changes, case, doubled[case]), LENGTHS_S[case[0]]))
-    except SceneError as error:
-        faults.extend(fault for fault in error.faults if fault not in faults)
-    return tuple(runs)
+    plain = {}
+    for case in order.own.cases:
+        if (scene := order.scene(_changes(order, case, {}), LENGTHS_S[case[0]])) is None:
+            return
+        plain[case] = scene
+    if order.faults:  # theory takes seconds, and of an odd line long, for an order that is refused
+        return
+    for case, scene in plain.items():
+        yield Job({"case": case, "kind": "case"}, scene, duration_s=LENGTHS_S[case[0]])
+    if order.own.no_companions:
+        return
+    finer = {case: {"tether.nodes": 2 * scene.tether.nodes - 1} for case, scene in plain.items()}
+    for case, scene in plain.items():
+        finer[case] |= {"output.profiles_step_s": DOUBLED_STEP_S} if scene.output.profiles else {}
+    for EI in STIFFNESSES_NM2 if STIFFNESS_CASE in plain else ():
+        if EI != plain[STIFFNESS_CASE].tether.bending_stiffness_Nm2:
+            yield _run(order, STIFFNESS_CASE, "stiffness", finer[STIFFNESS_CASE] | {"tether.bending_stiffness_Nm2": EI})
+    for case, scene in plain.items():
+        yield from _straight(order, case, scene)
+    for case in plain:
+        yield _run(order, case, "doubled", finer[case])
 
 
-def _run(case: str, kind: str, scene, duration_s: float) -> Job:
-    return Job({"case": case, "kind": kind}, scene, duration_s=duration_s)
+def _run(order: Order, case: str, kind: str, changes: dict, duration_s: float = 0.0) -> Job:
+    scene = order.base(_changes(order, case, changes), tell=True)
+    return Job({"case": case, "kind": kind}, scene, duration_s=duration_s or LENGTHS_S[case[0]])
 
 
-def _finer(scene) -> dict[str, object]:
-    changes: dict[str, object] = {"tether.nodes": 2 * scene.tether.nodes - 1}
-    return {**changes, "output.profiles_step_s": DOUBLED_STEP_S} if scene.output.profiles else changes
-
-
-def _scene(name: str, changes: dict, case: str, further: dict):
-    from engine import load_scene
-
+def _changes(order: Order, case: str, further: dict) -> dict[str, object]:
+    """The changes of a case: its break, with both ends at one level."""
     decay = {"end.force_decay_s": SLOW_S if case.endswith("p") else FAST_S}
-    force_N = FORCES_N[case[0]]
-    settings = {**changes, **further, **decay}
-    scene = load_scene(name, {**settings, "end.force_N": [force_N, 0.0, 0.0]})
-    tether = scene.tether
-    weight_N = tether.density_kgpm3 * tether.area_m2 * scene.gravity_mps2 * tether.length_m
-    return load_scene(name, {**settings, "end.force_N": [force_N, 0.0, 0.5 * weight_N]})
+    force_N = [FORCES_N[case[0]], 0.0, 0.0]
+    if (scene := order.base({**further, **decay, "end.force_N": force_N})) is not None:
+        tether = scene.tether
+        weight_N = tether.density_kgpm3 * tether.area_m2 * scene.gravity_mps2 * tether.length_m
+        force_N = [*force_N[:2], 0.5 * weight_N]
+    return {**further, **decay, "end.force_N": force_N}
 
 
-def _straight(name: str, changes: dict, case: str, plain) -> list[Job]:
+def _straight(order: Order, case: str, plain: "Scene") -> Iterator[Job]:
     """The breaks without gravity."""
     from campaigns.breaking_line.theory import theory_of
 
     theory = theory_of(plain, LONGEST_S)
     if theory is None:
-        return []
+        return
     step_s = min(STRAIGHT_STEP_S, BIRTH_STEPS * theory.start.time_s) if theory.shocked else STRAIGHT_STEP_S
     kinds = [("straight", STRAIGHT_NODES)] if theory.shocked else []
     kinds += [("series", nodes) for nodes in SERIES_NODES if case in SERIES_CASES]
@@ -115,10 +109,8 @@ def _straight(name: str, changes: dict, case: str, plain) -> list[Job]:
         "output.profiles": True,
         "output.profiles_step_s": step_s,
     }
-    return [
-        _run(case, kind, _scene(name, changes, case, {**straight, "tether.nodes": nodes}), theory.arrival_s)
-        for kind, nodes in kinds
-    ]
+    for kind, nodes in kinds:
+        yield _run(order, case, kind, {**straight, "tether.nodes": nodes}, theory.arrival_s)
 
 
 def measures(order: Order) -> Measures:
@@ -129,12 +121,11 @@ def measures(order: Order) -> Measures:
     return Measures(COLUMNS, breaking_row, ("analysis", "engine", *own))
 
 
-def write_results(plan, summary) -> float:
-    """statements.csv and exact.nc of the folder; returns 0, no seconds of the workers' analysis."""
-    from campaigns.breaking_line import results
+def beside(order: Order) -> Iterator[Callable]:
+    """What follows the runs: statements.csv and exact.nc of the folder."""
+    from campaigns.breaking_line.results import write_results
 
-    results.write_results(plan.how.out)
-    return 0.0
+    yield write_results
 
 
 STUDY = Study(
@@ -143,11 +134,11 @@ STUDY = Study(
     scene=SCENE,
     taken=dict.fromkeys(("end", "end.force_N", "end.force_decay_s", "end.kind"), "use --cases"),
     options=options,
-    cases=lambda order: planned(order.name, order.changes, order.own.cases, not order.own.no_companions, order.faults),
+    cases=cases,
     measures=measures,
     parameters=lambda order: {"cases": list(order.own.cases), "companions": not order.own.no_companions},
     runs=lambda order: partial(run, compile_run_s=COMPILE_RUN_S),
-    beside=lambda order: (write_results,),
+    beside=beside,
     together=False,
 )
 main, parser, read_order = STUDY.main, STUDY.parser, STUDY.read_order

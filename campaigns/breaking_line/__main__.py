@@ -1,5 +1,3 @@
-"""`python -m campaigns.breaking_line`."""
-
 from campaigns.breaking_line import main
 
 raise SystemExit(main())

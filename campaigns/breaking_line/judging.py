@@ -5,23 +5,20 @@ the fast and the slow break of one tension, "case to case" is in rising tension.
 """
 
 import math
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable
 from functools import cache, partial
 from itertools import pairwise
 from pathlib import Path
-from typing import Protocol
+from statistics import fmean
+from typing import TYPE_CHECKING
 
 from campaigns.breaking_line.lines import CASES, FAST, SLOW, Line, find, named, of_kind, pairs
 from campaigns.statements import Check, Claim, Measured, formula, read_claims, shown, told
 
+if TYPE_CHECKING:
+    from campaigns.paper.measured import Results
 
-class Lines(Protocol):
-    """Results that hold runs of the breaking line."""
-
-    lines: Sequence[Line]
-
-
-Measure = Callable[[Lines], Measured]
+Measure = Callable[["Results"], Measured]
 GROUPS = {"all": CASES, "fast": FAST, "slow": SLOW}
 PRINTED_CROSSING_S = (0.55, 0.91)
 DELAYED = 0.5  # of the difference of the fracture times: by so much a slow break delays the way of the end
@@ -38,7 +35,7 @@ def values(lines: Iterable[Line], cases: Iterable[str], of: str) -> list[Check]:
 def by_case(of: str, form: str, cases: str = "all", only: tuple[str, ...] = (), judge: str = "") -> Measure:
     """A check for every case, or those in `only`; judge: what the rule judges, where it is not the number told."""
 
-    def measure(results: Lines) -> Measured:
+    def measure(results: "Results") -> Measured:
         deciding = values(results.lines, only or GROUPS[cases], judge or of)
         checks = [(f"case {name}", value) for name, value in deciding]
         return Measured(checks, told(values(results.lines, GROUPS[cases], of), form))
@@ -49,7 +46,7 @@ def by_case(of: str, form: str, cases: str = "all", only: tuple[str, ...] = (), 
 def case_to_case(of: str, form: str, cases: str = "all") -> Measure:
     """A check for every step from one case to the next: by how much the number rises."""
 
-    def measure(results: Lines) -> Measured:
+    def measure(results: "Results") -> Measured:
         groups = (FAST, SLOW) if cases == "all" else (GROUPS[cases],)
         found = [values(results.lines, group, of) for group in groups]
         checks = [(f"{a} to {b}", after - before) for one in found for (a, before), (b, after) in pairwise(one)]
@@ -61,7 +58,7 @@ def case_to_case(of: str, form: str, cases: str = "all") -> Measure:
 def by_pair(compare: Callable[[float, float], float], of: str, form: str) -> Measure:
     """A check for every tension: compare(number of the fast break, number of the slow one)."""
 
-    def measure(results: Lines) -> Measured:
+    def measure(results: "Results") -> Measured:
         checks, words = [], []
         for both in pairs(results.lines):
             numbers = [formula(of)(line) for line in both]
@@ -75,28 +72,17 @@ def by_pair(compare: Callable[[float, float], float], of: str, form: str) -> Mea
 
 
 def all_cases(judge: Callable[[list[float]], float], of: str, form: str) -> Measure:
-    """One check of all fast cases together."""
+    """One check of all fast cases together; judge(their numbers, in rising order)."""
 
-    def measure(results: Lines) -> Measured:
+    def measure(results: "Results") -> Measured:
         found = values(results.lines, FAST, of)
-        checks = [("all cases", judge([value for _, value in found]))] if len(found) > 1 else []
+        checks = [("all cases", judge(sorted(value for _, value in found)))] if len(found) > 1 else []
         return Measured(checks, told(found, form) if checks else "")
 
     return measure
 
 
-def off_one_ratio(ratios: list[float]) -> float:
-    """Largest relative distance of the ratios from their mean."""
-    middle = sum(ratios) / len(ratios)
-    return max(abs(one / middle - 1.0) for one in ratios)
-
-
-def least_gap(speeds: list[float]) -> float:
-    """Least relative distance of two of the speeds."""
-    return min(b / a - 1.0 for a, b in pairwise(sorted(speeds)))
-
-
-def crossing(results: Lines) -> Measured:
+def crossing(results: "Results") -> Measured:
     """The exact times of arrival, as printed and a tenth of them."""
     times = values(results.lines, FAST, "arrival_theory_s")
     if not times:
@@ -110,7 +96,7 @@ def crossing(results: Lines) -> Measured:
     return Measured(checks, told(times, ".4f"))
 
 
-def vertical(results: Lines) -> Measured:
+def vertical(results: "Results") -> Measured:
     """By how much the largest rise or fall falls from case to case, without and with the folds."""
     checks, words = [], []
     places = {"the folds at the fixed end are left out": "vertical_beyond_m", "they count": "vertical_m"}
@@ -122,7 +108,7 @@ def vertical(results: Lines) -> Measured:
     return Measured(checks, f"beyond the quarter there {words[0]}; with the folds {words[1]}" if any(words) else "")
 
 
-def same_motion(results: Lines) -> Measured:
+def same_motion(results: "Results") -> Measured:
     """Way of the end of slow and fast breaks, as seen and with the delay of the slow break taken off."""
     seen, shifted, words = [], [], []
     for fast, slow in pairs(results.lines):
@@ -137,7 +123,7 @@ def same_motion(results: Lines) -> Measured:
     return Measured(checks, "; ".join(words))
 
 
-def dominant(results: Lines) -> Measured:
+def dominant(results: "Results") -> Measured:
     """Change of the end speed over the fracture times over that over the tensions."""
     speeds = [speed for _, speed in values(results.lines, FAST, "end_speed_mps")]
     both = [abs(slow["end_speed_mps"] - fast["end_speed_mps"]) for fast, slow in pairs(results.lines)]
@@ -148,7 +134,7 @@ def dominant(results: Lines) -> Measured:
     return Measured([("all pairs", by_time / by_tension)], words)
 
 
-def doubled(results: Lines) -> Measured:
+def doubled(results: "Results") -> Measured:
     """The largest relative change that twice the elements bring, by case."""
     found = []
     for line in of_kind(results.lines, "case"):
@@ -160,7 +146,7 @@ def doubled(results: Lines) -> Measured:
     return Measured([(f"case {name}", off) for name, off in found], told(found, ".3%"))
 
 
-def shock_incomplete(results: Lines) -> Measured:
+def shock_incomplete(results: "Results") -> Measured:
     """Whether no shock exists before the fixed end in cases 2 and 3."""
     known = [find(results.lines, case) for case in ("2", "3")]
     known = [line for line in known if line is not None and math.isfinite(line["front_speed_theory_mps"])]
@@ -168,7 +154,7 @@ def shock_incomplete(results: Lines) -> Measured:
     return Measured([(name, float(math.isnan(birth))) for name, birth in births], told(births, ".1f"))
 
 
-def dissipates(results: Lines) -> Measured:
+def dissipates(results: "Results") -> Measured:
     """Whether more of the line takes up the kinetic energy of a slow break: by its spread, and by the part at rest."""
     spread, resting = SPREAD(results), RESTING(results)
     both = {"judged by the spread of the energy": spread, "judged by the part at rest": resting}
@@ -186,8 +172,9 @@ MEASURES = {
     "smaller in slow": SMALLER,
     "larger in slow": LARGER,
     "changed in slow": CHANGED,
-    "one ratio": partial(all_cases, off_one_ratio),
-    "least gap": partial(all_cases, least_gap),
+    # largest relative distance of the ratios from their mean; least relative distance of two of the speeds
+    "one ratio": partial(all_cases, lambda ratios: max(abs(one / fmean(ratios) - 1.0) for one in ratios)),
+    "least gap": partial(all_cases, lambda speeds: min(b / a - 1.0 for a, b in pairwise(speeds))),
     "crossing": crossing,
     "vertical": vertical,
     "same motion": same_motion,

@@ -1,7 +1,8 @@
 """The runs of a breaking-line folder as its statements see them: rows of numbers, in the order of the table.
 
 A row has the columns of table.csv as numbers (nan where the table is empty) and, of a case whose file can be read, the
-numbers of `from_motion` and `from_law`.
+numbers of `from_motion`, its static strain, and `steepening`: by how much a wave at 0.99 of that strain is faster than
+at it, as a share.
 """
 
 import math
@@ -10,16 +11,14 @@ from pathlib import Path
 
 import numpy as np
 
-from campaigns.breaking_line.theory import Theory, theory_of
-from campaigns.tables import Row as Line
-from campaigns.tables import read_rows, run_of
+from campaigns.breaking_line.theory import theory_of
+from campaigns.machinery.folder import Row as Line
+from campaigns.machinery.folder import read_rows, run_of
 
 FAST, SLOW = ("1", "2", "3", "4"), ("1p", "2p", "3p", "4p")
 CASES = (*FAST, *SLOW)
 FRONT = 0.02  # of the static tension lost, of the end speed gained: where a front is taken to be
 MOST_OF = 0.99  # of the settled speed at which it counts as reached
-MOTION = ("tension_behind", "fronts_apart", "reached_s")
-LAW = ("static_strain", "steepening")
 OVER_CASE_4 = {"force_over_4": "force_N", "front_over_4": "front_speed_theory_mps"}
 PRINTED = {  # of the four tensions: strain, and share of the strength, which case 4 has
     "printed_strain": (0.099, 0.178, 0.228, 0.292),
@@ -31,10 +30,11 @@ def read_lines(folder: Path) -> tuple[Line, ...]:
     """Every run of the folder's table. Raises OSError, ValueError (`tables.read_rows`)."""
     found = []
     for line in read_rows(folder / "table.csv"):
-        line |= dict.fromkeys((*MOTION, *LAW), math.nan)
         if (run := motion_of(folder, line)) is not None:
             theory = theory_of(run.scene, float(run.columns["time_s"][-1]))
-            line |= from_law(theory) if theory is not None else {}
+            if theory is not None:
+                near, at_rest = (theory.wave_speed(share * theory.speeds.strain0) for share in (0.99, 1.0))
+                line |= {"static_strain": theory.speeds.strain0, "steepening": float(near / at_rest - 1.0)}
             line |= from_motion(line, run.profiles) if run.profiles is not None else {}
         found.append(line)
     return over_case_4(found)
@@ -43,15 +43,6 @@ def read_lines(folder: Path) -> tuple[Line, ...]:
 def motion_of(folder: Path, line: Line) -> object | None:
     """The trajectory of a case that ended as asked; None where there is none."""
     return run_of(folder, line) if line["kind"] == "case" else None
-
-
-def from_law(theory: Theory) -> Line:
-    """static_strain; steepening: by how much a wave at 0.99 of that strain is faster than at it, as a share."""
-    strain = theory.speeds.strain0
-    return {
-        "static_strain": strain,
-        "steepening": float(theory.wave_speed(0.99 * strain) / theory.wave_speed(strain) - 1.0),
-    }
 
 
 def from_motion(line: Line, profiles: object) -> Line:

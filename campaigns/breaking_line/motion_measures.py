@@ -102,7 +102,7 @@ def end_speed_error(trajectory: Trajectory, theory: Theory) -> float:
         (times >= trajectory.scene.end.force_decay_s + SETTLED_S) & (times <= theory.motion.valid_until_s)
     )
     rows = rows[:: max(1, len(rows) // COMPARED)]
-    exact = [theory.end_speed(float(time_s)) for time_s in times[rows]]
+    exact = [abs(theory.motion.at([theory.length_m], float(time_s))[1][0]) for time_s in times[rows]]
     return float(np.max(np.abs(end_speeds(trajectory)[rows] / exact - 1.0))) if len(rows) else math.nan
 
 

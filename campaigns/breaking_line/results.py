@@ -12,7 +12,6 @@ exact.nc (netCDF, opens in xarray) holds, padded with nan along `point`:
 from __future__ import annotations
 
 from itertools import zip_longest
-from pathlib import Path
 from types import SimpleNamespace
 from typing import TYPE_CHECKING
 
@@ -22,32 +21,36 @@ from campaigns.breaking_line.judging import claims
 from campaigns.breaking_line.lines import motion_of, of_kind, read_lines
 from campaigns.breaking_line.motion_measures import contour_speed
 from campaigns.breaking_line.theory import Theory, theory_of
-from campaigns.figure_data import made_by_of, store
+from campaigns.figure_data import attribute_of, store
 from campaigns.machinery.folder import made_by
 from campaigns.statements import write_statements
 
 if TYPE_CHECKING:
     import xarray
 
+    from campaigns.machinery.plan import Plan, Summary
+
 EXACT = "exact.nc"
 SHARES = (0.99, 0.9, 0.7, 0.5, 0.3, 0.1, 0.01)  # of the static tension: contours and characteristics that are shown
 WAVES = 200  # strains of the curve of wave speed
 
 
-def write_results(folder: Path) -> None:
-    """statements.csv, and exact.nc where the law has a theory. Raises OSError."""
+def write_results(plan: Plan, summary: Summary) -> float:
+    """statements.csv, and exact.nc where the law has a theory. Raises OSError. Returns 0, no seconds of analysis."""
+    folder = plan.how.out
     results = SimpleNamespace(lines=read_lines(folder))
     write_statements(folder, claims().values(), results)
     cases, path = of_kind(results.lines, "case"), folder / EXACT
     key = made_by({"runs": [line["run_key"] for line in cases]}, "analysis", "engine", "campaigns/breaking_line")
-    if made_by_of(path) == key:
-        return
+    if attribute_of(path) == key:
+        return 0.0
     runs = {line["case"]: motion_of(folder, line) for line in cases}
     content = exact({case: run for case, run in runs.items() if run is not None and run.profiles is not None})
     if content is None:
         path.unlink(missing_ok=True)
     else:
         store(path, content.assign_attrs(made_by=key))
+    return 0.0
 
 
 def exact(runs: dict[str, object]) -> xarray.Dataset | None:

@@ -114,7 +114,7 @@ def breaking_row(trajectory) -> dict[str, object]:
                 row |= measures.recoil(profiles, COMMON_S)
                 row |= measures.spread(trajectory) if energy is not None else {}
         row |= _energy_columns(energy, theory) if energy is not None else {}
-    return {name: _known(entry) for name, entry in row.items()}
+    return row
 
 
 def _theory_columns(theory) -> dict[str, object]:
@@ -132,12 +132,10 @@ def _theory_columns(theory) -> dict[str, object]:
 
 
 def _front_columns(profiles, theory, gravity_mps2: float) -> dict[str, object]:
-    overshoot, rise = measures.strain_overshoot(profiles, BEFORE_ARRIVAL * theory.arrival_s)
-    row = {
+    ripple = measures.strain_overshoot(profiles, BEFORE_ARRIVAL * theory.arrival_s)
+    row = dict(zip(("strain_overshoot", "strain_rise"), ripple, strict=True)) | {
         "front_speed_mps": measures.front_speed(profiles, theory),
         "slack_front_speed_mps": measures.slack_front_speed(profiles, theory),
-        "strain_overshoot": overshoot,
-        "strain_rise": rise,
         "strain_error": measures.strain_error(profiles, theory),
     }
     if not theory.shocked:
@@ -177,9 +175,3 @@ def _energy_columns(energy, theory) -> dict[str, object]:
             "lost_at_arrival_theory_J": theory.lost_J,
         }
     return row
-
-
-def _known(entry: object) -> object:
-    if isinstance(entry, (float, np.floating)):
-        return float(entry) if math.isfinite(entry) else None
-    return entry

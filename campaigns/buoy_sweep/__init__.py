@@ -13,7 +13,9 @@ every value in three dimensions, `--dimensions auto` those whose planar run rele
 from collections.abc import Callable, Iterator
 from functools import partial
 
+import engine
 from campaigns.buoy_sweep.space import SEED_MPS, in_space, run_where_needed
+from campaigns.judge import LONGEST_PERIOD, STROBE_TOLERANCE, judged_scene
 from campaigns.machinery import cli
 from campaigns.machinery.plan import Job
 from campaigns.machinery.runner import run
@@ -28,7 +30,6 @@ ROW_SOURCES = ("analysis", "engine", "campaigns/buoy_sweep/rows.py", "campaigns/
 
 
 def options(group) -> None:
-    """Add the options that other studies do not have."""
     usual = "wave steepnesses kA (default: 49 values from 0.016 to 0.16)"
     cli.add(group, "--steepness", "A B ...", usual, cli.fraction, many=True)
     cli.add(group, "--steepness-range", "LO HI COUNT", "evenly spaced steepnesses, both ends included")
@@ -49,9 +50,6 @@ def read(options, faults: list[str]) -> None:
 
 def cases(order: Order) -> Iterator[Job]:
     """A run for every steepness, in a plane or (`--dimensions 3`) in space; `auto` checks both, and runs the plane."""
-    from campaigns.judge import judged_scene
-    from engine import SceneError
-
     dimensions = dimensions_of(order)
     chosen = {"motion.dimensions": 3 if dimensions == "3" else 2}
     for value in order.own.steepness:
@@ -59,7 +57,7 @@ def cases(order: Order) -> Iterator[Job]:
         if scene is not None and dimensions != "2":
             try:
                 spatial = in_space(scene)[0]
-            except SceneError as error:
+            except engine.SceneError as error:
                 order.tell(error.faults)
                 continue
             scene = spatial if dimensions == "3" else scene
@@ -85,8 +83,6 @@ def measures(order: Order) -> Measures:
 
 def parameters(order: Order) -> dict[str, object]:
     """What the provenance says of this campaign; push_mps: of the push that starts a motion out of the plane."""
-    from campaigns.judge import LONGEST_PERIOD, STROBE_TOLERANCE
-
     dimensions = dimensions_of(order)
     pushed = dimensions != "2" and in_space(order.base({"motion.dimensions": 3 if dimensions == "3" else 2}))[1]
     return {

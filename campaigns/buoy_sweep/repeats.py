@@ -22,9 +22,10 @@ from campaigns.buoy_sweep.rows import STEEPNESS
 from campaigns.columns import LOOPS, MESSAGE, NEWTON, PERIODS_RUN, RUN_KEY, STATUS, WALL_S, Column, counted
 from campaigns.judge import tighter_scene
 from campaigns.machinery.cli import Running
-from campaigns.machinery.folder import claimed, trajectory_path
+from campaigns.machinery.folder import claimed, run_of
 from campaigns.machinery.plan import Job, Plan, Summary
 from campaigns.machinery.runner import run_campaign
+from engine.scene import scene_from_toml
 
 COLUMNS = (
     Column("role", symbol="role", meaning="which run of the sweep was repeated: the regular or the violent one"),
@@ -59,8 +60,7 @@ FRAMES = 24
 
 def lengths(runs: int, periods: int) -> int:
     """Wave periods to repeat, for a sweep of so many runs of that length."""
-    allowed = SHARE * runs / COST
-    return min(periods, max(EARLY, math.floor(periods * allowed)))
+    return min(periods, max(EARLY, math.floor(periods * (SHARE * runs / COST))))
 
 
 def chosen(rows: list[dict]) -> list[tuple[str, dict]]:
@@ -84,30 +84,23 @@ def repeat(
     row_of(trajectory) -> its row; said: the column of what its motion is called. among: keys of the runs to choose
     from, None for all. Raises as `runner.run_campaign`.
     """
-    from engine import Trajectory
-    from engine.scene import scene_from_toml
-
     rows = [row for row in summary.rows if among is None or row["run_key"] in among]
     length = lengths(len(summary.rows), periods)
     jobs: list[Job] = []
     for role, row in chosen(rows):
-        original = first_periods(Trajectory.load(trajectory_path(plan.how.out, row["run_key"])), length)
+        original = first_periods(run_of(plan.how.out, row), length)
         scene = original.scene
         finer = scene_from_toml(scene.to_toml(), {"tether.nodes": 2 * scene.tether.nodes - 1})
         describe = partial(accuracy_row, original=original, row_of=row_of, said=said)
         for run, made in ((AS_RUN, scene), (TIGHTER, tighter_scene(scene)), (FINER, finer)):
             labels = {"role": role, "label": row["steepness"], "run": run, "periods": length}
-            simulate = partial(_as_made, original) if run == AS_RUN else None
+            # as run: what the sweep itself has made, with which the others are compared
+            simulate = (lambda *_, made=original, **__: made) if run == AS_RUN else None
             jobs.append(Job(labels, made, length, None, simulate, describe, f"accuracy {run}"))
     how = replace(plan.how, out=plan.how.out / "accuracy")
     with claimed(how.out):
         own = replace(plan, how=how, columns=COLUMNS, show_progress=False, simulate_each=None)
         return run_campaign(own, jobs).analysis_s
-
-
-def _as_made(original, scene, periods=None, duration_s=None):
-    """In the place of `engine.simulate`: the run of the sweep itself, with which the repeated ones are compared."""
-    return original
 
 
 def first_periods(trajectory, length: int):
@@ -120,12 +113,9 @@ def first_periods(trajectory, length: int):
     share = samples / whole
     scaled = {"wall_s": share * trajectory.statistics["wall_s"]}
     scaled["newton_iterations"] = round(share * trajectory.statistics["newton_iterations"])
-    tangent = trajectory.tangent
-    if tangent is not None:
-        lateral = None if tangent.lateral_nats is None else tangent.lateral_nats[:length]
-        tangent = replace(
-            tangent, growth_nats=tangent.growth_nats[:length], released=tangent.released[:length], lateral_nats=lateral
-        )
+    if (tangent := trajectory.tangent) is not None:
+        each_period = {name: values for name, values in vars(tangent).items() if isinstance(values, np.ndarray)}
+        tangent = replace(tangent, **{name: values[:length] for name, values in each_period.items()})
         scaled["loop_releases"] = int(tangent.released.sum())
     kept = {name: values[:samples] for name, values in columns.items()}
     return replace(trajectory, columns=kept, statistics=trajectory.statistics | scaled, profiles=None, tangent=tangent)
@@ -156,12 +146,9 @@ def _rms(values: np.ndarray) -> float:
 
 def close_up(plan: Plan, summary: Summary, periods: int) -> float:
     """Compute the close-up, unless it is there or no run goes slack; 0 s of analysis. periods: those of the sweep."""
-    from engine import Trajectory
-    from engine.scene import scene_from_toml
-
     out, jobs = plan.how.out / "close_up", []
     for _, row in chosen([row for row in summary.rows if (row.get("slack_fraction") or 0.0) > 0.0])[-1:]:
-        scene = Trajectory.load(trajectory_path(plan.how.out, row["run_key"])).scene
+        scene = run_of(plan.how.out, row).scene
         # Perturbations are carried along as in the sweep: leaving them out would need machine code of its own (20 s).
         kept = {"output.profiles": True, "output.profiles_step_s": scene.waves.period_s / FRAMES}
         length = min(periods, PERIODS)

@@ -109,13 +109,16 @@ def after_transient(trajectory, columns, transient_periods: int) -> dict[str, ob
 
     columns: the `sound_part` of its record; {} where that does not outlast the transient by a wave period.
     """
-    from analysis import transverse_lyapunov
+    from analysis import detect_period, poincare_section, transverse_lyapunov
 
     step_s, period_s = trajectory.scene.sample_step_s(), trajectory.scene.waves.period_s
     if not lasts(columns, step_s, (transient_periods + 1) * period_s):
         return {}
     row = settled(columns, step_s, transient_periods * period_s)
-    row["strobed_period"] = strobed_period(columns, step_s, period_s, transient_periods)
+    # Its state once a period has to repeat. Only the period goes into the table: the report strobes the radius again.
+    coordinates, scale = state_of(columns, step_s, period_s, transient_periods)
+    section = poincare_section(coordinates, step_s, period_s, transient_periods=transient_periods)
+    row["strobed_period"] = detect_period(section.points, LONGEST_PERIOD, STROBE_TOLERANCE, scale).period
     growth = trajectory.tangent
     if trajectory.status == "ok" and growth is not None and growth.lateral_nats is not None:
         found = transverse_lyapunov(growth.lateral_nats, transient_periods, growth.released)
@@ -142,28 +145,9 @@ def settled(columns, step_s: float, transient_s: float) -> dict[str, object]:
         extremes(columns[name], step_s, transient_s)
         for name in ("radius_m", "angle_rad", "tension_top_low_N", "tension_top_high_N")
     )
-    return {
-        "radius_min_m": radius.minimum,
-        "radius_max_m": radius.maximum,
-        "angle_min_rad": angle.minimum,
-        "angle_max_rad": angle.maximum,
-        "tension_top_min_N": low.minimum,
-        "tension_top_max_N": high.maximum,
-        "slack_fraction": slack_fraction(columns["tension_top_N"], step_s, transient_s=transient_s).fraction,
-    }
-
-
-def strobed_period(columns, step_s: float, period_s: float, transient_periods: int) -> int | None:
-    """After how many wave periods the buoy's motion repeats, or None where no number up to LONGEST_PERIOD does.
-
-    Its state (`campaigns.judge.state_of`), taken once a period after the transient, has to repeat within
-    STROBE_TOLERANCE. Only the period goes into the table: the report strobes the radius again (`reports.buoy_sweep`).
-    """
-    from analysis import detect_period, poincare_section
-
-    coordinates, scale = state_of(columns, step_s, period_s, transient_periods)
-    section = poincare_section(coordinates, step_s, period_s, transient_periods=transient_periods)
-    return detect_period(section.points, LONGEST_PERIOD, STROBE_TOLERANCE, scale).period
+    slack = slack_fraction(columns["tension_top_N"], step_s, transient_s=transient_s).fraction
+    ends = (radius.minimum, radius.maximum, angle.minimum, angle.maximum, low.minimum, high.maximum)
+    return dict(zip(names(EXTREMES), (*ends, slack), strict=True))
 
 
 def sound_part(columns) -> dict[str, np.ndarray]:

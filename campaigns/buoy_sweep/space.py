@@ -11,6 +11,7 @@ planar_. Both runs are kept, so that a sweep run again decides the same from the
 import math
 from dataclasses import replace
 
+import engine.scene
 from campaigns.machinery.plan import Job, Plan, Summary
 from campaigns.machinery.runner import run
 
@@ -37,8 +38,6 @@ def in_space(scene):
     A scene whose buoy starts without a velocity across its waves gets SEED_MPS there. Perturbations that only a planar
     run can carry are left out. Raises SceneError for what three dimensions do not allow.
     """
-    from engine.scene import scene_from_toml
-
     heading = scene.waves.direction_rad
     sine, cosine = (math.sin(heading), math.cos(heading)) if heading else (0.0, 1.0)
     vx, vy, vz = scene.start.buoy_velocity_mps
@@ -46,7 +45,7 @@ def in_space(scene):
     added = math.isclose(-vx * sine + vy * cosine, 0.0, abs_tol=1e-300)
     if added:
         changes["start.buoy_velocity_mps"] = [vx - SEED_MPS * sine, vy + SEED_MPS * cosine, vz]
-    return scene_from_toml(scene.to_toml(), changes), added
+    return engine.scene.scene_from_toml(scene.to_toml(), changes), added
 
 
 def run_where_needed(plan: Plan, jobs: list[Job]) -> tuple[dict, Summary]:
@@ -56,7 +55,12 @@ def run_where_needed(plan: Plan, jobs: list[Job]) -> tuple[dict, Summary]:
     """
     timing, summary = run(plan, jobs)
     rows = {row["run_key"]: row for row in summary.rows}
-    chosen = [_spatial(job, rows[job.key]) if rows[job.key].get("loop_releases") else job for job in jobs]
+    chosen = []
+    for job in jobs:
+        if (row := rows[job.key]).get("loop_releases"):
+            labels = {**job.labels, **{f"planar_{name}": row.get(name) for name in _KEPT}, "dimensions": 3}
+            job = replace(job, scene=in_space(job.scene)[0], labels=labels)
+        chosen.append(job)
     if chosen == jobs:
         return timing, summary
     more, final = run(plan, chosen)
@@ -65,8 +69,3 @@ def run_where_needed(plan: Plan, jobs: list[Job]) -> tuple[dict, Summary]:
     computed = summary.computed + final.computed
     found = max(len(final.rows) - computed, 0)
     return times, replace(final, computed=computed, found=found, analysis_s=times["analysis_s"])
-
-
-def _spatial(job: Job, row: dict) -> Job:
-    kept = {f"planar_{name}": row.get(name) for name in _KEPT}
-    return replace(job, scene=in_space(job.scene)[0], labels={**job.labels, **kept, "dimensions": 3})

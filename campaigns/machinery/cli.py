@@ -15,6 +15,8 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
+import engine.scene
+
 BACKENDS = ("loky", "threading", "dask")
 EXIT_OK, EXIT_FAILED, EXIT_BAD_INPUT, EXIT_INTERRUPTED = 0, 1, 2, 130
 
@@ -195,16 +197,6 @@ def running(options: argparse.Namespace, campaign: str, faults: list[str]) -> Ru
     return how
 
 
-def lengths(options: argparse.Namespace, usual: Lengths, faults: list[str]) -> tuple[int, int]:
-    """--periods and --transient in wave periods; usual: their defaults."""
-    periods, transient = options.periods, options.transient
-    if transient is None:
-        transient = min(usual.transient, periods // usual.share)
-    if transient >= periods:
-        faults.append(f"--transient: given {transient} of {periods} periods; allowed: less than --periods")
-    return periods, transient
-
-
 def evenly(words: list[str], option: str, faults: list[str], least: float = -math.inf) -> list[float]:
     """The values of LO HI COUNT, both ends included; none where the words are at fault. least: LO is not below."""
     try:
@@ -225,13 +217,11 @@ def assignments(words: list[str] | None, taken: Mapping[str, str], faults: list[
 
     taken: keys that the campaign itself sets -> what to use instead.
     """
-    from engine.scene import SceneError, parse_assignment
-
     found = {}
     for word in words or []:
         try:
-            key, given = parse_assignment(word)
-        except SceneError as error:
+            key, given = engine.scene.parse_assignment(word)
+        except engine.SceneError as error:
             faults.extend(error.faults)
             continue
         if key in taken:

@@ -5,9 +5,11 @@ campaigns out of the same folder; the system drops it when its holder dies, howe
 """
 
 import contextlib
+import csv
 import errno
 import fcntl
 import hashlib
+import io
 import json
 import math
 import os
@@ -16,9 +18,11 @@ import time
 from collections.abc import Iterator
 from pathlib import Path
 
+import engine
 from campaigns.columns import Column, csv_of, dictionary, dictionary_path, names
 from engine.atomic import write_atomic
 
+Row = dict[str, object]  # of a table, by column
 _NO_SPACE = {errno.ENOSPC, errno.EDQUOT, errno.EFBIG}
 
 
@@ -91,13 +95,12 @@ class Table:
 
     def __init__(self, path: Path, columns: tuple[Column, ...], keys: list[str]):
         self.path, self.columns, self.keys = path, columns, keys
-        self.names = names(columns)
         self.rows: dict[str, dict[str, object]] = {}
         self._written_s = -math.inf
 
     def add(self, key: str, row: dict[str, object]) -> None:
         """Take in a row and bring the file up to date unless that was done a moment ago. Raises OSError."""
-        unknown = set(row) - set(self.names)
+        unknown = set(row) - set(names(self.columns))
         if unknown:
             raise KeyError(f"the table has no column {', '.join(sorted(unknown))}")
         self.rows[key] = row
@@ -110,18 +113,37 @@ class Table:
 
     def write(self) -> None:
         """Rewrite the file. Raises OSError."""
-        if self._written_s == -math.inf:
-            write_atomic(dictionary_path(self.path), dictionary(self.columns))
-        rows = ([_cell(row.get(name)) for name in self.names] for row in self.in_order())
-        write_atomic(self.path, csv_of(self.names, rows))
+        write_table(self.path, self.columns, self.in_order())
         self._written_s = time.monotonic()
 
 
 def write_table(path: Path, columns: tuple[Column, ...], rows: list[dict]) -> None:
-    """Write rows that are all there, and the dictionary of their columns. Raises OSError."""
-    table = Table(path, columns, list(range(len(rows))))
-    table.rows = dict(enumerate(rows))
-    table.write()
+    """Write the dictionary of the columns, then the rows. Raises OSError."""
+    write_atomic(dictionary_path(path), dictionary(columns))
+    head = names(columns)
+    write_atomic(path, csv_of(head, ([_cell(row.get(name)) for name in head] for row in rows)))
+
+
+def read_rows(path: Path) -> tuple[Row, ...]:
+    """The rows of a table: words as they are, numbers as floats, nan where the table is empty.
+
+    Raises OSError where table or dictionary cannot be read, ValueError where they do not fit each other.
+    """
+    declared, rows = (
+        list(csv.DictReader(io.StringIO(place.read_text(encoding="utf-8")))) for place in (dictionary_path(path), path)
+    )
+    if not rows:
+        raise ValueError(f"{path.name} has no rows")
+    words = {row["name"] for row in declared if not row["digits"]}
+    return tuple({name: text if name in words else float(text or "nan") for name, text in row.items()} for row in rows)
+
+
+def run_of(folder: Path, row: Row) -> "engine.Trajectory | None":
+    """The trajectory of a row; None for a run that ended early, or whose file cannot be read."""
+    try:
+        return engine.Trajectory.load(trajectory_path(folder, row["run_key"])) if row["status"] == "ok" else None
+    except ValueError:  # TrajectoryError
+        return None
 
 
 def _cell(entry: object) -> str:

@@ -7,17 +7,12 @@ lost at no cost: its rows come from these files, or from the copies of rows besi
 import hashlib
 import json
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from functools import cached_property
 
+import engine
 from campaigns.columns import Column
 from campaigns.machinery.cli import Running
-
-
-def _source_hash() -> str:
-    from engine import source_hash
-
-    return source_hash()
 
 
 @dataclass(frozen=True)
@@ -36,7 +31,7 @@ class Job:
     simulate: Callable | None = None
     describe: Callable | None = None
     made: str = ""
-    engine: str = field(default_factory=_source_hash)
+    engine: str = field(default_factory=lambda: engine.source_hash())
 
     @cached_property
     def key(self) -> str:
@@ -98,8 +93,3 @@ class Plan:
     def sends(self) -> bool:
         """Whether workers send what they computed, because they need not see the folder."""
         return self.how.backend == "dask"
-
-    def for_workers(self) -> "Plan":
-        """The plan as workers get it."""
-        # A worker kept from an earlier campaign of this process may stand in another folder.
-        return replace(self, how=replace(self.how, out=None if self.sends else self.how.out.absolute()))

@@ -21,10 +21,20 @@ Odd = tuple[str, object, str]  # key, what is given, what is allowed
 PYTHON = "if it is meant, run it from Python: engine.simulate"
 
 
-def doubts(scene) -> Iterator[str]:
-    """Fault lines of a scene; none where it is plausible."""
+def doubts(scene, duration_s: float | None = None) -> Iterator[str]:
+    """Fault lines of a scene, and of a run of that length; none where both are plausible.
+
+    A run must end, and memory must hold what it keeps (`engine.scene.size_limits`).
+    """
     for key, given, allowed in _odd(scene):
         yield fault(key, given, f"{allowed}; {PYTHON}")
+    if duration_s:
+        from engine.scene.size_limits import check_room
+
+        try:
+            check_room(scene, duration_s)
+        except ValueError as error:
+            yield str(error)
 
 
 def _odd(scene) -> Iterator[Odd]:
@@ -41,16 +51,6 @@ def _odd(scene) -> Iterator[Odd]:
         if p1 * math.tanh(p2 * MOST_STRETCH + p3) + p4 + p5 * MOST_STRETCH < force:
             reached = f"a law that reaches the {force:.4g} N of end.force_N below a strain of {MOST_STRETCH:g}"
             yield "tether.tension.p", law.p, f"{reached} (newtons, not kN?)"
-
-
-def endless(scene, duration_s: float) -> Iterator[str]:
-    """The fault of a run that would never end, or keep more than memory holds (`engine.scene.size_limits`)."""
-    from engine.scene.size_limits import check_room
-
-    try:
-        check_room(scene, duration_s)
-    except ValueError as error:
-        yield str(error)
 
 
 def without_waves(name: str, scene) -> Iterator[str]:

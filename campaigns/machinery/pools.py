@@ -55,12 +55,12 @@ def opened(backend: str, jobs: int, address: str | None = None) -> Iterator[Call
     """
     if backend == "dask":
         with dask_client(jobs, address) as client:
-            yield lambda call, tasks, alone=False: _dask_results(client, call, tasks)
+            yield partial(_dask_results, client)
     else:
-        yield lambda call, tasks, alone=False: _joblib_results(backend, jobs, call, tasks, alone)
+        yield partial(_joblib_results, backend, jobs)
 
 
-def _joblib_results(backend: str, jobs: int, call: Callable, tasks: list, alone: bool) -> Iterator:
+def _joblib_results(backend: str, jobs: int, call: Callable, tasks: list, alone: bool = False) -> Iterator:
     from concurrent.futures.process import BrokenProcessPool
 
     from joblib import Parallel, delayed, parallel_config
@@ -72,15 +72,14 @@ def _joblib_results(backend: str, jobs: int, call: Callable, tasks: list, alone:
             handed_out[number] = task
             yield delayed(_numbered)(call, number, task)
 
-    # A loky pool of one would run in this process, and a run that kills its process would kill the campaign:
-    # two processes, of which only one is given work, keep that away.
-    one = alone or jobs == 1
     options = {"backend": backend, "n_jobs": jobs}
     if backend == "loky":
+        # A loky pool of one would run in this process, and a run that kills its process would kill the campaign:
+        # two processes, of which only one is given work, keep that away.
         options |= {"n_jobs": max(2, jobs), "initializer": _prepare_worker, "initargs": (os.getpid(),)}
-    as_they_come = {"return_as": "generator_unordered", "batch_size": 1, "pre_dispatch": 1 if one else "n_jobs"}
+    as_they_come = {"return_as": "generator_unordered", "batch_size": 1, "max_nbytes": None}
     with parallel_config(**options):
-        pool = Parallel(**as_they_come, max_nbytes=None)
+        pool = Parallel(**as_they_come, pre_dispatch=1 if alone or jobs == 1 else "n_jobs")
     with warnings.catch_warnings():
         warnings.filterwarnings("ignore", message=".*tasks.*", category=UserWarning, module="joblib")
         with contextlib.closing(pool(hand_out())) as results:
@@ -96,12 +95,12 @@ def _numbered(call: Callable, number: int, task: object) -> tuple[int, object]:
 
 
 def _prepare_worker(campaign: int) -> None:
-    ignore_interrupt()
+    dask_setup()
     threading.Thread(target=end_with, args=(campaign,), daemon=True).start()
 
 
-def ignore_interrupt() -> None:
-    """Let this process be deaf to Ctrl-C."""
+def dask_setup(worker: object = None) -> None:
+    """Let this process be deaf to Ctrl-C. dask calls it by this name in workers of a local cluster, new ones too."""
     # Ctrl-C reaches every process of the terminal; only the campaign itself decides what it means.
     signal.signal(signal.SIGINT, signal.SIG_IGN)
 
@@ -156,11 +155,6 @@ def dask_client(jobs: int, address: str | None) -> Iterator:
         yield found
 
 
-def dask_setup(worker: object) -> None:
-    """Called by dask in the workers of a local cluster, also in those that take the place of lost ones."""
-    ignore_interrupt()
-
-
 @cache
 def facts() -> dict[str, str]:
     """What decides the numbers that this process computes: versions, and a hash of the sources of each package."""
@@ -193,13 +187,13 @@ def _difference(there: dict[str, str], here: dict[str, str]) -> str:
     return ", ".join(off)
 
 
-def _dask_results(found, call: Callable, tasks: list) -> Iterator:
+def _dask_results(found, call: Callable, tasks: list, alone: bool = False) -> Iterator:
     """(task, call(task)) as results come. Raises PoolBroken with the tasks that dask gave up, CampaignStopped."""
     from distributed import KilledWorker
 
     ask = partial(_asked, call, facts())
     futures = {found.submit(ask, task, pure=False): task for task in tasks}
-    left, killed, last = set(futures), [], None
+    left, killed = set(futures), {}
     try:
         while left:
             for future in _done(found, left):
@@ -207,18 +201,19 @@ def _dask_results(found, call: Callable, tasks: list) -> Iterator:
                 try:
                     result = future.result()
                 except KilledWorker as error:
-                    killed.append(futures[future])
-                    last = error
+                    killed[future] = error
                     continue
-                except Exception as error:
-                    raise _stopped(error) from error
                 future.release()
                 yield futures[future], result
+    except CampaignStopped:
+        raise
+    except Exception as error:
+        raise CampaignStopped(_said(error)) from error
     finally:
         with contextlib.suppress(Exception):  # of a scheduler that is gone: there is nothing to cancel
             found.cancel(list(left))
     if killed:
-        raise PoolBroken(killed, first_line(last))
+        raise PoolBroken([futures[future] for future in killed], first_line(killed.popitem()[1]))
 
 
 def _asked(call: Callable, here: dict[str, str], task: object) -> object:
@@ -235,25 +230,20 @@ def _done(found, left: set) -> set:
     from distributed import wait
 
     alone_s, said = 0.0, False
-    while True:
-        try:
-            with contextlib.suppress(TimeoutError):
-                return wait(left, timeout=LOOK_S, return_when="FIRST_COMPLETED").done
-            alone_s = 0.0 if found.nthreads() else alone_s + LOOK_S
-        except Exception as error:
-            raise _stopped(error) from error
-        if alone_s > GONE_S:
-            raise CampaignStopped(f"the dask cluster has had no worker for {GONE_S:g} s; {_GO_ON}")
+    while alone_s <= GONE_S:
+        with contextlib.suppress(TimeoutError):
+            return wait(left, timeout=LOOK_S, return_when="FIRST_COMPLETED").done
+        alone_s = 0.0 if found.nthreads() else alone_s + LOOK_S
         if alone_s > 0.1 * GONE_S and not said:
             print(f"\nthe dask cluster has no worker; waiting {GONE_S:g} s for one to join", file=sys.stderr)
             said = True
+    raise CampaignStopped(f"the dask cluster has had no worker for {GONE_S:g} s; {_GO_ON}")
 
 
-def _stopped(error: Exception) -> CampaignStopped:
-    if isinstance(error, CampaignStopped):
-        return error
+def _said(error: Exception) -> str:
+    """Why a cluster cannot go on, in a line."""
     if isinstance(error, ImportError):
-        return CampaignStopped(_REFUSED.format(first_line(error)))
+        return _REFUSED.format(first_line(error))
     if isinstance(error, CancelledError | OSError):
-        return CampaignStopped(f"the dask scheduler has ended or dropped the runs ({first_line(error)}); {_GO_ON}")
-    return CampaignStopped(f"a worker cannot do its part: {type(error).__name__}: {first_line(error)}; {_GO_ON}")
+        return f"the dask scheduler has ended or dropped the runs ({first_line(error)}); {_GO_ON}"
+    return f"a worker cannot do its part: {type(error).__name__}: {first_line(error)}; {_GO_ON}"

@@ -1,17 +1,34 @@
-"""Runs all simulations of a campaign that are not on disk yet and keeps table.csv up to date."""
+"""Runs all simulations of a campaign that are not on disk yet and keeps table.csv up to date.
+
+Below `run_jobs` is what workers do: reuse or compute, save or send, make a row; whatever fails becomes a row too. A
+worker on this machine writes a run's file itself (`Plan.how.out`). One on another machine has no such folder (None): it
+hands the content of the file back, and the runner writes it where the campaign is. Every run is saved, and has its row,
+as soon as it ends: a killed campaign loses what was running and nothing else.
+"""
 
 import contextlib
 import math
+import socket
 import sys
 import time
-from collections.abc import Callable, Iterator
+import traceback
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 
-from campaigns.machinery.folder import Table, keep_row, trajectory_path
+import engine
+from campaigns.machinery.folder import (
+    CampaignStopped,
+    Table,
+    is_full,
+    keep_row,
+    kept_row,
+    trajectory_path,
+    write_failure,
+)
 from campaigns.machinery.plan import Job, Outcome, Plan, Summary
 from campaigns.machinery.pools import PoolBroken, opened
-from campaigns.machinery.worker import failed, reuse, run_jobs
 from engine.atomic import write_atomic
 
 COMPILE_RUN_S = 0.1  # long enough to go through every kernel, too short to cost anything
@@ -52,11 +69,9 @@ def groups_of(plan: Plan, jobs: list[Job]) -> list[tuple[Job, ...]]:
     """
     if plan.simulate_each is None or plan.how.backend == "threading":
         return []
-    from engine import goes_in_lanes
-
     alike: dict[tuple, list[Job]] = {}
     for job in jobs:
-        if goes_in_lanes(job.scene):
+        if engine.goes_in_lanes(job.scene):
             alike.setdefault((job.periods, job.duration_s), []).append(job)
     groups = []
     for members in alike.values():
@@ -129,7 +144,9 @@ def _computed(plan: Plan, jobs: dict[str, Job]) -> Iterator[Outcome]:
     if not jobs:
         return
     left = dict(jobs)
-    call = partial(run_jobs, plan.for_workers())
+    # A worker kept from an earlier campaign of this process may stand in another folder.
+    how = replace(plan.how, out=None if plan.sends else plan.how.out.absolute())
+    call = partial(run_jobs, replace(plan, how=how))
     with opened(plan.how.backend, min(plan.how.jobs, len(jobs)), plan.how.dask_address) as execute:
         groups = groups_of(plan, list(jobs.values()))
         while left:
@@ -152,3 +169,90 @@ def _alone(execute: Callable, call: Callable, job: Job) -> Outcome:
         return outcomes[0]
     except PoolBroken as broken:
         return failed(job, "worker-died", f"its process ended twice, the second time running alone: {broken}")
+
+
+def run_jobs(plan: Plan, jobs: Sequence[Job]) -> list[Outcome]:
+    """The outcome of one job, whatever goes wrong in its run; of several jobs, those that came to an end.
+
+    Raises CampaignStopped where no other run would fare better: a full disk, other sources of the engine.
+    """
+    first = jobs[0]
+    if engine.source_hash() != first.engine:
+        raise CampaignStopped("the engine's sources here are not those the campaign began with; start it again")
+    if len(jobs) == 1:
+        return [_run_one(plan, first)]
+    outcomes = []
+    try:
+        scenes = [job.scene for job in jobs]
+        for i, trajectory in plan.simulate_each(scenes, periods=first.periods, duration_s=first.duration_s):
+            outcomes.append(_kept(plan, jobs[i], trajectory))
+    except CampaignStopped:
+        raise
+    except (Exception, SystemExit):
+        pass  # run again one by one, each of the jobs left says for itself what is wrong
+    return outcomes
+
+
+def _run_one(plan: Plan, job: Job) -> Outcome:
+    if (outcome := reuse(plan, job)) is not None:
+        return outcome
+    try:
+        trajectory = (job.simulate or plan.simulate)(job.scene, periods=job.periods, duration_s=job.duration_s)
+    except (Exception, SystemExit) as error:
+        if is_full(error):
+            raise _stopped(plan, error) from error
+        return failed(job, "error", _reason(error))
+    return _kept(plan, job, trajectory)
+
+
+def _kept(plan: Plan, job: Job, trajectory) -> Outcome:
+    """Save a run that has been computed, or get it ready to be sent, and make its row."""
+    try:
+        content = trajectory.to_bytes({"run_key": job.key})
+        if plan.how.out is not None:
+            write_atomic(trajectory_path(plan.how.out, job.key), content)
+    except OSError as error:
+        raise _stopped(plan, error) from error
+    except Exception as error:
+        return failed(job, "error", f"not saved: {_reason(error)}")
+    outcome = _described(plan, job, trajectory)
+    return outcome if plan.how.out is not None else replace(outcome, content=content)
+
+
+def reuse(plan: Plan, job: Job) -> Outcome | None:
+    """The outcome of a run that is there already; None where it has to be computed, as where its file is damaged."""
+    out = plan.how.out
+    if out is None or not (path := trajectory_path(out, job.key)).exists():
+        return None
+    try:
+        trajectory = engine.Trajectory.load(path)
+    except Exception:  # truncated, emptied, not netCDF, from a foreign hand: whatever it is, the cure is the same
+        return None
+    row = kept_row(out, job.key, plan.row_maker)
+    return _described(plan, job, trajectory) if row is None else Outcome(job.key, row)
+
+
+def _described(plan: Plan, job: Job, trajectory) -> Outcome:
+    start = time.perf_counter()
+    try:
+        row = (job.describe or plan.describe)(trajectory)
+    except Exception as error:
+        row = {"status": "analysis-failed", "message": _reason(error)}
+    outcome = Outcome(job.key, row, time.perf_counter() - start)
+    if plan.how.out is not None:
+        keep_row(plan.how.out, job.key, plan.row_maker, row)
+    return outcome
+
+
+def _reason(error: BaseException) -> str:
+    frame = traceback.extract_tb(error.__traceback__)[-1]
+    return f"{type(error).__name__}: {error} (in {frame.name}, {Path(frame.filename).name}:{frame.lineno})"
+
+
+def failed(job: Job, status: str, message: str) -> Outcome:
+    """A run that left no record: its row says why."""
+    return Outcome(job.key, {"status": status, "message": message})
+
+
+def _stopped(plan: Plan, error: BaseException) -> CampaignStopped:
+    return CampaignStopped(write_failure(plan.how.out or f"the worker on {socket.gethostname()}", error))

@@ -22,6 +22,7 @@ from datetime import UTC, datetime
 from importlib import metadata
 from pathlib import Path
 
+import engine
 from campaigns.machinery.cli import EXIT_BAD_INPUT, EXIT_FAILED, EXIT_INTERRUPTED, EXIT_OK, Running
 from campaigns.machinery.folder import CampaignStopped, claimed, read_json, write_failure, write_json
 from campaigns.machinery.plan import Summary
@@ -79,28 +80,35 @@ def command_line(module: str, argv: list[str]) -> list[str]:
     return ["python", "-m", module, *argv]
 
 
-def conduct(
-    name: str, module: str, argv: list[str], how: Running, parameters: dict, work: Callable, strict: bool = False
-) -> int:
-    """A campaign from its first run to its last word; returns the exit code.
+def conduct(study, order, argv: list[str], parameters: dict) -> int:
+    """An order of a `campaigns.study.Study` from its first run to its last word; returns the exit code.
 
-    parameters: what provenance.json says of this campaign. work() -> (times, Summary): the runs and their table, with
-    compile_s, run_s and analysis_s among the times. strict: whether a row that is not ok is exit code 1.
-    Raises CampaignStopped, OSError, KeyboardInterrupt, for `command`.
+    parameters: what provenance.json says of this campaign. Raises CampaignStopped, OSError, KeyboardInterrupt, for
+    `command`.
     """
-    start = time.perf_counter()
+    start, how = time.perf_counter(), order.how
     with claimed(how.out):
-        record = begun(how.out, name, command_line(module, argv), parameters)
-        timing, summary = work()
+        record = begun(how.out, study.name, command_line(study.called, argv), parameters)
+        timing, summary = study.work(order)
         if summary.computed or not ended(how.out):
             failed = sum(row["status"] != "ok" for row in summary.rows)
             counts = {"total": len(summary.rows), "found": summary.found}
             counts |= {"computed": summary.computed, "failed": failed}
             rounded = {name: round(seconds, 3) for name, seconds in timing.items()}
             write_json(how.out / PROVENANCE, record | {"runs": counts, "finished_utc": _now_utc(), "timing": rounded})
-        fault = report(how.out, how.report and not summary.whole, timing, start)
-    code = say(how.out, summary, timing, how.report, fault)
-    return EXIT_FAILED if strict and any(row["status"] != "ok" for row in summary.rows) else code
+        fault, began = "", time.perf_counter()
+        if how.report and not summary.whole:
+            try:
+                from reports import build
+
+                build(how.out)
+            except OSError:
+                raise
+            except Exception as error:  # the results stand without a report
+                fault = f"{type(error).__name__}: {error}"
+        timing |= {"report_s": time.perf_counter() - began, "total_s": time.perf_counter() - start}
+    code = say(how, summary, timing, fault)
+    return EXIT_FAILED if study.strict and any(row["status"] != "ok" for row in summary.rows) else code
 
 
 def begun(out: Path, name: str, command: list[str], parameters: dict) -> dict[str, object]:
@@ -109,8 +117,6 @@ def begun(out: Path, name: str, command: list[str], parameters: dict) -> dict[st
     Written, unless the folder holds that of a finished campaign which differs only in when and where it ran. seed is
     null where `parameters` names none: no random numbers are drawn. Raises OSError.
     """
-    from engine import source_hash
-
     record = {
         "campaign": name,
         "command": command,
@@ -122,7 +128,7 @@ def begun(out: Path, name: str, command: list[str], parameters: dict) -> dict[st
         "platform": platform.platform(),
         "versions": {"python": platform.python_version()} | {package: _version(package) for package in _PACKAGES},
         "git": git_state(Path(__file__).parents[1]),
-        "engine_source_hash": source_hash(),
+        "engine_source_hash": engine.source_hash(),
     } | parameters
     old = read_json(out / PROVENANCE) if ended(out) else {}
     now, before = ({key: entry for key, entry in one.items() if key not in _OF_THE_OCCASION} for one in (record, old))
@@ -148,16 +154,14 @@ def _version(package: str) -> str | None:
 
 def git_state(directory: Path) -> dict[str, object]:
     """{"commit", "dirty"} of the checkout that holds `directory`; both null outside one, or without git."""
-    found: dict[str, object] = {"commit": None, "dirty": None}
-    # An installed copy is no checkout, even when it lies inside somebody's: only our own repository counts.
-    if not (directory.parent / ".git").exists():
-        return found
     git = ["git", "-C", str(directory), "status", "--porcelain=v2", "--branch"]
-    with contextlib.suppress(OSError, subprocess.SubprocessError):
-        said = subprocess.run(git, capture_output=True, text=True, timeout=10, check=True).stdout.splitlines()
-        commits = [line.split()[-1] for line in said if line.startswith("# branch.oid ")]
-        found = {"commit": commits[0], "dirty": not all(line.startswith("#") for line in said)}
-    return found
+    # An installed copy is no checkout, even when it lies inside somebody's: only our own repository counts.
+    if (directory.parent / ".git").exists():
+        with contextlib.suppress(OSError, subprocess.SubprocessError):
+            said = subprocess.run(git, capture_output=True, text=True, timeout=10, check=True).stdout.splitlines()
+            commits = [line.split()[-1] for line in said if line.startswith("# branch.oid ")]
+            return {"commit": commits[0], "dirty": not all(line.startswith("#") for line in said)}
+    return {"commit": None, "dirty": None}
 
 
 def machine() -> dict[str, object]:
@@ -170,34 +174,16 @@ def machine() -> dict[str, object]:
     return {"processor": model or platform.processor() or platform.machine(), "cores": cores}
 
 
-def report(out: Path, wanted: bool, timing: dict[str, float], start: float) -> str:
-    """Build report.html and report.pdf where they are wanted; adds report_s and total_s to `timing`.
-
-    Returns "", or why there is no report: the results stand without one.
-    """
-    fault, began = "", time.perf_counter()
-    if wanted:
-        try:
-            from reports import build
-
-            build(out)
-        except OSError:
-            raise
-        except Exception as error:
-            fault = f"{type(error).__name__}: {error}"
-    timing |= {"report_s": time.perf_counter() - began, "total_s": time.perf_counter() - start}
-    return fault
-
-
-def say(out: Path, summary: Summary, timing: dict[str, float], wanted: bool, fault: str) -> int:
-    """Print what was done, where it is and where the time went; returns the exit code."""
+def say(how: Running, summary: Summary, timing: dict[str, float], fault: str) -> int:
+    """Print what was done, where it is and where the time went; returns the exit code. fault: why no report."""
+    out = how.out
     failed = collections.Counter(str(row["status"]) for row in summary.rows if row["status"] != "ok")
     reasons = ", ".join(f"{status} {count}" for status, count in sorted(failed.items()))
     print(f"runs     {len(summary.rows)}: {summary.computed} computed, {summary.found} found")
     if failed:
         print(f"failed   {sum(failed.values())}: {reasons}; see the columns status and message")
     print(f"table    {out / 'table.csv'}")
-    if wanted and not fault:
+    if how.report and not fault:
         print(f"report   {out / 'report.html'}\n         {out / 'report.pdf'}")
     print(
         f"time     {timing['total_s']:.1f} s: compile {timing['compile_s']:.1f}, run {timing['run_s']:.1f} "

@@ -1,5 +1,3 @@
-"""`python -m campaigns.oscillator`."""
-
 from campaigns.oscillator import main
 
 raise SystemExit(main())

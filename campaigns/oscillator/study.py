@@ -6,7 +6,6 @@ the file, so table.csv can be made again from the files.
 """
 
 import contextlib
-import hashlib
 import json
 import sys
 import time
@@ -34,7 +33,8 @@ from analysis.oscillator import (
 from analysis.oscillator.attractors import PAPER_BOX
 from analysis.oscillator.growth import random_starts
 from campaigns.columns import MESSAGE, RUN_KEY, STATUS, Column
-from campaigns.machinery.folder import Table, trajectory_path
+from campaigns.figure_data import attribute_of, store
+from campaigns.machinery.folder import Table, made_by, trajectory_path
 from campaigns.machinery.plan import Summary
 from engine.atomic import write_atomic
 
@@ -138,12 +138,7 @@ def diagram(over: str, o: SnapOscillator, order: Namespace) -> Result:
     displacement = found.section[..., 0].reshape(len(values), -1)
     arrays = dict(vars(found)) | {"values": values, "section": displacement}
     del arrays["over"]
-    return arrays, {
-        "starts": 4,
-        "periods": 1000,
-        "transient": 500,
-        "points": len(values),
-    }
+    return arrays, {"starts": 4, "periods": 1000, "transient": 500, "points": len(values)}
 
 
 def basins(o: SnapOscillator, order: Namespace) -> Result:
@@ -217,9 +212,9 @@ def done(order: Namespace) -> tuple[dict[str, float], Summary]:
     write_atomic(out / "scene.toml", (head + "\n".join(numbers) + "\n").encode())
     keys = {part: _key(part, order) for part in PARTS}
     table = Table(out / "table.csv", COLUMNS, list(keys.values()))
-    found = {key: _kept(trajectory_path(out, key)) for key in keys.values()}
-    table.rows = {key: row | {"run_key": key} for key, row in found.items() if row is not None}
-    missing = [part for part, key in keys.items() if found[key] is None]
+    found = {key: attribute_of(trajectory_path(out, key), "row") for key in keys.values()}
+    table.rows = {key: json.loads(row) | {"run_key": key} for key, row in found.items() if row is not None}
+    missing = [part for part, key in keys.items() if key not in table.rows]
     table.write()
     timing = {"compile_s": _compile(oscillator) if missing else 0.0}
     begun = time.perf_counter()
@@ -236,10 +231,9 @@ def done(order: Namespace) -> tuple[dict[str, float], Summary]:
 
 
 def _key(part: str, order: Namespace) -> str:
-    own = {"diagram-force": "force_range", "diagram-frequency": "frequency_range"}.get(part)
-    ranges = {"force_range", "frequency_range"} - {own}
-    content = {name: entry for name, entry in parameters(order).items() if name not in ranges}
-    return hashlib.sha256(json.dumps({"part": part, **content}, sort_keys=True).encode()).hexdigest()
+    other = {"diagram-force": {"frequency_range"}, "diagram-frequency": {"force_range"}}
+    unused = other.get(part, {"force_range", "frequency_range"})
+    return made_by({"part": part} | {name: entry for name, entry in parameters(order).items() if name not in unused})
 
 
 def _compile(oscillator: SnapOscillator) -> float:
@@ -257,15 +251,5 @@ def _done(part: str, oscillator: SnapOscillator, order: Namespace, path: Path) -
         return {"part": part, "status": "error", "message": f"{type(error).__name__}: {error}"}
     row = {"part": part, "status": "ok", **row, "wall_s": round(time.perf_counter() - begun, 3)}
     variables = {name: ([f"{name}_{axis}" for axis in range(values.ndim)], values) for name, values in arrays.items()}
-    kept = xarray.Dataset(variables, attrs={"row": json.dumps(row, default=lambda number: number.item())})
-    write_atomic(path, bytes(kept.to_netcdf(engine="scipy", format="NETCDF3_64BIT")))
+    store(path, xarray.Dataset(variables, attrs={"row": json.dumps(row, default=lambda number: number.item())}))
     return row
-
-
-def _kept(path: Path) -> dict | None:
-    """The row of a part's file; None where there is no such file, or a damaged one."""
-    try:
-        with xarray.open_dataset(path, engine="scipy") as file:
-            return json.loads(file.load().attrs["row"])
-    except Exception:  # absent, truncated, from a foreign hand: the cure is the same, it is computed again
-        return None

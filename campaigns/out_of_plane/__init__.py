@@ -16,10 +16,11 @@ from functools import partial
 
 from campaigns.buoy_sweep import ROW_SOURCES
 from campaigns.buoy_sweep.space import SEED_MPS, velocity
+from campaigns.judge import judged_scene
 from campaigns.machinery import cli
+from campaigns.machinery.folder import read_rows, write_table
 from campaigns.machinery.plan import Job, Plan, Summary
 from campaigns.study import Lengths, Measures, Order, Study
-from campaigns.tables import read_rows
 
 SMALL, LARGE = 0.016, 0.13  # the paper's two waves
 DEPTHS_M = (21.0, 21.6, 22.0, 22.5, 25.0)
@@ -104,8 +105,6 @@ def compared(one: Variant, base: Variant) -> bool:
 
 def cases(order: Order) -> Iterator[Job]:
     """Every run of `variants` with its scene; planar ones carry perturbations."""
-    from campaigns.judge import judged_scene
-
     base = base_of(order)
     for one in variants(base) if base is not None else ():
         scene = judged_scene(order, one.changes(), least=0)
@@ -140,7 +139,6 @@ def variant(row: Mapping[str, object]) -> Variant:
 
 
 def parameters(order: Order) -> dict[str, object]:
-    """What the provenance says of this campaign."""
     return {"base": asdict(base_of(order)), "looping_depths_m": list(LOOPING_DEPTHS_M)}
 
 
@@ -168,7 +166,8 @@ def judge(plan: Plan, summary: Summary, base: Variant, transient: int) -> float:
     good = {variant(row): row for row in summary.rows if row["status"] == "ok"}
     spatial = [replace(base, depth_m=depth) for depth in sorted({one.depth_m for one in good})]
     both = [(good[in_plane(one)], good[one]) for one in spatial if one in good and in_plane(one) in good]
-    pairs.write(plan.how.out, [pair for pair in both if pair[0]["loop_releases"]], transient)
+    looped = [pairs.pair_row(plan.how.out, *pair, transient) for pair in both if pair[0]["loop_releases"]]
+    write_table(plan.how.out / "pairs.csv", pairs.COLUMNS, looped)
     results = Results(plane=read_rows(plan.how.out / "table.csv"), plane_large=base.steepness)
     write_statements(plan.how.out, [claim for claim in claims() if "fig. 20" in claim.place], results)
     return 0.0

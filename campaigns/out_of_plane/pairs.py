@@ -9,9 +9,8 @@ from pathlib import Path
 
 import numpy as np
 
-from campaigns.columns import Column
-from campaigns.machinery.folder import trajectory_path, write_table
-from engine import Trajectory
+from campaigns.columns import DEPTH, Column
+from campaigns.machinery.folder import run_of
 
 APART_M = 0.01  # difference of the two radii from which the runs count as parted
 MOST_OFF = 0.01  # of the range of r: what the ends of the ranges may differ by
@@ -19,7 +18,7 @@ MOST_ACROSS = 1.5  # times the distance of the halves of one record
 EXPONENT, ERROR = "lyapunov_wolf_bits_per_period", "lyapunov_wolf_error"
 _SAME = "1 where both runs have the same {}; empty where the records are too short to say"
 COLUMNS = (
-    Column("depth_m", "m", "H", "depth of the water", 1),
+    DEPTH,
     Column("apart_period", "periods", "apart at", f"when the radii first differ by {1e3 * APART_M:g} mm", 1),
     Column("before_m", "m", "before", "their largest difference up to one period before the first burst", 6),
     Column("range_off", "", "ends of r", "largest difference of the ends of the ranges of r, by the planar range", 5),
@@ -34,40 +33,32 @@ COLUMNS = (
 )
 
 
-def write(out: Path, pairs: list[tuple[dict, dict]], transient: int) -> None:
-    """pairs.csv and its dictionary from rows (planar, in three dimensions) of table.csv. Raises OSError."""
-    write_table(out / "pairs.csv", COLUMNS, [_pair_row(out, *pair, transient) for pair in pairs])
+def pair_row(out: Path, planar: dict, spatial: dict, transient: int) -> dict[str, object]:
+    """A row of pairs.csv from two rows of table.csv, of the same scene in the plane and in three dimensions."""
+    from analysis import poincare_section, section_distance
 
-
-def _pair_row(out: Path, planar: dict, spatial: dict, transient: int) -> dict[str, object]:
-    flat, space = (Trajectory.load(trajectory_path(out, row["run_key"])) for row in (planar, spatial))
+    flat, space = (run_of(out, row) for row in (planar, spatial))
     step_s, period_s = flat.scene.sample_step_s(), flat.scene.waves.period_s
     samples = min(len(run.columns["radius_m"]) for run in (flat, space))
     off = np.abs(flat.columns["radius_m"][:samples] - space.columns["radius_m"][:samples])
     first = spatial.get("rope_first_burst_period")
     end = samples if first is None else max(int((first - 1.0) * period_s / step_s), 1)
     apart = np.flatnonzero(off > APART_M)
-    ends = {"radius_min_m", "radius_max_m"} <= planar.keys() & spatial.keys()
-    return {
+    row = {
         "depth_m": planar["depth_m"],
         "apart_period": float(apart[0]) * step_s / period_s if len(apart) else None,
         "before_m": float(off[:end].max()),
         "planar_key": planar["run_key"],
         "spatial_key": spatial["run_key"],
-        **(agreement(planar, spatial, *distances(flat, space, transient)) if ends else {}),
     }
-
-
-def distances(flat: Trajectory, space: Trajectory, transient: int) -> tuple[float, float]:
-    """`analysis.section_distance` of the sections in r, r' after the transient: (across, within)."""
-    from analysis import poincare_section, section_distance
-
-    step_s, period_s, sections = flat.scene.sample_step_s(), flat.scene.waves.period_s, []
-    for run in (flat, space):
-        series = {name: run.columns[name] for name in ("radius_m", "radius_rate_mps")}
-        sections.append(poincare_section(series, step_s, period_s, transient_periods=transient).points)
-    distance = section_distance(*sections)
-    return distance.across, distance.within
+    if {"radius_min_m", "radius_max_m"} <= planar.keys() & spatial.keys():
+        names, sections = ("radius_m", "radius_rate_mps"), []
+        for run in (flat, space):
+            series = {name: run.columns[name] for name in names}
+            sections.append(poincare_section(series, step_s, period_s, transient_periods=transient).points)
+        distance = section_distance(*sections)
+        row |= agreement(planar, spatial, distance.across, distance.within)
+    return row
 
 
 def agreement(planar: dict, spatial: dict, across: float, within: float) -> dict[str, object]:

@@ -20,7 +20,7 @@ from campaigns.buoy_sweep.rows import (
     exponents,
     sound_part,
 )
-from campaigns.columns import MESSAGE, PERIODS_RUN, RUN_KEY, STATISTICS, STATUS, Column, counted
+from campaigns.columns import DEPTH, MESSAGE, PERIODS_RUN, RUN_KEY, STATISTICS, STATUS, STIFFNESS, Column, counted
 from campaigns.judge import tangent_of, verdict_of
 
 EARLY_PERIODS = 8  # before the first loop at every depth of the campaign: still linear in the push
@@ -60,8 +60,8 @@ def _lateral_columns(body: str) -> tuple[Column, ...]:
 
 COLUMNS = (
     STEEPNESS,
-    Column("depth_m", "m", "H", "depth of the water", 1),
-    Column("bending_stiffness_Nm2", "N m²", "EI", "bending stiffness of the line", 2),
+    DEPTH,
+    STIFFNESS,
     Column("nodes", "", "nodes", "nodes of the line", 0),
     DIMENSIONS,
     Column("seed_mps", "m/s", "push", "speed of the buoy at t = 0 that lets the motion leave the plane", 3),
@@ -107,7 +107,9 @@ def offplane_row(trajectory, transient_periods: int, judged: frozenset = frozens
     if trajectory.profiles is not None and len(trajectory.profiles.time_s):
         row["bow_inplane_m"], row["bow_lateral_m"] = bows(trajectory.profiles)
     if scene.key() in judged and trajectory.status == "ok" and "inplane_m" in row:
-        row |= _regime(trajectory, transient_periods)
+        verdict, wolf, _ = verdict_of(trajectory, transient_periods)
+        tangent = tangent_of(trajectory, transient_periods)
+        row |= {"regime": verdict.regime, **exponents(WOLF, wolf), **exponents(TANGENT, tangent)}
     return row
 
 
@@ -162,9 +164,3 @@ def bows(profiles) -> tuple[float, float]:
     in_plane = np.abs(x * top_z - z * top_x) / length
     along = np.clip((x * top_x + z * top_z) / length**2, 0.0, 1.0)
     return float(in_plane.max()), float(np.abs(y - along * top_y).max())
-
-
-def _regime(trajectory, transient_periods: int) -> dict[str, object]:
-    verdict, wolf, _ = verdict_of(trajectory, transient_periods)
-    tangent = tangent_of(trajectory, transient_periods)
-    return {"regime": verdict.regime, **exponents(WOLF, wolf), **exponents(TANGENT, tangent)}

@@ -1,5 +1,3 @@
-"""`python -m campaigns.paper`."""
-
 from campaigns.paper import main
 
 raise SystemExit(main())

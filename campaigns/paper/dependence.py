@@ -5,16 +5,16 @@ depths where the large wave leads to different motions. Runs carry a perturbatio
 (`campaigns.buoy_sweep.rows`); they go side by side in the lanes.
 """
 
-from functools import partial
+from dataclasses import replace
 from itertools import product
 from pathlib import Path
 from typing import get_args
 
 from campaigns.buoy_sweep import PAPER_STEEPNESS as STEEPNESSES
-from campaigns.buoy_sweep import ROW_SOURCES
+from campaigns.buoy_sweep import measures as of_the_sweep
 from campaigns.buoy_sweep.rows import COLUMNS as OF_A_RUN
-from campaigns.buoy_sweep.rows import STEEPNESS, buoy_row
-from campaigns.columns import Column
+from campaigns.buoy_sweep.rows import STEEPNESS
+from campaigns.columns import DEPTH, STIFFNESS, Column, names
 from campaigns.machinery.cli import Running
 from campaigns.machinery.folder import claimed
 from campaigns.machinery.plan import Summary
@@ -27,36 +27,29 @@ STIFFNESS_DEPTHS_M = (21.0, 21.6, 22.5)
 PERIODS, TRANSIENT = 400, 100
 QUICK_DEPTHS_M, QUICK_PERIODS, QUICK_TRANSIENT = (21.0, 22.5), 45, 5
 
-
-KEYS = {  # column that names a run -> key of the scene
-    "steepness": "waves.steepness",
-    "depth_m": "water.depth_m",
-    "above_still_water": "waves.above_still_water",
-    "submergence": "buoy.submergence",
-    "bending_stiffness_Nm2": "tether.bending_stiffness_Nm2",
+ABOVE = Column("above_still_water", symbol="above water", meaning="treatment of the waves above still water")
+DROWNED = Column("submergence", symbol="submergence", meaning="treatment of a buoy that leaves the water")
+VARIED = {  # column that names a run -> key of the scene
+    STEEPNESS: "waves.steepness",
+    DEPTH: "water.depth_m",
+    ABOVE: "waves.above_still_water",
+    DROWNED: "buoy.submergence",
+    STIFFNESS: "tether.bending_stiffness_Nm2",
 }
 CARRIED = {"output.tangent_vectors": 1, "output.lateral_growth": True}
-LABELS = (
-    STEEPNESS,
-    Column("depth_m", "m", "H", "depth of the water", 1),
-    Column("above_still_water", symbol="above water", meaning="treatment of the waves above still water"),
-    Column("submergence", symbol="submergence", meaning="treatment of a buoy that leaves the water"),
-    Column("bending_stiffness_Nm2", "N m²", "EI", "bending stiffness of the line", 2),
-)
-COLUMNS = (*LABELS, *(column for column in OF_A_RUN if column not in LABELS))
+COLUMNS = (*VARIED, *(column for column in OF_A_RUN if column not in VARIED))
 
 
 def treatments() -> tuple[tuple[str, ...], tuple[str, ...]]:
     """All that a scene allows: of waves above still water, and of a buoy that leaves the water."""
-    from engine.scene.line import Buoy
-    from engine.scene.surroundings import Waves
+    from engine.scene.sections import Buoy, Waves
 
     waves, buoy = Waves.model_fields["above_still_water"], Buoy.model_fields["submergence"]
     return get_args(waves.annotation), get_args(buoy.annotation)
 
 
 def variants(quick: bool) -> list[tuple]:
-    """Every run, each once, as the values of KEYS; the scene as shipped leads."""
+    """Every run, each once, as the values of VARIED; the scene as shipped leads."""
     from engine import load_scene
 
     scene = load_scene(SCENE)
@@ -74,7 +67,7 @@ def variants(quick: bool) -> list[tuple]:
 
 def changes(values: tuple) -> dict[str, object]:
     """The changes of the scene that make it a variant."""
-    return dict(zip(KEYS.values(), values, strict=True)) | CARRIED
+    return dict(zip(VARIED.values(), values, strict=True)) | CARRIED
 
 
 def parameters(quick: bool) -> dict[str, object]:
@@ -94,9 +87,8 @@ def parameters(quick: bool) -> dict[str, object]:
 
 
 def measures(order: Order) -> Measures:
-    """`campaigns.buoy_sweep.rows.buoy_row` of every run."""
-    row = partial(buoy_row, transient_periods=order.transient, simulate=order.simulate)
-    return Measures(COLUMNS, row, ROW_SOURCES, {"transient": order.transient})
+    """The row of the buoy sweep, after the columns that name a run."""
+    return replace(of_the_sweep(order), columns=COLUMNS)
 
 
 def run(out: Path, jobs: int, quick: bool) -> tuple[dict[str, float], Summary]:
@@ -105,6 +97,6 @@ def run(out: Path, jobs: int, quick: bool) -> tuple[dict[str, float], Summary]:
     how = Running(out, jobs, "loky", None, report=False)
     order = Order(how, SCENE, {}, told["periods"], told["transient"])
     for values in variants(quick):
-        order.cases.append(order.case(dict(zip(KEYS, values, strict=True)), changes(values)))
+        order.cases.append(order.case(dict(zip(names(VARIED), values, strict=True)), changes(values)))
     with claimed(out):
         return Study("dependence", __doc__, SCENE, lambda order: order.cases, measures).work(order)

@@ -1,44 +1,107 @@
-"""What the parts of the paper's campaign left, read for judging: rows by part, and a few numbers of single motions.
+"""What the parts of the paper's campaign left: runs by name, or why there is none, for figures; `Results` to judge by.
 
-A part that is not there, or cannot be read, leaves its place empty; statements that need it are then undecided.
+For judging, a part that is not there, or cannot be read, leaves its place empty; statements that need it are undecided.
 """
 
 import contextlib
+import json
 import math
+from collections.abc import Callable
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
 
 from campaigns.breaking_line.lines import read_lines
-from campaigns.machinery.folder import read_json
+from campaigns.figure_data import Array, Source, source
+from campaigns.machinery.folder import Row, read_json, read_rows, run_of, trajectory_path
 from campaigns.paper.measures import LARGE, SMALL, buckling_waves, calm_measures, scales, snaps, violent_measures
-from campaigns.paper.part_folders import LeftOut, Parts
-from campaigns.tables import Row, read_rows, run_of
 
 STRANGE = ("lambda_1_bits_per_period", "lambda_1_bits_error", "section_dimension", "section_dimension_error")
 TREATED = ("above_still_water", "submergence")
 
 
+class LeftOut(Exception):
+    """A figure that cannot be drawn; str() is the reason, as the report gives it."""
+
+
+@dataclass(frozen=True)
+class Plan:
+    """A figure's data before it is computed: its title, the results behind it, and what computes its arrays."""
+
+    title: str
+    sources: tuple[Source, ...]
+    arrays: Callable[[], dict[str, Array]]
+
+
+@dataclass(frozen=True)
+class Part:
+    """A part's folder with its table and its provenance."""
+
+    folder: Path
+    rows: tuple[Row, ...]
+    provenance: dict
+
+
+@dataclass(frozen=True, eq=False)
+class Parts:
+    """The folder of the campaign, and what was read of it: several figures show the same run."""
+
+    root: Path
+    _parts: dict[str, Part] = field(default_factory=dict)
+    _runs: dict[Path, tuple] = field(default_factory=dict)
+
+    def part(self, name: str) -> Part:
+        """A part by the name of its folder. Raises LeftOut where it is missing or unfinished."""
+        if name not in self._parts:
+            folder = self.root / name
+            try:
+                told = json.loads((folder / "provenance.json").read_text(encoding="utf-8"))
+                self._parts[name] = Part(folder, read_rows(folder / "table.csv"), told)
+            except FileNotFoundError as error:
+                raise LeftOut(f"the part `{name}` is not there: {Path(error.filename).name} is missing") from None
+            except (OSError, ValueError, KeyError) as error:
+                raise LeftOut(f"the part `{name}` cannot be read ({type(error).__name__}: {error})") from None
+        return self._parts[name]
+
+    def run(self, part: Part, label: str, **wanted) -> tuple[Row, object, Source]:
+        """The one run of a part that is as wanted: its row, its trajectory, its Source. Raises LeftOut."""
+        from engine.trajectory import Trajectory, TrajectoryError
+
+        row = next((row for row in part.rows if wanted.items() <= row.items()), None)
+        if row is None:
+            raise LeftOut(f"the part `{part.folder.name}` holds no run of {label}")
+        if row["status"] != "ok":
+            raise LeftOut(f"the run of {label} ended early ({row['status']}: {row['message']})")
+        path = trajectory_path(part.folder, row["run_key"])
+        if path not in self._runs:
+            try:
+                found = Trajectory.load(path)
+            except TrajectoryError as error:
+                reason = str(error).removeprefix(f"{path}: ")  # what is written must not depend on the folder's place
+                raise LeftOut(f"the file of {label}, {path.name}, is no use ({reason})") from None
+            settings, run_s = found.scene.to_toml(), found.statistics["wall_s"]
+            self._runs[path] = found, source(label, self.root, path, path.stem, settings, run_s)
+        return row, *self._runs[path]
+
+    def of_buoy(self, steepness: float) -> tuple[object, Source]:
+        """Trajectory and Source of the buoy's run at a steepness of the paper. Raises LeftOut."""
+        return self.run(self.part("buoy"), f"kA = {steepness:g}", steepness=steepness)[1:]
+
+
 @dataclass(frozen=True, eq=False)
 class Results:
-    """All that the statements are judged by.
+    """All that the statements are judged by."""
 
-    lines        runs of the breaking line (`breaking_line.lines`)
-    buoy         rows of the two long runs by steepness, with `snaps`;  accuracy: the same runs tighter and finer
-    sweep        rows over steepness;  dependence: rows of other depths, treatments and stiffnesses (rows at the large
-                 wave, with linear waves continued above still water, with `snaps`)
-    plane        runs of figure 20;  plane_large: the steepness of its large wave
-    numbers      of the scene of section 4.2 (`scales`, estimate_... of the natural frequencies, length_m), of its two
-                 motions (`calm_measures`, `violent_measures`), of the slack rope (buckle_waves) and of
-                 eq. (33) (oscillator_..., its exponents)
-    """
-
-    lines: tuple[Row, ...] = ()
-    buoy: dict[float, Row] = field(default_factory=dict)
-    accuracy: tuple[Row, ...] = ()
-    sweep: tuple[Row, ...] = ()
+    lines: tuple[Row, ...] = ()  # runs of the breaking line (`breaking_line.lines`)
+    buoy: dict[float, Row] = field(default_factory=dict)  # rows of the two long runs by steepness, with `snaps`
+    accuracy: tuple[Row, ...] = ()  # the same runs tighter and finer
+    sweep: tuple[Row, ...] = ()  # rows over steepness
+    # Rows of other depths, treatments and stiffnesses; those at the large wave, with linear waves continued above still
+    # water, with `snaps`.
     dependence: tuple[Row, ...] = ()
-    plane: tuple[Row, ...] = ()
-    plane_large: float = LARGE
+    plane: tuple[Row, ...] = ()  # runs of figure 20
+    plane_large: float = LARGE  # the steepness of its large wave
+    # Of the scene of section 4.2 (`scales`, estimate_... of the natural frequencies, length_m), of its two motions
+    # (`calm_measures`, `violent_measures`), of the slack rope (buckle_waves), of eq. (33) (oscillator_..., exponents).
     numbers: dict[str, float] = field(default_factory=dict)
 
     def number(self, name: str) -> float:
@@ -67,14 +130,14 @@ def read_results(directory: str | Path) -> Results:
     from engine.trajectory import TrajectoryError
 
     parts, numbers, found = Parts(Path(directory)), {}, {}
-    for reader in (_breaking, _buoy, _sweep, _dependence, _plane, _oscillator):
+    whole_tables = (
+        lambda *_: {"lines": read_lines(parts.root / "breaking_line")},
+        lambda *_: {"sweep": parts.part("sweep").rows},
+    )
+    for reader in (*whole_tables, _buoy, _dependence, _plane, _oscillator):
         with contextlib.suppress(LeftOut, OSError, ValueError, KeyError, TrajectoryError):
             found |= reader(parts, numbers)
     return Results(**found, numbers=numbers)
-
-
-def _breaking(parts: Parts, numbers: dict) -> dict:
-    return {"lines": read_lines(parts.root / "breaking_line")}
 
 
 def _buoy(parts: Parts, numbers: dict) -> dict:
@@ -96,10 +159,6 @@ def _buoy(parts: Parts, numbers: dict) -> dict:
             numbers |= calm_measures(trajectory, modes) if small else violent_measures(trajectory, transient)
     again = part.folder / "accuracy" / "table.csv"
     return {"buoy": rows, "accuracy": read_rows(again) if again.exists() else ()}
-
-
-def _sweep(parts: Parts, numbers: dict) -> dict:
-    return {"sweep": parts.part("sweep").rows}
 
 
 def _dependence(parts: Parts, numbers: dict) -> dict:
@@ -128,7 +187,5 @@ def _plane(parts: Parts, numbers: dict) -> dict:
 def _oscillator(parts: Parts, numbers: dict) -> dict:
     part = parts.part("oscillator")
     numbers |= {f"oscillator_{key}": float(entry) for key, entry in part.provenance["oscillator"].items()}
-    for row in part.rows:
-        if row["part"] == "exponents":
-            numbers |= {name: row[name] for name in STRANGE}
+    numbers |= {name: row[name] for row in part.rows if row["part"] == "exponents" for name in STRANGE}
     return {}

@@ -13,7 +13,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from campaigns.buoy_sweep.rows import lasts, sound_part
+
 if TYPE_CHECKING:
+    from analysis import Spectrum
     from engine import Scene
     from engine.natural_frequencies import Modes
     from engine.trajectory import Profiles, Trajectory
@@ -26,17 +29,12 @@ NEAR_BINS = 2  # of eq. (31): a line that is on no bin leaks into its neighbours
 LINES_POINTS = 32, 2000  # strobed points whose lines are looked for: the fewest that allow it, the most
 TURN_RAD = 1e-3  # per element, below which a rope counts as straight
 NEAR_ZERO = 0.05  # of the static tension: what the paper calls near zero, in numbers
-SNAPS = (
-    "near_zero", "compressed", "compressed_inwards", "begun_inwards", "turned", "peak_periods", "apart_periods",
-    "radial_line", "radial_at", "angular_line", "angular_at",
-)  # fmt: skip
 
 
 def in_window(trajectory: Trajectory) -> bool:
     """Whether a record is as long as the window of eq. (31) wants."""
     scene = trajectory.scene
-    duration_s = (len(trajectory.columns["time_s"]) - 1) * scene.sample_step_s()
-    return duration_s >= sum(WINDOW) * scene.waves.period_s - 1e-9
+    return lasts(trajectory.columns, scene.sample_step_s(), sum(WINDOW) * scene.waves.period_s)
 
 
 def calm_measures(trajectory: Trajectory, modes: Modes | None) -> dict[str, float]:
@@ -56,26 +54,34 @@ def calm_measures(trajectory: Trajectory, modes: Modes | None) -> dict[str, floa
     """
     if modes is None or not in_window(trajectory):
         return {}
-    columns, scene = trajectory.columns, trajectory.scene
-    step_s, period_s = scene.sample_step_s(), scene.waves.period_s
-    r, theta, wave = columns["radius_m"], columns["angle_rad"], 2.0 * np.pi / period_s
+    from analysis import peaks_near, spectrum
+
+    columns, step_s, period_s = trajectory.columns, trajectory.scene.sample_step_s(), trajectory.scene.waves.period_s
+    r, wave = columns["radius_m"], 2.0 * np.pi / period_s
     seen = round(sum(WINDOW) * period_s / step_s)
-    own = {"radial": (r, modes.radial_radps), "angular": (theta, modes.pendulum_radps)}
     found = {
         "rest_m": r[0],
         "excursion_m": np.abs(r - r[0]).max(),
         "long_tension_min_N": columns["tension_top_low_N"].min(),
-        "radial_coupled": share_near(r, step_s, period_s, (modes.pendulum_radps, 2.0 * modes.pendulum_radps)),
-        "angular_coupled": share_near(theta, step_s, period_s, (modes.radial_radps,)),
         "tension_alike": np.corrcoef(r[:seen], columns["tension_top_N"][:seen])[0, 1],
     }
-    for side, (series, frequency) in own.items():
-        late = series[-round(SETTLED * period_s / step_s) :]
+    radial, pendulum = modes.radial_radps, modes.pendulum_radps
+    for side, series, own, others in (
+        ("radial", r, radial, (pendulum, 2.0 * pendulum)),
+        ("angular", columns["angle_rad"], pendulum, (radial,)),
+    ):
+        lines, late = spectrum(series, step_s, period_s, *WINDOW), series[-round(SETTLED * period_s / step_s) :]
+        nearest = peaks_near(lines, (own,))[0]
+        early, before = free(series, step_s, period_s, own, EARLY)
+        # At the frequency that it has early, where it is large: later the wave's frequency less the pendulum's, which
+        # lies beside the radial one, may be larger.
+        after = free(series, step_s, period_s, early, LATE, 0.0)[1]
         found |= {
-            f"early_{side}_radps": free(series, step_s, period_s, frequency, EARLY)[0],
-            f"{side}_bins": _bins_away(series, step_s, period_s, frequency),
-            f"{side}_share": share_near(series, step_s, period_s, (frequency, wave)),
-            f"{side}_kept": kept(series, step_s, period_s, frequency),
+            f"early_{side}_radps": early,
+            f"{side}_bins": math.nan if nearest is None else nearest.bins_away,
+            f"{side}_share": share_near(lines, (own, wave)),
+            f"{side}_coupled": share_near(lines, others),
+            f"{side}_kept": after / before,
             f"{side}_mean": (np.mean(late) - series[0]) / (0.5 * np.ptp(late)),
         }
     return {name: float(value) for name, value in found.items()}
@@ -106,38 +112,19 @@ def strobed(trajectory: Trajectory, transient_periods: int) -> np.ndarray:
     """r (m) and r' (m/s) at t = k T_i, k >= transient_periods, as (m, 2); empty for a record that ends before."""
     from analysis import poincare_section
 
-    scene = trajectory.scene
-    series = {name: trajectory.columns[name] for name in ("radius_m", "radius_rate_mps")}
-    finite = np.isfinite(series["radius_m"]) & np.isfinite(series["radius_rate_mps"])
-    end = len(finite) if finite.all() else int(np.argmin(finite))
-    if (end - 1) * scene.sample_step_s() < transient_periods * scene.waves.period_s:
-        return np.empty((0, 2))
-    series = {name: values[:end] for name, values in series.items()}
+    columns, scene = sound_part(trajectory.columns), trajectory.scene
     step_s, period_s = scene.sample_step_s(), scene.waves.period_s
+    if not lasts(columns, step_s, transient_periods * period_s):
+        return np.empty((0, 2))
+    series = {name: columns[name] for name in ("radius_m", "radius_rate_mps")}
     return poincare_section(series, step_s, period_s, transient_periods=transient_periods).points
 
 
-def share_near(series: np.ndarray, step_s: float, period_s: float, frequencies: Iterable[float]) -> float:
-    """Share of the variance in eq. (31)'s window within NEAR_BINS of any of the frequencies [rad/s]."""
-    from analysis import spectrum
-
-    found = spectrum(series, step_s, period_s, *WINDOW)
-    power = found.amplitude[1:] ** 2
-    omega = found.angular_frequency_radps[1:]
-    near = np.zeros(len(omega), dtype=bool)
-    for frequency in frequencies:
-        near |= np.abs(omega - frequency) <= NEAR_BINS * found.bin_radps
-    return float(power[near].sum() / power.sum())
-
-
-def largest_line(series: np.ndarray, step_s: float, period_s: float) -> tuple[float, float]:
-    """Largest share of the variance in eq. (31)'s window that lies on one bin, and the bin over the wave's."""
-    from analysis import spectrum
-
-    found = spectrum(series, step_s, period_s, *WINDOW)
-    power = found.amplitude[1:] ** 2
-    most = int(np.argmax(power))
-    return float(power[most] / power.sum()), (most + 1) / WINDOW[1]
+def share_near(lines: Spectrum, frequencies: Iterable[float]) -> float:
+    """Share of the variance in a spectrum within NEAR_BINS of any of the frequencies [rad/s]."""
+    power = lines.amplitude[1:] ** 2
+    away = np.abs(np.subtract.outer(tuple(frequencies), lines.angular_frequency_radps[1:]))
+    return float(power[(away <= NEAR_BINS * lines.bin_radps).any(axis=0)].sum() / power.sum())
 
 
 def free(
@@ -163,23 +150,6 @@ def free(
     return float(trial[most]), float(2.0 * sizes[most] / window.sum())
 
 
-def kept(series: np.ndarray, step_s: float, period_s: float, frequency: float) -> float:
-    """Amplitude of the free oscillation near a frequency in LATE by that in EARLY.
-
-    At the frequency that it has in EARLY, where it is large: later the wave's frequency less the pendulum's, which
-    lies beside the radial one, may be larger.
-    """
-    own, before = free(series, step_s, period_s, frequency, EARLY)
-    return free(series, step_s, period_s, own, LATE, 0.0)[1] / before
-
-
-def _bins_away(series: np.ndarray, step_s: float, period_s: float, frequency: float) -> float:
-    from analysis import peaks_near, spectrum
-
-    found = peaks_near(spectrum(series, step_s, period_s, *WINDOW), (frequency,))[0]
-    return math.nan if found is None else float(found.bins_away)
-
-
 def buckling_waves(profiles: Profiles) -> float | None:
     """Half waves of the rope while it is slack over its whole length: median number of changes of the turn's side, +1.
 
@@ -196,23 +166,28 @@ def buckling_waves(profiles: Profiles) -> float | None:
 
 
 def snaps(trajectory: Trajectory, transient_periods: int) -> dict[str, float]:
-    """SNAPS of a run; nan where it has none.
+    """How the line of a run snaps; a number that it does not have is left out, or nan.
 
     near_zero, compressed   shares of the time after the transient with almost no tension, and with less than none
     compressed_inwards      share of the latter during which r falls
     begun_inwards           share of the intervals near zero at whose start r falls
     turned                  share of the peaks of tension that turn the buoy
     peak_periods, apart_periods   median length of a peak at half its height, and time for each peak, wave periods
-    radial_line ... angular_at    `largest_line` of r and theta, where the record has the window of eq. (31)
+    radial_line ... angular_at    largest share of the variance of r and theta that lies on one bin of eq. (31), and
+                                  that bin over the wave's; not of a record without its window
     """
+    from analysis import spectrum
+
     columns, scene = trajectory.columns, trajectory.scene
     step_s, period_s = scene.sample_step_s(), scene.waves.period_s
     after = round(transient_periods * period_s / step_s)
     tension, rate = columns["tension_top_N"][after:], columns["radius_rate_mps"][after:]
-    found = dict.fromkeys(SNAPS, math.nan)
+    found: dict[str, float] = {}
     if in_window(trajectory):
         for side, name in (("radial", "radius_m"), ("angular", "angle_rad")):
-            found[f"{side}_line"], found[f"{side}_at"] = largest_line(columns[name], step_s, period_s)
+            power = spectrum(columns[name], step_s, period_s, *WINDOW).amplitude[1:] ** 2
+            found[f"{side}_line"] = float(power.max() / power.sum())
+            found[f"{side}_at"] = float(np.argmax(power) + 1) / WINDOW[1]
     if len(tension) < 2:
         return found
     static = float(columns["tension_top_N"][0])

@@ -27,6 +27,7 @@ from campaigns.machinery.plan import Summary
 from campaigns.machinery.session import command_line
 from campaigns.paper import dependence
 from campaigns.paper.order import PARTS
+from engine.atomic import write_atomic
 
 COLUMNS = (
     Column("part", "", "part", "folder of the part"),
@@ -44,7 +45,7 @@ SOURCES = (
     "analysis",
     "engine",
     *(f"campaigns/{name}" for name in ("machinery", "buoy_sweep", "breaking_line", "oscillator", "out_of_plane")),
-    *(f"campaigns/{name}.py" for name in ("columns", "judge", "study", "statements", "figure_data", "tables")),
+    *(f"campaigns/{name}.py" for name in ("columns", "judge", "study", "statements", "figure_data")),
     *(f"reports/{name}" for name in ("parts", "figures", "buoy_sweep", "breaking_line", "oscillator", "out_of_plane")),
     "campaigns/paper/dependence.py",
 )
@@ -69,33 +70,29 @@ def run(order: Namespace) -> tuple[dict[str, float], Summary]:
 
     Raises CampaignStopped where a part stopped, KeyboardInterrupt where it was interrupted.
     """
+    from engine import load_scene
+
     out = order.how.out
     keys = {part: _key(part, order) for part in PARTS}
-    _write_scene(out)
+    head = "# the scene of section 4.2 at its large wave; every part has the scene it ran in its own folder\n"
+    write_atomic(out / "scene.toml", (head + load_scene(dependence.SCENE).to_toml()).encode())
     table = Table(out / "table.csv", COLUMNS, list(PARTS))
-    table.rows |= {row["part"]: row for row in read_rows(out)}
+    known = {*names(COLUMNS)}
+    table.rows |= {row["part"]: row for row in _rows(out) if row.keys() == known and row["part"] in PARTS}
     timing = dict.fromkeys(_TIMES, 0.0) | {"analysis_s": 0.0}
-    found = 0
-    for part in order.parts:
-        before = table.rows.get(part)
-        if before and before["run_key"] == _ended(keys[part], out / part) and _whole(out / part, order):
-            found += 1
-            continue
+    todo = [part for part in order.parts if not _there(table.rows.get(part), keys[part], out / part, order)]
+    for part in todo:
         print(f"{part} ...", file=sys.stderr)
         row = _done(part, order)
         table.add(part, {**row, "run_key": _ended(keys[part], out / part)})
         table.write()
         timing |= {name: timing[name] + row[name] for name in _TIMES}
     table.write()
-    return timing, Summary(table.in_order(), found, len(order.parts) - found, 0.0)
-
-
-def read_rows(out: Path) -> list[dict[str, str]]:
-    """The rows of table.csv as it is, those of known parts; none where it cannot be read."""
-    return [row for row in _rows(out) if set(row) == set(names(COLUMNS)) and row["part"] in PARTS]
+    return timing, Summary(table.in_order(), len(order.parts) - len(todo), len(todo), 0.0)
 
 
 def _rows(out: Path) -> list[dict[str, str]]:
+    """The rows of a table.csv as it is; none where it cannot be read."""
     try:
         with open(out / "table.csv", encoding="utf-8", newline="") as file:
             return list(csv.DictReader(file))
@@ -105,8 +102,7 @@ def _rows(out: Path) -> list[dict[str, str]]:
 
 def _key(part: str, order: Namespace) -> str:
     told = dependence.parameters(order.quick) if part == "dependence" else CAMPAIGNS[part][1 + order.quick]
-    content = json.dumps([part, told, made_by({}, *SOURCES, *of_the_page())])
-    return hashlib.sha256(content.encode()).hexdigest()
+    return made_by({"part": part, "told": told}, *SOURCES, *of_the_page())
 
 
 def _ended(key: str, out: Path) -> str:
@@ -118,9 +114,11 @@ def _ended(key: str, out: Path) -> str:
     return digest.hexdigest()
 
 
-def _whole(out: Path, order: Namespace) -> bool:
-    """Whether the folder of a part still holds all that its table names, and the report where one is wanted."""
-    sound = [trajectory_path(out, row["run_key"]).exists() for row in _rows(out) if row["status"] == "ok"]
+def _there(row: dict[str, str] | None, key: str, out: Path, order: Namespace) -> bool:
+    """Whether a part ended as it is asked for, and its folder still holds all that its table names, and its report."""
+    if row is None or row["run_key"] != _ended(key, out):
+        return False
+    sound = [trajectory_path(out, run["run_key"]).exists() for run in _rows(out) if run["status"] == "ok"]
     reported = out.name == "dependence" or order.quick or not order.how.report or (out / "report.html").exists()
     return bool(sound) and all(sound) and reported
 
@@ -153,11 +151,3 @@ def _called(part: str, module: str, words: list[str]) -> None:
         raise KeyboardInterrupt
     if code != cli.EXIT_OK:
         raise CampaignStopped(f"its part {part} stopped (above); what is finished is kept, run the same command again")
-
-
-def _write_scene(out: Path) -> None:
-    from engine import load_scene
-    from engine.atomic import write_atomic
-
-    head = "# the scene of section 4.2 at its large wave; every part has the scene it ran in its own folder\n"
-    write_atomic(out / "scene.toml", (head + load_scene(dependence.SCENE).to_toml()).encode())

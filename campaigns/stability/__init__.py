@@ -21,7 +21,6 @@ DRIFT_PERIODS = 100_000
 
 
 def options(group) -> None:
-    """Add the options of this campaign."""
     group.add_argument("--quick", action="store_true", help="fewer cases, fewer random scenes, no long run")
     scenes = f"random scenes, N valid and N invalid (default: {FUZZ}; {QUICK_FUZZ} with --quick)"
     cli.add(group, "--fuzz", "N", scenes, cli.whole(0))

@@ -12,12 +12,15 @@ import math
 import tomllib
 from collections.abc import Iterator
 from dataclasses import dataclass, field
-from functools import cache
 from pathlib import Path
 
-from campaigns.columns import MESSAGE, RUN_KEY, STATISTICS, STATUS, WALL_S, Column, names
+import numpy as np
+
+from campaigns.columns import MESSAGE, RUN_KEY, STATISTICS, STATUS, Column, names
 from campaigns.machinery.folder import CampaignStopped, write_failure
-from campaigns.stability.limited import DONE, limited
+from campaigns.stability import checks
+from campaigns.stability.fuzz import DONE, limited, outcome_of
+from engine import SceneError, load_scene, simulate
 
 REFUSED, ABOVE_BAR = "refused", "above bar"
 LIMIT_S, DRIFT_LIMIT_S = 300.0, 1800.0
@@ -25,7 +28,7 @@ DRIFT_BAR = 0.01
 OK, LIMIT, UNEXPLAINED = "ok", "known limit", "unexplained"
 _NOT_SAVED = "not saved"
 NEEDS_PROFILES = ("energy", "buckling", "straight")
-COUNTED = tuple(column for column in STATISTICS if column != WALL_S)
+FILE = tomllib.loads(Path(__file__).with_suffix(".toml").read_text(encoding="utf-8"))
 COLUMNS = (
     Column("part", symbol="part", meaning="case: one run that is judged; fuzz: all random scenes of one kind"),
     Column("group", symbol="group", meaning="what is extreme in the case"),
@@ -39,8 +42,7 @@ COLUMNS = (
     Column("how", symbol="how we know", meaning="the check"),
     Column("limit", symbol="why", meaning="why another ending is expected"),
     Column("length_s", "s", "run", "length of the run that was asked for", 2),
-    *COUNTED,
-    WALL_S,
+    *STATISTICS,
     Column("case_wall_s", "s", "wall", "wall-clock time of all runs of the case", 2),
     STATUS,
     RUN_KEY,
@@ -70,28 +72,23 @@ class Case:
     options: dict = field(default_factory=dict)
 
 
-@cache
-def _file() -> dict:
-    return tomllib.loads(Path(__file__).with_suffix(".toml").read_text(encoding="utf-8"))
-
-
 def drift_case(periods: int) -> Case:
     """The long regular run, strobed at the wave period."""
-    scene, options = {**_file()["sets"]["regular"], "output.step_s": 5.0}, {"limit_s": DRIFT_LIMIT_S}
+    scene, options = {**FILE["sets"]["regular"], "output.step_s": 5.0}, {"limit_s": DRIFT_LIMIT_S}
     return Case("drift", f"{periods} regular waves", scene, 5.0 * periods, "drift", DRIFT_BAR, options=options)
 
 
 def all_cases() -> list[Case]:
     """Every case, in the order of the report."""
-    return [case for group, rows in _file()["cases"].items() for row in rows for case in _cases(group, row)]
+    return [case for group, rows in FILE["cases"].items() for row in rows for case in _cases(group, row)]
 
 
 def _cases(group: str, row: dict) -> Iterator[Case]:
     """The cases of a row of cases.toml: one, or one for each place in the lists of `vary`."""
     row = copy.deepcopy(row)
-    fixed = {key: value for name in row.pop("sets", ()) for key, value in _file()["sets"][name].items()}
+    fixed = {key: value for name in row.pop("sets", ()) for key, value in FILE["sets"][name].items()}
     fixed |= row.pop("changes", {})
-    row |= _file()["endings"][row.pop("ending")] if "ending" in row else {}
+    row |= FILE["endings"][row.pop("ending")] if "ending" in row else {}
     varied, quick, length_s = (row.pop(name, None) for name in ("vary", "quick", "length_s"))
     name = row.pop("name")
     for place, values in enumerate(zip(*varied.values(), strict=True) if varied else [()]):
@@ -113,18 +110,12 @@ def case_row(case: Case, path: Path | None = None) -> dict[str, object]:
     if fault := answer.pop(_NOT_SAVED, ""):
         raise CampaignStopped(fault)
     row = {"part": "case", "group": case.group, "case": case.name, "length_s": case.length_s, "bar": case.bar}
-    row |= {"about": _file()["about"].get(case.group, case.group)}
+    row |= {"about": FILE["about"].get(case.group, case.group)}
     row |= {"dimensions": case.changes.get("motion.dimensions", 2), "case_wall_s": wall_s, **answer}
     return row | {"status": UNEXPLAINED if answer["verdict"] == UNEXPLAINED else "ok"}
 
 
 def _judged(case: Case, path: Path | None) -> dict[str, object]:
-    import numpy as np
-
-    from campaigns.stability import checks
-    from campaigns.stability.fuzz import outcome_of
-    from engine import SceneError, load_scene, simulate
-
     changes = dict(case.changes)
     if case.check in NEEDS_PROFILES or (case.check == "stays" and changes.get("buoy", 1) is None):
         changes["output.profiles"] = True

@@ -7,7 +7,6 @@ what the engine does inside; where another run is needed (refinement) it is made
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -82,13 +81,6 @@ def bounded(run: Trajectory, case: Case) -> tuple[float, str]:
 
 def energy(run: Trajectory, case: Case) -> tuple[float, str]:
     """Largest change of kinetic + gravity + stretching + bending energy over the largest kinetic one; dry scenes."""
-    parts = energies(run)
-    total = parts.sum(axis=0)
-    return float(np.abs(total - total[0]).max() / parts[0].max()), "energy"
-
-
-def energies(run: Trajectory) -> np.ndarray:
-    """Kinetic, gravity, stretching and bending energy (J), (4, profiles), from the profiles of a dry run."""
     scene, lines = run.scene, run.profiles
     tether, h = scene.tether, np.diff(lines.s_m)
     m = tether.density_kgpm3 * tether.area_m2
@@ -98,18 +90,20 @@ def energies(run: Trajectory) -> np.ndarray:
     if scene.buoy is not None:
         kinetic = kinetic + 0.5 * scene.buoy.mass_kg * lines.speed_mps[:, -1] ** 2
         gravity = gravity + scene.buoy.mass_kg * scene.gravity_mps2 * lines.z_m[:, -1]
-    stored = stretching_energy(tether.tension)
-    return np.array([kinetic, gravity, inner(stored(lines.strain)), bending_energy(tether, lines, h)])
+    stretching = inner(stretching_energy(tether.tension, lines.strain))
+    parts = np.array([kinetic, gravity, stretching, bending_energy(tether, lines, h)])
+    total = parts.sum(axis=0)
+    return float(np.abs(total - total[0]).max() / parts[0].max()), "energy"
 
 
-def stretching_energy(law) -> Callable[[np.ndarray], np.ndarray]:
-    """int T deps per unstretched length (N) as a function of strain arrays."""
+def stretching_energy(law, strain: np.ndarray) -> np.ndarray:
+    """int T deps per unstretched length (N), of the shape of strain."""
     if law.law == "linear":
-        return lambda strain: 0.5 * law.stiffness_N * strain**2
+        return 0.5 * law.stiffness_N * strain**2
     grid = np.linspace(-0.999, 5.0, 60001)
     force = np.array([tension_at(strain, law) for strain in grid])
     work = np.concatenate([[0.0], np.cumsum(0.5 * np.diff(grid) * (force[1:] + force[:-1]))])
-    return lambda strain: np.interp(strain, grid, work) - np.interp(0.0, grid, work)
+    return np.interp(strain, grid, work) - np.interp(0.0, grid, work)
 
 
 def bending_energy(tether, lines, h: np.ndarray) -> np.ndarray:

@@ -16,6 +16,8 @@ from pathlib import Path
 from hypothesis import HealthCheck, Phase, given, reject, seed, settings
 from hypothesis import strategies as st
 
+from engine.scene import SceneError, build_scene, load_scene
+
 VALID, INVALID = "valid", "invalid"
 MOST_NODES = 61
 EXTREMES = (5e-324, 1e-310, 1e-200, 1e-30, 1e-12, 1e-6, 1e-3, 1e3, 1e6, 1e12, 1e30, 1e150, 1e200, 1.7e308, 0.0, -0.0)
@@ -29,20 +31,11 @@ TRIES = 10  # to make a change that is wanted
 
 def faults_of(raw: dict) -> tuple[str, ...]:
     """The lines in which the engine refuses a scene given as nested dicts; empty for one that it accepts."""
-    from engine.scene import SceneError, build_scene
-
     try:
         build_scene(raw)
     except SceneError as error:
         return error.faults
     return ()
-
-
-def shipped(name: str, changes: dict) -> dict:
-    """A shipped scene with changes as nested dicts."""
-    from engine import load_scene
-
-    return tomllib.loads(load_scene(name, changes).to_toml())
 
 
 def one_of(draw, choices: list | tuple) -> object:
@@ -53,34 +46,30 @@ def one_of(draw, choices: list | tuple) -> object:
 @st.composite
 def valid_scene(draw) -> dict:
     """A scene that the engine accepts, in about every other one with up to three extreme numbers."""
-    raw = shipped(*one_of(draw, DATA["bases"]))
+    raw = tomllib.loads(load_scene(*one_of(draw, DATA["bases"])).to_toml())
     raw["tether"]["nodes"] = draw(st.integers(3, MOST_NODES))
     for change, most in ((_part, 12), (_scaled, 4)):
-        raw = _changed(draw, raw, change, draw(st.integers(0, most)), _accepted)
-    return _changed(draw, raw, _extreme, one_of(draw, (0, 0, 0, 1, 2, 3)), _accepted)
+        raw = _changed(draw, raw, change, draw(st.integers(0, most)))
+    return _changed(draw, raw, _extreme, one_of(draw, (0, 0, 0, 1, 2, 3)))
 
 
 @st.composite
 def invalid_scene(draw) -> dict:
     """A scene with up to three faults, each of which the engine refuses by itself."""
-    raw = _changed(draw, draw(valid_scene()), _fault, draw(st.integers(1, 3)), faults_of)
+    raw = _changed(draw, draw(valid_scene()), _fault, draw(st.integers(1, 3)), faulty=True)
     return raw if faults_of(raw) else reject()
 
 
-def _changed(draw, raw: dict, change: Callable, count: int, wanted: Callable) -> dict:
-    """The scene after that many changes; a change after which the scene is not as wanted is drawn again."""
+def _changed(draw, raw: dict, change: Callable, count: int, faulty: bool = False) -> dict:
+    """The scene after that many changes; a change that leaves it otherwise than sound, or `faulty`, is drawn again."""
     for _ in range(count):
         for _ in range(TRIES):
             trial = copy.deepcopy(raw)
             change(draw, trial)
-            if wanted(trial):
+            if bool(faults_of(trial)) == faulty:
                 raw = trial
                 break
     return raw
-
-
-def _accepted(raw: dict) -> bool:
-    return not faults_of(raw)
 
 
 def _places(table: dict | list) -> list[tuple]:

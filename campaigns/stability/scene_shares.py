@@ -6,6 +6,8 @@ medians over rounds in which the scenes take turns on one core.
 
 import statistics
 
+from engine import load_scene, simulate
+
 ROUNDS, LENGTH_S = 7, 40.0
 QUICK_ROUNDS, QUICK_LENGTH_S = 3, 10.0
 TABLE_1 = "waves, water, bending (Table 1)"
@@ -26,34 +28,23 @@ SCENES = {
 }
 
 
-def scene_of(changes: dict):
-    """Table 1 with changes; a part that is set to None takes the values set within it along."""
-    from engine import load_scene
-
-    gone = {key for key, value in changes.items() if value is None}
-    return load_scene("tethered_buoy", {k: v for k, v in changes.items() if k in gone or k.split(".")[0] not in gone})
-
-
 def measured(quick: bool = False) -> dict[str, object]:
     """{"rounds", "length_s", "scenes": {name: {"us_per_newton", "us_per_step", "newton_per_step"}}}."""
-    from engine import simulate
-
     rounds, length_s = (QUICK_ROUNDS, QUICK_LENGTH_S) if quick else (ROUNDS, LENGTH_S)
-    scenes = {name: scene_of(changes) for name, changes in SCENES.items()}
-    runs = {name: [] for name in scenes}
-    for scene in scenes.values():
-        simulate(scene, duration_s=0.5)
+    scenes, runs = {}, {name: [] for name in SCENES}
+    for name, changes in SCENES.items():
+        # a part that is set to None takes the values set within it along
+        gone = {key for key, value in changes.items() if value is None}
+        left = {key: value for key, value in changes.items() if key in gone or key.split(".")[0] not in gone}
+        scenes[name] = load_scene("tethered_buoy", left)
+        simulate(scenes[name], duration_s=0.5)
     for _ in range(rounds):
         for name, scene in scenes.items():
             runs[name].append(simulate(scene, duration_s=length_s).statistics)
-    return {"rounds": rounds, "length_s": length_s, "scenes": {name: _cost(found) for name, found in runs.items()}}
-
-
-def _cost(runs: list[dict]) -> dict[str, float]:
-    """The costs of a scene from the statistics of its runs, which do the same work."""
-    spent, one = statistics.median(run["wall_s"] for run in runs), runs[0]
-    return {
-        "us_per_newton": 1e6 * spent / one["newton_iterations"],
-        "us_per_step": 1e6 * spent / one["steps"],
-        "newton_per_step": one["newton_iterations"] / one["steps"],
-    }
+    costs = {}
+    for name, found in runs.items():
+        spent_us = 1e6 * statistics.median(run["wall_s"] for run in found)
+        newton, steps = found[0]["newton_iterations"], found[0]["steps"]  # the same in every round
+        costs[name] = {"us_per_newton": spent_us / newton, "us_per_step": spent_us / steps}
+        costs[name]["newton_per_step"] = newton / steps
+    return {"rounds": rounds, "length_s": length_s, "scenes": costs}

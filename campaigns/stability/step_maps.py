@@ -14,6 +14,10 @@ import math
 
 import numpy as np
 
+from engine import load_scene
+from engine.time import integrators
+from engine.time.one_step import OneStep
+
 METHODS = ("esdirk43", "trbdf2", "generalized-alpha", "backward-euler", "midpoint")
 LENGTH_M, NODES, MASS_KGPM, EA_N, EI_NM2 = 10.0, 17, 0.5, 1e4, 2.0
 TAUT, PUSHED = 0.02, -0.002
@@ -24,11 +28,6 @@ _SCENE = {
     "tether.tension": {"law": "linear", "stiffness_N": EA_N}, "solver.newton_tolerance": 1e-13,
     "solver.max_newton_iterations": 50,
 }  # fmt: skip
-
-
-def fastest_growth(strain: float) -> float:
-    """Largest real rate (1/s) of the compressed straight line on this grid."""
-    return max(float(np.real(rate)) for rate in rates(strain))
 
 
 LINES = {  # name: (what it is, strain or None: hanging, step in s or e-folds of the fastest buckle, dimensions)
@@ -59,8 +58,6 @@ def factors(method: str, z: np.ndarray, rho: float = 0.5) -> np.ndarray:
         return (1 + z / 2) / (1 - z / 2)
     if method == "generalized-alpha":
         return np.concatenate([np.linalg.eigvals(_generalized_alpha(one, rho)) for one in z])
-    from engine.time import integrators
-
     A = integrators.METHODS[method].A
     ones = np.ones(len(A))
     return np.array([1 + one * (A[-1] @ np.linalg.solve(np.eye(len(A)) - one * A, ones)) for one in z])
@@ -83,27 +80,21 @@ def of_line(name: str) -> dict[str, object]:
     outside the unit circle}}}
     """
     title, strain, step, dimensions = LINES[name]
-    step_s = step if isinstance(step, float) else float(step.split()[0]) / fastest_growth(strain)
+    step_s = step if isinstance(step, float) else float(step.split()[0]) / float(rates(strain).real.max())
     found = {}
     for method in METHODS:
         values = eigenvalues(method, strain, step_s, dimensions)
         entry = {"re": values.real.tolist(), "im": values.imag.tolist(), "largest": float(np.abs(values).max())}
         if strain is not None:
             z = rates(strain) * step_s
-            expected = factors(method, z)
-            apart = np.abs(values[None, :] - expected[:, None]).min(axis=1)
-            entry["distance"] = float(apart.max())
-            entry["growing"] = int((z.real > 1e-9).sum())
-            entry["growing_found"] = int((np.abs(values) > 1 + 1e-6).sum())
+            entry["distance"] = float(np.abs(values - factors(method, z)[:, None]).min(axis=1).max())
+            entry |= {"growing": int((z.real > 1e-9).sum()), "growing_found": int((np.abs(values) > 1 + 1e-6).sum())}
         found[method] = entry
     return {"title": title, "step_s": step_s, "methods": found}
 
 
 def eigenvalues(method: str, strain: float | None, step_s: float, dimensions: int) -> np.ndarray:
     """Eigenvalues of the numerical derivative of the engine's step about one state of rest."""
-    from engine import load_scene
-    from engine.time.one_step import OneStep
-
     place = [0.8 * LENGTH_M, 0.0, 0.0] if strain is None else [LENGTH_M * (1 + max(strain, 0.0)), 0.0, 0.0]
     changes = {
         **_SCENE, "end": {"kind": "held", "position_m": place}, "motion.dimensions": dimensions,
@@ -111,19 +102,12 @@ def eigenvalues(method: str, strain: float | None, step_s: float, dimensions: in
     }  # fmt: skip
     if strain is None:
         changes["gravity_mps2"] = 9.81
-    step = OneStep(load_scene("tethered_buoy", changes))
-    if strain is not None:
-        step.rest_at(strain)
-    rest = np.concatenate([step.C.ravel(), step.K.ravel()])
-    size, shape = step.C.size, step.C.shape
+    step = OneStep(load_scene("tethered_buoy", changes), strain)
+    rest = np.array([step.C, step.K])
 
     def after(values):
-        C, K = step(values[:size].reshape(shape), values[size:].reshape(shape))
-        return np.concatenate([C.ravel(), K.ravel()])
+        return np.ravel(step(*values.reshape(rest.shape)))
 
-    J = np.empty((2 * size, 2 * size))
-    for column in range(2 * size):
-        change = np.zeros(2 * size)
-        change[column] = CHANGE if column < size else CHANGE / step_s
-        J[:, column] = (after(rest + change) - after(rest - change)) / (2 * change[column])
-    return np.linalg.eigvals(J)
+    changes = np.diag(np.repeat([CHANGE, CHANGE / step_s], step.C.size))
+    J = [(after(rest.ravel() + one) - after(rest.ravel() - one)) / (2 * one.max()) for one in changes]
+    return np.linalg.eigvals(np.transpose(J))

@@ -27,6 +27,8 @@ from campaigns.machinery.plan import Summary
 from campaigns.machinery.pools import PoolBroken, opened
 from campaigns.stability import cases, fuzz, random_scenes, scene_shares, step_maps
 from campaigns.stability.cases import all_cases, drift_case
+from engine import load_scene
+from engine.atomic import write_atomic
 
 SOURCES = ("engine", "campaigns/stability", "campaigns/stability/random_scenes.toml")
 CHUNK = {random_scenes.VALID: 20, random_scenes.INVALID: 200}
@@ -90,9 +92,6 @@ def done(order) -> tuple[dict[str, float], Summary]:
     Raises CampaignStopped where a worker dies: cases have their own processes.
     """
     from tqdm import tqdm
-
-    from engine import load_scene
-    from engine.atomic import write_atomic
 
     out, maker = order.how.out, made_by({}, *SOURCES)
     write_atomic(out / "scene.toml", load_scene("tethered_buoy").to_toml().encode())

@@ -9,11 +9,16 @@ measured. A buoy in regular waves gets the rows of `campaigns.buoy_sweep`, with 
 long enough; any other line gets extremes, tension and the solver's counts. Nothing is random.
 """
 
+import re
 from collections.abc import Iterator
-from functools import partial
+from dataclasses import dataclass
+from functools import partial, reduce
 from itertools import product
 from math import inf
 
+from campaigns.buoy_sweep import ROW_SOURCES
+from campaigns.columns import MESSAGE, RUN_KEY, STATISTICS, STATUS, Column, counted
+from campaigns.judge import LONGEST_PERIOD, STROBE_TOLERANCE, in_regular_waves, judged_scene
 from campaigns.machinery import cli
 from campaigns.machinery.plan import Job
 from campaigns.study import Lengths, Measures, Order, Study
@@ -21,17 +26,74 @@ from campaigns.study import Lengths, Measures, Order, Study
 MOST_KEYS = 2
 
 
+@dataclass(frozen=True)
+class Varied:
+    """A key with its values, and the column of the table that holds them. index: of the list's element, None: a number.
+
+    key: as on the command line, "water.depth_m" or "start.buoy_velocity_mps[1]".
+    """
+
+    key: str
+    name: str
+    index: int | None
+    values: tuple
+    column: Column
+
+    def put(self, value: float, base, changes: dict[str, object]) -> Iterator[str]:
+        """Put a value into the changes of a scene; yields the fault of a list that has no such element.
+
+        base: the scene whose list it is; two keys may change two elements of one list.
+        """
+        if self.index is None:
+            changes[self.name] = value
+            return
+        whole = changes.get(self.name)
+        if whole is None:
+            whole = reduce(lambda part, name: getattr(part, name, None), self.name.split("."), base)
+        if not isinstance(whole, list | tuple) or self.index >= len(whole):
+            yield f"--vary {self.key}: the scene has no such element; {self.name} is {whole}"
+            return
+        changes[self.name] = [*whole[: self.index], value, *whole[self.index + 1 :]]
+
+
+def varied(words: list[str], faults: list[str]) -> Varied | None:
+    """The key and values of KEY LO HI COUNT; None where one is at fault."""
+    from engine.scene.faults import suggestion
+    from engine.scene.reference import keys
+
+    key = words[0]
+    element = re.fullmatch(r"(.+)\[(\d+)\]", key)
+    name, index = (element[1], int(element[2])) if element else (key, None)
+    known = keys()
+    values = cli.evenly(words[1:], f"--vary {key}", faults)
+    if name not in known:
+        faults.append(f"--vary {key}: no such key{suggestion(name, list(known))}")
+        return None
+    kind = known[name].kind
+    if kind not in ("number", "whole number") and not (kind == "list" and element):
+        a_list = f"one element of it, as {name}[0]" if kind == "list" else "a key that holds a number"
+        faults.append(f"--vary {key}: holds a {kind}; allowed: {a_list}")
+        return None
+    if kind == "whole number":
+        values = list(dict.fromkeys(round(value) for value in values))
+    if not values:
+        return None
+    declared = known[name]
+    unit = "" if declared.unit == "1" else declared.unit
+    symbol = declared.symbol if declared.symbol not in ("", "-", "–") else key.rpartition(".")[2]
+    digits = max(len(f"{value:.6f}".rstrip("0").partition(".")[2]) for value in values)
+    meaning = declared.meaning[:1].lower() + declared.meaning[1:].rstrip(".")
+    return Varied(key, name, index, tuple(values), Column(key, unit, symbol, meaning, digits))
+
+
 def options(group) -> None:
-    """Add the options that other studies do not have."""
     cli.add(group, "--vary", "KEY LO HI COUNT", "a key of the scene and its values, both ends included; once or twice")
     seconds = cli.number("seconds, a finite number above 0", lambda found: 0.0 < found < inf)
     cli.add(group, "--duration", "S", "length of every run in seconds, for a scene without waves", seconds)
 
 
 def read(options, faults: list[str]) -> None:
-    """The keys with their values (`keys.Varied`), in place of the words of --vary."""
-    from campaigns.sweep.keys import varied
-
+    """The keys with their values (`Varied`), in place of the words of --vary."""
     words = options.vary or []
     allowed = "once or twice KEY LO HI COUNT, for instance buoy.mass_kg 200 1600 8"
     if not words or len(words) % 4 or len(words) > 4 * MOST_KEYS:
@@ -45,8 +107,6 @@ def read(options, faults: list[str]) -> None:
 
 def cases(order: Order) -> Iterator[Job]:
     """A run for every value, or pair of values."""
-    from campaigns.judge import in_regular_waves, judged_scene
-
     keys = order.own.vary
     order.tell(f"--set {one.key}: this campaign sets it; use --vary" for one in keys if one.key in order.changes)
     base = order.base(tell=True)
@@ -71,22 +131,37 @@ def cases(order: Order) -> Iterator[Job]:
 
 def measures(order: Order) -> Measures:
     """The row of a buoy in waves, or that of any line, after the values of the keys."""
-    from campaigns.buoy_sweep import ROW_SOURCES
-    from campaigns.judge import in_regular_waves
-    from campaigns.sweep.rows import BUOY, LINE, sweep_row
+    from campaigns.buoy_sweep import rows
 
     labels = tuple(one.column for one in order.own.vary)
-    measured = BUOY if any(in_regular_waves(case.scene) for case in order.cases) else LINE
+    measured = (rows.DIMENSIONS, STATUS, *rows.EXTREMES, *STATISTICS, RUN_KEY, MESSAGE)
+    if any(in_regular_waves(case.scene) for case in order.cases):
+        others = (column for column in rows.COLUMNS if not column.name.startswith("planar_"))
+        measured = tuple(column for column in others if column is not rows.STEEPNESS)
     columns = (*labels, *(column for column in measured if column.name not in {one.name for one in labels}))
     row = partial(sweep_row, transient_periods=order.transient, simulate=order.simulate)
-    sources = (*ROW_SOURCES, "campaigns/sweep/rows.py")
+    sources = (*ROW_SOURCES, "campaigns/sweep/__init__.py")
     return Measures(columns, row, sources, {"transient": order.transient})
 
 
-def parameters(order: Order) -> dict[str, object]:
-    """What the provenance says of this campaign."""
-    from campaigns.judge import LONGEST_PERIOD, STROBE_TOLERANCE
+def sweep_row(trajectory, transient_periods: int, simulate=None) -> dict[str, object]:
+    """The columns of `measures` that a trajectory fills; those left out are unknown. Arguments: `buoy_row`.
 
+    The upper end of a line without a buoy has a radius and an angle as the buoy has; without waves nothing is left out.
+    """
+    from campaigns.buoy_sweep.rows import buoy_row, settled, sound_part
+
+    scene = trajectory.scene
+    if in_regular_waves(scene):
+        return buoy_row(trajectory, transient_periods, simulate)
+    row, columns, step_s = counted(trajectory), sound_part(trajectory.columns), scene.sample_step_s()
+    transient_s = transient_periods * scene.waves.period_s if scene.waves is not None else 0.0
+    if len(columns["time_s"]) > 1 and columns["time_s"][-1] > transient_s:
+        row |= settled(columns, step_s, transient_s)
+    return row
+
+
+def parameters(order: Order) -> dict[str, object]:
     told: dict[str, object] = {
         "vary": {one.key: list(one.values) for one in order.own.vary},
         "strobe_tolerance": STROBE_TOLERANCE,

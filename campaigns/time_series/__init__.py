@@ -12,7 +12,7 @@ import argparse
 import math
 import os
 import sys
-from dataclasses import dataclass
+from collections import namedtuple
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -33,15 +33,9 @@ EXITS = "exit codes: 0 done, 1 the folder could not be written, 2 bad input, 130
 SECONDS = "a finite number above 0 [s; samples where neither --time nor --step is given]"
 
 
-@dataclass(frozen=True)
-class Order:
-    """What the command line asks for, checked. period [unit of time of the record], tolerance: None: not given;
-    how.out: the folder, or None."""
-
-    record: "Record | None"
-    period: float | None
-    tolerance: float | None
-    how: cli.Running
+# What the command line asks for, checked. record: a Record; period [unit of time of the record], tolerance: None: not
+# given; how: a Running, whose `out` is the folder, or None
+Order = namedtuple("Order", "record period tolerance how")
 
 
 def main(argv: list[str] | None = None) -> int:

@@ -36,17 +36,11 @@ _CLOCK = re.compile(r"\d+[-/.]\d+[-/.]\d+|\d+:\d+")
 
 @dataclass(frozen=True, eq=False)
 class Record:
-    """An evenly sampled series.
+    """An evenly sampled series."""
 
-    values (n,)   in the unit of the file
-    step          time from sample to sample, in `unit`
-    unit          "s", or "samples" where the file and the command say nothing of time
-    column, path  where it came from
-    """
-
-    values: np.ndarray
-    step: float
-    unit: str
+    values: np.ndarray  # (n,) in the unit of the file
+    step: float  # time from sample to sample, in `unit`
+    unit: str  # "s", or "samples" where the file and the command say nothing of time
     column: str
     path: Path
 

@@ -63,52 +63,32 @@ SATURATED = 0.1
 
 @dataclass(frozen=True, eq=False)
 class Seen:
-    """A section of a record.
+    """A section of a record."""
 
-    kind            "strobed", "samples" or "maxima"
-    points (m, d)   a row a cycle, unit of the series
-    time (m,)       of each row's first coordinate, from the first sample [unit of time of the record]
-    period          forcing period, step, or mean time from maximum to maximum [same]
-    noise           standard deviation of the white noise on the record [unit of the series], `noise_level`
-    mean_period     of the power spectrum [samples]
-    """
-
-    kind: str
-    points: np.ndarray
-    time: np.ndarray
-    period: float
-    noise: float
-    mean_period: float
+    kind: str  # "strobed", "samples" or "maxima"
+    points: np.ndarray  # (m, d), a row a cycle, unit of the series
+    time: np.ndarray  # (m,) of each row's first coordinate, from the first sample [unit of time of the record]
+    period: float  # forcing period, step, or mean time from maximum to maximum [same]
+    noise: float  # standard deviation of the white noise on the record [unit of the series], `noise_level`
+    mean_period: float  # of the power spectrum [samples]
 
 
 @dataclass(frozen=True, eq=False)
 class Study:
-    """Everything that was found about a record.
-
-    record, seen       the series and its section
-    spectrum, lines    eq. (31) over the later half of the record, and its highest peaks
-    exponents          of "wolf", "rosenstein", "kantz": Exponent each [nats per unit of time of the record]
-    zero_one           of the section's first coordinate
-    embedding          delay and dimension of the delay vectors; None for a record of fewer than 20 mean periods
-    dimensions         CorrelationDimension in m, m + 1 and m + 2 embedding dimensions, m that of `embedding`
-    dimension          (value, error) where these agree, else (NaN, NaN)
-    verdict            Verdict on the section
-    tolerance          share of the range within which the section had to repeat
-    used               samples looked at by exponents and dimension: the last of the record
-    """
+    """Everything that was found about a record."""
 
     record: Record
     seen: Seen
-    spectrum: Spectrum
-    lines: tuple[SpectralPeak, ...]
-    exponents: dict[str, Exponent]
-    zero_one: ZeroOneTest
-    embedding: EmbeddingChoice | None
-    dimensions: tuple[CorrelationDimension, ...]
-    dimension: tuple[float, float]
-    verdict: Verdict
-    tolerance: float
-    used: int
+    spectrum: Spectrum  # eq. (31) over the later half of the record
+    lines: tuple[SpectralPeak, ...]  # its highest peaks
+    exponents: dict[str, Exponent]  # of "wolf", "rosenstein", "kantz" [nats per unit of time of the record]
+    zero_one: ZeroOneTest  # of the section's first coordinate
+    embedding: EmbeddingChoice | None  # of the delay vectors; None for a record of fewer than 20 mean periods
+    dimensions: tuple[CorrelationDimension, ...]  # in m, m + 1 and m + 2 embedding dimensions, m that of `embedding`
+    dimension: tuple[float, float]  # (value, error) where these agree, else (NaN, NaN)
+    verdict: Verdict  # on the section
+    tolerance: float  # share of the range within which the section had to repeat
+    used: int  # samples looked at by exponents and dimension: the last of the record
 
 
 def study(record: Record, period: float | None = None, tolerance: float | None = None, seed: int = 0) -> Study:

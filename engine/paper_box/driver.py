@@ -16,15 +16,15 @@ from collections.abc import Callable, Iterator
 
 import numpy as np
 
-from ..record import SAMPLE_WIDTH
-from ..run import columns_of, sample_count
+from ..physics.sea import direction_of
+from ..record import SAMPLE_WIDTH, STATE
+from ..run import columns_of, heading_of, sample_count, statistics_of
 from ..scene.models import Scene
 from ..time import status as codes
 from ..time.statics import why_no_rest
 from ..trajectory import Profiles, Trajectory
 from .ends import force_and_velocity
-from .frame import TO_ENGINE, turns
-from .line import EPS, EULER, OMEGA, Line, line_of
+from .line import EPS, EULER, OMEGA, TO_ENGINE, Line, line_of, turns
 from .newton import TOLERANCE, solve
 from .nodal import Level, level_of, positions
 from .start import at_rest
@@ -54,64 +54,48 @@ def run(
 ) -> Trajectory:
     """Simulate one scene in the paper's own discrete form.
 
-    Parameters
-    ----------
-    scene : Scene, bending stiffness above zero; fixed steps of solver.step_s (T/400, or 0.0125 s without waves)
-    duration_s : float, s
-    progress : callable(fraction), optional
-    accelerations : true normal accelerations in Morison's force instead of the paper's component rates (`line.Line`)
-    most_gap : m per m of line at which the run stops (head of the constant above)
-
-    Returns
-    -------
-    Trajectory
-        status "ok", or why it ended early. Further statistics: closure_m, the largest distance between the upper end by
-        the shape of the line and by its own velocity, zero for the exact equations: what compatibility in the local
-        frame has lost; euler_norm_error, the largest | |beta|^2 - 1 |.
+    scene           bending stiffness above zero; fixed steps of solver.step_s (T/400, or 0.0125 s without waves)
+    duration_s      s;  progress  callable(fraction), optional
+    accelerations   true normal accelerations in Morison's force instead of the paper's component rates (`line.Line`)
+    most_gap        m per m of line at which the run stops (head of the constant above)
+    Returns a Trajectory: status "ok", or why it ended early. Further statistics: closure_m, the largest distance of the
+    upper end by the shape of the line from that by its own velocity, zero for the exact equations: what compatibility
+    in the local frame has lost; euler_norm_error, the largest | |beta|^2 - 1 |.
     """
     line = line_of(scene, accelerations)
     record = Record(scene, line, duration_s, most_gap)
+    state = record.state
     dt, most = float(line.record["fixed_step"]), int(line.record["max_newton"])
     tolerance = scene.solver.newton_tolerance or TOLERANCE
     began = time.perf_counter()
     status, Y = at_rest(scene, line)
-    steps = iterations = failures = 0
     if status == codes.OK:
         level = level_of(line, 0.0, Y)
         flat = FLAT * float(line.tension(Y[EPS])[1].max())
         status = record.keep(level)
-    while status == codes.OK and not record.done():
-        status, used, level = solve(line, (steps + 1) * dt, level, most, tolerance, flat)
-        iterations += used
+    while status == codes.OK and (len(record.rows), len(record.profiles)) != (record.goal, record.profile_goal):
+        status, used, level = solve(line, (state["steps"] + 1) * dt, level, most, tolerance, flat)
+        state["newton"] += used
         if status != codes.OK:
-            failures = 1
+            state["failures"] = 1
             break
-        steps += 1
+        state["steps"] += 1
         status = record.keep(level)
-        if progress is not None and steps % STEPS_PER_CALL == 0:
+        if progress is not None and state["steps"] % STEPS_PER_CALL == 0:
             progress(min(1.0, level.t / duration_s))
-    statistics = {
-        "steps": steps,
-        "rejected_steps": 0,
-        "newton_iterations": iterations,
-        "newton_failures": failures,
-        "loop_releases": 0,
-        "max_turn_rad": record.max_turn,
-        "min_strain": record.min_strain,
-        "end_time_s": steps * dt,
-        "wall_s": time.perf_counter() - began,
-        "closure_m": record.closure,
-        "euler_norm_error": record.norm_error,
-    }
+    state["t"] = state["steps"] * dt
+    own = {"closure_m": record.closure, "euler_norm_error": record.norm_error}
+    statistics = statistics_of(state, time.perf_counter() - began) | own
     message = ""
     if status == codes.STATICS_FAILED:
         message = "paper-box: " + codes.ADVICE[codes.STATICS_FAILED] + why_no_rest(line.record, scene)
     elif status != codes.OK:
-        said = SAID[status].format(turn=record.max_turn, gap=record.closure)
-        seen = f"turn per element up to {record.max_turn:.3g} rad, strain down to {record.min_strain:.3g} before"
+        turn, end = state["max_turn"], (state["steps"] + state["failures"]) * dt
+        said = SAID[status].format(turn=turn, gap=record.closure)
+        seen = f"turn per element up to {turn:.3g} rad, strain down to {state['min_strain']:.3g} before"
         cure = 'add nodes, shorten solver.step_s, or take solver.scheme = "conservation"'
-        message = f"paper-box: {said} in the step of {dt:.3g} s to t = {(steps + failures) * dt:.6g} s ({seen}): {cure}"
-    columns = columns_of(np.array(record.rows).reshape(-1, SAMPLE_WIDTH), record.heading)
+        message = f"paper-box: {said} in the step of {dt:.3g} s to t = {end:.6g} s ({seen}): {cure}"
+    columns = columns_of(np.array(record.rows).reshape(-1, SAMPLE_WIDTH), heading_of(scene))
     return Trajectory(scene, codes.WORDS[status], message, columns, statistics, record.lines())
 
 
@@ -122,55 +106,46 @@ class Record:
         self.line, self.most_gap = line, most_gap * line.s[-1]
         self.step, self.profile_step = float(line.record["output_step"]), float(line.record["profile_step"])
         self.goal, self.profile_goal = (sample_count(duration_s, step) for step in (self.step, self.profile_step))
-        self.heading = scene.waves.direction_rad if line.spatial and scene.waves is not None else 0.0
-        self.across = np.array([-round(np.sin(self.heading), 15), round(np.cos(self.heading), 15), 0.0])
-        self.rows, self.profiles = [], []
-        self.low, self.high = np.inf, -np.inf
-        self.max_turn, self.min_strain = 0.0, np.inf
+        cosine, sine = direction_of(heading_of(scene))
+        self.across = np.array([-sine, cosine, 0.0])
+        self.rows, self.profiles, self.state = [], [], np.zeros(1, STATE)[0]
+        self.state["low"], self.state["high"], self.state["min_strain"] = np.inf, -np.inf, np.inf
         self.closure, self.norm_error = 0.0, 0.0
         self.before = self.travelled = None
 
     def keep(self, level: Level) -> int:
         """Take in the state at the end of a step; a status code."""
-        line, Y = self.line, level.Y
+        line, Y, state = self.line, level.Y, self.state
         X, V = positions(line, Y)[TO_ENGINE], force_and_velocity(line, Y)[1][TO_ENGINE]
         T = line.tension(Y[EPS])[0]
         now = level.t, np.array([*X, *V, Y[EPS], T])
-        self.max_turn = max(self.max_turn, float(turns(Y[EULER], Y[OMEGA], line.h).max()))
-        self.min_strain = min(self.min_strain, float(Y[EPS].min()))
+        state["max_turn"] = max(state["max_turn"], turns(Y[EULER], Y[OMEGA], line.h).max())
+        state["min_strain"] = min(state["min_strain"], Y[EPS].min())
         self.norm_error = max(self.norm_error, float(np.abs(np.sum(Y[EULER] ** 2, axis=0) - 1).max()))
         if self.before is None:
             self.before, self.travelled = now, X[:, -1].copy()
         self.travelled += 0.5 * (now[0] - self.before[0]) * (self.before[1][3:6, -1] + V[:, -1])
         self.closure = max(self.closure, float(np.linalg.norm(self.travelled - X[:, -1])))
-        self._sample(now)
-        self.low, self.high = min(self.low, T[-1]), max(self.high, T[-1])
+        for t, at in self._due(self.rows, self.step, self.goal, now):
+            top, tension = at[:, -1], at[7]
+            low, high = min(state["low"], top[7]), max(state["high"], top[7])
+            offplane = np.abs(self.across @ at[:3]).max()
+            self.rows.append([t, *top[:6], top[7], tension.min(), low, high, offplane])  # as `engine.record` has them
+            state["low"] = state["high"] = top[7]
+        for _, at in self._due(self.profiles, self.profile_step, self.profile_goal, now):
+            self.profiles.append(at)
+        state["low"], state["high"] = min(state["low"], T[-1]), max(state["high"], T[-1])
         self.before = now
-        if self.max_turn > MOST_TURN:
+        if state["max_turn"] > MOST_TURN:
             return codes.TURN_UNRESOLVED
         return codes.SHAPE_LOST if self.closure > self.most_gap else codes.OK
 
     def _due(self, kept: list, step: float, goal: int, now: tuple) -> Iterator[tuple[float, np.ndarray]]:
         """Times of samples within the step that ends now, and the values (8, n) then: x, y, z, velocity, strain, T."""
         (t0, start), (t1, end) = self.before, now
-        while len(kept) < goal and len(kept) * step <= t1 + ROUNDING * (t1 - t0):
-            t = len(kept) * step
+        while len(kept) < goal and (t := len(kept) * step) <= t1 + ROUNDING * (t1 - t0):
             part = min((t - t0) / (t1 - t0), 1.0) if t1 > t0 else 1.0
             yield t, (1 - part) * start + part * end
-
-    def _sample(self, now):
-        for t, at in self._due(self.rows, self.step, self.goal, now):
-            top, tension = at[:, -1], at[7]
-            offplane = np.abs(self.across @ at[:3]).max()
-            low, high = min(self.low, top[7]), max(self.high, top[7])
-            self.rows.append([t, *top[:6], top[7], tension.min(), low, high, offplane])  # as `engine.record` has them
-            self.low = self.high = top[7]
-        for _, at in self._due(self.profiles, self.profile_step, self.profile_goal, now):
-            self.profiles.append(at)
-
-    def done(self) -> bool:
-        """Is every sample there?"""
-        return len(self.rows) == self.goal and len(self.profiles) == self.profile_goal
 
     def lines(self) -> Profiles | None:
         """Profiles, or None where the scene does not ask for them."""

@@ -12,8 +12,7 @@ import numpy as np
 
 from ..physics.ends import end_velocity, released
 from ..record import BUOY, HELD
-from .frame import TO_PAPER, roll, to_fixed
-from .line import EPS, EULER, O2, O3, OMEGA, S_B, S_N, SPEEDS, Line
+from .line import EPS, EULER, O2, O3, OMEGA, S_B, S_N, SPEEDS, TO_PAPER, Line, roll, to_fixed
 from .nodal import Level
 
 

@@ -1,7 +1,7 @@
 """M dY/dt and P of eq. (21), appendix A (34)-(40), at the nodes.
 
 Y = [eps, S_n, S_b, u, v, w, beta_0 ... beta_3, Omega_1, Omega_2, Omega_3] (22), component first: (13, ...). With
-omega the angular velocity of the frame (`frame.turning`), the columns of M that multiply d(beta)/dt are
+omega the angular velocity of the frame (`line.turning`), the columns of M that multiply d(beta)/dt are
 
     row 1     -m (omega x V)_1 / f'
     rows 2-3  -m (omega x V)_2,3 + R (dC/dt U_c)_2,3
@@ -11,7 +11,7 @@ Entry by entry that is the print (tests/engine/paper_box/test_appendix.py; mispr
 with M so costs one omega instead of 31 entries. Rows 2 and 3 of P carry the term R C dU_c/dt that the print leaves out:
 without it waves act on the tether by drag alone.
 
-water (6, ...): velocity and local acceleration of the water in the paper's axes (`frame`).
+water (6, ...): velocity and local acceleration of the water in the paper's axes (`line`).
 Arguments may be complex (`newton.residual` differentiates by complex step): |x| is written so that it stays analytic.
 
 In the paper: eq. (34) M, columns of ε … w; eq. (35) M, columns of ε … w; eq. (36) M, column of β₀; eq. (37) M, column
@@ -23,8 +23,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ..physics.water import water as water_of_engine
-from .frame import TO_ENGINE, TO_PAPER, normal_rates, rotation, to_local, turning
-from .line import EPS, EULER, SPEEDS, Line
+from .line import EPS, EULER, SPEEDS, TO_ENGINE, TO_PAPER, Line, normal_rates, rotation, to_local, turning
 
 
 def positions(line: Line, Y: np.ndarray) -> np.ndarray:

@@ -16,8 +16,7 @@ from ..scene.models import Scene
 from ..time import statics
 from ..time.status import NEWTON_FAILED, OK, STATICS_FAILED
 from .ends import end_force, force_and_velocity
-from .frame import TO_PAPER, to_local
-from .line import EPS, EULER, O3, S_N, SPEEDS, Line
+from .line import EPS, EULER, O3, S_N, SPEEDS, TO_PAPER, Line, to_local
 from .newton import TOLERANCE, newton_update
 from .nodal import positions, water_at
 
@@ -92,7 +91,7 @@ def planar_guess(scene: Scene, line: Line) -> tuple[int, np.ndarray | None]:
     }
     planar, tables = scene.model_copy(update=changes), []
     record = parameters.record_of(planar, tables)[0]
-    code, Y = statics.rest_of(record, planar, np.concatenate(tables), line.h, np.array([flat[0], flat[2]]))
+    code, Y = statics.rest_of(record, planar, np.concatenate(tables), np.array([flat[0], flat[2]]))
     return code, lifted(Y, azimuth) if code == OK else None
 
 

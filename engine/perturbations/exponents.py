@@ -97,20 +97,21 @@ class Followed:
         if not self.followed:
             return
         periods = int(duration_s / self.period_s * (1 + 1e-12) + 1e-9)
+        self.along = self.across = None  # the arguments of `carry`
         self.nats, self.lateral_nats = np.zeros((periods + 1, self.count)), np.zeros(periods + 1)
         self.released = np.zeros(periods + 1)
         if self.count:
             vectors = np.random.default_rng(SEED).normal(size=(n, 4, self.count))
             vectors[0, 2:] = 0.0  # the anchor does not move
             basis = np.linalg.qr(vectors.reshape(4 * n, self.count))[0]
-            self.vectors = np.ascontiguousarray(basis.T).reshape(self.count, n, 4)
-            self.rates, self.waters = np.zeros((self.count, n, 4)), np.zeros((self.count, n, 4))
+            vectors = np.ascontiguousarray(basis.T).reshape(self.count, n, 4)
+            self.along = vectors, np.zeros_like(vectors), np.zeros_like(vectors), self.nats
         if self.sideways:
-            self.weights = energy_weights(record, tables)
-            vector = np.random.default_rng(SEED).normal(size=(n, 2)) / np.sqrt(self.weights)
+            weights = energy_weights(record, tables)
+            vector = np.random.default_rng(SEED).normal(size=(n, 2)) / np.sqrt(weights)
             vector[0, 1] = 0.0
-            self.lateral = vector / np.sqrt(np.sum(self.weights * vector**2))
-            self.lateral_rates = np.zeros((n, 2))
+            vector /= np.sqrt(np.sum(weights * vector**2))
+            self.across = weights, vector, np.zeros((n, 2)), self.lateral_nats
 
     def follow(self, record, tables, state):
         """Carry the perturbations through the steps stored since the last call, and empty the trail.
@@ -122,9 +123,7 @@ class Followed:
         count = int(state["trail"])
         state["trail"] = 0
         self.mark(self.steps.T[:count])
-        along = (self.vectors, self.rates, self.waters, self.nats) if self.count else None
-        across = (self.weights, self.lateral, self.lateral_rates, self.lateral_nats) if self.sideways else None
-        carry(record, tables, self.period_s, count, self.steps, along, across)
+        carry(record, tables, self.period_s, count, self.steps, self.along, self.across)
 
     def mark(self, T):
         """Mark the periods in which a loop was released, from the steps (m, 3) of a trail."""

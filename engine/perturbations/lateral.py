@@ -43,7 +43,7 @@ from ..physics.ends import released
 from ..physics.submergence import cap_across
 from ..physics.tension.kernels import tension
 from ..planar import columns as col
-from ..record import BUOY, HELD
+from ..record import BUOY, HELD, lengths_of
 from ..simd.elementary import sincos, small_sincos
 from ..simd.select import every, larger, where
 from ..spatial.vectors import put_rows
@@ -128,10 +128,8 @@ def lateral_stage(p, tables, base, X, Q, F, dC_tilde, H, E, dC):
         e = 0.5 * tables[p.grid_at + a]
         er = e * rate
         # from the directions of node a to those of node b: half the turn below a and half the turn of this box
-        s_b, c_b = (
-            H[a, SIN_HALF] * H[k, COS_HALF] + H[a, COS_HALF] * H[k, SIN_HALF],
-            H[a, COS_HALF] * H[k, COS_HALF] - H[a, SIN_HALF] * H[k, SIN_HALF],
-        )
+        s_b = H[a, SIN_HALF] * H[k, COS_HALF] + H[a, COS_HALF] * H[k, SIN_HALF]
+        c_b = H[a, COS_HALF] * H[k, COS_HALF] - H[a, SIN_HALF] * H[k, SIN_HALF]
         half = 0.5 * (Y[k, col.PHI] - Y[a, col.PHI])
         f = where(abs(half) > 1e-4, half / (e * H[k, SIN_HALF]), (1.0 + half * half / 6.0) / e)
         # v_b = X y_a + Z y_b + x
@@ -190,8 +188,7 @@ def energy_weights(p: np.void, tables: np.ndarray) -> np.ndarray:
     1/2 integral of (T/lam) q_y^2 + (m + m_a) V_y^2, and 1/2 (M + M_a) V_y^2 of the buoy. T and lam are the scales of
     the scene (`engine.parameters`), so that slack lines have a length too.
     """
-    n = int(p["nodes"])
-    h = tables[p["grid_at"] : p["grid_at"] + n - 1]
+    h = lengths_of(p, tables)
     shares = 0.25 * (np.append(h, 0.0) + np.append(0.0, h))
     load, lam = 20.0 / p["per_force"], 1.0 + 1.0 / p["per_strain"]
     weights = shares[:, None] * np.array([load / lam, p["m"] + p["ma"]])

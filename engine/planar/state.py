@@ -115,7 +115,7 @@ def release_loop(p, tables, Y, upper):
 
 @kernel
 def configuration(p, tables, weights, C0, K0, C1, K1, row):
-    """Fill row (n, 6) with x, y, z, strain, tension, speed at one instant within a step (`engine.time.sampling`).
+    """Fill row (n, 6) with x, y, z, strain, tension, speed at one instant within a step (`engine.time.time_loop`).
 
     Returns the velocity (U, 0, W) of the last node and the largest distance from the plane, 0.
     """

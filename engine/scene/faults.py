@@ -149,10 +149,6 @@ def _placed(location: tuple[str | int, ...], model: type[BaseModel]) -> tuple:
     return tuple(place), models, law, text
 
 
-def _inside(other: dict, item: dict) -> bool:
-    return len(other["loc"]) > len(item["loc"]) and other["loc"][: len(item["loc"])] == item["loc"]
-
-
 def field_faults(error: ValidationError, scene_model: type[BaseModel]) -> tuple[list[str], set[tuple[str | int, ...]]]:
     """Fault lines of single values, and the locations of the values that are at fault.
 
@@ -165,7 +161,8 @@ def field_faults(error: ValidationError, scene_model: type[BaseModel]) -> tuple[
         kind, given = item["type"], item["input"]
         if kind in ("scene_consistency", "default_factory_not_called"):
             continue  # the first is found again by cross_faults; the second only follows from another fault
-        if kind == "too_short" and any(_inside(other, item) for other in items):
+        size = len(item["loc"])
+        if kind == "too_short" and any(other["loc"][:size] == item["loc"] != other["loc"] for other in items):
             continue  # pydantic counts sound elements only: the faulty ones are reported themselves
         place, models, law, text = _placed(item["loc"], scene_model)
         bad.add(place)

@@ -16,8 +16,6 @@ from engine.scene.faults import SceneError, known_fields, shown, unknown_key
 from engine.scene.models import Scene, build_scene
 from engine.scene.rules import HEIGHTS
 
-__all__ = ["Scene", "SceneError", "build_scene", "known_scenes", "load_scene", "parse_assignment", "scene_from_toml"]
-
 _SHIPPED = Path(__file__).parents[1] / "scenes"
 
 

@@ -1,7 +1,7 @@
 """What is simulated, as frozen pydantic models: sections of a scene with their units, defaults and bounds.
 
-Lengths from the anchor, x with the wave, y across, z up; SI units throughout. Every key is declared once, here, in
-`line` or in `surroundings`: its type and bounds (`values`), default, meaning, symbol, and its place in the paper.
+Lengths from the anchor, x with the wave, y across, z up; SI units throughout. Every key is declared once, here or in
+`sections`: its type and bounds (`values`), default, meaning, symbol, and its place in the paper.
 docs/scene_keys.md and the scene table of every report are made from these declarations (`reference`). Rules between
 values are in `rules`.
 """
@@ -16,9 +16,8 @@ from pydantic import ValidationError, model_validator
 from pydantic_core import PydanticCustomError
 
 from engine.scene.faults import SceneError, field_faults
-from engine.scene.line import Anchor, Buoy, End, Tether
 from engine.scene.rules import cross_faults
-from engine.scene.surroundings import Current, Water, Waves
+from engine.scene.sections import Anchor, Buoy, Current, End, Tether, Water, Waves
 from engine.scene.values import (
     Count,
     CountOrZero,

@@ -123,17 +123,8 @@ def _key(name: str, field: FieldInfo, fields: dict[str, FieldInfo]) -> Key:
     suffix = re.search(f"_({'|'.join(UNITS)})$", name)
     unit = UNITS[suffix[1]] if suffix else "1" if "number" in kind or kind == "list" else ""
     allowed = ", ".join(f"`{choice}`" for choice in choices) or allowed_text(field.annotation, field.metadata) or ""
-    told = field.json_schema_extra
-    return Key(
-        name=name,
-        kind=kind,
-        unit=unit,
-        default=_default(field),
-        allowed="one of the laws below" if len(models) > 1 else allowed,
-        meaning=field.description,
-        symbol=told["symbol"],
-        paper=told["paper"],
-    )
+    allowed = "one of the laws below" if len(models) > 1 else allowed
+    return Key(name, kind, unit, _default(field), allowed, field.description, **field.json_schema_extra)
 
 
 def _bare(annotation):

@@ -3,11 +3,11 @@ of them; a long run in short steps would not end.
 """
 
 from .. import parameters
+from ..record import PROFILE_WIDTH
 from ..time.integrators import METHODS
 
 MOST_SAMPLES = 20_000_000  # 2 GB of samples; 1e5 wave periods at a hundred samples each is half of it
 MOST_PROFILE_VALUES = 400_000_000  # 3 GB of profiles
-PROFILE_QUANTITIES = 6
 MOST_STEPS = 1e9  # a day or more of computing on one core
 
 
@@ -25,7 +25,7 @@ def longest_step(scene):
 def check_room(scene, duration_s):
     """Raises ValueError with the key to change where a run would never end, or keep more than memory usually holds."""
     kept, output = scene.sample_step_s(), scene.output
-    values = scene.tether.nodes * PROFILE_QUANTITIES if output.profiles else 0
+    values = scene.tether.nodes * PROFILE_WIDTH if output.profiles else 0
     for key, step_s, of_each, most, noun in (
         (*longest_step(scene), 1, MOST_STEPS, "steps"),
         ("output.step_s", kept, 1, MOST_SAMPLES, "samples"),

@@ -14,9 +14,8 @@ from ..record import RECORD, SAMPLE_WIDTH, STATE
 from ..run import Run
 from .cover import goes_in_lanes
 from .follow import Followers, lane_work
-from .record import REAL, WHOLE
 from .ticks import LANE, MOVED, RATE, RESTARTED, ROWS, STEP, Arrays, advance
-from .vector import COUNT, lane_zeros
+from .vector import COUNT, REAL, WHOLE, lane_zeros
 
 LEAST = 2  # runs of a kind for which a batch pays: eight lanes cost about as much as one and a half runs alone
 STEPS = 50  # of a trail before it is followed: lanes with fewer by then wait for the others
@@ -128,10 +127,6 @@ class Machine:
                     part[b, 0] = part[b, trails[b]]
         self.states["trail"] = 0
 
-    def fraction(self, b):
-        """Share of its run that a lane has done."""
-        return float(self.states[b]["samples"]) / self.runs[b].goal
-
 
 def shares(jobs):
     """Groups of at least LEAST jobs (number, scene, duration_s) that may share a batch; the others are left out."""
@@ -170,4 +165,5 @@ def run_through(jobs, progress):
             run = machine.unload(b)
             done += 1
             yield numbers[b], run
-        progress((done + sum(machine.fraction(b) for b, run in enumerate(machine.runs) if run is not None)) / len(jobs))
+        going = [state["samples"] / run.goal for state, run in zip(machine.states, machine.runs, strict=True) if run]
+        progress(float(done + sum(going)) / len(jobs))

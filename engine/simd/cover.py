@@ -1,6 +1,6 @@
 """Which scenes may share a batch."""
 
-from ..physics.tension import LAWS, number_of
+from ..physics.tension import LAWS, NAMES
 from ..scene.models import Scene
 
 
@@ -16,7 +16,7 @@ def goes_in_lanes(scene: Scene) -> bool:
         and scene.solver.integrator in ("esdirk43", "trbdf2")
         and scene.solver.shock_viscosity is None
         and scene.end.kind == "buoy"
-        and LAWS[number_of(scene.tether.tension.law)].IN_LANES
+        and LAWS[NAMES.index(scene.tether.tension.law)].IN_LANES
         and (scene.waves is None or not scene.waves.irregular)
         and (scene.current is None or scene.current.law == "uniform")
         and scene.output.profiles is False

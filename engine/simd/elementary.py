@@ -75,7 +75,7 @@ def keep(mask, source, target):
 
 @kernel
 def within(weights, C0, C1, K0, K1, k, i):
-    """C[k, i] at one instant of a step, from both ends of it (`engine.time.sampling.weights_within`)."""
+    """C[k, i] at one instant of a step, from both ends of it (`engine.time.time_loop.weights_within`)."""
     w0, w1, g0, g1 = weights
     return w0 * C0[k, i] + w1 * C1[k, i] + g0 * K0[k, i] + g1 * K1[k, i]
 

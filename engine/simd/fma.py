@@ -24,23 +24,18 @@ from .vector import call_intrinsic
 NAME = "_fused"
 
 
-def _signature_type(arguments):
-    """Type of a fused operation: integers stay integers, vectors of numbers win over numbers."""
-    if all(isinstance(kind, (types.Integer, types.Boolean)) for kind in arguments):
-        return types.intp
-    return widest(*arguments)
-
-
 @intrinsic
 def fused(context, a, b, c):
     """a * b + c with one rounding; of integers, exactly."""
-    kind = _signature_type((types.unliteral(a), types.unliteral(b), types.unliteral(c)))
+    given = types.unliteral(a), types.unliteral(b), types.unliteral(c)
+    whole = all(isinstance(kind, (types.Integer, types.Boolean)) for kind in given)
+    kind = types.intp if whole else widest(*given)  # vectors of numbers win over numbers
 
     def generate(context, builder, signature, arguments):
         x, y, z = arguments
         if kind is types.intp:
             return builder.add(builder.mul(x, y), z)
-        return call_intrinsic(builder, "fma", x, y, z)
+        return call_intrinsic("fma", builder, x, y, z)
 
     return kind(kind, kind, kind), generate
 

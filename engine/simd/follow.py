@@ -20,8 +20,7 @@ from ..physics.water import water as flow
 from ..planar import columns as planar_col
 from ..time.steps import known_part, plan_stage, stage_rate
 from .elementary import copy_into, keep
-from .record import lane_record
-from .vector import COUNT, as_lanes, lane_zeros
+from .vector import COUNT, as_lanes, lane_record, lane_zeros
 
 # What a turn of all lanes works on, COUNT the last axis: numbers (LENGTH + k + 1,); a (s,), w (3,): as in `plan_stage`;
 # Y (n, 6), K (n, 4): the stage and its rates; K_new (n, 4): rates of a perturbation
@@ -155,15 +154,11 @@ class Followers:
 
     def load(self, b, run):
         """Put the perturbations of a run, and the state it starts from, into a lane."""
-        trail = run.trail
-        self.periods[b] = trail.period_s
+        self.periods[b] = run.trail.period_s
         self.nats[b] = self.lateral_nats[b] = 0.0
         self.turn.Y[..., b], self.turn.K[..., b] = run.motion.Y, run.motion.K
-        if self.count:
-            for part, given in zip(self.carried[:3], (trail.vectors, trail.rates, trail.waters), strict=True):
-                part[..., b] = given
-        if self.sideways:
-            for part, given in zip(self.across[:3], (trail.weights, trail.lateral, trail.lateral_rates), strict=True):
+        for lanes, own in ((self.carried, run.trail.along), (self.across, run.trail.across)):
+            for part, given in zip(lanes[:3], own[:3] if own else (), strict=False):
                 part[..., b] = given
 
     def unload(self, b, run):

@@ -22,13 +22,11 @@ from ..dimensions import shape
 from ..planar.state import largest_turn
 from ..time import steps
 from ..time.newton import GOING_ON, iterate, judge
-from ..time.sampling import sample
 from ..time.status import OK
-from ..time.time_loop import begin_trial, guard_turns, next_step, refused, step_done
+from ..time.time_loop import begin_trial, guard_turns, next_step, refused, sample, step_done
 from .elementary import copy_into, keep
-from .record import lane_record
 from .select import some, where
-from .vector import COUNT, as_lanes
+from .vector import COUNT, as_lanes, lane_record
 
 LANE = np.dtype([(name, np.int64) for name in "active stage iteration code goal".split()] + [("best", np.float64)])
 (
@@ -196,11 +194,8 @@ def move_states(rows, w, history, now, before, Y):
             oldest = where(solved, history[1, k, i], oldest)
             past = where(accepted, state, before[k, i])
             state = where(accepted, y, state)
-            oldest, middle, latest = (
-                where(restarted, state, oldest),
-                where(restarted, past, middle),
-                where(restarted, state, latest),
-            )
+            oldest, latest = where(restarted, state, oldest), where(restarted, state, latest)
+            middle = where(restarted, past, middle)
             now[k, i], before[k, i] = state, past
             history[0, k, i], history[1, k, i], history[2, k, i] = oldest, middle, latest
             Y[k, i] = where(moved, steps.guess(weights, oldest, middle, latest), y)

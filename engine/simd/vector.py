@@ -5,20 +5,27 @@ exp, tanh, sin, cos, acos, rint, floor and array elements are defined here, and 
 (`engine.simd.select` has what takes the place of branches). Every lane goes through the same IEEE operations as a float
 would, so that its bits are those of the run alone.
 
+`LaneRecord` takes the place of a parameter record: fields by the same names. Whole numbers are common to all lanes, so
+that kernels may branch on them; floats are vectors.
+
 Memory: an array whose last axis is the lanes, contiguous and aligned to one vector (`lane_zeros`); kernels see it
 without that axis (`as_lanes`).
 """
 
 import math
 import operator
+from functools import partial
+from typing import ClassVar
 
 import numpy as np
 from llvmlite import ir
 from numba.core import cgutils, types
 from numba.core.typeconv import Conversion
-from numba.core.typing.templates import AbstractTemplate, infer_global, signature
-from numba.extending import intrinsic, lower_builtin, lower_cast, models, register_model
+from numba.core.typing.templates import AbstractTemplate, AttributeTemplate, infer_getattr, infer_global, signature
+from numba.extending import intrinsic, lower_builtin, lower_cast, lower_getattr_generic, models, register_model
 from numba.np import arrayobj
+
+from ..record import RECORD
 
 COUNT = 8  # lanes of a batch: one AVX-512 register; two or four registers elsewhere
 DOUBLE, BIT = ir.DoubleType(), ir.IntType(1)
@@ -106,28 +113,20 @@ def external(builder, name, kind, count):
     return cgutils.get_or_insert_function(builder.module, ir.FunctionType(kind, (kind,) * count), name)
 
 
-def call_intrinsic(builder, name, *values):
+def call_intrinsic(name, builder, *values):
     """Call of an LLVM intrinsic that exists for numbers and vectors."""
     kind = values[0].type
     suffix = f"v{kind.count}f64" if isinstance(kind, ir.VectorType) else "f64"
     return builder.call(external(builder, f"llvm.{name}.{suffix}", kind, len(values)), values)
 
 
-def _intrinsic(name):
-    return lambda builder, value: call_intrinsic(builder, name, value)
-
-
-def _lane_by_lane(name):
+def _lane_by_lane(name, builder, value):
     """A function of the C library, called for one lane after another, as for a float."""
-
-    def build(builder, value):
-        function, result = external(builder, name, DOUBLE, 1), ir.Constant(value.type, ir.Undefined)
-        for lane in range(value.type.count):
-            at = ir.Constant(ir.IntType(32), lane)
-            result = builder.insert_element(result, builder.call(function, (builder.extract_element(value, at),)), at)
-        return result
-
-    return build
+    function, result = external(builder, name, DOUBLE, 1), ir.Constant(value.type, ir.Undefined)
+    for lane in range(value.type.count):
+        at = ir.Constant(ir.IntType(32), lane)
+        result = builder.insert_element(result, builder.call(function, (builder.extract_element(value, at),)), at)
+    return result
 
 
 for _name, _code in (("add", "fadd"), ("sub", "fsub"), ("mul", "fmul"), ("truediv", "fdiv")):
@@ -140,9 +139,9 @@ _define(operator.neg, (Lanes,), Lanes, _instruction("fneg"))
 _define(operator.and_, (LaneMask, LaneMask), LaneMask, _instruction("and_"))
 _define(operator.or_, (LaneMask, LaneMask), LaneMask, _instruction("or_"))
 for _function, _name in ((abs, "fabs"), (math.sqrt, "sqrt"), (np.rint, "rint"), (np.floor, "floor")):
-    _define(_function, (Lanes,), Lanes, _intrinsic(_name))
+    _define(_function, (Lanes,), Lanes, partial(call_intrinsic, _name))
 for _function in (math.exp, math.tanh, math.sin, math.cos, math.acos):
-    _define(_function, (Lanes,), Lanes, _lane_by_lane(_function.__name__))
+    _define(_function, (Lanes,), Lanes, partial(_lane_by_lane, _function.__name__))
 
 
 def lane_zeros(*shape):
@@ -191,3 +190,58 @@ def as_lanes(context, arrays):
         return context.make_tuple(builder, result, views)
 
     return result(arrays), generate
+
+
+WHOLE = tuple(name for name in RECORD.names if RECORD[name] == np.int64)
+REAL = tuple(name for name in RECORD.names if RECORD[name] == np.float64)
+
+
+class LaneRecord(types.Type):
+    """Parameters of `count` planar runs (`engine.record.RECORD`)."""
+
+    fields: ClassVar[dict] = {
+        name: (whole, row) for whole, group in ((True, WHOLE), (False, REAL)) for row, name in enumerate(group)
+    }
+
+    def __init__(self, count):
+        self.count = count
+        super().__init__(f"lane_record({count})")
+
+
+@register_model(LaneRecord)
+class _LaneRecordModel(models.StructModel):
+    def __init__(self, manager, kind):
+        members = [("counts", types.CPointer(types.int64)), ("values", types.CPointer(Lanes(kind.count)))]
+        super().__init__(manager, kind, members)
+
+
+@infer_getattr
+class _LaneRecordAttributes(AttributeTemplate):
+    key = LaneRecord
+
+    def generic_resolve(self, record, name):
+        """Whole numbers are common to the lanes, floats are vectors."""
+        found = record.fields.get(name)
+        return None if found is None else types.int64 if found[0] else Lanes(record.count)
+
+
+@lower_getattr_generic(LaneRecord)
+def _get_field(context, builder, record, value, name):
+    whole, row = record.fields[name]
+    pointers = cgutils.create_struct_proxy(record)(context, builder, value=value)
+    address = builder.gep(pointers.counts if whole else pointers.values, [context.get_constant(types.intp, row)])
+    return builder.load(address)
+
+
+@intrinsic
+def lane_record(context, counts, values):
+    """Record of the parameters `counts` (whole numbers in the order of WHOLE), `values` (as_lanes, order of REAL)."""
+    kind = LaneRecord(values.dtype.count)
+
+    def generate(context, builder, sig, arguments):
+        pointers = cgutils.create_struct_proxy(kind)(context, builder)
+        pointers.counts = arrayobj.make_array(counts)(context, builder, arguments[0]).data
+        pointers.values = arrayobj.make_array(values)(context, builder, arguments[1]).data
+        return pointers._getvalue()
+
+    return kind(counts, values), generate

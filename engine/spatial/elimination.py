@@ -35,8 +35,8 @@ from ..compiled import kernel
 from ..physics.ends import released
 from . import columns as col
 from .box import Rows, across_box, factors, momentum_row, nodal_jacobian, solve_box, solve_box_rows, turn_of_box
-from .elimination_unbent import eliminate_unbent
-from .upper import solve_upper, spring
+from .elimination_unbent import eliminate_unbent, inertia
+from .upper import CLAMP, solve_upper
 from .vectors import added, combined, combined3, dot, mixed, put, put_row, row_dot, row_of, row_times, symmetric, vector
 
 V_OF_D = col.V, col.V + 1, col.V + 2, col.D_O2, col.D_O3, col.THETA1  # columns of D where the six of v are
@@ -103,7 +103,9 @@ def eliminate(p, tables, stage, Y, work):
             D3 = e * GI * (Y[a, col.O2] + Y[k, col.O2]) + couple * (w2 + y2) - EI * (y3 - w3)
             w = (wx, wy, wz)
             known = mixed(w1, at_a.roll, -w1, at_b.roll)
-            known = mixed(1.0, known, e, mixed(1.0, symmetric(_inertia(Qa), w), 1.0, symmetric(_inertia(Qb), w)))
+            known = mixed(
+                1.0, known, e, mixed(1.0, symmetric(inertia(Qa, 1.0), w), 1.0, symmetric(inertia(Qb, 1.0), w))
+            )
             px = solve_box(solver, known[0], known[1], known[2], D2, D3)
             put_row(E[k], col.P_TORQUE, px)
             wx, wy, wz = wx + row_dot(A.x, px), wy + row_dot(A.y, px), wz + row_dot(A.z, px)
@@ -142,21 +144,13 @@ def _at_anchor(p, tables, Y, Q):
     R2 = R3 = zero
     r2, r3 = -Y[0, col.O2], -Y[0, col.O3]
     if p.clamp_below:
-        k_rotation = spring(p, tables, 0)
+        k_rotation = CLAMP / tables[p.grid_at]
         direction = (p.below_x, p.below_y, p.below_z)
         R2, R3 = (0.0, 0.0, 0.0, k_rotation, 0.0), (0.0, 0.0, 0.0, 0.0, k_rotation)
         r2 += k_rotation * dot(direction, vector(Q[0], col.B_VECTOR))
         r3 -= k_rotation * dot(direction, vector(Q[0], col.N_VECTOR))
     x, y, z = vector(Y[0], col.V)
     return Rows(zero, zero, zero, R2, R3, zero), (-x, -y, -z, r2, r3, 0.0)
-
-
-@kernel
-def _inertia(row):
-    """dG/dV of a row of Q: xx, xy, xz, yy, yz, zz."""
-    xx, xy, xz = vector(row, col.G_V)
-    yy, yz, zz = vector(row, col.G_V + 3)
-    return xx, xy, xz, yy, yz, zz
 
 
 @kernel

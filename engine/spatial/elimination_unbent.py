@@ -7,7 +7,7 @@ Shear forces, curvatures and the roll of the frame are zero, N = T t. Well posed
 from ..compiled import kernel
 from . import columns as col
 from .upper import end_condition
-from .vectors import dot, mixed, put, symmetric, times, vector
+from .vectors import dot, mixed, put, put_rows, rows_of, symmetric, times, vector
 
 P, P_KNOWN, R, R_KNOWN = 0, 9, 12, 21  # columns of E: three columns of P, p, three columns of R, r
 
@@ -51,7 +51,8 @@ def eliminate_unbent(p, tables, stage, Y, work):
     relation = (zero, zero, zero)  # R by columns
     x, y, z = vector(Y[0], col.V)
     r = (-x, -y, -z)
-    _store(E[0], R, relation, r)
+    put_rows(E[0], R, relation)
+    put(E[0], R_KNOWN, r)
     for k in range(1, last + 1):
         a = k - 1
         e = 0.5 * tables[p.grid_at + a]
@@ -59,7 +60,7 @@ def eliminate_unbent(p, tables, stage, Y, work):
         Qa, Qb = Q[a], Q[k]
         dNa, dqa = _columns(Qa)
         dNb, dqb = _columns(Qb)
-        Ja, Jb = _inertia(Qa, e), _inertia(Qb, e)
+        Ja, Jb = inertia(Qa, e), inertia(Qb, e)
         # momentum A y_a + B y_b = g, with V_a = R y_a + r and V_b from compatibility put in
         opened = mixed(1.0, vector(Y[k], col.V), -1.0, vector(Y[a], col.V))
         stretching = mixed(1.0, vector(Qa, col.Q_T), 1.0, vector(Qb, col.Q_T))
@@ -84,7 +85,8 @@ def eliminate_unbent(p, tables, stage, Y, work):
             (-f * dot(i0, B2), -f * dot(i1, B2), -f * dot(i2, B2)),
         )
         s = (f * dot(i0, g), f * dot(i1, g), f * dot(i2, g))
-        _store(E[k], P, by_upper, s)
+        put_rows(E[k], P, by_upper)
+        put(E[k], P_KNOWN, s)
         on = (
             mixed(1.0, relation[0], ec, dqa[0]),
             mixed(1.0, relation[1], ec, dqa[1]),
@@ -96,7 +98,8 @@ def eliminate_unbent(p, tables, stage, Y, work):
             mixed(1.0, _times(on, by_upper[2]), ec, dqb[2]),
         )
         r = mixed(1.0, _times(on, s), 1.0, z)
-        _store(E[k], R, relation, r)
+        put_rows(E[k], R, relation)
+        put(E[k], R_KNOWN, r)
     # upper end, and back substitution
     residual, eN, S = end_condition(p, tables, stage, Y, work)
     dN, _ = _columns(Q[last])
@@ -113,26 +116,20 @@ def eliminate_unbent(p, tables, stage, Y, work):
     y = (dot(i0, g), dot(i1, g), dot(i2, g))
     for k in range(last, -1, -1):
         row, out = E[k], D[k]
-        V = mixed(1.0, _times(_stored(row, R), y), 1.0, vector(row, R_KNOWN))
+        V = mixed(1.0, _times(rows_of(row, R), y), 1.0, vector(row, R_KNOWN))
         out[col.EPS], out[col.THETA2], out[col.THETA3] = y
         put(out, col.V, V)
         out[col.SHEAR_N] = out[col.SHEAR_B] = out[col.THETA1] = out[col.D_O1] = out[col.D_O2] = out[col.D_O3] = 0.0
-        y = mixed(1.0, _times(_stored(row, P), y), 1.0, vector(row, P_KNOWN))
+        y = mixed(1.0, _times(rows_of(row, P), y), 1.0, vector(row, P_KNOWN))
     return True
 
 
 @kernel
-def _inertia(row, e):
+def inertia(row, e):
     """e dG/dV of a row of Q: xx, xy, xz, yy, yz, zz."""
     xx, xy, xz = vector(row, col.G_V)
     yy, yz, zz = vector(row, col.G_V + 3)
     return e * xx, e * xy, e * xz, e * yy, e * yz, e * zz
-
-
-@kernel
-def _stored(row, at):
-    """Three columns of a matrix from row[at : at + 9]."""
-    return vector(row, at), vector(row, at + 3), vector(row, at + 6)
 
 
 @kernel
@@ -147,11 +144,3 @@ def _column(R, dq, dN, dG, ec, e, Ja, Jb):
 def _column_above(dq, dN, dG, ec, e, Jb):
     """Coefficients of one unknown of y_b."""
     return mixed(1.0, mixed(1.0, dN, -e, dG), -ec, symmetric(Jb, dq))
-
-
-@kernel
-def _store(row, at, columns, known):
-    """Three columns and a vector into row[at : at + 12]."""
-    for j in range(3):
-        row[at + j], row[at + 3 + j], row[at + 6 + j] = columns[0][j], columns[1][j], columns[2][j]
-        row[at + 9 + j] = known[j]

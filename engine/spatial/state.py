@@ -153,7 +153,7 @@ def release_loop(p, tables, Y, upper):
 
 @kernel
 def configuration(p, tables, weights, C0, K0, C1, K1, row):
-    """Fill row (n, 6) with x, y, z, strain, tension, speed at one instant within a step (`engine.time.sampling`).
+    """Fill row (n, 6) with x, y, z, strain, tension, speed at one instant within a step (`engine.time.time_loop`).
 
     Returns the velocity of the last node and the largest distance from the plane of the waves (y = 0 without waves).
     """

@@ -17,13 +17,7 @@ from . import columns as col
 from .box import nodal_jacobian
 from .vectors import dot, mixed, quaternion, quaternion_product, relative, row_of, times, vector
 
-CLAMP = 1e6
-
-
-@kernel
-def spring(p, tables, element):
-    """Stiffness of a clamp over EI (1/m)."""
-    return CLAMP / tables[p.grid_at + element]
+CLAMP = 1e6  # over the length (m) of the element there: stiffness of a clamp over EI (1/m)
 
 
 @kernel
@@ -94,7 +88,7 @@ def solve_upper(p, tables, stage, twisted, Y, work):
     M[3, 5], M[4, 5], M[5, 5] = row[col.R_TORQUE + 3], row[col.R_TORQUE + 4], row[col.R_TORQUE + 5]
     M[3, 6], M[4, 6] = -Y[last, col.O2] - row[col.R_KNOWN + 3], -Y[last, col.O3] - row[col.R_KNOWN + 4]
     if p.end == HELD and p.clamp_above and not released(p, stage.t):
-        k_rotation = spring(p, tables, last - 1)
+        k_rotation = CLAMP / tables[p.grid_at + last - 1]
         direction = (p.above_x, p.above_y, p.above_z)
         M[3, 3] += k_rotation
         M[4, 4] += k_rotation

@@ -15,14 +15,15 @@ from .status import OK
 
 
 class OneStep:
-    """The step of a scene about a state of rest: at first its static equilibrium.
+    """The step of a scene about a state of rest: its static equilibrium, or a straight line of uniform strain.
 
     scene : fixed steps (solver.step_s), and an output.step_s that is no longer: the run ends at the first sample.
+    strain : None, or that of a straight line, compressed or taut: it rests between its ends as well.
     Raises ValueError where it has no equilibrium.
     C, K (n, conserved) : the state and its rates, zero.
     """
 
-    def __init__(self, scene):
+    def __init__(self, scene, strain=None):
         self.run = Run(scene, scene.solver.step_s)
         if self.run.state["status"] != OK:
             raise ValueError("the scene has no static equilibrium about which to step")
@@ -31,14 +32,8 @@ class OneStep:
         # not the first step, for which C would be computed, nor the first sample, which is at the start
         self.begin["steps"], self.begin["samples"], self.begin["dt"] = 1, 1, self.step_s
         self.begin["small_steps"] = 0
-        self._rest()
-
-    def rest_at(self, strain):
-        """Take the straight line of another uniform strain, compressed or taut: it rests between its ends as well."""
-        self.Y[:, EPS] = strain
-        self._rest()
-
-    def _rest(self):
+        if strain is not None:
+            self.Y[:, EPS] = strain
         q = lift.stretch_vectors(self.Y)
         self.C = np.hstack([q, np.zeros_like(q)])
         self.K = np.zeros_like(self.C)

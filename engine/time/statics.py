@@ -13,7 +13,7 @@ import numpy as np
 from ..arrays import Stage
 from ..planar import columns as col
 from ..planar import state as planar
-from ..record import BUOY, FREE, HELD, is_spatial
+from ..record import BUOY, FREE, HELD, is_spatial, lengths_of
 from ..scales import buckling_load, strain_at, tension_at
 from ..scene.models import Scene
 from ..spatial import columns as spatial_col
@@ -33,9 +33,7 @@ NEARLY_NOTHING = -0.99  # a strain at which next to nothing is left of the line
 SPANS = 0.95, 0.98, 0.8, 0.9, 0.7, LEANING  # shares of its length that a slack line under a floating buoy spans
 
 
-def rest_of(
-    record: np.void, scene: Scene, tables: np.ndarray, h: np.ndarray, target_m: np.ndarray
-) -> tuple[int, np.ndarray]:
+def rest_of(record: np.void, scene: Scene, tables: np.ndarray, target_m: np.ndarray) -> tuple[int, np.ndarray]:
     """Static equilibrium of a scene: a status code and the state. Arguments as for `settle` and `first_guess`.
 
     Under a buoy that floats the line may stand upright, pressed together between buoy and anchor: a rest too, but one
@@ -43,7 +41,8 @@ def rest_of(
     as easily as the slack one. Then other guesses are tried, at last a straight line that leans. Of rests that press
     the line by more than its weight the one that does so least counts, if its bending can bear that.
     """
-    weight, best = abs(float(record["w0"])) * float(np.sum(h)), None
+    h, best = lengths_of(record, tables), None
+    weight = abs(float(record["w0"])) * float(np.sum(h))
     for span in SPANS:
         Y = first_guess(record, scene, h, span)
         code = settle(record, tables, Y, target_m)
@@ -68,13 +67,12 @@ def settle(record: np.void, tables: np.ndarray, Y: np.ndarray, target_m: np.ndar
     loop is Python: a score of Newton solves, and nothing more to compile.
     """
     p = record.copy()
-    n = int(p["nodes"])
     space = is_spatial(p)
-    work = (spatial if space else planar).work_arrays.py_func(p, n)
+    work = (spatial if space else planar).work_arrays.py_func(p, int(p["nodes"]))
     C_tilde = work.C_tilde
     axes = ("end_x", "end_y", "end_z") if space else ("end_x", "end_z")
     velocity = slice(spatial_col.V, spatial_col.BETA) if space else slice(col.VX, col.PHI)
-    half = 0.5 * tables[p["grid_at"] : p["grid_at"] + n - 1, None]
+    half = 0.5 * lengths_of(p, tables)[:, None]
     mu, turns, settled = FIRST, 0, None
     for _ in range(400):
         C_tilde[:, : len(axes)] = lift.stretch_vectors(Y)
@@ -130,20 +128,18 @@ def first_guess(record: np.void, scene: Scene, h: np.ndarray, span: float = SPAN
 
 
 def _in_plane(record, scene, h, force, span):
-    n = int(record["nodes"])
     s = np.concatenate([[0.0], np.cumsum(h)])
-    length = s[-1]
-    Y = np.zeros((n, 6))
+    Y, length = np.zeros((len(s), 6)), s[-1]
     if record["end"] == HELD:
         x, y, z = scene.end.position_m
         x = math.hypot(x, y) if y else x
         return _to_a_place(Y, s, x, z, record["w0"])
     up, height = _afloat(record, scene, s) if record["end"] == BUOY else (force[1], None)
-    if height is not None and span == LEANING:
-        return _to_a_place(Y, s, math.sqrt(max(length**2 - height**2, 0.0)), height, record["w0"])
     if height is not None:
-        return _to_a_place(Y, s, 0.0, min(height, span * length), record["w0"])
-    Nx = np.full(n, force[0] if record["end"] == FREE else 0.0)
+        leaning = span == LEANING
+        x = math.sqrt(max(length**2 - height**2, 0.0)) if leaning else 0.0
+        return _to_a_place(Y, s, x, height if leaning else min(height, span * length), record["w0"])
+    Nx = np.full(len(s), force[0] if record["end"] == FREE else 0.0)
     Nz = up - record["w0"] * (length - s)
     T = np.hypot(Nx, Nz)
     Y[:, col.EPS] = [strain_at(load, scene.tether.tension) if load > 0 else 0.0 for load in T]
@@ -208,10 +204,9 @@ def _arc(ratio):
     """Half angle a of a circular arc with chord/length = sin(a)/a = ratio, in (0, pi]."""
     from scipy.optimize import brentq
 
-    def excess(a):
-        return math.sin(a) - ratio * a
-
-    return brentq(excess, 1e-9, math.pi) if excess(math.pi) < 0 else math.pi  # else a circle, as far as rounding tells
+    if math.sin(math.pi) >= ratio * math.pi:
+        return math.pi  # a circle, as far as rounding tells
+    return brentq(lambda a: math.sin(a) - ratio * a, 1e-9, math.pi)
 
 
 def why_no_rest(record: np.void, scene: Scene) -> str:

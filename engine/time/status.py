@@ -14,7 +14,7 @@ WORDS = dict(
     )
 )
 
-ADVICE = {
+ADVICE = {  # of the conservation form; `paper_box.driver` has its own
     OK: "",
     NEWTON_FAILED: "Newton's method did not converge at t = {t:.6g} s, at the smallest step tried ({dt:.2g} s): "
     "lower solver.rtol or solver.max_step_s, or add nodes",
@@ -30,8 +30,4 @@ ADVICE = {
     STEP_LIMIT: "the run stands still at t = {t:.6g} s: 20 000 steps of {dt:.2g} s were tried within the "
     "time of one usual step; raise solver.rtol, or look for what the grid cannot resolve (compression without "
     "bending, for one)",
-    TENSION_FLAT: "the tension law has lost its slope at t = {t:.6g} s, by which the paper's form divides: take "
-    'solver.scheme = "conservation"',
-    SHAPE_LOST: "the shape of the tether and the path of its end have parted by t = {t:.6g} s: add nodes, or take "
-    'solver.scheme = "conservation"',
 }

@@ -8,21 +8,26 @@ Loop release (THEORY.md, section 9): where the turn in one element passes pi, `g
 space as well. Then SMALL_STEPS steps of backward Euler follow, each p.release_step long, without error control and
 without rates from before (20 times shorter ones were tried: axial waves of the grid rang to 2.4 kN of compression at
 41 nodes where 0.3 kN are real). The number of releases is part of the result.
+
+Output on an even time grid comes from inside the accepted steps. Runge-Kutta steps carry rates at both ends: cubic
+Hermite interpolation of the conserved variables, order 4; the one-stage methods (order 2 and less, undamped rates) are
+interpolated linearly. Positions are the sums of the interpolated q, tensions f(|q| - 1), so every column of a sample
+belongs to one configuration. Columns of samples and profiles: `engine.record`.
 """
 
 import math
 
 import numpy as np
 
+from .. import record as col
 from ..arrays import Step, Trial
 from ..compiled import kernel
-from ..dimensions import conserved, largest_turn, release_loop, size_of, work_arrays
+from ..dimensions import configuration, conserved, largest_turn, last_strain, release_loop, size_of, work_arrays
 from ..physics.ends import next_corner
 from ..physics.energy import add_powers, store_energies
 from ..physics.shocks import deforming_element, renew_viscosity
-from ..record import BEGIN, CONTROLLED, EULER, KIND, RESTART, RUNGE_KUTTA, STEP
+from ..physics.tension.kernels import tension
 from ..simd.elementary import copy_into
-from .sampling import sample
 from .status import OK, STEP_LIMIT, STEP_UNDERFLOW, TURN_UNRESOLVED
 from .steps import least_strain, one_stage_step, runge_kutta_step
 
@@ -129,6 +134,50 @@ def next_step(p, state, code, released, error, longest):
 
 
 @kernel
+def weights_within(hermite, theta, dt):
+    """Weights of C0, C1, K0, K1 at the share theta of a step."""
+    if not hermite:
+        return 1.0 - theta, theta, 0.0, 0.0
+    a = theta - 1.0
+    return (1.0 + 2.0 * theta) * a * a, theta * theta * (3.0 - 2.0 * theta), dt * theta * a * a, dt * theta * theta * a
+
+
+@kernel
+def sample(p, tables, state, dt, hermite, begin, end, samples, profiles):
+    """Store the samples and profiles that lie within the step from state.t to state.t + dt.
+
+    begin, end: conserved variables and rates (n, conserved) at its begin and its end; samples, profiles: of Output.
+    """
+    (C0, K0), (C1, K1) = begin, end
+    n, until = C0.shape[0], state.t + dt
+    row = np.empty((n, col.PROFILE_WIDTH))
+    while state.samples < samples.shape[0] and state.samples * p.output_step <= until:
+        t = state.samples * p.output_step
+        weights = weights_within(hermite, (t - state.t) / dt, dt)
+        out = samples[state.samples]
+        out[col.AT_U], out[col.AT_V], out[col.AT_W], out[col.OFFPLANE] = configuration(
+            p, tables, weights, C0, K0, C1, K1, row
+        )
+        least = row[0, col.TENSION]
+        for k in range(1, n):
+            least = min(least, row[k, col.TENSION])
+        for i in range(3):
+            out[col.AT_X + i] = row[n - 1, col.PLACE + i]
+        top = row[n - 1, col.TENSION]
+        out[col.TIME], out[col.TOP], out[col.LEAST] = t, top, least
+        out[col.TOP_LOW], out[col.TOP_HIGH] = min(state.low, top), max(state.high, top)
+        state.low, state.high = top, top
+        state.samples += 1
+    while state.profiles < profiles.shape[0] and state.profiles * p.profile_step <= until:
+        t = state.profiles * p.profile_step
+        weights = weights_within(hermite, (t - state.t) / dt, dt)
+        configuration(p, tables, weights, C0, K0, C1, K1, profiles[state.profiles])
+        state.profiles += 1
+    top = tension(last_strain(p, C1), p, tables)[0]
+    state.low, state.high = min(state.low, top), max(state.high, top)
+
+
+@kernel
 def march(p, tables, state, motion, output, trail, until, one_stage, e_t, budget):
     """Advance one simulation until `until` samples are stored, the trail is full, or it ends.
 
@@ -164,7 +213,7 @@ def march(p, tables, state, motion, output, trail, until, one_stage, e_t, budget
             break
         small, code, used, error = state.small != 0, OK, 0, 0.0
         step = Step(state.t, state.trial_dt, state.dt_before, small)
-        stiff = small or p.method == RUNGE_KUTTA  # "stiffly accurate": the last stage is the new state
+        stiff = small or p.method == col.RUNGE_KUTTA  # "stiffly accurate": the last stage is the new state
         if stiff:
             code, used, error = runge_kutta_step(p, tables, step, motion, trial, work)
         if one_stage is not None:
@@ -184,8 +233,8 @@ def march(p, tables, state, motion, output, trail, until, one_stage, e_t, budget
                 store_energies(p, tables, step.t + step.dt, trial.C, sums, energies[state.energies])
                 state.energies += 1
         if room > 0:
-            at, kind = state.trail, RESTART if small else CONTROLLED if stiff else EULER
-            trail.T[at, BEGIN], trail.T[at, STEP], trail.T[at, KIND] = step.t, step.dt, kind
+            at, kind = state.trail, col.RESTART if small else col.CONTROLLED if stiff else col.EULER
+            trail.T[at, col.BEGIN], trail.T[at, col.STEP], trail.T[at, col.KIND] = step.t, step.dt, kind
             for i in range(s):
                 copy_into(trail.Y[at, i], trial.Y[i])
                 copy_into(trail.K[at, i], trial.K[i])

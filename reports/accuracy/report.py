@@ -6,16 +6,10 @@ from pathlib import Path
 
 from ..parts.content import Bullets, Heading, Item, Report, Table, Text, heads
 from ..parts.provenance import provenance_items, timing_items
+from ..parts.sections import section_items
 from ..parts.wording import EMPTY, count, decimals, number
 from . import sections
 from .sections import Study, read_study
-
-QUESTION = (
-    "What does an error cost? Every method of the engine, scipy's solvers on the engine's own equations in space, "
-    "and other codes where they are installed, run the same works. The error of each run is set against the time it "
-    "took. The diagrams show which grid and tolerance to choose; the tables of slopes show whether a method keeps "
-    "its order."
-)
 
 
 def report(directory: str | Path) -> Report:
@@ -23,8 +17,7 @@ def report(directory: str | Path) -> Report:
     study = read_study(directory)
     works = [name for name in study.works if any(one.work == name for one in study.settings)]
     items: list[Item] = [
-        Heading("Question"),
-        Text(QUESTION),
+        *section_items("accuracy", "Question"),
         Heading("Short answer"),
         Bullets(tuple(_short_answer(study, works))),
         Heading("Error against run time"),

@@ -8,11 +8,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..figures.animations import line_animation, line_strip
-from ..figures.line_panels import QUANTITIES, SCALED, LinePanel, folds, line_panels, seen
+from ..figures.line_panels import QUANTITIES, SCALED, LinePanel, folds, line_panels, named, seen
 from ..figures.line_waves import FrontPanel, energy_shares, front_plane, front_speeds
 from ..parts.content import Figure
 from ..parts.wording import listed, number, percent
-from .runs import FAST, SLOW, Line, find, named, title_of
+from .runs import FAST, SLOW, Line, of_kind
 
 if TYPE_CHECKING:
     import xarray
@@ -24,9 +24,9 @@ CURVE_POINTS = 120
 
 
 def shown(lines: tuple[Line, ...], cases: Sequence[str]) -> list[Line]:
-    """The cases among these that can be drawn."""
-    found = (find(lines, case) for case in cases)
-    return [line for line in found if line is not None and line.trajectory is not None and line.trajectory.profiles]
+    """The cases among these that can be drawn, in their order."""
+    drawn = [line for line in of_kind(lines, "case") if line.trajectory is not None and line.trajectory.profiles]
+    return sorted((line for line in drawn if line["case"] in cases), key=lambda line: cases.index(line["case"]))
 
 
 def paper_figures(lines: tuple[Line, ...], cases: Sequence[str]) -> list[Figure]:
@@ -37,23 +37,16 @@ def paper_figures(lines: tuple[Line, ...], cases: Sequence[str]) -> list[Figure]
 
 def _figure(drawn: list[Line], column: str, figure: int) -> Figure:
     panels = []
-    for place, line in enumerate(drawn):
-        profiles, force_N = line.trajectory.profiles, line["force_N"]
-        rows = instants(profiles)
+    for line in drawn:
+        profiles = line.trajectory.profiles
+        wanted_s = np.arange(0.0, profiles.time_s[-1] + 1e-9, INSTANT_S)
+        rows = np.unique(np.searchsorted(profiles.time_s, wanted_s - 1e-9).clip(max=len(profiles.time_s) - 1))
         x = profiles.x_m[rows] if column == "z_m" else profiles.s_m
-        title = title_of(place, line["case"], force_N)
         curves = (x, getattr(profiles, column)[rows], profiles.time_s[rows])
-        panels.append(LinePanel(line["case"], force_N, title, *curves))
-    what = QUANTITIES[column][0]
-    caption = f"The {what} every 10 ms (fig. {figure} of the paper); {SCALED[column]}. Seen: {seen(panels, column)}."
-    alt = f"The {what}, a curve every 10 ms, one panel a case: {seen(panels, column)}."
-    return Figure(line_panels(panels, column), caption, alt)
-
-
-def instants(profiles) -> np.ndarray:
-    """Indices of the profiles every 10 ms."""
-    wanted = np.arange(0.0, profiles.time_s[-1] + 1e-9, INSTANT_S)
-    return np.unique(np.searchsorted(profiles.time_s, wanted - 1e-9).clip(max=len(profiles.time_s) - 1))
+        panels.append(LinePanel(line["case"], line["force_N"], *curves))
+    what, said = QUANTITIES[column][0], seen(panels, column)
+    caption = f"The {what} every 10 ms (fig. {figure} of the paper); {SCALED[column]}. Seen: {said}."
+    return Figure(line_panels(panels, column), caption, f"The {what}, a curve every 10 ms, one panel a case: {said}.")
 
 
 def folds_figure(lines: tuple[Line, ...]) -> Figure | None:
@@ -62,9 +55,8 @@ def folds_figure(lines: tuple[Line, ...]) -> Figure | None:
     order = [case for pair in zip(FAST, SLOW, strict=True) for case in pair]
     for line in shown(lines, order):
         profiles = line.trajectory.profiles
-        title = f"case {line.name}, {1e3 * float(profiles.time_s[-1]):.0f} ms"
         shape = profiles.x_m[-1], profiles.z_m[-1], profiles.time_s[-1:]
-        panels.append(LinePanel(line["case"], line["force_N"], title, *shape))
+        panels.append(LinePanel(line["case"], line["force_N"], *shape))
     if not panels:
         return None
     near = [panel.y[panel.x < NEAR_M[1]] for panel in panels]

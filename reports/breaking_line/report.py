@@ -3,24 +3,19 @@
 from functools import partial
 from pathlib import Path
 
-from ..buoy_sweep.equations import LAWS
-from ..parts.content import Equation, Heading, Item, Notice, Report, Text
+from ..figures.line_panels import named
+from ..parts.content import Heading, Item, Notice, Report, Text
 from ..parts.folder import Folder, read_folder
 from ..parts.judged import counted, read_statements, statements_table
-from ..parts.provenance import provenance_items, scene_table, timing_items
+from ..parts.provenance import provenance_items, scene_items, timing_items
+from ..parts.sections import section_items
 from ..parts.wording import count, decimals, listed, number, percent
-from . import figures, tables
-from .runs import FAST, SLOW, Line, named, of_kind, read_exact, read_lines
+from . import figures
+from .runs import FAST, KINDS, SLOW, Line, of_kind, read_exact, read_lines, series_table, table_of_runs
 
 ANIMATED = "4"
 MOST_TURN_RAD = 0.6
 CLOSED = 1e-3  # of the stored energy
-QUESTION = (
-    "A taut synthetic line breaks at one end. How does it recoil: how fast are the end and the fronts, where do shocks "
-    "form, what happens at the fixed end, and where does the stored energy go? This is section 4.1 of Tjavaras, Zhu, "
-    "Liu, Triantafyllou and Yue, “The mechanics of highly-extensible cables”, Journal of Sound and Vibration 213(4), "
-    "1998 (“the paper”): four static tensions, fracture in 5 ms (cases 1 to 4) and in 50 ms (1′ to 4′)."
-)
 THEORY = (
     "Without gravity and bending the line is a one-dimensional elastic wave. The unloading that leaves the broken end "
     "is a simple wave: every tension runs at its own speed √(T′/m). Where the law is concave, above its inflection, "
@@ -34,33 +29,18 @@ BUDGET = (
     "varies), and what the scheme itself dissipates in space and in time. The remainder tells how well the equations "
     "were solved."
 )
-MOTION = Equation(
-    "m (partial bold(V)) / (partial t) = (partial bold(N)) / (partial s) - m g bold(k), quad "
-    "(partial bold(q)) / (partial t) = (partial bold(V)) / (partial s), quad bold(q) = (1 + epsilon) bold(t)",
-    "Mass times acceleration is the slope of the internal force less the weight; the stretch vector changes with the "
-    "slope of the velocity.",
-)
-FORCE = Equation(
-    'bold(N)(L, t) = bold(F)_s cos^2 (pi t) / (2 t_(b r)), quad t < t_(b r); quad upright("zero after")',
-    "The force at the broken end falls as the static force times the squared cosine of pi t over two t b r.",
-)
-VISCOSITY = Equation(
-    "T = f(epsilon) + a m [c_q h^2 abs(epsilon_t) epsilon_t + c_l c h epsilon_t], quad c = sqrt(max(f', 0) \\/ m)",
-    "Tension is the law plus a limited viscous part, quadratic and linear in the strain rate.",
-)
 
 
 def report(directory: str | Path) -> Report:
     """The content of the report on a breaking-line folder. Raises FolderError for a folder that is not one."""
     folder = read_folder(directory)
     lines, judged = read_lines(folder), read_statements(folder.directory)
-    table = partial(tables.table_of_runs, lines, folder.columns)
+    table = partial(table_of_runs, lines, folder.columns)
     verdicts = f"The paper's statements on the breaking line: {counted(judged)}. From `statements.csv`."
     asked = sum(line["kind"] == "case" for line in lines)
     ended = f"{len(of_kind(lines, 'case'))} of {count(asked, 'case')} ended as asked."
     items = [
-        Heading("Question"),
-        Text(QUESTION),
+        *section_items("breaking_line", "Question"),
         *_section("Short answer", table("answer"), text=f"{ended} {verdicts}"),
         *_section("The cases", table("cases"), *_warnings(lines)),
         *_section("Fast breaks", *figures.paper_figures(lines, FAST)),
@@ -74,7 +54,7 @@ def report(directory: str | Path) -> Report:
         *_section("Doubled grids", table("doubled")),
         *timing_items(folder, table("cost")),
         *_scene(folder),
-        *_equations(folder.scene.tether.tension.law),
+        *section_items("breaking_line_solved", law=folder.scene.tether.tension.law),
         *provenance_items(folder),
     ]
     return Report("The breaking synthetic line", folder.scene.title or folder.scene.name, tuple(items))
@@ -104,7 +84,7 @@ def _warnings(lines: tuple[Line, ...]) -> list[Item]:
 
 def _run(line: Line) -> str:
     stiffness = f", EI = {number(line['bending_stiffness_Nm2'])} N m²" if line["kind"] == "stiffness" else ""
-    return f"Case {line.name}{tables.KINDS.get(line['kind'], '')}{stiffness}, {number(line['nodes'])} nodes"
+    return f"Case {line.name}{KINDS.get(line['kind'], '')}{stiffness}, {number(line['nodes'])} nodes"
 
 
 def _fronts(folder: Folder, lines: tuple[Line, ...]) -> list[Item | None]:
@@ -113,22 +93,11 @@ def _fronts(folder: Folder, lines: tuple[Line, ...]) -> list[Item | None]:
         return []
     exact = read_exact(folder)
     drawn = [] if exact is None else [figures.plane_figure(lines, exact), figures.speeds_figure(exact)]
-    found = (tables.table_of_runs(lines, folder.columns, which) for which in ("speeds", "shocks"))
-    return [*drawn, *found, tables.series_table(lines, folder.columns)]
+    found = (table_of_runs(lines, folder.columns, which) for which in ("speeds", "shocks"))
+    return [*drawn, *found, series_table(lines, folder.columns)]
 
 
 def _scene(folder: Folder) -> list[Item]:
     cases = listed(named(case) for case in folder.provenance.get("cases") or ["as asked"])
     varied = {"end.force_N": f"cases {cases}", "end.force_decay_s": "0.005 (1 to 4), 0.05 (1′ to 4′)"}
-    caption = "The scene as run, from `scene.toml`; defaults are those of the scene `breaking_line`."
-    return [Heading("Scene"), scene_table(folder.scene, "breaking_line", varied, caption)]
-
-
-def _equations(law: str) -> list[Item]:
-    said = {
-        "In fixed axes and conservation form, with the shear force from the bending moments:": MOTION,
-        "with the tension law": LAWS[law],
-        "and, at the end that breaks,": FORCE,
-        "Shocks are captured by a viscosity; a limiter a is zero where the strain rate varies smoothly:": VISCOSITY,
-    }
-    return [Heading("Equations"), *(item for words, equation in said.items() for item in (Text(words), equation))]
+    return scene_items(folder.scene, "breaking_line", varied)

@@ -1,18 +1,83 @@
-"""The runs of the breaking line as the report looks at them: row of the table, and the trajectory of each case."""
+"""The runs of the breaking line as the report looks at them, row and trajectory of each case, and the tables of them:
+cases, speeds and shocks against theory, energy, grids, stiffness, cost.
+"""
 
 from __future__ import annotations
 
-import io
+import math
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from itertools import pairwise
 from typing import TYPE_CHECKING
 
-from ..figures.line_panels import thousands
-from ..parts.folder import Folder, Row
+from ..figures.line_panels import named
+from ..parts.columns import Quantity, table_of
+from ..parts.content import Table
+from ..parts.folder import Folder, FolderError, Row, read_files
 
 if TYPE_CHECKING:
     import xarray
 
+Columns = dict[str, Quantity]
+KINDS = {"doubled": ", doubled grid", "straight": ", straight", "stiffness": ", doubled grid", "series": ", straight"}
+CASES = (
+    "case", "force_N", "status", "end_speed_mps", "recoil_m", "x_min_m", "left_of_fixed_end_m", "vertical_m",
+    "vertical_beyond_m", "steepest_tilt_rad", "buckled_m", "max_turn_rad", "min_strain",
+)  # fmt: skip
+SPEEDS = (
+    "case", "nodes", "end_speed_mps", "end_speed_theory_mps", "end_speed_shocked_theory_mps", "end_speed_error",
+    "front_speed_mps", "front_speed_theory_mps", "slack_front_speed_mps", "slack_front_speed_theory_mps",
+    "strain_overshoot", "strain_rise", "strain_error",
+)  # fmt: skip
+SHOCKS = (
+    "case", "nodes", "shock_birth_m", "shock_birth_theory_m", "shock_birth_theory_s", "shock_speed_mps",
+    "shock_speed_theory_mps", "shock_offset_m", "shock_offset_largest_m", "shock_offset_elements",
+)  # fmt: skip
+SERIES = (
+    "case", "nodes", "order", "strain_error", "strain_overshoot", "strain_rise", "shock_offset_elements",
+    "end_speed_error",
+)  # fmt: skip
+ENERGIES = (
+    "kinetic_J", "kinetic_largest_J", "strain_J", "gravity_J", "bending_J", "end_work_J", "end_work_theory_J",
+    "viscous_J", "scheme_space_J", "scheme_time_J", "remainder_J", "lost_at_arrival_J", "lost_at_arrival_theory_J",
+)  # fmt: skip
+ANSWER = (
+    "case", "end_speed_mps", "end_speed_error", "front_speed_mps", "front_speed_theory_mps", "shock_birth_theory_m",
+    "shock_offset_largest_m", "x_min_m", "end_work_J", "remainder_largest_J",
+)  # fmt: skip
+DOUBLED = (
+    "case", "nodes", "end_speed_mps", "front_speed_mps", "recoil_m", "x_min_m", "vertical_m", "steepest_tilt_rad",
+    "buckled_m", "kinetic_J", "viscous_J", "bending_J",
+)  # fmt: skip
+COST = (
+    "case", "nodes", "bending_stiffness_Nm2", "steps", "newton_iterations", "newton_failures", "max_turn_rad", "wall_s",
+)  # fmt: skip
+OF_RUNS = {  # table -> its columns; kinds of run; what a run must have; caption
+    # It must have a number in that column, or its case a run of that kind; "": failed runs are shown too.
+    "answer": (ANSWER, ("case",), "", "The cases in short; energies in shares of the strain energy stored at first."),
+    "cases": (CASES, ("case",), "", "The cases of `table.csv`; primes: fracture in 50 ms."),
+    "speeds": (
+        SPEEDS,
+        ("case", "straight"),
+        "nodes",
+        "Speeds against exact theory; straight: without gravity, on an even grid. An exact wave has no rise.",
+    ),
+    "shocks": (SHOCKS, ("straight", "case", "doubled"), "shock_birth_theory_m", "Shocks against exact theory."),
+    "energies": (
+        ("case", "stored_J", *ENERGIES),
+        ("case",),
+        "stored_J",
+        "Energy at the end of each run, in shares of the strain energy stored at the start.",
+    ),
+    "stiffness": (
+        ("case", "bending_stiffness_Nm2", *CASES[3:], "bending_J"),
+        ("stiffness", "doubled"),
+        "stiffness",
+        "Bending stiffness, which the paper does not give, on grids of twice the elements.",
+    ),
+    "doubled": (DOUBLED, ("case", "doubled"), "doubled", "What twice the elements change, case by case."),
+    "cost": (COST, ("case", *KINDS), "", "Every run of `table.csv`: work and wall time, compilation left out."),
+}
 FAST, SLOW = ("1", "2", "3", "4"), ("1p", "2p", "3p", "4p")
 
 
@@ -36,16 +101,6 @@ class Line(Row):
         return self[column] / self["stored_J"]
 
 
-def named(case: str) -> str:
-    """A case of the command line as the paper writes it."""
-    return case.replace("p", "′")
-
-
-def title_of(place: int, case: str, force_N: float) -> str:
-    """Of the panel of a case, at a place in its figure."""
-    return f"({'abcd'[place]}) case {named(case)}: {thousands(force_N)} N"
-
-
 def read_lines(folder: Folder) -> tuple[Line, ...]:
     """Every run of the table, in its order."""
     rows = folder.table.to_dict("records")
@@ -54,11 +109,9 @@ def read_lines(folder: Folder) -> tuple[Line, ...]:
 
 def read_exact(folder: Folder) -> xarray.Dataset | None:
     """exact.nc of the folder: characteristics, shocks and speeds of exact theory; None where it has none."""
-    import xarray
-
     try:
-        return xarray.load_dataset(io.BytesIO((folder.directory / "exact.nc").read_bytes()), engine="scipy")
-    except (OSError, ValueError, TypeError):
+        return read_files(folder.directory, {"exact.nc": "exact theory"})["exact.nc"]
+    except FolderError:
         return None
 
 
@@ -67,6 +120,34 @@ def of_kind(lines: Iterable[Line], *kinds: str) -> list[Line]:
     return [line for kind in kinds for line in lines if line["kind"] == kind and line.ok]
 
 
-def find(lines: Iterable[Line], case: str) -> Line | None:
-    """The run of a case that ended as asked, None where there is none."""
-    return next((line for line in of_kind(lines, "case") if line["case"] == case), None)
+def table_of_runs(lines: tuple[Line, ...], columns: Columns, which: str) -> Table | None:
+    """A table of OF_RUNS, its energies in per cent of the stored one; None where no run is to be shown."""
+    names, kinds, needed, caption = OF_RUNS[which]
+    shown = of_kind(lines, *kinds) if needed else [line for line in lines if line["kind"] in kinds]
+    if needed in KINDS:
+        varied = {line["case"] for line in of_kind(lines, needed)}
+        shown = [line for line in shown if line["case"] in varied]
+        shown.sort(key=lambda line: (line["case"], line["nodes"], line["bending_stiffness_Nm2"]))
+    elif needed:
+        shown = [line for line in shown if line.known(needed)]
+    energies = [name for name in names if name.endswith("_J") and name != "stored_J"]
+    rows = [
+        line.row
+        | {"case": f"{line.name}{KINDS.get(line['kind'], '')}"}
+        | {name: 100.0 * line.share(name) for name in energies}
+        for line in shown
+    ]
+    in_percent = {name: replace(columns[name], unit="%", digits=2) for name in energies}
+    return table_of(columns | in_percent, names, rows, caption) if rows else None
+
+
+def series_table(lines: tuple[Line, ...], columns: Columns) -> Table | None:
+    """Convergence to the exact motion, grid by grid."""
+    found = sorted(of_kind(lines, "series"), key=lambda line: (line["case"], line["nodes"]))
+    rows = [line.row | {"case": line.name, "order": math.nan} for line in found]
+    for (before, line), row in zip(pairwise(found), rows[1:], strict=False):
+        if before["case"] == line["case"]:
+            ratio = (line["nodes"] - 1) / (before["nodes"] - 1)
+            row["order"] = math.log(before["strain_error"] / line["strain_error"]) / math.log(ratio)
+    more = columns | {"order": Quantity("order", "", "order", "order of the mean of |ε − exact|", 2)}
+    return table_of(more, SERIES, rows, "Convergence on even grids, without gravity.") if rows else None

@@ -8,18 +8,19 @@ from analysis.verdicts import LEAST_POINTS
 
 from ..parts.content import Bullets, Heading, Item, Notice, Report, Text
 from ..parts.provenance import provenance_items
+from ..parts.sections import section_items
 from ..parts.wording import T_I, TAU_0, count, decimals, number, percent
 from ..sweep.quantities import extremes
-from .equations import equation_items
 from .figures import chosen_table, close_up_items, orbit_figure, regime_items, run_figures, section_figure
 from .runs import PAPER_WINDOW, Run, Sweep, read_sweep
 from .sheets import explorer, sheet_items
-from .tables import accuracy_items, plane_items, runs_items, scene_items, time_items
+from .tables import accuracy_items, plane_items, runs_items, scene_and_modes, time_items
 
 _EXTREMES = (
     "slack_fraction", "tension_top_max_N", "radius_min_m", "radius_max_m", "loop_releases", "rope_lateral_max_m",
     "buoy_lateral_max_m",
 )  # fmt: skip
+_OF_THESE = "Least and greatest value in the runs that ended as asked."
 _RESOLVED_RAD = 0.5 * math.pi  # turn of one element beyond which a loop is no longer resolved
 _NOTHING = "No run failed, no loop was released, the buoy stayed in the water, and every record lasts for eq. (31)."
 
@@ -40,9 +41,8 @@ def report(directory: str | Path) -> Report:
         warnings(sweep),
         *runs_items(sweep),
         *time_items(sweep),
-        *scene_items(sweep),
-        Heading("Equations"),
-        *equation_items(scene.tether.tension.law),
+        *scene_and_modes(sweep),
+        *section_items("buoy_sweep_solved", law=scene.tether.tension.law),
         *provenance_items(sweep.folder),
         *sheet_items(sweep),
     ]
@@ -50,16 +50,13 @@ def report(directory: str | Path) -> Report:
 
 
 def _question(sweep: Sweep) -> list[Item]:
+    columns = sweep.folder.columns
+    shown = [columns[name] for name in _EXTREMES if name in columns]
     items: list[Item] = [
-        Heading("Question"),
-        Text(
-            "A buoy near the surface is held to the sea bed by a short elastic tether. When does the tether go slack "
-            "and snap as waves become steeper, and does the motion still repeat with the waves? This is section 4.2 of "
-            "Tjavaras, Zhu, Liu, Triantafyllou and Yue, “The mechanics of highly-extensible cables”, Journal of Sound "
-            "and Vibration 213(4), 1998 (“the paper”), which shows kA = 0.016 and kA = 0.13."
-        ),
+        *section_items("buoy_sweep", "Question"),
         Heading("Short answer"),
-        *answer_items(sweep),
+        Bullets(short_answer(sweep)),
+        *extremes([columns["steepness"]], [run.row for run in sweep.good], shown, _OF_THESE),
     ]
     if sweep.judged:
         return items
@@ -88,14 +85,6 @@ def _chosen(sweep: Sweep) -> list[Item]:
         items += [Heading(run.named, 2), *run_figures(sweep, run)]
     figure = section_figure(sweep)
     return [*items, Heading("Poincaré sections", 2), figure] if figure else items
-
-
-def answer_items(sweep: Sweep) -> list[Item]:
-    """The statements, and the table of extremes of the runs that ended as asked."""
-    rows, columns = [run.row for run in sweep.good], sweep.folder.columns
-    shown = [columns[name] for name in _EXTREMES if name in columns]
-    caption = "Least and greatest value in the runs that ended as asked."
-    return [Bullets(short_answer(sweep)), *extremes([columns["steepness"]], rows, shown, caption)]
 
 
 def short_answer(sweep: Sweep) -> tuple[str, ...]:

@@ -8,7 +8,7 @@ import numpy as np
 from ..parts.columns import Name, number_of, table_of
 from ..parts.content import Figure, Heading, Item, Table, Text, heads, link
 from ..parts.folder import read_columns, read_rows
-from ..parts.provenance import scene_table, timing_items
+from ..parts.provenance import scene_items, timing_items
 from ..parts.wording import EMPTY, OMEGA_I, OMEGA_R, OMEGA_THETA, T_S, decimals, listed, number, percent, ranges
 from ..sweep.quantities import over_key, series
 from .runs import Run, Sweep
@@ -129,7 +129,7 @@ def time_items(sweep: Sweep) -> list[Item]:
     return timing_items(sweep.folder, figure)
 
 
-def scene_items(sweep: Sweep) -> list[Item]:
+def scene_and_modes(sweep: Sweep) -> list[Item]:
     """Every parameter with its source, and the closed forms that follow."""
     modes, values = sweep.modes, [run.steepness for run in sweep.runs]
     varied = {"waves.steepness": ranges(values, [True] * len(values))}
@@ -137,8 +137,7 @@ def scene_items(sweep: Sweep) -> list[Item]:
         varied["motion.dimensions"] = listed(sorted({number(run["dimensions"]) for run in sweep.runs}))
         if push := sweep.folder.provenance.get("push_mps"):
             varied["start.buoy_velocity_mps"] = f"{number(push)} across the waves in three dimensions"
-    caption = "The scene as run, from `scene.toml`; defaults are those of the scene `tethered_buoy`."
-    items: list[Item] = [Heading("Scene"), scene_table(sweep.folder.scene, "tethered_buoy", varied, caption)]
+    items = scene_items(sweep.folder.scene, "tethered_buoy", varied)
     if modes:
         rows = (
             ("static tension", T_S, number(modes.static_tension_N), "N"),

@@ -119,36 +119,31 @@ def curves(
     kind: str = "svg",
     widths: Sequence[float] | None = None,
 ) -> Picture:
-    """Rows of panels as one picture; legend, share, widths as in `fill`."""
-    with sheet(height_in) as figure:
-        fill(figure, rows, legend, share, widths)
-        return picture_of(figure, kind)
-
-
-def fill(figure: Figure, rows: Rows, legend: str = "", share: str = "", widths: Sequence[float] | None = None) -> None:
-    """Draw rows of panels on an open sheet.
+    """Rows of panels as one picture.
 
     legend: place inside every panel that has named curves, in matplotlib's words; "below" one for all panels, under
     them, "right" beside them; "" none. share: "x" panels of a column have one x axis, "y" those of a row one y axis,
     "xy" both. widths: of the columns, against each other.
     """
     shared = {"sharex": "col" if "x" in share else "none", "sharey": "row" if "y" in share else "none"}
-    grid = figure.subplots(len(rows), max(map(len, rows)), squeeze=False, width_ratios=widths, **shared)
     handles: dict[str, object] = {}
-    for places, panels in zip(grid, rows, strict=True):
-        for axes in places[len(panels) :]:
-            axes.set_visible(False)
-        for axes, panel in zip(places, panels, strict=False):
-            draw(axes, panel)
-            found = axes.get_legend_handles_labels()
-            handles |= {name: handle for handle, name in zip(*found, strict=True) if name not in handles}
-            if found[1] and legend not in ("", "below", "right"):
-                axes.legend(loc=legend)
-    if legend == "below" and handles:
-        figure.legend(handles.values(), handles, loc="outside lower center", ncols=min(len(handles), 4))
-    if legend == "right":
-        figure.legend(handles.values(), handles, loc="outside right center")
-    figure.align_ylabels()
+    with sheet(height_in) as figure:
+        grid = figure.subplots(len(rows), max(map(len, rows)), squeeze=False, width_ratios=widths, **shared)
+        for places, panels in zip(grid, rows, strict=True):
+            for axes in places[len(panels) :]:
+                axes.set_visible(False)
+            for axes, panel in zip(places, panels, strict=False):
+                draw(axes, panel)
+                found = axes.get_legend_handles_labels()
+                handles |= {name: handle for handle, name in zip(*found, strict=True) if name not in handles}
+                if found[1] and legend not in ("", "below", "right"):
+                    axes.legend(loc=legend)
+        if legend == "below" and handles:
+            figure.legend(handles.values(), handles, loc="outside lower center", ncols=min(len(handles), 4))
+        if legend == "right":
+            figure.legend(handles.values(), handles, loc="outside right center")
+        figure.align_ylabels()
+        return picture_of(figure, kind)
 
 
 def wide_limits(values: np.ndarray, least: float = 1e-9) -> tuple[float, float]:

@@ -28,30 +28,17 @@ _WIDTH_IN = 5.6  # of all panels of a row
 
 @dataclass(frozen=True, eq=False)
 class LinePanel:
-    """Curves of one case: its name, static force and title; x (m, n) or (n,) and y (m, n) of m instants (m,), s."""
+    """Curves of one case: its name, static force; x (m, n) or (n,) and y (m, n) of m instants (m,), s."""
 
     case: str
     force_N: float
-    title: str
     x: np.ndarray
     y: np.ndarray
     time_s: np.ndarray
 
 
-def line_panels(panels: Sequence[LinePanel], column: str) -> Picture:
+def line_panels(panels: Sequence[LinePanel], column: str, kind: str = "svg") -> Picture:
     """Two panels a row, curves coloured by time on one scale; column: of QUANTITIES."""
-    with sheet(line_panels_height_in(len(panels))) as figure:
-        fill_line_panels(figure, panels, column)
-        return picture_of(figure)
-
-
-def line_panels_height_in(count: int) -> float:
-    """The height of so many panels."""
-    return 0.4 + 1.8 * ((count + 1) // 2)
-
-
-def fill_line_panels(figure, panels: Sequence[LinePanel], column: str) -> None:
-    """`line_panels` on an open sheet."""
     from matplotlib import colormaps
     from matplotlib.cm import ScalarMappable
     from matplotlib.colors import LinearSegmentedColormap, Normalize
@@ -62,17 +49,20 @@ def fill_line_panels(figure, panels: Sequence[LinePanel], column: str) -> None:
     colours = LinearSegmentedColormap.from_list("time", colormaps["viridis"](np.linspace(0.0, 0.85, 32)))
     scale = ScalarMappable(Normalize(0.0, 1e3 * late), colours)
     labels = "$x$ (m)" if motion else "$s$ (m)", QUANTITIES[column][1]
-    for (axes, panel), ends in zip(cells(figure, panels, 2, labels), limits(panels, column), strict=False):
-        x = np.broadcast_to(panel.x, panel.y.shape)
-        for row, time_s in enumerate(panel.time_s):
-            axes.plot(x[row], panel.y[row], color=scale.to_rgba(1e3 * time_s), linewidth=0.8)
-        if motion:
-            axes.axvline(0.0, color=SOFT, linewidth=0.7, linestyle=(0, (2, 2)))
-        axes.set(title=panel.title, ylim=ends)
-        axes.margins(x=0.02)
-        if column == "tension_N":
-            axes.yaxis.set_major_formatter(FuncFormatter(lambda tick, _: thousands(tick)))
-    figure.colorbar(scale, ax=figure.axes, label="$t$ (ms)", shrink=0.6, aspect=30, pad=0.015)
+    with sheet(0.4 + 1.8 * ((len(panels) + 1) // 2)) as figure:
+        drawn = cells(figure, panels, 2, labels)
+        for (axes, panel), ends, letter in zip(drawn, limits(panels, column), "abcd", strict=False):
+            x = np.broadcast_to(panel.x, panel.y.shape)
+            for row, time_s in enumerate(panel.time_s):
+                axes.plot(x[row], panel.y[row], color=scale.to_rgba(1e3 * time_s), linewidth=0.8)
+            if motion:
+                axes.axvline(0.0, color=SOFT, linewidth=0.7, linestyle=(0, (2, 2)))
+            axes.set(title=f"({letter}) case {named(panel.case)}: {thousands(panel.force_N)} N", ylim=ends)
+            axes.margins(x=0.02)
+            if column == "tension_N":
+                axes.yaxis.set_major_formatter(FuncFormatter(lambda tick, _: thousands(tick)))
+        figure.colorbar(scale, ax=figure.axes, label="$t$ (ms)", shrink=0.6, aspect=30, pad=0.015)
+        return picture_of(figure, kind)
 
 
 def limits(panels: Sequence[LinePanel], column: str) -> list[tuple[float, float]]:
@@ -100,6 +90,11 @@ def seen(panels: Sequence[LinePanel], column: str) -> str:
     return f"{low} to {high} {QUANTITIES[column][2]}"
 
 
+def named(case: str) -> str:
+    """A case of the command line as the paper writes it: 4, 4′."""
+    return case.replace("p", "′")
+
+
 def thousands(newtons: float) -> str:
     """As the paper prints forces: 45 000."""
     return f"{np.round(newtons):,.0f}".replace(",", "\u202f").replace("-", "−")
@@ -109,10 +104,10 @@ def folds(panels: list[LinePanel], x_limits: tuple[float, float], z_limits: tupl
     """Shapes in true proportion, two panels a row; x and y of each panel (n,), time_s its one instant."""
     limits = {"aspect": "equal", "xlim": x_limits, "ylim": z_limits}
     fixed = Curve(np.zeros(1), np.zeros(1), line="", mark="o", colour=VERMILION, size=3.0)
-    drawn = [
-        Panel([Curve(panel.x, panel.y, width=0.7), fixed], "$x$ (m)", "$z$ (m)", panel.title, settings=limits)
-        for panel in panels
-    ]
+    drawn = []
+    for panel in panels:
+        title = f"case {named(panel.case)}, {1e3 * float(panel.time_s[0]):.0f} ms"
+        drawn.append(Panel([Curve(panel.x, panel.y, width=0.7), fixed], "$x$ (m)", "$z$ (m)", title, settings=limits))
     rows = [drawn[k : k + 2] for k in range(0, len(drawn), 2)]
     height = _WIDTH_IN / len(rows[0]) * (z_limits[1] - z_limits[0]) / (x_limits[1] - x_limits[0])
     return curves(rows, 0.4 + len(rows) * (0.45 + height))

@@ -25,17 +25,7 @@ class History:
     inplane_m: float
 
 
-def lateral_histories(panels: list[tuple[str, list[History]]]) -> Picture:
-    """`lateral_panels` as a picture."""
-    return curves(lateral_panels(panels), lateral_height_in(len(panels)), "below", "x")
-
-
-def lateral_height_in(count: int) -> float:
-    """The height of so many panels."""
-    return 0.7 + 2.3 * count
-
-
-def lateral_panels(panels: list[tuple[str, list[History]]], **further: object) -> list[list[Panel]]:
+def lateral_histories(panels: list[tuple[str, list[History]]], kind: str = "svg", **further: object) -> Picture:
     """Stacked panels (axis label, runs): every sample thin, the largest value of each period thick; solid for the first
     run, dashed for the second; dotted the level of its in-plane motion. further: of every Panel."""
     rows = []
@@ -54,7 +44,7 @@ def lateral_panels(panels: list[tuple[str, list[History]]], **further: object) -
         limits = {"ylim": (low / 10**_DECADES_BELOW, 4.0 * top), "xmargin": 0.01}
         x_label = r"$t/T_i$ (wave periods)" if len(rows) == len(panels) - 1 else ""
         rows.append([Panel(lines, x_label, label, log="y", settings=limits, **further)])
-    return rows
+    return curves(rows, 0.7 + 2.3 * len(panels), "below", "x", kind)
 
 
 def seed_histories(panels: list[tuple[str, str, list[tuple[float, np.ndarray, np.ndarray]]]]) -> Picture:
@@ -65,15 +55,10 @@ def seed_histories(panels: list[tuple[str, str, list[tuple[float, np.ndarray, np
     shades = {push: colormaps["cividis"](0.9 * k / max(len(pushes) - 1, 1)) for k, push in enumerate(pushes)}
     drawn = []
     for title, label, found in panels:
-        lines = [
-            Curve(
-                periods[values > 0],
-                values[values > 0],
-                f"push {push:.0e} m/s".replace("e-0", "e-"),
-                colour=shades[push],
-            )
-            for push, periods, values in found
-        ]
+        lines = []
+        for push, periods, values in found:
+            seen, name = values > 0, f"push {push:.0e} m/s".replace("e-0", "e-")
+            lines.append(Curve(periods[seen], values[seen], name, colour=shades[push]))
         drawn.append(Panel(lines, r"$t/T_i$ (wave periods)", label, title, log="y"))
     return curves([drawn[k : k + 2] for k in range(0, len(drawn), 2)], 0.9 + 2.1 * (len(drawn) // 2), "below")
 

@@ -16,23 +16,17 @@ from ..figures.oscillator import (
 from ..parts.columns import table_of
 from ..parts.content import Figure, Heading, Item, Notice, Report, Text, sub
 from ..parts.provenance import provenance_items
+from ..parts.sections import section_items
 from ..parts.wording import count, number, percent
-from .folder import Study, read_study
-from .sections import NUMBERS, basin_items, equation_items, grazing_items, orbit_items
+from .sections import NUMBERS, Study, basin_items, grazing_items, method_items, orbit_items, read_study
 
 LAMBDA_1 = "λ" + sub("1")
-QUESTION = (
-    "To see the fractal structure of the strange attractor, the paper (Tjavaras, Zhu, Liu, Triantafyllou and Yue "
-    "1998, section 4.2) reduces the tethered buoy to its radial motion on a tether that pulls but does not push: "
-    "equation (33), with its section in figure 19(b). Is that motion chaotic, by how much, with what certainty, "
-    "and what else can the oscillator do?"
-)
 
 
 def report(directory: str | Path) -> Report:
     """The content of the report on an oscillator study's folder. Raises FolderError for a folder that is not one."""
     study = read_study(directory)
-    items: list[Item] = [Heading("Question"), Text(QUESTION), Heading("Short answer"), *_answer(study)]
+    items: list[Item] = [*section_items("oscillator", "Question"), Heading("Short answer"), *_answer(study)]
     if study.faults:
         missing = tuple(f"`{part}`: {reason}." for part, reason in study.faults.items())
         items.append(Notice("warning", "Parts without results", missing))
@@ -40,7 +34,7 @@ def report(directory: str | Path) -> Report:
         arrays = study.arrays.get(part)
         missing = [Text(f"The part `{part}` has no results: {study.faults.get(part)}.")]
         items += [Heading(title), *(missing if arrays is None else section(study, arrays))]
-    items += [*equation_items(study), Heading("Parts and times")]
+    items += [*method_items(study), Heading("Parts and times")]
     shown = ("part", "status", "starts", "periods", "transient", "wall_s")
     items.append(table_of(study.columns, shown, study.rows.values(), "The parts of the study, from `table.csv`."))
     numbers = (f"{symbol} = {number(study.oscillator[key])}" for key, (symbol, *_) in NUMBERS.items())
@@ -51,8 +45,8 @@ def _answer(study: Study) -> list[Item]:
     """The numbers of the parts that gave some, in one row."""
     rows = (study.rows.get(part, {}) for part in ("grazing", "basins", "exponents"))
     found = {name: entry for row in rows for name, entry in row.items() if entry}
-    value, error = _exponent(study)
-    word = "chaotic" if _chaotic(study) else "regular" if value < -2 * error else "neither shown to be"
+    value, error = study.exponent
+    word = "chaotic" if study.chaotic else "regular" if value < -2 * error else "neither shown to be"
     text = (
         f"Chaotic means that {LAMBDA_1} is positive by more than two standard errors: nearby motions part "
         f"exponentially. Regular means that it is negative by as much. The motion is {word}."
@@ -78,7 +72,7 @@ def _section(study: Study, arrays: dict) -> list[Item]:
     alt = f"Scatter of {len(states)} strobed points of displacement and velocity."
     items: list[Item] = [Figure(oscillator_section(states, boxes, orbit), caption, alt)]
     zooms = [arrays[name] for name in ("zoom_1", "zoom_2") if name in arrays]
-    if zooms and _chaotic(study):  # a zoom into a periodic orbit shows a point
+    if zooms and study.chaotic:  # a zoom into a periodic orbit shows a point
         counts = " and ".join(str(len(zoom)) for zoom in zooms)
         caption = (
             "Layers within layers: zooms by 10 and by 100 round the place visited most. They have "
@@ -166,12 +160,3 @@ SECTIONS = {  # part of the study: heading, what is said of its arrays
     "orbits": ("Periodic orbits", orbit_items),
     "grazing": ("Grazing", grazing_items),
 }
-
-
-def _exponent(study: Study) -> tuple[float, float]:
-    return study.number("exponents", "lambda_1_nats_per_time"), study.number("exponents", "lambda_1_error")
-
-
-def _chaotic(study: Study) -> bool:
-    value, error = _exponent(study)
-    return value - 2 * error > 0.0

@@ -1,40 +1,21 @@
-"""What the report on eq. (33) says of coexisting attractors, periodic orbits, grazing, and of the equation itself."""
+"""What the report on eq. (33) reads and says: coexisting attractors, periodic orbits, grazing, the equation itself."""
 
 import math
+from dataclasses import dataclass
+from pathlib import Path
 
 import numpy as np
 
 from analysis.oscillator import SnapOscillator
 
 from ..figures.oscillator import oscillator_basins
-from ..parts.content import Column, Equation, Figure, Heading, Item, Table, Text
+from ..parts.columns import Quantity, value
+from ..parts.content import Figure, Item, Table, Text, heads
+from ..parts.folder import PARTS as FILES
+from ..parts.folder import FolderError, read_files
+from ..parts.sections import section_items
 from ..parts.wording import decimals, number
-from .folder import Study
 
-OSCILLATOR = Equation(
-    "dot.double(gamma) + mu dot(gamma) + a gamma = F sin omega t + B - W, quad a = cases(1 quad &gamma >= 0, 0 quad "
-    "&gamma < 0)",
-    "Acceleration plus mu times velocity plus a times displacement equals F sine omega t plus B minus W, with a one "
-    "where the displacement is not negative and zero where it is.",
-    "33",
-)
-PIECE = Equation(
-    "vec(gamma, dot(gamma)) (tau) = Phi_a (tau) vec(x, v) + q_a (tau), quad det Phi_a = upright(e)^(-mu tau)",
-    "Within a piece the state is a fundamental matrix times a constant vector plus a forced response, and the "
-    "determinant of the matrix is e to the minus mu tau.",
-)
-CROSSING = Equation(
-    "min(abs(gamma(t_1)), abs(gamma(t_2))) > (t_2 - t_1)^2 / 8 max abs(dot.double(gamma)) quad arrow.r.double quad "
-    'upright("no crossing between two ends on one side")',
-    "If both ends lie on one side and the nearer one is farther from zero than an eighth of the interval squared "
-    "times the largest curvature, there is no crossing in between.",
-)
-EXPONENTS = Equation(
-    "lambda_i = lim_(n -> infinity) 1 / (n T) sum_(k = 1)^n ln R_(i i)^((k)), quad lambda_1 + lambda_2 = -mu, quad D "
-    "= 1 + lambda_1 / abs(lambda_2)",
-    "The exponents are the mean logarithms of the diagonal of R over a period; their sum is minus mu; the "
-    "Kaplan-Yorke dimension of the section is one plus lambda one by the absolute value of lambda two.",
-)
 FIGURE_19 = "Tjavaras et al. 1998, figure 19"
 NUMBERS = {  # symbol, what it is, source of the usual value
     "damping": ("μ", "damping by radiated waves", FIGURE_19),
@@ -43,6 +24,70 @@ NUMBERS = {  # symbol, what it is, source of the usual value
     "lift": ("B − W", "buoyancy less weight", FIGURE_19),
     "phase": ("φ", "phase of the forcing at the strobe, rad", "not stated in the paper; choice of this work"),
 }
+
+
+PARTS = ("section", "history", "exponents", "orbits", "basins", "grazing", "diagram-force", "diagram-frequency")
+
+
+@dataclass(frozen=True, eq=False)
+class Study:
+    """What the campaign left: `rows` of table.csv by part (text), `arrays` by part and name, `oscillator` the five
+    numbers of eq. (33), `faults` by part where its arrays are not to be had."""
+
+    directory: Path
+    provenance: dict
+    columns: dict[str, Quantity]
+    rows: dict[str, dict[str, str]]
+    arrays: dict[str, dict[str, np.ndarray]]
+    oscillator: dict[str, float]
+    faults: dict[str, str]
+
+    @property
+    def period(self) -> float:
+        """Forcing period, in units of time."""
+        return 2.0 * math.pi / self.oscillator["frequency"]
+
+    @property
+    def exponent(self) -> tuple[float, float]:
+        """The largest exponent and its standard error, nats per unit of time."""
+        return self.number("exponents", "lambda_1_nats_per_time"), self.number("exponents", "lambda_1_error")
+
+    @property
+    def chaotic(self) -> bool:
+        """Whether the largest exponent is positive by more than two standard errors."""
+        value, error = self.exponent
+        return value - 2 * error > 0.0
+
+    def number(self, part: str, column: str) -> float:
+        """A cell of table.csv as a number; NaN where it is empty."""
+        return value(self.rows.get(part, {}), column)
+
+
+def read_study(directory: str | Path) -> Study:
+    """Read the folder. Raises FolderError naming every file that is missing or cannot be read."""
+    directory = Path(directory)
+    # scene.toml is no scene of the engine here; its numbers are in the provenance as well.
+    wanted = {name: meaning for name, meaning in FILES.items() if name != "scene.toml"}
+    found = read_files(directory, wanted)
+    try:
+        oscillator = {key: float(entry) for key, entry in found["provenance.json"]["oscillator"].items()}
+        rows = {row["part"]: row for row in found["table.csv"]}
+    except (KeyError, TypeError, ValueError, AttributeError) as error:
+        fault = f"provenance.json or table.csv is not of this campaign: {error!r}"
+        raise FolderError(directory, [fault]) from error
+    if not rows:
+        raise FolderError(directory, ["table.csv cannot be read: it has no rows"])
+    arrays, faults = {}, {}
+    for part in PARTS:
+        try:
+            name = f"{rows[part]['run_key']}.nc"
+            read = read_files(directory / "trajectories", {name: "its arrays"})[name]
+            arrays[part] = {str(entry): variable.values for entry, variable in read.data_vars.items()}
+        except KeyError:
+            faults[part] = "it has no row in table.csv"
+        except FolderError as error:
+            faults[part] = rows[part]["message"] or error.faults[0]
+    return Study(directory, found["provenance.json"], found["columns.csv"], rows, arrays, oscillator, faults)
 
 
 def basin_items(study: Study, arrays: dict) -> list[Item]:
@@ -55,7 +100,7 @@ def basin_items(study: Study, arrays: dict) -> list[Item]:
         for name, share, error in zip(names, shares, arrays["errors"], strict=True)
         if share > 0
     )
-    heads = (Column("the motion ends on", align="left"), Column("share of the starts", "%"), Column("error", "%"))
+    columns = heads("the motion ends on", ("share of the starts", "%"), ("error", "%"))
     settled = arrays["settled"][arrays["settled"] >= 0]
     late = f" The last start that settled did so after {int(settled.max())} periods." if len(settled) else ""
     caption = (
@@ -69,7 +114,7 @@ def basin_items(study: Study, arrays: dict) -> list[Item]:
     alt = f"Basins of attraction of {len(orbits)} periodic orbits over displacement and velocity."
     section = study.arrays.get("section", {}).get("section", np.empty((0, 2)))[:20000]
     figure = Figure(oscillator_basins(arrays["label"], tuple(arrays["box"]), names, orbits, section), caption, alt)
-    return [Text(text), figure, Table(heads, rows, "Shares of the starts, with one standard error.")]
+    return [Text(text), figure, Table(columns, rows, "Shares of the starts, with one standard error.")]
 
 
 def orbit_items(study: Study, arrays: dict) -> list[Item]:
@@ -92,10 +137,9 @@ def orbit_items(study: Study, arrays: dict) -> list[Item]:
             f"{decimals(point[0], 6)}, {decimals(point[1], 6)}", _complex(m1), _complex(m2),
             f"{abs((m1 * m2).real / wanted - 1.0):.0e}", f"{residual:.0e}",
         ))  # fmt: skip
-    columns = (
-        Column("period"), Column("stability", align="left"), Column("leftmost strobed point (γ, velocity)"),
-        Column("multiplier 1"), Column("multiplier 2"), Column("product off by", "relative"), Column("residual"),
-    )  # fmt: skip
+    numbers = ("leftmost strobed point (γ, velocity)", "multiplier 1", "multiplier 2")
+    off = ("product off by", "relative"), ("residual", "")
+    columns = heads(("period", ""), "stability", *((name, "") for name in numbers), *off)
     caption = f"Periodic orbits met by Newton's method ({len(rows)}), by period. From the part `orbits`."
     return [Text(text), Table(columns, tuple(rows), caption, small=True)]
 
@@ -126,34 +170,17 @@ def grazing_items(study: Study, arrays: dict) -> list[Item]:
         slack = arrays[name] > 0
         rows.append((f"starts that are slack at {share} F", f"{int(slack.sum())} of {len(slack)}"))
     caption = "Grazing. Slack: at some time in the last 100 of 2100 periods. From the part `grazing`."
-    return [Text(text), Table((Column("what", align="left"), Column("value")), tuple(rows), caption)]
+    return [Text(text), Table(heads("what", ("value", "")), tuple(rows), caption)]
 
 
-def equation_items(study: Study) -> list[Item]:
+def method_items(study: Study) -> list[Item]:
     """The equation, how it is integrated, and what the exponents are."""
     rows = []
     for key, (symbol, meaning, source) in NUMBERS.items():
         given, usual = study.oscillator[key], getattr(SnapOscillator, key)
         source = source if given == usual else f"given; the default is {number(usual)}"
         rows.append((symbol, meaning, number(given, 10), source))
-    columns = [Column(title, align="left") for title in ("symbol", "what it is", "source")]
-    columns.insert(2, Column("value"))
-    return [
-        Heading("Equation and method"),
-        Text("All quantities are dimensionless (mass, buoy diameter, natural frequency of the radial motion):"),
-        OSCILLATOR,
-        Table(tuple(columns), tuple(rows), "The oscillator as run, from `scene.toml`."),
-        Text("Each piece, taut or slack, has a closed form, so there is no time step:"),
-        PIECE,
-        Text(
-            "The times of switching are bracketed and found to rounding. None is missed, because an interval counts "
-            "as free of crossings only where a bound of the curvature proves it; else it is halved:"
-        ),
-        CROSSING,
-        Text(
-            "The force aγ is continuous at γ = 0. So the velocity field is too, and the tangent map carries over a "
-            "switch without a jump: the saltation matrix is the identity. With two tangent vectors "
-            "re-orthonormalised every period,"
-        ),
-        EXPONENTS,
-    ]
+    columns = heads("symbol", "what it is", ("value", ""), "source")
+    table = Table(columns, tuple(rows), "The oscillator as run, from `scene.toml`.")
+    first = section_items("oscillator_solved", "Equation and method")
+    return [*first, table, *section_items("oscillator_method", "")]

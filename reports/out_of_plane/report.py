@@ -5,8 +5,9 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from ..buoy_sweep.tables import accuracy_items
-from ..parts.content import Heading, Item, Notice, Report, Text
-from ..parts.provenance import provenance_items, scene_table, timing_items
+from ..parts.content import Heading, Item, Notice, Report
+from ..parts.provenance import provenance_items, scene_items, timing_items
+from ..parts.sections import section_items
 from ..parts.wording import count, listed, number
 from . import sections
 from .runs import VARIED, Run, Study, read_study
@@ -23,14 +24,7 @@ def report(directory: str | Path) -> Report:
     study = read_study(directory)
     scene = study.folder.scene
     items = [
-        Heading("Question"),
-        Text(
-            "Waves of one direction move a tethered buoy in a plane. Is that plane stable? The paper (Tjavaras, Zhu, "
-            "Liu, Triantafyllou and Yue, “The mechanics of highly-extensible cables”, Journal of Sound and Vibration "
-            "213(4), 1998, section 4.2.2 and figure 20) pushes the buoy across the waves by 1e-5 m/s and reports that "
-            "the motion across the plane does not grow at kA = 0.016, and that at kA = 0.13 it grows exponentially and "
-            "becomes comparable with the motion in the plane. Here buoy and rope are looked at apart."
-        ),
+        *section_items("out_of_plane", "Question"),
         Heading("Short answer"),
         *sections.answer_items(study),
         *sections.history_items(study),
@@ -104,5 +98,4 @@ def _scene_and_times(study: Study) -> Iterator[Item]:
         varied |= {"output.tangent_vectors": "1 in planar runs", "output.lateral_growth": "yes in planar runs"}
     if any(run["profiles"] for run in study.runs):
         varied["output.profiles"] = "yes in one run"
-    caption = "The scene, from `scene.toml`; defaults are those of the scene `tethered_buoy`."
-    yield from (Heading("Scene"), scene_table(study.folder.scene, "tethered_buoy", varied, caption))
+    yield from scene_items(study.folder.scene, "tethered_buoy", varied)

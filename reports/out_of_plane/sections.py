@@ -128,7 +128,8 @@ def dependence_items(study: Study) -> Iterator[Item]:
     if not large:
         return
     small = [run for run in study.over(bending_stiffness_Nm2=None) if run not in large]
-    panels = [(body, [_curve(large, body, EI) for EI in _values(large, "bending_stiffness_Nm2")]) for body in BODIES]
+    varied = sorted({run["bending_stiffness_Nm2"] for run in large})
+    panels = [(body, [_curve(large, body, EI) for EI in varied]) for body in BODIES]
     caption = (
         f"Largest lateral distance in the second half of each run at kA = {number(study.base['steepness'])} over the "
         "depth. Filled: bursts, or neither; open: exponential decay, and what is left of it."
@@ -142,10 +143,6 @@ def dependence_items(study: Study) -> Iterator[Item]:
     ]  # fmt: skip
     caption = "Every depth and stiffness of the large wave, every stiffness of the small one."
     yield study.table(names, [*large, *(run for run in small if run["steepness"] != study.base["steepness"])], caption)
-
-
-def _values(runs, column: str) -> list[float]:
-    return sorted({run[column] for run in runs})
 
 
 def _curve(runs, body: str, stiffness: float) -> tuple:

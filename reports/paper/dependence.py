@@ -11,7 +11,7 @@ from ..figures.depth_exponents import Exponents, depth_exponents
 from ..out_of_plane.runs import read_study
 from ..out_of_plane.sections import comparison_items
 from ..parts.columns import Quantity, plus_minus, table_of, value
-from ..parts.content import Column, Figure, Heading, Item, Table, Text
+from ..parts.content import Figure, Heading, Item, Table, Text, heads
 from ..parts.folder import Folder, FolderError, provenance_of, read_files
 from ..parts.wording import EMPTY, number, percent
 
@@ -67,7 +67,7 @@ def written(name: str, **taken: object) -> Table:
     """A table of tables.toml by its name, which no run decides; taken: what stands in braces there."""
     told = tomllib.loads(Path(__file__).with_name("tables.toml").read_text(encoding="utf-8"))[name]
     rows = tuple(tuple(cell.format(**taken) for cell in row) for row in told["rows"])
-    return Table(tuple(Column(title, align="left") for title in told["heads"]), rows, told["caption"], small=True)
+    return Table(heads(*told["heads"]), rows, told["caption"], small=True)
 
 
 def _table(part: Path) -> tuple[list[dict], dict[str, Quantity]]:
@@ -112,18 +112,18 @@ def _depth_figure(rows: list[dict]) -> Figure:
     return Figure(depth_exponents(panels, r"$H$ (m)"), caption, alt)
 
 
-def _regimes(rows: list[dict], columns: dict[str, Quantity], steepness: float) -> Table:
+def _regimes(rows: list[dict], told: dict[str, Quantity], steepness: float) -> Table:
     pairs = list(dict.fromkeys((row[ABOVE], row[DROWNED]) for row in rows))
-    heads = (Column("H", "m"), *(Column(", ".join(pair), align="left") for pair in pairs))
+    columns = heads(("H", "m"), *(", ".join(pair) for pair in pairs))
     found = [_like(rows, steepness=steepness, **{ABOVE: word, DROWNED: under}) for word, under in pairs]
     by_depth = [{row[DEPTH]: row for row in some} for some in found]
     depths = sorted({depth for some in by_depth for depth in some})
-    cells = tuple((number(H), *(_cell(some.get(H), columns) for some in by_depth)) for H in depths)
+    cells = tuple((number(H), *(_cell(some.get(H), told) for some in by_depth)) for H in depths)
     caption = (
         f"Regime and largest exponent, bits per wave period, at kA = {number(steepness)}, by depth, treatment of the "
         "waves above still water and of buoyancy."
     )
-    return Table(heads, cells, caption, small=True)
+    return Table(columns, cells, caption, small=True)
 
 
 def _cell(row: dict | None, columns: dict[str, Quantity]) -> str:

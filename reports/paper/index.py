@@ -9,7 +9,7 @@ import re
 from functools import cache
 from pathlib import Path
 
-from ..parts.content import Column, Heading, Item, Table, Text
+from ..parts.content import Heading, Item, Table, Text, heads
 
 ROOT = Path(__file__).resolve().parents[2]
 PACKAGES = ("engine", "analysis", "reports")
@@ -67,8 +67,7 @@ def index_items() -> list[Item]:
     text = "To find an equation or a figure in the sources search for it as written here; NOTATION.md has the list too."
     items: list[Item] = [Heading("Where to find what"), Text(text)]
     for kind, caption in CAPTIONS.items():
-        heads = tuple(Column(head, align="left") for head in HEADS[kind])
-        items.append(Table(heads, tuple(rows_of(kind)), caption, small=True))
+        items.append(Table(heads(*HEADS[kind]), tuple(rows_of(kind)), caption, small=True))
     return items
 
 

@@ -7,6 +7,7 @@ from ..parts.content import Bullets, Heading, Item, Links, Notice, Report, Text
 from ..parts.folder import Folder, read_folder
 from ..parts.judged import FAILS, HOLDS_IF, Judged, counted, read_statements, statements_table
 from ..parts.provenance import provenance_items
+from ..parts.sections import section_items
 from ..parts.wording import count, decimals
 from .dependence import dependence_items, written
 from .figures import PREFACE, figures_of, left_out
@@ -35,11 +36,6 @@ TOPICS = {
     "The buoy in waves (section 4.2)": ("4.2",),
     "Conclusions (section 5)": ("5",),
 }
-QUESTION = (
-    "The paper simulates a synthetic line that breaks and a buoy on a short tether in waves, and draws conclusions "
-    "from both. Here its figures are drawn again from runs of this workbench, each of its statements gets a verdict "
-    "with a number and the evidence for it, and what it leaves out is varied to see what the answer depends on."
-)
 VERDICTS = (
     "Claims are in our words. A verdict follows from checks at each place where it was looked: it “holds” where all "
     "pass, “does not hold” where none does, and otherwise “holds if”, with the places; a dash: the runs in this folder "
@@ -68,7 +64,7 @@ def report(directory: str | Path) -> Report:
 
 
 def _question(folder: Folder, judged: tuple[Judged, ...]) -> list[Item]:
-    items: list[Item] = [Heading("Question"), Text(QUESTION), Heading("Short answer"), Bullets(short_answer(judged))]
+    items: list[Item] = [*section_items("paper", "Question"), Heading("Short answer"), Bullets(short_answer(judged))]
     if folder.provenance.get("quick"):
         lines = ("This folder was made with `--quick`: runs are short and few; nothing is to be concluded from it.",)
         items.append(Notice("warning", "A quick look", lines))
@@ -101,11 +97,10 @@ def _parts(folder: Folder) -> list[Item]:
     jobs = folder.provenance.get("jobs")
     at_once = f", {count(jobs, 'run')} at a time" if isinstance(jobs, int) else ""
     minutes = decimals(float(folder.table["total_s"].sum()) / 60.0, 1)
-    whole = f"All parts together took {minutes} minutes{at_once}."
-    if not links:
-        return [Heading("Parts"), table, Text(f"{whole} The parts' own reports were left out.")]
     each = "Each part has a report of its own, with all runs, grids, warnings and sources:"
-    return [Heading("Parts"), table, Text(f"{whole} {each}"), Links(links)]
+    said = each if links else "The parts' own reports were left out."
+    text = Text(f"All parts together took {minutes} minutes{at_once}. {said}")
+    return [Heading("Parts"), table, text, *([Links(links)] if links else [])]
 
 
 def _figures(directory: Path) -> list[Item]:

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import csv
+import io
 import json
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -14,6 +15,7 @@ from .columns import HEADER, Quantity
 
 if TYPE_CHECKING:
     import pandas
+    import xarray
 
     from engine import Scene, Trajectory
 
@@ -92,7 +94,7 @@ def read_folder(directory: str | Path, needed: tuple[str, ...] = ()) -> Folder:
     Raises FolderError naming every part that is missing or cannot be read.
     """
     directory = Path(directory)
-    found, faults = _found(directory, PARTS)
+    found, faults = _found(directory, PARTS, _READERS)
     columns, table = found.get("columns.csv"), None
     if columns is not None and "table.csv" in found:
         try:
@@ -104,13 +106,17 @@ def read_folder(directory: str | Path, needed: tuple[str, ...] = ()) -> Folder:
     return Folder(directory, found["provenance.json"], table, found["scene.toml"], columns)
 
 
-def read_files(directory: str | Path, wanted: Mapping[str, str]) -> dict[str, object]:
+def read_files(
+    directory: str | Path, wanted: Mapping[str, str], own: Mapping[str, Callable[[Path], object]] | None = None
+) -> dict[str, object]:
     """{name: content}: rows {column: text} of a .csv file, the object of a .json file, the scene of a .toml file, the
-    `Quantity` of every column of a dictionary of columns by name, the paths in a folder.
+    `Quantity` of every column of a dictionary of columns by name, the arrays of a .nc file, text of a .txt file, the
+    paths in a folder.
 
-    wanted: name of a file or folder -> what it holds. Raises FolderError naming all that is missing or cannot be read.
+    wanted: name of a file or folder -> what it holds. own: ending of a name -> reader in place of the usual one.
+    Raises FolderError naming all that is missing or cannot be read.
     """
-    found, faults = _found(Path(directory), wanted)
+    found, faults = _found(Path(directory), wanted, _READERS | (own or {}))
     if faults:
         raise FolderError(Path(directory), faults)
     return found
@@ -141,20 +147,15 @@ def provenance_of(directory: str | Path) -> dict:
         return {}
 
 
-def no_folder(directory: Path) -> str:
-    """Why a path that is no folder is none, and what is wanted instead."""
-    there = "it is a file" if directory.exists() else "there is no such folder"
-    return f"{there}; give the folder that a campaign wrote (its --out), for instance results/buoy_sweep"
-
-
-def _found(directory: Path, wanted: Mapping[str, str]) -> tuple[dict[str, object], list[str]]:
+def _found(directory: Path, wanted: Mapping[str, str], readers: Mapping) -> tuple[dict[str, object], list[str]]:
     """What can be read of the wanted, by name, and what is wrong with the rest."""
     if not directory.is_dir():
-        return {}, [no_folder(directory)]
+        there = "it is a file" if directory.exists() else "there is no such folder"
+        return {}, [f"{there}; give the folder that a campaign wrote (its --out), for instance results/buoy_sweep"]
     found, faults = {}, []
     for name, meaning in wanted.items():
         path = directory / name
-        reader = next(read for ending, read in _READERS.items() if name.endswith(ending))
+        reader = next(read for ending, read in readers.items() if name.endswith(ending))
         if not path.exists():
             faults.append(f"{name} is missing ({meaning}{f'; {_OLD}' if reader is _columns else ''})")
             continue
@@ -194,7 +195,25 @@ def _scene(path: Path) -> Scene:
     return load_scene(path)
 
 
-_READERS = {"columns.csv": _columns, ".csv": _rows, ".json": _json, ".toml": _scene, "": lambda path: [*path.iterdir()]}
+def read_arrays(content: bytes) -> xarray.Dataset:
+    """The labelled arrays of a netCDF-3 file from its bytes. Raises ValueError for damaged ones."""
+    import xarray
+
+    try:
+        return xarray.load_dataset(io.BytesIO(content), engine="scipy")
+    except Exception as error:  # a damaged header can make the reader fail in any way at all
+        raise ValueError(f"truncated, damaged, or no netCDF-3 file ({type(error).__name__})") from None
+
+
+_READERS = {
+    "columns.csv": _columns,
+    ".csv": _rows,
+    ".json": _json,
+    ".toml": _scene,
+    ".nc": lambda path: read_arrays(path.read_bytes()),
+    ".txt": lambda path: path.read_text(encoding="utf-8"),
+    "": lambda path: [*path.iterdir()],
+}
 
 
 def _table(rows: list[dict[str, str]], needed: tuple[str, ...], told: dict[str, Quantity]) -> pandas.DataFrame:

@@ -9,6 +9,7 @@ import json
 import math
 import re
 from collections.abc import Iterable
+from dataclasses import asdict, replace
 from functools import lru_cache
 from html import escape
 
@@ -72,10 +73,7 @@ def explorer_json(explorer: Explorer) -> str:
         "y_label": explorer.y_label,
         "low": low,
         "high": high if high > low else low + 1.0,
-        "columns": [
-            {"at": column.at, "name": column.name, "anchor": column.anchor, "points": values}
-            for column, values in zip(explorer.columns, points, strict=True)
-        ],
+        "columns": [asdict(replace(one, points=some)) for one, some in zip(explorer.columns, points, strict=True)],
         "lower": [
             {"label": label, "values": _numbers(values), "errors": _numbers(errors)}
             for label, values, errors in explorer.lower

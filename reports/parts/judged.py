@@ -31,13 +31,9 @@ def statements_table(rows: Iterable[Judged], caption: str) -> Table:
     """Number, place, statement, verdict, evidence of the rows."""
     titles = (("place", 1), ("the paper", 3), ("verdict", 3), ("the runs", 5), ("decided by, evidence", 3))
     heads = (Column("no."), *(Column(title, align="left", share=share) for title, share in titles))
-    body = tuple(
-        (*(row[name] for name in COLUMNS[:3]), said(row), row["found"], f"{row['threshold']}. {row['evidence']}")
-        for row in rows
-    )
-    return Table(heads, body, caption, small=True)
-
-
-def said(row: Judged) -> str:
-    """Verdict and condition."""
-    return f"{row['verdict']}: {row['condition']}" if row["condition"] else row["verdict"]
+    body = []
+    for row in rows:
+        verdict = f"{row['verdict']}: {row['condition']}" if row["condition"] else row["verdict"]
+        first = (row[name] for name in COLUMNS[:3])
+        body.append((*first, verdict, row["found"], f"{row['threshold']}. {row['evidence']}"))
+    return Table(heads, tuple(body), caption, small=True)

@@ -21,6 +21,12 @@ _TIMES = {
 }
 
 
+def scene_items(scene: Scene, shipped: str, varied: dict[str, str], caption: str = "") -> list[Item]:
+    """The section with `scene_table`; caption: "" for that of a scene whose defaults are the shipped one's."""
+    usual = f"The scene as run, from `scene.toml`; defaults are those of the scene `{shipped}`."
+    return [Heading("Scene"), scene_table(scene, shipped, varied, caption or usual)]
+
+
 def scene_table(scene: Scene, shipped: str, varied: dict[str, str], caption: str) -> Table:
     """Value, unit and source of every parameter of a scene.
 

@@ -49,11 +49,6 @@ def picture_of(figure: Figure, kind: str = "svg") -> Picture:
     return Picture(target.getvalue(), kind)
 
 
-def prints_of(figure: Figure) -> tuple[Picture, Picture]:
-    """The drawing twice, as SVG and as PNG; call it inside the `sheet` block."""
-    return picture_of(figure, "svg"), picture_of(figure, "png")
-
-
 def kind_for(points: int) -> str:
     """ "svg" for a drawing of few marks, "png" for one of many."""
     return "png" if points > MANY_POINTS else "svg"

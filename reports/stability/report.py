@@ -16,6 +16,7 @@ from ..parts.columns import Quantity, table_of, value
 from ..parts.content import Bullets, Figure, Heading, Item, Notice, Report, Table, Text, heads
 from ..parts.folder import FolderError, read_files
 from ..parts.provenance import provenance_items, timing_items
+from ..parts.sections import section_items
 from ..parts.wording import EMPTY, count, decimals, listed, number
 
 VERDICTS = ("ok", "refused", "known limit", "unexplained")
@@ -25,13 +26,7 @@ def report(directory: str | Path) -> Report:
     """The content of the report on a stability folder. Raises FolderError for a folder that is not one."""
     study = read_study(directory)
     items: list[Item] = [
-        Heading("Question"),
-        Text(
-            "Does the engine answer for every scene that it accepts, and does it say why where it cannot? Stiff and "
-            "extreme scenes are run to a verdict each. Random scenes, valid and invalid, are given to it. The "
-            "eigenvalues of its time step are compared with the closed form. Scenes are timed with and without each "
-            "of their parts."
-        ),
+        *section_items("stability", "Question"),
         Heading("Short answer"),
         Bullets(tuple(_answers(study))),
         *unexplained_items(study),
@@ -52,7 +47,12 @@ def _answers(study: Study) -> Iterator[str]:
     said = listed(f"{counts[word]} {word}" for word in VERDICTS if counts[word])
     yield f"{count(len(study.cases), 'case')}: {said}."
     if study.random:
-        yield sound(study)
+        valid, unsound = sum(row["kind"] == "valid" for row in study.random), len(study.unsound())
+        slowest = max(value(row, "wall_s") for row in study.random)
+        yield (
+            f"Random scenes: {valid} valid and {len(study.random) - valid} invalid; {unsound} of them did anything "
+            f"else than {', '.join(SOUND)}. The slowest took {number(slowest, 3)} s."
+        )
     for row in study.cases:
         if row["group"] == "drift" and math.isfinite(value(row, "measured")):
             yield (
@@ -188,16 +188,6 @@ def unexplained_items(study: Study) -> list[Item]:
     if lines:
         return [Notice("warning", "Unexplained", tuple(lines))]
     return [Notice("note", "Nothing unexplained", ("Every case ended as expected, or with a reason given below.",))]
-
-
-def sound(study: Study) -> str:
-    """The random scenes in one sentence."""
-    valid, unsound = sum(row["kind"] == "valid" for row in study.random), len(study.unsound())
-    slowest = max(value(row, "wall_s") for row in study.random)
-    return (
-        f"Random scenes: {valid} valid and {len(study.random) - valid} invalid; {unsound} of them did anything else "
-        f"than {', '.join(SOUND)}. The slowest took {number(slowest, 3)} s."
-    )
 
 
 def map_items(study: Study) -> Iterator[Item]:

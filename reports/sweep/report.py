@@ -9,7 +9,7 @@ from ..figures.maps import Map, maps
 from ..parts.columns import Quantity, table_of
 from ..parts.content import Bullets, Figure, Heading, Item, Notice, Report, Table, Text, plain
 from ..parts.folder import FolderError, read_folder
-from ..parts.provenance import provenance_items, scene_table, timing_items
+from ..parts.provenance import provenance_items, scene_items, timing_items
 from ..parts.wording import EMPTY, count, listed, number, ranges
 from .quantities import Measured, at, extremes, measured, over_key, series
 
@@ -45,8 +45,7 @@ def report(directory: str | Path) -> Report:
         Heading("Table of runs"),
         *_tables(folder.columns, keys, rows),
         *timing_items(folder),
-        Heading("Scene"),
-        scene_table(folder.scene, shipped, varied, _SCENE),
+        *scene_items(folder.scene, shipped, varied, _SCENE),
         *provenance_items(folder),
     ]
     return Report(f"Sweep of {said.replace('`', '')}", folder.scene.title or folder.scene.name, tuple(items))
@@ -123,9 +122,8 @@ def _tables(columns: Mapping[str, Quantity], keys: Sequence[Quantity], rows) -> 
         cells = {column.cell(row[name]) for row in rows}
         if name not in own and cells != {EMPTY} and max(map(len, cells)) <= _LONGEST:
             names.append(name)
-    parts = batched(names, _COLUMNS)
-    which = [f", columns {k} of {len(parts)}" if len(parts) > 1 else "" for k in range(1, len(parts) + 1)]
-    return [
-        table_of(columns, [*own, *part], rows, f"Every run{said}.", own)
-        for part, said in zip(parts, which, strict=True)
-    ]
+    parts, tables = batched(names, _COLUMNS), []
+    for place, part in enumerate(parts, 1):
+        which = f", columns {place} of {len(parts)}" if len(parts) > 1 else ""
+        tables.append(table_of(columns, [*own, *part], rows, f"Every run{which}.", own))
+    return tables

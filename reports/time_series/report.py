@@ -1,11 +1,11 @@
 """The report on any column of a file: the verdict first, the curves behind it, every test. From the folder alone."""
 
-import json
+from functools import partial
 from pathlib import Path
 
 from ..figures.series_panels import SHOWN, growth_and_dimension, record_and_spectrum, return_map
-from ..parts.content import Column, Figure, Heading, Item, Listing, Report, Table, Text
-from ..parts.folder import FolderError, no_folder
+from ..parts.content import Figure, Heading, Item, Listing, Report, Table, Text, heads
+from ..parts.folder import FolderError, read_files
 from ..parts.wording import printed
 
 CURVES = ("series", "spectrum", "section", "divergence", "dimension")
@@ -19,24 +19,11 @@ def read_judged(directory: str | Path) -> dict[str, object]:
     """
     import pandas
 
-    directory = Path(directory)
-    if not directory.is_dir():
-        raise FolderError(directory, [no_folder(directory)])
-    found, faults = {}, []
-    readers = dict.fromkeys(("answer.json", "provenance.json"), lambda path: json.loads(path.read_text("utf-8")))
-    readers["answer.txt"] = lambda path: path.read_text("utf-8")
-    readers |= {f"{name}.csv": lambda path: pandas.read_csv(path, dtype=float) for name in CURVES}
-    for name, reader in readers.items():
-        try:
-            found[name] = reader(directory / name)
-        except FileNotFoundError:
-            faults.append(f"{name} is missing (python -m analysis writes it)")
-        except (OSError, ValueError) as error:
-            faults.append(f"{name} cannot be read: {error}")
-    if "measures" not in found.get("answer.json", ["measures"]):
-        faults.append("answer.json is of an older version: run the command again")
-    if faults:
-        raise FolderError(directory, faults)
+    names = ("answer.json", "provenance.json", "answer.txt", *(f"{name}.csv" for name in CURVES))
+    curves = {".csv": partial(pandas.read_csv, dtype=float)}
+    found = read_files(directory, dict.fromkeys(names, "python -m analysis writes it"), curves)
+    if "measures" not in found["answer.json"]:
+        raise FolderError(Path(directory), ["answer.json is of an older version: run the command again"])
     return found
 
 
@@ -57,7 +44,7 @@ def _verdict(answer: dict) -> list[Item]:
         Heading("Answer"),
         Text(f"The motion is {answer['regime']}: {answer['reason']}."),
         Text(f"{answer['record']}. The section has {answer['section']['how']}."),
-        Table(_heads("measure", "value", "unit", "from"), rows, caption),
+        Table(heads("measure", ("value", ""), "unit", "from"), rows, caption),
     ]
 
 
@@ -98,9 +85,9 @@ def _evidence(answer: dict) -> list[Item]:
     for one in answer["evidence"]:
         numbers = ("none" if one[name] is None else f"{one[name]:.4g}" for name in ("value", "threshold"))
         rows.append((one["name"], PASSED[one["passed"]], *numbers, printed(one["sentence"])))
-    heads = _heads("test", "passed", "value", "compared with", "meaning")
+    columns = heads("test", "passed", ("value", ""), ("compared with", ""), "meaning")
     caption = "Every test behind the word, in the order in which it was made (`analysis/verdicts.py`)."
-    return [Heading("Evidence"), Table(heads, tuple(rows), caption, small=True)]
+    return [Heading("Evidence"), Table(columns, tuple(rows), caption, small=True)]
 
 
 def _origin(source: dict, page: str) -> list[Item]:
@@ -108,8 +95,3 @@ def _origin(source: dict, page: str) -> list[Item]:
     lines += [f"{name} {version}" for name, version in source["versions"].items()]
     said = [Heading("The answer as printed"), Listing(page)]
     return [Heading("Where it comes from"), Listing("\n".join(lines)), *said]
-
-
-def _heads(*titles: str) -> tuple[Column, ...]:
-    numbers = ("value", "compared with")
-    return tuple(Column(title, align="right" if title in numbers else "left") for title in titles)

@@ -1,4 +1,6 @@
-"""Systems with known largest exponents [nats/time]: right-hand sides and sampled records.
+"""Motions whose regime or largest exponent is known by theory: orbits of maps, sampled records of flows.
+
+Largest exponents, nats/time:
 
 Lorenz 10, 28, 8/3             0.9056      Sprott, Chaos and Time-Series Analysis, 2003; Viswanath 1998: 0.90566
 Rossler 0.2, 0.2, 5.7          0.0714      Sprott 2003
@@ -10,12 +12,11 @@ logistic 4                     ln 2        exact
 two tones                      0           exact
 """
 
-from dataclasses import dataclass
+from functools import cache
 
-import numba
 import numpy as np
 
-from tests.analysis import maps
+from analysis.compiled import kernel
 
 TRUTH = {
     "lorenz": 0.9056,
@@ -27,61 +28,36 @@ TRUTH = {
     "logistic": np.log(2.0),
     "two_tone": 0.0,
 }
-
-
-@dataclass(frozen=True)
-class Flow:
-    """rhs(t, y); start; which coordinate is observed; sampling step; steps of integration in one of these."""
-
-    rhs: object
-    start: tuple
-    observed: int
-    step: float
-    substeps: int
-
-
-@numba.njit
-def _lorenz(t, y):
-    return np.array([10.0 * (y[1] - y[0]), y[0] * (28.0 - y[2]) - y[1], y[0] * y[1] - 8.0 / 3.0 * y[2]])
-
-
-@numba.njit
-def _rossler(t, y):
-    return np.array([-y[1] - y[2], y[0] + 0.2 * y[1], 0.2 + y[2] * (y[0] - 5.7)])
-
-
-@numba.njit
-def _duffing(t, y):
-    return np.array([y[1], -0.25 * y[1] + y[0] - y[0] ** 3 + 0.4 * np.cos(t)])
-
-
-@numba.njit
-def _ueda(t, y):
-    return np.array([y[1], -0.05 * y[1] - y[0] ** 3 + 7.5 * np.cos(t)])
-
-
-@numba.njit
-def _pendulum(t, y):
-    return np.array([y[1], -0.05 * y[1] - np.sin(y[0]) + 0.6 * np.sin(0.7 * t)])
-
-
-@numba.njit
-def _van_der_pol(t, y):
-    return np.array([y[1], (1.0 - y[0] * y[0]) * y[1] - y[0]])
-
-
-FLOWS = {
-    "lorenz": Flow(_lorenz, (1.0, 1.0, 20.0), 0, 0.03, 10),
-    "rossler": Flow(_rossler, (1.0, 1.0, 0.0), 0, 0.1, 4),
-    "duffing": Flow(_duffing, (0.1, 0.1), 0, 2 * np.pi / 50, 5),
-    "ueda": Flow(_ueda, (2.5, 0.0), 0, 2 * np.pi / 50, 5),
-    "pendulum": Flow(_pendulum, (0.1, 0.0), 1, 2 * np.pi / 0.7 / 50, 8),
-    "van_der_pol": Flow(_van_der_pol, (1.0, 0.0), 0, 0.1, 4),
+FLOWS = {  # start; which coordinate is observed; sampling step; steps of integration in one of these
+    "lorenz": ((1.0, 1.0, 20.0), 0, 0.03, 10),
+    "rossler": ((1.0, 1.0, 0.0), 0, 0.1, 4),
+    "duffing": ((0.1, 0.1), 0, 2 * np.pi / 50, 5),
+    "ueda": ((2.5, 0.0), 0, 2 * np.pi / 50, 5),
+    "pendulum": ((0.1, 0.0), 1, 2 * np.pi / 0.7 / 50, 8),
+    "van_der_pol": ((1.0, 0.0), 0, 0.1, 4),
 }
+LORENZ, ROSSLER, DUFFING, UEDA, PENDULUM, _ = range(len(FLOWS))
 
 
-@numba.njit
-def _march(rhs, y, step, substeps, skip, samples):
+@kernel
+def _rate(flow, t, y):
+    if flow == LORENZ:
+        return np.array([10.0 * (y[1] - y[0]), y[0] * (28.0 - y[2]) - y[1], y[0] * y[1] - 8.0 / 3.0 * y[2]])
+    if flow == ROSSLER:
+        return np.array([-y[1] - y[2], y[0] + 0.2 * y[1], 0.2 + y[2] * (y[0] - 5.7)])
+    if flow == DUFFING:
+        force = -0.25 * y[1] + y[0] - y[0] ** 3 + 0.4 * np.cos(t)
+    elif flow == UEDA:
+        force = -0.05 * y[1] - y[0] ** 3 + 7.5 * np.cos(t)
+    elif flow == PENDULUM:
+        force = -0.05 * y[1] - np.sin(y[0]) + 0.6 * np.sin(0.7 * t)
+    else:  # van der Pol
+        force = (1.0 - y[0] * y[0]) * y[1] - y[0]
+    return np.array([y[1], force])
+
+
+@kernel
+def _march(flow, y, step, substeps, skip, samples):
     out = np.empty((samples, y.size))
     h = step / substeps
     for i in range(skip + samples):
@@ -89,46 +65,79 @@ def _march(rhs, y, step, substeps, skip, samples):
             out[i - skip] = y
         for j in range(substeps):
             t = i * step + j * h
-            k1 = rhs(t, y)
-            k2 = rhs(t + 0.5 * h, y + 0.5 * h * k1)
-            k3 = rhs(t + 0.5 * h, y + 0.5 * h * k2)
-            k4 = rhs(t + h, y + h * k3)
+            k1 = _rate(flow, t, y)
+            k2 = _rate(flow, t + 0.5 * h, y + 0.5 * h * k1)
+            k3 = _rate(flow, t + 0.5 * h, y + 0.5 * h * k2)
+            k4 = _rate(flow, t + h, y + h * k3)
             y = y + h / 6.0 * (k1 + 2.0 * k2 + 2.0 * k3 + k4)
     return out
 
 
+@cache
 def states(name, samples, step=None, skip_time=500.0):
-    """States (samples, d) on the attractor."""
-    flow = FLOWS[name]
-    step = flow.step if step is None else step
-    substeps = max(1, int(np.ceil(step * flow.substeps / flow.step)))
-    return _march(flow.rhs, np.array(flow.start), step, substeps, int(np.ceil(skip_time / step)), samples)
+    """States (samples, d) on the attractor; one array for all who ask, not to be written into."""
+    start, _, own, substeps = FLOWS[name]
+    step = own if step is None else step
+    substeps = max(1, int(np.ceil(step * substeps / own)))
+    found = _march(list(FLOWS).index(name), np.array(start), step, substeps, int(np.ceil(skip_time / step)), samples)
+    found.flags.writeable = False
+    return found
 
 
 def record(name, samples=20_000, noise=0.0, seed=0):
     """(series, step) of a flow, a map or the two tones: the observed coordinate, with white noise of `noise` standard
     deviations of the series."""
     if name in FLOWS:
-        return noisy(states(name, samples)[:, FLOWS[name].observed].copy(), noise, seed), FLOWS[name].step
-    make, step = {"henon": (henon, 1.0), "logistic": (logistic, 1.0), "two_tone": (two_tone, 0.1)}[name]
-    return noisy(make(samples), noise, seed), step
+        _, observed, step, _ = FLOWS[name]
+        series = states(name, samples)[:, observed].copy()
+    elif name == "two_tone":
+        series, step = two_tone(samples), 0.1
+    else:
+        orbit = henon(samples, skip=999)[:, 0] if name == "henon" else logistic(4.0, samples, 0.1234, 999)
+        series, step = orbit, 1.0
+    return noisy(series, noise, seed), step
 
 
 def noisy(x, share, seed):
     return x + share * np.std(x) * np.random.default_rng(seed).normal(size=len(x)) if share else x
 
 
-def henon(samples=20_000):
-    """x of the Henon map, a = 1.4, b = 0.3."""
-    return maps.henon(samples, skip=999)[:, 0]
-
-
-def logistic(samples=20_000):
-    """x of the logistic map at r = 4."""
-    return maps.logistic(4.0, samples, 0.1234, 999)
-
-
 def two_tone(samples=20_000, step=0.1):
     """sin t + 0.7 sin(1.618... t + 1): a torus."""
     t = step * np.arange(samples)
     return np.sin(t) + 0.7 * np.sin(1.618033988749895 * t + 1.0)
+
+
+def logistic(rate, points, start=0.3, skip=2000):
+    """x -> rate x (1 - x)."""
+    orbit, x = np.empty(points), start
+    for k in range(-skip, points):
+        x = rate * x * (1.0 - x)
+        if k >= 0:
+            orbit[k] = x
+    return orbit
+
+
+def henon(points, a=1.4, b=0.3, skip=200, start=(0.1, 0.1)):
+    """x -> 1 - a x^2 + y, y -> b x."""
+    orbit, (x, y) = np.empty((points, 2)), start
+    for k in range(-skip, points):
+        x, y = 1.0 - a * x * x + y, b * x
+        if k >= 0:
+            orbit[k] = x, y
+    return orbit
+
+
+def circle_map(coupling, rotation, points, skip=500, start=0.1):
+    """angle -> angle + rotation - coupling/(2 pi) sin(2 pi angle), as (cos, sin); a homeomorphism for coupling < 1."""
+    angle, theta = np.empty(points), start
+    for k in range(-skip, points):
+        theta = theta + rotation - coupling / (2.0 * np.pi) * np.sin(2.0 * np.pi * theta)
+        if k >= 0:
+            angle[k] = theta
+    return circle(angle)
+
+
+def circle(turns):
+    """(cos, sin) of angles in turns."""
+    return np.column_stack([np.cos(2.0 * np.pi * turns), np.sin(2.0 * np.pi * turns)])

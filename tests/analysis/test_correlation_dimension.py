@@ -4,8 +4,7 @@ import numpy as np
 import pytest
 
 from analysis import correlation_dimension
-from tests.analysis.maps import henon
-from tests.analysis.systems import states
+from tests.analysis.systems import henon, states
 
 
 # 1.21 +- 0.01: Grassberger & Procaccia 1983; 1.220 +- 0.036: Sprott 2003. The slope of this set swings with the radius

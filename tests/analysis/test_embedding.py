@@ -67,7 +67,7 @@ def test_delay_dimensions_and_cells_of_ones_own_are_used_and_their_curves_kept()
 def test_noise_is_told_from_motion_by_caos_second_average():
     noise = choose_embedding(np.random.default_rng(0).normal(size=5000))
     assert np.all(np.abs(noise.e2[1:] - 1.0) < 0.1)
-    assert np.max(np.abs(choose_embedding(henon(5000)).e2 - 1.0)) > 0.3
+    assert np.max(np.abs(choose_embedding(henon(5000)[:, 0]).e2 - 1.0)) > 0.3
 
 
 def test_nearest_neighbours_outside_the_window_are_those_of_brute_force():

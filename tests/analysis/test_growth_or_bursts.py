@@ -39,7 +39,7 @@ def mathieu(frequency, strength, periods, starts):
     t = math.pi / 200 * np.arange(200 * periods + 1)
     return solve_ivp(
         lambda t, s: [s[1], -(frequency + strength * math.cos(2.0 * t)) * s[0]],
-        (0.0, t[-1]), starts, rtol=1e-10, atol=1e-12, t_eval=t,
+        (0.0, t[-1]), starts, "DOP853", t, rtol=1e-10, atol=1e-12,
     ).y  # fmt: skip
 
 

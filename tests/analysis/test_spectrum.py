@@ -52,35 +52,6 @@ def test_squares_of_both_sides_add_up_to_the_mean_square(samples):
     assert np.sum(weight * s.amplitude**2) == pytest.approx(np.mean(window**2), rel=1e-13)
 
 
-def test_the_sum_is_linear_and_the_rest_value_changes_only_bin_zero():
-    def transform(series):
-        return spectrum(series, 0.5, 10.0, start_periods=5, periods=12).transform
-
-    x, y = np.random.default_rng(3).normal(size=(2, 401))
-    assert np.allclose(transform(2 * x - 3 * y), 2 * transform(x) - 3 * transform(y), atol=1e-14)
-    assert np.allclose(transform(x)[1:], transform(x + 3.0)[1:], atol=1e-13)
-
-
-@pytest.mark.parametrize("shift", [1, 3])
-def test_moving_a_window_over_a_periodic_motion_changes_nothing(shift):
-    """The phase counts from the first sample, not from tau_0: a T-periodic motion looks the same from every period."""
-    x = np.exp(np.sin(WAVE * STEP * np.arange(7001)))
-    here, there = (spectrum(x, STEP, T, start_periods=40 + moved).transform for moved in (0, shift))
-    assert np.allclose(here, there, atol=1e-13)
-
-
-@pytest.mark.parametrize("shift", [0.37, 1.0, 12.6])
-def test_delaying_the_record_turns_the_phase_of_a_line(shift):
-    """x(t - d) has e^{i w d} X(w) for a motion on the bins."""
-
-    def of(time):
-        return spectrum(np.cos(WAVE * time) + 0.2 * np.sin(WAVE / 2 * time), STEP, T, start_periods=3, periods=10)
-
-    plain, delayed = of(TIME[:1501]), of(TIME[:1501] - shift)
-    turned = plain.transform * np.exp(1j * plain.angular_frequency_radps * shift)
-    assert np.allclose(delayed.transform, turned, atol=1e-13)
-
-
 def test_the_window_begins_at_tau_0_and_ends_n_periods_later():
     """Only the samples in [tau_0, tau_0 + n T] count, the two ends by half."""
     step, begin, end = 0.5, 40, 60  # 4 periods in, 2 periods long

@@ -13,7 +13,7 @@ from analysis import (
     rank_among,
     spectral_lines,
 )
-from tests.analysis.maps import henon, logistic
+from tests.analysis.systems import henon, logistic
 
 RECORDS = {
     "henon": henon(400),

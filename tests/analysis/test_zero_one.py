@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from analysis import zero_one_test
-from tests.analysis.maps import circle_map, henon, logistic
+from tests.analysis.systems import circle_map, henon, logistic
 
 
 # Chaotic parameters away from band mergings; exponent at 4 is ln 2 exactly. White noise: the reason why the test alone

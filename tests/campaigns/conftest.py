@@ -62,34 +62,6 @@ def sweep(tmp_path):
     return run
 
 
-def start_sweep(out, *options, session=False, **fake):
-    """The sweep as a process of its own; with `session` in a process group of its own."""
-    words = [sys.executable, "-m", "tests.campaigns.fake_engine", *map(str, options), *USUAL, "--out", str(out)]
-    return subprocess.Popen(
-        words,
-        cwd=ROOT,
-        env=os.environ | {"FAKE": json.dumps(fake)},
-        stdout=subprocess.PIPE,
-        stderr=subprocess.PIPE,
-        text=True,
-        start_new_session=session,
-        preexec_fn=_hear_interrupts,
-    )
-
-
-def _hear_interrupts():
-    # Whoever starts the tests in the background of a script hands down a Ctrl-C that is ignored.
-    signal.signal(signal.SIGINT, signal.SIG_DFL)
-
-
-def done(process, code=0):
-    """Wait for the end of a sweep; returns what it said of its faults, which is no traceback."""
-    output, error = process.communicate(timeout=120)
-    assert process.returncode == code, output + error
-    assert "Traceback" not in error
-    return error
-
-
 def until(condition, process, seconds=40.0):
     """Wait for the condition while the process lives."""
     end = time.monotonic() + seconds
@@ -99,22 +71,74 @@ def until(condition, process, seconds=40.0):
         time.sleep(0.01)
 
 
-def sound_part(out):
-    """The finished runs of a campaign that was stopped in its midst; each of them can be read, and so can the table."""
-    before = finished(out)
-    assert 0 < len(before) < len(VALUES)
-    for name in before:
-        Trajectory.load(out / "trajectories" / name)
-    assert {f"{row['run_key']}.nc" for row in rows_of(out)} <= before.keys()
-    return before
+def _hear_interrupts():
+    # Whoever starts the tests in the background of a script hands down a Ctrl-C that is ignored.
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
 
 
-def check_and_complete(out, log, *options):
-    """The same command does the rest, and only that."""
-    before = sound_part(out)
-    log.unlink(missing_ok=True)
-    done(start_sweep(out, "--steepness", *VALUES, *options, log=str(log)))
-    assert before.items() <= finished(out).items()
-    assert len(log.read_text().split()) == len(VALUES) - len(before)
-    assert [row["status"] for row in rows_of(out)] == ["ok"] * len(VALUES)
-    assert not list(out.rglob(".*.tmp"))
+class Apart:
+    """The sweep of VALUES as a process of its own, with the log of the runs begun."""
+
+    def __init__(self, place: Path):
+        self.out, self.log = place / "out", place / "log"
+
+    def start(self, *options, values=VALUES, session=False, **fake):
+        """fake: fields of the FakeEngine; session: in a process group of its own."""
+        words = ["--steepness", *values, *USUAL, *options, "--out", str(self.out)]
+        return subprocess.Popen(
+            [sys.executable, "-m", "tests.campaigns.fake_engine", *words],
+            cwd=ROOT,
+            env=os.environ | {"FAKE": json.dumps({"log": str(self.log), **fake})},
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            text=True,
+            start_new_session=session,
+            preexec_fn=_hear_interrupts,
+        )
+
+    def begin(self, *options, finished=2, **fake):
+        """Start it and wait for so many finished runs."""
+        process = self.start(*options, sleep_s=0.3, **fake)
+        until(lambda: len(self.finished()) >= finished, process)
+        return process
+
+    def done(self, process, code=0):
+        """Wait for the end of a sweep; returns what it said of its faults, which is no traceback."""
+        output, error = process.communicate(timeout=120)
+        assert process.returncode == code, output + error
+        assert "Traceback" not in error
+        return error
+
+    def finished(self):
+        return finished(self.out)
+
+    def begun(self):
+        """How many runs were begun."""
+        return len(self.log.read_text().split())
+
+    def check_all_ok(self):
+        assert [row["status"] for row in rows_of(self.out)] == ["ok"] * len(VALUES)
+
+    def sound_part(self):
+        """The finished runs of a campaign that was stopped in its midst; each of them can be read, as can the table."""
+        before = self.finished()
+        assert 0 < len(before) < len(VALUES)
+        for name in before:
+            Trajectory.load(self.out / "trajectories" / name)
+        assert {f"{row['run_key']}.nc" for row in rows_of(self.out)} <= before.keys()
+        return before
+
+    def complete(self, *options):
+        """The same command does the rest, and only that."""
+        before = self.sound_part()
+        self.log.unlink(missing_ok=True)
+        self.done(self.start(*options))
+        assert before.items() <= self.finished().items()
+        assert self.begun() == len(VALUES) - len(before)
+        self.check_all_ok()
+        assert not list(self.out.rglob(".*.tmp"))
+
+
+@pytest.fixture
+def apart(tmp_path):
+    return Apart(tmp_path)

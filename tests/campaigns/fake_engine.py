@@ -1,4 +1,5 @@
-"""A stand-in for engine.simulate: sine waves at once, and on request every way a run can go wrong.
+"""Stand-ins for engine.simulate: sine waves at once, and on request every way a run can go wrong; known errors; a
+lateral motion of known answer.
 
 Steepness chooses the run, so that a campaign can be told which of its runs shall fail and how.
 
@@ -10,15 +11,21 @@ import os
 import signal
 import sys
 import time
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
 
+from campaigns.out_of_plane import LOOPING_DEPTHS_M, SMALL
 from engine import Trajectory
-from engine.trajectory import Profiles
+from engine.trajectory import COLUMNS, Profiles
 
 STATISTICS = {"steps": 7, "rejected_steps": 1, "newton_iterations": 21, "newton_failures": 0, "loop_releases": 0}
+ORDER = {"esdirk43": 4, "trbdf2": 2, "generalized-alpha": 2, "midpoint": 2, "backward-euler": 1}
+GRID_M, STEP_M = 0.3, 0.2  # error of one element; of a step of one second
+SWING = 0.2  # rad/s
+SMALL_RATE, LARGE_RATE = -0.04, {"growth": 0.08, "decay": -0.05}  # nats/s
+BURST_PERIODS, BURST_M, SATURATED_M = 6, 0.3, 4.0
 
 
 @dataclass(frozen=True)
@@ -110,6 +117,75 @@ def shapes(run):
     y = 0.1 * np.abs(np.sin(0.1 * t))[:, None]
     nothing = np.zeros((len(t), len(s)))
     return Profiles(t, s, x * along + 0.5 * arch, y * arch, z * along, nothing, nothing + tension, nothing)
+
+
+@dataclass(frozen=True)
+class KnownErrors:
+    """Errors are known: order 2 in the grid, the integrator's order in time.
+
+    failing: integrators whose runs end early; raises: nodes at which it breaks.
+    """
+
+    failing: tuple[str, ...] = ()
+    raises: tuple[int, ...] = ()
+
+    def __call__(self, scene, periods=None, duration_s=None):
+        solver, nodes = scene.solver, scene.tether.nodes
+        if nodes in self.raises and duration_s > 1.0:
+            raise ZeroDivisionError("a fault of the code")
+        order = ORDER[solver.integrator]
+        step_s = solver.step_s or solver.rtol ** (1.0 / order)
+        t = scene.sample_step_s() * np.arange(round(duration_s / scene.sample_step_s()) + 1)
+        off = GRID_M * np.sin(t) / (nodes - 1) ** 2 + STEP_M * np.cos(t) * step_s**order
+        radius = 20.8 + 0.5 * np.sin(1.3 * t) + off
+        columns = {name: np.zeros_like(t) for name in COLUMNS}
+        columns |= {"time_s": t, "radius_m": radius, "x_m": radius, "tension_min_N": 1000.0 * np.cos(0.1 * t)}
+        work = {"newton_iterations": 10 * round(duration_s / step_s), "wall_s": 1e-4 * nodes / step_s}
+        statistics = STATISTICS | work | {"max_turn_rad": 0.1, "min_strain": 0.01, "end_time_s": duration_s}
+        run = Trajectory(scene, "ok", "", columns, statistics)
+        if solver.integrator in self.failing:
+            half = {name: values[: len(t) // 2] for name, values in columns.items()}
+            run = replace(run, status="newton-failed", message="no convergence", columns=half)
+        return run
+
+
+@dataclass(frozen=True)
+class SpaceEngine(FakeEngine):
+    """In three dimensions: in-plane sines, and a lateral motion of known answer, linear in the push until it saturates.
+
+    Small waves decay. large: what large ones do, "bursts" (a rope that bursts over a quiet buoy), "growth" (exponential
+    growth of both up to the motion in the plane) or "decay"; failing: depths at which a run in space ends at once.
+    """
+
+    large: str = "bursts"
+    failing: tuple[float, ...] = ()
+
+    def __call__(self, scene, periods=None, duration_s=None):
+        run = super().__call__(scene, periods, duration_s)
+        if scene.motion.dimensions == 2:
+            looped = scene.waves.steepness != SMALL and scene.water.depth_m in LOOPING_DEPTHS_M
+            return replace(run, statistics=run.statistics | {"loop_releases": 4 if looped else 0})
+        if scene.water.depth_m in self.failing:
+            empty = {name: values[:0] for name, values in run.columns.items()}
+            return replace(run, status="statics-failed", message="not found", columns=empty)
+        buoy, rope = lateral(run.columns["time_s"], scene, self.large)
+        columns = run.columns | {"y_m": buoy, "offplane_m": np.abs(rope)}
+        return replace(run, columns=columns, profiles=shapes(run) if scene.output.profiles else None)
+
+
+def lateral(t, scene, large):
+    """y of the buoy and the rope's largest, (n,) each, for the push of the scene."""
+    push = scene.start.buoy_velocity_mps[1]
+    kind = "decay" if scene.waves.steepness == SMALL else large
+    swing = push / SWING * np.sin(SWING * t)
+    if kind == "bursts":
+        phase = (t / scene.waves.period_s) % BURST_PERIODS - 0.5 * BURST_PERIODS
+        buoy = 2.0 * swing
+        return buoy, np.abs(buoy) + np.sign(abs(push)) * BURST_M * np.exp(-((phase / 0.1) ** 2))
+    rate = SMALL_RATE if scene.waves.steepness == SMALL else LARGE_RATE[kind]
+    grown = swing * np.exp(rate * t)
+    grown = grown / np.sqrt(1.0 + (grown / SATURATED_M) ** 2)
+    return grown, grown
 
 
 if __name__ == "__main__":

@@ -7,21 +7,19 @@ import shutil
 import signal
 import subprocess
 import time
+from functools import partial
 
 import psutil
 import pytest
 
-from tests.campaigns.conftest import (
-    VALUES,
-    check_and_complete,
-    done,
-    finished,
-    rows_of,
-    sound_part,
-    start_sweep,
-    statuses,
-    until,
-)
+from campaigns.buoy_sweep.rows import COLUMNS, buoy_row
+from campaigns.machinery.cli import Running
+from campaigns.machinery.folder import CampaignStopped
+from campaigns.machinery.plan import Job, Plan
+from campaigns.machinery.runner import FEWEST, MOST, groups_of, run_campaign
+from engine import load_scene
+from tests.campaigns.conftest import VALUES, finished, rows_of, statuses, until
+from tests.campaigns.fake_engine import FakeEngine
 
 FEW = (0.02, 0.03, 0.05, 0.08, 0.13)
 SLOW = pytest.mark.slow
@@ -41,8 +39,8 @@ SLOW = pytest.mark.slow
         ),
         ("threading", 2, {"raises": FEW}, "error", "ZeroDivisionError"),
         ("loky", 2, {"dies": (0.05,)}, "worker-died", "running alone"),
-        ("loky", 2, {"dies": (0.02, 0.08)}, "worker-died", "running alone"),
-        ("loky", 2, {"dies_once": (0.05,)}, "ok", ""),
+        pytest.param("loky", 2, {"dies": (0.02, 0.08)}, "worker-died", "running alone", marks=SLOW),
+        pytest.param("loky", 2, {"dies_once": (0.05,)}, "ok", "", marks=SLOW),
         pytest.param("loky", 1, {"dies": (0.05,)}, "worker-died", "running alone", marks=SLOW),
         pytest.param("dask", 2, {"dies": (0.05,)}, "worker-died", "running alone", marks=SLOW),
     ],
@@ -91,73 +89,69 @@ def test_an_engine_that_changes_under_the_campaign_stops_it(sweep, monkeypatch, 
 
 
 @pytest.mark.slow
-def test_kill_9_of_the_campaign(tmp_path):
-    out, log = tmp_path / "out", tmp_path / "log"
-    process = start_sweep(out, "--steepness", *VALUES, log=str(log), sleep_s=0.3)
-    until(lambda: len(finished(out)) >= 3, process)
+def test_kill_9_of_the_campaign(apart):
+    process = apart.begin(finished=3)
     workers = psutil.Process(process.pid).children(recursive=True)
     process.kill()
     process.communicate()
     assert psutil.wait_procs(workers, timeout=20)[1] == []  # none computes on for nobody
-    (out / "trajectories" / ".half-written.nc.tmp").write_bytes(b"CDF")  # what a kill within a write leaves
-    check_and_complete(out, log)
+    (apart.out / "trajectories" / ".half-written.nc.tmp").write_bytes(b"CDF")  # what a kill within a write leaves
+    apart.complete()
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("backend", ["loky", "threading", "dask"])
-def test_interrupt(tmp_path, backend):
+def test_interrupt(apart, backend):
     if backend == "dask":
         pytest.importorskip("distributed")
-    out, log = tmp_path / "out", tmp_path / "log"
-    process = start_sweep(out, "--steepness", *VALUES, "--backend", backend, session=True, log=str(log), sleep_s=0.3)
-    until(lambda: len(finished(out)) >= 3, process)
+    process = apart.begin("--backend", backend, finished=3, session=True)
     os.killpg(process.pid, signal.SIGINT)  # a terminal sends it to every process of the campaign
-    error = done(process, code=130)
+    error = apart.done(process, code=130)
     assert "to go on with the rest: python -m campaigns.buoy_sweep --steepness 0.01" in error
-    assert len(rows_of(out)) > 0
-    begun = len(log.read_text().split())
+    assert len(rows_of(apart.out)) > 0
+    begun = apart.begun()
     time.sleep(0.7)
-    assert len(log.read_text().split()) == begun
-    check_and_complete(out, log)
+    assert apart.begun() == begun
+    apart.complete()
 
 
 @pytest.mark.slow
-def test_a_second_campaign_in_the_folder_is_turned_away(tmp_path):
-    out = tmp_path / "out"
-    first = start_sweep(out, "--steepness", "0.01", "0.02", "0.03", "0.04", sleep_s=1.0)
-    until(lambda: (out / "table.csv").exists(), first)
-    assert f"in use by process {first.pid}" in done(start_sweep(out, "--steepness", "0.05"), code=1)
-    assert "0.05" not in (out / "provenance.json").read_text()
-    done(first)
-    assert len(finished(out)) == 4
+def test_a_second_campaign_in_the_folder_is_turned_away(apart):
+    first = apart.start(values=VALUES[:4], sleep_s=1.0)
+    until((apart.out / "table.csv").exists, first)
+    assert f"in use by process {first.pid}" in apart.done(apart.start(values=["0.05"]), code=1)
+    assert "0.05" not in (apart.out / "provenance.json").read_text()
+    apart.done(first)
+    assert len(apart.finished()) == 4
 
 
 @pytest.fixture
-def small_disk(tmp_path):
-    """A disk with room for some of the runs."""
+def small_disk(apart, tmp_path):
+    """A disk with room for some of the runs, in which the campaign has its folder."""
     place = tmp_path / "disk"
     place.mkdir()
     mount = ["mount", "-t", "tmpfs", "-o", "size=512k", "tmpfs", str(place)]
     if not shutil.which("mount") or subprocess.run(mount, capture_output=True).returncode != 0:
         pytest.skip("mounting a small disk is not permitted here")
+    apart.out = place / "out"
     yield place
     subprocess.run(["umount", str(place)], check=True)
 
 
 @pytest.mark.slow
-def test_a_disk_that_fills_up(small_disk, tmp_path):
-    out, log = small_disk / "out", tmp_path / "log"
-    assert "is full" in done(start_sweep(out, "--steepness", *VALUES, log=str(log)), code=1)
-    assert sound_part(out) and not list(out.rglob(".*.tmp"))
+def test_a_disk_that_fills_up(small_disk, apart):
+    assert "is full" in apart.done(apart.start(), code=1)
+    assert apart.sound_part() and not list(apart.out.rglob(".*.tmp"))
     subprocess.run(["mount", "-o", "remount,size=8m", str(small_disk)], check=True)
-    check_and_complete(out, log)
+    apart.complete()
 
 
-def test_a_disk_that_is_full_from_the_start(small_disk):
+@pytest.mark.slow
+def test_a_disk_that_is_full_from_the_start(small_disk, apart):
     with open(small_disk / "filling", "wb", buffering=0) as file, pytest.raises(OSError):
         while True:
             file.write(bytes(4096))
-    assert "is full" in done(start_sweep(small_disk / "out", "--steepness", *VALUES), code=1)
+    assert "is full" in apart.done(apart.start(), code=1)
 
 
 def test_no_space_within_a_run_stops_the_campaign(sweep, capfd):
@@ -178,3 +172,84 @@ def test_a_table_that_does_not_fit_leaves_the_old_one(sweep, monkeypatch):
     monkeypatch.setattr("campaigns.machinery.folder.write_atomic", full)
     code, left, _ = sweep("--steepness", *VALUES)
     assert (code, left) == (1, rows)
+
+
+EIGHT = [0.02, 0.03, 0.05, 0.08, 0.1, 0.11, 0.13, 0.14]
+
+
+@pytest.fixture
+def together(tmp_path):
+    """Runs that share a worker: together(jobs, **fields of the FakeEngine) -> summary, steepness of the runs begun."""
+    (tmp_path / "trajectories").mkdir()
+
+    def run(jobs=2, **fake):
+        log = tmp_path / "log"
+        log.unlink(missing_ok=True)
+        engine = FakeEngine(log=str(log), **fake)
+        how, describe = Running(tmp_path, jobs, "loky"), partial(buoy_row, transient_periods=2)
+        plan = Plan(how, engine, describe, COLUMNS, simulate_each=engine.each, show_progress=False)
+        return run_campaign(plan, jobs_of(EIGHT)), engine.begun()
+
+    run.out = tmp_path
+    return run
+
+
+def jobs_of(values, changes=None):
+    scenes = {value: load_scene("tethered_buoy", {"waves.steepness": value, **(changes or {})}) for value in values}
+    return [Job({"steepness": value}, scene, 6) for value, scene in scenes.items()]
+
+
+@pytest.mark.parametrize("jobs", [1, 2])
+def test_every_run_that_shares_a_worker_becomes_a_row_once(together, jobs):
+    summary, begun = together(jobs=jobs)
+    assert statuses(summary.rows) == dict.fromkeys(EIGHT, "ok")
+    assert sorted(begun) == EIGHT and summary.computed == len(EIGHT)
+    again, begun = together(jobs=jobs)
+    assert begun == [] and again.found == len(EIGHT)
+    assert [row["run_key"] for row in again.rows] == [row["run_key"] for row in summary.rows]
+
+
+@pytest.mark.parametrize(
+    ("how", "status", "times"),
+    [
+        ("raises", "error", 2),
+        ("breaks", "newton-failed", 1),
+        ("exits", "error", 2),
+        pytest.param("dies", "worker-died", 3, marks=pytest.mark.slow),
+    ],
+)
+def test_a_run_that_fails_costs_those_beside_it_nothing(together, how, status, times):
+    """One worker, in order: 0.02 to 0.05 are on disk when it dies; 0.08 dies twice more alone, the rest runs alone.
+
+    Where 0.08 breaks off with an exception it is tried once more, alone.
+    """
+    summary, begun = together(jobs=1, **{how: (0.08,)})
+    assert statuses(summary.rows) == dict.fromkeys(EIGHT, "ok") | {0.08: status}
+    assert {value: begun.count(value) for value in EIGHT} == dict.fromkeys(EIGHT, 1) | {0.08: times}
+
+
+@pytest.mark.slow
+def test_a_full_disk_stops_the_campaign_and_keeps_what_is_finished(together):
+    with pytest.raises(CampaignStopped, match="full"):
+        together(jobs=1, no_space=(0.1,))
+    assert len(finished(together.out)) >= 4
+    done = len(finished(together.out))
+    assert statuses(rows_of(together.out)).keys() <= set(EIGHT)
+    summary, begun = together()
+    assert summary.found == done and len(begun) == len(EIGHT) - done
+
+
+def groups(tmp_path, jobs, backend="loky", **how):
+    return groups_of(Plan(Running(tmp_path, 2, backend), None, None, (), **how), jobs)
+
+
+def test_groups_are_even_and_hold_every_job_once(tmp_path):
+    many, together = jobs_of([round(0.01 + 0.0005 * i, 4) for i in range(250)]), {"simulate_each": FakeEngine().each}
+    found = groups(tmp_path, many, **together)
+    sizes = [len(group) for group in found]
+    assert len(found) % 2 == 0 and max(sizes) - min(sizes) <= 1 and max(sizes) <= MOST
+    assert sorted(job.key for group in found for job in group) == sorted(job.key for job in many)
+    assert groups(tmp_path, many[: FEWEST - 1], **together) == []
+    # the engine runs one by one what keeps profiles, and threads share no worker
+    assert groups(tmp_path, jobs_of(EIGHT, {"output.profiles": True}), **together) == []
+    assert groups(tmp_path, jobs_of(EIGHT), "threading", **together) == groups(tmp_path, jobs_of(EIGHT)) == []

@@ -1,6 +1,6 @@
-"""The accuracy campaign: known errors come back with their orders, what fails is a row, nothing is done twice."""
+"""The accuracy campaign: known errors come back with their orders, what fails is a row, nothing is done twice;
+facts of its report follow the tables."""
 
-import csv
 import math
 
 import numpy as np
@@ -8,14 +8,17 @@ import pytest
 
 from campaigns import accuracy
 from campaigns.accuracy.jobs import side_by_side
-from campaigns.accuracy.plan import ADAPTIVE, FULL, ORDERS, Point, phases
+from campaigns.accuracy.plan import ADAPTIVE, BY_NAME, FULL, ORDERS, WORKS, phases
 from campaigns.accuracy.rows import COLUMNS, point_row, rms_mm
-from campaigns.accuracy.works import BY_NAME, WORKS
 from campaigns.columns import names
 from campaigns.machinery.plan import Job
 from engine import load_scene
+from reports import build
+from reports.accuracy.sections import read_study, smooth_series, within, work_items
+from reports.figures.work_precision import cheapest
+from reports.parts.content import Table
 from tests.campaigns.conftest import rows_of
-from tests.campaigns.fake_methods import GRID_M, KnownErrors
+from tests.campaigns.fake_engine import GRID_M, KnownErrors
 
 USUAL = ["--quick", "--backend", "threading", "--jobs", "2", "--no-report"]
 OWN = [method for method in ORDERS if method != "paper-box"]
@@ -35,8 +38,7 @@ def out(tmp_path_factory):
 
 
 def orders_of(folder):
-    with open(folder / "orders.csv", newline="") as file:
-        return list(csv.DictReader(file))
+    return rows_of(folder, "orders.csv")
 
 
 def chosen(rows, **wanted):
@@ -95,11 +97,6 @@ def test_every_setting_of_the_full_campaign_is_a_sound_scene_and_appears_once():
     assert {point.method for point in points} >= set(ORDERS)
 
 
-def test_rounds_differ_by_a_tenth():
-    points = [Point("regular", "point", "esdirk43", 41, "rtol", 0.03, round) for round in range(3)]
-    assert [point.changes()["solver.rtol"] for point in points] == pytest.approx([0.03, 0.027, 0.033])
-
-
 def test_rms_of_series_and_of_places():
     t = np.linspace(0.0, 1.0, 1001)
     assert rms_mm(3e-3 + 0 * t, 0 * t) == pytest.approx(3.0)
@@ -126,3 +123,38 @@ def test_every_integrator_shows_its_order_on_smooth_works_of_the_engine(tmp_path
     assert shown == {(work, method) for work in ("regular-smooth", "pendulum") for method in OWN}
     assert [row for row in judged if row["within"] != "1"] == []
     assert (out / "costs.json").exists()
+
+
+def test_an_order_that_is_off_is_not_called_right(out):
+    study = read_study(out)
+    good, count = smooth_series(study)
+    assert good == count > 10
+    next(row for row in study.orders if row["kind"] == "time" and row["method"] == "trbdf2")["within"] = "0"
+    assert smooth_series(study) == (count - 1, count)
+
+
+def test_the_cheapest_within_a_level_is_the_cheapest(out):
+    timed = read_study(out).timed("regular")
+    for level in (5.0, 1.0):
+        best = within(timed, level)
+        assert best.error <= level and all(one.wall_s >= best.wall_s for one in timed if one.error <= level)
+    assert within(timed, 0.0) is None
+
+
+def test_the_line_of_a_diagram_joins_what_nothing_cheaper_beats():
+    time, error = np.array([1.0, 2.0, 3.0, 4.0]), np.array([5.0, 6.0, 2.0, 2.0])
+    assert list(cheapest(time, error)) == [0, 2]
+
+
+@pytest.mark.slow
+def test_same_folder_same_report(out):
+    first = [path.read_bytes() for path in build(out)]
+    assert [path.read_bytes() for path in build(out)] == first
+
+
+def test_a_report_says_what_failed(tmp_path):
+    made(tmp_path, "--works", "regular", failing=("midpoint",))
+    study = read_study(tmp_path)
+    rows = [row for item in work_items(study, "regular") if isinstance(item, Table) for row in item.rows]
+    assert any(row[0] == "midpoint" and row[-1] == "newton-failed" for row in rows)
+    assert not any(one.method == "midpoint" for one in study.timed("regular"))

@@ -21,18 +21,7 @@ from campaigns.machinery.cli import Running
 from campaigns.machinery.plan import Job, Plan
 from campaigns.machinery.runner import run_campaign
 from engine import load_scene
-from tests.campaigns.conftest import (
-    ROOT,
-    USUAL,
-    VALUES,
-    check_and_complete,
-    done,
-    finished,
-    rows_of,
-    sound_part,
-    start_sweep,
-    until,
-)
+from tests.campaigns.conftest import ROOT, USUAL, VALUES, finished, rows_of, until
 from tests.campaigns.fake_engine import FakeEngine
 
 distributed = pytest.importorskip("distributed")
@@ -127,40 +116,38 @@ def test_the_results_are_those_of_processes_from_the_repeated_runs_too(dask, tmp
 
 
 @pytest.mark.slow
-def test_a_run_that_kills_every_worker_stops_the_campaign_and_new_workers_finish_it(dask, tmp_path, monkeypatch, capfd):
+def test_a_run_that_kills_every_worker_stops_the_campaign_and_new_workers_finish_it(dask, apart, monkeypatch, capfd):
     monkeypatch.setattr(pools, "GONE_S", 1.0)
     monkeypatch.setattr(pools, "LOOK_S", 0.2)
-    found, out = dask(), tmp_path / "out"
-    words = ["--steepness", *VALUES, *USUAL, *at(found), "--out", str(out)]
+    found = dask()
+    words = ["--steepness", *VALUES, *USUAL, *at(found), "--out", str(apart.out)]
     deadly = FakeEngine(dies=(0.04,), sleep_s=0.3)  # time for the runs before it to be handed over
     assert buoy_sweep.main(words, simulate=deadly) == 1
     error = capfd.readouterr().err
     assert "has had no worker for 1 s" in error and "run the same command again" in error
-    sound_part(out)
+    apart.sound_part()
     found.add_worker()
     found.wait_for_workers(1)
-    check_and_complete(out, tmp_path / "log", *at(found))
+    apart.complete(*at(found))
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("lost", ["worker", "scheduler", "campaign"])
-def test_whoever_is_killed_costs_what_was_running(dask, tmp_path, lost):
-    found, out, log = dask(), tmp_path / "out", tmp_path / "log"
-    process = start_sweep(out, "--steepness", *VALUES, *at(found), log=str(log), sleep_s=0.3)
-    until(lambda: len(finished(out)) >= 2, process)
+def test_whoever_is_killed_costs_what_was_running(dask, apart, lost):
+    found = dask()
+    process = apart.begin(*at(found))
     {"worker": found.workers[0], "scheduler": found.scheduler, "campaign": process}[lost].kill()
     if lost == "campaign":
         process.communicate()
-        check_and_complete(out, log, *at(found))
+        apart.complete(*at(found))
     elif lost == "scheduler":
-        error = done(process, code=1)
+        error = apart.done(process, code=1)
         assert "the dask scheduler has ended" in error and "finished runs are kept" in error
-        check_and_complete(out, log)
+        apart.complete()
     else:
-        done(process)
-        assert [row["status"] for row in rows_of(out)] == ["ok"] * len(VALUES)
-        # what it was running, and at most one that it had ended and not handed over yet
-        assert len(log.read_text().split()) - len(VALUES) <= 2
+        apart.done(process)
+        apart.check_all_ok()
+        assert apart.begun() - len(VALUES) <= 2  # what it was running, and at most one ended and not handed over yet
 
 
 def changed(folder):
@@ -189,25 +176,25 @@ def absent(folder):
         (None, absent, "the scheduler: No module named"),
     ],
 )
-def test_another_version_is_refused_by_name(dask, tmp_path, worker, scheduler, word):
+def test_another_version_is_refused_by_name(dask, apart, tmp_path, worker, scheduler, word):
     found = dask(1, scheduler(tmp_path / "other") if scheduler else ROOT)
     if worker:
         found.add_worker(worker(tmp_path / "other"))
         found.wait_for_workers(2)
-    error = done(start_sweep(tmp_path / "out", "--steepness", *VALUES, *at(found), sleep_s=1.0), code=1)
+    error = apart.done(apart.start(*at(found), sleep_s=1.0), code=1)
     assert "refused" in error and word in error and "numba" not in error
     assert worker is not changed or "sources of engine" in error
 
 
 @pytest.mark.slow
-def test_a_stopped_worker_keeps_nobody_from_starting(dask, tmp_path):
+def test_a_stopped_worker_keeps_nobody_from_starting(dask, apart):
     found = dask()
     found.workers[0].send_signal(signal.SIGSTOP)
-    process = start_sweep(tmp_path / "out", "--steepness", *VALUES, *at(found))
+    process = apart.start(*at(found))
     try:
-        until(lambda: len(finished(tmp_path / "out")) >= 2, process)
+        until(lambda: len(apart.finished()) >= 2, process)
         time.sleep(0.2)
     finally:
         found.workers[0].send_signal(signal.SIGCONT)
-    done(process)
-    assert [row["status"] for row in rows_of(tmp_path / "out")] == ["ok"] * len(VALUES)
+    apart.done(process)
+    apart.check_all_ok()

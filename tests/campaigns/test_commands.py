@@ -10,6 +10,7 @@ import sys
 import tomllib
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from campaigns import buoy_sweep
@@ -20,9 +21,36 @@ from campaigns.machinery.plausible import breaking_steepness, doubts
 from engine import load_scene
 from tests.campaigns.conftest import ROOT
 
-HEAVY = {"numpy", "numba", "pandas", "scipy", "pydantic", "joblib", "matplotlib", "dask", "hypothesis"}
-OPTIONS = "--steepness --steepness-range --periods --transient --scene --set --jobs --backend --out --no-report"
+HEAVY = {"numpy", "numba", "pandas", "scipy", "pydantic", "joblib", "matplotlib", "dask", "hypothesis", "typst"}
+SERIES = "--column --time --step --period --tolerance --out"
+HELPS = {  # what each tells
+    "analysis": SERIES,
+    "reports": "folder of a finished campaign",
+    "campaigns.time_series": SERIES,
+    "campaigns.buoy_sweep": "--steepness --steepness-range --periods --transient --scene --set --jobs --backend "
+    "loky|threading|dask --out --no-report [--",
+    "campaigns.accuracy": "--works",
+    "campaigns.oscillator": "--effort",
+    "campaigns.out_of_plane": "--periods",
+    "campaigns.stability": "--fuzz",
+    "campaigns.sweep": "--vary",
+}
+ASKED = """
+import contextlib, runpy, sys
+for name in sys.argv[1:]:
+    sys.argv = [name, "--help"]
+    with contextlib.suppress(SystemExit):
+        runpy.run_module(name, run_name="__main__")
+    print("loaded:", *sys.modules, end="\f")
+"""
 MISTAKES = tomllib.loads(Path(__file__).with_name("mistakes.toml").read_text(encoding="utf-8"))
+ROWS = [f"{0.1 * k:.3f},{np.sin(k):.6f}" for k in range(300)]
+
+
+def changed(row, text):
+    return "\n".join(["t,x", *ROWS[:row], text, *ROWS[row + 1 :]])
+
+
 FILES = {
     "comma.toml": 'name = "mine"\n[tether]\nlength_m = 20,5\n',
     "bracket.toml": "[tether\nlength_m = 20\n",
@@ -35,6 +63,33 @@ FILES = {
     "broken/provenance.json": "not json",
     "mine/table.csv": "my,own,table\n",
     "part/table.csv": "steepness\n0.1\n",
+    "nan.csv": changed(7, "0.700,nan"),
+    "gap.csv": changed(7, "0.700,"),
+    "word.csv": changed(7, "0.700,broken"),
+    "comma.csv": changed(7, "0.700,1,5"),
+    "jump.csv": "\n".join(["t,x", *ROWS[:100], *ROWS[150:]]),
+    "back.csv": changed(7, "0.650,0.3").replace("0.600,", "0.800,"),
+    "creep.csv": "\n".join(["t,x", *(f"{k * (1 + 1e-3 * k)},{np.sin(k)}" for k in range(300))]),
+    "short.csv": "\n".join(["t,x", *ROWS[:99]]),
+    "flat.csv": "\n".join(["t,x", *(f"{k},3.5" for k in range(300))]),
+    "twice.csv": "\n".join(["x,x", *ROWS]),
+    "empty.csv": "\n",
+    "good.csv": "\n".join(["t,x", *ROWS]),
+    "both.csv": "\n".join(["t,x", *(row.replace(".", ",") for row in ROWS)]),
+    "units.csv": "\n".join(["t,x", "s,m", *ROWS]),
+    "dates.csv": "\n".join(["t,x", *(f"2026-11-21 13:{k // 60:02d}:{k % 60:02d},{k % 7}" for k in range(300))]),
+    "rounded.csv": "\n".join(["t,x", *(f"{k / 30:.2f},{np.sin(k)}" for k in range(300))]),
+    "huge.csv": "\n".join(["t,x", *(f"{k},{np.sin(k)}e300" for k in range(300))]),
+    "title.csv": "\n".join(["Tank 3", "", "t,x", *ROWS]),
+    "blank.csv": "t x\n" + "\0" * 500,
+    "kept/series.csv": "\n".join(["t,x", *ROWS]),
+    "whole/series.csv": "\n".join(["t,x", *ROWS]),
+    "whole/provenance.json": json.dumps({"campaign": "time_series"}),
+    "image.csv": bytes(range(128, 256)),
+    "latin1.csv": "t,höhe\n".encode("latin-1"),
+    "table.xlsx": b"PK\x03\x04 and more",
+    "packed.csv.gz": b"\x1f\x8b\x08 and more",
+    "run.nc": b"CDF\x01 and more",
 }
 
 
@@ -42,18 +97,13 @@ def python(*words):
     return subprocess.run([sys.executable, *words], cwd=ROOT, capture_output=True, text=True)
 
 
-def test_help_tells_every_option():
-    done = python("-m", "campaigns.buoy_sweep", "--help")
-    assert done.returncode == 0
-    for part in (*OPTIONS.split(), "loky|threading|dask", "[--"):
-        assert part in done.stdout
-    assert "[N ...]" not in done.stdout
-
-
-@pytest.mark.parametrize("name", ["accuracy", "buoy_sweep", "oscillator", "out_of_plane", "stability", "sweep"])
-def test_help_loads_nothing_heavy(name):
-    done = python("-c", f"import sys, campaigns.{name} as one; one.parser().format_help(); print(*sys.modules)")
-    assert done.stdout and not HEAVY & set(done.stdout.split())
+def test_help_tells_every_option_and_loads_nothing_heavy():
+    """All in one process: what is loaded stays so."""
+    pages = python("-c", ASKED, *HELPS).stdout.split("\f")[:-1]
+    for page, parts in zip(pages, HELPS.values(), strict=True):
+        told, loaded = page.split("loaded:")
+        assert all(part in told for part in parts.split()) and "[N ...]" not in told
+        assert not HEAVY & set(loaded.split())
 
 
 def test_no_argument_is_a_complete_order_that_meets_the_papers_two_values():
@@ -98,14 +148,17 @@ def test_the_answer_says_what_to_do(place, capsys, module, words):
     assert importlib.import_module(module).main(words.split()) == 2
     said = capsys.readouterr()
     assert said.out == ""
-    assert [part for part in ([parts] if isinstance(parts, str) else parts) if part not in said.err] == []
+    parts = [parts] if isinstance(parts, str) else parts
+    counts = {part: said.err.count(part) for part in parts}
+    assert all(counts.values()) and (len(parts) > 1 or sum(counts.values()) == 1), counts
     assert listing(place) == before
 
 
-def test_an_empty_name_is_not_the_current_folder(place, capsys):
+@pytest.mark.parametrize("words", [["buoy_sweep", "--steepness", "0.1"], ["time_series", "good.csv", "--column", "x"]])
+def test_an_empty_name_is_not_the_current_folder(place, capsys, words):
     """As from --out "$RESULTS" with a variable that is not set."""
-    assert buoy_sweep.main(["--out", "", "--steepness", "0.1"]) == 2
-    assert "--out: given ''; allowed: a folder" in capsys.readouterr().err
+    assert every_campaign([*words, "--out", ""]) == 2
+    assert "--out: given ''" in capsys.readouterr().err
 
 
 def test_a_campaign_killed_before_its_provenance_goes_on_in_its_folder(tmp_path):

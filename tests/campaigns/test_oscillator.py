@@ -1,10 +1,11 @@
-"""The oscillator campaign: its parts are rows with files, found again, and computed again only where they are lost."""
-
-import csv
+"""The oscillator campaign: its parts are rows with files, found again, computed again only where lost; its report."""
 
 import pytest
 
 from campaigns import oscillator
+from reports import build
+from reports.oscillator.sections import PARTS, read_study
+from tests.campaigns.conftest import rows_of
 
 QUICK = ["--effort", "0.005", "--no-report"]
 
@@ -17,8 +18,7 @@ def out(tmp_path_factory):
 
 
 def rows(folder):
-    with open(folder / "table.csv", newline="") as file:
-        return {row["part"]: row for row in csv.DictReader(file)}
+    return {row["part"]: row for row in rows_of(folder)}
 
 
 def test_every_part_is_a_row_with_its_file(out):
@@ -44,3 +44,15 @@ def test_what_is_there_is_found_and_a_damaged_part_is_computed_again_with_the_sa
 def test_another_range_touches_only_its_diagram(out, capsys):
     assert oscillator.main([*QUICK, "--force-range", "0.2", "0.4", "4", "--out", str(out)]) == 0
     assert "8: 1 computed, 7 found" in capsys.readouterr().out
+
+
+@pytest.mark.slow
+def test_same_folder_same_report_and_a_lost_part_leaves_the_rest(out):
+    first = [path.read_bytes() for path in build(out)]
+    assert [path.read_bytes() for path in build(out)] == first
+    assert first[0].count(b"<figure") == first[0].count(b"<figcaption") == 7
+    key = next(row["run_key"] for row in rows_of(out) if row["part"] == "basins")
+    (out / "trajectories" / f"{key}.nc").unlink()
+    found = read_study(out)
+    assert set(found.faults) == {"basins"} and set(found.arrays) == set(PARTS) - {"basins"}
+    assert build(out)[0].read_bytes().count(b"<figure") == 6

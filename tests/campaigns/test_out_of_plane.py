@@ -1,4 +1,4 @@
-"""The out-of-plane campaign: what it runs, what a row says, what happens when something fails."""
+"""The out-of-plane campaign: what it runs, what a row says, what a failure does; its report's verdicts."""
 
 import math
 
@@ -8,12 +8,17 @@ import pytest
 from campaigns import out_of_plane
 from campaigns.buoy_sweep.space import DIRECTIONS, SEED_MPS, in_space, velocity
 from campaigns.columns import names
+from campaigns.machinery.folder import trajectory_path
 from campaigns.out_of_plane.pairs import agreement
 from campaigns.out_of_plane.rows import COLUMNS, bows, offplane_row
-from engine import load_scene
+from engine import Trajectory, load_scene
 from engine.trajectory import Profiles
+from reports import build
+from reports.out_of_plane.report import report
+from reports.out_of_plane.runs import read_study
+from reports.parts.content import Figure, Notice
 from tests.campaigns.conftest import rows_of
-from tests.campaigns.fake_space import BURST_M, BURST_PERIODS, LARGE_RATE, SMALL_RATE, SpaceEngine
+from tests.campaigns.fake_engine import BURST_M, BURST_PERIODS, LARGE_RATE, SMALL_RATE, SpaceEngine
 
 USUAL = ["--backend", "threading", "--jobs", "2", "--no-report"]
 
@@ -26,8 +31,13 @@ def made(place, periods, **engine):
 
 
 @pytest.fixture(scope="module")
-def rows(tmp_path_factory):
-    return made(tmp_path_factory.mktemp("plane") / "out", 60)
+def place(tmp_path_factory):
+    return tmp_path_factory.mktemp("plane") / "out"
+
+
+@pytest.fixture(scope="module")
+def rows(place):
+    return made(place, 60)
 
 
 def chosen(rows, **wanted):
@@ -78,6 +88,15 @@ def test_rows_say_decay_with_its_rate_and_bursts_with_their_size(rows):
         assert float(row["rope_burst_median_m"]) == pytest.approx(BURST_M, rel=0.01)
         assert float(row["rope_first_burst_period"]) == pytest.approx(BURST_PERIODS / 2, abs=0.05)
         assert float(row["rope_rise_nats"]) > 3.0 and 0.0 < float(row["rope_rise_periods"]) < BURST_PERIODS
+
+
+def verdicts(place):
+    """Does the small wave not grow, and the large one grow, to the size of the motion?"""
+    return [row["verdict"] for row in rows_of(place, "statements.csv")][:3]
+
+
+def test_a_burst_is_no_growth(rows, place):
+    assert verdicts(place) == ["holds", "does not hold", "does not hold"]
 
 
 def test_the_first_response_is_told_by_the_lateral_part_of_the_push(rows):
@@ -156,3 +175,59 @@ def test_directions_have_the_size_of_the_push():
     for word in DIRECTIONS:
         assert np.linalg.norm(velocity(3e-4, word)) == pytest.approx(3e-4)
     assert velocity(1.0, "mirrored") == [0.0, -1.0, 0.0]
+
+
+def warned(items) -> list[str]:
+    return [line for item in items if isinstance(item, Notice) for line in item.lines]
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("large", "grows"), [("growth", "holds"), ("decay", "does not hold")])
+def test_the_paper_is_borne_out_where_its_large_wave_grows_to_the_size_of_the_motion(tmp_path, large, grows):
+    made(tmp_path, 80, large=large)
+    assert verdicts(tmp_path) == ["holds", grows, grows]
+    pairs = rows_of(tmp_path, "pairs.csv")
+    assert [row["depth_m"] for row in pairs] == ["21.0", "21.6", "22.0"]
+    assert all(row[name] == "1" for row in pairs for name in row if name.startswith("same_"))
+
+
+@pytest.mark.slow
+def test_same_folder_same_report(rows, place):
+    first = [path.read_bytes() for path in build(place)]
+    assert [path.read_bytes() for path in build(place)] == first
+    assert first[0].count(b"<figure") == first[0].count(b"<figcaption") >= 5
+
+
+@pytest.mark.slow
+def test_what_failed_or_is_lost_is_named_and_the_rest_is_shown(tmp_path):
+    made(tmp_path, 80, raises=(0.016,), failing=(25.0,))
+    items = report(tmp_path).items
+    assert any("statics-failed" in line for line in warned(items))
+    assert any("a fault of the code" in line for line in warned(items))
+    assert verdicts(tmp_path)[0] == "–", "nothing is said of the small wave"
+    for path in (tmp_path / "trajectories").glob("*.nc"):
+        path.unlink()
+    again = report(tmp_path).items
+    assert sum(isinstance(item, Figure) for item in again) < sum(isinstance(item, Figure) for item in items)
+    assert sum("missing" in line for line in warned(again)) > 10
+
+
+@pytest.mark.slow
+def test_a_base_that_failed_leaves_a_report(tmp_path):
+    made(tmp_path, 80, failing=(21.0, 21.6, 22.0))
+    items = report(tmp_path).items
+    assert any("statics-failed" in line for line in warned(items))
+
+
+@pytest.mark.slow
+def test_the_campaign_on_the_engine_itself(tmp_path):
+    """Forty periods of every run: no loop is released in three dimensions, and a mirrored push mirrors the motion."""
+    out = tmp_path / "out"
+    assert out_of_plane.main(["--periods", "40", "--transient", "8", "--out", str(out)]) == 0
+    study = read_study(out)
+    assert all(run.ok for run in study.runs) and not any(run["loop_releases"] for run in study.runs if run.pushed)
+    assert study.select(seed_direction="along")[0]["rope_lateral_max_m"] == 0.0
+    for steepness in study.steepnesses:
+        runs = [study.select(steepness=steepness, seed_direction=word)[0] for word in ("lateral", "mirrored")]
+        y, mirrored = (Trajectory.load(trajectory_path(out, run["run_key"])).columns["y_m"] for run in runs)
+        assert np.array_equal(y, -mirrored)

@@ -9,9 +9,8 @@ from scipy.integrate import solve_ivp
 from campaigns.accuracy import jobs
 from campaigns.accuracy.peers import scipy as peer_scipy
 from campaigns.accuracy.peers.record import as_trajectory
-from campaigns.accuracy.plan import FULL
+from campaigns.accuracy.plan import BY_NAME, FULL, PEERS
 from campaigns.accuracy.rows import rms_mm, samples_of
-from campaigns.accuracy.works import BY_NAME, PEERS
 from engine import load_scene, simulate
 
 

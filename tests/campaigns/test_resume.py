@@ -111,7 +111,7 @@ def test_workers_kept_from_a_campaign_elsewhere_write_into_the_folder_of_this_on
 
 def test_a_dask_scheduler_that_is_not_there_is_one_line(sweep, capfd, monkeypatch):
     pytest.importorskip("distributed")
-    monkeypatch.setattr("campaigns.machinery.pools.JOIN_S", 1)
+    monkeypatch.setattr("campaigns.machinery.pools.JOIN_S", 0.2)
     code, rows, _ = sweep("--steepness", "0.02", "--dask-address", "tcp://127.0.0.1:1", backend="dask")
     error = capfd.readouterr().err
     assert (code, rows) == (1, [])

@@ -1,6 +1,6 @@
-"""The stability campaign: verdicts mean what they say, a whole small campaign works, and is not done twice."""
+"""The stability campaign: verdicts mean what they say, a whole small campaign works, and is not done twice;
+statements of its report follow the tables, and a broken folder is refused."""
 
-import csv
 import json
 from functools import partial
 
@@ -8,9 +8,13 @@ import pytest
 
 from campaigns import stability
 from campaigns.columns import names
-from campaigns.machinery.folder import CampaignStopped, kept_row
-from campaigns.stability import cases, checks, tasks
+from campaigns.machinery.folder import CampaignStopped, kept_row, write_table
+from campaigns.stability import cases, checks, fuzz, tasks
 from campaigns.stability.cases import ABOVE_BAR, REFUSED, Case, all_cases, case_row
+from reports import build
+from reports.parts.folder import FolderError
+from reports.stability.report import VERDICTS, read_study, unexplained_items
+from tests.campaigns.conftest import rows_of
 
 NOT_STARTED = {"statuses": (REFUSED,)}
 CALM = {"waves.steepness": 0.016, "water.depth_m": 22.5, "tether.nodes": 5}
@@ -25,11 +29,6 @@ WORDS = ["--drift-periods", "0", "--jobs", "1"]
 
 def may(status: str) -> dict:
     return {**FINITE, "statuses": (status,), "why": "because"}
-
-
-def table(path) -> list[dict]:
-    with open(path, encoding="utf-8", newline="") as file:
-        return list(csv.DictReader(file))
 
 
 @pytest.mark.parametrize(
@@ -108,9 +107,9 @@ def test_a_campaign_leaves_its_files_and_is_not_done_twice(few, tmp_path, capsys
     out = tmp_path / "out"
     words = ["--fuzz", "6", *WORDS, "--out", str(out)]
     assert stability.main(words) == 0
-    rows = table(out / "table.csv")
+    rows = rows_of(out)
     assert [row["verdict"] for row in rows] == ["ok", "ok", "refused", "ok", "ok"]
-    assert len(table(out / "fuzz.csv")) == 12
+    assert len(rows_of(out, "fuzz.csv")) == 12
     assert json.loads((out / "step_maps.json").read_text())["taut"]["methods"]["backward-euler"]["largest"] < 1.001
     assert (out / "report.html").exists() and (out / "report.pdf").exists()
     assert (out / "trajectories" / f"{rows[0]['run_key']}.nc").exists()
@@ -132,3 +131,68 @@ def test_an_unexplained_case_ends_the_campaign_with_one(few, tmp_path):
 def test_the_quick_campaign(tmp_path):
     """Nothing unexplained among the cases that matter most and forty random scenes of each kind."""
     assert stability.main(["--quick", "--no-report", "--out", str(tmp_path / "out")]) == 0
+
+
+METHOD = {"re": [0.5, 1.5, 9.0], "im": [0.5, 0.0, 0.0], "largest": 9.0, "distance": 2e-7}
+METHOD |= {"growing": 2, "growing_found": 2}
+SHARE = {"us_per_newton": 5.0, "us_per_step": 20.0, "newton_per_step": 4.0}
+OK = {"verdict": "ok", "run_status": "ok"}
+LIMIT = {"verdict": "known limit", "run_status": "newton-failed", "limit": "ill-posed in slack"}
+CASES = [
+    {"group": "EI", "case": "soft", **OK, "measured": 1e-3, "bar": 0.02, "how": "refinement"},
+    {"group": "EI", "case": "none", **LIMIT},
+    {"group": "input", "case": "two nodes", "verdict": "refused", "run_status": "refused", "message": "nodes: 2"},
+    {"group": "drift", "case": "1000 waves", **OK, "measured": 2e-9, "bar": 0.01, "wall_s": 3.0},
+]
+RANDOM = [
+    {"kind": "valid", "number": 0, "outcome": "ok", "status": "ok", "message": "", "wall_s": 0.1},
+    {"kind": "valid", "number": 1, "outcome": "ended", "status": "step-limit", "message": "why", "wall_s": 0.2},
+    {"kind": "invalid", "number": 0, "outcome": "refused", "status": "", "message": "why", "wall_s": 0.01},
+]
+
+
+def folder(place, judged=CASES, random=RANDOM):
+    place.mkdir()
+    rows = [{"part": "case", "about": row["group"], "dimensions": 2, **row} for row in judged]
+    write_table(place / "table.csv", cases.COLUMNS, rows)
+    write_table(place / "fuzz.csv", fuzz.COLUMNS, [{"meaning": "as told", **row} for row in random])
+    line = {"title": "taut", "step_s": 0.05, "methods": {"midpoint": METHOD}}
+    shares = {"rounds": 3, "length_s": 1.0, "scenes": {"whole": SHARE, "dry": {**SHARE, "us_per_newton": 4.0}}}
+    made_by = {"campaign": "stability", "quick": False, "command": ["python"]}
+    for name, content in {"step_maps": {"taut": line}, "scene_shares": shares, "provenance": made_by}.items():
+        (place / f"{name}.json").write_text(json.dumps(content))
+    return place
+
+
+def test_verdicts_and_faults_follow_the_tables(tmp_path):
+    study = read_study(folder(tmp_path / "out"))
+    assert [len(study.judged(word)) for word in VERDICTS] == [2, 1, 1, 0]
+    assert study.unsound() == [] and unexplained_items(study)[0].kind == "note"
+
+
+def test_what_is_unexplained_leads(tmp_path):
+    lost = {"group": "EA", "case": "stiff", "verdict": "unexplained", "run_status": "hang", "message": "no answer"}
+    crash = {"kind": "valid", "number": 7, "outcome": "crash", "status": "", "message": "exit code 11", "wall_s": 1.0}
+    notice = unexplained_items(read_study(folder(tmp_path / "out", [*CASES, lost], [*RANDOM, crash])))[0]
+    assert notice.kind == "warning" and len(notice.lines) == 2
+    assert "stiff" in notice.lines[0] and "exit code 11" in notice.lines[1]
+
+
+@pytest.mark.parametrize("random", [RANDOM, pytest.param([], marks=pytest.mark.slow)])
+def test_same_folder_same_bytes(tmp_path, random):
+    place = folder(tmp_path / "out", random=random)
+    first = [path.read_bytes() for path in build(place)]
+    assert [path.read_bytes() for path in build(place)] == first
+    assert first[0].count(b"<figure") == first[0].count(b"<figcaption") == 2
+
+
+@pytest.mark.parametrize("name", ["table.csv", "fuzz.csv", "step_maps.json", "scene_shares.json"])
+def test_a_broken_folder_is_refused(tmp_path, name):
+    place = folder(tmp_path / "out")
+    (place / name).unlink()
+    with pytest.raises(FolderError, match=name):
+        build(place)
+    if name != "fuzz.csv":
+        (place / name).write_text("{")
+        with pytest.raises(FolderError, match=name):
+            build(place)

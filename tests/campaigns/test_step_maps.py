@@ -28,7 +28,9 @@ def test_the_stability_function_is_that_of_its_order_and_damping(method):
     assert at_infinity == pytest.approx(AT_INFINITY[method], abs=1e-6)
 
 
-@pytest.mark.parametrize("name", LINES)
+@pytest.mark.parametrize(
+    "name", [pytest.param(name, marks=pytest.mark.slow) if name == "taut in space" else name for name in LINES]
+)
 def test_modes_are_multiplied_as_the_method_says(name, monkeypatch):
     monkeypatch.setattr(step_maps, "LINES", LINES)
     pushed = name.startswith("pushed")

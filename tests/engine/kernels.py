@@ -12,10 +12,9 @@ from engine.parameters import record_of
 from engine.perturbations.exponents import carry
 from engine.perturbations.lateral import COEFFICIENTS, WIDTH, lateral_stage
 from engine.perturbations.tangent import Base
-from engine.physics.currents import current_field
 from engine.physics.ends import upper_end, upper_end_3d
 from engine.physics.sea import sea_field
-from engine.physics.water import water
+from engine.physics.water import current_field, water
 from engine.physics.waves import wave_field
 from engine.planar import elimination as planar_elimination
 from engine.planar import node as planar_node

@@ -1,12 +1,13 @@
-"""Scenes and states for the tests against closed forms: lines without water or waves, states that no scene can express,
-and their forces.
+"""Scenes, runs and states for the tests: lines without water or waves, states that no scene can express, their forces.
 
 A state is Y (n, 6) = (eps, S, U, W, phi, kappa) in a plane, Y (n, 13) = (eps, Sn, Sb, V, beta, O) in space.
 """
 
+from functools import lru_cache
+
 import numpy as np
 
-from engine import load_scene
+from engine import load_scene, simulate
 from engine.run import Run
 from engine.scales import tension_at
 from tests.engine.box_equations import lifted
@@ -42,6 +43,33 @@ def line(*parts, **tether):
 def in_space(*parts, **tether):
     """`line` in three dimensions."""
     return line(*parts, SPACE, **tether)
+
+
+@lru_cache(maxsize=32)
+def ran(scene, periods=None, duration_s=None):
+    """The run of a scene, which must come to its end; made once for all tests of a process that ask for it."""
+    run = simulate(scene, periods, duration_s)
+    assert run.status == "ok", run.message
+    return run
+
+
+def assert_same(one, other):
+    """Two runs are the same in everything but the time they took, bit for bit."""
+    assert (one.status, one.message, one.scene) == (other.status, other.message, other.scene)
+    for name, column in one.columns.items():
+        np.testing.assert_array_equal(column, other.columns[name], name)
+    for name, value in one.statistics.items():
+        assert name == "wall_s" or value == other.statistics[name], name
+    for part in ("profiles", "tangent"):
+        mine, theirs = getattr(one, part), getattr(other, part)
+        assert (mine is None) == (theirs is None)
+        for name, values in vars(mine).items() if mine is not None else ():
+            np.testing.assert_array_equal(values, getattr(theirs, name), name)
+
+
+def orders(sizes):
+    """Slopes between neighbours of a sequence of errors, or of differences, of halved steps or elements."""
+    return np.log2(np.divide(sizes[:-1], sizes[1:]))
 
 
 def linear(stiffness_N):

@@ -5,15 +5,20 @@ skipped, and `pytest` says so with the reason at its end (`-rs` in pyproject.tom
 """
 
 import shutil
+from collections.abc import Mapping
 from contextlib import contextmanager
+from dataclasses import dataclass, field, replace
 from html.parser import HTMLParser
 from pathlib import Path
 from typing import get_args
 
+import numpy as np
 import pytest
 
+from campaigns import buoy_sweep
+from engine.scene import load_scene
 from reports import build
-from reports.buoy_sweep.equations import BUOY
+from reports.buoy_sweep.report import report
 from reports.parts.content import (
     Bullets,
     Column,
@@ -31,12 +36,51 @@ from reports.parts.content import (
     Table,
     Text,
 )
-from tests.reports.synthetic import campaign
+from reports.parts.html import render_html
+from reports.parts.sections import equation
+from tests.campaigns.fake_engine import FakeEngine, sines
 
+MESSAGE = "Newton's method did not converge <at> t = 12 s, #step $x$ 1e-9"
 ODD_TITLE = '<b>#odd$ *title* _x_ @ref `code` \\ "q" & [z] //c é\u2028 </title>'
 DOT = b'<svg xmlns="http://www.w3.org/2000/svg" width="490" height="200"><circle r="40"/></svg>'
 
 LONG = " `a_rather_long_name_of_a_column_of_the_table_N` --out /a/path/that/has/no/blank/in/it/and/goes/on/and/on"
+
+
+@dataclass(frozen=True)
+class Motions(FakeEngine):
+    """Period 1 below kA = 0.06, period 2 to 0.1, two incommensurate frequencies above.
+
+    failing: steepness -> (status, periods reached).
+    """
+
+    failing: Mapping[float, tuple[str, float]] = field(default_factory=dict)
+
+    def __call__(self, scene, periods=None, duration_s=None):
+        kA = scene.waves.steepness
+        status, reached = self.failing.get(kA, ("ok", periods or duration_s / scene.waves.period_s))
+        message, releases = "" if status == "ok" else MESSAGE, 7 if kA > 0.12 else 0
+        run = sines(scene, reached, status, message, tension=(2000.0, 5e4 * kA), releases=releases)
+        step_s = scene.sample_step_s()  # one more on both sides, for rates at the ends
+        phase = 2.0 * np.pi / scene.waves.period_s * step_s * np.arange(-1, len(run.columns["time_s"]) + 1)
+        more = 0.8 * np.sin(0.5 * phase + 0.3) if 0.06 <= kA < 0.1 else 0.0
+        more = 0.7 * np.sin(phase / np.pi) * np.cos(phase / np.e) if kA >= 0.1 else more
+        r = 20.8 + 12.0 * kA * (np.sin(phase) + more)
+        changed = {"radius_m": r[1:-1], "radius_rate_mps": np.gradient(r, step_s)[1:-1]}
+        changed["z_m"] = changed["radius_m"] * np.cos(run.columns["angle_rad"])
+        return replace(run, columns=run.columns | changed)
+
+
+def campaign(directory: Path, steepness, periods=80, transient=20, failing=None, overrides=None) -> Path:
+    """The folder of a sweep of `Motions`. overrides: of the scene `tethered_buoy`."""
+    scene = Path(directory).with_suffix(".toml")
+    scene.parent.mkdir(parents=True, exist_ok=True)
+    scene.write_text(load_scene("tethered_buoy", overrides or {}).to_toml(), encoding="utf-8")
+    length = ["--periods", str(periods), "--transient", str(transient), "--scene", str(scene)]
+    how = ["--jobs", "1", "--backend", "threading", "--no-report", "--no-accuracy", "--out", str(directory)]
+    swept = ["--steepness", *map(str, steepness), "--set", "output.tangent_vectors=0"]
+    assert buoy_sweep.main([*swept, *length, *how], simulate=Motions(failing=failing or {})) in (0, 1)
+    return Path(directory)
 
 
 class Page(HTMLParser):
@@ -71,8 +115,8 @@ def every_kind(text: str) -> Report:
     heads = tuple(Column(some, some, "right" if k else "left") for k in range(14))
     narrow, wide = Table(heads[:1], ((text,),) * 40, text, small=True), Table(heads, ((text,) * 14,) * 4, text)
     items = (
-        Heading(text), Text(text + LONG), Heading(text, 2), Bullets((text, text)), BUOY, drawing, narrow, wide,
-        *(Notice(kind, text, (text, text)) for kind in ("note", "warning")), Listing(text + LONG),
+        Heading(text), Text(text + LONG), Heading(text, 2), Bullets((text, text)), equation("buoy"), drawing,
+        narrow, wide, *(Notice(kind, text, (text, text)) for kind in ("note", "warning")), Listing(text + LONG),
         Links(((some, "part/report.html"),)),
         Explorer(drawing, text, text, (ExplorerColumn(0.1, (1.0,), text, "run-1"),)),
         Sheet("run-1", some, ((some, text),), (text,), "", narrow),
@@ -96,8 +140,13 @@ def built(folder) -> tuple[Path, Path]:
 
 
 @pytest.fixture(scope="session")
-def page(built) -> Page:
-    return Page(built[0].read_text(encoding="utf-8"))
+def source(folder) -> str:
+    return render_html(report(folder)).decode()
+
+
+@pytest.fixture(scope="session")
+def page(source) -> Page:
+    return Page(source)
 
 
 @pytest.fixture(scope="module")

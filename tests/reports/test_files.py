@@ -1,5 +1,8 @@
-"""The files of a report: the same bytes each time, a PDF with contents and links, of a size to send, quickly made."""
+"""The files of a report: the same bytes each time, a PDF with contents and links, of a size to send, quickly made; and
+folders that a sweep can leave behind when things go wrong, which still give a report that says so.
+"""
 
+import json
 import os
 import re
 import shutil
@@ -12,11 +15,18 @@ import matplotlib
 import pandas
 import pytest
 
+from campaigns.accuracy.rows import COLUMNS as of_accuracy
+from campaigns.buoy_sweep.rows import COLUMNS as of_a_buoy
+from campaigns.machinery.folder import write_json, write_table
+from campaigns.out_of_plane.rows import COLUMNS as of_plane
+from engine import load_scene
 from reports import build
+from reports.__main__ import main
 from reports.buoy_sweep.report import report
-from reports.parts.content import Explorer, Figure, Heading, Notice, Report, Text, first_sentence, plain
+from reports.parts.content import Explorer, Figure, Heading, Notice, Report, Sheet, Text, first_sentence, plain
+from reports.parts.folder import read_rows
 from reports.parts.pdf import render_pdf
-from tests.reports.synthetic import campaign
+from tests.reports.conftest import campaign
 
 ROOT = Path(__file__).parents[2]
 LINK = re.compile(rb"/Subtype ?/Link\b")
@@ -26,14 +36,6 @@ needs_pdftotext = pytest.mark.skipif(shutil.which("pdftotext") is None, reason="
 def words_of(pdf, *options):
     """The words of a PDF, pages apart by a form feed."""
     return subprocess.run(["pdftotext", *options, pdf, "-"], capture_output=True, check=True).stdout.decode()
-
-
-def test_help_loads_nothing_heavy():
-    code = "import sys, runpy; sys.argv = ['reports', '--help']\n"
-    code += "try: runpy.run_module('reports', run_name='__main__')\n"
-    code += "except SystemExit: print(sorted({'numpy', 'matplotlib', 'pandas', 'numba', 'typst'} & set(sys.modules)))"
-    done = subprocess.run([sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True, check=True)
-    assert "folder of a finished campaign" in done.stdout and done.stdout.strip().endswith("[]")
 
 
 @pytest.mark.slow
@@ -121,3 +123,104 @@ def test_the_title_of_a_notice_stays_with_its_first_line(tmp_path):
 )
 def test_a_list_of_figures_takes_the_first_sentence(caption, said):
     assert first_sentence(caption) == said
+
+
+def content(folder):
+    """What a report says in its boxes, its bullets and its sheets, and the number of its figures."""
+    items = report(folder).items
+    boxes = [line for item in items if isinstance(item, Notice) for line in item.lines]
+    sheets = [line for item in items if isinstance(item, Sheet) for line in item.lines]
+    return boxes, sheets, sum(isinstance(item, (Figure, Explorer)) for item in items)
+
+
+def test_runs_that_failed_are_named_with_their_reason_and_message(tmp_path):
+    failing = {0.1: ("newton-failed", 0), 0.13: ("statics-failed", 0.004)}
+    boxes, sheets, figures = content(campaign(tmp_path / "out", [0.1, 0.13], failing=failing))
+    for steepness, (reason, _) in failing.items():
+        assert any(f"{steepness}" in line and reason in line and "did not converge" in line for line in boxes)
+    assert figures == 0 and sum("did not converge" in line for line in sheets) == 2
+
+
+def test_a_single_short_run_gives_a_report(tmp_path):
+    boxes, _, figures = content(campaign(tmp_path / "out", [0.13], periods=6, transient=2))
+    assert figures >= 2 and boxes
+
+
+@pytest.mark.slow
+def test_a_damaged_and_a_missing_trajectory_cost_only_themselves(tmp_path):
+    folder = campaign(tmp_path / "out", [0.016, 0.05, 0.13], periods=30, transient=5)
+    files = [folder / "trajectories" / f"{row['run_key']}.nc" for row in read_rows(folder / "table.csv")]
+    files[0].write_bytes(files[0].read_bytes()[:1000])
+    files[1].unlink()
+    boxes, sheets, figures = content(folder)
+    assert any("0.016" in line and "0.05" in line for line in boxes) and figures >= 4
+    assert sum(file.name in line for file in files[:2] for line in sheets) == 2
+    assert not any(str(tmp_path) in line for line in boxes + sheets)
+
+
+def test_thirty_failures_are_summed_up(tmp_path):
+    steepness = [round(0.01 + 0.001 * k, 3) for k in range(30)]
+    folder = campaign(tmp_path / "out", steepness, failing={value: ("step-limit", 0) for value in steepness})
+    boxes, sheets, _ = content(folder)
+    assert sum("did not converge" in line for line in boxes) == 1
+    assert sum("did not converge" in line for line in sheets) == 30
+
+
+HEAD = "name,unit,symbol,meaning,digits\n"
+PARTS = ("table.csv", "columns.csv", "scene.toml", "provenance.json", "trajectories")
+
+
+@pytest.mark.parametrize(
+    ("part", "content", "said"),
+    [
+        *((part, None, f"{part} is missing") for part in PARTS),
+        ("columns.csv", None, "older version"),
+        ("columns.csv", "name,unit\n", "its first line is not name,unit,symbol,meaning,digits"),
+        ("columns.csv", HEAD + "a,,,,two\n", "columns.csv cannot be read"),
+        ("columns.csv", HEAD + "a,b\n", "columns.csv cannot be read"),
+        ("table.csv", "steepness,status\n0.1,ok\n", "columns missing: "),
+        ("columns.csv", HEAD + "status,,,,\n", "does not tell of all columns"),
+        ("table.csv", "", "table.csv cannot be read"),
+        ("scene.toml", "name = 3", "scene.toml cannot be read"),
+        ("provenance.json", "{", "provenance.json cannot be read"),
+        ("provenance.json", json.dumps({"campaign": "other"}), "names the campaign 'other'"),
+    ],
+)
+def test_a_part_that_cannot_be_used_is_named_and_nothing_is_written(tmp_path, capsys, part, content, said):
+    """content: of the file in place of its own, None where it is taken away."""
+    folder = campaign(tmp_path / "out", [0.13], periods=5, transient=1)
+    if content is None:
+        (folder / part).rename(tmp_path / "away")
+    else:
+        (folder / part).write_text(content, encoding="utf-8")
+    before = sorted(folder.iterdir())
+    assert main([str(folder)]) == 2
+    assert said in capsys.readouterr().err and sorted(folder.iterdir()) == before
+
+
+@pytest.mark.parametrize(
+    ("campaign", "columns", "said"),
+    [
+        ("accuracy", of_accuracy, "does not describe the works"),
+        ("out_of_plane", of_plane, "does not name base and transient"),
+        ("sweep", of_a_buoy, "does not name what was varied"),
+        ("oscillator", (), "table.csv is missing"),
+    ],
+)
+def test_a_folder_that_does_not_say_what_its_report_needs_is_refused(tmp_path, capsys, campaign, columns, said):
+    write_json(tmp_path / "provenance.json", {"campaign": campaign})
+    if columns:
+        write_table(tmp_path / "table.csv", columns, [{"status": "ok"}])
+        (tmp_path / "scene.toml").write_text(load_scene("tethered_buoy").to_toml(), encoding="utf-8")
+        (tmp_path / "trajectories").mkdir()
+    assert main([str(tmp_path)]) == 2
+    assert said in capsys.readouterr().err
+
+
+def test_an_empty_folder_lists_everything_that_is_missing(tmp_path, capsys):
+    assert main([str(tmp_path)]) == 2
+    message = capsys.readouterr().err
+    assert all(part in message for part in PARTS)
+    assert main([str(tmp_path / "nowhere")]) == 2
+    assert "no such folder" in capsys.readouterr().err
+    assert list(tmp_path.iterdir()) == []

@@ -22,7 +22,7 @@ from reports.parts.content import Links, Notice, Table, Text
 from reports.parts.html import render_html
 from reports.parts.judged import read_statements
 from tests.campaigns.conftest import ROOT
-from tests.campaigns.paper.world import deep, world
+from tests.campaigns.paper.test_statements import deep, world
 
 
 def write(path, columns, rows):
@@ -90,7 +90,7 @@ def test_the_short_answer_tells_each_statement_that_does_not_simply_hold_once(tm
 def test_tensions_of_fast_and_slow_breaks_have_identical_scales():
     def scales(least):
         forces = enumerate((45e3, 180e3, 315e3, 450e3), 1)
-        panels = [LinePanel(f"{k}", N, "", np.zeros(2), np.array([[least * N, N]]), np.zeros(1)) for k, N in forces]
+        panels = [LinePanel(f"{k}", N, np.zeros(2), np.array([[least * N, N]]), np.zeros(1)) for k, N in forces]
         return limits(panels, "tension_N")
 
     assert scales(-0.045) == scales(-0.01)

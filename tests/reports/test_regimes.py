@@ -1,16 +1,15 @@
 """A sweep of records long enough has exponents and regimes; planar runs are as good as the report says."""
 
-import csv
-
 import pytest
 
 from analysis import read_evidence
 from campaigns import buoy_sweep, out_of_plane
+from campaigns.machinery.folder import read_rows
 from campaigns.out_of_plane.pairs import APART_M
-from campaigns.tables import read_rows
 from reports.buoy_sweep.report import report
 from reports.buoy_sweep.tables import COMPARED
 from reports.parts.content import Figure, Sheet, Table
+from tests.campaigns import conftest
 
 pytestmark = pytest.mark.slow
 LONG, SHORT = (["--periods", "200", "--transient", "50"], ["--periods", "60", "--transient", "21"])
@@ -25,8 +24,7 @@ def folder(tmp_path_factory):
 
 
 def rows_of(folder):
-    with open(folder / "table.csv", newline="", encoding="utf-8") as file:
-        return {float(row["steepness"]): row for row in csv.DictReader(file)}
+    return {float(row["steepness"]): row for row in conftest.rows_of(folder)}
 
 
 def test_the_table_holds_exponents_with_errors_and_a_regime(folder):

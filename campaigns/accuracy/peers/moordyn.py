@@ -107,12 +107,11 @@ def simulate(scene: Scene, duration_s: float, segments: int, steps_per_period: f
     periods = round(duration_s / scene.waves.period_s)
     with silent(), np.errstate(all="ignore"):  # a run that ends in NaN complains at length
         places, spent = stepped(scene, segments, round(steps_per_period), periods)
-    found = np.column_stack([places[:, 0], 0 * places[:, 0], places[:, 1]])
-    return sampled(scene, duration_s, found, spent, round(steps_per_period) * periods)
+    return sampled(scene, duration_s, places, spent, round(steps_per_period) * periods)
 
 
 def stepped(scene, segments, steps_per_period, periods):
-    """x, z of the buoy from the anchor (m, 2), m, every SAMPLE_S seconds, and the seconds spent in stepping calls."""
+    """x, y, z of the buoy from the anchor (m, 3), m, every SAMPLE_S seconds, and the seconds spent in steps."""
     import cmoordyn
     import moordyn
 
@@ -124,15 +123,14 @@ def stepped(scene, segments, steps_per_period, periods):
     port = 0.5 * density * PORT_AREA
     water, instance = airy(scene), create(scene, segments, step_s)
     point, buoy = moordyn.GetPoint(instance, 2), segments + 2  # coordinates: line nodes, anchor, buoy, ground
-    places_before = velocity_before = None
+    places_before = np.array(cmoordyn.ext_wave_coords(instance)).reshape(-1, 3)
+    velocity_before = np.array(moordyn.GetPointVel(point))
     kept, spent = [], 0.0
     for i in range(steps_per_period * periods + 1):
         places = np.array(cmoordyn.ext_wave_coords(instance)).reshape(-1, 3)
         velocity = np.array(moordyn.GetPointVel(point))
-        if i == 0:
-            places_before, velocity_before = places, velocity
         if i % every == 0:
-            kept.append((places[buoy, 0], places[buoy, 2] - BED))
+            kept.append((places[buoy, 0], 0.0, places[buoy, 2] - BED))
         ahead = 1.5 * places - 0.5 * places_before
         velocity_ahead = 1.5 * velocity - 0.5 * velocity_before
         places_before, velocity_before = places, velocity

@@ -68,10 +68,6 @@ def jacobian(p, tables, t, C, Y, work, base, moved, J):
     return code
 
 
-class _Stopped(Exception):
-    pass
-
-
 class Equations:
     """f and its Jacobian for solve_ivp, with counts. faults: calls in which Newton's method did not converge."""
 
@@ -88,7 +84,7 @@ class Equations:
 
     def f(self, t, C):
         if time.perf_counter() > self.ends_s:
-            raise _Stopped
+            raise TimeoutError
         self.calls += 1
         code = rates(self.record, self.tables, t, C.reshape(-1, self.size), self.Y, self.work, self.base)
         self.faults += code != OK
@@ -124,7 +120,7 @@ def simulate(scene: Scene, duration_s: float, nodes: int, rtol: float, method: s
     equations.ends_s = began + LONGEST_S
     try:
         found = solve_ivp(equations.f, (0.0, t[-1]), C0, **how)
-    except _Stopped:
+    except TimeoutError:
         status, message = "too-slow", f"stopped after {LONGEST_S:g} s of run time"
     except (ValueError, np.linalg.LinAlgError) as error:
         status, message = "solver-failed", str(error)

@@ -14,20 +14,14 @@ from campaigns.breaking_line.theory.simple_wave import Case, ShockStart, dissipa
 
 @dataclass(frozen=True, eq=False)
 class ShockPath:
-    """A shock from its start to the fixed end, or to the end of the solution; all (rows,).
-
-    time_s, place_m        place from the fixed end, in unstretched length
-    ahead, behind          strain on its two sides
-    speed_mps              sigma of Rankine-Hugoniot, towards the fixed end
-    emission_s             when the characteristic that it meets from ahead left the end; 0: the shock leads the wave
-    """
+    """A shock from its start to the fixed end, or to the end of the solution; all (rows,)."""
 
     time_s: np.ndarray
-    place_m: np.ndarray
-    ahead: np.ndarray
+    place_m: np.ndarray  # from the fixed end, in unstretched length
+    ahead: np.ndarray  # strain
     behind: np.ndarray
-    speed_mps: np.ndarray
-    emission_s: np.ndarray
+    speed_mps: np.ndarray  # sigma of Rankine-Hugoniot, towards the fixed end
+    emission_s: np.ndarray  # when the characteristic met from ahead left the end; 0: the shock leads the wave
 
     def at(self, time_s):
         """(place [m], strain ahead, strain behind, speed [m/s]) at times (m,) of the path; nan outside it.
@@ -50,23 +44,15 @@ class ShockPath:
 
 @dataclass(frozen=True, eq=False)
 class FittedBreak:
-    """The motion after `fitted_break`; `at` evaluates it.
+    """The motion after `fitted_break`; `at` evaluates it."""
 
-    case                   what was asked for
-    start                  ShockStart of the simple wave: where theory lets the shock begin
-    shock                  ShockPath; no rows when none forms on the line in time
-    valid_until_s          the time asked for, or when a second shock begins that is not fitted
-    first_echo_s           when the first wave from the fixed end or the shock is at the broken end; inf: not yet
-    net, starts            the crossings of characteristics and where the C+ start, see `characteristics`
-    """
-
-    case: Case
-    start: ShockStart
-    shock: ShockPath
-    valid_until_s: float
-    first_echo_s: float
-    net: Net
-    starts: np.ndarray
+    case: Case  # what was asked for
+    start: ShockStart  # of the simple wave: where theory lets the shock begin
+    shock: ShockPath  # no rows when none forms on the line in time
+    valid_until_s: float  # the time asked for, or when a second shock begins that is not fitted
+    first_echo_s: float  # when the first wave from the fixed end or the shock is at the broken end; inf: not yet
+    net: Net  # the crossings of characteristics
+    starts: np.ndarray  # where the C+ start, see `characteristics`
 
     def at(self, s_m, time_s):
         """Strain, velocity [m/s] along +s and tension [N] at places (m,) [m], each (m,), at one time [s].

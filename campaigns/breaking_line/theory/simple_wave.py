@@ -19,7 +19,6 @@ Source: Courant & Friedrichs, Supersonic Flow and Shock Waves (1948), sections 2
 """
 
 from collections import namedtuple
-from dataclasses import dataclass
 
 import numpy as np
 
@@ -113,20 +112,10 @@ def crossing_of(case, tau):
     return tau + c / steepening, c * c / steepening
 
 
-@dataclass(frozen=True)
-class ShockStart:
-    """Where characteristics of the simple wave first cross; all inf or nan when they never do.
-
-    time_s, distance_m     from the start of the break, and from the broken end (may be longer than the line)
-    emission_s             when the characteristic on which it forms left the end
-    strain, speed_mps      on that characteristic
-    """
-
-    time_s: float
-    distance_m: float
-    emission_s: float
-    strain: float
-    speed_mps: float
+# Where characteristics of the simple wave first cross; all inf or nan when they never do:
+# time_s, distance_m: from the start of the break, and from the broken end (may be longer than the line)
+# emission_s: when the characteristic on which it forms left the end; strain, speed_mps: on that characteristic
+ShockStart = namedtuple("ShockStart", "time_s distance_m emission_s strain speed_mps")
 
 
 def shock_start(case):
@@ -155,26 +144,17 @@ def shock_start(case):
     return ShockStart(*map(float, (*crossing_of(case, tau), tau, strain, wave_speed(case.law, strain))))
 
 
-@dataclass(frozen=True)
-class BreakTheory:
-    """Speeds of the simple wave of a line broken under `tension0`, and its late shock.
-
-    strain0, slack_strain        where T = tension0, and where T = 0
-    front_speed_mps              c(strain0): the first thing that moves
-    slack_front_speed_mps        c(slack_strain): the edge of the part without tension
-    end_speed_mps                of the broken end once T = 0 there, without the shock's small addition
-    front_arrival_s              when the front would reach the fixed end
-    shock_end_speed_mps          of the broken end behind the strongest (sonic) shock into strain0 and its fan, once its
-                                 echo has come back; nan without a shock
-    """
-
-    strain0: float
-    slack_strain: float
-    front_speed_mps: float
-    slack_front_speed_mps: float
-    end_speed_mps: float
-    front_arrival_s: float
-    shock_end_speed_mps: float
+# Speeds of the simple wave of a line broken under F_s, and its late shock:
+# strain0, slack_strain: where T = F_s, and where T = 0;  front_speed_mps: c(strain0), the first thing that moves
+# slack_front_speed_mps: c(slack_strain), the edge of the part without tension
+# end_speed_mps: of the broken end once T = 0 there, without the shock's small addition
+# front_arrival_s: when the front would reach the fixed end
+# shock_end_speed_mps: of the broken end behind the strongest (sonic) shock into strain0 and its fan, once its echo has
+# come back; nan without a shock
+BreakTheory = namedtuple(
+    "BreakTheory",
+    "strain0 slack_strain front_speed_mps slack_front_speed_mps end_speed_mps front_arrival_s shock_end_speed_mps",
+)
 
 
 def break_theory(case):

@@ -13,23 +13,18 @@ from pathlib import Path
 from campaigns import figure_data
 from campaigns.breaking_line.lines import FAST, SLOW
 from campaigns.machinery.folder import made_by, read_json, write_json
-from campaigns.paper.figures.breaking import breaking
-from campaigns.paper.figures.buoy import history, spectra
 from campaigns.paper.figures.chaos import running_exponents, sections
-from campaigns.paper.figures.offplane import offplane_histories
+from campaigns.paper.figures.motions import SHOWN, breaking, history, offplane_histories, spectra
+from campaigns.paper.measured import LeftOut, Parts
 from campaigns.paper.measures import LARGE, SMALL
-from campaigns.paper.part_folders import LeftOut, Parts
 
 LEFT_OUT = "left_out.json"
-MAKERS = ("figures", "measures.py", "part_folders.py")
-SOURCES = ("analysis", "engine", "campaigns/figure_data.py", *(f"campaigns/paper/{name}" for name in MAKERS))
+MAKERS = ("figures", "measures.py", "measured.py")
+SHARED = ("analysis", "engine", "campaigns/figure_data.py", "campaigns/buoy_sweep/rows.py")
+SOURCES = (*SHARED, *(f"campaigns/paper/{name}" for name in MAKERS))
 FIGURES = {  # of the paper -> what plans its data from the `Parts`; 1 and 8 are sketches
-    2: partial(breaking, cases=FAST, what="motion"),
-    3: partial(breaking, cases=FAST, what="tension"),
-    4: partial(breaking, cases=FAST, what="velocity"),
-    5: partial(breaking, cases=SLOW, what="motion"),
-    6: partial(breaking, cases=SLOW, what="tension"),
-    7: partial(breaking, cases=SLOW, what="velocity"),
+    **{2 + at: partial(breaking, cases=FAST, what=what) for at, what in enumerate(SHOWN)},
+    **{5 + at: partial(breaking, cases=SLOW, what=what) for at, what in enumerate(SHOWN)},
     9: partial(history, steepness=SMALL, side="tension"),
     10: partial(history, steepness=SMALL, side="radial"),
     11: partial(history, steepness=SMALL, side="angular"),
@@ -70,7 +65,7 @@ def write_figure_data(folder: str | Path) -> dict[int, str]:
             plan = planned(parts)
             digests = [(one["label"], one["file"], one["sha256"]) for one in plan.sources]
             key = made_by({"figure": number, "title": plan.title, "sources": digests, "code": code})
-            if figure_data.made_by_of(data) != key:
+            if figure_data.attribute_of(data) != key:
                 figure_data.store(data, figure_data.dataset(plan.title, plan.arrays(), plan.sources, key))
         except LeftOut as reason:
             left_out[number] = str(reason)

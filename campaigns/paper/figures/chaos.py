@@ -14,8 +14,8 @@ import numpy as np
 from campaigns.figure_data import Array, Source, source
 from campaigns.judge import carried
 from campaigns.machinery.folder import trajectory_path
+from campaigns.paper.measured import LeftOut, Parts, Plan
 from campaigns.paper.measures import LARGE, SMALL, strobed
-from campaigns.paper.part_folders import LeftOut, Parts, Plan
 from engine.natural_frequencies import natural_frequencies
 
 LINEAR_PERIODS = 200  # kept whole, for a linear axis as in the paper; a longer record is drawn on a logarithmic one

@@ -10,16 +10,15 @@ from functools import cache
 from pathlib import Path
 
 from campaigns.breaking_line import judging as line
-from campaigns.paper.statements import large_waves, plane, small_waves
+from campaigns.paper.statements import buoy
 from campaigns.paper.statements.judging import depths, numbers
 from campaigns.statements import Claim, read_claims
 
 TABLE = Path(__file__).parents[1] / "statements.toml"
 MEASURES = {"numbers": numbers, "depths": depths} | {
     name.replace("_", " "): measure
-    for module in (small_waves, large_waves, plane)
-    for name, measure in vars(module).items()
-    if getattr(measure, "__module__", "") == module.__name__
+    for name, measure in vars(buoy).items()
+    if getattr(measure, "__module__", "") == buoy.__name__
 }
 
 

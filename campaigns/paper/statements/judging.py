@@ -6,10 +6,10 @@
 import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
 
+from campaigns.machinery.folder import Row
 from campaigns.paper.measured import Results
 from campaigns.paper.measures import LARGE
 from campaigns.statements import Check, Measured, formula, grouped, shown
-from campaigns.tables import Row
 
 Measure = Callable[[Results], Measured]
 Place = tuple[str, Row]  # where a run was, in words, and its row
@@ -97,19 +97,12 @@ def at(row: Row) -> str:
     return f"H = {row['depth_m']:g} m"
 
 
-def elsewhere(results: Results, steepness: float) -> list[Place]:
-    """The runs whose buoy loses buoyancy out of the water, by depth: not as shipped, yet likelier."""
-    if not results.dependence:
-        return []
-    usual = results.usual()["submergence"]
-    others = dict.fromkeys(row["submergence"] for row in results.dependence if row["submergence"] != usual)
-    found = [(under, row) for under in others for row in results.over_depth(steepness, submergence=under)]
-    return [(f"{at(row)} with {under}", row) for under, row in found]
-
-
 def everywhere(results: Results, steepness: float) -> list[Place]:
-    """The short runs of a wave at every depth, with both buoyancies."""
-    return [(at(row), row) for row in results.over_depth(steepness)] + elsewhere(results, steepness)
+    """The short runs of a wave by depth: as shipped, then with a buoy that loses buoyancy out of the water."""
+    shipped = [(at(row), row) for row in results.over_depth(steepness)]
+    others = dict.fromkeys(row["submergence"] for row in results.dependence)
+    found = [(under, row) for under in [*others][1:] for row in results.over_depth(steepness, submergence=under)]
+    return shipped + [(f"{at(row)} with {under}", row) for under, row in found]
 
 
 def regimes(rows: Iterable[Place], is_so: Callable[[str], bool]) -> list[Check]:

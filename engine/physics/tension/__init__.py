@@ -23,10 +23,6 @@ from typing import Annotated, get_args
 from pydantic import Field
 
 LAWS = tuple(import_module(f"{__name__}.{found.name}") for found in iter_modules(__path__) if found.name != "kernels")
+# the number by which a parameter record names a law is its place in both
 NAMES = [get_args(law.Model.model_fields["law"].annotation)[0] for law in LAWS]
 TensionLaw = Annotated[reduce(or_, (law.Model for law in LAWS)), Field(discriminator="law")]
-
-
-def number_of(name: str) -> int:
-    """The number by which a parameter record names a law."""
-    return NAMES.index(name)

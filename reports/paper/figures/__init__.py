@@ -8,12 +8,12 @@ The files are written by `campaigns.paper.figures`. The same file gives the same
 """
 
 import json
+from dataclasses import replace
 from functools import lru_cache
 from pathlib import Path
 
-from ...parts.content import Figure, Picture
-from ...parts.figure_data import FigureDataError, parsed
-from ...parts.style import prints_of, sheet
+from ...parts.content import Figure
+from ...parts.folder import read_arrays
 from .breaking import breaking
 from .buoy import history, spectra
 from .chaos import offplane_histories, running_exponents, sections
@@ -35,18 +35,15 @@ PREFACE = (
 )
 
 
-def files_of(root: str | Path, number: int) -> tuple[Path, Path, Path]:
-    """Data, SVG and PNG of a figure of the paper, in the folder of data and drawings within the campaign's folder."""
-    stem = Path(root) / "figures" / f"fig_{number:02d}"
-    return stem.with_suffix(".nc"), stem.with_suffix(".svg"), stem.with_suffix(".png")
-
-
-def figures_of(root: str | Path) -> dict[int, Figure]:
-    """The figures that can be drawn, by their number in the paper."""
-    return {
-        number: Figure(svg, f"Fig. {number} of the paper, {caption}", alt)
-        for number, (svg, _, caption, alt) in _drawn(root).items()
-    }
+def figures_of(root: str | Path, kind: str = "svg") -> dict[int, Figure]:
+    """The figures that can be drawn from the files in a campaign's folder, by their number in the paper."""
+    found = {}
+    for number in NUMBERS:
+        try:
+            found[number] = draw(number, _place(root, number, "nc").read_bytes(), kind)
+        except (OSError, ValueError, AttributeError, KeyError):  # no file, or not the data of this figure
+            continue
+    return found
 
 
 def left_out(root: str | Path) -> dict[int, str]:
@@ -55,42 +52,26 @@ def left_out(root: str | Path) -> dict[int, str]:
         reasons = json.loads((Path(root) / "figures" / "left_out.json").read_text(encoding="utf-8"))
     except (OSError, ValueError):
         reasons = {}
-    drawn = _drawn(root)
+    drawn = figures_of(root)
     unknown = "its data file is missing or damaged"
     return {number: str(reasons.get(str(number), unknown)) for number in NUMBERS if number not in drawn}
 
 
 def pictures(root: str | Path) -> dict[Path, bytes]:
     """The drawings to keep beside the data."""
-    kept = {}
-    for number, (svg, png, _, _) in _drawn(root).items():
-        _, as_svg, as_png = files_of(root, number)
-        kept |= {as_svg: svg.data, as_png: png.data}
-    return kept
+    drawn = {kind: figures_of(root, kind) for kind in ("svg", "png")}
+    return {_place(root, n, kind): one.picture.data for kind, found in drawn.items() for n, one in found.items()}
 
 
-def _drawn(root: str | Path) -> dict[int, tuple[Picture, Picture, str, str]]:
-    found = {}
-    for number in NUMBERS:
-        try:
-            found[number] = draw(number, files_of(root, number)[0].read_bytes())
-        except (OSError, FigureDataError):
-            continue
-    return found
+def _place(root: str | Path, number: int, kind: str) -> Path:
+    return Path(root) / "figures" / f"fig_{number:02d}.{kind}"
 
 
-@lru_cache(maxsize=len(NUMBERS))
-def draw(number: int, content: bytes) -> tuple[Picture, Picture, str, str]:
-    """A figure of the paper from the bytes of its data file: SVG, PNG, caption, text alternative.
+@lru_cache(maxsize=2 * len(NUMBERS))
+def draw(number: int, content: bytes, kind: str) -> Figure:
+    """A figure of the paper from the bytes of its data file; kind: "svg" or "png".
 
-    Raises FigureDataError for bytes that are no data of that figure.
+    Raises ValueError, AttributeError or KeyError for bytes that are no data of that figure.
     """
-    data = parsed(content)
-    try:
-        drawing = DRAWN_BY[number](data)
-    except (AttributeError, KeyError) as error:
-        raise FigureDataError(f"not the data of fig. {number} of the paper ({error})") from None
-    with sheet(drawing.height_in) as figure:
-        drawing.fill(figure)
-        svg, png = prints_of(figure)
-    return svg, png, drawing.caption, drawing.alt
+    figure = DRAWN_BY[number](read_arrays(content), kind)
+    return replace(figure, caption=f"Fig. {number} of the paper, {figure.caption}")

@@ -7,14 +7,12 @@ ms; fig. 7 velocity along the breaking line, 50 ms.
 
 from __future__ import annotations
 
-from functools import partial
 from typing import TYPE_CHECKING
 
-from ...breaking_line.runs import title_of
-from ...figures.line_panels import QUANTITIES, SCALED, LinePanel, fill_line_panels, line_panels_height_in, seen
-from ...parts.content import sub
+from ...figures.line_panels import QUANTITIES, SCALED, LinePanel, line_panels, seen
+from ...parts.content import Figure, sub
 from ...parts.wording import number
-from .drawing import Drawing, behind, value
+from .drawing import behind, value
 
 if TYPE_CHECKING:
     import xarray
@@ -22,25 +20,19 @@ if TYPE_CHECKING:
 F_HS = "F" + sub("h,s")
 
 
-def breaking(data: xarray.Dataset) -> Drawing:
+def breaking(data: xarray.Dataset, kind: str) -> Figure:
     """The figure of a data file. Raises KeyError for one of another figure."""
     cases = [name.split("_")[1] for name in data if str(name).endswith("_force_N")]
     column = next(name for name in QUANTITIES if f"case_{cases[0]}_{name}" in data)
-    panels = [_panel(data, case, column, place) for place, case in enumerate(cases)]
+    drawn = ("x_m" if column == "z_m" else "s_m", column, "time_s")
+    panels = []
+    for case in cases:
+        curves = (data[f"case_{case}_{name}"].values for name in drawn)
+        panels.append(LinePanel(case, value(data, f"case_{case}_force_N"), *curves))
     what, fracture = QUANTITIES[column][0], number(1e3 * value(data, f"case_{cases[0]}_fracture_s"))
     caption = (
         f"{what} (fracture in {fracture} ms), curves 10 ms apart, dark to bright; {SCALED[column]}. Titles: the static "
         f"force {F_HS}. Seen: {seen(panels, column)}. {behind(data)}"
     )
     alt = f"Four panels, {what}, fracture in {fracture} ms, a curve every 10 ms, from {seen(panels, column)}."
-    fill = partial(fill_line_panels, panels=panels, column=column)
-    return Drawing(line_panels_height_in(len(panels)), fill, caption, alt)
-
-
-def _panel(data: xarray.Dataset, case: str, column: str, place: int) -> LinePanel:
-    x, force_N = (
-        data[f"case_{case}_x_m" if column == "z_m" else f"case_{case}_s_m"],
-        value(data, f"case_{case}_force_N"),
-    )
-    curves = (x.values, data[f"case_{case}_{column}"].values, data[f"case_{case}_time_s"].values)
-    return LinePanel(case, force_N, title_of(place, case, force_N), *curves)
+    return Figure(line_panels(panels, column, kind), caption, alt)

@@ -10,18 +10,16 @@ kA = 0.13; fig. 17 spectrum of r, kA = 0.13; fig. 18 spectrum of θ, kA = 0.13.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import partial
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ...figures.curves import Curve, Panel, fill
+from ...figures.curves import Curve, Panel, curves
 from ...figures.motion import envelope, spectrum_panels
-from ...parts.content import sub
-from ...parts.figure_data import sources_of
+from ...parts.content import Figure, sub
 from ...parts.style import BLUE, GREEN, INK, VERMILION
 from ...parts.wording import L_0, OMEGA_I, T_I, T_S, TAU_0, decimals, listed, number
-from .drawing import DASHED, Drawing, behind, spans, value
+from .drawing import DASHED, behind, sources_of, spans, value
 
 if TYPE_CHECKING:
     import xarray
@@ -55,7 +53,7 @@ class Side:
     band: tuple[str, str] = ()
 
 
-def history(data: xarray.Dataset) -> Drawing:
+def history(data: xarray.Dataset, kind: str) -> Figure:
     """The figure of a data file. Raises KeyError for one of another figure."""
     side = _side(data)
     kA, seen = sources_of(data)[0].label, spans(data, {side.column: side.what}, 3)
@@ -63,8 +61,8 @@ def history(data: xarray.Dataset) -> Drawing:
         f"{seen}, {kA}, against t/{T_I}; above up to the end of the window of eq. (31), its start marked, below the "
         f"last {DETAIL_PERIODS} wave periods of it. {behind(data)}"
     )
-    drawn = partial(fill, rows=_histories(data, side), legend="below")
-    return Drawing(3.9, drawn, caption, f"History over time, {kA}: {seen}.")
+    picture = curves(_histories(data, side), 3.9, "below", kind=kind)
+    return Figure(picture, caption, f"History over time, {kA}: {seen}.")
 
 
 def _side(data: xarray.Dataset) -> Side:
@@ -103,7 +101,7 @@ def _histories(data: xarray.Dataset, side: Side) -> list[list[Panel]]:
     return rows
 
 
-def spectra(data: xarray.Dataset) -> Drawing:
+def spectra(data: xarray.Dataset, kind: str) -> Figure:
     """The figure of a data file. Raises KeyError for one of another figure."""
     sides = [side for side in MOTIONS if f"{side}_amplitude" in data]
     wave = value(data, "wave_radps")
@@ -132,4 +130,4 @@ def spectra(data: xarray.Dataset) -> Drawing:
     labels = r"$\omega$ (rad/s)", " and ".join(MOTIONS[side][0] for side in sides)
     marks = [(value(data, frequency), name) for frequency, name in MARKED.items()]
     panels = spectrum_panels(lines, SPECTRUM_TO * wave, labels, marks)
-    return Drawing(2.9, partial(fill, rows=[panels], legend="below"), caption, alt)
+    return Figure(curves([panels], 2.9, "below", kind=kind), caption, alt)

@@ -11,16 +11,15 @@ plane of the waves.
 from __future__ import annotations
 
 from dataclasses import replace
-from functools import partial
 from typing import TYPE_CHECKING
 
-from ...figures.curves import Curve, Panel, fill
+from ...figures.curves import Curve, Panel, curves
 from ...figures.motion import settled
-from ...figures.offplane_history import History, lateral_height_in, lateral_panels
-from ...parts.figure_data import sources_of
+from ...figures.offplane_history import History, lateral_histories
+from ...parts.content import Figure
 from ...parts.style import BLUE, INK, VERMILION
 from ...parts.wording import L_0, T_I, decimals, number
-from .drawing import DASHED, Drawing, behind, spans, value
+from .drawing import DASHED, behind, sources_of, spans, value
 
 if TYPE_CHECKING:
     import xarray
@@ -35,7 +34,7 @@ _FEW = 1000  # points up to which each is drawn as a dot
 WAVES, BODIES = ("small", "large"), ("buoy", "rope")
 
 
-def running_exponents(data: xarray.Dataset) -> Drawing:
+def running_exponents(data: xarray.Dataset, kind: str) -> Figure:
     """The figure of a data file. Raises KeyError for one of another figure."""
     labels = dict(zip(_STYLES, (one.label for one in sources_of(data)), strict=True))
     ends = []
@@ -56,8 +55,7 @@ def running_exponents(data: xarray.Dataset) -> Drawing:
         f"then tends to 0, the tangent's does not. {behind(data)}"
     )
     alt = f"Running exponents over the length of the record: {'; '.join(ends)} bits per wave period."
-    drawn = partial(fill, rows=[_running(data, labels)], legend="below", share="y")
-    return Drawing(3.3, drawn, caption, alt)
+    return Figure(curves([_running(data, labels)], 3.3, "below", "y", kind), caption, alt)
 
 
 def _running(data: xarray.Dataset, labels: dict[str, str]) -> list[Panel]:
@@ -79,7 +77,7 @@ def _running(data: xarray.Dataset, labels: dict[str, str]) -> list[Panel]:
     return panels
 
 
-def sections(data: xarray.Dataset) -> Drawing:
+def sections(data: xarray.Dataset, kind: str) -> Figure:
     """The figure of a data file. Raises KeyError for one of another figure."""
     force, lift, damping, frequency = (number(value(data, key)) for key in ("force", "lift", "damping", "frequency"))
     waves = sources_of(data)[0].label
@@ -98,10 +96,10 @@ def sections(data: xarray.Dataset) -> Drawing:
         size = 3.5 if len(x) <= _FEW else 1.4 if len(x) <= 20 * _FEW else 0.35
         dots = Curve(x, y, line="", mark=".", colour=INK, size=size, pixels=True)
         panels.append(Panel([dots], *axes, title, marks=[(0.0, "")]))
-    return Drawing(3.6, partial(fill, rows=[panels]), caption, f"Two scatter plots of strobed motion: {seen}.")
+    return Figure(curves([panels], 3.6, kind=kind), caption, f"Two scatter plots of strobed motion: {seen}.")
 
 
-def offplane_histories(data: xarray.Dataset) -> Drawing:
+def offplane_histories(data: xarray.Dataset, kind: str) -> Figure:
     """The figure of a data file. Raises KeyError for one of another figure."""
     labels = dict(zip(WAVES, (one.label.partition(" with")[0] for one in sources_of(data)), strict=True))
     bodies = {f"{name}_{body}_m": f"{body} at {label}" for name, label in labels.items() for body in BODIES}
@@ -123,5 +121,5 @@ def offplane_histories(data: xarray.Dataset) -> Drawing:
             periods, inplane_m = data[f"{name}_time_s"].values / period_s, value(data, f"{name}_inplane_m")
             runs.append(History(label, periods, size, envelope_periods, envelope, inplane_m))
         panels.append((axis, runs))
-    rows = lateral_panels(panels, beside={"right": (1.0 / static_m, r"$|y|/r_0$ (–)")})
-    return Drawing(lateral_height_in(len(BODIES)), partial(fill, rows=rows, legend="below", share="x"), caption, alt)
+    beside = {"right": (1.0 / static_m, r"$|y|/r_0$ (–)")}
+    return Figure(lateral_histories(panels, kind, beside=beside), caption, alt)

@@ -1,29 +1,20 @@
-"""What every figure of the paper is: a height, what fills the sheet, what to see; and words on what is behind it."""
+"""What every figure of the paper says of its data: single numbers, ranges, and the results that are behind them.
+
+The data are one netCDF-3 file, which its campaign wrote. Arrays carry `units` and `long_name`.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass
+import json
+from types import SimpleNamespace
 from typing import TYPE_CHECKING
 
-from ...parts.figure_data import sources_of
 from ...parts.wording import RHO_W, decimals, number
 
 if TYPE_CHECKING:
     import xarray
-    from matplotlib.figure import Figure
 
 DASHED = (0, (4, 1.5))  # the second of two lines of the paper's keys
-
-
-@dataclass(frozen=True)
-class Drawing:
-    """A figure before it is drawn: its height on the page, what draws it on an open sheet, caption and alternative."""
-
-    height_in: float
-    fill: Callable[[Figure], None]
-    caption: str
-    alt: str
 
 
 def value(data: xarray.Dataset, name: str) -> float:
@@ -36,6 +27,14 @@ def spans(data: xarray.Dataset, names: dict[str, str], places: int = 2) -> str:
     ends = ((words, data[name].values) for name, words in names.items())
     said = (f"{words} from {decimals(x.min(), places)} to {decimals(x.max(), places)}" for words, x in ends)
     return "; ".join(said)
+
+
+def sources_of(data: xarray.Dataset) -> list[SimpleNamespace]:
+    """The results behind the figure, in the order of its key of lines, from the attribute `sources`.
+
+    Each has its label there, its file and sha256, the key of its run, its settings (TOML or JSON), and its run_s.
+    """
+    return [SimpleNamespace(**one) for one in json.loads(data.attrs["sources"])]
 
 
 def behind(data: xarray.Dataset) -> str:

@@ -35,9 +35,9 @@ def test_largest_exponent_within_three_standard_errors():
     assert abs(found.dimension - 1.7193) < 3 * np.hypot(found.dimension_error, 5e-5)
 
 
-@pytest.mark.parametrize(("damping", "frequency"), [(0.0, 1.14), (0.025, 1.14), (0.4, 1.14), (1.9, 1.14)])
-def test_exponents_and_damping_add_up_to_zero(damping, frequency):
-    oscillator = SnapOscillator(damping=damping, frequency=frequency)
+@pytest.mark.parametrize("damping", [0.0, 0.025, 0.4, 1.9])
+def test_exponents_and_damping_add_up_to_zero(damping):
+    oscillator = SnapOscillator(damping=damping)
     found = snap_exponents(oscillator, count=8, transient_periods=20, periods=1000, keep_periodic=True)
     assert abs(found.first.value + found.second.value + damping) < 1e-12
     assert np.abs(found.of_start.sum(axis=1) + damping).max() < 1e-12
@@ -142,9 +142,7 @@ def test_a_single_attractor_takes_every_start_of_a_grid_that_covers_the_box_even
     assert (found.label == 0).all() and (found.settled > 0).all()
 
 
-@pytest.mark.parametrize(
-    "numbers", [{}, {"damping": 0.3, "frequency": 0.4}, {"frequency": 2.5, "lift": 0.2, "phase": 1.0}]
-)
+@pytest.mark.parametrize("numbers", [{"damping": 0.3, "frequency": 0.4}, {"frequency": 2.5, "lift": 0.2, "phase": 1.0}])
 def test_slack_begins_at_the_threshold_and_nowhere_below(numbers):
     oscillator = SnapOscillator(**numbers)
     found = grazing_force(oscillator)

@@ -1,5 +1,8 @@
-"""The campaign of the breaking line: what it runs, what a row says, what happens when something fails or is there."""
+"""The campaign of the breaking line: what it runs, what a row says, what a failure does; its report."""
 
+import csv
+import re
+import shutil
 from dataclasses import replace
 
 import pytest
@@ -7,9 +10,10 @@ import pytest
 from campaigns import breaking_line
 from campaigns.breaking_line import CASES, LENGTHS_S
 from engine import load_scene, simulate
+from reports import build
 from tests.campaigns.conftest import rows_of
 
-USUAL = ["--no-companions", "--set", "tether.nodes=101", "--backend", "threading", "--jobs", "2", "--no-report"]
+USUAL = ["--no-companions", "--backend", "threading", "--jobs", "2", "--no-report"]
 
 
 def failing(scene, periods=None, duration_s=None):
@@ -20,6 +24,13 @@ def failing(scene, periods=None, duration_s=None):
     if force == 315_000:
         return replace(simulate(scene, duration_s=0.01), status="newton-failed", message="no convergence")
     return simulate(scene, duration_s=duration_s)
+
+
+def made(place, *words, simulate=None):
+    """The folder of cases, and of more words; on a coarse grid."""
+    coarse = ["tether.nodes=101"] if "--set" in words else ["--set", "tether.nodes=101"]
+    assert breaking_line.main([*USUAL, "--out", str(place), "--cases", *words, *coarse], simulate=simulate) == 0
+    return place
 
 
 def runs_of(*words):
@@ -66,9 +77,8 @@ def test_a_law_without_theory_has_no_straight_lines():
 
 
 def test_rows(tmp_path):
-    assert breaking_line.main(["--cases", "1", "4", "4p", *USUAL, "--out", str(tmp_path / "out")]) == 0
-    rows = {row["case"]: row for row in rows_of(tmp_path / "out")}
-    assert list(rows) == ["1", "4", "4p"] and all(row["status"] == "ok" for row in rows.values())
+    rows = {row["case"]: row for row in rows_of(made(tmp_path, "1", "4p"))}
+    assert list(rows) == ["1", "4p"] and all(row["status"] == "ok" for row in rows.values())
     assert float(rows["1"]["end_speed_mps"]) == pytest.approx(43.16, rel=0.003)
     assert float(rows["4p"]["shock_birth_theory_m"]) == pytest.approx(39.32, abs=0.01)
     assert rows["1"]["shock_birth_theory_m"] == rows["1"]["shock_birth_m"] == ""
@@ -80,37 +90,16 @@ def test_rows(tmp_path):
         assert work == pytest.approx(exact, rel=0.25)  # 5 ms: coarse steps
 
 
+@pytest.mark.slow
 def test_failures_are_rows_with_reasons(tmp_path, capsys):
-    words = ["--cases", "1", "2", "3", *USUAL, "--out", str(tmp_path / "out")]
-    assert breaking_line.main(words, simulate=failing) == 0
-    rows = {row["case"]: row for row in rows_of(tmp_path / "out")}
+    rows = {row["case"]: row for row in rows_of(made(tmp_path, "1", "2", "3", simulate=failing))}
     assert rows["1"]["status"] == "ok"
     assert rows["3"]["status"] == "newton-failed" and rows["3"]["message"] == "no convergence"
     assert rows["3"]["end_speed_mps"] == "" and rows["3"]["end_speed_theory_mps"] != ""
     assert rows["2"]["status"] not in ("ok", "") and "a fault of the code" in rows["2"]["message"]
     assert "failed   2" in capsys.readouterr().out
-
-
-@pytest.mark.parametrize(
-    ("words", "part"),
-    [
-        ("--cases", "given nothing"),
-        ("--cases 1 4'", "allowed: one of 1, 2, 3, 4, 1p, 2p, 3p, 4p"),
-        ("--set end.force_N=[1,0,0]", "use --cases"),
-        ("--set end.force_decay_s=0.01", "use --cases"),
-        ("--scene tethered_buoy", "end.force_N"),
-        ("--set tether.nodes=2", "tether.nodes"),
-        ("--set tether.area_m2=-1", "tether.area_m2"),
-        ("--no-companion", "did you mean --no-companions"),
-    ],
-)
-def test_bad_input_is_one_message(tmp_path, monkeypatch, capsys, words, part):
-    monkeypatch.chdir(tmp_path)
-    assert breaking_line.main(words.split()) == 2
-    captured = capsys.readouterr()
-    assert captured.err.count(part) == 1  # also a fault that all runs have
-    assert captured.out == "" and "Traceback" not in captured.err
-    assert list(tmp_path.iterdir()) == []
+    text = text_of(tmp_path)
+    assert "newton-failed: no convergence" in text and "a fault of the code" in text
 
 
 def test_the_shipped_scene_is_case_4():
@@ -119,3 +108,52 @@ def test_the_shipped_scene_is_case_4():
     assert shipped.end.force_N[2] == pytest.approx(case.scene.end.force_N[2], rel=1e-6)
     assert shipped.end.force_decay_s == case.scene.end.force_decay_s
     assert shipped.tether == case.scene.tether and shipped.solver == case.scene.solver
+
+
+@pytest.fixture(scope="module")
+def study(tmp_path_factory):
+    return made(tmp_path_factory.mktemp("break"), "1", "4", "1p", "4p")
+
+
+def text_of(folder):
+    """The words of its report."""
+    page, pdf = (path.read_bytes() for path in build(folder))
+    assert not re.search(rb"(?:src|href)=\"https?:", page) and pdf[:4] == b"%PDF"
+    return " ".join(re.sub(r"<[^>]+>", " ", re.sub(r"base64,[A-Za-z0-9+/=]+", "", page.decode())).split())
+
+
+@pytest.mark.slow
+def test_the_papers_figures_its_statements_and_the_animation_are_there(study):
+    text = text_of(study)
+    assert all(f"fig. {figure} of the paper" in text for figure in range(2, 8)) and "Fronts and shocks" in text
+    judged = {row["statement"]: row["verdict"] for row in rows_of(study, "statements.csv")}
+    assert all(statement in text for statement in judged)
+    assert judged["The maximum speed does not depend on the fracture time."] == "holds"
+    assert judged["In slow breaks the kinetic energy is more uniformly distributed."] == "does not hold"
+    assert (study / "report.html").read_text(encoding="utf-8").count("data:image/gif") == 1
+
+
+@pytest.mark.slow
+def test_what_limits_the_runs_is_said(study, tmp_path):
+    copy = shutil.copytree(study, tmp_path / "copy")
+    rows = {row["case"]: row for row in rows_of(copy)}
+    (copy / "trajectories" / f"{rows['4']['run_key']}.nc").unlink()
+    rows["1"]["max_turn_rad"], rows["4"]["remainder_largest_J"] = "1.5", "1e5"
+    with open(copy / "table.csv", "w", newline="") as file:
+        writer = csv.DictWriter(file, rows["1"])
+        writer.writeheader()
+        writer.writerows(rows.values())
+    text = text_of(copy)
+    assert f"its file {rows['4']['run_key']}.nc is missing" in text and "(b) case 4" not in text
+    assert [path.read_bytes() for path in build(copy)] == [path.read_bytes() for path in build(copy)]
+    assert "Case 1, 101 nodes turns by 1.50 rad" in text and "budget of case 4 does not close" in text
+
+
+@pytest.mark.slow
+def test_without_profiles_energies_or_theory_a_report_is_made(tmp_path):
+    bare = ["output.profiles=false", "output.profiles_step_s=none", "output.energy=false"]
+    linear = "tether.tension={law='linear', stiffness_N=2e6}"
+    folder = made(tmp_path, "1", "--set", linear, *bare)
+    text = text_of(folder)
+    assert "motion of a breaking line" not in text and "Energy at the end" not in text
+    assert not (folder / "exact.nc").exists()

@@ -15,14 +15,14 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from campaigns.breaking_line import LENGTHS_S, planned
+from campaigns.breaking_line import LENGTHS_S, read_order
 from campaigns.breaking_line import motion_measures as measures
 from campaigns.breaking_line.theory import theory_of
 from engine import simulate
-from tests.engine.physics.breaking import CASES, broken, straight, theory
+from tests.engine.physics.test_shock_capturing import CASES, broken, straight, theory
 
 LENGTH = 60.0
-SHOCKED = ("3", "4", "4p")
+FURTHER = [case for case in CASES if case != "4"]
 SPEEDS_MPS = {"1": (43.2, 43.2), "2": (111.2, 111.2), "3": (166.2, 166.2), "4": (228.3, 228.8)}  # in one dimension
 FRONTS_MPS = {"1": 658.0, "2": 1056.0, "3": 1089.0, "4": 800.0}
 
@@ -39,7 +39,7 @@ def whole(case):
     return exact_profiles(case, np.arange(0.0, theory(case).arrival_s, 5e-4))
 
 
-@pytest.mark.parametrize("case", CASES)
+@pytest.mark.parametrize("case", ["4", *(pytest.param(case, marks=pytest.mark.slow) for case in FURTHER)])
 def test_the_exact_motion_has_its_fronts_no_error_and_no_ripple(case):
     speeds = theory(case).speeds
     if case != "4":  # its shock eats the front
@@ -52,7 +52,7 @@ def test_the_exact_motion_has_its_fronts_no_error_and_no_ripple(case):
     assert measures.strain_error(whole(case), theory(case)) == 0.0
 
 
-@pytest.mark.parametrize("case", SHOCKED)
+@pytest.mark.parametrize("case", ["4", *(pytest.param(case, marks=pytest.mark.slow) for case in ("3", "4p"))])
 def test_the_shock_and_where_it_is_born(case):
     _, places, exact = measures.shock_track(whole(case), theory(case))
     assert len(places) >= 10 and np.abs(places - exact).max() < LENGTH / 800
@@ -104,7 +104,8 @@ def test_recoil_of_a_line_that_moves_as_told():
 
 
 def scene_of(case, **changes):
-    (run,) = planned("breaking_line", changes, [case], companions=False, faults=(faults := []))
+    settings = ["--set", *(f"{key}={value}" for key, value in changes.items())] if changes else []
+    (run,) = read_order(["--cases", case, "--no-companions", *settings], faults := []).cases
     assert not faults
     return run.scene
 

@@ -1,6 +1,5 @@
 """The campaign of the whole paper: its parts are run once, found again, and what stops one stops all."""
 
-import csv
 import json
 from itertools import product
 from pathlib import Path
@@ -12,6 +11,7 @@ from campaigns.machinery.folder import CampaignStopped
 from campaigns.machinery.plan import Summary
 from campaigns.paper import dependence, parts, results
 from engine import load_scene
+from tests.campaigns.conftest import rows_of
 
 
 @pytest.fixture
@@ -55,8 +55,7 @@ def leave(folder):
 
 
 def rows(out):
-    with open(out / "table.csv", newline="") as file:
-        return {row["part"]: row for row in csv.DictReader(file)}
+    return {row["part"]: row for row in rows_of(out)}
 
 
 def test_every_part_is_run_once_and_then_found(campaign):
@@ -101,14 +100,6 @@ def test_what_stops_a_part_stops_the_campaign_and_keeps_what_is_done(campaign, e
     assert campaign() == (0, ["sweep", "dependence", "out_of_plane", "oscillator", "writing"])
 
 
-def test_every_fault_is_told_and_nothing_is_written(tmp_path, capsys):
-    out = tmp_path / "out"
-    assert paper.main(["--parts", "buoys", "--jobs", "0", "--quickly", "--out", str(out)]) == 2
-    told = capsys.readouterr().err
-    assert all(word in told for word in ("buoys", "breaking_line", "--jobs", "--quickly", "nothing was run or written"))
-    assert not out.exists()
-
-
 def test_the_study_varies_one_thing_at_a_time_from_the_shipped_scene():
     found, (above, drowned) = dependence.variants(False), dependence.treatments()
     scenes = (load_scene("tethered_buoy", keys) for keys in (dependence.changes(found[0]), dependence.CARRIED))
@@ -129,8 +120,7 @@ def test_a_quick_look_at_everything(tmp_path, capsys):
     page = (out / "report.html").read_text(encoding="utf-8")
     assert all(f"Fig. {number} of the paper" in page for number in (*range(2, 8), *range(9, 21)))
     assert "Misprints" in page and "eq. (33)" in page and "nothing is to be concluded" in page
-    with open(out / "statements.csv", newline="", encoding="utf-8") as file:
-        verdicts = {row["statement"]: row["verdict"] for row in csv.DictReader(file)}
+    verdicts = {row["statement"]: row["verdict"] for row in rows_of(out, "statements.csv")}
     assert verdicts["The maximum speed does not depend on the fracture time."] == "holds"
     assert verdicts["At high tension the front runs at about 500 m/s."] == "does not hold"
     content = {path: path.read_bytes() for path in out.rglob("*") if path.is_file() and path.name != ".lock"}

@@ -1,4 +1,7 @@
-"""Verdicts follow from the results: each statement holds in the paper's world, none does in the contrary one."""
+"""Verdicts follow from the results: each statement holds in the paper's world, none does in the contrary one.
+
+Two synthetic worlds: in `world` everything is as the paper says, in `world(so=False)` nothing is.
+"""
 
 import csv
 import io
@@ -6,10 +9,156 @@ import math
 
 import pytest
 
+from campaigns.breaking_line.lines import CASES, over_case_4
 from campaigns.paper.measured import Results
 from campaigns.paper.statements import buoy_claims, claims
 from campaigns.statements import COLUMNS, FAILS, HOLDS, HOLDS_IF, OPEN, Claim, Measured, Statement, as_csv, judge
-from tests.campaigns.paper.world import LARGE, buoy, deep, world
+
+STRAINS = (0.099, 0.178, 0.228, 0.292)
+DEPTHS = (21.0, 22.5)
+SMALL, LARGE = 0.016, 0.13
+FRONTS = (300.0, 700.0, 720.0, 500.0), (200.0, 300.0, 300.0, 340.0)
+LINE = {  # column -> (as the paper says, the contrary), of the case's number n and whether it breaks slowly
+    "force_N": (lambda n, slow: (45e3, 180e3, 315e3, 450e3)[n - 1], lambda n, slow: 900e3 if n == 4 else 45e3 * n),
+    "breaking_time_s": (lambda n, slow: 0.05 if slow else 0.005, lambda n, slow: 0.005),
+    "end_speed_mps": (lambda n, slow: 700.0 * STRAINS[n - 1], lambda n, slow: (50.0 if slow else 100.0) - 10.0 * n),
+    "end_speed_most_mps": (lambda n, slow: 700.0 * STRAINS[n - 1], lambda n, slow: 100.0),
+    "speed_largest_mps": (lambda n, slow: 700.0 * STRAINS[n - 1], lambda n, slow: 1e4),
+    "front_speed_mps": (lambda n, slow: FRONTS[0][n - 1], lambda n, slow: 5000.0),
+    "front_speed_theory_mps": (lambda n, slow: FRONTS[0][n - 1], lambda n, slow: FRONTS[1][n - 1]),
+    "slack_front_speed_mps": (lambda n, slow: 260.0, lambda n, slow: 300.0),
+    "slack_front_speed_theory_mps": (lambda n, slow: 260.0, lambda n, slow: 260.0),
+    "end_time_s": (lambda n, slow: 1.0, lambda n, slow: 0.2),
+    "arrival_theory_s": (
+        lambda n, slow: 0.04 if slow else (0.91, 0.7, 0.55, 0.6)[n - 1],
+        lambda n, slow: 0.3 if n == 1 else 0.7,
+    ),
+    "recoil_m": (lambda n, slow: 3.0 * n, lambda n, slow: 3.0),
+    "recoil_120ms_m": (lambda n, slow: 5.0 * n, lambda n, slow: 0.0 if slow else 5.0 - n),
+    "vertical_m": (lambda n, slow: 1.0 / n, lambda n, slow: 1.0 * n),
+    "vertical_beyond_m": (lambda n, slow: 0.5 / n, lambda n, slow: 1.0 * n),
+    "steepest_tilt_rad": (lambda n, slow: 1.0, lambda n, slow: 0.1),
+    "x_min_m": (lambda n, slow: -1.0 if n == 4 else 0.0, lambda n, slow: 0.0),
+    "tension_spread": (lambda n, slow: 0.6 if slow else 0.8, lambda n, slow: 1.0 if slow else 0.8),
+    "kinetic_spread": (lambda n, slow: 0.6 if slow else 0.4, lambda n, slow: 0.3 if slow else 0.4),
+    "fast_share": (lambda n, slow: 0.1 if slow else 0.3, lambda n, slow: 0.3),
+    "resting_share": (lambda n, slow: 0.2 if slow else 0.4, lambda n, slow: 0.4),
+    "stored_J": (lambda n, slow: 1e5 * n, lambda n, slow: 1e5 / n),
+    "kinetic_largest_J": (lambda n, slow: 0.9e5 * n, lambda n, slow: 1e3 if slow else 0.9e5 / n),
+    "static_strain": (lambda n, slow: STRAINS[n - 1], lambda n, slow: 0.5),
+    "steepening": (lambda n, slow: -0.1 if n == 1 else 0.1, lambda n, slow: -0.1),
+    "shock_birth_theory_m": (lambda n, slow: math.nan, lambda n, slow: 20.0),
+    "tension_behind": (lambda n, slow: 0.0, lambda n, slow: 0.5),
+    "fronts_apart": (lambda n, slow: 0.0, lambda n, slow: 0.5),
+    "reached_s": (lambda n, slow: 0.05 if slow else 0.005, lambda n, slow: 0.001 if slow else 0.005),
+}
+
+
+def line(case: str, kind: str, so: bool) -> dict:
+    """A row of the breaking line; so: as the paper tells it."""
+    row = {name: both[not so](int(case[0]), case.endswith("p")) for name, both in LINE.items()}
+    off = 2.0 if kind == "doubled" and not so else 1.0
+    return row | {"case": case, "kind": kind, "status": "ok", "recoil_m": off * row["recoil_m"]}
+
+
+def buoy(steepness: float, so: bool = True, **changed) -> dict:
+    """A row of the buoy."""
+    large = steepness > 0.1
+    row = {
+        "steepness": steepness,
+        "status": "ok",
+        "regime": "chaotic" if large is so else "period-1",
+        "regime_tighter": "",
+        "strobed_period": math.nan if large and so else 2.0,
+        "radius_min_m": 20.0,
+        "radius_max_m": 21.0,
+        "tension_top_min_N": 1000.0 if so and not large else -100.0,
+        "tension_top_max_N": 9000.0 if large else 3000.0,
+        "slack_fraction": 0.1 if large else 0.0,
+        "lyapunov_tangent_bits_per_period": 0.2 if large is so else -0.01,
+        "lyapunov_tangent_error": 0.01 if large is so else 0.001,
+        "lyapunov_wolf_bits_per_period": 0.001 if so else 0.5,
+        "lyapunov_wolf_error": 0.01,
+        "near_zero": 0.5 if so else 0.0,
+        "compressed": 0.1,
+        "compressed_inwards": 0.9 if so else 0.4,
+        "begun_inwards": 1.0,
+        "turned": 1.0 if so else 0.9,
+        "peak_periods": 0.1 if so else 0.4,
+        "radial_line": 0.1 if so else 0.7,
+        "angular_line": 0.1,
+        "radial_at": 1.0,
+        "angular_at": 1.0,
+    }
+    return row | changed
+
+
+def deep(steepness: float, depth_m: float, so: bool = True, **changed) -> dict:
+    """A row of the dependence study."""
+    treated = {"above_still_water": "extrapolate", "submergence": "full", "bending_stiffness_Nm2": 0.4}
+    return {**buoy(steepness, so), "depth_m": depth_m, **treated, **changed}
+
+
+def pushed(steepness: float, so: bool = True, direction: str = "lateral") -> dict:
+    """A row out of the plane."""
+    grows = (steepness > 0.1) is so
+    return {
+        "steepness": steepness,
+        "status": "ok",
+        "dimensions": 3.0,
+        "depth_m": 21.0,
+        "seed_direction": direction,
+        "profiles": 0.0,
+        "buoy_motion": "growth" if grows else "decay",
+        "rope_motion": "growth" if grows else "decay",
+        "buoy_share_of_inplane": 0.5 if so else 0.01,
+        "rope_share_of_inplane": 0.5,
+        "buoy_lateral_max_m": 1.0,
+        "rope_lateral_max_m": (0.0 if so else 0.1) if direction == "along" else 1.0 if so else 0.01,
+    }
+
+
+NUMBERS = {
+    "length_m": 20.0, "estimate_static_tension_N": 2000.0, "estimate_radial_radps": 1.0,
+    "estimate_pendulum_radps": 0.196, "estimate_wave_radps": 1.26, "small_amplitude_m": 0.1,
+    "diameter_over_wave": 0.04, "frequency": 1.14, "lift": 0.68, "force": 1.4, "oscillator_frequency": 1.14,
+    "oscillator_lift": 0.68, "oscillator_force": 1.4, "rest_m": 20.8, "excursion_m": 0.5, "long_tension_min_N": 1000.0,
+    "early_radial_radps": 1.0, "early_angular_radps": 0.19, "radial_bins": 0.2, "angular_bins": 0.1,
+    "radial_share": 0.99, "angular_share": 0.99, "radial_coupled": 1e-3, "angular_coupled": 1e-3, "radial_kept": 0.2,
+    "angular_kept": 0.4, "radial_mean": 0.01, "angular_mean": 0.01, "tension_alike": 0.99, "unexplained": 0.5,
+    "correlation_dimension": 1.99, "correlation_dimension_error": 0.01, "buckle_waves": 9.0,
+    "lambda_1_bits_per_period": 0.5, "lambda_1_bits_error": 0.01, "section_dimension": 1.7,
+    "section_dimension_error": 0.01,
+}  # fmt: skip
+CONTRARY = NUMBERS | {
+    "estimate_radial_radps": 2.0, "estimate_pendulum_radps": 1.0, "estimate_wave_radps": 2.0, "small_amplitude_m": 0.2,
+    "diameter_over_wave": 0.5, "frequency": 2.0, "lift": 2.0, "force": 2.0, "rest_m": 20.5, "excursion_m": 1.0,
+    "long_tension_min_N": -1.0, "early_radial_radps": 4.0, "early_angular_radps": 4.0, "radial_bins": 90.0,
+    "angular_bins": 90.0, "radial_share": 0.5, "angular_share": 0.5, "radial_coupled": 0.5, "angular_coupled": 0.5,
+    "radial_kept": 0.9, "angular_kept": 0.1, "radial_mean": 0.5, "angular_mean": -0.5, "tension_alike": 0.5,
+    "unexplained": 0.01, "correlation_dimension": 1.0, "buckle_waves": 1.0, "lambda_1_bits_per_period": -1.0,
+    "section_dimension": 1.0,
+}  # fmt: skip
+
+
+def world(so: bool = True, **changed) -> Results:
+    """All results; so: as the paper says, else the contrary of all. changed: fields of Results."""
+    again = {"run": "twice the elements", "status": "ok", "periods": 100.0}
+    off_m = 1e-3 if so else 0.5
+    sweep = {0.05: 0.0, 0.13: 0.1, 0.14: 0.1} if so else {0.05: 0.1, 0.14: 0.0}
+    usual = {
+        "lines": over_case_4([line(case, kind, so) for kind in ("case", "doubled") for case in CASES]),
+        "buoy": {kA: buoy(kA, so) for kA in (SMALL, LARGE)},
+        "accuracy": tuple(again | {"label": kA, "error_early_m": off_m, "error_m": off_m} for kA in (SMALL, LARGE)),
+        "sweep": tuple(
+            buoy(kA, so, slack_fraction=slack, regime="chaotic" if so else "period-1") for kA, slack in sweep.items()
+        ),
+        "dependence": tuple(deep(kA, H, so) for kA in (LARGE, SMALL) for H in DEPTHS),
+        "plane": (pushed(SMALL, so), pushed(LARGE, so), pushed(LARGE, so, "along")),
+        "numbers": NUMBERS if so else CONTRARY,
+    }
+    return Results(**(usual | changed))
+
 
 ONCE = {claim.text: claim for claim in claims()}.values()
 MISPRINT = "The wave takes 0.55 to 0.91 s to run along the whole line."  # as printed, or a tenth of it: never both

@@ -9,10 +9,9 @@ from types import SimpleNamespace
 
 import numpy as np
 
-from engine.paper_box.frame import roll, rotation, to_local
-from engine.paper_box.line import line_of
+from engine.paper_box.line import line_of, roll, rotation, to_local
 from engine.paper_box.nodal import times_M
-from tests.engine.paper_box.equations import scene_of, space_derivatives, states, turned
+from tests.engine.paper_box.test_newton_update import scene_of, space_derivatives, states, turned
 
 ROUNDING = 1e-12  # of the largest entry of the row
 STEP = 1e-30

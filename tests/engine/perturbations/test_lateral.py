@@ -17,12 +17,12 @@ Law: a lateral perturbation of a buoy at rest is a pendulum, and nothing damps i
 import numpy as np
 import pytest
 
-from engine import load_scene, simulate
+from engine import load_scene
 from engine.scene import build_scene
 from tests.engine.box_equations import LAWS, across, lifted, response, state_of
 from tests.engine.kernels import Stage
-from tests.engine.lines import DRY, STILL, free, held, line, linear
-from tests.engine.perturbations.tangents import Carried, Run
+from tests.engine.lines import DRY, STILL, free, held, line, linear, ran
+from tests.engine.perturbations.test_tangent_vectors import Carried, Run
 
 NODES, RATE = 7, 120.0
 ENDS = {"buoy": {}, "held": held(3.0, 18.0), "free": free(300.0, 900.0)}
@@ -149,8 +149,7 @@ def test_a_dry_pendulum_neither_grows_nor_decays():
     the weights say, T being not quite the scale: 1e-4.
     """
     light = DRY | {"tether.density_kgpm3": 1e-2, "tether.tension": linear(1e5)}
-    run = simulate(line(light, {"output.lateral_growth": True}), duration_s=400.0)
-    assert run.status == "ok"
+    run = ran(line(light, {"output.lateral_growth": True}), duration_s=400.0)
     assert run.tangent.growth_nats.shape == (400, 0) and run.tangent.period_s == 1.0
     later = run.tangent.lateral_nats[100:]
     assert np.abs(later).max() < 1e-4

@@ -1,4 +1,4 @@
-"""The sphere partly in the water, written out from geometry and mechanics for tests that must not trust a kernel.
+"""Linear waves, and the sphere partly in the water, from geometry and mechanics, for tests that trust no kernel.
 
 Complex arguments pass, so that a complex step differentiates everything to rounding. Lengths m, SI units.
 """
@@ -96,3 +96,15 @@ def potential(scene, z):
     inside = min(max(h, 0.0), D)
     below = math.pi * inside**3 * (D / 6 - inside / 12) + volume(D, D) * max(h - D, 0.0)
     return buoy.mass_kg * g * z + rho * g * below
+
+
+def direct(k, A, depth, t, X, direction=1.0, phase=0.0, omega=2 * np.pi / 5.0):
+    """Water velocity and local acceleration (n, 4) at X (n, 2) of a wave along `direction`, 1 or -1, in long doubles;
+    quotients as they stand, so kH below some 10000."""
+    x, z = np.asarray(X, np.longdouble).T
+    k = np.longdouble(k)
+    psi = direction * k * x - np.longdouble(omega) * t + phase
+    c, s = (f(k * z) / np.sinh(k * depth) * A * omega for f in (np.cosh, np.sinh))
+    return np.column_stack(
+        [direction * c * np.cos(psi), s * np.sin(psi), direction * omega * c * np.sin(psi), -omega * s * np.cos(psi)]
+    )

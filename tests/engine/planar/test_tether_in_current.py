@@ -15,13 +15,10 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
+from tests.engine.box_equations import buoy_of, water_on_line, wet_weight
 from tests.engine.lines import STILL, equilibrium, forces, held, line, positions
 
-LENGTH, EA, AREA, RHO_W, G = 20.0, 5e4, 7.85e-5, 1027.0, 9.81
-D = np.sqrt(4 * AREA / np.pi)
-W = np.array([0.0, 0.0, (1140.0 - RHO_W) * AREA * G])
-LIFT = np.array([0.0, 0.0, (RHO_W * np.pi * 1.5**3 / 6 - 1611.0) * G])
-C_BUOY = 0.5 * RHO_W * 0.2 * np.pi * 1.5**2 / 4
+LENGTH, EA = 20.0, 5e4
 PROFILES = {  # heights (m), velocities (m/s), dimensions
     "uniform": ([0.0, 30.0], [[1.2, 0.0, -0.1], [1.2, 0.0, -0.1]], 2),
     "sheared": ([0.0, 8.0, 14.0, 30.0], [[0.2, 0, 0], [0.4, 0, 0], [0.9, 0, 0], [2.5, 0, 0]], 2),
@@ -29,35 +26,33 @@ PROFILES = {  # heights (m), velocities (m/s), dimensions
 }
 
 
-def water(name, height):
-    heights, velocities, _ = PROFILES[name]
-    return np.array([np.interp(height, heights, part) for part in np.transpose(velocities)])
+def water(scene, height):
+    """Velocity (3,) of a current by heights."""
+    heights, velocities = scene.current.height_m, np.transpose(scene.current.velocity_mps)
+    return np.array([np.interp(height, heights, part) for part in velocities])
 
 
-def slope(s, y, name):
-    """d/ds of (N, X)."""
-    N = y[:3]
-    T = np.linalg.norm(N)
-    t, stretch = N / T, 1 + T / EA
-    u = water(name, y[5])
-    ut = (u @ t) * t
-    up = u - ut
-    drag = np.pi * 0.1 * np.linalg.norm(ut) * ut + np.linalg.norm(up) * up
-    return [*(W - 0.5 * RHO_W * D * np.sqrt(stretch) * drag), *(stretch * t)]
+def slope(s, y, scene):
+    """d/ds of (N, X) of a line at rest without bending."""
+    T = np.linalg.norm(y[:3])
+    t, stretch = y[:3] / T, 1 + T / scene.tether.tension.stiffness_N
+    still = np.zeros((1, 3))
+    drag, _ = water_on_line(scene, np.array([[stretch]]), t[None], -water(scene, y[5])[None], still, still)
+    return [*(wet_weight(scene) - drag[0]), *(stretch * t)]
 
 
-def from_the_anchor(N, name):
-    """(N, X) as a function of s; short steps at z = 8 and 14 m, where the shear has corners: some 1e-9."""
-    longest = 0.1 if name == "sheared" else np.inf
+def from_the_anchor(N, scene):
+    """(N, X) as a function of s; short steps where the shear has corners, at z = 8 and 14 m: some 1e-8."""
+    longest = 0.25 if len(scene.current.height_m) > 2 else np.inf
     start, tight = [*N, 0.0, 0.0, 0.0], {"rtol": 1e-12, "atol": 1e-12, "max_step": longest, "dense_output": True}
-    return solve_ivp(slope, (0.0, LENGTH), start, args=(name,), method="DOP853", **tight).sol
+    return solve_ivp(slope, (0.0, LENGTH), start, args=(scene,), method="DOP853", **tight).sol
 
 
-def bound(exact, name, nodes):
+def bound(exact, scene, nodes):
     """Error of position (m) as in the head of this file."""
     s = np.linspace(0, LENGTH, 2001)
     y = exact(s)
-    rates = np.array([slope(0.0, column, name) for column in y.T]).T
+    rates = np.array([slope(0.0, column, scene) for column in y.T]).T
     load, turn = (
         np.sum(np.linalg.norm(np.diff(np.gradient(part, s, axis=1), axis=1), axis=0)) for part in (rates[:3], rates[3:])
     )
@@ -73,19 +68,20 @@ def test_a_line_in_a_current(name, end):
     parts = [STILL, current, {"motion.dimensions": dimensions}] + [held(*place)] * (end == "held")
     errors = []
     for nodes in (81, 161, 321):
-        motion = equilibrium(line(*parts, nodes=nodes, bending_stiffness_Nm2=0.0))
+        scene = line(*parts, nodes=nodes, bending_stiffness_Nm2=0.0)
+        motion = equilibrium(scene)
         X, N = positions(motion.Y, motion.h).T, forces(motion.Y, EA)
-        exact = from_the_anchor(N[0], name)
+        exact = from_the_anchor(N[0], scene)
         expected = exact(motion.s)
         off = X - (expected[3:] if dimensions == 3 else expected[[3, 5]]), N.T - expected[:3]
         errors.append([np.abs(part).max() for part in off])
         if end == "buoy":
-            u = water(name, X[-1, -1])
-            assert N[-1] == pytest.approx(LIFT + C_BUOY * np.linalg.norm(u) * u, abs=1e-5)
+            _, lift, drag, _ = buoy_of(scene)
+            assert N[-1] == pytest.approx(lift + drag(-water(scene, X[-1, -1])), abs=1e-5)
         else:
             assert X[[0, -1], -1] == pytest.approx([place[0], place[-1]], abs=1e-6)
     errors = np.array(errors)
-    assert errors[1, 0] < bound(exact, name, 161)
+    assert errors[1, 0] < bound(exact, scene, 161)
     assert np.log2(errors[:-1] / errors[1:]) == pytest.approx(2, abs=0.1)
     assert abs(expected[3, -1]) > 1.0  # the current moves the buoy well to the side
     if dimensions == 3:

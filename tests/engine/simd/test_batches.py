@@ -12,7 +12,7 @@ import pytest
 from engine import goes_in_lanes, load_scene, simulate, simulate_batch, simulate_each
 from engine.run import Run
 from engine.time.status import WORDS
-from tests.engine.lines import DRY, STILL, free, held
+from tests.engine.lines import DRY, STILL, assert_same, free, held
 from tests.engine.physics.caps import CAP
 
 STEEP = {"waves.steepness": 0.13, "water.depth_m": 21.6}
@@ -79,24 +79,10 @@ def lots(base, values=(0.05, 0.1, 0.13, 0.16), key="waves.steepness"):
     return [steep({"tether.nodes": 21}, base, {key: value}) for value in values]
 
 
-def assert_equal(one, other):
-    """Everything but the time they took, bit for bit."""
-    assert one.status == other.status and one.message == other.message and one.scene == other.scene
-    for name, column in one.columns.items():
-        assert np.array_equal(column, other.columns[name]), name
-    for name, value in one.statistics.items():
-        assert name == "wall_s" or value == other.statistics[name], name
-    for part in ("profiles", "tangent"):
-        mine, theirs = getattr(one, part), getattr(other, part)
-        assert (mine is None) == (theirs is None)
-        for name, values in vars(mine).items() if mine is not None else ():
-            assert np.array_equal(values, getattr(theirs, name)), name
-
-
 def assert_alone(scenes, runs, **length):
     for scene, run in zip(scenes, runs, strict=True):
         assert run.status == "ok"
-        assert_equal(run, simulate(scene, **length))
+        assert_same(run, simulate(scene, **length))
 
 
 @pytest.mark.parametrize("first", [0, pytest.param(6, marks=pytest.mark.slow)])
@@ -126,10 +112,10 @@ def test_neither_order_nor_company_matters():
     order = np.random.default_rng(3).permutation(len(scenes))
     again = simulate_batch([scenes[i] for i in order], duration_s=21.0)
     for place, i in enumerate(order):
-        assert_equal(again[place], first[i])
+        assert_same(again[place], first[i])
     for i in (0, 5, 12):
-        assert_equal(simulate(scenes[i], duration_s=21.0), first[i])
-    assert_equal(first[-1], first[-2])  # of one scene: nothing is shared, nothing is random
+        assert_same(simulate(scenes[i], duration_s=21.0), first[i])
+    assert_same(first[-1], first[-2])  # of one scene: nothing is shared, nothing is random
 
 
 @pytest.mark.parametrize("changes", [CARRIED, {"solver.integrator": "midpoint"}], ids=["in lanes", "one by one"])
@@ -149,7 +135,7 @@ def test_a_run_that_ends_early_disturbs_no_other(word, other):
     good, lost = lots(nodes | other, (0.1, 0.13, 0.15)), steep(nodes, ENDINGS[word])
     first, ended, *others = simulate_batch([good[0], lost, *good[1:]], duration_s=60.0)
     assert ended.status == word
-    assert_equal(ended, simulate(lost, duration_s=60.0))
+    assert_same(ended, simulate(lost, duration_s=60.0))
     assert_alone(good, [first, *others], duration_s=60.0)
 
 
@@ -187,7 +173,7 @@ def test_chunks_do_not_change_the_result(chunk):
     batch = Run(scene, 60.0)
     while not batch.done():
         batch.advance(chunk)
-    assert_equal(batch.trajectory(), simulate(scene, duration_s=60.0))
+    assert_same(batch.trajectory(), simulate(scene, duration_s=60.0))
 
 
 @pytest.mark.slow
@@ -197,7 +183,7 @@ def test_progress_rises_to_one_and_does_not_change_the_result():
         runs = simulate_batch(scenes, periods=65, progress=seen.append)
         assert len(seen) >= 3
         assert all(0 < a <= b <= 1 for a, b in pairwise(seen)) and seen[0] < seen[-1] == 1.0
-    assert_equal(runs[0], simulate(scenes[0], periods=65))
+    assert_same(runs[0], simulate(scenes[0], periods=65))
 
 
 def test_an_exception_from_progress_comes_through():

@@ -17,8 +17,7 @@ import math
 import numpy as np
 import pytest
 
-from engine import load_scene, simulate
-from tests.engine.lines import DRY, SPACE, Motion, held, in_space, line
+from tests.engine.lines import DRY, SPACE, Motion, held, in_space, line, ran
 from tests.engine.physics.caps import CAP
 from tests.engine.rotations import conjugate, product
 
@@ -42,8 +41,7 @@ SCENES = {
 
 
 def both(*parts, duration_s):
-    runs = [simulate(line(*parts, {"output.profiles": True}, more), duration_s=duration_s) for more in ({}, SPACE)]
-    assert all(run.status == "ok" for run in runs), runs[1].message
+    runs = [ran(line(*parts, {"output.profiles": True}, more), duration_s=duration_s) for more in ({}, SPACE)]
     assert not runs[1].profiles.y_m.any() and not runs[1].columns["offplane_m"].any()
     return runs
 
@@ -123,8 +121,7 @@ def test_a_clamped_end_that_is_let_go_loses_its_torque():
 
 
 def pushed(depth_m, nodes, periods):
-    run = simulate(load_scene("tethered_buoy", {**PUSHED, "water.depth_m": depth_m, "tether.nodes": nodes}), periods)
-    assert run.status == "ok", run.message
+    run = ran(line(PUSHED, {"water.depth_m": depth_m}, nodes=nodes), periods)
     assert run.statistics["loop_releases"] == 0
     return run
 

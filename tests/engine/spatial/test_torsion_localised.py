@@ -33,6 +33,7 @@ from tests.engine.lines import Motion, axes_of, forces, positions
 from tests.engine.spatial.rods import Localised, at_rest
 
 EI, EA, LENGTH = 0.4, 1e5, 20.0
+MORE = [(0.9, 0.04), (0.9, 0.3), (0.6, 0.3), (0.6, 0.04)]
 FAR = 1e4
 
 
@@ -60,9 +61,7 @@ def link(Y, h, below, above):
     return Y[0, 10] * h.sum() / (2 * np.pi), writhe(line)
 
 
-@pytest.mark.parametrize(
-    "m, GI", [(0.9, 0.3), (0.8, 0.3), (0.6, 0.3), (0.3, 0.3), (0.9, 0.04), (0.8, 0.04), (0.6, 0.04)]
-)
+@pytest.mark.parametrize("m, GI", [(0.3, 0.3), *(pytest.param(*case, marks=pytest.mark.slow) for case in MORE)])
 def test_the_localised_buckle(m, GI):
     """T, M and the deflection in the middle over those of the closed form, and the link, from a shallow helix (m = 0.9)
     to a closed loop (0.3). GIp = EI/10 is the paper's rope: it turns by 40 rad/m, which no node sees."""
@@ -74,18 +73,19 @@ def test_the_localised_buckle(m, GI):
         assert np.ptp(N, axis=0).max() < 1e-7
         T, deflection = np.linalg.norm(N[0]), np.hypot(*x[nodes // 2, 1:])
         found.append(np.array([T / buckle.T, GI * Y[0, 10] / buckle.torque, deflection / buckle.deflection]) - 1)
-        twist, writhed = link(Y, h, (1, 0, 0), (1, 0, 0))
-        unlinked.append(abs(twist + writhed - rod.twist / (2 * np.pi)))
+        if nodes > 321:
+            twist, writhed = link(Y, h, (1, 0, 0), (1, 0, 0))
+            unlinked.append(abs(twist + writhed - rod.twist / (2 * np.pi)))
     coarse, middle, fine = found
     assert np.log2((coarse - middle) / (middle - fine)) == pytest.approx(2, abs=0.1)
     assert fine + (fine - middle) / 3 == pytest.approx(0, abs=2e-4)
     assert np.all(np.abs(fine) < 2e-3)
     assert writhed == pytest.approx(4 * np.arccos(m) / (2 * np.pi), abs=0.02)
-    assert np.log2(unlinked[1] / unlinked[2]) == pytest.approx(2, abs=0.2)
+    assert np.log2(unlinked[0] / unlinked[1]) == pytest.approx(2, abs=0.2)
     assert unlinked[-1] < 1e-3
 
 
-@pytest.mark.parametrize("slack, lost", [(1.1, 0), (1.2, 2)])
+@pytest.mark.parametrize("slack, lost", [pytest.param(1.1, 0, marks=pytest.mark.slow), (1.2, 2)])
 def test_link_is_kept_until_the_rope_passes_through_itself(slack, lost):
     """The shipped rope, twisted by 1.25 turns: a loop at 1.1 m of slack; at 1.2 m it has thrown itself over."""
     rows = [[0, 0, 0], [0, 0, 0], [0, 0, -slack], [0, 0, -slack]]

@@ -30,7 +30,7 @@ ENDS = {
     "held, clamped twice": {**HELD, **CLAMPED_BELOW, **CLAMPED_ABOVE, "end.twist_rad": 1.3},
 }
 STAGES = {"motion": (200.0, 120.0, 1.0), "statics": (1.0, 10.0, 0.0), "last statics": (1.0, 0.0, 0.0)}
-NODES = 6
+NODES = 5
 CASES = [
     (dimensions, end, EI)
     for dimensions in (2, 3) for end in ENDS for EI in (0.0, 24.0)
@@ -94,10 +94,11 @@ def assert_solved(scene, stage, Y, C_tilde, F, **more):
     return r
 
 
-@pytest.mark.parametrize("stage", STAGES)
-@pytest.mark.parametrize("wet", [True, False], ids=["wet", "dry"])
+@pytest.mark.parametrize(
+    "stage, wet", [("motion", True), ("motion", False), ("statics", True), ("last statics", False)]
+)
 @pytest.mark.parametrize("dimensions, end, EI", CASES)
-def test_update_solves_the_linearised_box_equations(dimensions, end, EI, wet, stage):
+def test_update_solves_the_linearised_box_equations(dimensions, end, EI, stage, wet):
     rng = np.random.default_rng(7)
     for law, stretching, turn in zip(LAWS, (0.0, 2.0, 0.0), TURNS, strict=True):
         turns = directions(rng, turn, dimensions)

@@ -26,7 +26,7 @@ import pytest
 
 from engine import simulate
 from engine.time.integrators import backward_euler, esdirk43, generalized_alpha, midpoint, trbdf2
-from tests.engine.lines import DRY, STILL, held, line, linear
+from tests.engine.lines import DRY, STILL, held, line, linear, orders
 
 WAVES = {"waves.steepness": 0.02, "water.depth_m": 30.0, "tether.tension": linear(5e3)}
 STRUCK = {**DRY, "buoy.mass_kg": 10.0, "tether.tension": linear(500.0)}
@@ -61,11 +61,6 @@ def run_of(*parts, duration_s, **solver):
     run = simulate(line(*parts, solver, {"output.profiles": True}), duration_s=duration_s)
     assert run.status == "ok" and run.statistics["newton_failures"] == 0, run.message
     return run
-
-
-def orders(sizes):
-    """Slopes of differences between neighbours of a sequence of halved steps."""
-    return np.log2(np.divide(sizes[:-1], sizes[1:]))
 
 
 @pytest.mark.parametrize("dimensions", [2, 3])

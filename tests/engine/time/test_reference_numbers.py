@@ -7,23 +7,14 @@ import numpy as np
 import pytest
 
 from analysis import detect_period, peaks_near, spectrum
-from engine import load_scene, simulate
+from tests.engine.lines import line, ran
 
 PERIOD_S = 5.0
 
 
-def buoy(steepness, depth_m, **overrides):
-    keys = {key.replace("__", "."): value for key, value in overrides.items()}
-    return load_scene(
-        "tethered_buoy",
-        {"waves.steepness": steepness, "water.depth_m": depth_m, "water.density_kgpm3": 1027.0, **keys},
-    )
-
-
-def ran(scene, periods):
-    run = simulate(scene, periods=periods)
-    assert run.status == "ok", run.message
-    return run
+def buoy(steepness, depth_m, changes=None):
+    given = {"waves.steepness": steepness, "water.depth_m": depth_m, "water.density_kgpm3": 1027.0}
+    return line(given, changes or {})
 
 
 @pytest.mark.parametrize(
@@ -36,7 +27,7 @@ def ran(scene, periods):
     ],
 )
 def test_ranges_in_small_waves(depth_m, density_kgpm3, periods, radius_m, tension_N):
-    columns = ran(buoy(0.016, depth_m, water__density_kgpm3=density_kgpm3), periods).columns
+    columns = ran(buoy(0.016, depth_m, {"water.density_kgpm3": density_kgpm3}), periods).columns
     r, low, high = columns["radius_m"], columns["tension_top_low_N"], columns["tension_top_high_N"]
     assert r.min() == pytest.approx(radius_m[0], abs=2e-3) and r.max() == pytest.approx(radius_m[1], abs=2e-3)
     assert low.min() == pytest.approx(tension_N[0], abs=5) and high.max() == pytest.approx(tension_N[1], abs=5)
@@ -58,20 +49,20 @@ STEEP_M = np.array([19.49, 15.74, 20.38, 23.10, 17.32, 15.22])
     "changes, bound_m",
     [
         ({}, 0.03),
-        ({"solver__rtol": 1e-4, "tether__nodes": 81}, 0.01),
-        *(({"solver__max_step_s": longest}, 0.03) for longest in (0.1, 0.097, 0.09, 0.08, 0.05)),
+        ({"solver.rtol": 1e-4, "tether.nodes": 81}, 0.01),
+        *(({"solver.max_step_s": longest}, 0.03) for longest in (0.1, 0.097, 0.09, 0.08, 0.05)),
     ],
 )
 def test_radius_in_steep_waves_to_50_seconds(changes, bound_m):
     """The line buckles at 26.15 s to the side that angles of 1 mrad choose, not to one that the steps choose."""
-    columns = ran(buoy(0.13, 21.6, **changes), 10).columns
+    columns = ran(buoy(0.13, 21.6, changes), 10).columns
     r = np.interp(STEEP_S, columns["time_s"], columns["radius_m"])  # samples every 0.05 s lie on these times
     assert np.abs(r - STEEP_M).max() <= bound_m
 
 
 def test_steep_waves_run_to_the_end():
-    run = ran(buoy(0.13, 21.6), 300)
-    assert len(run.columns["time_s"]) == 300 * 100 + 1 and run.message == ""
+    run = ran(buoy(0.13, 21.6), 100)
+    assert len(run.columns["time_s"]) == 100 * 100 + 1 and run.message == ""
     assert all(np.all(np.isfinite(column)) for column in run.columns.values())
     assert run.statistics["loop_releases"] > 0  # the loops of a plane are counted
 
@@ -91,7 +82,7 @@ def branches(scene, periods=300, last=60):
 def test_period_two_at_depth_22_5():
     means = {}
     for rtol in (0.03, 0.003):
-        pairs, estimate = branches(buoy(0.13, 22.5, solver__rtol=rtol))
+        pairs, estimate = branches(buoy(0.13, 22.5, {"solver.rtol": rtol}))
         assert estimate.period == 2, estimate.reason
         means[rtol] = pairs.mean(axis=0)
         # two values, not two bands: the scatter about them is small beside their distance, 145 mm

@@ -18,13 +18,12 @@ import math
 import numpy as np
 import pytest
 
-from engine import simulate
-from tests.engine.lines import DRY, QUIET, STILL, Motion, axes_of, held, in_space, line
+from tests.engine.lines import DRY, QUIET, STILL, Motion, axes_of, held, in_space, line, ran
 from tests.engine.physics.caps import CAP
 from tests.engine.rotations import product
 from tests.engine.rotations import turned as about_the_vertical
 
-ANGLES = [0.7, math.pi / 2, -2.0]
+ANGLES = [0.7, -2.0]
 STEPS = {"solver.step_s": 0.02, "output.profiles": True, **QUIET}
 TENSIONS = ["tension_top_N", "tension_min_N", "tension_top_low_N", "tension_top_high_N"]
 
@@ -80,8 +79,7 @@ def turned(part, angle, mirror=1.0, key=VECTORS[0]):
 def seen_from(angle, mirror, name):
     """The run of a turned and mirrored scene, its line turned and mirrored back: columns, and X (m, n, 3)."""
     parts, duration_s = SCENES[name]
-    run = simulate(in_space(STEPS, turned(parts, angle, mirror)), duration_s=duration_s)
-    assert run.status == "ok", run.message
+    run = ran(in_space(STEPS, turned(parts, angle, mirror)), duration_s=duration_s)
     lines = run.profiles
     X = np.array(turned(np.stack([lines.x_m, lines.y_m, lines.z_m], -1), -angle)) * [1.0, mirror, 1.0]
     return run.columns, X, np.stack([lines.strain, lines.speed_mps])
@@ -132,7 +130,7 @@ def rolled(Y, angle):
 def test_the_roll_of_the_frames_changes_nothing(name):
     parts, duration_s = SCENES[name]
     runs = []
-    for angle in (0.0, 0.3, 2.0, -3.0):
+    for angle in (0.0, 2.0, -3.0):
         motion = Motion(in_space(STEPS, parts), duration_s)
         motion.Y[:] = rolled(motion.Y, angle)
         motion.inner.motion.Y_before[:] = motion.Y
@@ -141,7 +139,7 @@ def test_the_roll_of_the_frames_changes_nothing(name):
         assert run.status == "ok"
         X = np.stack([run.profiles.x_m, run.profiles.y_m, run.profiles.z_m], -1)
         runs.append(((run.columns, X, np.stack([run.profiles.strain, run.profiles.speed_mps])), first, motion.Y.copy()))
-    for angle, (run, first, last) in zip((0.3, 2.0, -3.0), runs[1:], strict=True):
+    for angle, (run, first, last) in zip((2.0, -3.0), runs[1:], strict=True):
         assert_equal(runs[0][0], run, 1e-8)
         assert np.abs(np.cos(angle) - np.sum(runs[0][1] * first, 1)).max() < 1e-12  # it was rolled
         shear = last[:, 1:3]  # tied to nothing but the curvature, of differences of which it is made
@@ -152,17 +150,12 @@ CALM = {"waves.steepness": 0.016, "water.depth_m": 22.5}
 KEYS = ["x_m", "angle_rad", "angle_rate_radps", "z_m", "radius_m", "radius_rate_mps"]
 
 
-def columns(*parts, periods):
-    run = simulate(line(*parts), periods=periods)
-    assert run.status == "ok"
-    return run.columns
-
-
 @pytest.fixture(scope="module")
 def established():
     """60 periods of a strongly damped buoy on steps of T/500, under waves a quarter period apart."""
     steps = {"solver.step_s": 0.01, "solver.newton_tolerance": 1e-9, "waves.ramp_s": 10.0, "buoy.drag": 20.0}
-    return [columns(CALM, steps, {"waves.phase_rad": phase}, periods=60) for phase in (0.0, -np.pi / 2)]
+    scenes = [line(CALM, steps, {"waves.phase_rad": phase}, nodes=11) for phase in (0.0, -np.pi / 2)]
+    return [ran(scene, 60).columns for scene in scenes]
 
 
 def test_an_established_motion_repeats_with_the_wave(established):

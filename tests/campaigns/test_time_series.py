@@ -1,18 +1,23 @@
-"""A column from a file gets the word that its motion has, and noise is never called chaos."""
+"""A column from a file gets the word that its motion has, and noise is never called chaos; tables of any common shape
+are read, and a full disk or Ctrl-C is one line (what is refused: mistakes.toml)."""
 
-import csv
 import json
 
 import numpy as np
 import pytest
 from scipy.signal import lfilter
 
-from campaigns.time_series import main
-from campaigns.time_series.record import Record
+from campaigns.time_series import WRITTEN, answer, main
+from campaigns.time_series.record import Record, read_table
 from campaigns.time_series.study import study, successive_maxima
+from reports import build
+from reports.figures.series_panels import record_and_spectrum
+from reports.parts.content import Figure, first_sentence
+from reports.parts.folder import FolderError
+from reports.time_series.report import report
 from tests.analysis.forced_records import KINDS, SAMPLES, record
-from tests.analysis.maps import henon, logistic
-from tests.analysis.systems import states
+from tests.analysis.systems import henon, logistic, states
+from tests.campaigns.conftest import rows_of
 
 TIME = np.arange(1500) * 0.4
 GOLDEN = 0.5 * (np.sqrt(5.0) - 1.0)
@@ -70,10 +75,9 @@ def test_the_answer_comes_with_errors_and_curves(tmp_path, capsys):
     dimension = found["dimension"]
     assert dimension["value"] == pytest.approx(1.0, abs=max(3.0 * dimension["error"], 0.1))
     assert all(item["passed"] for item in found["evidence"] if item["name"] in ("exponent", "0-1 test", "linear null"))
-    with open(tmp_path / "out" / "series.csv", newline="") as file:
-        kept = [float(row["value"]) for row in csv.DictReader(file)]
+    kept = [float(row["value"]) for row in rows_of(tmp_path / "out", "series.csv")]
     assert kept == pytest.approx(logistic(4.0, 1500), rel=1e-14)
-    told = {row["name"] for row in csv.DictReader((tmp_path / "out" / "columns.csv").read_text().splitlines())}
+    told = {row["name"] for row in rows_of(tmp_path / "out", "columns.csv")}
     for name in ("spectrum", "section", "divergence", "dimension"):
         head, *rows = (tmp_path / "out" / f"{name}.csv").read_text().splitlines()
         assert len(rows) > 9 and told >= set(head.split(","))
@@ -113,3 +117,95 @@ def test_a_flow_at_its_maxima_is_chaotic_with_the_known_exponent(tmp_path, capsy
 def test_no_false_alarm_in_any_column(kind, period, tmp_path):
     found = study(Record(record(kind, 301), 1.0 / SAMPLES, "s", "x", tmp_path), period)
     assert found.verdict.regime != "chaotic", found.verdict.reason
+
+
+@pytest.fixture
+def good(tmp_path, monkeypatch):
+    """The words for a sound file, in the folder that it lies in."""
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "good.csv").write_text("x\n" + "\n".join(f"{np.sin(0.1 * k):.6f}" for k in range(300)))
+    return ["good.csv", "--column", "x", "--out"]
+
+
+def test_a_full_disk_leaves_the_answer_and_one_line(good, tmp_path, monkeypatch, capsys):
+    write = answer.write_atomic
+
+    def full(path, content):
+        if path.name == "series.csv":
+            raise OSError(28, "No space left on device")
+        write(path, content)
+
+    monkeypatch.setattr(answer, "write_atomic", full)
+    assert main([*good, "out"]) == 1
+    said = capsys.readouterr()
+    assert "VERDICT" in said.out and "is full" in said.err and said.err.count("\n") == 1
+    monkeypatch.setattr(answer, "write_atomic", write)
+    assert main([*good, "out"]) == 0  # with room again, into the same folder
+    # What the command will not write over is what it writes.
+    kept = {file.name for file in (tmp_path / "out").iterdir()}
+    assert kept == {*WRITTEN, "provenance.json"} - {"report.html", "report.pdf"}
+
+
+def test_ctrl_c_is_one_line(good, tmp_path, monkeypatch, capsys):
+    def stopped(*_):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr("campaigns.time_series.study.study", stopped)
+    assert main([*good, "out"]) == 130
+    assert "interrupted" in capsys.readouterr().err and not (tmp_path / "out").exists()
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "x\ty\n" + "1 \t2\n" * 5,
+        "x;y\n" + "1;2\n" * 5,
+        "# remark\nx y\n" + "1   2\n" * 5,
+        "1,2\n" * 6,
+        '"x, m";"y"\r\n' + '"1";"2"\r\n' * 5,
+        ("x\ty\r\n" + "1\t2\r\n" * 5).encode("utf-16"),
+        ("x,y\n" + "1, 2\n" * 5).encode("utf-8-sig"),
+    ],
+)
+def test_tables_of_any_common_shape_are_read(tmp_path, text):
+    (tmp_path / "table").write_bytes(text if isinstance(text, bytes) else text.encode())
+    for k, cells in enumerate(read_table(tmp_path / "table").values()):
+        assert [float(cell) for cell in cells][:5] == [1.0 + k] * 5
+
+
+@pytest.fixture(scope="module")
+def judged(tmp_path_factory):
+    place = tmp_path_factory.mktemp("series")
+    t = 0.3 * np.arange(3000)
+    rows = "\n".join(repr(float(value)) for value in np.sin(t) + 0.7 * np.sin(0.61803 * t))
+    (place / "tank.csv").write_text(f"load_N\n{rows}\n")
+    assert main([str(place / "tank.csv"), "--column", "load_N", "--step", "0.3", "--out", str(place / "out")]) == 0
+    return place / "out"
+
+
+@pytest.mark.slow
+def test_the_page_says_the_verdict_and_shows_every_curve(judged):
+    html, pdf = build(judged)
+    text = html.read_text(encoding="utf-8")
+    assert "The motion is quasi-periodic" in text and "load_N" in text
+    figures = [item for item in report(judged).items if isinstance(item, Figure)]
+    assert all(len(first_sentence(figure.caption).split()) > 1 for figure in figures), "their names in the contents"
+    assert text.count("<figure") == 3 and text.count("alt=") + text.count("aria-label") >= 3
+    assert pdf.read_bytes()[:4] == b"%PDF"
+    before = html.read_bytes(), pdf.read_bytes()
+    assert tuple(path.read_bytes() for path in build(judged)) == before
+
+
+@pytest.mark.slow
+def test_any_name_of_a_column_can_be_drawn():
+    for name in ("$x_{1", "load_N", "a b " * 40, "\\frac", "Zug in N²"):
+        assert b"<svg" in record_and_spectrum(*np.ones((4, 30)), ("s", name)).data
+
+
+@pytest.mark.slow
+def test_what_is_missing_is_named(judged, tmp_path):
+    (tmp_path / "provenance.json").write_text((judged / "provenance.json").read_text())
+    (tmp_path / "section.csv").write_text("time_s,value_0\n0,x\n")
+    with pytest.raises(FolderError) as fault:
+        build(tmp_path)
+    assert "answer.json is missing" in str(fault.value) and "section.csv cannot be read" in str(fault.value)
