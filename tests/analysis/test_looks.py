@@ -5,7 +5,7 @@ import pytest
 
 from analysis import motion_regime, next_look, tangent_lyapunov
 from analysis.exponents import Exponent
-from tests.analysis.maps import circle, circle_map, henon, logistic
+from tests.analysis.systems import circle, circle_map, henon, logistic
 
 M = np.arange(1001)
 
