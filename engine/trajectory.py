@@ -13,6 +13,7 @@ import numpy as np
 
 from engine import netcdf
 from engine.atomic import write_atomic
+from engine.final_state import FinalState, state_of_file
 from engine.scene.load import Scene, SceneError, scene_from_toml
 
 if TYPE_CHECKING:
@@ -105,6 +106,7 @@ class Trajectory:
     status: "ok", or the word for how the run ended early; then the samples up to its end are kept (possibly none).
     message: a sentence about it, empty for "ok". columns: every name of COLUMNS -> (n,) array, evenly sampled.
     statistics: counts and times of the work done. profiles, tangent, energy: where the scene asks for them.
+    final_state: what `simulate(..., start=)` goes on from; None where the run ended early, or keeps energies.
     """
 
     scene: Scene
@@ -115,6 +117,7 @@ class Trajectory:
     profiles: Profiles | None = None
     tangent: TangentGrowth | None = None
     energy: EnergyBudget | None = None
+    final_state: FinalState | None = None
 
     def table(self) -> "pandas.DataFrame":
         """The samples as a pandas table, one row a sample, columns in the order of COLUMNS."""
@@ -192,7 +195,7 @@ def _variables(run: Trajectory) -> list[netcdf.Variable]:
         if grown.lateral_nats is not None:
             about = ("1", "growth of a perturbation across the plane of the waves, nats")
             found.append(("lateral_nats", ("period",), grown.lateral_nats, *about))
-    return found
+    return found if run.final_state is None else found + run.final_state.variables()
 
 
 def _restored(texts: dict[str, str], arrays: dict[str, np.ndarray]) -> Trajectory:
@@ -213,7 +216,8 @@ def _restored(texts: dict[str, str], arrays: dict[str, np.ndarray]) -> Trajector
     tangent = _growth(scene, arrays)
     columns = {name: arrays[name] for name in COLUMNS}
     statistics = json.loads(texts["statistics"])
-    return Trajectory(scene, texts["status"], texts["message"], columns, statistics, profiles, tangent, energy)
+    more = profiles, tangent, energy, state_of_file(scene, arrays)
+    return Trajectory(scene, texts["status"], texts["message"], columns, statistics, *more)
 
 
 def _growth(scene: Scene, arrays: dict[str, np.ndarray]) -> TangentGrowth | None:
