@@ -5,7 +5,7 @@ attributes, and a digest of the whole content lets `load` tell a damaged file fr
 """
 
 import json
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -119,6 +119,31 @@ class Trajectory:
     energy: EnergyBudget | None = None
     final_state: FinalState | None = None
 
+    def followed_by(self, later: "Trajectory") -> "Trajectory":
+        """This run and the one that went on from its final state as one record: scene and end of the later one.
+
+        Perturbations that only the later one carried have growth nan before. Raises ValueError where `later` does not
+        begin where this run ends, or one of them has profiles and the other not.
+        """
+        if not len(later.columns["time_s"]) or later.columns["time_s"][0] != self.columns["time_s"][-1]:
+            raise ValueError("later: a run that begins with the last sample of this one is needed")
+        if (self.profiles is None) != (later.profiles is None):
+            raise ValueError("later: profiles are needed of both runs, or of none")
+        columns = {name: np.concatenate([self.columns[name], later.columns[name][1:]]) for name in COLUMNS}
+        columns["angle_rad"] = np.unwrap(columns["angle_rad"])
+        statistics = dict(later.statistics)
+        for name, number in self.statistics.items():
+            many = {"max_turn_rad": max, "min_strain": min, "end_time_s": max}.get(name, lambda a, b: a + b)
+            statistics[name] = many(number, later.statistics[name])
+        profiles = later.profiles
+        if self.profiles is not None and profiles is not None:
+            new = profiles.time_s > self.profiles.time_s[-1]
+            old, more = vars(self.profiles), vars(profiles)
+            both = {name: np.concatenate([old[name], more[name][new]]) for name in more if name != "s_m"}
+            profiles = replace(profiles, **both)
+        tangent = _joined(self.tangent, later.tangent, float(later.columns["time_s"][0]))
+        return replace(later, columns=columns, statistics=statistics, profiles=profiles, tangent=tangent)
+
     def table(self) -> "pandas.DataFrame":
         """The samples as a pandas table, one row a sample, columns in the order of COLUMNS."""
         import pandas
@@ -167,6 +192,23 @@ class Trajectory:
             raise TrajectoryError(f"{name}: {error}") from None
         except Exception as error:  # a damaged header can make the reader fail in any way at all
             raise TrajectoryError(f"{name}: truncated, damaged, or not a netCDF-3 file ({error})") from None
+
+
+def _joined(earlier: TangentGrowth | None, later: TangentGrowth | None, time_s: float) -> TangentGrowth | None:
+    """Growth in the periods of two runs, the later of which begins at that time."""
+    if later is None:
+        return None
+    before = int(time_s / later.period_s + 1e-9)
+
+    def both(name: str) -> np.ndarray:
+        new = getattr(later, name)
+        old = None if earlier is None else getattr(earlier, name)
+        if old is None or old.shape[1:] != new.shape[1:]:
+            old = np.full((before, *new.shape[1:]), 0.0 if name == "released" else np.nan)
+        return np.concatenate([old, new])
+
+    lateral = None if later.lateral_nats is None else both("lateral_nats")
+    return TangentGrowth(later.period_s, both("growth_nats"), both("released"), lateral)
 
 
 def _abouts(record: type, prefix: str) -> dict[str, tuple[str, str, str]]:
