@@ -24,6 +24,7 @@ from numba import config
 PATIENCE_S = 20.0  # for a lock that is held for milliseconds
 _ROOT = Path(__file__).parent
 _given_up: set[Path] = set()
+_in_use: list[Path] = []
 _NOT_KEPT = "machine code cannot be kept in {} ({}); every process compiles it anew"
 
 
@@ -56,11 +57,17 @@ def folder_for(name: str, sources: str, kept: int) -> Path | None:
             others = sorted((path.stat().st_mtime, path) for path in root.glob(f"{name}-*") if path != folder)
             for _, old in others[: -kept or None]:
                 shutil.rmtree(old, ignore_errors=True)
+        _in_use.append(folder)
         return folder
     return None
 
 
 folder_of = cache(folder_for)  # asked once a process, for every kernel
+
+
+def kept() -> int:
+    """How many pieces of machine code lie in the folders of this process, whichever process compiled them."""
+    return sum(1 for folder in _in_use for _ in folder.rglob("*.nbc"))
 
 
 def _roots() -> Iterator[Path]:

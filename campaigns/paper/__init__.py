@@ -38,6 +38,7 @@ def read(options: Namespace, faults: list[str]) -> None:
 
 def done(order: Order) -> tuple[dict[str, float], Summary]:
     """Parts, figure data, statements; the latter two stay as they are where nothing is new."""
+    from campaigns.machinery.progress import stage
     from campaigns.machinery.session import ended
     from campaigns.paper import parts, results
 
@@ -45,7 +46,8 @@ def done(order: Order) -> tuple[dict[str, float], Summary]:
     timing, summary = parts.run(order.own)
     whole = ended(out) and not summary.computed and results.there(out, order.how.report)
     if not whole:
-        results.write(out)
+        with stage("figures' data and statements"):
+            results.write(out)
     return timing, replace(summary, whole=whole)
 
 

@@ -1,0 +1,192 @@
+"""What a command is doing, how far it is and how long it will take: one line of stderr that moves.
+
+    with stage("runs", 14_700, "wave periods", far=lambda: 350.0):
+        ...
+
+A thread of its own keeps the line up to date, so that it moves while this process waits for workers or compiles. On a
+terminal one line is drawn again and again; elsewhere (a file, a pipe) a stage that lasts says a line now and then.
+Stages nest: the names of all are shown, and how far the innermost one is that counts something.
+
+A worker says how far its task is by a small file in a folder that the main process looks into (`teller`, `shares`).
+That does for processes, threads and dask alike; a worker that does not see the folder says nothing.
+"""
+
+import contextlib
+import inspect
+import os
+import shutil
+import sys
+import threading
+import time
+from collections import deque
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field
+from pathlib import Path
+
+DRAWN_S = 0.25  # between two drawings on a terminal
+FIRST_S, SAID_S = 1.5, 8.0  # to the first line elsewhere, and between two lines
+ASKED_S = 3.0  # of a stage before its time left is told
+TOLD_S = 0.3  # between two words of a worker
+BAR = 24  # characters
+RECENT = 0.5  # share of the time so far from which the speed is taken: runs that come later may be slower
+
+
+@dataclass
+class Stage:
+    """A piece of work that takes a while. far() -> how much of `total` is done; without a total only the time is told.
+
+    note() -> what else there is to say.
+    """
+
+    what: str
+    total: float = 0.0
+    unit: str = ""
+    far: Callable[[], float] | None = None
+    note: Callable[[], str] | None = None
+    began: float = field(default_factory=time.monotonic)
+    seen: deque = field(default_factory=lambda: deque(maxlen=4096))  # (seconds, done)
+
+    def look(self) -> tuple[float, float]:
+        """(seconds since it began, how much is done), which is kept for `left_s`."""
+        done = min(self.far(), self.total) if self.far is not None else 0.0
+        self.seen.append((time.monotonic() - self.began, done))
+        return self.seen[-1]
+
+    def left_s(self) -> float | None:
+        """Seconds to its end at the speed of the last RECENT of its time; None where that is not known yet."""
+        if not self.seen or self.seen[-1][0] < ASKED_S:
+            return None
+        now, done = self.seen[-1]
+        since, before = next(one for one in self.seen if one[0] >= (1.0 - RECENT) * now)
+        return (self.total - done) * (now - since) / (done - before) if done > before else None
+
+    def told(self) -> str:
+        """The line: what, how far, how long so far, how long still."""
+        now, done = self.look()
+        parts = [_clock(now)]
+        if self.total:
+            share = done / self.total
+            parts.insert(0, f"[{'#' * int(BAR * share):-<{BAR}}] {share:4.0%} of {self.total:,.0f} {self.unit}")
+            left = self.left_s()
+            parts.append("time left not known yet" if left is None else f"about {_clock(left)} left")
+        if self.note is not None and (more := self.note()):
+            parts.insert(0, more)
+        return f"{_named()}: {', '.join(parts)}"
+
+
+_open: list[Stage] = []
+_lock = threading.RLock()
+_line = {"ended": threading.Event(), "next_s": 0.0}  # of the thread that draws; when the next line is due
+
+
+@contextlib.contextmanager
+def stage(
+    what: str,
+    total: float = 0.0,
+    unit: str = "",
+    far: Callable[[], float] | None = None,
+    note: Callable[[], str] | None = None,
+) -> Iterator[Stage]:
+    """Show a `Stage` for as long as the `with` lasts; what has been counted leaves a line with its time."""
+    one = Stage(what, total, unit, far, note)
+    with _lock:
+        _open.append(one)
+        if len(_open) == 1:
+            _line.update(ended=threading.Event(), next_s=one.began + FIRST_S)
+            threading.Thread(target=_show, args=(_line["ended"],), daemon=True).start()
+    try:
+        yield one
+    finally:
+        with _lock:
+            _wipe()
+            now = time.monotonic() - one.began
+            if (far or note) and now > ASKED_S:
+                more = f"{note()}, " if note is not None else ""
+                _write(f"{_named()}: ended, {more}{_clock(now)}\n")
+            _open.remove(one)
+            if not _open:
+                _line["ended"].set()
+
+
+def tell(text: str) -> None:
+    """A line of its own on stderr, while a stage may be shown there."""
+    with _lock:
+        _wipe()
+        _write(f"{text}\n")
+
+
+def _show(ended: threading.Event) -> None:
+    """Keep the line up to date until no stage is left."""
+    while not ended.is_set():
+        with _lock:
+            if _open and not ended.is_set():
+                _draw(next((one for one in reversed(_open) if one.far or one.note), _open[-1]))
+        ended.wait(DRAWN_S)
+
+
+def _draw(one: Stage) -> None:
+    text = one.told()
+    if _terminal():
+        _write(f"\r\x1b[K{text[: shutil.get_terminal_size().columns - 1]}")
+    elif time.monotonic() >= _line["next_s"]:
+        _write(f"{text}\n")
+        _line["next_s"] = time.monotonic() + SAID_S
+
+
+def _wipe() -> None:
+    if _terminal():
+        _write("\r\x1b[K")
+
+
+def _terminal() -> bool:
+    with contextlib.suppress(OSError, ValueError, AttributeError):
+        return sys.stderr.isatty()
+    return False
+
+
+def _write(text: str) -> None:
+    with contextlib.suppress(OSError, ValueError, AttributeError):  # nobody listens any more
+        sys.stderr.write(text)
+        sys.stderr.flush()
+
+
+def _named() -> str:
+    return ": ".join(one.what for one in _open)
+
+
+def _clock(seconds: float) -> str:
+    """ "0:07", "1:02:03"."""
+    minutes, rest = divmod(round(seconds), 60)
+    hours, minutes = divmod(minutes, 60)
+    return f"{hours}:{minutes:02}:{rest:02}" if hours else f"{minutes}:{rest:02}"
+
+
+def teller(folder: Path | None, name: str) -> Callable[[float], None]:
+    """For a worker: a function of the share of its task that is done; folder None: nobody asks."""
+    last_s = -TOLD_S
+
+    def told(fraction: float) -> None:
+        nonlocal last_s
+        now = time.monotonic()
+        if folder is not None and now - last_s >= TOLD_S:
+            last_s = now
+            with contextlib.suppress(OSError):  # another machine, or a campaign that has ended
+                begun = folder / f"{name}.{os.getpid()}"
+                begun.write_text(f"{fraction:.6f}", encoding="ascii")
+                begun.rename(folder / name)
+
+    return told
+
+
+def shares(folder: Path) -> dict[str, float]:
+    """The last word of every `teller` of a folder, by name."""
+    found = {}
+    for path in folder.iterdir():
+        with contextlib.suppress(OSError, ValueError):
+            found[path.name] = float(path.read_text(encoding="ascii"))
+    return found
+
+
+def heard(function: Callable, told: Callable[[float], None]) -> dict[str, Callable]:
+    """{"progress": told} for a function that takes it, as engine.simulate does."""
+    return {"progress": told} if "progress" in inspect.signature(function).parameters else {}
