@@ -182,9 +182,8 @@ def answer(order: Order, rows: list[dict]) -> Iterator[str]:
         columns = ("buoy_lateral_max_m", "rope_lateral_max_m")
         found = [known(row, name) for name in columns if (row := greatest(at, name)) is not None]
         if len(found) == len(columns):
-            yield "kA = {:g}: the buoy leaves the plane by at most {:.2g} m, the rope by {:.2g} m.".format(
-                steepness, *found
-            )
+            said = "kA = {:g}: the buoy leaves the plane by at most {:.2g} m, the rope by {:.2g} m."
+            yield said.format(steepness, *found)
     yield from verdicts(order.how.out, quoted=4)
 
 

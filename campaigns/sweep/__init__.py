@@ -174,7 +174,7 @@ def parameters(order: Order) -> dict[str, object]:
 
 
 def answer(order: Order, rows: list[dict]) -> list[str]:
-    """Over one key as `campaigns.buoy_sweep.answer`; over two how often each regime is found, and the largest tension."""
+    """Over one key as `campaigns.buoy_sweep.answer`; over two how often each regime is found, and the largest load."""
     from campaigns.answers import greatest, kilonewton, known
     from campaigns.buoy_sweep.answer import PEAK, sentences
 
