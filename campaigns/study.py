@@ -194,7 +194,7 @@ class Study:
         timing, summary = (self.runs(order) if self.runs else run)(plan, order.cases)
         for more in self.beside(order) if self.beside else ():
             began = time.perf_counter()
-            with stage("what follows from the runs"):
+            with stage("after the runs"):
                 timing["analysis_s"] += more(plan, summary)
             timing["run_s"] += time.perf_counter() - began
         return timing, summary

@@ -65,9 +65,13 @@ def folder_for(name: str, sources: str, kept: int) -> Path | None:
 folder_of = cache(folder_for)  # asked once a process, for every kernel
 
 
-def kept() -> int:
-    """How many pieces of machine code lie in the folders of this process, whichever process compiled them."""
-    return sum(1 for folder in _in_use for _ in folder.rglob("*.nbc"))
+def made_since(time_s: float) -> int:
+    """How many pieces of machine code any process has left in the folders of this one since a time of the clock."""
+    count = 0
+    for path in (path for folder in _in_use for path in folder.rglob("*.nbc")):
+        with contextlib.suppress(OSError):
+            count += path.stat().st_mtime >= time_s
+    return count
 
 
 def _roots() -> Iterator[Path]:

@@ -13,6 +13,7 @@ That does for processes, threads and dask alike; a worker that does not see the 
 
 import contextlib
 import inspect
+import math
 import os
 import shutil
 import sys
@@ -27,6 +28,7 @@ DRAWN_S = 0.25  # between two drawings on a terminal
 FIRST_S, SAID_S = 1.5, 8.0  # to the first line elsewhere, and between two lines
 ASKED_S = 3.0  # of a stage before its time left is told
 TOLD_S = 0.3  # between two words of a worker
+COMPILING_S = 15.0  # since the last kernel: some take long
 BAR = 24  # characters
 RECENT = 0.5  # share of the time so far from which the speed is taken: runs that come later may be slower
 
@@ -35,22 +37,25 @@ RECENT = 0.5  # share of the time so far from which the speed is taken: runs tha
 class Stage:
     """A piece of work that takes a while. far() -> how much of `total` is done; without a total only the time is told.
 
-    note() -> what else there is to say.
+    Where machine code is compiled meanwhile, by whichever process, that is said too.
     """
 
     what: str
     total: float = 0.0
     unit: str = ""
     far: Callable[[], float] | None = None
-    note: Callable[[], str] | None = None
     began: float = field(default_factory=time.monotonic)
     seen: deque = field(default_factory=lambda: deque(maxlen=4096))  # (seconds, done)
+    compiled: tuple[int, float] = (0, -math.inf)  # kernels, and when there was one more
 
-    def look(self) -> tuple[float, float]:
-        """(seconds since it began, how much is done), which is kept for `left_s`."""
-        done = min(self.far(), self.total) if self.far is not None else 0.0
-        self.seen.append((time.monotonic() - self.began, done))
-        return self.seen[-1]
+    def look(self) -> float:
+        """Seconds since it began; how much is done by then is kept for `left_s`."""
+        now = time.monotonic() - self.began
+        self.seen.append((now, min(self.far(), self.total) if self.far is not None else 0.0))
+        if (store := sys.modules.get("machine_code.store")) is not None:
+            kernels = store.made_since(time.time() - now)
+            self.compiled = (kernels, now) if kernels > self.compiled[0] else self.compiled
+        return now
 
     def left_s(self) -> float | None:
         """Seconds to its end at the speed of the last RECENT of its time; None where that is not known yet."""
@@ -62,16 +67,24 @@ class Stage:
 
     def told(self) -> str:
         """The line: what, how far, how long so far, how long still."""
-        now, done = self.look()
-        parts = [_clock(now)]
+        now, parts = self.look(), []
         if self.total:
-            share = done / self.total
-            parts.insert(0, f"[{'#' * int(BAR * share):-<{BAR}}] {share:4.0%} of {self.total:,.0f} {self.unit}")
+            share = self.seen[-1][1] / self.total
+            parts.append(f"[{'#' * int(BAR * share):-<{BAR}}] {share:4.0%} through {self.total:,.0f} {self.unit}")
+        kernels, when = self.compiled
+        if now - when < COMPILING_S:
+            parts.append(f"compiling, {kernels} kernels so far")
+        parts.append(_clock(now))
+        if self.total:
             left = self.left_s()
             parts.append("time left not known yet" if left is None else f"about {_clock(left)} left")
-        if self.note is not None and (more := self.note()):
-            parts.insert(0, more)
         return f"{_named()}: {', '.join(parts)}"
+
+    def ended(self) -> str:
+        """The last line, "" of a stage that was short or counted nothing."""
+        now, kernels = self.look(), self.compiled[0]
+        more = f"{kernels} kernels compiled, " if kernels else ""
+        return f"{_named()}: ended, {more}{_clock(now)}\n" if now > ASKED_S and (self.far or more) else ""
 
 
 _open: list[Stage] = []
@@ -80,15 +93,9 @@ _line = {"ended": threading.Event(), "next_s": 0.0}  # of the thread that draws;
 
 
 @contextlib.contextmanager
-def stage(
-    what: str,
-    total: float = 0.0,
-    unit: str = "",
-    far: Callable[[], float] | None = None,
-    note: Callable[[], str] | None = None,
-) -> Iterator[Stage]:
-    """Show a `Stage` for as long as the `with` lasts; what has been counted leaves a line with its time."""
-    one = Stage(what, total, unit, far, note)
+def stage(what: str, total: float = 0.0, unit: str = "", far: Callable[[], float] | None = None) -> Iterator[Stage]:
+    """Show a `Stage` for as long as the `with` lasts."""
+    one = Stage(what, total, unit, far)
     with _lock:
         _open.append(one)
         if len(_open) == 1:
@@ -99,10 +106,7 @@ def stage(
     finally:
         with _lock:
             _wipe()
-            now = time.monotonic() - one.began
-            if (far or note) and now > ASKED_S:
-                more = f"{note()}, " if note is not None else ""
-                _write(f"{_named()}: ended, {more}{_clock(now)}\n")
+            _write(one.ended())
             _open.remove(one)
             if not _open:
                 _line["ended"].set()
@@ -120,14 +124,17 @@ def _show(ended: threading.Event) -> None:
     while not ended.is_set():
         with _lock:
             if _open and not ended.is_set():
-                _draw(next((one for one in reversed(_open) if one.far or one.note), _open[-1]))
+                _draw(next((one for one in reversed(_open) if one.far), _open[-1]))
         ended.wait(DRAWN_S)
 
 
 def _draw(one: Stage) -> None:
     text = one.told()
     if _terminal():
-        _write(f"\r\x1b[K{text[: shutil.get_terminal_size().columns - 1]}")
+        width = shutil.get_terminal_size().columns - 1
+        while len(text) > width and ": " in text:  # the outer names first
+            text = text.partition(": ")[2]
+        _write(f"\r\x1b[K{text[:width]}")
     elif time.monotonic() >= _line["next_s"]:
         _write(f"{text}\n")
         _line["next_s"] = time.monotonic() + SAID_S
@@ -185,6 +192,17 @@ def shares(folder: Path) -> dict[str, float]:
         with contextlib.suppress(OSError, ValueError):
             found[path.name] = float(path.read_text(encoding="ascii"))
     return found
+
+
+def in_time(done: float, runs: int, lanes: int) -> float:
+    """Share of the time of a task whose runs go in so many lanes, from the share of the runs that is done.
+
+    Runs that cost alike end together, round after round; the last round takes as long where it has fewer runs.
+    """
+    rounds, rest = divmod(runs, lanes)
+    full = min(done * runs, rounds * lanes)
+    last = (done * runs - full) / rest if rest else 0.0
+    return (full / lanes + last) / (rounds + bool(rest))
 
 
 def heard(function: Callable, told: Callable[[float], None]) -> dict[str, Callable]:

@@ -29,13 +29,15 @@ from campaigns.machinery.folder import (
 )
 from campaigns.machinery.plan import Job, Outcome, Plan, Summary, length_of, name_of
 from campaigns.machinery.pools import PoolBroken, opened
-from campaigns.machinery.progress import heard, shares, stage, tell, teller
+from campaigns.machinery.progress import heard, in_time, shares, stage, tell, teller
 from engine.atomic import write_atomic
 
+ENGINE = "the engine, loaded or compiled once"
 COMPILE_RUN_S = 0.1  # long enough to go through every kernel, too short to cost anything
 MOST = 96  # jobs of a group: results reach the table group by group
 MOST_SENT = 8  # where a group's runs are sent together: one for each lane, so a lost worker costs what was running
 GOLDEN = 0.5 * (math.sqrt(5.0) - 1.0)  # its multiples, less whole numbers, fill any range evenly
+LANES = 8  # of a worker, as `engine.simd.vector.COUNT`, which is slow to import: for the time left only
 FEWEST = 4  # jobs for each worker below which they are not put together
 
 
@@ -49,26 +51,12 @@ def run(plan: Plan, jobs: list[Job], compile_run_s: float = COMPILE_RUN_S) -> tu
     if missing and plan.sends and plan.how.dask_address is not None:
         tell("each worker compiles the engine in its first run, unless it has done so before")
     elif missing:
-        with compiling():
+        with stage(ENGINE):
             _compile(plan, missing, compile_run_s)
     compiled = time.perf_counter()
     summary = run_campaign(plan, jobs)
     run_s = time.perf_counter() - compiled
     return {"compile_s": compiled - start, "run_s": run_s, "analysis_s": summary.analysis_s}, summary
-
-
-def compiling(what: str = "engine") -> contextlib.AbstractContextManager:
-    """A stage for the first run of all, which compiles what it calls, or loads what lies compiled on disk."""
-    from machine_code.store import kept
-
-    before: list[int] = []
-
-    def note() -> str:
-        before.append(kept())
-        new = before[-1] - before[0]
-        return f"compiling for such scenes, once: {new} kernels" if new else "loading machine code"
-
-    return stage(what, note=note)
 
 
 def write_scene(directory: Path, campaign: str, jobs: list[Job]) -> None:
@@ -99,8 +87,11 @@ def groups_of(plan: Plan, jobs: list[Job]) -> list[tuple[Job, ...]]:
 
 
 def _mixed(jobs: list[Job]) -> list[Job]:
-    """The jobs in an order in which any first part of them is like the whole: what it took says what the rest takes."""
-    return [jobs[i] for i in sorted(range(len(jobs)), key=lambda i: i * GOLDEN % 1.0)]
+    """The jobs in an order in which any part of them is like the whole: what some took says what the rest takes.
+
+    Not the first one leads, which in a sweep is often the fastest: a slow one that begins late would end alone.
+    """
+    return [jobs[i] for i in sorted(range(len(jobs)), key=lambda i: i * GOLDEN % 1.0, reverse=True)]
 
 
 def _compile(plan: Plan, missing: list[Job], duration_s: float) -> None:
@@ -170,6 +161,7 @@ def _computed(plan: Plan, jobs: dict[str, Job], all_jobs: Sequence[Job]) -> Iter
 
     def far() -> float:
         told = {name: share for name, share in shares(Path(place)).items() if name in tasks}
+        told = {name: in_time(share, len(tasks[name]), LANES) for name, share in told.items()}
         begun = sum(share * sizes[job.key] for name, share in told.items() for job in tasks[name] if job.key in left)
         return total * (1.0 - (sum(sizes[key] for key in [*left]) - begun) / sum(sizes.values()))
 

@@ -36,7 +36,6 @@ from campaigns.figure_data import attribute_of, store
 from campaigns.machinery.folder import Table, made_by, trajectory_path
 from campaigns.machinery.plan import Summary
 from campaigns.machinery.progress import stage
-from campaigns.machinery.runner import compiling
 from engine.atomic import write_atomic
 
 SEED = 0
@@ -240,7 +239,7 @@ def _key(part: str, order: Namespace) -> str:
 
 def _compile(oscillator: SnapOscillator) -> float:
     begun = time.perf_counter()
-    with compiling("eq. (33)"):
+    with stage("eq. (33), loaded or compiled"):
         snap_exponents(oscillator, count=2, transient_periods=1, periods=2, blocks=2)
     return time.perf_counter() - begun
 

@@ -25,7 +25,7 @@ from campaigns.machinery.folder import (
 from campaigns.machinery.plan import Summary
 from campaigns.machinery.pools import PoolBroken, opened
 from campaigns.machinery.progress import stage
-from campaigns.machinery.runner import compiling
+from campaigns.machinery.runner import ENGINE
 from campaigns.stability import cases, fuzz, random_scenes, scene_shares, step_maps
 from campaigns.stability.cases import all_cases, drift_case
 from engine import load_scene
@@ -99,7 +99,7 @@ def done(order) -> tuple[dict[str, float], Summary]:
     missing = [task for task in tasks if results[task.key()] is None]
     start = time.perf_counter()
     if missing or kept_row(out, shares.key(), maker) is None:
-        with compiling():
+        with stage(ENGINE):
             fuzz.load_kernels()
     timing = {"compile_s": time.perf_counter() - start}
     start = time.perf_counter()

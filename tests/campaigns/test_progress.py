@@ -14,39 +14,44 @@ from campaigns.buoy_sweep.rows import COLUMNS
 from campaigns.machinery import progress
 from campaigns.machinery.cli import Running
 from campaigns.machinery.plan import Job, Plan, length_of, name_of
-from campaigns.machinery.progress import ASKED_S, Stage, heard, shares, stage, teller
-from campaigns.machinery.runner import _mixed, run_jobs
+from campaigns.machinery.progress import ASKED_S, Stage, heard, in_time, shares, stage, teller
+from campaigns.machinery.runner import LANES, _mixed, run_jobs
 from campaigns.machinery.session import MOST_LINES
 from engine import load_scene, simulate, simulate_each
 from tests.campaigns.fake_engine import FakeEngine, sines
 
-LANES = 16  # runs at a time of two workers
 COSTS = [1.0] * 11 + [2.8] * 38  # of the default sweep's runs: 990 and 350 wave periods a second
 
 
-def history(costs, order):
-    """(times, share of the wave periods that is done) of runs that go in lanes, the next as soon as one ends."""
+def history(costs):
+    """(times, share of them that is done) of runs that go in the lanes of a worker, the next as soon as one ends."""
     begun, ended, free = [], [], [0.0] * LANES
-    for run in order:
-        lane = int(np.argmin(free))
-        begun.append(free[lane])
-        free[lane] += costs[run]
-        ended.append(free[lane])
-    times = np.linspace(0.0, max(ended), 400)
-    begun, ended = np.array(begun), np.array(ended)
+    for cost in costs:
+        begun.append(min(free))
+        ended.append(begun[-1] + cost)
+        free[free.index(begun[-1])] = ended[-1]
+    times, begun, ended = np.linspace(0.0, max(ended), 400), np.array(begun), np.array(ended)
     return times, np.clip((times[:, None] - begun) / (ended - begun), 0.0, 1.0).mean(axis=1)
 
 
 @pytest.mark.parametrize("costs", [COSTS, COSTS[::-1], [1.0] * 49, list(np.linspace(1.0, 4.0, 49))])
 @pytest.mark.parametrize("since", [0.2, 0.35, 0.5, 0.7])
 def test_the_time_left_is_right_within_a_factor_of_two_from_a_fifth_on(costs, since):
-    groups = [_mixed(list(range(first, 49, 2))) for first in (0, 1)]
-    order = [run for pair in zip(*groups, strict=False) for run in pair] + groups[0][len(groups[1]) :]
-    times, done = history(costs, order)
-    times = 100.0 * times / times[-1]
-    one = Stage("runs", 1.0)
-    one.seen.extend((t, share) for t, share in zip(times, done, strict=True) if t <= 100.0 * since)
+    workers = [history(_mixed(costs[first::2])) for first in (0, 1)]
+    end = max(times[-1] for times, _ in workers)
+    one = Stage("runs", 49.0)
+    for t in np.linspace(0.0, since * end, 200):
+        shares = (in_time(np.interp(t, *worker), count, LANES) for worker, count in zip(workers, (25, 24), strict=True))
+        one.seen.append((100.0 * t / end, float(np.dot((25, 24), [*shares]))))
     assert 0.5 < one.left_s() / (100.0 * (1.0 - since)) < 2.0
+
+
+def test_the_lanes_of_the_engine_are_those_of_the_time_left():
+    from engine.simd.vector import COUNT
+
+    assert LANES == COUNT
+    assert in_time(1.0, 25, LANES) == in_time(1.0, 3, LANES) == 1.0
+    assert in_time(24 / 25, 25, LANES) == pytest.approx(3 / 4)  # the last run goes alone, for as long as a round
 
 
 def test_a_time_left_is_told_once_it_is_known():
@@ -108,7 +113,7 @@ def test_no_silence_and_stages_end_in_any_order(monkeypatch):
     lines = sys.stderr.getvalue().splitlines()
     assert len(lines) >= int((time.monotonic() - began) / (0.3 + 2 * progress.DRAWN_S))
     assert all(
-        line.startswith("campaign: runs: one of them: [######---") and "25% of 100 wave" in line for line in lines
+        line.startswith("campaign: runs: one of them: [######---") and "25% through 100 wave" in line for line in lines
     )
 
 
@@ -139,7 +144,8 @@ def test_the_answer_of_a_sweep_names_regimes_jumps_chaos_and_the_load_that_may_b
     said = sentences(rows[::-1], "steepness", "kA", load_scene("tethered_buoy"))
     assert said == [
         "Periodic (period 1 and 2): kA = 0.01 to 0.06.",
-        "Jump between kA = 0.05 and 0.06: largest tension 3 to 9 kN, swing of r 1.00 to 4.00 m, slack 0 to 60 % of the time.",
+        "Jump between kA = 0.05 and 0.06: largest tension 3 to 9 kN, swing of r 1.00 to 4.00 m, slack 0 to 60 % of the "
+        "time.",
         "Chaotic, 0.09 bits a wave (standard error 0.01): kA = 0.07.",
         "Not decided: tests disagree at kA = 0.08.",
         "Largest tension 9.1 kN at kA = 0.07, 4.5 times the static one.",
