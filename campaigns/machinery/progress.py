@@ -29,7 +29,7 @@ FIRST_S, SAID_S = 1.5, 8.0  # to the first line elsewhere, and between two lines
 ASKED_S = 3.0  # of a stage before its time left is told
 TOLD_S = 0.3  # between two words of a worker
 COMPILING_S = 15.0  # since the last kernel: some take long
-BAR = 24  # characters
+BAR = 20  # characters
 RECENT = 0.5  # share of the time so far from which the speed is taken: runs that come later may be slower
 
 
@@ -66,19 +66,18 @@ class Stage:
         return (self.total - done) * (now - since) / (done - before) if done > before else None
 
     def told(self) -> str:
-        """The line: what, how far, how long so far, how long still."""
+        """The line behind its name: how far, how long so far, how long still; what it counts, what is compiled."""
         now, parts = self.look(), []
         if self.total:
-            share = self.seen[-1][1] / self.total
-            parts.append(f"[{'#' * int(BAR * share):-<{BAR}}] {share:4.0%} through {self.total:,.0f} {self.unit}")
-        kernels, when = self.compiled
-        if now - when < COMPILING_S:
-            parts.append(f"compiling, {kernels} kernels so far")
-        parts.append(_clock(now))
-        if self.total:
-            left = self.left_s()
+            share, left = self.seen[-1][1] / self.total, self.left_s()
+            parts.append(f"[{'#' * int(BAR * share):-<{BAR}}] {share:3.0%}")
             parts.append("time left not known yet" if left is None else f"about {_clock(left)} left")
-        return f"{_named()}: {', '.join(parts)}"
+        parts.insert(1, _clock(now))
+        if now - self.compiled[1] < COMPILING_S:
+            parts.append(f"compiling, {self.compiled[0]} kernels so far")
+        if self.total:
+            parts.append(f"of {self.total:,.0f} {self.unit}")
+        return ", ".join(parts)
 
     def ended(self) -> str:
         """The last line, "" of a stage that was short or counted nothing."""
@@ -131,12 +130,12 @@ def _show(ended: threading.Event) -> None:
 def _draw(one: Stage) -> None:
     text = one.told()
     if _terminal():
-        width = shutil.get_terminal_size().columns - 1
-        while len(text) > width and ": " in text:  # the outer names first
-            text = text.partition(": ")[2]
-        _write(f"\r\x1b[K{text[:width]}")
+        names, width = [stage.what for stage in _open], shutil.get_terminal_size().columns - 1
+        while len(names) > 1 and len(": ".join([*names, text])) > width:
+            names.pop(0)
+        _write(f"\r\x1b[K{': '.join([*names, text])[:width]}")
     elif time.monotonic() >= _line["next_s"]:
-        _write(f"{text}\n")
+        _write(f"{_named()}: {text}\n")
         _line["next_s"] = time.monotonic() + SAID_S
 
 

@@ -55,7 +55,7 @@ def _question(sweep: Sweep) -> list[Item]:
     items: list[Item] = [
         *section_items("buoy_sweep", "Question"),
         Heading("Short answer"),
-        Bullets(short_answer(sweep)),
+        Bullets(sweep.folder.answer or short_answer(sweep)),
         *extremes([columns["steepness"]], [run.row for run in sweep.good], shown, _OF_THESE),
     ]
     if sweep.judged:
