@@ -51,8 +51,11 @@ def kilonewton(force_N: float) -> str:
 
 def verdicts(folder: Path, quoted: int) -> Iterator[str]:
     """How many of the paper's statements hold, by statements.csv; then the first `quoted` that do not, a line each."""
-    with open(folder / STATEMENTS, encoding="utf-8", newline="") as file:
-        judged = list(csv.DictReader(file))
+    try:
+        with open(folder / STATEMENTS, encoding="utf-8", newline="") as file:
+            judged = list(csv.DictReader(file))
+    except FileNotFoundError:  # as where no run ended
+        return
     counts = {said: sum(row["verdict"] == word for row in judged) for word, said in _VERDICTS.items()}
     said = listed(f"{many} {words}" for words, many in counts.items() if many)
     yield f"Of {len(judged)} statements of the paper {said}."

@@ -130,7 +130,7 @@ def _show(ended: threading.Event) -> None:
 def _draw(one: Stage) -> None:
     text = one.told()
     if _terminal():
-        names, width = [stage.what for stage in _open], shutil.get_terminal_size().columns - 1
+        names, width = [other.what for other in _open], shutil.get_terminal_size().columns - 1
         while len(names) > 1 and len(": ".join([*names, text])) > width:
             names.pop(0)
         _write(f"\r\x1b[K{': '.join([*names, text])[:width]}")
