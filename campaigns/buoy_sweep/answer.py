@@ -44,7 +44,7 @@ def jumps(rows: Sequence[Row], key: str, symbol: str) -> Iterator[str]:
             "swing of r {:.2f} to {:.2f} m, slack {:.0f} to {:.0f} % of the time.".format(*swings, *slack)
         )
     if more := sorted((known(a, key), known(b, key), _change(a, b)) for _, a, b in found[1 : 1 + TOLD]):
-        yield f"{SMALLER} {listed(f'{a:.4g} and {b:.4g} ({change})' for a, b, change in more)}."
+        yield f"{SMALLER} {symbol} = {listed(f'{a:.4g} and {b:.4g} ({change})' for a, b, change in more)}."
 
 
 def _pull(row: Row) -> bool:

@@ -47,6 +47,7 @@ class Stage:
     began: float = field(default_factory=time.monotonic)
     seen: deque = field(default_factory=lambda: deque(maxlen=4096))  # (seconds, done)
     compiled: tuple[int, float] = (0, -math.inf)  # kernels, and when there was one more
+    outer: bool = False  # whether there is, or was, a stage within it
 
     def look(self) -> float:
         """Seconds since it began; how much is done by then is kept for `left_s`."""
@@ -80,10 +81,11 @@ class Stage:
         return ", ".join(parts)
 
     def ended(self) -> str:
-        """The last line, "" of a stage that was short or counted nothing."""
+        """The last line; "" of a stage that was short, or neither counted nor compiled anything of its own."""
         now, kernels = self.look(), self.compiled[0]
         more = f"{kernels} kernels compiled, " if kernels else ""
-        return f"{_named()}: ended, {more}{_clock(now)}\n" if now > ASKED_S and (self.far or more) else ""
+        told = now > ASKED_S and (self.far is not None or (kernels and not self.outer))
+        return f"{_named()}: ended, {more}{_clock(now)}\n" if told else ""
 
 
 _open: list[Stage] = []
@@ -96,6 +98,8 @@ def stage(what: str, total: float = 0.0, unit: str = "", far: Callable[[], float
     """Show a `Stage` for as long as the `with` lasts."""
     one = Stage(what, total, unit, far)
     with _lock:
+        for outer in _open:
+            outer.outer = True
         _open.append(one)
         if len(_open) == 1:
             _line.update(ended=threading.Event(), next_s=one.began + FIRST_S)

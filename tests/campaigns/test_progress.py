@@ -104,7 +104,7 @@ def test_the_length_is_in_wave_periods_and_without_waves_in_seconds():
     assert Job({}, finer, 10).size / Job({}, wave, 10).size == pytest.approx(81 / 41)
 
 
-def test_no_silence_and_stages_end_in_any_order(monkeypatch):
+def test_no_silence_and_the_names_of_all_stages(monkeypatch):
     monkeypatch.setattr(sys, "stderr", io.StringIO())
     monkeypatch.setattr(progress, "FIRST_S", 0.0)
     monkeypatch.setattr(progress, "SAID_S", 0.3)
@@ -113,8 +113,9 @@ def test_no_silence_and_stages_end_in_any_order(monkeypatch):
         time.sleep(1.0)
     lines = sys.stderr.getvalue().splitlines()
     assert len(lines) >= int((time.monotonic() - began) / (0.3 + 2 * progress.DRAWN_S))
+    assert lines[0].startswith("campaign: ")  # before the stages within it began
     head, tail = "campaign: runs: one of them: [#####-----", "25%, 0:0"
-    assert all(line.startswith(head) and tail in line and "100 wave periods" in line for line in lines)
+    assert all(line.startswith(head) and tail in line and "100 wave periods" in line for line in lines[1:])
 
 
 @pytest.mark.parametrize("name", [name for name in _names() if name != "time_series"])
