@@ -17,6 +17,7 @@ from campaigns.machinery import cli, session
 from campaigns.machinery.cli import Lengths
 from campaigns.machinery.folder import made_by
 from campaigns.machinery.plan import Job, Plan, Summary
+from campaigns.machinery.progress import stage
 from campaigns.machinery.runner import run, write_scene
 
 
@@ -97,6 +98,7 @@ class Study:
     parameters(order) -> what its provenance says beside scene, set, periods and transient.
     runs(order) -> in place of `runner.run`; beside(order) -> what is done after the runs: functions of (plan, summary)
     that return seconds of analysis. together: whether runs may share a worker, side by side in the lanes.
+    answer(order, rows of table.csv) -> what was found, in at most eight sentences, for the terminal and answer.txt.
     jobs, backends: whether there is a choice of these. strict: whether a row that is not ok is exit code 1.
     module: its command is python -m MODULE; "" for campaigns.NAME.
     """
@@ -115,6 +117,7 @@ class Study:
     parameters: Callable[[Order], Mapping[str, object]] | None = None
     runs: Callable[[Order], Callable] | None = None
     beside: Callable[[Order], Iterable[Callable[[Plan, Summary], float]]] | None = None
+    answer: Callable[[Order, list[dict]], Iterable[str]] | None = None
     together: bool = True
     jobs: bool = True
     backends: bool = True
@@ -191,7 +194,8 @@ class Study:
         timing, summary = (self.runs(order) if self.runs else run)(plan, order.cases)
         for more in self.beside(order) if self.beside else ():
             began = time.perf_counter()
-            timing["analysis_s"] += more(plan, summary)
+            with stage("after the runs"):
+                timing["analysis_s"] += more(plan, summary)
             timing["run_s"] += time.perf_counter() - began
         return timing, summary
 

@@ -106,6 +106,13 @@ def beside(order: Order) -> Iterator[Callable]:
     yield partial(close_up, periods=order.periods)
 
 
+def answer(order: Order, rows: list[dict]) -> list[str]:
+    """What the sweep found (`campaigns.buoy_sweep.answer`)."""
+    from campaigns.buoy_sweep.answer import sentences
+
+    return sentences(rows, "steepness", "kA", order.cases[0].scene)
+
+
 STUDY = Study(
     name="buoy_sweep",
     protocol=__doc__,
@@ -124,5 +131,6 @@ STUDY = Study(
     parameters=parameters,
     runs=lambda order: run_where_needed if dimensions_of(order) == "auto" else run,
     beside=beside,
+    answer=answer,
 )
 main, parser, read_order = STUDY.main, STUDY.parser, STUDY.read_order

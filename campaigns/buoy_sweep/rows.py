@@ -21,8 +21,13 @@ EXTREMES = (
     Column("angle_max_rad", "rad", "θ_max", "largest angle of the upper end from the vertical after the transient", 3),
     Column("tension_top_min_N", "N", "T_min", "smallest tension at the top of the line after the transient", 0),
     Column("tension_top_max_N", "N", "T_max", "largest tension at the top of the line after the transient", 0),
-    Column("slack_fraction", "", "χ", "share of the time after the transient without tension at the top", 3),
-)
+    Column(
+        "slack_fraction", "", "χ",
+        "share of the time after the transient with less than 5 % of the static tension at the top", 3,
+    ),
+    Column("compression_fraction", "", "χ_c", "share of the time after the transient with T < 0 at the top", 3),
+)  # fmt: skip
+NEAR_ZERO = 0.05  # of the static tension: what the paper calls near zero; below it the line is slack
 REGIME = Column("regime", symbol="regime", meaning="period-N, quasi-periodic, chaotic, transient or undecided")
 _BITS = "bits/period"
 WOLF = (
@@ -145,9 +150,14 @@ def settled(columns, step_s: float, transient_s: float) -> dict[str, object]:
         extremes(columns[name], step_s, transient_s)
         for name in ("radius_m", "angle_rad", "tension_top_low_N", "tension_top_high_N")
     )
-    slack = slack_fraction(columns["tension_top_N"], step_s, transient_s=transient_s).fraction
+    # A run starts at rest. T < 0 alone says little: much of it is noise of axial waves in a line that hangs loose.
+    tension, static_N = columns["tension_top_N"], float(columns["tension_top_N"][0])
+    shares = (
+        slack_fraction(tension, step_s, threshold_N, transient_s).fraction
+        for threshold_N in (max(NEAR_ZERO * static_N, 0.0), 0.0)
+    )
     ends = (radius.minimum, radius.maximum, angle.minimum, angle.maximum, low.minimum, high.maximum)
-    return dict(zip(names(EXTREMES), (*ends, slack), strict=True))
+    return dict(zip(names(EXTREMES), (*ends, *shares), strict=True))
 
 
 def sound_part(columns) -> dict[str, np.ndarray]:

@@ -10,6 +10,7 @@ long enough; any other line gets extremes, tension and the solver's counts. Noth
 """
 
 import re
+from collections import Counter
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import partial, reduce
@@ -172,6 +173,22 @@ def parameters(order: Order) -> dict[str, object]:
     return told
 
 
+def answer(order: Order, rows: list[dict]) -> list[str]:
+    """Over one key as `campaigns.buoy_sweep.answer`; over two how often each regime is found, and the largest load."""
+    from campaigns.answers import greatest, kilonewton, known
+    from campaigns.buoy_sweep.answer import PEAK, sentences
+
+    keys = [one.key for one in order.own.vary]
+    if len(keys) == 1:
+        return sentences(rows, keys[0], keys[0], order.cases[0].scene)
+    counts = Counter(str(row.get("regime") or row["status"]) for row in rows)
+    said = [f"{len(rows)} runs: {', '.join(f'{word} {count}' for word, count in counts.most_common())}."]
+    if (peak := greatest(rows, PEAK)) is not None:
+        where = " and ".join(f"{key} = {known(peak, key):.4g}" for key in keys)
+        said.append(f"Largest tension {kilonewton(known(peak, PEAK))} at {where}.")
+    return said
+
+
 STUDY = Study(
     name="sweep",
     protocol=__doc__,
@@ -182,5 +199,6 @@ STUDY = Study(
     cases=cases,
     measures=measures,
     parameters=parameters,
+    answer=answer,
 )
 main, parser, read_order = STUDY.main, STUDY.parser, STUDY.read_order
