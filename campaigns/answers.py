@@ -57,7 +57,7 @@ def verdicts(folder: Path, quoted: int) -> Iterator[str]:
     except FileNotFoundError:  # as where no run ended
         return
     counts = {said: sum(row["verdict"] == word for row in judged) for word, said in _VERDICTS.items()}
-    said = listed(f"{many} {words}" for words, many in counts.items() if many)
+    said = listed(f"{words} {many}" for words, many in counts.items() if many)
     yield f"Of {len(judged)} statements of the paper {said}."
     failing = [row for row in judged if row["verdict"] == FAILS]
     yield from (f"Does not hold: {row['statement']}" for row in failing[:quoted])

@@ -13,6 +13,7 @@ against their own refined runs and against ours; what is not installed is a row 
 from argparse import Namespace
 from collections.abc import Iterator
 from dataclasses import replace
+from math import isfinite
 from statistics import median
 
 import engine
@@ -93,11 +94,13 @@ def parameters(order: Order) -> dict[str, object]:
 
 def answer(order: Order, rows: list[dict]) -> Iterator[str]:
     """The error of the shipped setting on every work where it is timed, its median time, and what ended early."""
+    from campaigns.answers import known
+
     shipped = {"kind": "point", "method": BEST, "status": "ok"} | SHIPPED
     said = []
     for work in order.own.effort.works:
         found = [row for row in rows if row["work"] == work and shipped.items() <= row.items()]
-        if errors := [row["error"] for row in found if row.get("error") is not None]:
+        if errors := [known(row, "error") for row in found if isfinite(known(row, "error"))]:
             wall_ms = 1e3 * median(row["wall_s"] for row in found) * BY_NAME[work].period_s / BY_NAME[work].duration_s
             said.append(f"{work} {median(errors):.2g} {UNITS[BY_NAME[work].measure]} in {wall_ms:.2g} ms")
     if said:

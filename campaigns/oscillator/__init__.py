@@ -76,7 +76,7 @@ def answer(order: Order, rows: list[dict]) -> list[str]:
         said.append(f"The motion is {word}: largest exponent {value:.4f} +- {error:.4f} bits per forcing period.")
     if basins:
         share = 100.0 * known(basins, "aperiodic_share")
-        said.append(f"{known(basins, 'attractors'):.0f} periodic attractors; {share:.1f} % of the starts end in none.")
+        said.append(f"Periodic attractors: {known(basins, 'attractors'):.0f}; {share:.1f} % of the starts end in none.")
     if known(grazing, "grazing_force") > 0.0:
         said.append(f"The line stays taut up to a force of F = {known(grazing, 'grazing_force'):.4f}.")
     return said
