@@ -40,6 +40,7 @@ class Order:
     """What a command line asks of a study: its values, what was found wrong with them, and the cases that follow.
 
     own: the study's own options, as `Study.read` leaves them. periods, transient: None and 0 without `Study.lengths`.
+    looks: whether runs take as long as their regime needs, `periods` at most, with a transient of their own (None).
     simulate: in place of engine.simulate, None for the engine.
     """
 
@@ -47,7 +48,8 @@ class Order:
     name: str = ""
     changes: dict[str, object] = field(default_factory=dict)
     periods: int | None = None
-    transient: int = 0
+    transient: int | None = 0
+    looks: bool = False
     own: Namespace = field(default_factory=Namespace)
     faults: list[str] = field(default_factory=list)
     cases: list[Job] = field(default_factory=list)
@@ -143,7 +145,13 @@ class Study:
             usual, whole = self.lengths, cli.whole
             most = f"(default: {usual.transient}, at most 1/{usual.share} of --periods)"
             lasting = whole(1, cli.MOST_PERIODS)
-            cli.add(what, "--periods", "N", "length of every run in wave periods", lasting, usual.periods)
+            length, default = "length of every run in wave periods", usual.periods
+            if usual.budget:
+                length += " (default: as long as it takes to tell its regime)"
+                most, default = f"with --periods {most}", None
+                budget = "wave periods after which a run ends undecided; without --periods"
+                cli.add(what, "--budget", "N", budget, lasting, usual.budget)
+            cli.add(what, "--periods", "N", length, lasting, default)
             cli.add(what, "--transient", "N", f"wave periods left out of the analysis {most}", whole(0))
         if self.scene:
             name = cli.Kind(str, "a scene file or the name of a scene")
@@ -155,12 +163,17 @@ class Study:
     def read_order(self, argv: list[str], faults: list[str]) -> Order:
         """The order in the words of the command line; every fault, of options and scenes, is appended to `faults`."""
         options = cli.split(self.parser(), argv, faults)  # `--help` ends here, and has loaded nothing heavy
-        periods, transient = None, 0
+        periods, transient, looks = None, 0, False
         if (usual := self.lengths) is not None:
             periods, transient = options.periods, options.transient
-            if transient is None:
+            looks = usual.budget > 0 and periods is None
+            if looks and transient is not None:
+                faults.append(f"--transient: given {transient} without --periods; allowed: with --periods")
+            if looks:
+                periods, transient = options.budget, None
+            elif transient is None:
                 transient = min(usual.transient, periods // usual.share)
-            if transient >= periods:
+            if transient is not None and transient >= periods:
                 faults.append(f"--transient: given {transient} of {periods} periods; allowed: less than --periods")
         if self.read is not None:
             self.read(options, faults)
@@ -170,7 +183,7 @@ class Study:
         from campaigns.machinery.plausible import without_waves
 
         changes = cli.assignments(options.set, self.taken, faults)
-        order = Order(how, options.scene, changes, periods, transient, options, faults)
+        order = Order(how, options.scene, changes, periods, transient, looks, options, faults)
         base = order.base() if self.in_waves else None
         refused = [] if base is None else list(without_waves(order.name, base))
         order.tell(refused)

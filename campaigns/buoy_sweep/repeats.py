@@ -88,6 +88,7 @@ def repeat(
     length = lengths(len(summary.rows), periods)
     jobs: list[Job] = []
     for role, row in chosen(rows):
+        length = min(length, round(row["periods"]))
         original = first_periods(run_of(plan.how.out, row), length)
         scene = original.scene
         finer = scene_from_toml(scene.to_toml(), {"tether.nodes": 2 * scene.tether.nodes - 1})

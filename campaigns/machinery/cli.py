@@ -84,12 +84,14 @@ class Running:
 class Lengths:
     """The usual length of a run and of its transient, in wave periods.
 
-    share: the transient is at most periods/share where none is given.
+    share: the transient is at most periods/share where none is given. budget: of a study whose runs take as long as
+    their regime needs where no length is given: the most that they may take; 0: `periods` is the length then.
     """
 
     periods: int
     transient: int
     share: int = 3
+    budget: int = 0
 
 
 class _Formatter(argparse.RawDescriptionHelpFormatter):

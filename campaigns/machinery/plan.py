@@ -10,10 +10,23 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
+from typing import NamedTuple
 
 import engine
 from campaigns.columns import Column
 from campaigns.machinery.cli import Running
+
+
+class Further(NamedTuple):
+    """What a run does next: scene, wave periods, the Trajectory it goes on from (None: from rest), and what for.
+
+    check: the run stays as it is, and what is computed is handed to its row: describe(trajectory, check=).
+    """
+
+    scene: object
+    periods: float
+    start: object = None
+    check: bool = False
 
 
 @dataclass(frozen=True)
@@ -21,6 +34,8 @@ class Job:
     """One run to do: the columns that name it, its scene, and its length in wave periods or in seconds.
 
     simulate, describe: in place of the plan's, for campaigns whose runs are not all made or described alike.
+    going(scene, trajectory, row): for a run as long as it needs: what it does next (`Further`), None when it is done;
+    trajectory and row are those so far, None before its first. `periods` is then the most that it may take.
     made: what else the result depends on, where the run is not the engine's own or not the only one of its scene.
     engine: hash of the engine's sources with which the campaign began.
     """
@@ -31,6 +46,7 @@ class Job:
     duration_s: float | None = None
     simulate: Callable | None = None
     describe: Callable | None = None
+    going: Callable | None = None
     made: str = ""
     engine: str = field(default_factory=lambda: engine.source_hash())
 

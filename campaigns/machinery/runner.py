@@ -27,7 +27,7 @@ from campaigns.machinery.folder import (
     trajectory_path,
     write_failure,
 )
-from campaigns.machinery.plan import Job, Outcome, Plan, Summary, length_of, name_of
+from campaigns.machinery.plan import Further, Job, Outcome, Plan, Summary, length_of, name_of
 from campaigns.machinery.pools import PoolBroken, opened
 from campaigns.machinery.progress import heard, in_time, shares, stage, tell, teller
 from engine.atomic import write_atomic
@@ -120,7 +120,8 @@ def run_campaign(plan: Plan, jobs: list[Job]) -> Summary:
     by_key = {job.key: job for job in jobs}
     table = Table(plan.how.out / "table.csv", plan.columns, list(by_key))
     with stage("looking for finished runs"):
-        found = {key: outcome for key, job in by_key.items() if (outcome := reuse(plan, job)) is not None}
+        there = {key: reuse(plan, job) for key, job in by_key.items()}
+        found = {key: outcome for key, outcome in there.items() if outcome is not None and _ended(by_key[key], outcome)}
     table.rows = {key: _row(by_key[key], outcome) for key, outcome in found.items()}
     table.write()
     analysis_s = sum(outcome.analysis_s for outcome in found.values())
@@ -138,6 +139,10 @@ def run_campaign(plan: Plan, jobs: list[Job]) -> Summary:
         raise
     table.write()
     return Summary(table.in_order(), len(found), len(by_key) - len(found), analysis_s)
+
+
+def _ended(job: Job, outcome: Outcome) -> bool:
+    return job.going is None or job.going(job.scene, None, outcome.row) is None
 
 
 def _row(job: Job, outcome: Outcome) -> dict[str, object]:
@@ -204,6 +209,8 @@ def run_jobs(plan: Plan, jobs: Sequence[Job]) -> list[Outcome]:
     if engine.source_hash() != first.engine:
         raise CampaignStopped("the engine's sources here are not those the campaign began with; start it again")
     told = teller(plan.told, name_of(jobs))
+    if first.going is not None:
+        return _carried_on(plan, jobs, told)
     if len(jobs) == 1:
         return [_run_one(plan, first, told)]
     outcomes, length = [], {"periods": first.periods, "duration_s": first.duration_s}
@@ -216,6 +223,66 @@ def run_jobs(plan: Plan, jobs: Sequence[Job]) -> list[Outcome]:
     except (Exception, SystemExit):
         pass  # run again one by one, each of the jobs left says for itself what is wrong
     return outcomes
+
+
+def _carried_on(plan: Plan, jobs: Sequence[Job], told: Callable[[float], None]) -> list[Outcome]:
+    """As `run_jobs`, of jobs that take as long as they need: in rounds, each to the next look of its runs.
+
+    What a run has done is on disk after each of its rounds, so that a killed campaign goes on from there.
+    """
+    there = {job.key: _so_far(plan, job) for job in jobs}
+    expected = {job.key: float(job.periods) for job in jobs}
+    outcomes, left = [], list(jobs)
+    while left:
+        asked: dict[float, list[tuple[Job, Further]]] = {}
+        for job in left:
+            trajectory, outcome = there[job.key]
+            further = job.going(job.scene, trajectory, None if outcome is None else outcome.row)
+            if further is None:
+                outcomes.append(outcome)
+            else:
+                asked.setdefault(further.periods, []).append((job, further))
+        left = []
+        for periods, group in asked.items():
+            try:
+                for i, part in _parts(plan, [further for _, further in group], periods):
+                    job = group[i][0]
+                    before = there[job.key][0]
+                    if group[i][1].check:
+                        there[job.key] = before, _described(plan, job, before, check=part)
+                    else:
+                        whole = part if before is None else before.followed_by(part)
+                        there[job.key] = whole, _kept(plan, job, whole)
+                    left.append(job)
+            except CampaignStopped:
+                raise
+            except (Exception, SystemExit) as error:
+                if is_full(error):
+                    raise _stopped(plan, error) from error
+                if len(jobs) == 1:  # alone it says what is wrong; the others are run again one by one
+                    return [failed(jobs[0], "error", _reason(error))]
+        done = sum(expected[key] for key in expected if all(job.key != key for job in left))
+        told(done / sum(expected.values()))
+    return outcomes
+
+
+def _parts(plan: Plan, asked: list[Further], periods: float) -> Iterator[tuple[int, object]]:
+    """(number, Trajectory) of what is asked, as the runs end."""
+    if plan.simulate_each is not None:
+        starts = [further.start for further in asked]
+        yield from plan.simulate_each([further.scene for further in asked], periods=periods, starts=starts)
+        return
+    for i, further in enumerate(asked):
+        start = {} if further.start is None else {"start": further.start}
+        yield i, plan.simulate(further.scene, periods=periods, **start)
+
+
+def _so_far(plan: Plan, job: Job):
+    """(trajectory, Outcome) of as much of a run as is there; (None, None) where nothing is."""
+    outcome = reuse(plan, job)
+    if outcome is None or outcome.row.get("status") not in ("ok", None):
+        return None, outcome
+    return engine.Trajectory.load(trajectory_path(plan.how.out, job.key)), outcome
 
 
 def _run_one(plan: Plan, job: Job, told: Callable[[float], None]) -> Outcome:
@@ -259,10 +326,10 @@ def reuse(plan: Plan, job: Job) -> Outcome | None:
     return _described(plan, job, trajectory) if row is None else Outcome(job.key, row)
 
 
-def _described(plan: Plan, job: Job, trajectory) -> Outcome:
+def _described(plan: Plan, job: Job, trajectory, **more) -> Outcome:
     start = time.perf_counter()
     try:
-        row = (job.describe or plan.describe)(trajectory)
+        row = (job.describe or plan.describe)(trajectory, **more)
     except Exception as error:
         row = {"status": "analysis-failed", "message": _reason(error)}
     outcome = Outcome(job.key, row, time.perf_counter() - start)
