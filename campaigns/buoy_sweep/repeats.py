@@ -97,7 +97,7 @@ def repeat(
             labels = {"role": role, "label": row["steepness"], "run": run, "periods": length}
             # as run: what the sweep itself has made, with which the others are compared
             simulate = (lambda *_, made=original, **__: made) if run == AS_RUN else None
-            jobs.append(Job(labels, made, length, None, simulate, describe, f"accuracy {run}"))
+            jobs.append(Job(labels, made, length, None, simulate, describe, made=f"accuracy {run}"))
     how = replace(plan.how, out=plan.how.out / "accuracy")
     with claimed(how.out):
         own = replace(plan, how=how, columns=COLUMNS, said="two runs again, tighter and finer", simulate_each=None)
