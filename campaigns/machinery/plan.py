@@ -137,4 +137,5 @@ def length_of(jobs: Sequence[Job]) -> tuple[float, str]:
         job.periods if job.periods is not None else job.duration_s / (job.scene.waves.period_s if in_waves else 1.0)
         for job in jobs
     )
-    return sum(lengths), f"{'wave periods' if in_waves else 's'} in {len(jobs)} runs"
+    most = " at most" if any(job.going is not None for job in jobs) else ""
+    return sum(lengths), f"{'wave periods' if in_waves else 's'}{most} in {len(jobs)} runs"

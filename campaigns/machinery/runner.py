@@ -29,7 +29,7 @@ from campaigns.machinery.folder import (
 )
 from campaigns.machinery.plan import Further, Job, Outcome, Plan, Summary, length_of, name_of
 from campaigns.machinery.pools import PoolBroken, opened
-from campaigns.machinery.progress import heard, in_time, shares, stage, tell, teller
+from campaigns.machinery.progress import heard, in_time, rounds_ahead, shares, stage, tell, teller
 from engine.atomic import write_atomic
 
 ENGINE = "the engine, loaded or compiled once"
@@ -166,7 +166,10 @@ def _computed(plan: Plan, jobs: dict[str, Job], all_jobs: Sequence[Job]) -> Iter
 
     def far() -> float:
         told = {name: share for name, share in shares(Path(place)).items() if name in tasks}
-        told = {name: in_time(share, len(tasks[name]), LANES) for name, share in told.items()}
+        told = {
+            name: share if tasks[name][0].going is not None else in_time(share, len(tasks[name]), LANES)
+            for name, share in told.items()
+        }
         begun = sum(share * sizes[job.key] for name, share in told.items() for job in tasks[name] if job.key in left)
         return total * (1.0 - (sum(sizes[key] for key in [*left]) - begun) / sum(sizes.values()))
 
@@ -231,7 +234,7 @@ def _carried_on(plan: Plan, jobs: Sequence[Job], told: Callable[[float], None]) 
     What a run has done is on disk after each of its rounds, so that a killed campaign goes on from there.
     """
     there = {job.key: _so_far(plan, job) for job in jobs}
-    expected = {job.key: float(job.periods) for job in jobs}
+    reached, spent = dict.fromkeys(there, 0.0), 0.0  # periods of each run; of the worker, whose lanes go together
     outcomes, left = [], list(jobs)
     while left:
         asked: dict[float, list[tuple[Job, Further]]] = {}
@@ -243,9 +246,17 @@ def _carried_on(plan: Plan, jobs: Sequence[Job], told: Callable[[float], None]) 
             else:
                 asked.setdefault(further.periods, []).append((job, further))
         left = []
+        reached |= {job.key: reached[job.key] + periods for periods, group in asked.items() for job, _ in group}
+        costs = {periods: math.ceil(len(group) / LANES) * periods for periods, group in asked.items()}
+        most = max((reached[job.key] for group in asked.values() for job, _ in group), default=0.0)
+        going_on = 0.5 * sum(map(len, asked.values()))
+        whole = spent + sum(costs.values()) + rounds_ahead(going_on, most, jobs[0].periods, LANES)
         for periods, group in asked.items():
+            begun, cost = spent, costs[periods]
+            spent += cost
+            hear = partial(_heard_of, told, begun / whole, cost / whole)
             try:
-                for i, part in _parts(plan, [further for _, further in group], periods):
+                for i, part in _parts(plan, [further for _, further in group], periods, hear):
                     job = group[i][0]
                     before = there[job.key][0]
                     if group[i][1].check:
@@ -261,16 +272,18 @@ def _carried_on(plan: Plan, jobs: Sequence[Job], told: Callable[[float], None]) 
                     raise _stopped(plan, error) from error
                 if len(jobs) == 1:  # alone it says what is wrong; the others are run again one by one
                     return [failed(jobs[0], "error", _reason(error))]
-        done = sum(expected[key] for key in expected if all(job.key != key for job in left))
-        told(done / sum(expected.values()))
     return outcomes
 
 
-def _parts(plan: Plan, asked: list[Further], periods: float) -> Iterator[tuple[int, object]]:
-    """(number, Trajectory) of what is asked, as the runs end."""
+def _heard_of(told: Callable[[float], None], before: float, share: float, fraction: float) -> None:
+    told(before + share * fraction)
+
+
+def _parts(plan: Plan, asked: list[Further], periods: float, hear: Callable) -> Iterator[tuple[int, object]]:
+    """(number, Trajectory) of what is asked, as the runs end; hear: a function of the share that is done."""
     if plan.simulate_each is not None:
-        starts = [further.start for further in asked]
-        yield from plan.simulate_each([further.scene for further in asked], periods=periods, starts=starts)
+        starts, more = [further.start for further in asked], heard(plan.simulate_each, hear)
+        yield from plan.simulate_each([further.scene for further in asked], periods=periods, starts=starts, **more)
         return
     for i, further in enumerate(asked):
         start = {} if further.start is None else {"start": further.start}
