@@ -5,18 +5,23 @@ attributes, and a digest of the whole content lets `load` tell a damaged file fr
 """
 
 import json
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import numpy as np
 
-from engine import netcdf
+from engine import netcdf, views
 from engine.atomic import write_atomic
 from engine.scene.load import Scene, SceneError, scene_from_toml
 
 if TYPE_CHECKING:
     import pandas
+    import xarray
+    from matplotlib.axes import Axes
+
+    from analysis import Exponent, PoincareSection, Spectrum, Verdict
 
 COLUMNS = {  # name -> (unit, long name), in the order of the table
     "time_s": ("s", "time"),
@@ -121,6 +126,55 @@ class Trajectory:
         import pandas
 
         return pandas.DataFrame({name: self.columns[name] for name in COLUMNS})
+
+    def plot(self, path: "str | Path | None" = None) -> "dict[str, Axes]":
+        """A figure: tension and radius over the whole run and its end; section and spectrum, or the path without waves.
+
+        path: a .png, .svg or .pdf file to write; without one the figure belongs to `matplotlib.pyplot`: a notebook
+        shows it, a script with `pyplot.show()`. Returns matplotlib's Axes by the name of the panel.
+        """
+        return views.plot(self, path)
+
+    def spectrum(self, column: str = "radius_m", transient_periods: int | None = None) -> "Spectrum":
+        """Eq. (31) of a column of the table after the transient, the first third of the run (`analysis.spectrum`).
+
+        The window is the last multiple of 12 forcing periods, so that motions of period 2, 3, 4 or 6 do not leak.
+        Raises ValueError where neither regular waves nor a shaken end drive the run, as do the three below.
+        """
+        return views.spectrum(self, column, transient_periods)
+
+    def section(
+        self,
+        columns: Sequence[str] = ("radius_m", "radius_rate_mps"),
+        transient_periods: int | None = None,
+        phase: float = 0.0,
+    ) -> "PoincareSection":
+        """Columns of the table once per period after the transient, its first third (`analysis.poincare_section`)."""
+        return views.section(self, columns, transient_periods, phase)
+
+    def exponent(self, transient_periods: int | None = None) -> "Exponent":
+        """The largest Lyapunov exponent after the transient, its first third, in bits per forcing period.
+
+        From the tangent dynamics where the run carried them (`output.tangent_vectors`), else by Wolf's method from r,
+        which is far less certain and takes seconds; its `method` says which.
+        """
+        return views.exponent(self, transient_periods)
+
+    def verdict(self) -> "Verdict":
+        """The regime of a buoy in regular waves with the evidence for it (`analysis.motion_regime`), as campaigns judge
+        it. Chaos and tori need a run with `output.tangent_vectors` = 1, and any word 135 periods or more.
+        """
+        return views.verdict(self)
+
+    def to_xarray(self) -> "xarray.Dataset":
+        """Everything that `save` writes, as an xarray Dataset with units and long names."""
+        return views.dataset(self)
+
+    def __repr__(self) -> str:
+        return f"Trajectory({self.scene.name!r}, {self.status!r}, {len(self.columns['time_s'])} samples)"
+
+    def _repr_html_(self) -> str:
+        return views.html(self)
 
     def save(self, path: str | Path, attributes: dict[str, str] | None = None) -> None:
         """Write the record as one netCDF-3 file, whole or not at all.

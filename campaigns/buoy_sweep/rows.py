@@ -8,7 +8,8 @@ import numpy as np
 
 from analysis.evidence import evidence_text
 from campaigns.columns import LINE_COUNTS, MESSAGE, RUN_KEY, SOLVER_COUNTS, STATUS, Column, counted, names, number
-from campaigns.judge import LEAST_JUDGED, LONGEST_PERIOD, STROBE_TOLERANCE, carried, state_of, tangent_of, verdict_of
+from campaigns.judge import LEAST_JUDGED, tangent_of, verdict_of
+from engine.views import LONGEST_PERIOD, STROBE_TOLERANCE, carried, state_of
 
 STEEPNESS = Column("steepness", "", "kA", "wave steepness: wave number times amplitude", 3)
 DIMENSIONS = Column("dimensions", "", "D", "dimensions of the motion: 2, in the plane of the waves, or 3", 0)

@@ -1,0 +1,152 @@
+"""One scene, run and shown: what the motion did in a few lines, and a figure of it.
+
+    python -m engine                                           lists the scenes
+    python -m engine tethered_buoy --set waves.steepness=0.1   runs one, prints what it did, shows a figure
+
+A buoy in regular waves carries a perturbation along, unless `--set output.tangent_vectors=0` says otherwise: its growth
+is the exponent that tells chaos from other motions.
+"""
+
+import argparse
+import os
+import sys
+from dataclasses import dataclass
+from pathlib import Path
+
+import engine.scene
+from engine import views
+
+PERIODS, DURATION_S = 205, 20.0  # the third look of `analysis.motion_regime`; scenes without waves
+KINDS = (".png", ".svg", ".pdf")
+TANGENTS = "output.tangent_vectors"
+EXITS = "exit codes: 0 done, 1 the run ended early, 2 bad input, 130 Ctrl-C"
+
+
+@dataclass(frozen=True)
+class Order:
+    """A scene, how long it runs (periods of its waves, or seconds), and the file of its figure; None: not said."""
+
+    scene: "engine.Scene | None"
+    periods: float | None
+    duration_s: float | None
+    out: Path | None
+
+
+class _Parser(argparse.ArgumentParser):
+    def error(self, message):
+        raise ValueError(message)
+
+
+def parser() -> argparse.ArgumentParser:
+    """The options of the command."""
+    words = {"description": __doc__, "epilog": EXITS, "formatter_class": argparse.RawDescriptionHelpFormatter}
+    made = _Parser(prog="python -m engine", allow_abbrev=False, **words)
+    made.add_argument("scene", metavar="SCENE", help="a scene file or the name of a scene")
+    several = {"metavar": "KEY=VALUE", "nargs": "+", "action": "extend", "default": []}
+    made.add_argument("--set", **several, help="change values of the scene, as water.depth_m=22.5 tether.nodes=81")
+    length = made.add_mutually_exclusive_group()
+    length.add_argument("--periods", metavar="N", type=float, help=f"length in wave periods (default: {PERIODS})")
+    seconds = f"length in seconds (default without waves: {DURATION_S:g})"
+    length.add_argument("--duration", metavar="S", type=float, help=seconds)
+    shown = "file of the figure, .png, .svg or .pdf (default: a window, or results/engine/NAME.png without a display)"
+    made.add_argument("--out", metavar="FILE", type=Path, help=shown)
+    return made
+
+
+def read_order(argv: list[str], faults: list[str]) -> Order:
+    """The order in the words of the command line; every fault is appended to `faults`."""
+    try:
+        options = parser().parse_args(argv)
+    except ValueError as error:
+        faults.append(str(error))
+        return Order(None, None, None, None)
+    changes, scene = {}, None
+    for word in options.set:
+        try:
+            changes |= [engine.scene.parse_assignment(word)]
+        except engine.SceneError as error:
+            faults += error.faults
+    try:
+        scene = engine.load_scene(options.scene, changes)
+        if TANGENTS not in changes and views.in_regular_waves(scene) and views.carries_tangents(scene):
+            scene = engine.load_scene(options.scene, {**changes, TANGENTS: 1})
+    except engine.SceneError as error:
+        faults += error.faults
+    periods, duration_s = options.periods, options.duration
+    for name, given in (("--periods", periods), ("--duration", duration_s)):
+        if given is not None and not 0.0 < given < float("inf"):
+            faults.append(f"{name}: given {given:g}; allowed: a finite number above 0")
+    if scene is not None and scene.waves is None and periods is not None:
+        faults.append(f"--periods: given for {options.scene!r}, a scene without waves; allowed: --duration, seconds")
+    elif scene is not None and periods is None and duration_s is None:
+        periods, duration_s = (None, DURATION_S) if scene.waves is None else (PERIODS, None)
+    if options.out is not None:
+        faults += _faults_of(options.out)
+    return Order(scene, periods, duration_s, options.out)
+
+
+def _faults_of(out: Path) -> list[str]:
+    folder = out.parent
+    if out.suffix not in KINDS:
+        return [f"--out: given {str(out)!r}; allowed: a file whose name ends in {', '.join(KINDS)}"]
+    if out.is_dir() or not folder.is_dir() or not os.access(folder, os.W_OK):
+        return [f"--out: given {str(out)!r}; allowed: a file in a folder that is there and can be written to"]
+    return []
+
+
+def main(argv: list[str] | None = None) -> int:
+    """The command: run, print, show or save; without an argument list the scenes. Returns the exit code."""
+    argv = sys.argv[1:] if argv is None else argv
+    if not argv:
+        print("python -m engine SCENE ...; --help tells the options\n")
+        for name in engine.list_scenes():
+            print(f"  {name:<14} {engine.load_scene(name).title}")
+        return 0
+    faults: list[str] = []
+    order = read_order(argv, faults)
+    if faults:
+        return _refused(faults)
+    length = f"{order.duration_s:g} s" if order.periods is None else f"{order.periods:g} wave periods"
+    print(f"{order.scene.name} for {length}; a first run compiles for up to a minute", file=sys.stderr)
+    try:
+        run = engine.simulate(order.scene, order.periods, order.duration_s, _tell)
+    except ValueError as error:  # of the length alone: a run never raises
+        return _refused([str(error)])
+    except KeyboardInterrupt:
+        print("\ninterrupted; nothing was written", file=sys.stderr)
+        return 130
+    for name, text in views.facts(run).items():
+        print(f"{name:<9} {text}", flush=True)
+    if len(run.columns["time_s"]) > 1:
+        _show(run, order.out)
+    return 0 if run.status == "ok" else 1
+
+
+def _refused(faults: list[str]) -> int:
+    several = f" {len(faults)} faults\n  " if len(faults) > 1 else " "
+    print(f"python -m engine:{several}" + "\n  ".join(faults) + "\nnothing was run or written", file=sys.stderr)
+    return 2
+
+
+def _tell(share: float) -> None:
+    if sys.stderr.isatty():
+        print(f"\r{share:4.0%} ", end="\n" if share == 1.0 else "", file=sys.stderr, flush=True)
+
+
+def _show(run, out: Path | None) -> None:
+    """Save the figure, or show it in a window; without a display it is saved too."""
+    if out is None:
+        from matplotlib import pyplot
+
+        if pyplot.get_backend().lower() != "agg":  # which matplotlib takes where there is no display
+            run.plot()
+            pyplot.show()
+            return
+        out = Path("results", "engine", f"{run.scene.name}.png")
+        out.parent.mkdir(parents=True, exist_ok=True)
+    run.plot(out)
+    print(f"figure    {out}")
+
+
+if __name__ == "__main__":
+    sys.exit(main())
