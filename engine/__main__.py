@@ -16,7 +16,7 @@ from pathlib import Path
 import engine.scene
 from engine import views
 
-PERIODS, DURATION_S = 205, 20.0  # the third look of `analysis.motion_regime`; scenes without waves
+MOST_PERIODS, PERIODS = 1575, 205  # until a verdict; without perturbations
 KINDS = (".png", ".svg", ".pdf")
 TANGENTS = "output.tangent_vectors"
 EXITS = "exit codes: 0 done, 1 the run ended early, 2 bad input, 130 Ctrl-C"
@@ -24,7 +24,10 @@ EXITS = "exit codes: 0 done, 1 the run ended early, 2 bad input, 130 Ctrl-C"
 
 @dataclass(frozen=True)
 class Order:
-    """A scene, how long it runs (periods of its waves, or seconds), and the file of its figure; None: not said."""
+    """A scene, how long it runs (periods of its waves, or seconds), and the file of its figure; None: not said.
+
+    Without a length it runs until its verdict.
+    """
 
     scene: "engine.Scene | None"
     periods: float | None
@@ -45,9 +48,11 @@ def parser() -> argparse.ArgumentParser:
     several = {"metavar": "KEY=VALUE", "nargs": "+", "action": "extend", "default": []}
     made.add_argument("--set", **several, help="change values of the scene, as water.depth_m=22.5 tether.nodes=81")
     length = made.add_mutually_exclusive_group()
-    length.add_argument("--periods", metavar="N", type=float, help=f"length in wave periods (default: {PERIODS})")
-    seconds = f"length in seconds (default without waves: {DURATION_S:g})"
-    length.add_argument("--duration", metavar="S", type=float, help=seconds)
+    until = (
+        f"length in wave periods (default: until the verdict, {MOST_PERIODS} at most; without perturbations {PERIODS})"
+    )
+    length.add_argument("--periods", metavar="N", type=float, help=until)
+    length.add_argument("--duration", metavar="S", type=float, help="length in seconds; needed without waves")
     shown = "file of the figure, .png, .svg or .pdf (default: a window, or results/engine/NAME.png without a display)"
     made.add_argument("--out", metavar="FILE", type=Path, help=shown)
     return made
@@ -73,15 +78,22 @@ def read_order(argv: list[str], faults: list[str]) -> Order:
     except engine.SceneError as error:
         faults += error.faults
     periods, duration_s = options.periods, options.duration
+    if scene is not None and scene.waves is None and duration_s is None:
+        faults.append(f"--duration: not given for {options.scene!r}, a scene without waves; allowed: seconds, above 0")
+    elif scene is not None and periods is None and duration_s is None and not scene.output.tangent_vectors:
+        periods = PERIODS
     for name, given in (("--periods", periods), ("--duration", duration_s)):
         if given is not None and not 0.0 < given < float("inf"):
             faults.append(f"{name}: given {given:g}; allowed: a finite number above 0")
-    if scene is not None and scene.waves is None and periods is not None:
-        faults.append(f"--periods: given for {options.scene!r}, a scene without waves; allowed: --duration, seconds")
-    elif scene is not None and periods is None and duration_s is None:
-        periods, duration_s = (None, DURATION_S) if scene.waves is None else (PERIODS, None)
     if options.out is not None:
         faults += _faults_of(options.out)
+    if not faults:
+        from engine.scene.size_limits import check_room
+
+        try:
+            check_room(scene, duration_s or (periods or MOST_PERIODS) * scene.waves.period_s)
+        except ValueError as error:
+            faults.append(str(error))
     return Order(scene, periods, duration_s, options.out)
 
 
@@ -106,12 +118,13 @@ def main(argv: list[str] | None = None) -> int:
     order = read_order(argv, faults)
     if faults:
         return _refused(faults)
-    length = f"{order.duration_s:g} s" if order.periods is None else f"{order.periods:g} wave periods"
-    print(f"{order.scene.name} for {length}; a first run compiles for up to a minute", file=sys.stderr)
+    print(f"{order.scene.name}: a first run compiles for up to a minute", file=sys.stderr)
     try:
-        run = engine.simulate(order.scene, order.periods, order.duration_s, _tell)
-    except ValueError as error:  # of the length alone: a run never raises
-        return _refused([str(error)])
+        if order.periods is None and order.duration_s is None:
+            run = views.until_told(order.scene, MOST_PERIODS, lambda done: _tell(f"{done:.0f} wave periods"))
+        else:
+            run = engine.simulate(order.scene, order.periods, order.duration_s, lambda share: _tell(f"{share:.0%}"))
+        _tell("")
     except KeyboardInterrupt:
         print("\ninterrupted; nothing was written", file=sys.stderr)
         return 130
@@ -128,9 +141,9 @@ def _refused(faults: list[str]) -> int:
     return 2
 
 
-def _tell(share: float) -> None:
+def _tell(text: str) -> None:
     if sys.stderr.isatty():
-        print(f"\r{share:4.0%} ", end="\n" if share == 1.0 else "", file=sys.stderr, flush=True)
+        print(f"\r{text:<24}\r", end="", file=sys.stderr, flush=True)
 
 
 def _show(run, out: Path | None) -> None:

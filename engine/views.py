@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 from engine.atomic import write_atomic
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
+    from collections.abc import Callable, Mapping, Sequence
     from pathlib import Path
 
     import numpy
@@ -108,17 +108,39 @@ def verdict(run: "Trajectory") -> "Verdict":
     step_s, period_s = _forcing(run)
     coordinates, scale = state_of(run.columns, step_s, period_s, _transient(run, None))
     strobed = poincare_section(coordinates, step_s, period_s).points
-    growth = run.tangent.growth_nats[:, 0] if carried(run) else None
+    growth = run.tangent.growth_nats[: len(strobed) - 1, 0] if carried(run) else None
     found = motion_regime(strobed, growth, scale=scale, tolerance=STROBE_TOLERANCE, max_period=LONGEST_PERIOD)
     if growth is None and found.regime == "undecided" and found.evidence and carries_tangents(run.scene):
         return replace(found, reason=f"{found.reason}; output.tangent_vectors = 1 carries them")
     return found
 
 
+def until_told(scene: "Scene", most: int, progress: "Callable[[float], None]") -> "Trajectory":
+    """The run of a buoy in regular waves, as long as its verdict needs (`analysis.next_look`) and `most` periods long.
+
+    progress: called now and then with the wave periods done.
+    """
+    from analysis import next_look
+    from engine.run import Run
+
+    going, of_each = Run(scene, most * scene.waves.period_s), scene.waves.period_s / scene.sample_step_s()
+    going.compile()
+    look = 0
+    while not going.done():
+        look = min(next_look(look), most)
+        while not going.done() and (left := round(look * of_each) + 1 - int(going.state["samples"])) > 0:
+            going.advance(min(left, round(10 * of_each)))
+            progress(going.fraction() * most)
+        run = going.trajectory()
+        if run.status == "ok" and verdict(run).regime not in ("transient", "undecided"):
+            break
+    return run
+
+
 def facts(run: "Trajectory") -> dict[str, str]:
     """What a run did, in words: the name of a fact -> its text; extremes are those after its first third."""
     waves, end_s = run.scene.waves, float(run.columns["time_s"][-1]) if len(run.columns["time_s"]) else 0.0
-    length = f"{end_s:g} s" if waves is None else f"{end_s / waves.period_s:g} wave periods, {end_s:g} s"
+    length = f"{end_s:g} s" if waves is None else f"{end_s / waves.period_s:.4g} wave periods, {end_s:.5g} s"
     told = {"scene": run.scene.title or run.scene.name, "run": f"{run.status}, {length}"}
     if run.message:
         told["message"] = run.message
@@ -127,7 +149,7 @@ def facts(run: "Trajectory") -> dict[str, str]:
         radius_m = late["radius_m"]
         told["radius"] = f"{radius_m.min():.2f} to {radius_m.max():.2f} m"
         low, high = late["tension_top_low_N"].min(), late["tension_top_high_N"].max()
-        told["tension"] = f"{low:.0f} to {high:.0f} N at the upper end"
+        told["tension"] = f"{low:.4g} to {high:.4g} N at the upper end"
     if loops := run.statistics.get("loop_releases"):
         told["loops"] = f"{loops} released, because a plane cannot open them; in motion.dimensions = 3 they open"
     if run.status == "ok" and in_regular_waves(run.scene):
@@ -159,20 +181,21 @@ def plot(run: "Trajectory", path: "str | Path | None") -> "dict[str, Axes]":
         period_s = _forcing(run)[1]
         time, unit = time / period_s, "t/T (forcing periods)"
         last = time >= time[-1] - LAST_PERIODS
+    look = {"linewidth": 0.6, "rasterized": True}  # thousands of strokes
     bottom = ["section", "spectrum"] if forced and _periods(run) > 1 else ["path", "path"]
     figure = (pyplot.figure if path is None else Figure)(figsize=(10.0, 7.5), layout="constrained")
     axes = figure.subplot_mosaic([["tension", "last tension"], ["radius", "last radius"], bottom])
     for part, prefix in ((slice(None), ""), (last, "last ")):
         low, high, top = (run.columns[f"tension_top{kind}_N"][part] / 1e3 for kind in ("_low", "_high", ""))
-        axes[f"{prefix}tension"].fill_between(time[part], low, high, alpha=0.35, linewidth=0)
-        axes[f"{prefix}tension"].plot(time[part], top, linewidth=0.6)
-        axes[f"{prefix}radius"].plot(time[part], run.columns["radius_m"][part], linewidth=0.6)
+        axes[f"{prefix}tension"].fill_between(time[part], low, high, alpha=0.35, linewidth=0, rasterized=True)
+        axes[f"{prefix}tension"].plot(time[part], top, **look)
+        axes[f"{prefix}radius"].plot(time[part], run.columns["radius_m"][part], **look)
         axes[f"{prefix}radius"].set(xlabel=unit)
     axes["tension"].set(ylabel="top tension (kN)", title="whole run")
     axes["radius"].set(ylabel="r (m)")
     axes["last tension"].set(title="its end")
     if "path" in axes:
-        axes["path"].plot(run.columns["x_m"], run.columns["z_m"], linewidth=0.6)
+        axes["path"].plot(run.columns["x_m"], run.columns["z_m"], **look)
         axes["path"].set(xlabel="x (m)", ylabel="z (m)", title="path of the upper end", aspect="equal")
     else:
         points, lines = run.section().points, run.spectrum()
