@@ -175,42 +175,43 @@ def plot(run: "Trajectory", path: "str | Path | None") -> "dict[str, Axes]":
     from matplotlib import pyplot
     from matplotlib.figure import Figure
 
-    time, unit, forced = run.columns["time_s"], "t (s)", _forced(run.scene)
-    last = time >= 0.8 * time[-1]
-    if forced:
+    look = {"linewidth": 0.6, "rasterized": True}  # thousands of strokes
+    time, unit, parts, rows = (
+        run.columns["time_s"],
+        "t (s)",
+        {"": slice(None)},
+        [["tension", "path"], ["radius", "path"]],
+    )
+    if forced := _forced(run.scene) is not None and _periods(run) > 1:
         period_s = _forcing(run)[1]
         time, unit = time / period_s, "t/T (forcing periods)"
-        last = time >= time[-1] - LAST_PERIODS
-    look = {"linewidth": 0.6, "rasterized": True}  # thousands of strokes
-    bottom = ["section", "spectrum"] if forced and _periods(run) > 1 else ["path", "path"]
-    figure = (pyplot.figure if path is None else Figure)(figsize=(10.0, 7.5), layout="constrained")
-    axes = figure.subplot_mosaic([["tension", "last tension"], ["radius", "last radius"], bottom])
-    for part, prefix in ((slice(None), ""), (last, "last ")):
-        low, high, top = (run.columns[f"tension_top{kind}_N"][part] / 1e3 for kind in ("_low", "_high", ""))
+        parts["last "] = time >= time[-1] - LAST_PERIODS
+        rows = [["tension", "last tension"], ["radius", "last radius"], ["section", "spectrum"]]
+    figure = (pyplot.figure if path is None else Figure)(figsize=(10.0, 2.5 * len(rows)), layout="constrained")
+    axes = figure.subplot_mosaic(rows)
+    for prefix, part in parts.items():
+        low, high, top = (run.columns[f"tension_top{kind}_N"][part] for kind in ("_low", "_high", ""))
         axes[f"{prefix}tension"].fill_between(time[part], low, high, alpha=0.35, linewidth=0, rasterized=True)
         axes[f"{prefix}tension"].plot(time[part], top, **look)
+        axes[f"{prefix}tension"].set(title=f"{prefix}tension at the upper end (N)")
         axes[f"{prefix}radius"].plot(time[part], run.columns["radius_m"][part], **look)
-        axes[f"{prefix}radius"].set(xlabel=unit)
-    axes["tension"].set(ylabel="top tension (kN)", title="whole run")
-    axes["radius"].set(ylabel="r (m)")
-    axes["last tension"].set(title="its end")
-    if "path" in axes:
-        axes["path"].plot(run.columns["x_m"], run.columns["z_m"], **look)
-        axes["path"].set(xlabel="x (m)", ylabel="z (m)", title="path of the upper end", aspect="equal")
-    else:
+        axes[f"{prefix}radius"].set(xlabel=unit, title=f"{prefix}distance r from the anchor (m)")
+    if forced:
         points, lines = run.section().points, run.spectrum()
         axes["section"].plot(*points.T, ".", markersize=3)
         axes["section"].set(xlabel="r (m)", ylabel="dr/dt (m/s)", title="once per period")
-        shown = slice(1, 1 + np.searchsorted(lines.angular_frequency_radps * period_s, 5.0 * np.pi))
-        axes["spectrum"].semilogy(
-            lines.angular_frequency_radps[shown] * period_s / (2 * np.pi), lines.amplitude[shown], linewidth=0.8
-        )
-        axes["spectrum"].set(xlabel="frequency/forcing frequency", ylabel="|r̃| (m)", title="spectrum of r")
+        ratio = lines.angular_frequency_radps * period_s / (2.0 * np.pi)
+        shown = (ratio > 0.0) & (ratio <= 2.5)
+        axes["spectrum"].semilogy(ratio[shown], lines.amplitude[shown], linewidth=0.8)
+        axes["spectrum"].set(xlabel="frequency/forcing frequency", title="spectrum of r (m)")
+    else:
+        axes["path"].plot(run.columns["x_m"], run.columns["z_m"], **look)
+        axes["path"].set(xlabel="x (m)", ylabel="z (m)", title="path of the upper end", aspect="equal")
     found = verdict(run).regime if run.status == "ok" and in_regular_waves(run.scene) else run.status
     figure.suptitle(f"{run.scene.title or run.scene.name}: {found}")
     if path is not None:
         content, kind = BytesIO(), str(path).rpartition(".")[2]
-        figure.savefig(content, format=kind, dpi=120)
+        figure.savefig(content, format=kind, dpi=100)
         write_atomic(path, content.getvalue())
     return axes
 

@@ -8,7 +8,7 @@ from engine import Trajectory, load_scene
 from engine.__main__ import main
 from engine.trajectory import COLUMNS, TangentGrowth
 
-PERIODS, STEPS = 240, 100
+PERIODS, STEPS = 310, 100
 GOLDEN = 0.5 * (np.sqrt(5.0) - 1.0)
 
 
@@ -63,7 +63,7 @@ def test_everything_goes_to_xarray_with_units():
 
 def test_a_notebook_shows_what_the_run_did():
     shown = moved(0.5, -0.2)._repr_html_()
-    assert "period-2" in shown and "ok, 240 wave periods" in shown
+    assert "period-2" in shown and f"ok, {PERIODS} wave periods" in shown
     failed = moved(0.5, status="newton-failed", message="at t < 3 s")._repr_html_()
     assert "newton-failed" in failed and "t &lt; 3 s" in failed and "period-2" not in failed
     assert len(repr(moved(0.5))) < 100
