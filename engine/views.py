@@ -140,7 +140,7 @@ def until_told(scene: "Scene", most: int, progress: "Callable[[float], None]") -
 def facts(run: "Trajectory") -> dict[str, str]:
     """What a run did, in words: the name of a fact -> its text; extremes are those after its first third."""
     waves, end_s = run.scene.waves, float(run.columns["time_s"][-1]) if len(run.columns["time_s"]) else 0.0
-    length = f"{end_s:g} s" if waves is None else f"{end_s / waves.period_s:.4g} wave periods, {end_s:.5g} s"
+    length = f"{end_s:g} s" if waves is None else f"{end_s / waves.period_s:.4g} wave periods, {end_s:.4g} s"
     told = {"scene": run.scene.title or run.scene.name, "run": f"{run.status}, {length}"}
     if run.message:
         told["message"] = run.message
@@ -149,7 +149,9 @@ def facts(run: "Trajectory") -> dict[str, str]:
         radius_m = late["radius_m"]
         told["radius"] = f"{radius_m.min():.2f} to {radius_m.max():.2f} m"
         low, high = late["tension_top_low_N"].min(), late["tension_top_high_N"].max()
-        told["tension"] = f"{low:.4g} to {high:.4g} N at the upper end"
+        told["tension"] = (
+            " to ".join(f"{at:.0f}" if abs(at) > 100.0 else f"{at:.3g}" for at in (low, high)) + " N at the top"
+        )
     if loops := run.statistics.get("loop_releases"):
         told["loops"] = f"{loops} released, because a plane cannot open them; in motion.dimensions = 3 they open"
     if run.status == "ok" and in_regular_waves(run.scene):

@@ -27,7 +27,8 @@ def on_files(files, config):
 
 
 def on_page_markdown(markdown, **_):
-    """Formulas between dollars, or in a block, as MathML; code keeps its dollars."""
+    """Formulas between dollars, or in a block, as MathML; code keeps its dollars. The notebook is a page here."""
+    markdown = markdown.replace(".ipynb)", ".md)")
     blocks = re.split(r"(^```math\n.*?^```$|^```.*?^```$|`[^`\n]+`)", markdown, flags=re.DOTALL | re.MULTILINE)
     return "".join(map(formulas, blocks))
 
