@@ -178,13 +178,10 @@ def plot(run: "Trajectory", path: "str | Path | None") -> "dict[str, Axes]":
     from matplotlib.figure import Figure
 
     look = {"linewidth": 0.6, "rasterized": True}  # thousands of strokes
-    time, unit, parts, rows = (
-        run.columns["time_s"],
-        "t (s)",
-        {"": slice(None)},
-        [["tension", "path"], ["radius", "path"]],
-    )
-    if forced := _forced(run.scene) is not None and _periods(run) > 1:
+    time, unit, parts = run.columns["time_s"], "t (s)", {"": slice(None)}
+    rows = [["tension", "path"], ["radius", "path"]]
+    sound = all(np.isfinite(values).all() for values in run.columns.values())
+    if forced := sound and _forced(run.scene) is not None and _periods(run) > 1:
         period_s = _forcing(run)[1]
         time, unit = time / period_s, "t/T (forcing periods)"
         parts["last "] = time >= time[-1] - LAST_PERIODS
@@ -192,12 +189,13 @@ def plot(run: "Trajectory", path: "str | Path | None") -> "dict[str, Axes]":
     figure = (pyplot.figure if path is None else Figure)(figsize=(10.0, 2.5 * len(rows)), layout="constrained")
     axes = figure.subplot_mosaic(rows)
     for prefix, part in parts.items():
+        when = f", last {LAST_PERIODS} periods" if prefix else ""
         low, high, top = (run.columns[f"tension_top{kind}_N"][part] for kind in ("_low", "_high", ""))
         axes[f"{prefix}tension"].fill_between(time[part], low, high, alpha=0.35, linewidth=0, rasterized=True)
         axes[f"{prefix}tension"].plot(time[part], top, **look)
-        axes[f"{prefix}tension"].set(title=f"{prefix}tension at the upper end (N)")
+        axes[f"{prefix}tension"].set(title=f"tension at the upper end (N){when}")
         axes[f"{prefix}radius"].plot(time[part], run.columns["radius_m"][part], **look)
-        axes[f"{prefix}radius"].set(xlabel=unit, title=f"{prefix}distance r from the anchor (m)")
+        axes[f"{prefix}radius"].set(xlabel=unit, title=f"distance r from the anchor (m){when}")
     if forced:
         points, lines = run.section().points, run.spectrum()
         axes["section"].plot(*points.T, ".", markersize=3)

@@ -94,6 +94,13 @@ def test_the_figure_is_a_file_or_stays_open_for_changes(scene, panel, tmp_path):
     pyplot.close(axes[panel].figure)
 
 
+def test_a_run_that_blew_up_is_drawn_as_far_as_it_goes(tmp_path):
+    run = moved(0.5, status="not-finite")
+    run.columns["radius_m"][-5:] = np.nan
+    run.plot(tmp_path / "run.png")
+    assert "path" in run.plot(tmp_path / "run.svg")
+
+
 def test_the_command_runs_a_scene_and_saves_its_figure(tmp_path, capsys):
     words = ["tethered_buoy", "--set", "tether.nodes=5", "waves.steepness=0.01", "--periods", "6"]
     assert main([*words, "--out", str(tmp_path / "run.png")]) == 0
