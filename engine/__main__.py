@@ -121,7 +121,7 @@ def main(argv: list[str] | None = None) -> int:
     print(f"{order.scene.name}: a first run compiles for up to a minute", file=sys.stderr)
     try:
         if order.periods is None and order.duration_s is None:
-            run = views.until_told(order.scene, MOST_PERIODS, lambda done: _tell(f"{done:.0f} wave periods"))
+            run = _until_told(order.scene)
         else:
             run = engine.simulate(order.scene, order.periods, order.duration_s, lambda share: _tell(f"{share:.0%}"))
         _tell("")
@@ -133,6 +133,24 @@ def main(argv: list[str] | None = None) -> int:
     if len(run.columns["time_s"]) > 1:
         _show(run, order.out)
     return 0 if run.status == "ok" else 1
+
+
+def _until_told(scene):
+    """The run of a buoy in regular waves, as long as its verdict needs, and MOST_PERIODS at most."""
+    from engine.run import Run
+
+    period_s = scene.waves.period_s
+    going, of_each, look = Run(scene, MOST_PERIODS * period_s), period_s / scene.sample_step_s(), 0
+    going.compile()
+    while not going.done():
+        look = min(views.look_after(look), MOST_PERIODS)
+        while not going.done() and (left := round(look * of_each) + 1 - int(going.state["samples"])) > 0:
+            going.advance(min(left, round(10 * of_each)))
+            _tell(f"{going.fraction() * MOST_PERIODS:.0f} wave periods")
+        run = going.trajectory()
+        if run.status == "ok" and run.verdict().regime not in ("transient", "undecided"):
+            break
+    return run
 
 
 def _refused(faults: list[str]) -> int:

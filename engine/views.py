@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 from engine.atomic import write_atomic
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping, Sequence
+    from collections.abc import Mapping, Sequence
     from pathlib import Path
 
     import numpy
@@ -115,26 +115,11 @@ def verdict(run: "Trajectory") -> "Verdict":
     return found
 
 
-def until_told(scene: "Scene", most: int, progress: "Callable[[float], None]") -> "Trajectory":
-    """The run of a buoy in regular waves, as long as its verdict needs (`analysis.next_look`) and `most` periods long.
-
-    progress: called now and then with the wave periods done.
-    """
+def look_after(periods: int) -> int:
+    """After how many periods a motion is judged next that was judged after `periods` (`analysis.next_look`)."""
     from analysis import next_look
-    from engine.run import Run
 
-    going, of_each = Run(scene, most * scene.waves.period_s), scene.waves.period_s / scene.sample_step_s()
-    going.compile()
-    look = 0
-    while not going.done():
-        look = min(next_look(look), most)
-        while not going.done() and (left := round(look * of_each) + 1 - int(going.state["samples"])) > 0:
-            going.advance(min(left, round(10 * of_each)))
-            progress(going.fraction() * most)
-        run = going.trajectory()
-        if run.status == "ok" and verdict(run).regime not in ("transient", "undecided"):
-            break
-    return run
+    return next_look(periods)
 
 
 def facts(run: "Trajectory") -> dict[str, str]:
