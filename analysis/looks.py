@@ -5,7 +5,7 @@ A simulation can be carried on until its motion is told. So it is looked at afte
 
     period-N          the strobed orbit repeats (`detect_period`), and its perturbations do not grow in the later half;
                       where none are carried, the steps towards the orbit shrink
-    chaotic           lambda > 3 errors; in the later half > 2 of its errors; and in all a growth of 10 bits, because
+    chaotic           lambda > 3.5 errors; in the later half > 2 of its errors; and in all a growth of 10 bits, because
                       on a torus, too, perturbations grow, as the logarithm of time
     quasi-periodic    |lambda| + 2 errors < 0.06 bits per period, neighbours on the section stay neighbours, and a
                       spectral line is incommensurate with the forcing
@@ -33,7 +33,7 @@ from analysis.tangent_growth import LEAST_PERIODS, tangent_lyapunov
 from analysis.verdicts import Verdict
 
 FIRST_LOOK = 90
-POSITIVE, LATER = 3.0, 2.0  # errors by which an exponent is positive: of the look, and of its later half
+POSITIVE, LATER = 3.5, 2.0  # errors by which an exponent is positive: of the look, and of its later half
 LEAST_BITS = 10.0  # growth over a look
 ABOUT_ZERO = 0.06  # bits per period
 STAYS, NEAR = 0.35, 0.35  # nats by which neighbours may part; what they are apart at most, in sizes of the section

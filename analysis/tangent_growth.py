@@ -11,9 +11,9 @@ is two to three times too large. So the mean is tapered, with a cosine over a qu
 
     error^2 = S(0) sum w^2,    S(0) ~ mean over j = 2 ... 7 of S(j/m),    S(f) = |sum h_p g_p e^(-2 pi i f p)|^2/sum h^2
 
-with the weights w (sum 1) of that taper, growth g less its mean and Hann's window h; and 1.16 times as much, because
-six frequencies know S(0) only roughly: so the deviations from the truth, in errors, have a standard deviation of 1 for
-white noise of any length. How it is for the cable and for eq. (33): docs/verdicts.md.
+with the weights w (sum 1) of that taper, growth g less its mean and Hann's window h. Six frequencies know S(0) only
+roughly: deviations from the truth, in such errors, have a standard deviation of 1.16 for white noise of any length. How
+it is for the cable (about 0.9) and for eq. (33) (about 1.15): docs/verdicts.md.
 """
 
 import numpy as np
@@ -25,7 +25,6 @@ from analysis.sampling import checked_columns, checked_count, checked_series
 METHOD = "tangent dynamics, Benettin et al. 1980"
 TAPER = 0.5  # share of the record under the two cosines
 FREQUENCIES = np.arange(2, 8)  # cycles over the record: the lowest that the mean does not leak into
-FEW_FREQUENCIES = 1.16  # white noise, 64 to 2000 periods: 1.19 to 1.14
 LEAST_PERIODS = 32
 
 
@@ -95,4 +94,4 @@ def _tapered_mean(values):
     mean, window = weight @ values, hann(count + 2)[1:-1]
     waves = np.exp(-2j * np.pi * np.outer(FREQUENCIES, np.arange(count)) / count)
     power = np.abs(waves @ ((values - mean) * window[:, None])) ** 2 / np.sum(window**2)
-    return mean, FEW_FREQUENCIES * np.sqrt(power.mean(axis=0) * np.sum(weight**2))
+    return mean, np.sqrt(power.mean(axis=0) * np.sum(weight**2))

@@ -137,18 +137,13 @@ def main(argv: list[str] | None = None) -> int:
 
 def _until_told(scene):
     """The run of a buoy in regular waves, as long as its verdict needs, and MOST_PERIODS at most."""
-    from engine.run import Run
-
-    period_s = scene.waves.period_s
-    going, of_each, look = Run(scene, MOST_PERIODS * period_s), period_s / scene.sample_step_s(), 0
-    going.compile()
-    while not going.done():
-        look = min(views.look_after(look), MOST_PERIODS)
-        while not going.done() and (left := round(look * of_each) + 1 - int(going.state["samples"])) > 0:
-            going.advance(min(left, round(10 * of_each)))
-            _tell(f"{going.fraction() * MOST_PERIODS:.0f} wave periods")
-        run = going.trajectory()
-        if run.status == "ok" and run.verdict().regime not in ("transient", "undecided"):
+    run, done = None, 0
+    while done < MOST_PERIODS:
+        _tell(f"{done} wave periods")
+        look = min(views.look_after(done), MOST_PERIODS)
+        later = engine.simulate(scene, look - done, start=run)
+        run, done = later if run is None else run.followed_by(later), look
+        if run.status != "ok" or run.verdict().regime not in ("transient", "undecided"):
             break
     return run
 

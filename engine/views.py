@@ -89,16 +89,20 @@ def section(
 
 
 def exponent(run: "Trajectory", transient_periods: int | None) -> "Exponent":
+    import numpy as np
+
     from analysis import tangent_lyapunov, wolf_lyapunov
 
     (step_s, period_s), first = _forcing(run), _transient(run, transient_periods)
     if carried(run):
-        return tangent_lyapunov(run.tangent.growth_nats, first)[0]
+        growth = run.tangent.growth_nats[first:, 0]  # nan before the perturbations were carried
+        return tangent_lyapunov(growth[np.isfinite(growth)])[0]
     radius_m = run.columns["radius_m"][round(first * period_s / step_s) :]
     return wolf_lyapunov(radius_m, step_s).in_bits_per_period(period_s)
 
 
-def verdict(run: "Trajectory") -> "Verdict":
+def verdict(run: "Trajectory", tighter: "Exponent | None" = None) -> "Verdict":
+    """`Trajectory.verdict`. tighter: exponent of a chaotic motion that was carried on at a tighter tolerance."""
     from analysis import motion_regime, poincare_section
 
     if not in_regular_waves(run.scene):
@@ -106,10 +110,11 @@ def verdict(run: "Trajectory") -> "Verdict":
     if run.status != "ok":
         raise ValueError(f"a verdict needs a run that reached its end, and this one is {run.status}: {run.message}")
     step_s, period_s = _forcing(run)
-    coordinates, scale = state_of(run.columns, step_s, period_s, _transient(run, None))
+    coordinates, scale = state_of(run.columns, step_s, period_s, _periods(run) // 2)
     strobed = poincare_section(coordinates, step_s, period_s).points
     growth = run.tangent.growth_nats[: len(strobed) - 1, 0] if carried(run) else None
-    found = motion_regime(strobed, growth, scale=scale, tolerance=STROBE_TOLERANCE, max_period=LONGEST_PERIOD)
+    settings = {"scale": scale, "tolerance": STROBE_TOLERANCE, "max_period": LONGEST_PERIOD}
+    found = motion_regime(strobed, growth, tighter=tighter, **settings)
     if growth is None and found.regime == "undecided" and found.evidence and carries_tangents(run.scene):
         return replace(found, reason=f"{found.reason}; output.tangent_vectors = 1 carries them")
     return found

@@ -86,7 +86,7 @@ def carry(p, tables, period, count, trail, along, across):
 class Followed:
     """Steps as `march` stores them, and the perturbations that follow; empty where the scene asks for none."""
 
-    def __init__(self, scene, record, tables, duration_s):
+    def __init__(self, scene, record, tables, duration_s, start=None):
         n, s = int(record["nodes"]), max(int(record["stages"]), 2)
         self.count, self.sideways = scene.output.tangent_vectors, scene.output.lateral_growth
         self.followed = self.count > 0 or self.sideways
@@ -96,7 +96,9 @@ class Followed:
         self.period_s = scene.waves.period_s if scene.waves is not None else 1.0
         if not self.followed:
             return
-        periods = int(duration_s / self.period_s * (1 + 1e-12) + 1e-9)
+        begin_s = 0.0 if start is None else start.time_s
+        self.first = int(begin_s / self.period_s + 1e-9)  # the period in which it begins
+        periods = int((begin_s + duration_s) / self.period_s * (1 + 1e-12) + 1e-9)
         self.along = self.across = None  # the arguments of `carry`
         self.nats, self.lateral_nats = np.zeros((periods + 1, self.count)), np.zeros(periods + 1)
         self.released = np.zeros(periods + 1)
@@ -112,6 +114,31 @@ class Followed:
             vector[0, 1] = 0.0
             vector /= np.sqrt(np.sum(weights * vector**2))
             self.across = weights, vector, np.zeros((n, 2)), self.lateral_nats
+        if start is not None:
+            self._go_on(start)
+
+    def _go_on(self, start):
+        """Take over the perturbations of a run that carried as many."""
+        own, sideways = start.vectors.size > 0, start.lateral.size > 0
+        if own and len(start.vectors[0]) == self.count:
+            for part, given in zip(self.along[:3], start.vectors, strict=True):
+                part[:] = given
+            self.nats[self.first : self.first + 1] = start.growth[:, : self.count]
+        if sideways and self.sideways:
+            for part, given in zip(self.across[1:3], start.lateral, strict=True):
+                part[:] = given
+            self.lateral_nats[self.first] = start.growth[0, -2]
+        if own or sideways:
+            self.released[self.first] = start.growth[0, -1]
+
+    def state(self, state):
+        """vectors, lateral and growth of a FinalState."""
+        if not self.followed:
+            return np.empty(0), np.empty(0), np.empty(0)
+        at = self.complete(state)
+        growth = np.array([[*self.nats[at], self.lateral_nats[at], self.released[at]]])
+        along = np.array(self.along[:3]) if self.count else np.empty(0)
+        return along, np.array(self.across[1:3]) if self.sideways else np.empty(0), growth
 
     def follow(self, record, tables, state):
         """Carry the perturbations through the steps stored since the last call, and empty the trail.
@@ -135,6 +162,10 @@ class Followed:
         """Growth of the complete periods, or None."""
         if not self.followed:
             return None
-        complete = min(int(state["t"] / self.period_s + 1e-9), len(self.nats) - 1)
-        sideways = self.lateral_nats[:complete].copy() if self.sideways else None
-        return TangentGrowth(self.period_s, self.nats[:complete].copy(), self.released[:complete].copy(), sideways)
+        found = slice(self.first, self.complete(state))
+        sideways = self.lateral_nats[found].copy() if self.sideways else None
+        return TangentGrowth(self.period_s, self.nats[found].copy(), self.released[found].copy(), sideways)
+
+    def complete(self, state):
+        """How many periods have ended since t = 0."""
+        return min(int(state["t"] / self.period_s + 1e-9), len(self.nats) - 1)

@@ -35,12 +35,13 @@ def kind_of(scene):
 class Machine:
     """COUNT lanes for runs of one kind."""
 
-    def __init__(self, run, goal, periods):
+    def __init__(self, run, periods):
         n, s = int(run.record["nodes"]), max(int(run.record["stages"]), 2)
         self.runs = [None] * COUNT
         self.records, self.states = np.zeros(COUNT, RECORD), np.zeros(COUNT, STATE)
         self.lanes, self.spent = np.zeros(COUNT, LANE), np.zeros(COUNT, np.int64)
-        self.tables, self.samples = np.zeros((COUNT, run.tables.size)), np.zeros((COUNT, goal, SAMPLE_WIDTH))
+        self.tables = np.zeros((COUNT, run.tables.size))
+        self.samples = np.zeros((COUNT, len(run.output.samples), SAMPLE_WIDTH))
         self.counts = np.array([run.record[name] for name in WHOLE])
         self.arrays = Arrays(
             values=lane_zeros(len(REAL)), tables=lane_zeros(run.tables.size), numbers=lane_zeros(ROWS),
@@ -69,10 +70,17 @@ class Machine:
         lane.numbers[RATE, b] = lane.numbers[STEP, b] = 1.0
 
     def load(self, b, run):
-        """Put a run that has not begun into a lane that is free."""
-        conserved(run.record, run.motion.Y, run.motion.C)
+        """Put a run into a lane that is free."""
+        if run.state["steps"] == 0:
+            conserved(run.record, run.motion.Y, run.motion.C)
         self._fill(b, run)
         self.runs[b] = run
+        rows = len(run.output.samples)
+        if rows > self.samples.shape[1]:
+            longer = np.zeros((COUNT, rows, SAMPLE_WIDTH))
+            longer[:, : self.samples.shape[1]] = self.samples
+            self.samples = longer
+        self.samples[b, :rows] = run.output.samples
         if self.followers is not None:
             self.followers.load(b, run)
         self.spent[b] = 0
@@ -88,7 +96,8 @@ class Machine:
         lane = self.arrays
         for part, found in zip(run.motion, (lane.now, lane.before, lane.C, lane.Ks[0]), strict=True):
             part[:] = found[..., b]
-        run.output.samples[:] = self.samples[b, : run.goal]
+        rows = len(run.output.samples)
+        run.output.samples[:] = self.samples[b, :rows]
         if self.followers is not None:
             self.followers.unload(b, run)
         return run
@@ -129,7 +138,7 @@ class Machine:
 
 
 def shares(jobs):
-    """Groups of at least LEAST jobs (number, scene, duration_s) that may share a batch; the others are left out."""
+    """Groups of LEAST jobs (number, scene, duration_s, start) or more that may share a batch; others are left out."""
     groups = {}
     for job in jobs:
         if goes_in_lanes(job[1]):
@@ -143,19 +152,21 @@ def run_through(jobs, progress):
     progress: callable(share of these jobs that is done), called now and then.
     """
     waiting, machine, done, numbers = deque(jobs), None, 0, [0] * COUNT
-    longest = max(job[2] / job[1].sample_step_s() for job in jobs)
-    most_periods = max(job[2] / (job[1].waves.period_s if job[1].waves is not None else 1.0) for job in jobs)
+    most_periods = max(
+        (duration_s + (0.0 if start is None else start.time_s)) / (scene.waves.period_s if scene.waves else 1.0)
+        for _, scene, duration_s, start in jobs
+    )
     while True:
         for b in range(COUNT):
             while waiting and (machine is None or machine.runs[b] is None):
-                number, scene, duration_s = waiting.popleft()
-                run = Run(scene, duration_s)
+                number, scene, duration_s, start = waiting.popleft()
+                run = Run(scene, duration_s, start)
                 if run.done():  # no equilibrium to start from
                     done += 1
                     yield number, run
                     continue
                 if machine is None:
-                    machine = Machine(run, int(longest) + 2, int(most_periods) + 1)
+                    machine = Machine(run, int(most_periods) + 1)
                     machine.compile()
                 machine.load(b, run)
                 numbers[b] = number

@@ -156,13 +156,20 @@ class Followers:
         """Put the perturbations of a run, and the state it starts from, into a lane."""
         self.periods[b] = run.trail.period_s
         self.nats[b] = self.lateral_nats[b] = 0.0
+        self.nats[b, : len(run.trail.nats)], self.lateral_nats[b, : len(run.trail.nats)] = (
+            run.trail.nats,
+            run.trail.lateral_nats,
+        )
         self.turn.Y[..., b], self.turn.K[..., b] = run.motion.Y, run.motion.K
         for lanes, own in ((self.carried, run.trail.along), (self.across, run.trail.across)):
             for part, given in zip(lanes[:3], own[:3] if own else (), strict=False):
                 part[..., b] = given
 
     def unload(self, b, run):
-        """What has grown, back to the run."""
+        """What has grown, and the perturbations, back to the run."""
+        for lanes, own in ((self.carried, run.trail.along), (self.across, run.trail.across)):
+            for part, taken in zip(lanes[:3], own[:3] if own else (), strict=False):
+                taken[:] = part[..., b]
         periods = len(run.trail.nats)
         run.trail.nats[:], run.trail.lateral_nats[:] = self.nats[b, :periods], self.lateral_nats[b, :periods]
 

@@ -97,10 +97,10 @@ def sample_lanes(records, tables, states, lanes, arrays, ends, samples, profiles
             copy_into(ends[1], arrays.Ks[0, :, :, b])
             copy_into(ends[2], arrays.C_new[:, :, b])
             copy_into(ends[3], arrays.K_new[:, :, b])
-            state, goal = states[b], lanes[b].goal
+            state = states[b]
             begin, end = (ends[0], ends[1]), (ends[2], ends[3])
             hermite = state.small == 0
-            sample(records[b], tables[b], state, state.trial_dt, hermite, begin, end, samples[b, :goal], profiles)
+            sample(records[b], tables[b], state, state.trial_dt, hermite, begin, end, samples[b], profiles)
 
 
 @kernel

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from analysis import motion_regime, next_look, tangent_lyapunov
+from analysis import motion_regime, next_look
 from analysis.exponents import Exponent
 from tests.analysis.systems import circle, circle_map, henon, logistic
 
@@ -96,17 +96,3 @@ def test_perturbations_may_be_carried_from_later_on():
 def test_what_does_not_fit_is_refused(states, growth):
     with pytest.raises(ValueError, match=r"growth_nats|finite"):
         motion_regime(states, growth)
-
-
-def test_errors_are_those_of_the_scatter():
-    """(value - truth)/error of correlated growth has a standard deviation of about one, at every length."""
-    for length in (100, 400, 1600):
-        random = np.random.default_rng(length)
-        z = []
-        for _ in range(200):
-            noise = random.normal(size=length + 50)
-            for k in range(1, len(noise)):
-                noise[k] += 0.6 * noise[k - 1]
-            (found,) = tangent_lyapunov(noise[50:])
-            z.append(found.value / found.error)
-        assert 0.8 < np.std(z) < 1.25
