@@ -56,6 +56,9 @@ class Verdict:
     seed: int
     transient: int = 0
 
+    def __str__(self) -> str:
+        return f"{self.regime}: {self.reason}"
+
     def named(self, name: str) -> Evidence:
         """The Evidence of that name; ValueError where there is none."""
         for item in self.evidence:

@@ -3,34 +3,11 @@
 from functools import partial
 
 import engine.scene
+from engine.views import LONGEST_PERIOD, STROBE_TOLERANCE, carried, carries_tangents, state_of, verdict
 
-LONGEST_PERIOD = 16
-# Share of the motion's range. At the default solver tolerance the default sweep repeats within 0.007 or misses by 0.1.
-STROBE_TOLERANCE = 0.01
 LEAST_JUDGED = 40  # periods after the transient below which a record is not judged: exponents are then left out
 LONGEST_CHECK = 450  # wave periods at the tighter tolerance
 TANGENTS, LATERAL = "output.tangent_vectors", "output.lateral_growth"
-
-
-def state_of(columns, step_s: float, period_s: float, transient_periods: int) -> tuple[dict, list[float]]:
-    """Position (x, z) and velocity (along and across the radius) of the buoy, and what counts as 1 in each.
-
-    Positions are measured by the larger extent of the path after the transient, velocities by their larger range: so a
-    millimetre counts the same in every direction, and a buoy that turns round and round needs no other treatment.
-    """
-    import numpy as np
-
-    coordinates = {
-        "x_m": columns["x_m"],
-        "z_m": columns["z_m"],
-        "radial_mps": columns["radius_rate_mps"],
-        "lateral_mps": columns["radius_m"] * columns["angle_rate_radps"],
-    }
-    first = round(transient_periods * period_s / step_s)  # sample after the transient
-    x, z, radial, lateral = (float(np.ptp(values[first:])) for values in coordinates.values())
-    # A buoy at rest has no range of its own; a micrometre, and a micrometre a second, are rest for this one.
-    path_m, speed_mps = max(x, z, 1e-6), max(radial, lateral, 1e-6)
-    return coordinates, [path_m, path_m, speed_mps, speed_mps]
 
 
 def tighter_scene(scene):
@@ -38,11 +15,6 @@ def tighter_scene(scene):
     step_s = scene.solver.step_s
     key, value = ("solver.step_s", step_s / 10) if step_s else ("solver.rtol", scene.solver.rtol / 10)
     return engine.scene.scene_from_toml(scene.to_toml(), {key: value})
-
-
-def carried(trajectory) -> bool:
-    """Whether a run carried tangent vectors in its plane, without which there is no verdict."""
-    return trajectory.tangent is not None and trajectory.tangent.growth_nats.shape[1] > 0
 
 
 def tangent_of(trajectory, transient_periods: int):
@@ -63,31 +35,13 @@ def motion_of(trajectory, check=None):
 
     check: the run that goes on from its end at a tighter tolerance, for one that looks chaotic.
     """
-    import numpy as np
-
-    from analysis import motion_regime
     from analysis.exponents import BITS_PER_PERIOD, no_exponent
 
-    scene, columns = trajectory.scene, trajectory.columns
-    step_s, period_s = scene.sample_step_s(), scene.waves.period_s
-    periods = round(float(columns["time_s"][-1]) / period_s)
-    coordinates, scale = state_of(columns, step_s, period_s, periods // 2)
-    section = poincare(coordinates, step_s, period_s)
-    growth = trajectory.tangent.growth_nats[: len(section) - 1, 0] if carried(trajectory) else None
     tighter = None
     if check is not None:
         tighter = no_exponent("tangent dynamics", f"the run ended: {check.status}", BITS_PER_PERIOD)
         tighter = tangent_of(check, 0) if check.status == "ok" else tighter
-    return motion_regime(
-        np.asarray(section), growth, scale=scale, tolerance=STROBE_TOLERANCE, max_period=LONGEST_PERIOD, tighter=tighter
-    )
-
-
-def poincare(coordinates, step_s: float, period_s: float):
-    """The states once a wave period, from the start on, (m, d)."""
-    from analysis import poincare_section
-
-    return poincare_section(coordinates, step_s, period_s).points
+    return verdict(trajectory, tighter)
 
 
 def record_regime(trajectory, transient_periods: int, tangent=None):
@@ -146,17 +100,6 @@ def going_on(scene, trajectory, row, budget: int, looks: bool):
     if wanted and carries_tangents(scene):
         scene = engine.scene.scene_from_toml(scene.to_toml(), {TANGENTS: 1, LATERAL: True})
     return Further(scene, min(next_look(round(done)), budget) - done, trajectory)
-
-
-def in_regular_waves(scene) -> bool:
-    """Whether it is a scene of a buoy in regular waves: motions are strobed and judged once per wave period."""
-    return scene.end.kind == "buoy" and scene.waves is not None and not scene.waves.irregular
-
-
-def carries_tangents(scene) -> bool:
-    """Whether the engine can carry perturbations through this scene, for exponents and a verdict on its regime."""
-    implicit = scene.solver.integrator in ("esdirk43", "trbdf2")
-    return implicit and scene.tether.bending_stiffness_Nm2 > 0 and scene.motion.dimensions == 2
 
 
 def judged_scene(order, changes: dict, least: int = LEAST_JUDGED):

@@ -15,11 +15,12 @@ from functools import partial
 
 import engine
 from campaigns.buoy_sweep.space import SEED_MPS, in_space, run_where_needed
-from campaigns.judge import LONGEST_PERIOD, STROBE_TOLERANCE, judged_job, judged_scene
+from campaigns.judge import judged_job, judged_scene
 from campaigns.machinery import cli
 from campaigns.machinery.plan import Job
 from campaigns.machinery.runner import run
 from campaigns.study import Lengths, Measures, Order, Study
+from engine.views import LONGEST_PERIOD, STROBE_TOLERANCE
 
 # From the paper's small wave (0.016) to beyond its large one (0.13); a step of 0.003 meets 0.13 too.
 STEEPNESS = tuple(round(0.016 + 0.003 * step, 3) for step in range(49))

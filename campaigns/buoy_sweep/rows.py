@@ -20,17 +20,8 @@ from campaigns.columns import (
     names,
     number,
 )
-from campaigns.judge import (
-    LEAST_JUDGED,
-    LONGEST_PERIOD,
-    STROBE_TOLERANCE,
-    carried,
-    carries_tangents,
-    motion_of,
-    record_regime,
-    state_of,
-    tangent_of,
-)
+from campaigns.judge import LEAST_JUDGED, motion_of, record_regime, tangent_of
+from engine.views import LONGEST_PERIOD, STROBE_TOLERANCE, carried, carries_tangents, state_of
 
 STEEPNESS = Column("steepness", "", "kA", "wave steepness: wave number times amplitude", 3)
 DIMENSIONS = Column("dimensions", "", "D", "dimensions of the motion: 2, in the plane of the waves, or 3", 0)

@@ -19,10 +19,11 @@ from math import inf
 
 from campaigns.buoy_sweep import ROW_SOURCES
 from campaigns.columns import MESSAGE, RUN_KEY, STATISTICS, STATUS, Column, counted
-from campaigns.judge import LONGEST_PERIOD, STROBE_TOLERANCE, in_regular_waves, judged_job, judged_scene
+from campaigns.judge import judged_job, judged_scene
 from campaigns.machinery import cli
 from campaigns.machinery.plan import Job
 from campaigns.study import Lengths, Measures, Order, Study
+from engine.views import LONGEST_PERIOD, STROBE_TOLERANCE, in_regular_waves
 
 MOST_KEYS = 2
 

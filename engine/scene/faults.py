@@ -126,9 +126,17 @@ def suggestion(key: str, keys: list[str]) -> str:
     return f"; did you mean {close[0]!r}?" if close else ""
 
 
+def ending_in(word: str, model: type[BaseModel]) -> list[str]:
+    """The keys of which a word is the whole or, where there is none, the last part."""
+    known = known_fields(model)
+    return [word] if word in known else [key for key in known if key.rpartition(".")[2] == word]
+
+
 def unknown_key(key: str, given: object, scene_model: type[BaseModel]) -> str:
     """The fault line of a key that no scene has."""
     keys = list(known_fields(scene_model))
+    if len(ends := ending_in(key, scene_model)) > 1:
+        return f"{key}: the end of {len(ends)} keys, given {shown(given)}; allowed: one of {', '.join(ends)}"
     section = key.rpartition(".")[0]
     beside = [known.rpartition(".")[2] for known in keys if known.rpartition(".")[0] == section]
     where = f"allowed in {section}" if section else "allowed"
