@@ -8,9 +8,10 @@ from functools import cache
 from pathlib import Path
 
 from numba import types
-from numba.extending import overload
+from numba.extending import models, register_model
 
-from machine_code.store import compiled, folder_of, hash_of
+from machine_code.parts import compiled_in_parts
+from machine_code.store import folder_of, hash_of
 
 from .simd.fma import with_fused_sums
 from .simd.vector import LaneRecord
@@ -41,7 +42,7 @@ def kernel(function):
     No ``fastmath``: what it allows differs from processor to processor and between one run and a batch; it breaks the
     range reduction of `engine.simd.elementary.sincos` and hides NaN.
     """
-    return compiled(with_fused_sums(function), folder_of("kernels", source_hash(), _KEPT_CACHES))
+    return compiled_in_parts(with_fused_sums(function), folder_of("kernels", source_hash(), _KEPT_CACHES))
 
 
 def by_kind(planar, spatial, lanes=None):
@@ -53,13 +54,36 @@ def by_kind(planar, spatial, lanes=None):
     choice. lanes = None: the planar kernel serves several runs at once too.
     """
 
-    def either(*arguments):
+    return _Choice(planar, spatial, lanes if lanes is not None else planar)
+
+
+class _Choice:
+    """Kernels of which the type of the first argument chooses one, while their caller is compiled."""
+
+    def __init__(self, *kernels):
+        self._numba_type_ = _ChoiceType(*kernels)
+
+    def __call__(self, *arguments):
         raise NotImplementedError("only compiled kernels call this")
 
-    @overload(either, strict=False, jit_options={"nogil": True, "error_model": "numpy"})
-    def chosen(p, *arguments):
-        if "GI" in p.fields:
-            return spatial.py_func
-        return (lanes if lanes is not None and isinstance(p, LaneRecord) else planar).py_func
 
-    return either
+class _ChoiceType(types.Callable, types.Dummy):
+    def __init__(self, *kernels):
+        self.kernels = [types.Dispatcher(kernel) for kernel in kernels]
+        super().__init__(f"choice({', '.join(kernel.name for kernel in self.kernels)})")
+
+    def _chosen(self, p):
+        planar, spatial, lanes = self.kernels
+        return spatial if "GI" in p.fields else lanes if isinstance(p, LaneRecord) else planar
+
+    def get_call_type(self, context, arguments, keywords):
+        return self._chosen(arguments[0]).get_call_type(context, arguments, keywords)
+
+    def get_impl_key(self, signature):
+        return self._chosen(signature.args[0]).get_impl_key(signature)
+
+    def get_call_signatures(self):
+        return [], True
+
+
+register_model(_ChoiceType)(models.OpaqueModel)
