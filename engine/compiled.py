@@ -45,7 +45,7 @@ def kernel(function):
     return compiled_in_parts(with_fused_sums(function), folder_of("kernels", source_hash(), _KEPT_CACHES))
 
 
-def by_kind(planar, spatial, lanes=None):
+def by_kind(planar, spatial, lanes=None, plain=None):
     """One name for kernels that do the same for different kinds of runs.
 
     A kernel that calls the returned name gets `planar`, `spatial` or `lanes`, by the type of the first argument: a
@@ -54,13 +54,15 @@ def by_kind(planar, spatial, lanes=None):
     choice. lanes = None: the planar kernel serves several runs at once too.
     """
 
-    return _Choice(planar, spatial, lanes if lanes is not None else planar)
+    lanes = planar if lanes is None else lanes
+    return _Choice(planar, spatial, lanes, lanes if plain is None else plain)
 
 
 class _Choice:
     """Kernels of which the type of the first argument chooses one, while their caller is compiled."""
 
     def __init__(self, *kernels):
+        self.kernels = kernels  # a type of Numba does not keep them alive
         self._numba_type_ = _ChoiceType(*kernels)
 
     def __call__(self, *arguments):
@@ -73,8 +75,11 @@ class _ChoiceType(types.Callable, types.Dummy):
         super().__init__(f"choice({', '.join(kernel.name for kernel in self.kernels)})")
 
     def _chosen(self, p):
-        planar, spatial, lanes = self.kernels
-        return spatial if "GI" in p.fields else lanes if isinstance(p, LaneRecord) else planar
+        planar, spatial, lanes, plain = self.kernels
+        in_lanes = isinstance(p, LaneRecord)
+        if p.plain if in_lanes else "plain" in p.fields:
+            return plain
+        return spatial if "GI" in p.fields else lanes if in_lanes else planar
 
     def get_call_type(self, context, arguments, keywords):
         return self._chosen(arguments[0]).get_call_type(context, arguments, keywords)

@@ -6,10 +6,17 @@ Parts below it once, and only that is optimised and translated. So the time to c
 of the calls, and nobody pays for wrappers that are not used. The same was proposed for Numba itself (numba#9566).
 """
 
+import gc
+from contextlib import contextmanager
+from functools import cache
 from pathlib import Path
 
+from numba.core import typed_passes as typed
+from numba.core import types
+from numba.core import untyped_passes as untyped
 from numba.core.codegen import JITCodeLibrary
-from numba.core.compiler import CompilerBase, DefaultPassBuilder
+from numba.core.compiler import CompilerBase
+from numba.core.compiler_machinery import PassManager
 
 from .store import compiled
 
@@ -46,14 +53,65 @@ class _Part(_Library):
         """Nothing: what a kernel of Python objects would need."""
 
 
+@cache
+def _passes():
+    """Numba's own passes, without those for what no kernel has: closures, comprehensions, generators, literal types,
+    objects, exceptions, parallel loops, functions that are inlined before they have types."""
+    manager = PassManager("kernel")
+    for one in (
+        untyped.TranslateByteCode, untyped.FixupArgs, untyped.IRProcessing, untyped.RewriteSemanticConstants,
+        untyped.DeadBranchPrune, untyped.GenericRewrites, untyped.ReconstructSSA, typed.NopythonTypeInference,
+        typed.PreLowerStripPhis, typed.NopythonRewrites, typed.IRLegalization, typed.NativeLowering,
+        typed.NoPythonBackend,
+    ):  # fmt: skip
+        manager.add_pass(one)
+    manager.finalize()
+    return manager
+
+
+_found: dict[tuple, object] = {}  # what a function of Numba gives for arguments of these types
+
+
+@contextmanager
+def _without_detours(context):
+    """While a kernel is compiled: no search for garbage, of which there is none, and what Numba has once found out
+    about a sum of two numbers is not found out again. Half of the time of the front end went into both."""
+    if "resolve_function_type" in vars(context):  # a kernel within a kernel
+        yield
+        return
+    search, collects = context.resolve_function_type, gc.isenabled()
+
+    def resolve(function, arguments, keywords):
+        kind = context._lookup_global(function) or function
+        if keywords or not isinstance(kind, types.Function):
+            return search(function, arguments, keywords)
+        key = kind, tuple(arguments)
+        if key not in _found:
+            _found[key] = search(function, arguments, keywords)
+        return _found[key]
+
+    context.resolve_function_type = resolve
+    gc.disable()
+    try:
+        yield
+    finally:
+        del context.resolve_function_type
+        if collects:
+            gc.enable()
+
+
 class _WholeCompiler(CompilerBase):
     library = _Library
+
+    def compile_extra(self, function):
+        with _without_detours(self.state.typingctx):
+            return super().compile_extra(function)
 
     def define_pipelines(self):
         state = self.state
         state.library = self.library(state.targetctx.codegen(), state.func_id.func_qualname)
         state.library.enable_object_caching()
-        return [DefaultPassBuilder.define_nopython_pipeline(state)]
+        return [_passes()]
 
 
 class _PartCompiler(_WholeCompiler):
