@@ -48,19 +48,17 @@ def kernel(function):
 def by_kind(planar, spatial, lanes=None, plain=None):
     """One name for kernels that do the same for different kinds of runs.
 
-    A kernel that calls the returned name gets `planar`, `spatial` or `lanes`, by the type of the first argument: a
-    RECORD, a SPATIAL (`engine.record`) or a LaneRecord (`engine.simd.vector`: several planar runs at once). Numba
-    chooses while it compiles the caller. So a scene compiles only the kernels that it uses, and no run pays for the
-    choice. lanes = None: the planar kernel serves several runs at once too.
+    A kernel that calls the returned name gets `planar`, `spatial`, `lanes` or `plain`, by the type of the first
+    argument: a RECORD, a SPATIAL, a PLAIN (`engine.record`) or a LaneRecord (`engine.simd.vector`: several planar runs
+    at once; `plain` where these are). Numba chooses while it compiles the caller. So a scene compiles only the kernels
+    that it uses, and no run pays for the choice. lanes = None: the planar kernel serves several runs at once too;
+    plain = None: so does that of the lanes for plain scenes.
     """
-
     lanes = planar if lanes is None else lanes
     return _Choice(planar, spatial, lanes, lanes if plain is None else plain)
 
 
 class _Choice:
-    """Kernels of which the type of the first argument chooses one, while their caller is compiled."""
-
     def __init__(self, *kernels):
         self.kernels = kernels  # a type of Numba does not keep them alive
         self._numba_type_ = _ChoiceType(*kernels)
@@ -70,6 +68,8 @@ class _Choice:
 
 
 class _ChoiceType(types.Callable, types.Dummy):
+    """What Numba asks of a function: of the kernel that is chosen."""
+
     def __init__(self, *kernels):
         self.kernels = [types.Dispatcher(kernel) for kernel in kernels]
         super().__init__(f"choice({', '.join(kernel.name for kernel in self.kernels)})")

@@ -51,7 +51,7 @@ SPATIAL = np.dtype(
     )
     + RECORD.descr
 )
-# A planar scene whose every term has one form only (`engine.simd.cover.is_plain`): of what has others nothing is compiled.
+# A planar scene whose every term has the form that lanes have too (`engine.simd.cover.is_plain`): no other is compiled.
 PLAIN = np.dtype(_dtype("plain", "") + RECORD.descr)
 # small_steps, cautious: steps of backward Euler, of slow growth still to come; attempts: steps tried up to window_end;
 # small, cut: the trial is one of backward Euler, ends at the corner (s), which no step may cross; dt_before: the last

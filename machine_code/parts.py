@@ -1,9 +1,12 @@
-"""Kernels that only kernels call: compiled for their callers and not for Python.
+"""Kernels that kernels call: compiled for their callers and not for Python.
 
-Numba makes machine code of every function as soon as somebody calls it, optimises it, and links and optimises it again
-within each caller, up to the top. A Part stays as the front end leaves it. What Python calls (a Whole) takes in all
-Parts below it once, and only that is optimised and translated. So the time to compile no longer grows with the depth
-of the calls, and nobody pays for wrappers that are not used. The same was proposed for Numba itself (numba#9566).
+Numba makes machine code of every function that a kernel calls, optimises it, and links and optimises it again within
+each of its callers, up to the top: the time grows with the depth of the calls. Here a kernel that another one calls is
+a part, which stays as Numba's front end leaves it: without machine code, without a wrapper for Python, not kept on
+disk. A kernel that Python calls is a whole: it takes in all parts below it, once, and only then LLVM optimises and
+translates them. A kernel may be both. The same was proposed for Numba itself (pull request 9566, not merged).
+
+LLVM may neither fuse nor reorder the operations of numbers, so that a whole gives the bits that its parts would give.
 """
 
 import gc
@@ -22,7 +25,8 @@ from .store import compiled
 
 
 class _Library(JITCodeLibrary):
-    """Code that takes in what the Parts that it calls call in their turn, callers before those whom they call."""
+    """Takes in, with every part that it calls, what this part calls; callers first, because LLVM's linker leaves out
+    what nobody has asked for yet."""
 
     def add_linking_library(self, library):
         below = library._linking_libraries if isinstance(library, _Part) else ()
@@ -32,7 +36,7 @@ class _Library(JITCodeLibrary):
 
 
 class _Part(_Library):
-    """Code of a kernel for its callers."""
+    """Code that is linked into others, as often as they like, and is never run by itself."""
 
     def finalize(self):
         for function in self._final_module.functions:
@@ -41,7 +45,7 @@ class _Part(_Library):
         self._shared_module, self._finalized = self._final_module, True
 
     def get_pointer_to_function(self, name):
-        """Zero, as Numba has it for functions without machine code."""
+        """Zero: there is no machine code."""
         self._ensure_finalized()
         return 0
 
@@ -50,7 +54,7 @@ class _Part(_Library):
         return self
 
     def set_env(self, name, environment):
-        """Nothing: what a kernel of Python objects would need."""
+        """Nothing: only Python objects would need it."""
 
 
 @cache
@@ -69,13 +73,13 @@ def _passes():
     return manager
 
 
-_found: dict[tuple, object] = {}  # what a function of Numba gives for arguments of these types
+_found: dict[tuple, object] = {}  # (function of Numba, types of its arguments): the signature that Numba chose
 
 
 @contextmanager
 def _without_detours(context):
-    """While a kernel is compiled: no search for garbage, of which there is none, and what Numba has once found out
-    about a sum of two numbers is not found out again. Half of the time of the front end went into both."""
+    """While a kernel is compiled, Python does not look for garbage, and Numba, which tries some ten meanings of a + for
+    every + that it meets, remembers which one it was. context: Numba's typing context, restored afterwards."""
     if "resolve_function_type" in vars(context):  # a kernel within a kernel
         yield
         return

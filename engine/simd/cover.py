@@ -1,4 +1,4 @@
-"""Which scenes may share a batch."""
+"""Which scenes may share a batch, and which have a record type of their own (`engine.record.PLAIN`)."""
 
 from ..physics.tension import LAWS, NAMES
 from ..scene.models import Scene
