@@ -29,7 +29,7 @@ from collections import namedtuple
 from ..arrays import Stage
 from ..compiled import kernel
 from ..dimensions import eliminate, node_quantities, shape
-from ..physics.submergence import cap_change
+from ..physics.submergence import change_of_cap
 from ..physics.water import water as flow
 from ..planar import columns as col
 from ..planar.elimination import back_substitute, inertia_of_box
@@ -188,11 +188,11 @@ def tangent_stage(p, tables, base, going_on, dC_tilde, dF, dC, work, water):
         top_x, top_z = _top_change(p, base.rate, dC_tilde[last], F[last], base.Y[last], dF[last])
         if p.spherical_cap:
             dX_tilde = _displaced_end(p, tables, dC_tilde)
-            more_x, more_z = cap_change(
+            more = change_of_cap(
                 p, base.t, base.rate, work.X[last], base.Y[last], base.K[last], F[last], dC_tilde[last, 2:], dX_tilde,
                 dF[last],
             )  # fmt: skip
-            top_x, top_z = top_x + more_x, top_z + more_z
+            top_x, top_z = top_x + more[0], top_z + more[1]
         resolve_bent(p, tables, base.rate, work, dC_tilde, water.gamma, top_x, top_z)
         for k in range(last + 1):
             eps, phi = D[k, col.EPS], D[k, col.PHI]

@@ -29,7 +29,7 @@ import numpy as np
 
 from ..compiled import kernel
 from ..physics.ends import planar_end
-from ..physics.submergence import cap_end
+from ..physics.submergence import end_of_cap
 from ..simd.select import smaller
 from ..spatial.vectors import affine, inverted, less, minus_product, put, put_rows, rows_of, times, vector, vector_times
 from . import columns as col
@@ -115,7 +115,7 @@ def eliminate(p, tables, stage, Y, work):
     Dzx = Dxz
     if p.spherical_cap:
         x, z = work.X[b, 0], work.X[b, 1]
-        more = cap_end(p, t, cq, cv, in_motion, x, z, U, W, U_tilde, W_tilde, work.F[b])
+        more = end_of_cap(p, t, cq, cv, in_motion, x, z, U, W, U_tilde, W_tilde, work.F[b])
         ex, ez, Dxx = ex + more[0], ez + more[1], Dxx + more[2]
         Dxz, Dzx, Dzz = Dxz + more[3], Dzx + more[4], Dzz + more[5]
     c, s, slope = vector(Q[b], col.COS)

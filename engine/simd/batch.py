@@ -10,7 +10,7 @@ from ..arrays import Trail
 from ..parameters import record_of
 from ..planar import columns as col
 from ..planar.state import conserved
-from ..record import RECORD, SAMPLE_WIDTH, STATE
+from ..record import SAMPLE_WIDTH, STATE
 from ..run import Run
 from .cover import goes_in_lanes
 from .follow import Followers, lane_work
@@ -38,7 +38,7 @@ class Machine:
     def __init__(self, run, periods):
         n, s = int(run.record["nodes"]), max(int(run.record["stages"]), 2)
         self.runs = [None] * COUNT
-        self.records, self.states = np.zeros(COUNT, RECORD), np.zeros(COUNT, STATE)
+        self.records, self.states = np.zeros(COUNT, run.record.dtype), np.zeros(COUNT, STATE)
         self.lanes, self.spent = np.zeros(COUNT, LANE), np.zeros(COUNT, np.int64)
         self.tables = np.zeros((COUNT, run.tables.size))
         self.samples = np.zeros((COUNT, len(run.output.samples), SAMPLE_WIDTH))

@@ -89,7 +89,7 @@ def follow(records, tables, trail, trails, periods, nats, lateral_nats, sideways
     Across; room: Work and Water; COUNT is the last axis of all their arrays.
     """
     counts, values, in_lanes = p_lanes
-    p, grid = lane_record(counts, as_lanes(values)), as_lanes(in_lanes)
+    p, grid = lane_record(records, counts, as_lanes(values)), as_lanes(in_lanes)
     turn, own, across = as_lanes(turn_of), as_lanes(carried[0]), as_lanes(carried[1])
     work, water = as_lanes(room[0]), as_lanes(room[1])
     numbers, rows, Y, K_new = turn_of.numbers, turn.numbers, turn.Y, turn.K_new

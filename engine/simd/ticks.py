@@ -214,7 +214,7 @@ def advance(ticks, records, own_tables, states, lanes, spent, samples, trail, co
     w, a, C_new, K_new = lane.w, lane.a, lane.C_new, lane.K_new
     Y, C, Ks, rows, tables = lane.Y, lane.C, lane.Ks, lane.numbers, lane.tables
     own = as_lanes(work)
-    p = lane_record(counts, lane.values)
+    p = lane_record(records, counts, lane.values)
     one, ends = np.empty(arrays.Y.shape[:2]), np.empty((4, *arrays.C.shape[:2]))
     profiles = np.empty((0, *one.shape))
     made, stop = 0, False

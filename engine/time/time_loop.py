@@ -23,7 +23,7 @@ from .. import record as col
 from ..arrays import Step, Trial
 from ..compiled import kernel
 from ..dimensions import configuration, conserved, largest_turn, last_strain, release_loop, size_of, work_arrays
-from ..physics.ends import next_corner
+from ..physics.ends import corner_after
 from ..physics.energy import add_powers, store_energies
 from ..physics.shocks import deforming_element, renew_viscosity
 from ..physics.tension.kernels import tension
@@ -70,7 +70,7 @@ def begin_trial(p, tables, state):
         return
     state.small = state.small_steps > 0
     dt = state.dt
-    state.corner = next_corner(p, tables, state.t) if p.adaptive else p.end_release
+    state.corner = corner_after(p, tables, state.t) if p.adaptive else p.end_release
     # the step ends with a corner of a held end's motion
     state.cut = state.t < state.corner <= state.t + NO_SLIVER * dt
     state.trial_dt = state.corner - state.t if state.cut else dt
