@@ -24,12 +24,12 @@ No pair of neighbours has to be followed past the reach of noise, which is why 2
 Noise on the record flattens the slopes: the exponent comes out too small, and below 0 for a noisy cycle.
 """
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from analysis.exponents import Exponent, no_exponent
+from analysis.exponents import BITS_PER_PERIOD, Exponent, no_exponent
 from analysis.neighbours import nearest_outside
 from analysis.sampling import checked_columns, checked_count, in_deviations, states_of
 from analysis.tangent_growth import tangent_lyapunov
@@ -121,16 +121,13 @@ def section_lyapunov(section: ArrayLike, delays: int | None = None, theiler: int
     Source: J.-P. Eckmann & D. Ruelle, Rev. Mod. Phys. 57 (1985) 617; in noise: D. Nychka, S. Ellner, D. McCaffrey &
     A. R. Gallant, J. R. Stat. Soc. B 54 (1992) 399; error: `analysis.tangent_growth`.
     """
-    return exponents_of(prediction_gain(section, delays, theiler))
-
-
-def exponents_of(found: PredictionGain) -> tuple[Exponent, ...]:
-    """`section_lyapunov` of what `prediction_gain` found."""
+    found = prediction_gain(section, delays, theiler)
     if not np.isfinite(found.gain):
-        return (no_exponent(METHOD, found.reason),) * 3
+        return (no_exponent(METHOD, found.reason, BITS_PER_PERIOD),) * 3
     growth = found.growth_nats()
     half = len(growth) // 2
-    return tuple(tangent_lyapunov(part)[0] for part in (growth, growth[:half], growth[half:]))
+    parts = growth, growth[:half], growth[half:]
+    return tuple(replace(tangent_lyapunov(part)[0], method=METHOD) for part in parts)
 
 
 def _linear_error(state, target):

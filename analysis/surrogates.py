@@ -92,9 +92,9 @@ def noisy_periodic_surrogates(series: ArrayLike, count: int = 1, seed: Seed = 0)
 
 
 def phases_at_random(scores: np.ndarray, rng: np.random.Generator) -> np.ndarray:
-    """A linear, Gaussian record (n,) of the same spectrum as `normal_scores` (n,): random phases, which is all that they
-    need. In the order of its values the record itself is a surrogate as IAAFT makes them, without a round of iteration.
+    """A linear, Gaussian record (n,) of the same spectrum as `normal_scores` (n,), by random phases alone.
 
+    A record's own values in the order of this one's are its surrogate behind any monotone instrument.
     Source: J. Theiler et al., Physica D 58 (1992) 77.
     """
     transform = np.fft.rfft(scores)

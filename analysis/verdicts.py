@@ -10,7 +10,7 @@
                       median; and neighbours on the section part. An exponent that is given takes the place of the
                       map's where it is that of the tangent dynamics, and else stands beside it: two errors are asked
     quasi-periodic    otherwise: neighbours on the section stay neighbours, a spectral line is incommensurate with the
-                      forcing, and no exponent that is given is positive
+                      forcing, and no exponent is far from 0 (below -1 it is that of noise about points)
     undecided         otherwise; and wherever an exponent of the tangent dynamics, or the verdict on the same motion at
                       a tighter tolerance, contradicts the word
 
@@ -44,6 +44,7 @@ LEAST_POINTS = 40
 LEAST_CHAOTIC = 200
 # Above it, an exponent is not that of a torus [bits per period].
 ABOUT_ZERO = 0.02
+FLAT = -1.0  # below it, the map has no slope: noise about points, not along a curve
 
 
 @dataclass(frozen=True, eq=False)
@@ -151,8 +152,8 @@ def _without_period(points, exponents, drift, growth, line, irregular, memory, *
         lacking.append(f"{LEAST_CHAOTIC} points")
     if not lacking:
         return "chaotic", "exponent, 0-1 test, memory and both nulls agree"
-    part = any(item.value - 2.0 * item.error > ABOUT_ZERO for item in exponents)
-    if growth.passed and line.passed and not irregular.passed and not part:
+    away = any(item.value - 2.0 * item.error > ABOUT_ZERO or item.value < FLAT for item in exponents)
+    if growth.passed and line.passed and not irregular.passed and not away:
         reason = "neighbours on the section stay neighbours, and a line is incommensurate with the forcing"
         return "quasi-periodic", reason
     return "undecided", "no period, no torus; chaos lacks: " + ", ".join(lacking)

@@ -6,7 +6,7 @@ The motion is seen once a cycle, on a section:
     samples   every sample, where the file itself is a section (a period of one step, or fewer than six samples in a
               mean period, which leaves nothing between them: a map)
     maxima    successive maxima of the column, no period being given: the section dx/dt = 0 of Lorenz (1963), whose map
-              from one maximum to the next is a function where the motion is deterministic
+              from one maximum to the next is a function where the motion is deterministic; with the minimum before each
 
 A maximum counts where it stands out by six standard deviations of the noise, and is placed by a cubic spline.
 
