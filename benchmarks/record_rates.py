@@ -2,7 +2,7 @@
 
     python -m benchmarks.record_rates [--count N] [--seed N] [--only WORD ...] [--show]
 
-Records of `benchmarks.known_records`: N of each regular kind, which nothing may call chaotic, and 300 cycles of every
+N records of each regular kind of `benchmarks.known_records`, which nothing may call chaotic, and 300 cycles of every
 coordinate of ten chaotic flows and of eq. (33), sampled 12, 24 and 48 times a cycle, and 24 times with white noise of 1
 and 5 % of their standard deviation. Prints a row a kind: how many got which word, seconds of processor time a record.
 --only: kinds whose name has this word; --show: a line a record, with its evidence.
@@ -15,7 +15,8 @@ from collections import Counter
 import numpy as np
 
 from analysis import evidence_text
-from benchmarks.known_records import REGULAR, chaotic_flows, with_noise
+from benchmarks.known_flows import chaotic_flows, with_noise
+from benchmarks.known_records import REGULAR
 from campaigns.time_series.study import judged, least_tolerance, seen
 
 CYCLES = 300
