@@ -188,20 +188,22 @@ def memory_evidence(section: np.ndarray, name: str = "memory") -> Evidence:
     return Evidence(name, value, most, bool(value < most) if np.isfinite(value) else None, sentence)
 
 
-def exponents_evidence(section: np.ndarray, tangent: Exponent | None, wolf: Exponent | None) -> list[Evidence]:
-    """All that have to be positive: that of the tangent dynamics; without one, that of the map fitted to the section
-    (by three errors, and by one in each half), beside the one given for the series."""
+def exponents_evidence(
+    section: np.ndarray, tangent: Exponent | None, wolf: Exponent | None
+) -> tuple[list[Evidence], list[Evidence]]:
+    """All that have to be positive: those given, and, without one of the tangent dynamics, that of the map fitted to
+    the section (by three errors, and by one in each half)."""
     given = [] if tangent is None and wolf is None else [exponent_evidence(tangent, wolf)]
     if tangent is not None and tangent.found:
-        return given
+        return given, []
     name = "exponent of the section" if given else "exponent"
     whole, *halves = section_lyapunov(section)
     if not all(one.found for one in (whole, *halves)):
-        return [*given, Evidence(name, whole.value, 0.0, None, f"no exponent: {whole.reason}")]
+        return given, [Evidence(name, whole.value, 0.0, None, f"no exponent: {whole.reason}")]
     passed = whole.value > 3.0 * whole.error and all(one.value > one.error for one in halves)
     said = " and ".join(f"{one.value:.3f} ± {one.error:.3f}" for one in halves)
     sentence = f"bits per period, by the derivative of the section's map; ± {whole.error:.3f}; in the halves {said}"
-    return [*given, Evidence(name, whole.value, 3.0 * whole.error, bool(passed), sentence, whole.error)]
+    return given, [Evidence(name, whole.value, 3.0 * whole.error, bool(passed), sentence, whole.error)]
 
 
 def null_evidence(section: np.ndarray, surrogates: int, seed: int | list[int]) -> list[Evidence]:
