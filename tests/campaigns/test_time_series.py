@@ -50,7 +50,7 @@ MORE = {
     "slow, too short": (np.sin(0.05 * np.arange(105)), 1.0, ("--period", "1"), "undecided"),
     "two, samples at the maxima": (np.sin(FORTY) + 0.3 * np.sin(0.5 * FORTY), 1.0, (), "period-2"),
     "two": (np.sin(TIME) + 0.2 * np.sin(0.5 * TIME), 0.4, (), "period-2"),
-    "golden": (np.sin(TIME) + 0.7 * np.sin(GOLDEN * TIME), 0.4, (), "quasi-periodic"),
+    "golden": (np.sin(FORTY) + 0.7 * np.sin(GOLDEN * FORTY), 1.0, (), "quasi-periodic"),
     "period 4": (logistic(3.5, 400), None, (), "period-4"),
     "henon": (henon(800)[:, 0], 1.0, ("--period", "1"), "chaotic"),
     "white, strobed": (noise(800), 1.0, ("--period", "1"), "undecided"),
