@@ -14,9 +14,8 @@ two tones                      0           exact
 
 from functools import cache
 
+import numba
 import numpy as np
-
-from analysis.compiled import kernel
 
 TRUTH = {
     "lorenz": 0.9056,
@@ -39,7 +38,7 @@ FLOWS = {  # start; which coordinate is observed; sampling step; steps of integr
 LORENZ, ROSSLER, DUFFING, UEDA, PENDULUM, _ = range(len(FLOWS))
 
 
-@kernel
+@numba.njit(cache=True)
 def _rate(flow, t, y):
     if flow == LORENZ:
         return np.array([10.0 * (y[1] - y[0]), y[0] * (28.0 - y[2]) - y[1], y[0] * y[1] - 8.0 / 3.0 * y[2]])
@@ -56,7 +55,7 @@ def _rate(flow, t, y):
     return np.array([y[1], force])
 
 
-@kernel
+@numba.njit(cache=True)
 def _march(flow, y, step, substeps, skip, samples):
     out = np.empty((samples, y.size))
     h = step / substeps
