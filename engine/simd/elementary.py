@@ -8,7 +8,7 @@ import math
 import numpy as np
 
 from ..compiled import kernel
-from .select import every, where
+from .select import every, some, where
 
 # pi/2 in three parts (Cody & Waite 1980): k * PIO2_A and k * PIO2_B are exact for |k| < 2**20.
 PIO2_A = float.fromhex("0x1.921fb544p+0")
@@ -68,6 +68,8 @@ def copy_into(target, source):
 @kernel
 def keep(mask, source, target):
     """target = source in the lanes of the mask, for arrays (n, m)."""
+    if not some(mask):
+        return
     for k in range(target.shape[0]):
         for i in range(target.shape[1]):
             target[k, i] = where(mask, source[k, i], target[k, i])

@@ -239,9 +239,7 @@ def advance(ticks, records, own_tables, states, lanes, spent, samples, trail, co
         shape(p, tables, Y, own.Q, own.X)
         steps.stage_rates(p, rows[RATE], Y, own.Q, own.C_tilde, C_new, K_new)
         for j in range(1, Ks.shape[0]):
-            here = (rows[SOLVED] != 0.0) & (rows[STAGE] == float(j))
-            if some(here):
-                keep(here, K_new, Ks[j])
+            keep((rows[SOLVED] != 0.0) & (rows[STAGE] == float(j)), K_new, Ks[j])
         if some(rows[FINISHED] != 0.0):
             rows[ERROR] = steps.embedded_error(p, tables, rows[STEP], Ks, own.Q, a, own.D[0])
             rows[LEAST], rows[TURN] = steps.least_strain(Y), largest_turn(p, Y)[0]
