@@ -60,8 +60,7 @@ def carry(p, tables, period, count, trail, along, across):
                 linearise(p, tables, base, work, water)
                 for v in range(number):
                     known_part(a, so_far, vectors[v], dKs[v], dC_tilde)
-                    tangent_stage(p, tables, base, dC_tilde, dC, work, water)
-                    stage_rate(rate, dC, dC_tilde, dKs[v, i])
+                    tangent_stage(p, tables, base, dC_tilde, dC, dKs[v, i], work, water)
                     if i == s - 1:
                         copy_into(vectors[v], dC)
                         copy_into(rates[v], dKs[v, i])

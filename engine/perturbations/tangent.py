@@ -33,10 +33,10 @@ from ..physics.submergence import cap_change
 from ..physics.water import water as flow
 from ..physics.water import water_slopes
 from ..planar import columns as col
-from ..planar.elimination import back_substitute, inertia_of_box
+from ..planar.elimination import inertia_of_box
 from ..record import BUOY
 from ..simd.select import where
-from ..spatial.vectors import dot, put, rows_of, times, vector
+from ..spatial.vectors import affine, dot, put, quaternion, rows_of, times, vector
 
 # The stage that is perturbed: t (s), rate c (1/s); moving_water: 1.0 where the water depends on the place of a node,
 # else 0.0; Y (n, 6), its rates K (n, 4)
@@ -135,16 +135,11 @@ def _known_load(p, rate, row, drag, dC_tilde, x, z):
 
 
 @kernel
-def resolve(p, tables, base, work, water, dC_tilde):
-    """Fill work.D (n, 6) with the perturbation dY of a stage that `linearise` has eliminated.
-
-    dC_tilde (n, 4): what the perturbation makes of C~. Overwrites p and r in work.E, r with that of dV = R y + r. A
-    line without bending carries no perturbations.
-    """
+def _up_the_line(p, tables, base, work, water, dC_tilde):
+    """One pass up: p of every box into work.E. Returns dy = (deps, dS, dphi) and dV of the upper end."""
     Q, E, rate = work.Q, work.E, base.rate
     n = Q.shape[0]
     r0 = r1 = r2 = x = z = 0.0  # x, z: c dX~
-    put(E[0], col.R_KNOWN, (0.0, 0.0, 0.0))
     gx, gz = _known_load(p, rate, Q[0], water.drag[0], dC_tilde[0], x, z)
     for k in range(1, n):
         a = k - 1
@@ -164,25 +159,42 @@ def resolve(p, tables, base, work, water, dC_tilde):
         r1 += dot((Rz[0] + ec * Qa[col.SIN], Rz[1], Rz[2] + ec * Qa[col.QX]), known)
         r2 = dot((-Rk[0], -Rk[1], -(Rk[2] + 1.0 / e)), known) - r2
         put(row, col.P_KNOWN, known)
-        put(row, col.R_KNOWN, (r0 - x, r1 - z, r2))
-    last, over = n - 1, 1.0 / rate
-    dV_tilde, dX_tilde = (dC_tilde[last, col.VX], dC_tilde[last, col.VZ]), (over * x, over * z)
-    top_x, top_z = _end_change(p, base, work, dV_tilde, dX_tilde, _water_change(water.J[last], over * x, over * z))
-    Dxx, Dxz, Dzx, Dzz = E[0, col.TOP_DXX], E[0, col.TOP_DXZ], E[0, col.TOP_DZX], E[0, col.TOP_DZZ]
+    last, X, Z = n - 1, x / rate, z / rate
+    dV_tilde = dC_tilde[last, col.VX], dC_tilde[last, col.VZ]
+    top_x, top_z = _end_change(p, base, work, dV_tilde, (X, Z), _water_change(water.J[last], X, Z))
+    Dxx, Dxz, Dzx, Dzz = quaternion(E[0], col.TOP_DXX)
     r0, r1 = r0 - x, r1 - z
-    back_substitute(E, (-top_x - Dxx * r0 - Dxz * r1, -top_z - Dzx * r0 - Dzz * r1, -r2), work.D)
+    g = -top_x - Dxx * r0 - Dxz * r1, -top_z - Dzx * r0 - Dzz * r1, -r2
+    y, (Rx, Rz, _) = times(rows_of(E[0], col.TOP), g), rows_of(E[last], col.R)
+    return y, dot(Rx, y) + r0, dot(Rz, y) + r1
 
 
 @kernel
-def tangent_stage(p, tables, base, dC_tilde, dC, work, water):
-    """dC (n, 4) of one perturbation at a stage; dC_tilde, work, water: as for `resolve`."""
-    D, Q = work.D, work.Q
-    resolve(p, tables, base, work, water, dC_tilde)
-    for k in range(D.shape[0]):
-        eps, phi = D[k, col.EPS], D[k, col.PHI]
-        dC[k, col.CX] = eps * Q[k, col.COS] - phi * Q[k, col.QZ]
-        dC[k, col.CZ] = eps * Q[k, col.SIN] + phi * Q[k, col.QX]
-        dC[k, col.VX], dC[k, col.VZ] = D[k, col.VX], D[k, col.VZ]
+def tangent_stage(p, tables, base, dC_tilde, dC, dK, work, water):
+    """dC, dK (n, 4) of one perturbation at a stage that `linearise` has eliminated.
+
+    dC_tilde (n, 4): what the perturbation makes of C~. Down the line velocities follow from the box rule of
+    compatibility, V_a = V_b - e (q_t,a + q_t,b). A line without bending carries no perturbations.
+    """
+    Q, rate, n = work.Q, base.rate, base.Y.shape[0]
+    y, U, W = _up_the_line(p, tables, base, work, water, dC_tilde)
+    e = x_above = z_above = 0.0
+    for k in range(n - 1, -1, -1):
+        row, known, C, K = Q[k], dC_tilde[k], dC[k], dK[k]
+        C[col.CX] = y[0] * row[col.COS] - y[2] * row[col.QZ]
+        C[col.CZ] = y[0] * row[col.SIN] + y[2] * row[col.QX]
+        x, z = rate * (C[col.CX] - known[col.CX]), rate * (C[col.CZ] - known[col.CZ])
+        U -= e * (x_above + x)
+        W -= e * (z_above + z)
+        C[col.VX], C[col.VZ] = U, W
+        K[col.CX], K[col.CZ] = x, z
+        K[col.VX], K[col.VZ] = rate * (U - known[col.VX]), rate * (W - known[col.VZ])
+        x_above, z_above = x, z
+        if k > 0:
+            e = 0.5 * tables[p.grid_at + k - 1]
+            y = affine(rows_of(work.E[k], col.P), y, vector(work.E[k], col.P_KNOWN))
+    for m in (col.VX, col.VZ):  # the anchor does not move
+        dC[0, m] = dK[0, m] = 0.0
 
 
 @kernel

@@ -60,8 +60,14 @@ def small_sincos(a):
 @kernel
 def copy_into(target, source):
     """target[:] = source for arrays (n, m): the slice assignment itself takes Numba half a second to compile."""
+    copy_columns(target, source, 0, target.shape[1])
+
+
+@kernel
+def copy_columns(target, source, first, end):
+    """target[:, first:end] = source[:, first:end] for arrays (n, m)."""
     for k in range(target.shape[0]):
-        for i in range(target.shape[1]):
+        for i in range(first, end):
             target[k, i] = source[k, i]
 
 

@@ -18,8 +18,9 @@ from ..perturbations.lateral import WIDTH as LATERAL_WIDTH
 from ..perturbations.tangent import Base, Water, linearise, orthonormalise, period_of, tangent_stage, water_moves
 from ..physics.water import water as flow
 from ..planar import columns as planar_col
+from ..spatial.vectors import put, put_row
 from ..time.steps import known_part, plan_stage, stage_rate
-from .elementary import copy_into, keep
+from .elementary import keep
 from .select import some
 from .vector import COUNT, as_lanes, lane_record, lane_zeros
 
@@ -33,6 +34,23 @@ Carried = namedtuple("Carried", "C K Ks C_tilde C_new")
 # a step; work: C_new, C_tilde, K_new (n, 2), H and E (`engine.perturbations.lateral`)
 Across = namedtuple("Across", "weights C K Ks C_new C_tilde K_new H E")
 TIME, RATE, STAGE, BEGUN, BUSY, ENDED, LENGTH = range(7)  # rows of numbers; lengths of all vectors from LENGTH on
+
+
+@kernel
+def side_by_side(rows, step, stage, first, end, target):
+    """Columns first to end of a stage of every lane into target (n, w, COUNT), as numbers; rows (COUNT, l, s, n, w).
+
+    All lanes of a number at once: each line of memory is written once.
+    """
+    most = rows.shape[1] - 1
+    a, b = rows[0, min(step[0], most), stage[0]], rows[1, min(step[1], most), stage[1]]
+    c, d = rows[2, min(step[2], most), stage[2]], rows[3, min(step[3], most), stage[3]]
+    e, f = rows[4, min(step[4], most), stage[4]], rows[5, min(step[5], most), stage[5]]
+    g, h = rows[6, min(step[6], most), stage[6]], rows[7, min(step[7], most), stage[7]]
+    for k in range(target.shape[0]):
+        for i in range(first, end):
+            put_row(target[k, i], 0, (a[k, i], b[k, i], c[k, i], d[k, i], e[k, i]))
+            put(target[k, i], 5, (f[k, i], g[k, i], h[k, i]))
 
 
 @kernel
@@ -57,8 +75,9 @@ def plan_turn(records, tables, trail, trails, step, stage, turn):
         numbers[ENDED, b] = 1.0 if stage[b] == last else 0.0
         rate, after = plan_stage(p, tables[b], stage[b], euler, row[col.STEP], 0.0, a[:, b], w[:, b])
         numbers[RATE, b], numbers[TIME, b], numbers[STAGE, b] = rate, row[col.BEGIN] + after, float(stage[b])
-        copy_into(Y[:, :, b], trail.Y[b, step[b], stage[b]])
-        copy_into(K[:, :, b], trail.K[b, step[b], stage[b]])
+    if busy > 0:
+        side_by_side(trail.Y, step, stage, 0, planar_col.KAPPA, Y)
+        side_by_side(trail.K, step, stage, planar_col.VX, K.shape[1], K)
     return busy
 
 
@@ -117,8 +136,7 @@ def follow(records, tables, trail, trails, periods, nats, lateral_nats, sideways
         for v in range(count):
             keep(begun, own.K[v], own.Ks[v, 0])
             known_part(turn.a, s - 1, own.C[v], own.Ks[v], own.C_tilde)
-            tangent_stage(p, grid, base, own.C_tilde, own.C_new, work, water)
-            stage_rate(base.rate, own.C_new, own.C_tilde, K_new)
+            tangent_stage(p, grid, base, own.C_tilde, own.C_new, K_new, work, water)
             end_stage(rows, own.C_new, K_new, own.C[v], own.K[v], own.Ks[v])
         if some(ended):
             orthonormalise(p.per_speed * p.per_speed, ended, own.C, own.K, rows[LENGTH : LENGTH + count])
@@ -159,10 +177,9 @@ class Followers:
         self.room = lane_work(n, planar_col.WITH_INVERSE), water
 
     def load(self, b, run):
-        """Put the perturbations of a run, and the state it starts from, into a lane."""
+        """Put the perturbations of a run into a lane."""
         self.periods[b] = run.trail.period_s
         self.nats[b] = self.lateral_nats[b] = 0.0
-        self.turn.Y[..., b], self.turn.K[..., b] = run.motion.Y, run.motion.K
         for lanes, own in ((self.carried, run.trail.along), (self.across, run.trail.across)):
             for part, given in zip(lanes, own[:-1] if own else (), strict=False):
                 part[..., b] = given
