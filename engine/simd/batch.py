@@ -18,7 +18,7 @@ from .ticks import ENDED, GOING, LANE, MOVED, RATE, RESTARTED, ROWS, STEP, WAITI
 from .vector import COUNT, REAL, WHOLE, lane_zeros
 
 LEAST = 2  # runs of a kind for which a batch pays: eight lanes cost about as much as one and a half runs alone
-STEPS = 100  # of a trail: lanes that have made these wait to be followed
+STEPS = 50  # of a trail: lanes that have made these wait to be followed
 TICKS = 20_000  # between two looks at the clock and at Ctrl-C: a tenth of a second
 # of the whole numbers these decide nothing within the vectors
 OWN = ("at_rest", "max_newton", "max_releases", "loop_release", "end_at")
@@ -52,7 +52,9 @@ class Machine:
         room = STEPS if run.trail.followed else 0
         self.followers = Followers(run, periods) if run.trail.followed else None
         steps = COUNT, room
-        self.trail = Trail(np.zeros((*steps, 3)), np.zeros((*steps, s, n, 6)), np.zeros((*steps, s, n, 4)))
+        self.trail = Trail(
+            np.zeros((*steps, 3)), np.zeros((*steps, s - 1, n, col.KAPPA)), np.zeros((*steps, s - 1, n, 2))
+        )
         for b in range(COUNT):
             self._fill(b, run)
 

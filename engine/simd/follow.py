@@ -37,20 +37,25 @@ TIME, RATE, STAGE, BEGUN, BUSY, ENDED, LENGTH = range(7)  # rows of numbers; len
 
 
 @kernel
-def side_by_side(rows, step, stage, first, end, target):
-    """Columns first to end of a stage of every lane into target (n, w, COUNT), as numbers; rows (COUNT, l, s, n, w).
+def stage_of(rows, b, step, stage):
+    """Where a lane is in its trail (COUNT, l, s - 1, n, w): (n, w), any where it has no step left."""
+    return rows[b, min(step[b], rows.shape[1] - 1), max(stage[b], 1) - 1]
+
+
+@kernel
+def side_by_side(rows, step, stage, target, first):
+    """The stages of all lanes into the columns from `first` on of target (n, m, COUNT), as numbers.
 
     All lanes of a number at once: each line of memory is written once.
     """
-    most = rows.shape[1] - 1
-    a, b = rows[0, min(step[0], most), stage[0]], rows[1, min(step[1], most), stage[1]]
-    c, d = rows[2, min(step[2], most), stage[2]], rows[3, min(step[3], most), stage[3]]
-    e, f = rows[4, min(step[4], most), stage[4]], rows[5, min(step[5], most), stage[5]]
-    g, h = rows[6, min(step[6], most), stage[6]], rows[7, min(step[7], most), stage[7]]
-    for k in range(target.shape[0]):
-        for i in range(first, end):
-            put_row(target[k, i], 0, (a[k, i], b[k, i], c[k, i], d[k, i], e[k, i]))
-            put(target[k, i], 5, (f[k, i], g[k, i], h[k, i]))
+    a, b = stage_of(rows, 0, step, stage), stage_of(rows, 1, step, stage)
+    c, d = stage_of(rows, 2, step, stage), stage_of(rows, 3, step, stage)
+    e, f = stage_of(rows, 4, step, stage), stage_of(rows, 5, step, stage)
+    g, h = stage_of(rows, 6, step, stage), stage_of(rows, 7, step, stage)
+    for k in range(rows.shape[3]):
+        for i in range(rows.shape[4]):
+            put_row(target[k, first + i], 0, (a[k, i], b[k, i], c[k, i], d[k, i], e[k, i]))
+            put(target[k, first + i], 5, (f[k, i], g[k, i], h[k, i]))
 
 
 @kernel
@@ -76,8 +81,8 @@ def plan_turn(records, tables, trail, trails, step, stage, turn):
         rate, after = plan_stage(p, tables[b], stage[b], euler, row[col.STEP], 0.0, a[:, b], w[:, b])
         numbers[RATE, b], numbers[TIME, b], numbers[STAGE, b] = rate, row[col.BEGIN] + after, float(stage[b])
     if busy > 0:
-        side_by_side(trail.Y, step, stage, 0, planar_col.KAPPA, Y)
-        side_by_side(trail.K, step, stage, planar_col.VX, K.shape[1], K)
+        side_by_side(trail.Y, step, stage, Y, 0)
+        side_by_side(trail.K, step, stage, K, planar_col.VX)
     return busy
 
 

@@ -19,7 +19,7 @@ from .. import record as col
 from ..arrays import Stage
 from ..compiled import kernel
 from ..dimensions import shape
-from ..planar.columns import KAPPA, VX
+from ..planar.columns import VX
 from ..planar.state import largest_turn
 from ..time import steps
 from ..time.newton import GOING_ON, iterate, judge
@@ -109,14 +109,14 @@ def sample_lanes(records, tables, states, lanes, arrays, ends, samples, profiles
 def record_stages(states, lanes, numbers, Y, K_new, trail):
     """Solved stages into the trails of their lanes (`engine.arrays.Trail`); kept or not, as the step will be.
 
-    Y (n, 6, COUNT), K_new (n, 4, COUNT): stages and their rates, as numbers. No perturbation asks for curvature or the
-    rates of q.
+    Y (n, 6, COUNT), K_new (n, 4, COUNT): stages and their rates, as numbers. No perturbation asks for curvature, rates
+    of q or stage 0, the last one of the step before: the trail, which goes through memory, is without them.
     """
     for b in range(COUNT):
         if numbers[SOLVED, b] != 0.0:
-            at, stage = states[b].trail, lanes[b].stage
-            copy_columns(trail.Y[b, at, stage], Y[:, :, b], 0, KAPPA)
-            copy_columns(trail.K[b, at, stage], K_new[:, :, b], VX, K_new.shape[1])
+            at, stage = states[b].trail, lanes[b].stage - 1
+            copy_columns(trail.Y[b, at, stage], Y[:, :, b], 0)
+            copy_columns(trail.K[b, at, stage], K_new[:, :, b], VX)
 
 
 @kernel
