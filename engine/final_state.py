@@ -31,7 +31,7 @@ class FinalState:
     C, K                     its conserved variables and their rates (n, 4 or 6)
     samples (m, 12)          rows of the output from the last sample of the run on
     profiles (m', n, 6)      the same of the profiles
-    vectors (3, k, n, 4)     perturbations, their rates, first guesses of the water's change
+    vectors (2, k, n, 4)     perturbations and their rates
     lateral (2, n, 2)        the perturbation across the plane and its rates
     growth (p, k + 2)        nats of the periods that have not ended: of the k, and across; loop released
     """

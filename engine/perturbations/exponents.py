@@ -25,26 +25,26 @@ SEED = 20  # of the first perturbations: any will do, they turn to the fastest g
 def carry(p, tables, period, count, trail, along, across):
     """Carry perturbations through the first `count` steps of a Trail.
 
-    along: vectors, rates (k, n, 4), dC and dK, orthonormal in C on entry and exit, waters (k, n, 4), first guesses of
-    dF, and growth (periods, k), nats; across: weights, vector, rates (n, 2), C = (q_y, V_y) of length one by these
-    weights on entry and exit, and growth (periods,), nats; None where there are none. What each step adds to a growth
-    goes to the period (s) in which it ends (the last, beyond the end).
+    along: vectors, rates (k, n, 4), dC and dK, orthonormal in C on entry and exit, and growth (periods, k), nats;
+    across: weights, vector, rates (n, 2), C = (q_y, V_y) of length one by these weights on entry and exit, and growth
+    (periods,), nats; None where there are none. What each step adds to a growth goes to the period (s) in which it ends
+    (the last, beyond the end).
     """
     s, n = trail.Y.shape[1], trail.Y.shape[2]
     X, F, Q = np.zeros((n, 2)), np.zeros((n, 4)), np.zeros((n, col.NODE_WIDTH))
     a, w = np.empty(s), np.empty(3)
     moving_water = water_moves(p)
     if along is not None:
-        vectors, rates, waters, growth = along
+        vectors, rates, growth = along
         number = vectors.shape[0]
         work = Work(X, F, Q, np.zeros((n, col.WITH_INVERSE)), np.zeros((n, 6)), np.zeros((n, 4)))
-        water = Water(np.zeros((n, 8)), np.zeros((n, 2)), np.zeros((n, 2)), np.zeros((n, 4)), np.zeros((n, 4)))
-        dKs, dC_tilde, dCs = np.zeros((number, s, n, 4)), np.zeros((n, 4)), np.zeros((number, n, 4))
+        water = Water(np.zeros((n, 8)), np.zeros((n, 3)))
+        dKs, dC_tilde, dC = np.zeros((number, s, n, 4)), np.zeros((n, 4)), np.zeros((n, 4))
         lengths = np.empty(number)
     if across is not None:
         weights, vector, vector_rates, vector_growth = across
         H, E = np.zeros((n, COEFFICIENTS)), np.zeros((n, WIDTH))
-        dC, known, dK = np.zeros((n, 2)), np.zeros((n, 2)), np.zeros((s, n, 2))
+        dC_y, known, dK = np.zeros((n, 2)), np.zeros((n, 2)), np.zeros((s, n, 2))
     for step in range(count):
         t, dt, euler = trail.T[step, BEGIN], trail.T[step, STEP], trail.T[step, KIND] > 0.0
         if along is not None:
@@ -60,24 +60,23 @@ def carry(p, tables, period, count, trail, along, across):
                 linearise(p, tables, base, work, water)
                 for v in range(number):
                     known_part(a, so_far, vectors[v], dKs[v], dC_tilde)
-                    tangent_stage(p, tables, base, True, dC_tilde, waters[v], dCs[v], work, water)
-                    stage_rate(rate, dCs[v], dC_tilde, dKs[v, i])
+                    tangent_stage(p, tables, base, dC_tilde, dC, dKs[v, i], work, water)
+                    if i == s - 1:
+                        copy_into(vectors[v], dC)
+                        copy_into(rates[v], dKs[v, i])
             else:
                 shape(p, tables, base.Y, Q, X)
                 flow(p, tables, base.t, 1.0, X, F)
             if across is not None:
                 known_part(a, so_far, vector, dK, known)
-                lateral_stage(p, tables, base, X, Q, F, known, H, E, dC)
-                stage_rate(rate, dC, known, dK[i])
+                lateral_stage(p, tables, base, X, Q, F, known, H, E, dC_y)
+                stage_rate(rate, dC_y, known, dK[i])
         if along is not None:
-            for v in range(number):
-                copy_into(vectors[v], dCs[v])
-                copy_into(rates[v], dKs[v, s - 1])
             orthonormalise(p.per_speed * p.per_speed, True, vectors, rates, lengths)
             for v in range(number):
                 growth[period_of(t + dt, period, growth.shape[0]), v] += np.log(lengths[v])
         if across is not None:
-            copy_into(vector, dC)
+            copy_into(vector, dC_y)
             copy_into(vector_rates, dK[s - 1])
             length = normalise(weights, True, vector, vector_rates)
             vector_growth[period_of(t + dt, period, vector_growth.shape[0])] += np.log(length)
@@ -107,7 +106,7 @@ class Followed:
             vectors[0, 2:] = 0.0  # the anchor does not move
             basis = np.linalg.qr(vectors.reshape(4 * n, self.count))[0]
             vectors = np.ascontiguousarray(basis.T).reshape(self.count, n, 4)
-            self.along = vectors, np.zeros_like(vectors), np.zeros_like(vectors), self.nats
+            self.along = vectors, np.zeros_like(vectors), self.nats
         if self.sideways:
             weights = energy_weights(record, tables)
             vector = np.random.default_rng(SEED).normal(size=(n, 2)) / np.sqrt(weights)
@@ -121,7 +120,7 @@ class Followed:
         """Take over the perturbations of a run that carried as many."""
         own, sideways = start.vectors.size > 0, start.lateral.size > 0
         if own and len(start.vectors[0]) == self.count:
-            for part, given in zip(self.along[:3], start.vectors, strict=True):
+            for part, given in zip(self.along[:2], start.vectors, strict=True):
                 part[:] = given
             self.nats[self.first : self.first + 1] = start.growth[:, : self.count]
         if sideways and self.sideways:
@@ -137,7 +136,7 @@ class Followed:
             return np.empty(0), np.empty(0), np.empty(0)
         at = self.complete(state)
         growth = np.array([[*self.nats[at], self.lateral_nats[at], self.released[at]]])
-        along = np.array(self.along[:3]) if self.count else np.empty(0)
+        along = np.array(self.along[:2]) if self.count else np.empty(0)
         return along, np.array(self.across[1:3]) if self.sideways else np.empty(0), growth
 
     def follow(self, record, tables, state):

@@ -14,11 +14,11 @@ from ..record import SAMPLE_WIDTH, STATE
 from ..run import Run
 from .cover import goes_in_lanes
 from .follow import Followers, lane_work
-from .ticks import LANE, MOVED, RATE, RESTARTED, ROWS, STEP, Arrays, advance
+from .ticks import ENDED, GOING, LANE, MOVED, RATE, RESTARTED, ROWS, STEP, WAITING, Arrays, advance
 from .vector import COUNT, REAL, WHOLE, lane_zeros
 
 LEAST = 2  # runs of a kind for which a batch pays: eight lanes cost about as much as one and a half runs alone
-STEPS = 50  # of a trail before it is followed: lanes with fewer by then wait for the others
+STEPS = 50  # of a trail: lanes that have made these wait to be followed
 TICKS = 20_000  # between two looks at the clock and at Ctrl-C: a tenth of a second
 # of the whole numbers these decide nothing within the vectors
 OWN = ("at_rest", "max_newton", "max_releases", "loop_release", "end_at")
@@ -53,7 +53,9 @@ class Machine:
         room = STEPS if run.trail.followed else 0
         self.followers = Followers(run, periods) if run.trail.followed else None
         steps = COUNT, room
-        self.trail = Trail(np.zeros((*steps, 3)), np.zeros((*steps, s, n, 6)), np.zeros((*steps, s, n, 4)))
+        self.trail = Trail(
+            np.zeros((*steps, 3)), np.zeros((*steps, s - 1, n, col.KAPPA)), np.zeros((*steps, s - 1, n, 2))
+        )
         for b in range(COUNT):
             self._fill(b, run)
 
@@ -85,7 +87,12 @@ class Machine:
             self.followers.load(b, run)
         self.spent[b] = 0
         self.lanes[b] = 0
-        self.lanes[b]["active"], self.lanes[b]["goal"] = 1, run.goal
+        self.lanes[b]["goal"] = run.goal
+        self._let_go(b)
+
+    def _let_go(self, b):
+        """The lane begins its next trial."""
+        self.lanes[b]["active"] = GOING
         self.arrays.numbers[MOVED, b] = self.arrays.numbers[RESTARTED, b] = 1.0
 
     def unload(self, b):
@@ -116,8 +123,8 @@ class Machine:
             self.counts, self.arrays, self.work,
         )  # fmt: skip
         taken = [b for b, run in enumerate(self.runs) if run is not None]
-        ended = [b for b in taken if self.lanes[b]["active"] == 0]
-        if self.followers is not None and (ended or self.states["trail"].max() == STEPS):
+        ended = [b for b in taken if self.lanes[b]["active"] == ENDED]
+        if self.followers is not None and (ended or (self.lanes["active"] == WAITING).any()):
             self._follow(taken)
         for b in taken:
             self.runs[b].wall_s += (time.perf_counter() - began) / len(taken)
@@ -134,6 +141,8 @@ class Machine:
             if trails[b] < STEPS:
                 for part in self.trail:
                     part[b, 0] = part[b, trails[b]]
+            if self.lanes[b]["active"] == WAITING:
+                self._let_go(b)
         self.states["trail"] = 0
 
 
