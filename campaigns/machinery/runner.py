@@ -262,8 +262,8 @@ def _carried_on(plan: Plan, jobs: Sequence[Job], told: Callable[[float], None]) 
                     if group[i][1].check:
                         there[job.key] = before, _described(plan, job, before, check=part)
                     else:
-                        whole = part if before is None else before.followed_by(part)
-                        there[job.key] = whole, _kept(plan, job, whole)
+                        joined = part if before is None else before.followed_by(part)
+                        there[job.key] = joined, _kept(plan, job, joined)
                     left.append(job)
             except CampaignStopped:
                 raise
