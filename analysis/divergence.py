@@ -25,6 +25,7 @@ from analysis.sampling import checked_count, checked_positive, checked_series, l
 
 ROSENSTEIN = "Rosenstein, Collins & De Luca 1993"
 KANTZ = "Kantz 1994"
+LEAST_SAMPLES = 200
 CENTRES = 2000
 LEAST_CENTRES = 100
 BLOCKS = 8
@@ -137,8 +138,8 @@ def _estimated(method, series, step_s, distances, delay, dimension, theiler, hor
     drawn with a fixed seed), delay, window and horizon it makes distances (k + 1, centres), or the sentence that says
     why there are none; what it chose on its way it leaves in `used`, for the details."""
     x, step_s = checked_series(series), checked_positive(step_s, "step_s")
-    if len(x) < 500 or np.ptp(x) == 0.0:
-        return no_exponent(method, f"500 samples of a series that moves are needed, given {len(x)}")
+    if len(x) < LEAST_SAMPLES or np.ptp(x) == 0.0:
+        return no_exponent(method, f"{LEAST_SAMPLES} samples of a series that moves are needed, given {len(x)}")
     embedding = choose_embedding(x, delay)
     lag, period = embedding.lag, embedding.mean_period
     m = embedding.dimension if dimension is None else checked_count(dimension, "dimension")

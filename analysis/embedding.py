@@ -268,7 +268,8 @@ def noise_level(series: ArrayLike, delay: int) -> float:
     The first serves flows, the second maps. What the fit cannot follow (curvature, too few neighbours) counts as noise,
     so a clean map shows a small number, not 0. Slow or coloured noise looks like signal to both.
 
-    series (n,)    any unit; delay [samples]
+    series (n,)    any unit
+    delay          [samples]; a short record (100 samples) takes one that leaves it enough neighbours
     Returns the level in the unit of the series.
     Raises ValueError for values that are not finite or a series too short for one neighbourhood.
     Source: the local fit is the residual of local linear noise reduction, Kantz & Schreiber, Nonlinear Time Series
@@ -281,9 +282,10 @@ def noise_level(series: ArrayLike, delay: int) -> float:
     for order in range(1, 9):
         difference = np.diff(difference)
         level = min(level, np.median(np.abs(difference)) / (0.6745 * np.sqrt(comb(2 * order, order))))
-    vectors = delay_vectors(x, delay, 2 * NOISE_REACH + 1)
+    reach = 2 * NOISE_REACH
+    neighbours = 6 * (reach + 1)
+    vectors = delay_vectors(x, max(1, min(delay, (len(x) - 2 * neighbours) // reach)), reach + 1)
     middle, others = vectors[:, NOISE_REACH], np.delete(vectors, NOISE_REACH, axis=1)
-    neighbours = 6 * vectors.shape[1]
     if len(vectors) < 2 * neighbours:
         raise ValueError(f"noise level: {2 * neighbours} delay vectors at least are needed, given {len(vectors)}")
     rows = np.random.default_rng(1).choice(len(vectors), min(NOISE_CENTRES, len(vectors)), replace=False)

@@ -8,8 +8,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from analysis.line_spectra import spectral_lines
+from analysis.memory import bands_in_turn, long_memory
 from analysis.neighbours import neighbour_growth
-from analysis.stationarity import record_drift
+from analysis.section_maps import section_lyapunov
+from analysis.stationarity import outlying, record_drift
 from analysis.surrogates import NULLS, SHARE, null_ranks
 from analysis.zero_one import zero_one_test
 
@@ -19,16 +21,15 @@ if TYPE_CHECKING:
     from analysis.verdicts import Verdict
 
 IRREGULAR = 0.9
-LEAST_ADVANTAGE = 0.3
+LEAST_ADVANTAGE = 0.2
 STAYS = 0.35
 NEAR = 0.35
 # A line nearer than this to j/N, in turns over the record, is one with period N as far as the record goes.
 LEAST_TURN = 0.25
 # What a line must carry: the weaker ones ride on noise.
 LEAST_POWER = 0.01
-# Bands of a section: how many at most, and the points each must have for the 0-1 test.
-MOST_BANDS = 8
-BAND_POINTS = 100
+# The memory of chaos: what its scatter in m points, and what slow decay leaves.
+SCATTERED, FORGOTTEN = 7.0, 0.25
 
 
 @dataclass(frozen=True)
@@ -73,16 +74,19 @@ def read_evidence(text: str) -> list[tuple[str, str, str, str]]:
     return found
 
 
-def wandering_evidence(section: np.ndarray, max_period: int, surrogates: int, seed: int) -> list[Evidence]:
-    """Of a motion that does not repeat: drift, neighbours, incommensurate line, 0-1 test; unless it drifts the nulls,
-    of the whole record and, where everything so far speaks for chaos, of its halves."""
+def wandering_evidence(
+    section: np.ndarray, exponents: list[Evidence], max_period: int, surrogates: int, seed: int
+) -> list[Evidence]:
+    """Of a motion that does not repeat: drift, neighbours, incommensurate line, 0-1 test, memory; and the nulls, where
+    these and the exponents do not speak against chaos already."""
     growth = growth_evidence(section)
     line, irregular = incommensurate_evidence(section, max_period), irregular_evidence(section, seed)
-    found = [drift_evidence(section, growth), growth, line, irregular]
-    if not found[0].passed:
-        found += null_evidence(section, surrogates, seed)
-        found += half_evidence(section, surrogates, seed, all(item.passed for item in found[3:]))
-    return found
+    found = [drift_evidence(section, growth), growth, line, irregular, memory_evidence(section)]
+    if not found[0].passed and all(item.passed for item in (*exponents, *found[3:])):
+        return found + null_evidence(section, surrogates, seed)
+    reason = "not asked: the motion is not chaotic by the tests before"
+    names = [name + what for name in NULLS for what in ("", ", margin")]
+    return found + [Evidence(name, np.nan, np.nan, None, reason) for name in names]
 
 
 def period_evidence(estimate: PeriodEstimate) -> list[Evidence]:
@@ -97,6 +101,16 @@ def period_evidence(estimate: PeriodEstimate) -> list[Evidence]:
     multiplier = float(estimate.multiplier[n - 1])
     sentence = f"factor from one step over {n} period(s) to the next; independent errors have -1/2"
     return [found, Evidence("contraction", multiplier, 1.0, bool(abs(multiplier) < 1.0), sentence)]
+
+
+def outlier_evidence(series: np.ndarray, name: str = "samples") -> list[Evidence]:
+    """Samples far outside the rest, where there are any: no verdict can be given then."""
+    far = outlying(series)
+    if len(far) == 0:
+        return []
+    first = f"the first in row {far[0] + 1} ({np.ravel(series[far[0]])[0]:.6g})"
+    sentence = f"{len(far)} of {len(series)} {name} lie far outside the rest, {first}: cut or repair the record there"
+    return [Evidence("outliers", float(len(far)), 0.0, False, sentence)]
 
 
 def exponent_evidence(tangent: Exponent | None, wolf: Exponent | None) -> Evidence:
@@ -155,7 +169,7 @@ def irregular_evidence(section: np.ndarray, seed: int) -> Evidence:
     Where the motion visits N bands in turn, the map of N periods has each of them for a section of its own. Without
     that, the jump from band to band hides the spreading of the walk: chaos in two bands wants twice as many periods.
     """
-    bands = _bands_in_turn(section)
+    bands = bands_in_turn(section)
     places = [(first, j) for first in range(bands) for j in range(section.shape[1])]
     tests = [zero_one_test(section[first::bands, j], seed=[seed, j]) for first, j in places]
     values = np.array([test.value for test in tests])
@@ -167,20 +181,29 @@ def irregular_evidence(section: np.ndarray, seed: int) -> Evidence:
     return Evidence("0-1 test", value, IRREGULAR, bool(value > IRREGULAR), sentence)
 
 
-def _bands_in_turn(section):
-    """The least N <= 8 of which the means of every N-th point carry half of a coordinate's variance, 1 without any.
+def memory_evidence(section: np.ndarray, name: str = "memory") -> Evidence:
+    """The motion forgets where it was: what tori and strange nonchaotic attractors do not."""
+    value, most = long_memory(section), max(FORGOTTEN, SCATTERED / np.sqrt(len(section)))
+    sentence = "largest correlation with the motion an eighth to half of the record later; chaos has to forget"
+    return Evidence(name, value, most, bool(value < most) if np.isfinite(value) else None, sentence)
 
-    One coordinate that tells the bands apart is enough; N is looked at only where every band has 100 points.
-    """
-    variance = section.var(axis=0)
-    z = (section - section.mean(axis=0))[:, variance > 0.0] / np.sqrt(variance[variance > 0.0])
-    for n in range(2, MOST_BANDS + 1):
-        if len(z) < n * BAND_POINTS or z.shape[1] == 0:
-            break
-        means = np.array([z[first::n].mean(axis=0) for first in range(n)])
-        if np.max(np.mean(means**2, axis=0)) > 0.5:
-            return n
-    return 1
+
+def exponents_evidence(
+    section: np.ndarray, tangent: Exponent | None, wolf: Exponent | None
+) -> tuple[list[Evidence], list[Evidence]]:
+    """All that have to be positive: those given, and, without one of the tangent dynamics, that of the map fitted to
+    the section (by three errors, and by one in each half)."""
+    given = [] if tangent is None and wolf is None else [exponent_evidence(tangent, wolf)]
+    if tangent is not None and tangent.found:
+        return given, []
+    name = "exponent of the section" if given else "exponent"
+    whole, *halves = section_lyapunov(section)
+    if not all(one.found for one in (whole, *halves)):
+        return given, [Evidence(name, whole.value, 0.0, None, f"no exponent: {whole.reason}")]
+    passed = whole.value > 3.0 * whole.error and all(one.value > one.error for one in halves)
+    said = " and ".join(f"{one.value:.3f} ± {one.error:.3f}" for one in halves)
+    sentence = f"bits per period, by the derivative of the section's map; ± {whole.error:.3f}; in the halves {said}"
+    return given, [Evidence(name, whole.value, 3.0 * whole.error, bool(passed), sentence, whole.error)]
 
 
 def null_evidence(section: np.ndarray, surrogates: int, seed: int | list[int]) -> list[Evidence]:
@@ -190,30 +213,13 @@ def null_evidence(section: np.ndarray, surrogates: int, seed: int | list[int]) -
         passed, how = None, "too short, or nothing moves: no prediction gain"
         far = how
         if rank.above is not None:
-            how = f"share of {surrogates} surrogates below the record's prediction gain of {rank.statistic:.2f} nats"
+            drawn = len(rank.surrogates)
+            lost = f" (of {surrogates}: the rest could not change it)" if drawn < surrogates else ""
+            how = f"share of {drawn} surrogates{lost} below the record's prediction gain of {rank.statistic:.2f} nats"
             far = "nats between the prediction gain and the surrogates' median"
             passed = rank.advantage > LEAST_ADVANTAGE
         items.append(Evidence(name, rank.share_below, SHARE, rank.above, how))
         items.append(Evidence(f"{name}, margin", rank.advantage, LEAST_ADVANTAGE, passed, far))
-    return items
-
-
-def half_evidence(section: np.ndarray, surrogates: int, seed: int, asked: bool) -> list[Evidence]:
-    """0-1 test and both ranks in each half; the lesser value of the two halves is kept."""
-    names = ("0-1 test", *NULLS)
-    if not asked:
-        reason = "not asked: the whole record fails already"
-        return [Evidence(f"{name}, halves", np.nan, np.nan, None, reason) for name in names]
-    halves = [
-        [irregular_evidence(half, seed), *null_evidence(half, surrogates, [seed, 1 + i])[::2]]
-        for i, half in enumerate((section[: len(section) // 2], section[len(section) // 2 :]))
-    ]
-    items = []
-    for first, second in zip(*halves, strict=True):
-        passed = None if None in (first.passed, second.passed) else first.passed and second.passed
-        sentence = f"first half {first.value:.3f}, second half {second.value:.3f}"
-        least = float(np.min([first.value, second.value]))
-        items.append(Evidence(f"{first.name}, halves", least, first.threshold, passed, sentence))
     return items
 
 

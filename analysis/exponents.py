@@ -55,6 +55,11 @@ class Exponent:
         object.__setattr__(self, "error", float(self.error) if np.isfinite(self.value) else np.nan)
         object.__setattr__(self, "details", MappingProxyType(dict(self.details)))
 
+    def __str__(self) -> str:
+        if not self.found:
+            return f"none: {self.reason}"
+        return f"{self.value:.3f} ± {self.error:.3f} {self.unit}, by {self.method}"
+
     def __reduce__(self):
         # Read-only mappings do not pickle, and records travel between processes.
         return Exponent, (self.value, self.error, self.unit, self.method, self.reason, dict(self.details))

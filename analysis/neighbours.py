@@ -107,10 +107,16 @@ def _distance(state, horizon, theiler):
     """d(n) for n = 0 ... horizon."""
     pool = state[: len(state) - horizon]
     partner = nearest_outside(pool, theiler)[0][:, 0]
-    # A record that repeats itself to the last digit has distance 0, whose logarithm would be its only value.
-    least = 1e-14 * np.sqrt(state.shape[1])
+    # The logarithm of a distance needs a least one: half a step of a record that takes few values, else rounding.
+    least = np.sqrt(state.shape[1]) * max(1e-14, 0.5 * min(_resolution(column) for column in state.T))
     logarithm = [
         np.mean(np.log(np.maximum(np.linalg.norm(state[n : n + len(pool)] - state[partner + n], axis=1), least)))
         for n in range(horizon + 1)
     ]
     return np.exp(logarithm)
+
+
+def _resolution(column):
+    """Least distance of two different values of a column (n,) in standard deviations; beyond rounding."""
+    apart = np.diff(np.sort(column))
+    return np.min(apart, initial=np.inf, where=apart > 64 * np.finfo(float).eps * np.abs(column).max())

@@ -20,6 +20,7 @@ LEAST_POINTS = 40
 MARCH = 0.97
 LEAST_CHANGE = 0.1
 COLLAPSE = 3.0
+FAR = 5.0  # ranges of the rest
 
 
 @dataclass(frozen=True)
@@ -81,6 +82,30 @@ def record_drift(section: ArrayLike) -> Drift:
         signs.append(f"its first eighth is {collapse:.2g} times wider than any of the later half")
     reason = "; ".join(signs) if signs else "spread and mean of eight blocks show no steady change"
     return Drift(bool(signs), spread_change, spread_march, mean_change, mean_march, collapse, reason)
+
+
+def outlying(series: ArrayLike) -> np.ndarray:
+    """Rows of samples far outside the rest, as a -9999 in place of a missing value.
+
+    At most one sample in a hundred of a column on either side, apart from all others by more than five times the range
+    that these have.
+
+    series (n,) or (n, d)   any unit
+    Returns the rows (k,), in order; empty where there are none. Raises ValueError for values that are not finite.
+    """
+    x = checked_columns(series)
+    far = np.zeros(len(x), dtype=bool)
+    most = max(1, len(x) // 100)
+    for column in x.T:
+        order = np.argsort(column, kind="stable")
+        value, low, high = column[order], 0, len(x)
+        for j in range(1, most + 1):
+            if value[j] - value[j - 1] > FAR * (value[-most - 1] - value[j]):
+                low = j
+            if value[-j] - value[-j - 1] > FAR * (value[-j - 1] - value[most]):
+                high = len(x) - j
+        far[order[:low]] = far[order[high:]] = True
+    return np.flatnonzero(far)
 
 
 def _line(values):

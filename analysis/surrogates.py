@@ -1,4 +1,4 @@
-"""Chaos or a null hypothesis? Surrogate records, and the statistic in which chaos beats them: the gain of prediction.
+"""Chaos or a null hypothesis? Surrogate records, and the rank of a record among them.
 
 Two nulls that chaos has to beat, both for a section (one row a forcing period) or any evenly sampled record:
 
@@ -14,42 +14,28 @@ Why not others: IAAFT alone is beaten by any motion of many lines with bounded n
     add noise of a chosen radius to a motion that has its own already: the record is then smoother than its surrogates
     whether it is chaotic or not, and the radius decides the outcome.
 
-The gain of prediction says how much better a nonlinear predictor knows the next point of a section than a linear one.
-On a section of a deterministic motion the next point is a function of the present one. Two predictors of it, each
-tested on points that it was not fitted to:
-
-    linear    one affine map for all points, least squares; each point left out of its own fit in turn
-    local     one affine map per point, least squares over its nearest neighbours, Theiler's window left out
-
-    gain = ln(rms error of the linear)/(rms error of the local)          [nats]
-
-A linear stochastic process has no use for neighbourhoods and pays for fewer data: its gain is below 0, whatever its
-spectrum. A chaotic map folds, so that its gain is of the order of the nats of precision that the record resolves. The
-gain is also high for periodic and quasi-periodic motions with or without noise: what it says about chaos is said by its
-rank among the surrogates that keep the lines.
+The statistic is the gain of prediction (`section_maps`). A rank test that can no longer be won is stopped.
 """
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from analysis.line_spectra import spectral_lines
-from analysis.neighbours import nearest_outside
-from analysis.sampling import checked_columns, checked_count, checked_series, in_deviations, locked, states_of
+from analysis.sampling import checked_columns, checked_count, checked_series, locked
+from analysis.section_maps import prediction_gain
 
 LEAST_POINTS = 32
 SHARE = 0.95
 Seed = int | list[int]
 # The order mostly stops changing by 50; with several columns it may go on over pairs of nearly equal values.
 MOST_ROUNDS = 100
-LEAST_PER_COORDINATE = 8
-NEIGHBOURS_PER_COEFFICIENT = 2
 NULLS = "linear null", "noisy-periodic null"
 # More points make a map no clearer, and surrogates of them take long.
 NULL_POINTS = 1000
-# Directions in which neighbours lie this much closer than in their widest are not resolved by so few of them.
-_RIDGE = 1e-3
+AT_ONCE = 4  # surrogates made together
 
 
 @dataclass(frozen=True, eq=False)
@@ -68,22 +54,6 @@ class NullRank:
     advantage: float
     statistic: float
     surrogates: np.ndarray
-
-
-@dataclass(frozen=True)
-class PredictionGain:
-    """Errors of two predictors of the next point, and their ratio.
-
-    gain           ln(linear_error/local_error) [nats]; NaN where the test does not apply
-    linear_error   rms over points and coordinates, each coordinate in units of its standard deviation
-    local_error    the same for the local maps
-    reason         one sentence
-    """
-
-    gain: float
-    linear_error: float
-    local_error: float
-    reason: str
 
 
 def iaaft_surrogates(series: ArrayLike, count: int = 1, seed: Seed = 0) -> np.ndarray:
@@ -119,6 +89,16 @@ def noisy_periodic_surrogates(series: ArrayLike, count: int = 1, seed: Seed = 0)
     87 (2001) 188101), made by line removal; why: head of this file.
     """
     return _drawn(series, count, seed, lambda columns: spectral_lines(columns).fitted)
+
+
+def phases_at_random(scores: np.ndarray, rng: np.random.Generator) -> np.ndarray:
+    """A linear, Gaussian record (n,) of the same spectrum as `normal_scores` (n,), by random phases alone.
+
+    A record's own values in the order of this one's are its surrogate behind any monotone instrument.
+    Source: J. Theiler et al., Physica D 58 (1992) 77.
+    """
+    transform = np.fft.rfft(scores)
+    return np.fft.irfft(transform * np.exp(2j * np.pi * rng.random(len(transform))), len(scores))
 
 
 def normal_scores(series: ArrayLike) -> np.ndarray:
@@ -174,14 +154,36 @@ def null_ranks(section: np.ndarray, surrogates: int, seed: Seed) -> list[NullRan
     """
     section = section[-NULL_POINTS:]
     ranks = []
-    asked = (normal_scores(section), iaaft_surrogates), (section, noisy_periodic_surrogates)
-    for i, (points, make) in enumerate(asked):
-        gain, drawn = prediction_gain(points).gain, [np.nan]
-        if np.isfinite(gain):
-            drawn = [prediction_gain(one).gain for one in make(points, surrogates, [*np.atleast_1d(seed), 100 + i])]
-        none = NullRank(None, np.nan, np.nan, np.nan, np.empty(0))
-        ranks.append(rank_among(gain, drawn) if np.all(np.isfinite(drawn)) else none)
+    for i, points in enumerate((normal_scores(section), section)):
+        gain = prediction_gain(points).gain
+        kept = spectral_lines(points).fitted if i and np.isfinite(gain) else 0.0
+        rng = np.random.default_rng([*np.atleast_1d(seed), 100 + i])
+        ranks.append(rank_until_lost(gain, _gains(points, kept, rng), surrogates))
     return ranks
+
+
+def _gains(points, kept, rng):
+    """Prediction gains of surrogates of what is left of a section beside the part `kept`, one after another."""
+    while True:
+        for one in kept + _iaaft(points - kept, AT_ONCE, rng):
+            yield prediction_gain(one).gain
+
+
+def rank_until_lost(statistic: float, drawn: Iterator[float], surrogates: int, share: float = SHARE) -> NullRank:
+    """`rank_among` of a statistic among `surrogates` values of an iterator, which is asked for no more of them once so
+    many are as large that the share cannot be reached; NaN where the statistic or one drawn is none."""
+    most = np.floor((1.0 - share) * (surrogates + 1) + 1e-9) - 1.0  # that may be as large as the record's
+    found = []
+    while np.isfinite(statistic) and len(found) < surrogates and np.sum(np.array(found) >= statistic) <= most:
+        found.append(next(drawn))
+        if not np.isfinite(found[-1]):
+            break
+    if not found or not np.isfinite(found[-1]):
+        return NullRank(None, np.nan, np.nan, np.nan, np.empty(0))
+    if len(found) == surrogates:
+        return rank_among(statistic, found, share)
+    below = np.mean(np.array(found) < statistic)
+    return NullRank(False, float(below), float(statistic - np.median(found)), statistic, locked(np.array(found)))
 
 
 def _drawn(series, count, seed, kept):
@@ -221,59 +223,3 @@ def _iaaft(columns, count, rng):
         if len(moving) == 0:
             break
     return surrogates
-
-
-def prediction_gain(section: ArrayLike, delays: int | None = None, theiler: int = 1) -> PredictionGain:
-    """Gain of local-linear over linear one-step prediction on a section (formula at the head of this file).
-
-    section (m,) or (m, d)   one row a forcing period
-    delays                   rows taken together as one state, (x_k, x_{k-1}, ...); default: as few as make a state of 3
-                             or more numbers
-    theiler                  points within this many periods of the one predicted are no neighbours of it
-    Returns a PredictionGain: NaN, with the reason, where nothing moves or the record is short: it
-    takes eight states per number in a state, and the window.
-    Raises ValueError for values that are not finite.
-    Source: E. N. Lorenz (analogues), J. Atmos. Sci. 26 (1969) 636; J. D. Farmer & J. J. Sidorowich, Phys. Rev. Lett. 59
-    (1987) 845; gain over linear prediction as a test: M. Casdagli, J. R. Stat. Soc. B 54 (1992) 303.
-    """
-    x, theiler = checked_columns(section, "section"), checked_count(theiler, "theiler", least=0)
-    z = in_deviations(x, centred=True)
-    if z.shape[1] == 0:
-        return PredictionGain(np.nan, np.nan, np.nan, "no motion: the section is one point to the last digits")
-    state = states_of(z, x.shape[1], delays)[:-1]
-    target = z[len(z) - len(state) :]
-    needed = LEAST_PER_COORDINATE * (state.shape[1] + 1) + 2 * theiler
-    if len(state) < needed:
-        wanted = f"{needed + state.shape[1] // z.shape[1]} points are needed for a state of {state.shape[1]} numbers"
-        return PredictionGain(np.nan, np.nan, np.nan, f"too short: {wanted}, given {len(x)}")
-    linear, local = _linear_error(state, target), _local_error(state, target, theiler)
-    # Errors at rounding cannot be compared: a clean period-N motion is predicted to the last digit by both.
-    gain = float(np.log(max(linear, 1e-9) / max(local, 1e-9)))
-    reason = f"errors {linear:.3g} linear and {local:.3g} local, of a standard deviation: a gain of {gain:.2f} nats"
-    return PredictionGain(gain, linear, local, reason)
-
-
-def _linear_error(state, target):
-    """Leave-one-out rms error of the affine least-squares map: residual/(1 - leverage)."""
-    design = np.hstack([np.ones((len(state), 1)), state])
-    u, s, _ = np.linalg.svd(design, full_matrices=False)
-    u = u[:, s > 1e-9 * s[0]]
-    residual = target - u @ (u.T @ target)
-    leverage = np.minimum(np.sum(u**2, axis=1, keepdims=True), 1.0 - 1e-6)
-    return float(np.sqrt(np.mean((residual / (1.0 - leverage)) ** 2)))
-
-
-def _local_error(state, target, theiler):
-    """rms error of the affine maps fitted to the nearest neighbours of each state, itself not among them."""
-    points, size = state.shape
-    wanted = min(NEIGHBOURS_PER_COEFFICIENT * (size + 1), points - 2 * theiler - 1)
-    near, _ = nearest_outside(state, theiler, count=wanted)
-    away = state[near] - state[:, None, :]
-    centre, mean = away.mean(axis=1, keepdims=True), target[near].mean(axis=1, keepdims=True)
-    spread = away - centre
-    square = np.einsum("pki,pkj->pij", spread, spread)
-    trace = np.trace(square, axis1=1, axis2=2)[:, None, None]
-    square = square + (_RIDGE * trace / size + 1e-24) * np.eye(size)
-    slope = np.linalg.solve(square, np.einsum("pki,pkj->pij", spread, target[near] - mean))
-    predicted = mean[:, 0] - np.einsum("pi,pij->pj", centre[:, 0], slope)
-    return float(np.sqrt(np.mean((predicted - target) ** 2)))

@@ -34,6 +34,7 @@ DIMENSIONS = 3
 LONGEST_END = 0.3
 LEAST_SETTINGS = 3
 LEAST_PERIODS = 20
+LEAST_SAMPLES = 200
 
 
 def wolf_lyapunov(
@@ -66,8 +67,8 @@ def wolf_lyapunov(
     Source: Wolf, Swift, Swinney & Vastano, Physica D 16, 285 (1985); what is ours: heads of this file, of wolf_pairs.
     """
     x, step_s = checked_series(series), checked_positive(step_s, "step_s")
-    if len(x) < 500 or np.ptp(x) == 0.0:
-        return no_exponent(METHOD, f"500 samples of a series that moves are needed, given {len(x)}")
+    if len(x) < LEAST_SAMPLES or np.ptp(x) == 0.0:
+        return no_exponent(METHOD, f"{LEAST_SAMPLES} samples of a series that moves are needed, given {len(x)}")
     embedding = choose_embedding(x, delay)
     lag, period = embedding.lag, embedding.mean_period
     if len(x) < LEAST_PERIODS * period:

@@ -3,33 +3,11 @@
 from functools import partial
 
 import engine.scene
+from engine.views import LONGEST_PERIOD, STROBE_TOLERANCE, carried, carries_tangents, state_of, verdict
 
-LONGEST_PERIOD = 16
-# Share of the motion's range. At the default solver tolerance the default sweep repeats within 0.007 or misses by 0.1.
-STROBE_TOLERANCE = 0.01
-LEAST_JUDGED = 40  # periods after the transient below which no verdict is possible: exponents are then left out
+LEAST_JUDGED = 40  # periods after the transient below which a record is not judged: exponents are then left out
+LONGEST_CHECK = 450  # wave periods at the tighter tolerance
 TANGENTS, LATERAL = "output.tangent_vectors", "output.lateral_growth"
-
-
-def state_of(columns, step_s: float, period_s: float, transient_periods: int) -> tuple[dict, list[float]]:
-    """Position (x, z) and velocity (along and across the radius) of the buoy, and what counts as 1 in each.
-
-    Positions are measured by the larger extent of the path after the transient, velocities by their larger range: so a
-    millimetre counts the same in every direction, and a buoy that turns round and round needs no other treatment.
-    """
-    import numpy as np
-
-    coordinates = {
-        "x_m": columns["x_m"],
-        "z_m": columns["z_m"],
-        "radial_mps": columns["radius_rate_mps"],
-        "lateral_mps": columns["radius_m"] * columns["angle_rate_radps"],
-    }
-    first = round(transient_periods * period_s / step_s)  # sample after the transient
-    x, z, radial, lateral = (float(np.ptp(values[first:])) for values in coordinates.values())
-    # A buoy at rest has no range of its own; a micrometre, and a micrometre a second, are rest for this one.
-    path_m, speed_mps = max(x, z, 1e-6), max(radial, lateral, 1e-6)
-    return coordinates, [path_m, path_m, speed_mps, speed_mps]
 
 
 def tighter_scene(scene):
@@ -39,28 +17,39 @@ def tighter_scene(scene):
     return engine.scene.scene_from_toml(scene.to_toml(), {key: value})
 
 
-def carried(trajectory) -> bool:
-    """Whether a run carried tangent vectors in its plane, without which there is no verdict."""
-    return trajectory.tangent is not None and trajectory.tangent.growth_nats.shape[1] > 0
-
-
 def tangent_of(trajectory, transient_periods: int):
     """The exponent of a run's tangent dynamics in bits per wave period; without a value where it carried none."""
+    import numpy as np
+
     from analysis import tangent_lyapunov
     from analysis.exponents import BITS_PER_PERIOD, no_exponent
 
     if not carried(trajectory):
         return no_exponent("tangent dynamics", "no perturbation was carried along", BITS_PER_PERIOD)
-    return tangent_lyapunov(trajectory.tangent.growth_nats, transient_periods)[0]
+    growth = trajectory.tangent.growth_nats[transient_periods:, 0]
+    return tangent_lyapunov(growth[np.isfinite(growth)])[0]
 
 
-def verdict_of(trajectory, transient_periods: int, tangent=None, simulate=None):
-    """The regime of a finished run: (Verdict, Wolf Exponent of r in bits per wave period, regime_tighter).
+def motion_of(trajectory, check=None):
+    """The Verdict on a run from rest, look by look, from its strobed state and its tangent dynamics.
 
-    tangent: its `tangent_of`; without one the verdict is that of the samples alone. A motion in three dimensions within
+    check: the run that goes on from its end at a tighter tolerance, for one that looks chaotic.
+    """
+    from analysis.exponents import BITS_PER_PERIOD, no_exponent
+
+    tighter = None
+    if check is not None:
+        tighter = no_exponent("tangent dynamics", f"the run ended: {check.status}", BITS_PER_PERIOD)
+        tighter = tangent_of(check, 0) if check.status == "ok" else tighter
+    return verdict(trajectory, tighter)
+
+
+def record_regime(trajectory, transient_periods: int, tangent=None):
+    """The verdict on the samples of a run alone, as on a record of unknown origin, and Wolf's exponent of r.
+
+    Returns (Verdict, Exponent in bits per wave period). tangent: its `tangent_of`. A motion in three dimensions within
     millimetres of the plane of the waves has its state in that plane. Every period after the transient counts, those
-    with a loop release too. simulate: to repeat a run that looks chaotic at a ten times tighter tolerance; its regime
-    is regime_tighter, None where that was not done.
+    with a loop release too.
     """
     import numpy as np
 
@@ -71,8 +60,7 @@ def verdict_of(trajectory, transient_periods: int, tangent=None, simulate=None):
     first = round(transient_periods * period_s / step_s)  # sample after the transient
     wolf = wolf_lyapunov(columns["radius_m"][first:], step_s).in_bits_per_period(period_s)
     coordinates, scale = state_of(columns, step_s, period_s, transient_periods)
-    judged = partial(
-        regime,
+    verdict = regime(
         np.column_stack(list(coordinates.values())),
         step_s,
         period_s,
@@ -83,25 +71,35 @@ def verdict_of(trajectory, transient_periods: int, tangent=None, simulate=None):
         tolerance=STROBE_TOLERANCE,
         max_period=LONGEST_PERIOD,
     )
-    verdict, tighter = judged(), None
-    if verdict.regime == "chaotic" and simulate is not None:
-        again = simulate(tighter_scene(scene), duration_s=float(columns["time_s"][-1]))
-        tighter = again.status
-        if again.status == "ok":
-            tighter = verdict_of(again, transient_periods, tangent_of(again, transient_periods))[0].regime
-        verdict = judged(tighter=tighter)
-    return verdict, wolf, tighter
+    return verdict, wolf
 
 
-def in_regular_waves(scene) -> bool:
-    """Whether it is a scene of a buoy in regular waves: motions are strobed and judged once per wave period."""
-    return scene.end.kind == "buoy" and scene.waves is not None and not scene.waves.irregular
+def going_on(scene, trajectory, row, budget: int, looks: bool):
+    """What a run whose regime is asked for does next (`campaigns.machinery.plan.Further`); None when it is told.
 
+    looks: it is looked at after 90, 135, 205, ... wave periods, `budget` at most, and perturbations are carried from
+    the first look on that finds no period; else it takes `budget` periods at once. One that is chaotic goes on at a
+    tenth of the tolerance for as long as it was judged.
+    """
+    from analysis import next_look
+    from campaigns.machinery.plan import Further
 
-def carries_tangents(scene) -> bool:
-    """Whether the engine can carry perturbations through this scene, for exponents and a verdict on its regime."""
-    implicit = scene.solver.integrator in ("esdirk43", "trbdf2")
-    return implicit and scene.tether.bending_stiffness_Nm2 > 0 and scene.motion.dimensions == 2
+    if row is None:
+        return Further(scene, min(next_look(), budget) if looks else budget)
+    done = row.get("periods")
+    if row["status"] != "ok" or row.get("regime") is None or done is None:
+        return None
+    if row["regime"] == "chaotic" and row.get("regime_tighter") is None:
+        changes = {TANGENTS: 1, LATERAL: False}
+        tighter = tighter_scene(engine.scene.scene_from_toml(scene.to_toml(), changes))
+        judged = done - row["transient_periods"]
+        return Further(tighter, min(judged, LONGEST_CHECK), trajectory, check=True)
+    if row["regime"] not in ("undecided", "transient") or row.get("regime_tighter") or done >= budget:
+        return None
+    wanted = row.get("strobed_period") is None or (trajectory is not None and carried(trajectory))
+    if wanted and carries_tangents(scene):
+        scene = engine.scene.scene_from_toml(scene.to_toml(), {TANGENTS: 1, LATERAL: True})
+    return Further(scene, min(next_look(round(done)), budget) - done, trajectory)
 
 
 def judged_scene(order, changes: dict, least: int = LEAST_JUDGED):
@@ -112,9 +110,17 @@ def judged_scene(order, changes: dict, least: int = LEAST_JUDGED):
     where the scene is faulty.
     """
     scene = order.scene(changes)
-    if scene is None or order.periods - order.transient < least or not carries_tangents(scene):
+    if scene is None or order.looks or not carries_tangents(scene) or order.periods - order.transient < least:
         return scene
     extra = {} if TANGENTS in order.changes else {TANGENTS: 1}
     if LATERAL not in order.changes and (extra or scene.output.tangent_vectors):
         extra[LATERAL] = True
     return order.scene({**changes, **extra}) if extra else scene
+
+
+def judged_job(order, labels: dict, scene):
+    """A run of a study's order: of the length asked for, or as long as its regime needs (`going_on`)."""
+    from campaigns.machinery.plan import Job
+
+    going = partial(going_on, budget=order.periods, looks=order.looks) if carries_tangents(scene) else None
+    return Job(labels, scene, order.periods, going=going, made="looks" if order.looks and going else "")

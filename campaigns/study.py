@@ -17,6 +17,7 @@ from campaigns.machinery import cli, session
 from campaigns.machinery.cli import Lengths
 from campaigns.machinery.folder import made_by
 from campaigns.machinery.plan import Job, Plan, Summary
+from campaigns.machinery.progress import stage
 from campaigns.machinery.runner import run, write_scene
 
 
@@ -39,6 +40,7 @@ class Order:
     """What a command line asks of a study: its values, what was found wrong with them, and the cases that follow.
 
     own: the study's own options, as `Study.read` leaves them. periods, transient: None and 0 without `Study.lengths`.
+    looks: whether runs take as long as their regime needs, `periods` at most, with a transient of their own (None).
     simulate: in place of engine.simulate, None for the engine.
     """
 
@@ -46,7 +48,8 @@ class Order:
     name: str = ""
     changes: dict[str, object] = field(default_factory=dict)
     periods: int | None = None
-    transient: int = 0
+    transient: int | None = 0
+    looks: bool = False
     own: Namespace = field(default_factory=Namespace)
     faults: list[str] = field(default_factory=list)
     cases: list[Job] = field(default_factory=list)
@@ -97,6 +100,7 @@ class Study:
     parameters(order) -> what its provenance says beside scene, set, periods and transient.
     runs(order) -> in place of `runner.run`; beside(order) -> what is done after the runs: functions of (plan, summary)
     that return seconds of analysis. together: whether runs may share a worker, side by side in the lanes.
+    answer(order, rows of table.csv) -> what was found, in at most eight sentences, for the terminal and answer.txt.
     jobs, backends: whether there is a choice of these. strict: whether a row that is not ok is exit code 1.
     module: its command is python -m MODULE; "" for campaigns.NAME.
     """
@@ -115,6 +119,7 @@ class Study:
     parameters: Callable[[Order], Mapping[str, object]] | None = None
     runs: Callable[[Order], Callable] | None = None
     beside: Callable[[Order], Iterable[Callable[[Plan, Summary], float]]] | None = None
+    answer: Callable[[Order, list[dict]], Iterable[str]] | None = None
     together: bool = True
     jobs: bool = True
     backends: bool = True
@@ -140,7 +145,13 @@ class Study:
             usual, whole = self.lengths, cli.whole
             most = f"(default: {usual.transient}, at most 1/{usual.share} of --periods)"
             lasting = whole(1, cli.MOST_PERIODS)
-            cli.add(what, "--periods", "N", "length of every run in wave periods", lasting, usual.periods)
+            length, default = "length of every run in wave periods", usual.periods
+            if usual.budget:
+                length += " (default: as long as it takes to tell its regime)"
+                most, default = f"with --periods {most}", None
+                budget = "wave periods after which a run ends undecided; without --periods"
+                cli.add(what, "--budget", "N", budget, lasting, usual.budget)
+            cli.add(what, "--periods", "N", length, lasting, default)
             cli.add(what, "--transient", "N", f"wave periods left out of the analysis {most}", whole(0))
         if self.scene:
             name = cli.Kind(str, "a scene file or the name of a scene")
@@ -152,12 +163,17 @@ class Study:
     def read_order(self, argv: list[str], faults: list[str]) -> Order:
         """The order in the words of the command line; every fault, of options and scenes, is appended to `faults`."""
         options = cli.split(self.parser(), argv, faults)  # `--help` ends here, and has loaded nothing heavy
-        periods, transient = None, 0
+        periods, transient, looks = None, 0, False
         if (usual := self.lengths) is not None:
             periods, transient = options.periods, options.transient
-            if transient is None:
+            looks = usual.budget > 0 and periods is None
+            if looks and transient is not None:
+                faults.append(f"--transient: given {transient} without --periods; allowed: with --periods")
+            if looks:
+                periods, transient = options.budget, None
+            elif transient is None:
                 transient = min(usual.transient, periods // usual.share)
-            if transient >= periods:
+            if transient is not None and transient >= periods:
                 faults.append(f"--transient: given {transient} of {periods} periods; allowed: less than --periods")
         if self.read is not None:
             self.read(options, faults)
@@ -167,7 +183,7 @@ class Study:
         from campaigns.machinery.plausible import without_waves
 
         changes = cli.assignments(options.set, self.taken, faults)
-        order = Order(how, options.scene, changes, periods, transient, options, faults)
+        order = Order(how, options.scene, changes, periods, transient, looks, options, faults)
         base = order.base() if self.in_waves else None
         refused = [] if base is None else list(without_waves(order.name, base))
         order.tell(refused)
@@ -191,7 +207,8 @@ class Study:
         timing, summary = (self.runs(order) if self.runs else run)(plan, order.cases)
         for more in self.beside(order) if self.beside else ():
             began = time.perf_counter()
-            timing["analysis_s"] += more(plan, summary)
+            with stage("after the runs"):
+                timing["analysis_s"] += more(plan, summary)
             timing["run_s"] += time.perf_counter() - began
         return timing, summary
 

@@ -8,9 +8,10 @@ from functools import cache
 from pathlib import Path
 
 from numba import types
-from numba.extending import overload
+from numba.extending import models, register_model
 
-from machine_code.store import compiled, folder_of, hash_of
+from machine_code.parts import compiled_in_parts
+from machine_code.store import folder_of, hash_of
 
 from .simd.fma import with_fused_sums
 from .simd.vector import LaneRecord
@@ -41,25 +42,53 @@ def kernel(function):
     No ``fastmath``: what it allows differs from processor to processor and between one run and a batch; it breaks the
     range reduction of `engine.simd.elementary.sincos` and hides NaN.
     """
-    return compiled(with_fused_sums(function), folder_of("kernels", source_hash(), _KEPT_CACHES))
+    return compiled_in_parts(with_fused_sums(function), folder_of("kernels", source_hash(), _KEPT_CACHES))
 
 
-def by_kind(planar, spatial, lanes=None):
+def by_kind(planar, spatial, lanes=None, plain=None):
     """One name for kernels that do the same for different kinds of runs.
 
-    A kernel that calls the returned name gets `planar`, `spatial` or `lanes`, by the type of the first argument: a
-    RECORD, a SPATIAL (`engine.record`) or a LaneRecord (`engine.simd.vector`: several planar runs at once). Numba
-    chooses while it compiles the caller. So a scene compiles only the kernels that it uses, and no run pays for the
-    choice. lanes = None: the planar kernel serves several runs at once too.
+    A kernel that calls the returned name gets `planar`, `spatial`, `lanes` or `plain`, by the type of the first
+    argument: a RECORD, a SPATIAL, a PLAIN (`engine.record`) or a LaneRecord (`engine.simd.vector`: several planar runs
+    at once; `plain` where these are). Numba chooses while it compiles the caller. So a scene compiles only the kernels
+    that it uses, and no run pays for the choice. lanes = None: the planar kernel serves several runs at once too;
+    plain = None: so does that of the lanes for plain scenes.
     """
+    lanes = planar if lanes is None else lanes
+    return _Choice(planar, spatial, lanes, lanes if plain is None else plain)
 
-    def either(*arguments):
+
+class _Choice:
+    def __init__(self, *kernels):
+        self.kernels = kernels  # a type of Numba does not keep them alive
+        self._numba_type_ = _ChoiceType(*kernels)
+
+    def __call__(self, *arguments):
         raise NotImplementedError("only compiled kernels call this")
 
-    @overload(either, strict=False, jit_options={"nogil": True, "error_model": "numpy"})
-    def chosen(p, *arguments):
-        if "GI" in p.fields:
-            return spatial.py_func
-        return (lanes if lanes is not None and isinstance(p, LaneRecord) else planar).py_func
 
-    return either
+class _ChoiceType(types.Callable, types.Dummy):
+    """What Numba asks of a function: of the kernel that is chosen."""
+
+    def __init__(self, *kernels):
+        self.kernels = [types.Dispatcher(kernel) for kernel in kernels]
+        super().__init__(f"choice({', '.join(kernel.name for kernel in self.kernels)})")
+
+    def _chosen(self, p):
+        planar, spatial, lanes, plain = self.kernels
+        in_lanes = isinstance(p, LaneRecord)
+        if p.plain if in_lanes else "plain" in p.fields:
+            return plain
+        return spatial if "GI" in p.fields else lanes if in_lanes else planar
+
+    def get_call_type(self, context, arguments, keywords):
+        return self._chosen(arguments[0]).get_call_type(context, arguments, keywords)
+
+    def get_impl_key(self, signature):
+        return self._chosen(signature.args[0]).get_impl_key(signature)
+
+    def get_call_signatures(self):
+        return [], True
+
+
+register_model(_ChoiceType)(models.OpaqueModel)

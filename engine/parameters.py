@@ -14,6 +14,7 @@ from . import record as codes
 from . import scales
 from .physics import ends, sea, tension, waves
 from .scene.models import Scene
+from .simd.cover import is_plain
 from .spatial import lift
 from .time import integrators
 
@@ -37,9 +38,9 @@ def grid(length_m: float, nodes: int, stretching: float, refined: str = "both") 
 def record_of(scene: Scene, tables: list[np.ndarray]) -> np.ndarray:
     """One parameter record; appends the scene's tables to the list of arrays `tables`.
 
-    Returns a (1,) structured array of dtype `RECORD`, or `SPATIAL` for motion.dimensions = 3.
+    Returns a (1,) structured array of dtype `RECORD` or `PLAIN`, or `SPATIAL` for motion.dimensions = 3.
     """
-    p = np.zeros(1, codes.RECORD if scene.motion.dimensions == 2 else codes.SPATIAL)
+    p = np.zeros(1, codes.SPATIAL if scene.motion.dimensions == 3 else codes.PLAIN if is_plain(scene) else codes.RECORD)
     record = p[0]
 
     def place(values):

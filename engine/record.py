@@ -51,13 +51,16 @@ SPATIAL = np.dtype(
     )
     + RECORD.descr
 )
+# A planar scene whose every term has the form that lanes have too (`engine.simd.cover.is_plain`): no other is compiled.
+PLAIN = np.dtype(_dtype("plain", "") + RECORD.descr)
 # small_steps, cautious: steps of backward Euler, of slow growth still to come; attempts: steps tried up to window_end;
 # small, cut: the trial is one of backward Euler, ends at the corner (s), which no step may cross; dt_before: the last
-# accepted step (0: of no use); low, high: extremes of the top tension since the last sample
+# accepted step (0: of no use); low, high: extremes of the top tension since the last sample; first, first_profile:
+# numbers of the samples and profiles, counted from t = 0, with which the output begins
 STATE = np.dtype(
     _dtype(
         "status samples profiles small_steps steps rejected newton failures releases attempts cautious trail energies "
-        "small cut",
+        "small cut first first_profile",
         "t dt dt_before low high max_turn min_strain window_end trial_dt corner",
     )
 )

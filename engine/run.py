@@ -8,11 +8,13 @@ import numpy as np
 from . import parameters
 from . import record as col
 from .arrays import Motion, Output
+from .final_state import FinalState, physics_of
 from .perturbations.exponents import Followed
 from .physics import energy
 from .planar import state as planar
 from .planar.columns import EPS, PHI
 from .scene.models import Scene
+from .scene.size_limits import longest_step
 from .spatial import lift
 from .spatial import state as spatial
 from .time.statics import rest_of, why_no_rest
@@ -22,32 +24,39 @@ from .trajectory import COLUMNS, EnergyBudget, Profiles, Trajectory
 
 
 class Run:
-    """Arrays of one run of a scene over `duration_s`.
+    """Arrays of one run of a scene over `duration_s`, from rest or from the FinalState of another.
 
     record, tables: its parameters; state: STATE; motion, output: Motion and Output (`engine.arrays`); trail: what
     follows its perturbations; s: unstretched arc length (m) of the nodes; goal: samples to store; wall_s: time (s) that
     advancing it has taken.
     """
 
-    def __init__(self, scene: Scene, duration_s: float) -> None:
-        self.scene = scene
+    def __init__(self, scene: Scene, duration_s: float, start: FinalState | None = None) -> None:
+        self.scene, self.started = scene, start
         self.kind = spatial if scene.motion.dimensions == 3 else planar
         tables = []
         self.record = parameters.record_of(scene, tables)[0]
         self.tables = np.concatenate(tables)
         n = int(self.record["nodes"])
-        self.goal, profiled = (sample_count(duration_s, self.record[f"{kept}_step"]) for kept in ("output", "profile"))
+        self.goal, self.profiled = (sample_count(duration_s, self.record[f"{kept}_step"]) for kept in KEPT)
         unknowns, conserved = self.kind.size_of.py_func(None)
+        longest = 1.1 * longest_step(scene)[1]  # the last step reaches past the last sample: what it passes is kept too
+        rows, profiles = (
+            count + math.ceil(longest / self.record[f"{kept}_step"]) if count else 0
+            for kept, count in zip(KEPT, (self.goal, self.profiled), strict=True)
+        )
         self.output = Output(
-            np.zeros((self.goal, col.SAMPLE_WIDTH)),
-            np.zeros((profiled, n, col.PROFILE_WIDTH)),
+            np.zeros((rows, col.SAMPLE_WIDTH)),
+            np.zeros((profiles, n, col.PROFILE_WIDTH)),
             np.zeros((self.goal if scene.output.energy else 0, energy.WIDTH)),
             np.zeros(energy.WIDTH - energy.SUMS),
         )
         self.state = np.zeros(1, col.STATE)[0]
-        self.trail = Followed(scene, self.record, self.tables, duration_s)
-        Y = self._start(np.zeros((n, unknowns)))
+        self.trail = Followed(scene, self.record, self.tables, duration_s, start)
+        self.s = np.concatenate([[0.0], np.cumsum(col.lengths_of(self.record, self.tables))])
+        Y = np.zeros((n, unknowns))
         self.motion = Motion(Y, Y.copy(), np.zeros((n, conserved)), np.zeros((n, conserved)))
+        self._start() if start is None else self._go_on(start)
         alphas = tuple(float(self.record[name]) for name in ("alpha_m", "alpha_f", "gamma"))
         self.parts = (  # the arguments of `march` that only some scenes need, else None
             alphas if self.record["method"] == col.ONE_STAGE else None,
@@ -56,19 +65,18 @@ class Run:
         )
         self.wall_s = 0.0
 
-    def _start(self, Y: np.ndarray) -> np.ndarray:
-        """Put the state at t = 0 into Y, and what a run begins with into its `state`; returns Y."""
-        record, state, scene = self.record, self.state, self.scene
+    def _start(self) -> None:
+        """Begin at t = 0: at rest, with the velocities of the scene."""
+        record, state, scene, Y = self.record, self.state, self.scene, self.motion.Y
         target = scene.end.position_m if record["end"] == col.HELD else (0.0, 0.0, 0.0)
         axes = "xyz" if self.kind is spatial else "xz"
         place = np.array([target["xyz".index(axis)] for axis in axes])
         state["status"], Y[:] = rest_of(record, scene, self.tables, place)
-        self.s = np.concatenate([[0.0], np.cumsum(col.lengths_of(record, self.tables))])
         for i, axis in enumerate(axes):
             Y[:, len(axes) + i] = record[f"start_{axis}"] * self.s / self.s[-1]
+        self.motion.Y_before[:] = Y
         state["low"], state["high"] = np.inf, -np.inf
-        state["min_strain"] = Y[:, EPS].min()
-        state["max_turn"] = lift.turns(Y).max() if self.kind is spatial else np.abs(np.diff(Y[:, PHI])).max()
+        self._watch()
         if state["status"] == OK and record["bent"] and state["max_turn"] > math.pi:
             state["status"] = TURN_UNRESOLVED
         # a sudden start has rates at t = 0 that are not zero: steps that need none come first, or the order falls to 1
@@ -76,7 +84,44 @@ class Run:
         starter = needs_rates and not record["at_rest"]
         state["small_steps"] = SMALL_STEPS if starter else 0
         state["dt"] = 1e-3 * record["max_step"] if record["adaptive"] or starter else record["fixed_step"]
-        return Y
+
+    def _watch(self) -> None:
+        """Least strain and largest turn so far: those of the first state."""
+        Y, state = self.motion.Y, self.state
+        state["min_strain"] = Y[:, EPS].min()
+        state["max_turn"] = lift.turns(Y).max() if self.kind is spatial else np.abs(np.diff(Y[:, PHI])).max()
+
+    def _go_on(self, start: FinalState) -> None:
+        """Begin where another run ended; after a change of the scene with steps that need no rates from before."""
+        state, record = self.state, self.record
+        for part, given in zip(self.motion, (start.Y, start.Y_before, start.C, start.K), strict=True):
+            part[:] = given
+        for name, number in zip(col.STATE.names, start.numbers, strict=True):
+            state[name] = number
+        self._watch()
+        for kept, stored, of in (("samples", start.samples, "first"), ("profiles", start.profiles, "first_profile")):
+            state[of] += state[kept] - len(stored)
+            state[kept] = rows = min(len(stored), len(getattr(self.output, kept)))
+            if rows:
+                getattr(self.output, kept)[:rows] = stored[:rows]
+        if start.physics != physics_of(self.scene):
+            state["small_steps"], state["dt_before"] = SMALL_STEPS, 0.0
+            state["dt"] = min(state["dt"], 1e-3 * record["max_step"])
+        if not record["adaptive"]:
+            state["dt"] = record["fixed_step"]
+
+    def final_state(self) -> FinalState | None:
+        """What a run goes on from; None for one that has not reached its goal, or keeps energies."""
+        state = self.state
+        if state["status"] != OK or state["samples"] < self.goal or self.scene.output.energy:
+            return None
+        if (state["first"] + state["samples"]) * self.record["output_step"] <= state["t"]:
+            return None  # a step longer than any that was foreseen: what it passed is not known
+        samples = self.output.samples[self.goal - 1 : int(state["samples"])]
+        profiles = self.output.profiles[max(self.profiled - 1, 0) : int(state["profiles"])]
+        numbers = np.array([state[name] for name in col.STATE.names], dtype=float)
+        kept = (part.copy() for part in (*self.motion, samples, profiles))
+        return FinalState(physics_of(self.scene), numbers, *kept, *self.trail.state(state))
 
     def done(self) -> bool:
         """Has it ended, at its goal or before?"""
@@ -114,7 +159,11 @@ class Run:
             message += why_no_rest(self.record, scene)
         columns = columns_of(self.output.samples[: min(int(state["samples"]), self.goal)], heading_of(scene))
         statistics, profiles, tangent = statistics_of(state, self.wall_s), self._profiles(), self.trail.growth(state)
-        return Trajectory(scene, WORDS[status], message, columns, statistics, profiles, tangent, self._budget())
+        if self.started is not None:
+            for name, number in statistics_of(self.started.state(), 0.0).items():
+                statistics[name] -= number if name in COUNTED else 0
+        more = profiles, tangent, self._budget(), self.final_state()
+        return Trajectory(scene, WORDS[status], message, columns, statistics, *more)
 
     def _budget(self) -> EnergyBudget | None:
         if not self.scene.output.energy:
@@ -127,11 +176,13 @@ class Run:
     def _profiles(self) -> Profiles | None:
         if self.scene.output.profiles is False:
             return None
-        values = self.output.profiles[: int(self.state["profiles"])]
-        times = np.arange(len(values)) * float(self.record["profile_step"])
+        values = self.output.profiles[: min(int(self.state["profiles"]), self.profiled)]
+        times = (int(self.state["first_profile"]) + np.arange(len(values))) * float(self.record["profile_step"])
         return Profiles(times, self.s, *(np.ascontiguousarray(values[:, :, i]) for i in range(col.PROFILE_WIDTH)))
 
 
+KEPT = ("output", "profile")  # what is kept evenly in time, as in the names of RECORD
+COUNTED = ("steps", "rejected_steps", "newton_iterations", "newton_failures", "loop_releases")
 STATISTICS = {  # of a trajectory: the fields of STATE that they come from
     "steps": "steps", "rejected_steps": "rejected", "newton_iterations": "newton", "newton_failures": "failures",
     "loop_releases": "releases", "max_turn_rad": "max_turn", "min_strain": "min_strain", "end_time_s": "t",

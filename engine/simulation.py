@@ -3,7 +3,9 @@
 import math
 from collections.abc import Callable, Iterable, Iterator
 from functools import partial
+from pathlib import Path
 
+from .final_state import FinalState
 from .run import Run
 from .scene.models import Scene
 from .scene.size_limits import MOST_SAMPLES, check_room
@@ -11,20 +13,29 @@ from .trajectory import Trajectory
 
 PERIODS_PER_CALL = 10
 Progress = Callable[[float], None]
+Start = Trajectory | FinalState | str | Path | None
 
 
 def simulate(
-    scene: Scene, periods: float | None = None, duration_s: float | None = None, progress: Progress | None = None
+    scene: Scene,
+    periods: float | None = None,
+    duration_s: float | None = None,
+    progress: Progress | None = None,
+    start: Start = None,
 ) -> Trajectory:
-    """Simulate one scene from its static equilibrium.
+    """Simulate one scene, from its static equilibrium or from the final state of another run.
 
     periods      run length in wave periods (scenes with waves), or
     duration_s   run length in s
     progress     callable(fraction) called now and then, optional
+    start        a Trajectory, its final_state, or its file: the run goes on from there, in time as well. With the same
+                 scene (solver and output may change) it is the run that did not stop, to the last bit; another scene
+                 of as many nodes takes the state over. None: from rest
     Returns a Trajectory: status "ok", or the reason why it ended early, with the samples up to there. Bad arguments
     raise ValueError; a run never raises.
     """
-    return simulate_batch([scene], periods, duration_s, progress)[0]
+    ((_, found),) = simulate_each([scene], periods, duration_s, progress, [start])
+    return found
 
 
 def simulate_batch(
@@ -46,16 +57,21 @@ def simulate_each(
     periods: float | None = None,
     duration_s: float | None = None,
     progress: Progress | None = None,
+    starts: Iterable[Start] | None = None,
 ) -> Iterator[tuple[int, Trajectory]]:
     """As `simulate_batch`, but yields (number of the scene, its Trajectory) as the runs end, in no order.
 
     Scenes that may share a batch run side by side in the lanes of vectors (`engine.simd`), eight at a time; the
-    others one after another. The results are the same, bit for bit.
+    others one after another. The results are the same, bit for bit. starts: of each scene, as `start` of `simulate`.
     """
     from .simd import batch
 
     scenes = list(scenes)
-    jobs = [(i, scene, _duration(scene, periods, duration_s)) for i, scene in enumerate(scenes)]
+    given = [None] * len(scenes) if starts is None else list(starts)
+    jobs = [
+        (i, scene, _duration(scene, periods, duration_s), _checked_start(scene, start))
+        for i, (scene, start) in enumerate(zip(scenes, given, strict=True))
+    ]
     ended = 0
 
     def share(fraction, count=1):
@@ -67,19 +83,40 @@ def simulate_each(
         for i, run in batch.run_through(group, partial(share, count=len(group))):
             yield i, run.trajectory()
         ended += len(group)
-    shared = {i for group in groups for i, _, _ in group}
-    for i, scene, length in jobs:
+    shared = {i for group in groups for i, *_ in group}
+    for i, scene, length, start in jobs:
         if i not in shared:
-            yield i, _alone(scene, length, share)
+            yield i, _alone(scene, length, start, share)
             ended += 1
 
 
-def _alone(scene: Scene, duration_s: float, progress: Progress) -> Trajectory:
+def _checked_start(scene: Scene, start: Start) -> FinalState | None:
+    """The state to start from. Raises ValueError for one that a run of this scene cannot go on from."""
+    if start is None:
+        return None
+    if isinstance(start, str | Path):
+        start = Trajectory.load(start)
+    state = start.final_state if isinstance(start, Trajectory) else start
+    fault = ""
+    if state is None:
+        fault = "a run without a final state: it ended early, kept energies, or is of the paper's own scheme"
+    elif scene.solver.scheme == "paper-box" or scene.output.energy:
+        fault = "a scene with solver.scheme = 'paper-box' or output.energy, which can only start from rest"
+    elif state.Y.shape != (scene.tether.nodes, 6 if scene.motion.dimensions == 2 else 13):
+        dimensions = 2 if state.Y.shape[1] == 6 else 3
+        fault = f"a state of {len(state.Y)} nodes in {dimensions} dimensions for a scene of {scene.tether.nodes} nodes "
+        fault += f"in {scene.motion.dimensions}"
+    if fault:
+        raise ValueError(f"start: given {fault}")
+    return state
+
+
+def _alone(scene: Scene, duration_s: float, start: FinalState | None, progress: Progress) -> Trajectory:
     if scene.solver.scheme == "paper-box":
         from .paper_box.driver import run as by_paper
 
         return by_paper(scene, duration_s, progress)
-    run = Run(scene, duration_s)
+    run = Run(scene, duration_s, start)
     run.compile()
     period_s = scene.waves.period_s if scene.waves is not None else 5.0
     chunk = max(1, min(MOST_SAMPLES, round(PERIODS_PER_CALL * period_s / scene.sample_step_s())))

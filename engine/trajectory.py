@@ -5,18 +5,25 @@ attributes, and a digest of the whole content lets `load` tell a damaged file fr
 """
 
 import json
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from engine import netcdf
+from engine import netcdf, views
 from engine.atomic import write_atomic
+from engine.final_state import FinalState, state_of_file
 from engine.scene.load import Scene, SceneError, scene_from_toml
+from engine.trajectory_parts import EnergyBudget, Profiles, TangentGrowth
 
 if TYPE_CHECKING:
     import pandas
+    import xarray
+    from matplotlib.axes import Axes
+
+    from analysis import Exponent, PoincareSection, Spectrum, Verdict
 
 COLUMNS = {  # name -> (unit, long name), in the order of the table
     "time_s": ("s", "time"),
@@ -41,70 +48,13 @@ class TrajectoryError(ValueError):
 
 
 @dataclass(frozen=True)
-class Profiles:
-    """Quantities along the line. time_s (nt,); s_m (nn,); the others (nt, nn), SI units."""
-
-    time_s: Annotated[np.ndarray, ("s", "time of the profiles")]
-    s_m: Annotated[np.ndarray, ("m", "unstretched arc length from the anchor")]
-    x_m: Annotated[np.ndarray, ("m", "position along x, from the anchor")]
-    y_m: Annotated[np.ndarray, ("m", "position along y, from the anchor")]
-    z_m: Annotated[np.ndarray, ("m", "height above the anchor")]
-    strain: Annotated[np.ndarray, ("1", "strain")]
-    tension_N: Annotated[np.ndarray, ("N", "tension")]
-    speed_mps: Annotated[np.ndarray, ("m s-1", "speed")]
-
-
-@dataclass(frozen=True)
-class EnergyBudget:
-    """Where the energy of a dry line is and went since t = 0; each (m,) (`engine.physics.energy`).
-
-    time_s: the first end of a step past each output time. See `remainder_J`.
-    """
-
-    time_s: Annotated[np.ndarray, ("s", "time of the energies, ends of steps")]
-    kinetic_J: Annotated[np.ndarray, ("J", "kinetic energy")]
-    strain_J: Annotated[np.ndarray, ("J", "strain energy")]
-    gravity_J: Annotated[np.ndarray, ("J", "energy of the weight, from the height of the lower end")]
-    end_work_J: Annotated[np.ndarray, ("J", "work of the force at the upper end since the start")]
-    bending_J: Annotated[np.ndarray, ("J", "work against the shear forces since the start: bending")]
-    viscous_J: Annotated[np.ndarray, ("J", "dissipated by the shock viscosity since the start")]
-    scheme_space_J: Annotated[np.ndarray, ("J", "dissipated by the discretisation in space since the start")]
-    scheme_time_J: Annotated[np.ndarray, ("J", "dissipated by the discretisation in time since the start")]
-
-    @property
-    def stored_J(self) -> float:
-        """Strain energy at the start."""
-        return float(self.strain_J[0])
-
-    def remainder_J(self) -> np.ndarray:
-        """What the entries leave unexplained: energy at the start + work - everything found later."""
-        held = self.kinetic_J + self.strain_J + self.gravity_J
-        gone = self.bending_J + self.viscous_J + self.scheme_space_J + self.scheme_time_J
-        return held[0] + self.end_work_J - held - gone
-
-
-@dataclass(frozen=True)
-class TangentGrowth:
-    """Growth of infinitesimal perturbations, period by period (`engine.perturbations.tangent`).
-
-    period_s: the wave period, or 1 s without waves. growth_nats (m, k): logarithm of the growth of the k orthonormal
-    perturbations in the plane in each of the m complete periods; k may be 0. released (m,): 1 where a loop was released
-    in that period. lateral_nats (m,): growth across the plane (`perturbations.lateral`), None where not asked for.
-    """
-
-    period_s: float
-    growth_nats: np.ndarray
-    released: np.ndarray
-    lateral_nats: np.ndarray | None = None
-
-
-@dataclass(frozen=True)
 class Trajectory:
     """One run of one scene.
 
     status: "ok", or the word for how the run ended early; then the samples up to its end are kept (possibly none).
     message: a sentence about it, empty for "ok". columns: every name of COLUMNS -> (n,) array, evenly sampled.
     statistics: counts and times of the work done. profiles, tangent, energy: where the scene asks for them.
+    final_state: what `simulate(..., start=)` goes on from; None where the run ended early, or keeps energies.
     """
 
     scene: Scene
@@ -115,12 +65,87 @@ class Trajectory:
     profiles: Profiles | None = None
     tangent: TangentGrowth | None = None
     energy: EnergyBudget | None = None
+    final_state: FinalState | None = None
+
+    def followed_by(self, later: "Trajectory") -> "Trajectory":
+        """This run and the one that went on from its final state as one record: scene and end of the later one.
+
+        Perturbations that only the later one carried have growth nan before. Raises ValueError where `later` does not
+        begin where this run ends, or one of them has profiles and the other not.
+        """
+        if not len(later.columns["time_s"]) or later.columns["time_s"][0] != self.columns["time_s"][-1]:
+            raise ValueError("later: a run that begins with the last sample of this one is needed")
+        if (self.profiles is None) != (later.profiles is None):
+            raise ValueError("later: profiles are needed of both runs, or of none")
+        columns = {name: np.concatenate([self.columns[name], later.columns[name][1:]]) for name in COLUMNS}
+        columns["angle_rad"] = np.unwrap(columns["angle_rad"])
+        statistics = dict(later.statistics)
+        for name, number in self.statistics.items():
+            many = {"max_turn_rad": max, "min_strain": min, "end_time_s": max}.get(name, lambda a, b: a + b)
+            statistics[name] = many(number, later.statistics[name])
+        profiles = later.profiles
+        if self.profiles is not None and profiles is not None:
+            new = profiles.time_s > self.profiles.time_s[-1]
+            old, more = vars(self.profiles), vars(profiles)
+            both = {name: np.concatenate([old[name], more[name][new]]) for name in more if name != "s_m"}
+            profiles = replace(profiles, **both)
+        tangent = _joined(self.tangent, later.tangent, float(later.columns["time_s"][0]))
+        return replace(later, columns=columns, statistics=statistics, profiles=profiles, tangent=tangent)
 
     def table(self) -> "pandas.DataFrame":
         """The samples as a pandas table, one row a sample, columns in the order of COLUMNS."""
         import pandas
 
         return pandas.DataFrame({name: self.columns[name] for name in COLUMNS})
+
+    def plot(self, path: "str | Path | None" = None) -> "dict[str, Axes]":
+        """A figure: tension and radius over the whole run and its end; section and spectrum, or the path without waves.
+
+        path: a .png, .svg or .pdf file to write; without one the figure belongs to `matplotlib.pyplot`: a notebook
+        shows it, a script with `pyplot.show()`. Returns matplotlib's Axes by the name of the panel.
+        """
+        return views.plot(self, path)
+
+    def spectrum(self, column: str = "radius_m", transient_periods: int | None = None) -> "Spectrum":
+        """Eq. (31) of a column of the table after the transient, the first third of the run (`analysis.spectrum`).
+
+        The window is the last multiple of 12 forcing periods, so that motions of period 2, 3, 4 or 6 do not leak.
+        Raises ValueError where neither regular waves nor a shaken end drive the run, as do the three below.
+        """
+        return views.spectrum(self, column, transient_periods)
+
+    def section(
+        self,
+        columns: Sequence[str] = ("radius_m", "radius_rate_mps"),
+        transient_periods: int | None = None,
+        phase: float = 0.0,
+    ) -> "PoincareSection":
+        """Columns of the table once per period after the transient, its first third (`analysis.poincare_section`)."""
+        return views.section(self, columns, transient_periods, phase)
+
+    def exponent(self, transient_periods: int | None = None) -> "Exponent":
+        """The largest Lyapunov exponent after the transient, its first third, in bits per forcing period.
+
+        From the tangent dynamics where the run carried them (`output.tangent_vectors`), else by Wolf's method from r,
+        which is far less certain and takes seconds; its `method` says which.
+        """
+        return views.exponent(self, transient_periods)
+
+    def verdict(self) -> "Verdict":
+        """The regime of a buoy in regular waves with the evidence for it (`analysis.motion_regime`), as campaigns judge
+        it. Chaos and tori need a run with `output.tangent_vectors` = 1, and any word 135 periods or more.
+        """
+        return views.verdict(self)
+
+    def to_xarray(self) -> "xarray.Dataset":
+        """Everything that `save` writes, as an xarray Dataset with units and long names."""
+        return views.dataset(self)
+
+    def __repr__(self) -> str:
+        return f"Trajectory({self.scene.name!r}, {self.status!r}, {len(self.columns['time_s'])} samples)"
+
+    def _repr_html_(self) -> str:
+        return views.html(self)
 
     def save(self, path: str | Path, attributes: dict[str, str] | None = None) -> None:
         """Write the record as one netCDF-3 file, whole or not at all.
@@ -166,6 +191,23 @@ class Trajectory:
             raise TrajectoryError(f"{name}: truncated, damaged, or not a netCDF-3 file ({error})") from None
 
 
+def _joined(earlier: TangentGrowth | None, later: TangentGrowth | None, time_s: float) -> TangentGrowth | None:
+    """Growth in the periods of two runs, the later of which begins at that time."""
+    if later is None:
+        return None
+    before = int(time_s / later.period_s + 1e-9)
+
+    def both(name: str) -> np.ndarray:
+        new = getattr(later, name)
+        old = None if earlier is None else getattr(earlier, name)
+        if old is None or old.shape[1:] != new.shape[1:]:
+            old = np.full((before, *new.shape[1:]), 0.0 if name == "released" else np.nan)
+        return np.concatenate([old, new])
+
+    lateral = None if later.lateral_nats is None else both("lateral_nats")
+    return TangentGrowth(later.period_s, both("growth_nats"), both("released"), lateral)
+
+
 def _abouts(record: type, prefix: str) -> dict[str, tuple[str, str, str]]:
     """Of each field of a record the name, unit and long name in a file, where s_m has no prefix."""
     about = {name: kind.__metadata__[0] for name, kind in record.__annotations__.items()}
@@ -192,7 +234,7 @@ def _variables(run: Trajectory) -> list[netcdf.Variable]:
         if grown.lateral_nats is not None:
             about = ("1", "growth of a perturbation across the plane of the waves, nats")
             found.append(("lateral_nats", ("period",), grown.lateral_nats, *about))
-    return found
+    return found if run.final_state is None else found + run.final_state.variables()
 
 
 def _restored(texts: dict[str, str], arrays: dict[str, np.ndarray]) -> Trajectory:
@@ -213,7 +255,8 @@ def _restored(texts: dict[str, str], arrays: dict[str, np.ndarray]) -> Trajector
     tangent = _growth(scene, arrays)
     columns = {name: arrays[name] for name in COLUMNS}
     statistics = json.loads(texts["statistics"])
-    return Trajectory(scene, texts["status"], texts["message"], columns, statistics, profiles, tangent, energy)
+    more = profiles, tangent, energy, state_of_file(scene, arrays)
+    return Trajectory(scene, texts["status"], texts["message"], columns, statistics, *more)
 
 
 def _growth(scene: Scene, arrays: dict[str, np.ndarray]) -> TangentGrowth | None:

@@ -18,6 +18,7 @@ def main(arguments: list[str] | None = None) -> int:
     parser.add_argument("directory", metavar="DIR", help=folders)
     directory = parser.parse_args(arguments).directory
 
+    print(f"drawing figures and pages of {directory} ...", file=sys.stderr)
     from . import build
     from .parts.folder import FolderError
 

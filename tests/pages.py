@@ -1,5 +1,6 @@
 """The blocks of a page that someone would copy: TOML files, Python, commands, and what they print."""
 
+import json
 import re
 import shlex
 from collections.abc import Iterator
@@ -8,15 +9,26 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).resolve().parents[1]
-# pages with a block of Python: all their blocks are run, in order
+# pages of docs/ with a block of Python: all their blocks are run, in order
 PAGES = sorted(path.stem for path in (ROOT / "docs").glob("*.md") if "```python" in path.read_text(encoding="utf-8"))
+PAGES += ["gallery", "../README"]
 COMMAND = ".venv/bin/python -m "
+NUMBER = r"-?\d+(?:\.\d+)?(?:e-?\d+)?"
 
 
 def blocks(name: str) -> list[tuple[str, str]]:
     """(kind, text) of every fenced block of docs/NAME.md, in order."""
     text = (ROOT / "docs" / f"{name}.md").read_text(encoding="utf-8")
     return re.findall(r"^```(\w+)\n(.*?)^```$", text, flags=re.DOTALL | re.MULTILINE)
+
+
+def cells(name: str) -> Iterator[tuple[str, str]]:
+    """(source, text of what it printed or shows as HTML) of every cell of code of docs/NAME.ipynb."""
+    notebook = json.loads((ROOT / "docs" / f"{name}.ipynb").read_text(encoding="utf-8"))
+    for cell in notebook["cells"]:
+        if cell["cell_type"] == "code":
+            shown = (output.get("text") or output["data"].get("text/html", []) for output in cell["outputs"])
+            yield "".join(cell["source"]), "".join("".join(lines) for lines in shown)
 
 
 def commands(text: str) -> Iterator[tuple[str, list[str]]]:
@@ -33,10 +45,14 @@ def file_of(text: str) -> str | None:
     return found and found[1]
 
 
+def without_numbers(text: str) -> list[str]:
+    """The words of a text, # for each number in it."""
+    return re.sub(NUMBER, "#", text).split()
+
+
 def compare(printed: str, shown: str) -> None:
     """Words are the same exactly, numbers to two units of the last digit (another machine rounds otherwise)."""
-    number = r"-?\d+(?:\.\d+)?(?:e-?\d+)?"
-    assert re.sub(number, "#", printed).split() == re.sub(number, "#", shown).split()
-    for found, said in zip(re.findall(number, printed), re.findall(number, shown), strict=True):
+    assert without_numbers(printed) == without_numbers(shown)
+    for found, said in zip(re.findall(NUMBER, printed), re.findall(NUMBER, shown), strict=True):
         if "e" not in said:
             assert float(found) == pytest.approx(float(said), abs=2.01 * 10.0 ** -len(said.partition(".")[2]))

@@ -15,6 +15,7 @@ from types import SimpleNamespace
 import pytest
 from numba.core.caching import IndexDataCacheFile
 
+from machine_code.parts import compiled_in_parts
 from machine_code.store import compiled, folder_for, hash_of, one_at_a_time
 
 PROCESSES, KINDS = 4, 12
@@ -88,6 +89,14 @@ def hits(kernel):
     """How often its code was found on disk, after one call."""
     assert kernel(3.0) == 1.5
     return sum(kernel.stats.cache_hits.values())
+
+
+def test_what_a_kernel_calls_has_no_machine_code_of_its_own(tmp_path):
+    inner = compiled_in_parts(half, tmp_path)
+    outer = compiled_in_parts(lambda x: inner(inner(x)), tmp_path)
+    assert outer(6.0) == 1.5 and not inner.signatures
+    assert len(list(tmp_path.rglob("*.nbc"))) == 1
+    assert [hits(compiled_in_parts(half, tmp_path)) for _ in range(2)] == [0, 1]
 
 
 @pytest.mark.parametrize("ending", [".nbi", ".nbc"])

@@ -7,17 +7,22 @@ import tomllib
 from xml.etree import ElementTree
 
 import numpy as np
+import pandas
 import pytest
+from matplotlib.figure import Figure
 
 from engine import load_scene, simulate
 from engine.scene import known_scenes
-from tests.pages import PAGES, ROOT, blocks, commands, compare, file_of
+from tests.pages import PAGES, ROOT, blocks, cells, commands, compare, file_of, without_numbers
 
 EXAMPLES = sorted(path.stem for path in (ROOT / "docs" / "examples").glob("*.py"))
 
 
+COMMANDS = {"analysis": "campaigns.time_series", "engine": "engine.__main__"}
+
+
 def campaign(module):
-    return importlib.import_module("campaigns.time_series" if module == "analysis" else module)
+    return importlib.import_module(COMMANDS.get(module, module))
 
 
 def ran(name):
@@ -61,6 +66,24 @@ def test_the_page_runs_from_top_to_bottom(page, tmp_path, monkeypatch, capsys):
             printed = capsys.readouterr().out
         elif kind == "sh":
             assert [campaign(module).main(words) for module, words in commands(text)] == [0] * text.count("\n")
+    if page == "tutorial":
+        regimes = [
+            regime for table in tmp_path.glob("results/*/table.csv") for regime in pandas.read_csv(table)["regime"]
+        ]
+        assert len(regimes) == 9 and "undecided" not in regimes
+
+
+@pytest.mark.slow
+def test_the_notebook_shows_what_it_runs(capsys, monkeypatch):
+    """Cell by cell, as Jupyter does; words only, because the numbers of a chaotic motion are another machine's own."""
+    monkeypatch.setattr("matplotlib.pyplot.figure", lambda **look: Figure(**look))
+    names = {"__name__": "notebook"}
+    for source, shown in cells("first_run"):
+        lines = source.rstrip(";").splitlines()
+        exec("\n".join(lines[:-1]), names)
+        value = eval(lines[-1], names)
+        printed = capsys.readouterr().out
+        assert without_numbers(printed or getattr(value, "_repr_html_", str)()) == without_numbers(shown)
 
 
 @pytest.mark.parametrize("name", EXAMPLES)

@@ -11,12 +11,17 @@ against their own refined runs and against ours; what is not installed is a row 
 """
 
 from argparse import Namespace
+from collections.abc import Iterator
 from dataclasses import replace
+from math import isfinite
+from statistics import median
 
 import engine
-from campaigns.accuracy.plan import BY_NAME, FACTORS, FULL, QUICK, UNITS
+from campaigns.accuracy.plan import BEST, BY_NAME, FACTORS, FULL, QUICK, UNITS
 from campaigns.machinery import cli
 from campaigns.study import Order, Study
+
+SHIPPED = {"nodes": 41, "control": "rtol", "setting": 0.03}  # of the scene tethered_buoy
 
 
 def options(group) -> None:
@@ -87,5 +92,24 @@ def parameters(order: Order) -> dict[str, object]:
     }
 
 
-STUDY = Study(name="accuracy", protocol=__doc__, options=options, read=read, parameters=parameters, done=done)
+def answer(order: Order, rows: list[dict]) -> Iterator[str]:
+    """The error of the shipped setting on every work where it is timed, its median time, and what ended early."""
+    from campaigns.answers import known
+
+    shipped = {"kind": "point", "method": BEST, "status": "ok"} | SHIPPED
+    said = []
+    for work in order.own.effort.works:
+        found = [row for row in rows if row["work"] == work and shipped.items() <= row.items()]
+        if errors := [known(row, "error") for row in found if isfinite(known(row, "error"))]:
+            wall_ms = 1e3 * median(row["wall_s"] for row in found) * BY_NAME[work].period_s / BY_NAME[work].duration_s
+            said.append(f"{work} {median(errors):.2g} {UNITS[BY_NAME[work].measure]} in {wall_ms:.2g} ms")
+    if said:
+        yield f"Error of the shipped setting, and its time for a wave period: {'; '.join(said)}."
+    early = sum(row["status"] != "ok" for row in rows if row["kind"] == "point")
+    yield f"{early} of our timed runs ended early."
+
+
+STUDY = Study(
+    name="accuracy", protocol=__doc__, options=options, read=read, parameters=parameters, done=done, answer=answer
+)
 main, parser, read_order = STUDY.main, STUDY.parser, STUDY.read_order

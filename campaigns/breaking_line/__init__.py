@@ -13,6 +13,7 @@ shock, and a series of grids for case 4 and for case 3', which stays smooth. Not
 
 from collections.abc import Callable, Iterator
 from functools import partial
+from math import isfinite
 from typing import TYPE_CHECKING
 
 from campaigns.machinery import cli
@@ -128,6 +129,19 @@ def beside(order: Order) -> Iterator[Callable]:
     yield write_results
 
 
+def answer(order: Order, rows: list[dict]) -> Iterator[str]:
+    """Speeds of the broken ends, how far they are off theory, and the paper's statements that do not hold."""
+    from campaigns.answers import known, verdicts
+    from campaigns.statements import listed
+
+    ended = [row for row in rows if row["kind"] == "case" and row["status"] == "ok"]
+    if speeds := [f"{known(row, 'end_speed_mps'):.0f} (case {row['case']})" for row in ended]:
+        yield f"The broken ends come back at {listed(speeds)} m/s."
+    if off := [abs(known(row, "end_speed_error")) for row in ended if isfinite(known(row, "end_speed_error"))]:
+        yield f"Exact theory gives {len(off)} of these speeds, within {100.0 * max(off):.2g} %."
+    yield from verdicts(order.how.out, quoted=4)
+
+
 STUDY = Study(
     name=CAMPAIGN,
     protocol=__doc__,
@@ -139,6 +153,7 @@ STUDY = Study(
     parameters=lambda order: {"cases": list(order.own.cases), "companions": not order.own.no_companions},
     runs=lambda order: partial(run, compile_run_s=COMPILE_RUN_S),
     beside=beside,
+    answer=answer,
     together=False,
 )
 main, parser, read_order = STUDY.main, STUDY.parser, STUDY.read_order

@@ -15,11 +15,12 @@ from functools import partial
 
 import engine
 from campaigns.buoy_sweep.space import SEED_MPS, in_space, run_where_needed
-from campaigns.judge import LONGEST_PERIOD, STROBE_TOLERANCE, judged_scene
+from campaigns.judge import judged_job, judged_scene
 from campaigns.machinery import cli
 from campaigns.machinery.plan import Job
 from campaigns.machinery.runner import run
 from campaigns.study import Lengths, Measures, Order, Study
+from engine.views import LONGEST_PERIOD, STROBE_TOLERANCE
 
 # From the paper's small wave (0.016) to beyond its large one (0.13); a step of 0.003 meets 0.13 too.
 STEEPNESS = tuple(round(0.016 + 0.003 * step, 3) for step in range(49))
@@ -62,7 +63,8 @@ def cases(order: Order) -> Iterator[Job]:
                 continue
             scene = spatial if dimensions == "3" else scene
         if scene is not None:
-            yield Job({"steepness": value, "dimensions": scene.motion.dimensions}, scene, order.periods)
+            labels = {"steepness": value, "dimensions": scene.motion.dimensions}
+            yield judged_job(order, labels, scene)
 
 
 def dimensions_of(order: Order) -> str:
@@ -77,7 +79,7 @@ def measures(order: Order) -> Measures:
     """How a run becomes a row of table.csv: by `rows.buoy_row`."""
     from campaigns.buoy_sweep.rows import COLUMNS, buoy_row
 
-    row = partial(buoy_row, transient_periods=order.transient, simulate=order.simulate)
+    row = partial(buoy_row, transient_periods=order.transient)
     return Measures(COLUMNS, row, ROW_SOURCES, {"transient": order.transient})
 
 
@@ -106,11 +108,18 @@ def beside(order: Order) -> Iterator[Callable]:
     yield partial(close_up, periods=order.periods)
 
 
+def answer(order: Order, rows: list[dict]) -> list[str]:
+    """What the sweep found (`campaigns.buoy_sweep.answer`)."""
+    from campaigns.buoy_sweep.answer import sentences
+
+    return sentences(rows, "steepness", "kA", order.cases[0].scene)
+
+
 STUDY = Study(
     name="buoy_sweep",
     protocol=__doc__,
     scene="tethered_buoy",
-    lengths=Lengths(periods=300, transient=100),
+    lengths=Lengths(periods=300, transient=100, budget=1500),
     in_waves=True,
     taken={
         SWEPT: "use --steepness",
@@ -124,5 +133,6 @@ STUDY = Study(
     parameters=parameters,
     runs=lambda order: run_where_needed if dimensions_of(order) == "auto" else run,
     beside=beside,
+    answer=answer,
 )
 main, parser, read_order = STUDY.main, STUDY.parser, STUDY.read_order

@@ -88,6 +88,7 @@ def repeat(
     length = lengths(len(summary.rows), periods)
     jobs: list[Job] = []
     for role, row in chosen(rows):
+        length = min(length, round(row["periods"]))
         original = first_periods(run_of(plan.how.out, row), length)
         scene = original.scene
         finer = scene_from_toml(scene.to_toml(), {"tether.nodes": 2 * scene.tether.nodes - 1})
@@ -96,10 +97,10 @@ def repeat(
             labels = {"role": role, "label": row["steepness"], "run": run, "periods": length}
             # as run: what the sweep itself has made, with which the others are compared
             simulate = (lambda *_, made=original, **__: made) if run == AS_RUN else None
-            jobs.append(Job(labels, made, length, None, simulate, describe, f"accuracy {run}"))
+            jobs.append(Job(labels, made, length, None, simulate, describe, made=f"accuracy {run}"))
     how = replace(plan.how, out=plan.how.out / "accuracy")
     with claimed(how.out):
-        own = replace(plan, how=how, columns=COLUMNS, show_progress=False, simulate_each=None)
+        own = replace(plan, how=how, columns=COLUMNS, said="two runs again, tighter and finer", simulate_each=None)
         return run_campaign(own, jobs).analysis_s
 
 
@@ -156,7 +157,7 @@ def close_up(plan: Plan, summary: Summary, periods: int) -> float:
         jobs.append(Job(labels, scene_from_toml(scene.to_toml(), kept), length))
     if jobs or out.exists():
         how, row_of = Running(out, backend="threading"), partial(counted, columns=(WALL_S,))
-        own = Plan(how, plan.simulate, row_of, SHAPES, show_progress=False)
+        own = Plan(how, plan.simulate, row_of, SHAPES, said="the close-up")
         # without a job the table of an earlier sweep in this folder is emptied
         with claimed(out):
             run_campaign(own, jobs)

@@ -7,11 +7,25 @@ its statistics and nothing more. Extremes and slack are taken after the transien
 import numpy as np
 
 from analysis.evidence import evidence_text
-from campaigns.columns import LINE_COUNTS, MESSAGE, RUN_KEY, SOLVER_COUNTS, STATUS, Column, counted, names, number
-from campaigns.judge import LEAST_JUDGED, LONGEST_PERIOD, STROBE_TOLERANCE, carried, state_of, tangent_of, verdict_of
+from analysis.looks import next_look
+from campaigns.columns import (
+    LINE_COUNTS,
+    MESSAGE,
+    PERIODS_RUN,
+    RUN_KEY,
+    SOLVER_COUNTS,
+    STATUS,
+    Column,
+    counted,
+    names,
+    number,
+)
+from campaigns.judge import LEAST_JUDGED, motion_of, record_regime, tangent_of
+from engine.views import LONGEST_PERIOD, STROBE_TOLERANCE, carried, carries_tangents, state_of
 
 STEEPNESS = Column("steepness", "", "kA", "wave steepness: wave number times amplitude", 3)
 DIMENSIONS = Column("dimensions", "", "D", "dimensions of the motion: 2, in the plane of the waves, or 3", 0)
+TRANSIENT = Column("transient_periods", "", "transient", "wave periods at the start that are left out of extremes", 0)
 STROBED = Column("strobed_period", "", "N", "wave periods after which the motion repeats; empty where none is found", 0)
 # What is measured after the transient (`settled`) of any line, with or without a verdict.
 EXTREMES = (
@@ -21,8 +35,13 @@ EXTREMES = (
     Column("angle_max_rad", "rad", "θ_max", "largest angle of the upper end from the vertical after the transient", 3),
     Column("tension_top_min_N", "N", "T_min", "smallest tension at the top of the line after the transient", 0),
     Column("tension_top_max_N", "N", "T_max", "largest tension at the top of the line after the transient", 0),
-    Column("slack_fraction", "", "χ", "share of the time after the transient without tension at the top", 3),
-)
+    Column(
+        "slack_fraction", "", "χ",
+        "share of the time after the transient with less than 5 % of the static tension at the top", 3,
+    ),
+    Column("compression_fraction", "", "χ_c", "share of the time after the transient with T < 0 at the top", 3),
+)  # fmt: skip
+NEAR_ZERO = 0.05  # of the static tension: what the paper calls near zero; below it the line is slack
 REGIME = Column("regime", symbol="regime", meaning="period-N, quasi-periodic, chaotic, transient or undecided")
 _BITS = "bits/period"
 WOLF = (
@@ -46,6 +65,8 @@ COLUMNS = (
     Column("regime_tighter", symbol="tighter", meaning="regime of a chaotic run repeated at a tenth of the tolerance"),
     Column("regime_reason", symbol="reason", meaning="why the run has this regime, in words"),
     Column("evidence", symbol="evidence", meaning="tests behind the regime: name, value, threshold, met"),
+    PERIODS_RUN,
+    TRANSIENT,
     STROBED,
     *EXTREMES,
     *WOLF,
@@ -67,41 +88,55 @@ COLUMNS = (
 )
 
 
-def buoy_row(trajectory, transient_periods: int, simulate=None) -> dict[str, object]:
+def buoy_row(trajectory, transient_periods: int | None, check=None) -> dict[str, object]:
     """The columns of `COLUMNS` that a trajectory of the tethered buoy fills; those left out are unknown.
 
     trajectory: an engine Trajectory of a scene with waves and a buoy, run to its end or not.
-    transient_periods: wave periods left out; a record that does not outlast them by one has statistics only.
-    simulate: to repeat a run that looks chaotic at a ten times tighter tolerance (regime_tighter); None: not done.
-    A run gets a verdict (`campaigns.judge`) if it reached its end and carried tangent vectors, or is long enough in
-    three dimensions. A loop release after the transient leaves offplane_growth unknown, because across the plane a loop
-    has no rate of its own. `campaigns.buoy_sweep.space` fills the columns planar_.
+    transient_periods: wave periods left out; a record that does not outlast them by one has statistics only. None:
+    those that the verdict has found.
+    check: how it goes on at a tighter tolerance, for a run that is chaotic (regime_tighter).
+    A run gets a verdict (`campaigns.judge`) if it reached its end and lasts for two looks; in three dimensions, where
+    no perturbations are carried, for 40 periods. A loop release after the transient leaves offplane_growth unknown,
+    because across the plane a loop has no rate of its own. `campaigns.buoy_sweep.space` fills the columns planar_.
     """
     row, columns, scene = counted(trajectory), sound_part(trajectory.columns), trajectory.scene
     if len(columns["time_s"]) and scene.water is not None:
         top_m = float(np.max(columns["z_m"])) + 0.5 * scene.buoy.diameter_m
         row["max_buoy_height_above_water_m"] = top_m - scene.water.depth_m
     step_s, period_s = scene.sample_step_s(), scene.waves.period_s
+    row["periods"] = (len(columns["time_s"]) - 1) * step_s / period_s if len(columns["time_s"]) else 0.0
+    verdict, wolf = judged(trajectory, row["periods"], transient_periods, check)
+    if transient_periods is None:
+        transient_periods = 0 if verdict is None else verdict.transient
     if measured := after_transient(trajectory, columns, transient_periods):
-        row |= measured
-        in_space = scene.motion.dimensions == 3
-        if in_space:
+        row |= {"transient_periods": transient_periods, **measured}
+        if scene.motion.dimensions == 3:
             first = round(transient_periods * period_s / step_s)  # sample after the transient
             row["buoy_lateral_max_m"] = float(np.abs(columns["y_m"][first:]).max())
             row["rope_lateral_max_m"] = float(columns["offplane_m"][first:].max())
-        enough = lasts(columns, step_s, (transient_periods + LEAST_JUDGED) * period_s)
-        if trajectory.status == "ok" and (carried(trajectory) or (in_space and enough)):
-            tangent = tangent_of(trajectory, transient_periods)
-            verdict, wolf, tighter = verdict_of(trajectory, transient_periods, tangent, simulate)
-            row |= {
-                "regime": verdict.regime,
-                "regime_tighter": tighter,
-                "regime_reason": verdict.reason,
-                "evidence": evidence_text(verdict),
-                **exponents(TANGENT, tangent),
-                **exponents(WOLF, wolf),
-            }
+    if verdict is not None:
+        row |= {
+            "regime": verdict.regime,
+            "regime_tighter": None if check is None else verdict.regime,
+            "regime_reason": verdict.reason,
+            "evidence": evidence_text(verdict),
+            **exponents(TANGENT, tangent_of(trajectory, transient_periods)),
+            **(exponents(WOLF, wolf) if wolf is not None else {}),
+        }
     return row
+
+
+def judged(trajectory, periods: float, transient_periods: int | None, check=None):
+    """The Verdict on a run, and where its samples alone were judged Wolf's exponent; None where there is none."""
+    scene, enough = trajectory.scene, periods - (transient_periods or 0)
+    if trajectory.status != "ok":
+        return None, None
+    if carries_tangents(scene):
+        asked = transient_periods is None or (carried(trajectory) and periods >= next_look(next_look()))
+        return (motion_of(trajectory, check) if asked else None), None
+    if scene.motion.dimensions == 3 and enough >= LEAST_JUDGED:
+        return record_regime(trajectory, transient_periods or 0)
+    return None, None
 
 
 def after_transient(trajectory, columns, transient_periods: int) -> dict[str, object]:
@@ -121,7 +156,9 @@ def after_transient(trajectory, columns, transient_periods: int) -> dict[str, ob
     row["strobed_period"] = detect_period(section.points, LONGEST_PERIOD, STROBE_TOLERANCE, scale).period
     growth = trajectory.tangent
     if trajectory.status == "ok" and growth is not None and growth.lateral_nats is not None:
-        found = transverse_lyapunov(growth.lateral_nats, transient_periods, growth.released)
+        # nan: periods before perturbations were carried
+        told = np.isfinite(growth.lateral_nats) & (np.arange(len(growth.released)) >= transient_periods)
+        found = transverse_lyapunov(growth.lateral_nats[told], 0, growth.released[told])
         row |= exponents(OFFPLANE, found)
     return row
 
@@ -145,9 +182,14 @@ def settled(columns, step_s: float, transient_s: float) -> dict[str, object]:
         extremes(columns[name], step_s, transient_s)
         for name in ("radius_m", "angle_rad", "tension_top_low_N", "tension_top_high_N")
     )
-    slack = slack_fraction(columns["tension_top_N"], step_s, transient_s=transient_s).fraction
+    # A run starts at rest. T < 0 alone says little: much of it is noise of axial waves in a line that hangs loose.
+    tension, static_N = columns["tension_top_N"], float(columns["tension_top_N"][0])
+    shares = (
+        slack_fraction(tension, step_s, threshold_N, transient_s).fraction
+        for threshold_N in (max(NEAR_ZERO * static_N, 0.0), 0.0)
+    )
     ends = (radius.minimum, radius.maximum, angle.minimum, angle.maximum, low.minimum, high.maximum)
-    return dict(zip(names(EXTREMES), (*ends, slack), strict=True))
+    return dict(zip(names(EXTREMES), (*ends, *shares), strict=True))
 
 
 def sound_part(columns) -> dict[str, np.ndarray]:

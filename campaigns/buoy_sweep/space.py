@@ -65,7 +65,7 @@ def run_where_needed(plan: Plan, jobs: list[Job]) -> tuple[dict, Summary]:
         return timing, summary
     more, final = run(plan, chosen)
     times = {name: timing[name] + more[name] for name in timing}
-    # The second half finds what the first has computed: what is new is what both computed.
-    computed = summary.computed + final.computed
-    found = max(len(final.rows) - computed, 0)
-    return times, replace(final, computed=computed, found=found, analysis_s=times["analysis_s"])
+    # The second half finds what the first has done; what is new in it are the runs in space.
+    spatial = sum(job is not one for job, one in zip(jobs, chosen, strict=True))
+    done = {"computed": summary.computed + final.computed, "found": summary.found + spatial - final.computed}
+    return times, replace(final, **done, analysis_s=times["analysis_s"])

@@ -84,12 +84,14 @@ class Running:
 class Lengths:
     """The usual length of a run and of its transient, in wave periods.
 
-    share: the transient is at most periods/share where none is given.
+    share: the transient is at most periods/share where none is given. budget: of a study whose runs take as long as
+    their regime needs where no length is given: the most that they may take; 0: `periods` is the length then.
     """
 
     periods: int
     transient: int
     share: int = 3
+    budget: int = 0
 
 
 class _Formatter(argparse.RawDescriptionHelpFormatter):
@@ -175,10 +177,23 @@ def value(words: list[str] | None, option: str, usual, kind: Kind, faults: list[
         try:
             found.append(kind.convert(word))
         except ValueError:
-            faults.append(f"{option}: given {word!r}; allowed: {kind.allowed}")
+            faults.append(f"{option}: given {word!r}; allowed: {kind.allowed}{_parted(word, kind)}")
     if len(found) < len(words):
         return usual
     return list(dict.fromkeys(found)) if many else found[0]
+
+
+def _parted(word: str, kind: Kind) -> str:
+    """A hint for values that a comma holds together: "0.016,0.13", and "0,13" of a decimal comma."""
+    parts = word.split(",")
+    try:
+        values = [kind.convert(part) for part in parts]
+    except ValueError:
+        return ""
+    if len(values) < 2:
+        return ""
+    decimal = len(parts) == 2 and all(map(str.isdigit, parts))
+    return f"; with a dot: {'.'.join(parts)}" if decimal else f"; separated by spaces: {' '.join(parts)}"
 
 
 def running(options: argparse.Namespace, campaign: str, faults: list[str]) -> Running:

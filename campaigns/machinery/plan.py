@@ -6,13 +6,27 @@ lost at no cost: its rows come from these files, or from the copies of rows besi
 
 import hashlib
 import json
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
+from pathlib import Path
+from typing import NamedTuple
 
 import engine
 from campaigns.columns import Column
 from campaigns.machinery.cli import Running
+
+
+class Further(NamedTuple):
+    """What a run does next: scene, wave periods, the Trajectory it goes on from (None: from rest), and what for.
+
+    check: the run stays as it is, and what is computed is handed to its row: describe(trajectory, check=).
+    """
+
+    scene: object
+    periods: float
+    start: object = None
+    check: bool = False
 
 
 @dataclass(frozen=True)
@@ -20,6 +34,8 @@ class Job:
     """One run to do: the columns that name it, its scene, and its length in wave periods or in seconds.
 
     simulate, describe: in place of the plan's, for campaigns whose runs are not all made or described alike.
+    going(scene, trajectory, row): for a run as long as it needs: what it does next (`Further`), None when it is done;
+    trajectory and row are those so far, None before its first. `periods` is then the most that it may take.
     made: what else the result depends on, where the run is not the engine's own or not the only one of its scene.
     engine: hash of the engine's sources with which the campaign began.
     """
@@ -30,8 +46,19 @@ class Job:
     duration_s: float | None = None
     simulate: Callable | None = None
     describe: Callable | None = None
+    going: Callable | None = None
     made: str = ""
     engine: str = field(default_factory=lambda: engine.source_hash())
+
+    @property
+    def size(self) -> float:
+        """Its length in seconds times its nodes, and by these again where shorter elements take shorter steps.
+
+        Runs of one campaign take about as long as their sizes say; the speed itself is not known before they run.
+        """
+        waves, tether = self.scene.waves, self.scene.tether
+        length_s = (self.periods or 0.0) * waves.period_s if self.duration_s is None else self.duration_s
+        return length_s * tether.nodes ** (2 if self.scene.solver.courant else 1)
 
     @cached_property
     def key(self) -> str:
@@ -77,7 +104,9 @@ class Plan:
     importable or picklable by cloudpickle. columns: of the table, among them run_key, status and message.
     row_maker: hash of whatever shapes a row (`campaigns.machinery.folder.made_by`); empty: rows are not kept.
     simulate_each(scenes, periods=, duration_s=): yields (number of the scene, Trajectory) as runs end; where it is
-    given, runs that can go side by side share a worker (`campaigns.machinery.runner.groups_of`).
+    given, runs that can go side by side share a worker (`campaigns.machinery.runner.groups_of`). Both are also given
+    progress=, where they take it. said: what the runs are called while they go; told: folder where workers say how far
+    they are (`campaigns.machinery.progress`).
     how.out: None in the plan that a worker gets which does not see the folder.
     """
 
@@ -87,9 +116,26 @@ class Plan:
     columns: tuple[Column, ...]
     row_maker: str = ""
     simulate_each: Callable | None = None
-    show_progress: bool = True
+    said: str = "runs"
+    told: Path | None = None
 
     @property
     def sends(self) -> bool:
         """Whether workers send what they computed, because they need not see the folder."""
         return self.how.backend == "dask"
+
+
+def name_of(task: Sequence[Job]) -> str:
+    """The name of the file in which a worker says how far it is with these jobs."""
+    return f"{len(task)}-{task[0].key}"
+
+
+def length_of(jobs: Sequence[Job]) -> tuple[float, str]:
+    """The length of all runs together, in wave periods where all have waves, and what it is counted in."""
+    in_waves = all(job.scene.waves is not None for job in jobs)
+    lengths = (
+        job.periods if job.periods is not None else job.duration_s / (job.scene.waves.period_s if in_waves else 1.0)
+        for job in jobs
+    )
+    most = " at most" if any(job.going is not None for job in jobs) else ""
+    return sum(lengths), f"{'wave periods' if in_waves else 's'}{most} in {len(jobs)} runs"

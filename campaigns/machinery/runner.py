@@ -9,7 +9,7 @@ as soon as it ends: a killed campaign loses what was running and nothing else.
 import contextlib
 import math
 import socket
-import sys
+import tempfile
 import time
 import traceback
 from collections.abc import Callable, Iterator, Sequence
@@ -27,13 +27,17 @@ from campaigns.machinery.folder import (
     trajectory_path,
     write_failure,
 )
-from campaigns.machinery.plan import Job, Outcome, Plan, Summary
+from campaigns.machinery.plan import Further, Job, Outcome, Plan, Summary, length_of, name_of
 from campaigns.machinery.pools import PoolBroken, opened
+from campaigns.machinery.progress import heard, in_time, rounds_ahead, shares, stage, tell, teller
 from engine.atomic import write_atomic
 
+ENGINE = "the engine, loaded or compiled once"
 COMPILE_RUN_S = 0.1  # long enough to go through every kernel, too short to cost anything
 MOST = 96  # jobs of a group: results reach the table group by group
 MOST_SENT = 8  # where a group's runs are sent together: one for each lane, so a lost worker costs what was running
+GOLDEN = 0.5 * (math.sqrt(5.0) - 1.0)  # its multiples, less whole numbers, fill any range evenly
+LANES = 8  # of a worker, as `engine.simd.vector.COUNT`, which is slow to import: for the time left only
 FEWEST = 4  # jobs for each worker below which they are not put together
 
 
@@ -45,10 +49,10 @@ def run(plan: Plan, jobs: list[Job], compile_run_s: float = COMPILE_RUN_S) -> tu
     missing = [job for job in jobs if not trajectory_path(plan.how.out, job.key).exists()]
     start = time.perf_counter()
     if missing and plan.sends and plan.how.dask_address is not None:
-        print("each worker compiles the engine in its first run, unless it has done so before", file=sys.stderr)
+        tell("each worker compiles the engine in its first run, unless it has done so before")
     elif missing:
-        print("compiling the engine, or loading it compiled ...", file=sys.stderr)
-        _compile(plan, missing, compile_run_s)
+        with stage(ENGINE):
+            _compile(plan, missing, compile_run_s)
     compiled = time.perf_counter()
     summary = run_campaign(plan, jobs)
     run_s = time.perf_counter() - compiled
@@ -78,8 +82,16 @@ def groups_of(plan: Plan, jobs: list[Job]) -> list[tuple[Job, ...]]:
         workers = min(plan.how.jobs, len(members) // FEWEST)
         count = workers * math.ceil(len(members) / (max(1, workers) * (MOST_SENT if plan.sends else MOST)))
         # dealt like cards: neighbours cost alike, and so the groups do
-        groups += [tuple(members[first::count]) for first in range(count)]
+        groups += [tuple(_mixed(members[first::count])) for first in range(count)]
     return groups
+
+
+def _mixed(jobs: list[Job]) -> list[Job]:
+    """The jobs in an order in which any part of them is like the whole: what some took says what the rest takes.
+
+    Not the first one leads, which in a sweep is often the fastest: a slow one that begins late would end alone.
+    """
+    return [jobs[i] for i in sorted(range(len(jobs)), key=lambda i: i * GOLDEN % 1.0, reverse=True)]
 
 
 def _compile(plan: Plan, missing: list[Job], duration_s: float) -> None:
@@ -97,7 +109,7 @@ def _compile(plan: Plan, missing: list[Job], duration_s: float) -> None:
             call(duration_s=duration_s)
         except Exception as error:
             # Not the place to judge a scene: the run itself fails in the same way, and that failure becomes its row.
-            print(f"the first simulation failed ({type(error).__name__}); its run will say why", file=sys.stderr)
+            tell(f"the first simulation failed ({type(error).__name__}); its run will say why")
 
 
 def run_campaign(plan: Plan, jobs: list[Job]) -> Summary:
@@ -105,20 +117,17 @@ def run_campaign(plan: Plan, jobs: list[Job]) -> Summary:
 
     Raises CampaignStopped (disk full, folder lost) or KeyboardInterrupt; finished runs and their rows are then on disk.
     """
-    from tqdm import tqdm
-
     by_key = {job.key: job for job in jobs}
     table = Table(plan.how.out / "table.csv", plan.columns, list(by_key))
-    found = {key: outcome for key, job in by_key.items() if (outcome := reuse(plan, job)) is not None}
+    with stage("looking for finished runs"):
+        there = {key: reuse(plan, job) for key, job in by_key.items()}
+        found = {key: outcome for key, outcome in there.items() if outcome is not None and _ended(by_key[key], outcome)}
     table.rows = {key: _row(by_key[key], outcome) for key, outcome in found.items()}
     table.write()
     analysis_s = sum(outcome.analysis_s for outcome in found.values())
     missing = {key: job for key, job in by_key.items() if key not in found}
-    terminal = sys.stderr.isatty()
-    bar = {"total": len(by_key), "initial": len(found), "unit": "run", "desc": "runs", "dynamic_ncols": terminal}
-    bar |= {"mininterval": 0.2 if terminal else 10.0, "disable": not (plan.show_progress and missing)}
     try:
-        for outcome in tqdm(_computed(plan, missing), **bar):
+        for outcome in _computed(plan, missing, list(by_key.values())):
             if outcome.content:
                 write_atomic(trajectory_path(plan.how.out, outcome.key), outcome.content)
                 keep_row(plan.how.out, outcome.key, plan.row_maker, outcome.row)
@@ -132,27 +141,50 @@ def run_campaign(plan: Plan, jobs: list[Job]) -> Summary:
     return Summary(table.in_order(), len(found), len(by_key) - len(found), analysis_s)
 
 
+def _ended(job: Job, outcome: Outcome) -> bool:
+    return job.going is None or job.going(job.scene, None, outcome.row) is None
+
+
 def _row(job: Job, outcome: Outcome) -> dict[str, object]:
     return {**job.labels, **outcome.row, "run_key": job.key}
 
 
-def _computed(plan: Plan, jobs: dict[str, Job]) -> Iterator[Outcome]:
-    """Outcomes of all jobs, by key, as they come: those that can share a worker first, then what these leave undone.
+def _computed(plan: Plan, jobs: dict[str, Job], all_jobs: Sequence[Job]) -> Iterator[Outcome]:
+    """Outcomes of the jobs, by key, as they come: those that can share a worker first, then what these leave undone.
 
-    A run that kills its worker twice, the second time alone, is given up.
+    A run that kills its worker twice, the second time alone, is given up. all_jobs: with those that were found, which
+    count as done from the start.
     """
     if not jobs:
         return
-    left = dict(jobs)
+    left, tasks = dict(jobs), {}
     # A worker kept from an earlier campaign of this process may stand in another folder.
     how = replace(plan.how, out=None if plan.sends else plan.how.out.absolute())
-    call = partial(run_jobs, replace(plan, how=how))
-    with opened(plan.how.backend, min(plan.how.jobs, len(jobs)), plan.how.dask_address) as execute:
-        groups = groups_of(plan, list(jobs.values()))
+    groups = groups_of(plan, list(jobs.values()))
+    sizes = {job.key: job.size for job in all_jobs}
+    total, unit = length_of(all_jobs)
+
+    def far() -> float:
+        told = {name: share for name, share in shares(Path(place)).items() if name in tasks}
+        told = {
+            name: share if tasks[name][0].going is not None else in_time(share, len(tasks[name]), LANES)
+            for name, share in told.items()
+        }
+        begun = sum(share * sizes[job.key] for name, share in told.items() for job in tasks[name] if job.key in left)
+        return total * (1.0 - (sum(sizes[key] for key in [*left]) - begun) / sum(sizes.values()))
+
+    with (
+        tempfile.TemporaryDirectory(prefix="tether-progress-") as place,
+        opened(plan.how.backend, min(plan.how.jobs, len(jobs)), plan.how.dask_address) as execute,
+        stage(plan.said, total, unit, far),
+    ):
+        call = partial(run_jobs, replace(plan, how=how, told=Path(place)))
         while left:
+            tasks = {name_of(task): task for task in groups or [(job,) for job in left.values()]}
             try:
-                for task, outcomes in execute(call, groups or [(job,) for job in left.values()]):
+                for task, outcomes in execute(call, [*tasks.values()]):
                     groups = [group for group in groups if group is not task]
+                    Path(place, name_of(task)).unlink(missing_ok=True)
                     for outcome in outcomes:
                         del left[outcome.key]
                         yield outcome
@@ -179,12 +211,15 @@ def run_jobs(plan: Plan, jobs: Sequence[Job]) -> list[Outcome]:
     first = jobs[0]
     if engine.source_hash() != first.engine:
         raise CampaignStopped("the engine's sources here are not those the campaign began with; start it again")
+    told = teller(plan.told, name_of(jobs))
+    if first.going is not None:
+        return _carried_on(plan, jobs, told)
     if len(jobs) == 1:
-        return [_run_one(plan, first)]
-    outcomes = []
+        return [_run_one(plan, first, told)]
+    outcomes, length = [], {"periods": first.periods, "duration_s": first.duration_s}
     try:
         scenes = [job.scene for job in jobs]
-        for i, trajectory in plan.simulate_each(scenes, periods=first.periods, duration_s=first.duration_s):
+        for i, trajectory in plan.simulate_each(scenes, **length, **heard(plan.simulate_each, told)):
             outcomes.append(_kept(plan, jobs[i], trajectory))
     except CampaignStopped:
         raise
@@ -193,11 +228,83 @@ def run_jobs(plan: Plan, jobs: Sequence[Job]) -> list[Outcome]:
     return outcomes
 
 
-def _run_one(plan: Plan, job: Job) -> Outcome:
+def _carried_on(plan: Plan, jobs: Sequence[Job], told: Callable[[float], None]) -> list[Outcome]:
+    """As `run_jobs`, of jobs that take as long as they need: in rounds, each to the next look of its runs.
+
+    What a run has done is on disk after each of its rounds, so that a killed campaign goes on from there.
+    """
+    there = {job.key: _so_far(plan, job) for job in jobs}
+    reached, spent = dict.fromkeys(there, 0.0), 0.0  # periods of each run; of the worker, whose lanes go together
+    outcomes, left = [], list(jobs)
+    while left:
+        asked: dict[float, list[tuple[Job, Further]]] = {}
+        for job in left:
+            trajectory, outcome = there[job.key]
+            further = job.going(job.scene, trajectory, None if outcome is None else outcome.row)
+            if further is None:
+                outcomes.append(outcome)
+            else:
+                asked.setdefault(further.periods, []).append((job, further))
+        left = []
+        reached |= {job.key: reached[job.key] + periods for periods, group in asked.items() for job, _ in group}
+        costs = {periods: math.ceil(len(group) / LANES) * periods for periods, group in asked.items()}
+        most = max((reached[job.key] for group in asked.values() for job, _ in group), default=0.0)
+        going_on = 0.5 * sum(map(len, asked.values()))
+        whole = spent + sum(costs.values()) + rounds_ahead(going_on, most, jobs[0].periods, LANES)
+        for periods, group in asked.items():
+            begun, cost = spent, costs[periods]
+            spent += cost
+            hear = partial(_heard_of, told, begun / whole, cost / whole)
+            try:
+                for i, part in _parts(plan, [further for _, further in group], periods, hear):
+                    job = group[i][0]
+                    before = there[job.key][0]
+                    if group[i][1].check:
+                        there[job.key] = before, _described(plan, job, before, check=part)
+                    else:
+                        joined = part if before is None else before.followed_by(part)
+                        there[job.key] = joined, _kept(plan, job, joined)
+                    left.append(job)
+            except CampaignStopped:
+                raise
+            except (Exception, SystemExit) as error:
+                if is_full(error):
+                    raise _stopped(plan, error) from error
+                if len(jobs) == 1:  # alone it says what is wrong; the others are run again one by one
+                    return [failed(jobs[0], "error", _reason(error))]
+    return outcomes
+
+
+def _heard_of(told: Callable[[float], None], before: float, share: float, fraction: float) -> None:
+    told(before + share * fraction)
+
+
+def _parts(plan: Plan, asked: list[Further], periods: float, hear: Callable) -> Iterator[tuple[int, object]]:
+    """(number, Trajectory) of what is asked, as the runs end; hear: a function of the share that is done."""
+    if plan.simulate_each is not None:
+        starts, more = [further.start for further in asked], heard(plan.simulate_each, hear)
+        yield from plan.simulate_each([further.scene for further in asked], periods=periods, starts=starts, **more)
+        return
+    for i, further in enumerate(asked):
+        start = {} if further.start is None else {"start": further.start}
+        yield i, plan.simulate(further.scene, periods=periods, **start)
+
+
+def _so_far(plan: Plan, job: Job):
+    """(trajectory, Outcome) of as much of a run as is there; (None, None) where nothing is."""
+    outcome = reuse(plan, job)
+    if outcome is None or outcome.row.get("status") not in ("ok", None):
+        return None, outcome
+    return engine.Trajectory.load(trajectory_path(plan.how.out, job.key)), outcome
+
+
+def _run_one(plan: Plan, job: Job, told: Callable[[float], None]) -> Outcome:
     if (outcome := reuse(plan, job)) is not None:
         return outcome
+    simulate = job.simulate or plan.simulate
     try:
-        trajectory = (job.simulate or plan.simulate)(job.scene, periods=job.periods, duration_s=job.duration_s)
+        length = {"periods": job.periods, "duration_s": job.duration_s}
+        trajectory = simulate(job.scene, **length, **heard(simulate, told))
     except (Exception, SystemExit) as error:
         if is_full(error):
             raise _stopped(plan, error) from error
@@ -232,10 +339,10 @@ def reuse(plan: Plan, job: Job) -> Outcome | None:
     return _described(plan, job, trajectory) if row is None else Outcome(job.key, row)
 
 
-def _described(plan: Plan, job: Job, trajectory) -> Outcome:
+def _described(plan: Plan, job: Job, trajectory, **more) -> Outcome:
     start = time.perf_counter()
     try:
-        row = (job.describe or plan.describe)(trajectory)
+        row = (job.describe or plan.describe)(trajectory, **more)
     except Exception as error:
         row = {"status": "analysis-failed", "message": _reason(error)}
     outcome = Outcome(job.key, row, time.perf_counter() - start)

@@ -17,7 +17,7 @@ import socket
 import subprocess
 import sys
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from datetime import UTC, datetime
 from importlib import metadata
 from pathlib import Path
@@ -26,10 +26,13 @@ import engine
 from campaigns.machinery.cli import EXIT_BAD_INPUT, EXIT_FAILED, EXIT_INTERRUPTED, EXIT_OK, Running
 from campaigns.machinery.folder import CampaignStopped, claimed, read_json, write_failure, write_json
 from campaigns.machinery.plan import Summary
+from campaigns.machinery.progress import stage
+from engine.atomic import write_atomic
 
-PROVENANCE = "provenance.json"
+PROVENANCE, ANSWER = "provenance.json", "answer.txt"
+MOST_LINES = 8  # of an answer
 _PACKAGES = (
-    "numpy", "scipy", "numba", "llvmlite", "pandas", "xarray", "pydantic", "joblib", "dask", "distributed", "tqdm",
+    "numpy", "scipy", "numba", "llvmlite", "pandas", "xarray", "pydantic", "joblib", "dask", "distributed",
     "matplotlib", "jinja2", "typst",
 )  # fmt: skip
 _OF_THE_OCCASION = {
@@ -48,7 +51,8 @@ def command(module: str, argv: list[str] | None, read_order: Callable, work: Cal
     # A closed stream (>&-) is None, which progress bars and workers write to.
     sys.stdout, sys.stderr = (stream or open(os.devnull, "w") for stream in (sys.stdout, sys.stderr))
     try:
-        order = read_order(argv, faults)
+        with stage(module.rpartition(".")[2]):
+            order = read_order(argv, faults)
     except KeyboardInterrupt:
         return _told("\ninterrupted; nothing was run or written", EXIT_INTERRUPTED)
     except ModuleNotFoundError as missing:
@@ -87,28 +91,39 @@ def conduct(study, order, argv: list[str], parameters: dict) -> int:
     `command`.
     """
     start, how = time.perf_counter(), order.how
-    with claimed(how.out):
+    with claimed(how.out), stage(study.name):
         record = begun(how.out, study.name, command_line(study.called, argv), parameters)
         timing, summary = study.work(order)
         if summary.computed or not ended(how.out):
             failed = sum(row["status"] != "ok" for row in summary.rows)
-            counts = {"total": len(summary.rows), "found": summary.found}
-            counts |= {"computed": summary.computed, "failed": failed}
+            done = {"found": summary.found, "computed": summary.computed}
+            counts = {"total": sum(done.values()), **done, "failed": failed}
             rounded = {name: round(seconds, 3) for name, seconds in timing.items()}
             write_json(how.out / PROVENANCE, record | {"runs": counts, "finished_utc": _now_utc(), "timing": rounded})
+        answer = write_answer(how.out, study.answer(order, summary.rows)) if study.answer is not None else []
         fault, began = "", time.perf_counter()
         if how.report and not summary.whole:
             try:
                 from reports import build
 
-                build(how.out)
+                with stage("figures and pages of the report"):
+                    build(how.out)
             except OSError:
                 raise
             except Exception as error:  # the results stand without a report
                 fault = f"{type(error).__name__}: {error}"
         timing |= {"report_s": time.perf_counter() - began, "total_s": time.perf_counter() - start}
-    code = say(how, summary, timing, fault)
+    code = say(how, summary, answer, timing, fault)
     return EXIT_FAILED if study.strict and any(row["status"] != "ok" for row in summary.rows) else code
+
+
+def write_answer(out: Path, sentences: Iterable[str]) -> list[str]:
+    """Write the first MOST_LINES sentences to answer.txt, a line each, where they are new; returns them."""
+    lines = list(sentences)[:MOST_LINES]
+    path, content = out / ANSWER, "".join(f"{line}\n" for line in lines).encode()
+    if not path.exists() or path.read_bytes() != content:
+        write_atomic(path, content)
+    return lines
 
 
 def begun(out: Path, name: str, command: list[str], parameters: dict) -> dict[str, object]:
@@ -174,20 +189,25 @@ def machine() -> dict[str, object]:
     return {"processor": model or platform.processor() or platform.machine(), "cores": cores}
 
 
-def say(how: Running, summary: Summary, timing: dict[str, float], fault: str) -> int:
-    """Print what was done, where it is and where the time went; returns the exit code. fault: why no report."""
-    out = how.out
+def say(how: Running, summary: Summary, answer: list[str], timing: dict[str, float], fault: str) -> int:
+    """Print the answer, what was done, where it is and where the time went; returns the exit code.
+
+    fault: why there is no report.
+    """
+    out, done = how.out, summary.computed + summary.found
     failed = collections.Counter(str(row["status"]) for row in summary.rows if row["status"] != "ok")
     reasons = ", ".join(f"{status} {count}" for status, count in sorted(failed.items()))
-    print(f"runs     {len(summary.rows)}: {summary.computed} computed, {summary.found} found")
+    for head, line in zip(["answer", *[""] * MOST_LINES], answer, strict=False):
+        print(f"{head:<9}{line}")
+    print(f"runs     {done}: {summary.computed} computed, {summary.found} found")
     if failed:
         print(f"failed   {sum(failed.values())}: {reasons}; see the columns status and message")
     print(f"table    {out / 'table.csv'}")
     if how.report and not fault:
         print(f"report   {out / 'report.html'}\n         {out / 'report.pdf'}")
     print(
-        f"time     {timing['total_s']:.1f} s: compile {timing['compile_s']:.1f}, run {timing['run_s']:.1f} "
-        f"(of it analysis {timing['analysis_s']:.1f}, summed over workers), report {timing['report_s']:.1f}"
+        f"time     {timing['total_s']:.1f} s: compile {timing['compile_s']:.1f}, run {timing['run_s']:.1f}, "
+        f"report {timing['report_s']:.1f}; analysis took {timing['analysis_s']:.1f} s of the workers' time"
     )
     if fault:
         again = f"the runs are complete; try again: python -m reports {out}"

@@ -12,7 +12,7 @@ starts come from a fixed seed.
 from argparse import Namespace
 
 from campaigns.machinery import cli
-from campaigns.study import Study
+from campaigns.study import Order, Study
 
 PARAMETERS = ("damping", "frequency", "force", "lift", "phase")
 FORCES, FREQUENCIES = (0.1, 2.0, 800), (0.5, 2.0, 800)
@@ -63,6 +63,25 @@ def _work():
     return study
 
 
+def answer(order: Order, rows: list[dict]) -> list[str]:
+    """The exponent in words, attractors and grazing, as far as these parts have results."""
+    from campaigns.answers import known
+
+    of = {row["part"]: row for row in rows if row["status"] == "ok"}
+    exponents, basins, grazing = (of.get(part, {}) for part in ("exponents", "basins", "grazing"))
+    value, error = (known(exponents, f"lambda_1_bits_{name}") for name in ("per_period", "error"))
+    word = "chaotic" if value > 2 * error else "regular" if value < -2 * error else "neither shown chaotic nor regular"
+    said = []
+    if exponents:
+        said.append(f"The motion is {word}: largest exponent {value:.4f} +- {error:.4f} bits per forcing period.")
+    if basins:
+        share = 100.0 * known(basins, "aperiodic_share")
+        said.append(f"Periodic attractors: {known(basins, 'attractors'):.0f}; {share:.1f} % of the starts end in none.")
+    if known(grazing, "grazing_force") > 0.0:
+        said.append(f"The line stays taut up to a force of F = {known(grazing, 'grazing_force'):.4f}.")
+    return said
+
+
 STUDY = Study(
     name="oscillator",
     protocol=__doc__,
@@ -70,6 +89,7 @@ STUDY = Study(
     read=read,
     parameters=lambda order: _work().parameters(order.own),
     done=lambda order: _work().done(order.own),
+    answer=answer,
     jobs=False,
     backends=False,
 )

@@ -7,7 +7,6 @@ the file, so table.csv can be made again from the files.
 
 import contextlib
 import json
-import sys
 import time
 from argparse import Namespace
 from dataclasses import asdict
@@ -36,6 +35,7 @@ from campaigns.columns import MESSAGE, RUN_KEY, STATUS, Column
 from campaigns.figure_data import attribute_of, store
 from campaigns.machinery.folder import Table, made_by, trajectory_path
 from campaigns.machinery.plan import Summary
+from campaigns.machinery.progress import stage
 from engine.atomic import write_atomic
 
 SEED = 0
@@ -219,10 +219,11 @@ def done(order: Namespace) -> tuple[dict[str, float], Summary]:
     timing = {"compile_s": _compile(oscillator) if missing else 0.0}
     begun = time.perf_counter()
     try:
-        for part in missing:
-            print(f"{part} ...", file=sys.stderr)
-            row = _done(part, oscillator, order, trajectory_path(out, keys[part]))
-            table.add(keys[part], row | {"run_key": keys[part]})
+        with stage("parts", len(PARTS), "parts", lambda: len(table.rows)):
+            for part in missing:
+                with stage(part):
+                    row = _done(part, oscillator, order, trajectory_path(out, keys[part]))
+                table.add(keys[part], row | {"run_key": keys[part]})
     finally:
         with contextlib.suppress(OSError):
             table.write()
@@ -237,9 +238,9 @@ def _key(part: str, order: Namespace) -> str:
 
 
 def _compile(oscillator: SnapOscillator) -> float:
-    print("compiling eq. (33), or loading it compiled ...", file=sys.stderr)
     begun = time.perf_counter()
-    snap_exponents(oscillator, count=2, transient_periods=1, periods=2, blocks=2)
+    with stage("eq. (33), loaded or compiled"):
+        snap_exponents(oscillator, count=2, transient_periods=1, periods=2, blocks=2)
     return time.perf_counter() - begun
 
 

@@ -173,6 +173,20 @@ def judge(plan: Plan, summary: Summary, base: Variant, transient: int) -> float:
     return 0.0
 
 
+def answer(order: Order, rows: list[dict]) -> Iterator[str]:
+    """How far buoy and rope leave the plane, and the paper's statements on figure 20 that do not hold."""
+    from campaigns.answers import greatest, known, verdicts
+
+    for steepness in (SMALL, LARGE):
+        at = [row for row in rows if row["steepness"] == steepness and row["status"] == "ok"]
+        columns = ("buoy_lateral_max_m", "rope_lateral_max_m")
+        found = [known(row, name) for name in columns if (row := greatest(at, name)) is not None]
+        if len(found) == len(columns):
+            said = "kA = {:g}: the buoy leaves the plane by at most {:.2g} m, the rope by {:.2g} m."
+            yield said.format(steepness, *found)
+    yield from verdicts(order.how.out, quoted=4)
+
+
 STUDY = Study(
     name="out_of_plane",
     protocol=__doc__,
@@ -185,6 +199,7 @@ STUDY = Study(
     measures=measures,
     parameters=parameters,
     beside=beside,
+    answer=answer,
     together=False,
 )
 main, parser, read_order = STUDY.main, STUDY.parser, STUDY.read_order

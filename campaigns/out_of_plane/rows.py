@@ -21,7 +21,7 @@ from campaigns.buoy_sweep.rows import (
     sound_part,
 )
 from campaigns.columns import DEPTH, MESSAGE, PERIODS_RUN, RUN_KEY, STATISTICS, STATUS, STIFFNESS, Column, counted
-from campaigns.judge import tangent_of, verdict_of
+from campaigns.judge import record_regime, tangent_of
 
 EARLY_PERIODS = 8  # before the first loop at every depth of the campaign: still linear in the push
 RISE_PERIODS = 4  # after its least value, within which lateral distance has risen to the first burst
@@ -107,7 +107,7 @@ def offplane_row(trajectory, transient_periods: int, judged: frozenset = frozens
     if trajectory.profiles is not None and len(trajectory.profiles.time_s):
         row["bow_inplane_m"], row["bow_lateral_m"] = bows(trajectory.profiles)
     if scene.key() in judged and trajectory.status == "ok" and "inplane_m" in row:
-        verdict, wolf, _ = verdict_of(trajectory, transient_periods)
+        verdict, wolf = record_regime(trajectory, transient_periods)
         tangent = tangent_of(trajectory, transient_periods)
         row |= {"regime": verdict.regime, **exponents(WOLF, wolf), **exponents(TANGENT, tangent)}
     return row

@@ -11,6 +11,7 @@ nothing else is random. To change a scene, run the campaign of that part.
 """
 
 from argparse import Namespace
+from collections.abc import Iterator
 from dataclasses import replace
 
 from campaigns.machinery import cli
@@ -38,6 +39,7 @@ def read(options: Namespace, faults: list[str]) -> None:
 
 def done(order: Order) -> tuple[dict[str, float], Summary]:
     """Parts, figure data, statements; the latter two stay as they are where nothing is new."""
+    from campaigns.machinery.progress import stage
     from campaigns.machinery.session import ended
     from campaigns.paper import parts, results
 
@@ -45,7 +47,8 @@ def done(order: Order) -> tuple[dict[str, float], Summary]:
     timing, summary = parts.run(order.own)
     whole = ended(out) and not summary.computed and results.there(out, order.how.report)
     if not whole:
-        results.write(out)
+        with stage("figures' data and statements"):
+            results.write(out)
     return timing, replace(summary, whole=whole)
 
 
@@ -57,7 +60,24 @@ def parameters(order: Order) -> dict[str, object]:
     return {"quick": quick, "made_by": results.maker(), "dependence": dependence.parameters(quick)}
 
 
+def answer(order: Order, rows: list[dict]) -> Iterator[str]:
+    """How many of the paper's statements hold; a quick look at few and short runs says that it decides nothing."""
+    from campaigns.answers import verdicts
+
+    if order.own.quick:
+        yield "A quick look: runs are few and short, so nothing is to be concluded from them."
+    else:
+        yield from verdicts(order.how.out, quoted=5)
+
+
 STUDY = Study(
-    name="paper", protocol=__doc__, options=options, read=read, parameters=parameters, done=done, backends=False
+    name="paper",
+    protocol=__doc__,
+    options=options,
+    read=read,
+    parameters=parameters,
+    done=done,
+    answer=answer,
+    backends=False,
 )
 main, parser, read_order = STUDY.main, STUDY.parser, STUDY.read_order

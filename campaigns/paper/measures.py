@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from campaigns.buoy_sweep.rows import lasts, sound_part
+from campaigns.buoy_sweep.rows import NEAR_ZERO, lasts, sound_part
 
 if TYPE_CHECKING:
     from analysis import Spectrum
@@ -28,7 +28,6 @@ EARLY, LATE = (0, 20), (40, 60)  # wave periods between which a free oscillation
 NEAR_BINS = 2  # of eq. (31): a line that is on no bin leaks into its neighbours
 LINES_POINTS = 32, 2000  # strobed points whose lines are looked for: the fewest that allow it, the most
 TURN_RAD = 1e-3  # per element, below which a rope counts as straight
-NEAR_ZERO = 0.05  # of the static tension: what the paper calls near zero, in numbers
 
 
 def in_window(trajectory: Trajectory) -> bool:

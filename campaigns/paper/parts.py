@@ -15,7 +15,6 @@ import csv
 import hashlib
 import importlib
 import json
-import sys
 import time
 from argparse import Namespace
 from pathlib import Path
@@ -24,6 +23,7 @@ from campaigns.columns import MESSAGE, RUN_KEY, STATUS, Column, names
 from campaigns.machinery import cli
 from campaigns.machinery.folder import CampaignStopped, Table, made_by, of_the_page, trajectory_path
 from campaigns.machinery.plan import Summary
+from campaigns.machinery.progress import stage
 from campaigns.machinery.session import command_line
 from campaigns.paper import dependence
 from campaigns.paper.order import PARTS
@@ -81,9 +81,9 @@ def run(order: Namespace) -> tuple[dict[str, float], Summary]:
     table.rows |= {row["part"]: row for row in _rows(out) if row.keys() == known and row["part"] in PARTS}
     timing = dict.fromkeys(_TIMES, 0.0) | {"analysis_s": 0.0}
     todo = [part for part in order.parts if not _there(table.rows.get(part), keys[part], out / part, order)]
-    for part in todo:
-        print(f"{part} ...", file=sys.stderr)
-        row = _done(part, order)
+    for number, part in enumerate(todo, 1):
+        with stage(f"part {number} of {len(todo)}"):
+            row = _done(part, order)
         table.add(part, {**row, "run_key": _ended(keys[part], out / part)})
         table.write()
         timing |= {name: timing[name] + row[name] for name in _TIMES}

@@ -11,6 +11,8 @@ seed. A verdict "unexplained" ends the campaign with exit code 1.
 """
 
 from argparse import Namespace
+from collections import Counter
+from collections.abc import Iterator
 
 from campaigns.machinery import cli
 from campaigns.machinery.plan import Summary
@@ -46,6 +48,17 @@ def done(order: Order) -> tuple[dict[str, float], Summary]:
     return tasks.done(order.own)
 
 
+def answer(order: Order, rows: list[dict]) -> Iterator[str]:
+    """How the cases ended, and the random scenes; what nobody can explain by name."""
+    cases = [row for row in rows if row["part"] == "case"]
+    counts = Counter(str(row["verdict"]) for row in cases)
+    yield f"{len(cases)} cases: {', '.join(f'{count} {word}' for word, count in counts.most_common())}."
+    yield from (f"Random: {row['case']}: {row['message'][:100]}." for row in rows if row["part"] == "fuzz")
+    strange = [str(row["case"]) for row in cases if row["verdict"] == "unexplained"]
+    if strange:
+        yield f"Unexplained: {'; '.join(strange)[:200]}."
+
+
 STUDY = Study(
     name="stability",
     protocol=__doc__,
@@ -53,6 +66,7 @@ STUDY = Study(
     read=read,
     parameters=lambda order: {name: getattr(order.own, name) for name in ("seed", "quick", "fuzz", "drift_periods")},
     done=done,
+    answer=answer,
     backends=False,
     strict=True,
 )

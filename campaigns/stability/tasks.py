@@ -7,7 +7,6 @@ step_maps.json, scene_shares.json, scene.toml (the scene from which cases start)
 
 import hashlib
 import json
-import sys
 import time
 from collections import Counter
 from dataclasses import dataclass
@@ -25,6 +24,8 @@ from campaigns.machinery.folder import (
 )
 from campaigns.machinery.plan import Summary
 from campaigns.machinery.pools import PoolBroken, opened
+from campaigns.machinery.progress import stage
+from campaigns.machinery.runner import ENGINE
 from campaigns.stability import cases, fuzz, random_scenes, scene_shares, step_maps
 from campaigns.stability.cases import all_cases, drift_case
 from engine import load_scene
@@ -91,8 +92,6 @@ def done(order) -> tuple[dict[str, float], Summary]:
 
     Raises CampaignStopped where a worker dies: cases have their own processes.
     """
-    from tqdm import tqdm
-
     out, maker = order.how.out, made_by({}, *SOURCES)
     write_atomic(out / "scene.toml", load_scene("tethered_buoy").to_toml().encode())
     tasks, shares = planned(order), Task("shares", order.quick)
@@ -100,22 +99,25 @@ def done(order) -> tuple[dict[str, float], Summary]:
     missing = [task for task in tasks if results[task.key()] is None]
     start = time.perf_counter()
     if missing or kept_row(out, shares.key(), maker) is None:
-        print("compiling the engine, or loading it compiled ...", file=sys.stderr)
-        fuzz.load_kernels()
+        with stage(ENGINE):
+            fuzz.load_kernels()
     timing = {"compile_s": time.perf_counter() - start}
     start = time.perf_counter()
     kinds = [kind for kind in CHUNK if order.fuzz]
-    drawn = {kind: result(out, maker, Task("drawn", (kind, order.seed, order.fuzz)))["scenes"] for kind in kinds}
-    bar = {"total": len(tasks), "initial": len(tasks) - len(missing), "unit": "task", "desc": "tasks"}
+    with stage("drawing random scenes"):
+        drawn = {kind: result(out, maker, Task("drawn", (kind, order.seed, order.fuzz)))["scenes"] for kind in kinds}
     try:
-        with opened("loky", max(1, min(order.how.jobs, len(missing)))) as execute:
-            found = execute(partial(result, out.absolute(), maker), missing) if missing else ()
-            for task, one in tqdm(found, mininterval=1.0, disable=not missing, **bar):
+        with (
+            opened("loky", max(1, min(order.how.jobs, len(missing)))) as execute,
+            stage("cases", len(tasks), "tasks", lambda: sum(one is not None for one in [*results.values()])),
+        ):
+            for task, one in execute(partial(result, out.absolute(), maker), missing) if missing else ():
                 results[task.key()] = one
     except PoolBroken as broken:
         raise CampaignStopped(f"a worker process ended: {broken}; finished tasks are kept") from broken
     # alone on the machine, at the end: it takes times
-    write_json(out / "scene_shares.json", result(out, maker, shares))
+    with stage("what each part of a scene costs"):
+        write_json(out / "scene_shares.json", result(out, maker, shares))
     write_json(out / "step_maps.json", {task.what: results[task.key()] for task in tasks if task.kind == "map"})
     rows = [results[task.key()] | {"run_key": task.key()} for task in tasks if task.kind == "case"]
     random = [row for task in tasks if task.kind == "random" for row in results[task.key()]["rows"]]

@@ -10,6 +10,7 @@ long enough; any other line gets extremes, tension and the solver's counts. Noth
 """
 
 import re
+from collections import Counter
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import partial, reduce
@@ -18,10 +19,11 @@ from math import inf
 
 from campaigns.buoy_sweep import ROW_SOURCES
 from campaigns.columns import MESSAGE, RUN_KEY, STATISTICS, STATUS, Column, counted
-from campaigns.judge import LONGEST_PERIOD, STROBE_TOLERANCE, in_regular_waves, judged_scene
+from campaigns.judge import judged_job, judged_scene
 from campaigns.machinery import cli
 from campaigns.machinery.plan import Job
 from campaigns.study import Lengths, Measures, Order, Study
+from engine.views import LONGEST_PERIOD, STROBE_TOLERANCE, in_regular_waves
 
 MOST_KEYS = 2
 
@@ -126,7 +128,9 @@ def cases(order: Order) -> Iterator[Job]:
         if scene is not None and in_regular_waves(scene):
             scene = judged_scene(order, changes)
         if scene is not None:
-            yield Job({**labels, "dimensions": scene.motion.dimensions}, scene, periods, duration_s)
+            labels |= {"dimensions": scene.motion.dimensions}
+            plain = Job(labels, scene, periods, duration_s)
+            yield judged_job(order, labels, scene) if in_regular_waves(scene) else plain
 
 
 def measures(order: Order) -> Measures:
@@ -139,12 +143,12 @@ def measures(order: Order) -> Measures:
         others = (column for column in rows.COLUMNS if not column.name.startswith("planar_"))
         measured = tuple(column for column in others if column is not rows.STEEPNESS)
     columns = (*labels, *(column for column in measured if column.name not in {one.name for one in labels}))
-    row = partial(sweep_row, transient_periods=order.transient, simulate=order.simulate)
+    row = partial(sweep_row, transient_periods=order.transient)
     sources = (*ROW_SOURCES, "campaigns/sweep/__init__.py")
     return Measures(columns, row, sources, {"transient": order.transient})
 
 
-def sweep_row(trajectory, transient_periods: int, simulate=None) -> dict[str, object]:
+def sweep_row(trajectory, transient_periods: int | None, check=None) -> dict[str, object]:
     """The columns of `measures` that a trajectory fills; those left out are unknown. Arguments: `buoy_row`.
 
     The upper end of a line without a buoy has a radius and an angle as the buoy has; without waves nothing is left out.
@@ -153,7 +157,7 @@ def sweep_row(trajectory, transient_periods: int, simulate=None) -> dict[str, ob
 
     scene = trajectory.scene
     if in_regular_waves(scene):
-        return buoy_row(trajectory, transient_periods, simulate)
+        return buoy_row(trajectory, transient_periods, check)
     row, columns, step_s = counted(trajectory), sound_part(trajectory.columns), scene.sample_step_s()
     transient_s = transient_periods * scene.waves.period_s if scene.waves is not None else 0.0
     if len(columns["time_s"]) > 1 and columns["time_s"][-1] > transient_s:
@@ -172,15 +176,32 @@ def parameters(order: Order) -> dict[str, object]:
     return told
 
 
+def answer(order: Order, rows: list[dict]) -> list[str]:
+    """Over one key as `campaigns.buoy_sweep.answer`; over two how often each regime is found, and the largest load."""
+    from campaigns.answers import greatest, kilonewton, known
+    from campaigns.buoy_sweep.answer import PEAK, sentences
+
+    keys = [one.key for one in order.own.vary]
+    if len(keys) == 1:
+        return sentences(rows, keys[0], keys[0], order.cases[0].scene)
+    counts = Counter(str(row.get("regime") or row["status"]) for row in rows)
+    said = [f"{len(rows)} runs: {', '.join(f'{word} {count}' for word, count in counts.most_common())}."]
+    if (peak := greatest(rows, PEAK)) is not None:
+        where = " and ".join(f"{key} = {known(peak, key):.4g}" for key in keys)
+        said.append(f"Largest tension {kilonewton(known(peak, PEAK))} at {where}.")
+    return said
+
+
 STUDY = Study(
     name="sweep",
     protocol=__doc__,
     scene="tethered_buoy",
-    lengths=Lengths(periods=120, transient=40),
+    lengths=Lengths(periods=120, transient=40, budget=700),
     options=options,
     read=read,
     cases=cases,
     measures=measures,
     parameters=parameters,
+    answer=answer,
 )
 main, parser, read_order = STUDY.main, STUDY.parser, STUDY.read_order

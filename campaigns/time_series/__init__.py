@@ -18,6 +18,7 @@ from typing import TYPE_CHECKING
 
 from campaigns.machinery import cli
 from campaigns.machinery.cli import Kind, fault_of, folder_name, number
+from campaigns.machinery.progress import stage
 from campaigns.machinery.session import command
 
 if TYPE_CHECKING:
@@ -123,7 +124,8 @@ def judge(order: Order, argv: list[str]) -> int:
 
     record, out = order.record, order.how.out
     try:
-        found = study(record, order.period, order.tolerance)
+        with stage("judging the record"):
+            found = study(record, order.period, order.tolerance)
         print(page(found))
         if out is not None:
             asked = {"period": order.period, "step": record.step, "tolerance": found.tolerance}

@@ -31,7 +31,8 @@ MARK = {True: "yes", False: "no", None: "--"}
 SEEN = {
     STROBED: "once per forcing period, at four phases of it",
     SAMPLES: "sample by sample, as a map; a sample is what is called a period below",
-    MAXIMA: "at its maxima, as no --period was given; from one to the next is what is called a period below",
+    MAXIMA: "at its maxima, each with the minimum before it, as no --period was given; from one to the next is what is "
+    "called a period below",
 }
 MEANING = {
     "quasi-periodic": "two or more rhythms that never meet; no sensitivity to the start",

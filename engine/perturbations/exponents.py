@@ -25,26 +25,26 @@ SEED = 20  # of the first perturbations: any will do, they turn to the fastest g
 def carry(p, tables, period, count, trail, along, across):
     """Carry perturbations through the first `count` steps of a Trail.
 
-    along: vectors, rates (k, n, 4), dC and dK, orthonormal in C on entry and exit, waters (k, n, 4), first guesses of
-    dF, and growth (periods, k), nats; across: weights, vector, rates (n, 2), C = (q_y, V_y) of length one by these
-    weights on entry and exit, and growth (periods,), nats; None where there are none. What each step adds to a growth
-    goes to the period (s) in which it ends (the last, beyond the end).
+    along: vectors, rates (k, n, 4), dC and dK, orthonormal in C on entry and exit, and growth (periods, k), nats;
+    across: weights, vector, rates (n, 2), C = (q_y, V_y) of length one by these weights on entry and exit, and growth
+    (periods,), nats; None where there are none. What each step adds to a growth goes to the period (s) in which it ends
+    (the last, beyond the end).
     """
     s, n = trail.Y.shape[1], trail.Y.shape[2]
     X, F, Q = np.zeros((n, 2)), np.zeros((n, 4)), np.zeros((n, col.NODE_WIDTH))
     a, w = np.empty(s), np.empty(3)
     moving_water = water_moves(p)
     if along is not None:
-        vectors, rates, waters, growth = along
+        vectors, rates, growth = along
         number = vectors.shape[0]
         work = Work(X, F, Q, np.zeros((n, col.WITH_INVERSE)), np.zeros((n, 6)), np.zeros((n, 4)))
-        water = Water(np.zeros((n, 8)), np.zeros((n, 2)), np.zeros((n, 2)), np.zeros((n, 4)), np.zeros((n, 4)))
-        dKs, dC_tilde, dCs = np.zeros((number, s, n, 4)), np.zeros((n, 4)), np.zeros((number, n, 4))
+        water = Water(np.zeros((n, 8)), np.zeros((n, 3)))
+        dKs, dC_tilde, dC = np.zeros((number, s, n, 4)), np.zeros((n, 4)), np.zeros((n, 4))
         lengths = np.empty(number)
     if across is not None:
         weights, vector, vector_rates, vector_growth = across
         H, E = np.zeros((n, COEFFICIENTS)), np.zeros((n, WIDTH))
-        dC, known, dK = np.zeros((n, 2)), np.zeros((n, 2)), np.zeros((s, n, 2))
+        dC_y, known, dK = np.zeros((n, 2)), np.zeros((n, 2)), np.zeros((s, n, 2))
     for step in range(count):
         t, dt, euler = trail.T[step, BEGIN], trail.T[step, STEP], trail.T[step, KIND] > 0.0
         if along is not None:
@@ -60,24 +60,23 @@ def carry(p, tables, period, count, trail, along, across):
                 linearise(p, tables, base, work, water)
                 for v in range(number):
                     known_part(a, so_far, vectors[v], dKs[v], dC_tilde)
-                    tangent_stage(p, tables, base, True, dC_tilde, waters[v], dCs[v], work, water)
-                    stage_rate(rate, dCs[v], dC_tilde, dKs[v, i])
+                    tangent_stage(p, tables, base, dC_tilde, dC, dKs[v, i], work, water)
+                    if i == s - 1:
+                        copy_into(vectors[v], dC)
+                        copy_into(rates[v], dKs[v, i])
             else:
                 shape(p, tables, base.Y, Q, X)
                 flow(p, tables, base.t, 1.0, X, F)
             if across is not None:
                 known_part(a, so_far, vector, dK, known)
-                lateral_stage(p, tables, base, X, Q, F, known, H, E, dC)
-                stage_rate(rate, dC, known, dK[i])
+                lateral_stage(p, tables, base, X, Q, F, known, H, E, dC_y)
+                stage_rate(rate, dC_y, known, dK[i])
         if along is not None:
-            for v in range(number):
-                copy_into(vectors[v], dCs[v])
-                copy_into(rates[v], dKs[v, s - 1])
             orthonormalise(p.per_speed * p.per_speed, True, vectors, rates, lengths)
             for v in range(number):
                 growth[period_of(t + dt, period, growth.shape[0]), v] += np.log(lengths[v])
         if across is not None:
-            copy_into(vector, dC)
+            copy_into(vector, dC_y)
             copy_into(vector_rates, dK[s - 1])
             length = normalise(weights, True, vector, vector_rates)
             vector_growth[period_of(t + dt, period, vector_growth.shape[0])] += np.log(length)
@@ -86,7 +85,7 @@ def carry(p, tables, period, count, trail, along, across):
 class Followed:
     """Steps as `march` stores them, and the perturbations that follow; empty where the scene asks for none."""
 
-    def __init__(self, scene, record, tables, duration_s):
+    def __init__(self, scene, record, tables, duration_s, start=None):
         n, s = int(record["nodes"]), max(int(record["stages"]), 2)
         self.count, self.sideways = scene.output.tangent_vectors, scene.output.lateral_growth
         self.followed = self.count > 0 or self.sideways
@@ -96,7 +95,9 @@ class Followed:
         self.period_s = scene.waves.period_s if scene.waves is not None else 1.0
         if not self.followed:
             return
-        periods = int(duration_s / self.period_s * (1 + 1e-12) + 1e-9)
+        begin_s = 0.0 if start is None else start.time_s
+        self.first = int(begin_s / self.period_s + 1e-9)  # the period in which it begins
+        periods = int((begin_s + duration_s) / self.period_s * (1 + 1e-12) + 1e-9)
         self.along = self.across = None  # the arguments of `carry`
         self.nats, self.lateral_nats = np.zeros((periods + 1, self.count)), np.zeros(periods + 1)
         self.released = np.zeros(periods + 1)
@@ -105,13 +106,38 @@ class Followed:
             vectors[0, 2:] = 0.0  # the anchor does not move
             basis = np.linalg.qr(vectors.reshape(4 * n, self.count))[0]
             vectors = np.ascontiguousarray(basis.T).reshape(self.count, n, 4)
-            self.along = vectors, np.zeros_like(vectors), np.zeros_like(vectors), self.nats
+            self.along = vectors, np.zeros_like(vectors), self.nats
         if self.sideways:
             weights = energy_weights(record, tables)
             vector = np.random.default_rng(SEED).normal(size=(n, 2)) / np.sqrt(weights)
             vector[0, 1] = 0.0
             vector /= np.sqrt(np.sum(weights * vector**2))
             self.across = weights, vector, np.zeros((n, 2)), self.lateral_nats
+        if start is not None:
+            self._go_on(start)
+
+    def _go_on(self, start):
+        """Take over the perturbations of a run that carried as many."""
+        own, sideways = start.vectors.size > 0, start.lateral.size > 0
+        if own and len(start.vectors[0]) == self.count:
+            for part, given in zip(self.along[:2], start.vectors, strict=True):
+                part[:] = given
+            self.nats[self.first : self.first + 1] = start.growth[:, : self.count]
+        if sideways and self.sideways:
+            for part, given in zip(self.across[1:3], start.lateral, strict=True):
+                part[:] = given
+            self.lateral_nats[self.first] = start.growth[0, -2]
+        if own or sideways:
+            self.released[self.first] = start.growth[0, -1]
+
+    def state(self, state):
+        """vectors, lateral and growth of a FinalState."""
+        if not self.followed:
+            return np.empty(0), np.empty(0), np.empty(0)
+        at = self.complete(state)
+        growth = np.array([[*self.nats[at], self.lateral_nats[at], self.released[at]]])
+        along = np.array(self.along[:2]) if self.count else np.empty(0)
+        return along, np.array(self.across[1:3]) if self.sideways else np.empty(0), growth
 
     def follow(self, record, tables, state):
         """Carry the perturbations through the steps stored since the last call, and empty the trail.
@@ -135,6 +161,10 @@ class Followed:
         """Growth of the complete periods, or None."""
         if not self.followed:
             return None
-        complete = min(int(state["t"] / self.period_s + 1e-9), len(self.nats) - 1)
-        sideways = self.lateral_nats[:complete].copy() if self.sideways else None
-        return TangentGrowth(self.period_s, self.nats[:complete].copy(), self.released[:complete].copy(), sideways)
+        found = slice(self.first, self.complete(state))
+        sideways = self.lateral_nats[found].copy() if self.sideways else None
+        return TangentGrowth(self.period_s, self.nats[found].copy(), self.released[found].copy(), sideways)
+
+    def complete(self, state):
+        """How many periods have ended since t = 0."""
+        return min(int(state["t"] / self.period_s + 1e-9), len(self.nats) - 1)

@@ -40,7 +40,7 @@ import numpy as np
 
 from ..compiled import by_kind, kernel
 from ..physics.ends import released
-from ..physics.submergence import cap_across
+from ..physics.submergence import across_cap
 from ..physics.tension.kernels import tension
 from ..planar import columns as col
 from ..record import BUOY, HELD, lengths_of
@@ -165,8 +165,8 @@ def lateral_stage(p, tables, base, X, Q, F, dC_tilde, H, E, dC):
     b = n - 1
     of_N, of_V, known = _lateral_end(p, base.t, rate, Y[b], F[b], dC_tilde[b, VY])
     if p.spherical_cap:
-        more, more_known = cap_across(p, base.t, rate, X[b], Y[b], F[b], dC_tilde[b, VY])
-        of_V, known = of_V + more, known + more_known
+        more = across_cap(p, base.t, rate, X[b], Y[b], F[b], dC_tilde[b, VY])
+        of_V, known = of_V + more[0], known + more[1]
     A00 = of_N * (H[b, N_TAU] + H[b, N_RHO] * R20) + of_V * R00
     A01 = of_N * (H[b, N_RHO] * R21 - 1.0) + of_V * R01
     g0 = -known - of_N * H[b, N_RHO] * r2 - of_V * r0

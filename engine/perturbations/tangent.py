@@ -1,21 +1,21 @@
 """Tangent dynamics: infinitesimal perturbations carried through the accepted steps of a run (Benettin et al. 1980).
 
 The engine's step is a map of (C, K), the conserved variables and their rates; its derivative needs at each stage one
-linear solve with Newton's matrix at the converged state (`resolve_bent`), no new Newton iteration:
+linear solve with Newton's matrix at the converged state, no new Newton iteration:
 
-    dC~_i = dC + dt sum_(j<i) a_ij dK_j,    J_i dY_i = known(dC~_i, dF_i),    dK_i = (dC_i - dC~_i)/(a_ii dt)
+    dC~_i = dC + dt sum_(j<i) a_ij dK_j,    J_i dY_i = known(dC~_i),    dK_i = c (dC_i - dC~_i),    c = 1/(a_ii dt)
 
-That solve is another right-hand side for the matrix that `planar.elimination.eliminate` has eliminated, one pass up,
-one down:
+Newton's matrix leaves out that the water differs from place to place; here it may not be left out. The box rule of
+compatibility, summed from the anchor, is the rate of the places, dV = c (dX - dX~) with dX~ the places that dC~ gives.
+In the unknown v = c dX = dV + c dX~ in the place of dV compatibility has no known part, and what depends on the place
+of a node depends on its v alone. So the water joins the matrix, and one solve is all:
 
-    dV_b - dV_a - e (dq_t,a + dq_t,b) = 0, dq_t = cq (dq/dy dy - dq~)      -> c = e cq (dq~_a + dq~_b)
-    dN_b - dN_a - e (dG_a + dG_b) = 0, dG = (dG/dy) dy + (dG/dV) dV + gamma -> g = e (gamma_a + gamma_b)
+    dG = (dG/dy) dy + (dG/dV + B/c) v + gamma,    B = (dG/dF) dF/dX,    gamma = -dG/dV c dX~ - dG/dV_t c dV~
+    dN_b - dN_a - e (dG_a + dG_b) = 0             -> g = e (gamma_a + gamma_b)
 
-with gamma the change of G that comes from V~ and from the water at the displaced node; curvature and moment have no
-known terms. At the upper end `top` is the known part of its residual.
+with F the velocity and the acceleration of the water; the upper end likewise. That solve is another right-hand side
+for the matrix that `planar.elimination.eliminate` has eliminated, one pass up, one down.
 
-dF = J dX is the change of the water at the displaced nodes. It depends on dY through the positions dX, which Newton's
-matrix leaves out; a fixed-point iteration puts it back, contracting by about the square of wave number times length.
 After every step the perturbations are made orthonormal (Gram-Schmidt) in the norm of THEORY.md, section 11, summed over
 the nodes; the logarithms of their lengths add up to the growth of each period. A loop release leaves dC unchanged; the
 periods in which one happens are marked, because another shape of the tether is not a derivative (docs/findings.md).
@@ -29,50 +29,85 @@ from collections import namedtuple
 from ..arrays import Stage
 from ..compiled import kernel
 from ..dimensions import eliminate, node_quantities, shape
-from ..physics.submergence import cap_change
+from ..physics.submergence import change_of_cap
 from ..physics.water import water as flow
+from ..physics.water import water_slopes
 from ..planar import columns as col
-from ..planar.elimination import back_substitute, inertia_of_box
+from ..planar.elimination import inertia_of_box
 from ..record import BUOY
-from ..simd.select import larger, some, where
-from ..spatial.vectors import dot, put, rows_of, times
+from ..simd.select import where
+from ..spatial.vectors import affine, dot, put, quaternion, rows_of, times, vector
 
-WATER_ITERATIONS, WATER_TOLERANCE, NUDGE = 8, 1e-7, 1e-6
-# The stage that is perturbed: t (s), rate (1/s) = 1/(a_ii dt), moving_water: 1.0 where the water depends on the place
-# of a node, else 0.0; Y (n, 6), its rates K (n, 4)
+# The stage that is perturbed: t (s), rate c (1/s); moving_water: 1.0 where the water depends on the place of a node,
+# else 0.0; Y (n, 6), its rates K (n, 4)
 Base = namedtuple("Base", "t rate moving_water Y K")
-# How the water at the nodes changes: J (n, 8), dF/dx (4) and dF/dz (4); work: gamma (n, 2), the change of G; places
-# (n, 2) moved, water (n, 4) ahead of and behind a node
-Water = namedtuple("Water", "J gamma X_moved F_ahead F_behind")
+# What the water does at the nodes: J (n, 8), dF/dx (4) and dF/dz (4); drag (n, 3), xx, xz, zz of -dG/dU_w
+Water = namedtuple("Water", "J drag")
 
 
 @kernel
-def _nodal_change(p, base, dC_tilde, work, dF, gamma):
-    """gamma (n, 2): change of G that comes from V~ and, where it moves, the water."""
-    Y, cv, Q, F = base.Y, base.rate, work.Q, work.F
+def linearise(p, tables, base, work, water):
+    """The matrix of a stage (Base), eliminated, into work.E (n, 33), with the Q, X, F it belongs to, and Water."""
+    Y, K, Q, C_tilde, rate = base.Y, base.K, work.Q, work.C_tilde, base.rate
+    shape(p, tables, Y, Q, work.X)
+    flow(p, tables, base.t, 1.0, work.X, work.F)
+    over = 1.0 / rate
     for k in range(Y.shape[0]):
-        c, s = Q[k, col.COS], Q[k, col.SIN]
-        a, b = dC_tilde[k, col.VX], dC_tilde[k, col.VZ]
-        across = p.ma * cv * (b * c - a * s)
-        gx = -p.m * cv * a + across * s
-        gz = -p.m * cv * b - across * c
-        if base.moving_water > 0.0:
-            root = math.sqrt(larger(1.0 + Y[k, col.EPS], 0.0))
-            ur, wr = Y[k, col.VX] - F[k, col.UX], Y[k, col.VZ] - F[k, col.UZ]
-            along = 2.0 * p.ct * root * abs(ur * c + wr * s) * (dF[k, col.UX] * c + dF[k, col.UZ] * s)
-            normal = 2.0 * p.cn * root * abs(wr * c - ur * s) * (dF[k, col.UZ] * c - dF[k, col.UX] * s)
-            normal += p.Rw * (dF[k, col.AZ] * c - dF[k, col.AX] * s)
-            gx -= along * c - normal * s
-            gz -= along * s + normal * c
-        gamma[k, 0] = gx
-        gamma[k, 1] = gz
+        for m in range(2):
+            C_tilde[k, m] = Q[k, col.QX + m] - over * K[k, m]
+            C_tilde[k, col.VX + m] = Y[k, col.VX + m] - over * K[k, col.VX + m]
+    stage = Stage(base.t, 1.0, rate, rate)
+    node_quantities(p, tables, stage, Y, work)
+    _add_water(p, tables, base, work, water)
+    eliminate(p, tables, stage, Y, work)
 
 
 @kernel
-def _top_change(p, cv, dC_tilde, F, Y, dF):
-    """Known part of the linearised condition of the upper end (`engine.physics.ends`); arguments: last node's rows."""
-    x = -p.M_total * cv * dC_tilde[col.VX]
-    z = -p.M_total * cv * dC_tilde[col.VZ]
+def _add_water(p, tables, base, work, water):
+    """Water; B/c (head of this file) into dG/dV in work.Q, and what is added to D of the upper end into work.E."""
+    Q, top, rate, over = work.Q, work.E[0], base.rate, 1.0 / base.rate
+    for k in range(Q.shape[0]):
+        c, s = Q[k, col.COS], Q[k, col.SIN]
+        xx = Q[k, col.GXX] - rate * (p.m + p.ma * s * s)
+        zz = Q[k, col.GZZ] - rate * (p.m + p.ma * c * c)
+        put(water.drag[k], 0, (xx, Q[k, col.GXZ] + rate * p.ma * c * s, zz))
+    for m in range(4):
+        top[col.TOP_DXX + m] = 0.0
+    if base.moving_water == 0.0:
+        return
+    water_slopes(p, tables, base.t, work.X, work.F, water.J)
+    for k in range(Q.shape[0]):
+        c, s = Q[k, col.COS], Q[k, col.SIN]
+        xx, xz, zz = vector(water.drag[k], 0)
+        J = water.J[k]
+        Ux, Wx, ax, az = J[0], J[1], J[2], J[3]
+        Uz, Wz, bx, bz = J[4], J[5], J[6], J[7]
+        by_x, by_z = p.Rw * (az * c - ax * s), p.Rw * (bz * c - bx * s)
+        Q[k, col.GXX] -= over * (xx * Ux + xz * Wx - s * by_x)
+        Q[k, col.GXZ] -= over * (xx * Uz + xz * Wz - s * by_z)
+        Q[k, col.GZX] -= over * (xz * Ux + zz * Wx + c * by_x)
+        Q[k, col.GZZ] -= over * (xz * Uz + zz * Wz + c * by_z)
+    last = Q.shape[0] - 1
+    for axis in range(2):
+        dF = _water_change(water.J[last], 1.0 - axis, 1.0 * axis)
+        x, z = _end_change(p, base, work, (0.0, 0.0), (0.0, 0.0), dF)
+        top[col.TOP_DXX + axis], top[col.TOP_DZX + axis] = over * x, over * z
+
+
+@kernel
+def _water_change(J, x, z):
+    """Change (4) of the water at a node that is moved by x, z; J (8): its row."""
+    return J[0] * x + J[4] * z, J[1] * x + J[5] * z, J[2] * x + J[6] * z, J[3] * x + J[7] * z
+
+
+@kernel
+def _end_change(p, base, work, dV_tilde, dX_tilde, dF):
+    """Known part of the linearised condition of the upper end (`engine.physics.ends`), for changes of V~, X~ (2) and of
+    the water (4) there."""
+    last = base.Y.shape[0] - 1
+    F, Y = work.F[last], base.Y[last]
+    x = -p.M_total * base.rate * dV_tilde[0]
+    z = -p.M_total * base.rate * dV_tilde[1]
     if p.wet:
         u, w = Y[col.VX] - F[col.UX], Y[col.VZ] - F[col.UZ]
         speed = math.sqrt(u * u + w * w)
@@ -82,130 +117,84 @@ def _top_change(p, cv, dC_tilde, F, Y, dF):
         x -= p.M_wave * dF[col.AX]
         z -= p.M_wave * dF[col.AZ]
     buoy = 1.0 if p.end == BUOY else 0.0
-    return buoy * x, buoy * z
-
-
-@kernel
-def water_slopes(p, tables, t, X, water):
-    """water.J: how the water at the nodes depends on their places X (n, 2), by central differences."""
-    J, _, X_moved, F_ahead, F_behind = water
-    for axis in range(2):
-        for sign in (1.0, -1.0):
-            for k in range(X.shape[0]):
-                X_moved[k, 0] = X[k, 0] + (sign * NUDGE if axis == 0 else 0.0)
-                X_moved[k, 1] = X[k, 1] + (sign * NUDGE if axis == 1 else 0.0)
-            flow(p, tables, t, 1.0, X_moved, F_ahead if sign > 0.0 else F_behind)
-        for k in range(X.shape[0]):
-            for m in range(4):
-                J[k, 4 * axis + m] = (F_ahead[k, m] - F_behind[k, m]) * (0.5 / NUDGE)
-
-
-@kernel
-def _displaced_water(p, tables, going_on, work, J, dF):
-    """dF: water at the nodes displaced by dY (in work.D) minus water where they are, where going_on holds.
-
-    Returns the largest change of dF by this call, and the largest dF.
-    """
-    D, Q = work.D, work.Q
-    x = z = change = largest = 0.0
-    for k in range(D.shape[0]):
-        if k > 0:
-            half, j = 0.5 * tables[p.grid_at + k - 1], k - 1
-            eps, phi, eps_below, phi_below = D[k, col.EPS], D[k, col.PHI], D[j, col.EPS], D[j, col.PHI]
-            x += half * (
-                eps * Q[k, col.COS] - phi * Q[k, col.QZ] + eps_below * Q[j, col.COS] - phi_below * Q[j, col.QZ]
-            )
-            z += half * (
-                eps * Q[k, col.SIN] + phi * Q[k, col.QX] + eps_below * Q[j, col.SIN] + phi_below * Q[j, col.QX]
-            )
-        for m in range(4):
-            value = J[k, m] * x + J[k, 4 + m] * z
-            change = larger(change, abs(value - dF[k, m]))
-            largest = larger(largest, abs(value))
-            dF[k, m] = where(going_on, value, dF[k, m])
-    return change, largest
-
-
-@kernel
-def _displaced_end(p, tables, dC_tilde):
-    """dX~ of the last node: it moves by dX = dX~ + dV/rate, and dV/rate is already in Newton's matrix."""
-    x = z = 0.0
-    for k in range(1, dC_tilde.shape[0]):
-        half = 0.5 * tables[p.grid_at + k - 1]
-        x += half * (dC_tilde[k - 1, col.CX] + dC_tilde[k, col.CX])
-        z += half * (dC_tilde[k - 1, col.CZ] + dC_tilde[k, col.CZ])
+    x, z = buoy * x, buoy * z
+    if p.spherical_cap:
+        more = change_of_cap(p, base.t, base.rate, work.X[last], Y, base.K[last], F, dV_tilde, dX_tilde, dF)
+        x, z = x + more[0], z + more[1]
     return x, z
 
 
 @kernel
-def resolve_bent(p, tables, cq, work, dC_tilde, gamma, top_x, top_z):
-    """Fill work.D (n, 6) with the perturbation dY; work.E (n, 33) comes from `eliminate` at the same state.
+def _known_load(p, rate, row, drag, dC_tilde, x, z):
+    """gamma (head of this file) of a node: its rows of Q, drag and dC~; x, z: c dX~."""
+    xx, xz, zz = vector(drag, 0)
+    a, b = rate * (dC_tilde[col.VX] + x), rate * (dC_tilde[col.VZ] + z)
+    c, s = row[col.COS], row[col.SIN]
+    across = p.ma * (b * c - a * s)
+    return -(xx * x + xz * z + p.m * a - across * s), -(xz * x + zz * z + p.m * b + across * c)
 
-    p, tables: parameters; cq (1/s); dC_tilde (n, 4), of which dq~ counts; gamma (n, 2) N/m; top_x, top_z in the units
-    of the end's condition. Overwrites p and r in E. "Bent": a line without bending carries no perturbations.
-    """
-    Q, E = work.Q, work.E
+
+@kernel
+def _up_the_line(p, tables, base, work, water, dC_tilde):
+    """One pass up: p of every box into work.E. Returns dy = (deps, dS, dphi) and dV of the upper end."""
+    Q, E, rate = work.Q, work.E, base.rate
     n = Q.shape[0]
-    r0 = r1 = r2 = 0.0
-    put(E[0], col.R_KNOWN, (0.0, 0.0, 0.0))
+    r0 = r1 = r2 = x = z = 0.0  # x, z: c dX~
+    gx, gz = _known_load(p, rate, Q[0], water.drag[0], dC_tilde[0], x, z)
     for k in range(1, n):
         a = k - 1
         Qa, row = Q[a], E[k]
         e = 0.5 * tables[p.grid_at + a]
-        ec = e * cq
-        cx = ec * (dC_tilde[a, col.CX] + dC_tilde[k, col.CX])
-        cz = ec * (dC_tilde[a, col.CZ] + dC_tilde[k, col.CZ])
-        (Kxx, Kxz, Kzz), (Jxx, Jxz, Jzz) = inertia_of_box(e, Qa, Q[k])
-        g = (
-            e * (gamma[a, 0] + gamma[k, 0]) + Kxx * r0 + Kxz * r1 - Jxx * cx - Jxz * cz,
-            e * (gamma[a, 1] + gamma[k, 1]) + Kxz * r0 + Kzz * r1 - Jxz * cx - Jzz * cz,
-            2.0 * p.EI * r2,
-        )
+        ec = e * rate
+        x += ec * (dC_tilde[a, col.CX] + dC_tilde[k, col.CX])
+        z += ec * (dC_tilde[a, col.CZ] + dC_tilde[k, col.CZ])
+        gx_below, gz_below = gx, gz
+        gx, gz = _known_load(p, rate, Q[k], water.drag[k], dC_tilde[k], x, z)
+        Kxx, Kxz, Kzx, Kzz = inertia_of_box(e, Qa, Q[k])[0]
+        g = e * (gx_below + gx) + Kxx * r0 + Kxz * r1, e * (gz_below + gz) + Kzx * r0 + Kzz * r1, 2.0 * p.EI * r2
         # y_a = P y_b + p, then v_b = R_b y_b + r
         known = times(rows_of(row, col.INVERSE), g)
         Rx, Rz, Rk = rows_of(E[a], col.R)
-        r0 += dot((Rx[0] + ec * Qa[col.COS], Rx[1], Rx[2] - ec * Qa[col.QZ]), known) - cx
-        r1 += dot((Rz[0] + ec * Qa[col.SIN], Rz[1], Rz[2] + ec * Qa[col.QX]), known) - cz
+        r0 += dot((Rx[0] + ec * Qa[col.COS], Rx[1], Rx[2] - ec * Qa[col.QZ]), known)
+        r1 += dot((Rz[0] + ec * Qa[col.SIN], Rz[1], Rz[2] + ec * Qa[col.QX]), known)
         r2 = dot((-Rk[0], -Rk[1], -(Rk[2] + 1.0 / e)), known) - r2
         put(row, col.P_KNOWN, known)
-        put(row, col.R_KNOWN, (r0, r1, r2))
-    g0 = -top_x - E[0, col.TOP_DXX] * r0 - E[0, col.TOP_DXZ] * r1
-    g1 = -top_z - E[0, col.TOP_DZX] * r0 - E[0, col.TOP_DZZ] * r1
-    back_substitute(E, (g0, g1, -r2), work.D)
+    last, X, Z = n - 1, x / rate, z / rate
+    dV_tilde = dC_tilde[last, col.VX], dC_tilde[last, col.VZ]
+    top_x, top_z = _end_change(p, base, work, dV_tilde, (X, Z), _water_change(water.J[last], X, Z))
+    Dxx, Dxz, Dzx, Dzz = quaternion(E[0], col.TOP_DXX)
+    r0, r1 = r0 - x, r1 - z
+    g = -top_x - Dxx * r0 - Dxz * r1, -top_z - Dzx * r0 - Dzz * r1, -r2
+    y, (Rx, Rz, _) = times(rows_of(E[0], col.TOP), g), rows_of(E[last], col.R)
+    return y, dot(Rx, y) + r0, dot(Rz, y) + r1
 
 
 @kernel
-def tangent_stage(p, tables, base, going_on, dC_tilde, dF, dC, work, water):
-    """dC (n, 4) of one perturbation at one stage whose matrix is in work.E; dF (n, 4) comes in as a first guess.
+def tangent_stage(p, tables, base, dC_tilde, dC, dK, work, water):
+    """dC, dK (n, 4) of one perturbation at a stage that `linearise` has eliminated.
 
-    Both are renewed where going_on holds, and there until dF is settled. dC_tilde (n, 4): what the perturbation makes
-    of C~; base: Base; work, water: as `linearise` has left them.
+    dC_tilde (n, 4): what the perturbation makes of C~. Down the line velocities follow from the box rule of
+    compatibility, V_a = V_b - e (q_t,a + q_t,b). A line without bending carries no perturbations.
     """
-    D, Q, F = work.D, work.Q, work.F
-    last = base.Y.shape[0] - 1
-    for _ in range(WATER_ITERATIONS):
-        _nodal_change(p, base, dC_tilde, work, dF, water.gamma)
-        top_x, top_z = _top_change(p, base.rate, dC_tilde[last], F[last], base.Y[last], dF[last])
-        if p.spherical_cap:
-            dX_tilde = _displaced_end(p, tables, dC_tilde)
-            more_x, more_z = cap_change(
-                p, base.t, base.rate, work.X[last], base.Y[last], base.K[last], F[last], dC_tilde[last, 2:], dX_tilde,
-                dF[last],
-            )  # fmt: skip
-            top_x, top_z = top_x + more_x, top_z + more_z
-        resolve_bent(p, tables, base.rate, work, dC_tilde, water.gamma, top_x, top_z)
-        for k in range(last + 1):
-            eps, phi = D[k, col.EPS], D[k, col.PHI]
-            dC[k, col.CX] = where(going_on, eps * Q[k, col.COS] - phi * Q[k, col.QZ], dC[k, col.CX])
-            dC[k, col.CZ] = where(going_on, eps * Q[k, col.SIN] + phi * Q[k, col.QX], dC[k, col.CZ])
-            dC[k, col.VX] = where(going_on, D[k, col.VX], dC[k, col.VX])
-            dC[k, col.VZ] = where(going_on, D[k, col.VZ], dC[k, col.VZ])
-        if base.moving_water == 0.0:
-            break
-        change, largest = _displaced_water(p, tables, going_on, work, water.J, dF)
-        going_on = going_on & (change > WATER_TOLERANCE * largest)
-        if not some(going_on):
-            break
+    Q, rate, n = work.Q, base.rate, base.Y.shape[0]
+    y, U, W = _up_the_line(p, tables, base, work, water, dC_tilde)
+    e = x_above = z_above = 0.0
+    for k in range(n - 1, -1, -1):
+        row, known, C, K = Q[k], dC_tilde[k], dC[k], dK[k]
+        C[col.CX] = y[0] * row[col.COS] - y[2] * row[col.QZ]
+        C[col.CZ] = y[0] * row[col.SIN] + y[2] * row[col.QX]
+        x, z = rate * (C[col.CX] - known[col.CX]), rate * (C[col.CZ] - known[col.CZ])
+        U -= e * (x_above + x)
+        W -= e * (z_above + z)
+        C[col.VX], C[col.VZ] = U, W
+        K[col.CX], K[col.CZ] = x, z
+        K[col.VX], K[col.VZ] = rate * (U - known[col.VX]), rate * (W - known[col.VZ])
+        x_above, z_above = x, z
+        if k > 0:
+            e = 0.5 * tables[p.grid_at + k - 1]
+            y = affine(rows_of(work.E[k], col.P), y, vector(work.E[k], col.P_KNOWN))
+    for m in (col.VX, col.VZ):  # the anchor does not move
+        dC[0, m] = dK[0, m] = 0.0
 
 
 @kernel
@@ -243,23 +232,6 @@ def orthonormalise(weight, here, vectors, rates, lengths):
                     vectors[i, k, m] -= product * vectors[j, k, m]
                     rates[i, k, m] -= product * rates[j, k, m]
         lengths[i] = to_length_one(here, math.sqrt(_inner(weight, vectors[i], vectors[i])), vectors[i], rates[i])
-
-
-@kernel
-def linearise(p, tables, base, work, water):
-    """Newton's matrix, eliminated, at a stage (Base), whose C~ = C - K/rate: into work.E (n, 33), with Q, F, X, J."""
-    Y, K, Q, C_tilde, rate = base.Y, base.K, work.Q, work.C_tilde, base.rate
-    shape(p, tables, Y, Q, work.X)
-    flow(p, tables, base.t, 1.0, work.X, work.F)
-    for k in range(Y.shape[0]):
-        for m in range(2):
-            C_tilde[k, m] = Q[k, col.QX + m] - K[k, m] / rate
-            C_tilde[k, col.VX + m] = Y[k, col.VX + m] - K[k, col.VX + m] / rate
-    stage = Stage(base.t, 1.0, rate, rate)
-    node_quantities(p, tables, stage, Y, work)
-    eliminate(p, tables, stage, Y, work)
-    if base.moving_water > 0.0:
-        water_slopes(p, tables, base.t, work.X, water)
 
 
 @kernel

@@ -86,6 +86,15 @@ def next_corner(p, tables, t):
 
 
 @kernel
+def _no_corner(p, tables, t):
+    """As `next_corner` for a buoy."""
+    return p.end_release
+
+
+corner_after = by_kind(next_corner, next_corner, _no_corner)
+
+
+@kernel
 def released(p, t):
     """Has a held end been let go? Not in a step that ends at the release, whatever the rounding of its time."""
     return t > p.end_release * (1.0 + 1e-13)

@@ -22,7 +22,7 @@ Derivatives hold the water still at the buoy, but not its surface: the buoy's pl
 
 import math
 
-from ..compiled import kernel
+from ..compiled import by_kind, kernel
 from ..planar import columns as col
 from ..simd.elementary import sincos, smooth_start
 from ..simd.select import larger, smaller, where
@@ -186,3 +186,14 @@ def cap_end_3d(p, t, cq, cv, in_motion, X, V, V_tilde, F):
 def _row(a, v, b, n, c, ahead):
     """a v + b n + c ahead"""
     return mixed(1.0, mixed(a, v, b, n), c, ahead)
+
+
+@kernel
+def _nothing_of(p, *arguments):
+    """As `cap_end` where the sphere has no cap: it is not called."""
+    return 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
+
+
+end_of_cap = by_kind(cap_end, cap_end, cap_end, _nothing_of)
+change_of_cap = by_kind(cap_change, cap_change, cap_change, _nothing_of)
+across_cap = by_kind(cap_across, cap_across, cap_across, _nothing_of)

@@ -17,6 +17,7 @@ from ..compiled import kernel
 from ..record import WHEELER, ZERO
 from ..simd.elementary import sincos, small_exponentials, small_sincos, smooth_start
 from ..simd.select import every, larger, where
+from .currents import AXES
 
 SMALL, TINY = 0.25, 1e-250
 
@@ -77,3 +78,34 @@ def wave_field(p, tables, t, X, F):
         F[j, 1] += u0 * ws
         F[j, 2] += u0 * om * us + u1 * uc
         F[j, 3] += u1 * ws - u0 * om * wc
+
+
+@kernel
+def wave_slopes(p, tables, t, X, F, J):
+    """J (n, 8): dF/dx (4) and dF/dz (4) at the nodes, from the water F (n, 4) at X (n, 2); the current is uniform.
+
+    The field is harmonic, dU/dx = -dW/dz and dU/dz = dW/dx, and so are its rates. Without a ramp the slopes of
+    velocity are its rates times k d/omega, and those of the rates -omega^2 times that.
+    """
+    kx, om = p.k * p.direction, p.omega
+    gain, gain_rate = smooth_start(t, p.ramp)
+    rising = gain_rate / where(gain > 0.0, gain, 1.0)
+    u = w = 0.0
+    if p.current:
+        u, w = tables[p.cur_at + AXES], tables[p.cur_at + AXES + 2]
+    for j in range(X.shape[0]):
+        U, W = F[j, 0] - u, F[j, 1] - w
+        across, along = (F[j, 2] - rising * U) / om, (rising * W - F[j, 3]) / om  # gain (more sin, less cos)
+        U_x, W_x = -kx * across, kx * along
+        A_x, B_x = kx * (om * U - rising * across), kx * (om * W + rising * along)
+        # the height at which the field is taken, by x and by z
+        by_x, by_z = 0.0, where(X[j, 1] > 0.0, 1.0, 0.0)
+        if p.above == WHEELER:
+            s, c = sincos(kx * X[j, 0] - om * t + p.phase)
+            high = p.amplitude * gain
+            stretch = p.depth / (p.depth + high * c)
+            by_x, by_z = larger(X[j, 1], 0.0) * stretch * stretch / p.depth * high * kx * s, by_z * stretch
+        J[j, 0], J[j, 4] = U_x + by_x * W_x, by_z * W_x
+        J[j, 1], J[j, 5] = W_x - by_x * U_x, -by_z * U_x
+        J[j, 2], J[j, 6] = A_x + by_x * B_x, by_z * B_x
+        J[j, 3], J[j, 7] = B_x - by_x * A_x, -by_z * A_x

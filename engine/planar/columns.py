@@ -21,10 +21,10 @@ QX_T, QZ_T = 7, 8  # dq/dt
 GX, GZ = 9, 10  # load G per length
 GX_EPS, GZ_EPS = 11, 12  # dG/deps
 GX_PHI, GZ_PHI = 13, 14  # dG/dphi
-GXX, GXZ, GZZ = 15, 16, 17  # dG/dV, symmetric
-M, M_EPS, M_SHEAR = 18, 19, 20  # M = (1 + eps)^3 S and its derivatives
-SHOCK_B, SHOCK_L = 21, 22  # shock viscosity: the last two columns, as in space
-NODE_WIDTH = 23
+GXX, GXZ, GZX, GZZ = 15, 16, 17, 18  # dG/dV
+M, M_EPS, M_SHEAR = 19, 20, 21  # M = (1 + eps)^3 S and its derivatives
+SHOCK_B, SHOCK_L = 22, 23  # shock viscosity: the last two columns, as in space
+NODE_WIDTH = 24
 
 P, P_KNOWN = 0, 9  # E, row k: y of node k - 1 = P y of node k + p; 3 x 3 row by row, and 3
 R, R_KNOWN = 12, 21  # v = R y + r, both of node k

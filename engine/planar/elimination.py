@@ -18,7 +18,8 @@ S = 0, so that S is zero everywhere, and kappa, which nothing else needs, is put
 in tension only (compression: EI = 0 is ill-posed, Triantafyllou & Howell 1994).
 
 E (n, 24): columns in `engine.planar.columns`. For other right-hand sides of the same matrix
-(`engine.perturbations.tangent`) an E (n, 33) also takes in the inverse of every box, and Dxx, Dxz, Dzx, Dzz.
+(`engine.perturbations.tangent`) an E (n, 33) also takes in the inverse of every box, and D = (Dxx, Dxz, Dzx, Dzz), to
+which is added what it holds in the place of D.
 
 In the paper: eq. (15) bending moment about b; eq. (16) balance of moments; eq. (17) compatibility; eq. (18)
 compatibility, with the tangent; eq. (19) compatibility in the local frame; eq. (27) box rule: derivative along the
@@ -29,7 +30,7 @@ import numpy as np
 
 from ..compiled import kernel
 from ..physics.ends import planar_end
-from ..physics.submergence import cap_end
+from ..physics.submergence import end_of_cap
 from ..simd.select import smaller
 from ..spatial.vectors import affine, inverted, less, minus_product, put, put_rows, rows_of, times, vector, vector_times
 from . import columns as col
@@ -37,7 +38,7 @@ from . import columns as col
 
 @kernel
 def eliminate(p, tables, stage, Y, work):
-    """Fill work.D (n, 6) with the Newton update; returns False where a pivot block is singular.
+    """Fill work.D (n, 6) with the Newton update; returns False where a pivot block is singular. No D where E is wide.
 
     p, tables: parameters (`engine.record`); stage: Stage; Y (n, 6); work: Work, whose Q, F and X belong to Y.
     """
@@ -64,12 +65,12 @@ def eliminate(p, tables, stage, Y, work):
         stiff = EI / e
         turn = (Y[k, col.PHI] - Y[a, col.PHI]) / e - (Y[a, col.KAPPA] + Y[k, col.KAPPA])
         # momentum; K = e (dG/dV_a + dG/dV_b), J = e dG/dV_b
-        (Kxx, Kxz, Kzz), (Jxx, Jxz, Jzz) = inertia_of_box(e, Qa, Qb)
+        (Kxx, Kxz, Kzx, Kzz), (Jxx, Jxz, Jzx, Jzz) = inertia_of_box(e, Qa, Qb)
         # A y_a + B y_b = g: momentum along x and z, then moment, with v_a and v_b put in
         Ax = -fa * ca - e * Qa[col.GX_EPS], sa, Qa[col.NZ] - e * Qa[col.GX_PHI]
         Az = -fa * sa - e * Qa[col.GZ_EPS], -ca, -Qa[col.NX] - e * Qa[col.GZ_PHI]
         Ax = _less_stretch(less(Ax, Kxx, R[0], Kxz, R[1]), Jxx, Cax, Jxz, Caz)
-        Az = _less_stretch(less(Az, Kxz, R[0], Kzz, R[1]), Jxz, Cax, Jzz, Caz)
+        Az = _less_stretch(less(Az, Kzx, R[0], Kzz, R[1]), Jzx, Cax, Jzz, Caz)
         Ak = (
             e * Qa[col.M_EPS] - 2.0 * EI * R[2][0],
             e * Qa[col.M_SHEAR] - 2.0 * EI * R[2][1],
@@ -77,11 +78,11 @@ def eliminate(p, tables, stage, Y, work):
         )
         Bx = fb * cb - e * Qb[col.GX_EPS], -sb, -Qb[col.NZ] - e * Qb[col.GX_PHI]
         Bz = fb * sb - e * Qb[col.GZ_EPS], cb, Qb[col.NX] - e * Qb[col.GZ_PHI]
-        Bx, Bz = _less_stretch(Bx, Jxx, Cbx, Jxz, Cbz), _less_stretch(Bz, Jxz, Cbx, Jzz, Cbz)
+        Bx, Bz = _less_stretch(Bx, Jxx, Cbx, Jxz, Cbz), _less_stretch(Bz, Jzx, Cbx, Jzz, Cbz)
         Bk = e * Qb[col.M_EPS], e * Qb[col.M_SHEAR], stiff
         g = (
             Qa[col.NX] - Qb[col.NX] + e * (Qa[col.GX] + Qb[col.GX]) + Kxx * r[0] + Kxz * r[1] - Jxx * cx - Jxz * cz,
-            Qa[col.NZ] - Qb[col.NZ] + e * (Qa[col.GZ] + Qb[col.GZ]) + Kxz * r[0] + Kzz * r[1] - Jxz * cx - Jzz * cz,
+            Qa[col.NZ] - Qb[col.NZ] + e * (Qa[col.GZ] + Qb[col.GZ]) + Kzx * r[0] + Kzz * r[1] - Jzx * cx - Jzz * cz,
             -EI * (Y[k, col.KAPPA] - Y[a, col.KAPPA]) - e * (Qa[col.M] + Qb[col.M]) - EI * turn + 2.0 * EI * r[2],
         )
         # y_a = P y_b + p
@@ -115,9 +116,13 @@ def eliminate(p, tables, stage, Y, work):
     Dzx = Dxz
     if p.spherical_cap:
         x, z = work.X[b, 0], work.X[b, 1]
-        more = cap_end(p, t, cq, cv, in_motion, x, z, U, W, U_tilde, W_tilde, work.F[b])
+        more = end_of_cap(p, t, cq, cv, in_motion, x, z, U, W, U_tilde, W_tilde, work.F[b])
         ex, ez, Dxx = ex + more[0], ez + more[1], Dxx + more[2]
         Dxz, Dzx, Dzz = Dxz + more[3], Dzx + more[4], Dzz + more[5]
+    if E.shape[1] > col.BOX_WIDTH:
+        Dxx, Dxz = Dxx + E[0, col.TOP_DXX], Dxz + E[0, col.TOP_DXZ]
+        Dzx, Dzz = Dzx + E[0, col.TOP_DZX], Dzz + E[0, col.TOP_DZZ]
+        E[0, col.TOP_DXX], E[0, col.TOP_DXZ], E[0, col.TOP_DZX], E[0, col.TOP_DZZ] = Dxx, Dxz, Dzx, Dzz
     c, s, slope = vector(Q[b], col.COS)
     (R00, R01, R02), (R10, R11, R12), Ak = R
     Ax = (
@@ -136,9 +141,8 @@ def eliminate(p, tables, stage, Y, work):
     inverse, det = inverted(Ax, Az, Ak)
     least = smaller(least, abs(det))
     put_rows(E[0], col.TOP, inverse)
-    if E.shape[1] > col.BOX_WIDTH:
-        E[0, col.TOP_DXX], E[0, col.TOP_DXZ], E[0, col.TOP_DZX], E[0, col.TOP_DZZ] = Dxx, Dxz, Dzx, Dzz
-    back_substitute(E, (-ex - Dxx * r[0] - Dxz * r[1], -ez - Dzx * r[0] - Dzz * r[1], g2), D)
+    if E.shape[1] == col.BOX_WIDTH:
+        back_substitute(E, (-ex - Dxx * r[0] - Dxz * r[1], -ez - Dzx * r[0] - Dzz * r[1], g2), D)
     if p.bent == 0:
         for k in range(n):
             D[k, col.KAPPA] = 0.0
@@ -147,9 +151,10 @@ def eliminate(p, tables, stage, Y, work):
 
 @kernel
 def inertia_of_box(e, Qa, Qb):
-    """K = e (dG/dV_a + dG/dV_b) and J = e dG/dV_b of a box of half length e (m), each as xx, xz, zz."""
-    Jxx, Jxz, Jzz = e * Qb[col.GXX], e * Qb[col.GXZ], e * Qb[col.GZZ]
-    return (e * Qa[col.GXX] + Jxx, e * Qa[col.GXZ] + Jxz, e * Qa[col.GZZ] + Jzz), (Jxx, Jxz, Jzz)
+    """K = e (dG/dV_a + dG/dV_b) and J = e dG/dV_b of a box of half length e (m), each as xx, xz, zx, zz."""
+    Jxx, Jxz, Jzx, Jzz = e * Qb[col.GXX], e * Qb[col.GXZ], e * Qb[col.GZX], e * Qb[col.GZZ]
+    K = e * Qa[col.GXX] + Jxx, e * Qa[col.GXZ] + Jxz, e * Qa[col.GZX] + Jzx, e * Qa[col.GZZ] + Jzz
+    return K, (Jxx, Jxz, Jzx, Jzz)
 
 
 @kernel

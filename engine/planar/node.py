@@ -113,7 +113,7 @@ def node_quantities(p, tables, stage, Y, work):
         Q[k, col.GX], Q[k, col.GZ] = Gx, Gz
         Q[k, col.GX_EPS], Q[k, col.GZ_EPS] = Gex, Gez
         Q[k, col.GX_PHI], Q[k, col.GZ_PHI] = Gpx, Gpz
-        Q[k, col.GXX], Q[k, col.GXZ], Q[k, col.GZZ] = Gxx, Gxz, Gzz
+        Q[k, col.GXX], Q[k, col.GXZ], Q[k, col.GZX], Q[k, col.GZZ] = Gxx, Gxz, Gxz, Gzz
         if p.bent:
             square = lam * lam
             Q[k, col.M], Q[k, col.M_EPS], Q[k, col.M_SHEAR] = square * lam * S, 3.0 * square * S, square * lam

@@ -5,6 +5,7 @@ Faults of a single value are found by pydantic and put into words here; faults b
 """
 
 import difflib
+import math
 import re
 from dataclasses import dataclass
 from functools import cache
@@ -15,6 +16,14 @@ from pydantic.fields import FieldInfo
 
 _BARE_KEY = re.compile(r"^[A-Za-z0-9_-]+$")
 _NUMBER_TEXT = re.compile(r"^\s*([-+]?\d+)(?:[.,](\d+))?(?:e([-+]?\d+))?\s*(\w*)\s*$")
+# units that people write after a number: (unit of the keys, size in it); with a prefix, and squared, they are known too
+_UNITS = {
+    "m": ("m", 1.0), "g": ("kg", 1e-3), "t": ("kg", 1e3), "s": ("s", 1.0), "min": ("s", 60.0), "h": ("s", 3600.0),
+    "N": ("N", 1.0), "rad": ("rad", 1.0), "deg": ("rad", math.pi / 180.0),
+}  # fmt: skip
+_PREFIXES = {"": 1.0, "k": 1e3, "c": 1e-2, "m": 1e-3}
+# keys that no scene has, for which the nearest name would mislead
+_INSTEAD = {"waves.height_m": "'waves.amplitude_m', half of the height"}
 FLAT, SOLID = "nested to depth 3", "nested to depth 4"  # kinds of a block of numbers, as pydantic names them
 
 
@@ -50,15 +59,34 @@ def fault(key: str, given: object, allowed: str) -> str:
     return f"{key}: given {shown(given)}; allowed: {allowed}"
 
 
-def _meant(given: object) -> str:
-    """A hint for text in the place of a number: "21.6", "21,6", "21.6 m"."""
+def _meant(given: object, key: str) -> str:
+    """A hint for text in the place of a number: "21.6", "21,6", "21.6 m", and "20 cm" for a key in metres."""
     number = _NUMBER_TEXT.match(given) if isinstance(given, str) else None
     if number is None:
         return ""
     whole, part, power, unit = number.groups()
     text = whole + (f".{part}" if part else "") + (f"e{power}" if power else "")
+    own = re.sub(r"\[\d+\]$", "", key).rpartition("_")[2]
+    if unit and unit != own and (wanted := _sized(own)):
+        found = _sized(unit)
+        if found is None or found[0] != wanted[0]:
+            return f" (a number in {own}, without its unit)"
+        text = f"{float(text) * found[1] / wanted[1]:.12g}"
     why = "no unit" if unit else "with a dot" if "," in given else "without quotes"
     return f" ({why}: {text})"
+
+
+def _sized(unit: str) -> tuple[str, float] | None:
+    """What a unit measures, and its size; None for a unit that is not of `_UNITS`.
+
+    >>> _sized("cm"), _sized("mm2"), _sized("kg"), _sized("ft")
+    (('m', 0.01), ('m2', 1e-06), ('kg', 1.0), None)
+    """
+    name, power = (unit[:-1], int(unit[-1])) if unit[-1:].isdigit() else (unit, 1)
+    for prefix, times in _PREFIXES.items():
+        if name.startswith(prefix) and (known := _UNITS.get(name.removeprefix(prefix))):
+            return known[0] + (str(power) if power > 1 else ""), (times * known[1]) ** power
+    return None
 
 
 def dotted(location: tuple[str | int, ...]) -> str:
@@ -98,14 +126,23 @@ def suggestion(key: str, keys: list[str]) -> str:
     return f"; did you mean {close[0]!r}?" if close else ""
 
 
+def ending_in(word: str, model: type[BaseModel]) -> list[str]:
+    """The keys of which a word is the whole or, where there is none, the last part."""
+    known = known_fields(model)
+    return [word] if word in known else [key for key in known if key.rpartition(".")[2] == word]
+
+
 def unknown_key(key: str, given: object, scene_model: type[BaseModel]) -> str:
     """The fault line of a key that no scene has."""
     keys = list(known_fields(scene_model))
+    if len(ends := ending_in(key, scene_model)) > 1:
+        return f"{key}: the end of {len(ends)} keys, given {shown(given)}; allowed: one of {', '.join(ends)}"
     section = key.rpartition(".")[0]
     beside = [known.rpartition(".")[2] for known in keys if known.rpartition(".")[0] == section]
     where = f"allowed in {section}" if section else "allowed"
     allowed = f"; {where}: {', '.join(beside)}" if beside else ""
-    return f"{key}: unknown key, given {shown(given)}{suggestion(key, keys)}{allowed}"
+    meant = f"; did you mean {_INSTEAD[key]}?" if key in _INSTEAD else suggestion(key, keys)
+    return f"{key}: unknown key, given {shown(given)}{meant}{allowed}"
 
 
 def allowed_text(annotation: object, metadata: list[object] | tuple[object, ...] = ()) -> str | None:
@@ -180,5 +217,5 @@ def field_faults(error: ValidationError, scene_model: type[BaseModel]) -> tuple[
         elif kind in ("missing", "union_tag_not_found") and not short:
             lines.append(f"{key}: missing; allowed: {allowed}")
         else:
-            lines.append(fault(key, given, allowed) + (_meant(given) if "number" in allowed else ""))
+            lines.append(fault(key, given, allowed) + (_meant(given, key) if "number" in allowed else ""))
     return list(dict.fromkeys(lines)), bad

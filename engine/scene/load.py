@@ -1,6 +1,7 @@
 """Scenes by name or from a file, with single values overridden by dotted keys.
 
     scene = load_scene("tethered_buoy", {"waves.steepness": 0.13, "water.depth_m": 21.6})
+    scene = load_scene("tethered_buoy", steepness=0.13, depth_m=21.6)
 
 The models are in `models`, the shipped scenes in `engine/scenes/*.toml`.
 """
@@ -12,16 +13,19 @@ import tomllib
 from collections.abc import Mapping
 from pathlib import Path
 
-from engine.scene.faults import SceneError, known_fields, shown, unknown_key
+from engine.scene.faults import SceneError, ending_in, known_fields, shown, unknown_key
 from engine.scene.models import Scene, build_scene
 from engine.scene.rules import HEIGHTS
 
 _SHIPPED = Path(__file__).parents[1] / "scenes"
 
 
-def known_scenes() -> list[str]:
+def list_scenes() -> list[str]:
     """Names of the scenes that come with the engine."""
     return sorted(path.stem for path in _SHIPPED.glob("*.toml"))
+
+
+known_scenes = list_scenes  # its first name
 
 
 def shipped_text(name: str) -> str:
@@ -29,15 +33,25 @@ def shipped_text(name: str) -> str:
     return (_SHIPPED / f"{name}.toml").read_text(encoding="utf-8")
 
 
-def load_scene(name_or_path: str | Path, overrides: Mapping[str, object] | None = None) -> Scene:
+def load_scene(name_or_path: str | Path, overrides: Mapping[str, object] | None = None, **keywords: object) -> Scene:
     """A validated scene from a shipped name or a TOML file.
 
-    name_or_path: one of `known_scenes()`, or the path of a scene file. overrides: dotted key -> value; a value of None
+    name_or_path: one of `list_scenes()`, or the path of a scene file. overrides: dotted key -> value; a value of None
     removes an optional key or section, a missing section is created, and of waves.steepness, amplitude_m, components
-    and jonswap the one given drops an inherited other.
+    and jonswap the one given drops an inherited other. keywords: more of them, by the last word of a key where no other
+    key ends in it, as steepness=0.13.
     Raises SceneError: every fault of the file and of the overrides at once; nothing of that name, unreadable, not TOML.
     """
-    return scene_from_toml(_text_of(name_or_path), overrides, source=str(name_or_path))
+    text, given = _text_of(name_or_path), dict(overrides or {})
+    for word, value in keywords.items():
+        ends = ending_in(word, Scene)
+        key = ends[0] if len(ends) == 1 else word
+        if key in given:
+            raise SceneError(
+                f"{word}: given {shown(value)} beside {key} = {shown(given[key])}; allowed: one of the two"
+            )
+        given[key] = value
+    return scene_from_toml(text, given, source=str(name_or_path))
 
 
 def scene_from_toml(text: str, overrides: Mapping[str, object] | None = None, source: str = "scene text") -> Scene:
@@ -84,7 +98,7 @@ def parse_assignment(text: str) -> tuple[str, object]:
 
 
 def _text_of(name_or_path: str | Path) -> str:
-    names, given = known_scenes(), str(name_or_path)
+    names, given = list_scenes(), str(name_or_path)
     path = _SHIPPED / f"{given}.toml" if given in names else Path(given)
     allowed = f"allowed: a scene file, or one of {', '.join(names)}"
     try:

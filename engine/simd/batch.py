@@ -10,15 +10,15 @@ from ..arrays import Trail
 from ..parameters import record_of
 from ..planar import columns as col
 from ..planar.state import conserved
-from ..record import RECORD, SAMPLE_WIDTH, STATE
+from ..record import SAMPLE_WIDTH, STATE
 from ..run import Run
 from .cover import goes_in_lanes
 from .follow import Followers, lane_work
-from .ticks import LANE, MOVED, RATE, RESTARTED, ROWS, STEP, Arrays, advance
+from .ticks import ENDED, GOING, LANE, MOVED, RATE, RESTARTED, ROWS, STEP, WAITING, Arrays, advance
 from .vector import COUNT, REAL, WHOLE, lane_zeros
 
 LEAST = 2  # runs of a kind for which a batch pays: eight lanes cost about as much as one and a half runs alone
-STEPS = 50  # of a trail before it is followed: lanes with fewer by then wait for the others
+STEPS = 50  # of a trail: lanes that have made these wait to be followed
 TICKS = 20_000  # between two looks at the clock and at Ctrl-C: a tenth of a second
 # of the whole numbers these decide nothing within the vectors
 OWN = ("at_rest", "max_newton", "max_releases", "loop_release", "end_at")
@@ -35,12 +35,13 @@ def kind_of(scene):
 class Machine:
     """COUNT lanes for runs of one kind."""
 
-    def __init__(self, run, goal, periods):
+    def __init__(self, run, periods):
         n, s = int(run.record["nodes"]), max(int(run.record["stages"]), 2)
         self.runs = [None] * COUNT
-        self.records, self.states = np.zeros(COUNT, RECORD), np.zeros(COUNT, STATE)
+        self.records, self.states = np.zeros(COUNT, run.record.dtype), np.zeros(COUNT, STATE)
         self.lanes, self.spent = np.zeros(COUNT, LANE), np.zeros(COUNT, np.int64)
-        self.tables, self.samples = np.zeros((COUNT, run.tables.size)), np.zeros((COUNT, goal, SAMPLE_WIDTH))
+        self.tables = np.zeros((COUNT, run.tables.size))
+        self.samples = np.zeros((COUNT, len(run.output.samples), SAMPLE_WIDTH))
         self.counts = np.array([run.record[name] for name in WHOLE])
         self.arrays = Arrays(
             values=lane_zeros(len(REAL)), tables=lane_zeros(run.tables.size), numbers=lane_zeros(ROWS),
@@ -52,7 +53,9 @@ class Machine:
         room = STEPS if run.trail.followed else 0
         self.followers = Followers(run, periods) if run.trail.followed else None
         steps = COUNT, room
-        self.trail = Trail(np.zeros((*steps, 3)), np.zeros((*steps, s, n, 6)), np.zeros((*steps, s, n, 4)))
+        self.trail = Trail(
+            np.zeros((*steps, 3)), np.zeros((*steps, s - 1, n, col.KAPPA)), np.zeros((*steps, s - 1, n, 2))
+        )
         for b in range(COUNT):
             self._fill(b, run)
 
@@ -69,15 +72,27 @@ class Machine:
         lane.numbers[RATE, b] = lane.numbers[STEP, b] = 1.0
 
     def load(self, b, run):
-        """Put a run that has not begun into a lane that is free."""
-        conserved(run.record, run.motion.Y, run.motion.C)
+        """Put a run into a lane that is free."""
+        if run.state["steps"] == 0:
+            conserved(run.record, run.motion.Y, run.motion.C)
         self._fill(b, run)
         self.runs[b] = run
+        rows = len(run.output.samples)
+        if rows > self.samples.shape[1]:
+            longer = np.zeros((COUNT, rows, SAMPLE_WIDTH))
+            longer[:, : self.samples.shape[1]] = self.samples
+            self.samples = longer
+        self.samples[b, :rows] = run.output.samples
         if self.followers is not None:
             self.followers.load(b, run)
         self.spent[b] = 0
         self.lanes[b] = 0
-        self.lanes[b]["active"], self.lanes[b]["goal"] = 1, run.goal
+        self.lanes[b]["goal"] = run.goal
+        self._let_go(b)
+
+    def _let_go(self, b):
+        """The lane begins its next trial."""
+        self.lanes[b]["active"] = GOING
         self.arrays.numbers[MOVED, b] = self.arrays.numbers[RESTARTED, b] = 1.0
 
     def unload(self, b):
@@ -88,7 +103,8 @@ class Machine:
         lane = self.arrays
         for part, found in zip(run.motion, (lane.now, lane.before, lane.C, lane.Ks[0]), strict=True):
             part[:] = found[..., b]
-        run.output.samples[:] = self.samples[b, : run.goal]
+        rows = len(run.output.samples)
+        run.output.samples[:] = self.samples[b, :rows]
         if self.followers is not None:
             self.followers.unload(b, run)
         return run
@@ -107,8 +123,8 @@ class Machine:
             self.counts, self.arrays, self.work,
         )  # fmt: skip
         taken = [b for b, run in enumerate(self.runs) if run is not None]
-        ended = [b for b in taken if self.lanes[b]["active"] == 0]
-        if self.followers is not None and (ended or self.states["trail"].max() == STEPS):
+        ended = [b for b in taken if self.lanes[b]["active"] == ENDED]
+        if self.followers is not None and (ended or (self.lanes["active"] == WAITING).any()):
             self._follow(taken)
         for b in taken:
             self.runs[b].wall_s += (time.perf_counter() - began) / len(taken)
@@ -125,11 +141,13 @@ class Machine:
             if trails[b] < STEPS:
                 for part in self.trail:
                     part[b, 0] = part[b, trails[b]]
+            if self.lanes[b]["active"] == WAITING:
+                self._let_go(b)
         self.states["trail"] = 0
 
 
 def shares(jobs):
-    """Groups of at least LEAST jobs (number, scene, duration_s) that may share a batch; the others are left out."""
+    """Groups of LEAST jobs (number, scene, duration_s, start) or more that may share a batch; others are left out."""
     groups = {}
     for job in jobs:
         if goes_in_lanes(job[1]):
@@ -143,19 +161,21 @@ def run_through(jobs, progress):
     progress: callable(share of these jobs that is done), called now and then.
     """
     waiting, machine, done, numbers = deque(jobs), None, 0, [0] * COUNT
-    longest = max(job[2] / job[1].sample_step_s() for job in jobs)
-    most_periods = max(job[2] / (job[1].waves.period_s if job[1].waves is not None else 1.0) for job in jobs)
+    most_periods = max(
+        (duration_s + (0.0 if start is None else start.time_s)) / (scene.waves.period_s if scene.waves else 1.0)
+        for _, scene, duration_s, start in jobs
+    )
     while True:
         for b in range(COUNT):
             while waiting and (machine is None or machine.runs[b] is None):
-                number, scene, duration_s = waiting.popleft()
-                run = Run(scene, duration_s)
+                number, scene, duration_s, start = waiting.popleft()
+                run = Run(scene, duration_s, start)
                 if run.done():  # no equilibrium to start from
                     done += 1
                     yield number, run
                     continue
                 if machine is None:
-                    machine = Machine(run, int(longest) + 2, int(most_periods) + 1)
+                    machine = Machine(run, int(most_periods) + 1)
                     machine.compile()
                 machine.load(b, run)
                 numbers[b] = number

@@ -1,4 +1,4 @@
-"""Which scenes may share a batch."""
+"""Which scenes may share a batch, and which have a record type of their own (`engine.record.PLAIN`)."""
 
 from ..physics.tension import LAWS, NAMES
 from ..scene.models import Scene
@@ -15,10 +15,21 @@ def goes_in_lanes(scene: Scene) -> bool:
         and scene.motion.dimensions == 2
         and scene.solver.integrator in ("esdirk43", "trbdf2")
         and scene.solver.shock_viscosity is None
-        and scene.end.kind == "buoy"
+        and _without_tables(scene)
+        and scene.output.profiles is False
+        and not scene.output.energy
+    )
+
+
+def is_plain(scene: Scene) -> bool:
+    """Has every term of this planar scene the one form that lanes have too, and the sphere no cap?"""
+    return _without_tables(scene) and scene.buoy.submergence == "full"
+
+
+def _without_tables(scene):
+    return (
+        scene.end.kind == "buoy"
         and LAWS[NAMES.index(scene.tether.tension.law)].IN_LANES
         and (scene.waves is None or not scene.waves.irregular)
         and (scene.current is None or scene.current.law == "uniform")
-        and scene.output.profiles is False
-        and not scene.output.energy
     )

@@ -8,7 +8,7 @@ import math
 import numpy as np
 
 from ..compiled import kernel
-from .select import every, where
+from .select import every, some, where
 
 # pi/2 in three parts (Cody & Waite 1980): k * PIO2_A and k * PIO2_B are exact for |k| < 2**20.
 PIO2_A = float.fromhex("0x1.921fb544p+0")
@@ -60,14 +60,22 @@ def small_sincos(a):
 @kernel
 def copy_into(target, source):
     """target[:] = source for arrays (n, m): the slice assignment itself takes Numba half a second to compile."""
+    copy_columns(target, source, 0)
+
+
+@kernel
+def copy_columns(target, source, first):
+    """target (n, m) = m columns of source, from `first` on."""
     for k in range(target.shape[0]):
         for i in range(target.shape[1]):
-            target[k, i] = source[k, i]
+            target[k, i] = source[k, first + i]
 
 
 @kernel
 def keep(mask, source, target):
     """target = source in the lanes of the mask, for arrays (n, m)."""
+    if not some(mask):
+        return
     for k in range(target.shape[0]):
         for i in range(target.shape[1]):
             target[k, i] = where(mask, source[k, i], target[k, i])

@@ -18,20 +18,44 @@ from ..perturbations.lateral import WIDTH as LATERAL_WIDTH
 from ..perturbations.tangent import Base, Water, linearise, orthonormalise, period_of, tangent_stage, water_moves
 from ..physics.water import water as flow
 from ..planar import columns as planar_col
+from ..spatial.vectors import put, put_row
 from ..time.steps import known_part, plan_stage, stage_rate
-from .elementary import copy_into, keep
+from .elementary import keep
+from .select import some
 from .vector import COUNT, as_lanes, lane_record, lane_zeros
 
 # What a turn of all lanes works on, COUNT the last axis: numbers (LENGTH + k + 1,); a (s,), w (3,): as in `plan_stage`;
 # Y (n, 6), K (n, 4): the stage and its rates; K_new (n, 4): rates of a perturbation
 Turn = namedtuple("Turn", "numbers a w Y K K_new")
-# Perturbations of every lane, COUNT the last axis: C, K (k, n, 4), conserved variables and rates; F (k, n, 4): a first
-# guess of the water's change; Ks (k, s, n, 4): rates of the stages; C_tilde (n, 4), Cs (k, n, 4): of one stage
-Carried = namedtuple("Carried", "C K F Ks C_tilde Cs")
+# Perturbations of every lane, COUNT the last axis: C, K (k, n, 4), conserved variables and rates; Ks (k, s, n, 4) of
+# the stages of a step; C_tilde, C_new (n, 4) of one stage
+Carried = namedtuple("Carried", "C K Ks C_tilde C_new")
 # The lateral perturbation of every lane, COUNT the last axis: weights, C, K (n, 2), rates Ks (s, n, 2) of the stages of
 # a step; work: C_new, C_tilde, K_new (n, 2), H and E (`engine.perturbations.lateral`)
 Across = namedtuple("Across", "weights C K Ks C_new C_tilde K_new H E")
 TIME, RATE, STAGE, BEGUN, BUSY, ENDED, LENGTH = range(7)  # rows of numbers; lengths of all vectors from LENGTH on
+
+
+@kernel
+def stage_of(rows, b, step, stage):
+    """Where a lane is in its trail (COUNT, l, s - 1, n, w): (n, w), any where it has no step left."""
+    return rows[b, min(step[b], rows.shape[1] - 1), max(stage[b], 1) - 1]
+
+
+@kernel
+def side_by_side(rows, step, stage, target, first):
+    """The stages of all lanes into the columns from `first` on of target (n, m, COUNT), as numbers.
+
+    All lanes of a number at once: each line of memory is written once.
+    """
+    a, b = stage_of(rows, 0, step, stage), stage_of(rows, 1, step, stage)
+    c, d = stage_of(rows, 2, step, stage), stage_of(rows, 3, step, stage)
+    e, f = stage_of(rows, 4, step, stage), stage_of(rows, 5, step, stage)
+    g, h = stage_of(rows, 6, step, stage), stage_of(rows, 7, step, stage)
+    for k in range(rows.shape[3]):
+        for i in range(rows.shape[4]):
+            put_row(target[k, first + i], 0, (a[k, i], b[k, i], c[k, i], d[k, i], e[k, i]))
+            put(target[k, first + i], 5, (f[k, i], g[k, i], h[k, i]))
 
 
 @kernel
@@ -56,9 +80,19 @@ def plan_turn(records, tables, trail, trails, step, stage, turn):
         numbers[ENDED, b] = 1.0 if stage[b] == last else 0.0
         rate, after = plan_stage(p, tables[b], stage[b], euler, row[col.STEP], 0.0, a[:, b], w[:, b])
         numbers[RATE, b], numbers[TIME, b], numbers[STAGE, b] = rate, row[col.BEGIN] + after, float(stage[b])
-        copy_into(Y[:, :, b], trail.Y[b, step[b], stage[b]])
-        copy_into(K[:, :, b], trail.K[b, step[b], stage[b]])
+    if busy > 0:
+        side_by_side(trail.Y, step, stage, Y, 0)
+        side_by_side(trail.K, step, stage, K, planar_col.VX)
     return busy
+
+
+@kernel
+def end_stage(rows, C_new, K_new, C, K, Ks):
+    """What a perturbation has become at a stage: into Ks (s, n, m) and, where the step ends, C and K (n, m)."""
+    for j in range(1, Ks.shape[0]):
+        keep((rows[BUSY] != 0.0) & (rows[STAGE] == float(j)), K_new, Ks[j])
+    keep(rows[ENDED] != 0.0, C_new, C)
+    keep(rows[ENDED] != 0.0, K_new, K)
 
 
 @kernel
@@ -89,7 +123,7 @@ def follow(records, tables, trail, trails, periods, nats, lateral_nats, sideways
     Across; room: Work and Water; COUNT is the last axis of all their arrays.
     """
     counts, values, in_lanes = p_lanes
-    p, grid = lane_record(counts, as_lanes(values)), as_lanes(in_lanes)
+    p, grid = lane_record(records, counts, as_lanes(values)), as_lanes(in_lanes)
     turn, own, across = as_lanes(turn_of), as_lanes(carried[0]), as_lanes(carried[1])
     work, water = as_lanes(room[0]), as_lanes(room[1])
     numbers, rows, Y, K_new = turn_of.numbers, turn.numbers, turn.Y, turn.K_new
@@ -98,7 +132,7 @@ def follow(records, tables, trail, trails, periods, nats, lateral_nats, sideways
     step, stage = np.zeros(COUNT, np.int64), np.zeros(COUNT, np.int64)
     while plan_turn(records, tables, trail, trails, step, stage, turn_of) > 0:
         base = Base(rows[TIME], rows[RATE], moving_water, Y, turn.K)
-        begun, ended, busy = rows[BEGUN] != 0.0, rows[ENDED] != 0.0, rows[BUSY] != 0.0
+        begun, ended = rows[BEGUN] != 0.0, rows[ENDED] != 0.0
         if count > 0:
             linearise(p, grid, base, work, water)
         else:
@@ -107,23 +141,18 @@ def follow(records, tables, trail, trails, periods, nats, lateral_nats, sideways
         for v in range(count):
             keep(begun, own.K[v], own.Ks[v, 0])
             known_part(turn.a, s - 1, own.C[v], own.Ks[v], own.C_tilde)
-            tangent_stage(p, grid, base, busy, own.C_tilde, own.F[v], own.Cs[v], work, water)
-            stage_rate(base.rate, own.Cs[v], own.C_tilde, K_new)
-            for j in range(1, s):
-                keep(busy & (rows[STAGE] == float(j)), K_new, own.Ks[v, j])
-            keep(ended, own.Cs[v], own.C[v])
-            keep(ended, K_new, own.K[v])
-        orthonormalise(p.per_speed * p.per_speed, ended, own.C, own.K, rows[LENGTH : LENGTH + count])
+            tangent_stage(p, grid, base, own.C_tilde, own.C_new, K_new, work, water)
+            end_stage(rows, own.C_new, K_new, own.C[v], own.K[v], own.Ks[v])
+        if some(ended):
+            orthonormalise(p.per_speed * p.per_speed, ended, own.C, own.K, rows[LENGTH : LENGTH + count])
         if sideways:
             keep(begun, across.K, across.Ks[0])
             known_part(turn.a, s - 1, across.C, across.Ks, across.C_tilde)
             lateral_stage(p, grid, base, work.X, work.Q, work.F, across.C_tilde, across.H, across.E, across.C_new)
             stage_rate(base.rate, across.C_new, across.C_tilde, across.K_new)
-            for j in range(1, s):
-                keep(busy & (rows[STAGE] == float(j)), across.K_new, across.Ks[j])
-            keep(ended, across.C_new, across.C)
-            keep(ended, across.K_new, across.K)
-            rows[LENGTH + count] = normalise(across.weights, ended, across.C, across.K)
+            end_stage(rows, across.C_new, across.K_new, across.C, across.K, across.Ks)
+            if some(ended):
+                rows[LENGTH + count] = normalise(across.weights, ended, across.C, across.K)
         end_turn(trail.T, step, stage, numbers, periods, count, sideways, nats, lateral_nats)
 
 
@@ -144,25 +173,31 @@ class Followers:
         turn = LENGTH + k + 1, s, 3, (n, 6), (n, 4), (n, 4)
         self.turn = Turn(*(lane_zeros(*np.atleast_1d(size)) for size in turn))
         self.turn.numbers[RATE] = 1.0
-        C, K, F, Cs = (lane_zeros(k, n, 4) for _ in range(4))
-        self.carried = Carried(C, K, F, lane_zeros(k, s, n, 4), lane_zeros(n, 4), Cs)
+        sizes = (k, n, 4), (k, n, 4), (k, s, n, 4), (n, 4), (n, 4)
+        self.carried = Carried(*(lane_zeros(*size) for size in sizes))
         weights, C, K, C_new, C_tilde, K_new = (lane_zeros(n, 2) for _ in range(6))
         work = lane_zeros(n, COEFFICIENTS), lane_zeros(n, LATERAL_WIDTH)
         self.across = Across(weights, C, K, lane_zeros(s, n, 2), C_new, C_tilde, K_new, *work)
-        water = Water(*(lane_zeros(n, width) for width in (8, 2, 2, 4, 4)))
+        water = Water(*(lane_zeros(n, width) for width in (8, 3)))
         self.room = lane_work(n, planar_col.WITH_INVERSE), water
 
     def load(self, b, run):
-        """Put the perturbations of a run, and the state it starts from, into a lane."""
+        """Put the perturbations of a run into a lane."""
         self.periods[b] = run.trail.period_s
         self.nats[b] = self.lateral_nats[b] = 0.0
-        self.turn.Y[..., b], self.turn.K[..., b] = run.motion.Y, run.motion.K
+        self.nats[b, : len(run.trail.nats)], self.lateral_nats[b, : len(run.trail.nats)] = (
+            run.trail.nats,
+            run.trail.lateral_nats,
+        )
         for lanes, own in ((self.carried, run.trail.along), (self.across, run.trail.across)):
-            for part, given in zip(lanes[:3], own[:3] if own else (), strict=False):
+            for part, given in zip(lanes, own[:-1] if own else (), strict=False):
                 part[..., b] = given
 
     def unload(self, b, run):
-        """What has grown, back to the run."""
+        """What has grown, and the perturbations, back to the run."""
+        for lanes, own in ((self.carried, run.trail.along), (self.across, run.trail.across)):
+            for part, taken in zip(lanes, own[:-1] if own else (), strict=False):
+                taken[:] = part[..., b]
         periods = len(run.trail.nats)
         run.trail.nats[:], run.trail.lateral_nats[:] = self.nats[b, :periods], self.lateral_nats[b, :periods]
 

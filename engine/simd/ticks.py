@@ -19,15 +19,17 @@ from .. import record as col
 from ..arrays import Stage
 from ..compiled import kernel
 from ..dimensions import shape
+from ..planar.columns import VX
 from ..planar.state import largest_turn
 from ..time import steps
 from ..time.newton import GOING_ON, iterate, judge
 from ..time.status import OK
 from ..time.time_loop import begin_trial, guard_turns, next_step, refused, sample, step_done
-from .elementary import copy_into, keep
+from .elementary import copy_columns, copy_into, keep
 from .select import some, where
 from .vector import COUNT, as_lanes, lane_record
 
+ENDED, GOING, WAITING = range(3)  # lane.active: with no run or one at its end; going; its trail is full
 LANE = np.dtype([(name, np.int64) for name in "active stage iteration code goal".split()] + [("best", np.float64)])
 (
     TIME, RATE, STEP, SOUND, SIZE, LEAST, STAGE, SOLVED, FINISHED, ERROR, TURN, ACCEPTED, MOVED, RESTARTED,
@@ -48,7 +50,7 @@ def judge_solves(records, states, lanes, numbers):
         lane, state = lanes[b], states[b]
         numbers[SOLVED, b] = numbers[FINISHED, b] = numbers[ACCEPTED, b] = 0.0
         numbers[MOVED, b] = numbers[RESTARTED, b] = 0.0
-        if lane.active == 0:
+        if lane.active != GOING:
             continue
         p = records[b]
         most = steps.SMALL_STEP_NEWTON if state.small else p.max_newton
@@ -97,28 +99,29 @@ def sample_lanes(records, tables, states, lanes, arrays, ends, samples, profiles
             copy_into(ends[1], arrays.Ks[0, :, :, b])
             copy_into(ends[2], arrays.C_new[:, :, b])
             copy_into(ends[3], arrays.K_new[:, :, b])
-            state, goal = states[b], lanes[b].goal
+            state = states[b]
             begin, end = (ends[0], ends[1]), (ends[2], ends[3])
             hermite = state.small == 0
-            sample(records[b], tables[b], state, state.trial_dt, hermite, begin, end, samples[b, :goal], profiles)
+            sample(records[b], tables[b], state, state.trial_dt, hermite, begin, end, samples[b], profiles)
 
 
 @kernel
 def record_stages(states, lanes, numbers, Y, K_new, trail):
     """Solved stages into the trails of their lanes (`engine.arrays.Trail`); kept or not, as the step will be.
 
-    Y (n, 6, COUNT), K_new (n, 4, COUNT): stages and their rates, as numbers.
+    Y (n, 6, COUNT), K_new (n, 4, COUNT): stages and their rates, as numbers. No perturbation asks for curvature, rates
+    of q or stage 0, the last one of the step before: the trail, which goes through memory, is without them.
     """
     for b in range(COUNT):
         if numbers[SOLVED, b] != 0.0:
-            copy_into(trail.Y[b, states[b].trail, lanes[b].stage], Y[:, :, b])
-            copy_into(trail.K[b, states[b].trail, lanes[b].stage], K_new[:, :, b])
+            at, stage = states[b].trail, lanes[b].stage - 1
+            copy_columns(trail.Y[b, at, stage], Y[:, :, b], 0)
+            copy_columns(trail.K[b, at, stage], K_new[:, :, b], VX)
 
 
 @kernel
 def record_steps(states, numbers, trail_T):
-    """Accepted steps into the trails of their lanes; returns whether a trail is full."""
-    full = False
+    """Accepted steps into the trails of their lanes."""
     for b in range(COUNT):
         if numbers[ACCEPTED, b] != 0.0:
             state = states[b]
@@ -126,8 +129,6 @@ def record_steps(states, numbers, trail_T):
             row[col.BEGIN], row[col.STEP] = state.t, state.trial_dt
             row[col.KIND] = col.RESTART if state.small else col.CONTROLLED
             state.trail += 1
-            full = full or state.trail == trail_T.shape[1]
-    return full
 
 
 @kernel
@@ -152,20 +153,28 @@ def end_steps(records, tables, states, numbers, Y, one):
 
 
 @kernel
-def plan_lanes(records, tables, states, lanes, numbers, a, w):
-    """Choose the next solve of every lane that has moved; returns how many runs have ended instead."""
-    ended = 0
+def plan_lanes(records, tables, states, lanes, numbers, room, a, w):
+    """Choose the next solve of every lane that has moved; returns whether to stop.
+
+    A lane whose trail of `room` steps is full waits to be followed. That is done for all lanes at once, each step at
+    the cost of one: so it is not due before two of three wait, because some make twice the steps of others.
+    """
+    stop = False
     for b in range(COUNT):
         if numbers[MOVED, b] == 0.0:
             continue
         p, state, lane = records[b], states[b], lanes[b]
         if numbers[RESTARTED, b] != 0.0:
             if state.status == OK and state.samples < lane.goal:
+                if 0 < room == state.trail:
+                    lane.active = WAITING
+                    numbers[MOVED, b] = 0.0
+                    continue
                 begin_trial(p, tables[b], state)
             if state.status != OK or state.samples >= lane.goal:
-                lane.active = 0
+                lane.active = ENDED
                 numbers[MOVED, b] = 0.0
-                ended += 1
+                stop = True
                 continue
             lane.stage = max(p.stages, 2) - 1 if state.small else 1
         else:
@@ -175,7 +184,11 @@ def plan_lanes(records, tables, states, lanes, numbers, a, w):
             p, tables[b], lane.stage, state.small != 0, state.trial_dt, state.dt_before, a[:, b], w[:, b]
         )
         numbers[RATE, b], numbers[TIME, b], numbers[STEP, b] = rate, state.t + after, state.trial_dt
-    return ended
+    going = waiting = 0
+    for b in range(COUNT):
+        going += lanes[b].active == GOING
+        waiting += lanes[b].active == WAITING
+    return stop or 0 < waiting >= 2 * going
 
 
 @kernel
@@ -203,7 +216,7 @@ def move_states(rows, w, history, now, before, Y):
 
 @kernel
 def advance(ticks, records, own_tables, states, lanes, spent, samples, trail, counts, arrays, work):
-    """Make ticks until a run ends, a trail is full, or `ticks` are made; returns how many were.
+    """Make ticks until a run ends, trails are to be followed, or `ticks` are made; returns how many were.
 
     records, states, lanes (COUNT,): RECORD, STATE, LANE; own_tables (COUNT, m): tables, as numbers; spent (COUNT,):
     iterations of the trial; samples (COUNT, m, 12); trail: Trail with COUNT as its first axis, of which l = 0 keeps
@@ -214,13 +227,13 @@ def advance(ticks, records, own_tables, states, lanes, spent, samples, trail, co
     w, a, C_new, K_new = lane.w, lane.a, lane.C_new, lane.K_new
     Y, C, Ks, rows, tables = lane.Y, lane.C, lane.Ks, lane.numbers, lane.tables
     own = as_lanes(work)
-    p = lane_record(counts, lane.values)
+    p = lane_record(records, counts, lane.values)
     one, ends = np.empty(arrays.Y.shape[:2]), np.empty((4, *arrays.C.shape[:2]))
     profiles = np.empty((0, *one.shape))
     made, stop = 0, False
     while True:
         # every lane that has moved begins its next solve; C_new, which is free by then, takes in its C~
-        stop = plan_lanes(records, own_tables, states, lanes, numbers, arrays.a, arrays.w) > 0 or stop
+        stop = plan_lanes(records, own_tables, states, lanes, numbers, trail.T.shape[1], arrays.a, arrays.w)
         move_states(rows, w, lane.history, lane.now, lane.before, Y)
         keep(rows[ACCEPTED] != 0.0, C_new, C)
         keep(rows[ACCEPTED] != 0.0, K_new, Ks[0])
@@ -239,9 +252,7 @@ def advance(ticks, records, own_tables, states, lanes, spent, samples, trail, co
         shape(p, tables, Y, own.Q, own.X)
         steps.stage_rates(p, rows[RATE], Y, own.Q, own.C_tilde, C_new, K_new)
         for j in range(1, Ks.shape[0]):
-            here = (rows[SOLVED] != 0.0) & (rows[STAGE] == float(j))
-            if some(here):
-                keep(here, K_new, Ks[j])
+            keep((rows[SOLVED] != 0.0) & (rows[STAGE] == float(j)), K_new, Ks[j])
         if some(rows[FINISHED] != 0.0):
             rows[ERROR] = steps.embedded_error(p, tables, rows[STEP], Ks, own.Q, a, own.D[0])
             rows[LEAST], rows[TURN] = steps.least_strain(Y), largest_turn(p, Y)[0]
@@ -252,7 +263,7 @@ def advance(ticks, records, own_tables, states, lanes, spent, samples, trail, co
         if some(rows[ACCEPTED] != 0.0):
             sample_lanes(records, own_tables, states, lanes, arrays, ends, samples, profiles)
             if trail.T.shape[1] > 0:
-                stop = record_steps(states, numbers, trail.T) or stop
+                record_steps(states, numbers, trail.T)
             end_steps(records, own_tables, states, numbers, arrays.Y, one)
     for row_number in (SOLVED, FINISHED, ACCEPTED, MOVED, RESTARTED):
         for b in range(COUNT):

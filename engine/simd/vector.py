@@ -197,15 +197,15 @@ REAL = tuple(name for name in RECORD.names if RECORD[name] == np.float64)
 
 
 class LaneRecord(types.Type):
-    """Parameters of `count` planar runs (`engine.record.RECORD`)."""
+    """Parameters of `count` planar runs (`engine.record.RECORD`); plain: of PLAIN ones."""
 
     fields: ClassVar[dict] = {
         name: (whole, row) for whole, group in ((True, WHOLE), (False, REAL)) for row, name in enumerate(group)
     }
 
-    def __init__(self, count):
-        self.count = count
-        super().__init__(f"lane_record({count})")
+    def __init__(self, count, plain):
+        self.count, self.plain = count, plain
+        super().__init__(f"lane_record({count}, {plain})")
 
 
 @register_model(LaneRecord)
@@ -234,14 +234,15 @@ def _get_field(context, builder, record, value, name):
 
 
 @intrinsic
-def lane_record(context, counts, values):
-    """Record of the parameters `counts` (whole numbers in the order of WHOLE), `values` (as_lanes, order of REAL)."""
-    kind = LaneRecord(values.dtype.count)
+def lane_record(context, records, counts, values):
+    """Record of the parameters `counts` (whole numbers in the order of WHOLE), `values` (as_lanes, order of REAL) of
+    these `records`."""
+    kind = LaneRecord(values.dtype.count, "plain" in records.dtype.fields)
 
     def generate(context, builder, sig, arguments):
         pointers = cgutils.create_struct_proxy(kind)(context, builder)
-        pointers.counts = arrayobj.make_array(counts)(context, builder, arguments[0]).data
-        pointers.values = arrayobj.make_array(values)(context, builder, arguments[1]).data
+        pointers.counts = arrayobj.make_array(counts)(context, builder, arguments[1]).data
+        pointers.values = arrayobj.make_array(values)(context, builder, arguments[2]).data
         return pointers._getvalue()
 
-    return kind(counts, values), generate
+    return kind(records, counts, values), generate

@@ -23,7 +23,7 @@ from .. import record as col
 from ..arrays import Step, Trial
 from ..compiled import kernel
 from ..dimensions import configuration, conserved, largest_turn, last_strain, release_loop, size_of, work_arrays
-from ..physics.ends import next_corner
+from ..physics.ends import corner_after
 from ..physics.energy import add_powers, store_energies
 from ..physics.shocks import deforming_element, renew_viscosity
 from ..physics.tension.kernels import tension
@@ -70,7 +70,7 @@ def begin_trial(p, tables, state):
         return
     state.small = state.small_steps > 0
     dt = state.dt
-    state.corner = next_corner(p, tables, state.t) if p.adaptive else p.end_release
+    state.corner = corner_after(p, tables, state.t) if p.adaptive else p.end_release
     # the step ends with a corner of a held end's motion
     state.cut = state.t < state.corner <= state.t + NO_SLIVER * dt
     state.trial_dt = state.corner - state.t if state.cut else dt
@@ -151,8 +151,8 @@ def sample(p, tables, state, dt, hermite, begin, end, samples, profiles):
     (C0, K0), (C1, K1) = begin, end
     n, until = C0.shape[0], state.t + dt
     row = np.empty((n, col.PROFILE_WIDTH))
-    while state.samples < samples.shape[0] and state.samples * p.output_step <= until:
-        t = state.samples * p.output_step
+    while state.samples < samples.shape[0] and (state.first + state.samples) * p.output_step <= until:
+        t = (state.first + state.samples) * p.output_step
         weights = weights_within(hermite, (t - state.t) / dt, dt)
         out = samples[state.samples]
         out[col.AT_U], out[col.AT_V], out[col.AT_W], out[col.OFFPLANE] = configuration(
@@ -168,8 +168,8 @@ def sample(p, tables, state, dt, hermite, begin, end, samples, profiles):
         out[col.TOP_LOW], out[col.TOP_HIGH] = min(state.low, top), max(state.high, top)
         state.low, state.high = top, top
         state.samples += 1
-    while state.profiles < profiles.shape[0] and state.profiles * p.profile_step <= until:
-        t = state.profiles * p.profile_step
+    while state.profiles < profiles.shape[0] and (state.first_profile + state.profiles) * p.profile_step <= until:
+        t = (state.first_profile + state.profiles) * p.profile_step
         weights = weights_within(hermite, (t - state.t) / dt, dt)
         configuration(p, tables, weights, C0, K0, C1, K1, profiles[state.profiles])
         state.profiles += 1

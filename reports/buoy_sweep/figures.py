@@ -51,8 +51,9 @@ def orbit_figure(sweep: Sweep, drawn: Sequence[Run], missing: Sequence[Run]) -> 
     picture = orbit_diagram_over(series(rows, "steepness"), radii, labels, panels, crosses)
     caption = (
         f"Radius at t = k{T_I}, k ≥ {sweep.transient}, over wave steepness; the darker, the more points fall on one "
-        "place. Below: share χ of the time without tension, and the largest exponents, where they are known, from the "
-        f"tangent dynamics and by Wolf's method. Crosses: {count(len(missing), 'run')} without points."
+        "place. Below: share χ of the time with less than 5 % of the static tension, and the largest exponents, where "
+        "they are known, from the tangent dynamics and by Wolf's method. Crosses: "
+        f"{count(len(missing), 'run')} without points."
     )
     return Figure(picture, caption, "Orbit diagram of the strobed radius over wave steepness, slack fraction below.")
 

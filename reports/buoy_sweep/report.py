@@ -55,7 +55,7 @@ def _question(sweep: Sweep) -> list[Item]:
     items: list[Item] = [
         *section_items("buoy_sweep", "Question"),
         Heading("Short answer"),
-        Bullets(short_answer(sweep)),
+        Bullets(sweep.folder.answer or short_answer(sweep)),
         *extremes([columns["steepness"]], [run.row for run in sweep.good], shown, _OF_THESE),
     ]
     if sweep.judged:
@@ -97,7 +97,8 @@ def short_answer(sweep: Sweep) -> tuple[str, ...]:
     ]  # fmt: skip
     kinds = (
         ("Did not end as asked", [run for run in runs if not run.ok]),
-        ("Slack for a part of the time", [run for run in good if run["slack_fraction"] > 0]),
+        ("Slack (less than 5 % of the static tension) for a part of the time",
+         [run for run in good if run["slack_fraction"] > 0]),
         ("Never slack", [run for run in good if run["slack_fraction"] == 0]),
         *repeating,
         (f"A longer period, of points that lie within {share} of the range of r: a swing that dies out",

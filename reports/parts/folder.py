@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from .columns import HEADER, Quantity
+from .wording import printed
 
 if TYPE_CHECKING:
     import pandas
@@ -49,6 +50,13 @@ class Folder:
     table: pandas.DataFrame
     scene: Scene
     columns: dict[str, Quantity]
+
+    @property
+    def answer(self) -> tuple[str, ...]:
+        """The sentences in which the campaign said what it found (answer.txt); none where it left none."""
+        path = self.directory / "answer.txt"
+        lines = path.read_text(encoding="utf-8").splitlines() if path.exists() else ()
+        return tuple(map(printed, lines))
 
     def trajectory_path(self, run_key: str) -> Path:
         return self.directory / "trajectories" / f"{run_key}.nc"

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 _TIMES = {
     "compile_s": "compiling the kernels",
     "run_s": "runs with their analysis",
-    "analysis_s": "of it analysis, summed over workers",
+    "analysis_s": "analysis, the times of all workers added up",
     "report_s": "report",
 }
 

@@ -37,7 +37,7 @@ def report(directory: str | Path) -> Report:
         Heading("Question"),
         Text(f"What does the scene `{folder.scene.name}` do as {said} {'varies' if len(keys) == 1 else 'vary'}?"),
         Heading("Short answer"),
-        Bullets(_answer(keys, rows)),
+        Bullets(folder.answer or _answer(keys, rows)),
         *extremes(keys, rows, [column for one in shown for column, _ in one], _EXTREMES),
         *(_panels(keys[0], rows, shown) if len(keys) == 1 else _maps(keys, rows, shown)),
         Heading("Warnings"),

@@ -137,6 +137,17 @@ def circle_map(coupling, rotation, points, skip=500, start=0.1):
     return circle(angle)
 
 
+def nonchaotic_map(sigma, points, skip=1000):
+    """x of x' = 2 sigma tanh(x) cos(2 pi theta), theta' = theta + golden mean: strange and not chaotic for sigma > 1
+    (Grebogi, Ott, Pelikan & Yorke 1984)."""
+    orbit, x = np.empty(points), 0.5
+    for k in range(-skip, points):
+        x = 2.0 * sigma * np.tanh(x) * np.cos(np.pi * (np.sqrt(5.0) - 1.0) * k)
+        if k >= 0:
+            orbit[k] = x
+    return orbit
+
+
 def circle(turns):
     """(cos, sin) of angles in turns."""
     return np.column_stack([np.cos(2.0 * np.pi * turns), np.sin(2.0 * np.pi * turns)])

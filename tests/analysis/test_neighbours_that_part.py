@@ -99,7 +99,7 @@ def test_noise_shortens_nothing_below_the_floor():
     ("x", "words"),
     [
         (np.ones(5000), "series that moves"),
-        (ROSSLER[:300], "500 samples"),
+        (ROSSLER[:150], "200 samples"),
         (np.sin(0.01 * np.arange(5000)), "mean periods"),
         (np.random.default_rng(0).normal(size=5000), "noise"),
         (np.tile([0.0, 1.0, 3.0, 2.0], 500), "no neighbours"),

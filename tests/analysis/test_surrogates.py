@@ -13,6 +13,7 @@ from analysis import (
     rank_among,
     spectral_lines,
 )
+from analysis.surrogates import rank_until_lost
 from tests.analysis.systems import henon, logistic
 
 RECORDS = {
@@ -95,6 +96,15 @@ def test_a_rank_needs_enough_surrogates_and_counts_ties_against():
     with pytest.raises(ValueError, match="19 at least"):
         rank_among(1.0, np.arange(18.0))
     assert rank_among(36.5, drawn, share=0.9).above and np.array_equal(rank_among(1.0, drawn).surrogates, drawn)
+
+
+def test_a_rank_test_that_is_lost_stops():
+    drawn = iter([0.0, 2.0, 0.5, 3.0, 9.0])
+    lost = rank_until_lost(1.0, drawn, 39)
+    assert lost.above is False and next(drawn) == 9.0, "two of 39 may not be as large"
+    assert list(lost.surrogates) == [0.0, 2.0, 0.5, 3.0] and lost.share_below == 0.5
+    assert rank_until_lost(1.0, iter([0.0] * 38 + [2.0]), 39).above
+    assert rank_until_lost(1.0, iter([np.nan]), 39).above is None
 
 
 @pytest.mark.slow

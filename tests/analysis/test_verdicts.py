@@ -9,7 +9,7 @@ from analysis import evidence_text, read_evidence, regime
 from analysis.exponents import Exponent
 from analysis.oscillator import SnapOscillator, search_periodic_orbits, snap_motion, start_grid, strobed_states
 from tests.analysis.forced_records import KINDS, SAMPLES, record
-from tests.analysis.systems import circle, circle_map, henon, logistic
+from tests.analysis.systems import circle, circle_map, henon, logistic, nonchaotic_map
 
 K = np.arange(300)
 POSITIVE = (0.6, 0.02)
@@ -149,6 +149,28 @@ FOOLED = (0.5, 0.02)
 def test_no_false_alarm():
     verdict = regime(record("ar2", 0), 1 / SAMPLES, 1.0, wolf_exponent=FOOLED)
     assert verdict.regime != "chaotic", verdict.reason
+
+
+@pytest.mark.parametrize(
+    ("sigma", "points"), [(1.5, 600), *(pytest.param(s, 3000, marks=pytest.mark.slow) for s in (1.3, 1.5, 1.7))]
+)
+def test_a_strange_nonchaotic_attractor_is_not_chaotic(sigma, points):
+    """Its neighbours part, its next point can be predicted, its 0-1 test says irregular: it does not forget."""
+    verdict = regime(strobed=nonchaotic_map(sigma, points), wolf_exponent=FOOLED)
+    assert verdict.regime == "undecided" and "memory" in verdict.reason
+
+
+@pytest.mark.parametrize("digits", [1, 2, 3])
+def test_a_torus_that_takes_few_values_is_one_all_the_same(digits):
+    assert quick(strobed=np.round(circle_map(0.5, 0.6180339, 300), digits)).regime == "quasi-periodic"
+
+
+@pytest.mark.parametrize("row", [0, 150, 299])
+def test_one_sample_far_outside_leaves_no_verdict(row):
+    section = logistic(3.5, 300)
+    section[row] = -9999.0
+    verdict = regime(strobed=section)
+    assert verdict.regime == "undecided" and f"row {row + 1} (-9999)" in verdict.reason
 
 
 @pytest.mark.slow

@@ -187,7 +187,7 @@ def together(tmp_path):
         log.unlink(missing_ok=True)
         engine = FakeEngine(log=str(log), **fake)
         how, describe = Running(tmp_path, jobs, "loky"), partial(buoy_row, transient_periods=2)
-        plan = Plan(how, engine, describe, COLUMNS, simulate_each=engine.each, show_progress=False)
+        plan = Plan(how, engine, describe, COLUMNS, simulate_each=engine.each)
         return run_campaign(plan, jobs_of(EIGHT)), engine.begun()
 
     run.out = tmp_path

@@ -94,7 +94,7 @@ def test_a_worker_is_not_told_of_the_folder_and_what_it_sends_is_kept_as_if_it_w
     rows = []
     for place, backend in zip(places, ("threading", "dask"), strict=True):
         (place / "trajectories").mkdir(parents=True)
-        plan = Plan(Running(place, 1, backend), FakeEngine(), row, COLUMNS, "this one", show_progress=False)
+        plan = Plan(Running(place, 1, backend), FakeEngine(), row, COLUMNS, "this one")
         rows += run_campaign(plan, [job]).rows
         monkeypatch.setattr("campaigns.machinery.runner.opened", lambda *_: contextlib.nullcontext(elsewhere))
     assert rows[0] == rows[1]

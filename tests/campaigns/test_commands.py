@@ -25,6 +25,7 @@ HEAVY = {"numpy", "numba", "pandas", "scipy", "pydantic", "joblib", "matplotlib"
 SERIES = "--column --time --step --period --tolerance --out"
 HELPS = {  # what each tells
     "analysis": SERIES,
+    "engine": "--set --periods --duration --out",
     "reports": "folder of a finished campaign",
     "campaigns.time_series": SERIES,
     "campaigns.buoy_sweep": "--steepness --steepness-range --periods --transient --scene --set --jobs --backend "

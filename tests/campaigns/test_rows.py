@@ -15,7 +15,7 @@ from tests.campaigns.fake_engine import STATISTICS, sines
 PERIODS, TRANSIENT = 90, 10
 SETTLED = {
     "strobed_period", "radius_min_m", "radius_max_m", "angle_min_rad", "angle_max_rad", "tension_top_min_N",
-    "tension_top_max_N", "slack_fraction",
+    "tension_top_max_N", "slack_fraction", "compression_fraction",
 }  # fmt: skip
 
 
@@ -36,10 +36,13 @@ def test_extremes_of_sines_and_those_of_tension_between_the_samples(scene):
     assert (row["tension_top_min_N"], row["tension_top_max_N"]) == pytest.approx((1490.0, 2510.0), abs=1e-9)
 
 
-@pytest.mark.parametrize(("mean", "share"), [(2000.0, 0.0), (0.0, 0.5), (250.0, 1.0 / 3.0), (-600.0, 1.0)])
-def test_slack_share_of_a_sine(scene, mean, share):
-    # 500 sin is below -mean for acos(mean/500)/pi of the time; 100 samples a period, errors of second order.
-    assert measured(scene, tension=(mean, 500.0))["slack_fraction"] == pytest.approx(share, abs=1e-3)
+@pytest.mark.parametrize("mean", [2000.0, 500.0, 250.0, 0.0, -600.0])
+def test_slack_and_compression_of_a_sine(scene, mean):
+    """500 sin lies below a level for acos(-level/500)/pi of the time; 100 samples a period, errors of second order."""
+    row = measured(scene, tension=(mean, 500.0))  # it begins at the mean, which is its static tension
+    for name, level in (("slack_fraction", max(0.05 * mean, 0.0)), ("compression_fraction", 0.0)):
+        share = math.acos(max(-1.0, min((mean - level) / 500.0, 1.0))) / math.pi
+        assert row[name] == pytest.approx(share, abs=1e-3)
 
 
 @pytest.mark.parametrize(

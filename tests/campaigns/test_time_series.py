@@ -20,6 +20,7 @@ from tests.analysis.systems import henon, logistic, states
 from tests.campaigns.conftest import rows_of
 
 TIME = np.arange(1500) * 0.4
+FORTY = np.arange(4000) * 2.0 * np.pi / 40.0
 GOLDEN = 0.5 * (np.sqrt(5.0) - 1.0)
 
 
@@ -42,11 +43,14 @@ MOTIONS = {
     "sine": (np.sin(TIME), 0.4, (), "period-1"),
     "logistic": (logistic(3.9, 800), None, (), "chaotic"),
     "white": (noise(800), None, (), "undecided"),
+    "a gap marked": (np.where(np.arange(1500) == 700, -9999.0, np.sin(TIME)), 0.4, (), "undecided"),
 }
 MORE = {
     "forced sine": (np.sin(TIME), 0.4, ("--period", "12.566370614359172"), "period-1"),
+    "slow, too short": (np.sin(0.05 * np.arange(105)), 1.0, ("--period", "1"), "undecided"),
+    "two, samples at the maxima": (np.sin(FORTY) + 0.3 * np.sin(0.5 * FORTY), 1.0, (), "period-2"),
     "two": (np.sin(TIME) + 0.2 * np.sin(0.5 * TIME), 0.4, (), "period-2"),
-    "golden": (np.sin(TIME) + 0.7 * np.sin(GOLDEN * TIME), 0.4, (), "quasi-periodic"),
+    "golden": (np.sin(FORTY) + 0.7 * np.sin(GOLDEN * FORTY), 1.0, (), "quasi-periodic"),
     "period 4": (logistic(3.5, 400), None, (), "period-4"),
     "henon": (henon(800)[:, 0], 1.0, ("--period", "1"), "chaotic"),
     "white, strobed": (noise(800), 1.0, ("--period", "1"), "undecided"),

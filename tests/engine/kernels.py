@@ -148,10 +148,10 @@ class Steps:
     def trail(self, first, count):
         return arrays.Trail(*(part[first : first + count] for part in (self.T, self.Ys, self.Ks)))
 
-    def carry(self, first, count, vectors, rates, waters):
+    def carry(self, first, count, vectors, rates):
         """Perturbations (k, n, 4) in place along kept steps; returns the growth (k,) of each, nats."""
         growth = np.zeros((1, len(vectors)))
-        along = vectors, rates, waters, growth
+        along = vectors, rates, growth
         carry(self.record, self.tables, 1e9, count, self.trail(first, count), along, None)
         return growth[0]
 

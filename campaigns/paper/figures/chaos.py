@@ -12,11 +12,11 @@ and g' = r'/(D w_nr).
 import numpy as np
 
 from campaigns.figure_data import Array, Source, source
-from campaigns.judge import carried
 from campaigns.machinery.folder import trajectory_path
 from campaigns.paper.measured import LeftOut, Parts, Plan
 from campaigns.paper.measures import LARGE, SMALL, strobed
 from engine.natural_frequencies import natural_frequencies
+from engine.views import carried
 
 LINEAR_PERIODS = 200  # kept whole, for a linear axis as in the paper; a longer record is drawn on a logarithmic one
 LATER_POINTS = 600

@@ -9,7 +9,7 @@ In the paper: eq. (20) tension law; eq. (29) slope of the tension law.
 import math
 from functools import cache
 
-from machine_code.store import compiled
+from machine_code.parts import compiled_in_parts
 
 from ...compiled import by_kind, kernel
 from ...simd.select import larger, some, where
@@ -40,7 +40,7 @@ def _choice(name, codes):
     function = last if others is None else chosen
     # Numba names machine code by this: what two processes keep of two choices must not have one name
     function.__qualname__ = "_".join([name, "of_law", *map(str, codes)])
-    return compiled(function, None)
+    return compiled_in_parts(function, None)
 
 
 _value, _integral = _choice("value", _ALL), _choice("integral", _ALL)

@@ -62,11 +62,11 @@ class Carried:
 
     def __init__(self, run, vectors):
         self.run, self.vectors = run, vectors.copy()
-        self.rates, self.waters, self.growth = np.zeros_like(vectors), np.zeros_like(vectors), np.zeros(len(vectors))
+        self.rates, self.growth = np.zeros_like(vectors), np.zeros(len(vectors))
 
     def follow(self, step):
         """Along one kept step."""
-        self.growth += self.run.carry(step, 1, self.vectors, self.rates, self.waters)
+        self.growth += self.run.carry(step, 1, self.vectors, self.rates)
 
 
 class Copy:

@@ -6,8 +6,8 @@ import numpy as np
 import pydantic
 import pytest
 
-from engine import Scene, SceneError, load_scene
-from engine.scene import known_scenes, parse_assignment, scene_from_toml
+from engine import Scene, SceneError, list_scenes, load_scene
+from engine.scene import parse_assignment, scene_from_toml
 from tests.engine.scene.test_scene_faults import TABLES, changes_of
 
 VARIANTS = [changes_of("", changes) for changes in TABLES["accepted"]]
@@ -33,7 +33,7 @@ def test_scenes_that_differ_in_anything_have_different_keys():
 
 def test_the_shipped_scene_is_table_1():
     scene = load_scene("tethered_buoy")
-    assert [load_scene(name).name for name in known_scenes()] == known_scenes()
+    assert [load_scene(name).name for name in list_scenes()] == list_scenes()
     # Table 1 of the paper and section 4.2, as printed there
     assert scene.tether.length_m == 20 and scene.tether.area_m2 == 7.85e-5 and scene.tether.density_kgpm3 == 1140
     assert scene.buoy.diameter_m == 1.5 and scene.buoy.mass_kg == 1611
@@ -86,6 +86,29 @@ def test_none_removes_and_a_scalar_creates_its_section():
     assert (still.sample_step_s(), again.sample_step_s()) == (0.05, 0.04)
     assert load_scene("tethered_buoy", {"solver": None}).solver.rtol == Scene.model_fields["solver"].default.rtol
     assert load_scene("tethered_buoy", {"current": None, "waves.ramp_s": None}).waves.ramp_s == 0
+
+
+def test_a_keyword_is_the_end_of_a_key():
+    said = load_scene("tethered_buoy", {"tether.nodes": 21}, steepness=0.1, depth_m=22.0, waves=None)
+    assert said == load_scene("tethered_buoy", {"tether.nodes": 21, "water.depth_m": 22.0, "waves": None})
+
+
+@pytest.mark.parametrize(
+    ("keywords", "parts"),
+    [
+        ({"period_s": 4.0}, ["end.motion.period_s", "waves.period_s"]),
+        ({"steepnes": 0.1}, ["did you mean 'waves.steepness'"]),
+        ({"steepness": 0.1}, ["waves.steepness = 0.2", "one of the two"]),
+        (
+            {"step_s": 0.1, "nodes": -1, "colour": 1},
+            ["3 faults", "solver.step_s, output.step_s", "tether.nodes", "colour"],
+        ),
+    ],
+)
+def test_a_keyword_that_is_no_one_key_is_refused_with_the_choices(keywords, parts):
+    with pytest.raises(SceneError) as caught:
+        load_scene("tethered_buoy", {"waves.steepness": 0.2}, **keywords)
+    assert all(part in str(caught.value) for part in parts)
 
 
 def test_the_diameter_follows_the_area_unless_it_is_given():

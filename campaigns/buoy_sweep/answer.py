@@ -1,0 +1,90 @@
+"""What a sweep of wave steepness found: regimes, jumps, chaos, what is undecided, the largest tension and its use.
+
+A jump: between two neighbouring values the largest tension changes by more than a quarter, and by more than three times
+the median change between neighbours. A largest tension is doubted where the model says more than it knows (`reasons`).
+"""
+
+import math
+from collections.abc import Iterator, Sequence
+from itertools import pairwise
+from statistics import median
+
+from campaigns.answers import Row, greatest, kilonewton, known, regimes, spans
+from campaigns.machinery.session import MOST_LINES
+from campaigns.statements import listed
+
+PEAK = "tension_top_max_N"
+LEAST_JUMP, TYPICAL = math.log(1.25), 3.0
+TOLD = 3  # jumps beside the largest that are told
+SMALLER = "Smaller jumps of the largest tension between"
+
+
+def sentences(rows: Sequence[Row], key: str, symbol: str, scene) -> list[str]:
+    """At most eight, of the rows over a column `key` of the table, in words `symbol`; scene: of one of the runs."""
+    good = [row for row in rows if row["status"] == "ok" and math.isfinite(known(row, PEAK))]
+    if not good:
+        return ["No run lasts beyond the transient, so nothing can be said of the motion."]
+    good.sort(key=lambda row: known(row, key))
+    values = [known(row, key) for row in good]
+    regular, rest = regimes(good, lambda chosen: f"{symbol} = {spans(chosen, values)}")
+    found = [*regular, *jumps(good, key, symbol), *rest, *use(good, key, symbol, scene)]
+    return [line for line in found if len(found) <= MOST_LINES or not line.startswith(SMALLER)]
+
+
+def jumps(rows: Sequence[Row], key: str, symbol: str) -> Iterator[str]:
+    """The largest jump in numbers, and where the next ones are. rows: sorted."""
+    pairs = [(abs(math.log(known(b, PEAK) / known(a, PEAK))), a, b) for a, b in pairwise(rows) if _pull(a) and _pull(b)]
+    least = max(LEAST_JUMP, TYPICAL * median(size for size, *_ in pairs)) if pairs else math.inf
+    found = sorted((pair for pair in pairs if pair[0] > least), key=lambda pair: -pair[0])
+    for _, a, b in found[:1]:
+        swings = (known(row, "radius_max_m") - known(row, "radius_min_m") for row in (a, b))
+        slack = (100.0 * known(row, "slack_fraction") for row in (a, b))
+        yield (
+            f"Jump between {symbol} = {known(a, key):.4g} and {known(b, key):.4g}: largest tension {_change(a, b)}, "
+            "swing of r {:.2f} to {:.2f} m, slack {:.0f} to {:.0f} % of the time.".format(*swings, *slack)
+        )
+    if more := sorted((known(a, key), known(b, key), _change(a, b)) for _, a, b in found[1 : 1 + TOLD]):
+        yield f"{SMALLER} {symbol} = {listed(f'{a:.4g} and {b:.4g} ({change})' for a, b, change in more)}."
+
+
+def _pull(row: Row) -> bool:
+    return known(row, PEAK) > 0.0
+
+
+def _change(before: Row, after: Row) -> str:
+    """ "4.4 to 9.4 kN"."""
+    return f"{known(before, PEAK) / 1e3:.2g} to {kilonewton(known(after, PEAK))}"
+
+
+def use(rows: Sequence[Row], key: str, symbol: str, scene) -> Iterator[str]:
+    """The largest tension, whether it may be used, and the largest that may."""
+    peak, static_N = greatest(rows, PEAK), static_tension(scene)
+    times = f", {known(peak, PEAK) / static_N:.1f} times the static one" if static_N else ""
+    yield f"Largest tension {kilonewton(known(peak, PEAK))} at {symbol} = {known(peak, key):.4g}{times}."
+    doubts = [*reasons(peak, scene)]
+    if scene is None or scene.buoy is None:
+        return
+    if not doubts:
+        yield "No loop was released in its run, and the buoy is loaded where it is wet: nothing here speaks against it."
+        return
+    yield f"It is no load to design for: {listed(doubts)}."
+    free = greatest([row for row in rows if not [*reasons(row, scene)]], PEAK)
+    if free is not None:
+        yield f"Largest tension without that: {kilonewton(known(free, PEAK))} at {symbol} = {known(free, key):.4g}."
+
+
+def reasons(row: Row, scene) -> Iterator[str]:
+    """What speaks against the tensions of a run: water that acts on a sphere in the air, and loops in a plane."""
+    if scene is not None and scene.buoy is not None and scene.buoy.submergence == "full":
+        if known(row, "max_buoy_height_above_water_m") > scene.buoy.diameter_m:
+            yield "the sphere flies above still water with all its buoyancy (buoy.submergence)"
+    if known(row, "loop_releases") > 0 and known(row, "dimensions") != 3:
+        yield "loops were released (--dimensions)"
+
+
+def static_tension(scene) -> float | None:
+    """The tension of the buoy at rest (N), None where there is no closed form."""
+    from engine.natural_frequencies import natural_frequencies
+
+    modes = None if scene is None else natural_frequencies(scene)
+    return None if modes is None else modes.static_tension_N

@@ -1,0 +1,226 @@
+"""What a command is doing, how far it is and how long it will take: one line of stderr that moves.
+
+    with stage("runs", 14_700, "wave periods", far=lambda: 350.0):
+        ...
+
+A thread of its own keeps the line up to date, so that it moves while this process waits for workers or compiles. On a
+terminal one line is drawn again and again; elsewhere (a file, a pipe) a stage that lasts says a line now and then.
+Stages nest: the names of all are shown, and how far the innermost one is that counts something.
+
+A worker says how far its task is by a small file in a folder that the main process looks into (`teller`, `shares`).
+That does for processes, threads and dask alike; a worker that does not see the folder says nothing.
+"""
+
+import contextlib
+import inspect
+import math
+import os
+import shutil
+import sys
+import threading
+import time
+from collections import deque
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field
+from pathlib import Path
+
+DRAWN_S = 0.25  # between two drawings on a terminal
+FIRST_S, SAID_S = 1.5, 8.0  # to the first line elsewhere, and between two lines
+ASKED_S = 3.0  # of a stage before its time left is told
+TOLD_S = 0.3  # between two words of a worker
+COMPILING_S = 15.0  # since the last kernel: some take long
+BAR = 20  # characters
+RECENT = 0.5  # share of the time so far from which the speed is taken: runs that come later may be slower
+
+
+@dataclass
+class Stage:
+    """A piece of work that takes a while. far() -> how much of `total` is done; without a total only the time is told.
+
+    Where machine code is compiled meanwhile, by whichever process, that is said too.
+    """
+
+    what: str
+    total: float = 0.0
+    unit: str = ""
+    far: Callable[[], float] | None = None
+    began: float = field(default_factory=time.monotonic)
+    seen: deque = field(default_factory=lambda: deque(maxlen=4096))  # (seconds, done)
+    compiled: tuple[int, float] = (0, -math.inf)  # kernels, and when there was one more
+    outer: bool = False  # whether there is, or was, a stage within it
+
+    def look(self) -> float:
+        """Seconds since it began; how much is done by then is kept for `left_s`."""
+        now = time.monotonic() - self.began
+        self.seen.append((now, min(self.far(), self.total) if self.far is not None else 0.0))
+        if (store := sys.modules.get("machine_code.store")) is not None:
+            kernels = store.made_since(time.time() - now)
+            self.compiled = (kernels, now) if kernels > self.compiled[0] else self.compiled
+        return now
+
+    def left_s(self) -> float | None:
+        """Seconds to its end at the speed of the last RECENT of its time; None where that is not known yet."""
+        if not self.seen or self.seen[-1][0] < ASKED_S:
+            return None
+        now, done = self.seen[-1]
+        since, before = next(one for one in self.seen if one[0] >= (1.0 - RECENT) * now)
+        return (self.total - done) * (now - since) / (done - before) if done > before else None
+
+    def told(self) -> str:
+        """The line behind its name: how far, how long so far, how long still; what it counts, what is compiled."""
+        now, parts = self.look(), []
+        if self.total:
+            share, left = self.seen[-1][1] / self.total, self.left_s()
+            parts.append(f"[{'#' * int(BAR * share):-<{BAR}}] {share:3.0%}")
+            parts.append("time left not known yet" if left is None else f"about {_clock(left)} left")
+        parts.insert(1, _clock(now))
+        if now - self.compiled[1] < COMPILING_S:
+            parts.append(f"compiling, {self.compiled[0]} kernels so far")
+        if self.total:
+            parts.append(f"of {self.total:,.0f} {self.unit}")
+        return ", ".join(parts)
+
+    def ended(self) -> str:
+        """The last line; "" of a stage that was short, or neither counted nor compiled anything of its own."""
+        now, kernels = self.look(), self.compiled[0]
+        more = f"{kernels} kernels compiled, " if kernels else ""
+        told = now > ASKED_S and (self.far is not None or (kernels and not self.outer))
+        return f"{_named()}: ended, {more}{_clock(now)}\n" if told else ""
+
+
+_open: list[Stage] = []
+_lock = threading.RLock()
+_line = {"ended": threading.Event(), "next_s": 0.0}  # of the thread that draws; when the next line is due
+
+
+@contextlib.contextmanager
+def stage(what: str, total: float = 0.0, unit: str = "", far: Callable[[], float] | None = None) -> Iterator[Stage]:
+    """Show a `Stage` for as long as the `with` lasts."""
+    one = Stage(what, total, unit, far)
+    with _lock:
+        for outer in _open:
+            outer.outer = True
+        _open.append(one)
+        if len(_open) == 1:
+            _line.update(ended=threading.Event(), next_s=one.began + FIRST_S)
+            threading.Thread(target=_show, args=(_line["ended"],), daemon=True).start()
+    try:
+        yield one
+    finally:
+        with _lock:
+            _wipe()
+            _write(one.ended())
+            _open.remove(one)
+            if not _open:
+                _line["ended"].set()
+
+
+def tell(text: str) -> None:
+    """A line of its own on stderr, while a stage may be shown there."""
+    with _lock:
+        _wipe()
+        _write(f"{text}\n")
+
+
+def _show(ended: threading.Event) -> None:
+    """Keep the line up to date until no stage is left."""
+    while not ended.is_set():
+        with _lock:
+            if _open and not ended.is_set():
+                _draw(next((one for one in reversed(_open) if one.far), _open[-1]))
+        ended.wait(DRAWN_S)
+
+
+def _draw(one: Stage) -> None:
+    text = one.told()
+    if _terminal():
+        names, width = [other.what for other in _open], shutil.get_terminal_size().columns - 1
+        while len(names) > 1 and len(": ".join([*names, text])) > width:
+            names.pop(0)
+        _write(f"\r\x1b[K{': '.join([*names, text])[:width]}")
+    elif time.monotonic() >= _line["next_s"]:
+        _write(f"{_named()}: {text}\n")
+        _line["next_s"] = time.monotonic() + SAID_S
+
+
+def _wipe() -> None:
+    if _terminal():
+        _write("\r\x1b[K")
+
+
+def _terminal() -> bool:
+    with contextlib.suppress(OSError, ValueError, AttributeError):
+        return sys.stderr.isatty()
+    return False
+
+
+def _write(text: str) -> None:
+    with contextlib.suppress(OSError, ValueError, AttributeError):  # nobody listens any more
+        sys.stderr.write(text)
+        sys.stderr.flush()
+
+
+def _named() -> str:
+    return ": ".join(one.what for one in _open)
+
+
+def _clock(seconds: float) -> str:
+    """ "0:07", "1:02:03"."""
+    minutes, rest = divmod(round(seconds), 60)
+    hours, minutes = divmod(minutes, 60)
+    return f"{hours}:{minutes:02}:{rest:02}" if hours else f"{minutes}:{rest:02}"
+
+
+def teller(folder: Path | None, name: str) -> Callable[[float], None]:
+    """For a worker: a function of the share of its task that is done; folder None: nobody asks."""
+    last_s = -TOLD_S
+
+    def told(fraction: float) -> None:
+        nonlocal last_s
+        now = time.monotonic()
+        if folder is not None and now - last_s >= TOLD_S:
+            last_s = now
+            with contextlib.suppress(OSError):  # another machine, or a campaign that has ended
+                begun = folder / f"{name}.{os.getpid()}"
+                begun.write_text(f"{fraction:.6f}", encoding="ascii")
+                begun.rename(folder / name)
+
+    return told
+
+
+def shares(folder: Path) -> dict[str, float]:
+    """The last word of every `teller` of a folder, by name."""
+    found = {}
+    for path in folder.iterdir():
+        with contextlib.suppress(OSError, ValueError):
+            found[path.name] = float(path.read_text(encoding="ascii"))
+    return found
+
+
+def in_time(done: float, runs: int, lanes: int) -> float:
+    """Share of the time of a task whose runs go in so many lanes, from the share of the runs that is done.
+
+    Runs that cost alike end together, round after round; the last round takes as long where it has fewer runs.
+    """
+    rounds, rest = divmod(runs, lanes)
+    full = min(done * runs, rounds * lanes)
+    last = (done * runs - full) / rest if rest else 0.0
+    return (full / lanes + last) / (rounds + bool(rest))
+
+
+def rounds_ahead(runs: float, reached: float, most: float, lanes: int) -> float:
+    """Wave periods that a worker still has to go, when `runs` go on beyond the look at `reached` periods.
+
+    Each look is half as much again away, and half of the runs are expected to go on after it; none beyond `most`.
+    """
+    ahead = 0.0
+    while reached < most and runs > 0.25:
+        step = min(0.5 * reached, most - reached)
+        ahead += max(runs / lanes, min(runs, 1.0)) * step
+        reached, runs = reached + step, 0.5 * runs
+    return ahead
+
+
+def heard(function: Callable, told: Callable[[float], None]) -> dict[str, Callable]:
+    """{"progress": told} for a function that takes it, as engine.simulate does."""
+    return {"progress": told} if "progress" in inspect.signature(function).parameters else {}

@@ -1,0 +1,178 @@
+"""One scene, run and shown: what the motion did in a few lines, and a figure of it.
+
+    python -m engine                                           lists the scenes
+    python -m engine tethered_buoy --set waves.steepness=0.1   runs one, prints what it did, shows a figure
+
+A buoy in regular waves carries a perturbation along, unless `--set output.tangent_vectors=0` says otherwise: its growth
+is the exponent that tells chaos from other motions.
+"""
+
+import argparse
+import os
+import sys
+from dataclasses import dataclass
+from pathlib import Path
+
+import engine.scene
+from engine import views
+
+MOST_PERIODS, PERIODS = 1575, 205  # until a verdict; without perturbations
+KINDS = (".png", ".svg", ".pdf")
+TANGENTS = "output.tangent_vectors"
+EXITS = "exit codes: 0 done, 1 the run ended early, 2 bad input, 130 Ctrl-C"
+
+
+@dataclass(frozen=True)
+class Order:
+    """A scene, how long it runs (periods of its waves, or seconds), and the file of its figure; None: not said.
+
+    Without a length it runs until its verdict.
+    """
+
+    scene: "engine.Scene | None"
+    periods: float | None
+    duration_s: float | None
+    out: Path | None
+
+
+class _Parser(argparse.ArgumentParser):
+    def error(self, message):
+        raise ValueError(message)
+
+
+def parser() -> argparse.ArgumentParser:
+    """The options of the command."""
+    words = {"description": __doc__, "epilog": EXITS, "formatter_class": argparse.RawDescriptionHelpFormatter}
+    made = _Parser(prog="python -m engine", allow_abbrev=False, **words)
+    made.add_argument("scene", metavar="SCENE", help="a scene file or the name of a scene")
+    several = {"metavar": "KEY=VALUE", "nargs": "+", "action": "extend", "default": []}
+    made.add_argument("--set", **several, help="change values of the scene, as water.depth_m=22.5 tether.nodes=81")
+    length = made.add_mutually_exclusive_group()
+    until = (
+        f"length in wave periods (default: until the verdict, {MOST_PERIODS} at most; without perturbations {PERIODS})"
+    )
+    length.add_argument("--periods", metavar="N", type=float, help=until)
+    length.add_argument("--duration", metavar="S", type=float, help="length in seconds; needed without waves")
+    shown = "file of the figure, .png, .svg or .pdf (default: a window, or results/engine/NAME.png without a display)"
+    made.add_argument("--out", metavar="FILE", type=Path, help=shown)
+    return made
+
+
+def read_order(argv: list[str], faults: list[str]) -> Order:
+    """The order in the words of the command line; every fault is appended to `faults`."""
+    try:
+        options = parser().parse_args(argv)
+    except ValueError as error:
+        faults.append(str(error))
+        return Order(None, None, None, None)
+    changes, scene = {}, None
+    for word in options.set:
+        try:
+            changes |= [engine.scene.parse_assignment(word)]
+        except engine.SceneError as error:
+            faults += error.faults
+    try:
+        scene = engine.load_scene(options.scene, changes)
+        if TANGENTS not in changes and views.in_regular_waves(scene) and views.carries_tangents(scene):
+            scene = engine.load_scene(options.scene, {**changes, TANGENTS: 1})
+    except engine.SceneError as error:
+        faults += error.faults
+    periods, duration_s = options.periods, options.duration
+    if scene is not None and scene.waves is None and duration_s is None:
+        faults.append(f"--duration: not given for {options.scene!r}, a scene without waves; allowed: seconds, above 0")
+    elif scene is not None and periods is None and duration_s is None and not scene.output.tangent_vectors:
+        periods = PERIODS
+    for name, given in (("--periods", periods), ("--duration", duration_s)):
+        if given is not None and not 0.0 < given < float("inf"):
+            faults.append(f"{name}: given {given:g}; allowed: a finite number above 0")
+    if options.out is not None:
+        faults += _faults_of(options.out)
+    if not faults:
+        from engine.scene.size_limits import check_room
+
+        try:
+            check_room(scene, duration_s or (periods or MOST_PERIODS) * scene.waves.period_s)
+        except ValueError as error:
+            faults.append(str(error))
+    return Order(scene, periods, duration_s, options.out)
+
+
+def _faults_of(out: Path) -> list[str]:
+    folder = out.parent
+    if out.suffix not in KINDS:
+        return [f"--out: given {str(out)!r}; allowed: a file whose name ends in {', '.join(KINDS)}"]
+    if out.is_dir() or not folder.is_dir() or not os.access(folder, os.W_OK):
+        return [f"--out: given {str(out)!r}; allowed: a file in a folder that is there and can be written to"]
+    return []
+
+
+def main(argv: list[str] | None = None) -> int:
+    """The command: run, print, show or save; without an argument list the scenes. Returns the exit code."""
+    argv = sys.argv[1:] if argv is None else argv
+    if not argv:
+        print("python -m engine SCENE ...; --help tells the options\n")
+        for name in engine.list_scenes():
+            print(f"  {name:<14} {engine.load_scene(name).title}")
+        return 0
+    faults: list[str] = []
+    order = read_order(argv, faults)
+    if faults:
+        return _refused(faults)
+    print(f"{order.scene.name}: a first run compiles for up to a minute", file=sys.stderr)
+    try:
+        if order.periods is None and order.duration_s is None:
+            run = _until_told(order.scene)
+        else:
+            run = engine.simulate(order.scene, order.periods, order.duration_s, lambda share: _tell(f"{share:.0%}"))
+        _tell("")
+    except KeyboardInterrupt:
+        print("\ninterrupted; nothing was written", file=sys.stderr)
+        return 130
+    for name, text in views.facts(run).items():
+        print(f"{name:<9} {text}", flush=True)
+    if len(run.columns["time_s"]) > 1:
+        _show(run, order.out)
+    return 0 if run.status == "ok" else 1
+
+
+def _until_told(scene):
+    """The run of a buoy in regular waves, as long as its verdict needs, and MOST_PERIODS at most."""
+    run, done = None, 0
+    while done < MOST_PERIODS:
+        _tell(f"{done} wave periods")
+        look = min(views.look_after(done), MOST_PERIODS)
+        later = engine.simulate(scene, look - done, start=run)
+        run, done = later if run is None else run.followed_by(later), look
+        if run.status != "ok" or run.verdict().regime not in ("transient", "undecided"):
+            break
+    return run
+
+
+def _refused(faults: list[str]) -> int:
+    several = f" {len(faults)} faults\n  " if len(faults) > 1 else " "
+    print(f"python -m engine:{several}" + "\n  ".join(faults) + "\nnothing was run or written", file=sys.stderr)
+    return 2
+
+
+def _tell(text: str) -> None:
+    if sys.stderr.isatty():
+        print(f"\r{text:<24}\r", end="", file=sys.stderr, flush=True)
+
+
+def _show(run, out: Path | None) -> None:
+    """Save the figure, or show it in a window; without a display it is saved too."""
+    if out is None:
+        from matplotlib import pyplot
+
+        if pyplot.get_backend().lower() != "agg":  # which matplotlib takes where there is no display
+            run.plot()
+            pyplot.show()
+            return
+        out = Path("results", "engine", f"{run.scene.name}.png")
+        out.parent.mkdir(parents=True, exist_ok=True)
+    run.plot(out)
+    print(f"figure    {out}")
+
+
+if __name__ == "__main__":
+    sys.exit(main())

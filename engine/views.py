@@ -1,0 +1,232 @@
+"""A run as one asks for it in Python: its figure, spectrum, section, exponent, verdict, and what it did in a few lines.
+
+The methods of `engine.Trajectory` are done here, because this is the only module of the engine that uses `analysis` and
+matplotlib, and it imports both when a method is called. How the motion of a buoy is strobed and measured is declared
+here once; the campaigns read it.
+"""
+
+from dataclasses import replace
+from html import escape
+from io import BytesIO
+from typing import TYPE_CHECKING
+
+from engine.atomic import write_atomic
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping, Sequence
+    from pathlib import Path
+
+    import numpy
+    import xarray
+    from matplotlib.axes import Axes
+
+    from analysis import Exponent, PoincareSection, Spectrum, Verdict
+    from engine.scene.models import Scene
+    from engine.trajectory import Trajectory
+
+LONGEST_PERIOD = 16
+# Share of the motion's range. At the default solver tolerance the default sweep repeats within 0.007 or misses by 0.1.
+STROBE_TOLERANCE = 0.01
+LAST_PERIODS = 12  # drawn larger
+WHOLE_WINDOW = 12  # periods of a spectrum are a multiple of it: motions of period 2, 3, 4 and 6 then do not leak
+
+
+def in_regular_waves(scene: "Scene") -> bool:
+    """Whether it is a scene of a buoy in regular waves: motions are strobed and judged once per wave period."""
+    return scene.end.kind == "buoy" and scene.waves is not None and not scene.waves.irregular
+
+
+def carries_tangents(scene: "Scene") -> bool:
+    """Whether the engine can carry perturbations through this scene, for exponents and a verdict on its regime."""
+    implicit = scene.solver.integrator in ("esdirk43", "trbdf2")
+    return implicit and scene.tether.bending_stiffness_Nm2 > 0 and scene.motion.dimensions == 2
+
+
+def carried(run: "Trajectory") -> bool:
+    """Whether a run carried tangent vectors in its plane."""
+    return run.tangent is not None and run.tangent.growth_nats.shape[1] > 0
+
+
+def state_of(
+    columns: "Mapping[str, numpy.ndarray]", step_s: float, period_s: float, transient_periods: int
+) -> "tuple[dict[str, numpy.ndarray], list[float]]":
+    """Position (x, z) and velocity (along and across the radius) of the buoy, and what counts as 1 in each.
+
+    Positions are measured by the larger extent of the path after the transient, velocities by their larger range: so a
+    millimetre counts the same in every direction, and a buoy that turns round and round needs no other treatment.
+    """
+    import numpy as np
+
+    coordinates = {
+        "x_m": columns["x_m"],
+        "z_m": columns["z_m"],
+        "radial_mps": columns["radius_rate_mps"],
+        "lateral_mps": columns["radius_m"] * columns["angle_rate_radps"],
+    }
+    first = round(transient_periods * period_s / step_s)  # sample after the transient
+    x, z, radial, lateral = (float(np.ptp(values[first:])) for values in coordinates.values())
+    # A buoy at rest has no range of its own; a micrometre, and a micrometre a second, are rest for this one.
+    path_m, speed_mps = max(x, z, 1e-6), max(radial, lateral, 1e-6)
+    return coordinates, [path_m, path_m, speed_mps, speed_mps]
+
+
+def spectrum(run: "Trajectory", column: str, transient_periods: int | None) -> "Spectrum":
+    from analysis import spectrum as spectrum_of
+
+    step_s, period_s = _forcing(run)
+    done, first = _periods(run), _transient(run, transient_periods)
+    length = (done - first) // WHOLE_WINDOW * WHOLE_WINDOW or done - first
+    return spectrum_of(run.columns[column], step_s, period_s, done - length, length)
+
+
+def section(
+    run: "Trajectory", columns: "Sequence[str]", transient_periods: int | None, phase: float
+) -> "PoincareSection":
+    from analysis import poincare_section
+
+    shown = {name: run.columns[name] for name in columns}
+    return poincare_section(shown, *_forcing(run), phase, _transient(run, transient_periods))
+
+
+def exponent(run: "Trajectory", transient_periods: int | None) -> "Exponent":
+    import numpy as np
+
+    from analysis import tangent_lyapunov, wolf_lyapunov
+
+    (step_s, period_s), first = _forcing(run), _transient(run, transient_periods)
+    if carried(run):
+        growth = run.tangent.growth_nats[first:, 0]  # nan before the perturbations were carried
+        return tangent_lyapunov(growth[np.isfinite(growth)])[0]
+    radius_m = run.columns["radius_m"][round(first * period_s / step_s) :]
+    return wolf_lyapunov(radius_m, step_s).in_bits_per_period(period_s)
+
+
+def verdict(run: "Trajectory", tighter: "Exponent | None" = None) -> "Verdict":
+    """`Trajectory.verdict`. tighter: exponent of a chaotic motion that was carried on at a tighter tolerance."""
+    from analysis import motion_regime, poincare_section
+
+    if not in_regular_waves(run.scene):
+        raise ValueError("a verdict needs a buoy in regular waves")
+    if run.status != "ok":
+        raise ValueError(f"a verdict needs a run that reached its end, and this one is {run.status}: {run.message}")
+    step_s, period_s = _forcing(run)
+    coordinates, scale = state_of(run.columns, step_s, period_s, _periods(run) // 2)
+    strobed = poincare_section(coordinates, step_s, period_s).points
+    growth = run.tangent.growth_nats[: len(strobed) - 1, 0] if carried(run) else None
+    settings = {"scale": scale, "tolerance": STROBE_TOLERANCE, "max_period": LONGEST_PERIOD}
+    found = motion_regime(strobed, growth, tighter=tighter, **settings)
+    if growth is None and found.regime == "undecided" and found.evidence and carries_tangents(run.scene):
+        return replace(found, reason=f"{found.reason}; output.tangent_vectors = 1 carries them")
+    return found
+
+
+def look_after(periods: int) -> int:
+    """After how many periods a motion is judged next that was judged after `periods` (`analysis.next_look`)."""
+    from analysis import next_look
+
+    return next_look(periods)
+
+
+def facts(run: "Trajectory") -> dict[str, str]:
+    """What a run did, in words: the name of a fact -> its text; extremes are those after its first third."""
+    waves, end_s = run.scene.waves, float(run.columns["time_s"][-1]) if len(run.columns["time_s"]) else 0.0
+    length = f"{end_s:g} s" if waves is None else f"{end_s / waves.period_s:.4g} wave periods, {end_s:.4g} s"
+    told = {"scene": run.scene.title or run.scene.name, "run": f"{run.status}, {length}"}
+    if run.message:
+        told["message"] = run.message
+    if len(run.columns["time_s"]) > 3:
+        late = {name: values[len(values) // 3 :] for name, values in run.columns.items()}
+        radius_m = late["radius_m"]
+        told["radius"] = f"{radius_m.min():.2f} to {radius_m.max():.2f} m"
+        low, high = late["tension_top_low_N"].min(), late["tension_top_high_N"].max()
+        told["tension"] = (
+            " to ".join(f"{at:.0f}" if abs(at) > 100.0 else f"{at:.3g}" for at in (low, high)) + " N at the top"
+        )
+    if loops := run.statistics.get("loop_releases"):
+        told["loops"] = f"{loops} released, because a plane cannot open them; in motion.dimensions = 3 they open"
+    if run.status == "ok" and in_regular_waves(run.scene):
+        told |= {"exponent": str(exponent(run, None))} if carried(run) else {}
+        told["verdict"] = str(verdict(run))
+    return told
+
+
+def html(run: "Trajectory") -> str:
+    """The facts as a table, for a notebook."""
+    rows = "".join(f"<tr><th>{escape(name)}</th><td>{escape(text)}</td></tr>" for name, text in facts(run).items())
+    return f"<table>{rows}</table>"
+
+
+def dataset(run: "Trajectory") -> "xarray.Dataset":
+    import xarray
+
+    return xarray.load_dataset(BytesIO(run.to_bytes()), engine="scipy")
+
+
+def plot(run: "Trajectory", path: "str | Path | None") -> "dict[str, Axes]":
+    import numpy as np
+    from matplotlib import pyplot
+    from matplotlib.figure import Figure
+
+    look = {"linewidth": 0.6, "rasterized": True}  # thousands of strokes
+    time, unit, parts = run.columns["time_s"], "t (s)", {"": slice(None)}
+    rows = [["tension", "path"], ["radius", "path"]]
+    sound = all(np.isfinite(values).all() for values in run.columns.values())
+    if forced := sound and _forced(run.scene) is not None and _periods(run) > 1:
+        period_s = _forcing(run)[1]
+        time, unit = time / period_s, "t/T (forcing periods)"
+        parts["last "] = time >= time[-1] - LAST_PERIODS
+        rows = [["tension", "last tension"], ["radius", "last radius"], ["section", "spectrum"]]
+    figure = (pyplot.figure if path is None else Figure)(figsize=(10.0, 2.5 * len(rows)), layout="constrained")
+    axes = figure.subplot_mosaic(rows)
+    for prefix, part in parts.items():
+        when = f", last {LAST_PERIODS} periods" if prefix else ""
+        low, high, top = (run.columns[f"tension_top{kind}_N"][part] for kind in ("_low", "_high", ""))
+        axes[f"{prefix}tension"].fill_between(time[part], low, high, alpha=0.35, linewidth=0, rasterized=True)
+        axes[f"{prefix}tension"].plot(time[part], top, **look)
+        axes[f"{prefix}tension"].set(title=f"tension at the upper end (N){when}")
+        axes[f"{prefix}radius"].plot(time[part], run.columns["radius_m"][part], **look)
+        axes[f"{prefix}radius"].set(xlabel=unit, title=f"distance r from the anchor (m){when}")
+    if forced:
+        points, lines = run.section().points, run.spectrum()
+        axes["section"].plot(*points.T, ".", markersize=3)
+        axes["section"].set(xlabel="r (m)", ylabel="dr/dt (m/s)", title="once per period")
+        ratio = lines.angular_frequency_radps * period_s / (2.0 * np.pi)
+        shown = (ratio > 0.0) & (ratio <= 2.5)
+        axes["spectrum"].semilogy(ratio[shown], lines.amplitude[shown], linewidth=0.8)
+        axes["spectrum"].set(xlabel="frequency/forcing frequency", title="spectrum of r (m)")
+    else:
+        axes["path"].plot(run.columns["x_m"], run.columns["z_m"], **look)
+        axes["path"].set(xlabel="x (m)", ylabel="z (m)", title="path of the upper end", aspect="equal")
+    found = verdict(run).regime if run.status == "ok" and in_regular_waves(run.scene) else run.status
+    figure.suptitle(f"{run.scene.title or run.scene.name}: {found}")
+    if path is not None:
+        content, kind = BytesIO(), str(path).rpartition(".")[2]
+        figure.savefig(content, format=kind, dpi=100)
+        write_atomic(path, content.getvalue())
+    return axes
+
+
+def _forced(scene: "Scene") -> float | None:
+    """Period (s) of what drives a scene: of regular waves, or of an end that is shaken; None without either."""
+    if scene.waves is not None:
+        return None if scene.waves.irregular else scene.waves.period_s
+    return getattr(scene.end.motion, "period_s", None)
+
+
+def _forcing(run: "Trajectory") -> tuple[float, float]:
+    """Sampling step and forcing period (s); ValueError for a scene that nothing drives with one period."""
+    period_s = _forced(run.scene)
+    if period_s is None:
+        raise ValueError("neither regular waves nor a shaken end: this run has no period to look at it by")
+    return run.scene.sample_step_s(), period_s
+
+
+def _periods(run: "Trajectory") -> int:
+    """Whole forcing periods of its record."""
+    step_s, period_s = _forcing(run)
+    return int((len(run.columns["time_s"]) - 1) * step_s / period_s + 1e-6)
+
+
+def _transient(run: "Trajectory", given: int | None) -> int:
+    """Periods left out: those given, else the first third of the run, as `analysis.motion_regime` does."""
+    return _periods(run) // 3 if given is None else given

@@ -1,0 +1,130 @@
+"""Kernels that kernels call: compiled for their callers and not for Python.
+
+Numba makes machine code of every function that a kernel calls, optimises it, and links and optimises it again within
+each of its callers, up to the top: the time grows with the depth of the calls. Here a kernel that another one calls is
+a part, which stays as Numba's front end leaves it: without machine code, without a wrapper for Python, not kept on
+disk. A kernel that Python calls is a whole: it takes in all parts below it, once, and only then LLVM optimises and
+translates them. A kernel may be both. The same was proposed for Numba itself (pull request 9566, not merged).
+
+LLVM may neither fuse nor reorder the operations of numbers, so that a whole gives the bits that its parts would give.
+"""
+
+import gc
+from contextlib import contextmanager
+from functools import cache
+from pathlib import Path
+
+from numba.core import typed_passes as typed
+from numba.core import types
+from numba.core import untyped_passes as untyped
+from numba.core.codegen import JITCodeLibrary
+from numba.core.compiler import CompilerBase
+from numba.core.compiler_machinery import PassManager
+
+from .store import compiled
+
+
+class _Library(JITCodeLibrary):
+    """Takes in, with every part that it calls, what this part calls; callers first, because LLVM's linker leaves out
+    what nobody has asked for yet."""
+
+    def add_linking_library(self, library):
+        below = library._linking_libraries if isinstance(library, _Part) else ()
+        for one in (library, *below):
+            if one not in self._linking_libraries:
+                super().add_linking_library(one)
+
+
+class _Part(_Library):
+    """Code that is linked into others, as often as they like, and is never run by itself."""
+
+    def finalize(self):
+        for function in self._final_module.functions:
+            if not function.is_declaration and function.linkage.name == "external":
+                function.linkage = "linkonce_odr"
+        self._shared_module, self._finalized = self._final_module, True
+
+    def get_pointer_to_function(self, name):
+        """Zero: there is no machine code."""
+        self._ensure_finalized()
+        return 0
+
+    @property
+    def codegen(self):
+        return self
+
+    def set_env(self, name, environment):
+        """Nothing: only Python objects would need it."""
+
+
+@cache
+def _passes():
+    """Numba's own passes, without those for what no kernel has: closures, comprehensions, generators, literal types,
+    objects, exceptions, parallel loops, functions that are inlined before they have types."""
+    manager = PassManager("kernel")
+    for one in (
+        untyped.TranslateByteCode, untyped.FixupArgs, untyped.IRProcessing, untyped.RewriteSemanticConstants,
+        untyped.DeadBranchPrune, untyped.GenericRewrites, untyped.ReconstructSSA, typed.NopythonTypeInference,
+        typed.PreLowerStripPhis, typed.NopythonRewrites, typed.IRLegalization, typed.NativeLowering,
+        typed.NoPythonBackend,
+    ):  # fmt: skip
+        manager.add_pass(one)
+    manager.finalize()
+    return manager
+
+
+_found: dict[tuple, object] = {}  # (function of Numba, types of its arguments): the signature that Numba chose
+
+
+@contextmanager
+def _without_detours(context):
+    """While a kernel is compiled, Python does not look for garbage, and Numba, which tries some ten meanings of a + for
+    every + that it meets, remembers which one it was. context: Numba's typing context, restored afterwards."""
+    if "resolve_function_type" in vars(context):  # a kernel within a kernel
+        yield
+        return
+    search, collects = context.resolve_function_type, gc.isenabled()
+
+    def resolve(function, arguments, keywords):
+        kind = context._lookup_global(function) or function
+        if keywords or not isinstance(kind, types.Function):
+            return search(function, arguments, keywords)
+        key = kind, tuple(arguments)
+        if key not in _found:
+            _found[key] = search(function, arguments, keywords)
+        return _found[key]
+
+    context.resolve_function_type = resolve
+    gc.disable()
+    try:
+        yield
+    finally:
+        del context.resolve_function_type
+        if collects:
+            gc.enable()
+
+
+class _WholeCompiler(CompilerBase):
+    library = _Library
+
+    def compile_extra(self, function):
+        with _without_detours(self.state.typingctx):
+            return super().compile_extra(function)
+
+    def define_pipelines(self):
+        state = self.state
+        state.library = self.library(state.targetctx.codegen(), state.func_id.func_qualname)
+        state.library.enable_object_caching()
+        return [_passes()]
+
+
+class _PartCompiler(_WholeCompiler):
+    library = _Part
+
+
+def compiled_in_parts(function, folder: Path | None):
+    """As `machine_code.store.compiled`, but other kernels that call this one take in a Part in its place."""
+    part = compiled(function, None, no_cpython_wrapper=True, pipeline_class=_PartCompiler)
+    whole = compiled(function, folder, pipeline_class=_WholeCompiler)
+    whole.get_call_template, whole.get_overload = part.get_call_template, part.get_overload
+    return whole

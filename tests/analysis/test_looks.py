@@ -1,0 +1,98 @@
+"""The regime of simulated motions, look by look: known maps with their tangents, transients, and what is not enough."""
+
+import numpy as np
+import pytest
+
+from analysis import motion_regime, next_look
+from analysis.exponents import Exponent
+from tests.analysis.systems import circle, circle_map, henon, logistic
+
+M = np.arange(1001)
+
+
+def logistic_growth(rate, orbit):
+    return np.log(np.abs(rate * (1.0 - 2.0 * orbit[:-1])))
+
+
+def henon_growth(orbit, a=1.4, b=0.3):
+    (u, w), growth = (1.0, 0.0), np.empty(len(orbit) - 1)
+    for k, (x, _) in enumerate(orbit[:-1]):
+        u, w = -2.0 * a * x * u + w, b * u
+        length = np.hypot(u, w)
+        growth[k], u, w = np.log(length), u / length, w / length
+    return growth
+
+
+def circle_growth(coupling, turns):
+    return np.log(np.abs(1.0 - coupling * np.cos(2.0 * np.pi * turns[:-1])))
+
+
+def turns_of(section):
+    return np.arctan2(section[:, 1], section[:, 0]) / (2.0 * np.pi)
+
+
+@pytest.mark.parametrize(("rate", "period"), [(2.8, 1), (3.2, 2), (3.5, 4), (3.55, 8), (3.832, 3)])
+@pytest.mark.parametrize("carried", [True, False])
+def test_windows_of_the_logistic_map_need_two_looks(rate, period, carried):
+    orbit = logistic(rate, 300)
+    verdict = motion_regime(orbit, logistic_growth(rate, orbit) if carried else None, scale=0.5)
+    assert (verdict.regime, verdict.period) == (f"period-{period}", period)
+    assert verdict.transient + verdict.points == next_look(next_look()) + 1
+
+
+@pytest.mark.parametrize(
+    ("orbit", "growth"), [(logistic(4.0, 1001), logistic_growth(4.0, logistic(4.0, 1001))), (henon(1001), None)]
+)
+def test_chaotic_maps(orbit, growth):
+    verdict = motion_regime(orbit, henon_growth(orbit) if growth is None else growth, scale=1.0)
+    assert verdict.regime == "chaotic"
+    assert motion_regime(orbit, None, scale=1.0).regime == "undecided"  # a strobed record alone does not tell
+
+
+@pytest.mark.parametrize(("coupling", "rotation"), [(0.5, 0.6180339), (0.8, 0.41421356), (0.5, 0.1314)])
+def test_tori_are_quasi_periodic_and_stay_so(coupling, rotation):
+    section = circle_map(coupling, rotation, 1001)
+    growth = circle_growth(coupling, turns_of(section))
+    assert motion_regime(section, growth, scale=2.0).regime == "quasi-periodic"
+    assert motion_regime(section + 1e-3 * np.random.default_rng(0).normal(size=section.shape), growth, scale=2.0,
+                         tolerance=0.01).regime == "quasi-periodic"  # fmt: skip
+
+
+def test_a_shear_does_not_make_a_torus_chaotic():
+    """On a torus whose turns depend on its size a perturbation grows linearly in time: ln((k + 1)/k) a period."""
+    growth = np.log1p(1.0 / np.arange(1, 1001))
+    assert motion_regime(circle(0.6180339 * M), growth, scale=2.0).regime != "chaotic"
+
+
+def test_a_chaotic_transient_ends_in_a_period_and_is_named():
+    chaos, window = logistic(4.0, 100), logistic(3.832, 800)
+    growth = np.concatenate([logistic_growth(4.0, chaos), [0.0], logistic_growth(3.832, window)])
+    verdict = motion_regime(np.concatenate([chaos, window]), growth, scale=0.5)
+    assert verdict.period == 3 and "chaotic transient" in verdict.reason
+    assert 95 <= verdict.transient <= 105
+
+
+@pytest.mark.parametrize(("multiplier", "word"), [(0.97, "period-1"), (0.999, "transient")])
+def test_a_decay_is_a_period_once_it_is_over(multiplier, word):
+    section = np.array([21.0, 0.0]) + circle(M / (2 * np.pi)) * multiplier ** M[:, None]
+    verdict = motion_regime(section, np.full(1000, np.log(multiplier)), scale=2.0, tolerance=1e-3)
+    assert verdict.regime == word
+
+
+def test_chaos_has_to_survive_a_tighter_tolerance():
+    orbit = henon(1001)
+    for value, word in ((0.6, "chaotic"), (0.01, "undecided"), (np.nan, "undecided")):
+        tighter = Exponent(value, 0.02, "bits/period", "given", "" if np.isfinite(value) else "newton-failed")
+        assert motion_regime(orbit, henon_growth(orbit), scale=1.0, tighter=tighter).regime == word
+
+
+def test_perturbations_may_be_carried_from_later_on():
+    orbit, growth = henon(1001), henon_growth(henon(1001))
+    growth[:90] = np.nan
+    assert motion_regime(orbit, growth, scale=1.0).regime == "chaotic"
+
+
+@pytest.mark.parametrize(("states", "growth"), [(np.zeros(10), np.zeros(10)), (np.full(200, np.nan), None)])
+def test_what_does_not_fit_is_refused(states, growth):
+    with pytest.raises(ValueError, match=r"growth_nats|finite"):
+        motion_regime(states, growth)

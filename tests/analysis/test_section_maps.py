@@ -1,0 +1,59 @@
+"""The exponent of the map of a section against known ones; what forgets, and what does not."""
+
+import numpy as np
+import pytest
+
+from analysis import long_memory, section_lyapunov
+from analysis.section_maps import prediction_gain
+from tests.analysis.systems import circle_map, henon, logistic, noisy, nonchaotic_map, two_tone
+
+
+@pytest.mark.parametrize(
+    ("section", "bits"),
+    [
+        (logistic(4.0, 1000, 0.1234, 999), 1.0),
+        (henon(1000), 0.41922 / np.log(2.0)),
+        (henon(1000)[:, 0], 0.41922 / np.log(2.0)),
+        (circle_map(0.8, 0.41421356, 1000), 0.0),
+    ],
+    ids=["logistic map", "Henon map", "Henon map, x", "torus"],
+)
+def test_exponents_of_maps_are_found_within_three_errors_and_a_tenth(section, bits):
+    for one in section_lyapunov(section):
+        assert one.unit == "bits/period" and one.found
+        assert abs(one.value - bits) < max(3.0 * one.error, 0.1)
+
+
+def test_a_period_seen_through_noise_has_a_negative_exponent():
+    """The noise of one period says nothing of that of the next."""
+    whole = section_lyapunov(noisy(logistic(3.5, 600), 0.01, 1))[0]
+    assert whole.value + 3.0 * whole.error < 0.0
+
+
+def test_units_do_not_matter_and_a_short_section_says_so():
+    plain, moved = (section_lyapunov(one)[0].value for one in (henon(300), 21.0 - 1e-3 * henon(300)))
+    assert moved == pytest.approx(plain, rel=1e-6)
+    assert "too short" in section_lyapunov(henon(20))[0].reason and not section_lyapunov(np.ones(300))[0].found
+
+
+def test_a_map_on_a_line_needs_one_row_and_henons_two():
+    assert prediction_gain(logistic(3.9, 500)).delays == 1
+    assert prediction_gain(henon(500)[:, 0]).delays == 2
+
+
+@pytest.mark.parametrize("points", [300, 3000])
+def test_chaos_and_noise_forget(points):
+    for record in (logistic(3.9, points), henon(points), np.random.default_rng(0).normal(size=points)):
+        assert long_memory(record) < 7.0 / np.sqrt(points)
+
+
+def test_chaos_in_bands_forgets_within_them():
+    bands = logistic(3.9, 400) + 10.0 * (np.arange(400) % 2)
+    assert long_memory(bands) < 0.4
+
+
+@pytest.mark.parametrize("sigma", [1.3, 1.5, 1.7])
+@pytest.mark.parametrize("points", [300, 3000])
+def test_tori_and_strange_nonchaotic_attractors_do_not_forget(sigma, points):
+    assert long_memory(nonchaotic_map(sigma, points)) > 0.9
+    assert long_memory(two_tone(20 * points)[::20]) > 0.9

@@ -1,0 +1,98 @@
+"""Law: a run that goes on from the final state of another is the run that did not stop, to the last bit."""
+
+import numpy as np
+import pytest
+
+from engine import Trajectory, load_scene, simulate, simulate_each
+
+SMALL = {"tether.nodes": 9, "waves.steepness": 0.06, "water.depth_m": 22.5}
+CARRIED = {"output.tangent_vectors": 2, "output.lateral_growth": True}
+KINDS = {
+    "plane": SMALL,
+    "carried": {**SMALL, **CARRIED},
+    "profiles": {**SMALL, "output.profiles": True, "output.profiles_step_s": 0.7},
+    "space": {**SMALL, "motion.dimensions": 3, "start.buoy_velocity_mps": [0.0, 1e-3, 0.0]},
+    "fixed steps": {**SMALL, "solver.integrator": "generalized-alpha", "solver.step_s": 0.02},
+    "samples closer than steps": {**SMALL, "output.step_s": 0.0125},
+}
+PROFILES = ("time_s", "s_m", "x_m", "tension_N")
+PARTS = (3.5, 2.0, 4.5)  # wave periods; the first ends within a period of growth
+
+
+def scene_of(changes):
+    return load_scene("tethered_buoy", changes)
+
+
+def pieces(run, scene, lengths=PARTS):
+    """Runs of these lengths, each from the end of the one before."""
+    found = [None]
+    for length in lengths:
+        found.append(run(scene, length, found[-1]))
+    return found[1:]
+
+
+def assert_continues(whole, parts):
+    joined = parts[0]
+    for part in parts[1:]:
+        joined = joined.followed_by(part)
+    for name, values in whole.columns.items():
+        if name == "angle_rad":  # unwrapped once more
+            assert joined.columns[name] == pytest.approx(values, abs=1e-12)
+        else:
+            assert np.array_equal(joined.columns[name], values), name
+    for record, names in (("tangent", ("growth_nats", "lateral_nats", "released")), ("profiles", PROFILES)):
+        if getattr(whole, record) is not None:
+            for name in names:
+                found, expected = (getattr(getattr(run, record), name) for run in (joined, whole))
+                assert np.array_equal(found, expected), name
+    counted = {name: number for name, number in whole.statistics.items() if name != "wall_s"}
+    assert {name: joined.statistics[name] for name in counted} == counted
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_parts_make_the_whole(kind):
+    scene = scene_of(KINDS[kind])
+    whole = simulate(scene, periods=sum(PARTS))
+    assert whole.status == "ok"
+    assert_continues(whole, pieces(lambda scene, length, start: simulate(scene, periods=length, start=start), scene))
+
+
+def test_in_lanes_too_and_through_files(tmp_path):
+    scenes = [scene_of({**SMALL, **CARRIED, "waves.steepness": kA}) for kA in (0.02, 0.04, 0.06)]
+    parts, starts = [[], [], []], None
+    for number, length in enumerate(PARTS):
+        for i, part in simulate_each(scenes, periods=length, starts=starts):
+            part.save(tmp_path / f"{i}{number}.nc")
+            parts[i].append(Trajectory.load(tmp_path / f"{i}{number}.nc"))
+        starts = [tmp_path / f"{i}{number}.nc" for i in range(3)]
+    for scene, found in zip(scenes, parts, strict=True):
+        assert_continues(simulate(scene, periods=sum(PARTS)), found)
+
+
+def test_perturbations_can_be_carried_from_later_on():
+    whole = simulate(scene_of({**SMALL, **CARRIED}), periods=6)
+    plain = simulate(scene_of(SMALL), periods=3)
+    later = simulate(scene_of({**SMALL, **CARRIED}), periods=3, start=plain)
+    assert later.tangent.growth_nats.shape == (3, 2)
+    joined = plain.followed_by(later)
+    assert np.array_equal(joined.columns["radius_m"], whole.columns["radius_m"])
+    assert np.isnan(joined.tangent.growth_nats[:3]).all() and np.isfinite(joined.tangent.growth_nats[3:]).all()
+
+
+def test_another_tolerance_or_another_wave_takes_the_state_over():
+    first = simulate(scene_of(SMALL), periods=4)
+    for changes in ({"solver.rtol": 0.01}, {"waves.steepness": 0.12}, {"tether.bending_stiffness_Nm2": 1.0}):
+        found = simulate(scene_of({**SMALL, **changes}), periods=1, start=first.final_state)
+        assert found.status == "ok"
+        for name in ("time_s", "radius_m", "tension_top_N"):
+            assert found.columns[name][0] == first.columns[name][-1]
+
+
+def test_a_run_that_cannot_go_on_says_why():
+    first = simulate(scene_of(SMALL), duration_s=1.0)
+    with pytest.raises(ValueError, match="9 nodes in 2 dimensions for a scene of 11 nodes"):
+        simulate(scene_of({**SMALL, "tether.nodes": 11}), periods=1, start=first)
+    with pytest.raises(ValueError, match="only start from rest"):
+        simulate(scene_of({**SMALL, "solver.scheme": "paper-box"}), periods=1, start=first)
+    with pytest.raises(ValueError, match="without a final state"):
+        simulate(scene_of(SMALL), periods=1, start=simulate(scene_of({"solver.scheme": "paper-box"}), duration_s=0.1))
