@@ -104,8 +104,10 @@ def buoy_row(trajectory, transient_periods: int | None, check=None) -> dict[str,
         top_m = float(np.max(columns["z_m"])) + 0.5 * scene.buoy.diameter_m
         row["max_buoy_height_above_water_m"] = top_m - scene.water.depth_m
     step_s, period_s = scene.sample_step_s(), scene.waves.period_s
-    row["periods"] = (len(columns["time_s"]) - 1) * step_s / period_s if len(columns["time_s"]) else 0.0
-    verdict, wolf = judged(trajectory, row["periods"], transient_periods, check)
+    periods = (len(columns["time_s"]) - 1) * step_s / period_s
+    if periods >= 0.0:
+        row["periods"] = periods
+    verdict, wolf = judged(trajectory, periods, transient_periods, check)
     if transient_periods is None:
         transient_periods = 0 if verdict is None else verdict.transient
     if measured := after_transient(trajectory, columns, transient_periods):
