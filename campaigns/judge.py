@@ -8,6 +8,7 @@ from engine.views import LONGEST_PERIOD, STROBE_TOLERANCE, carried, carries_tang
 LEAST_JUDGED = 40  # periods after the transient below which a record is not judged: exponents are then left out
 LONGEST_CHECK = 450  # wave periods at the tighter tolerance
 TANGENTS, LATERAL = "output.tangent_vectors", "output.lateral_growth"
+CARRIED = {TANGENTS: 1, LATERAL: True}
 
 
 def tighter_scene(scene):
@@ -74,6 +75,11 @@ def record_regime(trajectory, transient_periods: int, tangent=None):
     return verdict, wolf
 
 
+def carrying(scene):
+    """The scene with one perturbation in the plane and one across it."""
+    return engine.scene.scene_from_toml(scene.to_toml(), CARRIED)
+
+
 def going_on(scene, trajectory, row, budget: int, looks: bool):
     """What a run whose regime is asked for does next (`campaigns.machinery.plan.Further`); None when it is told.
 
@@ -90,15 +96,14 @@ def going_on(scene, trajectory, row, budget: int, looks: bool):
     if row["status"] != "ok" or row.get("regime") is None or done is None:
         return None
     if row["regime"] == "chaotic" and row.get("regime_tighter") is None:
-        changes = {TANGENTS: 1, LATERAL: False}
-        tighter = tighter_scene(engine.scene.scene_from_toml(scene.to_toml(), changes))
+        tighter = tighter_scene(carrying(scene))
         judged = done - row["transient_periods"]
         return Further(tighter, min(judged, LONGEST_CHECK), trajectory, check=True)
     if row["regime"] not in ("undecided", "transient") or row.get("regime_tighter") or done >= budget:
         return None
     wanted = row.get("strobed_period") is None or (trajectory is not None and carried(trajectory))
     if wanted and carries_tangents(scene):
-        scene = engine.scene.scene_from_toml(scene.to_toml(), {TANGENTS: 1, LATERAL: True})
+        scene = carrying(scene)
     return Further(scene, min(next_look(round(done)), budget) - done, trajectory)
 
 
@@ -123,4 +128,5 @@ def judged_job(order, labels: dict, scene):
     from campaigns.machinery.plan import Job
 
     going = partial(going_on, budget=order.periods, looks=order.looks) if carries_tangents(scene) else None
-    return Job(labels, scene, order.periods, going=going, made="looks" if order.looks and going else "")
+    looks = order.looks and going is not None
+    return Job(labels, scene, order.periods, going=going, carrying=looks, made="looks" if looks else "")
