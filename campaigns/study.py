@@ -100,6 +100,7 @@ class Study:
     parameters(order) -> what its provenance says beside scene, set, periods and transient.
     runs(order) -> in place of `runner.run`; beside(order) -> what is done after the runs: functions of (plan, summary)
     that return seconds of analysis. together: whether runs may share a worker, side by side in the lanes.
+    after: what `beside` takes, as a share of the time of the runs (measured), for the time left; None: not known.
     answer(order, rows of table.csv) -> what was found, in at most eight sentences, for the terminal and answer.txt.
     jobs, backends: whether there is a choice of these. strict: whether a row that is not ok is exit code 1.
     module: its command is python -m MODULE; "" for campaigns.NAME.
@@ -121,7 +122,6 @@ class Study:
     beside: Callable[[Order], Iterable[Callable[[Plan, Summary], float]]] | None = None
     answer: Callable[[Order, list[dict]], Iterable[str]] | None = None
     after: float | None = None
-    again: Callable[[Order], bool] | None = None
     together: bool = True
     jobs: bool = True
     backends: bool = True
@@ -204,10 +204,9 @@ class Study:
         order.simulate = order.simulate or engine.simulate
         measures = self.measures(order)
         maker = made_by(dict(measures.settings), *measures.sources) if measures.sources else ""
-        again = self.again is not None and self.again(order)
         after = self.after if self.beside else 0.0
         then = None if after is None else lambda seconds: after * seconds
-        plan = Plan(order.how, order.simulate, measures.row, measures.columns, maker, together, again, then=then)
+        plan = Plan(order.how, order.simulate, measures.row, measures.columns, maker, together, then=then)
         write_scene(order.how.out, self.name, order.cases)
         timing, summary = (self.runs(order) if self.runs else run)(plan, order.cases)
         began = time.perf_counter()

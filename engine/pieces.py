@@ -80,6 +80,6 @@ def compile_piece(key: tuple, scene: Scene) -> None:
     else:
         from .simd.batch import Machine
 
-        machine = Machine(idle := _Idle(scene, 0.0), 1)
+        machine = Machine(idle := _Idle(scene, 0.0))
         machine.load(0, idle)
         machine.compile()

@@ -134,7 +134,6 @@ STUDY = Study(
     runs=lambda order: run_where_needed if dimensions_of(order) == "auto" else run,
     beside=beside,
     after=0.2,
-    again=lambda order: not order.own.no_accuracy,
     answer=answer,
 )
 main, parser, read_order = STUDY.main, STUDY.parser, STUDY.read_order

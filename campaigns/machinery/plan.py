@@ -20,7 +20,8 @@ from campaigns.machinery.cli import Running
 class Further(NamedTuple):
     """What a run does next: scene, wave periods, the Trajectory it goes on from (None: from rest), and what for.
 
-    check: the run stays as it is, and what is computed is handed to its row: describe(trajectory, check=).
+    check: the run stays as it is, and what is computed is handed to its row, with all such before it:
+    describe(trajectory, checks={periods of the run: Trajectory}).
     """
 
     scene: object
@@ -107,8 +108,8 @@ class Plan:
     row_maker: hash of whatever shapes a row (`campaigns.machinery.folder.made_by`); empty: rows are not kept.
     simulate_each(scenes, periods=, duration_s=): yields (number of the scene, Trajectory) as runs end; where it is
     given, runs that can go side by side share a worker (`campaigns.machinery.runner.groups_of`). Both are also given
-    progress=, where they take it. again: whether some runs will be done once more, one by one. said, then:
-    what the runs are called, and what follows them (`progress.Stage`); told: folder where workers say how far they are.
+    progress=, where they take it. said, then: what the runs are called, and what follows them (`progress.Stage`); told:
+    folder where workers say how far they are.
     how.out: None in the plan that a worker gets which does not see the folder.
     """
 
@@ -118,7 +119,6 @@ class Plan:
     columns: tuple[Column, ...]
     row_maker: str = ""
     simulate_each: Callable | None = None
-    again: bool = False
     said: str = "runs"
     then: Callable[[float], float] | None = None
     told: Path | None = None
