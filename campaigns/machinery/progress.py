@@ -218,7 +218,7 @@ def ticking(told: Callable[[float], None], seconds: float) -> Iterator[None]:
 def shares(folder: Path) -> dict[str, float]:
     """The last word of every `teller` of a folder, by name."""
     found = {}
-    for path in folder.iterdir():
+    for path in (path for path in folder.iterdir() if not path.suffix):  # of a file that is being written
         with contextlib.suppress(OSError, ValueError):
             found[path.name] = float(path.read_text(encoding="ascii"))
     return found

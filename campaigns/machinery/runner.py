@@ -90,11 +90,11 @@ def _compile(plan: Plan, missing: list[Job]) -> None:
     where = "loky", min(plan.how.jobs, max(2, len(missing)))
     if plan.how.backend == "threading":  # Numba compiles in one of them at a time
         where = "threading", 1
-    ended: set[int] = set()
+    ended: set[str] = set()
 
     def far() -> float:
-        told = {int(name): share for name, share in shares(Path(place)).items()} | dict.fromkeys(ended, 1.0)
-        return sum(costs[number] * share for number, share in told.items())
+        told = shares(Path(place)) | dict.fromkeys(ended, 1.0)
+        return sum(costs[int(number)] * share for number, share in told.items())
 
     with (
         tempfile.TemporaryDirectory(prefix="tether-progress-") as place,
@@ -103,7 +103,7 @@ def _compile(plan: Plan, missing: list[Job]) -> None:
         contextlib.suppress(PoolBroken),  # a run that cannot be compiled says so itself
     ):
         for (number, _), _ in execute(partial(_compiled, Path(place)), list(enumerate(tasks))):
-            ended.add(number)
+            ended.add(str(number))
 
 
 def _compiled(place: Path, task: tuple[int, dict]) -> None:
