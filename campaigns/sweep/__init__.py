@@ -161,7 +161,7 @@ def sweep_row(trajectory, transient_periods: int | None, check=None) -> dict[str
     row, columns, step_s = counted(trajectory), sound_part(trajectory.columns), scene.sample_step_s()
     transient_s = transient_periods * scene.waves.period_s if scene.waves is not None else 0.0
     if len(columns["time_s"]) > 1 and columns["time_s"][-1] > transient_s:
-        row |= settled(columns, step_s, transient_s)
+        row |= settled(scene, columns, transient_s)
     return row
 
 
