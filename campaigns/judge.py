@@ -7,6 +7,7 @@ from engine.views import LONGEST_PERIOD, STROBE_TOLERANCE, carried, carries_tang
 
 LEAST_JUDGED = 40  # periods after the transient below which a record is not judged: exponents are then left out
 LONGEST_CHECK = 450  # wave periods at the tighter tolerance
+OPEN = ("undecided", "transient")  # regimes that decide nothing
 TANGENTS, LATERAL = "output.tangent_vectors", "output.lateral_growth"
 
 

@@ -20,7 +20,7 @@ from campaigns.columns import (
     names,
     number,
 )
-from campaigns.judge import LEAST_JUDGED, motion_of, record_regime, tangent_of
+from campaigns.judge import LEAST_JUDGED, OPEN, motion_of, record_regime, tangent_of
 from engine.views import LONGEST_PERIOD, STROBE_TOLERANCE, carried, carries_tangents, rings, state_of
 
 STEEPNESS = Column("steepness", "", "kA", "wave steepness: wave number times amplitude", 3)
@@ -63,7 +63,10 @@ OFFPLANE = (
     Column("offplane_growth_bits_per_period", _BITS, "σ_y", "growth of an infinitesimal push across the plane", 3),
     Column("offplane_growth_error", _BITS, "± σ_y", "standard error of the growth rate across the plane", 3),
 )
-_HEIGHT = "highest point of the sphere above still water over the whole run; negative if it stays below"
+HEIGHT = Column(
+    "max_buoy_height_above_water_m", "m", "height",
+    "highest point of the sphere above still water over the whole run; negative if it stays below", 2,
+)  # fmt: skip
 COLUMNS = (
     STEEPNESS,
     DIMENSIONS,
@@ -79,7 +82,7 @@ COLUMNS = (
     *WOLF,
     *TANGENT,
     *OFFPLANE,
-    Column("max_buoy_height_above_water_m", "m", "height", _HEIGHT, 2),
+    HEIGHT,
     *LINE_COUNTS,
     Column("buoy_lateral_max_m", "m", "buoy |y|", "largest |y| of the buoy after the transient, in 3-D", 3),
     Column("rope_lateral_max_m", "m", "rope |y|", "largest |y| of any node after the transient, in 3-D", 3),
@@ -95,13 +98,15 @@ COLUMNS = (
 )
 
 
-def buoy_row(trajectory, transient_periods: int | None, check=None) -> dict[str, object]:
+def buoy_row(trajectory, transient_periods: int | None, check=None, full: int | None = None) -> dict[str, object]:
     """The columns of `COLUMNS` that a trajectory of the tethered buoy fills; those left out are unknown.
 
     trajectory: an engine Trajectory of a scene with waves and a buoy, run to its end or not.
     transient_periods: wave periods left out; a record that does not outlast them by one has statistics only. None:
     those that the verdict has found.
     check: how it goes on at a tighter tolerance, for a run that is chaotic (regime_tighter).
+    full: wave periods after which a run ends undecided, where Wolf's exponent and the tests for records of unknown
+    origin are asked for too; the verdict does not rest on them. None: they are not made.
     A run gets a verdict (`campaigns.judge`) if it reached its end and lasts for two looks; in three dimensions, where
     no perturbations are carried, for 40 periods. A loop release after the transient leaves offplane_growth unknown,
     because across the plane a loop has no rate of its own. `campaigns.buoy_sweep.space` fills the columns planar_.
@@ -124,15 +129,24 @@ def buoy_row(trajectory, transient_periods: int | None, check=None) -> dict[str,
             row["buoy_lateral_max_m"] = float(np.abs(columns["y_m"][first:]).max())
             row["rope_lateral_max_m"] = float(columns["offplane_m"][first:].max())
     if verdict is not None:
+        evidence, tangent = [verdict], tangent_of(trajectory, transient_periods)
+        if full is not None and wolf is None and is_last(verdict.regime, check is not None, periods > full - 0.5):
+            record, wolf = record_regime(trajectory, transient_periods, tangent)
+            evidence.append(record)
         row |= {
             "regime": verdict.regime,
             "regime_tighter": None if check is None else verdict.regime,
             "regime_reason": verdict.reason,
-            "evidence": evidence_text(verdict),
-            **exponents(TANGENT, tangent_of(trajectory, transient_periods)),
+            "evidence": "; ".join(map(evidence_text, evidence)),
+            **exponents(TANGENT, tangent),
             **(exponents(WOLF, wolf) if wolf is not None else {}),
         }
     return row
+
+
+def is_last(regime: str, checked: bool, at_end: bool) -> bool:
+    """Whether a run goes no further: a chaotic one is checked, any other is decided or at the end of what it may."""
+    return checked or (regime != "chaotic" and (at_end or regime not in OPEN))
 
 
 def judged(trajectory, periods: float, transient_periods: int | None, check=None):
