@@ -76,7 +76,7 @@ def use(rows: Sequence[Row], key: str, symbol: str, scene, companions: Sequence[
             for role, row in reversed(again.items())
         )
         first, last = known(usual, "transient_periods"), known(usual, "periods")
-        said += f"; over periods {first:.0f} to {last:.0f} {kilonewton(known(usual, PEAK))}, {', '.join(words)}"
+        said += f"; over periods {first:.0f} to {last:.0f} it is {kilonewton(known(usual, PEAK))}, {', '.join(words)}"
     yield f"{said}."
     doubts = [*reasons(peak, scene)]
     if scene is None or scene.buoy is None:
@@ -84,13 +84,13 @@ def use(rows: Sequence[Row], key: str, symbol: str, scene, companions: Sequence[
     if not doubts:
         yield "No loop was released in its run, and the buoy is loaded where it is wet: nothing here speaks against it."
         return
-    yield f"It is no load to design for: {listed(doubts)}."
-    capped = [row for row in sound if row["role"] == CAPPED]
-    free = greatest([row for row in (*rows, *capped) if not [*reasons(row, scene)]], PEAK)
+    yield f"It is no load to design for, because {listed(doubts)}."
+    others = [*rows, *(row for row in sound if row["role"] == CAPPED)]
+    free = greatest([row for row in others if not [*reasons(row, scene)]], PEAK)
     if free is not None:
-        how = " with the wetted cap" if free in capped else ""
-        load = kilonewton(known(free, PEAK))
-        yield f"Largest tension{how} without that: {load} at {symbol} = {known(free, key):.4g}."
+        load, at = kilonewton(known(free, PEAK)), f"at {symbol} = {known(free, key):.4g}"
+        capped = f"With the wetted cap the largest tension is {load}, {at}: use this one."
+        yield capped if free.get("role") == CAPPED else f"Largest tension without that: {load} {at}."
 
 
 def reasons(row: Row, scene) -> Iterator[str]:
