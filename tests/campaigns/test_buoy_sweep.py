@@ -133,7 +133,7 @@ def test_runs_that_failed_are_not_chosen():
 
 @pytest.fixture
 def nine(monkeypatch, tmp_path):
-    """plan, summary and cases of a planar sweep of nine values, whose sphere flies at the last four; jobs of batches."""
+    """plan, summary and cases of a planar sweep of nine values, whose sphere flies at the last four; its jobs."""
     jobs = []
     scene = load_scene("tethered_buoy", {"output.tangent_vectors": 1})
     monkeypatch.setattr(batches.Batch, "do", lambda batch, plan: jobs.extend(batch.jobs))
