@@ -26,7 +26,7 @@ from campaigns.columns import LOOPS, MESSAGE, NEWTON, PERIODS_RUN, RUN_KEY, STAT
 from campaigns.judge import LATERAL, OPEN, TANGENTS, tighter_scene
 from campaigns.machinery.folder import claimed, run_of, trajectory_path
 from campaigns.machinery.plan import Job, Plan, Summary
-from campaigns.machinery.runner import groups_of, run_campaign
+from campaigns.machinery.runner import groups_of, run
 from engine.atomic import write_atomic
 from engine.scene import scene_from_toml
 
@@ -85,7 +85,7 @@ class Batch:
     def do(self, plan: Plan) -> float:
         """Do what is not there yet; returns seconds of analysis. A run of another of these folders is taken from there.
 
-        Without a job the table of an earlier batch in this folder is emptied. Raises as `runner.run_campaign`.
+        Without a job the table of an earlier batch in this folder is emptied. Raises as `runner.run`.
         """
         out = plan.how.out / self.folder
         if not self.jobs and not out.exists():
@@ -96,7 +96,7 @@ class Batch:
             for path in (trajectory_path(out, job.key) for job in self.jobs):
                 for other in () if path.exists() else plan.how.out.glob(f"*/trajectories/{path.name}"):
                     write_atomic(path, other.read_bytes())
-            return run_campaign(replace(own, simulate_each=each), self.jobs).analysis_s
+            return run(replace(own, simulate_each=each), self.jobs)[1].analysis_s
 
 
 def changed(scene, *changes: dict):
@@ -182,7 +182,7 @@ def repeat(
     periods: of its runs, which carry perturbations; None where they take as long as they need: what is then repeated
     carries none, for as many periods as a verdict needs, and the violent run only for those of its companions.
     row_of(trajectory) -> its row; said: the column of what its motion is called. among: keys of the runs to choose
-    from, None for all. Raises as `runner.run_campaign`.
+    from, None for all. Raises as `runner.run`.
     """
     rows = [row for row in summary.rows if among is None or row["run_key"] in among]
     most = lengths(len(summary.rows), periods or next_look(next_look()))
@@ -194,8 +194,8 @@ def repeat(
         samples = round(length * scene.waves.period_s / scene.sample_step_s()) + 1
         before = {name: original.columns[name][:samples] for name in ("radius_m", "tension_top_high_N")}
         describe = partial(accuracy_row, before=before, called=row.get(said), row_of=row_of, said=said)
-        for run, made in ((AS_RUN, scene), (TIGHTER, tighter_scene(scene)), (FINER, changed(scene, finer(scene)))):
-            labels = {"role": role, "label": row["steepness"], "run": run, "periods": length}
+        for how, made in ((AS_RUN, scene), (TIGHTER, tighter_scene(scene)), (FINER, changed(scene, finer(scene)))):
+            labels = {"role": role, "label": row["steepness"], "run": how, "periods": length}
             jobs.append(Job(labels, made, length, describe=describe))
     return Batch("accuracy", "two runs again, tighter and finer", ACCURACY, row_of, jobs).do(plan)
 

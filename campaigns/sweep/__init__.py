@@ -148,7 +148,7 @@ def measures(order: Order) -> Measures:
     return Measures(columns, partial(sweep_row, **settings), sources, settings)
 
 
-def sweep_row(trajectory, transient_periods: int | None, check=None, full: int | None = None) -> dict[str, object]:
+def sweep_row(trajectory, transient_periods: int | None, checks=None, full: int | None = None) -> dict[str, object]:
     """The columns of `measures` that a trajectory fills; those left out are unknown. Arguments: `buoy_row`.
 
     The upper end of a line without a buoy has a radius and an angle as the buoy has; without waves nothing is left out.
@@ -157,7 +157,7 @@ def sweep_row(trajectory, transient_periods: int | None, check=None, full: int |
 
     scene = trajectory.scene
     if in_regular_waves(scene):
-        return buoy_row(trajectory, transient_periods, check, full)
+        return buoy_row(trajectory, transient_periods, checks, full)
     row, columns = counted(trajectory), sound_part(trajectory.columns)
     transient_s = transient_periods * scene.waves.period_s if scene.waves is not None else 0.0
     if len(columns["time_s"]) > 1 and columns["time_s"][-1] > transient_s:
