@@ -122,7 +122,7 @@ def beside(order: Order) -> Iterator[Callable]:
     if not order.own.no_accuracy:
         yield partial(batches.companions, key=SWEPT, periods=order.periods)
         row = partial(buoy_row, transient_periods=order.transient)
-        yield partial(batches.repeat, periods=None if order.looks else order.periods, row_of=row, said="regime")
+        yield partial(batches.repeat, carrying=not order.looks, row_of=row, said="regime")
     yield partial(batches.close_up, periods=order.periods)
 
 

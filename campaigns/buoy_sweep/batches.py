@@ -5,8 +5,7 @@
 water, with a sphere that loses its buoyancy there. `as run` is the same run over the same periods.
 `accuracy`, the sweep's own error against run time: the run whose tension peaks lowest (the regular one) and the one
 whose tension peaks highest (the violent one) again as they are, at a tenth of the tolerance and with twice the
-elements, each alone on its core. Repeating both costs about as much as nine runs of the sweep, so a sweep of few runs
-repeats only as many periods as its share allows, and ten at least.
+elements, each alone on its core, for as many periods as a verdict needs.
 `close_up`, for the moving picture of the report: the first wave periods of the violent run with its line, since
 profiles of every run would be gigabytes. Where no run goes slack nothing snaps, and nothing is computed.
 """
@@ -63,8 +62,6 @@ UNFOLLOWED = {TANGENTS: 0, LATERAL: False}  # without perturbations
 LEAST_COLUMNS, LEAST_VALUES = 200, 9  # of the orbit diagram; judged values from which on there is something between
 BETWEEN_PERIODS, LEFT_OUT = 60, 36
 EARLY = 10  # wave periods
-SHARE = 0.25  # of the cost of the sweep that the repeated runs may cost
-COST = 8.6  # runs of the sweep that repeating both over their whole length costs: (2.3 + 2.0) each (measured)
 PERIODS, FRAMES = 12, 24  # of the close-up: wave periods, because the first snaps come after five; profiles in each
 
 
@@ -147,11 +144,6 @@ def companions(plan: Plan, summary: Summary, key: str, periods: int) -> float:
     return Batch("companions", "companions of the largest tension", COMPANIONS, row, jobs, True).do(plan)
 
 
-def lengths(runs: int, periods: int) -> int:
-    """Wave periods to repeat, for a sweep of so many runs of that length."""
-    return min(periods, max(EARLY, math.floor(periods * (SHARE * runs / COST))))
-
-
 def chosen(rows: list[dict], length: float = math.inf) -> list[tuple[str, dict]]:
     """(role, row) of the regular and the violent run; one where the sweep has but one, none where none ended.
 
@@ -170,27 +162,20 @@ def chosen(rows: list[dict], length: float = math.inf) -> list[tuple[str, dict]]
 
 
 def repeat(
-    plan: Plan,
-    summary: Summary,
-    periods: int | None,
-    row_of: Callable,
-    said: str,
-    among: set[str] | None = None,
+    plan: Plan, summary: Summary, carrying: bool, row_of: Callable, said: str, among: set[str] | None = None
 ) -> float:
-    """Do the repeated runs of a sweep over its share of the wave periods; returns seconds of analysis.
+    """Do the repeated runs of a sweep; returns seconds of analysis.
 
-    periods: of its runs, which carry perturbations; None where they take as long as they need: what is then repeated
-    carries none, for as many periods as a verdict needs, and the violent run only for those of its companions.
-    row_of(trajectory) -> its row; said: the column of what its motion is called. among: keys of the runs to choose
-    from, None for all. Raises as `runner.run`.
+    carrying: whether they carry perturbations, as a sweep of one length does; else the violent run, whose verdict needs
+    some, goes only as far as its companions. row_of(trajectory) -> its row; said: the column of what its motion is
+    called. among: keys of the runs to choose from, None for all. Raises as `runner.run`.
     """
+    most, jobs = next_look(next_look()), []
     rows = [row for row in summary.rows if among is None or row["run_key"] in among]
-    most = lengths(len(summary.rows), periods or next_look(next_look()))
-    jobs: list[Job] = []
-    for role, row in chosen(rows, most if periods is None else math.inf):
-        length = min(most, round(row["periods"]), next_look() if role == "violent" and periods is None else most)
+    for role, row in chosen(rows, math.inf if carrying else most):
+        length = min(most if carrying or role == "regular" else next_look(), round(row["periods"]))
         original = run_of(plan.how.out, row)
-        scene = original.scene if periods else changed(original.scene, UNFOLLOWED)
+        scene = original.scene if carrying else changed(original.scene, UNFOLLOWED)
         samples = round(length * scene.waves.period_s / scene.sample_step_s()) + 1
         before = {name: original.columns[name][:samples] for name in ("radius_m", "tension_top_high_N")}
         describe = partial(accuracy_row, before=before, called=row.get(said), row_of=row_of, said=said)

@@ -42,11 +42,11 @@ EXTREMES = (
         "slack_fraction", "", "χ",
         "share of the time after the transient with less than 5 % of the static tension at the top", 3,
     ),
+    Column("compression_fraction", "", "χ_c", "share of the time after the transient with T < 0 at the top", 3),
     Column(
         "compression_after_release_N", "N", "T_rel",
         "smallest tension within an axial transit after loop releases, of the grid and of the steps: no load", 0,
     ),
-    Column("compression_fraction", "", "χ_c", "share of the time after the transient with T < 0 at the top", 3),
 )  # fmt: skip
 NEAR_ZERO = 0.05  # of the static tension: what the paper calls near zero; below it the line is slack
 REGIME = Column("regime", symbol="regime", meaning="period-N, quasi-periodic, chaotic, transient or undecided")
@@ -214,12 +214,12 @@ def settled(scene, columns, transient_s: float) -> dict[str, object]:
     )
     # A run starts at rest. T < 0 alone says little: much of it is noise of axial waves in a line that hangs loose.
     tension, static_N = columns["tension_top_N"], float(columns["tension_top_N"][0])
-    slack, compressed = (
+    shares = (
         slack_fraction(tension, step_s, threshold_N, transient_s).fraction
         for threshold_N in (max(NEAR_ZERO * static_N, 0.0), 0.0)
     )
     ends = radius.minimum, radius.maximum, angle.minimum, angle.maximum, lowest, high.maximum
-    return dict(zip(names(EXTREMES), (*ends, slack, released, compressed), strict=True))
+    return dict(zip(names(EXTREMES), (*ends, *shares, released), strict=True))
 
 
 def sound_part(columns) -> dict[str, np.ndarray]:

@@ -152,7 +152,7 @@ def beside(order: Order) -> Iterator[Callable]:
         waves = (base, replace(base, steepness=SMALL))
         among = {case.key for case in order.cases if variant(case.labels) in waves}
         row = partial(offplane_row, transient_periods=order.transient)
-        yield partial(repeat, periods=order.periods, row_of=row, said="rope_motion", among=among)
+        yield partial(repeat, carrying=True, row_of=row, said="rope_motion", among=among)
     yield partial(judge, base=base, transient=order.transient, quick=order.periods - order.transient < LEAST_JUDGED)
 
 

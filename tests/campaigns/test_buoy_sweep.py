@@ -16,14 +16,11 @@ from campaigns.buoy_sweep import batches
 from campaigns.buoy_sweep.answer import AS_RUN
 from campaigns.buoy_sweep.batches import (
     ACCURACY,
-    EARLY,
     FINER,
     FRAMES,
     PERIODS,
-    SHARE,
     TIGHTER,
     chosen,
-    lengths,
 )
 from campaigns.buoy_sweep.rows import buoy_row
 from campaigns.buoy_sweep.space import SEED_MPS
@@ -89,7 +86,7 @@ def test_the_least_and_the_most_violent_run_are_repeated_with_the_errors_that_we
     assert [row["steepness"] for row in rows_of(repeated.out)] == ["0.016", "0.05", "0.13"], "a table of its own"
     assert [(row["role"], row["label"]) for row in rows] == 3 * [("regular", "0.016")] + 3 * [("violent", "0.13")]
     assert [row["run"] for row in rows] == 2 * [AS_RUN, TIGHTER, FINER]
-    assert {row["periods"] for row in rows} == {str(EARLY)}
+    assert {row["periods"] for row in rows} == {"12"}
     assert set(rows[0]) == set(names(ACCURACY))
     scene = load_scene("tethered_buoy")
     nodes, rtol = scene.tether.nodes, scene.solver.rtol
@@ -116,13 +113,6 @@ def test_repeated_again_nothing_is_computed(repeated):
 def test_a_sweep_that_leaves_it_out_repeats_nothing(sweep):
     assert sweep("--steepness", "0.016", "0.05", kind=Drifting)[0] == 0
     assert not (sweep.out / "accuracy").exists()
-
-
-def test_a_short_sweep_pays_no_more_than_its_share():
-    assert lengths(49, 300) == 300
-    assert lengths(8, 300) == pytest.approx(300 * SHARE * 8 / 8.6, abs=1)
-    assert lengths(2, 300) == EARLY or lengths(2, 300) <= 300 * SHARE * 2 / 8.6
-    assert lengths(2, 4) == 4
 
 
 def test_runs_that_failed_are_not_chosen():
