@@ -4,6 +4,8 @@ A column whose analysis does not apply to a run stays empty (None), never 0: a r
 its statistics and nothing more. Extremes and slack are taken after the transient, the emergence over the whole run.
 """
 
+from dataclasses import replace
+
 import numpy as np
 
 from analysis.evidence import evidence_text
@@ -133,7 +135,8 @@ def buoy_row(trajectory, transient_periods: int | None, checks=None, full: int |
         goes_on = verdict.regime in OPEN or (verdict.regime == "chaotic" and tighter is None)
         if full is not None and wolf is None and (periods > full - 0.5 or not goes_on):
             record, wolf = record_regime(trajectory, transient_periods, tangent)
-            evidence.append(record)
+            alone = tuple(replace(test, name=f"samples alone, {test.name}") for test in record.evidence)
+            evidence.append(replace(record, evidence=alone))
         row |= {
             "regime": verdict.regime,
             "regime_tighter": tighter,
