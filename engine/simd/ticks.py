@@ -234,7 +234,7 @@ def advance(ticks, records, own_tables, states, lanes, spent, samples, trail, co
     """Make ticks until a run ends, trails are to be followed, or `ticks` are made; returns how many were.
 
     records, states, lanes (COUNT,): RECORD, STATE, LANE; own_tables (COUNT, m): tables, as numbers; spent (COUNT,):
-    iterations of the trial; samples (COUNT, m, 12); trail: Trails, of which l = 0 keeps nothing; counts: whole numbers
+    iterations of the trial; samples (COUNT, m, 13); trail: Trails, of which l = 0 keeps nothing; counts: whole numbers
     of the lane record; arrays: Arrays; work: Work with COUNT as its last axis.
     """
     numbers = arrays.numbers
