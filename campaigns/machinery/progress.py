@@ -74,8 +74,8 @@ class Stage:
 
     def _kernels(self) -> int:
         """How many any process has compiled since it began."""
-        store = sys.modules.get("machine_code.store")
-        return store.made_since(time.time() - self.seen[-1][0]) if store is not None else 0
+        made_since = getattr(sys.modules.get("machine_code.store"), "made_since", None)  # not while it is imported
+        return made_since(time.time() - self.seen[-1][0]) if made_since is not None else 0
 
     def _left(self, stages: list["Stage"]) -> str:
         left = self.left_s()
