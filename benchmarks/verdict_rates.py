@@ -190,7 +190,8 @@ def main():
             continue
         table, needed, found = Counter(), [], {}
         for strobed, growth, *scale in make(count // 10 if asked.quick else count, periods):
-            scale = scale[0] if scale else np.maximum(np.ptp(strobed, axis=0).max(), 1e-9)
+            # of the settled motion: starts of eq. (33) may lie a hundred times as far out
+            scale = scale[0] if scale else max(1.0, np.ptp(strobed[periods // 2 :], axis=0).max())
             (what, since), verdict = truth(strobed, growth, scale), judged(strobed, growth, scale)
             needed.append(verdict.transient + verdict.points - 1)
             word = "periodic" if verdict.period else verdict.regime
