@@ -1,7 +1,7 @@
 """The regime of a simulated motion, from its strobed orbit and its tangent dynamics, look by look.
 
 A simulation can be carried on until its motion is told. So it is looked at after 90, 135, 205, 310, ... periods
-(`next_look`), each time without its first third, the transient, and a word counts when two looks in a row find it:
+(`next_look`), each time without its first third, the transient:
 
     period-N          the strobed orbit repeats (`detect_period`), and its perturbations do not grow in the later half;
                       where none are carried, the steps towards the orbit shrink
@@ -9,17 +9,20 @@ A simulation can be carried on until its motion is told. So it is looked at afte
                       on a torus, too, perturbations grow, as the logarithm of time
     quasi-periodic    |lambda| + 2 errors < 0.06 bits per period, neighbours on the section stay neighbours, and a
                       spectral line is incommensurate with the forcing
-    transient         at the end of the record: spread or mean still march, or perturbations shrink and no period is met
+    transient         at the end of the record: spread, mean or the steps towards a period still march, or perturbations
+                      shrink and no period is met
     undecided         otherwise
 
-Two looks, because a motion on its way passes by others: near an unstable period-2 for 60 periods, or through a chaotic
-transient for 350. A longer chaotic transient is called chaotic: the verdict is one over the periods that it names.
+A word counts when two looks in a row find it, because a motion on its way passes by others: near an unstable period-2
+for 60 periods, or through a chaotic transient for 350. One look is enough for a torus by three errors instead of two;
+and for chaos from 465 periods on, if perturbations go on growing, by two errors, where the run goes on at a tighter
+tolerance. A longer chaotic transient is called chaotic: the verdict is one over the periods that it names.
 Error rates of the whole procedure: docs/verdicts.md. Tests for records of unknown origin (`verdicts.regime`) are not
 needed here: what moves is known, and its perturbations are carried along.
 """
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -32,9 +35,13 @@ from analysis.sampling import checked_columns, checked_count, checked_series
 from analysis.tangent_growth import LEAST_PERIODS, tangent_lyapunov
 from analysis.verdicts import Verdict
 
+OPEN = ("transient", "undecided")  # words that wait for the next look
 FIRST_LOOK = 90
 POSITIVE, LATER = 3.5, 2.0  # errors by which an exponent is positive: of the look, and of its later half
 LEAST_BITS = 10.0  # growth over a look
+LEAST_CHAOTIC = 465  # periods from which one look is enough, with what follows it
+CLEAR = 3.0  # errors, where one look is enough for a torus
+COMES_NEARER = 0.8  # what is left of the steps towards a period in the later half of the last part
 ABOUT_ZERO = 0.06  # bits per period
 STAYS, NEAR = 0.35, 0.35  # nats by which neighbours may part; what they are apart at most, in sizes of the section
 ALIGNED = 10  # periods that perturbations need to turn to the fastest growth
@@ -53,7 +60,7 @@ def motion_regime(
     scale: ArrayLike | None = None,
     tolerance: float = 1e-3,
     max_period: int = 16,
-    tighter: Exponent | None = None,
+    tighter: Mapping[int, Exponent] | None = None,
 ) -> Verdict:
     """The regime of a simulated, periodically forced motion, with the evidence for it (rules at the head of this file).
 
@@ -61,8 +68,10 @@ def motion_regime(
     growth_nats (m,)                 logarithm of the growth of a perturbation in each period, nats; NaN in periods in
                                      which none was carried; None: in none
     scale, tolerance, max_period     as in `detect_period`
-    tighter                          exponent of the same motion, carried on at a tighter tolerance: what is chaotic
-                                     has to be so there, by two errors. None: nobody looked
+    tighter                          exponents of runs that went on from the end of a look at a tighter tolerance, by
+                                     the periods of that look. None: nobody looks, and chaos, too, takes two looks. A
+                                     chaotic look at the end of the record is `chaotic` without such an exponent, for
+                                     those who then go on; an earlier one without it does not count
     Returns a Verdict; its `transient` are the periods before those that the word is about. A record that is not long
     enough for two looks (135 periods) is undecided.
     Raises ValueError for states that are not finite, or lengths that do not fit.
@@ -79,23 +88,27 @@ def motion_regime(
     for end in looks(periods):
         start = end // 3
         word, reason, evidence, estimate = _look(x, growth, start, end, scale, tolerance, max_period)
-        if word == before and word not in ("transient", "undecided"):
+        goes_on = word == "chaotic" and tighter is not None
+        counts = word == before or _clear(word, evidence) or (goes_on and end >= LEAST_CHAOTIC)
+        if counts and goes_on and end in tighter:
+            evidence.append(_tighter(tighter[end]))
+            if not evidence[-1].passed:
+                word, reason = "undecided", f"chaotic at this tolerance, but {evidence[-1].sentence}"
+        elif goes_on and end < periods:
+            counts = False
+        if counts and word not in OPEN:
             break
         before = word
     else:
         if not evidence:
             reason = f"too short: {next_look(FIRST_LOOK)} periods are needed for two looks, given {periods}"
-        elif word not in ("transient", "undecided"):
+        elif word not in OPEN:
             word, reason = "undecided", f"{word} at the last look only, over periods {start} to {end}: {reason}"
         return Verdict(word, reason, tuple(evidence), None, len(x) - start, 0, start)
     reason += f", over periods {start} to {end}"
     if estimate.period is not None:
         start = _settled(x[: end + 1], estimate)
         reason += _on_the_way(growth[:start])
-    if word == "chaotic" and tighter is not None:
-        evidence.append(_tighter(tighter))
-        if not evidence[-1].passed:
-            word, reason = "undecided", f"chaotic at this tolerance, but {evidence[-1].sentence}"
     return Verdict(word, reason, tuple(evidence), estimate.period, end + 1 - start, 0, start)
 
 
@@ -132,7 +145,7 @@ def _look(x, growth, start, end, scale, tolerance, max_period):
     if not later.found:
         what = "no period, and" if estimate.period is None else "a period that perturbations do not confirm, and"
         few = f"{what} perturbations over {len(known)} periods only: {2 * LEAST_PERIODS} are needed"
-        return "undecided", few, evidence, estimate
+        return ("transient" if _comes_nearer(estimate) else "undecided"), few, evidence, estimate
     bits = whole.value * len(known)
     evidence += [
         Evidence(
@@ -161,6 +174,20 @@ def _look(x, growth, start, end, scale, tolerance, max_period):
             return "quasi-periodic", reason, evidence, estimate
     lacking = [item.name for item in evidence if item.passed is False]
     return "undecided", f"no period; {said}; not met: {', '.join(lacking)}", evidence, estimate
+
+
+def _clear(word, evidence):
+    """A torus whose exponent is below its bound with more than two errors."""
+    exponent = next((item for item in evidence if item.name == "exponent"), None)
+    return word == "quasi-periodic" and abs(exponent.value) + CLEAR * exponent.error < ABOUT_ZERO
+
+
+def _comes_nearer(estimate: PeriodEstimate):
+    """Whether the steps of the nearest period shrink: such a motion will be told without perturbations."""
+    if estimate.period is not None or not np.isfinite(estimate.residual).any():
+        return False
+    trend = estimate.trend_nats_per_period[np.nanargmin(estimate.residual)]
+    return bool(math.exp(trend * (estimate.points // 4)) < COMES_NEARER)
 
 
 def _neighbours(section, tolerance):

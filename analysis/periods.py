@@ -16,7 +16,9 @@ noise within the tolerance is taken for a drift about once in a hundred records,
 
 Noise just above the tolerance misses it at N and, by luck, meets it at 2 N or 13 N; and a slow mode of six forcing
 periods, still dying out, repeats itself every six. So N counts only if every proper divisor misses clearly more than
-the tolerance and than N: residual_d >= 3 max(residual_N, tolerance).
+the tolerance and than N: residual_d >= 3 max(residual_N, tolerance). And what d misses by may not be dying out: a
+motion on its way to period d that jumps from side to side repeats after 2 d periods all the while. It dies out where it
+shrinks over the last part, in the mean, by more than a twentieth of itself and by more than residual_N.
 Related: the recurrence of states up to epsilon in ChaosTools.jl's and other packages' period counters, which take the
 residual alone.
 """
@@ -31,6 +33,7 @@ from analysis.sampling import checked_columns, checked_count, checked_positive, 
 LEAST_POINTS = 16
 POINTS_PER_CANDIDATE = 4
 CLEARLY_MORE = 3.0
+FADES = 0.95  # the later half over the earlier one
 
 
 @dataclass(frozen=True, eq=False)
@@ -100,8 +103,9 @@ def detect_period(
         measures[:, candidate - 1] = _measure(x / scale, candidate, rounding / scale)
     residual, projected, _, trend = measures
     repeats = [n for n in range(1, testable + 1) if max(residual[n - 1], projected[n - 1]) <= tolerance]
-    period = next((n for n in repeats if not _rivals(n, residual, tolerance)), None)
-    reason = _reason(period, repeats, points, testable, max_period, tolerance, residual, trend)
+    rivals = {n: _rivals(n, x / scale, residual, tolerance) for n in repeats}
+    period = next((n for n in repeats if not rivals[n]), None)
+    reason = _reason(period, rivals, points, testable, max_period, tolerance, residual, trend)
     curves = (locked(curve) for curve in (scale, *measures))
     orbit = None if period is None else locked(_orbit(x, period))
     return PeriodEstimate(period, reason, tolerance, *curves, points, orbit)
@@ -145,10 +149,19 @@ def _measure(x, n, rounding):
     return size.max(), projected, multiplier, trend
 
 
-def _rivals(n, residual, tolerance):
-    """Proper divisors of n that are not clearly worse periods than n: points that near are not told apart."""
-    least = CLEARLY_MORE * max(residual[n - 1], tolerance)
-    return [d for d in range(1, n) if n % d == 0 and residual[d - 1] < least]
+def _rivals(n, x, residual, tolerance):
+    """{proper divisor of n: why n cannot be told from it}: it does nearly as well, or soon will. x: scaled."""
+    found = {}
+    for d in (d for d in range(1, n) if n % d == 0):
+        tail = x[-_tail(len(x), d) :]
+        step = tail[d:] - tail[:-d]
+        rounds = max(len(step) // (2 * n), 1) * n  # steps of one kind come round after n
+        early, late = (np.sqrt(np.mean(part**2)) for part in (step[:rounds], step[-rounds:]))
+        if residual[d - 1] < CLEARLY_MORE * max(residual[n - 1], tolerance):
+            found[d] = "noise at the size of the tolerance"
+        elif late < FADES * early and early - late > residual[n - 1]:
+            found[d] = "what tells them apart is dying out"
+    return found
 
 
 def _orbit(x, n):
@@ -158,18 +171,18 @@ def _orbit(x, n):
     return tail.reshape(-1, n, x.shape[1]).mean(axis=0)
 
 
-def _reason(period, repeats, points, testable, max_period, tolerance, residual, trend):
+def _reason(period, rivals, points, testable, max_period, tolerance, residual, trend):
     """One sentence on why the answer is what it is."""
     if period is not None:
         found = residual[period - 1]
         return f"repeats after {period} forcing period(s) within {tolerance:g} of the scale ({found:.2g})"
     if testable == 0:
         return f"too short: {LEAST_POINTS} strobed points are needed at least, given {points}"
-    if repeats:
-        rival = _rivals(repeats[0], residual, tolerance)[0]
+    for repeats, closest in rivals.items():
+        rival, why = next(iter(closest.items()))
         return (
-            f"N = {repeats[0]} is within the tolerance ({residual[repeats[0] - 1]:.2g}) but cannot be told from "
-            f"N = {rival} ({residual[rival - 1]:.2g}): noise at the size of the tolerance"
+            f"N = {repeats} is within the tolerance ({residual[repeats - 1]:.2g}) but cannot be told from "
+            f"N = {rival} ({residual[rival - 1]:.2g}): {why}"
         )
     best = int(np.argmin(residual[:testable]))
     looked = f"no period up to {testable}"

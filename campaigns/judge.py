@@ -1,12 +1,13 @@
 """The verdict on the motion of a buoy in waves: its state as the analysis takes it, its regime, its exponents."""
 
+import math
 from functools import partial
 
 import engine.scene
 from engine.views import LONGEST_PERIOD, STROBE_TOLERANCE, carried, carries_tangents, state_of, verdict
 
 LEAST_JUDGED = 40  # periods after the transient below which a record is not judged: exponents are then left out
-LONGEST_CHECK = 450  # wave periods at the tighter tolerance
+LEAST_CHECK, SURE = 90, 4.0  # wave periods at the tighter tolerance; errors by which chaos is then expected to show
 TANGENTS, LATERAL = "output.tangent_vectors", "output.lateral_growth"
 
 
@@ -30,18 +31,21 @@ def tangent_of(trajectory, transient_periods: int):
     return tangent_lyapunov(growth[np.isfinite(growth)])[0]
 
 
-def motion_of(trajectory, check=None):
+def motion_of(trajectory, checks=None):
     """The Verdict on a run from rest, look by look, from its strobed state and its tangent dynamics.
 
-    check: the run that goes on from its end at a tighter tolerance, for one that looks chaotic.
+    checks: Trajectories that went on from it at a tighter tolerance, by its wave periods then; None: none ever does.
     """
     from analysis.exponents import BITS_PER_PERIOD, no_exponent
 
-    tighter = None
-    if check is not None:
-        tighter = no_exponent("tangent dynamics", f"the run ended: {check.status}", BITS_PER_PERIOD)
-        tighter = tangent_of(check, 0) if check.status == "ok" else tighter
-    return verdict(trajectory, tighter)
+    if checks is None:
+        return verdict(trajectory)
+    ended = {
+        end: no_exponent("tangent dynamics", f"the run ended: {check.status}", BITS_PER_PERIOD)
+        for end, check in checks.items()
+        if check.status != "ok"
+    }
+    return verdict(trajectory, {end: ended.get(end) or tangent_of(check, 0) for end, check in checks.items()})
 
 
 def record_regime(trajectory, transient_periods: int, tangent=None):
@@ -78,8 +82,8 @@ def going_on(scene, trajectory, row, budget: int, looks: bool):
     """What a run whose regime is asked for does next (`campaigns.machinery.plan.Further`); None when it is told.
 
     looks: it is looked at after 90, 135, 205, ... wave periods, `budget` at most, and perturbations are carried from
-    the first look on that finds no period; else it takes `budget` periods at once. One that is chaotic goes on at a
-    tenth of the tolerance for as long as it was judged.
+    the first look on that finds no period, and none that it comes nearer to; else it takes `budget` periods at once.
+    One that looks chaotic goes on at a tenth of the tolerance, for as long as this takes to show by SURE errors.
     """
     from analysis import next_look
     from campaigns.machinery.plan import Further
@@ -90,16 +94,20 @@ def going_on(scene, trajectory, row, budget: int, looks: bool):
     if row["status"] != "ok" or row.get("regime") is None or done is None:
         return None
     if row["regime"] == "chaotic" and row.get("regime_tighter") is None:
-        changes = {TANGENTS: 1, LATERAL: False}
-        tighter = tighter_scene(engine.scene.scene_from_toml(scene.to_toml(), changes))
         judged = done - row["transient_periods"]
-        return Further(tighter, min(judged, LONGEST_CHECK), trajectory, check=True)
-    if row["regime"] not in ("undecided", "transient") or row.get("regime_tighter") or done >= budget:
+        value, error = row["lyapunov_tangent_bits_per_period"], row["lyapunov_tangent_error"]
+        enough = math.ceil(judged * (SURE * error / value) ** 2)
+        return Further(tighter_scene(_carrying(scene)), min(max(enough, LEAST_CHECK), judged), trajectory, check=True)
+    if row["regime"] not in ("undecided", "transient") or done >= budget:
         return None
-    wanted = row.get("strobed_period") is None or (trajectory is not None and carried(trajectory))
-    if wanted and carries_tangents(scene):
-        scene = engine.scene.scene_from_toml(scene.to_toml(), {TANGENTS: 1, LATERAL: True})
+    wanted = row["regime"] == "undecided" or (trajectory is not None and carried(trajectory))
+    scene = _carrying(scene) if wanted and carries_tangents(scene) else scene
     return Further(scene, min(next_look(round(done)), budget) - done, trajectory)
+
+
+def _carrying(scene):
+    """The scene with a perturbation in the plane and one across it."""
+    return engine.scene.scene_from_toml(scene.to_toml(), {TANGENTS: 1, LATERAL: True})
 
 
 def judged_scene(order, changes: dict, least: int = LEAST_JUDGED):

@@ -1,8 +1,8 @@
 """Scene in, trajectory out: the driver of the kernels, for one scene or a batch."""
 
 import math
+from collections import deque
 from collections.abc import Callable, Iterable, Iterator
-from functools import partial
 from pathlib import Path
 
 from .final_state import FinalState
@@ -54,40 +54,55 @@ def simulate_batch(
 
 def simulate_each(
     scenes: Iterable[Scene],
-    periods: float | None = None,
+    periods: float | Iterable[float] | None = None,
     duration_s: float | None = None,
     progress: Progress | None = None,
     starts: Iterable[Start] | None = None,
+    then: Callable[[int, Trajectory], tuple[Scene, float, Start] | None] | None = None,
 ) -> Iterator[tuple[int, Trajectory]]:
     """As `simulate_batch`, but yields (number of the scene, its Trajectory) as the runs end, in no order.
 
     Scenes that may share a batch run side by side in the lanes of vectors (`engine.simd`), eight at a time; the
-    others one after another. The results are the same, bit for bit. starts: of each scene, as `start` of `simulate`.
+    others one after another. The results are the same, bit for bit.
+
+    periods      one number, or one for each scene
+    starts       of each scene, as `start` of `simulate`
+    then         then(number, Trajectory) -> scene, wave periods and start of a run that takes the place of the one that
+                 has ended, under its number; None: none does. So lanes stay full while runs are judged one by one
+    progress     callable(share of the time to simulate, of all runs that are known by now)
     """
     from .simd import batch
 
     scenes = list(scenes)
+    lengths = [periods] * len(scenes) if periods is None or isinstance(periods, int | float) else list(periods)
     given = [None] * len(scenes) if starts is None else list(starts)
-    jobs = [
-        (i, scene, _duration(scene, periods, duration_s), _checked_start(scene, start))
-        for i, (scene, start) in enumerate(zip(scenes, given, strict=True))
-    ]
-    ended = 0
+    waiting: dict[object, deque] = {}  # by what scenes must share to go together; None: alone
+    known_s = done_s = 0.0
 
-    def share(fraction, count=1):
+    def add(i, scene, periods, start, duration_s=None):
+        nonlocal known_s
+        length_s, start = _duration(scene, periods, duration_s), _checked_start(scene, start)
+        waiting.setdefault(batch.kind_of(scene), deque()).append(batch.Asked(i, scene, length_s, start))
+        known_s += length_s
+
+    def share(going_s):
         if progress is not None:
-            progress((ended + fraction * count) / len(scenes))
+            progress(min((done_s + going_s) / known_s, 1.0))
 
-    groups = batch.shares(jobs)
-    for group in groups:
-        for i, run in batch.run_through(group, partial(share, count=len(group))):
-            yield i, run.trajectory()
-        ended += len(group)
-    shared = {i for group in groups for i, *_ in group}
-    for i, scene, length, start in jobs:
-        if i not in shared:
-            yield i, _alone(scene, length, start, share)
-            ended += 1
+    for i, (scene, length, start) in enumerate(zip(scenes, lengths, given, strict=True)):
+        add(i, scene, length, start, duration_s)
+    while waiting:
+        kind = max(waiting, key=lambda one: len(waiting[one]))
+        together = kind is not None and len(waiting[kind]) >= batch.LEAST
+        runs = batch.run_through(waiting[kind], share) if together else _alone(waiting[kind], share)
+        for asked, found in runs:
+            done_s += asked.duration_s
+            more = None if then is None else then(asked.number, found)
+            if more is not None:
+                add(asked.number, *more)
+            yield asked.number, found
+        if not waiting[kind]:
+            del waiting[kind]
 
 
 def _checked_start(scene: Scene, start: Start) -> FinalState | None:
@@ -111,19 +126,23 @@ def _checked_start(scene: Scene, start: Start) -> FinalState | None:
     return state
 
 
-def _alone(scene: Scene, duration_s: float, start: FinalState | None, progress: Progress) -> Trajectory:
+def _alone(waiting: deque, progress: Progress) -> Iterator[tuple[object, Trajectory]]:
+    """The first run of those that wait, by itself; progress: callable(seconds simulated)."""
+    asked = waiting.popleft()
+    scene, duration_s = asked.scene, asked.duration_s
     if scene.solver.scheme == "paper-box":
         from .paper_box.driver import run as by_paper
 
-        return by_paper(scene, duration_s, progress)
-    run = Run(scene, duration_s, start)
+        yield asked, by_paper(scene, duration_s, lambda fraction: progress(fraction * duration_s))
+        return
+    run = Run(scene, duration_s, asked.start)
     run.compile()
     period_s = scene.waves.period_s if scene.waves is not None else 5.0
     chunk = max(1, min(MOST_SAMPLES, round(PERIODS_PER_CALL * period_s / scene.sample_step_s())))
     while not run.done():
         run.advance(chunk)
-        progress(run.fraction())
-    return run.trajectory()
+        progress(run.fraction() * duration_s)
+    yield asked, run.trajectory()
 
 
 def _duration(scene: Scene, periods: float | None, duration_s: float | None) -> float:

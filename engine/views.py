@@ -105,8 +105,8 @@ def exponent(run: "Trajectory", transient_periods: int | None) -> "Exponent":
     return found
 
 
-def verdict(run: "Trajectory", tighter: "Exponent | None" = None) -> "Verdict":
-    """`Trajectory.verdict`. tighter: exponent of a chaotic motion that was carried on at a tighter tolerance."""
+def verdict(run: "Trajectory", tighter: "Mapping[int, Exponent] | None" = None) -> "Verdict":
+    """`Trajectory.verdict`. tighter: as in `analysis.motion_regime`."""
     from analysis import motion_regime, poincare_section
 
     if not in_regular_waves(run.scene):

@@ -88,13 +88,13 @@ COLUMNS = (
 )
 
 
-def buoy_row(trajectory, transient_periods: int | None, check=None) -> dict[str, object]:
+def buoy_row(trajectory, transient_periods: int | None, checks=None) -> dict[str, object]:
     """The columns of `COLUMNS` that a trajectory of the tethered buoy fills; those left out are unknown.
 
     trajectory: an engine Trajectory of a scene with waves and a buoy, run to its end or not.
     transient_periods: wave periods left out; a record that does not outlast them by one has statistics only. None:
     those that the verdict has found.
-    check: how it goes on at a tighter tolerance, for a run that is chaotic (regime_tighter).
+    checks: how it went on at a tighter tolerance (`campaigns.judge.motion_of`), for a run that is chaotic.
     A run gets a verdict (`campaigns.judge`) if it reached its end and lasts for two looks; in three dimensions, where
     no perturbations are carried, for 40 periods. A loop release after the transient leaves offplane_growth unknown,
     because across the plane a loop has no rate of its own. `campaigns.buoy_sweep.space` fills the columns planar_.
@@ -107,7 +107,7 @@ def buoy_row(trajectory, transient_periods: int | None, check=None) -> dict[str,
     periods = (len(columns["time_s"]) - 1) * step_s / period_s
     if periods >= 0.0:
         row["periods"] = periods
-    verdict, wolf = judged(trajectory, periods, transient_periods, check)
+    verdict, wolf = judged(trajectory, periods, transient_periods, checks)
     if transient_periods is None:
         transient_periods = 0 if verdict is None else verdict.transient
     if measured := after_transient(trajectory, columns, transient_periods):
@@ -119,7 +119,7 @@ def buoy_row(trajectory, transient_periods: int | None, check=None) -> dict[str,
     if verdict is not None:
         row |= {
             "regime": verdict.regime,
-            "regime_tighter": None if check is None else verdict.regime,
+            "regime_tighter": _tighter(verdict),
             "regime_reason": verdict.reason,
             "evidence": evidence_text(verdict),
             **exponents(TANGENT, tangent_of(trajectory, transient_periods)),
@@ -128,17 +128,23 @@ def buoy_row(trajectory, transient_periods: int | None, check=None) -> dict[str,
     return row
 
 
-def judged(trajectory, periods: float, transient_periods: int | None, check=None):
+def judged(trajectory, periods: float, transient_periods: int | None, checks=None):
     """The Verdict on a run, and where its samples alone were judged Wolf's exponent; None where there is none."""
     scene, enough = trajectory.scene, periods - (transient_periods or 0)
     if trajectory.status != "ok":
         return None, None
     if carries_tangents(scene):
         asked = transient_periods is None or (carried(trajectory) and periods >= next_look(next_look()))
-        return (motion_of(trajectory, check) if asked else None), None
+        return (motion_of(trajectory, checks) if asked else None), None
     if scene.motion.dimensions == 3 and enough >= LEAST_JUDGED:
         return record_regime(trajectory, transient_periods or 0)
     return None, None
+
+
+def _tighter(verdict):
+    """What a motion is where it went on at a tighter tolerance; None where it did not."""
+    passed = next((test.passed for test in verdict.evidence if test.name == "tighter tolerance"), None)
+    return None if passed is None else verdict.regime
 
 
 def after_transient(trajectory, columns, transient_periods: int) -> dict[str, object]:

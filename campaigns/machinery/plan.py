@@ -20,7 +20,8 @@ from campaigns.machinery.cli import Running
 class Further(NamedTuple):
     """What a run does next: scene, wave periods, the Trajectory it goes on from (None: from rest), and what for.
 
-    check: the run stays as it is, and what is computed is handed to its row: describe(trajectory, check=).
+    check: the run stays as it is, and what is computed is handed to its row, with all such before it:
+    describe(trajectory, checks={periods of the run: Trajectory}).
     """
 
     scene: object

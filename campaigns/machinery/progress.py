@@ -208,19 +208,6 @@ def in_time(done: float, runs: int, lanes: int) -> float:
     return (full / lanes + last) / (rounds + bool(rest))
 
 
-def rounds_ahead(runs: float, reached: float, most: float, lanes: int) -> float:
-    """Wave periods that a worker still has to go, when `runs` go on beyond the look at `reached` periods.
-
-    Each look is half as much again away, and half of the runs are expected to go on after it; none beyond `most`.
-    """
-    ahead = 0.0
-    while reached < most and runs > 0.25:
-        step = min(0.5 * reached, most - reached)
-        ahead += max(runs / lanes, min(runs, 1.0)) * step
-        reached, runs = reached + step, 0.5 * runs
-    return ahead
-
-
 def heard(function: Callable, told: Callable[[float], None]) -> dict[str, Callable]:
     """{"progress": told} for a function that takes it, as engine.simulate does."""
     return {"progress": told} if "progress" in inspect.signature(function).parameters else {}

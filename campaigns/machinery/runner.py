@@ -1,35 +1,24 @@
 """Runs all simulations of a campaign that are not on disk yet and keeps table.csv up to date.
 
-Below `run_jobs` is what workers do: reuse or compute, save or send, make a row; whatever fails becomes a row too. A
-worker on this machine writes a run's file itself (`Plan.how.out`). One on another machine has no such folder (None): it
-hands the content of the file back, and the runner writes it where the campaign is. Every run is saved, and has its row,
-as soon as it ends: a killed campaign loses what was running and nothing else.
+What the workers do is in `campaigns.machinery.worker`. Every run is saved, and has its row, as soon as it ends: a
+killed campaign loses what was running and nothing else.
 """
 
 import contextlib
 import math
-import socket
 import tempfile
 import time
-import traceback
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
 
 import engine
-from campaigns.machinery.folder import (
-    CampaignStopped,
-    Table,
-    is_full,
-    keep_row,
-    kept_row,
-    trajectory_path,
-    write_failure,
-)
-from campaigns.machinery.plan import Further, Job, Outcome, Plan, Summary, length_of, name_of
+from campaigns.machinery.folder import Table, keep_row, trajectory_path
+from campaigns.machinery.plan import Job, Outcome, Plan, Summary, length_of, name_of
 from campaigns.machinery.pools import PoolBroken, opened
-from campaigns.machinery.progress import heard, in_time, rounds_ahead, shares, stage, tell, teller
+from campaigns.machinery.progress import in_time, shares, stage, tell
+from campaigns.machinery.worker import failed, reuse, run_jobs
 from engine.atomic import write_atomic
 
 ENGINE = "the engine, loaded or compiled once"
@@ -201,165 +190,3 @@ def _alone(execute: Callable, call: Callable, job: Job) -> Outcome:
         return outcomes[0]
     except PoolBroken as broken:
         return failed(job, "worker-died", f"its process ended twice, the second time running alone: {broken}")
-
-
-def run_jobs(plan: Plan, jobs: Sequence[Job]) -> list[Outcome]:
-    """The outcome of one job, whatever goes wrong in its run; of several jobs, those that came to an end.
-
-    Raises CampaignStopped where no other run would fare better: a full disk, other sources of the engine.
-    """
-    first = jobs[0]
-    if engine.source_hash() != first.engine:
-        raise CampaignStopped("the engine's sources here are not those the campaign began with; start it again")
-    told = teller(plan.told, name_of(jobs))
-    if first.going is not None:
-        return _carried_on(plan, jobs, told)
-    if len(jobs) == 1:
-        return [_run_one(plan, first, told)]
-    outcomes, length = [], {"periods": first.periods, "duration_s": first.duration_s}
-    try:
-        scenes = [job.scene for job in jobs]
-        for i, trajectory in plan.simulate_each(scenes, **length, **heard(plan.simulate_each, told)):
-            outcomes.append(_kept(plan, jobs[i], trajectory))
-    except CampaignStopped:
-        raise
-    except (Exception, SystemExit):
-        pass  # run again one by one, each of the jobs left says for itself what is wrong
-    return outcomes
-
-
-def _carried_on(plan: Plan, jobs: Sequence[Job], told: Callable[[float], None]) -> list[Outcome]:
-    """As `run_jobs`, of jobs that take as long as they need: in rounds, each to the next look of its runs.
-
-    What a run has done is on disk after each of its rounds, so that a killed campaign goes on from there.
-    """
-    there = {job.key: _so_far(plan, job) for job in jobs}
-    reached, spent = dict.fromkeys(there, 0.0), 0.0  # periods of each run; of the worker, whose lanes go together
-    outcomes, left = [], list(jobs)
-    while left:
-        asked: dict[float, list[tuple[Job, Further]]] = {}
-        for job in left:
-            trajectory, outcome = there[job.key]
-            further = job.going(job.scene, trajectory, None if outcome is None else outcome.row)
-            if further is None:
-                outcomes.append(outcome)
-            else:
-                asked.setdefault(further.periods, []).append((job, further))
-        left = []
-        reached |= {job.key: reached[job.key] + periods for periods, group in asked.items() for job, _ in group}
-        costs = {periods: math.ceil(len(group) / LANES) * periods for periods, group in asked.items()}
-        most = max((reached[job.key] for group in asked.values() for job, _ in group), default=0.0)
-        going_on = 0.5 * sum(map(len, asked.values()))
-        whole = spent + sum(costs.values()) + rounds_ahead(going_on, most, jobs[0].periods, LANES)
-        for periods, group in asked.items():
-            begun, cost = spent, costs[periods]
-            spent += cost
-            hear = partial(_heard_of, told, begun / whole, cost / whole)
-            try:
-                for i, part in _parts(plan, [further for _, further in group], periods, hear):
-                    job = group[i][0]
-                    before = there[job.key][0]
-                    if group[i][1].check:
-                        there[job.key] = before, _described(plan, job, before, check=part)
-                    else:
-                        joined = part if before is None else before.followed_by(part)
-                        there[job.key] = joined, _kept(plan, job, joined)
-                    left.append(job)
-            except CampaignStopped:
-                raise
-            except (Exception, SystemExit) as error:
-                if is_full(error):
-                    raise _stopped(plan, error) from error
-                if len(jobs) == 1:  # alone it says what is wrong; the others are run again one by one
-                    return [failed(jobs[0], "error", _reason(error))]
-    return outcomes
-
-
-def _heard_of(told: Callable[[float], None], before: float, share: float, fraction: float) -> None:
-    told(before + share * fraction)
-
-
-def _parts(plan: Plan, asked: list[Further], periods: float, hear: Callable) -> Iterator[tuple[int, object]]:
-    """(number, Trajectory) of what is asked, as the runs end; hear: a function of the share that is done."""
-    if plan.simulate_each is not None:
-        starts, more = [further.start for further in asked], heard(plan.simulate_each, hear)
-        yield from plan.simulate_each([further.scene for further in asked], periods=periods, starts=starts, **more)
-        return
-    for i, further in enumerate(asked):
-        start = {} if further.start is None else {"start": further.start}
-        yield i, plan.simulate(further.scene, periods=periods, **start)
-
-
-def _so_far(plan: Plan, job: Job):
-    """(trajectory, Outcome) of as much of a run as is there; (None, None) where nothing is."""
-    outcome = reuse(plan, job)
-    if outcome is None or outcome.row.get("status") not in ("ok", None):
-        return None, outcome
-    return engine.Trajectory.load(trajectory_path(plan.how.out, job.key)), outcome
-
-
-def _run_one(plan: Plan, job: Job, told: Callable[[float], None]) -> Outcome:
-    if (outcome := reuse(plan, job)) is not None:
-        return outcome
-    simulate = job.simulate or plan.simulate
-    try:
-        length = {"periods": job.periods, "duration_s": job.duration_s}
-        trajectory = simulate(job.scene, **length, **heard(simulate, told))
-    except (Exception, SystemExit) as error:
-        if is_full(error):
-            raise _stopped(plan, error) from error
-        return failed(job, "error", _reason(error))
-    return _kept(plan, job, trajectory)
-
-
-def _kept(plan: Plan, job: Job, trajectory) -> Outcome:
-    """Save a run that has been computed, or get it ready to be sent, and make its row."""
-    try:
-        content = trajectory.to_bytes({"run_key": job.key})
-        if plan.how.out is not None:
-            write_atomic(trajectory_path(plan.how.out, job.key), content)
-    except OSError as error:
-        raise _stopped(plan, error) from error
-    except Exception as error:
-        return failed(job, "error", f"not saved: {_reason(error)}")
-    outcome = _described(plan, job, trajectory)
-    return outcome if plan.how.out is not None else replace(outcome, content=content)
-
-
-def reuse(plan: Plan, job: Job) -> Outcome | None:
-    """The outcome of a run that is there already; None where it has to be computed, as where its file is damaged."""
-    out = plan.how.out
-    if out is None or not (path := trajectory_path(out, job.key)).exists():
-        return None
-    try:
-        trajectory = engine.Trajectory.load(path)
-    except Exception:  # truncated, emptied, not netCDF, from a foreign hand: whatever it is, the cure is the same
-        return None
-    row = kept_row(out, job.key, plan.row_maker)
-    return _described(plan, job, trajectory) if row is None else Outcome(job.key, row)
-
-
-def _described(plan: Plan, job: Job, trajectory, **more) -> Outcome:
-    start = time.perf_counter()
-    try:
-        row = (job.describe or plan.describe)(trajectory, **more)
-    except Exception as error:
-        row = {"status": "analysis-failed", "message": _reason(error)}
-    outcome = Outcome(job.key, row, time.perf_counter() - start)
-    if plan.how.out is not None:
-        keep_row(plan.how.out, job.key, plan.row_maker, row)
-    return outcome
-
-
-def _reason(error: BaseException) -> str:
-    frame = traceback.extract_tb(error.__traceback__)[-1]
-    return f"{type(error).__name__}: {error} (in {frame.name}, {Path(frame.filename).name}:{frame.lineno})"
-
-
-def failed(job: Job, status: str, message: str) -> Outcome:
-    """A run that left no record: its row says why."""
-    return Outcome(job.key, {"status": status, "message": message})
-
-
-def _stopped(plan: Plan, error: BaseException) -> CampaignStopped:
-    return CampaignStopped(write_failure(plan.how.out or f"the worker on {socket.gethostname()}", error))

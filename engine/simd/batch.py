@@ -2,7 +2,7 @@
 out; a lane whose run has ended gets the next run that waits."""
 
 import time
-from collections import deque
+from collections import namedtuple
 
 import numpy as np
 
@@ -25,7 +25,11 @@ OWN = ("at_rest", "max_newton", "max_releases", "loop_release", "end_at")
 
 
 def kind_of(scene):
-    """What scenes must have in common to share a batch: all whole numbers that kernels branch on or count to."""
+    """What scenes must have in common to share a batch: all whole numbers that kernels branch on or count to. None
+    for a scene that goes alone.
+    """
+    if not goes_in_lanes(scene):
+        return None
     tables = []
     record = record_of(scene, tables)[0]
     carried = scene.output.tangent_vectors, scene.output.lateral_growth
@@ -35,7 +39,7 @@ def kind_of(scene):
 class Machine:
     """COUNT lanes for runs of one kind."""
 
-    def __init__(self, run, periods):
+    def __init__(self, run):
         n, s = int(run.record["nodes"]), max(int(run.record["stages"]), 2)
         self.runs = [None] * COUNT
         self.records, self.states = np.zeros(COUNT, run.record.dtype), np.zeros(COUNT, STATE)
@@ -51,7 +55,7 @@ class Machine:
         )  # fmt: skip
         self.work = lane_work(n, col.BOX_WIDTH)
         room = STEPS if run.trail.followed else 0
-        self.followers = Followers(run, periods) if run.trail.followed else None
+        self.followers = Followers(run) if run.trail.followed else None
         steps = COUNT, room
         self.trail = Trail(
             np.zeros((*steps, 3)), np.zeros((*steps, s - 1, n, col.KAPPA)), np.zeros((*steps, s - 1, n, 2))
@@ -146,44 +150,41 @@ class Machine:
         self.states["trail"] = 0
 
 
-def shares(jobs):
-    """Groups of LEAST jobs (number, scene, duration_s, start) or more that may share a batch; others are left out."""
-    groups = {}
-    for job in jobs:
-        if goes_in_lanes(job[1]):
-            groups.setdefault(kind_of(job[1]), []).append(job)
-    return [group for group in groups.values() if len(group) >= LEAST]
+# A run that waits: its number, Scene, length (s) and FinalState to go on from, or None
+Asked = namedtuple("Asked", "number scene duration_s start")
 
 
-def run_through(jobs, progress):
-    """Run jobs of one kind; yields (number, Run) as they end, in no order.
+def run_through(waiting, progress):
+    """Run those that wait (Asked, all of one kind) side by side; yields (Asked, Trajectory) as they end, in no order.
 
-    progress: callable(share of these jobs that is done), called now and then.
+    waiting: deque, to which runs of the same kind may be added meanwhile. It is left with what too few would share.
+    progress: callable(seconds simulated of the runs that have not ended), called now and then.
     """
-    waiting, machine, done, numbers = deque(jobs), None, 0, [0] * COUNT
-    most_periods = max(
-        (duration_s + (0.0 if start is None else start.time_s)) / (scene.waves.period_s if scene.waves else 1.0)
-        for _, scene, duration_s, start in jobs
-    )
+    machine, asked = None, [None] * COUNT
     while True:
+        going = 0 if machine is None else sum(run is not None for run in machine.runs)
         for b in range(COUNT):
-            while waiting and (machine is None or machine.runs[b] is None):
-                number, scene, duration_s, start = waiting.popleft()
-                run = Run(scene, duration_s, start)
+            while waiting and (machine is None or machine.runs[b] is None) and going + len(waiting) >= LEAST:
+                next_one = waiting.popleft()
+                run = Run(next_one.scene, next_one.duration_s, next_one.start)
                 if run.done():  # no equilibrium to start from
-                    done += 1
-                    yield number, run
+                    yield next_one, run.trajectory()
                     continue
                 if machine is None:
-                    machine = Machine(run, int(most_periods) + 1)
+                    machine = Machine(run)
                     machine.compile()
                 machine.load(b, run)
-                numbers[b] = number
-        if machine is None or all(run is None for run in machine.runs):
+                asked[b] = next_one
+                going += 1
+        if going == 0:
             return
         for b in machine.advance():
             run = machine.unload(b)
-            done += 1
-            yield numbers[b], run
-        going = [state["samples"] / run.goal for state, run in zip(machine.states, machine.runs, strict=True) if run]
-        progress(float(done + sum(going)) / len(jobs))
+            yield asked[b], run.trajectory()
+        progress(
+            sum(
+                float(state["samples"]) / run.goal * one.duration_s
+                for state, run, one in zip(machine.states, machine.runs, asked, strict=True)
+                if run is not None
+            )
+        )

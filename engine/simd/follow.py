@@ -164,12 +164,12 @@ def lane_work(n, width):
 class Followers:
     """Perturbations of up to COUNT runs that carry the same number of them."""
 
-    def __init__(self, run, periods):
+    def __init__(self, run):
         n, s = int(run.record["nodes"]), max(int(run.record["stages"]), 2)
         k = self.count = run.trail.count
         self.sideways = run.trail.sideways
         self.periods = np.ones(COUNT)
-        self.nats, self.lateral_nats = np.zeros((COUNT, periods + 1, k)), np.zeros((COUNT, periods + 1))
+        self.nats, self.lateral_nats = np.zeros((COUNT, 1, k)), np.zeros((COUNT, 1))
         turn = LENGTH + k + 1, s, 3, (n, 6), (n, 4), (n, 4)
         self.turn = Turn(*(lane_zeros(*np.atleast_1d(size)) for size in turn))
         self.turn.numbers[RATE] = 1.0
@@ -183,12 +183,12 @@ class Followers:
 
     def load(self, b, run):
         """Put the perturbations of a run into a lane."""
-        self.periods[b] = run.trail.period_s
+        self.periods[b], periods = run.trail.period_s, len(run.trail.nats)
+        if (more := periods + 1 - self.nats.shape[1]) > 0:  # the last step of a run may reach into the next period
+            self.nats = np.pad(self.nats, ((0, 0), (0, more), (0, 0)))
+            self.lateral_nats = np.pad(self.lateral_nats, ((0, 0), (0, more)))
         self.nats[b] = self.lateral_nats[b] = 0.0
-        self.nats[b, : len(run.trail.nats)], self.lateral_nats[b, : len(run.trail.nats)] = (
-            run.trail.nats,
-            run.trail.lateral_nats,
-        )
+        self.nats[b, :periods], self.lateral_nats[b, :periods] = run.trail.nats, run.trail.lateral_nats
         for lanes, own in ((self.carried, run.trail.along), (self.across, run.trail.across)):
             for part, given in zip(lanes, own[:-1] if own else (), strict=False):
                 part[..., b] = given

@@ -79,11 +79,30 @@ def test_a_decay_is_a_period_once_it_is_over(multiplier, word):
     assert verdict.regime == word
 
 
-def test_chaos_has_to_survive_a_tighter_tolerance():
-    orbit = henon(1001)
+def going_on(value):
+    return Exponent(value, 0.02, "bits/period", "given", "" if np.isfinite(value) else "newton-failed")
+
+
+def test_chaos_has_to_survive_a_tighter_tolerance_after_the_look_that_finds_it():
+    orbit = henon(466)
+    growth = henon_growth(orbit)
     for value, word in ((0.6, "chaotic"), (0.01, "undecided"), (np.nan, "undecided")):
-        tighter = Exponent(value, 0.02, "bits/period", "given", "" if np.isfinite(value) else "newton-failed")
-        assert motion_regime(orbit, henon_growth(orbit), scale=1.0, tighter=tighter).regime == word
+        for end in (205, 465):  # two looks in a row, or one from 465 periods on
+            found = motion_regime(orbit[: end + 1], growth[:end], scale=1.0, tighter={end: going_on(value)})
+            assert found.regime == word and found.transient == end // 3
+    assert motion_regime(orbit, growth, scale=1.0, tighter={}).points == 465 - 465 // 3 + 1  # to be gone on from
+    refused = {135: going_on(0.01), 205: going_on(0.01), 310: going_on(0.01)}
+    assert motion_regime(orbit, growth, scale=1.0, tighter={**refused, 465: going_on(0.6)}).regime == "chaotic"
+
+
+def test_a_shrinking_flip_is_no_period_2():
+    """A motion that nears period 1 from both sides in turn repeats after 2 all the while."""
+    noise = 1e-3 * np.random.default_rng(2).normal(size=(1051, 2))
+    flip = np.outer((-0.994) ** np.arange(1051), [0.1, 0.05]) + noise
+    assert not any(motion_regime(flip[: n + 1], scale=2.0, tolerance=0.01).period for n in (135, 205))
+    assert motion_regime(flip, scale=2.0, tolerance=0.01).regime == "period-1"
+    stays = np.outer((-1.0) ** np.arange(136), [0.1, 0.05]) + noise[:136]
+    assert motion_regime(stays, scale=2.0, tolerance=0.01).regime == "period-2"
 
 
 def test_perturbations_may_be_carried_from_later_on():

@@ -14,7 +14,7 @@ from campaigns.buoy_sweep.rows import COLUMNS
 from campaigns.machinery import progress
 from campaigns.machinery.cli import Running
 from campaigns.machinery.plan import Job, Plan, length_of, name_of
-from campaigns.machinery.progress import ASKED_S, Stage, heard, in_time, rounds_ahead, shares, stage, teller
+from campaigns.machinery.progress import ASKED_S, Stage, heard, in_time, shares, stage, teller
 from campaigns.machinery.runner import LANES, _mixed, run_jobs
 from campaigns.machinery.session import MOST_LINES
 from engine import load_scene, simulate, simulate_each
@@ -45,12 +45,6 @@ def test_the_time_left_is_right_within_a_factor_of_two_from_a_fifth_on(costs, si
         shares = (in_time(np.interp(t, *worker), count, LANES) for worker, count in zip(workers, (25, 24), strict=True))
         one.seen.append((100.0 * t / end, float(np.dot((25, 24), [*shares]))))
     assert 0.5 < one.left_s() / (100.0 * (1.0 - since)) < 2.0
-
-
-def test_rounds_ahead_end_at_the_budget_and_halve():
-    assert rounds_ahead(16.0, 100.0, 150.0, LANES) == 16.0 / LANES * 50.0
-    assert rounds_ahead(16.0, 100.0, 200.0, LANES) == 16.0 / LANES * 50.0 + 8.0 / LANES * 50.0
-    assert rounds_ahead(1.0, 200.0, 200.0, LANES) == rounds_ahead(0.2, 100.0, 200.0, LANES) == 0.0
 
 
 def test_the_lanes_of_the_engine_are_those_of_the_time_left():

@@ -69,6 +69,26 @@ def test_in_lanes_too_and_through_files(tmp_path):
         assert_continues(simulate(scene, periods=sum(PARTS)), found)
 
 
+def test_a_run_that_ends_goes_on_among_the_others_as_long_as_somebody_says():
+    """To other lengths, and from its sixth period on with perturbations."""
+    steepness, lengths, shares = (0.02, 0.04, 0.06), (3, 9, 6), []
+    found: dict[int, Trajectory] = {}
+
+    def then(number, part):
+        found[number] = found[number].followed_by(part) if number in found else part
+        done = round(found[number].columns["time_s"][-1] / part.scene.waves.period_s)
+        more = CARRIED if done >= 6 else {}
+        return (scene_of({**SMALL, **more, **kA[number]}), 3, part) if done < lengths[number] else None
+
+    kA = [{"waves.steepness": value} for value in steepness]
+    scenes = [scene_of({**SMALL, **value}) for value in kA]
+    assert len(list(simulate_each(scenes, periods=[3, 3, 3], progress=shares.append, then=then))) == 6
+    assert all(0.0 <= share <= 1.0 for share in shares) and shares[-1] == 1.0
+    for scene, length, run in zip(scenes, lengths, found.values(), strict=True):
+        assert np.array_equal(simulate(scene, periods=length).columns["radius_m"], run.columns["radius_m"])
+    assert np.isfinite(found[1].tangent.growth_nats[6:]).all() and found[0].tangent is None
+
+
 def test_perturbations_can_be_carried_from_later_on():
     whole = simulate(scene_of({**SMALL, **CARRIED}), periods=6)
     plain = simulate(scene_of(SMALL), periods=3)

@@ -1,0 +1,205 @@
+"""What a worker does: reuse or compute, save or send, make a row; whatever fails becomes a row too.
+
+A worker on this machine writes a run's file itself (`Plan.how.out`). One on another machine has no such folder (None):
+it hands the content of the file back, and the runner writes it where the campaign is.
+"""
+
+import socket
+import time
+import traceback
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+
+import engine
+from campaigns.machinery.folder import (
+    CampaignStopped,
+    is_full,
+    keep_row,
+    kept_row,
+    trajectory_path,
+    write_failure,
+)
+from campaigns.machinery.plan import Further, Job, Outcome, Plan, name_of
+from campaigns.machinery.progress import heard, teller
+from engine.atomic import write_atomic
+
+GO_ON = 0.5  # share of the runs that have another part after each of theirs
+
+
+def run_jobs(plan: Plan, jobs: Sequence[Job]) -> list[Outcome]:
+    """The outcome of one job, whatever goes wrong in its run; of several jobs, those that came to an end.
+
+    Raises CampaignStopped where no other run would fare better: a full disk, other sources of the engine.
+    """
+    first = jobs[0]
+    if engine.source_hash() != first.engine:
+        raise CampaignStopped("the engine's sources here are not those the campaign began with; start it again")
+    told = teller(plan.told, name_of(jobs))
+    if first.going is not None:
+        return _carried_on(plan, jobs, told)
+    if len(jobs) == 1:
+        return [_run_one(plan, first, told)]
+    outcomes, length = [], {"periods": first.periods, "duration_s": first.duration_s}
+    try:
+        scenes = [job.scene for job in jobs]
+        for i, trajectory in plan.simulate_each(scenes, **length, **heard(plan.simulate_each, told)):
+            outcomes.append(_kept(plan, jobs[i], trajectory))
+    except CampaignStopped:
+        raise
+    except (Exception, SystemExit):
+        pass  # run again one by one, each of the jobs left says for itself what is wrong
+    return outcomes
+
+
+@dataclass
+class _Standing:
+    """How far a run has come that takes as long as it needs: its Trajectory and Outcome, the runs that went on from it
+    at a tighter tolerance, by its periods then, and what it does at present (`Further`).
+    """
+
+    trajectory: object = None
+    outcome: Outcome | None = None
+    checks: dict[int, object] = field(default_factory=dict)
+    further: Further | None = None
+
+
+def _carried_on(plan: Plan, jobs: Sequence[Job], told: Callable[[float], None]) -> list[Outcome]:
+    """As `run_jobs`, of jobs that take as long as they need: each goes on when it has been judged, among the others.
+
+    What a run has done is on disk whenever it is judged, so that a killed campaign goes on from there.
+    """
+    runs = [_so_far(plan, job) for job in jobs]
+    known = 0.0  # wave periods that were asked for
+
+    def next_of(i: int) -> Further | None:
+        nonlocal known
+        run, job = runs[i], jobs[i]
+        row = None if run.outcome is None else run.outcome.row
+        run.further = job.going(job.scene, run.trajectory, row)
+        known += 0.0 if run.further is None else run.further.periods
+        return run.further
+
+    def judged(i: int, part) -> tuple | None:
+        run, job = runs[i], jobs[i]
+        if run.further.check:
+            run.checks[round(run.outcome.row["periods"])] = part
+            run.outcome = _described(plan, job, run.trajectory, run.checks)
+        else:
+            run.trajectory = part if run.trajectory is None else run.trajectory.followed_by(part)
+            run.outcome = _kept(plan, job, run.trajectory, run.checks)
+        further = next_of(i)
+        return None if further is None else (further.scene, further.periods, further.start)
+
+    def hear(share: float) -> None:
+        going = [run.further.periods for run in runs if run.further is not None]
+        told(share * known / (known + sum(_still_expected(reached, jobs[0].periods) for reached in going)))
+
+    try:
+        asked = [i for i in range(len(jobs)) if next_of(i) is not None]
+        first = [runs[i].further for i in asked]
+        if plan.simulate_each is None:
+            for i in asked:
+                while (further := runs[i].further) is not None:
+                    start = {} if further.start is None else {"start": further.start}
+                    judged(i, plan.simulate(further.scene, periods=further.periods, **start))
+        elif asked:
+            lengths, starts = [further.periods for further in first], [further.start for further in first]
+            scenes, then = [further.scene for further in first], lambda number, part: judged(asked[number], part)
+            more = heard(plan.simulate_each, hear)
+            for _ in plan.simulate_each(scenes, periods=lengths, starts=starts, then=then, **more):
+                pass
+    except CampaignStopped:
+        raise
+    except (Exception, SystemExit) as error:
+        if is_full(error):
+            raise _stopped(plan, error) from error
+        if len(jobs) == 1:  # alone it says what is wrong; the others are run again one by one
+            return [failed(jobs[0], "error", _reason(error))]
+    return [run.outcome for run in runs if run.further is None]
+
+
+def _still_expected(step: float, most: float) -> float:
+    """Wave periods that a run is expected to take after its present part: GO_ON of the runs have another part, half as
+    long again; none beyond `most`.
+    """
+    ahead, share = 0.0, GO_ON
+    while step < most:
+        step *= 1.5
+        ahead, share = ahead + share * step, share * GO_ON
+    return ahead
+
+
+def _so_far(plan: Plan, job: Job) -> _Standing:
+    """As much of a run as is there."""
+    outcome = reuse(plan, job)
+    if outcome is None or outcome.row.get("status") not in ("ok", None):
+        return _Standing(outcome=outcome)
+    return _Standing(engine.Trajectory.load(trajectory_path(plan.how.out, job.key)), outcome)
+
+
+def _run_one(plan: Plan, job: Job, told: Callable[[float], None]) -> Outcome:
+    if (outcome := reuse(plan, job)) is not None:
+        return outcome
+    simulate = job.simulate or plan.simulate
+    try:
+        length = {"periods": job.periods, "duration_s": job.duration_s}
+        trajectory = simulate(job.scene, **length, **heard(simulate, told))
+    except (Exception, SystemExit) as error:
+        if is_full(error):
+            raise _stopped(plan, error) from error
+        return failed(job, "error", _reason(error))
+    return _kept(plan, job, trajectory)
+
+
+def _kept(plan: Plan, job: Job, trajectory, checks: dict | None = None) -> Outcome:
+    """Save a run that has been computed, or get it ready to be sent, and make its row."""
+    try:
+        content = trajectory.to_bytes({"run_key": job.key})
+        if plan.how.out is not None:
+            write_atomic(trajectory_path(plan.how.out, job.key), content)
+    except OSError as error:
+        raise _stopped(plan, error) from error
+    except Exception as error:
+        return failed(job, "error", f"not saved: {_reason(error)}")
+    outcome = _described(plan, job, trajectory, checks)
+    return outcome if plan.how.out is not None else replace(outcome, content=content)
+
+
+def reuse(plan: Plan, job: Job) -> Outcome | None:
+    """The outcome of a run that is there already; None where it has to be computed, as where its file is damaged."""
+    out = plan.how.out
+    if out is None or not (path := trajectory_path(out, job.key)).exists():
+        return None
+    try:
+        trajectory = engine.Trajectory.load(path)
+    except Exception:  # truncated, emptied, not netCDF, from a foreign hand: whatever it is, the cure is the same
+        return None
+    row = kept_row(out, job.key, plan.row_maker)
+    return _described(plan, job, trajectory) if row is None else Outcome(job.key, row)
+
+
+def _described(plan: Plan, job: Job, trajectory, checks: dict | None = None) -> Outcome:
+    start, more = time.perf_counter(), {} if job.going is None else {"checks": checks or {}}
+    try:
+        row = (job.describe or plan.describe)(trajectory, **more)
+    except Exception as error:
+        row = {"status": "analysis-failed", "message": _reason(error)}
+    outcome = Outcome(job.key, row, time.perf_counter() - start)
+    if plan.how.out is not None:
+        keep_row(plan.how.out, job.key, plan.row_maker, row)
+    return outcome
+
+
+def _reason(error: BaseException) -> str:
+    frame = traceback.extract_tb(error.__traceback__)[-1]
+    return f"{type(error).__name__}: {error} (in {frame.name}, {Path(frame.filename).name}:{frame.lineno})"
+
+
+def failed(job: Job, status: str, message: str) -> Outcome:
+    """A run that left no record: its row says why."""
+    return Outcome(job.key, {"status": status, "message": message})
+
+
+def _stopped(plan: Plan, error: BaseException) -> CampaignStopped:
+    return CampaignStopped(write_failure(plan.how.out or f"the worker on {socket.gethostname()}", error))
