@@ -65,7 +65,7 @@ def test_a_column_is_told_by_its_name_or_refused_with_all_names():
     run = moved(0.5)
     np.testing.assert_array_equal(run.section("radius_m").points[:, 0], run.section().points[:, 0])
     for view in (run.section, run.spectrum):
-        with pytest.raises(ValueError, match="'radius'.*radius_m.*tension_top_N"):
+        with pytest.raises(ValueError, match=r"'radius'.*radius_m.*tension_top_N"):
             view("radius")
 
 
