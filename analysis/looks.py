@@ -41,7 +41,7 @@ POSITIVE, LATER = 3.5, 2.0  # errors by which an exponent is positive: of the lo
 LEAST_BITS = 10.0  # growth over a look
 LEAST_CHAOTIC = 465  # periods from which one look is enough, with what follows it
 CLEAR = 3.0  # errors, where one look is enough for a torus
-COMES_NEARER = 0.8  # what is left of the steps towards a period in the later half of the last part
+COMES_NEARER = 0.7  # what is left of the steps towards a period in the later half of the last part
 ABOUT_ZERO = 0.06  # bits per period
 STAYS, NEAR = 0.35, 0.35  # nats by which neighbours may part; what they are apart at most, in sizes of the section
 ALIGNED = 10  # periods that perturbations need to turn to the fastest growth
@@ -183,11 +183,12 @@ def _clear(word, evidence):
 
 
 def _comes_nearer(estimate: PeriodEstimate):
-    """Whether the steps of the nearest period shrink: such a motion will be told without perturbations."""
+    """Whether the steps of the nearest period, or of a divisor, shrink: it will be told without perturbations."""
     if estimate.period is not None or not np.isfinite(estimate.residual).any():
         return False
-    trend = estimate.trend_nats_per_period[np.nanargmin(estimate.residual)]
-    return bool(math.exp(trend * (estimate.points // 4)) < COMES_NEARER)
+    nearest = int(np.nanargmin(estimate.residual)) + 1
+    trends = [estimate.trend_nats_per_period[d - 1] for d in range(1, nearest + 1) if nearest % d == 0]
+    return math.exp(min(trends) * (estimate.points // 4)) < COMES_NEARER
 
 
 def _neighbours(section, tolerance):

@@ -86,12 +86,12 @@ def transverse_lyapunov(
 
 def _tapered_mean(values):
     """Tapered means of values (m, k), and their standard errors from the lowest frequencies (head of this file)."""
-    from scipy.signal.windows import hann, tukey
-
+    # written out, because scipy.signal takes a second to import
     count = len(values)
-    weight = tukey(count + 2, TAPER)[1:-1]
+    t = np.arange(1, count + 1) / (count + 1)
+    weight = np.sin(np.pi * np.minimum(np.minimum(t, 1.0 - t) / TAPER, 0.5)) ** 2
     weight /= weight.sum()
-    mean, window = weight @ values, hann(count + 2)[1:-1]
+    mean, window = weight @ values, np.sin(np.pi * t) ** 2
     waves = np.exp(-2j * np.pi * np.outer(FREQUENCIES, np.arange(count)) / count)
     power = np.abs(waves @ ((values - mean) * window[:, None])) ** 2 / np.sum(window**2)
     return mean, np.sqrt(power.mean(axis=0) * np.sum(weight**2))

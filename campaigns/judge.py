@@ -131,4 +131,5 @@ def judged_job(order, labels: dict, scene):
     from campaigns.machinery.plan import Job
 
     going = partial(going_on, budget=order.periods, looks=order.looks) if carries_tangents(scene) else None
-    return Job(labels, scene, order.periods, going=going, made="looks" if order.looks and going else "")
+    looks = order.looks and going is not None
+    return Job(labels, scene, order.periods, going=going, carrying=looks, made="looks" if looks else "")

@@ -3,31 +3,23 @@
 import pytest
 
 MANY = 1000  # tests, from which nearly every kernel is needed
-
-
-def _planar():
-    from engine import load_scene, simulate, simulate_batch
-
-    carried = {"output.tangent_vectors": 1, "output.lateral_growth": True}
-    for changes in ({}, carried):
-        scenes = [
-            load_scene("tethered_buoy", {"tether.nodes": 5, "waves.steepness": kA, **changes}) for kA in (0.01, 0.02)
-        ]
-        simulate(scenes[0], duration_s=0.2)
-        simulate_batch(scenes, duration_s=0.2)
-
-
-def _spatial_and_paper():
-    from engine import load_scene, simulate
-
-    for changes in ({"motion.dimensions": 3}, {"solver.scheme": "paper-box"}):
-        simulate(load_scene("tethered_buoy", {"tether.nodes": 5, **changes}), duration_s=0.2)
+SCENES = (  # what most tests need: changes of the tethered buoy, and as of `engine.pieces.pieces_of`
+    ({}, True, True),
+    ({}, False, True),
+    ({"buoy.submergence": "spherical-cap"},),
+    ({"motion.dimensions": 3},),
+    ({"solver.scheme": "paper-box"},),
+)
 
 
 @pytest.hookimpl(trylast=True)
 def pytest_collection_finish(session):
     """Compile after the process has told which tests it has found: nobody waits for it."""
     worker = getattr(session.config, "workerinput", {}).get("workerid")
-    compile_kernels = {"gw0": _planar, "gw1": _spatial_and_paper}.get(worker)
-    if compile_kernels and len(session.items) > MANY:
-        compile_kernels()
+    if worker in ("gw0", "gw1") and len(session.items) > MANY:
+        from engine import compile_piece, load_scene, shares_of
+
+        shares = shares_of((load_scene("tethered_buoy", changes), *how) for changes, *how in SCENES)
+        for pieces in shares[int(worker[-1]) :: 2]:
+            for key, scene in pieces.items():
+                compile_piece(key, scene)

@@ -12,13 +12,11 @@ shock, and a series of grids for case 4 and for case 3', which stays smooth. Not
 """
 
 from collections.abc import Callable, Iterator
-from functools import partial
 from math import isfinite
 from typing import TYPE_CHECKING
 
 from campaigns.machinery import cli
 from campaigns.machinery.plan import Job
-from campaigns.machinery.runner import run
 from campaigns.study import Measures, Order, Study
 
 if TYPE_CHECKING:
@@ -35,7 +33,6 @@ STRAIGHT_NODES = 3201
 SERIES_CASES, SERIES_NODES = ("4", "3p"), (201, 401, 801, 1601)
 STRAIGHT_STEP_S, BIRTH_STEPS = 0.0005, 0.05  # of their profiles; at most as a share of the time to the shock's birth
 DOUBLED_STEP_S = 0.002  # of the profiles on doubled grids
-COMPILE_RUN_S = 0.001
 LONGEST_S = 0.2
 
 
@@ -151,7 +148,6 @@ STUDY = Study(
     cases=cases,
     measures=measures,
     parameters=lambda order: {"cases": list(order.own.cases), "companions": not order.own.no_companions},
-    runs=lambda order: partial(run, compile_run_s=COMPILE_RUN_S),
     beside=beside,
     answer=answer,
     together=False,

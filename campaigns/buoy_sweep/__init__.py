@@ -133,6 +133,7 @@ STUDY = Study(
     parameters=parameters,
     runs=lambda order: run_where_needed if dimensions_of(order) == "auto" else run,
     beside=beside,
+    after=0.2,
     answer=answer,
 )
 main, parser, read_order = STUDY.main, STUDY.parser, STUDY.read_order

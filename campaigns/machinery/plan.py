@@ -37,6 +37,7 @@ class Job:
     simulate, describe: in place of the plan's, for campaigns whose runs are not all made or described alike.
     going(scene, trajectory, row): for a run as long as it needs: what it does next (`Further`), None when it is done;
     trajectory and row are those so far, None before its first. `periods` is then the most that it may take.
+    carrying: whether it may go on with perturbations that its scene does not carry.
     made: what else the result depends on, where the run is not the engine's own or not the only one of its scene.
     engine: hash of the engine's sources with which the campaign began.
     """
@@ -48,6 +49,7 @@ class Job:
     simulate: Callable | None = None
     describe: Callable | None = None
     going: Callable | None = None
+    carrying: bool = False
     made: str = ""
     engine: str = field(default_factory=lambda: engine.source_hash())
 
@@ -106,8 +108,8 @@ class Plan:
     row_maker: hash of whatever shapes a row (`campaigns.machinery.folder.made_by`); empty: rows are not kept.
     simulate_each(scenes, periods=, duration_s=): yields (number of the scene, Trajectory) as runs end; where it is
     given, runs that can go side by side share a worker (`campaigns.machinery.runner.groups_of`). Both are also given
-    progress=, where they take it. said: what the runs are called while they go; told: folder where workers say how far
-    they are (`campaigns.machinery.progress`).
+    progress=, where they take it. said, then: what the runs are called, and what follows them (`progress.Stage`); told:
+    folder where workers say how far they are.
     how.out: None in the plan that a worker gets which does not see the folder.
     """
 
@@ -118,6 +120,7 @@ class Plan:
     row_maker: str = ""
     simulate_each: Callable | None = None
     said: str = "runs"
+    then: Callable[[float], float] | None = None
     told: Path | None = None
 
     @property

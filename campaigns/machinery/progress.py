@@ -13,7 +13,6 @@ That does for processes, threads and dask alike; a worker that does not see the 
 
 import contextlib
 import inspect
-import math
 import os
 import shutil
 import sys
@@ -28,7 +27,6 @@ DRAWN_S = 0.25  # between two drawings on a terminal
 FIRST_S, SAID_S = 1.5, 8.0  # to the first line elsewhere, and between two lines
 ASKED_S = 3.0  # of a stage before its time left is told
 TOLD_S = 0.3  # between two words of a worker
-COMPILING_S = 15.0  # since the last kernel: some take long
 BAR = 20  # characters
 RECENT = 0.5  # share of the time so far from which the speed is taken: runs that come later may be slower
 
@@ -37,55 +35,64 @@ RECENT = 0.5  # share of the time so far from which the speed is taken: runs tha
 class Stage:
     """A piece of work that takes a while. far() -> how much of `total` is done; without a total only the time is told.
 
-    Where machine code is compiled meanwhile, by whichever process, that is said too.
+    then(seconds that it takes in all) -> seconds of what follows it, to the end of the stage around it; None: unknown.
+    How many kernels are compiled meanwhile, by whichever process, is said too.
     """
 
     what: str
     total: float = 0.0
     unit: str = ""
     far: Callable[[], float] | None = None
+    then: Callable[[float], float] | None = None
     began: float = field(default_factory=time.monotonic)
-    seen: deque = field(default_factory=lambda: deque(maxlen=4096))  # (seconds, done)
-    compiled: tuple[int, float] = (0, -math.inf)  # kernels, and when there was one more
-    outer: bool = False  # whether there is, or was, a stage within it
+    seen: deque = field(default_factory=lambda: deque([(0.0, 0.0)], maxlen=4096))  # (seconds, done)
 
-    def look(self) -> float:
-        """Seconds since it began; how much is done by then is kept for `left_s`."""
+    def look(self) -> tuple[float, float]:
+        """Seconds since it began, and how much is done by then: kept for `left_s`."""
         now = time.monotonic() - self.began
         self.seen.append((now, min(self.far(), self.total) if self.far is not None else 0.0))
-        if (store := sys.modules.get("machine_code.store")) is not None:
-            kernels = store.made_since(time.time() - now)
-            self.compiled = (kernels, now) if kernels > self.compiled[0] else self.compiled
-        return now
+        return self.seen[-1]
 
     def left_s(self) -> float | None:
         """Seconds to its end at the speed of the last RECENT of its time; None where that is not known yet."""
-        if not self.seen or self.seen[-1][0] < ASKED_S:
-            return None
         now, done = self.seen[-1]
         since, before = next(one for one in self.seen if one[0] >= (1.0 - RECENT) * now)
-        return (self.total - done) * (now - since) / (done - before) if done > before else None
+        known = now >= ASKED_S and before < done < self.total
+        return (self.total - done) * (now - since) / (done - before) if known else None
 
-    def told(self) -> str:
-        """The line behind its name: how far, how long so far, how long still; what it counts, what is compiled."""
-        now, parts = self.look(), []
+    def told(self, around: list["Stage"]) -> str:
+        """The line behind its name: how far, how long so far, how long still; what it counts, what is compiled.
+
+        around: the stages that it lies in, the innermost first.
+        """
+        now, done = self.look()
+        parts = [_clock(now), *([f"{kernels} kernels compiled"] if (kernels := self._kernels()) else [])]
         if self.total:
-            share, left = self.seen[-1][1] / self.total, self.left_s()
-            parts.append(f"[{'#' * int(BAR * share):-<{BAR}}] {share:3.0%}")
-            parts.append("time left not known yet" if left is None else f"about {_clock(left)} left")
-        parts.insert(1, _clock(now))
-        if now - self.compiled[1] < COMPILING_S:
-            parts.append(f"compiling, {self.compiled[0]} kernels so far")
-        if self.total:
-            parts.append(f"of {self.total:,.0f} {self.unit}")
+            bar = f"[{'#' * int(BAR * done / self.total):-<{BAR}}] {done / self.total:3.0%}"
+            parts = [bar, *parts, self._left([self, *around]), f"of {self.total:,.0f} {self.unit}"]
         return ", ".join(parts)
 
+    def _kernels(self) -> int:
+        """How many any process has compiled since it began."""
+        store = sys.modules.get("machine_code.store")
+        return store.made_since(time.time() - self.seen[-1][0]) if store is not None else 0
+
+    def _left(self, stages: list["Stage"]) -> str:
+        left = self.left_s()
+        if left is None:
+            return "time left not known"
+        if any(one.then is None for one in stages):
+            return f"about {_clock(left)} left of this"
+        for one in stages:  # what is around it does not end before it
+            now = one.look()[0]
+            left = max(left, one.left_s() or 0.0)
+            left += one.then(now + left)
+        return f"about {_clock(left)} left"
+
     def ended(self) -> str:
-        """The last line; "" of a stage that was short, or neither counted nor compiled anything of its own."""
-        now, kernels = self.look(), self.compiled[0]
-        more = f"{kernels} kernels compiled, " if kernels else ""
-        told = now > ASKED_S and (self.far is not None or (kernels and not self.outer))
-        return f"{_named()}: ended, {more}{_clock(now)}\n" if told else ""
+        """The last line; "" of a stage that was short or counted nothing."""
+        told = self.far is not None and self.look()[0] > ASKED_S
+        return f"{_named()}: ended, {_clock(self.seen[-1][0])}\n" if told else ""
 
 
 _open: list[Stage] = []
@@ -94,12 +101,10 @@ _line = {"ended": threading.Event(), "next_s": 0.0}  # of the thread that draws;
 
 
 @contextlib.contextmanager
-def stage(what: str, total: float = 0.0, unit: str = "", far: Callable[[], float] | None = None) -> Iterator[Stage]:
-    """Show a `Stage` for as long as the `with` lasts."""
-    one = Stage(what, total, unit, far)
+def stage(what: str, *counted: object, **more: object) -> Iterator[Stage]:
+    """Show a `Stage` of these fields for as long as the `with` lasts."""
+    one = Stage(what, *counted, **more)
     with _lock:
-        for outer in _open:
-            outer.outer = True
         _open.append(one)
         if len(_open) == 1:
             _line.update(ended=threading.Event(), next_s=one.began + FIRST_S)
@@ -108,17 +113,26 @@ def stage(what: str, total: float = 0.0, unit: str = "", far: Callable[[], float
         yield one
     finally:
         with _lock:
-            _wipe()
             _write(one.ended())
             _open.remove(one)
             if not _open:
                 _line["ended"].set()
 
 
+def counting(what: str, seconds: float) -> contextlib.AbstractContextManager[Stage]:
+    """The last `stage` within another one, whose time is known beforehand."""
+    began = time.monotonic()
+    return stage(what, seconds, "s", lambda: time.monotonic() - began, last)
+
+
+def last(_seconds: float) -> float:
+    """`Stage.then` of a stage that nothing follows."""
+    return 0.0
+
+
 def tell(text: str) -> None:
     """A line of its own on stderr, while a stage may be shown there."""
     with _lock:
-        _wipe()
         _write(f"{text}\n")
 
 
@@ -127,25 +141,21 @@ def _show(ended: threading.Event) -> None:
     while not ended.is_set():
         with _lock:
             if _open and not ended.is_set():
-                _draw(next((one for one in reversed(_open) if one.far), _open[-1]))
+                _draw()
         ended.wait(DRAWN_S)
 
 
-def _draw(one: Stage) -> None:
-    text = one.told()
+def _draw() -> None:
+    shown = next((i for i in reversed(range(len(_open))) if _open[i].far), len(_open) - 1)
+    text = _open[shown].told(_open[:shown][::-1])
     if _terminal():
-        names, width = [other.what for other in _open], shutil.get_terminal_size().columns - 1
+        names, width = [one.what for one in _open], shutil.get_terminal_size().columns - 1
         while len(names) > 1 and len(": ".join([*names, text])) > width:
             names.pop(0)
-        _write(f"\r\x1b[K{': '.join([*names, text])[:width]}")
+        _write(": ".join([*names, text])[:width])
     elif time.monotonic() >= _line["next_s"]:
         _write(f"{_named()}: {text}\n")
         _line["next_s"] = time.monotonic() + SAID_S
-
-
-def _wipe() -> None:
-    if _terminal():
-        _write("\r\x1b[K")
 
 
 def _terminal() -> bool:
@@ -155,8 +165,9 @@ def _terminal() -> bool:
 
 
 def _write(text: str) -> None:
+    """In place of the line of a terminal, behind the lines of a file."""
     with contextlib.suppress(OSError, ValueError, AttributeError):  # nobody listens any more
-        sys.stderr.write(text)
+        sys.stderr.write(("\r\x1b[K" if _terminal() else "") + text)
         sys.stderr.flush()
 
 
@@ -188,10 +199,26 @@ def teller(folder: Path | None, name: str) -> Callable[[float], None]:
     return told
 
 
+@contextlib.contextmanager
+def ticking(told: Callable[[float], None], seconds: float) -> Iterator[None]:
+    """Tell, while the `with` lasts, how much of so many seconds of processor time this process has taken."""
+    began, ended = time.process_time(), threading.Event()
+
+    def tick() -> None:
+        while not ended.wait(TOLD_S):
+            told(min((time.process_time() - began) / seconds, 1.0))
+
+    threading.Thread(target=tick, daemon=True).start()
+    try:
+        yield
+    finally:
+        ended.set()
+
+
 def shares(folder: Path) -> dict[str, float]:
     """The last word of every `teller` of a folder, by name."""
     found = {}
-    for path in folder.iterdir():
+    for path in (path for path in folder.iterdir() if not path.suffix):  # of a file that is being written
         with contextlib.suppress(OSError, ValueError):
             found[path.name] = float(path.read_text(encoding="ascii"))
     return found

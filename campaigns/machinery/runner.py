@@ -17,12 +17,11 @@ import engine
 from campaigns.machinery.folder import Table, keep_row, trajectory_path
 from campaigns.machinery.plan import Job, Outcome, Plan, Summary, length_of, name_of
 from campaigns.machinery.pools import PoolBroken, opened
-from campaigns.machinery.progress import in_time, shares, stage, tell
+from campaigns.machinery.progress import in_time, shares, stage, tell, teller, ticking
 from campaigns.machinery.worker import failed, reuse, run_jobs
 from engine.atomic import write_atomic
 
-ENGINE = "the engine, loaded or compiled once"
-COMPILE_RUN_S = 0.1  # long enough to go through every kernel, too short to cost anything
+ENGINE = "machine code, compiled once and then loaded"
 MOST = 96  # jobs of a group: results reach the table group by group
 MOST_SENT = 8  # where a group's runs are sent together: one for each lane, so a lost worker costs what was running
 GOLDEN = 0.5 * (math.sqrt(5.0) - 1.0)  # its multiples, less whole numbers, fill any range evenly
@@ -30,18 +29,14 @@ LANES = 8  # of a worker, as `engine.simd.vector.COUNT`, which is slow to import
 FEWEST = 4  # jobs for each worker below which they are not put together
 
 
-def run(plan: Plan, jobs: list[Job], compile_run_s: float = COMPILE_RUN_S) -> tuple[dict[str, float], Summary]:
-    """Compile and do the runs; returns the times of both and the summary.
-
-    compile_run_s: length of the run that only compiles, long enough for the scenes at hand to go through every kernel.
-    """
+def run(plan: Plan, jobs: list[Job]) -> tuple[dict[str, float], Summary]:
+    """Compile and do the runs; returns the times of both and the summary."""
     missing = [job for job in jobs if not trajectory_path(plan.how.out, job.key).exists()]
     start = time.perf_counter()
     if missing and plan.sends and plan.how.dask_address is not None:
         tell("each worker compiles the engine in its first run, unless it has done so before")
     elif missing:
-        with stage(ENGINE):
-            _compile(plan, missing, compile_run_s)
+        _compile(plan, missing)
     compiled = time.perf_counter()
     summary = run_campaign(plan, jobs)
     run_s = time.perf_counter() - compiled
@@ -83,22 +78,40 @@ def _mixed(jobs: list[Job]) -> list[Job]:
     return [jobs[i] for i in sorted(range(len(jobs)), key=lambda i: i * GOLDEN % 1.0, reverse=True)]
 
 
-def _compile(plan: Plan, missing: list[Job], duration_s: float) -> None:
-    # Two workers that start together would each compile for ten seconds; after this they find the code on disk.
-    # A plane, space, and runs side by side have machine code of their own.
-    groups = groups_of(plan, missing)
-    together = {job.key for group in groups for job in group}
-    alone = {job.scene.motion.dimensions: job.scene for job in reversed(missing) if job.key not in together}
-    calls = [partial(plan.simulate, scene) for scene in alone.values()]
-    if groups:
-        pair = [job.scene for job in groups[0][:2]]
-        calls.append(lambda **length: list(plan.simulate_each(pair, **length)))
-    for call in calls:
-        try:
-            call(duration_s=duration_s)
-        except Exception as error:
-            # Not the place to judge a scene: the run itself fails in the same way, and that failure becomes its row.
-            tell(f"the first simulation failed ({type(error).__name__}); its run will say why")
+def _compile(plan: Plan, missing: list[Job]) -> None:
+    """Compile what the runs may call: what has kernels in common in one process, the rest in others meanwhile."""
+    together = {job.key for group in groups_of(plan, missing) for job in group}
+    ours = [job for job in missing if plan.simulate is engine.simulate and job.simulate is None]
+    wanted = [(job.scene, job.key in together, job.carrying) for job in ours]
+    wanted += [(job.scene, False, job.carrying) for job in ours if job.going is not None]  # its last part may go alone
+    if not (tasks := engine.shares_of(wanted)):
+        return
+    costs = [engine.seconds_of(task) for task in tasks]
+    where = "loky", min(plan.how.jobs, max(2, len(missing)))
+    if plan.how.backend == "threading":  # Numba compiles in one of them at a time
+        where = "threading", 1
+    ended: set[str] = set()
+
+    def far() -> float:
+        told = shares(Path(place)) | dict.fromkeys(ended, 1.0)
+        return sum(costs[int(number)] * share for number, share in told.items())
+
+    with (
+        tempfile.TemporaryDirectory(prefix="tether-progress-") as place,
+        opened(*where) as execute,
+        stage(ENGINE, sum(costs), "s of one processor", far),
+        contextlib.suppress(PoolBroken),  # a run that cannot be compiled says so itself
+    ):
+        for (number, _), _ in execute(partial(_compiled, Path(place)), list(enumerate(tasks))):
+            ended.add(str(number))
+
+
+def _compiled(place: Path, task: tuple[int, dict]) -> None:
+    number, pieces = task
+    with ticking(teller(place, str(number)), engine.seconds_of(pieces)):
+        for key, scene in pieces.items():
+            with contextlib.suppress(Exception):  # not the place to judge a scene: its run fails in the same way
+                engine.compile_piece(key, scene)
 
 
 def run_campaign(plan: Plan, jobs: list[Job]) -> Summary:
@@ -165,7 +178,7 @@ def _computed(plan: Plan, jobs: dict[str, Job], all_jobs: Sequence[Job]) -> Iter
     with (
         tempfile.TemporaryDirectory(prefix="tether-progress-") as place,
         opened(plan.how.backend, min(plan.how.jobs, len(jobs)), plan.how.dask_address) as execute,
-        stage(plan.said, total, unit, far),
+        stage(plan.said, total, unit, far, plan.then),
     ):
         call = partial(run_jobs, replace(plan, how=how, told=Path(place)))
         while left:
