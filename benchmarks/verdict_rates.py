@@ -111,7 +111,7 @@ def henon_motions(count, periods):
 
 
 def cable_motions(changes, periods):
-    """(strobed, growth, scale) of a buoy with a perturbation, for changes of the scene `tethered_buoy`."""
+    """(strobed, growth, scale, depth in words) of the scene `tethered_buoy` with each of these changes."""
     scenes = [load_scene("tethered_buoy", {"output.tangent_vectors": 1, **some}) for some in changes]
     runs = dict(simulate_each(scenes, periods))
     for number in range(len(scenes)):
@@ -121,7 +121,7 @@ def cable_motions(changes, periods):
             continue
         states, scale = state_of(run.columns, step_s, period_s, periods // 2)
         strobed = np.column_stack(list(states.values()))[:: round(period_s / step_s)]
-        yield strobed, run.tangent.growth_nats[:, 0], np.array(scale)
+        yield strobed, run.tangent.growth_nats[:, 0], np.array(scale), f"H = {scenes[number].water.depth_m} m"
 
 
 def mild_cables(count, periods):
@@ -203,17 +203,16 @@ def main():
         if not any(word in kind for word in asked.only):
             continue
         table, needed, found = Counter(), [], {}
-        for strobed, growth, *scale in make(count // 10 if asked.quick else count, periods):
+        for strobed, growth, *more in make(count // 10 if asked.quick else count, periods):
             # of the settled motion: starts of eq. (33) may lie a hundred times as far out
-            scale = scale[0] if scale else max(1.0, np.ptp(strobed[periods // 2 :], axis=0).max())
+            scale, depth = more or (max(1.0, np.ptp(strobed[periods // 2 :], axis=0).max()), "")
             (what, since), verdict = truth(strobed, growth, scale), judged(strobed, growth, scale)
             needed.append(verdict.transient + verdict.points - 1)
             word = "periodic" if verdict.period else verdict.regime
             table[what + (" later" if since > needed[-1] else ""), word] += 1
-            if what == "chaotic" or make is violent_cables:
+            if make is violent_cables or (what == "chaotic" and not depth):
                 for length in STRETCHES:
-                    name = f"{what}, {length} periods"
-                    found.setdefault(name, []).extend(scatter(growth, length))
+                    found.setdefault(f"{depth or what}, {length} periods", []).extend(scatter(growth, length))
         print(f"{kind}: {sum(table.values())} motions, {np.mean(needed):.0f} periods on average")
         for (what, word), times in sorted(table.items()):
             print(f"    {what:<15} called {word:<15} {times}")
