@@ -5,9 +5,9 @@
 Motions of which a much longer record of their own says what they are: eq. (33) over frequency, force and starts,
 integrated exactly; tori and locked motions of a forced van der Pol oscillator; the Henon map; the strange nonchaotic
 attractor of Grebogi, Ott, Pelikan & Yorke. --cable: also 60 buoys in small and moderate waves, at drawn depths and
-stiffnesses, and kA = 0.13 at four depths (ten minutes of a core). Prints a row a kind and word, "later" where a motion
-settles only after the periods that were judged; and the scatter of z = (value of a stretch - value of the rest)/error
-of the exponent.
+stiffnesses, and kA = 0.13 at four depths (eight minutes of a core). Prints a row a kind and word, "later" where a
+motion settles only after the periods that were judged; and the scatter of z = (value of a stretch - value of the
+rest)/error of the exponent.
 """
 
 import argparse
@@ -197,7 +197,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n\n")[0])
     parser.add_argument("--quick", action="store_true", help="a tenth of the motions")
     parser.add_argument("--only", nargs="+", default=[""], metavar="WORD", help="kinds whose name has this word")
-    parser.add_argument("--cable", action="store_true", help="runs of the engine too: ten minutes of a core")
+    parser.add_argument("--cable", action="store_true", help="runs of the engine too: eight minutes of a core")
     asked = parser.parse_args()
     for kind, (make, count, periods) in (KINDS | CABLES if asked.cable else KINDS).items():
         if not any(word in kind for word in asked.only):
