@@ -59,8 +59,8 @@ def runs_items(sweep: Sweep) -> list[Item]:
     space = ("dimensions",) if any(run.in_space for run in sweep.runs) else ()
     caption = (
         f"Every run of `table.csv`. A motion repeats after N wave periods if it does to {percent(sweep.tolerance)} of "
-        f"its range, N ≤ {sweep.longest}; “none” where no N does. The transient are the first {sweep.transient} wave "
-        "periods. A dash: not known. On the page kA leads to the sheet of the run."
+        f"its range, N ≤ {sweep.longest}; “none” where no N does. A dash: not known. On the page kA "
+        "leads to the sheet of the run."
     )
     names = ("steepness", *space, "status", "strobed_period", *_RUNS)
     return [Heading("Table of runs"), sweep_table(sweep, names, sweep.runs, caption)]
@@ -113,7 +113,7 @@ def accuracy_items(directory: Path) -> list[Item]:
 
 def time_items(sweep: Sweep) -> list[Item]:
     """What each run cost, and the time split of the campaign."""
-    runs, columns = [run for run in sweep.runs if run.has_record], sweep.folder.columns
+    runs, columns = [run for run in sweep.runs if run.periods_done], sweep.folder.columns
     rows, figure = [run.row for run in runs], None
     if np.isfinite(wall := series(rows, "wall_s")).any():
         shown = [((columns[name], None),) for name in _COST]

@@ -21,24 +21,29 @@ MOVING_DOTS_PER_INCH, MOVING_COLOURS = 100, 64  # of a drawing that moves
 MANY_POINTS = 6000  # above this a scatter is smaller and opens faster as pixels
 
 BLUE, VERMILION, GREEN, ORANGE, PURPLE, SKY = "#0072b2", "#d55e00", "#009e73", "#e69f00", "#cc79a7", "#56b4e9"
-# One hue whose lightness falls with the count: it reads in grey, for all colour vision, and a single point shows.
-DENSITY_COLOURS = ("#8fc1e3", "#2f7fbc", "#0b3c7d", "#061a3a")
 
 _FILE = files("reports").joinpath("templates/report.mplstyle")
 _SETTINGS = matplotlib.rc_params_from_file(_FILE, use_default_template=False)
 INK, SOFT, GRID = (_SETTINGS[name] for name in ("text.color", "axes.edgecolor", "grid.color"))
+# of the words of the analysis, in every diagram and map; all periods share one
+REGIME_COLOURS = {
+    "period-": BLUE, "quasi-periodic": GREEN, "chaotic": VERMILION, "transient": PURPLE, "undecided": SOFT,
+}  # fmt: skip
+SHADES = ("#f7f1e6", "#eee0c8")  # of ranges that a reader should know of, the later over the earlier
 
 
 @contextmanager
-def sheet(height_in: float) -> Iterator[Figure]:
-    """A blank figure of the report's width and the given height; what is drawn inside the block has the report's look.
+def sheet(height_in: float, width_in: float | None = None) -> Iterator[Figure]:
+    """A blank figure of the given height; what is drawn inside the block has the report's look.
+
+    width_in: of one that says itself where its panels stand; None: of the report's width, laid out by matplotlib.
 
     The matplotlib settings of the caller are back when the block ends.
     """
     with matplotlib.rc_context():
         matplotlib.rcdefaults()
         matplotlib.rcParams.update(_SETTINGS)
-        yield Figure(figsize=(WIDTH_IN, height_in), layout="constrained")
+        yield Figure(figsize=(width_in or WIDTH_IN, height_in), layout=None if width_in else "constrained")
 
 
 def picture_of(figure: Figure, kind: str = "svg") -> Picture:
