@@ -7,12 +7,14 @@ from itertools import groupby
 import numpy as np
 
 from ..parts.content import Picture
-from ..parts.style import INK, REGIME_COLOURS, SHADES, SOFT, VERMILION, WIDTH_IN, picture_of, sheet
+from ..parts.style import REGIME_COLOURS, SHADES, SOFT, VERMILION, WIDTH_IN, picture_of, sheet
 from .curves import Panel, draw
 
 NARROW_IN = 3.7  # of the form for telephones
 _LEFT_IN, _RIGHT_IN, _BOTTOM_IN, _TOP_IN = 0.62, 0.08, 0.42, 0.3
 _BAR_IN, _MAIN_IN, _LOWER_IN, _GAP_IN = 0.16, 2.15, 0.78, 0.09
+_EDGE_IN, _NUMBERS_IN = 0.1, 0.27  # beside the first and the last run; left of it, where numbers stand there
+_NEUTRAL = "#8b95a0"
 _LETTER_IN = 0.062  # mean width of a letter of 7 points
 _SMALL = 1 / 3  # of the range of all points: what of it motions may take that are drawn again, larger
 _LEAST_WIDE = 0.15  # of the axis, for those
@@ -67,10 +69,12 @@ def orbit_diagram(
         )  # fmt: skip
         top = figure.add_subplot(grid[len(bars)])
         lower = [figure.add_subplot(grid[place], sharex=top) for place in range(len(bars) + 1, len(heights))]
+        lowest = (top, *lower)[-1]
         places = np.concatenate([at, missing])
-        margin = 0.02 * float(np.ptp(places)) or 0.02 * abs(float(places[0])) or 0.02
-        top.set_xlim(places.min() - margin, places.max() + margin)
-        inch = (width_in - _LEFT_IN - _RIGHT_IN) / (float(np.ptp(places)) + 2.0 * margin)  # of the parameter
+        span, small = float(np.ptp(places)), _small(columns)
+        left_in = _NUMBERS_IN if small else _EDGE_IN
+        inch = (width_in - _LEFT_IN - _RIGHT_IN - left_in - _EDGE_IN) / (span or 0.04 * abs(float(at[0])) or 0.04)
+        top.set_xlim(places.min() - left_in / inch, places.max() + _EDGE_IN / inch)  # inch: of the parameter
         for place, spans in enumerate(bars):
             _bar(figure.add_subplot(grid[place], sharex=top), spans, inch, judged and place == 0)
         for one, shade in zip(bars[bool(judged) :], SHADES, strict=False):
@@ -78,7 +82,7 @@ def orbit_diagram(
                 for _, low, high in one:
                     axes.axvspan(low, high, color=shade, linewidth=0)
         _points(top, columns, inch)
-        if small := _small(columns):
+        if small:
             _enlarged(top, *small, inch)
         top.plot(missing, np.full(len(missing), 0.03), "x", color=VERMILION, transform=top.get_xaxis_transform())
         top.set_ylabel(labels[1])
@@ -87,16 +91,16 @@ def orbit_diagram(
             if axes.get_legend_handles_labels()[1]:
                 axes.legend(loc="upper left", ncols=1, fontsize=6.5, borderpad=0.1, labelspacing=0.15)
         for axes in (top, *lower):
-            axes.tick_params(labelbottom=axes is (top, *lower)[-1])
+            axes.tick_params(labelbottom=axes is lowest)
             for value, _ in marks:
                 axes.axvline(value, color=SOFT, linewidth=0.7, linestyle=(0, (3, 2)))
         for value, text in marks:
-            top.annotate(text, (value, 0.985), (2, 0), ("data", "axes fraction"), "offset points", va="top", fontsize=7)
-        (top, *lower)[-1].set_xlabel(labels[0])
-        names = dict.fromkeys(one.word.partition(_PERIOD)[0] or "period" for one in judged)
+            lowest.annotate(text, (value, 0.05), (2, 0), ("data", "axes fraction"), "offset points", fontsize=7)
+        lowest.set_xlabel(labels[0])
+        names = dict.fromkeys("periodic" if one.word.startswith(_PERIOD) else one.word for one in judged)
         if judged:
             words = [Patch(color=REGIME_COLOURS.get(word, REGIME_COLOURS[_PERIOD]), label=word) for word in names]
-            words += [Patch(color=INK, label=_BETWEEN)] if len(judged) < len(columns) else []
+            words += [Patch(color=_NEUTRAL, label=_BETWEEN)] if len(judged) < len(columns) else []
             tight = {"handlelength": 0.7, "handletextpad": 0.3, "columnspacing": 0.7, "borderaxespad": 0.1}
             figure.legend(handles=words, loc="upper left", ncols=len(words), fontsize=6.5, **tight)
         figure.align_ylabels((top, *lower))
@@ -134,7 +138,7 @@ def _bar(axes, spans, inch: float, coloured: bool) -> None:
     for text, low, high in spans:
         period = text.startswith(_PERIOD)
         colour = REGIME_COLOURS[_PERIOD if period else text] if coloured else SHADES[-1]
-        axes.axvspan(low, high, color=colour, linewidth=0)
+        axes.axvspan(low, high, facecolor=colour, edgecolor="white", linewidth=0.7 if coloured else 0.0)
         if coloured and period and (high - low) * inch > _LETTER_IN * len(text.removeprefix(_PERIOD)):
             axes.text(0.5 * (low + high), 0.45, text.removeprefix(_PERIOD), color="white", **look)
     if coloured or not spans:
@@ -155,9 +159,10 @@ def _points(axes, columns: Sequence[Column], inch: float) -> None:
     for word in sorted({one.word for one in columns}):
         own = [one for one in columns if one.word == word]
         x, y = np.repeat([one.at for one in own], [len(one.points) for one in own]), [one.points for one in own]
-        colour = REGIME_COLOURS[_PERIOD if word.startswith(_PERIOD) else word] if word else INK
-        look = {"markersize": min(max(0.9 * room, 1.2), 6.0), "markeredgewidth": 0.7, "rasterized": True}
-        axes.plot(x, np.concatenate(y), "_", color=colour, alpha=0.75 if word else 0.35, **look)
+        colour = REGIME_COLOURS[_PERIOD if word.startswith(_PERIOD) else word] if word else _NEUTRAL
+        wide, thick = (1.6, 1.1 if word.startswith(_PERIOD) else 0.45) if word else (0.9, 0.7)
+        look = {"markersize": min(max(wide * room, 1.2), 6.0), "markeredgewidth": thick, "rasterized": True}
+        axes.plot(x, np.concatenate(y), "_", color=colour, alpha=0.8, **look)
 
 
 def _small(columns: Sequence[Column]) -> tuple[list[Column], tuple[float, float], float] | None:
@@ -180,12 +185,12 @@ def _enlarged(axes, columns: list[Column], ends: tuple[float, float], above: flo
     (bottom, top), (left, right) = axes.get_ylim(), axes.get_xlim()
     edges, room = _cells(np.array([one.at for one in columns])), 0.12 * (top - bottom)
     low, high = (ends[1] + room, top - 0.3 * room) if above else (bottom + 0.3 * room, ends[0] - room)
-    shares = (edges[0] - left) / (right - left), (edges[-1] - left) / (right - left)
-    where = (shares[0], (low - bottom) / (top - bottom), shares[1] - shares[0], (high - low) / (top - bottom))
+    where = (0.0, (low - bottom) / (top - bottom), (edges[-1] - left) / (right - left), (high - low) / (top - bottom))
     inner = axes.inset_axes(where)
     _points(inner, columns, inch)
-    inner.set_xlim(edges[0], edges[-1])
-    inner.tick_params(labelbottom=False, bottom=False, labelleft=False, labelright=True, right=True, left=False)
-    inner.tick_params(labelsize=6.5, length=2)
+    inner.set_xlim(left, edges[-1])
+    inner.tick_params(labelbottom=False, bottom=False, direction="in", length=2, pad=-4, labelsize=6.0)
+    for label in inner.get_yticklabels():
+        label.set_horizontalalignment("left")
     inner.spines[["top", "right"]].set_visible(True)
     inner.set_title(f"the same, {(high - low) / (ends[1] - ends[0]):.0f} times as high", fontsize=6.5, pad=2)
