@@ -19,11 +19,11 @@ CONTENTS = (
 __all__ = ["CONTENTS", "build"]
 
 
-def build(directory: str | Path) -> tuple[Path, Path]:
+def build(directory: str | Path, again: bool = False) -> tuple[Path, Path]:
     """Write report.html and report.pdf of a campaign's folder, and the drawings that belong beside their data.
 
     All are made in memory first, from the folder alone; the same folder gives the same bytes. Where all are there and
-    nothing changed that they were drawn from, nothing is drawn (`parts.unchanged`).
+    nothing changed that they were drawn from, nothing is drawn (`parts.unchanged`), unless `again` asks for it.
     Returns the two paths.
     Raises FolderError (nothing written) when the folder is not a finished campaign, naming all that is missing;
     OSError when a file cannot be written, which leaves the earlier file of that name whole.
@@ -32,7 +32,7 @@ def build(directory: str | Path) -> tuple[Path, Path]:
 
     directory = Path(directory)
     html, pdf = directory / "report.html", directory / "report.pdf"
-    if is_unchanged(directory):
+    if not again and is_unchanged(directory):
         return html, pdf
     from engine.atomic import write_atomic
 

@@ -113,7 +113,7 @@ def _exponent_panel(sweep: Sweep) -> list[Panel]:
         return []
     x, y, bars = _of(sweep.judged, "steepness"), np.array(values), np.array(errors)
     lines = []
-    for word in dict.fromkeys(words):
+    for word in dict.fromkeys(np.array(words)[known]):
         own = known & (np.array(words) == word)
         lines.append(Curve(x[own], y[own], "", "", "o", REGIME_COLOURS[word], bars[own], 3.0))
     usual = np.minimum(np.nan_to_num(bars), 3.0 * float(np.nanmedian(bars)))  # one long bar would hide the others

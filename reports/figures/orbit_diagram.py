@@ -11,7 +11,7 @@ from ..parts.style import REGIME_COLOURS, SHADES, SOFT, VERMILION, WIDTH_IN, pic
 from .curves import Panel, draw
 
 NARROW_IN = 3.7  # of the form for telephones
-_LEFT_IN, _RIGHT_IN, _BOTTOM_IN, _TOP_IN = 0.62, 0.08, 0.42, 0.3
+_LEFT_IN, _LABEL_IN, _RIGHT_IN, _BOTTOM_IN, _TOP_IN = 0.68, 0.32, 0.08, 0.42, 0.3
 _BAR_IN, _MAIN_IN, _LOWER_IN, _GAP_IN = 0.16, 2.15, 0.78, 0.09
 _EDGE_IN, _NUMBERS_IN = 0.1, 0.27  # beside the first and the last run; left of it, where numbers stand there
 _NEUTRAL = "#8b95a0"
@@ -103,7 +103,8 @@ def orbit_diagram(
             words += [Patch(color=_NEUTRAL, label=_BETWEEN)] if len(judged) < len(columns) else []
             tight = {"handlelength": 0.7, "handletextpad": 0.3, "columnspacing": 0.7, "borderaxespad": 0.1}
             figure.legend(handles=words, loc="upper left", ncols=len(words), fontsize=6.5, **tight)
-        figure.align_ylabels((top, *lower))
+        for axes in (top, *lower):  # one below the other, left of the widest numbers
+            axes.yaxis.set_label_coords((_LABEL_IN - _LEFT_IN) / (width_in - _LEFT_IN - _RIGHT_IN), 0.5)
         return picture_of(figure)
 
 

@@ -34,7 +34,7 @@ def record(directory: Path, pages: dict[Path, bytes]) -> bytes:
 
 def key_of(directory: Path, without: Iterable[str]) -> str:
     """The key; without: names of drawings in the folder."""
-    left_out = {FILE, ".lock", *without}
+    left_out = {FILE, *without}
     said = sha256(" ".join(f"{name} {metadata.version(name)}" for name in _LIBRARIES).encode())
     for name in _SOURCES:
         for path in sorted(Path(__file__).parents[2].joinpath(name).rglob("*")):
@@ -42,7 +42,7 @@ def key_of(directory: Path, without: Iterable[str]) -> str:
                 said.update(path.name.encode() + path.read_bytes())
     for path in sorted(directory.rglob("*")):
         name = str(path.relative_to(directory))
-        if name in left_out or not path.is_file():
+        if name in left_out or path.name == ".lock" or not path.is_file():
             continue
         state = path.stat()
         said.update(f"{name} {state.st_size} ".encode())

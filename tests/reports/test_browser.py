@@ -1,9 +1,12 @@
 """A report in a browser: axe-core finds nothing; on a telephone, in the dark, on paper; the explorer chooses runs."""
 
+import io
 from importlib.resources import files
 from pathlib import Path
 
+import numpy as np
 import pytest
+from PIL import Image
 
 from reports.parts.html import render_html
 from tests.reports.conftest import every_kind
@@ -59,10 +62,36 @@ def test_on_a_telephone_nothing_lies_beside_the_page_and_drawings_keep_their_siz
     for path in (built[0], kinds):
         with browse(path, **PHONE) as page:
             assert page.evaluate("document.documentElement.scrollWidth") == PHONE["width"]
-            for drawing in ("figure img", "svg.glance"):
+            for drawing in ("figure .wide img", "svg.glance"):
                 assert all(width >= 650.0 for width in page.eval_on_selector_all(drawing, widths)), drawing
             found = page.eval_on_selector_all(".equation svg", shares)
             assert found and all(share > 0.5 for share in found)
+
+
+def test_on_a_telephone_the_whole_diagram_of_the_first_page_is_seen_in_a_form_of_its_own(built, browse):
+    chosen, seen = "(one) => one.currentSrc", []
+    for window in ({}, PHONE):
+        with browse(built[0], **window) as page:
+            seen.append(page.eval_on_selector("#figure-1 img", chosen))
+            box = page.locator("#figure-1 img").bounding_box()
+            assert 0.0 <= box["x"] < box["x"] + box["width"] <= window.get("width", 1200)
+    assert seen[0] != seen[1]
+    assert box["width"] / box["height"] < 0.8, "upright, so that its letters are no smaller"
+
+
+def test_in_the_dark_figures_are_dark_and_keep_their_hues(built, browse):
+    """Paper as dark as the page; blue stays blue, red stays red."""
+    shades = []
+    for scheme in ("light", "dark"):
+        with browse(built[0], color_scheme=scheme) as page:
+            drawn = Image.open(io.BytesIO(page.locator("#figure-1 img").screenshot())).convert("HSV")
+            hue, strength, light = (np.asarray(drawn)[..., k].astype(float) for k in range(3))
+            strong = (strength > 120) & (light > 90)
+            blue, sand = (np.median(hue[strong & (np.abs(hue - at) < 25)]) for at in (145, 20))
+            shades.append((float(np.median(light)), blue, sand))
+    (bright, *before), (dark, *after) = shades
+    assert bright > 250 and dark < 40
+    assert np.allclose(before, after, atol=12), "of 256 round the circle"
 
 
 def test_on_paper_captions_are_smaller_than_text_and_nothing_moves(kinds, browse):
@@ -70,7 +99,7 @@ def test_on_paper_captions_are_smaller_than_text_and_nothing_moves(kinds, browse
         page.emulate_media(media="print")
         size = "(one) => parseFloat(getComputedStyle(one).fontSize)"
         text, *captions = (
-            page.eval_on_selector(one, size) for one in ("main > p:not(.subtitle)", "figcaption", "caption")
+            page.eval_on_selector(one, size) for one in ("main p:not(.subtitle)", "figcaption", "caption")
         )
         assert max(captions) < text == pytest.approx(10.0 / 0.75, abs=0.01)
         assert not page.locator(".moving").first.is_visible()
@@ -80,7 +109,7 @@ def test_on_paper_captions_are_smaller_than_text_and_nothing_moves(kinds, browse
 def test_moving_pictures_are_hidden_from_those_who_asked_for_less_motion(kinds, browse, motion):
     with browse(kinds, reduced_motion=motion) as page:
         assert page.locator(".moving").first.is_visible() is (motion == "no-preference")
-        assert page.locator("figure > .wide > img").first.is_visible()
+        assert page.locator("figure img").first.is_visible()
 
 
 @pytest.fixture(scope="module")
