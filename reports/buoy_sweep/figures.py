@@ -197,7 +197,7 @@ def regime_items(sweep: Sweep) -> list[Item]:
     if not sweep.judged:
         return []
     caption = "Regime, and largest exponent with one standard error after the transient, where the regime needs it."
-    names = ("steepness", "regime", "periods", "transient_periods", *exponents(sweep))
+    names = ("steepness", "regime", "periods", "transient_periods", TANGENT, WOLF)
     told = tuple(name for name in names if isinstance(name, tuple) or name in sweep.folder.columns)
     return [Heading("Regimes and exponents"), Text(_DEFINED), sweep_table(sweep, told, sweep.judged, caption)]
 

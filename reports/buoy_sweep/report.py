@@ -30,12 +30,12 @@ def report(directory: str | Path) -> Report:
     items = [
         figure or Text("No run gave strobed points after the transient, so there is no orbit diagram."),
         *_question(sweep),
+        Heading("Warnings"),
+        warnings(sweep),
         *regime_items(sweep),
         *close_up_items(sweep),
         *plane_items(sweep),
         *accuracy_items(sweep.folder.directory),
-        Heading("Warnings"),
-        warnings(sweep),
         *runs_items(sweep),
         *sheet_items(sweep),
         *appendix(
