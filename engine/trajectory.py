@@ -117,7 +117,7 @@ class Trajectory:
 
     def section(
         self,
-        columns: Sequence[str] = ("radius_m", "radius_rate_mps"),
+        columns: str | Sequence[str] = ("radius_m", "radius_rate_mps"),
         transient_periods: int | None = None,
         phase: float = 0.0,
     ) -> "PoincareSection":
@@ -139,7 +139,7 @@ class Trajectory:
         return views.verdict(self)
 
     def to_xarray(self) -> "xarray.Dataset":
-        """Everything that `save` writes, as an xarray Dataset with units and long names."""
+        """Everything that `save` writes but the final state, as an xarray Dataset with units and long names."""
         return views.dataset(self)
 
     def __repr__(self) -> str:

@@ -63,6 +63,16 @@ def test_a_time_left_is_told_once_it_is_known():
     assert one.left_s() == pytest.approx(ASKED_S)
 
 
+def test_the_time_left_is_to_the_end_of_the_command_where_it_is_known_what_follows():
+    now = time.monotonic()
+    runs = Stage("runs", 40.0, "s", lambda: time.monotonic() - now + 10.0, lambda whole: 0.5 * whole, now - 10.0)
+    root = Stage("command", then=lambda _: 60.0, began=now - 100.0)
+    runs.seen.append((5.0, 5.0))
+    assert "about 0:50 left," in runs.told([])  # 30 s and half of 40
+    assert "about 1:50 left," in runs.told([root])  # and a report
+    assert "about 0:30 left of this," in runs.told([root, Stage("several commands")])
+
+
 def test_a_worker_says_how_far_it_is_and_one_that_sees_no_folder_says_nothing(tmp_path, monkeypatch):
     monkeypatch.setattr(progress, "TOLD_S", 0.0)
     told = teller(tmp_path, "a task")
