@@ -3,9 +3,9 @@
 `between`: columns of the orbit diagram between the judged values, side by side in the lanes.
 `companions`: what the largest tension becomes with twice the elements, and, at every value whose sphere leaves the
 water, with a sphere that loses its buoyancy there. `as run` is the same run over the same periods.
-`accuracy`, the sweep's own error against run time: the run whose tension peaks lowest (the regular one) and the one
-whose tension peaks highest (the violent one) again as they are, at a tenth of the tolerance and with twice the
-elements, each alone on its core, for as many periods as a verdict needs.
+`accuracy`, the sweep's own error against run time: the run whose tension peaks lowest (the regular one, of those that
+need no more periods than are repeated) and the one whose tension peaks highest (the violent one) again as they are, at
+a tenth of the tolerance and with twice the elements, each alone on its core, for as many periods as a verdict needs.
 `close_up`, for the moving picture of the report: the first wave periods of the violent run with its line, since
 profiles of every run would be gigabytes. Where no run goes slack nothing snaps, and nothing is computed.
 """
