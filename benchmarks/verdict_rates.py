@@ -1,94 +1,104 @@
 """How often is the verdict on a simulated motion (`analysis.motion_regime`) wrong, late, or missing?
 
-    python -m benchmarks.verdict_rates [--quick]
+    python -m benchmarks.verdict_rates [--quick] [--only WORD ...] [--cable]
 
 Motions of which a much longer record of their own says what they are: eq. (33) over frequency, force and starts,
 integrated exactly; tori and locked motions of a forced van der Pol oscillator; the Henon map; the strange nonchaotic
-attractor of Grebogi, Ott, Pelikan & Yorke. Prints a row a kind: motions, words, false words, periods that were needed,
-and the scatter of (estimate - long value)/error of the exponent over 200 and 500 periods.
+attractor of Grebogi, Ott, Pelikan & Yorke. --cable: also 60 buoys in small and moderate waves, at drawn depths and
+stiffnesses, and kA = 0.13 at four depths (eight minutes of a core). Prints a row a kind and word, "later" where a
+motion settles only after the periods that were judged; and the scatter of z = (value of a stretch - value of the
+rest)/error of the exponent.
 """
 
 import argparse
+import math
 from collections import Counter
 from dataclasses import astuple, replace
+from functools import partial
 
 import numpy as np
 from numba import njit
 
-from analysis import motion_regime, tangent_lyapunov
+from analysis import motion_regime, next_look, tangent_lyapunov
 from analysis.oscillator import SnapOscillator
 from analysis.oscillator.growth import random_starts
 from analysis.oscillator.strobing import growth_over_values
+from benchmarks.known_records import GOLDEN
+from campaigns.judge import LEAST_CHECK, SURE
+from engine import load_scene, simulate_each
+from engine.views import state_of
 
-BUDGET, LONG = 1575, 20_000
+BUDGET, TOLERANCE = 1500, 0.01
+STRETCHES = 200, 500, 2000  # periods
 
 
 def snap_motions(count, periods):
     """(strobed, growth in nats) of eq. (33) at random frequencies, forces and starts."""
     random = np.random.default_rng(1)
-    for i, start in enumerate(random_starts(count, 2)):
+    for start in random_starts(count, 2):
         oscillator = replace(SnapOscillator(), frequency=random.uniform(0.9, 1.6), force=random.uniform(0.8, 2.0))
         parameters = np.array([astuple(oscillator)])
         sums, section, _, _ = growth_over_values(parameters, start[None], 0, periods, 1, periods)
         if np.isfinite(section).all():
-            yield f"{i}", section[0, 0], sums[0, 0, :, 0]
+            yield section[0, 0], sums[0, 0, :, 0]
+
+
+@njit(cache=False)
+def _slopes(t, y, force, frequency):
+    """Of x'' - 5 (1 - x^2) x' + x = force cos(frequency t), and of a perturbation."""
+    x, v, dx, dv = y
+    damping = 5.0 * (1.0 - x * x)
+    return v, damping * v - x + force * np.cos(frequency * t), dv, (-10.0 * x * v - 1.0) * dx + damping * dv
+
+
+@njit(cache=False)
+def _moved(y, h, k):
+    return y[0] + h * k[0], y[1] + h * k[1], y[2] + h * k[2], y[3] + h * k[3]
 
 
 @njit(cache=False)
 def _van_der_pol(force, frequency, periods, steps):
-    """Strobed states and growth of x'' - 5 (1 - x^2) x' + x = force cos(frequency t), by Runge and Kutta's method."""
-    y, out, growth = np.array([2.0, 0.0, 1.0, 0.0]), np.empty((periods, 2)), np.empty(periods)
-    h = 2.0 * np.pi / frequency / steps
+    """Strobed states and growth, by Runge and Kutta's method."""
+    out, growth = np.empty((periods, 2)), np.empty(periods)
+    y, h = (2.0, 0.0, 1.0, 0.0), 2.0 * np.pi / frequency / steps
     for p in range(periods):
         out[p] = y[:2]
         for k in range(steps):
-            total, stage = np.zeros(4), y.copy()
-            for j in range(4):
-                t = (k + (0.0, 0.5, 0.5, 1.0)[j]) * h
-                x, v, dx, dv = stage
-                slope = np.array(
-                    [
-                        v,
-                        5.0 * (1.0 - x * x) * v - x + force * np.cos(frequency * t),
-                        dv,
-                        (-10.0 * x * v - 1.0) * dx + 5.0 * (1.0 - x * x) * dv,
-                    ]
-                )
-                total += slope * (1.0, 2.0, 2.0, 1.0)[j] / 6.0
-                if j < 3:
-                    stage = y + h * (0.5, 0.5, 1.0)[j] * slope
-            y = y + h * total
+            t = k * h
+            a = _slopes(t, y, force, frequency)
+            b = _slopes(t + 0.5 * h, _moved(y, 0.5 * h, a), force, frequency)
+            c = _slopes(t + 0.5 * h, _moved(y, 0.5 * h, b), force, frequency)
+            d = _slopes(t + h, _moved(y, h, c), force, frequency)
+            y = _moved(_moved(_moved(_moved(y, h / 6.0, a), h / 3.0, b), h / 3.0, c), h / 6.0, d)
         length = np.hypot(y[2], y[3])
-        growth[p] = np.log(length)
-        y[2:] /= length
+        growth[p], y = np.log(length), (y[0], y[1], y[2] / length, y[3] / length)
     return out, growth
 
 
 def van_der_pol_motions(count, periods):
     """(strobed, growth) of tori and locked motions: the force is too weak for chaos."""
     random = np.random.default_rng(3)
-    for i in range(count):
-        yield f"{i}", *_van_der_pol(random.uniform(0.1, 1.0), random.uniform(0.8, 3.0), periods, 300)
+    for _ in range(count):
+        yield _van_der_pol(random.uniform(0.1, 1.0), random.uniform(0.8, 3.0), periods, 300)
 
 
 def nonchaotic_motions(count, periods):
     """x' = 2 sigma tanh(x) cos(2 pi theta), theta' = theta + golden mean: strange, and not chaotic, for sigma > 1."""
     random = np.random.default_rng(5)
-    for i in range(count):
+    for _ in range(count):
         x, theta, sigma = 0.5, random.random(), random.uniform(1.1, 2.0)
-        out, growth = np.empty((periods, 3)), np.empty(periods)
+        turns = 2.0 * np.pi * (theta + GOLDEN * np.arange(periods))
+        out = np.column_stack([np.empty(periods), np.cos(turns), np.sin(turns)])
         for k in range(periods):
-            phase = np.cos(2.0 * np.pi * theta)
-            out[k] = x, phase, np.sin(2.0 * np.pi * theta)
-            # a shift of theta neither grows nor shrinks: the largest exponent is 0, that of x is negative
-            growth[k] = 0.0
-            x, theta = 2.0 * sigma * np.tanh(x) * phase, (theta + 0.5 * (np.sqrt(5.0) - 1.0)) % 1.0
-        yield f"{i}", out, growth
+            out[k, 0] = x
+            x = 2.0 * sigma * np.tanh(x) * out[k, 1]
+        # a shift of theta neither grows nor shrinks: the largest exponent is 0, that of x is negative
+        yield out, np.zeros(periods)
 
 
 def henon_motions(count, periods):
     """(strobed, growth) of the Henon map, b = 0.3, over a: periods and chaos."""
-    for i, a in enumerate(np.linspace(1.0, 1.4, count)):
+    for a in np.linspace(1.0, 1.4, count):
         (x, y), (u, w) = (0.1, 0.1), (1.0, 0.0)
         out, growth = np.empty((periods, 2)), np.empty(periods)
         for k in range(periods):
@@ -97,65 +107,117 @@ def henon_motions(count, periods):
             length = np.hypot(u, w)
             growth[k], u, w = np.log(length), u / length, w / length
             x, y = 1.0 - a * x * x + y, 0.3 * x
-        yield f"{i}", out, growth
+        yield out, growth
+
+
+def cable_motions(changes, periods):
+    """(strobed, growth, scale, depth in words) of the scene `tethered_buoy` with each of these changes."""
+    scenes = [load_scene("tethered_buoy", {"output.tangent_vectors": 1, **some}) for some in changes]
+    runs = dict(simulate_each(scenes, periods))
+    for number in range(len(scenes)):
+        run, step_s, period_s = runs[number], scenes[number].sample_step_s(), scenes[number].waves.period_s
+        if run.status != "ok":
+            print(f"{changes[number]}: {run.status}")
+            continue
+        states, scale = state_of(run.columns, step_s, period_s, periods // 2)
+        strobed = np.column_stack(list(states.values()))[:: round(period_s / step_s)]
+        yield strobed, run.tangent.growth_nats[:, 0], np.array(scale), f"H = {scenes[number].water.depth_m} m"
+
+
+def mild_cables(count, periods):
+    """Buoys in small and moderate waves at random depths, stiffnesses in tension and in bending."""
+    random = np.random.default_rng(7)
+    drawn = random.uniform((0.016, 20.8, 4e4, -0.7), (0.1, 25.0, 8e4, 0.5), (count, 4))
+    names = "waves.steepness", "water.depth_m", "tether.tension.stiffness_N", "tether.bending_stiffness_Nm2"
+    return cable_motions([dict(zip(names, (*row[:3], 10.0 ** row[3]), strict=True)) for row in drawn], periods)
+
+
+def violent_cables(count, periods):
+    """kA = 0.13 at the depths where it is chaos, chaos, a torus and period 2, pushed in two ways."""
+    depths, pushes = (20.8, 21.0, 21.6, 22.5), (0.0, 0.1)
+    names = "waves.steepness", "water.depth_m", "start.buoy_velocity_mps"
+    pairs = [(depth, push) for depth in depths for push in pushes]
+    return cable_motions([dict(zip(names, (0.13, h, [v, 0.0, 0.0]), strict=True)) for h, v in pairs], periods)
+
+
+KINDS = {  # motions, how many, periods of each
+    "eq. (33)": (snap_motions, 400, 20_000),
+    "van der Pol": (van_der_pol_motions, 150, 20_000),
+    "Henon map": (henon_motions, 100, 20_000),
+    "strange nonchaotic": (nonchaotic_motions, 50, 20_000),
+}
+CABLES = {"cable, mild": (mild_cables, 60, 1000), "cable, kA = 0.13": (violent_cables, 8, 6000)}
 
 
 def truth(strobed, growth, scale):
-    """What the end of a long record is: "periodic", "torus" or "chaotic"; "" where it does not say."""
-    half = len(strobed) // 2
-    last = strobed[half:]
+    """What the end of a long record is ("periodic", "torus", "chaotic", "not known"), and since when."""
+    tail = min(1000, len(strobed) // 4)
     for n in range(1, 65):
-        if np.all(np.abs(last[n:][-1000:] - last[:-n][-1000:]) < 1e-3 * scale):
-            return "periodic"
-    (exponent,) = tangent_lyapunov(growth[half:])
+        if np.all(np.abs(strobed[n:] - strobed[:-n])[-tail:] < TOLERANCE * scale):
+            orbit = strobed[len(strobed) - n + (np.arange(len(strobed)) - len(strobed)) % n]
+            off = np.flatnonzero((np.abs(strobed - orbit) > 3.0 * TOLERANCE * scale).any(axis=1))
+            return "periodic", off[-1] + 1 if len(off) else 0
+    (exponent,) = tangent_lyapunov(growth[len(growth) // 2 :])
     if exponent.value > max(5.0 * exponent.error, 0.005):
-        return "chaotic"
-    return "torus" if abs(exponent.value) + 3.0 * exponent.error < 0.005 else ""
+        return "chaotic", 0
+    return "torus" if abs(exponent.value) + 3.0 * exponent.error < 0.02 else "not known", 0
 
 
 def judged(strobed, growth, scale):
-    """The verdict on the first BUDGET periods, with perturbations from the first look without a period on."""
-    verdict = motion_regime(strobed[: BUDGET + 1], None, scale=scale, tolerance=0.01)
-    if verdict.period is None:
-        known = np.where(np.arange(BUDGET) < 90, np.nan, growth[:BUDGET])
-        verdict = motion_regime(strobed[: BUDGET + 1], known, scale=scale, tolerance=0.01)
+    """The verdict, look by look as `campaigns.judge` goes on; what a motion does next stands for its tighter run."""
+    checks, since, end, budget = {}, BUDGET, 0, min(BUDGET, len(growth))
+    while end < budget:
+        end = min(next_look(end), budget)
+        known = np.where(np.arange(end) < since, np.nan, growth[:end])
+        look = partial(motion_regime, strobed[: end + 1], known, scale=scale, tolerance=TOLERANCE, tighter=checks)
+        verdict = look()
+        if verdict.regime == "chaotic" and end not in checks:
+            exponent = next(item for item in verdict.evidence if item.name == "exponent")
+            enough = math.ceil((verdict.points - 1) * (SURE * exponent.error / exponent.value) ** 2)
+            length = min(max(enough, LEAST_CHECK), verdict.points - 1)
+            checks[end] = tangent_lyapunov(growth[end : end + length])[0]
+            verdict = look()
+        if verdict.regime not in ("undecided", "transient"):
+            break
+        since = min(since, end) if verdict.regime == "undecided" else since
     return verdict
 
 
 def scatter(growth, length):
-    """(value of a stretch - that of the whole)/error, for stretches of that length."""
-    (whole,) = tangent_lyapunov(growth[1000:])
-    stretches = [tangent_lyapunov(growth[at : at + length])[0] for at in range(1000, len(growth) - length, length)]
-    return [(one.value - whole.value) / one.error for one in stretches[:40]]
+    """(value of a stretch - that of the rest)/error, for the first 40 stretches of that length."""
+    growth = growth[500:]
+    (whole,) = tangent_lyapunov(growth)
+    apart = min(length, 500)
+    stretches = [tangent_lyapunov(growth[at : at + length])[0] for at in range(0, len(growth) - length, apart)]
+    of_the_rest = np.sqrt(1.0 - length / len(growth))  # the whole holds the stretch, and so lies nearer to it
+    return [(one.value - whole.value) / (of_the_rest * one.error) for one in stretches[:40]]
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n\n")[0])
     parser.add_argument("--quick", action="store_true", help="a tenth of the motions")
-    share = 0.1 if parser.parse_args().quick else 1.0
-    kinds = {
-        "eq. (33)": (snap_motions, 400),
-        "van der Pol": (van_der_pol_motions, 150),
-        "Henon map": (henon_motions, 100),
-        "strange nonchaotic": (nonchaotic_motions, 50),
-    }
-    for name, (make, count) in kinds.items():
-        table, needed, z = Counter(), [], {200: [], 500: []}
-        for _, strobed, growth in make(int(share * count), LONG):
-            scale = np.maximum(np.ptp(strobed, axis=0).max(), 1e-9)
-            what, verdict = truth(strobed, growth, scale), judged(strobed, growth, scale)
-            word = "periodic" if verdict.period else verdict.regime
-            table[what or "not known", word] += 1
+    parser.add_argument("--only", nargs="+", default=[""], metavar="WORD", help="kinds whose name has this word")
+    parser.add_argument("--cable", action="store_true", help="runs of the engine too: eight minutes of a core")
+    asked = parser.parse_args()
+    for kind, (make, count, periods) in (KINDS | CABLES if asked.cable else KINDS).items():
+        if not any(word in kind for word in asked.only):
+            continue
+        table, needed, found = Counter(), [], {}
+        for strobed, growth, *more in make(count // 10 if asked.quick else count, periods):
+            # of the settled motion: starts of eq. (33) may lie a hundred times as far out
+            scale, depth = more or (max(1.0, np.ptp(strobed[periods // 2 :], axis=0).max()), "")
+            (what, since), verdict = truth(strobed, growth, scale), judged(strobed, growth, scale)
             needed.append(verdict.transient + verdict.points - 1)
-            if what == "chaotic":
-                for length, found in z.items():
-                    found += scatter(growth, length)
-        print(f"{name}: {np.mean(needed):.0f} periods on average")
+            word = "periodic" if verdict.period else verdict.regime
+            table[what + (" later" if since > needed[-1] else ""), word] += 1
+            if make is violent_cables or (what == "chaotic" and not depth):
+                for length in STRETCHES:
+                    found.setdefault(f"{depth or what}, {length} periods", []).extend(scatter(growth, length))
+        print(f"{kind}: {sum(table.values())} motions, {np.mean(needed):.0f} periods on average")
         for (what, word), times in sorted(table.items()):
-            print(f"    {what:<10} called {word:<15} {times}")
-        for length, found in z.items():
-            if found:
-                print(f"    z over {length} periods: standard deviation {np.std(found):.2f} ({len(found)})")
+            print(f"    {what:<15} called {word:<15} {times}")
+        for name, z in found.items():
+            print(f"    z, {name}: standard deviation {np.std(z):.2f} ({len(z)})", flush=True)
 
 
 if __name__ == "__main__":

@@ -63,7 +63,8 @@ def read_order(argv: list[str], faults: list[str]) -> Order:
     try:
         options = parser().parse_args(argv)
     except ValueError as error:
-        faults.append(str(error))
+        hint = "; keys of the scene are given as --set KEY=VALUE" if "unrecognized" in str(error) else ""
+        faults.append(f"{error}{hint}")
         return Order(None, None, None, None)
     changes, scene = {}, None
     for word in options.set:

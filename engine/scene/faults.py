@@ -23,7 +23,7 @@ _UNITS = {
 }  # fmt: skip
 _PREFIXES = {"": 1.0, "k": 1e3, "c": 1e-2, "m": 1e-3}
 # keys that no scene has, for which the nearest name would mislead
-_INSTEAD = {"waves.height_m": "'waves.amplitude_m', half of the height"}
+_INSTEAD = dict.fromkeys(("waves.height_m", "height_m"), "'waves.amplitude_m', half of the height")
 FLAT, SOLID = "nested to depth 3", "nested to depth 4"  # kinds of a block of numbers, as pydantic names them
 
 
@@ -128,7 +128,7 @@ def suggestion(key: str, keys: list[str]) -> str:
 
 def ending_in(word: str, model: type[BaseModel]) -> list[str]:
     """The keys of which a word is the whole or, where there is none, the last part."""
-    known = known_fields(model)
+    known = {} if word in _INSTEAD else known_fields(model)
     return [word] if word in known else [key for key in known if key.rpartition(".")[2] == word]
 
 

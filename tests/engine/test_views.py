@@ -61,6 +61,14 @@ def test_everything_goes_to_xarray_with_units():
     assert data["radius_m"].attrs["units"] == "m" and data["growth_nats"].shape == (PERIODS, 1)
 
 
+def test_a_column_is_told_by_its_name_or_refused_with_all_names():
+    run = moved(0.5)
+    np.testing.assert_array_equal(run.section("radius_m").points[:, 0], run.section().points[:, 0])
+    for view in (run.section, run.spectrum):
+        with pytest.raises(ValueError, match=r"'radius'.*radius_m.*tension_top_N"):
+            view("radius")
+
+
 def test_a_notebook_shows_what_the_run_did():
     shown = moved(0.5, -0.2)._repr_html_()
     assert "period-2" in shown and f"ok, {PERIODS} wave periods" in shown
