@@ -25,37 +25,27 @@ class _Idle(Run):
         self.state["status"] = OK
 
 
-def pieces_of(scene: Scene, together: bool = False, carrying: bool = False) -> dict[tuple, list[tuple]]:
-    """The pieces that a run from rest needs: {key of what one process compiles: keys of pieces, their names first}.
+def shares_of(scenes: Iterable[tuple[Scene, bool, bool]]) -> list[dict[tuple, Scene]]:
+    """What processes may compile side by side, the longest first: keys of pieces, each with a scene that needs it.
 
-    together: whether it shares a batch with others, where it may; carrying: whether it may go on with a perturbation in
-    the plane and one across it.
+    scenes: (scene, together, carrying). together: whether its run shares a batch with others, where it may; carrying:
+    whether it may go on with a perturbation in the plane and one across it. Runs begin at rest.
     """
-    if scene.solver.scheme == "paper-box":
-        return {("paper-box",): [("paper-box",)]}
-    record = record_of(scene, [])[0]
-    kind = record.dtype.names[0]
-    one_stage, viscous = bool(record["method"] == ONE_STAGE), bool(record["viscous"])
-    carried = (True, True) if carrying else (scene.output.tangent_vectors > 0, scene.output.lateral_growth)
-    lanes = together and goes_in_lanes(scene)
-    found: dict[tuple, list[tuple]] = {("alone", kind): [("rest",)]}
-    own = found.setdefault(("lanes" if lanes else "alone", kind), [])
-    own.append(("advance",) if lanes else ("march", one_stage, viscous, scene.output.energy))
-    if any(carried):
-        own.append(("follow", True, True) if lanes else ("carry", *carried))
-    return found
-
-
-def shares_of(scenes: Iterable[tuple]) -> list[dict[tuple, Scene]]:
-    """What processes may compile side by side, the longest first: the pieces that scenes need, each with one of these.
-
-    scenes: arguments of `pieces_of`.
-    """
-    found: dict[tuple, dict[tuple, Scene]] = {}
-    for scene, *how in scenes:
-        for share, pieces in pieces_of(scene, *how).items():
-            found.setdefault(share, {}).update(dict.fromkeys(pieces, scene))
-    return sorted(found.values(), key=seconds_of, reverse=True)
+    shares: dict[tuple, dict[tuple, Scene]] = {}
+    for scene, together, carrying in scenes:
+        record, carried = record_of(scene, [])[0], (scene.output.tangent_vectors > 0, scene.output.lateral_growth)
+        carried = (True, True) if carrying else carried
+        kind, lanes = record.dtype.names[0], together and goes_in_lanes(scene)
+        alone, own = (shares.setdefault((where, kind), {}) for where in (False, lanes))
+        if scene.solver.scheme == "paper-box":
+            shares[("paper-box",)] = {("paper-box",): scene}
+            continue
+        alone[("rest",)] = scene
+        parts = bool(record["method"] == ONE_STAGE), bool(record["viscous"]), scene.output.energy
+        own[("advance",) if lanes else ("march", *parts)] = scene
+        if any(carried):
+            own[("follow", True, True) if lanes else ("carry", *carried)] = scene
+    return sorted((share for share in shares.values() if share), key=seconds_of, reverse=True)
 
 
 def seconds_of(pieces: Mapping[tuple, Scene]) -> float:
@@ -66,7 +56,7 @@ def seconds_of(pieces: Mapping[tuple, Scene]) -> float:
 def compile_piece(key: tuple, scene: Scene) -> None:
     """Compile a piece, or load it compiled; no step is made, but in the paper's own scheme."""
     name, *how = key
-    if name in ("carry", "follow"):
+    if how and name != "march":
         carried = {"tangent_vectors": int(how[0]), "lateral_growth": how[1]}
         scene = scene.model_copy(update={"output": scene.output.model_copy(update=carried)})
     if name == "paper-box":

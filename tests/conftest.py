@@ -3,12 +3,12 @@
 import pytest
 
 MANY = 1000  # tests, from which nearly every kernel is needed
-SCENES = (  # what most tests need: changes of the tethered buoy, and as of `engine.pieces.pieces_of`
+SCENES = (  # what most tests need: changes of the tethered buoy, and as of `engine.pieces.shares_of`
     ({}, True, True),
     ({}, False, True),
-    ({"buoy.submergence": "spherical-cap"},),
-    ({"motion.dimensions": 3},),
-    ({"solver.scheme": "paper-box"},),
+    ({"buoy.submergence": "spherical-cap"}, False, False),
+    ({"motion.dimensions": 3}, False, False),
+    ({"solver.scheme": "paper-box"}, False, False),
 )
 
 

@@ -31,7 +31,7 @@ from engine.atomic import write_atomic
 
 PROVENANCE, ANSWER = "provenance.json", "answer.txt"
 MOST_LINES = 8  # of an answer
-REPORT_S, ROW_S = 2.0, 0.2  # of a report, and of each row in it (measured): for the time left
+REPORT_S, ROW_S = 1.5, 0.07  # of a report, and of each row in it (measured): for the time left
 _PACKAGES = (
     "numpy", "scipy", "numba", "llvmlite", "pandas", "xarray", "pydantic", "joblib", "dask", "distributed",
     "matplotlib", "jinja2", "typst",
