@@ -6,7 +6,7 @@ prints them and keeps them as answer.txt, where its report finds them.
 
 import csv
 import math
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 
 from campaigns.statements import FAILS, HOLDS, HOLDS_IF, OPEN, listed
@@ -65,34 +65,35 @@ def verdicts(folder: Path, quoted: int) -> Iterator[str]:
         yield f"{'Further ones' if quoted else 'Those'} that do not: no. {listed(more)} of {STATEMENTS}."
 
 
-def regimes(rows: Sequence[Row], place: Callable[[Sequence[bool]], str]) -> tuple[list[str], list[str]]:
-    """A line for each kind of motion, with its places: regular motions, then chaos with its exponents and the rest.
+def regimes(rows: Sequence[Row], symbol: str, values: Sequence[float]) -> tuple[list[str], list[str]]:
+    """Where the motion is regular, and of which kind; then chaos with its exponents, and what is not decided.
 
-    rows: of `buoy_sweep.rows`. place(chosen) -> where the chosen rows are. Without verdicts: whether motions repeat.
+    rows: of `buoy_sweep.rows`, sorted by `values`, called symbol. Without verdicts: whether motions repeat.
     """
     said = [str(row.get("regime") or "") for row in rows]
     if not any(said):
         found = [known(row, "strobed_period") for row in rows]
         if not any(map(math.isfinite, found)):
             return ["No run is judged, and none repeats at t = k T: more --periods decide."], []
-        most = f"{max(number for number in found if math.isfinite(number)):g}"
-        return [f"No run is judged. Repeats after 1 to {most} wave periods: {place([*map(math.isfinite, found)])}."], []
+        most, place = max(filter(math.isfinite, found)), spans([*map(math.isfinite, found)], values)
+        return [f"No run is judged. Repeats after 1 to {most:g} wave periods: {symbol} = {place}."], []
 
     def at(*words: str) -> str:
-        return place([one in words for one in said])
+        return spans([one in words for one in said], values)
 
     found = set(filter(None, said))
     periodic = sorted((word for word in found if word.startswith(PERIODIC)), key=lambda word: (len(word), word))
     regular, rest = [], []
-    if periodic:
-        lengths = listed(word.removeprefix(PERIODIC) for word in periodic)
-        regular.append(f"Periodic (period {lengths}): {at(*periodic)}.")
-    if QUASI in found:
-        regular.append(f"Quasi-periodic: {at(QUASI)}.")
-    for word in sorted(found - {*periodic, QUASI, *OPEN_WORDS}):
+    if calm := [*periodic, *({QUASI} & found)]:
+        where, lowest = at(*calm), f"{values[0]:.4g} to "
+        preposition = "up to" if where.startswith(lowest) else "at"
+        kinds = [f"period {listed(word.removeprefix(PERIODIC) for word in periodic)}"] if periodic else []
+        kinds += [f"quasi-periodic{f' at {at(QUASI)}' if periodic else ''}"] if QUASI in found else []
+        regular.append(f"Regular {preposition} {symbol} = {where.removeprefix(lowest)}: {', '.join(kinds)}.")
+    for word in sorted(found - {*calm, *OPEN_WORDS}):
         growth = _growth([row for row, one in zip(rows, said, strict=True) if one == word]) if word == CHAOTIC else ""
-        rest.append(f"{word.capitalize()}{growth}: {at(word)}.")
-    if more := "; ".join(f"{words} at {at(word)}" for word, words in OPEN_WORDS.items() if word in found):
+        rest.append(f"{word.capitalize()} at {symbol} = {at(word)}{growth}.")
+    if more := "; ".join(f"{words} at {symbol} = {at(word)}" for word, words in OPEN_WORDS.items() if word in found):
         rest.append(f"Not decided: {more}.")
     return regular, rest
 
@@ -104,5 +105,6 @@ def _growth(rows: Sequence[Row]) -> str:
         if found := [row for row in rows if math.isfinite(known(row, columns[0]))]:
             values, errors = ([known(row, name) for row in found] for name in columns)
             span = f"{min(values):.2f} to {max(values):.2f}" if len(found) > 1 else f"{values[0]:.2f}"
-            return f", {span} bits a wave (standard error {'up to ' if len(found) > 1 else ''}{max(errors):.2f})"
+            most = "up to " if len(found) > 1 else ""
+            return f": neighbours part by {span} bits a wave (standard error {most}{max(errors):.2f})"
     return ""

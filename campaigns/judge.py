@@ -7,6 +7,7 @@ import engine.scene
 from engine.views import LONGEST_PERIOD, STROBE_TOLERANCE, carried, carries_tangents, state_of, verdict
 
 LEAST_JUDGED = 40  # periods after the transient below which a record is not judged: exponents are then left out
+OPEN = ("undecided", "transient")  # regimes that decide nothing
 LEAST_CHECK, SURE = 90, 4.0  # wave periods at the tighter tolerance; errors by which chaos is then expected to show
 TANGENTS, LATERAL = "output.tangent_vectors", "output.lateral_growth"
 

@@ -14,9 +14,10 @@ RUNGE_KUTTA, ONE_STAGE = 0, 1  # method: the two families of time integrators
 PLACE, STRAIN, TENSION, SPEED = 0, 3, 4, 5  # columns of a profile, one row a node: x, y, z (m); 1; N; m/s
 PROFILE_WIDTH = 6
 # columns of the samples of the upper end: time; place x, y, z; velocity x, y, z; tension there, least tension along the
-# line, least and greatest tension at the upper end since the sample before; largest distance from the plane
-(TIME, AT_X, AT_Y, AT_Z, AT_U, AT_V, AT_W, TOP, LEAST, TOP_LOW, TOP_HIGH, OFFPLANE) = range(12)
-SAMPLE_WIDTH = 12
+# line, least and greatest tension at the upper end since the sample before; largest distance from the plane; loops
+# released since t = 0
+(TIME, AT_X, AT_Y, AT_Z, AT_U, AT_V, AT_W, TOP, LEAST, TOP_LOW, TOP_HIGH, OFFPLANE, RELEASES) = range(13)
+SAMPLE_WIDTH = 13
 BEGIN, STEP, KIND = range(3)  # columns of the times of a trail: t (s), dt (s), one of the next
 CONTROLLED, EULER, RESTART = 0.0, 1.0, 2.0  # of Runge-Kutta, one-stage, backward Euler after a sudden start or release
 STRETCH = 5  # column of the nodal array Q at which q = (1 + eps) t begins, in a plane and in space

@@ -205,7 +205,7 @@ def sample_count(duration_s: float, step_s: float) -> int:
 
 
 def columns_of(samples: np.ndarray, heading: float) -> dict[str, np.ndarray]:
-    """Columns of the table, by `engine.trajectory.COLUMNS`, from samples (n, 12) with the columns of `engine.record`.
+    """Columns of the table, by `engine.trajectory.COLUMNS`, from samples (n, 13) with the columns of `engine.record`.
 
     The angle from the vertical is taken in the plane of waves that travel along `heading` (rad); `along` is the place,
     `rate` the velocity in the direction of these waves.
@@ -220,6 +220,6 @@ def columns_of(samples: np.ndarray, heading: float) -> dict[str, np.ndarray]:
         square = along**2 + z**2
         angle_rate = (z * rate - along * w) / np.where(square > 0, square, np.nan)
     angle = np.unwrap(np.arctan2(along, z))
-    tensions = (samples[:, at] for at in (col.OFFPLANE, col.TOP, col.LEAST, col.TOP_LOW, col.TOP_HIGH))
-    found = t, x, y, z, r, radius_rate, angle, angle_rate, *tensions
+    others = (samples[:, at] for at in (col.OFFPLANE, col.TOP, col.LEAST, col.TOP_LOW, col.TOP_HIGH, col.RELEASES))
+    found = t, x, y, z, r, radius_rate, angle, angle_rate, *others
     return {name: np.array(values) for name, values in zip(COLUMNS, found, strict=True)}

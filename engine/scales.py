@@ -10,6 +10,8 @@ from .physics.tension import LAWS, NAMES, TensionLaw
 from .scene.models import Scene
 from .scene.sections import End, Tether
 
+TRANSIT_STEPS = 12  # after a loop release in the time that an axial wave takes along the line
+
 
 def put_scales(record: np.void, scene: Scene, h: np.ndarray) -> None:
     """Inverse scales in which Newton updates and step errors are measured (Table 1: 0.04, 100 N, 1 m/s, 5 rad/m)."""
@@ -30,7 +32,7 @@ def put_scales(record: np.void, scene: Scene, h: np.ndarray) -> None:
         strain = max(strain, strain_at(load, scene.tether.tension))
     record["per_strain"] = 1 / strain
     transit = length * math.sqrt(float(record["m"]) / stiffness)
-    record["release_step"] = min(transit / 12, float(record["max_step"]))
+    record["release_step"] = min(transit / TRANSIT_STEPS, float(record["max_step"]))
     record["per_force"] = 20 / load
     recoil = strain * length / transit if scene.end.force_decay_s else 0.0  # of the end of a line that breaks
     bent = stiff / float(record["m"])

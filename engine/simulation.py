@@ -91,6 +91,8 @@ def simulate_each(
 
     for i, (scene, length, start) in enumerate(zip(scenes, lengths, given, strict=True)):
         add(i, scene, length, start, duration_s)
+    for kind, runs in waiting.items():  # the longest first, because lanes run empty while the last ones end
+        waiting[kind] = deque(sorted(runs, key=lambda one: one.duration_s * one.scene.solver.rtol**-0.25, reverse=True))
     while waiting:
         kind = max(waiting, key=lambda one: len(waiting[one]))
         together = kind is not None and len(waiting[kind]) >= batch.LEAST

@@ -39,6 +39,7 @@ COLUMNS = {  # name -> (unit, long name), in the order of the table
     "tension_min_N": ("N", "least tension along the tether"),
     "tension_top_low_N": ("N", "least tension at the upper end over all steps since the previous sample"),
     "tension_top_high_N": ("N", "largest tension at the upper end over all steps since the previous sample"),
+    "loop_releases": ("1", "loops of slack tether released since t = 0"),
 }
 TEXTS = ("title", "scene", "status", "message", "statistics")  # attributes of a file that are part of the run
 
@@ -253,7 +254,8 @@ def _restored(texts: dict[str, str], arrays: dict[str, np.ndarray]) -> Trajector
     if scene.output.energy:
         energy = EnergyBudget(*(arrays.get(name, none) for name, *_ in _abouts(EnergyBudget, "energy_").values()))
     tangent = _growth(scene, arrays)
-    columns = {name: arrays[name] for name in COLUMNS}
+    unknown = {"loop_releases": np.zeros(len(arrays["time_s"]))}  # of files that know only how many there were
+    columns = {name: (unknown | arrays)[name] for name in COLUMNS}
     statistics = json.loads(texts["statistics"])
     more = profiles, tangent, energy, state_of_file(scene, arrays)
     return Trajectory(scene, texts["status"], texts["message"], columns, statistics, *more)

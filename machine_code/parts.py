@@ -34,6 +34,15 @@ class _Library(JITCodeLibrary):
             if one not in self._linking_libraries:
                 super().add_linking_library(one)
 
+    def add_ir_module(self, module):
+        """Takes in a module, whose functions shall find their stack where vectors of 64 bytes may be put: LLVM would
+        let those that do not fit into registers straddle two lines of the cache."""
+        for function in module.functions:
+            if not function.is_declaration:
+                function.attributes.alignstack = 64
+                function.attributes.add("nounwind")  # llvmlite writes no alignment alone
+        super().add_ir_module(module)
+
 
 class _Part(_Library):
     """Code that is linked into others, as often as they like, and is never run by itself."""

@@ -10,6 +10,7 @@ In a plane a loop of slack tether cannot open; the run releases it and counts (`
 every value in three dimensions, `--dimensions auto` those whose planar run released loops.
 """
 
+import contextlib
 from collections.abc import Callable, Iterator
 from functools import partial
 
@@ -17,6 +18,7 @@ import engine
 from campaigns.buoy_sweep.space import SEED_MPS, in_space, run_where_needed
 from campaigns.judge import judged_job, judged_scene
 from campaigns.machinery import cli
+from campaigns.machinery.folder import read_rows
 from campaigns.machinery.plan import Job
 from campaigns.machinery.runner import run
 from campaigns.study import Lengths, Measures, Order, Study
@@ -27,7 +29,11 @@ STEEPNESS = tuple(round(0.016 + 0.003 * step, 3) for step in range(49))
 PAPER_STEEPNESS = (0.016, 0.13)
 SWEPT = "waves.steepness"
 DIMENSIONS = ("2", "3", "auto")
-ROW_SOURCES = ("analysis", "engine", "campaigns/buoy_sweep/rows.py", "campaigns/judge.py")
+ROW_SOURCES = (
+    "analysis",
+    "engine",
+    *(f"campaigns/{name}.py" for name in ("judge", "buoy_sweep/rows", "buoy_sweep/batches")),
+)
 
 
 def options(group) -> None:
@@ -36,7 +42,10 @@ def options(group) -> None:
     cli.add(group, "--steepness-range", "LO HI COUNT", "evenly spaced steepnesses, both ends included")
     three = "2, 3, or auto: 3 where the planar run released loops (default: as the scene says; the shipped one says 2)"
     cli.add(group, "--dimensions", "|".join(DIMENSIONS), three, cli.one_of(DIMENSIONS))
+    cli.add_evidence(group)
     cli.add_accuracy(group)
+    fewer = "do not run further values between for the orbit diagram of a sweep of nine values or more"
+    group.add_argument("--no-between", action="store_true", help=fewer)
 
 
 def read(options, faults: list[str]) -> None:
@@ -79,8 +88,14 @@ def measures(order: Order) -> Measures:
     """How a run becomes a row of table.csv: by `rows.buoy_row`."""
     from campaigns.buoy_sweep.rows import COLUMNS, buoy_row
 
-    row = partial(buoy_row, transient_periods=order.transient)
-    return Measures(COLUMNS, row, ROW_SOURCES, {"transient": order.transient})
+    settings = settings_of(order)
+    return Measures(COLUMNS, partial(buoy_row, **settings), ROW_SOURCES, settings)
+
+
+def settings_of(order: Order) -> dict[str, int | None]:
+    """How a row is made: transient_periods, full of `rows.buoy_row`."""
+    full = getattr(order.own, "evidence", "") == "full"
+    return {"transient_periods": order.transient, "full": order.periods if full else None}
 
 
 def parameters(order: Order) -> dict[str, object]:
@@ -98,21 +113,28 @@ def parameters(order: Order) -> dict[str, object]:
 
 
 def beside(order: Order) -> Iterator[Callable]:
-    """What follows the runs: two of them again, tighter and finer, then the most violent one with its profiles."""
-    from campaigns.buoy_sweep.repeats import close_up, repeat
+    """What follows the runs (`campaigns.buoy_sweep.batches`): values between, the largest load, errors, a close-up."""
+    from campaigns.buoy_sweep import batches
     from campaigns.buoy_sweep.rows import buoy_row
 
+    if order.looks and not order.own.no_between and len(order.cases) >= batches.LEAST_VALUES:
+        yield partial(batches.between, key=SWEPT, cases=order.cases)
     if not order.own.no_accuracy:
+        yield partial(batches.companions, key=SWEPT, periods=order.periods)
         row = partial(buoy_row, transient_periods=order.transient)
-        yield partial(repeat, periods=order.periods, row_of=row, said="regime")
-    yield partial(close_up, periods=order.periods)
+        yield partial(batches.repeat, carrying=not order.looks, row_of=row, said="regime")
+    yield partial(batches.close_up, periods=order.periods)
 
 
 def answer(order: Order, rows: list[dict]) -> list[str]:
     """What the sweep found (`campaigns.buoy_sweep.answer`)."""
     from campaigns.buoy_sweep.answer import sentences
 
-    return sentences(rows, "steepness", "kA", order.cases[0].scene)
+    companions: tuple[dict, ...] = ()
+    if not order.own.no_accuracy:
+        with contextlib.suppress(OSError, ValueError):  # none, as where no run ended
+            companions = read_rows(order.how.out / "companions" / "table.csv")
+    return sentences(rows, "steepness", "kA", order.cases[0].scene, companions)
 
 
 STUDY = Study(

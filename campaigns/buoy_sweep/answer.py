@@ -9,7 +9,7 @@ from collections.abc import Iterator, Sequence
 from itertools import pairwise
 from statistics import median
 
-from campaigns.answers import Row, greatest, kilonewton, known, regimes, spans
+from campaigns.answers import Row, greatest, kilonewton, known, regimes
 from campaigns.machinery.session import MOST_LINES
 from campaigns.statements import listed
 
@@ -17,17 +17,22 @@ PEAK = "tension_top_max_N"
 LEAST_JUMP, TYPICAL = math.log(1.25), 3.0
 TOLD = 3  # jumps beside the largest that are told
 SMALLER = "Smaller jumps of the largest tension between"
+FLIES = "the sphere flies above still water with all its buoyancy (buoy.submergence)"
+LOOPS = "loops were released (--dimensions)"
+AS_RUN, CAPPED = "as run", "wetted cap"  # roles of companions
 
 
-def sentences(rows: Sequence[Row], key: str, symbol: str, scene) -> list[str]:
-    """At most eight, of the rows over a column `key` of the table, in words `symbol`; scene: of one of the runs."""
+def sentences(rows: Sequence[Row], key: str, symbol: str, scene, companions: Sequence[Row] = ()) -> list[str]:
+    """At most eight, of the rows over a column `key` of the table, in words `symbol`; scene: of one of the runs.
+
+    companions: rows of its folder of that name.
+    """
     good = [row for row in rows if row["status"] == "ok" and math.isfinite(known(row, PEAK))]
     if not good:
         return ["No run lasts beyond the transient, so nothing can be said of the motion."]
     good.sort(key=lambda row: known(row, key))
-    values = [known(row, key) for row in good]
-    regular, rest = regimes(good, lambda chosen: f"{symbol} = {spans(chosen, values)}")
-    found = [*regular, *jumps(good, key, symbol), *rest, *use(good, key, symbol, scene)]
+    regular, rest = regimes(good, symbol, [known(row, key) for row in good])
+    found = [*regular, *jumps(good, key, symbol), *rest, *use(good, key, symbol, scene, companions)]
     return [line for line in found if len(found) <= MOST_LINES or not line.startswith(SMALLER)]
 
 
@@ -37,11 +42,13 @@ def jumps(rows: Sequence[Row], key: str, symbol: str) -> Iterator[str]:
     least = max(LEAST_JUMP, TYPICAL * median(size for size, *_ in pairs)) if pairs else math.inf
     found = sorted((pair for pair in pairs if pair[0] > least), key=lambda pair: -pair[0])
     for _, a, b in found[:1]:
-        swings = (known(row, "radius_max_m") - known(row, "radius_min_m") for row in (a, b))
+        before, after = (known(row, "radius_max_m") - known(row, "radius_min_m") for row in (a, b))
         slack = (100.0 * known(row, "slack_fraction") for row in (a, b))
         yield (
-            f"Jump between {symbol} = {known(a, key):.4g} and {known(b, key):.4g}: largest tension {_change(a, b)}, "
-            "swing of r {:.2f} to {:.2f} m, slack {:.0f} to {:.0f} % of the time.".format(*swings, *slack)
+            f"Between {symbol} = {known(a, key):.4g} and {known(b, key):.4g} the motion jumps to one "
+            f"{after / before if before else math.inf:.2g} times as large: peak tension {_change(a, b)}, "
+            f"swing of r {before:.2f} -> {after:.2f} m, "
+            "time with less than 5 % of the static tension {:.0f} -> {:.0f} %.".format(*slack)
         )
     if more := sorted((known(a, key), known(b, key), _change(a, b)) for _, a, b in found[1 : 1 + TOLD]):
         yield f"{SMALLER} {symbol} = {listed(f'{a:.4g} and {b:.4g} ({change})' for a, b, change in more)}."
@@ -52,34 +59,47 @@ def _pull(row: Row) -> bool:
 
 
 def _change(before: Row, after: Row) -> str:
-    """ "4.4 to 9.4 kN"."""
-    return f"{known(before, PEAK) / 1e3:.2g} to {kilonewton(known(after, PEAK))}"
+    """ "4.4 -> 9.4 kN"."""
+    return f"{known(before, PEAK) / 1e3:.2g} -> {known(after, PEAK) / 1e3:.2g} kN"
 
 
-def use(rows: Sequence[Row], key: str, symbol: str, scene) -> Iterator[str]:
-    """The largest tension, whether it may be used, and the largest that may."""
+def use(rows: Sequence[Row], key: str, symbol: str, scene, companions: Sequence[Row]) -> Iterator[str]:
+    """The largest tension, what it becomes otherwise, whether it may be used, and the largest that may."""
     peak, static_N = greatest(rows, PEAK), static_tension(scene)
-    times = f", {known(peak, PEAK) / static_N:.1f} times the static one" if static_N else ""
-    yield f"Largest tension {kilonewton(known(peak, PEAK))} at {symbol} = {known(peak, key):.4g}{times}."
+    times = f" ({known(peak, PEAK) / static_N:.1f} times static)" if static_N else ""
+    said = f"Largest tension {kilonewton(known(peak, PEAK))} at {symbol} = {known(peak, key):.4g}{times}"
+    sound = [row for row in companions if row["status"] == "ok"]
+    again = {str(row["role"]): row for row in sound if known(row, key) == known(peak, key)}
+    if (usual := again.pop(AS_RUN, None)) is not None and again:
+        words = (
+            f"{'with the' if role == CAPPED else 'on'} {role} {kilonewton(known(row, PEAK))}"
+            for role, row in reversed(again.items())
+        )
+        first, last = known(usual, "transient_periods"), known(usual, "periods")
+        said += f"; over periods {first:.0f} to {last:.0f} it is {kilonewton(known(usual, PEAK))}, {', '.join(words)}"
+    yield f"{said}."
     doubts = [*reasons(peak, scene)]
     if scene is None or scene.buoy is None:
         return
     if not doubts:
         yield "No loop was released in its run, and the buoy is loaded where it is wet: nothing here speaks against it."
         return
-    yield f"It is no load to design for: {listed(doubts)}."
-    free = greatest([row for row in rows if not [*reasons(row, scene)]], PEAK)
+    yield f"It is no load to design for, because {listed(doubts)}."
+    others = [*rows, *(row for row in sound if row["role"] == CAPPED)]
+    free = greatest([row for row in others if not [*reasons(row, scene)]], PEAK)
     if free is not None:
-        yield f"Largest tension without that: {kilonewton(known(free, PEAK))} at {symbol} = {known(free, key):.4g}."
+        load, at = kilonewton(known(free, PEAK)), f"at {symbol} = {known(free, key):.4g}"
+        capped = f"With the wetted cap the largest tension is {load}, {at}: use this one."
+        yield capped if free.get("role") == CAPPED else f"Largest tension without that: {load} {at}."
 
 
 def reasons(row: Row, scene) -> Iterator[str]:
     """What speaks against the tensions of a run: water that acts on a sphere in the air, and loops in a plane."""
     if scene is not None and scene.buoy is not None and scene.buoy.submergence == "full":
-        if known(row, "max_buoy_height_above_water_m") > scene.buoy.diameter_m:
-            yield "the sphere flies above still water with all its buoyancy (buoy.submergence)"
+        if row.get("role") != CAPPED and known(row, "max_buoy_height_above_water_m") > scene.buoy.diameter_m:
+            yield FLIES
     if known(row, "loop_releases") > 0 and known(row, "dimensions") != 3:
-        yield "loops were released (--dimensions)"
+        yield LOOPS
 
 
 def static_tension(scene) -> float | None:

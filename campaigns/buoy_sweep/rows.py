@@ -4,6 +4,8 @@ A column whose analysis does not apply to a run stays empty (None), never 0: a r
 its statistics and nothing more. Extremes and slack are taken after the transient, the emergence over the whole run.
 """
 
+from dataclasses import replace
+
 import numpy as np
 
 from analysis.evidence import evidence_text
@@ -20,8 +22,8 @@ from campaigns.columns import (
     names,
     number,
 )
-from campaigns.judge import LEAST_JUDGED, motion_of, record_regime, tangent_of
-from engine.views import LONGEST_PERIOD, STROBE_TOLERANCE, carried, carries_tangents, state_of
+from campaigns.judge import LEAST_JUDGED, OPEN, motion_of, record_regime, tangent_of
+from engine.views import LONGEST_PERIOD, STROBE_TOLERANCE, carried, carries_tangents, rings, state_of
 
 STEEPNESS = Column("steepness", "", "kA", "wave steepness: wave number times amplitude", 3)
 DIMENSIONS = Column("dimensions", "", "D", "dimensions of the motion: 2, in the plane of the waves, or 3", 0)
@@ -33,13 +35,20 @@ EXTREMES = (
     Column("radius_max_m", "m", "r_max", "largest distance of the upper end from the anchor after the transient", 2),
     Column("angle_min_rad", "rad", "θ_min", "smallest angle of the upper end from the vertical after the transient", 3),
     Column("angle_max_rad", "rad", "θ_max", "largest angle of the upper end from the vertical after the transient", 3),
-    Column("tension_top_min_N", "N", "T_min", "smallest tension at the top of the line after the transient", 0),
+    Column(
+        "tension_top_min_N", "N", "T_min",
+        "smallest tension at the top of the line after the transient, but for the moments after loop releases", 0,
+    ),
     Column("tension_top_max_N", "N", "T_max", "largest tension at the top of the line after the transient", 0),
     Column(
         "slack_fraction", "", "χ",
         "share of the time after the transient with less than 5 % of the static tension at the top", 3,
     ),
     Column("compression_fraction", "", "χ_c", "share of the time after the transient with T < 0 at the top", 3),
+    Column(
+        "compression_after_release_N", "N", "T_rel",
+        "smallest tension within an axial transit after loop releases, of the grid and of the steps: no load", 0,
+    ),
 )  # fmt: skip
 NEAR_ZERO = 0.05  # of the static tension: what the paper calls near zero; below it the line is slack
 REGIME = Column("regime", symbol="regime", meaning="period-N, quasi-periodic, chaotic, transient or undecided")
@@ -56,7 +65,10 @@ OFFPLANE = (
     Column("offplane_growth_bits_per_period", _BITS, "σ_y", "growth of an infinitesimal push across the plane", 3),
     Column("offplane_growth_error", _BITS, "± σ_y", "standard error of the growth rate across the plane", 3),
 )
-_HEIGHT = "highest point of the sphere above still water over the whole run; negative if it stays below"
+HEIGHT = Column(
+    "max_buoy_height_above_water_m", "m", "height",
+    "highest point of the sphere above still water over the whole run; negative if it stays below", 2,
+)  # fmt: skip
 COLUMNS = (
     STEEPNESS,
     DIMENSIONS,
@@ -72,7 +84,7 @@ COLUMNS = (
     *WOLF,
     *TANGENT,
     *OFFPLANE,
-    Column("max_buoy_height_above_water_m", "m", "height", _HEIGHT, 2),
+    HEIGHT,
     *LINE_COUNTS,
     Column("buoy_lateral_max_m", "m", "buoy |y|", "largest |y| of the buoy after the transient, in 3-D", 3),
     Column("rope_lateral_max_m", "m", "rope |y|", "largest |y| of any node after the transient, in 3-D", 3),
@@ -88,13 +100,15 @@ COLUMNS = (
 )
 
 
-def buoy_row(trajectory, transient_periods: int | None, checks=None) -> dict[str, object]:
+def buoy_row(trajectory, transient_periods: int | None, checks=None, full: int | None = None) -> dict[str, object]:
     """The columns of `COLUMNS` that a trajectory of the tethered buoy fills; those left out are unknown.
 
     trajectory: an engine Trajectory of a scene with waves and a buoy, run to its end or not.
     transient_periods: wave periods left out; a record that does not outlast them by one has statistics only. None:
     those that the verdict has found.
     checks: how it went on at a tighter tolerance (`campaigns.judge.motion_of`), for a run that is chaotic.
+    full: wave periods after which a run ends undecided, where Wolf's exponent and the tests for records of unknown
+    origin are asked for too; the verdict does not rest on them. None: they are not made.
     A run gets a verdict (`campaigns.judge`) if it reached its end and lasts for two looks; in three dimensions, where
     no perturbations are carried, for 40 periods. A loop release after the transient leaves offplane_growth unknown,
     because across the plane a loop has no rate of its own. `campaigns.buoy_sweep.space` fills the columns planar_.
@@ -117,12 +131,18 @@ def buoy_row(trajectory, transient_periods: int | None, checks=None) -> dict[str
             row["buoy_lateral_max_m"] = float(np.abs(columns["y_m"][first:]).max())
             row["rope_lateral_max_m"] = float(columns["offplane_m"][first:].max())
     if verdict is not None:
+        evidence, tangent, tighter = [verdict], tangent_of(trajectory, transient_periods), _tighter(verdict)
+        goes_on = verdict.regime in OPEN or (verdict.regime == "chaotic" and tighter is None)
+        if full is not None and wolf is None and (periods > full - 0.5 or not goes_on):
+            record, wolf = record_regime(trajectory, transient_periods, tangent)
+            alone = tuple(replace(test, name=f"samples alone, {test.name}") for test in record.evidence)
+            evidence.append(replace(record, evidence=alone))
         row |= {
             "regime": verdict.regime,
-            "regime_tighter": _tighter(verdict),
+            "regime_tighter": tighter,
             "regime_reason": verdict.reason,
-            "evidence": evidence_text(verdict),
-            **exponents(TANGENT, tangent_of(trajectory, transient_periods)),
+            "evidence": "; ".join(map(evidence_text, evidence)),
+            **exponents(TANGENT, tangent),
             **(exponents(WOLF, wolf) if wolf is not None else {}),
         }
     return row
@@ -157,7 +177,7 @@ def after_transient(trajectory, columns, transient_periods: int) -> dict[str, ob
     step_s, period_s = trajectory.scene.sample_step_s(), trajectory.scene.waves.period_s
     if not lasts(columns, step_s, (transient_periods + 1) * period_s):
         return {}
-    row = settled(columns, step_s, transient_periods * period_s)
+    row = settled(trajectory.scene, columns, transient_periods * period_s)
     # Its state once a period has to repeat. Only the period goes into the table: the report strobes the radius again.
     coordinates, scale = state_of(columns, step_s, period_s, transient_periods)
     section = poincare_section(coordinates, step_s, period_s, transient_periods=transient_periods)
@@ -181,14 +201,19 @@ def exponents(columns: tuple[Column, Column], found) -> dict[str, object]:
     return dict(zip(names(columns), (number(found.value), number(found.error)), strict=True))
 
 
-def settled(columns, step_s: float, transient_s: float) -> dict[str, object]:
+def settled(scene, columns, transient_s: float) -> dict[str, object]:
     """Extremes and slack of what follows the transient, by column of the table (`EXTREMES`)."""
     from analysis import extremes, slack_fraction
 
+    step_s = scene.sample_step_s()
     # Tension snaps between samples: its extremes come from the columns that saw every step of the solver.
-    radius, angle, low, high = (
-        extremes(columns[name], step_s, transient_s)
-        for name in ("radius_m", "angle_rad", "tension_top_low_N", "tension_top_high_N")
+    radius, angle, high = (
+        extremes(columns[name], step_s, transient_s) for name in ("radius_m", "angle_rad", "tension_top_high_N")
+    )
+    ringing = rings(scene, columns["loop_releases"])
+    after = np.arange(len(ringing)) * step_s >= transient_s - 1e-6 * step_s
+    lowest, released = (
+        number(np.min(columns["tension_top_low_N"], where=after & some, initial=np.inf)) for some in (~ringing, ringing)
     )
     # A run starts at rest. T < 0 alone says little: much of it is noise of axial waves in a line that hangs loose.
     tension, static_N = columns["tension_top_N"], float(columns["tension_top_N"][0])
@@ -196,8 +221,8 @@ def settled(columns, step_s: float, transient_s: float) -> dict[str, object]:
         slack_fraction(tension, step_s, threshold_N, transient_s).fraction
         for threshold_N in (max(NEAR_ZERO * static_N, 0.0), 0.0)
     )
-    ends = (radius.minimum, radius.maximum, angle.minimum, angle.maximum, low.minimum, high.maximum)
-    return dict(zip(names(EXTREMES), (*ends, *shares), strict=True))
+    ends = radius.minimum, radius.maximum, angle.minimum, angle.maximum, lowest, high.maximum
+    return dict(zip(names(EXTREMES), (*ends, *shares, released), strict=True))
 
 
 def sound_part(columns) -> dict[str, np.ndarray]:

@@ -138,9 +138,15 @@ def add_running(group, campaign: str, jobs: bool = True, backends: bool = True) 
 
 
 def add_accuracy(group) -> None:
-    """Add --no-accuracy (`campaigns.buoy_sweep.repeats`)."""
-    again = "do not repeat two runs at a tenth of the tolerance and at twice the elements"
+    """Add --no-accuracy (`campaigns.buoy_sweep.batches`)."""
+    again = "do not repeat runs tighter, finer or with the wetted cap"
     group.add_argument("--no-accuracy", action="store_true", help=again)
+
+
+def add_evidence(group) -> None:
+    """Add --evidence."""
+    more = "dynamics, or full: Wolf's exponent and the tests for records of unknown origin as well, seconds a run"
+    add(group, "--evidence", "dynamics|full", more, one_of(("dynamics", "full")), "dynamics")
 
 
 def split(parser: argparse.ArgumentParser, argv: list[str], faults: list[str]) -> argparse.Namespace:

@@ -21,6 +21,7 @@ import time
 from collections import deque
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
+from functools import cache
 from pathlib import Path
 
 DRAWN_S = 0.25  # between two drawings on a terminal
@@ -28,7 +29,7 @@ FIRST_S, SAID_S = 1.5, 8.0  # to the first line elsewhere, and between two lines
 ASKED_S = 3.0  # of a stage before its time left is told
 TOLD_S = 0.3  # between two words of a worker
 BAR = 20  # characters
-RECENT = 0.5  # share of the time so far from which the speed is taken: runs that come later may be slower
+RECENT = 0.7  # share of the time so far from which the speed is taken: runs that come later may be slower
 
 
 @dataclass
@@ -74,8 +75,8 @@ class Stage:
 
     def _kernels(self) -> int:
         """How many any process has compiled since it began."""
-        store = sys.modules.get("machine_code.store")
-        return store.made_since(time.time() - self.seen[-1][0]) if store is not None else 0
+        made_since = getattr(sys.modules.get("machine_code.store"), "made_since", None)  # not while it is imported
+        return made_since(time.time() - self.seen[-1][0]) if made_since is not None else 0
 
     def _left(self, stages: list["Stage"]) -> str:
         left = self.left_s()
@@ -91,13 +92,13 @@ class Stage:
 
     def ended(self) -> str:
         """The last line; "" of a stage that was short or counted nothing."""
-        told = self.far is not None and self.look()[0] > ASKED_S
-        return f"{_named()}: ended, {_clock(self.seen[-1][0])}\n" if told else ""
+        now = self.look()[0]
+        return f"{_named()}: ended, {_clock(now)}\n" if self.far is not None and now > ASKED_S else ""
 
 
 _open: list[Stage] = []
 _lock = threading.RLock()
-_line = {"ended": threading.Event(), "next_s": 0.0}  # of the thread that draws; when the next line is due
+_next = {"s": 0.0}  # when the next line of a file is due
 
 
 @contextlib.contextmanager
@@ -105,18 +106,16 @@ def stage(what: str, *counted: object, **more: object) -> Iterator[Stage]:
     """Show a `Stage` of these fields for as long as the `with` lasts."""
     one = Stage(what, *counted, **more)
     with _lock:
+        if not _open:
+            _next["s"] = one.began + FIRST_S
         _open.append(one)
-        if len(_open) == 1:
-            _line.update(ended=threading.Event(), next_s=one.began + FIRST_S)
-            threading.Thread(target=_show, args=(_line["ended"],), daemon=True).start()
+    _drawn()
     try:
         yield one
     finally:
         with _lock:
             _write(one.ended())
             _open.remove(one)
-            if not _open:
-                _line["ended"].set()
 
 
 def counting(what: str, seconds: float) -> contextlib.AbstractContextManager[Stage]:
@@ -136,13 +135,17 @@ def tell(text: str) -> None:
         _write(f"{text}\n")
 
 
-def _show(ended: threading.Event) -> None:
-    """Keep the line up to date until no stage is left."""
-    while not ended.is_set():
+@cache
+def _drawn() -> None:
+    threading.Thread(target=_keep_drawing, daemon=True).start()
+
+
+def _keep_drawing() -> None:
+    while True:
         with _lock:
-            if _open and not ended.is_set():
+            if _open:
                 _draw()
-        ended.wait(DRAWN_S)
+        time.sleep(DRAWN_S)
 
 
 def _draw() -> None:
@@ -153,9 +156,9 @@ def _draw() -> None:
         while len(names) > 1 and len(": ".join([*names, text])) > width:
             names.pop(0)
         _write(": ".join([*names, text])[:width])
-    elif time.monotonic() >= _line["next_s"]:
+    elif time.monotonic() >= _next["s"]:
         _write(f"{_named()}: {text}\n")
-        _line["next_s"] = time.monotonic() + SAID_S
+        _next["s"] = time.monotonic() + SAID_S
 
 
 def _terminal() -> bool:

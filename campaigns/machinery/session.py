@@ -3,8 +3,8 @@
 `provenance.json` says who ran what, where, with which versions. It describes what made the results, so a later run of
 the same campaign that computes nothing leaves it alone, and a report made from the folder does not change.
 
-Times are wall seconds of this session: compile_s (the first simulation of all, after which the machine code is on disk
-for every worker), run_s (all runs), analysis_s (inside run_s, summed over workers), report_s.
+Times are wall seconds of this session: compile_s (until the machine code is on disk for every worker), run_s (all
+runs), analysis_s (inside run_s, summed over workers), report_s.
 """
 
 import collections

@@ -35,4 +35,5 @@ def write(out: Path) -> None:
     from campaigns.paper.statements import claims
 
     write_figure_data(out)
-    write_statements(out, claims(), read_results(out))
+    quick = bool((read_json(out / "provenance.json") or {}).get("quick"))
+    write_statements(out, claims(quick), read_results(out))

@@ -17,7 +17,7 @@ from functools import partial, reduce
 from itertools import product
 from math import inf
 
-from campaigns.buoy_sweep import ROW_SOURCES
+from campaigns.buoy_sweep import ROW_SOURCES, settings_of
 from campaigns.columns import MESSAGE, RUN_KEY, STATISTICS, STATUS, Column, counted
 from campaigns.judge import judged_job, judged_scene
 from campaigns.machinery import cli
@@ -92,6 +92,7 @@ def options(group) -> None:
     cli.add(group, "--vary", "KEY LO HI COUNT", "a key of the scene and its values, both ends included; once or twice")
     seconds = cli.number("seconds, a finite number above 0", lambda found: 0.0 < found < inf)
     cli.add(group, "--duration", "S", "length of every run in seconds, for a scene without waves", seconds)
+    cli.add_evidence(group)
 
 
 def read(options, faults: list[str]) -> None:
@@ -143,12 +144,11 @@ def measures(order: Order) -> Measures:
         others = (column for column in rows.COLUMNS if not column.name.startswith("planar_"))
         measured = tuple(column for column in others if column is not rows.STEEPNESS)
     columns = (*labels, *(column for column in measured if column.name not in {one.name for one in labels}))
-    row = partial(sweep_row, transient_periods=order.transient)
-    sources = (*ROW_SOURCES, "campaigns/sweep/__init__.py")
-    return Measures(columns, row, sources, {"transient": order.transient})
+    sources, settings = (*ROW_SOURCES, "campaigns/sweep/__init__.py"), settings_of(order)
+    return Measures(columns, partial(sweep_row, **settings), sources, settings)
 
 
-def sweep_row(trajectory, transient_periods: int | None, check=None) -> dict[str, object]:
+def sweep_row(trajectory, transient_periods: int | None, checks=None, full: int | None = None) -> dict[str, object]:
     """The columns of `measures` that a trajectory fills; those left out are unknown. Arguments: `buoy_row`.
 
     The upper end of a line without a buoy has a radius and an angle as the buoy has; without waves nothing is left out.
@@ -157,11 +157,11 @@ def sweep_row(trajectory, transient_periods: int | None, check=None) -> dict[str
 
     scene = trajectory.scene
     if in_regular_waves(scene):
-        return buoy_row(trajectory, transient_periods, check)
-    row, columns, step_s = counted(trajectory), sound_part(trajectory.columns), scene.sample_step_s()
+        return buoy_row(trajectory, transient_periods, checks, full)
+    row, columns = counted(trajectory), sound_part(trajectory.columns)
     transient_s = transient_periods * scene.waves.period_s if scene.waves is not None else 0.0
     if len(columns["time_s"]) > 1 and columns["time_s"][-1] > transient_s:
-        row |= settled(columns, step_s, transient_s)
+        row |= settled(scene, columns, transient_s)
     return row
 
 

@@ -131,7 +131,8 @@ def lateral_stage(p, tables, base, X, Q, F, dC_tilde, H, E, dC):
         s_b = H[a, SIN_HALF] * H[k, COS_HALF] + H[a, COS_HALF] * H[k, SIN_HALF]
         c_b = H[a, COS_HALF] * H[k, COS_HALF] - H[a, SIN_HALF] * H[k, SIN_HALF]
         half = 0.5 * (Y[k, col.PHI] - Y[a, col.PHI])
-        f = where(abs(half) > 1e-4, half / (e * H[k, SIN_HALF]), (1.0 + half * half / 6.0) / e)
+        long = abs(half) > 1e-4
+        f = where(long, half, 1.0 + half * half / 6.0) / (e * where(long, H[k, SIN_HALF], 1.0))
         # v_b = X y_a + Z y_b + x
         X20, X21, x2 = c_b * R20 + s_b, c_b * R21, c_b * r2
         X10, X11, x1 = f * (s_b * R20 - c_b) - R10, f * s_b * R21 - R11, f * s_b * r2 - r1

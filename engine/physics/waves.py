@@ -90,12 +90,14 @@ def wave_slopes(p, tables, t, X, F, J):
     kx, om = p.k * p.direction, p.omega
     gain, gain_rate = smooth_start(t, p.ramp)
     rising = gain_rate / where(gain > 0.0, gain, 1.0)
+    per_rate = 1.0 / om
     u = w = 0.0
     if p.current:
         u, w = tables[p.cur_at + AXES], tables[p.cur_at + AXES + 2]
     for j in range(X.shape[0]):
         U, W = F[j, 0] - u, F[j, 1] - w
-        across, along = (F[j, 2] - rising * U) / om, (rising * W - F[j, 3]) / om  # gain (more sin, less cos)
+        # gain (more sin, less cos)
+        across, along = per_rate * (F[j, 2] - rising * U), per_rate * (rising * W - F[j, 3])
         U_x, W_x = -kx * across, kx * along
         A_x, B_x = kx * (om * U - rising * across), kx * (om * W + rising * along)
         # the height at which the field is taken, by x and by z

@@ -49,7 +49,7 @@ def eliminate(p, tables, stage, Y, work):
     r = -Y[0, col.VX], -Y[0, col.VZ], -Y[0, col.KAPPA]
     put_rows(E[0], col.R, R)
     put(E[0], col.R_KNOWN, r)
-    least = np.inf  # of the determinants
+    wide, least = E.shape[1] > col.BOX_WIDTH, np.inf  # least: of the determinants
     for k in range(1, n):
         a = k - 1
         e = 0.5 * tables[p.grid_at + a]
@@ -59,11 +59,8 @@ def eliminate(p, tables, stage, Y, work):
         # compatibility: dV_b = (R_a + Ca) y_a + Cb y_b + r - (cx, cz), with Ca = e cq dq/dy by eps and phi
         Cax, Caz = _of_stretch(Qa, e * cq)
         Cbx, Cbz = _of_stretch(Qb, e * cq)
-        cx = Y[k, col.VX] - Y[a, col.VX] - e * (Qa[col.QX_T] + Qb[col.QX_T])
-        cz = Y[k, col.VZ] - Y[a, col.VZ] - e * (Qa[col.QZ_T] + Qb[col.QZ_T])
         # curvature: dkappa_b = (dphi_b - dphi_a)/e - dkappa_a + turn
         stiff = EI / e
-        turn = (Y[k, col.PHI] - Y[a, col.PHI]) / e - (Y[a, col.KAPPA] + Y[k, col.KAPPA])
         # momentum; K = e (dG/dV_a + dG/dV_b), J = e dG/dV_b
         (Kxx, Kxz, Kzx, Kzz), (Jxx, Jxz, Jzx, Jzz) = inertia_of_box(e, Qa, Qb)
         # A y_a + B y_b = g: momentum along x and z, then moment, with v_a and v_b put in
@@ -80,19 +77,11 @@ def eliminate(p, tables, stage, Y, work):
         Bz = fb * sb - e * Qb[col.GZ_EPS], cb, Qb[col.NX] - e * Qb[col.GZ_PHI]
         Bx, Bz = _less_stretch(Bx, Jxx, Cbx, Jxz, Cbz), _less_stretch(Bz, Jzx, Cbx, Jzz, Cbz)
         Bk = e * Qb[col.M_EPS], e * Qb[col.M_SHEAR], stiff
-        g = (
-            Qa[col.NX] - Qb[col.NX] + e * (Qa[col.GX] + Qb[col.GX]) + Kxx * r[0] + Kxz * r[1] - Jxx * cx - Jxz * cz,
-            Qa[col.NZ] - Qb[col.NZ] + e * (Qa[col.GZ] + Qb[col.GZ]) + Kzx * r[0] + Kzz * r[1] - Jzx * cx - Jzz * cz,
-            -EI * (Y[k, col.KAPPA] - Y[a, col.KAPPA]) - e * (Qa[col.M] + Qb[col.M]) - EI * turn + 2.0 * EI * r[2],
-        )
         # y_a = P y_b + p
         inverse, det = inverted(Ax, Az, Ak)
         least = smaller(least, abs(det))
-        if E.shape[1] > col.BOX_WIDTH:
-            put_rows(row, col.INVERSE, inverse)
-        P, known = minus_product(inverse, (Bx, Bz, Bk)), times(inverse, g)
+        P = minus_product(inverse, (Bx, Bz, Bk))
         put_rows(row, col.P, P)
-        put(row, col.P_KNOWN, known)
         # v_b = R_b y_b + r
         Xx, Xz = _plus_stretch(R[0], Cax), _plus_stretch(R[1], Caz)
         Xk = -R[2][0], -R[2][1], -R[2][2] - 1.0 / e
@@ -102,9 +91,22 @@ def eliminate(p, tables, stage, Y, work):
             _plus_stretch(vector_times(Xz, P), Cbz),
             (Rk[0], Rk[1], Rk[2] + 1.0 / e),
         )
+        put_rows(row, col.R, R)
+        if wide:
+            put_rows(row, col.INVERSE, inverse)
+            continue
+        cx = Y[k, col.VX] - Y[a, col.VX] - e * (Qa[col.QX_T] + Qb[col.QX_T])
+        cz = Y[k, col.VZ] - Y[a, col.VZ] - e * (Qa[col.QZ_T] + Qb[col.QZ_T])
+        turn = (Y[k, col.PHI] - Y[a, col.PHI]) / e - (Y[a, col.KAPPA] + Y[k, col.KAPPA])
+        g = (
+            Qa[col.NX] - Qb[col.NX] + e * (Qa[col.GX] + Qb[col.GX]) + Kxx * r[0] + Kxz * r[1] - Jxx * cx - Jxz * cz,
+            Qa[col.NZ] - Qb[col.NZ] + e * (Qa[col.GZ] + Qb[col.GZ]) + Kzx * r[0] + Kzz * r[1] - Jzx * cx - Jzz * cz,
+            -EI * (Y[k, col.KAPPA] - Y[a, col.KAPPA]) - e * (Qa[col.M] + Qb[col.M]) - EI * turn + 2.0 * EI * r[2],
+        )
+        known = times(inverse, g)
         by_known = times((Xx, Xz, Xk), known)
         r = by_known[0] + r[0] - cx, by_known[1] + r[1] - cz, by_known[2] - r[2] + turn
-        put_rows(row, col.R, R)
+        put(row, col.P_KNOWN, known)
         put(row, col.R_KNOWN, r)
     # upper end (`engine.physics.ends`): eN dN + D dV = -(ex, ez), dkappa = -kappa, with v = R y + r put in
     b = n - 1
@@ -119,7 +121,7 @@ def eliminate(p, tables, stage, Y, work):
         more = end_of_cap(p, t, cq, cv, in_motion, x, z, U, W, U_tilde, W_tilde, work.F[b])
         ex, ez, Dxx = ex + more[0], ez + more[1], Dxx + more[2]
         Dxz, Dzx, Dzz = Dxz + more[3], Dzx + more[4], Dzz + more[5]
-    if E.shape[1] > col.BOX_WIDTH:
+    if wide:
         Dxx, Dxz = Dxx + E[0, col.TOP_DXX], Dxz + E[0, col.TOP_DXZ]
         Dzx, Dzz = Dzx + E[0, col.TOP_DZX], Dzz + E[0, col.TOP_DZZ]
         E[0, col.TOP_DXX], E[0, col.TOP_DXZ], E[0, col.TOP_DZX], E[0, col.TOP_DZZ] = Dxx, Dxz, Dzx, Dzz
@@ -141,7 +143,7 @@ def eliminate(p, tables, stage, Y, work):
     inverse, det = inverted(Ax, Az, Ak)
     least = smaller(least, abs(det))
     put_rows(E[0], col.TOP, inverse)
-    if E.shape[1] == col.BOX_WIDTH:
+    if not wide:
         back_substitute(E, (-ex - Dxx * r[0] - Dxz * r[1], -ez - Dzx * r[0] - Dzz * r[1], g2), D)
     if p.bent == 0:
         for k in range(n):

@@ -6,19 +6,18 @@ from collections import namedtuple
 
 import numpy as np
 
-from ..arrays import Trail
 from ..parameters import record_of
+from ..perturbations.exponents import STEPS
 from ..planar import columns as col
 from ..planar.state import conserved
 from ..record import SAMPLE_WIDTH, STATE
 from ..run import Run
 from .cover import goes_in_lanes
 from .follow import Followers, lane_work
-from .ticks import ENDED, GOING, LANE, MOVED, RATE, RESTARTED, ROWS, STEP, WAITING, Arrays, advance
+from .ticks import ENDED, GOING, LANE, MOVED, RATE, RESTARTED, ROWS, STEP, WAITING, Arrays, Trails, advance
 from .vector import COUNT, REAL, WHOLE, lane_zeros
 
-LEAST = 2  # runs of a kind for which a batch pays: eight lanes cost about as much as one and a half runs alone
-STEPS = 50  # of a trail: lanes that have made these wait to be followed
+LEAST = 2  # runs of a kind for which a batch pays: eight lanes cost about as much as one run alone, and less than two
 TICKS = 20_000  # between two looks at the clock and at Ctrl-C: a tenth of a second
 # of the whole numbers these decide nothing within the vectors
 OWN = ("at_rest", "max_newton", "max_releases", "loop_release", "end_at")
@@ -56,10 +55,7 @@ class Machine:
         self.work = lane_work(n, col.BOX_WIDTH)
         room = STEPS if run.trail.followed else 0
         self.followers = Followers(run) if run.trail.followed else None
-        steps = COUNT, room
-        self.trail = Trail(
-            np.zeros((*steps, 3)), np.zeros((*steps, s - 1, n, col.KAPPA)), np.zeros((*steps, s - 1, n, 2))
-        )
+        self.trail = Trails(np.zeros((COUNT, room, 3)), lane_zeros(COUNT * room * (s - 1), n), lane_zeros(n, 8))
         for b in range(COUNT):
             self._fill(b, run)
 
@@ -142,9 +138,9 @@ class Machine:
             self.runs[b].trail.mark(self.trail.T[b, : trails[b]])
         self.followers.follow(self.records, self.tables, self.trail, trails, self.counts, self.arrays)
         for b in taken:  # the step that a lane is in the middle of begins the next trail
-            if trails[b] < STEPS:
-                for part in self.trail:
-                    part[b, 0] = part[b, trails[b]]
+            if trails[b] < self.trail.T.shape[1]:
+                steps = self.trail.rows.reshape(*self.trail.T.shape[:2], -1)[b]
+                steps[0] = steps[trails[b]]
             if self.lanes[b]["active"] == WAITING:
                 self._let_go(b)
         self.states["trail"] = 0

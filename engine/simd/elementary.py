@@ -60,15 +60,9 @@ def small_sincos(a):
 @kernel
 def copy_into(target, source):
     """target[:] = source for arrays (n, m): the slice assignment itself takes Numba half a second to compile."""
-    copy_columns(target, source, 0)
-
-
-@kernel
-def copy_columns(target, source, first):
-    """target (n, m) = m columns of source, from `first` on."""
     for k in range(target.shape[0]):
         for i in range(target.shape[1]):
-            target[k, i] = source[k, first + i]
+            target[k, i] = source[k, i]
 
 
 @kernel

@@ -18,11 +18,11 @@ from ..perturbations.lateral import WIDTH as LATERAL_WIDTH
 from ..perturbations.tangent import Base, Water, linearise, orthonormalise, period_of, tangent_stage, water_moves
 from ..physics.water import water as flow
 from ..planar import columns as planar_col
-from ..spatial.vectors import put, put_row
 from ..time.steps import known_part, plan_stage, stage_rate
 from .elementary import keep
 from .select import some
-from .vector import COUNT, as_lanes, lane_record, lane_zeros
+from .ticks import row_of_stage
+from .vector import COUNT, as_lanes, expect, lane_record, lane_zeros, transposed
 
 # What a turn of all lanes works on, COUNT the last axis: numbers (LENGTH + k + 1,); a (s,), w (3,): as in `plan_stage`;
 # Y (n, 6), K (n, 4): the stage and its rates; K_new (n, 4): rates of a perturbation
@@ -37,53 +37,45 @@ TIME, RATE, STAGE, BEGUN, BUSY, ENDED, LENGTH = range(7)  # rows of numbers; len
 
 
 @kernel
-def stage_of(rows, b, step, stage):
-    """Where a lane is in its trail (COUNT, l, s - 1, n, w): (n, w), any where it has no step left."""
-    return rows[b, min(step[b], rows.shape[1] - 1), max(stage[b], 1) - 1]
+def side_by_side(rows, at, Y, K):
+    """The rows `at` (COUNT,) of the Trails (as_lanes), one of each lane, into Y (n, 6) and K (n, 4)."""
+    a, b, c, d = rows[at[0]], rows[at[1]], rows[at[2]], rows[at[3]]
+    e, f, g, h = rows[at[4]], rows[at[5]], rows[at[6]], rows[at[7]]
+    for k in range(Y.shape[0]):
+        y = Y[k]
+        y[0], y[1], y[2], y[3], y[4], y[5], K[k, planar_col.VX], K[k, planar_col.VZ] = transposed(
+            (a[k], b[k], c[k], d[k], e[k], f[k], g[k], h[k])
+        )
+    for lane in range(COUNT):
+        for k in range(Y.shape[0]):
+            expect(rows[at[lane]], k + Y.shape[0])  # of the next stage
 
 
 @kernel
-def side_by_side(rows, step, stage, target, first):
-    """The stages of all lanes into the columns from `first` on of target (n, m, COUNT), as numbers.
+def plan_turn(records, tables, T, rows, trails, step, stage, at, turn):
+    """The next stage of every lane that has steps left, into a Turn of numbers; returns the latest, 0 where none has.
 
-    All lanes of a number at once: each line of memory is written once.
+    T, rows: of the Trails; trails (COUNT,): steps in the trail of a lane; step, stage, at (COUNT,): where it is, and
+    the row there.
     """
-    a, b = stage_of(rows, 0, step, stage), stage_of(rows, 1, step, stage)
-    c, d = stage_of(rows, 2, step, stage), stage_of(rows, 3, step, stage)
-    e, f = stage_of(rows, 4, step, stage), stage_of(rows, 5, step, stage)
-    g, h = stage_of(rows, 6, step, stage), stage_of(rows, 7, step, stage)
-    for k in range(rows.shape[3]):
-        for i in range(rows.shape[4]):
-            put_row(target[k, first + i], 0, (a[k, i], b[k, i], c[k, i], d[k, i], e[k, i]))
-            put(target[k, first + i], 5, (f[k, i], g[k, i], h[k, i]))
-
-
-@kernel
-def plan_turn(records, tables, trail, trails, step, stage, turn):
-    """The next stage of every lane that has steps left, into a Turn of numbers; returns how many have.
-
-    trails (COUNT,): steps in the trail of a lane; step, stage (COUNT,): where it is.
-    """
-    numbers, a, w, Y, K, _ = turn
-    busy = 0
+    numbers, a, w, _, _, _ = turn
+    latest = 0
     for b in range(COUNT):
         numbers[BUSY, b] = numbers[BEGUN, b] = numbers[ENDED, b] = 0.0
         if step[b] >= trails[b]:
             continue
-        busy += 1
         numbers[BUSY, b] = 1.0
-        p, row = records[b], trail.T[b, step[b]]
+        p, row = records[b], T[b, step[b]]
         last, euler = max(p.stages, 2) - 1, row[col.KIND] > 0.0
         if stage[b] == 0:
             stage[b] = last if euler else 1
             numbers[BEGUN, b] = 1.0
+        latest = max(latest, stage[b])
+        at[b] = row_of_stage(T, rows, b, step[b], stage[b])
         numbers[ENDED, b] = 1.0 if stage[b] == last else 0.0
         rate, after = plan_stage(p, tables[b], stage[b], euler, row[col.STEP], 0.0, a[:, b], w[:, b])
         numbers[RATE, b], numbers[TIME, b], numbers[STAGE, b] = rate, row[col.BEGIN] + after, float(stage[b])
-    if busy > 0:
-        side_by_side(trail.Y, step, stage, Y, 0)
-        side_by_side(trail.K, step, stage, K, planar_col.VX)
-    return busy
+    return latest
 
 
 @kernel
@@ -117,20 +109,25 @@ def end_turn(trail_T, step, stage, numbers, periods, vectors, sideways, nats, la
 def follow(records, tables, trail, trails, periods, nats, lateral_nats, sideways, p_lanes, turn_of, carried, room):
     """Carry the perturbations of all lanes through their trails.
 
-    records (COUNT,): RECORD; tables (COUNT, m); trail: Trail with COUNT as its first axis; trails (COUNT,): steps in
-    it; periods (COUNT,), s; nats (COUNT, periods, k), lateral_nats (COUNT, periods): growth, added to; sideways: 1 with
-    a lateral perturbation; p_lanes: counts, values and tables of the lane record; turn_of: Turn; carried: Carried and
-    Across; room: Work and Water; COUNT is the last axis of all their arrays.
+    records (COUNT,): RECORD; tables (COUNT, m); trail: Trails; trails (COUNT,): steps in it; periods (COUNT,), s;
+    nats (COUNT, periods, k), lateral_nats (COUNT, periods): growth, added to; sideways: 1 with a lateral perturbation;
+    p_lanes: counts, values and tables of the lane record; turn_of: Turn; carried: Carried and Across; room: Work and
+    Water; COUNT is the last axis of all their arrays.
     """
     counts, values, in_lanes = p_lanes
     p, grid = lane_record(records, counts, as_lanes(values)), as_lanes(in_lanes)
     turn, own, across = as_lanes(turn_of), as_lanes(carried[0]), as_lanes(carried[1])
     work, water = as_lanes(room[0]), as_lanes(room[1])
     numbers, rows, Y, K_new = turn_of.numbers, turn.numbers, turn.Y, turn.K_new
-    count, s = own.C.shape[0], turn.a.shape[0]
+    count = own.C.shape[0]
     moving_water = water_moves(p)
     step, stage = np.zeros(COUNT, np.int64), np.zeros(COUNT, np.int64)
-    while plan_turn(records, tables, trail, trails, step, stage, turn_of) > 0:
+    trail_rows, at = as_lanes(trail.rows), np.zeros(COUNT, np.int64)
+    while True:
+        latest = plan_turn(records, tables, trail.T, trail_rows, trails, step, stage, at, turn_of)
+        if latest == 0:
+            break
+        side_by_side(trail_rows, at, Y, turn.K)
         base = Base(rows[TIME], rows[RATE], moving_water, Y, turn.K)
         begun, ended = rows[BEGUN] != 0.0, rows[ENDED] != 0.0
         if count > 0:
@@ -140,14 +137,14 @@ def follow(records, tables, trail, trails, periods, nats, lateral_nats, sideways
             flow(p, grid, base.t, 1.0, work.X, work.F)
         for v in range(count):
             keep(begun, own.K[v], own.Ks[v, 0])
-            known_part(turn.a, s - 1, own.C[v], own.Ks[v], own.C_tilde)
+            known_part(turn.a, latest, own.C[v], own.Ks[v], own.C_tilde)
             tangent_stage(p, grid, base, own.C_tilde, own.C_new, K_new, work, water)
             end_stage(rows, own.C_new, K_new, own.C[v], own.K[v], own.Ks[v])
         if some(ended):
             orthonormalise(p.per_speed * p.per_speed, ended, own.C, own.K, rows[LENGTH : LENGTH + count])
         if sideways:
             keep(begun, across.K, across.Ks[0])
-            known_part(turn.a, s - 1, across.C, across.Ks, across.C_tilde)
+            known_part(turn.a, latest, across.C, across.Ks, across.C_tilde)
             lateral_stage(p, grid, base, work.X, work.Q, work.F, across.C_tilde, across.H, across.E, across.C_new)
             stage_rate(base.rate, across.C_new, across.C_tilde, across.K_new)
             end_stage(rows, across.C_new, across.K_new, across.C, across.K, across.Ks)
@@ -202,7 +199,7 @@ class Followers:
         run.trail.nats[:], run.trail.lateral_nats[:] = self.nats[b, :periods], self.lateral_nats[b, :periods]
 
     def follow(self, records, tables, trail, trails, counts, arrays):
-        """Through the trails (COUNT, l, ...), of which `trails` steps each are to be followed; arrays: Arrays."""
+        """Through the Trails, of which `trails` steps each are to be followed; arrays: Arrays."""
         follow(
             records, tables, trail, trails, self.periods, self.nats, self.lateral_nats, int(self.sideways),
             (counts, arrays.values, arrays.tables), self.turn, (self.carried, self.across), self.room,

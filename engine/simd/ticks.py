@@ -19,15 +19,15 @@ from .. import record as col
 from ..arrays import Stage
 from ..compiled import kernel
 from ..dimensions import shape
-from ..planar.columns import VX
+from ..planar.columns import VX, VZ
 from ..planar.state import largest_turn
 from ..time import steps
 from ..time.newton import GOING_ON, iterate, judge
 from ..time.status import OK
 from ..time.time_loop import begin_trial, guard_turns, next_step, refused, sample, step_done
-from .elementary import copy_columns, copy_into, keep
+from .elementary import copy_into, keep
 from .select import some, where
-from .vector import COUNT, as_lanes, lane_record
+from .vector import COUNT, as_lanes, expect, lane_record, transposed
 
 ENDED, GOING, WAITING = range(3)  # lane.active: with no run or one at its end; going; its trail is full
 LANE = np.dtype([(name, np.int64) for name in "active stage iteration code goal".split()] + [("best", np.float64)])
@@ -40,6 +40,10 @@ ROWS = 14
 # Ks (s, n, 4): conserved variables, rates of the state and the stages; history (3, n, 6): states for the first guess;
 # C_new, K_new (n, 4): of the stage that was solved
 Arrays = namedtuple("Arrays", "values tables numbers a w Y now before C Ks history C_new K_new")
+# Accepted steps of all lanes. T (COUNT, l, 3): as in `engine.arrays.Trail`; rows (COUNT l (s - 1), n, 8): Y and rates
+# of velocity of each node at a stage (`row_of_stage`), which fill one vector: perturbations ask neither for rates of q
+# nor for stage 0, the last one of the step before; block (n, 8, COUNT): work
+Trails = namedtuple("Trails", "T rows block")
 
 
 @kernel
@@ -106,17 +110,28 @@ def sample_lanes(records, tables, states, lanes, arrays, ends, samples, profiles
 
 
 @kernel
-def record_stages(states, lanes, numbers, Y, K_new, trail):
-    """Solved stages into the trails of their lanes (`engine.arrays.Trail`); kept or not, as the step will be.
+def row_of_stage(T, rows, b, step, stage):
+    """Where the rows of Trails have a stage of a step of lane b."""
+    return (b * T.shape[1] + step) * (rows.shape[0] // (COUNT * T.shape[1])) + stage - 1
 
-    Y (n, 6, COUNT), K_new (n, 4, COUNT): stages and their rates, as numbers. No perturbation asks for curvature, rates
-    of q or stage 0, the last one of the step before: the trail, which goes through memory, is without them.
+
+@kernel
+def record_stages(states, lanes, numbers, Y, K, T, rows, block):
+    """Solved stages Y (n, 6) and rates K (n, 4) into the Trails of their lanes; kept or not, as the step will be.
+
+    T, rows, block: the Trails, as_lanes but for T.
     """
+    for k in range(Y.shape[0]):
+        y, lane = Y[k], block[k]
+        lane[0], lane[1], lane[2], lane[3], lane[4], lane[5], lane[6], lane[7] = transposed(
+            (y[0], y[1], y[2], y[3], y[4], y[5], K[k, VX], K[k, VZ])
+        )
     for b in range(COUNT):
         if numbers[SOLVED, b] != 0.0:
-            at, stage = states[b].trail, lanes[b].stage - 1
-            copy_columns(trail.Y[b, at, stage], Y[:, :, b], 0)
-            copy_columns(trail.K[b, at, stage], K_new[:, :, b], VX)
+            into = rows[row_of_stage(T, rows, b, states[b].trail, lanes[b].stage)]
+            for k in range(Y.shape[0]):
+                into[k] = block[k, b]
+                expect(into, k + Y.shape[0])  # of the next stage
 
 
 @kernel
@@ -219,14 +234,14 @@ def advance(ticks, records, own_tables, states, lanes, spent, samples, trail, co
     """Make ticks until a run ends, trails are to be followed, or `ticks` are made; returns how many were.
 
     records, states, lanes (COUNT,): RECORD, STATE, LANE; own_tables (COUNT, m): tables, as numbers; spent (COUNT,):
-    iterations of the trial; samples (COUNT, m, 12); trail: Trail with COUNT as its first axis, of which l = 0 keeps
-    nothing; counts: whole numbers of the lane record; arrays: Arrays; work: Work with COUNT as its last axis.
+    iterations of the trial; samples (COUNT, m, 13); trail: Trails, of which l = 0 keeps nothing; counts: whole numbers
+    of the lane record; arrays: Arrays; work: Work with COUNT as its last axis.
     """
     numbers = arrays.numbers
     lane = as_lanes(arrays)
     w, a, C_new, K_new = lane.w, lane.a, lane.C_new, lane.K_new
     Y, C, Ks, rows, tables = lane.Y, lane.C, lane.Ks, lane.numbers, lane.tables
-    own = as_lanes(work)
+    own, trail_rows, block = as_lanes(work), as_lanes(trail.rows), as_lanes(trail.block)
     p = lane_record(records, counts, lane.values)
     one, ends = np.empty(arrays.Y.shape[:2]), np.empty((4, *arrays.C.shape[:2]))
     profiles = np.empty((0, *one.shape))
@@ -257,7 +272,7 @@ def advance(ticks, records, own_tables, states, lanes, spent, samples, trail, co
             rows[ERROR] = steps.embedded_error(p, tables, rows[STEP], Ks, own.Q, a, own.D[0])
             rows[LEAST], rows[TURN] = steps.least_strain(Y), largest_turn(p, Y)[0]
         if trail.T.shape[1] > 0:
-            record_stages(states, lanes, numbers, arrays.Y, arrays.K_new, trail)
+            record_stages(states, lanes, numbers, Y, K_new, trail.T, trail_rows, block)
         # accepted, or to be tried again
         judge_steps(records, own_tables, states, lanes, numbers, spent)
         if some(rows[ACCEPTED] != 0.0):

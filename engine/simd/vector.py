@@ -192,6 +192,40 @@ def as_lanes(context, arrays):
     return result(arrays), generate
 
 
+@intrinsic
+def expect(context, array, at):
+    """Have element `at` of a contiguous array fetched from memory, because it is needed soon; it need not exist."""
+
+    def generate(context, builder, signature, values):
+        first = arrayobj.make_array(array)(context, builder, values[0]).data
+        address = builder.bitcast(builder.gep(first, [values[1]]), cgutils.voidptr_t)
+        kinds = cgutils.voidptr_t, cgutils.int32_t, cgutils.int32_t, cgutils.int32_t
+        prefetch = ir.FunctionType(ir.VoidType(), kinds)
+        function = cgutils.get_or_insert_function(builder.module, prefetch, "llvm.prefetch.p0")
+        builder.call(function, [address, *(cgutils.int32_t(number) for number in (0, 2, 1))])  # data, to be read, L2
+        return context.get_dummy_value()
+
+    return types.none(array, types.intp), generate
+
+
+@intrinsic
+def transposed(context, rows):
+    """Columns of the matrix of which these COUNT vectors (a tuple) are the rows."""
+
+    def generate(context, builder, signature, values):
+        found, width = cgutils.unpack_tuple(builder, values[0], COUNT), 1
+        while width < COUNT:  # blocks of this width change places across the diagonal, then wider ones
+            low = [COUNT + j - width if j & width else j for j in range(COUNT)]
+            masks = [ir.Constant(ir.VectorType(ir.IntType(32), COUNT), [j + d for j in low]) for d in (0, width)]
+            for i in (i for i in range(COUNT) if not i & width):
+                pair = found[i], found[i + width]
+                found[i], found[i + width] = (builder.shuffle_vector(*pair, mask) for mask in masks)
+            width *= 2
+        return context.make_tuple(builder, rows, found)
+
+    return rows(rows), generate
+
+
 WHOLE = tuple(name for name in RECORD.names if RECORD[name] == np.int64)
 REAL = tuple(name for name in RECORD.names if RECORD[name] == np.float64)
 

@@ -166,6 +166,7 @@ def sample(p, tables, state, dt, hermite, begin, end, samples, profiles):
         top = row[n - 1, col.TENSION]
         out[col.TIME], out[col.TOP], out[col.LEAST] = t, top, least
         out[col.TOP_LOW], out[col.TOP_HIGH] = min(state.low, top), max(state.high, top)
+        out[col.RELEASES] = state.releases
         state.low, state.high = top, top
         state.samples += 1
     while state.profiles < profiles.shape[0] and (state.first_profile + state.profiles) * p.profile_step <= until:

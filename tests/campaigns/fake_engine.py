@@ -100,6 +100,7 @@ def sines(
         "tension_min_N": force,
         "tension_top_low_N": force - 10.0,
         "tension_top_high_N": force + 10.0,
+        "loop_releases": np.where(t > 0.5 * t[-1], releases, 0.0),
     }
     statistics = STATISTICS | {"max_turn_rad": 0.1, "min_strain": 0.01, "end_time_s": float(t[-1]), "wall_s": 0.5}
     statistics["loop_releases"] = releases

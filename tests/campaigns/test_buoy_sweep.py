@@ -12,24 +12,22 @@ from matplotlib.colors import to_rgb
 from PIL import Image
 
 from campaigns import buoy_sweep
-from campaigns.buoy_sweep.repeats import (
-    AS_RUN,
-    COLUMNS,
-    EARLY,
+from campaigns.buoy_sweep import batches
+from campaigns.buoy_sweep.answer import AS_RUN
+from campaigns.buoy_sweep.batches import (
+    ACCURACY,
     FINER,
     FRAMES,
     PERIODS,
-    SHARE,
     TIGHTER,
     chosen,
-    first_periods,
-    lengths,
 )
 from campaigns.buoy_sweep.rows import buoy_row
 from campaigns.buoy_sweep.space import SEED_MPS
 from campaigns.columns import names
+from campaigns.machinery.cli import Running
+from campaigns.machinery.plan import Job, Plan, Summary
 from engine import Trajectory, load_scene
-from engine.trajectory import TangentGrowth
 from reports.parts.style import VERMILION
 from tests.campaigns.conftest import finished, forget, rows_of
 from tests.campaigns.fake_engine import FakeEngine, shapes, sines
@@ -88,8 +86,8 @@ def test_the_least_and_the_most_violent_run_are_repeated_with_the_errors_that_we
     assert [row["steepness"] for row in rows_of(repeated.out)] == ["0.016", "0.05", "0.13"], "a table of its own"
     assert [(row["role"], row["label"]) for row in rows] == 3 * [("regular", "0.016")] + 3 * [("violent", "0.13")]
     assert [row["run"] for row in rows] == 2 * [AS_RUN, TIGHTER, FINER]
-    assert {row["periods"] for row in rows} == {str(EARLY)}
-    assert set(rows[0]) == set(names(COLUMNS))
+    assert {row["periods"] for row in rows} == {"12"}
+    assert set(rows[0]) == set(names(ACCURACY))
     scene = load_scene("tethered_buoy")
     nodes, rtol = scene.tether.nodes, scene.solver.rtol
     rms = np.sqrt(np.mean(np.sin(0.7 * np.arange(1001) * 0.05) ** 2))
@@ -117,27 +115,45 @@ def test_a_sweep_that_leaves_it_out_repeats_nothing(sweep):
     assert not (sweep.out / "accuracy").exists()
 
 
-def test_a_short_sweep_pays_no_more_than_its_share():
-    assert lengths(49, 300) == 300
-    assert lengths(8, 300) == pytest.approx(300 * SHARE * 8 / 8.6, abs=1)
-    assert lengths(2, 300) == EARLY or lengths(2, 300) <= 300 * SHARE * 2 / 8.6
-    assert lengths(2, 4) == 4
-
-
 def test_runs_that_failed_are_not_chosen():
     good = {"status": "ok", "run_key": "a", "tension_top_max_N": 10.0}
     wild = {"status": "newton-failed", "run_key": "b", "tension_top_max_N": 99.0}
     assert chosen([wild]) == [] and chosen([good, wild]) == [("regular", good)]
 
 
-def test_a_record_cut_short_keeps_its_first_periods():
-    run = sines(load_scene("tethered_buoy", {"output.tangent_vectors": 1}), 40)
-    run = replace(run, tangent=TangentGrowth(5.0, np.arange(40.0)[:, None], np.eye(40)[3]))
-    short = first_periods(run, 10)
-    assert len(short.columns["time_s"]) == 1001 and len(short.tangent.growth_nats) == 10
-    assert short.statistics["loop_releases"] == 1
-    assert short.statistics["wall_s"] == pytest.approx(run.statistics["wall_s"] / 4, rel=1e-3)
-    assert first_periods(run, 40) is run
+@pytest.fixture
+def nine(monkeypatch, tmp_path):
+    """plan, summary and cases of a planar sweep of nine values, whose sphere flies at the last four; its jobs."""
+    jobs = []
+    scene = load_scene("tethered_buoy", {"output.tangent_vectors": 1})
+    monkeypatch.setattr(batches.Batch, "do", lambda batch, plan: jobs.extend(batch.jobs))
+    monkeypatch.setattr(batches, "run_of", lambda folder, row: sines(scene, 2))
+    rows = [
+        {"steepness": 0.02 * n, "status": "ok", "run_key": str(n), "tension_top_max_N": 1000.0 * n}
+        | {"max_buoy_height_above_water_m": (1.1 if n > 5 else 0.9) * scene.buoy.diameter_m}
+        for n in range(1, 10)
+    ]
+    cases = [Job({"steepness": row["steepness"]}, scene, 135) for row in rows]
+    return Plan(Running(tmp_path, 2), None, None, (), simulate_each=list), Summary(rows, 9, 0, 0.0), cases, jobs
+
+
+def test_between_judged_values_there_are_as_many_in_each_gap_and_two_hundred_in_all(nine):
+    plan, summary, cases, jobs = nine
+    batches.between(plan, summary, "waves.steepness", cases)
+    values, found = ([job.labels["steepness"] for job in some] for some in (cases, jobs))
+    assert [job.scene.waves.steepness for job in jobs] == found and len(found) + len(values) >= 200
+    assert len({*np.histogram(found, values)[0]}) == 1 and not {*found} & {*values}
+    assert all(job.scene.output.tangent_vectors == 0 for job in jobs)
+
+
+def test_the_largest_tension_has_its_companions_and_every_flying_sphere_a_wetted_cap(nine):
+    plan, summary, cases, jobs = nine
+    batches.companions(plan, summary, "waves.steepness", 1500)
+    values = [job.labels["steepness"] for job in cases]
+    assert [job.labels["role"] for job in jobs] == [*4 * ["wetted cap"], "as run", "81 nodes"]
+    assert [job.labels["steepness"] for job in jobs] == [*values[5:], values[-1], values[-1]]
+    assert [job.scene.buoy.submergence for job in jobs] == [*4 * ["spherical-cap"], *2 * ["full"]]
+    assert [job.scene.tether.nodes for job in jobs] == 5 * [41] + [81] and {job.periods for job in jobs} == {90}
 
 
 @pytest.fixture

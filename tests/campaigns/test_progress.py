@@ -63,6 +63,16 @@ def test_a_time_left_is_told_once_it_is_known():
     assert one.left_s() == pytest.approx(ASKED_S)
 
 
+def test_the_time_left_is_to_the_end_of_the_command_where_it_is_known_what_follows():
+    now = time.monotonic()
+    runs = Stage("runs", 40.0, "s", lambda: time.monotonic() - now + 10.0, lambda whole: 0.5 * whole, now - 10.0)
+    root = Stage("command", then=lambda _: 60.0, began=now - 100.0)
+    runs.seen.append((5.0, 5.0))
+    assert "about 0:50 left," in runs.told([])  # 30 s and half of 40
+    assert "about 1:50 left," in runs.told([root])  # and a report
+    assert "about 0:30 left of this," in runs.told([root, Stage("several commands")])
+
+
 def test_a_worker_says_how_far_it_is_and_one_that_sees_no_folder_says_nothing(tmp_path, monkeypatch):
     monkeypatch.setattr(progress, "TOLD_S", 0.0)
     told = teller(tmp_path, "a task")
@@ -144,15 +154,32 @@ def test_the_answer_of_a_sweep_names_regimes_jumps_chaos_and_the_load_that_may_b
     ]
     scene = load_scene("tethered_buoy")
     times = 9100.0 / natural_frequencies(scene).static_tension_N
-    assert sentences(rows[::-1], "steepness", "kA", scene) == [
-        "Periodic (period 1 and 2): kA = 0.01 to 0.06.",
-        "Jump between kA = 0.05 and 0.06: largest tension 3 to 9 kN, swing of r 1.00 to 4.00 m, slack 0 to 60 % of the "
-        "time.",
-        "Chaotic, 0.09 bits a wave (standard error 0.01): kA = 0.07.",
+    regular = [
+        "Regular up to kA = 0.06: period 1 and 2.",
+        "Between kA = 0.05 and 0.06 the motion jumps to one 4 times as large: peak tension 3 -> 9 kN, "
+        "swing of r 1.00 -> 4.00 m, time with less than 5 % of the static tension 0 -> 60 %.",
+        "Chaotic at kA = 0.07: neighbours part by 0.09 bits a wave (standard error 0.01).",
         "Not decided: tests disagree at kA = 0.08.",
-        f"Largest tension 9.1 kN at kA = 0.07, {times:.1f} times the static one.",
-        "It is no load to design for: loops were released (--dimensions).",
+    ]
+    largest = f"Largest tension 9.1 kN at kA = 0.07 ({times:.1f} times static)"
+    assert sentences(rows[::-1], "steepness", "kA", scene) == [
+        *regular,
+        f"{largest}.",
+        "It is no load to design for, because loops were released (--dimensions).",
         "Largest tension without that: 9.05 kN at kA = 0.08.",
+    ]
+    for one in rows[5:8]:
+        one["max_buoy_height_above_water_m"] = 1.1 * scene.buoy.diameter_m
+    length = {"periods": 90, "transient_periods": 45, "max_buoy_height_above_water_m": 9.0}
+    again = {"wetted cap": 4000.0, "as run": 8900.0, "81 nodes": 8700.0}
+    companions = [row(0.07, "", peak, role=role, **length) for role, peak in again.items()]
+    companions.append(row(0.08, "", 5000.0, role="wetted cap", **length))
+    assert sentences(rows, "steepness", "kA", scene, companions) == [
+        *regular,
+        f"{largest}; over periods 45 to 90 it is 8.9 kN, on 81 nodes 8.7 kN, with the wetted cap 4 kN.",
+        "It is no load to design for, because the sphere flies above still water with all its buoyancy "
+        "(buoy.submergence) and loops were released (--dimensions).",
+        "With the wetted cap the largest tension is 5 kN, at kA = 0.08: use this one.",
     ]
 
 

@@ -123,6 +123,7 @@ def test_a_quick_look_at_everything(tmp_path, capsys):
     verdicts = {row["statement"]: row["verdict"] for row in rows_of(out, "statements.csv")}
     assert verdicts["The maximum speed does not depend on the fracture time."] == "holds"
     assert verdicts["At high tension the front runs at about 500 m/s."] == "does not hold"
+    assert verdicts["In large waves the largest Lyapunov exponent is positive."] == "–"
     content = {path: path.read_bytes() for path in out.rglob("*") if path.is_file() and path.name != ".lock"}
     capsys.readouterr()
     assert paper.main(words) == 0

@@ -179,6 +179,11 @@ def test_without_results_nothing_is_decided():
     assert {one.verdict for one in judged(Results())} == {OPEN}
 
 
+def test_a_quick_look_judges_nothing_of_the_buoy_and_says_why():
+    told = [judge(quick, world()) for quick, claim in zip(claims(True), claims(), strict=True) if quick != claim]
+    assert len(told) > 30 and all(one.verdict == OPEN and "not judged, because" in one.found for one in told)
+
+
 def claim_of(*checks):
     return Claim("", "", "", lambda results: Measured(checks, "told"), lambda value: value > 0.0, "", "")
 

@@ -1,0 +1,219 @@
+"""Runs beside those of a sweep, batch by batch, each in a folder of its own with a table; none of them is judged.
+
+`between`: columns of the orbit diagram between the judged values, side by side in the lanes.
+`companions`: what the largest tension becomes with twice the elements, and, at every value whose sphere leaves the
+water, with a sphere that loses its buoyancy there. `as run` is the same run over the same periods.
+`accuracy`, the sweep's own error against run time: the run whose tension peaks lowest (the regular one) and the one
+whose tension peaks highest (the violent one) again as they are, at a tenth of the tolerance and with twice the
+elements, each alone on its core, for as many periods as a verdict needs.
+`close_up`, for the moving picture of the report: the first wave periods of the violent run with its line, since
+profiles of every run would be gigabytes. Where no run goes slack nothing snaps, and nothing is computed.
+"""
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from functools import partial
+from itertools import pairwise
+
+import numpy as np
+
+from analysis.looks import next_look
+from campaigns.buoy_sweep.answer import AS_RUN, CAPPED
+from campaigns.buoy_sweep.rows import EXTREMES, HEIGHT, REGIME, STEEPNESS, STROBED, TRANSIENT, buoy_row
+from campaigns.columns import LOOPS, MESSAGE, NEWTON, PERIODS_RUN, RUN_KEY, STATUS, WALL_S, Column, counted, names
+from campaigns.judge import LATERAL, OPEN, TANGENTS, tighter_scene
+from campaigns.machinery.folder import claimed, run_of, trajectory_path
+from campaigns.machinery.plan import Job, Plan, Summary
+from campaigns.machinery.runner import groups_of, run
+from engine.atomic import write_atomic
+from engine.scene import scene_from_toml
+
+ROLE = Column("role", symbol="role", meaning="which run of the sweep was repeated, or how")
+NODES = Column("nodes", "", "nodes", "nodes of the line", 0)
+OF_A_RUN = (STATUS, PERIODS_RUN, TRANSIENT, *EXTREMES, LOOPS, HEIGHT, WALL_S, RUN_KEY, MESSAGE)
+BETWEEN = (STEEPNESS, REGIME, STROBED, *OF_A_RUN)
+COMPANIONS = (ROLE, STEEPNESS, NODES, *OF_A_RUN)
+CLOSE_UP = (STEEPNESS, STATUS, PERIODS_RUN, WALL_S, RUN_KEY, MESSAGE)
+ACCURACY = (
+    ROLE,
+    Column("label", symbol="run", meaning="the value of the sweep that names the repeated run", digits=3),
+    Column("run", symbol="repeated", meaning="how it was repeated: as run, tighter, or on a finer grid"),
+    STATUS,
+    PERIODS_RUN,
+    NODES,
+    Column("rtol", "", "rtol", "relative tolerance of the time steps; empty for fixed steps", 4),
+    Column("step_s", "s", "step", "length of fixed time steps; empty for steps under control", 4),
+    Column("error_early_m", "m", "early error", "rms change of r over the first ten wave periods", 6),
+    Column("error_m", "m", "error", "rms change of r over all repeated wave periods", 6),
+    Column("tension_top_max_N", "N", "T_max", "largest tension at the top over all repeated wave periods", 0),
+    Column("error_tension_early_N", "N", "early ΔT_max", "change of the largest tension of the first ten periods", 1),
+    Column("error_tension_N", "N", "ΔT_max", "change of the largest tension of all repeated wave periods", 1),
+    Column("verdict", symbol="verdict", meaning="what the repeated motion is called; empty where that is not decided"),
+    Column("same_verdict", "", "same", "1 where the repeated motion is called what that of the sweep is, else 0", 0),
+    WALL_S,
+    NEWTON,
+    LOOPS,
+    RUN_KEY,
+    MESSAGE,
+)
+TIGHTER, FINER = "a tenth of the tolerance", "twice the elements"
+UNFOLLOWED = {TANGENTS: 0, LATERAL: False}  # without perturbations
+LEAST_COLUMNS, LEAST_VALUES = 200, 9  # of the orbit diagram; judged values from which on there is something between
+BETWEEN_PERIODS, LEFT_OUT = 60, 36
+EARLY = 10  # wave periods
+PERIODS, FRAMES = 12, 24  # of the close-up: wave periods, because the first snaps come after five; profiles in each
+
+
+@dataclass(frozen=True)
+class Batch:
+    """Jobs in a folder below that of a campaign, with a table of these columns, of row(trajectory).
+
+    together: whether runs may share a worker, where times are not those of a run alone; said: what they are called.
+    """
+
+    folder: str
+    said: str
+    columns: tuple[Column, ...]
+    row: Callable
+    jobs: list[Job]
+    together: bool = False
+
+    def do(self, plan: Plan) -> float:
+        """Do what is not there yet; returns seconds of analysis. A run of another of these folders is taken from there.
+
+        Without a job the table of an earlier batch in this folder is emptied. Raises as `runner.run`.
+        """
+        out = plan.how.out / self.folder
+        if not self.jobs and not out.exists():
+            return 0.0
+        each = plan.simulate_each if self.together else None
+        own = replace(plan, how=replace(plan.how, out=out), columns=self.columns, describe=self.row, said=self.said)
+        with claimed(out):
+            for path in (trajectory_path(out, job.key) for job in self.jobs):
+                for other in () if path.exists() else plan.how.out.glob(f"*/trajectories/{path.name}"):
+                    write_atomic(path, other.read_bytes())
+            return run(replace(own, simulate_each=each), self.jobs)[1].analysis_s
+
+
+def changed(scene, *changes: dict):
+    """The scene with these keys changed."""
+    return scene_from_toml(scene.to_toml(), {key: value for one in changes for key, value in one.items()})
+
+
+def finer(scene) -> dict[str, int]:
+    """The key that gives the line of a scene twice the elements."""
+    return {"tether.nodes": 2 * scene.tether.nodes - 1}
+
+
+def unjudged(trajectory, transient_periods: int, columns: tuple[Column, ...]) -> dict[str, object]:
+    """What a run fills of these columns without a verdict."""
+    row = buoy_row(trajectory, transient_periods) | {"nodes": trajectory.scene.tether.nodes}
+    return {name: row[name] for name in names(columns) if name in row}
+
+
+def between(plan: Plan, summary: Summary, key: str, cases: list[Job]) -> float:
+    """Enough runs between those of a sweep over `key` for LEAST_COLUMNS in all, where they can go side by side."""
+    scenes = {job.labels["steepness"]: job.scene for job in cases}
+    values = sorted(scenes)
+    more = math.ceil((LEAST_COLUMNS - len(values)) / (len(values) - 1))
+    fine = [float(f"{a + (b - a) * i / (more + 1):.12g}") for a, b in pairwise(values) for i in range(1, more + 1)]
+    jobs = [Job({"steepness": kA}, changed(scenes[values[0]], UNFOLLOWED, {key: kA}), BETWEEN_PERIODS) for kA in fine]
+    row = partial(unjudged, transient_periods=LEFT_OUT, columns=BETWEEN)
+    return Batch("between", "values between", BETWEEN, row, jobs if groups_of(plan, jobs) else [], True).do(plan)
+
+
+def companions(plan: Plan, summary: Summary, key: str, periods: int) -> float:
+    """The largest tension again, and values whose sphere flies: all where they can go side by side, else that one."""
+    length, jobs = min(periods, next_look()), []
+    if good := chosen(summary.rows):
+        peak = good[-1][1]
+        scene = changed(run_of(plan.how.out, peak).scene, UNFOLLOWED)
+
+        def job(role: str, value: float, *changes: dict) -> Job:
+            return Job({"role": role, "steepness": value}, changed(scene, {key: value}, *changes), length)
+
+        if scene.buoy.submergence == "full":
+            high = [row for row in summary.rows if (row.get(HEIGHT.name) or 0.0) > scene.buoy.diameter_m]
+            cap = {"buoy.submergence": "spherical-cap"}
+            jobs = [job(CAPPED, row["steepness"], cap) for row in high]
+            jobs = jobs if groups_of(plan, jobs) else [job(CAPPED, peak["steepness"], cap)] if peak in high else []
+        nodes = finer(scene)
+        jobs += [job(AS_RUN, peak["steepness"]), job(f"{nodes['tether.nodes']} nodes", peak["steepness"], nodes)]
+    row = partial(unjudged, transient_periods=length // 2, columns=COMPANIONS)
+    return Batch("companions", "companions of the largest tension", COMPANIONS, row, jobs, True).do(plan)
+
+
+def chosen(rows: list[dict], length: float = math.inf) -> list[tuple[str, dict]]:
+    """(role, row) of the regular and the violent run; one where the sweep has but one, none where none ended.
+
+    length: the regular one is taken from the runs of as many wave periods at most, where there are any.
+    """
+    good = [row for row in rows if row["status"] == "ok" and row.get("run_key")]
+    if not good:
+        return []
+
+    def peak(row) -> float:
+        return row["tension_top_max_N"] if row.get("tension_top_max_N") is not None else -math.inf
+
+    short = [row for row in good if (row.get("periods") or 0.0) <= length]
+    regular, violent = min(short or good, key=peak), max(good, key=peak)
+    return [("regular", regular)] if regular is violent else [("regular", regular), ("violent", violent)]
+
+
+def repeat(
+    plan: Plan, summary: Summary, carrying: bool, row_of: Callable, said: str, among: set[str] | None = None
+) -> float:
+    """Do the repeated runs of a sweep; returns seconds of analysis.
+
+    carrying: whether they carry perturbations, as a sweep of one length does; else the violent run, whose verdict needs
+    some, goes only as far as its companions. row_of(trajectory) -> its row; said: the column of what its motion is
+    called. among: keys of the runs to choose from, None for all. Raises as `runner.run`.
+    """
+    most, jobs = next_look(next_look()), []
+    rows = [row for row in summary.rows if among is None or row["run_key"] in among]
+    for role, row in chosen(rows, math.inf if carrying else most):
+        length = min(most if carrying or role == "regular" else next_look(), round(row["periods"]))
+        original = run_of(plan.how.out, row)
+        scene = original.scene if carrying else changed(original.scene, UNFOLLOWED)
+        samples = round(length * scene.waves.period_s / scene.sample_step_s()) + 1
+        before = {name: original.columns[name][:samples] for name in ("radius_m", "tension_top_high_N")}
+        describe = partial(accuracy_row, before=before, called=row.get(said), row_of=row_of, said=said)
+        for how, made in ((AS_RUN, scene), (TIGHTER, tighter_scene(scene)), (FINER, changed(scene, finer(scene)))):
+            labels = {"role": role, "label": row["steepness"], "run": how, "periods": length}
+            jobs.append(Job(labels, made, length, describe=describe))
+    return Batch("accuracy", "two runs again, tighter and finer", ACCURACY, row_of, jobs).do(plan)
+
+
+def accuracy_row(
+    trajectory, before: dict[str, np.ndarray], called: str | None, row_of: Callable, said: str
+) -> dict[str, object]:
+    """The columns of ACCURACY that a run fills; before, called: columns and verdict of the run that it repeats."""
+    scene, columns = trajectory.scene, trajectory.columns
+    row = counted(trajectory, (WALL_S, NEWTON, LOOPS)) | {
+        "nodes": scene.tether.nodes,
+        "rtol": None if scene.solver.step_s else scene.solver.rtol,
+        "step_s": scene.solver.step_s,
+    }
+    if trajectory.status != "ok" or len(columns["radius_m"]) != len(before["radius_m"]):
+        return row
+    off, high = columns["radius_m"] - before["radius_m"], columns["tension_top_high_N"]
+    row["tension_top_max_N"] = float(high.max())
+    for name, end in (("_early", round(EARLY * scene.waves.period_s / scene.sample_step_s()) + 1), ("", None)):
+        row[f"error{name}_m"] = float(np.sqrt(np.mean(off[:end] ** 2)))
+        row[f"error_tension{name}_N"] = float(high[:end].max() - before["tension_top_high_N"][:end].max())
+    now = row_of(trajectory).get(said)
+    if not {now, called} & {None, *OPEN}:
+        row |= {"verdict": now, "same_verdict": int(now == called)}
+    return row
+
+
+def close_up(plan: Plan, summary: Summary, periods: int) -> float:
+    """Compute the close-up, unless it is there or no run goes slack. periods: those of the sweep."""
+    jobs, length = [], min(periods, PERIODS)
+    for _, row in chosen([row for row in summary.rows if (row.get("slack_fraction") or 0.0) > 0.0])[-1:]:
+        scene = run_of(plan.how.out, row).scene
+        kept = {"output.profiles": True, "output.profiles_step_s": scene.waves.period_s / FRAMES}
+        labels = {"steepness": row["steepness"], "periods": length}
+        jobs.append(Job(labels, changed(scene, UNFOLLOWED, kept), length))
+    return Batch("close_up", "the close-up", CLOSE_UP, partial(counted, columns=(WALL_S,)), jobs).do(plan)
