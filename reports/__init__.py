@@ -19,19 +19,38 @@ CONTENTS = (
 __all__ = ["CONTENTS", "build"]
 
 
-def build(directory: str | Path) -> tuple[Path, Path]:
+def build(directory: str | Path, again: bool = False) -> tuple[Path, Path]:
     """Write report.html and report.pdf of a campaign's folder, and the drawings that belong beside their data.
 
-    All are made in memory first, from the folder alone; the same folder gives the same bytes.
+    All are made in memory first, from the folder alone; the same folder gives the same bytes. Where all are there and
+    nothing changed that they were drawn from, nothing is drawn (`parts.unchanged`), unless `again` asks for it.
     Returns the two paths.
     Raises FolderError (nothing written) when the folder is not a finished campaign, naming all that is missing;
     OSError when a file cannot be written, which leaves the earlier file of that name whole.
     """
+    from .parts.unchanged import FILE, is_unchanged, record
+
+    directory = Path(directory)
+    html, pdf = directory / "report.html", directory / "report.pdf"
+    if not again and is_unchanged(directory):
+        return html, pdf
     from engine.atomic import write_atomic
 
-    from .parts.folder import FolderError, provenance_of
     from .parts.html import render_html
     from .parts.pdf import render_pdf
+
+    report, beside = content_of(directory)
+    pages = {html: render_html(report), pdf: render_pdf(report)} | beside
+    for path, content in pages.items():
+        write_atomic(path, content)
+    write_atomic(directory / FILE, record(directory, pages))
+    return html, pdf
+
+
+def content_of(directory: str | Path):
+    """(what the report says, drawings to keep as files: path -> bytes). Raises FolderError like `build`."""
+    from .parts.first_page import opened
+    from .parts.folder import FolderError, provenance_of
 
     directory = Path(directory)
     made = provenance_of(directory)
@@ -42,11 +61,5 @@ def build(directory: str | Path) -> tuple[Path, Path]:
         fault = f"provenance.json names the campaign {campaign!r} and nothing that it varied; reports exist for {known}"
         raise FolderError(directory, [fault])
     contents = import_module(f"reports.{name}.report")
-    report = contents.report(directory)
-    html, pdf = directory / "report.html", directory / "report.pdf"
-    pages = {html: render_html(report), pdf: render_pdf(report)}
-    if hasattr(contents, "beside"):
-        pages |= contents.beside(directory)
-    for path, content in pages.items():
-        write_atomic(path, content)
-    return html, pdf
+    beside = contents.beside(directory) if hasattr(contents, "beside") else {}
+    return opened(contents.report(directory), directory, made), beside

@@ -2,6 +2,7 @@
 
 import argparse
 import sys
+from pathlib import Path
 
 
 def main(arguments: list[str] | None = None) -> int:
@@ -18,10 +19,15 @@ def main(arguments: list[str] | None = None) -> int:
     parser.add_argument("directory", metavar="DIR", help=folders)
     directory = parser.parse_args(arguments).directory
 
-    print(f"drawing figures and pages of {directory} ...", file=sys.stderr)
     from . import build
     from .parts.folder import FolderError
+    from .parts.unchanged import is_unchanged
 
+    drawn = is_unchanged(Path(directory))
+    did = (
+        f"{directory} has not changed since its report was drawn" if drawn else f"drawing the report of {directory} ..."
+    )
+    print(did, file=sys.stderr)
     try:
         for path in build(directory):
             print(path)

@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from ..parts.content import Bullets, Heading, Item, Report, Table, Text, heads
-from ..parts.provenance import provenance_items, timing_items
+from ..parts.provenance import appendix, provenance_items, timing_items
 from ..parts.sections import section_items
 from ..parts.wording import EMPTY, count, decimals, number
 from . import sections
@@ -18,7 +18,7 @@ def report(directory: str | Path) -> Report:
     works = [name for name in study.works if any(one.work == name for one in study.settings)]
     items: list[Item] = [
         *section_items("accuracy", "Question"),
-        Heading("Short answer"),
+        Heading("The answer in numbers"),
         Bullets(tuple(_short_answer(study, works))),
         Heading("Error against run time"),
         Text(_protocol(study)),
@@ -27,8 +27,7 @@ def report(directory: str | Path) -> Report:
         *sections.order_items(study),
         *sections.predictability_items(study),
         *cost_items(study),
-        *timing_items(study.folder),
-        *provenance_items(study.folder),
+        *appendix(*timing_items(study.folder), *provenance_items(study.folder)),
     ]
     return Report("Error against run time", "Work-precision of the engine and of other codes", tuple(items))
 

@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -17,10 +16,6 @@ from ..parts.columns import Quantity, table_of
 from ..parts.content import Bullets, Figure, Heading, Item, Table, Text, heads
 from ..parts.folder import Folder, FolderError, read_files, read_folder
 from ..parts.wording import EMPTY, count, decimals, number
-
-if TYPE_CHECKING:
-    import pandas
-
 
 OURS, PEER = "point", "peer"
 _WORDS = {
@@ -87,12 +82,15 @@ def read_study(directory: str | Path) -> Study:
     wanted = {"orders.csv": "orders of convergence", "orders_columns.csv": "what the columns of orders.csv are"}
     costs = folder.directory / "costs.json"  # not there without the engine's own runs
     found = read_files(directory, wanted | ({"costs.json": "cost of each piece"} if costs.exists() else {}))
-    rows, settings = tuple(folder.table.to_dict("records")), tuple(_settings(folder.table))
+    rows, settings = folder.table, tuple(_settings(folder.table))
     orders, columns = (found[name] for name in wanted)
     return Study(folder, works, rows, settings, tuple(orders), columns, found.get("costs.json"))
 
 
-def _settings(table: pandas.DataFrame) -> Iterator[Setting]:
+def _settings(rows: Sequence[Mapping[str, object]]) -> Iterator[Setting]:
+    import pandas
+
+    table = pandas.DataFrame(rows)
     timed = table[table["kind"].isin([OURS, PEER])].replace(math.inf, math.nan)
     for named, group in timed.groupby(["work", "method", "nodes", "control", "setting"], sort=False):
         good, bad = group[group["status"] == "ok"], group[group["status"] != "ok"]

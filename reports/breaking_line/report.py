@@ -7,7 +7,7 @@ from ..figures.line_panels import named
 from ..parts.content import Heading, Item, Notice, Report, Text
 from ..parts.folder import Folder, read_folder
 from ..parts.judged import counted, read_statements, statements_table
-from ..parts.provenance import provenance_items, scene_items, timing_items
+from ..parts.provenance import appendix, provenance_items, scene_items, timing_items
 from ..parts.sections import section_items
 from ..parts.wording import count, decimals, listed, number, percent
 from . import figures
@@ -41,7 +41,7 @@ def report(directory: str | Path) -> Report:
     ended = f"{len(of_kind(lines, 'case'))} of {count(asked, 'case')} ended as asked."
     items = [
         *section_items("breaking_line", "Question"),
-        *_section("Short answer", table("answer"), text=f"{ended} {verdicts}"),
+        *_section("The answer in numbers", table("answer"), text=f"{ended} {verdicts}"),
         *_section("The cases", table("cases"), *_warnings(lines)),
         *_section("Fast breaks", *figures.paper_figures(lines, FAST)),
         *_section("Slow breaks", *figures.paper_figures(lines, SLOW)),
@@ -52,10 +52,12 @@ def report(directory: str | Path) -> Report:
         *_section("The paper's statements", statements_table(judged, verdicts)),
         *_section("Bending stiffness", table("stiffness")),
         *_section("Doubled grids", table("doubled")),
-        *timing_items(folder, table("cost")),
-        *_scene(folder),
-        *section_items("breaking_line_solved", law=folder.scene.tether.tension.law),
-        *provenance_items(folder),
+        *appendix(
+            *timing_items(folder, table("cost")),
+            *_scene(folder),
+            *section_items("breaking_line_solved", law=folder.scene.tether.tension.law),
+            *provenance_items(folder),
+        ),
     ]
     return Report("The breaking synthetic line", folder.scene.title or folder.scene.name, tuple(items))
 

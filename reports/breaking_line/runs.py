@@ -103,8 +103,7 @@ class Line(Row):
 
 def read_lines(folder: Folder) -> tuple[Line, ...]:
     """Every run of the table, in its order."""
-    rows = folder.table.to_dict("records")
-    return tuple(Line(row, *(folder.trajectory(row) if row["kind"] == "case" else (None, ""))) for row in rows)
+    return tuple(Line(row, *(folder.trajectory(row) if row["kind"] == "case" else (None, ""))) for row in folder.table)
 
 
 def read_exact(folder: Folder) -> xarray.Dataset | None:

@@ -1,149 +1,160 @@
-"""Figures of a buoy sweep and of its chosen runs, and the tables beside them, each with its caption."""
+"""Figures of a buoy sweep, and the tables beside them, each with its caption."""
 
 import math
-from collections.abc import Sequence
-from dataclasses import replace
-from pathlib import Path
+from collections import Counter
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 
 from analysis import read_evidence
 
 from ..figures.animations import Snap, tether_animation, tether_stills
-from ..figures.curves import Curve, Panel, curves
-from ..figures.motion import section, settled, spectra, time_series
-from ..figures.orbit_diagram import orbit_diagram_over
+from ..figures.curves import Curve, Panel
+from ..figures.orbit_diagram import NARROW_IN, Column, Range, orbit_diagram
 from ..parts.content import Figure, Heading, Item, Table, Text, heads
-from ..parts.folder import read_rows
-from ..parts.wording import EMPTY, T_I, TAU_0, count, decimals, listed, number, printed
-from ..sweep.quantities import panels_over, series
-from .runs import PAPER_STEEPNESS, Run, Sweep, spectrum_window
+from ..parts.folder import part_of
+from ..parts.style import BLUE, INK, REGIME_COLOURS, VERMILION
+from ..parts.wording import T_I, T_S, count, decimals, number, printed
+from ..sweep.quantities import series
+from .runs import PAPER_STEEPNESS, Run, Sweep
 from .tables import sweep_table
 
-# the largest exponents in the table, each with its standard error
-EXPONENTS = (
-    ("lyapunov_tangent_bits_per_period", "lyapunov_tangent_error"),
-    ("lyapunov_wolf_bits_per_period", "lyapunov_wolf_error"),
-)
-_SIDES = (  # column, label of the axis and of the mark of the natural frequency, its name in `Modes`
-    ("radius_m", r"$|\Delta\tilde r|$ (m)", r"$\omega_r$", "radial_radps"),
-    ("angle_rad", r"$|\Delta\tilde\theta|$ (rad)", r"$\omega_\theta$", "pendulum_radps"),
-)
-_PEAKS = 4  # of a spectrum that a table tells
+TANGENT, WOLF = (
+    (f"lyapunov_{how}_bits_per_period", f"lyapunov_{how}_error") for how in ("tangent", "wolf")
+)  # the largest exponents in the table, each with its standard error
+_PERIOD = "period-"
 _SHOWN_PERIODS = 3.0  # of the tether as it snaps
+_CAP, _AS_RUN = "wetted cap", "as run"  # roles in companions/table.csv
 _DEFINED = (
-    "A motion is called chaotic only if its largest exponent is positive by two errors, the 0-1 test exceeds 0.9, and "
-    "a nonlinear forecast beats 95 % of surrogates, in the whole record and in both halves, and if the run at a tenth "
-    "of the tolerance is chaotic too (`regime_tighter`). A chaotic transient longer than the record is not told from "
-    "chaos. What fulfils no definition is undecided."
+    "A run is looked at after 90, 135, 205, ... wave periods, each time without its first third. A word counts when "
+    "two looks in a row find it. Periodic: the strobed orbit repeats, and perturbations do not grow in the later half. "
+    "Chaotic: the exponent of the tangent dynamics is positive by 3.5 errors, by two in the later half, and again at a "
+    "tenth of the tolerance (`regime_tighter`). Quasi-periodic: the exponent is zero within a stated bound, neighbours "
+    "stay, and a spectral line does not fit the waves. Transient: still changing at the end of the record. Everything "
+    "else is undecided. A verdict is one over the periods of the run: a longer chaotic transient is called chaotic."
 )
 
 
-def orbit_figure(sweep: Sweep, drawn: Sequence[Run], missing: Sequence[Run]) -> Figure:
-    """Strobed radius over steepness, slack and exponents below; drawn: runs with points, missing: those without."""
-    rows, columns, steepness = [run.row for run in drawn], sweep.folder.columns, sweep.folder.columns["steepness"]
-    below = [((columns["slack_fraction"], None),)]
-    if known := [pair for pair in EXPONENTS if np.isfinite(series(rows, pair[0])).any()]:
-        below.append(tuple((columns[value], columns[error]) for value, error in known))
-    radii, crosses = [run.section[:, 0] for run in drawn], [run.steepness for run in missing]
-    labels = steepness.label, "strobed $r$ (m)"
-    panels = [replace(panel, x_label="") for panel in panels_over(rows, steepness, below)]  # one label, below all
-    picture = orbit_diagram_over(series(rows, "steepness"), radii, labels, panels, crosses)
-    caption = (
-        f"Radius at t = k{T_I}, k ≥ {sweep.transient}, over wave steepness; the darker, the more points fall on one "
-        "place. Below: share χ of the time with less than 5 % of the static tension, and the largest exponents, where "
-        "they are known, from the tangent dynamics and by Wolf's method. Crosses: "
-        f"{count(len(missing), 'run')} without points."
-    )
-    return Figure(picture, caption, "Orbit diagram of the strobed radius over wave steepness, slack fraction below.")
+def exponents(sweep: Sweep) -> list[tuple[str, str]]:
+    """The pairs of columns, value and error, in which some run has an exponent."""
+    rows = [run.row for run in sweep.runs if run["regime"]]
+    return [pair for pair in (TANGENT, WOLF) if np.isfinite(series(rows, pair[0])).any()]
 
 
-def run_figures(sweep: Sweep, run: Run) -> list[Item]:
-    """Histories and spectra of one run; without spectra where its record is too short."""
-    trajectory = sweep.trajectory(run)
-    columns, scene = trajectory.columns, trajectory.scene
-    low, high = columns["tension_top_low_N"] / 1e3, columns["tension_top_high_N"] / 1e3
-    histories = {
-        "top tension (kN)": (columns["tension_top_N"] / 1e3, low, high),
-        r"$r$ (m)": (columns["radius_m"],),
-        r"$\theta$ (rad)": (columns["angle_rad"],),
-    }
-    caption = (
-        f"Top tension, radius and angle against t/{T_I} at {run.named} (figs. 9 to 11 of the paper at kA = 0.016; 13, "
-        "15 and 16 at 0.13). The shade behind the tension spans its extremes between samples. From "
-        f"`trajectories/{run['run_key'][:12]}….nc`."
-    )
-    alt = f"Tension, radius and angle over {number(run.periods_done)} wave periods at {run.named}."
-    items: list[Item] = [Figure(time_series(columns["time_s"] / scene.waves.period_s, histories), caption, alt)]
-    wave, found = 2 * math.pi / scene.waves.period_s, []
-    for column, label, mark, mode in _SIDES:
-        if one := run.spectrum(trajectory, column):
-            natural = ((getattr(sweep.modes, mode), mark),) if sweep.modes else ()
-            marks = (*natural, (wave, r"$\omega_i$"))
-            found.append((label, one.angular_frequency_radps[1:], one.amplitude[1:], marks))
-    if found:
-        caption = (
-            f"Spectra of r and θ at {run.named} by eq. (31) (fig. 12 of the paper at kA = 0.016; 17 and 18 at 0.13), "
-            "linear and logarithmic, without the mean. Arrows: the natural frequencies and that of the wave."
-        )
-        alt = f"Spectra of radius and angle at {run.named}, linear and logarithmic."
-        items.append(Figure(spectra(found, 2.5 * wave), caption, alt))
-    return items
-
-
-def chosen_table(sweep: Sweep) -> Table:
-    """The chosen runs: how far they came, their strobed r, the window of eq. (31) and the largest peaks of spectra."""
-    from analysis import spectral_peaks
-
-    rows = []
-    for run in sweep.chosen:
-        trajectory, cells = sweep.trajectory(run), []
-        for column, *_ in _SIDES:
-            found = run.spectrum(trajectory, column)
-            peaks = spectral_peaks(found)[:_PEAKS] if found else []
-            cells.append(listed(number(peak.angular_frequency_radps) for peak in peaks) if peaks else EMPTY)
-        window = spectrum_window(run.periods_done) or (None, None)
-        rows.append((run.named, run["status"], number(run.periods_done), _strobed(run), *map(number, window), *cells))
-    numbers = ("status", f"t/{T_I}", "strobed r (m)", f"{TAU_0}/{T_I}", "n", "peaks of r", "peaks of θ")
-    caption = (
-        "The runs nearest the paper's kA = 0.016 and 0.13, and the first whose strobed motion visits several points in "
-        f"turn, where there is one: how far they came, r at t = k{T_I} after the transient, and the largest peaks of "
-        f"the spectra in rad/s, the largest first; bins are 2π/(n {T_I}) wide."
-    )
-    return Table(heads("run", *((name, "") for name in numbers)), tuple(rows), caption, small=True)
-
-
-def _strobed(run: Run) -> str:
-    """The points that it visits in turn, else the range of all."""
-    if run.visited or not len(run.section):
-        return listed(decimals(point, 3) for point in run.visited) if run.visited else EMPTY
-    low, high = run.section[:, 0].min(), run.section[:, 0].max()
-    return f"{decimals(low, 3)} to {decimals(high, 3)}"
-
-
-def section_figure(sweep: Sweep) -> Figure | None:
-    """Poincare sections of the chosen runs side by side; None when none of them outlasts the transient."""
-    shown = [run for run in sweep.chosen if len(run.section)]
-    if not shown:
+def orbit_figure(sweep: Sweep) -> Figure | None:
+    """The answer in one figure; None where no run has strobed points."""
+    drawn = [run for run in (*sweep.good, *sweep.between) if len(run.section)]
+    if not drawn:
         return None
-    caption = (
-        f"Poincaré sections r, r' at t = k{T_I}, k ≥ {sweep.transient} (fig. 19a of the paper, at kA = 0.13). No axis "
-        "spans less than 0.1 m or 0.1 m/s."
-    )
-    alt = "Points of the strobed motion in the plane of radius and radial speed."
-    return Figure(section([(run.named, run.section) for run in shown]), caption, alt)
+    drawn.sort(key=lambda run: run.steepness)
+    missing = [run.steepness for run in sweep.runs if run not in drawn]
+    columns = [Column(run.steepness, run.section[:, 0], run["regime"] if run in sweep.judged else "") for run in drawn]
+    scene, static_N = sweep.folder.scene, sweep.modes.static_tension_N if sweep.modes else None
+    beyond = [
+        Range("whole sphere above still water", [_flies(run, scene.buoy.diameter_m) for run in drawn]),
+        Range("loops released", [run["loop_releases"] > 0 and not run.in_space for run in drawn]),
+    ]
+    ranges = [one for one in beyond if any(one.holds)]
+    marks = [(kA, "paper") for kA in PAPER_STEEPNESS if drawn[0].steepness <= kA <= drawn[-1].steepness]
+    scale, unit = (1.0 / static_N, "over static") if static_N else (1e-3, "(kN)")
+    below = [_slack(drawn), *_exponent_panel(sweep), _tension(sweep, drawn, scale, unit)]
+    labels = "wave steepness kA (–)", "strobed r (m)"
+    wide, narrow = (orbit_diagram(columns, labels, below, ranges, marks, missing, *how) for how in ((), (NARROW_IN,)))
+    caption = " ".join(_seen(sweep, drawn, static_N))
+    words = Counter(run["regime"] for run in sweep.judged)
+    alt = f"Orbit diagram over wave steepness: {', '.join(f'{word} {n} times' for word, n in words.items())}; see text."
+    return Figure(wide, caption, alt, narrow=narrow)
 
 
-def close_up_items(directory: Path) -> list[Item]:
-    """Heading and figure; nothing where no run was kept with its tether."""
-    from engine.trajectory import Trajectory, TrajectoryError
+def _flies(run: Run, diameter_m: float) -> bool:
+    """Whether all of the sphere leaves the water."""
+    return bool(run["max_buoy_height_above_water_m"] > diameter_m)
 
-    folder = directory / "close_up"
-    keys = [row["run_key"] for row in read_rows(folder / "table.csv") if row.get("status") == "ok"]
-    try:
-        trajectory = Trajectory.load(folder / "trajectories" / f"{keys[-1]}.nc") if keys else None
-    except (TrajectoryError, OSError):
+
+def _seen(sweep: Sweep, drawn: Sequence[Run], static_N: float | None) -> Iterator[str]:
+    """The caption."""
+    yield f"r at t = k{T_I} after the transient, over wave steepness, in the colour of the regime"
+    yield "(numbers in the bar: periods after which it repeats)." if sweep.judged else "."
+    if beside := sum(run in sweep.between for run in drawn):
+        yield f"{count(beside, 'run')} between those of the table were not judged."
+    yield "Below: time with less than 5 % of the static tension; largest exponent with two standard errors, where the"
+    yield f"regime needs it; largest tension{f' over the static {T_S} = {number(static_N)} N' if static_N else ''}."
+    for role, steepness, peak_N, cut_N in _finer(sweep):
+        yield (
+            f"{role.capitalize()} at kA = {number(steepness)}: {number(peak_N / 1e3, 3)} kN, where the run over the "
+            f"same periods has {number(cut_N / 1e3, 3)}."
+        )
+    left = [run for run in sweep.judged if run["regime"] in ("undecided", "transient")]
+    if sweep.judged:
+        yield f"Not decided: {sweep.at(left) if left else 'no run'}."
+
+
+def _slack(drawn: Sequence[Run]) -> Panel:
+    slack = 100.0 * _of(drawn, "slack_fraction")
+    return Panel([Curve(_of(drawn, "steepness"), slack, colour=INK)], y_label="slack\n(% of time)")
+
+
+def _of(runs: Sequence[Run], column: str) -> np.ndarray:
+    return series([run.row for run in runs], column)
+
+
+def _exponent_panel(sweep: Sweep) -> list[Panel]:
+    """Exponents in the colours of the regimes; by Wolf's method where no other is known, and never where r repeats."""
+    values, errors, words = [], [], []
+    for run in sweep.judged:
+        word = _PERIOD if run["regime"].startswith(_PERIOD) else run["regime"]
+        value, error = next((pair for pair in (TANGENT, WOLF) if run.known(pair[0])), TANGENT)
+        shown = (value, error) == TANGENT or word != _PERIOD
+        values.append(run[value] if shown else math.nan)
+        errors.append(2.0 * run[error] if shown else math.nan)
+        words.append(word)
+    known = np.isfinite(values)
+    if not known.any():
         return []
+    x, y, bars = _of(sweep.judged, "steepness"), np.array(values), np.array(errors)
+    lines = []
+    for word in dict.fromkeys(np.array(words)[known]):
+        own = known & (np.array(words) == word)
+        lines.append(Curve(x[own], y[own], "", "", "o", REGIME_COLOURS[word], bars[own], 3.0))
+    usual = np.minimum(np.nan_to_num(bars), 3.0 * float(np.nanmedian(bars)))  # one long bar would hide the others
+    margin = 0.08 * float(np.ptp(y[known])) + 0.01
+    limits = float((y - usual)[known].min()) - margin, float((y + usual)[known].max()) + margin
+    return [Panel(lines, y_label="exponent\n(bits/period)", level=0.0, settings={"ylim": limits})]
+
+
+def _tension(sweep: Sweep, drawn: Sequence[Run], scale: float, unit: str) -> Panel:
+    lines = [Curve(_of(drawn, "steepness"), scale * _of(drawn, "tension_top_max_N"), "as run", colour=INK)]
+    rows = _companions(sweep, _CAP)
+    if rows:
+        lines.append(Curve(series(rows, "steepness"), scale * series(rows, "tension_top_max_N"), _CAP, colour=BLUE))
+    for role, at, peak_N, _ in _finer(sweep):
+        place = np.array([at]), np.array([scale * peak_N])
+        lines.append(Curve(*place, role, "", "D", VERMILION, size=4.0))
+    limits = {"ylim": (0.0, None)}
+    return Panel(lines, y_label=f"largest T\n{unit}", settings=limits)
+
+
+def _companions(sweep: Sweep, role: str) -> list[dict]:
+    """The rows of a role in companions/table.csv that ended as asked, by steepness."""
+    part = part_of(sweep.folder, "companions")
+    rows = [row for row in (part.table if part else ()) if row["role"] == role and row["status"] == "ok"]
+    return sorted(rows, key=lambda row: row["steepness"])
+
+
+def _finer(sweep: Sweep) -> Iterator[tuple[str, float, float, float]]:
+    """(role, steepness, largest tension on the finer grid, that of the run cut to the same periods), in N."""
+    for coarse in _companions(sweep, _AS_RUN):
+        role = f"{2 * int(coarse['nodes']) - 1} nodes"
+        for fine in _companions(sweep, role):
+            if fine["steepness"] == coarse["steepness"]:
+                yield role, fine["steepness"], fine["tension_top_max_N"], coarse["tension_top_max_N"]
+
+
+def close_up_items(sweep: Sweep) -> list[Item]:
+    """Heading and figure; nothing where no run was kept with its tether."""
+    part = part_of(sweep.folder, "close_up")
+    rows = [row for row in (part.table if part else ()) if row["status"] == "ok"]
+    trajectory = part.trajectory(rows[-1])[0] if rows else None
     if trajectory is None or (snap := _snap(trajectory)) is None:
         return []
     at, peak = snap.record[0][np.argmax(snap.record[1])], float(snap.record[1].max())
@@ -155,7 +166,7 @@ def close_up_items(directory: Path) -> list[Item]:
     )
     alt = f"The tether at six moments as the buoy comes back and pulls it taut, with the top tension, at most {seen}."
     figure = Figure(tether_stills(snap), caption, alt, tether_animation(snap))
-    return [Heading("The tether as it snaps", 2), figure]
+    return [Heading("The tether as it snaps"), figure]
 
 
 def _snap(trajectory) -> Snap | None:
@@ -182,19 +193,13 @@ def _snap(trajectory) -> Snap | None:
 
 
 def regime_items(sweep: Sweep) -> list[Item]:
-    """The section, or nothing where no run has a regime."""
+    """What the words mean, and the exponents of the runs; nothing where no run has a regime."""
     if not sweep.judged:
         return []
-    caption = f"Regime and largest exponent with one standard error, after the first {sweep.transient} wave periods."
-    names = ("steepness", "regime", *EXPONENTS)
-    table = sweep_table(sweep, names, sweep.judged, caption)
-    items: list[Item] = [Heading("Exponents and regimes"), Text(_DEFINED), table]
-    nearest = [(min(sweep.judged, key=lambda run: abs(run.steepness - kA)), kA) for kA in PAPER_STEEPNESS]
-    shown = list(dict.fromkeys(run for run, kA in nearest if abs(run.steepness - kA) <= 0.01))
-    for run in shown:
-        heading = Heading(f"Why {run.named} is called {run['regime']}", 2)
-        items += [heading, found] if (found := evidence_table(run)) else []
-    return items + _convergence(sweep, shown)
+    caption = "Regime, and largest exponent with one standard error after the transient, where the regime needs it."
+    names = ("steepness", "regime", "periods", "transient_periods", TANGENT, WOLF)
+    told = tuple(name for name in names if isinstance(name, tuple) or name in sweep.folder.columns)
+    return [Heading("Regimes and exponents"), Text(_DEFINED), sweep_table(sweep, told, sweep.judged, caption)]
 
 
 def evidence_table(run: Run) -> Table | None:
@@ -207,31 +212,3 @@ def evidence_table(run: Run) -> Table | None:
     caption = f"Evidence at {run.named}, in the order of the tests: {reason}."
     rows = tuple((name, *(cell.replace("-", "−") for cell in cells)) for name, *cells in tests)
     return Table(columns, rows, caption, small=True)
-
-
-def _convergence(sweep: Sweep, shown: list[Run]) -> list[Item]:
-    """Exponent found so far against the time used, by Wolf's method; nothing where it found none."""
-    from analysis import wolf_lyapunov
-
-    lines = []
-    for run, dash in zip((run for run in shown if run.has_record), ("-", "--"), strict=False):
-        trajectory = sweep.trajectory(run)
-        step_s, period_s = trajectory.scene.sample_step_s(), trajectory.scene.waves.period_s
-        after = round(sweep.transient * period_s / step_s)
-        wolf = wolf_lyapunov(trajectory.columns["radius_m"][after:], step_s)
-        if wolf.found and "run" in wolf.details:
-            one = wolf.details["run"]
-            bits = one.convergence * period_s / math.log(2.0)
-            lines.append(Curve(one.time_s / period_s, bits, run.named, dash, width=1.2))
-    if not lines:
-        return []
-    labels = (r"$t/T_i$ (wave periods)", r"$\sigma_m$ (bits per period)")
-    limits = {"ylim": settled([line.y for line in lines])}
-    picture = curves([[Panel(lines, *labels, level=0.0, settings=limits)]], 2.8, "best")
-    ends = "; ".join(f"{decimals(float(line.y[-1]), 3)} at {line.name}" for line in lines)
-    caption = (
-        "Largest exponent of r(t) by the method of Wolf et al. against the length of the record used (fig. 14 of the "
-        f"paper; one of the settings of the plateau). At the end: {ends} bits per wave period. From `radius_m`."
-    )
-    alt = f"Convergence of Wolf's exponent over the record: {ends} at the end."
-    return [Heading("Convergence of Wolf's exponent", 2), Figure(picture, caption, alt)]

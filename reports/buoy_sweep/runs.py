@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
-from dataclasses import dataclass, field
-from functools import cached_property
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass, field, replace
+from functools import cached_property, partial
+from operator import itemgetter
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -13,8 +14,9 @@ import numpy as np
 
 from engine.natural_frequencies import Modes, natural_frequencies
 
-from ..parts.folder import Folder, Row, read_folder
-from ..parts.wording import number, ranges
+from ..figures.run_sheet import run_sheet
+from ..parts.folder import Folder, Row, part_of, read_folder
+from ..parts.wording import OMEGA_I, OMEGA_R, decimals, number, ranges
 
 if TYPE_CHECKING:
     from analysis import Spectrum
@@ -23,6 +25,9 @@ if TYPE_CHECKING:
 PAPER_STEEPNESS = (0.016, 0.13)  # as in `campaigns.buoy_sweep`, which reports must not import
 PAPER_WINDOW = (40, 20)  # tau_0/T_i and n of eq. (31) in the paper
 LEAST_POINTS = 16  # strobed points below which no period is looked for
+END_PERIODS = 6.0  # of a record that its sheet shows larger
+_MANY, _FINE_BINS = 120, 160  # runs above which sheets are drawn more coarsely: 400 of them stay below 10 MB
+_MOST_POINTS = 400  # of a section
 _LEAST_WINDOW = 5  # wave periods: fewer bins than this below the wave frequency say nothing
 # columns without which there is no report; all others may be of a later version
 NEEDED = (
@@ -37,24 +42,23 @@ class Run(Row):
     """One row of the table with what its trajectory adds.
 
     anchor: the place of its sheet in the report. fault: why the trajectory of a run that should have one could not be
-    read, else "". periods_done: its length. section: `strobed`. period: wave periods after which it repeats, 0 where no
-    number fits, None where this is not known. visited: strobed r (m) of the points that it visits in turn. It is () for
-    a run without a period, and where these points lie within the tolerance of each other: a pendulum swing that dies
-    out slowly comes back to nearly the same place every six wave periods (omega_theta T_i is close to 1 rad), and the
-    table then says period 6 of a motion that is about to settle on one point. above_still_m, above_wave_m: highest
-    centre of the buoy above still water and above the wave at its place; out_share: share of the samples with the whole
-    sphere above that wave; nan without a record.
+    read, else "". transient: wave periods left out of strobed values and extremes. periods_done: its length. section:
+    `strobed`. drawing: of its sheet, "" without a record of one wave period.
     """
 
     anchor: str = ""
     fault: str = ""
+    transient: int = 0
     periods_done: float = 0.0
     section: np.ndarray = field(default_factory=lambda: np.empty((0, 2)))
-    period: int | None = None
-    visited: tuple[float, ...] = ()
-    above_still_m: float = math.nan
-    above_wave_m: float = math.nan
-    out_share: float = math.nan
+    drawing: str = ""
+
+    @property
+    def period(self) -> int | None:
+        """Wave periods after which it repeats, 0 where no number fits, None where this is not known."""
+        if not self.ok or len(self.section) < LEAST_POINTS:
+            return None
+        return int(self["strobed_period"]) if self.known("strobed_period") else 0
 
     @property
     def steepness(self) -> float:
@@ -70,36 +74,22 @@ class Run(Row):
         return self["dimensions"] == 3
 
     @property
-    def has_record(self) -> bool:
-        """Whether there is enough of a record to draw: one wave period at least."""
-        return not self.fault and self.periods_done >= 1.0
-
-    @property
     def planar_releases(self) -> float:
         """Loop releases of the planar run: its own, or those of the run that a run in three dimensions replaces."""
         return self["planar_loop_releases" if self.in_space else "loop_releases"]
-
-    def spectrum(self, trajectory: Trajectory, column: str) -> Spectrum | None:
-        """Eq. (31) of a column over `spectrum_window`; None for a record that is too short or not finite."""
-        from analysis import spectrum
-
-        window, values, scene = spectrum_window(self.periods_done), trajectory.columns[column], trajectory.scene
-        if window is None or not np.isfinite(values).all():
-            return None
-        return spectrum(values, scene.sample_step_s(), scene.waves.period_s, *window)
 
 
 @dataclass(frozen=True, eq=False)
 class Sweep:
     """The folder and all facts that more than one section of the report uses.
 
-    transient: wave periods left out of strobed values and extremes. tolerance: of its range, within which a motion
+    between: runs between the values of the table, which nobody judged. tolerance: of its range, within which a motion
     repeats. longest: largest number of wave periods tried. modes: natural frequencies, None where there are none.
     """
 
     folder: Folder
     runs: tuple[Run, ...]
-    transient: int
+    between: tuple[Run, ...]
     tolerance: float
     longest: int
     modes: Modes | None
@@ -115,22 +105,17 @@ class Sweep:
         return tuple(run for run in self.runs if run["regime"])
 
     @cached_property
-    def chosen(self) -> tuple[Run, ...]:
-        """The runs drawn in full: nearest the paper's two steepnesses, then the first that visits several points."""
-        drawable = [run for run in self.runs if run.has_record]
+    def chosen(self) -> frozenset[Run]:
+        """The runs whose sheets are printed: nearest the paper's two steepnesses, and the first of several points."""
+        drawable = [run for run in self.runs if run.drawing]
         good = [run for run in drawable if run.ok] or drawable
         nearest = [min(good, key=lambda run: abs(run.steepness - kA)) for kA in PAPER_STEEPNESS if good]
-        several = [run for run in good if len(run.visited) > 1 and run not in nearest]
-        return tuple(sorted(dict.fromkeys([*nearest, *several[:1]]), key=lambda run: run.steepness))
+        return frozenset([*nearest, *[run for run in good if (run.period or 0) > 1][:1]])
 
     def at(self, chosen: Iterable[Run]) -> str:
         """ "kA = 0.01 to 0.03 and 0.05": the chosen of the runs, neighbours joined."""
         chosen = set(chosen)
         return f"kA = {ranges([run.steepness for run in self.runs], [run in chosen for run in self.runs])}"
-
-    def trajectory(self, run: Run) -> Trajectory:
-        """The trajectory of a run that has a record."""
-        return self.folder.trajectory(run.row)[0]
 
 
 def read_sweep(directory: str | Path) -> Sweep:
@@ -140,41 +125,64 @@ def read_sweep(directory: str | Path) -> Sweep:
     """
     folder = read_folder(directory, NEEDED)
     told = folder.provenance  # an older one may be silent: then these are the values of `campaigns.judge`
-    transient, tolerance = int(told.get("transient") or 0), float(told.get("strobe_tolerance") or 0.01)
-    rows = folder.table.sort_values("steepness", kind="stable").to_dict("records")
-    runs = tuple(_read_run(folder, row, f"run-{place}", transient, tolerance) for place, row in enumerate(rows, 1))
-    longest = int(told.get("longest_period") or 16)
-    return Sweep(folder, runs, transient, tolerance, longest, natural_frequencies(folder.scene))
+    tolerance, longest = float(told.get("strobe_tolerance") or 0.01), int(told.get("longest_period") or 16)
+    modes, beside = natural_frequencies(folder.scene), part_of(folder, "between")
+    bins = _FINE_BINS if len(folder.table) <= _MANY else _FINE_BINS // 2
+    rows = enumerate(sorted(folder.table, key=itemgetter("steepness")), 1)
+    runs = tuple(
+        _read_run(folder, row, f"run-{place}", partial(drawing, bins=bins, modes=modes)) for place, row in rows
+    )
+    between = (_read_run(beside, row) for row in (beside.table if beside else ()) if row["status"] == "ok")
+    return Sweep(folder, runs, tuple(between), tolerance, longest, modes)
 
 
-def _read_run(folder: Folder, row: dict, anchor: str, transient: int, tolerance: float) -> Run:
-    from engine.physics.sea import elevation_m
-
+def _read_run(folder: Folder, row: dict, anchor: str = "", drawn: Callable | None = None) -> Run:
+    """drawn: what makes its drawing, None for a run that gets none."""
+    left_out = row.get("transient_periods", folder.provenance.get("transient"))
+    transient = int(left_out) if left_out and math.isfinite(left_out) else 0
     trajectory, fault = folder.trajectory(row)
     if trajectory is None or len(trajectory.columns["time_s"]) < 2:
-        return Run(row, anchor, fault)
-    columns, scene = trajectory.columns, trajectory.scene
+        return Run(row, anchor, fault, transient)
     section = strobed(trajectory, transient)
-    period, visited = _period(row, section, tolerance)
-    above_still = columns["z_m"] - scene.water.depth_m
-    above_wave = above_still - elevation_m(scene, columns["time_s"], columns["x_m"])
-    out_share = float(np.mean(above_wave > 0.5 * scene.buoy.diameter_m))
-    highest = float(np.nanmax(above_still)), float(np.nanmax(above_wave))
-    periods_done = float(columns["time_s"][-1]) / scene.waves.period_s
-    return Run(row, anchor, fault, periods_done, section, period, visited, *highest, out_share)
+    periods_done = float(trajectory.columns["time_s"][-1]) / trajectory.scene.waves.period_s
+    run = Run(row, anchor, fault, transient, periods_done, section)
+    return replace(run, drawing=drawn(run, trajectory)) if drawn and periods_done >= 1.0 else run
 
 
-def _period(row: dict, section: np.ndarray, tolerance: float) -> tuple[int | None, tuple[float, ...]]:
-    """`period` and `visited` of a Run: the points are means over the last half of the section."""
-    if row["status"] != "ok" or len(section) < LEAST_POINTS:
-        return None, ()
-    if math.isnan(row["strobed_period"]):
-        return 0, ()
-    length = int(row["strobed_period"])
-    rounds = max(len(section) // (2 * length), 1)
-    radii = section[-rounds * length :, 0].reshape(-1, length).mean(axis=0)
-    apart = length == 1 or np.ptp(radii) > tolerance * (row["radius_max_m"] - row["radius_min_m"])
-    return length, tuple(map(float, radii)) if apart else ()
+def drawing(run: Run, trajectory: Trajectory, bins: int, modes: Modes | None) -> str:
+    """All that the sheet of a run shows of its trajectory. bins: columns of its histories."""
+    columns, period_s = trajectory.columns, trajectory.scene.waves.period_s
+    wave, shown = 2.0 * math.pi / period_s, {}  # shown: what only some runs have
+    if found := _spectrum(run, trajectory):
+        part = (found.angular_frequency_radps > 0.0) & (found.angular_frequency_radps <= 2.5 * wave)
+        shown["spectrum"] = found.angular_frequency_radps[part], found.amplitude[part]
+    if trajectory.tangent is not None:
+        growth = trajectory.tangent.growth_nats[run.transient :, :1]
+        carried = np.flatnonzero(np.isfinite(growth).all(axis=1)) if growth.size else np.empty(0, int)
+        if len(carried):  # perturbations may be carried from a later period on
+            so_far = np.cumsum(growth[carried, 0]) / np.arange(1, len(carried) + 1) / math.log(2.0)
+            shown["exponent"] = run.transient + 1.0 + carried, so_far
+    low, high = columns["tension_top_low_N"] / 1e3, columns["tension_top_high_N"] / 1e3
+    radius, angle = columns["radius_m"], columns["angle_rad"]
+    histories = (("T (kN)", low, high), ("r (m)", radius, radius), ("θ (rad)", angle, angle))
+    marks = (*(((modes.radial_radps, OMEGA_R),) if modes else ()), (wave, OMEGA_I))
+    span = f"r from {decimals(run['radius_min_m'], 2)} to {decimals(run['radius_max_m'], 2)} m"
+    seen = (
+        f"Tension, radius and angle over {number(run.periods_done)} wave periods at {run.named}, with section, "
+        f"spectrum and exponent: {span}, tension up to {number(run['tension_top_max_N'])} N."
+    )
+    section = run.section[:_MOST_POINTS]
+    return run_sheet(seen, bins, columns["time_s"] / period_s, histories, END_PERIODS, section, marks=marks, **shown)
+
+
+def _spectrum(run: Run, trajectory: Trajectory) -> Spectrum | None:
+    """Eq. (31) of r over `spectrum_window`; None for a record that is too short or not finite."""
+    from analysis import spectrum
+
+    window, values, scene = spectrum_window(run.periods_done), trajectory.columns["radius_m"], trajectory.scene
+    if window is None or not np.isfinite(values).all():
+        return None
+    return spectrum(values, scene.sample_step_s(), scene.waves.period_s, *window)
 
 
 def strobed(trajectory: Trajectory, transient: int) -> np.ndarray:

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import numpy as np
 
-from ..parts.columns import Name, number_of, table_of
+from ..parts.columns import Name, number_of, plus_minus, table_of
 from ..parts.content import Figure, Heading, Item, Table, Text, heads, link
 from ..parts.folder import read_columns, read_rows
 from ..parts.provenance import scene_items, timing_items
@@ -15,7 +15,7 @@ from .runs import Run, Sweep
 
 _RUNS = (
     "radius_min_m", "radius_max_m", "angle_min_rad", "angle_max_rad", "tension_top_min_N", "tension_top_max_N",
-    "slack_fraction", "max_turn_rad", "loop_releases", "steps", "rejected_steps", "newton_iterations", "wall_s",
+    "slack_fraction", "max_turn_rad", "loop_releases",
 )  # fmt: skip
 _ACROSS = ("offplane_growth_bits_per_period", "offplane_growth_error")
 _PLANE = (
@@ -45,13 +45,23 @@ _NOT_REPEATED = (
 
 
 def sweep_table(sweep: Sweep, names: tuple[Name, ...], runs: tuple[Run, ...], caption: str):
-    """A table of runs, the steepness a link to the sheet of the run; a period of 0 reads "none"."""
+    """A table of runs, the steepness a link to the sheet of the run; a period of 0 reads "none".
+
+    Columns without an entry in any of the runs are left out.
+    """
+    columns = sweep.folder.columns
+    names = tuple(name for name in names if any(plus_minus(columns, run.row, *_pair(name)) != EMPTY for run in runs))
     rows = [{**run.row, "run": run} for run in runs]
     own = {
         "steepness": lambda row: link(number(row["steepness"]), row["run"].anchor),
         "strobed_period": lambda row: EMPTY if row["run"].period is None else str(row["run"].period or "none"),
     }
-    return table_of(sweep.folder.columns, names, rows, caption, own)
+    return table_of(columns, names, rows, caption, own)
+
+
+def _pair(name: Name) -> tuple[str, str]:
+    """The column of a value and that of its error, "" for none."""
+    return (name, "") if isinstance(name, str) else name
 
 
 def runs_items(sweep: Sweep) -> list[Item]:
@@ -59,8 +69,8 @@ def runs_items(sweep: Sweep) -> list[Item]:
     space = ("dimensions",) if any(run.in_space for run in sweep.runs) else ()
     caption = (
         f"Every run of `table.csv`. A motion repeats after N wave periods if it does to {percent(sweep.tolerance)} of "
-        f"its range, N ≤ {sweep.longest}; “none” where no N does. The transient are the first {sweep.transient} wave "
-        "periods. A dash: not known. On the page kA leads to the sheet of the run."
+        f"its range, N ≤ {sweep.longest}; “none” where no N does. A dash: not known. On the page kA "
+        "leads to the sheet of the run."
     )
     names = ("steepness", *space, "status", "strobed_period", *_RUNS)
     return [Heading("Table of runs"), sweep_table(sweep, names, sweep.runs, caption)]
@@ -113,7 +123,7 @@ def accuracy_items(directory: Path) -> list[Item]:
 
 def time_items(sweep: Sweep) -> list[Item]:
     """What each run cost, and the time split of the campaign."""
-    runs, columns = [run for run in sweep.runs if run.has_record], sweep.folder.columns
+    runs, columns = [run for run in sweep.runs if run.periods_done], sweep.folder.columns
     rows, figure = [run.row for run in runs], None
     if np.isfinite(wall := series(rows, "wall_s")).any():
         shown = [((columns[name], None),) for name in _COST]

@@ -48,7 +48,7 @@ def tether_animation(snap: Snap) -> Picture:
 
         def show(row: int) -> None:
             place(row)
-            clock.set_text(f"$t/T_i$ = {snap.periods[row]:.2f}")
+            clock.set_text(f"{snap.periods[row]:.2f} wave periods")
             moment.set_data([snap.periods[row]], [snap.pull_kN(row)])
 
         return moving_picture(figure, [*moving, clock, moment], len(snap.periods), show, _FRAMES_PER_SECOND)

@@ -6,12 +6,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..parts.content import Picture
-from ..parts.style import BLUE, GREEN, GRID, ORANGE, PURPLE, SKY, SOFT, VERMILION, picture_of, sheet
+from ..parts.style import BLUE, GRID, ORANGE, REGIME_COLOURS, SKY, VERMILION, picture_of, sheet
 from .curves import cells
 
-# the regimes of the analysis keep their colours in every map; other words take what is left
-_WORDS = {"chaotic": VERMILION, "quasi-periodic": ORANGE, "transient": PURPLE, "undecided": SOFT}
-_OTHERS = (BLUE, SKY, GREEN, "#004c77", "#8fd3c1", "#f0e442", GRID)
+_OTHERS = (BLUE, SKY, ORANGE, "#004c77", "#8fd3c1", "#f0e442", GRID)
 
 
 @dataclass(frozen=True, eq=False)
@@ -39,7 +37,7 @@ def maps(places: tuple[np.ndarray, np.ndarray], labels: tuple[str, str], shown: 
             if words:
                 named = sorted({str(word) for word in one.cells[known]})
                 left = iter(_OTHERS * (1 + len(named) // len(_OTHERS)))
-                colours = [_WORDS.get(word) or next(left) for word in named]
+                colours = [REGIME_COLOURS.get(word) or next(left) for word in named]
                 numbers = np.array([[named.index(word) if word else -1 for word in row] for row in one.cells])
                 norm = BoundaryNorm(np.arange(len(named) + 1) - 0.5, max(len(named), 1))
                 look = {"cmap": ListedColormap(colours), "norm": norm}

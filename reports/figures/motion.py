@@ -1,29 +1,17 @@
 """A motion as the paper looks at it: histories (figures 9-11, 13, 15, 16), spectra (12, 17, 18), sections (19a)."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 from itertools import pairwise
 
 import numpy as np
 
 from ..parts.content import Picture
-from ..parts.style import INK, kind_for
-from .curves import Curve, Panel, curves, wide_limits
+from .curves import Curve, Panel, curves
 
 _LAST_PERIODS = 12  # of the right column
 _BINS = 900  # columns of the whole-record view: about two a printed millimetre
 _LABELS = (r"$r$ (m)", r"$\dot{r}$ (m/s)")
-
-
-def section(panels: list[tuple[str, np.ndarray]]) -> Picture:
-    """Args: for each run its title and the points r (m), r' (m/s) at one wave phase, (m, 2)."""
-    drawn = []
-    for title, points in panels:
-        size, alpha = (3.6, 0.75) if len(points) < 600 else (2.0, 0.5)
-        dots = Curve(*points.T, line="", mark="o", size=size, alpha=alpha)
-        limits = {"xlim": wide_limits(points[:, 0], 0.1), "ylim": wide_limits(points[:, 1], 0.1)}
-        drawn.append(Panel([dots], *_LABELS, title, settings=limits, ticks=5))
-    return curves([drawn], 2.9 if len(panels) > 1 else 3.6, kind=kind_for(sum(len(points) for _, points in panels)))
 
 
 def section_pairs(panels: list[tuple[str, np.ndarray, np.ndarray]], names: tuple[str, str]) -> Picture:
@@ -33,19 +21,6 @@ def section_pairs(panels: list[tuple[str, np.ndarray, np.ndarray]], names: tuple
         rings = Curve(*first.T, names[0], line="", mark="o", size=5.0, width=0.7, filled=False)
         drawn.append(Panel([rings, Curve(*second.T, names[1], line="", mark=".", size=3.0)], *_LABELS, title, ticks=4))
     return curves([drawn], 2.9, "below")
-
-
-def spectra(panels: list[tuple], highest_radps: float) -> Picture:
-    """Each spectrum twice: on the paper's linear scale, and on a logarithmic one where a continuous floor shows.
-
-    Args: for each the label of its axis, omega (m,) in rad/s, the amplitude (m,), and modes to mark: (rad/s, name).
-    """
-    rows = []
-    for label, omega, amplitude, marks in panels:
-        below = r"$\omega$ (rad/s)" if len(rows) == len(panels) - 1 else ""
-        rows.append(spectrum_panels([Curve(omega, amplitude, colour=INK)], highest_radps, (below, label), marks))
-    rows[0] = [replace(one, title=title) for one, title in zip(rows[0], ("linear", "logarithmic"), strict=True)]
-    return curves(rows, 0.6 + 1.4 * len(panels), share="x")
 
 
 def spectrum_panels(
@@ -72,30 +47,6 @@ def settled(found: Sequence[np.ndarray]) -> tuple[float, float]:
     late = np.concatenate([*(bits[len(bits) // 10 :] for bits in found), np.zeros(1)])
     margin = 0.15 * max(float(np.ptp(late)), 0.02)
     return float(late.min()) - margin, float(late.max()) + margin
-
-
-def time_series(periods: np.ndarray, histories: Mapping[str, Sequence[np.ndarray]]) -> Picture:
-    """Stacked histories on a common axis: the whole record, and its last periods beside it where it is long.
-
-    Args: `periods` t/T_i (n,), increasing; `histories`, by the label of the axis with its unit, the samples (n,), and
-    where known the least and the greatest values between samples (n,).
-    """
-    last, shown = float(periods[-1]) if len(periods) else 0.0, {"whole record": slice(None)}
-    if last > 1.5 * _LAST_PERIODS:
-        shown[f"last {_LAST_PERIODS} periods"] = periods >= last - _LAST_PERIODS
-    rows = []
-    for label, (values, *extremes) in histories.items():
-        below, row = r"$t/T_i$ (wave periods)" if len(rows) == len(histories) - 1 else "", []
-        for title, part in shown.items():
-            t, ends, band = periods[part], [one[part] for one in extremes], None
-            if ends:
-                index = _kept(*ends)
-                band = (t[index], *np.sort([one[index] for one in ends], axis=0))
-            curve = Curve(*envelope(t, values[part]), colour=INK, width=0.7, band=band)
-            texts = below, "" if row else label, "" if rows else title
-            row.append(Panel([curve], *texts, settings={"xmargin": 0.01}, ticks=4))
-        rows.append(row)
-    return curves(rows, 0.85 + 1.0 * len(rows), share="xy", widths=(1.9, 1.0)[: len(shown)])
 
 
 def envelope(x: np.ndarray, y: np.ndarray, bins: int = _BINS) -> tuple[np.ndarray, np.ndarray]:

@@ -1,81 +1,197 @@
-"""Orbit diagram as an image of counts, with curves of other quantities under it on the same axis."""
+"""The orbit diagram: strobed points over a parameter, what they are called above, curves over the same axis below."""
 
 from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import groupby
 
 import numpy as np
 
-from analysis import density_image, orbit_diagram
-
 from ..parts.content import Picture
-from ..parts.style import DENSITY_COLOURS, SOFT, VERMILION, picture_of, sheet
+from ..parts.style import REGIME_COLOURS, SHADES, SOFT, VERMILION, WIDTH_IN, picture_of, sheet
 from .curves import Panel, draw
 
-# above a panel: any place inside it may hold points
-_ABOVE = {"loc": "lower left", "bbox_to_anchor": (0.0, 1.0), "ncols": 3, "borderaxespad": 0.0, "borderpad": 0.1}
+NARROW_IN = 3.7  # of the form for telephones
+_LEFT_IN, _LABEL_IN, _RIGHT_IN, _BOTTOM_IN, _TOP_IN = 0.68, 0.32, 0.08, 0.42, 0.3
+_BAR_IN, _MAIN_IN, _LOWER_IN, _GAP_IN = 0.16, 2.15, 0.78, 0.09
+_EDGE_IN, _NUMBERS_IN = 0.1, 0.27  # beside the first and the last run; left of it, where numbers stand there
+_NEUTRAL = "#8b95a0"
+_LETTER_IN = 0.062  # mean width of a letter of 7 points
+_SMALL = 1 / 3  # of the range of all points: what of it motions may take that are drawn again, larger
+_LEAST_WIDE = 0.15  # of the axis, for those
+_PERIOD = "period-"
+_BETWEEN = "not judged"
 
 
-def orbit_diagram_over(
-    parameter: np.ndarray,
-    strobed: Sequence[np.ndarray],
+@dataclass(frozen=True, eq=False)
+class Column:
+    """The points (n,) of one run over its parameter, and the word for its motion, "" for one that nobody judged."""
+
+    at: float
+    points: np.ndarray
+    word: str = ""
+
+
+@dataclass(frozen=True)
+class Range:
+    """What holds in a part of the runs: in words, and for each of the columns whether it does."""
+
+    text: str
+    holds: Sequence[bool]
+
+
+def orbit_diagram(
+    columns: Sequence[Column],
     labels: tuple[str, str],
     below: Sequence[Panel],
-    missing: Sequence[float] = (),
+    ranges: Sequence[Range] = (),
     marks: Sequence[tuple[float, str]] = (),
-    rows: int = 200,
+    missing: Sequence[float] = (),
+    width_in: float = WIDTH_IN,
 ) -> Picture:
-    """Density of strobed points over a parameter, panels of curves over the same parameter below.
+    """Bars with words and ranges, strobed points in the colours of the words, and panels below, on one axis.
 
-    Args: `parameter` (p,); `strobed` p arrays of points, one of which at least is not empty; `labels` of the parameter
-    and of the points, with units; `missing` parameter values of runs without points (crosses); `marks` (value, text)
-    drawn as vertical lines; `rows` pixels of the value axis. A run is a column of pixels, `half` its half width.
+    columns: by their parameter, one of them at least with points. labels: of parameter and points, with units.
+    ranges: each a bar above the points, and a shade over all panels. marks: (value, text) of vertical lines. missing:
+    runs without points (crosses). Motions whose points lie close together, from the left on, are drawn again in what
+    is left blank beside them, on a finer scale.
     """
-    from matplotlib.colors import LinearSegmentedColormap, LogNorm
-    from matplotlib.ticker import LogLocator
+    from matplotlib.patches import Patch
 
-    diagram = orbit_diagram(parameter, strobed)
-    image = density_image(diagram, rows)
-    counts, value_edges = image.counts, image.value_edges
-    places = np.concatenate([diagram.parameter, np.asarray(missing, float)])  # of all runs on the axis
-    half = _half_width(places)
-    shades = LogNorm(1, max(int(counts.max()), 2))
-    colours = LinearSegmentedColormap.from_list("density", DENSITY_COLOURS)
-    with sheet(3.0 + 1.2 * len(below)) as figure:
-        heights = [3.0, *([1.2] * len(below))]
-        top, *lower = figure.subplots(len(heights), 1, sharex=True, squeeze=False, height_ratios=heights)[:, 0]
-        top.grid(False)
-        for x, column in zip(diagram.parameter, counts.T, strict=True):
-            if column.any():
-                shown = np.ma.masked_equal(column[:, None], 0)  # pixels without points stay blank
-                mesh = top.pcolormesh([x - half, x + half], value_edges, shown, norm=shades, cmap=colours)
-        ticks = {"ticks": LogLocator(subs=(1, 2, 5)), "format": "%d"}
-        bar = figure.colorbar(mesh, ax=[top, *lower], label="points in a pixel", aspect=45, pad=0.01, **ticks)
-        bar.minorticks_off()
+    at, judged = np.array([one.at for one in columns]), [one for one in columns if one.word]
+    bars = [*([_words(judged)] if judged else []), *(_spans(at, one.holds, one.text) for one in ranges)]
+    heights = [*([_BAR_IN] * len(bars)), _MAIN_IN, *([_LOWER_IN] * len(below))]
+    height_in = _TOP_IN + sum(heights) + _GAP_IN * (len(heights) - 1) + _BOTTOM_IN
+    with sheet(height_in, width_in) as figure:
+        grid = figure.add_gridspec(
+            len(heights), 1, height_ratios=heights, hspace=_GAP_IN * len(heights) / sum(heights),
+            left=_LEFT_IN / width_in, right=1 - _RIGHT_IN / width_in, bottom=_BOTTOM_IN / height_in,
+            top=1 - _TOP_IN / height_in,
+        )  # fmt: skip
+        top = figure.add_subplot(grid[len(bars)])
+        lower = [figure.add_subplot(grid[place], sharex=top) for place in range(len(bars) + 1, len(heights))]
+        lowest = (top, *lower)[-1]
+        places = np.concatenate([at, missing])
+        span, small = float(np.ptp(places)), _small(columns)
+        left_in = _NUMBERS_IN if small else _EDGE_IN
+        inch = (width_in - _LEFT_IN - _RIGHT_IN - left_in - _EDGE_IN) / (span or 0.04 * abs(float(at[0])) or 0.04)
+        top.set_xlim(places.min() - left_in / inch, places.max() + _EDGE_IN / inch)  # inch: of the parameter
+        for place, spans in enumerate(bars):
+            _bar(figure.add_subplot(grid[place], sharex=top), spans, inch, judged and place == 0)
+        for one, shade in zip(bars[bool(judged) :], SHADES, strict=False):
+            for axes in (top, *lower):
+                for _, low, high in one:
+                    axes.axvspan(low, high, color=shade, linewidth=0)
+        _points(top, columns, inch)
+        if small:
+            _enlarged(top, *small, inch)
+        top.plot(missing, np.full(len(missing), 0.03), "x", color=VERMILION, transform=top.get_xaxis_transform())
         top.set_ylabel(labels[1])
         for axes, panel in zip(lower, below, strict=True):
             draw(axes, panel)
             if axes.get_legend_handles_labels()[1]:
-                axes.legend(markerscale=1.5, **_ABOVE)
-        if len(missing):
-            look = {"color": VERMILION, "markersize": 6, "linestyle": "none", "clip_on": False}
-            low = np.full(len(missing), 0.02)
-            on_axis = top.get_xaxis_transform()  # x as data, y as a share of the height
-            top.plot(missing, low, marker="x", transform=on_axis, label="run without strobed points", **look)
-            top.legend(**_ABOVE)
-        for at, text in marks:
-            for axes in (top, *lower):
-                axes.axvline(at, color=SOFT, linewidth=0.8, linestyle=(0, (3, 2)))
-            place = ("data", "axes fraction")
-            top.annotate(text, (at, 1.0), xycoords=place, fontsize=7.5, ha="center", va="bottom")
-        margin = half * (2 if np.ptp(places) > 0 else 12)
-        top.set_xlim(places.min() - margin, places.max() + margin)
-        (top, *lower)[-1].set_xlabel(labels[0])
-        figure.align_ylabels()
-        return picture_of(figure, "png")  # in an SVG every pixel would be an element
+                axes.legend(loc="upper left", ncols=1, fontsize=6.5, borderpad=0.1, labelspacing=0.15)
+        for axes in (top, *lower):
+            axes.tick_params(labelbottom=axes is lowest)
+            for value, _ in marks:
+                axes.axvline(value, color=SOFT, linewidth=0.7, linestyle=(0, (3, 2)))
+        for value, text in marks:
+            lowest.annotate(text, (value, 0.05), (2, 0), ("data", "axes fraction"), "offset points", fontsize=7)
+        lowest.set_xlabel(labels[0])
+        names = dict.fromkeys("periodic" if one.word.startswith(_PERIOD) else one.word for one in judged)
+        if judged:
+            words = [Patch(color=REGIME_COLOURS.get(word, REGIME_COLOURS[_PERIOD]), label=word) for word in names]
+            words += [Patch(color=_NEUTRAL, label=_BETWEEN)] if len(judged) < len(columns) else []
+            tight = {"handlelength": 0.7, "handletextpad": 0.3, "columnspacing": 0.7, "borderaxespad": 0.1}
+            figure.legend(handles=words, loc="upper left", ncols=len(words), fontsize=6.5, **tight)
+        for axes in (top, *lower):  # one below the other, left of the widest numbers
+            axes.yaxis.set_label_coords((_LABEL_IN - _LEFT_IN) / (width_in - _LEFT_IN - _RIGHT_IN), 0.5)
+        return picture_of(figure)
 
 
-def _half_width(parameter: np.ndarray) -> float:
-    """Half the width of a column: short of touching the nearest neighbour, and too narrow to claim a range."""
-    values = np.unique(parameter)
-    if len(values) == 1:
-        return 0.02 * abs(float(values[0])) or 0.02
-    return float(min(0.45 * np.diff(values).min(), 0.012 * (values[-1] - values[0])))
+def _cells(at: np.ndarray) -> np.ndarray:
+    """Edges (p + 1,) of the cells of sorted values (p,), half-way to their neighbours."""
+    if len(at) < 2:
+        return np.array([at[0] - 0.01 * (abs(at[0]) or 1.0), at[0] + 0.01 * (abs(at[0]) or 1.0)])
+    middles = 0.5 * (at[1:] + at[:-1])
+    return np.concatenate([[at[0] - (middles[0] - at[0])], middles, [at[-1] + (at[-1] - middles[-1])]])
+
+
+def _spans(at: np.ndarray, words: Sequence, text: str = "") -> list[tuple[str, float, float]]:
+    """(word, low, high) of every run of equal neighbours; a word that is no text stands for `text`, or for nothing."""
+    edges, found, first = _cells(at), [], 0
+    for word, group in groupby(words):
+        end = first + len(list(group))
+        if word:
+            found.append((text or word, float(edges[first]), float(edges[end])))
+        first = end
+    return found
+
+
+def _words(judged: Sequence[Column]) -> list[tuple[str, float, float]]:
+    return _spans(np.array([one.at for one in judged]), [one.word for one in judged])
+
+
+def _bar(axes, spans, inch: float, coloured: bool) -> None:
+    """Spans as a bar: in the colours of their words, with numbers of periods; or one shade, with its text once."""
+    axes.axis("off")
+    axes.set_ylim(0.0, 1.0)
+    look = {"ha": "center", "va": "center", "fontsize": 7.0}
+    for text, low, high in spans:
+        period = text.startswith(_PERIOD)
+        colour = REGIME_COLOURS[_PERIOD if period else text] if coloured else SHADES[-1]
+        axes.axvspan(low, high, facecolor=colour, edgecolor="white", linewidth=0.7 if coloured else 0.0)
+        if coloured and period and (high - low) * inch > _LETTER_IN * len(text.removeprefix(_PERIOD)):
+            axes.text(0.5 * (low + high), 0.45, text.removeprefix(_PERIOD), color="white", **look)
+    if coloured or not spans:
+        return
+    text, low, high = max(spans, key=lambda one: one[2] - one[1])
+    left, right = axes.get_xlim()
+    wide = _LETTER_IN * len(text) / inch
+    place, side = (0.5 * (low + high), "center") if high - low > wide else (low, "right")
+    if side == "right" and low - left < wide:
+        place, side = (high, "left") if right - high > wide else (left, "left")
+    axes.text(place, 0.45, text, **look | {"ha": side})
+
+
+def _points(axes, columns: Sequence[Column], inch: float) -> None:
+    """The points as dashes as wide as a column has room, those of judged runs over the others."""
+    at = np.unique([one.at for one in columns])
+    room = 72.0 * inch * float(np.diff(at).min()) if len(at) > 1 else 6.0
+    for word in sorted({one.word for one in columns}):
+        own = [one for one in columns if one.word == word]
+        x, y = np.repeat([one.at for one in own], [len(one.points) for one in own]), [one.points for one in own]
+        colour = REGIME_COLOURS[_PERIOD if word.startswith(_PERIOD) else word] if word else _NEUTRAL
+        wide, thick = (1.6, 1.1 if word.startswith(_PERIOD) else 0.45) if word else (0.9, 0.7)
+        look = {"markersize": min(max(wide * room, 1.2), 6.0), "markeredgewidth": thick, "rasterized": True}
+        axes.plot(x, np.concatenate(y), "_", color=colour, alpha=0.8, **look)
+
+
+def _small(columns: Sequence[Column]) -> tuple[list[Column], tuple[float, float], float] | None:
+    """The columns from the left on whose points together take a small part of the range, the ends of their points,
+    and where in the panel there is more room for them, 0 below and 1 above; None where there are not many.
+    """
+    filled = [one for one in columns if len(one.points)]
+    least, most = ([end(one.points) for one in filled] for end in (np.min, np.max))
+    low, high = np.minimum.accumulate(least), np.maximum.accumulate(most)
+    number = int(np.sum(high - low < _SMALL * (max(most) - min(least))))
+    at = [one.at for one in filled]
+    if number < 2 or number == len(filled) or at[number - 1] - at[0] < _LEAST_WIDE * (at[-1] - at[0]):
+        return None
+    ends = float(low[number - 1]), float(high[number - 1])
+    return filled[:number], ends, float(max(most) - ends[1] > ends[0] - min(least))
+
+
+def _enlarged(axes, columns: list[Column], ends: tuple[float, float], above: float, inch: float) -> None:
+    """The columns again, over the same parameter, in what is blank below or above them."""
+    (bottom, top), (left, right) = axes.get_ylim(), axes.get_xlim()
+    edges, room = _cells(np.array([one.at for one in columns])), 0.12 * (top - bottom)
+    low, high = (ends[1] + room, top - 0.3 * room) if above else (bottom + 0.3 * room, ends[0] - room)
+    where = (0.0, (low - bottom) / (top - bottom), (edges[-1] - left) / (right - left), (high - low) / (top - bottom))
+    inner = axes.inset_axes(where)
+    _points(inner, columns, inch)
+    inner.set_xlim(left, edges[-1])
+    inner.tick_params(labelbottom=False, bottom=False, direction="in", length=2, pad=-4, labelsize=6.0)
+    for label in inner.get_yticklabels():
+        label.set_horizontalalignment("left")
+    inner.spines[["top", "right"]].set_visible(True)
+    inner.set_title(f"the same, {(high - low) / (ends[1] - ends[0]):.0f} times as high", fontsize=6.5, pad=2)

@@ -5,7 +5,7 @@ import numpy as np
 from ..parts.content import Picture
 from ..parts.style import BLUE, GREEN, INK, ORANGE, PURPLE, SKY, SOFT, VERMILION, picture_of, sheet
 from .curves import Curve, Panel, curves
-from .orbit_diagram import orbit_diagram_over
+from .orbit_diagram import Column, orbit_diagram
 
 STATE = (r"displacement $\gamma$ (–)", r"velocity $\dot\gamma$ (–)")
 _COLOURS = (VERMILION, ORANGE, GREEN, PURPLE, BLUE)
@@ -102,7 +102,7 @@ def oscillator_basins(
 
 
 def oscillator_diagram(values, strobed, exponents, errors, slack, label: str, marks) -> Picture:
-    """Density of strobed displacement, both exponents and the slack share under it on the same axis.
+    """Strobed displacement, both exponents and the slack share under it on the same axis.
 
     Args: `values` (p,); `strobed` (p, m); `exponents` (p, n, 2) and `errors` (p, n) of lambda_1, nats per time;
     `slack` (p, n); `label` of the parameter's axis; `marks` (value, text) drawn as vertical lines.
@@ -122,5 +122,5 @@ def oscillator_diagram(values, strobed, exponents, errors, slack, label: str, ma
     share = Panel([dots(across, slack, "", BLUE, 1.0)], y_label="slack share\n(–)", settings={"ylim": (-0.03, 1.03)})
     below = [Panel(lines, y_label="exponents\n(nats per time)", level=0.0), share]
     inside = [(at, text) for at, text in marks if values[0] <= at <= values[-1]]
-    points = [column[np.isfinite(column)] for column in strobed]
-    return orbit_diagram_over(values, points, (label, r"strobed $\gamma$ (–)"), below, marks=inside, rows=320)
+    columns = [Column(at, some[np.isfinite(some)]) for at, some in zip(values, strobed, strict=True)]
+    return orbit_diagram(columns, (label, r"strobed $\gamma$ (–)"), below, marks=inside)

@@ -15,7 +15,7 @@ from ..figures.oscillator import (
 )
 from ..parts.columns import table_of
 from ..parts.content import Figure, Heading, Item, Notice, Report, Text, sub
-from ..parts.provenance import provenance_items
+from ..parts.provenance import appendix, provenance_items
 from ..parts.sections import section_items
 from ..parts.wording import count, number, percent
 from .sections import NUMBERS, Study, basin_items, grazing_items, method_items, orbit_items, read_study
@@ -26,7 +26,7 @@ LAMBDA_1 = "λ" + sub("1")
 def report(directory: str | Path) -> Report:
     """The content of the report on an oscillator study's folder. Raises FolderError for a folder that is not one."""
     study = read_study(directory)
-    items: list[Item] = [*section_items("oscillator", "Question"), Heading("Short answer"), *_answer(study)]
+    items: list[Item] = [*section_items("oscillator", "Question"), Heading("The answer in numbers"), *_answer(study)]
     if study.faults:
         missing = tuple(f"`{part}`: {reason}." for part, reason in study.faults.items())
         items.append(Notice("warning", "Parts without results", missing))
@@ -34,11 +34,11 @@ def report(directory: str | Path) -> Report:
         arrays = study.arrays.get(part)
         missing = [Text(f"The part `{part}` has no results: {study.faults.get(part)}.")]
         items += [Heading(title), *(missing if arrays is None else section(study, arrays))]
-    items += [*method_items(study), Heading("Parts and times")]
     shown = ("part", "status", "starts", "periods", "transient", "wall_s")
-    items.append(table_of(study.columns, shown, study.rows.values(), "The parts of the study, from `table.csv`."))
+    parts = table_of(study.columns, shown, study.rows.values(), "The parts of the study, from `table.csv`.")
+    made = appendix(*method_items(study), Heading("Parts and times"), parts, *provenance_items(study))
     numbers = (f"{symbol} = {number(study.oscillator[key])}" for key, (symbol, *_) in NUMBERS.items())
-    return Report("The snap oscillator, equation (33)", ", ".join(numbers), (*items, *provenance_items(study)))
+    return Report("The snap oscillator, equation (33)", ", ".join(numbers), (*items, *made))
 
 
 def _answer(study: Study) -> list[Item]:

@@ -6,7 +6,7 @@ from pathlib import Path
 
 from ..buoy_sweep.tables import accuracy_items
 from ..parts.content import Heading, Item, Notice, Report
-from ..parts.provenance import provenance_items, scene_items, timing_items
+from ..parts.provenance import appendix, provenance_items, scene_items, timing_items
 from ..parts.sections import section_items
 from ..parts.wording import count, listed, number
 from . import sections
@@ -25,7 +25,7 @@ def report(directory: str | Path) -> Report:
     scene = study.folder.scene
     items = [
         *section_items("out_of_plane", "Question"),
-        Heading("Short answer"),
+        Heading("The answer in numbers"),
         *sections.answer_items(study),
         *sections.history_items(study),
         *sections.growth_items(study),
@@ -40,8 +40,7 @@ def report(directory: str | Path) -> Report:
         *_warnings(study),
         Heading("Table of runs"),
         study.table(_RUNS, study.runs, "Every run."),
-        *_scene_and_times(study),
-        *provenance_items(study.folder),
+        *appendix(*_scene_and_times(study), *provenance_items(study.folder)),
     ]
     return Report("Tethered buoy: out of the plane of the waves", scene.title or scene.name, tuple(items))
 

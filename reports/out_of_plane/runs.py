@@ -79,8 +79,7 @@ def read_study(directory: str | Path) -> Study:
     base = folder.provenance.get("base")
     if not isinstance(base, dict) or set(base) != set(VARIED) or "transient" not in folder.provenance:
         raise FolderError(folder.directory, ["provenance.json cannot be read: it does not name base and transient"])
-    rows = folder.table.to_dict("records")
-    return Study(folder, tuple(map(Run, rows)), dict(base), int(folder.provenance["transient"]))
+    return Study(folder, tuple(map(Run, folder.table)), dict(base), int(folder.provenance["transient"]))
 
 
 def of_bodies(*names: Name, bodies: Sequence[str] = BODIES) -> list[Name]:

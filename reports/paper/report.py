@@ -6,7 +6,7 @@ from ..parts.columns import table_of
 from ..parts.content import Bullets, Heading, Item, Links, Notice, Report, Text
 from ..parts.folder import Folder, read_folder
 from ..parts.judged import FAILS, HOLDS_IF, Judged, counted, read_statements, statements_table
-from ..parts.provenance import provenance_items
+from ..parts.provenance import appendix, provenance_items
 from ..parts.sections import section_items
 from ..parts.wording import count, decimals
 from .dependence import dependence_items, written
@@ -57,14 +57,18 @@ def report(directory: str | Path) -> Report:
         Text("Whoever programs the paper needs these corrections; with the equations as printed some runs go wrong."),
         written("misprints"),
         *index_items(),
-        *provenance_items(folder),
+        *appendix(*provenance_items(folder)),
     ]
     subtitle = "Tjavaras, Zhu, Liu, Triantafyllou and Yue, Journal of Sound and Vibration 213(4), 709-737, 1998"
     return Report("The mechanics of highly-extensible cables, run again", subtitle, tuple(items))
 
 
 def _question(folder: Folder, judged: tuple[Judged, ...]) -> list[Item]:
-    items: list[Item] = [*section_items("paper", "Question"), Heading("Short answer"), Bullets(short_answer(judged))]
+    items: list[Item] = [
+        *section_items("paper", "Question"),
+        Heading("What does not simply hold"),
+        Bullets(short_answer(judged)),
+    ]
     if folder.provenance.get("quick"):
         lines = ("This folder was made with `--quick`: runs are short and few; nothing is to be concluded from it.",)
         items.append(Notice("warning", "A quick look", lines))
@@ -88,15 +92,14 @@ def short_answer(judged: tuple[Judged, ...]) -> tuple[str, ...]:
 
 
 def _parts(folder: Folder) -> list[Item]:
-    rows = folder.table.to_dict("records")
     shown = ("part", "runs", "failed", "run_s", "total_s")
     what = "; ".join(f"`{part}`: {words}" for part, words in PARTS.items())
-    table = table_of(folder.columns, shown, rows, f"The parts, each in a folder of its own ({what}).")
+    table = table_of(folder.columns, shown, folder.table, f"The parts, each in a folder of its own ({what}).")
     found = {f"Report on {what}": f"{part}/report.html" for part, what in PARTS.items()}
     links = tuple((words, path) for words, path in found.items() if (folder.directory / path).exists())
     jobs = folder.provenance.get("jobs")
     at_once = f", {count(jobs, 'run')} at a time" if isinstance(jobs, int) else ""
-    minutes = decimals(float(folder.table["total_s"].sum()) / 60.0, 1)
+    minutes = decimals(sum(row["total_s"] for row in folder.table) / 60.0, 1)
     each = "Each part has a report of its own, with all runs, grids, warnings and sources:"
     said = each if links else "The parts' own reports were left out."
     text = Text(f"All parts together took {minutes} minutes{at_once}. {said}")

@@ -62,7 +62,7 @@ class Figure:
     """A drawing with its caption (what is seen, from which columns) and its description for those who cannot see it.
 
     `moving`: shown below `picture` on the page, in a part that can be closed; those who asked their system for less
-    motion see `picture` alone.
+    motion see `picture` alone. `narrow`: shown in its place on a telephone.
     Raises ValueError when caption or description is empty: a figure without them is not allowed into a report.
     """
 
@@ -70,6 +70,7 @@ class Figure:
     caption: str
     alt: str
     moving: Picture | None = None
+    narrow: Picture | None = None
 
     def __post_init__(self) -> None:
         if not self.caption.strip() or not self.alt.strip():
@@ -129,14 +130,13 @@ class Listing:
 
 @dataclass(frozen=True)
 class Explorer:
-    """A diagram to look around in, for a page whose reader allows scripts; `figure` stands for it everywhere else.
+    """A diagram to look around in, for a page whose reader allows scripts; there is nothing of it elsewhere.
 
     A diagram has columns of points over a parameter, one column a run, and curves of one value a run below.
     `x_label`, `y_label`: with units; `columns`: the runs from left to right, at least one. Each shows the `Sheet` of
     its anchor when it is chosen. `lower`: (label, values, errors) of the curves below, NaN where a run has none.
     """
 
-    figure: Figure
     x_label: str
     y_label: str
     columns: tuple[ExplorerColumn, ...]
@@ -155,7 +155,7 @@ class ExplorerColumn:
 
 @dataclass(frozen=True)
 class Sheet:
-    """All about one run on a few square inches of the page; the PDF, which shows chosen runs in full, leaves it out.
+    """All about one run on a few square inches; the PDF shows those that are `chosen`.
 
     `drawing`: an <svg> element with its text alternative, made here and not from outside, in the colours of the page;
     "" for a run without a record. `facts`: (name, value); `table`: the evidence, None where there is none.
@@ -167,6 +167,7 @@ class Sheet:
     lines: tuple[str, ...] = ()
     drawing: str = ""
     table: Table | None = None
+    chosen: bool = False
 
 
 @dataclass(frozen=True)
@@ -181,7 +182,10 @@ Item = Heading | Text | Bullets | Equation | Figure | Table | Notice | Listing |
 
 @dataclass(frozen=True)
 class Report:
-    """A whole report: its title, one line under it, and its items in reading order."""
+    """A whole report: its title, one line under it, and its items in reading order.
+
+    What comes before the first heading is the first page; the contents follow it.
+    """
 
     title: str
     subtitle: str
@@ -232,24 +236,13 @@ def plain(text: str) -> str:
     return "".join(piece for _, piece in spans(text))
 
 
-def first_sentence(text: str) -> str:
-    """What a list of figures says of one: its caption up to the first colon, semicolon or full stop.
-
-    What stands in brackets does not count, nor the stop of an abbreviation ("fig. 9").
-    """
-    hidden = re.sub(rf"{_MARKS.pattern}|\([^()]*\)", lambda found: "x" * len(found[0]), text)
-    end = re.search(r"[:;] |(?<![Ff]ig)(?<![Ff]igs)(?<![Ee]q)(?<! al)\.( |$)", hidden)
-    return text[: end.start()] if end else text
-
-
 def numbered(items: tuple[Item, ...]) -> list[dict]:
     """Every item with its kind and its number, for both renderers: headings "1", "1.1", ..., all others from 1 on."""
     counts, section, division, blocks = Counter(), 0, 0, []
     for item in items:
         kind = type(item).__name__.lower()
-        counted = "figure" if kind == "explorer" else kind
-        counts[counted] += 1
-        number = str(counts[counted])
+        counts[kind] += 1
+        number = str(counts[kind])
         if isinstance(item, Heading):
             section, division = (section + 1, 0) if item.level == 1 else (section, division + 1)
             number = f"{section}.{division}" if division else str(section)

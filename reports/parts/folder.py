@@ -11,11 +11,9 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from .columns import HEADER, Quantity
-from .wording import printed
+from .columns import HEADER, Quantity, number_of
 
 if TYPE_CHECKING:
-    import pandas
     import xarray
 
     from engine import Scene, Trajectory
@@ -42,21 +40,15 @@ class FolderError(ValueError):
 class Folder:
     """What a finished campaign left behind, read and checked: the trajectories stay on disk until asked for.
 
-    columns: what the columns of the table are, by name.
+    table: its rows, numbers where the dictionary has digits, nan where there is none. columns: what the columns of the
+    table are, by name.
     """
 
     directory: Path
     provenance: dict
-    table: pandas.DataFrame
+    table: tuple[dict[str, object], ...]
     scene: Scene
     columns: dict[str, Quantity]
-
-    @property
-    def answer(self) -> tuple[str, ...]:
-        """The sentences in which the campaign said what it found (answer.txt); none where it left none."""
-        path = self.directory / "answer.txt"
-        lines = path.read_text(encoding="utf-8").splitlines() if path.exists() else ()
-        return tuple(map(printed, lines))
 
     def trajectory_path(self, run_key: str) -> Path:
         return self.directory / "trajectories" / f"{run_key}.nc"
@@ -112,6 +104,16 @@ def read_folder(directory: str | Path, needed: tuple[str, ...] = ()) -> Folder:
     if faults:
         raise FolderError(directory, faults)
     return Folder(directory, found["provenance.json"], table, found["scene.toml"], columns)
+
+
+def part_of(folder: Folder, name: str) -> Folder | None:
+    """A folder of the same layout inside of a campaign's; None where it was left out or cannot be read."""
+    place = folder.directory / name
+    try:
+        columns = read_columns(place)
+        return Folder(place, folder.provenance, _table(_rows(place / "table.csv"), (), columns), folder.scene, columns)
+    except (OSError, ValueError):
+        return None
 
 
 def read_files(
@@ -224,14 +226,17 @@ _READERS = {
 }
 
 
-def _table(rows: list[dict[str, str]], needed: tuple[str, ...], told: dict[str, Quantity]) -> pandas.DataFrame:
-    import pandas
-
+def _table(rows: list[dict[str, str]], needed: tuple[str, ...], told: dict[str, Quantity]) -> tuple[dict, ...]:
     if not rows:
         raise ValueError("it has no rows")
     if absent := [column for column in needed if column not in rows[0]]:
         raise ValueError(f"column{'s' if len(absent) > 1 else ''} missing: {', '.join(absent)}")
     if unknown := [name for name in rows[0] if name not in told]:
         raise ValueError(f"columns.csv does not tell of all columns: {', '.join(unknown)}")
-    table = pandas.DataFrame(rows)
-    return table.assign(**{name: pandas.to_numeric(table[name]) for name in table if told[name].digits is not None})
+    numbers = {name for name in rows[0] if told[name].digits is not None}
+    return tuple({name: _number(entry) if name in numbers else entry for name, entry in row.items()} for row in rows)
+
+
+def _number(entry: str) -> float:
+    """An entry as a number, a whole one as such. Raises ValueError for words."""
+    return int(entry) if entry.isdecimal() else number_of(entry)

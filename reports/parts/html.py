@@ -13,7 +13,7 @@ from dataclasses import asdict, replace
 from functools import lru_cache
 from html import escape
 
-from .content import Equation, Explorer, Picture, Report, first_sentence, numbered, plain, spans
+from .content import Equation, Explorer, Picture, Report, numbered, plain, spans
 
 _MEDIA = {"svg": "image/svg+xml", "png": "image/png", "gif": "image/gif"}
 _SNIPPET = """#set document(date: none)
@@ -31,10 +31,11 @@ def render_html(report: Report) -> bytes:
     loader = PackageLoader("reports")
     strictly = {"autoescape": True, "undefined": StrictUndefined}
     environment = Environment(loader=loader, trim_blocks=True, lstrip_blocks=True, **strictly)
-    environment.globals.update(spans=spans, plain=plain, data_uri=data_uri, first_sentence=first_sentence)
+    environment.globals.update(spans=spans, plain=plain, data_uri=data_uri)
     environment.globals.update(equation_svg=equation_svg, explorer_json=explorer_json)
-    template = environment.get_template("report.html.jinja")
-    return template.render(report=report, blocks=numbered(report.items)).encode()
+    template, blocks = environment.get_template("report.html.jinja"), numbered(report.items)
+    first = next((place for place, block in enumerate(blocks) if block["kind"] == "heading"), len(blocks))
+    return template.render(report=report, blocks=blocks, parts=(blocks[:first], blocks[first:])).encode()
 
 
 def data_uri(picture: Picture) -> str:

@@ -11,7 +11,7 @@ from importlib.resources import files
 from itertools import pairwise
 from pathlib import Path
 
-from .content import Equation, Explorer, Figure, Listing, Picture, Report, Sheet, first_sentence, numbered, spans
+from .content import Equation, Explorer, Figure, Listing, Picture, Report, Sheet, numbered, spans
 
 _LONGEST_TITLE = 90  # letters above a page
 
@@ -36,12 +36,12 @@ def render_pdf(report: Report) -> bytes:
 def typst_data(report: Report) -> tuple[dict, dict[str, bytes]]:
     """What the template reads: the report as JSON has it, and the pictures it names, by file name.
 
-    Sheets are on the page only: on paper they would be hundreds. Of an explorer the figure is shown.
+    The explorer is on the page only, and so are sheets that are not chosen: on paper they would be hundreds.
     """
     pictures, items = {}, []
     for block in numbered(report.items):
-        item = block["item"].figure if isinstance(block["item"], Explorer) else block["item"]
-        if isinstance(item, Sheet):
+        item = block["item"]
+        if isinstance(item, Explorer) or (isinstance(item, Sheet) and not item.chosen):
             continue
         entry = {**_pieces(item), "type": type(item).__name__.lower(), "number": block["number"]}
         match item:
@@ -52,13 +52,27 @@ def typst_data(report: Report) -> tuple[dict, dict[str, bytes]]:
             case Figure():
                 name = f"figure-{len(pictures) + 1}.{item.picture.kind}"
                 pictures[name] = item.picture.data
-                entry |= {"file": name, "first": spans(first_sentence(item.caption))}
+                entry["file"] = name
+            case Sheet() if item.drawing:
+                name = f"sheet-{block['number']}.svg"
+                pictures[name] = standalone(item.drawing)
+                entry["file"] = name
         items.append(entry)
     for entry, following in pairwise(items):
         entry["announces"] = following["type"] in ("figure", "equation")  # a text stays with what comes next
     title = report.title
     short = title if len(title) <= _LONGEST_TITLE else title[: _LONGEST_TITLE - 1] + "…"
     return {"title": title, "short_title": short, "subtitle": report.subtitle, "items": items}, pictures
+
+
+def standalone(drawing: str) -> bytes:
+    """The drawing of a sheet as a file of its own: in ink, with the look that the page's style sheet gives it there."""
+    look = files("reports").joinpath("templates/sheet.css").read_text(encoding="utf-8")
+    return (
+        drawing.replace("<svg ", '<svg xmlns="http://www.w3.org/2000/svg" ', 1)
+        .replace(">", f"><style>{look}</style>", 1)
+        .encode()
+    )
 
 
 def _pieces(value: object) -> object:

@@ -81,6 +81,12 @@ def provenance_items(folder: Folder) -> list[Item]:
     return items
 
 
+def appendix(*items: Item) -> list[Item]:
+    """The last section of a report: how it was made; headings among the items divide it."""
+    below = (Heading(item.text, 2) if isinstance(item, Heading) else item for item in items)
+    return [Heading("Appendix: how this was made"), *below] if items else []
+
+
 def _flat(section: object, prefix: str = "") -> Iterator[tuple[str, object]]:
     """(dotted key, entry) of nested sections, in their order; nothing where there is no section."""
     for key, entry in section.items() if isinstance(section, dict) else ():

@@ -17,28 +17,33 @@ from .content import Picture
 
 WIDTH_IN = 6.8  # the text width of the PDF page
 DOTS_PER_INCH = 200
-MOVING_DOTS_PER_INCH, MOVING_COLOURS = 100, 64  # of a drawing that moves
+MOVING_DOTS_PER_INCH, MOVING_COLOURS, MOST_FRAMES = 100, 64, 80  # of a drawing that moves
 MANY_POINTS = 6000  # above this a scatter is smaller and opens faster as pixels
 
 BLUE, VERMILION, GREEN, ORANGE, PURPLE, SKY = "#0072b2", "#d55e00", "#009e73", "#e69f00", "#cc79a7", "#56b4e9"
-# One hue whose lightness falls with the count: it reads in grey, for all colour vision, and a single point shows.
-DENSITY_COLOURS = ("#8fc1e3", "#2f7fbc", "#0b3c7d", "#061a3a")
 
 _FILE = files("reports").joinpath("templates/report.mplstyle")
 _SETTINGS = matplotlib.rc_params_from_file(_FILE, use_default_template=False)
 INK, SOFT, GRID = (_SETTINGS[name] for name in ("text.color", "axes.edgecolor", "grid.color"))
+# of the words of the analysis, in every diagram and map; all periods share one
+REGIME_COLOURS = {
+    "period-": BLUE, "quasi-periodic": GREEN, "chaotic": VERMILION, "transient": PURPLE, "undecided": SOFT,
+}  # fmt: skip
+SHADES = ("#f7f1e6", "#eee0c8")  # of ranges that a reader should know of, the later over the earlier
 
 
 @contextmanager
-def sheet(height_in: float) -> Iterator[Figure]:
-    """A blank figure of the report's width and the given height; what is drawn inside the block has the report's look.
+def sheet(height_in: float, width_in: float | None = None) -> Iterator[Figure]:
+    """A blank figure of the given height; what is drawn inside the block has the report's look.
+
+    width_in: of one that says itself where its panels stand; None: of the report's width, laid out by matplotlib.
 
     The matplotlib settings of the caller are back when the block ends.
     """
     with matplotlib.rc_context():
         matplotlib.rcdefaults()
         matplotlib.rcParams.update(_SETTINGS)
-        yield Figure(figsize=(WIDTH_IN, height_in), layout="constrained")
+        yield Figure(figsize=(width_in or WIDTH_IN, height_in), layout=None if width_in else "constrained")
 
 
 def picture_of(figure: Figure, kind: str = "svg") -> Picture:
@@ -57,7 +62,8 @@ def kind_for(points: int) -> str:
 def moving_picture(figure: Figure, artists: list, frames: int, show: Callable[[int], None], per_second: int) -> Picture:
     """A GIF of so many frames: `show(k)` changes the `artists`, which alone are drawn again for frame k.
 
-    What stays is drawn once; one layout and one palette for all frames. Call it inside the `sheet` block.
+    What stays is drawn once; one layout and one palette for all frames. Of very many frames some are left out, and it
+    lasts as long. Call it inside the `sheet` block.
     """
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from PIL import Image
@@ -69,16 +75,17 @@ def moving_picture(figure: Figure, artists: list, frames: int, show: Callable[[i
         artist.set_animated(True)
     canvas.draw()
     still, images = canvas.copy_from_bbox(figure.bbox), []
-    for frame in range(frames):
+    every = -(-frames // MOST_FRAMES)
+    for frame in range(0, frames, every):
         canvas.restore_region(still)
         show(frame)
         for artist in artists:
             artist.draw(canvas.get_renderer())
         images.append(Image.fromarray(np.array(canvas.buffer_rgba())).convert("RGB"))
-    sample = np.hstack([np.asarray(images[frame]) for frame in range(0, frames, max(1, frames // 6))])
+    sample = np.hstack([np.asarray(images[frame]) for frame in range(0, len(images), max(1, len(images) // 6))])
     # not by how often a colour comes: a small red dot would turn brown
     palette = Image.fromarray(sample).quantize(MOVING_COLOURS, Image.Quantize.MAXCOVERAGE)
     first, *rest = (image.quantize(palette=palette, dither=Image.Dither.NONE) for image in images)
     target = io.BytesIO()
-    first.save(target, "gif", save_all=True, append_images=rest, duration=round(1000 / per_second), loop=0)
+    first.save(target, "gif", save_all=True, append_images=rest, duration=round(1000 * every / per_second), loop=0)
     return Picture(target.getvalue(), "gif")

@@ -15,7 +15,7 @@ from ..figures.stability import scene_shares, step_maps
 from ..parts.columns import Quantity, table_of, value
 from ..parts.content import Bullets, Figure, Heading, Item, Notice, Report, Table, Text, heads
 from ..parts.folder import FolderError, read_files
-from ..parts.provenance import provenance_items, timing_items
+from ..parts.provenance import appendix, provenance_items, timing_items
 from ..parts.sections import section_items
 from ..parts.wording import EMPTY, count, decimals, listed, number
 
@@ -27,7 +27,7 @@ def report(directory: str | Path) -> Report:
     study = read_study(directory)
     items: list[Item] = [
         *section_items("stability", "Question"),
-        Heading("Short answer"),
+        Heading("The answer in numbers"),
         Bullets(tuple(_answers(study))),
         *unexplained_items(study),
         *case_items(study),
@@ -35,8 +35,7 @@ def report(directory: str | Path) -> Report:
         *random_items(study),
         *map_items(study),
         *share_items(study),
-        *timing_items(study),
-        *provenance_items(study),
+        *appendix(*timing_items(study), *provenance_items(study)),
     ]
     kind = "quick selection" if study.provenance.get("quick") else "all cases"
     return Report("Stiff and extreme scenes", f"{count(len(study.cases), 'case')} ({kind})", tuple(items))

@@ -7,10 +7,10 @@ import numpy as np
 
 from ..figures.maps import Map, maps
 from ..parts.columns import Quantity, table_of
-from ..parts.content import Bullets, Figure, Heading, Item, Notice, Report, Table, Text, plain
+from ..parts.content import Figure, Heading, Item, Notice, Report, Table, Text, plain
 from ..parts.folder import FolderError, read_folder
-from ..parts.provenance import provenance_items, scene_items, timing_items
-from ..parts.wording import EMPTY, count, listed, number, ranges
+from ..parts.provenance import appendix, provenance_items, scene_items, timing_items
+from ..parts.wording import EMPTY, listed, number
 from .quantities import Measured, at, extremes, measured, over_key, series
 
 _PANELS, _MAPS, _COLUMNS = 8, 6, 14  # of one figure, of one table
@@ -28,7 +28,7 @@ def report(directory: str | Path) -> Report:
     if not isinstance(vary, dict) or not 1 <= len(vary) <= 2 or not set(vary) <= set(folder.columns):
         raise FolderError(folder.directory, ["provenance.json cannot be read: it does not name what was varied"])
     keys = [folder.columns[name] for name in vary]
-    rows = folder.table.sort_values(list(vary), kind="stable").to_dict("records")
+    rows = sorted(folder.table, key=lambda row: [row[name] for name in vary])
     shown = measured(folder.columns, rows, (*vary, *_COUNTED))
     said = listed(f"`{key.name}`" for key in keys)
     varied = {key.name: listed(number(value) for value in np.unique(series(rows, key.name))) for key in keys}
@@ -36,37 +36,17 @@ def report(directory: str | Path) -> Report:
     items = [
         Heading("Question"),
         Text(f"What does the scene `{folder.scene.name}` do as {said} {'varies' if len(keys) == 1 else 'vary'}?"),
-        Heading("Short answer"),
-        Bullets(folder.answer or _answer(keys, rows)),
         *extremes(keys, rows, [column for one in shown for column, _ in one], _EXTREMES),
         *(_panels(keys[0], rows, shown) if len(keys) == 1 else _maps(keys, rows, shown)),
         Heading("Warnings"),
         _failed(keys, rows),
         Heading("Table of runs"),
         *_tables(folder.columns, keys, rows),
-        *timing_items(folder),
-        *scene_items(folder.scene, shipped, varied, _SCENE),
-        *provenance_items(folder),
+        *appendix(
+            *timing_items(folder), *scene_items(folder.scene, shipped, varied, _SCENE), *provenance_items(folder)
+        ),
     ]
     return Report(f"Sweep of {said.replace('`', '')}", folder.scene.title or folder.scene.name, tuple(items))
-
-
-def _answer(keys: Sequence[Quantity], rows: Sequence[Mapping[str, object]]) -> tuple[str, ...]:
-    good = sum(row["status"] == "ok" for row in rows)
-    spans = []
-    for key in keys:
-        values = sorted({float(row[key.name]) for row in rows})
-        span = f"{number(values[0])} to {number(values[-1])} {key.unit}".strip()
-        spans.append(f"{key.head} ({key.meaning}) at {count(len(values), 'value')}, {span}")
-    lines = [f"{count(len(rows), 'run')}, {good} of them to their full length: {listed(spans)}."]
-    regimes = [str(row.get("regime") or "") for row in rows]
-    for regime in dict.fromkeys(filter(None, regimes)):
-        chosen = [one == regime for one in regimes]
-        where = ""
-        if len(keys) == 1:
-            where = f", {keys[0].head} = {ranges([float(row[keys[0].name]) for row in rows], chosen)} {keys[0].unit}"
-        lines.append(f"{regime}: {count(sum(chosen), 'run')}{where.rstrip()}.")
-    return tuple(lines)
 
 
 def _panels(key: Quantity, rows, shown: Sequence[Measured]) -> list[Item]:

@@ -41,7 +41,6 @@ def _verdict(answer: dict) -> list[Item]:
     rows = tuple(tuple(printed(cell) for cell in row) for row in answer["measures"])
     caption = "Measures with one standard error; none: no value, for the reason beside it."
     return [
-        Heading("Answer"),
         Text(f"The motion is {answer['regime']}: {answer['reason']}."),
         Text(f"{answer['record']}. The section has {answer['section']['how']}."),
         Table(heads("measure", ("value", ""), "unit", "from"), rows, caption),

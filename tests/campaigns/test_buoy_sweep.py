@@ -196,12 +196,13 @@ def test_a_close_up_that_fails_is_a_row_and_costs_nothing_else(close_up):
 @pytest.mark.slow
 def test_the_report_shows_it_moving_and_as_stills_the_same_each_time(close_up):
     from reports.buoy_sweep.figures import close_up_items
+    from reports.buoy_sweep.runs import read_sweep
 
     close_up()
-    heading, figure = close_up_items(close_up.out)
+    heading, figure = close_up_items(read_sweep(close_up.out))
     assert figure.picture.kind == "svg" and figure.moving.data.startswith(b"GIF89a")
     assert "kA = 0.13" in figure.caption and len(figure.moving.data) < 1e6
-    assert close_up_items(close_up.out) == [heading, figure]
+    assert close_up_items(read_sweep(close_up.out)) == [heading, figure]
     with Image.open(io.BytesIO(figure.moving.data)) as moving:
         colours = np.array([colour for _, colour in moving.convert("RGB").getcolors(1 << 20)])
     for wanted in ("#ffffff", VERMILION):  # paper, and the small dot that marks the moment

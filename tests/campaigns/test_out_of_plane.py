@@ -194,7 +194,7 @@ def test_the_paper_is_borne_out_where_its_large_wave_grows_to_the_size_of_the_mo
 @pytest.mark.slow
 def test_same_folder_same_report(rows, place):
     first = [path.read_bytes() for path in build(place)]
-    assert [path.read_bytes() for path in build(place)] == first
+    assert [path.read_bytes() for path in build(place, again=True)] == first
     assert first[0].count(b"<figure") == first[0].count(b"<figcaption") >= 5
 
 

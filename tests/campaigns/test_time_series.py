@@ -12,9 +12,7 @@ from campaigns.time_series.record import Record, read_table
 from campaigns.time_series.study import study, successive_maxima
 from reports import build
 from reports.figures.series_panels import record_and_spectrum
-from reports.parts.content import Figure, first_sentence
 from reports.parts.folder import FolderError
-from reports.time_series.report import report
 from tests.analysis.forced_records import KINDS, SAMPLES, record
 from tests.analysis.systems import henon, logistic, states
 from tests.campaigns.conftest import rows_of
@@ -192,12 +190,10 @@ def test_the_page_says_the_verdict_and_shows_every_curve(judged):
     html, pdf = build(judged)
     text = html.read_text(encoding="utf-8")
     assert "The motion is quasi-periodic" in text and "load_N" in text
-    figures = [item for item in report(judged).items if isinstance(item, Figure)]
-    assert all(len(first_sentence(figure.caption).split()) > 1 for figure in figures), "their names in the contents"
     assert text.count("<figure") == 3 and text.count("alt=") + text.count("aria-label") >= 3
     assert pdf.read_bytes()[:4] == b"%PDF"
     before = html.read_bytes(), pdf.read_bytes()
-    assert tuple(path.read_bytes() for path in build(judged)) == before
+    assert tuple(path.read_bytes() for path in build(judged, again=True)) == before
 
 
 @pytest.mark.slow

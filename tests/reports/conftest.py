@@ -17,8 +17,7 @@ import pytest
 
 from campaigns import buoy_sweep
 from engine.scene import load_scene
-from reports import build
-from reports.buoy_sweep.report import report
+from reports import build, content_of
 from reports.parts.content import (
     Bullets,
     Column,
@@ -111,15 +110,16 @@ class Page(HTMLParser):
 def every_kind(text: str) -> Report:
     """A report of every kind of item, with the text in every place where text can be, in wide tables too."""
     some = text or "x"
-    drawing = Figure(Picture(DOT, "svg"), f"{some} caption", f"{some} of five words", Picture(b"GIF89a", "gif"))
+    dot = Picture(DOT, "svg")
+    drawing = Figure(dot, f"{some} caption", f"{some} of five words", Picture(b"GIF89a", "gif"), dot)
     heads = tuple(Column(some, some, "right" if k else "left") for k in range(14))
     narrow, wide = Table(heads[:1], ((text,),) * 40, text, small=True), Table(heads, ((text,) * 14,) * 4, text)
     items = (
         Heading(text), Text(text + LONG), Heading(text, 2), Bullets((text, text)), equation("buoy"), drawing,
         narrow, wide, *(Notice(kind, text, (text, text)) for kind in ("note", "warning")), Listing(text + LONG),
         Links(((some, "part/report.html"),)),
-        Explorer(drawing, text, text, (ExplorerColumn(0.1, (1.0,), text, "run-1"),)),
-        Sheet("run-1", some, ((some, text),), (text,), "", narrow),
+        Explorer(text, text, (ExplorerColumn(0.1, (1.0,), text, "run-1"),)),
+        Sheet("run-1", some, ((some, text),), (text,), "", narrow, chosen=True),
     )  # fmt: skip
     assert {type(item) for item in items} == set(get_args(Item)), "a new kind of item belongs here"
     return Report(some, text, items)
@@ -141,7 +141,7 @@ def built(folder) -> tuple[Path, Path]:
 
 @pytest.fixture(scope="session")
 def source(folder) -> str:
-    return render_html(report(folder)).decode()
+    return render_html(content_of(folder)[0]).decode()
 
 
 @pytest.fixture(scope="session")

@@ -12,10 +12,10 @@ import pytest
 from engine import load_scene
 from engine.natural_frequencies import natural_frequencies
 from reports.buoy_sweep.runs import read_sweep, spectrum_window
-from reports.figures.motion import envelope, time_series
+from reports.figures.motion import envelope
 from reports.figures.run_sheet import NOTHING, run_sheet
 from reports.parts.columns import table_of
-from reports.parts.content import Explorer, ExplorerColumn, Figure, Picture, plain
+from reports.parts.content import Explorer, ExplorerColumn, plain
 from reports.parts.folder import read_columns
 from reports.parts.html import explorer_json
 from reports.parts.provenance import scene_table
@@ -56,10 +56,7 @@ def test_runs_of_a_motion_known_in_advance(folder):
     sweep = read_sweep(folder)
     periods = {run.steepness: run.period for run in sweep.runs}
     assert periods == {0.016: 1, 0.03: 1, 0.05: 1, 0.08: 2, 0.1: 0, 0.12: None, 0.13: 0, 0.16: None}
-    for run in sweep.runs:
-        assert len(run.visited) == (run.period or 0)
-        assert all(run["radius_min_m"] - 1e-9 <= r <= run["radius_max_m"] + 1e-9 for r in run.visited)
-    assert [run.steepness for run in sweep.chosen] == [0.016, 0.08, 0.13]
+    assert sorted(run.steepness for run in sweep.chosen) == [0.016, 0.08, 0.13]
     assert [run.steepness for run in sweep.good] == [0.016, 0.03, 0.05, 0.08, 0.1, 0.13]
 
 
@@ -111,24 +108,11 @@ def test_a_history_drawn_from_fewer_points_keeps_every_extreme_and_the_order_of_
     assert np.array_equal(envelope(x[:300], y[:300], bins=200)[1], y[:300])
 
 
-def test_a_band_whose_edges_rest_at_different_times_is_drawn():
-    """A slack stretch in the lower edge only: it has fewer extremes there than the upper one."""
-    n = 4001
-    low, high = np.sin(np.arange(n)), 2.0 + np.sin(1.3 * np.arange(n))
-    low[1000:2000] = -1.0
-    high[1500:2600] = np.nan
-    picture = time_series(np.arange(n) / 100.0, {"T (kN)": (high - 0.5, low, high)})
-    assert picture.kind == "svg" and len(picture.data) > 1000
-
-
 def test_ranges_name_every_chosen_value_and_no_other():
     values = [0.01, 0.02, 0.03, 0.04, 0.05, 0.06]
     assert ranges(values, [True, True, True, False, True, False]) == "0.01 to 0.03 and 0.05"
     assert ranges(values, [False] * 6) == "none"
     assert number(-0.053) == "−0.053" and number(math.nan) == "–"
-
-
-FIGURE = Figure(Picture(b"", "svg"), "A caption.", "A text.")
 
 
 def drawing(t, values, section=(), spectrum=NOTHING, marks=(), exponent=NOTHING) -> str:
@@ -194,7 +178,7 @@ def test_explorer_data_reads_back_to_a_hundred_thousandth_of_the_range():
     points = [tuple(rng.normal(20.0, 3.0, size)) for size in (5, 0, 40)]
     columns = tuple(ExplorerColumn(0.1 * k, values, f"</script> {k}", f"run-{k}") for k, values in enumerate(points))
     lower = (("slack", (0.1, float("nan"), 0.3), (float("nan"),) * 3),)
-    text = explorer_json(Explorer(FIGURE, "x", "y", columns, lower))
+    text = explorer_json(Explorer("x", "y", columns, lower))
     assert "<" not in text
     read = json.loads(text)
     for column, values in zip(read["columns"], points, strict=True):

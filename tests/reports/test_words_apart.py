@@ -80,4 +80,4 @@ def test_words_on_others_are_found(drawn):
 @pytest.mark.slow
 def test_the_drawings_of_a_sweep(folder, drawn):
     report(folder)
-    assert len(drawn) >= 8 and not any(drawn)
+    assert len(drawn) >= 3 and not any(drawn)

@@ -1,0 +1,50 @@
+"""Whether a report is still the one that its folder gives: a key of all that it was drawn from, kept beside it.
+
+The key takes in every file of the folder but the drawings themselves (the text of tables and other small files; name,
+size and time of the rest), the sources of reports, analysis and engine, and the versions of the libraries that draw.
+"""
+
+import json
+from collections.abc import Iterable
+from hashlib import sha256
+from importlib import metadata
+from pathlib import Path
+
+FILE = ".report.json"
+_READ = (".csv", ".json", ".toml", ".txt")  # told by what they say
+_SOURCES = ("reports", "analysis", "engine")
+_LIBRARIES = ("numpy", "matplotlib", "jinja2", "typst", "pillow")
+
+
+def is_unchanged(directory: Path) -> bool:
+    """Whether every file of the last drawing is there, and what it was drawn from is the same."""
+    try:
+        told = json.loads((directory / FILE).read_text(encoding="utf-8"))
+        whole = all((directory / name).stat().st_size == size for name, size in told["files"].items())
+        return whole and told["key"] == key_of(directory, told["files"])
+    except (OSError, ValueError, KeyError, TypeError, AttributeError):
+        return False
+
+
+def record(directory: Path, pages: dict[Path, bytes]) -> bytes:
+    """What is to be kept in FILE of a drawing that has just been written. pages: path -> content."""
+    files = {str(path.relative_to(directory)): len(content) for path, content in pages.items()}
+    return json.dumps({"key": key_of(directory, files), "files": files}, indent=1).encode()
+
+
+def key_of(directory: Path, without: Iterable[str]) -> str:
+    """The key; without: names of drawings in the folder."""
+    left_out = {FILE, *without}
+    said = sha256(" ".join(f"{name} {metadata.version(name)}" for name in _LIBRARIES).encode())
+    for name in _SOURCES:
+        for path in sorted(Path(__file__).parents[2].joinpath(name).rglob("*")):
+            if path.suffix in (".py", ".js", ".css", ".typ", ".toml", ".jinja", ".mplstyle"):
+                said.update(path.name.encode() + path.read_bytes())
+    for path in sorted(directory.rglob("*")):
+        name = str(path.relative_to(directory))
+        if name in left_out or path.name == ".lock" or not path.is_file():
+            continue
+        state = path.stat()
+        said.update(f"{name} {state.st_size} ".encode())
+        said.update(path.read_bytes() if path.suffix in _READ else str(state.st_mtime_ns).encode())
+    return said.hexdigest()

@@ -1,0 +1,264 @@
+"""The first page: the answer, one figure with everything that it stands on, the time; then the contents. And an
+unchanged folder is not drawn again.
+"""
+
+import csv
+import json
+import math
+import re
+import shutil
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from matplotlib.colors import same_color, to_hex
+from matplotlib.figure import Figure as Drawing
+
+import reports
+from campaigns.buoy_sweep.rows import COLUMNS
+from campaigns.columns import dictionary
+from campaigns.machinery.folder import read_rows
+from reports import build, content_of
+from reports.buoy_sweep.figures import orbit_figure, regime_items
+from reports.buoy_sweep.runs import read_sweep
+from reports.figures.orbit_diagram import Column, Range, orbit_diagram
+from reports.parts.content import Bullets, Figure, Heading, Report, Table, Text, plain
+from reports.parts.first_page import how_long, opened
+from reports.parts.html import render_html
+from reports.parts.style import REGIME_COLOURS
+from tests.reports.conftest import Page
+
+VALUES = np.linspace(0.02, 0.16, 29)
+WORDS = ["period-1"] * 20 + ["quasi-periodic"] * 4 + ["chaotic"] * 5
+
+
+@pytest.fixture
+def drawn(monkeypatch):
+    """Every drawing that is saved from here on."""
+    kept, save = [], Drawing.savefig
+
+    def keep(figure, *how, **options):
+        kept.append(figure)
+        return save(figure, *how, **options)
+
+    monkeypatch.setattr(Drawing, "savefig", keep)
+    return kept
+
+
+def columns_of(wide_m=(0.1, 8.0)):
+    """Twenty columns of points within the first width, nine within the second, as far as they are named."""
+    spans = [np.linspace(-0.5, 0.5, 7) * wide_m[k >= 20] for k in range(29)]
+    return [Column(at, 20.0 + span, word) for at, span, word in zip(VALUES, spans, WORDS, strict=True)]
+
+
+def points_of(axes):
+    """{colour: x of every point drawn in it}."""
+    return {to_hex(line.get_color()): np.unique(line.get_xdata()) for line in axes.lines if line.get_marker() == "_"}
+
+
+def bar_of(axes):
+    """[(colour, low, high)] of the spans of a bar."""
+    spans = ((to_hex(one.get_facecolor()), one.get_x(), one.get_x() + one.get_width()) for one in axes.patches)
+    return [(colour, round(low, 6), round(high, 6)) for colour, low, high in spans]
+
+
+def test_every_column_is_drawn_in_the_colour_of_its_word_and_the_bar_says_where_it_holds(drawn):
+    between = [Column(at, np.array([20.0]), "") for at in 0.5 * (VALUES[1:] + VALUES[:-1])]
+    every = sorted(columns_of() + between, key=lambda one: one.at)
+    loops = Range("loops released", [one.at > 0.12 for one in every])
+    orbit_diagram(every, ("kA", "r (m)"), [], [loops], [(0.13, "paper")])
+    top, bar, released = drawn[0].axes
+    found = points_of(top)
+    assert sum(map(len, found.values())) == len(every)
+    for word in set(WORDS):
+        colour = REGIME_COLOURS["period-" if word.startswith("period-") else word]
+        assert np.allclose(found[colour], VALUES[[one == word for one in WORDS]])
+    assert [colour for colour, *_ in bar_of(bar)] == [REGIME_COLOURS[word] for word in ("period-", *WORDS[20::5])]
+    edges = [edge for _, *pair in bar_of(bar) for edge in pair]
+    assert edges[1:-1] == pytest.approx([0.1175, 0.1175, 0.1375, 0.1375]), "half-way between neighbours"
+    ((_, low, high),) = bar_of(released)
+    assert 0.12 - 0.0025 <= low <= 0.12 + 0.0025 and high == pytest.approx(0.16 + 0.00125)
+    assert [text.get_text() for text in released.texts] == ["loops released"]
+    assert [text.get_text() for text in bar.texts] == ["1"]
+
+
+def test_small_motions_are_drawn_again_larger_and_nothing_of_them_lies_on_the_others(drawn):
+    orbit_diagram(columns_of(), ("kA", "r (m)"), [])
+    top = drawn[0].axes[0]
+    (inner,) = top.child_axes
+    drawn[0].draw_without_rendering()
+    again = np.concatenate([line.get_ydata() for line in inner.lines])
+    assert np.ptp(again) == pytest.approx(0.1) and len(again) == 20 * 7
+    per_m = [axes.get_window_extent().height / np.ptp(axes.get_ylim()) for axes in (top, inner)]
+    assert per_m[1] > 10.0 * per_m[0]
+    place = inner.get_window_extent().transformed(top.transData.inverted())
+    inside = [one for one in columns_of() if place.x0 <= one.at <= place.x1]
+    assert all(((one.points < place.y0) | (one.points > place.y1)).all() for one in inside)
+    orbit_diagram(columns_of((8.0, 8.0)), ("kA", "r (m)"), [])
+    assert not drawn[1].axes[0].child_axes, "nothing small, nothing larger"
+
+
+def test_both_forms_hold_the_same(drawn):
+    for width in ((), ([], [], [], 3.7)):
+        orbit_diagram(columns_of(), ("kA", "r (m)"), [], *width)
+    wide, narrow = (points_of(figure.axes[0]) for figure in drawn)
+    assert wide.keys() == narrow.keys() and all(np.array_equal(wide[key], narrow[key]) for key in wide)
+    assert drawn[0].get_figwidth() > 1.5 * drawn[1].get_figwidth()
+
+
+@pytest.fixture
+def sweep(folder, tmp_path):
+    """A copy of the folder, with regimes: the first two exponents by Wolf's method alone, at kA = 0.13 by both."""
+    place = shutil.copytree(folder, tmp_path / "copy", ignore=shutil.ignore_patterns("report.*"))
+    words = {0.016: "period-1", 0.1: "quasi-periodic", 0.13: "chaotic"}
+    rows = read_rows(place / "table.csv")
+    for row in rows:
+        row["regime"] = words.get(float(row["steepness"]), "")
+        if row["regime"]:
+            row |= {"lyapunov_wolf_bits_per_period": 0.2, "lyapunov_wolf_error": 0.05}
+        if row["regime"] == "chaotic":
+            row |= {"lyapunov_tangent_bits_per_period": 0.1, "lyapunov_tangent_error": 0.01}
+    write(place, rows)
+    return place
+
+
+def write(place, rows, columns=COLUMNS):
+    place.mkdir(exist_ok=True)
+    (place / "columns.csv").write_bytes(dictionary(columns))
+    with open(place / "table.csv", "w", newline="", encoding="utf-8") as file:
+        writer = csv.DictWriter(file, [one.name for one in columns], extrasaction="ignore")
+        writer.writeheader()
+        writer.writerows(rows)
+
+
+def test_wolf_s_exponent_is_drawn_where_no_other_is_known_and_never_where_the_motion_repeats(sweep, drawn):
+    orbit_figure(read_sweep(sweep))
+    panel = next(axes for axes in drawn[0].axes if axes.get_ylabel().startswith("exponent"))
+    seen = {round(bars.lines[0].get_xdata()[0], 3): bars.lines[0].get_ydata()[0] for bars in panel.containers}
+    assert seen == {0.1: 0.2, 0.13: 0.1}
+    assert not any(same_color(bars.lines[0].get_color(), REGIME_COLOURS["period-"]) for bars in panel.containers)
+    two = panel.containers[-1].lines[2][0].get_segments()[0][:, 1]
+    assert np.ptp(two) == pytest.approx(4 * 0.01), "two errors on both sides"
+
+
+def test_columns_of_wolf_are_there_only_where_he_was_asked(sweep, folder):
+    def heads():
+        return [plain(one.title) for one in regime_items(read_sweep(sweep))[2].columns]
+
+    assert "σW" in heads()
+    rows = [{**row, "lyapunov_wolf_bits_per_period": "", "lyapunov_wolf_error": ""} for row in _raw(sweep)]
+    write(sweep, rows)
+    assert "σW" not in heads() and "σt" in heads()
+
+
+def _raw(place):
+    with open(place / "table.csv", newline="", encoding="utf-8") as file:
+        return list(csv.DictReader(file))
+
+
+def test_runs_between_and_companions_are_in_the_figure_and_it_is_made_without_them_too(sweep, drawn):
+    alone = orbit_figure(read_sweep(sweep))
+    rows = {float(row["steepness"]): row for row in _raw(sweep)}
+    beside = {**rows[0.05], "steepness": 0.06, "regime": "", "transient_periods": 30}
+    write(sweep / "between", [beside])
+    (sweep / "between" / "trajectories").symlink_to(sweep / "trajectories")
+    role = replace(COLUMNS[-1], name="role")
+    nodes = replace(COLUMNS[1], name="nodes")
+    made = {"status": "ok", "steepness": 0.13, "nodes": 41}
+    others = [
+        {**made, "role": "wetted cap", "tension_top_max_N": 3000.0},
+        {**made, "role": "wetted cap", "steepness": 0.1, "tension_top_max_N": 2000.0},
+        {**made, "role": "as run", "tension_top_max_N": 6000.0},
+        {**made, "role": "81 nodes", "nodes": 81, "tension_top_max_N": 6300.0},
+    ]
+    write(sweep / "companions", others, (role, nodes, *COLUMNS))
+    both = orbit_figure(read_sweep(sweep))
+    before, after = drawn[0], drawn[2]
+    assert sum(map(len, points_of(after.axes[0]).values())) == 1 + sum(map(len, points_of(before.axes[0]).values()))
+    panel = next(axes for axes in after.axes if axes.get_ylabel().startswith("largest T"))
+    lines = {line.get_label(): line for line in panel.lines}
+    static_N = read_sweep(sweep).modes.static_tension_N
+    assert np.allclose(lines["wetted cap"].get_ydata(), np.array([2000.0, 3000.0]) / static_N)
+    assert lines["81 nodes"].get_ydata()[0] == pytest.approx(6300.0 / static_N)
+    assert "6.3 kN" in both.caption and "has 6." in both.caption and "81 nodes" not in alone.caption
+    (run,) = read_sweep(sweep).between
+    assert run.transient == 30 and len(run.section) == 80 - 30 + 1
+
+
+def test_a_transient_of_each_run_s_own_is_left_out_of_its_points(sweep):
+    rows = _raw(sweep)
+    for place, row in enumerate(rows):
+        row["transient_periods"] = 10 + place
+    write(sweep, rows)
+    told = json.loads((sweep / "provenance.json").read_text())
+    (sweep / "provenance.json").write_text(json.dumps(told | {"transient": None}))
+    good = read_sweep(sweep).good
+    assert [len(run.section) for run in good] == [81 - run["transient_periods"] for run in good]
+
+
+def test_answer_figure_and_time_stand_before_the_contents_and_the_making_comes_last(folder):
+    report, _ = content_of(folder)
+    kinds = [type(item) for item in report.items]
+    first = kinds.index(Heading)
+    assert kinds[:first] == [Bullets, Text, Figure]
+    assert report.items[0].lines and re.search(r"8 runs over [\d\u202f]+ wave periods", report.items[1].text)
+    page = render_html(report).decode()
+    order = [page.index(one) for one in ("<h1", '<ul class="bullets">', 'id="figure-1"', "<nav", 'id="section-1"')]
+    assert order == sorted(order)
+    assert not [one for one in Page(page).all("nav") if one.get("class")] and "<summary>Figures" not in page
+    headings = [plain(item.text) for item in report.items if isinstance(item, Heading) and item.level == 1]
+    assert headings[-1].startswith("Appendix")
+    below = [plain(item.text) for item in report.items if isinstance(item, Heading) and item.level == 2]
+    assert {"Scene", "Equations", "Provenance", "Run times"} <= set(below)
+
+
+def test_how_long_it_took_is_told_with_runs_periods_and_cores():
+    made = {"timing": {"compile_s": 1.0, "run_s": 68.0}, "runs": {"total": 49, "found": 3}, "jobs": 2, "cpu_count": 4}
+    rows = [{"periods": "100.0"}, {"periods": "1135"}, {"periods": ""}]
+    said = how_long(made, rows)
+    assert all(
+        one in said for one in ("69 s", "49 runs", "1\u202f235 wave periods", "3 runs", "2 at a time", "4 cores")
+    )
+    assert how_long({"timing": {"run_s": 600.0}, "runs": {"total": 1}}, []) == "It took 10 minutes: 1 run."
+    assert how_long({}, rows) == how_long({"timing": {}}, rows) == ""
+
+
+def test_a_folder_without_an_answer_begins_with_what_the_report_says(tmp_path):
+    report = Report("a", "b", (Text("c"),))
+    assert opened(report, tmp_path, {}) == report
+
+
+def test_an_unchanged_folder_is_not_drawn_again(sweep, monkeypatch):
+    times, render = [], reports.parts.html.render_html
+    monkeypatch.setattr(reports.parts.html, "render_html", lambda report: times.append(1) or render(report))
+
+    def drawn() -> bool:
+        before = len(times)
+        html, pdf = build(sweep)
+        assert html.stat().st_size and pdf.stat().st_size
+        return len(times) > before
+
+    assert [drawn(), drawn()] == [True, False]
+    for spoil in (
+        lambda: (sweep / "report.html").unlink(),
+        lambda: (sweep / "report.pdf").unlink(),
+        lambda: (sweep / "report.pdf").write_bytes(b"%PDF"),
+        lambda: (sweep / "answer.txt").write_text("Another answer.\n"),
+        lambda: write(sweep, _raw(sweep)[:-1]),
+        lambda: next((sweep / "trajectories").iterdir()).unlink(),
+        lambda: (sweep / ".report.json").write_text("[]"),
+    ):
+        spoil()
+        assert [drawn(), drawn()] == [True, False]
+    monkeypatch.setattr("reports.parts.unchanged._LIBRARIES", ("numpy",))
+    assert [drawn(), drawn()] == [True, False], "other libraries draw otherwise"
+    assert build(sweep, again=True) and len(times) == 10
+
+
+def test_a_table_without_numbers_for_the_transient_still_reads(sweep):
+    for row in (rows := _raw(sweep)):
+        row.pop("transient_periods")
+    write(sweep, rows, [one for one in COLUMNS if one.name != "transient_periods"])
+    assert all(run.transient == 20 for run in read_sweep(sweep).good)
+    assert all(math.isnan(run["transient_periods"]) for run in read_sweep(sweep).good)
+    assert [item for item in regime_items(read_sweep(sweep)) if isinstance(item, Table)]
