@@ -14,8 +14,8 @@ A simulation can be carried on until its motion is told. So it is looked at afte
     undecided         otherwise
 
 A word counts when two looks in a row find it, because a motion on its way passes by others: near an unstable period-2
-for 60 periods, or through a chaotic transient for 350. One look is enough for a torus by three errors instead of two;
-and for chaos from 465 periods on, if perturbations go on growing, by two errors, where the run goes on at a tighter
+for 60 periods, or through a chaotic transient for 350. From 465 periods on one look is enough: for a torus by three
+errors instead of two, and for chaos if perturbations go on growing, by two errors, where the run goes on at a tighter
 tolerance. A longer chaotic transient is called chaotic: the verdict is one over the periods that it names.
 Error rates of the whole procedure: docs/verdicts.md. Tests for records of unknown origin (`verdicts.regime`) are not
 needed here: what moves is known, and its perturbations are carried along.
@@ -39,8 +39,8 @@ OPEN = ("transient", "undecided")  # words that wait for the next look
 FIRST_LOOK = 90
 POSITIVE, LATER = 3.5, 2.0  # errors by which an exponent is positive: of the look, and of its later half
 LEAST_BITS = 10.0  # growth over a look
-LEAST_CHAOTIC = 465  # periods from which one look is enough, with what follows it
-CLEAR = 3.0  # errors, where one look is enough for a torus
+LONG = 465  # periods from which one look can be enough
+CLEAR = 3.0  # errors, where it is enough for a torus
 COMES_NEARER = 0.7  # what is left of the steps towards a period in the later half of the last part
 ABOUT_ZERO = 0.06  # bits per period
 STAYS, NEAR = 0.35, 0.35  # nats by which neighbours may part; what they are apart at most, in sizes of the section
@@ -89,7 +89,7 @@ def motion_regime(
         start = end // 3
         word, reason, evidence, estimate = _look(x, growth, start, end, scale, tolerance, max_period)
         goes_on = word == "chaotic" and tighter is not None
-        counts = word == before or _clear(word, evidence) or (goes_on and end >= LEAST_CHAOTIC)
+        counts = word == before or (end >= LONG and (goes_on or _clear(word, evidence)))
         if counts and goes_on and end in tighter:
             evidence.append(_tighter(tighter[end]))
             if not evidence[-1].passed:

@@ -99,7 +99,7 @@ def going_on(scene, trajectory, row, budget: int, looks: bool):
         value, error = row["lyapunov_tangent_bits_per_period"], row["lyapunov_tangent_error"]
         enough = math.ceil(judged * (SURE * error / value) ** 2)
         return Further(tighter_scene(_carrying(scene)), min(max(enough, LEAST_CHECK), judged), trajectory, check=True)
-    if row["regime"] not in ("undecided", "transient") or done >= budget:
+    if row["regime"] not in OPEN or done >= budget:
         return None
     wanted = row["regime"] == "undecided" or (trajectory is not None and carried(trajectory))
     scene = _carrying(scene) if wanted and carries_tangents(scene) else scene

@@ -60,7 +60,7 @@ ACCURACY = (
 TIGHTER, FINER = "a tenth of the tolerance", "twice the elements"
 UNFOLLOWED = {TANGENTS: 0, LATERAL: False}  # without perturbations
 LEAST_COLUMNS, LEAST_VALUES = 200, 9  # of the orbit diagram; judged values from which on there is something between
-BETWEEN_PERIODS, LEFT_OUT = 60, 36
+BETWEEN_PERIODS, LEFT_OUT = 48, 32
 EARLY = 10  # wave periods
 PERIODS, FRAMES = 12, 24  # of the close-up: wave periods, because the first snaps come after five; profiles in each
 

@@ -187,6 +187,7 @@ class Followers:
         self.nats[b] = self.lateral_nats[b] = 0.0
         self.nats[b, :periods], self.lateral_nats[b, :periods] = run.trail.nats, run.trail.lateral_nats
         for lanes, own in ((self.carried, run.trail.along), (self.across, run.trail.across)):
+            lanes.Ks[..., b] = 0.0  # a run that blew up leaves what is no number, and nothing times that is no number
             for part, given in zip(lanes, own[:-1] if own else (), strict=False):
                 part[..., b] = given
 

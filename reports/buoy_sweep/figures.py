@@ -75,8 +75,9 @@ def _seen(sweep: Sweep, drawn: Sequence[Run], static_N: float | None) -> Iterato
     """The caption."""
     yield f"r at t = k{T_I} after the transient, over wave steepness, in the colour of the regime"
     yield "(numbers in the bar: periods after which it repeats)." if sweep.judged else "."
-    if beside := sum(run in sweep.between for run in drawn):
-        yield f"{count(beside, 'run')} between those of the table were not judged."
+    if beside := [run for run in drawn if run in sweep.between]:
+        longest = number(max(run.periods_done for run in beside), 3)
+        yield f"{count(len(beside), 'run')} between those of the table, over {longest} periods, were not judged."
     yield "Below: time with less than 5 % of the static tension; largest exponent with two standard errors, where the"
     yield f"regime needs it; largest tension{f' over the static {T_S} = {number(static_N)} N' if static_N else ''}."
     for role, steepness, peak_N, cut_N in _finer(sweep):

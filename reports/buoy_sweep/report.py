@@ -83,6 +83,9 @@ def warnings(sweep: Sweep) -> Notice:
         (f"{unread[0].fault if unread else ''} (of the first); figures and strobed values leave such runs out", unread),
         ("loops were released; a rope free to leave the plane does not need it (`--dimensions auto`), see “Out of the "
          "plane”", [run for run in runs if run["loop_releases"] > 0]),
+        ("after loop releases the line is compressed for a moment, which is of the grid and of the steps and no load: "
+         "the smallest tension leaves these moments out",
+         [run for run in runs if run.known("compression_after_release_N")]),
         ("in three dimensions an element turns by more than π/2: its loops are not resolved, add `tether.nodes`",
          [run for run in runs if run.in_space and run["max_turn_rad"] > _RESOLVED_RAD]),
         (f"already at rest the top of the buoy is {decimals(dry_m, 2)} m above still water",

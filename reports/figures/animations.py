@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..parts.content import Picture
-from ..parts.style import BLUE, INK, ORANGE, SKY, SOFT, VERMILION, moving_picture, picture_of, sheet
+from ..parts.style import BLUE, INK, ORANGE, SKY, SOFT, VERMILION, WIDTH_IN, moving_picture, picture_of, sheet
 from .curves import Curve, Panel, curves, draw
 
 _FRAMES_PER_SECOND = 12
@@ -63,8 +63,10 @@ def tether_stills(snap: Snap) -> Picture:
     step = max(1, round(1.0 / 6.0 / max(float(snap.periods[1] - snap.periods[0]), 1e-9)))
     first = min(max(peak - 4 * step, 0), max(len(snap.periods) - 1 - 5 * step, 0))
     rows = np.clip(first + step * np.arange(len(_STILLS)), 0, len(snap.periods) - 1)
-    with sheet(4.6) as figure:
-        grid = figure.subplot_mosaic([list(_STILLS), ["T"] * len(_STILLS)], height_ratios=[1.5, 1.0])
+    with sheet(4.6, WIDTH_IN) as figure:
+        places = {"left": 0.08, "right": 0.99, "bottom": 0.1, "top": 0.94, "hspace": 0.3, "wspace": 0.12}
+        mosaic = [list(_STILLS), ["T"] * len(_STILLS)]
+        grid = figure.subplot_mosaic(mosaic, height_ratios=[1.5, 1.0], gridspec_kw=places)
         draw(grid["T"], _tension(snap))
         grid["T"].plot(snap.periods[rows], snap.pull_kN(rows), "o", color=VERMILION, markersize=5)
         for letter, row in zip(_STILLS, rows, strict=True):

@@ -1,4 +1,4 @@
-"""A motion as the paper looks at it: histories (figures 9-11, 13, 15, 16), spectra (12, 17, 18), sections (19a)."""
+"""What figures of a motion share: sections of two side by side, panels of spectra, long histories as envelopes."""
 
 from collections.abc import Sequence
 from dataclasses import replace
@@ -9,7 +9,6 @@ import numpy as np
 from ..parts.content import Picture
 from .curves import Curve, Panel, curves
 
-_LAST_PERIODS = 12  # of the right column
 _BINS = 900  # columns of the whole-record view: about two a printed millimetre
 _LABELS = (r"$r$ (m)", r"$\dot{r}$ (m/s)")
 

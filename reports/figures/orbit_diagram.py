@@ -7,11 +7,11 @@ from itertools import groupby
 import numpy as np
 
 from ..parts.content import Picture
-from ..parts.style import REGIME_COLOURS, SHADES, SOFT, VERMILION, WIDTH_IN, picture_of, sheet
+from ..parts.style import INK, REGIME_COLOURS, SHADES, SOFT, VERMILION, WIDTH_IN, picture_of, sheet
 from .curves import Panel, draw
 
 NARROW_IN = 3.7  # of the form for telephones
-_LEFT_IN, _LABEL_IN, _RIGHT_IN, _BOTTOM_IN, _TOP_IN = 0.68, 0.32, 0.08, 0.42, 0.3
+_LEFT_IN, _LABEL_IN, _RIGHT_IN, _BOTTOM_IN = 0.7, 0.29, 0.08, 0.42
 _BAR_IN, _MAIN_IN, _LOWER_IN, _GAP_IN = 0.16, 2.15, 0.78, 0.09
 _EDGE_IN, _NUMBERS_IN = 0.1, 0.27  # beside the first and the last run; left of it, where numbers stand there
 _NEUTRAL = "#8b95a0"
@@ -60,12 +60,13 @@ def orbit_diagram(
     at, judged = np.array([one.at for one in columns]), [one for one in columns if one.word]
     bars = [*([_words(judged)] if judged else []), *(_spans(at, one.holds, one.text) for one in ranges)]
     heights = [*([_BAR_IN] * len(bars)), _MAIN_IN, *([_LOWER_IN] * len(below))]
-    height_in = _TOP_IN + sum(heights) + _GAP_IN * (len(heights) - 1) + _BOTTOM_IN
+    top_in = 0.3 if judged else 0.08  # for the legend
+    height_in = top_in + sum(heights) + _GAP_IN * (len(heights) - 1) + _BOTTOM_IN
     with sheet(height_in, width_in) as figure:
         grid = figure.add_gridspec(
             len(heights), 1, height_ratios=heights, hspace=_GAP_IN * len(heights) / sum(heights),
             left=_LEFT_IN / width_in, right=1 - _RIGHT_IN / width_in, bottom=_BOTTOM_IN / height_in,
-            top=1 - _TOP_IN / height_in,
+            top=1 - top_in / height_in,
         )  # fmt: skip
         top = figure.add_subplot(grid[len(bars)])
         lower = [figure.add_subplot(grid[place], sharex=top) for place in range(len(bars) + 1, len(heights))]
@@ -89,7 +90,7 @@ def orbit_diagram(
         for axes, panel in zip(lower, below, strict=True):
             draw(axes, panel)
             if axes.get_legend_handles_labels()[1]:
-                axes.legend(loc="upper left", ncols=1, fontsize=6.5, borderpad=0.1, labelspacing=0.15)
+                axes.legend(loc="best", fontsize=6.5, borderpad=0.1, labelspacing=0.15)
         for axes in (top, *lower):
             axes.tick_params(labelbottom=axes is lowest)
             for value, _ in marks:
@@ -160,10 +161,13 @@ def _points(axes, columns: Sequence[Column], inch: float) -> None:
     for word in sorted({one.word for one in columns}):
         own = [one for one in columns if one.word == word]
         x, y = np.repeat([one.at for one in own], [len(one.points) for one in own]), [one.points for one in own]
-        colour = REGIME_COLOURS[_PERIOD if word.startswith(_PERIOD) else word] if word else _NEUTRAL
-        wide, thick = (1.6, 1.1 if word.startswith(_PERIOD) else 0.45) if word else (0.9, 0.7)
+        wide, thick, alpha = (1.6, 1.1 if word.startswith(_PERIOD) else 0.45, 0.8) if word else (0.9, 0.7, 0.8)
+        if len(own) == len(columns) and not word:
+            colour, thick, alpha = INK, 0.45, 0.5
+        else:
+            colour = REGIME_COLOURS[_PERIOD if word.startswith(_PERIOD) else word] if word else _NEUTRAL
         look = {"markersize": min(max(wide * room, 1.2), 6.0), "markeredgewidth": thick, "rasterized": True}
-        axes.plot(x, np.concatenate(y), "_", color=colour, alpha=0.8, **look)
+        axes.plot(x, np.concatenate(y), "_", color=colour, alpha=alpha, **look)
 
 
 def _small(columns: Sequence[Column]) -> tuple[list[Column], tuple[float, float], float] | None:

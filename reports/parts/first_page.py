@@ -29,7 +29,7 @@ def how_long(made: Mapping, rows: list[dict[str, str]]) -> str:
     if "run_s" not in timing or not runs.get("total"):
         return ""
     periods = sum(value(row, "periods") for row in rows if row.get("periods"))
-    over = f" over {periods:,.0f} wave periods".replace(",", "\u202f") if periods else ""
+    over = f" over {periods:,.0f} periods".replace(",", "\u202f") if periods else ""
     found = f", {count(runs['found'], 'run')} of them from before" if runs.get("found") else ""
     jobs, cores = made.get("jobs"), made.get("cpu_count")
     where = f", {jobs} at a time on {count(cores, 'core')}" if jobs and cores else ""

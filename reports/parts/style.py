@@ -17,7 +17,7 @@ from .content import Picture
 
 WIDTH_IN = 6.8  # the text width of the PDF page
 DOTS_PER_INCH = 200
-MOVING_DOTS_PER_INCH, MOVING_COLOURS, MOST_FRAMES = 100, 64, 80  # of a drawing that moves
+MOVING_DOTS_PER_INCH, MOVING_COLOURS, MOST_FRAMES = 90, 64, 48  # of a drawing that moves
 MANY_POINTS = 6000  # above this a scatter is smaller and opens faster as pixels
 
 BLUE, VERMILION, GREEN, ORANGE, PURPLE, SKY = "#0072b2", "#d55e00", "#009e73", "#e69f00", "#cc79a7", "#56b4e9"

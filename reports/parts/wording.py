@@ -48,10 +48,10 @@ def _minus(text: str) -> str:
 def printed(sentence: str) -> str:
     """A sentence written for a terminal, with the signs of print.
 
-    >>> printed("growth -0.06 nats, 0.02 +- 0.01, a 0-1 test")
-    'growth −0.06 nats, 0.02 ± 0.01, a 0-1 test'
+    >>> printed("growth -0.06 nats, 0.02 +- 0.01, a 0-1 test, 4 -> 9 kN")
+    'growth −0.06 nats, 0.02 ± 0.01, a 0-1 test, 4 → 9 kN'
     """
-    return re.sub(r"(?<![\w.)])-(?=[\d.])", "−", sentence.replace(" +- ", " ± "))
+    return re.sub(r"(?<![\w.)])-(?=[\d.])", "−", sentence.replace(" +- ", " ± ").replace(" -> ", " → "))
 
 
 def count(how_many: int, singular: str, plural: str = "") -> str:

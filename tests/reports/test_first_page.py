@@ -201,7 +201,7 @@ def test_answer_figure_and_time_stand_before_the_contents_and_the_making_comes_l
     kinds = [type(item) for item in report.items]
     first = kinds.index(Heading)
     assert kinds[:first] == [Bullets, Text, Figure]
-    assert report.items[0].lines and re.search(r"8 runs over [\d\u202f]+ wave periods", report.items[1].text)
+    assert report.items[0].lines and re.search(r"8 runs over [\d\u202f]+ periods", report.items[1].text)
     page = render_html(report).decode()
     order = [page.index(one) for one in ("<h1", '<ul class="bullets">', 'id="figure-1"', "<nav", 'id="section-1"')]
     assert order == sorted(order)
@@ -216,9 +216,7 @@ def test_how_long_it_took_is_told_with_runs_periods_and_cores():
     made = {"timing": {"compile_s": 1.0, "run_s": 68.0}, "runs": {"total": 49, "found": 3}, "jobs": 2, "cpu_count": 4}
     rows = [{"periods": "100.0"}, {"periods": "1135"}, {"periods": ""}]
     said = how_long(made, rows)
-    assert all(
-        one in said for one in ("69 s", "49 runs", "1\u202f235 wave periods", "3 runs", "2 at a time", "4 cores")
-    )
+    assert all(one in said for one in ("69 s", "49 runs", "1\u202f235 periods", "3 runs", "2 at a time", "4 cores"))
     assert how_long({"timing": {"run_s": 600.0}, "runs": {"total": 1}}, []) == "It took 10 minutes: 1 run."
     assert how_long({}, rows) == how_long({"timing": {}}, rows) == ""
 
