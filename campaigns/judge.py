@@ -8,7 +8,7 @@ from engine.views import LONGEST_PERIOD, STROBE_TOLERANCE, carried, carries_tang
 
 LEAST_JUDGED = 40  # periods after the transient below which a record is not judged: exponents are then left out
 OPEN = ("undecided", "transient")  # regimes that decide nothing
-LEAST_CHECK, SURE = 90, 4.0  # wave periods at the tighter tolerance; errors by which chaos is then expected to show
+LEAST_CHECK, SURE = 90, 2.5  # wave periods at the tighter tolerance; errors by which chaos is then expected to show
 TANGENTS, LATERAL = "output.tangent_vectors", "output.lateral_growth"
 
 
@@ -79,12 +79,13 @@ def record_regime(trajectory, transient_periods: int, tangent=None):
     return verdict, wolf
 
 
-def going_on(scene, trajectory, row, budget: int, looks: bool):
+def going_on(scene, trajectory, row, checks, budget: int, looks: bool):
     """What a run whose regime is asked for does next (`campaigns.machinery.plan.Further`); None when it is told.
 
     looks: it is looked at after 90, 135, 205, ... wave periods, `budget` at most, and perturbations are carried from
     the first look on that finds no period, and none that it comes nearer to; else it takes `budget` periods at once.
-    One that looks chaotic goes on at a tenth of the tolerance, for as long as this takes to show by SURE errors.
+    One that looks chaotic goes on at a tenth of the tolerance until that shows there too, at most for as long as it was
+    judged; at first for as long as it takes to show by SURE errors.
     """
     from analysis import next_look
     from campaigns.machinery.plan import Further
@@ -94,11 +95,14 @@ def going_on(scene, trajectory, row, budget: int, looks: bool):
     done = row.get("periods")
     if row["status"] != "ok" or row.get("regime") is None or done is None:
         return None
+    judged, check = done - (row.get("transient_periods") or 0), checks.get(round(done))
     if row["regime"] == "chaotic" and row.get("regime_tighter") is None:
-        judged = done - row["transient_periods"]
         value, error = row["lyapunov_tangent_bits_per_period"], row["lyapunov_tangent_error"]
-        enough = math.ceil(judged * (SURE * error / value) ** 2)
-        return Further(tighter_scene(_carrying(scene)), min(max(enough, LEAST_CHECK), judged), trajectory, check=True)
+        enough = max(math.ceil(judged * (SURE * error / value) ** 2), LEAST_CHECK)
+        return Further(tighter_scene(_carrying(scene)), min(enough, judged), trajectory, check=True)
+    if check is not None and check.status == "ok" and row.get("regime_tighter") != "chaotic":
+        if (ran := len(check.tangent.growth_nats)) < judged:
+            return Further(check.scene, min(math.ceil(0.5 * ran), judged - ran), check, check=True)
     if row["regime"] not in OPEN or done >= budget:
         return None
     wanted = row["regime"] == "undecided" or (trajectory is not None and carried(trajectory))

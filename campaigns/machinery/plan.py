@@ -20,8 +20,8 @@ from campaigns.machinery.cli import Running
 class Further(NamedTuple):
     """What a run does next: scene, wave periods, the Trajectory it goes on from (None: from rest), and what for.
 
-    check: the run stays as it is, and what is computed is handed to its row, with all such before it:
-    describe(trajectory, checks={periods of the run: Trajectory}).
+    check: the run stays as it is, and what is computed, or what follows such a check, is handed to its row, with all
+    before it: describe(trajectory, checks={periods of the run: Trajectory}).
     """
 
     scene: object
@@ -35,8 +35,8 @@ class Job:
     """One run to do: the columns that name it, its scene, and its length in wave periods or in seconds.
 
     simulate, describe: in place of the plan's, for campaigns whose runs are not all made or described alike.
-    going(scene, trajectory, row): for a run as long as it needs: what it does next (`Further`), None when it is done;
-    trajectory and row are those so far, None before its first. `periods` is then the most that it may take.
+    going(scene, trajectory, row, checks): for a run as long as it needs: what it does next (`Further`), None when it is
+    done; trajectory and row are those so far, None before its first. `periods` is then the most that it may take.
     carrying: whether it may go on with perturbations that its scene does not carry.
     made: what else the result depends on, where the run is not the engine's own or not the only one of its scene.
     engine: hash of the engine's sources with which the campaign began.

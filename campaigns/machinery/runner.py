@@ -144,7 +144,7 @@ def run_campaign(plan: Plan, jobs: list[Job]) -> Summary:
 
 
 def _ended(job: Job, outcome: Outcome) -> bool:
-    return job.going is None or job.going(job.scene, None, outcome.row) is None
+    return job.going is None or job.going(job.scene, None, outcome.row, {}) is None
 
 
 def _row(job: Job, outcome: Outcome) -> dict[str, object]:

@@ -76,14 +76,15 @@ def _carried_on(plan: Plan, jobs: Sequence[Job], told: Callable[[float], None]) 
         nonlocal known
         run, job = runs[i], jobs[i]
         row = None if run.outcome is None else run.outcome.row
-        run.further = job.going(job.scene, run.trajectory, row)
+        run.further = job.going(job.scene, run.trajectory, row, run.checks)
         known += 0.0 if run.further is None else run.further.periods
         return run.further
 
     def judged(i: int, part) -> tuple | None:
         run, job = runs[i], jobs[i]
         if run.further.check:
-            run.checks[round(run.outcome.row["periods"])] = part
+            periods = round(run.outcome.row["periods"])
+            run.checks[periods] = run.checks[periods].followed_by(part) if periods in run.checks else part
             run.outcome = _described(plan, job, run.trajectory, run.checks)
         else:
             run.trajectory = part if run.trajectory is None else run.trajectory.followed_by(part)

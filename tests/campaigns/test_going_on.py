@@ -1,0 +1,64 @@
+"""What a run does next (`campaigns.judge.going_on`): on to its next look, to a tighter tolerance, or nothing."""
+
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from campaigns.judge import LEAST_CHECK, going_on
+from engine import load_scene
+
+SCENE = load_scene("tethered_buoy", steepness=0.13)
+CHAOTIC = {
+    "status": "ok", "regime": "chaotic", "periods": 700.0, "transient_periods": 233,
+    "lyapunov_tangent_bits_per_period": 0.1, "lyapunov_tangent_error": 0.02,
+}  # fmt: skip
+RUN = SimpleNamespace(tangent=None)
+
+
+def after(checks=None, budget=1500, looks=True, run=RUN, **row):
+    return going_on(SCENE, run, {**CHAOTIC, **row}, checks or {}, budget, looks)
+
+
+def checked(periods, status="ok"):
+    return SimpleNamespace(status=status, scene="tighter", tangent=SimpleNamespace(growth_nats=np.zeros((periods, 1))))
+
+
+@pytest.mark.parametrize(("looks", "periods"), [(True, 90), (False, 300)])
+def test_a_run_begins_with_its_first_look_or_its_whole_length(looks, periods):
+    assert going_on(SCENE, None, None, {}, 300, looks) == (SCENE, periods, None, False)
+
+
+@pytest.mark.parametrize(
+    "row", [{"regime": "period-2"}, {"status": "newton-failed"}, {"regime": None}, {"regime_tighter": "chaotic"},
+            {"regime": "undecided", "periods": 1500.0}],
+)  # fmt: skip
+def test_what_is_told_or_has_failed_or_used_its_budget_ends(row):
+    assert after(**row) is None
+
+
+@pytest.mark.parametrize(("regime", "carried"), [("undecided", 1), ("transient", 0)])
+def test_the_undecided_go_on_with_perturbations_and_what_settles_without(regime, carried):
+    more = after(regime=regime, periods=205.0)
+    assert (more.periods, more.start, more.check) == (105, RUN, False)
+    assert (more.scene.output.tangent_vectors, more.scene.solver.rtol) == (carried, SCENE.solver.rtol)
+    assert after(regime=regime, periods=1400.0).periods == 100
+
+
+@pytest.mark.parametrize(("error", "periods"), [(0.001, LEAST_CHECK), (0.02, 117), (0.04, 467)])
+def test_chaos_goes_on_at_a_tenth_of_the_tolerance_as_long_as_it_takes_to_show(error, periods):
+    more = after(lyapunov_tangent_error=error)
+    assert (more.periods, more.start, more.check) == (periods, RUN, True)
+    assert more.scene.solver.rtol == pytest.approx(SCENE.solver.rtol / 10) and more.scene.output.tangent_vectors == 1
+
+
+def test_a_check_that_does_not_show_it_goes_on_itself_and_then_the_run():
+    refused = {"regime": "undecided", "regime_tighter": "undecided"}
+    more = after({700: checked(117)}, **refused)
+    assert (more.scene, more.periods, more.check) == ("tighter", 59, True) and len(
+        more.start.tangent.growth_nats
+    ) == 117
+    assert after({700: checked(420)}, **refused).periods == 47
+    for ended in (checked(467), checked(50, "newton-failed")):
+        more = after({700: ended}, **refused)
+        assert (more.periods, more.start, more.check) == (350, RUN, False)
