@@ -105,14 +105,17 @@ def going_on(scene, trajectory, row, checks, budget: int, looks: bool):
             return Further(check.scene, min(math.ceil(0.5 * ran), judged - ran), check, check=True)
     if row["regime"] not in OPEN or done >= budget:
         return None
-    wanted = row["regime"] == "undecided" or (trajectory is not None and carried(trajectory))
+    unclear = row["regime"] == "undecided" and row.get("strobed_period") is None
+    wanted = unclear or (trajectory is not None and carried(trajectory))
     scene = _carrying(scene) if wanted and carries_tangents(scene) else scene
     return Further(scene, min(next_look(round(done)), budget) - done, trajectory)
 
 
 def _carrying(scene):
-    """The scene with a perturbation in the plane and one across it."""
-    return engine.scene.scene_from_toml(scene.to_toml(), {TANGENTS: 1, LATERAL: True})
+    """The scene with a perturbation in its plane. One across it is for those who ask (`output.lateral_growth`): it costs
+    a seventh more, and large motions release loops, which leaves no rate across the plane.
+    """
+    return engine.scene.scene_from_toml(scene.to_toml(), {TANGENTS: 1})
 
 
 def judged_scene(order, changes: dict, least: int = LEAST_JUDGED):

@@ -29,12 +29,12 @@ def shares_of(scenes: Iterable[tuple[Scene, bool, bool]]) -> list[dict[tuple, Sc
     """What processes may compile side by side, the longest first: keys of pieces, each with a scene that needs it.
 
     scenes: (scene, together, carrying). together: whether its run shares a batch with others, where it may; carrying:
-    whether it may go on with a perturbation in the plane and one across it. Runs begin at rest.
+    whether it may go on with a perturbation in the plane. Runs begin at rest.
     """
     shares: dict[tuple, dict[tuple, Scene]] = {}
     for scene, together, carrying in scenes:
-        record, carried = record_of(scene, [])[0], (scene.output.tangent_vectors > 0, scene.output.lateral_growth)
-        carried = (True, True) if carrying else carried
+        record = record_of(scene, [])[0]
+        carried = carrying or scene.output.tangent_vectors > 0, scene.output.lateral_growth
         kind, lanes = record.dtype.names[0], together and goes_in_lanes(scene)
         alone, own = (shares.setdefault((where, kind), {}) for where in (False, lanes))
         if scene.solver.scheme == "paper-box":

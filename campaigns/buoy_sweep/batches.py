@@ -60,7 +60,7 @@ ACCURACY = (
 TIGHTER, FINER = "a tenth of the tolerance", "twice the elements"
 UNFOLLOWED = {TANGENTS: 0, LATERAL: False}  # without perturbations
 LEAST_COLUMNS, LEAST_VALUES = 200, 9  # of the orbit diagram; judged values from which on there is something between
-BETWEEN_PERIODS, LEFT_OUT = 48, 32
+BETWEEN_PERIODS, COMPANION_PERIODS = 42, 60  # of each the later third, or half, is measured
 EARLY = 10  # wave periods
 PERIODS, FRAMES = 12, 24  # of the close-up: wave periods, because the first snaps come after five; profiles in each
 
@@ -116,16 +116,17 @@ def between(plan: Plan, summary: Summary, key: str, cases: list[Job]) -> float:
     """Enough runs between those of a sweep over `key` for LEAST_COLUMNS in all, where they can go side by side."""
     scenes = {job.labels["steepness"]: job.scene for job in cases}
     values = sorted(scenes)
-    more = math.ceil((LEAST_COLUMNS - len(values)) / (len(values) - 1))
-    fine = [float(f"{a + (b - a) * i / (more + 1):.12g}") for a, b in pairwise(values) for i in range(1, more + 1)]
+    ends = np.linspace(0, max(LEAST_COLUMNS - len(values), 0), len(values)).round().astype(int)  # of those in the gaps
+    gaps = zip(pairwise(values), np.diff(ends), strict=True)
+    fine = [float(f"{a + (b - a) * i / (more + 1):.12g}") for (a, b), more in gaps for i in range(1, more + 1)]
     jobs = [Job({"steepness": kA}, changed(scenes[values[0]], UNFOLLOWED, {key: kA}), BETWEEN_PERIODS) for kA in fine]
-    row = partial(unjudged, transient_periods=LEFT_OUT, columns=BETWEEN)
+    row = partial(unjudged, transient_periods=2 * BETWEEN_PERIODS // 3, columns=BETWEEN)
     return Batch("between", "values between", BETWEEN, row, jobs if groups_of(plan, jobs) else [], True).do(plan)
 
 
 def companions(plan: Plan, summary: Summary, key: str, periods: int) -> float:
     """The largest tension again, and values whose sphere flies: all where they can go side by side, else that one."""
-    length, jobs = min(periods, next_look()), []
+    length, jobs = min(periods, COMPANION_PERIODS), []
     if good := chosen(summary.rows):
         peak = good[-1][1]
         scene = changed(run_of(plan.how.out, peak).scene, UNFOLLOWED)
@@ -173,7 +174,7 @@ def repeat(
     most, jobs = next_look(next_look()), []
     rows = [row for row in summary.rows if among is None or row["run_key"] in among]
     for role, row in chosen(rows, math.inf if carrying else most):
-        length = min(most if carrying or role == "regular" else next_look(), round(row["periods"]))
+        length = min(most if carrying or role == "regular" else COMPANION_PERIODS, round(row["periods"]))
         original = run_of(plan.how.out, row)
         scene = original.scene if carrying else changed(original.scene, UNFOLLOWED)
         samples = round(length * scene.waves.period_s / scene.sample_step_s()) + 1

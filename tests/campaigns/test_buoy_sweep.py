@@ -137,12 +137,12 @@ def nine(monkeypatch, tmp_path):
     return Plan(Running(tmp_path, 2), None, None, (), simulate_each=list), Summary(rows, 9, 0, 0.0), cases, jobs
 
 
-def test_between_judged_values_there_are_as_many_in_each_gap_and_two_hundred_in_all(nine):
+def test_between_judged_values_there_are_about_as_many_in_each_gap_and_two_hundred_in_all(nine):
     plan, summary, cases, jobs = nine
     batches.between(plan, summary, "waves.steepness", cases)
     values, found = ([job.labels["steepness"] for job in some] for some in (cases, jobs))
-    assert [job.scene.waves.steepness for job in jobs] == found and len(found) + len(values) >= 200
-    assert len({*np.histogram(found, values)[0]}) == 1 and not {*found} & {*values}
+    assert [job.scene.waves.steepness for job in jobs] == found and len(found) + len(values) == 200
+    assert np.ptp(np.histogram(found, values)[0]) <= 1 and not {*found} & {*values}
     assert all(job.scene.output.tangent_vectors == 0 for job in jobs)
 
 
@@ -153,7 +153,7 @@ def test_the_largest_tension_has_its_companions_and_every_flying_sphere_a_wetted
     assert [job.labels["role"] for job in jobs] == [*4 * ["wetted cap"], "as run", "81 nodes"]
     assert [job.labels["steepness"] for job in jobs] == [*values[5:], values[-1], values[-1]]
     assert [job.scene.buoy.submergence for job in jobs] == [*4 * ["spherical-cap"], *2 * ["full"]]
-    assert [job.scene.tether.nodes for job in jobs] == 5 * [41] + [81] and {job.periods for job in jobs} == {90}
+    assert [job.scene.tether.nodes for job in jobs] == 5 * [41] + [81] and {job.periods for job in jobs} == {60}
 
 
 @pytest.fixture

@@ -37,9 +37,11 @@ def test_what_is_told_or_has_failed_or_used_its_budget_ends(row):
     assert after(**row) is None
 
 
-@pytest.mark.parametrize(("regime", "carried"), [("undecided", 1), ("transient", 0)])
-def test_the_undecided_go_on_with_perturbations_and_what_settles_without(regime, carried):
-    more = after(regime=regime, periods=205.0)
+@pytest.mark.parametrize(
+    ("regime", "period", "carried"), [("undecided", None, 1), ("undecided", 2, 0), ("transient", None, 0)]
+)
+def test_the_undecided_go_on_with_perturbations_and_what_settles_or_repeats_without(regime, period, carried):
+    more = after(regime=regime, strobed_period=period, periods=205.0)
     assert (more.periods, more.start, more.check) == (105, RUN, False)
     assert (more.scene.output.tangent_vectors, more.scene.solver.rtol) == (carried, SCENE.solver.rtol)
     assert after(regime=regime, periods=1400.0).periods == 100

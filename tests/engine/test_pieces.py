@@ -14,7 +14,7 @@ def loaded():
     kernels = {one for module in modules for one in module.values() if isinstance(one, Dispatcher)}
     return sorted(f"{one.py_func.__qualname__} {types}" for one in kernels for types in one.overloads)
 
-few, carried = {"tether.nodes": 5}, {"output.tangent_vectors": 1, "output.lateral_growth": True}
+few, carried = {"tether.nodes": 5}, {"output.tangent_vectors": 1}
 plain, carrying = (load_scene("tethered_buoy", few | more) for more in ({}, carried))
 shares = shares_of([(plain, True, True), (plain, False, True)])
 for share in shares if sys.argv[1] == "all" else [shares[int(sys.argv[1])]]:
