@@ -1,7 +1,7 @@
 """The regime of a simulated motion, from its strobed orbit and its tangent dynamics, look by look.
 
-A simulation can be carried on until its motion is told. So it is looked at after 90, 135, 205, 310, ... periods
-(`next_look`), each time without its first third, the transient:
+A simulation can be carried on until its motion is told. So it is looked at after 90, 135, 205, 310, 465, 585, ...
+periods (`next_look`), each time without its first third, the transient:
 
     period-N          the strobed orbit repeats (`detect_period`), and its perturbations do not grow in the later half;
                       where none are carried, the steps towards the orbit shrink
@@ -50,7 +50,7 @@ CLEARLY = 3.0  # tolerances from its orbit within which a periodic motion has se
 
 def next_look(periods: int = 0) -> int:
     """After how many periods a motion is looked at next that was looked at after `periods`; 0: for the first time."""
-    return max(FIRST_LOOK, 5 * math.ceil(0.3 * periods))
+    return max(FIRST_LOOK, 5 * math.ceil((0.3 if periods < LONG else 0.25) * periods))
 
 
 def motion_regime(

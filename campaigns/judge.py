@@ -87,11 +87,12 @@ def going_on(scene, trajectory, row, checks, budget: int, looks: bool):
     One that looks chaotic goes on at a tenth of the tolerance until that shows there too, at most for as long as it was
     judged; at first for as long as it takes to show by SURE errors.
     """
-    from analysis import next_look
+    from analysis.looks import looks as looks_at
     from campaigns.machinery.plan import Further
 
+    ends = list(looks_at(budget)) if looks else []
     if row is None:
-        return Further(scene, min(next_look(), budget) if looks else budget)
+        return Further(scene, ends[0] if ends else budget)
     done = row.get("periods")
     if row["status"] != "ok" or row.get("regime") is None or done is None:
         return None
@@ -103,17 +104,18 @@ def going_on(scene, trajectory, row, checks, budget: int, looks: bool):
     if check is not None and check.status == "ok" and row.get("regime_tighter") != "chaotic":
         if (ran := len(check.tangent.growth_nats)) < judged:
             return Further(check.scene, min(math.ceil(0.5 * ran), judged - ran), check, check=True)
-    if row["regime"] not in OPEN or done >= budget:
+    ahead = next((end for end in ends if end > round(done)), None)
+    if row["regime"] not in OPEN or ahead is None:
         return None
     unclear = row["regime"] == "undecided" and row.get("strobed_period") is None
     wanted = unclear or (trajectory is not None and carried(trajectory))
     scene = _carrying(scene) if wanted and carries_tangents(scene) else scene
-    return Further(scene, min(next_look(round(done)), budget) - done, trajectory)
+    return Further(scene, ahead - done, trajectory)
 
 
 def _carrying(scene):
-    """The scene with a perturbation in its plane. One across it is for those who ask (`output.lateral_growth`): it costs
-    a seventh more, and large motions release loops, which leaves no rate across the plane.
+    """The scene with a perturbation in its plane. One across it is for those who ask (`output.lateral_growth`): it
+    costs a seventh more, and large motions release loops, which leaves no rate across the plane.
     """
     return engine.scene.scene_from_toml(scene.to_toml(), {TANGENTS: 1})
 

@@ -24,6 +24,7 @@ from campaigns.machinery.plan import Further, Job, Outcome, Plan, name_of
 from campaigns.machinery.progress import heard, teller
 from engine.atomic import write_atomic
 
+SAVED_S = 10.0  # of work that a killed campaign may lose of a run, beside the part at which it is
 GO_ON = 0.5  # share of the runs that have another part after each of theirs
 
 
@@ -55,19 +56,20 @@ def run_jobs(plan: Plan, jobs: Sequence[Job]) -> list[Outcome]:
 @dataclass
 class _Standing:
     """How far a run has come that takes as long as it needs: its Trajectory and Outcome, the runs that went on from it
-    at a tighter tolerance, by its periods then, and what it does at present (`Further`).
+    at a tighter tolerance, by its periods then, what it does at present (`Further`), and when it was last saved.
     """
 
     trajectory: object = None
     outcome: Outcome | None = None
     checks: dict[int, object] = field(default_factory=dict)
     further: Further | None = None
+    saved_s: float = field(default_factory=time.monotonic)
 
 
 def _carried_on(plan: Plan, jobs: Sequence[Job], told: Callable[[float], None]) -> list[Outcome]:
     """As `run_jobs`, of jobs that take as long as they need: each goes on when it has been judged, among the others.
 
-    What a run has done is on disk whenever it is judged, so that a killed campaign goes on from there.
+    What a run has done is on disk when it ends, and every SAVED_S at a look: a killed campaign goes on from there.
     """
     runs = [_so_far(plan, job) for job in jobs]
     known = 0.0  # wave periods that were asked for
@@ -85,11 +87,12 @@ def _carried_on(plan: Plan, jobs: Sequence[Job], told: Callable[[float], None]) 
         if run.further.check:
             periods = round(run.outcome.row["periods"])
             run.checks[periods] = run.checks[periods].followed_by(part) if periods in run.checks else part
-            run.outcome = _described(plan, job, run.trajectory, run.checks)
         else:
             run.trajectory = part if run.trajectory is None else run.trajectory.followed_by(part)
-            run.outcome = _kept(plan, job, run.trajectory, run.checks)
+        run.outcome = _described(plan, job, run.trajectory, run.checks)
         further = next_of(i)
+        if further is None or time.monotonic() - run.saved_s > SAVED_S:
+            run.outcome, run.saved_s = _kept(plan, job, run.trajectory, run.outcome), time.monotonic()
         return None if further is None else (further.scene, further.periods, further.start)
 
     def hear(share: float) -> None:
@@ -153,8 +156,8 @@ def _run_one(plan: Plan, job: Job, told: Callable[[float], None]) -> Outcome:
     return _kept(plan, job, trajectory)
 
 
-def _kept(plan: Plan, job: Job, trajectory, checks: dict | None = None) -> Outcome:
-    """Save a run that has been computed, or get it ready to be sent, and make its row."""
+def _kept(plan: Plan, job: Job, trajectory, outcome: Outcome | None = None) -> Outcome:
+    """Save a run that has been computed, or get it ready to be sent, and its row; outcome: where that is made."""
     try:
         content = trajectory.to_bytes({"run_key": job.key})
         if plan.how.out is not None:
@@ -163,8 +166,11 @@ def _kept(plan: Plan, job: Job, trajectory, checks: dict | None = None) -> Outco
         raise _stopped(plan, error) from error
     except Exception as error:
         return failed(job, "error", f"not saved: {_reason(error)}")
-    outcome = _described(plan, job, trajectory, checks)
-    return outcome if plan.how.out is not None else replace(outcome, content=content)
+    outcome = _described(plan, job, trajectory) if outcome is None else outcome
+    if plan.how.out is None:
+        return replace(outcome, content=content)
+    keep_row(plan.how.out, job.key, plan.row_maker, outcome.row)
+    return outcome
 
 
 def reuse(plan: Plan, job: Job) -> Outcome | None:
@@ -176,8 +182,11 @@ def reuse(plan: Plan, job: Job) -> Outcome | None:
         trajectory = engine.Trajectory.load(path)
     except Exception:  # truncated, emptied, not netCDF, from a foreign hand: whatever it is, the cure is the same
         return None
-    row = kept_row(out, job.key, plan.row_maker)
-    return _described(plan, job, trajectory) if row is None else Outcome(job.key, row)
+    if (row := kept_row(out, job.key, plan.row_maker)) is not None:
+        return Outcome(job.key, row)
+    outcome = _described(plan, job, trajectory)
+    keep_row(out, job.key, plan.row_maker, outcome.row)
+    return outcome
 
 
 def _described(plan: Plan, job: Job, trajectory, checks: dict | None = None) -> Outcome:
@@ -186,10 +195,7 @@ def _described(plan: Plan, job: Job, trajectory, checks: dict | None = None) -> 
         row = (job.describe or plan.describe)(trajectory, **more)
     except Exception as error:
         row = {"status": "analysis-failed", "message": _reason(error)}
-    outcome = Outcome(job.key, row, time.perf_counter() - start)
-    if plan.how.out is not None:
-        keep_row(plan.how.out, job.key, plan.row_maker, row)
-    return outcome
+    return Outcome(job.key, row, time.perf_counter() - start)
 
 
 def _reason(error: BaseException) -> str:
