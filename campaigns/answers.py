@@ -86,7 +86,8 @@ def regimes(rows: Sequence[Row], symbol: str, values: Sequence[float]) -> tuple[
     regular, rest = [], []
     if calm := [*periodic, *({QUASI} & found)]:
         where, lowest = at(*calm), f"{values[0]:.4g} to "
-        preposition = "up to" if where.startswith(lowest) else "at"
+        one_range = where.startswith(lowest) and " and " not in where
+        preposition, lowest = ("up to", lowest) if one_range else ("at", "")
         kinds = [f"period {listed(word.removeprefix(PERIODIC) for word in periodic)}"] if periodic else []
         kinds += [f"quasi-periodic{f' at {at(QUASI)}' if periodic else ''}"] if QUASI in found else []
         regular.append(f"Regular {preposition} {symbol} = {where.removeprefix(lowest)}: {', '.join(kinds)}.")

@@ -1,10 +1,11 @@
 """Sweep of wave steepness for the tethered buoy: one run for each value, a table of what each did, a report.
 
-    python -m campaigns.buoy_sweep                          the whole range, in two to three minutes on two cores
+    python -m campaigns.buoy_sweep                          the whole range, in a minute or two on two cores
     python -m campaigns.buoy_sweep --steepness 0.016 0.13   the paper's two cases (section 4.2)
 
-Protocol: the same scene, start and length for every value of waves.steepness; the first wave periods of every run are
-left out of extremes, slack and section as the transient. Nothing is random.
+Protocol: the same scene from rest for every value of waves.steepness, each as long as its regime needs
+(docs/verdicts.md) and not beyond --budget, or all of --periods. The transient, found by the verdict or given, is left
+out of extremes, slack and section. Nothing is random.
 
 In a plane a loop of slack tether cannot open; the run releases it and counts (`loop_releases`). `--dimensions 3` runs
 every value in three dimensions, `--dimensions auto` those whose planar run released loops.

@@ -92,7 +92,7 @@ def _seen(sweep: Sweep, drawn: Sequence[Run], static_N: float | None) -> Iterato
 
 def _slack(drawn: Sequence[Run]) -> Panel:
     slack = 100.0 * _of(drawn, "slack_fraction")
-    return Panel([Curve(_of(drawn, "steepness"), slack, colour=INK)], y_label="slack\n(% of time)")
+    return Panel([Curve(_of(drawn, "steepness"), slack, colour=INK)], y_label="slack (%)")
 
 
 def _of(runs: Sequence[Run], column: str) -> np.ndarray:
@@ -120,7 +120,7 @@ def _exponent_panel(sweep: Sweep) -> list[Panel]:
     usual = np.minimum(np.nan_to_num(bars), 3.0 * float(np.nanmedian(bars)))  # one long bar would hide the others
     margin = 0.08 * float(np.ptp(y[known])) + 0.01
     limits = float((y - usual)[known].min()) - margin, float((y + usual)[known].max()) + margin
-    return [Panel(lines, y_label="exponent\n(bits/period)", level=0.0, settings={"ylim": limits})]
+    return [Panel(lines, y_label="exponent\n(bits/wave)", level=0.0, settings={"ylim": limits})]
 
 
 def _tension(sweep: Sweep, drawn: Sequence[Run], scale: float, unit: str) -> Panel:

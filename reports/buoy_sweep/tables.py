@@ -24,7 +24,8 @@ _PLANE = (
     "planar_regime",
 )  # fmt: skip
 _REPEATED = (
-    "role", "label", "run", "status", "nodes", "rtol", "periods", "error_early_m", "error_m", "verdict", "wall_s",
+    "role", "label", "run", "status", "nodes", "rtol", "periods", "error_early_m", "error_m", "tension_top_max_N",
+    "error_tension_early_N", "error_tension_N", "verdict", "wall_s",
 )  # fmt: skip
 _COST = ("wall_s", "newton_iterations")
 # What `campaigns.out_of_plane` finds, and tests/reports/test_regimes.py holds it to.
@@ -34,9 +35,10 @@ COMPARED = (
     "path in time after the first loops, and the shape of the rope in a loop, do not."
 )
 _WHY_REPEATED = (
-    "Two runs were repeated at a tenth of the tolerance and at twice the elements: those whose tension peaks lowest "
-    "(regular) and highest (violent). Past the limit of predictability r differs by the size of the motion; verdicts "
-    "and extremes are then what may be compared. A dash: the record is too short for a verdict."
+    "Two runs were repeated at a tenth of the tolerance and at twice the elements: that whose tension peaks highest "
+    "(violent), and of the short ones that whose tension peaks lowest (regular). Past the limit of predictability r "
+    "differs by the size of the motion; verdicts and extremes are then what may be compared. A dash: not decided by a "
+    "record of this length."
 )
 _NOT_REPEATED = (
     "No run was repeated (`--no-accuracy`, or none ended as asked), so that nothing is known of the error of this "

@@ -12,7 +12,7 @@ from .curves import Panel, draw
 
 NARROW_IN = 3.7  # of the form for telephones
 _LEFT_IN, _LABEL_IN, _RIGHT_IN, _BOTTOM_IN = 0.7, 0.29, 0.08, 0.42
-_BAR_IN, _MAIN_IN, _LOWER_IN, _GAP_IN = 0.16, 1.85, 0.57, 0.07
+_BAR_IN, _MAIN_IN, _LOWER_IN, _GAP_IN = 0.16, 1.85, 0.68, 0.07
 _EDGE_IN, _NUMBERS_IN = 0.1, 0.27  # beside the first and the last run; left of it, where numbers stand there
 _NEUTRAL = "#8b95a0"
 _LETTER_IN = 0.062  # mean width of a letter of 7 points
