@@ -85,11 +85,16 @@ def _passes():
 _found: dict[tuple, object] = {}  # (function of Numba, types of its arguments): the signature that Numba chose
 
 
+def _within_kernel(context):
+    """Whether a kernel is being compiled. context: Numba's typing context."""
+    return "resolve_function_type" in vars(context)
+
+
 @contextmanager
 def _without_detours(context):
     """While a kernel is compiled, Python does not look for garbage, and Numba, which tries some ten meanings of a + for
     every + that it meets, remembers which one it was. context: Numba's typing context, restored afterwards."""
-    if "resolve_function_type" in vars(context):  # a kernel within a kernel
+    if _within_kernel(context):
         yield
         return
     search, collects = context.resolve_function_type, gc.isenabled()
@@ -132,8 +137,16 @@ class _PartCompiler(_WholeCompiler):
 
 
 def compiled_in_parts(function, folder: Path | None):
-    """As `machine_code.store.compiled`, but other kernels that call this one take in a Part in its place."""
+    """As `machine_code.store.compiled`, but other kernels that call this one take in a Part in its place.
+
+    Functions of plain Numba that call it get its own machine code: they would not take in what the part calls.
+    """
     part = compiled(function, None, no_cpython_wrapper=True, pipeline_class=_PartCompiler)
     whole = compiled(function, folder, pipeline_class=_WholeCompiler)
-    whole.get_call_template, whole.get_overload = part.get_call_template, part.get_overload
+
+    def chosen(name):
+        of_part, own = getattr(part, name), getattr(whole, name)
+        return lambda *arguments: (of_part if _within_kernel(whole.typingctx) else own)(*arguments)
+
+    whole.get_call_template, whole.get_overload = chosen("get_call_template"), chosen("get_overload")
     return whole

@@ -12,9 +12,15 @@ from functools import partial
 from pathlib import Path
 from types import SimpleNamespace
 
+import numba
+import numpy as np
 import pytest
 from numba.core.caching import IndexDataCacheFile
 
+from engine import load_scene
+from engine.parameters import record_of
+from engine.planar.columns import NODE_WIDTH
+from engine.planar.node import shape
 from machine_code.parts import compiled_in_parts
 from machine_code.store import compiled, folder_for, hash_of, one_at_a_time
 
@@ -193,3 +199,17 @@ def test_code_stored_by_one_process_each_is_told_apart_where_both_are_loaded(tmp
     assert said("3") == law
     assert said("2", "3") == law * 2
     assert said("3", "2") == law * 2
+
+
+def test_plain_numba_may_call_a_kernel_that_calls_others():
+    p, tables = record_of(load_scene("tethered_buoy", {"tether.nodes": 5}), kept := [])[0], np.concatenate(kept)
+    Y, found = np.random.default_rng(0).normal(size=(5, 6)), []
+
+    @numba.njit
+    def by_numba(p, tables, Y, Q, X):
+        shape(p, tables, Y, Q, X)
+
+    for call in (shape, by_numba):
+        found.append((np.zeros((5, NODE_WIDTH)), np.zeros((5, 2))))
+        call(p, tables, Y, *found[-1])
+    assert np.array_equal(found[0][0], found[1][0]) and np.array_equal(found[0][1], found[1][1]) and found[0][1].any()

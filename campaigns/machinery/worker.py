@@ -25,7 +25,9 @@ from campaigns.machinery.progress import heard, teller
 from engine.atomic import write_atomic
 
 SAVED_S = 10.0  # of work that a killed campaign may lose of a run, beside the part at which it is
-GO_ON = 0.5  # share of the runs that have another part after each of theirs
+# of runs that take as long as they need (measured): share with another part after each of theirs, how much longer they
+# are then, and what a period costs that carries a perturbation
+GO_ON, GROWTH, CARRYING = 0.75, 1.4, 1.7
 
 
 def run_jobs(plan: Plan, jobs: Sequence[Job]) -> list[Outcome]:
@@ -63,7 +65,20 @@ class _Standing:
     outcome: Outcome | None = None
     checks: dict[int, object] = field(default_factory=dict)
     further: Further | None = None
+    periods: float = 0.0  # of `further`
+    cost: float = 0.0  # of these
     saved_s: float = field(default_factory=time.monotonic)
+
+    def still_expected(self, most: float) -> float:
+        """Wave periods after the present part: after each, GO_ON of the runs go on, by GROWTH; none beyond `most`."""
+        if self.further is None or self.further.check:
+            return 0.0
+        reached = self.further.periods + (0.0 if self.outcome is None else self.outcome.row.get("periods") or 0.0)
+        ahead, share = 0.0, GO_ON
+        while reached < most:
+            further = min(GROWTH * reached, most)
+            ahead, share, reached = ahead + share * (further - reached), share * GO_ON, further
+        return ahead
 
 
 def _carried_on(plan: Plan, jobs: Sequence[Job], told: Callable[[float], None]) -> list[Outcome]:
@@ -72,15 +87,17 @@ def _carried_on(plan: Plan, jobs: Sequence[Job], told: Callable[[float], None]) 
     What a run has done is on disk when it ends, and every SAVED_S at a look: a killed campaign goes on from there.
     """
     runs = [_so_far(plan, job) for job in jobs]
-    known = 0.0  # wave periods that were asked for
+    ended = ended_cost = 0.0  # of the parts that have ended: wave periods, and the same by what each costs
 
     def next_of(i: int) -> Further | None:
-        nonlocal known
+        nonlocal ended, ended_cost
         run, job = runs[i], jobs[i]
+        ended, ended_cost = ended + run.periods, ended_cost + run.cost
         row = None if run.outcome is None else run.outcome.row
-        run.further = job.going(job.scene, run.trajectory, row, run.checks)
-        known += 0.0 if run.further is None else run.further.periods
-        return run.further
+        run.further = further = job.going(job.scene, run.trajectory, row, run.checks)
+        run.periods = 0.0 if further is None else further.periods
+        run.cost = 0.0 if further is None else further.periods * _cost(further.scene, job.scene)
+        return further
 
     def judged(i: int, part) -> tuple | None:
         run, job = runs[i], jobs[i]
@@ -96,8 +113,9 @@ def _carried_on(plan: Plan, jobs: Sequence[Job], told: Callable[[float], None]) 
         return None if further is None else (further.scene, further.periods, further.start)
 
     def hear(share: float) -> None:
-        going = [run.further.periods for run in runs if run.further is not None]
-        told(share * known / (known + sum(_still_expected(reached, jobs[0].periods) for reached in going)))
+        periods, cost = sum(run.periods for run in runs), sum(run.cost for run in runs)
+        done = ended_cost + cost * (share * (ended + periods) - ended) / max(periods, 1e-9)
+        told(done / (ended_cost + cost + CARRYING * sum(run.still_expected(jobs[0].periods) for run in runs)))
 
     try:
         asked = [i for i in range(len(jobs)) if next_of(i) is not None]
@@ -123,15 +141,10 @@ def _carried_on(plan: Plan, jobs: Sequence[Job], told: Callable[[float], None]) 
     return [run.outcome for run in runs if run.further is None]
 
 
-def _still_expected(step: float, most: float) -> float:
-    """Wave periods that a run is expected to take after its present part: GO_ON of the runs have another part, half as
-    long again; none beyond `most`.
-    """
-    ahead, share = 0.0, GO_ON
-    while step < most:
-        step *= 1.5
-        ahead, share = ahead + share * step, share * GO_ON
-    return ahead
+def _cost(scene, usual) -> float:
+    """What a wave period of a scene costs, in those of the usual one without perturbations."""
+    tighter = (usual.solver.rtol / scene.solver.rtol) ** 0.25  # the length of a step goes as the root
+    return tighter * (CARRYING if scene.output.tangent_vectors else 1.0)
 
 
 def _so_far(plan: Plan, job: Job) -> _Standing:

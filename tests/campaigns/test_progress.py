@@ -13,10 +13,11 @@ from campaigns.buoy_sweep.answer import sentences
 from campaigns.buoy_sweep.rows import COLUMNS
 from campaigns.machinery import progress
 from campaigns.machinery.cli import Running
-from campaigns.machinery.plan import Job, Plan, length_of, name_of
+from campaigns.machinery.plan import Further, Job, Plan, length_of, name_of
 from campaigns.machinery.progress import ASKED_S, Stage, heard, in_time, shares, stage, teller
 from campaigns.machinery.runner import LANES, _mixed, run_jobs
 from campaigns.machinery.session import MOST_LINES
+from campaigns.machinery.worker import _Standing
 from engine import load_scene, simulate, simulate_each
 from engine.natural_frequencies import natural_frequencies
 from tests.campaigns.fake_engine import FakeEngine, sines
@@ -45,6 +46,13 @@ def test_the_time_left_is_right_within_a_factor_of_two_from_a_fifth_on(costs, si
         shares = (in_time(np.interp(t, *worker), count, LANES) for worker, count in zip(workers, (25, 24), strict=True))
         one.seen.append((100.0 * t / end, float(np.dot((25, 24), [*shares]))))
     assert 0.5 < one.left_s() / (100.0 * (1.0 - since)) < 2.0
+
+
+@pytest.mark.parametrize("reached", [90, 465, 1400])
+def test_a_run_that_may_go_on_is_expected_to_take_more_but_not_its_whole_budget(reached):
+    assert 0.0 < _Standing(further=Further(None, reached)).still_expected(1500) < 0.8 * (1500 - reached)
+    for last in (Further(None, 1500), Further(None, reached, check=True), None):
+        assert _Standing(further=last).still_expected(1500) == 0.0
 
 
 def test_the_lanes_of_the_engine_are_those_of_the_time_left():
