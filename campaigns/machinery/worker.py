@@ -108,7 +108,8 @@ def _carried_on(plan: Plan, jobs: Sequence[Job], told: Callable[[float], None]) 
             run.trajectory = part if run.trajectory is None else run.trajectory.followed_by(part)
         run.outcome = _described(plan, job, run.trajectory, run.checks)
         further = next_of(i)
-        if further is None or time.monotonic() - run.saved_s > SAVED_S:
+        # not between the parts of a check, which are not kept: a run that was killed there would go on otherwise
+        if further is None or (not further.check and time.monotonic() - run.saved_s > SAVED_S):
             run.outcome, run.saved_s = _kept(plan, job, run.trajectory, run.outcome), time.monotonic()
         return None if further is None else (further.scene, further.periods, further.start)
 
