@@ -79,9 +79,10 @@ def record_regime(trajectory, transient_periods: int, tangent=None):
     return verdict, wolf
 
 
-def going_on(scene, trajectory, row, checks, budget: int, looks: bool):
+def going_on(scene, trajectory, row, checks, budget: int, looks: bool, start=None):
     """What a run whose regime is asked for does next (`campaigns.machinery.plan.Further`); None when it is told.
 
+    start: the state of another run that it begins in; None: as the scene says.
     looks: it is looked at after 90, 135, 205, ... wave periods, `budget` at most, and perturbations are carried from
     the first look on that finds no period, and none that it comes nearer to; else it takes `budget` periods at once.
     One that looks chaotic goes on at a tenth of the tolerance until that shows there too, at most for as long as it was
@@ -92,7 +93,7 @@ def going_on(scene, trajectory, row, checks, budget: int, looks: bool):
 
     ends = list(looks_at(budget)) if looks else []
     if row is None:
-        return Further(scene, ends[0] if ends else budget)
+        return Further(scene, ends[0] if ends else budget, start)
     done = row.get("periods")
     if row["status"] != "ok" or row.get("regime") is None or done is None:
         return None
@@ -136,10 +137,33 @@ def judged_scene(order, changes: dict, least: int = LEAST_JUDGED):
     return order.scene({**changes, **extra}) if extra else scene
 
 
-def judged_job(order, labels: dict, scene):
-    """A run of a study's order: of the length asked for, or as long as its regime needs (`going_on`)."""
+def judged_job(order, labels: dict, scene, start=None):
+    """A run of a study's order: of the length asked for, or as long as its regime needs (`going_on`).
+
+    start: the state (`engine.final_state`) of another run that it begins in; None: as the scene says.
+    """
     from campaigns.machinery.plan import Job
 
-    going = partial(going_on, budget=order.periods, looks=order.looks) if carries_tangents(scene) else None
-    looks = order.looks and going is not None
-    return Job(labels, scene, order.periods, going=going, carrying=looks, made="looks" if looks else "")
+    if not carries_tangents(scene):
+        return job_from(labels, scene, order.periods, start)
+    going = partial(going_on, budget=order.periods, looks=order.looks, start=start)
+    made = f"{'looks' if order.looks else ''}{_from(start)}"
+    return Job(labels, scene, order.periods, going=going, carrying=order.looks, made=made)
+
+
+def job_from(labels: dict, scene, periods: float, start=None, describe=None):
+    """A run of a fixed length that begins in the state `start`, or without one as its scene says."""
+    from campaigns.machinery.plan import Job
+
+    going = None if start is None else partial(_once, periods=periods, start=start)
+    return Job(labels, scene, periods, describe=describe, going=going, made=_from(start))
+
+
+def _from(start) -> str:
+    return "" if start is None else f" from {start.digest()}"
+
+
+def _once(scene, trajectory, row, checks, periods, start):
+    from campaigns.machinery.plan import Further
+
+    return Further(scene, periods, start) if row is None else None

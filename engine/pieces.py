@@ -31,31 +31,33 @@ def shares_of(scenes: Iterable[tuple[Scene, bool, bool]]) -> list[dict[tuple, Sc
     scenes: (scene, together, carrying). together: whether its run shares a batch with others, where it may; carrying:
     whether it may go on with a perturbation in the plane. Runs begin at rest.
     """
-    shares: dict[tuple, dict[tuple, Scene]] = {}
+    shares: dict[tuple, dict[tuple, Scene]] = {}  # keys of pieces: kind of record, what is compiled, for which runs
     for scene, together, carrying in scenes:
         record = record_of(scene, [])[0]
         carried = carrying or scene.output.tangent_vectors > 0, scene.output.lateral_growth
         kind, lanes = record.dtype.names[0], together and goes_in_lanes(scene)
         alone, own = (shares.setdefault((where, kind), {}) for where in (False, lanes))
         if scene.solver.scheme == "paper-box":
-            shares[("paper-box",)] = {("paper-box",): scene}
+            shares[("paper-box",)] = {(kind, "paper-box"): scene}
             continue
-        alone[("rest",)] = scene
+        alone[(kind, "rest")] = scene
         parts = bool(record["method"] == ONE_STAGE), bool(record["viscous"]), scene.output.energy
-        own[("advance",) if lanes else ("march", *parts)] = scene
+        own[(kind, "advance") if lanes else (kind, "march", *parts)] = scene
         if any(carried):
-            own[("follow", True, True) if lanes else ("carry", *carried)] = scene
+            own[(kind, "follow", True, True) if lanes else (kind, "carry", *carried)] = scene
     return sorted((share for share in shares.values() if share), key=seconds_of, reverse=True)
 
 
 def seconds_of(pieces: Mapping[tuple, Scene]) -> float:
     """About how much processor time the compilation of pieces takes."""
-    return sum(SECONDS[name] * (SPACE if scene.motion.dimensions == 3 else 1.0) for (name, *_), scene in pieces.items())
+    return sum(
+        SECONDS[name] * (SPACE if scene.motion.dimensions == 3 else 1.0) for (_, name, *_), scene in pieces.items()
+    )
 
 
 def compile_piece(key: tuple, scene: Scene) -> None:
     """Compile a piece, or load it compiled; no step is made, but in the paper's own scheme."""
-    name, *how = key
+    _, name, *how = key
     if how and name != "march":
         carried = {"tangent_vectors": int(how[0]), "lateral_growth": how[1]}
         scene = scene.model_copy(update={"output": scene.output.model_copy(update=carried)})

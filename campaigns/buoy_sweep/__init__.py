@@ -4,8 +4,9 @@
     python -m campaigns.buoy_sweep --steepness 0.016 0.13   the paper's two cases (section 4.2)
 
 Protocol: the same scene from rest for every value of waves.steepness, each as long as its regime needs
-(docs/verdicts.md) and not beyond --budget, or all of --periods. The transient, found by the verdict or given, is left
-out of extremes, slack and section. Nothing is random.
+(docs/verdicts.md) and not beyond --budget, or all of --periods; then every other motion that is found there
+(docs/motions.md), one row a motion. `--starts rest` leaves these out. The transient, found by the verdict or given, is
+left out of extremes, slack and section. Kicks are drawn by --seed; nothing else is random.
 
 In a plane a loop of slack tether cannot open; the run releases it and counts (`loop_releases`). `--dimensions 3` runs
 every value in three dimensions, `--dimensions auto` those whose planar run released loops.
@@ -22,6 +23,7 @@ from campaigns.machinery import cli
 from campaigns.machinery.folder import read_rows
 from campaigns.machinery.plan import Job
 from campaigns.machinery.runner import run
+from campaigns.motions import sweep as motions
 from campaigns.study import Lengths, Measures, Order, Study
 from engine.views import LONGEST_PERIOD, STROBE_TOLERANCE
 
@@ -33,6 +35,7 @@ DIMENSIONS = ("2", "3", "auto")
 ROW_SOURCES = (
     "analysis",
     "engine",
+    "campaigns/motions",
     *(f"campaigns/{name}.py" for name in ("judge", "buoy_sweep/rows", "buoy_sweep/batches")),
 )
 
@@ -47,6 +50,7 @@ def options(group) -> None:
     cli.add_accuracy(group)
     fewer = "do not run further values between for the orbit diagram of a sweep of nine values or more"
     group.add_argument("--no-between", action="store_true", help=fewer)
+    motions.add_options(group)
 
 
 def read(options, faults: list[str]) -> None:
@@ -62,7 +66,7 @@ def read(options, faults: list[str]) -> None:
 def cases(order: Order) -> Iterator[Job]:
     """A run for every steepness, in a plane or (`--dimensions 3`) in space; `auto` checks both, and runs the plane."""
     dimensions = dimensions_of(order)
-    chosen = {"motion.dimensions": 3 if dimensions == "3" else 2}
+    chosen, scenes = {"motion.dimensions": 3 if dimensions == "3" else 2}, []
     for value in order.own.steepness:
         scene = judged_scene(order, {**chosen, SWEPT: value})
         if scene is not None and dimensions != "2":
@@ -73,8 +77,10 @@ def cases(order: Order) -> Iterator[Job]:
                 continue
             scene = spatial if dimensions == "3" else scene
         if scene is not None:
+            scenes.append(scene)
             labels = {"steepness": value, "dimensions": scene.motion.dimensions}
             yield judged_job(order, labels, scene)
+    motions.kicks_of(order, scenes)
 
 
 def dimensions_of(order: Order) -> str:
@@ -83,6 +89,24 @@ def dimensions_of(order: Order) -> str:
         return order.own.dimensions
     scene = order.base()
     return "2" if scene is None else str(scene.motion.dimensions)
+
+
+def starts_of(order: Order) -> int | None:
+    """Kicks at each value; None: runs from rest only (`campaigns.motions.sweep`)."""
+    return motions.kicks_of(order, [case.scene for case in order.cases])
+
+
+def runs(order: Order) -> Callable:
+    """What does the runs: in a plane, in space where needed, or with every motion."""
+    if dimensions_of(order) == "auto":
+        return run_where_needed
+    if (kicks := starts_of(order)) is None:
+        return run
+    from campaigns.buoy_sweep.batches import changed
+    from campaigns.buoy_sweep.rows import STEEPNESS as KEY
+
+    scene = order.cases[0].scene
+    return motions.every_motion(order, kicks, KEY, lambda value: changed(scene, {SWEPT: value}))
 
 
 def measures(order: Order) -> Measures:
@@ -110,6 +134,7 @@ def parameters(order: Order) -> dict[str, object]:
         "dimensions": dimensions,
         "push_mps": SEED_MPS if pushed else None,
         "accuracy": not order.own.no_accuracy,
+        **motions.parameters(order, starts_of(order)),
     }
 
 
@@ -131,11 +156,12 @@ def answer(order: Order, rows: list[dict]) -> list[str]:
     """What the sweep found (`campaigns.buoy_sweep.answer`)."""
     from campaigns.buoy_sweep.answer import sentences
 
-    companions: tuple[dict, ...] = ()
-    if not order.own.no_accuracy:
+    beside = {"companions": not order.own.no_accuracy, "ends": starts_of(order) is not None}
+    found: dict[str, tuple[dict, ...]] = {}
+    for folder in (name for name, made in beside.items() if made):
         with contextlib.suppress(OSError, ValueError):  # none, as where no run ended
-            companions = read_rows(order.how.out / "companions" / "table.csv")
-    return sentences(rows, "steepness", "kA", order.cases[0].scene, companions)
+            found[folder] = read_rows(order.how.out / folder / "table.csv")
+    return sentences(rows, "steepness", "kA", order.cases[0].scene, **found)
 
 
 STUDY = Study(
@@ -154,7 +180,7 @@ STUDY = Study(
     cases=cases,
     measures=measures,
     parameters=parameters,
-    runs=lambda order: run_where_needed if dimensions_of(order) == "auto" else run,
+    runs=runs,
     beside=beside,
     after=0.2,
     answer=answer,

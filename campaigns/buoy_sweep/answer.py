@@ -9,12 +9,14 @@ from collections.abc import Iterator, Sequence
 from itertools import pairwise
 from statistics import median
 
-from campaigns.answers import Row, greatest, kilonewton, known, regimes
+from campaigns.answers import Row, greatest, kilonewton, known, regimes, spans
 from campaigns.machinery.session import MOST_LINES
+from campaigns.motions.along import from_rest
 from campaigns.statements import listed
 
 PEAK = "tension_top_max_N"
 LEAST_JUMP, TYPICAL = math.log(1.25), 3.0
+MOST_ENDS = 4  # that are told
 TOLD = 3  # jumps beside the largest that are told
 SMALLER = "Smaller jumps of the largest tension between"
 FLIES = "the sphere flies above still water with all its buoyancy (buoy.submergence)"
@@ -22,17 +24,22 @@ LOOPS = "loops were released (--dimensions)"
 AS_RUN, CAPPED = "as run", "wetted cap"  # roles of companions
 
 
-def sentences(rows: Sequence[Row], key: str, symbol: str, scene, companions: Sequence[Row] = ()) -> list[str]:
+def sentences(
+    rows: Sequence[Row], key: str, symbol: str, scene, companions: Sequence[Row] = (), ends: Sequence[Row] = ()
+) -> list[str]:
     """At most eight, of the rows over a column `key` of the table, in words `symbol`; scene: of one of the runs.
 
-    companions: rows of its folder of that name.
+    companions, ends: rows of its folders of these names.
     """
     good = [row for row in rows if row["status"] == "ok" and math.isfinite(known(row, PEAK))]
     if not good:
         return ["No run lasts beyond the transient, so nothing can be said of the motion."]
     good.sort(key=lambda row: known(row, key))
-    regular, rest = regimes(good, symbol, [known(row, key) for row in good])
-    found = [*regular, *jumps(good, key, symbol), *rest, *use(good, key, symbol, scene, companions)]
+    first = [row for row in good if from_rest(row)]
+    regular, rest = regimes(first, symbol, [known(row, key) for row in first])
+    many = [*coexisting(good, key, symbol, ends)]
+    said = [f"From rest: {line[:1].lower()}{line[1:]}" for line in regular] if many else regular
+    found = [*said, *jumps(first, key, symbol), *rest, *many, *use(good, key, symbol, scene, companions)]
     return [line for line in found if len(found) <= MOST_LINES or not line.startswith(SMALLER)]
 
 
@@ -54,6 +61,46 @@ def jumps(rows: Sequence[Row], key: str, symbol: str) -> Iterator[str]:
         yield f"{SMALLER} {symbol} = {listed(f'{a:.4g} and {b:.4g} ({change})' for a, b, change in more)}."
 
 
+def coexisting(rows: Sequence[Row], key: str, symbol: str, ends: Sequence[Row]) -> Iterator[str]:
+    """Where one value has several motions, the one that pulls hardest there, and where motions end."""
+    values = list(dict.fromkeys(known(row, key) for row in rows))
+    at = {value: [row for row in rows if known(row, key) == value] for value in values}
+    several = [value for value in values if len(at[value]) > 1]
+    if not several:
+        return
+    worst, usual = max(
+        (
+            (greatest(at[value], PEAK), min(at[value], key=lambda row: (not from_rest(row), known(row, PEAK))))
+            for value in several
+        ),
+        key=lambda pair: known(pair[0], PEAK) / max(known(pair[1], PEAK), 1e-9),
+    )
+    said = f"One wave has several motions at {symbol} = {spans([value in several for value in values], values)}"
+    if worst is not usual:
+        rest = "the one from rest" if from_rest(usual) else f"motion {usual['motion']}"
+        share = (
+            f", and {100 * known(worst, 'share'):.0f} % of the kicks end in it"
+            if math.isfinite(known(worst, "share"))
+            else ""
+        )
+        said += (
+            f"; at {symbol} = {known(worst, key):.4g} motion {worst['motion']} pulls {kilonewton(known(worst, PEAK))}, "
+            f"{rest} {kilonewton(known(usual, PEAK))}{share}"
+        )
+    yield f"{said}."
+    words = []
+    for end in ends:
+        inside, outside = known(end, f"{key}_with"), known(end, f"{key}_without")
+        becomes = f", into {end['leads_to']}" if end.get("leads_to") else ""
+        words.append(
+            f"{end['motion']} {'above' if end['end'] == 'upper' else 'below'} {0.5 * (inside + outside):.3g}{becomes}"
+        )
+    if words:
+        more = len(words) - MOST_ENDS
+        told = f"{listed(words[:MOST_ENDS])}{f'; {more} more in ends/table.csv' if more > 0 else ''}"
+        yield f"Motions end: {told}."
+
+
 def _pull(row: Row) -> bool:
     return known(row, PEAK) > 0.0
 
@@ -67,9 +114,10 @@ def use(rows: Sequence[Row], key: str, symbol: str, scene, companions: Sequence[
     """The largest tension, what it becomes otherwise, whether it may be used, and the largest that may."""
     peak, static_N = greatest(rows, PEAK), static_tension(scene)
     times = f" ({known(peak, PEAK) / static_N:.1f} times static)" if static_N else ""
-    said = f"Largest tension {kilonewton(known(peak, PEAK))} at {symbol} = {known(peak, key):.4g}{times}"
+    motion = "" if from_rest(peak) else f", motion {peak['motion']}"
+    said = f"Largest tension {kilonewton(known(peak, PEAK))} at {symbol} = {known(peak, key):.4g}{motion}{times}"
     sound = [row for row in companions if row["status"] == "ok"]
-    again = {str(row["role"]): row for row in sound if known(row, key) == known(peak, key)}
+    again = {str(row["role"]): row for row in sound if _of(row, key) == _of(peak, key)}
     if (usual := again.pop(AS_RUN, None)) is not None and again:
         words = (
             f"{'with the' if role == CAPPED else 'on'} {role} {kilonewton(known(row, PEAK))}"
@@ -91,6 +139,10 @@ def use(rows: Sequence[Row], key: str, symbol: str, scene, companions: Sequence[
         load, at = kilonewton(known(free, PEAK)), f"at {symbol} = {known(free, key):.4g}"
         capped = f"With the wetted cap the largest tension is {load}, {at}: use this one."
         yield capped if free.get("role") == CAPPED else f"Largest tension without that: {load} {at}."
+
+
+def _of(row: Row, key: str) -> tuple:
+    return known(row, key), str(row.get("motion") or "")
 
 
 def reasons(row: Row, scene) -> Iterator[str]:

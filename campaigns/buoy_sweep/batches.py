@@ -22,10 +22,11 @@ from analysis.looks import next_look
 from campaigns.buoy_sweep.answer import AS_RUN, CAPPED
 from campaigns.buoy_sweep.rows import EXTREMES, HEIGHT, REGIME, STEEPNESS, STROBED, TRANSIENT, buoy_row
 from campaigns.columns import LOOPS, MESSAGE, NEWTON, PERIODS_RUN, RUN_KEY, STATUS, WALL_S, Column, counted, names
-from campaigns.judge import LATERAL, OPEN, TANGENTS, tighter_scene
+from campaigns.judge import LATERAL, OPEN, TANGENTS, job_from, tighter_scene
 from campaigns.machinery.folder import claimed, run_of, trajectory_path
 from campaigns.machinery.plan import Job, Plan, Summary
 from campaigns.machinery.runner import groups_of, run
+from campaigns.motions.along import MOTION, from_rest
 from engine.atomic import write_atomic
 from engine.scene import scene_from_toml
 
@@ -33,8 +34,8 @@ ROLE = Column("role", symbol="role", meaning="which run of the sweep was repeate
 NODES = Column("nodes", "", "nodes", "nodes of the line", 0)
 OF_A_RUN = (STATUS, PERIODS_RUN, TRANSIENT, *EXTREMES, LOOPS, HEIGHT, WALL_S, RUN_KEY, MESSAGE)
 BETWEEN = (STEEPNESS, REGIME, STROBED, *OF_A_RUN)
-COMPANIONS = (ROLE, STEEPNESS, NODES, *OF_A_RUN)
-CLOSE_UP = (STEEPNESS, STATUS, PERIODS_RUN, WALL_S, RUN_KEY, MESSAGE)
+COMPANIONS = (ROLE, STEEPNESS, MOTION, NODES, *OF_A_RUN)
+CLOSE_UP = (STEEPNESS, MOTION, STATUS, PERIODS_RUN, WALL_S, RUN_KEY, MESSAGE)
 ACCURACY = (
     ROLE,
     Column("label", symbol="run", meaning="the value of the sweep that names the repeated run", digits=3),
@@ -131,18 +132,24 @@ def companions(plan: Plan, summary: Summary, key: str, periods: int) -> float:
         peak = good[-1][1]
         scene = changed(run_of(plan.how.out, peak).scene, UNFOLLOWED)
 
-        def job(role: str, value: float, *changes: dict) -> Job:
-            return Job({"role": role, "steepness": value}, changed(scene, {key: value}, *changes), length)
+        def job(role: str, row: dict, *changes: dict) -> Job:
+            labels = {"role": role, "steepness": row["steepness"], "motion": row.get("motion")}
+            return job_from(labels, changed(scene, {key: row["steepness"]}, *changes), length, start_of(plan, row))
 
         if scene.buoy.submergence == "full":
             high = [row for row in summary.rows if (row.get(HEIGHT.name) or 0.0) > scene.buoy.diameter_m]
             cap = {"buoy.submergence": "spherical-cap"}
-            jobs = [job(CAPPED, row["steepness"], cap) for row in high]
-            jobs = jobs if groups_of(plan, jobs) else [job(CAPPED, peak["steepness"], cap)] if peak in high else []
+            jobs = [job(CAPPED, row, cap) for row in high]
+            jobs = jobs if groups_of(plan, jobs) else [job(CAPPED, peak, cap)] if peak in high else []
         nodes = finer(scene)
-        jobs += [job(AS_RUN, peak["steepness"]), job(f"{nodes['tether.nodes']} nodes", peak["steepness"], nodes)]
+        jobs += [job(AS_RUN, peak), job(f"{nodes['tether.nodes']} nodes", peak, nodes)]
     row = partial(unjudged, transient_periods=length // 2, columns=COMPANIONS)
     return Batch("companions", "companions of the largest tension", COMPANIONS, row, jobs, True).do(plan)
+
+
+def start_of(plan: Plan, row: dict):
+    """The state in which a run begins that repeats that of a row: the last of a motion that is not found from rest."""
+    return None if from_rest(row) else run_of(plan.how.out, row).final_state.at_zero()
 
 
 def chosen(rows: list[dict], length: float = math.inf) -> list[tuple[str, dict]]:
@@ -172,7 +179,7 @@ def repeat(
     called. among: keys of the runs to choose from, None for all. Raises as `runner.run`.
     """
     most, jobs = next_look(next_look()), []
-    rows = [row for row in summary.rows if among is None or row["run_key"] in among]
+    rows = [row for row in summary.rows if from_rest(row) and (among is None or row["run_key"] in among)]
     for role, row in chosen(rows, math.inf if carrying else most):
         length = min(most if carrying or role == "regular" else COMPANION_PERIODS, round(row["periods"]))
         original = run_of(plan.how.out, row)
@@ -213,8 +220,8 @@ def close_up(plan: Plan, summary: Summary, periods: int) -> float:
     """Compute the close-up, unless it is there or no run goes slack. periods: those of the sweep."""
     jobs, length = [], min(periods, PERIODS)
     for _, row in chosen([row for row in summary.rows if (row.get("slack_fraction") or 0.0) > 0.0])[-1:]:
-        scene = run_of(plan.how.out, row).scene
+        scene, start = run_of(plan.how.out, row).scene, start_of(plan, row)
         kept = {"output.profiles": True, "output.profiles_step_s": scene.waves.period_s / FRAMES}
-        labels = {"steepness": row["steepness"], "periods": length}
-        jobs.append(Job(labels, changed(scene, UNFOLLOWED, kept), length))
+        labels = {"steepness": row["steepness"], "motion": row.get("motion"), "periods": length}
+        jobs.append(job_from(labels, changed(scene, UNFOLLOWED, kept), length, start))
     return Batch("close_up", "the close-up", CLOSE_UP, partial(counted, columns=(WALL_S,)), jobs).do(plan)

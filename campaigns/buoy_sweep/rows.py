@@ -23,6 +23,7 @@ from campaigns.columns import (
     number,
 )
 from campaigns.judge import LEAST_JUDGED, OPEN, motion_of, record_regime, tangent_of
+from campaigns.motions.along import MOTIONS
 from engine.views import LONGEST_PERIOD, STROBE_TOLERANCE, carried, carries_tangents, rings, state_of
 
 STEEPNESS = Column("steepness", "", "kA", "wave steepness: wave number times amplitude", 3)
@@ -72,6 +73,7 @@ HEIGHT = Column(
 COLUMNS = (
     STEEPNESS,
     DIMENSIONS,
+    *MOTIONS,
     STATUS,
     REGIME,
     Column("regime_tighter", symbol="tighter", meaning="regime of a chaotic run repeated at a tenth of the tolerance"),

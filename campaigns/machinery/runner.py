@@ -27,6 +27,7 @@ MOST_SENT = 8  # where a group's runs are sent together: one for each lane, so a
 GOLDEN = 0.5 * (math.sqrt(5.0) - 1.0)  # its multiples, less whole numbers, fill any range evenly
 LANES = 8  # of a worker, as `engine.simd.vector.COUNT`, which is slow to import: for the time left only
 FEWEST = 4  # jobs for each worker below which they are not put together
+_ready: set[tuple] = set()  # pieces of machine code that are on disk since a campaign of this process compiled them
 
 
 def run(plan: Plan, jobs: list[Job]) -> tuple[dict[str, float], Summary]:
@@ -84,7 +85,9 @@ def _compile(plan: Plan, missing: list[Job]) -> None:
     ours = [job for job in missing if plan.simulate is engine.simulate and job.simulate is None]
     wanted = [(job.scene, job.key in together, job.carrying) for job in ours]
     wanted += [(job.scene, False, job.carrying) for job in ours if job.going is not None]  # its last part may go alone
-    if not (tasks := engine.shares_of(wanted)):
+    pieces = engine.shares_of(wanted)
+    tasks = [{key: scene for key, scene in task.items() if key not in _ready} for task in pieces]
+    if not (tasks := [task for task in tasks if task]):
         return
     costs = [engine.seconds_of(task) for task in tasks]
     where = "loky", min(plan.how.jobs, max(2, len(missing)))
@@ -104,6 +107,7 @@ def _compile(plan: Plan, missing: list[Job]) -> None:
     ):
         for (number, _), _ in execute(partial(_compiled, Path(place)), list(enumerate(tasks))):
             ended.add(str(number))
+            _ready.update(tasks[number])
 
 
 def _compiled(place: Path, task: tuple[int, dict]) -> None:

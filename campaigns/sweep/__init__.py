@@ -9,6 +9,7 @@ measured. A buoy in regular waves gets the rows of `campaigns.buoy_sweep`, with 
 long enough; any other line gets extremes, tension and the solver's counts. Nothing is random.
 """
 
+import contextlib
 import re
 from collections import Counter
 from collections.abc import Iterator
@@ -21,7 +22,10 @@ from campaigns.buoy_sweep import ROW_SOURCES, settings_of
 from campaigns.columns import MESSAGE, RUN_KEY, STATISTICS, STATUS, Column, counted
 from campaigns.judge import judged_job, judged_scene
 from campaigns.machinery import cli
+from campaigns.machinery.folder import read_rows
 from campaigns.machinery.plan import Job
+from campaigns.machinery.runner import run
+from campaigns.motions import sweep as motions
 from campaigns.study import Lengths, Measures, Order, Study
 from engine.views import LONGEST_PERIOD, STROBE_TOLERANCE, in_regular_waves
 
@@ -93,6 +97,7 @@ def options(group) -> None:
     seconds = cli.number("seconds, a finite number above 0", lambda found: 0.0 < found < inf)
     cli.add(group, "--duration", "S", "length of every run in seconds, for a scene without waves", seconds)
     cli.add_evidence(group)
+    motions.add_options(group)
 
 
 def read(options, faults: list[str]) -> None:
@@ -120,6 +125,7 @@ def cases(order: Order) -> Iterator[Job]:
         order.tell(["--duration: given for a scene with waves; allowed: --periods"])
     if base.waves is None and duration_s is None:
         order.tell([f"--duration: given nothing for {order.name!r}, a scene without waves; allowed: seconds, above 0"])
+    scenes = []
     for values in product(*(one.values for one in keys)):
         labels = {one.key: value for one, value in zip(keys, values, strict=True)}
         changes: dict[str, object] = {}
@@ -129,9 +135,35 @@ def cases(order: Order) -> Iterator[Job]:
         if scene is not None and in_regular_waves(scene):
             scene = judged_scene(order, changes)
         if scene is not None:
+            scenes.append(scene)
             labels |= {"dimensions": scene.motion.dimensions}
             plain = Job(labels, scene, periods, duration_s)
             yield judged_job(order, labels, scene) if in_regular_waves(scene) else plain
+    starts_of(order, scenes)
+
+
+def starts_of(order: Order, scenes=None) -> int | None:
+    """Kicks at each value; None: runs from rest only, as over two keys."""
+    if len(order.own.vary) > 1:
+        if order.own.starts not in (None, motions.REST):
+            order.tell([f"--starts: given {order.own.starts} with two keys; allowed: {motions.REST}, or one key"])
+        return None
+    return motions.kicks_of(order, [case.scene for case in order.cases] if scenes is None else scenes)
+
+
+def runs(order: Order):
+    """What does the runs: those from rest, or every motion."""
+    kicks = starts_of(order)
+    if kicks is None:
+        return run
+    (one,) = order.own.vary
+
+    def scene_at(value: float):
+        changes: dict[str, object] = {}
+        list(one.put(value, order.base(), changes))
+        return order.base(changes)
+
+    return motions.every_motion(order, kicks, one.column, scene_at)
 
 
 def measures(order: Order) -> Measures:
@@ -173,7 +205,7 @@ def parameters(order: Order) -> dict[str, object]:
     }
     if order.own.duration is not None:
         told |= {"duration_s": order.own.duration, "periods": None, "transient": 0}
-    return told
+    return told | motions.parameters(order, starts_of(order))
 
 
 def answer(order: Order, rows: list[dict]) -> list[str]:
@@ -183,7 +215,11 @@ def answer(order: Order, rows: list[dict]) -> list[str]:
 
     keys = [one.key for one in order.own.vary]
     if len(keys) == 1:
-        return sentences(rows, keys[0], keys[0], order.cases[0].scene)
+        ends: tuple[dict, ...] = ()
+        if starts_of(order) is not None:
+            with contextlib.suppress(OSError, ValueError):
+                ends = read_rows(order.how.out / "ends" / "table.csv")
+        return sentences(rows, keys[0], keys[0], order.cases[0].scene, ends=ends)
     counts = Counter(str(row.get("regime") or row["status"]) for row in rows)
     said = [f"{len(rows)} runs: {', '.join(f'{word} {count}' for word, count in counts.most_common())}."]
     if (peak := greatest(rows, PEAK)) is not None:
@@ -202,6 +238,7 @@ STUDY = Study(
     cases=cases,
     measures=measures,
     parameters=parameters,
+    runs=runs,
     answer=answer,
 )
 main, parser, read_order = STUDY.main, STUDY.parser, STUDY.read_order

@@ -1,0 +1,166 @@
+"""Where the range of a motion ends, by bisection; whether a motion stays at a tighter tolerance and on a finer grid."""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+from campaigns.columns import MESSAGE, RUN_KEY, STATUS, Column
+from campaigns.judge import tighter_scene
+from campaigns.machinery.folder import write_table
+from campaigns.motions.along import CARRIED, DOWN, MOTION, UP, Along, Motion
+from campaigns.motions.starts import JOINED, Asked, Ended, Start
+from engine.scene import scene_from_toml
+
+SHARPNESS = 128.0  # a range is known to this part of the whole sweep
+MOST = 320  # wave periods of a bisection: near its end a motion settles slowly
+LEADS_TO = Column(
+    "leads_to", symbol="leads to", meaning="letter of the motion that it becomes there; empty where none settled"
+)
+END = Column("end", symbol="end", meaning="lower or upper end of the range of the motion")
+TIGHTER, FINER = "a tenth of the tolerance", "{} nodes"
+
+
+@dataclass(eq=False)
+class _End:
+    """An end being bisected: the last value with the motion and its state there, the first without it."""
+
+    motion: Motion
+    step: int
+    inside: float
+    outside: float
+    state: object
+    becomes: Motion | None
+    row: dict
+
+    def middle(self) -> float:
+        return float(f"{0.5 * (self.inside + self.outside):.12g}")
+
+    def wide(self, along: Along, width: float) -> bool:
+        """Whether it is to be bisected further, and can be: between two whole numbers there is none."""
+        return (
+            abs(self.outside - self.inside) > width
+            and self.row["status"] == "ok"
+            and along.scene_at(self.middle()) is not None
+        )
+
+
+def columns(key: Column) -> tuple[Column, ...]:
+    """Of the table of ends of a sweep over this key."""
+    return (
+        MOTION,
+        END,
+        Column(
+            f"{key.name}_with",
+            key.unit,
+            f"{key.symbol} with",
+            "last value at which the motion was found",
+            key.digits and 5,
+        ),
+        Column(
+            f"{key.name}_without",
+            key.unit,
+            f"{key.symbol} without",
+            "first value at which it was not",
+            key.digits and 5,
+        ),
+        LEADS_TO,
+        RUN_KEY,
+        STATUS,
+        MESSAGE,
+    )
+
+
+def bisect(along: Along) -> list[dict[str, object]]:
+    """The ends of all branches within the sweep, each bisected with the state of its motion; rows of `columns`.
+
+    Writes ends/table.csv. Raises as `runner.run`.
+    """
+    ends = [*_ends_of(along)]
+    width = (max(along.values) - min(along.values)) / SHARPNESS
+    while wide := [end for end in ends if end.wide(along, width)]:
+        asked = [
+            Asked(
+                {along.key.name: end.middle()},
+                along.scene_at(end.middle()),
+                Start(CARRIED[end.step], state=end.state.at_zero()),
+                most=MOST,
+            )
+            for end in wide
+        ]
+        for end, found in zip(wide, along.starts.run("ends of ranges", asked), strict=True):
+            _narrow(along, end, found)
+    rows = []
+    for end in ends:
+        found = end.becomes.branch.letter if end.becomes is not None else None
+        sides = {f"{along.key.name}_with": end.inside, f"{along.key.name}_without": end.outside}
+        which = {"motion": end.motion.branch.letter, "end": "upper" if end.step == UP else "lower"}
+        rows.append({**which, **sides, "leads_to": found, **end.row})
+    (along.plan.how.out / "ends").mkdir(exist_ok=True)
+    write_table(along.plan.how.out / "ends" / "table.csv", columns(along.key), rows)
+    return rows
+
+
+def _ends_of(along: Along) -> Iterator[_End]:
+    for branch in along.branches():
+        for motion, step in ((branch[0], DOWN), (branch[-1], UP)):
+            there = motion.at + step
+            if 0 <= there < len(along.values) and motion.state is not None:
+                becomes = motion.led.get(step)
+                row = (
+                    {"status": "ok"} if becomes else {"status": "unsettled", "message": "carried on it did not settle"}
+                )
+                yield _End(motion, step, along.values[motion.at], along.values[there], motion.state, becomes, row)
+
+
+def _narrow(along: Along, end: _End, found: Ended) -> None:
+    """Move a side of an end to the middle: to which side the motion there belongs, the nearest of both values says."""
+    end.row = {name: found.row.get(name) for name in ("run_key", "status", "message")}
+    if found.settled is None:
+        if found.row["status"] == "ok":
+            end.row |= {"status": "unsettled", "message": f"not settled at {end.middle():g} after {MOST} periods"}
+        return
+    around = [*along.motions[end.motion.at], *along.motions[end.motion.at + end.step]]
+    found.motion = nearest(found.settled, around)
+    if found.motion.branch is end.motion.branch:
+        end.inside, end.state = end.middle(), found.state
+    else:
+        end.outside, end.becomes = end.middle(), found.motion
+
+
+def nearest(settled, motions: Sequence[Motion]) -> Motion:
+    """The motion that is nearest to what a start has settled to."""
+    from analysis import distance
+
+    return min(motions, key=lambda one: distance(settled, one.settled))
+
+
+def confirm(along: Along) -> None:
+    """Let every branch go on, from its state of the largest tension, at a tenth of the tolerance and on a finer grid.
+
+    What it becomes is said in `Motion.confirmed` of the branch. Raises as `runner.run`.
+    """
+    chosen = [max(branch, key=lambda one: one.tension_N) for branch in along.branches()]
+    chosen = [motion for motion in chosen if motion.state is not None]
+    asked, kinds = [], []
+    for motion in chosen:
+        scene, value = along.scenes[motion.at], along.values[motion.at]
+        nodes = 2 * scene.tether.nodes - 1
+        finer = scene_from_toml(scene.to_toml(), {"tether.nodes": nodes})
+        for how, made in ((TIGHTER, tighter_scene(scene)), (FINER.format(nodes), finer)):
+            known = tuple(one.settled for one in along.motions[motion.at])
+            asked.append(Asked({along.key.name: value}, made, Start(how, state=motion.state.at_zero()), known))
+            kinds.append((motion, how))
+    said: dict[Motion, list[str]] = {}
+    for (motion, how), found in zip(kinds, along.starts.run("motions confirmed", asked), strict=True):
+        there = along.motions[motion.at]
+        if found.row.get("outcome") == JOINED:
+            found.motion = there[found.joins]
+        elif found.settled is not None:
+            found.motion = nearest(found.settled, there)
+        if found.motion is motion:
+            said.setdefault(motion, []).append(f"at {how}" if how == TIGHTER else f"on {how}")
+        elif found.motion is not None:
+            said.setdefault(motion, []).append(f"NOT with {how}, where it becomes {found.motion.branch.letter}")
+        else:
+            said.setdefault(motion, []).append(f"not settled with {how}")
+    for motion, words in said.items():
+        motion.branch.confirmed = f"{' and '.join(words)}, at {along.values[motion.at]:.4g}"

@@ -1,0 +1,94 @@
+"""A sweep over one key with every motion of each value: the options, and what is run in place of the runs from rest."""
+
+from collections.abc import Callable, Iterable
+from dataclasses import replace
+
+import engine
+from campaigns.columns import Column
+from campaigns.judge import judged_job
+from campaigns.machinery import cli
+from campaigns.machinery.plan import Job, Plan, Summary
+from campaigns.machinery.runner import run
+from campaigns.study import Order
+from engine.views import carries_tangents, in_regular_waves
+
+KICKS, SPEED_MPS = 8, 6.0
+ONLY = "a number for a buoy in regular waves in a plane, with bending stiffness and an implicit integrator"
+REST = "rest"
+MOST_KICKS = 10_000
+
+
+def add_options(group) -> None:
+    """--starts, --kick-speed, --seed."""
+    usual = (
+        f"kicks of the buoy at each value, beside motions of a massless tether and those carried from its neighbours; "
+    )
+    usual += f"rest: one run from rest only (default: {KICKS}; with --periods: rest)"
+    allowed = cli.Kind(_starts, f"{REST}, or {cli.whole(0, MOST_KICKS).allowed}")
+    cli.add(group, "--starts", "rest|N", usual, allowed)
+    speed = cli.number("a finite number above 0", lambda found: 0.0 < found < float("inf"))
+    cli.add(group, "--kick-speed", "MPS", "kicks are velocities of up to this along x and z, m/s", speed, SPEED_MPS)
+    cli.add(group, "--seed", "N", "of the kicks, points of a scrambled Halton sequence", cli.whole(0, 2**32 - 1), 1)
+
+
+def _starts(text: str):
+    return REST if text == REST else cli.whole(0, MOST_KICKS).convert(text)
+
+
+def kicks_of(order: Order, scenes: Iterable) -> int | None:
+    """Kicks at each value; None: runs from rest only. Scenes that can have nothing else are a fault where more is asked.
+
+    scenes: of the runs from rest.
+    """
+    asked = order.own.starts
+    if asked == REST or (asked is None and not order.looks):
+        return None
+    can = all(in_regular_waves(scene) and carries_tangents(scene) for scene in scenes)
+    if not can and asked is not None:
+        order.tell([f"--starts: given {asked}; allowed: {REST}, and {ONLY}"])
+    return None if not can else KICKS if asked is None else asked
+
+
+def parameters(order: Order, kicks: int | None) -> dict[str, object]:
+    """What the provenance says of the starts."""
+    if kicks is None:
+        return {"starts": REST}
+    return {"starts": kicks, "kick_speed_mps": order.own.kick_speed, "seed": order.own.seed}
+
+
+def every_motion(order: Order, kicks: int, key: Column, scene_at: Callable) -> Callable:
+    """In place of `runner.run`: the runs from rest, and one judged run for every other motion at each value.
+
+    key: the column of the values; scene_at(value): the scene of a value between those of the runs.
+    """
+
+    def runs(plan: Plan, jobs: list[Job]) -> tuple[dict[str, float], Summary]:
+        from campaigns.motions import ends
+        from campaigns.motions.along import FROM_REST, Along
+
+        jobs = sorted(jobs, key=lambda job: job.labels[key.name])
+        timing, first = run(plan, jobs)
+        if plan.simulate is not engine.simulate:
+            return timing, first
+        along = Along(plan, key, jobs, scene_at, first.rows)
+        along.find(kicks, order.own.kick_speed, order.own.seed)
+        if len(jobs) > 1:
+            ends.bisect(along)
+        ends.confirm(along)
+        along.starts.write()
+        judged = []
+        for at, job in enumerate(jobs):
+            some = sorted(along.motions[at], key=lambda one: (len(one.branch.letter), one.branch.letter))
+            judged += [] if any(one.found_by == FROM_REST for one in some) else [job]
+            for motion in some:
+                labels = {**job.labels, **along.labels(motion)}
+                fresh = motion.found_by == FROM_REST
+                start = None if fresh else motion.state.at_zero()
+                judged.append(replace(job, labels=labels) if fresh else judged_job(order, labels, job.scene, start))
+        more, summary = run(plan, judged)
+        for times in (more, along.starts.times):
+            timing = {name: seconds + times[name] for name, seconds in timing.items()}
+        computed = first.computed + summary.computed
+        return timing, replace(summary, computed=computed, found=len(judged) - computed)
+
+    return runs
