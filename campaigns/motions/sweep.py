@@ -20,10 +20,9 @@ MOST_KICKS = 10_000
 
 def add_options(group) -> None:
     """--starts, --kick-speed, --seed."""
-    usual = (
-        f"kicks of the buoy at each value, beside motions of a massless tether and those carried from its neighbours; "
-    )
-    usual += f"rest: one run from rest only (default: {KICKS}; with --periods: rest)"
+    beside = "beside motions of a massless tether and those carried from its neighbours"
+    usual = f"kicks of the buoy at each value, {beside}; rest: one run from rest only"
+    usual += f" (default: {KICKS}; with --periods: rest)"
     allowed = cli.Kind(_starts, f"{REST}, or {cli.whole(0, MOST_KICKS).allowed}")
     cli.add(group, "--starts", "rest|N", usual, allowed)
     speed = cli.number("a finite number above 0", lambda found: 0.0 < found < float("inf"))
@@ -36,7 +35,7 @@ def _starts(text: str):
 
 
 def kicks_of(order: Order, scenes: Iterable) -> int | None:
-    """Kicks at each value; None: runs from rest only. Scenes that can have nothing else are a fault where more is asked.
+    """Kicks at each value; None: runs from rest only. More asked of scenes that can have nothing else is a fault.
 
     scenes: of the runs from rest.
     """
