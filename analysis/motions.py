@@ -33,7 +33,7 @@ ON_ORBIT = 8  # rows beyond one period that have to lie near an orbit
 THERE = 0.2  # of the tolerance: so near, they need not come nearer
 IN_CLOUD = 10  # rows that have to lie in a cloud
 AS_CLOSE = 1.5  # their mean distance from it, in distances of its neighbours
-APART = 0.05  # distance from which two settled motions are two
+APART = 0.1  # distance from which two settled motions are two
 
 
 @dataclass(frozen=True, eq=False)
@@ -88,13 +88,13 @@ def settled(
         # The orbit ends with the last state, the measures with the period before it.
         return _kept(period, np.roll(estimate.orbit, 1, axis=0), mean, scale, estimate.reason)
     window = (len(e) - len(e) // 3) // 2
-    if window < LEAST_WINDOW or _comes_nearer(estimate):
+    if window < LEAST_WINDOW or _comes_nearer(late, estimate):
         return None
     rows = _rows(x[:-1], e, scale, _size(e))
     first, second = rows[-2 * window : -window], rows[-window:]
     within = max(_spacing(first), _spacing(second))
     across = max(_nearest(first, second).mean(), _nearest(second, first).mean())
-    if across > max(LIKE * within, within + 2.0 * tolerance) or record_drift(rows[-2 * window :]).drifting:
+    if across > LIKE * within or record_drift(rows[-2 * window :]).drifting:
         return None
     reason = f"no period up to {max_period}; two windows of {window} periods lie {across / within:.2f} neighbours apart"
     return _kept(None, x[-2 * window - 1 : -1], e[-2 * window :], scale, reason)
@@ -126,11 +126,12 @@ def distance(a: Settled, b: Settled) -> float:
     scale = np.maximum(a.scale, b.scale)
     size = np.maximum(_size(a.measures), _size(b.measures))
     one, other = (_rows(m.points, m.measures, scale, size) for m in (a, b))
-    apart = (
-        _nearest(from_, to).mean() - (0.0 if motion.period else _spacing(to))
+    apart = [
+        float(_nearest(from_, to).mean()) - (0.0 if motion.period else _spacing(to))
         for from_, to, motion in ((one, other, b), (other, one, a))
-    )
-    return max(0.0, *map(float, apart))
+    ]
+    # A record of chaos that stayed in one part of its cloud for long is a part of the other; an orbit is no part.
+    return max(0.0, (max if a.period or b.period else min)(apart))
 
 
 def grouped(found: Sequence[Settled], *, threshold: float = APART) -> np.ndarray:
@@ -237,10 +238,13 @@ def _last_rows(x, e, motion, count):
     return rows, _rows(motion.points, motion.measures, motion.scale, size)
 
 
-def _comes_nearer(estimate: PeriodEstimate):
-    """Whether the steps of the nearest period shrink, and are small: it is on its way there."""
+def _comes_nearer(x, estimate: PeriodEstimate):
+    """Whether the steps of the nearest period are small and shrink, in the mean and at most: it is on its way there."""
     if not np.isfinite(estimate.residual).any():
         return False
-    nearest = int(np.nanargmin(estimate.residual))
-    left = np.exp(estimate.trend_nats_per_period[nearest] * (estimate.points // 4))
-    return bool(left < COMES_NEARER and estimate.residual[nearest] < CLOSE * estimate.tolerance)
+    nearest = int(np.nanargmin(estimate.residual)) + 1
+    step = (x[nearest:] - x[:-nearest]) / estimate.scale
+    early, late = (np.sqrt(np.mean(part**2)) for part in (step[: len(step) // 2], step[-(len(step) // 2) :]))
+    most = np.exp(estimate.trend_nats_per_period[nearest - 1] * (estimate.points // 4))
+    near = estimate.residual[nearest - 1] < CLOSE * estimate.tolerance
+    return bool(near and max(late / early, most) < COMES_NEARER)

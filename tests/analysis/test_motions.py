@@ -77,7 +77,7 @@ def test_a_motion_without_period_settles_and_is_one_motion():
     assert len(parts) >= 6 and {part.period for part in parts} == {None}
     round_ = next(motion for n in range(90, 200, 15) if (motion := of_map(torus[:n])) is not None)
     assert round_.period is None
-    other = of_map(henon(150, a=1.2))
+    other = of_map(henon(150) + 0.5)
     assert list(grouped([*parts, round_, other])) == [0] * len(parts) + [1, 2]
     assert joins(torus[:230], torus[:229], [parts[0], round_]) == 1
     assert joins(whole[:50], whole[:49], [round_, parts[0]]) == 1
