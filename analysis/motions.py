@@ -1,0 +1,250 @@
+"""Motions of a forced system: when one has settled, whether two are the same, whether a start has joined a known one.
+
+A motion is what remains of a run when its transient has died out. It is kept as rows: the strobed state at the start of
+a period, and measures of that period (its least radius, its largest tension). Two rows are as far apart as their
+coordinates differ at most, a state in `scale`, a measure as a share of its largest size.
+
+    settled   a period: `detect_period` on the later half. Otherwise the last two thirds are cut in two windows, and
+              each is the other's equal: rows of the one lie on the rows of the other, and do not march
+    joined    the last rows lie on the known motion: on its orbit in the right order, or in its cloud as close as the
+              cloud's own rows are to each other
+    distance  of two clouds A and B: the mean distance of a row of the one from the nearest row of the other, less the
+              distance of neighbours in that other; the larger of A from B and B from A
+    shares    of the starts, with Wilson's interval
+
+How often each is wrong, and after how many periods it answers: docs/motions.md.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from analysis.periods import PeriodEstimate, detect_period
+from analysis.sampling import checked_columns, checked_count, checked_positive, locked
+from analysis.stationarity import record_drift
+
+LEAST_WINDOW = 30  # periods of each of two windows of a motion without a period
+LIKE = 1.5  # distance across two windows, in distances of neighbours within
+COMES_NEARER = 0.7  # what is left of the steps towards a period in the later half of the last part
+CLOSE = 20.0  # tolerances within which such steps count
+ON_ORBIT = 8  # rows beyond one period that have to lie near an orbit
+THERE = 0.2  # of the tolerance: so near, they need not come nearer
+IN_CLOUD = 10  # rows that have to lie in a cloud
+AS_CLOSE = 1.5  # their mean distance from it, in distances of its neighbours
+APART = 0.1  # distance from which two settled motions are two
+
+
+@dataclass(frozen=True, eq=False)
+class Settled:
+    """A motion that has settled.
+
+    period          of a periodic motion, in forcing periods; None for one that repeats in distribution only
+    points (m, d)   strobed states: the orbit in its order (m = period), or those of the window it was judged by
+    measures (m, e) of the periods that begin there
+    scale (d,)      what counts as 1 in each coordinate of a state
+    reason          one sentence: why it counts as settled
+    """
+
+    period: int | None
+    points: np.ndarray
+    measures: np.ndarray
+    scale: np.ndarray
+    reason: str
+
+
+@dataclass(frozen=True)
+class Share:
+    """A share of starts, and the ends of its confidence interval."""
+
+    share: float
+    low: float
+    high: float
+
+
+def settled(
+    strobed: ArrayLike, measures: ArrayLike, *, scale: ArrayLike, tolerance: float = 0.01, max_period: int = 16
+) -> Settled | None:
+    """The motion that a run has settled on, or None: not yet.
+
+    strobed (n + 1, d)   states once a period, from the start of the run on; an angle that turns round and round must
+                         come as its cosine and sine
+    measures (n, e)      of each period
+    scale (d,)           size of the motion within the period, in each coordinate
+    tolerance            share of the scale within which an orbit repeats; branches nearer than this are one
+    max_period           largest period looked for
+    Returns a Settled. A run that passes by an unstable orbit, or a long chaotic transient, looks settled while it
+    lasts: no test of the states it went through can tell (rates: docs/motions.md).
+    Raises ValueError for values that are not finite or lengths that do not fit.
+    """
+    x, e, scale = _checked(strobed, measures, scale)
+    late = x[len(x) // 2 :]
+    estimate = detect_period(late, max_period, tolerance, scale)
+    if estimate.period is not None:
+        period = estimate.period
+        rounds = max(len(late) // 2 // period, 1)
+        mean = e[-rounds * period :].reshape(rounds, period, -1).mean(axis=0)
+        # The orbit ends with the last state, the measures with the period before it.
+        return _kept(period, np.roll(estimate.orbit, 1, axis=0), mean, scale, estimate.reason)
+    window = (len(e) - len(e) // 3) // 2
+    if window < LEAST_WINDOW or _comes_nearer(late, estimate):
+        return None
+    rows = _rows(x[:-1], e, scale, _size(e))
+    first, second = rows[-2 * window : -window], rows[-window:]
+    within = max(_spacing(first), _spacing(second))
+    across = max(_nearest(first, second).mean(), _nearest(second, first).mean())
+    if across > LIKE * within or record_drift(rows[-2 * window :]).drifting:
+        return None
+    reason = f"no period up to {max_period}; two windows of {window} periods lie {across / within:.2f} neighbours apart"
+    return _kept(None, x[-2 * window - 1 : -1], e[-2 * window :], scale, reason)
+
+
+def joins(strobed: ArrayLike, measures: ArrayLike, known: Sequence[Settled], *, tolerance: float = 0.1) -> int | None:
+    """Which known motion a run has reached, or None: none yet.
+
+    strobed (n + 1, d), measures (n, e)   of the run so far, as in `settled`; only the last periods count
+    known                                 settled motions of the same system
+    tolerance                             share of the scale within which the states lie on an orbit, the later ones
+                                          nearer than the earlier or within a third of it
+    Returns the index of the motion that is nearest of those reached.
+    """
+    reached = {}
+    for index, motion in enumerate(known):
+        x, e, _ = _checked(strobed, measures, motion.scale)
+        away = (_from_orbit if motion.period else _from_cloud)(x, e, motion, tolerance)
+        if away is not None:
+            reached[index] = away
+    return min(reached, key=reached.get, default=None)
+
+
+def distance(a: Settled, b: Settled) -> float:
+    """How far two settled motions are apart, in their larger scale (head of this file): 0 for one and the same.
+
+    Two records of one chaotic motion are at 0.02 at most; how far different motions are apart: docs/motions.md.
+    """
+    scale = np.maximum(a.scale, b.scale)
+    size = np.maximum(_size(a.measures), _size(b.measures))
+    one, other = (_rows(m.points, m.measures, scale, size) for m in (a, b))
+    apart = [
+        float(_nearest(from_, to).mean()) - (0.0 if motion.period else _spacing(to))
+        for from_, to, motion in ((one, other, b), (other, one, a))
+    ]
+    # A record of chaos that stayed in one part of its cloud for long is a part of the other; an orbit is no part.
+    return max(0.0, (max if a.period or b.period else min)(apart))
+
+
+def grouped(found: Sequence[Settled], *, threshold: float = APART) -> np.ndarray:
+    """Which settled runs are one motion: labels (n,), 0 for that of the first, then in the order of appearance.
+
+    threshold   mean `distance` below which two groups are joined (average linkage)
+    """
+    if len(found) < 2:
+        return np.zeros(len(found), dtype=int)
+    from scipy.cluster.hierarchy import fcluster, linkage
+
+    pairs = [distance(a, b) for i, a in enumerate(found) for b in found[i + 1 :]]
+    label = fcluster(linkage(pairs, "average"), threshold, "distance")
+    order = list(dict.fromkeys(label))
+    return np.array([order.index(one) for one in label])
+
+
+def matched(before: Sequence[Settled], after: Sequence[Settled], *, threshold: float = 0.5) -> list[int | None]:
+    """Which motion at the next value of a parameter continues which: the pairs of least total `distance`.
+
+    threshold   distance beyond which a motion has ended or begun instead
+    Returns for each of `before` the index in `after`, or None.
+    """
+    from scipy.optimize import linear_sum_assignment
+
+    cost = np.array([[min(distance(a, b), threshold) for b in after] for a in before]).reshape(len(before), len(after))
+    pairs = zip(*linear_sum_assignment(cost), strict=True)
+    kept = {int(i): int(j) for i, j in pairs if cost[i, j] < threshold}
+    return [kept.get(i) for i in range(len(before))]
+
+
+def share_of(count: int, of: int, confidence: float = 0.95) -> Share:
+    """Share `count`/`of` of starts drawn at random, with Wilson's interval (E. B. Wilson, JASA 22 (1927) 209)."""
+    from scipy.stats import binomtest
+
+    count, of = checked_count(count, "count", least=0), checked_count(of, "of")
+    interval = binomtest(count, of).proportion_ci(confidence, method="wilson")
+    return Share(count / of, float(interval.low), float(interval.high))
+
+
+def _checked(strobed, measures, scale):
+    x, e = checked_columns(strobed, "strobed"), checked_columns(measures, "measures")
+    if len(x) != len(e) + 1:
+        raise ValueError(f"measures: {len(x) - 1} rows are needed for {len(x)} states, given {len(e)}")
+    scale = np.broadcast_to(np.asarray(scale, dtype=float), x.shape[1])
+    for one in scale:
+        checked_positive(one, "scale")
+    return x, e, scale
+
+
+def _kept(period, points, measures, scale, reason):
+    return Settled(period, *(locked(np.array(a)) for a in (points, measures, scale)), reason)
+
+
+def _size(measures):
+    size = np.abs(measures).max(axis=0, initial=0.0)
+    return np.where(size > 0.0, size, 1.0)
+
+
+def _rows(points, measures, scale, size):
+    return np.hstack([points / scale, measures / size])
+
+
+def _nearest(rows, others):
+    """Distance of each row from the nearest of the others."""
+    from scipy.spatial import cKDTree
+
+    return cKDTree(others).query(rows, p=np.inf)[0]
+
+
+def _spacing(rows):
+    """Mean distance of a row from its nearest neighbour."""
+    from scipy.spatial import cKDTree
+
+    return float(cKDTree(rows).query(rows, k=2, p=np.inf)[0][:, 1].mean())
+
+
+def _from_orbit(x, e, motion, tolerance):
+    """Mean distance of the last rows from the orbit, in its order; None where they are off it or do not come nearer."""
+    count = motion.period + ON_ORBIT
+    if len(e) < count:
+        return None
+    rows, orbit = _last_rows(x, e, motion, count)
+    turned = (np.abs(rows - orbit[(np.arange(count) + k) % motion.period]).max(axis=1) for k in range(motion.period))
+    away = min(turned, key=np.max)
+    early, late = (np.sqrt(np.mean(part**2)) for part in (away[: count // 2], away[-(count // 2) :]))
+    there = away.max() <= THERE * tolerance and late <= max(early, THERE * tolerance / 3.0)
+    return float(away.mean()) if there or (away.max() <= tolerance and late <= COMES_NEARER * early) else None
+
+
+def _from_cloud(x, e, motion, tolerance):
+    """Mean distance of the last rows from a cloud; None where they are off it."""
+    if len(e) < IN_CLOUD:
+        return None
+    rows, cloud = _last_rows(x, e, motion, IN_CLOUD)
+    away = _nearest(rows, cloud).mean()
+    return float(away) if away <= max(AS_CLOSE * _spacing(cloud), THERE * tolerance) else None
+
+
+def _last_rows(x, e, motion, count):
+    """The last rows of a run, and those of a motion."""
+    size = _size(motion.measures)
+    rows = _rows(x[-count - 1 : -1], e[-count:], motion.scale, size)
+    return rows, _rows(motion.points, motion.measures, motion.scale, size)
+
+
+def _comes_nearer(x, estimate: PeriodEstimate):
+    """Whether the steps of the nearest period are small and shrink, in the mean and at most: it is on its way there."""
+    if not np.isfinite(estimate.residual).any():
+        return False
+    nearest = int(np.nanargmin(estimate.residual)) + 1
+    step = (x[nearest:] - x[:-nearest]) / estimate.scale
+    early, late = (np.sqrt(np.mean(part**2)) for part in (step[: len(step) // 2], step[-(len(step) // 2) :]))
+    most = np.exp(estimate.trend_nats_per_period[nearest - 1] * (estimate.points // 4))
+    near = estimate.residual[nearest - 1] < CLOSE * estimate.tolerance
+    return bool(near and max(late / early, most) < COMES_NEARER)

@@ -1,0 +1,126 @@
+"""Every start of a forced system is put to the motion that it ends in: settled, joined, grouped, matched, shares."""
+
+import math
+
+import numpy as np
+import pytest
+
+from analysis import Settled, distance, grouped, joins, matched, settled, share_of
+from tests.analysis.systems import circle_map, henon
+
+PERIODS, STEPS = 200, 48
+
+
+def duffing(starts, force=0.26):
+    """Strobed states (k, p + 1, 2) and measures (k, p, 2), least and largest x, of x'' + x'/4 - x + x^3 = f cos t."""
+    x, v, h = *np.array(starts, dtype=float).T, 2.0 * np.pi / STEPS
+    states, measures = [np.stack([x, v], axis=-1)], []
+
+    def pull(t, x, v):
+        return force * math.cos(t) - 0.25 * v + x - x**3
+
+    for _ in range(PERIODS):
+        least, largest = x, x
+        for i in range(STEPS):
+            a1 = pull(i * h, x, v)
+            a2 = pull((i + 0.5) * h, x + h / 2 * v, v + h / 2 * a1)
+            a3 = pull((i + 0.5) * h, x + h / 2 * v + h * h / 4 * a1, v + h / 2 * a2)
+            a4 = pull((i + 1.0) * h, x + h * v + h * h / 2 * a2, v + h * a3)
+            x, v = x + h * v + h * h / 6 * (a1 + a2 + a3), v + h / 6 * (a1 + 2 * (a2 + a3) + a4)
+            least, largest = np.minimum(least, x), np.maximum(largest, x)
+        states.append(np.stack([x, v], axis=-1))
+        measures.append(np.stack([least, largest], axis=-1))
+    return np.stack(states, axis=1), np.stack(measures, axis=1)
+
+
+def of_map(orbit):
+    """Settled of an orbit (n, d) of a map, which stays at its states for a period; None: not yet."""
+    return settled(orbit, orbit[:-1], scale=np.ones(orbit.shape[1]))
+
+
+def test_every_start_is_put_to_its_motion():
+    """Duffing's two wells at force .26 have a period 1 each, and both of them a period 5. Who joins is right later."""
+    x, e = duffing(np.random.default_rng(1).uniform(-1.5, 1.5, (40, 2)))
+    late = [settled(*run, scale=(1.0, 1.0)) for run in zip(x, e, strict=True)]
+    assert None not in late
+    label = grouped(late)
+    known = [late[list(label).index(motion)] for motion in range(3)]
+    assert sorted(m.period for m in known) == [1, 1, 5] and label.max() == 2
+    well = [np.sign(motion.points[:, 0].mean()) for motion in known if motion.period == 1]
+    assert sorted(well) == [-1.0, 1.0]
+    joined = []
+    for run, measures, ends in zip(x, e, label, strict=True):
+        reached = ((n, joins(run[: n + 1], measures[:n], known)) for n in range(1, PERIODS))
+        when, motion = next((n, index) for n, index in reached if index is not None)
+        assert motion == ends
+        joined.append(when)
+    assert np.median(joined) < 30
+
+
+@pytest.mark.parametrize("multiplier", (0.9, 0.99, 0.998, -0.99, 0.98 * np.exp(0.7j)))
+def test_a_slow_decay_has_not_settled_while_it_has_far_to_go(multiplier):
+    decay = 0.3 * np.asarray(multiplier, dtype=complex) ** np.arange(600)
+    x = 2.0 + np.column_stack([decay.real, decay.imag])
+    found = [(n, of_map(x[: n + 1])) for n in range(20, 600, 20)]
+    found = [(n, motion) for n, motion in found if motion is not None]
+    for n, motion in found:
+        assert motion.period == 1
+        assert np.abs(motion.points - 2.0).max() < 0.03
+        assert abs(decay[n]) < 0.02
+    assert found or abs(multiplier) > 0.995
+
+
+def test_a_motion_without_period_settles_and_is_one_motion():
+    whole, torus = henon(1200), circle_map(0.9, 0.31, 400)
+    parts = [of_map(part) for part in np.split(whole, 8)]
+    parts = [part for part in parts if part is not None]
+    assert len(parts) >= 6 and {part.period for part in parts} == {None}
+    round_ = next(motion for n in range(90, 200, 15) if (motion := of_map(torus[:n])) is not None)
+    assert round_.period is None
+    other = of_map(henon(150) + 0.5)
+    assert list(grouped([*parts, round_, other])) == [0] * len(parts) + [1, 2]
+    assert joins(torus[:230], torus[:229], [parts[0], round_]) == 1
+    assert joins(whole[:50], whole[:49], [round_, parts[0]]) == 1
+
+
+def test_a_cloud_that_moves_or_is_too_short_has_not_settled():
+    x = henon(150)
+    assert of_map(x[:80]) is None
+    assert of_map(x + np.linspace(0.0, 3.0, 150)[:, None]) is None
+    assert of_map(x * np.exp(-np.arange(150) / 50.0)[:, None]) is None
+
+
+def test_an_orbit_is_joined_in_its_order_only():
+    points = np.array([[0.0], [1.0], [3.0]])
+    known = [Settled(3, points, points, np.ones(1), "")]
+    x = np.tile(points, (6, 1))
+    for start in range(3):
+        assert joins(x[start:], x[start:-1], known) == 0
+    assert joins(x[::-1], x[::-1][1:], known) is None
+    assert joins(x[:5], x[:4], known) is None
+
+
+def test_motions_are_matched_by_least_distance_in_all():
+    def at(*values):
+        return [Settled(1, np.array([[v]]), np.array([[1.0]]), np.ones(1), "") for v in values]
+
+    assert distance(*at(0.2, 0.5)) == pytest.approx(0.3)
+    assert matched(at(0.0, 0.4), at(0.3, 0.7)) == [0, 1]
+    assert matched(at(0.0, 0.4, 5.0), at(0.45, 2.0)) == [None, 0, None]
+    assert matched([], at(1.0)) == [] and matched(at(1.0), []) == [None]
+
+
+def test_shares_have_wilsons_interval():
+    found, z, p, n = share_of(16, 49), 1.959964, 16 / 49, 49
+    centre, half = p + z * z / (2 * n), z * math.sqrt(p * (1 - p) / n + z * z / (4 * n * n))
+    assert (found.share, found.low, found.high) == pytest.approx(
+        (p, (centre - half) / (1 + z * z / n), (centre + half) / (1 + z * z / n)), abs=1e-6
+    )
+
+
+def test_records_that_do_not_fit_are_refused():
+    x = np.zeros((10, 2))
+    with pytest.raises(ValueError, match="measures: 9 rows"):
+        settled(x, x, scale=1.0)
+    with pytest.raises(ValueError, match="scale"):
+        settled(x, x[:-1], scale=(1.0, 0.0))
