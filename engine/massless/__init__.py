@@ -11,8 +11,10 @@ import numpy as np
 
 from ..natural_frequencies import natural_frequencies
 from ..parameters import record_of
+from ..physics.tension import LAWS, NAMES
 from ..scales import strain_at, tension_at
 from ..scene.models import Scene
+from ..simd.vector import COUNT, REAL, WHOLE, lane_zeros
 
 # in a wave period, or in one of the radial motion where that is shorter: 1e-3 m over ten periods from kicks to 6 m/s
 STEPS_PER_PERIOD = {"full": 40, "spherical-cap": 60}
@@ -49,8 +51,6 @@ def massless_runs(
     Bending, weight, inertia and drag of the line are left out, all else is the scene's. Returns MasslessRuns. A start
     that flies off becomes NaN. Raises ValueError for a scene without a massless model and for a bad argument.
     """
-    from .kernels import march_all
-
     record, tables = _parameters(scene)
     starts = np.ascontiguousarray(starts, float)
     if starts.ndim != 2 or starts.shape[1] != 4:
@@ -60,11 +60,8 @@ def massless_runs(
     for name, (number, least) in counts.items():
         if number < least or number != int(number):
             raise ValueError(f"{name} is {number}; allowed: a whole number from {least} on")
-    strobed = np.full((len(starts), int(periods) + 1, 4), np.nan)
-    measures = np.full((len(starts), int(periods), 3), np.nan)
-    length, period = scene.tether.length_m, scene.waves.period_s
-    march_all(record, tables, length, period, int(first_period), int(steps), starts, strobed, measures)
-    return MasslessRuns(strobed, measures)
+    how = scene.tether.length_m, scene.waves.period_s, int(first_period), int(steps)
+    return MasslessRuns(*_march(scene, record, tables, starts, int(periods), how))
 
 
 def massless_rest(scene: Scene) -> tuple[float, float]:
@@ -113,6 +110,28 @@ def _parameters(scene):
     tables = []
     record = record_of(scene, tables)[0]
     return record, np.concatenate(tables)
+
+
+def _march(scene, record, tables, starts, periods, how):
+    """Arrays of MasslessRuns; side by side but for a law that is looked up in a table."""
+    from .kernels import march_alone, march_lanes
+
+    k = len(starts)
+    if not LAWS[NAMES.index(scene.tether.tension.law)].IN_LANES:
+        strobed, measures = np.full((k, periods + 1, 4), np.nan), np.full((k, periods, 3), np.nan)
+        march_alone(record, tables, *how, starts, strobed, measures)
+        return strobed, measures
+    blocks = -(-k // COUNT)
+    shapes = (len(REAL),), (blocks, 4), (blocks, periods + 1, 4), (blocks, periods, 3), (1, 2), (1, 4)
+    arrays = tuple(lane_zeros(*shape) for shape in shapes)
+    values, side_by_side, *found = arrays[:4]
+    values[:] = np.array([record[name] for name in REAL])[:, None]
+    side_by_side[:] = np.resize(starts, (blocks, COUNT, 4)).transpose(0, 2, 1)
+    for array in found:
+        array[:] = np.nan
+    counts = np.array([record[name] for name in WHOLE])
+    march_lanes(np.zeros(1, record.dtype), counts, arrays, tables, *how)
+    return tuple(np.moveaxis(array, -1, 1).reshape(-1, *array.shape[1:-1])[:k] for array in found)
 
 
 def _steps(scene):

@@ -24,8 +24,9 @@ from ..physics.submergence import end_of_cap, surface, wetted
 from ..physics.tension.kernels import tension
 from ..physics.waves import wave_field
 from ..simd.select import finite, larger, smaller, some, where
+from ..simd.vector import as_lanes, lane_record
 
-HALVINGS = 30
+HALVINGS = 20
 
 
 @kernel
@@ -116,13 +117,15 @@ def _cubic(s, a, b, a_s, b_s):
 @kernel
 def _change(dt, a, b, a_t, b_t):
     """Share of a step of dt (s) at which a gauge that is a before and b after it changes sign; 1 where it does not."""
-    found = (a > 0.0) != (b > 0.0)
+    rises = b > 0.0
+    found = ((a <= 0.0) & rises) | ((a > 0.0) & (b <= 0.0))
     if not some(found):
         return where(found, 0.0, 1.0)
     low, high = where(found, 0.0, 1.0), where(found, 1.0, 1.0)
     for _ in range(HALVINGS):
         middle = 0.5 * (low + high)
-        before = (_cubic(middle, a, b, dt * a_t, dt * b_t) > 0.0) == (a > 0.0)
+        value = _cubic(middle, a, b, dt * a_t, dt * b_t)
+        before = where(rises, -value, value) > 0.0
         low, high = where(before, middle, low), where(before, high, middle)
     return where(found, 0.5 * (low + high), 1.0)
 
@@ -146,42 +149,61 @@ def _range(dt, y, new, low, high):
 
 
 @kernel
-def march(p, tables, length, period, first, steps, y, strobed, measures):
-    """One start y = (x, z, U, W) at t = first wave periods, through the rows of measures (p, 3).
+def march(p, tables, length, period, first, steps, y, strobed, measures, X, F):
+    """One start y = (x, z, U, W), or one in each lane, at t = first wave periods, through the rows of measures (p, 3).
 
-    Fills strobed (p + 1, 4) and measures (`engine.massless.MasslessRuns`), and stops where a state is not finite.
+    Fills strobed (p + 1, 4) and measures (`engine.massless.MasslessRuns`); NaN where a state is not finite.
     """
-    X, F = np.zeros((1, 2)), np.zeros((1, 4))
     dt = period / steps
-    strobed[0, 0], strobed[0, 1], strobed[0, 2], strobed[0, 3] = y
     gauges = _gauges(p, tables, length, first * period, y)
+    for i in range(4):
+        strobed[0, i] = y[i]
     for row in range(measures.shape[0]):
         low = high = _radius(y)[0]
         for n in range(steps):
             t = ((first + row) * steps + n) * dt
+            at, rest = t, dt
             new = step(p, tables, length, t, dt, y, X, F)
             after = _gauges(p, tables, length, t + dt, new)
             share = _first_change(dt, gauges, after)
-            if share < 1.0:
+            if some(share < 1.0):  # a lane without a change makes the same step, then none
                 part = share * dt
+                at, rest = t + part, dt - part
                 middle = step(p, tables, length, t, part, y, X, F)
                 low, high = _range(part, y, middle, low, high)
-                new = step(p, tables, length, t + part, dt - part, middle, X, F)
-                low, high = _range(dt - part, middle, new, low, high)
+                y = middle
+                new = step(p, tables, length, at, rest, y, X, F)
                 after = _gauges(p, tables, length, t + dt, new)
-            else:
-                low, high = _range(dt, y, new, low, high)
+            low, high = _range(rest, y, new, low, high)
             y, gauges = new, after
-        if not finite(y[0] + y[1] + y[2] + y[3]):
+        sound = finite((y[0] + y[1]) + (y[2] + y[3]))
+        T = larger(tension(high / length - 1.0, p, tables)[0], 0.0)
+        for i in range(4):
+            strobed[row + 1, i] = where(sound, y[i], np.nan)
+        measures[row, 0], measures[row, 1] = where(sound, low, np.nan), where(sound, high, np.nan)
+        measures[row, 2] = where(sound, T, np.nan)
+        if not some(sound):
             return
-        strobed[row + 1, 0], strobed[row + 1, 1], strobed[row + 1, 2], strobed[row + 1, 3] = y
-        measures[row, 0], measures[row, 1] = low, high
-        measures[row, 2] = larger(tension(high / length - 1.0, p, tables)[0], 0.0)
 
 
 @kernel
-def march_all(p, tables, length, period, first, steps, starts, strobed, measures):
-    """`march` for starts (k, 4), into strobed (k, p + 1, 4) and measures (k, p, 3)."""
-    for i in range(starts.shape[0]):
+def march_alone(p, tables, length, period, first, steps, starts, strobed, measures):
+    """`march` from starts (k, 4), one after another, into strobed (k, p + 1, 4) and measures (k, p, 3)."""
+    X, F = np.zeros((1, 2)), np.zeros((1, 4))
+    for i in range(len(starts)):
         y = starts[i, 0], starts[i, 1], starts[i, 2], starts[i, 3]
-        march(p, tables, length, period, first, steps, y, strobed[i], measures[i])
+        march(p, tables, length, period, first, steps, y, strobed[i], measures[i], X, F)
+
+
+@kernel
+def march_lanes(records, counts, arrays, tables, length, period, first, steps):
+    """`march` from starts that lie side by side in the last axis of starts, strobed and measures.
+
+    records: of the type of the scene's record; counts, values: its numbers, as `engine.simd.vector.lane_record` has
+    them; arrays: (values, starts, strobed, measures, X, F)
+    """
+    values, starts, strobed, measures, X, F = as_lanes(arrays)
+    p = lane_record(records, counts, values)
+    for i in range(len(starts)):
+        y = starts[i, 0], starts[i, 1], starts[i, 2], starts[i, 3]
+        march(p, tables, length, period, first, steps, y, strobed[i], measures[i], X, F)
