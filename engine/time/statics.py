@@ -134,7 +134,7 @@ def _in_plane(record, scene, h, force, span):
         x, y, z = scene.end.position_m
         x = math.hypot(x, y) if y else x
         return _to_a_place(Y, s, x, z, record["w0"])
-    up, height = _afloat(record, scene, s) if record["end"] == BUOY else (force[1], None)
+    up, height = afloat(record, scene, s) if record["end"] == BUOY else (force[1], None)
     if height is not None:
         leaning = span == LEANING
         x = math.sqrt(max(length**2 - height**2, 0.0)) if leaning else 0.0
@@ -167,7 +167,7 @@ def _to_a_place(Y, s, x, z, w0):
     return Y
 
 
-def _afloat(record, scene, s):
+def afloat(record, scene, s):
     """Force (N) with which a buoy holds an upright line, and its height (m) where it floats on a slack one, or None.
 
     A spherical cap rises until its lift is what the line, longer by then, carries, or until it floats by itself.
