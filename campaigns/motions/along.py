@@ -97,7 +97,6 @@ class Along:
                     motion.kicks += 1
             self.kicked = kick_count
             self.carry()
-        self.name()
 
     def carry(self) -> None:
         """Carry every motion to its neighbours that has not been carried there, and what is found there further."""
@@ -136,6 +135,25 @@ class Along:
             one.motion = motion
             ended.append(motion)
         return ended
+
+    def merge(self, judged: Mapping[Motion, object]) -> None:
+        """Take motions of one value as one that longer runs have found to be one. judged: what these settled to."""
+        from analysis import grouped
+
+        became: dict[Motion, Motion] = {}
+        for at, some in enumerate(self.motions):
+            for motion in some:
+                motion.settled = judged.get(motion, motion.settled)
+            kept: dict[int, Motion] = {}
+            for label, motion in zip(grouped([one.settled for one in some]), some, strict=True):
+                became[motion] = kept.setdefault(int(label), motion)
+                if became[motion] is not motion:
+                    became[motion].kicks += motion.kicks
+            self.motions[at] = list(kept.values())
+        for motion in became:
+            motion.led = {step: None if led is None else became[led] for step, led in motion.led.items()}
+        for one in self.starts.ended:
+            one.motion = became.get(one.motion)
 
     def name(self) -> None:
         """Give every branch its letter: A to the one that begins at the lowest value, from rest where two do."""

@@ -77,7 +77,7 @@ class Start:
 def start_job(labels: dict, scene, start: Start, known: Sequence, most: int = LOOKS[-1]) -> Job:
     """The run of a start of a scene, with the motions (`analysis.Settled`) that are known of it."""
     ends = (*(end for end in LOOKS if end < most), most)
-    digest = hashlib.sha256("" if start.state is None else start.state.digest().encode())
+    digest = hashlib.sha256(b"" if start.state is None else start.state.digest().encode())
     for motion in known:
         for part in (motion.points, motion.measures, motion.scale):
             digest.update(np.ascontiguousarray(part).tobytes())

@@ -7,6 +7,7 @@ import engine
 from campaigns.columns import Column
 from campaigns.judge import judged_job
 from campaigns.machinery import cli
+from campaigns.machinery.folder import run_of
 from campaigns.machinery.plan import Job, Plan, Summary
 from campaigns.machinery.runner import run
 from campaigns.study import Order
@@ -64,6 +65,7 @@ def every_motion(order: Order, kicks: int, key: Column, scene_at: Callable) -> C
     def runs(plan: Plan, jobs: list[Job]) -> tuple[dict[str, float], Summary]:
         from campaigns.motions import ends
         from campaigns.motions.along import FROM_REST, Along
+        from campaigns.motions.starts import as_it_is, settled_of
 
         jobs = sorted(jobs, key=lambda job: job.labels[key.name])
         timing, first = run(plan, jobs)
@@ -71,6 +73,21 @@ def every_motion(order: Order, kicks: int, key: Column, scene_at: Callable) -> C
             return timing, first
         along = Along(plan, key, jobs, scene_at, first.rows)
         along.find(kicks, order.own.kick_speed, order.own.seed)
+
+        def job_of(motion, labels: dict) -> Job:
+            job = jobs[motion.at]
+            if motion.found_by == FROM_REST:
+                return replace(job, labels={**job.labels, **labels})
+            return judged_job(order, {**job.labels, **labels}, job.scene, motion.state.at_zero())
+
+        others = {
+            motion: job_of(motion, {}) for some in along.motions for motion in some if motion.found_by != FROM_REST
+        }
+        more, found = run(plan, [*jobs, *others.values()])
+        rows = {row["run_key"]: row for row in found.rows}
+        longer = {motion: run_of(plan.how.out, rows[job.key]) for motion, job in others.items() if job.key in rows}
+        along.merge({motion: settled_of(one) or as_it_is(one) for motion, one in longer.items() if one is not None})
+        along.name()
         if len(jobs) > 1:
             ends.bisect(along)
         ends.confirm(along)
@@ -79,15 +96,11 @@ def every_motion(order: Order, kicks: int, key: Column, scene_at: Callable) -> C
         for at, job in enumerate(jobs):
             some = sorted(along.motions[at], key=lambda one: (len(one.branch.letter), one.branch.letter))
             judged += [] if any(one.found_by == FROM_REST for one in some) else [job]
-            for motion in some:
-                labels = {**job.labels, **along.labels(motion)}
-                fresh = motion.found_by == FROM_REST
-                start = None if fresh else motion.state.at_zero()
-                judged.append(replace(job, labels=labels) if fresh else judged_job(order, labels, job.scene, start))
-        more, summary = run(plan, judged)
-        for times in (more, along.starts.times):
+            judged += [job_of(motion, along.labels(motion)) for motion in some]
+        last, summary = run(plan, judged)
+        computed = first.computed + found.computed + summary.computed
+        for times in (more, last, along.starts.times):
             timing = {name: seconds + times[name] for name, seconds in timing.items()}
-        computed = first.computed + summary.computed
         return timing, replace(summary, computed=computed, found=len(judged) - computed)
 
     return runs
