@@ -101,8 +101,14 @@ def test_ten_periods_follow_the_equations_of_motion(submergence, count, steps):
     found = massless_runs(scene, starts, 10, steps)
     assert (found.measures[:, :, 0].min(1) < scene.tether.length_m).all()  # slack, and taut again
     assert np.abs(found.strobed[:, -1] - after).max() < 1e-6
-    usual = massless_runs(scene, starts, 10)
-    assert np.abs(usual.strobed[:, -1, :2] - after[:, :2]).max() < 1e-3
+
+
+@pytest.mark.parametrize("changes", [DEEP, CAP, {}])
+def test_usual_steps_are_within_a_millimetre_for_nine_of_ten_kicks(changes):
+    scene = scene_of(changes)
+    starts = starts_of(scene, np.random.default_rng(0).uniform(-6, 6, (100, 2)))
+    usual, fine = (massless_runs(scene, starts, 10, n).strobed[:, -1, :2] for n in (None, 2000))
+    assert np.quantile(np.abs(usual - fine).max(1), 0.9) < 1e-3
 
 
 def test_order_four_through_slack_and_taut():
