@@ -162,20 +162,21 @@ def march(p, tables, length, period, first, steps, y, strobed, measures, X, F):
         low = high = _radius(y)[0]
         for n in range(steps):
             t = ((first + row) * steps + n) * dt
-            rest = dt
-            new = step(p, tables, length, t, dt, y, X, F)
-            after = _gauges(p, tables, length, t + dt, new)
-            share = _first_change(dt, gauges, after)
-            if some(share < 1.0):  # a lane without a change makes the same step, then none
-                part = share * dt
-                rest = dt - part
-                middle = step(p, tables, length, t, part, y, X, F)
-                low, high = _range(part, y, middle, low, high)
-                y = middle
-                new = step(p, tables, length, t + part, rest, y, X, F)
-                after = _gauges(p, tables, length, t + dt, new)
-            low, high = _range(rest, y, new, low, high)
-            y, gauges = new, after
+            at, want = t, dt
+            for trial in range(3):  # the whole step, or then its two parts; a lane without a change makes it, then none
+                new = step(p, tables, length, at, want, y, X, F)
+                after = _gauges(p, tables, length, at + want, new)
+                if trial == 0:
+                    share = _first_change(dt, gauges, after)
+                    if some(share < 1.0):
+                        want = share * dt
+                        continue
+                low, high = _range(want, y, new, low, high)
+                y = new
+                if trial != 1:
+                    break
+                at, want = t + want, dt - want
+            gauges = after
         sound = finite((y[0] + y[1]) + (y[2] + y[3]))
         T = larger(tension(high / length - 1.0, p, tables)[0], 0.0)
         for i in range(4):
