@@ -31,6 +31,7 @@ COMES_NEARER = 0.7  # what is left of the steps towards a period in the later ha
 CLOSE = 20.0  # tolerances within which such steps count
 ON_ORBIT = 8  # rows beyond one period that have to lie near an orbit
 THERE = 0.2  # of the tolerance: so near, they need not come nearer
+DECAY, FAR, FADES = 12, 4.0, 0.1  # periods of a window, tolerances in the last one, least share lost by it
 IN_CLOUD = 10  # rows that have to lie in a cloud
 AS_CLOSE = 1.5  # their mean distance from it, in distances of its neighbours
 APART = 0.1  # distance from which two settled motions are two
@@ -219,7 +220,24 @@ def _from_orbit(x, e, motion, tolerance):
     away = min(turned, key=np.max)
     early, late = (np.sqrt(np.mean(part**2)) for part in (away[: count // 2], away[-(count // 2) :]))
     there = away.max() <= THERE * tolerance and late <= max(early, THERE * tolerance / 3.0)
-    return float(away.mean()) if there or (away.max() <= tolerance and late <= COMES_NEARER * early) else None
+    near = there or (away.max() <= tolerance and late <= COMES_NEARER * early)
+    return float(away.mean()) if near or _decays(x, e, motion, tolerance) else None
+
+
+def _decays(x, e, motion, tolerance):
+    """Whether the distance from an orbit dies out over three windows, by Aitken's limit of a geometric decay."""
+    window = motion.period * -(-DECAY // motion.period)
+    if len(e) < 3 * window:
+        return False
+    rows, orbit = _last_rows(x, e, motion, 3 * window)
+    order = np.arange(3 * window)
+    turned = [np.abs(rows - orbit[(order + k) % motion.period]).max(axis=1) for k in range(motion.period)]
+    away = min(turned, key=lambda one: one[-window:].max()).reshape(3, window)
+    first, second, third = np.sqrt(np.mean(away**2, axis=1))
+    before, now = first - second, second - third
+    if away[2].max() > FAR * tolerance or now < FADES * third:
+        return False
+    return bool(before <= now or third - now**2 / (before - now) <= THERE * tolerance)
 
 
 def _from_cloud(x, e, motion, tolerance):
