@@ -17,6 +17,7 @@ How often each is wrong, and after how many periods it answers: docs/motions.md.
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -27,13 +28,12 @@ from analysis.stationarity import record_drift
 
 LEAST_WINDOW = 30  # periods of each of two windows of a motion without a period
 LIKE = 1.5  # distance across two windows, in distances of neighbours within
-COMES_NEARER = 0.7  # what is left of the steps towards a period in the later half of the last part
-CLOSE = 20.0  # tolerances within which such steps count
-ON_ORBIT = 8  # rows beyond one period that have to lie near an orbit
-THERE = 0.2  # of the tolerance: so near, they need not come nearer
-DECAY, FAR, FADES = 12, 4.0, 0.1  # periods of a window, tolerances in the last one, least share lost by it
-IN_CLOUD = 10  # rows that have to lie in a cloud
-AS_CLOSE = 1.5  # their mean distance from it, in distances of its neighbours
+COMES_NEARER = 0.7  # what is left, in the later half, of the steps towards a period or of the distance from an orbit
+CLOSE = 20.0  # tolerances within which steps towards a period count
+LAST = 8  # rows that have to lie in a cloud, or beyond one period near an orbit
+THERE = 0.02  # distance from an orbit at which a run need not come nearer
+AS_CLOSE = 2.0  # mean distance of the last rows from a cloud, in distances of its neighbours
+OF_CLOUD = 0.2  # the same, in tolerances
 APART = 0.1  # distance from which two settled motions are two
 
 
@@ -101,18 +101,24 @@ def settled(
     return _kept(None, x[-2 * window - 1 : -1], e[-2 * window :], scale, reason)
 
 
-def joins(strobed: ArrayLike, measures: ArrayLike, known: Sequence[Settled], *, tolerance: float = 0.1) -> int | None:
-    """Which known motion a run has reached, or None: none yet.
+def joins(strobed: ArrayLike, measures: ArrayLike, known: Sequence[Settled], *, tolerance: float = 0.3) -> int | None:
+    """Which known motion a run has reached or will reach, or None: none yet.
 
-    strobed (n + 1, d), measures (n, e)   of the run so far, as in `settled`; only the last periods count
+    The last `period + 8` rows lie within the tolerance of an orbit, in its order, and the later half of them 0.7 times
+    as far as the earlier one, or nearer; or all of them within 0.02. In a cloud, the last 8 rows are in the mean nearer
+    than twice its neighbours, or than a fifth of the tolerance.
+
+    strobed (n + 1, d), measures (n, e)   of the run so far, as in `settled`; only the last rows count
     known                                 settled motions of the same system
-    tolerance                             share of the scale within which the states lie on an orbit, the later ones
-                                          nearer than the earlier or within a third of it
-    Returns the index of the motion that is nearest of those reached.
+    Returns the index of the motion that is nearest of those reached. It costs 0.1 ms a motion: ask after every period.
+    Raises ValueError for values that are not finite, or lengths that do not fit.
     """
+    if len(strobed) != len(measures) + 1:
+        raise ValueError(f"measures: {len(strobed) - 1} rows are needed, given {len(measures)}")
+    count = max((motion.period or 0 for motion in known), default=0) + LAST
+    x, e = checked_columns(strobed[-count - 1 :], "strobed"), checked_columns(measures[-count:], "measures")
     reached = {}
     for index, motion in enumerate(known):
-        x, e, _ = _checked(strobed, measures, motion.scale)
         away = (_from_orbit if motion.period else _from_cloud)(x, e, motion, tolerance)
         if away is not None:
             reached[index] = away
@@ -212,48 +218,42 @@ def _spacing(rows):
 
 def _from_orbit(x, e, motion, tolerance):
     """Mean distance of the last rows from the orbit, in its order; None where they are off it or do not come nearer."""
-    count = motion.period + ON_ORBIT
+    count = motion.period + LAST
     if len(e) < count:
         return None
-    rows, orbit = _last_rows(x, e, motion, count)
+    size, orbit = _in_rows(motion)
+    rows = _rows(x[-count - 1 : -1], e[-count:], motion.scale, size)
     turned = (np.abs(rows - orbit[(np.arange(count) + k) % motion.period]).max(axis=1) for k in range(motion.period))
     away = min(turned, key=np.max)
     early, late = (np.sqrt(np.mean(part**2)) for part in (away[: count // 2], away[-(count // 2) :]))
-    there = away.max() <= THERE * tolerance and late <= max(early, THERE * tolerance / 3.0)
-    near = there or (away.max() <= tolerance and late <= COMES_NEARER * early)
-    return float(away.mean()) if near or _decays(x, e, motion, tolerance) else None
-
-
-def _decays(x, e, motion, tolerance):
-    """Whether the distance from an orbit dies out over three windows, by Aitken's limit of a geometric decay."""
-    window = motion.period * -(-DECAY // motion.period)
-    if len(e) < 3 * window:
-        return False
-    rows, orbit = _last_rows(x, e, motion, 3 * window)
-    order = np.arange(3 * window)
-    turned = [np.abs(rows - orbit[(order + k) % motion.period]).max(axis=1) for k in range(motion.period)]
-    away = min(turned, key=lambda one: one[-window:].max()).reshape(3, window)
-    first, second, third = np.sqrt(np.mean(away**2, axis=1))
-    before, now = first - second, second - third
-    if away[2].max() > FAR * tolerance or now < FADES * third:
-        return False
-    return bool(before <= now or third - now**2 / (before - now) <= THERE * tolerance)
+    comes = away.max() <= tolerance and late <= COMES_NEARER * early
+    return float(away.mean()) if comes or away.max() <= THERE else None
 
 
 def _from_cloud(x, e, motion, tolerance):
     """Mean distance of the last rows from a cloud; None where they are off it."""
-    if len(e) < IN_CLOUD:
+    if len(e) < LAST:
         return None
-    rows, cloud = _last_rows(x, e, motion, IN_CLOUD)
-    away = _nearest(rows, cloud).mean()
-    return float(away) if away <= max(AS_CLOSE * _spacing(cloud), THERE * tolerance) else None
+    size, tree, spacing = _as_cloud(motion)
+    rows = _rows(x[-LAST - 1 : -1], e[-LAST:], motion.scale, size)
+    away = float(tree.query(rows, p=np.inf)[0].mean())
+    return away if away <= max(AS_CLOSE * spacing, OF_CLOUD * tolerance) else None
 
 
-def _last_rows(x, e, motion, count):
-    """The last rows of a run, and those of a motion."""
+@lru_cache(maxsize=512)
+def _in_rows(motion):
+    """Size of the measures of a motion, and its rows."""
     size = _size(motion.measures)
-    rows = _rows(x[-count - 1 : -1], e[-count:], motion.scale, size)
-    return rows, _rows(motion.points, motion.measures, motion.scale, size)
+    return size, _rows(motion.points, motion.measures, motion.scale, size)
+
+
+@lru_cache(maxsize=512)
+def _as_cloud(motion):
+    """Size of the measures of a motion, its rows as a tree, and the distance of neighbours."""
+    from scipy.spatial import cKDTree
+
+    size, rows = _in_rows(motion)
+    return size, cKDTree(rows), _spacing(rows)
 
 
 def _comes_nearer(x, estimate: PeriodEstimate):
