@@ -7,7 +7,7 @@ coordinates differ at most, a state in `scale`, a measure as a share of its larg
     settled   a period: `detect_period` on the later half. Otherwise the last two thirds are cut in two windows, and
               each is the other's equal: rows of the one lie on the rows of the other, and do not march
     joined    the last rows lie on the known motion: on its orbit in the right order, or in its cloud as close as the
-              cloud's own rows are to each other
+              cloud's own rows are to each other; or its distance from the orbit decays towards nothing
     distance  of two clouds A and B: the mean distance of a row of the one from the nearest row of the other, less the
               distance of neighbours in that other; the larger of A from B and B from A
     shares    of the starts, with Wilson's interval
@@ -32,6 +32,7 @@ COMES_NEARER = 0.7  # what is left, in the later half, of the steps towards a pe
 CLOSE = 20.0  # tolerances within which steps towards a period count
 LAST = 8  # rows that have to lie in a cloud, or beyond one period near an orbit
 THERE = 0.02  # distance from an orbit at which a run need not come nearer
+DECAY, FAR, FADES = 12, 4.0, 0.1  # periods of a window, tolerances within which the last is, share it has lost at least
 AS_CLOSE = 2.0  # mean distance of the last rows from a cloud, in distances of its neighbours
 OF_CLOUD = 0.2  # the same, in tolerances
 APART = 0.1  # distance from which two settled motions are two
@@ -227,7 +228,24 @@ def _from_orbit(x, e, motion, tolerance):
     away = min(turned, key=np.max)
     early, late = (np.sqrt(np.mean(part**2)) for part in (away[: count // 2], away[-(count // 2) :]))
     comes = away.max() <= tolerance and late <= COMES_NEARER * early
-    return float(away.mean()) if comes or away.max() <= THERE else None
+    return float(away.mean()) if comes or away.max() <= THERE or _decays(x, e, motion, tolerance) else None
+
+
+def _decays(x, e, motion, tolerance):
+    """Whether the distance from an orbit dies out over three windows, by Aitken's limit of a geometric decay."""
+    window = motion.period * -(-DECAY // motion.period)
+    if len(e) < 3 * window:
+        return False
+    size, orbit = _in_rows(motion)
+    rows = _rows(x[-3 * window - 1 : -1], e[-3 * window :], motion.scale, size)
+    order = np.arange(3 * window)
+    turned = (np.abs(rows - orbit[(order + k) % motion.period]).max(axis=1) for k in range(motion.period))
+    away = min(turned, key=lambda one: one[-window:].max()).reshape(3, window)
+    first, second, third = np.sqrt(np.mean(away**2, axis=1))
+    before, now = first - second, second - third
+    if away[2].max() > FAR * tolerance or now < FADES * third:
+        return False
+    return bool(before <= now or third - now**2 / (before - now) <= THERE)
 
 
 def _from_cloud(x, e, motion, tolerance):
