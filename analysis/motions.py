@@ -32,7 +32,7 @@ COMES_NEARER = 0.7  # what is left, in the later half, of the steps towards a pe
 CLOSE = 20.0  # tolerances within which steps towards a period count
 LAST = 8  # rows that have to lie in a cloud, or beyond one period near an orbit
 THERE = 0.02  # distance from an orbit at which a run need not come nearer
-DECAY, FAR, FADES = 12, 4.0, 0.1  # periods of a window, tolerances within which the last is, share it has lost at least
+DECAY, FADES = 12, 0.1  # periods of a window of a decay, and the least share of the distance that it loses in one
 AS_CLOSE = 2.0  # mean distance of the last rows from a cloud, in distances of its neighbours
 OF_CLOUD = 0.2  # the same, in tolerances
 APART = 0.1  # distance from which two settled motions are two
@@ -106,8 +106,9 @@ def joins(strobed: ArrayLike, measures: ArrayLike, known: Sequence[Settled], *, 
     """Which known motion a run has reached or will reach, or None: none yet.
 
     The last `period + 8` rows lie within the tolerance of an orbit, in its order, and the later half of them 0.7 times
-    as far as the earlier one, or nearer; or all of them within 0.02. In a cloud, the last 8 rows are in the mean nearer
-    than twice its neighbours, or than a fifth of the tolerance.
+    as far as the earlier one, or nearer; or all of them within 0.02; or the last of three windows of a dozen periods
+    lies within the tolerance, and the distance decays from one to the next towards nothing. In a cloud, the last 8 rows
+    are in the mean nearer than twice its neighbours, or than a fifth of the tolerance.
 
     strobed (n + 1, d), measures (n, e)   of the run so far, as in `settled`; only the last rows count
     known                                 settled motions of the same system
@@ -116,7 +117,7 @@ def joins(strobed: ArrayLike, measures: ArrayLike, known: Sequence[Settled], *, 
     """
     if len(strobed) != len(measures) + 1:
         raise ValueError(f"measures: {len(strobed) - 1} rows are needed, given {len(measures)}")
-    count = max((motion.period or 0 for motion in known), default=0) + LAST
+    count = max((max((motion.period or 1) + LAST, 3 * _window(motion)) for motion in known), default=1)
     x, e = checked_columns(strobed[-count - 1 :], "strobed"), checked_columns(measures[-count:], "measures")
     reached = {}
     for index, motion in enumerate(known):
@@ -231,9 +232,15 @@ def _from_orbit(x, e, motion, tolerance):
     return float(away.mean()) if comes or away.max() <= THERE or _decays(x, e, motion, tolerance) else None
 
 
+def _window(motion):
+    """Periods of a window of a decay: whole rounds of the orbit."""
+    period = motion.period or 1
+    return period * -(-DECAY // period)
+
+
 def _decays(x, e, motion, tolerance):
     """Whether the distance from an orbit dies out over three windows, by Aitken's limit of a geometric decay."""
-    window = motion.period * -(-DECAY // motion.period)
+    window = _window(motion)
     if len(e) < 3 * window:
         return False
     size, orbit = _in_rows(motion)
@@ -243,7 +250,7 @@ def _decays(x, e, motion, tolerance):
     away = min(turned, key=lambda one: one[-window:].max()).reshape(3, window)
     first, second, third = np.sqrt(np.mean(away**2, axis=1))
     before, now = first - second, second - third
-    if away[2].max() > FAR * tolerance or now < FADES * third:
+    if away[2].max() > tolerance or now < FADES * third:
         return False
     return bool(before <= now or third - now**2 / (before - now) <= THERE)
 
