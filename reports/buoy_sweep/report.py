@@ -10,9 +10,10 @@ from ..parts.sections import section_items
 from ..parts.wording import T_I, TAU_0, decimals, number
 from ..sweep.quantities import extremes
 from .figures import close_up_items, orbit_figure, regime_items
+from .motions import every_motion, motions_items
 from .runs import PAPER_WINDOW, Run, Sweep, read_sweep
 from .sheets import sheet_items
-from .tables import accuracy_items, plane_items, runs_items, scene_and_modes, time_items
+from .tables import accuracy_items, keys_of, plane_items, runs_items, scene_and_modes, time_items
 
 _EXTREMES = (
     "slack_fraction", "tension_top_max_N", "radius_min_m", "radius_max_m", "loop_releases", "rope_lateral_max_m",
@@ -29,10 +30,12 @@ def report(directory: str | Path) -> Report:
     scene, figure = sweep.folder.scene, orbit_figure(sweep)
     items = [
         figure or Text("No run gave strobed points after the transient, so there is no orbit diagram."),
+        *motions_items(sweep),
         *_question(sweep),
         Heading("Warnings"),
         warnings(sweep),
         *regime_items(sweep),
+        *every_motion(sweep),
         *close_up_items(sweep),
         *plane_items(sweep),
         *accuracy_items(sweep.folder.directory),
@@ -50,10 +53,10 @@ def report(directory: str | Path) -> Report:
 
 def _question(sweep: Sweep) -> list[Item]:
     columns = sweep.folder.columns
-    shown = [columns[name] for name in _EXTREMES if name in columns]
+    shown, keys = [columns[name] for name in _EXTREMES if name in columns], keys_of(sweep)
     items: list[Item] = [
         *section_items("buoy_sweep", "Question"),
-        *extremes([columns["steepness"]], [run.row for run in sweep.good], shown, _OF_THESE),
+        *extremes([columns[name] for name in keys], [run.row for run in sweep.good], shown, _OF_THESE),
     ]
     if sweep.judged:
         return items
