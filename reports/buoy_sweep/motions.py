@@ -50,7 +50,7 @@ def tension_panel(sweep: Sweep, drawn: Sequence[Run], curves: list[Curve], scale
     top, calm = max(peaks.values()), min(filter(None, ways.values()), key=lambda way: max(map(peaks.get, way)))
     for letter, way in ways.items():
         for run in way[len(way) // 2 :][:1]:
-            aside = -0.12 if way is calm else 0.12  # nothing stands below the line of the lowest
+            aside = -0.12 if way is calm else 0.22  # nothing stands below the lowest line; numbers stand above others
             texts.append((run.steepness, peaks[run] + aside * top, letter, sweep.colours[letter]))
     for end in _ends(sweep):
         at = 0.5 * (end["steepness_with"] + end["steepness_without"])
@@ -58,8 +58,8 @@ def tension_panel(sweep: Sweep, drawn: Sequence[Run], curves: list[Curve], scale
         if all(near):
             colour, (start, stop) = sweep.colours[end["motion"]], (peaks[run] for (run,) in near)
             arrows.append((at, start, stop, colour))
-            texts.append((at, start + math.copysign(0.12 * top, start - stop), decimals(at, 3), colour))
-    limits = {"ylim": (0.0, 1.25 * top)}
+            texts.append((at, start + math.copysign(0.12 * top, start - stop), decimals(at, 3).lstrip("0"), colour))
+    limits = {"ylim": (0.0, 1.35 * top)}
     return Panel(curves, y_label=label, settings=limits, arrows=arrows, texts=texts, height=1.5)
 
 

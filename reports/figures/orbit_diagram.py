@@ -80,7 +80,7 @@ def orbit_diagram(
     bar_in, main_in = (_BAR_OF_MOTION_IN, _MAIN_OF_MOTIONS_IN) if motions else (_BAR_IN, _MAIN_IN)
     heights = [*([bar_in] * len(bars)), main_in, *(_LOWER_IN * one.height for one in below)]
     legend = _legend(judged, len(judged) < len(columns), motions, int(width_in / _NAMED))
-    top_in = 0.16 + _LEGEND_IN * len(legend) if legend else 0.08
+    top_in = 0.3 + _LEGEND_IN * (len(legend) - 1) if legend else 0.08
     height_in = top_in + sum(heights) + _GAP_IN * (len(heights) - 1) + _BOTTOM_IN
     with sheet(height_in, width_in) as figure:
         grid = figure.add_gridspec(
@@ -120,7 +120,7 @@ def orbit_diagram(
         for value, text in marks:
             lowest.annotate(text, (value, 0.05), (2, 0), ("data", "axes fraction"), "offset points", fontsize=7)
         lowest.set_xlabel(labels[0])
-        tight = {"handlelength": 0.9, "handletextpad": 0.3, "columnspacing": 0.7, "borderaxespad": 0.1, "fontsize": 6.5}
+        tight = {"handlelength": 0.7, "handletextpad": 0.3, "columnspacing": 0.7, "borderaxespad": 0.1, "fontsize": 6.5}
         for row, handles in enumerate(legend):
             place = {"loc": "upper left", "bbox_to_anchor": (0.0, 1.0 - _LEGEND_IN * row / height_in)}
             figure.legend(handles=handles, ncols=len(handles), **place, **tight)
@@ -191,7 +191,8 @@ def _told(axes, spans, inch: float, letter: str, colour: str) -> None:
         axes.axvspan(low, high, **(_hatched(kind, colour) if colour and kind in _HATCHES else plain))
         if kind == _PERIOD and (high - low) * inch > _LETTER_IN * len(said):
             axes.text(0.5 * (low + high), 0.45, said, color="white", ha="center", **look)
-    axes.text(-0.008, 0.45, letter, transform=axes.transAxes, color=colour or INK, ha="right", weight="bold", **look)
+    if letter:
+        axes.text(-0.008, 0.45, letter, transform=axes.transAxes, color=colour, ha="right", weight="bold", **look)
 
 
 def _range(axes, spans, inch: float) -> None:

@@ -121,7 +121,7 @@
     const density = window.devicePixelRatio || 1, style = getComputedStyle(document.documentElement);
     const colour = (name) => style.getPropertyValue(name).trim();
     const colours = { ink: colour("--ink"), soft: colour("--soft"), line: colour("--line"), points: colour("--accent"),
-                      mark: colour("--warn") };
+                      mark: colour(columns.some((column) => column.colour) ? "--ink" : "--warn") };
     canvas.width = Math.round(width() * density);
     canvas.height = Math.round(height() * density);
     const pen = canvas.getContext("2d");
