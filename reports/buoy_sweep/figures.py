@@ -11,13 +11,13 @@ from analysis import read_evidence
 
 from ..figures.animations import Snap, tether_animation, tether_stills
 from ..figures.curves import Curve, Panel
-from ..figures.orbit_diagram import NARROW_IN, Column, Motion, Range, orbit_diagram
+from ..figures.orbit_diagram import NARROW_IN, Column, Range, orbit_diagram
 from ..parts.content import Figure, Heading, Item, Table, Text, heads
 from ..parts.folder import part_of
 from ..parts.style import BLUE, INK, REGIME_COLOURS, VERMILION, WIDTH_IN
 from ..parts.wording import T_I, T_S, count, decimals, number, printed
 from ..sweep.quantities import in_order, series
-from .motions import PEAK, lines, shares_panel, tension_panel
+from .motions import MARKS, PEAK, lines, shares_panel, tension_panel
 from .runs import PAPER_STEEPNESS, Run, Sweep
 from .tables import sweep_table
 
@@ -51,7 +51,7 @@ def orbit_figure(sweep: Sweep) -> Figure | None:
         return None
     drawn.sort(key=lambda run: (run.steepness, run.motion))
     missing = [run.steepness for run in sweep.runs if run not in drawn]
-    columns = [Column(run.steepness, run.section[:, 0], run["regime"] or "", run.motion) for run in drawn]
+    columns = [Column(run.steepness, run.section[:, 0], run.row.get("regime") or "", run.motion) for run in drawn]
     static_N = sweep.modes.static_tension_N if sweep.modes else None
     beyond = [Range(text, [holds(sweep, run) for run in drawn]) for text, (_, holds) in _BEYOND.items()]
     ranges = [] if sweep.colours else [one for one in beyond if any(one.holds)]
@@ -63,7 +63,7 @@ def orbit_figure(sweep: Sweep) -> Figure | None:
     else:
         below = [_slack(drawn), *_exponent_panel(sweep), *below]
     labels = "wave steepness kA (–)", "strobed r (m)"
-    motions = {letter: Motion(colour, _called(sweep, letter)) for letter, colour in sweep.colours.items()}
+    motions = {letter: (colour, _called(sweep, letter)) for letter, colour in sweep.colours.items()}
     shown = columns, labels, below, ranges, marks, missing
     wide, narrow = (orbit_diagram(*shown, width_in, motions) for width_in in (WIDTH_IN, NARROW_IN))
     caption = " ".join(filter(None, _seen(sweep, drawn, static_N)))
@@ -147,12 +147,12 @@ def _exponent_panel(sweep: Sweep) -> list[Panel]:
     if not known.any():
         return []
     x, y, bars = _of(sweep.judged, "steepness"), np.array(values), np.array(errors)
-    colours = sweep.colours or REGIME_COLOURS
+    colours, marks = sweep.colours or REGIME_COLOURS, dict(zip(sweep.colours, MARKS, strict=False))
     names = np.array([run.motion for run in sweep.judged] if sweep.colours else words)
     lines = []
     for name in dict.fromkeys(names[known]):
         own = known & (names == name)
-        lines.append(Curve(x[own], y[own], "", "", "o", colours[name], bars[own], 3.0))
+        lines.append(Curve(x[own], y[own], "", "", marks.get(name, "o"), colours[name], bars[own], 3.0))
     usual = np.minimum(np.nan_to_num(bars), 3.0 * float(np.nanmedian(bars)))  # one long bar would hide the others
     margin = 0.08 * float(np.ptp(y[known])) + 0.01
     limits = float((y - usual)[known].min()) - margin, float((y + usual)[known].max()) + margin

@@ -3,6 +3,8 @@
 import math
 from collections import Counter
 from collections.abc import Sequence
+from itertools import groupby
+from operator import itemgetter
 
 import numpy as np
 
@@ -12,12 +14,13 @@ from ..parts.content import Heading, Item, Table, Text, heads
 from ..parts.folder import part_of
 from ..parts.style import SOFT
 from ..parts.wording import EMPTY, decimals, listed, number, percent, ranges
+from ..sweep.quantities import in_order
 from .runs import Run, Sweep
 
 PEAK = "tension_top_max_N"
-_LINES, _MARKS = ("-", (0, (4, 1)), (0, (1, 1)), (0, (5, 1, 1, 1))), "osD^vP"
+_LINES, MARKS = ("-", (0, (4, 1)), (0, (1, 1)), (0, (5, 1, 1, 1))), "osD^vP"
 _PERIOD = "period-"
-_UNSETTLED = "unsettled"  # outcome of a start
+_OUTCOMES = "settled", "joined", "unsettled"  # of a start
 _TOLD = (
     "At each value the motion starts from rest, from kicks of the buoy and from the motions of its neighbours. A start "
     "ends when it has settled, or when it has joined a motion that is known at that value; unsettled ones belong to no "
@@ -35,7 +38,7 @@ def lines(sweep: Sweep, drawn: Sequence[Run], column: str, scale: float) -> list
     for place, (letter, colour) in enumerate(sweep.colours.items()):
         own = {run.steepness: scale * run[column] for run in drawn if run.motion == letter}
         at = sorted({*sweep.values, *own})
-        line, mark = _LINES[place % len(_LINES)], _MARKS[place % len(_MARKS)]
+        line, mark = _LINES[place % len(_LINES)], MARKS[place % len(MARKS)]
         found.append(Curve(np.array(at), np.array([own.get(kA, np.nan) for kA in at]), "", line, "", colour, width=1.2))
         judged = [kA for kA in sweep.values if kA in own]
         found.append(Curve(np.array(judged), np.array([own[kA] for kA in judged]), "", "", mark, colour, size=2.8))
@@ -54,9 +57,10 @@ def tension_panel(sweep: Sweep, drawn: Sequence[Run], curves: list[Curve], scale
             texts.append((run.steepness, peaks[run] + aside * top, letter, sweep.colours[letter]))
     for end in _ends(sweep):
         at = 0.5 * (end["steepness_with"] + end["steepness_without"])
-        near = [sorted(ways[end[name]], key=lambda run: abs(run.steepness - at))[:1] for name in ("motion", "leads_to")]
-        if all(near):
-            colour, (start, stop) = sweep.colours[end["motion"]], (peaks[run] for (run,) in near)
+        own = [ways.get(end[name]) for name in ("motion", "leads_to")]
+        if all(own):
+            start, stop = (peaks[min(way, key=lambda run: abs(run.steepness - at))] for way in own)
+            colour = sweep.colours[end["motion"]]
             arrows.append((at, start, stop, colour))
             texts.append((at, start + math.copysign(0.12 * top, start - stop), decimals(at, 3).lstrip("0"), colour))
     limits = {"ylim": (0.0, 1.35 * top)}
@@ -130,19 +134,17 @@ def every_motion(sweep: Sweep) -> list[Item]:
     part = part_of(sweep.folder, "starts")
     rows, items = part.table if part else (), []
     if rows:
-        outcomes = list(dict.fromkeys(["settled", "joined", _UNSETTLED, *(row["outcome"] for row in rows)]))
         body = []
-        for kA in sorted({row["steepness"] for row in rows}):
-            own = [row for row in rows if row["steepness"] == kA]
-            counts = Counter(row["outcome"] for row in own)
-            into = Counter(row["motion"] for row in own if row["motion"])
-            ends = ", ".join(f"{letter} {into[letter]}" for letter in sorted(into)) or EMPTY
-            body.append((number(kA), *(str(n) for n in (len(own), *(counts[word] for word in outcomes))), ends))
-        titles = ("kA", ""), ("starts", ""), *((word, "") for word in outcomes), "motion and starts that end in it"
-        unsettled = sum(row["outcome"] == _UNSETTLED for row in rows)
+        for kA, group in groupby(in_order(rows, ["steepness"]), key=itemgetter("steepness")):
+            own = list(group)
+            found = Counter(row["outcome"] for row in own), Counter(row["motion"] for row in own if row["motion"])
+            into = ", ".join(f"{letter} {many}" for letter, many in sorted(found[1].items())) or EMPTY
+            body.append((number(kA), str(len(own)), *(str(found[0][word]) for word in _OUTCOMES), into))
+        titles = ("kA", ""), ("starts", ""), *((word, "") for word in _OUTCOMES), "into motion"
+        lost = sum(row["outcome"] == _OUTCOMES[-1] for row in rows)
         caption = (
-            f"Starts at each value: {len(rows)} in all, {unsettled} of them ({percent(unsettled / len(rows))}) "
-            "unsettled. From `starts/table.csv`, which has every start."
+            f"Starts at each value, {len(rows)} in all, and how many end in which motion; {percent(lost / len(rows))} "
+            "are unsettled. From `starts/table.csv`, which has every start."
         )
         items.append(Table(heads(*titles), tuple(body), caption, small=True))
     if ends := _ends(sweep):

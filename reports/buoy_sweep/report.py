@@ -13,7 +13,7 @@ from .figures import close_up_items, orbit_figure, regime_items
 from .motions import every_motion, motions_items
 from .runs import PAPER_WINDOW, Run, Sweep, read_sweep
 from .sheets import sheet_items
-from .tables import accuracy_items, keys_of, plane_items, runs_items, scene_and_modes, time_items
+from .tables import accuracy_items, plane_items, runs_items, scene_and_modes, time_items
 
 _EXTREMES = (
     "slack_fraction", "tension_top_max_N", "radius_min_m", "radius_max_m", "loop_releases", "rope_lateral_max_m",
@@ -53,10 +53,11 @@ def report(directory: str | Path) -> Report:
 
 def _question(sweep: Sweep) -> list[Item]:
     columns = sweep.folder.columns
-    shown, keys = [columns[name] for name in _EXTREMES if name in columns], keys_of(sweep)
+    shown = [columns[name] for name in _EXTREMES if name in columns]
+    keys = [columns[name] for name in ("steepness", *(["motion"] if sweep.colours else []))]
     items: list[Item] = [
         *section_items("buoy_sweep", "Question"),
-        *extremes([columns[name] for name in keys], [run.row for run in sweep.good], shown, _OF_THESE),
+        *extremes(keys, [run.row for run in sweep.good], shown, _OF_THESE),
     ]
     if sweep.judged:
         return items

@@ -46,19 +46,16 @@ _NOT_REPEATED = (
 )
 
 
-def keys_of(sweep: Sweep) -> tuple[str, ...]:
-    """The columns that tell one run from another."""
-    return ("steepness", "motion") if sweep.colours else ("steepness",)
-
-
 def sweep_table(sweep: Sweep, names: tuple[Name, ...], runs: tuple[Run, ...], caption: str):
-    """A table of runs, beginning with `keys_of`, the steepness a link to the sheet; a period of 0 reads "none".
+    """A table of runs: their steepness, a link to the sheet of the run, their motion and the columns of these names.
 
-    Columns without an entry in any of the runs are left out.
+    A period of 0 reads "none". Columns without an entry in any of the runs are left out.
     """
-    columns = sweep.folder.columns
-    told = (name for name in names if any(plus_minus(columns, run.row, *_pair(name)) != EMPTY for run in runs))
-    names = *keys_of(sweep), *told
+    columns, names = sweep.folder.columns, ("steepness", "motion", *names)
+    names = tuple(
+        name for name in names
+        if _pair(name)[0] in columns and any(plus_minus(columns, run.row, *_pair(name)) != EMPTY for run in runs)
+    )  # fmt: skip
     rows = [{**run.row, "run": run} for run in runs]
     own = {
         "steepness": lambda row: link(number(row["steepness"]), row["run"].anchor),
@@ -80,7 +77,7 @@ def runs_items(sweep: Sweep) -> list[Item]:
         f"its range, N ≤ {sweep.longest}; “none” where no N does. A dash: not known. On the page kA "
         "leads to the sheet of the run."
     )
-    names = (*space, "status", "strobed_period", *_RUNS)
+    names = (*space, "share", "found_by", "status", "strobed_period", *_RUNS)
     return [Heading("Table of runs"), sweep_table(sweep, names, sweep.runs, caption)]
 
 

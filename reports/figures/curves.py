@@ -6,6 +6,7 @@ from functools import partial
 
 import numpy as np
 from matplotlib.figure import Figure
+from matplotlib.patheffects import withStroke
 
 from ..parts.content import Picture
 from ..parts.style import BLUE, GREEN, ORANGE, PURPLE, SKY, SOFT, VERMILION, picture_of, sheet
@@ -103,14 +104,15 @@ def draw(axes, panel: Panel) -> None:
         else:
             axes.errorbar(curve.x, curve.y, curve.error, elinewidth=0.8, capsize=1.5, **look)
     for box in panel.boxes:
-        face = "white" if box.hatch else box.colour
-        look = {"facecolor": face, "edgecolor": box.colour, "hatch": box.hatch, "linewidth": 0.0, "align": "edge"}
+        face, edge = ("white", box.colour) if box.hatch else (box.colour, "white")
+        look = {"facecolor": face, "edgecolor": edge, "hatch": box.hatch, "linewidth": 0.3, "align": "edge"}
         axes.bar(box.left, box.high - box.low, box.right - box.left, box.low, **look)
     for x, start, end, colour in panel.arrows:
         arrow = {"arrowstyle": "-|>", "color": colour, "linewidth": 1.3, "shrinkA": 0.0, "shrinkB": 0.0}
         axes.annotate("", (x, end), (x, start), arrowprops=arrow)
     for x, y, text, colour in panel.texts:
-        axes.text(x, y, text, color=colour, ha="center", va="center", fontsize=7.5, fontweight="bold")
+        look = {"ha": "center", "va": "center", "fontsize": 7.5 if len(text) == 1 else 6.5, "fontweight": "bold"}
+        axes.text(x, y, text, color=colour, path_effects=[withStroke(linewidth=2.0, foreground="white")], **look)
     for axis in panel.log:
         getattr(axes, f"set_{axis}scale")("log")
     axes.set(xlabel=panel.x_label, ylabel=panel.y_label, title=panel.title)

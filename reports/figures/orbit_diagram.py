@@ -25,6 +25,8 @@ _PERIOD = "period-"
 _BETWEEN = "not judged"
 _HATCHES = {"quasi-periodic": "////", "chaotic": "xxxxxx", "transient": "....", "undecided": "---"}  # of words
 
+Motions = Mapping[str, tuple[str, str]]  # letter -> its colour, what the legend says of it
+
 
 @dataclass(frozen=True, eq=False)
 class Column:
@@ -47,14 +49,6 @@ class Range:
     holds: Sequence[bool]
 
 
-@dataclass(frozen=True)
-class Motion:
-    """One of several motions: its colour, and what the legend says of it."""
-
-    colour: str
-    name: str
-
-
 def orbit_diagram(
     columns: Sequence[Column],
     labels: tuple[str, str],
@@ -63,14 +57,14 @@ def orbit_diagram(
     marks: Sequence[tuple[float, str]] = (),
     missing: Sequence[float] = (),
     width_in: float = WIDTH_IN,
-    motions: Mapping[str, Motion] | None = None,
+    motions: Motions | None = None,
 ) -> Picture:
     """Bars with words and ranges, strobed points in the colours of the words, and panels below, on one axis.
 
     columns: by their parameter, one of them at least with points. labels: of parameter and points, with units.
     ranges: each a bar above the points, and a shade over all panels. marks: (value, text) of vertical lines. missing:
-    runs without points (crosses). motions: by letter, where there are several; then each has a colour of its own, and
-    a bar that tells its words by hatches. Motions whose points lie close together, from the left on, are drawn again in
+    runs without points (crosses). motions: where there are several, by letter; each has the points in its colour, and a
+    bar that tells its words by hatches. Motions whose points lie close together, from the left on, are drawn again in
     what is left blank beside them, on a finer scale.
     """
     judged = [one for one in columns if one.word]
@@ -98,7 +92,7 @@ def orbit_diagram(
         top.set_xlim(places.min() - left_in / inch, places.max() + _EDGE_IN / inch)  # inch: of the parameter
         above = [figure.add_subplot(grid[place], sharex=top) for place in range(len(bars))]
         for axes, (letter, spans) in zip(above, words.items(), strict=False):
-            _told(axes, spans, inch, letter, motions[letter].colour if motions else "")
+            _told(axes, spans, inch, letter, motions[letter][0] if motions else "")
         for place, spans in enumerate(bars[len(words) :]):
             _range(above[len(words) + place], spans, inch)
             for axes in (top, *lower):
@@ -159,7 +153,7 @@ def _kind(word: str) -> str:
     return _PERIOD if word.startswith(_PERIOD) else word
 
 
-def _legend(judged: Sequence[Column], beside: bool, motions: Mapping[str, Motion] | None, wide: int) -> list[list]:
+def _legend(judged: Sequence[Column], beside: bool, motions: Motions | None, wide: int) -> list[list]:
     """Rows of what colours mean, and hatches where there are motions, `wide` a row; beside: some are not judged."""
     from matplotlib.patches import Patch
 
@@ -167,7 +161,7 @@ def _legend(judged: Sequence[Column], beside: bool, motions: Mapping[str, Motion
         return []
     named = {kind: kind.replace(_PERIOD, "periodic") for kind in dict.fromkeys(_kind(one.word) for one in judged)}
     if motions:
-        each = [Patch(color=one.colour, label=f"{letter}: {one.name}") for letter, one in motions.items()]
+        each = [Patch(color=colour, label=f"{letter}: {said}") for letter, (colour, said) in motions.items()]
         rows = [each[first : first + wide] for first in range(0, len(each), wide)]
         return [*rows, [Patch(**_hatched(kind, SOFT), label=name) for kind, name in named.items()]]
     row = [Patch(color=REGIME_COLOURS[kind], label=name) for kind, name in named.items()]
@@ -213,7 +207,7 @@ def _range(axes, spans, inch: float) -> None:
     axes.text(place, 0.45, text, ha=side, **look)
 
 
-def _points(axes, columns: Sequence[Column], inch: float, motions: Mapping[str, Motion] | None) -> None:
+def _points(axes, columns: Sequence[Column], inch: float, motions: Motions | None) -> None:
     """The points as dashes as wide as a column has room, those of judged runs over the others."""
     at = np.unique([one.at for one in columns])
     room = 72.0 * inch * float(np.diff(at).min()) if len(at) > 1 else 6.0
@@ -222,7 +216,7 @@ def _points(axes, columns: Sequence[Column], inch: float, motions: Mapping[str, 
         x, y = np.repeat([one.at for one in own], [len(one.points) for one in own]), [one.points for one in own]
         wide, thick, alpha = (1.6, 1.1 if word.startswith(_PERIOD) else 0.45, 0.8) if word else (0.9, 0.7, 0.8)
         if motions:
-            colour = motions[motion].colour
+            colour = motions[motion][0]
         elif len(own) == len(columns) and not word:
             colour, thick, alpha = INK, 0.45, 0.5
         else:

@@ -38,7 +38,7 @@ def report(directory: str | Path) -> Report:
         Heading("Question"),
         Text(f"What does the scene `{folder.scene.name}` do as {said} {'varies' if len(keys) == 1 else 'vary'}?"),
         *extremes(each, rows, [column for one in shown for column, _ in one], _EXTREMES),
-        *(_panels(keys[0], rows, shown, motions) if len(keys) == 1 else _maps(keys, rows, shown, motions)),
+        *(_panels(keys[0], rows, shown, motions) if len(keys) == 1 else _maps_of_each(keys, rows, shown, motions)),
         Heading("Warnings"),
         _failed(each, rows),
         Heading("Table of runs"),
@@ -59,15 +59,12 @@ def _panels(key: Quantity, rows, shown: Sequence[Measured], motions: Mapping[str
     return [Heading(f"Over {key.head}"), *(items or [_NOTHING])]
 
 
-def _maps(keys: Sequence[Quantity], rows, shown: Sequence[Measured], motions: Mapping[str, str]) -> list[Item]:
-    items: list[Item] = [Heading(f"Over {keys[0].head} and {keys[1].head}")]
-    for letter in motions or [""]:
-        own = [row for row in rows if not motions or row["motion"] == letter]
-        items += _maps_of(keys, own, shown, f" Motion {letter}." if letter else "")
-    return items if len(items) > 1 else [*items, _NOTHING]
+def _maps_of_each(keys: Sequence[Quantity], rows, shown: Sequence[Measured], motions) -> list[Item]:
+    every = {f", motion {letter}": [row for row in rows if row["motion"] == letter] for letter in motions}
+    return [item for said, own in (every or {"": rows}).items() for item in _maps(keys, own, shown, said)]
 
 
-def _maps_of(keys: Sequence[Quantity], rows, shown: Sequence[Measured], motion: str) -> list[Item]:
+def _maps(keys: Sequence[Quantity], rows, shown: Sequence[Measured], motion: str) -> list[Item]:
     over = [series(rows, key.name) for key in keys]
     places = tuple(np.unique(values) for values in over)
     across, up = (np.searchsorted(*pair) for pair in zip(places, over, strict=True))
@@ -84,10 +81,10 @@ def _maps_of(keys: Sequence[Quantity], rows, shown: Sequence[Measured], motion: 
     items: list[Item] = []
     for part in batched(drawn, _MAPS):
         names = listed(one.name for one in part)
-        caption = f"Columns of `table.csv` over {keys[0].head} and {keys[1].head}: {names}. Crosses: no value.{motion}"
+        caption = f"Columns of `table.csv` over {keys[0].head} and {keys[1].head}: {names}{motion}. Crosses: no value."
         picture = maps(places, (keys[0].label, keys[1].label), part)
-        items.append(Figure(picture, caption, f"Maps over two parameters of {names}.{motion}"))
-    return items
+        items.append(Figure(picture, caption, f"Maps over two parameters of {names}{motion}."))
+    return [Heading(f"Over {keys[0].head} and {keys[1].head}{motion}"), *(items or [_NOTHING])]
 
 
 def batched(items: Sequence, most: int) -> list[Sequence]:
