@@ -18,6 +18,7 @@ from reports.parts.style import VERMILION
 from reports.sweep.quantities import colours_of, panels_over
 from reports.sweep.report import _maps_of_each
 from tests.reports.conftest import points_of, rows_in, write
+from tests.reports.test_words_apart import crowded
 
 WORD, NUMBER = COLUMNS[2], STEEPNESS
 MORE = (replace(WORD, name="motion"), replace(NUMBER, name="share"), replace(WORD, name="found_by"))
@@ -57,6 +58,7 @@ def test_each_motion_has_one_colour_and_a_line_joins_no_other(several, drawn):
     sweep = read_sweep(several)
     assert sweep.colours["B"] == VERMILION, "the largest tension"
     orbit_figure(sweep)
+    assert not any(map(crowded, drawn))
     static_N, found = sweep.modes.static_tension_N, points_of(drawn[0].axes[0])
     for letter in "AB":
         own = {run.steepness: run["tension_top_max_N"] / static_N for run in sweep.motions[letter]}
