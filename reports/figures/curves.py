@@ -6,6 +6,7 @@ from functools import partial
 
 import numpy as np
 from matplotlib.figure import Figure
+from matplotlib.patheffects import withStroke
 
 from ..parts.content import Picture
 from ..parts.style import BLUE, GREEN, ORANGE, PURPLE, SKY, SOFT, VERMILION, picture_of, sheet
@@ -43,7 +44,9 @@ class Panel:
 
     log: the axes that are logarithmic, "", "x", "y" or "xy". level: a thin horizontal line there. settings: of
     matplotlib's `Axes.set`, such as limits. ticks: most numbers on the x axis, None as they come. marks: (x, name) of
-    places on the x axis. beside: "right" or "top" -> factor from the axis opposite, label.
+    places on the x axis. beside: "right" or "top" -> factor from the axis opposite, label. arrows: (x, y from, y to,
+    colour), upright. texts: (x, y, text, colour). boxes: (left, right, low, high, colour, hatch on white or "").
+    height: against that of other panels.
     """
 
     curves: Sequence[Curve]
@@ -56,6 +59,10 @@ class Panel:
     ticks: int | None = None
     marks: Sequence[tuple[float, str]] = ()
     beside: Mapping[str, tuple[float, str]] = field(default_factory=dict)
+    boxes: Sequence[tuple[float, float, float, float, str, str]] = ()
+    arrows: Sequence[tuple[float, float, float, str]] = ()
+    texts: Sequence[tuple[float, float, str, str]] = ()
+    height: float = 1.0
 
 
 Rows = Sequence[Sequence[Panel]]
@@ -85,6 +92,16 @@ def draw(axes, panel: Panel) -> None:
             axes.plot(curve.x, curve.y, **look)
         else:
             axes.errorbar(curve.x, curve.y, curve.error, elinewidth=0.8, capsize=1.5, **look)
+    for left, right, low, high, colour, hatch in panel.boxes:
+        face, edge = ("white", colour) if hatch else (colour, "white")
+        look = {"facecolor": face, "edgecolor": edge, "hatch": hatch, "linewidth": 0.3, "align": "edge"}
+        axes.bar(left, high - low, right - left, low, **look)
+    for x, start, end, colour in panel.arrows:
+        arrow = {"arrowstyle": "-|>", "color": colour, "linewidth": 1.3, "shrinkA": 0.0, "shrinkB": 0.0}
+        axes.annotate("", (x, end), (x, start), arrowprops=arrow)
+    for x, y, text, colour in panel.texts:
+        look = {"ha": "center", "va": "center", "fontsize": 7.5 if len(text) == 1 else 6.5, "fontweight": "bold"}
+        axes.text(x, y, text, color=colour, path_effects=[withStroke(linewidth=2.0, foreground="white")], **look)
     for axis in panel.log:
         getattr(axes, f"set_{axis}scale")("log")
     axes.set(xlabel=panel.x_label, ylabel=panel.y_label, title=panel.title)
