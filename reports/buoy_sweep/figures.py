@@ -67,8 +67,9 @@ def orbit_figure(sweep: Sweep) -> Figure | None:
     shown = columns, labels, below, ranges, marks, missing
     wide, narrow = (orbit_diagram(*shown, width_in, motions) for width_in in (WIDTH_IN, NARROW_IN))
     caption = " ".join(filter(None, _seen(sweep, drawn, static_N)))
-    words = Counter(run["regime"] for run in sweep.judged)
-    alt = f"Orbit diagram over wave steepness: {', '.join(f'{word} {n} times' for word, n in words.items())}; see text."
+    words = [f"{word} {n} times" for word, n in Counter(run["regime"] for run in sweep.judged).items()]
+    told = "; ".join([*(f"motion {letter} {said}" for letter, (_, said) in motions.items()), ", ".join(words)])
+    alt = f"Orbit diagram over wave steepness: {told}; see text."
     return Figure(wide, caption, alt, narrow=narrow)
 
 
