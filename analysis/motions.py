@@ -8,8 +8,8 @@ coordinates differ at most, a state in `scale`, a measure as a share of its larg
               each is the other's equal: rows of the one lie on the rows of the other, and do not march
     joined    the last rows lie on the known motion: on its orbit in the right order, or in its cloud as close as the
               cloud's own rows are to each other; or its distance from the orbit decays towards nothing
-    distance  of two clouds A and B: the mean distance of a row of the one from the nearest row of the other, less the
-              distance of neighbours in that other; the larger of A from B and B from A
+    distance  of two clouds A and B: the mean distance of a row of A from the nearest row of B, less the distance of
+              neighbours in B, and the other way round: the larger, but of two motions without a period the smaller
     shares    of the starts, with Wilson's interval
 
 How often each is wrong, and after how many periods it answers: docs/motions.md.
@@ -34,7 +34,7 @@ LAST = 8  # rows that have to lie in a cloud, or beyond one period near an orbit
 THERE = 0.02  # distance from an orbit at which a run need not come nearer
 DECAY, FADES = 12, 0.1  # periods of a window of a decay, and the least share of the distance that it loses in one
 AS_CLOSE = 2.0  # mean distance of the last rows from a cloud, in distances of its neighbours
-OF_CLOUD = 0.2  # the same, in tolerances
+OF_CLOUD = 0.3  # the same, in tolerances
 APART = 0.1  # distance from which two settled motions are two
 
 
@@ -76,8 +76,9 @@ def settled(
     scale (d,)           size of the motion within the period, in each coordinate
     tolerance            share of the scale within which an orbit repeats; branches nearer than this are one
     max_period           largest period looked for
-    Returns a Settled. A run that passes by an unstable orbit, or a long chaotic transient, looks settled while it
-    lasts: no test of the states it went through can tell (rates: docs/motions.md).
+    Returns a Settled: with a period from 30 periods on, without one from 90 on. A run
+    that passes by an unstable orbit, or through long transient chaos, looks settled while it lasts; no test of the
+    states so far can tell (rates: docs/motions.md).
     Raises ValueError for values that are not finite or lengths that do not fit.
     """
     x, e, scale = _checked(strobed, measures, scale)
@@ -98,17 +99,18 @@ def settled(
     across = max(_nearest(first, second).mean(), _nearest(second, first).mean())
     if across > LIKE * within or record_drift(rows[-2 * window :]).drifting:
         return None
-    reason = f"no period up to {max_period}; two windows of {window} periods lie {across / within:.2f} neighbours apart"
+    apart = f"lie {across:.2g} of the scale apart, neighbours within them {within:.2g}"
+    reason = f"no period up to {max_period}; two windows of {window} periods {apart}"
     return _kept(None, x[-2 * window - 1 : -1], e[-2 * window :], scale, reason)
 
 
-def joins(strobed: ArrayLike, measures: ArrayLike, known: Sequence[Settled], *, tolerance: float = 0.3) -> int | None:
+def joins(strobed: ArrayLike, measures: ArrayLike, known: Sequence[Settled], *, tolerance: float = 0.2) -> int | None:
     """Which known motion a run has reached or will reach, or None: none yet.
 
     The last `period + 8` rows lie within the tolerance of an orbit, in its order, and the later half of them 0.7 times
     as far as the earlier one, or nearer; or all of them within 0.02; or the last of three windows of a dozen periods
     lies within the tolerance, and the distance decays from one to the next towards nothing. In a cloud, the last 8 rows
-    are in the mean nearer than twice its neighbours, or than a fifth of the tolerance.
+    are in the mean nearer than twice its neighbours are, or than 0.3 of the tolerance.
 
     strobed (n + 1, d), measures (n, e)   of the run so far, as in `settled`; only the last rows count
     known                                 settled motions of the same system
@@ -130,7 +132,7 @@ def joins(strobed: ArrayLike, measures: ArrayLike, known: Sequence[Settled], *, 
 def distance(a: Settled, b: Settled) -> float:
     """How far two settled motions are apart, in their larger scale (head of this file): 0 for one and the same.
 
-    Two records of one chaotic motion are at 0.02 at most; how far different motions are apart: docs/motions.md.
+    Two records of one motion of the buoy are 0.05 apart at most, its motions 0.3 or more (docs/motions.md).
     """
     scale = np.maximum(a.scale, b.scale)
     size = np.maximum(_size(a.measures), _size(b.measures))
@@ -139,7 +141,7 @@ def distance(a: Settled, b: Settled) -> float:
         float(_nearest(from_, to).mean()) - (0.0 if motion.period else _spacing(to))
         for from_, to, motion in ((one, other, b), (other, one, a))
     ]
-    # A record of chaos that stayed in one part of its cloud for long is a part of the other; an orbit is no part.
+    # A record of chaos may have stayed in one part of its cloud: then it lies on the other, and not the other on it.
     return max(0.0, (max if a.period or b.period else min)(apart))
 
 
@@ -158,7 +160,7 @@ def grouped(found: Sequence[Settled], *, threshold: float = APART) -> np.ndarray
     return np.array([order.index(one) for one in label])
 
 
-def matched(before: Sequence[Settled], after: Sequence[Settled], *, threshold: float = 0.5) -> list[int | None]:
+def matched(before: Sequence[Settled], after: Sequence[Settled], *, threshold: float = 0.3) -> list[int | None]:
     """Which motion at the next value of a parameter continues which: the pairs of least total `distance`.
 
     threshold   distance beyond which a motion has ended or begun instead
@@ -166,7 +168,9 @@ def matched(before: Sequence[Settled], after: Sequence[Settled], *, threshold: f
     """
     from scipy.optimize import linear_sum_assignment
 
-    cost = np.array([[min(distance(a, b), threshold) for b in after] for a in before]).reshape(len(before), len(after))
+    cost = np.array([[min(distance(a, b), 2.0 * threshold) for b in after] for a in before]).reshape(
+        len(before), len(after)
+    )
     pairs = zip(*linear_sum_assignment(cost), strict=True)
     kept = {int(i): int(j) for i, j in pairs if cost[i, j] < threshold}
     return [kept.get(i) for i in range(len(before))]
@@ -290,4 +294,4 @@ def _comes_nearer(x, estimate: PeriodEstimate):
     early, late = (np.sqrt(np.mean(part**2)) for part in (step[: len(step) // 2], step[-(len(step) // 2) :]))
     most = np.exp(estimate.trend_nats_per_period[nearest - 1] * (estimate.points // 4))
     near = estimate.residual[nearest - 1] < CLOSE * estimate.tolerance
-    return bool(near and max(late / early, most) < COMES_NEARER)
+    return bool(near and late < COMES_NEARER * early and most < COMES_NEARER)
