@@ -94,7 +94,7 @@ class Results:
     lines: tuple[Row, ...] = ()  # runs of the breaking line (`breaking_line.lines`)
     buoy: dict[float, Row] = field(default_factory=dict)  # rows of the two long runs by steepness, with `snaps`
     accuracy: tuple[Row, ...] = ()  # the same runs tighter and finer
-    sweep: tuple[Row, ...] = ()  # rows over steepness
+    sweep: tuple[Row, ...] = ()  # rows over steepness, one a motion
     # Rows of other depths, treatments and stiffnesses; those at the large wave, with linear waves continued above still
     # water, with `snaps`.
     dependence: tuple[Row, ...] = ()

@@ -1,7 +1,8 @@
 """Every quantitative or qualitative statement of sections 3 to 5 and of the abstract, as claims.
 
 The tables are statements.toml in `campaigns/paper` and `campaigns/breaking_line`; this package measures them. What
-depends on the water depth, which the paper does not give, is judged at every depth of the dependence study.
+depends on the water depth, which the paper does not give, is judged at every depth of the dependence study, on runs
+from rest; what depends on the steepness is judged on every motion of the sweep.
 """
 
 import tomllib

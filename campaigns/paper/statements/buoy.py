@@ -7,6 +7,7 @@ is chaotic; then eq. (33) with figure 19b, and the motion across the plane of th
 import math
 
 from campaigns.machinery.folder import Row
+from campaigns.motions.along import from_rest
 from campaigns.paper.measured import STRANGE, Results
 from campaigns.paper.measures import EARLY, LARGE, SMALL, WINDOW
 from campaigns.paper.statements import judging
@@ -113,23 +114,30 @@ def good(rows) -> list[Row]:
     return sorted((row for row in rows if row["status"] == "ok"), key=lambda row: row["steepness"])
 
 
+def by_motion(rows) -> list[Row]:
+    """The good rows of a sweep, those of a motion together."""
+    return sorted(good(rows), key=lambda row: row.get("motion") or "")
+
+
 def threshold(results: Results) -> Measured:
-    """From which wave steepness on the line goes slack."""
-    rows = good(results.sweep)
-    slack = [is_slack(row) for row in rows]
+    """From which wave steepness on the line goes slack, in every motion of the sweep."""
+    rows = by_motion(results.sweep)
     if not rows:
         return Measured()
-    first = slack.index(True) if any(slack) else len(rows)
+    first = min((row["steepness"] for row in rows if is_slack(row)), default=math.inf)
+    taut_beyond = [row for row in rows if row["steepness"] >= first and not is_slack(row)]
+    there, slack = good(rows)[0]["steepness"] < first < math.inf, first < math.inf
     checks = passed(
-        ("there is a threshold", 0 < first < len(rows)),
-        ("slack at all larger waves", any(slack) and all(slack[first:])),
+        ("there is a threshold", there), ("slack at all larger waves", first < math.inf and not taut_beyond)
     )
-    return Measured(checks, f"{spans(slack, rows)} of {spans([True] * len(rows), rows)}")
+    return Measured(checks, f"{spans([*map(is_slack, rows)], rows)} of {spans([True] * len(rows), rows)}")
 
 
 def chaos_beyond(results: Results) -> Measured:
-    """The regimes of all runs whose line goes slack; the long ones where there are both."""
-    rows = good({row["steepness"]: row for row in (*good(results.sweep), *good(results.buoy.values()))}.values())
+    """The regimes of all motions whose line goes slack; of those from rest the long runs where there are both."""
+    long = {row["steepness"]: row for row in good(results.buoy.values())}
+    swept = [row | (long.pop(row["steepness"], {}) if from_rest(row) else {}) for row in good(results.sweep)]
+    rows = by_motion([*swept, *long.values()])
     kinds = {
         "chaotic": "chaotic".__eq__,
         "periodic or quasi-periodic": lambda regime: regime not in ("chaotic", *UNDECIDED),
@@ -148,13 +156,19 @@ def is_slack(row: Row) -> bool:
 
 
 def spans(chosen: list[bool], rows: list[Row]) -> str:
-    """The steepnesses of the chosen rows in words, neighbours joined into "a to b"."""
-    groups: list[list[float]] = []
-    for before, wanted, row in zip([False, *chosen], chosen, rows, strict=False):
+    """The steepnesses of the chosen rows in words, neighbours of one motion joined into "a to b (motion)"."""
+    groups: list[tuple[str, list[float]]] = []
+    before = None
+    for wanted, row in zip(chosen, rows, strict=True):
+        motion = row.get("motion") or ""
         if wanted:
-            groups = groups if before else [*groups, []]
-            groups[-1].append(row["steepness"])
-    return listed(f"{one[0]:.4g} to {one[-1]:.4g}" if len(one) > 1 else f"{one[0]:.4g}" for one in groups)
+            groups = groups if before == motion else [*groups, (motion, [])]
+            groups[-1][1].append(row["steepness"])
+        before = motion if wanted else None
+    return listed(
+        (f"{one[0]:.4g} to {one[-1]:.4g}" if len(one) > 1 else f"{one[0]:.4g}") + (f" ({motion})" if motion else "")
+        for motion, one in groups
+    )
 
 
 def positive_exponent(results: Results) -> Measured:
@@ -162,7 +176,7 @@ def positive_exponent(results: Results) -> Measured:
     long, depth = results.buoy.get(LARGE), f"H = {results.depth():g} m"
     short = [(where, row) for where, row in everywhere(results, LARGE) if exponent(row) != "none"]
     deciding = {where: row for where, row in short if judging.settled(row)}
-    found = f"shorter runs {', '.join(f'{exponent(row)} at {where}' for where, row in short) or 'none'}"
+    found = f"shorter runs from rest {', '.join(f'{exponent(row)} at {where}' for where, row in short) or 'none'}"
     if exponent(long) != "none":
         deciding[depth] = long
         found = f"{LONG} at {depth} {exponent(long)}; {found}"
@@ -174,7 +188,7 @@ def chaotic(results: Results) -> Measured:
     """The regime of the long run, and of the short ones; at the shipped depth the long run decides."""
     long, depth = results.buoy.get(LARGE), f"H = {results.depth():g} m"
     short = everywhere(results, LARGE)
-    found, deciding = f"shorter runs {judging.by_regime(short)}", dict(short)
+    found, deciding = f"shorter runs from rest {judging.by_regime(short)}", dict(short)
     if long is not None and long["regime"] not in UNDECIDED:
         deciding[depth] = long
         tighter = f" (at a tenth of the tolerance: {again})" if (again := long.get("regime_tighter")) else ""

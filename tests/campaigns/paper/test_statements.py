@@ -171,6 +171,23 @@ def test_what_the_paper_says_holds_in_its_own_world_and_not_in_the_contrary_one(
     assert judge(claim, world(so=False)).verdict == FAILS
 
 
+def test_every_motion_of_a_wave_is_judged_and_a_long_run_stands_for_the_one_from_rest():
+    """The motion from rest is chaotic over the long run only; B at the same wave is not; C begins above."""
+    motions = {"A": (0.05, 0.13), "B": (0.13,), "C": (0.14,)}
+    kinds = {"A": ("period-1", "rest"), "B": ("period-3", "kick"), "C": ("chaotic", "carried up")}
+    rows = [
+        buoy(kA, regime=kinds[motion][0], found_by=kinds[motion][1], motion=motion, slack_fraction=float(kA > 0.1))
+        for motion, steepnesses in motions.items()
+        for kA in steepnesses
+    ]
+    results = world(sweep=tuple(rows))
+    found = judge(buoy_claims()["Wherever the line goes slack and snaps, the motion is chaotic."], results)
+    assert found.verdict == HOLDS_IF and found.condition == "kA = 0.13 (A) and 0.14 (C); not kA = 0.13 (B)"
+    assert judge(buoy_claims()["threshold"], results).verdict == HOLDS
+    taut = world(sweep=(*rows, buoy(0.14, found_by="kick", motion="D", slack_fraction=0.0)))
+    assert judge(buoy_claims()["threshold"], taut).condition == "there is a threshold; not slack at all larger waves"
+
+
 def judged(results):
     return [judge(claim, results) for claim in claims()]
 
