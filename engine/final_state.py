@@ -1,31 +1,27 @@
 """Where a run is after its last step: what the next one goes on from, to the last bit.
 
 The last step of a run ends at or past its last sample. The state is that at the end of the step, and what lies between
-the two, samples, profiles and growth of a period that has not ended, is kept with it for the run that goes on.
+the two, samples, profiles and growth of a period that has not ended, is kept with it for the run that goes on. What
+another scene makes of a state, and what lies between two states, is in `engine.going_on`.
 """
 
 import hashlib
-import json
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
 
 import numpy as np
 
-from .record import STATE
+from .record import RELEASES, SAMPLE_WIDTH, SMALL_STEPS, STATE, TIME
+from .scene.models import Scene
 
 PREFIX = "final_"
-
-
-def physics_of(scene) -> str:
-    """Hash of all of a scene but its solver and its output: where it is the same, rates go on as they are."""
-    text = json.dumps(scene.model_dump(mode="json", exclude={"solver", "output"}), sort_keys=True)
-    return hashlib.sha256(text.encode()).hexdigest()
+NONE = np.empty(0)
 
 
 @dataclass(frozen=True, eq=False)
 class FinalState:
     """State of the kernels; n nodes, k perturbations in the plane.
 
-    physics                  `physics_of` the scene
+    scene                    of the run
     numbers (f,)             fields of STATE, in its order
     Y, Y_before              unknowns (n, 6 or 13) of the accepted state and of the one before
     C, K                     its conserved variables and their rates (n, 4 or 6)
@@ -36,7 +32,7 @@ class FinalState:
     growth (p, k + 2)        nats of the periods that have not ended: of the k, and across; loop released
     """
 
-    physics: str
+    scene: Scene
     numbers: np.ndarray
     Y: np.ndarray
     Y_before: np.ndarray
@@ -51,7 +47,7 @@ class FinalState:
     @property
     def time_s(self) -> float:
         """Time of the last sample of the run: the first of the one that goes on."""
-        return float(self.samples[0, 0])
+        return float(self.samples[0, TIME])
 
     def state(self) -> np.void:
         """The numbers as a STATE."""
@@ -60,21 +56,81 @@ class FinalState:
             state[name] = number
         return state
 
+    def with_numbers(self, **changes: float) -> "FinalState":
+        """The state with other values of some fields of STATE."""
+        numbers = self.numbers.copy()
+        for name, number in changes.items():
+            numbers[STATE.names.index(name)] = number
+        return replace(self, numbers=numbers)
+
+    def restarted(self) -> "FinalState":
+        """The state as after a sudden change: it goes on by small steps that need no rates and no state before."""
+        shortest = min(float(self.state()["dt"]), 1e-3 * self.scene.solver.max_step_s)
+        return self.with_numbers(small_steps=SMALL_STEPS, dt_before=0.0, dt=shortest)
+
+    def at_zero(self) -> "FinalState":
+        """The same state with its clock at 0, where its last sample is: for a run with a clock of its own.
+
+        Waves, ramps and whatever else a scene prescribes in time begin anew; the phase of regular waves stays where
+        `time_s` is a whole number of their periods. Loops are counted from 0. Perturbations stay, their growth in the
+        period that has not ended is dropped. Goes on by small steps.
+        """
+        state, begin_s, step_s = self.state(), self.time_s, self.scene.sample_step_s()
+        samples = self.samples.copy()
+        samples[:, TIME] = np.arange(len(samples)) * step_s
+        samples[:, RELEASES] -= self.samples[0, RELEASES]
+        begin_at = (state["first_profile"] + state["profiles"] - len(self.profiles)) * self.profile_step_s
+        profiles = self.profiles if abs(begin_at - begin_s) < 1e-9 * step_s else NONE
+        times = {name: state[name] - begin_s for name in ("t", "window_end", "corner")}
+        counts = {"first": 0, "samples": len(samples), "first_profile": 0, "profiles": len(profiles)}
+        moved = self.with_numbers(**times, **counts, releases=state["releases"] - self.samples[0, RELEASES])
+        return replace(moved, samples=samples, profiles=profiles, growth=np.zeros_like(self.growth)).restarted()
+
+    @property
+    def profile_step_s(self) -> float:
+        """Step (s) of the profiles of its scene; 0 without."""
+        output = self.scene.output
+        return (output.profiles_step_s or self.scene.sample_step_s()) if output.profiles else 0.0
+
+    def digest(self) -> str:
+        """SHA-256 (hex) of its content, its scene included: equal states, equal digests, on any machine."""
+        content = hashlib.sha256(self.scene.key().encode())
+        for name, values in self._arrays():
+            content.update(f"{name}{values.shape}".encode())
+            content.update(np.ascontiguousarray(values, dtype="<f8").tobytes())
+        return content.hexdigest()
+
+    def fault(self) -> str:
+        """Why no run can go on from it, as the end of a sentence; empty where one can."""
+        nodes, plane = self.scene.tether.nodes, self.scene.motion.dimensions == 2
+        unknowns, conserved = ((nodes, width) for width in ((6, 4) if plane else (13, 6)))
+        rows = max(self.samples.shape[0], 1) if self.samples.ndim else 1
+        shapes = {"numbers": (len(STATE.names),), "samples": (rows, SAMPLE_WIDTH), "Y": unknowns, "Y_before": unknowns}
+        for name, shape in (shapes | {"C": conserved, "K": conserved}).items():
+            values = getattr(self, name)
+            if values.shape != shape:
+                return f"a state with {name} of shape {values.shape} and not {shape}: of another version of the engine"
+            if np.isnan(values).any() or (name != "numbers" and not np.isfinite(values).all()):
+                return f"a state with a value that is not a finite number, among its {name}"
+        return ""
+
     def variables(self) -> list[tuple]:
         """The variables of a file (`engine.netcdf`); what is empty is left out."""
         found = []
-        for field in fields(self)[1:]:
-            values = getattr(self, field.name)
-            if values.size:
-                name = PREFIX + field.name
-                dimensions = tuple(f"{name}_{axis}" for axis in range(values.ndim))
-                found.append((name, dimensions, values, "1", "state after the last step, see engine.final_state"))
+        for field, values in self._arrays():
+            name = PREFIX + field
+            dimensions = tuple(f"{name}_{axis}" for axis in range(values.ndim))
+            found.append((name, dimensions, values, "1", "state after the last step, see engine.final_state"))
         return found
 
+    def _arrays(self) -> list[tuple[str, np.ndarray]]:
+        """Name and values of what is not empty."""
+        arrays = ((field.name, getattr(self, field.name)) for field in fields(self)[1:])
+        return [(name, values) for name, values in arrays if values.size]
 
-def state_of_file(scene, arrays: dict[str, np.ndarray]) -> FinalState | None:
+
+def state_of_file(scene: Scene, arrays: dict[str, np.ndarray]) -> FinalState | None:
     """The state among the arrays of a file of that scene, or None."""
     if PREFIX + "Y" not in arrays:
         return None
-    found = (arrays.get(PREFIX + field.name, np.empty(0)) for field in fields(FinalState)[1:])
-    return FinalState(physics_of(scene), *found)
+    return FinalState(scene, *(arrays.get(PREFIX + field.name, NONE) for field in fields(FinalState)[1:]))

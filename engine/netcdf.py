@@ -57,14 +57,20 @@ def to_bytes(variables: list[Variable], texts: dict[str, str], attributes: dict[
     return buffer.getvalue()
 
 
-def from_bytes(content: bytes, names: tuple[str, ...]) -> tuple[dict[str, str], dict[str, np.ndarray]]:
-    """(texts of these names, arrays) of a file. Raises DamagedError, or whatever a damaged header makes of it."""
+def from_bytes(
+    content: bytes, names: tuple[str, ...], optional: tuple[str, ...] = ()
+) -> tuple[dict[str, str], dict[str, np.ndarray]]:
+    """(texts of these names, arrays) of a file, which need not have the optional ones.
+
+    Raises DamagedError, or whatever a damaged header makes of it.
+    """
     from scipy.io import netcdf_file
 
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         file = netcdf_file(io.BytesIO(content), "r", mmap=False)
-    texts = {name: _text(file, name) for name in names}
+    there = [name for name in optional if hasattr(file, name)]
+    texts = {name: _text(file, name) for name in (*names, *there)}
     arrays = {name: np.array(variable.data, dtype=np.float64) for name, variable in file.variables.items()}
     if _digest(texts, arrays) != _text(file, DIGEST):
         raise DamagedError("damaged: the content does not match its own digest")

@@ -217,7 +217,8 @@ def _solver(record, scene, place, h):
     record["newton_tolerance"] = solver.newton_tolerance or 1e-2 * solver.rtol
     record["max_newton"] = solver.max_newton_iterations
     record["loop_release"], record["max_releases"] = solver.loop_release, solver.max_loop_releases
-    moving = scene.end.kind == "buoy" and any(scene.start.buoy_velocity_mps)
+    begun = (*scene.start.buoy_velocity_mps, *scene.start.buoy_displacement_m)
+    moving = scene.end.kind == "buoy" and any(begun)
     impulsive = record["waves"] and scene.waves.ramp_s == 0
     moved = record["end_motion"] != codes.STILL or bool(scene.end.twist_ramp_s)
     record["at_rest"] = not (moving or impulsive or moved)

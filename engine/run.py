@@ -8,7 +8,8 @@ import numpy as np
 from . import parameters
 from . import record as col
 from .arrays import Motion, Output
-from .final_state import FinalState, physics_of
+from .final_state import FinalState
+from .going_on import taken_over
 from .perturbations.exponents import Followed
 from .physics import energy
 from .planar import state as planar
@@ -17,9 +18,10 @@ from .scene.models import Scene
 from .scene.size_limits import longest_step
 from .spatial import lift
 from .spatial import state as spatial
+from .time.held_start import held_away, why_not_held
 from .time.statics import rest_of, why_no_rest
 from .time.status import ADVICE, OK, STATICS_FAILED, TURN_UNRESOLVED, WORDS
-from .time.time_loop import SMALL_STEPS, march
+from .time.time_loop import march
 from .trajectory import COLUMNS, EnergyBudget, Profiles, Trajectory
 
 
@@ -28,11 +30,14 @@ class Run:
 
     record, tables: its parameters; state: STATE; motion, output: Motion and Output (`engine.arrays`); trail: what
     follows its perturbations; s: unstretched arc length (m) of the nodes; goal: samples to store; wall_s: time (s) that
-    advancing it has taken.
+    advancing it has taken; began: what was changed for it of the run before, in words.
     """
 
     def __init__(self, scene: Scene, duration_s: float, start: FinalState | None = None) -> None:
-        self.scene, self.started = scene, start
+        self.scene, self.began = scene, ""
+        if start is not None:
+            start, self.began = taken_over(start, scene)
+        self.started = start
         self.kind = spatial if scene.motion.dimensions == 3 else planar
         tables = []
         self.record = parameters.record_of(scene, tables)[0]
@@ -72,6 +77,10 @@ class Run:
         axes = "xyz" if self.kind is spatial else "xz"
         place = np.array([target["xyz".index(axis)] for axis in axes])
         state["status"], Y[:] = rest_of(record, scene, self.tables, place)
+        self.why_no_rest = why_no_rest
+        if state["status"] == OK and any(scene.start.buoy_displacement_m):
+            state["status"], Y[:] = held_away(scene, Y, self.s)
+            self.why_no_rest = why_not_held
         for i, axis in enumerate(axes):
             Y[:, len(axes) + i] = record[f"start_{axis}"] * self.s / self.s[-1]
         self.motion.Y_before[:] = Y
@@ -82,7 +91,7 @@ class Run:
         # a sudden start has rates at t = 0 that are not zero: steps that need none come first, or the order falls to 1
         needs_rates = record["method"] == col.RUNGE_KUTTA or record["alpha_m"] != record["gamma"]
         starter = needs_rates and not record["at_rest"]
-        state["small_steps"] = SMALL_STEPS if starter else 0
+        state["small_steps"] = col.SMALL_STEPS if starter else 0
         state["dt"] = 1e-3 * record["max_step"] if record["adaptive"] or starter else record["fixed_step"]
 
     def _watch(self) -> None:
@@ -92,7 +101,7 @@ class Run:
         state["max_turn"] = lift.turns(Y).max() if self.kind is spatial else np.abs(np.diff(Y[:, PHI])).max()
 
     def _go_on(self, start: FinalState) -> None:
-        """Begin where another run ended; after a change of the scene with steps that need no rates from before."""
+        """Begin where another run ended."""
         state, record = self.state, self.record
         for part, given in zip(self.motion, (start.Y, start.Y_before, start.C, start.K), strict=True):
             part[:] = given
@@ -104,9 +113,10 @@ class Run:
             state[kept] = rows = min(len(stored), len(getattr(self.output, kept)))
             if rows:
                 getattr(self.output, kept)[:rows] = stored[:rows]
-        if start.physics != physics_of(self.scene):
-            state["small_steps"], state["dt_before"] = SMALL_STEPS, 0.0
-            state["dt"] = min(state["dt"], 1e-3 * record["max_step"])
+        if record["profile_step"] and not start.profiles.size:  # no profile was kept before
+            state["first_profile"] = int(state["t"] / record["profile_step"]) + 1
+            end_s = start.time_s + (self.goal - 1) * record["output_step"]
+            self.profiled = max(sample_count(end_s, record["profile_step"]) - int(state["first_profile"]), 0)
         if not record["adaptive"]:
             state["dt"] = record["fixed_step"]
 
@@ -121,7 +131,7 @@ class Run:
         profiles = self.output.profiles[max(self.profiled - 1, 0) : int(state["profiles"])]
         numbers = np.array([state[name] for name in col.STATE.names], dtype=float)
         kept = (part.copy() for part in (*self.motion, samples, profiles))
-        return FinalState(physics_of(self.scene), numbers, *kept, *self.trail.state(state))
+        return FinalState(self.scene, numbers, *kept, *self.trail.state(state))
 
     def done(self) -> bool:
         """Has it ended, at its goal or before?"""
@@ -156,13 +166,13 @@ class Run:
             t=state["t"], dt=state["dt"], turn=state["max_turn"], releases=state["releases"]
         )
         if status == STATICS_FAILED:
-            message += why_no_rest(self.record, scene)
+            message += self.why_no_rest(self.record, scene)
         columns = columns_of(self.output.samples[: min(int(state["samples"]), self.goal)], heading_of(scene))
         statistics, profiles, tangent = statistics_of(state, self.wall_s), self._profiles(), self.trail.growth(state)
         if self.started is not None:
             for name, number in statistics_of(self.started.state(), 0.0).items():
                 statistics[name] -= number if name in COUNTED else 0
-        more = profiles, tangent, self._budget(), self.final_state()
+        more = profiles, tangent, self._budget(), self.final_state(), self.began
         return Trajectory(scene, WORDS[status], message, columns, statistics, *more)
 
     def _budget(self) -> EnergyBudget | None:

@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterable, Iterator
 from pathlib import Path
 
 from .final_state import FinalState
+from .going_on import fault_of
 from .run import Run
 from .scene.models import Scene
 from .scene.size_limits import MOST_SAMPLES, check_room
@@ -30,7 +31,9 @@ def simulate(
     progress     callable(fraction) called now and then, optional
     start        a Trajectory, its final_state, or its file: the run goes on from there, in time as well. With the same
                  scene (solver and output may change) it is the run that did not stop, to the last bit; another scene
-                 of as many nodes takes the state over. None: from rest
+                 takes the state over, and `began` of the trajectory says what was changed (`engine.going_on`): on
+                 another grid by interpolation, from a plane into space, with another wave period or output step at
+                 t = 0. `start` of the scene is not used. None: from rest
     Returns a Trajectory: status "ok", or the reason why it ended early, with the samples up to there. Bad arguments
     raise ValueError; a run never raises.
     """
@@ -81,7 +84,7 @@ def simulate_each(
 
     def add(i, scene, periods, start, duration_s=None):
         nonlocal known_s
-        length_s, start = _duration(scene, periods, duration_s), _checked_start(scene, start)
+        length_s, start = _duration(scene, periods, duration_s), checked_start(scene, start)
         waiting.setdefault(batch.kind_of(scene), deque()).append(batch.Asked(i, scene, length_s, start))
         known_s += length_s
 
@@ -107,22 +110,18 @@ def simulate_each(
             del waiting[kind]
 
 
-def _checked_start(scene: Scene, start: Start) -> FinalState | None:
+def checked_start(scene: Scene, start: Start) -> FinalState | None:
     """The state to start from. Raises ValueError for one that a run of this scene cannot go on from."""
     if start is None:
         return None
     if isinstance(start, str | Path):
         start = Trajectory.load(start)
     state = start.final_state if isinstance(start, Trajectory) else start
-    fault = ""
+    fault = f"{state!r}; allowed: a Trajectory, its final_state, or its file"
     if state is None:
         fault = "a run without a final state: it ended early, kept energies, or is of the paper's own scheme"
-    elif scene.solver.scheme == "paper-box" or scene.output.energy:
-        fault = "a scene with solver.scheme = 'paper-box' or output.energy, which can only start from rest"
-    elif state.Y.shape != (scene.tether.nodes, 6 if scene.motion.dimensions == 2 else 13):
-        dimensions = 2 if state.Y.shape[1] == 6 else 3
-        fault = f"a state of {len(state.Y)} nodes in {dimensions} dimensions for a scene of {scene.tether.nodes} nodes "
-        fault += f"in {scene.motion.dimensions}"
+    elif isinstance(state, FinalState):
+        fault = fault_of(state, scene)
     if fault:
         raise ValueError(f"start: given {fault}")
     return state

@@ -42,6 +42,7 @@ COLUMNS = {  # name -> (unit, long name), in the order of the table
     "loop_releases": ("1", "loops of slack tether released since t = 0"),
 }
 TEXTS = ("title", "scene", "status", "message", "statistics")  # attributes of a file that are part of the run
+BEGAN = "began"  # one that only some files have
 
 
 class TrajectoryError(ValueError):
@@ -56,6 +57,8 @@ class Trajectory:
     message: a sentence about it, empty for "ok". columns: every name of COLUMNS -> (n,) array, evenly sampled.
     statistics: counts and times of the work done. profiles, tangent, energy: where the scene asks for them.
     final_state: what `simulate(..., start=)` goes on from; None where the run ended early, or keeps energies.
+    began: what was changed where it went on from another run, as "went on at t = 300 s; changed:
+    waves.steepness 0.12 -> 0.13"; empty where nothing was, and for a run from rest.
     """
 
     scene: Scene
@@ -67,6 +70,7 @@ class Trajectory:
     tangent: TangentGrowth | None = None
     energy: EnergyBudget | None = None
     final_state: FinalState | None = None
+    began: str = ""
 
     def followed_by(self, later: "Trajectory") -> "Trajectory":
         """This run and the one that went on from its final state as one record: scene and end of the later one.
@@ -91,7 +95,8 @@ class Trajectory:
             both = {name: np.concatenate([old[name], more[name][new]]) for name in more if name != "s_m"}
             profiles = replace(profiles, **both)
         tangent = _joined(self.tangent, later.tangent, float(later.columns["time_s"][0]))
-        return replace(later, columns=columns, statistics=statistics, profiles=profiles, tangent=tangent)
+        began = "; ".join(filter(None, (self.began, later.began)))
+        return replace(later, columns=columns, statistics=statistics, profiles=profiles, tangent=tangent, began=began)
 
     def table(self) -> "pandas.DataFrame":
         """The samples as a pandas table, one row a sample, columns in the order of COLUMNS."""
@@ -165,7 +170,7 @@ class Trajectory:
             "status": self.status,
             "message": self.message,
             "statistics": json.dumps(self.statistics, default=lambda number: number.item()),  # of NumPy
-        }
+        } | ({BEGAN: self.began} if self.began else {})
         return netcdf.to_bytes(_variables(self), texts, attributes or {})
 
     @staticmethod
@@ -185,7 +190,7 @@ class Trajectory:
     def from_bytes(content: bytes, name: str = "the record") -> "Trajectory":
         """The record of a file's content, for whoever was sent it. Raises TrajectoryError, which calls it by name."""
         try:
-            return _restored(*netcdf.from_bytes(content, TEXTS))
+            return _restored(*netcdf.from_bytes(content, TEXTS, (BEGAN,)))
         except (TrajectoryError, netcdf.DamagedError) as error:
             raise TrajectoryError(f"{name}: {error}") from None
         except Exception as error:  # a damaged header can make the reader fail in any way at all
@@ -257,7 +262,7 @@ def _restored(texts: dict[str, str], arrays: dict[str, np.ndarray]) -> Trajector
     unknown = {"loop_releases": np.zeros(len(arrays["time_s"]))}  # of files that know only how many there were
     columns = {name: (unknown | arrays)[name] for name in COLUMNS}
     statistics = json.loads(texts["statistics"])
-    more = profiles, tangent, energy, state_of_file(scene, arrays)
+    more = profiles, tangent, energy, state_of_file(scene, arrays), texts.get(BEGAN, "")
     return Trajectory(scene, texts["status"], texts["message"], columns, statistics, *more)
 
 

@@ -159,6 +159,8 @@ def facts(run: "Trajectory") -> dict[str, str]:
     told = {"scene": run.scene.title or run.scene.name, "run": f"{run.status}, {length}"}
     if run.message:
         told["message"] = run.message
+    if run.began:
+        told["began"] = run.began
     if len(run.columns["time_s"]) > 3:
         late = {name: values[len(values) // 3 :] for name, values in run.columns.items()}
         radius_m = late["radius_m"]

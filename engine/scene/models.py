@@ -43,10 +43,14 @@ class Motion(Section):
 
 
 class Start(Section):
-    """What disturbs the static equilibrium at t = 0."""
+    """What disturbs the static equilibrium at t = 0; not used by a run that goes on from another (`simulate`)."""
 
     buoy_velocity_mps: Vector = described(
-        "velocity of the buoy at t = 0, in its static equilibrium", (0.0, 0.0, 0.0), paper="section 4.2"
+        "velocity of the buoy at t = 0; along the line in proportion to s", (0.0, 0.0, 0.0), paper="section 4.2"
+    )
+    buoy_displacement_m: Vector = described(
+        "displacement of the buoy at t = 0 from its place at rest, held there in static equilibrium and let go",
+        (0.0, 0.0, 0.0),
     )
 
 

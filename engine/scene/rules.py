@@ -16,8 +16,10 @@ from engine.scene.faults import fault, known_fields, shown
 
 Facts = Iterator[tuple[object, str, str]]  # whether a rule is broken, the key that breaks it, what it allows there
 HEIGHTS = ("steepness", "amplitude_m", "components", "jonswap")  # of the waves: a scene has one of these
+_DISPLACED = "start.buoy_displacement_m"
 _VECTORS = (
     "start.buoy_velocity_mps",
+    _DISPLACED,
     "end.position_m",
     "end.force_N",
     "current.velocity_mps",
@@ -190,8 +192,8 @@ def _ends(sound: Sound) -> Facts:
     pulled = force is FAULTY or any(force or ())
     allowed = "above 0, because nothing else gives a direction to a free end without a force"
     yield loose and not pulled and sound[_BENDING] == 0, _BENDING, allowed
-    pushed = any(sound["start.buoy_velocity_mps"] or ())
-    yield kind != "buoy" and pushed, "start.buoy_velocity_mps", f"zero, {because}"
+    for key in ("start.buoy_velocity_mps", _DISPLACED):
+        yield kind != "buoy" and any(sound[key] or ()), key, f"zero, {because}"
 
 
 def _moved_end(sound: Sound) -> Iterator[str]:
@@ -259,7 +261,10 @@ def _solver(sound: Sound) -> Facts:
     longest = sound["solver.max_step_s"] or math.inf
     yield (sound["solver.min_step_s"] or 0) > longest, "solver.min_step_s", f"at most solver.max_step_s, {longest}"
     rule = "above 0, because solver.scheme is 'paper-box' and eq. (40) divides by EI"
-    yield sound["solver.scheme"] == "paper-box" and sound[_BENDING] == 0, _BENDING, rule
+    box = sound["solver.scheme"] == "paper-box"
+    yield box and sound[_BENDING] == 0, _BENDING, rule
+    rule = "zero, because solver.scheme is 'paper-box', which starts from rest"
+    yield box and any(sound[_DISPLACED] or ()), _DISPLACED, rule
 
 
 def _cap(sound: Sound) -> Facts:

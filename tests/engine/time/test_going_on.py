@@ -110,8 +110,6 @@ def test_another_tolerance_or_another_wave_takes_the_state_over():
 
 def test_a_run_that_cannot_go_on_says_why():
     first = simulate(scene_of(SMALL), duration_s=1.0)
-    with pytest.raises(ValueError, match="9 nodes in 2 dimensions for a scene of 11 nodes"):
-        simulate(scene_of({**SMALL, "tether.nodes": 11}), periods=1, start=first)
     with pytest.raises(ValueError, match="only start from rest"):
         simulate(scene_of({**SMALL, "solver.scheme": "paper-box"}), periods=1, start=first)
     with pytest.raises(ValueError, match="without a final state"):
