@@ -15,7 +15,7 @@ from campaigns.motions.proposals import proposals
 from campaigns.motions.starts import JOINED, KICKS, OUTCOME, Asked, Ended, Start, as_it_is, settled_of
 from campaigns.study import Order
 
-SAMPLE = 48  # starts of the grid that are run at a time until they find no new motion
+SAMPLE = 24  # starts of the grid that are run at a time until they find no new motion
 PEAK = Column("tension_top_max_N", "N", "T_max", "largest tension at the top of the line in its motion", 0)
 COLUMNS = (*KICKS, MOTION, OUTCOME, STATUS, PERIODS_RUN, PEAK, RUN_KEY, MESSAGE)
 
@@ -38,9 +38,9 @@ class Found:
         """The motions as `analysis.Settled`."""
         return tuple(motion.settled for motion in self.motions)
 
-    def asked(self, start: Start, scene=None) -> Asked:
-        """A start of the scene, or of another one with the same motions."""
-        return Asked(self.job.labels, scene or self.scene, start, self.known)
+    def asked(self, start: Start, scene=None, **more) -> Asked:
+        """A start of the scene, or of another one with the same motions; more: fields of `Asked`."""
+        return Asked(self.job.labels, scene or self.scene, start, self.known, **more)
 
     def find(self, order: Order, speed_mps: float, seed: int) -> None:
         """Find the motions, and where the starts of the grid end. Raises as `runner.run`."""
@@ -54,7 +54,7 @@ class Found:
             left = left[SAMPLE:]
             if len(self.motions) == known:
                 break
-        self.judge(order)
+            self.judge(order)  # what they found is known better, and the next starts join it
         self._round("all other starts of the grid", left, points)
         self.along.kicked = len(points)
         self.judge(order)

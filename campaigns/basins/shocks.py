@@ -41,7 +41,11 @@ def _row(found: Found, target: Motion, scene, candidates: Sequence[tuple[float, 
     nodes = scene.tether.nodes
     told = {"motion": target.branch.letter, "nodes": nodes}
     leads = partial(_leads, found, target, scene)
-    there = candidates if scene is found.scene else [one for one, led in zip(candidates, leads(candidates)) if led]
+    there = (
+        candidates
+        if scene is found.scene
+        else [one for one, led in zip(candidates, leads(candidates), strict=True) if led]
+    )
     if not there:
         return told | {"status": "none", "message": f"none of {len(candidates)} starts of the grid leads there"}
     least = Shock(*there[0], 0.0)

@@ -74,8 +74,8 @@ class Start:
         } | phase
 
 
-def start_job(labels: dict, scene, start: Start, known: Sequence, most: int = LOOKS[-1]) -> Job:
-    """The run of a start of a scene, with the motions (`analysis.Settled`) that are known of it."""
+def start_job(labels: dict, scene, start: Start, known: Sequence, most: int = LOOKS[-1], settles: bool = True) -> Job:
+    """The run of a start of a scene, with the motions (`analysis.Settled`) that are known of it. settles: `Asked`."""
     ends = (*(end for end in LOOKS if end < most), most)
     digest = hashlib.sha256(b"" if start.state is None else start.state.digest().encode())
     for motion in known:
@@ -85,9 +85,9 @@ def start_job(labels: dict, scene, start: Start, known: Sequence, most: int = LO
         labels | start.labels(),
         start.scene(scene),
         most,
-        describe=partial(start_row, known=tuple(known)),
+        describe=partial(start_row, known=tuple(known), settles=settles),
         going=partial(_until_settled, start=start.state, ends=ends),
-        made=f"start {digest.hexdigest()}",
+        made=f"start {digest.hexdigest()}{'' if settles else ' joins'}",
     )
 
 
@@ -102,7 +102,7 @@ def _until_settled(scene, trajectory, row, checks, start, ends):
     return Further(scene, ahead - done, trajectory)
 
 
-def start_row(trajectory, checks=None, known: Sequence = ()) -> dict[str, object]:
+def start_row(trajectory, checks=None, known: Sequence = (), settles: bool = True) -> dict[str, object]:
     """The columns of OF_A_START that the run of a start fills."""
     from analysis import joins, settled
 
@@ -114,7 +114,7 @@ def start_row(trajectory, checks=None, known: Sequence = ()) -> dict[str, object
     strobed, measures, scale = section_of(trajectory)
     if (which := joins(strobed, measures, known)) is not None:
         return row | {"outcome": JOINED, "joins": which}
-    own = settled(strobed, measures, scale=scale)
+    own = settled(strobed, measures, scale=scale) if settles else None
     return row | {"outcome": UNSETTLED if own is None else SETTLED}
 
 
@@ -156,13 +156,17 @@ def as_it_is(trajectory):
 
 
 class Asked(NamedTuple):
-    """A start to run: columns that name it, scene, Start, the motions that are known, and its most wave periods."""
+    """A start to run: columns that name it, scene, Start, the motions that are known, and its most wave periods.
+
+    settles: whether it ends too when it has settled on another one: one that passes by an unstable orbit seems to have.
+    """
 
     labels: dict
     scene: object
     start: Start
     known: Sequence = ()
     most: int = LOOKS[-1]
+    settles: bool = True
 
 
 @dataclass(eq=False)
