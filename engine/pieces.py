@@ -40,7 +40,7 @@ def shares_of(scenes: Iterable[tuple[Scene, bool, bool]]) -> list[dict[tuple, Sc
         if scene.solver.scheme == "paper-box":
             shares[("paper-box",)] = {(kind, "paper-box"): scene}
             continue
-        alone[(kind, "rest")] = scene
+        alone[(kind, "rest", any(scene.start.buoy_displacement_m))] = scene
         parts = bool(record["method"] == ONE_STAGE), bool(record["viscous"]), scene.output.energy
         own[(kind, "advance") if lanes else (kind, "march", *parts)] = scene
         if any(carried):
@@ -58,7 +58,7 @@ def seconds_of(pieces: Mapping[tuple, Scene]) -> float:
 def compile_piece(key: tuple, scene: Scene) -> None:
     """Compile a piece, or load it compiled; no step is made, but in the paper's own scheme."""
     _, name, *how = key
-    if how and name != "march":
+    if name in ("carry", "follow"):
         carried = {"tangent_vectors": int(how[0]), "lateral_growth": how[1]}
         scene = scene.model_copy(update={"output": scene.output.model_copy(update=carried)})
     if name == "paper-box":

@@ -79,7 +79,7 @@ def cases(order: Order) -> Iterator[Job]:
         if scene is not None:
             scenes.append(scene)
             labels = {"steepness": value, "dimensions": scene.motion.dimensions}
-            yield judged_job(order, labels, scene)
+            yield judged_job(order, labels, scene, motions.start_of(order, scene))
     motions.kicks_of(order, scenes)
 
 

@@ -2,12 +2,13 @@
 
 from collections.abc import Callable, Iterable
 from dataclasses import replace
+from functools import cache
 
 import engine
 from campaigns.columns import Column
 from campaigns.judge import judged_job
 from campaigns.machinery import cli
-from campaigns.machinery.folder import run_of
+from campaigns.machinery.folder import run_of, trajectory_path
 from campaigns.machinery.plan import Job, Plan, Summary
 from campaigns.machinery.runner import run
 from campaigns.study import Order
@@ -20,7 +21,7 @@ MOST_KICKS = 10_000
 
 
 def add_options(group) -> None:
-    """--starts, --kick-speed, --seed."""
+    """--starts, --kick-speed, --seed, --start-from."""
     beside = "beside motions of a massless tether and those carried from its neighbours"
     usual = f"kicks of the buoy at each value, {beside}; rest: one run from rest only"
     usual += f" (default: {KICKS}; with --periods: rest)"
@@ -29,6 +30,28 @@ def add_options(group) -> None:
     speed = cli.number("a finite number above 0", lambda found: 0.0 < found < float("inf"))
     cli.add(group, "--kick-speed", "MPS", "kicks are velocities of up to this along x and z, m/s", speed, SPEED_MPS)
     cli.add(group, "--seed", "N", "of the kicks, points of a scrambled Halton sequence", cli.whole(0, 2**32 - 1), 1)
+    file = "run from the final state of this run (a file of trajectories/) instead of from rest"
+    cli.add(group, "--start-from", "FILE", file, cli.Kind(str, "a file of a run"))
+
+
+def start_of(order: Order, scene):
+    """The state of --start-from, or None. What is wrong with it, or with going on from it in this scene, is told."""
+    if order.own.start_from is None:
+        return None
+    from engine.simulation import checked_start
+
+    try:
+        if scene.waves is None:
+            raise ValueError("given for a scene without waves; allowed: with waves")
+        return checked_start(scene, _run_in(order.own.start_from)).at_zero()
+    except ValueError as error:
+        order.tell([f"--start-from: {error}"])
+    return None
+
+
+@cache
+def _run_in(path: str):
+    return engine.Trajectory.load(path)
 
 
 def _starts(text: str):
@@ -41,6 +64,10 @@ def kicks_of(order: Order, scenes: Iterable) -> int | None:
     scenes: of the runs from rest.
     """
     asked = order.own.starts
+    if order.own.start_from is not None:
+        if asked not in (None, REST):
+            order.tell([f"--starts: given {asked} with --start-from; allowed: one of them"])
+        return None
     if asked == REST or (asked is None and not order.looks):
         return None
     can = all(in_regular_waves(scene) and carries_tangents(scene) for scene in scenes)
@@ -52,7 +79,7 @@ def kicks_of(order: Order, scenes: Iterable) -> int | None:
 def parameters(order: Order, kicks: int | None) -> dict[str, object]:
     """What the provenance says of the starts."""
     if kicks is None:
-        return {"starts": REST}
+        return {"starts": REST if order.own.start_from is None else order.own.start_from}
     return {"starts": kicks, "kick_speed_mps": order.own.kick_speed, "seed": order.own.seed}
 
 
@@ -67,6 +94,7 @@ def every_motion(order: Order, kicks: int, key: Column, scene_at: Callable) -> C
         from campaigns.motions.along import FROM_REST, Along
         from campaigns.motions.starts import as_it_is, settled_of
 
+        there = {job.key for job in jobs if trajectory_path(plan.how.out, job.key).exists()}
         jobs = sorted(jobs, key=lambda job: job.labels[key.name])
         timing, first = run(plan, jobs)
         if plan.simulate is not engine.simulate:
@@ -83,6 +111,7 @@ def every_motion(order: Order, kicks: int, key: Column, scene_at: Callable) -> C
         others = {
             motion: job_of(motion, {}) for some in along.motions for motion in some if motion.found_by != FROM_REST
         }
+        there |= {job.key for job in others.values() if trajectory_path(plan.how.out, job.key).exists()}
         more, found = run(plan, [*jobs, *others.values()])
         rows = {row["run_key"]: row for row in found.rows}
         longer = {motion: run_of(plan.how.out, rows[job.key]) for motion, job in others.items() if job.key in rows}
@@ -98,9 +127,9 @@ def every_motion(order: Order, kicks: int, key: Column, scene_at: Callable) -> C
             judged += [] if any(one.found_by == FROM_REST for one in some) else [job]
             judged += [job_of(motion, along.labels(motion)) for motion in some]
         last, summary = run(plan, judged)
-        computed = first.computed + found.computed + summary.computed
+        kept = sum(row["run_key"] in there for row in summary.rows)
         for times in (more, last, along.starts.times):
             timing = {name: seconds + times[name] for name, seconds in timing.items()}
-        return timing, replace(summary, computed=computed, found=len(judged) - computed)
+        return timing, replace(summary, computed=len(summary.rows) - kept, found=kept)
 
     return runs

@@ -137,8 +137,9 @@ def cases(order: Order) -> Iterator[Job]:
         if scene is not None:
             scenes.append(scene)
             labels |= {"dimensions": scene.motion.dimensions}
+            start = motions.start_of(order, scene)
             plain = Job(labels, scene, periods, duration_s)
-            yield judged_job(order, labels, scene) if in_regular_waves(scene) else plain
+            yield judged_job(order, labels, scene, start) if in_regular_waves(scene) else plain
     starts_of(order, scenes)
 
 
