@@ -17,12 +17,13 @@ from campaigns.machinery.folder import claimed, run_of, write_table
 from campaigns.machinery.runner import run
 from campaigns.motions.along import Motion
 from campaigns.motions.starts import Start, section_of
+from engine.views import LONGEST_PERIOD
 
 SHARES = 16  # states between two, bisected side by side
 NEAR, APART = 2e-5, 2e-3  # distances, in the size of the motion, to which two states are brought and at which they part
 MOST, ROUNDS = 60, 40  # wave periods that an edge state is followed; rounds of states between
 LONGEST = 480  # wave periods after which a state has fallen to neither side
-FOLDER = "edge"
+FOLDER, TOP = "edge", "tension_top_high_N"
 _EXTREMES = (
     Column("radius_min_m", "m", "r_min", "smallest distance from the anchor, over the later half", 2),
     Column("radius_max_m", "m", "r_max", "largest distance from the anchor, over the later half", 2),
@@ -42,8 +43,10 @@ COLUMNS = (
 OF_A_PART = (STATUS, RUN_KEY, MESSAGE)
 ORBIT = (
     Column("period", "", "t/T", "wave periods since it has been followed", 0),
-    Column("radius_m", "m", "r", "strobed distance from the anchor", 4),
-    Column("radius_rate_mps", "m/s", "dr/dt", "strobed radial speed", 4),
+    Column("x_m", "m", "x", "strobed place along the waves", 4),
+    Column("z_m", "m", "z", "strobed height above the anchor", 4),
+    Column("radial_mps", "m/s", "dr/dt", "strobed radial speed", 4),
+    Column("lateral_mps", "m/s", "r dθ/dt", "strobed speed across the radius", 4),
     Column("apart", "", "apart", "distance of the two runs there, in the size of the motion", 6),
 )
 
@@ -89,22 +92,23 @@ class Edge:
         count = min(len(first), len(second))
         return np.abs((first[:count] - second[:count]) / scale).max(axis=1)
 
-    def go_on(self, periods: int) -> list:
-        """Let both run on for so many wave periods, and begin there; their trajectories, [] where one ended early."""
+    def go_on(self, periods: int) -> tuple:
+        """Let both run on for so many wave periods, and begin there: the one on the first side, and its key; None for a
+        run that ended early.
+        """
         plan, scene = self.found.plan, self.found.scene
         how = replace(plan.how, out=plan.how.out / FOLDER)
+        plan = replace(plan, how=how, said="along the edge", describe=edge_row, columns=OF_A_PART, row_maker="")
         jobs = [job_from({}, scene, periods, state) for state in self.states]
         with claimed(how.out):
-            timing, summary = run(
-                replace(plan, how=how, said="along the edge", describe=edge_row, columns=OF_A_PART, row_maker=""), jobs
-            )
+            timing, summary = run(plan, jobs)
         self.found.along.starts.times.update(timing)
         rows = {row["run_key"]: row for row in summary.rows}
         runs = [run_of(how.out, rows[job.key]) for job in jobs]
         if None in runs:
-            return []
+            return None, ""
         self.states, self.runs = [one.final_state.at_zero() for one in runs], [None, None]
-        return runs
+        return runs[0], jobs[0].key
 
 
 def edge_row(trajectory, checks=None) -> dict[str, object]:
@@ -117,39 +121,45 @@ def edge_state(found: Found, one: Motion, other: Motion) -> dict[str, object]:
 
     Raises as `runner.run`.
     """
-    edge, parts, orbit, rates = Edge(found, one, other), [], [], []
+    edge, runs, apart, doublings = Edge(found, one, other), [], [], 0.0
     row: dict[str, object] = {"motion": one.branch.letter, "other": other.branch.letter}
-    while sum(len(part[1]) for part in parts) < MOST and (apart := edge.narrow()) is not None:
-        periods = int(np.argmax(apart > APART)) - 1 if (apart > APART).any() else len(apart) - 1
-        if periods < 1:
+    while len(apart) < MOST and (now := edge.narrow()) is not None:
+        periods = int(np.argmax(now > APART)) - 1 if (now > APART).any() else len(now) - 1
+        trajectory, row["run_key"] = edge.go_on(periods) if periods > 0 else (None, "")
+        if trajectory is None:
             break
-        rates.append((math.log2(apart[periods] / apart[0]), periods))
-        if not (runs := edge.go_on(periods)):
-            break
-        strobed, measures, scale = section_of(runs[0])
-        parts.append((strobed[:periods], measures[:periods], scale))
-        columns, every = runs[0].columns, round(found.scene.waves.period_s / found.scene.sample_step_s())
-        for k in range(periods):
-            at = {"radius_m": columns["radius_m"][k * every], "radius_rate_mps": columns["radius_rate_mps"][k * every]}
-            orbit.append({"period": len(orbit), **at, "apart": float(apart[k])})
+        runs.append(trajectory)
+        apart += [*map(float, now[:periods])]
+        doublings += math.log2(now[periods] / now[0])
+    row |= {"periods": len(apart), "status": "ok" if len(apart) >= MOST else "lost"}
+    strobed: list[np.ndarray] = []
+    if runs:
+        row["growth_bits_per_period"] = doublings / len(apart)
+        scale = np.max([side.settled.scale for side in (one, other)], axis=0)
+        strobed = [state for trajectory in runs for state in section_of(trajectory)[0][:-1]]
+        row |= _later(runs) | {"strobed_period": _repeats(np.array(strobed) / scale)}
     (folder := found.plan.how.out / FOLDER).mkdir(exist_ok=True)
-    row |= _told(parts, rates) | {"status": "ok" if len(orbit) >= MOST else "lost"}
     write_table(folder / "table.csv", COLUMNS, [row])
-    write_table(folder / "orbit.csv", ORBIT, orbit)
+    names = [column.name for column in ORBIT[1:-1]]
+    orbit = (
+        {"period": k, **dict(zip(names, state, strict=True)), "apart": apart[k]} for k, state in enumerate(strobed)
+    )
+    write_table(folder / "orbit.csv", ORBIT, [*orbit])
     return row
 
 
-def _told(parts: list, rates: list) -> dict[str, object]:
-    """What a row says of the states, measures and scales of the parts, and of (doublings, periods) of each."""
-    if not parts:
-        return {"periods": 0}
-    from analysis import settled
+def _later(runs: list) -> dict[str, float]:
+    """Extremes over the later half of what was followed."""
+    radius, tension = (np.concatenate([one.columns[name] for one in runs]) for name in ("radius_m", TOP))
+    half = len(radius) // 2
+    found = radius[half:].min(), radius[half:].max(), tension[half:].max()
+    return dict(zip((column.name for column in _EXTREMES), map(float, found), strict=True))
 
-    states, measures = (np.concatenate([part[k] for part in parts]) for k in (0, 1))
-    later, scale = measures[len(measures) // 2 :], np.max([part[2] for part in parts], axis=0)
-    orbit = settled(states, measures[:-1], scale=scale)
-    growth = sum(doublings for doublings, _ in rates) / sum(periods for _, periods in rates)
-    extremes = later[:, 0].min(), later[:, 1].max(), later[:, 2].max()
-    row = dict(zip((column.name for column in _EXTREMES), map(float, extremes), strict=True))
-    period = None if orbit is None else orbit.period
-    return row | {"periods": len(measures), "strobed_period": period, "growth_bits_per_period": growth}
+
+def _repeats(states: np.ndarray) -> int | None:
+    """Wave periods after which states (n, 4) repeat in the median, as near as the two runs are; None: after no few."""
+    later = states[len(states) // 2 :]
+    for period in range(1, min(LONGEST_PERIOD, len(later) // 3) + 1):
+        if np.median(np.abs(later[period:] - later[:-period]).max(axis=1)) <= 2.0 * APART:
+            return period
+    return None
