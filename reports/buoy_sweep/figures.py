@@ -2,7 +2,8 @@
 
 import math
 from collections import Counter
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
 
 import numpy as np
 
@@ -13,9 +14,10 @@ from ..figures.curves import Curve, Panel
 from ..figures.orbit_diagram import NARROW_IN, Column, Range, orbit_diagram
 from ..parts.content import Figure, Heading, Item, Table, Text, heads
 from ..parts.folder import part_of
-from ..parts.style import BLUE, INK, REGIME_COLOURS, VERMILION
+from ..parts.style import BLUE, INK, REGIME_COLOURS, VERMILION, WIDTH_IN
 from ..parts.wording import T_I, T_S, count, decimals, number, printed
-from ..sweep.quantities import series
+from ..sweep.quantities import in_order, series
+from .motions import MARKS, PEAK, lines, shares_panel, tension_panel
 from .runs import PAPER_STEEPNESS, Run, Sweep
 from .tables import sweep_table
 
@@ -47,44 +49,75 @@ def orbit_figure(sweep: Sweep) -> Figure | None:
     drawn = [run for run in (*sweep.good, *sweep.between) if len(run.section)]
     if not drawn:
         return None
-    drawn.sort(key=lambda run: run.steepness)
+    drawn.sort(key=lambda run: (run.steepness, run.motion))
     missing = [run.steepness for run in sweep.runs if run not in drawn]
-    columns = [Column(run.steepness, run.section[:, 0], run["regime"] if run in sweep.judged else "") for run in drawn]
-    scene, static_N = sweep.folder.scene, sweep.modes.static_tension_N if sweep.modes else None
-    beyond = [
-        Range("whole sphere above still water", [_flies(run, scene.buoy.diameter_m) for run in drawn]),
-        Range("loops released", [run["loop_releases"] > 0 and not run.in_space for run in drawn]),
-    ]
-    ranges = [one for one in beyond if any(one.holds)]
+    columns = [Column(run.steepness, run.section[:, 0], run.row.get("regime") or "", run.motion) for run in drawn]
+    static_N = sweep.modes.static_tension_N if sweep.modes else None
+    beyond = [Range(text, [holds(sweep, run) for run in drawn]) for text, (_, holds) in _BEYOND.items()]
+    ranges = [] if sweep.colours else [one for one in beyond if any(one.holds)]
     marks = [(kA, "paper") for kA in PAPER_STEEPNESS if drawn[0].steepness <= kA <= drawn[-1].steepness]
     scale, unit = (1.0 / static_N, "over static") if static_N else (1e-3, "(kN)")
-    below = [_slack(drawn), *_exponent_panel(sweep), _tension(sweep, drawn, scale, unit)]
+    below = [_tension(sweep, drawn, scale, unit)]
+    if sweep.colours:
+        below = [*below, *shares_panel(sweep), *(replace(one, height=0.8) for one in _exponent_panel(sweep))]
+    else:
+        below = [_slack(drawn), *_exponent_panel(sweep), *below]
     labels = "wave steepness kA (–)", "strobed r (m)"
-    wide, narrow = (orbit_diagram(columns, labels, below, ranges, marks, missing, *how) for how in ((), (NARROW_IN,)))
-    caption = " ".join(_seen(sweep, drawn, static_N))
+    motions = {letter: (colour, _called(sweep, letter)) for letter, colour in sweep.colours.items()}
+    shown = columns, labels, below, ranges, marks, missing
+    wide, narrow = (orbit_diagram(*shown, width_in, motions) for width_in in (WIDTH_IN, NARROW_IN))
+    caption = " ".join(filter(None, _seen(sweep, drawn, static_N)))
     words = Counter(run["regime"] for run in sweep.judged)
     alt = f"Orbit diagram over wave steepness: {', '.join(f'{word} {n} times' for word, n in words.items())}; see text."
     return Figure(wide, caption, alt, narrow=narrow)
 
 
-def _flies(run: Run, diameter_m: float) -> bool:
+def _flies(sweep: Sweep, run: Run) -> bool:
     """Whether all of the sphere leaves the water."""
-    return bool(run["max_buoy_height_above_water_m"] > diameter_m)
+    return bool(run["max_buoy_height_above_water_m"] > sweep.folder.scene.buoy.diameter_m)
+
+
+def _loops(sweep: Sweep, run: Run) -> bool:
+    """Whether loops were released in the plane."""
+    return run["loop_releases"] > 0 and not run.in_space
+
+
+_BEYOND = {"whole sphere above still water": ("flies", _flies), "loops released": ("loops", _loops)}  # short, which
+
+
+def _called(sweep: Sweep, letter: str) -> str:
+    """What the legend says of a motion: its largest tension, and in short what else some of its runs do."""
+    runs = [run for run in sweep.motions[letter] if run.known(PEAK)]
+    if not runs:
+        return "without a motion"
+    more = [short for short, holds in _BEYOND.values() if any(holds(sweep, run) for run in runs)]
+    return ", ".join([f"up to {number(max(run[PEAK] for run in runs) / 1e3, 3)} kN", *more])
 
 
 def _seen(sweep: Sweep, drawn: Sequence[Run], static_N: float | None) -> Iterator[str]:
     """The caption."""
-    yield f"r at t = k{T_I} after the transient, over wave steepness, in the colour of the regime"
-    yield "(numbers in the bar: periods after which it repeats)." if sweep.judged else "."
+    yield f"r at t = k{T_I} after the transient, over wave steepness, in the colour of the"
+    if sweep.colours:
+        yield "motion. Each has a bar with its regimes (numbers: periods after which it repeats)."
+        told = [f"{short}: {text}" for text, (short, holds) in _BEYOND.items() if any(holds(sweep, r) for r in drawn)]
+        yield f"{'; '.join(told).capitalize()}." if told else ""
+    else:
+        yield f"regime{' (numbers in the bar: periods after which it repeats)' if sweep.judged else ''}."
     if beside := [run for run in drawn if run in sweep.between]:
         longest = number(max(run.periods_done for run in beside), 3)
-        yield f"{count(len(beside), 'run')} between those of the table, over {longest} periods, were not judged."
-    yield "Below: time with less than 5 % of the static tension; largest exponent with two standard errors, where the"
-    yield f"regime needs it; largest tension{f' over the static {T_S} = {number(static_N)} N' if static_N else ''}."
-    for role, steepness, peak_N, cut_N in _finer(sweep):
+        said = ", and have the colour of the motion beside them that is most alike" if sweep.colours else ""
+        yield f"{count(len(beside), 'run')} between those of the table, over {longest} periods, were not judged{said}."
+    tension = f"largest tension{f' over the static {T_S} = {number(static_N)} N' if static_N else ''}"
+    exponent = "largest exponent with two standard errors, where the regime needs it"
+    if sweep.colours:
+        yield f"Below: {tension}, with arrows to the motion that follows where one ends; shares of the fresh starts"
+        yield f"(hatched: not settled); {exponent}."
+    else:
+        yield f"Below: time with less than 5 % of the static tension; {exponent}; {tension}."
+    for role, fine, coarse in _finer(sweep):
         yield (
-            f"{role.capitalize()} at kA = {number(steepness)}: {number(peak_N / 1e3, 3)} kN, where the run over the "
-            f"same periods has {number(cut_N / 1e3, 3)}."
+            f"{role.capitalize()} at {fine.named}: {number(fine[PEAK] / 1e3, 3)} kN, where the run over the same "
+            f"periods has {number(coarse[PEAK] / 1e3, 3)}."
         )
     left = [run for run in sweep.judged if run["regime"] in ("undecided", "transient")]
     if sweep.judged:
@@ -114,10 +147,12 @@ def _exponent_panel(sweep: Sweep) -> list[Panel]:
     if not known.any():
         return []
     x, y, bars = _of(sweep.judged, "steepness"), np.array(values), np.array(errors)
+    colours, marks = sweep.colours or REGIME_COLOURS, dict(zip(sweep.colours, MARKS, strict=False))
+    names = np.array([run.motion for run in sweep.judged] if sweep.colours else words)
     lines = []
-    for word in dict.fromkeys(np.array(words)[known]):
-        own = known & (np.array(words) == word)
-        lines.append(Curve(x[own], y[own], "", "", "o", REGIME_COLOURS[word], bars[own], 3.0))
+    for name in dict.fromkeys(names[known]):
+        own = known & (names == name)
+        lines.append(Curve(x[own], y[own], "", "", marks.get(name, "o"), colours[name], bars[own], 3.0))
     usual = np.minimum(np.nan_to_num(bars), 3.0 * float(np.nanmedian(bars)))  # one long bar would hide the others
     margin = 0.08 * float(np.ptp(y[known])) + 0.01
     limits = float((y - usual)[known].min()) - margin, float((y + usual)[known].max()) + margin
@@ -125,31 +160,37 @@ def _exponent_panel(sweep: Sweep) -> list[Panel]:
 
 
 def _tension(sweep: Sweep, drawn: Sequence[Run], scale: float, unit: str) -> Panel:
-    lines = [Curve(_of(drawn, "steepness"), scale * _of(drawn, "tension_top_max_N"), "as run", colour=INK)]
-    rows = _companions(sweep, _CAP)
-    if rows:
-        lines.append(Curve(series(rows, "steepness"), scale * series(rows, "tension_top_max_N"), _CAP, colour=BLUE))
-    for role, at, peak_N, _ in _finer(sweep):
-        place = np.array([at]), np.array([scale * peak_N])
-        lines.append(Curve(*place, role, "", "D", VERMILION, size=4.0))
-    limits = {"ylim": (0.0, None)}
-    return Panel(lines, y_label=f"largest T\n{unit}", settings=limits)
+    several, label = bool(sweep.colours), f"largest T\n{unit}"
+    shown = [Curve(_of(drawn, "steepness"), scale * _of(drawn, PEAK), "as run", colour=INK)]
+    shown = lines(sweep, drawn, PEAK, scale) if several else shown
+    if capped := _companions(sweep, _CAP):
+        look = {"line": "", "mark": "_", "colour": INK} if several else {"colour": BLUE}  # of one motion or another
+        shown.append(Curve(_of(capped, "steepness"), scale * _of(capped, PEAK), _CAP, **look))
+    for role, fine, _ in _finer(sweep):
+        place = np.array([fine.steepness]), np.array([scale * fine[PEAK]])
+        shown.append(Curve(*place, role, "", "D", INK if several else VERMILION, size=4.0))
+    if several:
+        return tension_panel(sweep, drawn, shown, scale, label)
+    return Panel(shown, y_label=label, settings={"ylim": (0.0, None)})
 
 
-def _companions(sweep: Sweep, role: str) -> list[dict]:
-    """The rows of a role in companions/table.csv that ended as asked, by steepness."""
+def _run(sweep: Sweep, row: Mapping[str, object]) -> Run:
+    """A row of a folder beside the table."""
+    return Run(row if sweep.colours else {**row, "motion": ""})
+
+
+def _companions(sweep: Sweep, role: str) -> list[Run]:
+    """Those of a role in companions/table.csv that ended as asked, by steepness."""
     part = part_of(sweep.folder, "companions")
-    rows = [row for row in (part.table if part else ()) if row["role"] == role and row["status"] == "ok"]
-    return sorted(rows, key=lambda row: row["steepness"])
+    rows = in_order(part.table if part else (), ["steepness"])
+    return [_run(sweep, row) for row in rows if row["role"] == role and row["status"] == "ok"]
 
 
-def _finer(sweep: Sweep) -> Iterator[tuple[str, float, float, float]]:
-    """(role, steepness, largest tension on the finer grid, that of the run cut to the same periods), in N."""
+def _finer(sweep: Sweep) -> Iterator[tuple[str, Run, Run]]:
+    """(role, the run on the finer grid, the run of the table cut to the same periods)."""
     for coarse in _companions(sweep, _AS_RUN):
         role = f"{2 * int(coarse['nodes']) - 1} nodes"
-        for fine in _companions(sweep, role):
-            if fine["steepness"] == coarse["steepness"]:
-                yield role, fine["steepness"], fine["tension_top_max_N"], coarse["tension_top_max_N"]
+        yield from ((role, fine, coarse) for fine in _companions(sweep, role) if fine.named == coarse.named)
 
 
 def close_up_items(sweep: Sweep) -> list[Item]:
@@ -162,7 +203,7 @@ def close_up_items(sweep: Sweep) -> list[Item]:
     at, peak = snap.record[0][np.argmax(snap.record[1])], float(snap.record[1].max())
     seen = f"{number(peak, 3)} N at t/{T_I} = {decimals(float(at), 2)}"
     caption = (
-        f"Buoy and tether at kA = {number(trajectory.scene.waves.steepness)} in true proportion, at six values of "
+        f"Buoy and tether at {_run(sweep, rows[-1]).named} in true proportion, at six values of "
         f"t/{T_I} (above each), and the tension at its top, at most {seen}. Thick: parts without tension; "
         "the wave is the linear one. From the profiles in `close_up/trajectories`."
     )
@@ -199,7 +240,7 @@ def regime_items(sweep: Sweep) -> list[Item]:
     if not sweep.judged:
         return []
     caption = "Regime, and largest exponent with one standard error after the transient, where the regime needs it."
-    names = ("steepness", "regime", "periods", "transient_periods", TANGENT, WOLF)
+    names = ("regime", "periods", "transient_periods", TANGENT, WOLF)
     told = tuple(name for name in names if isinstance(name, tuple) or name in sweep.folder.columns)
     return [Heading("Regimes and exponents"), Text(_DEFINED), sweep_table(sweep, told, sweep.judged, caption)]
 

@@ -10,6 +10,7 @@ from ..parts.sections import section_items
 from ..parts.wording import T_I, TAU_0, decimals, number
 from ..sweep.quantities import extremes
 from .figures import close_up_items, orbit_figure, regime_items
+from .motions import every_motion, motions_items
 from .runs import PAPER_WINDOW, Run, Sweep, read_sweep
 from .sheets import sheet_items
 from .tables import accuracy_items, plane_items, runs_items, scene_and_modes, time_items
@@ -29,10 +30,12 @@ def report(directory: str | Path) -> Report:
     scene, figure = sweep.folder.scene, orbit_figure(sweep)
     items = [
         figure or Text("No run gave strobed points after the transient, so there is no orbit diagram."),
+        *motions_items(sweep),
         *_question(sweep),
         Heading("Warnings"),
         warnings(sweep),
         *regime_items(sweep),
+        *every_motion(sweep),
         *close_up_items(sweep),
         *plane_items(sweep),
         *accuracy_items(sweep.folder.directory),
@@ -51,9 +54,10 @@ def report(directory: str | Path) -> Report:
 def _question(sweep: Sweep) -> list[Item]:
     columns = sweep.folder.columns
     shown = [columns[name] for name in _EXTREMES if name in columns]
+    keys = [columns[name] for name in ("steepness", *(["motion"] if sweep.colours else []))]
     items: list[Item] = [
         *section_items("buoy_sweep", "Question"),
-        *extremes([columns["steepness"]], [run.row for run in sweep.good], shown, _OF_THESE),
+        *extremes(keys, [run.row for run in sweep.good], shown, _OF_THESE),
     ]
     if sweep.judged:
         return items

@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property, partial
-from operator import itemgetter
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -16,7 +15,8 @@ from engine.natural_frequencies import Modes, natural_frequencies
 
 from ..figures.run_sheet import run_sheet
 from ..parts.folder import Folder, Row, part_of, read_folder
-from ..parts.wording import OMEGA_I, OMEGA_R, decimals, number, ranges
+from ..parts.wording import OMEGA_I, OMEGA_R, decimals, listed, number, ranges
+from ..sweep.quantities import colours_of, in_order
 
 if TYPE_CHECKING:
     from analysis import Spectrum
@@ -65,9 +65,14 @@ class Run(Row):
         return self["steepness"]
 
     @property
+    def motion(self) -> str:
+        """The letter of its motion, "" in a sweep of one."""
+        return self.row.get("motion") or ""
+
+    @property
     def named(self) -> str:
-        """ "kA = 0.13"."""
-        return f"kA = {number(self.steepness)}"
+        """ "kA = 0.13", "kA = 0.13, motion B"."""
+        return f"kA = {number(self.steepness)}{f', motion {self.motion}' if self.motion else ''}"
 
     @property
     def in_space(self) -> bool:
@@ -83,8 +88,9 @@ class Run(Row):
 class Sweep:
     """The folder and all facts that more than one section of the report uses.
 
-    between: runs between the values of the table, which nobody judged. tolerance: of its range, within which a motion
-    repeats. longest: largest number of wave periods tried. modes: natural frequencies, None where there are none.
+    runs: by steepness, then by motion. between: those between the values of the table, which nobody judged. tolerance:
+    of its range, within which a motion repeats. longest: largest number of wave periods tried. modes: natural
+    frequencies, None where there are none.
     """
 
     folder: Folder
@@ -105,17 +111,37 @@ class Sweep:
         return tuple(run for run in self.runs if run["regime"])
 
     @cached_property
+    def values(self) -> list[float]:
+        """The steepnesses, each once."""
+        return sorted({run.steepness for run in self.runs})
+
+    @cached_property
+    def motions(self) -> dict[str, tuple[Run, ...]]:
+        """The runs of each motion by its letter; {"": all} where there is one motion."""
+        letters = sorted({run.motion for run in self.runs})
+        return {letter: tuple(run for run in self.runs if run.motion == letter) for letter in letters}
+
+    @cached_property
+    def colours(self) -> dict[str, str]:
+        """The colour of each motion by its letter; {} where there is one motion."""
+        return colours_of([run.row for run in self.runs])
+
+    @cached_property
     def chosen(self) -> frozenset[Run]:
         """The runs whose sheets are printed: nearest the paper's two steepnesses, and the first of several points."""
         drawable = [run for run in self.runs if run.drawing]
         good = [run for run in drawable if run.ok] or drawable
-        nearest = [min(good, key=lambda run: abs(run.steepness - kA)) for kA in PAPER_STEEPNESS if good]
-        return frozenset([*nearest, *[run for run in good if (run.period or 0) > 1][:1]])
+        nearest = {min(good, key=lambda run: abs(run.steepness - kA)).steepness for kA in PAPER_STEEPNESS if good}
+        several = [run for run in good if (run.period or 0) > 1][:1]
+        return frozenset([*several, *(run for run in good if run.steepness in nearest)])
 
     def at(self, chosen: Iterable[Run]) -> str:
-        """ "kA = 0.01 to 0.03 and 0.05": the chosen of the runs, neighbours joined."""
-        chosen = set(chosen)
-        return f"kA = {ranges([run.steepness for run in self.runs], [run in chosen for run in self.runs])}"
+        """ "kA = 0.01 to 0.03 and 0.05": the chosen of the runs, neighbours joined; " (A)" behind those of a motion."""
+        places: dict[str, set[float]] = {}
+        for run in sorted(chosen, key=lambda run: run.motion):
+            places.setdefault(run.motion, set()).add(run.steepness)
+        said = ((letter, ranges(self.values, [kA in own for kA in self.values])) for letter, own in places.items())
+        return listed(f"kA = {where} ({letter})" if letter else f"kA = {where}" for letter, where in said)
 
 
 def read_sweep(directory: str | Path) -> Sweep:
@@ -128,12 +154,21 @@ def read_sweep(directory: str | Path) -> Sweep:
     tolerance, longest = float(told.get("strobe_tolerance") or 0.01), int(told.get("longest_period") or 16)
     modes, beside = natural_frequencies(folder.scene), part_of(folder, "between")
     bins = _FINE_BINS if len(folder.table) <= _MANY else _FINE_BINS // 2
-    rows = enumerate(sorted(folder.table, key=itemgetter("steepness")), 1)
-    runs = tuple(
-        _read_run(folder, row, f"run-{place}", partial(drawing, bins=bins, modes=modes)) for place, row in rows
-    )
+    several, drawn = colours_of(folder.table), partial(drawing, bins=bins, modes=modes)
+    rows = in_order((row if several else {**row, "motion": ""} for row in folder.table), ["steepness"])
+    runs = tuple(_read_run(folder, row, f"run-{place}", drawn) for place, row in enumerate(rows, 1))
     between = (_read_run(beside, row) for row in (beside.table if beside else ()) if row["status"] == "ok")
-    return Sweep(folder, runs, tuple(between), tolerance, longest, modes)
+    return Sweep(folder, runs, tuple(_named(run, runs) for run in between), tolerance, longest, modes)
+
+
+def _named(run: Run, among: Sequence[Run]) -> Run:
+    """A run between the values of others as one of the motion, of those beside it, whose range of r is nearest its."""
+    ends = "radius_min_m", "radius_max_m"
+    values = np.array([other.steepness for other in among])
+    low, high = values[values < run.steepness].max(initial=-np.inf), values[values > run.steepness].min(initial=np.inf)
+    beside = [other for other in among if other.steepness in (low, high) and all(map(other.known, ends))]
+    off = [sum(abs(run[name] - other[name]) for name in ends) for other in beside]
+    return replace(run, row={**run.row, "motion": beside[int(np.argmin(off))].motion}) if beside else run
 
 
 def _read_run(folder: Folder, row: dict, anchor: str = "", drawn: Callable | None = None) -> Run:

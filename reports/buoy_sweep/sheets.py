@@ -10,14 +10,20 @@ from .figures import evidence_table, exponents
 from .runs import END_PERIODS, Run, Sweep
 
 # columns that a sheet shows in its title, its drawing, its table or its message
-_ELSEWHERE = ("steepness", "status", "strobed_period", "regime_reason", "evidence", "run_key", "message")
+_ELSEWHERE = ("steepness", "motion", "status", "strobed_period", "regime_reason", "evidence", "run_key", "message")
 
 
 def explorer(sweep: Sweep) -> Explorer:
     """The orbit diagram as numbers that the page's script draws; who chooses a run there sees its sheet."""
     runs, rows = sweep.runs, [run.row for run in sweep.runs]
     columns = tuple(
-        ExplorerColumn(run.steepness, tuple(run.section[:, 0]) if run.ok else (), _name(run), run.anchor)
+        ExplorerColumn(
+            run.steepness,
+            tuple(run.section[:, 0]) if run.ok else (),
+            _name(run),
+            run.anchor,
+            sweep.colours.get(run.motion, ""),
+        )
         for run in runs
     )
     lower = [("slack fraction (–)", tuple(series(rows, "slack_fraction")), (math.nan,) * len(runs))]
@@ -35,16 +41,20 @@ def sheet_items(sweep: Sweep) -> list[Item]:
         "perturbations were carried. The PDF has those nearest the paper's kA = 0.016 and 0.13, and the first of a "
         "motion that repeats after several periods."
     )
-    beside = zip((None, *sweep.runs), sweep.runs, (*sweep.runs[1:], None), strict=False)
-    sheets = (_sheet(sweep, run, (left, right)) for left, run, right in beside)
-    return [Heading("Every run"), Text(said), explorer(sweep), *sheets]
+    return [Heading("Every run"), Text(said), explorer(sweep), *(_sheet(sweep, run) for run in sweep.runs)]
 
 
-def _sheet(sweep: Sweep, run: Run, beside: tuple[Run | None, Run | None]) -> Sheet:
+def _sheet(sweep: Sweep, run: Run) -> Sheet:
     message = run["message"] or run.fault
-    lines = [f"Message: {message}."] if message else []
-    if ways := [link(one.named, one.anchor) for one in beside if one is not None]:
-        lines.append(f"Next to it: {' and '.join(ways)}.")
+    lines, own = [f"Message: {message}."] if message else [], sweep.motions[run.motion]
+    place = own.index(run)
+    others = (one for one in sweep.runs if one.steepness == run.steepness and one is not run)
+    for said, ways in (
+        ("Next to it", (*own[max(place - 1, 0) : place], *own[place + 1 :][:1])),
+        ("At the same kA", others),
+    ):
+        if links := [link(one.named, one.anchor) for one in ways]:
+            lines.append(f"{said}: {' and '.join(links)}.")
     return Sheet(
         run.anchor, _name(run), _facts(sweep, run), tuple(lines), run.drawing, evidence_table(run), run in sweep.chosen
     )

@@ -19,7 +19,7 @@ _RUNS = (
 )  # fmt: skip
 _ACROSS = ("offplane_growth_bits_per_period", "offplane_growth_error")
 _PLANE = (
-    "steepness", "dimensions", "planar_loop_releases", "loop_releases", "rope_lateral_max_m", "buoy_lateral_max_m",
+    "dimensions", "planar_loop_releases", "loop_releases", "rope_lateral_max_m", "buoy_lateral_max_m",
     "max_turn_rad", "radius_min_m", "radius_max_m", "planar_radius_min_m", "planar_radius_max_m", "regime",
     "planar_regime",
 )  # fmt: skip
@@ -47,12 +47,15 @@ _NOT_REPEATED = (
 
 
 def sweep_table(sweep: Sweep, names: tuple[Name, ...], runs: tuple[Run, ...], caption: str):
-    """A table of runs, the steepness a link to the sheet of the run; a period of 0 reads "none".
+    """A table of runs: their steepness, a link to the sheet of the run, their motion and the columns of these names.
 
-    Columns without an entry in any of the runs are left out.
+    A period of 0 reads "none". Columns without an entry in any of the runs are left out.
     """
-    columns = sweep.folder.columns
-    names = tuple(name for name in names if any(plus_minus(columns, run.row, *_pair(name)) != EMPTY for run in runs))
+    columns, names = sweep.folder.columns, ("steepness", "motion", *names)
+    names = tuple(
+        name for name in names
+        if _pair(name)[0] in columns and any(plus_minus(columns, run.row, *_pair(name)) != EMPTY for run in runs)
+    )  # fmt: skip
     rows = [{**run.row, "run": run} for run in runs]
     own = {
         "steepness": lambda row: link(number(row["steepness"]), row["run"].anchor),
@@ -74,7 +77,7 @@ def runs_items(sweep: Sweep) -> list[Item]:
         f"its range, N ≤ {sweep.longest}; “none” where no N does. A dash: not known. On the page kA "
         "leads to the sheet of the run."
     )
-    names = ("steepness", *space, "status", "strobed_period", *_RUNS)
+    names = (*space, "share", "found_by", "status", "strobed_period", *_RUNS)
     return [Heading("Table of runs"), sweep_table(sweep, names, sweep.runs, caption)]
 
 
@@ -94,7 +97,7 @@ def plane_items(sweep: Sweep) -> list[Item]:
     items: list[Item] = [Heading("Out of the plane"), Text(words)]
     if across:
         growth, error = (sweep.folder.columns[name] for name in _ACROSS)
-        picture = over_key(across, sweep.folder.columns["steepness"], [((growth, error),)])
+        picture = over_key(across, sweep.folder.columns["steepness"], [((growth, error),)], sweep.colours)
         caption = (
             "Exponent of an infinitesimal perturbation across the plane, with one standard error, in planar runs that "
             f"released no loop: below zero the planar motion is stable. From `{growth.name}` and `{error.name}`."
@@ -119,7 +122,9 @@ def accuracy_items(directory: Path) -> list[Item]:
         "rtol": lambda row: number(number_of(row["rtol"] or row["step_s"])),
     }
     caption = "Runs repeated: what changed against the run as it was made. From `accuracy/table.csv`."
-    table = table_of(read_columns(directory / "accuracy"), _REPEATED, rows, caption, own)
+    columns = read_columns(directory / "accuracy")
+    names = *(name for name in ("motion",) if name in columns), *_REPEATED
+    table = table_of(columns, names, rows, caption, own)
     return [heading, Text(_WHY_REPEATED), table]
 
 
@@ -137,14 +142,14 @@ def time_items(sweep: Sweep) -> list[Item]:
         )
         caption = f"Cost of each run: {seen}. Crosses: runs that ended early. From `table.csv`."
         alt = f"Wall time and Newton iterations of each run over wave steepness: {seen}."
-        figure = Figure(over_key(rows, columns["steepness"], shown), caption, alt)
+        figure = Figure(over_key(rows, columns["steepness"], shown, sweep.colours), caption, alt)
     return timing_items(sweep.folder, figure)
 
 
 def scene_and_modes(sweep: Sweep) -> list[Item]:
     """Every parameter with its source, and the closed forms that follow."""
-    modes, values = sweep.modes, [run.steepness for run in sweep.runs]
-    varied = {"waves.steepness": ranges(values, [True] * len(values))}
+    modes = sweep.modes
+    varied = {"waves.steepness": ranges(sweep.values, [True] * len(sweep.values))}
     if any(run.in_space for run in sweep.runs):
         varied["motion.dimensions"] = listed(sorted({number(run["dimensions"]) for run in sweep.runs}))
         if push := sweep.folder.provenance.get("push_mps"):

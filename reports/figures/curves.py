@@ -6,6 +6,7 @@ from functools import partial
 
 import numpy as np
 from matplotlib.figure import Figure
+from matplotlib.patheffects import withStroke
 
 from ..parts.content import Picture
 from ..parts.style import BLUE, GREEN, ORANGE, PURPLE, SKY, SOFT, VERMILION, picture_of, sheet
@@ -37,13 +38,26 @@ class Curve:
     band: tuple[np.ndarray, np.ndarray, np.ndarray] | None = None
 
 
+@dataclass(frozen=True)
+class Box:
+    """A filled part of a panel, left to right and low to high; hatch: matplotlib's, drawn in the colour on white."""
+
+    left: float
+    right: float
+    low: float
+    high: float
+    colour: str
+    hatch: str = ""
+
+
 @dataclass(frozen=True, eq=False)
 class Panel:
     """Curves on one pair of axes.
 
     log: the axes that are logarithmic, "", "x", "y" or "xy". level: a thin horizontal line there. settings: of
     matplotlib's `Axes.set`, such as limits. ticks: most numbers on the x axis, None as they come. marks: (x, name) of
-    places on the x axis. beside: "right" or "top" -> factor from the axis opposite, label.
+    places on the x axis. beside: "right" or "top" -> factor from the axis opposite, label. arrows: (x, y from, y to,
+    colour), upright. texts: (x, y, text, colour). height: against that of other panels.
     """
 
     curves: Sequence[Curve]
@@ -56,6 +70,10 @@ class Panel:
     ticks: int | None = None
     marks: Sequence[tuple[float, str]] = ()
     beside: Mapping[str, tuple[float, str]] = field(default_factory=dict)
+    boxes: Sequence[Box] = ()
+    arrows: Sequence[tuple[float, float, float, str]] = ()
+    texts: Sequence[tuple[float, float, str, str]] = ()
+    height: float = 1.0
 
 
 Rows = Sequence[Sequence[Panel]]
@@ -85,6 +103,16 @@ def draw(axes, panel: Panel) -> None:
             axes.plot(curve.x, curve.y, **look)
         else:
             axes.errorbar(curve.x, curve.y, curve.error, elinewidth=0.8, capsize=1.5, **look)
+    for box in panel.boxes:
+        face, edge = ("white", box.colour) if box.hatch else (box.colour, "white")
+        look = {"facecolor": face, "edgecolor": edge, "hatch": box.hatch, "linewidth": 0.3, "align": "edge"}
+        axes.bar(box.left, box.high - box.low, box.right - box.left, box.low, **look)
+    for x, start, end, colour in panel.arrows:
+        arrow = {"arrowstyle": "-|>", "color": colour, "linewidth": 1.3, "shrinkA": 0.0, "shrinkB": 0.0}
+        axes.annotate("", (x, end), (x, start), arrowprops=arrow)
+    for x, y, text, colour in panel.texts:
+        look = {"ha": "center", "va": "center", "fontsize": 7.5 if len(text) == 1 else 6.5, "fontweight": "bold"}
+        axes.text(x, y, text, color=colour, path_effects=[withStroke(linewidth=2.0, foreground="white")], **look)
     for axis in panel.log:
         getattr(axes, f"set_{axis}scale")("log")
     axes.set(xlabel=panel.x_label, ylabel=panel.y_label, title=panel.title)

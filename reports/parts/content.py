@@ -145,12 +145,16 @@ class Explorer:
 
 @dataclass(frozen=True)
 class ExplorerColumn:
-    """One run of an explorer: its parameter, its points (or none), its name in a list, the anchor of its sheet."""
+    """One run of an explorer: its parameter, its points (or none), its name in a list, the anchor of its sheet.
+
+    colour: of its points, "" for that of all.
+    """
 
     at: float
     points: tuple[float, ...]
     name: str
     anchor: str
+    colour: str = ""
 
 
 @dataclass(frozen=True)

@@ -1,15 +1,18 @@
 """What a table measures, as a report draws it: its numbers with their errors, least and greatest values together."""
 
 from collections.abc import Iterable, Mapping, Sequence
+from itertools import cycle
 
 import numpy as np
 
 from ..figures.curves import COLOURS, Curve, Panel, curves
-from ..parts.columns import Quantity, number_of
+from ..parts.columns import Quantity, number_of, value
 from ..parts.content import Picture, Table, heads
+from ..parts.style import BLUE, GREEN, ORANGE, PURPLE, SKY, SOFT, VERMILION
 from ..parts.wording import EMPTY, number
 
 PER_ROW = 2
+_CALM = BLUE, GREEN, ORANGE, PURPLE, SKY  # of all motions but that of the largest tension
 Measured = tuple[tuple[Quantity, Quantity | None], ...]  # one panel: columns of one unit, each with its errors or None
 
 
@@ -38,34 +41,61 @@ def measured(
     return found
 
 
+def colours_of(rows: Sequence[Mapping[str, object]]) -> dict[str, str]:
+    """The colour of each motion of a table by its letter; {} where it has one motion, or does not tell of any.
+
+    The motion of the largest tension is vermilion; "", of runs that ended before they had one, is grey.
+    """
+    peaks: dict[str, float] = {}
+    for row in in_order(rows, []):
+        peaks[row.get("motion") or ""] = max(peaks.get(row.get("motion") or "", 0.0), value(row, "tension_top_max_N"))
+    nameless, left = peaks.pop("", None), cycle(_CALM)
+    worst = max(peaks, key=peaks.get, default="")
+    colours = {letter: VERMILION if letter == worst else next(left) for letter in peaks}
+    return colours | ({} if nameless is None else {"": SOFT}) if len(peaks) > 1 else {}
+
+
+def in_order(rows: Iterable[Mapping[str, object]], keys: Sequence[str]) -> list:
+    """The rows of a table by their keys, then by motion."""
+    return sorted(rows, key=lambda row: [*(row[name] for name in keys), row.get("motion") or ""])
+
+
 def series(rows: Iterable[Mapping[str, object]], column: str) -> np.ndarray:
     """A column of a table over its rows (p,), nan where it is empty."""
     return np.array([number_of(row.get(column)) for row in rows])
 
 
-def over_key(rows: Sequence[Mapping[str, object]], key: Quantity, shown: Sequence[Measured]) -> Picture:
+def over_key(
+    rows: Sequence[Mapping[str, object]], key: Quantity, shown: Sequence[Measured], motions: Mapping[str, str]
+) -> Picture:
     """`panels_over` as one picture."""
-    panels = panels_over(rows, key, shown)
+    panels = panels_over(rows, key, shown, motions)
     grid = [panels[first : first + PER_ROW] for first in range(0, len(panels), PER_ROW)]
     return curves(grid, 0.6 + 1.7 * len(grid), "best")
 
 
-def panels_over(rows: Sequence[Mapping[str, object]], key: Quantity, shown: Sequence[Measured]) -> list[Panel]:
+def panels_over(
+    rows: Sequence[Mapping[str, object]], key: Quantity, shown: Sequence[Measured], motions: Mapping[str, str]
+) -> list[Panel]:
     """Every quantity over a varied key, a panel each, with error bars where there are errors.
 
-    Runs that did not reach their full length are crosses.
+    Runs that did not reach their full length are crosses. motions: `colours_of` the table; where there are several,
+    the columns of one panel are told apart by their marks alone.
     """
     good = np.array([row["status"] == "ok" for row in rows], dtype=bool)
     x, panels = series(rows, key.name), []
+    of = np.array([(row.get("motion") or "") if motions else "" for row in rows])
     for one in shown:
         lines = []
         *others, last = (column.label for column, _ in one)
         label = ", ".join([*(other.rpartition(" (")[0] for other in others), last])  # the unit once, at the end
         for (column, error), mark, colour in zip(one, "os^D", COLOURS, strict=False):
             y, name = series(rows, column.name), column.label.rpartition(" (")[0] if len(one) > 1 else ""
-            bars = series(rows, error.name)[good] if error else None
-            lines.append(Curve(x[good], y[good], name, "", mark, colour, bars, 3.0))
-            lines.append(Curve(x[~good], y[~good], "", "", "x", colour, size=5.0))
+            bars = series(rows, error.name) if error else None
+            for letter, own in (motions or {"": colour}).items():
+                some, rest, which = (of == letter) & good, (of == letter) & ~good, f"{name} {letter}".strip()
+                lines.append(Curve(x[some], y[some], which, "", mark, own, bars[some] if error else None, 3.0))
+                lines.append(Curve(x[rest], y[rest], "", "", "x", own, size=5.0))
         level = 0.0 if any(error for _, error in one) else None
         panels.append(Panel(lines, key.label, label, level=level))
     return panels
@@ -87,8 +117,13 @@ def extremes(
 
 
 def at(keys: Sequence[Quantity], row: Mapping[str, object]) -> str:
-    """Where a row stands: "H = 21 m, kA = 0.1"."""
-    return ", ".join(f"{key.head} = {number(float(row[key.name]))} {key.unit}".strip() for key in keys)
+    """Where a row stands: "H = 21 m, kA = 0.1"; with the letter of its motion, where keys have that: "motion B"."""
+    return ", ".join(
+        f"{key.head} {row[key.name]}"
+        if key.digits is None
+        else f"{key.head} = {number(float(row[key.name]))} {key.unit}".strip()
+        for key in keys
+    )
 
 
 def errors_of(names: Iterable[str]) -> dict[str, str]:

@@ -11,7 +11,7 @@ from ..parts.content import Figure, Heading, Item, Notice, Report, Table, Text, 
 from ..parts.folder import FolderError, read_folder
 from ..parts.provenance import appendix, provenance_items, scene_items, timing_items
 from ..parts.wording import EMPTY, listed, number
-from .quantities import Measured, at, extremes, measured, over_key, series
+from .quantities import Measured, at, colours_of, extremes, in_order, measured, over_key, series
 
 _PANELS, _MAPS, _COLUMNS = 8, 6, 14  # of one figure, of one table
 _LONGEST = 24  # letters of a cell of the tables of runs
@@ -28,18 +28,19 @@ def report(directory: str | Path) -> Report:
     if not isinstance(vary, dict) or not 1 <= len(vary) <= 2 or not set(vary) <= set(folder.columns):
         raise FolderError(folder.directory, ["provenance.json cannot be read: it does not name what was varied"])
     keys = [folder.columns[name] for name in vary]
-    rows = sorted(folder.table, key=lambda row: [row[name] for name in vary])
+    rows, motions = in_order(folder.table, list(vary)), colours_of(folder.table)
     shown = measured(folder.columns, rows, (*vary, *_COUNTED))
+    each = [*keys, *([folder.columns["motion"]] if motions else [])]  # what tells one run from another
     said = listed(f"`{key.name}`" for key in keys)
     varied = {key.name: listed(number(value) for value in np.unique(series(rows, key.name))) for key in keys}
     shipped = str(folder.provenance.get("scene") or folder.scene.name)
     items = [
         Heading("Question"),
         Text(f"What does the scene `{folder.scene.name}` do as {said} {'varies' if len(keys) == 1 else 'vary'}?"),
-        *extremes(keys, rows, [column for one in shown for column, _ in one], _EXTREMES),
-        *(_panels(keys[0], rows, shown) if len(keys) == 1 else _maps(keys, rows, shown)),
+        *extremes(each, rows, [column for one in shown for column, _ in one], _EXTREMES),
+        *(_panels(keys[0], rows, shown, motions) if len(keys) == 1 else _maps_of_each(keys, rows, shown, motions)),
         Heading("Warnings"),
-        _failed(keys, rows),
+        _failed(each, rows),
         Heading("Table of runs"),
         *_tables(folder.columns, keys, rows),
         *appendix(
@@ -49,16 +50,21 @@ def report(directory: str | Path) -> Report:
     return Report(f"Sweep of {said.replace('`', '')}", folder.scene.title or folder.scene.name, tuple(items))
 
 
-def _panels(key: Quantity, rows, shown: Sequence[Measured]) -> list[Item]:
+def _panels(key: Quantity, rows, shown: Sequence[Measured], motions: Mapping[str, str]) -> list[Item]:
     items: list[Item] = []
     for part in batched(shown, _PANELS):
         names = listed(plain(column.head) for one in part for column, _ in one)
         caption = f"Columns of `table.csv` over {key.head}: {names}. Bars: one standard error; crosses: ended early."
-        items.append(Figure(over_key(rows, key, part), caption, f"Panels over {plain(key.head)} of {names}."))
+        items.append(Figure(over_key(rows, key, part, motions), caption, f"Panels over {plain(key.head)} of {names}."))
     return [Heading(f"Over {key.head}"), *(items or [_NOTHING])]
 
 
-def _maps(keys: Sequence[Quantity], rows, shown: Sequence[Measured]) -> list[Item]:
+def _maps_of_each(keys: Sequence[Quantity], rows, shown: Sequence[Measured], motions) -> list[Item]:
+    every = {f", motion {letter}": [row for row in rows if row["motion"] == letter] for letter in motions}
+    return [item for said, own in (every or {"": rows}).items() for item in _maps(keys, own, shown, said)]
+
+
+def _maps(keys: Sequence[Quantity], rows, shown: Sequence[Measured], motion: str) -> list[Item]:
     over = [series(rows, key.name) for key in keys]
     places = tuple(np.unique(values) for values in over)
     across, up = (np.searchsorted(*pair) for pair in zip(places, over, strict=True))
@@ -75,10 +81,10 @@ def _maps(keys: Sequence[Quantity], rows, shown: Sequence[Measured]) -> list[Ite
     items: list[Item] = []
     for part in batched(drawn, _MAPS):
         names = listed(one.name for one in part)
-        caption = f"Columns of `table.csv` over {keys[0].head} and {keys[1].head}: {names}. Crosses: no value."
+        caption = f"Columns of `table.csv` over {keys[0].head} and {keys[1].head}: {names}{motion}. Crosses: no value."
         picture = maps(places, (keys[0].label, keys[1].label), part)
-        items.append(Figure(picture, caption, f"Maps over two parameters of {names}."))
-    return [Heading(f"Over {keys[0].head} and {keys[1].head}"), *(items or [_NOTHING])]
+        items.append(Figure(picture, caption, f"Maps over two parameters of {names}{motion}."))
+    return [Heading(f"Over {keys[0].head} and {keys[1].head}{motion}"), *(items or [_NOTHING])]
 
 
 def batched(items: Sequence, most: int) -> list[Sequence]:

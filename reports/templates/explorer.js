@@ -82,17 +82,15 @@
 
   function drawPoints(pen, colours) {
     const scale = (width() - LEFT - RIGHT) / (view.x1 - view.x0);
-    pen.fillStyle = colours.points;
     pen.globalAlpha = 0.55;
     columns.forEach((column, index) => {
       const x = across(column.at), half = Math.max(0.75, Math.min(0.4 * room[index] * scale, 6));
       if (x < LEFT - 8 || x > width() + 8) return;
-      if (index === chosen) pen.fillStyle = colours.mark;
+      pen.fillStyle = index === chosen ? colours.mark : column.colour || colours.points;
       if (!column.points.length) drawCross(pen, x, index === chosen ? colours.mark : colours.soft);
       for (const point of column.points) {
         pen.fillRect(x - half, down(point) - 0.75, 2 * half, 1.5);
       }
-      pen.fillStyle = colours.points;
     });
     pen.globalAlpha = 1;
   }
@@ -107,7 +105,7 @@
       curve.values.forEach((value, i) => {
         if (value === null) return;
         const x = across(columns[i].at), error = curve.errors[i];
-        pen.strokeStyle = pen.fillStyle = i === chosen ? colours.mark : colours.points;
+        pen.strokeStyle = pen.fillStyle = i === chosen ? colours.mark : columns[i].colour || colours.points;
         pen.beginPath();
         pen.moveTo(x, to(error === null ? 0 : value - error));
         pen.lineTo(x, to(error === null ? value : value + error));
@@ -123,7 +121,7 @@
     const density = window.devicePixelRatio || 1, style = getComputedStyle(document.documentElement);
     const colour = (name) => style.getPropertyValue(name).trim();
     const colours = { ink: colour("--ink"), soft: colour("--soft"), line: colour("--line"), points: colour("--accent"),
-                      mark: colour("--warn") };
+                      mark: colour(columns.some((column) => column.colour) ? "--ink" : "--warn") };
     canvas.width = Math.round(width() * density);
     canvas.height = Math.round(height() * density);
     const pen = canvas.getContext("2d");
@@ -223,8 +221,11 @@
     const click = dragged && !dragged.moved;
     dragged = null;
     if (!click) return;
-    const value = back(whereOn(event).x);
-    choose(at.reduce((best, one, i) => Math.abs(one - value) < Math.abs(at[best] - value) ? i : best, 0));
+    const here = whereOn(event), value = back(here.x);
+    // of several motions at the nearest value, that of the nearest point
+    const off = at.map((one) => Math.abs(one - value)), least = Math.min(...off);
+    const above = columns.map((column) => Math.min(1e9, ...column.points.map((point) => Math.abs(down(point) - here.y))));
+    choose(at.reduce((best, _, i) => off[i] === least && (best < 0 || above[i] < above[best]) ? i : best, -1));
   });
   canvas.addEventListener("pointercancel", () => { dragged = null; });
   // only a diagram that has the focus takes the wheel: the page scrolls over all others

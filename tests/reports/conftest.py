@@ -4,6 +4,7 @@ The browser is the Chromium of the machine, driven by Playwright. Where there is
 skipped, and `pytest` says so with the reason at its end (`-rs` in pyproject.toml).
 """
 
+import csv
 import shutil
 from collections.abc import Mapping
 from contextlib import contextmanager
@@ -14,8 +15,12 @@ from typing import get_args
 
 import numpy as np
 import pytest
+from matplotlib.colors import to_hex
+from matplotlib.figure import Figure as Drawing
 
 from campaigns import buoy_sweep
+from campaigns.buoy_sweep.rows import COLUMNS
+from campaigns.columns import dictionary
 from engine.scene import load_scene
 from reports import build, content_of
 from reports.parts.content import (
@@ -175,3 +180,37 @@ def browse():
 
         yield opened
         browser.close()
+
+
+@pytest.fixture
+def drawn(monkeypatch):
+    """Every drawing that is saved from here on."""
+    kept, save = [], Drawing.savefig
+
+    def keep(figure, *how, **options):
+        kept.append(figure)
+        return save(figure, *how, **options)
+
+    monkeypatch.setattr(Drawing, "savefig", keep)
+    return kept
+
+
+def write(place, rows, columns=COLUMNS):
+    """The table and its dictionary of a folder."""
+    place.mkdir(exist_ok=True)
+    (place / "columns.csv").write_bytes(dictionary(columns))
+    with open(place / "table.csv", "w", newline="", encoding="utf-8") as file:
+        writer = csv.DictWriter(file, [one.name for one in columns], extrasaction="ignore")
+        writer.writeheader()
+        writer.writerows(rows)
+
+
+def rows_in(place) -> list[dict]:
+    """The table of a folder, as text."""
+    with open(place / "table.csv", newline="", encoding="utf-8") as file:
+        return list(csv.DictReader(file))
+
+
+def points_of(axes):
+    """{colour: x of every point of an orbit diagram drawn in it}."""
+    return {to_hex(line.get_color()): np.unique(line.get_xdata()) for line in axes.lines if line.get_marker() == "_"}

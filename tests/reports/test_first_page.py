@@ -2,7 +2,6 @@
 unchanged folder is not drawn again.
 """
 
-import csv
 import json
 import math
 import re
@@ -12,11 +11,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from matplotlib.colors import same_color, to_hex
-from matplotlib.figure import Figure as Drawing
 
 import reports
 from campaigns.buoy_sweep.rows import COLUMNS
-from campaigns.columns import dictionary
 from campaigns.machinery.folder import read_rows
 from reports import build, content_of
 from reports.buoy_sweep.figures import orbit_figure, regime_items
@@ -26,34 +23,16 @@ from reports.parts.content import Bullets, Figure, Heading, Report, Table, Text,
 from reports.parts.first_page import how_long, opened
 from reports.parts.html import render_html
 from reports.parts.style import REGIME_COLOURS
-from tests.reports.conftest import Page
+from tests.reports.conftest import Page, points_of, rows_in, write
 
 VALUES = np.linspace(0.02, 0.16, 29)
 WORDS = ["period-1"] * 20 + ["quasi-periodic"] * 4 + ["chaotic"] * 5
-
-
-@pytest.fixture
-def drawn(monkeypatch):
-    """Every drawing that is saved from here on."""
-    kept, save = [], Drawing.savefig
-
-    def keep(figure, *how, **options):
-        kept.append(figure)
-        return save(figure, *how, **options)
-
-    monkeypatch.setattr(Drawing, "savefig", keep)
-    return kept
 
 
 def columns_of(wide_m=(0.1, 8.0)):
     """Twenty columns of points within the first width, nine within the second, as far as they are named."""
     spans = [np.linspace(-0.5, 0.5, 7) * wide_m[k >= 20] for k in range(29)]
     return [Column(at, 20.0 + span, word) for at, span, word in zip(VALUES, spans, WORDS, strict=True)]
-
-
-def points_of(axes):
-    """{colour: x of every point drawn in it}."""
-    return {to_hex(line.get_color()): np.unique(line.get_xdata()) for line in axes.lines if line.get_marker() == "_"}
 
 
 def bar_of(axes):
@@ -122,15 +101,6 @@ def sweep(folder, tmp_path):
     return place
 
 
-def write(place, rows, columns=COLUMNS):
-    place.mkdir(exist_ok=True)
-    (place / "columns.csv").write_bytes(dictionary(columns))
-    with open(place / "table.csv", "w", newline="", encoding="utf-8") as file:
-        writer = csv.DictWriter(file, [one.name for one in columns], extrasaction="ignore")
-        writer.writeheader()
-        writer.writerows(rows)
-
-
 def test_wolf_s_exponent_is_drawn_where_no_other_is_known_and_never_where_the_motion_repeats(sweep, drawn):
     orbit_figure(read_sweep(sweep))
     panel = next(axes for axes in drawn[0].axes if axes.get_ylabel().startswith("exponent"))
@@ -146,19 +116,14 @@ def test_columns_of_wolf_are_there_only_where_he_was_asked(sweep, folder):
         return [plain(one.title) for one in regime_items(read_sweep(sweep))[2].columns]
 
     assert "σW" in heads()
-    rows = [{**row, "lyapunov_wolf_bits_per_period": "", "lyapunov_wolf_error": ""} for row in _raw(sweep)]
+    rows = [{**row, "lyapunov_wolf_bits_per_period": "", "lyapunov_wolf_error": ""} for row in rows_in(sweep)]
     write(sweep, rows)
     assert "σW" not in heads() and "σt" in heads()
 
 
-def _raw(place):
-    with open(place / "table.csv", newline="", encoding="utf-8") as file:
-        return list(csv.DictReader(file))
-
-
 def test_runs_between_and_companions_are_in_the_figure_and_it_is_made_without_them_too(sweep, drawn):
     alone = orbit_figure(read_sweep(sweep))
-    rows = {float(row["steepness"]): row for row in _raw(sweep)}
+    rows = {float(row["steepness"]): row for row in rows_in(sweep)}
     beside = {**rows[0.05], "steepness": 0.06, "regime": "", "transient_periods": 30}
     write(sweep / "between", [beside])
     (sweep / "between" / "trajectories").symlink_to(sweep / "trajectories")
@@ -186,7 +151,7 @@ def test_runs_between_and_companions_are_in_the_figure_and_it_is_made_without_th
 
 
 def test_a_transient_of_each_run_s_own_is_left_out_of_its_points(sweep):
-    rows = _raw(sweep)
+    rows = rows_in(sweep)
     for place, row in enumerate(rows):
         row["transient_periods"] = 10 + place
     write(sweep, rows)
@@ -242,7 +207,7 @@ def test_an_unchanged_folder_is_not_drawn_again(sweep, monkeypatch):
         lambda: (sweep / "report.pdf").unlink(),
         lambda: (sweep / "report.pdf").write_bytes(b"%PDF"),
         lambda: (sweep / "answer.txt").write_text("Another answer.\n"),
-        lambda: write(sweep, _raw(sweep)[:-1]),
+        lambda: write(sweep, rows_in(sweep)[:-1]),
         lambda: next((sweep / "trajectories").iterdir()).unlink(),
         lambda: (sweep / ".report.json").write_text("[]"),
     ):
@@ -254,7 +219,7 @@ def test_an_unchanged_folder_is_not_drawn_again(sweep, monkeypatch):
 
 
 def test_a_table_without_numbers_for_the_transient_still_reads(sweep):
-    for row in (rows := _raw(sweep)):
+    for row in (rows := rows_in(sweep)):
         row.pop("transient_periods")
     write(sweep, rows, [one for one in COLUMNS if one.name != "transient_periods"])
     assert all(run.transient == 20 for run in read_sweep(sweep).good)

@@ -1,0 +1,141 @@
+"""A sweep in which one value has several motions: colours, lines, shares and arrows are those of its tables."""
+
+import shutil
+from collections import Counter
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from matplotlib.colors import same_color
+
+from campaigns.buoy_sweep.rows import COLUMNS, STEEPNESS
+from reports import content_of
+from reports.buoy_sweep.figures import orbit_figure
+from reports.buoy_sweep.runs import read_sweep
+from reports.parts.columns import Quantity
+from reports.parts.content import Explorer, Heading, Sheet, Table, plain
+from reports.parts.style import VERMILION
+from reports.sweep.quantities import colours_of, panels_over
+from reports.sweep.report import _maps_of_each
+from tests.reports.conftest import points_of, rows_in, write
+
+WORD, NUMBER = COLUMNS[2], STEEPNESS
+MORE = (replace(WORD, name="motion"), replace(NUMBER, name="share"), replace(WORD, name="found_by"))
+ENDS = tuple(replace(WORD, name=name) for name in ("motion", "end", "leads_to", "status")) + tuple(
+    replace(NUMBER, name=f"steepness_{name}") for name in ("with", "without")
+)
+STARTS = (NUMBER, *(replace(WORD, name=name) for name in ("motion", "outcome")))
+LARGE = {0.03: 0.25, 0.08: 0.5, 0.1: 0.25}  # where the motion of kA = 0.13 is too, and its share of the starts
+
+
+@pytest.fixture
+def several(folder, tmp_path):
+    """The eight runs: A up to 0.1, B at 0.13, at 0.16 none; and B again at three smaller values, not at 0.05."""
+    place = shutil.copytree(folder, tmp_path / "several", ignore=shutil.ignore_patterns("report.*", ".report*"))
+    rows = rows_in(place)
+    for row in rows:
+        kA = float(row["steepness"])
+        row |= {"motion": "" if row["status"] != "ok" else "B" if kA > 0.11 else "A", "found_by": "rest"}
+        row["share"] = 0.5 if kA in LARGE else 1.0 if row["motion"] else ""
+    large = next(row for row in rows if row["motion"] == "B")
+    rows += [{**large, "steepness": kA, "share": share, "found_by": "kick"} for kA, share in LARGE.items()]
+    for peak_N, row in zip(range(1000, 9000, 10), sorted(rows, key=lambda row: row["motion"]), strict=False):
+        row["tension_top_max_N"] = peak_N + (5000 if row["motion"] == "B" else 0)
+    write(place, rows, (*COLUMNS, *MORE))
+    end = {"motion": "B", "end": "lower", "leads_to": "A", "status": "ok"}
+    write(place / "ends", [{**end, "steepness_with": 0.021, "steepness_without": 0.019}], ENDS)
+    start = {"steepness": 0.03, "outcome": "joined"}
+    write(place / "starts", [{**start, "motion": one} for one in "AAB"] + [{**start, "outcome": "unsettled"}], STARTS)
+    return place
+
+
+def panel_of(figure, label):
+    return next(axes for axes in figure.axes if axes.get_ylabel().startswith(label))
+
+
+def test_each_motion_has_one_colour_and_a_line_joins_no_other(several, drawn):
+    sweep = read_sweep(several)
+    assert sweep.colours["B"] == VERMILION, "the largest tension"
+    orbit_figure(sweep)
+    static_N, found = sweep.modes.static_tension_N, points_of(drawn[0].axes[0])
+    for letter in "AB":
+        own = {run.steepness: run["tension_top_max_N"] / static_N for run in sweep.motions[letter]}
+        assert np.allclose(found[sweep.colours[letter]], sorted(own))
+        mine = [
+            one for one in panel_of(drawn[0], "largest T").lines if same_color(one.get_color(), sweep.colours[letter])
+        ]
+        for line in mine:
+            seen = {x: y for x, y in zip(*line.get_data(), strict=True) if np.isfinite(y)}
+            assert seen == pytest.approx(own)
+        gap = [x for x, y in zip(*mine[0].get_data(), strict=True) if np.isnan(y)]
+        assert gap == [kA for kA in sweep.values if kA not in own], "broken where the motion is not"
+
+
+def test_shares_fill_every_value_and_what_did_not_settle_is_hatched(several, drawn):
+    orbit_figure(read_sweep(several))
+    boxes = [
+        (round(one.get_x(), 6), one.get_height(), bool(one.get_hatch())) for one in panel_of(drawn[0], "starts").patches
+    ]
+    filled = Counter()
+    for left, height, _ in boxes:
+        filled[left] += height
+    assert len(filled) == 6 and set(filled.values()) == {1.0}, "at 0.12 and 0.16 no run has a motion"
+    assert sorted(height for _, height, hatched in boxes if hatched) == [0.25, 0.25]
+
+
+def test_an_arrow_leads_from_the_motion_that_ends_to_the_one_that_follows(several, drawn):
+    sweep = read_sweep(several)
+    orbit_figure(sweep)
+    panel = panel_of(drawn[0], "largest T")
+    ((x, tail), (_, head)) = next((one.xyann, one.xy) for one in panel.texts if hasattr(one, "xyann"))
+    first, near = sweep.motions["B"][0], sweep.motions["A"][0]
+    assert x == 0.02 and near.steepness == 0.016 and first.steepness == 0.03
+    assert np.array([tail, head]) * sweep.modes.static_tension_N == pytest.approx(
+        [first["tension_top_max_N"], near["tension_top_max_N"]]
+    )
+    assert ".020" in [one.get_text() for one in panel.texts]
+
+
+def test_every_row_has_its_sheet_and_leads_along_its_motion_and_across(several):
+    items = content_of(several)[0].items
+    sheets = {item.anchor: item for item in items if isinstance(item, Sheet)}
+    assert len(sheets) == 11 and len({one.title for one in sheets.values()}) == 11
+    at_large = next(one for one in sheets.values() if "kA = 0.08, motion B" in one.title)
+    along, across = (plain(line) for line in at_large.lines)
+    assert "kA = 0.03, motion B" in along and "kA = 0.1, motion B" in along and "motion A" not in along
+    assert across == "At the same kA: kA = 0.08, motion A."
+    (explorer,) = (item for item in items if isinstance(item, Explorer))
+    assert {one.colour for one in explorer.columns} == set(read_sweep(several).colours.values())
+    first = next(item for item in items if isinstance(item, Table))
+    assert [row[0] for row in first.rows] == ["A", "B"] and first.rows[1][5:7] == ("25 to 100", "kick and rest")
+    starts = next(item for item in items if isinstance(item, Table) and "Starts at" in item.caption)
+    assert starts.rows == (("0.03", "4", "0", "3", "1", "A 2, B 1"),)
+
+
+def test_a_run_between_takes_the_colour_of_the_motion_that_it_is_like(several):
+    rows = {(row["motion"], float(row["steepness"])): row for row in rows_in(several)}
+    beside = [{**rows[letter, 0.08], "steepness": 0.09, "regime": ""} for letter in "BA"]
+    write(several / "between", beside)
+    (several / "between" / "trajectories").symlink_to(several / "trajectories")
+    assert [run.motion for run in read_sweep(several).between] == ["B", "A"]
+
+
+def test_a_table_with_one_motion_gives_the_figure_of_one_without(folder, several):
+    rows = [row | {"motion": "A" if row["status"] == "ok" else ""} for row in rows_in(folder)]
+    write(several, rows, (*COLUMNS, MORE[0]))
+    assert orbit_figure(read_sweep(several)) == orbit_figure(read_sweep(folder))
+
+
+def test_a_sweep_of_any_key_keeps_motions_apart():
+    key, depth, pull = Quantity("kA", digits=2), Quantity("H", digits=1), Quantity("tension_top_max_N", "N", digits=0)
+    rows = [
+        {"kA": kA, "H": 1.0, "motion": letter, "status": "ok", "tension_top_max_N": kA if letter == "A" else 9.0 + kA}
+        for kA in (1.0, 2.0)
+        for letter in "AB"
+    ]
+    motions, shown = colours_of(rows), [((pull, None),)]
+    (panel,) = panels_over(rows, key, shown, motions)
+    seen = {one.colour: one.y.tolist() for one in panel.curves if len(one.y)}
+    assert seen == {motions["A"]: [1.0, 2.0], motions["B"]: [10.0, 11.0]}
+    maps = _maps_of_each([key, depth], rows, shown, motions)
+    assert [item.text[-8:] for item in maps if isinstance(item, Heading)] == ["motion A", "motion B"]
