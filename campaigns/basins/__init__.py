@@ -13,12 +13,14 @@ both grids. The edge state between that motion and the one from rest is found by
 starts is drawn by --seed; nothing else is random.
 """
 
+import contextlib
 from collections.abc import Callable, Iterator
 
 from campaigns.basins.grid import PAIRS, Grid
 from campaigns.buoy_sweep import ROW_SOURCES
 from campaigns.judge import judged_scene
 from campaigns.machinery import cli
+from campaigns.machinery.folder import read_rows, write_table
 from campaigns.machinery.plan import Job, Plan, Summary
 from campaigns.motions.sweep import ONLY, SPEED_MPS
 from campaigns.study import Measures, Order, Study
@@ -93,7 +95,6 @@ def runs(order: Order) -> Callable:
         from campaigns.basins.edge import edge_state
         from campaigns.basins.found import COLUMNS, Found
         from campaigns.basins.shocks import shocks
-        from campaigns.machinery.folder import write_table
         from campaigns.motions import ends
 
         found = Found(plan, jobs[0], order.own.grid)
@@ -109,10 +110,9 @@ def runs(order: Order) -> Callable:
         found.along.starts.write()
         rows = [*found.rows(judged.rows)]
         write_table(plan.how.out / "table.csv", COLUMNS, rows)
-        times = found.along.starts.times
-        return {name: times[name] for name in ("compile_s", "run_s", "analysis_s")}, Summary(
-            rows, 0, len(rows), times["analysis_s"]
-        )
+        times, computed = found.along.starts.times, found.computed
+        counts = Summary(rows, len(rows) - computed, computed, times["analysis_s"])
+        return {name: times[name] for name in ("compile_s", "run_s", "analysis_s")}, counts
 
     return every_start
 
@@ -122,9 +122,15 @@ def parameters(order: Order) -> dict[str, object]:
     return {"across": list(own.grid.across), "grid": list(own.grid.counts), "size": own.grid.size, "seed": own.seed}
 
 
-def answer(order: Order, rows: list[dict]) -> list[str]:
+def answer(order: Order, rows: list[dict]) -> Iterator[str]:
     """What was found (`answer.sentences`)."""
-    return []
+    from campaigns.basins.answer import sentences
+
+    parts: dict[str, tuple[dict, ...]] = dict.fromkeys(("motions", "shock", "edge"), ())
+    for folder in parts:
+        with contextlib.suppress(OSError, ValueError):  # none, as where there is one motion
+            parts[folder] = read_rows(order.how.out / folder / "table.csv")
+    return sentences(rows, order.own.grid.across, order.cases[0].scene, parts)
 
 
 STUDY = Study(

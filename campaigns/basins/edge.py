@@ -102,7 +102,7 @@ class Edge:
         jobs = [job_from({}, scene, periods, state) for state in self.states]
         with claimed(how.out):
             timing, summary = run(plan, jobs)
-        self.found.along.starts.times.update(timing)
+        self.found.along.starts.did(timing, summary)
         rows = {row["run_key"]: row for row in summary.rows}
         runs = [run_of(how.out, rows[job.key]) for job in jobs]
         if None in runs:
@@ -141,10 +141,8 @@ def edge_state(found: Found, one: Motion, other: Motion) -> dict[str, object]:
     (folder := found.plan.how.out / FOLDER).mkdir(exist_ok=True)
     write_table(folder / "table.csv", COLUMNS, [row])
     names = [column.name for column in ORBIT[1:-1]]
-    orbit = (
-        {"period": k, **dict(zip(names, state, strict=True)), "apart": apart[k]} for k, state in enumerate(strobed)
-    )
-    write_table(folder / "orbit.csv", ORBIT, [*orbit])
+    told = ({"period": k, **dict(zip(names, state, strict=True)), "apart": apart[k]} for k, state in enumerate(strobed))
+    write_table(folder / "orbit.csv", ORBIT, [*told])
     return row
 
 

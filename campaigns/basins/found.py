@@ -27,6 +27,7 @@ class Found:
         self.plan, self.job, self.grid, self.scene = plan, job, grid, job.scene
         self.along = Along(plan, STEEPNESS, [job], lambda value: None, ())
         self.ended: dict[int, Ended] = {}
+        self.computed = 0  # starts of the grid that were not there before
 
     @property
     def motions(self) -> list[Motion]:
@@ -61,11 +62,12 @@ class Found:
         self.along.name()
 
     def _round(self, said: str, numbers: Sequence[int], points: Sequence[tuple[float, float]]) -> None:
+        starts, before = self.along.starts, self.along.starts.computed
         for motion in self.along.round(said, [(0, self.grid.start(*points[number])) for number in numbers]):
             if motion is not None:
                 motion.kicks += 1
-        if numbers:
-            self.ended |= dict(zip(numbers, self.along.starts.ended[-len(numbers) :], strict=True))
+        self.computed += starts.computed - before
+        self.ended |= dict(zip(numbers, starts.ended[len(starts.ended) - len(numbers) :], strict=True))
 
     def led(self, ended: Ended) -> Motion | None:
         """The motion in which a start has ended that `find` did not run; None for one that it has not found."""
@@ -84,7 +86,7 @@ class Found:
         how = replace(self.plan.how, out=self.plan.how.out / "motions")
         with claimed(how.out):
             timing, summary = run(replace(self.plan, how=how, said="judged runs"), list(jobs.values()))
-        self.along.starts.times.update(timing)
+        self.along.starts.did(timing, summary)
         rows = {row["run_key"]: row for row in summary.rows}
         longer = {motion: run_of(how.out, rows[job.key]) for motion, job in jobs.items() if job.key in rows}
         settled = {motion: settled_of(one) or as_it_is(one) for motion, one in longer.items() if one is not None}

@@ -20,7 +20,7 @@ import numpy as np
 from campaigns.columns import LOOPS, MESSAGE, PERIODS_RUN, RUN_KEY, STATUS, WALL_S, Column, counted
 from campaigns.judge import LATERAL, TANGENTS
 from campaigns.machinery.folder import claimed, made_by, run_of, write_table
-from campaigns.machinery.plan import Further, Job, Plan
+from campaigns.machinery.plan import Further, Job, Plan, Summary
 from campaigns.machinery.runner import run
 from engine.scene import scene_from_toml
 from engine.views import state_of
@@ -217,6 +217,12 @@ class Starts:
         self.plan = replace(plan, how=how, columns=columns, describe=start_row, row_maker=made_by({}, *SOURCES))
         self.ended: list[Ended] = []
         self.times: Counter = Counter()
+        self.computed = 0
+
+    def did(self, timing: dict[str, float], summary: Summary) -> None:
+        """Add runs to the times and to the runs that were not there before."""
+        self.times.update(timing)
+        self.computed += summary.computed
 
     def run(self, said: str, asked: Sequence[Asked]) -> list[Ended]:
         """Run starts that are not there yet, side by side; said: what they are called. Raises as `runner.run`."""
@@ -225,7 +231,7 @@ class Starts:
             return []
         with claimed(self.plan.how.out):
             timing, summary = run(replace(self.plan, said=said), jobs)
-        self.times.update(timing)
+        self.did(timing, summary)
         rows = {row["run_key"]: row for row in summary.rows}
         found = [self._ended(job, rows.get(job.key)) for job in jobs]
         self.ended += found

@@ -1,0 +1,118 @@
+"""What the starts of one scene showed: its motions, which is dangerous, and how little leads to it."""
+
+import math
+from collections.abc import Iterator, Mapping, Sequence
+
+from campaigns.answers import Row, greatest, kilonewton, known
+from campaigns.basins.grid import COLUMNS, PHASE
+from campaigns.buoy_sweep.answer import reasons
+from campaigns.motions.starts import UNSETTLED
+from campaigns.statements import listed
+
+PEAK = "tension_top_max_N"
+NONE_FOUND = "Neither the start from rest nor any other settled, so there is no motion to name."
+STRAIGHT = 3.0  # degrees from an axis that are told as along it
+
+
+def sentences(rows: Sequence[Row], across: Sequence[str], scene, parts: Mapping[str, Sequence[Row]]) -> Iterator[str]:
+    """At most eight, of the rows of table.csv and those of the tables in its folders motions, shock and edge (parts).
+
+    across: as `Grid.across`; scene: from rest.
+    """
+    motions = parts["motions"]
+    if (worst := greatest(motions, PEAK)) is None:
+        yield NONE_FOUND
+        return
+    ways = listed(f"{one['motion']}{' from rest' if one is motions[0] else ''} ({_pull(one)})" for one in motions)
+    at = f"kA = {known(motions[0], 'steepness'):.4g} and H = {scene.water.depth_m:g} m"
+    yield f"{'One motion' if len(motions) == 1 else f'{len(motions)} motions'} at {at}: {ways}."
+    yield _shares(rows, motions)
+    if worst is motions[0]:
+        yield f"Motion {worst['motion']} from rest pulls hardest: no start of the grid leads to more."
+    elif parts["shock"]:
+        times = known(worst, PEAK) / known(motions[0], PEAK)
+        yield f"Motion {worst['motion']} is the dangerous one: it pulls {times:.2g} times as hard as that from rest."
+    if parts["shock"]:
+        yield _shock(parts["shock"], across)
+    if PHASE in across and len(motions) > 1:
+        yield from _when(rows, across, parts["shock"][0]["motion"] if parts["shock"] else "")
+    if parts["edge"]:
+        yield from _edge(parts["edge"][0])
+    unsure = [one for one in motions if "NOT" in str(one["confirmed"]) or "not settled" in str(one["confirmed"])]
+    if unsure:
+        said = (f"{one['motion']} is found {one['confirmed']}" for one in unsure)
+        yield f"It depends on how it is computed: {'; '.join(said)}."
+    else:
+        yield "Each motion stays at a tenth of the tolerance and on a finer grid of the line."
+    if doubts := [*reasons(worst, scene)]:
+        yield f"The tension of {worst['motion']} is no load to design for, because {listed(doubts)}."
+
+
+def _pull(one: Row) -> str:
+    return f"{one.get('regime') or one['status']}, {kilonewton(known(one, PEAK))}"
+
+
+def _shares(rows: Sequence[Row], motions: Sequence[Row]) -> str:
+    ends = listed(
+        f"{100 * known(one, 'share'):.0f} % end in {one['motion']} "
+        f"({100 * known(one, 'share_low'):.0f} to {100 * known(one, 'share_high'):.0f})"
+        for one in motions
+    )
+    unsettled = sum(row["outcome"] == UNSETTLED for row in rows)
+    failed = sum(row["status"] != "ok" for row in rows)
+    left = f"; {unsettled} had not settled, and {failed} failed" if unsettled or failed else ""
+    return f"Of {len(rows)} starts {ends}{left}."
+
+
+def _way(shock: Row, across: Sequence[str]) -> str:
+    """The direction of a smallest start in words: "23 degrees below the direction of the waves"."""
+    if PHASE in across:
+        ways = ("along the waves", "against the waves") if across[0] == "vx" else ("upwards", "downwards")
+        way = ways[known(shock, COLUMNS[across[0]]) < 0.0]
+        return f"{way} at phase {known(shock, COLUMNS[PHASE]) / (2.0 * math.pi):.2f} T"
+    x, z = (known(shock, COLUMNS[one]) for one in across)
+    angle, upright = math.degrees(math.atan2(abs(z), abs(x))), "upwards" if z > 0.0 else "downwards"
+    ahead = "along the waves" if x >= 0.0 else "against the waves"
+    if STRAIGHT < angle < 90.0 - STRAIGHT:
+        return f"{ahead}, {angle:.0f} degrees {upright}"
+    return ahead if angle <= STRAIGHT else upright
+
+
+def _shock(rows: Sequence[Row], across: Sequence[str]) -> str:
+    unit, good = "m" if "x" in across else "m/s", [row for row in rows if row["status"] == "ok"]
+    if not good:
+        return f"No smallest start was found: {rows[0]['message']}."
+    first, *others = good
+    said = f"{known(first, 'size'):.2g} {unit} {_way(first, across)} is the smallest that leads to {first['motion']}"
+    for row in others:
+        said += f"; on {known(row, 'nodes'):.0f} nodes {known(row, 'size'):.2g} {unit} {_way(row, across)}"
+    return f"{said}." if others else f"{said}; on a finer grid of the line {rows[-1]['message']}."
+
+
+def _when(rows: Sequence[Row], across: Sequence[str], letter: str) -> Iterator[str]:
+    """The least size that leads to a motion at each phase: where it is least, and where it is greatest."""
+    least: dict[float, float] = {}
+    for row in (row for row in rows if row["motion"] == letter):
+        phase, size = known(row, COLUMNS[PHASE]) / (2.0 * math.pi), abs(known(row, COLUMNS[across[0]]))
+        least[phase] = min(size, least.get(phase, math.inf))
+    if least:
+        low, high = (chosen(least, key=least.get) for chosen in (min, max))
+        every = len({known(row, COLUMNS[PHASE]) for row in rows})
+        yield (
+            f"A gust matters most at phase {low:.2f} T, where {least[low]:.2g} m/s leads to {letter}, and least at "
+            f"{high:.2f} T, where it takes {least[high]:.2g} m/s"
+            + (f"; at {every - len(least)} of {every} phases no gust of the grid does." if every > len(least) else ".")
+        )
+
+
+def _edge(edge: Row) -> Iterator[str]:
+    if not known(edge, "periods") > 0.0:
+        yield f"No edge state between {edge['motion']} and {edge['other']} could be followed."
+        return
+    period = known(edge, "strobed_period")
+    kind = f"a motion of period {period:.0f}" if math.isfinite(period) else "a motion without a period up to 16"
+    pull, growth = kilonewton(known(edge, PEAK)), known(edge, "growth_bits_per_period")
+    yield (
+        f"Between {edge['motion']} and {edge['other']} lies {kind} that no start keeps ({pull}): runs leave it by "
+        f"{growth:.2g} bits a period."
+    )
