@@ -99,7 +99,7 @@ def _motions(part: Folder | None, edge: Folder | None) -> Iterator[Item]:
     yield table_of(part.columns, _MOTIONS, part.table, "One judged run a motion; shares are of the starts of the grid.")
     for row in part.table:
         if row["confirmed"]:
-            yield Text(f"Motion {row['motion']}: {row['confirmed']}.")
+            yield Text(f"Motion {row['motion']}, when it goes on from its state, is found {row['confirmed']}.")
     colours, lines = _colours(part.table), []
     for row in part.table:
         run, _ = part.trajectory(row)

@@ -45,7 +45,10 @@ def basin_map(
                 size = max(2.0, min(6.0, 160.0 / len(places[0])))
                 axes.plot(places[0][across], places[1][up], mark, color=INK, markersize=size, label=word, linestyle="")
         for k, letter in enumerate(letters):
-            if (at := _widest(numbers == k)) is not None:
+            inside = numbers == k
+            if smallest is not None and (kept := inside & _aside(places)).any():  # of the arrow
+                inside = kept
+            if (at := _widest(inside)) is not None:
                 where = (places[0][at[1]], places[1][at[0]])
                 axes.text(*where, letter, ha="center", va="center", fontsize=13, weight="bold", path_effects=halo)
         if smallest is not None:
@@ -70,6 +73,12 @@ def basin_map(
 def _edges(values: np.ndarray) -> np.ndarray:
     half = 0.5 * (values[1] - values[0])
     return np.append(values - half, values[-1] + half)
+
+
+def _aside(places: tuple[np.ndarray, np.ndarray]) -> np.ndarray:
+    """Which cells (q, p) are not near the places of no kick at all."""
+    x, y = (values / max(np.abs(values).max(), 1e-9) for values in places)
+    return np.hypot(x[None, :], 0.0 if y.min() >= 0.0 else y[:, None]) + 0.0 * y[:, None] > 0.15
 
 
 def _widest(inside: np.ndarray) -> tuple[int, int] | None:
