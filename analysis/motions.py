@@ -7,9 +7,9 @@ coordinates differ at most, a state in `scale`, a measure as a share of its larg
     settled   a period: `detect_period` on the later half. Otherwise the last two thirds are cut in two windows, and
               each is the other's equal: rows of the one lie on the rows of the other, and do not march
     joined    the last rows lie on the known motion: on its orbit in the right order, or in its cloud as close as the
-              cloud's own rows are to each other
-    distance  of two clouds A and B: the mean distance of a row of the one from the nearest row of the other, less the
-              distance of neighbours in that other; the larger of A from B and B from A
+              cloud's own rows are to each other; or its distance from the orbit decays towards nothing
+    distance  of two clouds A and B: the mean distance of a row of A from the nearest row of B, less the distance of
+              neighbours in B, and the other way round: the larger, but of two motions without a period the smaller
     shares    of the starts, with Wilson's interval
 
 How often each is wrong, and after how many periods it answers: docs/motions.md.
@@ -17,6 +17,7 @@ How often each is wrong, and after how many periods it answers: docs/motions.md.
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -27,12 +28,13 @@ from analysis.stationarity import record_drift
 
 LEAST_WINDOW = 30  # periods of each of two windows of a motion without a period
 LIKE = 1.5  # distance across two windows, in distances of neighbours within
-COMES_NEARER = 0.7  # what is left of the steps towards a period in the later half of the last part
-CLOSE = 20.0  # tolerances within which such steps count
-ON_ORBIT = 8  # rows beyond one period that have to lie near an orbit
-THERE = 0.2  # of the tolerance: so near, they need not come nearer
-IN_CLOUD = 10  # rows that have to lie in a cloud
-AS_CLOSE = 1.5  # their mean distance from it, in distances of its neighbours
+COMES_NEARER = 0.7  # what is left, in the later half, of the steps towards a period or of the distance from an orbit
+CLOSE = 20.0  # tolerances within which steps towards a period count
+LAST = 8  # rows that have to lie in a cloud, or beyond one period near an orbit
+THERE = 0.02  # distance from an orbit at which a run need not come nearer
+DECAY, FADES = 12, 0.1  # periods of a window of a decay, and the least share of the distance that it loses in one
+AS_CLOSE = 2.0  # mean distance of the last rows from a cloud, in distances of its neighbours
+OF_CLOUD = 0.3  # the same, in tolerances
 APART = 0.1  # distance from which two settled motions are two
 
 
@@ -74,8 +76,9 @@ def settled(
     scale (d,)           size of the motion within the period, in each coordinate
     tolerance            share of the scale within which an orbit repeats; branches nearer than this are one
     max_period           largest period looked for
-    Returns a Settled. A run that passes by an unstable orbit, or a long chaotic transient, looks settled while it
-    lasts: no test of the states it went through can tell (rates: docs/motions.md).
+    Returns a Settled: with a period from 30 periods on, without one from 90 on. A run
+    that passes by an unstable orbit, or through long transient chaos, looks settled while it lasts; no test of the
+    states so far can tell (rates: docs/motions.md).
     Raises ValueError for values that are not finite or lengths that do not fit.
     """
     x, e, scale = _checked(strobed, measures, scale)
@@ -96,22 +99,30 @@ def settled(
     across = max(_nearest(first, second).mean(), _nearest(second, first).mean())
     if across > LIKE * within or record_drift(rows[-2 * window :]).drifting:
         return None
-    reason = f"no period up to {max_period}; two windows of {window} periods lie {across / within:.2f} neighbours apart"
+    apart = f"lie {across:.2g} of the scale apart, neighbours within them {within:.2g}"
+    reason = f"no period up to {max_period}; two windows of {window} periods {apart}"
     return _kept(None, x[-2 * window - 1 : -1], e[-2 * window :], scale, reason)
 
 
-def joins(strobed: ArrayLike, measures: ArrayLike, known: Sequence[Settled], *, tolerance: float = 0.1) -> int | None:
-    """Which known motion a run has reached, or None: none yet.
+def joins(strobed: ArrayLike, measures: ArrayLike, known: Sequence[Settled], *, tolerance: float = 0.2) -> int | None:
+    """Which known motion a run has reached or will reach, or None: none yet.
 
-    strobed (n + 1, d), measures (n, e)   of the run so far, as in `settled`; only the last periods count
+    The last `period + 8` rows lie within the tolerance of an orbit, in its order, and the later half of them 0.7 times
+    as far as the earlier one, or nearer; or all of them within 0.02; or the last of three windows of a dozen periods
+    lies within the tolerance, and the distance decays from one to the next towards nothing. In a cloud, the last 8 rows
+    are in the mean nearer than twice its neighbours are, or than 0.3 of the tolerance.
+
+    strobed (n + 1, d), measures (n, e)   of the run so far, as in `settled`; only the last rows count
     known                                 settled motions of the same system
-    tolerance                             share of the scale within which the states lie on an orbit, the later ones
-                                          nearer than the earlier or within a third of it
-    Returns the index of the motion that is nearest of those reached.
+    Returns the index of the motion that is nearest of those reached. It costs 0.1 ms a motion: ask after every period.
+    Raises ValueError for values that are not finite, or lengths that do not fit.
     """
+    if len(strobed) != len(measures) + 1:
+        raise ValueError(f"measures: {len(strobed) - 1} rows are needed, given {len(measures)}")
+    count = max((max((motion.period or 1) + LAST, 3 * _window(motion)) for motion in known), default=1)
+    x, e = checked_columns(strobed[-count - 1 :], "strobed"), checked_columns(measures[-count:], "measures")
     reached = {}
     for index, motion in enumerate(known):
-        x, e, _ = _checked(strobed, measures, motion.scale)
         away = (_from_orbit if motion.period else _from_cloud)(x, e, motion, tolerance)
         if away is not None:
             reached[index] = away
@@ -121,7 +132,7 @@ def joins(strobed: ArrayLike, measures: ArrayLike, known: Sequence[Settled], *, 
 def distance(a: Settled, b: Settled) -> float:
     """How far two settled motions are apart, in their larger scale (head of this file): 0 for one and the same.
 
-    Two records of one chaotic motion are at 0.02 at most; how far different motions are apart: docs/motions.md.
+    Two records of one motion of the buoy are 0.05 apart at most, its motions 0.3 or more (docs/motions.md).
     """
     scale = np.maximum(a.scale, b.scale)
     size = np.maximum(_size(a.measures), _size(b.measures))
@@ -130,7 +141,7 @@ def distance(a: Settled, b: Settled) -> float:
         float(_nearest(from_, to).mean()) - (0.0 if motion.period else _spacing(to))
         for from_, to, motion in ((one, other, b), (other, one, a))
     ]
-    # A record of chaos that stayed in one part of its cloud for long is a part of the other; an orbit is no part.
+    # A record of chaos may have stayed in one part of its cloud: then it lies on the other, and not the other on it.
     return max(0.0, (max if a.period or b.period else min)(apart))
 
 
@@ -149,7 +160,7 @@ def grouped(found: Sequence[Settled], *, threshold: float = APART) -> np.ndarray
     return np.array([order.index(one) for one in label])
 
 
-def matched(before: Sequence[Settled], after: Sequence[Settled], *, threshold: float = 0.5) -> list[int | None]:
+def matched(before: Sequence[Settled], after: Sequence[Settled], *, threshold: float = 0.3) -> list[int | None]:
     """Which motion at the next value of a parameter continues which: the pairs of least total `distance`.
 
     threshold   distance beyond which a motion has ended or begun instead
@@ -157,7 +168,9 @@ def matched(before: Sequence[Settled], after: Sequence[Settled], *, threshold: f
     """
     from scipy.optimize import linear_sum_assignment
 
-    cost = np.array([[min(distance(a, b), threshold) for b in after] for a in before]).reshape(len(before), len(after))
+    cost = np.array([[min(distance(a, b), 2.0 * threshold) for b in after] for a in before]).reshape(
+        len(before), len(after)
+    )
     pairs = zip(*linear_sum_assignment(cost), strict=True)
     kept = {int(i): int(j) for i, j in pairs if cost[i, j] < threshold}
     return [kept.get(i) for i in range(len(before))]
@@ -211,31 +224,65 @@ def _spacing(rows):
 
 def _from_orbit(x, e, motion, tolerance):
     """Mean distance of the last rows from the orbit, in its order; None where they are off it or do not come nearer."""
-    count = motion.period + ON_ORBIT
+    count = motion.period + LAST
     if len(e) < count:
         return None
-    rows, orbit = _last_rows(x, e, motion, count)
+    size, orbit = _in_rows(motion)
+    rows = _rows(x[-count - 1 : -1], e[-count:], motion.scale, size)
     turned = (np.abs(rows - orbit[(np.arange(count) + k) % motion.period]).max(axis=1) for k in range(motion.period))
     away = min(turned, key=np.max)
     early, late = (np.sqrt(np.mean(part**2)) for part in (away[: count // 2], away[-(count // 2) :]))
-    there = away.max() <= THERE * tolerance and late <= max(early, THERE * tolerance / 3.0)
-    return float(away.mean()) if there or (away.max() <= tolerance and late <= COMES_NEARER * early) else None
+    comes = away.max() <= tolerance and late <= COMES_NEARER * early
+    return float(away.mean()) if comes or away.max() <= THERE or _decays(x, e, motion, tolerance) else None
+
+
+def _window(motion):
+    """Periods of a window of a decay: whole rounds of the orbit."""
+    period = motion.period or 1
+    return period * -(-DECAY // period)
+
+
+def _decays(x, e, motion, tolerance):
+    """Whether the distance from an orbit dies out over three windows, by Aitken's limit of a geometric decay."""
+    window = _window(motion)
+    if len(e) < 3 * window:
+        return False
+    size, orbit = _in_rows(motion)
+    rows = _rows(x[-3 * window - 1 : -1], e[-3 * window :], motion.scale, size)
+    order = np.arange(3 * window)
+    turned = (np.abs(rows - orbit[(order + k) % motion.period]).max(axis=1) for k in range(motion.period))
+    away = min(turned, key=lambda one: one[-window:].max()).reshape(3, window)
+    first, second, third = np.sqrt(np.mean(away**2, axis=1))
+    before, now = first - second, second - third
+    if away[2].max() > tolerance or now < FADES * third:
+        return False
+    return bool(before <= now or third - now**2 / (before - now) <= THERE)
 
 
 def _from_cloud(x, e, motion, tolerance):
     """Mean distance of the last rows from a cloud; None where they are off it."""
-    if len(e) < IN_CLOUD:
+    if len(e) < LAST:
         return None
-    rows, cloud = _last_rows(x, e, motion, IN_CLOUD)
-    away = _nearest(rows, cloud).mean()
-    return float(away) if away <= max(AS_CLOSE * _spacing(cloud), THERE * tolerance) else None
+    size, tree, spacing = _as_cloud(motion)
+    rows = _rows(x[-LAST - 1 : -1], e[-LAST:], motion.scale, size)
+    away = float(tree.query(rows, p=np.inf)[0].mean())
+    return away if away <= max(AS_CLOSE * spacing, OF_CLOUD * tolerance) else None
 
 
-def _last_rows(x, e, motion, count):
-    """The last rows of a run, and those of a motion."""
+@lru_cache(maxsize=512)
+def _in_rows(motion):
+    """Size of the measures of a motion, and its rows."""
     size = _size(motion.measures)
-    rows = _rows(x[-count - 1 : -1], e[-count:], motion.scale, size)
-    return rows, _rows(motion.points, motion.measures, motion.scale, size)
+    return size, _rows(motion.points, motion.measures, motion.scale, size)
+
+
+@lru_cache(maxsize=512)
+def _as_cloud(motion):
+    """Size of the measures of a motion, its rows as a tree, and the distance of neighbours."""
+    from scipy.spatial import cKDTree
+
+    size, rows = _in_rows(motion)
+    return size, cKDTree(rows), _spacing(rows)
 
 
 def _comes_nearer(x, estimate: PeriodEstimate):
@@ -247,4 +294,4 @@ def _comes_nearer(x, estimate: PeriodEstimate):
     early, late = (np.sqrt(np.mean(part**2)) for part in (step[: len(step) // 2], step[-(len(step) // 2) :]))
     most = np.exp(estimate.trend_nats_per_period[nearest - 1] * (estimate.points // 4))
     near = estimate.residual[nearest - 1] < CLOSE * estimate.tolerance
-    return bool(near and max(late / early, most) < COMES_NEARER)
+    return bool(near and late < COMES_NEARER * early and most < COMES_NEARER)

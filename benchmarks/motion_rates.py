@@ -1,16 +1,17 @@
 """How often is a start put to the wrong motion, and after how many periods (`analysis.settled`, `joins`, `grouped`)?
 
-    python -m benchmarks.motion_rates [--starts N]
+    python -m benchmarks.motion_rates [--systems N] [--starts N] [--confirm PERIODS] [--cable]
 
-Forced systems with motions side by side: eq. (33), Duffing's two wells, Ueda's oscillator, the driven pendulum, the
-Henon map. The truth is that of 3000 periods: the period of the last 600, within 1e-4, and which of them lie on each
-other. Starts run one after the other, as a campaign runs them: every period, has it joined a known motion; every 15
-periods from 60 on, has it settled; after 400 periods it is unsettled.
+Forced systems drawn at random, most with several motions: Duffing's two wells, the driven pendulum, eq. (33), the Henon
+map; --cable: the buoy at six depths and steepnesses, kicked on a grid (two minutes more). The truth is that of 3000
+periods: the period of the last 600, within 1e-4, and which of them lie on each other (the buoy: 200 periods, and the
+largest tension). Starts run one after the other, as a campaign runs them: every period, has it joined a known motion;
+every 15 periods from 60 on, has it settled; after 400 periods it is unsettled. --confirm: a motion without a period
+counts when it is the same so many periods later.
 """
 
 import argparse
 from collections import Counter
-from dataclasses import replace
 
 import numpy as np
 from numba import njit
@@ -18,31 +19,25 @@ from numba import njit
 from analysis import detect_period, distance, joins, settled
 from analysis.motions import APART
 from analysis.oscillator import SnapOscillator, snap_motion
+from engine import load_scene, simulate_each
+from engine.views import state_of
 
 LONG, BUDGET, SAMPLES = 3000, 400, 64
-DUFFING, UEDA, PENDULUM = range(3)
-SYSTEMS = {  # law, damping, force, frequency; starts within
-    "Duffing, force .22": (DUFFING, 0.25, 0.22, 1.0, 1.5),
-    "Duffing, force .26": (DUFFING, 0.25, 0.26, 1.0, 1.5),
-    "Duffing, force .30": (DUFFING, 0.25, 0.30, 1.0, 1.5),
-    "Ueda, force .2": (UEDA, 0.08, 0.2, 1.0, 2.0),
-    "Ueda, force 7": (UEDA, 0.2, 7.0, 1.0, 4.0),
-    "pendulum, force 1.66": (PENDULUM, 0.2, 1.66, 1.0, 3.0),
-    "pendulum, force .6": (PENDULUM, 0.05, 0.6, 0.7, 3.0),
-}
+DUFFING, PENDULUM = range(2)
+BUOYS = ((25.0, 0.13), (22.5, 0.13), (21.0, 0.1), (21.0, 0.13), (20.8, 0.13), (21.0, 0.04))  # depth, steepness
 
 
 @njit(cache=False)
 def _force(law, damping, force, frequency, t, x, v):
-    spring = x - x**3 if law == DUFFING else -(x**3) if law == UEDA else -np.sin(x)
+    spring = x - x**3 if law == DUFFING else -np.sin(x)
     return spring - damping * v + force * np.cos(frequency * t)
 
 
 @njit(cache=False)
-def _flow(law, damping, force, frequency, x, v, periods):
-    """(periods, SAMPLES, 2): x and v within each period, by the classical Runge-Kutta method."""
-    out, h = np.empty((periods, SAMPLES, 2)), 2.0 * np.pi / frequency / SAMPLES
-    for k in range(periods):
+def _flow(law, damping, force, frequency, x, v):
+    """(LONG, SAMPLES, 2): x and v within each period, by the classical Runge-Kutta method."""
+    out, h = np.empty((LONG, SAMPLES, 2)), 2.0 * np.pi / frequency / SAMPLES
+    for k in range(LONG):
         for i in range(SAMPLES):
             out[k, i, 0], out[k, i, 1] = x, v
             t = i * h
@@ -50,42 +45,42 @@ def _flow(law, damping, force, frequency, x, v, periods):
             a2 = _force(law, damping, force, frequency, t + h / 2, x + h / 2 * v, v + h / 2 * a1)
             a3 = _force(law, damping, force, frequency, t + h / 2, x + h / 2 * v + h * h / 4 * a1, v + h / 2 * a2)
             a4 = _force(law, damping, force, frequency, t + h, x + h * v + h * h / 2 * a2, v + h * a3)
-            x, v = x + h * v + h * h / 6 * (a1 + a2 + a3), v + h / 6 * (a1 + 2 * a2 + 2 * a3 + a4)
+            x, v = x + h * v + h * h / 6 * (a1 + a2 + a3), v + h / 6 * (a1 + 2 * (a2 + a3) + a4)
     return out
 
 
-def henon(a, b, x, y):
-    out = np.empty((LONG, 1, 2))
-    for k in range(LONG):
-        out[k, 0] = x, y
-        x, y = 1.0 - a * x * x + y, b * x
-        if abs(x) > 10.0:
-            return None
-    return out
+def duffing(draw, starts):
+    law = DUFFING, draw.uniform(0.1, 0.3), draw.uniform(0.1, 0.5), draw.uniform(0.7, 1.4)
+    return [_flow(*law, *start) for start in draw.uniform(-2.0, 2.0, (starts, 2))]
 
 
-def runs(starts):
-    """name, list of records (LONG, samples, d) with the period's first sample at the strobe."""
-    random = np.random.default_rng(1)
-    for name, (law, damping, force, frequency, box) in SYSTEMS.items():
-        begin = random.uniform(-box, box, (starts, 2))
-        flows = [_flow(law, damping, force, frequency, x, v, LONG) for x, v in begin]
-        if law == PENDULUM:
-            flows = [np.stack([np.cos(f[..., 0]), np.sin(f[..., 0]), f[..., 1]], axis=-1) for f in flows]
-        yield name, flows
-    for frequency, force in ((1.14, 1.4), (1.0, 1.2), (1.3, 1.6), (1.5, 1.0)):
-        oscillator = replace(SnapOscillator(), frequency=frequency, force=force)
-        begin = random.uniform((-60.0, -25.0), (20.0, 25.0), (starts, 2))
-        motions = (snap_motion(oscillator, start, LONG, SAMPLES) for start in begin)
-        records = (np.column_stack([m.displacement, m.velocity])[:-1] for m in motions)
-        yield f"eq. (33), {frequency}, {force}", [r.reshape(LONG, SAMPLES, 2) for r in records]
-    for a, b in ((1.4, 0.3), (1.0, 0.54), (0.98, 0.43)):
-        found = (henon(a, b, *start) for start in random.uniform(-1.0, 1.0, (4 * starts, 2)))
-        yield f"Henon, {a}, {b}", [f for f in found if f is not None][:starts]
+def pendulum(draw, starts):
+    law = PENDULUM, draw.uniform(0.1, 0.3), draw.uniform(0.5, 2.0), draw.uniform(0.5, 1.0)
+    flows = (_flow(*law, *start) for start in draw.uniform(-2.0, 2.0, (starts, 2)))
+    return [np.stack([np.cos(f[..., 0]), np.sin(f[..., 0]), f[..., 1]], axis=-1) for f in flows]
+
+
+def snap(draw, starts):
+    oscillator = SnapOscillator(draw.uniform(0.025, 0.1), draw.uniform(0.9, 1.6), draw.uniform(0.8, 2.0))
+    begin = draw.uniform((-60.0, -25.0), (20.0, 25.0), (starts, 2))
+    motions = (snap_motion(oscillator, start, LONG, SAMPLES) for start in begin)
+    return [np.stack([m.displacement, m.velocity], axis=-1)[:-1].reshape(LONG, SAMPLES, 2) for m in motions]
+
+
+def henon(draw, starts):
+    a, b = draw.uniform(0.9, 1.4), draw.uniform(0.2, 0.5)
+    state = draw.uniform(-1.0, 1.0, (2, 20 * starts))
+    out = [state]
+    with np.errstate(over="ignore", invalid="ignore"):
+        for _ in range(LONG - 1):
+            state = np.stack([1.0 - a * state[0] ** 2 + state[1], b * state[0]])
+            out.append(state)
+    flows = np.array(out).transpose(2, 0, 1)
+    return list(flows[np.isfinite(flows).all(axis=(1, 2))][:starts, :, None])
 
 
 def record(flow):
-    """Strobed states, least and largest of the first coordinate and of the last, and the size within the period."""
+    """States at the strobe, least and largest values of the periods, and the size of the motion within them."""
     measures = np.hstack([flow.min(axis=1), flow.max(axis=1)])
     return flow[:, 0], measures[:-1], np.maximum(np.ptp(flow[-100:], axis=(0, 1)), 1e-6)
 
@@ -107,43 +102,96 @@ def truth(states, scale):
         if labels[-1] == len(motions):
             tree = cKDTree(late)
             motions.append((period, tree, 0.0 if period else np.median(tree.query(late, k=2)[0][:, 1])))
-    return np.array(labels), [m[0] for m in motions]
+    return labels, [motion[0] for motion in motions]
+
+
+def cases(systems, starts, cable):
+    """kind, records (strobed, measures), scale, labels, periods of the labels."""
+    draw = np.random.default_rng(1)
+    for kind in (duffing, pendulum, snap, henon):
+        for _ in range(systems):
+            records = [record(flow) for flow in kind(draw, starts)]
+            if records:
+                scale = np.median([r[2] for r in records], axis=0)
+                yield kind.__name__, [r[:2] for r in records], scale, *truth([r[0] for r in records], scale)
+    for depth, steepness in BUOYS if cable else ():
+        grid = np.linspace(-6.0, 6.0, 7)
+        changes = {"water.depth_m": depth, "waves.steepness": steepness}
+        kicks = ({**changes, "start.buoy_velocity_mps": [float(x), 0.0, float(z)]} for x in grid for z in grid)
+        runs = dict(simulate_each([load_scene("tethered_buoy", kick) for kick in kicks], periods=200))
+        yield "buoy", *_of_buoys([runs[i] for i in range(len(runs))])
+
+
+def _of_buoys(runs):
+    found = []
+    for run in runs:
+        step_s, period_s = run.scene.sample_step_s(), run.scene.waves.period_s
+        coordinates, scale = state_of(run.columns, step_s, period_s, transient_periods=140)
+        every = round(period_s / step_s)
+        columns = np.column_stack([run.columns["radius_m"], run.columns["tension_top_high_N"]])
+        cut = np.lib.stride_tricks.sliding_window_view(columns, every + 1, axis=0)[::every]
+        measures = np.column_stack([cut[:, 0].min(axis=1), cut.max(axis=2)])
+        found.append((np.column_stack(list(coordinates.values()))[::every], measures, scale))
+    highest = np.array([measures[-60:, -1].max() for _, measures, _ in found])
+    two = highest.max() > 1.2 * highest.min()  # the large motion and the small one
+    labels = (highest > highest.mean()).astype(int) if two else np.zeros(len(runs), dtype=int)
+    return [r[:2] for r in found], np.max([r[2] for r in found], axis=0), list(labels), None
+
+
+def put(records, scale, confirm):
+    """For each run: how it was answered, the index of its motion, after how many periods; and the motions found."""
+    known, answers = [], []
+    for x, e in records:
+        how, index, n = "unsettled", None, 0
+        for n in range(8, min(BUDGET, len(e)) + 1):
+            index = joins(x[: n + 1], e[:n], known)
+            if index is not None:
+                how = "joined"
+                break
+            new = settled(x[: n + 1], e[:n], scale=scale) if n >= 60 and n % 15 == 0 else None
+            if new is not None and confirm and new.period is None:
+                later = settled(x[n : n + confirm + 1], e[n : n + confirm], scale=scale)
+                new = later if later is not None and distance(new, later) <= APART else None
+            if new is not None:
+                how, index = "settled", min(range(len(known)), key=lambda i: distance(new, known[i]), default=None)
+                if index is None or distance(new, known[index]) > APART:
+                    index = len(known)
+                    known.append(new)
+                break
+        answers.append((how, index, n))
+    return answers, known
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--starts", type=int, default=60)
-    starts = parser.parse_args().starts
-    print("system | motions (starts) | found | wrong joined | wrong settled | unsettled | periods to join, settle")
-    for name, flows in runs(starts):
-        records = [record(flow) for flow in flows]
-        scale = np.median([r[2] for r in records], axis=0)
-        labels, periods = truth([r[0] for r in records], scale)
-        known, of, counts, took = [], [], Counter(), {"joined": [], "settled": []}
-        for (x, e, _), label in zip(records, labels, strict=True):
-            how, n = "unsettled", 0
-            for n in range(10, BUDGET):
-                index = joins(x[: n + 1], e[:n], known)
-                if index is not None:
-                    how = "joined"
-                    break
-                if n >= 60 and n % 15 == 0 and (new := settled(x[: n + 1], e[:n], scale=scale)) is not None:
-                    how = "settled"
-                    index = min(range(len(known)), key=lambda i: distance(new, known[i]), default=None)
-                    if index is None or distance(new, known[index]) > APART:
-                        index = len(known)
-                        known.append(new)
-                        of.append(label)
-                    break
-            if how in took:
-                took[how].append(n)
-                how += " right" if of[index] == label and known[index].period == periods[label] else " wrong"
-            counts[how] += 1
-        sizes = ", ".join(f"{periods[k] or 'chaos'} ({np.sum(labels == k)})" for k in range(len(periods)))
-        found = ", ".join(str(m.period or "chaos") for m in known)
-        medians = ", ".join(f"{np.median(v):.0f}" if v else "-" for v in took.values())
-        rates = " | ".join(str(counts[key]) for key in ("joined wrong", "settled wrong", "unsettled"))
-        print(f"{name} | {sizes} | {found} | {rates} | {medians}", flush=True)
+    parser.add_argument("--systems", type=int, default=25)
+    parser.add_argument("--starts", type=int, default=24)
+    parser.add_argument("--confirm", type=int, default=0)
+    parser.add_argument("--cable", action="store_true")
+    given = parser.parse_args()
+    totals, took = {}, {}
+    for kind, records, scale, labels, periods in cases(given.systems, given.starts, given.cable):
+        answers, known = put(records, scale, given.confirm)
+        total, times = totals.setdefault(kind, Counter()), took.setdefault(kind, [])
+        of = {}  # the truth of a motion: that of the run it was found by
+        for (how, index, n), label in zip(answers, labels, strict=True):
+            total["starts"] += 1
+            if index is None:
+                total["unsettled"] += 1
+                continue
+            times.append(n)
+            true = of.setdefault(index, label)
+            ends = periods is not None and periods[label] is not None and known[index].period is None
+            total[f"{how} {'transient' if ends else 'right' if true == label else 'wrong'}"] += 1
+        total["systems"] += 1
+        total["motions"] += len(set(labels))
+        total["found"] += len(known)
+    heads = ("systems", "motions", "found", "starts", "joined right", "joined wrong", "joined transient",
+             "settled right", "settled wrong", "settled transient", "unsettled")  # fmt: skip
+    print(" | ".join(("kind", *heads, "periods: median, 95 %")))
+    for kind, total in totals.items():
+        periods = "{:.0f}, {:.0f}".format(*np.percentile(took[kind], (50, 95)))
+        print(" | ".join((kind, *(str(total[head]) for head in heads), periods)))
 
 
 if __name__ == "__main__":

@@ -2,6 +2,7 @@
 
     python -m engine                                           lists the scenes
     python -m engine tethered_buoy --set waves.steepness=0.1   runs one, prints what it did, shows a figure
+    python -m engine tethered_buoy --start-from RUN.nc         goes on from the end of a saved run
 
 A buoy in regular waves carries a perturbation along, unless `--set output.tangent_vectors=0` says otherwise: its growth
 is the exponent that tells chaos from other motions.
@@ -24,7 +25,7 @@ EXITS = "exit codes: 0 done, 1 the run ended early, 2 bad input, 130 Ctrl-C"
 
 @dataclass(frozen=True)
 class Order:
-    """A scene, how long it runs (periods of its waves, or seconds), and the file of its figure; None: not said.
+    """A scene, how long it runs (periods of its waves, or seconds), the file of its figure, its start; None: not said.
 
     Without a length it runs until its verdict.
     """
@@ -33,6 +34,7 @@ class Order:
     periods: float | None
     duration_s: float | None
     out: Path | None
+    start: "engine.final_state.FinalState | None" = None
 
 
 class _Parser(argparse.ArgumentParser):
@@ -47,6 +49,8 @@ def parser() -> argparse.ArgumentParser:
     made.add_argument("scene", metavar="SCENE", help="a scene file or the name of a scene")
     several = {"metavar": "KEY=VALUE", "nargs": "+", "action": "extend", "default": []}
     made.add_argument("--set", **several, help="change values of the scene, as water.depth_m=22.5 tether.nodes=81")
+    goes = "file of a run (`Trajectory.save`, or trajectories/ of a campaign) from whose end this one goes on"
+    made.add_argument("--start-from", metavar="FILE", type=Path, help=f"{goes} (default: from rest)")
     length = made.add_mutually_exclusive_group()
     until = (
         f"length in wave periods (default: until the verdict, {MOST_PERIODS} at most; without perturbations {PERIODS})"
@@ -88,14 +92,19 @@ def read_order(argv: list[str], faults: list[str]) -> Order:
             faults.append(f"{name}: given {given:g}; allowed: a finite number above 0")
     if options.out is not None:
         faults += _faults_of(options.out)
+    start = None
     if not faults:
         from engine.scene.size_limits import check_room
 
         try:
             check_room(scene, duration_s or (periods or MOST_PERIODS) * scene.waves.period_s)
+            if options.start_from is not None:
+                from engine.simulation import checked_start
+
+                start = checked_start(scene, options.start_from)
         except ValueError as error:
-            faults.append(str(error))
-    return Order(scene, periods, duration_s, options.out)
+            faults.append(f"--start-from: {error}" if options.start_from is not None else str(error))
+    return Order(scene, periods, duration_s, options.out, start)
 
 
 def _faults_of(out: Path) -> list[str]:
@@ -122,9 +131,10 @@ def main(argv: list[str] | None = None) -> int:
     print(f"{order.scene.name}: a first run compiles for up to a minute", file=sys.stderr)
     try:
         if order.periods is None and order.duration_s is None:
-            run = _until_told(order.scene)
+            run = _until_told(order.scene, order.start)
         else:
-            run = engine.simulate(order.scene, order.periods, order.duration_s, lambda share: _tell(f"{share:.0%}"))
+            length = order.periods, order.duration_s
+            run = engine.simulate(order.scene, *length, lambda share: _tell(f"{share:.0%}"), order.start)
         _tell("")
     except KeyboardInterrupt:
         print("\ninterrupted; nothing was written", file=sys.stderr)
@@ -136,13 +146,13 @@ def main(argv: list[str] | None = None) -> int:
     return 0 if run.status == "ok" else 1
 
 
-def _until_told(scene):
+def _until_told(scene, start):
     """The run of a buoy in regular waves, as long as its verdict needs, and MOST_PERIODS at most."""
     run, done = None, 0
     while done < MOST_PERIODS:
         _tell(f"{done} wave periods")
         look = min(views.look_after(done), MOST_PERIODS)
-        later = engine.simulate(scene, look - done, start=run)
+        later = engine.simulate(scene, look - done, start=run or start)
         run, done = later if run is None else run.followed_by(later), look
         if run.status != "ok" or run.verdict().regime not in ("transient", "undecided"):
             break

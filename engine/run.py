@@ -23,6 +23,7 @@ from .time.statics import rest_of, why_no_rest
 from .time.status import ADVICE, OK, STATICS_FAILED, TURN_UNRESOLVED, WORDS
 from .time.time_loop import march
 from .trajectory import COLUMNS, EnergyBudget, Profiles, Trajectory
+from .trajectory_parts import along_waves, heading_of
 
 
 class Run:
@@ -204,11 +205,6 @@ def statistics_of(state: np.void, wall_s: float) -> dict[str, int | float]:
     return {name: state[field].item() for name, field in STATISTICS.items()} | {"wall_s": wall_s}
 
 
-def heading_of(scene: Scene) -> float:
-    """Direction (rad) of the waves of a motion in space; 0 in a plane and without waves."""
-    return float(scene.waves.direction_rad) if scene.motion.dimensions == 3 and scene.waves is not None else 0.0
-
-
 def sample_count(duration_s: float, step_s: float) -> int:
     """Samples from t = 0 to the end, both included where the rounding of a step is all that is missing; 0 without."""
     return int(duration_s / step_s * (1 + 1e-12) + 1e-9) + 1 if step_s > 0 else 0
@@ -222,9 +218,7 @@ def columns_of(samples: np.ndarray, heading: float) -> dict[str, np.ndarray]:
     """
     t, x, y, z, u, v, w = samples[:, : col.AT_W + 1].T
     r = np.sqrt(x**2 + y**2 + z**2) if y.any() else np.hypot(x, z)
-    along, rate = (
-        (x, u) if heading == 0 else tuple(np.cos(heading) * a + np.sin(heading) * b for a, b in ((x, y), (u, v)))
-    )
+    along, rate = along_waves(heading, x, y), along_waves(heading, u, v)
     with np.errstate(invalid="ignore", divide="ignore"):
         radius_rate = (x * u + y * v + z * w) / np.where(r > 0, r, np.nan)
         square = along**2 + z**2

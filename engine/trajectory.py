@@ -16,7 +16,7 @@ from engine import netcdf, views
 from engine.atomic import write_atomic
 from engine.final_state import FinalState, state_of_file
 from engine.scene.load import Scene, SceneError, scene_from_toml
-from engine.trajectory_parts import EnergyBudget, Profiles, TangentGrowth
+from engine.trajectory_parts import EnergyBudget, Profiles, TangentGrowth, along_waves, heading_of
 
 if TYPE_CHECKING:
     import pandas
@@ -83,7 +83,8 @@ class Trajectory:
         if (self.profiles is None) != (later.profiles is None):
             raise ValueError("later: profiles are needed of both runs, or of none")
         columns = {name: np.concatenate([self.columns[name], later.columns[name][1:]]) for name in COLUMNS}
-        columns["angle_rad"] = np.unwrap(columns["angle_rad"])
+        x, y, z = (columns[name] for name in ("x_m", "y_m", "z_m"))
+        columns["angle_rad"] = np.unwrap(np.arctan2(along_waves(heading_of(later.scene), x, y), z))
         statistics = dict(later.statistics)
         for name, number in self.statistics.items():
             many = {"max_turn_rad": max, "min_strain": min, "end_time_s": max}.get(name, lambda a, b: a + b)

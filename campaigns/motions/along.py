@@ -160,6 +160,8 @@ class Along:
         from analysis import matched
 
         for some, more in pairwise(self.motions):
+            _guess(some, more, UP)
+            _guess(more, some, DOWN)
             alone = [one for one in some if one.led.get(UP) is None], [one for one in more if one.led.get(DOWN) is None]
             for one, which in zip(alone[0], matched(*([m.settled for m in side] for side in alone)), strict=True):
                 if which is not None:  # carried, these two did not settle: the nearest one continues it
@@ -190,3 +192,11 @@ class Along:
             share = share_of(motion.kicks, self.kicked)
             found |= {"share": share.share, "share_low": share.low, "share_high": share.high}
         return found | {"confirmed": motion.branch.confirmed or None}
+
+
+def _guess(some: Sequence[Motion], others: Sequence[Motion], step: int) -> None:
+    """Lead a motion that did not settle at the next value to the one there that leads to it, if there is but one."""
+    for motion in some:
+        back = [other for other in others if other.led.get(-step) is motion]
+        if motion.led.get(step) is None and len(back) == 1:
+            motion.led[step] = back[0]

@@ -119,15 +119,15 @@ def _change(dt, a, b, a_t, b_t):
     """Share of a step of dt (s) at which a gauge that is a before and b after it changes sign; 1 where it does not."""
     rises = b > 0.0
     found = ((a <= 0.0) & rises) | ((a > 0.0) & (b <= 0.0))
-    if not some(found):
-        return where(found, 0.0, 1.0)
     low, high = where(found, 0.0, 1.0), where(found, 1.0, 1.0)
+    if not some(found):
+        return high
     for _ in range(HALVINGS):
         middle = 0.5 * (low + high)
         value = _cubic(middle, a, b, dt * a_t, dt * b_t)
         before = where(rises, -value, value) > 0.0
         low, high = where(before, middle, low), where(before, high, middle)
-    return where(found, 0.5 * (low + high), 1.0)
+    return 0.5 * (low + high)
 
 
 @kernel
@@ -162,20 +162,21 @@ def march(p, tables, length, period, first, steps, y, strobed, measures, X, F):
         low = high = _radius(y)[0]
         for n in range(steps):
             t = ((first + row) * steps + n) * dt
-            at, rest = t, dt
-            new = step(p, tables, length, t, dt, y, X, F)
-            after = _gauges(p, tables, length, t + dt, new)
-            share = _first_change(dt, gauges, after)
-            if some(share < 1.0):  # a lane without a change makes the same step, then none
-                part = share * dt
-                at, rest = t + part, dt - part
-                middle = step(p, tables, length, t, part, y, X, F)
-                low, high = _range(part, y, middle, low, high)
-                y = middle
-                new = step(p, tables, length, at, rest, y, X, F)
-                after = _gauges(p, tables, length, t + dt, new)
-            low, high = _range(rest, y, new, low, high)
-            y, gauges = new, after
+            at, want = t, dt
+            for trial in range(3):  # the whole step, or then its two parts; a lane without a change makes it, then none
+                new = step(p, tables, length, at, want, y, X, F)
+                after = _gauges(p, tables, length, at + want, new)
+                if trial == 0:
+                    share = _first_change(dt, gauges, after)
+                    if some(share < 1.0):
+                        want = share * dt
+                        continue
+                low, high = _range(want, y, new, low, high)
+                y = new
+                if trial != 1:
+                    break
+                at, want = t + want, dt - want
+            gauges = after
         sound = finite((y[0] + y[1]) + (y[2] + y[3]))
         T = larger(tension(high / length - 1.0, p, tables)[0], 0.0)
         for i in range(4):
@@ -184,15 +185,6 @@ def march(p, tables, length, period, first, steps, y, strobed, measures, X, F):
         measures[row, 2] = where(sound, T, np.nan)
         if not some(sound):
             return
-
-
-@kernel
-def march_alone(p, tables, length, period, first, steps, starts, strobed, measures):
-    """`march` from starts (k, 4), one after another, into strobed (k, p + 1, 4) and measures (k, p, 3)."""
-    X, F = np.zeros((1, 2)), np.zeros((1, 4))
-    for i in range(len(starts)):
-        y = starts[i, 0], starts[i, 1], starts[i, 2], starts[i, 3]
-        march(p, tables, length, period, first, steps, y, strobed[i], measures[i], X, F)
 
 
 @kernel

@@ -132,7 +132,7 @@ def _in_plane(record, scene, h, force, span):
     Y, length = np.zeros((len(s), 6)), s[-1]
     if record["end"] == HELD:
         x, y, z = scene.end.position_m
-        x = math.hypot(x, y) if y else x
+        x = math.hypot(x, y) if is_spatial(record) else x  # along its azimuth
         return _to_a_place(Y, s, x, z, record["w0"])
     up, height = afloat(record, scene, s) if record["end"] == BUOY else (force[1], None)
     if height is not None:

@@ -63,12 +63,13 @@ def orbit_figure(sweep: Sweep) -> Figure | None:
     else:
         below = [_slack(drawn), *_exponent_panel(sweep), *below]
     labels = "wave steepness kA (–)", "strobed r (m)"
-    motions = {letter: (colour, _called(sweep, letter)) for letter, colour in sweep.colours.items()}
+    motions = {letter: (colour, _called(sweep, letter)) for letter, colour in sweep.colours.items() if letter}
     shown = columns, labels, below, ranges, marks, missing
     wide, narrow = (orbit_diagram(*shown, width_in, motions) for width_in in (WIDTH_IN, NARROW_IN))
     caption = " ".join(filter(None, _seen(sweep, drawn, static_N)))
-    words = Counter(run["regime"] for run in sweep.judged)
-    alt = f"Orbit diagram over wave steepness: {', '.join(f'{word} {n} times' for word, n in words.items())}; see text."
+    words = [f"{word} {n} times" for word, n in Counter(run["regime"] for run in sweep.judged).items()]
+    told = "; ".join([*(f"motion {letter} {said}" for letter, (_, said) in motions.items()), ", ".join(words)])
+    alt = f"Orbit diagram over wave steepness: {told}; see text."
     return Figure(wide, caption, alt, narrow=narrow)
 
 
@@ -87,11 +88,9 @@ _BEYOND = {"whole sphere above still water": ("flies", _flies), "loops released"
 
 def _called(sweep: Sweep, letter: str) -> str:
     """What the legend says of a motion: its largest tension, and in short what else some of its runs do."""
-    runs = [run for run in sweep.motions[letter] if run.known(PEAK)]
-    if not runs:
-        return "without a motion"
+    runs = sweep.motions[letter]
     more = [short for short, holds in _BEYOND.values() if any(holds(sweep, run) for run in runs)]
-    return ", ".join([f"up to {number(max(run[PEAK] for run in runs) / 1e3, 3)} kN", *more])
+    return ", ".join([f"up to {number(np.nanmax(_of(runs, PEAK)) / 1e3, 3)} kN", *more])
 
 
 def _seen(sweep: Sweep, drawn: Sequence[Run], static_N: float | None) -> Iterator[str]:

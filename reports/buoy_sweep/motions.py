@@ -3,12 +3,13 @@
 import math
 from collections import Counter
 from collections.abc import Sequence
-from itertools import groupby
+from itertools import groupby, pairwise
 from operator import itemgetter
 
 import numpy as np
 
-from ..figures.curves import Box, Curve, Panel
+from ..figures.curves import Curve, Panel
+from ..figures.orbit_diagram import cell_edges
 from ..parts.columns import table_of
 from ..parts.content import Heading, Item, Table, Text, heads
 from ..parts.folder import part_of
@@ -53,7 +54,7 @@ def tension_panel(sweep: Sweep, drawn: Sequence[Run], curves: list[Curve], scale
     top, calm = max(peaks.values()), min(filter(None, ways.values()), key=lambda way: max(map(peaks.get, way)))
     for letter, way in ways.items():
         for run in way[len(way) // 2 :][:1]:
-            aside = -0.12 if way is calm else 0.22  # nothing stands below the lowest line; numbers stand above others
+            aside = -0.12 if way is calm else 0.26  # nothing stands below the lowest line; numbers stand above others
             texts.append((run.steepness, peaks[run] + aside * top, letter, sweep.colours[letter]))
     for end in _ends(sweep):
         at = 0.5 * (end["steepness_with"] + end["steepness_without"])
@@ -76,17 +77,15 @@ def _ends(sweep: Sweep) -> list[dict]:
 
 def shares_panel(sweep: Sweep) -> list[Panel]:
     """The shares of fresh starts that end in each motion, one on the other; hatched: in none. No panel without any."""
-    values, boxes = np.array(sweep.values), []
-    middles = 0.5 * (values[1:] + values[:-1])
-    low, high = (np.append(*ends) for ends in ((values[:1], middles), (middles, values[-1:])))
-    for kA, left, right in zip(values, low, high, strict=True):
+    boxes = []
+    for kA, (left, right) in zip(sweep.values, pairwise(cell_edges(np.array(sweep.values))), strict=True):
         own = {run.motion: run["share"] for run in sweep.runs if run.steepness == kA and run.known("share")}
         below = 0.0
         for letter, share in own.items():
-            boxes.append(Box(left, right, below, below + share, sweep.colours[letter]))
+            boxes.append((left, right, below, below + share, sweep.colours[letter], ""))
             below += share
         if own and below < 1.0 - 1e-9:
-            boxes.append(Box(left, right, below, 1.0, SOFT, "////"))
+            boxes.append((left, right, below, 1.0, SOFT, "////"))
     axis = {"ylim": (0.0, 1.0), "yticks": (0.5,), "yticklabels": ("50",)}
     return [Panel([], y_label="starts\n(%)", settings=axis, boxes=boxes, height=0.55)] if boxes else []
 
@@ -133,6 +132,9 @@ def every_motion(sweep: Sweep) -> list[Item]:
     """The section of starts and ends; nothing where there is one motion and no start was told of."""
     part = part_of(sweep.folder, "starts")
     rows, items = part.table if part else (), []
+    if ends := _ends(sweep):
+        names = ("motion", "end", "steepness_with", "steepness_without", "leads_to")
+        items.append(table_of(part_of(sweep.folder, "ends").columns, names, ends, _ENDS))
     if rows:
         body = []
         for kA, group in groupby(in_order(rows, ["steepness"]), key=itemgetter("steepness")):
@@ -147,7 +149,4 @@ def every_motion(sweep: Sweep) -> list[Item]:
             "are unsettled. From `starts/table.csv`, which has every start."
         )
         items.append(Table(heads(*titles), tuple(body), caption, small=True))
-    if ends := _ends(sweep):
-        names = ("motion", "end", "steepness_with", "steepness_without", "leads_to")
-        items.append(table_of(part_of(sweep.folder, "ends").columns, names, ends, _ENDS))
     return [Heading("Every motion"), Text(_TOLD), *items] if items else []

@@ -166,9 +166,9 @@ def _named(run: Run, among: Sequence[Run]) -> Run:
     ends = "radius_min_m", "radius_max_m"
     values = np.array([other.steepness for other in among])
     low, high = values[values < run.steepness].max(initial=-np.inf), values[values > run.steepness].min(initial=np.inf)
-    beside = [other for other in among if other.steepness in (low, high) and all(map(other.known, ends))]
-    off = [sum(abs(run[name] - other[name]) for name in ends) for other in beside]
-    return replace(run, row={**run.row, "motion": beside[int(np.argmin(off))].motion}) if beside else run
+    beside = [other for other in among if other.steepness in (low, high) and other.ok]
+    near = min(beside, key=lambda other: sum(abs(run[name] - other[name]) for name in ends), default=run)
+    return replace(run, row={**run.row, "motion": near.motion})
 
 
 def _read_run(folder: Folder, row: dict, anchor: str = "", drawn: Callable | None = None) -> Run:

@@ -38,18 +38,6 @@ class Curve:
     band: tuple[np.ndarray, np.ndarray, np.ndarray] | None = None
 
 
-@dataclass(frozen=True)
-class Box:
-    """A filled part of a panel, left to right and low to high; hatch: matplotlib's, drawn in the colour on white."""
-
-    left: float
-    right: float
-    low: float
-    high: float
-    colour: str
-    hatch: str = ""
-
-
 @dataclass(frozen=True, eq=False)
 class Panel:
     """Curves on one pair of axes.
@@ -57,7 +45,8 @@ class Panel:
     log: the axes that are logarithmic, "", "x", "y" or "xy". level: a thin horizontal line there. settings: of
     matplotlib's `Axes.set`, such as limits. ticks: most numbers on the x axis, None as they come. marks: (x, name) of
     places on the x axis. beside: "right" or "top" -> factor from the axis opposite, label. arrows: (x, y from, y to,
-    colour), upright. texts: (x, y, text, colour). height: against that of other panels.
+    colour), upright. texts: (x, y, text, colour). boxes: (left, right, low, high, colour, hatch on white or "").
+    height: against that of other panels.
     """
 
     curves: Sequence[Curve]
@@ -70,7 +59,7 @@ class Panel:
     ticks: int | None = None
     marks: Sequence[tuple[float, str]] = ()
     beside: Mapping[str, tuple[float, str]] = field(default_factory=dict)
-    boxes: Sequence[Box] = ()
+    boxes: Sequence[tuple[float, float, float, float, str, str]] = ()
     arrows: Sequence[tuple[float, float, float, str]] = ()
     texts: Sequence[tuple[float, float, str, str]] = ()
     height: float = 1.0
@@ -103,10 +92,10 @@ def draw(axes, panel: Panel) -> None:
             axes.plot(curve.x, curve.y, **look)
         else:
             axes.errorbar(curve.x, curve.y, curve.error, elinewidth=0.8, capsize=1.5, **look)
-    for box in panel.boxes:
-        face, edge = ("white", box.colour) if box.hatch else (box.colour, "white")
-        look = {"facecolor": face, "edgecolor": edge, "hatch": box.hatch, "linewidth": 0.3, "align": "edge"}
-        axes.bar(box.left, box.high - box.low, box.right - box.left, box.low, **look)
+    for left, right, low, high, colour, hatch in panel.boxes:
+        face, edge = ("white", colour) if hatch else (colour, "white")
+        look = {"facecolor": face, "edgecolor": edge, "hatch": hatch, "linewidth": 0.3, "align": "edge"}
+        axes.bar(left, high - low, right - left, low, **look)
     for x, start, end, colour in panel.arrows:
         arrow = {"arrowstyle": "-|>", "color": colour, "linewidth": 1.3, "shrinkA": 0.0, "shrinkB": 0.0}
         axes.annotate("", (x, end), (x, start), arrowprops=arrow)

@@ -123,7 +123,7 @@ def orbit_diagram(
         return picture_of(figure)
 
 
-def _cells(at: np.ndarray) -> np.ndarray:
+def cell_edges(at: np.ndarray) -> np.ndarray:
     """Edges (p + 1,) of the cells of sorted values (p,), half-way to their neighbours."""
     if len(at) < 2:
         return np.array([at[0] - 0.01 * (abs(at[0]) or 1.0), at[0] + 0.01 * (abs(at[0]) or 1.0)])
@@ -133,7 +133,7 @@ def _cells(at: np.ndarray) -> np.ndarray:
 
 def _spans(at: np.ndarray, words: Sequence, text: str = "") -> list[tuple[str, float, float]]:
     """(word, low, high) of every run of equal neighbours; a word that is no text stands for `text`, or for nothing."""
-    edges, found, first = _cells(at), [], 0
+    edges, found, first = cell_edges(at), [], 0
     for word, group in groupby(words):
         end = first + len(list(group))
         if word:
@@ -216,7 +216,7 @@ def _points(axes, columns: Sequence[Column], inch: float, motions: Motions | Non
         x, y = np.repeat([one.at for one in own], [len(one.points) for one in own]), [one.points for one in own]
         wide, thick, alpha = (1.6, 1.1 if word.startswith(_PERIOD) else 0.45, 0.8) if word else (0.9, 0.7, 0.8)
         if motions:
-            colour = motions[motion][0]
+            colour, _ = motions.get(motion, (_NEUTRAL, ""))
         elif len(own) == len(columns) and not word:
             colour, thick, alpha = INK, 0.45, 0.5
         else:
@@ -243,7 +243,7 @@ def _small(columns: Sequence[Column], several: bool) -> tuple[list[Column], tupl
 def _enlarged(axes, columns: list[Column], ends: tuple[float, float], above: float, inch: float, motions) -> None:
     """The columns again, over the same parameter, in what is blank below or above them."""
     (bottom, top), (left, right) = axes.get_ylim(), axes.get_xlim()
-    edges, room = _cells(np.unique([one.at for one in columns])), 0.12 * (top - bottom)
+    edges, room = cell_edges(np.unique([one.at for one in columns])), 0.12 * (top - bottom)
     low, high = (ends[1] + room, top - 0.3 * room) if above else (bottom + 0.3 * room, ends[0] - room)
     where = (0.0, (low - bottom) / (top - bottom), (edges[-1] - left) / (right - left), (high - low) / (top - bottom))
     inner = axes.inset_axes(where)

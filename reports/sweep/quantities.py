@@ -93,7 +93,8 @@ def panels_over(
             y, name = series(rows, column.name), column.label.rpartition(" (")[0] if len(one) > 1 else ""
             bars = series(rows, error.name) if error else None
             for letter, own in (motions or {"": colour}).items():
-                some, rest, which = (of == letter) & good, (of == letter) & ~good, f"{name} {letter}".strip()
+                some, rest = (of == letter) & good, (of == letter) & ~good
+                which = (letter if mark == "o" else "") if motions else name
                 lines.append(Curve(x[some], y[some], which, "", mark, own, bars[some] if error else None, 3.0))
                 lines.append(Curve(x[rest], y[rest], "", "", "x", own, size=5.0))
         level = 0.0 if any(error for _, error in one) else None

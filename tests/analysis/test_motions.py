@@ -105,7 +105,7 @@ def test_motions_are_matched_by_least_distance_in_all():
         return [Settled(1, np.array([[v]]), np.array([[1.0]]), np.ones(1), "") for v in values]
 
     assert distance(*at(0.2, 0.5)) == pytest.approx(0.3)
-    assert matched(at(0.0, 0.4), at(0.3, 0.7)) == [0, 1]
+    assert matched(at(0.0, 0.4), at(0.25, 0.65)) == [0, 1]
     assert matched(at(0.0, 0.4, 5.0), at(0.45, 2.0)) == [None, 0, None]
     assert matched([], at(1.0)) == [] and matched(at(1.0), []) == [None]
 

@@ -9,7 +9,7 @@ import pytest
 from matplotlib.colors import same_color
 
 from campaigns.buoy_sweep.rows import COLUMNS, STEEPNESS
-from reports import content_of
+from reports import build, content_of
 from reports.buoy_sweep.figures import orbit_figure
 from reports.buoy_sweep.runs import read_sweep
 from reports.parts.columns import Quantity
@@ -18,6 +18,7 @@ from reports.parts.style import VERMILION
 from reports.sweep.quantities import colours_of, panels_over
 from reports.sweep.report import _maps_of_each
 from tests.reports.conftest import points_of, rows_in, write
+from tests.reports.test_words_apart import crowded
 
 WORD, NUMBER = COLUMNS[2], STEEPNESS
 MORE = (replace(WORD, name="motion"), replace(NUMBER, name="share"), replace(WORD, name="found_by"))
@@ -57,6 +58,7 @@ def test_each_motion_has_one_colour_and_a_line_joins_no_other(several, drawn):
     sweep = read_sweep(several)
     assert sweep.colours["B"] == VERMILION, "the largest tension"
     orbit_figure(sweep)
+    assert not any(map(crowded, drawn))
     static_N, found = sweep.modes.static_tension_N, points_of(drawn[0].axes[0])
     for letter in "AB":
         own = {run.steepness: run["tension_top_max_N"] / static_N for run in sweep.motions[letter]}
@@ -139,3 +141,20 @@ def test_a_sweep_of_any_key_keeps_motions_apart():
     assert seen == {motions["A"]: [1.0, 2.0], motions["B"]: [10.0, 11.0]}
     maps = _maps_of_each([key, depth], rows, shown, motions)
     assert [item.text[-8:] for item in maps if isinstance(item, Heading)] == ["motion A", "motion B"]
+
+
+@pytest.mark.slow
+def test_a_click_chooses_the_motion_whose_point_is_nearest(several, browse):
+    """At kA = 0.03, with the margins of the canvas: 48 and 10 pixels beside, 20 above, 44 and 92 a curve below."""
+    (data,) = (item for item in content_of(several)[0].items if isinstance(item, Explorer))
+    everything = [point for column in data.columns for point in column.points]
+    low, wide = min(everything), max(everything) - min(everything)
+    with browse(build(several)[0]) as page:
+        canvas = page.locator("#explorer canvas")
+        canvas.evaluate("(one) => one.scrollIntoView({block: 'center'})")
+        box = canvas.bounding_box()
+        x = box["x"] + 48 + (box["width"] - 58) * (0.03 + (0.03 - 0.016) / 0.144) / 1.06
+        for column in (one for one in data.columns if one.at == 0.03):
+            share = 1.0 - (max(column.points, key=lambda point: abs(point - 20.8)) - low + 0.04 * wide) / (1.08 * wide)
+            page.mouse.click(x, box["y"] + 20 + share * (box["height"] - 64 - 92 * len(data.lower)))
+            assert page.evaluate("document.getElementById('explorer-sheet').dataset.run") == column.anchor

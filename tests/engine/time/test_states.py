@@ -1,0 +1,194 @@
+"""Laws: a state goes over to another scene, grid and clock without a jump; a start that is faulty says so."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from engine import Trajectory, __main__, load_scene, simulate, simulate_each
+from engine.final_state import NONE
+from engine.going_on import between, taken_over
+from engine.planar import columns as col
+from engine.spatial import lift
+
+SMALL = {"tether.nodes": 9, "waves.steepness": 0.06, "water.depth_m": 22.5, "solver.rtol": 1e-3}
+SLACK = {"tether.nodes": 21, "waves.steepness": 0.13, "water.depth_m": 21.0}  # folded after 12.6 periods
+SEEN = ("time_s", "x_m", "z_m", "radius_m", "tension_top_N")
+
+
+def scene_of(changes):
+    return load_scene("tethered_buoy", changes)
+
+
+@pytest.fixture(scope="module")
+def first():
+    return simulate(scene_of(SMALL), periods=4)
+
+
+CHANGES = {
+    "solver.rtol": (0.01, "solver.rtol 0.001 -> 0.01"),
+    "waves.steepness": (0.12, "waves.steepness 0.06 -> 0.12"),
+    "water.depth_m": (21.0, "water.depth_m 22.5 -> 21"),
+    "tether.bending_stiffness_Nm2": (1.0, "tether.bending_stiffness_Nm2"),
+    "tether.nodes": (17, "tether.nodes 9 -> 17, the state is interpolated"),
+    "tether.grid_stretching": (1.0, "tether.grid_stretching 0 -> 1, the state is interpolated"),
+    "motion.dimensions": (3, "motion.dimensions 2 -> 3"),
+    "waves.period_s": (4.0, "waves.period_s 5 -> 4, the clock starts at 0"),
+    "output.step_s": (0.1, "output.step_s 0.05 -> 0.1, the clock starts at 0"),
+    "output.profiles": (True, ""),
+    "start.buoy_velocity_mps": ([1.0, 0.0, 0.0], ""),
+}
+
+
+@pytest.mark.parametrize("key", CHANGES)
+def test_another_scene_takes_the_state_over_and_says_so(key, first):
+    value, said = CHANGES[key]
+    found = simulate(scene_of({**SMALL, key: value}), periods=1, start=first.final_state)
+    assert found.status == "ok" and said in found.began and bool(said) == found.began.startswith("went on at t = 20 s")
+    for name in SEEN[1 if "clock" in said else 0 :]:
+        assert found.columns[name][0] == first.columns[name][-1]
+    assert np.abs(np.diff(found.columns["radius_m"][:4])).max() < 0.05  # m in 0.1 s: no jump
+    if not said:
+        assert np.array_equal(
+            found.columns["radius_m"], simulate(first.scene, periods=1, start=first).columns["radius_m"]
+        )
+    if found.profiles is not None:
+        late = found.columns["time_s"] > found.profiles.time_s[0] - 1e-9  # the last step of before kept none
+        assert found.profiles.time_s == pytest.approx(found.columns["time_s"][late])
+        assert found.profiles.z_m[:, -1] == pytest.approx(found.columns["z_m"][late])
+        assert late.sum() >= len(late) - 3
+    saved = Trajectory.from_bytes(found.to_bytes())
+    assert saved.began == found.began and saved.final_state.digest() == found.final_state.digest()
+
+
+def test_a_state_with_its_clock_at_zero_goes_the_same_way(first):
+    """Where its time is a whole number of wave periods."""
+    state = first.final_state.at_zero()
+    here, there = (simulate(first.scene, periods=3, start=start) for start in (first, state))
+    assert state.time_s == 0.0 and state.digest() != first.final_state.digest()
+    assert there.columns["time_s"] == pytest.approx(here.columns["time_s"] - 20.0, abs=1e-12)
+    assert there.columns["radius_m"] == pytest.approx(here.columns["radius_m"], abs=2e-4)
+    assert state.at_zero().digest() == state.digest()
+
+
+def test_the_grid_may_change_in_slack():
+    """The end stays in its place and the line without a blow; on a nested grid and back the state is nearly the old."""
+    fine = scene_of({**SLACK, "tether.nodes": 41})
+    coarse = simulate(scene_of(SLACK), periods=12.6)
+    here, there = (simulate(scene, periods=1, start=coarse) for scene in (coarse.scene, fine))
+    assert there.columns["radius_m"] == pytest.approx(here.columns["radius_m"], abs=0.02)
+    assert there.columns["tension_top_high_N"][1:10].max() < 100.0 and coarse.columns["tension_top_high_N"].max() > 4e3
+    old = coarse.final_state
+    back = taken_over(taken_over(old, fine)[0], coarse.scene)[0]
+    assert np.linalg.norm(back.C[:, :2], axis=1) == pytest.approx(np.linalg.norm(old.C[:, :2], axis=1))
+    assert back.C[:, 2:] == pytest.approx(old.C[:, 2:])
+    assert np.trapezoid(back.C[:, :2], axis=0) == pytest.approx(np.trapezoid(old.C[:, :2], axis=0), abs=1e-9)
+    assert np.abs(back.Y[:, col.PHI] - old.Y[:, col.PHI]).max() < 0.3  # rad; of turns of up to 3 rad an element
+    assert not back.C[0, 2:].any()
+
+
+@pytest.mark.parametrize("dimensions", [2, 3])
+def test_between_two_states(dimensions):
+    scenes = [
+        scene_of({**SMALL, "motion.dimensions": dimensions, "start.buoy_velocity_mps": [u, 0, 0]}) for u in (0, 2)
+    ]
+    a, b = (simulate(scene, periods=2).final_state for scene in scenes)
+    released = b.Y.copy()
+    if dimensions == 2:
+        released[4:, col.PHI] += 2 * np.pi
+    else:
+        released[4:, lift.BETA] *= -1.0
+    for one in (b, replace(b, Y=released)):
+        for share in (0.0, 0.25, 1.0):
+            found = between(a, one, share)
+            for name, tolerance in (("C", 1e-9), ("K", 1e-9)):
+                ends = getattr(a, name), getattr(b, name)
+                if share in (0.0, 1.0):
+                    assert getattr(found, name) == pytest.approx(ends[int(share)], abs=tolerance)
+            strains = [np.linalg.norm(state.C[:, :dimensions], axis=1) for state in (a, b, found)]
+            assert strains[2] == pytest.approx((1 - share) * strains[0] + share * strains[1])
+            assert simulate(a.scene, periods=0.2, start=found).status == "ok"
+    with pytest.raises(ValueError, match="of one time"):
+        between(a, b.at_zero(), 0.5)
+    with pytest.raises(ValueError, match="one grid"):
+        between(a, simulate(scene_of({**SMALL, "tether.nodes": 11}), periods=2).final_state, 0.5)
+
+
+HELD = {"end": {"kind": "held", "position_m": [0.0, 0.0, 20.5]}, "buoy": None}
+FAULTY = {
+    "the paper's scheme": (lambda state: state, {"solver.scheme": "paper-box"}, "only start from rest"),
+    "another end": (lambda state: state, HELD, "end.kind = 'buoy' for a scene with 'held'"),
+    "nan": (lambda state: replace(state, C=state.C * np.nan), {}, "not a finite number, among its C"),
+    "another engine": (lambda state: replace(state, numbers=state.numbers[1:]), {}, "another version of the engine"),
+    "half a file": (lambda state: replace(state, K=NONE), {}, "K of shape"),
+    "no state": (lambda state: 7, {}, "given 7; allowed: a Trajectory"),
+    "space": (lambda state: simulate(scene_of({**SMALL, "motion.dimensions": 3}), duration_s=1), {}, "in 3 dimensions"),
+    "ended early": (lambda state: simulate(scene_of(OUT[0]), duration_s=1), {}, "without a final state"),
+}
+FAR = "start.buoy_velocity_mps", "start.buoy_displacement_m"
+OUT = [{**SMALL, FAR[0]: [u, 0.0, w]} for u, w in ((1e4, 0.0), (0.0, -1e8), (0.0, 1e30), (-1e2, 1e2))]
+OUT += [{**SMALL, FAR[1]: place} for place in ([1e3, 0.0, 0.0], [0.0, 0.0, 1e30], [0.0, 0.0, 90.0])]
+
+
+@pytest.mark.parametrize("kind", FAULTY)
+def test_a_run_that_cannot_go_on_says_why(kind, first):
+    made, changes, words = FAULTY[kind]
+    with pytest.raises(ValueError, match=words):
+        simulate(scene_of({**SMALL, **changes}), duration_s=1.0, start=made(first.final_state))
+
+
+@pytest.mark.parametrize("number", range(len(OUT)))
+def test_a_start_out_of_sight_is_a_run_with_its_reason(number):
+    run = simulate(scene_of(OUT[number]), periods=5)
+    assert (run.status != "ok" and run.message) or all(np.isfinite(values).all() for values in run.columns.values())
+    assert (run.status == "statics-failed") == ("displacement" in run.message)
+
+
+def test_on_the_command_line(first, tmp_path, capsys):
+    file, cut = tmp_path / "run.nc", tmp_path / "cut.nc"
+    first.save(file)
+    cut.write_bytes(file.read_bytes()[:-1000])
+    command = ["tethered_buoy", "--set", *(f"{key}={value}" for key, value in SMALL.items()), "tether.nodes=11"]
+    out = ["--periods", "1", "--out", str(tmp_path / "run.png")]
+    assert __main__.main([*command, *out, "--start-from", str(file)]) == 0
+    assert "went on at t = 20 s; changed: tether.nodes 9 -> 11" in capsys.readouterr().out
+    for name in (cut, tmp_path / "none.nc", __file__):
+        assert __main__.main([*command, *out, "--start-from", str(name)]) == 2
+        assert capsys.readouterr().err.count(str(name)) == 1
+
+
+STILL = {"tether.nodes": 21, "waves.steepness": 0.0, "water.depth_m": 25.0, "solver.rtol": 1e-3, "output.step_s": 0.02}
+
+
+@pytest.mark.parametrize("axis, displacement, within", [("radial", 0.01, 5e-4), ("pendulum", 0.1, 0.03)])
+def test_a_displaced_buoy_swings_with_its_natural_frequency(axis, displacement, within):
+    """Section 4.2.1 of the paper, which leaves out the rope's mass and the drag."""
+    from engine.natural_frequencies import natural_frequencies
+
+    place = [0.0, 0.0, displacement] if axis == "radial" else [displacement, 0.0, 0.0]
+    scene = scene_of({**STILL, FAR[1]: place})
+    run = simulate(scene, duration_s=13.0 if axis == "radial" else 40.0)
+    swing = run.columns["z_m"] - run.columns["z_m"][0] + displacement if axis == "radial" else run.columns["x_m"]
+    assert swing[0] == pytest.approx(displacement, abs=1e-9) and abs(run.columns["radius_rate_mps"][0]) < 1e-9
+    at = np.flatnonzero(swing[1:] * swing[:-1] < 0.0)
+    passes = run.columns["time_s"][at] + 0.02 * swing[at] / (swing[at] - swing[at + 1])
+    found = np.pi * (len(passes) - 1) / (passes[-1] - passes[0])
+    assert found == pytest.approx(getattr(natural_frequencies(scene), f"{axis}_radps"), rel=within)
+
+
+@pytest.mark.parametrize("place", [[3.0, 0.0, -4.0], [-2.0, 0.0, 1.0]], ids=["slack", "stretched"])
+def test_a_displaced_line_begins_as_one_that_is_held_there(place):
+    scene = scene_of({**STILL, FAR[1]: place, "output.profiles": True})
+    lanes = {**STILL, FAR[1]: place}
+    run = simulate(scene, duration_s=1.0)
+    end = {name: float(run.columns[name][0]) for name in ("x_m", "y_m", "z_m")}
+    held = {"end": {"kind": "held", "position_m": list(end.values())}, "buoy": None, "output.profiles": True}
+    there = simulate(scene_of({**STILL, **held}), duration_s=0.1)
+    for name in ("x_m", "z_m", "tension_N"):
+        assert getattr(run.profiles, name)[0] == pytest.approx(getattr(there.profiles, name)[0], abs=1e-6)
+    scenes = [scene_of({**lanes, "waves.steepness": kA}) for kA in (0.0, 0.03)]
+    for number, found in simulate_each(scenes, duration_s=1.0):
+        alone = simulate(scenes[number], duration_s=1.0)
+        assert np.array_equal(found.columns["radius_m"], alone.columns["radius_m"])
+    space = simulate(scene_of({**STILL, FAR[1]: place, "motion.dimensions": 3}), duration_s=1.0)
+    assert space.columns["radius_m"] == pytest.approx(run.columns["radius_m"], abs=1e-6)
