@@ -58,7 +58,7 @@ def _shares(rows: Sequence[Row], motions: Sequence[Row]) -> str:
         f"({100 * known(one, 'share_low'):.0f} to {100 * known(one, 'share_high'):.0f})"
         for one in motions
     )
-    unsettled = sum(row["outcome"] == UNSETTLED for row in rows)
+    unsettled = sum(row.get("outcome") == UNSETTLED for row in rows)
     failed = sum(row["status"] != "ok" for row in rows)
     left = f"; {unsettled} had not settled, and {failed} failed" if unsettled or failed else ""
     return f"Of {len(rows)} starts {ends}{left}."
