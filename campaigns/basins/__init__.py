@@ -4,13 +4,13 @@
     python -m campaigns.basins --set water.depth_m=25 --grid 49
     python -m campaigns.basins --across vx phase --grid 25 24      when in a wave does a gust matter?
 
-Protocol: the motions of the scene are found from rest, from motions of a massless tether, and from starts spread over
-the grid until 24 of them find no new one. Then all other starts run until they join a motion or settle on one of their
-own, at most for 160 wave periods; what has not settled by then is counted as unsettled. Each motion is judged by a run
-of its own (docs/verdicts.md), and goes on at a tenth of the tolerance and on a finer grid of the line. The smallest
-start that leads to the motion of the largest tension is searched over its direction, and bisected in size to 1 %, on
-both grids. The edge state between that motion and the one from rest is found by bisection of states. The order of the
-starts is drawn by --seed; nothing else is random.
+Protocol: without --scene the buoy is in 22.5 m of water, where it has two motions. The motions are found from rest,
+from motions of a massless tether, and from starts spread over the grid until 24 of them find no new one. Then all other
+starts run until they join a motion or settle on one of their own, at most for 160 wave periods; what has not settled by
+then is counted as unsettled. Each motion is judged by a run of its own (docs/verdicts.md), and goes on at a tenth of
+the tolerance and on a finer grid of the line. The smallest start that leads to the motion of the largest tension is
+searched over its direction, and bisected in size to 1 %, on both grids. The edge state between that motion and the one
+from rest is found by bisection of states. The order of the starts is drawn by --seed; nothing else is random.
 """
 
 import contextlib
@@ -27,6 +27,7 @@ from campaigns.study import Measures, Order, Study
 from engine.views import carries_tangents
 
 COUNT, MOVED_M, BUDGET = 15, 2.0, 1500
+DEPTH_M = 22.5  # of the tethered buoy unless --set says otherwise: at its 21.0 m every start ends in one motion
 REST = {"start.buoy_velocity_mps": [0.0, 0.0, 0.0], "start.buoy_displacement_m": [0.0, 0.0, 0.0]}
 
 
@@ -69,6 +70,8 @@ def read(options, faults: list[str]) -> None:
 def cases(order: Order) -> Iterator[Job]:
     """The scene from rest, judged as long as it needs; the starts follow from it (`found.Found`)."""
     order.periods, order.looks, order.transient = BUDGET, True, None
+    if order.name == STUDY.scene:
+        order.changes.setdefault("water.depth_m", DEPTH_M)
     scene = order.base(REST, tell=True)
     if scene is None:
         return

@@ -3,7 +3,7 @@
 import math
 from collections.abc import Iterator, Mapping, Sequence
 
-from campaigns.answers import Row, greatest, kilonewton, known
+from campaigns.answers import Row, greatest, kilonewton, known, spans
 from campaigns.basins.grid import COLUMNS, PHASE
 from campaigns.buoy_sweep.answer import reasons
 from campaigns.motions.starts import UNSETTLED
@@ -34,8 +34,8 @@ def sentences(rows: Sequence[Row], across: Sequence[str], scene, parts: Mapping[
         yield f"Motion {worst['motion']} is the dangerous one: it pulls {times:.2g} times as hard as that from rest."
     if parts["shock"]:
         yield _shock(parts["shock"], across)
-    if PHASE in across and len(motions) > 1:
-        yield from _when(rows, across, parts["shock"][0]["motion"] if parts["shock"] else "")
+    if PHASE in across and parts["shock"]:
+        yield _when(rows, across, str(parts["shock"][0]["motion"]))
     if parts["edge"]:
         yield from _edge(parts["edge"][0])
     unsure = [one for one in motions if "NOT" in str(one["confirmed"]) or "not settled" in str(one["confirmed"])]
@@ -69,7 +69,7 @@ def _way(shock: Row, across: Sequence[str]) -> str:
     if PHASE in across:
         ways = ("along the waves", "against the waves") if across[0] == "vx" else ("upwards", "downwards")
         way = ways[known(shock, COLUMNS[across[0]]) < 0.0]
-        return f"{way} at phase {known(shock, COLUMNS[PHASE]) / (2.0 * math.pi):.2f} T"
+        return f"{way} at phase {_phase(shock):.2f} T"
     x, z = (known(shock, COLUMNS[one]) for one in across)
     angle, upright = math.degrees(math.atan2(abs(z), abs(x))), "upwards" if z > 0.0 else "downwards"
     ahead = "along the waves" if x >= 0.0 else "against the waves"
@@ -83,31 +83,39 @@ def _shock(rows: Sequence[Row], across: Sequence[str]) -> str:
     if not good:
         return f"No smallest start was found: {rows[0]['message']}."
     first, *others = good
+    if known(first, "size") == 0.0:
+        return (
+            f"No gust is needed: waves that begin at phase {_phase(first):.2f} T lead to {first['motion']} from rest."
+        )
     said = f"{known(first, 'size'):.2g} {unit} {_way(first, across)} is the smallest that leads to {first['motion']}"
     for row in others:
         said += f"; on {known(row, 'nodes'):.0f} nodes {known(row, 'size'):.2g} {unit} {_way(row, across)}"
     return f"{said}." if others else f"{said}; on a finer grid of the line {rows[-1]['message']}."
 
 
-def _when(rows: Sequence[Row], across: Sequence[str], letter: str) -> Iterator[str]:
-    """The least size that leads to a motion at each phase: where it is least, and where it is greatest."""
-    least: dict[float, float] = {}
+def _phase(row: Row) -> float:
+    return known(row, COLUMNS[PHASE]) / (2.0 * math.pi)
+
+
+def _when(rows: Sequence[Row], across: Sequence[str], letter: str) -> str:
+    """At which phases nothing, little or much leads to a motion."""
+    least = dict.fromkeys(sorted({_phase(row) for row in rows}), math.inf)
     for row in (row for row in rows if row["motion"] == letter):
-        phase, size = known(row, COLUMNS[PHASE]) / (2.0 * math.pi), abs(known(row, COLUMNS[across[0]]))
-        least[phase] = min(size, least.get(phase, math.inf))
-    if least:
-        low, high = (chosen(least, key=least.get) for chosen in (min, max))
-        every = len({known(row, COLUMNS[PHASE]) for row in rows})
-        yield (
-            f"A gust matters most at phase {low:.2f} T, where {least[low]:.2g} m/s leads to {letter}, and least at "
-            f"{high:.2f} T, where it takes {least[high]:.2g} m/s"
-            + (f"; at {every - len(least)} of {every} phases no gust of the grid does." if every > len(least) else ".")
-        )
+        least[_phase(row)] = min(abs(known(row, COLUMNS[across[0]])), least[_phase(row)])
+    sizes, phases = list(least.values()), [round(phase, 3) for phase in least]
+    low, high = min(sizes), max(filter(math.isfinite, sizes), default=math.inf)
+    told = {
+        "no gust of the grid does": math.inf,
+        f"it takes {high:.2g} m/s, the most": high,
+        "none is needed" if low == 0.0 else f"{low:.2g} m/s are enough": low,
+    }
+    found = (f"at {spans([size == of for size in sizes], phases)} T {said}" for said, of in told.items() if of in sizes)
+    return f"Phases at which a gust leads to {letter}: {'; '.join(reversed([*found]))}."
 
 
 def _edge(edge: Row) -> Iterator[str]:
-    if not known(edge, "periods") > 0.0:
-        yield f"No edge state between {edge['motion']} and {edge['other']} could be followed."
+    if edge["status"] != "ok":
+        yield f"No edge state between {edge['motion']} and {edge['other']} could be followed: the border was lost."
         return
     period = known(edge, "strobed_period")
     kind = f"a motion of period {period:.0f}" if math.isfinite(period) else "a motion without a period up to 16"

@@ -7,6 +7,7 @@ side by side until they part, and bisected again: J. D. Skufca, J. A. Yorke and 
 
 import math
 from dataclasses import replace
+from itertools import pairwise
 
 import numpy as np
 
@@ -22,6 +23,7 @@ from engine.views import LONGEST_PERIOD
 SHARES = 16  # states between two, bisected side by side
 NEAR, APART = 2e-5, 2e-3  # distances, in the size of the motion, to which two states are brought and at which they part
 MOST, ROUNDS = 60, 40  # wave periods that an edge state is followed; rounds of states between
+BEYOND = 3.0  # of the way between two states: how far beyond them the border is looked for
 LONGEST = 480  # wave periods after which a state has fallen to neither side
 FOLDER, TOP = "edge", "tension_top_high_N"
 _EXTREMES = (
@@ -58,30 +60,38 @@ class Edge:
         self.found, self.sides = found, (one, other)
         self.states = [one.state.at_zero(), other.state.at_zero()]
         self.runs: list = [None, None]
+        self.known = True  # that they are on either side: each begins anew, by small steps, where it has gone on to
         self.rounds = 0
 
     def narrow(self) -> np.ndarray | None:
         """Bring the two states near each other; returns how far apart their runs are from wave to wave.
 
-        None where rounds have run out, or no state between them leads to either motion.
+        None where rounds have run out, or the border has been lost.
         """
         from engine.going_on import between
 
-        starts = self.found.along.starts
-        while self.rounds < ROUNDS:
+        starts, beyond = self.found.along.starts, 0.0 if self.known else BEYOND
+        while self.rounds < ROUNDS and beyond <= BEYOND**3:
             self.rounds += 1
-            states = [between(*self.states, (k + 1) / (SHARES + 1)) for k in range(SHARES)]
-            asked = [self.found.asked(Start("edge", state=state), most=LONGEST, settles=False) for state in states]
+            shares = [(1.0 + 2.0 * beyond) * (k + 1) / (SHARES + 1) - beyond for k in range(SHARES)]
+            states = [between(*self.states, share) for share in shares]
+            asked = [self.found.asked(Start("edge", state=one), most=LONGEST, settles=False) for one in states]
             ended = starts.run("states between two motions", asked)
-            led = [self.found.led(one) for one in ended]
-            last = max((k for k, motion in enumerate(led) if motion is self.sides[0]), default=-1)
-            after = next((k for k in range(last + 1, SHARES) if led[k] is self.sides[1]), None)
-            if last < 0 and after is None:
-                return None
-            for side, k in enumerate((last, after)):
-                if k is not None and k >= 0:
-                    self.states[side] = states[k]
-                    self.runs[side] = run_of(starts.plan.how.out, ended[k].row)
+            told = [
+                (share, self.sides.index(motion), state, one.row)
+                for share, state, one in zip(shares, states, ended, strict=True)
+                if (motion := self.found.led(one)) in self.sides
+            ]
+            if self.known:
+                told = [(0.0, 0, self.states[0], None), *told, (1.0, 1, self.states[1], None)]
+            pairs = [pair for pair in pairwise(told) if pair[0][1] != pair[1][1]]
+            if not pairs:
+                beyond *= BEYOND
+                continue
+            for _, side, state, row in min(pairs, key=lambda pair: abs(pair[0][0] + pair[1][0] - 1.0)):
+                self.states[side] = state
+                self.runs[side] = self.runs[side] if row is None else run_of(starts.plan.how.out, row)
+            self.known, beyond = True, 0.0
             if None not in self.runs and (apart := self._apart())[0] <= NEAR:
                 return apart
         return None
@@ -108,6 +118,7 @@ class Edge:
         if None in runs:
             return None, ""
         self.states, self.runs = [one.final_state.at_zero() for one in runs], [None, None]
+        self.known = False
         return runs[0], jobs[0].key
 
 

@@ -80,13 +80,13 @@ def _map(folder: Folder, across: list[str], motions, shock: Folder | None) -> It
     }
     least = next((row for row in (shock.table if shock else ()) if row["status"] == "ok"), None)
     arrow = None
-    if least is not None:
+    if least is not None and least["size"] > 0.0:
         unit = "m" if "x" in across else "m/s"
         arrow = [_value(least, axis) for axis in across], f"{number(least['size'], 2)} {unit}"
     labels = tuple(_AXES[axis][1] for axis in across)
     wide, narrow = (basin_map(places, ended, labels, colours, names, arrow, *how) for how in ((), (NARROW_IN,)))
     told = "Motion in which each start of the grid ends, with its largest tension (`table.csv`, `motions/table.csv`)."
-    told += "" if least is None else " Arrow: the smallest start that leads to the motion of the largest tension."
+    told += "" if arrow is None else " Arrow: the smallest start that leads to the motion of the largest tension."
     yield Figure(
         wide, told, f"Map of {count(len(folder.table), 'start')}, a colour a motion; shares in the text.", narrow=narrow
     )

@@ -73,7 +73,7 @@ def test_a_motion_started_at_another_phase_is_the_same():
 
 
 def test_a_scene_with_one_motion(tmp_path):
-    words = [*QUICK, "--jobs", "1", "--no-report", "--out", str(tmp_path)]
+    words = [*QUICK, "--backend", "threading", "--no-report", "--out", str(tmp_path)]
     assert main(words) == 0
     rows, (motion,) = rows_of(tmp_path), rows_of(tmp_path, "motions/table.csv")
     assert [(row["kick_x_mps"], row["kick_z_mps"]) for row in rows[:4]] == [
