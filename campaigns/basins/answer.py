@@ -69,7 +69,7 @@ def _way(shock: Row, across: Sequence[str]) -> str:
     if PHASE in across:
         ways = ("along the waves", "against the waves") if across[0] == "vx" else ("upwards", "downwards")
         way = ways[known(shock, COLUMNS[across[0]]) < 0.0]
-        return f"{way} at phase {_phase(shock):.2f} T"
+        return f"{way}, {_phase(shock):.2f} T before a crest,"
     x, z = (known(shock, COLUMNS[one]) for one in across)
     angle, upright = math.degrees(math.atan2(abs(z), abs(x))), "upwards" if z > 0.0 else "downwards"
     ahead = "along the waves" if x >= 0.0 else "against the waves"
@@ -84,9 +84,7 @@ def _shock(rows: Sequence[Row], across: Sequence[str]) -> str:
         return f"No smallest start was found: {rows[0]['message']}."
     first, *others = good
     if known(first, "size") == 0.0:
-        return (
-            f"No gust is needed: waves that begin at phase {_phase(first):.2f} T lead to {first['motion']} from rest."
-        )
+        return f"No gust is needed: waves that begin {_phase(first):.2f} T before a crest lead to {first['motion']}."
     said = f"{known(first, 'size'):.2g} {unit} {_way(first, across)} is the smallest that leads to {first['motion']}"
     for row in others:
         said += f"; on {known(row, 'nodes'):.0f} nodes {known(row, 'size'):.2g} {unit} {_way(row, across)}"
@@ -94,11 +92,12 @@ def _shock(rows: Sequence[Row], across: Sequence[str]) -> str:
 
 
 def _phase(row: Row) -> float:
+    """Time from the start to a crest, as a share of the wave period."""
     return known(row, COLUMNS[PHASE]) / (2.0 * math.pi)
 
 
 def _when(rows: Sequence[Row], across: Sequence[str], letter: str) -> str:
-    """At which phases nothing, little or much leads to a motion."""
+    """How long before a crest nothing, little or much leads to a motion."""
     least = dict.fromkeys(sorted({_phase(row) for row in rows}), math.inf)
     for row in (row for row in rows if row["motion"] == letter):
         least[_phase(row)] = min(abs(known(row, COLUMNS[across[0]])), least[_phase(row)])
@@ -110,7 +109,7 @@ def _when(rows: Sequence[Row], across: Sequence[str], letter: str) -> str:
         "none is needed" if low == 0.0 else f"{low:.2g} m/s are enough": low,
     }
     found = (f"at {spans([size == of for size in sizes], phases)} T {said}" for said, of in told.items() if of in sizes)
-    return f"Phases at which a gust leads to {letter}: {'; '.join(reversed([*found]))}."
+    return f"How a gust leads to {letter}, by the time from it to a crest: {'; '.join(reversed([*found]))}."
 
 
 def _edge(edge: Row) -> Iterator[str]:

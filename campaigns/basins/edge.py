@@ -6,16 +6,15 @@ side by side until they part, and bisected again: J. D. Skufca, J. A. Yorke and 
 """
 
 import math
-from dataclasses import replace
 from itertools import pairwise
 
 import numpy as np
 
 from campaigns.basins.found import Found
-from campaigns.columns import MESSAGE, RUN_KEY, STATUS, Column, counted
+from campaigns.buoy_sweep.rows import EXTREMES
+from campaigns.columns import MESSAGE, RUN_KEY, STATUS, Column
 from campaigns.judge import job_from
-from campaigns.machinery.folder import claimed, run_of, write_table
-from campaigns.machinery.runner import run
+from campaigns.machinery.folder import run_of, write_table
 from campaigns.motions.along import Motion
 from campaigns.motions.starts import Start, section_of
 from engine.views import LONGEST_PERIOD
@@ -26,15 +25,11 @@ MOST, ROUNDS = 60, 40  # wave periods that an edge state is followed; rounds of 
 BEYOND = 3.0  # of the way between two states: how far beyond them the border is looked for
 LONGEST = 480  # wave periods after which a state has fallen to neither side
 FOLDER, TOP = "edge", "tension_top_high_N"
-_EXTREMES = (
-    Column("radius_min_m", "m", "r_min", "smallest distance from the anchor, over the later half", 2),
-    Column("radius_max_m", "m", "r_max", "largest distance from the anchor, over the later half", 2),
-    Column("tension_top_max_N", "N", "T_max", "largest tension at the top of the line, over the later half", 0),
-)
+_EXTREMES = tuple(one for one in EXTREMES if one.name in ("radius_min_m", "radius_max_m", "tension_top_max_N"))
 COLUMNS = (
     Column("motion", symbol="on one side", meaning="motion to which a run falls on one side"),
     Column("other", symbol="on the other", meaning="motion to which it falls on the other side"),
-    Column("periods", "", "periods", "wave periods over which it was followed", 0),
+    Column("periods", "", "periods", "wave periods over which it was followed; extremes are of the later half", 0),
     Column("strobed_period", "", "N", "wave periods after which it repeats; empty where none is found", 0),
     Column("growth_bits_per_period", "bits/period", "growth", "rate at which runs leave it", 2),
     *_EXTREMES,
@@ -42,7 +37,6 @@ COLUMNS = (
     RUN_KEY,
     MESSAGE,
 )
-OF_A_PART = (STATUS, RUN_KEY, MESSAGE)
 ORBIT = (
     Column("period", "", "t/T", "wave periods since it has been followed", 0),
     Column("x_m", "m", "x", "strobed place along the waves", 4),
@@ -106,25 +100,13 @@ class Edge:
         """Let both run on for so many wave periods, and begin there: the one on the first side, and its key; None for a
         run that ended early.
         """
-        plan, scene = self.found.plan, self.found.scene
-        how = replace(plan.how, out=plan.how.out / FOLDER)
-        plan = replace(plan, how=how, said="along the edge", describe=edge_row, columns=OF_A_PART, row_maker="")
-        jobs = [job_from({}, scene, periods, state) for state in self.states]
-        with claimed(how.out):
-            timing, summary = run(plan, jobs)
-        self.found.along.starts.did(timing, summary)
-        rows = {row["run_key"]: row for row in summary.rows}
-        runs = [run_of(how.out, rows[job.key]) for job in jobs]
+        jobs = [job_from({}, self.found.scene, periods, state) for state in self.states]
+        _, runs = self.found.within(FOLDER, "along the edge", jobs)
         if None in runs:
             return None, ""
         self.states, self.runs = [one.final_state.at_zero() for one in runs], [None, None]
         self.known = False
         return runs[0], jobs[0].key
-
-
-def edge_row(trajectory, checks=None) -> dict[str, object]:
-    """The columns of OF_A_PART that a run along the edge fills."""
-    return counted(trajectory, ())
 
 
 def edge_state(found: Found, one: Motion, other: Motion) -> dict[str, object]:

@@ -82,19 +82,24 @@ class Found:
 
         Raises as `runner.run`.
         """
-        jobs = {motion: self._job(order, motion) for motion in self.motions or [None]}
-        how = replace(self.plan.how, out=self.plan.how.out / "motions")
-        with claimed(how.out):
-            timing, summary = run(replace(self.plan, how=how, said="judged runs"), list(jobs.values()))
-        self.along.starts.did(timing, summary)
-        rows = {row["run_key"]: row for row in summary.rows}
-        longer = {motion: run_of(how.out, rows[job.key]) for motion, job in jobs.items() if job.key in rows}
-        settled = {motion: settled_of(one) or as_it_is(one) for motion, one in longer.items() if one is not None}
+        motions = self.motions or [None]
+        summary, runs = self.within("motions", "judged runs", [self._job(order, motion) for motion in motions])
+        longer = {motion: one for motion, one in zip(motions, runs, strict=True) if one is not None}
+        settled = {motion: settled_of(one) or as_it_is(one) for motion, one in longer.items()}
         if None in settled:
             self.motions.append(Motion(0, settled[None], longer[None].final_state, FROM_REST))
         else:
             self.along.merge(settled)
         return summary
+
+    def within(self, folder: str, said: str, jobs: list[Job]) -> tuple[Summary, list]:
+        """Do runs in a folder beside that of the starts; their Trajectories, None for one that ended early."""
+        how = replace(self.plan.how, out=self.plan.how.out / folder)
+        with claimed(how.out):
+            timing, summary = run(replace(self.plan, how=how, said=said), jobs)
+        self.along.starts.did(timing, summary)
+        rows = {row["run_key"]: row for row in summary.rows}
+        return summary, [run_of(how.out, rows[job.key]) if job.key in rows else None for job in jobs]
 
     def _job(self, order: Order, motion: Motion | None) -> Job:
         labels = {**self.job.labels, "dimensions": self.scene.motion.dimensions}

@@ -52,7 +52,7 @@ class Grid:
     def at(self, turn: float, size: float, found_by: str) -> Start:
         """The start of a turn and a size."""
         if self.across[1] != PHASE:
-            return self.start(size * math.cos(turn), size * math.sin(turn), found_by)
+            return self.start(round(size * math.cos(turn), 12), round(size * math.sin(turn), 12), found_by)
         part = round(turn / (2.0 * math.pi) * PHASES)
         return self.start(-size if part // PHASES % 2 else size, 2.0 * math.pi * (part % PHASES) / PHASES, found_by)
 

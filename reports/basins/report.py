@@ -23,7 +23,7 @@ _AXES = {
     "vz": ("kick_z_mps", "velocity upwards (m/s)"),
     "x": ("displacement_x_m", "place along the waves, from rest (m)"),
     "z": ("displacement_z_m", "place upwards, from rest (m)"),
-    "phase": ("phase_rad", "phase of the wave at the start, share of T"),
+    "phase": ("phase_rad", "time from the start to a crest, share of T"),
 }
 _MOTIONS = (
     "motion", "regime", "share", "share_low", "share_high", "radius_min_m", "radius_max_m", "tension_top_max_N",
@@ -143,7 +143,11 @@ def _edge(part: Folder | None) -> Iterator[Item]:
 
 def _table(part: Folder, caption: str) -> Table:
     """The columns that say something."""
-    shown = [name for name in part.columns if any(str(row[name]) not in ("", "nan") for row in part.table)]
+    shown = [
+        name
+        for name in part.columns
+        if any(row[name] == row[name] and row[name] not in ("", 0.0) for row in part.table)
+    ]
     return table_of(part.columns, [name for name in shown if name != "run_key"], part.table, caption)
 
 

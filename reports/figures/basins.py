@@ -53,7 +53,7 @@ def basin_map(
                 axes.text(*where, letter, ha="center", va="center", fontsize=13, weight="bold", path_effects=halo)
         if smallest is not None:
             end, text = smallest
-            begin = (0.0, end[1] if labels[1].startswith("phase") else 0.0)
+            begin = (0.0, end[1] if labels[1].startswith("time") else 0.0)
             axes.plot(*begin, "o", color="white", markeredgecolor=INK, markersize=4.5)
             arrow = {"arrowstyle": "-|>", "color": INK, "linewidth": 1.4, "shrinkA": 0.0, "shrinkB": 0.0}
             axes.annotate("", tuple(end), begin, arrowprops=arrow).arrow_patch.set_path_effects(halo)
