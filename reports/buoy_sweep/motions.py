@@ -1,36 +1,22 @@
-"""Several motions at one value: where each is and how it pulls, what follows where it ends, its share of starts."""
+"""Several motions at one value: where each is and how it pulls, and its share of the starts."""
 
 import math
-from collections import Counter
 from collections.abc import Sequence
-from itertools import groupby, pairwise
-from operator import itemgetter
+from itertools import pairwise
 
 import numpy as np
 
 from ..figures.curves import Curve, Panel
 from ..figures.orbit_diagram import cell_edges
-from ..parts.columns import table_of
-from ..parts.content import Heading, Item, Table, Text, heads
-from ..parts.folder import part_of
+from ..parts.content import Item, Table, heads
 from ..parts.style import SOFT
-from ..parts.wording import EMPTY, decimals, listed, number, percent, ranges
-from ..sweep.quantities import in_order
+from ..parts.wording import EMPTY, decimals, listed, number, ranges
+from ..sweep.motions import ends_of
 from .runs import Run, Sweep
 
 PEAK = "tension_top_max_N"
 _LINES, MARKS = ("-", (0, (4, 1)), (0, (1, 1)), (0, (5, 1, 1, 1))), "osD^vP"
 _PERIOD = "period-"
-_OUTCOMES = "settled", "joined", "unsettled"  # of a start
-_TOLD = (
-    "At each value the motion starts from rest, from kicks of the buoy and from the motions of its neighbours. A start "
-    "ends when it has settled, or when it has joined a motion that is known at that value; unsettled ones belong to no "
-    "motion. A share is that of the fresh starts, not of those carried over."
-)
-_ENDS = (
-    "Ends of the ranges of motions, found by bisection: the last value with the motion, the first one without it, and "
-    "the motion that follows there. From `ends/table.csv`."
-)
 
 
 def lines(sweep: Sweep, drawn: Sequence[Run], column: str, scale: float) -> list[Curve]:
@@ -56,7 +42,7 @@ def tension_panel(sweep: Sweep, drawn: Sequence[Run], curves: list[Curve], scale
         for run in way[len(way) // 2 :][:1]:
             aside = -0.12 if way is calm else 0.26  # nothing stands below the lowest line; numbers stand above others
             texts.append((run.steepness, peaks[run] + aside * top, letter, sweep.colours[letter]))
-    for end in _ends(sweep):
+    for end in ends_of(sweep.folder, "steepness"):
         at = 0.5 * (end["steepness_with"] + end["steepness_without"])
         own = [ways.get(end[name]) for name in ("motion", "leads_to")]
         if all(own):
@@ -66,13 +52,6 @@ def tension_panel(sweep: Sweep, drawn: Sequence[Run], curves: list[Curve], scale
             texts.append((at, start + math.copysign(0.12 * top, start - stop), decimals(at, 3).lstrip("0"), colour))
     limits = {"ylim": (0.0, 1.35 * top)}
     return Panel(curves, y_label=label, settings=limits, arrows=arrows, texts=texts, height=1.5)
-
-
-def _ends(sweep: Sweep) -> list[dict]:
-    """The ends of ranges that were found, by motion and value."""
-    part = part_of(sweep.folder, "ends")
-    rows = [row for row in (part.table if part else ()) if row["status"] == "ok"]
-    return sorted(rows, key=lambda row: (row["motion"], row["steepness_with"]))
 
 
 def shares_panel(sweep: Sweep) -> list[Panel]:
@@ -126,27 +105,3 @@ def _span(runs: Sequence[Run]) -> str:
     shares = [run["share"] for run in runs if run.known("share")]
     said = dict.fromkeys(number(100.0 * share, 2) for share in (min(shares), max(shares))) if shares else ()
     return " to ".join(said) or EMPTY
-
-
-def every_motion(sweep: Sweep) -> list[Item]:
-    """The section of starts and ends; nothing where there is one motion and no start was told of."""
-    part = part_of(sweep.folder, "starts")
-    rows, items = part.table if part else (), []
-    if ends := _ends(sweep):
-        names = ("motion", "end", "steepness_with", "steepness_without", "leads_to")
-        items.append(table_of(part_of(sweep.folder, "ends").columns, names, ends, _ENDS))
-    if rows:
-        body = []
-        for kA, group in groupby(in_order(rows, ["steepness"]), key=itemgetter("steepness")):
-            own = list(group)
-            found = Counter(row["outcome"] for row in own), Counter(row["motion"] for row in own if row["motion"])
-            into = ", ".join(f"{letter} {many}" for letter, many in sorted(found[1].items())) or EMPTY
-            body.append((number(kA), str(len(own)), *(str(found[0][word]) for word in _OUTCOMES), into))
-        titles = ("kA", ""), ("starts", ""), *((word, "") for word in _OUTCOMES), "into motion"
-        lost = sum(row["outcome"] == _OUTCOMES[-1] for row in rows)
-        caption = (
-            f"Starts at each value, {len(rows)} in all, and how many end in which motion; {percent(lost / len(rows))} "
-            "are unsettled. From `starts/table.csv`, which has every start."
-        )
-        items.append(Table(heads(*titles), tuple(body), caption, small=True))
-    return [Heading("Every motion"), Text(_TOLD), *items] if items else []

@@ -8,9 +8,10 @@ from ..parts.content import Heading, Item, Notice, Report, Text
 from ..parts.provenance import appendix, provenance_items
 from ..parts.sections import section_items
 from ..parts.wording import T_I, TAU_0, decimals, number
+from ..sweep.motions import every_motion
 from ..sweep.quantities import extremes
 from .figures import close_up_items, orbit_figure, regime_items
-from .motions import every_motion, motions_items
+from .motions import motions_items
 from .runs import PAPER_WINDOW, Run, Sweep, read_sweep
 from .sheets import sheet_items
 from .tables import accuracy_items, plane_items, runs_items, scene_and_modes, time_items
@@ -35,7 +36,7 @@ def report(directory: str | Path) -> Report:
         Heading("Warnings"),
         warnings(sweep),
         *regime_items(sweep),
-        *every_motion(sweep),
+        *every_motion(sweep.folder, "steepness", "kA"),
         *close_up_items(sweep),
         *plane_items(sweep),
         *accuracy_items(sweep.folder.directory),

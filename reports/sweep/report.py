@@ -11,6 +11,7 @@ from ..parts.content import Figure, Heading, Item, Notice, Report, Table, Text, 
 from ..parts.folder import FolderError, read_folder
 from ..parts.provenance import appendix, provenance_items, scene_items, timing_items
 from ..parts.wording import EMPTY, listed, number
+from .motions import every_motion
 from .quantities import Measured, at, colours_of, extremes, in_order, measured, over_key, series
 
 _PANELS, _MAPS, _COLUMNS = 8, 6, 14  # of one figure, of one table
@@ -39,6 +40,7 @@ def report(directory: str | Path) -> Report:
         Text(f"What does the scene `{folder.scene.name}` do as {said} {'varies' if len(keys) == 1 else 'vary'}?"),
         *extremes(each, rows, [column for one in shown for column, _ in one], _EXTREMES),
         *(_panels(keys[0], rows, shown, motions) if len(keys) == 1 else _maps_of_each(keys, rows, shown, motions)),
+        *(every_motion(folder, keys[0].name, keys[0].head) if len(keys) == 1 else []),
         Heading("Warnings"),
         _failed(each, rows),
         Heading("Table of runs"),
