@@ -22,6 +22,7 @@ from engine.views import LONGEST_PERIOD
 SHARES = 16  # states between two, bisected side by side
 NEAR, APART = 2e-5, 2e-3  # distances, in the size of the motion, to which two states are brought and at which they part
 MOST, ROUNDS = 60, 40  # wave periods that an edge state is followed; rounds of states between
+TOGETHER = 4  # wave periods that two runs stay together at least
 BEYOND = 3.0  # of the way between two states: how far beyond them the border is looked for
 LONGEST = 480  # wave periods after which a state has fallen to neither side
 FOLDER, TOP = "edge", "tension_top_high_N"
@@ -86,7 +87,8 @@ class Edge:
                 self.states[side] = state
                 self.runs[side] = self.runs[side] if row is None else run_of(starts.plan.how.out, row)
             self.known, beyond = True, 0.0
-            if None not in self.runs and (apart := self._apart())[0] <= NEAR:
+            apart = self._apart() if None not in self.runs else np.ones(1)
+            if apart[0] <= NEAR and apart[: TOGETHER + 1].max() <= APART:
                 return apart
         return None
 
@@ -118,7 +120,7 @@ def edge_state(found: Found, one: Motion, other: Motion) -> dict[str, object]:
     row: dict[str, object] = {"motion": one.branch.letter, "other": other.branch.letter}
     while len(apart) < MOST and (now := edge.narrow()) is not None:
         periods = int(np.argmax(now > APART)) - 1 if (now > APART).any() else len(now) - 1
-        trajectory, row["run_key"] = edge.go_on(periods) if periods > 0 else (None, "")
+        trajectory, row["run_key"] = edge.go_on(periods)
         if trajectory is None:
             break
         runs.append(trajectory)

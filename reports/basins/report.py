@@ -143,11 +143,8 @@ def _edge(part: Folder | None) -> Iterator[Item]:
 
 def _table(part: Folder, caption: str) -> Table:
     """The columns that say something."""
-    shown = [
-        name
-        for name in part.columns
-        if any(row[name] == row[name] and row[name] not in ("", 0.0) for row in part.table)
-    ]
+    shown = [name for name in part.columns if any(row[name] not in ("", 0.0) for row in part.table)]
+    shown = [name for name in shown if any(row[name] == row[name] for row in part.table)]  # not nan
     return table_of(part.columns, [name for name in shown if name != "run_key"], part.table, caption)
 
 
