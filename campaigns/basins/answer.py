@@ -27,7 +27,7 @@ def sentences(rows: Sequence[Row], across: Sequence[str], scene, parts: Mapping[
     at = f"kA = {known(motions[0], 'steepness'):.4g} and H = {scene.water.depth_m:g} m"
     yield f"{'One motion' if len(motions) == 1 else f'{len(motions)} motions'} at {at}: {ways}."
     yield _shares(rows, motions)
-    if worst is motions[0]:
+    if worst is motions[0] and len(motions) > 1:
         yield f"Motion {worst['motion']} from rest pulls hardest: no start of the grid leads to more."
     elif parts["shock"]:
         times = known(worst, PEAK) / known(motions[0], PEAK)

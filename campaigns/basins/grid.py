@@ -3,8 +3,10 @@
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
-from campaigns.motions.starts import Start
+if TYPE_CHECKING:
+    from campaigns.motions.starts import Start
 
 PHASE = "phase"
 PAIRS = ("vx vz", "vx phase", "vz phase", "x z")
@@ -43,13 +45,15 @@ class Grid:
             return [2.0 * math.pi * k / count for k in range(count)]
         return [float(f"{self.size * (2 * k / (count - 1) - 1):.12g}") for k in range(count)]
 
-    def start(self, first: float, second: float, found_by: str = GRID) -> Start:
+    def start(self, first: float, second: float, found_by: str = GRID) -> "Start":
         """The start with these two coordinates."""
+        from campaigns.motions.starts import Start  # slow to import
+
         given = dict(zip(self.across, (first, second), strict=True))
         kick, moved = ((given.get(x, 0.0), given.get(z, 0.0)) for x, z in (("vx", "vz"), ("x", "z")))
         return Start(found_by, kick, moved, given.get(PHASE))
 
-    def at(self, turn: float, size: float, found_by: str) -> Start:
+    def at(self, turn: float, size: float, found_by: str) -> "Start":
         """The start of a turn and a size."""
         if self.across[1] != PHASE:
             return self.start(round(size * math.cos(turn), 12), round(size * math.sin(turn), 12), found_by)
