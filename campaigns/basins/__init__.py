@@ -102,12 +102,10 @@ def runs(order: Order) -> Callable:
 
         found = Found(plan, jobs[0], order.own.grid)
         found.find(order, order.own.kick_speed, order.own.seed)
-        first, *others = found.motions
-        if others:
-            worst = max(found.motions, key=lambda motion: motion.tension_N)
-            other = worst if worst is not first else max(others, key=lambda motion: motion.tension_N)
-            shocks(found, other)
-            edge_state(found, first, other)
+        if len(found.motions) > 1:
+            worst = max(found.motions[1:], key=lambda motion: motion.tension_N)  # beside the first, that from rest
+            shocks(found, worst)
+            edge_state(found, found.motions[0], worst)
         ends.confirm(found.along)
         judged = found.judge(order)
         found.along.starts.write()

@@ -6,11 +6,12 @@ from collections.abc import Iterator, Mapping, Sequence
 from campaigns.answers import Row, greatest, kilonewton, known, spans
 from campaigns.basins.grid import COLUMNS, PHASE
 from campaigns.buoy_sweep.answer import reasons
+from campaigns.motions.along import from_rest
 from campaigns.motions.starts import UNSETTLED
 from campaigns.statements import listed
 
 PEAK = "tension_top_max_N"
-NONE_FOUND = "Neither the start from rest nor any other settled, so there is no motion to name."
+NONE_FOUND = "No start has settled, so there is no motion to name."
 STRAIGHT = 3.0  # degrees from an axis that are told as along it
 
 
@@ -19,19 +20,19 @@ def sentences(rows: Sequence[Row], across: Sequence[str], scene, parts: Mapping[
 
     across: as `Grid.across`; scene: from rest.
     """
-    motions = parts["motions"]
+    motions = [one for one in parts["motions"] if one.get("motion")]
     if (worst := greatest(motions, PEAK)) is None:
         yield NONE_FOUND
         return
-    ways = listed(f"{one['motion']}{' from rest' if one is motions[0] else ''} ({_pull(one)})" for one in motions)
+    ways = listed(f"{one['motion']}{' from rest' if from_rest(one) else ''} ({_pull(one)})" for one in motions)
     at = f"kA = {known(motions[0], 'steepness'):.4g} and H = {scene.water.depth_m:g} m"
     yield f"{'One motion' if len(motions) == 1 else f'{len(motions)} motions'} at {at}: {ways}."
     yield _shares(rows, motions)
     if worst is motions[0] and len(motions) > 1:
-        yield f"Motion {worst['motion']} from rest pulls hardest: no start of the grid leads to more."
+        yield f"Motion {worst['motion']} pulls hardest: no start of the grid leads to more."
     elif parts["shock"]:
         times = known(worst, PEAK) / known(motions[0], PEAK)
-        yield f"Motion {worst['motion']} is the dangerous one: it pulls {times:.2g} times as hard as that from rest."
+        yield f"Motion {worst['motion']} is the dangerous one: it pulls {times:.2g} times as hard as A."
     if parts["shock"]:
         yield _shock(parts["shock"], across)
     if PHASE in across and parts["shock"]:

@@ -109,7 +109,7 @@ class Found:
 
     def rows(self, motions: Sequence[dict]) -> Iterator[dict[str, object]]:
         """The rows of COLUMNS. motions: rows of the judged runs."""
-        peaks = {row["motion"]: row.get(PEAK.name) for row in motions}
+        peaks = {row.get("motion"): row.get(PEAK.name) for row in motions}
         shown = {column.name for column in COLUMNS}
         for number in range(len(self.ended)):
             one = self.ended[number]

@@ -40,11 +40,11 @@ def report(directory: str | Path) -> Report:
     if not isinstance(across, list) or not set(across) <= set(_AXES):
         raise FolderError(folder.directory, ["provenance.json cannot be read: it does not name what was varied"])
     parts = {name: part_of(folder, name) for name in ("motions", "shock", "edge")}
-    motions = parts["motions"].table if parts["motions"] else ()
+    motions = [row for row in (parts["motions"].table if parts["motions"] else ()) if row["motion"]]
     items = [
         *_map(folder, across, motions, parts["shock"]),
         *section_items("basins", "Question"),
-        *_motions(parts["motions"], parts["edge"]),
+        *(_motions(parts["motions"], motions, parts["edge"]) if motions else ()),
         *_shock(parts["shock"]),
         *_edge(parts["edge"]),
         Heading("Warnings"),
@@ -92,16 +92,14 @@ def _map(folder: Folder, across: list[str], motions, shock: Folder | None) -> It
     )
 
 
-def _motions(part: Folder | None, edge: Folder | None) -> Iterator[Item]:
-    if part is None:
-        return
+def _motions(part: Folder, motions, edge: Folder | None) -> Iterator[Item]:
     yield Heading("Motions")
-    yield table_of(part.columns, _MOTIONS, part.table, "One judged run a motion; shares are of the starts of the grid.")
-    for row in part.table:
+    yield table_of(part.columns, _MOTIONS, motions, "One judged run a motion; shares are of the starts of the grid.")
+    for row in motions:
         if row["confirmed"]:
             yield Text(f"Motion {row['motion']}, when it goes on from its state, is found {row['confirmed']}.")
-    colours, lines = _colours(part.table), []
-    for row in part.table:
+    colours, lines = _colours(motions), []
+    for row in motions:
         run, _ = part.trajectory(row)
         if run is not None:
             lines.append(_loop(run, row["strobed_period"], f"{row['motion']}", colours[row["motion"]]))
@@ -149,12 +147,15 @@ def _table(part: Folder, caption: str) -> Table:
 
 
 def _warnings(folder: Folder, across: list[str]) -> Notice:
-    kinds: dict[str, list[str]] = {}
+    kinds: dict[str, list] = {}
     for row in folder.table:
-        if row["status"] != "ok" or row["outcome"] == "unsettled":
-            why = f"{row['status']}: {row['message']}" if row["status"] != "ok" else "unsettled at the end of its run"
-            kinds.setdefault(why, []).append(" and ".join(f"{axis} = {number(_value(row, axis))}" for axis in across))
+        if not row["motion"]:
+            kinds.setdefault(row["outcome"] if row["status"] == "ok" else row["status"], []).append(row)
     if not kinds:
         return Notice("note", "Nothing to warn of", ("Every start has settled or joined a known motion.",))
-    lines = (f"{why}: {count(len(at), 'start')}, the first at {at[0]}." for why, at in kinds.items())
+    lines = []
+    for why, rows in kinds.items():
+        at = listed(f"{axis} = {number(_value(rows[0], axis))}" for axis in across)
+        reason = f": {rows[0]['message']}" if rows[0]["message"] else ""
+        lines.append(f"{count(len(rows), 'start')} {why}, the first at {at}{reason}.")
     return Notice("warning", "Starts that belong to no motion", tuple(lines))
