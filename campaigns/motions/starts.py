@@ -62,6 +62,8 @@ class Start:
         share = strobed_at(scene.waves.phase_rad if self.phase is None else self.phase)
         parts = Fraction(share).limit_denominator(MOST_OFTEN).denominator  # strobes are samples
         step_s = scene.waves.period_s / (parts * math.ceil(OFTEN / parts))
+        if self.state is not None:  # the clock of a state runs on where the step of the samples is the same
+            step_s = self.state.scene.sample_step_s()
         changes: dict[str, object] = {TANGENTS: 0, LATERAL: False, "output.step_s": step_s}
         for key, (x, z) in ((KICK, self.kick), (DISPLACEMENT, self.displacement)):
             changes[key] = [x, 0.0, z] if self.state is None else [0.0, 0.0, 0.0]
