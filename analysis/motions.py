@@ -58,7 +58,7 @@ class Settled:
 
 @dataclass(frozen=True)
 class Share:
-    """A share of starts, and the ends of its confidence interval."""
+    """The share of starts that end in one motion, and the ends of its confidence interval."""
 
     share: float
     low: float

@@ -11,6 +11,8 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
     __name__,
     submod_attrs={
         "compiled": ["source_hash"],
+        "final_state": ["FinalState"],
+        "going_on": ["between"],
         "massless": ["MasslessRuns", "massless_covers", "massless_rest", "massless_runs"],
         "pieces": ["compile_piece", "seconds_of", "shares_of"],
         "scene": ["Scene", "SceneError", "list_scenes", "load_scene"],

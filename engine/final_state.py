@@ -15,6 +15,7 @@ from .scene.models import Scene
 
 PREFIX = "final_"
 NONE = np.empty(0)
+COUNTED = ("first", "samples", "first_profile", "profiles", "max_turn", "min_strain")  # fields of STATE: of one part
 
 
 @dataclass(frozen=True, eq=False)
@@ -47,7 +48,7 @@ class FinalState:
     @property
     def time_s(self) -> float:
         """Time of the last sample of the run: the first of the one that goes on."""
-        return float(self.samples[0, TIME])
+        return float(self.samples[0, TIME] if len(self.samples) else self.state()["t"])
 
     def state(self) -> np.void:
         """The numbers as a STATE."""
@@ -75,15 +76,23 @@ class FinalState:
         `time_s` is a whole number of their periods. Loops are counted from 0. Perturbations stay, their growth in the
         period that has not ended is dropped. Goes on by small steps.
         """
-        state, begin_s, step_s = self.state(), self.time_s, self.scene.sample_step_s()
-        samples = self.samples.copy()
-        samples[:, TIME] = np.arange(len(samples)) * step_s
+        state, samples = self.state(), self.samples.copy()
+        samples[:, TIME] = np.arange(len(samples)) * self.scene.sample_step_s()
         samples[:, RELEASES] -= self.samples[0, RELEASES]
         begin_at = (state["first_profile"] + state["profiles"] - len(self.profiles)) * self.profile_step_s
-        profiles = self.profiles if abs(begin_at - begin_s) < 1e-9 * step_s else NONE
+        same = abs(begin_at - self.time_s) < 1e-9 * self.scene.sample_step_s()
+        later = state["releases"] - self.samples[0, RELEASES]
+        return self._from(self.time_s, samples, self.profiles if same else NONE, releases=later)
+
+    def ended_at_zero(self) -> "FinalState":
+        """As `at_zero`, with the clock at 0 at the end of the last step; the sample there belongs to the next run."""
+        return self._from(float(self.state()["t"]), NONE, NONE, low=np.inf, high=-np.inf, releases=0)
+
+    def _from(self, begin_s: float, samples: np.ndarray, profiles: np.ndarray, **numbers: float) -> "FinalState":
+        """The state with its clock at 0 at begin_s, and what is kept from there on."""
+        state, counts = self.state(), {"samples": len(samples), "profiles": len(profiles)}
         times = {name: state[name] - begin_s for name in ("t", "window_end", "corner")}
-        counts = {"first": 0, "samples": len(samples), "first_profile": 0, "profiles": len(profiles)}
-        moved = self.with_numbers(**times, **counts, releases=state["releases"] - self.samples[0, RELEASES])
+        moved = self.with_numbers(**times, **counts, **numbers, first=0, first_profile=0)
         return replace(moved, samples=samples, profiles=profiles, growth=np.zeros_like(self.growth)).restarted()
 
     @property
@@ -93,9 +102,12 @@ class FinalState:
         return (output.profiles_step_s or self.scene.sample_step_s()) if output.profiles else 0.0
 
     def digest(self) -> str:
-        """SHA-256 (hex) of its content, its scene included: equal states, equal digests, on any machine."""
+        """SHA-256 (hex) of its content, its scene included: equal states, equal digests, on any machine.
+
+        In however many parts a run came there, its digest is one: COUNTED of each part are left out.
+        """
         content = hashlib.sha256(self.scene.key().encode())
-        for name, values in self._arrays():
+        for name, values in self.with_numbers(**dict.fromkeys(COUNTED, 0.0))._arrays():
             content.update(f"{name}{values.shape}".encode())
             content.update(np.ascontiguousarray(values, dtype="<f8").tobytes())
         return content.hexdigest()

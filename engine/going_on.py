@@ -14,6 +14,7 @@ import numpy as np
 from . import parameters
 from .final_state import NONE, FinalState
 from .planar import columns as col
+from .record import RELEASES
 from .scene.models import Scene
 from .spatial import columns as spatial_col
 from .spatial import lift
@@ -34,10 +35,9 @@ def taken_over(state: FinalState, scene: Scene) -> tuple[FinalState, str]:
     begin_s, changed = state.time_s, changes(state.scene, scene)
     said = [f"{key} {_word(old)} -> {_word(new)}" for key, old, new in changed]
     moved = any(not key.startswith(("solver.", "output.")) for key, _, _ in changed)
-    clocks = [(one.sample_step_s(), one.waves and one.waves.period_s) for one in (state.scene, scene)]
-    if clocks[0] != clocks[1]:
-        state = state.at_zero()
+    if any(key in ("output.step_s", "waves.period_s") for key, _, _ in changed):
         said.append("the clock starts at 0")
+        state = state.ended_at_zero() if state.scene.sample_step_s() != scene.sample_step_s() else state.at_zero()
     if state.profile_step_s != replace(state, scene=scene).profile_step_s:
         state = replace(state, profiles=NONE)
     if state.Y.shape[1] == 6 and scene.motion.dimensions == 3:
@@ -71,9 +71,9 @@ def changes(before: Scene, after: Scene) -> list[tuple[str, object, object]]:
     """Key, old and new value of what is not the same; of `output` only the step, and nothing of `start`."""
     old, new = (_flat(one.model_dump(mode="json", exclude={*NO_CHANGE, "output"})) for one in (before, after))
     differ = [key for key in old | new if old.get(key) != new.get(key)]
-    steps = (before.sample_step_s(), after.sample_step_s()) if "waves.period_s" not in differ else (0, 0)
-    stepped = [("output.step_s", *steps)] if steps[0] != steps[1] else []
-    return [(key, old.get(key), new.get(key)) for key in differ] + stepped
+    steps = before.sample_step_s(), after.sample_step_s()
+    found = [(key, old.get(key), new.get(key)) for key in differ]
+    return found if "waves.period_s" in differ or steps[0] == steps[1] else [*found, ("output.step_s", *steps)]
 
 
 def _word(value: object) -> str:
@@ -124,8 +124,9 @@ def between(a: FinalState, b: FinalState, share: float) -> FinalState:
     of_a, of_b = a.state(), b.state()
     numbers = {name: float(mixed(of_a[name], of_b[name])) for name in ("t", "low", "high")}
     number = of_a["first"] + of_a["samples"] - len(a.samples)
-    found = a.with_numbers(**numbers, first=number, samples=len(longer), first_profile=0, profiles=0)
+    found = a.with_numbers(**numbers, first=number, samples=len(longer))
     arrays = {"samples": mixed(first, second), "K": mixed(a.K, b.K), "profiles": NONE}
+    arrays["samples"][:, RELEASES] = of_a["releases"]
     return _with_unknowns(replace(found, **arrays), mixed(a.Y, target)).restarted()
 
 
@@ -152,8 +153,7 @@ def _in_space(state: FinalState, scene: Scene) -> FinalState:
 
 def _place_of(Y: np.ndarray, shares: np.ndarray) -> np.ndarray:
     """Place (2 or 3,) of the upper end, in lengths of the line."""
-    q = lift.stretch_vectors(Y)
-    return np.sum(0.5 * np.diff(shares)[:, None] * (q[1:] + q[:-1]), axis=0)
+    return np.trapezoid(lift.stretch_vectors(Y), shares, axis=0)
 
 
 def _reaching(Y: np.ndarray, shares: np.ndarray, place: np.ndarray) -> np.ndarray:

@@ -115,7 +115,7 @@ class Run:
             if rows:
                 getattr(self.output, kept)[:rows] = stored[:rows]
         if record["profile_step"] and not start.profiles.size:  # no profile was kept before
-            state["first_profile"] = int(state["t"] / record["profile_step"]) + 1
+            state["first_profile"] = math.ceil(state["t"] / record["profile_step"])
             end_s = start.time_s + (self.goal - 1) * record["output_step"]
             self.profiled = max(sample_count(end_s, record["profile_step"]) - int(state["first_profile"]), 0)
         if not record["adaptive"]:

@@ -12,7 +12,7 @@ from pathlib import Path
 # drawings to keep as files: path -> bytes. A campaign of another name whose provenance names what it varied ("vary")
 # gets the report of a sweep.
 CONTENTS = (
-    "accuracy", "breaking_line", "buoy_sweep", "oscillator", "out_of_plane", "paper", "stability", "sweep",
+    "accuracy", "basins", "breaking_line", "buoy_sweep", "oscillator", "out_of_plane", "paper", "stability", "sweep",
     "time_series",
 )  # fmt: skip
 

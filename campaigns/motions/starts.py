@@ -7,9 +7,11 @@ because a motion is told by its strobes and by the extremes of its periods; what
 """
 
 import hashlib
+import math
 from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from fractions import Fraction
 from functools import partial
 from typing import NamedTuple
 
@@ -18,13 +20,13 @@ import numpy as np
 from campaigns.columns import LOOPS, MESSAGE, PERIODS_RUN, RUN_KEY, STATUS, WALL_S, Column, counted
 from campaigns.judge import LATERAL, TANGENTS
 from campaigns.machinery.folder import claimed, made_by, run_of, write_table
-from campaigns.machinery.plan import Further, Job, Plan
+from campaigns.machinery.plan import Further, Job, Plan, Summary
 from campaigns.machinery.runner import run
 from engine.scene import scene_from_toml
 from engine.views import state_of
 
 LOOKS = (16, 20, 24, 30, 36, 44, 54, 66, 80, 96, 112, 128, 144, 160)
-OFTEN = 10  # samples a wave period
+OFTEN, MOST_OFTEN = 10, 720  # samples a wave period; at most, where it is strobed between these
 KICK, DISPLACEMENT, PHASE = "start.buoy_velocity_mps", "start.buoy_displacement_m", "waves.phase_rad"
 SOURCES = "analysis", "engine", "campaigns/motions"
 FOUND_BY = Column("found_by", symbol="found by", meaning="rest, massless (model), kick, or carried from a neighbour")
@@ -57,7 +59,12 @@ class Start:
 
     def scene(self, scene):
         """The scene that begins so."""
-        changes: dict[str, object] = {TANGENTS: 0, LATERAL: False, "output.step_s": scene.waves.period_s / OFTEN}
+        share = strobed_at(scene.waves.phase_rad if self.phase is None else self.phase)
+        parts = Fraction(share).limit_denominator(MOST_OFTEN).denominator  # strobes are samples
+        step_s = scene.waves.period_s / (parts * math.ceil(OFTEN / parts))
+        if self.state is not None:  # the clock of a state runs on where the step of the samples is the same
+            step_s = self.state.scene.sample_step_s()
+        changes: dict[str, object] = {TANGENTS: 0, LATERAL: False, "output.step_s": step_s}
         for key, (x, z) in ((KICK, self.kick), (DISPLACEMENT, self.displacement)):
             changes[key] = [x, 0.0, z] if self.state is None else [0.0, 0.0, 0.0]
         changes |= {} if self.phase is None else {PHASE: self.phase}
@@ -74,9 +81,16 @@ class Start:
         } | phase
 
 
-def start_job(labels: dict, scene, start: Start, known: Sequence, most: int = LOOKS[-1]) -> Job:
-    """The run of a start of a scene, with the motions (`analysis.Settled`) that are known of it."""
-    ends = (*(end for end in LOOKS if end < most), most)
+def strobed_at(phase_rad: float) -> float:
+    """Share of the wave period after which a wave of this phase (of k x - omega t + phase) is first at phase 0."""
+    return phase_rad / (2.0 * math.pi) % 1.0
+
+
+def start_job(labels: dict, scene, start: Start, known: Sequence, most: int = LOOKS[-1], settles: bool = True) -> Job:
+    """The run of a start of a scene, with the motions (`analysis.Settled`) that are known of it. settles: `Asked`."""
+    # it ends at the phase at which its scene begins, so that the scene can take up its last state
+    after = 0.0 if start.phase is None else strobed_at(start.phase - scene.waves.phase_rad)
+    ends = tuple(end + after for end in (*(end for end in LOOKS if end < most), most))
     digest = hashlib.sha256(b"" if start.state is None else start.state.digest().encode())
     for motion in known:
         for part in (motion.points, motion.measures, motion.scale):
@@ -84,10 +98,10 @@ def start_job(labels: dict, scene, start: Start, known: Sequence, most: int = LO
     return Job(
         labels | start.labels(),
         start.scene(scene),
-        most,
-        describe=partial(start_row, known=tuple(known)),
+        ends[-1],
+        describe=partial(start_row, known=tuple(known), settles=settles),
         going=partial(_until_settled, start=start.state, ends=ends),
-        made=f"start {digest.hexdigest()}",
+        made=f"start {digest.hexdigest()}{'' if settles else ' joins'}",
     )
 
 
@@ -96,43 +110,47 @@ def _until_settled(scene, trajectory, row, checks, start, ends):
     if row is None:
         return Further(scene, ends[0], start)
     done = row.get("periods")
-    ahead = next((end for end in ends if done is not None and end > round(done)), None)
+    ahead = next((end for end in ends if done is not None and end > done + 1e-6), None)
     if row["status"] != "ok" or row.get("outcome") != UNSETTLED or ahead is None:
         return None
     return Further(scene, ahead - done, trajectory)
 
 
-def start_row(trajectory, checks=None, known: Sequence = ()) -> dict[str, object]:
+def start_row(trajectory, checks=None, known: Sequence = (), settles: bool = True) -> dict[str, object]:
     """The columns of OF_A_START that the run of a start fills."""
     from analysis import joins, settled
 
     row = counted(trajectory, (LOOPS, WALL_S))
     if len(trajectory.columns["time_s"]):
-        row["periods"] = round((len(trajectory.columns["time_s"]) - 1) / OFTEN, 1)
+        step_s, period_s = trajectory.scene.sample_step_s(), trajectory.scene.waves.period_s
+        row["periods"] = (len(trajectory.columns["time_s"]) - 1) * step_s / period_s
     if trajectory.status != "ok":
         return row
     strobed, measures, scale = section_of(trajectory)
     if (which := joins(strobed, measures, known)) is not None:
         return row | {"outcome": JOINED, "joins": which}
-    own = settled(strobed, measures, scale=scale)
+    own = settled(strobed, measures, scale=scale) if settles else None
     return row | {"outcome": UNSETTLED if own is None else SETTLED}
 
 
 def section_of(trajectory) -> tuple[np.ndarray, np.ndarray, list[float]]:
     """Strobed states (n + 1, 4) of a run, (n, 3) least and largest r (m) and largest tension (N) of each period, and
-    what counts as 1 in the states. r is taken OFTEN times a period, so that runs of more samples compare.
+    what counts as 1 in the states. r is taken OFTEN times a period, so that runs of more samples compare. States are
+    those at phase 0 of the wave, so that runs that begin at other phases compare too.
     """
     from analysis import poincare_section
 
-    columns, period_s, step_s = trajectory.columns, trajectory.scene.waves.period_s, trajectory.scene.sample_step_s()
+    columns, waves, step_s = trajectory.columns, trajectory.scene.waves, trajectory.scene.sample_step_s()
+    period_s, share = waves.period_s, strobed_at(waves.phase_rad)
     passed_s = np.arange(len(columns["time_s"])) * step_s
-    periods = int(passed_s[-1] / period_s + 1e-6)
+    periods = int(passed_s[-1] / period_s - share + 1e-6)
     coordinates, scale = state_of(columns, step_s, period_s, periods // 2)
-    strobed = poincare_section(coordinates, step_s, period_s).points[: periods + 1]
-    marks = np.arange(periods * OFTEN) * (period_s / OFTEN)
+    strobed = poincare_section(coordinates, step_s, period_s, share).points[: periods + 1]
+    marks = (np.arange(periods * OFTEN) / OFTEN + share) * period_s
     radius = np.interp(marks, passed_s, columns["radius_m"]).reshape(periods, OFTEN)
-    ends = np.searchsorted(passed_s, np.arange(periods) * period_s + 1e-6 * step_s)
-    tension = np.maximum.reduceat(columns["tension_top_high_N"][: round(periods * period_s / step_s) + 1], ends)
+    begin = np.searchsorted(passed_s, (np.arange(periods) + share) * period_s + 1e-6 * step_s)
+    end = round((periods + share) * period_s / step_s) + 1
+    tension = np.maximum.reduceat(columns["tension_top_high_N"][:end], begin)
     return strobed, np.column_stack([radius.min(axis=1), radius.max(axis=1), tension]), scale
 
 
@@ -156,13 +174,17 @@ def as_it_is(trajectory):
 
 
 class Asked(NamedTuple):
-    """A start to run: columns that name it, scene, Start, the motions that are known, and its most wave periods."""
+    """A start to run: columns that name it, scene, Start, the motions that are known, and its most wave periods.
+
+    settles: whether it ends too when it has settled on another one: one that passes by an unstable orbit seems to have.
+    """
 
     labels: dict
     scene: object
     start: Start
     known: Sequence = ()
     most: int = LOOKS[-1]
+    settles: bool = True
 
 
 @dataclass(eq=False)
@@ -197,6 +219,12 @@ class Starts:
         self.plan = replace(plan, how=how, columns=columns, describe=start_row, row_maker=made_by({}, *SOURCES))
         self.ended: list[Ended] = []
         self.times: Counter = Counter()
+        self.computed = 0
+
+    def did(self, timing: dict[str, float], summary: Summary) -> None:
+        """Add runs to the times and to the runs that were not there before."""
+        self.times.update(timing)
+        self.computed += summary.computed
 
     def run(self, said: str, asked: Sequence[Asked]) -> list[Ended]:
         """Run starts that are not there yet, side by side; said: what they are called. Raises as `runner.run`."""
@@ -205,7 +233,7 @@ class Starts:
             return []
         with claimed(self.plan.how.out):
             timing, summary = run(replace(self.plan, said=said), jobs)
-        self.times.update(timing)
+        self.did(timing, summary)
         rows = {row["run_key"]: row for row in summary.rows}
         found = [self._ended(job, rows.get(job.key)) for job in jobs]
         self.ended += found

@@ -15,6 +15,7 @@ from campaigns.study import Order
 from engine.views import carries_tangents, in_regular_waves
 
 KICKS, SPEED_MPS = 8, 6.0
+OTHERS = 1.2  # time of all other motions, as a share of that of the runs from rest (measured): for the time left
 ONLY = "a number for a buoy in regular waves in a plane, with bending stiffness and an implicit integrator"
 REST = "rest"
 MOST_KICKS = 10_000
@@ -96,7 +97,8 @@ def every_motion(order: Order, kicks: int, key: Column, scene_at: Callable) -> C
 
         there = {job.key for job in jobs if trajectory_path(plan.how.out, job.key).exists()}
         jobs = sorted(jobs, key=lambda job: job.labels[key.name])
-        timing, first = run(plan, jobs)
+        later = plan.then or (lambda seconds: 0.0)
+        timing, first = run(replace(plan, then=lambda seconds: OTHERS * seconds + later(seconds)), jobs)
         if plan.simulate is not engine.simulate:
             return timing, first
         along = Along(plan, key, jobs, scene_at, first.rows)

@@ -16,10 +16,9 @@ from engine.scene.faults import fault, known_fields, shown
 
 Facts = Iterator[tuple[object, str, str]]  # whether a rule is broken, the key that breaks it, what it allows there
 HEIGHTS = ("steepness", "amplitude_m", "components", "jonswap")  # of the waves: a scene has one of these
-_DISPLACED = "start.buoy_displacement_m"
+_PUSHED = ("start.buoy_velocity_mps", "start.buoy_displacement_m")
 _VECTORS = (
-    "start.buoy_velocity_mps",
-    _DISPLACED,
+    *_PUSHED,
     "end.position_m",
     "end.force_N",
     "current.velocity_mps",
@@ -192,7 +191,7 @@ def _ends(sound: Sound) -> Facts:
     pulled = force is FAULTY or any(force or ())
     allowed = "above 0, because nothing else gives a direction to a free end without a force"
     yield loose and not pulled and sound[_BENDING] == 0, _BENDING, allowed
-    for key in ("start.buoy_velocity_mps", _DISPLACED):
+    for key in _PUSHED:
         yield kind != "buoy" and any(sound[key] or ()), key, f"zero, {because}"
 
 
@@ -260,11 +259,9 @@ def _solver(sound: Sound) -> Facts:
     yield refined and not sound["tether.grid_stretching"], "tether.grid_refined", even
     longest = sound["solver.max_step_s"] or math.inf
     yield (sound["solver.min_step_s"] or 0) > longest, "solver.min_step_s", f"at most solver.max_step_s, {longest}"
-    rule = "above 0, because solver.scheme is 'paper-box' and eq. (40) divides by EI"
-    box = sound["solver.scheme"] == "paper-box"
-    yield box and sound[_BENDING] == 0, _BENDING, rule
-    rule = "zero, because solver.scheme is 'paper-box', which starts from rest"
-    yield box and any(sound[_DISPLACED] or ()), _DISPLACED, rule
+    box, because = sound["solver.scheme"] == "paper-box", "because solver.scheme is 'paper-box'"
+    yield box and sound[_BENDING] == 0, _BENDING, f"above 0, {because} and eq. (40) divides by EI"
+    yield box and any(sound[_PUSHED[1]] or ()), _PUSHED[1], f"zero, {because}"
 
 
 def _cap(sound: Sound) -> Facts:

@@ -18,9 +18,8 @@ def held_away(scene: Scene, rest: np.ndarray, s: np.ndarray) -> tuple[int, np.nd
     s (n,): unstretched arc length (m). A line that would hang slack hangs as an arc, a short one is stretched.
     """
     axes = [0, 1, 2] if rest.shape[1] == 13 else [0, 2]
-    q = lift.stretch_vectors(rest)
     place = np.zeros(3)
-    place[axes] = np.sum(0.5 * np.diff(s)[:, None] * (q[1:] + q[:-1]), axis=0)
+    place[axes] = np.trapezoid(lift.stretch_vectors(rest), s, axis=0)
     place += scene.start.buoy_displacement_m
     if math.hypot(*place) > (1.0 + MOST_STRAIN) * s[-1]:
         return STATICS_FAILED, rest

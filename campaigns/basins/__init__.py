@@ -1,0 +1,151 @@
+"""One scene, a grid of starts: which start ends in which motion, the smallest to the worst, and what lies between.
+
+    python -m campaigns.basins                                     kicks of the buoy along and across the waves
+    python -m campaigns.basins --set water.depth_m=25 --grid 49
+    python -m campaigns.basins --across vx phase --grid 25 24      when in a wave does a gust matter?
+
+Protocol: without --scene the buoy is in 22.5 m of water, where it has two motions. The motions are found from rest,
+from motions of a massless tether, and from starts spread over the grid until 24 of them find no new one. Then all other
+starts run until they join a motion or settle on one of their own, at most for 160 wave periods; what has not settled by
+then is counted as unsettled. Each motion is judged by a run of its own (docs/verdicts.md), and goes on at a tenth of
+the tolerance and on a finer grid of the line. The smallest start that leads to the motion of the largest tension is
+searched over its direction, and bisected in size to 1 %, on both grids. The edge state between that motion and the one
+from rest is found by bisection of states. The order of the starts is drawn by --seed; nothing else is random.
+"""
+
+import contextlib
+from collections.abc import Callable, Iterator
+
+from campaigns.basins.grid import PAIRS, Grid
+from campaigns.buoy_sweep import ROW_SOURCES
+from campaigns.judge import judged_scene
+from campaigns.machinery import cli
+from campaigns.machinery.folder import read_rows, write_table
+from campaigns.machinery.plan import Job, Plan, Summary
+from campaigns.motions.sweep import ONLY, SPEED_MPS
+from campaigns.study import Measures, Order, Study
+from engine.views import carries_tangents
+
+COUNT, MOVED_M, BUDGET = 15, 2.0, 1500
+DEPTH_M = 22.5  # of the tethered buoy unless --set says otherwise: at its 21.0 m every start ends in one motion
+REST = {"start.buoy_velocity_mps": [0.0, 0.0, 0.0], "start.buoy_displacement_m": [0.0, 0.0, 0.0]}
+
+
+def options(group) -> None:
+    what = "what the starts differ in: velocity or place of the buoy, phase of the wave"
+    cli.add(group, "--across", "|".join(PAIRS), what, usual=PAIRS[0])
+    usual = f"starts along both, or along each of the two (default: {COUNT})"
+    cli.add(group, "--grid", "N|N M", usual)
+    above = cli.number("a finite number above 0", lambda found: 0.0 < found < float("inf"))
+    cli.add(group, "--kick-speed", "MPS", "velocities go up to this both ways, m/s", above, SPEED_MPS)
+    cli.add(group, "--displacement", "M", "places go so far from that of rest both ways, m", above, MOVED_M)
+    cli.add(
+        group,
+        "--seed",
+        "N",
+        "of the order of the starts, that of a scrambled Halton sequence",
+        cli.whole(0, 2**32 - 1),
+        1,
+    )
+
+
+def read(options, faults: list[str]) -> None:
+    """The grid (`Grid`) in place of the words of --across and --grid."""
+    across = " ".join(options.across or [PAIRS[0]])
+    if across not in PAIRS:
+        faults.append(f"--across: given {across or 'nothing'}; allowed: one of {', '.join(PAIRS)}")
+        across = PAIRS[0]
+    kind, words = cli.whole(2, 199), options.grid if options.grid is not None else [str(COUNT)]
+    try:
+        counts = [kind.convert(word) for word in words]
+        if not 1 <= len(counts) <= 2:
+            raise ValueError(words)
+    except ValueError:
+        faults.append(f"--grid: given {' '.join(words) or 'nothing'}; allowed: once or twice {kind.allowed}")
+        counts = [COUNT]
+    size = options.displacement if across == "x z" else options.kick_speed
+    options.grid = Grid(tuple(across.split()), (counts[0], counts[-1]), size)
+
+
+def cases(order: Order) -> Iterator[Job]:
+    """The scene from rest, judged as long as it needs; the starts follow from it (`found.Found`)."""
+    order.periods, order.looks, order.transient = BUDGET, True, None
+    if order.name == STUDY.scene:
+        order.changes.setdefault("water.depth_m", DEPTH_M)
+    scene = order.base(REST, tell=True)
+    if scene is None:
+        return
+    if not carries_tangents(scene):
+        order.tell([f"campaigns.basins: given {order.name!r} as it is; allowed: {ONLY.removeprefix('a number for ')}"])
+    elif (scene := judged_scene(order, REST)) is not None:
+        yield Job({"steepness": scene.waves.steepness}, scene, BUDGET)
+
+
+def measures(order: Order) -> Measures:
+    """The rows of the judged runs: those of `campaigns.buoy_sweep`."""
+    from functools import partial
+
+    from campaigns.buoy_sweep.rows import COLUMNS, buoy_row
+
+    columns = tuple(column for column in COLUMNS if not column.name.startswith("planar_"))
+    return Measures(columns, partial(buoy_row, transient_periods=None), ROW_SOURCES, {"transient_periods": None})
+
+
+def runs(order: Order) -> Callable:
+    """In place of `runner.run`: motions, starts, smallest start and edge state, each in a folder of its own."""
+
+    def every_start(plan: Plan, jobs: list[Job]) -> tuple[dict[str, float], Summary]:
+        from campaigns.basins.edge import edge_state
+        from campaigns.basins.found import COLUMNS, Found
+        from campaigns.basins.shocks import shocks
+        from campaigns.motions import ends
+
+        found = Found(plan, jobs[0], order.own.grid)
+        found.find(order, order.own.kick_speed, order.own.seed)
+        if len(found.motions) > 1:
+            worst = max(found.motions[1:], key=lambda motion: motion.tension_N)  # beside the first, that from rest
+            shocks(found, worst)
+            edge_state(found, found.motions[0], worst)
+        ends.confirm(found.along)
+        judged = found.judge(order)
+        found.along.starts.write()
+        rows = [*found.rows(judged.rows)]
+        write_table(plan.how.out / "table.csv", COLUMNS, rows)
+        times, computed = found.along.starts.times, found.computed
+        counts = Summary(rows, len(rows) - computed, computed, times["analysis_s"])
+        return {name: times[name] for name in ("compile_s", "run_s", "analysis_s")}, counts
+
+    return every_start
+
+
+def parameters(order: Order) -> dict[str, object]:
+    own = order.own
+    return {"across": list(own.grid.across), "grid": list(own.grid.counts), "size": own.grid.size, "seed": own.seed}
+
+
+def answer(order: Order, rows: list[dict]) -> Iterator[str]:
+    """What was found (`answer.sentences`)."""
+    from campaigns.basins.answer import sentences
+
+    parts: dict[str, tuple[dict, ...]] = dict.fromkeys(("motions", "shock", "edge"), ())
+    for folder in parts:
+        with contextlib.suppress(OSError, ValueError):  # none, as where there is one motion
+            parts[folder] = read_rows(order.how.out / folder / "table.csv")
+    return sentences(rows, order.own.grid.across, order.cases[0].scene, parts)
+
+
+STUDY = Study(
+    name="basins",
+    protocol=__doc__,
+    scene="tethered_buoy",
+    in_waves=True,
+    taken=dict.fromkeys(REST, "use --across"),
+    options=options,
+    read=read,
+    cases=cases,
+    measures=measures,
+    parameters=parameters,
+    runs=runs,
+    answer=answer,
+)
+main, parser, read_order = STUDY.main, STUDY.parser, STUDY.read_order

@@ -1,0 +1,5 @@
+"""`python -m campaigns.basins`."""
+
+from campaigns.basins import main
+
+raise SystemExit(main())

@@ -1,0 +1,126 @@
+"""What the starts of one scene showed: its motions, which is dangerous, and how little leads to it."""
+
+import math
+from collections.abc import Iterator, Mapping, Sequence
+
+from campaigns.answers import Row, greatest, kilonewton, known, spans
+from campaigns.basins.grid import COLUMNS, PHASE
+from campaigns.buoy_sweep.answer import reasons
+from campaigns.motions.along import from_rest
+from campaigns.motions.starts import UNSETTLED
+from campaigns.statements import listed
+
+PEAK = "tension_top_max_N"
+NONE_FOUND = "No start has settled, so there is no motion to name."
+STRAIGHT = 3.0  # degrees from an axis that are told as along it
+
+
+def sentences(rows: Sequence[Row], across: Sequence[str], scene, parts: Mapping[str, Sequence[Row]]) -> Iterator[str]:
+    """At most eight, of the rows of table.csv and those of the tables in its folders motions, shock and edge (parts).
+
+    across: as `Grid.across`; scene: from rest.
+    """
+    motions = [one for one in parts["motions"] if one.get("motion")]
+    if (worst := greatest(motions, PEAK)) is None:
+        yield NONE_FOUND
+        return
+    ways = listed(f"{one['motion']}{' from rest' if from_rest(one) else ''} ({_pull(one)})" for one in motions)
+    at = f"kA = {known(motions[0], 'steepness'):.4g} and H = {scene.water.depth_m:g} m"
+    yield f"{'One motion' if len(motions) == 1 else f'{len(motions)} motions'} at {at}: {ways}."
+    yield _shares(rows, motions)
+    if worst is motions[0] and len(motions) > 1:
+        yield f"Motion {worst['motion']} pulls hardest: no start of the grid leads to more."
+    elif parts["shock"]:
+        times = known(worst, PEAK) / known(motions[0], PEAK)
+        yield f"Motion {worst['motion']} is the dangerous one: it pulls {times:.2g} times as hard as A."
+    if parts["shock"]:
+        yield _shock(parts["shock"], across)
+    if PHASE in across and parts["shock"]:
+        yield _when(rows, across, str(parts["shock"][0]["motion"]))
+    if parts["edge"]:
+        yield from _edge(parts["edge"][0])
+    unsure = [one for one in motions if "NOT" in str(one["confirmed"]) or "not settled" in str(one["confirmed"])]
+    if unsure:
+        said = (f"{one['motion']} is found {one['confirmed']}" for one in unsure)
+        yield f"It depends on how it is computed: {'; '.join(said)}."
+    else:
+        yield "Each motion stays at a tenth of the tolerance and on a finer grid of the line."
+    if doubts := [*reasons(worst, scene)]:
+        yield f"The tension of {worst['motion']} is no load to design for, because {listed(doubts)}."
+
+
+def _pull(one: Row) -> str:
+    return f"{one.get('regime') or one['status']}, {kilonewton(known(one, PEAK))}"
+
+
+def _shares(rows: Sequence[Row], motions: Sequence[Row]) -> str:
+    ends = listed(
+        f"{100 * known(one, 'share'):.0f} % end in {one['motion']} "
+        f"({100 * known(one, 'share_low'):.0f} to {100 * known(one, 'share_high'):.0f})"
+        for one in motions
+    )
+    unsettled = sum(row.get("outcome") == UNSETTLED for row in rows)
+    failed = sum(row["status"] != "ok" for row in rows)
+    left = f"; {unsettled} had not settled, and {failed} failed" if unsettled or failed else ""
+    return f"Of {len(rows)} starts {ends}{left}."
+
+
+def _way(shock: Row, across: Sequence[str]) -> str:
+    """The direction of a smallest start in words: "23 degrees below the direction of the waves"."""
+    if PHASE in across:
+        ways = ("along the waves", "against the waves") if across[0] == "vx" else ("upwards", "downwards")
+        way = ways[known(shock, COLUMNS[across[0]]) < 0.0]
+        return f"{way}, {_phase(shock):.2f} T before a crest,"
+    x, z = (known(shock, COLUMNS[one]) for one in across)
+    angle, upright = math.degrees(math.atan2(abs(z), abs(x))), "upwards" if z > 0.0 else "downwards"
+    ahead = "along the waves" if x >= 0.0 else "against the waves"
+    if STRAIGHT < angle < 90.0 - STRAIGHT:
+        return f"{ahead}, {angle:.0f} degrees {upright}"
+    return ahead if angle <= STRAIGHT else upright
+
+
+def _shock(rows: Sequence[Row], across: Sequence[str]) -> str:
+    unit, good = "m" if "x" in across else "m/s", [row for row in rows if row["status"] == "ok"]
+    if not good:
+        return f"No smallest start was found: {rows[0]['message']}."
+    first, *others = good
+    if known(first, "size") == 0.0:
+        return f"No gust is needed: waves that begin {_phase(first):.2f} T before a crest lead to {first['motion']}."
+    said = f"{known(first, 'size'):.2g} {unit} {_way(first, across)} is the smallest that leads to {first['motion']}"
+    for row in others:
+        said += f"; on {known(row, 'nodes'):.0f} nodes {known(row, 'size'):.2g} {unit} {_way(row, across)}"
+    return f"{said}." if others else f"{said}; on a finer grid of the line {rows[-1]['message']}."
+
+
+def _phase(row: Row) -> float:
+    """Time from the start to a crest, as a share of the wave period."""
+    return known(row, COLUMNS[PHASE]) / (2.0 * math.pi)
+
+
+def _when(rows: Sequence[Row], across: Sequence[str], letter: str) -> str:
+    """How long before a crest nothing, little or much leads to a motion."""
+    least = dict.fromkeys(sorted({_phase(row) for row in rows}), math.inf)
+    for row in (row for row in rows if row["motion"] == letter):
+        least[_phase(row)] = min(abs(known(row, COLUMNS[across[0]])), least[_phase(row)])
+    sizes, phases = list(least.values()), [round(phase, 3) for phase in least]
+    low, high = min(sizes), max(filter(math.isfinite, sizes), default=math.inf)
+    told = {
+        "no gust of the grid does": math.inf,
+        f"it takes {high:.2g} m/s, the most": high,
+        "none is needed" if low == 0.0 else f"{low:.2g} m/s are enough": low,
+    }
+    found = (f"at {spans([size == of for size in sizes], phases)} T {said}" for said, of in told.items() if of in sizes)
+    return f"How a gust leads to {letter}, by the time from it to a crest: {'; '.join(reversed([*found]))}."
+
+
+def _edge(edge: Row) -> Iterator[str]:
+    if edge["status"] != "ok":
+        yield f"No edge state between {edge['motion']} and {edge['other']} could be followed: the border was lost."
+        return
+    period = known(edge, "strobed_period")
+    kind = f"a motion of period {period:.0f}" if math.isfinite(period) else "a motion without a period up to 16"
+    pull, growth = kilonewton(known(edge, PEAK)), known(edge, "growth_bits_per_period")
+    yield (
+        f"Between {edge['motion']} and {edge['other']} lies {kind} that no start keeps ({pull}): runs leave it by "
+        f"{growth:.2g} bits a period."
+    )

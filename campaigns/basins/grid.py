@@ -1,0 +1,83 @@
+"""The grid of starts: two things that a gust, a release or the moment of either decides, and their values."""
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from campaigns.motions.starts import Start
+
+PHASE = "phase"
+PAIRS = ("vx vz", "vx phase", "vz phase", "x z")
+COLUMNS = {
+    "vx": "kick_x_mps",
+    "vz": "kick_z_mps",
+    "x": "displacement_x_m",
+    "z": "displacement_z_m",
+    PHASE: "phase_rad",
+}
+PHASES = 720  # in a wave period: those of a search are whole parts of it, and so fall on samples
+GRID = "grid"  # found_by of its starts
+
+
+@dataclass(frozen=True)
+class Grid:
+    """counts of starts along the two axes `across`; each from -size to size (m/s, m), phases all round.
+
+    A start is also told by a turn and a size: direction and length of its kick; with a phase, the turn is that, and the
+    second time round the kick goes the other way.
+    """
+
+    across: tuple[str, str]
+    counts: tuple[int, int]
+    size: float
+
+    @property
+    def round(self) -> float:
+        """Turns (rad) that reach every start of a size."""
+        return 2.0 * math.pi * (1 + (self.across[1] == PHASE))
+
+    def values(self, axis: int) -> list[float]:
+        """The values along an axis."""
+        count = self.counts[axis]
+        if self.across[axis] == PHASE:
+            return [2.0 * math.pi * k / count for k in range(count)]
+        return [float(f"{self.size * (2 * k / (count - 1) - 1):.12g}") for k in range(count)]
+
+    def start(self, first: float, second: float, found_by: str = GRID) -> "Start":
+        """The start with these two coordinates."""
+        from campaigns.motions.starts import Start  # slow to import
+
+        given = dict(zip(self.across, (first, second), strict=True))
+        kick, moved = ((given.get(x, 0.0), given.get(z, 0.0)) for x, z in (("vx", "vz"), ("x", "z")))
+        return Start(found_by, kick, moved, given.get(PHASE))
+
+    def at(self, turn: float, size: float, found_by: str) -> "Start":
+        """The start of a turn and a size."""
+        if self.across[1] != PHASE:
+            return self.start(round(size * math.cos(turn), 12), round(size * math.sin(turn), 12), found_by)
+        part = round(turn / (2.0 * math.pi) * PHASES)
+        return self.start(-size if part // PHASES % 2 else size, 2.0 * math.pi * (part % PHASES) / PHASES, found_by)
+
+    def polar(self, first: float, second: float) -> tuple[float, float]:
+        """Turn and size of a start."""
+        if self.across[1] != PHASE:
+            return math.atan2(second, first), math.hypot(first, second)
+        return second + 2.0 * math.pi * (first < 0.0), abs(first)
+
+    def points(self) -> list[tuple[float, float]]:
+        """All of them, in the order of the table."""
+        return [(first, second) for second in self.values(1) for first in self.values(0)]
+
+    def spread(self, seed: int) -> Iterator[int]:
+        """The numbers of all points, so that any first part of them is spread over the grid (Halton's sequence)."""
+        from scipy.stats import qmc
+
+        (nx, nz), left = self.counts, dict.fromkeys(range(self.counts[0] * self.counts[1]))
+        for x, z in qmc.Halton(2, seed=seed).random(2 * len(left)):
+            number = int(z * nz) * nx + int(x * nx)
+            if number in left:
+                del left[number]
+                yield number
+        yield from left

@@ -1,0 +1,114 @@
+"""`campaigns.basins`: a grid of starts, the smallest one that leads to a motion, and the same motion at every phase."""
+
+import csv
+import math
+
+import numpy as np
+import pytest
+
+from analysis import joins, settled
+from campaigns.basins import main, read_order
+from campaigns.basins.grid import PAIRS, Grid
+from campaigns.basins.smallest import SHARP, Shock, smallest
+from campaigns.motions.starts import KICKS, Start, section_of
+from engine import load_scene, simulate, simulate_each
+from reports.basins.report import report
+from reports.parts.content import Figure, Table
+from tests.campaigns.conftest import finished, rows_of
+
+COARSE = {"tether.nodes": 9, "water.depth_m": 22.5}
+QUICK = ["--set", "tether.nodes=9", "water.depth_m=21", "waves.steepness=0.05", "--grid", "3", "--kick-speed", "1"]
+
+
+@pytest.mark.parametrize("pair", PAIRS)
+def test_a_turn_and_a_size_are_the_start_of_that_point(pair):
+    grid = Grid(tuple(pair.split()), (7, 12), 3.0)
+    names = {column.name for column in KICKS}
+    for point in grid.points():
+        told, again = grid.start(*point).labels(), grid.at(*grid.polar(*point), "").labels()
+        assert told.keys() == again.keys() and names & told.keys()
+        assert all(told[name] == pytest.approx(again[name], abs=1e-12) for name in names & told.keys())
+
+
+def test_the_first_starts_of_a_grid_are_spread_over_it():
+    grid = Grid(("vx", "vz"), (12, 12), 6.0)
+    order = list(grid.spread(1))
+    assert sorted(order) == list(range(144))
+    quarters = {(grid.points()[number][0] > 0.0, grid.points()[number][1] > 0.0) for number in order[:8]}
+    assert len(quarters) == 4
+
+
+@pytest.mark.parametrize("centre", [(3.0, 0.4), (-1.0, -2.5), (0.2, 4.0)])
+def test_the_smallest_start_is_the_nearest_point_of_a_disc(centre):
+    """Along a ray to SHARP of its size, and between rays by as much as a last step gains."""
+    radius, asked = 0.8, []
+
+    def leads(starts):
+        asked.extend(starts)
+        places = [(size * math.cos(turn), size * math.sin(turn)) for turn, size in starts]
+        return [math.dist(place, centre) <= radius for place in places]
+
+    far = Shock(math.atan2(centre[1] + 0.5, centre[0]), math.hypot(centre[0], centre[1] + 0.5), 0.0)
+    found, nearest = smallest(leads, far, 2.0 * math.pi), math.hypot(*centre) - radius
+    assert leads([(found.turn, found.size)]) == [True] and leads([(found.turn, found.below)]) == [False]
+    assert found.below >= (1.0 - SHARP) * found.size
+    assert nearest <= found.size <= (1.0 + 2.5 * SHARP) * nearest
+    assert len(asked) < 400
+
+
+def test_a_motion_started_at_another_phase_is_the_same():
+    """Strobed at the phase of the wave, and its last state is one of the scene from rest."""
+    base = load_scene("tethered_buoy", COARSE)
+    phases = [None, math.pi, 2.0 * math.pi * 17 / 24]
+    scenes = [Start("", phase=phase).scene(base) for phase in phases]
+    lengths = [66 + share for share in (0.0, 0.5, 17 / 24)]
+    runs = [run for _, run in sorted(simulate_each(scenes, periods=lengths), key=lambda pair: pair[0])]
+    strobed, measures, scale = section_of(runs[0])
+    known = settled(strobed, measures, scale=scale)
+    for run in runs[1:]:
+        assert joins(*section_of(run)[:2], [known]) == 0
+        on = simulate(base, periods=2, start=run.final_state.at_zero())
+        away = np.abs((section_of(on)[0][:, None] - known.points) / scale).max(axis=2)
+        assert known.period == 2 and away.min(axis=1).max() < 0.02
+
+
+def test_a_scene_with_one_motion(tmp_path):
+    words = [*QUICK, "--backend", "threading", "--no-report", "--out", str(tmp_path)]
+    assert main(words) == 0
+    rows, (motion,) = rows_of(tmp_path), rows_of(tmp_path, "motions/table.csv")
+    assert [(row["kick_x_mps"], row["kick_z_mps"]) for row in rows[:4]] == [
+        ("-1.0", "-1.0"), ("0.0", "-1.0"), ("1.0", "-1.0"), ("-1.0", "0.0"),
+    ]  # fmt: skip
+    assert {(row["motion"], row["status"]) for row in rows} == {("A", "ok")} and len(rows) == 9
+    assert (motion["share"], motion["found_by"], motion["regime"]) == ("1.0", "rest", "period-1")
+    assert not (tmp_path / "shock").exists() and not (tmp_path / "edge").exists()
+    before = finished(tmp_path / "starts") | finished(tmp_path / "motions")
+    assert main(words) == 0
+    assert finished(tmp_path / "starts") | finished(tmp_path / "motions") == before
+    items = report(tmp_path).items
+    assert any(isinstance(item, Figure) for item in items) and any(isinstance(item, Table) for item in items)
+
+
+def test_a_grid_of_velocity_and_phase_has_every_pair():
+    order = read_order(["--across", "vx", "phase", "--grid", "5", "8", "--out", "new"], faults := [])
+    assert faults == [] and order.own.grid.counts == (5, 8) and len(order.own.grid.points()) == 40
+    assert order.own.grid.values(1)[2] == pytest.approx(0.5 * math.pi)
+
+
+@pytest.mark.slow
+def test_the_period_3_at_25_m(tmp_path):
+    """16 of 49 kicks on [-6, 6]^2 m/s lead to it, 5623 N; period 1 from rest, 4197 N (161 nodes: 4199 and 5624 N)."""
+    words = ["--set", "water.depth_m=25", "--grid", "7", "--no-report", "--out", str(tmp_path)]
+    assert main(words) == 0
+    rest, other = rows_of(tmp_path, "motions/table.csv")
+    assert (rest["regime"], other["regime"]) == ("period-1", "period-3")
+    assert float(rest["tension_top_max_N"]) == pytest.approx(4197.0, abs=5.0)
+    assert float(other["tension_top_max_N"]) == pytest.approx(5623.0, abs=5.0)
+    assert float(other["share_low"]) < 16 / 49 < float(other["share_high"])
+    coarse, fine = rows_of(tmp_path, "shock/table.csv")
+    assert float(fine["size"]) == pytest.approx(float(coarse["size"]), rel=0.05)
+    (edge,) = rows_of(tmp_path, "edge/table.csv")
+    assert (edge["status"], edge["strobed_period"]) == ("ok", "3")
+    assert 4197.0 < float(edge["tension_top_max_N"]) < 5623.0 and float(edge["growth_bits_per_period"]) > 0.0
+    with open(tmp_path / "answer.txt") as file:
+        assert sum(1 for _ in csv.reader(file)) <= 8
