@@ -47,11 +47,11 @@ class Found:
         """Find the motions, and where the starts of the grid end. Raises as `runner.run`."""
         self.judge(order)
         proposed = proposals(self.plan, [self.scene], speed_mps, seed)[0]
-        self.along.round("starts on motions of a massless tether", [(0, start) for start in proposed])
+        self.along.round("starts on motions of a massless tether", [(0, self._fine(start)) for start in proposed])
         left, points = list(self.grid.spread(seed)), self.grid.points()
         while left:
             known = len(self.motions)
-            self._round("starts spread over the grid", left[:SAMPLE], points)
+            self._round("starts spread over the grid", left[:SAMPLE], points, fine=True)
             left = left[SAMPLE:]
             if len(self.motions) == known:
                 break
@@ -61,13 +61,18 @@ class Found:
         self.judge(order)
         self.along.name()
 
-    def _round(self, said: str, numbers: Sequence[int], points: Sequence[tuple[float, float]]) -> None:
+    def _round(self, said: str, numbers: Sequence[int], points: Sequence, fine: bool = False) -> None:
         starts, before = self.along.starts, self.along.starts.computed
-        for motion in self.along.round(said, [(0, self.grid.start(*points[number])) for number in numbers]):
+        asked = [self.grid.start(*points[number]) for number in numbers]
+        for motion in self.along.round(said, [(0, self._fine(one) if fine else one) for one in asked]):
             if motion is not None:
                 motion.kicks += 1
         self.computed += starts.computed - before
         self.ended |= dict(zip(numbers, starts.ended[len(starts.ended) - len(numbers) :], strict=True))
+
+    def _fine(self, start: Start) -> Start:
+        """The start with as many samples as a judged run, which then takes up its last state to the moment."""
+        return replace(start, often=round(self.scene.waves.period_s / self.scene.sample_step_s()))
 
     def led(self, ended: Ended) -> Motion | None:
         """The motion in which a start has ended that `find` did not run; None for one that it has not found."""
