@@ -24,6 +24,7 @@ NEAR, APART = 2e-5, 2e-3  # distances, in the size of the motion, to which two s
 MOST, ROUNDS = 60, 40  # wave periods that an edge state is followed; rounds of states between
 TOGETHER = 4  # wave periods that two runs stay together at least
 BEYOND = 3.0  # of the way between two states: how far beyond them the border is looked for
+SAMPLES = 40  # of a wave period: extremes of r within 0.3 % of its swing
 LONGEST = 480  # wave periods after which a state has fallen to neither side
 FOLDER, TOP = "edge", "tension_top_high_N"
 _EXTREMES = tuple(one for one in EXTREMES if one.name in ("radius_min_m", "radius_max_m", "tension_top_max_N"))
@@ -70,7 +71,7 @@ class Edge:
             self.rounds += 1
             shares = [(1.0 + 2.0 * beyond) * (k + 1) / (SHARES + 1) - beyond for k in range(SHARES)]
             states = [between(*self.states, share) for share in shares]
-            asked = [self.found.asked(Start("edge", state=one), most=LONGEST, settles=False) for one in states]
+            asked = [self.found.asked(self._start(one), most=LONGEST, settles=False) for one in states]
             ended = starts.run("states between two motions", asked)
             told = [
                 (share, self.sides.index(motion), state, one.row)
@@ -92,6 +93,9 @@ class Edge:
                 return apart
         return None
 
+    def _start(self, state) -> Start:
+        return Start("edge", state=state, often=SAMPLES)
+
     def _apart(self) -> np.ndarray:
         scale = np.max([side.settled.scale for side in self.sides], axis=0)
         first, second = (section_of(trajectory)[0] for trajectory in self.runs)
@@ -102,7 +106,9 @@ class Edge:
         """Let both run on for so many wave periods, and begin there: the one on the first side, and its key; None for a
         run that ended early.
         """
-        jobs = [job_from({}, self.found.scene, periods, state) for state in self.states]
+        # of as many samples as the runs that told them apart: a state that goes over to others begins a moment later
+        scene = self._start(self.states[0]).scene(self.found.scene)
+        jobs = [job_from({}, scene, periods, state) for state in self.states]
         _, runs = self.found.within(FOLDER, "along the edge", jobs)
         if None in runs:
             return None, ""

@@ -47,11 +47,13 @@ class Found:
         """Find the motions, and where the starts of the grid end. Raises as `runner.run`."""
         self.judge(order)
         proposed = proposals(self.plan, [self.scene], speed_mps, seed)[0]
-        self.along.round("starts on motions of a massless tether", [(0, start) for start in proposed])
+        self.along.round(
+            "starts on motions of a massless tether", [(0, self.along.fine(0, start)) for start in proposed]
+        )
         left, points = list(self.grid.spread(seed)), self.grid.points()
         while left:
             known = len(self.motions)
-            self._round("starts spread over the grid", left[:SAMPLE], points)
+            self._round("starts spread over the grid", left[:SAMPLE], points, fine=True)
             left = left[SAMPLE:]
             if len(self.motions) == known:
                 break
@@ -61,9 +63,10 @@ class Found:
         self.judge(order)
         self.along.name()
 
-    def _round(self, said: str, numbers: Sequence[int], points: Sequence[tuple[float, float]]) -> None:
+    def _round(self, said: str, numbers: Sequence[int], points: Sequence, fine: bool = False) -> None:
         starts, before = self.along.starts, self.along.starts.computed
-        for motion in self.along.round(said, [(0, self.grid.start(*points[number])) for number in numbers]):
+        asked = [self.grid.start(*points[number]) for number in numbers]
+        for motion in self.along.round(said, [(0, self.along.fine(0, one) if fine else one) for one in asked]):
             if motion is not None:
                 motion.kicks += 1
         self.computed += starts.computed - before

@@ -7,7 +7,7 @@ Two motions at neighbouring values are one branch where each, carried to the oth
 """
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from itertools import pairwise
 from string import ascii_uppercase
 
@@ -15,7 +15,7 @@ from campaigns.columns import Column
 from campaigns.machinery.folder import run_of
 from campaigns.machinery.plan import Job, Plan
 from campaigns.motions.proposals import kicks, proposals
-from campaigns.motions.starts import FOUND_BY, Asked, Start, Starts, as_it_is, settled_of
+from campaigns.motions.starts import FOUND_BY, Asked, Ended, Start, Starts, as_it_is, settled_of
 
 MOTION = Column("motion", symbol="motion", meaning="letter of the motion, the same along a branch over the values")
 MOTIONS = (
@@ -84,19 +84,36 @@ class Along:
 
     def find(self, kick_count: int, speed_mps: float, seed: int) -> None:
         """Find the motions of all values, as told at the head of this file. Raises as `runner.run`."""
-        proposed = proposals(self.plan, self.scenes, speed_mps, seed)
+        proposed = enumerate(proposals(self.plan, self.scenes, speed_mps, seed))
         self.round(
-            "starts on motions of a massless tether", [(at, one) for at, all in enumerate(proposed) for one in all]
+            "starts on motions of a massless tether",
+            [(at, self.fine(at, one)) for at, some in proposed for one in some],
         )
         self.carry()
         if kick_count:
             points = kicks(kick_count * len(self.values), speed_mps, seed).reshape(len(self.values), kick_count, 2)
             asked = [(at, Start(KICKED, tuple(map(float, kick)))) for at, some in enumerate(points) for kick in some]
-            for motion in self.round("kicks", asked):
-                if motion is not None:
-                    motion.kicks += 1
+            ended = self.round("kicks", asked)
+            for motion in filter(None, ended):
+                motion.kicks += 1
             self.kicked = kick_count
+            # few samples are enough to tell a motion, not to take up its state without a shift in the wave
+            new = {
+                motion: one for one, motion in zip(asked, ended, strict=True) if motion and motion.found_by == KICKED
+            }
+            for motion, again in zip(new, self.again(list(new.values())), strict=True):
+                motion.state = again.state or motion.state
             self.carry()
+
+    def fine(self, at: int, start: Start) -> Start:
+        """The start with as many samples as a run of its value, which then takes up its last state to the moment."""
+        scene = self.scenes[at]
+        return replace(start, often=round(scene.waves.period_s / scene.sample_step_s()))
+
+    def again(self, asked: Sequence[tuple[int, Start]]) -> list[Ended]:
+        """Starts that have settled once more, with more samples."""
+        fine = (Asked({self.key.name: self.values[at]}, self.scenes[at], self.fine(at, start)) for at, start in asked)
+        return self.starts.run("kicks that found a motion", list(fine), told=False)
 
     def carry(self) -> None:
         """Carry every motion to its neighbours that has not been carried there, and what is found there further."""
@@ -110,7 +127,9 @@ class Along:
             ]
             if not asked:
                 return
-            starts = [(one.at + step, Start(CARRIED[step], state=one.state.at_zero())) for one, step in asked]
+            places = [one.at + step for one, step in asked]
+            states = [Start(CARRIED[step], state=one.state.at_zero()) for one, step in asked]
+            starts = [(at, self.fine(at, start)) for at, start in zip(places, states, strict=True)]
             for (motion, step), led in zip(asked, self.round("motions carried to the next value", starts), strict=True):
                 motion.led[step] = led
 

@@ -81,7 +81,7 @@ def bisect(along: Along) -> list[dict[str, object]]:
             Asked(
                 {along.key.name: end.middle()},
                 along.scene_at(end.middle()),
-                Start(CARRIED[end.step], state=end.state.at_zero()),
+                along.fine(end.motion.at, Start(CARRIED[end.step], state=end.state.at_zero())),
                 most=MOST,
             )
             for end in wide
@@ -147,7 +147,14 @@ def confirm(along: Along) -> None:
         finer = scene_from_toml(scene.to_toml(), {"tether.nodes": nodes})
         for how, made in ((TIGHTER, tighter_scene(scene)), (FINER.format(nodes), finer)):
             known = tuple(one.settled for one in along.motions[motion.at])
-            asked.append(Asked({along.key.name: value}, made, Start(how, state=motion.state.at_zero()), known))
+            asked.append(
+                Asked(
+                    {along.key.name: value},
+                    made,
+                    along.fine(motion.at, Start(how, state=motion.state.at_zero())),
+                    known,
+                )
+            )
             kinds.append((motion, how))
     said: dict[Motion, list[str]] = {}
     for (motion, how), found in zip(kinds, along.starts.run("motions confirmed", asked), strict=True):

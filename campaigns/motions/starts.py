@@ -48,7 +48,7 @@ OF_A_START = (*KICKS, OUTCOME, JOINS, STATUS, PERIODS_RUN, LOOPS, WALL_S, RUN_KE
 @dataclass(frozen=True, eq=False)
 class Start:
     """Where a run begins: at rest with the buoy kicked (m/s), displaced (m), in a wave of this phase (rad); or in a
-    state of another run. found_by: what it is called in tables.
+    state of another run. found_by: what it is called in tables. often: least samples of its run in a wave period.
     """
 
     found_by: str
@@ -56,14 +56,13 @@ class Start:
     displacement: tuple[float, float] = (0.0, 0.0)
     phase: float | None = None
     state: object = None
+    often: int = OFTEN
 
     def scene(self, scene):
         """The scene that begins so."""
         share = strobed_at(scene.waves.phase_rad if self.phase is None else self.phase)
         parts = Fraction(share).limit_denominator(MOST_OFTEN).denominator  # strobes are samples
-        step_s = scene.waves.period_s / (parts * math.ceil(OFTEN / parts))
-        if self.state is not None:  # the clock of a state runs on where the step of the samples is the same
-            step_s = self.state.scene.sample_step_s()
+        step_s = scene.waves.period_s / (parts * math.ceil(self.often / parts))
         changes: dict[str, object] = {TANGENTS: 0, LATERAL: False, "output.step_s": step_s}
         for key, (x, z) in ((KICK, self.kick), (DISPLACEMENT, self.displacement)):
             changes[key] = [x, 0.0, z] if self.state is None else [0.0, 0.0, 0.0]
@@ -226,8 +225,11 @@ class Starts:
         self.times.update(timing)
         self.computed += summary.computed
 
-    def run(self, said: str, asked: Sequence[Asked]) -> list[Ended]:
-        """Run starts that are not there yet, side by side; said: what they are called. Raises as `runner.run`."""
+    def run(self, said: str, asked: Sequence[Asked], told: bool = True) -> list[Ended]:
+        """Run starts that are not there yet, side by side; said: what they are called; told: whether in the table.
+
+        Raises as `runner.run`.
+        """
         jobs = [start_job(*one) for one in asked]
         if not jobs:
             return []
@@ -236,7 +238,7 @@ class Starts:
         self.did(timing, summary)
         rows = {row["run_key"]: row for row in summary.rows}
         found = [self._ended(job, rows.get(job.key)) for job in jobs]
-        self.ended += found
+        self.ended += found if told else []
         return found
 
     def _ended(self, job: Job, row: dict | None) -> Ended:

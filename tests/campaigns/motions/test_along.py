@@ -37,8 +37,13 @@ class State:
 
 
 class Scene:
+    waves = type("Waves", (), {"period_s": 1.0})
+
     def __init__(self, p):
         self.p = p
+
+    def sample_step_s(self):
+        return 0.01
 
 
 class FakeStarts:
@@ -47,7 +52,7 @@ class FakeStarts:
     def __init__(self, plan, named):
         self.ended, self.count = [], 0
 
-    def run(self, said, asked):
+    def run(self, said, asked, told=True):
         found = []
         for one in asked:
             motion = settled(one.scene.p, one.start.kick[0] if one.start.state is None else one.start.state.x)
