@@ -61,7 +61,7 @@ class Folder:
         if not path.exists():
             return None, f"its file {path.name} is missing" if row["status"] == "ok" else ""
         try:
-            return Trajectory.load(path), ""
+            return Trajectory.load(path, {"run_key": row["run_key"]}), ""
         except TrajectoryError as error:
             reason = str(error).removeprefix(f"{path}: ")  # the report must not depend on where its folder lies
             return None, f"its file {path.name} cannot be read ({reason})"
