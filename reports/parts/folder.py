@@ -153,7 +153,7 @@ def provenance_of(directory: str | Path) -> dict:
     """What is told of the making of a folder, {} where nothing can be read."""
     try:
         return _json(Path(directory) / "provenance.json")
-    except (OSError, ValueError):
+    except (OSError, ValueError, RecursionError):
         return {}
 
 
@@ -171,7 +171,7 @@ def _found(directory: Path, wanted: Mapping[str, str], readers: Mapping) -> tupl
             continue
         try:
             found[name] = reader(path)
-        except (OSError, ValueError, KeyError) as error:
+        except (OSError, ValueError, KeyError, RecursionError) as error:
             faults.append(f"{name} cannot be read: {error}")
     return found, faults
 
