@@ -34,6 +34,12 @@ def put_scales(record: np.void, scene: Scene, h: np.ndarray) -> None:
     transit = length * math.sqrt(float(record["m"]) / stiffness)
     record["release_step"] = min(transit / TRANSIT_STEPS, float(record["max_step"]))
     record["per_force"] = 20 / load
+    # the longest axial motion: the heave of a buoy on the line, or the line's own first one
+    line = float(record["m"]) * length
+    held = {"buoy": 0.0, "held": math.pi**-2, "free": 4 * math.pi**-2}[scene.end.kind]
+    record["inertia"] = length * (held * line or float(record["M_total"]) + line / 3)
+    fastest = min(length * math.sqrt(stiffness / float(record["inertia"])), length / transit)
+    record["per_ringing"] = float(record["per_strain"]) / fastest
     recoil = strain * length / transit if scene.end.force_decay_s else 0.0  # of the end of a line that breaks
     bent = stiff / float(record["m"])
     record["per_speed"] = 1 / max(math.sqrt(max(g * length, bent)) / 14, recoil / 14, pulled, 1e-3)

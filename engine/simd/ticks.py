@@ -19,7 +19,7 @@ from .. import record as col
 from ..arrays import Stage
 from ..compiled import kernel
 from ..dimensions import shape
-from ..planar.columns import VX, VZ
+from ..planar.columns import EPS, VX, VZ
 from ..planar.state import largest_turn
 from ..time import steps
 from ..time.newton import GOING_ON, iterate, judge
@@ -32,9 +32,9 @@ from .vector import COUNT, as_lanes, expect, lane_record, transposed
 ENDED, GOING, WAITING = range(3)  # lane.active: with no run or one at its end; going; its trail is full
 LANE = np.dtype([(name, np.int64) for name in "active stage iteration code goal".split()] + [("best", np.float64)])
 (
-    TIME, RATE, STEP, SOUND, SIZE, LEAST, STAGE, SOLVED, FINISHED, ERROR, TURN, ACCEPTED, MOVED, RESTARTED,
-) = range(14)  # fmt: skip
-ROWS = 14
+    TIME, RATE, STEP, SOUND, SIZE, LEAST, TOP, STAGE, SOLVED, FINISHED, ERROR, JUMP, TURN, ACCEPTED, MOVED, RESTARTED,
+) = range(16)  # fmt: skip
+ROWS = 16
 # Arrays of all lanes, whose last axis is COUNT; s stages, n nodes. values: fields of the records; tables; numbers
 # (ROWS,); a (s,), w (3,): as in `plan_stage`; Y, now, before (n, 6): iterate, accepted state, the one before; C (n, 4),
 # Ks (s, n, 4): conserved variables, rates of the state and the stages; history (3, n, 6): states for the first guess;
@@ -86,7 +86,8 @@ def judge_steps(records, tables, states, lanes, numbers, spent):
             continue
         error = 0.0
         if lane.code == OK and state.small == 0 and p.adaptive:
-            error = steps.trial_error(p, tables[b], state.trial_dt, numbers[ERROR, b], numbers[LEAST, b])
+            strains = numbers[LEAST, b], numbers[TOP, b]
+            error = steps.trial_error(p, tables[b], state.trial_dt, numbers[ERROR, b], *strains, numbers[JUMP, b])
         numbers[ERROR, b] = error
         numbers[RESTARTED, b] = 1.0
         if not refused(p, state, lane.code, spent[b], error):
@@ -270,7 +271,8 @@ def advance(ticks, records, own_tables, states, lanes, spent, samples, trail, co
             keep((rows[SOLVED] != 0.0) & (rows[STAGE] == float(j)), K_new, Ks[j])
         if some(rows[FINISHED] != 0.0):
             rows[ERROR] = steps.embedded_error(p, tables, rows[STEP], Ks, own.Q, a, own.D[0])
-            rows[LEAST], rows[TURN] = steps.least_strain(Y), largest_turn(p, Y)[0]
+            rows[JUMP] = steps.jump_of_rates(p, rows[STEP], Ks[0], K_new, own.Q)
+            rows[LEAST], rows[TOP], rows[TURN] = steps.least_strain(Y), Y[Y.shape[0] - 1, EPS], largest_turn(p, Y)[0]
         if trail.T.shape[1] > 0:
             record_stages(states, lanes, numbers, Y, K_new, trail.T, trail_rows, block)
         # accepted, or to be tried again

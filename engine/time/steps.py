@@ -13,7 +13,7 @@ import numpy as np
 
 from ..arrays import Stage
 from ..compiled import kernel
-from ..dimensions import error_square, extrapolate, size_of
+from ..dimensions import along_line, error_square, extrapolate, size_of
 from ..physics.tension.kernels import tension
 from ..planar.columns import EPS  # in space the same column
 from ..record import STRETCH
@@ -22,6 +22,7 @@ from ..simd.select import smaller
 from .newton import newton
 from .status import OK
 
+HEARD = 0.02  # ringing of this share of the static strain is resolved; less of it may be damped
 SMALL_STEP_NEWTON = 100  # iterations: after a release each update is cut to one scale, and takes about 20
 
 
@@ -133,16 +134,51 @@ def runge_kutta_step(p, tables, step, before, trial, work):
     if small or p.adaptive == 0:
         return OK, iterations, 0.0
     error = embedded_error(p, tables, dt, Ks, work.Q, a, C_tilde[0])  # the last two: work, needed no more
-    return OK, iterations, trial_error(p, tables, dt, error, least_strain(Ys[s - 1]))
+    Y_new, n = Ys[s - 1], Y.shape[0]
+    jump = jump_of_rates(p, dt, K, Ks[s - 1], work.Q)
+    return OK, iterations, trial_error(p, tables, dt, error, least_strain(Y_new), Y_new[n - 1, EPS], jump)
 
 
 @kernel
-def trial_error(p, tables, dt, error, least):
-    """The error by which a step is judged: the embedded estimate, or what buckling at the new least strain asks for."""
+def trial_error(p, tables, dt, error, least, top, jump):
+    """The error by which a step is judged: the embedded estimate, or what buckling or ringing asks for.
+
+    least, top: strain after the step, the least and that at the upper end; jump: `jump_of_rates`.
+    """
+    z, share, shortest = ringing(p, tables, dt, top, jump)
+    if shortest <= p.phase_per_step:  # else its resolution is given up
+        error = max(error, (z / p.phase_per_step) ** p.order * min(1.0, (share / HEARD) ** (0.5 * p.order)))
     if p.bent:
         rate = buckling_rate(p, tables, least)
         error = max(error, (dt * rate / p.growth_per_step) ** p.order)
     return error
+
+
+@kernel
+def ringing(p, tables, dt, top, jump):
+    """Phase z = omega dt (rad) that the axial motion turns in a step, and its amplitude over the static strain.
+
+    Third: omega times the shortest step of which its resolution is asked.
+    """
+    rate = math.sqrt(max(tension(top, p, tables)[1], 0.0) / p.inertia)
+    z = rate * dt
+    return z, jump / max(z * min(z, 2.0), 1e-300), rate * p.shortest * (p.phase_per_step / (2.0 * math.pi))
+
+
+@kernel
+def jump_of_rates(p, dt, K0, K1, Q):
+    """dt times the change of the rate of strain and of the axial acceleration within a step: rms over nodes, scaled.
+
+    An oscillation of amplitude a turns by z: a z^2, at any phase, because strain and speed are a quarter turn apart.
+    """
+    total = 0.0
+    for k in range(Q.shape[0]):
+        stretching, acceleration = along_line(p, k, K0[k], Q)
+        later, accelerated = along_line(p, k, K1[k], Q)
+        stretching = (later - stretching) * p.per_strain
+        acceleration = (accelerated - acceleration) * p.per_ringing
+        total += stretching * stretching + acceleration * acceleration
+    return math.sqrt(total / Q.shape[0]) * dt
 
 
 @kernel
