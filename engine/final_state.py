@@ -15,7 +15,15 @@ from .scene.models import Scene
 
 PREFIX = "final_"
 NONE = np.empty(0)
-COUNTED = ("first", "samples", "first_profile", "profiles", "max_turn", "min_strain")  # fields of STATE: of one part
+COUNTED = (
+    "first",
+    "samples",
+    "first_profile",
+    "profiles",
+    "max_turn",
+    "min_strain",
+    "ringing",
+)  # fields of STATE: of one part
 
 
 @dataclass(frozen=True, eq=False)

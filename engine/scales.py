@@ -10,6 +10,7 @@ from .physics.tension import LAWS, NAMES, TensionLaw
 from .scene.models import Scene
 from .scene.sections import End, Tether
 
+STEPS_OF_PERIOD = 20  # at least, within a period of the waves or of an end that is shaken
 TRANSIT_STEPS = 12  # after a loop release in the time that an axial wave takes along the line
 
 
@@ -51,6 +52,18 @@ def fastest_wave(record: np.void, scene: Scene) -> float:
     strains = np.linspace(0.0, 1.0 / float(record["per_strain"]), 2001)
     slopes = np.diff([tension_at(strain, scene.tether.tension) for strain in strains]) / strains[1]
     return math.sqrt(max(slopes.max(), 1e-300) / float(record["m"]))
+
+
+def longest_steps(scene: Scene) -> dict[str, float]:
+    """What holds an adaptive step: key of the scene -> the longest step (s) that it allows."""
+    driven = {"waves.period_s": scene.waves, "end.motion.period_s": scene.end.motion}
+    periods = {key: getattr(part, "period_s", math.inf) for key, part in driven.items()}
+    return {"solver.max_step_s": scene.solver.max_step_s} | {key: T / STEPS_OF_PERIOD for key, T in periods.items()}
+
+
+def ringing_period(record: np.void, scene: Scene) -> float:
+    """Period (s) of the axial motion of the line with what it carries, where the law is steepest up to static loads."""
+    return 2 * math.pi * math.sqrt(float(record["inertia"] / record["m"])) / fastest_wave(record, scene)
 
 
 def end_speed(end: End) -> float:

@@ -149,7 +149,7 @@ def record_steps(states, numbers, trail_T):
 
 @kernel
 def end_steps(records, tables, states, numbers, Y, one):
-    """Accepted steps: time, guards, and the length of the next step.
+    """Accepted steps: time, what was not resolved, guards, and the length of the next step.
 
     Y (n, 6, COUNT): the new states, as numbers; one (n, 6): work.
     """
@@ -157,6 +157,9 @@ def end_steps(records, tables, states, numbers, Y, one):
         if numbers[ACCEPTED, b] == 0.0:
             continue
         p, state = records[b], states[b]
+        if state.small == 0:
+            missed = steps.unresolved(p, tables[b], state.trial_dt, numbers[TOP, b], numbers[JUMP, b])
+            state.ringing = max(state.ringing, missed)
         step_done(p, state)
         state.min_strain = min(state.min_strain, numbers[LEAST, b])
         state.max_turn = max(state.max_turn, numbers[TURN, b])

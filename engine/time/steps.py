@@ -102,7 +102,7 @@ def runge_kutta_step(p, tables, step, before, trial, work):
     """A trial step of a stiffly accurate ESDIRK method, or (step.small) of backward Euler in its place.
 
     step: Step; before: Motion, not changed; trial: Trial, filled; work: Work.
-    Returns (code, Newton iterations, error in units of the tolerance; 0 for fixed and for small steps).
+    Returns (code, Newton iterations, embedded error in units of the tolerance; 0 for fixed and for small steps).
     """
     t, dt, dt_before, small = step
     Y, Y_before, C, K = before
@@ -133,20 +133,17 @@ def runge_kutta_step(p, tables, step, before, trial, work):
         stage_rates(p, rate, Ys[i], work.Q, C_tilde, C_new, Ks[i])
     if small or p.adaptive == 0:
         return OK, iterations, 0.0
-    error = embedded_error(p, tables, dt, Ks, work.Q, a, C_tilde[0])  # the last two: work, needed no more
-    Y_new, n = Ys[s - 1], Y.shape[0]
-    jump = jump_of_rates(p, dt, K, Ks[s - 1], work.Q)
-    return OK, iterations, trial_error(p, tables, dt, error, least_strain(Y_new), Y_new[n - 1, EPS], jump)
+    return OK, iterations, embedded_error(p, tables, dt, Ks, work.Q, a, C_tilde[0])  # the last two: work
 
 
 @kernel
 def trial_error(p, tables, dt, error, least, top, jump):
-    """The error by which a step is judged: the embedded estimate, or what buckling or ringing asks for.
+    """The error by which a step is judged: the embedded estimate, or what ringing or buckling asks for.
 
-    least, top: strain after the step, the least and that at the upper end; jump: `jump_of_rates`.
+    least, top: strains after the step, the least one and that of the upper end; jump: `jump_of_rates`.
     """
-    z, share, shortest = ringing(p, tables, dt, top, jump)
-    if shortest <= p.phase_per_step:  # else its resolution is given up
+    z, share = ringing(p, tables, dt, top, jump)
+    if z * p.shortest <= 2.0 * math.pi * dt:  # else the period is too short to be resolved
         error = max(error, (z / p.phase_per_step) ** p.order * min(1.0, (share / HEARD) ** (0.5 * p.order)))
     if p.bent:
         rate = buckling_rate(p, tables, least)
@@ -156,20 +153,27 @@ def trial_error(p, tables, dt, error, least, top, jump):
 
 @kernel
 def ringing(p, tables, dt, top, jump):
-    """Phase z = omega dt (rad) that the axial motion turns in a step, and its amplitude over the static strain.
+    """Phase z = omega dt (rad) of the axial motion in a step, and its amplitude as a share of the static strain.
 
-    Third: omega times the shortest step of which its resolution is asked.
+    omega^2 = T'/p.inertia at the strain of the upper end; the amplitude is that of `jump_of_rates`. Steps of z > 2
+    hold no whole oscillation; for them the mean of the jump, 2 z a, is taken.
     """
-    rate = math.sqrt(max(tension(top, p, tables)[1], 0.0) / p.inertia)
-    z = rate * dt
-    return z, jump / max(z * min(z, 2.0), 1e-300), rate * p.shortest * (p.phase_per_step / (2.0 * math.pi))
+    z = dt * math.sqrt(max(tension(top, p, tables)[1], 0.0) / p.inertia)
+    return z, jump / max(z * min(z, 2.0), 1e-300)
+
+
+@kernel
+def unresolved(p, tables, dt, top, jump):
+    """Tension (N) of the ringing in an accepted step that was too long for it; 0 where it was not."""
+    z, share = ringing(p, tables, dt, top, jump)
+    return share * tension(1.0 / p.per_strain, p, tables)[0] if z > p.phase_per_step and share > HEARD else 0.0
 
 
 @kernel
 def jump_of_rates(p, dt, K0, K1, Q):
     """dt times the change of the rate of strain and of the axial acceleration within a step: rms over nodes, scaled.
 
-    An oscillation of amplitude a turns by z: a z^2, at any phase, because strain and speed are a quarter turn apart.
+    Of an oscillation of amplitude a and omega dt = z: a z^2 at any time, strain and speed being a quarter turn apart.
     """
     total = 0.0
     for k in range(Q.shape[0]):

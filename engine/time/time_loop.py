@@ -27,14 +27,16 @@ from ..physics.ends import corner_after
 from ..physics.energy import add_powers, store_energies
 from ..physics.shocks import deforming_element, renew_viscosity
 from ..physics.tension.kernels import tension
+from ..planar.columns import EPS  # in space the same column
 from ..record import SMALL_STEPS
 from ..simd.elementary import copy_into
 from .status import OK, STEP_LIMIT, STEP_UNDERFLOW, TURN_UNRESOLVED
-from .steps import least_strain, one_stage_step, runge_kutta_step
+from .steps import jump_of_rates, least_strain, one_stage_step, runge_kutta_step, trial_error, unresolved
 
 SAFETY, SHRINK, GROW = 0.9, 0.2, 4.0
 NO_SLIVER = 1.01  # a step is made a little longer rather than leave next to nothing of the way to a corner
 MOST_ATTEMPTS = 20_000  # steps tried within one `window` of time: more is a run that stands still
+LOOK_INSIDE = 0.04  # square of the phase beyond which the tension may have an extreme worth seeing within a step
 CAUTIOUS_STEPS, CAUTIOUS_GROW = 5, 1.3  # after a failure of Newton's method
 
 
@@ -174,8 +176,12 @@ def sample(p, tables, state, dt, hermite, begin, end, samples, profiles):
         weights = weights_within(hermite, (t - state.t) / dt, dt)
         configuration(p, tables, weights, C0, K0, C1, K1, profiles[state.profiles])
         state.profiles += 1
-    top = tension(last_strain(p, C1), p, tables)[0]
+    top, slope = tension(last_strain(p, (0.0, 1.0, 0.0, 0.0), begin, end), p, tables)
     state.low, state.high = min(state.low, top), max(state.high, top)
+    if hermite and slope * dt * dt > LOOK_INSIDE * p.inertia:
+        for i in range(1, 4):
+            top = tension(last_strain(p, weights_within(hermite, 0.25 * i, dt), begin, end), p, tables)[0]
+            state.low, state.high = min(state.low, top), max(state.high, top)
 
 
 @kernel
@@ -220,11 +226,18 @@ def march(p, tables, state, motion, output, trail, until, one_stage, e_t, budget
         if one_stage is not None:
             if not stiff:
                 code, used = one_stage_step(p, tables, step, one_stage, p.max_newton, motion, trial, work)
+        Y_new, K_new, jump = trial.Y[s - 1], trial.K[s - 1], 0.0
+        least, top = least_strain(Y_new), Y_new[p.nodes - 1, EPS]
+        if code == OK and stiff and not small:
+            jump = jump_of_rates(p, step.dt, K, K_new, work.Q)
+            if p.adaptive:
+                error = trial_error(p, tables, step.dt, error, least, top, jump)
         if refused(p, state, code, used, error):
             continue
         # what lies within the accepted step goes into the output
-        Y_new, K_new = trial.Y[s - 1], trial.K[s - 1]
         hermite = stiff and not small
+        if hermite:
+            state.ringing = max(state.ringing, unresolved(p, tables, step.dt, top, jump))
         sample(p, tables, state, step.dt, hermite, (C, K), (trial.C, K_new), output.samples, output.profiles)
         if budget is not None:
             energies, sums = budget
@@ -246,7 +259,7 @@ def march(p, tables, state, motion, output, trail, until, one_stage, e_t, budget
         copy_into(K, K_new)
         copy_into(C, trial.C)
         step_done(p, state)
-        state.min_strain = min(state.min_strain, least_strain(Y))
+        state.min_strain = min(state.min_strain, least)
         code, released = guard_turns(p, tables, state, Y)
         longest = p.fixed_step
         if e_t is not None:
