@@ -146,12 +146,10 @@ def configuration(p, tables, weights, C0, K0, C1, K1, row):
 
 
 @kernel
-def last_strain(p, weights, begin, end):
-    """Strain of the last node at one instant within a step; begin, end: (C, K) at its ends."""
-    (C0, K0), (C1, K1) = begin, end
-    k = C0.shape[0] - 1
-    qx, qz = within(weights, C0, C1, K0, K1, k, col.CX), within(weights, C0, C1, K0, K1, k, col.CZ)
-    return math.sqrt(qx * qx + qz * qz) - 1.0
+def last_strain(p, C):
+    """Strain of the last node."""
+    k = C.shape[0] - 1
+    return math.sqrt(C[k, col.CX] * C[k, col.CX] + C[k, col.CZ] * C[k, col.CZ]) - 1.0
 
 
 @kernel

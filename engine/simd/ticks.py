@@ -24,17 +24,18 @@ from ..planar.state import largest_turn
 from ..time import steps
 from ..time.newton import GOING_ON, iterate, judge
 from ..time.status import OK
-from ..time.time_loop import begin_trial, guard_turns, next_step, refused, sample, step_done
+from ..time.time_loop import begin_trial, guard_turns, next_step, refused, sample, step_done, watch_ringing
 from .elementary import copy_into, keep
-from .select import some, where
+from .select import larger, smaller, some, where
 from .vector import COUNT, as_lanes, expect, lane_record, transposed
 
 ENDED, GOING, WAITING = range(3)  # lane.active: with no run or one at its end; going; its trail is full
 LANE = np.dtype([(name, np.int64) for name in "active stage iteration code goal".split()] + [("best", np.float64)])
 (
-    TIME, RATE, STEP, SOUND, SIZE, LEAST, TOP, STAGE, SOLVED, FINISHED, ERROR, JUMP, TURN, ACCEPTED, MOVED, RESTARTED,
-) = range(16)  # fmt: skip
-ROWS = 16
+    TIME, RATE, STEP, SOUND, SIZE, LEAST, TOP, TOP_LOW, TOP_HIGH, STAGE, SOLVED, FINISHED, ERROR, JUMP, TURN, ACCEPTED,
+    MOVED, RESTARTED,
+) = range(18)  # fmt: skip
+ROWS = 18
 # Arrays of all lanes, whose last axis is COUNT; s stages, n nodes. values: fields of the records; tables; numbers
 # (ROWS,); a (s,), w (3,): as in `plan_stage`; Y, now, before (n, 6): iterate, accepted state, the one before; C (n, 4),
 # Ks (s, n, 4): conserved variables, rates of the state and the stages; history (3, n, 6): states for the first guess;
@@ -158,8 +159,9 @@ def end_steps(records, tables, states, numbers, Y, one):
             continue
         p, state = records[b], states[b]
         if state.small == 0:
-            missed = steps.unresolved(p, tables[b], state.trial_dt, numbers[TOP, b], numbers[JUMP, b])
-            state.ringing = max(state.ringing, missed)
+            watch_ringing(
+                p, tables[b], state, numbers[TOP, b], numbers[TOP_LOW, b], numbers[TOP_HIGH, b], numbers[JUMP, b]
+            )
         step_done(p, state)
         state.min_strain = min(state.min_strain, numbers[LEAST, b])
         state.max_turn = max(state.max_turn, numbers[TURN, b])
@@ -272,10 +274,14 @@ def advance(ticks, records, own_tables, states, lanes, spent, samples, trail, co
         steps.stage_rates(p, rows[RATE], Y, own.Q, own.C_tilde, C_new, K_new)
         for j in range(1, Ks.shape[0]):
             keep((rows[SOLVED] != 0.0) & (rows[STAGE] == float(j)), K_new, Ks[j])
+        top, first = Y[Y.shape[0] - 1, EPS], rows[STAGE] == 1.0
+        low, high = where(first, top, smaller(rows[TOP_LOW], top)), where(first, top, larger(rows[TOP_HIGH], top))
+        rows[TOP_LOW] = where(rows[SOLVED] != 0.0, low, rows[TOP_LOW])
+        rows[TOP_HIGH] = where(rows[SOLVED] != 0.0, high, rows[TOP_HIGH])
         if some(rows[FINISHED] != 0.0):
             rows[ERROR] = steps.embedded_error(p, tables, rows[STEP], Ks, own.Q, a, own.D[0])
             rows[JUMP] = steps.jump_of_rates(p, rows[STEP], Ks[0], K_new, own.Q)
-            rows[LEAST], rows[TOP], rows[TURN] = steps.least_strain(Y), Y[Y.shape[0] - 1, EPS], largest_turn(p, Y)[0]
+            rows[LEAST], rows[TOP], rows[TURN] = steps.least_strain(Y), top, largest_turn(p, Y)[0]
         if trail.T.shape[1] > 0:
             record_stages(states, lanes, numbers, Y, K_new, trail.T, trail_rows, block)
         # accepted, or to be tried again

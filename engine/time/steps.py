@@ -163,10 +163,13 @@ def ringing(p, tables, dt, top, jump):
 
 
 @kernel
-def unresolved(p, tables, dt, top, jump):
-    """Tension (N) of the ringing in an accepted step that was too long for it; 0 where it was not."""
-    z, share = ringing(p, tables, dt, top, jump)
-    return share * tension(1.0 / p.per_strain, p, tables)[0] if z > p.phase_per_step and share > HEARD else 0.0
+def stage_strains(Ys):
+    """Least and greatest strain of the upper end at the stages of a step."""
+    low = high = Ys[1, Ys.shape[1] - 1, EPS]
+    for i in range(2, Ys.shape[0]):
+        top = Ys[i, Ys.shape[1] - 1, EPS]
+        low, high = min(low, top), max(high, top)
+    return low, high
 
 
 @kernel

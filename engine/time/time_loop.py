@@ -31,12 +31,21 @@ from ..planar.columns import EPS  # in space the same column
 from ..record import SMALL_STEPS
 from ..simd.elementary import copy_into
 from .status import OK, STEP_LIMIT, STEP_UNDERFLOW, TURN_UNRESOLVED
-from .steps import jump_of_rates, least_strain, one_stage_step, runge_kutta_step, trial_error, unresolved
+from .steps import (
+    HEARD,
+    jump_of_rates,
+    least_strain,
+    one_stage_step,
+    ringing,
+    runge_kutta_step,
+    stage_strains,
+    trial_error,
+)  # fmt: skip
 
 SAFETY, SHRINK, GROW = 0.9, 0.2, 4.0
 NO_SLIVER = 1.01  # a step is made a little longer rather than leave next to nothing of the way to a corner
 MOST_ATTEMPTS = 20_000  # steps tried within one `window` of time: more is a run that stands still
-LOOK_INSIDE = 0.04  # square of the phase beyond which the tension may have an extreme worth seeing within a step
+SMOOTH = 0.2  # phase (rad) of ringing in a step beyond which the tension may have an extreme worth seeing within
 CAUTIOUS_STEPS, CAUTIOUS_GROW = 5, 1.3  # after a failure of Newton's method
 
 
@@ -176,12 +185,23 @@ def sample(p, tables, state, dt, hermite, begin, end, samples, profiles):
         weights = weights_within(hermite, (t - state.t) / dt, dt)
         configuration(p, tables, weights, C0, K0, C1, K1, profiles[state.profiles])
         state.profiles += 1
-    top, slope = tension(last_strain(p, (0.0, 1.0, 0.0, 0.0), begin, end), p, tables)
+    top = tension(last_strain(p, C1), p, tables)[0]
     state.low, state.high = min(state.low, top), max(state.high, top)
-    if hermite and slope * dt * dt > LOOK_INSIDE * p.inertia:
-        for i in range(1, 4):
-            top = tension(last_strain(p, weights_within(hermite, 0.25 * i, dt), begin, end), p, tables)[0]
-            state.low, state.high = min(state.low, top), max(state.high, top)
+
+
+@kernel
+def watch_ringing(p, tables, state, top, low, high, jump):
+    """Of an accepted step: the ringing that it was too long for, or else the extremes of the tension at its stages.
+
+    Strains of the upper end: top after the step, low and high the extremes over its stages; jump: `jump_of_rates`.
+    """
+    z, share = ringing(p, tables, state.trial_dt, top, jump)
+    if z > p.phase_per_step:
+        if share > HEARD:
+            state.ringing = max(state.ringing, share * tension(1.0 / p.per_strain, p, tables)[0])
+    elif z > SMOOTH:
+        state.low = min(state.low, tension(low, p, tables)[0])
+        state.high = max(state.high, tension(high, p, tables)[0])
 
 
 @kernel
@@ -236,9 +256,10 @@ def march(p, tables, state, motion, output, trail, until, one_stage, e_t, budget
             continue
         # what lies within the accepted step goes into the output
         hermite = stiff and not small
-        if hermite:
-            state.ringing = max(state.ringing, unresolved(p, tables, step.dt, top, jump))
         sample(p, tables, state, step.dt, hermite, (C, K), (trial.C, K_new), output.samples, output.profiles)
+        if hermite:
+            low, high = stage_strains(trial.Y)
+            watch_ringing(p, tables, state, top, low, high, jump)
         if budget is not None:
             energies, sums = budget
             alphas = (1.0, 1.0, 1.0) if small else (p.alpha_m, p.alpha_f, p.gamma)
