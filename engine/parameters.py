@@ -214,7 +214,7 @@ def _solver(record, scene, place, h):
         record["c_quadratic"], record["c_linear"] = solver.shock_viscosity.quadratic, solver.shock_viscosity.linear
     record["rtol"], record["growth_per_step"] = solver.rtol, solver.growth_per_step
     record["phase_per_step"] = solver.phase_per_step
-    record["shortest"] = solver.shortest_period_s or solver.max_step_s / 2
+    record["shortest"] = solver.shortest_period_s or solver.max_step_s / 5
     record["shortest_wave"] = (math.pi / h.min()) ** 2
     record["newton_tolerance"] = solver.newton_tolerance or 1e-2 * solver.rtol
     record["max_newton"] = solver.max_newton_iterations

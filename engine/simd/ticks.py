@@ -32,10 +32,10 @@ from .vector import COUNT, as_lanes, expect, lane_record, transposed
 ENDED, GOING, WAITING = range(3)  # lane.active: with no run or one at its end; going; its trail is full
 LANE = np.dtype([(name, np.int64) for name in "active stage iteration code goal".split()] + [("best", np.float64)])
 (
-    TIME, RATE, STEP, SOUND, SIZE, LEAST, TOP, TOP_LOW, TOP_HIGH, STAGE, SOLVED, FINISHED, ERROR, JUMP, TURN, ACCEPTED,
-    MOVED, RESTARTED,
-) = range(18)  # fmt: skip
-ROWS = 18
+    TIME, RATE, STEP, SOUND, SIZE, LEAST, TOP, TOP_LOW, TOP_HIGH, STAGE, SOLVED, FINISHED, ERROR, STRAIN_JUMP,
+    SPEED_JUMP, TURN, ACCEPTED, MOVED, RESTARTED,
+) = range(19)  # fmt: skip
+ROWS = 19
 # Arrays of all lanes, whose last axis is COUNT; s stages, n nodes. values: fields of the records; tables; numbers
 # (ROWS,); a (s,), w (3,): as in `plan_stage`; Y, now, before (n, 6): iterate, accepted state, the one before; C (n, 4),
 # Ks (s, n, 4): conserved variables, rates of the state and the stages; history (3, n, 6): states for the first guess;
@@ -87,8 +87,8 @@ def judge_steps(records, tables, states, lanes, numbers, spent):
             continue
         error = 0.0
         if lane.code == OK and state.small == 0 and p.adaptive:
-            strains = numbers[LEAST, b], numbers[TOP, b]
-            error = steps.trial_error(p, tables[b], state.trial_dt, numbers[ERROR, b], *strains, numbers[JUMP, b])
+            seen = numbers[LEAST, b], numbers[TOP, b], (numbers[STRAIN_JUMP, b], numbers[SPEED_JUMP, b])
+            error = steps.trial_error(p, tables[b], state.trial_dt, numbers[ERROR, b], *seen)
         numbers[ERROR, b] = error
         numbers[RESTARTED, b] = 1.0
         if not refused(p, state, lane.code, spent[b], error):
@@ -159,9 +159,8 @@ def end_steps(records, tables, states, numbers, Y, one):
             continue
         p, state = records[b], states[b]
         if state.small == 0:
-            watch_ringing(
-                p, tables[b], state, numbers[TOP, b], numbers[TOP_LOW, b], numbers[TOP_HIGH, b], numbers[JUMP, b]
-            )
+            jumps = numbers[STRAIN_JUMP, b], numbers[SPEED_JUMP, b]
+            watch_ringing(p, tables[b], state, numbers[TOP, b], numbers[TOP_LOW, b], numbers[TOP_HIGH, b], jumps)
         step_done(p, state)
         state.min_strain = min(state.min_strain, numbers[LEAST, b])
         state.max_turn = max(state.max_turn, numbers[TURN, b])
@@ -280,7 +279,7 @@ def advance(ticks, records, own_tables, states, lanes, spent, samples, trail, co
         rows[TOP_HIGH] = where(rows[SOLVED] != 0.0, high, rows[TOP_HIGH])
         if some(rows[FINISHED] != 0.0):
             rows[ERROR] = steps.embedded_error(p, tables, rows[STEP], Ks, own.Q, a, own.D[0])
-            rows[JUMP] = steps.jump_of_rates(p, rows[STEP], Ks[0], K_new, own.Q)
+            rows[STRAIN_JUMP], rows[SPEED_JUMP] = steps.jumps_of_rates(p, rows[STEP], Ks[0], K_new, own.Q)
             rows[LEAST], rows[TOP], rows[TURN] = steps.least_strain(Y), top, largest_turn(p, Y)[0]
         if trail.T.shape[1] > 0:
             record_stages(states, lanes, numbers, Y, K_new, trail.T, trail_rows, block)

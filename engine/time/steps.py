@@ -16,7 +16,7 @@ from ..compiled import kernel
 from ..dimensions import along_line, error_square, extrapolate, size_of
 from ..physics.tension.kernels import tension
 from ..planar.columns import EPS  # in space the same column
-from ..record import STRETCH
+from ..record import HELD, STRETCH
 from ..simd.elementary import copy_into
 from ..simd.select import smaller
 from .newton import newton
@@ -137,13 +137,13 @@ def runge_kutta_step(p, tables, step, before, trial, work):
 
 
 @kernel
-def trial_error(p, tables, dt, error, least, top, jump):
+def trial_error(p, tables, dt, error, least, top, jumps):
     """The error by which a step is judged: the embedded estimate, or what ringing or buckling asks for.
 
-    least, top: strains after the step, the least one and that of the upper end; jump: `jump_of_rates`.
+    least, top: strains after the step, the least one and that of the upper end; jumps: `jumps_of_rates`.
     """
-    z, share = ringing(p, tables, dt, top, jump)
-    if z * p.shortest <= 2.0 * math.pi * dt:  # else the period is too short to be resolved
+    z, share = ringing(p, tables, dt, top, jumps)
+    if not too_short(p, z, dt):
         error = max(error, (z / p.phase_per_step) ** p.order * min(1.0, (share / HEARD) ** (0.5 * p.order)))
     if p.bent:
         rate = buckling_rate(p, tables, least)
@@ -152,14 +152,24 @@ def trial_error(p, tables, dt, error, least, top, jump):
 
 
 @kernel
-def ringing(p, tables, dt, top, jump):
+def too_short(p, z, dt):
+    """Is the period of ringing that turns by z in a step too short to be resolved?"""
+    return z * p.shortest > 2.0 * math.pi * dt
+
+
+@kernel
+def ringing(p, tables, dt, top, jumps):
     """Phase z = omega dt (rad) of the axial motion in a step, and its amplitude as a share of the static strain.
 
-    omega^2 = T'/p.inertia at the strain of the upper end; the amplitude is that of `jump_of_rates`. Steps of z > 2
-    hold no whole oscillation; for them the mean of the jump, 2 z a, is taken.
+    omega^2 = T'/p.inertia at the strain of the upper end; jumps: `jumps_of_rates`, a z^2 of an oscillation of amplitude
+    a. Beyond z = 2 the strain follows the load and its rate means little: the speed alone is asked, which jumps by up
+    to 2 z a.
     """
     z = dt * math.sqrt(max(tension(top, p, tables)[1], 0.0) / p.inertia)
-    return z, jump / max(z * min(z, 2.0), 1e-300)
+    strain, speed = jumps
+    if z > 2.0:
+        return z, speed / (2.0 * z)
+    return z, math.sqrt(strain * strain + speed * speed) / max(z * z, 1e-300)
 
 
 @kernel
@@ -173,19 +183,25 @@ def stage_strains(Ys):
 
 
 @kernel
-def jump_of_rates(p, dt, K0, K1, Q):
-    """dt times the change of the rate of strain and of the axial acceleration within a step: rms over nodes, scaled.
+def jumps_of_rates(p, dt, K0, K1, Q):
+    """dt times the change, within a step, of the rate of strain and of the axial acceleration, scaled.
 
-    Of an oscillation of amplitude a and omega dt = z: a z^2 at any time, strain and speed being a quarter turn apart.
+    Both are those of the slowest axial motion: mean strain and speed of the upper end; where it is held, rms over the
+    nodes. They are a quarter turn apart, so that an oscillation shows in one or the other at any time.
     """
-    total = 0.0
-    for k in range(Q.shape[0]):
+    n = Q.shape[0]
+    mean = strains = speeds = 0.0
+    speed = K0[0, 0] - K0[0, 0]  # zero, a vector where there are lanes
+    for k in range(n):
         stretching, acceleration = along_line(p, k, K0[k], Q)
         later, accelerated = along_line(p, k, K1[k], Q)
-        stretching = (later - stretching) * p.per_strain
-        acceleration = (accelerated - acceleration) * p.per_ringing
-        total += stretching * stretching + acceleration * acceleration
-    return math.sqrt(total / Q.shape[0]) * dt
+        strain, speed = (later - stretching) * p.per_strain, (accelerated - acceleration) * p.per_ringing
+        mean += strain
+        strains += strain * strain
+        speeds += speed * speed
+    if p.end == HELD:
+        return math.sqrt(strains / n) * dt, math.sqrt(speeds / n) * dt
+    return abs(mean / n) * dt, abs(speed) * dt
 
 
 @kernel

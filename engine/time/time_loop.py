@@ -33,12 +33,13 @@ from ..simd.elementary import copy_into
 from .status import OK, STEP_LIMIT, STEP_UNDERFLOW, TURN_UNRESOLVED
 from .steps import (
     HEARD,
-    jump_of_rates,
+    jumps_of_rates,
     least_strain,
     one_stage_step,
     ringing,
     runge_kutta_step,
     stage_strains,
+    too_short,
     trial_error,
 )  # fmt: skip
 
@@ -190,13 +191,13 @@ def sample(p, tables, state, dt, hermite, begin, end, samples, profiles):
 
 
 @kernel
-def watch_ringing(p, tables, state, top, low, high, jump):
+def watch_ringing(p, tables, state, top, low, high, jumps):
     """Of an accepted step: the ringing that it was too long for, or else the extremes of the tension at its stages.
 
-    Strains of the upper end: top after the step, low and high the extremes over its stages; jump: `jump_of_rates`.
+    Strains of the upper end: top after the step, low and high the extremes over its stages; jumps: `jumps_of_rates`.
     """
-    z, share = ringing(p, tables, state.trial_dt, top, jump)
-    if z > p.phase_per_step:
+    z, share = ringing(p, tables, state.trial_dt, top, jumps)
+    if z > p.phase_per_step or (z > SMOOTH and too_short(p, z, state.trial_dt)):
         if share > HEARD:
             state.ringing = max(state.ringing, share * tension(1.0 / p.per_strain, p, tables)[0])
     elif z > SMOOTH:
@@ -246,12 +247,12 @@ def march(p, tables, state, motion, output, trail, until, one_stage, e_t, budget
         if one_stage is not None:
             if not stiff:
                 code, used = one_stage_step(p, tables, step, one_stage, p.max_newton, motion, trial, work)
-        Y_new, K_new, jump = trial.Y[s - 1], trial.K[s - 1], 0.0
+        Y_new, K_new, jumps = trial.Y[s - 1], trial.K[s - 1], (0.0, 0.0)
         least, top = least_strain(Y_new), Y_new[p.nodes - 1, EPS]
         if code == OK and stiff and not small:
-            jump = jump_of_rates(p, step.dt, K, K_new, work.Q)
+            jumps = jumps_of_rates(p, step.dt, K, K_new, work.Q)
             if p.adaptive:
-                error = trial_error(p, tables, step.dt, error, least, top, jump)
+                error = trial_error(p, tables, step.dt, error, least, top, jumps)
         if refused(p, state, code, used, error):
             continue
         # what lies within the accepted step goes into the output
@@ -259,7 +260,7 @@ def march(p, tables, state, motion, output, trail, until, one_stage, e_t, budget
         sample(p, tables, state, step.dt, hermite, (C, K), (trial.C, K_new), output.samples, output.profiles)
         if hermite:
             low, high = stage_strains(trial.Y)
-            watch_ringing(p, tables, state, top, low, high, jump)
+            watch_ringing(p, tables, state, top, low, high, jumps)
         if budget is not None:
             energies, sums = budget
             alphas = (1.0, 1.0, 1.0) if small else (p.alpha_m, p.alpha_f, p.gamma)
