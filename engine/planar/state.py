@@ -91,13 +91,6 @@ def error_square(p, k, ec, Q):
 
 
 @kernel
-def along_line(p, k, rates, Q):
-    """Rate of strain (1/s) and acceleration (m/s2) along the line at node k, from its `rates` (4,)."""
-    c, s = Q[k, col.COS], Q[k, col.SIN]
-    return rates[col.CX] * c + rates[col.CZ] * s, rates[col.VX] * c + rates[col.VZ] * s
-
-
-@kernel
 def largest_turn(p, Y):
     """Largest |phi_k - phi_(k-1)| (rad) and the upper node of its element."""
     turn, element = 0.0, 0.0

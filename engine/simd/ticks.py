@@ -279,7 +279,8 @@ def advance(ticks, records, own_tables, states, lanes, spent, samples, trail, co
         rows[TOP_HIGH] = where(rows[SOLVED] != 0.0, high, rows[TOP_HIGH])
         if some(rows[FINISHED] != 0.0):
             rows[ERROR] = steps.embedded_error(p, tables, rows[STEP], Ks, own.Q, a, own.D[0])
-            rows[STRAIN_JUMP], rows[SPEED_JUMP] = steps.jumps_of_rates(p, rows[STEP], Ks[0], K_new, own.Q)
+            both = (C, Ks[0]), (C_new, K_new)
+            rows[STRAIN_JUMP], rows[SPEED_JUMP] = steps.jumps_of_rates(p, rows[STEP], *both)
             rows[LEAST], rows[TOP], rows[TURN] = steps.least_strain(Y), top, largest_turn(p, Y)[0]
         if trail.T.shape[1] > 0:
             record_stages(states, lanes, numbers, Y, K_new, trail.T, trail_rows, block)

@@ -121,13 +121,6 @@ def error_square(p, k, ec, Q):
 
 
 @kernel
-def along_line(p, k, rates, Q):
-    """Rate of strain (1/s) and acceleration (m/s2) along the line at node k, from its `rates` (6,)."""
-    t = vector(Q[k], col.T_VECTOR)
-    return dot(vector(rates, 0), t), dot(vector(rates, col.V), t)
-
-
-@kernel
 def largest_turn(p, Y):
     """Largest turn (rad) of the frame between neighbours and the upper node of its element."""
     turn, where = 0.0, 0

@@ -13,7 +13,7 @@ import numpy as np
 
 from ..arrays import Stage
 from ..compiled import kernel
-from ..dimensions import along_line, error_square, extrapolate, size_of
+from ..dimensions import error_square, extrapolate, size_of
 from ..physics.tension.kernels import tension
 from ..planar.columns import EPS  # in space the same column
 from ..record import HELD, STRETCH
@@ -183,18 +183,18 @@ def stage_strains(Ys):
 
 
 @kernel
-def jumps_of_rates(p, dt, K0, K1, Q):
+def jumps_of_rates(p, dt, begin, end):
     """dt times the change, within a step, of the rate of strain and of the axial acceleration, scaled.
 
-    Both are those of the slowest axial motion: mean strain and speed of the upper end; where it is held, rms over the
-    nodes. They are a quarter turn apart, so that an oscillation shows in one or the other at any time.
+    begin, end: (C, K) at both ends of the step. Both jumps are those of the slowest axial motion: mean strain and speed
+    of the upper end; where it is held, rms over the nodes. They are a quarter turn apart, so that an oscillation shows
+    in one or the other at any time.
     """
-    n = Q.shape[0]
-    mean = strains = speeds = 0.0
-    speed = K0[0, 0] - K0[0, 0]  # zero, a vector where there are lanes
+    n = end[0].shape[0]
+    mean = strains = speeds = speed = 0.0
     for k in range(n):
-        stretching, acceleration = along_line(p, k, K0[k], Q)
-        later, accelerated = along_line(p, k, K1[k], Q)
+        stretching, acceleration = rates_along(p, begin, k)
+        later, accelerated = rates_along(p, end, k)
         strain, speed = (later - stretching) * p.per_strain, (accelerated - acceleration) * p.per_ringing
         mean += strain
         strains += strain * strain
@@ -202,6 +202,20 @@ def jumps_of_rates(p, dt, K0, K1, Q):
     if p.end == HELD:
         return math.sqrt(strains / n) * dt, math.sqrt(speeds / n) * dt
     return abs(mean / n) * dt, abs(speed) * dt
+
+
+@kernel
+def rates_along(p, state, k):
+    """Rate of strain (1/s) and acceleration along the line (m/s2) at node k of a state (C, K)."""
+    C, K = state
+    half = size_of(p)[1] // 2
+    square = stretching = acceleration = 0.0
+    for m in range(half):
+        square += C[k, m] * C[k, m]
+        stretching += C[k, m] * K[k, m]
+        acceleration += C[k, m] * K[k, half + m]
+    length = math.sqrt(square)
+    return stretching / length, acceleration / length
 
 
 @kernel

@@ -250,7 +250,7 @@ def march(p, tables, state, motion, output, trail, until, one_stage, e_t, budget
         Y_new, K_new, jumps = trial.Y[s - 1], trial.K[s - 1], (0.0, 0.0)
         least, top = least_strain(Y_new), Y_new[p.nodes - 1, EPS]
         if code == OK and stiff and not small:
-            jumps = jumps_of_rates(p, step.dt, K, K_new, work.Q)
+            jumps = jumps_of_rates(p, step.dt, (C, K), (trial.C, K_new))
             if p.adaptive:
                 error = trial_error(p, tables, step.dt, error, least, top, jumps)
         if refused(p, state, code, used, error):
