@@ -201,6 +201,7 @@ def _solver(record, scene, place, h):
             np.concatenate([method.A.ravel(), method.A.sum(axis=1), method.A[-1] - method.B_EMBEDDED])
         )
         record["order"] = min(method.ORDER, method.EMBEDDED_ORDER) + 1
+        record["phase_per_step"] = method.PHASE
     else:
         record["method"] = codes.ONE_STAGE
         record["alpha_m"], record["alpha_f"], record["gamma"] = method.alphas(solver.spectral_radius)
@@ -213,7 +214,6 @@ def _solver(record, scene, place, h):
         record["viscous"] = True
         record["c_quadratic"], record["c_linear"] = solver.shock_viscosity.quadratic, solver.shock_viscosity.linear
     record["rtol"], record["growth_per_step"] = solver.rtol, solver.growth_per_step
-    record["phase_per_step"] = solver.phase_per_step
     record["shortest"] = solver.shortest_period_s or solver.max_step_s / 5
     record["shortest_wave"] = (math.pi / h.min()) ** 2
     record["newton_tolerance"] = solver.newton_tolerance or 1e-2 * solver.rtol

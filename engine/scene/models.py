@@ -86,9 +86,8 @@ class Solver(Section):
     min_step_s: Positive = described("shortest step, below which the run ends as step-underflow", 1e-9)
     newton_tolerance: Tolerance | None = described("tolerance of the scaled Newton update; by default rtol/100", None)
     max_newton_iterations: Count = described("Newton iterations after which a step is cut", 12)
-    phase_per_step: Positive = described("phase (rad) of axial ringing that an adaptive step may take", 0.8)
     shortest_period_s: Positive | None = described(
-        "axial ringing of shorter periods is damped, and the run says so; by default a fifth of max_step_s", None
+        "axial ringing of shorter periods is damped, and the run says how much; by default a fifth of max_step_s", None
     )
     growth_per_step: Positive = described("e-folds that the fastest buckle may grow in one adaptive step", 2.0)
     spectral_radius: UnitInterval = described("spectral radius of generalized-alpha at infinite frequency", 0.5)
