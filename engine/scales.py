@@ -10,7 +10,7 @@ from .physics.tension import LAWS, NAMES, TensionLaw
 from .scene.models import Scene
 from .scene.sections import End, Tether
 
-STEPS_OF_PERIOD = 20  # at least, within a period of the waves or of an end that is shaken
+STEPS_OF_PERIOD = {"waves.period_s": 8, "end.motion.period_s": 20}  # at least; what shakes an end shakes the tension
 TRANSIT_STEPS = 12  # after a loop release in the time that an axial wave takes along the line
 
 
@@ -56,9 +56,10 @@ def fastest_wave(record: np.void, scene: Scene) -> float:
 
 def longest_steps(scene: Scene) -> dict[str, float]:
     """What holds an adaptive step: key of the scene -> the longest step (s) that it allows."""
-    driven = {"waves.period_s": scene.waves, "end.motion.period_s": scene.end.motion}
-    periods = {key: getattr(part, "period_s", math.inf) for key, part in driven.items()}
-    return {"solver.max_step_s": scene.solver.max_step_s} | {key: T / STEPS_OF_PERIOD for key, T in periods.items()}
+    found, driving = {"solver.max_step_s": scene.solver.max_step_s}, (scene.waves, scene.end.motion)
+    for (key, steps), part in zip(STEPS_OF_PERIOD.items(), driving, strict=True):
+        found[key] = getattr(part, "period_s", math.inf) / steps
+    return found
 
 
 def ringing_period(record: np.void, scene: Scene) -> float:
