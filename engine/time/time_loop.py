@@ -11,8 +11,8 @@ without rates from before (20 times shorter ones were tried: axial waves of the 
 
 Output on an even time grid comes from inside the accepted steps. Runge-Kutta steps carry rates at both ends: cubic
 Hermite interpolation of the conserved variables, order 4; the one-stage methods (order 2 and less, undamped rates) are
-interpolated linearly. Positions are the sums of the interpolated q, tensions f(|q| - 1), so every column of a sample
-belongs to one configuration. Columns of samples and profiles: `engine.record`.
+interpolated linearly. Positions are the sums of the interpolated q, tensions f of the interpolated |q| - 1
+(`stretch_within`). Columns of samples and profiles: `engine.record`.
 """
 
 import math
