@@ -142,7 +142,7 @@ def trial_error(p, tables, dt, error, least, top, jumps):
 
     least, top: strains after the step, the least one and that of the upper end; jumps: `jumps_of_rates`.
     """
-    z, share = ringing(p, tables, dt, top, jumps)
+    z, _, share = ringing(p, tables, dt, top, jumps)
     if not too_short(p, z, dt):
         error = max(error, (z / p.phase_per_step) ** p.order * min(1.0, (share / HEARD) ** (0.5 * p.order)))
     if p.bent:
@@ -159,17 +159,16 @@ def too_short(p, z, dt):
 
 @kernel
 def ringing(p, tables, dt, top, jumps):
-    """Phase z = omega dt (rad) of the axial motion in a step, and its amplitude as a share of the static strain.
+    """Phase z = omega dt (rad) of the axial motion in a step, its amplitude a over the static strain, and its share.
 
     omega^2 = T'/p.inertia at the strain of the upper end; jumps: `jumps_of_rates`, a z^2 of an oscillation of amplitude
     a. Beyond z = 2 the strain follows the load and its rate means little: the speed alone is asked, which jumps by up
-    to 2 z a.
+    to 2 z a. The share is a over the greater of the static and the present strain.
     """
     z = dt * math.sqrt(max(tension(top, p, tables)[1], 0.0) / p.inertia)
     strain, speed = jumps
-    if z > 2.0:
-        return z, speed / (2.0 * z)
-    return z, math.sqrt(strain * strain + speed * speed) / max(z * z, 1e-300)
+    a = speed / (2.0 * z) if z > 2.0 else math.sqrt(strain * strain + speed * speed) / max(z * z, 1e-300)
+    return z, a, a / max(1.0, abs(top) * p.per_strain)
 
 
 @kernel

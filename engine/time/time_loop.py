@@ -196,10 +196,10 @@ def watch_ringing(p, tables, state, top, low, high, jumps):
 
     Strains of the upper end: top after the step, low and high the extremes over its stages; jumps: `jumps_of_rates`.
     """
-    z, share = ringing(p, tables, state.trial_dt, top, jumps)
+    z, a, share = ringing(p, tables, state.trial_dt, top, jumps)
     if z > p.phase_per_step or (z > SMOOTH and too_short(p, z, state.trial_dt)):
         if share > HEARD:
-            state.ringing = max(state.ringing, share * tension(1.0 / p.per_strain, p, tables)[0])
+            state.ringing = max(state.ringing, a * tension(1.0 / p.per_strain, p, tables)[0])
     elif z > SMOOTH:
         state.low = min(state.low, tension(low, p, tables)[0])
         state.high = max(state.high, tension(high, p, tables)[0])
