@@ -15,7 +15,8 @@ from .scene.models import Scene
 
 PREFIX = "final_"
 NONE = np.empty(0)
-COUNTED = ("first", "samples", "first_profile", "profiles", "max_turn", "min_strain")  # fields of STATE: of one part
+# fields of STATE: of one part
+COUNTED = ("first", "samples", "first_profile", "profiles", "max_turn", "min_strain", "ringing")
 
 
 @dataclass(frozen=True, eq=False)

@@ -201,6 +201,7 @@ def _solver(record, scene, place, h):
             np.concatenate([method.A.ravel(), method.A.sum(axis=1), method.A[-1] - method.B_EMBEDDED])
         )
         record["order"] = min(method.ORDER, method.EMBEDDED_ORDER) + 1
+        record["phase_per_step"] = method.PHASE
     else:
         record["method"] = codes.ONE_STAGE
         record["alpha_m"], record["alpha_f"], record["gamma"] = method.alphas(solver.spectral_radius)
@@ -208,11 +209,12 @@ def _solver(record, scene, place, h):
     record["output_step"] = scene.sample_step_s()
     record["profile_step"] = (scene.output.profiles_step_s or record["output_step"]) if scene.output.profiles else 0.0
     record["fixed_step"] = solver.step_s or (period / 400 if period else 0.0125)
-    record["max_step"], record["min_step"] = solver.max_step_s, solver.min_step_s
+    record["max_step"], record["min_step"] = min(scales.longest_steps(scene).values()), solver.min_step_s
     if solver.shock_viscosity is not None:
         record["viscous"] = True
         record["c_quadratic"], record["c_linear"] = solver.shock_viscosity.quadratic, solver.shock_viscosity.linear
     record["rtol"], record["growth_per_step"] = solver.rtol, solver.growth_per_step
+    record["shortest"] = solver.shortest_period_s or solver.max_step_s / 5
     record["shortest_wave"] = (math.pi / h.min()) ** 2
     record["newton_tolerance"] = solver.newton_tolerance or 1e-2 * solver.rtol
     record["max_newton"] = solver.max_newton_iterations

@@ -14,13 +14,14 @@ from .perturbations.exponents import Followed
 from .physics import energy
 from .planar import state as planar
 from .planar.columns import EPS, PHI
+from .scales import ringing_period
 from .scene.models import Scene
 from .scene.size_limits import longest_step
 from .spatial import lift
 from .spatial import state as spatial
 from .time.held_start import held_away, why_not_held
 from .time.statics import rest_of, why_no_rest
-from .time.status import ADVICE, OK, STATICS_FAILED, TURN_UNRESOLVED, WORDS
+from .time.status import ADVICE, OK, STATICS_FAILED, TURN_UNRESOLVED, UNRESOLVED, WORDS
 from .time.time_loop import march
 from .trajectory import COLUMNS, EnergyBudget, Profiles, Trajectory
 from .trajectory_parts import along_waves, heading_of
@@ -93,12 +94,14 @@ class Run:
         needs_rates = record["method"] == col.RUNGE_KUTTA or record["alpha_m"] != record["gamma"]
         starter = needs_rates and not record["at_rest"]
         state["small_steps"] = col.SMALL_STEPS if starter else 0
-        state["dt"] = 1e-3 * record["max_step"] if record["adaptive"] or starter else record["fixed_step"]
+        first_s = min(1e-3 * scene.solver.max_step_s, record["max_step"])
+        state["dt"] = first_s if record["adaptive"] or starter else record["fixed_step"]
 
     def _watch(self) -> None:
-        """Least strain and largest turn so far: those of the first state."""
+        """Least strain and largest turn so far, those of the first state; no ringing was missed yet."""
         Y, state = self.motion.Y, self.state
         state["min_strain"] = Y[:, EPS].min()
+        state["ringing"] = 0.0 if self.record["method"] == col.RUNGE_KUTTA else -1.0
         state["max_turn"] = lift.turns(Y).max() if self.kind is spatial else np.abs(np.diff(Y[:, PHI])).max()
 
     def _go_on(self, start: FinalState) -> None:
@@ -166,6 +169,9 @@ class Run:
         message = ADVICE[status].format(
             t=state["t"], dt=state["dt"], turn=state["max_turn"], releases=state["releases"]
         )
+        if status == OK and state["ringing"] > 0:
+            period_s = ringing_period(self.record, scene)
+            message = UNRESOLVED.format(period=period_s, step=self.record["max_step"], tension=state["ringing"])
         if status == STATICS_FAILED:
             message += self.why_no_rest(self.record, scene)
         columns = columns_of(self.output.samples[: min(int(state["samples"]), self.goal)], heading_of(scene))
@@ -197,12 +203,14 @@ COUNTED = ("steps", "rejected_steps", "newton_iterations", "newton_failures", "l
 STATISTICS = {  # of a trajectory: the fields of STATE that they come from
     "steps": "steps", "rejected_steps": "rejected", "newton_iterations": "newton", "newton_failures": "failures",
     "loop_releases": "releases", "max_turn_rad": "max_turn", "min_strain": "min_strain", "end_time_s": "t",
+    "unresolved_ringing_N": "ringing",
 }  # fmt: skip
 
 
 def statistics_of(state: np.void, wall_s: float) -> dict[str, int | float]:
-    """What a run has done, and how long (s) that has taken."""
-    return {name: state[field].item() for name, field in STATISTICS.items()} | {"wall_s": wall_s}
+    """What a run has done, and how long (s) that has taken; ringing where it was listened to: not by other methods."""
+    found = {name: state[field].item() for name, field in STATISTICS.items()} | {"wall_s": wall_s}
+    return {name: number for name, number in found.items() if name != "unresolved_ringing_N" or number >= 0.0}
 
 
 def sample_count(duration_s: float, step_s: float) -> int:

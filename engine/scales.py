@@ -10,6 +10,7 @@ from .physics.tension import LAWS, NAMES, TensionLaw
 from .scene.models import Scene
 from .scene.sections import End, Tether
 
+STEPS_OF_PERIOD = {"waves.period_s": 8, "end.motion.period_s": 20}  # at least; what shakes an end shakes the tension
 TRANSIT_STEPS = 12  # after a loop release in the time that an axial wave takes along the line
 
 
@@ -34,6 +35,12 @@ def put_scales(record: np.void, scene: Scene, h: np.ndarray) -> None:
     transit = length * math.sqrt(float(record["m"]) / stiffness)
     record["release_step"] = min(transit / TRANSIT_STEPS, float(record["max_step"]))
     record["per_force"] = 20 / load
+    # the longest axial motion: the heave of a buoy on the line, or the line's own first one
+    line = float(record["m"]) * length
+    held = {"buoy": 0.0, "held": math.pi**-2, "free": 4 * math.pi**-2}[scene.end.kind]
+    record["inertia"] = length * (held * line or float(record["M_total"]) + line / 3)
+    fastest = min(length * math.sqrt(stiffness / float(record["inertia"])), length / transit)
+    record["per_ringing"] = float(record["per_strain"]) / fastest
     recoil = strain * length / transit if scene.end.force_decay_s else 0.0  # of the end of a line that breaks
     bent = stiff / float(record["m"])
     record["per_speed"] = 1 / max(math.sqrt(max(g * length, bent)) / 14, recoil / 14, pulled, 1e-3)
@@ -45,6 +52,19 @@ def fastest_wave(record: np.void, scene: Scene) -> float:
     strains = np.linspace(0.0, 1.0 / float(record["per_strain"]), 2001)
     slopes = np.diff([tension_at(strain, scene.tether.tension) for strain in strains]) / strains[1]
     return math.sqrt(max(slopes.max(), 1e-300) / float(record["m"]))
+
+
+def longest_steps(scene: Scene) -> dict[str, float]:
+    """What holds an adaptive step: key of the scene -> the longest step (s) that it allows."""
+    found, driving = {"solver.max_step_s": scene.solver.max_step_s}, (scene.waves, scene.end.motion)
+    for (key, steps), part in zip(STEPS_OF_PERIOD.items(), driving, strict=True):
+        found[key] = getattr(part, "period_s", math.inf) / steps
+    return found
+
+
+def ringing_period(record: np.void, scene: Scene) -> float:
+    """Period (s) of the axial motion of the line with what it carries, where the law is steepest up to static loads."""
+    return 2 * math.pi * math.sqrt(float(record["inertia"] / record["m"])) / fastest_wave(record, scene)
 
 
 def end_speed(end: End) -> float:

@@ -131,7 +131,7 @@ def _judged(case: Case, path: Path | None) -> dict[str, object]:
             run.save(path, {"run_key": path.stem})
         except OSError as error:
             return {_NOT_SAVED: write_failure(path.parents[1], error)}
-    row = {name: run.statistics[name] for name in names(STATISTICS)}
+    row = {name: run.statistics.get(name) for name in names(STATISTICS)}
     row |= {"run_status": run.status, "message": run.message}
     outcome, _, _ = outcome_of(run, case.length_s)
     if outcome not in ("ok", "ended"):

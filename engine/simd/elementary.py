@@ -83,6 +83,29 @@ def within(weights, C0, C1, K0, K1, k, i):
 
 
 @kernel
+def stretch_within(weights, C0, C1, K0, K1, k, half):
+    """|q| of node k at one instant of a step, from |q| and its rate at both ends; q and q_t: the first `half` columns.
+
+    The length of an interpolated q would be short by the sagitta of its turn, which a stiff line takes for a load.
+    """
+    w0, w1, g0, g1 = weights
+    a, a_t = stretch_and_rate(C0, K0, k, half)
+    b, b_t = stretch_and_rate(C1, K1, k, half)
+    return w0 * a + w1 * b + g0 * a_t + g1 * b_t
+
+
+@kernel
+def stretch_and_rate(C, K, k, half):
+    """|q| of node k and its rate (1/s)."""
+    square = product = 0.0
+    for m in range(half):
+        square += C[k, m] * C[k, m]
+        product += C[k, m] * K[k, m]
+    length = math.sqrt(square)
+    return length, product / length
+
+
+@kernel
 def bracket(tables, at, n, value):
     """Where a value lies on an axis of n increasing numbers, tables[at : at + n].
 

@@ -14,6 +14,10 @@ WORDS = dict(
     )
 )
 
+UNRESOLVED = (  # of a run that is ok
+    "axial ringing of period {period:.2g} s is not resolved by steps of up to {step:.2g} s: tensions hold to "
+    "{tension:.2g} N; lower solver.shortest_period_s or solver.max_step_s"
+)
 ADVICE = {  # of the conservation form; `paper_box.driver` has its own
     OK: "",
     NEWTON_FAILED: "Newton's method did not converge at t = {t:.6g} s, at the smallest step tried ({dt:.2g} s): "

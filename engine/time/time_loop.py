@@ -11,8 +11,8 @@ without rates from before (20 times shorter ones were tried: axial waves of the 
 
 Output on an even time grid comes from inside the accepted steps. Runge-Kutta steps carry rates at both ends: cubic
 Hermite interpolation of the conserved variables, order 4; the one-stage methods (order 2 and less, undamped rates) are
-interpolated linearly. Positions are the sums of the interpolated q, tensions f(|q| - 1), so every column of a sample
-belongs to one configuration. Columns of samples and profiles: `engine.record`.
+interpolated linearly. Positions are the sums of the interpolated q, tensions f of the interpolated |q| - 1
+(`stretch_within`). Columns of samples and profiles: `engine.record`.
 """
 
 import math
@@ -27,15 +27,27 @@ from ..physics.ends import corner_after
 from ..physics.energy import add_powers, store_energies
 from ..physics.shocks import deforming_element, renew_viscosity
 from ..physics.tension.kernels import tension
+from ..planar.columns import EPS  # in space the same column
 from ..record import SMALL_STEPS
 from ..simd.elementary import copy_into
 from .status import OK, STEP_LIMIT, STEP_UNDERFLOW, TURN_UNRESOLVED
-from .steps import least_strain, one_stage_step, runge_kutta_step
+from .steps import (
+    HEARD,
+    jumps_of_rates,
+    least_strain,
+    one_stage_step,
+    ringing,
+    runge_kutta_step,
+    stage_strains,
+    too_short,
+    trial_error,
+)  # fmt: skip
 
 SAFETY, SHRINK, GROW = 0.9, 0.2, 4.0
 NO_SLIVER = 1.01  # a step is made a little longer rather than leave next to nothing of the way to a corner
 MOST_ATTEMPTS = 20_000  # steps tried within one `window` of time: more is a run that stands still
 MANY_FAILURES = 2_000  # of Newton: more, and at a sixth of all trials, is a run that its failures hold
+SMOOTH = 0.2  # phase (rad) of ringing in a step beyond which the tension may have an extreme worth seeing within
 CAUTIOUS_STEPS, CAUTIOUS_GROW = 5, 1.3  # after a failure of Newton's method
 
 
@@ -182,6 +194,21 @@ def sample(p, tables, state, dt, hermite, begin, end, samples, profiles):
 
 
 @kernel
+def watch_ringing(p, tables, state, top, low, high, jumps):
+    """Of an accepted step: the ringing that it was too long for, or else the extremes of the tension at its stages.
+
+    Strains of the upper end: top after the step, low and high the extremes over its stages; jumps: `jumps_of_rates`.
+    """
+    z, a, share = ringing(p, tables, state.trial_dt, top, jumps)
+    if z > p.phase_per_step or (z > SMOOTH and too_short(p, z, state.trial_dt)):
+        if share > HEARD:
+            state.ringing = max(state.ringing, a * tension(1.0 / p.per_strain, p, tables)[0])
+    elif z > SMOOTH:
+        state.low = min(state.low, tension(low, p, tables)[0])
+        state.high = max(state.high, tension(high, p, tables)[0])
+
+
+@kernel
 def march(p, tables, state, motion, output, trail, until, one_stage, e_t, budget):
     """Advance one simulation until `until` samples are stored, the trail is full, or it ends.
 
@@ -223,12 +250,20 @@ def march(p, tables, state, motion, output, trail, until, one_stage, e_t, budget
         if one_stage is not None:
             if not stiff:
                 code, used = one_stage_step(p, tables, step, one_stage, p.max_newton, motion, trial, work)
+        Y_new, K_new, jumps = trial.Y[s - 1], trial.K[s - 1], (0.0, 0.0)
+        least, top = least_strain(Y_new), Y_new[p.nodes - 1, EPS]
+        if code == OK and stiff and not small:
+            jumps = jumps_of_rates(p, step.dt, (C, K), (trial.C, K_new))
+            if p.adaptive:
+                error = trial_error(p, tables, step.dt, error, least, top, jumps)
         if refused(p, state, code, used, error):
             continue
         # what lies within the accepted step goes into the output
-        Y_new, K_new = trial.Y[s - 1], trial.K[s - 1]
         hermite = stiff and not small
         sample(p, tables, state, step.dt, hermite, (C, K), (trial.C, K_new), output.samples, output.profiles)
+        if hermite:
+            low, high = stage_strains(trial.Y)
+            watch_ringing(p, tables, state, top, low, high, jumps)
         if budget is not None:
             energies, sums = budget
             alphas = (1.0, 1.0, 1.0) if small else (p.alpha_m, p.alpha_f, p.gamma)
@@ -249,7 +284,7 @@ def march(p, tables, state, motion, output, trail, until, one_stage, e_t, budget
         copy_into(K, K_new)
         copy_into(C, trial.C)
         step_done(p, state)
-        state.min_strain = min(state.min_strain, least_strain(Y))
+        state.min_strain = min(state.min_strain, least)
         code, released = guard_turns(p, tables, state, Y)
         longest = p.fixed_step
         if e_t is not None:
