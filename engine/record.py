@@ -40,7 +40,7 @@ RECORD = np.dtype(
         "M_total M_wave lift C_buoy D_buoy M_added B_whole impact_loss end_x end_z end_release end_fx end_fz end_decay "
         "barrier c_quadratic c_linear per_strain per_force per_speed per_curvature "
         "order rtol newton_tolerance fixed_step max_step min_step start_x start_z "
-        "output_step release_step growth_per_step shortest_wave profile_step window alpha_m alpha_f gamma pace",
+        "output_step release_step turn_step growth_per_step shortest_wave profile_step window alpha_m alpha_f gamma pace",
     )
 )
 # Three dimensions have a type of their own: a kernel that serves both is compiled for each on its first use. Their own
@@ -62,7 +62,7 @@ PLAIN = np.dtype(_dtype("plain", "") + RECORD.descr)
 STATE = np.dtype(
     _dtype(
         "status samples profiles small_steps steps rejected newton failures releases attempts cautious trail energies "
-        "small cut first first_profile",
+        "small cut first first_profile turned",
         "t dt dt_before low high max_turn min_strain window_end trial_dt corner",
     )
 )

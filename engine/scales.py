@@ -33,6 +33,8 @@ def put_scales(record: np.void, scene: Scene, h: np.ndarray) -> None:
     record["per_strain"] = 1 / strain
     transit = length * math.sqrt(float(record["m"]) / stiffness)
     record["release_step"] = min(transit / TRANSIT_STEPS, float(record["max_step"]))
+    bending = float(record["EI"]) / (float(record["m"]) + float(record["ma"]))
+    record["turn_step"] = max(float(record["release_step"]), float(np.max(h)) ** 2 / math.sqrt(bending) / 10 if bending else 0.0)
     record["per_force"] = 20 / load
     recoil = strain * length / transit if scene.end.force_decay_s else 0.0  # of the end of a line that breaks
     bent = stiff / float(record["m"])

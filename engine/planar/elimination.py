@@ -97,7 +97,7 @@ def eliminate(p, tables, stage, Y, work):
             continue
         cx = Y[k, col.VX] - Y[a, col.VX] - e * (Qa[col.QX_T] + Qb[col.QX_T])
         cz = Y[k, col.VZ] - Y[a, col.VZ] - e * (Qa[col.QZ_T] + Qb[col.QZ_T])
-        turn = (Y[k, col.PHI] - Y[a, col.PHI]) / e - (Y[a, col.KAPPA] + Y[k, col.KAPPA])
+        turn = (Y[k, col.PHI] - Y[a, col.PHI] - Qb[col.TURN]) / e - (Y[a, col.KAPPA] + Y[k, col.KAPPA])
         g = (
             Qa[col.NX] - Qb[col.NX] + e * (Qa[col.GX] + Qb[col.GX]) + Kxx * r[0] + Kxz * r[1] - Jxx * cx - Jxz * cz,
             Qa[col.NZ] - Qb[col.NZ] + e * (Qa[col.GZ] + Qb[col.GZ]) + Kzx * r[0] + Kzz * r[1] - Jzx * cx - Jzz * cz,

@@ -107,10 +107,7 @@ def release_loop(p, tables, Y, upper):
     shift = -2.0 * math.pi if Y[upper, col.PHI] > Y[upper - 1, col.PHI] else 2.0 * math.pi
     for k in range(upper, n):
         Y[k, col.PHI] += shift
-    for k in range(max(1, upper - 2), min(n - 1, upper + 2)):
-        h = tables[p.grid_at + k - 1] + tables[p.grid_at + k]
-        Y[k, col.KAPPA] = (Y[k + 1, col.PHI] - Y[k - 1, col.PHI]) / h
-        Y[k, col.SHEAR] = 0.0
+    return upper if shift > 0.0 else -upper
 
 
 @kernel

@@ -149,6 +149,7 @@ def release_loop(p, tables, Y, upper):
         below, above = box_rotation(Y, k - 1, k)[0], box_rotation(Y, k, k + 1)[0]
         Y[k, col.O2], Y[k, col.O3] = (below[1] + above[1]) / h, (below[2] + above[2]) / h
         Y[k, col.SHEAR_N] = Y[k, col.SHEAR_B] = 0.0
+    return 0
 
 
 @kernel

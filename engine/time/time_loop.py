@@ -27,6 +27,7 @@ from ..physics.ends import corner_after
 from ..physics.energy import add_powers, store_energies
 from ..physics.shocks import deforming_element, renew_viscosity
 from ..physics.tension.kernels import tension
+from ..planar.columns import TURN
 from ..record import SMALL_STEPS
 from ..simd.elementary import copy_into
 from .status import OK, STEP_LIMIT, STEP_UNDERFLOW, TURN_UNRESOLVED
@@ -35,6 +36,7 @@ from .steps import least_strain, one_stage_step, runge_kutta_step
 SAFETY, SHRINK, GROW = 0.9, 0.2, 4.0
 NO_SLIVER = 1.01  # a step is made a little longer rather than leave next to nothing of the way to a corner
 MOST_ATTEMPTS = 20_000  # steps tried within one `window` of time: more is a run that stands still
+RELEASE_STEPS = 8
 CAUTIOUS_STEPS, CAUTIOUS_GROW = 5, 1.3  # after a failure of Newton's method
 
 
@@ -49,10 +51,19 @@ def guard_turns(p, tables, state, Y):
             return OK, released
         if p.loop_release == 0 or state.releases >= p.max_releases:
             return TURN_UNRESOLVED, released
-        release_loop(p, tables, Y, int(where))
+        if state.turned != 0:
+            return OK, released
+        state.turned = release_loop(p, tables, Y, int(where))
         state.releases += 1
         released = True
     return TURN_UNRESOLVED, released
+
+
+@kernel
+def hold_turn(state, Q):
+    if state.turned != 0:
+        whole = 2.0 * math.pi if state.turned > 0 else -2.0 * math.pi
+        Q[abs(state.turned), TURN] = whole * 0.5 * (1.0 - math.cos(math.pi * (state.small_steps - 1) / RELEASE_STEPS))
 
 
 @kernel
@@ -115,11 +126,13 @@ def next_step(p, state, code, released, error, longest):
     if code != OK:
         state.status = code
     if released or (state.cut and state.corner == p.end_release):
-        state.small_steps = SMALL_STEPS
-        state.dt = p.release_step
+        state.small_steps = RELEASE_STEPS if state.turned != 0 else SMALL_STEPS
+        state.dt = p.turn_step if state.turned != 0 else p.release_step
         state.dt_before = 0.0
     elif state.small:
         state.small_steps -= 1
+        if state.small_steps == 0:
+            state.turned = 0
         if state.small_steps == 0 and p.adaptive == 0:
             state.dt = p.fixed_step
     elif p.adaptive:
@@ -212,6 +225,7 @@ def march(p, tables, state, motion, output, trail, until, one_stage, e_t, budget
         begin_trial(p, tables, state)
         if state.status != OK:
             break
+        hold_turn(state, work.Q)
         small, code, used, error = state.small != 0, OK, 0, 0.0
         step = Step(state.t, state.trial_dt, state.dt_before, small)
         stiff = small or p.method == col.RUNGE_KUTTA  # "stiffly accurate": the last stage is the new state
