@@ -19,7 +19,8 @@ PROFILE_WIDTH = 6
 (TIME, AT_X, AT_Y, AT_Z, AT_U, AT_V, AT_W, TOP, LEAST, TOP_LOW, TOP_HIGH, OFFPLANE, RELEASES) = range(13)
 SAMPLE_WIDTH = 13
 BEGIN, STEP, KIND = range(3)  # columns of the times of a trail: t (s), dt (s), one of the next
-SMALL_STEPS = 3  # of backward Euler after a sudden start or a release
+SMALL_STEPS = 3  # of backward Euler after a sudden start, or where an end is let go
+RELEASE_STEPS = 8  # of backward Euler after a loop release
 CONTROLLED, EULER, RESTART = 0.0, 1.0, 2.0  # of Runge-Kutta, one-stage, backward Euler after a sudden start or release
 STRETCH = 5  # column of the nodal array Q at which q = (1 + eps) t begins, in a plane and in space
 

@@ -11,7 +11,7 @@ from ..arrays import Work
 from ..compiled import kernel
 from ..physics.tension.kernels import tension
 from ..record import PLACE, SPEED, STRAIN, TENSION
-from ..simd.elementary import within
+from ..simd.elementary import strain_within, within
 from ..simd.select import finite, larger, smaller, where
 from . import columns as col
 
@@ -128,7 +128,7 @@ def configuration(p, tables, weights, C0, K0, C1, K1, row):
             x += half * (qx_below + qx)
             z += half * (qz_below + qz)
         qx_below, qz_below = qx, qz
-        eps = math.sqrt(qx * qx + qz * qz) - 1.0
+        eps = strain_within(weights, C0[k], C1[k], K0[k], K1[k])
         row[k, PLACE], row[k, PLACE + 1], row[k, PLACE + 2], row[k, STRAIN] = x, 0.0, z, eps
         row[k, TENSION] = tension(eps, p, tables)[0]
         row[k, SPEED] = math.sqrt(U * U + W * W)

@@ -83,6 +83,24 @@ def within(weights, C0, C1, K0, K1, k, i):
 
 
 @kernel
+def strain_within(weights, C0, C1, K0, K1):
+    """Strain of a node at one instant of a step, from rows of C and K at both ends, which begin with q.
+
+    Of the lengths |q|: between two directions that differ by a the interpolated q is too short, by a^4/384 with rates
+    and by a^2/8 without. A turn of 0.8 rad in a step gave 0.7 kN of compression (Table 1) that no step had.
+    """
+    w0, w1, g0, g1 = weights
+    square0 = square1 = rate0 = rate1 = 0.0
+    for i in range(C0.shape[0] // 2):
+        square0 += C0[i] * C0[i]
+        square1 += C1[i] * C1[i]
+        rate0 += C0[i] * K0[i]
+        rate1 += C1[i] * K1[i]
+    length0, length1 = math.sqrt(square0), math.sqrt(square1)
+    return w0 * length0 + w1 * length1 + g0 * rate0 / length0 + g1 * rate1 / length1 - 1.0
+
+
+@kernel
 def bracket(tables, at, n, value):
     """Where a value lies on an axis of n increasing numbers, tables[at : at + n].
 

@@ -28,7 +28,7 @@ from ..physics.energy import add_powers, store_energies
 from ..physics.shocks import deforming_element, renew_viscosity
 from ..physics.tension.kernels import tension
 from ..planar.columns import TURN
-from ..record import SMALL_STEPS
+from ..record import RELEASE_STEPS, SMALL_STEPS
 from ..simd.elementary import copy_into
 from .status import OK, STEP_LIMIT, STEP_UNDERFLOW, TURN_UNRESOLVED
 from .steps import least_strain, one_stage_step, runge_kutta_step
@@ -36,7 +36,6 @@ from .steps import least_strain, one_stage_step, runge_kutta_step
 SAFETY, SHRINK, GROW = 0.9, 0.2, 4.0
 NO_SLIVER = 1.01  # a step is made a little longer rather than leave next to nothing of the way to a corner
 MOST_ATTEMPTS = 20_000  # steps tried within one `window` of time: more is a run that stands still
-RELEASE_STEPS = 8
 CAUTIOUS_STEPS, CAUTIOUS_GROW = 5, 1.3  # after a failure of Newton's method
 
 
