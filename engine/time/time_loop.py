@@ -147,11 +147,12 @@ def next_step(p, state, code, released, error, longest):
 
 @kernel
 def weights_within(hermite, theta, dt):
-    """Weights of C0, C1, K0, K1 at the share theta of a step."""
+    """Weights of C0, C1, K0, K1 at the share theta of a step, and theta."""
     if not hermite:
-        return 1.0 - theta, theta, 0.0, 0.0
+        return 1.0 - theta, theta, 0.0, 0.0, theta
     a = theta - 1.0
-    return (1.0 + 2.0 * theta) * a * a, theta * theta * (3.0 - 2.0 * theta), dt * theta * a * a, dt * theta * theta * a
+    square = theta * theta
+    return (1.0 + 2.0 * theta) * a * a, square * (3.0 - 2.0 * theta), dt * theta * a * a, dt * square * a, theta
 
 
 @kernel
