@@ -41,7 +41,8 @@ RECORD = np.dtype(
         "M_total M_wave lift C_buoy D_buoy M_added B_whole impact_loss end_x end_z end_release end_fx end_fz end_decay "
         "barrier c_quadratic c_linear per_strain per_force per_speed per_curvature "
         "order rtol newton_tolerance fixed_step max_step min_step start_x start_z "
-        "output_step release_step turn_step growth_per_step shortest_wave profile_step window alpha_m alpha_f gamma pace",
+        "output_step release_step turn_step growth_per_step shortest_wave profile_step window alpha_m alpha_f gamma "
+        "pace",
     )
 )
 # Three dimensions have a type of their own: a kernel that serves both is compiled for each on its first use. Their own
@@ -58,7 +59,8 @@ SPATIAL = np.dtype(
 PLAIN = np.dtype(_dtype("plain", "") + RECORD.descr)
 # small_steps, cautious: steps of backward Euler, of slow growth still to come; attempts: steps tried up to window_end;
 # small, cut: the trial is one of backward Euler, ends at the corner (s), which no step may cross; dt_before: the last
-# accepted step (0: of no use); low, high: extremes of the top tension since the last sample; first, first_profile:
+# accepted step (0: of no use); turned: upper node of the element whose released turn is held, with the sign of the
+# turn, or 0; low, high: extremes of the top tension since the last sample; first, first_profile:
 # numbers of the samples and profiles, counted from t = 0, with which the output begins
 STATE = np.dtype(
     _dtype(

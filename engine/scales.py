@@ -7,8 +7,8 @@ from types import SimpleNamespace
 import numpy as np
 
 from .physics.tension import LAWS, NAMES, TensionLaw
-from .scene.models import Scene
 from .record import RELEASE_STEPS
+from .scene.models import Scene
 from .scene.sections import End, Tether
 
 TRANSIT_STEPS = 12  # after a loop release in the time that an axial wave takes along the line
@@ -36,7 +36,8 @@ def put_scales(record: np.void, scene: Scene, h: np.ndarray) -> None:
     record["release_step"] = min(transit / TRANSIT_STEPS, float(record["max_step"]))
     # after a loop release in the time 2/rate, the rate that of the fastest bending wave of the grid
     rate = (math.pi / float(np.mean(h))) ** 2 * math.sqrt(record["EI"] / (record["m"] + record["ma"]))
-    record["turn_step"] = max(record["release_step"], 2 / (rate * RELEASE_STEPS) if rate else 0.0)
+    gone = max(record["release_step"], 2 / (rate * RELEASE_STEPS) if rate else 0.0)
+    record["turn_step"] = min(gone, record["max_step"])
     record["per_force"] = 20 / load
     recoil = strain * length / transit if scene.end.force_decay_s else 0.0  # of the end of a line that breaks
     bent = stiff / float(record["m"])

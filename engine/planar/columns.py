@@ -23,7 +23,7 @@ GX_EPS, GZ_EPS = 11, 12  # dG/deps
 GX_PHI, GZ_PHI = 13, 14  # dG/dphi
 GXX, GXZ, GZX, GZZ = 15, 16, 17, 18  # dG/dV
 M, M_EPS, M_SHEAR = 19, 20, 21  # M = (1 + eps)^3 S and its derivatives
-TURN = 22  # what is left of a released loop in the box below (`engine.time.time_loop`)
+TURN = 22  # held of a released loop in the box below (`engine.time.time_loop.hold_turn`)
 SHOCK_B, SHOCK_L = 23, 24  # shock viscosity: the last two columns, as in space
 NODE_WIDTH = 25
 

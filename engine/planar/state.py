@@ -102,7 +102,7 @@ def largest_turn(p, Y):
 
 @kernel
 def release_loop(p, tables, Y, upper):
-    """Shift phi by 2 pi from node `upper` up, against the turn; new first guesses for curvature and shear nearby."""
+    """Shift phi by 2 pi from node `upper` up, against the turn. Returns `upper` with the sign of the shift."""
     n = Y.shape[0]
     shift = -2.0 * math.pi if Y[upper, col.PHI] > Y[upper - 1, col.PHI] else 2.0 * math.pi
     for k in range(upper, n):

@@ -24,7 +24,7 @@ from ..planar.state import largest_turn
 from ..time import steps
 from ..time.newton import GOING_ON, iterate, judge
 from ..time.status import OK
-from ..time.time_loop import begin_trial, guard_turns, next_step, refused, sample, step_done
+from ..time.time_loop import begin_trial, guard_turns, hold_turn, next_step, refused, sample, step_done
 from .elementary import copy_into, keep
 from .select import some, where
 from .vector import COUNT, as_lanes, expect, lane_record, transposed
@@ -168,8 +168,8 @@ def end_steps(records, tables, states, numbers, Y, one):
 
 
 @kernel
-def plan_lanes(records, tables, states, lanes, numbers, room, a, w):
-    """Choose the next solve of every lane that has moved; returns whether to stop.
+def plan_lanes(records, tables, states, lanes, numbers, room, a, w, Q):
+    """Choose the next solve of every lane that has moved; returns whether to stop. Q (n, NODE_WIDTH, COUNT): of Work.
 
     A lane whose trail of `room` steps is full waits to be followed. That is done for all lanes at once, each step at
     the cost of one: so it is not due before two of three wait, because some make twice the steps of others.
@@ -186,6 +186,7 @@ def plan_lanes(records, tables, states, lanes, numbers, room, a, w):
                     numbers[MOVED, b] = 0.0
                     continue
                 begin_trial(p, tables[b], state)
+                hold_turn(state, Q[:, :, b])
             if state.status != OK or state.samples >= lane.goal:
                 lane.active = ENDED
                 numbers[MOVED, b] = 0.0
@@ -248,7 +249,7 @@ def advance(ticks, records, own_tables, states, lanes, spent, samples, trail, co
     made, stop = 0, False
     while True:
         # every lane that has moved begins its next solve; C_new, which is free by then, takes in its C~
-        stop = plan_lanes(records, own_tables, states, lanes, numbers, trail.T.shape[1], arrays.a, arrays.w)
+        stop = plan_lanes(records, own_tables, states, lanes, numbers, trail.T.shape[1], arrays.a, arrays.w, work.Q)
         move_states(rows, w, lane.history, lane.now, lane.before, Y)
         keep(rows[ACCEPTED] != 0.0, C_new, C)
         keep(rows[ACCEPTED] != 0.0, K_new, Ks[0])

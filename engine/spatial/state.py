@@ -138,7 +138,7 @@ def release_loop(p, tables, Y, upper):
     """Change the sign of the Euler parameters from node `upper` up, a turn by 2 pi; new first guesses nearby.
 
     t, n, b and q stay as they are. Newton starts from the turns of the neighbours and no shear: from the old curvature
-    it would find its way back.
+    it would find its way back. Returns 0: no turn is held.
     """
     n = Y.shape[0]
     for k in range(upper, n):

@@ -4,15 +4,17 @@
 Newton's method, `refused` judges the trial, and `next_step` chooses the next length. Lanes (`engine.simd.ticks`) call
 the same functions.
 
-Loop release (THEORY.md, section 9): where the turn in one element passes pi, `guard_turns` takes 2 pi out of it, in
-space as well. Then SMALL_STEPS steps of backward Euler follow, each p.release_step long, without error control and
-without rates from before (20 times shorter ones were tried: axial waves of the grid rang to 2.4 kN of compression at
-41 nodes where 0.3 kN are real). The number of releases is part of the result.
+Loop release (THEORY.md, section 9): where the turn in one element passes pi, `guard_turns` takes 2 pi out of its phi.
+`hold_turn` keeps them in the curvature of that element and lets them go within RELEASE_STEPS steps of backward Euler,
+each p.turn_step long, without error control and without rates from before. Let go at once they rang: the box has no
+curvature for a jump of phi in one element but one that alternates along the whole line, and at 41 nodes a loop under
+30 N left 1 kN of compression. In space all goes at once, within SMALL_STEPS of p.release_step. One element is let go
+at a time; others wait. The number of releases is part of the result.
 
 Output on an even time grid comes from inside the accepted steps. Runge-Kutta steps carry rates at both ends: cubic
 Hermite interpolation of the conserved variables, order 4; the one-stage methods (order 2 and less, undamped rates) are
-interpolated linearly. Positions are the sums of the interpolated q, tensions f(|q| - 1), so every column of a sample
-belongs to one configuration. Columns of samples and profiles: `engine.record`.
+interpolated linearly. Positions are the sums of the interpolated q; strains are interpolated by themselves
+(`simd.elementary.strain_within`). Columns of samples and profiles: `engine.record`.
 """
 
 import math
@@ -48,10 +50,10 @@ def guard_turns(p, tables, state, Y):
         state.max_turn = max(state.max_turn, turn)
         if turn <= math.pi:
             return OK, released
-        if p.loop_release == 0 or state.releases >= p.max_releases:
-            return TURN_UNRESOLVED, released
         if state.turned != 0:
             return OK, released
+        if p.loop_release == 0 or state.releases >= p.max_releases:
+            return TURN_UNRESOLVED, released
         state.turned = release_loop(p, tables, Y, int(where))
         state.releases += 1
         released = True
@@ -60,9 +62,10 @@ def guard_turns(p, tables, state, Y):
 
 @kernel
 def hold_turn(state, Q):
+    """Put into Q what the trial keeps of a released turn: 2 pi, less from step to step, 0 in the last one."""
     if state.turned != 0:
-        whole = 2.0 * math.pi if state.turned > 0 else -2.0 * math.pi
-        Q[abs(state.turned), TURN] = whole * 0.5 * (1.0 - math.cos(math.pi * (state.small_steps - 1) / RELEASE_STEPS))
+        left = math.pi * (1.0 - math.cos(math.pi * (state.small_steps - 1) / RELEASE_STEPS))
+        Q[abs(state.turned), TURN] = left if state.turned > 0 else -left
 
 
 @kernel
@@ -125,8 +128,9 @@ def next_step(p, state, code, released, error, longest):
     if code != OK:
         state.status = code
     if released or (state.cut and state.corner == p.end_release):
-        state.small_steps = RELEASE_STEPS if state.turned != 0 else SMALL_STEPS
-        state.dt = p.turn_step if state.turned != 0 else p.release_step
+        held = released and state.turned != 0
+        state.small_steps = RELEASE_STEPS if held else SMALL_STEPS
+        state.dt = p.turn_step if held else p.release_step
         state.dt_before = 0.0
     elif state.small:
         state.small_steps -= 1
