@@ -155,8 +155,8 @@ def weights_within(hermite, theta, dt):
     if not hermite:
         return 1.0 - theta, theta, 0.0, 0.0, theta
     a = theta - 1.0
-    square = theta * theta
-    return (1.0 + 2.0 * theta) * a * a, square * (3.0 - 2.0 * theta), dt * theta * a * a, dt * square * a, theta
+    first, last = (1.0 + 2.0 * theta) * a * a, theta * theta * (3.0 - 2.0 * theta)
+    return first, last, dt * theta * a * a, dt * theta * theta * a, theta
 
 
 @kernel
