@@ -7,6 +7,7 @@ from types import SimpleNamespace
 import numpy as np
 
 from .physics.tension import LAWS, NAMES, TensionLaw
+from .record import RELEASE_STEPS
 from .scene.models import Scene
 from .scene.sections import End, Tether
 
@@ -34,6 +35,10 @@ def put_scales(record: np.void, scene: Scene, h: np.ndarray) -> None:
     record["per_strain"] = 1 / strain
     transit = length * math.sqrt(float(record["m"]) / stiffness)
     record["release_step"] = min(transit / TRANSIT_STEPS, float(record["max_step"]))
+    # after a loop release in the time 2/rate, the rate that of the fastest bending wave of the grid
+    rate = (math.pi / float(np.mean(h))) ** 2 * math.sqrt(record["EI"] / (record["m"] + record["ma"]))
+    gone = max(record["release_step"], 2 / (rate * RELEASE_STEPS) if rate else 0.0)
+    record["turn_step"] = min(gone, record["max_step"])
     record["per_force"] = 20 / load
     # the longest axial motion: the heave of a buoy on the line, or the line's own first one
     line = float(record["m"]) * length

@@ -23,8 +23,9 @@ from ..planar.columns import EPS, VX, VZ
 from ..planar.state import largest_turn
 from ..time import steps
 from ..time.newton import GOING_ON, iterate, judge
+from ..time.ringing import jumps_of_rates, watch_ringing
 from ..time.status import OK
-from ..time.time_loop import begin_trial, guard_turns, next_step, refused, sample, step_done, watch_ringing
+from ..time.time_loop import begin_trial, guard_turns, hold_turn, next_step, refused, sample, step_done
 from .elementary import copy_into, keep
 from .select import larger, smaller, some, where
 from .vector import COUNT, as_lanes, expect, lane_record, transposed
@@ -173,8 +174,8 @@ def end_steps(records, tables, states, numbers, Y, one):
 
 
 @kernel
-def plan_lanes(records, tables, states, lanes, numbers, room, a, w):
-    """Choose the next solve of every lane that has moved; returns whether to stop.
+def plan_lanes(records, tables, states, lanes, numbers, room, a, w, Q):
+    """Choose the next solve of every lane that has moved; returns whether to stop. Q (n, NODE_WIDTH, COUNT): of Work.
 
     A lane whose trail of `room` steps is full waits to be followed. That is done for all lanes at once, each step at
     the cost of one: so it is not due before two of three wait, because some make twice the steps of others.
@@ -191,6 +192,7 @@ def plan_lanes(records, tables, states, lanes, numbers, room, a, w):
                     numbers[MOVED, b] = 0.0
                     continue
                 begin_trial(p, tables[b], state)
+                hold_turn(state, Q[:, :, b])
             if state.status != OK or state.samples >= lane.goal:
                 lane.active = ENDED
                 numbers[MOVED, b] = 0.0
@@ -253,7 +255,7 @@ def advance(ticks, records, own_tables, states, lanes, spent, samples, trail, co
     made, stop = 0, False
     while True:
         # every lane that has moved begins its next solve; C_new, which is free by then, takes in its C~
-        stop = plan_lanes(records, own_tables, states, lanes, numbers, trail.T.shape[1], arrays.a, arrays.w)
+        stop = plan_lanes(records, own_tables, states, lanes, numbers, trail.T.shape[1], arrays.a, arrays.w, work.Q)
         move_states(rows, w, lane.history, lane.now, lane.before, Y)
         keep(rows[ACCEPTED] != 0.0, C_new, C)
         keep(rows[ACCEPTED] != 0.0, K_new, Ks[0])
@@ -280,7 +282,7 @@ def advance(ticks, records, own_tables, states, lanes, spent, samples, trail, co
         if some(rows[FINISHED] != 0.0):
             rows[ERROR] = steps.embedded_error(p, tables, rows[STEP], Ks, own.Q, a, own.D[0])
             both = (C, Ks[0]), (C_new, K_new)
-            rows[STRAIN_JUMP], rows[SPEED_JUMP] = steps.jumps_of_rates(p, rows[STEP], *both)
+            rows[STRAIN_JUMP], rows[SPEED_JUMP] = jumps_of_rates(p, rows[STEP], *both)
             rows[LEAST], rows[TOP], rows[TURN] = steps.least_strain(Y), top, largest_turn(p, Y)[0]
         if trail.T.shape[1] > 0:
             record_stages(states, lanes, numbers, Y, K_new, trail.T, trail_rows, block)

@@ -16,13 +16,13 @@ from ..compiled import kernel
 from ..dimensions import error_square, extrapolate, size_of
 from ..physics.tension.kernels import tension
 from ..planar.columns import EPS  # in space the same column
-from ..record import HELD, STRETCH
+from ..record import STRETCH
 from ..simd.elementary import copy_into
 from ..simd.select import smaller
 from .newton import newton
+from .ringing import ringing_error
 from .status import OK
 
-HEARD = 0.02  # ringing of this share of the static strain is resolved; less of it may be damped
 SMALL_STEP_NEWTON = 100  # iterations: after a release each update is cut to one scale, and takes about 20
 
 
@@ -142,79 +142,11 @@ def trial_error(p, tables, dt, error, least, top, jumps):
 
     least, top: strains after the step, the least one and that of the upper end; jumps: `jumps_of_rates`.
     """
-    z, _, share = ringing(p, tables, dt, top, jumps)
-    if not too_short(p, z, dt):
-        error = max(error, (z / p.phase_per_step) ** p.order * min(1.0, (share / HEARD) ** (0.5 * p.order)))
+    error = max(error, ringing_error(p, tables, dt, top, jumps))
     if p.bent:
         rate = buckling_rate(p, tables, least)
         error = max(error, (dt * rate / p.growth_per_step) ** p.order)
     return error
-
-
-@kernel
-def too_short(p, z, dt):
-    """Is the period of ringing that turns by z in a step too short to be resolved?"""
-    return z * p.shortest > 2.0 * math.pi * dt
-
-
-@kernel
-def ringing(p, tables, dt, top, jumps):
-    """Phase z = omega dt (rad) of the axial motion in a step, its amplitude a over the static strain, and its share.
-
-    omega^2 = T'/p.inertia at the strain of the upper end; jumps: `jumps_of_rates`, a z^2 of an oscillation of amplitude
-    a. Beyond z = 2 the strain follows the load and its rate means little: the speed alone is asked, which jumps by up
-    to 2 z a. The share is a over the greater of the static and the present strain.
-    """
-    z = dt * math.sqrt(max(tension(top, p, tables)[1], 0.0) / p.inertia)
-    strain, speed = jumps
-    a = speed / (2.0 * z) if z > 2.0 else math.sqrt(strain * strain + speed * speed) / max(z * z, 1e-300)
-    return z, a, a / max(1.0, abs(top) * p.per_strain)
-
-
-@kernel
-def stage_strains(Ys):
-    """Least and greatest strain of the upper end at the stages of a step."""
-    low = high = Ys[1, Ys.shape[1] - 1, EPS]
-    for i in range(2, Ys.shape[0]):
-        top = Ys[i, Ys.shape[1] - 1, EPS]
-        low, high = min(low, top), max(high, top)
-    return low, high
-
-
-@kernel
-def jumps_of_rates(p, dt, begin, end):
-    """dt times the change, within a step, of the rate of strain and of the axial acceleration, scaled.
-
-    begin, end: (C, K) at both ends of the step. Both jumps are those of the slowest axial motion: mean strain and speed
-    of the upper end; where it is held, rms over the nodes. They are a quarter turn apart, so that an oscillation shows
-    in one or the other at any time.
-    """
-    n = end[0].shape[0]
-    mean = strains = speeds = speed = 0.0
-    for k in range(n):
-        stretching, acceleration = rates_along(p, begin, k)
-        later, accelerated = rates_along(p, end, k)
-        strain, speed = (later - stretching) * p.per_strain, (accelerated - acceleration) * p.per_ringing
-        mean += strain
-        strains += strain * strain
-        speeds += speed * speed
-    if p.end == HELD:
-        return math.sqrt(strains / n) * dt, math.sqrt(speeds / n) * dt
-    return abs(mean / n) * dt, abs(speed) * dt
-
-
-@kernel
-def rates_along(p, state, k):
-    """Rate of strain (1/s) and acceleration along the line (m/s2) at node k of a state (C, K)."""
-    C, K = state
-    half = size_of(p)[1] // 2
-    square = stretching = acceleration = 0.0
-    for m in range(half):
-        square += C[k, m] * C[k, m]
-        stretching += C[k, m] * K[k, m]
-        acceleration += C[k, m] * K[k, half + m]
-    length = math.sqrt(square)
-    return stretching / length, acceleration / length
 
 
 @kernel

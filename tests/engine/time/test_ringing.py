@@ -7,8 +7,6 @@ Free heave of the buoy above its anchor, without drag: omega^2 = EA/(L (M + M_a 
 import numpy as np
 import pytest
 
-from engine.simd.elementary import stretch_within
-from engine.time.time_loop import weights_within
 from tests.engine.lines import STILL, held, line, linear, ran
 
 FRICTIONLESS = STILL | {"buoy.drag": 0.0, "tether.drag_normal": 0.0, "tether.drag_tangential": 0.0}
@@ -84,12 +82,3 @@ SHAKEN = {"end.motion": {"law": "harmonic", "amplitude_m": [0, 0, 1e-4], "period
 def test_what_drives_is_followed_however_small(driven, steps):
     run = ran(line(driven), duration_s=5.0)
     assert run.statistics["steps"] >= steps * 5.0 / 0.5
-
-
-@pytest.mark.parametrize("turn_rad", [0.1, 1.0])
-def test_a_line_that_turns_within_a_step_is_not_shortened(turn_rad):
-    """q = (1 + eps)(cos, sin)(turn t/dt), strain from 0 to 1e-6: so it is halfway, not the sagitta turn^2/8."""
-    q = np.array([[[1.0, 0.0]], [[(1 + 1e-6) * np.cos(turn_rad), (1 + 1e-6) * np.sin(turn_rad)]]])
-    rates = np.array([[[1e-6, turn_rad]], [q[1, 0, ::-1] * [-turn_rad, turn_rad] + 1e-6 * q[1, 0]]])
-    weights = weights_within(True, 0.5, 1.0)
-    assert stretch_within(weights, q[0], q[1], rates[0], rates[1], 0, 2) == pytest.approx(1 + 5e-7, abs=1e-11)
