@@ -34,13 +34,14 @@ from tests.campaigns.fake_engine import FakeEngine, shapes, sines
 
 THREE = ("0.02", "0.05", "0.13")
 TOLERANCE_M, GRID_M = 0.02, 4.0  # error of r at rtol 1 and with one element, as sines of their own
+GRID_N = 1e6  # error of the tension with one element
 REPEATED = ["--periods", "12", "--transient", "2", "--no-report"]
 SHOWN = ["--periods", "15", "--transient", "3", "--no-report", "--no-accuracy"]
 
 
 @dataclass(frozen=True)
 class Drifting(FakeEngine):
-    """A FakeEngine whose r depends on tolerance and grid, and whose tension on the steepness of the wave."""
+    """A FakeEngine whose r depends on tolerance and grid, and whose tension on grid and steepness of the wave."""
 
     def __call__(self, scene, periods=None, duration_s=None):
         run = super().__call__(scene, periods, duration_s)
@@ -48,6 +49,7 @@ class Drifting(FakeEngine):
         off = (TOLERANCE_M * scene.solver.rtol + GRID_M / (nodes - 1) ** 2) * np.sin(0.7 * t)
         columns = run.columns | {"radius_m": run.columns["radius_m"] + off}
         columns["tension_top_high_N"] = columns["tension_top_high_N"] * (1.0 + scene.waves.steepness)
+        columns["tension_top_high_N"] = columns["tension_top_high_N"] + GRID_N / (nodes - 1) ** 2
         return replace(run, columns=columns)
 
 
@@ -99,6 +101,10 @@ def test_the_least_and_the_most_violent_run_are_repeated_with_the_errors_that_we
     for row in rows:
         found = [float(row[name]) for name in ("nodes", "rtol", "error_early_m")]
         assert found == pytest.approx(expected[row["run"]], rel=1e-6, abs=1e-15)
+        less_N = 0.75 * GRID_N / (nodes - 1) ** 2 if row["run"] == FINER else 0.0
+        for name in ("error_tension_N", "error_tension_block_max_N"):
+            assert float(row[name]) == pytest.approx(-less_N, rel=1e-6, abs=1e-9)
+        assert float(row["error_tension_top_min_N"]) == float(row["error_slack_fraction"]) == 0.0
 
 
 def test_repeated_again_nothing_is_computed(repeated):
