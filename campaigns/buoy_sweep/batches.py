@@ -119,12 +119,18 @@ class Batch:
         if not self.jobs and not out.exists():
             return 0.0
         each = plan.simulate_each if self.together else None
-        own = replace(plan, how=replace(plan.how, out=out), columns=self.columns, describe=self.row, said=self.said)
+        own = replace(plan, how=replace(plan.how, out=out), columns=self.columns, said=self.said)
+        own = replace(own, describe=partial(unchecked, row=self.row))
         with claimed(out):
             for path in (trajectory_path(out, job.key) for job in self.jobs):
                 for other in () if path.exists() else plan.how.out.glob(f"*/trajectories/{path.name}"):
                     write_atomic(path, other.read_bytes())
             return run(replace(own, simulate_each=each), self.jobs)[1].analysis_s
+
+
+def unchecked(trajectory, row: Callable, checks=None) -> dict[str, object]:
+    """row(trajectory); checks: what a run gets that begins in the state of another one, and none of these has."""
+    return row(trajectory)
 
 
 def changed(scene, *changes: dict):
@@ -255,16 +261,21 @@ def accuracy_row(
     return row
 
 
-def measured(scene, columns) -> dict[str, object]:
-    """What AGAIN and ERRORS hold of a record but for its exponent, in what follows the share LEFT_OUT."""
+def maxima_of_blocks(scene, columns, transient_periods: float) -> np.ndarray:
+    """The largest tension (N) of every BLOCK wave periods after the transient."""
     from analysis import block_maxima
 
     step_s, period_s = scene.sample_step_s(), scene.waves.period_s
+    first = round(transient_periods * period_s / step_s) + 1
+    return block_maxima(columns["tension_top_high_N"][first:], round(BLOCK * period_s / step_s))
+
+
+def measured(scene, columns) -> dict[str, object]:
+    """What AGAIN and ERRORS hold of a record but for its exponent, in what follows the share LEFT_OUT."""
+    step_s, period_s = scene.sample_step_s(), scene.waves.period_s
     periods = (len(columns["time_s"]) - 1) * step_s / period_s
     first_s = math.ceil(LEFT_OUT * periods) * period_s
-    found = settled(scene, columns, first_s)
-    high = columns["tension_top_high_N"][round(first_s / step_s) + 1 :]
-    largest = block_maxima(high, round(BLOCK * period_s / step_s))
+    found, largest = settled(scene, columns, first_s), maxima_of_blocks(scene, columns, first_s / period_s)
     found["tension_block_max_N"] = float(largest.mean()) if len(largest) else None
     if len(largest) > 1:
         found["tension_block_max_error_N"] = float(largest.std(ddof=1) / math.sqrt(len(largest)))
