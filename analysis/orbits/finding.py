@@ -21,7 +21,7 @@ from scipy.sparse.linalg import LinearOperator, gmres
 from analysis.orbits.maps import NoImage, OrbitMap, Shots, shoot
 from analysis.sampling import checked_count, checked_series
 
-TOLERANCE = 1e-9  # of the gaps, relative to the largest coordinate or 1
+TOLERANCE = 1e-9  # of the gaps, relative to the largest coordinate of the guess or 1
 LINEAR = 1e-7  # what GMRES leaves of the right-hand side
 MOST_VECTORS = 40  # of GMRES
 HALVINGS = 6
@@ -94,7 +94,7 @@ def find_orbit(
 
     start        (n,) a state, whose images are the first guess, or (period, n): a guess of every point
     count        multipliers wanted (head of this file)
-    tolerance    of the gaps, relative to the largest coordinate or 1
+    tolerance    of the gaps, relative to the largest coordinate of the start or 1
     iterations   of Newton's method; a step that does not shorten the gaps is halved up to six times
     Returns an Orbit: `period` is the least one, a divisor of the one asked for. Where none was found, `reason` says
     why, and the points are the last ones. Stable and unstable orbits are found alike; a search proves no completeness.
@@ -158,12 +158,13 @@ def corrected(
 ) -> Solved:
     """Newton's method on the gaps: at a fixed parameter, or orthogonally to a tangent (n + 1,) of the branch."""
     free, size, reason = tangent is not None, maps[0].parameter_size, ""
+    enough = tolerance * max(1.0, np.abs(points).max())  # of the guess: far away any gap is small beside the points
     try:
         shots = shoot(maps, points, parameter, free)
     except NoImage as why:
         return Solved(points, parameter, None, 0, str(why))
     for taken in range(iterations + 1):
-        if shots.residual <= tolerance * max(1.0, np.abs(points).max()):
+        if shots.residual <= enough:
             return Solved(points, parameter, shots, taken)
         if taken == iterations:
             break
