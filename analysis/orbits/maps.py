@@ -26,7 +26,11 @@ class NoImage(Exception):
 
 @dataclass(frozen=True, eq=False)
 class OrbitMap:
-    """A map P(z, parameter) of states z (n,), whose coordinates should all vary by about 1 over the orbits.
+    """A map P(z, parameter) of states z (n,), in coordinates of which |z| is a measure of distance.
+
+    A branch is followed in steps of |z_0|. What follows from other coordinates, as rates do, or changes with the steps
+    by which a system is computed, must be small in z: otherwise steps of the branch drown in it. Orbits and multipliers
+    do not depend on the scale.
 
     step             (z, parameter) -> (image (n,), linearised); linearised(V (n, k)) -> (n, k) is dP/dz V at z. It may
                      raise NoImage
