@@ -142,9 +142,11 @@ def multipliers_of(shots: Shots, count: int = 6, tolerance: float = 1e-9) -> tup
         for _ in range(2):  # once leaves rounding
             rest = rest - basis @ (basis.T @ rest)
         left, sizes, _ = np.linalg.svd(rest, full_matrices=False)
-        block = left[:, sizes > NEW_DIRECTION * max(1.0, np.abs(values).max())][:, : n - basis.shape[1]]
+        block = left[:, sizes > NEW_DIRECTION * max(1.0, np.linalg.norm(image, 2))][:, : n - basis.shape[1]]
         if block.shape[1] == 0:  # M maps the space to itself
             break
+        # a small direction is orthogonal to the others only to its rounding
+        block = np.linalg.qr(block - basis @ (basis.T @ block))[0]
     return values.astype(complex), residuals, (basis @ small).astype(complex)
 
 
