@@ -151,12 +151,12 @@ def judged_job(order, labels: dict, scene, start=None):
     return Job(labels, scene, order.periods, going=going, carrying=order.looks, made=made)
 
 
-def job_from(labels: dict, scene, periods: float, start=None, describe=None):
+def job_from(labels: dict, scene, periods: float, start=None):
     """A run of a fixed length that begins in the state `start`, or without one as its scene says."""
     from campaigns.machinery.plan import Job
 
     going = None if start is None else partial(_once, periods=periods, start=start)
-    return Job(labels, scene, periods, describe=describe, going=going, made=_from(start))
+    return Job(labels, scene, periods, going=going, made=_from(start))
 
 
 def _from(start) -> str:

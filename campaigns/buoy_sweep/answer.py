@@ -20,7 +20,7 @@ MOST_ENDS = 4  # that are told
 TOLD = 3  # jumps beside the largest that are told
 SMALLER = "Smaller jumps of the largest tension between"
 FLIES = "the sphere flies above still water with all its buoyancy (buoy.submergence)"
-LOOPS = "loops were released (--dimensions)"
+LOOPS = "loops were released (motion.dimensions)"
 AS_RUN, CAPPED = "as run", "wetted cap"  # roles of companions
 
 

@@ -30,14 +30,16 @@ FEWEST = 4  # jobs for each worker below which they are not put together
 _ready: set[tuple] = set()  # pieces of machine code that are on disk since a campaign of this process compiled them
 
 
-def run(plan: Plan, jobs: list[Job]) -> tuple[dict[str, float], Summary]:
-    """Compile and do the runs; returns the times of both and the summary."""
+def run(plan: Plan, jobs: list[Job], ahead: Sequence[Job] = ()) -> tuple[dict[str, float], Summary]:
+    """Compile and do the runs; returns the times of both and the summary. ahead: of these what they need is compiled
+    too, because they come next and two processes are done sooner with all of it.
+    """
     missing = [job for job in jobs if not trajectory_path(plan.how.out, job.key).exists()]
     start = time.perf_counter()
     if missing and plan.sends and plan.how.dask_address is not None:
         tell("each worker compiles the engine in its first run, unless it has done so before")
     elif missing:
-        _compile(plan, missing)
+        _compile(plan, [*missing, *ahead])
     compiled = time.perf_counter()
     summary = run_campaign(plan, jobs)
     run_s = time.perf_counter() - compiled
@@ -84,7 +86,7 @@ def _compile(plan: Plan, missing: list[Job]) -> None:
     together = {job.key for group in groups_of(plan, missing) for job in group}
     ours = [job for job in missing if plan.simulate is engine.simulate and job.simulate is None]
     wanted = [(job.scene, job.key in together, job.carrying) for job in ours]
-    wanted += [(job.scene, False, job.carrying) for job in ours if job.going is not None]  # its last part may go alone
+    wanted += [(job.scene, False, True) for job in ours if job.carrying]  # its last part may go alone
     pieces = engine.shares_of(wanted)
     tasks = [{key: scene for key, scene in task.items() if key not in _ready} for task in pieces]
     if not (tasks := [task for task in tasks if task]):

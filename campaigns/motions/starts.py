@@ -80,6 +80,9 @@ class Start:
         } | phase
 
 
+DISPLACED = Start("massless", displacement=(1.0, 0.0))  # what the starts on motions of a massless tether are like
+
+
 def strobed_at(phase_rad: float) -> float:
     """Share of the wave period after which a wave of this phase (of k x - omega t + phase) is first at phase 0."""
     return phase_rad / (2.0 * math.pi) % 1.0

@@ -93,13 +93,15 @@ def every_motion(order: Order, kicks: int, key: Column, scene_at: Callable) -> C
     def runs(plan: Plan, jobs: list[Job]) -> tuple[dict[str, float], Summary]:
         from campaigns.motions import ends
         from campaigns.motions.along import FROM_REST, Along
-        from campaigns.motions.starts import as_it_is, settled_of
+        from campaigns.motions.starts import DISPLACED, as_it_is, settled_of, start_job
 
         there = {job.key for job in jobs if trajectory_path(plan.how.out, job.key).exists()}
         jobs = sorted(jobs, key=lambda job: job.labels[key.name])
         later = plan.then or (lambda seconds: 0.0)
-        timing, first = run(replace(plan, then=lambda seconds: OTHERS * seconds + later(seconds)), jobs)
-        if plan.simulate is not engine.simulate:
+        real = plan.simulate is engine.simulate
+        ahead = [start_job({}, jobs[0].scene, DISPLACED, ())] if real and engine.massless_covers(jobs[0].scene) else []
+        timing, first = run(replace(plan, then=lambda seconds: OTHERS * seconds + later(seconds)), jobs, ahead)
+        if not real:
             return timing, first
         along = Along(plan, key, jobs, scene_at, first.rows)
         along.find(kicks, order.own.kick_speed, order.own.seed)

@@ -173,7 +173,7 @@ def test_the_answer_of_a_sweep_names_regimes_jumps_chaos_and_the_load_that_may_b
     assert sentences(rows[::-1], "steepness", "kA", scene) == [
         *regular,
         f"{largest}.",
-        "It is no load to design for, because loops were released (--dimensions).",
+        "It is no load to design for, because loops were released (motion.dimensions).",
         "Largest tension without that: 9.05 kN at kA = 0.08.",
     ]
     for one in rows[5:8]:
@@ -186,7 +186,7 @@ def test_the_answer_of_a_sweep_names_regimes_jumps_chaos_and_the_load_that_may_b
         *regular,
         f"{largest}; over periods 45 to 90 it is 8.9 kN, on 81 nodes 8.7 kN, with the wetted cap 4 kN.",
         "It is no load to design for, because the sphere flies above still water with all its buoyancy "
-        "(buoy.submergence) and loops were released (--dimensions).",
+        "(buoy.submergence) and loops were released (motion.dimensions).",
         "With the wetted cap the largest tension is 5 kN, at kA = 0.08: use this one.",
     ]
 
