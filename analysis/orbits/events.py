@@ -20,7 +20,7 @@ import numpy as np
 from scipy.optimize import brentq
 
 from analysis.orbits.finding import TOLERANCE, Orbit, Solved, corrected, described, not_found, real_span
-from analysis.orbits.maps import NoImage, OrbitMap, shoot, slopes_of
+from analysis.orbits.maps import NoImage, OrbitMap, shoot
 from analysis.orbits.spaces import Space
 
 CLOSE = 1e-2  # of a multiplier at an event to what it should be
@@ -189,10 +189,9 @@ def doubled_orbit(
     try:
         maps = system.near(twice, orbit.parameter)
         shots = shoot(maps, twice, orbit.parameter)
-        slopes = slopes_of(maps, shots, twice, orbit.parameter)
         guess = twice + amplitude * np.array(Space(shots.linearised, v[:, None]).ways)[:-1, :, 0]
         tangent = np.append(v, 0.0)
-        solved = corrected(maps, guess, orbit.parameter, tangent, tolerance, 2 * NEWTON, directions, slopes)
+        solved = corrected(maps, guess, orbit.parameter, tangent, tolerance, 2 * NEWTON, directions)
         reason, (first, half) = solved.reason, solved.points[[0, orbit.period]]
         if not reason and np.linalg.norm(first - half) < amplitude:
             reason = "Newton's method came back to the orbit of half the period"

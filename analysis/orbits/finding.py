@@ -6,12 +6,13 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from analysis.orbits.maps import NoImage, OrbitMap, Shots, shoot
+from analysis.orbits.maps import NoImage, OrbitMap, Shots, shoot, slopes_of
 from analysis.orbits.spaces import Space
 from analysis.sampling import checked_count, checked_series
 
 TOLERANCE = 1e-9  # of the gaps, relative to the largest coordinate of the guess or 1
 HALVINGS = 6
+KEPT = 0.1  # of a gap: a step that leaves more asks for new slopes
 REPEATS = 1e-6  # points this close, relative, are one: the period is a divisor of the one asked for
 SETTLED = 1e-3  # error of a multiplier, relative
 
@@ -175,6 +176,9 @@ def corrected(
             return Solved(points, parameter, shots, taken, directions)
         if taken == iterations:
             break
+        fresh = slopes is None
+        if fresh and tangent is not None:
+            slopes = slopes_of(maps, shots, points, parameter)
         space = Space(shots.linearised, directions if tangent is None else np.c_[directions, tangent[:n]])
         change, delta = space.solve(shots.gaps, slopes, tangent)
         directions = space.strongest()
@@ -189,7 +193,12 @@ def corrected(
             if tried.residual < shots.residual:
                 break
         else:
-            return Solved(points, parameter, shots, taken, directions, f"{reason}; {shots.residual:.1e} is left")
+            if fresh:
+                return Solved(points, parameter, shots, taken, directions, f"{reason}; {shots.residual:.1e} is left")
+            slopes = None
+            continue
+        if tried.residual > KEPT * shots.residual:
+            slopes = None
         (points, parameter), shots = trial, tried
     reason = f"{iterations} Newton steps leave {shots.residual:.1e}"
     return Solved(points, parameter, shots, iterations, directions, reason)
