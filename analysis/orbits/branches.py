@@ -1,3 +1,4 @@
+# LEAD: read /work/o16/NOTE_FROM_LEAD.md now, then delete this line
 """A periodic orbit followed along a parameter, round folds: pseudo-arclength continuation (Keller 1977).
 
     predict    (z, lambda) + h t, t the tangent at the last orbit, of length 1 in (z_0, lambda/parameter_size)

