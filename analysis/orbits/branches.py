@@ -1,3 +1,4 @@
+# LEAD (21:20): read /work/o16/NOTE_FROM_LEAD.md now, then delete this line
 # LEAD: read /work/o16/NOTE_FROM_LEAD.md now, then delete this line
 """A periodic orbit followed along a parameter, round folds: pseudo-arclength continuation (Keller 1977).
 
