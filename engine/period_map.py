@@ -7,7 +7,7 @@ last bit. They end at the strobe, so nothing is interpolated. The derivative car
 steps by the tangent equations of the exponents (`engine.perturbations`), at their own lengths. With other first steps
 the pass takes other steps, of the same tolerance: what that changes is the error of whatever is found on the map.
 
-c makes |z| the root mean square over the nodes of stretch, and of speed by its scale; k = 100 omega c, because K follows
+c makes |z| the root mean square over the nodes of stretch, and of speed by its scale. k = 100 omega c, as K follows
 from C. Other steps change fine motions of the line, and with them z, by more than the motion of the buoy: `seen` takes
 from z what a branch is measured in. The map is that of waves that have grown to their full height.
 """
