@@ -24,7 +24,7 @@ from campaigns.columns import (
 )
 from campaigns.judge import LEAST_JUDGED, OPEN, motion_of, record_regime, tangent_of
 from campaigns.motions.along import MOTIONS
-from engine.views import LONGEST_PERIOD, STROBE_TOLERANCE, carried, carries_tangents, rings, state_of
+from engine.views import LONGEST_PERIOD, STROBE_TOLERANCE, carried, carries_tangents, rings, state_of, static_tension_N
 
 STEEPNESS = Column("steepness", "", "kA", "wave steepness: wave number times amplitude", 3)
 DIMENSIONS = Column("dimensions", "", "D", "dimensions of the motion: 2, in the plane of the waves, or 3", 0)
@@ -217,8 +217,8 @@ def settled(scene, columns, transient_s: float) -> dict[str, object]:
     lowest, released = (
         number(np.min(columns["tension_top_low_N"], where=after & some, initial=np.inf)) for some in (~ringing, ringing)
     )
-    # A run starts at rest. T < 0 alone says little: much of it is noise of axial waves in a line that hangs loose.
-    tension, static_N = columns["tension_top_N"], float(columns["tension_top_N"][0])
+    # T < 0 alone says little: much of it is noise of axial waves in a line that hangs loose.
+    tension, static_N = columns["tension_top_N"], static_tension_N(scene, columns)
     shares = (
         slack_fraction(tension, step_s, threshold_N, transient_s).fraction
         for threshold_N in (max(NEAR_ZERO * static_N, 0.0), 0.0)
