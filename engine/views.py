@@ -91,20 +91,6 @@ def rings(scene: "Scene", releases: "numpy.ndarray") -> "numpy.ndarray":
     return found
 
 
-def static_tension_N(scene: "Scene", columns: "Mapping[str, numpy.ndarray]") -> float:
-    """Tension at the top of the line at rest: of the first sample of a run that began so, else of the static start."""
-    displaced = any(scene.start.buoy_displacement_m)
-    if columns["radius_rate_mps"][0] == 0.0 == columns["angle_rate_radps"][0] and not displaced:
-        return float(columns["tension_top_N"][0])
-    from engine.planar.columns import EPS  # in space the same column
-    from engine.run import Run
-    from engine.scales import tension_at
-
-    start = scene.start.model_copy(update={"buoy_displacement_m": (0.0, 0.0, 0.0)})
-    rest = Run(scene.model_copy(update={"start": start}), 0.0)
-    return tension_at(float(rest.motion.Y[-1, EPS]), scene.tether.tension)
-
-
 def spectrum(run: "Trajectory", column: str, transient_periods: int | None) -> "Spectrum":
     from analysis import spectrum as spectrum_of
 

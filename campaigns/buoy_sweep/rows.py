@@ -24,7 +24,8 @@ from campaigns.columns import (
 )
 from campaigns.judge import LEAST_JUDGED, OPEN, motion_of, record_regime, tangent_of
 from campaigns.motions.along import MOTIONS
-from engine.views import LONGEST_PERIOD, STROBE_TOLERANCE, carried, carries_tangents, rings, state_of, static_tension_N
+from engine.at_rest import static_tension_N
+from engine.views import LONGEST_PERIOD, STROBE_TOLERANCE, carried, carries_tangents, rings, state_of
 
 STEEPNESS = Column("steepness", "", "kA", "wave steepness: wave number times amplitude", 3)
 DIMENSIONS = Column("dimensions", "", "D", "dimensions of the motion: 2, in the plane of the waves, or 3", 0)

@@ -6,8 +6,8 @@ import xarray
 
 from engine import Trajectory, load_scene, simulate
 from engine.__main__ import main
+from engine.at_rest import static_tension_N
 from engine.trajectory import COLUMNS, TangentGrowth
-from engine.views import static_tension_N
 
 PERIODS, STEPS = 310, 100
 GOLDEN = 0.5 * (np.sqrt(5.0) - 1.0)
