@@ -4,9 +4,9 @@
     branch = follow_branch(system, find_orbit(system, start, parameter=1.0), 0.5, 2.0)
 
 The map is two functions, its image and the product of its derivative with vectors; no matrix is ever formed, so that
-maps with hundreds of coordinates serve as well as those with two. `maps` states what a map is, `finding` has Newton's
-method and the multipliers, `branches` follows an orbit, `events` locates folds, flips and torus points and begins the
-orbit of twice the period. Names are imported on first use.
+maps with hundreds of coordinates serve as well as those with two. `maps` states what a map is, `spaces` has its
+derivative on few directions, `finding` Newton's method, `branches` follows an orbit, `events` locates folds, flips and
+torus points and begins the orbit of twice the period. Names are imported on first use.
 """
 
 import lazy_loader
@@ -16,7 +16,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
     submod_attrs={
         "branches": ["Branch", "follow_branch"],
         "events": ["Event", "doubled_orbit"],
-        "finding": ["Orbit", "find_orbit", "multipliers_of"],
+        "finding": ["Orbit", "Scatter", "find_orbit", "scatter_of"],
         "maps": ["NoImage", "OrbitMap"],
     },
 )

@@ -1,7 +1,7 @@
 """A periodic orbit followed along a parameter, round folds: pseudo-arclength continuation (Keller 1977).
 
     predict    (z, lambda) + h t, t the tangent at the last orbit, of length 1 in (z_0, lambda/parameter_size)
-    correct    Newton's method, each correction orthogonal to t: `finding`, (c). A system that is computed in steps
+    correct    Newton's method, each correction orthogonal to t: `spaces`, (b). A system that is computed in steps
                takes the steps of the predicted orbit, and keeps them while it is corrected
     accept     where t turns by less than 26 degrees and the correction is shorter than half of h; else h is halved
 
@@ -9,24 +9,22 @@ h grows by half after three Newton steps or fewer. A branch has come back to its
 orbit, begun at any of its points, lies on the last chord.
 """
 
-from collections import namedtuple
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from itertools import pairwise
 
 import numpy as np
 
-from analysis.orbits.events import Event, events_between
-from analysis.orbits.finding import TOLERANCE, Orbit, corrected, described, update
-from analysis.orbits.maps import NoImage, OrbitMap, shoot
+from analysis.orbits.events import ACCURACY, NEWTON, Event, Place, events_between
+from analysis.orbits.finding import TOLERANCE, Orbit, corrected, described, real_span
+from analysis.orbits.maps import OrbitMap, shoot, slopes_of
+from analysis.orbits.spaces import Space
 from analysis.sampling import checked_positive
 
 STRAIGHT = 0.9  # least cosine between tangents of neighbours
 NEAR = 0.5  # longest correction, in steps
 GROW, FEW = 1.5, 3
 ON_CHORD = 0.2  # distance from a chord, in its lengths
-NEWTON = 12
-# An orbit of a branch; change (N, n) and rate: the tangent, of the points and of the parameter
-Place = namedtuple("Place", "orbit change rate")
 
 
 @dataclass(frozen=True, eq=False)
@@ -64,6 +62,8 @@ def follow_branch(
     most: int = 200,
     count: int = 6,
     tolerance: float = TOLERANCE,
+    accuracy: float = ACCURACY,
+    told: Callable[[Orbit], object] | None = None,
 ) -> Branch:
     """The branch of an orbit, both ways, stable or not, with its folds, flips and torus points.
 
@@ -73,19 +73,22 @@ def follow_branch(
                            what a new set of steps of the system changes of an orbit
     most                   orbits each way
     count, tolerance       as in `find_orbit`
+    accuracy               of events, in lengths of a step
+    told                   is called with every orbit as it is found
     Returns a Branch. Where it cannot be followed farther, its ends say why: it raises nothing for that.
     Raises ValueError for an orbit that was not found, and for one outside of the range.
     """
     if not orbit.found or not low <= orbit.parameter <= high:
         raise ValueError(f"orbit: one within {low:g} and {high:g} is needed, given {orbit.parameter:g}, {orbit.reason}")
-    how = _Follower(system, low, high, least, longest, most, count, tolerance)
+    how = _Follower(system, low, high, least, longest, most, count, tolerance, told)
     first = how.place(orbit)
     ahead, end, closed = how.one_way(first, checked_positive(step, "step"))
     places, begin = [first, *ahead], end
     if not closed:
         back, begin, _ = how.one_way(_reversed(first), step)
         places = [*map(_reversed, back[::-1]), *places]
-    events = [event for a, b in pairwise(places) for event in events_between(system, a, b, count, tolerance)]
+    pairs = pairwise(places)
+    events = [event for pair in pairs for event in events_between(system, *pair, count, tolerance, accuracy)]
     rates = np.array([place.rate for place in places])
     return Branch(tuple(place.orbit for place in places), rates, closed, (begin, end), tuple(events))
 
@@ -93,19 +96,21 @@ def follow_branch(
 class _Follower:
     """What stays the same along a branch."""
 
-    def __init__(self, system, low, high, least, longest, most, count, tolerance):
+    def __init__(self, system, low, high, least, longest, most, count, tolerance, told):
         self.system, self.low, self.high, self.least, self.longest = system, low, high, least, longest
-        self.most, self.count, self.tolerance = most, count, tolerance
+        self.most, self.count, self.tolerance, self.told = most, count, tolerance, told
 
     def place(self, orbit):
         """The orbit with its tangent in the direction of a growing parameter."""
         maps = self.system.near(orbit.points, orbit.parameter)
-        shots = shoot(maps, orbit.points, orbit.parameter, True)
+        shots = shoot(maps, orbit.points, orbit.parameter)
+        slopes = slopes_of(maps, shots, orbit.points, orbit.parameter)
+        space = Space(shots.linearised, real_span(orbit.vectors))
         tangent = np.append(np.zeros(orbit.points.shape[1]), 1.0)
         for _ in range(2):  # near a fold the first is not accurate
-            change, rate = tangent_of(shots, tangent)
+            change, rate = tangent_of(space, slopes, tangent)
             tangent = np.append(change[0], rate)
-        return Place(orbit, change, rate)
+        return Place(orbit, change, rate, slopes)
 
     def one_way(self, first, step):
         """Places after the first; why they end; whether they come back to the first."""
@@ -127,6 +132,8 @@ class _Follower:
             if len(places) > 2 and (again := _come_back(first, here, place, self.system.parameter_size)) is not None:
                 return [*places[1:], again], "comes back to its beginning", True
             places.append(place)
+            if self.told:
+                self.told(place.orbit)
             step = min(step * GROW, self.longest) if easy else step
         return places[1:], f"followed over {self.most} orbits", False
 
@@ -144,33 +151,34 @@ class _Follower:
         size, tangent = self.system.parameter_size, np.append(here.change[0], here.rate)
         points = here.orbit.points + step * here.change
         parameter = here.orbit.parameter + step * here.rate * size if end is None else end
+        directions, across = real_span(here.orbit.vectors), tangent if end is None else None
         try:
             maps = self.system.near(points, parameter)
-            across = tangent if end is None else None
-            solved = corrected(maps, points, parameter, across, self.tolerance, NEWTON)
-            if solved.reason:
-                return None, False, solved.reason
-            shots = solved.shots if end is None else shoot(maps, solved.points, end, True)
-        except NoImage as why:
+            solved = corrected(maps, points, parameter, across, self.tolerance, NEWTON, directions, here.slopes)
+            off = np.append(solved.points[0] - points[0], (solved.parameter - parameter) / size)
+            if solved.reason or np.linalg.norm(off) > NEAR * step:
+                return None, False, solved.reason or "the branch turns too sharply"
+            if not self.low <= solved.parameter <= self.high:
+                return None, False, "the orbit found is out of the range"
+            orbit, space = described(solved, self.count)
+            slopes = slopes_of(maps, solved.shots, solved.points, solved.parameter)
+            change, rate = tangent_of(space, slopes, tangent)
+        except ArithmeticError as why:
             return None, False, str(why)
-        off = np.append(solved.points[0] - points[0], (solved.parameter - parameter) / size)
-        change, rate = tangent_of(shots, tangent)
-        if np.linalg.norm(off) > NEAR * step or tangent @ np.append(change[0], rate) < STRAIGHT:
+        if tangent @ np.append(change[0], rate) < STRAIGHT:
             return None, False, "the branch turns too sharply"
-        if not self.low <= solved.parameter <= self.high:
-            return None, False, "the orbit found is out of the range"
-        return Place(described(solved, self.count), change, rate), solved.iterations <= FEW, ""
+        return Place(orbit, change, rate, slopes), solved.iterations <= FEW, ""
 
 
-def tangent_of(shots, before):
+def tangent_of(space, slopes, before):
     """The tangent in the direction of the one before (n + 1,): change (N, n) of the points, rate of the parameter."""
-    change, rate = update(shots, np.zeros_like(shots.gaps), before, 1.0)
+    change, rate = space.solve(np.zeros_like(slopes), slopes, before, 1.0)
     length = np.sqrt(change[0] @ change[0] + rate**2)
     return change / length, rate / length
 
 
 def _reversed(place):
-    return Place(place.orbit, -place.change, -place.rate)
+    return place._replace(change=-place.change, rate=-place.rate)
 
 
 def _meets_half(before, after):
@@ -191,5 +199,5 @@ def _come_back(first, here, place, size):
         share = way @ chord / length**2
         off = np.linalg.norm(way - share * chord)
         if 0.0 < share <= 1.0 and off < ON_CHORD * length and tangent @ chord > 0.5 * np.linalg.norm(tangent) * length:
-            return Place(replace(first.orbit, points=points), change, first.rate)
+            return first._replace(orbit=replace(first.orbit, points=points), change=change)
     return None

@@ -1,29 +1,34 @@
 """What happens to an orbit along a branch: folds, flips and torus points, and the orbit of twice the period at a flip.
 
-    event    function that changes its sign                    what is asked of it at its zero
-    fold     change of the parameter along the branch
-    flip     product of 1 + mu_i over the multipliers          one is real and near -1
-    torus    product of 1 - mu_i mu_j over pairs i < j         a conjugate pair near the unit circle
+    event    its sign changes along the branch                 what is 0 there
+    fold     change of the parameter                           product of 1 - mu_i over the multipliers
+    flip     product of 1 + mu_i                               the same; one is real and near -1
+    torus    product of 1 - mu_i mu_j over pairs i < j         the same; a conjugate pair is near the unit circle
 
 A real multiplier that enters or leaves the largest ones does not change a sign; two reals with mu_i mu_j = 1 do, and
 are no torus point. The zero is found between two orbits of the branch by Brent's method (1973), with one set of steps
-of the system and orbits in the planes across the chord.
+of the system and orbits in the planes across the chord; on its other meshes by one secant.
 
 At a flip M v = -v. The orbit of twice the period leaves it along v, and so begins as the orbit twice, displaced by
-v, Jv, ... The correction is orthogonal to v and the parameter is free (equation (c) of `finding` with t = (v, 0)).
+v, Jv, ... The correction is orthogonal to v and the parameter is free (equation (b) of `spaces` with t = (v, 0)).
 """
 
+from collections import namedtuple
 from dataclasses import dataclass
 
 import numpy as np
 from scipy.optimize import brentq
 
-from analysis.orbits.finding import TOLERANCE, Orbit, corrected, described, multipliers_of, not_found, update
+from analysis.orbits.finding import TOLERANCE, Orbit, Solved, corrected, described, not_found, real_span
 from analysis.orbits.maps import NoImage, OrbitMap, shoot
+from analysis.orbits.spaces import Space
 
 CLOSE = 1e-2  # of a multiplier at an event to what it should be
-SHARE = 1e-9  # of a chord, to which an event is located
+ACCURACY = 1e-9  # of a chord, to which an event is located
+ROUNDING = 1e-10  # of a test function; a map that conserves area has 1 - mu_1 mu_2 = 0 everywhere
 NEWTON = 12
+# An orbit of a branch; change (N, n) and rate: the tangent, of the points and of the parameter; slopes (N, n)
+Place = namedtuple("Place", "orbit change rate slopes")
 
 
 @dataclass(frozen=True, eq=False)
@@ -32,8 +37,8 @@ class Event:
 
     kind        "fold", "flip" or "torus"
     parameter   where
-    error       of the parameter, from the search: the nearest orbit on its other side, and Newton's next step. What
-                another set of steps of the system would change is not in it
+    error       of the parameter: of the search, and what the other meshes of the system change; inf where one of them
+                has no such orbit
     orbit       there
     angle_rad   of the multiplier that crosses the unit circle: 0 fold, pi flip, between them torus
     """
@@ -45,69 +50,110 @@ class Event:
     angle_rad: float
 
 
-def folded(multipliers: np.ndarray, rate: float) -> float:
-    """Change of the parameter along the branch."""
-    return rate
+def flat(multipliers: np.ndarray) -> float:
+    """Product of 1 - mu."""
+    return float(np.prod(1.0 - multipliers).real)
 
 
-def flipped(multipliers: np.ndarray, rate: float) -> float:
+def flipped(multipliers: np.ndarray) -> float:
     """Product of 1 + mu."""
     return float(np.prod(1.0 + multipliers).real)
 
 
-def turned(multipliers: np.ndarray, rate: float) -> float:
+def turned(multipliers: np.ndarray) -> float:
     """Product of 1 - mu_i mu_j over pairs."""
     i, j = np.triu_indices(len(multipliers), 1)
     return float(np.prod(1.0 - multipliers[i] * multipliers[j]).real)
 
 
-TESTS = {"fold": folded, "flip": flipped, "torus": turned}
-ROUNDING = 1e-10  # of a test function; a map that conserves area has 1 - mu_1 mu_2 = 0 everywhere
+TESTS = {"fold": flat, "flip": flipped, "torus": turned}
 
 
-def events_between(system: OrbitMap, before: tuple, after: tuple, count: int, tolerance: float) -> list[Event]:
-    """Events between two neighbours of a branch: places with orbit, change and rate (`analysis.orbits.branches`)."""
+def events_between(
+    system: OrbitMap, before: Place, after: Place, count: int, tolerance: float, accuracy: float
+) -> list[Event]:
+    """Events between two neighbours of a branch; none where their multipliers are not settled."""
     found = []
+    if not (before.orbit.settled and after.orbit.settled):
+        return found
     for kind, test in TESTS.items():
-        ends = [test(place.orbit.multipliers, place.rate) for place in (before, after)]
+        ends = [place.rate if kind == "fold" else test(place.orbit.multipliers) for place in (before, after)]
         if min(np.abs(ends)) > ROUNDING and ends[0] * ends[1] < 0.0:
-            found.append(_located(system, kind, before, after, ends, count, tolerance))
-    return sorted((event for event in found if event is not None), key=lambda event: event.parameter,
-                  reverse=after.orbit.parameter < before.orbit.parameter)  # fmt: skip
+            found.append(_Chord(system, test, before, after, count, tolerance).event(kind, accuracy))
+    backwards = after.orbit.parameter < before.orbit.parameter
+    return sorted((event for event in found if event), key=lambda event: event.parameter, reverse=backwards)
 
 
-def _located(system, kind, begin, end, ends, count, tolerance):
-    """The event between two places, or None where the sign changes for another reason."""
-    test, size, before, after = TESTS[kind], system.parameter_size, begin.orbit, end.orbit
-    move, by = after.points - before.points, after.parameter - before.parameter
-    chord = np.append(move[0], by / size)
-    length = np.linalg.norm(chord)
-    chord /= length
-    seen = {}
+class _Chord:
+    """Orbits between two places, in the planes across the way from one to the other."""
 
-    def value(share):
-        guess = before.points + share * move, before.parameter + share * by
-        solved = corrected(maps, *guess, chord, tolerance, NEWTON)
+    def __init__(self, system, test, begin, end, count, tolerance):
+        self.system, self.test, self.begin, self.end = system, test, begin, end
+        self.count, self.tolerance = count, tolerance
+        way = end.orbit.points[0] - begin.orbit.points[0]
+        self.chord = np.append(way, (end.orbit.parameter - begin.orbit.parameter) / system.parameter_size)
+        self.seen = {share: (place.orbit, test(place.orbit.multipliers)) for share, place in ((0.0, begin), (1.0, end))}
+
+    def between(self, share):
+        """Points, parameter and slopes at a share of the way, from the nearest orbits that were found."""
+        a = max((s for s in self.seen if s <= share), default=0.0)
+        b = min((s for s in self.seen if s >= share), default=1.0)
+        before, after = self.seen[a][0], self.seen[b][0]
+        part = (share - a) / (b - a) if b > a else 0.0
+        points = before.points + part * (after.points - before.points)
+        parameter = before.parameter + part * (after.parameter - before.parameter)
+        return points, parameter, self.begin.slopes + share * (self.end.slopes - self.begin.slopes)
+
+    def look(self, maps, share):
+        """The orbit at a share of the way, and the test function there."""
+        points, parameter, slopes = self.between(share)
+        across, directions = self.chord / np.linalg.norm(self.chord), real_span(self.begin.orbit.vectors)
+        solved = corrected(maps, points, parameter, across, self.tolerance, NEWTON, directions, slopes)
         if solved.reason:
             raise NoImage(solved.reason)
-        change, rate = update(solved.shots, np.zeros_like(solved.points), chord, 1.0)
-        values = multipliers_of(solved.shots, count)[0]
-        seen[share] = solved, test(values, rate / np.hypot(np.linalg.norm(change[0]), rate))
-        return seen[share][1]
+        orbit, _ = described(solved, self.count)
+        return orbit, self.test(orbit.multipliers)
 
-    guess = ends[0] / (ends[0] - ends[1])
-    try:
-        maps = system.near(before.points + guess * move, before.parameter + guess * by)
-        share = brentq(value, 0.0, 1.0, xtol=SHARE, rtol=4 * SHARE, maxiter=40, disp=False)
-        value(share)
-    except (NoImage, ValueError):  # no orbit there; or none with these steps of the system: as near as the branch tells
-        nearest = before if abs(ends[0]) < abs(ends[1]) else after
-        return _event(kind, nearest, length * size * max(abs(begin.rate), abs(end.rate)))
-    solved, at = seen[share]
-    across = [other for other, worth in seen.values() if worth * at <= 0.0 and other is not solved]
-    error = min((abs(other.parameter - solved.parameter) for other in across), default=0.0)
-    left = abs(update(solved.shots, solved.shots.gaps, chord, 0.0)[1])  # what Newton's next step would change
-    return _event(kind, described(solved, count), error + size * (left + ROUNDING))
+    def event(self, kind, accuracy):
+        """The event, or None where the sign changes for another reason."""
+        first, last = self.seen[0.0][1], self.seen[1.0][1]
+
+        def value(share):
+            if share not in self.seen:
+                self.seen[share] = self.look(maps, share)
+            return self.seen[share][1]
+
+        try:
+            if first * last > 0.0:
+                raise NoImage("no zero between the places")
+            points, parameter, _ = self.between(first / (first - last))
+            maps = self.system.near(points, parameter)
+            share = brentq(value, 0.0, 1.0, xtol=accuracy, rtol=4e-16 + accuracy, maxiter=40, disp=False)
+        except ArithmeticError:  # no orbit there, or none with these steps of the system: as near as the branch tells
+            nearest = self.begin.orbit if abs(first) < abs(last) else self.end.orbit
+            size = np.linalg.norm(self.chord) * self.system.parameter_size
+            return _event(kind, nearest, size * max(abs(self.begin.rate), abs(self.end.rate)))
+        orbit, at = self.seen[share]
+        across = [abs(other.parameter - orbit.parameter) for s, (other, worth) in self.seen.items()
+                  if worth * at <= 0.0 and s != share]  # fmt: skip
+        error = min(across, default=0.0) + self.system.parameter_size * ROUNDING
+        others = [self.elsewhere(mesh, share) - orbit.parameter for mesh in range(1, self.system.meshes)]
+        return _event(kind, orbit, error + max(np.abs(others), default=0.0))
+
+    def elsewhere(self, mesh, share):
+        """The parameter on another mesh; inf where it has no such orbit."""
+        nearby = min((s for s in self.seen if s != share), key=lambda s: abs(abs(s - share) - NEARBY))
+        ahead = (self.seen[nearby][1] - self.seen[share][1]) / (nearby - share)
+        try:
+            maps = self.system.near(self.seen[share][0].points, self.seen[share][0].parameter, mesh)
+            orbit, at = self.look(maps, share)
+            other, there = self.look(maps, share - at / ahead)
+        except ArithmeticError:
+            return np.inf
+        return orbit.parameter + (other.parameter - orbit.parameter) * (at / (at - there) if at != there else 0.0)
+
+
+NEARBY = 0.05  # distance, in chords, over which the slope of a test function is taken
 
 
 def _event(kind, orbit, error):
@@ -122,7 +168,7 @@ def _event(kind, orbit, error):
         angle = float(np.angle(pairs[np.argmin(np.abs(np.abs(pairs) - 1.0))]))
     elif kind == "flip" and np.abs(mu + 1.0).min() > CLOSE:
         return None
-    return Event(kind, orbit.parameter, error, orbit, angle)
+    return Event(kind, orbit.parameter, float(error), orbit, angle) if orbit.settled else None
 
 
 def doubled_orbit(
@@ -137,17 +183,20 @@ def doubled_orbit(
     """
     if flip.kind != "flip":
         raise ValueError(f"flip: an event of that kind is needed, given a {flip.kind}")
-    orbit = flip.orbit
+    orbit, twice = flip.orbit, np.tile(flip.orbit.points, (2, 1))
     v = orbit.vectors[:, np.argmin(np.abs(orbit.multipliers + 1.0))].real
-    v, twice = v / np.linalg.norm(v), np.tile(orbit.points, (2, 1))
-    maps = system.near(twice, orbit.parameter)
-    shots = shoot(maps, twice, orbit.parameter, False)
-    guess = twice + amplitude * shots.chain(v, np.zeros_like(twice))[:-1]
-    solved = corrected(maps, guess, orbit.parameter, np.append(v, 0.0), tolerance, 2 * NEWTON)
-    if solved.reason:
-        return not_found(solved.points, solved.parameter, solved.iterations, solved.reason)
-    first, half = solved.points[[0, orbit.period]]
-    if np.linalg.norm(first - half) < amplitude:
-        why = "Newton's method came back to the orbit of half the period"
-        return not_found(solved.points, solved.parameter, solved.iterations, why)
-    return described(solved, count)
+    v, directions = v / np.linalg.norm(v), real_span(orbit.vectors)
+    try:
+        maps = system.near(twice, orbit.parameter)
+        shots = shoot(maps, twice, orbit.parameter)
+        guess = twice + amplitude * np.array(Space(shots.linearised, v[:, None]).ways)[:-1, :, 0]
+        tangent = np.append(v, 0.0)
+        solved = corrected(maps, guess, orbit.parameter, tangent, tolerance, 2 * NEWTON, directions)
+        reason, (first, half) = solved.reason, solved.points[[0, orbit.period]]
+        if not reason and np.linalg.norm(first - half) < amplitude:
+            reason = "Newton's method came back to the orbit of half the period"
+        if not reason:
+            return described(solved, count)[0]
+    except ArithmeticError as why:
+        return not_found(Solved(twice, orbit.parameter, None, 0, directions, str(why)))
+    return not_found(Solved(solved.points, solved.parameter, None, solved.iterations, directions, reason))

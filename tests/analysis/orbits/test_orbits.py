@@ -6,7 +6,7 @@ from functools import lru_cache
 import numpy as np
 import pytest
 
-from analysis.orbits import NoImage, OrbitMap, doubled_orbit, find_orbit, follow_branch
+from analysis.orbits import NoImage, OrbitMap, doubled_orbit, find_orbit, follow_branch, scatter_of
 from analysis.oscillator import SnapOscillator, grazing_force, periodic_orbit, search_periodic_orbits
 from analysis.oscillator.growth import random_starts
 from analysis.oscillator.pieces import tables
@@ -151,17 +151,22 @@ def test_an_island_closes_with_its_two_folds():
     assert np.hypot([o.points[0, 0] - 1 for o in branch.orbits], branch.parameters - 2) == closely(0.5)
 
 
-def test_a_system_that_takes_steps_keeps_them_while_an_orbit_is_corrected():
+def test_a_system_that_takes_steps_keeps_them_while_an_orbit_is_corrected_and_quotes_what_others_change():
     """Its steps change the parameter by up to 1e-4, as irregularly as a mesh that adapts itself."""
-
-    def with_steps_of(r):
-        return OrbitMap(lambda z, s: logistic(z, s * (1 + 1e-4 * np.sin(1e6 * r))))
-
     asked = []
-    system = OrbitMap(logistic, frozen=lambda points, r: asked.append(r) or [with_steps_of(r)] * len(points))
-    branch = follow_branch(system, find_orbit(system, [0.6], 2.8), 2.5, 3.3, least=1e-3)
+
+    def frozen(points, r, mesh=0):
+        asked.append(mesh)
+        return [lambda z, s: logistic(z, s * (1 + 1e-4 * np.sin(1e6 * r + 2.0 * mesh)))] * len(points)
+
+    system = OrbitMap(logistic, frozen=frozen, meshes=3)
+    first = find_orbit(system, [0.6], 2.8)
+    branch = follow_branch(system, first, 2.5, 3.3, least=1e-3)
     (flip,) = branch.events
-    assert flip.parameter == pytest.approx(3.0, abs=4e-4) and len(asked) < 2 * len(branch.orbits) + 8
+    assert abs(flip.parameter - 3.0) < flip.error < 2e-3 and asked.count(0) < 2 * len(branch.orbits) + 8
+    scatter = scatter_of(system, first)
+    assert len(scatter.orbits) == 2 and abs(first.multipliers[0] + 0.8) < 2 * scatter.multipliers[0] < 2e-3
+    assert 0.0 < scatter.points.max() < 1e-4 and not scatter_of(OrbitMap(logistic), first).points.any()
 
 
 def test_a_branch_ends_in_words_where_the_map_does():
