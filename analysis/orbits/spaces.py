@@ -21,7 +21,7 @@ from scipy.linalg import eig
 
 from analysis.orbits.maps import Linearised, finite
 
-LINEAR = 1e-5  # what is left of the right-hand side of (b)
+LINEAR = 1e-3  # what is left of the right-hand side of (b)
 RITZ = 1e-9  # what |M y - mu y| leaves, |y| = 1
 MOST_DIRECTIONS, MOST_PASSES = 60, 12
 NEW_DIRECTION = 1e-8  # what a unit vector must add to Q
