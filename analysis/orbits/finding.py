@@ -1,4 +1,3 @@
-# LEAD: read /work/o16/NOTE_FROM_LEAD.md now, then delete this line
 """Periodic orbits by Newton's method, with their multipliers; the equations are (a) and (b) of `spaces`."""
 
 from collections.abc import Sequence

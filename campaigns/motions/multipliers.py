@@ -36,7 +36,7 @@ def cable_map(scene_of: Callable, state, value: float, size: float = 1.0):
     from engine.period_map import PeriodMap
 
     cable = PeriodMap(scene_of, state, value)
-    return cable, OrbitMap(cable.step, frozen=cable.frozen, parameter_size=size, meshes=cable.meshes)
+    return cable, OrbitMap(cable.step, frozen=cable.frozen, parameter_size=size, meshes=cable.meshes, seen=cable.seen)
 
 
 def orbit_row(trajectory, period: int) -> tuple[dict[str, float | None], str]:
