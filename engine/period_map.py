@@ -7,9 +7,9 @@ last bit. They end at the strobe, so nothing is interpolated. The derivative car
 steps by the tangent equations of the exponents (`engine.perturbations`), at their own lengths. With other first steps
 the pass takes other steps, of the same tolerance: what that changes is the error of whatever is found on the map.
 
-c makes |z| the root mean square over the nodes of stretch, and of speed by its scale. K follows from C, so its scale
-changes neither orbits nor multipliers; k = 100 omega c keeps it out of distances: another mesh changes K by more than
-it changes C. The map is that of waves that have grown to their full height.
+c makes |z| the root mean square over the nodes of stretch, and of speed by its scale. k = 100 omega c, as K follows
+from C. Other steps change fine motions of the line, and with them z, by more than the motion of the buoy: `seen` takes
+from z what a branch is measured in. The map is that of waves that have grown to their full height.
 """
 
 import math
@@ -55,6 +55,7 @@ class PeriodMap:
 
     scene_of : value -> Scene; SceneError or ValueError where there is none. All have one grid (n nodes).
     start : state of a run; `first` (8 n,) is it at the next whole number of periods, in the scene of `value`.
+    seen : (8 n, 4); seen.T @ z is the place of the buoy (m) and its velocity over the frequency of the waves (m).
     Raises ValueError for a scene that has no such map, and ArithmeticError, with the end of a sentence, where a state
     has no image: a loop is released, a turn passes pi, or Newton's method fails.
     """
@@ -68,6 +69,7 @@ class PeriodMap:
         self.start = start.ended_at_zero()
         self.nodes = scene_of(value).tether.nodes
         self.scale = self._scale(value)
+        self.seen = self._seen(value)
         self.trail = self._trail(ROOM, value)
         state, period_s = start.state(), scene_of(value).waves.period_s
         z = np.concatenate([start.C.ravel(), start.K.ravel()]) / self.scale
@@ -124,6 +126,17 @@ class PeriodMap:
         speed = 1.0 / float(run.record["per_speed"])
         c = np.tile(np.array([1.0, 1.0, speed, speed]) * math.sqrt(self.nodes), self.nodes)
         return np.concatenate([c, c * RATES * 2.0 * math.pi / run.scene.waves.period_s])
+
+    def _seen(self, value: float) -> np.ndarray:
+        run, n = self._run(value), self.nodes
+        of = np.zeros((2, n, 4, 4))
+        h = col.lengths_of(run.record, run.tables)
+        for i in (CX, CZ):
+            of[0, 1:, i, i] += 0.5 * h
+            of[0, :-1, i, i] += 0.5 * h
+        for i in (VX, VZ):
+            of[0, -1, i, i] = run.scene.waves.period_s / (2.0 * math.pi)
+        return of.reshape(8 * n, 4) * self.scale[:, None]
 
     def _trail(self, rows: int, value: float) -> Trail:
         s, n = int(self._run(value).record["stages"]), self.nodes

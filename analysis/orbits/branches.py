@@ -1,5 +1,3 @@
-# LEAD (21:20): read /work/o16/NOTE_FROM_LEAD.md now, then delete this line
-# LEAD: read /work/o16/NOTE_FROM_LEAD.md now, then delete this line
 """A periodic orbit followed along a parameter, round folds: pseudo-arclength continuation (Keller 1977).
 
     predict    (z, lambda) + h t, t the tangent at the last orbit, of length 1 in (z_0, lambda/parameter_size)
@@ -108,10 +106,10 @@ class _Follower:
         shots = shoot(maps, orbit.points, orbit.parameter)
         slopes = slopes_of(maps, shots, orbit.points, orbit.parameter)
         space = Space(shots.linearised, real_span(orbit.vectors))
-        tangent = np.append(np.zeros(orbit.points.shape[1]), 1.0)
+        across = np.append(np.zeros(orbit.points.shape[1]), 1.0)
         for _ in range(2):  # near a fold the first is not accurate
-            change, rate = tangent_of(space, slopes, tangent)
-            tangent = np.append(change[0], rate)
+            change, rate = tangent_of(self.system, space, slopes, across)
+            across = self.system.row(change[0], rate)
         return Place(orbit, change, rate, slopes)
 
     def one_way(self, first, step):
@@ -129,9 +127,9 @@ class _Follower:
                     where = f"{here.orbit.parameter:.6g}"
                     return places[1:], f"at {where} no step above {self.least:g} succeeds: {reason}", False
                 continue
-            if _meets_half(here.orbit.points, place.orbit.points):
+            if _meets_half(self.system, here.orbit.points, place.orbit.points):
                 return places[1:], f"meets the orbit of period {here.orbit.period // 2}", False
-            if len(places) > 2 and (again := _come_back(first, here, place, self.system.parameter_size)) is not None:
+            if len(places) > 2 and (again := _come_back(self.system, first, here, place)) is not None:
                 return [*places[1:], again], "comes back to its beginning", True
             places.append(place)
             if self.told:
@@ -150,21 +148,21 @@ class _Follower:
 
         end: value at which the parameter is held, at the end of the range; None within it.
         """
-        size, tangent = self.system.parameter_size, np.append(here.change[0], here.rate)
+        size, tangent = self.system.parameter_size, self.system.row(here.change[0], here.rate)
         points = here.orbit.points + step * here.change
         parameter = here.orbit.parameter + step * here.rate * size if end is None else end
         directions, across = real_span(here.orbit.vectors), tangent if end is None else None
         try:
             how = near_orbits(self.tolerance)
             maps, solved = solved_near(self.system, points, parameter, across, how, directions, here.slopes)
-            off = np.append(solved.points[0] - points[0], (solved.parameter - parameter) / size)
-            if solved.reason or np.linalg.norm(off) > NEAR * step:
+            off = distance(self.system, solved.points[0] - points[0], (solved.parameter - parameter) / size)
+            if solved.reason or off > NEAR * step:
                 return None, False, solved.reason or "the branch turns too sharply"
             if not self.low <= solved.parameter <= self.high:
                 return None, False, "the orbit found is out of the range"
             orbit, space = described(solved, self.count)
             slopes = slopes_of(maps, solved.shots, solved.points, solved.parameter)
-            change, rate = tangent_of(space, slopes, tangent)
+            change, rate = tangent_of(self.system, space, slopes, tangent)
         except ArithmeticError as why:
             return None, False, str(why)
         if tangent @ np.append(change[0], rate) < STRAIGHT:
@@ -172,10 +170,15 @@ class _Follower:
         return Place(orbit, change, rate, slopes), solved.iterations <= FEW, ""
 
 
-def tangent_of(space, slopes, before):
-    """The tangent in the direction of the one before (n + 1,): change (N, n) of the points, rate of the parameter."""
+def distance(system, change, rate):
+    """Length of a change (n,) of a point with one of the parameter, in what is seen."""
+    return float(np.sqrt(system.row(change, rate) @ np.append(change, rate)))
+
+
+def tangent_of(system, space, slopes, before):
+    """The tangent in the direction of the row before (n + 1,): change (N, n) of the points, rate of the parameter."""
     change, rate = space.solve(np.zeros_like(slopes), slopes, before, 1.0)
-    length = np.sqrt(change[0] @ change[0] + rate**2)
+    length = distance(system, change[0], rate)
     return change / length, rate / length
 
 
@@ -183,23 +186,31 @@ def _reversed(place):
     return place._replace(change=-place.change, rate=-place.rate)
 
 
-def _meets_half(before, after):
+def _meets_half(system, before, after):
     """Whether the two halves of an orbit of even period have changed places in between."""
     half, odd = divmod(len(before), 2)
-    return half > 0 and not odd and float((before[0] - before[half]) @ (after[0] - after[half])) < 0.0
+    if odd or not half:
+        return False
+    return float(system.row(before[0] - before[half], 0.0) @ np.append(after[0] - after[half], 0.0)) < 0.0
 
 
-def _come_back(first, here, place, size):
+def _come_back(system, first, here, place):
     """The first place, begun where the branch comes back to it, if that lies on the chord from here; else None."""
-    begin = here.orbit
-    chord = np.append(place.orbit.points[0] - begin.points[0], (place.orbit.parameter - begin.parameter) / size)
-    length = np.linalg.norm(chord)
+    begin, size = here.orbit, system.parameter_size
+
+    def way_to(orbit, k):
+        points = np.roll(orbit.points, -k, axis=0)
+        return points[0] - begin.points[0], (orbit.parameter - begin.parameter) / size
+
+    chord = way_to(place.orbit, 0)
+    across, length = system.row(*chord), distance(system, *chord)
     for k in range(first.orbit.period):
-        points, change = np.roll(first.orbit.points, -k, axis=0), np.roll(first.change, -k, axis=0)
-        way = np.append(points[0] - begin.points[0], (first.orbit.parameter - begin.parameter) / size)
-        tangent = np.append(change[0], first.rate)
-        share = way @ chord / length**2
-        off = np.linalg.norm(way - share * chord)
-        if 0.0 < share <= 1.0 and off < ON_CHORD * length and tangent @ chord > 0.5 * np.linalg.norm(tangent) * length:
-            return first._replace(orbit=replace(first.orbit, points=points), change=change)
+        way, change = way_to(first.orbit, k), np.roll(first.change, -k, axis=0)
+        share = across @ np.append(*way) / length**2
+        off = distance(system, way[0] - share * chord[0], way[1] - share * chord[1])
+        straight = across @ np.append(change[0], first.rate) > 0.5 * distance(system, change[0], first.rate) * length
+        if 0.0 < share <= 1.0 and off < ON_CHORD * length and straight:
+            return first._replace(
+                orbit=replace(first.orbit, points=np.roll(first.orbit.points, -k, axis=0)), change=change
+            )
     return None

@@ -1,4 +1,3 @@
-# LEAD: read /work/o16/NOTE_FROM_LEAD.md now, then delete this line
 """What happens to an orbit along a branch: folds, flips and torus points, and the orbit of twice the period at a flip.
 
     event    function that changes its sign along the branch   what is asked of the zero
@@ -108,7 +107,10 @@ class _Chord:
         self.system, self.test, self.begin, self.end = system, test, begin, end
         self.count, self.tolerance, self.size = count, tolerance, system.parameter_size
         way = end.orbit.points[0] - begin.orbit.points[0]
-        self.chord = np.append(way, (end.orbit.parameter - begin.orbit.parameter) / self.size)
+        by = (end.orbit.parameter - begin.orbit.parameter) / self.size
+        row = system.row(way, by)
+        self.length = float(np.sqrt(row @ np.append(way, by)))
+        self.across = row / self.length
         self.seen = {share: (place.orbit, test(place.orbit.multipliers)) for share, place in ((0.0, begin), (1.0, end))}
 
     def between(self, share):
@@ -124,8 +126,8 @@ class _Chord:
     def look(self, maps, share):
         """The orbit at a share of the way, and the test function there."""
         points, parameter, slopes = self.between(share)
-        across, directions = self.chord / np.linalg.norm(self.chord), real_span(self.begin.orbit.vectors)
-        solved = corrected(maps, points, parameter, across, near_orbits(self.tolerance), directions, slopes)
+        directions = real_span(self.begin.orbit.vectors)
+        solved = corrected(maps, points, parameter, self.across, near_orbits(self.tolerance), directions, slopes)
         if solved.reason:
             raise NoImage(solved.reason)
         orbit, _ = described(solved, self.count)
@@ -148,7 +150,7 @@ class _Chord:
             if kind == "fold" and self.begin.rate * self.end.rate > 0.0:
                 return None
             nearest = self.begin.orbit if abs(first) < abs(last) else self.end.orbit
-            length = np.linalg.norm(self.chord) * self.size
+            length = self.length * self.size
             return _event(kind, nearest, nearest.parameter, length * max(abs(self.begin.rate), abs(self.end.rate)))
         orbit, at = self.seen[share]
         if kind == "fold" and self.passes(orbit):
@@ -210,13 +212,13 @@ def doubled_orbit(
         raise ValueError(f"flip: an event of that kind is needed, given a {flip.kind}")
     orbit, twice = flip.orbit, np.tile(flip.orbit.points, (2, 1))
     v = orbit.vectors[:, np.argmin(np.abs(orbit.multipliers + 1.0))].real
-    v, directions = v / np.linalg.norm(v), real_span(orbit.vectors)
+    v, directions = v / np.sqrt(system.row(v, 0.0)[:-1] @ v), real_span(orbit.vectors)
     try:
         shots = shoot(system.near(twice, orbit.parameter), twice, orbit.parameter)
         guess = twice + amplitude * np.array(Space(shots.linearised, v[:, None]).ways)[:-1, :, 0]
-        _, solved = solved_near(system, guess, orbit.parameter, np.append(v, 0.0), Correction(tolerance), directions)
+        _, solved = solved_near(system, guess, orbit.parameter, system.row(v, 0.0), Correction(tolerance), directions)
         reason, (first, half) = solved.reason, solved.points[[0, orbit.period]]
-        if not reason and np.linalg.norm(first - half) < amplitude:
+        if not reason and system.row(first - half, 0.0)[:-1] @ (first - half) < amplitude**2:
             reason = "Newton's method came back to the orbit of half the period"
         if not reason:
             return described(solved, count)[0]

@@ -1,5 +1,3 @@
-# LEAD (21:20): read /work/o16/NOTE_FROM_LEAD.md now, then delete this line
-# LEAD: read /work/o16/NOTE_FROM_LEAD.md now, then delete this line
 """Periodic orbits by Newton's method, with their multipliers; the equations are (a) and (b) of `spaces`."""
 
 from collections.abc import Sequence

@@ -22,9 +22,8 @@ class NoImage(ArithmeticError):
 class OrbitMap:
     """A map P(z, parameter) of states z (n,), in coordinates of which |z| is a measure of distance.
 
-    A branch is followed in steps of |z_0|. What follows from other coordinates, as rates do, or changes with the steps
-    by which a system is computed, must be small in z: otherwise steps of the branch drown in it. Orbits and multipliers
-    do not depend on the scale.
+    A branch is followed in steps of what is seen of z_0. What changes with the steps by which a system is computed must
+    be small in it: otherwise steps of the branch drown in that. Orbits and multipliers do not depend on it.
 
     step             (z, parameter) -> (image (n,), linearised); linearised(V (n, k)) -> (n, k) is dP/dz V at z. An
                      ArithmeticError says that there is no image, and why: the end of a sentence
@@ -34,6 +33,7 @@ class OrbitMap:
                      meshes - 1 chooses among steps of the same accuracy. None: the map is smooth as it is
     parameter_size   the change of the parameter that counts as 1
     meshes           how many there are: the differences between them are the errors of an orbit
+    seen             (n, m): seen.T @ z is what distances along a branch are measured in; None: all of z
     """
 
     step: Step
@@ -41,12 +41,17 @@ class OrbitMap:
     frozen: Callable[[np.ndarray, float, int], Sequence[Step]] | None = None
     parameter_size: float = 1.0
     meshes: int = 1
+    seen: np.ndarray | None = None
 
     def near(self, points: np.ndarray, parameter: float, mesh: int = 0) -> Sequence["OrbitMap"]:
         """The maps to be used near an orbit, one for each of its points."""
         if self.frozen is None:
             return [self] * len(points)
         return [replace(self, step=step, frozen=None) for step in self.frozen(points, parameter, mesh)]
+
+    def row(self, change: np.ndarray, rate: float) -> np.ndarray:
+        """(n + 1,) of the inner product with a change (n,) of a point and one of the parameter, in what is seen."""
+        return np.append(change if self.seen is None else self.seen @ (self.seen.T @ change), rate)
 
     def slope(self, z: np.ndarray, parameter: float, image: np.ndarray) -> np.ndarray:
         """Derivative (n,) of the image by the parameter in units of `parameter_size`."""

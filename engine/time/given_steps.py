@@ -48,6 +48,7 @@ def march_over(p, tables, state, steps, motion, output, trail):
         copy_into(K, trial.K[p.stages - 1])
         copy_into(C, trial.C)
         dt_before = step.dt
-        if largest_turn(p, Y)[0] > math.pi:
+        state.max_turn = max(state.max_turn, largest_turn(p, Y)[0])
+        if state.max_turn > math.pi:
             return TURN_UNRESOLVED, at
     return OK, steps.shape[0]

@@ -47,6 +47,11 @@ def test_it_begins_at_the_strobe_after_a_state_and_goes_where_a_run_does(cable, 
     assert list(found) == list(longer.columns) and len(found["time_s"]) == per_period
     last = {name: column[31 * per_period : 32 * per_period] for name, column in longer.columns.items()}
     assert found["radius_m"] == pytest.approx(last["radius_m"], abs=2e-3)
+    x, z, u, w = cable.seen.T @ cable.first
+    omega = 2.0 * math.pi / scene_at(AT).waves.period_s
+    assert (math.hypot(x, z), (x * u + z * w) * omega / math.hypot(x, z)) == pytest.approx(
+        (found["radius_m"][0], found["radius_rate_mps"][0]), abs=1e-9
+    )
     assert found["tension_top_high_N"].max() == pytest.approx(last["tension_top_high_N"].max(), rel=2e-3)
 
 
