@@ -162,7 +162,7 @@ class _Chord:
         try:
             every = [self.elsewhere(mesh, share) for mesh in range(self.system.meshes)]
         except ArithmeticError:
-            every = [orbit.parameter, np.inf]
+            return _event(kind, orbit, orbit.parameter, np.inf)
         middle = float(np.median(every))
         return _event(kind, orbit, middle, max(abs(middle - other) for other in every))
 
