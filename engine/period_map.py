@@ -33,6 +33,7 @@ from .trajectory_parts import heading_of
 
 FIRST_STEPS = 0.3, 0.2, 0.45  # of the longest step: one of every mesh
 RATES = 100.0  # by which rates count less than their frequency says
+GRADE = 2.0  # longest step, in lengths of the next one
 LEAST_SHARE = 0.3  # of the step before: a last step that is shorter shares its way with it
 NEWTON = 1e-10  # the map must be smooth to below the gaps of an orbit
 SPLITS = 8  # steps of a mesh that may be halved because Newton's method refuses them
@@ -48,6 +49,20 @@ def why_no_map(scene: Scene) -> str:
     if scene.solver.integrator not in ("esdirk43", "trbdf2") or scene.solver.scheme == "paper-box":
         return "an integrator without error control"
     return ""
+
+
+def _graded(steps: np.ndarray) -> np.ndarray:
+    """Steps (l, 2) that grow shorter slowly. A pass that meets a snap goes from its longest step to its shortest at
+    once; an orbit nearby meets it a little earlier, within that longest step, and its multipliers scatter ten times
+    as much."""
+    taken, after = [], np.inf
+    for begin, length in steps[::-1]:
+        left = length
+        while left > 0.0:
+            after = left if left <= 1.3 * GRADE * after else GRADE * after
+            left = left - after if left > after else 0.0
+            taken.append((begin + left, after))
+    return np.array(taken[::-1])
 
 
 class PeriodMap:
@@ -192,7 +207,7 @@ class PeriodMap:
         if len(T) > 1 and T[-1, 1] < LEAST_SHARE * T[-2, 1]:
             half = 0.5 * (1.0 - T[-2, 0])
             T[-2:] = (T[-2, 0], half), (T[-2, 0] + half, half)
-        return T
+        return _graded(T)
 
     def _map(self, steps: np.ndarray) -> Callable:
         """The map over steps (l, 2) in wave periods; one that Newton's method refuses is halved, for good."""

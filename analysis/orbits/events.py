@@ -36,7 +36,7 @@ from analysis.orbits.spaces import Space
 CLOSE = 1e-2  # of a multiplier at an event to what it should be
 ACCURACY = 1e-9  # of a chord, to which an event is located
 ROUNDING = 1e-10  # of a test function; a map that conserves area has 1 - mu_1 mu_2 = 0 everywhere
-NEARBY = 0.05  # distance, in chords, over which the slope of a test function is taken
+NEARBY = 0.3  # distance, in chords, over which the slope of a test function is taken
 ON_WAY = 0.01  # of the change of the parameter
 # An orbit of a branch; change (N, n) and rate: the tangent, of the points and of the parameter; slopes (N, n)
 Place = namedtuple("Place", "orbit change rate slopes")
@@ -160,11 +160,11 @@ class _Chord:
                       if worth * at <= 0.0 and s != share]  # fmt: skip
             return _event(kind, orbit, orbit.parameter, min(across, default=0.0) + self.size * ROUNDING)
         try:
-            (orbit, parameter), *others = [self.elsewhere(mesh, share) for mesh in range(self.system.meshes)]
-            error = max(abs(parameter - other) for _, other in others)
+            every = [self.elsewhere(mesh, share) for mesh in range(self.system.meshes)]
         except ArithmeticError:
-            parameter, error = orbit.parameter, np.inf
-        return _event(kind, orbit, parameter, error)
+            return _event(kind, orbit, orbit.parameter, np.inf)
+        middle = float(np.median(every))
+        return _event(kind, orbit, middle, max(abs(middle - other) for other in every))
 
     def passes(self, orbit):
         """Whether the parameter of an orbit lies well between those of the places, as beside no fold."""
@@ -173,14 +173,14 @@ class _Chord:
         return inside > ON_WAY * (after - before) ** 2
 
     def elsewhere(self, mesh, share):
-        """The orbit nearest to the event, and the parameter of the event, with the steps of a mesh at an orbit."""
+        """The parameter of the event with the steps of a mesh at the orbit that was found: one orbit there, and slopes
+        from the chord, because those of a map in steps are rough from one orbit to the next."""
+        found, at = self.seen[share]
         nearby = min((s for s in self.seen if s != share), key=lambda s: abs(abs(s - share) - NEARBY))
-        ahead = (self.seen[nearby][1] - self.seen[share][1]) / (nearby - share)
-        maps = self.system.near(self.seen[share][0].points, self.seen[share][0].parameter, mesh)
-        orbit, at = self.look(maps, share)
-        other, there = self.look(maps, share - at / ahead)
-        part = at / (at - there) if at != there else 1.0
-        return other, orbit.parameter + part * (other.parameter - orbit.parameter)
+        orbit, worth = self.seen[nearby]
+        maps = self.system.near(found.points, found.parameter, mesh)
+        other, there = self.look(maps, share)
+        return other.parameter + there / (at - worth) * (orbit.parameter - found.parameter)
 
 
 def _event(kind, orbit, parameter, error):
