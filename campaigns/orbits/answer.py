@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
+from functools import partial
 from itertools import groupby
 
 from campaigns.answers import Row, kilonewton, known
@@ -27,7 +28,8 @@ def sentences(rows: Sequence[Row], key: Column, parts: Mapping[str, Sequence[Row
     if unsure := [one for one in parts["events"] if not known(one, "error") <= 2e-4 * abs(known(one, key.name)) / 0.1]:
         yield f"Not known to 2 of 1000: {listed(_event(one, key) for one in unsure[:4])}."
     if failed := [one for one in parts["branches"] if one["status"] != "ok"]:
-        yield f"Without an orbit: motion {listed(f'{one['motion']} ({one['message']})' for one in failed)}."
+        told = (f"{one['motion']} ({one['message']})" for one in failed)
+        yield f"Without an orbit: motion {listed(told)}."
 
 
 def _branch(branch: Row, rows: Sequence[Row], key: Column, events: Sequence[Row]) -> str:
@@ -52,9 +54,8 @@ def _event(one: Row, key: Column) -> str:
 
 def _between(orbits: Sequence[Row], key: Column) -> Iterator[str]:
     """What stands between the motions of one value."""
-    for value, group in groupby(
-        sorted(orbits, key=lambda one: known(one, key.name)), key=lambda one: known(one, key.name)
-    ):
+    at = partial(known, name=key.name)
+    for value, group in groupby(sorted(orbits, key=at), key=at):
         some = [*group]
         saddles = [one for one in some if known(one, "unstable") > 0]
         if saddles and len(some) > len(saddles):

@@ -9,7 +9,7 @@ import io
 import json
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property, reduce
 from pathlib import Path
 
@@ -23,6 +23,7 @@ from engine.scene import scene_from_toml
 
 SOURCES = "analysis/orbits", "analysis/sampling.py", "campaigns/orbits", "campaigns/motions/multipliers.py"
 STEPS = {"step": 0.05, "least": 2e-3, "longest": 0.3}  # of a branch: m of what is seen, and shares of the range
+SHORT = STEPS | {"longest": 0.1}  # to an event that is near
 ACCURACY = 1e-3  # of a chord, to which an event is located: another grid changes it by more
 AROUND, NEAREST = 3.0, 0.02  # an event is looked for again within this many chords, and this share of the range
 AMPLITUDE = 0.02, 0.1  # m, tried in turn, from an orbit at its flip to the one of twice the period
@@ -176,8 +177,6 @@ def followed(line: Line, value: float, points: np.ndarray, most: int) -> tuple[d
 
 def finer(line: Line, kind: str, at: float, value: float, points: np.ndarray) -> tuple[dict, list[np.ndarray]]:
     """Where an event is on 2n - 1 nodes, from an orbit of its branch near it, at `value`; the event is at `at`."""
-    from dataclasses import replace
-
     from analysis.orbits import find_orbit, follow_branch
     from engine.going_on import taken_over
 
@@ -192,10 +191,8 @@ def finer(line: Line, kind: str, at: float, value: float, points: np.ndarray) ->
         return {"reason": orbit.reason}, []
     wide = max(AROUND * abs(at - value), NEAREST * line.size)
     low, high = max(at - wide, line.low), min(at + wide, line.high)
-    steps = {"step": 0.05, "least": 2e-3, "longest": 0.1}
-    branch = follow_branch(
-        system, orbit, min(low, value), max(high, value), **steps, most=8, count=COUNT, accuracy=ACCURACY
-    )
+    ends = min(low, value), max(high, value)
+    branch = follow_branch(system, orbit, *ends, **SHORT, most=8, count=COUNT, accuracy=ACCURACY)
     same = [one.parameter for one in branch.events if one.kind == kind]
     if not same:
         return {"reason": f"no {kind} from {low:g} to {high:g} on {more.nodes} nodes"}, []

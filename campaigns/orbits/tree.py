@@ -48,18 +48,15 @@ class Tree:
     def work(self, said: str, tasks: Sequence[Task]) -> list[tuple[dict, list[np.ndarray]]]:
         """Results of tasks, in their order. Raises CampaignStopped where a worker dies: finished ones are kept."""
         results: dict[str, tuple] = {}
+        if not tasks:
+            return []
         known = {task.key for task in tasks if (self.plan.how.out / FOLDER / f"{task.key}.npz").exists()}
         self.there, self.computed = self.there + len(known), self.computed + len(tasks) - len(known)
         how = self.plan.how
         try:
             with (
                 opened(how.backend, max(1, min(how.jobs, len(tasks))), how.dask_address) as execute,
-                stage(
-                    said,
-                    float(len(tasks)),
-                    "orbits" if tasks[0].do is under else "branches",
-                    lambda: float(len(results)),
-                ),
+                stage(said, float(len(tasks)), "of them", lambda: float(len(results))),
             ):
                 for task, result in execute(partial(worked, self.folder), list(tasks)):
                     results[task.key] = result
@@ -136,7 +133,7 @@ class Tree:
                 asked.append(Task(under, self.line, (value, one["period"], guess)))
                 of.append(branch)
         known = [one for one in self.chosen if one["value"] == value]
-        for branch, (result, _) in zip(of, self.work("all orbits of one value", asked) if asked else [], strict=True):
+        for branch, (result, _) in zip(of, self.work("all orbits of one value", asked), strict=True):
             if not result["reason"] and not any(_same(one["seen"], result["seen"]) for one in known):
                 self.chosen.append({**result, "motion": "", "branch": branch.name})
         for one in self.chosen:
@@ -160,7 +157,7 @@ class Tree:
                 points, orbit = branch.points[near], branch.orbits[near]
                 asked.append(Task(finer, self.line, (event["kind"], event["value"], orbit["value"], points)))
                 of.append(event)
-        for event, (result, _) in zip(of, self.work("events on a finer grid", asked) if asked else [], strict=True):
+        for event, (result, _) in zip(of, self.work("events on a finer grid", asked), strict=True):
             event["finer"] = result.get("value")
             event["doubt"] = result.get("reason", "")
             if event["finer"] is not None and event["error"] is not None:
