@@ -86,10 +86,17 @@ class PeriodMap:
         self.scale = self._scale(value)
         self.seen = self._seen(value)
         self.trail = self._trail(ROOM, value)
-        state, period_s = start.state(), scene_of(value).waves.period_s
-        z = np.concatenate([start.C.ravel(), start.K.ravel()]) / self.scale
-        steps = self._pass(z, value, float(state["t"]) % period_s, 0)
-        self.first = self._map(steps)(z, value)[0]
+        self.first = self.at_strobe(start, value)
+
+    def at_strobe(self, state: FinalState, value: float) -> np.ndarray:
+        """z (8 n,) of the state of a run at the next whole number of periods, in the scene of `value`."""
+        z = self.packed(state)
+        period_s = self.scene_of(value).waves.period_s
+        return self._map(self._pass(z, value, float(state.state()["t"]) % period_s, 0))(z, value)[0]
+
+    def packed(self, state: FinalState) -> np.ndarray:
+        """z (8 n,) of a state where it is, at a strobe or not."""
+        return np.concatenate([state.C.ravel(), state.K.ravel()]) / self.scale
 
     def step(self, z: np.ndarray, value: float) -> tuple[np.ndarray, Callable]:
         """The image (8 n,) and its derivative, V (8 n, k) -> (8 n, k), by steps of its own."""

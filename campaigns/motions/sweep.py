@@ -44,14 +44,15 @@ def start_of(order: Order, scene):
     try:
         if scene.waves is None:
             raise ValueError("given for a scene without waves; allowed: with waves")
-        return checked_start(scene, _run_in(order.own.start_from)).at_zero()
+        return checked_start(scene, run_in(order.own.start_from)).at_zero()
     except ValueError as error:
         order.tell([f"--start-from: {error}"])
     return None
 
 
 @cache
-def _run_in(path: str):
+def run_in(path: str):
+    """The Trajectory of a file, read once. Raises ValueError."""
     return engine.Trajectory.load(path)
 
 

@@ -1,0 +1,74 @@
+"""What the orbits over a key showed: where each is stable, what ends the motions, and what stands between them."""
+
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from functools import partial
+from itertools import groupby
+
+from campaigns.answers import Row, kilonewton, known
+from campaigns.columns import Column
+from campaigns.statements import listed
+
+NONE = "No periodic motion has an orbit that could be found: {}."
+WORDS = {"fold": "folds", "flip": "flips (doubles its period)", "torus": "gives way to a torus"}
+MOST = 8
+
+
+def sentences(rows: Sequence[Row], key: Column, parts: Mapping[str, Sequence[Row]]) -> Iterator[str]:
+    """At most eight, of the rows of table.csv and of those in the folders branches, events and orbits (parts)."""
+    branches = [one for one in parts["branches"] if one["status"] == "ok"]
+    if not branches:
+        yield NONE.format(listed({str(one["message"]) for one in parts["branches"]}) or "no run is periodic")
+        return
+    many = sum(known(row, "unstable") == 0 for row in rows)
+    yield f"{len(rows)} orbits on {len(branches)} branches, {many} of them stable, {len(rows) - many} not."
+    for branch in branches[: MOST - 4]:
+        yield _branch(branch, [row for row in rows if row["branch"] == branch["branch"]], key, parts["events"])
+    yield from _between(parts["orbits"], key)
+    if unsure := [one for one in parts["events"] if not known(one, "error") <= 2e-4 * abs(known(one, key.name)) / 0.1]:
+        yield f"Not known to 2 of 1000: {listed(_event(one, key) for one in unsure[:4])}."
+    if failed := [one for one in parts["branches"] if one["status"] != "ok"]:
+        told = (f"{one['motion']} ({one['message']})" for one in failed)
+        yield f"Without an orbit: motion {listed(told)}."
+
+
+def _branch(branch: Row, rows: Sequence[Row], key: Column, events: Sequence[Row]) -> str:
+    at, stable = [known(row, key.name) for row in rows], [known(row, "unstable") == 0 for row in rows]
+    spans = []
+    for good, group in groupby(zip(stable, at, strict=True), key=lambda one: one[0]):
+        values = [value for _, value in group]
+        if good:
+            spans.append(f"{min(values):.4g} to {max(values):.4g}")
+    where = f"stable at {key.symbol} = {listed(dict.fromkeys(spans))}" if spans else "never stable"
+    own = [_event(one, key) for one in events if one["branch"] == branch["branch"]]
+    under = f" (motion {branch['motion']})" if branch["motion"] else ""
+    shape = ", an island" if known(branch, "closed") else ""
+    return f"Period {branch['branch']}{under}{shape}: {where}{'; ' + listed(own) if own else ''}."
+
+
+def _event(one: Row, key: Column) -> str:
+    error = known(one, "error")
+    sure = f" ± {error:.1g}" if math.isfinite(error) else ", unsure"
+    return f"{one['kind']} at {known(one, key.name):.5g}{sure}"
+
+
+def _between(orbits: Sequence[Row], key: Column) -> Iterator[str]:
+    """What stands between the motions of one value."""
+    at = partial(known, name=key.name)
+    for value, group in groupby(sorted(orbits, key=at), key=at):
+        some = [*group]
+        saddles = [one for one in some if known(one, "unstable") > 0]
+        if saddles and len(some) > len(saddles):
+            told = (
+                f"period {one['branch']} ({kilonewton(known(one, 'tension_top_max_N'))}, multiplier "
+                f"{known(one, 'multiplier_1_real'):.2f})"
+                for one in saddles
+            )
+            calm = (
+                f"period {one['branch']} ({kilonewton(known(one, 'tension_top_max_N'))}, "
+                f"|μ| = {known(one, 'multiplier_modulus'):.2f})"
+                for one in some
+                if one not in saddles
+            )
+            yield f"At {key.symbol} = {value:.4g} stable: {listed(calm)}; unstable, and between them: {listed(told)}."
+            return

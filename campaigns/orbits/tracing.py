@@ -1,0 +1,216 @@
+"""What workers do for `campaigns.orbits`: the orbit under a run, its branch, an event on a finer grid.
+
+Each is one task with a result of plain numbers, words and arrays, kept in a file of the folder under a key of all that
+it depends on: a campaign that was killed goes on behind the last one.
+"""
+
+import hashlib
+import io
+import json
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from functools import cached_property, reduce
+from pathlib import Path
+
+import numpy as np
+
+import engine
+from campaigns.machinery.folder import made_by
+from campaigns.motions.multipliers import COUNT, TOLERANCE, cable_map
+from engine.atomic import write_atomic
+from engine.scene import scene_from_toml
+
+SOURCES = "analysis/orbits", "analysis/sampling.py", "campaigns/orbits", "campaigns/motions/multipliers.py"
+STEPS = {"step": 0.05, "least": 2e-3, "longest": 0.3}  # of a branch: m of what is seen, and shares of the range
+SHORT = STEPS | {"longest": 0.1}  # to an event that is near
+ACCURACY = 1e-3  # of a chord, to which an event is located: another grid changes it by more
+AROUND, NEAREST = 3.0, 0.02  # an event is looked for again within this many chords, and this share of the range
+AMPLITUDE = 0.02, 0.1  # m, tried in turn, from an orbit at its flip to the one of twice the period
+
+
+@dataclass(frozen=True, eq=False)
+class Line:
+    """The scenes along the key, and the coordinates of all orbits.
+
+    toml: the scene; key, name, index: as of `campaigns.sweep.Varied`; low, high: its range; state, value: of a run from
+    which the coordinates are taken; nodes: 0 for those of the scene.
+    """
+
+    toml: str
+    key: str
+    name: str
+    index: int | None
+    low: float
+    high: float
+    state: object
+    value: float
+    nodes: int = 0
+
+    @property
+    def size(self) -> float:
+        """The change of the key that counts as 1 m of the motion."""
+        return self.high - self.low
+
+    def scene(self, value: float):
+        """The scene at a value, as its orbits are computed. Raises ValueError."""
+        base = self._base
+        changes: dict[str, object] = {self.name: value, "solver.rtol": min(TOLERANCE, base.solver.rtol)}
+        if self.index is not None:
+            whole = [*reduce(getattr, self.name.split("."), base)]
+            whole[self.index] = value
+            changes[self.name] = whole
+        if self.nodes:
+            changes["tether.nodes"] = self.nodes
+        return scene_from_toml(self.toml, changes)
+
+    @cached_property
+    def _base(self):
+        return scene_from_toml(self.toml)
+
+    @cached_property
+    def maps(self):
+        """PeriodMap and OrbitMap."""
+        return cable_map(self.scene, self.state, self.value, self.size)
+
+    def digest(self) -> str:
+        """Of all that results depend on beside their own task."""
+        parts = (
+            self.toml,
+            self.key,
+            self.low,
+            self.high,
+            self.state.digest(),
+            self.value,
+            self.nodes,
+            made_by({}, *SOURCES),
+        )
+        return hashlib.sha256(repr((*parts, engine.source_hash())).encode()).hexdigest()
+
+
+@dataclass(frozen=True, eq=False)
+class Task:
+    """do(line, *given) -> (result, points): what is asked for of a line. given: numbers, words, arrays, states."""
+
+    do: Callable
+    line: Line
+    given: tuple
+
+    @cached_property
+    def key(self) -> str:
+        """Content key."""
+        said = hashlib.sha256(f"{self.do.__name__} {self.line.digest()}".encode())
+        for part in self.given:
+            digest = part.digest() if hasattr(part, "digest") else None
+            said.update(part.tobytes() if isinstance(part, np.ndarray) else repr(digest or part).encode())
+        return said.hexdigest()
+
+
+def worked(folder: Path | None, task: Task) -> tuple[dict, list[np.ndarray]]:
+    """The result of a task and its points, kept in the folder; a fault of the code is a result with its reason."""
+    path = None if folder is None else folder / f"{task.key}.npz"
+    if path is not None and (found := _kept(path)) is not None:
+        return found
+    try:
+        result, points = task.do(task.line, *task.given)
+    except (ArithmeticError, ValueError) as why:
+        result, points = {"reason": str(why)}, []
+    if path is not None:
+        content = io.BytesIO()
+        np.savez(content, told=np.array(json.dumps(result)), **{f"points_{i}": one for i, one in enumerate(points)})
+        write_atomic(path, content.getvalue())
+    return result, points
+
+
+def _kept(path: Path) -> tuple[dict, list[np.ndarray]] | None:
+    """What a file holds; None where there is none, or a damaged one."""
+    try:
+        with np.load(path, allow_pickle=False) as content:
+            return json.loads(str(content["told"])), [content[f"points_{i}"] for i in range(len(content) - 1)]
+    except Exception:  # numpy, zipfile and json each have their own
+        return None
+
+
+def under(line: Line, value: float, period: int, state: object) -> tuple[dict, list[np.ndarray]]:
+    """The orbit under a run, or at a state (period, 8 n): its row, errors and history."""
+    from analysis.orbits import find_orbit, scatter_of
+
+    cable, system = line.maps
+    begin = state if isinstance(state, np.ndarray) else cable.at_strobe(state, value)
+    orbit = find_orbit(system, begin, value, period, count=COUNT)
+    if not orbit.found:
+        return {"reason": orbit.reason}, []
+    scatter, history = scatter_of(system, orbit), cable.history(orbit.points, value)
+    kept = "time_s", "radius_m", "radius_rate_mps", "angle_rad", "tension_top_N", "tension_min_N"
+    errors = [error if math.isfinite(error) else None for error in map(float, scatter.multipliers)]
+    result = _row(cable, orbit, history) | {"errors": errors}
+    return result | {"history": {name: [*map(float, history[name])] for name in kept}}, [orbit.points]
+
+
+def followed(line: Line, value: float, points: np.ndarray, most: int) -> tuple[dict, list[np.ndarray]]:
+    """The branch of the orbit with these points (N, 8 n), with its events and what begins at its flips."""
+    from analysis.orbits import doubled_orbit, find_orbit, follow_branch
+
+    cable, system = line.maps
+    orbit = find_orbit(system, points, value, len(points), count=COUNT)
+    if not orbit.found:
+        return {"reason": orbit.reason}, []
+    branch = follow_branch(system, orbit, line.low, line.high, **STEPS, most=most, count=COUNT, accuracy=ACCURACY)
+    rows = [_row(cable, one, cable.history(one.points, one.parameter)) for one in branch.orbits]
+    found, events = [one.points for one in branch.orbits], []
+    for event in branch.events:
+        history = cable.history(event.orbit.points, event.orbit.parameter)
+        told = _row(cable, event.orbit, history) | {"kind": event.kind, "angle_rad": event.angle_rad}
+        told |= {"value": event.parameter, "error": event.error if math.isfinite(event.error) else None}
+        told["at"] = len(found)
+        found.append(event.orbit.points)
+        if event.kind == "flip":
+            tried = (doubled_orbit(system, event, amplitude=m, count=COUNT) for m in AMPLITUDE)
+            doubled = next((one for one in tried if one.found), None)
+            if doubled is not None:
+                told |= {"doubled": len(found), "doubled_value": doubled.parameter}
+                found.append(doubled.points)
+        events.append(told)
+    ends = {"closed": branch.closed, "begins": branch.ends[0], "ends": branch.ends[1]}
+    return {"orbits": rows, "events": events, **ends}, found
+
+
+def finer(line: Line, kind: str, at: float, value: float, points: np.ndarray) -> tuple[dict, list[np.ndarray]]:
+    """Where an event is on 2n - 1 nodes, from an orbit of its branch near it, at `value`; the event is at `at`."""
+    from analysis.orbits import find_orbit, follow_branch
+    from engine.going_on import taken_over
+
+    cable, _ = line.maps
+    more = replace(line, nodes=2 * line.scene(value).tether.nodes - 1)
+    scene = more.scene(value)
+    states = [taken_over(cable.state_of(z, value), scene)[0] for z in points]
+    more = replace(more, state=states[0], value=value)
+    fine, system = more.maps
+    orbit = find_orbit(system, np.array([fine.packed(one) for one in states]), value, len(points), count=COUNT)
+    if not orbit.found:
+        return {"reason": orbit.reason}, []
+    wide = max(AROUND * abs(at - value), NEAREST * line.size)
+    low, high = max(at - wide, line.low), min(at + wide, line.high)
+    ends = min(low, value), max(high, value)
+    branch = follow_branch(system, orbit, *ends, **SHORT, most=8, count=COUNT, accuracy=ACCURACY)
+    same = [one.parameter for one in branch.events if one.kind == kind]
+    if not same:
+        return {"reason": f"no {kind} from {low:g} to {high:g} on {more.nodes} nodes"}, []
+    return {"value": min(same, key=lambda one: abs(one - at)), "nodes": more.nodes}, []
+
+
+def _row(cable, orbit, history) -> dict:
+    """An orbit in numbers and lists."""
+    per_period = len(history["time_s"]) // orbit.period
+    return {
+        "reason": "",
+        "value": orbit.parameter,
+        "period": orbit.period,
+        "multipliers": [[float(one.real), float(one.imag)] for one in orbit.multipliers],
+        "gap": orbit.gap,
+        "settled": orbit.settled,
+        "strobes": [float(one) for one in history["radius_m"][::per_period]],
+        "seen": (orbit.points @ cable.seen).tolist(),
+        "radius_m": [float(history["radius_m"].min()), float(history["radius_m"].max())],
+        "tension_N": [float(history["tension_top_low_N"].min()), float(history["tension_top_high_N"].max())],
+    }
