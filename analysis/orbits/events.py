@@ -19,7 +19,17 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.optimize import brentq
 
-from analysis.orbits.finding import TOLERANCE, Newton, Orbit, corrected, described, not_found, real_span, solved_near
+from analysis.orbits.finding import (
+    KEPT,
+    TOLERANCE,
+    Newton,
+    Orbit,
+    corrected,
+    described,
+    not_found,
+    real_span,
+    solved_near,
+)
 from analysis.orbits.maps import NoImage, OrbitMap, shoot
 from analysis.orbits.spaces import Space
 
@@ -66,7 +76,7 @@ TESTS = {
 
 def near_orbits(tolerance: float) -> Newton:
     """From one orbit to the next: where Newton's method is slow, a shorter step is better."""
-    return Newton(tolerance, 8, 2, 0.05)
+    return Newton(tolerance, 8, 2, KEPT)
 
 
 def events_between(

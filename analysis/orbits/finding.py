@@ -12,6 +12,7 @@ from analysis.orbits.spaces import Space
 from analysis.sampling import checked_count, checked_series
 
 TOLERANCE = 1e-9  # of the gaps, relative to the largest coordinate of the guess or 1
+ROUGH, KEPT = 1e-4, 0.05  # tolerance before steps are chosen again; share of a gap that a derivative nearby may leave
 MOVED = 1e-3  # from a guess, beyond which its steps do not suit an orbit
 REPEATS = 1e-6  # points this close, relative, are one: the period is a divisor of the one asked for
 SETTLED = 1e-3  # error of a multiplier, relative
@@ -77,8 +78,8 @@ class Scatter:
 
 
 class Solved(NamedTuple):
-    """What Newton's method finds: points (N, n), parameter, the maps and their shots there, iterations, and the
-    directions (n, k) that mattered."""
+    """What Newton's method finds: points (N, n), parameter, the maps and their shots there, iterations, the directions
+    (n, k) that mattered, and the last derivative, of an orbit nearby; None where none was needed."""
 
     points: np.ndarray
     parameter: float
@@ -86,6 +87,7 @@ class Solved(NamedTuple):
     shots: Shots
     iterations: int
     directions: np.ndarray
+    space: Space | None
 
 
 class Newton(NamedTuple):
@@ -156,12 +158,14 @@ def corrected(
     row: np.ndarray | None = None,
     directions: np.ndarray | None = None,
     slopes: np.ndarray | None = None,
+    space: Space | None = None,
 ) -> Solved:
     """Newton's method on the gaps: at a fixed parameter, or with corrections orthogonal to a row (n + 1,).
 
-    directions (n, k): with which the spaces begin; slopes (N, n): approximate ones. Raises NoImage where it fails.
+    directions (n, k): with which the spaces begin; slopes (N, n) and space: approximate ones. Raises NoImage where it
+    fails.
     """
-    n, size, space = points.shape[1], maps[0].parameter_size, None
+    n, size, last = points.shape[1], maps[0].parameter_size, space
     directions = np.empty((n, 0)) if directions is None else directions
     enough = how.tolerance * max(1.0, np.abs(points).max())  # of the guess: far away any gap is small beside the points
     shots, taken = shoot(maps, points, parameter), 0
@@ -170,10 +174,10 @@ def corrected(
             raise NoImage(f"{taken} Newton steps leave {shots.residual:.1e}")
         if fresh := space is None:
             space = Space(shots.linearised, directions if row is None else np.c_[directions, row[:n]])
-            if row is not None and slopes is None:
-                slopes = slopes_of(maps, shots, points, parameter)
+        if row is not None and slopes is None:
+            slopes = slopes_of(maps, shots, points, parameter)
         change, delta = space.solve(shots.gaps, slopes, row)
-        directions, reason = space.strongest(), "a Newton step does not shorten the gaps"
+        last, directions, reason = space, space.strongest(), "a Newton step does not shorten the gaps"
         for share in 0.5 ** np.arange(how.halvings + 1):
             trial = points + share * change, parameter + share * delta * size
             try:
@@ -190,16 +194,28 @@ def corrected(
             if fresh:
                 raise NoImage(f"{reason}; {shots.residual:.1e} is left")
             space = slopes = None
-    return Solved(points, float(parameter), maps, shots, taken, directions)
+    return Solved(points, float(parameter), maps, shots, taken, directions, last)
 
 
-def solved_near(system: OrbitMap, points: np.ndarray, parameter: float, *more, mesh: int = 0) -> Solved:
-    """`corrected` with the steps of the system at the guess, and again with those at the orbit where it lies apart."""
-    solved = corrected(system.near(points, parameter, mesh), points, parameter, *more)
-    if system.frozen and np.linalg.norm(solved.points - points, axis=1).max() > MOVED:
-        maps = system.near(solved.points, solved.parameter, mesh)
-        solved = corrected(maps, solved.points, solved.parameter, *more)
-    return solved
+def solved_near(
+    system: OrbitMap,
+    points: np.ndarray,
+    parameter: float,
+    how: Newton,
+    row: np.ndarray | None = None,
+    directions: np.ndarray | None = None,
+    slopes: np.ndarray | None = None,
+    mesh: int = 0,
+) -> Solved:
+    """`corrected`, roughly with the steps of the system at the guess, and then with those at the orbit."""
+    maps = system.near(points, parameter, mesh)
+    if system.frozen is None:
+        return corrected(maps, points, parameter, how, row, directions, slopes)
+    rough = corrected(maps, points, parameter, how._replace(tolerance=ROUGH), row, directions, slopes)
+    if np.linalg.norm(rough.points - points, axis=1).max() > MOVED:
+        maps = system.near(rough.points, rough.parameter, mesh)
+    how = how._replace(kept=max(how.kept, KEPT))
+    return corrected(maps, rough.points, rough.parameter, how, row, rough.directions, slopes, rough.space)
 
 
 def described(solved: Solved, count: int) -> tuple[Orbit, Space]:
