@@ -153,7 +153,7 @@ class _Chord:
             length = self.length * self.size
             return _event(kind, nearest, nearest.parameter, length * max(abs(self.begin.rate), abs(self.end.rate)))
         orbit, at = self.seen[share]
-        if kind == "fold" and self.passes(orbit):
+        if kind == "fold" and self.begin.rate * self.end.rate > 0.0 and self.passes(orbit):
             return None
         if self.system.frozen is None:
             across = [abs(other.parameter - orbit.parameter) for s, (other, worth) in self.seen.items()
