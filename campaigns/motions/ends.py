@@ -17,7 +17,7 @@ LEADS_TO = Column(
 )
 _EXACT = "where the motion ends, by its orbit, which stops being stable there; empty where no orbit tells it"
 KIND = Column("kind", symbol="by", meaning="what ends it: fold, flip or torus point of its orbit; empty: not known")
-BEYOND = 2.0  # widths of the bisected range in which an orbit is followed
+BEYOND = 2.0  # widths of the bisected range, beyond it, in which an orbit is followed
 END = Column("end", symbol="end", meaning="lower or upper end of the range of the motion")
 TIGHTER, FINER = "a tenth of the tolerance", "{} nodes"
 
@@ -110,16 +110,16 @@ def by_orbits(along: Along, ends: Sequence[_End]) -> dict[_End, dict[str, object
 
     The orbit is followed from the last state with the motion. Raises CampaignStopped.
     """
-    from campaigns.motions.tracing import Line, Task, lost, work
+    from campaigns.motions.tracing import BACK, Line, Task, lost, work
 
     span, tasks = max(along.values) - min(along.values), {}
     for end in ends:
         period = end.motion.settled.period
         if period and end.row["status"] == "ok":
-            wide = BEYOND * abs(end.outside - end.inside)
-            low, high = sorted((end.inside, end.inside + end.step * wide))
+            width = end.outside - end.inside
+            low, high = sorted((end.inside - max(BACK) * width, end.outside + BEYOND * width))
             line = Line(along.scene_at, low, high, span, end.state, end.inside)
-            tasks[end] = Task(lost, line, (end.inside, period, end.state))
+            tasks[end] = Task(lost, line, (end.inside, period, end.state, width))
     results, _ = work(along.plan, along.plan.how.out / "ends", "ends of ranges by their orbits", list(tasks.values()))
     found = {}
     for end, (result, _) in zip(tasks, results, strict=True):

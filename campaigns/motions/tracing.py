@@ -29,6 +29,7 @@ STEPS = {"step": 0.05, "least": 2e-3, "longest": 0.3}  # of a branch: m of what 
 SHORT, MOST_SHORT = STEPS | {"longest": 0.1}, 8  # to an event that is near
 ACCURACY = 1e-3  # of a chord, to which an event is located: another grid changes it by more
 AROUND, NEAREST = 3.0, 0.02  # an event is looked for again within this many chords, and this share of the range
+BACK = 0.0, 1.0, 3.0, 8.0  # widths, tried in turn
 AMPLITUDE = 0.02, 0.1  # m, tried in turn, from an orbit at its flip to the one of twice the period
 
 
@@ -205,18 +206,30 @@ def followed(line: Line, value: float, points: np.ndarray, most: int) -> tuple[d
     return {"orbits": rows, "events": events, **ends}, found
 
 
-def lost(line: Line, value: float, period: int, state: object) -> tuple[dict, list[np.ndarray]]:
-    """Where the orbit under a run stops being stable within the range of the line: the first event from `value` on."""
+def lost(line: Line, value: float, period: int, state: object, width: float) -> tuple[dict, list[np.ndarray]]:
+    """Where the orbit under a run stops being stable within the range of the line: the first event from there on.
+
+    value: of the run, which may lie beyond the event by what its own tolerance changes of it; width: how far the orbit
+    is then looked for on the other side.
+    """
     from analysis.orbits import find_orbit, follow_branch
 
     cable, system = line.maps
-    orbit = find_orbit(system, cable.at_strobe(state, value), value, period, count=COUNT)
-    if not orbit.stable:
-        return {"reason": orbit.reason or "the orbit under the run is not stable"}, []
+    begin = cable.at_strobe(state, value)
+    for back in BACK:
+        at = value - back * width
+        if not line.low <= at <= line.high:
+            continue
+        orbit = find_orbit(system, begin, at, period, count=COUNT)
+        if orbit.stable and orbit.period == period:
+            break
+    else:
+        return {"reason": orbit.reason or "no stable orbit is under the run"}, []
     branch = follow_branch(system, orbit, line.low, line.high, **SHORT, most=MOST_SHORT, count=COUNT, accuracy=ACCURACY)
-    if not branch.events:
+    ahead = [event for event in branch.events if (event.parameter - at) * width > 0.0]
+    if not ahead:
         return {"reason": "the orbit stays stable"}, []
-    first = min(branch.events, key=lambda one: abs(one.parameter - value))
+    first = min(ahead, key=lambda event: abs(event.parameter - at))
     error = first.error if math.isfinite(first.error) else None
     return {"reason": "", "kind": first.kind, "value": first.parameter, "error": error}, []
 
