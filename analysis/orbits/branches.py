@@ -154,14 +154,14 @@ class _Follower:
         directions, across = real_span(here.orbit.vectors), tangent if end is None else None
         try:
             how = near_orbits(self.tolerance)
-            maps, solved = solved_near(self.system, points, parameter, across, how, directions, here.slopes)
-            off = distance(self.system, solved.points[0] - points[0], (solved.parameter - parameter) / size)
-            if solved.reason or off > NEAR * step:
-                return None, False, solved.reason or "the branch turns too sharply"
+            solved = solved_near(self.system, points, parameter, how, across, directions, here.slopes)
+            off = self.system.length(solved.points[0] - points[0], (solved.parameter - parameter) / size)
+            if off > NEAR * step:
+                return None, False, "the branch turns too sharply"
             if not self.low <= solved.parameter <= self.high:
                 return None, False, "the orbit found is out of the range"
             orbit, space = described(solved, self.count)
-            slopes = slopes_of(maps, solved.shots, solved.points, solved.parameter)
+            slopes = slopes_of(solved.maps, solved.shots, solved.points, solved.parameter)
             change, rate = tangent_of(self.system, space, slopes, tangent)
         except ArithmeticError as why:
             return None, False, str(why)
@@ -170,15 +170,10 @@ class _Follower:
         return Place(orbit, change, rate, slopes), solved.iterations <= FEW, ""
 
 
-def distance(system, change, rate):
-    """Length of a change (n,) of a point with one of the parameter, in what is seen."""
-    return float(np.sqrt(system.row(change, rate) @ np.append(change, rate)))
-
-
 def tangent_of(system, space, slopes, before):
     """The tangent in the direction of the row before (n + 1,): change (N, n) of the points, rate of the parameter."""
     change, rate = space.solve(np.zeros_like(slopes), slopes, before, 1.0)
-    length = distance(system, change[0], rate)
+    length = system.length(change[0], rate)
     return change / length, rate / length
 
 
@@ -203,12 +198,12 @@ def _come_back(system, first, here, place):
         return points[0] - begin.points[0], (orbit.parameter - begin.parameter) / size
 
     chord = way_to(place.orbit, 0)
-    across, length = system.row(*chord), distance(system, *chord)
+    across, length = system.row(*chord), system.length(*chord)
     for k in range(first.orbit.period):
         way, change = way_to(first.orbit, k), np.roll(first.change, -k, axis=0)
         share = across @ np.append(*way) / length**2
-        off = distance(system, way[0] - share * chord[0], way[1] - share * chord[1])
-        straight = across @ np.append(change[0], first.rate) > 0.5 * distance(system, change[0], first.rate) * length
+        off = system.length(way[0] - share * chord[0], way[1] - share * chord[1])
+        straight = across @ np.append(change[0], first.rate) > 0.5 * system.length(change[0], first.rate) * length
         if 0.0 < share <= 1.0 and off < ON_CHORD * length and straight:
             return first._replace(
                 orbit=replace(first.orbit, points=np.roll(first.orbit.points, -k, axis=0)), change=change

@@ -20,10 +20,10 @@ import numpy as np
 from scipy.optimize import brentq
 
 from analysis.orbits.finding import (
+    KEPT,
     TOLERANCE,
-    Correction,
+    Newton,
     Orbit,
-    Solved,
     corrected,
     described,
     not_found,
@@ -61,28 +61,22 @@ class Event:
     angle_rad: float
 
 
-def flat(multipliers: np.ndarray) -> float:
-    """Product of 1 - mu."""
-    return float(np.prod(1.0 - multipliers).real)
-
-
-def flipped(multipliers: np.ndarray) -> float:
-    """Product of 1 + mu."""
-    return float(np.prod(1.0 + multipliers).real)
-
-
 def turned(multipliers: np.ndarray) -> float:
     """Product of 1 - mu_i mu_j over pairs."""
     i, j = np.triu_indices(len(multipliers), 1)
     return float(np.prod(1.0 - multipliers[i] * multipliers[j]).real)
 
 
-def near_orbits(tolerance: float) -> Correction:
+TESTS = {
+    "fold": lambda multipliers: float(np.prod(1.0 - multipliers).real),
+    "flip": lambda multipliers: float(np.prod(1.0 + multipliers).real),
+    "torus": turned,
+}
+
+
+def near_orbits(tolerance: float) -> Newton:
     """From one orbit to the next: where Newton's method is slow, a shorter step is better."""
-    return Correction(tolerance, 8, 2, 0.05)
-
-
-TESTS = {"fold": flat, "flip": flipped, "torus": turned}
+    return Newton(tolerance, 8, 2, KEPT)
 
 
 def events_between(
@@ -108,9 +102,8 @@ class _Chord:
         self.count, self.tolerance, self.size = count, tolerance, system.parameter_size
         way = end.orbit.points[0] - begin.orbit.points[0]
         by = (end.orbit.parameter - begin.orbit.parameter) / self.size
-        row = system.row(way, by)
-        self.length = float(np.sqrt(row @ np.append(way, by)))
-        self.across = row / self.length
+        self.length = system.length(way, by)
+        self.across = system.row(way, by) / self.length
         self.seen = {share: (place.orbit, test(place.orbit.multipliers)) for share, place in ((0.0, begin), (1.0, end))}
 
     def between(self, share):
@@ -127,9 +120,7 @@ class _Chord:
         """The orbit at a share of the way, and the test function there."""
         points, parameter, slopes = self.between(share)
         directions = real_span(self.begin.orbit.vectors)
-        solved = corrected(maps, points, parameter, self.across, near_orbits(self.tolerance), directions, slopes)
-        if solved.reason:
-            raise NoImage(solved.reason)
+        solved = corrected(maps, points, parameter, near_orbits(self.tolerance), self.across, directions, slopes)
         orbit, _ = described(solved, self.count)
         return orbit, self.test(orbit.multipliers)
 
@@ -212,16 +203,15 @@ def doubled_orbit(
         raise ValueError(f"flip: an event of that kind is needed, given a {flip.kind}")
     orbit, twice = flip.orbit, np.tile(flip.orbit.points, (2, 1))
     v = orbit.vectors[:, np.argmin(np.abs(orbit.multipliers + 1.0))].real
-    v, directions = v / np.sqrt(system.row(v, 0.0)[:-1] @ v), real_span(orbit.vectors)
+    v, directions = v / system.length(v, 0.0), real_span(orbit.vectors)
     try:
         shots = shoot(system.near(twice, orbit.parameter), twice, orbit.parameter)
-        guess = twice + amplitude * np.array(Space(shots.linearised, v[:, None]).ways)[:-1, :, 0]
-        _, solved = solved_near(system, guess, orbit.parameter, system.row(v, 0.0), Correction(tolerance), directions)
-        reason, (first, half) = solved.reason, solved.points[[0, orbit.period]]
-        if not reason and system.row(first - half, 0.0)[:-1] @ (first - half) < amplitude**2:
-            reason = "Newton's method came back to the orbit of half the period"
-        if not reason:
-            return described(solved, count)[0]
+        ways = Space(shots.linearised, v[:, None]).ways[:-1]
+        guess = twice + amplitude * np.linalg.norm(v) * np.array(ways)[:, :, 0]
+        solved = solved_near(system, guess, orbit.parameter, Newton(tolerance), system.row(v, 0.0), directions)
+        first, half = solved.points[[0, orbit.period]]
+        if system.length(first - half, 0.0) < amplitude:
+            raise NoImage("Newton's method came back to the orbit of half the period")
+        return described(solved, count)[0]
     except ArithmeticError as why:
-        return not_found(Solved(twice, orbit.parameter, None, 0, directions, str(why)))
-    return not_found(Solved(solved.points, solved.parameter, None, solved.iterations, directions, reason))
+        return not_found(twice, orbit.parameter, why)

@@ -12,6 +12,7 @@ from analysis.orbits.spaces import Space
 from analysis.sampling import checked_count, checked_series
 
 TOLERANCE = 1e-9  # of the gaps, relative to the largest coordinate of the guess or 1
+ROUGH, KEPT = 1e-4, 0.05  # tolerance before steps are chosen again; share of a gap that a derivative nearby may leave
 MOVED = 1e-3  # from a guess, beyond which its steps do not suit an orbit
 REPEATS = 1e-6  # points this close, relative, are one: the period is a divisor of the one asked for
 SETTLED = 1e-3  # error of a multiplier, relative
@@ -27,7 +28,7 @@ class Orbit:
     residuals (k,)      their errors, of the iteration alone (`Space.multipliers`)
     vectors (n, k)      eigenvectors at the first point, of length 1
     gap                 largest |P(z_i) - z_{i+1}|
-    iterations          of Newton's method
+    iterations          of Newton's method, with the last steps of the system
     reason              why no orbit was found, a sentence; empty for an orbit
     """
 
@@ -76,20 +77,20 @@ class Scatter:
     orbits: tuple[Orbit, ...]
 
 
-@dataclass(frozen=True, eq=False)
-class Solved:
-    """What Newton's method leaves: points (N, n), parameter, the shots there, iterations, directions (n, k) that
-    mattered, and why it failed."""
+class Solved(NamedTuple):
+    """What Newton's method finds: points (N, n), parameter, the maps and their shots there, iterations, the directions
+    (n, k) that mattered, and the last derivative, of an orbit nearby; None where none was needed."""
 
     points: np.ndarray
     parameter: float
-    shots: Shots | None
+    maps: Sequence[OrbitMap]
+    shots: Shots
     iterations: int
     directions: np.ndarray
-    reason: str = ""
+    space: Space | None
 
 
-class Correction(NamedTuple):
+class Newton(NamedTuple):
     """How Newton's method goes: to a tolerance of the gaps, in how many iterations at most, each halved how often. A
     derivative is kept for the next one where no more than the share `kept` of the gaps is left."""
 
@@ -116,7 +117,7 @@ def find_orbit(
     tolerance    of the gaps, relative to the largest coordinate of the start or 1
     iterations   of Newton's method; a step that does not shorten the gaps is halved up to six times
     Returns an Orbit: `period` is the least one, a divisor of the one asked for. Where none was found, `reason` says
-    why, and the points are the last ones. Stable and unstable orbits are found alike; a search proves no completeness.
+    why, and the points are those of the start. Stable and unstable orbits are found alike; no search is complete.
     Raises ValueError for a start that is not finite or of another shape.
     """
     period, guess = checked_count(period, "period"), checked_series(start, "start", (1, 2))
@@ -124,115 +125,110 @@ def find_orbit(
         points = _images(system, guess, parameter, period) if guess.ndim == 1 else guess
         if len(points) != period:
             raise ValueError(f"start: {period} points are needed, given {len(points)}")
-        maps, solved = solved_near(system, points, parameter, None, Correction(tolerance, iterations))
-        if solved.reason:
-            return not_found(solved)
-        least = _least_period(solved.points)
-        if least < period:
-            shots = shoot(maps[:least], solved.points[:least], parameter)
-            solved = Solved(solved.points[:least], parameter, shots, solved.iterations, solved.directions)
-        return described(solved, count)[0]
+        solved = solved_near(system, points, parameter, Newton(tolerance, iterations))
+        if (least := _least_period(system, solved.points)) == period:
+            return described(solved, count)[0]
+        how = {"count": count, "tolerance": tolerance, "iterations": iterations}
+        return find_orbit(system, solved.points[:least], parameter, least, **how)
     except ArithmeticError as why:
-        return not_found(Solved(np.atleast_2d(guess), parameter, None, 0, guess, str(why)))
+        return not_found(np.atleast_2d(guess), parameter, why)
 
 
 def scatter_of(system: OrbitMap, orbit: Orbit, *, tolerance: float = TOLERANCE) -> Scatter:
     """The errors of an orbit: it is found again with every other mesh of the system, at the same parameter."""
-    others = []
-    points, multipliers = np.zeros_like(orbit.points), orbit.residuals.copy()
-    for mesh in range(1, system.meshes):
-        other = _on_mesh(system, orbit, mesh, tolerance)
-        if other.reason:
-            return Scatter(np.full_like(points, np.inf), np.full_like(multipliers, np.inf), tuple(others))
-        others.append(other)
-        points = np.maximum(points, np.abs(other.points - orbit.points))
-        apart = np.abs(other.multipliers - orbit.multipliers[:, None]).min(axis=1)
-        multipliers = np.maximum(multipliers, apart)
-    return Scatter(points, multipliers, tuple(others))
-
-
-def _on_mesh(system, orbit, mesh, tolerance):
-    directions = real_span(orbit.vectors)
+    points, multipliers, others = np.zeros_like(orbit.points), orbit.residuals, []
     try:
-        how = Correction(tolerance)
-        _, solved = solved_near(system, orbit.points, orbit.parameter, None, how, directions, mesh=mesh)
-        return not_found(solved) if solved.reason else described(solved, len(orbit.multipliers))[0]
-    except ArithmeticError as why:
-        return not_found(Solved(orbit.points, orbit.parameter, None, 0, directions, str(why)))
+        for mesh in range(1, system.meshes):
+            place = orbit.points, orbit.parameter
+            solved = solved_near(system, *place, Newton(tolerance), None, real_span(orbit.vectors), mesh=mesh)
+            others.append(described(solved, len(orbit.multipliers))[0])
+            points = np.maximum(points, np.abs(others[-1].points - orbit.points))
+            apart = np.abs(others[-1].multipliers - orbit.multipliers[:, None]).min(axis=1)
+            multipliers = np.maximum(multipliers, apart)
+    except ArithmeticError:
+        points, multipliers = np.full_like(points, np.inf), np.full_like(multipliers, np.inf)
+    return Scatter(points, multipliers, tuple(others))
 
 
 def corrected(
     maps: Sequence[OrbitMap],
     points: np.ndarray,
     parameter: float,
-    tangent: np.ndarray | None,
-    how: Correction,
+    how: Newton,
+    row: np.ndarray | None = None,
     directions: np.ndarray | None = None,
     slopes: np.ndarray | None = None,
+    space: Space | None = None,
 ) -> Solved:
-    """Newton's method on the gaps: at a fixed parameter, or orthogonally to a tangent (n + 1,) of the branch.
+    """Newton's method on the gaps: at a fixed parameter, or with corrections orthogonal to a row (n + 1,).
 
-    directions (n, k): with which the spaces begin; slopes (N, n): approximate ones.
+    directions (n, k): with which the spaces begin; slopes (N, n) and space: approximate ones. Raises NoImage where it
+    fails.
     """
-    n, size, space = points.shape[1], maps[0].parameter_size, None
+    n, size, last = points.shape[1], maps[0].parameter_size, space
     directions = np.empty((n, 0)) if directions is None else directions
     enough = how.tolerance * max(1.0, np.abs(points).max())  # of the guess: far away any gap is small beside the points
     shots, taken = shoot(maps, points, parameter), 0
-    while shots.residual > enough and taken < how.iterations:
-        fresh = space is None
-        if fresh:
-            space = Space(shots.linearised, directions if tangent is None else np.c_[directions, tangent[:n]])
-            if tangent is not None and slopes is None:
-                slopes = slopes_of(maps, shots, points, parameter)
-        change, delta = space.solve(shots.gaps, slopes, tangent)
-        directions = space.strongest()
-        for halving in range(how.halvings + 1):
-            share, reason = 0.5**halving, "a Newton step does not shorten the gaps"
+    while shots.residual > enough:
+        if taken == how.iterations:
+            raise NoImage(f"{taken} Newton steps leave {shots.residual:.1e}")
+        if fresh := space is None:
+            space = Space(shots.linearised, directions if row is None else np.c_[directions, row[:n]])
+        if row is not None and slopes is None:
+            slopes = slopes_of(maps, shots, points, parameter)
+        change, delta = space.solve(shots.gaps, slopes, row)
+        last, directions, reason = space, space.strongest(), "a Newton step does not shorten the gaps"
+        for share in 0.5 ** np.arange(how.halvings + 1):
             trial = points + share * change, parameter + share * delta * size
             try:
                 tried = shoot(maps, *trial)
             except ArithmeticError as why:
-                reason = str(why)
+                reason = why
                 continue
             if tried.residual < shots.residual:
+                if tried.residual > how.kept * shots.residual:
+                    space = slopes = None
+                (points, parameter), shots, taken = trial, tried, taken + 1
                 break
         else:
             if fresh:
-                return Solved(points, parameter, shots, taken, directions, f"{reason}; {shots.residual:.1e} is left")
+                raise NoImage(f"{reason}; {shots.residual:.1e} is left")
             space = slopes = None
-            continue
-        if tried.residual > how.kept * shots.residual:
-            space = slopes = None
-        (points, parameter), shots, taken = trial, tried, taken + 1
-    reason = "" if shots.residual <= enough else f"{taken} Newton steps leave {shots.residual:.1e}"
-    return Solved(points, parameter, shots, taken, directions, reason)
+    return Solved(points, float(parameter), maps, shots, taken, directions, last)
 
 
 def solved_near(
-    system: OrbitMap, points: np.ndarray, parameter: float, *more, mesh: int = 0
-) -> tuple[Sequence[OrbitMap], Solved]:
-    """`corrected` with the steps of the system at the guess, and again with those at the orbit where it lies apart."""
+    system: OrbitMap,
+    points: np.ndarray,
+    parameter: float,
+    how: Newton,
+    row: np.ndarray | None = None,
+    directions: np.ndarray | None = None,
+    slopes: np.ndarray | None = None,
+    mesh: int = 0,
+) -> Solved:
+    """`corrected`, roughly with the steps of the system at the guess, and then with those at the orbit."""
     maps = system.near(points, parameter, mesh)
-    solved = corrected(maps, points, parameter, *more)
-    if system.frozen and not solved.reason and np.linalg.norm(solved.points - points, axis=1).max() > MOVED:
-        maps = system.near(solved.points, solved.parameter, mesh)
-        solved = corrected(maps, solved.points, solved.parameter, *more)
-    return maps, solved
+    if system.frozen is None:
+        return corrected(maps, points, parameter, how, row, directions, slopes)
+    rough = corrected(maps, points, parameter, how._replace(tolerance=ROUGH), row, directions, slopes)
+    if np.linalg.norm(rough.points - points, axis=1).max() > MOVED:
+        maps = system.near(rough.points, rough.parameter, mesh)
+    how = how._replace(kept=max(how.kept, KEPT))
+    return corrected(maps, rough.points, rough.parameter, how, row, rough.directions, slopes, rough.space)
 
 
 def described(solved: Solved, count: int) -> tuple[Orbit, Space]:
     """The Orbit that Newton's method has found, with its multipliers, and the space in which they were found."""
     space = Space(solved.shots.linearised, solved.directions)
     found = space.multipliers(count)
-    return Orbit(solved.points, float(solved.parameter), *found, solved.shots.residual, solved.iterations), space
+    return Orbit(solved.points, solved.parameter, *found, solved.shots.residual, solved.iterations), space
 
 
-def not_found(solved: Solved) -> Orbit:
+def not_found(points: np.ndarray, parameter: float, reason: object) -> Orbit:
     """The Orbit that says why there is none."""
-    multipliers, vectors = np.empty(0, complex), np.empty((solved.points.shape[1], 0), complex)
-    return Orbit(
-        solved.points, solved.parameter, multipliers, np.empty(0), vectors, np.nan, solved.iterations, solved.reason
-    )
+    multipliers, vectors = np.empty(0, complex), np.empty((points.shape[1], 0), complex)
+    return Orbit(points, parameter, multipliers, np.empty(0), vectors, np.nan, 0, str(reason))
 
 
 def real_span(vectors: np.ndarray) -> np.ndarray:
@@ -250,7 +246,11 @@ def _images(system, z, parameter, period):
     return np.array(states)
 
 
-def _least_period(points):
-    close = REPEATS * max(1.0, np.abs(points).max())
-    divisors = (p for p in range(1, len(points)) if len(points) % p == 0)
-    return next((p for p in divisors if np.abs(points - np.roll(points, -p, axis=0)).max() < close), len(points))
+def _least_period(system, points):
+    """The least period of points, those of a computed system as close as its steps leave them."""
+    close = MOVED if system.frozen else REPEATS * max(1.0, np.abs(points).max())
+    for period in range(1, len(points)):
+        apart = points - np.roll(points, -period, axis=0)
+        if len(points) % period == 0 and max(system.length(change, 0.0) for change in apart) < close:
+            return period
+    return len(points)

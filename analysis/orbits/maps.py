@@ -53,6 +53,10 @@ class OrbitMap:
         """(n + 1,) of the inner product with a change (n,) of a point and one of the parameter, in what is seen."""
         return np.append(change if self.seen is None else self.seen @ (self.seen.T @ change), rate)
 
+    def length(self, change: np.ndarray, rate: float) -> float:
+        """Length of such a change."""
+        return float(np.sqrt(self.row(change, rate) @ np.append(change, rate)))
+
     def slope(self, z: np.ndarray, parameter: float, image: np.ndarray) -> np.ndarray:
         """Derivative (n,) of the image by the parameter in units of `parameter_size`."""
         if self.along is not None:

@@ -87,7 +87,7 @@ class Space:
         """The largest: values (k,), their errors (k,) and eigenvectors (n, k) of length 1.
 
         k is one larger than count where a conjugate pair would be cut, and n at most. Errors: what is left of
-        M y - mu y times the condition of mu; its root, where two are nearly one, as a double one moves by that.
+        M y - mu y, with rounding, times the condition of mu; no more than |mu|, for those that may as well be 0.
         """
         n = len(self.ways[0])
         self.grow(np.random.default_rng(SEED).normal(size=(n, FRESH + max(0, count - self.ways[0].shape[1]))))
@@ -104,6 +104,7 @@ class Space:
             rough = left[:, sizes > RITZ * np.maximum(1.0, np.abs(values))]
             if not rough.shape[1] or basis.shape[1] == n or not self.grow(np.hstack([rough.real, rough.imag])):
                 break
-        overlap = np.abs((duals.conj() * vectors).sum(axis=0))
-        errors = np.minimum(sizes / np.maximum(overlap, 1e-300), np.sqrt(sizes * np.linalg.norm(small, 2)))
+        sizes = np.maximum(sizes, np.finfo(float).eps * np.linalg.norm(small, 2))
+        errors = sizes / np.maximum(np.abs((duals.conj() * vectors).sum(axis=0)), 1e-300)
+        errors = np.minimum(errors, np.maximum(np.abs(values), np.sqrt(sizes)))
         return values, errors, basis @ vectors

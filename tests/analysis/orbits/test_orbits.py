@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from analysis.orbits import NoImage, OrbitMap, doubled_orbit, find_orbit, follow_branch, scatter_of
+from analysis.orbits.finding import Newton, described, solved_near
 from analysis.oscillator import SnapOscillator, grazing_force, periodic_orbit, search_periodic_orbits
 from analysis.oscillator.growth import random_starts
 from analysis.oscillator.pieces import tables
@@ -87,11 +88,46 @@ def test_the_least_period_is_told_and_a_map_without_orbits_is_refused_in_words()
 
 
 def test_newton_converges_quadratically():
-    left = [find_orbit(OrbitMap(henon), [1.0, 0.3], 1.0, iterations=n, tolerance=1e-14).points for n in range(1, 5)]
-    exact = find_orbit(OrbitMap(henon), [1.0, 0.3], 1.0, tolerance=1e-14).points
-    error = np.array([np.abs(points - exact).max() for points in left])
-    error = error[error > 1e-13]
+    tolerances = 10.0 ** -np.arange(15.0)
+    *steps, exact = (find_orbit(OrbitMap(henon), [1.0, 0.3], 1.0, tolerance=tolerance) for tolerance in tolerances)
+    error = {orbit.iterations: np.abs(orbit.points - exact.points).max() for orbit in steps}
+    error = np.array([value for _, value in sorted(error.items()) if value > 1e-13])
     assert len(error) >= 3 and (error[1:] < 2.0 * error[:-1] ** 2 + 1e-14).all()
+
+
+@pytest.mark.parametrize("skew", [5.0, 300.0])
+def test_multipliers_of_a_map_far_from_normal_are_those_of_every_cyclic_order(skew):
+    """Three maps of rank 4 in 300 coordinates; their product has the eigenvalues of a matrix of 4 by 4."""
+    n, random = 300, np.random.default_rng(4)
+    frames = [np.linalg.qr(random.normal(size=(n, 4)))[0] for _ in range(3)]
+    mixed = [np.triu(random.normal(size=(4, 4)), 1) * skew + np.diag([1.2, -0.9, 0.5, 0.4]) for _ in range(3)]
+    chain = [frames[(k + 1) % 3] @ mixed[k] @ frames[k].T for k in range(3)]
+    exact = np.sort([1.2**3, (-0.9) ** 3, 0.5**3, 0.4**3])
+
+    def orbit_from(first):
+        steps = [lambda z, q, M=chain[(first + k) % 3]: (M @ z, lambda V: M @ V) for k in range(3)]
+        system = OrbitMap(steps[0], frozen=lambda points, q, mesh: steps)
+        return described(solved_near(system, np.zeros((3, n)), 0.0, Newton()), 4)[0]
+
+    for first in range(3):
+        orbit = orbit_from(first)
+        values = np.sort(orbit.multipliers.real)
+        assert (np.abs(values - exact) < orbit.residuals.max()).all(), "where rounding is magnified, they say so"
+        assert skew > 5.0 or values == pytest.approx(exact, abs=1e-8)
+
+
+def test_multipliers_that_have_not_settled_are_said_to_be_so_and_make_no_events():
+    """A shift of coordinates: 0 is its only multiplier, and rounding alone makes others of modulus 1.3 of it."""
+    n = 120
+    shift = np.diag(np.full(n - 1, 1.6), -1)
+
+    def step(z, r):
+        return r * (shift @ z), lambda V: r * (shift @ V)
+
+    orbit = find_orbit(OrbitMap(step), np.zeros(n), 1.0)
+    assert orbit.found and not orbit.settled and not orbit.stable
+    branch = follow_branch(OrbitMap(step), orbit, 0.9, 1.1, most=3)
+    assert not any(orbit.settled for orbit in branch.orbits) and not branch.events
 
 
 @pytest.mark.parametrize("n", [40, 300])
