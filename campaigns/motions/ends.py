@@ -108,22 +108,23 @@ def bisect(along: Along) -> list[dict[str, object]]:
 def by_orbits(along: Along, ends: Sequence[_End]) -> dict[_End, dict[str, object]]:
     """The columns of the ends at which an orbit stops being stable, as the bisection says; the others have none.
 
-    The orbit is followed from the last state with the motion. Raises CampaignStopped.
+    The orbit is followed from the last value of the sweep with the motion. Raises CampaignStopped.
     """
-    from campaigns.motions.tracing import BACK, Line, Task, lost, work
+    from campaigns.motions.tracing import Line, Task, lost, work
 
     span, tasks = max(along.values) - min(along.values), {}
     for end in ends:
         period = end.motion.settled.period
         if period and end.row["status"] == "ok":
-            width = end.outside - end.inside
-            low, high = sorted((end.inside - max(BACK) * width, end.outside + BEYOND * width))
-            line = Line(along.scene_at, low, high, span, end.state, end.inside)
-            tasks[end] = Task(lost, line, (end.inside, period, end.state, width))
+            value, state = along.values[end.motion.at], end.motion.state
+            low, high = sorted((value, end.outside + BEYOND * (end.outside - end.inside)))
+            line = Line(along.scene_at, low, high, span, state, value)
+            tasks[end] = Task(lost, line, (value, period, state, float(end.step)))
     results, _ = work(along.plan, along.plan.how.out / "ends", "ends of ranges by their orbits", list(tasks.values()))
     found = {}
     for end, (result, _) in zip(tasks, results, strict=True):
-        if not result["reason"]:
+        near = BEYOND * abs(end.outside - end.inside)  # an orbit may double its period before its motion ends
+        if not result["reason"] and abs(result["value"] - 0.5 * (end.inside + end.outside)) <= near:
             found[end] = {f"{along.key.name}_end": result["value"], "error": result["error"], "kind": result["kind"]}
     return found
 

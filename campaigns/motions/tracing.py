@@ -26,10 +26,9 @@ from engine.scene import SceneError, scene_from_toml
 
 SOURCES = "analysis/orbits", "analysis/sampling.py", "campaigns/motions/tracing.py", "campaigns/motions/multipliers.py"
 STEPS = {"step": 0.05, "least": 2e-3, "longest": 0.3}  # of a branch: m of what is seen, and shares of the range
-SHORT, MOST_SHORT = STEPS | {"longest": 0.1}, 8  # to an event that is near
+SHORT, MOST_SHORT = STEPS | {"longest": 0.1}, 12  # to an event that is near
 ACCURACY = 1e-3  # of a chord, to which an event is located: another grid changes it by more
 AROUND, NEAREST = 3.0, 0.02  # an event is looked for again within this many chords, and this share of the range
-BACK = 0.0, 1.0, 3.0, 8.0  # widths, tried in turn
 AMPLITUDE = 0.02, 0.1  # m, tried in turn, from an orbit at its flip to the one of twice the period
 
 
@@ -206,30 +205,19 @@ def followed(line: Line, value: float, points: np.ndarray, most: int) -> tuple[d
     return {"orbits": rows, "events": events, **ends}, found
 
 
-def lost(line: Line, value: float, period: int, state: object, width: float) -> tuple[dict, list[np.ndarray]]:
-    """Where the orbit under a run stops being stable within the range of the line: the first event from there on.
-
-    value: of the run, which may lie beyond the event by what its own tolerance changes of it; width: how far the orbit
-    is then looked for on the other side.
-    """
+def lost(line: Line, value: float, period: int, state: object, ahead: float) -> tuple[dict, list[np.ndarray]]:
+    """Where the orbit under a run at a value stops being stable: the first event from there on; ahead: 1 up, -1 down."""
     from analysis.orbits import find_orbit, follow_branch
 
     cable, system = line.maps
-    begin = cable.at_strobe(state, value)
-    for back in BACK:
-        at = value - back * width
-        if not line.low <= at <= line.high:
-            continue
-        orbit = find_orbit(system, begin, at, period, count=COUNT)
-        if orbit.stable and orbit.period == period:
-            break
-    else:
-        return {"reason": orbit.reason or "no stable orbit is under the run"}, []
-    branch = follow_branch(system, orbit, line.low, line.high, **SHORT, most=MOST_SHORT, count=COUNT, accuracy=ACCURACY)
-    ahead = [event for event in branch.events if (event.parameter - at) * width > 0.0]
-    if not ahead:
+    orbit = find_orbit(system, cable.at_strobe(state, value), value, period, count=COUNT)
+    if not orbit.stable or orbit.period != period:
+        return {"reason": orbit.reason or "the orbit under the run is not stable"}, []
+    branch = follow_branch(system, orbit, line.low, line.high, **STEPS, most=MOST_SHORT, count=COUNT, accuracy=ACCURACY)
+    events = [event for event in branch.events if (event.parameter - value) * ahead > 0.0]
+    if not events:
         return {"reason": "the orbit stays stable"}, []
-    first = min(ahead, key=lambda event: abs(event.parameter - at))
+    first = min(events, key=lambda event: abs(event.parameter - value))
     error = first.error if math.isfinite(first.error) else None
     return {"reason": "", "kind": first.kind, "value": first.parameter, "error": error}, []
 
