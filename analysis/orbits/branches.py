@@ -2,7 +2,7 @@
 
     predict    (z, lambda) + h t, t the tangent at the last orbit, of length 1 in (z_0, lambda/parameter_size)
     correct    Newton's method, each correction orthogonal to t: `spaces`, (b). A system that is computed in steps
-               takes the steps of the predicted orbit, and keeps them while it is corrected
+               takes those of the predicted orbit first, and then those of the orbit
     accept     where t turns by less than 26 degrees and the correction is shorter than half of h; else h is halved
 
 h grows by half after three Newton steps or fewer. A branch has come back to its beginning, an island, where its first
@@ -17,7 +17,7 @@ import numpy as np
 
 from analysis.orbits.events import ACCURACY, Event, Place, events_between, near_orbits
 from analysis.orbits.finding import TOLERANCE, Orbit, described, real_span, solved_near
-from analysis.orbits.maps import OrbitMap, shoot, slopes_of
+from analysis.orbits.maps import NoImage, OrbitMap, shoot, slopes_of
 from analysis.orbits.spaces import Space
 from analysis.sampling import checked_positive
 
@@ -74,7 +74,7 @@ def follow_branch(
     most                   orbits each way
     count, tolerance       as in `find_orbit`
     accuracy               of events, in lengths of a step
-    told                   is called with every orbit as it is found
+    told                   is called with every orbit as it is found; where it gives True, the branch ends
     Returns a Branch. Where it cannot be followed farther, its ends say why: it raises nothing for that.
     Raises ValueError for an orbit that was not found, and for one outside of the range.
     """
@@ -120,20 +120,21 @@ class _Follower:
             end, limited = self._limit(here, step)
             if limited == 0.0:
                 return places[1:], f"reaches the end of the range, {end:g}", False
-            place, easy, reason = self._next(here, limited, end)
-            if place is None:
+            try:
+                place, easy = self._next(here, limited, end)
+            except ArithmeticError as why:
                 step = 0.5 * limited
                 if step < self.least:
                     where = f"{here.orbit.parameter:.6g}"
-                    return places[1:], f"at {where} no step above {self.least:g} succeeds: {reason}", False
+                    return places[1:], f"at {where} no step above {self.least:g} succeeds: {why}", False
                 continue
             if _meets_half(self.system, here.orbit.points, place.orbit.points):
                 return places[1:], f"meets the orbit of period {here.orbit.period // 2}", False
             if len(places) > 2 and (again := _come_back(self.system, first, here, place)) is not None:
                 return [*places[1:], again], "comes back to its beginning", True
             places.append(place)
-            if self.told:
-                self.told(place.orbit)
+            if self.told and self.told(place.orbit):
+                return places[1:], "followed as far as asked", False
             step = min(step * GROW, self.longest) if easy else step
         return places[1:], f"followed over {self.most} orbits", False
 
@@ -144,30 +145,26 @@ class _Follower:
         return (end, room / here.rate) if abs(here.rate) * step >= abs(room) else (None, step)
 
     def _next(self, here, step, end):
-        """(place, whether Newton's method was quick, "") one step on, or (None, False, why not).
+        """The place one step on, and whether Newton's method was quick. Raises NoImage where there is none.
 
         end: value at which the parameter is held, at the end of the range; None within it.
         """
         size, tangent = self.system.parameter_size, self.system.row(here.change[0], here.rate)
         points = here.orbit.points + step * here.change
         parameter = here.orbit.parameter + step * here.rate * size if end is None else end
-        directions, across = real_span(here.orbit.vectors), tangent if end is None else None
-        try:
-            how = near_orbits(self.tolerance)
-            solved = solved_near(self.system, points, parameter, how, across, directions, here.slopes)
-            off = self.system.length(solved.points[0] - points[0], (solved.parameter - parameter) / size)
-            if off > NEAR * step:
-                return None, False, "the branch turns too sharply"
-            if not self.low <= solved.parameter <= self.high:
-                return None, False, "the orbit found is out of the range"
-            orbit, space = described(solved, self.count)
-            slopes = slopes_of(solved.maps, solved.shots, solved.points, solved.parameter)
-            change, rate = tangent_of(self.system, space, slopes, tangent)
-        except ArithmeticError as why:
-            return None, False, str(why)
+        across, directions = tangent if end is None else None, real_span(here.orbit.vectors)
+        how = near_orbits(self.tolerance)
+        solved = solved_near(self.system, points, parameter, how, across, directions, here.slopes)
+        if self.system.length(solved.points[0] - points[0], (solved.parameter - parameter) / size) > NEAR * step:
+            raise NoImage("the branch turns too sharply")
+        if not self.low <= solved.parameter <= self.high:
+            raise NoImage("the orbit found is out of the range")
+        orbit, space = described(solved, self.count)
+        slopes = slopes_of(solved.maps, solved.shots, solved.points, solved.parameter)
+        change, rate = tangent_of(self.system, space, slopes, tangent)
         if tangent @ np.append(change[0], rate) < STRAIGHT:
-            return None, False, "the branch turns too sharply"
-        return Place(orbit, change, rate, slopes), solved.iterations <= FEW, ""
+            raise NoImage("the branch turns too sharply")
+        return Place(orbit, change, rate, slopes), solved.iterations <= FEW
 
 
 def tangent_of(system, space, slopes, before):
@@ -191,21 +188,15 @@ def _meets_half(system, before, after):
 
 def _come_back(system, first, here, place):
     """The first place, begun where the branch comes back to it, if that lies on the chord from here; else None."""
-    begin, size = here.orbit, system.parameter_size
-
-    def way_to(orbit, k):
-        points = np.roll(orbit.points, -k, axis=0)
-        return points[0] - begin.points[0], (orbit.parameter - begin.parameter) / size
-
-    chord = way_to(place.orbit, 0)
-    across, length = system.row(*chord), system.length(*chord)
+    begin = np.append(here.orbit.points[0], here.orbit.parameter / system.parameter_size)
+    chord = np.append(place.orbit.points[0], place.orbit.parameter / system.parameter_size) - begin
+    across, length = system.row(chord[:-1], chord[-1]), system.length(chord[:-1], chord[-1])
     for k in range(first.orbit.period):
-        way, change = way_to(first.orbit, k), np.roll(first.change, -k, axis=0)
-        share = across @ np.append(*way) / length**2
-        off = system.length(way[0] - share * chord[0], way[1] - share * chord[1])
+        points, change = np.roll(first.orbit.points, -k, axis=0), np.roll(first.change, -k, axis=0)
+        way = np.append(points[0], first.orbit.parameter / system.parameter_size) - begin
+        share = across @ way / length**2
+        off = way - share * chord
         straight = across @ np.append(change[0], first.rate) > 0.5 * system.length(change[0], first.rate) * length
-        if 0.0 < share <= 1.0 and off < ON_CHORD * length and straight:
-            return first._replace(
-                orbit=replace(first.orbit, points=np.roll(first.orbit.points, -k, axis=0)), change=change
-            )
+        if 0.0 < share <= 1.0 and system.length(off[:-1], off[-1]) < ON_CHORD * length and straight:
+            return first._replace(orbit=replace(first.orbit, points=points), change=change)
     return None

@@ -126,6 +126,7 @@ class _Chord:
 
     def event(self, kind, accuracy):
         """The event, or None where the sign changes for another reason."""
+        begin, end = self.begin.orbit, self.end.orbit
         first, last = self.seen[0.0][1], self.seen[1.0][1]
 
         def value(share):
@@ -138,30 +139,28 @@ class _Chord:
             maps = self.system.near(points, parameter)
             share = brentq(value, 0.0, 1.0, xtol=accuracy, rtol=4e-16 + accuracy, maxiter=40, disp=False)
         except ArithmeticError:  # no orbit there, or none with these steps of the system: as near as the branch tells
-            if kind == "fold" and self.begin.rate * self.end.rate > 0.0:
-                return None
-            nearest = self.begin.orbit if abs(first) < abs(last) else self.end.orbit
-            length = self.length * self.size
-            return _event(kind, nearest, nearest.parameter, length * max(abs(self.begin.rate), abs(self.end.rate)))
+            nearest = begin if abs(first) < abs(last) else end
+            turns = kind != "fold" or self.begin.rate * self.end.rate < 0.0
+            error = self.length * self.size * max(abs(self.begin.rate), abs(self.end.rate))
+            return _event(kind, nearest, nearest.parameter, error) if turns else None
         orbit, at = self.seen[share]
+<<<<<<< HEAD
         if kind == "fold" and self.begin.rate * self.end.rate > 0.0 and self.passes(orbit):
+=======
+        inside = (orbit.parameter - begin.parameter) / (end.parameter - begin.parameter or 1.0)
+        if kind == "fold" and ON_WAY < inside < 1.0 - ON_WAY:  # the parameter does not turn back
+>>>>>>> o16
             return None
         if self.system.frozen is None:
-            across = [abs(other.parameter - orbit.parameter) for s, (other, worth) in self.seen.items()
-                      if worth * at <= 0.0 and s != share]  # fmt: skip
-            return _event(kind, orbit, orbit.parameter, min(across, default=0.0) + self.size * ROUNDING)
+            across = [other.parameter for s, (other, worth) in self.seen.items() if worth * at <= 0.0 and s != share]
+            error = min((abs(other - orbit.parameter) for other in across), default=0.0)
+            return _event(kind, orbit, orbit.parameter, error + self.size * ROUNDING)
         try:
             every = [self.elsewhere(mesh, share) for mesh in range(self.system.meshes)]
         except ArithmeticError:
             return _event(kind, orbit, orbit.parameter, np.inf)
         middle = float(np.median(every))
         return _event(kind, orbit, middle, max(abs(middle - other) for other in every))
-
-    def passes(self, orbit):
-        """Whether the parameter of an orbit lies well between those of the places, as beside no fold."""
-        before, after = self.begin.orbit.parameter, self.end.orbit.parameter
-        inside = min((orbit.parameter - before) * (after - before), (after - orbit.parameter) * (after - before))
-        return inside > ON_WAY * (after - before) ** 2
 
     def elsewhere(self, mesh, share):
         """The parameter of the event with the steps of a mesh at the orbit that was found: one orbit there, and slopes

@@ -119,7 +119,7 @@ def by_orbits(along: Along, ends: Sequence[_End]) -> dict[_End, dict[str, object
             value, state = along.values[end.motion.at], end.motion.state
             low, high = sorted((value, end.outside + BEYOND * (end.outside - end.inside)))
             line = Line(along.scene_at, low, high, span, state, value)
-            tasks[end] = Task(lost, line, (value, period, state, float(end.step)))
+            tasks[end] = Task(lost, line, (period, float(end.step), value, state, end.inside, end.state))
     results, _ = work(along.plan, along.plan.how.out / "ends", "ends of ranges by their orbits", list(tasks.values()))
     found = {}
     for end, (result, _) in zip(tasks, results, strict=True):

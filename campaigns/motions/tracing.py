@@ -205,15 +205,28 @@ def followed(line: Line, value: float, points: np.ndarray, most: int) -> tuple[d
     return {"orbits": rows, "events": events, **ends}, found
 
 
-def lost(line: Line, value: float, period: int, state: object, ahead: float) -> tuple[dict, list[np.ndarray]]:
-    """Where the orbit under a run at a value stops being stable: the first event from there on; ahead: 1 up, -1 down."""
+def lost(line: Line, period: int, ahead: float, *starts: object) -> tuple[dict, list[np.ndarray]]:
+    """Where the orbit under a run stops being stable: the first event from there on.
+
+    ahead: 1 up, -1 down; starts: value, state, value, state ... of runs of that motion, tried in turn.
+    """
     from analysis.orbits import find_orbit, follow_branch
 
     cable, system = line.maps
-    orbit = find_orbit(system, cable.at_strobe(state, value), value, period, count=COUNT)
-    if not orbit.stable or orbit.period != period:
-        return {"reason": orbit.reason or "the orbit under the run is not stable"}, []
-    branch = follow_branch(system, orbit, line.low, line.high, **STEPS, most=MOST_SHORT, count=COUNT, accuracy=ACCURACY)
+    why = "the orbit under the run is not stable"
+    for value, state in zip(starts[::2], starts[1::2], strict=True):
+        try:
+            orbit = find_orbit(system, cable.at_strobe(state, value), value, period, count=COUNT)
+        except ArithmeticError as reason:
+            why = str(reason)
+            continue
+        if orbit.stable and orbit.period == period:
+            break
+        why = orbit.reason or why
+    else:
+        return {"reason": why}, []
+    how = {"most": MOST_SHORT, "count": COUNT, "accuracy": ACCURACY, "told": lambda one: not one.stable}
+    branch = follow_branch(system, orbit, line.low, line.high, **STEPS, **how)
     events = [event for event in branch.events if (event.parameter - value) * ahead > 0.0]
     if not events:
         return {"reason": "the orbit stays stable"}, []
