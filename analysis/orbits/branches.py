@@ -74,7 +74,7 @@ def follow_branch(
     most                   orbits each way
     count, tolerance       as in `find_orbit`
     accuracy               of events, in lengths of a step
-    told                   is called with every orbit as it is found
+    told                   is called with every orbit as it is found; where it gives True, the branch ends
     Returns a Branch. Where it cannot be followed farther, its ends say why: it raises nothing for that.
     Raises ValueError for an orbit that was not found, and for one outside of the range.
     """
@@ -133,8 +133,8 @@ class _Follower:
             if len(places) > 2 and (again := _come_back(self.system, first, here, place)) is not None:
                 return [*places[1:], again], "comes back to its beginning", True
             places.append(place)
-            if self.told:
-                self.told(place.orbit)
+            if self.told and self.told(place.orbit):
+                return places[1:], "followed as far as asked", False
             step = min(step * GROW, self.longest) if easy else step
         return places[1:], f"followed over {self.most} orbits", False
 

@@ -106,8 +106,8 @@ def runs(order: Order) -> Callable:
     """In place of `runner.run`: the motions, in a folder of their own, and the orbits under them."""
 
     def every_orbit(plan: Plan, jobs: list[Job]) -> tuple[dict[str, float], Summary]:
+        from campaigns.motions.tracing import Line, Scenes
         from campaigns.orbits.tables import tables
-        from campaigns.orbits.tracing import Line
         from campaigns.orbits.tree import Tree
 
         (key,), scene = order.own.vary, jobs[0].scene
@@ -121,7 +121,8 @@ def runs(order: Order) -> Callable:
             starts = [*_under_motions(order, inner.how.out)]
         began = time.perf_counter()
         state, value = (starts[0][3], starts[0][1]) if starts else (None, key.values[0])
-        line = Line(scene.to_toml(), key.key, key.name, key.index, key.values[0], key.values[-1], state, value)
+        low, high = key.values[0], key.values[-1]
+        line = Line(Scenes(scene.to_toml(), key.key, key.name, key.index), low, high, high - low, state, value)
         tree = Tree(plan, line, order.own.orbits, order.own.branches)
         if starts:
             tree.grow(starts)

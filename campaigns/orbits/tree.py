@@ -2,17 +2,13 @@
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
-from functools import partial
 from itertools import pairwise
 from string import ascii_lowercase
 
 import numpy as np
 
-from campaigns.machinery.folder import CampaignStopped
 from campaigns.machinery.plan import Plan
-from campaigns.machinery.pools import PoolBroken, opened
-from campaigns.machinery.progress import stage
-from campaigns.orbits.tracing import Line, Task, finer, followed, under, worked
+from campaigns.motions.tracing import Line, Task, finer, followed, under, work
 from engine.views import LONGEST_PERIOD
 
 FOLDER = "branches"
@@ -38,7 +34,6 @@ class Tree:
 
     def __init__(self, plan: Plan, line: Line, most: int, branches: int):
         self.plan, self.line, self.most, self.room = plan, line, most, branches
-        self.folder = None if plan.sends else (plan.how.out / FOLDER).absolute()
         (plan.how.out / FOLDER).mkdir(exist_ok=True)
         self.branches: list[Found] = []
         self.chosen: list[dict] = []  # orbits with errors and history
@@ -46,23 +41,10 @@ class Tree:
         self.computed = self.there = 0
 
     def work(self, said: str, tasks: Sequence[Task]) -> list[tuple[dict, list[np.ndarray]]]:
-        """Results of tasks, in their order. Raises CampaignStopped where a worker dies: finished ones are kept."""
-        results: dict[str, tuple] = {}
-        if not tasks:
-            return []
-        known = {task.key for task in tasks if (self.plan.how.out / FOLDER / f"{task.key}.npz").exists()}
-        self.there, self.computed = self.there + len(known), self.computed + len(tasks) - len(known)
-        how = self.plan.how
-        try:
-            with (
-                opened(how.backend, max(1, min(how.jobs, len(tasks))), how.dask_address) as execute,
-                stage(said, float(len(tasks)), "of them", lambda: float(len(results))),
-            ):
-                for task, result in execute(partial(worked, self.folder), list(tasks)):
-                    results[task.key] = result
-        except PoolBroken as broken:
-            raise CampaignStopped(f"a worker process ended: {broken}; finished branches are kept") from broken
-        return [results[task.key] for task in tasks]
+        """Results of tasks, in their order. Raises CampaignStopped."""
+        results, there = work(self.plan, self.plan.how.out / FOLDER, said, tasks)
+        self.there, self.computed = self.there + there, self.computed + len(tasks) - there
+        return results
 
     def grow(self, starts: Sequence[tuple[str, float, int, object]]) -> None:
         """Follow the orbits under runs (motion, value, period, FinalState), and what begins on their branches."""

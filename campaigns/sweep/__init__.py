@@ -165,13 +165,7 @@ def runs(order: Order):
     if kicks is None:
         return run
     (one,) = order.own.vary
-
-    def scene_at(value: float):
-        changes: dict[str, object] = {}
-        list(one.put(value, order.base(), changes))
-        return order.base(changes)
-
-    return motions.every_motion(order, kicks, one.column, scene_at)
+    return motions.every_motion(order, kicks, one.column, one.name, one.index)
 
 
 def measures(order: Order) -> Measures:

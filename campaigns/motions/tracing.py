@@ -8,65 +8,80 @@ import hashlib
 import io
 import json
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property, reduce
+from functools import cached_property, partial, reduce
 from pathlib import Path
 
 import numpy as np
 
 import engine
-from campaigns.machinery.folder import made_by
+from campaigns.machinery.folder import CampaignStopped, made_by
+from campaigns.machinery.plan import Plan
+from campaigns.machinery.pools import PoolBroken, opened
+from campaigns.machinery.progress import stage
 from campaigns.motions.multipliers import COUNT, TOLERANCE, cable_map
 from engine.atomic import write_atomic
-from engine.scene import scene_from_toml
+from engine.scene import SceneError, scene_from_toml
 
-SOURCES = "analysis/orbits", "analysis/sampling.py", "campaigns/orbits", "campaigns/motions/multipliers.py"
+SOURCES = "analysis/orbits", "analysis/sampling.py", "campaigns/motions/tracing.py", "campaigns/motions/multipliers.py"
 STEPS = {"step": 0.05, "least": 2e-3, "longest": 0.3}  # of a branch: m of what is seen, and shares of the range
-SHORT = STEPS | {"longest": 0.1}  # to an event that is near
+SHORT, MOST_SHORT = STEPS | {"longest": 0.1}, 12  # to an event that is near
 ACCURACY = 1e-3  # of a chord, to which an event is located: another grid changes it by more
 AROUND, NEAREST = 3.0, 0.02  # an event is looked for again within this many chords, and this share of the range
 AMPLITUDE = 0.02, 0.1  # m, tried in turn, from an orbit at its flip to the one of twice the period
 
 
-@dataclass(frozen=True, eq=False)
-class Line:
-    """The scenes along the key, and the coordinates of all orbits.
-
-    toml: the scene; key, name, index: as of `campaigns.sweep.Varied`; low, high: its range; state, value: of a run from
-    which the coordinates are taken; nodes: 0 for those of the scene.
-    """
+@dataclass(frozen=True)
+class Scenes:
+    """The scenes along one key. toml: of any of them; key, name, index: as of `campaigns.sweep.Varied`."""
 
     toml: str
     key: str
     name: str
-    index: int | None
+    index: int | None = None
+
+    def at(self, value: float, more: dict | None = None):
+        """The scene at a value, with more changes. Raises SceneError."""
+        put: object = value
+        if self.index is not None:
+            whole = [*reduce(getattr, self.name.split("."), self.base)]
+            put = [*whole[: self.index], value, *whole[self.index + 1 :]]
+        return scene_from_toml(self.toml, {self.name: put, **(more or {})})
+
+    def __call__(self, value: float):
+        """The scene at a value; None where there is none, as between two whole numbers."""
+        try:
+            return self.at(value)
+        except SceneError:
+            return None
+
+    @cached_property
+    def base(self):
+        """The scene of the text."""
+        return scene_from_toml(self.toml)
+
+
+@dataclass(frozen=True, eq=False)
+class Line:
+    """Scenes with the coordinates of their orbits, taken from a state of a run at a value.
+
+    low, high: range in which orbits are followed; size: the change of the key that counts as 1 m of the motion; nodes:
+    of another grid, 0 for that of the scenes.
+    """
+
+    scenes: Scenes
     low: float
     high: float
+    size: float
     state: object
     value: float
     nodes: int = 0
 
-    @property
-    def size(self) -> float:
-        """The change of the key that counts as 1 m of the motion."""
-        return self.high - self.low
-
     def scene(self, value: float):
-        """The scene at a value, as its orbits are computed. Raises ValueError."""
-        base = self._base
-        changes: dict[str, object] = {self.name: value, "solver.rtol": min(TOLERANCE, base.solver.rtol)}
-        if self.index is not None:
-            whole = [*reduce(getattr, self.name.split("."), base)]
-            whole[self.index] = value
-            changes[self.name] = whole
-        if self.nodes:
-            changes["tether.nodes"] = self.nodes
-        return scene_from_toml(self.toml, changes)
-
-    @cached_property
-    def _base(self):
-        return scene_from_toml(self.toml)
+        """The scene at a value, as its orbits are computed. Raises SceneError."""
+        more: dict[str, object] = {"solver.rtol": min(TOLERANCE, self.scenes.base.solver.rtol)}
+        return self.scenes.at(value, more | ({"tether.nodes": self.nodes} if self.nodes else {}))
 
     @cached_property
     def maps(self):
@@ -75,17 +90,9 @@ class Line:
 
     def digest(self) -> str:
         """Of all that results depend on beside their own task."""
-        parts = (
-            self.toml,
-            self.key,
-            self.low,
-            self.high,
-            self.state.digest(),
-            self.value,
-            self.nodes,
-            made_by({}, *SOURCES),
-        )
-        return hashlib.sha256(repr((*parts, engine.source_hash())).encode()).hexdigest()
+        made = self.state.digest(), made_by({}, *SOURCES), engine.source_hash()
+        parts = self.scenes, self.low, self.high, self.size, self.value, self.nodes, *made
+        return hashlib.sha256(repr(parts).encode()).hexdigest()
 
 
 @dataclass(frozen=True, eq=False)
@@ -104,6 +111,29 @@ class Task:
             digest = part.digest() if hasattr(part, "digest") else None
             said.update(part.tobytes() if isinstance(part, np.ndarray) else repr(digest or part).encode())
         return said.hexdigest()
+
+
+def work(plan: Plan, folder: Path, said: str, tasks: Sequence[Task]) -> tuple[list[tuple[dict, list]], int]:
+    """Results of tasks (`worked`), in their order, and how many of them were there before.
+
+    Raises CampaignStopped where a worker dies: what is finished is kept.
+    """
+    if not tasks:
+        return [], 0
+    folder.mkdir(exist_ok=True)
+    results: dict[str, tuple] = {}
+    there = {task.key for task in tasks if (folder / f"{task.key}.npz").exists()}
+    kept, how = None if plan.sends else folder.absolute(), plan.how
+    try:
+        with (
+            opened(how.backend, max(1, min(how.jobs, len(tasks))), how.dask_address) as execute,
+            stage(said, float(len(tasks)), "of them", lambda: float(len(results))),
+        ):
+            for task, result in execute(partial(worked, kept), list(tasks)):
+                results[task.key] = result
+    except PoolBroken as broken:
+        raise CampaignStopped(f"a worker process ended: {broken}; what is finished is kept") from broken
+    return [results[task.key] for task in tasks], len(there)
 
 
 def worked(folder: Path | None, task: Task) -> tuple[dict, list[np.ndarray]]:
@@ -175,13 +205,43 @@ def followed(line: Line, value: float, points: np.ndarray, most: int) -> tuple[d
     return {"orbits": rows, "events": events, **ends}, found
 
 
+def lost(line: Line, period: int, ahead: float, *starts: object) -> tuple[dict, list[np.ndarray]]:
+    """Where the orbit under a run stops being stable: the first event from there on.
+
+    ahead: 1 up, -1 down; starts: value, state, value, state ... of runs of that motion, tried in turn.
+    """
+    from analysis.orbits import find_orbit, follow_branch
+
+    cable, system = line.maps
+    why = "the orbit under the run is not stable"
+    for value, state in zip(starts[::2], starts[1::2], strict=True):
+        try:
+            orbit = find_orbit(system, cable.at_strobe(state, value), value, period, count=COUNT)
+        except ArithmeticError as reason:
+            why = str(reason)
+            continue
+        if orbit.stable and orbit.period == period:
+            break
+        why = orbit.reason or why
+    else:
+        return {"reason": why}, []
+    how = {"most": MOST_SHORT, "count": COUNT, "accuracy": ACCURACY, "told": lambda one: not one.stable}
+    branch = follow_branch(system, orbit, line.low, line.high, **STEPS, **how)
+    events = [event for event in branch.events if (event.parameter - value) * ahead > 0.0]
+    if not events:
+        return {"reason": "the orbit stays stable"}, []
+    first = min(events, key=lambda event: abs(event.parameter - value))
+    error = first.error if math.isfinite(first.error) else None
+    return {"reason": "", "kind": first.kind, "value": first.parameter, "error": error}, []
+
+
 def finer(line: Line, kind: str, at: float, value: float, points: np.ndarray) -> tuple[dict, list[np.ndarray]]:
     """Where an event is on 2n - 1 nodes, from an orbit of its branch near it, at `value`; the event is at `at`."""
     from analysis.orbits import find_orbit, follow_branch
     from engine.going_on import taken_over
 
     cable, _ = line.maps
-    more = replace(line, nodes=2 * line.scene(value).tether.nodes - 1)
+    more = replace(line, nodes=2 * line.scenes.base.tether.nodes - 1)
     scene = more.scene(value)
     states = [taken_over(cable.state_of(z, value), scene)[0] for z in points]
     more = replace(more, state=states[0], value=value)
@@ -192,7 +252,7 @@ def finer(line: Line, kind: str, at: float, value: float, points: np.ndarray) ->
     wide = max(AROUND * abs(at - value), NEAREST * line.size)
     low, high = max(at - wide, line.low), min(at + wide, line.high)
     ends = min(low, value), max(high, value)
-    branch = follow_branch(system, orbit, *ends, **SHORT, most=8, count=COUNT, accuracy=ACCURACY)
+    branch = follow_branch(system, orbit, *ends, **SHORT, most=MOST_SHORT, count=COUNT, accuracy=ACCURACY)
     same = [one.parameter for one in branch.events if one.kind == kind]
     if not same:
         return {"reason": f"no {kind} from {low:g} to {high:g} on {more.nodes} nodes"}, []
