@@ -144,12 +144,9 @@ class _Chord:
             error = self.length * self.size * max(abs(self.begin.rate), abs(self.end.rate))
             return _event(kind, nearest, nearest.parameter, error) if turns else None
         orbit, at = self.seen[share]
-<<<<<<< HEAD
-        if kind == "fold" and self.begin.rate * self.end.rate > 0.0 and self.passes(orbit):
-=======
         inside = (orbit.parameter - begin.parameter) / (end.parameter - begin.parameter or 1.0)
-        if kind == "fold" and ON_WAY < inside < 1.0 - ON_WAY:  # the parameter does not turn back
->>>>>>> o16
+        turns = self.begin.rate * self.end.rate < 0.0
+        if kind == "fold" and not turns and ON_WAY < inside < 1.0 - ON_WAY:  # the parameter does not turn back
             return None
         if self.system.frozen is None:
             across = [other.parameter for s, (other, worth) in self.seen.items() if worth * at <= 0.0 and s != share]
