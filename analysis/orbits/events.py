@@ -145,12 +145,7 @@ class _Chord:
             return _event(kind, nearest, nearest.parameter, error) if turns else None
         orbit, at = self.seen[share]
         inside = (orbit.parameter - begin.parameter) / (end.parameter - begin.parameter or 1.0)
-<<<<<<< HEAD
-        turns = self.begin.rate * self.end.rate < 0.0
-        if kind == "fold" and not turns and ON_WAY < inside < 1.0 - ON_WAY:  # the parameter does not turn back
-=======
         if not turns and ON_WAY < inside < 1.0 - ON_WAY:
->>>>>>> o16
             return None
         if self.system.frozen is None:
             across = [other.parameter for s, (other, worth) in self.seen.items() if worth * at <= 0.0 and s != share]
