@@ -3,8 +3,8 @@
     python -m benchmarks.orbits_speed [--rounds 3] [--cable]
 
 Eq. (33): an orbit of period 1 and its branch over the force. --cable: the same of the scene `tethered_buoy` at
-H = 25 m, kA = 0.13, 41 nodes, rtol 1e-4, over kA; the run before it is not counted. The last column: the time in
-maps of that system: what an orbit costs beside one period of a run.
+H = 25 m, kA = 0.13, 41 nodes, rtol 1e-4, over kA; the run that it begins with is not counted. "Worth": the time in
+maps of that system, what an orbit costs beside one period of a run.
 """
 
 from collections import Counter

@@ -128,6 +128,7 @@ class _Chord:
         """The event, or None where the sign changes for another reason."""
         begin, end = self.begin.orbit, self.end.orbit
         first, last = self.seen[0.0][1], self.seen[1.0][1]
+        turns = kind != "fold" or self.begin.rate * self.end.rate < 0.0
 
         def value(share):
             if share not in self.seen:
@@ -140,13 +141,11 @@ class _Chord:
             share = brentq(value, 0.0, 1.0, xtol=accuracy, rtol=4e-16 + accuracy, maxiter=40, disp=False)
         except ArithmeticError:  # no orbit there, or none with these steps of the system: as near as the branch tells
             nearest = begin if abs(first) < abs(last) else end
-            turns = kind != "fold" or self.begin.rate * self.end.rate < 0.0
             error = self.length * self.size * max(abs(self.begin.rate), abs(self.end.rate))
             return _event(kind, nearest, nearest.parameter, error) if turns else None
         orbit, at = self.seen[share]
         inside = (orbit.parameter - begin.parameter) / (end.parameter - begin.parameter or 1.0)
-        turns = self.begin.rate * self.end.rate < 0.0
-        if kind == "fold" and not turns and ON_WAY < inside < 1.0 - ON_WAY:  # the parameter does not turn back
+        if not turns and ON_WAY < inside < 1.0 - ON_WAY:
             return None
         if self.system.frozen is None:
             across = [other.parameter for s, (other, worth) in self.seen.items() if worth * at <= 0.0 and s != share]

@@ -62,9 +62,10 @@ def test_an_orbit_is_what_the_run_settles_on_and_what_a_run_from_its_state_keeps
     kept = simulate(scene_at(AT), periods=4, start=cable.state_of(orbit.points[0], AT)).columns["radius_m"]
     assert kept[::per_period] == pytest.approx(kept[0], abs=1e-3)  # rtol of its own steps
     assert kept[0] == pytest.approx(cable.history(orbit.points, AT)["radius_m"][0], abs=1e-12)
-    sink = math.log(np.abs(orbit.multipliers[0]))
-    run = simulate(scene_at(AT, **{"output.tangent_vectors": 1}), periods=150)
-    assert run.tangent.growth_nats[50:].mean() == pytest.approx(sink, abs=0.01)
+    # the volume that four perturbations span shrinks by the product of their multipliers, however pairs of them turn
+    tight = scene_at(AT, **{"output.tangent_vectors": 4, "solver.rtol": 1e-4})
+    shrinks = simulate(tight, periods=60, start=settled.final_state.at_zero()).tangent.growth_nats[30:].sum(axis=1)
+    assert shrinks.mean() == pytest.approx(math.log(abs(np.prod(orbit.multipliers[:4]))), rel=0.03)
 
 
 def test_a_period_that_changes_keeps_the_steps_as_shares_of_it(settled):
