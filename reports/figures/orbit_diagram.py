@@ -14,7 +14,7 @@ from .curves import Curve, Panel, draw
 NARROW_IN = 3.7  # of the form for telephones
 _LEFT_IN, _LABEL_IN, _RIGHT_IN, _BOTTOM_IN = 0.7, 0.29, 0.08, 0.42
 _BAR_IN, _MAIN_IN, _LOWER_IN, _GAP_IN = 0.16, 1.85, 0.68, 0.07
-_BAR_OF_MOTION_IN, _MAIN_OF_MOTIONS_IN = 0.12, 1.6
+_BAR_OF_MOTION_IN, _MAIN_OF_MOTIONS_IN, _MAIN_OF_ORBITS_IN = 0.12, 1.6, 2.3
 _LEGEND_IN, _NAMED = 0.14, 1.6  # a row of the legend, and the width of a motion in it
 _EDGE_IN, _NUMBERS_IN = 0.1, 0.27  # beside the first and the last run; left of it, where numbers stand there
 _NEUTRAL = "#8b95a0"
@@ -74,6 +74,7 @@ def orbit_diagram(
     words = {letter: _words(judged, letter) for letter in motions or [""] if judged}
     bars = [*words.values(), *(_spans(at, one.holds, one.text) for one in ranges)]
     bar_in, main_in = (_BAR_OF_MOTION_IN, _MAIN_OF_MOTIONS_IN) if motions else (_BAR_IN, _MAIN_IN)
+    main_in = _MAIN_OF_ORBITS_IN if orbits else main_in
     heights = [*([bar_in] * len(bars)), main_in, *(_LOWER_IN * one.height for one in below)]
     legend = _legend(judged, len(judged) < len(columns), motions, int(width_in / _NAMED))
     legend += [[]] if orbits else []

@@ -36,6 +36,11 @@ class Branch:
     kinds: np.ndarray
     stable: np.ndarray
 
+    @property
+    def changes(self) -> np.ndarray:
+        """Points at which it becomes stable or unstable; at an event that was located, or at an orbit."""
+        return np.flatnonzero(self.stable[1:] != self.stable[:-1]) + 1
+
     def lines(self, what: str) -> Iterator[Curve]:
         """What is seen over the key: solid where the orbits are stable, dashed where they are not."""
         first = 0
@@ -65,7 +70,7 @@ def rows_of(folder: Folder, name: str) -> tuple[Row, ...]:
 
 def read_branches(folder: Folder, key: str, motions: Sequence[Row]) -> list[Branch]:
     """The branches, each in the colour of the motion on it; one that begins at an event of another has its colour."""
-    letters = {row["branch"]: row["motion"] for row in rows_of(folder, "branches")}
+    letters = {row["branch"]: row["motion"].partition(" ")[0] for row in rows_of(folder, "branches")}
     events = [row for row in rows_of(folder, "events") if np.isfinite(row[key])]
     parents, strobes = {row["leads_to"]: row["branch"] for row in events if row["leads_to"]}, {}
     for row in read_rows(folder.directory / "strobes.csv"):

@@ -49,7 +49,7 @@ def report(directory: str | Path) -> Report:
         *_told(folder, "events", (*_EVENT[:2], key.name, *_EVENT[2:]), _EVENTS, **{key.name: located}),
         *section_items("orbits", "Question"),
         Heading("Warnings"),
-        _warnings(folder, key),
+        _warnings(folder, key, branches),
         *_chosen(folder, key, branches),
         *(_multipliers(key, branches) if branches else ()),
         Heading("Branches"),
@@ -84,6 +84,7 @@ def _diagram(folder: Folder, key: Quantity, branches: Sequence[Branch], motions:
     for what, drawn in lines.items():  # marks stand over all lines
         drawn += [mark for one in branches for mark in one.marks(what)]
     top, far = (float(max(np.nanmax(one.seen[what]) for one in branches)) for what in ("peak", "modulus"))
+    top = max(top, *(float(np.nanmax(curve.y, initial=0.0)) for curve in simulated))
     texts = [*_texts(branches, 0.14 * top)]
     axis = {"ylim": (0.0, 1.25 * top)}
     below = [
@@ -111,7 +112,7 @@ def _texts(branches: Sequence[Branch], aside: float) -> Iterator[tuple[float, fl
         at, peak = one.at, one.seen["peak"][:, 0]
         middle = int(np.argmin(np.abs(at - 0.5 * (at.min() + at.max())) - 0.01 * peak))
         yield at[middle], peak[middle] + aside, one.name, one.colour
-        changes += [(at[k], peak[k]) for k in np.flatnonzero(one.stable[1:] != one.stable[:-1]) + 1]
+        changes += [(at[k], peak[k]) for k in one.changes if one.kinds[k]]
     for place, (value_there, pull) in enumerate(sorted(changes)):
         yield value_there, pull + (-aside if place % 2 else aside), decimals(value_there, 4).lstrip("0"), INK
 
@@ -151,14 +152,13 @@ def _chosen(folder: Folder, key: Quantity, branches: Sequence[Branch]) -> Iterat
     panels = Panel(plane, "r (m)", "dr/dt (m/s)"), Panel(pull, "time (wave periods)", "T at the top (kN)", level=0.0)
     caption = f"Orbits at {key.head} = {number(at)}: radial speed over r, and tension over one round (`orbits/`)."
     yield Figure(curves([panels], 3.0, "below", widths=(1.0, 1.3)), caption, f"{listed(one.name for one in plane)}.")
-    columns = heads("branch", (key.head, key.unit), ("period", ""), *((f"μ{k}", "") for k in _SHOWN), ("gap", ""),
-                    "motion", "found by")  # fmt: skip
+    columns = heads("branch", (key.head, key.unit), *((f"μ{k}", "") for k in _SHOWN), ("gap", ""), "motion")
     body = (
-        (row["branch"], number(row[key.name]), number(row["period"]), *(_multiplier(row, k) for k in _SHOWN),
-         number(row["gap"], 1), row["motion"] or EMPTY, row["found_by"] or EMPTY) for row in rows
+        (row["branch"], number(row[key.name]), *(_multiplier(row, k) for k in _SHOWN),
+         number(row["gap"], 1), row["motion"] or EMPTY) for row in rows
     )  # fmt: skip
-    caption = "Multipliers, the largest first; in brackets their errors: what other meshes change. Gap: of the end of "
-    yield Table(columns, tuple(body), f"{caption}a round to its begin.", small=True)
+    caption = "Multipliers, the largest first; in brackets their errors: what other steps change. Gap: what is left of "
+    yield Table(columns, tuple(body), f"{caption}the equation of the orbit.", small=True)
 
 
 def _multiplier(row: Row, k: int) -> str:
@@ -199,9 +199,12 @@ def _multipliers(key: Quantity, branches: Sequence[Branch]) -> Iterator[Item]:
     )
 
 
-def _warnings(folder: Folder, key: Quantity) -> Notice:
-    branches, events, lines = rows_of(folder, "branches"), rows_of(folder, "events"), []
-    for row in branches:
+def _warnings(folder: Folder, key: Quantity, branches: Sequence[Branch]) -> Notice:
+    ended, events, lines = rows_of(folder, "branches"), rows_of(folder, "events"), []
+    for one in branches:
+        if missed := [number(one.at[k]) for k in one.changes if not one.kinds[k]]:
+            lines.append(f"Branch {one.name} changes its stability at {listed(missed)}: no event was located there.")
+    for row in ended:
         ends = (row[end] for end in ("begins", "ends") if row[end] and not row[end].startswith(_WHOLE))
         lines += [f"Branch {row['branch']} was not followed to its end: {end}." for end in ends]
     if coarse := [row for row in events if _coarse(row, key.name)]:
@@ -209,8 +212,10 @@ def _warnings(folder: Folder, key: Quantity) -> Notice:
         lines.append(f"Known to no better than {number(_ACCURATE)}: {at}.")
     if unsure := [f"{row['branch']} at {number(row[key.name])}" for row in rows_of(folder, "orbits") if _unsure(row)]:
         lines.append(f"Stable or not within the error of a multiplier: branch {listed(unsure)}.")
-    failed = (row for row in (*folder.table, *events, *branches) if row["status"] != "ok")
-    lines += [f"Branch {row['branch']}: {row['status']}; {row['message']}." for row in failed]
+    failed = (row for row in (*folder.table, *events, *ended) if row["status"] != "ok")
+    for row in failed:
+        which = f"Branch {row['branch']}" if row["branch"] else f"Motion {row['motion']}"
+        lines.append(f"{which}: {row['status']}; {row['message']}.")
     if not lines:
         return Notice("note", "Nothing to warn of", ("Every branch was followed to its end, every event is accurate.",))
     return Notice("warning", "What limits these orbits", tuple(dict.fromkeys(lines)))
