@@ -140,12 +140,14 @@ def _chosen(folder: Folder, key: Quantity, branches: Sequence[Branch]) -> Iterat
     if not rows:
         return
     at = Counter(row[key.name] for row in rows).most_common(1)[0][0]
-    colours = {one.name: one.colour for one in branches}
+    colours = colours_of(rows_of(folder, "motions")) | {one.name: one.colour for one in branches}
     for row in (row for row in rows if row[key.name] == at):
         history = read_rows(folder.directory / "orbits" / f"{row['branch']}_{row['place']}.csv")
-        name = f"branch {row['branch']}, {'un' if row['unstable'] else ''}stable"
-        look = {"line": DASHED if row["unstable"] else "-", "colour": colours.get(row["branch"], INK), "width": 1.2}
-        plane.append(Curve(series(history, "radius_m"), series(history, "radius_rate_mps"), name, **look))
+        which = row["branch"] or row["motion"]  # an orbit whose branch could not be followed
+        name = f"{'branch' if row['branch'] else 'motion'} {which}, {'un' if row['unstable'] else ''}stable"
+        look = {"line": DASHED if row["unstable"] else "-", "colour": colours.get(which, INK), "width": 1.2}
+        closed = (series([*history, *history[:1]], one) for one in ("radius_m", "radius_rate_mps"))
+        plane.append(Curve(*closed, name, **look))
         time = series(history, "time_s")
         pull.append(Curve(row["period"] * time / time[-1], 1e-3 * series(history, "tension_top_N"), name, **look))
     yield Heading("Orbits")
@@ -154,7 +156,7 @@ def _chosen(folder: Folder, key: Quantity, branches: Sequence[Branch]) -> Iterat
     yield Figure(curves([panels], 3.0, "below", widths=(1.0, 1.3)), caption, f"{listed(one.name for one in plane)}.")
     columns = heads("branch", (key.head, key.unit), *((f"μ{k}", "") for k in _SHOWN), ("gap", ""), "motion")
     body = (
-        (row["branch"], number(row[key.name]), *(_multiplier(row, k) for k in _SHOWN),
+        (row["branch"] or EMPTY, number(row[key.name]), *(_multiplier(row, k) for k in _SHOWN),
          number(row["gap"], 1), row["motion"] or EMPTY) for row in rows
     )  # fmt: skip
     caption = "Multipliers, the largest first; in brackets their errors: what other steps change. Gap: what is left of "
