@@ -127,7 +127,7 @@ def _told(folder: Folder, part: str, wanted: Sequence[str], caption: str, **own:
 def _located(row: Row, key: str) -> str:
     """ "0.12371 ± 0.00003", with the marks of its caveats."""
     flags = "‡" * _coarse(row, key) + "†" * (not np.isfinite(value(row, "finer")))
-    return f"{decimals(value(row, key), 5)}\u00a0±\u00a0{decimals(value(row, 'error'), 5)}{flags}"
+    return f"{decimals(value(row, key), 5)}\u00a0±\u00a0{number(value(row, 'error'), 1)}{flags}"
 
 
 def _coarse(row: Row, key: str) -> bool:
@@ -216,7 +216,8 @@ def _warnings(folder: Folder, key: Quantity, branches: Sequence[Branch]) -> Noti
         lines.append(f"Stable or not within the error of a multiplier: branch {listed(unsure)}.")
     failed = (row for row in (*folder.table, *events, *ended) if row["status"] != "ok")
     for row in failed:
-        which = f"Branch {row['branch']}" if row["branch"] else f"Motion {row['motion']}"
+        known = (f"{name.capitalize()} {row[name]}" for name in ("branch", "motion", "period") if row.get(name, ""))
+        which = next(known, "An orbit")
         lines.append(f"{which}: {row['status']}; {row['message']}.")
     if not lines:
         return Notice("note", "Nothing to warn of", ("Every branch was followed to its end, every event is accurate.",))

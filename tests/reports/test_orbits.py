@@ -92,7 +92,7 @@ def test_the_answer_is_a_picture_and_caveats_stand_beside_their_numbers(orbits, 
     first, table, *items = content_of(orbits)[0].items[2:]  # behind the answer, and how long it took
     assert isinstance(first, Figure) and first.narrow is not None and not any(map(crowded, drawn))
     cells = {row[1]: row[2] for row in table.rows}
-    assert cells == {"fold": "0.06000\u00a0±\u00a00.00010", "flip": "0.11000\u00a0±\u00a00.00090‡†"}
+    assert cells == {"fold": "0.06000\u00a0±\u00a00.0001", "flip": "0.11000\u00a0±\u00a00.0009‡†"}
     (notice,) = (item for item in items if isinstance(item, Notice))
     said = " ".join(notice.lines)
     assert "Branch 2 was not followed to its end: at 0.15" in said and "flip of branch 1 at 0.1100" in said
