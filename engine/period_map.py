@@ -13,6 +13,7 @@ from z what a branch is measured in. The map is that of waves that have grown to
 """
 
 import math
+from collections import deque
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 from functools import lru_cache
@@ -33,6 +34,7 @@ from .trajectory_parts import heading_of
 
 FIRST_STEPS = 0.3, 0.2, 0.45  # of the longest step: one of every mesh
 RATES = 100.0  # by which rates count less than their frequency says
+PASSES, NEARBY = 64, 1e-3  # maps that are kept; distance of states that have one map
 GRADE = 2.0  # longest step, in lengths of the next one
 LEAST_SHARE = 0.3  # of the step before: a last step that is shorter shares its way with it
 NEWTON = 1e-10  # the map must be smooth to below the gaps of an orbit
@@ -81,6 +83,7 @@ class PeriodMap:
         if why := why_no_map(scene_of(value)):
             raise ValueError(f"a map over a wave period: {why}")
         self.scene_of, self._run = scene_of, lru_cache(16)(self._run)  # arrays of the last ones are kept
+        self._kept: deque = deque(maxlen=PASSES)
         self.start = start.ended_at_zero()
         self.nodes = scene_of(value).tether.nodes
         self.scale = self._scale(value)
@@ -104,7 +107,7 @@ class PeriodMap:
 
     def frozen(self, points: Sequence[np.ndarray], value: float, mesh: int = 0) -> list[Callable]:
         """A map (z, value) -> (image, derivative) for each point, with the steps that a pass takes from there."""
-        return [self._map(self._pass(z, value, 0.0, mesh)) for z in points]
+        return [self._near(z, value, mesh) for z in points]
 
     def state_of(self, z: np.ndarray, value: float) -> FinalState:
         """The state, at t = 0, for a run to go on from; its curvatures and shear forces are those of `start`."""
@@ -185,6 +188,16 @@ class PeriodMap:
         run.state.fill(0)
         run.state["steps"], run.state["low"], run.state["high"] = 1, np.inf, -np.inf
         return run, Motion(Y, Y.copy(), C.copy(), K.copy())
+
+    def _near(self, z: np.ndarray, value: float, mesh: int) -> Callable:
+        """The map over the steps of a pass from z, or one from nearby, so that an orbit found twice is the same."""
+        near = [(np.linalg.norm(z - point), image) for *of, point, image in self._kept if of == [value, mesh]]
+        apart, image = min(near, key=lambda pair: pair[0], default=(np.inf, None))
+        if apart < NEARBY:
+            return image
+        image = self._map(self._pass(z, value, 0.0, mesh))
+        self._kept.append((value, mesh, z, image))
+        return image
 
     def _pass(self, z: np.ndarray, value: float, begin_s: float, mesh: int) -> np.ndarray:
         """Begin and length (l, 2), in wave periods, of the steps that an adaptive pass takes to the strobe."""

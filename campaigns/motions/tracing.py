@@ -27,7 +27,7 @@ from engine.scene import SceneError, scene_from_toml
 SOURCES = "analysis/orbits", "analysis/sampling.py", "campaigns/motions/tracing.py", "campaigns/motions/multipliers.py"
 STEPS = {"step": 0.05, "least": 2e-3, "longest": 0.3}  # of a branch: m of what is seen, and shares of the range
 SHORT, MOST_SHORT = STEPS | {"longest": 0.1}, 12  # to an event that is near
-ACCURACY = 1e-3  # of a chord, to which an event is located: another grid changes it by more
+ACCURACY = 1e-2  # of a chord, to which an event is located: another grid changes it by more
 AROUND, NEAREST = 3.0, 0.02  # an event is looked for again within this many chords, and this share of the range
 AMPLITUDE = 0.02, 0.1  # m, tried in turn, from an orbit at its flip to the one of twice the period
 
@@ -79,9 +79,12 @@ class Line:
     nodes: int = 0
 
     def scene(self, value: float):
-        """The scene at a value, as its orbits are computed. Raises SceneError."""
+        """The scene at a value, as its orbits are computed. Raises ArithmeticError where there is none."""
         more: dict[str, object] = {"solver.rtol": min(TOLERANCE, self.scenes.base.solver.rtol)}
-        return self.scenes.at(value, more | ({"tether.nodes": self.nodes} if self.nodes else {}))
+        try:
+            return self.scenes.at(value, more | ({"tether.nodes": self.nodes} if self.nodes else {}))
+        except SceneError:
+            raise ArithmeticError(f"no scene can have {self.scenes.key} = {value:.4g}") from None
 
     @cached_property
     def maps(self):
@@ -199,6 +202,7 @@ def followed(line: Line, value: float, points: np.ndarray, most: int) -> tuple[d
             doubled = next((one for one in tried if one.found), None)
             if doubled is not None:
                 told |= {"doubled": len(found), "doubled_value": doubled.parameter}
+                told["doubled_seen"] = (doubled.points @ cable.seen).tolist()
                 found.append(doubled.points)
         events.append(told)
     ends = {"closed": branch.closed, "begins": branch.ends[0], "ends": branch.ends[1]}

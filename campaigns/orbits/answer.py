@@ -53,22 +53,21 @@ def _event(one: Row, key: Column) -> str:
 
 
 def _between(orbits: Sequence[Row], key: Column) -> Iterator[str]:
-    """What stands between the motions of one value."""
+    """What stands between the motions of the value at which there are most orbits."""
     at = partial(known, name=key.name)
     for value, group in groupby(sorted(orbits, key=at), key=at):
-        some = [*group]
-        saddles = [one for one in some if known(one, "unstable") > 0]
-        if saddles and len(some) > len(saddles):
-            told = (
-                f"period {one['branch']} ({kilonewton(known(one, 'tension_top_max_N'))}, multiplier "
-                f"{known(one, 'multiplier_1_real'):.2f})"
-                for one in saddles
-            )
-            calm = (
-                f"period {one['branch']} ({kilonewton(known(one, 'tension_top_max_N'))}, "
-                f"|μ| = {known(one, 'multiplier_modulus'):.2f})"
-                for one in some
-                if one not in saddles
-            )
-            yield f"At {key.symbol} = {value:.4g} stable: {listed(calm)}; unstable, and between them: {listed(told)}."
+        unstable, stable = [], []
+        for one in group:
+            name = one["branch"] or f"{known(one, 'period'):.0f}"
+            sides = unstable if known(one, "unstable") > 0 else stable
+            sides.append(f"period {name} ({kilonewton(known(one, 'tension_top_max_N'))}, {multiplier(one)})")
+        if unstable and stable:
+            yield f"At {key.symbol} = {value:.4g} stable: {listed(stable)}; unstable, and between: {listed(unstable)}."
             return
+
+
+def multiplier(one: Row) -> str:
+    """The leading multiplier of an orbit, with its error."""
+    first = complex(known(one, "multiplier_1_real"), known(one, "multiplier_1_imag"))
+    value = f"{first.real:.3g}" if first.imag == 0.0 else f"|μ| = {abs(first):.3g}"
+    return f"μ = {value}".replace("μ = |μ|", "|μ|") + f" ± {known(one, 'multiplier_1_error'):.1g}"

@@ -77,8 +77,7 @@ class Tree:
                 if begins is not None:
                     begins["leads_to"] = branch.name
                 left += [
-                    ("", event["doubled_value"], (points[event["doubled"]] @ self.line.maps[0].seen).tolist(),
-                     points[event["doubled"]], event)
+                    ("", event["doubled_value"], event["doubled_seen"], points[event["doubled"]], event)
                     for event in result["events"] if "doubled" in event and 2 * event["period"] <= LONGEST_PERIOD
                 ]  # fmt: skip
         self.left = len(left)

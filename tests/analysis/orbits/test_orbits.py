@@ -1,4 +1,3 @@
-# LEAD (21:20): read /work/o16/NOTE_FROM_LEAD.md now, then delete this line
 """Orbits, multipliers, branches and events of maps that have them in closed form, and of eq. (33)."""
 
 from dataclasses import replace
