@@ -28,8 +28,9 @@ def sentences(rows: Sequence[Row], key: Column, parts: Mapping[str, Sequence[Row
     if unsure := [one for one in parts["events"] if not known(one, "error") <= 2e-4 * abs(known(one, key.name)) / 0.1]:
         yield f"Not known to 2 of 1000: {listed(_event(one, key) for one in unsure[:4])}."
     if failed := [one for one in parts["branches"] if one["status"] != "ok"]:
-        told = (f"{one['motion']} ({one['message']})" for one in failed)
-        yield f"Without an orbit: motion {listed(told)}."
+        name = (f"motion {one['motion']}" if one["motion"] else f"period {known(one, 'period'):.0f}" for one in failed)
+        told = (f"{one} ({row['message']})" for one, row in zip(name, failed, strict=True))
+        yield f"Without a branch: {listed(told)}."
 
 
 def _branch(branch: Row, rows: Sequence[Row], key: Column, events: Sequence[Row]) -> str:

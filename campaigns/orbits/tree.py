@@ -54,7 +54,8 @@ class Tree:
             starts, self.work("orbits under motions", asked), strict=True
         ):
             if result["reason"] or result["period"] > LONGEST_PERIOD:
-                self.failed.append({"motion": motion, "value": value, "period": period, "reason": result["reason"]})
+                reason = result["reason"] or f"its orbit has period {result['period']}"
+                self.failed.append({"motion": motion, "value": value, "period": period, "reason": reason})
                 continue
             self.chosen.append({**result, "motion": motion})
             left.append((motion, value, result["seen"], points[0], None))
@@ -80,7 +81,10 @@ class Tree:
                     ("", event["doubled_value"], event["doubled_seen"], points[event["doubled"]], event)
                     for event in result["events"] if "doubled" in event and 2 * event["period"] <= LONGEST_PERIOD
                 ]  # fmt: skip
-        self.left = len(left)
+        for motion, value, seen, _, begins in left:
+            if not self._known((motion, value, seen, None, begins)):
+                reason = f"not followed: {self.room} branches are (--branches)"
+                self.failed.append({"motion": motion, "value": value, "period": len(seen), "reason": reason})
 
     def _known(self, start) -> bool:
         """Whether an orbit lies on a branch; its motion is then one of that branch."""
