@@ -16,7 +16,6 @@ map, and a branch ends. Nothing is random.
 import time
 from collections.abc import Callable, Iterator
 from dataclasses import replace
-from pathlib import Path
 
 from campaigns import sweep
 from campaigns.answers import known
@@ -173,13 +172,8 @@ def answer(order: Order, rows: list[dict]) -> Iterator[str]:
     """What was found (`answer.sentences`)."""
     from campaigns.orbits.answer import sentences
 
-    parts = {name: _part(order.how.out / name / "table.csv") for name in ("branches", "events", "orbits")}
+    parts = {name: read_rows(order.how.out / name / "table.csv") for name in ("branches", "events", "orbits")}
     return sentences(rows, order.own.vary[0].column, parts)
-
-
-def _part(path: Path) -> tuple[dict, ...]:
-    """Rows of a table; none where it is a head alone, as that of the events of a branch that is stable throughout."""
-    return read_rows(path) if len(path.read_text(encoding="utf-8").splitlines()) > 1 else ()
 
 
 STUDY = Study(

@@ -32,7 +32,6 @@ HELPS = {  # what each tells
     "loky|threading|dask --out --no-report [--",
     "campaigns.accuracy": "--works",
     "campaigns.basins": "--across --grid --kick-speed --displacement --seed",
-    "campaigns.orbits": "--vary --values --start-from --motion --orbits --branches --no-accuracy",
     "campaigns.oscillator": "--effort",
     "campaigns.out_of_plane": "--periods",
     "campaigns.stability": "--fuzz",

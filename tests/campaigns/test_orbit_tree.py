@@ -1,4 +1,4 @@
-"""`campaigns.orbits`: the tree of orbits of a map with known folds and flips, and of a coarse cable."""
+"""`campaigns.orbits`: the tree of orbits of a map with known folds and flips, and what is refused."""
 
 from dataclasses import dataclass
 from types import SimpleNamespace
@@ -8,7 +8,7 @@ import pytest
 
 from analysis.orbits import NoImage, OrbitMap
 from campaigns.columns import Column
-from campaigns.orbits import cases, main, read_order
+from campaigns.orbits import cases, read_order
 from campaigns.orbits.tables import tables
 from campaigns.orbits.tree import Tree
 from tests.campaigns.conftest import rows_of
@@ -105,19 +105,3 @@ def test_what_has_no_orbits_is_refused_in_words(words, said, tmp_path):
     if not faults:
         list(cases(order))
     assert any(said in fault for fault in faults)
-
-
-@pytest.mark.slow
-def test_the_orbits_of_a_coarse_line(tmp_path):
-    """Stable throughout: no event; the same command again follows nothing twice; --start-from finds the same orbit."""
-    words = ["--set", "tether.nodes=9", "water.depth_m=21", "--vary", "waves.steepness", "0.05", "0.06"]
-    usual = ["--values", "2", "--orbits", "4", "--no-report", "--out", str(tmp_path / "sweep")]
-    assert main([*words, *usual]) == 0
-    kept = {path: path.stat().st_mtime_ns for path in (tmp_path / "sweep" / "branches").glob("*.npz")}
-    table = (tmp_path / "sweep" / "table.csv").read_bytes()
-    assert kept and all(float(row["gap"]) < 1e-8 for row in rows_of(tmp_path / "sweep"))
-    assert main([*words, *usual]) == 0
-    assert {path: path.stat().st_mtime_ns for path in (tmp_path / "sweep" / "branches").glob("*.npz")} == kept
-    assert (tmp_path / "sweep" / "table.csv").read_bytes() == table
-    (orbit,) = (row for row in rows_of(tmp_path / "sweep", "orbits/table.csv") if row["motion"] == "A")
-    assert float(orbit["multiplier_modulus"]) < 1.0
