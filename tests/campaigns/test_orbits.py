@@ -1,4 +1,4 @@
-"""`campaigns.orbits`: the orbits under motions, along a key; `campaigns.motions.ends`: where orbits say that one ends."""
+"""`campaigns.orbits`: the orbits under motions, along a key; where orbits say that a motion ends."""
 
 import numpy as np
 import pytest
