@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from engine.atomic import write_atomic
+from campaigns.machinery.folder import SEAL, read_sealed, write_sealed
 
 if TYPE_CHECKING:
     import xarray
@@ -56,15 +56,14 @@ def dataset(title: str, arrays: dict[str, Array], sources: tuple[Source, ...], m
 
 
 def store(path: Path, content: xarray.Dataset) -> None:
-    """Write the file, whole or not at all. Raises OSError."""
-    write_atomic(path, bytes(content.to_netcdf(format="NETCDF3_64BIT", engine="scipy")))
+    """Write the file, sealed (`folder.write_sealed`), whole or not at all. Raises OSError."""
+    content = content.assign_attrs(seal=SEAL.decode())
+    write_sealed(path, bytes(content.to_netcdf(format="NETCDF3_64BIT", engine="scipy")))
 
 
 def attribute_of(path: Path, name: str = "made_by") -> str | None:
     """An attribute of a data file, at first the key of what it was made from; None where there is no sound file."""
     import xarray
 
-    try:
-        return str(xarray.load_dataset(io.BytesIO(path.read_bytes()), engine="scipy").attrs[name])
-    except Exception:  # a damaged header can make the reader fail in any way at all
-        return None
+    found = read_sealed(path)
+    return None if found is None else xarray.load_dataset(io.BytesIO(found), engine="scipy").attrs.get(name)

@@ -58,9 +58,9 @@ def to_bytes(variables: list[Variable], texts: dict[str, str], attributes: dict[
 
 
 def from_bytes(
-    content: bytes, names: tuple[str, ...], optional: tuple[str, ...] = ()
+    content: bytes, names: tuple[str, ...], optional: tuple[str, ...] = (), attributes: dict[str, str] | None = None
 ) -> tuple[dict[str, str], dict[str, np.ndarray]]:
-    """(texts of these names, arrays) of a file, which need not have the optional ones.
+    """(texts of these names, arrays) of a file, which need not have the optional ones. attributes: that it must have.
 
     Raises DamagedError, or whatever a damaged header makes of it.
     """
@@ -74,6 +74,9 @@ def from_bytes(
     arrays = {name: np.array(variable.data, dtype=np.float64) for name, variable in file.variables.items()}
     if _digest(texts, arrays) != _text(file, DIGEST):
         raise DamagedError("damaged: the content does not match its own digest")
+    for name, wanted in (attributes or {}).items():
+        if (found := _text(file, name)) != wanted:
+            raise DamagedError(f"another run: its {name} is {found!r}")
     return texts, arrays
 
 

@@ -12,7 +12,7 @@ from .scene.models import Scene
 from .scene.size_limits import MOST_SAMPLES, check_room
 from .trajectory import Trajectory
 
-PERIODS_PER_CALL = 10
+CALL_S = 0.1  # of machine code, which hears of Ctrl-C between two calls only
 Progress = Callable[[float], None]
 Start = Trajectory | FinalState | str | Path | None
 
@@ -35,7 +35,7 @@ def simulate(
                  another grid by interpolation, from a plane into space, with another wave period or output step at
                  t = 0. `start` of the scene is not used. None: from rest
     Returns a Trajectory: status "ok", or the reason why it ended early, with the samples up to there. Bad arguments
-    raise ValueError; a run never raises.
+    raise ValueError; a run never raises. Ctrl-C stops it between two samples.
     """
     ((_, found),) = simulate_each([scene], periods, duration_s, progress, [start])
     return found
@@ -138,10 +138,11 @@ def _alone(waiting: deque, progress: Progress) -> Iterator[tuple[object, Traject
         return
     run = Run(scene, duration_s, asked.start)
     run.compile()
-    period_s = scene.waves.period_s if scene.waves is not None else 5.0
-    chunk = max(1, min(MOST_SAMPLES, round(PERIODS_PER_CALL * period_s / scene.sample_step_s())))
+    chunk, before_s = 1, 0.0
     while not run.done():
         run.advance(chunk)
+        took_s, before_s = run.wall_s - before_s, run.wall_s
+        chunk = max(1, min(MOST_SAMPLES, int(chunk * min(2.0, CALL_S / max(took_s, 1e-9)))))
         progress(run.fraction() * duration_s)
     yield asked, run.trajectory()
 

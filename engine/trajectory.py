@@ -175,23 +175,23 @@ class Trajectory:
         return netcdf.to_bytes(_variables(self), texts, attributes or {})
 
     @staticmethod
-    def load(path: str | Path) -> "Trajectory":
-        """The record saved under path, equal to the one saved.
+    def load(path: str | Path, attributes: dict[str, str] | None = None) -> "Trajectory":
+        """The record saved under path, equal to the one saved. attributes: of `save`, which the file must have.
 
-        Raises TrajectoryError with the reason when there is no such file or it is truncated, damaged or not a
-        trajectory.
+        Raises TrajectoryError with the reason when there is no such file or it is truncated, damaged, not a
+        trajectory, or has other attributes.
         """
         try:
             content = Path(path).read_bytes()
         except OSError as error:
             raise TrajectoryError(f"{path}: cannot be read: {error.strerror or error}") from None
-        return Trajectory.from_bytes(content, str(path))
+        return Trajectory.from_bytes(content, str(path), attributes)
 
     @staticmethod
-    def from_bytes(content: bytes, name: str = "the record") -> "Trajectory":
-        """The record of a file's content, for whoever was sent it. Raises TrajectoryError, which calls it by name."""
+    def from_bytes(content: bytes, name: str = "the record", attributes: dict[str, str] | None = None) -> "Trajectory":
+        """The record of a file's content, as `load`, for whoever was sent it; TrajectoryError calls it by name."""
         try:
-            return _restored(*netcdf.from_bytes(content, TEXTS, (BEGAN,)))
+            return _restored(*netcdf.from_bytes(content, TEXTS, (BEGAN,), attributes))
         except (TrajectoryError, netcdf.DamagedError) as error:
             raise TrajectoryError(f"{name}: {error}") from None
         except Exception as error:  # a damaged header can make the reader fail in any way at all

@@ -14,7 +14,7 @@ from timeit import timeit
 import numba
 
 from campaigns.accuracy.plan import BUOY
-from campaigns.machinery.folder import read_json, write_json
+from campaigns.machinery.folder import keep_json, kept_json
 from engine import load_scene, simulate, source_hash
 from engine.arrays import Stage
 from engine.physics.water import water
@@ -54,9 +54,8 @@ LOOPS = {"assembly": assembly, "waves": waves, "all": everything}
 def keep(out: Path, quick: bool = False) -> None:
     """Write costs.json unless it is there already, from this very engine. Raises OSError."""
     path, engine = out / "costs.json", {"engine": source_hash()}
-    kept = read_json(path)
-    if not isinstance(kept, dict) or not engine.items() <= kept.items():
-        write_json(path, engine | costs(rounds=3 if quick else ROUNDS))
+    if not engine.items() <= kept_json(path).items():
+        keep_json(path, engine | costs(rounds=3 if quick else ROUNDS))
 
 
 def costs(rounds: int = ROUNDS) -> dict[str, object]:

@@ -280,5 +280,5 @@ def _held(out: Path) -> str:
         mine = ("scene.toml", "report.html", "report.pdf", "trajectories") if not (out / ".lock").exists() else ()
         foreign = next((name for name in ("table.csv", *mine) if (out / name).exists()), None)
         return "" if foreign is None else f"a {foreign} that no campaign wrote"
-    except (OSError, ValueError, KeyError, TypeError):
+    except (OSError, ValueError, KeyError, TypeError, RecursionError):
         return "a provenance.json that no campaign wrote"

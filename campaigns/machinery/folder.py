@@ -13,6 +13,7 @@ import io
 import json
 import math
 import os
+import re
 import socket
 import time
 from collections.abc import Iterator
@@ -23,6 +24,8 @@ from campaigns.columns import Column, csv_of, dictionary, dictionary_path, names
 from engine.atomic import write_atomic
 
 Row = dict[str, object]  # of a table, by column
+SEAL = b"sha256:" + 64 * b"0"  # stands in a content that `write_sealed` is given
+_SEALED = re.compile(rb"sha256:[0-9a-f]{64}")
 _NO_SPACE = {errno.ENOSPC, errno.EDQUOT, errno.EFBIG}
 
 
@@ -138,10 +141,15 @@ def read_rows(path: Path) -> tuple[Row, ...]:
     return tuple({name: text if name in words else float(text or "nan") for name, text in row.items()} for row in rows)
 
 
+def stored_run(folder: Path, key: str) -> "engine.Trajectory":
+    """The run with this content key. Raises TrajectoryError where its file is not there, damaged, or of another run."""
+    return engine.Trajectory.load(trajectory_path(folder, key), {"run_key": key})
+
+
 def run_of(folder: Path, row: Row) -> "engine.Trajectory | None":
     """The trajectory of a row; None for a run that ended early, or whose file cannot be read."""
     try:
-        return engine.Trajectory.load(trajectory_path(folder, row["run_key"])) if row["status"] == "ok" else None
+        return stored_run(folder, row["run_key"]) if row["status"] == "ok" else None
     except ValueError:  # TrajectoryError
         return None
 
@@ -159,13 +167,44 @@ def read_json(path: Path) -> object:
     """The content of a JSON file; None where it cannot be read."""
     try:
         return json.loads(path.read_text(encoding="utf-8"))
-    except (OSError, ValueError):
+    except (OSError, ValueError, RecursionError):
         return None
 
 
 def write_json(path: Path, content: dict) -> None:
     """Write a JSON file whole. Raises OSError."""
     write_atomic(path, (json.dumps(content, indent=2, allow_nan=False) + "\n").encode())
+
+
+def write_sealed(path: Path, content: bytes) -> None:
+    """Write a file in which SEAL stands; the digest of its name and of its content takes its place. Raises OSError."""
+    write_atomic(path, _closed(path, content))
+
+
+def read_sealed(path: Path) -> bytes | None:
+    """What `write_sealed` was given; None where the file is not there, not whole, changed, or has another's name."""
+    try:
+        found = path.read_bytes()
+    except OSError:
+        return None
+    content = _SEALED.sub(SEAL, found, count=1)
+    return content if SEAL in content and _closed(path, content) == found else None
+
+
+def _closed(path: Path, content: bytes) -> bytes:
+    digest = hashlib.sha256(path.name.encode() + b"\0" + content).hexdigest()
+    return content.replace(SEAL, b"sha256:" + digest.encode(), 1)
+
+
+def keep_json(path: Path, content: dict) -> None:
+    """Write a JSON file that is read again, sealed. Raises OSError."""
+    write_sealed(path, (json.dumps({"seal": SEAL.decode(), **content}, indent=1, default=float) + "\n").encode())
+
+
+def kept_json(path: Path) -> dict:
+    """What `keep_json` was given; {} where there is none, or it is not what was written."""
+    found = read_sealed(path)
+    return {} if found is None else {name: entry for name, entry in json.loads(found).items() if name != "seal"}
 
 
 def made_by(settings: dict, *sources: str) -> str:
@@ -194,18 +233,27 @@ def of_the_page() -> tuple[str, ...]:
     return tuple(sorted(f"{place}/{path.name}" for path in found if path.is_file()))
 
 
-def kept_row(directory: Path, key: str, maker: str) -> dict | None:
-    """The row of a run as `maker` made it; None where there is none, or a damaged one."""
-    found = read_json(_row_path(directory, key))
-    sound = isinstance(found, dict) and found.get("made_by") == maker and isinstance(found.get("row"), dict)
-    return found["row"] if sound else None
+def kept_row(directory: Path, key: str, maker: str, content: bytes = b"") -> dict | None:
+    """The row that `maker` made of a run whose file has this content; None where there is none, or a damaged one.
+
+    content: empty of what has no file beside its row.
+    """
+    found = kept_json(_row_path(directory, key))
+    return found["row"] if found.get("made_by") == maker and found.get("run") == _digest(content) else None
 
 
-def keep_row(directory: Path, key: str, maker: str, row: dict) -> None:
-    """Store a row, unless it has no maker or its analysis failed. A full disk loses only the time to make it again."""
+def keep_row(directory: Path, key: str, maker: str, row: dict, content: bytes = b"") -> None:
+    """Store a row for `kept_row`, unless it has no maker or its analysis failed.
+
+    A full disk loses only the time to make it again.
+    """
     if maker and row.get("status") != "analysis-failed":
         with contextlib.suppress(OSError):
-            write_atomic(_row_path(directory, key), json.dumps({"made_by": maker, "row": row}, default=float).encode())
+            keep_json(_row_path(directory, key), {"made_by": maker, "run": _digest(content), "row": row})
+
+
+def _digest(content: bytes) -> str:
+    return hashlib.sha256(content).hexdigest()
 
 
 def _row_path(directory: Path, key: str) -> Path:

@@ -128,7 +128,7 @@ def run_campaign(plan: Plan, jobs: list[Job]) -> Summary:
     by_key = {job.key: job for job in jobs}
     table = Table(plan.how.out / "table.csv", plan.columns, list(by_key))
     with stage("looking for finished runs"):
-        there = {key: reuse(plan, job) for key, job in by_key.items()}
+        there = {key: reuse(plan, job, tell) for key, job in by_key.items()}
         found = {key: outcome for key, outcome in there.items() if outcome is not None and _ended(by_key[key], outcome)}
     table.rows = {key: _row(by_key[key], outcome) for key, outcome in found.items()}
     table.write()
@@ -138,7 +138,7 @@ def run_campaign(plan: Plan, jobs: list[Job]) -> Summary:
         for outcome in _computed(plan, missing, list(by_key.values())):
             if outcome.content:
                 write_atomic(trajectory_path(plan.how.out, outcome.key), outcome.content)
-                keep_row(plan.how.out, outcome.key, plan.row_maker, outcome.row)
+                keep_row(plan.how.out, outcome.key, plan.row_maker, outcome.row, outcome.content)
             analysis_s += outcome.analysis_s
             table.add(outcome.key, _row(by_key[outcome.key], outcome))
     except BaseException:

@@ -17,6 +17,7 @@ from campaigns.machinery.folder import (
     is_full,
     keep_row,
     kept_row,
+    stored_run,
     trajectory_path,
     write_failure,
 )
@@ -153,7 +154,7 @@ def _so_far(plan: Plan, job: Job) -> _Standing:
     outcome = reuse(plan, job)
     if outcome is None or outcome.row.get("status") not in ("ok", None):
         return _Standing(outcome=outcome)
-    return _Standing(engine.Trajectory.load(trajectory_path(plan.how.out, job.key)), outcome)
+    return _Standing(stored_run(plan.how.out, job.key), outcome)
 
 
 def _run_one(plan: Plan, job: Job, told: Callable[[float], None]) -> Outcome:
@@ -183,23 +184,30 @@ def _kept(plan: Plan, job: Job, trajectory, outcome: Outcome | None = None) -> O
     outcome = _described(plan, job, trajectory) if outcome is None else outcome
     if plan.how.out is None:
         return replace(outcome, content=content)
-    keep_row(plan.how.out, job.key, plan.row_maker, outcome.row)
+    keep_row(plan.how.out, job.key, plan.row_maker, outcome.row, content)
     return outcome
 
 
-def reuse(plan: Plan, job: Job) -> Outcome | None:
-    """The outcome of a run that is there already; None where it has to be computed, as where its file is damaged."""
+def reuse(plan: Plan, job: Job, said: Callable[[str], None] = lambda _: None) -> Outcome | None:
+    """The outcome of a run that is there already; None where it has to be computed.
+
+    A file that is damaged, or not of the run that its name and the order say, is as good as none; said: hears of it.
+    """
     out = plan.how.out
     if out is None or not (path := trajectory_path(out, job.key)).exists():
         return None
     try:
-        trajectory = engine.Trajectory.load(path)
-    except Exception:  # truncated, emptied, not netCDF, from a foreign hand: whatever it is, the cure is the same
+        content = path.read_bytes()
+        trajectory = engine.Trajectory.from_bytes(content, "", {"run_key": job.key})
+        if trajectory.scene.model_copy(update={"output": job.scene.output}) != job.scene:  # it may carry perturbations
+            raise ValueError("another run: its scene is not the one of its key")
+    except Exception as error:  # whatever it is, from a foreign hand or cut short, the cure is the same
+        said(f"{path}: {str(error).removeprefix(': ')}; computed again")
         return None
-    if (row := kept_row(out, job.key, plan.row_maker)) is not None:
+    if (row := kept_row(out, job.key, plan.row_maker, content)) is not None:
         return Outcome(job.key, row)
     outcome = _described(plan, job, trajectory)
-    keep_row(out, job.key, plan.row_maker, outcome.row)
+    keep_row(out, job.key, plan.row_maker, outcome.row, content)
     return outcome
 
 

@@ -16,6 +16,7 @@ LEADS_TO = Column(
     "leads_to", symbol="leads to", meaning="letter of the motion that it becomes there; empty where none settled"
 )
 _EXACT = "where the motion ends, by its orbit, which stops being stable there; empty where no orbit tells it"
+SHIFTED = 0.01  # of a value: by what the tolerance of a sweep may move an end
 KIND = Column("kind", symbol="by", meaning="what ends it: fold, flip or torus point of its orbit; empty: not known")
 BEYOND = 2.0  # widths of the bisected range, beyond it, in which an orbit is followed
 END = Column("end", symbol="end", meaning="lower or upper end of the range of the motion")
@@ -123,7 +124,8 @@ def by_orbits(along: Along, ends: Sequence[_End]) -> dict[_End, dict[str, object
     results, _ = work(along.plan, along.plan.how.out / "ends", "ends of ranges by their orbits", list(tasks.values()))
     found = {}
     for end, (result, _) in zip(tasks, results, strict=True):
-        near = BEYOND * abs(end.outside - end.inside)  # an orbit may double its period before its motion ends
+        # an orbit may double its period before its motion ends
+        near = max(BEYOND * abs(end.outside - end.inside), SHIFTED * abs(end.inside))
         if not result["reason"] and abs(result["value"] - 0.5 * (end.inside + end.outside)) <= near:
             found[end] = {f"{along.key.name}_end": result["value"], "error": result["error"], "kind": result["kind"]}
     return found

@@ -8,7 +8,7 @@ from itertools import repeat
 import numpy as np
 
 import engine
-from campaigns.machinery.folder import read_json, write_json
+from campaigns.machinery.folder import keep_json, kept_json
 from campaigns.machinery.plan import Plan
 from campaigns.machinery.pools import opened
 from campaigns.machinery.progress import stage
@@ -32,8 +32,7 @@ def proposals(plan: Plan, scenes: Sequence, speed_mps: float, seed: int) -> list
     """
     path = plan.how.out / "proposals.json"
     keys = [_key_of(scene, speed_mps, seed) for scene in scenes]
-    known = read_json(path)
-    known = known if isinstance(known, dict) else {}
+    known = kept_json(path)
     missing = [(key, scene) for key, scene in zip(keys, scenes, strict=True) if key not in known]
     if missing:
         count = len(missing)
@@ -46,7 +45,7 @@ def proposals(plan: Plan, scenes: Sequence, speed_mps: float, seed: int) -> list
             for (key, _), found in execute(partial(_proposed, kicked), missing):
                 known[key] = found
                 done += 1
-        write_json(path, {key: known[key] for key in keys})
+        keep_json(path, {key: known[key] for key in keys})
     return [[Start("massless", tuple(kick), tuple(moved)) for kick, moved in known[key]] for key in keys]
 
 

@@ -13,6 +13,7 @@ steps; that of an event also its change on a finer grid of the line. Where the l
 map, and a branch ends. Nothing is random.
 """
 
+import contextlib
 import time
 from collections.abc import Callable, Iterator
 from dataclasses import replace
@@ -172,7 +173,10 @@ def answer(order: Order, rows: list[dict]) -> Iterator[str]:
     """What was found (`answer.sentences`)."""
     from campaigns.orbits.answer import sentences
 
-    parts = {name: read_rows(order.how.out / name / "table.csv") for name in ("branches", "events", "orbits")}
+    parts: dict[str, tuple[dict, ...]] = dict.fromkeys(("branches", "events", "orbits"), ())
+    for name in parts:
+        with contextlib.suppress(ValueError):  # a table without rows
+            parts[name] = read_rows(order.how.out / name / "table.csv")
     return sentences(rows, order.own.vary[0].column, parts)
 
 

@@ -12,7 +12,7 @@ from pathlib import Path
 
 from campaigns.breaking_line.lines import read_lines
 from campaigns.figure_data import Array, Source, source
-from campaigns.machinery.folder import Row, read_json, read_rows, run_of, trajectory_path
+from campaigns.machinery.folder import Row, read_json, read_rows, run_of, stored_run, trajectory_path
 from campaigns.paper.measures import LARGE, SMALL, buckling_waves, calm_measures, scales, snaps, violent_measures
 
 STRANGE = ("lambda_1_bits_per_period", "lambda_1_bits_error", "section_dimension", "section_dimension_error")
@@ -64,7 +64,7 @@ class Parts:
 
     def run(self, part: Part, label: str, **wanted) -> tuple[Row, object, Source]:
         """The one run of a part that is as wanted: its row, its trajectory, its Source. Raises LeftOut."""
-        from engine.trajectory import Trajectory, TrajectoryError
+        from engine.trajectory import TrajectoryError
 
         row = next((row for row in part.rows if wanted.items() <= row.items()), None)
         if row is None:
@@ -74,7 +74,7 @@ class Parts:
         path = trajectory_path(part.folder, row["run_key"])
         if path not in self._runs:
             try:
-                found = Trajectory.load(path)
+                found = stored_run(part.folder, row["run_key"])
             except TrajectoryError as error:
                 reason = str(error).removeprefix(f"{path}: ")  # what is written must not depend on the folder's place
                 raise LeftOut(f"the file of {label}, {path.name}, is no use ({reason})") from None

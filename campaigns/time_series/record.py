@@ -9,8 +9,10 @@ import csv
 import difflib
 import os
 import re
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
+from itertools import chain, islice
+from math import isfinite
 from pathlib import Path
 
 import numpy as np
@@ -31,6 +33,7 @@ LEAST_SAMPLES = 100
 UNEVEN = 0.02
 # Beyond, squares of differences leave the range of numbers.
 LARGEST = 1e100
+BLOCK = 100_000  # lines
 _CLOCK = re.compile(r"\d+[-/.]\d+[-/.]\d+|\d+:\d+")
 
 
@@ -56,23 +59,24 @@ def read_record(
     before = len(faults)
     try:
         table = read_table(Path(path))
+        names = table.names
+        column = names[0] if column is None and len(names) == 1 else column
+        listed = ", ".join(names[:40]) + (f" and {len(names) - 40} more" if len(names) > 40 else "")
+        if column is None:
+            faults.append(f"--column: not given; allowed: {listed}")
+        elif column == time:
+            faults.append(f"--column and --time: given {column!r} as both; allowed: two columns")
+        asked = {option: name for option, name in (("--column", column), ("--time", time)) if name is not None}
+        for option, name in asked.items():
+            if name not in names:
+                faults.append(f"{option}: no column {name!r} in {path}{close_to(name, names)}; allowed: {listed}")
+        if len(faults) > before:
+            return None
+        numbers = _numbers(table, {f"{option} {name}": names.index(name) for option, name in asked.items()}, faults)
     except ValueError as error:
         faults.append(str(error))
         return None
-    names = list(table)
-    column = names[0] if column is None and len(names) == 1 else column
-    listed = ", ".join(names[:40]) + (f" and {len(names) - 40} more" if len(names) > 40 else "")
-    if column is None:
-        faults.append(f"--column: not given; allowed: {listed}")
-    elif column == time:
-        faults.append(f"--column and --time: given {column!r} as both; allowed: two columns")
-    numbers = {}
-    for option, name in (("--column", column), ("--time", time)):
-        if name in table:
-            numbers[option] = _numbers(table[name], f"{option} {name}", faults)
-        elif name is not None:
-            faults.append(f"{option}: no column {name!r} in {path}{close_to(name, names)}; allowed: {listed}")
-    x, t = numbers.get("--column"), numbers.get("--time")
+    x, t = numbers.get(f"--column {column}"), numbers.get(f"--time {time}")
     if x is not None and (fault := _not_worth_it(x)):
         faults.append(f"--column {column}: {fault}")
     unit = "samples" if t is None and step is None else "s"
@@ -85,23 +89,74 @@ def read_record(
     return Record(x, 1.0 if step is None else step, unit, column, Path(path))
 
 
-def _numbers(cells: Sequence[str], name: str, faults: list[str]) -> np.ndarray | None:
-    """A column as floats (n,); None with a fault for each way in which cells are no finite number."""
-    values, wrong = np.full(len(cells), np.nan), {}
-    for k, cell in enumerate(cells):
+@dataclass(frozen=True, eq=False)
+class Table:
+    """A text file of columns: their names, the mark between them (None: spaces), and the lines below the names."""
+
+    path: Path
+    names: list[str]
+    mark: str | None
+    lines: Iterator[str]
+
+    def rows(self, lines: Iterable[str], begin: int = 0) -> Iterator[list[str]]:
+        """The cells of lines, the first of which is row `begin` below the names.
+
+        Raises ValueError at the first row with more or fewer cells than there are names.
+        """
+        for k, cells in enumerate(_cells(self.path, lines, self.mark)):
+            if len(cells) == len(self.names):
+                yield cells
+                continue
+            given = f"{self.path}: row {begin + k + 1} below the names has {len(cells)} cells, the names are "
+            given += f"{len(self.names)}"
+            if self.mark == "," and len(cells) == 2 * len(self.names):
+                raise ValueError(f"{given}; allowed: numbers with a dot, not a comma, where commas separate columns")
+            shown = ", ".join(self.names)
+            shown = shown if len(shown) <= 60 else f"{shown[:57]}..."
+            raise ValueError(f"{given} ({shown}); allowed: {FORMAT} (lines above it: taken out, or begun with #)")
+
+
+def _numbers(table: Table, places: dict[str, int], faults: list[str]) -> dict[str, np.ndarray]:
+    """Columns as floats (n,), by what they are called; without those that have faults, one for each way of them.
+
+    places: numbers of the columns. A file is read in blocks, because its cells as text may need more than the memory.
+    """
+    values: dict[str, list] = {name: [] for name in places}
+    wrong: dict[str, dict[str, list]] = {name: {} for name in places}  # what is wrong: its first cell, and its rows
+    begin = 0
+    while block := list(islice(table.lines, BLOCK)):
         try:
-            values[k] = float(cell)
-        except ValueError:
-            wrong.setdefault("is empty" if not cell else "is no number", []).append(k)
-            continue
-        if not np.isfinite(values[k]):
-            wrong.setdefault("is not finite", []).append(k)
-    for what, rows in wrong.items():
-        cell = cells[rows[0]]
-        more = f" (so are {len(rows) - 1} more)" if len(rows) > 1 else ""
-        allowed = f"finite numbers in every row; {_cure(cell, name, rows)}"
-        faults.append(f"{name}: row {rows[0] + 1} below the names, {cell!r}, {what}{more}; allowed: {allowed}")
-    return None if wrong else values
+            found = np.loadtxt(block, delimiter=table.mark, comments=None, quotechar='"', ndmin=2)
+            sound = found.shape == (len(block), len(table.names)) and np.isfinite(found).all()
+        except ValueError:  # cell by cell, to say what is wrong; other columns may hold words
+            sound = False
+        rows = len(block) if sound else 0
+        if not sound:
+            found = np.full((len(block), len(table.names)), np.nan)
+            for rows, cells in enumerate(table.rows(block, begin), 1):
+                for name, place in places.items():
+                    if what := _is_no_number(cells[place]):
+                        wrong[name].setdefault(what, [cells[place]]).append(begin + rows)
+                    else:
+                        found[rows - 1, place] = float(cells[place])
+        for name, place in places.items():
+            values[name].append(found[:rows, place].copy())
+        begin += rows
+    for name, faulty in wrong.items():
+        for what, (cell, *where) in faulty.items():
+            more = f" (so are {len(where) - 1} more)" if len(where) > 1 else ""
+            allowed = f"finite numbers in every row; {_cure(cell, name, where)}"
+            faults.append(f"{name}: row {where[0]} below the names, {cell!r}, {what}{more}; allowed: {allowed}")
+    return {name: np.concatenate([[], *blocks]) for name, blocks in values.items() if not wrong[name]}
+
+
+def _is_no_number(cell: str) -> str:
+    """What is wrong with a cell in the place of a finite number; "" where nothing is."""
+    try:
+        number = float(cell)
+    except ValueError:
+        return "is no number" if cell else "is empty"
+    return "is no number" if "_" in cell else "" if isfinite(number) else "is not finite"  # 1_0 is 10 to Python alone
 
 
 def _cure(cell: str, name: str, rows: list[int]) -> str:
@@ -111,7 +166,7 @@ def _cure(cell: str, name: str, rows: list[int]) -> str:
         return f"dates and clock times are not read{in_its_place}"
     if "," in cell:
         return "with a dot, not a comma"
-    if rows == [0] and cell and not any(mark.isdigit() for mark in cell):
+    if rows == [1] and cell and not any(mark.isdigit() for mark in cell):
         return "a line of units is taken out, or begun with #"
     return "cut the record there or fill the gap"
 
@@ -153,49 +208,58 @@ def close_to(name: str, names: Iterable[str]) -> str:
     return f"; did you mean {close[0]!r}?" if close else ""
 
 
-def read_table(path: Path) -> dict[str, tuple[str, ...]]:
-    """{name: cells (n,) of text}. Raises ValueError, with what is allowed, where the file is no table."""
-    lines = [line for line in _text(path).splitlines() if line.strip() and not line.lstrip().startswith("#")]
-    if not lines:
+def read_table(path: Path) -> Table:
+    """The table of a file. Raises ValueError, with what is allowed, where it is none; lines are read when asked for."""
+    lines = _lines(path)
+    first = next(lines, None)
+    if first is None:
         raise ValueError(f"{path}: empty; allowed: {FORMAT}")
-    mark = next((mark for mark in ("\t", ";", ",") if mark in lines[0]), None)
-    try:
-        if mark is None:
-            rows = [[cell.strip('"') for cell in line.split()] for line in lines]
-        else:
-            cells = csv.reader(lines, delimiter=mark, skipinitialspace=True)
-            rows = [[cell.strip() for cell in row] for row in cells]
-    except csv.Error as error:
-        raise ValueError(f"{path}: no table ({error}); allowed: {FORMAT}") from None
-    names, *below = rows
+    mark = next((mark for mark in ("\t", ";", ",") if mark in first), None)
+    names = next(_cells(path, [first], mark))
     with contextlib.suppress(ValueError):  # a file of numbers only has no line of names
         list(map(float, names))
-        names, below = [str(place + 1) for place in range(len(names))], rows
+        names, lines = [str(place + 1) for place in range(len(names))], chain([first], lines)
     if twice := next((name for name in names if names.count(name) > 1), None):
         raise ValueError(f"{path}: two columns are called {twice!r}; allowed: a name of its own for each")
-    if fault := _ragged(names, below, mark):
-        raise ValueError(f"{path}: {fault}")
-    return dict(zip(names, zip(*below, strict=True), strict=True)) if below else dict.fromkeys(names, ())
+    begin = [*islice(lines, 1)]
+    table = Table(path, names, mark, chain(begin, lines))
+    next(table.rows(begin), None)  # a title in the place of the names is told before a column that they lack
+    return table
 
 
-def _ragged(names: list[str], rows: list[list[str]], mark: str | None) -> str:
-    """The fault of the first row with more or fewer cells than there are names; "" where there is none."""
-    row = next((k for k, cells in enumerate(rows) if len(cells) != len(names)), None)
-    if row is None:
-        return ""
-    given = f"row {row + 1} below the names has {len(rows[row])} cells, the names are {len(names)}"
-    if mark == "," and len(rows[row]) == 2 * len(names):
-        return f"{given}; allowed: numbers with a dot, not a comma, where commas separate the columns"
-    shown = ", ".join(names)
-    shown = shown if len(shown) <= 60 else f"{shown[:57]}..."
-    return f"{given} ({shown}); allowed: {FORMAT} (lines above it: taken out, or begun with #)"
+def _cells(path: Path, lines: Iterable[str], mark: str | None) -> Iterator[list[str]]:
+    """The cells of each line."""
+    if mark is None:
+        yield from ([cell.strip('"') for cell in line.split()] for line in lines)
+        return
+    try:
+        for row in csv.reader(lines, delimiter=mark, skipinitialspace=True):
+            yield [cell.strip() for cell in row]
+    except csv.Error as error:
+        raise ValueError(f"{path}: no table ({error}); allowed: {FORMAT}") from None
 
 
-def _text(path: Path) -> str:
+def _lines(path: Path) -> Iterator[str]:
+    """The lines of a text file that say something."""
     if os.path.isdir(path):
         raise ValueError(f"{path}: a folder; allowed: {FORMAT}")
+    what, cure = "not text in UTF-8", "of a text in another encoding: save it as UTF-8"
     try:
-        content = path.read_bytes()
+        with open(path, "rb") as file:
+            begin = file.read(8)
+        if (known := next((told for mark, told in BINARY.items() if begin.startswith(mark)), None)) is None:
+            with open(path, encoding="utf-16" if begin[:2] in UTF16 else "utf-8-sig") as file:
+                for line in file:
+                    if "\0" in line:
+                        break
+                    if (said := line.lstrip()) and not said.startswith("#"):
+                        yield line
+                else:
+                    return
+        else:
+            what, cure = known
+    except UnicodeDecodeError:
+        pass
     except FileNotFoundError:
         folder = path.absolute().parent
         beside = os.listdir(folder)[:1000] if os.access(folder, os.R_OK) else []
@@ -204,10 +268,4 @@ def _text(path: Path) -> str:
         raise ValueError(f"{path}: {fault}; allowed: {FORMAT}") from None
     except OSError as error:
         raise ValueError(f"{path}: cannot be read: {error.strerror}; allowed: {FORMAT}") from None
-    foreign = ("not text in UTF-8", "of a text in another encoding: save it as UTF-8")
-    what, cure = next((told for mark, told in BINARY.items() if content.startswith(mark)), foreign)
-    with contextlib.suppress(UnicodeDecodeError):
-        text = content.decode("utf-16" if content[:2] in UTF16 else "utf-8-sig")
-        if "\0" not in text and what == foreign[0]:
-            return text
     raise ValueError(f"{path}: {what}; allowed: {FORMAT} ({cure})")

@@ -7,6 +7,7 @@ Faults of a single value are found by pydantic and put into words here; faults b
 import difflib
 import math
 import re
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cache
 from typing import Annotated, Literal, get_args, get_origin
@@ -24,6 +25,8 @@ _UNITS = {
 _PREFIXES = {"": 1.0, "k": 1e3, "c": 1e-2, "m": 1e-3}
 # keys that no scene has, for which the nearest name would mislead
 _INSTEAD = dict.fromkeys(("waves.height_m", "height_m"), "'waves.amplitude_m', half of the height")
+DEEPEST = 32  # levels of lists and tables; scenes have six
+TOO_DEEP = f"given lists or tables within each other; allowed: at most {DEEPEST} levels"
 FLAT, SOLID = "nested to depth 3", "nested to depth 4"  # kinds of a block of numbers, as pydantic names them
 
 
@@ -87,6 +90,19 @@ def _sized(unit: str) -> tuple[str, float] | None:
         if name.startswith(prefix) and (known := _UNITS.get(name.removeprefix(prefix))):
             return known[0] + (str(power) if power > 1 else ""), (times * known[1]) ** power
     return None
+
+
+def too_deep(value: object) -> bool:
+    """Whether lists and tables lie within each other at more than DEEPEST levels: nothing could take them apart."""
+    level = [value]
+    for _ in range(DEEPEST):
+        level = [
+            inner
+            for one in level
+            if isinstance(one, (Mapping, list, tuple))
+            for inner in (one.values() if isinstance(one, Mapping) else one)
+        ]
+    return bool(level)
 
 
 def dotted(location: tuple[str | int, ...]) -> str:

@@ -6,6 +6,7 @@
 The models are in `models`, the shipped scenes in `engine/scenes/*.toml`.
 """
 
+import contextlib
 import copy
 import difflib
 import re
@@ -13,10 +14,11 @@ import tomllib
 from collections.abc import Mapping
 from pathlib import Path
 
-from engine.scene.faults import SceneError, ending_in, known_fields, shown, unknown_key
+from engine.scene.faults import DEEPEST, TOO_DEEP, SceneError, ending_in, known_fields, shown, too_deep, unknown_key
 from engine.scene.models import Scene, build_scene
 from engine.scene.rules import HEIGHTS
 
+_LONG_KEY = re.compile(rf"(?<![\w-])(?:[\w-]++\s*\.\s*){{{DEEPEST}}}")
 _SHIPPED = Path(__file__).parents[1] / "scenes"
 
 
@@ -57,11 +59,20 @@ def load_scene(name_or_path: str | Path, overrides: Mapping[str, object] | None 
 def scene_from_toml(text: str, overrides: Mapping[str, object] | None = None, source: str = "scene text") -> Scene:
     """A validated scene from TOML text, as `Scene.to_toml` writes it; overrides and SceneError as for `load_scene`."""
     try:
-        raw = tomllib.loads(text)
+        raw = _parsed(text, source)
     except tomllib.TOMLDecodeError as error:
         raise SceneError(f"{source}: not TOML: {error}{_faulty_line(text, str(error))}") from None
     raw, faults = _overridden(raw, overrides or {})
     return build_scene(raw, faults)
+
+
+def _parsed(text: str, source: str) -> dict[str, object]:
+    """The content of TOML text. Raises TOMLDecodeError, and SceneError where it is nested beyond all use."""
+    with contextlib.suppress(RecursionError):  # and for a key of very many parts the parser takes all memory
+        raw = None if _LONG_KEY.search(text) else tomllib.loads(text)
+        if raw is not None and not too_deep(raw):
+            return raw
+    raise SceneError(f"{source}: {TOO_DEEP}")
 
 
 def _faulty_line(text: str, message: str) -> str:
@@ -87,7 +98,7 @@ def parse_assignment(text: str) -> tuple[str, object]:
     if value == "none":
         return key, None
     try:
-        parsed = tomllib.loads(f"value = {value}")
+        parsed = _parsed(f"value = {value}", f"--set {shown(key)}")
     except tomllib.TOMLDecodeError:
         if value.startswith(("{", "[")):
             allowed = "a list or table of TOML, in single quotes or the shell takes its double ones"
@@ -137,6 +148,9 @@ def _overridden(raw: dict[str, object], overrides: Mapping[str, object]) -> tupl
         *above, last = key.split(".") if isinstance(key, str) else [""]
         if not all((*above, last)):
             faults.append(f"{key!r}: not a key; allowed: names joined by dots, for instance water.depth_m")
+            continue
+        if too_deep(value):
+            faults.append(f"{key}: {TOO_DEEP}")
             continue
         if key not in known_fields(Scene):
             faults.append(unknown_key(key, value, Scene))

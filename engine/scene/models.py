@@ -15,7 +15,7 @@ import tomli_w
 from pydantic import ValidationError, model_validator
 from pydantic_core import PydanticCustomError
 
-from engine.scene.faults import SceneError, field_faults
+from engine.scene.faults import TOO_DEEP, SceneError, field_faults, too_deep
 from engine.scene.rules import cross_faults
 from engine.scene.sections import Anchor, Buoy, Current, End, Tether, Water, Waves
 from engine.scene.values import (
@@ -166,6 +166,8 @@ def build_scene(raw: dict[str, object], extra_faults: tuple[str, ...] = ()) -> S
     found here. Raises SceneError listing every fault: those of single values, and those between values wherever the
     values are sound.
     """
+    if too_deep(raw):
+        raise SceneError((*extra_faults, f"scene: {TOO_DEEP}"))
     try:
         scene = Scene.model_validate(raw)
     except ValidationError as error:

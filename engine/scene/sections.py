@@ -92,7 +92,7 @@ class TableMotion(Section):
 
     law: Literal["table"]
     time_s: Series = described("table: times, increasing; at rest before the first and after the last")
-    displacement_m: Vectors = described("table: displacements at these times, joined by monotone cubics")
+    displacement_m: Vectors = described("table: displacements, the first zero, joined by monotone cubics")
 
 
 class End(Section):

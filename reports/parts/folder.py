@@ -61,7 +61,7 @@ class Folder:
         if not path.exists():
             return None, f"its file {path.name} is missing" if row["status"] == "ok" else ""
         try:
-            return Trajectory.load(path), ""
+            return Trajectory.load(path, {"run_key": row["run_key"]}), ""
         except TrajectoryError as error:
             reason = str(error).removeprefix(f"{path}: ")  # the report must not depend on where its folder lies
             return None, f"its file {path.name} cannot be read ({reason})"
@@ -153,7 +153,7 @@ def provenance_of(directory: str | Path) -> dict:
     """What is told of the making of a folder, {} where nothing can be read."""
     try:
         return _json(Path(directory) / "provenance.json")
-    except (OSError, ValueError):
+    except (OSError, ValueError, RecursionError):
         return {}
 
 
@@ -171,7 +171,7 @@ def _found(directory: Path, wanted: Mapping[str, str], readers: Mapping) -> tupl
             continue
         try:
             found[name] = reader(path)
-        except (OSError, ValueError, KeyError) as error:
+        except (OSError, ValueError, KeyError, RecursionError) as error:
             faults.append(f"{name} cannot be read: {error}")
     return found, faults
 

@@ -22,7 +22,7 @@ def is_unchanged(directory: Path) -> bool:
         told = json.loads((directory / FILE).read_text(encoding="utf-8"))
         whole = all((directory / name).stat().st_size == size for name, size in told["files"].items())
         return whole and told["key"] == key_of(directory, told["files"])
-    except (OSError, ValueError, KeyError, TypeError, AttributeError):
+    except (OSError, ValueError, KeyError, TypeError, AttributeError, RecursionError):
         return False
 
 

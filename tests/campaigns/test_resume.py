@@ -16,17 +16,17 @@ from campaigns import buoy_sweep
 from campaigns.buoy_sweep.rows import COLUMNS
 from campaigns.columns import names
 from campaigns.machinery import session
-from campaigns.machinery.folder import CampaignStopped, keep_row, kept_row, made_by
+from campaigns.machinery.folder import CampaignStopped, keep_json, keep_row, kept_json, kept_row, made_by
 from campaigns.machinery.plan import Job
 from campaigns.machinery.pools import dask_client
-from engine import load_scene, source_hash
+from engine import Trajectory, load_scene, source_hash
 from tests.campaigns.conftest import ROOT, USUAL, finished, forget
 from tests.campaigns.fake_engine import FakeEngine
 
 THREE = "--steepness 0.02 0.05 0.13"
 FOUR = ("0.02", "0.05", "0.08", "0.13")
 ROW = {"status": "ok", "radius_max_m": 21.5, "strobed_period": None, "regime": "period-1"}
-KEY = "a" * 64
+KEY, RUN = "a" * 64, b"the content of its file"
 WITH_REPORT = ["--periods", "6", "--no-accuracy"]
 
 
@@ -71,6 +71,58 @@ def test_a_damaged_file_is_computed_again_and_a_lost_table_made_again(sweep, dam
     (sweep.out / "table.csv").unlink()
     assert sweep(*THREE.split()) == (0, rows, [0.05])
     assert path.read_bytes() == content
+
+
+def test_files_under_each_others_names_are_computed_again_and_that_is_said(sweep, capfd):
+    _, rows, _ = sweep(*THREE.split())
+    paths = [sweep.out / "trajectories" / f"{row['run_key']}.nc" for row in rows]
+    contents = [path.read_bytes() for path in paths]
+    paths[0].write_bytes(contents[1])
+    paths[1].write_bytes(contents[0])
+    Trajectory.from_bytes(contents[1]).save(paths[2], {"run_key": rows[2]["run_key"]})
+    capfd.readouterr()
+    assert sweep(*THREE.split()) == (0, rows, [0.02, 0.05, 0.13])
+    told = [line for line in capfd.readouterr().err.splitlines() if "computed again" in line]
+    assert len(told) == 3
+    assert all(key["run_key"] in line for key, line in zip([rows[1], rows[0]], told, strict=False))
+    assert "its scene is not the one" in told[2]
+    assert [path.read_bytes() for path in paths] == contents
+
+
+@pytest.mark.parametrize(
+    "damage",
+    [
+        pytest.param(lambda text, other: text.replace('"tension_top_max_N": ', '"tension_top_max_N": 9'), id="a digit"),
+        pytest.param(lambda text, other: text[: len(text) // 2], id="torn"),
+        pytest.param(lambda text, other: other, id="of another run"),
+        pytest.param(lambda text, other: "[" * 100_000, id="nested"),
+    ],
+)
+def test_a_row_that_is_not_what_was_written_is_made_again_from_its_run(sweep, damage):
+    _, rows, _ = sweep(*THREE.split())
+    paths = [sweep.out / "trajectories" / f"{row['run_key']}.row.json" for row in rows]
+    text = paths[0].read_text()
+    paths[0].write_text(damage(text, paths[1].read_text()))
+    assert paths[0].read_text() != text
+    assert sweep(*THREE.split()) == (0, rows, [])
+    assert paths[0].read_text() == text
+
+
+def test_a_row_of_a_run_that_has_gone_on_since_is_made_again(tmp_path):
+    (tmp_path / "trajectories").mkdir()
+    keep_row(tmp_path, KEY, "maker", ROW, b"90 periods")  # killed between the two files of 135 periods
+    assert kept_row(tmp_path, KEY, "maker", b"135 periods") is None
+
+
+def test_a_sealed_file_is_read_as_it_was_written_under_its_own_name_or_not_at_all(tmp_path):
+    path = tmp_path / "one.json"
+    keep_json(path, {"kicks": [[0.1, 1e-300], [float("inf"), 3]]})
+    assert kept_json(path) == {"kicks": [[0.1, 1e-300], [float("inf"), 3]]}
+    content = path.read_bytes()
+    for place in range(len(content)):
+        path.write_bytes(content[:place] + bytes([content[place] ^ 1]) + content[place + 1 :])
+        assert kept_json(path) == {}
+    assert kept_json((tmp_path / "one.json").rename(tmp_path / "other.json")) == kept_json(path) == {}
 
 
 def test_a_run_that_gave_no_record_is_tried_again(sweep):
@@ -122,17 +174,17 @@ def test_a_dask_scheduler_that_is_not_there_is_one_line(sweep, capfd, monkeypatc
 
 
 def test_a_row_comes_back_as_it_was_to_its_maker_alone_and_a_damaged_one_not_at_all(tmp_path):
-    keep_row(tmp_path, KEY, "maker", ROW)
-    assert kept_row(tmp_path, KEY, "maker") is None, "a folder that cannot be written to costs only the row"
+    keep_row(tmp_path, KEY, "maker", ROW, RUN)
+    assert kept_row(tmp_path, KEY, "maker", RUN) is None, "a folder that cannot be written to costs only the row"
     (tmp_path / "trajectories").mkdir()
-    keep_row(tmp_path, KEY, "maker", ROW)
-    assert kept_row(tmp_path, KEY, "maker") == ROW
-    assert kept_row(tmp_path, KEY, "another maker") is None
-    assert kept_row(tmp_path, "b" * 64, "maker") is None
+    keep_row(tmp_path, KEY, "maker", ROW, RUN)
+    assert kept_row(tmp_path, KEY, "maker", RUN) == ROW
+    assert kept_row(tmp_path, KEY, "another maker", RUN) is None
+    assert kept_row(tmp_path, "b" * 64, "maker", RUN) is None
     (path,) = (tmp_path / "trajectories").iterdir()
     for text in ("", path.read_text()[:-5], json.dumps({"made_by": "maker"}), json.dumps([1])):
         path.write_text(text)
-        assert kept_row(tmp_path, KEY, "maker") is None
+        assert kept_row(tmp_path, KEY, "maker", RUN) is None
 
 
 def test_the_maker_changes_with_settings_and_sources():

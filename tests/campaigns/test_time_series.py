@@ -2,13 +2,14 @@
 are read, and a full disk or Ctrl-C is one line (what is refused: mistakes.toml)."""
 
 import json
+import tracemalloc
 
 import numpy as np
 import pytest
 from scipy.signal import lfilter
 
 from campaigns.time_series import WRITTEN, answer, main
-from campaigns.time_series.record import Record, read_table
+from campaigns.time_series.record import Record, _numbers, read_record, read_table
 from campaigns.time_series.study import study, successive_maxima
 from reports import build
 from reports.figures.series_panels import record_and_spectrum
@@ -167,12 +168,52 @@ def test_ctrl_c_is_one_line(good, tmp_path, monkeypatch, capsys):
         '"x, m";"y"\r\n' + '"1";"2"\r\n' * 5,
         ("x\ty\r\n" + "1\t2\r\n" * 5).encode("utf-16"),
         ("x,y\n" + "1, 2\n" * 5).encode("utf-8-sig"),
+        "x,word,y\n" + '"1",one, 2\n' * 5,
     ],
 )
 def test_tables_of_any_common_shape_are_read(tmp_path, text):
     (tmp_path / "table").write_bytes(text if isinstance(text, bytes) else text.encode())
-    for k, cells in enumerate(read_table(tmp_path / "table").values()):
-        assert [float(cell) for cell in cells][:5] == [1.0 + k] * 5
+    table, faults = read_table(tmp_path / "table"), []
+    first, last = _numbers(table, {"x": 0, "y": len(table.names) - 1}, faults).values()
+    assert not faults
+    assert list(first)[:5] == [1.0] * 5 and list(last)[:5] == [2.0] * 5
+
+
+@pytest.mark.parametrize("cell", ["1_0", "0x10", "1 0", "", "nan", "1e400", "1#0"])
+@pytest.mark.parametrize("row", [1, 40, 47])
+def test_what_is_no_plain_number_is_refused_by_its_row_wherever_it_stands(tmp_path, monkeypatch, cell, row):
+    monkeypatch.setattr("campaigns.time_series.record.BLOCK", 40)
+    cells = ["0.5", "1.5"] * 60
+    cells[row - 1] = cell
+    (tmp_path / "table").write_text("t,x\n" + "".join(f"{k},{cell}\n" for k, cell in enumerate(cells)))
+    faults = []
+    assert read_record(str(tmp_path / "table"), "x", "t", None, faults) is None
+    (line,) = faults
+    assert line.startswith(f"--column x: row {row} below the names, {cell!r}, is") and "allowed: finite numbers" in line
+
+
+def test_a_row_of_other_length_is_refused_by_its_row_beyond_the_first_block_too(tmp_path, monkeypatch):
+    monkeypatch.setattr("campaigns.time_series.record.BLOCK", 40)
+    (tmp_path / "table").write_text("t,x\n" + "1,2\n" * 45 + "1\n1,2,3\n")
+    faults = []
+    assert read_record(str(tmp_path / "table"), "x", None, None, faults) is None
+    assert "row 46 below the names has 1 cells, the names are 2" in faults[0]
+
+
+@pytest.mark.slow
+def test_a_large_file_takes_little_more_memory_than_its_numbers(tmp_path):
+    t = np.arange(1_000_000)
+    x = np.sin(0.1 * t)
+    with open(tmp_path / "table", "w") as file:
+        file.write("t,x\n")
+        file.writelines(f"{k},{value!r}\n" for k, value in zip(t.tolist(), x.tolist(), strict=True))
+    faults = []
+    tracemalloc.start()
+    record = read_record(str(tmp_path / "table"), "x", "t", None, faults)
+    _, peak = tracemalloc.get_traced_memory()
+    tracemalloc.stop()
+    assert not faults and np.array_equal(record.values, x)
+    assert peak < 8 * record.values.nbytes  # as cells of text they are 25 times as large
 
 
 @pytest.fixture(scope="module")

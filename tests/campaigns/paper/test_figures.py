@@ -65,6 +65,8 @@ def test_unchanged_sources_leave_the_files_alone_and_lost_ones_come_back_the_sam
     assert {path: path.stat().st_mtime_ns for path in before} == {path: time for path, (time, _) in before.items()}
     files_of(copy, 9)[0].unlink()
     files_of(copy, 10)[0].write_bytes(b"damaged")
+    changed = files_of(copy, 11)[0]
+    changed.write_bytes(changed.read_bytes()[:-1] + b"\x01")  # a number, in a sound file
     write_figure_data(copy)
     assert {path: path.read_bytes() for path in before} == {path: content for path, (_, content) in before.items()}
 

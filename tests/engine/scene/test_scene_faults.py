@@ -11,7 +11,7 @@ import pytest
 
 from engine import SceneError, load_scene, simulate
 from engine.parameters import NOT_STRETCHED, grid
-from engine.scene import build_scene
+from engine.scene import build_scene, parse_assignment, scene_from_toml
 from engine.scene.size_limits import MOST_PROFILE_VALUES, MOST_SAMPLES, MOST_STEPS
 from engine.scene.values import LARGEST, SMALLEST
 
@@ -90,6 +90,33 @@ def test_the_message_holds_every_line_and_survives_the_way_between_processes():
 def test_a_very_long_value_does_not_drown_the_message():
     (line,) = faults_of({"title": list(range(10000))})
     assert len(line) < 200
+
+
+def nested(levels: int) -> list:
+    value: list = [1.0]
+    for _ in range(levels - 1):
+        value = [value]
+    return value
+
+
+@pytest.mark.parametrize("levels", [50, 500, 100_000])
+@pytest.mark.parametrize(
+    "read",
+    [
+        lambda n: load_scene("tethered_buoy", dict([parse_assignment(f"tether.tension.p={'[' * n}1{']' * n}")])),
+        lambda n: load_scene("tethered_buoy", dict([parse_assignment(f"current={'{a=' * n}1{'}' * n}")])),
+        lambda n: load_scene("tethered_buoy", {"tether.tension.p": nested(n)}),
+        lambda n: scene_from_toml(f'name = "a"\nx = {"[" * n}1{"]" * n}'),
+        lambda n: scene_from_toml(f"x{'.a' * n} = 1"),
+        lambda n: scene_from_toml(f"[x{' . a' * n}]"),
+        lambda n: build_scene({"name": nested(n)}),
+    ],
+)
+def test_lists_in_lists_without_end_are_refused_in_a_line(levels, read):
+    with pytest.raises(SceneError) as caught:
+        read(levels)
+    (line,) = caught.value.faults
+    assert "allowed: at most 32 levels" in line and len(line) < 200
 
 
 def test_a_table_of_currents_has_one_velocity_for_each_point():
