@@ -238,7 +238,7 @@ class PeriodMap:
                 halves = (begin, half), (begin + half, half)
                 steps = np.concatenate([steps[:at], halves, steps[at + 1 :]])
             else:
-                run.state["t"] = taken[at, 0]
+                run.state["t"], run.state["dt"] = taken[at]
                 raise ArithmeticError(_said(code, run.state))
 
             def derivative(V: np.ndarray) -> np.ndarray:

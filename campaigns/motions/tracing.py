@@ -242,15 +242,18 @@ def lost(line: Line, period: int, ahead: float, *starts: object) -> tuple[dict, 
 def finer(line: Line, kind: str, at: float, value: float, points: np.ndarray) -> tuple[dict, list[np.ndarray]]:
     """Where an event is on 2n - 1 nodes, from an orbit of its branch near it, at `value`; the event is at `at`."""
     from analysis.orbits import find_orbit, follow_branch
-    from engine.going_on import taken_over
 
     cable, _ = line.maps
     more = replace(line, nodes=2 * line.scenes.base.tether.nodes - 1)
     scene = more.scene(value)
-    states = [taken_over(cable.state_of(z, value), scene)[0] for z in points]
-    more = replace(more, state=states[0], value=value)
+    # rates between nodes are no rates of the finer line: a run of a period makes them, and leads to the next point
+    later = [engine.simulate(scene, periods=1, start=cable.state_of(z, value)) for z in points]
+    if failed := [run for run in later if run.final_state is None]:
+        return {"reason": f"on {more.nodes} nodes: {failed[0].message or failed[0].status}"}, []
+    more = replace(more, state=later[-1].final_state, value=value)
     fine, system = more.maps
-    orbit = find_orbit(system, np.array([fine.packed(one) for one in states]), value, len(points), count=COUNT)
+    begin = np.array([fine.at_strobe(run.final_state, value) for run in [later[-1], *later[:-1]]])
+    orbit = find_orbit(system, np.roll(begin, -1, axis=0), value, len(points), count=COUNT)
     if not orbit.found:
         return {"reason": orbit.reason}, []
     wide = max(AROUND * abs(at - value), NEAREST * line.size)

@@ -49,7 +49,8 @@ def _branch(branch: Row, rows: Sequence[Row], key: Column, events: Sequence[Row]
 
 def _event(one: Row, key: Column) -> str:
     error = known(one, "error")
-    sure = f" ± {error:.1g}" if math.isfinite(error) else ", unsure"
+    alone = "" if math.isfinite(known(one, "finer")) else " on this grid alone"
+    sure = f" ± {error:.1g}{alone}" if math.isfinite(error) else ", unsure"
     return f"{one['kind']} at {known(one, key.name):.5g}{sure}"
 
 
