@@ -246,14 +246,14 @@ def finer(line: Line, kind: str, at: float, value: float, points: np.ndarray) ->
     cable, _ = line.maps
     more = replace(line, nodes=2 * line.scenes.base.tether.nodes - 1)
     scene = more.scene(value)
-    # rates between nodes are no rates of the finer line: a run of a period makes them, and leads to the next point
+    # rates between nodes are no rates of the finer line: a run makes them, and leads to the strobe after the next
     later = [engine.simulate(scene, periods=1, start=cable.state_of(z, value)) for z in points]
     if failed := [run for run in later if run.final_state is None]:
         return {"reason": f"on {more.nodes} nodes: {failed[0].message or failed[0].status}"}, []
     more = replace(more, state=later[-1].final_state, value=value)
     fine, system = more.maps
-    begin = np.array([fine.at_strobe(run.final_state, value) for run in [later[-1], *later[:-1]]])
-    orbit = find_orbit(system, np.roll(begin, -1, axis=0), value, len(points), count=COUNT)
+    begin = np.roll([fine.at_strobe(run.final_state, value) for run in later], 2, axis=0)
+    orbit = find_orbit(system, begin, value, len(points), count=COUNT)
     if not orbit.found:
         return {"reason": orbit.reason}, []
     wide = max(AROUND * abs(at - value), NEAREST * line.size)
