@@ -28,6 +28,6 @@ ADVICE = {  # of the conservation form; `paper_box.driver` has its own
     'water grow without bound: compare waves.above_still_water = "zero"',
     STATICS_FAILED: "no static equilibrium was found from which to start: ",  # goes on: engine.time.statics.why_no_rest
     STEP_LIMIT: "the run stands still at t = {t:.6g} s: 20 000 steps of {dt:.2g} s were tried within the "
-    "time of one usual step; raise solver.rtol, or look for what the grid cannot resolve (compression without "
-    "bending, for one)",
+    "time of one usual step, or Newton's method failed at a sixth of all that were tried; raise solver.rtol, or look "
+    "for what the grid cannot resolve (compression without bending, for one)",
 }

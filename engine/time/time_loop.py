@@ -35,6 +35,7 @@ from .steps import least_strain, one_stage_step, runge_kutta_step
 SAFETY, SHRINK, GROW = 0.9, 0.2, 4.0
 NO_SLIVER = 1.01  # a step is made a little longer rather than leave next to nothing of the way to a corner
 MOST_ATTEMPTS = 20_000  # steps tried within one `window` of time: more is a run that stands still
+MANY_FAILURES = 2_000  # of Newton: more, and at a sixth of all trials, is a run that its failures hold
 CAUTIOUS_STEPS, CAUTIOUS_GROW = 5, 1.3  # after a failure of Newton's method
 
 
@@ -84,6 +85,8 @@ def refused(p, state, code, used, error):
         state.failures += 1
         _shorten(p, state, code, 0.5 if state.small else 0.25)
         state.dt_before = 0.0
+        if state.failures > MANY_FAILURES and 5 * state.failures > state.steps:
+            state.status = STEP_LIMIT
         return True
     if p.adaptive and not state.small and not error <= 1.0:
         state.rejected += 1

@@ -132,3 +132,15 @@ def test_a_twist_that_is_too_much_ends_as_a_row_too(turns):
     assert run.status == "ok" or run.message
     assert turns > 1 or run.status == "ok"
     assert all(np.all(np.isfinite(column)) for column in run.columns.values())
+
+
+def test_a_run_that_newton_s_failures_hold_ends_with_its_reason():
+    """A bent chain in space without stiffness in torsion: without the rule ten minutes of steps of a microsecond."""
+    shaken = {"law": "harmonic", "amplitude_m": [0.1, 0.0, 0.1], "period_s": 2.0, "ramp_s": 1.0}
+    bent = {"tether.bending_stiffness_Nm2": 0.1, "tether.torsion_stiffness_Nm2": 0.0, "tether.nodes": 25}
+    run = simulate(
+        load_scene("falling_chain", {"motion.dimensions": 3, "end.motion": shaken, "solver.rtol": 0.003, **bent}),
+        duration_s=10.0,
+    )
+    assert run.status == "step-limit" and "Newton's method failed at a sixth" in run.message
+    assert 5 * run.statistics["newton_failures"] > run.statistics["steps"] and run.statistics["end_time_s"] < 5.0
