@@ -29,6 +29,7 @@ STEPS = {"step": 0.05, "least": 2e-3, "longest": 0.3}  # of a branch: m of what 
 SHORT, MOST_SHORT = STEPS | {"longest": 0.1}, 12  # to an event that is near
 ACCURACY = 1e-2  # of a chord, to which an event is located: another grid changes it by more
 AROUND, NEAREST = 3.0, 0.02  # an event is looked for again within this many chords, and this share of the range
+LEAP = 0.2  # of a multiplier, between neighbours of a branch
 AMPLITUDE = 0.02, 0.1  # m, tried in turn, from an orbit at its flip to the one of twice the period
 
 
@@ -189,8 +190,11 @@ def followed(line: Line, value: float, points: np.ndarray, most: int) -> tuple[d
     if not orbit.found:
         return {"reason": orbit.reason}, []
     branch = follow_branch(system, orbit, line.low, line.high, **STEPS, most=most, count=COUNT, accuracy=ACCURACY)
-    rows = [_row(cable, one, cable.history(one.points, one.parameter)) for one in branch.orbits]
-    found, events = [one.points for one in branch.orbits], []
+    orbits = [*branch.orbits]
+    for at in range(1, len(orbits) - 1):
+        orbits[at] = _steady(system, *orbits[at - 1 : at + 2])
+    rows = [_row(cable, one, cable.history(one.points, one.parameter)) for one in orbits]
+    found, events = [one.points for one in orbits], []
     for event in branch.events:
         history = cable.history(event.orbit.points, event.orbit.parameter)
         told = _row(cable, event.orbit, history) | {"kind": event.kind, "angle_rad": event.angle_rad}
@@ -264,6 +268,20 @@ def finer(line: Line, kind: str, at: float, value: float, points: np.ndarray) ->
     if not same:
         return {"reason": f"no {kind} from {low:g} to {high:g} on {more.nodes} nodes"}, []
     return {"value": min(same, key=lambda one: abs(one - at)), "nodes": more.nodes}, []
+
+
+def _steady(system, before, orbit, after):
+    """The orbit; where its leading multiplier leaps from those of its neighbours, that of three sequences of steps
+    whose leading one is in the middle."""
+    from analysis.orbits import scatter_of
+
+    sides = [abs(one.multipliers[0]) for one in (before, after)]
+    if before.period != after.period or min(sides) * (1.0 - LEAP) < abs(orbit.multipliers[0]) < max(sides) * (
+        1.0 + LEAP
+    ):
+        return orbit
+    every = sorted((orbit, *scatter_of(system, orbit).orbits), key=lambda one: abs(one.multipliers[0]))
+    return every[len(every) // 2]
 
 
 def _row(cable, orbit, history) -> dict:

@@ -34,16 +34,19 @@ def sentences(rows: Sequence[Row], key: Column, parts: Mapping[str, Sequence[Row
 
 
 def _branch(branch: Row, rows: Sequence[Row], key: Column, events: Sequence[Row]) -> str:
-    at, stable = [known(row, key.name) for row in rows], [known(row, "unstable") == 0 for row in rows]
-    spans = []
-    for good, group in groupby(zip(stable, at, strict=True), key=lambda one: one[0]):
-        values = [value for _, value in group]
-        if good:
-            spans.append(f"{min(values):.4g} to {max(values):.4g}")
-    where = f"stable at {key.symbol} = {listed(dict.fromkeys(spans))}" if spans else "never stable"
+    spans: list[list[float]] = []
+    for stable, group in groupby(rows, key=lambda row: known(row, "unstable") == 0):
+        if stable:
+            values = [known(row, key.name) for row in group]
+            spans.append([min(values), max(values)])
+    if known(branch, "closed") and len(spans) > 1 and known(rows[-1], "unstable") == 0 == known(rows[0], "unstable"):
+        first, last = spans[0], spans.pop()  # an island begins and ends at one orbit
+        spans[0] = [min(first[0], last[0]), max(first[1], last[1])]
+    told = listed(f"{low:.4g} to {high:.4g}" for low, high in sorted(spans))
     own = [_event(one, key) for one in events if one["branch"] == branch["branch"]]
     under = f" (motion {branch['motion']})" if branch["motion"] else ""
     shape = ", an island" if known(branch, "closed") else ""
+    where = f"stable at {key.symbol} = {told}" if spans else "never stable"
     return f"Period {branch['branch']}{under}{shape}: {where}{'; ' + listed(own) if own else ''}."
 
 
