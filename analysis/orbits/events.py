@@ -33,7 +33,7 @@ from analysis.orbits.finding import (
 from analysis.orbits.maps import NoImage, OrbitMap, shoot
 from analysis.orbits.spaces import Space
 
-CLOSE = 1e-2  # of a multiplier at an event to what it should be
+CLOSE, ROUGH = 1e-2, 0.1  # of a multiplier at an event to what it should be; of a system in steps
 ACCURACY = 1e-9  # of a chord, to which an event is located
 ROUNDING = 1e-10  # of a test function; a map that conserves area has 1 - mu_1 mu_2 = 0 everywhere
 NEARBY = 0.3  # distance, in chords, over which the slope of a test function is taken
@@ -142,7 +142,7 @@ class _Chord:
         except ArithmeticError:  # no orbit there, or none with these steps of the system: as near as the branch tells
             nearest = begin if abs(first) < abs(last) else end
             error = self.length * self.size * max(abs(self.begin.rate), abs(self.end.rate))
-            return _event(kind, nearest, nearest.parameter, error) if turns else None
+            return _event(kind, nearest, nearest.parameter, error, ROUGH) if turns else None
         orbit, at = self.seen[share]
         inside = (orbit.parameter - begin.parameter) / (end.parameter - begin.parameter or 1.0)
         if not turns and ON_WAY < inside < 1.0 - ON_WAY:
@@ -154,9 +154,9 @@ class _Chord:
         try:
             every = [self.elsewhere(mesh, share) for mesh in range(self.system.meshes)]
         except ArithmeticError:
-            return _event(kind, orbit, orbit.parameter, np.inf)
+            return _event(kind, orbit, orbit.parameter, np.inf, ROUGH)
         middle = float(np.median(every))
-        return _event(kind, orbit, middle, max(abs(middle - other) for other in every))
+        return _event(kind, orbit, middle, max(abs(middle - other) for other in every), ROUGH)
 
     def elsewhere(self, mesh, share):
         """The parameter of the event with the steps of a mesh at the orbit that was found: one orbit there, and slopes
@@ -169,17 +169,17 @@ class _Chord:
         return other.parameter + there / (at - worth) * (orbit.parameter - found.parameter)
 
 
-def _event(kind, orbit, parameter, error):
+def _event(kind, orbit, parameter, error, close=CLOSE):
     """The Event, or None where no multiplier is near what it should be."""
     mu = orbit.multipliers
     angle = {"fold": 0.0, "flip": np.pi}.get(kind)
     if kind == "torus":
         pairs = mu[mu.imag > 0.0]
-        pairs = pairs[np.abs(np.abs(pairs) - 1.0) < CLOSE]
+        pairs = pairs[np.abs(np.abs(pairs) - 1.0) < close]
         if not len(pairs):
             return None
         angle = float(np.angle(pairs[np.argmin(np.abs(np.abs(pairs) - 1.0))]))
-    elif kind == "flip" and np.abs(mu + 1.0).min() > CLOSE:
+    elif kind == "flip" and np.abs(mu + 1.0).min() > close:
         return None
     return Event(kind, float(parameter), float(error), orbit, angle) if orbit.settled else None
 

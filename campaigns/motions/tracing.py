@@ -68,7 +68,7 @@ class Line:
     """Scenes with the coordinates of their orbits, taken from a state of a run at a value.
 
     low, high: range in which orbits are followed; size: the change of the key that counts as 1 m of the motion; nodes:
-    of another grid, 0 for that of the scenes.
+    of another grid, 0 for that of the scenes; rtol: tolerance of the orbits, at most.
     """
 
     scenes: Scenes
@@ -78,10 +78,11 @@ class Line:
     state: object
     value: float
     nodes: int = 0
+    rtol: float = TOLERANCE
 
     def scene(self, value: float):
         """The scene at a value, as its orbits are computed. Raises ArithmeticError where there is none."""
-        more: dict[str, object] = {"solver.rtol": min(TOLERANCE, self.scenes.base.solver.rtol)}
+        more: dict[str, object] = {"solver.rtol": min(self.rtol, self.scenes.base.solver.rtol)}
         try:
             return self.scenes.at(value, more | ({"tether.nodes": self.nodes} if self.nodes else {}))
         except SceneError:
@@ -95,7 +96,7 @@ class Line:
     def digest(self) -> str:
         """Of all that results depend on beside their own task."""
         made = self.state.digest(), made_by({}, *SOURCES), engine.source_hash()
-        parts = self.scenes, self.low, self.high, self.size, self.value, self.nodes, *made
+        parts = self.scenes, self.low, self.high, self.size, self.value, self.nodes, self.rtol, *made
         return hashlib.sha256(repr(parts).encode()).hexdigest()
 
 
@@ -243,31 +244,41 @@ def lost(line: Line, period: int, ahead: float, *starts: object) -> tuple[dict, 
     return {"reason": "", "kind": first.kind, "value": first.parameter, "error": error}, []
 
 
-def finer(line: Line, kind: str, at: float, value: float, points: np.ndarray) -> tuple[dict, list[np.ndarray]]:
-    """Where an event is on 2n - 1 nodes, from an orbit of its branch near it, at `value`; the event is at `at`."""
-    from analysis.orbits import find_orbit, follow_branch
+def sharper(line: Line, kind: str, at: float, value: float, points: np.ndarray) -> tuple[dict, list[np.ndarray]]:
+    """Where an event is at the tolerance of the line, from an orbit near it, at `value`; it was found at `at`."""
+    return _again(line, kind, at, value, points)
 
+
+def finer(line: Line, kind: str, at: float, value: float, points: np.ndarray) -> tuple[dict, list[np.ndarray]]:
+    """The same on 2n - 1 nodes."""
     cable, _ = line.maps
     more = replace(line, nodes=2 * line.scenes.base.tether.nodes - 1)
-    scene = more.scene(value)
     # rates between nodes are no rates of the finer line: a run makes them, and leads to the strobe after the next
-    later = [engine.simulate(scene, periods=1, start=cable.state_of(z, value)) for z in points]
+    later = [engine.simulate(more.scene(value), periods=1, start=cable.state_of(z, value)) for z in points]
     if failed := [run for run in later if run.final_state is None]:
         return {"reason": f"on {more.nodes} nodes: {failed[0].message or failed[0].status}"}, []
     more = replace(more, state=later[-1].final_state, value=value)
-    fine, system = more.maps
-    begin = np.roll([fine.at_strobe(run.final_state, value) for run in later], 2, axis=0)
-    orbit = find_orbit(system, begin, value, len(points), count=COUNT)
+    fine = more.maps[0]
+    return _again(more, kind, at, value, np.roll([fine.at_strobe(run.final_state, value) for run in later], 2, axis=0))
+
+
+def _again(line, kind, at, value, points):
+    """An event near `at` on the branch of the orbit near these points."""
+    from analysis.orbits import find_orbit, follow_branch
+
+    system = line.maps[1]
+    orbit = find_orbit(system, points, value, len(points), count=COUNT)
     if not orbit.found:
         return {"reason": orbit.reason}, []
     wide = max(AROUND * abs(at - value), NEAREST * line.size)
     low, high = max(at - wide, line.low), min(at + wide, line.high)
     ends = min(low, value), max(high, value)
     branch = follow_branch(system, orbit, *ends, **SHORT, most=MOST_SHORT, count=COUNT, accuracy=ACCURACY)
-    same = [one.parameter for one in branch.events if one.kind == kind]
+    same = [one for one in branch.events if one.kind == kind]
     if not same:
-        return {"reason": f"no {kind} from {low:g} to {high:g} on {more.nodes} nodes"}, []
-    return {"value": min(same, key=lambda one: abs(one - at)), "nodes": more.nodes}, []
+        return {"reason": f"no {kind} from {low:.5g} to {high:.5g}"}, []
+    event = min(same, key=lambda one: abs(one.parameter - at))
+    return {"reason": "", "value": event.parameter, "error": event.error if math.isfinite(event.error) else None}, []
 
 
 def _steady(system, before, orbit, after):

@@ -1,17 +1,18 @@
 """All orbits that a campaign finds: those under its motions, their branches, and what begins at flips."""
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from itertools import pairwise
 from string import ascii_lowercase
 
 import numpy as np
 
 from campaigns.machinery.plan import Plan
-from campaigns.motions.tracing import Line, Task, finer, followed, under, work
+from campaigns.motions.tracing import Line, Task, finer, followed, sharper, under, work
 from engine.views import LONGEST_PERIOD
 
 FOLDER = "branches"
+SHARP = 1e-3  # of the range of the key: an event that is known worse is found again at a tenth of the tolerance
 NEAR_M, ON_CHORD = 0.01, 0.1  # of an orbit to a known branch: m of what is seen, and shares of a chord
 
 
@@ -132,19 +133,25 @@ class Tree:
                 yield int(low <= value < high)
 
     def refine(self) -> None:
-        """Every event once more on a finer grid of the line: its error there."""
-        asked, of = [], []
+        """Every event once more: at a tenth of the tolerance where it is not known well, and on a finer grid."""
+        near, rough = {}, SHARP * self.line.size
+        sharp = replace(self.line, rtol=0.1 * self.line.rtol)
         for branch in self.branches:
             for event in branch.result["events"]:
-                near = min(
-                    range(len(branch.orbits)), key=lambda at, e=event: _apart(branch.orbits[at], e, self.line.size)
-                )
-                points, orbit = branch.points[near], branch.orbits[near]
-                asked.append(Task(finer, self.line, (event["kind"], event["value"], orbit["value"], points)))
-                of.append(event)
-        for event, (result, _) in zip(of, self.work("events on a finer grid", asked), strict=True):
-            event["finer"] = result.get("value")
-            event["doubt"] = result.get("reason", "")
+                apart = [_apart(one, event, self.line.size) for one in branch.orbits]
+                at = int(np.argmin(apart))
+                near[id(event)] = event, branch.orbits[at]["value"], branch.points[at]
+        unsure = [one for one in near.values() if one[0]["error"] is None or one[0]["error"] > rough]
+        asked = [Task(sharper, sharp, (event["kind"], event["value"], *of)) for event, *of in unsure]
+        for (event, *_), (result, _) in zip(unsure, self.work("events at a tighter tolerance", asked), strict=True):
+            if not result["reason"]:
+                event |= {"value": result["value"], "error": result["error"], "sharp": True}
+        asked = [
+            Task(finer, sharp if event.get("sharp") else self.line, (event["kind"], event["value"], *of))
+            for event, *of in near.values()
+        ]
+        for (event, *_), (result, _) in zip(near.values(), self.work("events on a finer grid", asked), strict=True):
+            event |= {"finer": result.get("value"), "doubt": result["reason"]}
             if event["finer"] is not None and event["error"] is not None:
                 event["error"] = max(event["error"], abs(event["finer"] - event["value"]))
 
