@@ -18,8 +18,8 @@ _TOLD = (
 )
 _ENDS = (
     "Ends of the ranges of motions, found by bisection: the last value with the motion, the first one without it, and "
-    "the motion that follows there. Where the orbit of the motion tells it, the end, and what it is there: two orbits meet "
-    "at a fold, the period doubles at a flip. From `ends/table.csv`."
+    "the motion that follows there. Where the orbit of the motion tells it, the end and its kind: two orbits meet at a "
+    "fold, the period doubles at a flip. From `ends/table.csv`."
 )
 
 
