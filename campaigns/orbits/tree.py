@@ -68,9 +68,8 @@ class Tree:
                 now, self.work("branches", asked), strict=True
             ):
                 if result.get("reason"):
-                    self.failed.append(
-                        {"motion": motion, "value": value, "period": len(seen), "reason": result["reason"]}
-                    )
+                    told = {"motion": motion, "value": value, "period": len(seen), "reason": result["reason"]}
+                    self.failed.append(told | {"begins": begins})
                     continue
                 if self._known((motion, value, seen, None, begins)):  # found meanwhile from another orbit
                     continue
@@ -86,6 +85,18 @@ class Tree:
             if not self._known((motion, value, seen, None, begins)):
                 reason = f"not followed: {self.room} branches are (--branches)"
                 self.failed.append({"motion": motion, "value": value, "period": len(seen), "reason": reason})
+        self._meet()
+
+    def _meet(self) -> None:
+        """Lead flips to the branches that meet their orbit there; what failed to begin at these is no failure."""
+        flips = [event for branch in self.branches for event in branch.result["events"] if event["kind"] == "flip"]
+        for branch in self.branches:
+            for end, at in (("begins", 0), ("ends", -1)):
+                near = [event for event in flips if 2 * event["period"] == branch.orbits[at]["period"]]
+                if "meets" in branch.result[end] and near:
+                    nearest = min(near, key=lambda event, there=branch.orbits[at]["value"]: abs(event["value"] - there))
+                    nearest.setdefault("leads_to", branch.name)
+        self.failed = [one for one in self.failed if not (one.get("begins") or {}).get("leads_to")]
 
     def _known(self, start) -> bool:
         """Whether an orbit lies on a branch; its motion is then one of that branch."""
