@@ -111,7 +111,8 @@ def by_orbits(along: Along, ends: Sequence[_End]) -> dict[_End, dict[str, object
 
     The orbit is followed from the last value of the sweep with the motion. Raises CampaignStopped.
     """
-    from campaigns.motions.tracing import Line, Task, lost, work
+    from campaigns.motions.orbit_tasks import lost
+    from campaigns.motions.tracing import Line, Task, work
 
     span, tasks = max(along.values) - min(along.values), {}
     for end in ends:

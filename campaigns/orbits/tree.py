@@ -8,7 +8,8 @@ from string import ascii_lowercase
 import numpy as np
 
 from campaigns.machinery.plan import Plan
-from campaigns.motions.tracing import Line, Task, finer, followed, sharper, under, work
+from campaigns.motions.orbit_tasks import finer, followed, sharper, under
+from campaigns.motions.tracing import Line, Task, work
 from engine.views import LONGEST_PERIOD
 
 FOLDER = "branches"
