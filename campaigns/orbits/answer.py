@@ -34,12 +34,18 @@ def sentences(rows: Sequence[Row], key: Column, parts: Mapping[str, Sequence[Row
 
 
 def _branch(branch: Row, rows: Sequence[Row], key: Column, events: Sequence[Row]) -> str:
+    at, stable = [known(row, key.name) for row in rows], [known(row, "unstable") == 0 for row in rows]
+    turns = [known(one, key.name) for one in events if one["branch"] == branch["branch"]]
     spans: list[list[float]] = []
-    for stable, group in groupby(rows, key=lambda row: known(row, "unstable") == 0):
-        if stable:
-            values = [known(row, key.name) for row in group]
-            spans.append([min(values), max(values)])
-    if known(branch, "closed") and len(spans) > 1 and known(rows[-1], "unstable") == 0 == known(rows[0], "unstable"):
+    for number, (value, good) in enumerate(zip(at, stable, strict=True)):
+        if good:
+            if not number or not stable[number - 1]:
+                spans.append([value, value])
+            for other in (number - 1, number + 1):  # where it changes, the event beside it is the end
+                changes = 0 <= other < len(at) and not stable[other]
+                nearest = min(turns, key=lambda turn, here=value: abs(turn - here)) if changes and turns else value
+                spans[-1] = [min(*spans[-1], value, nearest), max(*spans[-1], value, nearest)]
+    if known(branch, "closed") and len(spans) > 1 and stable[0] and stable[-1]:
         first, last = spans[0], spans.pop()  # an island begins and ends at one orbit
         spans[0] = [min(first[0], last[0]), max(first[1], last[1])]
     told = listed(f"{low:.4g} to {high:.4g}" for low, high in sorted(spans))
