@@ -136,7 +136,12 @@ class Tree:
                 self.chosen.append({**result, "motion": "", "branch": branch.name})
         for one in self.chosen:
             if "branch" not in one:
-                one["branch"] = next((branch.name for branch in self.branches if one["motion"] in branch.motions), "")
+                own = (
+                    branch.name
+                    for branch in self.branches
+                    if one["motion"] in branch.motions and branch.orbits[0]["period"] == one["period"]
+                )
+                one["branch"] = next(own, "")
 
     def _crossings(self, value: float) -> Iterator[int]:
         for branch in self.branches:

@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from itertools import cycle, groupby
+from itertools import cycle, groupby, pairwise
 
 import numpy as np
 
@@ -96,6 +96,11 @@ def _with_events(orbits: Sequence[Row], events: Sequence[Row], key: str, strobes
     for event in events if len(table) > 1 else ():
         where = np.array([value(event, key), value(event, PEAK)])
         place, share = _nearest(table[:, :2], where)
+        changes = [one != other for one, other in pairwise(steady)]
+        for beside, at in ((place + 1, 0.0), (place - 1, 1.0)):  # what another accuracy moves to the chord beside
+            if not changes[place] and 0 <= beside < len(changes) and changes[beside]:
+                place, share = beside, at
+                break
         sides, row = steady[place : place + 2], (1.0 - share) * table[place] + share * table[place + 1]
         row[:2] = np.where(np.isfinite(where), where, row[:2])
         row[2] = row[2] if all(sides) or not any(sides) else 1.0
