@@ -11,6 +11,7 @@ import engine.scene
 from campaigns.columns import Column
 
 TOLERANCE = 1e-3  # of the steps of an orbit, or that of the scene where that is smaller; at 0.03 multipliers are false
+QUICK = 3e-3  # the same beside a sweep
 COUNT = 4  # multipliers
 MULTIPLIERS = (
     Column(
@@ -46,12 +47,12 @@ def orbit_row(trajectory, period: int) -> tuple[dict[str, float | None], str]:
     """
     from analysis.orbits import find_orbit, scatter_of
 
-    scene = orbit_scene(trajectory.scene)
+    scene = orbit_scene(trajectory.scene, QUICK)
     try:
         cable, system = cable_map(lambda _: scene, trajectory.final_state, 0.0)
     except (ArithmeticError, ValueError) as why:
         return {}, f"no multipliers: {why}"
-    orbit = find_orbit(system, cable.first, 0.0, period, count=COUNT)
+    orbit = find_orbit(system, cable.first, 0.0, period, count=2)
     if not orbit.found or orbit.period != period:
         return {}, f"no multipliers: {orbit.reason or f'the orbit under it has period {orbit.period}'}"
     first, error = complex(orbit.multipliers[0]), float(scatter_of(system, orbit).multipliers[0])
