@@ -53,7 +53,7 @@ def write_scene(directory: Path, campaign: str, jobs: list[Job]) -> None:
 
 
 def groups_of(plan: Plan, jobs: list[Job]) -> list[tuple[Job, ...]]:
-    """Jobs of one run length that a worker does side by side, in groups as even as can be.
+    """Jobs of one run length, all with `going` or none, that a worker does side by side, in groups as even as can be.
 
     An empty list where the plan or the jobs do not allow it, and for threads, because nothing can interrupt a group
     from within the process.
@@ -63,7 +63,7 @@ def groups_of(plan: Plan, jobs: list[Job]) -> list[tuple[Job, ...]]:
     alike: dict[tuple, list[Job]] = {}
     for job in jobs:
         if engine.goes_in_lanes(job.scene):
-            alike.setdefault((job.periods, job.duration_s), []).append(job)
+            alike.setdefault((job.periods, job.duration_s, job.going is None), []).append(job)
     groups = []
     for members in alike.values():
         workers = min(plan.how.jobs, len(members) // FEWEST)

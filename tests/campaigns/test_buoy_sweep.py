@@ -27,6 +27,7 @@ from campaigns.buoy_sweep.space import SEED_MPS
 from campaigns.columns import names
 from campaigns.machinery.cli import Running
 from campaigns.machinery.plan import Job, Plan, Summary
+from campaigns.machinery.runner import groups_of
 from engine import Trajectory, load_scene
 from reports.parts.style import VERMILION
 from tests.campaigns.conftest import finished, forget, rows_of
@@ -272,3 +273,11 @@ def test_a_loop_leaves_the_plane_and_the_range_of_the_buoy_stays(tmp_path):
     assert planar == pytest.approx(spatial, abs=0.01 * (spatial[1] - spatial[0]))
     page = (tmp_path / "report.html").read_text()
     assert "Out of the plane" in page and "push_mps" in page
+
+
+def test_a_run_from_a_state_shares_no_worker_with_runs_from_rest(nine):
+    plan, _, cases, _ = nine
+    mixed = [replace(job, going=None if i % 2 else print) for i, job in enumerate(cases * 2)]
+    groups = groups_of(plan, mixed)
+    assert sum(map(len, groups)) == len(mixed)
+    assert all(len({job.going for job in group}) == 1 for group in groups)
