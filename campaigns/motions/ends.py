@@ -111,7 +111,6 @@ def by_orbits(along: Along, ends: Sequence[_End]) -> dict[_End, dict[str, object
 
     The orbit is followed from the last value of the sweep with the motion. Raises CampaignStopped.
     """
-    from campaigns.motions.multipliers import QUICK
     from campaigns.motions.orbit_tasks import lost
     from campaigns.motions.tracing import Line, Task, work
 
@@ -121,7 +120,7 @@ def by_orbits(along: Along, ends: Sequence[_End]) -> dict[_End, dict[str, object
         if period and end.row["status"] == "ok":
             value, state = along.values[end.motion.at], end.motion.state
             low, high = sorted((value, end.outside + BEYOND * (end.outside - end.inside)))
-            line = Line(along.scene_at, low, high, span, state, value, rtol=QUICK)
+            line = Line(along.scene_at, low, high, span, state, value)
             tasks[end] = Task(lost, line, (period, float(end.step), value, state, end.inside, end.state))
     results, _ = work(along.plan, along.plan.how.out / "ends", "ends of ranges by their orbits", list(tasks.values()))
     found = {}

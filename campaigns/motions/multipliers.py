@@ -11,7 +11,7 @@ import engine.scene
 from campaigns.columns import Column
 
 TOLERANCE = 1e-3  # of the steps of an orbit, or that of the scene where that is smaller; at 0.03 multipliers are false
-QUICK = 3e-3  # the same beside a sweep
+QUICK = 3e-3  # the same for the rows of a sweep
 COUNT = 4  # multipliers
 MULTIPLIERS = (
     Column(
