@@ -7,8 +7,8 @@ orbit is one. Newton's method on the map over a wave period (`engine.period_map`
 import math
 from collections.abc import Callable
 
-import engine.scene
 from campaigns.columns import Column
+from engine.scene import scene_from_toml
 
 TOLERANCE = 1e-3  # of the steps of an orbit, or that of the scene where that is smaller; at 0.03 multipliers are false
 QUICK = 3e-3  # the same for the rows of a sweep
@@ -21,11 +21,6 @@ MULTIPLIERS = (
     Column("multiplier_angle_rad", "rad", "arg μ", "angle of the leading multiplier in the complex plane, 0 to π", 3),
     Column("multiplier_error", "", "± μ", "largest change of the multiplier over steps of the same tolerance", 3),
 )  # fmt: skip
-
-
-def orbit_scene(scene, rtol: float = TOLERANCE):
-    """The scene as its orbits are computed: at a tolerance of `rtol` at most."""
-    return engine.scene.scene_from_toml(scene.to_toml(), {"solver.rtol": min(rtol, scene.solver.rtol)})
 
 
 def cable_map(scene_of: Callable, state, value: float, size: float = 1.0):
@@ -47,7 +42,8 @@ def orbit_row(trajectory, period: int) -> tuple[dict[str, float | None], str]:
     """
     from analysis.orbits import find_orbit, scatter_of
 
-    scene = orbit_scene(trajectory.scene, QUICK)
+    own = trajectory.scene
+    scene = scene_from_toml(own.to_toml(), {"solver.rtol": min(QUICK, own.solver.rtol)})
     try:
         cable, system = cable_map(lambda _: scene, trajectory.final_state, 0.0)
     except (ArithmeticError, ValueError) as why:

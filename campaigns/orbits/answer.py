@@ -10,7 +10,7 @@ from campaigns.columns import Column
 from campaigns.statements import listed
 
 NONE = "No periodic motion has an orbit that could be found: {}."
-WORDS = {"fold": "folds", "flip": "flips (doubles its period)", "torus": "gives way to a torus"}
+ACCURATE = 2e-4  # of an event, and of its value where that is above 1, as in the report
 MOST = 8
 
 
@@ -25,8 +25,10 @@ def sentences(rows: Sequence[Row], key: Column, parts: Mapping[str, Sequence[Row
     for branch in branches[: MOST - 4]:
         yield _branch(branch, [row for row in rows if row["branch"] == branch["branch"]], key, parts["events"])
     yield from _between(parts["orbits"], key)
-    if unsure := [one for one in parts["events"] if not known(one, "error") <= 2e-4 * abs(known(one, key.name)) / 0.1]:
-        yield f"Not known to 2 of 1000: {listed(_event(one, key) for one in unsure[:4])}."
+    if unsure := [
+        one for one in parts["events"] if not known(one, "error") <= ACCURATE * max(1.0, known(one, key.name))
+    ]:
+        yield f"Known to no better than {ACCURATE}: {listed(_event(one, key) for one in unsure[:4])}."
     if failed := [one for one in parts["branches"] if one["status"] != "ok"]:
         name = (f"motion {one['motion']}" if one["motion"] else f"period {known(one, 'period'):.0f}" for one in failed)
         told = (f"{one} ({row['message']})" for one, row in zip(name, failed, strict=True))
