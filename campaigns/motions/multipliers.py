@@ -8,7 +8,6 @@ import math
 from collections.abc import Callable
 
 from campaigns.columns import Column
-from engine.scene import scene_from_toml
 
 TOLERANCE = 1e-3  # of the steps of an orbit, or that of the scene where that is smaller; at 0.03 multipliers are false
 QUICK = 3e-3  # the same for the rows of a sweep
@@ -41,6 +40,7 @@ def orbit_row(trajectory, period: int) -> tuple[dict[str, float | None], str]:
     Where there is none, or one of another period than the run's, the words say why.
     """
     from analysis.orbits import find_orbit, scatter_of
+    from engine.scene import scene_from_toml
 
     own = trajectory.scene
     scene = scene_from_toml(own.to_toml(), {"solver.rtol": min(QUICK, own.solver.rtol)})
