@@ -8,21 +8,13 @@ from collections.abc import Iterable, Mapping
 
 from .parameters import record_of
 from .record import ONE_STAGE
-from .run import Run
+from .run import Idle, Run
 from .scene.models import Scene
 from .simd.cover import goes_in_lanes
-from .time.status import OK
 
 # seconds of processor time (measured, in a plane): which share is begun first, and the time left
 SECONDS = {"rest": 3.2, "march": 3.5, "carry": 5.0, "advance": 7.7, "follow": 6.3, "paper-box": 3.5}
 SPACE = 2.2  # of them, in three dimensions
-
-
-class _Idle(Run):
-    """Arrays of a run that never begins, not even at rest: only their types count."""
-
-    def _start(self) -> None:
-        self.state["status"] = OK
 
 
 def shares_of(scenes: Iterable[tuple[Scene, bool, bool]]) -> list[dict[tuple, Scene]]:
@@ -68,10 +60,10 @@ def compile_piece(key: tuple, scene: Scene) -> None:
     elif name == "rest":
         Run(scene, 0.0)
     elif name in ("march", "carry"):
-        _Idle(scene, 0.0).compile()
+        Idle(scene, 0.0).compile()
     else:
         from .simd.batch import Machine
 
-        machine = Machine(idle := _Idle(scene, 0.0))
+        machine = Machine(idle := Idle(scene, 0.0))
         machine.load(0, idle)
         machine.compile()

@@ -198,6 +198,13 @@ class Run:
         return Profiles(times, self.s, *(np.ascontiguousarray(values[:, :, i]) for i in range(col.PROFILE_WIDTH)))
 
 
+class Idle(Run):
+    """Arrays of a run that never begins, not even at rest."""
+
+    def _start(self) -> None:
+        self.state["status"] = OK
+
+
 KEPT = ("output", "profile")  # what is kept evenly in time, as in the names of RECORD
 COUNTED = ("steps", "rejected_steps", "newton_iterations", "newton_failures", "loop_releases")
 STATISTICS = {  # of a trajectory: the fields of STATE that they come from

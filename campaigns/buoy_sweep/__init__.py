@@ -102,11 +102,9 @@ def runs(order: Order) -> Callable:
         return run_where_needed
     if (kicks := starts_of(order)) is None:
         return run
-    from campaigns.buoy_sweep.batches import changed
     from campaigns.buoy_sweep.rows import STEEPNESS as KEY
 
-    scene = order.cases[0].scene
-    return motions.every_motion(order, kicks, KEY, lambda value: changed(scene, {SWEPT: value}))
+    return motions.every_motion(order, kicks, KEY, SWEPT)
 
 
 def measures(order: Order) -> Measures:

@@ -90,11 +90,10 @@ def coexisting(rows: Sequence[Row], key: str, symbol: str, ends: Sequence[Row]) 
     yield f"{said}."
     words = []
     for end in ends:
-        inside, outside = known(end, f"{key}_with"), known(end, f"{key}_without")
+        exact, inside, outside = (known(end, f"{key}_{side}") for side in ("end", "with", "without"))
+        told = f"{exact:.4g} ({end['kind']})" if math.isfinite(exact) else f"{0.5 * (inside + outside):.3g}"
         becomes = f", into {end['leads_to']}" if end.get("leads_to") else ""
-        words.append(
-            f"{end['motion']} {'above' if end['end'] == 'upper' else 'below'} {0.5 * (inside + outside):.3g}{becomes}"
-        )
+        words.append(f"{end['motion']} {'above' if end['end'] == 'upper' else 'below'} {told}{becomes}")
     if words:
         more = len(words) - MOST_ENDS
         told = f"{listed(words[:MOST_ENDS])}{f'; {more} more in ends/table.csv' if more > 0 else ''}"

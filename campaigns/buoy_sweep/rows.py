@@ -24,6 +24,8 @@ from campaigns.columns import (
 )
 from campaigns.judge import LEAST_JUDGED, OPEN, motion_of, record_regime, tangent_of
 from campaigns.motions.along import MOTIONS
+from campaigns.motions.multipliers import MULTIPLIERS, orbit_row
+from engine.at_rest import static_tension_N
 from engine.views import LONGEST_PERIOD, STROBE_TOLERANCE, carried, carries_tangents, rings, state_of
 
 STEEPNESS = Column("steepness", "", "kA", "wave steepness: wave number times amplitude", 3)
@@ -91,6 +93,7 @@ COLUMNS = (
     ERROR,
     *WOLF,
     *TANGENT,
+    *MULTIPLIERS,
     *OFFPLANE,
     HEIGHT,
     *LINE_COUNTS,
@@ -113,7 +116,7 @@ def buoy_row(trajectory, transient_periods: int | None, checks=None, full: int |
 
     trajectory: an engine Trajectory of a scene with waves and a buoy, run to its end or not.
     transient_periods: wave periods left out; a record that does not outlast them by one has statistics only. None:
-    those that the verdict has found.
+    those that the verdict has found; a periodic motion then has the multipliers of its orbit.
     checks: how it went on at a tighter tolerance (`campaigns.judge.motion_of`), for a run that is chaotic.
     full: wave periods after which a run ends undecided, where Wolf's exponent and the tests for records of unknown
     origin are asked for too; the verdict does not rest on them. None: they are not made.
@@ -130,7 +133,11 @@ def buoy_row(trajectory, transient_periods: int | None, checks=None, full: int |
     if periods >= 0.0:
         row["periods"] = periods
     verdict, wolf = judged(trajectory, periods, transient_periods, checks)
+    orbit = ""
     if transient_periods is None:
+        if verdict is not None and verdict.period and trajectory.final_state is not None:
+            multipliers, orbit = orbit_row(trajectory, verdict.period)
+            row |= multipliers
         transient_periods = 0 if verdict is None else verdict.transient
     if measured := after_transient(trajectory, columns, transient_periods):
         row |= {"transient_periods": transient_periods, **measured}
@@ -148,7 +155,7 @@ def buoy_row(trajectory, transient_periods: int | None, checks=None, full: int |
         row |= {
             "regime": verdict.regime,
             "regime_tighter": tighter,
-            "regime_reason": verdict.reason,
+            "regime_reason": f"{verdict.reason}; {orbit}" if orbit else verdict.reason,
             "evidence": "; ".join(map(evidence_text, evidence)),
             **exponents(TANGENT, tangent),
             **(exponents(WOLF, wolf) if wolf is not None else {}),
@@ -223,8 +230,8 @@ def settled(scene, columns, transient_s: float) -> dict[str, object]:
     lowest, released = (
         number(np.min(columns["tension_top_low_N"], where=after & some, initial=np.inf)) for some in (~ringing, ringing)
     )
-    # A run starts at rest. T < 0 alone says little: much of it is noise of axial waves in a line that hangs loose.
-    tension, static_N = columns["tension_top_N"], float(columns["tension_top_N"][0])
+    # T < 0 alone says little: much of it is noise of axial waves in a line that hangs loose.
+    tension, static_N = columns["tension_top_N"], static_tension_N(scene, columns)
     shares = (
         slack_fraction(tension, step_s, threshold_N, transient_s).fraction
         for threshold_N in (max(NEAR_ZERO * static_N, 0.0), 0.0)

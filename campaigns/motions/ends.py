@@ -1,7 +1,7 @@
 """Where the range of a motion ends, by bisection; whether a motion stays at a tighter tolerance and on a finer grid."""
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from campaigns.columns import MESSAGE, RUN_KEY, STATUS, Column
 from campaigns.judge import tighter_scene
@@ -15,6 +15,10 @@ MOST = 320  # wave periods of a bisection: near its end a motion settles slowly
 LEADS_TO = Column(
     "leads_to", symbol="leads to", meaning="letter of the motion that it becomes there; empty where none settled"
 )
+_EXACT = "where the motion ends, by its orbit, which stops being stable there; empty where no orbit tells it"
+SHIFTED = 0.01  # of a value: by what the tolerance of a sweep may move an end
+KIND = Column("kind", symbol="by", meaning="what ends it: fold, flip or torus point of its orbit; empty: not known")
+BEYOND = 2.0  # widths of the bisected range, beyond it, in which an orbit is followed
 END = Column("end", symbol="end", meaning="lower or upper end of the range of the motion")
 TIGHTER, FINER = "a tenth of the tolerance", "{} nodes"
 
@@ -62,6 +66,9 @@ def columns(key: Column) -> tuple[Column, ...]:
             "first value at which it was not",
             key.digits and 5,
         ),
+        replace(key, name=f"{key.name}_end", symbol=f"{key.symbol} end", digits=key.digits and 5, meaning=_EXACT),
+        Column("error", key.unit, f"± {key.symbol}", "of the end: its largest change over three sequences of steps", 5),
+        KIND,
         LEADS_TO,
         RUN_KEY,
         STATUS,
@@ -88,15 +95,41 @@ def bisect(along: Along) -> list[dict[str, object]]:
         ]
         for end, found in zip(wide, along.starts.run("ends of ranges", asked), strict=True):
             _narrow(along, end, found)
-    rows = []
+    rows, exact = [], by_orbits(along, ends)
     for end in ends:
         found = end.becomes.branch.letter if end.becomes is not None else None
         sides = {f"{along.key.name}_with": end.inside, f"{along.key.name}_without": end.outside}
         which = {"motion": end.motion.branch.letter, "end": "upper" if end.step == UP else "lower"}
-        rows.append({**which, **sides, "leads_to": found, **end.row})
+        rows.append({**which, **sides, **exact.get(end, {}), "leads_to": found, **end.row})
     (along.plan.how.out / "ends").mkdir(exist_ok=True)
     write_table(along.plan.how.out / "ends" / "table.csv", columns(along.key), rows)
     return rows
+
+
+def by_orbits(along: Along, ends: Sequence[_End]) -> dict[_End, dict[str, object]]:
+    """The columns of the ends at which an orbit stops being stable, as the bisection says; the others have none.
+
+    The orbit is followed from the last value of the sweep with the motion. Raises CampaignStopped.
+    """
+    from campaigns.motions.orbit_tasks import lost
+    from campaigns.motions.tracing import Line, Task, work
+
+    span, tasks = max(along.values) - min(along.values), {}
+    for end in ends:
+        period = end.motion.settled.period
+        if period and end.row["status"] == "ok":
+            value, state = along.values[end.motion.at], end.motion.state
+            low, high = sorted((value, end.outside + BEYOND * (end.outside - end.inside)))
+            line = Line(along.scene_at, low, high, span, state, value)
+            tasks[end] = Task(lost, line, (period, float(end.step), value, state, end.inside, end.state))
+    results, _ = work(along.plan, along.plan.how.out / "ends", "ends of ranges by their orbits", list(tasks.values()))
+    found = {}
+    for end, (result, _) in zip(tasks, results, strict=True):
+        # an orbit may double its period before its motion ends
+        near = max(BEYOND * abs(end.outside - end.inside), SHIFTED * abs(end.inside))
+        if not result["reason"] and abs(result["value"] - 0.5 * (end.inside + end.outside)) <= near:
+            found[end] = {f"{along.key.name}_end": result["value"], "error": result["error"], "kind": result["kind"]}
+    return found
 
 
 def _ends_of(along: Along) -> Iterator[_End]:

@@ -44,14 +44,15 @@ def start_of(order: Order, scene):
     try:
         if scene.waves is None:
             raise ValueError("given for a scene without waves; allowed: with waves")
-        return checked_start(scene, _run_in(order.own.start_from)).at_zero()
+        return checked_start(scene, run_in(order.own.start_from)).at_zero()
     except ValueError as error:
         order.tell([f"--start-from: {error}"])
     return None
 
 
 @cache
-def _run_in(path: str):
+def run_in(path: str):
+    """The Trajectory of a file, read once. Raises ValueError."""
     return engine.Trajectory.load(path)
 
 
@@ -84,16 +85,17 @@ def parameters(order: Order, kicks: int | None) -> dict[str, object]:
     return {"starts": kicks, "kick_speed_mps": order.own.kick_speed, "seed": order.own.seed}
 
 
-def every_motion(order: Order, kicks: int, key: Column, scene_at: Callable) -> Callable:
+def every_motion(order: Order, kicks: int, key: Column, name: str, index: int | None = None) -> Callable:
     """In place of `runner.run`: the runs from rest, and one judged run for every other motion at each value.
 
-    key: the column of the values; scene_at(value): the scene of a value between those of the runs.
+    key: the column of the values; name, index: of the key in the scene (`campaigns.sweep.Varied`).
     """
 
     def runs(plan: Plan, jobs: list[Job]) -> tuple[dict[str, float], Summary]:
         from campaigns.motions import ends
         from campaigns.motions.along import FROM_REST, Along
         from campaigns.motions.starts import DISPLACED, as_it_is, settled_of, start_job
+        from campaigns.motions.tracing import Scenes
 
         there = {job.key for job in jobs if trajectory_path(plan.how.out, job.key).exists()}
         jobs = sorted(jobs, key=lambda job: job.labels[key.name])
@@ -103,7 +105,7 @@ def every_motion(order: Order, kicks: int, key: Column, scene_at: Callable) -> C
         timing, first = run(replace(plan, then=lambda seconds: OTHERS * seconds + later(seconds)), jobs, ahead)
         if not real:
             return timing, first
-        along = Along(plan, key, jobs, scene_at, first.rows)
+        along = Along(plan, key, jobs, Scenes(jobs[0].scene.to_toml(), key.name, name, index), first.rows)
         along.find(kicks, order.own.kick_speed, order.own.seed)
 
         def job_of(motion, labels: dict) -> Job:

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from campaigns.buoy_sweep.rows import NEAR_ZERO, lasts, sound_part
+from engine.at_rest import static_tension_N
 
 if TYPE_CHECKING:
     from analysis import Spectrum
@@ -189,7 +190,7 @@ def snaps(trajectory: Trajectory, transient_periods: int) -> dict[str, float]:
             found[f"{side}_at"] = float(np.argmax(power) + 1) / WINDOW[1]
     if len(tension) < 2:
         return found
-    static = float(columns["tension_top_N"][0])
+    static = static_tension_N(scene, columns)
     near, less = tension < NEAR_ZERO * static, tension < 0.0
     found |= {"near_zero": float(near.mean()), "compressed": float(less.mean())}
     begins, ends = (np.flatnonzero(now[1:] & ~now[:-1]) + 1 for now in (near, ~near))

@@ -61,6 +61,13 @@ class Varied:
             return
         changes[self.name] = [*whole[: self.index], value, *whole[self.index + 1 :]]
 
+    def of(self, scene) -> float | None:
+        """The value of the key in a scene; None where it has none."""
+        found = reduce(lambda part, name: getattr(part, name, None), self.name.split("."), scene)
+        if self.index is not None:
+            found = found[self.index] if isinstance(found, list | tuple) and self.index < len(found) else None
+        return found
+
 
 def varied(words: list[str], faults: list[str]) -> Varied | None:
     """The key and values of KEY LO HI COUNT; None where one is at fault."""
@@ -158,13 +165,7 @@ def runs(order: Order):
     if kicks is None:
         return run
     (one,) = order.own.vary
-
-    def scene_at(value: float):
-        changes: dict[str, object] = {}
-        list(one.put(value, order.base(), changes))
-        return order.base(changes)
-
-    return motions.every_motion(order, kicks, one.column, scene_at)
+    return motions.every_motion(order, kicks, one.column, one.name, one.index)
 
 
 def measures(order: Order) -> Measures:

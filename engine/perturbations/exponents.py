@@ -28,7 +28,7 @@ def carry(p, tables, period, count, trail, along, across):
     along: vectors, rates (k, n, 4), dC and dK, orthonormal in C on entry and exit, and growth (periods, k), nats;
     across: weights, vector, rates (n, 2), C = (q_y, V_y) of length one by these weights on entry and exit, and growth
     (periods,), nats; None where there are none. What each step adds to a growth goes to the period (s) in which it ends
-    (the last, beyond the end).
+    (the last, beyond the end). Period 0: vectors along are carried as they are, of any length, and no growth is kept.
     """
     s, n = trail.Y.shape[1], trail.Y.shape[2]
     X, F, Q = np.zeros((n, 2)), np.zeros((n, 4)), np.zeros((n, col.NODE_WIDTH))
@@ -71,7 +71,7 @@ def carry(p, tables, period, count, trail, along, across):
                 known_part(a, so_far, vector, dK, known)
                 lateral_stage(p, tables, base, X, Q, F, known, H, E, dC_y)
                 stage_rate(rate, dC_y, known, dK[i])
-        if along is not None:
+        if along is not None and period > 0.0:
             orthonormalise(p.per_speed * p.per_speed, True, vectors, rates, lengths)
             for v in range(number):
                 growth[period_of(t + dt, period, growth.shape[0]), v] += np.log(lengths[v])

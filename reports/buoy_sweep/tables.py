@@ -15,7 +15,8 @@ from .runs import Run, Sweep
 
 _RUNS = (
     "radius_min_m", "radius_max_m", "angle_min_rad", "angle_max_rad", "tension_top_min_N", "tension_top_max_N",
-    "tension_top_max_error_N", "slack_fraction", "max_turn_rad", "loop_releases",
+    "tension_top_max_error_N", "slack_fraction", ("multiplier_modulus", "multiplier_error"), "max_turn_rad",
+    "loop_releases",
 )  # fmt: skip
 _ACROSS = ("offplane_growth_bits_per_period", "offplane_growth_error")
 _PLANE = (

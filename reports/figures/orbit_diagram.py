@@ -9,12 +9,12 @@ import numpy as np
 
 from ..parts.content import Picture
 from ..parts.style import INK, REGIME_COLOURS, SHADES, SOFT, VERMILION, WIDTH_IN, picture_of, sheet
-from .curves import Panel, draw
+from .curves import Curve, Panel, draw
 
 NARROW_IN = 3.7  # of the form for telephones
 _LEFT_IN, _LABEL_IN, _RIGHT_IN, _BOTTOM_IN = 0.7, 0.29, 0.08, 0.42
 _BAR_IN, _MAIN_IN, _LOWER_IN, _GAP_IN = 0.16, 1.85, 0.68, 0.07
-_BAR_OF_MOTION_IN, _MAIN_OF_MOTIONS_IN = 0.12, 1.6
+_BAR_OF_MOTION_IN, _MAIN_OF_MOTIONS_IN, _MAIN_OF_ORBITS_IN = 0.12, 1.6, 2.3
 _LEGEND_IN, _NAMED = 0.14, 1.6  # a row of the legend, and the width of a motion in it
 _EDGE_IN, _NUMBERS_IN = 0.1, 0.27  # beside the first and the last run; left of it, where numbers stand there
 _NEUTRAL = "#8b95a0"
@@ -58,22 +58,26 @@ def orbit_diagram(
     missing: Sequence[float] = (),
     width_in: float = WIDTH_IN,
     motions: Motions | None = None,
+    orbits: Sequence[Curve] = (),
 ) -> Picture:
     """Bars with words and ranges, strobed points in the colours of the words, and panels below, on one axis.
 
-    columns: by their parameter, one of them at least with points. labels: of parameter and points, with units.
-    ranges: each a bar above the points, and a shade over all panels. marks: (value, text) of vertical lines. missing:
-    runs without points (crosses). motions: where there are several, by letter; each has the points in its colour, and a
-    bar that tells its words by hatches. Motions whose points lie close together, from the left on, are drawn again in
-    what is left blank beside them, on a finer scale.
+    columns: by their parameter, one of them at least with points where there are no orbits. labels: of parameter and
+    points, with units. ranges: each a bar above the points, and a shade over all panels. marks: (value, text) of
+    vertical lines. missing: runs without points (crosses). motions: where there are several, by letter; each has the
+    points in its colour, and a bar that tells its words by hatches. Motions whose points lie close together, from the
+    left on, are drawn again in what is left blank beside them, on a finer scale. orbits: lines and marks over the
+    points, in place of that; their names have a row of the legend.
     """
     judged = [one for one in columns if one.word]
     at = np.array([one.at for one in columns])
     words = {letter: _words(judged, letter) for letter in motions or [""] if judged}
     bars = [*words.values(), *(_spans(at, one.holds, one.text) for one in ranges)]
     bar_in, main_in = (_BAR_OF_MOTION_IN, _MAIN_OF_MOTIONS_IN) if motions else (_BAR_IN, _MAIN_IN)
+    main_in = _MAIN_OF_ORBITS_IN if orbits else main_in
     heights = [*([bar_in] * len(bars)), main_in, *(_LOWER_IN * one.height for one in below)]
     legend = _legend(judged, len(judged) < len(columns), motions, int(width_in / _NAMED))
+    legend += [[]] if orbits else []
     top_in = 0.3 + _LEGEND_IN * (len(legend) - 1) if legend else 0.08
     height_in = top_in + sum(heights) + _GAP_IN * (len(heights) - 1) + _BOTTOM_IN
     with sheet(height_in, width_in) as figure:
@@ -85,8 +89,9 @@ def orbit_diagram(
         top = figure.add_subplot(grid[len(bars)])
         lower = [figure.add_subplot(grid[place], sharex=top) for place in range(len(bars) + 1, len(heights))]
         lowest = (top, *lower)[-1]
-        places = np.concatenate([[one.at for one in columns], missing])
-        span, small = float(np.ptp(places)), _small(columns, bool(motions))
+        places = np.concatenate([[one.at for one in columns], missing, *(one.x for one in orbits)])
+        places = places[np.isfinite(places)]
+        span, small = float(np.ptp(places)), None if orbits else _small(columns, bool(motions))
         left_in = _NUMBERS_IN if small else _EDGE_IN
         inch = (width_in - _LEFT_IN - _RIGHT_IN - left_in - _EDGE_IN) / (span or 0.04 * abs(float(at[0])) or 0.04)
         top.set_xlim(places.min() - left_in / inch, places.max() + _EDGE_IN / inch)  # inch: of the parameter
@@ -99,6 +104,9 @@ def orbit_diagram(
                 for _, low, high in spans if place < len(SHADES) else ():
                     axes.axvspan(low, high, color=SHADES[place], linewidth=0)
         _points(top, columns, inch, motions)
+        if orbits:
+            draw(top, Panel(orbits))
+            legend[-1] = top.get_legend_handles_labels()[0]
         if small:
             _enlarged(top, *small, inch, motions)
         top.plot(missing, np.full(len(missing), 0.03), "x", color=VERMILION, transform=top.get_xaxis_transform())
@@ -117,7 +125,8 @@ def orbit_diagram(
         tight = {"handlelength": 0.7, "handletextpad": 0.3, "columnspacing": 0.7, "borderaxespad": 0.1, "fontsize": 6.5}
         for row, handles in enumerate(legend):
             place = {"loc": "upper left", "bbox_to_anchor": (0.0, 1.0 - _LEGEND_IN * row / height_in)}
-            figure.legend(handles=handles, ncols=len(handles), **place, **tight)
+            longer = {"handlelength": 1.9} if orbits and handles is legend[-1] else {}  # a dash is no dashed line
+            figure.legend(handles=handles, ncols=len(handles), **(tight | place | longer))
         for axes in (top, *lower):  # one below the other, left of the widest numbers
             axes.yaxis.set_label_coords((_LABEL_IN - _LEFT_IN) / (width_in - _LEFT_IN - _RIGHT_IN), 0.5)
         return picture_of(figure)

@@ -31,14 +31,15 @@ def scene_table(scene: Scene, shipped: str, varied: dict[str, str], caption: str
     """Value, unit and source of every parameter of a scene.
 
     scene: as run. shipped: name of the shipped scene of the same kind; the source of its values is the comment beside
-    them in its file, and a value that differs is marked "set by the user". varied: the keys that the campaign varied,
-    with their values in words.
+    them in its file, and a value that differs is marked "set by the user", as all values of another file are. varied:
+    the keys that the campaign varied, with their values in words.
     """
-    from engine import load_scene
+    from engine import list_scenes, load_scene
     from engine.scene.reference import keys, sources
 
-    told, known = sources(shipped), keys()
-    values, defaults = dict(_flat(scene.as_dict())), dict(_flat(load_scene(shipped).as_dict()))
+    comes = shipped in list_scenes()
+    told, known = sources(shipped) if comes else {}, keys()
+    values, defaults = dict(_flat(scene.as_dict())), dict(_flat(load_scene(shipped).as_dict() if comes else {}))
     rows = []
     for name in dict.fromkeys([*values, *varied]):
         if name in ("name", "title"):

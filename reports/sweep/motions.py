@@ -18,7 +18,8 @@ _TOLD = (
 )
 _ENDS = (
     "Ends of the ranges of motions, found by bisection: the last value with the motion, the first one without it, and "
-    "the motion that follows there. From `ends/table.csv`."
+    "the motion that follows there. Where the orbit of the motion tells it, the end and its kind: two orbits meet at a "
+    "fold, the period doubles at a flip. From `ends/table.csv`."
 )
 
 
@@ -34,8 +35,9 @@ def every_motion(folder: Folder, key: str, title: str) -> list[Item]:
     part = part_of(folder, "starts")
     rows, items = part.table if part else (), []
     if ends := ends_of(folder, key):
-        names = ("motion", "end", f"{key}_with", f"{key}_without", "leads_to")
-        items.append(table_of(part_of(folder, "ends").columns, names, ends, _ENDS))
+        columns, exact = part_of(folder, "ends").columns, ((f"{key}_end", "error"), "kind")
+        names = ("motion", "end", f"{key}_with", f"{key}_without", *(exact if "kind" in columns else ()), "leads_to")
+        items.append(table_of(columns, names, ends, _ENDS))
     if rows:
         body = []
         for at, group in groupby(in_order(rows, [key]), key=itemgetter(key)):

@@ -31,6 +31,7 @@ HELPS = {  # what each tells
     "campaigns.buoy_sweep": "--steepness --steepness-range --periods --transient --scene --set --jobs --backend "
     "loky|threading|dask --out --no-report [--",
     "campaigns.accuracy": "--works",
+    "campaigns.orbits": "--vary --values --start-from --motion --orbits --branches --no-accuracy",
     "campaigns.basins": "--across --grid --kick-speed --displacement --seed",
     "campaigns.oscillator": "--effort",
     "campaigns.out_of_plane": "--periods",

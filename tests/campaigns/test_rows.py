@@ -55,7 +55,10 @@ def test_full_evidence_is_told_beside_a_verdict_that_does_not_rest_on_it(scene):
 @pytest.mark.parametrize("mean", [2000.0, 500.0, 250.0, 0.0, -600.0])
 def test_slack_and_compression_of_a_sine(scene, mean):
     """500 sin lies below a level for acos(-level/500)/pi of the time; 100 samples a period, errors of second order."""
-    row = measured(scene, tension=(mean, 500.0))  # it begins at the mean, which is its static tension
+    run = sines(scene, PERIODS, tension=(mean, 500.0))
+    for name in ("radius_rate_mps", "angle_rate_radps"):
+        run.columns[name][0] = 0.0  # it begins at rest, at the mean, which so is its static tension
+    row = buoy_row(run, TRANSIENT)
     for name, level in (("slack_fraction", max(0.05 * mean, 0.0)), ("compression_fraction", 0.0)):
         share = math.acos(max(-1.0, min((mean - level) / 500.0, 1.0))) / math.pi
         assert row[name] == pytest.approx(share, abs=1e-3)

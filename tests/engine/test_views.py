@@ -4,8 +4,9 @@ import numpy as np
 import pytest
 import xarray
 
-from engine import Trajectory, load_scene
+from engine import Trajectory, load_scene, simulate
 from engine.__main__ import main
+from engine.at_rest import static_tension_N
 from engine.trajectory import COLUMNS, TangentGrowth
 
 PERIODS, STEPS = 310, 100
@@ -120,3 +121,12 @@ def test_the_command_runs_a_scene_and_saves_its_figure(tmp_path, capsys):
 def test_the_command_lists_the_scenes(capsys):
     assert main([]) == 0
     assert "tethered_buoy" in capsys.readouterr().out
+
+
+def test_the_static_tension_of_a_run_that_goes_on_is_that_of_rest_and_not_its_first():
+    scene = load_scene("tethered_buoy", {"tether.nodes": 9})
+    first = simulate(scene, periods=2)
+    later = simulate(scene, periods=1, start=first)
+    assert static_tension_N(scene, first.columns) == first.columns["tension_top_N"][0]
+    assert abs(later.columns["tension_top_N"][0] / first.columns["tension_top_N"][0] - 1.0) > 0.01
+    assert static_tension_N(scene, later.columns) == pytest.approx(first.columns["tension_top_N"][0], rel=1e-12)

@@ -90,6 +90,8 @@ def test_every_parameter_has_a_source_and_changes_are_marked():
     assert cells["buoy.mass_kg"][4].startswith("Table 1")
     plain = scene_table(buoy(), "tethered_buoy", {}, "caption")
     assert all(row[4] for row in plain.rows) and not any("set by the user" in row[4] for row in plain.rows)
+    of_a_file = {row[0].strip("`"): row[4] for row in scene_table(buoy(), "one/of/mine.toml", {}, "caption").rows}
+    assert of_a_file["water.depth_m"] == "set by the user"
 
 
 def test_spectrum_window_never_reaches_beyond_the_record():

@@ -1,0 +1,202 @@
+"""A periodic orbit followed along a parameter, round folds: pseudo-arclength continuation (Keller 1977).
+
+    predict    (z, lambda) + h t, t the tangent at the last orbit, of length 1 in (z_0, lambda/parameter_size)
+    correct    Newton's method, each correction orthogonal to t: `spaces`, (b). A system that is computed in steps
+               takes those of the predicted orbit first, and then those of the orbit
+    accept     where t turns by less than 26 degrees and the correction is shorter than half of h; else h is halved
+
+h grows by half after three Newton steps or fewer. A branch has come back to its beginning, an island, where its first
+orbit, begun at any of its points, lies on the last chord.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from itertools import pairwise
+
+import numpy as np
+
+from analysis.orbits.events import ACCURACY, Event, Place, events_between, near_orbits
+from analysis.orbits.finding import TOLERANCE, Orbit, described, real_span, solved_near
+from analysis.orbits.maps import NoImage, OrbitMap, shoot, slopes_of
+from analysis.orbits.spaces import Space
+from analysis.sampling import checked_positive
+
+STRAIGHT = 0.9  # least cosine between tangents of neighbours
+NEAR = 0.5  # longest correction, in steps
+GROW, FEW = 1.5, 3
+ON_CHORD = 0.2  # distance from a chord, in its lengths
+
+
+@dataclass(frozen=True, eq=False)
+class Branch:
+    """Orbits along a branch, in order.
+
+    orbits    tuple of Orbit; of an island, the last is the first again
+    rates     (m,) change of the parameter along the branch, in parameter_size a unit of arclength: 0 at a fold
+    closed    whether it is an island
+    ends      why it ends where it begins, and where it ends: two sentences
+    events    tuple of Event, in order
+    """
+
+    orbits: tuple[Orbit, ...]
+    rates: np.ndarray
+    closed: bool
+    ends: tuple[str, str]
+    events: tuple[Event, ...]
+
+    @property
+    def parameters(self) -> np.ndarray:
+        """(m,) of the orbits."""
+        return np.array([orbit.parameter for orbit in self.orbits])
+
+
+def follow_branch(
+    system: OrbitMap,
+    orbit: Orbit,
+    low: float,
+    high: float,
+    *,
+    step: float = 0.05,
+    least: float = 1e-4,
+    longest: float = 0.2,
+    most: int = 200,
+    count: int = 6,
+    tolerance: float = TOLERANCE,
+    accuracy: float = ACCURACY,
+    told: Callable[[Orbit], object] | None = None,
+) -> Branch:
+    """The branch of an orbit, both ways, stable or not, with its folds, flips and torus points.
+
+    orbit                  where it begins, low <= its parameter <= high
+    low, high              of the parameter; the branch ends with orbits at these values
+    step, least, longest   arclength from one orbit to the next: first, smallest, largest. `least` must not fall below
+                           what a new set of steps of the system changes of an orbit
+    most                   orbits each way
+    count, tolerance       as in `find_orbit`
+    accuracy               of events, in lengths of a step
+    told                   is called with every orbit as it is found; where it gives True, the branch ends
+    Returns a Branch. Where it cannot be followed farther, its ends say why: it raises nothing for that.
+    Raises ValueError for an orbit that was not found, and for one outside of the range.
+    """
+    if not orbit.found or not low <= orbit.parameter <= high:
+        raise ValueError(f"orbit: one within {low:g} and {high:g} is needed, given {orbit.parameter:g}, {orbit.reason}")
+    how = _Follower(system, low, high, least, longest, most, count, tolerance, told)
+    first = how.place(orbit)
+    ahead, end, closed = how.one_way(first, checked_positive(step, "step"))
+    places, begin = [first, *ahead], end
+    if not closed:
+        back, begin, _ = how.one_way(_reversed(first), step)
+        places = [*map(_reversed, back[::-1]), *places]
+    pairs = pairwise(places)
+    events = [event for pair in pairs for event in events_between(system, *pair, count, tolerance, accuracy)]
+    rates = np.array([place.rate for place in places])
+    return Branch(tuple(place.orbit for place in places), rates, closed, (begin, end), tuple(events))
+
+
+class _Follower:
+    """What stays the same along a branch."""
+
+    def __init__(self, system, low, high, least, longest, most, count, tolerance, told):
+        self.system, self.low, self.high, self.least, self.longest = system, low, high, least, longest
+        self.most, self.count, self.tolerance, self.told = most, count, tolerance, told
+
+    def place(self, orbit):
+        """The orbit with its tangent in the direction of a growing parameter."""
+        maps = self.system.near(orbit.points, orbit.parameter)
+        shots = shoot(maps, orbit.points, orbit.parameter)
+        slopes = slopes_of(maps, shots, orbit.points, orbit.parameter)
+        space = Space(shots.linearised, real_span(orbit.vectors))
+        across = np.append(np.zeros(orbit.points.shape[1]), 1.0)
+        for _ in range(2):  # near a fold the first is not accurate
+            change, rate = tangent_of(self.system, space, slopes, across)
+            across = self.system.row(change[0], rate)
+        return Place(orbit, change, rate, slopes)
+
+    def one_way(self, first, step):
+        """Places after the first; why they end; whether they come back to the first."""
+        places = [first]
+        while len(places) <= self.most:
+            here = places[-1]
+            end, limited = self._limit(here, step)
+            if limited == 0.0:
+                return places[1:], f"reaches the end of the range, {end:g}", False
+            try:
+                place, easy = self._next(here, limited, end)
+            except ArithmeticError as why:
+                step = 0.5 * limited
+                if step < self.least:
+                    where = f"{here.orbit.parameter:.6g}"
+                    return places[1:], f"at {where} no step above {self.least:g} succeeds: {why}", False
+                continue
+            if _meets_half(self.system, here.orbit.points, place.orbit.points):
+                return places[1:], f"meets the orbit of period {here.orbit.period // 2}", False
+            if len(places) > 2 and (again := _come_back(self.system, first, here, place)) is not None:
+                return [*places[1:], again], "comes back to its beginning", True
+            places.append(place)
+            if self.told and self.told(place.orbit):
+                return places[1:], "followed as far as asked", False
+            step = min(step * GROW, self.longest) if easy else step
+        return places[1:], f"followed over {self.most} orbits", False
+
+    def _limit(self, here, step):
+        """The end of the range that a step would reach, or None; and the step, cut there."""
+        end = self.high if here.rate > 0.0 else self.low
+        room = (end - here.orbit.parameter) / self.system.parameter_size
+        return (end, room / here.rate) if abs(here.rate) * step >= abs(room) else (None, step)
+
+    def _next(self, here, step, end):
+        """The place one step on, and whether Newton's method was quick. Raises NoImage where there is none.
+
+        end: value at which the parameter is held, at the end of the range; None within it.
+        """
+        size, tangent = self.system.parameter_size, self.system.row(here.change[0], here.rate)
+        points = here.orbit.points + step * here.change
+        parameter = here.orbit.parameter + step * here.rate * size if end is None else end
+        across, directions = tangent if end is None else None, real_span(here.orbit.vectors)
+        how = near_orbits(self.tolerance)
+        solved = solved_near(self.system, points, parameter, how, across, directions, here.slopes)
+        if self.system.length(solved.points[0] - points[0], (solved.parameter - parameter) / size) > NEAR * step:
+            raise NoImage("the branch turns too sharply")
+        if not self.low <= solved.parameter <= self.high:
+            raise NoImage("the orbit found is out of the range")
+        orbit, space = described(solved, self.count)
+        slopes = slopes_of(solved.maps, solved.shots, solved.points, solved.parameter)
+        change, rate = tangent_of(self.system, space, slopes, tangent)
+        if tangent @ np.append(change[0], rate) < STRAIGHT:
+            raise NoImage("the branch turns too sharply")
+        return Place(orbit, change, rate, slopes), solved.iterations <= FEW
+
+
+def tangent_of(system, space, slopes, before):
+    """The tangent in the direction of the row before (n + 1,): change (N, n) of the points, rate of the parameter."""
+    change, rate = space.solve(np.zeros_like(slopes), slopes, before, 1.0)
+    length = system.length(change[0], rate)
+    return change / length, rate / length
+
+
+def _reversed(place):
+    return place._replace(change=-place.change, rate=-place.rate)
+
+
+def _meets_half(system, before, after):
+    """Whether the two halves of an orbit of even period have changed places in between."""
+    half, odd = divmod(len(before), 2)
+    if odd or not half:
+        return False
+    return float(system.row(before[0] - before[half], 0.0) @ np.append(after[0] - after[half], 0.0)) < 0.0
+
+
+def _come_back(system, first, here, place):
+    """The first place, begun where the branch comes back to it, if that lies on the chord from here; else None."""
+    begin = np.append(here.orbit.points[0], here.orbit.parameter / system.parameter_size)
+    chord = np.append(place.orbit.points[0], place.orbit.parameter / system.parameter_size) - begin
+    across, length = system.row(chord[:-1], chord[-1]), system.length(chord[:-1], chord[-1])
+    for k in range(first.orbit.period):
+        points, change = np.roll(first.orbit.points, -k, axis=0), np.roll(first.change, -k, axis=0)
+        way = np.append(points[0], first.orbit.parameter / system.parameter_size) - begin
+        share = across @ way / length**2
+        off = way - share * chord
+        straight = across @ np.append(change[0], first.rate) > 0.5 * system.length(change[0], first.rate) * length
+        if 0.0 < share <= 1.0 and system.length(off[:-1], off[-1]) < ON_CHORD * length and straight:
+            return first._replace(orbit=replace(first.orbit, points=points), change=change)
+    return None

@@ -1,0 +1,256 @@
+"""Periodic orbits by Newton's method, with their multipliers; the equations are (a) and (b) of `spaces`."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from analysis.orbits.maps import NoImage, OrbitMap, Shots, shoot, slopes_of
+from analysis.orbits.spaces import Space
+from analysis.sampling import checked_count, checked_series
+
+TOLERANCE = 1e-9  # of the gaps, relative to the largest coordinate of the guess or 1
+ROUGH, KEPT = 1e-4, 0.05  # tolerance before steps are chosen again; share of a gap that a derivative nearby may leave
+MOVED = 1e-3  # from a guess, beyond which its steps do not suit an orbit
+REPEATS = 1e-6  # points this close, relative, are one: the period is a divisor of the one asked for
+SETTLED = 1e-3  # error of a multiplier, relative
+
+
+@dataclass(frozen=True, eq=False)
+class Orbit:
+    """A periodic orbit, or why none was found.
+
+    points (N, n)       in order
+    parameter
+    multipliers (k,)    complex, the largest first, conjugate pairs together
+    residuals (k,)      their errors, of the iteration alone (`Space.multipliers`)
+    vectors (n, k)      eigenvectors at the first point, of length 1
+    gap                 largest |P(z_i) - z_{i+1}|
+    iterations          of Newton's method, with the last steps of the system
+    reason              why no orbit was found, a sentence; empty for an orbit
+    """
+
+    points: np.ndarray
+    parameter: float
+    multipliers: np.ndarray
+    residuals: np.ndarray
+    vectors: np.ndarray
+    gap: float
+    iterations: int
+    reason: str = ""
+
+    @property
+    def period(self) -> int:
+        """Periods after which it repeats."""
+        return len(self.points)
+
+    @property
+    def found(self) -> bool:
+        """Whether it is an orbit."""
+        return not self.reason
+
+    @property
+    def settled(self) -> bool:
+        """Whether each multiplier is known to 1e-3 of its modulus, or to be inside the unit circle."""
+        modulus = np.abs(self.multipliers)
+        return self.found and bool(((self.residuals < SETTLED * modulus) | (modulus + self.residuals < 1.0)).all())
+
+    @property
+    def stable(self) -> bool:
+        """Whether all multipliers are known to be inside the unit circle."""
+        return self.settled and bool(np.abs(self.multipliers).max() < 1.0)
+
+
+@dataclass(frozen=True, eq=False)
+class Scatter:
+    """What other meshes change of an orbit: its errors. Inf where one of them has no orbit nearby.
+
+    points (N, n)        largest differences of the coordinates
+    multipliers (k,)     largest |difference| to the nearest multiplier
+    orbits               those of the other meshes that were found
+    """
+
+    points: np.ndarray
+    multipliers: np.ndarray
+    orbits: tuple[Orbit, ...]
+
+
+class Solved(NamedTuple):
+    """What Newton's method finds: points (N, n), parameter, the maps and their shots there, iterations, the directions
+    (n, k) that mattered, and the last derivative, of an orbit nearby; None where none was needed."""
+
+    points: np.ndarray
+    parameter: float
+    maps: Sequence[OrbitMap]
+    shots: Shots
+    iterations: int
+    directions: np.ndarray
+    space: Space | None
+
+
+class Newton(NamedTuple):
+    """How Newton's method goes: to a tolerance of the gaps, in how many iterations at most, each halved how often. A
+    derivative is kept for the next one where no more than the share `kept` of the gaps is left."""
+
+    tolerance: float = TOLERANCE
+    iterations: int = 20
+    halvings: int = 6
+    kept: float = 0.0
+
+
+def find_orbit(
+    system: OrbitMap,
+    start: ArrayLike,
+    parameter: float,
+    period: int = 1,
+    *,
+    count: int = 6,
+    tolerance: float = TOLERANCE,
+    iterations: int = 20,
+) -> Orbit:
+    """The periodic orbit near a start: Newton's method on all its points at once, with its multipliers.
+
+    start        (n,) a state, whose images are the first guess, or (period, n): a guess of every point
+    count        multipliers wanted, the largest
+    tolerance    of the gaps, relative to the largest coordinate of the start or 1
+    iterations   of Newton's method; a step that does not shorten the gaps is halved up to six times
+    Returns an Orbit: `period` is the least one, a divisor of the one asked for. Where none was found, `reason` says
+    why, and the points are those of the start. Stable and unstable orbits are found alike; no search is complete.
+    Raises ValueError for a start that is not finite or of another shape.
+    """
+    period, guess = checked_count(period, "period"), checked_series(start, "start", (1, 2))
+    try:
+        points = _images(system, guess, parameter, period) if guess.ndim == 1 else guess
+        if len(points) != period:
+            raise ValueError(f"start: {period} points are needed, given {len(points)}")
+        solved = solved_near(system, points, parameter, Newton(tolerance, iterations))
+        if (least := _least_period(system, solved.points)) == period:
+            return described(solved, count)[0]
+        how = {"count": count, "tolerance": tolerance, "iterations": iterations}
+        return find_orbit(system, solved.points[:least], parameter, least, **how)
+    except ArithmeticError as why:
+        return not_found(np.atleast_2d(guess), parameter, why)
+
+
+def scatter_of(system: OrbitMap, orbit: Orbit, *, tolerance: float = TOLERANCE) -> Scatter:
+    """The errors of an orbit: it is found again with every other mesh of the system, at the same parameter."""
+    points, multipliers, others = np.zeros_like(orbit.points), orbit.residuals, []
+    try:
+        for mesh in range(1, system.meshes):
+            place = orbit.points, orbit.parameter
+            solved = solved_near(system, *place, Newton(tolerance), None, real_span(orbit.vectors), mesh=mesh)
+            others.append(described(solved, len(orbit.multipliers))[0])
+            points = np.maximum(points, np.abs(others[-1].points - orbit.points))
+            apart = np.abs(others[-1].multipliers - orbit.multipliers[:, None]).min(axis=1)
+            multipliers = np.maximum(multipliers, apart)
+    except ArithmeticError:
+        points, multipliers = np.full_like(points, np.inf), np.full_like(multipliers, np.inf)
+    return Scatter(points, multipliers, tuple(others))
+
+
+def corrected(
+    maps: Sequence[OrbitMap],
+    points: np.ndarray,
+    parameter: float,
+    how: Newton,
+    row: np.ndarray | None = None,
+    directions: np.ndarray | None = None,
+    slopes: np.ndarray | None = None,
+    space: Space | None = None,
+) -> Solved:
+    """Newton's method on the gaps: at a fixed parameter, or with corrections orthogonal to a row (n + 1,).
+
+    directions (n, k): with which the spaces begin; slopes (N, n) and space: approximate ones. Raises NoImage where it
+    fails.
+    """
+    n, size, last = points.shape[1], maps[0].parameter_size, space
+    directions = np.empty((n, 0)) if directions is None else directions
+    enough = how.tolerance * max(1.0, np.abs(points).max())  # of the guess: far away any gap is small beside the points
+    shots, taken = shoot(maps, points, parameter), 0
+    while shots.residual > enough:
+        if taken == how.iterations:
+            raise NoImage(f"{taken} Newton steps leave {shots.residual:.1e}")
+        if fresh := space is None:
+            space = Space(shots.linearised, directions if row is None else np.c_[directions, row[:n]])
+        if row is not None and slopes is None:
+            slopes = slopes_of(maps, shots, points, parameter)
+        change, delta = space.solve(shots.gaps, slopes, row)
+        last, directions, reason = space, space.strongest(), "a Newton step does not shorten the gaps"
+        for share in 0.5 ** np.arange(how.halvings + 1):
+            trial = points + share * change, parameter + share * delta * size
+            try:
+                tried = shoot(maps, *trial)
+            except ArithmeticError as why:
+                reason = why
+                continue
+            if tried.residual < shots.residual:
+                if tried.residual > how.kept * shots.residual:
+                    space = slopes = None
+                (points, parameter), shots, taken = trial, tried, taken + 1
+                break
+        else:
+            if fresh:
+                raise NoImage(f"{reason}; {shots.residual:.1e} is left")
+            space = slopes = None
+    return Solved(points, float(parameter), maps, shots, taken, directions, last)
+
+
+def solved_near(
+    system: OrbitMap,
+    points: np.ndarray,
+    parameter: float,
+    how: Newton,
+    row: np.ndarray | None = None,
+    directions: np.ndarray | None = None,
+    slopes: np.ndarray | None = None,
+    mesh: int = 0,
+) -> Solved:
+    """`corrected`, roughly with the steps of the system at the guess, and then with those at the orbit."""
+    maps = system.near(points, parameter, mesh)
+    if system.frozen is None:
+        return corrected(maps, points, parameter, how, row, directions, slopes)
+    rough = corrected(maps, points, parameter, how._replace(tolerance=ROUGH), row, directions, slopes)
+    if np.linalg.norm(rough.points - points, axis=1).max() > MOVED:
+        maps = system.near(rough.points, rough.parameter, mesh)
+    how = how._replace(kept=max(how.kept, KEPT))
+    return corrected(maps, rough.points, rough.parameter, how, row, rough.directions, slopes, rough.space)
+
+
+def described(solved: Solved, count: int) -> tuple[Orbit, Space]:
+    """The Orbit that Newton's method has found, with its multipliers, and the space in which they were found."""
+    space = Space(solved.shots.linearised, solved.directions)
+    found = space.multipliers(count)
+    return Orbit(solved.points, solved.parameter, *found, solved.shots.residual, solved.iterations), space
+
+
+def not_found(points: np.ndarray, parameter: float, reason: object) -> Orbit:
+    """The Orbit that says why there is none."""
+    multipliers, vectors = np.empty(0, complex), np.empty((points.shape[1], 0), complex)
+    return Orbit(points, parameter, multipliers, np.empty(0), vectors, np.nan, 0, str(reason))
+
+
+def real_span(vectors: np.ndarray) -> np.ndarray:
+    """Real vectors that span complex ones and their conjugates."""
+    return np.hstack([vectors.real, vectors.imag[:, vectors.imag.any(axis=0)]])
+
+
+def _images(system, z, parameter, period):
+    """z and its images, `period` states (period, n)."""
+    states = [z]
+    for _ in range(period - 1):
+        states.append(system.step(states[-1], parameter)[0])
+    if not np.isfinite(states).all():
+        raise NoImage("an image of the start is not finite")
+    return np.array(states)
+
+
+def _least_period(system, points):
+    """The least period of points, those of a computed system as close as its steps leave them."""
+    close = MOVED if system.frozen else REPEATS * max(1.0, np.abs(points).max())
+    for period in range(1, len(points)):
+        apart = points - np.roll(points, -period, axis=0)
+        if len(points) % period == 0 and max(system.length(change, 0.0) for change in apart) < close:
+            return period
+    return len(points)

@@ -1,0 +1,110 @@
+"""The derivative of an orbit on the few directions that a period does not forget: linear systems and multipliers.
+
+    d_{i+1} = J_i d_i + b_i delta + r_i,    r_i = P(z_i) - z_{i+1},   J_i = dP/dz,   b_i = dP/dlambda     (a)
+
+Newton's update must close: d_N = d_0. Because (a) is affine in d_0 and delta, only they are left as unknowns. Along a
+branch the correction is orthogonal to its tangent t (Keller 1977); at a given parameter the last row and delta go:
+
+    [ I - M   -B  ] [ d_0   ]   [ R ]        M = J_{N-1} ... J_0,    R, B: d_N from the r_i, from the b_i, alone
+    [ t_z^T   t_l ] [ delta ] = [ a ]                                                                     (b)
+
+M has the multipliers of the orbit as eigenvalues; all but a few are near 0 in a damped system. So d_0 is sought in a
+small space Q, with least squares of what is left of (b), and what is left is its next direction (Saad & Schultz 1986).
+Multipliers are those of Q^T M Q (Rayleigh & Ritz), and what M y - mu y leaves of Q gives its next directions. Q begins
+with the directions that mattered at the orbit before, which a computed map carries at once for little more than one.
+"""
+
+from collections.abc import Sequence
+
+import numpy as np
+from scipy.linalg import eig
+
+from analysis.orbits.maps import Linearised, finite
+
+LINEAR = 1e-3  # what is left of the right-hand side of (b)
+RITZ = 1e-9  # what |M y - mu y| leaves, |y| = 1
+MOST_DIRECTIONS, MOST_PASSES = 60, 12
+NEW_DIRECTION = 1e-8  # what a unit vector must add to Q
+FORGOTTEN, MOST_KEPT = 1e-2, 12
+FRESH, SEED = 2, 16  # vectors of no preference, so that nothing is missed
+
+
+class Space:
+    """M on Q: `ways` are N + 1 arrays (n, k), Q and its images at each point of the orbit."""
+
+    def __init__(self, linearised: Sequence[Linearised], directions: np.ndarray):
+        self.linearised = linearised
+        self.ways = [np.empty((len(directions), 0))] * (len(linearised) + 1)
+        self.grow(directions)
+
+    def grow(self, vectors: np.ndarray) -> bool:
+        """Whether vectors (n, k) have added to Q. They are made orthogonal again after they have been chosen, because
+        a small remainder is orthogonal to Q only to its rounding."""
+        basis, lengths = self.ways[0], np.linalg.norm(vectors, axis=0)
+        new = vectors[:, lengths > 0.0] / lengths[lengths > 0.0]
+        new = new - basis @ (basis.T @ new)
+        left, sizes, _ = np.linalg.svd(new, full_matrices=False)
+        new = left[:, sizes > NEW_DIRECTION][:, : len(basis) - basis.shape[1]]
+        if not new.shape[1]:
+            return False
+        for _ in range(2):
+            new = np.linalg.qr(new - basis @ (basis.T @ new))[0]
+        for i, linear in enumerate([*self.linearised, None]):
+            self.ways[i] = np.hstack([self.ways[i], finite(new)])
+            new = linear(new) if linear else new
+        return True
+
+    def solve(
+        self, known: np.ndarray, slopes: np.ndarray | None = None, tangent: np.ndarray | None = None, along: float = 0.0
+    ) -> tuple[np.ndarray, float]:
+        """(b) for known parts r (N, n) and a = along: d (N, n) and delta; slopes b (N, n) and tangent (n + 1,)."""
+        free, n = tangent is not None, known.shape[1]
+        parts = [np.zeros((n, 1 + free))]
+        for i, linear in enumerate(self.linearised):
+            part = np.stack([known[i], slopes[i]] if free else [known[i]], axis=1)
+            parts.append(part + linear(parts[-1]) if parts[-1].any() else part)
+        right = np.append(parts[-1][:, 0], along if free else [])
+        while True:
+            basis, image = self.ways[0], self.ways[-1]
+            matrix = basis - image
+            if free:
+                matrix = np.block([[matrix, -parts[-1][:, 1:]], [tangent[:n] @ basis, tangent[n:]]])
+            found = np.linalg.lstsq(matrix, right, rcond=None)[0]
+            left = right - matrix @ found
+            settled = np.linalg.norm(left) <= LINEAR * np.linalg.norm(right)
+            if settled or basis.shape[1] >= MOST_DIRECTIONS or not self.grow(left[:n, None]):
+                break
+        found, delta = (found[:-1], float(found[-1])) if free else (found, 0.0)
+        shares = np.array([1.0, delta])[: 1 + free]
+        return np.array([way @ found + part @ shares for way, part in zip(self.ways[:-1], parts, strict=False)]), delta
+
+    def strongest(self) -> np.ndarray:
+        """Directions (n, k) that are left after a period."""
+        left, sizes, _ = np.linalg.svd(self.ways[-1], full_matrices=False)
+        return left[:, sizes > FORGOTTEN][:, :MOST_KEPT]
+
+    def multipliers(self, count: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """The largest: values (k,), their errors (k,) and eigenvectors (n, k) of length 1.
+
+        k is one larger than count where a conjugate pair would be cut, and n at most. Errors: what is left of
+        M y - mu y, with rounding, times the condition of mu; no more than |mu|, for those that may as well be 0.
+        """
+        n = len(self.ways[0])
+        self.grow(np.random.default_rng(SEED).normal(size=(n, FRESH + max(0, count - self.ways[0].shape[1]))))
+        for _ in range(MOST_PASSES):
+            basis, image = self.ways[0], self.ways[-1]
+            small = basis.T @ image
+            values, duals, vectors = eig(small, left=True)
+            order = np.argsort(-np.abs(values), kind="stable")
+            # of a pair, LAPACK gives the one with the positive imaginary part first
+            order = order[: count + (len(order) > count and values[order[count - 1]].imag > 0.0)]
+            values, duals, vectors = values[order], duals[:, order], vectors[:, order]
+            left = image @ vectors - (basis @ vectors) * values
+            sizes = np.linalg.norm(left, axis=0)
+            rough = left[:, sizes > RITZ * np.maximum(1.0, np.abs(values))]
+            if not rough.shape[1] or basis.shape[1] == n or not self.grow(np.hstack([rough.real, rough.imag])):
+                break
+        sizes = np.maximum(sizes, np.finfo(float).eps * np.linalg.norm(small, 2))
+        errors = sizes / np.maximum(np.abs((duals.conj() * vectors).sum(axis=0)), 1e-300)
+        errors = np.minimum(errors, np.maximum(np.abs(values), np.sqrt(sizes)))
+        return values, errors, basis @ vectors

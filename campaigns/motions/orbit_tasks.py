@@ -1,0 +1,166 @@
+"""Tasks on the orbits of a line of scenes: the orbit under a run, its branch, where it ends, an event on a finer grid.
+
+Each takes the `Line` first and returns plain numbers, words and lists, `reason` among them, and arrays of points.
+"""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+
+import engine
+from campaigns.motions.multipliers import COUNT
+from campaigns.motions.tracing import Line
+
+STEPS = {"step": 0.05, "least": 2e-3, "longest": 0.3}  # of a branch: m of what is seen, and shares of the range
+SHORT, MOST_SHORT = STEPS | {"longest": 0.1}, 12  # to an event that is near
+ACCURACY = 1e-2  # of a chord, to which an event is located: another grid changes it by more
+AROUND, NEAREST = 3.0, 0.02  # an event is looked for again within this many chords, and this share of the range
+LEAP = 0.2  # of a multiplier, between neighbours of a branch
+AMPLITUDE = 0.02, 0.1  # m, tried in turn, from an orbit at its flip to the one of twice the period
+
+
+def under(line: Line, value: float, period: int, state: object) -> tuple[dict, list[np.ndarray]]:
+    """The orbit under a run, or at a state (period, 8 n): its row, errors and history."""
+    from analysis.orbits import find_orbit, scatter_of
+
+    cable, system = line.maps
+    begin = state if isinstance(state, np.ndarray) else cable.at_strobe(state, value)
+    orbit = find_orbit(system, begin, value, period, count=COUNT)
+    if not orbit.found:
+        return {"reason": orbit.reason}, []
+    scatter, history = scatter_of(system, orbit), cable.history(orbit.points, value)
+    kept = "time_s", "radius_m", "radius_rate_mps", "angle_rad", "tension_top_N", "tension_min_N"
+    errors = [error if math.isfinite(error) else None for error in map(float, scatter.multipliers)]
+    result = _row(cable, orbit, history) | {"errors": errors}
+    return result | {"history": {name: [*map(float, history[name])] for name in kept}}, [orbit.points]
+
+
+def followed(line: Line, value: float, points: np.ndarray, most: int) -> tuple[dict, list[np.ndarray]]:
+    """The branch of the orbit with these points (N, 8 n), with its events and what begins at its flips."""
+    from analysis.orbits import doubled_orbit, find_orbit, follow_branch
+
+    cable, system = line.maps
+    orbit = find_orbit(system, points, value, len(points), count=COUNT)
+    if not orbit.found:
+        return {"reason": orbit.reason}, []
+    branch = follow_branch(system, orbit, line.low, line.high, **STEPS, most=most, count=COUNT, accuracy=ACCURACY)
+    orbits = [*branch.orbits]
+    for at in range(1, len(orbits) - 1):
+        orbits[at] = _steady(system, *orbits[at - 1 : at + 2])
+    rows = [_row(cable, one, cable.history(one.points, one.parameter)) for one in orbits]
+    found, events = [one.points for one in orbits], []
+    for event in branch.events:
+        history = cable.history(event.orbit.points, event.orbit.parameter)
+        told = _row(cable, event.orbit, history) | {"kind": event.kind, "angle_rad": event.angle_rad}
+        told |= {"value": event.parameter, "error": event.error if math.isfinite(event.error) else None}
+        told["at"] = len(found)
+        found.append(event.orbit.points)
+        if event.kind == "flip":
+            tried = (doubled_orbit(system, event, amplitude=m, count=COUNT) for m in AMPLITUDE)
+            doubled = next((one for one in tried if one.found), None)
+            if doubled is not None:
+                told |= {"doubled": len(found), "doubled_value": doubled.parameter}
+                told["doubled_seen"] = (doubled.points @ cable.seen).tolist()
+                found.append(doubled.points)
+        events.append(told)
+    ends = {"closed": branch.closed, "begins": branch.ends[0], "ends": branch.ends[1]}
+    return {"orbits": rows, "events": events, **ends}, found
+
+
+def lost(line: Line, period: int, ahead: float, *starts: object) -> tuple[dict, list[np.ndarray]]:
+    """Where the orbit under a run stops being stable: the first event from there on.
+
+    ahead: 1 up, -1 down; starts: value, state, value, state ... of runs of that motion, tried in turn.
+    """
+    from analysis.orbits import find_orbit, follow_branch
+
+    cable, system = line.maps
+    why = "the orbit under the run is not stable"
+    for value, state in zip(starts[::2], starts[1::2], strict=True):
+        try:
+            orbit = find_orbit(system, cable.at_strobe(state, value), value, period, count=COUNT)
+        except ArithmeticError as reason:
+            why = str(reason)
+            continue
+        if orbit.stable and orbit.period == period:
+            break
+        why = orbit.reason or why
+    else:
+        return {"reason": why}, []
+    how = {"most": MOST_SHORT, "count": COUNT, "accuracy": ACCURACY, "told": lambda one: not one.stable}
+    branch = follow_branch(system, orbit, line.low, line.high, **STEPS, **how)
+    events = [event for event in branch.events if (event.parameter - value) * ahead > 0.0]
+    if not events:
+        return {"reason": "the orbit stays stable"}, []
+    first = min(events, key=lambda event: abs(event.parameter - value))
+    error = first.error if math.isfinite(first.error) else None
+    return {"reason": "", "kind": first.kind, "value": first.parameter, "error": error}, []
+
+
+def sharper(line: Line, kind: str, at: float, value: float, points: np.ndarray) -> tuple[dict, list[np.ndarray]]:
+    """Where an event is at the tolerance of the line, from an orbit near it, at `value`; it was found at `at`."""
+    return _again(line, kind, at, value, points)
+
+
+def finer(line: Line, kind: str, at: float, value: float, points: np.ndarray) -> tuple[dict, list[np.ndarray]]:
+    """The same on 2n - 1 nodes."""
+    cable, _ = line.maps
+    more = replace(line, nodes=2 * line.scenes.base.tether.nodes - 1)
+    # rates between nodes are no rates of the finer line: a run makes them, and leads to the strobe after the next
+    later = [engine.simulate(more.scene(value), periods=1, start=cable.state_of(z, value)) for z in points]
+    if failed := [run for run in later if run.final_state is None]:
+        return {"reason": f"on {more.nodes} nodes: {failed[0].message or failed[0].status}"}, []
+    more = replace(more, state=later[-1].final_state, value=value)
+    fine = more.maps[0]
+    return _again(more, kind, at, value, np.roll([fine.at_strobe(run.final_state, value) for run in later], 2, axis=0))
+
+
+def _again(line, kind, at, value, points):
+    """An event near `at` on the branch of the orbit near these points."""
+    from analysis.orbits import find_orbit, follow_branch
+
+    system = line.maps[1]
+    orbit = find_orbit(system, points, value, len(points), count=COUNT)
+    if not orbit.found:
+        return {"reason": orbit.reason}, []
+    wide = max(AROUND * abs(at - value), NEAREST * line.size)
+    low, high = max(at - wide, line.low), min(at + wide, line.high)
+    ends = min(low, value), max(high, value)
+    branch = follow_branch(system, orbit, *ends, **SHORT, most=MOST_SHORT, count=COUNT, accuracy=ACCURACY)
+    same = [one for one in branch.events if one.kind == kind]
+    if not same:
+        return {"reason": f"no {kind} from {low:.5g} to {high:.5g}"}, []
+    event = min(same, key=lambda one: abs(one.parameter - at))
+    return {"reason": "", "value": event.parameter, "error": event.error if math.isfinite(event.error) else None}, []
+
+
+def _steady(system, before, orbit, after):
+    """The orbit; where its leading multiplier leaps from those of its neighbours, that of three sequences of steps
+    whose leading one is in the middle."""
+    from analysis.orbits import scatter_of
+
+    sides = [abs(one.multipliers[0]) for one in (before, after)]
+    if before.period != after.period or min(sides) * (1.0 - LEAP) < abs(orbit.multipliers[0]) < max(sides) * (
+        1.0 + LEAP
+    ):
+        return orbit
+    every = sorted((orbit, *scatter_of(system, orbit).orbits), key=lambda one: abs(one.multipliers[0]))
+    return every[len(every) // 2]
+
+
+def _row(cable, orbit, history) -> dict:
+    """An orbit in numbers and lists."""
+    per_period = len(history["time_s"]) // orbit.period
+    return {
+        "reason": "",
+        "value": orbit.parameter,
+        "period": orbit.period,
+        "multipliers": [[float(one.real), float(one.imag)] for one in orbit.multipliers],
+        "gap": orbit.gap,
+        "settled": orbit.settled,
+        "strobes": [float(one) for one in history["radius_m"][::per_period]],
+        "seen": (orbit.points @ cable.seen).tolist(),
+        "radius_m": [float(history["radius_m"].min()), float(history["radius_m"].max())],
+        "tension_N": [float(history["tension_top_low_N"].min()), float(history["tension_top_high_N"].max())],
+    }

@@ -1,0 +1,5 @@
+"""`python -m campaigns.orbits`."""
+
+from campaigns.orbits import main
+
+raise SystemExit(main())

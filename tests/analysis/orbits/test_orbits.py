@@ -1,0 +1,246 @@
+"""Orbits, multipliers, branches and events of maps that have them in closed form, and of eq. (33)."""
+
+from dataclasses import replace
+from functools import lru_cache
+
+import numpy as np
+import pytest
+
+from analysis.orbits import NoImage, OrbitMap, doubled_orbit, find_orbit, follow_branch, scatter_of
+from analysis.orbits.finding import Newton, described, solved_near
+from analysis.oscillator import SnapOscillator, grazing_force, periodic_orbit, search_periodic_orbits
+from analysis.oscillator.growth import random_starts
+from analysis.oscillator.pieces import tables
+from analysis.oscillator.strobing import tangent_map
+
+PAPER, B = SnapOscillator(), 0.3
+
+
+def logistic(z, r):
+    return r * z * (1.0 - z), lambda V: r * (1.0 - 2.0 * z[:, None]) * V
+
+
+def henon(z, a):
+    x, y = z
+    return np.array([1.0 - a * x * x + y, B * x]), lambda V: np.array([[-2.0 * a * x, 1.0], [B, 0.0]]) @ V
+
+
+def delayed_logistic(z, r):
+    x, y = z
+    return np.array([r * x * (1.0 - y), x]), lambda V: np.array([[r * (1.0 - y), -r * x], [1.0, 0.0]]) @ V
+
+
+def island(z, a):
+    """Fixed points: the circle of radius 1/2 about z = 1, a = 2."""
+    return z + 0.3 * (0.25 - (z - 1.0) ** 2 - (a - 2.0) ** 2), lambda V: (1.0 - 0.6 * (z[:, None] - 1.0)) * V
+
+
+def coupled(z, r, eps=0.4):
+    """A ring of logistic maps: the uniform fixed point has the multipliers (2 - r)(1 - eps + eps cos(2 pi k/n))."""
+
+    def mixed(values):
+        return (1.0 - eps) * values + 0.5 * eps * (np.roll(values, 1, axis=0) + np.roll(values, -1, axis=0))
+
+    return mixed(r * z * (1.0 - z)), lambda V: mixed(r * (1.0 - 2.0 * z[:, None]) * V)
+
+
+@lru_cache
+def table_of(force):
+    return tables(replace(PAPER, force=force))
+
+
+def snap(z, force):
+    x, v, matrix = tangent_map(z[0], z[1], 1, table_of(float(force)))
+    return np.array([x, v]), lambda V: matrix @ V
+
+
+def of_kind(branch, kind):
+    return [event for event in branch.events if event.kind == kind]
+
+
+def closely(value):
+    return pytest.approx(value, abs=1e-8)
+
+
+def test_period_1_and_2_of_the_henon_map_have_their_multipliers():
+    a = 1.0
+    x = (-(1 - B) + np.sqrt((1 - B) ** 2 + 4 * a)) / (2 * a)
+    one = find_orbit(OrbitMap(henon), [0.6, 0.2], a, tolerance=1e-13)
+    assert one.points[0] == pytest.approx([x, B * x], abs=1e-12)
+    assert one.multipliers == pytest.approx(-a * x + np.array([-1, 1]) * np.sqrt(a * a * x * x + B), abs=1e-12)
+    two = find_orbit(OrbitMap(henon), [-0.4, 0.3], a, 2, tolerance=1e-13)
+    trace = 4 * ((1 - B) ** 2 - a) + 2 * B
+    assert (
+        two.period == 2 and two.multipliers.sum() == pytest.approx(trace) and np.prod(two.multipliers) == closely(B * B)
+    )
+    assert two.residuals.max() < 1e-12 and two.stable is bool(np.abs(two.multipliers).max() < 1)
+
+
+def test_the_least_period_is_told_and_a_map_without_orbits_is_refused_in_words():
+    assert find_orbit(OrbitMap(logistic), [0.6], 2.8, 6).period == 1
+    refused = find_orbit(OrbitMap(henon), [0.5, 0.1], -0.5)  # below the fold
+    assert not refused.found and not refused.stable and "Newton" in refused.reason
+    away = find_orbit(OrbitMap(lambda z, r: (z * np.nan, lambda V: V)), [0.5], 1.0, 3)
+    assert "not finite" in away.reason
+    with pytest.raises(ValueError, match="start"):
+        find_orbit(OrbitMap(logistic), [[0.5], [0.6]], 3.2, 3)
+
+
+def test_newton_converges_quadratically():
+    tolerances = 10.0 ** -np.arange(15.0)
+    *steps, exact = (find_orbit(OrbitMap(henon), [1.0, 0.3], 1.0, tolerance=tolerance) for tolerance in tolerances)
+    error = {orbit.iterations: np.abs(orbit.points - exact.points).max() for orbit in steps}
+    error = np.array([value for _, value in sorted(error.items()) if value > 1e-13])
+    assert len(error) >= 3 and (error[1:] < 2.0 * error[:-1] ** 2 + 1e-14).all()
+
+
+@pytest.mark.parametrize("skew", [5.0, 300.0])
+def test_multipliers_of_a_map_far_from_normal_are_those_of_every_cyclic_order(skew):
+    """Three maps of rank 4 in 300 coordinates; their product has the eigenvalues of a matrix of 4 by 4."""
+    n, random = 300, np.random.default_rng(4)
+    frames = [np.linalg.qr(random.normal(size=(n, 4)))[0] for _ in range(3)]
+    mixed = [np.triu(random.normal(size=(4, 4)), 1) * skew + np.diag([1.2, -0.9, 0.5, 0.4]) for _ in range(3)]
+    chain = [frames[(k + 1) % 3] @ mixed[k] @ frames[k].T for k in range(3)]
+    exact = np.sort([1.2**3, (-0.9) ** 3, 0.5**3, 0.4**3])
+
+    def orbit_from(first):
+        steps = [lambda z, q, M=chain[(first + k) % 3]: (M @ z, lambda V: M @ V) for k in range(3)]
+        system = OrbitMap(steps[0], frozen=lambda points, q, mesh: steps)
+        return described(solved_near(system, np.zeros((3, n)), 0.0, Newton()), 4)[0]
+
+    for first in range(3):
+        orbit = orbit_from(first)
+        values = np.sort(orbit.multipliers.real)
+        assert (np.abs(values - exact) < orbit.residuals.max()).all(), "where rounding is magnified, they say so"
+        assert skew > 5.0 or values == pytest.approx(exact, abs=1e-8)
+
+
+def test_multipliers_that_have_not_settled_are_said_to_be_so_and_make_no_events():
+    """A shift of coordinates: 0 is its only multiplier, and rounding alone makes others of modulus 1.3 of it."""
+    n = 120
+    shift = np.diag(np.full(n - 1, 1.6), -1)
+
+    def step(z, r):
+        return r * (shift @ z), lambda V: r * (shift @ V)
+
+    orbit = find_orbit(OrbitMap(step), np.zeros(n), 1.0)
+    assert orbit.found and not orbit.settled and not orbit.stable
+    branch = follow_branch(OrbitMap(step), orbit, 0.9, 1.1, most=3)
+    assert not any(orbit.settled for orbit in branch.orbits) and not branch.events
+
+
+@pytest.mark.parametrize("n", [40, 300])
+def test_krylov_spaces_serve_a_map_of_many_coordinates(n):
+    r, start = 2.6, 0.6 + 0.05 * np.sin(np.arange(n))
+    products = []
+
+    def counted(z, r):
+        image, linear = coupled(z, r)
+        return image, lambda V: products.append(V.shape[1]) or linear(V)
+
+    orbit = find_orbit(OrbitMap(counted), start, r, count=5)
+    shares = np.sort(0.6 + 0.4 * np.cos(2 * np.pi * np.arange(n) / n))[::-1]
+    assert orbit.points == pytest.approx(np.full((1, n), 1 - 1 / r), abs=1e-9)
+    settled = orbit.residuals < 1e-8
+    assert orbit.multipliers[settled] == pytest.approx((2 - r) * shares[: len(settled)][settled], abs=1e-8)
+    assert settled.all() if n == 40 else sum(products) < n, "no matrix is formed"
+    # where the spectrum is too dense for the passes, the residuals say so
+    nearest = np.abs(orbit.multipliers[:, None] - (2 - r) * shares).min(axis=1)
+    assert (nearest <= orbit.residuals + 1e-8).all()
+
+
+def test_folds_and_flips_of_the_henon_map_and_the_doubled_orbit():
+    system = OrbitMap(henon)
+    branch = follow_branch(system, find_orbit(system, [0.6, 0.2], 0.2), -1.0, 1.2, most=40)
+    (fold,), (flip,) = of_kind(branch, "fold"), of_kind(branch, "flip")
+    assert fold.parameter == closely(-((1 - B) ** 2) / 4) and flip.parameter == closely(3 * (1 - B) ** 2 / 4)
+    assert abs(fold.parameter + (1 - B) ** 2 / 4) <= fold.error and fold.error < 1e-7
+    assert fold.orbit.multipliers[0] == pytest.approx(1.0, abs=1e-4)
+    assert [orbit.stable for orbit in branch.orbits].count(True) > 3 and not branch.closed
+    assert branch.parameters[-1] == 1.2 and branch.ends[1] == "reaches the end of the range, 1.2"
+    two = follow_branch(system, doubled_orbit(system, flip), -1.0, 1.2)
+    (flip,) = of_kind(two, "flip")
+    assert flip.parameter == closely((1 - B) ** 2 + (1 + B) ** 2 / 4) and flip.orbit.period == 2
+    assert "meets the orbit of period 1" in two.ends
+
+
+def test_period_3_of_the_logistic_map_begins_at_a_fold_and_flips_on():
+    system = OrbitMap(logistic, along=lambda z, r: z * (1.0 - z))
+    branch = follow_branch(system, find_orbit(system, [0.16], 3.84, 3), 3.0, 3.9)
+    assert [e.parameter for e in of_kind(branch, "fold")] == [closely(1 + np.sqrt(8))]
+    six = doubled_orbit(system, of_kind(branch, "flip")[0], amplitude=1e-3)
+    assert six.found and six.period == 6 and six.stable and six.gap < 1e-8
+
+
+def test_the_delayed_logistic_map_has_a_torus_point_at_2_with_60_degrees():
+    system = OrbitMap(delayed_logistic)
+    branch = follow_branch(system, find_orbit(system, [0.4, 0.4], 1.7), 1.5, 2.4)
+    (torus,) = branch.events
+    assert torus.kind == "torus" and torus.parameter == closely(2.0) and torus.angle_rad == closely(np.pi / 3)
+
+
+def test_an_island_closes_with_its_two_folds():
+    system = OrbitMap(island)
+    branch = follow_branch(system, find_orbit(system, [1.4], 2.0), 0.0, 4.0)
+    assert branch.closed and "comes back" in branch.ends[0] and len(of_kind(branch, "fold")) == 2
+    assert sorted(e.parameter for e in branch.events) == [closely(1.5), closely(2.5)]
+    assert np.hypot([o.points[0, 0] - 1 for o in branch.orbits], branch.parameters - 2) == closely(0.5)
+
+
+def test_a_system_that_takes_steps_keeps_them_while_an_orbit_is_corrected_and_quotes_what_others_change():
+    """Its steps change the parameter by up to 1e-4, as irregularly as a mesh that adapts itself."""
+    asked = []
+
+    def frozen(points, r, mesh=0):
+        asked.append(mesh)
+        return [lambda z, s: logistic(z, s * (1 + 1e-4 * np.sin(1e6 * r + 2.0 * mesh)))] * len(points)
+
+    system = OrbitMap(logistic, frozen=frozen, meshes=3)
+    first = find_orbit(system, [0.6], 2.8)
+    branch = follow_branch(system, first, 2.5, 3.3, least=1e-3)
+    (flip,) = branch.events
+    assert abs(flip.parameter - 3.0) < flip.error < 2e-3 and asked.count(0) < 2 * len(branch.orbits) + 8
+    scatter = scatter_of(system, first)
+    assert len(scatter.orbits) == 2 and abs(first.multipliers[0] + 0.8) < 2 * scatter.multipliers[0] < 2e-3
+    assert 0.0 < scatter.points.max() < 1e-4 and not scatter_of(OrbitMap(logistic), first).points.any()
+
+
+def test_a_branch_ends_in_words_where_the_map_does():
+    def breaking(z, r):
+        if r > 2.9:
+            raise NoImage("a loop is released")
+        return logistic(z, r)
+
+    branch = follow_branch(OrbitMap(breaking), find_orbit(OrbitMap(breaking), [0.6], 2.7), 2.5, 3.5)
+    assert branch.ends[1].endswith("a loop is released") and 2.89 < branch.parameters.max() <= 2.9
+    with pytest.raises(ValueError, match="orbit"):
+        follow_branch(OrbitMap(breaking), find_orbit(OrbitMap(breaking), [0.6], 2.7), 3.0, 3.5)
+
+
+@pytest.mark.parametrize("period", range(1, 9))
+def test_orbits_of_eq_33_from_random_starts_are_those_of_the_exact_map(period):
+    system, starts = OrbitMap(snap), random_starts(60, 100 + period)
+    exact = search_periodic_orbits(PAPER, period, starts)
+    guesses = [*starts[:20], *(orbit.points[0] + 1e-5 for orbit in exact)]
+    orbits = [find_orbit(system, guess, PAPER.force, period, tolerance=1e-13) for guess in guesses]
+    orbits = [orbit for orbit in orbits if orbit.found and orbit.period == period]
+    assert orbits
+    for orbit in orbits:
+        known = periodic_orbit(PAPER, period, orbit.points[0])
+        first = int(orbit.points[:, 0].argmin())
+        assert np.roll(orbit.points, -first, axis=0) == pytest.approx(known.points, abs=1e-10)
+        assert np.sort_complex(orbit.multipliers) == pytest.approx(
+            np.sort_complex(known.multipliers), rel=1e-8, abs=1e-8
+        )
+    again = find_orbit(system, np.roll(orbit.points, 1, axis=0), PAPER.force, period, tolerance=1e-13)
+    assert again.multipliers == pytest.approx(orbit.multipliers, rel=1e-8, abs=1e-8), "the same from any strobe"
+
+
+def test_eq_33_stays_taut_up_to_the_grazing_force_and_is_followed_beyond():
+    system, graze = OrbitMap(snap), grazing_force(PAPER).force
+    branch = follow_branch(system, find_orbit(system, [0.68, 0.0], 0.5 * graze), 0.01 * graze, 2.0 * graze)
+    assert branch.ends[0] == f"reaches the end of the range, {0.01 * graze:g}"
+    taut = branch.parameters < graze
+    modulus = np.abs([orbit.multipliers[0] for orbit in branch.orbits])
+    assert modulus[taut] == pytest.approx(np.exp(-0.5 * PAPER.damping * PAPER.period), abs=1e-9)
+    assert (~taut).any() and branch.parameters.max() <= 2.0 * graze

@@ -1,0 +1,107 @@
+"""`campaigns.orbits`: the tree of orbits of a map with known folds and flips, and what is refused."""
+
+from dataclasses import dataclass
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from analysis.orbits import NoImage, OrbitMap
+from campaigns.columns import Column
+from campaigns.orbits import cases, read_order
+from campaigns.orbits.tables import tables
+from campaigns.orbits.tree import Tree
+from tests.campaigns.conftest import rows_of
+
+B = 0.3
+FOLD, FLIP, SECOND = -((1 - B) ** 2) / 4, 3 * (1 - B) ** 2 / 4, (1 - B) ** 2 + (1 + B) ** 2 / 4  # of Henon's map
+KEY = Column("a", "", "a", "parameter of Henon's map", 5)
+NAMES = "time_s", "radius_m", "radius_rate_mps", "angle_rad", "tension_top_N", "tension_min_N"
+
+
+def henon(z, a):
+    x, y = z
+    return np.array([a - x * x + y, B * x]), lambda V: np.array([[-2.0 * x, 1.0], [B, 0.0]]) @ V
+
+
+class Seen:
+    """Henon's map as a PeriodMap tells of itself."""
+
+    seen = np.eye(2)
+
+    def history(self, points, _value):
+        rows = np.array(points)
+        columns = dict.fromkeys((*NAMES, "tension_top_low_N", "tension_top_high_N"), rows[:, 1])
+        return columns | {"time_s": np.arange(float(len(rows))), "radius_m": rows[:, 0]}
+
+
+@dataclass(frozen=True)
+class HenonLine:
+    low: float = -0.15
+    high: float = 0.95
+    size: float = 1.0
+    step: object = henon
+
+    @property
+    def maps(self):
+        return Seen(), OrbitMap(self.step, parameter_size=self.size)
+
+    def digest(self):
+        return "henon"
+
+
+def fixed(a, way):
+    x = (-(1 - B) + way * ((1 - B) ** 2 + 4 * a) ** 0.5) / 2
+    return np.array([[x, B * x]])
+
+
+def grown(out, branches=8, starts=None, line=None):
+    """The tree of these starts with its tables."""
+    how = SimpleNamespace(out=out, jobs=2, backend="threading", dask_address=None)
+    tree = Tree(SimpleNamespace(how=how, sends=False), line or HenonLine(), 60, branches)
+    tree.grow(starts or [("A", 0.2, 1, fixed(0.2, 1)), ("B", 0.2, 1, fixed(0.2, -1))])
+    tree.across([0.2])
+    tables(tree, KEY)
+    return tree
+
+
+def test_both_sides_of_a_fold_are_one_branch_and_each_flip_begins_another(tmp_path):
+    first = grown(tmp_path)
+    rows, events = rows_of(tmp_path, "branches/table.csv"), rows_of(tmp_path, "events/table.csv")
+    assert [(row["branch"], row["motion"]) for row in rows] == [("1", "A B"), ("2", ""), ("4", "")]
+    for branch, kind, value, leads in (("1", "fold", FOLD, ""), ("1", "flip", FLIP, "2"), ("2", "flip", SECOND, "4")):
+        (event,) = (one for one in events if (one["branch"], one["kind"]) == (branch, kind))
+        assert abs(float(event["a"]) - value) <= float(event["error"]) < 1e-2 and event["leads_to"] == leads
+    assert {row["unstable"] for row in rows_of(tmp_path, "orbits/table.csv")} == {"0", "1"}
+    again = grown(tmp_path)
+    assert first.computed > 0 and again.computed == 0 and again.there == first.computed + first.there
+
+
+def test_what_is_not_followed_or_not_found_is_a_row_with_its_reason(tmp_path):
+    def broken(z, a):
+        if z[0] > 5.0:
+            raise NoImage("a loop is released in the period")
+        return henon(z, a)
+
+    line = HenonLine(step=broken)
+    starts = [("A", 0.2, 1, fixed(0.2, 1)), ("C", 0.2, 1, np.array([[9.0, 0.0]]))]
+    grown(tmp_path, branches=1, starts=starts, line=line)
+    sound, lost, left = rows_of(tmp_path, "branches/table.csv")
+    assert (sound["status"], lost["status"], left["status"]) == ("ok", "no-orbit", "no-orbit")
+    assert lost["motion"] == "C" and "a loop is released" in lost["message"]
+    assert left["period"] == "2" and "--branches" in left["message"]
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (["--vary", "waves.steepness", "0.05"], "--vary"),
+        (["--vary", "tether.nodes", "9", "17"], "grid"),
+        (["--start-from", "a.nc", "--motion", "A"], "--motion"),
+    ],
+)
+def test_what_has_no_orbits_is_refused_in_words(words, said, tmp_path):
+    order = read_order([*words, "--out", str(tmp_path / "new")], faults := [])
+    if not faults:
+        list(cases(order))
+    assert any(said in fault for fault in faults)

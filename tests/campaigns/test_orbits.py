@@ -1,0 +1,108 @@
+"""`campaigns.orbits`: the orbits under motions, along a key; where orbits say that a motion ends."""
+
+import numpy as np
+import pytest
+
+from campaigns.motions.tracing import Line, Scenes, Task, worked
+from campaigns.orbits import main
+from campaigns.orbits.tree import _on, _same
+from engine import load_scene
+from reports.orbits.report import report
+from reports.parts.content import Figure, Table
+from tests.campaigns.conftest import rows_of
+
+QUICK = ["--set", "tether.nodes=9", "water.depth_m=25", "--vary", "waves.steepness", "0.1", "0.12", "--values", "2"]
+
+
+def loops(line, *given):
+    raise ArithmeticError("a loop is released")
+
+
+def doubles(line, value):
+    return {"reason": "", "value": 2.0 * value}, [np.array([[value]])]
+
+
+def test_a_result_is_kept_and_a_damaged_one_made_again(tmp_path):
+    scene = load_scene("tethered_buoy", {"tether.nodes": 9})
+    line = Line(Scenes(scene.to_toml(), "waves.steepness", "waves.steepness"), 0.1, 0.2, 0.1, Digest(), 0.1)
+    task = Task(doubles, line, (0.3,))
+    assert worked(tmp_path, task)[0]["value"] == 0.6
+    path = tmp_path / f"{task.key}.npz"
+    before = path.stat().st_ino
+    assert worked(tmp_path, task)[1][0] == 0.3 and path.stat().st_ino == before
+    path.write_bytes(path.read_bytes()[:-7])
+    assert worked(tmp_path, task)[0]["value"] == 0.6 and path.stat().st_ino != before
+    assert worked(tmp_path, Task(loops, line, (0.3,))) == ({"reason": "a loop is released"}, [])
+    assert Task(doubles, line, (0.4,)).key != task.key
+
+
+class Digest:
+    """Stands for a state."""
+
+    def digest(self):
+        return "of a state"
+
+
+def test_scenes_along_a_key_and_along_an_element_of_a_list():
+    scene = load_scene("tethered_buoy")
+    assert Scenes(scene.to_toml(), "water.depth_m", "water.depth_m").at(23.5).water.depth_m == 23.5
+    kicked = Scenes(scene.to_toml(), "start.buoy_velocity_mps[2]", "start.buoy_velocity_mps", 2)
+    assert kicked.at(1.5).start.buoy_velocity_mps == (0.0, 0.0, 1.5)
+    assert Scenes(scene.to_toml(), "tether.nodes", "tether.nodes")(20.5) is None
+
+
+def test_an_orbit_lies_on_a_branch_begun_at_any_strobe():
+    begin = np.array([[20.0, 1.0], [21.0, 2.0], [22.0, 3.0]])
+    chord = [{"seen": begin + share, "value": 0.1 + 0.1 * share} for share in (0.0, 1.0)]
+    seen = np.roll(begin + 0.5, 2, axis=0)
+    assert _on(chord, 0.15, seen, 0.1) and not _on(chord, 0.25, seen, 0.1)
+    assert not _on(chord, 0.15, seen + 1.0, 0.1) and not _on(chord, 0.15, seen[:1], 0.1)
+    assert _same(seen, begin + 0.5) and not _same(seen, begin) and not _same(seen, seen[:1])
+
+
+@pytest.mark.slow
+def test_the_orbits_of_a_small_range_are_found_followed_and_not_computed_again(tmp_path, capsys):
+    """41 nodes give |μ| = .92 and .91 at kA = 0.10 and 0.12, with the pair that the runs' exponents show."""
+    words = [*QUICK, "--no-accuracy", "--no-report", "--out", str(tmp_path)]
+    assert main(words) == 0
+    rows, (branch,) = rows_of(tmp_path), rows_of(tmp_path, "branches/table.csv")
+    assert (branch["branch"], branch["motion"], branch["status"]) == ("1", "A", "ok")
+    assert all(branch[side].startswith("reaches the end of the range") for side in ("begins", "ends"))
+    values = [float(row["waves.steepness"]) for row in rows]
+    assert min(values) == 0.1 and max(values) == 0.12 and sorted(values) in (values, values[::-1])
+    modulus = [float(row["multiplier_modulus"]) for row in rows]
+    assert all(0.88 < one < 0.95 for one in modulus) and all(row["unstable"] == "0" for row in rows)
+    assert max(float(row["gap"]) for row in rows) < 1e-8
+    (orbit,) = rows_of(tmp_path, "orbits/table.csv")
+    assert 0.0 < float(orbit["multiplier_1_error"]) < 0.02 and (tmp_path / "orbits" / "1_0.csv").exists()
+    assert {row["status"] for row in rows_of(tmp_path, "motions/table.csv")} == {"ok"}
+    kept = {path: path.stat().st_mtime_ns for path in (tmp_path / "branches").glob("*.npz")}
+    (tmp_path / "table.csv").unlink()
+    capsys.readouterr()
+    assert main(words) == 0 and kept == {
+        path: path.stat().st_mtime_ns for path in (tmp_path / "branches").glob("*.npz")
+    }
+    assert rows_of(tmp_path) == rows and "0 computed" in capsys.readouterr().out
+    items = report(tmp_path).items
+    assert any(isinstance(item, Figure) for item in items) and any(isinstance(item, Table) for item in items)
+    run = next((tmp_path / "motions" / "trajectories").glob("*.nc"))
+    one = ["--vary", "waves.steepness", "0.1", "0.12", "--start-from", str(run), "--orbits", "1"]
+    assert main([*one, "--no-accuracy", "--no-report", "--out", str(tmp_path / "one")]) == 0
+    assert len(rows_of(tmp_path / "one")) <= 3
+
+
+@pytest.mark.slow
+def test_a_sweep_tells_multipliers_and_the_fold_at_which_a_motion_ends(tmp_path):
+    """H = 25 m: the period 3 is an island that begins at a fold at kA = 0.12087 (81 nodes: the same to 2e-4)."""
+    from campaigns.buoy_sweep import main as sweep
+
+    words = ["--set", "water.depth_m=25", "--steepness", "0.12", "0.13", "--no-accuracy", "--no-report"]
+    assert sweep([*words, "--starts", "0", "--out", str(tmp_path)]) == 0
+    found = {(row["steepness"], row["regime"]): row for row in rows_of(tmp_path)}
+    one, three = found["0.13", "period-1"], found["0.13", "period-3"]
+    assert float(one["multiplier_modulus"]) == pytest.approx(0.9005, abs=float(one["multiplier_error"]) + 5e-3)
+    assert float(three["multiplier_angle_rad"]) == pytest.approx(np.pi)
+    assert float(three["multiplier_modulus"]) == pytest.approx(0.738, abs=float(three["multiplier_error"]) + 0.02)
+    assert "leading multiplier -0.7" in three["regime_reason"]
+    (end,) = (row for row in rows_of(tmp_path, "ends/table.csv") if row["motion"] == three["motion"])
+    assert end["kind"] == "fold" and float(end["steepness_end"]) == pytest.approx(0.12087, abs=2e-4)

@@ -1,0 +1,110 @@
+"""The map of the cable over one wave period, and its derivative."""
+
+import math
+
+import numpy as np
+import pytest
+
+from analysis.orbits import OrbitMap, find_orbit
+from engine import load_scene, simulate
+from engine.period_map import PeriodMap
+
+SMALL = {"tether.nodes": 9, "water.depth_m": 25.0, "solver.rtol": 1e-3}
+AT = 0.13
+
+
+def scene_at(value, **changes):
+    return load_scene("tethered_buoy", {**SMALL, "waves.steepness": value, **changes})
+
+
+@pytest.fixture(scope="module")
+def settled():
+    return simulate(scene_at(AT), periods=30.3)
+
+
+@pytest.fixture(scope="module")
+def cable(settled):
+    return PeriodMap(scene_at, settled.final_state, AT)
+
+
+def test_it_repeats_to_the_last_bit_and_its_derivative_is_that_of_differences(cable):
+    image, z = cable.frozen([cable.first], AT)[0], cable.first
+    there, derivative = image(z, AT)
+    assert (image(z, AT)[0] == there).all()
+    V = np.random.default_rng(1).normal(size=(len(z), 3))
+    V = derivative(V)
+    V /= np.linalg.norm(V, axis=0)
+    for v, found in zip(V.T, derivative(V).T, strict=True):
+        ahead, behind = (image(z + h * v, AT)[0] for h in (1e-6, -1e-6))
+        assert found == pytest.approx((ahead - behind) / 2e-6, abs=1e-4 * np.abs(found).max())
+
+
+def test_it_begins_at_the_strobe_after_a_state_and_goes_where_a_run_does(cable, settled):
+    """The state is .3 of a period and part of a step past a strobe."""
+    longer = simulate(scene_at(AT), periods=32)
+    per_period = cable.samples_of(scene_at(AT))
+    found = cable.history([cable.first], AT)
+    assert list(found) == list(longer.columns) and len(found["time_s"]) == per_period
+    last = {name: column[31 * per_period : 32 * per_period] for name, column in longer.columns.items()}
+    assert found["radius_m"] == pytest.approx(last["radius_m"], abs=2e-3)
+    x, z, u, w = cable.seen.T @ cable.first
+    omega = 2.0 * math.pi / scene_at(AT).waves.period_s
+    assert (math.hypot(x, z), (x * u + z * w) * omega / math.hypot(x, z)) == pytest.approx(
+        (found["radius_m"][0], found["radius_rate_mps"][0]), abs=1e-9
+    )
+    assert found["tension_top_high_N"].max() == pytest.approx(last["tension_top_high_N"].max(), rel=2e-3)
+
+
+def test_an_orbit_is_what_the_run_settles_on_and_what_a_run_from_its_state_keeps(cable, settled):
+    orbit = find_orbit(OrbitMap(cable.step, frozen=cable.frozen), cable.first, AT, count=4)
+    assert orbit.found and orbit.stable and orbit.gap < 1e-8
+    per_period = cable.samples_of(scene_at(AT))
+    kept = simulate(scene_at(AT), periods=4, start=cable.state_of(orbit.points[0], AT)).columns["radius_m"]
+    assert kept[::per_period] == pytest.approx(kept[0], abs=1e-3)  # rtol of its own steps
+    assert kept[0] == pytest.approx(cable.history(orbit.points, AT)["radius_m"][0], abs=1e-12)
+    # the volume that four perturbations span shrinks by the product of their multipliers, however pairs of them turn
+    tight = scene_at(AT, **{"output.tangent_vectors": 4, "solver.rtol": 1e-4})
+    shrinks = simulate(tight, periods=60, start=settled.final_state.at_zero()).tangent.growth_nats[30:].sum(axis=1)
+    assert shrinks.mean() == pytest.approx(math.log(abs(np.prod(orbit.multipliers[:4]))), rel=0.03)
+
+
+def test_a_period_that_changes_keeps_the_steps_as_shares_of_it(settled):
+    def of_period(value):
+        return load_scene("tethered_buoy", {**SMALL, "waves.steepness": AT, "waves.period_s": value})
+
+    period_s = of_period(5.0).waves.period_s
+    cable = PeriodMap(of_period, simulate(of_period(period_s), periods=10).final_state, period_s)
+    (image,) = cable.frozen([cable.first], period_s)
+    near = image(cable.first, period_s * (1 + 1e-6))[0]
+    assert 0.0 < np.abs(near - image(cable.first, period_s)[0]).max() < 1e-4
+
+
+@pytest.mark.parametrize(
+    ("changes", "word"),
+    [
+        ({"motion.dimensions": 3}, "in a plane"),
+        ({"solver.integrator": "backward-euler", "solver.step_s": 0.02}, "error control"),
+    ],
+)
+def test_scenes_without_such_a_map_are_refused(settled, changes, word):
+    with pytest.raises(ValueError, match=word):
+        PeriodMap(lambda value: scene_at(value, **changes), settled.final_state, AT)
+
+
+def test_a_state_without_image_is_refused_in_words(cable):
+    wild = cable.first.copy()
+    wild[: 4 * 9].reshape(9, 4)[1:, 2:] *= 400.0
+    with pytest.raises(ArithmeticError, match="Newton's method did not converge at t = 0 s"):
+        cable.step(wild, AT)
+
+
+def test_a_loop_that_is_released_and_another_grid_are_refused_in_words(cable):
+    violent = {"water.depth_m": 21.0, "tether.nodes": 21}
+    begin = simulate(scene_at(0.136, **violent), periods=3).final_state
+    there = PeriodMap(lambda value: scene_at(value, **violent), begin, 0.136)
+    z = there.first
+    with pytest.raises(ArithmeticError, match="a loop is released"):
+        for _ in range(60):
+            z = there.step(z, 0.136)[0]
+    with pytest.raises(ValueError, match="one grid"):
+        PeriodMap(lambda v: scene_at(v, **{"tether.nodes": 9 if v < 0.14 else 11}), cable.start, AT).step(z, 0.15)

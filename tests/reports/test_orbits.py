@@ -1,0 +1,116 @@
+"""The report on orbits: solid where they are stable, dashed where not, and every caveat beside its number."""
+
+import json
+import shutil
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from campaigns.buoy_sweep.rows import COLUMNS, STEEPNESS
+from reports import content_of
+from reports.orbits.branches import read_branches
+from reports.orbits.report import report
+from reports.parts.content import Figure, Notice, Table
+from reports.parts.folder import FolderError, read_folder
+from tests.reports.conftest import rows_in, write
+from tests.reports.test_words_apart import crowded
+
+WORDS = ("branch", "kind", "motion", "begins", "ends", "leads_to", "found_by", "status", "message")
+FOLD, FLIP = 0.06, 0.11  # at the fold the orbits are 21 m and the multiplier is 1
+
+
+def columns_of(rows):
+    """Columns for rows: words or numbers."""
+    own = (replace(COLUMNS[2], name=name) if name in WORDS else replace(STEEPNESS, name=name) for name in rows[0])
+    return tuple(STEEPNESS if one.name == "steepness" else one for one in own)
+
+
+@pytest.fixture
+def orbits(folder, tmp_path):
+    """A saddle comes up to the fold, the node leaves it, flips, and begins a branch of period 2 that ends early."""
+    place = tmp_path / "orbits"
+    shutil.copytree(folder, place, ignore=lambda *_: ("report.html", "report.pdf", ".report.json", "trajectories"))
+    (place / "trajectories").mkdir()
+    told = json.loads((place / "provenance.json").read_text()) | {"campaign": "orbits", "vary": {"steepness": [0, 1]}}
+    (place / "provenance.json").write_text(json.dumps(told))
+    rows, usual = [], {"status": "ok", "message": "", "motion": "A"}
+    for name, period, places in (("1", 1, np.linspace(-0.3, 0.3, 14)), ("2", 2, np.linspace(0.02, 0.2, 8))):
+        for number, s in enumerate(places):
+            kA = FOLD + s**2 if period == 1 else FLIP + s**2
+            mu = 1.0 - 2.0 * s / np.sqrt(FLIP - FOLD) if period == 1 else 0.5
+            where = {"branch": name, "place": number, "steepness": kA, "period": period, "unstable": int(abs(mu) > 1.0)}
+            first = {"multiplier_1_real": mu, "multiplier_1_imag": 0.0, "multiplier_1_error": 0.01}
+            pull = 3000.0 + 5000.0 * s
+            rows.append(
+                {**usual, **where, **first, "multiplier_modulus": abs(mu), "tension_top_max_N": pull, "gap": 1e-12}
+            )
+    write(place, rows, columns_of(rows))
+    strobes = ["branch,place,strobe,radius_m"]
+    for row in rows:
+        strobes += [
+            f"{row['branch']},{row['place']},{k},{21.0 + 0.1 * k + row['steepness']}" for k in range(row["period"])
+        ]
+    (place / "strobes.csv").write_text("\n".join(strobes))
+    event = {**usual, "branch": "1", "angle_rad": 0.0, "finer": FOLD, "error": 1e-4, "leads_to": ""}
+    events = [
+        {**event, "kind": "fold", "steepness": FOLD, "tension_top_max_N": 3000.0},
+        {**event, "kind": "flip", "steepness": FLIP, "tension_top_max_N": 3000.0 + 5000.0 * np.sqrt(FLIP - FOLD),
+         "error": 9e-4, "finer": "", "leads_to": "2", "angle_rad": np.pi},
+    ]  # fmt: skip
+    write(place / "events", events, columns_of(events))
+    end = {**usual, "begins": "reaches the end of the range, 0.15", "ends": "meets the orbit of period 1"}
+    failed = "at 0.15 no step above 0.001 succeeds: a loop is released"
+    ends = [{**end, "branch": "1"}, {**end, "branch": "2", "motion": "", "ends": failed}]
+    write(place / "branches", ends, columns_of(ends))
+    chosen = [{**row, "found_by": "Newton"} for row in rows if (row["branch"], row["place"]) in {("1", 2), ("1", 11)}]
+    write(place / "orbits", chosen, columns_of(chosen))
+    for row in chosen:
+        history = "time_s,radius_m,radius_rate_mps,tension_top_N\n0,21,0,100\n1,22,1,200\n2,21,0,100\n"
+        (place / "orbits" / f"1_{row['place']}.csv").write_text(history)
+    runs = [row | {"motion": "AB"[float(row["steepness"]) > 0.09]} for row in rows_in(folder) if row["status"] == "ok"]
+    write(place / "motions", runs, (*COLUMNS, replace(COLUMNS[2], name="motion")))
+    (place / "motions" / "trajectories").symlink_to(folder / "trajectories")
+    return place
+
+
+def test_a_line_is_solid_between_the_events_where_it_is_stable(orbits):
+    one, two = read_branches(read_folder(orbits), "steepness", [])
+    assert one.colour == two.colour, "it begins at an event of the first"
+    saddle, node, flipped = one.lines("strobes")
+    assert [curve.line == "-" for curve in (saddle, node, flipped)] == [False, True, False]
+    assert node.x[0] == saddle.x[-2] == FOLD and node.x[-2] == flipped.x[0] == FLIP
+    known = np.isfinite(node.x)
+    assert np.allclose(node.y[known][1:-1] - node.x[known][1:-1], 21.0)
+    moduli = np.concatenate([curve.y for curve in one.lines("modulus")])
+    assert (moduli == 1.0).sum() == 4, "both ends of the node, and the ends of its neighbours"
+    (solid,) = two.lines("strobes")
+    assert np.isnan(solid.x).sum() == 2 and solid.line == "-", "two strobes"
+
+
+def test_the_answer_is_a_picture_and_caveats_stand_beside_their_numbers(orbits, drawn):
+    first, table, *items = content_of(orbits)[0].items[2:]  # behind the answer, and how long it took
+    assert isinstance(first, Figure) and first.narrow is not None and not any(map(crowded, drawn))
+    cells = {row[1]: row[2] for row in table.rows}
+    assert cells == {"fold": "0.06000\u00a0±\u00a00.0001", "flip": "0.11000\u00a0±\u00a00.0009‡†"}
+    (notice,) = (item for item in items if isinstance(item, Notice))
+    said = " ".join(notice.lines)
+    assert "Branch 2 was not followed to its end: at 0.15" in said and "flip of branch 1 at 0.1100" in said
+    multipliers = next(item for item in items if isinstance(item, Table) and item.columns[2].title == "μ1")
+    known = [float(row["multiplier_1_real"]) for row in rows_in(orbits / "orbits")]
+    assert [row[2] for row in multipliers.rows] == [f"{mu:.3f} (0.01)".replace("-", "−") for mu in known]
+
+
+def test_orbits_without_runs_or_events_are_drawn_too(orbits):
+    for part in ("motions", "events", "orbits", "branches"):
+        shutil.rmtree(orbits / part)
+    items = report(orbits).items
+    assert sum(isinstance(item, Figure) for item in items) == 2
+    (notice,) = (item for item in items if isinstance(item, Notice))
+    assert len(notice.lines) == 1 and notice.lines[0].startswith("Branch 1 changes its stability at")
+
+
+def test_a_folder_that_does_not_tell_its_key_is_refused(orbits):
+    (orbits / "provenance.json").write_text('{"campaign": "orbits"}')
+    with pytest.raises(FolderError, match="what was varied"):
+        report(orbits)
