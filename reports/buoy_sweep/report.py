@@ -92,9 +92,6 @@ def warnings(sweep: Sweep) -> Notice:
          "plane”", [run for run in runs if run["loop_releases"] > 0]),
         (f"axial ringing of the line is not resolved: tensions hold to {number(rung_N, 2)} N or better; lower "
          "`solver.shortest_period_s`", ringing),
-        ("after loop releases the line is compressed for a moment, which is of the grid and of the steps and no load: "
-         "the smallest tension leaves these moments out",
-         [run for run in runs if run.known("compression_after_release_N")]),
         ("in three dimensions an element turns by more than π/2: its loops are not resolved, add `tether.nodes`",
          [run for run in runs if run.in_space and run["max_turn_rad"] > _RESOLVED_RAD]),
         (f"already at rest the top of the buoy is {decimals(dry_m, 2)} m above still water",
