@@ -45,17 +45,18 @@ def kernel(function):
     return compiled_in_parts(with_fused_sums(function), folder_of("kernels", source_hash(), _KEPT_CACHES))
 
 
-def by_kind(planar, spatial, lanes=None, plain=None):
+def by_kind(planar, spatial, lanes=None, plain=None, extra=None):
     """One name for kernels that do the same for different kinds of runs.
 
     A kernel that calls the returned name gets `planar`, `spatial`, `lanes` or `plain`, by the type of the first
     argument: a RECORD, a SPATIAL, a PLAIN (`engine.record`) or a LaneRecord (`engine.simd.vector`: several planar runs
     at once; `plain` where these are). Numba chooses while it compiles the caller. So a scene compiles only the kernels
     that it uses, and no run pays for the choice. lanes = None: the planar kernel serves several runs at once too;
-    plain = None: so does that of the lanes for plain scenes.
+    plain = None: so does that of the lanes for plain scenes. extra: of an EXTRA and an EXTRA_SPATIAL, which are else
+    served as a RECORD and a SPATIAL.
     """
     lanes = planar if lanes is None else lanes
-    return _Choice(planar, spatial, lanes, lanes if plain is None else plain)
+    return _Choice(planar, spatial, lanes, lanes if plain is None else plain, extra)
 
 
 class _Choice:
@@ -63,23 +64,30 @@ class _Choice:
         self.kernels = kernels  # a type of Numba does not keep them alive
         self._numba_type_ = _ChoiceType(*kernels)
 
-    def __call__(self, *arguments):
-        raise NotImplementedError("only compiled kernels call this")
+    def __call__(self, p, *arguments):
+        """In Python, with a record of NumPy: of what `work_arrays` is made of."""
+        kind = self._numba_type_.place(p.dtype.names, False, False)
+        return self.kernels[kind].py_func(p, *arguments)
 
 
 class _ChoiceType(types.Callable, types.Dummy):
     """What Numba asks of a function: of the kernel that is chosen."""
 
     def __init__(self, *kernels):
-        self.kernels = [types.Dispatcher(kernel) for kernel in kernels]
+        self.kernels = [types.Dispatcher(kernel) for kernel in kernels if kernel is not None]
         super().__init__(f"choice({', '.join(kernel.name for kernel in self.kernels)})")
 
     def _chosen(self, p):
-        planar, spatial, lanes, plain = self.kernels
         in_lanes = isinstance(p, LaneRecord)
-        if p.plain if in_lanes else "plain" in p.fields:
-            return plain
-        return spatial if "GI" in p.fields else lanes if in_lanes else planar
+        return self.kernels[self.place(p.fields, in_lanes, in_lanes and p.plain)]
+
+    def place(self, fields, in_lanes, plain_lanes):
+        """Which of the kernels serves a record with these fields."""
+        if len(self.kernels) > 4 and "anchor_z" in fields:
+            return 4
+        if plain_lanes or "plain" in fields:
+            return 3
+        return 1 if "GI" in fields else 2 if in_lanes else 0
 
     def get_call_type(self, context, arguments, keywords):
         return self._chosen(arguments[0]).get_call_type(context, arguments, keywords)

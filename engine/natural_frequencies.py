@@ -40,7 +40,7 @@ def natural_frequencies(scene) -> Modes | None:
 
     law = scene.tether.tension
     strain = strain_at(pull, law)
-    top_m = length * (1.0 + strain) + 0.5 * buoy.diameter_m
+    top_m = scene.anchor.position_m[2] + length * (1.0 + strain) + 0.5 * buoy.diameter_m
     if buoy.submergence == "spherical-cap" and top_m > scene.water.depth_m:
         return None
     # A central difference: outside its kernels the engine gives f, not f'; the error is of order h^2 f''' (1e-10).

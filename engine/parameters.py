@@ -14,7 +14,7 @@ from . import record as codes
 from . import scales
 from .physics import ends, sea, tension, waves
 from .scene.models import Scene
-from .simd.cover import is_plain
+from .simd.cover import has_extras, is_plain
 from .spatial import lift
 from .time import integrators
 
@@ -38,9 +38,14 @@ def grid(length_m: float, nodes: int, stretching: float, refined: str = "both") 
 def record_of(scene: Scene, tables: list[np.ndarray]) -> np.ndarray:
     """One parameter record; appends the scene's tables to the list of arrays `tables`.
 
-    Returns a (1,) structured array of dtype `RECORD` or `PLAIN`, or `SPATIAL` for motion.dimensions = 3.
+    Returns a (1,) structured array of dtype `RECORD`, `PLAIN` or `EXTRA`; of `SPATIAL` or `EXTRA_SPATIAL` for
+    motion.dimensions = 3.
     """
-    p = np.zeros(1, codes.SPATIAL if scene.motion.dimensions == 3 else codes.PLAIN if is_plain(scene) else codes.RECORD)
+    extras = has_extras(scene)
+    if scene.motion.dimensions == 3:
+        p = np.zeros(1, codes.EXTRA_SPATIAL if extras else codes.SPATIAL)
+    else:
+        p = np.zeros(1, codes.EXTRA if extras else codes.PLAIN if is_plain(scene) else codes.RECORD)
     record = p[0]
 
     def place(values):
@@ -57,7 +62,29 @@ def record_of(scene: Scene, tables: list[np.ndarray]) -> np.ndarray:
     if codes.is_spatial(p):
         _turning(record, scene)
     _solver(record, scene, place, h)
+    if extras:
+        _extras(record, scene)
     return p
+
+
+def _extras(record, scene):
+    """What only the laws of `engine.physics.extras` have."""
+    for axis, place in zip("xyz", scene.anchor.position_m, strict=True):
+        record[f"anchor_{axis}"] = place
+    tether, floor = scene.tether, scene.floor
+    record["damping"] = tether.damping_Ns or 0.0
+    if tether.damping_critical:  # c = zeta l sqrt(T' m), l the mean element
+        element = tether.length_m / (tether.nodes - 1)
+        record["damping"] = tether.damping_critical * element * record["m"] * scales.fastest_wave(record, scene)
+    record["surfaced"], record["width"] = tether.submergence == "free-surface", tether.diameter_m
+    if record["surfaced"]:
+        record["buoyed"] = scene.water.density_kgpm3 * tether.area_m2 * scene.gravity_mps2
+    if floor is not None:
+        record["floored"], d = True, tether.diameter_m
+        record["bed_stiffness"], record["bed_damping"] = floor.stiffness_Npm3 * d, floor.damping_Nspm3 * d
+        record["bed_friction"], record["bed_speed"] = floor.friction, floor.friction_speed_mps
+        weight = abs(float(record["w0"])) or float(record["m"])
+        record["bed_onset"] = weight / record["bed_stiffness"]  # the depth of the line's own weight
 
 
 def _tether(record, scene, place):

@@ -1,4 +1,4 @@
-"""What the kernels know of a scene and of a run: two records of named numbers, and the codes of choices.
+"""What the kernels know of a scene and of a run: records of named numbers, and the codes of choices.
 
 `engine.parameters` fills a RECORD (in three dimensions a SPATIAL) from a scene; a STATE holds where a run is. Kernels
 and readers of scenes both import this module; it imports nothing of the engine.
@@ -57,6 +57,13 @@ SPATIAL = np.dtype(
 )
 # A planar scene whose every term has the form that lanes have too (`engine.simd.cover.is_plain`): no other is compiled.
 PLAIN = np.dtype(_dtype("plain", "") + RECORD.descr)
+# Scenes with a law of `engine.physics.extras`, in a plane and in space: no other scene has its fields, or compiles it
+_EXTRAS = _dtype(
+    "surfaced floored",
+    "anchor_x anchor_y anchor_z damping buoyed width bed_stiffness bed_damping bed_friction bed_speed bed_onset",
+)
+EXTRA = np.dtype(_dtype("extra", "") + _EXTRAS + RECORD.descr)
+EXTRA_SPATIAL = np.dtype(_dtype("extra_spatial", "") + _EXTRAS + SPATIAL.descr)
 # small_steps, cautious: steps of backward Euler, of slow growth still to come; attempts: steps tried up to window_end;
 # small, cut: the trial is one of backward Euler, ends at the corner (s), which no step may cross; dt_before: the last
 # accepted step (0: of no use); turned: upper node of the element whose released turn is held, with the sign of the
@@ -74,6 +81,11 @@ STATE = np.dtype(
 def lengths_of(record: np.void, tables: np.ndarray) -> np.ndarray:
     """The element lengths (nodes - 1,), m, of a record."""
     return tables[record["grid_at"] :][: record["nodes"] - 1]
+
+
+def has_extras(record: np.void | np.dtype) -> bool:
+    """Is this record, or its dtype, that of a scene with a law of `engine.physics.extras`?"""
+    return "anchor_z" in getattr(record, "dtype", record).names
 
 
 def is_spatial(record: np.void | np.dtype) -> bool:

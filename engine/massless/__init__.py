@@ -14,6 +14,7 @@ from ..parameters import record_of
 from ..physics.tension import LAWS, NAMES
 from ..scales import strain_at, tension_at
 from ..scene.models import Scene
+from ..simd.cover import has_extras
 from ..simd.vector import COUNT, REAL, WHOLE, lane_zeros
 
 # in a wave period, or in one of the radial motion where that is shorter
@@ -97,6 +98,8 @@ def _why_not(scene):
         return "no waves, or irregular ones: it counts in wave periods"
     if current is not None and (current.law != "uniform" or buoy.submergence != "full"):
         return "a current that is not uniform, or one about a wetted cap"
+    if has_extras(scene):
+        return "a line with damping, a surface, a floor or an anchor of its own"
     volume = math.pi / 6.0 * buoy.diameter_m**3
     if scene.water.density_kgpm3 * volume <= buoy.mass_kg:
         return "a buoy that sinks"

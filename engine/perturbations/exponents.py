@@ -10,6 +10,7 @@ from ..compiled import kernel
 from ..dimensions import shape
 from ..physics.water import water as flow
 from ..planar import columns as col
+from ..planar.extras import node_width
 from ..record import BEGIN, KIND, RESTART, STEP
 from ..simd.elementary import copy_into
 from ..time.steps import known_part, plan_stage, stage_rate
@@ -31,14 +32,14 @@ def carry(p, tables, period, count, trail, along, across):
     (the last, beyond the end). Period 0: vectors along are carried as they are, of any length, and no growth is kept.
     """
     s, n = trail.Y.shape[1], trail.Y.shape[2]
-    X, F, Q = np.zeros((n, 2)), np.zeros((n, 4)), np.zeros((n, col.NODE_WIDTH))
+    X, F, Q = np.zeros((n, 2)), np.zeros((n, 4)), np.zeros((n, node_width(p)))
     a, w = np.empty(s), np.empty(3)
     moving_water = water_moves(p)
     if along is not None:
         vectors, rates, growth = along
         number = vectors.shape[0]
         work = Work(X, F, Q, np.zeros((n, col.WITH_INVERSE)), np.zeros((n, 6)), np.zeros((n, 4)))
-        water = Water(np.zeros((n, 8)), np.zeros((n, 3)))
+        water = Water(np.zeros((n, 8)), np.zeros((n, 4)))
         dKs, dC_tilde, dC = np.zeros((number, s, n, 4)), np.zeros((n, 4)), np.zeros((n, 4))
         lengths = np.empty(number)
     if across is not None:

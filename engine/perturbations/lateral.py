@@ -43,15 +43,27 @@ from ..physics.ends import released
 from ..physics.submergence import across_cap
 from ..physics.tension.kernels import tension
 from ..planar import columns as col
+from ..planar.extras import (
+    COS_HALF,
+    CUBE,
+    G_RHO,
+    G_TAU,
+    G_V,
+    N_RHO,
+    N_TAU,
+    Q_RHO,
+    Q_TAU,
+    SIN_HALF,
+    lateral_inertia,
+    more_across,
+)
 from ..record import BUOY, HELD, lengths_of
 from ..simd.elementary import sincos, small_sincos
 from ..simd.select import every, larger, where
 from ..spatial.vectors import put_rows
 from .tangent import to_length_one
 
-# Columns of H, coefficients of a node: sine and cosine of half the turn of the box below it, then derivatives by tau
-# and rho of q_y, N_y (without -dS_b) and G_y, dG_y/dV_y, and (1 + eps)^3
-SIN_HALF, COS_HALF, Q_TAU, Q_RHO, N_TAU, N_RHO, G_TAU, G_RHO, G_V, CUBE = range(10)
+# Columns of H: `engine.planar.extras`
 COEFFICIENTS = 10
 P, P_KNOWN, R, R_KNOWN, WIDTH = 0, 4, 6, 12, 15  # columns of E: P (2 x 2), p (2), R (3 x 2), r (3)
 QY, VY = 0, 1  # columns of dC, dK
@@ -119,7 +131,7 @@ def lateral_stage(p, tables, base, X, Q, F, dC_tilde, H, E, dC):
     rate, Y = base.rate, base.Y
     n = Y.shape[0]
     _coefficients(p, tables, base, Q, F, H)
-    inertia = (p.m + p.ma) * rate
+    more_across(p, base, X, Q, F, H)
     R00 = R01 = R10 = R11 = R20 = R21 = r0 = r1 = r2 = 0.0
     for i in range(WIDTH):
         E[0, i] = 0.0
@@ -151,7 +163,8 @@ def lateral_stage(p, tables, base, X, Q, F, dC_tilde, H, E, dC):
         B00 = above_t - Jb * bt
         B10 = p.EI * f
         B11 = -e * H[k, CUBE]
-        g0 = below_r * r2 - above_r * x2 + Ja * r0 + Jb * x0 - e * inertia * (dC_tilde[a, VY] + dC_tilde[k, VY])
+        inertia, known = lateral_inertia(p, rate, e, Q[a], Q[k], dC_tilde[a, VY], dC_tilde[k, VY])
+        g0 = below_r * r2 - above_r * x2 + Ja * r0 + Jb * x0 - inertia * known
         g1 = -p.EI * (x1 - r1)
         d = 1.0 / (A00 * A11 - A01 * A10)
         P00, P01 = d * (A01 * B10 - A11 * B00), d * (A11 + A01 * B11)

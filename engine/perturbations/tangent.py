@@ -34,6 +34,7 @@ from ..physics.water import water as flow
 from ..physics.water import water_slopes
 from ..planar import columns as col
 from ..planar.elimination import inertia_of_box
+from ..planar.extras import beside_drag, known_end, known_force
 from ..record import BUOY
 from ..simd.select import where
 from ..spatial.vectors import affine, dot, put, quaternion, rows_of, times, vector
@@ -41,7 +42,7 @@ from ..spatial.vectors import affine, dot, put, quaternion, rows_of, times, vect
 # The stage that is perturbed: t (s), rate c (1/s); moving_water: 1.0 where the water depends on the place of a node,
 # else 0.0; Y (n, 6), its rates K (n, 4)
 Base = namedtuple("Base", "t rate moving_water Y K")
-# What the water does at the nodes: J (n, 8), dF/dx (4) and dF/dz (4); drag (n, 3), xx, xz, zz of -dG/dU_w
+# What the water does at the nodes: J (n, 8), dF/dx (4) and dF/dz (4); drag (n, 4), xx, xz, zx, zz of -dG/dU_w
 Water = namedtuple("Water", "J drag")
 
 
@@ -68,9 +69,12 @@ def _add_water(p, tables, base, work, water):
     Q, top, rate, over = work.Q, work.E[0], base.rate, 1.0 / base.rate
     for k in range(Q.shape[0]):
         c, s = Q[k, col.COS], Q[k, col.SIN]
-        xx = Q[k, col.GXX] - rate * (p.m + p.ma * s * s)
-        zz = Q[k, col.GZZ] - rate * (p.m + p.ma * c * c)
-        put(water.drag[k], 0, (xx, Q[k, col.GXZ] + rate * p.ma * c * s, zz))
+        share, own, place = beside_drag(p, Q[k])
+        ma, drag = share * p.ma, water.drag[k]
+        drag[0] = Q[k, col.GXX] - rate * (p.m + ma * s * s) - (own[0] + place[0])
+        drag[1] = Q[k, col.GXZ] + rate * ma * c * s - (own[1] + place[1])
+        drag[2] = Q[k, col.GZX] + rate * ma * c * s - (own[2] + place[2])
+        drag[3] = Q[k, col.GZZ] - rate * (p.m + ma * c * c) - (own[3] + place[3])
     for m in range(4):
         top[col.TOP_DXX + m] = 0.0
     if base.moving_water == 0.0:
@@ -78,15 +82,15 @@ def _add_water(p, tables, base, work, water):
     water_slopes(p, tables, base.t, work.X, work.F, water.J)
     for k in range(Q.shape[0]):
         c, s = Q[k, col.COS], Q[k, col.SIN]
-        xx, xz, zz = vector(water.drag[k], 0)
-        J = water.J[k]
+        xx, xz, zx, zz = quaternion(water.drag[k], 0)
+        J, Rw = water.J[k], beside_drag(p, Q[k])[0] * p.Rw
         Ux, Wx, ax, az = J[0], J[1], J[2], J[3]
         Uz, Wz, bx, bz = J[4], J[5], J[6], J[7]
-        by_x, by_z = p.Rw * (az * c - ax * s), p.Rw * (bz * c - bx * s)
+        by_x, by_z = Rw * (az * c - ax * s), Rw * (bz * c - bx * s)
         Q[k, col.GXX] -= over * (xx * Ux + xz * Wx - s * by_x)
         Q[k, col.GXZ] -= over * (xx * Uz + xz * Wz - s * by_z)
-        Q[k, col.GZX] -= over * (xz * Ux + zz * Wx + c * by_x)
-        Q[k, col.GZZ] -= over * (xz * Uz + zz * Wz + c * by_z)
+        Q[k, col.GZX] -= over * (zx * Ux + zz * Wx + c * by_x)
+        Q[k, col.GZZ] -= over * (zx * Uz + zz * Wz + c * by_z)
     last = Q.shape[0] - 1
     for axis in range(2):
         dF = _water_change(water.J[last], 1.0 - axis, 1.0 * axis)
@@ -127,11 +131,12 @@ def _end_change(p, base, work, dV_tilde, dX_tilde, dF):
 @kernel
 def _known_load(p, rate, row, drag, dC_tilde, x, z):
     """gamma (head of this file) of a node: its rows of Q, drag and dC~; x, z: c dX~."""
-    xx, xz, zz = vector(drag, 0)
+    share, own, _ = beside_drag(p, row)
+    xx, xz, zx, zz = drag[0] + own[0], drag[1] + own[1], drag[2] + own[2], drag[3] + own[3]
     a, b = rate * (dC_tilde[col.VX] + x), rate * (dC_tilde[col.VZ] + z)
     c, s = row[col.COS], row[col.SIN]
-    across = p.ma * (b * c - a * s)
-    return -(xx * x + xz * z + p.m * a - across * s), -(xz * x + zz * z + p.m * b + across * c)
+    across = share * p.ma * (b * c - a * s)
+    return -(xx * x + xz * z + p.m * a - across * s), -(zx * x + zz * z + p.m * b + across * c)
 
 
 @kernel
@@ -141,6 +146,7 @@ def _up_the_line(p, tables, base, work, water, dC_tilde):
     n = Q.shape[0]
     r0 = r1 = r2 = x = z = 0.0  # x, z: c dX~
     gx, gz = _known_load(p, rate, Q[0], water.drag[0], dC_tilde[0], x, z)
+    nx, nz = known_force(p, rate, Q[0], dC_tilde[0])
     for k in range(1, n):
         a = k - 1
         Qa, row = Q[a], E[k]
@@ -148,10 +154,15 @@ def _up_the_line(p, tables, base, work, water, dC_tilde):
         ec = e * rate
         x += ec * (dC_tilde[a, col.CX] + dC_tilde[k, col.CX])
         z += ec * (dC_tilde[a, col.CZ] + dC_tilde[k, col.CZ])
-        gx_below, gz_below = gx, gz
+        gx_below, gz_below, nx_below, nz_below = gx, gz, nx, nz
         gx, gz = _known_load(p, rate, Q[k], water.drag[k], dC_tilde[k], x, z)
+        nx, nz = known_force(p, rate, Q[k], dC_tilde[k])
         Kxx, Kxz, Kzx, Kzz = inertia_of_box(e, Qa, Q[k])[0]
-        g = e * (gx_below + gx) + Kxx * r0 + Kxz * r1, e * (gz_below + gz) + Kzx * r0 + Kzz * r1, 2.0 * p.EI * r2
+        g = (
+            e * (gx_below + gx) + Kxx * r0 + Kxz * r1 - (nx - nx_below),
+            e * (gz_below + gz) + Kzx * r0 + Kzz * r1 - (nz - nz_below),
+            2.0 * p.EI * r2,
+        )
         # y_a = P y_b + p, then v_b = R_b y_b + r
         known = times(rows_of(row, col.INVERSE), g)
         Rx, Rz, Rk = rows_of(E[a], col.R)
@@ -162,6 +173,8 @@ def _up_the_line(p, tables, base, work, water, dC_tilde):
     last, X, Z = n - 1, x / rate, z / rate
     dV_tilde = dC_tilde[last, col.VX], dC_tilde[last, col.VZ]
     top_x, top_z = _end_change(p, base, work, dV_tilde, (X, Z), _water_change(water.J[last], X, Z))
+    more_x, more_z = known_end(p, base.t, nx, nz)
+    top_x, top_z = top_x + more_x, top_z + more_z
     Dxx, Dxz, Dzx, Dzz = quaternion(E[0], col.TOP_DXX)
     r0, r1 = r0 - x, r1 - z
     g = -top_x - Dxx * r0 - Dxz * r1, -top_z - Dzx * r0 - Dzz * r1, -r2

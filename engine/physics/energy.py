@@ -21,8 +21,10 @@ import math
 
 import numpy as np
 
-from ..compiled import kernel
+from ..compiled import by_kind, kernel
 from ..dimensions import shear_force
+from ..planar import columns as planar
+from ..spatial import columns as spatial
 from .shocks import shock_tension
 from .tension.kernels import stored, tension
 
@@ -54,6 +56,19 @@ def energies_of(p, tables, C, row):
 
 
 @kernel
+def _undamped(p):
+    return 0.0
+
+
+@kernel
+def _damped(p):
+    return p.damping
+
+
+damping_of = by_kind(_undamped, _undamped, extra=_damped)
+
+
+@kernel
 def add_powers(p, tables, dt, alphas, before, C1, K1, Y, Q, sums):
     """Add one accepted step of dt (s) to sums (5,): END_WORK and what follows it.
 
@@ -63,7 +78,7 @@ def add_powers(p, tables, dt, alphas, before, C1, K1, Y, Q, sums):
     alpha_m, alpha_f, gamma = alphas
     C0, K0 = before.C, before.K
     n, half = C0.shape[0], C0.shape[1] // 2
-    at = Q.shape[1] - 2
+    at = planar.SHOCK_B if half == 2 else spatial.SHOCK_B
     cq = alpha_m / (alpha_f * gamma * dt)
     q, S = np.empty(half), np.empty(half)
     N, rate = np.empty((2, half)), np.empty((2, half))  # of this node and of the one below, in turns
@@ -84,6 +99,7 @@ def add_powers(p, tables, dt, alphas, before, C1, K1, Y, Q, sums):
         stretching /= length
         T = tension(length - 1.0, p, tables)[0]
         T_v = shock_tension(cq, length - math.sqrt(before), Q[k, at], Q[k, at + 1])[0] if p.viscous else 0.0
+        T_v += damping_of(p) * stretching
         shear_force(p, Y, k, q, S)
         shear[a] = 0.0
         axial[a], viscous[a] = T * stretching, T_v * stretching

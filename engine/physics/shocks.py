@@ -25,6 +25,8 @@ import math
 import numpy as np
 
 from ..compiled import kernel
+from ..planar import columns as planar
+from ..spatial import columns as spatial
 from .tension.kernels import tension
 
 DEFORMING = 0.01  # of the largest strain rate
@@ -61,12 +63,12 @@ def _limiter(e_t, k):
 
 @kernel
 def renew_viscosity(p, tables, half, C, K, e_t, Q):
-    """B and L of every node, into the last two columns of Q, from an accepted state C and its rates K.
+    """B and L of every node, into their columns of Q, from an accepted state C and its rates K.
 
     half: the share of the columns of C that is q;  e_t (n,): work.
     """
     n = C.shape[0]
-    at = Q.shape[1] - 2
+    at = planar.SHOCK_B if half == 2 else spatial.SHOCK_B
     for k in range(n):
         square = product = 0.0
         for i in range(half):

@@ -24,8 +24,12 @@ GX_PHI, GZ_PHI = 13, 14  # dG/dphi
 GXX, GXZ, GZX, GZZ = 15, 16, 17, 18  # dG/dV
 M, M_EPS, M_SHEAR = 19, 20, 21  # M = (1 + eps)^3 S and its derivatives
 TURN = 22  # held of a released loop in the box below (`engine.time.time_loop.hold_turn`)
-SHOCK_B, SHOCK_L = 23, 24  # shock viscosity: the last two columns, as in space
+SHOCK_B, SHOCK_L = 23, 24  # shock viscosity
 NODE_WIDTH = 25
+# of EXTRA records alone (`engine.planar.extras`): derivative of N along t by phi, over the turn; share in the water;
+# what is not of drag in dG/dV: through V itself, and through the place (each xx, xz, zx, zz)
+N_TURN, SHARE, OWN, BY_PLACE = 25, 26, 27, 31
+EXTRA_WIDTH = 35
 
 P, P_KNOWN = 0, 9  # E, row k: y of node k - 1 = P y of node k + p; 3 x 3 row by row, and 3
 R, R_KNOWN = 12, 21  # v = R y + r, both of node k

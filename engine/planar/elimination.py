@@ -35,6 +35,7 @@ from ..physics.submergence import end_of_cap
 from ..simd.select import smaller
 from ..spatial.vectors import affine, inverted, less, minus_product, put, put_rows, rows_of, times, vector, vector_times
 from . import columns as col
+from .extras import force_by_turn
 
 
 @kernel
@@ -65,8 +66,9 @@ def eliminate(p, tables, stage, Y, work):
         # momentum; K = e (dG/dV_a + dG/dV_b), J = e dG/dV_b
         (Kxx, Kxz, Kzx, Kzz), (Jxx, Jxz, Jzx, Jzz) = inertia_of_box(e, Qa, Qb)
         # A y_a + B y_b = g: momentum along x and z, then moment, with v_a and v_b put in
-        Ax = -fa * ca - e * Qa[col.GX_EPS], sa, Qa[col.NZ] - e * Qa[col.GX_PHI]
-        Az = -fa * sa - e * Qa[col.GZ_EPS], -ca, -Qa[col.NX] - e * Qa[col.GZ_PHI]
+        (Nz_a, Nx_a), (Nz_b, Nx_b) = force_by_turn(p, Qa), force_by_turn(p, Qb)
+        Ax = -fa * ca - e * Qa[col.GX_EPS], sa, Nz_a - e * Qa[col.GX_PHI]
+        Az = -fa * sa - e * Qa[col.GZ_EPS], -ca, -Nx_a - e * Qa[col.GZ_PHI]
         Ax = _less_stretch(less(Ax, Kxx, R[0], Kxz, R[1]), Jxx, Cax, Jxz, Caz)
         Az = _less_stretch(less(Az, Kzx, R[0], Kzz, R[1]), Jzx, Cax, Jzz, Caz)
         Ak = (
@@ -74,8 +76,8 @@ def eliminate(p, tables, stage, Y, work):
             e * Qa[col.M_SHEAR] - 2.0 * EI * R[2][1],
             -stiff - 2.0 * EI * R[2][2],
         )
-        Bx = fb * cb - e * Qb[col.GX_EPS], -sb, -Qb[col.NZ] - e * Qb[col.GX_PHI]
-        Bz = fb * sb - e * Qb[col.GZ_EPS], cb, Qb[col.NX] - e * Qb[col.GZ_PHI]
+        Bx = fb * cb - e * Qb[col.GX_EPS], -sb, -Nz_b - e * Qb[col.GX_PHI]
+        Bz = fb * sb - e * Qb[col.GZ_EPS], cb, Nx_b - e * Qb[col.GZ_PHI]
         Bx, Bz = _less_stretch(Bx, Jxx, Cbx, Jxz, Cbz), _less_stretch(Bz, Jzx, Cbx, Jzz, Cbz)
         Bk = e * Qb[col.M_EPS], e * Qb[col.M_SHEAR], stiff
         # y_a = P y_b + p
@@ -127,16 +129,17 @@ def eliminate(p, tables, stage, Y, work):
         Dzx, Dzz = Dzx + E[0, col.TOP_DZX], Dzz + E[0, col.TOP_DZZ]
         E[0, col.TOP_DXX], E[0, col.TOP_DXZ], E[0, col.TOP_DZX], E[0, col.TOP_DZZ] = Dxx, Dxz, Dzx, Dzz
     c, s, slope = vector(Q[b], col.COS)
+    Nz, Nx = force_by_turn(p, Q[b])
     (R00, R01, R02), (R10, R11, R12), Ak = R
     Ax = (
         eN * slope * c + Dxx * R00 + Dxz * R10,
         -eN * s + Dxx * R01 + Dxz * R11,
-        -eN * Q[b, col.NZ] + Dxx * R02 + Dxz * R12,
+        -eN * Nz + Dxx * R02 + Dxz * R12,
     )
     Az = (
         eN * slope * s + Dzx * R00 + Dzz * R10,
         eN * c + Dzx * R01 + Dzz * R11,
-        eN * Q[b, col.NX] + Dzx * R02 + Dzz * R12,
+        eN * Nx + Dzx * R02 + Dzz * R12,
     )
     g2 = -Y[b, col.KAPPA] - r[2]
     if p.bent == 0:

@@ -24,12 +24,26 @@ compatibility, with the tangent; eq. (23) weight in water; eq. (24) Morison's fo
 
 import math
 
-from ..compiled import kernel
+from ..compiled import by_kind, kernel
 from ..physics.shocks import shock_tension
 from ..physics.tension.kernels import tension
 from ..simd.elementary import sincos
 from ..simd.select import larger
 from . import columns as col
+from .extras import more_loads
+
+
+@kernel
+def _origin(p):
+    return 0.0, 0.0
+
+
+@kernel
+def _above_the_bed(p):
+    return p.anchor_x, p.anchor_z
+
+
+lower_end = by_kind(_origin, _origin, extra=_above_the_bed)  # place (m) of the anchor
 
 
 @kernel
@@ -40,8 +54,7 @@ def shape(p, tables, Y, Q, X):
         lam = 1.0 + Y[k, col.EPS]
         Q[k, col.COS], Q[k, col.SIN] = c, s
         Q[k, col.QX], Q[k, col.QZ] = lam * c, lam * s
-    X[0, 0] = 0.0
-    X[0, 1] = 0.0
+    X[0, 0], X[0, 1] = lower_end(p)
     for k in range(1, Y.shape[0]):
         half = 0.5 * tables[p.grid_at + k - 1]
         X[k, 0] = X[k - 1, 0] + half * (Q[k - 1, col.QX] + Q[k, col.QX])
@@ -119,3 +132,4 @@ def node_quantities(p, tables, stage, Y, work):
             Q[k, col.M], Q[k, col.M_EPS], Q[k, col.M_SHEAR] = square * lam * S, 3.0 * square * S, square * lam
         else:  # S_a + S_b = 0
             Q[k, col.M], Q[k, col.M_EPS], Q[k, col.M_SHEAR] = 0.0, 0.0, 1.0
+    more_loads(p, stage, Y, work)

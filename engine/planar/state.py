@@ -14,6 +14,7 @@ from ..record import PLACE, SPEED, STRAIN, TENSION
 from ..simd.elementary import strain_within, within
 from ..simd.select import finite, larger, smaller, where
 from . import columns as col
+from .extras import node_width
 
 
 @kernel
@@ -25,7 +26,7 @@ def size_of(p):
 @kernel
 def work_arrays(p, n):
     """Work arrays (`engine.arrays.Work`) of a Newton solve with n nodes."""
-    X, F, Q = np.zeros((n, 2)), np.zeros((n, 4)), np.zeros((n, col.NODE_WIDTH))
+    X, F, Q = np.zeros((n, 2)), np.zeros((n, 4)), np.zeros((n, node_width(p)))
     return Work(X, F, Q, np.zeros((n, col.BOX_WIDTH)), np.zeros((n, 6)), np.zeros((n, 4)))
 
 

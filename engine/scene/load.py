@@ -16,7 +16,7 @@ from pathlib import Path
 
 from engine.scene.faults import DEEPEST, TOO_DEEP, SceneError, ending_in, known_fields, shown, too_deep, unknown_key
 from engine.scene.models import Scene, build_scene
-from engine.scene.rules import HEIGHTS
+from engine.scene.water_rules import HEIGHTS
 
 _LONG_KEY = re.compile(rf"(?<![\w-])(?:[\w-]++\s*\.\s*){{{DEEPEST}}}")
 _SHIPPED = Path(__file__).parents[1] / "scenes"

@@ -17,7 +17,7 @@ from pydantic_core import PydanticCustomError
 
 from engine.scene.faults import TOO_DEEP, SceneError, field_faults, too_deep
 from engine.scene.rules import cross_faults
-from engine.scene.sections import Anchor, Buoy, Current, End, Tether, Water, Waves
+from engine.scene.sections import Anchor, Buoy, Current, End, Floor, Tether, Water, Waves
 from engine.scene.values import (
     Count,
     CountOrZero,
@@ -122,6 +122,7 @@ class Scene(Section):
     buoy: Buoy | None = None
     water: Water | None = None
     waves: Waves | None = None
+    floor: Floor | None = described("what the bed does to a line that lies on it; by default nothing", None)
     current: Current | None = described("velocity of the current", None, symbol="U_c", paper="(24)")
     motion: Motion = Motion()
     start: Start = Start()

@@ -13,12 +13,12 @@ from pydantic_core import PydanticUndefined
 
 from engine.physics.tension import LAWS, NAMES
 from engine.scene.faults import fault, known_fields, shown
+from engine.scene.water_rules import PLANE, Facts, cap, current, heights, held_under, sea, water
 
-Facts = Iterator[tuple[object, str, str]]  # whether a rule is broken, the key that breaks it, what it allows there
-HEIGHTS = ("steepness", "amplitude_m", "components", "jonswap")  # of the waves: a scene has one of these
 _PUSHED = ("start.buoy_velocity_mps", "start.buoy_displacement_m")
 _VECTORS = (
     *_PUSHED,
+    "anchor.position_m",
     "end.position_m",
     "end.force_N",
     "current.velocity_mps",
@@ -26,8 +26,6 @@ _VECTORS = (
     "end.motion.displacement_m",
 )
 _OWNERS = {"position_m": "held", "motion": "held", "release_s": "held", "force_N": "free", "force_decay_s": "free"}
-_PLANE = "in a plane (motion.dimensions = 2)"
-_ALONG = f"0 or pi {_PLANE}"
 _BENDING = "tether.bending_stiffness_Nm2"
 
 
@@ -87,83 +85,11 @@ def cross_faults(raw: dict[str, object], bad: set[tuple[str | int, ...]], model:
     if not isinstance(raw, dict):
         return []
     sound = Sound(raw, bad, model)
-    rules = (_water, _sea, _ends, _clamps, _solver, _cap, _output)
+    rules = (water, sea, _ends, _clamps, _solver, cap, _output)
     lines = [sound.fault(key, allowed) for rule in rules for broken, key, allowed in rule(sound) if broken]
-    return lines + [line for rule in (_tension, _heights, _current, _moved_end, _plane) for line in rule(sound)]
-
-
-def _water(sound: Sound) -> Facts:
-    dry, waves = sound["water"] is None, sound["waves"] is not None
-    yield dry and waves, "water", "a table, because waves are given"
-    yield dry and sound["current"] is not None, "water", "a table, because a current is given"
-    yield waves and sound["gravity_mps2"] == 0, "gravity_mps2", "above 0, because waves are given"
-    depth = sound["water.depth_m"] or math.inf
-    for key in ("waves.amplitude_m", "waves.jonswap.significant_height_m"):
-        yield (sound[key] or 0) >= depth, key, f"less than water.depth_m, {shown(depth)}"
-    yield sound["motion.dimensions"] == 2 and _aslant(sound["waves.direction_rad"]), "waves.direction_rad", _ALONG
-
-
-def _aslant(angle: float) -> bool:
-    """Does a wave in this direction leave the plane?"""
-    return bool(angle) and min(abs(angle), abs(abs(angle) - math.pi)) > 1e-9
-
-
-def _sea(sound: Sound) -> Facts:
-    """What an irregular sea takes the place of."""
-    listed, drawn = (sound[f"waves.{key}"] is not None for key in ("components", "jonswap"))
-    own = "each component has its own" if listed else "waves.jonswap draws those of its components"
-    yield (listed or drawn) and sound["waves.phase_rad"], "waves.phase_rad", f"0: {own}"
-    yield listed and sound["waves.direction_rad"], "waves.direction_rad", f"0: {own}"
-    cap = sound["buoy.submergence"] == "spherical-cap"
-    yield (listed or drawn) and cap, "buoy.submergence", "'full' in irregular waves"
-
-
-def _heights(sound: Sound) -> Iterator[str]:
-    waves = sound.raw.get("waves")
-    if not isinstance(waves, dict):
-        return
-    given = {name: waves[name] for name in HEIGHTS if waves.get(name) is not None}
-    if not given:
-        yield "waves.steepness: missing; allowed: exactly one of " + ", ".join(f"waves.{name}" for name in HEIGHTS)
-    if len(given) > 1:
-        several = " and ".join(f"waves.{name} = {shown(value)}" for name, value in given.items())
-        yield f"waves: given {several}; allowed: exactly one of them"
-    listed, depth = sound["waves.components"] or (), sound["water.depth_m"] or math.inf
-    if (total := sum(one["amplitude_m"] for one in listed)) >= depth:
-        yield f"waves.components: given amplitudes of {total:.6g} m in all; allowed: less than water.depth_m, {depth}"
-    for index, one in enumerate(listed if sound["motion.dimensions"] == 2 else ()):
-        if _aslant(one.get("direction_rad")):
-            yield fault(f"waves.components[{index}].direction_rad", one["direction_rad"], _ALONG)
-
-
-def _current(sound: Sound) -> Iterator[str]:
-    for axis in ("time_s", "height_m", "y_m", "x_m"):
-        yield from sound.increasing(f"current.{axis}")
-    if sound["current.law"] == "profile":
-        yield from sound.paired("current.velocity_mps", "current.height_m")
-    if sound["current.law"] != "table":
-        return
-    axes = {"times": "time_s", "heights": "height_m", "places along y": "y_m", "places along x": "x_m"}
-    if sound["current.y_m"] is None:
-        del axes["places along y"]
-    sizes = {word: len(sound[f"current.{axis}"] or ()) for word, axis in axes.items()}
-    allowed = "allowed: " + " x ".join(f"{size} {word}" for word, size in sizes.items())
-    for key in (f"current.velocity_{component}_mps" for component in "xyz"):
-        if all(sizes.values()) and sound[key] and (wrong := _wrong_size(sound[key], list(sizes.items()))):
-            yield f"{key}{wrong}; {allowed}"
-
-
-def _wrong_size(block: object, sizes: list[tuple[str, int]]) -> str:
-    """Where nested lists are not of the given sizes, and what is there; empty where they are."""
-    if not isinstance(block, (list, tuple)):
-        return f": given {shown(block)} in place of {sizes[0][0]}" if sizes else ""
-    if not sizes:
-        return f": given a list of {len(block)} in place of a number"
-    word, size = sizes[0]
-    if len(block) != size:
-        return f": given {len(block)} {word}"
-    wrong = ((index, _wrong_size(part, sizes[1:])) for index, part in enumerate(block))
-    return next((f"[{index}]{text}" for index, text in wrong if text), "")
+    return lines + [
+        line for rule in (_tension, heights, held_under, current, _moved_end, _plane) for line in rule(sound)
+    ]
 
 
 def _tension(sound: Sound) -> Iterator[str]:
@@ -216,7 +142,7 @@ def _clamps(sound: Sound) -> Facts:
     rotations = {section: sound[f"{section}.rotation"] for section in ("anchor", "end")}
     for section, rotation in rotations.items():
         key, clamped, direction = f"{section}.rotation", rotation == "clamped", sound[f"{section}.direction"]
-        yield clamped and plane, key, f"'pinned' {_PLANE}"
+        yield clamped and plane, key, f"'pinned' {PLANE}"
         yield clamped and box, key, "'pinned', because solver.scheme is 'paper-box'"
         yield clamped and sound[_BENDING] == 0, _BENDING, f"above 0, because {key} is 'clamped'"
         allowed = f"only with {key} = 'clamped', and it is 'pinned'"
@@ -226,8 +152,8 @@ def _clamps(sound: Sound) -> Facts:
     yield clamped and kind in ("buoy", "free"), "end.rotation", f"'pinned', because end.kind is {kind!r}"
     both, torsion = clamped and rotations["anchor"] == "clamped", "tether.torsion_stiffness_Nm2"
     yield both and sound[torsion] == 0, torsion, "above 0, because both ends are clamped"
-    yield plane and twist, "end.twist_rad", f"0 {_PLANE}"
-    yield plane and ramp, "end.twist_ramp_s", f"0 {_PLANE}"
+    yield plane and twist, "end.twist_rad", f"0 {PLANE}"
+    yield plane and ramp, "end.twist_ramp_s", f"0 {PLANE}"
     allowed = "0, or anchor.rotation and end.rotation = 'clamped'"
     yield twist and "pinned" in rotations.values(), "end.twist_rad", allowed
     yield ramp and twist in (None, 0), "end.twist_ramp_s", "0, because end.twist_rad is 0"
@@ -243,7 +169,7 @@ def _plane(sound: Sound) -> Iterator[str]:
         places = [(f"{key}[{index}]", vector) for index, vector in enumerate(value)] if listed else [(key, value)]
         for place, vector in places:
             if any(vector[1:2]):
-                yield fault(place, list(vector), f"y = 0 {_PLANE}")
+                yield fault(place, list(vector), f"y = 0 {PLANE}")
     for key in ("current.y_m", "current.velocity_y_mps"):
         if sound[key]:
             yield sound.fault(key, "only with motion.dimensions = 3, and it is 2")
@@ -261,17 +187,15 @@ def _solver(sound: Sound) -> Facts:
     yield (sound["solver.min_step_s"] or 0) > longest, "solver.min_step_s", f"at most solver.max_step_s, {longest}"
     box, because = sound["solver.scheme"] == "paper-box", "because solver.scheme is 'paper-box'"
     yield box and sound[_BENDING] == 0, _BENDING, f"above 0, {because} and eq. (40) divides by EI"
-    yield box and any(sound[_PUSHED[1]] or ()), _PUSHED[1], f"zero, {because}"
-
-
-def _cap(sound: Sound) -> Facts:
-    """What a buoy that is partly in the water needs."""
-    key, cap = "buoy.submergence", sound["buoy.submergence"] == "spherical-cap"
-    rule = "'full', because solver.scheme is 'paper-box': eq. (30) as printed has the whole sphere in the water"
-    yield cap and sound["solver.scheme"] == "paper-box", key, rule
-    yield cap and sound["water"] is None, key, "'full', because there is no water"
-    rule = "0, because buoy.submergence is not 'spherical-cap': the whole sphere is always in the water"
-    yield not cap and sound["buoy.impact_loss"], "buoy.impact_loss", rule
+    for key in (_PUSHED[1], "anchor.position_m"):
+        yield box and any(sound[key] or ()), key, f"zero, {because}"
+    line = sound["tether.submergence"] == "free-surface"
+    yield box and line, "tether.submergence", f"'full', {because}"
+    yield box and sound["floor"] is not None, "floor", f"none, {because}"
+    share, damping = "tether.damping_critical", "tether.damping_Ns"
+    yield sound[share] and sound[damping], share, f"only without {damping}, which says the same"
+    for key in (share, damping):
+        yield box and sound[key], key, f"0, {because}"
 
 
 def _output(sound: Sound) -> Facts:
@@ -281,6 +205,7 @@ def _output(sound: Sound) -> Facts:
     because, scheme = f"because solver.integrator is {integrator!r}", "because solver.scheme is 'paper-box'"
     energy = sound["output.energy"]
     yield energy and sound["water"] is not None, "output.energy", "false, because the budget knows of no water"
+    yield energy and sound["floor"] is not None, "output.energy", "false, because the budget knows of no floor"
     staged = energy and integrator in ("esdirk43", "trbdf2")
     yield staged, "output.energy", f"false, {because}: use one of one stage"
     yield energy and box, "output.energy", f"false, {scheme}: use 'conservation'"

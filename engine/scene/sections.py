@@ -64,17 +64,36 @@ class Tether(Section):
     compression_barrier_N: NonNegative = described(
         "barrier: T loses P_b (0.5/(1 + eps) - 1)^2 below a strain of -1/2", 0.0, symbol="P_b"
     )
+    damping_Ns: NonNegative | None = described("material damping: T gains c times the rate of strain", None, symbol="c")
+    damping_critical: NonNegative | None = described(
+        "material damping as a share of the critical one of an element, c = share l sqrt(T' m)", None, symbol="zeta"
+    )
+    submergence: Literal["full", "free-surface"] = described(
+        "part on which the water acts: the whole line, or what is below the wave", "full"
+    )
 
 
 class Anchor(Section):
     """The lower end: fixed in place; free to rotate, or clamped in a direction (three dimensions only)."""
 
+    position_m: Vector = described(
+        "place of the lower end, z its height above the bed; every other place is told from there", (0.0, 0.0, 0.0)
+    )
     rotation: Literal["pinned", "clamped"] = described(
         "rotation of the lower end: free, or clamped (three dimensions)", "pinned", paper="section 2.5"
     )
     direction: Vector | None = described(
         "direction of the clamped tangent; by default towards a held end, else upwards", None
     )
+
+
+class Floor(Section):
+    """The bed, z = 0: stiffness and damping of an area of contact as wide as the line, and friction."""
+
+    stiffness_Npm3: Positive = described("stiffness of the bed an area, on the diameter of the line", symbol="k")
+    damping_Nspm3: NonNegative = described("damping of the bed an area, while the line sinks into it", 0.0, symbol="c")
+    friction: NonNegative = described("coefficient of Coulomb's friction", 0.0, symbol="mu")
+    friction_speed_mps: Positive = described("speed over which friction builds up", 0.01, symbol="v_s")
 
 
 class HarmonicMotion(Section):

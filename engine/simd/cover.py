@@ -18,12 +18,21 @@ def goes_in_lanes(scene: Scene) -> bool:
         and _without_tables(scene)
         and scene.output.profiles is False
         and not scene.output.energy
+        and not has_extras(scene)
     )
+
+
+def has_extras(scene: Scene) -> bool:
+    """Has the line a law that few scenes have (`engine.physics.extras`)? Such runs go alone: no lanes have it."""
+    tether = scene.tether
+    damped = tether.damping_Ns or tether.damping_critical
+    raised = any(scene.anchor.position_m)
+    return bool(damped or raised or tether.submergence != "full" or scene.floor is not None)
 
 
 def is_plain(scene: Scene) -> bool:
     """Has every term of this planar scene the one form that lanes have too, and the sphere no cap?"""
-    return _without_tables(scene) and scene.buoy.submergence == "full"
+    return _without_tables(scene) and scene.buoy.submergence == "full" and not has_extras(scene)
 
 
 def _without_tables(scene):

@@ -175,7 +175,7 @@ class Followers:
         weights, C, K, C_new, C_tilde, K_new = (lane_zeros(n, 2) for _ in range(6))
         work = lane_zeros(n, COEFFICIENTS), lane_zeros(n, LATERAL_WIDTH)
         self.across = Across(weights, C, K, lane_zeros(s, n, 2), C_new, C_tilde, K_new, *work)
-        water = Water(*(lane_zeros(n, width) for width in (8, 3)))
+        water = Water(*(lane_zeros(n, width) for width in (8, 4)))
         self.room = lane_work(n, planar_col.WITH_INVERSE), water
 
     def load(self, b, run):

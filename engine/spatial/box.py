@@ -4,11 +4,10 @@ from collections import namedtuple
 
 from ..compiled import kernel
 from . import columns as col
+from .extras import along_by_turn
 from .node import box_rotation
 from .vectors import added, combined, combined3, dot, inverted, mixed, scaled, times, vector
 
-# Where dG/dV has its rows
-SYMMETRIC = tuple(tuple(col.G_V + at for at in row) for row in ((0, 1, 2), (1, 3, 4), (2, 4, 5)))
 # Rows of five numbers, by y, for the six components of v = (V, O2, O3, theta1)
 Rows = namedtuple("Rows", "x y z O2 O3 theta1")
 # Of one node: dN by y (five 3-vectors), e dG (of eps, theta2, theta3), dN/dtheta1, dM2 and dM3 by y at fixed O
@@ -16,13 +15,14 @@ Nodal = namedtuple("Nodal", "N G roll M2 M3")
 
 
 @kernel
-def nodal_jacobian(row, e):
+def nodal_jacobian(p, row, e):
     """`Nodal` of a row of Q; e: half the length of the element."""
     t, n, b = vector(row, col.T_VECTOR), vector(row, col.N_VECTOR), vector(row, col.B_VECTOR)
     T, cube = row[col.TENSION], row[col.CUBE]
     N = vector(row, col.N)
     Sn, Sb = dot(N, n), dot(N, b)
-    dN = mixed(row[col.SLOPE], t, 0.0, t), n, b, mixed(Sb, t, -T, b), mixed(-Sn, t, T, n)
+    less2, less3 = along_by_turn(p, row)
+    dN = mixed(row[col.SLOPE], t, 0.0, t), n, b, mixed(Sb - less2, t, -T, b), mixed(-Sn - less3, t, T, n)
     Ge, G2, G3 = vector(row, col.G_EPS), vector(row, col.G_THETA2), vector(row, col.G_THETA3)
     lead = 3.0 * cube / row[col.STRETCHED]
     dM2 = (lead * Sb, 0.0, cube, 0.0, 0.0)
@@ -98,7 +98,8 @@ def momentum_row(i, e, Qa, Qb, at_a, at_b, R, r, A, B, z):
 
     e: half the element; Qa, Qb: rows of Q; at_a, at_b: Nodal; v_a = R y_a + r and v_b = A y_a + B y_b + z.
     """
-    u, v, w = SYMMETRIC[i]
+    u = col.G_V + 3 * i
+    v, w = u + 1, u + 2
     ax, ay, az, bx, by, bz = e * Qa[u], e * Qa[v], e * Qa[w], e * Qb[u], e * Qb[v], e * Qb[w]
     roll_a, roll_b = at_a.roll[i], at_b.roll[i]
     # by y_a through V_a, V_b and the rolls, then directly

@@ -20,10 +20,12 @@ T_VECTOR, SLOPE, STRETCHED = 0, 3, 4  # Q: t; dT/deps; 1 + eps
 Q, Q_T, N = STRETCH, 8, 11  # q, dq/dt, N
 N_VECTOR, B_VECTOR = 14, 17  # n, b
 G, G_EPS, G_THETA2, G_THETA3 = 20, 23, 26, 29  # load G per length and its derivatives
-G_V = 32  # dG/dV: xx xy xz yy yz zz
-M2, M3, CUBE, TENSION = 38, 39, 40, 41  # moments; (1 + eps)^3; T
-SHOCK_B, SHOCK_L = 42, 43  # shock viscosity: the last two columns, as in a plane
-NODE_WIDTH = 44
+G_V = 32  # dG/dV, row by row
+M2, M3, CUBE, TENSION = 41, 42, 43, 44  # moments; (1 + eps)^3; T
+SHOCK_B, SHOCK_L = 45, 46  # shock viscosity
+NODE_WIDTH = 47
+N_TURN2, N_TURN3 = 47, 48  # of EXTRA records alone (`engine.spatial.extras`): dN/dtheta2, dN/dtheta3 along t
+EXTRA_WIDTH = 49
 
 P, P_KNOWN, P_TORQUE = 0, 25, 30  # E: y_a = P y_b + p + p' dO1; P row by row
 R, R_KNOWN, R_TORQUE = 35, 65, 71  # v = R y + r + r' dO1, rows of v: V, O2, O3, theta1

@@ -37,7 +37,7 @@ from . import columns as col
 from .box import Rows, across_box, factors, momentum_row, nodal_jacobian, solve_box, solve_box_rows, turn_of_box
 from .elimination_unbent import eliminate_unbent, inertia
 from .upper import CLAMP, solve_upper
-from .vectors import added, combined, combined3, dot, mixed, put, put_row, row_dot, row_of, row_times, symmetric, vector
+from .vectors import added, combined, combined3, dot, mixed, put, put_row, row_dot, row_of, row_times, times, vector
 
 V_OF_D = col.V, col.V + 1, col.V + 2, col.D_O2, col.D_O3, col.THETA1  # columns of D where the six of v are
 
@@ -66,7 +66,7 @@ def eliminate(p, tables, stage, Y, work):
         psi, J = turn_of_box(Y, a, k)
         A, B, z = across_box(Y, Q, k, e, cq, J, psi, R, r)
         # momentum, three rows M y_a + BM y_b = g
-        at_a, at_b = nodal_jacobian(Qa, e), nodal_jacobian(Qb, e)
+        at_a, at_b = nodal_jacobian(p, Qa, e), nodal_jacobian(p, Qb, e)
         Mx, gx, BMx = momentum_row(0, e, Qa, Qb, at_a, at_b, R, r, A, B, z)
         My, gy, BMy = momentum_row(1, e, Qa, Qb, at_a, at_b, R, r, A, B, z)
         Mz, gz, BMz = momentum_row(2, e, Qa, Qb, at_a, at_b, R, r, A, B, z)
@@ -103,9 +103,7 @@ def eliminate(p, tables, stage, Y, work):
             D3 = e * GI * (Y[a, col.O2] + Y[k, col.O2]) + couple * (w2 + y2) - EI * (y3 - w3)
             w = (wx, wy, wz)
             known = mixed(w1, at_a.roll, -w1, at_b.roll)
-            known = mixed(
-                1.0, known, e, mixed(1.0, symmetric(inertia(Qa, 1.0), w), 1.0, symmetric(inertia(Qb, 1.0), w))
-            )
+            known = mixed(1.0, known, e, mixed(1.0, times(inertia(Qa, 1.0), w), 1.0, times(inertia(Qb, 1.0), w)))
             px = solve_box(solver, known[0], known[1], known[2], D2, D3)
             put_row(E[k], col.P_TORQUE, px)
             wx, wy, wz = wx + row_dot(A.x, px), wy + row_dot(A.y, px), wz + row_dot(A.z, px)

@@ -6,19 +6,21 @@ Shear forces, curvatures and the roll of the frame are zero, N = T t. Well posed
 
 from ..compiled import kernel
 from . import columns as col
+from .extras import along_by_turn
 from .upper import end_condition
-from .vectors import dot, mixed, put, put_rows, rows_of, symmetric, times, vector
+from .vectors import dot, mixed, put, put_rows, rows_of, times, vector
 
 P, P_KNOWN, R, R_KNOWN = 0, 9, 12, 21  # columns of E: three columns of P, p, three columns of R, r
 
 
 @kernel
-def _columns(row):
+def _columns(p, row):
     """dN and dq by y as columns."""
     t, n, b = vector(row, col.T_VECTOR), vector(row, col.N_VECTOR), vector(row, col.B_VECTOR)
     T, lam = row[col.TENSION], row[col.STRETCHED]
+    less2, less3 = along_by_turn(p, row)
     return (
-        (mixed(row[col.SLOPE], t, 0.0, t), mixed(-T, b, 0.0, b), mixed(T, n, 0.0, n)),
+        (mixed(row[col.SLOPE], t, 0.0, t), mixed(-T, b, -less2, t), mixed(T, n, -less3, t)),
         (t, mixed(-lam, b, 0.0, b), mixed(lam, n, 0.0, n)),
     )
 
@@ -58,8 +60,8 @@ def eliminate_unbent(p, tables, stage, Y, work):
         e = 0.5 * tables[p.grid_at + a]
         ec = e * stage.cq
         Qa, Qb = Q[a], Q[k]
-        dNa, dqa = _columns(Qa)
-        dNb, dqb = _columns(Qb)
+        dNa, dqa = _columns(p, Qa)
+        dNb, dqb = _columns(p, Qb)
         Ja, Jb = inertia(Qa, e), inertia(Qb, e)
         # momentum A y_a + B y_b = g, with V_a = R y_a + r and V_b from compatibility put in
         opened = mixed(1.0, vector(Y[k], col.V), -1.0, vector(Y[a], col.V))
@@ -67,7 +69,7 @@ def eliminate_unbent(p, tables, stage, Y, work):
         z = mixed(1.0, r, -1.0, mixed(1.0, opened, -e, stretching))
         load = mixed(1.0, vector(Qa, col.G), 1.0, vector(Qb, col.G))
         known = mixed(1.0, mixed(1.0, vector(Qa, col.N), -1.0, vector(Qb, col.N)), e, load)
-        g = mixed(1.0, known, 1.0, mixed(1.0, symmetric(Ja, r), 1.0, symmetric(Jb, z)))
+        g = mixed(1.0, known, 1.0, mixed(1.0, times(Ja, r), 1.0, times(Jb, z)))
         A0 = _column(relation[0], dqa[0], dNa[0], vector(Qa, col.G_EPS), ec, e, Ja, Jb)
         A1 = _column(relation[1], dqa[1], dNa[1], vector(Qa, col.G_THETA2), ec, e, Ja, Jb)
         A2 = _column(relation[2], dqa[2], dNa[2], vector(Qa, col.G_THETA3), ec, e, Ja, Jb)
@@ -102,7 +104,7 @@ def eliminate_unbent(p, tables, stage, Y, work):
         put(E[k], R_KNOWN, r)
     # upper end, and back substitution
     residual, eN, S = end_condition(p, tables, stage, Y, work)
-    dN, _ = _columns(Q[last])
+    dN, _ = _columns(p, Q[last])
     known = times(S, r)
     A = (
         mixed(eN, dN[0], 1.0, times(S, relation[0])),
@@ -126,21 +128,20 @@ def eliminate_unbent(p, tables, stage, Y, work):
 
 @kernel
 def inertia(row, e):
-    """e dG/dV of a row of Q: xx, xy, xz, yy, yz, zz."""
-    xx, xy, xz = vector(row, col.G_V)
-    yy, yz, zz = vector(row, col.G_V + 3)
-    return e * xx, e * xy, e * xz, e * yy, e * yz, e * zz
+    """e dG/dV of a row of Q: three rows."""
+    x, y, z = rows_of(row, col.G_V)
+    return (e * x[0], e * x[1], e * x[2]), (e * y[0], e * y[1], e * y[2]), (e * z[0], e * z[1], e * z[2])
 
 
 @kernel
 def _column(R, dq, dN, dG, ec, e, Ja, Jb):
     """Coefficients of one unknown of y_a in the momentum equations."""
-    V = symmetric(Ja, R)
-    above = symmetric(Jb, mixed(1.0, R, ec, dq))
+    V = times(Ja, R)
+    above = times(Jb, mixed(1.0, R, ec, dq))
     return mixed(-1.0, mixed(1.0, dN, e, dG), -1.0, mixed(1.0, V, 1.0, above))
 
 
 @kernel
 def _column_above(dq, dN, dG, ec, e, Jb):
     """Coefficients of one unknown of y_b."""
-    return mixed(1.0, mixed(1.0, dN, -e, dG), -ec, symmetric(Jb, dq))
+    return mixed(1.0, mixed(1.0, dN, -e, dG), -ec, times(Jb, dq))

@@ -28,11 +28,25 @@ momentum; eq. (12) momentum in the local frame; eq. (23) weight in water; eq. (2
 
 import math
 
-from ..compiled import kernel
+from ..compiled import by_kind, kernel
 from ..physics.shocks import shock_tension
 from ..physics.tension.kernels import tension
 from . import columns as col
-from .vectors import dot, frame, mixed, put, quaternion, relative, rotation_vector, vector
+from .extras import more_loads
+from .vectors import dot, frame, mixed, put, put_rows, quaternion, relative, rotation_vector, vector
+
+
+@kernel
+def _origin(p):
+    return 0.0, 0.0, 0.0
+
+
+@kernel
+def _above_the_bed(p):
+    return p.anchor_x, p.anchor_y, p.anchor_z
+
+
+lower_end = by_kind(_origin, _origin, extra=_above_the_bed)  # place (m) of the anchor
 
 
 @kernel
@@ -46,7 +60,7 @@ def shape(p, tables, Y, Q, X):
         put(Q[k], col.B_VECTOR, b)
         Q[k, col.STRETCHED] = lam
         put(Q[k], col.Q, (lam * t[0], lam * t[1], lam * t[2]))
-    put(X[0], 0, (0.0, 0.0, 0.0))
+    put(X[0], 0, lower_end(p))
     for k in range(1, Y.shape[0]):
         half = 0.5 * tables[p.grid_at + k - 1]
         for i in range(3):
@@ -131,11 +145,11 @@ def node_quantities(p, tables, stage, Y, work):
             Jyz += Dt * t[1] * t[2] + Ds * vp[1] * vp[2]
             Jzz += Dp + Dt * t[2] * t[2] + Ds * vp[2] * vp[2]
         put(row, col.G, (Gx, Gy, Gz))
-        put(row, col.G_V, (Jxx, Jxy, Jxz))
-        put(row, col.G_V + 3, (Jyy, Jyz, Jzz))
+        put_rows(row, col.G_V, ((Jxx, Jxy, Jxz), (Jxy, Jyy, Jyz), (Jxz, Jyz, Jzz)))
         if p.bent:
             cube = lam * lam * lam
             row[col.M2], row[col.M3], row[col.CUBE] = cube * Sb, cube * Sn, cube
             if Y[k, col.O1] != 0.0:
                 row[col.M2] -= p.GI * Y[k, col.O1] * Y[k, col.O3]
                 row[col.M3] -= p.GI * Y[k, col.O1] * Y[k, col.O2]
+    more_loads(p, stage, Y, work)

@@ -14,6 +14,7 @@ from ..physics.tension.kernels import tension
 from ..record import PLACE, SPEED, STRAIN, TENSION
 from ..simd.elementary import strain_within, within
 from . import columns as col
+from .extras import node_width
 from .node import box_rotation
 from .vectors import dot, frame, least_turn, mixed, put, quaternion, quaternion_product, turned, vector
 
@@ -27,7 +28,7 @@ def size_of(p):
 @kernel
 def work_arrays(p, n):
     """Work arrays (`engine.arrays.Work`) of a Newton solve with n nodes."""
-    X, F, Q = np.zeros((n, 3)), np.zeros((n, 6)), np.zeros((n, col.NODE_WIDTH))
+    X, F, Q = np.zeros((n, 3)), np.zeros((n, 6)), np.zeros((n, node_width(p)))
     return Work(X, F, Q, np.zeros((n, col.BOX_WIDTH)), np.zeros((n, 12)), np.zeros((n, 6)))
 
 

@@ -72,7 +72,7 @@ def solve_upper(p, tables, stage, twisted, Y, work):
     # three forces, two moments and a roll, by y and dO1; the last column is the right-hand side
     M = np.zeros((6, 7))
     R1 = row_of(row, col.R + col.ROLL)
-    at = nodal_jacobian(node, 0.0)
+    at = nodal_jacobian(p, node, 0.0)
     known = times(S, vector(row, col.R_KNOWN))
     tau = times(S, vector(row, col.R_TORQUE))
     for j in range(5):

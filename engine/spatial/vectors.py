@@ -42,16 +42,6 @@ def mixed(x, a, y, b):
 
 
 @kernel
-def symmetric(S, a):
-    """S a for a symmetric S = (xx, xy, xz, yy, yz, zz)."""
-    return (
-        S[0] * a[0] + S[1] * a[1] + S[2] * a[2],
-        S[1] * a[0] + S[3] * a[1] + S[4] * a[2],
-        S[2] * a[0] + S[4] * a[1] + S[5] * a[2],
-    )
-
-
-@kernel
 def times(rows, a):
     """The matrix of these three rows times a."""
     return dot(rows[0], a), dot(rows[1], a), dot(rows[2], a)

@@ -178,8 +178,10 @@ def afloat(record, scene, s):
     if not record["spherical_cap"] or whole <= 0:
         return whole, None
 
+    surface = float(record["depth"]) - scene.anchor.position_m[2]  # above the anchor
+
     def lift(z):
-        x = min(max((float(record["depth"]) - z) / D + 0.5, 0.0), 1.0)
+        x = min(max((surface - z) / D + 0.5, 0.0), 1.0)
         return whole - float(record["B_whole"]) * (1.0 - x * x * (3.0 - 2.0 * x))
 
     def left(load):
@@ -196,7 +198,6 @@ def afloat(record, scene, s):
         return whole, None
     if left(0.0) > 0:
         return zero(left, 0.0, whole), None
-    surface = float(record["depth"])
     return 0.0, zero(lift, surface - D / 2, surface + D / 2)
 
 

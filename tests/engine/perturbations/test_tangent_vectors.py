@@ -115,6 +115,10 @@ VARIABLE = {
     "velocity_x_mps": [[[0.1, 0.3], [0.6, 1.0]], [[0.3, 0.1], [0.9, 0.7]]],
     "velocity_z_mps": [[[0.0, 0.1], [0.2, 0.0]], [[0.1, 0.0], [0.0, 0.2]]],
 }
+# the line leaves the water by metres; and one that lies on the bed in part, and is dragged over it
+FLYING = STEEP | CAP | {"water.depth_m": 20.0, "tether.submergence": "free-surface", "tether.diameter_m": 0.3}
+SOFT_BED = {"stiffness_Npm3": 1e5, "damping_Nspm3": 1e4, "friction": 0.5, "friction_speed_mps": 0.1}
+ON_THE_BED = TAUT | held(17.0, 6.0) | {"floor": SOFT_BED, "tether.tension.stiffness_N": 5e3}
 RUNS = {  # overrides, duration in s
     "taut": (TAUT, 15.0),
     "steep, slack and snap": (STEEP, 25.0),
@@ -136,6 +140,11 @@ RUNS = {  # overrides, duration in s
         STEEP | {"waves.direction_rad": np.pi, "waves.phase_rad": 0.7, "waves.ramp_s": 6.0},
         20.0,
     ),
+    "damped": (STEEP | {"tether.damping_Ns": 2e3}, 20.0),
+    "damped, free": (TAUT | free(100.0, 900.0) | {"tether.damping_Ns": 2e3}, 1.0),
+    "damped, held": (TAUT | held(8.0, 17.0) | {"tether.damping_critical": 0.5}, 5.0),
+    "through the surface": (FLYING | {"waves.phase_rad": 0.3}, 20.0),
+    "on the bed": (ON_THE_BED, 8.0),
     "stretched grid": (TAUT | {"tether.grid_stretching": 2.0}, 15.0),
     "trbdf2": (STEEP | {"solver.integrator": "trbdf2"}, 20.0),
     "backward Euler": (STEEP | {"solver.integrator": "backward-euler", "water.depth_m": 21.0}, 10.0),

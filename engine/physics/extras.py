@@ -1,0 +1,129 @@
+"""Laws of the line that few scenes have; an EXTRA record (`engine.record`) has their numbers, no other compiles them.
+
+Material damping (Kelvin and Voigt), T = f(eps) + c e_t, with the rate of strain e_t = t.q_t of the stage itself.
+
+The surface of the water on the line, as on the buoy (`engine.physics.submergence`): where the axis is H + eta - z below
+the wave, x = (H + eta - z)/d + 1/2 and s = x^2 (3 - 2x) of the water acts, over the line's own diameter. The load g of
+the fluid, the lift B of the displaced water and, so that passages make no energy, Lagrange's force of the energy
+s m_a |v_p|^2/2, v_p = v - v_t t, become
+
+    G = m V_t + w0 z + s g + (1 - s) B z + m_a s' (h_t v_p + |v_p|^2 n/2),  h_t = eta_t - n.V,  n = (-grad eta, 1)
+
+The bed, z = 0, on the axis of the line. At the depth p = -z a metre of line meets a spring that begins softly, up to
+the depth p_0 that its own weight has on it, a damper as soft, which does not pull, and Coulomb's friction, regular over
+the speed v_s:
+
+    N = max(k y(p) + c y'(p) p_t, 0),   y = p^2/(2 p_0) up to p_0, then p - p_0/2
+    G = ... - N z + mu N u/sqrt(u^2 + v_s^2)
+
+Loads depend on the place X of a node. A stage moves it with dX = dV/cq, and so their slopes join dG/dV.
+Vectors have three components; a plane has y = 0.
+"""
+
+import math
+
+from ..compiled import kernel
+from ..spatial.vectors import dot, mixed
+from .submergence import surface
+
+ZERO = (0.0, 0.0, 0.0)
+
+
+@kernel
+def outer(a, u, v):
+    """Rows of a u v'."""
+    return (
+        (a * u[0] * v[0], a * u[0] * v[1], a * u[0] * v[2]),
+        (a * u[1] * v[0], a * u[1] * v[1], a * u[1] * v[2]),
+        (a * u[2] * v[0], a * u[2] * v[1], a * u[2] * v[2]),
+    )
+
+
+@kernel
+def sum_of(A, B):
+    """A + B, of three rows each."""
+    return mixed(1.0, A[0], 1.0, B[0]), mixed(1.0, A[1], 1.0, B[1]), mixed(1.0, A[2], 1.0, B[2])
+
+
+@kernel
+def wetting(p, t, in_motion, ahead, x, V):
+    """At the place x (m) with the velocity V: s, s' (1/m), s'' (1/m2), h_t (m/s), n, and slopes of h_t and n along
+    `ahead`, the direction of the waves."""
+    eta, slope, curve, rate, rate_slope = surface(p, t, in_motion, dot(ahead, x))
+    inverse = 1.0 / p.width
+    y = min(max((p.depth + eta - x[2]) * inverse + 0.5, 0.0), 1.0)
+    bend = 6.0 * inverse * inverse * (1.0 - 2.0 * y) if 0.0 < y < 1.0 else 0.0
+    n = (-ahead[0] * slope, -ahead[1] * slope, 1.0)
+    faster = in_motion * (rate_slope + curve * dot(ahead, V))
+    share = y * y * (3.0 - 2.0 * y)
+    return share, 6.0 * inverse * y * (1.0 - y), bend, in_motion * (rate - dot(n, V)), n, faster, -curve
+
+
+@kernel
+def across_of(v, tangent):
+    """v_t and v_p = v - v_t t."""
+    vt = dot(v, tangent)
+    return vt, mixed(1.0, v, -vt, tangent)
+
+
+@kernel
+def surface_load(p, in_motion, ahead, wet, v, tangent, fluid):
+    """What the surface adds to the load of a metre of line, and rows of its derivatives.
+
+    wet: of `wetting`; fluid (N/m): load of the fluid on a line that is all in the water. Returns the load; its
+    derivative by v, at given fluid, and by V in h_t alone; by the place.
+    """
+    share, ds, bend, sinking, n, faster, turning = wet
+    vp = across_of(v, tangent)[1]
+    half = 0.5 * dot(vp, vp)
+    lost = (fluid[0], fluid[1], fluid[2] - p.buoyed)
+    impact = mixed(sinking, vp, half, n)
+    slam = p.ma * ds
+    load = mixed(share - 1.0, lost, slam, impact)
+    gain = slam * sinking * in_motion
+    by_v = sum_of(outer(slam * in_motion, n, vp), outer(-gain, tangent, tangent))
+    by_v = (
+        (by_v[0][0] + gain, by_v[0][1], by_v[0][2]),
+        (by_v[1][0], by_v[1][1] + gain, by_v[1][2]),
+        (by_v[2][0], by_v[2][1], by_v[2][2] + gain),
+    )
+    of_place = outer(-1.0, mixed(ds, lost, p.ma * bend, impact), n)
+    of_place = sum_of(of_place, outer(slam, mixed(faster, vp, half * turning, ahead), ahead))
+    return load, by_v, outer(-slam * in_motion, vp, n), of_place
+
+
+@kernel
+def surface_turn(p, wet, v, tangent, dt):
+    """Change of the load of `surface_load`, at given fluid, where the tangent turns towards dt."""
+    _, ds, _, sinking, n, _, _ = wet
+    vt, vp = across_of(v, tangent)
+    change = mixed(-vt, dt, -dot(v, dt), tangent)
+    return mixed(p.ma * ds * sinking, change, -p.ma * ds * vt * dot(vp, dt), n)
+
+
+@kernel
+def bed_load(p, in_motion, z, V):
+    """Load of the bed on a metre of line at the height z (m) of its axis: the load G has of it, its derivative by V
+    (rows) and by z."""
+    depth = -z
+    if depth <= 0.0:
+        return ZERO, (ZERO, ZERO, ZERO), ZERO
+    gate = min(depth / p.bed_onset, 1.0)
+    y = depth - 0.5 * p.bed_onset if depth > p.bed_onset else 0.5 * depth * gate
+    sinking = -in_motion * V[2]
+    N = p.bed_stiffness * y + p.bed_damping * gate * sinking
+    if N <= 0.0:
+        return ZERO, (ZERO, ZERO, ZERO), ZERO
+    by_depth = p.bed_stiffness * gate + (p.bed_damping * sinking / p.bed_onset if depth < p.bed_onset else 0.0)
+    by_sinking = in_motion * p.bed_damping * gate
+    u = (in_motion * V[0], in_motion * V[1], 0.0)
+    inverse = 1.0 / math.sqrt(u[0] * u[0] + u[1] * u[1] + p.bed_speed * p.bed_speed)
+    way = (p.bed_friction * inverse * u[0], p.bed_friction * inverse * u[1], -1.0)  # of the load over N
+    rub = in_motion * N * p.bed_friction * inverse
+    bent = -rub * inverse * inverse
+    rows = (
+        (rub + bent * u[0] * u[0], bent * u[0] * u[1], -way[0] * by_sinking),
+        (bent * u[0] * u[1], rub + bent * u[1] * u[1], -way[1] * by_sinking),
+        (0.0, 0.0, by_sinking),
+    )
+    return (N * way[0], N * way[1], -N), rows, (-way[0] * by_depth, -way[1] * by_depth, by_depth)

@@ -1,0 +1,183 @@
+"""The laws of `engine.physics.extras` in the nodal quantities of the plane, and in its matrix."""
+
+from ..compiled import by_kind, kernel
+from ..physics.ends import released
+from ..physics.extras import ZERO, bed_load, sum_of, surface_load, surface_turn, wetting
+from ..record import HELD
+from ..spatial.vectors import quaternion
+from . import columns as col
+
+# Columns of H of lateral perturbations: coefficients of a node: sine and cosine of half the turn of the box below it,
+# then derivatives by tau and rho of q_y, N_y (without -dS_b) and G_y, dG_y/dV_y, and (1 + eps)^3
+SIN_HALF, COS_HALF, Q_TAU, Q_RHO, N_TAU, N_RHO, G_TAU, G_RHO, G_V, CUBE = range(10)
+
+
+@kernel
+def _nothing(p, stage, Y, work):
+    pass
+
+
+@kernel
+def _added(p, stage, Y, work):
+    """Add to Q, as `node_quantities` left it, what these laws do at every node."""
+    t, in_motion, cq, cv = stage
+    ahead = (p.direction, 0.0, 0.0)
+    for k in range(Y.shape[0]):
+        row, F, X, C_tilde = work.Q[k], work.F[k], work.X[k], work.C_tilde[k]
+        c, s = row[col.COS], row[col.SIN]
+        if p.damping > 0.0:
+            damping = in_motion * p.damping
+            rate = c * row[col.QX_T] + s * row[col.QZ_T]
+            row[col.NX] += damping * rate * c
+            row[col.NZ] += damping * rate * s
+            row[col.SLOPE] += damping * cq
+            row[col.N_TURN] = damping * (c * row[col.QZ_T] - s * row[col.QX_T])
+        x, V, tangent = (X[0], 0.0, X[1]), (Y[k, col.VX], 0.0, Y[k, col.VZ]), (c, 0.0, s)
+        load, own, place, row[col.SHARE] = ZERO, (ZERO, ZERO, ZERO), (ZERO, ZERO, ZERO), 1.0
+        if p.surfaced:
+            inertia = p.m * cv
+            ax, az = V[0] - C_tilde[col.VX], V[2] - C_tilde[col.VZ]
+            fluid = (row[col.GX] - inertia * ax, 0.0, row[col.GZ] - inertia * az - p.w0)
+            v = (in_motion * V[0] - F[col.UX], 0.0, in_motion * V[2] - F[col.UZ])
+            wet = wetting(p, t, in_motion, ahead, x, V)
+            share = row[col.SHARE] = wet[0]
+            load, by_v, own, place = surface_load(p, in_motion, ahead, wet, v, tangent, fluid)
+            turn = surface_turn(p, wet, v, tangent, (-s, 0.0, c))
+            row[col.GX_EPS] *= share
+            row[col.GZ_EPS] *= share
+            row[col.GX_PHI] = share * row[col.GX_PHI] + turn[0]
+            row[col.GZ_PHI] = share * row[col.GZ_PHI] + turn[2]
+            row[col.GXX] = share * (row[col.GXX] - inertia) + inertia + by_v[0][0]
+            row[col.GXZ] = share * row[col.GXZ] + by_v[0][2]
+            row[col.GZX] = share * row[col.GZX] + by_v[2][0]
+            row[col.GZZ] = share * (row[col.GZZ] - inertia) + inertia + by_v[2][2]
+        if p.floored:
+            of_bed, by_V, by_z = bed_load(p, in_motion, x[2], V)
+            load = (load[0] + of_bed[0], 0.0, load[2] + of_bed[2])
+            own = sum_of(own, by_V)
+            place = sum_of(place, ((0.0, 0.0, by_z[0]), ZERO, (0.0, 0.0, by_z[2])))
+        row[col.GX] += load[0]
+        row[col.GZ] += load[2]
+        over = 1.0 / cq
+        for i in range(2):
+            for j in range(2):
+                at = 2 * i + j
+                row[col.OWN + at], row[col.BY_PLACE + at] = own[2 * i][2 * j], over * place[2 * i][2 * j]
+                row[col.GXX + at] += row[col.OWN + at] + row[col.BY_PLACE + at]
+
+
+more_loads = by_kind(_nothing, _nothing, extra=_added)
+
+
+@kernel
+def _turns(p, row):
+    return row[col.NZ], row[col.NX]
+
+
+@kernel
+def _turns_damped(p, row):
+    return row[col.NZ] - row[col.N_TURN] * row[col.COS], row[col.NX] + row[col.N_TURN] * row[col.SIN]
+
+
+force_by_turn = by_kind(_turns, _turns, extra=_turns_damped)  # -dN_x/dphi and dN_z/dphi
+
+
+@kernel
+def _all_drag(p, row):
+    return 1.0, (0.0, 0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 0.0)
+
+
+@kernel
+def _less_drag(p, row):
+    return row[col.SHARE], quaternion(row, col.OWN), quaternion(row, col.BY_PLACE)
+
+
+# share of a node in the water; what else than inertia and drag dG/dV has: through V itself, and through the place
+beside_drag = by_kind(_all_drag, _all_drag, extra=_less_drag)
+
+
+@kernel
+def _no_force(p, rate, row, dC_tilde):
+    return 0.0, 0.0
+
+
+@kernel
+def _damping_force(p, rate, row, dC_tilde):
+    c, s = row[col.COS], row[col.SIN]
+    force = -p.damping * rate * (c * dC_tilde[col.CX] + s * dC_tilde[col.CZ])
+    return force * c, force * s
+
+
+known_force = by_kind(_no_force, _no_force, extra=_damping_force)  # change of N that a change of C~ makes
+
+
+@kernel
+def _no_end(p, t, x, z):
+    return 0.0, 0.0
+
+
+@kernel
+def _end_of_force(p, t, x, z):
+    return (0.0, 0.0) if p.end == HELD and not released(p, t) else (x, z)
+
+
+known_end = by_kind(_no_end, _no_end, extra=_end_of_force)  # of that, what the condition of the upper end has
+
+
+@kernel
+def _no_more(p, base, X, Q, F, H):
+    pass
+
+
+@kernel
+def _more_across(p, base, X, Q, F, H):
+    """Change the coefficients H of lateral perturbations (`engine.perturbations.lateral`) of every node."""
+    Y, K, ahead = base.Y, base.K, (p.direction, 0.0, 0.0)
+    for k in range(Y.shape[0]):
+        c, s, h = Q[k, col.COS], Q[k, col.SIN], H[k]
+        x, V = (X[k, 0], 0.0, X[k, 1]), (Y[k, col.VX], 0.0, Y[k, col.VZ])
+        Q[k, col.SHARE] = 1.0
+        viscous = p.damping * (c * K[k, col.CX] + s * K[k, col.CZ])
+        h[N_TAU] += viscous * h[COS_HALF]
+        h[N_RHO] -= viscous * h[SIN_HALF]
+        if p.surfaced:
+            share, ds, _, sinking, _, _, _ = wetting(p, base.t, 1.0, ahead, x, V)
+            Q[k, col.SHARE] = share
+            slam = p.ma * ds * sinking
+            vt = (V[0] - F[k, col.UX]) * c + (V[2] - F[k, col.UZ]) * s
+            h[G_TAU] = share * h[G_TAU] - slam * vt * h[COS_HALF]
+            h[G_RHO] = share * h[G_RHO] + slam * vt * h[SIN_HALF]
+            inertia = p.m * base.rate
+            h[G_V] = inertia + share * (h[G_V] - inertia) + slam
+        if p.floored:
+            h[G_V] += bed_load(p, 1.0, x[2], V)[1][1][1]
+
+
+more_across = by_kind(_no_more, _no_more, extra=_more_across)
+
+
+@kernel
+def _inertia_of(p, rate, e, Qa, Qb, below, above):
+    return e * ((p.m + p.ma) * rate), below + above
+
+
+@kernel
+def _inertia_of_shares(p, rate, e, Qa, Qb, below, above):
+    return e * rate, (p.m + Qa[col.SHARE] * p.ma) * below + (p.m + Qb[col.SHARE] * p.ma) * above
+
+
+# two factors of e times inertia times the known lateral velocities below and above
+lateral_inertia = by_kind(_inertia_of, _inertia_of, extra=_inertia_of_shares)
+
+
+@kernel
+def _width(p):
+    return col.NODE_WIDTH
+
+
+@kernel
+def _wider(p):
+    return col.EXTRA_WIDTH
+
+
+node_width = by_kind(_width, _width, extra=_wider)

@@ -1,0 +1,132 @@
+"""Rules between the values of a scene (`engine.scene.rules`): water, waves, current, what comes out of the water."""
+
+import math
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+from engine.scene.faults import fault, shown
+
+if TYPE_CHECKING:
+    from engine.scene.rules import Sound
+
+Facts = Iterator[tuple[object, str, str]]  # whether a rule is broken, the key that breaks it, what it allows there
+HEIGHTS = ("steepness", "amplitude_m", "components", "jonswap")  # of the waves: a scene has one of these
+PLANE = "in a plane (motion.dimensions = 2)"
+_ALONG = f"0 or pi {PLANE}"
+
+
+def water(sound: "Sound") -> Facts:
+    dry, waves = sound["water"] is None, sound["waves"] is not None
+    yield dry and waves, "water", "a table, because waves are given"
+    yield dry and sound["current"] is not None, "water", "a table, because a current is given"
+    yield waves and sound["gravity_mps2"] == 0, "gravity_mps2", "above 0, because waves are given"
+    bed = "in water, and above a floor, a height above the bed, 0 or more"
+    sunk = (sound["anchor.position_m"] or (0, 0, 0))[2] < 0
+    yield sunk and (not dry or sound["floor"] is not None), "anchor.position_m", bed
+    depth = sound["water.depth_m"] or math.inf
+    for key in ("waves.amplitude_m", "waves.jonswap.significant_height_m"):
+        yield (sound[key] or 0) >= depth, key, f"less than water.depth_m, {shown(depth)}"
+    yield sound["motion.dimensions"] == 2 and _aslant(sound["waves.direction_rad"]), "waves.direction_rad", _ALONG
+
+
+def _aslant(angle: float) -> bool:
+    """Does a wave in this direction leave the plane?"""
+    return bool(angle) and min(abs(angle), abs(abs(angle) - math.pi)) > 1e-9
+
+
+def sea(sound: "Sound") -> Facts:
+    """What an irregular sea takes the place of."""
+    listed, drawn = (sound[f"waves.{key}"] is not None for key in ("components", "jonswap"))
+    own = "each component has its own" if listed else "waves.jonswap draws those of its components"
+    yield (listed or drawn) and sound["waves.phase_rad"], "waves.phase_rad", f"0: {own}"
+    yield listed and sound["waves.direction_rad"], "waves.direction_rad", f"0: {own}"
+    for key in ("buoy.submergence", "tether.submergence"):
+        cut = sound[key] in ("spherical-cap", "free-surface")
+        yield (listed or drawn) and cut, key, "'full' in irregular waves"
+
+
+def heights(sound: "Sound") -> Iterator[str]:
+    waves = sound.raw.get("waves")
+    if not isinstance(waves, dict):
+        return
+    given = {name: waves[name] for name in HEIGHTS if waves.get(name) is not None}
+    if not given:
+        yield "waves.steepness: missing; allowed: exactly one of " + ", ".join(f"waves.{name}" for name in HEIGHTS)
+    if len(given) > 1:
+        several = " and ".join(f"waves.{name} = {shown(value)}" for name, value in given.items())
+        yield f"waves: given {several}; allowed: exactly one of them"
+    listed, depth = sound["waves.components"] or (), sound["water.depth_m"] or math.inf
+    if (total := sum(one["amplitude_m"] for one in listed)) >= depth:
+        yield f"waves.components: given amplitudes of {total:.6g} m in all; allowed: less than water.depth_m, {depth}"
+    for index, one in enumerate(listed if sound["motion.dimensions"] == 2 else ()):
+        if _aslant(one.get("direction_rad")):
+            yield fault(f"waves.components[{index}].direction_rad", one["direction_rad"], _ALONG)
+
+
+def current(sound: "Sound") -> Iterator[str]:
+    for axis in ("time_s", "height_m", "y_m", "x_m"):
+        yield from sound.increasing(f"current.{axis}")
+    if sound["current.law"] == "profile":
+        yield from sound.paired("current.velocity_mps", "current.height_m")
+    if sound["current.law"] != "table":
+        return
+    axes = {"times": "time_s", "heights": "height_m", "places along y": "y_m", "places along x": "x_m"}
+    if sound["current.y_m"] is None:
+        del axes["places along y"]
+    sizes = {word: len(sound[f"current.{axis}"] or ()) for word, axis in axes.items()}
+    allowed = "allowed: " + " x ".join(f"{size} {word}" for word, size in sizes.items())
+    for key in (f"current.velocity_{component}_mps" for component in "xyz"):
+        if all(sizes.values()) and sound[key] and (wrong := _wrong_size(sound[key], list(sizes.items()))):
+            yield f"{key}{wrong}; {allowed}"
+
+
+def _wrong_size(block: object, sizes: list[tuple[str, int]]) -> str:
+    """Where nested lists are not of the given sizes, and what is there; empty where they are."""
+    if not isinstance(block, (list, tuple)):
+        return f": given {shown(block)} in place of {sizes[0][0]}" if sizes else ""
+    if not sizes:
+        return f": given a list of {len(block)} in place of a number"
+    word, size = sizes[0]
+    if len(block) != size:
+        return f": given {len(block)} {word}"
+    wrong = ((index, _wrong_size(part, sizes[1:])) for index, part in enumerate(block))
+    return next((f"[{index}]{text}" for index, text in wrong if text), "")
+
+
+def held_under(sound: "Sound") -> Iterator[str]:
+    """A line so long that its buoy, the whole sphere loaded as in water, would stand in the air above the sea."""
+    water, line = "depth_m density_kgpm3", "length_m area_m2 density_kgpm3"
+    keys = [f"water.{key}" for key in water.split()] + [f"tether.{key}" for key in line.split()]
+    keys += ["buoy.diameter_m", "buoy.mass_kg", "gravity_mps2", "anchor.position_m"]
+    values, law = [sound[key] for key in keys], sound["tether.tension"]
+    if sound["buoy.submergence"] != "full" or sound["current"] is not None or not (law and all(values)):
+        return
+    from engine.physics.tension import LAWS, NAMES
+    from engine.scales import strain_at
+
+    if isinstance(law, dict):
+        module = LAWS[NAMES.index(law["law"])]
+        if any(module.faults(sound)):
+            return
+        law = module.Model.model_validate(law)
+    depth, rho, length, area, density, D, mass, g, anchor = values
+    lift, weight = (rho * math.pi * D**3 / 6 - mass) * g, (density - rho) * area * length * g
+    if min(lift, lift - weight) <= 0:  # not taut from end to end
+        return
+    strain = strain_at(lift - weight / 2, law)
+    lowest = anchor[2] + length * (1 + strain) - D / 2
+    if lowest >= depth and strain < 10:  # beyond, statics says that the law does not carry the load
+        rule = f"above {lowest:.6g}, where the line lets the sphere begin to touch the water; or buoy.submergence = "
+        yield fault("water.depth_m", depth, rule + "'spherical-cap', with which it floats")
+
+
+def cap(sound: "Sound") -> Facts:
+    """What a buoy that is partly in the water needs."""
+    key, cap = "buoy.submergence", sound["buoy.submergence"] == "spherical-cap"
+    rule = "'full', because solver.scheme is 'paper-box': eq. (30) as printed has the whole sphere in the water"
+    yield cap and sound["solver.scheme"] == "paper-box", key, rule
+    yield cap and sound["water"] is None, key, "'full', because there is no water"
+    line = sound["tether.submergence"] == "free-surface"
+    yield line and sound["water"] is None, "tether.submergence", "'full', because there is no water"
+    rule = "0, because buoy.submergence is not 'spherical-cap': the whole sphere is always in the water"
+    yield not cap and sound["buoy.impact_loss"], "buoy.impact_loss", rule

@@ -1,0 +1,97 @@
+"""The laws of `engine.physics.extras` in the nodal quantities in space, and in its matrix."""
+
+from ..compiled import by_kind, kernel
+from ..physics.extras import ZERO, bed_load, sum_of, surface_load, surface_turn, wetting
+from . import columns as col
+from .vectors import dot, mixed, put, put_rows, rows_of, vector
+
+
+@kernel
+def _nothing(p, stage, Y, work):
+    pass
+
+
+@kernel
+def _added(p, stage, Y, work):
+    """Add to Q, as `node_quantities` left it, what these laws do at every node."""
+    t, in_motion, cq, cv = stage
+    ahead = (p.dir_x, p.dir_y, 0.0)
+    for k in range(Y.shape[0]):
+        row, F, x = work.Q[k], work.F[k], vector(work.X[k], 0)
+        tangent, n, b = vector(row, col.T_VECTOR), vector(row, col.N_VECTOR), vector(row, col.B_VECTOR)
+        V = vector(Y[k], col.V)
+        if p.damping > 0.0:
+            damping, q_t = in_motion * p.damping, vector(row, col.Q_T)
+            rate = damping * dot(tangent, q_t)
+            put(row, col.N, mixed(1.0, vector(row, col.N), rate, tangent))
+            row[col.TENSION] += rate
+            row[col.SLOPE] += damping * cq
+            row[col.N_TURN2], row[col.N_TURN3] = damping * dot(b, q_t), -damping * dot(n, q_t)
+        if p.surfaced == 0 and p.floored == 0:
+            continue
+        G, by_V, over = vector(row, col.G), rows_of(row, col.G_V), 1.0 / cq
+        if p.surfaced:
+            inertia = p.m * cv
+            gx, gy, gz = mixed(1.0, G, -inertia, mixed(1.0, V, -1.0, vector(work.C_tilde[k], col.V)))
+            v = mixed(in_motion, V, -1.0, vector(F, 0))
+            wet = wetting(p, t, in_motion, ahead, x, V)
+            load, by_v, own, place = surface_load(p, in_motion, ahead, wet, v, tangent, (gx, gy, gz - p.w0))
+            share = wet[0]
+            put(row, col.G_EPS, mixed(share, vector(row, col.G_EPS), 0.0, x))
+            for at, dt in ((col.G_THETA2, mixed(-1.0, b, 0.0, b)), (col.G_THETA3, n)):
+                put(row, at, mixed(share, vector(row, at), 1.0, surface_turn(p, wet, v, tangent, dt)))
+            G = mixed(1.0, G, 1.0, load)
+            more = sum_of(sum_of(by_v, own), _scaled(over, place))
+            more = sum_of(more, _scaled(share, by_V))
+            dry = inertia - share * inertia
+            by_V = (
+                (more[0][0] + dry, more[0][1], more[0][2]),
+                (more[1][0], more[1][1] + dry, more[1][2]),
+                (more[2][0], more[2][1], more[2][2] + dry),
+            )
+        if p.floored:
+            load, of_V, by_z = bed_load(p, in_motion, x[2], V)
+            G = mixed(1.0, G, 1.0, load)
+            by_V = sum_of(by_V, sum_of(of_V, _in_z(over, by_z)))
+        put(row, col.G, G)
+        put_rows(row, col.G_V, by_V)
+
+
+@kernel
+def _scaled(a, A):
+    return mixed(a, A[0], 0.0, ZERO), mixed(a, A[1], 0.0, ZERO), mixed(a, A[2], 0.0, ZERO)
+
+
+@kernel
+def _in_z(a, column):
+    """Rows of a matrix that has nothing but a third column."""
+    return (0.0, 0.0, a * column[0]), (0.0, 0.0, a * column[1]), (0.0, 0.0, a * column[2])
+
+
+more_loads = by_kind(_nothing, _nothing, extra=_added)
+
+
+@kernel
+def _no_change(p, row):
+    return 0.0, 0.0
+
+
+@kernel
+def _damped(p, row):
+    return row[col.N_TURN2], row[col.N_TURN3]
+
+
+along_by_turn = by_kind(_no_change, _no_change, extra=_damped)  # what dN/dtheta2 and dN/dtheta3 along t are less
+
+
+@kernel
+def _width(p):
+    return col.NODE_WIDTH
+
+
+@kernel
+def _wider(p):
+    return col.EXTRA_WIDTH
+
+
+node_width = by_kind(_width, _width, extra=_wider)
