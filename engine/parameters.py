@@ -76,6 +76,8 @@ def _extras(record, scene):
     if tether.damping_critical:  # c = zeta l sqrt(T' m), l the mean element
         element = tether.length_m / (tether.nodes - 1)
         record["damping"] = tether.damping_critical * element * record["m"] * scales.fastest_wave(record, scene)
+    if tether.froude_krylov == "whole":  # of R, what acts along the line too
+        record["pushed"], record["Rw"] = record["Rw"] - record["ma"], record["ma"]
     record["surfaced"], record["width"] = tether.submergence == "free-surface", tether.diameter_m
     if record["surfaced"]:
         record["buoyed"] = scene.water.density_kgpm3 * tether.area_m2 * scene.gravity_mps2

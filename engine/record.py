@@ -60,7 +60,7 @@ PLAIN = np.dtype(_dtype("plain", "") + RECORD.descr)
 # Scenes with a law of `engine.physics.extras`, in a plane and in space: no other scene has its fields, or compiles it
 _EXTRAS = _dtype(
     "surfaced floored",
-    "anchor_x anchor_y anchor_z damping buoyed width bed_stiffness bed_damping bed_friction bed_speed bed_onset",
+    "anchor_x anchor_y anchor_z damping pushed buoyed width bed_stiffness bed_damping bed_friction bed_speed bed_onset",
 )
 EXTRA = np.dtype(_dtype("extra", "") + _EXTRAS + RECORD.descr)
 EXTRA_SPATIAL = np.dtype(_dtype("extra_spatial", "") + _EXTRAS + SPATIAL.descr)

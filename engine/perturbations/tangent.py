@@ -34,7 +34,7 @@ from ..physics.water import water as flow
 from ..physics.water import water_slopes
 from ..planar import columns as col
 from ..planar.elimination import inertia_of_box
-from ..planar.extras import beside_drag, known_end, known_force
+from ..planar.extras import beside_drag, known_end, known_force, push_by_place
 from ..record import BUOY
 from ..simd.select import where
 from ..spatial.vectors import affine, dot, put, quaternion, rows_of, times, vector
@@ -91,6 +91,7 @@ def _add_water(p, tables, base, work, water):
         Q[k, col.GXZ] -= over * (xx * Uz + xz * Wz - s * by_z)
         Q[k, col.GZX] -= over * (zx * Ux + zz * Wx + c * by_x)
         Q[k, col.GZZ] -= over * (zx * Uz + zz * Wz + c * by_z)
+        push_by_place(p, over, Q[k], J)
     last = Q.shape[0] - 1
     for axis in range(2):
         dF = _water_change(water.J[last], 1.0 - axis, 1.0 * axis)

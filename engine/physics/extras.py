@@ -2,6 +2,9 @@
 
 Material damping (Kelvin and Voigt), T = f(eps) + c e_t, with the rate of strain e_t = t.q_t of the stage itself.
 
+The whole of the undisturbed water's push, rho_w pi d^2/4 U_w,t as a vector, in the place of its part across the line:
+what a body of that volume has in the pressure of the waves, and the effective tension then has on its cut.
+
 The surface of the water on the line, as on the buoy (`engine.physics.submergence`): where the axis is H + eta - z below
 the wave, x = (H + eta - z)/d + 1/2 and s = x^2 (3 - 2x) of the water acts, over the line's own diameter. The load g of
 the fluid, the lift B of the displaced water and, so that passages make no energy, Lagrange's force of the energy

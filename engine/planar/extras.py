@@ -34,6 +34,8 @@ def _added(p, stage, Y, work):
             row[col.N_TURN] = damping * (c * row[col.QZ_T] - s * row[col.QX_T])
         x, V, tangent = (X[0], 0.0, X[1]), (Y[k, col.VX], 0.0, Y[k, col.VZ]), (c, 0.0, s)
         load, own, place, row[col.SHARE] = ZERO, (ZERO, ZERO, ZERO), (ZERO, ZERO, ZERO), 1.0
+        row[col.GX] -= p.pushed * F[col.AX]
+        row[col.GZ] -= p.pushed * F[col.AZ]
         if p.surfaced:
             inertia = p.m * cv
             ax, az = V[0] - C_tilde[col.VX], V[2] - C_tilde[col.VZ]
@@ -94,6 +96,24 @@ def _less_drag(p, row):
 
 # share of a node in the water; what else than inertia and drag dG/dV has: through V itself, and through the place
 beside_drag = by_kind(_all_drag, _all_drag, extra=_less_drag)
+
+
+@kernel
+def _no_push(p, over, row, J):
+    pass
+
+
+@kernel
+def _push(p, over, row, J):
+    """Add to dG/dV what the place does to the push of the water, J (8) its slopes (`engine.physics.water`)."""
+    push = over * p.pushed * row[col.SHARE]
+    row[col.GXX] -= push * J[2]
+    row[col.GZX] -= push * J[3]
+    row[col.GXZ] -= push * J[6]
+    row[col.GZZ] -= push * J[7]
+
+
+push_by_place = by_kind(_no_push, _no_push, extra=_push)
 
 
 @kernel

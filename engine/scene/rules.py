@@ -191,6 +191,7 @@ def _solver(sound: Sound) -> Facts:
         yield box and any(sound[key] or ()), key, f"zero, {because}"
     line = sound["tether.submergence"] == "free-surface"
     yield box and line, "tether.submergence", f"'full', {because}"
+    yield box and sound["tether.froude_krylov"] == "whole", "tether.froude_krylov", f"'normal', {because}"
     yield box and sound["floor"] is not None, "floor", f"none, {because}"
     share, damping = "tether.damping_critical", "tether.damping_Ns"
     yield sound[share] and sound[damping], share, f"only without {damping}, which says the same"

@@ -68,6 +68,12 @@ class Tether(Section):
     damping_critical: NonNegative | None = described(
         "material damping as a share of the critical one of an element, c = share l sqrt(T' m)", None, symbol="zeta"
     )
+    froude_krylov: Literal["normal", "whole"] = described(
+        "what the accelerating water does: rho_w pi d^2/4 times its acceleration across the line, or all of it, T "
+        "then with the pressure of the waves on the cut",
+        "normal",
+        paper="(24)",
+    )
     submergence: Literal["full", "free-surface"] = described(
         "part on which the water acts: the whole line, or what is below the wave", "full"
     )

@@ -27,7 +27,8 @@ def has_extras(scene: Scene) -> bool:
     tether = scene.tether
     damped = tether.damping_Ns or tether.damping_critical
     raised = any(scene.anchor.position_m)
-    return bool(damped or raised or tether.submergence != "full" or scene.floor is not None)
+    whole = tether.froude_krylov == "whole"
+    return bool(damped or raised or whole or tether.submergence != "full" or scene.floor is not None)
 
 
 def is_plain(scene: Scene) -> bool:

@@ -27,9 +27,8 @@ def _added(p, stage, Y, work):
             row[col.TENSION] += rate
             row[col.SLOPE] += damping * cq
             row[col.N_TURN2], row[col.N_TURN3] = damping * dot(b, q_t), -damping * dot(n, q_t)
-        if p.surfaced == 0 and p.floored == 0:
-            continue
-        G, by_V, over = vector(row, col.G), rows_of(row, col.G_V), 1.0 / cq
+        G = mixed(1.0, vector(row, col.G), -p.pushed, vector(F, col.ACCELERATION))
+        by_V, over = rows_of(row, col.G_V), 1.0 / cq
         if p.surfaced:
             inertia = p.m * cv
             gx, gy, gz = mixed(1.0, G, -inertia, mixed(1.0, V, -1.0, vector(work.C_tilde[k], col.V)))

@@ -13,7 +13,7 @@ import numpy as np
 from ..arrays import Stage
 from ..planar import columns as col
 from ..planar import state as planar
-from ..record import BUOY, FREE, HELD, is_spatial, lengths_of
+from ..record import BUOY, FREE, HELD, has_extras, is_spatial, lengths_of
 from ..scales import buckling_load, strain_at, tension_at
 from ..scene.models import Scene
 from ..spatial import columns as spatial_col
@@ -30,6 +30,7 @@ MOST_TURNS = 4  # a bight that the grid does not resolve keeps a folded node
 LEANING = 1.0
 MOST_STRAIN = 10.0  # up to which the engine looks for the strain under a load (`scales.strain_at`)
 NEARLY_NOTHING = -0.99  # a strain at which next to nothing is left of the line
+SINKING, STIFFER = 0.01, 10.0  # into the softest bed, of the length of the line; each stiffer one over the one before
 SPANS = 0.95, 0.98, 0.8, 0.9, 0.7, LEANING  # shares of its length that a slack line under a floating buoy spans
 
 
@@ -45,7 +46,7 @@ def rest_of(record: np.void, scene: Scene, tables: np.ndarray, target_m: np.ndar
     weight = abs(float(record["w0"])) * float(np.sum(h))
     for span in SPANS:
         Y = first_guess(record, scene, h, span)
-        code = settle(record, tables, Y, target_m)
+        code = _settle_on_bed(record, tables, Y, target_m)
         if not record["spherical_cap"]:
             return code, Y
         if code != OK:
@@ -58,6 +59,20 @@ def rest_of(record: np.void, scene: Scene, tables: np.ndarray, target_m: np.ndar
     if best is not None and best[0] >= -weight - buckling_load(scene.tether, scene.end):
         return OK, best[1]
     return STATICS_FAILED, Y
+
+
+def _settle_on_bed(record, tables, Y, target_m):
+    """As `settle`, with a bed: first one so soft that its line sinks into it by SINKING, then stiffer ones."""
+    soft = record.copy()
+    if has_extras(record) and record["floored"]:
+        softer = SINKING * float(np.sum(lengths_of(record, tables))) / float(record["bed_onset"])
+        while softer > 1.0:
+            soft["bed_stiffness"], soft["bed_onset"] = record["bed_stiffness"] / softer, record["bed_onset"] * softer
+            trial = Y.copy()
+            if settle(soft, tables, trial, target_m) == OK:
+                Y[:] = trial
+            softer /= STIFFER
+    return settle(record, tables, Y, target_m)
 
 
 def settle(record: np.void, tables: np.ndarray, Y: np.ndarray, target_m: np.ndarray) -> int:
