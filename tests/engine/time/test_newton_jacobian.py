@@ -147,3 +147,44 @@ def test_newton_is_quadratic_with_the_buoy_partly_in_the_water(dimensions, EI, d
     assert errors[0] > 1e-6
     for before, error in pairwise(errors):
         assert error < 40.0 * before**2 + 1e-12
+
+
+BED = {"stiffness_Npm3": 3e5, "damping_Nspm3": 2e4, "friction": 0.6, "friction_speed_mps": 0.5}
+LOW = {"end.kind": "held", "end.position_m": [18.0, 0.0, 0.4], "buoy": None, "waves": None, "floor": BED}
+EXTRAS = {  # scene, and how far the line is lifted (m) for the stage
+    "damping": ({"water": None, "waves": None, "tether.damping_Ns": 3e3}, 0.0),
+    "surface": ({"waves": None, "tether.submergence": "free-surface", "tether.diameter_m": 8.0}, 8.0),
+    "bed": (LOW, -0.05),
+}
+
+
+@pytest.mark.parametrize("name", EXTRAS)
+@pytest.mark.parametrize("EI", [0.4, 0.0], ids=["bent", "unbent"])
+@pytest.mark.parametrize("dimensions", [2, 3])
+def test_newton_is_quadratic_with_each_law_of_few_scenes(dimensions, EI, name):
+    """Still water, a line that moves and turns: nothing is left out of the matrix."""
+    changes, height = EXTRAS[name]
+    more = {"motion.dimensions": dimensions, "tether.tension.stiffness_N": 5e3, "anchor.position_m": [0.0, 0.0, 0.0]}
+    scene = line({**changes, **more}, nodes=7, bending_stiffness_Nm2=EI)
+    stage, axes, rate, rng = Stage(scene), dimensions, 40.0, np.random.default_rng(2)
+    if height:
+        stage.p["anchor_z"] = height
+    Y = Motion(scene).Y.copy()
+    velocity = slice(2, 4) if dimensions == 2 else slice(3, 6)
+    Y[1:, velocity] = rng.normal(0.0, 1.0, (6, axes))
+    if scene.end.kind == "held":
+        Y[-1, velocity] = 0.0
+    C_tilde = stage.conserved(Y)
+    C_tilde[:, :axes] += rng.normal(0.0, 2e-3, (7, axes))
+
+    def after(iterations):
+        trial = Y.copy()
+        _, used = stage.newton(0.0, rate, rate, 1e-40, iterations, trial, C_tilde)
+        assert used == iterations or used > 5
+        return trial[:, velocity]
+
+    end = after(10)
+    errors = [np.abs(after(count) - end).max() for count in range(1, 7)]
+    assert errors[0] > 1e-6
+    for before, error in pairwise(errors):
+        assert error < 40.0 * before**2 + 1e-11, errors

@@ -1,0 +1,118 @@
+"""Laws of the bed: Coulomb's friction, what a throw loses, the catenary that lies on it in part, rest.
+
+A mass m on the spring k and the damper c, which does not pull, comes back with the share e of its speed (Schwager &
+Poeschel 2007), e = exp(-2 zeta/sqrt(1 - zeta^2) atan(sqrt(1 - zeta^2)/zeta)), zeta = c/(2 sqrt(k m)); while it slides,
+friction takes mu (1 + e) v_n along the bed (Walton 1993).
+
+On the bed without friction the tension is H. From the touch-down on, with s from there,
+x = H s/EA + (H/w) asinh(w s/H), z = w s^2/2EA + (sqrt(H^2 + w^2 s^2) - H)/w.
+"""
+
+import math
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+from scipy.optimize import fsolve
+
+from engine import simulate
+from engine.physics.extras import bed_load
+from tests.engine.kernels import parameters_of
+from tests.engine.lines import DRY, STILL, equilibrium, held, line, linear, positions
+
+BED = {"stiffness_Npm3": 1e7, "damping_Nspm3": 2e4, "friction": 0.4, "friction_speed_mps": 0.01}
+CHAIN = {"length_m": 20.0, "area_m2": 1e-4, "density_kgpm3": 5000.0, "bending_stiffness_Nm2": 0.0}
+EA, G, WEIGHT = 1e5, 9.81, 5000.0 * 1e-4 * 9.81
+
+
+def bed(**changes):
+    return parameters_of(line(DRY, held(15.0, 4.0), {"floor": {**BED, **changes}}, **CHAIN))[0]
+
+
+def test_friction_is_coulombs_above_its_speed():
+    p = bed()
+    d = math.sqrt(4e-4 / math.pi)
+    depth = 3.0 * p["bed_onset"]
+    V = (0.3, -0.4, 0.0)
+    load, by_V, by_z = bed_load(p, 1.0, -depth, V)
+    normal = BED["stiffness_Npm3"] * d * (depth - 0.5 * p["bed_onset"])
+    assert load[2] == pytest.approx(-normal)
+    assert np.hypot(load[0], load[1]) == pytest.approx(0.4 * normal, rel=3e-4)
+    assert load[0] / load[1] == pytest.approx(V[0] / V[1])
+    assert bed_load(p, 1.0, 1e-9, V)[0] == (0.0, 0.0, 0.0)
+    assert bed_load(p, 1.0, -depth, (0.0, 0.0, 50.0))[0] == (0.0, 0.0, 0.0), "the damper does not pull"
+    # slopes, in the soft beginning too
+    for z, V in ((-depth, (0.02, -0.01, -0.03)), (-0.4 * p["bed_onset"], (0.005, 0.02, -0.01))):
+        _, by_V, by_z = bed_load(p, 1.0, z, V)
+        for i, step in enumerate(1e-6 * np.eye(3)):
+            sides = [np.array(bed_load(p, 1.0, z, tuple(V + sign * step))[0]) for sign in (1, -1)]
+            assert np.array(by_V)[:, i] == pytest.approx((sides[0] - sides[1]) / 2e-6, rel=1e-5, abs=1e-6)
+        h = 1e-4 * p["bed_onset"]
+        sides = [np.array(bed_load(p, 1.0, z + sign * h, V)[0]) for sign in (1, -1)]
+        assert by_z == pytest.approx((sides[0] - sides[1]) / (2 * h), rel=1e-5)
+
+
+@pytest.mark.parametrize("zeta", [0.1, 0.4])
+def test_an_inclined_throw_loses_what_theory_says(zeta):
+    mass = WEIGHT / G
+    width = math.sqrt(4e-4 / math.pi)
+    damping = 2 * zeta * math.sqrt(BED["stiffness_Npm3"] * width * mass) / width
+    p = bed(damping_Nspm3=damping, friction=0.1)
+
+    def motion(t, y):
+        return [y[1], *(-np.array(bed_load(p, 1.0, y[0], (y[2], 0.0, y[1]))[0])[[2, 0]] / mass)]
+
+    def gone(t, y):
+        return y[0] - 1e-6
+
+    gone.terminal, gone.direction = True, 1
+    fast, slide = 3.0, 5.0
+    end = solve_ivp(motion, (0.0, 1.0), [0.0, -fast, slide], rtol=1e-9, atol=1e-12, events=gone, max_step=1e-4).y[:, -1]
+    root = math.sqrt(1 - zeta**2)
+    e = math.exp(-2 * zeta / root * math.atan2(root, zeta))
+    assert end[1] / fast == pytest.approx(e, rel=2e-3)
+    assert slide - end[2] == pytest.approx(0.1 * (1 + e) * fast, rel=2e-3)
+
+
+def catenary(x, z):
+    """Tension (N) on the bed and length (m) that lies on it, of a line to (x, z)."""
+
+    def miss(unknowns):
+        H, lying = unknowns
+        s = CHAIN["length_m"] - lying
+        hung = H * s / EA + H / WEIGHT * np.arcsinh(WEIGHT * s / H)
+        up = WEIGHT * s**2 / (2 * EA) + (np.hypot(H, WEIGHT * s) - H) / WEIGHT
+        return lying * (1 + H / EA) + hung - x, up - z
+
+    return fsolve(miss, (10.0, 10.0), xtol=1e-12)
+
+
+@pytest.mark.parametrize("dimensions", [2, 3])
+def test_a_line_that_lies_on_the_bed_in_part(dimensions):
+    x, z = 18.6, 5.0
+    H, lying = catenary(x, z)
+    assert 5.0 < lying < 14.0
+    errors = []
+    for nodes in (81, 161):
+        scene = line(DRY, held(x, z), {"floor": BED, "motion.dimensions": dimensions, "tether.tension": linear(EA)},
+                     nodes=nodes, **CHAIN)  # fmt: skip
+        motion = equilibrium(scene)
+        found = EA * motion.Y[[0, -1], 0]
+        expected = H, np.hypot(H, WEIGHT * (CHAIN["length_m"] - lying))
+        errors.append(np.abs(found / expected - 1).max())
+        lowest = positions(motion.Y, motion.h)[:, -1].min()
+        assert -1.2 * 1.5 * WEIGHT / (BED["stiffness_Npm3"] * math.sqrt(4e-4 / math.pi)) > lowest > -1e-3 or lowest < 0
+    assert errors[0] < 2e-3
+    assert errors[1] < 0.6 * errors[0]
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("dimensions", [2, 3])
+def test_a_line_laid_down_rests(dimensions):
+    """1e4 s; creep of regular friction would be v_s times the share of it that is called upon: none at rest."""
+    scene = line(STILL, held(18.6, 5.0), {"floor": BED, "motion.dimensions": dimensions, "tether.tension": linear(EA)},
+                 {"output.step_s": 100.0, "output.profiles": True}, nodes=21, **CHAIN)  # fmt: skip
+    run = simulate(scene, duration_s=1e4)
+    assert run.status == "ok", run.message
+    assert np.abs(run.profiles.x_m - run.profiles.x_m[0]).max() < 1e-6
+    assert np.abs(run.profiles.z_m - run.profiles.z_m[0]).max() < 1e-6

@@ -1,0 +1,91 @@
+"""Law: T = f(eps) + c e_t lets a mass on a vertical line ring as the roots of its equation say, and takes c e_t^2.
+
+Small axial motions of a linear line with a mass M at its end, u ~ sinh(kappa s) exp(lambda t):
+
+    m lambda^2 = (EA + c lambda) kappa^2,    M lambda^2 + (EA + c lambda) kappa coth(kappa L) = 0
+
+Gravity shifts the rest only. Order 2 of the box in the element length is left of the difference.
+"""
+
+import cmath
+
+import numpy as np
+import pytest
+
+from engine import load_scene, simulate
+from engine.physics.energy import VISCOUS
+from tests.engine.kernels import parameters_of
+from tests.engine.lines import DRY, SPACE, line, orders
+
+EA, C, L, M = 5e4, 4e3, 20.0, 1611.0
+LINE_M = 1140.0 * 7.85e-5
+RINGING = {**DRY, "start.buoy_velocity_mps": [0.0, 0.0, 0.01], "solver.rtol": 1e-5, "solver.newton_tolerance": 1e-12}
+RINGING |= {"output.step_s": 0.05, "solver.max_step_s": 0.02}
+
+
+def root(c):
+    """lambda (1/s) of the slowest ringing."""
+    z = 1j * (EA / L / (M + LINE_M * L / 3)) ** 0.5
+    for _ in range(60):
+        kappa = z * cmath.sqrt(LINE_M / (EA + c * z))
+        z += 0.5 * (1j * cmath.sqrt((EA + c * z) * kappa / cmath.tanh(kappa * L) / M) - z)
+    return z
+
+
+def ringing(nodes, *changes):
+    run = simulate(line(RINGING, {"tether.damping_Ns": C}, *changes, nodes=nodes), duration_s=20.0)
+    assert run.status == "ok", run.message
+    t, z = run.columns["time_s"], run.columns["z_m"] - run.columns["z_m"][0]
+    late = t > 5.0  # faster motions are gone
+    found = root(C)
+    shapes = np.exp(found.real * t) * np.stack([np.cos(found.imag * t), np.sin(found.imag * t)])
+    return np.linalg.lstsq(shapes[:, late].T, z[late])[1][0] / np.sum(z[late] ** 2)
+
+
+@pytest.mark.parametrize("dimensions", [2, 3])
+def test_a_mass_on_the_line_rings_as_it_should(dimensions):
+    assert root(0.0).real == pytest.approx(0.0, abs=1e-9)
+    assert root(C).real < -0.02
+    assert ringing(9, {"motion.dimensions": dimensions}) < 1e-7
+
+
+@pytest.mark.parametrize("space", [{}, SPACE], ids=["plane", "space"])
+def test_the_budget_has_what_the_damping_takes(space):
+    budgets = []
+    for step_s in (0.02, 0.01):
+        more = {"solver.integrator": "midpoint", "solver.step_s": step_s, "output.energy": True}
+        scene = line(DRY, more, space, {"start.buoy_velocity_mps": [0.3, 0.0, 1.0], "tether.damping_Ns": C}, nodes=9)
+        scene = scene.model_copy(update={"end": scene.end})
+        budgets.append(simulate(scene, duration_s=10.0).energy)
+    assert VISCOUS and budgets[1].viscous_J[-1] > 100.0
+    assert np.all(np.diff(budgets[1].viscous_J) >= 0.0)
+    # the budget closes to Newton's tolerance, the buoy's own energy is the work at the end
+    for budget in budgets:
+        assert np.abs(budget.remainder_J()).max() < 1e-3 * budget.viscous_J[-1]
+    assert budgets[0].viscous_J[-1] == pytest.approx(budgets[1].viscous_J[-1], rel=1e-3)
+
+
+def test_a_share_of_critical_is_that_of_an_element():
+    """c = zeta l sqrt(EA m), MoorDyn's -BA: an element of mass m l rings at 2 sqrt(EA/m)/l at most."""
+    damped = parameters_of(line({"tether.damping_critical": 0.4}, nodes=41))[0]["damping"]
+    assert damped == pytest.approx(0.4 * 0.5 * np.sqrt(EA * LINE_M))
+
+
+def test_each_method_keeps_its_order():
+    """Of a stage's own rate of strain: also where the line turns as it stretches."""
+    ends = []
+    changes = {"tether.damping_Ns": 300.0, "tether.tension.stiffness_N": 2e3, "start.buoy_velocity_mps": [4.0, 0, 1.0]}
+    for step_s in (0.02, 0.01, 0.005, 0.0025):
+        scene = line({**DRY, "solver.step_s": step_s, "output.step_s": 0.5, "solver.newton_tolerance": 1e-13}, changes,
+                     {"solver.integrator": "trbdf2", "buoy.mass_kg": 161.0}, nodes=6)  # fmt: skip
+        run = simulate(scene, duration_s=1.0)
+        ends.append([run.columns["x_m"][-1], run.columns["z_m"][-1]])
+    steps = np.linalg.norm(np.diff(ends, axis=0), axis=1)
+    assert np.all(np.abs(orders(steps) - 2.0) < 0.15), orders(steps)
+
+
+def test_damping_of_zero_changes_nothing():
+    undamped, none = load_scene("tethered_buoy", {"tether.damping_Ns": 0.0}), load_scene("tethered_buoy")
+    np.testing.assert_array_equal(
+        *(simulate(scene, periods=0.5).columns["tension_top_N"] for scene in (undamped, none))
+    )
