@@ -1,12 +1,10 @@
 """Scales of a scene: in what Newton updates and step errors are measured, the fastest wave, the static loads."""
 
 import math
-from functools import cache
-from types import SimpleNamespace
 
 import numpy as np
 
-from .physics.tension import LAWS, NAMES, TensionLaw
+from .physics.strains import strain_at, tension_at
 from .record import RELEASE_STEPS
 from .scene.models import Scene
 from .scene.sections import End, Tether
@@ -90,32 +88,3 @@ def buckling_load(tether: Tether, end: End) -> float:
     EI, L = tether.bending_stiffness_Nm2, tether.length_m
     torque = tether.torsion_stiffness_Nm2 * (end.twist_rad or 0.0) / L
     return max(EI * (2 * math.pi / L) ** 2, torque**2 / (4 * EI)) if EI > 0 else 0.0
-
-
-@cache
-def _numbers_of(law):
-    """(module, parameters, table) of a law, as its kernels have them."""
-    module = LAWS[NAMES.index(law.law)]
-    numbers, table = module.numbers(law)
-    return module, SimpleNamespace(law_at=0, **numbers), table
-
-
-def tension_at(strain: float, law: TensionLaw) -> float:
-    """T (N) at a strain, outside the kernels."""
-    module, p, table = _numbers_of(law)
-    return float(module.value(strain, p, table)[0])
-
-
-def strain_at(load: float, law: TensionLaw) -> float:
-    """Smallest positive strain that carries `load` (N), within [1e-9, 10]."""
-    closed = getattr(_numbers_of(law)[0], "strain_under", None)
-    if closed is not None:
-        return max(closed(load, law), 1e-9)
-    from scipy.optimize import brentq
-
-    low, high = 1e-9, 1e-6
-    while tension_at(high, law) < load and high < 10:
-        low, high = high, 2 * high
-    if tension_at(low, law) >= load or tension_at(high, law) < load:
-        return high
-    return brentq(lambda e: tension_at(e, law) - load, low, high)

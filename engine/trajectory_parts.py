@@ -45,7 +45,7 @@ class EnergyBudget:
     gravity_J: Annotated[np.ndarray, ("J", "energy of the weight, from the height of the lower end")]
     end_work_J: Annotated[np.ndarray, ("J", "work of the force at the upper end since the start")]
     bending_J: Annotated[np.ndarray, ("J", "work against the shear forces since the start: bending")]
-    viscous_J: Annotated[np.ndarray, ("J", "dissipated by the shock viscosity since the start")]
+    viscous_J: Annotated[np.ndarray, ("J", "dissipated by the viscosity of shocks and of the material since the start")]
     scheme_space_J: Annotated[np.ndarray, ("J", "dissipated by the discretisation in space since the start")]
     scheme_time_J: Annotated[np.ndarray, ("J", "dissipated by the discretisation in time since the start")]
 

@@ -69,8 +69,7 @@ class Tether(Section):
         "material damping as a share of the critical one of an element, c = share l sqrt(T' m)", None, symbol="zeta"
     )
     froude_krylov: Literal["normal", "whole"] = described(
-        "what the accelerating water does: rho_w pi d^2/4 times its acceleration across the line, or all of it, T "
-        "then with the pressure of the waves on the cut",
+        "push of the undisturbed water, rho_w pi d^2/4 U_w,t: its part across the line, or the whole",
         "normal",
         paper="(24)",
     )

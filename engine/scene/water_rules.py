@@ -4,6 +4,8 @@ import math
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
+from engine.physics.strains import strain_at
+from engine.physics.tension import LAWS, NAMES
 from engine.scene.faults import fault, shown
 
 if TYPE_CHECKING:
@@ -101,9 +103,6 @@ def held_under(sound: "Sound") -> Iterator[str]:
     values, law = [sound[key] for key in keys], sound["tether.tension"]
     if sound["buoy.submergence"] != "full" or sound["current"] is not None or not (law and all(values)):
         return
-    from engine.physics.tension import LAWS, NAMES
-    from engine.scales import strain_at
-
     if isinstance(law, dict):
         module = LAWS[NAMES.index(law["law"])]
         if any(module.faults(sound)):

@@ -16,11 +16,12 @@ from tests.engine.kernels import parameters_of
 from tests.engine.lines import DRY, STILL, equilibrium, held, line
 
 FREE = {"tether.submergence": "free-surface", "tether.diameter_m": 0.04, "tether.area_m2": math.pi * 0.02**2}
+TIGHT = {"solver.step_s": 0.01, "solver.newton_tolerance": 1e-12, "solver.max_newton_iterations": 40}
 SHAKEN = {"law": "harmonic", "amplitude_m": [0.3, 0.0, 0.5], "period_s": 2.0}
 
 
 def tensions(*changes):
-    run = simulate(line(held(12.0, 9.0, motion=SHAKEN), FREE, *changes, nodes=9), duration_s=3.0)
+    run = simulate(line(held(12.0, 9.0, motion=SHAKEN), FREE, TIGHT, *changes, nodes=9), duration_s=3.0)
     assert run.status == "ok", run.message
     return run.columns["tension_top_N"]
 
@@ -30,10 +31,10 @@ def test_far_above_and_far_below(dimensions):
     space = {"motion.dimensions": dimensions}
     above = {"anchor.position_m": [0.0, 0.0, 60.0]}
     dry = tensions(space, DRY, {"tether.submergence": "full"})
-    assert tensions(space, above, STILL) == pytest.approx(dry, rel=1e-9)
+    assert tensions(space, above, STILL) == pytest.approx(dry, rel=1e-6)
     deep = {"water.depth_m": 60.0, "waves.steepness": 0.02}
     wet = tensions(space, deep, {"tether.submergence": "full"})
-    assert tensions(space, deep) == pytest.approx(wet, rel=1e-9)
+    assert tensions(space, deep) == pytest.approx(wet, rel=1e-6)
     assert np.abs(wet / dry - 1).max() > 0.1
 
 

@@ -154,7 +154,7 @@ LOW = {"end.kind": "held", "end.position_m": [18.0, 0.0, 0.4], "buoy": None, "wa
 EXTRAS = {  # scene, and how far the line is lifted (m) for the stage
     "damping": ({"water": None, "waves": None, "tether.damping_Ns": 3e3}, 0.0),
     "surface": ({"waves": None, "tether.submergence": "free-surface", "tether.diameter_m": 8.0}, 8.0),
-    "bed": (LOW, -0.05),
+    "bed": (LOW, -0.1),
 }
 
 
@@ -164,14 +164,12 @@ EXTRAS = {  # scene, and how far the line is lifted (m) for the stage
 def test_newton_is_quadratic_with_each_law_of_few_scenes(dimensions, EI, name):
     """Still water, a line that moves and turns: nothing is left out of the matrix."""
     changes, height = EXTRAS[name]
-    more = {"motion.dimensions": dimensions, "tether.tension.stiffness_N": 5e3, "anchor.position_m": [0.0, 0.0, 0.0]}
-    scene = line({**changes, **more}, nodes=7, bending_stiffness_Nm2=EI)
+    scene = line(changes, {"motion.dimensions": dimensions}, nodes=7, bending_stiffness_Nm2=EI)
     stage, axes, rate, rng = Stage(scene), dimensions, 40.0, np.random.default_rng(2)
-    if height:
-        stage.p["anchor_z"] = height
+    stage.p["anchor_z"], stage.p["bed_onset"] = height, 0.5  # smooth all over
     Y = Motion(scene).Y.copy()
     velocity = slice(2, 4) if dimensions == 2 else slice(3, 6)
-    Y[1:, velocity] = rng.normal(0.0, 1.0, (6, axes))
+    Y[1:, velocity] = rng.normal(0.0, 0.3, (6, axes))
     if scene.end.kind == "held":
         Y[-1, velocity] = 0.0
     C_tilde = stage.conserved(Y)
@@ -180,7 +178,7 @@ def test_newton_is_quadratic_with_each_law_of_few_scenes(dimensions, EI, name):
     def after(iterations):
         trial = Y.copy()
         _, used = stage.newton(0.0, rate, rate, 1e-40, iterations, trial, C_tilde)
-        assert used == iterations or used > 5
+        assert used == iterations or used > 4  # of the later ones rounding is all that is left
         return trial[:, velocity]
 
     end = after(10)
