@@ -4,9 +4,10 @@ At the stage of a one-stage step (rates K_s at C_s, `time.steps`) the box equati
 
     N.V at the upper end = sum over elements of h (N-.q_t- + m V-.V_t- + w0 W-),      - the mean of two nodes,
 
-without error but Newton's. N.q_t at a node is f(eps) e_t + T_v e_t + S.q_t: into strain, into viscosity (of shocks, and of the material), and against
-the shear forces, which is bending (with the paper's (1+eps)^3 it has no potential where the strain varies, so its work
-is kept). What a step takes from the end and does not find again in these or in the energies
+without error but Newton's. N.q_t at a node is f(eps) e_t + T_v e_t + S.q_t: into strain, into viscosity, of shocks and
+of the material, and against the shear forces, which is bending (with the paper's (1+eps)^3 it has no potential where
+the strain varies, so its work is kept). What a step takes from the end and does not find again in these or in the
+energies
 
     kinetic sum h m |V-|^2/2 | strain sum h mean(integral of f) | gravity sum h w0 z-
 
