@@ -23,6 +23,7 @@ from tests.engine.box_equations import LAWS, across, lifted, response, state_of
 from tests.engine.kernels import Stage
 from tests.engine.lines import DRY, STILL, free, held, line, linear, ran
 from tests.engine.perturbations.test_tangent_vectors import Carried, Run
+from tests.engine.physics.caps import CAP
 
 NODES, RATE = 7, 120.0
 ENDS = {"buoy": {}, "held": held(3.0, 18.0), "free": free(300.0, 900.0)}
@@ -95,6 +96,8 @@ def bounce(w):
     return {"start.buoy_velocity_mps": [0.0, 0.0, w]}
 
 
+IN_THE_SURFACE = CAP | {"water.depth_m": 20.9, "tether.submergence": "free-surface", "tether.diameter_m": 0.6}
+BED = {"stiffness_Npm3": 1.0, "damping_Nspm3": 2.0, "friction": 0.5, "friction_speed_mps": 0.1}
 RUNS = {
     "rising current": (STILL | current(0.6), 10.0),
     "sinking current": (STILL | current(-0.4), 10.0),
@@ -102,6 +105,9 @@ RUNS = {
     "hanging dry, bouncing": (DRY | bounce(2.0), 10.0),
     "held in a current": (STILL | current(0.5) | held(0.0, 21.0), 5.0),
     "free, pulled": (STILL | current(0.5) | free(0.0, 300.0), 2.0),
+    "damped bounce": (STILL | bounce(0.8) | {"tether.damping_Ns": 2e3}, 10.0),
+    "bounce in the surface": (STILL | bounce(0.8) | IN_THE_SURFACE, 10.0),
+    "hanging in a soft bed, bouncing": (DRY | bounce(2.0) | {"floor": BED}, 10.0),
     "bounce, trbdf2": (STILL | bounce(0.8) | {"solver.integrator": "trbdf2"}, 10.0),
     "bounce, backward-euler": (STILL | bounce(0.8) | {"solver.integrator": "backward-euler"}, 10.0),
 }
