@@ -27,7 +27,14 @@ def upright(rho_w):
 
 
 def under_the_buoy(rho_w, **tether):
-    return STILL | {"water.density_kgpm3": rho_w}, tether, EA, (1140.0 - rho_w) * AREA * G, lift(rho_w), UP
+    return (
+        STILL | {"water.density_kgpm3": rho_w, "water.depth_m": 25.0},
+        tether,
+        EA,
+        (1140.0 - rho_w) * AREA * G,
+        lift(rho_w),
+        UP,
+    )
 
 
 def bar(parts, end, density, stiffness, force, direction, rho_w=0.0, g=G):

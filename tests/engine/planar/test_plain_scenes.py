@@ -33,7 +33,10 @@ def test_a_plain_scene_runs_the_same_by_the_kernels_of_all_scenes(changes, monke
     [
         {"buoy.submergence": "spherical-cap"},
         {"current": {"law": "profile", "height_m": [0, 21], "velocity_mps": [[0, 0, 0], [1, 0, 0]]}},
-        {"tether.tension": {"law": "tabulated", "strain": [-0.1, 0.0, 0.3], "tension_N": [-1.0, 0.0, 10000.0]}},
+        {
+            "tether.tension": {"law": "tabulated", "strain": [-0.1, 0.0, 0.3], "tension_N": [-1.0, 0.0, 10000.0]},
+            "water.depth_m": 25.0,
+        },
     ],
     ids=["cap", "profile", "tabulated"],
 )
