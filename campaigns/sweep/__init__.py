@@ -6,7 +6,8 @@
 
 Protocol: the same scene, start and length for every value of the keys; the transient is left out of all that is
 measured. A buoy in regular waves gets the rows of `campaigns.buoy_sweep`, with regime and exponents where the run is
-long enough; any other line gets extremes, tension and the solver's counts. Nothing is random.
+long enough, and over one key how far each largest tension holds; any other line gets extremes, tension and the solver's
+counts. Nothing is random.
 """
 
 import contextlib
@@ -250,6 +251,7 @@ STUDY = Study(
     parameters=parameters,
     runs=runs,
     beside=beside,
+    after=0.05,
     answer=answer,
 )
 main, parser, read_order = STUDY.main, STUDY.parser, STUDY.read_order
