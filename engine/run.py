@@ -97,8 +97,8 @@ class Run:
         starter = (needs_rates or blow) and not record["at_rest"]
         state["small_steps"] = col.SMALL_STEPS if starter else 0
         first_s = min(1e-3 * scene.solver.max_step_s, record["max_step"])
-        if blow:  # in shorter steps than a wave takes through an element its force would be that of the steps
-            first_s = max(first_s, record["release_step"] * TRANSIT_STEPS / (record["nodes"] - 1))
+        if blow:  # in far shorter steps than a wave takes through an element its force would be that of the steps
+            first_s = max(first_s, record["release_step"] * TRANSIT_STEPS / (4 * (record["nodes"] - 1)))
         state["dt"] = first_s if record["adaptive"] or starter else record["fixed_step"]
 
     def _watch(self) -> None:
