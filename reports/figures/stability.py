@@ -17,7 +17,8 @@ def stiffness(checks: dict[str, np.ndarray], least: float = 1e-8) -> Picture:
     """
     with sheet(2.6) as figure:
         panels = figure.subplots(1, 2)
-        for (name, (stiff, error, cost)), color, mark in zip(checks.items(), (BLUE, VERMILION, GREEN, ORANGE), "osD^"):
+        looks = zip((BLUE, VERMILION, GREEN, ORANGE), "osD^", strict=True)
+        for (name, (stiff, error, cost)), (color, mark) in zip(checks.items(), looks, strict=False):
             for axes, values in zip(panels, (np.maximum(error, least), cost), strict=True):
                 axes.plot(stiff, values, mark, color=color, markersize=3.5, label=name)
         for axes in panels:

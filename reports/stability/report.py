@@ -163,8 +163,8 @@ def stiffness_items(study: Study) -> Iterator[Item]:
     yield Heading("Tension and cost over stiffness", 2)
     yield Figure(
         stiffness(points),
-        f"Largest tension at the top against what it should be, and its cost: {seen}. A stiff line costs more only while "
-        "it rings. From `table.csv`.",
+        f"Largest tension at the top against what it should be, and its cost: {seen}. A stiff line costs more only "
+        "while it rings. From `table.csv`.",
         f"Error of the largest tension and cost over axial stiffness: {seen}.",
     )
 
