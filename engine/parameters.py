@@ -225,6 +225,7 @@ def _solver(record, scene, place, h):
     impulsive = record["waves"] and scene.waves.ramp_s == 0
     moved = record["end_motion"] != codes.STILL or bool(scene.end.twist_ramp_s)
     record["at_rest"] = not (moving or impulsive or moved)
+    record["all_waves"] = scene.end.kind == "held" and scene.end.release_s is None  # let go, a line whips: no ringing
     scales.put_scales(record, scene, h)
     if solver.courant is not None:
         record["pace"] = solver.courant / scales.fastest_wave(record, scene)

@@ -178,7 +178,7 @@ class Run:
             lengths = col.lengths_of(self.record, self.tables)
             key, step_s = longest_step(scene)
             what = f"axial ringing of period {ringing_period(self.record, scene):.2g} s is"
-            if self.record["end"] == col.HELD:
+            if self.record["all_waves"]:
                 what = f"axial waves on elements of {lengths[-1]:.2g} m are"
             if self.record["adaptive"]:
                 key = "solver.shortest_period_s or solver.max_step_s"

@@ -11,7 +11,6 @@ from ..compiled import kernel
 from ..dimensions import size_of
 from ..physics.tension.kernels import tension
 from ..planar.columns import EPS  # in space the same column
-from ..record import HELD
 
 HEARD = 0.02  # ringing of this share of the static strain is resolved; less of it may be damped
 SMOOTH = 0.2  # phase (rad) of ringing in a step beyond which the tension may have an extreme worth seeing within
@@ -38,7 +37,7 @@ def ringing(p, tables, dt, top, jumps):
     to 2 z a. The share is a over the greater of the static and the present strain. Of a held end, whatever the waves:
     the jump of rates is 2 sin(z/2) times the rates.
     """
-    if p.end == HELD:
+    if p.all_waves:
         jump, level = jumps
         z = 2.0 * math.asin(min(1.0, 0.5 * jump / max(level, 1e-300)))
         a = math.sqrt(2.0) * level / max(z, 1e-300)
@@ -80,13 +79,13 @@ def jumps_of_rates(p, dt, begin, end):
         later, accelerated = rates_along(p, end, k)
         strain, speed = (later - stretching) * p.per_strain, (accelerated - acceleration) * p.per_ringing
         mean += strain
-        if p.end == HELD:
+        if p.all_waves:
             jumps += strain * strain + speed * speed
             strain, speed = stretching * p.per_strain, acceleration * p.per_ringing
             levels += strain * strain + speed * speed
             strain, speed = later * p.per_strain, accelerated * p.per_ringing
             levels += strain * strain + speed * speed
-    if p.end == HELD:
+    if p.all_waves:
         return math.sqrt(jumps / n) * dt, math.sqrt(0.5 * levels / n) * dt
     return abs(mean / n) * dt, abs(speed) * dt
 
@@ -122,8 +121,8 @@ def watch_ringing(p, tables, state, top, low, high, jumps):
     Strains of the upper end: top after the step, low and high the extremes over its stages; jumps: `jumps_of_rates`.
     """
     z, a, share = ringing(p, tables, state.trial_dt, top, jumps)
-    damped = z > p.phase_per_step or (p.end != HELD and z > SMOOTH and too_short(p, z, state.trial_dt))
-    lost = 1.0 if damped else dispersed(p, z / state.trial_dt) if p.end == HELD else 0.0
+    damped = z > p.phase_per_step or (not p.all_waves and z > SMOOTH and too_short(p, z, state.trial_dt))
+    lost = 1.0 if damped else dispersed(p, z / state.trial_dt) if p.all_waves else 0.0
     if share * lost > HEARD:
         state.ringing = max(state.ringing, lost * a * tension(1.0 / p.per_strain, p, tables)[0])
     if z > SMOOTH and not damped:
