@@ -146,7 +146,8 @@ def case_items(study: Study) -> list[Item]:
 
 def stiffness_items(study: Study) -> Iterator[Item]:
     """Error of the largest tension, and cost, over stiffness; nothing without the case whose cost is the unit."""
-    rows = [row for row in study.cases if row["group"] in ("EA", "end") and row["measured_tension"]]
+    rows = [row for row in study.judged("ok") if row["measured_tension"] and not row["message"]]
+    rows = [row for row in rows if row["group"] == "EA" or row["how"] == "waves in a bar"]
     costs = {row["run_key"]: value(row, "newton_iterations") / value(row, "length_s") for row in rows}
     unit = [costs[row["run_key"]] for row in rows if (row["group"], row["case"]) == DEFAULT]
     checks: dict[str, list[tuple[float, ...]]] = {}
