@@ -13,6 +13,7 @@ from ..physics.tension.kernels import tension
 from ..planar.columns import EPS  # in space the same column
 
 HEARD = 0.02  # ringing of this share of the static strain is resolved; less of it may be damped
+LEFT_BEHIND = 0.1  # phase (rad) in one passage along the line beyond which a wave is the grid's: it may be damped
 SMOOTH = 0.2  # phase (rad) of ringing in a step beyond which the tension may have an extreme worth seeing within
 
 
@@ -50,7 +51,13 @@ def ringing(p, tables, dt, top, jumps):
 
 @kernel
 def too_short(p, z, dt):
-    """Is the period of ringing that turns by z in a step too short to be resolved?"""
+    """Is the period of ringing that turns by z in a step too short to be resolved, by steps or, of waves, by the grid?
+
+    Steps that resolve what the grid does not carry at the speed of waves keep its errors, which run ahead of a front.
+    """
+    if p.all_waves:
+        if dispersed(p, z / dt) > LEFT_BEHIND:
+            return True
     return z * p.shortest > 2.0 * math.pi * dt
 
 
