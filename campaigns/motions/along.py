@@ -184,6 +184,17 @@ class Lattice:
             ended.append(motion)
         return ended
 
+    def beside_rest(self, jobs: Sequence[Job]) -> Iterator[tuple[Motion, Job]]:
+        """The motions to which no run from rest leads, each with that of its place. jobs: runs from rest, by place."""
+        for job, some in zip(jobs, self.motions, strict=True):
+            yield from ((motion, job) for motion in some if motion.found_by != FROM_REST)
+
+    def judged(self, jobs: Mapping[Motion, Job], rows: Sequence[dict]) -> None:
+        """Take motions as their judged runs have them (`merge`); rows: of those that have ended."""
+        ended = {row["run_key"]: row for row in rows}
+        runs = {motion: run_of(self.plan.how.out, ended[job.key]) for motion, job in jobs.items() if job.key in ended}
+        self.merge({motion: settled_of(run) or as_it_is(run) for motion, run in runs.items() if run is not None})
+
     def merge(self, judged: Mapping[Motion, object]) -> None:
         """Take motions of one value as one that longer runs have found to be one. judged: what these settled to."""
         from analysis import grouped

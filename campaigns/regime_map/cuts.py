@@ -1,0 +1,56 @@
+"""A row or a column of a map as a sweep of its own, in a folder of the map, with the judged runs of the map."""
+
+import contextlib
+import os
+import shutil
+
+from campaigns.machinery.folder import trajectory_path
+from campaigns.study import Order
+
+
+def read(words: list[str] | None, keys, faults: list[str]) -> dict[str, object]:
+    """The values of --cut by key: the nearest ones of the map; keys: `Varied` of all its keys."""
+    chosen: dict[str, object] = {}
+    if words is None:
+        return chosen
+    known = {one.key: one for one in keys}
+    for word in words:
+        key, _, text = word.partition("=")
+        if key not in known:
+            faults.append(f"--cut {word}: not a key of the map; allowed: KEY=VALUE of {', '.join(known)}")
+            continue
+        values = known[key].values
+        try:
+            chosen[key] = text if text in values else min(values, key=lambda one: abs(one - float(text)))
+        except (TypeError, ValueError):
+            faults.append(f"--cut {word}: allowed: one of {', '.join(map(str, values))}")
+    if not faults and len(chosen) != len(known) - 1:
+        faults.append(f"--cut {' '.join(words)}: allowed: a value of all keys of the map but one of {', '.join(known)}")
+    return chosen
+
+
+def cut(order: Order) -> int:
+    """Do the sweep of the key that is left; returns its exit code."""
+    from campaigns import buoy_sweep, sweep
+
+    own, how, chosen = order.own, order.how, order.own.cut
+    free = next(one for one in own.grid.every if one.key not in chosen)
+    at = [case for case in order.cases if all(case.labels[key] == value for key, value in chosen.items())]
+    out = how.out / "cuts" / ",".join(f"{key}={value}" for key, value in chosen.items())
+    (out / "trajectories").mkdir(parents=True, exist_ok=True)
+    for there, here in ((trajectory_path(how.out, one.key), trajectory_path(out, one.key)) for one in at):
+        if there.exists() and not here.exists():
+            try:
+                os.link(there, here)
+            except OSError:  # another file system
+                with contextlib.suppress(FileNotFoundError):
+                    shutil.copyfile(there, here)
+    words = ["--out", str(out), "--jobs", str(how.jobs), "--backend", how.backend, "--scene", order.name]
+    words += ["--dask-address", how.dask_address] if how.dask_address else []
+    words += ["--seed", str(own.seed), "--kick-speed", str(own.kick_speed), *([] if how.report else ["--no-report"])]
+    words += ["--set", *(own.set or []), *(f"{key}={value}" for key, value in chosen.items())]
+    print(f"cut      {' and '.join(f'{key} = {value}' for key, value in chosen.items())}, in {out}")
+    if free.key == buoy_sweep.SWEPT:
+        return buoy_sweep.main([*words, "--steepness", *map(str, free.values)])
+    ends = map(str, (free.values[0], free.values[-1], len(free.values)))
+    return sweep.main([*words, "--vary", free.key, *ends, "--budget", str(order.periods)])
