@@ -2,13 +2,13 @@
 
 import hashlib
 from collections.abc import Sequence
-from functools import partial
+from functools import cache, partial
 from itertools import repeat
 
 import numpy as np
 
 import engine
-from campaigns.machinery.folder import keep_json, kept_json
+from campaigns.machinery.folder import keep_json, kept_json, made_by
 from campaigns.machinery.plan import Plan
 from campaigns.machinery.pools import opened
 from campaigns.machinery.progress import stage
@@ -28,9 +28,9 @@ def kicks(count: int, speed_mps: float, seed: int, skipped: int = 0) -> np.ndarr
 def screened(plan: Plan, scenes: Sequence, speed_mps: float, seed: int) -> list[list[dict]]:
     """For each scene the motions of its massless tether; none where that model does not cover a scene.
 
-    A motion has velocity (m/s) and displacement from rest (m) of a start on it, its period in wave periods (None: it
-    has none), its largest tension (N), the share of the kicks that end in it, and whether the start from rest does. All
-    of it is kept in the folder. Raises OSError.
+    A motion has velocity (m/s) and displacement from rest (m) of a start on it, its period in wave periods, its largest
+    tension (N), the share of the kicks that end in it, and whether the start from rest does. All starts that have not
+    settled count as one more, which has no start and no period. What was found is kept in the folder. Raises OSError.
     """
     path = plan.how.out / "proposals.json"
     keys = [_key_of(scene, speed_mps, seed) for scene in scenes]
@@ -54,13 +54,17 @@ def screened(plan: Plan, scenes: Sequence, speed_mps: float, seed: int) -> list[
 def proposals(plan: Plan, scenes: Sequence, speed_mps: float, seed: int) -> list[list[Start]]:
     """For each scene a start on each motion of its massless tether that kicks have found (`screened`)."""
     found = screened(plan, scenes, speed_mps, seed)
-    return [
-        [Start("massless", tuple(one["kick"]), tuple(one["moved"])) for one in some if one["share"]] for some in found
-    ]
+    told = ([one for one in some if one["kick"] and one["share"]] for some in found)
+    return [[Start("massless", tuple(one["kick"]), tuple(one["moved"])) for one in some] for some in told]
 
 
 def _key_of(scene, *settings) -> str:
-    return hashlib.sha256(repr((scene.key(), engine.source_hash(), SCREENED, PERIODS, *settings)).encode()).hexdigest()
+    return hashlib.sha256(repr((scene.key(), engine.source_hash(), _made(), *settings)).encode()).hexdigest()
+
+
+@cache
+def _made() -> str:
+    return made_by({}, "analysis", "campaigns/motions/proposals.py")
 
 
 def _proposed(kicked: np.ndarray, task: list[tuple]) -> list[list[dict]]:
@@ -78,25 +82,27 @@ def _motions(kicked: np.ndarray, scene) -> list[dict]:
     except ValueError:  # not covered
         return []
     known, found = [], []
+    loose = {"kick": None, "moved": None, "period": None, "tension_N": 0.0, "share": 0.0, "rest": False}
     for number, (strobed, measures) in enumerate(zip(runs.strobed, runs.measures, strict=True)):
         if not np.isfinite(strobed).all():
             continue
         which = joins(strobed, measures, known)
-        if which is None:
-            motion = _settled(settled, scene, strobed, measures)
-            if motion is None:
-                continue
+        if which is not None:
+            one = found[which]
+        elif (motion := _settled(settled, scene, strobed, measures)) is not None:
             known.append(motion)
-            which = len(found)
             x, z, u, w = map(float, strobed[-1])
-            place, tension_N = [x - rest[0], z - rest[1]], float(motion.measures[:, 2].max())
-            found.append({"kick": [u, w], "moved": place, "period": motion.period, "tension_N": tension_N})
-            found[-1] |= {"share": 0.0, "rest": False}
-        if number < SCREENED:
-            found[which]["share"] += 1.0 / SCREENED
+            one = {"kick": [u, w], "moved": [x - rest[0], z - rest[1]], "period": motion.period, "share": 0.0}
+            found.append(one | {"tension_N": float(motion.measures[:, 2].max()), "rest": False})
+            one = found[-1]
         else:
-            found[which]["rest"] = True
-    return found
+            one, later = loose, float(measures[len(measures) // 2 :, 2].max())
+            one["tension_N"] = max(one["tension_N"], later)
+        if number < SCREENED:
+            one["share"] += 1.0 / SCREENED
+        else:
+            one["rest"] = True
+    return [*found, loose] if loose["tension_N"] else found
 
 
 def _settled(settled, scene, strobed, measures):

@@ -14,7 +14,6 @@ that repeats at its first look is judged by that (verdict: cheap); any other goe
 import contextlib
 import sys
 from collections.abc import Callable, Iterator
-from functools import partial
 
 from campaigns.buoy_sweep import ROW_SOURCES
 from campaigns.buoy_sweep import STUDY as SWEEP
@@ -160,8 +159,9 @@ parser, read_order = STUDY.parser, STUDY.read_order
 
 def main(argv: list[str] | None = None, simulate: Callable | None = None) -> int:
     """The command: a map, or with --cut a sweep in its folder. simulate: in place of engine.simulate."""
-    do = partial(STUDY.conduct, simulate=simulate)
     argv = list(sys.argv[1:] if argv is None else argv)
-    return session.command(
-        STUDY.called, argv, read_order, lambda order, words: cuts.cut(order) if order.own.cut else do(order, words)
-    )
+
+    def work(order: Order, words: list[str]) -> int:
+        return cuts.cut(order, simulate) if order.own.cut else STUDY.conduct(order, words, simulate)
+
+    return session.command(STUDY.called, argv, read_order, work)

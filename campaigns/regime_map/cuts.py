@@ -3,6 +3,7 @@
 import contextlib
 import os
 import shutil
+from collections.abc import Callable
 
 from campaigns.machinery.folder import trajectory_path
 from campaigns.study import Order
@@ -29,8 +30,8 @@ def read(words: list[str] | None, keys, faults: list[str]) -> dict[str, object]:
     return chosen
 
 
-def cut(order: Order) -> int:
-    """Do the sweep of the key that is left; returns its exit code."""
+def cut(order: Order, simulate: Callable | None = None) -> int:
+    """Do the sweep of the key that is left; returns its exit code. simulate: as of `Study.main`."""
     from campaigns import buoy_sweep, sweep
 
     own, how, chosen = order.own, order.how, order.own.cut
@@ -51,6 +52,6 @@ def cut(order: Order) -> int:
     words += ["--set", *(own.set or []), *(f"{key}={value}" for key, value in chosen.items())]
     print(f"cut      {' and '.join(f'{key} = {value}' for key, value in chosen.items())}, in {out}")
     if free.key == buoy_sweep.SWEPT:
-        return buoy_sweep.main([*words, "--steepness", *map(str, free.values)])
+        return buoy_sweep.main([*words, "--steepness", *map(str, free.values)], simulate)
     ends = map(str, (free.values[0], free.values[-1], len(free.values)))
-    return sweep.main([*words, "--vary", free.key, *ends, "--budget", str(order.periods)])
+    return sweep.main([*words, "--vary", free.key, *ends, "--budget", str(order.periods)], simulate)

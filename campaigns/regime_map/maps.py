@@ -95,11 +95,12 @@ class Map(Lattice):
         own, first = self.order.own, jobs[0].scene
         self.tree.add(cells)
         self.jobs += jobs
-        real = engine.massless_covers(first) and self.plan.simulate is engine.simulate
-        ahead = [start_job({}, first, DISPLACED, ())] if real else []
+        real = self.plan.simulate is engine.simulate
+        ahead = [start_job({}, first, DISPLACED, ())] if real and engine.massless_covers(first) else []
         self._run(jobs, "runs from rest", AFTER_REST, ahead)
         places = self.add(jobs, [self.rows[job.key] for job in jobs if job.key in self.rows])
-        self.find(own.starts - 1, own.kick_speed, own.seed, places)
+        if real:
+            self.find(own.starts - 1, own.kick_speed, own.seed, places)
         others = {motion: self._job(motion) for motion, _ in self.beside_rest(self.jobs)}
         others = {motion: job for motion, job in others.items() if motion not in self.keys_of}
         self._run([*others.values()], "judged runs of the other motions", 0.0)
