@@ -51,8 +51,8 @@ class Motion:
     state: object
     found_by: str
     kicks: int = 0
-    led: dict[int, "Motion | None"] = field(default_factory=dict)
-    branch: "Motion | None" = None
+    led: dict[int, "Motion | None"] = field(default_factory=dict, repr=False)
+    branch: "Motion | None" = field(default=None, repr=False)
     letter: str = ""
     confirmed: str = ""
 

@@ -28,7 +28,7 @@ from campaigns.sweep import varied
 from engine.views import carries_tangents, in_regular_waves
 
 USUAL = "waves.steepness 0.016 0.16 40 water.depth_m 20.8 25 40".split()
-STARTS, BUDGET, MOST_CELLS = 3, 465, 100_000
+STARTS, BUDGET, MOST_CELLS = 3, 735, 100_000
 
 
 def options(group) -> None:

@@ -27,7 +27,7 @@ def sentences(cells: Sequence[Row], motions: Sequence[Row], keys: Sequence[str])
     parts = {CHAOTIC: words[CHAOTIC], QUASI: words[QUASI], "periodic": calm}
     led = listed(f"{word} on {_share(count, done)}" for word, count in parts.items())
     yield f"Rest leads to a motion that is {led} of the map; {_share(open_, done)} is not decided."
-    chaotic = {_place(one, keys) for one in motions if one["regime"] == CHAOTIC and known(one, "level") == 0.0}
+    chaotic = {_place(one, keys) for one in motions if one.get("regime") == CHAOTIC and known(one, "level") == 0.0}
     yield f"Some motion is chaotic on {_share(len(chaotic), done)} of the map."
     if (peak := greatest(cells, TENSION.name)) is not None:
         share = known(peak, SHARE.name)
@@ -38,7 +38,7 @@ def sentences(cells: Sequence[Row], motions: Sequence[Row], keys: Sequence[str])
     most = max((known(one, "motions") for one in several), default=1)
     if several:
         yield f"On {_share(len(several), done)} of the map the start decides: up to {most:.0f} motions."
-    cheap = sum(one["verdict"] == "cheap" for one in motions)
+    cheap = sum(one.get("verdict") == "cheap" for one in motions)
     yield f"Of {len(motions)} motions {cheap} have a cheap verdict: they repeat at one look."
     if failed := sum(one["source"] == FAILED for one in cells):
         yield f"{failed} cells have no result; the column message of cells/table.csv says why."

@@ -131,10 +131,14 @@ class Quadtree:
                 yield from self._along(part, side)
 
     def beside(self, at: int) -> dict[int, str]:
-        """The cells to which motions of a cell are carried, by number: those that touch it, its parts and its whole."""
+        """The cells to which motions of a cell are carried, by number: those that touch it, its parts and its whole.
+
+        One that is bisected keeps to cells of its level, and to its parts.
+        """
         if at not in self._beside:
             cell = self.cells[at]
-            near = [*self.touching(cell), *(cell.next(side) for side in SIDES), *cell.parts()]
+            near = [*(cell.next(side) for side in SIDES), *cell.parts()]
+            near += [] if self.bisected(cell) else self.touching(cell)
             near += [cell.whole()] if cell.level else []
             found = (self.number.get(one) for one in near)
             self._beside[at] = dict.fromkeys((number for number in found if number is not None), CARRIED)

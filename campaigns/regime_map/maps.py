@@ -183,7 +183,8 @@ class Map(Lattice):
         """Write the tables, and draw the map; returns the summary of the rows. Raises OSError."""
         out, rows = self.plan.how.out, [*self.motion_rows()]
         tables.write_motions(out, self.plan.columns, rows)
-        self.starts.write()
+        if self.starts.ended:
+            self.starts.write()
         tables.write_strobes(out, self)
         self._show()
         kept = sum(row.get("run_key") in self.there for row in rows)
