@@ -83,16 +83,19 @@ def cases(order: Order) -> Iterator[Job]:
         return
     order.tell(f"--set {one.key}: this campaign sets it" for one in grid.every if one.key in order.changes)
     base = order.base(tell=True)
-    if base is None or order.faults:
+    if base is None:
         return
     if not (in_regular_waves(base) and carries_tangents(base)):
         allowed = motions.ONLY.removeprefix("a number for ")
         order.tell([f"campaigns.regime_map: given {order.name!r} as it is; allowed: {allowed}"])
         return
     for cell in grid.coarse():
-        job = job_at(order, grid, cell)
-        if job is not None:
-            yield job
+        before, job = len(order.faults), job_at(order, grid, cell)
+        if job is None or len(order.faults) > before:  # hundreds of others may be at fault in the same way
+            at = " and ".join(f"{key} = {value}" for key, value in grid.labels(cell).items())
+            order.tell([f"--vary: that is at {at}, the first cell of the map that cannot be"])
+            return
+        yield job
 
 
 def measures(order: Order) -> Measures:

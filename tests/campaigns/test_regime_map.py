@@ -179,20 +179,3 @@ def test_pages_are_values_or_words_of_a_third_key():
     assert [*order.cases[0].labels][:3] == ["buoy.submergence", "waves.steepness", "water.depth_m"]
     seconds = read_order([*map(str, VARY), "--pages", "waves.period_s", "4", "6", "3"], faults)
     assert faults == [] and sorted({case.scene.waves.period_s for case in seconds.cases}) == [4.0, 5.0, 6.0]
-
-
-@pytest.mark.parametrize(
-    "words, said",
-    [
-        ("--vary waves.steepness 0.02 0.1 3", "--vary: given waves.steepness 0.02 0.1 3; allowed: twice"),
-        ("--vary waves.steepnes 0.02 0.1 3 water.depth_m 21 23 2", "did you mean 'waves.steepness'?"),
-        ("--vary waves.steepness 0.02 0.1 3 waves.steepness 0.02 0.1 3", "allowed: different keys"),
-        (" ".join(map(str, VARY)) + " --pages buoy.submergence full half", "spherical-cap"),
-        ("--scene hanging_line", "waves"),
-        ("--starts 0 --set water.depth_m=22", "--set water.depth_m: this campaign sets it"),
-        ("--cut water.depth_m=22 waves.steepness=0.1", "allowed: a value of all keys of the map but one"),
-    ],
-)
-def test_mistakes_are_told_before_anything_is_run(words, said, tmp_path, capsys):
-    assert main([*words.split(), "--out", str(tmp_path / "out")]) == 2
-    assert said in capsys.readouterr().err and not (tmp_path / "out").exists()
