@@ -1,11 +1,11 @@
 """A row or a column of a map as a sweep of its own, in a folder of the map, with the judged runs of the map."""
 
-import contextlib
 import os
 import shutil
 from collections.abc import Callable
+from pathlib import Path
 
-from campaigns.machinery.folder import trajectory_path
+from campaigns.machinery.folder import claimed, trajectory_path
 from campaigns.study import Order
 
 
@@ -38,20 +38,28 @@ def cut(order: Order, simulate: Callable | None = None) -> int:
     free = next(one for one in own.grid.every if one.key not in chosen)
     at = [case for case in order.cases if all(case.labels[key] == value for key, value in chosen.items())]
     out = how.out / "cuts" / ",".join(f"{key}={value}" for key, value in chosen.items())
-    (out / "trajectories").mkdir(parents=True, exist_ok=True)
-    for there, here in ((trajectory_path(how.out, one.key), trajectory_path(out, one.key)) for one in at):
-        if there.exists() and not here.exists():
-            try:
-                os.link(there, here)
-            except OSError:  # another file system
-                with contextlib.suppress(FileNotFoundError):
-                    shutil.copyfile(there, here)
+    with claimed(out):
+        for there, here in ((trajectory_path(how.out, one.key), trajectory_path(out, one.key)) for one in at):
+            if there.exists() and not here.exists():
+                _shared(there, here)
     words = ["--out", str(out), "--jobs", str(how.jobs), "--backend", how.backend, "--scene", order.name]
     words += ["--dask-address", how.dask_address] if how.dask_address else []
     words += ["--seed", str(own.seed), "--kick-speed", str(own.kick_speed), *([] if how.report else ["--no-report"])]
-    words += ["--set", *(own.set or []), *(f"{key}={value}" for key, value in chosen.items())]
+    changes: dict[str, object] = {}
+    for one in own.grid.every:
+        if one.key in chosen:
+            order.tell(one.put(chosen[one.key], order.base(), changes))
+    words += ["--set", *(own.set or []), *(f"{name}={value}" for name, value in changes.items())]
     print(f"cut      {' and '.join(f'{key} = {value}' for key, value in chosen.items())}, in {out}")
     if free.key == buoy_sweep.SWEPT:
         return buoy_sweep.main([*words, "--steepness", *map(str, free.values)], simulate)
     ends = map(str, (free.values[0], free.values[-1], len(free.values)))
     return sweep.main([*words, "--vary", free.key, *ends, "--budget", str(order.periods)], simulate)
+
+
+def _shared(there: Path, here: Path) -> None:
+    """Let two folders have one file; whoever goes on with its run writes another one in its place."""
+    try:
+        os.link(there, here)
+    except OSError:  # another file system, or one without links
+        shutil.copyfile(there, here)

@@ -28,7 +28,7 @@ from campaigns.study import Order
 
 DRAWN_S = 30.0
 LEAP = 1.2  # largest tensions of neighbours whose ratio is beyond this have a border between them
-AFTER_REST = 1.0  # time of all other rounds of a level, as a share of that of the runs from rest (measured)
+AFTER_REST = 1.2  # time of all other rounds of a level, as a share of that of the runs from rest (measured)
 CHEAP, FULL = "cheap", "full"
 
 
@@ -64,7 +64,7 @@ class Map(Lattice):
     like, rest_counts = 0.2, True
 
     def __init__(self, plan: Plan, order: Order, grid: Grid, coarse: list[Job]):
-        super().__init__(replace(plan, heard=self._hear), grid.columns)
+        super().__init__(replace(plan, heard=self._hear, then=self._left), grid.columns)
         self.order, self.grid, self.coarse, self.tree = order, grid, coarse, Quadtree()
         self.jobs: list[Job] = []  # from rest, by cell
         self.keys_of: dict[Motion, str] = {}
@@ -73,6 +73,8 @@ class Map(Lattice):
         self.times: Counter = Counter()
         self.there: set[str] = set()
         self.drawn_s = time.monotonic()
+        # seconds of the runs from rest, and of starts before them; cells to come, as a share of those at hand
+        self.rest_s, self.before_s, self.parts = 0.0, 0.0, 0.0
 
     def beside(self, at: int) -> dict[int, str]:
         """`Lattice.beside`."""
@@ -92,18 +94,20 @@ class Map(Lattice):
 
     def level(self, cells: list[Cell], jobs: list[Job]) -> None:
         """Compute cells: from rest, every other motion, and its judged run. Raises as `runner.run`."""
-        own, first = self.order.own, jobs[0].scene
+        own, first, rest_s = self.order.own, jobs[0].scene, self.times["run_s"]
         self.tree.add(cells)
         self.jobs += jobs
         real = self.plan.simulate is engine.simulate
         ahead = [start_job({}, first, DISPLACED, ())] if real and engine.massless_covers(first) else []
-        self._run(jobs, "runs from rest", AFTER_REST, ahead)
+        self.rest_s, self.parts = 0.0, own.refine / len(jobs) if len(self.jobs) == len(jobs) else 0.0
+        self._run(jobs, "runs from rest", ahead)
+        self.rest_s, self.before_s = self.times["run_s"] - rest_s, self.starts.times["run_s"]
         places = self.add(jobs, [self.rows[job.key] for job in jobs if job.key in self.rows])
         if real:
             self.find(own.starts - 1, own.kick_speed, own.seed, places)
         others = {motion: self._job(motion) for motion, _ in self.beside_rest(self.jobs)}
         others = {motion: job for motion, job in others.items() if motion not in self.keys_of}
-        self._run([*others.values()], "judged runs of the other motions", 0.0)
+        self._run([*others.values()], "judged runs of the other motions")
         self.keys_of |= {motion: job.key for motion, job in others.items()}
         self.judged(others, [*self.rows.values()])
         self.name()
@@ -112,12 +116,18 @@ class Map(Lattice):
     def _job(self, motion: Motion) -> Job:
         return job_of(self.order, self.jobs[motion.at], motion, {}, self.order.own.budget)
 
-    def _run(self, jobs: list[Job], said: str, then: float, ahead: Sequence[Job] = ()) -> None:
+    def _left(self, seconds: float) -> float:
+        """Seconds of what follows a round that takes so many: the other rounds of its level, and finer cells."""
+        if not self.rest_s:
+            return seconds * (AFTER_REST + self.parts * (1.0 + AFTER_REST))
+        others = AFTER_REST * self.rest_s - (self.starts.times["run_s"] - self.before_s) - seconds
+        return max(others, 0.0) + self.parts * (1.0 + AFTER_REST) * self.rest_s
+
+    def _run(self, jobs: list[Job], said: str, ahead: Sequence[Job] = ()) -> None:
         if not jobs:
             return
         self.there |= {job.key for job in jobs if trajectory_path(self.plan.how.out, job.key).exists()}
-        plan = replace(self.plan, said=said, then=lambda seconds: then * seconds)
-        timing, summary = run(plan, jobs, ahead)
+        timing, summary = run(replace(self.plan, said=said), jobs, ahead)
         self.rows |= {row["run_key"]: row for row in summary.rows}
         self.times.update(timing)
 
