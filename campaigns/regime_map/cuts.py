@@ -1,11 +1,12 @@
 """A row or a column of a map as a sweep of its own, in a folder of the map, with the judged runs of the map."""
 
+import contextlib
 import os
 import shutil
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from pathlib import Path
 
-from campaigns.machinery.folder import claimed, trajectory_path
+from campaigns.machinery.folder import claimed, read_rows, trajectory_path
 from campaigns.study import Order
 
 
@@ -36,10 +37,12 @@ def cut(order: Order, simulate: Callable | None = None) -> int:
 
     own, how, chosen = order.own, order.how, order.own.cut
     free = next(one for one in own.grid.every if one.key not in chosen)
-    at = [case for case in order.cases if all(case.labels[key] == value for key, value in chosen.items())]
     out = how.out / "cuts" / ",".join(f"{key}={value}" for key, value in chosen.items())
+    keys = {case.key for case in order.cases if _of(case.labels, chosen)}
+    with contextlib.suppress(OSError, ValueError):  # a map that has not come to its end
+        keys |= {row["run_key"] for row in read_rows(how.out / "table.csv") if _of(row, chosen)}
     with claimed(out):
-        for there, here in ((trajectory_path(how.out, one.key), trajectory_path(out, one.key)) for one in at):
+        for there, here in ((trajectory_path(how.out, key), trajectory_path(out, key)) for key in sorted(keys)):
             if there.exists() and not here.exists():
                 _shared(there, here)
     words = ["--out", str(out), "--jobs", str(how.jobs), "--backend", how.backend, "--scene", order.name]
@@ -52,9 +55,13 @@ def cut(order: Order, simulate: Callable | None = None) -> int:
     words += ["--set", *(own.set or []), *(f"{name}={value}" for name, value in changes.items())]
     print(f"cut      {' and '.join(f'{key} = {value}' for key, value in chosen.items())}, in {out}")
     if free.key == buoy_sweep.SWEPT:
-        return buoy_sweep.main([*words, "--steepness", *map(str, free.values)], simulate)
+        return buoy_sweep.main([*words, "--no-accuracy", "--steepness", *map(str, free.values)], simulate)
     ends = map(str, (free.values[0], free.values[-1], len(free.values)))
     return sweep.main([*words, "--vary", free.key, *ends, "--budget", str(order.periods)], simulate)
+
+
+def _of(labels: Mapping, chosen: dict[str, object]) -> bool:
+    return all(labels[key] == value for key, value in chosen.items())
 
 
 def _shared(there: Path, here: Path) -> None:

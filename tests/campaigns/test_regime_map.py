@@ -4,13 +4,14 @@ import numpy as np
 import pytest
 
 from analysis.motions import Settled
+from campaigns import buoy_sweep
 from campaigns.motions import along as module
 from campaigns.motions.along import Lattice
 from campaigns.motions.starts import Ended
 from campaigns.regime_map import main, read_order
 from campaigns.regime_map.cells import Grid, Quadtree
 from campaigns.sweep import varied
-from tests.campaigns.conftest import rows_of
+from tests.campaigns.conftest import finished, rows_of
 from tests.campaigns.fake_engine import FakeEngine
 from tests.campaigns.motions.test_along import State
 
@@ -179,3 +180,31 @@ def test_pages_are_values_or_words_of_a_third_key():
     assert [*order.cases[0].labels][:3] == ["buoy.submergence", "waves.steepness", "water.depth_m"]
     seconds = read_order([*map(str, VARY), "--pages", "waves.period_s", "4", "6", "3"], faults)
     assert faults == [] and sorted({case.scene.waves.period_s for case in seconds.cases}) == [4.0, 5.0, 6.0]
+
+
+@pytest.mark.slow
+def test_a_cut_is_the_sweep_of_its_values_and_the_map_computes_nothing_again(tmp_path):
+    """With the engine: rows, starts and ends of a cut are those of the sweep, but for their times."""
+    small = ["--set", "tether.nodes=11", "--no-report", "--out"]
+    of_map = ["--vary", "waves.steepness", 0.08, 0.1, 2, "--vary", "water.depth_m", 22, 22.5, 2, "--starts", 2]
+    whole = [*map(str, of_map), *small, str(tmp_path / "map")]
+    assert main(whole) == 0
+    before, runs = rows_of(tmp_path / "map"), finished(tmp_path / "map")
+    assert main(whole) == 0 and rows_of(tmp_path / "map") == before and finished(tmp_path / "map") == runs
+    assert main([*whole, "--cut", "water.depth_m=22"]) == 0
+    swept = [
+        "--steepness",
+        "0.08",
+        "0.1",
+        "--no-accuracy",
+        *small,
+        str(tmp_path / "sweep"),
+        "--set",
+        "water.depth_m=22",
+    ]
+    assert buoy_sweep.main(swept) == 0
+    for table in ("table.csv", "starts/table.csv"):
+        own, other = (rows_of(tmp_path / folder, table) for folder in ("map/cuts/water.depth_m=22.0", "sweep"))
+        assert [{**row, "wall_s": ""} for row in own] == [{**row, "wall_s": ""} for row in other]
+    rest = {row["run_key"] for row in before if row["found_by"] == "rest" and row["water.depth_m"] == "22.0"}
+    assert len(rest) == 2 and rest <= {row["run_key"] for row in rows_of(tmp_path / "sweep")}
