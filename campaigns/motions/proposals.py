@@ -13,6 +13,7 @@ from campaigns.machinery.plan import Plan
 from campaigns.machinery.pools import opened
 from campaigns.machinery.progress import stage
 from campaigns.motions.starts import Start
+from engine.scales import tension_at
 
 SCREENED, PERIODS = 64, 80  # kicks of a value, and wave periods of each
 
@@ -29,8 +30,9 @@ def screened(plan: Plan, scenes: Sequence, speed_mps: float, seed: int) -> list[
     """For each scene the motions of its massless tether; none where that model does not cover a scene.
 
     A motion has velocity (m/s) and displacement from rest (m) of a start on it, its period in wave periods, its largest
-    tension (N), the share of the kicks that end in it, and whether the start from rest does. All starts that have not
-    settled count as one more, which has no start and no period. What was found is kept in the folder. Raises OSError.
+    tension (N) and that at rest, the share of the kicks that end in it, and whether the start from rest does. All
+    starts that have not settled count as one more, which has no start and no period. What was found is kept in the
+    folder. Raises OSError.
     """
     path = plan.how.out / "proposals.json"
     keys = [_key_of(scene, speed_mps, seed) for scene in scenes]
@@ -102,7 +104,9 @@ def _motions(kicked: np.ndarray, scene) -> list[dict]:
             one["share"] += 1.0 / SCREENED
         else:
             one["rest"] = True
-    return [*found, loose] if loose["tension_N"] else found
+    found += [loose] if loose["tension_N"] else []
+    static_N = tension_at(float(np.hypot(*rest)) / scene.tether.length_m - 1.0, scene.tether.tension)
+    return [one | {"static_N": max(float(static_N), 0.0)} for one in found]
 
 
 def _settled(settled, scene, strobed, measures):

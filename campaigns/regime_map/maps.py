@@ -13,6 +13,7 @@ from dataclasses import replace
 
 import engine
 from campaigns.buoy_sweep.rows import TANGENT, buoy_row
+from campaigns.columns import number
 from campaigns.judge import judged_job, judged_scene
 from campaigns.machinery.folder import trajectory_path
 from campaigns.machinery.plan import Job, Plan, Summary
@@ -24,7 +25,9 @@ from campaigns.motions.starts import DISPLACED, start_job
 from campaigns.motions.sweep import job_of
 from campaigns.regime_map import tables
 from campaigns.regime_map.cells import Cell, Grid, Quadtree
+from campaigns.regime_map.tables import STATIC
 from campaigns.study import Order
+from engine.at_rest import static_tension_N
 
 DRAWN_S = 30.0
 LEAP = 1.2  # largest tensions of neighbours whose ratio is beyond this have a border between them
@@ -44,6 +47,8 @@ def cell_row(trajectory, checks=None) -> dict[str, object]:
         row |= {"regime": f"period-{period:g}", "verdict": CHEAP}
     elif row.get("regime"):
         row["verdict"] = FULL
+    if not trajectory.began and len(trajectory.columns["time_s"]):
+        row[STATIC.name] = number(static_tension_N(trajectory.scene, trajectory.columns))
     return row
 
 

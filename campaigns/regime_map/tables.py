@@ -6,8 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
-from campaigns.buoy_sweep.answer import static_tension
-from campaigns.buoy_sweep.rows import COLUMNS, HEIGHT, REGIME, STEEPNESS, TANGENT
+from campaigns.buoy_sweep.rows import COLUMNS, EXTREMES, HEIGHT, REGIME, STEEPNESS, TANGENT
 from campaigns.columns import LOOPS, MESSAGE, RUN_KEY, STATUS, WALL_S, Column
 from campaigns.machinery.folder import write_table
 from engine.atomic import write_atomic
@@ -20,6 +19,7 @@ VERDICT = Column(
     symbol="verdict",
     meaning="cheap: the motion repeats at one look; full: the procedure of docs/verdicts.md",
 )
+STATIC = Column("tension_static_N", "N", "T_0", "tension at the top at rest, of a run that begins there", 0)
 COUNT = Column("motions", "", "motions", "number of motions of the cell", 0)
 TENSION = Column("tension_top_max_N", "N", "T_max", "largest tension of all motions of the cell", 0)
 RATIO = Column("tension_over_static", "", "T_max/T_0", "largest tension of all motions, in tensions at rest", 2)
@@ -51,6 +51,7 @@ def motion_columns(keys: tuple[Column, ...]) -> tuple[Column, ...]:
     left = {STEEPNESS.name, "confirmed", *(one.name for one in keys)}
     own = [one for one in COLUMNS if one.name not in left and not one.name.startswith("planar_")]
     own.insert(own.index(REGIME) + 1, VERDICT)
+    own.insert(own.index(EXTREMES[-1]) + 1, STATIC)
     own.insert(0, LEVEL)
     return *keys, *own
 
@@ -63,19 +64,19 @@ def write_motions(out: Path, columns: tuple[Column, ...], rows: list[dict]) -> N
 def write_screen(out: Path, grid, jobs: Sequence, found: Sequence[list[dict]]) -> None:
     """screen/table.csv: what a massless tether does in each cell of the coarse grid. Raises OSError."""
     (out / "screen").mkdir(exist_ok=True)
-    rows = [{**job.labels, **screen_row(job.scene, some)} for job, some in zip(jobs, found, strict=True)]
+    rows = [{**job.labels, **screen_row(some)} for job, some in zip(jobs, found, strict=True)]
     write_table(out / "screen" / "table.csv", (*grid.columns, *OF_THE_SCREEN), rows)
 
 
-def screen_row(scene, some: list[dict]) -> dict[str, object]:
+def screen_row(some: list[dict]) -> dict[str, object]:
     """The columns OF_THE_SCREEN; empty of a scene without a massless model."""
     if not some:
         return {}
-    static, rest = static_tension(scene), next((one for one in some if one["rest"]), None)
+    rest = next((one for one in some if one["rest"]), None)
     largest = max(some, key=lambda one: one["tension_N"])
     word = None if rest is None else f"period-{rest['period']}" if rest["period"] else "irregular"
     found = {"motions": len(some), "regime_rest": word, "share_of_largest": largest["share"]}
-    return found | ({"tension_over_static": largest["tension_N"] / static} if static else {})
+    return found | ({RATIO.name: largest["tension_N"] / some[0]["static_N"]} if some[0]["static_N"] else {})
 
 
 def write_cells(out: Path, found) -> None:
@@ -93,7 +94,7 @@ def _cells(found) -> Iterator[dict]:
     done = {cell: job for cell, job in zip(found.tree.cells, found.jobs, strict=True) if job.key in found.rows}
     for number, cell in enumerate(grid.coarse()):
         if cell not in done:
-            seen = screen_row(found.coarse[number].scene, found.screen[number]) if found.screen else {}
+            seen = screen_row(found.screen[number]) if found.screen else {}
             yield {**_place(grid, cell), "source": SCREENED, **seen}
     for cell, job in done.items():
         yield {**_place(grid, cell), **_cell(found, found.tree.number[cell], job)}
@@ -119,7 +120,7 @@ def _cell(found, at: int, job) -> dict[str, object]:
     told["exponent_max_per_period"] = max(exponents, default=None)
     largest = max(some, key=found.tension_N, default=None)
     tension = found.tension_N(largest) if largest is not None else rest.get(TENSION.name)
-    static = static_tension(job.scene)
+    static = rest.get(STATIC.name)
     told |= {TENSION.name: tension, RATIO.name: tension / static if tension and static else None}
     if largest is not None and found.kicked:
         told[SHARE.name] = largest.kicks / found.kicked
