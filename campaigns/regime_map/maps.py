@@ -47,7 +47,8 @@ def cell_row(trajectory, checks=None) -> dict[str, object]:
         row |= {"regime": f"period-{period:g}", "verdict": CHEAP}
     elif row.get("regime"):
         row["verdict"] = FULL
-    if not trajectory.began and len(trajectory.columns["time_s"]):
+    first = (trajectory.columns[name][:1] for name in ("radius_rate_mps", "angle_rate_radps"))
+    if all(len(rate) and rate[0] == 0.0 for rate in first):
         row[STATIC.name] = number(static_tension_N(trajectory.scene, trajectory.columns))
     return row
 
