@@ -98,7 +98,8 @@ def going_on(scene, trajectory, row, checks, budget: int, looks: bool, start=Non
     done = row.get("periods")
     if row["status"] != "ok" or row.get("regime") is None or done is None:
         return None
-    judged, check = done - (row.get("transient_periods") or 0), checks.get(round(done))
+    # whole periods: samples need not add up to them to the last digit, and a check of nothing would go on for ever
+    judged, check = round(done) - (row.get("transient_periods") or 0), checks.get(round(done))
     if row["regime"] == "chaotic" and row.get("regime_tighter") is None:
         value, error = row["lyapunov_tangent_bits_per_period"], row["lyapunov_tangent_error"]
         enough = max(math.ceil(judged * (SURE * error / value) ** 2), LEAST_CHECK)
