@@ -16,7 +16,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "embedding": ["choose_delay", "choose_embedding", "delay_vectors", "mutual_information"],
         "evidence": ["Evidence", "evidence_text", "read_evidence"],
         "exponents": ["Exponent"],
-        "extreme_values": ["Extremes", "SlackFraction", "extremes", "slack_fraction"],
+        "extreme_values": ["Extremes", "SlackFraction", "block_maxima", "extremes", "slack_fraction"],
         "growth": ["Growth", "envelope_of", "growth_or_bursts"],
         "line_spectra": ["LineSpectrum", "spectral_lines"],
         "looks": ["motion_regime", "next_look"],

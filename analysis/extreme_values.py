@@ -1,4 +1,4 @@
-"""The least and greatest value of a series, and the share of time that it spends at or below one (a slack tether)."""
+"""Least and greatest value of a series, of each block of it, and the share of time below a threshold (slack)."""
 
 from dataclasses import dataclass
 
@@ -85,6 +85,25 @@ def extremes(series: ArrayLike, step_s: float, transient_s: float = 0.0) -> Extr
     first, time_s = _after(x, step_s, transient_s)
     low, high = first + int(np.argmin(x[first:])), first + int(np.argmax(x[first:]))
     return Extremes(float(x[low]), float(time_s[low]), float(x[high]), float(time_s[high]))
+
+
+def block_maxima(series: ArrayLike, samples: int) -> np.ndarray:
+    """The greatest sample of each whole block of a record: draws from one distribution, if blocks outlast the memory.
+
+        M_j = max{ x_i : j samples <= i < (j + 1) samples }
+
+    Two records of one chaotic motion agree in the distribution of M, and not in their histories (Gumbel, Statistics of
+    Extremes, 1958).
+
+    series (n,)    samples, any unit; the transient left out
+    samples        samples in a block, 1 or more
+    Returns (n // samples,); what is left at the end counts for nothing.
+    Raises ValueError for values that are not finite, or a block of less than a sample.
+    """
+    x = checked_series(series)
+    if samples < 1:
+        raise ValueError(f"samples: 1 or more are needed in a block, given {samples}")
+    return x[: len(x) // samples * samples].reshape(-1, samples).max(axis=1)
 
 
 def _after(x, step_s, transient_s):

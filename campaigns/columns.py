@@ -37,6 +37,9 @@ DEPTH = Column("depth_m", "m", "H", "depth of the water", 1)
 STIFFNESS = Column("bending_stiffness_Nm2", "N m²", "EI", "bending stiffness of the line", 2)
 TURN = Column("max_turn_rad", "rad", "turn", "largest turn of the line within one element, over the whole run", 2)
 MIN_STRAIN = Column("min_strain", "", "ε_min", "smallest strain of any element, over the whole run", 4)
+RINGING = Column(
+    "unresolved_ringing_N", "N", "ringing", "axial ringing that the steps did not resolve; 0: all that was heard was", 0
+)
 LOOPS = Column("loop_releases", "", "loops", "loop releases: how often a loop of slack line was opened", 0)
 STEPS = Column("steps", "", "steps", "accepted time steps", 0)
 REJECTED = Column("rejected_steps", "", "rejected", "time steps that were repeated with a shorter one", 0)
@@ -46,7 +49,7 @@ END_S = Column("end_time_s", "s", "end", "simulated time at which the run ended"
 WALL_S = Column("wall_s", "s", "wall", "wall-clock time of the simulation, without compilation and analysis", 2)
 
 # What the engine counts in every run (`Trajectory.statistics`), in the order of the tables.
-LINE_COUNTS = (TURN, MIN_STRAIN, LOOPS)
+LINE_COUNTS = (TURN, MIN_STRAIN, RINGING, LOOPS)
 SOLVER_COUNTS = (STEPS, REJECTED, NEWTON, NEWTON_FAILURES, END_S, WALL_S)
 STATISTICS = (*LINE_COUNTS, *SOLVER_COUNTS)
 

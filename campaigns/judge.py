@@ -12,10 +12,10 @@ LEAST_CHECK, SURE = 90, 2.5  # wave periods at the tighter tolerance; errors by 
 TANGENTS, LATERAL = "output.tangent_vectors", "output.lateral_growth"
 
 
-def tighter_scene(scene):
-    """The scene at a tenth of its tolerance, or of its step where that is fixed."""
+def tighter_scene(scene, times: int = 10):
+    """The scene at a tenth of its tolerance, or of its step where that is fixed; or at another share of it."""
     step_s = scene.solver.step_s
-    key, value = ("solver.step_s", step_s / 10) if step_s else ("solver.rtol", scene.solver.rtol / 10)
+    key, value = ("solver.step_s", step_s / times) if step_s else ("solver.rtol", scene.solver.rtol / times)
     return engine.scene.scene_from_toml(scene.to_toml(), {key: value})
 
 

@@ -15,7 +15,8 @@ from .scene.models import Scene
 
 PREFIX = "final_"
 NONE = np.empty(0)
-COUNTED = ("first", "samples", "first_profile", "profiles", "max_turn", "min_strain")  # fields of STATE: of one part
+# fields of STATE: of one part
+COUNTED = ("first", "samples", "first_profile", "profiles", "max_turn", "min_strain", "ringing")
 
 
 @dataclass(frozen=True, eq=False)
@@ -67,7 +68,7 @@ class FinalState:
     def restarted(self) -> "FinalState":
         """The state as after a sudden change: it goes on by small steps that need no rates and no state before."""
         shortest = min(float(self.state()["dt"]), 1e-3 * self.scene.solver.max_step_s)
-        return self.with_numbers(small_steps=SMALL_STEPS, dt_before=0.0, dt=shortest)
+        return self.with_numbers(small_steps=SMALL_STEPS, turned=0, dt_before=0.0, dt=shortest)
 
     def at_zero(self) -> "FinalState":
         """The same state with its clock at 0, where its last sample is: for a run with a clock of its own.

@@ -19,7 +19,8 @@ PROFILE_WIDTH = 6
 (TIME, AT_X, AT_Y, AT_Z, AT_U, AT_V, AT_W, TOP, LEAST, TOP_LOW, TOP_HIGH, OFFPLANE, RELEASES) = range(13)
 SAMPLE_WIDTH = 13
 BEGIN, STEP, KIND = range(3)  # columns of the times of a trail: t (s), dt (s), one of the next
-SMALL_STEPS = 3  # of backward Euler after a sudden start or a release
+SMALL_STEPS = 3  # of backward Euler after a sudden start, or where an end is let go
+RELEASE_STEPS = 8  # of backward Euler after a loop release
 CONTROLLED, EULER, RESTART = 0.0, 1.0, 2.0  # of Runge-Kutta, one-stage, backward Euler after a sudden start or release
 STRETCH = 5  # column of the nodal array Q at which q = (1 + eps) t begins, in a plane and in space
 
@@ -35,12 +36,13 @@ RECORD = np.dtype(
     _dtype(
         "nodes grid_at law law_at law_n wet waves current cur_at cur_nx cur_ny cur_nz cur_nt above end end_motion "
         "end_at end_n sea_n sea_at spherical_cap bent viscous method stages method_at adaptive max_newton loop_release "
-        "max_releases at_rest",
+        "max_releases at_rest all_waves",
         "m w0 EI p1 p2 p3 p4 p5 ct cn ma Rw depth k omega amplitude phase direction ramp "
         "M_total M_wave lift C_buoy D_buoy M_added B_whole impact_loss end_x end_z end_release end_fx end_fz end_decay "
         "barrier c_quadratic c_linear per_strain per_force per_speed per_curvature "
         "order rtol newton_tolerance fixed_step max_step min_step start_x start_z "
-        "output_step release_step growth_per_step shortest_wave profile_step window alpha_m alpha_f gamma pace",
+        "inertia per_ringing phase_per_step shortest output_step release_step turn_step growth_per_step shortest_wave "
+        "profile_step window alpha_m alpha_f gamma pace",
     )
 )
 # Three dimensions have a type of their own: a kernel that serves both is compiled for each on its first use. Their own
@@ -57,13 +59,14 @@ SPATIAL = np.dtype(
 PLAIN = np.dtype(_dtype("plain", "") + RECORD.descr)
 # small_steps, cautious: steps of backward Euler, of slow growth still to come; attempts: steps tried up to window_end;
 # small, cut: the trial is one of backward Euler, ends at the corner (s), which no step may cross; dt_before: the last
-# accepted step (0: of no use); low, high: extremes of the top tension since the last sample; first, first_profile:
+# accepted step (0: of no use); turned: upper node of the element whose released turn is held, with the sign of the
+# turn, or 0; low, high: extremes of the top tension since the last sample; first, first_profile:
 # numbers of the samples and profiles, counted from t = 0, with which the output begins
 STATE = np.dtype(
     _dtype(
         "status samples profiles small_steps steps rejected newton failures releases attempts cautious trail energies "
-        "small cut first first_profile",
-        "t dt dt_before low high max_turn min_strain window_end trial_dt corner",
+        "small cut first first_profile turned",
+        "t dt dt_before low high max_turn min_strain window_end trial_dt corner ringing",
     )
 )
 

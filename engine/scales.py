@@ -7,9 +7,11 @@ from types import SimpleNamespace
 import numpy as np
 
 from .physics.tension import LAWS, NAMES, TensionLaw
+from .record import RELEASE_STEPS
 from .scene.models import Scene
 from .scene.sections import End, Tether
 
+STEPS_OF_PERIOD = {"waves.period_s": 8, "end.motion.period_s": 40}  # at least; what shakes an end shakes the tension
 TRANSIT_STEPS = 12  # after a loop release in the time that an axial wave takes along the line
 
 
@@ -33,7 +35,17 @@ def put_scales(record: np.void, scene: Scene, h: np.ndarray) -> None:
     record["per_strain"] = 1 / strain
     transit = length * math.sqrt(float(record["m"]) / stiffness)
     record["release_step"] = min(transit / TRANSIT_STEPS, float(record["max_step"]))
+    # after a loop release in the time 2/rate, the rate that of the fastest bending wave of the grid
+    rate = (math.pi / float(np.mean(h))) ** 2 * math.sqrt(record["EI"] / (record["m"] + record["ma"]))
+    gone = max(record["release_step"], 2 / (rate * RELEASE_STEPS) if rate else 0.0)
+    record["turn_step"] = min(gone, record["max_step"])
     record["per_force"] = 20 / load
+    # the longest axial motion: the heave of a buoy on the line, or the line's own first one
+    line = float(record["m"]) * length
+    held = {"buoy": 0.0, "held": math.pi**-2, "free": 4 * math.pi**-2}[scene.end.kind]
+    record["inertia"] = length * (held * line or float(record["M_total"]) + line / 3)
+    fastest = min(length * math.sqrt(stiffness / float(record["inertia"])), length / transit)
+    record["per_ringing"] = float(record["per_strain"]) / fastest
     recoil = strain * length / transit if scene.end.force_decay_s else 0.0  # of the end of a line that breaks
     bent = stiff / float(record["m"])
     record["per_speed"] = 1 / max(math.sqrt(max(g * length, bent)) / 14, recoil / 14, pulled, 1e-3)
@@ -45,6 +57,43 @@ def fastest_wave(record: np.void, scene: Scene) -> float:
     strains = np.linspace(0.0, 1.0 / float(record["per_strain"]), 2001)
     slopes = np.diff([tension_at(strain, scene.tether.tension) for strain in strains]) / strains[1]
     return math.sqrt(max(slopes.max(), 1e-300) / float(record["m"]))
+
+
+def longest_steps(scene: Scene) -> dict[str, float]:
+    """What holds an adaptive step: key of the scene -> the longest step (s) that it allows."""
+    found, driving = {"solver.max_step_s": scene.solver.max_step_s}, (scene.waves, scene.end.motion)
+    for (key, steps), part in zip(STEPS_OF_PERIOD.items(), driving, strict=True):
+        found[key] = getattr(part, "period_s", math.inf) / steps
+    return found
+
+
+def ringing_period(record: np.void, scene: Scene) -> float:
+    """Period (s) of the axial motion of the line with what it carries, where the law is steepest up to static loads."""
+    return 2 * math.pi * math.sqrt(float(record["inertia"] / record["m"])) / fastest_wave(record, scene)
+
+
+def wave_beyond(record: np.void, length: float, top_m: float) -> float:
+    """Force (N) of a regular wave, at its height top_m (m), on the half of an element (m) to which it does not reach.
+
+    The box takes the forces at both ends for those along the element; those of waves fall as exp(k z).
+    """
+    k, omega = float(record["k"]), float(record["omega"])
+    if k * length <= 2.0:
+        return 0.0
+    speed = float(record["amplitude"]) * omega * math.exp(min(k * (top_m - float(record["depth"])), 0.0))
+    drag = max(float(record["cn"]), float(record["ct"])) * speed**2
+    return (drag + float(record["Rw"] + record["ma"]) * omega * speed) * (length / 2 - 1 / k)
+
+
+def begins_with_a_blow(end: End) -> bool:
+    """Does the velocity of a held end jump at t = 0? A harmonic motion without a ramp begins at its full speed."""
+    motion = end.motion
+    return (
+        motion is not None
+        and motion.law == "harmonic"
+        and motion.ramp_s == 0
+        and abs(math.cos(motion.phase_rad)) > 1e-6
+    )
 
 
 def end_speed(end: End) -> float:

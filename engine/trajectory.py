@@ -86,9 +86,9 @@ class Trajectory:
         x, y, z = (columns[name] for name in ("x_m", "y_m", "z_m"))
         columns["angle_rad"] = np.unwrap(np.arctan2(along_waves(heading_of(later.scene), x, y), z))
         statistics = dict(later.statistics)
-        for name, number in self.statistics.items():
-            many = {"max_turn_rad": max, "min_strain": min, "end_time_s": max}.get(name, lambda a, b: a + b)
-            statistics[name] = many(number, later.statistics[name])
+        many = dict.fromkeys(("max_turn_rad", "end_time_s", "unresolved_ringing_N"), max) | {"min_strain": min}
+        for name in self.statistics.keys() & later.statistics.keys():
+            statistics[name] = many.get(name, lambda a, b: a + b)(self.statistics[name], later.statistics[name])
         profiles = later.profiles
         if self.profiles is not None and profiles is not None:
             new = profiles.time_s > self.profiles.time_s[-1]

@@ -71,26 +71,6 @@ def state_of(
     return coordinates, [path_m, path_m, speed_mps, speed_mps]
 
 
-def rings(scene: "Scene", releases: "numpy.ndarray") -> "numpy.ndarray":
-    """Which samples (n,) lie within an axial transit of the line after a loop release, those with one among them.
-
-    releases (n,): the column loop_releases. A release leaves a compression of the grid and of the steps, no load: over
-    830 releases -2.7 kN at 41 nodes and -1.5 kN at 81, and after one transit (0.027 s) never below the -0.33 kN of the
-    rest of these runs (kA = 0.106 to 0.133, H = 21.0 m, 300 and 250 wave periods).
-    """
-    import numpy as np
-
-    from engine.parameters import record_of
-    from engine.scales import TRANSIT_STEPS
-
-    found, at = np.zeros(len(releases), dtype=bool), 1 + np.flatnonzero(np.diff(releases) > 0)
-    if len(at):
-        transit_s = TRANSIT_STEPS * float(record_of(scene, [])[0]["release_step"])
-        for later in range(int(np.ceil(transit_s / scene.sample_step_s())) + 1):
-            found[at[at + later < len(found)] + later] = True
-    return found
-
-
 def spectrum(run: "Trajectory", column: str, transient_periods: int | None) -> "Spectrum":
     from analysis import spectrum as spectrum_of
 
@@ -165,8 +145,7 @@ def facts(run: "Trajectory") -> dict[str, str]:
         late = {name: values[len(values) // 3 :] for name, values in run.columns.items()}
         radius_m = late["radius_m"]
         told["radius"] = f"{radius_m.min():.2f} to {radius_m.max():.2f} m"
-        calm = ~rings(run.scene, late["loop_releases"])
-        low, high = late["tension_top_low_N"][calm].min(), late["tension_top_high_N"].max()
+        low, high = late["tension_top_low_N"].min(), late["tension_top_high_N"].max()
         told["tension"] = (
             " to ".join(f"{at:.0f}" if abs(at) > 100.0 else f"{at:.3g}" for at in (low, high)) + " N at the top"
         )

@@ -36,7 +36,7 @@ ROW_SOURCES = (
     "analysis",
     "engine",
     "campaigns/motions",
-    *(f"campaigns/{name}.py" for name in ("judge", "buoy_sweep/rows", "buoy_sweep/batches")),
+    *(f"campaigns/{name}.py" for name in ("judge", "buoy_sweep/rows", "buoy_sweep/batches", "buoy_sweep/errors")),
 )
 
 
@@ -139,6 +139,7 @@ def parameters(order: Order) -> dict[str, object]:
 def beside(order: Order) -> Iterator[Callable]:
     """What follows the runs (`campaigns.buoy_sweep.batches`): values between, the largest load, errors, a close-up."""
     from campaigns.buoy_sweep import batches
+    from campaigns.buoy_sweep.errors import errors
     from campaigns.buoy_sweep.rows import buoy_row
 
     if order.looks and not order.own.no_between and len(order.cases) >= batches.LEAST_VALUES:
@@ -146,6 +147,7 @@ def beside(order: Order) -> Iterator[Callable]:
     if not order.own.no_accuracy:
         yield partial(batches.companions, key=SWEPT, periods=order.periods)
         row = partial(buoy_row, transient_periods=order.transient)
+        yield errors
         yield partial(batches.repeat, carrying=not order.looks, row_of=row, said="regime")
     yield partial(batches.close_up, periods=order.periods)
 
@@ -180,7 +182,7 @@ STUDY = Study(
     parameters=parameters,
     runs=runs,
     beside=beside,
-    after=0.2,
+    after=0.25,
     answer=answer,
 )
 main, parser, read_order = STUDY.main, STUDY.parser, STUDY.read_order

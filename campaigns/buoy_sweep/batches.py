@@ -6,6 +6,8 @@ water, with a sphere that loses its buoyancy there. `as run` is the same run ove
 `accuracy`, the sweep's own error against run time: the run whose tension peaks lowest (the regular one, of those that
 need no more periods than are repeated) and the one whose tension peaks highest (the violent one) again as they are, at
 a tenth of the tolerance and with twice the elements, each alone on its core, for as many periods as a verdict needs.
+Each is compared with its original in all that table.csv reports, and in the distribution of its largest tensions: of a
+chaotic motion two histories differ by the size of the motion, and a largest value is one draw.
 `close_up`, for the moving picture of the report: the first wave periods of the violent run with its line, since
 profiles of every run would be gigabytes. Where no run goes slack nothing snaps, and nothing is computed.
 """
@@ -20,15 +22,27 @@ import numpy as np
 
 from analysis.looks import next_look
 from campaigns.buoy_sweep.answer import AS_RUN, CAPPED
-from campaigns.buoy_sweep.rows import EXTREMES, HEIGHT, REGIME, STEEPNESS, STROBED, TRANSIENT, buoy_row
+from campaigns.buoy_sweep.rows import (
+    EXTREMES,
+    HEIGHT,
+    REGIME,
+    STEEPNESS,
+    STROBED,
+    TANGENT,
+    TRANSIENT,
+    buoy_row,
+    exponents,
+    settled,
+)
 from campaigns.columns import LOOPS, MESSAGE, NEWTON, PERIODS_RUN, RUN_KEY, STATUS, WALL_S, Column, counted, names
-from campaigns.judge import LATERAL, OPEN, TANGENTS, job_from, tighter_scene
+from campaigns.judge import LATERAL, OPEN, TANGENTS, job_from, tangent_of, tighter_scene
 from campaigns.machinery.folder import claimed, run_of, trajectory_path
 from campaigns.machinery.plan import Job, Plan, Summary
 from campaigns.machinery.runner import groups_of, run
 from campaigns.motions.along import MOTION, from_rest
 from engine.atomic import write_atomic
 from engine.scene import scene_from_toml
+from engine.views import carried
 
 ROLE = Column("role", symbol="role", meaning="which run of the sweep was repeated, or how")
 NODES = Column("nodes", "", "nodes", "nodes of the line", 0)
@@ -36,6 +50,16 @@ OF_A_RUN = (STATUS, PERIODS_RUN, TRANSIENT, *EXTREMES, LOOPS, HEIGHT, WALL_S, RU
 BETWEEN = (STEEPNESS, REGIME, STROBED, *OF_A_RUN)
 COMPANIONS = (ROLE, STEEPNESS, MOTION, NODES, *OF_A_RUN)
 CLOSE_UP = (STEEPNESS, MOTION, STATUS, PERIODS_RUN, WALL_S, RUN_KEY, MESSAGE)
+BLOCK, LEFT_OUT = 5, 1 / 3  # wave periods, of whose largest tensions the mean is compared; share of a repeated run
+AGAIN = (  # what a repeated run is asked beside its history, in what follows the share that is left out
+    *(column for column in EXTREMES if "compression" not in column.name and column.name != "tension_top_max_N"),
+    Column("tension_block_max_N", "N", "T_b", f"mean of the largest tensions of every {BLOCK} wave periods", 0),
+    TANGENT[0],
+)
+ERRORS = (
+    Column("tension_block_max_error_N", "N", "± T_b", "standard error of the mean of the largest tensions", 0),
+    TANGENT[1],
+)
 ACCURACY = (
     ROLE,
     Column("label", symbol="run", meaning="the value of the sweep that names the repeated run", digits=3),
@@ -50,6 +74,12 @@ ACCURACY = (
     Column("tension_top_max_N", "N", "T_max", "largest tension at the top over all repeated wave periods", 0),
     Column("error_tension_early_N", "N", "early ΔT_max", "change of the largest tension of the first ten periods", 1),
     Column("error_tension_N", "N", "ΔT_max", "change of the largest tension of all repeated wave periods", 1),
+    *AGAIN,
+    *ERRORS,
+    *(
+        Column(f"error_{one.name}", one.unit, f"Δ{one.symbol}", f"change of: {one.meaning}", one.digits + 2)
+        for one in AGAIN
+    ),
     Column("verdict", symbol="verdict", meaning="what the repeated motion is called; empty where that is not decided"),
     Column("same_verdict", "", "same", "1 where the repeated motion is called what that of the sweep is, else 0", 0),
     WALL_S,
@@ -181,18 +211,21 @@ def repeat(
     """Do the repeated runs of a sweep; returns seconds of analysis.
 
     carrying: whether they carry perturbations, as a sweep of one length does; else the violent run, whose verdict needs
-    some, goes only as far as its companions. row_of(trajectory) -> its row; said: the column of what its motion is
-    called. among: keys of the runs to choose from, None for all. Raises as `runner.run`.
+    some, goes only as far as its companions, and carries one where the sweep has found its exponent.
+    row_of(trajectory) -> its row; said: the column of what its motion is called. among: keys of the runs to choose
+    from, None for all. Raises as `runner.run`.
     """
     most, jobs = next_look(next_look()), []
     rows = [row for row in summary.rows if from_rest(row) and (among is None or row["run_key"] in among)]
     for role, row in chosen(rows, math.inf if carrying else most):
         length = min(most if carrying or role == "regular" else COMPANION_PERIODS, round(row["periods"]))
         original = run_of(plan.how.out, row)
-        scene = original.scene if carrying else changed(original.scene, UNFOLLOWED)
+        grows = row.get(TANGENT[0].name) is not None
+        free = {name: kept for name, kept in UNFOLLOWED.items() if not grows or name != TANGENTS}
+        scene = original.scene if carrying else changed(original.scene, free)
         samples = round(length * scene.waves.period_s / scene.sample_step_s()) + 1
-        before = {name: original.columns[name][:samples] for name in ("radius_m", "tension_top_high_N")}
-        describe = partial(accuracy_row, before=before, called=row.get(said), row_of=row_of, said=said)
+        before = {name: values[:samples] for name, values in original.columns.items()}
+        describe = partial(accuracy_row, before=before, original=row, row_of=row_of, said=said)
         for how, made in ((AS_RUN, scene), (TIGHTER, tighter_scene(scene)), (FINER, changed(scene, finer(scene)))):
             labels = {"role": role, "label": row["steepness"], "run": how, "periods": length}
             jobs.append(Job(labels, made, length, describe=describe))
@@ -200,9 +233,9 @@ def repeat(
 
 
 def accuracy_row(
-    trajectory, before: dict[str, np.ndarray], called: str | None, row_of: Callable, said: str
+    trajectory, before: dict[str, np.ndarray], original: dict, row_of: Callable, said: str
 ) -> dict[str, object]:
-    """The columns of ACCURACY that a run fills; before, called: columns and verdict of the run that it repeats."""
+    """The columns of ACCURACY that a run fills; before, original: columns and row of the run that it repeats."""
     scene, columns = trajectory.scene, trajectory.columns
     row = counted(trajectory, (WALL_S, NEWTON, LOOPS)) | {
         "nodes": scene.tether.nodes,
@@ -216,10 +249,37 @@ def accuracy_row(
     for name, end in (("_early", round(EARLY * scene.waves.period_s / scene.sample_step_s()) + 1), ("", None)):
         row[f"error{name}_m"] = float(np.sqrt(np.mean(off[:end] ** 2)))
         row[f"error_tension{name}_N"] = float(high[:end].max() - before["tension_top_high_N"][:end].max())
-    now = row_of(trajectory).get(said)
+    new, old = measured(scene, columns), measured(scene, before)
+    if carried(trajectory):
+        new |= exponents(TANGENT, tangent_of(trajectory, math.ceil(LEFT_OUT * len(trajectory.tangent.growth_nats))))
+    old[TANGENT[0].name] = original.get(TANGENT[0].name)
+    both = [name for name in names(AGAIN) if new.get(name) is not None and old.get(name) is not None]
+    row |= new | {f"error_{name}": new[name] - old[name] for name in both}
+    now, called = row_of(trajectory).get(said), original.get(said)
     if not {now, called} & {None, *OPEN}:
         row |= {"verdict": now, "same_verdict": int(now == called)}
     return row
+
+
+def maxima_of_blocks(scene, columns, transient_periods: float, block: int = BLOCK) -> np.ndarray:
+    """The largest tension (N) of every `block` wave periods after the transient."""
+    from analysis import block_maxima
+
+    step_s, period_s = scene.sample_step_s(), scene.waves.period_s
+    first = round(transient_periods * period_s / step_s) + 1
+    return block_maxima(columns["tension_top_high_N"][first:], round(block * period_s / step_s))
+
+
+def measured(scene, columns) -> dict[str, object]:
+    """What AGAIN and ERRORS hold of a record but for its exponent, in what follows the share LEFT_OUT."""
+    step_s, period_s = scene.sample_step_s(), scene.waves.period_s
+    periods = (len(columns["time_s"]) - 1) * step_s / period_s
+    first_s = math.ceil(LEFT_OUT * periods) * period_s
+    found, largest = settled(scene, columns, first_s), maxima_of_blocks(scene, columns, first_s / period_s)
+    found["tension_block_max_N"] = float(largest.mean()) if len(largest) else None
+    if len(largest) > 1:
+        found["tension_block_max_error_N"] = float(largest.std(ddof=1) / math.sqrt(len(largest)))
+    return {name: found[name] for name in names((*AGAIN, *ERRORS)) if found.get(name) is not None}
 
 
 def close_up(plan: Plan, summary: Summary, periods: int) -> float:

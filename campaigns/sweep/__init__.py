@@ -6,13 +6,14 @@
 
 Protocol: the same scene, start and length for every value of the keys; the transient is left out of all that is
 measured. A buoy in regular waves gets the rows of `campaigns.buoy_sweep`, with regime and exponents where the run is
-long enough; any other line gets extremes, tension and the solver's counts. Nothing is random.
+long enough, and over one key how far each largest tension holds; any other line gets extremes, tension and the solver's
+counts. Nothing is random.
 """
 
 import contextlib
 import re
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import partial, reduce
 from itertools import product
@@ -213,10 +214,18 @@ def parameters(order: Order) -> dict[str, object]:
     return told | motions.parameters(order, starts_of(order))
 
 
+def beside(order: Order) -> Iterator[Callable]:
+    """What follows the runs over one key: the errors of their largest tensions (`campaigns.buoy_sweep.errors`)."""
+    if len(order.own.vary) == 1 and any(in_regular_waves(case.scene) for case in order.cases):
+        from campaigns.buoy_sweep.errors import errors
+
+        yield errors
+
+
 def answer(order: Order, rows: list[dict]) -> list[str]:
     """Over one key as `campaigns.buoy_sweep.answer`; over two how often each regime is found, and the largest load."""
-    from campaigns.answers import greatest, kilonewton, known
-    from campaigns.buoy_sweep.answer import PEAK, sentences
+    from campaigns.answers import greatest, known
+    from campaigns.buoy_sweep.answer import PEAK, largest, sentences
 
     keys = [one.key for one in order.own.vary]
     if len(keys) == 1:
@@ -229,7 +238,7 @@ def answer(order: Order, rows: list[dict]) -> list[str]:
     said = [f"{len(rows)} runs: {', '.join(f'{word} {count}' for word, count in counts.most_common())}."]
     if (peak := greatest(rows, PEAK)) is not None:
         where = " and ".join(f"{key} = {known(peak, key):.4g}" for key in keys)
-        said.append(f"Largest tension {kilonewton(known(peak, PEAK))} at {where}.")
+        said.append(f"Largest tension {largest(peak)} at {where}.")
     return said
 
 
@@ -244,6 +253,8 @@ STUDY = Study(
     measures=measures,
     parameters=parameters,
     runs=runs,
+    beside=beside,
+    after=0.05,
     answer=answer,
 )
 main, parser, read_order = STUDY.main, STUDY.parser, STUDY.read_order

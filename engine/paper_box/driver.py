@@ -110,6 +110,7 @@ class Record:
         self.across = np.array([-sine, cosine, 0.0])
         self.rows, self.profiles, self.state = [], [], np.zeros(1, STATE)[0]
         self.state["low"], self.state["high"], self.state["min_strain"] = np.inf, -np.inf, np.inf
+        self.state["ringing"] = -1.0
         self.closure, self.norm_error = 0.0, 0.0
         self.before = self.travelled = None
 

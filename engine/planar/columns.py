@@ -23,8 +23,9 @@ GX_EPS, GZ_EPS = 11, 12  # dG/deps
 GX_PHI, GZ_PHI = 13, 14  # dG/dphi
 GXX, GXZ, GZX, GZZ = 15, 16, 17, 18  # dG/dV
 M, M_EPS, M_SHEAR = 19, 20, 21  # M = (1 + eps)^3 S and its derivatives
-SHOCK_B, SHOCK_L = 22, 23  # shock viscosity: the last two columns, as in space
-NODE_WIDTH = 24
+TURN = 22  # held of a released loop in the box below (`engine.time.time_loop.hold_turn`)
+SHOCK_B, SHOCK_L = 23, 24  # shock viscosity: the last two columns, as in space
+NODE_WIDTH = 25
 
 P, P_KNOWN = 0, 9  # E, row k: y of node k - 1 = P y of node k + p; 3 x 3 row by row, and 3
 R, R_KNOWN = 12, 21  # v = R y + r, both of node k

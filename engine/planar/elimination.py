@@ -3,15 +3,16 @@
 Box between nodes a = k - 1 (lower) and b = k (upper), half element length e; residuals that Newton drives to zero:
 
     V_b - V_a - e (q_t,a + q_t,b) = 0            compatibility          o b   y_b, v_b
-    phi_b - phi_a - e (kappa_a + kappa_b) = 0    curvature              |
+    phi_b - phi_a - e (kappa_a + kappa_b) = J    curvature              |
     N_b - N_a - e (G_a + G_b) = 0                momentum               |  h = 2 e
     EI (kappa_b - kappa_a) + e (M_a + M_b) = 0   moment                 o a   y_a, v_a
 
-Split the updates into y, of (eps, S, phi), and v, of (U, W, kappa). Below node a everything is one affine relation
-v_a = R_a y_a + r_a (at the anchor v = 0: R = 0). Compatibility and curvature give v_b from (v_a, y_a, y_b); momentum
-and moment then give y_a = P y_b + p through one 3 x 3 inverse, and R_b, r_b follow. At the upper end one 3 x 3 solve,
-then back substitution. In the code c, s, f are cos phi, sin phi, dT/deps of a node; cx, cz and e turn the residuals of
-compatibility and curvature; R and r belong to node a until the end of the box, where they become those of b.
+J is 0 but while a loop is released: column TURN of Q. Split the updates into y, of (eps, S, phi), and v, of (U, W,
+kappa). Below node a everything is one affine relation v_a = R_a y_a + r_a (at the anchor v = 0: R = 0). Compatibility
+and curvature give v_b from (v_a, y_a, y_b); momentum and moment then give y_a = P y_b + p through one 3 x 3 inverse,
+and R_b, r_b follow. At the upper end one 3 x 3 solve, then back substitution. In the code c, s, f are cos phi, sin phi,
+dT/deps of a node; cx, cz and e turn the residuals of compatibility and curvature; R and r belong to node a until the
+end of the box, where they become those of b.
 
 Without bending the moment equation is S_a + S_b = 0 (`engine.planar.node`) and the condition of moment at the upper end
 S = 0, so that S is zero everywhere, and kappa, which nothing else needs, is put to zero. Well posed while the tether is
@@ -97,7 +98,7 @@ def eliminate(p, tables, stage, Y, work):
             continue
         cx = Y[k, col.VX] - Y[a, col.VX] - e * (Qa[col.QX_T] + Qb[col.QX_T])
         cz = Y[k, col.VZ] - Y[a, col.VZ] - e * (Qa[col.QZ_T] + Qb[col.QZ_T])
-        turn = (Y[k, col.PHI] - Y[a, col.PHI]) / e - (Y[a, col.KAPPA] + Y[k, col.KAPPA])
+        turn = (Y[k, col.PHI] - Y[a, col.PHI] - Qb[col.TURN]) / e - (Y[a, col.KAPPA] + Y[k, col.KAPPA])
         g = (
             Qa[col.NX] - Qb[col.NX] + e * (Qa[col.GX] + Qb[col.GX]) + Kxx * r[0] + Kxz * r[1] - Jxx * cx - Jxz * cz,
             Qa[col.NZ] - Qb[col.NZ] + e * (Qa[col.GZ] + Qb[col.GZ]) + Kzx * r[0] + Kzz * r[1] - Jzx * cx - Jzz * cz,

@@ -11,7 +11,7 @@ from ..arrays import Work
 from ..compiled import kernel
 from ..physics.tension.kernels import tension
 from ..record import PLACE, SPEED, STRAIN, TENSION
-from ..simd.elementary import within
+from ..simd.elementary import strain_within, within
 from ..simd.select import finite, larger, smaller, where
 from . import columns as col
 
@@ -102,15 +102,12 @@ def largest_turn(p, Y):
 
 @kernel
 def release_loop(p, tables, Y, upper):
-    """Shift phi by 2 pi from node `upper` up, against the turn; new first guesses for curvature and shear nearby."""
+    """Shift phi by 2 pi from node `upper` up, against the turn. Returns `upper` with the sign of the shift."""
     n = Y.shape[0]
     shift = -2.0 * math.pi if Y[upper, col.PHI] > Y[upper - 1, col.PHI] else 2.0 * math.pi
     for k in range(upper, n):
         Y[k, col.PHI] += shift
-    for k in range(max(1, upper - 2), min(n - 1, upper + 2)):
-        h = tables[p.grid_at + k - 1] + tables[p.grid_at + k]
-        Y[k, col.KAPPA] = (Y[k + 1, col.PHI] - Y[k - 1, col.PHI]) / h
-        Y[k, col.SHEAR] = 0.0
+    return upper if shift > 0.0 else -upper
 
 
 @kernel
@@ -131,7 +128,7 @@ def configuration(p, tables, weights, C0, K0, C1, K1, row):
             x += half * (qx_below + qx)
             z += half * (qz_below + qz)
         qx_below, qz_below = qx, qz
-        eps = math.sqrt(qx * qx + qz * qz) - 1.0
+        eps = strain_within(weights, C0[k], C1[k], K0[k], K1[k])
         row[k, PLACE], row[k, PLACE + 1], row[k, PLACE + 2], row[k, STRAIN] = x, 0.0, z, eps
         row[k, TENSION] = tension(eps, p, tables)[0]
         row[k, SPEED] = math.sqrt(U * U + W * W)

@@ -2,8 +2,11 @@
 of them; a long run in short steps would not end.
 """
 
+from operator import itemgetter
+
 from .. import parameters
 from ..record import PROFILE_WIDTH
+from ..scales import longest_steps
 from ..time.integrators import METHODS
 
 MOST_SAMPLES = 20_000_000  # 2 GB of samples; 1e5 wave periods at a hundred samples each is half of it
@@ -17,7 +20,7 @@ def longest_step(scene):
     if solver.step_s:
         return "solver.step_s", solver.step_s
     if solver.scheme != "paper-box" and METHODS[solver.integrator].ADAPTIVE:
-        return "solver.max_step_s", solver.max_step_s
+        return min(longest_steps(scene).items(), key=itemgetter(1))
     key = "solver.step_s" if solver.courant is None else "solver.courant"
     return key, float(parameters.record_of(scene, [])[0]["fixed_step"])  # its default goes by the period of the waves
 

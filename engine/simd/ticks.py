@@ -19,22 +19,24 @@ from .. import record as col
 from ..arrays import Stage
 from ..compiled import kernel
 from ..dimensions import shape
-from ..planar.columns import VX, VZ
+from ..planar.columns import EPS, VX, VZ
 from ..planar.state import largest_turn
 from ..time import steps
 from ..time.newton import GOING_ON, iterate, judge
+from ..time.ringing import jumps_of_rates, watch_ringing
 from ..time.status import OK
-from ..time.time_loop import begin_trial, guard_turns, next_step, refused, sample, step_done
+from ..time.time_loop import begin_trial, guard_turns, hold_turn, next_step, refused, sample, step_done
 from .elementary import copy_into, keep
-from .select import some, where
+from .select import larger, smaller, some, where
 from .vector import COUNT, as_lanes, expect, lane_record, transposed
 
 ENDED, GOING, WAITING = range(3)  # lane.active: with no run or one at its end; going; its trail is full
 LANE = np.dtype([(name, np.int64) for name in "active stage iteration code goal".split()] + [("best", np.float64)])
 (
-    TIME, RATE, STEP, SOUND, SIZE, LEAST, STAGE, SOLVED, FINISHED, ERROR, TURN, ACCEPTED, MOVED, RESTARTED,
-) = range(14)  # fmt: skip
-ROWS = 14
+    TIME, RATE, STEP, SOUND, SIZE, LEAST, TOP, TOP_LOW, TOP_HIGH, STAGE, SOLVED, FINISHED, ERROR, STRAIN_JUMP,
+    SPEED_JUMP, TURN, ACCEPTED, MOVED, RESTARTED,
+) = range(19)  # fmt: skip
+ROWS = 19
 # Arrays of all lanes, whose last axis is COUNT; s stages, n nodes. values: fields of the records; tables; numbers
 # (ROWS,); a (s,), w (3,): as in `plan_stage`; Y, now, before (n, 6): iterate, accepted state, the one before; C (n, 4),
 # Ks (s, n, 4): conserved variables, rates of the state and the stages; history (3, n, 6): states for the first guess;
@@ -86,7 +88,8 @@ def judge_steps(records, tables, states, lanes, numbers, spent):
             continue
         error = 0.0
         if lane.code == OK and state.small == 0 and p.adaptive:
-            error = steps.trial_error(p, tables[b], state.trial_dt, numbers[ERROR, b], numbers[LEAST, b])
+            seen = numbers[LEAST, b], numbers[TOP, b], (numbers[STRAIN_JUMP, b], numbers[SPEED_JUMP, b])
+            error = steps.trial_error(p, tables[b], state.trial_dt, numbers[ERROR, b], *seen)
         numbers[ERROR, b] = error
         numbers[RESTARTED, b] = 1.0
         if not refused(p, state, lane.code, spent[b], error):
@@ -148,7 +151,7 @@ def record_steps(states, numbers, trail_T):
 
 @kernel
 def end_steps(records, tables, states, numbers, Y, one):
-    """Accepted steps: time, guards, and the length of the next step.
+    """Accepted steps: time, what was not resolved, guards, and the length of the next step.
 
     Y (n, 6, COUNT): the new states, as numbers; one (n, 6): work.
     """
@@ -156,6 +159,9 @@ def end_steps(records, tables, states, numbers, Y, one):
         if numbers[ACCEPTED, b] == 0.0:
             continue
         p, state = records[b], states[b]
+        if state.small == 0:
+            jumps = numbers[STRAIN_JUMP, b], numbers[SPEED_JUMP, b]
+            watch_ringing(p, tables[b], state, numbers[TOP, b], numbers[TOP_LOW, b], numbers[TOP_HIGH, b], jumps)
         step_done(p, state)
         state.min_strain = min(state.min_strain, numbers[LEAST, b])
         state.max_turn = max(state.max_turn, numbers[TURN, b])
@@ -168,8 +174,8 @@ def end_steps(records, tables, states, numbers, Y, one):
 
 
 @kernel
-def plan_lanes(records, tables, states, lanes, numbers, room, a, w):
-    """Choose the next solve of every lane that has moved; returns whether to stop.
+def plan_lanes(records, tables, states, lanes, numbers, room, a, w, Q):
+    """Choose the next solve of every lane that has moved; returns whether to stop. Q (n, NODE_WIDTH, COUNT): of Work.
 
     A lane whose trail of `room` steps is full waits to be followed. That is done for all lanes at once, each step at
     the cost of one: so it is not due before two of three wait, because some make twice the steps of others.
@@ -186,6 +192,7 @@ def plan_lanes(records, tables, states, lanes, numbers, room, a, w):
                     numbers[MOVED, b] = 0.0
                     continue
                 begin_trial(p, tables[b], state)
+                hold_turn(state, Q[:, :, b])
             if state.status != OK or state.samples >= lane.goal:
                 lane.active = ENDED
                 numbers[MOVED, b] = 0.0
@@ -248,7 +255,7 @@ def advance(ticks, records, own_tables, states, lanes, spent, samples, trail, co
     made, stop = 0, False
     while True:
         # every lane that has moved begins its next solve; C_new, which is free by then, takes in its C~
-        stop = plan_lanes(records, own_tables, states, lanes, numbers, trail.T.shape[1], arrays.a, arrays.w)
+        stop = plan_lanes(records, own_tables, states, lanes, numbers, trail.T.shape[1], arrays.a, arrays.w, work.Q)
         move_states(rows, w, lane.history, lane.now, lane.before, Y)
         keep(rows[ACCEPTED] != 0.0, C_new, C)
         keep(rows[ACCEPTED] != 0.0, K_new, Ks[0])
@@ -268,9 +275,15 @@ def advance(ticks, records, own_tables, states, lanes, spent, samples, trail, co
         steps.stage_rates(p, rows[RATE], Y, own.Q, own.C_tilde, C_new, K_new)
         for j in range(1, Ks.shape[0]):
             keep((rows[SOLVED] != 0.0) & (rows[STAGE] == float(j)), K_new, Ks[j])
+        top, first = Y[Y.shape[0] - 1, EPS], rows[STAGE] == 1.0
+        low, high = where(first, top, smaller(rows[TOP_LOW], top)), where(first, top, larger(rows[TOP_HIGH], top))
+        rows[TOP_LOW] = where(rows[SOLVED] != 0.0, low, rows[TOP_LOW])
+        rows[TOP_HIGH] = where(rows[SOLVED] != 0.0, high, rows[TOP_HIGH])
         if some(rows[FINISHED] != 0.0):
             rows[ERROR] = steps.embedded_error(p, tables, rows[STEP], Ks, own.Q, a, own.D[0])
-            rows[LEAST], rows[TURN] = steps.least_strain(Y), largest_turn(p, Y)[0]
+            both = (C, Ks[0]), (C_new, K_new)
+            rows[STRAIN_JUMP], rows[SPEED_JUMP] = jumps_of_rates(p, rows[STEP], *both)
+            rows[LEAST], rows[TOP], rows[TURN] = steps.least_strain(Y), top, largest_turn(p, Y)[0]
         if trail.T.shape[1] > 0:
             record_stages(states, lanes, numbers, Y, K_new, trail.T, trail_rows, block)
         # accepted, or to be tried again

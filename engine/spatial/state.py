@@ -12,7 +12,7 @@ from ..arrays import Work
 from ..compiled import kernel
 from ..physics.tension.kernels import tension
 from ..record import PLACE, SPEED, STRAIN, TENSION
-from ..simd.elementary import within
+from ..simd.elementary import strain_within, within
 from . import columns as col
 from .node import box_rotation
 from .vectors import dot, frame, least_turn, mixed, put, quaternion, quaternion_product, turned, vector
@@ -138,7 +138,7 @@ def release_loop(p, tables, Y, upper):
     """Change the sign of the Euler parameters from node `upper` up, a turn by 2 pi; new first guesses nearby.
 
     t, n, b and q stay as they are. Newton starts from the turns of the neighbours and no shear: from the old curvature
-    it would find its way back.
+    it would find its way back. Returns 0: no turn is held.
     """
     n = Y.shape[0]
     for k in range(upper, n):
@@ -149,6 +149,7 @@ def release_loop(p, tables, Y, upper):
         below, above = box_rotation(Y, k - 1, k)[0], box_rotation(Y, k, k + 1)[0]
         Y[k, col.O2], Y[k, col.O3] = (below[1] + above[1]) / h, (below[2] + above[2]) / h
         Y[k, col.SHEAR_N] = Y[k, col.SHEAR_B] = 0.0
+    return 0
 
 
 @kernel
@@ -168,7 +169,7 @@ def configuration(p, tables, weights, C0, K0, C1, K1, row):
             half = 0.5 * tables[p.grid_at + k - 1]
             x = mixed(1.0, x, half, mixed(1.0, below, 1.0, q))
         below = q
-        eps = math.sqrt(dot(q, q)) - 1.0
+        eps = strain_within(weights, C0[k], C1[k], K0[k], K1[k])
         put(row[k], PLACE, x)
         row[k, STRAIN], row[k, TENSION], row[k, SPEED] = eps, tension(eps, p, tables)[0], math.sqrt(dot(V, V))
         largest = max(largest, abs(cosine * x[1] - sine * x[0]))

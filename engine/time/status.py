@@ -14,6 +14,13 @@ WORDS = dict(
     )
 )
 
+UNRESOLVED = (  # of a run that is ok
+    "{what} not resolved by steps of up to {step:.2g} s: tensions hold to {tension:.2g} N; lower {key}"
+)
+WAVES_ON_ELEMENT = (
+    "elements of {length:.2g} m are longer than the waves reach down ({depth:.2g} m): tensions hold to {force:.2g} N; "
+    "add nodes, or refine the grid upwards (tether.grid_stretching)"
+)
 ADVICE = {  # of the conservation form; `paper_box.driver` has its own
     OK: "",
     NEWTON_FAILED: "Newton's method did not converge at t = {t:.6g} s, at the smallest step tried ({dt:.2g} s): "

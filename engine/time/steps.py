@@ -20,6 +20,7 @@ from ..record import STRETCH
 from ..simd.elementary import copy_into
 from ..simd.select import smaller
 from .newton import newton
+from .ringing import ringing_error
 from .status import OK
 
 SMALL_STEP_NEWTON = 100  # iterations: after a release each update is cut to one scale, and takes about 20
@@ -101,7 +102,7 @@ def runge_kutta_step(p, tables, step, before, trial, work):
     """A trial step of a stiffly accurate ESDIRK method, or (step.small) of backward Euler in its place.
 
     step: Step; before: Motion, not changed; trial: Trial, filled; work: Work.
-    Returns (code, Newton iterations, error in units of the tolerance; 0 for fixed and for small steps).
+    Returns (code, Newton iterations, embedded error in units of the tolerance; 0 for fixed and for small steps).
     """
     t, dt, dt_before, small = step
     Y, Y_before, C, K = before
@@ -132,13 +133,16 @@ def runge_kutta_step(p, tables, step, before, trial, work):
         stage_rates(p, rate, Ys[i], work.Q, C_tilde, C_new, Ks[i])
     if small or p.adaptive == 0:
         return OK, iterations, 0.0
-    error = embedded_error(p, tables, dt, Ks, work.Q, a, C_tilde[0])  # the last two: work, needed no more
-    return OK, iterations, trial_error(p, tables, dt, error, least_strain(Ys[s - 1]))
+    return OK, iterations, embedded_error(p, tables, dt, Ks, work.Q, a, C_tilde[0])  # the last two: work
 
 
 @kernel
-def trial_error(p, tables, dt, error, least):
-    """The error by which a step is judged: the embedded estimate, or what buckling at the new least strain asks for."""
+def trial_error(p, tables, dt, error, least, top, jumps):
+    """The error by which a step is judged: the embedded estimate, or what ringing or buckling asks for.
+
+    least, top: strains after the step, the least one and that of the upper end; jumps: `jumps_of_rates`.
+    """
+    error = max(error, ringing_error(p, tables, dt, top, jumps))
     if p.bent:
         rate = buckling_rate(p, tables, least)
         error = max(error, (dt * rate / p.growth_per_step) ** p.order)

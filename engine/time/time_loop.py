@@ -4,15 +4,17 @@
 Newton's method, `refused` judges the trial, and `next_step` chooses the next length. Lanes (`engine.simd.ticks`) call
 the same functions.
 
-Loop release (THEORY.md, section 9): where the turn in one element passes pi, `guard_turns` takes 2 pi out of it, in
-space as well. Then SMALL_STEPS steps of backward Euler follow, each p.release_step long, without error control and
-without rates from before (20 times shorter ones were tried: axial waves of the grid rang to 2.4 kN of compression at
-41 nodes where 0.3 kN are real). The number of releases is part of the result.
+Loop release (THEORY.md, section 9): where the turn in one element passes pi, `guard_turns` takes 2 pi out of its phi.
+`hold_turn` keeps them in the curvature of that element and lets them go within RELEASE_STEPS steps of backward Euler,
+each p.turn_step long, without error control and without rates from before. Let go at once they rang: the box has no
+curvature for a jump of phi in one element but one that alternates along the whole line, and at 41 nodes a loop under
+30 N left 1 kN of compression. In space all goes at once, within SMALL_STEPS of p.release_step. One element is let go
+at a time; others wait. The number of releases is part of the result.
 
 Output on an even time grid comes from inside the accepted steps. Runge-Kutta steps carry rates at both ends: cubic
 Hermite interpolation of the conserved variables, order 4; the one-stage methods (order 2 and less, undamped rates) are
-interpolated linearly. Positions are the sums of the interpolated q, tensions f(|q| - 1), so every column of a sample
-belongs to one configuration. Columns of samples and profiles: `engine.record`.
+interpolated linearly. Positions are the sums of the interpolated q; strains are interpolated by themselves
+(`simd.elementary.strain_within`). Columns of samples and profiles: `engine.record`.
 """
 
 import math
@@ -27,10 +29,12 @@ from ..physics.ends import corner_after
 from ..physics.energy import add_powers, store_energies
 from ..physics.shocks import deforming_element, renew_viscosity
 from ..physics.tension.kernels import tension
-from ..record import SMALL_STEPS
+from ..planar.columns import EPS, TURN  # EPS: in space the same column
+from ..record import RELEASE_STEPS, SMALL_STEPS
 from ..simd.elementary import copy_into
+from .ringing import jumps_of_rates, stage_strains, watch_ringing
 from .status import OK, STEP_LIMIT, STEP_UNDERFLOW, TURN_UNRESOLVED
-from .steps import least_strain, one_stage_step, runge_kutta_step
+from .steps import least_strain, one_stage_step, runge_kutta_step, trial_error
 
 SAFETY, SHRINK, GROW = 0.9, 0.2, 4.0
 NO_SLIVER = 1.01  # a step is made a little longer rather than leave next to nothing of the way to a corner
@@ -48,12 +52,22 @@ def guard_turns(p, tables, state, Y):
         state.max_turn = max(state.max_turn, turn)
         if turn <= math.pi:
             return OK, released
+        if state.turned != 0:
+            return OK, released
         if p.loop_release == 0 or state.releases >= p.max_releases:
             return TURN_UNRESOLVED, released
-        release_loop(p, tables, Y, int(where))
+        state.turned = release_loop(p, tables, Y, int(where))
         state.releases += 1
         released = True
     return TURN_UNRESOLVED, released
+
+
+@kernel
+def hold_turn(state, Q):
+    """Put into Q what the trial keeps of a released turn: 2 pi, less from step to step, 0 in the last one."""
+    if state.turned != 0:
+        left = math.pi * (1.0 - math.cos(math.pi * (state.small_steps - 1) / RELEASE_STEPS))
+        Q[abs(state.turned), TURN] = left if state.turned > 0 else -left
 
 
 @kernel
@@ -118,11 +132,14 @@ def next_step(p, state, code, released, error, longest):
     if code != OK:
         state.status = code
     if released or (state.cut and state.corner == p.end_release):
-        state.small_steps = SMALL_STEPS
-        state.dt = p.release_step
+        held = released and state.turned != 0
+        state.small_steps = RELEASE_STEPS if held else SMALL_STEPS
+        state.dt = p.turn_step if held else p.release_step
         state.dt_before = 0.0
     elif state.small:
         state.small_steps -= 1
+        if state.small_steps == 0:
+            state.turned = 0
         if state.small_steps == 0 and p.adaptive == 0:
             state.dt = p.fixed_step
     elif p.adaptive:
@@ -138,11 +155,12 @@ def next_step(p, state, code, released, error, longest):
 
 @kernel
 def weights_within(hermite, theta, dt):
-    """Weights of C0, C1, K0, K1 at the share theta of a step."""
+    """Weights of C0, C1, K0, K1 at the share theta of a step, and theta."""
     if not hermite:
-        return 1.0 - theta, theta, 0.0, 0.0
+        return 1.0 - theta, theta, 0.0, 0.0, theta
     a = theta - 1.0
-    return (1.0 + 2.0 * theta) * a * a, theta * theta * (3.0 - 2.0 * theta), dt * theta * a * a, dt * theta * theta * a
+    first, last = (1.0 + 2.0 * theta) * a * a, theta * theta * (3.0 - 2.0 * theta)
+    return first, last, dt * theta * a * a, dt * theta * theta * a, theta
 
 
 @kernel
@@ -215,6 +233,7 @@ def march(p, tables, state, motion, output, trail, until, one_stage, e_t, budget
         begin_trial(p, tables, state)
         if state.status != OK:
             break
+        hold_turn(state, work.Q)
         small, code, used, error = state.small != 0, OK, 0, 0.0
         step = Step(state.t, state.trial_dt, state.dt_before, small)
         stiff = small or p.method == col.RUNGE_KUTTA  # "stiffly accurate": the last stage is the new state
@@ -223,12 +242,20 @@ def march(p, tables, state, motion, output, trail, until, one_stage, e_t, budget
         if one_stage is not None:
             if not stiff:
                 code, used = one_stage_step(p, tables, step, one_stage, p.max_newton, motion, trial, work)
+        Y_new, K_new, jumps = trial.Y[s - 1], trial.K[s - 1], (0.0, 0.0)
+        least, top = least_strain(Y_new), Y_new[p.nodes - 1, EPS]
+        if code == OK and not small:
+            jumps = jumps_of_rates(p, step.dt, (C, K), (trial.C, K_new))
+            if p.adaptive:
+                error = trial_error(p, tables, step.dt, error, least, top, jumps)
         if refused(p, state, code, used, error):
             continue
         # what lies within the accepted step goes into the output
-        Y_new, K_new = trial.Y[s - 1], trial.K[s - 1]
         hermite = stiff and not small
         sample(p, tables, state, step.dt, hermite, (C, K), (trial.C, K_new), output.samples, output.profiles)
+        if not small and state.ringing >= 0.0:
+            low, high = stage_strains(trial.Y) if stiff else (top, top)
+            watch_ringing(p, tables, state, top, low, high, jumps)
         if budget is not None:
             energies, sums = budget
             alphas = (1.0, 1.0, 1.0) if small else (p.alpha_m, p.alpha_f, p.gamma)
@@ -249,7 +276,7 @@ def march(p, tables, state, motion, output, trail, until, one_stage, e_t, budget
         copy_into(K, K_new)
         copy_into(C, trial.C)
         step_done(p, state)
-        state.min_strain = min(state.min_strain, least_strain(Y))
+        state.min_strain = min(state.min_strain, least)
         code, released = guard_turns(p, tables, state, Y)
         longest = p.fixed_step
         if e_t is not None:

@@ -7,7 +7,7 @@ from pathlib import Path
 from ..parts.content import Heading, Item, Notice, Report, Text
 from ..parts.provenance import appendix, provenance_items
 from ..parts.sections import section_items
-from ..parts.wording import T_I, TAU_0, decimals, number
+from ..parts.wording import T_I, TAU_0, decimals, number, percent
 from ..sweep.motions import every_motion
 from ..sweep.quantities import extremes
 from .figures import close_up_items, orbit_figure, regime_items
@@ -20,6 +20,7 @@ _EXTREMES = (
     "slack_fraction", "tension_top_max_N", "radius_min_m", "radius_max_m", "loop_releases", "rope_lateral_max_m",
     "buoy_lateral_max_m",
 )  # fmt: skip
+_COARSE = 0.05  # of the largest tension, as in `campaigns.buoy_sweep.answer`
 _OF_THESE = "Least and greatest value in the runs that ended as asked."
 _RESOLVED_RAD = 0.5 * math.pi  # turn of one element beyond which a loop is no longer resolved
 _NOTHING = "No run failed, no loop was released, the buoy stayed in the water, and every record lasts for eq. (31)."
@@ -76,6 +77,8 @@ def warnings(sweep: Sweep) -> Notice:
     higher_m = max((run["max_buoy_height_above_water_m"] for run in out), default=0.0) - scene.buoy.diameter_m
     unread = [run for run in runs if run.fault]
     first = {run["status"]: run for run in reversed(runs) if not run.ok}
+    ringing = [run for run in runs if run["unresolved_ringing_N"] > 0.0]
+    rung_N = max((run["unresolved_ringing_N"] for run in ringing), default=0.0)
     strain = sweep.modes.static_strain if sweep.modes else -1.0
     dry_m = scene.tether.length_m * (1.0 + strain) + 0.5 * scene.buoy.diameter_m - scene.water.depth_m
     failed = [
@@ -88,9 +91,12 @@ def warnings(sweep: Sweep) -> Notice:
         (f"{unread[0].fault if unread else ''} (of the first); figures and strobed values leave such runs out", unread),
         ("loops were released; a rope free to leave the plane does not need it (`--dimensions auto`), see “Out of the "
          "plane”", [run for run in runs if run["loop_releases"] > 0]),
-        ("after loop releases the line is compressed for a moment, which is of the grid and of the steps and no load: "
-         "the smallest tension leaves these moments out",
-         [run for run in runs if run.known("compression_after_release_N")]),
+        (f"axial ringing of the line is not resolved: tensions hold to {number(rung_N, 2)} N or better; lower "
+         "`solver.shortest_period_s`", ringing),
+        (f"largest tensions hold to no better than {percent(_COARSE)} (column ± T_max)",
+         [run for run in runs if run["tension_top_max_error_N"] > _COARSE * run["tension_top_max_N"]]),
+        ("with smaller elements and steps the motion becomes another one (column message)",
+         [run for run in runs if "becomes another motion" in (run["message"] or "")]),
         ("in three dimensions an element turns by more than π/2: its loops are not resolved, add `tether.nodes`",
          [run for run in runs if run.in_space and run["max_turn_rad"] > _RESOLVED_RAD]),
         (f"already at rest the top of the buoy is {decimals(dry_m, 2)} m above still water",

@@ -5,7 +5,7 @@ from dataclasses import astuple
 import numpy as np
 import pytest
 
-from analysis import Extremes, extremes, slack_fraction
+from analysis import Extremes, block_maxima, extremes, slack_fraction
 
 
 def test_extremes_are_those_of_the_samples_after_the_transient():
@@ -52,6 +52,15 @@ def test_a_transient_is_left_out_to_the_moment_even_between_samples(transient):
     found = slack_fraction(np.arange(-1.0, 5.0), 1.0, transient_s=transient)
     assert found.record_s == 5.0 - transient and found.slack_s == pytest.approx(max(1.0 - transient, 0.0))
     assert found.fraction == pytest.approx(max(1.0 - transient, 0.0) / (5.0 - transient), abs=1e-15)
+
+
+def test_blocks_of_blocks_are_longer_blocks_and_a_part_of_one_counts_for_nothing():
+    x = np.random.default_rng(1).normal(size=1003)
+    tens = block_maxima(x, 10)
+    assert len(tens) == 100 and np.array_equal(block_maxima(tens, 5), block_maxima(x, 50))
+    assert np.array_equal(block_maxima(x, 1), x) and len(block_maxima(x, 1004)) == 0
+    with pytest.raises(ValueError, match="samples"):
+        block_maxima(x, 0)
 
 
 @pytest.mark.parametrize(("series", "transient"), [([1.0, 2.0], 0.3), ([], 0.0), ([1.0], 0.0), (np.ones(11), 1.0)])

@@ -13,7 +13,7 @@ from PIL import Image
 
 from campaigns import buoy_sweep
 from campaigns.buoy_sweep import batches
-from campaigns.buoy_sweep.answer import AS_RUN
+from campaigns.buoy_sweep.answer import AS_RUN, OTHER
 from campaigns.buoy_sweep.batches import (
     ACCURACY,
     FINER,
@@ -22,26 +22,30 @@ from campaigns.buoy_sweep.batches import (
     TIGHTER,
     chosen,
 )
+from campaigns.buoy_sweep.errors import REPEATING, companion_row, error_N
 from campaigns.buoy_sweep.rows import buoy_row
 from campaigns.buoy_sweep.space import SEED_MPS
 from campaigns.columns import names
 from campaigns.machinery.cli import Running
 from campaigns.machinery.plan import Job, Plan, Summary
 from campaigns.machinery.runner import groups_of
-from engine import Trajectory, load_scene
+from campaigns.motions.starts import JOINED, UNSETTLED, settled_of
+from campaigns.sweep import main as sweep_command
+from engine import Trajectory, load_scene, simulate
 from reports.parts.style import VERMILION
 from tests.campaigns.conftest import finished, forget, rows_of
 from tests.campaigns.fake_engine import FakeEngine, shapes, sines
 
 THREE = ("0.02", "0.05", "0.13")
 TOLERANCE_M, GRID_M = 0.02, 4.0  # error of r at rtol 1 and with one element, as sines of their own
+GRID_N = 1e6  # error of the tension with one element
 REPEATED = ["--periods", "12", "--transient", "2", "--no-report"]
 SHOWN = ["--periods", "15", "--transient", "3", "--no-report", "--no-accuracy"]
 
 
 @dataclass(frozen=True)
 class Drifting(FakeEngine):
-    """A FakeEngine whose r depends on tolerance and grid, and whose tension on the steepness of the wave."""
+    """A FakeEngine whose r depends on tolerance and grid, and whose tension on grid and steepness of the wave."""
 
     def __call__(self, scene, periods=None, duration_s=None):
         run = super().__call__(scene, periods, duration_s)
@@ -49,6 +53,7 @@ class Drifting(FakeEngine):
         off = (TOLERANCE_M * scene.solver.rtol + GRID_M / (nodes - 1) ** 2) * np.sin(0.7 * t)
         columns = run.columns | {"radius_m": run.columns["radius_m"] + off}
         columns["tension_top_high_N"] = columns["tension_top_high_N"] * (1.0 + scene.waves.steepness)
+        columns["tension_top_high_N"] = columns["tension_top_high_N"] + GRID_N / (nodes - 1) ** 2
         return replace(run, columns=columns)
 
 
@@ -100,6 +105,10 @@ def test_the_least_and_the_most_violent_run_are_repeated_with_the_errors_that_we
     for row in rows:
         found = [float(row[name]) for name in ("nodes", "rtol", "error_early_m")]
         assert found == pytest.approx(expected[row["run"]], rel=1e-6, abs=1e-15)
+        less_N = 0.75 * GRID_N / (nodes - 1) ** 2 if row["run"] == FINER else 0.0
+        for name in ("error_tension_N", "error_tension_block_max_N"):
+            assert float(row[name]) == pytest.approx(-less_N, rel=1e-6, abs=1e-9)
+        assert float(row["error_tension_top_min_N"]) == float(row["error_slack_fraction"]) == 0.0
 
 
 def test_repeated_again_nothing_is_computed(repeated):
@@ -281,3 +290,39 @@ def test_a_run_from_a_state_shares_no_worker_with_runs_from_rest(nine):
     groups = groups_of(plan, mixed)
     assert sum(map(len, groups)) == len(mixed)
     assert all(len({job.going for job in group}) == 1 for group in groups)
+
+
+def test_the_error_of_a_largest_tension_is_of_grid_steps_ringing_and_what_stands_above_the_usual():
+    row = {"tension_top_max_N": 105.0, "unresolved_ringing_N": 0.5}
+    same = {"status": "ok", "outcome": JOINED, "tension_usual_max_N": 99.5}
+    assert error_N(row, 101.0, same) == (7.5, ["the largest tension holds to 7 % only"])
+    assert error_N(row | {"tension_top_max_N": 102.0}, 101.0, same) == (4.5, [])
+    _, (other, _) = error_N(row, 101.0, same | {"outcome": UNSETTLED})
+    assert OTHER in other
+    unknown, (ended,) = error_N(row, 101.0, same | {"status": "newton-failed"})
+    assert np.isnan(unknown) and "newton-failed" in ended
+
+
+@pytest.mark.parametrize(("swing_m", "outcome"), [(1.0, JOINED), (1.5, UNSETTLED)])
+def test_a_companion_that_leaves_the_motion_of_its_row_says_so(swing_m, outcome):
+    scene = load_scene("tethered_buoy")
+    motion = settled_of(sines(scene, 90))
+    row = companion_row(sines(scene, REPEATING, radius=(20.0, swing_m)), period=1, motion=motion)
+    assert row["outcome"] == outcome
+    assert row["tension_usual_max_N"] == pytest.approx(2510.0, abs=1e-9)  # of a sine, as in test_rows.py
+
+
+@pytest.mark.slow
+def test_a_violent_stiff_snap_whose_largest_tension_moves_with_the_steps_says_so(tmp_path):
+    """On 41 nodes at EA = 1e7 N largest tensions of default and tighter steps differ by more than 5 %."""
+    stiff = ["water.depth_m=21.6", "tether.tension.stiffness_N=1e7"]
+    words = ["--vary", "waves.steepness", "0.016", "0.13", "2", "--periods", "60", "--transient", "20", "--no-report"]
+    assert sweep_command([*words, "--set", *stiff, "--out", str(tmp_path)]) == 0
+    _, row = rows_of(tmp_path)
+    largest_N, error = float(row["tension_top_max_N"]), float(row["tension_top_max_error_N"])
+    assert error > 0.05 * largest_N and "largest tension holds to" in row["message"]
+    assert "only" in (tmp_path / "answer.txt").read_text()
+    scene = load_scene("tethered_buoy", {"waves.steepness": 0.13, "water.depth_m": 21.6, "solver.rtol": 0.003,
+                                         "tether.tension.stiffness_N": 1e7})  # fmt: skip
+    high = simulate(scene, periods=60).columns["tension_top_high_N"]
+    assert abs(high[20 * len(high) // 60 :].max() - largest_N) < error

@@ -36,15 +36,6 @@ def test_extremes_of_sines_and_those_of_tension_between_the_samples(scene):
     assert (row["tension_top_min_N"], row["tension_top_max_N"]) == pytest.approx((1490.0, 2510.0), abs=1e-9)
 
 
-def test_what_a_loop_release_leaves_for_an_axial_transit_is_no_extreme_but_told(scene):
-    run = sines(scene, PERIODS, releases=2)
-    low, at = run.columns["tension_top_low_N"].copy(), int(np.argmax(run.columns["loop_releases"] > 0))
-    low[at - 1 : at + 3] = -600.0, -2000.0, -900.0, -700.0  # the transit, 0.027 s, ends within the second
-    row = buoy_row(replace(run, columns=run.columns | {"tension_top_low_N": low}), TRANSIENT)
-    assert (row["tension_top_min_N"], row["compression_after_release_N"]) == (-700.0, -2000.0)
-    assert measured(scene)["compression_after_release_N"] is None
-
-
 def test_full_evidence_is_told_beside_a_verdict_that_does_not_rest_on_it(scene):
     dynamics, full = (buoy_row(sines(scene, 135), None, full=most) for most in (None, 1500))
     assert dynamics["regime"] == full["regime"] == "period-1" and "lyapunov_wolf_error" not in dynamics

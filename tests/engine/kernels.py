@@ -26,7 +26,7 @@ from engine.spatial import state as spatial
 from engine.time.newton import newton
 from engine.time.status import OK
 from engine.time.steps import runge_kutta_step
-from engine.time.time_loop import guard_turns, march
+from engine.time.time_loop import guard_turns, hold_turn, march, next_step
 
 
 def parameters_of(scene, before=()):
@@ -162,15 +162,21 @@ class Steps:
         carry(self.record, self.tables, 1e9, count, self.trail(first, count), None, sideways)
         return growth[0]
 
-    def repeat(self, t, dt, dt_before, one_stage, state, new):
-        """One Runge-Kutta step from state = (Y, Y_before, C, K) into new = (Ys, Ks, C_new); returns its code."""
+    def repeat(self, t, dt, dt_before, one_stage, state, new, numbers):
+        """One Runge-Kutta step from state = (Y, Y_before, C, K) into new = (Ys, Ks, C_new); returns its code.
+
+        numbers: STATE record of `new_state`, of which the turn held of a loop is read.
+        """
         work = self.inner.kind.work_arrays.py_func(self.record, len(state[0]))
+        hold_turn(numbers, work.Q)
         step, before, trial = arrays.Step(t, dt, dt_before, bool(one_stage)), arrays.Motion(*state), arrays.Trial(*new)
         return runge_kutta_step(self.record, self.tables, step, before, trial, work)[0]
 
     def guard(self, state, Y):
         """After a step: (code, whether a loop was released); state: (1,) of `new_state`."""
-        return guard_turns(self.record, self.tables, state, Y)
+        code, released = guard_turns(self.record, self.tables, state, Y)
+        next_step(self.record, state, code, released, 1.0, 1.0)
+        return code, released
 
 
 def new_state():

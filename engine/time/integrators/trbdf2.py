@@ -6,6 +6,7 @@ gamma = 1 - 1/sqrt 2 on the diagonal, L-stable, stiffly accurate: order 2 with a
 import numpy as np
 
 ORDER, EMBEDDED_ORDER, ADAPTIVE = 2, 3, True
+PHASE = 0.25  # rad of an oscillation a step: 100 cycles keep 96 % of it
 
 _G = 1 - 1 / np.sqrt(2)
 _W = np.sqrt(2) / 4

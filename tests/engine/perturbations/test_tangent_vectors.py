@@ -86,12 +86,13 @@ class Copy:
     def step(self, t, dt, one_stage):
         """Returns whether a loop was released after the step."""
         state = self.Y, self.Y_before, self.C, self.K
-        code = self.run.repeat(t, dt, self.dt_before, one_stage, state, self.new)
+        code = self.run.repeat(t, dt, self.dt_before, one_stage, state, self.new, self.state)
         if code != OK and self.dt_before > 0.0:  # as after a step that the run had to repeat: another first guess
-            code = self.run.repeat(t, dt, 0.0, one_stage, state, self.new)
+            code = self.run.repeat(t, dt, 0.0, one_stage, state, self.new, self.state)
         assert code == OK, f"the copy fails at {t} s"
         Ys, Ks, C_new = self.new
         self.Y_before[:], self.Y[:], self.C[:], self.K[:] = self.Y, Ys[-1], C_new, Ks[-1]
+        self.state["small"] = one_stage
         code, released = self.run.guard(self.state, self.Y)
         assert code == OK
         self.dt_before = 0.0 if released else dt

@@ -160,7 +160,7 @@ DRY = {"water": None, "waves": None}
     [
         ({"output.step_s": 1e-12}, 1.0, "output.step_s"),
         ({"output.step_s": 0.01}, 0.0101 * MOST_SAMPLES, "output.step_s"),
-        ({"waves.period_s": 1e-20}, 1.0, "output.step_s"),
+        ({"waves.period_s": 1e-20}, 1.0, "waves.period_s"),
         ({"output.profiles": True, "output.profiles_step_s": 1e-7}, 1.0, "output.profiles_step_s"),
         ({"output.profiles": True, "tether.nodes": 20000}, MOST_PROFILE_VALUES / 1e5, "output.profiles_step_s"),
         ({"solver.max_step_s": 1e-10, "solver.min_step_s": 1e-12}, 1.0, "solver.max_step_s"),

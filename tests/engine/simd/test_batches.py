@@ -40,6 +40,8 @@ KINDS = {  # what every lane has in common
     "an even number of nodes": {"tether.nodes": 20},
     "TR-BDF2, stretched grid": {"solver.integrator": "trbdf2", "tether.grid_stretching": 1.5},
     "fixed steps": {"solver.step_s": 0.01},
+    "a stiff line that rings": {"tether.tension.stiffness_N": 1e7, "tether.nodes": 11},
+    "ringing that is damped": {"tether.tension.stiffness_N": 1e7, "tether.nodes": 11, "solver.shortest_period_s": 10.0},
     "a current, wheeler": {
         "current": {"law": "uniform", "velocity_mps": [0.4, 0.0, 0.1]}, "waves.above_still_water": "wheeler",
     },

@@ -31,7 +31,9 @@ SCENES = {
     ),
     "without bending": ({**CALM, "tether.bending_stiffness_Nm2": 0.0}, 50.0),
     "in and out of the water": ({**CAP, "waves.steepness": 0.02, "water.depth_m": 21.0}, 30.0),
-    "held and shaken": ({**CALM, **held(8.0, 17.0), "end.motion": SHAKEN}, 15.0),
+    "held and shaken": (  # slack lines magnify what Newton's method leaves, 300 times less than by default here
+        {**CALM, **held(8.0, 17.0), "end.motion": SHAKEN, "solver.newton_tolerance": 1e-6}, 15.0,
+    ),
     "the paper's scheme": (
         {**CALM, "current": {"law": "uniform", "velocity_mps": [0.5, 0.0, 0.1]}, "tether.nodes": 9,
          "solver.scheme": "paper-box", "solver.step_s": 0.0125, "solver.newton_tolerance": 1e-10}, 2.5,

@@ -10,6 +10,8 @@ import numpy as np
 import pytest
 
 from engine.run import Run
+from engine.simd.elementary import strain_within
+from engine.time.time_loop import weights_within
 from tests.engine.lines import line, orders, ran
 from tests.engine.time.test_order import ASIDE, SCENES
 
@@ -18,6 +20,7 @@ REGULAR = {  # small waves, with a current that keeps |v| v away from its kink
     "water.depth_m": 22.5,
     "waves.ramp_s": 10.0,
     "solver.max_step_s": 1.0,
+    "solver.shortest_period_s": 1e9,  # the tolerance alone chooses the steps, not the heave of the line
     "current": {"law": "uniform", "velocity_mps": [1.0, 0.0, 0.8]},
 }
 
@@ -198,3 +201,21 @@ def test_rates_are_the_derivatives_of_the_samples(scheme):
     for name, rate in (("radius_m", "radius_rate_mps"), ("angle_rad", "angle_rate_radps")):
         off = (columns[name][2:] - columns[name][:-2]) / span - columns[rate][1:-1]
         assert np.abs(off)[columns["time_s"][1:-1] > 1.0].max() < 2e-2 * np.abs(columns[rate]).max()
+
+
+def interpolated(dt, speed_radps, false_rate=0.0):
+    """Strain at 0.3 of a step of dt (s), and what it is: q turns at speed_radps and is stretched by 0.01 sin 3 t."""
+    ends = []
+    for t in (0.4, 0.4 + dt):
+        strain, rate, angle = 0.01 * np.sin(3 * t), 0.03 * np.cos(3 * t) + false_rate, speed_radps * t
+        along, across = np.array([np.cos(angle), np.sin(angle)]), np.array([-np.sin(angle), np.cos(angle)])
+        ends.append((np.hstack([(1 + strain) * along, 0, 0]), np.hstack([rate * along + speed_radps * across, 0, 0])))
+    (C0, K0), (C1, K1) = ends
+    return strain_within(weights_within(True, 0.3, dt), C0, C1, K0, K1), 0.01 * np.sin(3 * (0.4 + 0.3 * dt))
+
+
+def test_strains_between_steps_are_of_fourth_order_and_no_rate_counts_where_a_node_turns():
+    errors = [abs(np.subtract(*interpolated(dt, 2.0))) for dt in (0.02, 0.01)]
+    assert abs(np.log2(errors[0] / errors[1]) - 4.0) < 0.1, errors
+    turned = [interpolated(0.1, 5.0, false_rate)[0] for false_rate in (0.0, 1.0)]
+    assert turned[0] == pytest.approx(turned[1], rel=0, abs=1e-12)
