@@ -70,8 +70,8 @@ class Varied:
         return found
 
 
-def varied(words: list[str], faults: list[str]) -> Varied | None:
-    """The key and values of KEY LO HI COUNT; None where one is at fault."""
+def varied(words: list[str], faults: list[str], option: str = "--vary", of_words: bool = False) -> Varied | None:
+    """The key and values of KEY LO HI COUNT; None where one is at fault. of_words: or of KEY WORD WORD ..."""
     from engine.scene.faults import suggestion
     from engine.scene.reference import keys
 
@@ -79,15 +79,18 @@ def varied(words: list[str], faults: list[str]) -> Varied | None:
     element = re.fullmatch(r"(.+)\[(\d+)\]", key)
     name, index = (element[1], int(element[2])) if element else (key, None)
     known = keys()
-    values = cli.evenly(words[1:], f"--vary {key}", faults)
+    told = of_words and name in known and known[name].kind == "text"
+    values = list(dict.fromkeys(words[1:])) if told else cli.evenly(words[1:], f"{option} {key}", faults)
     if name not in known:
-        faults.append(f"--vary {key}: no such key{suggestion(name, list(known))}")
+        faults.append(f"{option} {key}: no such key{suggestion(name, list(known))}")
         return None
     kind = known[name].kind
-    if kind not in ("number", "whole number") and not (kind == "list" and element):
+    if kind not in ("number", "whole number") and not (kind == "list" and element) and not told:
         a_list = f"one element of it, as {name}[0]" if kind == "list" else "a key that holds a number"
-        faults.append(f"--vary {key}: holds a {kind}; allowed: {a_list}")
+        faults.append(f"{option} {key}: holds a {kind}; allowed: {a_list}")
         return None
+    if told and not values:
+        faults.append(f"{option} {key}: given nothing; allowed: its words")
     if kind == "whole number":
         values = list(dict.fromkeys(round(value) for value in values))
     if not values:
@@ -95,7 +98,7 @@ def varied(words: list[str], faults: list[str]) -> Varied | None:
     declared = known[name]
     unit = "" if declared.unit == "1" else declared.unit
     symbol = declared.symbol if declared.symbol not in ("", "-", "–") else key.rpartition(".")[2]
-    digits = max(len(f"{value:.6f}".rstrip("0").partition(".")[2]) for value in values)
+    digits = None if told else max(len(f"{value:.6f}".rstrip("0").partition(".")[2]) for value in values)
     meaning = declared.meaning[:1].lower() + declared.meaning[1:].rstrip(".")
     return Varied(key, name, index, tuple(values), Column(key, unit, symbol, meaning, digits))
 
