@@ -1,0 +1,195 @@
+"""The maps of a folder of `campaigns.regime_map`: what is on each of its pages, and the five maps of a page."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..figures.regime_map import HATCHES, Cells, Map
+from ..parts.columns import Quantity
+from ..parts.folder import Folder, part_of
+from ..parts.style import BLUE, INK, MAP_PERIODS, ORANGE, REGIME_COLOURS, VERMILION
+from ..parts.wording import listed, number
+from ..sweep.quantities import series
+
+COMPUTED, SCREENED, FAILED = "computed", "screened", "failed"  # `source` of a cell
+PULL, _EXPONENT = "tension_over_static", "exponent_max_per_period"
+LIMITS = {"loops": "loops released, in a plane", "leaves_water": "sphere out of the water"}
+CHAOS, _PERIOD = "chaotic", "period-"
+_IN_ORDER = (*(f"{_PERIOD}{k}" for k in (1, 2, 3)), *REGIME_COLOURS)
+_PAPER = 0.016, 0.13  # steepnesses, as in `campaigns.buoy_sweep`, which reports must not import
+
+
+@dataclass(frozen=True, eq=False)
+class Page:
+    """The n cells of one page, the small ones behind those that they cover. said: its value, "" for the only page.
+
+    area (n,): share of the map that each cell takes where it is on top.
+    """
+
+    said: str
+    rows: Sequence[Mapping[str, object]]
+    cells: Cells
+    area: np.ndarray
+
+    def column(self, name: str) -> np.ndarray:
+        """A number of each cell (n,), nan where it has none."""
+        return series(self.rows, name)
+
+    def on_top(self, source: str) -> np.ndarray:
+        """(n,) which cells are of that source and not covered by others."""
+        return (self.area > 0.0) & np.array([row["source"] == source for row in self.rows])
+
+    def share(self, chosen: np.ndarray) -> float:
+        """Of the map."""
+        return float(self.area[chosen].sum())
+
+
+@dataclass(frozen=True, eq=False)
+class Atlas:
+    """All pages over two keys; before them, where there are several pages, theirs. columns: of the cells."""
+
+    keys: Sequence[Quantity]
+    pages: Sequence[Page]
+    columns: Mapping[str, Quantity]
+
+    @property
+    def labels(self) -> tuple[str, str]:
+        return tuple(key.label for key in self.keys[-2:])
+
+    @property
+    def marks(self) -> tuple[Sequence[float], Sequence[float]]:
+        """The paper's steepnesses where an axis has them."""
+        return tuple(_PAPER if key.name.rpartition(".")[2] == "steepness" else () for key in self.keys[-2:])
+
+    def share(self, word: str) -> float:
+        """Of all maps, in which the motion from rest is called so and was computed."""
+        return float(np.mean([page.share(page.on_top(COMPUTED) & (page.cells.kinds == word)) for page in self.pages]))
+
+    def limited(self, said: str) -> float:
+        """Share of all maps that is hatched for that reason."""
+        return float(np.mean([page.share(page.cells.hatched[said]) for page in self.pages]))
+
+    def of_source(self, source: str) -> float:
+        """Share of all maps whose cells come from there."""
+        return float(np.mean([page.share(page.on_top(source)) for page in self.pages]))
+
+
+def read_atlas(folder: Folder) -> Atlas | None:
+    """The maps of a folder; None where it has no cell that can be read."""
+    part = part_of(folder, "cells")
+    names = [name.removeprefix("width_") for name in (part.columns if part else ()) if name.startswith("width_")]
+    if len(names) != 2 or not {*names, "source", "regime_rest"} <= set(part.columns):
+        return None
+    first = next(iter(part.columns.values()))
+    x, y = (part.columns[name] for name in names)
+    key = None if first in (x, y) else first
+    rows = sorted(part.table, key=lambda row: row["level"])
+    values = sorted({row[key.name] for row in rows}) if key else [None]
+    pages = []
+    for value in values:
+        own = [row for row in rows if key is None or row[key.name] == value]
+        said = "" if key is None else f"{key.head} = {number(float(value))} {key.unit}".strip()
+        cells = _cells(own, x.name, y.name)
+        pages.append(Page(said, own, cells, cells.areas()))
+    return Atlas([x, y] if key is None else [key, x, y], pages, part.columns)
+
+
+def _cells(rows, x: str, y: str) -> Cells:
+    middle, half = ([series(rows, of.format(name)) for name in (x, y)] for of in ("{}", "width_{}"))
+    boxes = np.column_stack(
+        [one + sign * 0.5 * wide for one, wide in zip(middle, half, strict=True) for sign in (-1, 1)]
+    )
+    source = np.array([row["source"] for row in rows])
+    limits = {said: series(rows, name) > 0.0 for name, said in LIMITS.items() if name in rows[0]}
+    kinds = np.array([row["regime_rest"] or row["source"] for row in rows])
+    return Cells(boxes, kinds, source == SCREENED, source == FAILED, limits)
+
+
+def colour_of(word: str) -> str:
+    """Of a regime on a map; that of ink for a word of the screen alone, "" for a cell without a regime."""
+    if word.startswith(_PERIOD):
+        return MAP_PERIODS[min(int(word.removeprefix(_PERIOD)), len(MAP_PERIODS)) - 1]
+    return REGIME_COLOURS.get(word, INK) if word not in (FAILED, COMPUTED, SCREENED) else ""
+
+
+def regimes(page: Page) -> Map:
+    """The regime of the motion from rest, with its periods as numbers, and a star where the line pulls hardest."""
+    kinds = page.cells.kinds
+    texts = np.array([word.removeprefix(_PERIOD) if word.startswith(_PERIOD) else "" for word in kinds])
+    told = f"chaotic on {_percent(page.share(page.on_top(COMPUTED) & (kinds == CHAOS)))} of the map"
+    title = f"{page.said}: {told}" if page.said else f"Motion from rest: {told}"
+    return Map(page.cells, title, np.array([colour_of(word) for word in kinds]), texts=texts, star=_star(page))
+
+
+def _star(page: Page) -> tuple[int, str] | None:
+    """The cell in which the line pulls hardest, and how hard."""
+    pull = np.where(page.on_top(COMPUTED), page.column(PULL), np.nan)
+    if not np.isfinite(pull).any():
+        return None
+    worst = int(np.nanargmax(pull))
+    return worst, f"{number(pull[worst], 3)} × static"
+
+
+def legend(atlas: Atlas) -> list[tuple[str, str]]:
+    """What colours and marks of the maps of regimes mean, each with its share of the map."""
+    words = {word for page in atlas.pages for word, area in zip(page.cells.kinds, page.area, strict=True) if area > 0.0}
+    named: dict[str, list[str]] = {}
+    for word in sorted(words, key=lambda word: (_IN_ORDER.index(word) if word in _IN_ORDER else len(_IN_ORDER), word)):
+        named.setdefault(colour_of(word), []).append(word)
+    named.pop("", None)
+    told = [(colour, _with_share(_listed(own), sum(map(atlas.share, own)))) for colour, own in named.items()]
+    for mark, source, said in (("dot", SCREENED, "only screened"), ("cross", FAILED, "failed")):
+        told += [(mark, _with_share(said, share))] if (share := atlas.of_source(source)) else []
+    for hatch, said in zip(HATCHES, atlas.pages[0].cells.hatched, strict=False):
+        told += [(hatch, _with_share(said, share))] if (share := atlas.limited(said)) else []
+    told.append(("star", "largest tension"))
+    return told + ([("mark", "the paper's steepnesses")] if any(atlas.marks) else [])
+
+
+def _listed(words: Sequence[str]) -> str:
+    """ "chaotic", "period 2", "period 3 and more"."""
+    if words[0] not in REGIME_COLOURS and not words[0].startswith(_PERIOD):
+        return f"{listed(words)}, screened"
+    several = len(words) > 1 or words[0].removeprefix(_PERIOD) > str(len(MAP_PERIODS))
+    return words[0].replace(_PERIOD, "period ") + (" and more" if words[0].startswith(_PERIOD) and several else "")
+
+
+def _with_share(said: str, share: float) -> str:
+    return f"{said}: {_percent(share)}" if share else said
+
+
+def _percent(share: float) -> str:
+    return f"{number(100.0 * share, 2)} %"
+
+
+def numbers(atlas: Atlas) -> list[list[Map]]:
+    """The four other maps of each page, in scales that all pages share."""
+    from matplotlib.colors import BoundaryNorm, CenteredNorm, LinearSegmentedColormap, Normalize
+
+    def ends(name: str) -> tuple[float, float]:
+        known = np.concatenate([page.column(name)[page.on_top(COMPUTED)] for page in atlas.pages])
+        known = known[np.isfinite(known)]
+        return (float(known.min()), float(known.max())) if len(known) else (0.0, 1.0)
+
+    most, (least, largest), growth = max(2, int(ends("motions")[1])), ends(PULL), max(map(abs, ends(_EXPONENT)))
+    signed = LinearSegmentedColormap.from_list("signed", [BLUE, "white", VERMILION])
+    even = LinearSegmentedColormap.from_list("even", ["#fdf3dc", ORANGE, "#5c2a00"])  # light to dark, in grey as well
+    unit = atlas.columns[_EXPONENT].unit if _EXPONENT in atlas.columns else ""
+    told = (
+        ("motions", "number of motions", even, BoundaryNorm(np.arange(most + 1) + 0.5, 256), range(1, most + 1)),
+        (PULL, "largest tension over static", even, Normalize(least, largest), None),
+        ("share_of_largest", "share of starts that end in that motion", even, Normalize(0.0, 1.0), None),
+        (_EXPONENT, f"largest exponent ({unit or '–'})", signed, CenteredNorm(0.0, growth or 1.0), None),
+    )
+    return [[_shaded(page, *one) for one in told] for page in atlas.pages]
+
+
+def _shaded(page: Page, name: str, title: str, colours, norm, ticks) -> Map:
+    from matplotlib.colors import to_hex
+
+    values = page.column(name)
+    known, shades = np.isfinite(values), colours(norm(np.nan_to_num(values)))
+    star = _star(page) if name == PULL else None
+    found = np.where(known, [to_hex(shade) for shade in shades], "")
+    return Map(page.cells, title, found, (colours, norm, ticks), star=star)

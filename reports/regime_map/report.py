@@ -1,0 +1,133 @@
+"""The report of `campaigns.regime_map`: what is said, in which order. Everything comes from the campaign's folder."""
+
+from collections import Counter
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+
+from ..figures.orbit_diagram import NARROW_IN
+from ..figures.regime_map import Map, regime_maps
+from ..parts.content import Figure, Heading, MapPlace, Notice, Report, Table, heads, plain
+from ..parts.folder import Folder, FolderError, read_folder
+from ..parts.provenance import appendix, provenance_items, scene_items, timing_items
+from ..parts.sections import section_items
+from ..parts.style import WIDTH_IN
+from ..parts.wording import listed, number, percent
+from ..sweep.quantities import at
+from .maps import COMPUTED, FAILED, LIMITS, PULL, SCREENED, Atlas, legend, numbers, read_atlas, regimes
+from .sheets import cell_sheets
+
+
+def report(directory: str | Path) -> Report:
+    """The content of the report on a folder of maps. Raises FolderError for a folder that is not one."""
+    folder = read_folder(directory, ("status", "motion", "run_key", "message"))
+    atlas = read_atlas(folder)
+    if atlas is None:
+        raise FolderError(folder.directory, ["cells/table.csv cannot be read: it has no cells over two keys"])
+    shown, pages = [regimes(page) for page in atlas.pages], range(len(atlas.pages))
+    over = " and ".join(plain(key.head) for key in atlas.keys[-2:])
+    first = _figure(atlas, shown, pages, legend(atlas), min(2, len(shown)), _REGIMES, f"Map of regimes over {over}")
+    others = [_figure(atlas, four, (page,) * 4, (), 2, _OTHERS, _FOUR.format(over))
+              for page, four in zip(pages, numbers(atlas), strict=True)]  # fmt: skip
+    items = [
+        first,
+        cell_sheets(folder, atlas),
+        *(others if len(others) == 1 else ()),
+        *section_items("regime_map", "Question"),
+        Heading("Regimes"),
+        _regimes(atlas),
+        *(
+            item
+            for page, four in zip(atlas.pages, others, strict=True)
+            if page.said
+            for item in (Heading(page.said), four)
+        ),
+        Heading("Warnings"),
+        _warnings(folder, atlas),
+        *appendix(
+            *timing_items(folder),
+            *scene_items(folder.scene, str(folder.provenance.get("scene") or folder.scene.name), {}),
+            *provenance_items(folder),
+        ),
+    ]
+    return Report(f"Regimes over {over}", folder.scene.title or folder.scene.name, tuple(items))
+
+
+_FOUR = "Maps over {} of number of motions, largest tension, its share of starts, and largest exponent"
+_REGIMES = (
+    "Regime of the motion from rest; numbers: periods of the waves after which it repeats. Lines: borders between "
+    "regimes. Percentages: shares of the map. A dot in place of a full cell: only screened with the massless tether, "
+    "the cable is not computed there. Star: the largest tension of all motions, over the static tension. From "
+    "`cells/table.csv`."
+)
+_OTHERS = (
+    "The same map: number of motions; largest tension of all of them; share of the starts (from rest and kicks) "
+    "that end in the motion of that tension, 0 where only states of neighbours lead to it; largest exponent of all of them. "
+    "Lines: borders between regimes of the motion from rest, as above."
+)
+
+
+def _figure(
+    atlas: Atlas, shown: Sequence[Map], pages: Sequence[int], told, wide: int, caption: str, alt: str
+) -> Figure:
+    drawn = [
+        regime_maps(shown, atlas.labels, told, atlas.marks, width, many)
+        for width, many in ((WIDTH_IN, wide), (NARROW_IN, 1))
+    ]
+    axes = [tuple(float(end(one.cells.boxes[:, k])) for k, end in enumerate((np.min, np.max) * 2)) for one in shown]
+    places = tuple(
+        tuple(MapPlace(place, ends, page) for place, ends, page in zip(found, axes, pages, strict=True))
+        for _, found in drawn
+    )
+    (picture, _), (narrow, _) = drawn
+    return Figure(picture, caption, alt, narrow=narrow, places=places)
+
+
+def _regimes(atlas: Atlas) -> Table:
+    """A row a word: how much of the map it takes, where the line pulls hardest in it, what limits that."""
+    found: dict[str, list[tuple]] = {}
+    for page in atlas.pages:
+        for row, word, area, computed in zip(
+            page.rows, page.cells.kinds, page.area, page.on_top(COMPUTED), strict=True
+        ):
+            if computed:
+                found.setdefault(str(word), []).append((row, float(area) / len(atlas.pages)))
+    body = []
+    for word, own in sorted(found.items(), key=lambda one: -sum(area for _, area in one[1])):
+        share = sum(area for _, area in own)
+        worst = max((row for row, _ in own), key=lambda row: np.nan_to_num(row[PULL], nan=-1.0))
+        limited = (sum(area for row, area in own if row.get(name) == 1) / share for name in LIMITS)
+        body.append(
+            (word, str(len(own)), percent(share), number(worst[PULL], 3), at(atlas.keys, worst), *map(percent, limited))
+        )
+    columns = heads(
+        "motion from rest", ("cells", ""), ("share of the map", ""), ("largest T over static", ""), "at",
+        *((said, "") for said in LIMITS.values()),
+    )  # fmt: skip
+    caption = "Computed cells by the regime of the motion from rest; the last two columns: shares of their area."
+    return Table(columns, tuple(body), caption, small=True)
+
+
+def _warnings(folder: Folder, atlas: Atlas) -> Notice:
+    lines = []
+    if share := atlas.of_source(SCREENED):
+        lines.append(f"{percent(share)} of the map is only screened, with the massless tether: its dots are no result.")
+    if share := atlas.of_source(FAILED):
+        reasons = Counter(row["message"] or row["status"] for row in folder.table if row["status"] != "ok")
+        why = listed(f"{reason} ({times})" for reason, times in reasons.most_common(3))
+        lines.append(f"{percent(share)} of the map failed: {why}.")
+    told = {
+        "loops": "loops are released, in a plane: a real line leaves it, so regime and exponent may differ there",
+        "leaves_water": "the sphere leaves the water: the law of its buoyancy and added mass decides the motion there",
+    }
+    for name, said in LIMITS.items():
+        if share := atlas.limited(said):
+            lines.append(f"On {percent(share)} of the map {told[name]}.")
+    verdicts = Counter(row["verdict"] for row in folder.table if row["status"] == "ok" and row.get("verdict"))
+    if cheap := verdicts["cheap"]:
+        rest = f"{cheap} of {verdicts.total()} verdicts are cheap"
+        lines.append(f"{rest}: they rest on the period and the tangent exponent of a short run; sheets say which.")
+    if not lines:
+        return Notice("note", "Nothing to warn of", ("Every cell was computed and has a full verdict.",))
+    return Notice("warning", "What the maps do not tell", tuple(lines))

@@ -1,0 +1,100 @@
+"""The sheet of every cell of a map: a page may have thousands, and a script draws the one that is chosen."""
+
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+
+from analysis import read_evidence
+
+from ..parts.columns import Name, plus_minus
+from ..parts.content import CellSheets, plain
+from ..parts.folder import Folder, FolderError, read_files
+from ..parts.wording import listed, number, printed
+from ..sweep.quantities import at, colours_of
+from .maps import COMPUTED, LIMITS, PULL, SCREENED, Atlas
+
+_FACTS: Sequence[Name] = (
+    "regime", "verdict", "share", "found_by", "tension_top_max_N", "slack_fraction",
+    ("lyapunov_tangent_bits_per_period", "lyapunov_tangent_error"), "multiplier_modulus", "radius_min_m",
+    "radius_max_m", "angle_min_rad", "angle_max_rad", "loop_releases", "above_surface", "max_turn_rad", "periods",
+)  # fmt: skip
+_STROBES = "radius_m", "tension_top_max_N"  # once a wave period
+_HISTORY = "history_radius_m", "history_tension_N"
+_STEPS = 999  # of a drawing, from the least to the largest value of a cell
+_SCREENED = "Only screened with the massless tether; the cable is not computed here."
+_MET = {"yes": "met", "no": "not met"}
+
+
+def cell_sheets(folder: Folder, atlas: Atlas) -> CellSheets:
+    """What a click on a cell of a map shows: facts and evidence of its motions, their histories and sections."""
+    names = [one for one in _FACTS if _first(one) in folder.columns]
+    heads = tuple((folder.columns[_first(one)].head, folder.columns[_first(one)].unit) for one in names)
+    drawn, motions = _series(folder), {}
+    for place, row in enumerate(folder.table):
+        motions.setdefault(_where(row, atlas), []).append((row, [values[place] for values in drawn]))
+    errors = {_first(one): one[1] for one in names if not isinstance(one, str)}
+    cells = []
+    for number_of_page, page in enumerate(atlas.pages):
+        for row, box, area in zip(page.rows, page.cells.boxes, page.area, strict=True):
+            if area > 0.0:
+                own = motions.get(_where(row, atlas), [])
+                facts = [[plus_minus(folder.columns, one, name, errors.get(name, "")) for name in map(_first, names)]
+                         for one, _ in own]  # fmt: skip
+                sheet = {"page": number_of_page, "box": [float(f"{edge:.7g}") for edge in box]}
+                cells.append({**sheet, "name": plain(at(atlas.keys, row)), **_sheet(row, own, facts)})
+    return CellSheets(heads, tuple(cells))
+
+
+def _first(name: Name) -> str:
+    return name if isinstance(name, str) else name[0]
+
+
+def _where(row: Mapping[str, object], atlas: Atlas) -> tuple[str, ...]:
+    """What joins a row of `table.csv` to its cell."""
+    return tuple(f"{row[key.name]:.9g}" for key in atlas.keys)
+
+
+def _series(folder: Folder) -> list[np.ndarray]:
+    """Histories of r and T, strobed r and T, a row a motion; without the file, rows of nothing."""
+    try:
+        kept = read_files(folder.directory, {"strobes.nc": "strobed points of every motion"})["strobes.nc"]
+    except FolderError:
+        kept = {}
+    nothing = np.empty((len(folder.table), 0))
+    return [np.asarray(kept[name]) if name in kept else nothing for name in (*_HISTORY, *_STROBES)]
+
+
+def _sheet(row, own: Sequence[tuple], facts: Sequence[list[str]]) -> dict:
+    """The words and the drawing of one cell; own: rows of its motions, each with its series."""
+    colours, scales = colours_of([one for one, _ in own]), []
+    limits = [said for name, said in LIMITS.items() if row.get(name) == 1]
+    note = {COMPUTED: "", SCREENED: _SCREENED}.get(row["source"], "Failed.")
+    note += f" Largest tension {number(row[PULL], 3)} × static." if note == "" else ""
+    note += f" {listed(limits).capitalize()}." if limits else ""
+    for pair in ((0, 2), (1, 3)):  # r, then T
+        known = np.concatenate([values[k] for _, values in own for k in pair] or [np.empty(0)])
+        known = known[np.isfinite(known)] if pair[0] == 0 else np.append(known[np.isfinite(known)], 0.0)  # T from 0 on
+        scales.append([float(f"{end:.4g}") for end in (known.min(), known.max())] if len(known) else [0.0, 1.0])
+    motions = [
+        {
+            "motion": one["motion"] or "", "colour": colours.get(one["motion"], ""),
+            "facts": cells, "said": _evidence(one),
+            "series": [_steps(values[k], scales[k % 2]) for k in range(4)],
+        }
+        for (one, values), cells in zip(own, facts, strict=True)
+    ]  # fmt: skip
+    return {"note": note.strip(), "scales": scales, "motions": motions}
+
+
+def _steps(values: np.ndarray, scale: Sequence[float]) -> list[int]:
+    """Finite values as whole steps of their scale, from 0 to _STEPS."""
+    share = (values[np.isfinite(values)] - scale[0]) / max(scale[1] - scale[0], 1e-12)
+    return np.rint(_STEPS * np.clip(share, 0.0, 1.0)).astype(int).tolist()
+
+
+def _evidence(row) -> str:
+    """Why the motion has its regime, in words, with the tests behind it."""
+    tests = [f"{name} {value} (threshold {bound}, {_MET.get(met, 'not made')})"
+             for name, value, bound, met in read_evidence(row.get("evidence") or "")]  # fmt: skip
+    said = [row.get("regime_reason") or "", "; ".join(tests), row["message"] if row["status"] != "ok" else ""]
+    return printed(". ".join(filter(None, said)))
