@@ -57,7 +57,8 @@ class Cells:
 class Map:
     """One quantity of the cells: colours (n,), "" for none, with a scale (colours, norm, ticks) or a legend elsewhere.
 
-    texts (n,): written where neighbours of one kind have most room. star: a cell to be marked, and its text.
+    texts (n,): written where neighbours of one kind have most room. star: a cell to be marked. limited: whether it is
+    hatched.
     """
 
     cells: Cells
@@ -65,7 +66,8 @@ class Map:
     colours: np.ndarray
     scale: tuple | None = None
     texts: np.ndarray | None = None
-    star: tuple[int, str] | None = None
+    star: int | None = None
+    limited: bool = True
 
 
 def regime_maps(
@@ -82,8 +84,8 @@ def regime_maps(
     labels: of the axes. legend: (colour, or "dot", "cross", "star", "mark" or a hatch; its text). marks: values on x
     and on y with a small triangle at the edge. Places are shares of the picture: left, top, width, height.
     """
-    rows = -(-len(shown) // wide)
-    height_in = rows * (0.35 + 0.6 * width_in / wide**0.9) + 0.22 * -(-len(legend) // max(1, int(width_in / 2.2))) + 0.2
+    rows, many = -(-len(shown) // wide), max(1, int(width_in / 2.2))  # of maps; entries of the legend in a row
+    height_in = rows * (0.35 + 0.6 * width_in / wide**0.9) + 0.22 * -(-len(legend) // many) + 0.2
     with sheet(height_in, width_in) as figure:
         figure.set_layout_engine("constrained")
         grid = figure.subplots(rows, wide, squeeze=False, sharex=True, sharey=True)
@@ -93,18 +95,14 @@ def regime_maps(
             _drawn(axes, one, marks)
             if one.scale is not None:
                 _scale(figure, axes, *one.scale)
-        for axes in grid[-1]:
+        for axes in grid.flat[max(len(shown) - wide, 0) : len(shown)]:
             axes.set_xlabel(labels[0])
+            axes.tick_params(labelbottom=True)
         for axes in grid[:, 0]:
             axes.set_ylabel(labels[1])
         if legend:
-            handles = [_handle(look, text) for look, text in legend]
-            figure.legend(
-                handles=handles,
-                loc=f"outside {'upper' if width_in == WIDTH_IN else 'lower'} left",
-                ncols=max(1, int(width_in / 2.2)),
-                handlelength=1.4,
-            )
+            handles, side = [_handle(look, text) for look, text in legend], "upper" if width_in == WIDTH_IN else "lower"
+            figure.legend(handles=handles, loc=f"outside {side} left", ncols=many, handlelength=1.4)
         picture = picture_of(figure, kind)
         boxes = [axes.get_position().bounds for axes in grid.flat[: len(shown)]]
     return picture, [(left, 1.0 - low - high, across, high) for left, low, across, high in boxes]
@@ -124,7 +122,7 @@ def _drawn(axes, one: Map, marks) -> None:
     small = shown[(known & one.cells.dots)[shown]]
     corners = _corners(one.cells.boxes[small], _DOT)
     axes.add_collection(PolyCollection(corners, facecolors=colours[small], linewidths=0, rasterized=True))
-    for hatch, which in zip(HATCHES, one.cells.hatched.values(), strict=False):
+    for hatch, which in zip(HATCHES, one.cells.hatched.values() if one.limited else (), strict=False):
         parts = [Path(part, closed=True) for part in _corners(_runs(x, y, which[top] & (top >= 0)), 1.0)]
         if parts:
             look = {"facecolor": "none", "edgecolor": INK, "hatch": hatch, "linewidth": 0.0, "hatch_linewidth": 0.35}
@@ -149,7 +147,7 @@ _STAR = {"marker": "*", "color": "white", "markeredgecolor": INK, "markersize": 
 
 
 def _written(axes, one: Map, x: np.ndarray, y: np.ndarray, top: np.ndarray) -> None:
-    """Texts of regions where they have room, and the star with its own."""
+    """Texts of regions where they have room, and the star."""
     from matplotlib.patheffects import withStroke
     from scipy.ndimage import label
 
@@ -166,12 +164,7 @@ def _written(axes, one: Map, x: np.ndarray, y: np.ndarray, top: np.ndarray) -> N
                 if place is not None:
                     axes.text(at[0][place[1]], at[1][place[0]], text, ha="center", va="center", fontsize=9, **halo)
     if one.star is not None:
-        cell, text = one.star
-        place = one.cells.boxes[cell].reshape(2, 2).mean(axis=1)
-        axes.plot(*place, linestyle="", zorder=5, **_STAR)
-        left, low = place[0] < 0.5 * (x[0] + x[-1]), place[1] < 0.5 * (y[0] + y[-1])
-        side = {"ha": "left" if left else "right", "va": "bottom" if low else "top"}
-        axes.annotate(text, place, (7 if left else -7, 4 if low else -4), textcoords="offset points", **side, **halo)
+        axes.plot(*one.cells.boxes[one.star].reshape(2, 2).mean(axis=1), linestyle="", zorder=5, **_STAR)
 
 
 def _scale(figure, axes, colours, norm, ticks) -> None:

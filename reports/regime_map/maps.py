@@ -8,13 +8,13 @@ import numpy as np
 from ..figures.regime_map import HATCHES, Cells, Map
 from ..parts.columns import Quantity
 from ..parts.folder import Folder, part_of
-from ..parts.style import BLUE, INK, MAP_PERIODS, ORANGE, REGIME_COLOURS, VERMILION
+from ..parts.style import BLUE, GRID, INK, MAP_PERIODS, ORANGE, REGIME_COLOURS, VERMILION
 from ..parts.wording import listed, number
-from ..sweep.quantities import series
+from ..sweep.quantities import at, series
 
 COMPUTED, SCREENED, FAILED = "computed", "screened", "failed"  # `source` of a cell
 PULL, _EXPONENT = "tension_over_static", "exponent_max_per_period"
-LIMITS = {"loops": "loops released, in a plane", "leaves_water": "sphere out of the water"}
+LIMITS = {"loops": "loops released, in a plane", "leaves_water": "sphere above still water"}
 CHAOS, _PERIOD = "chaotic", "period-"
 _IN_ORDER = (*(f"{_PERIOD}{k}" for k in (1, 2, 3)), *REGIME_COLOURS)
 _PAPER = 0.016, 0.13  # steepnesses, as in `campaigns.buoy_sweep`, which reports must not import
@@ -85,11 +85,11 @@ def read_atlas(folder: Folder) -> Atlas | None:
     x, y = (part.columns[name] for name in names)
     key = None if first in (x, y) else first
     rows = sorted(part.table, key=lambda row: row["level"])
-    values = sorted({row[key.name] for row in rows}) if key else [None]
+    values = dict.fromkeys(row[key.name] for row in part.table) if key else [None]
     pages = []
     for value in values:
         own = [row for row in rows if key is None or row[key.name] == value]
-        said = "" if key is None else f"{key.head} = {number(float(value))} {key.unit}".strip()
+        said = "" if key is None else at([key], own[0])
         cells = _cells(own, x.name, y.name)
         pages.append(Page(said, own, cells, cells.areas()))
     return Atlas([x, y] if key is None else [key, x, y], pages, part.columns)
@@ -117,18 +117,16 @@ def regimes(page: Page) -> Map:
     """The regime of the motion from rest, with its periods as numbers, and a star where the line pulls hardest."""
     kinds = page.cells.kinds
     texts = np.array([word.removeprefix(_PERIOD) if word.startswith(_PERIOD) else "" for word in kinds])
-    told = f"chaotic on {_percent(page.share(page.on_top(COMPUTED) & (kinds == CHAOS)))} of the map"
-    title = f"{page.said}: {told}" if page.said else f"Motion from rest: {told}"
-    return Map(page.cells, title, np.array([colour_of(word) for word in kinds]), texts=texts, star=_star(page))
+    chaos, star = page.share(page.on_top(COMPUTED) & (kinds == CHAOS)), _star(page)
+    title = f"{page.said or 'Motion from rest'}: chaotic on {_percent(chaos)} of the map"
+    title += "" if star is None else f"\nlargest tension {number(page.rows[star][PULL], 3)} × static (star)"
+    return Map(page.cells, title, np.array([colour_of(word) for word in kinds]), texts=texts, star=star)
 
 
-def _star(page: Page) -> tuple[int, str] | None:
-    """The cell in which the line pulls hardest, and how hard."""
+def _star(page: Page) -> int | None:
+    """The cell in which the line pulls hardest; None where none is computed."""
     pull = np.where(page.on_top(COMPUTED), page.column(PULL), np.nan)
-    if not np.isfinite(pull).any():
-        return None
-    worst = int(np.nanargmax(pull))
-    return worst, f"{number(pull[worst], 3)} × static"
+    return int(np.nanargmax(pull)) if np.isfinite(pull).any() else None
 
 
 def legend(atlas: Atlas) -> list[tuple[str, str]]:
@@ -151,8 +149,7 @@ def _listed(words: Sequence[str]) -> str:
     """ "chaotic", "period 2", "period 3 and more"."""
     if words[0] not in REGIME_COLOURS and not words[0].startswith(_PERIOD):
         return f"{listed(words)}, screened"
-    several = len(words) > 1 or words[0].removeprefix(_PERIOD) > str(len(MAP_PERIODS))
-    return words[0].replace(_PERIOD, "period ") + (" and more" if words[0].startswith(_PERIOD) and several else "")
+    return words[0].replace(_PERIOD, "period ") + (" and more" if len(words) > 1 else "")
 
 
 def _with_share(said: str, share: float) -> str:
@@ -168,12 +165,15 @@ def numbers(atlas: Atlas) -> list[list[Map]]:
     from matplotlib.colors import BoundaryNorm, CenteredNorm, LinearSegmentedColormap, Normalize
 
     def ends(name: str) -> tuple[float, float]:
-        known = np.concatenate([page.column(name)[page.on_top(COMPUTED)] for page in atlas.pages])
-        known = known[np.isfinite(known)]
-        return (float(known.min()), float(known.max())) if len(known) else (0.0, 1.0)
+        for source in (COMPUTED, SCREENED):
+            known = np.concatenate([page.column(name)[page.on_top(source)] for page in atlas.pages])
+            known = known[np.isfinite(known)]
+            if len(known):
+                return float(known.min()), float(known.max())
+        return 0.0, 1.0
 
     most, (least, largest), growth = max(2, int(ends("motions")[1])), ends(PULL), max(map(abs, ends(_EXPONENT)))
-    signed = LinearSegmentedColormap.from_list("signed", [BLUE, "white", VERMILION])
+    signed = LinearSegmentedColormap.from_list("signed", [BLUE, GRID, VERMILION])
     even = LinearSegmentedColormap.from_list("even", ["#fdf3dc", ORANGE, "#5c2a00"])  # light to dark, in grey as well
     unit = atlas.columns[_EXPONENT].unit if _EXPONENT in atlas.columns else ""
     told = (
@@ -190,6 +190,6 @@ def _shaded(page: Page, name: str, title: str, colours, norm, ticks) -> Map:
 
     values = page.column(name)
     known, shades = np.isfinite(values), colours(norm(np.nan_to_num(values)))
-    star = _star(page) if name == PULL else None
     found = np.where(known, [to_hex(shade) for shade in shades], "")
-    return Map(page.cells, title, found, (colours, norm, ticks), star=star)
+    star, limited = _star(page) if name == PULL else None, name in (PULL, _EXPONENT)
+    return Map(page.cells, title, found, (colours, norm, ticks), star=star, limited=limited)

@@ -9,7 +9,7 @@ import numpy as np
 from ..figures.orbit_diagram import NARROW_IN
 from ..figures.regime_map import Map, regime_maps
 from ..parts.content import Figure, Heading, MapPlace, Notice, Report, Table, heads, plain
-from ..parts.folder import Folder, FolderError, read_folder
+from ..parts.folder import PARTS, Folder, FolderError, read_files, read_folder
 from ..parts.provenance import appendix, provenance_items, scene_items, timing_items
 from ..parts.sections import section_items
 from ..parts.style import WIDTH_IN
@@ -21,10 +21,13 @@ from .sheets import cell_sheets
 
 def report(directory: str | Path) -> Report:
     """The content of the report on a folder of maps. Raises FolderError for a folder that is not one."""
-    folder = read_folder(directory, ("status", "motion", "run_key", "message"))
+    found = read_files(directory, {name: PARTS[name] for name in ("scene.toml", "provenance.json")})
+    folder = Folder(Path(directory), found["provenance.json"], (), found["scene.toml"], {})
     atlas = read_atlas(folder)
     if atlas is None:
         raise FolderError(folder.directory, ["cells/table.csv cannot be read: it has no cells over two keys"])
+    if computed := atlas.of_source(COMPUTED) > 0.0:
+        folder = read_folder(directory, ("status", "motion", "run_key", "periods", "end_time_s", "message"))
     shown, pages = [regimes(page) for page in atlas.pages], range(len(atlas.pages))
     over = " and ".join(plain(key.head) for key in atlas.keys[-2:])
     first = _figure(atlas, shown, pages, legend(atlas), min(2, len(shown)), _REGIMES, f"Map of regimes over {over}")
@@ -35,8 +38,7 @@ def report(directory: str | Path) -> Report:
         cell_sheets(folder, atlas),
         *(others if len(others) == 1 else ()),
         *section_items("regime_map", "Question"),
-        Heading("Regimes"),
-        _regimes(atlas),
+        *((Heading("Regimes"), _regimes(atlas)) if computed else ()),
         *(
             item
             for page, four in zip(atlas.pages, others, strict=True)
@@ -63,8 +65,8 @@ _REGIMES = (
 )
 _OTHERS = (
     "The same map: number of motions; largest tension of all of them; share of the starts (from rest and kicks) "
-    "that end in the motion of that tension, 0 where only states of neighbours lead to it; largest exponent of all of them. "
-    "Lines: borders between regimes of the motion from rest, as above."
+    "that end in the motion of that tension, 0 where only states of neighbours lead to it; largest exponent of all of "
+    "them, white where none is known. Lines: borders between regimes of the motion from rest, as above."
 )
 
 
@@ -114,12 +116,13 @@ def _warnings(folder: Folder, atlas: Atlas) -> Notice:
     if share := atlas.of_source(SCREENED):
         lines.append(f"{percent(share)} of the map is only screened, with the massless tether: its dots are no result.")
     if share := atlas.of_source(FAILED):
-        reasons = Counter(row["message"] or row["status"] for row in folder.table if row["status"] != "ok")
+        lost = (row for page in atlas.pages for row in page.rows if row["source"] == FAILED)
+        reasons = Counter(row.get("message") or row.get("status") or "no reason told" for row in lost)
         why = listed(f"{reason} ({times})" for reason, times in reasons.most_common(3))
         lines.append(f"{percent(share)} of the map failed: {why}.")
     told = {
         "loops": "loops are released, in a plane: a real line leaves it, so regime and exponent may differ there",
-        "leaves_water": "the sphere leaves the water: the law of its buoyancy and added mass decides the motion there",
+        "leaves_water": "the top of the sphere comes above still water: `buoy.submergence` says how it is treated",
     }
     for name, said in LIMITS.items():
         if share := atlas.limited(said):

@@ -1,6 +1,6 @@
 """The sheet of every cell of a map: a page may have thousands, and a script draws the one that is chosen."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 
 import numpy as np
 
@@ -8,18 +8,19 @@ from analysis import read_evidence
 
 from ..parts.columns import Name, plus_minus
 from ..parts.content import CellSheets, plain
-from ..parts.folder import Folder, FolderError, read_files
-from ..parts.wording import listed, number, printed
+from ..parts.folder import Folder
+from ..parts.wording import number, printed
 from ..sweep.quantities import at, colours_of
 from .maps import COMPUTED, LIMITS, PULL, SCREENED, Atlas
 
 _FACTS: Sequence[Name] = (
     "regime", "verdict", "share", "found_by", "tension_top_max_N", "slack_fraction",
     ("lyapunov_tangent_bits_per_period", "lyapunov_tangent_error"), "multiplier_modulus", "radius_min_m",
-    "radius_max_m", "angle_min_rad", "angle_max_rad", "loop_releases", "above_surface", "max_turn_rad", "periods",
+    "radius_max_m", "loop_releases", "max_buoy_height_above_water_m", "max_turn_rad", "periods",
 )  # fmt: skip
-_STROBES = "radius_m", "tension_top_max_N"  # once a wave period
-_HISTORY = "history_radius_m", "history_tension_N"
+_STROBES = "radius_m", "tension_N"  # once a wave period
+_HISTORY = "radius_m", "tension_top_high_N"
+_LAST, _POINTS, _NOTHING = 4, 200, np.empty(0)  # wave periods of a history, and its points
 _STEPS = 999  # of a drawing, from the least to the largest value of a cell
 _SCREENED = "Only screened with the massless tether; the cable is not computed here."
 _MET = {"yes": "met", "no": "not met"}
@@ -29,9 +30,9 @@ def cell_sheets(folder: Folder, atlas: Atlas) -> CellSheets:
     """What a click on a cell of a map shows: facts and evidence of its motions, their histories and sections."""
     names = [one for one in _FACTS if _first(one) in folder.columns]
     heads = tuple((folder.columns[_first(one)].head, folder.columns[_first(one)].unit) for one in names)
-    drawn, motions = _series(folder), {}
-    for place, row in enumerate(folder.table):
-        motions.setdefault(_where(row, atlas), []).append((row, [values[place] for values in drawn]))
+    motions: dict[tuple[str, ...], list] = {}
+    for row, drawn in zip(folder.table, _series(folder), strict=True):
+        motions.setdefault(_where(row, atlas), []).append((row, drawn))
     errors = {_first(one): one[1] for one in names if not isinstance(one, str)}
     cells = []
     for number_of_page, page in enumerate(atlas.pages):
@@ -51,26 +52,47 @@ def _first(name: Name) -> str:
 
 def _where(row: Mapping[str, object], atlas: Atlas) -> tuple[str, ...]:
     """What joins a row of `table.csv` to its cell."""
-    return tuple(f"{row[key.name]:.9g}" for key in atlas.keys)
+    return tuple(str(row[key.name]) if key.digits is None else f"{row[key.name]:.9g}" for key in atlas.keys)
 
 
-def _series(folder: Folder) -> list[np.ndarray]:
-    """Histories of r and T, strobed r and T, a row a motion; without the file, rows of nothing."""
+def _series(folder: Folder) -> Iterator[list[np.ndarray]]:
+    """Of each row: histories of r and T, strobed r and T; empty ones where nothing was kept."""
     try:
-        kept = read_files(folder.directory, {"strobes.nc": "strobed points of every motion"})["strobes.nc"]
-    except FolderError:
-        kept = {}
-    nothing = np.empty((len(folder.table), 0))
-    return [np.asarray(kept[name]) if name in kept else nothing for name in (*_HISTORY, *_STROBES)]
+        kept = np.load(folder.directory / "strobes.npz")
+        places = {key: place for place, key in enumerate(kept["run_key"])}
+        strobes = [kept[name] for name in _STROBES]
+    except (OSError, ValueError, KeyError):
+        places, strobes = {}, []
+    for row in folder.table:
+        place = places.get(row["run_key"])
+        yield [*_history(folder, row), *((_NOTHING,) * 2 if place is None else (values[place] for values in strobes))]
+
+
+def _history(folder: Folder, row) -> tuple[np.ndarray, np.ndarray]:
+    """r and the largest T of _POINTS spans of the last _LAST wave periods of a run; empty for a run without a file.
+
+    Read from the end of the file alone, because all of it takes thirty times as long.
+    """
+    from scipy.io import netcdf_file
+
+    try:
+        with netcdf_file(folder.trajectory_path(row["run_key"]), "r", mmap=True) as file:
+            step_s = np.diff(file.variables["time_s"][-2:]).item()
+            shown = round(_LAST * row["end_time_s"] / row["periods"] / step_s) + 1
+            radius, tension = (np.array(file.variables[name][-shown:], float) for name in _HISTORY)
+    except Exception:  # a damaged header can make the reader fail in any way at all
+        return _NOTHING, _NOTHING
+    starts = np.unique(np.linspace(0, len(radius), _POINTS + 1).astype(int))[:-1]
+    return radius[starts], np.maximum.reduceat(tension, starts)
 
 
 def _sheet(row, own: Sequence[tuple], facts: Sequence[list[str]]) -> dict:
     """The words and the drawing of one cell; own: rows of its motions, each with its series."""
     colours, scales = colours_of([one for one, _ in own]), []
     limits = [said for name, said in LIMITS.items() if row.get(name) == 1]
-    note = {COMPUTED: "", SCREENED: _SCREENED}.get(row["source"], "Failed.")
+    note = {COMPUTED: "", SCREENED: _SCREENED}.get(row["source"], f"Failed: {row.get('message') or row.get('status')}.")
     note += f" Largest tension {number(row[PULL], 3)} × static." if note == "" else ""
-    note += f" {listed(limits).capitalize()}." if limits else ""
+    note += f" Mind: {'; '.join(limits)}." if limits else ""
     for pair in ((0, 2), (1, 3)):  # r, then T
         known = np.concatenate([values[k] for _, values in own for k in pair] or [np.empty(0)])
         known = known[np.isfinite(known)] if pair[0] == 0 else np.append(known[np.isfinite(known)], 0.0)  # T from 0 on

@@ -36,10 +36,10 @@
     chosen = cell;
     dock.hidden = false;
     find("[role=status]").textContent = `${cell.name}: ${cell.motions.length || "no"} motion${cell.motions.length === 1 ? "" : "s"} computed. ${cell.note}`;
-    const [r, T] = [cell.scales[0], cell.scales[1].map((value) => Number((value / 1e3).toPrecision(3)))];
+    const [r, T] = [cell.scales[0], cell.scales[1].map((value) => Number((value / 1e3).toFixed(1)))];
     const [tension, radius, section] = dock.querySelectorAll("svg");
-    draw(tension, cell, "T (kN)", ...T, (one) => curve("line", one.colour, null, one.series[1]), ["last wave periods", ""]);
-    draw(radius, cell, "r (m)", ...r, (one) => curve("line", one.colour, null, one.series[0]), ["last wave periods", ""]);
+    draw(tension, cell, "T (kN)", ...T, (one) => curve("line", one.colour, null, one.series[1]), ["last 4 wave periods", ""]);
+    draw(radius, cell, "r (m)", ...r, (one) => curve("line", one.colour, null, one.series[0]), ["last 4 wave periods", ""]);
     draw(section, cell, "once a period: largest T (kN) over r (m)", ...T,
          (one) => curve("dots", one.colour, one.series[2], one.series[3]), r);
     const put = (row, tag, texts) => {
