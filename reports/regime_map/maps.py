@@ -118,8 +118,9 @@ def regimes(page: Page) -> Map:
     kinds = page.cells.kinds
     texts = np.array([word.removeprefix(_PERIOD) if word.startswith(_PERIOD) else "" for word in kinds])
     chaos, star = page.share(page.on_top(COMPUTED) & (kinds == CHAOS)), _star(page)
-    title = f"{page.said or 'Motion from rest'}: chaotic on {_percent(chaos)} of the map"
-    title += "" if star is None else f"\nlargest tension {number(page.rows[star][PULL], 3)} × static (star)"
+    said = [page.said, f"motion from rest: chaotic on {_percent(chaos)} of the map"]
+    said += [] if star is None else [f"largest tension {number(page.rows[star][PULL], 3)} × static (star)"]
+    title = "\n".join(filter(None, said))
     return Map(page.cells, title, np.array([colour_of(word) for word in kinds]), texts=texts, star=star)
 
 
