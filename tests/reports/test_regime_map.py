@@ -267,6 +267,8 @@ def test_a_click_opens_the_sheet_and_arrows_walk_along_the_row(folder_of, browse
             seen.append(float(said().partition("=")[2].partition(",")[0]))
         assert seen == [0.02, 0.04, 0.06, 0.08, 0.1, 0.115, 0.125, 0.14, 0.16], "both halves of the bisected one"
         assert page.locator("#cell td:visible").count() >= 2 * 4 and page.locator(".chosen").count() == 5
+        widths = page.eval_on_selector_all("#cell svg", "(all) => all.map((one) => one.getBoundingClientRect().width)")
+        assert min(widths) > 280.0, "letters of 12 units in 318 are 10 pixels high at least"
         page.keyboard.press("ArrowUp")
         assert "= 24.5" in said()
         assert violations(page) == []
