@@ -5,11 +5,10 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from ..parts.content import Picture
+from ..parts.content import MapPlace, Picture
 from ..parts.style import INK, SOFT, VERMILION, WIDTH_IN, picture_of, sheet
 from .basins import widest
 
-Box = tuple[float, float, float, float]
 HATCHES = "////", "\\\\\\\\"  # of the first and the second of `Cells.hatched`
 _FINE = 200  # points to a side of the even grid on which a place for a text is looked for
 _LEAST = 3.5  # of them that a text is away from the border of its region
@@ -55,7 +54,7 @@ class Cells:
 
 @dataclass(frozen=True, eq=False)
 class Map:
-    """One quantity of the cells: colours (n,), "" for none, with a scale (colours, norm, ticks) or a legend elsewhere.
+    """One quantity of the cells of a page: colours (n,), "" for none, with a scale (colours, norm, ticks) or a legend.
 
     texts (n,): written where neighbours of one kind have most room. star: a cell to be marked. limited: whether it is
     hatched.
@@ -64,6 +63,7 @@ class Map:
     cells: Cells
     title: str
     colours: np.ndarray
+    page: int = 0
     scale: tuple | None = None
     texts: np.ndarray | None = None
     star: int | None = None
@@ -78,11 +78,11 @@ def regime_maps(
     width_in: float = WIDTH_IN,
     wide: int = 1,
     kind: str = "svg",
-) -> tuple[Picture, list[Box]]:
+) -> tuple[Picture, tuple[MapPlace, ...]]:
     """Maps over the same two parameters, `wide` a row; (picture, the place of each on it).
 
     labels: of the axes. legend: (colour, or "dot", "cross", "star", "mark" or a hatch; its text). marks: values on x
-    and on y with a small triangle at the edge. Places are shares of the picture: left, top, width, height.
+    and on y with a small triangle at the edge.
     """
     rows, many = -(-len(shown) // wide), max(1, int(width_in / 2.2))  # of maps; entries of the legend in a row
     height_in = rows * (0.35 + 0.6 * width_in / wide**0.9) + 0.22 * -(-len(legend) // many) + 0.2
@@ -104,8 +104,13 @@ def regime_maps(
             handles, side = [_handle(look, text) for look, text in legend], "upper" if width_in == WIDTH_IN else "lower"
             figure.legend(handles=handles, loc=f"outside {side} left", ncols=many, handlelength=1.4)
         picture = picture_of(figure, kind)
-        boxes = [axes.get_position().bounds for axes in grid.flat[: len(shown)]]
-    return picture, [(left, 1.0 - low - high, across, high) for left, low, across, high in boxes]
+        places = tuple(_place(axes, one) for axes, one in zip(grid.flat, shown, strict=False))
+    return picture, places
+
+
+def _place(axes, one: Map) -> MapPlace:
+    left, low, across, high = axes.get_position().bounds
+    return MapPlace((left, 1.0 - low - high, across, high), (*axes.get_xlim(), *axes.get_ylim()), one.page)
 
 
 def _drawn(axes, one: Map, marks) -> None:
@@ -136,10 +141,10 @@ def _drawn(axes, one: Map, marks) -> None:
     axes.set(xlim=x[[0, -1]], ylim=y[[0, -1]], title=one.title)
     axes.locator_params(nbins=6)
     axes.grid(False)
-    for values, at in ((marks[0], lambda value: (value, 0.0)), (marks[1], lambda value: (0.0, value))):
-        which = axes.get_xaxis_transform() if values is marks[0] else axes.get_yaxis_transform()
-        for value in values:
-            axes.plot(*at(value), "^" if values is marks[0] else ">", transform=which, **_MARK)
+    for values, edges, mark in zip(marks, (x, y), "^>", strict=True):
+        for value in (one for one in values if edges[0] <= one <= edges[-1]):
+            place = (value, y[0]) if mark == "^" else (x[0], value)
+            axes.plot(*place, mark, **_MARK)
 
 
 _MARK = {"color": "white", "markeredgecolor": INK, "markersize": 5.5, "markeredgewidth": 0.9, "clip_on": False}
@@ -154,9 +159,8 @@ def _written(axes, one: Map, x: np.ndarray, y: np.ndarray, top: np.ndarray) -> N
     halo = {"path_effects": [withStroke(linewidth=2.0, foreground="white")], "weight": "bold"}
     if one.texts is not None:
         at = [np.linspace(edges[0], edges[-1], 2 * _FINE + 1)[1::2] for edges in (x, y)]
-        even = top[
-            np.ix_(*(np.searchsorted(edges, middle) - 1 for edges, middle in zip((y, x), at[::-1], strict=True)))
-        ]
+        rows, columns = (np.searchsorted(edges, middle) - 1 for edges, middle in zip((y, x), at[::-1], strict=True))
+        even = top[np.ix_(rows, columns)]
         for text in sorted({text for text in one.texts if text}):
             regions, many = label((one.texts == text)[even] & (even >= 0))
             for region in range(1, many + 1):

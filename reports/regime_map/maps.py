@@ -1,7 +1,8 @@
 """The maps of a folder of `campaigns.regime_map`: what is on each of its pages, and the five maps of a page."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 
@@ -22,11 +23,12 @@ _PAPER = 0.016, 0.13  # steepnesses, as in `campaigns.buoy_sweep`, which reports
 
 @dataclass(frozen=True, eq=False)
 class Page:
-    """The n cells of one page, the small ones behind those that they cover. said: its value, "" for the only page.
+    """The n cells of one page, the small ones behind those that they cover. said: its value, "" for the only one.
 
     area (n,): share of the map that each cell takes where it is on top.
     """
 
+    number: int
     said: str
     rows: Sequence[Mapping[str, object]]
     cells: Cells
@@ -62,17 +64,17 @@ class Atlas:
         """The paper's steepnesses where an axis has them."""
         return tuple(_PAPER if key.name.rpartition(".")[2] == "steepness" else () for key in self.keys[-2:])
 
-    def share(self, word: str) -> float:
-        """Of all maps, in which the motion from rest is called so and was computed."""
-        return float(np.mean([page.share(page.on_top(COMPUTED) & (page.cells.kinds == word)) for page in self.pages]))
-
-    def limited(self, said: str) -> float:
-        """Share of all maps that is hatched for that reason."""
-        return float(np.mean([page.share(page.cells.hatched[said]) for page in self.pages]))
+    def share(self, chosen: Callable[[Page], np.ndarray]) -> float:
+        """Of all maps, that of the cells (n,) chosen of each page."""
+        return float(np.mean([page.share(chosen(page)) for page in self.pages]))
 
     def of_source(self, source: str) -> float:
         """Share of all maps whose cells come from there."""
-        return float(np.mean([page.share(page.on_top(source)) for page in self.pages]))
+        return self.share(lambda page: page.on_top(source))
+
+    def limited(self, said: str) -> float:
+        """Share of all maps that is hatched for that reason."""
+        return self.share(lambda page: page.cells.hatched[said])
 
 
 def read_atlas(folder: Folder) -> Atlas | None:
@@ -81,18 +83,15 @@ def read_atlas(folder: Folder) -> Atlas | None:
     names = [name.removeprefix("width_") for name in (part.columns if part else ()) if name.startswith("width_")]
     if len(names) != 2 or not {*names, "source", "regime_rest"} <= set(part.columns):
         return None
-    first = next(iter(part.columns.values()))
-    x, y = (part.columns[name] for name in names)
-    key = None if first in (x, y) else first
+    first = next(iter(part.columns))
+    keys = [part.columns[name] for name in ([] if first in names else [first]) + names]
     rows = sorted(part.table, key=lambda row: row["level"])
-    values = dict.fromkeys(row[key.name] for row in part.table) if key else [None]
-    pages = []
+    values, pages = dict.fromkeys(row[first] if len(keys) > 2 else "" for row in part.table), []
     for value in values:
-        own = [row for row in rows if key is None or row[key.name] == value]
-        said = "" if key is None else at([key], own[0])
-        cells = _cells(own, x.name, y.name)
-        pages.append(Page(said, own, cells, cells.areas()))
-    return Atlas([x, y] if key is None else [key, x, y], pages, part.columns)
+        own = [row for row in rows if len(keys) == 2 or row[first] == value]
+        cells = _cells(own, *names)
+        pages.append(Page(len(pages), at(keys[:-2], own[0]), own, cells, cells.areas()))
+    return Atlas(keys, pages, part.columns)
 
 
 def _cells(rows, x: str, y: str) -> Cells:
@@ -117,11 +116,11 @@ def regimes(page: Page) -> Map:
     """The regime of the motion from rest, with its periods as numbers, and a star where the line pulls hardest."""
     kinds = page.cells.kinds
     texts = np.array([word.removeprefix(_PERIOD) if word.startswith(_PERIOD) else "" for word in kinds])
-    chaos, star = page.share(page.on_top(COMPUTED) & (kinds == CHAOS)), _star(page)
+    chaos, star = page.share(_called(page, [CHAOS])), _star(page)
     said = [page.said, f"motion from rest: chaotic on {_percent(chaos)} of the map"]
     said += [] if star is None else [f"largest tension {number(page.rows[star][PULL], 3)} × static (star)"]
     title = "\n".join(filter(None, said))
-    return Map(page.cells, title, np.array([colour_of(word) for word in kinds]), texts=texts, star=star)
+    return Map(page.cells, title, np.array([*map(colour_of, kinds)]), page.number, texts=texts, star=star)
 
 
 def _star(page: Page) -> int | None:
@@ -137,13 +136,20 @@ def legend(atlas: Atlas) -> list[tuple[str, str]]:
     for word in sorted(words, key=lambda word: (_IN_ORDER.index(word) if word in _IN_ORDER else len(_IN_ORDER), word)):
         named.setdefault(colour_of(word), []).append(word)
     named.pop("", None)
-    told = [(colour, _with_share(_listed(own), sum(map(atlas.share, own)))) for colour, own in named.items()]
+    told = [
+        (colour, _with_share(_listed(own), atlas.share(partial(_called, words=own)))) for colour, own in named.items()
+    ]
     for mark, source, said in (("dot", SCREENED, "only screened"), ("cross", FAILED, "failed")):
         told += [(mark, _with_share(said, share))] if (share := atlas.of_source(source)) else []
     for hatch, said in zip(HATCHES, atlas.pages[0].cells.hatched, strict=False):
         told += [(hatch, _with_share(said, share))] if (share := atlas.limited(said)) else []
     told.append(("star", "largest tension"))
     return told + ([("mark", "the paper's steepnesses")] if any(atlas.marks) else [])
+
+
+def _called(page: Page, words: Sequence[str]) -> np.ndarray:
+    """(n,) which cells are computed, with one of these words for the motion from rest."""
+    return page.on_top(COMPUTED) & np.isin(page.cells.kinds, words)
 
 
 def _listed(words: Sequence[str]) -> str:
@@ -193,4 +199,4 @@ def _shaded(page: Page, name: str, title: str, colours, norm, ticks) -> Map:
     known, shades = np.isfinite(values), colours(norm(np.nan_to_num(values)))
     found = np.where(known, [to_hex(shade) for shade in shades], "")
     star, limited = _star(page) if name == PULL else None, name in (PULL, _EXPONENT)
-    return Map(page.cells, title, found, (colours, norm, ticks), star=star, limited=limited)
+    return Map(page.cells, title, found, page.number, (colours, norm, ticks), star=star, limited=limited)

@@ -8,7 +8,7 @@ import numpy as np
 
 from ..figures.orbit_diagram import NARROW_IN
 from ..figures.regime_map import Map, regime_maps
-from ..parts.content import Figure, Heading, MapPlace, Notice, Report, Table, heads, plain
+from ..parts.content import Figure, Heading, Notice, Report, Table, heads, plain
 from ..parts.folder import PARTS, Folder, FolderError, read_files, read_folder
 from ..parts.provenance import appendix, provenance_items, scene_items, timing_items
 from ..parts.sections import section_items
@@ -28,23 +28,19 @@ def report(directory: str | Path) -> Report:
         raise FolderError(folder.directory, ["cells/table.csv cannot be read: it has no cells over two keys"])
     if computed := atlas.of_source(COMPUTED) > 0.0:
         folder = read_folder(directory, ("status", "motion", "run_key", "periods", "end_time_s", "message"))
-    shown, pages = [regimes(page) for page in atlas.pages], range(len(atlas.pages))
     over = " and ".join(plain(key.head) for key in atlas.keys[-2:])
-    first = _figure(atlas, shown, pages, legend(atlas), min(2, len(shown)), _REGIMES, f"Map of regimes over {over}")
-    others = [_figure(atlas, four, (page,) * 4, (), 2, _OTHERS, _FOUR.format(over))
-              for page, four in zip(pages, numbers(atlas), strict=True)]  # fmt: skip
+    first = _figure(
+        atlas, [regimes(page) for page in atlas.pages], legend(atlas), f"Maps of regimes over {over}", _REGIMES
+    )
+    others = [_figure(atlas, four, (), f"Four maps over {over}", _OTHERS) for four in numbers(atlas)]
+    pages = zip(atlas.pages, others, strict=True) if len(others) > 1 else ()
     items = [
         first,
         cell_sheets(folder, atlas),
         *(others if len(others) == 1 else ()),
         *section_items("regime_map", "Question"),
         *((Heading("Regimes"), _regimes(atlas)) if computed else ()),
-        *(
-            item
-            for page, four in zip(atlas.pages, others, strict=True)
-            if page.said
-            for item in (Heading(page.said), four)
-        ),
+        *(item for page, four in pages for item in (Heading(page.said), four)),
         Heading("Warnings"),
         _warnings(folder, atlas),
         *appendix(
@@ -56,7 +52,6 @@ def report(directory: str | Path) -> Report:
     return Report(f"Regimes over {over}", folder.scene.title or folder.scene.name, tuple(items))
 
 
-_FOUR = "Maps over {} of number of motions, largest tension, its share of starts, and largest exponent"
 _REGIMES = (
     "Regime of the motion from rest; numbers: periods of the waves after which it repeats. Lines: borders between "
     "regimes. Percentages: shares of the map. A dot in place of a full cell: only screened with the massless tether, "
@@ -70,31 +65,24 @@ _OTHERS = (
 )
 
 
-def _figure(
-    atlas: Atlas, shown: Sequence[Map], pages: Sequence[int], told, wide: int, caption: str, alt: str
-) -> Figure:
-    drawn = [
-        regime_maps(shown, atlas.labels, told, atlas.marks, width, many)
-        for width, many in ((WIDTH_IN, wide), (NARROW_IN, 1))
-    ]
-    axes = [tuple(float(end(one.cells.boxes[:, k])) for k, end in enumerate((np.min, np.max) * 2)) for one in shown]
-    places = tuple(
-        tuple(MapPlace(place, ends, page) for place, ends, page in zip(found, axes, pages, strict=True))
-        for _, found in drawn
+def _figure(atlas: Atlas, shown: Sequence[Map], told, alt: str, caption: str) -> Figure:
+    """The maps, two a row where there are several, and one below the other for telephones."""
+    (picture, *places), (narrow, *below) = (
+        regime_maps(shown, atlas.labels, told, atlas.marks, width, wide)
+        for width, wide in ((WIDTH_IN, min(2, len(shown))), (NARROW_IN, 1))
     )
-    (picture, _), (narrow, _) = drawn
-    return Figure(picture, caption, alt, narrow=narrow, places=places)
+    said = "; ".join(one.title.replace("\n", ", ") for one in shown)
+    return Figure(picture, caption, f"{alt}: {said}.", narrow=narrow, places=(*places, *below))
 
 
 def _regimes(atlas: Atlas) -> Table:
     """A row a word: how much of the map it takes, where the line pulls hardest in it, what limits that."""
     found: dict[str, list[tuple]] = {}
     for page in atlas.pages:
-        for row, word, area, computed in zip(
-            page.rows, page.cells.kinds, page.area, page.on_top(COMPUTED), strict=True
-        ):
-            if computed:
-                found.setdefault(str(word), []).append((row, float(area) / len(atlas.pages)))
+        for cell in np.flatnonzero(page.on_top(COMPUTED)):
+            found.setdefault(str(page.cells.kinds[cell]), []).append(
+                (page.rows[cell], page.area[cell] / len(atlas.pages))
+            )
     body = []
     for word, own in sorted(found.items(), key=lambda one: -sum(area for _, area in one[1])):
         share = sum(area for _, area in own)
@@ -129,8 +117,9 @@ def _warnings(folder: Folder, atlas: Atlas) -> Notice:
             lines.append(f"On {percent(share)} of the map {told[name]}.")
     verdicts = Counter(row["verdict"] for row in folder.table if row["status"] == "ok" and row.get("verdict"))
     if cheap := verdicts["cheap"]:
-        rest = f"{cheap} of {verdicts.total()} verdicts are cheap"
-        lines.append(f"{rest}: they rest on the period and the tangent exponent of a short run; sheets say which.")
+        lines.append(
+            f"{cheap} of {verdicts.total()} verdicts are cheap: the motion repeats at one look. Sheets say which."
+        )
     if not lines:
         return Notice("note", "Nothing to warn of", ("Every cell was computed and has a full verdict.",))
     return Notice("warning", "What the maps do not tell", tuple(lines))

@@ -6,17 +6,17 @@ import numpy as np
 
 from analysis import read_evidence
 
-from ..parts.columns import Name, plus_minus
+from ..parts.columns import plus_minus
 from ..parts.content import CellSheets, plain
 from ..parts.folder import Folder
 from ..parts.wording import number, printed
-from ..sweep.quantities import at, colours_of
+from ..sweep.quantities import at, colours_of, errors_of
 from .maps import COMPUTED, LIMITS, PULL, SCREENED, Atlas
 
-_FACTS: Sequence[Name] = (
+_FACTS = (
     "regime", "verdict", "share", "found_by", "tension_top_max_N", "slack_fraction",
-    ("lyapunov_tangent_bits_per_period", "lyapunov_tangent_error"), "multiplier_modulus", "radius_min_m",
-    "radius_max_m", "loop_releases", "max_buoy_height_above_water_m", "max_turn_rad", "periods",
+    "lyapunov_tangent_bits_per_period", "multiplier_modulus", "radius_min_m", "radius_max_m", "loop_releases",
+    "max_buoy_height_above_water_m", "max_turn_rad", "periods",
 )  # fmt: skip
 _STROBES = "radius_m", "tension_N"  # once a wave period
 _HISTORY = "radius_m", "tension_top_high_N"
@@ -28,26 +28,20 @@ _MET = {"yes": "met", "no": "not met"}
 
 def cell_sheets(folder: Folder, atlas: Atlas) -> CellSheets:
     """What a click on a cell of a map shows: facts and evidence of its motions, their histories and sections."""
-    names = [one for one in _FACTS if _first(one) in folder.columns]
-    heads = tuple((folder.columns[_first(one)].head, folder.columns[_first(one)].unit) for one in names)
+    columns, errors = folder.columns, errors_of(folder.columns)
+    names = [name for name in _FACTS if name in columns]
     motions: dict[tuple[str, ...], list] = {}
-    for row, drawn in zip(folder.table, _series(folder), strict=True):
-        motions.setdefault(_where(row, atlas), []).append((row, drawn))
-    errors = {_first(one): one[1] for one in names if not isinstance(one, str)}
+    for row, series in zip(folder.table, _series(folder), strict=True):
+        facts = [plus_minus(columns, row, name, errors.get(name, "")) for name in names]
+        motions.setdefault(_where(row, atlas), []).append((row, facts, series))
     cells = []
-    for number_of_page, page in enumerate(atlas.pages):
+    for page in atlas.pages:
         for row, box, area in zip(page.rows, page.cells.boxes, page.area, strict=True):
             if area > 0.0:
+                sheet = {"page": page.number, "box": [float(f"{edge:.7g}") for edge in box]}
                 own = motions.get(_where(row, atlas), [])
-                facts = [[plus_minus(folder.columns, one, name, errors.get(name, "")) for name in map(_first, names)]
-                         for one, _ in own]  # fmt: skip
-                sheet = {"page": number_of_page, "box": [float(f"{edge:.7g}") for edge in box]}
-                cells.append({**sheet, "name": plain(at(atlas.keys, row)), **_sheet(row, own, facts)})
-    return CellSheets(heads, tuple(cells))
-
-
-def _first(name: Name) -> str:
-    return name if isinstance(name, str) else name[0]
+                cells.append({**sheet, "name": plain(at(atlas.keys, row)), "note": _note(row), **_drawn(own)})
+    return CellSheets(tuple((columns[name].head, columns[name].unit) for name in names), tuple(cells))
 
 
 def _where(row: Mapping[str, object], atlas: Atlas) -> tuple[str, ...]:
@@ -86,26 +80,32 @@ def _history(folder: Folder, row) -> tuple[np.ndarray, np.ndarray]:
     return radius[starts], np.maximum.reduceat(tension, starts)
 
 
-def _sheet(row, own: Sequence[tuple], facts: Sequence[list[str]]) -> dict:
-    """The words and the drawing of one cell; own: rows of its motions, each with its series."""
-    colours, scales = colours_of([one for one, _ in own]), []
-    limits = [said for name, said in LIMITS.items() if row.get(name) == 1]
-    note = {COMPUTED: "", SCREENED: _SCREENED}.get(row["source"], f"Failed: {row.get('message') or row.get('status')}.")
-    note += f" Largest tension {number(row[PULL], 3)} × static." if note == "" else ""
-    note += f" Mind: {'; '.join(limits)}." if limits else ""
-    for pair in ((0, 2), (1, 3)):  # r, then T
-        known = np.concatenate([values[k] for _, values in own for k in pair] or [np.empty(0)])
-        known = known[np.isfinite(known)] if pair[0] == 0 else np.append(known[np.isfinite(known)], 0.0)  # T from 0 on
-        scales.append([float(f"{end:.4g}") for end in (known.min(), known.max())] if len(known) else [0.0, 1.0])
+def _note(row) -> str:
+    """What limits the result of a cell, behind its largest tension."""
+    if row["source"] != COMPUTED:
+        return _SCREENED if row["source"] == SCREENED else f"Failed: {row.get('message') or row.get('status')}."
+    limits = "; ".join(said for name, said in LIMITS.items() if row.get(name) == 1)
+    return f"Largest tension {number(row[PULL], 3)} × static.{f' Mind: {limits}.' if limits else ''}"
+
+
+def _drawn(own: Sequence[tuple]) -> dict:
+    """The motions of one cell (row, facts, series) in the scales of them all."""
+    colours = colours_of([row for row, _, _ in own])
+    r, T = (np.concatenate([[], *(series[k] for _, _, series in own for k in pair)]) for pair in ((0, 2), (1, 3)))
+    scales = [_ends(r), _ends(np.append(T, 0.0))]
     motions = [
         {
-            "motion": one["motion"] or "", "colour": colours.get(one["motion"], ""),
-            "facts": cells, "said": _evidence(one),
-            "series": [_steps(values[k], scales[k % 2]) for k in range(4)],
+            "motion": row["motion"], "colour": colours.get(row["motion"], ""), "facts": facts, "said": _evidence(row),
+            "series": [_steps(values, scales[k % 2]) for k, values in enumerate(series)],
         }
-        for (one, values), cells in zip(own, facts, strict=True)
+        for row, facts, series in own
     ]  # fmt: skip
-    return {"note": note.strip(), "scales": scales, "motions": motions}
+    return {"scales": scales, "motions": motions}
+
+
+def _ends(values: np.ndarray) -> list[float]:
+    known = values[np.isfinite(values)]
+    return [float(f"{end:.4g}") for end in (known.min(), known.max())] if len(known) else [0.0, 1.0]
 
 
 def _steps(values: np.ndarray, scale: Sequence[float]) -> list[int]:

@@ -122,7 +122,9 @@ def test_shares_are_areas_of_the_cells_on_top(folder_of):
     covered = page.area == 0.0
     assert np.allclose(page.area[~covered], parts[~covered]) and page.area.sum() == pytest.approx(1.0)
     assert {row["level"] for row, hidden in zip(page.rows, covered, strict=True) if hidden} == {0}
-    assert atlas.share("chaotic") == pytest.approx(2.5 / NX), "half of the bisected column, and two others"
+    assert atlas.share(lambda page: page.cells.kinds == "chaotic") == pytest.approx(2.5 / NX), (
+        "half of the bisected column, and two others"
+    )
 
 
 def test_nothing_screened_counts_as_computed(folder_of):
@@ -151,7 +153,7 @@ def test_lines_lie_between_cells_that_differ_and_nowhere_else(drawn):
         line = drawn[-1].axes[0].lines[0]
         steps = np.diff(np.column_stack(line.get_data()).reshape(-1, 3, 2)[:, :2], axis=1)
         assert np.abs(steps).sum() == pytest.approx(length)
-    assert picture.kind == "svg" and all(0.0 < share < 1.0 for share in places[0])
+    assert picture.kind == "svg" and all(0.0 < share < 1.0 for share in places[0].place)
 
 
 @pytest.mark.parametrize("eyes", [*BLIND, None])
