@@ -17,7 +17,6 @@ COMPUTED, SCREENED, FAILED = "computed", "screened", "failed"  # `source` of a c
 PULL, _EXPONENT = "tension_over_static", "exponent_max_per_period"
 LIMITS = {"loops": "loops released, in a plane", "leaves_water": "sphere above still water"}
 CHAOS, _PERIOD = "chaotic", "period-"
-_IN_ORDER = (*(f"{_PERIOD}{k}" for k in (1, 2, 3)), *REGIME_COLOURS)
 _PAPER = 0.016, 0.13  # steepnesses, as in `campaigns.buoy_sweep`, which reports must not import
 
 
@@ -133,7 +132,7 @@ def legend(atlas: Atlas) -> list[tuple[str, str]]:
     """What colours and marks of the maps of regimes mean, each with its share of the map."""
     words = {word for page in atlas.pages for word, area in zip(page.cells.kinds, page.area, strict=True) if area > 0.0}
     named: dict[str, list[str]] = {}
-    for word in sorted(words, key=lambda word: (_IN_ORDER.index(word) if word in _IN_ORDER else len(_IN_ORDER), word)):
+    for word in sorted(words, key=_order):
         named.setdefault(colour_of(word), []).append(word)
     named.pop("", None)
     told = [
@@ -145,6 +144,12 @@ def legend(atlas: Atlas) -> list[tuple[str, str]]:
         told += [(hatch, _with_share(said, share))] if (share := atlas.limited(said)) else []
     told.append(("star", "largest tension"))
     return told + ([("mark", "the paper's steepnesses")] if any(atlas.marks) else [])
+
+
+def _order(word: str) -> tuple[int, str]:
+    """Periods first, then the words of the analysis, then others."""
+    period, known = word.removeprefix(_PERIOD), [*REGIME_COLOURS]
+    return (int(period) - 1000 if period != word else known.index(word) if word in known else len(known)), word
 
 
 def _called(page: Page, words: Sequence[str]) -> np.ndarray:
@@ -179,7 +184,7 @@ def numbers(atlas: Atlas) -> list[list[Map]]:
                 return float(known.min()), float(known.max())
         return 0.0, 1.0
 
-    most, (least, largest), growth = max(2, int(ends("motions")[1])), ends(PULL), max(map(abs, ends(_EXPONENT)))
+    most, (least, largest), growth = max(3, int(ends("motions")[1])), ends(PULL), max(map(abs, ends(_EXPONENT)))
     signed = LinearSegmentedColormap.from_list("signed", [BLUE, GRID, VERMILION])
     even = LinearSegmentedColormap.from_list("even", ["#fdf3dc", ORANGE, "#5c2a00"])  # light to dark, in grey as well
     unit = atlas.columns[_EXPONENT].unit if _EXPONENT in atlas.columns else ""
