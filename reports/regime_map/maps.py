@@ -80,7 +80,7 @@ def read_atlas(folder: Folder) -> Atlas | None:
     """The maps of a folder; None where it has no cell that can be read."""
     part = part_of(folder, "cells")
     names = [name.removeprefix("width_") for name in (part.columns if part else ()) if name.startswith("width_")]
-    if len(names) != 2 or not {*names, "source", "regime_rest"} <= set(part.columns):
+    if len(names) != 2 or not {*names, "level", "source", "regime_rest"} <= set(part.columns):
         return None
     first = next(iter(part.columns))
     keys = [part.columns[name] for name in ([] if first in names else [first]) + names]

@@ -261,12 +261,15 @@ def test_a_click_opens_the_sheet_and_arrows_walk_along_the_row(folder_of, browse
         def said():
             return page.locator("#cell [role=status]").text_content()
 
+        def steepness():
+            return float(said().partition("=")[2].partition(",")[0])
+
         x, y = left + wide * (0.02 - x0) / (x1 - x0), top + high * (y1 - 23.8) / (y1 - y0)
         picture.click(position={"x": x * box["width"], "y": y * box["height"]})
-        seen = [float(said().partition("=")[2].partition(",")[0])]
+        seen = [steepness()]
         for _ in range(8):
             page.keyboard.press("ArrowRight")
-            seen.append(float(said().partition("=")[2].partition(",")[0]))
+            seen.append(steepness())
         assert seen == [0.02, 0.04, 0.06, 0.08, 0.1, 0.115, 0.125, 0.14, 0.16], "both halves of the bisected one"
         assert page.locator("#cell td:visible").count() >= 2 * 4 and page.locator(".chosen").count() == 5
         widths = page.eval_on_selector_all("#cell svg", "(all) => all.map((one) => one.getBoundingClientRect().width)")
@@ -276,6 +279,9 @@ def test_a_click_opens_the_sheet_and_arrows_walk_along_the_row(folder_of, browse
         assert violations(page) == []
         page.keyboard.press("Escape")
         assert not page.locator("#cell").is_visible() and page.locator(".chosen").count() == 0
+        page.locator("#figure-2 picture").focus()
+        page.keyboard.press("ArrowLeft")
+        assert abs(steepness() - 0.09) < 0.011, "by keys alone one begins in the middle"
         assert [url for url in page.asked if not url.startswith(("file:", "data:"))] == []
 
 
