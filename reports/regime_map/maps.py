@@ -17,6 +17,7 @@ COMPUTED, SCREENED, FAILED = "computed", "screened", "failed"  # `source` of a c
 PULL, _EXPONENT = "tension_over_static", "exponent_max_per_period"
 LIMITS = {"loops": "loops released, in a plane", "leaves_water": "sphere above still water"}
 CHAOS, _PERIOD = "chaotic", "period-"
+_WHOLE = 0.995  # share of a map that is called all of it
 _PAPER = 0.016, 0.13  # steepnesses, as in `campaigns.buoy_sweep`, which reports must not import
 
 
@@ -115,8 +116,10 @@ def regimes(page: Page) -> Map:
     """The regime of the motion from rest, with its periods as numbers, and a star where the line pulls hardest."""
     kinds = page.cells.kinds
     texts = np.array([word.removeprefix(_PERIOD) if word.startswith(_PERIOD) else "" for word in kinds])
-    chaos, star = page.share(_called(page, [CHAOS])), _star(page)
-    said = [page.said, f"motion from rest: chaotic on {_percent(chaos)} of the map"]
+    star, computed = _star(page), page.share(page.on_top(COMPUTED))
+    chaos = f"chaotic on {_percent(page.share(_called(page, [CHAOS])))} of the map"
+    said = [page.said, f"motion from rest: {chaos if computed else 'only screened'}"]
+    said += [f"{_percent(computed)} of the map is computed"] if 0.0 < computed < _WHOLE else []
     said += [] if star is None else [f"largest tension {number(page.rows[star][PULL], 3)} × static (star)"]
     title = "\n".join(filter(None, said))
     return Map(page.cells, title, np.array([*map(colour_of, kinds)]), page.number, texts=texts, star=star)
@@ -142,7 +145,7 @@ def legend(atlas: Atlas) -> list[tuple[str, str]]:
         told += [(mark, _with_share(said, share))] if (share := atlas.of_source(source)) else []
     for hatch, said in zip(HATCHES, atlas.pages[0].cells.hatched, strict=False):
         told += [(hatch, _with_share(said, share))] if (share := atlas.limited(said)) else []
-    told.append(("star", "largest tension"))
+    told += [("star", "largest tension")] if any(_star(page) is not None for page in atlas.pages) else []
     return told + ([("mark", "the paper's steepnesses")] if any(atlas.marks) else [])
 
 

@@ -230,7 +230,8 @@ def test_a_screen_alone_has_its_report_too(folder_of, monkeypatch):
     items = content_of(place)[0].items
     first = next(item for item in items if isinstance(item, Figure))
     (sheets,) = (item for item in items if isinstance(item, CellSheets))
-    assert not any(one["motions"] for one in sheets.cells) and "screened" in first.caption
+    assert not any(one["motions"] for one in sheets.cells)
+    assert "only screened" in first.alt and "chaotic" not in first.alt
     assert not [item for item in items if isinstance(item, Table) and item.columns[0].title == "motion from rest"]
 
 
