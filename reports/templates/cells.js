@@ -26,10 +26,12 @@
 
   function draw(svg, cell, title, low, high, curves, ends) {
     const said = (value, x, y, anchor = "") => `<text class="${anchor}" x="${x}" y="${y}">${value}</text>`;
+    const drawn = cell.motions.map(curves).join("");
+    svg.style.display = drawn.includes("M") ? "" : "none"; // a run without a record, or a cell without a run
     svg.innerHTML = `<path class="axes" d="M${LEFT} ${TOP}v${HIGH}h${WIDE}"/>` + said(title, LEFT, TOP - 5) +
       said(high, LEFT - 4, TOP + 8, "e") + said(low, LEFT - 4, TOP + HIGH, "e") +
       said(ends[0], LEFT, TOP + HIGH + 14) + said(ends[1], LEFT + WIDE, TOP + HIGH + 14, "e") +
-      cell.motions.map(curves).join("");
+      drawn;
   }
 
   function show(cell) {

@@ -278,6 +278,9 @@ def test_a_click_opens_the_sheet_and_arrows_walk_along_the_row(folder_of, browse
         page.keyboard.press("ArrowUp")
         assert "= 24.5" in said()
         assert violations(page) == []
+        for _ in range(8):
+            page.keyboard.press("ArrowLeft")
+        assert "not computed" in said() and page.locator("#cell svg:visible, #cell tr:visible").count() == 0
         page.keyboard.press("Escape")
         assert not page.locator("#cell").is_visible() and page.locator(".chosen").count() == 0
         page.locator("#figure-2 picture").focus()
