@@ -233,6 +233,9 @@ def test_a_screen_alone_has_its_report_too(folder_of, monkeypatch):
     assert not any(one["motions"] for one in sheets.cells)
     assert "only screened" in first.alt and "chaotic" not in first.alt
     assert not [item for item in items if isinstance(item, Table) and item.columns[0].title == "motion from rest"]
+    table.unlink()
+    with pytest.raises(FolderError, match="cells"):
+        content_of(place)
 
 
 @pytest.mark.slow
@@ -240,13 +243,6 @@ def test_each_page_has_its_maps_and_no_word_lies_on_another(folder_of, drawn):
     figures = [item for item in content_of(folder_of(("full", "spherical-cap")))[0].items if isinstance(item, Figure)]
     assert [len(one.places[0]) for one in figures] == [2, 4, 4] and not any(map(crowded, drawn))
     assert [{place.page for place in one.places[1]} for one in figures] == [{0, 1}, {0}, {1}]
-
-
-def test_a_folder_without_cells_is_refused(folder_of):
-    place = folder_of()
-    (place / "cells" / "table.csv").unlink()
-    with pytest.raises(FolderError, match="cells"):
-        content_of(place)
 
 
 @pytest.mark.slow
