@@ -30,8 +30,8 @@ def report(directory: str | Path) -> Report:
         Heading("The answer in numbers"),
         Bullets(tuple(_answers(study))),
         *unexplained_items(study),
-        *case_items(study),
         *stiffness_items(study),
+        *case_items(study),
         *limit_items(study),
         *random_items(study),
         *map_items(study),
@@ -161,7 +161,7 @@ def stiffness_items(study: Study) -> Iterator[Item]:
     worst = max(found[1].max() for found in points.values())
     most = max(found[2].max() for found in points.values())
     seen = f"errors up to {number(worst, 2)}, {number(most, 2)} times as many iterations at most"
-    yield Heading("Tension and cost over stiffness", 2)
+    yield Heading("Tension and cost over stiffness")
     yield Figure(
         stiffness(points),
         f"Largest tension at the top against what it should be, and its cost: {seen}. A stiff line costs more only "
