@@ -15,7 +15,7 @@ import engine
 from campaigns.buoy_sweep.rows import TANGENT, buoy_row
 from campaigns.columns import number
 from campaigns.judge import judged_job, judged_scene
-from campaigns.machinery.folder import trajectory_path
+from campaigns.machinery.folder import trajectory_path, write_table
 from campaigns.machinery.plan import Job, Plan, Summary
 from campaigns.machinery.progress import tell
 from campaigns.machinery.runner import run
@@ -198,7 +198,7 @@ class Map(Lattice):
     def write(self) -> Summary:
         """Write the tables, and draw the map; returns the summary of the rows. Raises OSError."""
         out, rows = self.plan.how.out, [*self.motion_rows()]
-        tables.write_motions(out, self.plan.columns, rows)
+        write_table(out / "table.csv", self.plan.columns, rows)
         if self.starts.ended:
             self.starts.write()
         tables.write_strobes(out, self)

@@ -56,11 +56,6 @@ def motion_columns(keys: tuple[Column, ...]) -> tuple[Column, ...]:
     return *keys, *own
 
 
-def write_motions(out: Path, columns: tuple[Column, ...], rows: list[dict]) -> None:
-    """table.csv. Raises OSError."""
-    write_table(out / "table.csv", columns, rows)
-
-
 def write_screen(out: Path, grid, jobs: Sequence, found: Sequence[list[dict]]) -> None:
     """screen/table.csv: what a massless tether does in each cell of the coarse grid. Raises OSError."""
     (out / "screen").mkdir(exist_ok=True)
