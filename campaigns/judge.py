@@ -12,10 +12,10 @@ LEAST_CHECK, SURE = 90, 2.5  # wave periods at the tighter tolerance; errors by 
 TANGENTS, LATERAL = "output.tangent_vectors", "output.lateral_growth"
 
 
-def tighter_scene(scene):
-    """The scene at a tenth of its tolerance, or of its step where that is fixed."""
+def tighter_scene(scene, times: int = 10):
+    """The scene at a tenth of its tolerance, or of its step where that is fixed; or at another share of it."""
     step_s = scene.solver.step_s
-    key, value = ("solver.step_s", step_s / 10) if step_s else ("solver.rtol", scene.solver.rtol / 10)
+    key, value = ("solver.step_s", step_s / times) if step_s else ("solver.rtol", scene.solver.rtol / times)
     return engine.scene.scene_from_toml(scene.to_toml(), {key: value})
 
 
@@ -79,10 +79,11 @@ def record_regime(trajectory, transient_periods: int, tangent=None):
     return verdict, wolf
 
 
-def going_on(scene, trajectory, row, checks, budget: int, looks: bool, start=None):
+def going_on(scene, trajectory, row, checks, budget: int, looks: bool, start=None, most: int | None = None):
     """What a run whose regime is asked for does next (`campaigns.machinery.plan.Further`); None when it is told.
 
-    start: the state of another run that it begins in; None: as the scene says.
+    start: the state of another run that it begins in; None: as the scene says. most: wave periods after which it is not
+    looked at again, though `budget` allows it.
     looks: it is looked at after 90, 135, 205, ... wave periods, `budget` at most, and perturbations are carried from
     the first look on that finds no period, and none that it comes nearer to; else it takes `budget` periods at once.
     One that looks chaotic goes on at a tenth of the tolerance until that shows there too, at most for as long as it was
@@ -97,7 +98,8 @@ def going_on(scene, trajectory, row, checks, budget: int, looks: bool, start=Non
     done = row.get("periods")
     if row["status"] != "ok" or row.get("regime") is None or done is None:
         return None
-    judged, check = done - (row.get("transient_periods") or 0), checks.get(round(done))
+    # whole periods: samples need not add up to them to the last digit, and a check of nothing would go on for ever
+    judged, check = round(done) - (row.get("transient_periods") or 0), checks.get(round(done))
     if row["regime"] == "chaotic" and row.get("regime_tighter") is None:
         value, error = row["lyapunov_tangent_bits_per_period"], row["lyapunov_tangent_error"]
         enough = max(math.ceil(judged * (SURE * error / value) ** 2), LEAST_CHECK)
@@ -106,7 +108,7 @@ def going_on(scene, trajectory, row, checks, budget: int, looks: bool, start=Non
         if (ran := len(check.tangent.growth_nats)) < judged:
             return Further(check.scene, min(math.ceil(0.5 * ran), judged - ran), check, check=True)
     ahead = next((end for end in ends if end > round(done)), None)
-    if row["regime"] not in OPEN or ahead is None:
+    if row["regime"] not in OPEN or ahead is None or (most is not None and ahead > most):
         return None
     unclear = row["regime"] == "undecided" and row.get("strobed_period") is None
     wanted = unclear or (trajectory is not None and carried(trajectory))
@@ -137,16 +139,17 @@ def judged_scene(order, changes: dict, least: int = LEAST_JUDGED):
     return order.scene({**changes, **extra}) if extra else scene
 
 
-def judged_job(order, labels: dict, scene, start=None):
+def judged_job(order, labels: dict, scene, start=None, most: int | None = None):
     """A run of a study's order: of the length asked for, or as long as its regime needs (`going_on`).
 
-    start: the state (`engine.final_state`) of another run that it begins in; None: as the scene says.
+    start: the state (`engine.final_state`) of another run that it begins in; None: as the scene says. most: as there;
+    the run is the same one, and goes on for those who ask for more of it.
     """
     from campaigns.machinery.plan import Job
 
     if not carries_tangents(scene):
         return job_from(labels, scene, order.periods, start)
-    going = partial(going_on, budget=order.periods, looks=order.looks, start=start)
+    going = partial(going_on, budget=order.periods, looks=order.looks, start=start, most=most)
     made = f"{'looks' if order.looks else ''}{_from(start)}"
     return Job(labels, scene, order.periods, going=going, carrying=order.looks, made=made)
 

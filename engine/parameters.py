@@ -230,20 +230,21 @@ def _solver(record, scene, place, h):
             np.concatenate([method.A.ravel(), method.A.sum(axis=1), method.A[-1] - method.B_EMBEDDED])
         )
         record["order"] = min(method.ORDER, method.EMBEDDED_ORDER) + 1
-        record["phase_per_step"] = method.PHASE
     else:
         record["method"] = codes.ONE_STAGE
         record["alpha_m"], record["alpha_f"], record["gamma"] = method.alphas(solver.spectral_radius)
+    record["phase_per_step"] = method.PHASE
     period = scene.waves.period_s if scene.waves is not None else None
+    driven = [part.period_s for part in (scene.waves, scene.end.motion) if hasattr(part, "period_s")]
     record["output_step"] = scene.sample_step_s()
     record["profile_step"] = (scene.output.profiles_step_s or record["output_step"]) if scene.output.profiles else 0.0
-    record["fixed_step"] = solver.step_s or (period / 400 if period else 0.0125)
+    record["fixed_step"] = solver.step_s or (min(driven) / 400 if driven else 0.0125)
     record["max_step"], record["min_step"] = min(scales.longest_steps(scene).values()), solver.min_step_s
     if solver.shock_viscosity is not None:
         record["viscous"] = True
         record["c_quadratic"], record["c_linear"] = solver.shock_viscosity.quadratic, solver.shock_viscosity.linear
     record["rtol"], record["growth_per_step"] = solver.rtol, solver.growth_per_step
-    record["shortest"] = solver.shortest_period_s or solver.max_step_s / 5
+    record["shortest"] = solver.shortest_period_s or solver.max_step_s / 50
     record["shortest_wave"] = (math.pi / h.min()) ** 2
     record["newton_tolerance"] = solver.newton_tolerance or 1e-2 * solver.rtol
     record["max_newton"] = solver.max_newton_iterations
@@ -253,6 +254,7 @@ def _solver(record, scene, place, h):
     impulsive = record["waves"] and scene.waves.ramp_s == 0
     moved = record["end_motion"] != codes.STILL or bool(scene.end.twist_ramp_s)
     record["at_rest"] = not (moving or impulsive or moved)
+    record["all_waves"] = scene.end.kind == "held" and scene.end.release_s is None  # let go, a line whips: no ringing
     scales.put_scales(record, scene, h)
     if solver.courant is not None:
         record["pace"] = solver.courant / scales.fastest_wave(record, scene)

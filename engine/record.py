@@ -36,7 +36,7 @@ RECORD = np.dtype(
     _dtype(
         "nodes grid_at law law_at law_n wet waves current cur_at cur_nx cur_ny cur_nz cur_nt above end end_motion "
         "end_at end_n sea_n sea_at spherical_cap bent viscous method stages method_at adaptive max_newton loop_release "
-        "max_releases at_rest",
+        "max_releases at_rest all_waves",
         "m w0 EI p1 p2 p3 p4 p5 ct cn ma Rw depth k omega amplitude phase direction ramp "
         "M_total M_wave lift C_buoy D_buoy M_added B_whole impact_loss end_x end_z end_release end_fx end_fz end_decay "
         "barrier c_quadratic c_linear per_strain per_force per_speed per_curvature "

@@ -14,14 +14,15 @@ from .perturbations.exponents import Followed
 from .physics import energy
 from .planar import state as planar
 from .planar.columns import EPS, PHI
-from .scales import ringing_period
+from .scales import TRANSIT_STEPS, begins_with_a_blow, ringing_period, tension_at, wave_beyond
 from .scene.models import Scene
 from .scene.size_limits import longest_step
 from .spatial import lift
 from .spatial import state as spatial
 from .time.held_start import held_away, why_not_held
+from .time.ringing import HEARD
 from .time.statics import rest_of, why_no_rest
-from .time.status import ADVICE, OK, STATICS_FAILED, TURN_UNRESOLVED, UNRESOLVED, WORDS
+from .time.status import ADVICE, OK, STATICS_FAILED, TURN_UNRESOLVED, UNRESOLVED, WAVES_ON_ELEMENT, WORDS
 from .time.time_loop import march
 from .trajectory import COLUMNS, EnergyBudget, Profiles, Trajectory
 from .trajectory_parts import along_waves, heading_of
@@ -92,16 +93,20 @@ class Run:
             state["status"] = TURN_UNRESOLVED
         # a sudden start has rates at t = 0 that are not zero: steps that need none come first, or the order falls to 1
         needs_rates = record["method"] == col.RUNGE_KUTTA or record["alpha_m"] != record["gamma"]
-        starter = needs_rates and not record["at_rest"]
+        blow = begins_with_a_blow(scene.end)
+        starter = (needs_rates or blow) and not record["at_rest"]
         state["small_steps"] = col.SMALL_STEPS if starter else 0
         first_s = min(1e-3 * scene.solver.max_step_s, record["max_step"])
+        if blow:  # in far shorter steps than a wave takes through an element its force would be that of the steps
+            first_s = max(first_s, record["release_step"] * TRANSIT_STEPS / (4 * (record["nodes"] - 1)))
         state["dt"] = first_s if record["adaptive"] or starter else record["fixed_step"]
 
     def _watch(self) -> None:
         """Least strain and largest turn so far, those of the first state; no ringing was missed yet."""
-        Y, state = self.motion.Y, self.state
+        Y, state, record = self.motion.Y, self.state, self.record
         state["min_strain"] = Y[:, EPS].min()
-        state["ringing"] = 0.0 if self.record["method"] == col.RUNGE_KUTTA else -1.0
+        undamped = record["method"] == col.ONE_STAGE and record["gamma"] == 0.5  # rates alternate, and say nothing
+        state["ringing"] = -1.0 if undamped else 0.0
         state["max_turn"] = lift.turns(Y).max() if self.kind is spatial else np.abs(np.diff(Y[:, PHI])).max()
 
     def _go_on(self, start: FinalState) -> None:
@@ -170,8 +175,16 @@ class Run:
             t=state["t"], dt=state["dt"], turn=state["max_turn"], releases=state["releases"]
         )
         if status == OK and state["ringing"] > 0:
-            period_s = ringing_period(self.record, scene)
-            message = UNRESOLVED.format(period=period_s, step=self.record["max_step"], tension=state["ringing"])
+            lengths = col.lengths_of(self.record, self.tables)
+            key, step_s = longest_step(scene)
+            what = f"axial ringing of period {ringing_period(self.record, scene):.2g} s is"
+            if self.record["all_waves"]:
+                what = f"axial waves on elements of {lengths[-1]:.2g} m are"
+            if self.record["adaptive"]:
+                key = "solver.shortest_period_s or solver.max_step_s"
+            message = UNRESOLVED.format(what=what, step=step_s, tension=state["ringing"], key=key)
+        elif status == OK:
+            message = self._waves_on_element()
         if status == STATICS_FAILED:
             message += self.why_no_rest(self.record, scene)
         columns = columns_of(self.output.samples[: min(int(state["samples"]), self.goal)], heading_of(scene))
@@ -181,6 +194,15 @@ class Run:
                 statistics[name] -= number if name in COUNTED else 0
         more = profiles, tangent, self._budget(), self.final_state(), self.began
         return Trajectory(scene, WORDS[status], message, columns, statistics, *more)
+
+    def _waves_on_element(self) -> str:
+        """Says what the uppermost element takes for the force of waves that do not reach so far down, or nothing."""
+        record = self.record
+        length, top_m = float(col.lengths_of(record, self.tables)[-1]), self.output.samples[:1, col.AT_Z].sum()
+        force_N = wave_beyond(record, length, float(top_m))
+        if force_N <= HEARD * tension_at(1.0 / record["per_strain"], self.scene.tether.tension):
+            return ""
+        return WAVES_ON_ELEMENT.format(length=length, depth=1.0 / record["k"], force=force_N)
 
     def _budget(self) -> EnergyBudget | None:
         if not self.scene.output.energy:

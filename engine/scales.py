@@ -9,7 +9,7 @@ from .record import RELEASE_STEPS
 from .scene.models import Scene
 from .scene.sections import End, Tether
 
-STEPS_OF_PERIOD = {"waves.period_s": 8, "end.motion.period_s": 20}  # at least; what shakes an end shakes the tension
+STEPS_OF_PERIOD = {"waves.period_s": 8, "end.motion.period_s": 40}  # at least; what shakes an end shakes the tension
 TRANSIT_STEPS = 12  # after a loop release in the time that an axial wave takes along the line
 
 
@@ -68,6 +68,30 @@ def longest_steps(scene: Scene) -> dict[str, float]:
 def ringing_period(record: np.void, scene: Scene) -> float:
     """Period (s) of the axial motion of the line with what it carries, where the law is steepest up to static loads."""
     return 2 * math.pi * math.sqrt(float(record["inertia"] / record["m"])) / fastest_wave(record, scene)
+
+
+def wave_beyond(record: np.void, length: float, top_m: float) -> float:
+    """Force (N) of a regular wave, at its height top_m (m), on the half of an element (m) to which it does not reach.
+
+    The box takes the forces at both ends for those along the element; those of waves fall as exp(k z).
+    """
+    k, omega = float(record["k"]), float(record["omega"])
+    if k * length <= 2.0:
+        return 0.0
+    speed = float(record["amplitude"]) * omega * math.exp(min(k * (top_m - float(record["depth"])), 0.0))
+    drag = max(float(record["cn"]), float(record["ct"])) * speed**2
+    return (drag + float(record["Rw"] + record["ma"]) * omega * speed) * (length / 2 - 1 / k)
+
+
+def begins_with_a_blow(end: End) -> bool:
+    """Does the velocity of a held end jump at t = 0? A harmonic motion without a ramp begins at its full speed."""
+    motion = end.motion
+    return (
+        motion is not None
+        and motion.law == "harmonic"
+        and motion.ramp_s == 0
+        and abs(math.cos(motion.phase_rad)) > 1e-6
+    )
 
 
 def end_speed(end: End) -> float:

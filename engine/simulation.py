@@ -117,11 +117,12 @@ def checked_start(scene: Scene, start: Start) -> FinalState | None:
     if isinstance(start, str | Path):
         start = Trajectory.load(start)
     state = start.final_state if isinstance(start, Trajectory) else start
-    fault = f"{state!r}; allowed: a Trajectory, its final_state, or its file"
     if state is None:
         fault = "a run without a final state: it ended early, kept energies, or is of the paper's own scheme"
     elif isinstance(state, FinalState):
         fault = fault_of(state, scene)
+    else:
+        fault = f"{state!r}; allowed: a Trajectory, its final_state, or its file"
     if fault:
         raise ValueError(f"start: given {fault}")
     return state

@@ -12,8 +12,8 @@ from pathlib import Path
 # drawings to keep as files: path -> bytes. A campaign of another name whose provenance names what it varied ("vary")
 # gets the report of a sweep.
 CONTENTS = (
-    "accuracy", "basins", "breaking_line", "buoy_sweep", "orbits", "oscillator", "out_of_plane", "paper", "stability",
-    "sweep", "time_series",
+    "accuracy", "basins", "breaking_line", "buoy_sweep", "orbits", "oscillator", "out_of_plane", "paper", "regime_map",
+    "stability", "sweep", "time_series",
 )  # fmt: skip
 
 __all__ = ["CONTENTS", "build"]

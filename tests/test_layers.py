@@ -27,6 +27,7 @@ BELOW = {
 OURS = {*BELOW, "tests", "benchmarks"}
 DOORS = {  # the only imports against the flow: module -> what it may import
     "campaigns.machinery.session": "reports.build",
+    "campaigns.regime_map.maps": "reports.regime_map.draw",
     "analysis.__main__": "campaigns.time_series",
     "engine.views": "analysis",
 }

@@ -182,7 +182,7 @@ STUDY = Study(
     parameters=parameters,
     runs=runs,
     beside=beside,
-    after=0.2,
+    after=0.25,
     answer=answer,
 )
 main, parser, read_order = STUDY.main, STUDY.parser, STUDY.read_order

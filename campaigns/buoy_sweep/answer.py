@@ -14,13 +14,15 @@ from campaigns.machinery.session import MOST_LINES
 from campaigns.motions.along import from_rest
 from campaigns.statements import listed
 
-PEAK = "tension_top_max_N"
+PEAK, ERROR = "tension_top_max_N", "tension_top_max_error_N"
 LEAST_JUMP, TYPICAL = math.log(1.25), 3.0
 MOST_ENDS = 4  # that are told
 TOLD = 3  # jumps beside the largest that are told
 SMALLER = "Smaller jumps of the largest tension between"
 FLIES = "the sphere flies above still water with all its buoyancy (buoy.submergence)"
 LOOPS = "loops were released (motion.dimensions)"
+COARSE = 0.05  # of the largest tension: an error above it is told in words
+OTHER = "becomes another motion"  # said in a row's message (`errors.error_N`)
 AS_RUN, CAPPED = "as run", "wetted cap"  # roles of companions
 
 
@@ -114,7 +116,7 @@ def use(rows: Sequence[Row], key: str, symbol: str, scene, companions: Sequence[
     peak, static_N = greatest(rows, PEAK), static_tension(scene)
     times = f" ({known(peak, PEAK) / static_N:.1f} times static)" if static_N else ""
     motion = "" if from_rest(peak) else f", motion {peak['motion']}"
-    said = f"Largest tension {kilonewton(known(peak, PEAK))} at {symbol} = {known(peak, key):.4g}{motion}{times}"
+    said = f"Largest tension {largest(peak)} at {symbol} = {known(peak, key):.4g}{motion}{times}"
     sound = [row for row in companions if row["status"] == "ok"]
     again = {str(row["role"]): row for row in sound if _of(row, key) == _of(peak, key)}
     if (usual := again.pop(AS_RUN, None)) is not None and again:
@@ -135,9 +137,15 @@ def use(rows: Sequence[Row], key: str, symbol: str, scene, companions: Sequence[
     others = [*rows, *(row for row in sound if row["role"] == CAPPED)]
     free = greatest([row for row in others if not [*reasons(row, scene)]], PEAK)
     if free is not None:
-        load, at = kilonewton(known(free, PEAK)), f"at {symbol} = {known(free, key):.4g}"
+        load, at = largest(free), f"at {symbol} = {known(free, key):.4g}"
         capped = f"With the wetted cap the largest tension is {load}, {at}: use this one."
         yield capped if free.get("role") == CAPPED else f"Largest tension without that: {load} {at}."
+
+
+def largest(row: Row) -> str:
+    """ "9.45 kN (± 0.12 kN)", without the error where that is not known."""
+    error = known(row, ERROR)
+    return f"{kilonewton(known(row, PEAK))}{f' (± {error / 1e3:.2g} kN)' if math.isfinite(error) else ''}"
 
 
 def _of(row: Row, key: str) -> tuple:
@@ -145,12 +153,16 @@ def _of(row: Row, key: str) -> tuple:
 
 
 def reasons(row: Row, scene) -> Iterator[str]:
-    """What speaks against the tensions of a run: water that acts on a sphere in the air, and loops in a plane."""
+    """What speaks against the tensions of a run: water on a sphere in the air, loops in a plane, grid and steps."""
     if scene is not None and scene.buoy is not None and scene.buoy.submergence == "full":
         if row.get("role") != CAPPED and known(row, "max_buoy_height_above_water_m") > scene.buoy.diameter_m:
             yield FLIES
     if known(row, "loop_releases") > 0 and known(row, "dimensions") != 3:
         yield LOOPS
+    if known(row, ERROR) > COARSE * known(row, PEAK):
+        yield f"it holds to {100.0 * known(row, ERROR) / known(row, PEAK):.0f} % only"
+    if OTHER in str(row.get("message")):
+        yield f"with smaller elements and steps it {OTHER}"
 
 
 def static_tension(scene) -> float | None:

@@ -261,13 +261,13 @@ def accuracy_row(
     return row
 
 
-def maxima_of_blocks(scene, columns, transient_periods: float) -> np.ndarray:
-    """The largest tension (N) of every BLOCK wave periods after the transient."""
+def maxima_of_blocks(scene, columns, transient_periods: float, block: int = BLOCK) -> np.ndarray:
+    """The largest tension (N) of every `block` wave periods after the transient."""
     from analysis import block_maxima
 
     step_s, period_s = scene.sample_step_s(), scene.waves.period_s
     first = round(transient_periods * period_s / step_s) + 1
-    return block_maxima(columns["tension_top_high_N"][first:], round(BLOCK * period_s / step_s))
+    return block_maxima(columns["tension_top_high_N"][first:], round(block * period_s / step_s))
 
 
 def measured(scene, columns) -> dict[str, object]:

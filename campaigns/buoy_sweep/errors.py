@@ -1,84 +1,126 @@
-"""How far the largest tension of a row holds, from companions of the same motion: `tension_top_max_error_N`.
+"""How far the largest tension of a row holds, from one companion of each row: `tension_top_max_error_N`.
 
-    E^2 = (2 |dT(rtol/10)| + 2 |dT(2n - 1 nodes)| + T_ringing)^2 + s^2
+    E = (T_max - T_b) + 2 |T_b' - T_b| + T_ringing
 
-dT: change of the mean of the block maxima of the tension (`batches.measured`) in as many wave periods of the motion; 2,
-because the halved grid leaves a third of what it changes, and the tighter steps a part that is not known. T_ringing:
-`unresolved_ringing_N`. s: standard deviation of the block maxima of the row itself, because the largest tension of a
-chaotic record is one draw; 0 of a motion that repeats.
+T_b, of the row after its transient: the mean of the largest tensions of every BLOCK wave periods; of a motion that
+repeats after N, the largest of its last periods, LAST at least and a multiple of N. T_b': the same of the companion,
+which goes on from the row's last state with twice the elements at a quarter of the tolerance.
 
-Only in a plane, where companions can go side by side; other rows stay empty. E holds for the motion of the row: where a
-finer grid ends in another motion, it is large, and says so.
+2: where the orders hold (2 in the elements, 1 in the tolerance), the companion has a quarter of the error, and 4/3
+would do; where a snap halves them, it has half of it. T_max - T_b: what is left of the transient in the row, and chance
+where the motion does not repeat, because another record as long has another largest tension. T_ringing:
+`unresolved_ringing_N`.
+
+E is of the motion of the row. Where its companion leaves that, and where E is above COARSE of T_max, `message` says so.
+Rows whose scenes do not go in lanes stay empty.
 """
 
 import math
+from dataclasses import replace
+from functools import partial
 
-from campaigns.buoy_sweep.answer import AS_RUN
-from campaigns.buoy_sweep.batches import (
-    BLOCK,
-    COMPANION_PERIODS,
-    FINER,
-    ROLE,
-    TIGHTER,
-    UNFOLLOWED,
-    Batch,
-    changed,
-    finer,
-    maxima_of_blocks,
-    start_of,
-)
-from campaigns.buoy_sweep.rows import ERROR, STEEPNESS
+from campaigns.answers import PERIODIC, kilonewton, known
+from campaigns.buoy_sweep.answer import COARSE, OTHER
+from campaigns.buoy_sweep.batches import UNFOLLOWED, Batch, changed, finer, maxima_of_blocks
+from campaigns.buoy_sweep.rows import ERROR
 from campaigns.columns import MESSAGE, PERIODS_RUN, RINGING, RUN_KEY, STATUS, WALL_S, Column, counted
 from campaigns.judge import job_from, tighter_scene
 from campaigns.machinery.folder import read_rows, run_of, write_table
 from campaigns.machinery.plan import Plan, Summary
-from campaigns.machinery.runner import groups_of
-from campaigns.motions.along import MOTION
-from engine import goes_in_lanes
+from campaigns.motions.starts import JOINED, OUTCOME, UNSETTLED, as_it_is, section_of, settled_of
+from engine import goes_in_lanes, simulate
 
+BLOCK, LAST = 15, 5  # wave periods: two blocks in a companion, because shorter ones miss the beats of a torus
 FOR = Column("of_run", symbol="of", meaning="content key of the run of table.csv whose companion this is")
-MEAN = Column("tension_block_max_N", "N", "T_b", f"mean of the largest tensions of every {BLOCK} wave periods", 0)
-COLUMNS = (ROLE, STEEPNESS, MOTION, FOR, STATUS, PERIODS_RUN, MEAN, WALL_S, RUN_KEY, MESSAGE)
+USUAL = Column(
+    "tension_usual_max_N", "N", "T_b", f"mean of the largest tensions of every {BLOCK} wave periods at the end", 0
+)
+COLUMNS = (FOR, OUTCOME, STATUS, PERIODS_RUN, USUAL, WALL_S, RUN_KEY, MESSAGE)
+REPEATING, OTHERS = 12, 40  # wave periods of a companion: at least, of a motion that repeats; of the others
+LEFT_OUT = 0.25  # of the latter: until it has forgotten that its grid was changed
+TIGHTER = 4  # times, as the square of an element
+CHANGED = "with twice the elements at a quarter of the tolerance"
 
 
 def errors(plan: Plan, summary: Summary) -> float:
-    """Do the companions of every row, and fill its column of table.csv; returns seconds of analysis."""
-    jobs, spread = [], {}
-    for row in summary.rows:
-        if row["status"] != "ok" or row.get("transient_periods") is None or (run := run_of(plan.how.out, row)) is None:
+    """Do the companion of every row, and fill ERROR of the rows and of table.csv; returns seconds of analysis.
+
+    Rows without a transient, as of runs that ended early, stay empty. Raises as `runner.run`.
+    """
+    jobs, usual = [], {}
+    for row in summary.rows if plan.simulate is simulate else ():
+        if row.get("transient_periods") is None or (run := run_of(plan.how.out, row)) is None:
             continue
-        scene, start = changed(run.scene, UNFOLLOWED), start_of(plan, row)
-        largest = maxima_of_blocks(scene, run.columns, row["transient_periods"])
-        spread[row["run_key"]] = float(largest.std(ddof=1)) if len(largest) > 1 else math.inf
-        labels = {"steepness": row["steepness"], "motion": row.get("motion"), "of_run": row["run_key"]}
-        for role, one in ((AS_RUN, scene), (TIGHTER, tighter_scene(scene)), (FINER, changed(scene, finer(scene)))):
-            jobs.append(job_from({"role": role, **labels}, one, COMPANION_PERIODS, start))
-    jobs = [job for job in jobs if goes_in_lanes(job.scene)] if groups_of(plan, jobs) else []
+        scene, period = tighter_scene(changed(run.scene, UNFOLLOWED, finer(run.scene)), TIGHTER), _period(row)
+        if run.final_state is None or not goes_in_lanes(scene):
+            continue
+        usual[row["run_key"]] = usual_max_N(run, row["transient_periods"], period)
+        length = min(max(REPEATING, 3 * period) if period else OTHERS, round(row["periods"]))
+        motion = (settled_of(run) or as_it_is(run)) if row.get("regime") else None
+        describe = partial(companion_row, period=period, motion=motion)
+        job = job_from({"of_run": row["run_key"]}, scene, length, run.final_state.at_zero())
+        jobs.append(replace(job, describe=describe))
     analysis_s = Batch("errors", "errors of the largest tensions", COLUMNS, companion_row, jobs, True).do(plan)
     if not jobs:
         return analysis_s
-    means: dict[str, dict[str, float]] = {}
-    for companion in read_rows(plan.how.out / "errors" / "table.csv"):
-        means.setdefault(companion["of_run"], {})[companion["role"]] = companion[MEAN.name]
+    found = {row["of_run"]: row for row in read_rows(plan.how.out / "errors" / "table.csv")}
     for row in summary.rows:
-        if (of := means.get(row.get("run_key"))) is not None:
-            error = error_N(of, row.get(RINGING.name) or 0.0, spread[row["run_key"]])
+        if (companion := found.get(row.get("run_key"))) is not None:
+            error, said = error_N(row, usual[row["run_key"]], companion)
             row[ERROR.name] = error if math.isfinite(error) else None
+            row["message"] = "; ".join(filter(None, (row.get("message"), *said))) or None
     write_table(plan.how.out / "table.csv", plan.columns, summary.rows)
     return analysis_s
 
 
-def companion_row(trajectory) -> dict[str, object]:
-    """The columns of COLUMNS that a companion fills."""
-    scene = trajectory.scene
-    length_s = (len(trajectory.columns["time_s"]) - 1) * scene.sample_step_s()
-    row = counted(trajectory, (WALL_S,)) | {"periods": length_s / scene.waves.period_s}
+def companion_row(trajectory, checks=None, period: int | None = None, motion=None) -> dict[str, object]:
+    """The columns of COLUMNS that a companion fills. period, motion (`analysis.Settled`): of its row, where known."""
+    from analysis import joins
+
+    scene, row = trajectory.scene, counted(trajectory, (WALL_S,))
+    row["periods"] = (len(trajectory.columns["time_s"]) - 1) * scene.sample_step_s() / scene.waves.period_s
     if trajectory.status == "ok":
-        row[MEAN.name] = float(maxima_of_blocks(scene, trajectory.columns, COMPANION_PERIODS // 3).mean())
+        row[USUAL.name] = usual_max_N(trajectory, LEFT_OUT * row["periods"], period)
+        if motion is not None:
+            strobed, measures, _ = section_of(trajectory)
+            row[OUTCOME.name] = UNSETTLED if joins(strobed, measures, [motion]) is None else JOINED
     return row
 
 
-def error_N(means: dict[str, float], ringing_N: float, spread_N: float) -> float:
-    """E of the head of this file (N); nan where a companion did not end. means: role -> T_b (N)."""
-    usual, tighter, fine = (means.get(role, math.nan) for role in (AS_RUN, TIGHTER, FINER))
-    return math.hypot(2.0 * (abs(tighter - usual) + abs(fine - usual)) + ringing_N, spread_N)
+def usual_max_N(trajectory, transient_periods: float, period: int | None) -> float:
+    """T_b of the head of this file; nan of a record that has no whole block after its transient."""
+    scene, columns = trajectory.scene, trajectory.columns
+    if period:
+        samples = round(_whole(period) * scene.waves.period_s / scene.sample_step_s())
+        return float(columns["tension_top_high_N"][-samples:].max())
+    largest = maxima_of_blocks(scene, columns, transient_periods, BLOCK)
+    return float(largest.mean()) if len(largest) else math.nan
+
+
+def error_N(row: dict, usual_N: float, companion: dict) -> tuple[float, list[str]]:
+    """E of the head of this file, nan where it is not known, and what a reader has to be told of it.
+
+    row: of the run, whose T_b is usual_N; companion: the row of its companion.
+    """
+    if companion["status"] != "ok":
+        return math.nan, [f"error of the largest tension not known: {CHANGED} the run ended, {companion['status']}"]
+    largest_N, again_N = known(row, "tension_top_max_N"), known(companion, USUAL.name)
+    error = largest_N - usual_N + 2.0 * abs(again_N - usual_N) + (row.get(RINGING.name) or 0.0)
+    said = []
+    if companion[OUTCOME.name] == UNSETTLED:
+        said.append(f"{CHANGED} it {OTHER}: largest tensions {kilonewton(usual_N)} -> {kilonewton(again_N)}")
+    if error > COARSE * largest_N:
+        said.append(f"the largest tension holds to {100.0 * error / largest_N:.0f} % only")
+    return error, said
+
+
+def _period(row: dict) -> int | None:
+    """Wave periods after which a row's motion repeats, by its verdict, or where it has none by its strobed state."""
+    if not (word := row.get("regime")):
+        return row.get("strobed_period")
+    return int(word.removeprefix(PERIODIC)) if word.startswith(PERIODIC) else None
+
+
+def _whole(period: int) -> int:
+    """The least multiple of a period that is LAST at least."""
+    return period * math.ceil(LAST / period)

@@ -48,8 +48,8 @@ EXTREMES = (
 )  # fmt: skip
 ERROR = Column(
     "tension_top_max_error_N", "N", "± T_max",
-    "how far the largest tension holds: twice what a tenth of the tolerance and twice the elements change, ringing "
-    "that is not resolved, and the scatter of the largest tensions of every five wave periods", 0,
+    "how far the largest tension holds, by a companion on twice the elements at a quarter of the tolerance, and by how "
+    "far it stands above what is usual", 0,
 )  # fmt: skip
 NEAR_ZERO = 0.05  # of the static tension: what the paper calls near zero; below it the line is slack
 REGIME = Column("regime", symbol="regime", meaning="period-N, quasi-periodic, chaotic, transient or undecided")

@@ -109,7 +109,7 @@ class Plan:
     simulate_each(scenes, periods=, duration_s=): yields (number of the scene, Trajectory) as runs end; where it is
     given, runs that can go side by side share a worker (`campaigns.machinery.runner.groups_of`). Both are also given
     progress=, where they take it. said, then: what the runs are called, and what follows them (`progress.Stage`); told:
-    folder where workers say how far they are.
+    folder where workers say how far they are. heard(row): told of every row as it comes.
     how.out: None in the plan that a worker gets which does not see the folder.
     """
 
@@ -122,6 +122,7 @@ class Plan:
     said: str = "runs"
     then: Callable[[float], float] | None = None
     told: Path | None = None
+    heard: Callable[[dict], None] | None = None
 
     @property
     def sends(self) -> bool:

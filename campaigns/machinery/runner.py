@@ -140,7 +140,9 @@ def run_campaign(plan: Plan, jobs: list[Job]) -> Summary:
                 write_atomic(trajectory_path(plan.how.out, outcome.key), outcome.content)
                 keep_row(plan.how.out, outcome.key, plan.row_maker, outcome.row, outcome.content)
             analysis_s += outcome.analysis_s
-            table.add(outcome.key, _row(by_key[outcome.key], outcome))
+            table.add(outcome.key, row := _row(by_key[outcome.key], outcome))
+            if plan.heard is not None:
+                plan.heard(row)
     except BaseException:
         with contextlib.suppress(OSError):
             table.write()
@@ -186,7 +188,7 @@ def _computed(plan: Plan, jobs: dict[str, Job], all_jobs: Sequence[Job]) -> Iter
         opened(plan.how.backend, min(plan.how.jobs, len(jobs)), plan.how.dask_address) as execute,
         stage(plan.said, total, unit, far, plan.then),
     ):
-        call = partial(run_jobs, replace(plan, how=how, told=Path(place)))
+        call = partial(run_jobs, replace(plan, how=how, told=Path(place), then=None, heard=None))
         while left:
             tasks = {name_of(task): task for task in groups or [(job,) for job in left.values()]}
             try:

@@ -59,7 +59,8 @@ def run_jobs(plan: Plan, jobs: Sequence[Job]) -> list[Outcome]:
 @dataclass
 class _Standing:
     """How far a run has come that takes as long as it needs: its Trajectory and Outcome, the runs that went on from it
-    at a tighter tolerance, by its periods then, what it does at present (`Further`), and when it was last saved.
+    at a tighter tolerance, by its periods then, what it does at present (`Further`), and when it was last saved (None:
+    it has not been looked at).
     """
 
     trajectory: object = None
@@ -68,7 +69,7 @@ class _Standing:
     further: Further | None = None
     periods: float = 0.0  # of `further`
     cost: float = 0.0  # of these
-    saved_s: float = field(default_factory=time.monotonic)
+    saved_s: float | None = None
 
     def still_expected(self, most: float) -> float:
         """Wave periods after the present part: after each, GO_ON of the runs go on, by GROWTH; none beyond `most`."""
@@ -108,9 +109,10 @@ def _carried_on(plan: Plan, jobs: Sequence[Job], told: Callable[[float], None]) 
         else:
             run.trajectory = part if run.trajectory is None else run.trajectory.followed_by(part)
         run.outcome = _described(plan, job, run.trajectory, run.checks)
-        further = next_of(i)
+        further, now = next_of(i), time.monotonic()
+        run.saved_s = now if run.saved_s is None else run.saved_s  # it may have waited long for its lane
         # not between the parts of a check, which are not kept: a run that was killed there would go on otherwise
-        if further is None or (not further.check and time.monotonic() - run.saved_s > SAVED_S):
+        if further is None or (not further.check and now - run.saved_s > SAVED_S):
             run.outcome, run.saved_s = _kept(plan, job, run.trajectory, run.outcome), time.monotonic()
         return None if further is None else (further.scene, further.periods, further.start)
 

@@ -1,14 +1,13 @@
-"""The motions of every value of a sweep over one key.
+"""The motions of every value of a sweep over one key, or of every cell of a map over several.
 
 1. The run from rest of each value is a motion. 2. Starts on the motions of a massless tether, at each value, find
-others, islands among them. 3. Every motion is carried to both neighbours: their scenes take its state up. 4. Kicks at
+others, islands among them. 3. Every motion is carried to all neighbours: their scenes take its state up. 4. Kicks at
 each value: the share of them that ends in a motion is the size of its basin. What they find is carried on too.
 Two motions at neighbouring values are one branch where each, carried to the other, becomes the other.
 """
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from itertools import pairwise
 from string import ascii_uppercase
 
 from campaigns.columns import Column
@@ -41,9 +40,9 @@ def from_rest(row: Mapping) -> bool:
 
 @dataclass(eq=False)
 class Motion:
-    """A motion at one value: number of the value, what it has settled to, its last state, the start that found it.
+    """A motion at one place: number of the place, what it has settled to, its last state, the start that found it.
 
-    kicks: how many ended in it. led: the motion that it becomes at the next value up and down; None: none that settled.
+    kicks: how many ended in it. led: the motion that it becomes at a place beside it; None: none that settled.
     branch: the first motion of its branch. confirmed: of a branch, at the value of its largest tension.
     """
 
@@ -52,8 +51,8 @@ class Motion:
     state: object
     found_by: str
     kicks: int = 0
-    led: dict[int, "Motion | None"] = field(default_factory=dict)
-    branch: "Motion | None" = None
+    led: dict[int, "Motion | None"] = field(default_factory=dict, repr=False)
+    branch: "Motion | None" = field(default=None, repr=False)
     letter: str = ""
     confirmed: str = ""
 
@@ -63,40 +62,61 @@ class Motion:
         return float(self.settled.measures[:, 2].max())
 
 
-class Along:
-    """The motions of a sweep, by number of the value.
+class Lattice:
+    """The motions of many scenes, by number of the place: a place has others beside it, whose scenes differ little.
 
-    key: column of its values; jobs: its runs from rest, by value; scene_at(value): the scene of any value; rows: of the
-    runs that have ended.
+    keys: columns that name a place. like: a motion leads without a run to one beside it of its period that is nearer
+    than this (`analysis.distance`). rest_counts: whether the start from rest is one of those that make a share.
     """
 
-    def __init__(self, plan: Plan, key: Column, jobs: Sequence[Job], scene_at: Callable, rows: Sequence[dict]):
-        self.plan, self.key, self.scene_at = plan, key, scene_at
-        self.values, self.scenes = [job.labels[key.name] for job in jobs], [job.scene for job in jobs]
-        self.starts = Starts(plan, (key, MOTION))
-        self.kicked = 0
-        self.motions: list[list[Motion]] = [[] for _ in jobs]
-        by_key = {row["run_key"]: row for row in rows}
-        for at, job in enumerate(jobs):
-            run = run_of(plan.how.out, by_key[job.key]) if job.key in by_key else None
-            if run is not None:
-                self.motions[at].append(Motion(at, settled_of(run) or as_it_is(run), run.final_state, FROM_REST))
+    like, rest_counts = 0.0, False
 
-    def find(self, kick_count: int, speed_mps: float, seed: int) -> None:
-        """Find the motions of all values, as told at the head of this file. Raises as `runner.run`."""
-        proposed = enumerate(proposals(self.plan, self.scenes, speed_mps, seed))
+    def __init__(self, plan: Plan, keys: tuple[Column, ...]):
+        self.plan, self.keys = plan, keys
+        self.starts = Starts(plan, (*keys, MOTION))
+        self.kicked = 0
+        self.names: list[dict] = []
+        self.scenes: list = []
+        self.motions: list[list[Motion]] = []
+
+    def beside(self, at: int) -> dict[int, str]:
+        """The places beside one, and what a start there is called that takes up a motion of this one."""
+        raise NotImplementedError
+
+    def add(self, jobs: Sequence[Job], rows: Sequence[dict]) -> range:
+        """Add the places of runs from rest; rows: of those that have ended. Returns their numbers."""
+        before, by_key = len(self.scenes), {row["run_key"]: row for row in rows}
+        for at, job in enumerate(jobs, before):
+            self.names.append({key.name: job.labels[key.name] for key in self.keys})
+            self.scenes.append(job.scene)
+            self.motions.append([])
+            run = run_of(self.plan.how.out, by_key[job.key]) if job.key in by_key else None
+            if run is not None:
+                settled = settled_of(run) or as_it_is(run)
+                self.motions[at].append(Motion(at, settled, run.final_state, FROM_REST, int(self.rest_counts)))
+        return range(before, len(self.scenes))
+
+    def find(self, kick_count: int, speed_mps: float, seed: int, places: range | None = None) -> None:
+        """Find the motions of places, of all by default, as told at the head of this file. Raises as `runner.run`."""
+        places = range(len(self.scenes)) if places is None else places
+        proposed = zip(places, proposals(self.plan, [self.scenes[at] for at in places], speed_mps, seed), strict=True)
         self.round(
             "starts on motions of a massless tether",
             [(at, self.fine(at, one)) for at, some in proposed for one in some],
         )
         self.carry()
+        self.kicked = kick_count + self.rest_counts
         if kick_count:
-            points = kicks(kick_count * len(self.values), speed_mps, seed).reshape(len(self.values), kick_count, 2)
-            asked = [(at, Start(KICKED, tuple(map(float, kick)))) for at, some in enumerate(points) for kick in some]
+            points = kicks(kick_count * len(places), speed_mps, seed, kick_count * places.start)
+            points = points.reshape(len(places), kick_count, 2)
+            asked = [
+                (at, Start(KICKED, tuple(map(float, kick))))
+                for at, some in zip(places, points, strict=True)
+                for kick in some
+            ]
             ended = self.round("kicks", asked)
             for motion in filter(None, ended):
                 motion.kicks += 1
-            self.kicked = kick_count
             # few samples are enough to tell a motion, not to take up its state without a shift in the wave
             new = {
                 motion: one for one, motion in zip(asked, ended, strict=True) if motion and motion.found_by == KICKED
@@ -106,32 +126,41 @@ class Along:
             self.carry()
 
     def fine(self, at: int, start: Start) -> Start:
-        """The start with as many samples as a run of its value, which then takes up its last state to the moment."""
+        """The start with as many samples as a run of its place, which then takes up its last state to the moment."""
         scene = self.scenes[at]
         return replace(start, often=round(scene.waves.period_s / scene.sample_step_s()))
 
     def again(self, asked: Sequence[tuple[int, Start]]) -> list[Ended]:
         """Starts that have settled once more, with more samples."""
-        fine = (Asked({self.key.name: self.values[at]}, self.scenes[at], self.fine(at, start)) for at, start in asked)
+        fine = (Asked(self.names[at], self.scenes[at], self.fine(at, start)) for at, start in asked)
         return self.starts.run("kicks that found a motion", list(fine), told=False)
 
     def carry(self) -> None:
-        """Carry every motion to its neighbours that has not been carried there, and what is found there further."""
+        """Carry every motion to the places beside it where it has not been, and what is found there further."""
         while True:
-            asked = [
-                (motion, step)
-                for some in self.motions
-                for motion in some
-                for step in (UP, DOWN)
-                if step not in motion.led and 0 <= motion.at + step < len(self.values) and motion.state is not None
-            ]
+            asked = []
+            for motion in (one for some in self.motions for one in some if one.state is not None):
+                for there, how in self.beside(motion.at).items():
+                    if there not in motion.led and (same := self._alike(motion, there)) is not None:
+                        motion.led[there] = same
+                    elif there not in motion.led:
+                        asked.append((motion, there, Start(how, state=motion.state.at_zero())))
             if not asked:
                 return
-            places = [one.at + step for one, step in asked]
-            states = [Start(CARRIED[step], state=one.state.at_zero()) for one, step in asked]
-            starts = [(at, self.fine(at, start)) for at, start in zip(places, states, strict=True)]
-            for (motion, step), led in zip(asked, self.round("motions carried to the next value", starts), strict=True):
-                motion.led[step] = led
+            starts = [(there, self.fine(there, start)) for _, there, start in asked]
+            ended = self.round("motions carried to the next value", starts)
+            for (motion, there, _), led in zip(asked, ended, strict=True):
+                motion.led[there] = led
+
+    def _alike(self, motion: Motion, there: int) -> Motion | None:
+        """The nearest motion of the same period at a place that is nearer than `like`."""
+        if not self.like:
+            return None
+        from analysis import distance
+
+        same = (one for one in self.motions[there] if one.settled.period == motion.settled.period)
+        near = {one: distance(motion.settled, one.settled) for one in same}
+        return min((one for one in near if near[one] < self.like), key=near.get, default=None)
 
     def round(self, said: str, asked: Sequence[tuple[int, Start]]) -> list[Motion | None]:
         """Run starts at values by number; returns the motion in which each ended, None where it did not settle."""
@@ -139,7 +168,7 @@ class Along:
         before = [list(some) for some in self.motions]
         found = self.starts.run(
             said,
-            [Asked({self.key.name: self.values[at]}, self.scenes[at], start, known[at]) for at, start in asked],
+            [Asked(self.names[at], self.scenes[at], start, known[at]) for at, start in asked],
         )
         ended = []
         for (at, start), one in zip(asked, found, strict=True):
@@ -154,6 +183,17 @@ class Along:
             one.motion = motion
             ended.append(motion)
         return ended
+
+    def beside_rest(self, jobs: Sequence[Job]) -> Iterator[tuple[Motion, Job]]:
+        """The motions to which no run from rest leads, each with that of its place. jobs: runs from rest, by place."""
+        for job, some in zip(jobs, self.motions, strict=True):
+            yield from ((motion, job) for motion in some if motion.found_by != FROM_REST)
+
+    def judged(self, jobs: Mapping[Motion, Job], rows: Sequence[dict]) -> None:
+        """Take motions as their judged runs have them (`merge`); rows: of those that have ended."""
+        ended = {row["run_key"]: row for row in rows}
+        runs = {motion: run_of(self.plan.how.out, ended[job.key]) for motion, job in jobs.items() if job.key in ended}
+        self.merge({motion: settled_of(run) or as_it_is(run) for motion, run in runs.items() if run is not None})
 
     def merge(self, judged: Mapping[Motion, object]) -> None:
         """Take motions of one value as one that longer runs have found to be one. judged: what these settled to."""
@@ -170,37 +210,49 @@ class Along:
                     became[motion].kicks += motion.kicks
             self.motions[at] = list(kept.values())
         for motion in became:
-            motion.led = {step: None if led is None else became[led] for step, led in motion.led.items()}
+            motion.led = {there: None if led is None else became[led] for there, led in motion.led.items()}
         for one in self.starts.ended:
             one.motion = became.get(one.motion)
 
     def name(self) -> None:
-        """Give every branch its letter: A to the one that begins at the lowest value, from rest where two do."""
+        """Give every branch its letter: A to the one that begins at the first place, from rest where two do."""
         from analysis import matched
 
-        for some, more in pairwise(self.motions):
-            _guess(some, more, UP)
-            _guess(more, some, DOWN)
-            alone = [one for one in some if one.led.get(UP) is None], [one for one in more if one.led.get(DOWN) is None]
-            for one, which in zip(alone[0], matched(*([m.settled for m in side] for side in alone)), strict=True):
-                if which is not None:  # carried, these two did not settle: the nearest one continues it
-                    one.led[UP], alone[1][which].led[DOWN] = alone[1][which], one
-        branches = []
-        for some in self.motions:
-            for motion in sorted(some, key=lambda one: one.found_by != FROM_REST):
-                before = motion.led.get(DOWN)
-                one_branch = before is not None and before.led.get(UP) is motion
-                motion.branch = before.branch if one_branch else motion
-                if not one_branch:
-                    branches.append(motion)
-        for number, first in enumerate(branches):
-            round_, letter = divmod(number, len(ascii_uppercase))
-            first.letter = ascii_uppercase[letter] + (str(round_ + 1) if round_ else "")
+        order = [one for some in self.motions for one in sorted(some, key=lambda one: one.found_by != FROM_REST)]
+        members: dict[Motion, dict[int, Motion]] = {one: {one.at: one} for one in order}  # of a branch, by place
+        for at, some in enumerate(self.motions):
+            for there in sorted(place for place in self.beside(at) if place > at):
+                more = self.motions[there]
+                _guess(some, more, at, there)
+                _guess(more, some, there, at)
+                alone = (
+                    [one for one in some if one.led.get(there) is None],
+                    [one for one in more if not one.led.get(at)],
+                )
+                for one, which in zip(alone[0], matched(*([m.settled for m in side] for side in alone)), strict=True):
+                    if which is not None:  # carried, these two did not settle: the nearest one continues it
+                        one.led[there], alone[1][which].led[at] = alone[1][which], one
+                for one in some:
+                    other = one.led.get(there)
+                    if other is None or other.led.get(at) is not one or members[one] is members[other]:
+                        continue
+                    if members[one].keys().isdisjoint(members[other]):  # round a cusp a motion meets another one
+                        members[one].update(members[other])
+                        members.update(dict.fromkeys(members[other].values(), members[one]))
+        first: dict[int, Motion] = {}
+        for motion in order:
+            branch = first.setdefault(id(members[motion]), motion)
+            if branch is motion:
+                round_, letter = divmod(len(first) - 1, len(ascii_uppercase))
+                branch.letter = ascii_uppercase[letter] + (str(round_ + 1) if round_ else "")
+            motion.branch = branch
 
     def branches(self) -> Iterator[list[Motion]]:
         """The motions of each branch, by value."""
-        for first in (one for some in self.motions for one in some if one.branch is one):
-            yield [one for some in self.motions for one in some if one.branch is first]
+        found: dict[Motion, list[Motion]] = {}
+        for motion in (one for some in self.motions for one in some):
+            found.setdefault(motion.branch, []).append(motion)
+        yield from found.values()
 
     def labels(self, motion: Motion) -> dict[str, object]:
         """The columns MOTIONS of a motion."""
@@ -213,9 +265,27 @@ class Along:
         return found | {"confirmed": motion.branch.confirmed or None}
 
 
-def _guess(some: Sequence[Motion], others: Sequence[Motion], step: int) -> None:
-    """Lead a motion that did not settle at the next value to the one there that leads to it, if there is but one."""
+class Along(Lattice):
+    """The motions of a sweep, by number of the value: a value has the next one up and the next one down beside it.
+
+    key: column of its values; jobs: its runs from rest, by value; scene_at(value): the scene of any value; rows: of the
+    runs that have ended.
+    """
+
+    def __init__(self, plan: Plan, key: Column, jobs: Sequence[Job], scene_at: Callable, rows: Sequence[dict]):
+        super().__init__(plan, (key,))
+        self.key, self.scene_at = key, scene_at
+        self.values = [job.labels[key.name] for job in jobs]
+        self.add(jobs, rows)
+
+    def beside(self, at: int) -> dict[int, str]:
+        """`Lattice.beside`."""
+        return {at + step: how for step, how in CARRIED.items() if 0 <= at + step < len(self.values)}
+
+
+def _guess(some: Sequence[Motion], others: Sequence[Motion], at: int, there: int) -> None:
+    """Lead a motion that did not settle at the next place to the one there that leads to it, if there is but one."""
     for motion in some:
-        back = [other for other in others if other.led.get(-step) is motion]
-        if motion.led.get(step) is None and len(back) == 1:
-            motion.led[step] = back[0]
+        back = [other for other in others if other.led.get(at) is motion]
+        if motion.led.get(there) is None and len(back) == 1:
+            motion.led[there] = back[0]

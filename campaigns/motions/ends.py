@@ -137,7 +137,7 @@ def _ends_of(along: Along) -> Iterator[_End]:
         for motion, step in ((branch[0], DOWN), (branch[-1], UP)):
             there = motion.at + step
             if 0 <= there < len(along.values) and motion.state is not None:
-                becomes = motion.led.get(step)
+                becomes = motion.led.get(there)
                 row = (
                     {"status": "ok"} if becomes else {"status": "unsettled", "message": "carried on it did not settle"}
                 )

@@ -2,17 +2,18 @@
 
 import hashlib
 from collections.abc import Sequence
-from functools import partial
+from functools import cache, partial
 from itertools import repeat
 
 import numpy as np
 
 import engine
-from campaigns.machinery.folder import keep_json, kept_json
+from campaigns.machinery.folder import keep_json, kept_json, made_by
 from campaigns.machinery.plan import Plan
 from campaigns.machinery.pools import opened
 from campaigns.machinery.progress import stage
 from campaigns.motions.starts import Start
+from engine.scales import tension_at
 
 SCREENED, PERIODS = 64, 80  # kicks of a value, and wave periods of each
 
@@ -25,10 +26,13 @@ def kicks(count: int, speed_mps: float, seed: int, skipped: int = 0) -> np.ndarr
     return speed_mps * (2.0 * points - 1.0)
 
 
-def proposals(plan: Plan, scenes: Sequence, speed_mps: float, seed: int) -> list[list[Start]]:
-    """For each scene a start on each motion of its massless tether; none where that model does not cover a scene.
+def screened(plan: Plan, scenes: Sequence, speed_mps: float, seed: int) -> list[list[dict]]:
+    """For each scene the motions of its massless tether; none where that model does not cover a scene.
 
-    What was found is kept in the folder. Raises OSError.
+    A motion has velocity (m/s) and displacement from rest (m) of a start on it, its period in wave periods, its largest
+    tension (N) and that at rest, the share of the kicks that end in it, and whether the start from rest does. All
+    starts that have not settled count as one more, which has no start and no period. What was found is kept in the
+    folder. Raises OSError.
     """
     path = plan.how.out / "proposals.json"
     keys = [_key_of(scene, speed_mps, seed) for scene in scenes]
@@ -36,28 +40,43 @@ def proposals(plan: Plan, scenes: Sequence, speed_mps: float, seed: int) -> list
     missing = [(key, scene) for key, scene in zip(keys, scenes, strict=True) if key not in known]
     if missing:
         count = len(missing)
-        kicked = kicks(SCREENED, speed_mps, seed)
+        kicked = np.vstack([kicks(SCREENED, speed_mps, seed), np.zeros(2)])
         done = 0
         with (
             opened(plan.how.backend, min(plan.how.jobs, count), plan.how.dask_address) as execute,
             stage("massless tethers", float(count), "values", lambda: float(done)),
         ):
-            for (key, _), found in execute(partial(_proposed, kicked), missing):
-                known[key] = found
-                done += 1
-        keep_json(path, {key: known[key] for key in keys})
-    return [[Start("massless", tuple(kick), tuple(moved)) for kick, moved in known[key]] for key in keys]
+            for task, found in execute(partial(_proposed, kicked), [missing[at : at + 8] for at in range(0, count, 8)]):
+                known |= dict(zip((key for key, _ in task), found, strict=True))
+                done += len(task)
+        keep_json(path, known)
+    return [known[key] for key in keys]
+
+
+def proposals(plan: Plan, scenes: Sequence, speed_mps: float, seed: int) -> list[list[Start]]:
+    """For each scene a start on each motion of its massless tether that kicks have found (`screened`)."""
+    found = screened(plan, scenes, speed_mps, seed)
+    told = ([one for one in some if one["kick"] and one["share"]] for some in found)
+    return [[Start("massless", tuple(one["kick"]), tuple(one["moved"])) for one in some] for some in told]
 
 
 def _key_of(scene, *settings) -> str:
-    return hashlib.sha256(repr((scene.key(), engine.source_hash(), SCREENED, PERIODS, *settings)).encode()).hexdigest()
+    return hashlib.sha256(repr((scene.key(), engine.source_hash(), _made(), *settings)).encode()).hexdigest()
 
 
-def _proposed(kicked: np.ndarray, task: tuple) -> list[tuple[list[float], list[float]]]:
-    """Velocity (m/s) and displacement from rest (m) on each motion that the massless tether of a scene has."""
+@cache
+def _made() -> str:
+    return made_by({}, "analysis", "campaigns/motions/proposals.py")
+
+
+def _proposed(kicked: np.ndarray, task: list[tuple]) -> list[list[dict]]:
+    """`screened` of scenes, with their keys."""
+    return [_motions(kicked, scene) for _, scene in task]
+
+
+def _motions(kicked: np.ndarray, scene) -> list[dict]:
     from analysis import joins, settled
 
-    _, scene = task
     try:
         rest = np.array(engine.massless_rest(scene))
         starts = np.column_stack([*map(partial(np.full, len(kicked)), rest), kicked])
@@ -65,17 +84,36 @@ def _proposed(kicked: np.ndarray, task: tuple) -> list[tuple[list[float], list[f
     except ValueError:  # not covered
         return []
     known, found = [], []
-    for strobed, measures in zip(runs.strobed, runs.measures, strict=True):
-        if not (np.isfinite(strobed).all() and joins(strobed, measures, known) is None):
+    loose = {"kick": None, "moved": None, "period": None, "tension_N": 0.0, "share": 0.0, "rest": False}
+    for number, (strobed, measures) in enumerate(zip(runs.strobed, runs.measures, strict=True)):
+        if not np.isfinite(strobed).all():
             continue
-        later = strobed[len(strobed) // 2 :]
-        place, speed = np.ptp(later[:, :2], axis=0).max(), np.ptp(later[:, 2:], axis=0).max()
-        swing = np.ptp(measures[len(measures) // 2 :, :2])  # of r
-        omega = 2.0 * np.pi / scene.waves.period_s
-        size = max(place, swing, 1e-6), max(speed, omega * swing, 1e-6)
-        motion = settled(strobed, measures, scale=[*repeat(size[0], 2), *repeat(size[1], 2)])
-        if motion is not None:
+        which = joins(strobed, measures, known)
+        if which is not None:
+            one = found[which]
+        elif (motion := _settled(settled, scene, strobed, measures)) is not None:
             known.append(motion)
             x, z, u, w = map(float, strobed[-1])
-            found.append(([u, w], [x - rest[0], z - rest[1]]))
-    return found
+            one = {"kick": [u, w], "moved": [x - rest[0], z - rest[1]], "period": motion.period, "share": 0.0}
+            found.append(one | {"tension_N": float(motion.measures[:, 2].max()), "rest": False})
+            one = found[-1]
+        else:
+            one, later = loose, float(measures[len(measures) // 2 :, 2].max())
+            one["tension_N"] = max(one["tension_N"], later)
+        if number < SCREENED:
+            one["share"] += 1.0 / SCREENED
+        else:
+            one["rest"] = True
+    found += [loose] if loose["tension_N"] else []
+    static_N = tension_at(float(np.hypot(*rest)) / scene.tether.length_m - 1.0, scene.tether.tension)
+    return [one | {"static_N": max(float(static_N), 0.0)} for one in found]
+
+
+def _settled(settled, scene, strobed, measures):
+    """The motion to which a massless run has settled, in the scale of its size within the period; None: it has not."""
+    later = strobed[len(strobed) // 2 :]
+    place, speed = np.ptp(later[:, :2], axis=0).max(), np.ptp(later[:, 2:], axis=0).max()
+    swing = np.ptp(measures[len(measures) // 2 :, :2])  # of r
+    omega = 2.0 * np.pi / scene.waves.period_s
+    size = max(place, swing, 1e-6), max(speed, omega * swing, 1e-6)
+    return settled(strobed, measures, scale=[*repeat(size[0], 2), *repeat(size[1], 2)])

@@ -8,7 +8,7 @@ import engine
 from campaigns.columns import Column
 from campaigns.judge import judged_job
 from campaigns.machinery import cli
-from campaigns.machinery.folder import run_of, trajectory_path
+from campaigns.machinery.folder import trajectory_path
 from campaigns.machinery.plan import Job, Plan, Summary
 from campaigns.machinery.runner import run
 from campaigns.study import Order
@@ -85,6 +85,18 @@ def parameters(order: Order, kicks: int | None) -> dict[str, object]:
     return {"starts": kicks, "kick_speed_mps": order.own.kick_speed, "seed": order.own.seed}
 
 
+def job_of(order: Order, job: Job, motion, labels: dict, most: int | None = None) -> Job:
+    """The judged run of a motion with these columns: that from rest (job), or one from its last state.
+
+    most: as of `campaigns.judge.judged_job`.
+    """
+    from campaigns.motions.along import FROM_REST
+
+    if motion.found_by == FROM_REST:
+        return replace(job, labels={**job.labels, **labels})
+    return judged_job(order, {**job.labels, **labels}, job.scene, motion.state.at_zero(), most)
+
+
 def every_motion(order: Order, kicks: int, key: Column, name: str, index: int | None = None) -> Callable:
     """In place of `runner.run`: the runs from rest, and one judged run for every other motion at each value.
 
@@ -94,7 +106,7 @@ def every_motion(order: Order, kicks: int, key: Column, name: str, index: int | 
     def runs(plan: Plan, jobs: list[Job]) -> tuple[dict[str, float], Summary]:
         from campaigns.motions import ends
         from campaigns.motions.along import FROM_REST, Along
-        from campaigns.motions.starts import DISPLACED, as_it_is, settled_of, start_job
+        from campaigns.motions.starts import DISPLACED, start_job
         from campaigns.motions.tracing import Scenes
 
         there = {job.key for job in jobs if trajectory_path(plan.how.out, job.key).exists()}
@@ -108,20 +120,10 @@ def every_motion(order: Order, kicks: int, key: Column, name: str, index: int | 
         along = Along(plan, key, jobs, Scenes(jobs[0].scene.to_toml(), key.name, name, index), first.rows)
         along.find(kicks, order.own.kick_speed, order.own.seed)
 
-        def job_of(motion, labels: dict) -> Job:
-            job = jobs[motion.at]
-            if motion.found_by == FROM_REST:
-                return replace(job, labels={**job.labels, **labels})
-            return judged_job(order, {**job.labels, **labels}, job.scene, motion.state.at_zero())
-
-        others = {
-            motion: job_of(motion, {}) for some in along.motions for motion in some if motion.found_by != FROM_REST
-        }
+        others = {motion: job_of(order, job, motion, {}) for motion, job in along.beside_rest(jobs)}
         there |= {job.key for job in others.values() if trajectory_path(plan.how.out, job.key).exists()}
         more, found = run(plan, [*jobs, *others.values()])
-        rows = {row["run_key"]: row for row in found.rows}
-        longer = {motion: run_of(plan.how.out, rows[job.key]) for motion, job in others.items() if job.key in rows}
-        along.merge({motion: settled_of(one) or as_it_is(one) for motion, one in longer.items() if one is not None})
+        along.judged(others, found.rows)
         along.name()
         if len(jobs) > 1:
             ends.bisect(along)
@@ -131,7 +133,7 @@ def every_motion(order: Order, kicks: int, key: Column, name: str, index: int | 
         for at, job in enumerate(jobs):
             some = sorted(along.motions[at], key=lambda one: (len(one.branch.letter), one.branch.letter))
             judged += [] if any(one.found_by == FROM_REST for one in some) else [job]
-            judged += [job_of(motion, along.labels(motion)) for motion in some]
+            judged += [job_of(order, job, motion, along.labels(motion)) for motion in some]
         last, summary = run(plan, judged)
         kept = sum(row["run_key"] in there for row in summary.rows)
         for times in (more, last, along.starts.times):

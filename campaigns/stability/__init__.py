@@ -10,10 +10,12 @@ with a time limit, and says how its verdict is known: energy, refinement, closed
 seed. A verdict "unexplained" ends the campaign with exit code 1.
 """
 
+import math
 from argparse import Namespace
 from collections import Counter
 from collections.abc import Iterator
 
+from campaigns.answers import known
 from campaigns.machinery import cli
 from campaigns.machinery.plan import Summary
 from campaigns.study import Order, Study
@@ -53,6 +55,11 @@ def answer(order: Order, rows: list[dict]) -> Iterator[str]:
     cases = [row for row in rows if row["part"] == "case"]
     counts = Counter(str(row["verdict"]) for row in cases)
     yield f"{len(cases)} cases: {', '.join(f'{count} {word}' for word, count in counts.most_common())}."
+    judged = [row for row in cases if row["verdict"] == "ok" and math.isfinite(known(row, "measured_tension"))]
+    silent = [known(row, "measured_tension") for row in judged if not row.get("message")]
+    if silent:
+        said = f"Largest tensions are off by {100.0 * max(silent):.2g} % at most in {len(silent)} runs that say nothing"
+        yield f"{said}; {len(judged) - len(silent)} more say how far theirs hold."
     yield from (f"Random: {row['case']}: {row['message'][:100]}." for row in rows if row["part"] == "fuzz")
     strange = [str(row["case"]) for row in cases if row["verdict"] == "unexplained"]
     if strange:

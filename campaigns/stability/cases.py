@@ -39,6 +39,11 @@ COLUMNS = (
     Column("run_status", symbol="ended", meaning="how the run ended"),
     Column("measured", "", "measured", "the number that the check measured", 4),
     Column("bar", "", "bar", "what the number has to stay below", 4),
+    Column("stiffness_N", "N", "EA", "stiffness of a linear tension law", 0),
+    Column(
+        "measured_tension", "", "tension", "how far the largest tension at the top is off, over that of the check", 4
+    ),
+    Column("bar_tension", "", "its bar", "what that has to stay below where the run does not say that it is off", 4),
     Column("how", symbol="how we know", meaning="the check"),
     Column("limit", symbol="why", meaning="why another ending is expected"),
     Column("length_s", "s", "run", "length of the run that was asked for", 2),
@@ -55,7 +60,8 @@ class Case:
     """One row of the table.
 
     changes: keys of the scene; check: a function of `campaigns.stability.checks`; bar: what the number that it measures
-    must stay below; quick: whether the case is also part of `--quick`. statuses: what is expected besides "ok" with the
+    must stay below, bar_tension: likewise of the largest tension at the top, where the run does not say that it does
+    not resolve it; quick: whether the case is also part of `--quick`. statuses: what is expected besides "ok" with the
     check below its bar: early ends, REFUSED for a scene that the engine does not accept, ABOVE_BAR for a check that may
     fail; why: the reason.
     """
@@ -66,6 +72,7 @@ class Case:
     length_s: float = 10.0
     check: str = "refined"
     bar: float = 0.02
+    bar_tension: float = 0.03
     statuses: tuple[str, ...] = ()
     why: str = ""
     quick: bool = False
@@ -112,6 +119,7 @@ def case_row(case: Case, path: Path | None = None) -> dict[str, object]:
     row = {"part": "case", "group": case.group, "case": case.name, "length_s": case.length_s, "bar": case.bar}
     row |= {"about": FILE["about"].get(case.group, case.group)}
     row |= {"dimensions": case.changes.get("motion.dimensions", 2), "case_wall_s": wall_s, **answer}
+    row |= {"bar_tension": case.bar_tension} if row.get("measured_tension") is not None else {}
     return row | {"status": UNEXPLAINED if answer["verdict"] == UNEXPLAINED else "ok"}
 
 
@@ -140,7 +148,11 @@ def _judged(case: Case, path: Path | None) -> dict[str, object]:
         known = run.status in case.statuses
         verdict = UNEXPLAINED if not known else REFUSED if run.status == "statics-failed" else LIMIT
         return row | {"verdict": verdict, "how": "ended with its reason", "limit": case.why}
-    measured, how = getattr(checks, case.check)(run, case)
-    verdict = OK if measured <= case.bar else LIMIT if ABOVE_BAR in case.statuses else UNEXPLAINED
-    row |= {"verdict": verdict, "measured": measured if math.isfinite(measured) else None, "how": how}
+    measured, how, *tensions = getattr(checks, case.check)(run, case)
+    right = measured <= case.bar and (run.message or all(tension <= case.bar_tension for tension in tensions))
+    verdict = OK if right else LIMIT if ABOVE_BAR in case.statuses else UNEXPLAINED
+    found = {"measured": measured, "stiffness_N": getattr(scene.tether.tension, "stiffness_N", None)}
+    found["measured_tension"] = tensions[0] if tensions else None
+    row |= {name: number if number is not None and math.isfinite(number) else None for name, number in found.items()}
+    row |= {"verdict": verdict, "how": how}
     return row | ({"limit": case.why} if verdict == LIMIT else {})

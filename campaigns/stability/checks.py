@@ -1,7 +1,9 @@
 """How a finished run of `campaigns.stability` is judged: each check measures one number that a bar is set for.
 
-check(run, case) -> (measured, how we know): `run` is a finished trajectory whose status is "ok". Nothing here knows
-what the engine does inside; where another run is needed (refinement) it is made by the public `simulate`.
+check(run, case) -> (measured, how we know) or (measured, how we know, tension): `run` is a finished trajectory whose
+status is "ok"; tension: what the largest tension at the top is off, over that of the closed form or the other run.
+Nothing here knows what the engine does inside; where another run is needed (refinement) it is made by the public
+`simulate`.
 """
 
 from __future__ import annotations
@@ -17,7 +19,8 @@ from engine.scales import strain_at, tension_at
 if TYPE_CHECKING:
     from campaigns.stability.cases import Case
 
-FINER_NODES, FINER_RTOL = 2, 10.0
+FINER_NODES, FINER_RTOL, FINER_STEPS = 2, 10.0, 4
+SAMPLES = 1000  # of a closed form in a period
 PUSHED_S, SEEN = 0.02, (1e-5, 3e-4)  # after the push of the case; share of the length, small enough to be linear
 CLOSED_GROWTH = "closed form of the fastest buckle"
 LEAST_RANGE = 1e-3  # of the length: below this a difference is measured against the length, not against the motion
@@ -51,27 +54,122 @@ def stays(run: Trajectory, case: Case) -> tuple[float, str]:
     return float(moved) / run.scene.tether.length_m, "static equilibrium stays"
 
 
-def refined(run: Trajectory, case: Case) -> tuple[float, str]:
-    """Rms difference of r from a run of twice the elements and a tenth of the tolerance, over the range of r."""
-    nodes, rtol = FINER_NODES * (run.scene.tether.nodes - 1) + 1, run.scene.solver.rtol / FINER_RTOL
-    return difference(run, case, {"tether.nodes": nodes, "solver.rtol": rtol}), "refinement"
+def refined(run: Trajectory, case: Case) -> tuple[float, str, float]:
+    """Rms difference of r, over its range, from a run of twice the elements, a tenth of the tolerance, and a quarter of
+    the longest step, by the default method whatever that of the case.
+    """
+    nodes, solver = FINER_NODES * (run.scene.tether.nodes - 1) + 1, run.scene.solver
+    finer = {"tether.nodes": nodes, "solver.rtol": solver.rtol / FINER_RTOL, "solver.integrator": "esdirk43"}
+    finer["solver.max_step_s"] = max(solver.max_step_s / FINER_STEPS, solver.min_step_s)
+    return compared(run, case, finer, "refinement")
 
 
-def as_fine(run: Trajectory, case: Case) -> tuple[float, str]:
+def as_fine(run: Trajectory, case: Case) -> tuple[float, str, float]:
     """The same from a run with the number of nodes that the case names."""
     nodes = case.options["nodes"]
     finer = {"tether.nodes": nodes, "tether.grid_stretching": 0.0, "tether.grid_refined": "both"}
-    return difference(run, case, {**finer, "solver.rtol": 0.01}), f"run on {nodes} even nodes"
+    return compared(run, case, {**finer, "solver.rtol": 0.01}, f"run on {nodes} even nodes")
 
 
-def difference(run: Trajectory, case: Case, changes: dict) -> float:
-    """Rms of r - r' over the range of r', r' of the run with changes; infinite where that one does not end well."""
+def compared(run: Trajectory, case: Case, changes: dict, how: str) -> tuple[float, str, float]:
+    """Rms of r - r' over the range of r', r' of the run with changes, and how far the largest tensions are apart.
+
+    Both are infinite where that run does not end well.
+    """
     other = simulate(load_scene("tethered_buoy", {**case.changes, **changes}), duration_s=case.length_s)
     if other.status != "ok":
-        return math.inf
+        return math.inf, how, math.inf
     r, finer = run.columns["radius_m"], other.columns["radius_m"]
     scale = max(float(np.ptp(finer)), LEAST_RANGE * run.scene.tether.length_m)
-    return float(np.sqrt(np.mean((r - finer) ** 2))) / scale
+    return float(np.sqrt(np.mean((r - finer) ** 2))) / scale, how, apart(largest_N(run), largest_N(other))
+
+
+def largest_N(run: Trajectory) -> float:
+    """Largest tension at the top, between the samples too."""
+    return float(run.columns["tension_top_high_N"].max())
+
+
+def apart(found: float, right: float) -> float:
+    """Relative distance from what is right."""
+    return abs(found / right - 1.0)
+
+
+def heave(run: Trajectory, case: Case) -> tuple[float, str, float]:
+    """Relative loss of the swing of tension in the last tenth of a free heave without drag, which stays for ever."""
+    swing_N = abs(run.scene.start.buoy_displacement_m[2]) * run.scene.tether.tension.stiffness_N
+    swing_N /= run.scene.tether.length_m
+    last = slice(-len(run.columns["time_s"]) // 10, None)
+    high, low = run.columns["tension_top_high_N"], run.columns["tension_top_low_N"]
+    mean_N = 0.5 * (high.max() + low.min())
+    kept = 0.5 * (high[last].max() - low[last].min())
+    return apart(kept, swing_N), "closed form of free heave", apart(mean_N + kept, mean_N + swing_N)
+
+
+def shaken(run: Trajectory, case: Case) -> tuple[float, str, float]:
+    """Distance of the largest change of tension from that of a bar whose end is shaken along it, over the latter.
+
+    T - T_0 = sqrt(m EA) (v(t) + 2 sum_j v(t - 2 j l_0/c)), v the speed of the end: d'Alembert's waves, dry, no drag.
+    """
+    tether, motion = run.scene.tether, run.scene.end.motion
+    EA, m = tether.tension.stiffness_N, tether.density_kgpm3 * tether.area_m2
+    back_s = 2.0 * tether.length_m * math.sqrt(m / EA)
+    parts = math.ceil(back_s / motion.period_s * SAMPLES)
+    t = np.arange(math.ceil(case.length_s / back_s) * parts) * (back_s / parts)
+    ramp = np.sin(0.5 * math.pi * np.minimum(t / motion.ramp_s, 1.0)) ** 2 if motion.ramp_s else 1.0
+    v = np.gradient(ramp * np.sin(2.0 * math.pi / motion.period_s * t + motion.phase_rad), t)
+    before = v.reshape(-1, parts)  # a row for each time that a wave takes there and back
+    waves = 2.0 * np.cumsum(before, axis=0) - before
+    largest = waves.ravel()[t <= case.length_s].max()
+    right_N = math.hypot(*motion.amplitude_m) * math.sqrt(m * EA) * float(largest)
+    rest_N = float(run.columns["tension_top_N"][0])
+    found_N = largest_N(run)
+    return apart(found_N - rest_N, right_N), "waves in a bar", apart(found_N, rest_N + right_N)
+
+
+def pendulum(run: Trajectory, case: Case) -> tuple[float, str, float]:
+    """Largest tension of a bob thrown sideways with v on a light stiff dry line: M g + 2 M v^2/l, because the half of
+    the second term that was not there at t = 0 rings.
+    """
+    scene, line = run.scene, run.scene.tether
+    speed = math.hypot(*scene.start.buoy_velocity_mps)
+    right_N = scene.buoy.mass_kg * (scene.gravity_mps2 + 2.0 * speed**2 / line.length_m)
+    return apart(largest_N(run), right_N), "closed form of a pendulum", apart(largest_N(run), right_N)
+
+
+POWERS = {
+    "_mps2": 0.0,
+    "_mps": 0.5,
+    "_m": 1.0,
+    "_m2": 2.0,
+    "_s": 0.5,
+    "_kg": 3.0,
+    "_N": 3.0,
+    "_Nm2": 5.0,
+}
+
+
+def froude(run: Trajectory, case: Case) -> tuple[float, str, float]:
+    """Distance of r over the size, and of the tension over its cube, from a run of the scene so many times as large."""
+    size = case.options["size"]
+
+    def scaled(part: dict) -> dict:
+        found = {}
+        for key, value in part.items():
+            power = next((power for unit, power in POWERS.items() if key.endswith(unit)), 0.0)
+            if isinstance(value, dict):
+                found[key] = scaled(value)
+            elif power and value is not None:
+                found[key] = (np.array(value) * size**power).tolist()
+            else:
+                found[key] = value
+        return found
+
+    large = type(run.scene).model_validate(scaled(run.scene.model_dump()))
+    other = simulate(large, duration_s=case.length_s * math.sqrt(size))
+    samples = min(len(run.columns["radius_m"]), len(other.columns["radius_m"]))
+    r, larger = run.columns["radius_m"][:samples], other.columns["radius_m"][:samples] / size
+    distance = float(np.abs(r - larger).max()) / float(np.ptp(r))
+    return distance, f"the scene {size:g} times as large", apart(largest_N(run), largest_N(other) / size**3)
 
 
 def bounded(run: Trajectory, case: Case) -> tuple[float, str]:

@@ -6,13 +6,14 @@
 
 Protocol: the same scene, start and length for every value of the keys; the transient is left out of all that is
 measured. A buoy in regular waves gets the rows of `campaigns.buoy_sweep`, with regime and exponents where the run is
-long enough; any other line gets extremes, tension and the solver's counts. Nothing is random.
+long enough, and over one key how far each largest tension holds; any other line gets extremes, tension and the solver's
+counts. Nothing is random.
 """
 
 import contextlib
 import re
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import partial, reduce
 from itertools import product
@@ -69,8 +70,8 @@ class Varied:
         return found
 
 
-def varied(words: list[str], faults: list[str]) -> Varied | None:
-    """The key and values of KEY LO HI COUNT; None where one is at fault."""
+def varied(words: list[str], faults: list[str], option: str = "--vary", of_words: bool = False) -> Varied | None:
+    """The key and values of KEY LO HI COUNT; None where one is at fault. of_words: or of KEY WORD WORD ..."""
     from engine.scene.faults import suggestion
     from engine.scene.reference import keys
 
@@ -78,15 +79,18 @@ def varied(words: list[str], faults: list[str]) -> Varied | None:
     element = re.fullmatch(r"(.+)\[(\d+)\]", key)
     name, index = (element[1], int(element[2])) if element else (key, None)
     known = keys()
-    values = cli.evenly(words[1:], f"--vary {key}", faults)
+    told = of_words and name in known and known[name].kind == "text"
+    values = list(dict.fromkeys(words[1:])) if told else cli.evenly(words[1:], f"{option} {key}", faults)
     if name not in known:
-        faults.append(f"--vary {key}: no such key{suggestion(name, list(known))}")
+        faults.append(f"{option} {key}: no such key{suggestion(name, list(known))}")
         return None
     kind = known[name].kind
-    if kind not in ("number", "whole number") and not (kind == "list" and element):
+    if kind not in ("number", "whole number") and not (kind == "list" and element) and not told:
         a_list = f"one element of it, as {name}[0]" if kind == "list" else "a key that holds a number"
-        faults.append(f"--vary {key}: holds a {kind}; allowed: {a_list}")
+        faults.append(f"{option} {key}: holds a {kind}; allowed: {a_list}")
         return None
+    if told and not values:
+        faults.append(f"{option} {key}: given nothing; allowed: its words")
     if kind == "whole number":
         values = list(dict.fromkeys(round(value) for value in values))
     if not values:
@@ -94,7 +98,7 @@ def varied(words: list[str], faults: list[str]) -> Varied | None:
     declared = known[name]
     unit = "" if declared.unit == "1" else declared.unit
     symbol = declared.symbol if declared.symbol not in ("", "-", "–") else key.rpartition(".")[2]
-    digits = max(len(f"{value:.6f}".rstrip("0").partition(".")[2]) for value in values)
+    digits = None if told else max(len(f"{value:.6f}".rstrip("0").partition(".")[2]) for value in values)
     meaning = declared.meaning[:1].lower() + declared.meaning[1:].rstrip(".")
     return Varied(key, name, index, tuple(values), Column(key, unit, symbol, meaning, digits))
 
@@ -210,10 +214,18 @@ def parameters(order: Order) -> dict[str, object]:
     return told | motions.parameters(order, starts_of(order))
 
 
+def beside(order: Order) -> Iterator[Callable]:
+    """What follows the runs over one key: the errors of their largest tensions (`campaigns.buoy_sweep.errors`)."""
+    if len(order.own.vary) == 1 and any(in_regular_waves(case.scene) for case in order.cases):
+        from campaigns.buoy_sweep.errors import errors
+
+        yield errors
+
+
 def answer(order: Order, rows: list[dict]) -> list[str]:
     """Over one key as `campaigns.buoy_sweep.answer`; over two how often each regime is found, and the largest load."""
-    from campaigns.answers import greatest, kilonewton, known
-    from campaigns.buoy_sweep.answer import PEAK, sentences
+    from campaigns.answers import greatest, known
+    from campaigns.buoy_sweep.answer import PEAK, largest, sentences
 
     keys = [one.key for one in order.own.vary]
     if len(keys) == 1:
@@ -226,7 +238,7 @@ def answer(order: Order, rows: list[dict]) -> list[str]:
     said = [f"{len(rows)} runs: {', '.join(f'{word} {count}' for word, count in counts.most_common())}."]
     if (peak := greatest(rows, PEAK)) is not None:
         where = " and ".join(f"{key} = {known(peak, key):.4g}" for key in keys)
-        said.append(f"Largest tension {kilonewton(known(peak, PEAK))} at {where}.")
+        said.append(f"Largest tension {largest(peak)} at {where}.")
     return said
 
 
@@ -241,6 +253,8 @@ STUDY = Study(
     measures=measures,
     parameters=parameters,
     runs=runs,
+    beside=beside,
+    after=0.05,
     answer=answer,
 )
 main, parser, read_order = STUDY.main, STUDY.parser, STUDY.read_order

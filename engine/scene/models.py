@@ -74,7 +74,8 @@ class Solver(Section):
     )
     rtol: Tolerance = described("tolerance of the step control", 0.03)
     step_s: Positive | None = described(
-        "fixed step; by default controlled by rtol, or T_i/400 for methods of fixed steps", None
+        "fixed step; by default controlled by rtol, or of methods of fixed steps a 400th of what drives",
+        None,
     )
     courant: Positive | None = described(
         "fixed step as this times (shortest element)/(fastest axial wave)", None, paper="(29)"
@@ -87,7 +88,8 @@ class Solver(Section):
     newton_tolerance: Tolerance | None = described("tolerance of the scaled Newton update; by default rtol/100", None)
     max_newton_iterations: Count = described("Newton iterations after which a step is cut", 12)
     shortest_period_s: Positive | None = described(
-        "axial ringing of shorter periods is damped, and the run says how much; by default a fifth of max_step_s", None
+        "axial ringing of shorter periods is damped, and the run says how much; by default a fiftieth of max_step_s",
+        None,
     )
     growth_per_step: Positive = described("e-folds that the fastest buckle may grow in one adaptive step", 2.0)
     spectral_radius: UnitInterval = described("spectral radius of generalized-alpha at infinite frequency", 0.5)

@@ -29,8 +29,9 @@ def check_room(scene, duration_s):
     """Raises ValueError with the key to change where a run would never end, or keep more than memory usually holds."""
     kept, output = scene.sample_step_s(), scene.output
     values = scene.tether.nodes * PROFILE_WIDTH if output.profiles else 0
+    longest, longest_s = longest_step(scene)
     for key, step_s, of_each, most, noun in (
-        (*longest_step(scene), 1, MOST_STEPS, "steps"),
+        (longest, longest_s, 1, MOST_STEPS, "steps"),
         ("output.step_s", kept, 1, MOST_SAMPLES, "samples"),
         ("output.profiles_step_s", output.profiles_step_s or kept, values, MOST_PROFILE_VALUES, "values of profiles"),
     ):
@@ -39,4 +40,9 @@ def check_room(scene, duration_s):
             raise ValueError(
                 f"{key}: {step_s:g} s makes {count:.3g} {noun} or more in a run of {duration_s:g} s; allowed: at most "
                 f"{most:.3g}, {least} or a shorter run"
+            )
+        if noun != "steps" and (passed := longest_s / step_s * of_each) > most:  # the last step goes past the end
+            raise ValueError(
+                f"{longest}: a step of {longest_s:g} s may pass {passed:.3g} {noun}; allowed: at most {most:.3g}, a "
+                "shorter step"
             )

@@ -15,8 +15,11 @@ WORDS = dict(
 )
 
 UNRESOLVED = (  # of a run that is ok
-    "axial ringing of period {period:.2g} s is not resolved by steps of up to {step:.2g} s: tensions hold to "
-    "{tension:.2g} N; lower solver.shortest_period_s or solver.max_step_s"
+    "{what} not resolved by steps of up to {step:.2g} s: tensions hold to {tension:.2g} N; lower {key}"
+)
+WAVES_ON_ELEMENT = (
+    "elements of {length:.2g} m are longer than the waves reach down ({depth:.2g} m): tensions hold to {force:.2g} N; "
+    "add nodes, or refine the grid upwards (tether.grid_stretching)"
 )
 ADVICE = {  # of the conservation form; `paper_box.driver` has its own
     OK: "",

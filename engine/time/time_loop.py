@@ -244,7 +244,7 @@ def march(p, tables, state, motion, output, trail, until, one_stage, e_t, budget
                 code, used = one_stage_step(p, tables, step, one_stage, p.max_newton, motion, trial, work)
         Y_new, K_new, jumps = trial.Y[s - 1], trial.K[s - 1], (0.0, 0.0)
         least, top = least_strain(Y_new), Y_new[p.nodes - 1, EPS]
-        if code == OK and stiff and not small:
+        if code == OK and not small:
             jumps = jumps_of_rates(p, step.dt, (C, K), (trial.C, K_new))
             if p.adaptive:
                 error = trial_error(p, tables, step.dt, error, least, top, jumps)
@@ -253,8 +253,8 @@ def march(p, tables, state, motion, output, trail, until, one_stage, e_t, budget
         # what lies within the accepted step goes into the output
         hermite = stiff and not small
         sample(p, tables, state, step.dt, hermite, (C, K), (trial.C, K_new), output.samples, output.profiles)
-        if hermite:
-            low, high = stage_strains(trial.Y)
+        if not small and state.ringing >= 0.0:
+            low, high = stage_strains(trial.Y) if stiff else (top, top)
             watch_ringing(p, tables, state, top, low, high, jumps)
         if budget is not None:
             energies, sums = budget

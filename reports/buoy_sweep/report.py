@@ -7,7 +7,7 @@ from pathlib import Path
 from ..parts.content import Heading, Item, Notice, Report, Text
 from ..parts.provenance import appendix, provenance_items
 from ..parts.sections import section_items
-from ..parts.wording import T_I, TAU_0, decimals, number
+from ..parts.wording import T_I, TAU_0, decimals, number, percent
 from ..sweep.motions import every_motion
 from ..sweep.quantities import extremes
 from .figures import close_up_items, orbit_figure, regime_items
@@ -20,6 +20,7 @@ _EXTREMES = (
     "slack_fraction", "tension_top_max_N", "radius_min_m", "radius_max_m", "loop_releases", "rope_lateral_max_m",
     "buoy_lateral_max_m",
 )  # fmt: skip
+_COARSE = 0.05  # of the largest tension, as in `campaigns.buoy_sweep.answer`
 _OF_THESE = "Least and greatest value in the runs that ended as asked."
 _RESOLVED_RAD = 0.5 * math.pi  # turn of one element beyond which a loop is no longer resolved
 _NOTHING = "No run failed, no loop was released, the buoy stayed in the water, and every record lasts for eq. (31)."
@@ -92,6 +93,10 @@ def warnings(sweep: Sweep) -> Notice:
          "plane”", [run for run in runs if run["loop_releases"] > 0]),
         (f"axial ringing of the line is not resolved: tensions hold to {number(rung_N, 2)} N or better; lower "
          "`solver.shortest_period_s`", ringing),
+        (f"largest tensions hold to no better than {percent(_COARSE)} (column ± T_max)",
+         [run for run in runs if run["tension_top_max_error_N"] > _COARSE * run["tension_top_max_N"]]),
+        ("with smaller elements and steps the motion becomes another one (column message)",
+         [run for run in runs if "becomes another motion" in (run["message"] or "")]),
         ("in three dimensions an element turns by more than π/2: its loops are not resolved, add `tether.nodes`",
          [run for run in runs if run.in_space and run["max_turn_rad"] > _RESOLVED_RAD]),
         (f"already at rest the top of the buoy is {decimals(dry_m, 2)} m above still water",

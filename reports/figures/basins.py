@@ -48,7 +48,7 @@ def basin_map(
             inside = numbers == k
             if smallest is not None and (kept := inside & _aside(places)).any():  # of the arrow
                 inside = kept
-            if (at := _widest(inside)) is not None:
+            if (at := widest(inside)) is not None:
                 where = (places[0][at[1]], places[1][at[0]])
                 axes.text(*where, letter, ha="center", va="center", fontsize=13, weight="bold", path_effects=halo)
         if smallest is not None:
@@ -81,8 +81,8 @@ def _aside(places: tuple[np.ndarray, np.ndarray]) -> np.ndarray:
     return np.hypot(x[None, :], 0.0 if y.min() >= 0.0 else y[:, None]) + 0.0 * y[:, None] > 0.15
 
 
-def _widest(inside: np.ndarray) -> tuple[int, int] | None:
-    """The cell that is farthest from all outside; None where there is none."""
+def widest(inside: np.ndarray, least: float = 0.0) -> tuple[int, int] | None:
+    """The cell that is farthest from all outside; None where none is as far as `least` cells."""
     from scipy.ndimage import distance_transform_edt
 
     if not inside.any():
@@ -90,4 +90,5 @@ def _widest(inside: np.ndarray) -> tuple[int, int] | None:
     far = distance_transform_edt(np.pad(inside, 1))[1:-1, 1:-1]
     up, across = np.indices(inside.shape)
     aside = np.hypot(up / inside.shape[0] - 0.5, across / inside.shape[1] - 0.5)  # of equals the one in the middle
-    return tuple(map(int, np.unravel_index(int(np.argmax(far - 0.1 * aside)), far.shape)))
+    found = np.unravel_index(int(np.argmax(far - 0.1 * aside)), far.shape)
+    return tuple(map(int, found)) if far[found] >= least else None

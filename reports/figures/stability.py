@@ -1,11 +1,33 @@
-"""The stability report's figures: eigenvalues of one-step maps in the unit circle; what parts of a scene cost."""
+"""The stability report's figures: error and cost over stiffness; eigenvalues of one-step maps in the unit circle; what
+parts of a scene cost.
+"""
 
 import numpy as np
 
 from ..parts.content import Picture
-from ..parts.style import BLUE, SOFT, VERMILION, picture_of, sheet
+from ..parts.style import BLUE, GREEN, ORANGE, SOFT, VERMILION, picture_of, sheet
 
 ROOM = 1.25  # half width of a panel; what lies outside is drawn on its edge
+
+
+def stiffness(checks: dict[str, np.ndarray], least: float = 1e-8) -> Picture:
+    """checks: name -> (stiffness in N, error of the largest tension, cost over the default scene's) (3, m).
+
+    Errors below `least` are drawn there.
+    """
+    with sheet(2.6) as figure:
+        panels = figure.subplots(1, 2)
+        looks = zip((BLUE, VERMILION, GREEN, ORANGE), "osD^", strict=True)
+        for (name, (stiff, error, cost)), (color, mark) in zip(checks.items(), looks, strict=False):
+            for axes, values in zip(panels, (np.maximum(error, least), cost), strict=True):
+                axes.plot(stiff, values, mark, color=color, markersize=3.5, label=name)
+        for axes in panels:
+            axes.set(xscale="log", yscale="log", xlabel="axial stiffness EA (N)")
+        panels[0].set_ylabel("error of the largest tension (–)")
+        panels[1].set_ylabel("Newton iterations a second,\nover the default scene's (–)")
+        handles, names = panels[0].get_legend_handles_labels()
+        figure.legend(handles, names, loc="outside upper center", ncols=len(names), fontsize=7.0)
+        return picture_of(figure)
 
 
 def step_maps(methods: dict[str, np.ndarray]) -> Picture:

@@ -11,7 +11,7 @@ from __future__ import annotations
 import re
 from collections import Counter
 from dataclasses import dataclass
-from typing import Literal
+from typing import Literal, NamedTuple
 
 
 @dataclass(frozen=True)
@@ -62,7 +62,8 @@ class Figure:
     """A drawing with its caption (what is seen, from which columns) and its description for those who cannot see it.
 
     `moving`: shown below `picture` on the page, in a part that can be closed; those who asked their system for less
-    motion see `picture` alone. `narrow`: shown in its place on a telephone.
+    motion see `picture` alone. `narrow`: shown in its place on a telephone. `places`: where maps stand on each of these
+    two, for `CellSheets`.
     Raises ValueError when caption or description is empty: a figure without them is not allowed into a report.
     """
 
@@ -71,6 +72,7 @@ class Figure:
     alt: str
     moving: Picture | None = None
     narrow: Picture | None = None
+    places: tuple[tuple[MapPlace, ...], ...] = ()
 
     def __post_init__(self) -> None:
         if not self.caption.strip() or not self.alt.strip():
@@ -174,6 +176,26 @@ class Sheet:
     chosen: bool = False
 
 
+class MapPlace(NamedTuple):
+    """Where a map stands on a picture, in shares of it: left, top, width, height; the ends of its axes; its page."""
+
+    place: tuple[float, float, float, float]
+    ends: tuple[float, float, float, float]
+    page: int = 0
+
+
+@dataclass(frozen=True)
+class CellSheets:
+    """All about each cell of the maps on a page whose reader allows scripts; there is nothing of it elsewhere.
+
+    heads: (name, unit) of the facts of a motion. cells: one a cell, as JSON has it: page, box (left, right, low, high),
+    name, note, scales (ends of r and T), motions (letter, colour, facts, what is said, series of 0 to 999).
+    """
+
+    heads: tuple[tuple[str, str], ...]
+    cells: tuple[dict, ...]
+
+
 @dataclass(frozen=True)
 class Links:
     """A list of other files: what each is, and its path from the report's own folder."""
@@ -181,7 +203,7 @@ class Links:
     files: tuple[tuple[str, str], ...]
 
 
-Item = Heading | Text | Bullets | Equation | Figure | Table | Notice | Listing | Explorer | Sheet | Links
+Item = Heading | Text | Bullets | Equation | Figure | Table | Notice | Listing | Explorer | Sheet | CellSheets | Links
 
 
 @dataclass(frozen=True)

@@ -8,12 +8,13 @@ import base64
 import json
 import math
 import re
+import zlib
 from collections.abc import Iterable
 from dataclasses import asdict, replace
 from functools import lru_cache
 from html import escape
 
-from .content import Equation, Explorer, Picture, Report, numbered, plain, spans
+from .content import CellSheets, Equation, Explorer, Picture, Report, numbered, plain, spans
 
 _MEDIA = {"svg": "image/svg+xml", "png": "image/png", "gif": "image/gif"}
 _SNIPPET = """#set document(date: none)
@@ -32,7 +33,7 @@ def render_html(report: Report) -> bytes:
     strictly = {"autoescape": True, "undefined": StrictUndefined}
     environment = Environment(loader=loader, trim_blocks=True, lstrip_blocks=True, **strictly)
     environment.globals.update(spans=spans, plain=plain, data_uri=data_uri)
-    environment.globals.update(equation_svg=equation_svg, explorer_json=explorer_json)
+    environment.globals.update(equation_svg=equation_svg, explorer_json=explorer_json, packed=packed)
     template, blocks = environment.get_template("report.html.jinja"), numbered(report.items)
     first = next((place for place, block in enumerate(blocks) if block["kind"] == "heading"), len(blocks))
     return template.render(report=report, blocks=blocks, parts=(blocks[:first], blocks[first:])).encode()
@@ -82,6 +83,13 @@ def explorer_json(explorer: Explorer) -> str:
     }
     # "<" would let a name end the script element that the line stands in
     return json.dumps(content, separators=(",", ":"), allow_nan=False).replace("<", "\\u003c")
+
+
+def packed(sheets: CellSheets) -> str:
+    """The sheets of cells as JSON, deflated, in base64: a page may have thousands."""
+    return base64.b64encode(
+        zlib.compress(json.dumps(sheets.cells, separators=(",", ":"), allow_nan=False).encode(), 9)
+    ).decode()
 
 
 def _numbers(values: Iterable[float], digits: int = 6) -> list[float | None]:

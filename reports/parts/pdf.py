@@ -11,7 +11,7 @@ from importlib.resources import files
 from itertools import pairwise
 from pathlib import Path
 
-from .content import Equation, Explorer, Figure, Listing, Picture, Report, Sheet, numbered, spans
+from .content import CellSheets, Equation, Explorer, Figure, Listing, Picture, Report, Sheet, numbered, spans
 
 _LONGEST_TITLE = 90  # letters above a page
 
@@ -36,12 +36,13 @@ def render_pdf(report: Report) -> bytes:
 def typst_data(report: Report) -> tuple[dict, dict[str, bytes]]:
     """What the template reads: the report as JSON has it, and the pictures it names, by file name.
 
-    The explorer is on the page only, and so are sheets that are not chosen: on paper they would be hundreds.
+    Explorer and sheets of cells are on the page only, and so are sheets that are not chosen: on paper they would be
+    hundreds.
     """
     pictures, items = {}, []
     for block in numbered(report.items):
         item = block["item"]
-        if isinstance(item, Explorer) or (isinstance(item, Sheet) and not item.chosen):
+        if isinstance(item, Explorer | CellSheets) or (isinstance(item, Sheet) and not item.chosen):
             continue
         entry = {**_pieces(item), "type": type(item).__name__.lower(), "number": block["number"]}
         match item:

@@ -29,6 +29,7 @@ INK, SOFT, GRID = (_SETTINGS[name] for name in ("text.color", "axes.edgecolor", 
 REGIME_COLOURS = {
     "period-": BLUE, "quasi-periodic": GREEN, "chaotic": VERMILION, "transient": PURPLE, "undecided": SOFT,
 }  # fmt: skip
+MAP_PERIODS = ("#a9d3ee", BLUE, "#00365c")  # of periods 1, 2, and more, on a map
 SHADES = ("#f7f1e6", "#eee0c8")  # of ranges that a reader should know of, the later over the earlier
 
 

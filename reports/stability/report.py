@@ -11,7 +11,7 @@ from statistics import median
 
 import numpy as np
 
-from ..figures.stability import scene_shares, step_maps
+from ..figures.stability import scene_shares, step_maps, stiffness
 from ..parts.columns import Quantity, table_of, value
 from ..parts.content import Bullets, Figure, Heading, Item, Notice, Report, Table, Text, heads
 from ..parts.folder import FolderError, read_files
@@ -30,6 +30,7 @@ def report(directory: str | Path) -> Report:
         Heading("The answer in numbers"),
         Bullets(tuple(_answers(study))),
         *unexplained_items(study),
+        *stiffness_items(study),
         *case_items(study),
         *limit_items(study),
         *random_items(study),
@@ -82,12 +83,17 @@ FILES = {
 SOUND = ("ok", "ended", "refused")  # outcomes of random scenes; any other is a fault of the program
 HOW = (
     "Checks. Closed form: the largest distance from it. Refinement, or a run on other nodes: rms difference of r "
-    "from a run with twice the elements and a tenth of the tolerance (or the nodes named), over the range of r. "
+    "from a run with twice the elements and a tenth of the tolerance (or the nodes named), over its range. "
     "Energy: largest change of the total over the largest kinetic energy, without water. Static equilibrium stays, "
-    "symmetry, r stays: the largest movement over the length. Finite and complete: every sample is there and is a "
-    "number; this is asked of every run. A case is ok where the measured number is below its bar."
+    "symmetry, r stays: the largest movement over the length. Tension: how far the largest one at the top is off. "
+    "Finite and complete: every sample is there and is a number; this is asked of every run. A case is ok where its "
+    "numbers are below their bars, or the run itself says that its tensions hold no better (ringing)."
 )
-SHOWN = ("case", "dimensions", "verdict", "run_status", "how", "measured", "bar", "length_s", "case_wall_s")
+SHOWN = (
+    "case", "dimensions", "verdict", "run_status", "how", "measured", "bar", "measured_tension", "bar_tension",
+    "unresolved_ringing_N", "length_s", "case_wall_s",
+)  # fmt: skip
+DEFAULT = "EA", "EA = 50000 N, regular wave"  # whose cost is the unit
 
 
 @dataclass(frozen=True, eq=False)
@@ -136,6 +142,32 @@ def case_items(study: Study) -> list[Item]:
     caption = "Cases and verdicts, from `table.csv`."
     own = {name: cell(name) for name in SHOWN}
     return [Heading("Cases and verdicts"), Text(HOW), table_of(study.columns, SHOWN, rows, caption, own)]
+
+
+def stiffness_items(study: Study) -> Iterator[Item]:
+    """Error of the largest tension, and cost, over stiffness; nothing without the case whose cost is the unit."""
+    rows = [row for row in study.judged("ok") if row["measured_tension"] and not row["message"]]
+    rows = [row for row in rows if row["group"] == "EA" or row["how"] == "waves in a bar"]
+    costs = {row["run_key"]: value(row, "newton_iterations") / value(row, "length_s") for row in rows}
+    unit = [costs[row["run_key"]] for row in rows if (row["group"], row["case"]) == DEFAULT]
+    checks: dict[str, list[tuple[float, ...]]] = {}
+    for row in rows if unit else ():
+        if math.isfinite(value(row, "stiffness_N")):
+            point = value(row, "stiffness_N"), value(row, "measured_tension"), costs[row["run_key"]] / unit[0]
+            checks.setdefault(row["how"], []).append(point)
+    if not checks:
+        return
+    points = {name: np.array(found).T for name, found in checks.items()}
+    worst = max(found[1].max() for found in points.values())
+    most = max(found[2].max() for found in points.values())
+    seen = f"errors up to {number(worst, 2)}, {number(most, 2)} times as many iterations at most"
+    yield Heading("Tension and cost over stiffness")
+    yield Figure(
+        stiffness(points),
+        f"Largest tension at the top against what it should be, and its cost: {seen}. A stiff line costs more only "
+        "while it rings. From `table.csv`.",
+        f"Error of the largest tension and cost over axial stiffness: {seen}.",
+    )
 
 
 def limit_items(study: Study) -> Iterator[Item]:

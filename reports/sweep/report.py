@@ -96,10 +96,15 @@ def batched(items: Sequence, most: int) -> list[Sequence]:
 
 def _failed(keys: Sequence[Quantity], rows) -> Notice:
     failed = [row for row in rows if row["status"] != "ok"]
-    ringing = [row for row in rows if row not in failed and float(row.get("unresolved_ringing_N") or 0.0) > 0.0]
-    if not failed and not ringing:
+    less = [
+        row
+        for row in rows
+        if row not in failed
+        and (float(row.get("unresolved_ringing_N") or 0.0) > 0.0 or "largest tension" in str(row["message"]))
+    ]
+    if not failed and not less:
         return Notice("note", "Nothing to warn of", ("Every run reached its full length.",))
-    lines = (": ".join(filter(None, (at(keys, row), row["status"], row["message"]))) for row in failed + ringing)
+    lines = (": ".join(filter(None, (at(keys, row), row["status"], row["message"]))) for row in failed + less)
     return Notice("warning", "Runs that failed" if failed else "Tensions that hold less", tuple(lines))
 
 

@@ -14,15 +14,7 @@ from PIL import Image
 from campaigns import buoy_sweep
 from campaigns.buoy_sweep import batches
 from campaigns.buoy_sweep.answer import AS_RUN
-from campaigns.buoy_sweep.batches import (
-    ACCURACY,
-    FINER,
-    FRAMES,
-    PERIODS,
-    TIGHTER,
-    chosen,
-)
-from campaigns.buoy_sweep.errors import error_N
+from campaigns.buoy_sweep.batches import ACCURACY, FINER, FRAMES, PERIODS, TIGHTER, chosen
 from campaigns.buoy_sweep.rows import buoy_row
 from campaigns.buoy_sweep.space import SEED_MPS
 from campaigns.columns import names
@@ -288,9 +280,3 @@ def test_a_run_from_a_state_shares_no_worker_with_runs_from_rest(nine):
     groups = groups_of(plan, mixed)
     assert sum(map(len, groups)) == len(mixed)
     assert all(len({job.going for job in group}) == 1 for group in groups)
-
-
-def test_the_error_of_a_largest_tension_is_of_tolerance_grid_ringing_and_scatter():
-    means = {AS_RUN: 100.0, TIGHTER: 101.0, FINER: 98.0}
-    assert error_N(means, 0.0, 0.0) == 6.0 and error_N(means, 2.0, 6.0) == 10.0
-    assert np.isnan(error_N({AS_RUN: 100.0, TIGHTER: 101.0}, 0.0, 1.0)), "a companion that did not end"

@@ -33,6 +33,7 @@ HELPS = {  # what each tells
     "campaigns.accuracy": "--works",
     "campaigns.orbits": "--vary --values --start-from --motion --orbits --branches --no-accuracy",
     "campaigns.basins": "--across --grid --kick-speed --displacement --seed",
+    "campaigns.regime_map": "--vary --pages --starts --refine --budget --cut --screen",
     "campaigns.oscillator": "--effort",
     "campaigns.out_of_plane": "--periods",
     "campaigns.stability": "--fuzz",

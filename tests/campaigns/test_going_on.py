@@ -37,6 +37,23 @@ def test_what_is_told_or_has_failed_or_used_its_budget_ends(row):
     assert after(**row) is None
 
 
+def test_a_check_as_long_as_the_run_ends_though_its_periods_are_not_whole_to_the_last_digit():
+    row = {
+        "periods": 310.00000000000006,
+        "transient_periods": 103,
+        "regime": "undecided",
+        "regime_tighter": "undecided",
+    }
+    more = after({310: checked(207)}, **row)
+    assert (round(more.periods, 6), more.check) == (155, False)
+
+
+@pytest.mark.parametrize(("most", "ends"), [(309, True), (310, False)])
+def test_the_cell_of_a_map_is_not_looked_at_beyond_its_own_budget(most, ends):
+    row = {**CHAOTIC, "regime": "undecided", "periods": 205.0}
+    assert (going_on(SCENE, RUN, row, {}, 1500, True, most=most) is None) == ends
+
+
 @pytest.mark.parametrize(
     ("regime", "period", "carried"), [("undecided", None, 1), ("undecided", 2, 0), ("transient", None, 0)]
 )

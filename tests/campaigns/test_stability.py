@@ -18,6 +18,7 @@ from tests.campaigns.conftest import rows_of
 
 NOT_STARTED = {"statuses": (REFUSED,)}
 CALM = {"waves.steepness": 0.016, "water.depth_m": 22.5, "tether.nodes": 5}
+DAMPED = CALM | {"tether.tension.stiffness_N": 1e8, "solver.shortest_period_s": 10.0}
 STILL = {"waves": None, "tether.nodes": 5}
 YIELDS = {**STILL, "tether.tension": {"law": "tanh", "p": [1000.0, 10.0, 0.0, 0.0, 0.0]}}
 COLLAPSES = {"start.buoy_velocity_mps": [0.0, 0.0, -1e4], **STILL}
@@ -37,6 +38,8 @@ def may(status: str) -> dict:
         (Case("x", "rest", STILL, **REST), "ok", "ok"),
         (Case("x", "rest", STILL, 2.0, "rest", -1.0), "unexplained", "ok"),
         (Case("x", "above its bar", CALM, 2.0, bar=0.0, statuses=(ABOVE_BAR,), why="because"), "known limit", "ok"),
+        (Case("x", "above that of tension", CALM, 5.0, bar_tension=0.0), "unexplained", "ok"),
+        (Case("x", "above it, and said", DAMPED, 5.0, bar_tension=0.0), "ok", "ok"),
         (Case("x", "invalid", INVALID, **FINITE, **NOT_STARTED), "refused", "refused"),
         (Case("x", "invalid", INVALID, **FINITE), "unexplained", "refused"),
         (Case("x", "too many samples", {"output.step_s": 1e-9}, **FINITE, **NOT_STARTED), "refused", "refused"),
@@ -138,8 +141,10 @@ METHOD |= {"growing": 2, "growing_found": 2}
 SHARE = {"us_per_newton": 5.0, "us_per_step": 20.0, "newton_per_step": 4.0}
 OK = {"verdict": "ok", "run_status": "ok"}
 LIMIT = {"verdict": "known limit", "run_status": "newton-failed", "limit": "ill-posed in slack"}
+WAVE = {"group": "EA", "case": "EA = 50000 N, regular wave", **OK, "measured_tension": 1e-5, "stiffness_N": 5e4}
 CASES = [
     {"group": "EI", "case": "soft", **OK, "measured": 1e-3, "bar": 0.02, "how": "refinement"},
+    {**WAVE, "how": "refinement", "newton_iterations": 800, "length_s": 15.0, "run_key": "wave"},
     {"group": "EI", "case": "none", **LIMIT},
     {"group": "input", "case": "two nodes", "verdict": "refused", "run_status": "refused", "message": "nodes: 2"},
     {"group": "drift", "case": "1000 waves", **OK, "measured": 2e-9, "bar": 0.01, "wall_s": 3.0},
@@ -166,7 +171,7 @@ def folder(place, judged=CASES, random=RANDOM):
 
 def test_verdicts_and_faults_follow_the_tables(tmp_path):
     study = read_study(folder(tmp_path / "out"))
-    assert [len(study.judged(word)) for word in VERDICTS] == [2, 1, 1, 0]
+    assert [len(study.judged(word)) for word in VERDICTS] == [3, 1, 1, 0]
     assert study.unsound() == [] and unexplained_items(study)[0].kind == "note"
 
 
@@ -183,7 +188,7 @@ def test_same_folder_same_bytes(tmp_path, random):
     place = folder(tmp_path / "out", random=random)
     first = [path.read_bytes() for path in build(place)]
     assert [path.read_bytes() for path in build(place, again=True)] == first
-    assert first[0].count(b"<figure") == first[0].count(b"<figcaption") == 2
+    assert first[0].count(b"<figure") == first[0].count(b"<figcaption") == 3
 
 
 @pytest.mark.parametrize("name", ["table.csv", "fuzz.csv", "step_maps.json", "scene_shares.json"])

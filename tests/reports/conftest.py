@@ -25,6 +25,7 @@ from engine.scene import load_scene
 from reports import build, content_of
 from reports.parts.content import (
     Bullets,
+    CellSheets,
     Column,
     Explorer,
     ExplorerColumn,
@@ -33,6 +34,7 @@ from reports.parts.content import (
     Item,
     Links,
     Listing,
+    MapPlace,
     Notice,
     Picture,
     Report,
@@ -46,6 +48,7 @@ from tests.campaigns.fake_engine import FakeEngine, sines
 
 MESSAGE = "Newton's method did not converge <at> t = 12 s, #step $x$ 1e-9"
 ODD_TITLE = '<b>#odd$ *title* _x_ @ref `code` \\ "q" & [z] //c é\u2028 </title>'
+WHOLE = MapPlace((0.0, 0.0, 1.0, 1.0), (0.0, 1.0, 0.0, 1.0))
 DOT = b'<svg xmlns="http://www.w3.org/2000/svg" width="490" height="200"><circle r="40"/></svg>'
 
 LONG = " `a_rather_long_name_of_a_column_of_the_table_N` --out /a/path/that/has/no/blank/in/it/and/goes/on/and/on"
@@ -116,14 +119,19 @@ def every_kind(text: str) -> Report:
     """A report of every kind of item, with the text in every place where text can be, in wide tables too."""
     some = text or "x"
     dot = Picture(DOT, "svg")
-    drawing = Figure(dot, f"{some} caption", f"{some} of five words", Picture(b"GIF89a", "gif"), dot)
+    drawing = Figure(
+        dot, f"{some} caption", f"{some} of five words", Picture(b"GIF89a", "gif"), dot, ((WHOLE,), (WHOLE,))
+    )
     heads = tuple(Column(some, some, "right" if k else "left") for k in range(14))
     narrow, wide = Table(heads[:1], ((text,),) * 40, text, small=True), Table(heads, ((text,) * 14,) * 4, text)
+    cell = {"page": 0, "box": [0, 1, 0, 1], "name": text, "note": text, "scales": [[0, 1], [0, 1]]}
+    motion = {"motion": text, "colour": "", "facts": [text], "said": text, "series": [[0, 999], [9], [5], [9]]}
     items = (
         Heading(text), Text(text + LONG), Heading(text, 2), Bullets((text, text)), equation("buoy"), drawing,
         narrow, wide, *(Notice(kind, text, (text, text)) for kind in ("note", "warning")), Listing(text + LONG),
         Links(((some, "part/report.html"),)),
         Explorer(text, text, (ExplorerColumn(0.1, (1.0,), text, "run-1"),)),
+        CellSheets(((text, text),), (cell | {"motions": [motion]},)),
         Sheet("run-1", some, ((some, text),), (text,), "", narrow, chosen=True),
     )  # fmt: skip
     assert {type(item) for item in items} == set(get_args(Item)), "a new kind of item belongs here"

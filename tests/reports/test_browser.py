@@ -65,7 +65,7 @@ def test_on_a_telephone_nothing_lies_beside_the_page_and_drawings_keep_their_siz
     for path in (built[0], kinds):
         with browse(path, **PHONE) as page:
             assert page.evaluate("document.documentElement.scrollWidth") == PHONE["width"]
-            for drawing in ("figure .wide img", "svg.glance"):
+            for drawing in ("figure .wide img", ".sheet svg.glance"):
                 assert all(width >= 650.0 for width in page.eval_on_selector_all(drawing, widths)), drawing
             found = page.eval_on_selector_all(".equation svg", shares)
             assert found and all(share > 0.5 for share in found)

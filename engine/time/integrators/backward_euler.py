@@ -4,6 +4,7 @@ Also the engine's starter: it needs no rates from before, so it opens impulsive 
 """
 
 ORDER, ADAPTIVE = 1, False
+PHASE = 0.02  # rad of an oscillation a step: a cycle keeps 94 % of it
 
 
 def alphas(rho: float) -> tuple[float, float, float]:

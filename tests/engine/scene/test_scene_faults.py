@@ -158,6 +158,8 @@ DRY = {"water": None, "waves": None}
 @pytest.mark.parametrize(
     ("changes", "duration_s", "key"),
     [
+        ({"solver.integrator": "midpoint", "solver.courant": 2.0, "tether.length_m": 1e12}, 1.0, "solver.courant"),
+        ({"waves": None, "solver.max_step_s": 1e9}, 1.0, "solver.max_step_s"),
         ({"output.step_s": 1e-12}, 1.0, "output.step_s"),
         ({"output.step_s": 0.01}, 0.0101 * MOST_SAMPLES, "output.step_s"),
         ({"waves.period_s": 1e-20}, 1.0, "waves.period_s"),

@@ -1,0 +1,170 @@
+"""Map over two keys of a scene: regime, number of motions and largest tension of every cell, and its borders.
+
+    python -m campaigns.regime_map                                 steepness and depth of water, 40 x 40
+    python -m campaigns.regime_map --vary waves.steepness 0.016 0.16 40 --vary waves.period_s 3 8 40 --refine 400
+    python -m campaigns.regime_map --screen                        a massless tether only, in a minute
+    python -m campaigns.regime_map --cut water.depth_m=22.5        a row of it as a sweep, in the folder of the map
+
+Protocol: a massless tether does the whole grid first and proposes starts. Then each cell is run from rest, from the
+proposals, from kicks, and from the motions of the cells beside it where these are no motion of its own yet. A motion
+that repeats at its first look is judged by that (verdict: cheap); any other goes on as docs/verdicts.md says, up to
+--budget. Cells at borders are bisected with --refine. Kicks are drawn by --seed; nothing else is random.
+"""
+
+import contextlib
+import sys
+from collections.abc import Callable, Iterator
+
+from campaigns.buoy_sweep import ROW_SOURCES
+from campaigns.buoy_sweep import STUDY as SWEEP
+from campaigns.machinery import cli, session
+from campaigns.machinery.folder import read_rows
+from campaigns.machinery.plan import Job, Plan, Summary
+from campaigns.motions import sweep as motions
+from campaigns.regime_map import cuts
+from campaigns.regime_map.cells import Grid
+from campaigns.study import Measures, Order, Study
+from campaigns.sweep import varied
+from engine.views import carries_tangents, in_regular_waves
+
+USUAL = "waves.steepness 0.016 0.16 40 water.depth_m 20.8 25 40".split()
+STARTS, BUDGET, MOST_CELLS = 3, 735, 100_000
+
+
+def options(group) -> None:
+    twice = f"twice: a key of the scene and its values, both ends included (default: {' '.join(USUAL)})"
+    cli.add(group, "--vary", "KEY LO HI COUNT", twice)
+    cli.add(group, "--pages", "KEY LO HI COUNT", "a map for each value of a third key; KEY WORD WORD of a key of words")
+    cli.add(group, "--starts", "N", "from rest and N - 1 kicks in each cell", cli.whole(1, motions.MOST_KICKS), STARTS)
+    speed = cli.number("a finite number above 0", lambda found: 0.0 < found < float("inf"))
+    cli.add(group, "--kick-speed", "MPS", "kicks are up to this along x and z, m/s", speed, motions.SPEED_MPS)
+    cli.add(group, "--seed", "N", "of the kicks, points of a scrambled Halton sequence", cli.whole(0, 2**32 - 1), 1)
+    cli.add(group, "--refine", "N", "bisect cells at borders into so many more", cli.whole(0, MOST_CELLS), 0)
+    periods = cli.whole(1, SWEEP.lengths.budget)
+    cli.add(group, "--budget", "N", "wave periods after which a run ends undecided", periods, BUDGET)
+    cli.add(group, "--cut", "KEY=VALUE ...", "a row of the map as a sweep of the other key, in cuts/ of its folder")
+    group.add_argument("--screen", action="store_true", help="a massless tether only")
+
+
+def read(options, faults: list[str]) -> None:
+    """The keys of the map (`Grid`) in place of the words of --vary and --pages; the values of --cut."""
+    words = options.vary if options.vary is not None else USUAL
+    page, options.grid = None, None
+    if len(words) != 8:
+        faults.append(f"--vary: given {' '.join(words) or 'nothing'}; allowed: twice KEY LO HI COUNT, or none of it")
+        return
+    keys = [varied(words[:4], faults), varied(words[4:], faults)]
+    if options.pages is not None:
+        if len(options.pages) < 2:
+            faults.append(
+                f"--pages: given {' '.join(options.pages) or 'nothing'}; allowed: KEY LO HI COUNT, or KEY WORDS"
+            )
+            return
+        page = varied(options.pages, faults, "--pages", of_words=True)
+        keys.insert(0, page)
+    if None in keys:
+        return
+    if len({one.key for one in keys}) < len(keys):
+        faults.append(f"--vary {' '.join(one.key for one in keys)}: given twice; allowed: different keys")
+    for one in keys:
+        if one is not page and len(one.values) < 2:
+            faults.append(f"--vary {one.key}: one value only; allowed: two or more")
+    options.grid = Grid((keys[-2], keys[-1]), page)
+    options.cut = cuts.read(options.cut, options.grid.every, faults)
+
+
+def cases(order: Order) -> Iterator[Job]:
+    """The run from rest of every cell of the coarse grid."""
+    from campaigns.regime_map.maps import job_at
+
+    grid = order.own.grid
+    order.periods, order.looks, order.transient = SWEEP.lengths.budget, True, None
+    if grid is None:
+        return
+    order.tell(f"--set {one.key}: this campaign sets it" for one in grid.every if one.key in order.changes)
+    base = order.base(tell=True)
+    if base is None:
+        return
+    if not (in_regular_waves(base) and carries_tangents(base)):
+        allowed = motions.ONLY.removeprefix("a number for ")
+        order.tell([f"campaigns.regime_map: given {order.name!r} as it is; allowed: {allowed}"])
+        return
+    for cell in grid.coarse():
+        before, job = len(order.faults), job_at(order, grid, cell)
+        if job is None or len(order.faults) > before:  # hundreds of others may be at fault in the same way
+            at = " and ".join(f"{key} = {value}" for key, value in grid.labels(cell).items())
+            order.tell([f"--vary: that is at {at}, the first cell of the map that cannot be"])
+            return
+        yield job
+
+
+def measures(order: Order) -> Measures:
+    """The row of a motion."""
+    from campaigns.regime_map.maps import cell_row
+    from campaigns.regime_map.tables import motion_columns
+
+    columns = motion_columns(order.own.grid.columns)
+    return Measures(columns, cell_row, (*ROW_SOURCES, "campaigns/regime_map"), {})
+
+
+def runs(order: Order) -> Callable:
+    """In place of `runner.run`: the screen, the coarse grid, its borders."""
+
+    def whole_map(plan: Plan, jobs: list[Job]) -> tuple[dict[str, float], Summary]:
+        from campaigns.regime_map.maps import Map
+
+        found = Map(plan, order, order.own.grid, jobs)
+        found.screened()
+        summary = Summary([], 0, 0, 0.0)
+        if not order.own.screen:
+            found.level(order.own.grid.coarse(), jobs)
+            found.refine(order.own.refine)
+            summary = found.write()
+        return found.timing(), summary
+
+    return whole_map
+
+
+def parameters(order: Order) -> dict[str, object]:
+    own = order.own
+    told: dict[str, object] = {"vary": {one.key: list(one.values) for one in own.grid.keys}}
+    if own.grid.page is not None:
+        told["pages"] = {own.grid.page.key: list(own.grid.page.values)}
+    told |= {"starts": own.starts, "kick_speed_mps": own.kick_speed, "seed": own.seed, "budget": own.budget}
+    return told | {"refine": own.refine, "screen": own.screen}
+
+
+def answer(order: Order, rows: list[dict]) -> list[str]:
+    """What the map shows (`answer.sentences`)."""
+    from campaigns.regime_map.answer import sentences
+
+    cells: tuple[dict, ...] = ()
+    with contextlib.suppress(OSError, ValueError):
+        cells = read_rows(order.how.out / "cells" / "table.csv")
+    return [*sentences(cells, rows, [one.key for one in order.own.grid.every])]
+
+
+STUDY = Study(
+    name="regime_map",
+    protocol=__doc__,
+    scene="tethered_buoy",
+    in_waves=True,
+    options=options,
+    read=read,
+    cases=cases,
+    measures=measures,
+    parameters=parameters,
+    runs=runs,
+    answer=answer,
+)
+parser, read_order = STUDY.parser, STUDY.read_order
+
+
+def main(argv: list[str] | None = None, simulate: Callable | None = None) -> int:
+    """The command: a map, or with --cut a sweep in its folder. simulate: in place of engine.simulate."""
+    argv = list(sys.argv[1:] if argv is None else argv)
+
+    def work(order: Order, words: list[str]) -> int:
+        return cuts.cut(order, simulate) if order.own.cut else STUDY.conduct(order, words, simulate)
+
+    return session.command(STUDY.called, argv, read_order, work)

@@ -1,0 +1,57 @@
+"""What a map says, in a few sentences: where it is chaotic, where it pulls hardest, where the start decides."""
+
+from collections import Counter
+from collections.abc import Iterator, Sequence
+
+from campaigns.answers import CHAOTIC, OPEN_WORDS, PERIODIC, QUASI, Row, greatest, kilonewton, known
+from campaigns.regime_map.tables import FAILED, RATIO, SCREENED, SHARE, TENSION
+from campaigns.statements import listed
+
+
+def sentences(cells: Sequence[Row], motions: Sequence[Row], keys: Sequence[str]) -> Iterator[str]:
+    """At most eight, of the rows of cells/table.csv and table.csv. keys: of the map, that of its pages first."""
+    coarse = [one for one in cells if known(one, "level") == 0.0]
+    done = [one for one in coarse if one["source"] != SCREENED]
+    if not done:
+        yield f"Nothing is computed: {len(coarse)} cells are screened with a massless tether, which is no result."
+        peak = greatest(coarse, RATIO.name)
+        if peak is not None:
+            yield f"Largest tension there: {known(peak, RATIO.name):.3g} times that at rest, at {_at(peak, keys)}."
+        return
+    said = f"{len(done)} cells of the coarse grid and {len(cells) - len(coarse)} finer ones are computed"
+    left = len(coarse) - len(done)
+    yield f"{said}; {f'{left} are only screened with a massless tether' if left else 'none is only screened'}."
+    words = Counter(str(one["regime_rest"] or "") for one in done)
+    calm = sum(count for word, count in words.items() if word.startswith(PERIODIC))
+    open_ = sum(words[word] for word in OPEN_WORDS)
+    parts = {CHAOTIC: words[CHAOTIC], QUASI: words[QUASI], "periodic": calm}
+    led = listed(f"{word} on {_share(count, done)}" for word, count in parts.items())
+    yield f"Rest leads to a motion that is {led} of the map; {_share(open_, done)} is not decided."
+    chaotic = {_place(one, keys) for one in motions if one.get("regime") == CHAOTIC and known(one, "level") == 0.0}
+    yield f"Some motion is chaotic on {_share(len(chaotic), done)} of the map."
+    if (peak := greatest(cells, TENSION.name)) is not None:
+        share = known(peak, SHARE.name)
+        ends = "" if share != share else f"; {100 * share:.0f} % of the starts there end in it"
+        pulls = f"{kilonewton(known(peak, TENSION.name))}, {known(peak, RATIO.name):.3g} times that at rest"
+        yield f"Largest tension {pulls}, at {_at(peak, keys)}{ends}."
+    several = [one for one in done if known(one, "motions") > 1]
+    most = max((known(one, "motions") for one in several), default=1)
+    if several:
+        yield f"On {_share(len(several), done)} of the map the start decides: up to {most:.0f} motions."
+    cheap = sum(one.get("verdict") == "cheap" for one in motions)
+    yield f"Of {len(motions)} motions {cheap} have a cheap verdict: they repeat at one look."
+    if failed := sum(one["source"] == FAILED for one in cells):
+        yield f"{failed} cells have no result; the column message of cells/table.csv says why."
+
+
+def _share(count: int, of: Sequence) -> str:
+    return f"{100.0 * count / len(of):.3g} %"
+
+
+def _place(one: Row, keys: Sequence[str]) -> tuple:
+    return tuple(one[key] for key in keys)
+
+
+def _at(one: Row, keys: Sequence[str]) -> str:
+    values = (one[key] if isinstance(one[key], str) else f"{one[key]:.4g}" for key in keys)
+    return " and ".join(f"{key} = {value}" for key, value in zip(keys, values, strict=True))

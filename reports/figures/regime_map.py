@@ -1,0 +1,223 @@
+"""Maps over two parameters with cells of any size: a colour a cell, borders as lines, hatches over what limits them."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from ..parts.content import MapPlace, Picture
+from ..parts.style import INK, SOFT, VERMILION, WIDTH_IN, picture_of, sheet
+from .basins import widest
+
+HATCHES = "////", "\\\\\\\\"  # of the first and the second of `Cells.hatched`
+_FINE = 200  # points to a side of the even grid on which a place for a text is looked for
+_LEAST = 3.5  # of them that a text is away from the border of its region
+_DOT = 0.5  # share of a cell's sides that its dot takes
+
+
+@dataclass(frozen=True, eq=False)
+class Cells:
+    """The n cells of a map, each over those before it.
+
+    boxes (n, 4): left, right, low and high edge. kinds (n,): lines are drawn between cells that differ in it. dots,
+    crosses (n,): which have a dot in place of a full cell, which a cross alone. hatched: what is hatched -> (n,).
+    """
+
+    boxes: np.ndarray
+    kinds: np.ndarray
+    dots: np.ndarray
+    crosses: np.ndarray
+    hatched: Mapping[str, np.ndarray] = field(default_factory=dict)
+
+    def laid(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """(edges x (p + 1,), y (q + 1,), which cell is on top between them (q, p), -1 for none).
+
+        Edges nearer to each other than 1e-6 of the map are one.
+        """
+        edges, places = [], []
+        for pair in (self.boxes[:, :2], self.boxes[:, 2:]):
+            low, span = pair.min(), np.ptp(pair)
+            shares, place = np.unique(np.round((pair - low) / span, 6), return_inverse=True)
+            edges.append(low + span * shares)
+            places.append(place.reshape(pair.shape))
+        top = np.full((len(edges[1]) - 1, len(edges[0]) - 1), -1)
+        for cell, (left, right, low, high) in enumerate(np.hstack(places)):
+            top[low:high, left:right] = cell
+        return *edges, top
+
+    def areas(self) -> np.ndarray:
+        """(n,) share of the map that each cell takes which is on top."""
+        x, y, top = self.laid()
+        parts = np.outer(np.diff(y), np.diff(x))
+        return np.bincount(top[top >= 0], parts[top >= 0], len(self.boxes)) / parts.sum()
+
+
+@dataclass(frozen=True, eq=False)
+class Map:
+    """One quantity of the cells of a page: colours (n,), "" for none, with a scale (colours, norm, ticks) or a legend.
+
+    texts (n,): written where neighbours of one kind have most room. star: a cell to be marked. limited: whether it is
+    hatched.
+    """
+
+    cells: Cells
+    title: str
+    colours: np.ndarray
+    page: int = 0
+    scale: tuple | None = None
+    texts: np.ndarray | None = None
+    star: int | None = None
+    limited: bool = True
+
+
+def regime_maps(
+    shown: Sequence[Map],
+    labels: tuple[str, str],
+    legend: Sequence[tuple[str, str]] = (),
+    marks: tuple[Sequence[float], Sequence[float]] = ((), ()),
+    width_in: float = WIDTH_IN,
+    wide: int = 1,
+    kind: str = "svg",
+) -> tuple[Picture, tuple[MapPlace, ...]]:
+    """Maps over the same two parameters, `wide` a row; (picture, the place of each on it).
+
+    labels: of the axes. legend: (colour, or "dot", "cross", "star", "mark" or a hatch; its text). marks: values on x
+    and on y with a small triangle at the edge.
+    """
+    rows, many = -(-len(shown) // wide), max(1, int(width_in / 2.2))  # of maps; entries of the legend in a row
+    height_in = rows * (0.35 + 0.6 * width_in / wide**0.9) + 0.22 * -(-len(legend) // many) + 0.2
+    with sheet(height_in, width_in) as figure:
+        figure.set_layout_engine("constrained")
+        grid = figure.subplots(rows, wide, squeeze=False, sharex=True, sharey=True)
+        for axes in grid.flat[len(shown) :]:
+            axes.set_visible(False)
+        for axes, one in zip(grid.flat, shown, strict=False):
+            _drawn(axes, one, marks)
+            if one.scale is not None:
+                _scale(figure, axes, *one.scale)
+        for axes in grid.flat[max(len(shown) - wide, 0) : len(shown)]:
+            axes.set_xlabel(labels[0])
+            axes.tick_params(labelbottom=True)
+        for axes in grid[:, 0]:
+            axes.set_ylabel(labels[1])
+        if legend:
+            handles, side = [_handle(look, text) for look, text in legend], "upper" if width_in == WIDTH_IN else "lower"
+            figure.legend(handles=handles, loc=f"outside {side} left", ncols=many, handlelength=1.4)
+        picture = picture_of(figure, kind)
+        places = tuple(_place(axes, one) for axes, one in zip(grid.flat, shown, strict=False))
+    return picture, places
+
+
+def _place(axes, one: Map) -> MapPlace:
+    left, low, across, high = axes.get_position().bounds
+    return MapPlace((left, 1.0 - low - high, across, high), (*axes.get_xlim(), *axes.get_ylim()), one.page)
+
+
+def _drawn(axes, one: Map, marks) -> None:
+    from matplotlib.collections import PolyCollection
+    from matplotlib.colors import to_rgba
+    from matplotlib.patches import PathPatch
+    from matplotlib.path import Path
+
+    x, y, top = one.cells.laid()
+    shown, known = np.unique(top[top >= 0]), one.colours != ""
+    colours = np.array([to_rgba(colour or "white") for colour in one.colours])
+    filled = (known & ~one.cells.dots)[top] & (top >= 0)
+    axes.pcolormesh(x, y, np.where(filled[..., None], colours[top], 0.0), rasterized=True)
+    small = shown[(known & one.cells.dots)[shown]]
+    corners = _corners(one.cells.boxes[small], _DOT)
+    axes.add_collection(PolyCollection(corners, facecolors=colours[small], linewidths=0, rasterized=True))
+    for hatch, which in zip(HATCHES, one.cells.hatched.values() if one.limited else (), strict=False):
+        parts = [Path(part, closed=True) for part in _corners(_runs(x, y, which[top] & (top >= 0)), 1.0)]
+        if parts:
+            look = {"facecolor": "none", "edgecolor": INK, "hatch": hatch, "linewidth": 0.0, "hatch_linewidth": 0.35}
+            axes.add_patch(PathPatch(Path.make_compound_path(*parts), **look))
+    kinds = np.where(top >= 0, np.unique(one.cells.kinds, return_inverse=True)[1][top], -1)
+    axes.plot(*_borders(x, y, kinds), color=INK, linewidth=0.8, solid_capstyle="projecting")
+    lost = shown[one.cells.crosses[shown]]
+    middles = one.cells.boxes[lost].reshape(-1, 2, 2).mean(axis=2)
+    axes.plot(*middles.T, "x", color=VERMILION, markersize=3.5, markeredgewidth=0.9)
+    _written(axes, one, x, y, top)
+    axes.set(xlim=x[[0, -1]], ylim=y[[0, -1]], title=one.title)
+    axes.locator_params(nbins=6)
+    axes.grid(False)
+    for values, edges, mark in zip(marks, (x, y), "^>", strict=True):
+        for value in (one for one in values if edges[0] <= one <= edges[-1]):
+            place = (value, y[0]) if mark == "^" else (x[0], value)
+            axes.plot(*place, mark, **_MARK)
+
+
+_MARK = {"color": "white", "markeredgecolor": INK, "markersize": 5.5, "markeredgewidth": 0.9, "clip_on": False}
+_STAR = {"marker": "*", "color": "white", "markeredgecolor": INK, "markersize": 10.0, "markeredgewidth": 0.9}
+
+
+def _written(axes, one: Map, x: np.ndarray, y: np.ndarray, top: np.ndarray) -> None:
+    """Texts of regions where they have room, and the star."""
+    from matplotlib.patheffects import withStroke
+    from scipy.ndimage import label
+
+    halo = {"path_effects": [withStroke(linewidth=2.0, foreground="white")], "weight": "bold"}
+    if one.texts is not None:
+        at = [np.linspace(edges[0], edges[-1], 2 * _FINE + 1)[1::2] for edges in (x, y)]
+        rows, columns = (np.searchsorted(edges, middle) - 1 for edges, middle in zip((y, x), at[::-1], strict=True))
+        even = top[np.ix_(rows, columns)]
+        for text in sorted({text for text in one.texts if text}):
+            regions, many = label((one.texts == text)[even] & (even >= 0))
+            for region in range(1, many + 1):
+                place = widest(regions == region, _LEAST)
+                if place is not None:
+                    axes.text(at[0][place[1]], at[1][place[0]], text, ha="center", va="center", fontsize=9, **halo)
+    if one.star is not None:
+        axes.plot(*one.cells.boxes[one.star].reshape(2, 2).mean(axis=1), linestyle="", zorder=5, **_STAR)
+
+
+def _scale(figure, axes, colours, norm, ticks) -> None:
+    from matplotlib.cm import ScalarMappable
+
+    bar = figure.colorbar(ScalarMappable(norm, colours), ax=axes, ticks=ticks, pad=0.02, aspect=24)
+    bar.outline.set_linewidth(0.4)
+    bar.ax.minorticks_off()
+
+
+def _handle(look: str, text: str):
+    from matplotlib.lines import Line2D
+    from matplotlib.patches import Patch
+
+    marks = {
+        "dot": {"marker": "s", "color": SOFT, "markersize": 3.0},
+        "cross": {"marker": "x", "color": VERMILION, "markersize": 4.5},
+        "star": _STAR | {"markersize": 8.0},
+        "mark": {"marker": "^"} | _MARK,
+    }
+    if look in marks:
+        return Line2D([], [], linestyle="", label=text, **marks[look])
+    if look in HATCHES:
+        return Patch(facecolor="white", edgecolor=INK, hatch=2 * look, linewidth=0.4, hatch_linewidth=0.35, label=text)
+    return Patch(facecolor=look, edgecolor=INK, linewidth=0.4, label=text)
+
+
+def _corners(boxes: np.ndarray, share: float) -> np.ndarray:
+    """(m, 5, 2) outlines of boxes (m, 4), of that share of their sides."""
+    middle, half = boxes.reshape(-1, 2, 2).mean(axis=2), 0.5 * share * np.diff(boxes.reshape(-1, 2, 2), axis=2)[..., 0]
+    round_once = np.array([(-1, -1), (1, -1), (1, 1), (-1, 1), (-1, -1)])
+    return middle[:, None, :] + round_once * half[:, None, :]
+
+
+def _runs(x: np.ndarray, y: np.ndarray, which: np.ndarray) -> np.ndarray:
+    """Boxes (m, 4) that cover the chosen places of a raster: neighbours of a row are one."""
+    steps = np.diff(np.pad(which, ((0, 0), (1, 1))).astype(int), axis=1)
+    (row, start), (_, end) = np.nonzero(steps == 1), np.nonzero(steps == -1)
+    return np.column_stack([x[start], x[end], y[row], y[row + 1]])
+
+
+def _borders(x: np.ndarray, y: np.ndarray, kinds: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """(x, y) of the lines between neighbours of a raster that differ, nan behind each."""
+    level, upright = _runs(x, y, _differ(kinds)), _runs(y, x, _differ(kinds.T))
+    across = np.concatenate([level[:, :2], upright[:, [2, 2]]])
+    up = np.concatenate([level[:, [2, 2]], upright[:, :2]])
+    return tuple(np.pad(ends, ((0, 0), (0, 1)), constant_values=np.nan).ravel() for ends in (across, up))
+
+
+def _differ(kinds: np.ndarray) -> np.ndarray:
+    """Which places of a raster differ from that of the row before."""
+    return np.vstack([np.zeros((1, kinds.shape[1]), bool), kinds[1:] != kinds[:-1]])

@@ -1,0 +1,48 @@
+"""How far a sweep's largest tension holds (`campaigns.buoy_sweep.errors`): the rule, and where rows say so."""
+
+import numpy as np
+import pytest
+
+from campaigns.buoy_sweep.answer import OTHER
+from campaigns.buoy_sweep.errors import REPEATING, companion_row, error_N
+from campaigns.motions.starts import JOINED, UNSETTLED, settled_of
+from campaigns.sweep import main as sweep_command
+from engine import load_scene, simulate
+from tests.campaigns.conftest import rows_of
+from tests.campaigns.fake_engine import sines
+
+
+def test_the_error_of_a_largest_tension_is_of_grid_steps_ringing_and_what_stands_above_the_usual():
+    row = {"tension_top_max_N": 105.0, "unresolved_ringing_N": 0.5}
+    same = {"status": "ok", "outcome": JOINED, "tension_usual_max_N": 99.5}
+    assert error_N(row, 101.0, same) == (7.5, ["the largest tension holds to 7 % only"])
+    assert error_N(row | {"tension_top_max_N": 102.0}, 101.0, same) == (4.5, [])
+    _, (other, _) = error_N(row, 101.0, same | {"outcome": UNSETTLED})
+    assert OTHER in other
+    unknown, (ended,) = error_N(row, 101.0, same | {"status": "newton-failed"})
+    assert np.isnan(unknown) and "newton-failed" in ended
+
+
+@pytest.mark.parametrize(("swing_m", "outcome"), [(1.0, JOINED), (1.5, UNSETTLED)])
+def test_a_companion_that_leaves_the_motion_of_its_row_says_so(swing_m, outcome):
+    scene = load_scene("tethered_buoy")
+    motion = settled_of(sines(scene, 90))
+    row = companion_row(sines(scene, REPEATING, radius=(20.0, swing_m)), period=1, motion=motion)
+    assert row["outcome"] == outcome
+    assert row["tension_usual_max_N"] == pytest.approx(2510.0, abs=1e-9)  # of a sine, as in test_rows.py
+
+
+@pytest.mark.slow
+def test_a_violent_stiff_snap_whose_largest_tension_moves_with_the_steps_says_so(tmp_path):
+    """On 41 nodes at EA = 1e7 N largest tensions of default and tighter steps differ by more than 5 %."""
+    stiff = ["water.depth_m=21.6", "tether.tension.stiffness_N=1e7"]
+    words = ["--vary", "waves.steepness", "0.016", "0.13", "2", "--periods", "60", "--transient", "20", "--no-report"]
+    assert sweep_command([*words, "--set", *stiff, "--out", str(tmp_path)]) == 0
+    _, row = rows_of(tmp_path)
+    largest_N, error = float(row["tension_top_max_N"]), float(row["tension_top_max_error_N"])
+    assert error > 0.05 * largest_N and "largest tension holds to" in row["message"]
+    assert "only" in (tmp_path / "answer.txt").read_text()
+    scene = load_scene("tethered_buoy", {"waves.steepness": 0.13, "water.depth_m": 21.6, "solver.rtol": 0.003,
+                                         "tether.tension.stiffness_N": 1e7})  # fmt: skip
+    high = simulate(scene, periods=60).columns["tension_top_high_N"]
+    assert abs(high[20 * len(high) // 60 :].max() - largest_N) < error

@@ -1,0 +1,210 @@
+"""`campaigns.regime_map`: cells and their borders on a system of known folds; a command whose runs may fail; cuts."""
+
+import numpy as np
+import pytest
+
+from analysis.motions import Settled
+from campaigns import buoy_sweep
+from campaigns.motions import along as module
+from campaigns.motions.along import Lattice
+from campaigns.motions.starts import Ended
+from campaigns.regime_map import main, read_order
+from campaigns.regime_map.cells import Grid, Quadtree
+from campaigns.sweep import varied
+from tests.campaigns.conftest import finished, rows_of
+from tests.campaigns.fake_engine import FakeEngine
+from tests.campaigns.motions.test_along import State
+
+SIDE = 10  # so that no cell lies on the line of symmetry, where an unstable state is reached
+VARY = "--vary", "waves.steepness", 0.02, 0.1, 3, "--vary", "water.depth_m", 21, 23, 2
+
+
+def grid(*words):
+    return Grid(tuple(varied(one.split(), []) for one in words))
+
+
+def square(count=SIDE):
+    return grid(f"waves.steepness -0.4 0.4 {count}", f"water.depth_m -0.4 0.8 {count}")
+
+
+def run(out, *words, engine=None):
+    usual = ["--no-report", "--backend", "threading", "--out", str(out)]
+    return main([*map(str, words), *usual], simulate=engine or FakeEngine())
+
+
+def test_cells_beside_each_other_are_so_both_ways_and_parts_fill_their_cell():
+    shape, tree = square(4), Quadtree()
+    tree.add(shape.coarse())
+    for cell in (tree.cells[5], tree.cells[10]):
+        tree.add(cell.parts())
+    tree.add(tree.cells[5].parts()[3].parts())
+    for at in range(len(tree.cells)):
+        assert all(at in tree.beside(there) for there in tree.beside(at))
+    area = sum(np.prod(shape.widths(cell)) for cell in tree.leaves())
+    assert area == pytest.approx(16 * np.prod(shape.widths(tree.cells[0])))
+    for cell in tree.leaves():
+        (x, y), (wide, high) = shape.labels(cell).values(), shape.widths(cell)
+        for there in tree.touching(cell):
+            (u, v), (w, h) = shape.labels(there).values(), shape.widths(there)
+            apart = abs(x - u) - 0.5 * (wide + w), abs(y - v) - 0.5 * (high + h)
+            assert max(apart) == pytest.approx(0.0, abs=1e-9)  # a side in common
+            assert min(apart) < -1e-9  # and not a corner only
+
+
+class Scene:
+    """x' = p + q x - x^3: two stable states for p^2 < 4 q^3/27, else one."""
+
+    waves = type("Waves", (), {"period_s": 1.0})
+
+    def __init__(self, p, q):
+        self.p, self.q = p, q
+
+    def sample_step_s(self):
+        return 0.01
+
+    def settled(self, x):
+        for _ in range(4000):
+            x += 0.05 * (self.p + self.q * x - x**3)
+        return Settled(1, np.array([[x]]), np.array([[x, x, 2.0 + x]]), np.array([2.0]), "")
+
+
+class Starts:
+    """As `campaigns.motions.starts.Starts`, of this system; count: how many were run."""
+
+    def __init__(self, plan, named):
+        self.ended, self.count = [], 0
+
+    def run(self, said, asked, told=True):
+        found = []
+        for one in asked:
+            begin = one.start.kick[0] if one.start.state is None else one.start.state.x
+            motion = one.scene.settled(begin)
+            x = float(motion.points[0, 0])
+            which = next((i for i, known in enumerate(one.known) if abs(float(known.points[0, 0]) - x) < 1e-3), None)
+            own = {} if which is not None else {"settled": motion, "state": State(x)}
+            found.append(Ended({"status": "ok", "outcome": "joined" if own == {} else ""}, which, **own))
+        self.count += len(asked)
+        self.ended += found
+        return found
+
+
+class Around(Lattice):
+    """The cells about the cusp."""
+
+    like = 0.1
+
+    def __init__(self, shape):
+        super().__init__(type("Plan", (), {"how": type("How", (), {"out": None})}), ())
+        self.tree, self.shape = Quadtree(), shape
+        self.tree.add(shape.coarse())
+        self.add([self.job(cell) for cell in self.tree.cells], [{"run_key": cell} for cell in self.tree.cells])
+
+    def job(self, cell):
+        return type("Job", (), {"labels": {}, "scene": Scene(*self.shape.labels(cell).values()), "key": cell})
+
+    def beside(self, at):
+        return self.tree.beside(at)
+
+
+@pytest.fixture
+def around(monkeypatch):
+    shape = square()
+
+    class Run:
+        def __init__(self, folder, row):
+            self.settled = Scene(*shape.labels(row["run_key"]).values()).settled(-1.0)
+            self.final_state = State(float(self.settled.points[0, 0]))
+
+    monkeypatch.setattr(module, "Starts", Starts)
+    monkeypatch.setattr(module, "run_of", Run)
+    monkeypatch.setattr(module, "settled_of", lambda found: found.settled)
+    monkeypatch.setattr(module, "proposals", lambda plan, scenes, *how: [[] for _ in scenes])
+    found = Around(shape)
+    found.find(0, 2.0, 1)
+    found.name()
+    return found
+
+
+def test_every_state_about_a_cusp_is_found_by_carrying_and_letters_are_one_a_cell(around):
+    for cell, motions in zip(around.tree.cells, around.motions, strict=True):
+        p, q = around.shape.labels(cell).values()
+        assert len(motions) == (2 if q > 0 and p**2 < 4.0 * q**3 / 27.0 else 1)
+        letters = [one.branch.letter for one in motions]
+        assert len(set(letters)) == len(letters)
+    assert {one.branch.letter for some in around.motions for one in some} <= {"A", "B"}
+    assert around.starts.count < 4 * SIDE**2  # where a neighbour has a like motion, nothing is run
+
+
+@pytest.fixture
+def unscreened(monkeypatch):
+    monkeypatch.setattr("campaigns.regime_map.maps.screened", lambda plan, scenes, *how: [[] for _ in scenes])
+
+
+def test_runs_that_fail_are_cells_with_their_reason(tmp_path, unscreened):
+    assert run(tmp_path, *VARY, engine=FakeEngine(raises=(0.06,))) == 0
+    cells = rows_of(tmp_path, "cells/table.csv")
+    assert [(one["waves.steepness"], one["water.depth_m"]) for one in cells] == [
+        (kA, depth) for kA in ("0.02", "0.06", "0.1") for depth in ("21.0", "23.0")
+    ]
+    for one in cells:
+        failed = one["waves.steepness"] == "0.06"
+        assert (one["source"], "a fault of the code" in one["message"]) == (
+            ("failed", True) if failed else ("computed", False)
+        )
+        assert one["width_waves.steepness"] == "0.04"
+    rows = rows_of(tmp_path)
+    assert {row["status"] for row in rows} == {"ok", "error"} and len(rows) == 6
+    assert {(row["regime"], row["verdict"]) for row in rows} == {("period-1", "cheap"), ("", "")}
+
+
+def test_the_same_command_computes_nothing_again(tmp_path, unscreened):
+    log = str(tmp_path / "log")
+    for _ in range(2):
+        assert run(tmp_path / "out", *VARY, engine=FakeEngine(log=log)) == 0
+    assert len(FakeEngine(log=log).begun()) == 6
+
+
+@pytest.mark.slow
+def test_a_massless_screen_computes_no_cell(tmp_path):
+    assert run(tmp_path, *VARY, "--screen") == 0
+    cells = rows_of(tmp_path, "cells/table.csv")
+    assert {one["source"] for one in cells} == {"screened"} and len(cells) == 6
+    assert all(float(one["tension_over_static"]) > 1.0 for one in cells)
+    assert not (tmp_path / "table.csv").exists()
+
+
+def test_pages_are_values_or_words_of_a_third_key():
+    order = read_order([*map(str, VARY), "--pages", "buoy.submergence", "full", "spherical-cap"], faults := [])
+    assert faults == [] and len(order.cases) == 12
+    assert {case.scene.buoy.submergence for case in order.cases} == {"full", "spherical-cap"}
+    assert [*order.cases[0].labels][:3] == ["buoy.submergence", "waves.steepness", "water.depth_m"]
+    seconds = read_order([*map(str, VARY), "--pages", "waves.period_s", "4", "6", "3"], faults)
+    assert faults == [] and sorted({case.scene.waves.period_s for case in seconds.cases}) == [4.0, 5.0, 6.0]
+
+
+@pytest.mark.slow
+def test_a_cut_is_the_sweep_of_its_values_and_the_map_computes_nothing_again(tmp_path):
+    """With the engine: rows, starts and ends of a cut are those of the sweep, but for their times."""
+    small = ["--set", "tether.nodes=11", "--no-report", "--out"]
+    of_map = ["--vary", "waves.steepness", 0.08, 0.1, 2, "--vary", "water.depth_m", 22, 22.5, 2, "--starts", 2]
+    whole = [*map(str, of_map), *small, str(tmp_path / "map")]
+    assert main(whole) == 0
+    before, runs = rows_of(tmp_path / "map"), finished(tmp_path / "map")
+    assert main(whole) == 0 and rows_of(tmp_path / "map") == before and finished(tmp_path / "map") == runs
+    assert main([*whole, "--cut", "water.depth_m=22"]) == 0
+    swept = [
+        "--steepness",
+        "0.08",
+        "0.1",
+        "--no-accuracy",
+        *small,
+        str(tmp_path / "sweep"),
+        "--set",
+        "water.depth_m=22",
+    ]
+    assert buoy_sweep.main(swept) == 0
+    for table in ("table.csv", "starts/table.csv"):
+        own, other = (rows_of(tmp_path / folder, table) for folder in ("map/cuts/water.depth_m=22.0", "sweep"))
+        assert [{**row, "wall_s": ""} for row in own] == [{**row, "wall_s": ""} for row in other]
+    rest = {row["run_key"] for row in before if row["found_by"] == "rest" and row["water.depth_m"] == "22.0"}
+    assert len(rest) == 2 and rest <= {row["run_key"] for row in rows_of(tmp_path / "sweep")}
